@@ -1,0 +1,308 @@
+/* weartrack - base room: status, error, parse log, quantities and units, numbers,
+ * paths, output files, digests, provenance, estimates, threads.
+ *
+ * Conventions that hold for the whole library:
+ * - SI inside. A `double` is in the SI unit of its quantity unless its name says otherwise.
+ * - A function that can fail returns wt_status and takes a wt_error as its last argument, which
+ *   may be NULL. Outputs are unchanged on failure unless the text says otherwise.
+ * - Whatever a `_new` or `_open` function returns is owned by the caller and released by the
+ *   matching `_free` or `_close`, which accept NULL. A `const` pointer that is returned is
+ *   borrowed from the object it was asked of and lives as long as that object is unchanged.
+ * - The library never prints, never exits and never changes the locale.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#ifndef WEARTRACK_BASE_H
+#define WEARTRACK_BASE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+
+/* The version; the build reads it from here. */
+#define WT_VERSION_MAJOR 0
+#define WT_VERSION_MINOR 1
+#define WT_VERSION_PATCH 0
+
+#if defined(__GNUC__)
+#define WT_API __attribute__((visibility("default")))
+#define WT_NODISCARD __attribute__((warn_unused_result))
+#define WT_PRINTF(fmt, args) __attribute__((format(printf, fmt, args)))
+#else
+#define WT_API
+#define WT_NODISCARD
+#define WT_PRINTF(fmt, args)
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* "MAJOR.MINOR.PATCH" of the library that runs. */
+WT_API const char *wt_version(void);
+
+/* ---- status ------------------------------------------------------------------------------- */
+
+/* One list gives the enumeration, the names and the words, so they cannot disagree. */
+#define WT_STATUS_LIST(X)                                                                          \
+    X(WT_OK, "no error")                                                                           \
+    X(WT_END, "no more items")                                                                     \
+    X(WT_E_ARG, "invalid argument")                                                                \
+    X(WT_E_MEMORY, "out of memory")                                                                \
+    X(WT_E_IO, "input or output failed")                                                           \
+    X(WT_E_NOT_FOUND, "not found")                                                                 \
+    X(WT_E_FORMAT, "file format not recognised")                                                   \
+    X(WT_E_AMBIGUOUS, "file format ambiguous")                                                     \
+    X(WT_E_UNSUPPORTED, "file format recognised but not supported")                                \
+    X(WT_E_CORRUPT, "file is damaged or inconsistent")                                             \
+    X(WT_E_EMPTY, "no data")                                                                       \
+    X(WT_E_UNIT, "unit missing, unknown or of another dimension")                                  \
+    X(WT_E_MISSING, "required information is missing")                                             \
+    X(WT_E_RANGE, "value outside its allowed range")                                               \
+    X(WT_E_SCHEMA, "XML document does not follow its schema")                                      \
+    X(WT_E_NO_CONTACT, "no contact found")                                                         \
+    X(WT_E_NO_OVERLAP, "curves do not overlap")                                                    \
+    X(WT_E_CONVERGENCE, "no convergence")                                                          \
+    X(WT_E_TOOL, "an external program failed")                                                     \
+    X(WT_E_CANCELLED, "cancelled")                                                                 \
+    X(WT_E_INTERNAL, "internal error")
+
+typedef enum wt_status {
+#define WT_STATUS_ENUM(name, text) name,
+    WT_STATUS_LIST(WT_STATUS_ENUM)
+#undef WT_STATUS_ENUM
+} wt_status;
+
+WT_API const char *wt_status_name(wt_status status); /* "WT_E_UNIT"; static */
+WT_API const char *wt_status_text(wt_status status); /* "unit missing, ..."; static */
+
+/* ---- error -------------------------------------------------------------------------------- */
+
+/* What went wrong, where, what was expected, what was found, what to do. Lives on the caller's
+ * stack; texts that do not fit are cut at a whole UTF-8 character and end in "...". Unset parts are
+ * empty strings. Initialise with WT_ERROR_INIT. */
+typedef struct wt_error {
+    wt_status status;
+    char message[256];  /* what went wrong */
+    char file[512];     /* which file, "" if none, "-" for standard input */
+    char place[160];    /* where in it: "line 12, column 3", "segments/0/channels/height.dat" */
+    char expected[192]; /* what was expected */
+    char found[192];    /* what was found */
+    char advice[256];   /* what to do */
+} wt_error;
+
+#define WT_ERROR_INIT                                                                              \
+    {                                                                                              \
+        WT_OK, "", "", "", "", "", ""                                                              \
+    }
+
+/* Start an error: sets status and message, clears the other parts. Returns `status`. err may be
+ * NULL. */
+WT_API wt_status wt_fail(wt_error *err, wt_status status, const char *format, ...) WT_PRINTF(3, 4);
+/* Complete it; each may be called with err == NULL. wt_error_file keeps a name already set. */
+WT_API void wt_error_file(wt_error *err, const char *file);
+WT_API void wt_error_place(wt_error *err, const char *format, ...) WT_PRINTF(2, 3);
+WT_API void wt_error_expected(wt_error *err, const char *format, ...) WT_PRINTF(2, 3);
+WT_API void wt_error_found(wt_error *err, const char *format, ...) WT_PRINTF(2, 3);
+WT_API void wt_error_advice(wt_error *err, const char *format, ...) WT_PRINTF(2, 3);
+/* One line: "FILE: PLACE: MESSAGE; expected ...; found ...; ADVICE". Returns the length it needs,
+ * as snprintf does. */
+WT_API size_t wt_error_format(const wt_error *err, char *buffer, size_t size);
+
+/* ---- parse log ---------------------------------------------------------------------------- */
+
+typedef enum wt_severity { WT_NOTE, WT_WARNING } wt_severity;
+
+typedef struct wt_log_entry {
+    wt_severity severity;
+    const char *file;  /* "" if none */
+    const char *place; /* "" if none */
+    const char *text;
+    size_t count; /* how often the same text was logged for this file; place is the first one */
+} wt_log_entry;
+
+/* Notes and warnings of reading and fitting. Equal texts for one file are counted, not repeated. */
+typedef struct wt_parselog wt_parselog;
+
+WT_API wt_parselog *wt_parselog_new(void); /* NULL when out of memory */
+WT_API void wt_parselog_free(wt_parselog *log);
+/* log may be NULL. file and place may be NULL. A note that finds no memory is counted as lost. */
+WT_API void wt_parselog_add(wt_parselog *log, wt_severity severity, const char *file,
+                            const char *place, const char *format, ...) WT_PRINTF(5, 6);
+WT_API size_t wt_parselog_count(const wt_parselog *log); /* distinct entries; 0 for NULL */
+WT_API wt_log_entry wt_parselog_get(const wt_parselog *log, size_t i);
+WT_API size_t wt_parselog_lost(const wt_parselog *log);
+/* Appends all entries of `from` to `to`. */
+WT_API void wt_parselog_append(wt_parselog *to, const wt_parselog *from);
+
+/* ---- quantities and units ----------------------------------------------------------------- */
+
+/* The closed list of quantities: identifier in files, SI unit (UDUNITS spelling), words. */
+#define WT_QUANTITY_LIST(X)                                                                        \
+    X(WT_Q_NONE, "none", "1", "dimensionless number")                                              \
+    X(WT_Q_TIME, "time", "s", "time")                                                              \
+    X(WT_Q_HEIGHT, "height", "m", "piezo height as commanded")                                     \
+    X(WT_Q_MEASURED_HEIGHT, "measured_height", "m", "height measured by a sensor")                 \
+    X(WT_Q_DEFLECTION, "deflection", "m", "cantilever deflection")                                 \
+    X(WT_Q_DEFLECTION_VOLTAGE, "deflection_voltage", "V", "deflection signal of the detector")     \
+    X(WT_Q_FORCE, "force", "N", "force")                                                           \
+    X(WT_Q_INDENTATION, "indentation", "m", "indentation depth")                                   \
+    X(WT_Q_LATERAL_DEFLECTION, "lateral_deflection", "V", "lateral deflection signal")             \
+    X(WT_Q_AMPLITUDE, "amplitude", "V", "oscillation amplitude")                                   \
+    X(WT_Q_PHASE, "phase", "rad", "phase")                                                         \
+    X(WT_Q_SPECTRAL_DENSITY, "spectral_density", "m.Hz^-0.5", "amplitude spectral density")        \
+    X(WT_Q_POSITION_X, "position_x", "m", "lateral position x")                                    \
+    X(WT_Q_POSITION_Y, "position_y", "m", "lateral position y")                                    \
+    X(WT_Q_FREQUENCY, "frequency", "Hz", "frequency")                                              \
+    X(WT_Q_ANGULAR_FREQUENCY, "angular_frequency", "rad/s", "angular frequency")                   \
+    X(WT_Q_TEMPERATURE, "temperature", "K", "temperature")                                         \
+    X(WT_Q_TEMPERATURE_DIFFERENCE, "temperature_difference", "K", "temperature difference")        \
+    X(WT_Q_STORAGE_MODULUS, "storage_modulus", "Pa", "tensile storage modulus E'")                 \
+    X(WT_Q_LOSS_MODULUS, "loss_modulus", "Pa", "tensile loss modulus E''")                         \
+    X(WT_Q_SHEAR_STORAGE_MODULUS, "shear_storage_modulus", "Pa", "shear storage modulus G'")       \
+    X(WT_Q_SHEAR_LOSS_MODULUS, "shear_loss_modulus", "Pa", "shear loss modulus G''")               \
+    X(WT_Q_COMPLEX_MODULUS, "complex_modulus", "Pa", "absolute value of the complex modulus")      \
+    X(WT_Q_LOSS_FACTOR, "loss_factor", "1", "loss factor tan delta")                               \
+    X(WT_Q_STRAIN, "strain", "1", "strain amplitude")                                              \
+    X(WT_Q_STRESS, "stress", "Pa", "stress amplitude")                                             \
+    X(WT_Q_MODULUS, "modulus", "Pa", "Young's modulus")                                            \
+    X(WT_Q_LENGTH, "length", "m", "length")                                                        \
+    X(WT_Q_WAVENUMBER, "wavenumber", "rad/m", "wavenumber")                                        \
+    X(WT_Q_POWER_SPECTRUM_2D, "power_spectrum_2d", "m^4", "two-dimensional power spectrum C(q)")   \
+    X(WT_Q_POWER_SPECTRUM_1D, "power_spectrum_1d", "m^3", "power spectrum of a line, C1(q)")       \
+    X(WT_Q_PRESSURE, "pressure", "Pa", "nominal contact pressure")                                 \
+    X(WT_Q_VELOCITY, "velocity", "m/s", "velocity")                                                \
+    X(WT_Q_SPRING_CONSTANT, "spring_constant", "N/m", "spring constant of the cantilever")         \
+    X(WT_Q_SENSITIVITY, "sensitivity", "m/V", "deflection sensitivity")                            \
+    X(WT_Q_ANGLE, "angle", "rad", "angle")                                                         \
+    X(WT_Q_WEAR_RATE, "specific_wear_rate", "m^2/N", "specific wear rate k")                       \
+    X(WT_Q_ENERGY_DENSITY, "energy_density", "J/m^3", "energy per volume")                         \
+    X(WT_Q_POWER_DENSITY, "power_density", "W/m^3", "power per volume")                            \
+    X(WT_Q_RATE, "rate", "1/s", "rate")                                                            \
+    X(WT_Q_DATA_SIZE, "data_size", "byte", "size of a file")
+
+typedef enum wt_quantity {
+#define WT_QUANTITY_ENUM(name, id, unit, text) name,
+    WT_QUANTITY_LIST(WT_QUANTITY_ENUM)
+#undef WT_QUANTITY_ENUM
+        WT_Q_COUNT
+} wt_quantity;
+
+typedef uint64_t wt_quantity_set; /* bit i = quantity i; the list has fewer than 64 entries */
+#define WT_Q_BIT(q) ((wt_quantity_set)1 << (unsigned)(q))
+#define WT_Q_ALL (~(wt_quantity_set)0)
+
+WT_API const char *wt_quantity_id(wt_quantity quantity);    /* "force"; static */
+WT_API const char *wt_quantity_unit(wt_quantity quantity);  /* "N"; static */
+WT_API const char *wt_quantity_title(wt_quantity quantity); /* static */
+/* Finds a quantity by its identifier; false if there is none. */
+WT_API bool wt_quantity_find(const char *id, wt_quantity *quantity);
+
+/* x_si = factor * x + offset for x in `unit` (any UDUNITS-2 spelling, UTF-8; also "%", "°C", "µm",
+ * square brackets around it). WT_E_UNIT if it is unknown or does not measure `quantity`. Hz and
+ * rad/s are never converted into each other: that is the reader's decision. Thread-safe. */
+WT_API wt_status wt_unit_to_si(const char *unit, wt_quantity quantity, double *factor,
+                               double *offset, wt_error *err) WT_NODISCARD;
+/* Parses "0.4MPa", "20 degC", "35deg", "1e-4 mm^3/(N m)" to SI. The unit is required unless the
+ * quantity is dimensionless; the error shows the right spelling. */
+WT_API wt_status wt_quantity_parse(const char *text, wt_quantity quantity, double *value,
+                                   wt_error *err) WT_NODISCARD;
+/* A value of SI unit `unit` as short text with an SI prefix: "412 kPa", "1.15 µm", "20.0 °C" (for
+ * K with celsius true). digits = significant digits. Returns the length as snprintf does. */
+WT_API size_t wt_format_si(double value, const char *unit, int digits, char *buffer, size_t size);
+
+/* ---- numbers ------------------------------------------------------------------------------ */
+
+/* Parses exactly `length` bytes as a number, independent of the locale; `decimal` is '.' or ','.
+ * Blanks around it are ignored. false if the bytes are not one finite number ("nan", "inf", "--",
+ * empty are not). */
+WT_API bool wt_number_parse(const char *text, size_t length, char decimal, double *value);
+/* Shortest text that reads back to the same double; "nan", "inf", "-inf". buffer >= 32 bytes.
+ * Returns the length. */
+WT_API size_t wt_number_format(double value, char *buffer);
+
+/* ---- estimate ----------------------------------------------------------------------------- */
+
+/* Every number that is reported. An error that does not apply is 0; one that is not known is NaN. */
+typedef struct wt_estimate {
+    double value;
+    double standard_error;  /* statistical: from fits and scatter */
+    double numerical_error; /* numerical: from integration, interpolation, iteration */
+    const char *unit;       /* SI unit, static text */
+} wt_estimate;
+
+/* ---- paths, files ------------------------------------------------------------------------- */
+
+/* New string, NULL when out of memory. An absolute `name` is returned as it is. */
+WT_API char *wt_path_join(const char *folder, const char *name);
+WT_API char *wt_path_folder(const char *path);      /* folder of a path, "." if none; new */
+WT_API const char *wt_path_base(const char *path);  /* name after the last '/'; borrowed */
+/* Files that match a shell pattern, relative to `folder` (NULL = current), sorted bytewise; a
+ * folder stands for the files in it. No match is WT_E_NOT_FOUND. */
+WT_API wt_status wt_glob(const char *folder, const char *pattern, char ***paths, size_t *n,
+                         wt_error *err) WT_NODISCARD;
+WT_API void wt_strings_free(char **strings, size_t n);
+
+/* A file that appears under its name only when it is complete: written beside it under a temporary
+ * name, then renamed. */
+typedef struct wt_outfile wt_outfile;
+WT_API wt_status wt_outfile_open(const char *path, wt_outfile **file, wt_error *err) WT_NODISCARD;
+WT_API FILE *wt_outfile_stream(wt_outfile *file);         /* borrowed */
+WT_API const char *wt_outfile_path(const wt_outfile *file); /* the temporary name; borrowed */
+/* Flushes, checks, renames and frees; on failure the temporary file is gone and `file` freed. */
+WT_API wt_status wt_outfile_commit(wt_outfile *file, wt_error *err) WT_NODISCARD;
+WT_API void wt_outfile_discard(wt_outfile *file); /* removes the temporary file, frees; NULL ok */
+
+/* SHA-256 as 64 hexadecimal digits and a terminating zero. */
+WT_API void wt_digest(const void *bytes, size_t length, char hex[65]);
+
+/* ---- provenance --------------------------------------------------------------------------- */
+
+typedef struct wt_provenance_input {
+    const char *path;   /* as the user wrote it */
+    const char *role;   /* "bulk", "track", "dma", "case", ... */
+    const char *format; /* id of the reader or description, with its version */
+    uint64_t bytes;
+    char sha256[65];
+} wt_provenance_input;
+
+typedef struct wt_provenance wt_provenance;
+WT_API wt_provenance *wt_provenance_new(void); /* NULL when out of memory */
+WT_API void wt_provenance_free(wt_provenance *p);
+WT_API wt_status wt_provenance_set_command(wt_provenance *p, int argc,
+                                           char *const argv[]) WT_NODISCARD;
+WT_API wt_status wt_provenance_add_input(wt_provenance *p,
+                                         const wt_provenance_input *input) WT_NODISCARD; /* copied */
+WT_API const char *wt_provenance_command(const wt_provenance *p); /* "" if not set; borrowed */
+WT_API size_t wt_provenance_n_inputs(const wt_provenance *p);
+WT_API const wt_provenance_input *wt_provenance_get_input(const wt_provenance *p, size_t i);
+
+/* ---- threads and progress ----------------------------------------------------------------- */
+
+/* Called now and then by long work, never from two threads at once; total 0 = not known. Return
+ * false to cancel: the work ends with WT_E_CANCELLED. */
+typedef bool (*wt_progress_fn)(void *user, const char *what, size_t done, size_t total);
+
+typedef struct wt_progress {
+    wt_progress_fn report; /* NULL = none */
+    void *user;
+} wt_progress;
+
+/* Runs body(user, i, worker) for i in [0, n) on up to `threads` threads (0 = one per processor).
+ * worker < wt_thread_count(threads) numbers the thread, for scratch space. Items must be
+ * independent, so the result is the same for any number of threads. The first (lowest i) status
+ * that is not WT_OK is returned; every item is run all the same. */
+typedef wt_status (*wt_parallel_fn)(void *user, size_t i, unsigned worker);
+WT_API unsigned wt_thread_count(unsigned threads);
+WT_API wt_status wt_parallel_for(size_t n, unsigned threads, wt_parallel_fn body, void *user,
+                                 const wt_progress *progress, const char *what) WT_NODISCARD;
+
+/* Wall and processor time of this process, seconds since an arbitrary start. */
+WT_API double wt_time_wall(void);
+WT_API double wt_time_cpu(void);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,239 @@
+/* weartrack - data room: the types in which the other rooms meet, the text stream and the HDF5
+ * store. Everything is in SI units; see base.h for ownership and errors.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#ifndef WEARTRACK_DATA_H
+#define WEARTRACK_DATA_H
+
+#include "weartrack/base.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- force curves ------------------------------------------------------------------------- */
+
+/* One column of a segment: SI values with what they measure and how the instrument called it. */
+typedef struct wt_channel {
+    wt_quantity quantity;
+    char name[64]; /* as exported, UTF-8 */
+    char unit[32]; /* as exported, before conversion; "" if the file does not say */
+    double *values; /* [n_points] of the segment, SI; NaN = missing sample */
+} wt_channel;
+
+typedef enum wt_segment_kind {
+    WT_SEGMENT_APPROACH,
+    WT_SEGMENT_RETRACT,
+    WT_SEGMENT_DWELL,
+    WT_SEGMENT_MODULATION,
+    WT_SEGMENT_OTHER
+} wt_segment_kind;
+#define WT_SEGMENT_BIT(kind) (1u << (unsigned)(kind))
+#define WT_SEGMENT_ALL (~0u)
+
+WT_API const char *wt_segment_kind_name(wt_segment_kind kind); /* "approach"; static */
+
+/* Samples in the order of time. */
+typedef struct wt_segment {
+    wt_segment_kind kind;
+    size_t index;    /* number in the file, counted from 0 */
+    size_t n_points; /* of every channel */
+    size_t n_channels;
+    wt_channel *channels;
+    double duration; /* [s], NaN if unknown */
+    double setpoint; /* [N] or NaN */
+    double velocity; /* piezo velocity [m/s], NaN if unknown */
+} wt_segment;
+
+typedef struct wt_cantilever {
+    double spring_constant;        /* [N/m], NaN if unknown */
+    double sensitivity;            /* deflection sensitivity InvOLS [m/V], NaN if unknown */
+    bool spring_constant_given;    /* the user's value replaced (or supplied) the file's */
+    bool sensitivity_given;
+} wt_cantilever;
+
+/* The segments of one position. A zero-initialised curve is empty and may be given to a reader,
+ * which reuses its memory from curve to curve. */
+typedef struct wt_force_curve {
+    size_t index;  /* number in its file, counted from 0; as the file counts if it does */
+    double x, y;   /* lateral position [m], NaN if unknown */
+    long grid_x, grid_y; /* place in the grid, -1 if none */
+    wt_cantilever cantilever;
+    size_t n_segments;
+    wt_segment *segments;
+    size_t capacity; /* segments allocated; private to wt_force_curve_* */
+} wt_force_curve;
+
+WT_API void wt_force_curve_clear(wt_force_curve *curve); /* frees all; the curve is empty again */
+/* Makes room for one more segment of n_points samples and n_channels channels (values allocated,
+ * not initialised) and returns it; NULL when out of memory. Reuses memory of a curve that was
+ * emptied by wt_force_curve_reset. */
+WT_API wt_segment *wt_force_curve_add_segment(wt_force_curve *curve, wt_segment_kind kind,
+                                              size_t n_points, size_t n_channels);
+WT_API void wt_force_curve_reset(wt_force_curve *curve); /* no segments, memory kept */
+WT_API const wt_channel *wt_segment_channel(const wt_segment *segment, wt_quantity quantity);
+/* First segment of a kind, NULL if there is none. */
+WT_API const wt_segment *wt_force_curve_segment(const wt_force_curve *curve, wt_segment_kind kind);
+
+/* ---- image -------------------------------------------------------------------------------- */
+
+/* A height map or another image channel; row 0 is the bottom line, values row by row. */
+typedef struct wt_image {
+    char name[64];
+    char unit[32]; /* SI unit of the values */
+    size_t n_columns, n_rows;
+    double width, height; /* [m]; for a spectrum of one row `width` is its range in x_unit */
+    double x_min, y_min;
+    char x_unit[32];
+    double *values; /* [n_rows * n_columns] */
+} wt_image;
+WT_API void wt_image_clear(wt_image *image);
+
+/* ---- DMA ---------------------------------------------------------------------------------- */
+
+typedef enum wt_deformation { WT_TENSION, WT_SHEAR } wt_deformation; /* E or G */
+
+/* One temperature of a sweep, points in the order of rising frequency. */
+typedef struct wt_isotherm {
+    double temperature;     /* mean of the points, or the nominal one if no column says [K] */
+    double temperature_spread; /* standard deviation of the points [K], NaN if not measured */
+    size_t n;
+    double *angular_frequency; /* [n] rad/s */
+    double *storage_modulus;   /* [n] Pa, as measured: E' or G' */
+    double *loss_modulus;      /* [n] Pa */
+    double *strain;            /* [n] or NULL */
+    char source[128];          /* file and step it came from */
+} wt_isotherm;
+
+/* Isotherms in the order of rising temperature (equal temperatures stay separate). */
+typedef struct wt_sweep {
+    wt_deformation deformation;
+    size_t n_isotherms;
+    wt_isotherm *isotherms;
+} wt_sweep;
+WT_API void wt_sweep_clear(wt_sweep *sweep);
+/* Appends an isotherm with uninitialised arrays of n points (strain if with_strain); NULL when out
+ * of memory. Call wt_sweep_sort when all are in. */
+WT_API wt_isotherm *wt_sweep_add(wt_sweep *sweep, size_t n, bool with_strain);
+WT_API void wt_sweep_sort(wt_sweep *sweep);
+
+/* ---- power spectrum ----------------------------------------------------------------------- */
+
+typedef enum wt_spectrum_kind { WT_SPECTRUM_2D, WT_SPECTRUM_1D } wt_spectrum_kind; /* m^4 | m^3 */
+
+typedef struct wt_power_spectrum {
+    wt_spectrum_kind kind;
+    size_t n;
+    double *wavenumber; /* [n] rad/m, rising */
+    double *density;    /* [n] C(q): m^4 (2D: h_rms^2 = 2 pi int q C dq) or m^3 (1D) */
+} wt_power_spectrum;
+WT_API void wt_power_spectrum_clear(wt_power_spectrum *spectrum);
+
+/* ---- Prony series ------------------------------------------------------------------------- */
+
+/* M(w) = equilibrium + sum_k modulus[k] i w tau[k] / (1 + i w tau[k]) at one temperature. */
+typedef struct wt_prony {
+    wt_deformation deformation; /* the moduli are E or G */
+    double reference_temperature; /* [K], NaN if unknown */
+    double equilibrium_modulus;   /* [Pa] */
+    size_t n;
+    double *relaxation_time; /* [n] s, falling or rising, > 0 */
+    double *modulus;         /* [n] Pa, >= 0 */
+    double frequency_min, frequency_max; /* measured range [rad/s], NaN if unknown */
+} wt_prony;
+WT_API void wt_prony_clear(wt_prony *prony);
+WT_API wt_status wt_prony_alloc(wt_prony *prony, size_t n, wt_error *err) WT_NODISCARD;
+
+/* ---- table -------------------------------------------------------------------------------- */
+
+/* Columns of equal length with units, and keys in front: what leaves the program is a table. */
+typedef struct wt_table wt_table;
+
+typedef enum wt_column_kind { WT_COLUMN_NUMBER, WT_COLUMN_TEXT } wt_column_kind;
+
+/* name: [a-z0-9_]+ parts joined by '/', unique in a result ("indentation/bulk"); title: words. */
+WT_API wt_table *wt_table_new(const char *name, const char *title); /* NULL when out of memory */
+WT_API void wt_table_free(wt_table *table);
+WT_API const char *wt_table_name(const wt_table *table);
+WT_API const char *wt_table_title(const wt_table *table);
+
+/* Columns are added before rows. unit: UDUNITS spelling of an SI unit, "1" for a number. The text
+ * arguments are copied. */
+WT_API wt_status wt_table_add_column(wt_table *table, const char *name, const char *unit,
+                                     const char *long_name, wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_table_add_text_column(wt_table *table, const char *name, const char *long_name,
+                                          wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_table_add_row(wt_table *table, wt_error *err) WT_NODISCARD; /* NaN and "" */
+WT_API size_t wt_table_n_rows(const wt_table *table);
+WT_API size_t wt_table_n_columns(const wt_table *table);
+WT_API wt_column_kind wt_table_column_kind(const wt_table *table, size_t column);
+WT_API const char *wt_table_column_name(const wt_table *table, size_t column);
+WT_API const char *wt_table_column_unit(const wt_table *table, size_t column); /* "" for text */
+WT_API const char *wt_table_column_long_name(const wt_table *table, size_t column);
+/* Index of a column by name, or -1. */
+WT_API long wt_table_find(const wt_table *table, const char *column_name);
+/* Sets a cell of the last row by column number. */
+WT_API void wt_table_put(wt_table *table, size_t column, double value);
+WT_API wt_status wt_table_put_text(wt_table *table, size_t column, const char *text,
+                                   wt_error *err) WT_NODISCARD;
+WT_API double wt_table_number(const wt_table *table, size_t row, size_t column);
+WT_API const char *wt_table_text(const wt_table *table, size_t row, size_t column);
+WT_API const double *wt_table_numbers(const wt_table *table, size_t column); /* [n_rows] */
+
+/* A block break: rows from here on belong to a new block (a new curve, a new velocity). In the
+ * stream it is a blank line. wt_table_block(row) numbers the blocks from 0. */
+WT_API wt_status wt_table_new_block(wt_table *table, wt_error *err) WT_NODISCARD;
+WT_API size_t wt_table_block(const wt_table *table, size_t row);
+
+/* Keys: one line of text each, in the order they were set; setting again replaces. */
+WT_API wt_status wt_table_set_key(wt_table *table, const char *key, const char *text,
+                                  wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_table_set_estimate(wt_table *table, const char *key, wt_estimate estimate,
+                                       wt_error *err) WT_NODISCARD;
+WT_API size_t wt_table_n_keys(const wt_table *table);
+WT_API const char *wt_table_key_name(const wt_table *table, size_t i);
+WT_API const char *wt_table_key(const wt_table *table, const char *key); /* NULL if absent */
+/* Reads an estimate key; false if absent. estimate->unit is borrowed from the table. */
+WT_API bool wt_table_estimate(const wt_table *table, const char *key, wt_estimate *estimate);
+
+/* ---- result ------------------------------------------------------------------------------- */
+
+/* Tables of one run with their provenance; what the HDF5 store holds and the report reads. */
+typedef struct wt_result wt_result;
+WT_API wt_result *wt_result_new(void); /* NULL when out of memory */
+WT_API void wt_result_free(wt_result *result);
+WT_API wt_status wt_result_add(wt_result *result, wt_table *table, wt_error *err)
+    WT_NODISCARD; /* takes the table, also on failure */
+WT_API size_t wt_result_n_tables(const wt_result *result);
+WT_API const wt_table *wt_result_table(const wt_result *result, size_t i);
+WT_API const wt_table *wt_result_find(const wt_result *result, const char *name); /* or NULL */
+WT_API wt_provenance *wt_result_provenance(wt_result *result); /* owned by the result */
+WT_API const wt_provenance *wt_result_provenance_const(const wt_result *result);
+WT_API wt_status wt_result_set_case(wt_result *result, const char *xml, size_t length,
+                                    wt_error *err) WT_NODISCARD; /* the case file, whole */
+WT_API const char *wt_result_case(const wt_result *result, size_t *length); /* NULL if none */
+
+/* ---- stream: weartrack-stream(5) ---------------------------------------------------------- */
+
+/* Writes one table: `## key: value` lines, one header line, tab-separated rows, a blank line
+ * between blocks. provenance NULL = none (byte-stable output). */
+WT_API wt_status wt_stream_write(FILE *out, const wt_table *table, const wt_provenance *provenance,
+                                 wt_error *err) WT_NODISCARD;
+/* Reads the next table of a stream (tables are parted by a line `##` alone); WT_END when there is
+ * none. `name` is used in errors. */
+WT_API wt_status wt_stream_read(FILE *in, const char *name, wt_table **table,
+                                wt_error *err) WT_NODISCARD;
+
+/* ---- store: weartrack-hdf5(5) ------------------------------------------------------------- */
+
+/* Writes the whole result under a temporary name, then renames. with_provenance false leaves out
+ * version, command and times, for byte-stable tests. */
+WT_API wt_status wt_store_write(const char *path, const wt_result *result, bool with_provenance,
+                                wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_store_read(const char *path, wt_result **result, wt_error *err) WT_NODISCARD;
+
+#ifdef __cplusplus
+}
+#endif
+#endif

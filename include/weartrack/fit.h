@@ -1,0 +1,241 @@
+/* weartrack - fit room: from force curves to moduli and their comparison; from DMA sweeps to shift
+ * factors, WLF, master curve and Prony series.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#ifndef WEARTRACK_FIT_H
+#define WEARTRACK_FIT_H
+
+#include "weartrack/model.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- one force curve: baseline, contact point, modulus ---------------------------------------- */
+
+/* Why a curve has no modulus, or what is odd about it. One list: identifier, words. */
+#define WT_CURVE_VERDICT_LIST(X)                                                                   \
+    X(WT_CURVE_ACCEPTED, "accepted", "accepted")                                                   \
+    X(WT_CURVE_NO_APPROACH, "no_approach", "the curve has no approach segment")                    \
+    X(WT_CURVE_TOO_SHORT, "too_short", "too few samples for a fit")                                \
+    X(WT_CURVE_NO_BASELINE, "no_baseline", "starts in contact: no baseline before it")             \
+    X(WT_CURVE_NO_CONTACT, "no_contact", "never touches: the force does not leave the baseline")   \
+    X(WT_CURVE_SATURATED, "saturated", "detector saturated: flat top of the force")                \
+    X(WT_CURVE_NOT_FINITE, "not_finite", "samples are missing or not numbers")                     \
+    X(WT_CURVE_POOR_FIT, "poor_fit", "the model does not describe the curve")                      \
+    X(WT_CURVE_AMBIGUOUS, "ambiguous_contact", "two contact points describe the curve alike")      \
+    X(WT_CURVE_NEGATIVE, "negative_modulus", "the modulus is not positive")                        \
+    X(WT_CURVE_DRIFT, "disturbed_baseline", "the baseline is bent or oscillates")                  \
+    X(WT_CURVE_RIGID, "rigid", "stiffer than the cantilever can tell: no indentation")             \
+    X(WT_CURVE_UNREADABLE, "unreadable", "the curve could not be read")
+
+typedef enum wt_curve_verdict {
+#define WT_CURVE_ENUM(name, id, text) name,
+    WT_CURVE_VERDICT_LIST(WT_CURVE_ENUM)
+#undef WT_CURVE_ENUM
+} wt_curve_verdict;
+WT_API const char *wt_curve_verdict_id(wt_curve_verdict verdict);   /* static */
+WT_API const char *wt_curve_verdict_text(wt_curve_verdict verdict); /* static */
+
+typedef struct wt_indent_options {
+    double poisson_ratio;       /* default 0.5 */
+    double fit_depth;           /* only indentations up to this [m]; 0 = all */
+    double fit_force_fraction;  /* only forces up to this share of the largest; default 1 */
+    bool fit_tilt;              /* baseline tilt is fitted, else offset only; default true */
+    double minimum_r_squared;   /* of the contact part, below it POOR_FIT; default stated in text */
+    double fixed_contact_point; /* [m] tip position, NaN = fitted */
+} wt_indent_options;
+WT_API wt_indent_options wt_indent_defaults(void);
+
+/* Result of one curve. Positions are tip positions [m] = height - deflection, along the approach,
+ * rising into the sample. */
+typedef struct wt_indent_fit {
+    wt_curve_verdict verdict;
+    char reason[160];            /* verdict with its numbers: "R^2 0.71 below 0.90" */
+    wt_estimate modulus;         /* E [Pa]; standard error includes baseline and contact point and
+                                    correlated residuals; NaN unless accepted (or as `reason` says) */
+    wt_estimate contact_point;   /* [m] */
+    wt_estimate baseline_offset; /* [N] at the contact point */
+    wt_estimate baseline_tilt;   /* [N/m] */
+    double noise;                /* standard deviation of the baseline residual [N] */
+    double correlation_length;   /* of the residuals [samples] */
+    double r_squared;            /* of the contact part */
+    double max_force;            /* [N] above the baseline */
+    double max_indentation;      /* [m] */
+    double adhesion_force;       /* largest pull in the approach before contact (snap-on) [N], >= 0 */
+    double piezo_rate;           /* [m/s], NaN if no time */
+    double indentation_rate;     /* mean of the contact part [m/s], NaN if no time */
+    double load_time;            /* contact to end of approach [s], NaN if no time */
+    double second_minimum_ratio; /* cost of the second best contact point / best; NaN if none */
+    double second_contact_point; /* [m], NaN if none */
+    double sensitivity_gain;     /* d ln E / d ln sensitivity: 15.6 means 1 % gives 15.6 % */
+    size_t contact_index;        /* sample of the contact point in the approach */
+    size_t n_fitted;             /* samples used */
+} wt_indent_fit;
+
+/* Scratch for curves of any length; one per thread. */
+typedef struct wt_indent_workspace wt_indent_workspace;
+WT_API wt_indent_workspace *wt_indent_workspace_new(void);
+WT_API void wt_indent_workspace_free(wt_indent_workspace *workspace);
+
+/* Fits one approach: height [m] (piezo extension; the direction is found from the data), force [N],
+ * time [s] or NULL, n samples in the order of time, spring constant [N/m]. A curve that cannot be
+ * fitted is not an error: WT_OK with its verdict. WT_E_ARG for n = 0 or a spring constant <= 0. */
+WT_API wt_status wt_indent_fit_curve(const wt_contact_table *table,
+                                     const wt_indent_options *options, const double *height,
+                                     const double *force, const double *time, size_t n,
+                                     double spring_constant, wt_indent_workspace *workspace,
+                                     wt_indent_fit *fit, wt_error *err) WT_NODISCARD;
+/* The same from a force curve as it was read. */
+WT_API wt_status wt_indent_force_curve(const wt_contact_table *table,
+                                       const wt_indent_options *options,
+                                       const wt_force_curve *curve,
+                                       wt_indent_workspace *workspace, wt_indent_fit *fit,
+                                       wt_error *err) WT_NODISCARD;
+/* Indentation delta [m] and baseline-free force [N] of the samples from contact on, for plots.
+ * delta, force: [n]; returns how many. */
+WT_API size_t wt_indent_curve(const wt_indent_fit *fit, const double *height, const double *force,
+                              size_t n, double spring_constant, double *delta, double *out_force);
+
+/* ---- groups and their comparison -------------------------------------------------------------- */
+
+/* One group of moduli: accepted curves only; spot[i] numbers the place on the sample (curves on one
+ * spot are not independent), NULL = each curve is its own spot and the result says so. */
+typedef struct wt_group {
+    const double *modulus; /* [n] Pa, > 0 */
+    const long *spot;      /* [n] or NULL */
+    size_t n;
+    size_t n_rejected;
+} wt_group;
+
+typedef struct wt_group_summary {
+    size_t n, n_rejected, n_spots;
+    double mean, standard_deviation; /* of the curves [Pa] */
+    double geometric_mean;           /* of the units (spots, or curves) [Pa] */
+    double log_standard_error;       /* standard error of its logarithm */
+    double low, high;                /* 95 % interval of the geometric mean [Pa] */
+    double median;                   /* of the curves [Pa] */
+} wt_group_summary;
+
+typedef struct wt_comparison {
+    wt_group_summary bulk, track;
+    bool by_spot;                /* the unit of analysis is the spot */
+    wt_estimate log_ratio;       /* ln(E_track / E_bulk) */
+    double ratio, ratio_low, ratio_high; /* with 95 % interval (Welch on ln E) */
+    wt_estimate difference;      /* E_track - E_bulk [Pa], of the means */
+    double welch_t, welch_df, welch_p;
+    double mann_whitney_u, mann_whitney_p; /* exact if small and without ties, else normal */
+    bool mann_whitney_exact;
+    double effect_size;          /* Hedges g of ln E */
+} wt_comparison;
+
+WT_API wt_status wt_group_summarise(const wt_group *group, wt_group_summary *summary,
+                                    wt_error *err) WT_NODISCARD;
+/* WT_E_EMPTY with fewer than two units in a group. Fed with tribolayer.json case N in the tests. */
+WT_API wt_status wt_compare(const wt_group *bulk, const wt_group *track, wt_comparison *result,
+                            wt_error *err) WT_NODISCARD;
+/* Holm's correction of n p-values for n rates; adjusted[n]. */
+WT_API void wt_holm(const double *p, size_t n, double *adjusted);
+/* Equivalent angular frequency [rad/s] of a loading of time t [s] with F ~ delta^p: exp(psi(p+1))/t
+ * (2.52/t for p = 2, 2.02/t for p = 1.5). */
+WT_API double wt_equivalent_frequency(double load_time, double force_exponent);
+
+/* ---- shift factors ----------------------------------------------------------------------------- */
+
+typedef enum wt_vertical_shift {
+    WT_VERTICAL_NONE,
+    WT_VERTICAL_PHYSICAL, /* b = rho0 T0 / (rho T) */
+    WT_VERTICAL_FREE
+} wt_vertical_shift;
+
+typedef struct wt_shift_options {
+    double reference_temperature; /* [K]; need not be a measured isotherm */
+    wt_vertical_shift vertical;   /* default FREE: E' and E'' together make it identifiable */
+    double expansion;             /* volumetric thermal expansion for PHYSICAL [1/K], default 0 */
+    double floor;                 /* model error of a shift for the WLF fit [decade], default 0.02 */
+} wt_shift_options;
+WT_API wt_shift_options wt_shift_defaults(void);
+
+/* One isotherm's shift: x_r = log10 w + log_a, y_r = log10 M + log_b. */
+typedef struct wt_shift {
+    double temperature;            /* [K] */
+    wt_estimate log_a, log_b;      /* decades; 0 with error 0 at the reference isotherm */
+    double correlation;            /* of log_a and log_b */
+    bool determined;               /* false: no overlap or no slope decides; the value is NaN */
+    double overlap_storage, overlap_loss; /* shared ordinate range with the neighbour [decade] */
+    double log_b_physical;         /* what rho T would give */
+    char note[128];                /* "" or what is odd */
+} wt_shift;
+
+typedef struct wt_wlf_fit {
+    wt_wlf wlf;
+    double c1_error, c2_error, correlation; /* standard errors and correlation of c1 and c2 */
+    double b, b_error;                      /* c1 c2 [K] */
+    double pole, pole_error;                /* Tref - c2 [K] */
+    double offset, offset_error;            /* of the reference isotherm [decade] */
+    double rms;                             /* weighted rms residual [decade] */
+    bool straight;   /* C2 is not determined: only the slope c1/c2 means anything */
+    double activation_energy, activation_energy_error; /* Arrhenius fit of the same shifts [J/mol] */
+    double aicc_wlf, aicc_arrhenius;
+    size_t n;
+} wt_wlf_fit;
+
+/* A master curve: every measured point at the reference temperature, and what shifted it. */
+typedef struct wt_master_curve {
+    wt_deformation deformation;
+    double reference_temperature;  /* [K] */
+    wt_vertical_shift vertical;
+    size_t n_shifts;
+    wt_shift *shifts;              /* [n_shifts], rising temperature */
+    double *covariance;            /* [n_shifts * n_shifts] of log_a */
+    size_t n;
+    double *log_frequency;         /* [n] log10 of the reduced angular frequency [rad/s], rising */
+    double *log_storage;           /* [n] log10 of E' or G' [Pa], vertical shift applied */
+    double *log_loss;              /* [n] */
+    size_t *isotherm;              /* [n] which isotherm */
+    double rms_storage, rms_loss;  /* overlap residual [decade] */
+    double kramers_kronig;         /* rms relative misfit of E'' predicted from E' alone; NaN */
+    bool superposition_failed;     /* the shifts of E' and E'' disagree beyond their errors */
+    char note[256];
+} wt_master_curve;
+WT_API void wt_master_curve_clear(wt_master_curve *master);
+
+/* Shifts all isotherms of a sweep onto the reference. Points with a modulus <= 0 are an error
+ * (WT_E_RANGE) naming the isotherm unless they can be left out with a warning in the log. Isotherms
+ * that overlap nothing are not clamped: undetermined, with a note; WT_E_NO_OVERLAP if none does. */
+WT_API wt_status wt_shift_fit(const wt_sweep *sweep, const wt_shift_options *options,
+                              wt_parselog *log, wt_master_curve *master,
+                              wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_wlf_fit_shifts(const wt_master_curve *master, const wt_shift_options *options,
+                                   wt_wlf_fit *fit, wt_error *err) WT_NODISCARD;
+
+/* ---- Prony series ------------------------------------------------------------------------------ */
+
+typedef struct wt_prony_options {
+    double terms_per_decade; /* default 1 */
+    double smoothing;        /* Tikhonov lambda; 0 = none (default) */
+    bool liquid;             /* equilibrium modulus forced to 0 */
+} wt_prony_options;
+WT_API wt_prony_options wt_prony_defaults(void);
+
+typedef struct wt_prony_fit {
+    wt_prony prony;
+    double rms_storage, rms_loss; /* relative */
+} wt_prony_fit;
+
+/* Relative-weight non-negative least squares (Lawson-Hanson) of E' and E'' together. */
+WT_API wt_status wt_prony_fit_master(const wt_master_curve *master,
+                                     const wt_prony_options *options, wt_prony_fit *fit,
+                                     wt_error *err) WT_NODISCARD;
+/* Replicate `index` of the same fit: the shifts drawn from their covariance and the residuals of
+ * whole isotherms resampled (block bootstrap); the same seed and index give the same series. For
+ * carrying the uncertainty of the material on to friction. */
+WT_API wt_status wt_prony_replicate(const wt_master_curve *master,
+                                    const wt_prony_options *options, uint64_t seed, size_t index,
+                                    wt_prony *prony, wt_error *err) WT_NODISCARD;
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,155 @@
+/* weartrack - model room: pure forward laws. Tips and contact models; WLF and Arrhenius; materials
+ * and roughness as laws behind a small table of functions.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#ifndef WEARTRACK_MODEL_H
+#define WEARTRACK_MODEL_H
+
+#include "weartrack/data.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- tips and contact: F = E/(1-nu^2) G(delta) ---------------------------------------------- */
+
+typedef enum wt_tip_shape {
+    WT_TIP_BLUNTED_PYRAMID, /* n-sided pyramid with a parabolic cap */
+    WT_TIP_PARABOLOID,      /* Hertz: sphere of radius R for delta << R */
+    WT_TIP_CONE             /* Sneddon; half_angle from the axis to the face */
+} wt_tip_shape;
+
+typedef struct wt_tip {
+    wt_tip_shape shape;
+    unsigned sides;            /* of the pyramid, >= 3; 0 = axisymmetric (cone limit, m = 1) */
+    double half_angle;         /* axis to FACE [rad] */
+    double radius;             /* of the cap [m] */
+    double transition_radius;  /* b: where the cap meets the faces [m]; 0 = sharp */
+} wt_tip;
+
+/* b = R cos(theta): the sphere tangent to the faces (default of the field's programs). */
+WT_API double wt_tip_tangent_transition(double radius, double half_angle);
+/* WT_E_RANGE with what is wrong: not finite, radius <= 0, angle outside (0, 90) degrees, or a
+ * transition radius that makes the cap concave: b/R > m cot(theta). */
+WT_API wt_status wt_tip_check(const wt_tip *tip, wt_error *err) WT_NODISCARD;
+/* "pyramid:half-angle=35deg,radius=20nm[,sides=4][,transition=12nm]", "sphere:radius=5um",
+ * "cone:half-angle=20deg". */
+WT_API wt_status wt_tip_parse(const char *text, wt_tip *tip, wt_error *err) WT_NODISCARD;
+/* The tip in words with all its numbers, b included; returns the length as snprintf does. */
+WT_API size_t wt_tip_describe(const wt_tip *tip, char *buffer, size_t size);
+
+/* G(delta) [m^2] and dG/ddelta = 2a [m] for delta >= 0 (0 and 0 for delta <= 0). Rico et al.,
+ * Phys. Rev. E 72 (2005) 021914, in the cancellation-free form. Relative error below 1e-12. */
+WT_API void wt_contact_function(const wt_tip *tip, double delta, double *g, double *slope);
+
+/* ln G against ln delta with exact slopes (cubic Hermite), made once for a tip and shared by all
+ * curves and threads. Relative error below 1e-11 in [delta_min, delta_max], the direct function
+ * outside. */
+typedef struct wt_contact_table wt_contact_table;
+WT_API wt_status wt_contact_table_new(const wt_tip *tip, double delta_min, double delta_max,
+                                      wt_contact_table **table, wt_error *err) WT_NODISCARD;
+WT_API void wt_contact_table_free(wt_contact_table *table);
+WT_API const wt_tip *wt_contact_table_tip(const wt_contact_table *table);
+WT_API void wt_contact_table_eval(const wt_contact_table *table, const double *delta, size_t n,
+                                  double *g, double *slope); /* slope may be NULL */
+
+/* ---- shift laws ------------------------------------------------------------------------------ */
+
+/* log10 aT = -c1 (T - Tref) / (c2 + T - Tref). */
+typedef struct wt_wlf {
+    double reference_temperature; /* [K] */
+    double c1;                    /* 1 */
+    double c2;                    /* [K] */
+} wt_wlf;
+/* NaN at and below the pole Tref - c2. */
+WT_API double wt_wlf_log_shift(const wt_wlf *wlf, double temperature);
+/* The same law at another reference: c1' = c1 c2 / c2', c2' = c2 + (T' - Tref). */
+WT_API wt_status wt_wlf_rereference(const wt_wlf *wlf, double temperature, wt_wlf *out,
+                                    wt_error *err) WT_NODISCARD;
+/* log10 aT = (Ea / (R ln 10)) (1/T - 1/Tref); Ea in J/mol. */
+WT_API double wt_arrhenius_log_shift(double activation_energy, double reference_temperature,
+                                     double temperature);
+
+/* ---- materials ------------------------------------------------------------------------------- */
+
+/* A viscoelastic material: E(w) = E' + i E'' of the isotropic solid, E(-w) = conj E(w). The kernel
+ * knows only this table. */
+typedef struct wt_material wt_material;
+
+typedef struct wt_material_law {
+    const char *name; /* "prony", "table", "fractional_zener" */
+    /* E'(w), E''(w) [Pa] at n angular frequencies > 0 [rad/s]. */
+    void (*modulus)(const wt_material *material, const double *omega, size_t n, double *storage,
+                    double *loss);
+    /* Angular integrals in closed form, for the plain modulus E (without 1/(1-nu^2)):
+     *   J1 = int_0^2pi cos(phi) E''(w cos phi) dphi, J2 = int_0^2pi |E(w cos phi)|^2 dphi.
+     * NULL: the kernel integrates `modulus` itself. */
+    void (*angular)(const wt_material *material, const double *omega, size_t n, double *j1,
+                    double *j2);
+    /* Angular frequencies where the law is not smooth (knots), rising, borrowed; *n = 0 if none. */
+    const double *(*breaks)(const wt_material *material, size_t *n);
+    void (*free)(wt_material *material);
+} wt_material_law;
+
+struct wt_material {
+    const wt_material_law *law;
+    double poisson_ratio;                /* [0, 0.5] */
+    double frequency_min, frequency_max; /* range backed by data [rad/s]; NaN = unlimited */
+    void *data;                          /* of the law */
+};
+
+/* Outside a table: hold the end values, or go on with the end slope in log-log. Stated, never
+ * silent: the kernel reports the share that comes from outside frequency_min..frequency_max. */
+typedef enum wt_extrapolation { WT_EXTRAPOLATE_HOLD, WT_EXTRAPOLATE_SLOPE } wt_extrapolation;
+
+/* Copies the series; shear moduli are converted, E = 2 (1 + nu) G. poisson_ratio in [0, 0.5]. */
+WT_API wt_status wt_material_prony(const wt_prony *prony, double poisson_ratio,
+                                   wt_material **material, wt_error *err) WT_NODISCARD;
+/* ln E' and ln E'' linear in ln w between n >= 2 rising knots, all values > 0. */
+WT_API wt_status wt_material_table(const double *omega, const double *storage, const double *loss,
+                                   size_t n, double poisson_ratio, wt_extrapolation extrapolation,
+                                   wt_material **material, wt_error *err) WT_NODISCARD;
+/* E(w) = (E0 + Eg z) / (1 + z), z = (i w tau)^alpha. */
+WT_API wt_status wt_material_fractional_zener(double e0, double eg, double tau, double alpha,
+                                              double poisson_ratio, wt_material **material,
+                                              wt_error *err) WT_NODISCARD;
+WT_API void wt_material_free(wt_material *material);
+
+/* ---- roughness ------------------------------------------------------------------------------- */
+
+/* Isotropic 2-D power spectrum C(q) [m^4] on [q0, q1], 0 elsewhere. */
+typedef struct wt_roughness wt_roughness;
+
+typedef struct wt_roughness_law {
+    const char *name; /* "self_affine", "table" */
+    void (*density)(const wt_roughness *roughness, const double *q, size_t n, double *c);
+    const double *(*breaks)(const wt_roughness *roughness, size_t *n); /* inside (q0, q1) */
+    /* int_q0^q k^m C dk for m = 1 or 3 in closed form; NULL: integrated numerically. */
+    double (*moment)(const wt_roughness *roughness, int m, double q);
+    void (*free)(wt_roughness *roughness);
+} wt_roughness_law;
+
+struct wt_roughness {
+    const wt_roughness_law *law;
+    double q0, q1; /* [rad/m] */
+    void *data;
+};
+
+/* C = c0 for q0 <= q <= qr, c0 (q/qr)^(-2(1+H)) for qr < q <= q1. */
+WT_API wt_status wt_roughness_self_affine(double q0, double qr, double q1, double hurst, double c0,
+                                          wt_roughness **roughness, wt_error *err) WT_NODISCARD;
+/* Log-log linear between n >= 2 rising knots; q0, q1 = first and last knot. */
+WT_API wt_status wt_roughness_table(const double *q, const double *c, size_t n,
+                                    wt_roughness **roughness, wt_error *err) WT_NODISCARD;
+/* A view of `base` (borrowed, must live longer) cut to [q0, q1] inside its range. */
+WT_API wt_status wt_roughness_cut(const wt_roughness *base, double q0, double q1,
+                                  wt_roughness **roughness, wt_error *err) WT_NODISCARD;
+WT_API void wt_roughness_free(wt_roughness *roughness);
+WT_API double wt_roughness_rms_height(const wt_roughness *roughness); /* [m] */
+WT_API double wt_roughness_rms_slope(const wt_roughness *roughness);  /* 1 */
+
+#ifdef __cplusplus
+}
+#endif
+#endif

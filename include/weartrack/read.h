@@ -1,0 +1,127 @@
+/* weartrack - read room: bytes from a file, a pipe or memory; which format they are; force curves
+ * as a stream, DMA sweeps, images and power spectra.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#ifndef WEARTRACK_READ_H
+#define WEARTRACK_READ_H
+
+#include "weartrack/data.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- input -------------------------------------------------------------------------------- */
+
+/* Bytes with peek. A file is mapped or read as needed; a pipe is buffered. */
+typedef struct wt_input wt_input;
+/* path "-" is standard input. */
+WT_API wt_status wt_input_open(const char *path, wt_input **input, wt_error *err) WT_NODISCARD;
+/* Borrows the bytes until closed. */
+WT_API wt_status wt_input_open_memory(const void *bytes, size_t length, const char *name,
+                                      wt_input **input, wt_error *err) WT_NODISCARD;
+WT_API void wt_input_close(wt_input *input);
+WT_API const char *wt_input_name(const wt_input *input);
+/* All bytes, borrowed until the input is closed (a pipe is read to its end). */
+WT_API wt_status wt_input_bytes(wt_input *input, const unsigned char **bytes, size_t *length,
+                                wt_error *err) WT_NODISCARD;
+/* At least the first `want` bytes if there are as many; *whole says that this is all. */
+WT_API wt_status wt_input_peek(wt_input *input, size_t want, const unsigned char **bytes,
+                               size_t *length, bool *whole, wt_error *err) WT_NODISCARD;
+
+/* ---- formats ------------------------------------------------------------------------------ */
+
+#define WT_KIND_FORCE 1u    /* force curves */
+#define WT_KIND_SWEEP 2u    /* DMA sweeps */
+#define WT_KIND_IMAGE 4u    /* topography and other images */
+#define WT_KIND_SPECTRUM 8u /* power spectra */
+
+typedef struct wt_format_info {
+    const char *id;       /* "jpk", "trios-lims" */
+    const char *title;    /* "JPK force curves and maps (ZIP)" */
+    unsigned kinds;       /* WT_KIND_* */
+    bool verified;        /* read and checked on a genuine file */
+    const char *evidence; /* how it is known: "measured files of software 1.7 to 3.10" */
+    const char *version;  /* of the description, or of the library */
+} wt_format_info;
+
+/* The formats: the binary readers and the XML descriptions. A set is immutable once it is made and
+ * may be shared between threads. folder NULL = built-in descriptions only; the descriptions of
+ * `folder` are added and replace built-in ones of the same id (noted in the log). */
+typedef struct wt_formats wt_formats;
+WT_API wt_status wt_formats_new(const char *folder, wt_formats **formats, wt_parselog *log,
+                                wt_error *err) WT_NODISCARD;
+WT_API void wt_formats_free(wt_formats *formats);
+WT_API size_t wt_formats_count(const wt_formats *formats);
+WT_API const wt_format_info *wt_formats_get(const wt_formats *formats, size_t i);
+/* The XML text of a description, NULL for a binary reader or an unknown id; borrowed. */
+WT_API const char *wt_formats_xml(const wt_formats *formats, const char *id);
+/* The schema of descriptions (XSD text); static. */
+WT_API const char *wt_formats_schema(void);
+/* Which format the input is. `kinds` limits the question (0 = any). */
+WT_API wt_status wt_detect(const wt_formats *formats, wt_input *input, unsigned kinds,
+                           const wt_format_info **info, wt_error *err) WT_NODISCARD;
+
+/* ---- options ------------------------------------------------------------------------------ */
+
+/* A zero-initialised struct passed through wt_read_defaults. Nothing that is not asked for is
+ * decoded. */
+typedef struct wt_read_options {
+    const char *format;      /* id that overrules detection, or NULL */
+    wt_quantity_set want;    /* channels to decode; a force needs no more than its own column */
+    unsigned segments;       /* WT_SEGMENT_BIT()s to decode */
+    double spring_constant;  /* [N/m] replaces the file's; NaN = the file's */
+    double sensitivity;      /* [m/V] replaces the file's; NaN = the file's */
+    double temperature;      /* [K] for a sweep whose file gives none; NaN = none */
+    const char *const *units; /* "NAME=UNIT" for columns of files that carry no units */
+    size_t n_units;
+} wt_read_options;
+WT_API wt_read_options wt_read_defaults(void); /* everything, nothing replaced */
+
+/* ---- reading ------------------------------------------------------------------------------ */
+
+/* Force curves as a stream: memory does not grow with the map. The source borrows the input and
+ * the formats. A curve that cannot be read gives its status and message; the next call goes on
+ * with the curve after it, until WT_END. */
+typedef struct wt_force_source wt_force_source;
+WT_API wt_status wt_force_open(const wt_formats *formats, wt_input *input,
+                               const wt_read_options *options, wt_parselog *log,
+                               wt_force_source **source, wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_force_next(wt_force_source *source, wt_force_curve *curve,
+                               wt_error *err) WT_NODISCARD;
+WT_API void wt_force_close(wt_force_source *source);
+WT_API size_t wt_force_count(const wt_force_source *source); /* SIZE_MAX if not known */
+WT_API void wt_force_grid(const wt_force_source *source, long *columns, long *rows); /* 0, 0: none */
+
+/* Appends the isotherms of one file to `sweep` (zero-initialised for the first file). Mixing
+ * tension and shear is WT_E_UNIT. */
+WT_API wt_status wt_sweep_read(const wt_formats *formats, wt_input *input,
+                               const wt_read_options *options, wt_parselog *log, wt_sweep *sweep,
+                               wt_error *err) WT_NODISCARD;
+/* All images (or one-row spectra) of a file: *images is an array of *n, each to be cleared, then
+ * the array freed with free(). */
+WT_API wt_status wt_images_read(const wt_formats *formats, wt_input *input,
+                                const wt_read_options *options, wt_parselog *log,
+                                wt_image **images, size_t *n, wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_power_spectrum_read(const wt_formats *formats, wt_input *input,
+                                        const wt_read_options *options, wt_parselog *log,
+                                        wt_power_spectrum *spectrum, wt_error *err) WT_NODISCARD;
+/* What a file is, for `weartrack info`: rows of (item, value, unit, source), all text. */
+WT_API wt_status wt_describe(const wt_formats *formats, wt_input *input,
+                             const wt_read_options *options, wt_parselog *log, wt_table **facts,
+                             wt_error *err) WT_NODISCARD;
+
+/* ---- descriptions ------------------------------------------------------------------------- */
+
+/* Checks one description (schema, then what a schema cannot say) and, if sample is not NULL, runs
+ * it on that file. `report` gets rows of (column, quantity, unit, first value, ...) of what is
+ * understood. */
+WT_API wt_status wt_description_check(const char *xml_path, wt_input *sample,
+                                      const wt_read_options *options, wt_parselog *log,
+                                      wt_table **report, wt_error *err) WT_NODISCARD;
+
+#ifdef __cplusplus
+}
+#endif
+#endif

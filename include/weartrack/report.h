@@ -1,0 +1,41 @@
+/* weartrack - report room: from a result to one folder with data, scripts, pictures and a page.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#ifndef WEARTRACK_REPORT_H
+#define WEARTRACK_REPORT_H
+
+#include "weartrack/data.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct wt_report_options {
+    const char *style;    /* name of a built-in plot style or path of one; NULL = "paper" */
+    const char *gnuplot;  /* program, NULL = "gnuplot" */
+    bool with_provenance; /* version, command line and times on the page; default true */
+} wt_report_options;
+WT_API wt_report_options wt_report_defaults(void);
+
+/* Writes FOLDER/index.html (self-contained), FOLDER/plots/NAME.tsv, NAME.gp, NAME.svg and the style
+ * file, for every figure whose tables are in the result. The folder appears whole or not at all:
+ * built beside it under a temporary name, then renamed; an older report of that name is replaced.
+ * WT_E_TOOL if gnuplot is missing or fails (the message carries its words). */
+WT_API wt_status wt_report_write(const wt_result *result, const char *folder,
+                                 const wt_report_options *options, const wt_progress *progress,
+                                 wt_error *err) WT_NODISCARD;
+
+/* The figures this library knows, in the order of the page. */
+typedef struct wt_figure_info {
+    const char *name;   /* "force_displacement" */
+    const char *title;
+    const char *const *needs; /* names of tables, NULL-terminated */
+} wt_figure_info;
+WT_API size_t wt_figure_count(void);
+WT_API const wt_figure_info *wt_figure_get(size_t i);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
