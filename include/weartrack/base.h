@@ -224,7 +224,8 @@ WT_API size_t wt_number_format(double value, char *buffer);
 
 /* ---- estimate ----------------------------------------------------------------------------- */
 
-/* Every number that is reported. An error that does not apply is 0; one that is not known is NaN. */
+/* Every number that is reported. An error that does not apply is 0; one that is not known is NaN.
+ */
 typedef struct wt_estimate {
     double value;
     double standard_error;  /* statistical: from fits and scatter */
@@ -236,8 +237,8 @@ typedef struct wt_estimate {
 
 /* New string, NULL when out of memory. An absolute `name` is returned as it is. */
 WT_API char *wt_path_join(const char *folder, const char *name);
-WT_API char *wt_path_folder(const char *path);      /* folder of a path, "." if none; new */
-WT_API const char *wt_path_base(const char *path);  /* name after the last '/'; borrowed */
+WT_API char *wt_path_folder(const char *path);     /* folder of a path, "." if none; new */
+WT_API const char *wt_path_base(const char *path); /* name after the last '/'; borrowed */
 /* Files that match a shell pattern, relative to `folder` (NULL = current), sorted bytewise; a
  * folder stands for the files in it. No match is WT_E_NOT_FOUND. */
 WT_API wt_status wt_glob(const char *folder, const char *pattern, char ***paths, size_t *n,
@@ -248,7 +249,7 @@ WT_API void wt_strings_free(char **strings, size_t n);
  * name, then renamed. */
 typedef struct wt_outfile wt_outfile;
 WT_API wt_status wt_outfile_open(const char *path, wt_outfile **file, wt_error *err) WT_NODISCARD;
-WT_API FILE *wt_outfile_stream(wt_outfile *file);         /* borrowed */
+WT_API FILE *wt_outfile_stream(wt_outfile *file);           /* borrowed */
 WT_API const char *wt_outfile_path(const wt_outfile *file); /* the temporary name; borrowed */
 /* Flushes, checks, renames and frees; on failure the temporary file is gone and `file` freed. */
 WT_API wt_status wt_outfile_commit(wt_outfile *file, wt_error *err) WT_NODISCARD;
@@ -272,8 +273,8 @@ WT_API wt_provenance *wt_provenance_new(void); /* NULL when out of memory */
 WT_API void wt_provenance_free(wt_provenance *p);
 WT_API wt_status wt_provenance_set_command(wt_provenance *p, int argc,
                                            char *const argv[]) WT_NODISCARD;
-WT_API wt_status wt_provenance_add_input(wt_provenance *p,
-                                         const wt_provenance_input *input) WT_NODISCARD; /* copied */
+WT_API wt_status wt_provenance_add_input(wt_provenance *p, const wt_provenance_input *input)
+    WT_NODISCARD;                                                 /* copied */
 WT_API const char *wt_provenance_command(const wt_provenance *p); /* "" if not set; borrowed */
 WT_API size_t wt_provenance_n_inputs(const wt_provenance *p);
 WT_API const wt_provenance_input *wt_provenance_get_input(const wt_provenance *p, size_t i);

@@ -17,8 +17,8 @@ extern "C" {
 /* One column of a segment: SI values with what they measure and how the instrument called it. */
 typedef struct wt_channel {
     wt_quantity quantity;
-    char name[64]; /* as exported, UTF-8 */
-    char unit[32]; /* as exported, before conversion; "" if the file does not say */
+    char name[64];  /* as exported, UTF-8 */
+    char unit[32];  /* as exported, before conversion; "" if the file does not say */
     double *values; /* [n_points] of the segment, SI; NaN = missing sample */
 } wt_channel;
 
@@ -47,17 +47,17 @@ typedef struct wt_segment {
 } wt_segment;
 
 typedef struct wt_cantilever {
-    double spring_constant;        /* [N/m], NaN if unknown */
-    double sensitivity;            /* deflection sensitivity InvOLS [m/V], NaN if unknown */
-    bool spring_constant_given;    /* the user's value replaced (or supplied) the file's */
+    double spring_constant;     /* [N/m], NaN if unknown */
+    double sensitivity;         /* deflection sensitivity InvOLS [m/V], NaN if unknown */
+    bool spring_constant_given; /* the user's value replaced (or supplied) the file's */
     bool sensitivity_given;
 } wt_cantilever;
 
 /* The segments of one position. A zero-initialised curve is empty and may be given to a reader,
  * which reuses its memory from curve to curve. */
 typedef struct wt_force_curve {
-    size_t index;  /* number in its file, counted from 0; as the file counts if it does */
-    double x, y;   /* lateral position [m], NaN if unknown */
+    size_t index;        /* number in its file, counted from 0; as the file counts if it does */
+    double x, y;         /* lateral position [m], NaN if unknown */
     long grid_x, grid_y; /* place in the grid, -1 if none */
     wt_cantilever cantilever;
     size_t n_segments;
@@ -96,7 +96,7 @@ typedef enum wt_deformation { WT_TENSION, WT_SHEAR } wt_deformation; /* E or G *
 
 /* One temperature of a sweep, points in the order of rising frequency. */
 typedef struct wt_isotherm {
-    double temperature;     /* mean of the points, or the nominal one if no column says [K] */
+    double temperature;        /* mean of the points, or the nominal one if no column says [K] */
     double temperature_spread; /* standard deviation of the points [K], NaN if not measured */
     size_t n;
     double *angular_frequency; /* [n] rad/s */
@@ -134,12 +134,12 @@ WT_API void wt_power_spectrum_clear(wt_power_spectrum *spectrum);
 
 /* M(w) = equilibrium + sum_k modulus[k] i w tau[k] / (1 + i w tau[k]) at one temperature. */
 typedef struct wt_prony {
-    wt_deformation deformation; /* the moduli are E or G */
+    wt_deformation deformation;   /* the moduli are E or G */
     double reference_temperature; /* [K], NaN if unknown */
     double equilibrium_modulus;   /* [Pa] */
     size_t n;
-    double *relaxation_time; /* [n] s, falling or rising, > 0 */
-    double *modulus;         /* [n] Pa, >= 0 */
+    double *relaxation_time;             /* [n] s, falling or rising, > 0 */
+    double *modulus;                     /* [n] Pa, >= 0 */
     double frequency_min, frequency_max; /* measured range [rad/s], NaN if unknown */
 } wt_prony;
 WT_API void wt_prony_clear(wt_prony *prony);
@@ -203,8 +203,8 @@ WT_API bool wt_table_estimate(const wt_table *table, const char *key, wt_estimat
 typedef struct wt_result wt_result;
 WT_API wt_result *wt_result_new(void); /* NULL when out of memory */
 WT_API void wt_result_free(wt_result *result);
-WT_API wt_status wt_result_add(wt_result *result, wt_table *table, wt_error *err)
-    WT_NODISCARD; /* takes the table, also on failure */
+WT_API wt_status wt_result_add(wt_result *result, wt_table *table,
+                               wt_error *err) WT_NODISCARD; /* takes the table, also on failure */
 WT_API size_t wt_result_n_tables(const wt_result *result);
 WT_API const wt_table *wt_result_table(const wt_result *result, size_t i);
 WT_API const wt_table *wt_result_find(const wt_result *result, const char *name); /* or NULL */

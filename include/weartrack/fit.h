@@ -12,7 +12,8 @@
 extern "C" {
 #endif
 
-/* ---- one force curve: baseline, contact point, modulus ---------------------------------------- */
+/* ---- one force curve: baseline, contact point, modulus ----------------------------------------
+ */
 
 /* Why a curve has no modulus, or what is odd about it. One list: identifier, words. */
 #define WT_CURVE_VERDICT_LIST(X)                                                                   \
@@ -63,10 +64,10 @@ typedef struct wt_indent_fit {
     double r_squared;            /* of the contact part */
     double max_force;            /* [N] above the baseline */
     double max_indentation;      /* [m] */
-    double adhesion_force;       /* largest pull in the approach before contact (snap-on) [N], >= 0 */
-    double piezo_rate;           /* [m/s], NaN if no time */
-    double indentation_rate;     /* mean of the contact part [m/s], NaN if no time */
-    double load_time;            /* contact to end of approach [s], NaN if no time */
+    double adhesion_force;   /* largest pull in the approach before contact (snap-on) [N], >= 0 */
+    double piezo_rate;       /* [m/s], NaN if no time */
+    double indentation_rate; /* mean of the contact part [m/s], NaN if no time */
+    double load_time;        /* contact to end of approach [s], NaN if no time */
     double second_minimum_ratio; /* cost of the second best contact point / best; NaN if none */
     double second_contact_point; /* [m], NaN if none */
     double sensitivity_gain;     /* d ln E / d ln sensitivity: 15.6 means 1 % gives 15.6 % */
@@ -90,15 +91,15 @@ WT_API wt_status wt_indent_fit_curve(const wt_contact_table *table,
 /* The same from a force curve as it was read. */
 WT_API wt_status wt_indent_force_curve(const wt_contact_table *table,
                                        const wt_indent_options *options,
-                                       const wt_force_curve *curve,
-                                       wt_indent_workspace *workspace, wt_indent_fit *fit,
-                                       wt_error *err) WT_NODISCARD;
+                                       const wt_force_curve *curve, wt_indent_workspace *workspace,
+                                       wt_indent_fit *fit, wt_error *err) WT_NODISCARD;
 /* Indentation delta [m] and baseline-free force [N] of the samples from contact on, for plots.
  * delta, force: [n]; returns how many. */
 WT_API size_t wt_indent_curve(const wt_indent_fit *fit, const double *height, const double *force,
                               size_t n, double spring_constant, double *delta, double *out_force);
 
-/* ---- groups and their comparison -------------------------------------------------------------- */
+/* ---- groups and their comparison --------------------------------------------------------------
+ */
 
 /* One group of moduli: accepted curves only; spot[i] numbers the place on the sample (curves on one
  * spot are not independent), NULL = each curve is its own spot and the result says so. */
@@ -120,14 +121,14 @@ typedef struct wt_group_summary {
 
 typedef struct wt_comparison {
     wt_group_summary bulk, track;
-    bool by_spot;                /* the unit of analysis is the spot */
-    wt_estimate log_ratio;       /* ln(E_track / E_bulk) */
+    bool by_spot;                        /* the unit of analysis is the spot */
+    wt_estimate log_ratio;               /* ln(E_track / E_bulk) */
     double ratio, ratio_low, ratio_high; /* with 95 % interval (Welch on ln E) */
-    wt_estimate difference;      /* E_track - E_bulk [Pa], of the means */
+    wt_estimate difference;              /* E_track - E_bulk [Pa], of the means */
     double welch_t, welch_df, welch_p;
     double mann_whitney_u, mann_whitney_p; /* exact if small and without ties, else normal */
     bool mann_whitney_exact;
-    double effect_size;          /* Hedges g of ln E */
+    double effect_size; /* Hedges g of ln E */
 } wt_comparison;
 
 WT_API wt_status wt_group_summarise(const wt_group *group, wt_group_summary *summary,
@@ -141,7 +142,8 @@ WT_API void wt_holm(const double *p, size_t n, double *adjusted);
  * (2.52/t for p = 2, 2.02/t for p = 1.5). */
 WT_API double wt_equivalent_frequency(double load_time, double force_exponent);
 
-/* ---- shift factors ----------------------------------------------------------------------------- */
+/* ---- shift factors -----------------------------------------------------------------------------
+ */
 
 typedef enum wt_vertical_shift {
     WT_VERTICAL_NONE,
@@ -153,19 +155,19 @@ typedef struct wt_shift_options {
     double reference_temperature; /* [K]; need not be a measured isotherm */
     wt_vertical_shift vertical;   /* default FREE: E' and E'' together make it identifiable */
     double expansion;             /* volumetric thermal expansion for PHYSICAL [1/K], default 0 */
-    double floor;                 /* model error of a shift for the WLF fit [decade], default 0.02 */
+    double floor; /* model error of a shift for the WLF fit [decade], default 0.02 */
 } wt_shift_options;
 WT_API wt_shift_options wt_shift_defaults(void);
 
 /* One isotherm's shift: x_r = log10 w + log_a, y_r = log10 M + log_b. */
 typedef struct wt_shift {
-    double temperature;            /* [K] */
-    wt_estimate log_a, log_b;      /* decades; 0 with error 0 at the reference isotherm */
-    double correlation;            /* of log_a and log_b */
-    bool determined;               /* false: no overlap or no slope decides; the value is NaN */
+    double temperature;       /* [K] */
+    wt_estimate log_a, log_b; /* decades; 0 with error 0 at the reference isotherm */
+    double correlation;       /* of log_a and log_b */
+    bool determined;          /* false: no overlap or no slope decides; the value is NaN */
     double overlap_storage, overlap_loss; /* shared ordinate range with the neighbour [decade] */
-    double log_b_physical;         /* what rho T would give */
-    char note[128];                /* "" or what is odd */
+    double log_b_physical;                /* what rho T would give */
+    char note[128];                       /* "" or what is odd */
 } wt_shift;
 
 typedef struct wt_wlf_fit {
@@ -175,8 +177,9 @@ typedef struct wt_wlf_fit {
     double pole, pole_error;                /* Tref - c2 [K] */
     double offset, offset_error;            /* of the reference isotherm [decade] */
     double rms;                             /* weighted rms residual [decade] */
-    bool straight;   /* C2 is not determined: only the slope c1/c2 means anything */
-    double activation_energy, activation_energy_error; /* Arrhenius fit of the same shifts [J/mol] */
+    bool straight; /* C2 is not determined: only the slope c1/c2 means anything */
+    double activation_energy,
+        activation_energy_error; /* Arrhenius fit of the same shifts [J/mol] */
     double aicc_wlf, aicc_arrhenius;
     size_t n;
 } wt_wlf_fit;
@@ -184,19 +187,19 @@ typedef struct wt_wlf_fit {
 /* A master curve: every measured point at the reference temperature, and what shifted it. */
 typedef struct wt_master_curve {
     wt_deformation deformation;
-    double reference_temperature;  /* [K] */
+    double reference_temperature; /* [K] */
     wt_vertical_shift vertical;
     size_t n_shifts;
-    wt_shift *shifts;              /* [n_shifts], rising temperature */
-    double *covariance;            /* [n_shifts * n_shifts] of log_a */
+    wt_shift *shifts;   /* [n_shifts], rising temperature */
+    double *covariance; /* [n_shifts * n_shifts] of log_a */
     size_t n;
-    double *log_frequency;         /* [n] log10 of the reduced angular frequency [rad/s], rising */
-    double *log_storage;           /* [n] log10 of E' or G' [Pa], vertical shift applied */
-    double *log_loss;              /* [n] */
-    size_t *isotherm;              /* [n] which isotherm */
-    double rms_storage, rms_loss;  /* overlap residual [decade] */
-    double kramers_kronig;         /* rms relative misfit of E'' predicted from E' alone; NaN */
-    bool superposition_failed;     /* the shifts of E' and E'' disagree beyond their errors */
+    double *log_frequency;        /* [n] log10 of the reduced angular frequency [rad/s], rising */
+    double *log_storage;          /* [n] log10 of E' or G' [Pa], vertical shift applied */
+    double *log_loss;             /* [n] */
+    size_t *isotherm;             /* [n] which isotherm */
+    double rms_storage, rms_loss; /* overlap residual [decade] */
+    double kramers_kronig;        /* rms relative misfit of E'' predicted from E' alone; NaN */
+    bool superposition_failed;    /* the shifts of E' and E'' disagree beyond their errors */
     char note[256];
 } wt_master_curve;
 WT_API void wt_master_curve_clear(wt_master_curve *master);
@@ -210,7 +213,8 @@ WT_API wt_status wt_shift_fit(const wt_sweep *sweep, const wt_shift_options *opt
 WT_API wt_status wt_wlf_fit_shifts(const wt_master_curve *master, const wt_shift_options *options,
                                    wt_wlf_fit *fit, wt_error *err) WT_NODISCARD;
 
-/* ---- Prony series ------------------------------------------------------------------------------ */
+/* ---- Prony series ------------------------------------------------------------------------------
+ */
 
 typedef struct wt_prony_options {
     double terms_per_decade; /* default 1 */
@@ -225,15 +229,14 @@ typedef struct wt_prony_fit {
 } wt_prony_fit;
 
 /* Relative-weight non-negative least squares (Lawson-Hanson) of E' and E'' together. */
-WT_API wt_status wt_prony_fit_master(const wt_master_curve *master,
-                                     const wt_prony_options *options, wt_prony_fit *fit,
-                                     wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_prony_fit_master(const wt_master_curve *master, const wt_prony_options *options,
+                                     wt_prony_fit *fit, wt_error *err) WT_NODISCARD;
 /* Replicate `index` of the same fit: the shifts drawn from their covariance and the residuals of
  * whole isotherms resampled (block bootstrap); the same seed and index give the same series. For
  * carrying the uncertainty of the material on to friction. */
-WT_API wt_status wt_prony_replicate(const wt_master_curve *master,
-                                    const wt_prony_options *options, uint64_t seed, size_t index,
-                                    wt_prony *prony, wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_prony_replicate(const wt_master_curve *master, const wt_prony_options *options,
+                                    uint64_t seed, size_t index, wt_prony *prony,
+                                    wt_error *err) WT_NODISCARD;
 
 #ifdef __cplusplus
 }

@@ -21,10 +21,10 @@ WT_API void wt_case_free(wt_case *c);
 WT_API const char *wt_case_schema(void); /* XSD text; static */
 
 typedef struct wt_run_options {
-    const char *formats;  /* folder of further descriptions, NULL = none */
-    double tolerance;     /* numerical error asked for; 0 = the case's or the default */
-    unsigned threads;     /* 0 = one per processor */
-    uint64_t seed;        /* of the resampling */
+    const char *formats; /* folder of further descriptions, NULL = none */
+    double tolerance;    /* numerical error asked for; 0 = the case's or the default */
+    unsigned threads;    /* 0 = one per processor */
+    uint64_t seed;       /* of the resampling */
     wt_progress progress;
 } wt_run_options;
 WT_API wt_run_options wt_run_defaults(void);

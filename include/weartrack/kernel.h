@@ -13,7 +13,8 @@
 extern "C" {
 #endif
 
-/* ---- contact and friction ----------------------------------------------------------------------- */
+/* ---- contact and friction -----------------------------------------------------------------------
+ */
 
 /* A soft (or stiff) bonded surface layer on the bulk: E_layer = ratio E_bulk at every frequency. */
 typedef struct wt_layer_state {
@@ -22,30 +23,30 @@ typedef struct wt_layer_state {
 } wt_layer_state;
 
 typedef struct wt_friction_options {
-    double tolerance;        /* relative numerical error asked for; default 1e-10 */
-    double gamma;            /* S = gamma + (1 - gamma) P^2 in the friction integrand; 1 = Persson 2001 */
-    wt_layer_state layer;    /* default none */
-    unsigned threads;        /* over velocities; 0 = one per processor */
+    double tolerance; /* relative numerical error asked for; default 1e-10 */
+    double gamma;     /* S = gamma + (1 - gamma) P^2 in the friction integrand; 1 = Persson 2001 */
+    wt_layer_state layer; /* default none */
+    unsigned threads;     /* over velocities; 0 = one per processor */
 } wt_friction_options;
 WT_API wt_friction_options wt_friction_defaults(void);
 
 /* At one velocity. numerical_error is an estimate that bounds the true error. */
 typedef struct wt_friction_point {
-    double velocity;            /* [m/s] */
+    double velocity;             /* [m/s] */
     wt_estimate stress_variance; /* G(q1) */
-    wt_estimate area_ratio;     /* P(q1) = A/A0 */
-    wt_estimate one_minus_area; /* 1 - P without cancellation */
-    wt_estimate hysteresis;     /* mu_hys */
-    double extrapolated_share;  /* share of mu_hys from frequencies outside the material's range */
-    size_t nodes;               /* q nodes used */
-    bool reached;               /* tolerance met */
+    wt_estimate area_ratio;      /* P(q1) = A/A0 */
+    wt_estimate one_minus_area;  /* 1 - P without cancellation */
+    wt_estimate hysteresis;      /* mu_hys */
+    double extrapolated_share;   /* share of mu_hys from frequencies outside the material's range */
+    size_t nodes;                /* q nodes used */
+    bool reached;                /* tolerance met */
 } wt_friction_point;
 
 /* Per wavenumber: contact area against magnification q/q0, running friction, dissipated power. */
 typedef struct wt_friction_node {
-    double wavenumber;     /* [rad/m] */
+    double wavenumber;                              /* [rad/m] */
     double stress_variance, area_ratio, hysteresis; /* G, P and mu up to here */
-    double numerical_error; /* of area_ratio */
+    double numerical_error;                         /* of area_ratio */
 } wt_friction_node;
 
 typedef struct wt_friction_workspace wt_friction_workspace;
@@ -70,7 +71,8 @@ WT_API wt_status wt_friction_profile(wt_friction_workspace *workspace, double pr
 WT_API wt_estimate wt_friction_total(wt_estimate hysteresis, wt_estimate area_ratio,
                                      wt_estimate shear_stress, double pressure);
 
-/* ---- modified layer ------------------------------------------------------------------------------ */
+/* ---- modified layer
+ * ------------------------------------------------------------------------------ */
 
 /* Depth profile of the energy density, theory W2: w(z) = sum_i power[i] g(z; q[i]). */
 typedef enum wt_depth_profile {
@@ -92,8 +94,9 @@ WT_API void wt_energy_source_clear(wt_energy_source *source);
 WT_API wt_status wt_energy_source_friction(wt_friction_workspace *workspace, double pressure,
                                            double velocity, wt_energy_source *source,
                                            wt_error *err) WT_NODISCARD;
-WT_API double wt_energy_density(const wt_energy_source *source, double depth);    /* w [W/m^3] */
-WT_API double wt_energy_tail(const wt_energy_source *source, double depth); /* int_z^inf w [W/m^2] */
+WT_API double wt_energy_density(const wt_energy_source *source, double depth); /* w [W/m^3] */
+WT_API double wt_energy_tail(const wt_energy_source *source,
+                             double depth); /* int_z^inf w [W/m^2] */
 
 /* Energy closure: Omega = w / critical_energy, modified where int Omega dt >= damage. */
 typedef struct wt_layer_parameters {
@@ -104,27 +107,27 @@ typedef struct wt_layer_parameters {
     double velocity;           /* [m/s] */
     double start_thickness;    /* [m] */
     double duty;               /* share of the time in contact, (0, 1]; default 1 */
-    bool incubation;           /* damage transport (exact, with incubation) instead of the rate balance */
+    bool incubation; /* damage transport (exact, with incubation) instead of the rate balance */
 } wt_layer_parameters;
 WT_API wt_layer_parameters wt_layer_defaults(void);
 
 typedef enum wt_layer_regime {
-    WT_LAYER_NONE,        /* formation never exceeds wear */
-    WT_LAYER_THIN,        /* 1 < R < e: sensitive to the wear rate */
-    WT_LAYER_THICK        /* R >= e */
+    WT_LAYER_NONE, /* formation never exceeds wear */
+    WT_LAYER_THIN, /* 1 < R < e: sensitive to the wear rate */
+    WT_LAYER_THICK /* R >= e */
 } wt_layer_regime;
 
 typedef struct wt_layer_balance {
-    double surface_power;        /* J0 [W/m^2] */
-    double formation_rate_zero;  /* Qf(0) [m/s] */
-    double wear_rate;            /* Qw [m/s] */
-    double ratio;                /* R = Qf(0)/Qw, infinity without wear */
+    double surface_power;               /* J0 [W/m^2] */
+    double formation_rate_zero;         /* Qf(0) [m/s] */
+    double wear_rate;                   /* Qw [m/s] */
+    double ratio;                       /* R = Qf(0)/Qw, infinity without wear */
     double critical_specific_wear_rate; /* k* [m^2/N] */
-    wt_estimate thickness;       /* delta_total [m]; infinity without wear */
-    double eigenvalue;           /* [1/s] */
-    double relaxation_time;      /* 1/(kappa Qw) [s] */
-    double incubation_time;      /* [s] without and with wear as `incubation` says; NaN if never */
-    double removal_time;         /* of the start thickness when there is no layer [s]; NaN */
+    wt_estimate thickness;              /* delta_total [m]; infinity without wear */
+    double eigenvalue;                  /* [1/s] */
+    double relaxation_time;             /* 1/(kappa Qw) [s] */
+    double incubation_time; /* [s] without and with wear as `incubation` says; NaN if never */
+    double removal_time;    /* of the start thickness when there is no layer [s]; NaN */
     wt_layer_regime regime;
 } wt_layer_balance;
 
@@ -145,7 +148,8 @@ WT_API wt_status wt_layer_history(const wt_energy_source *source,
 /* Single exponential in closed form (theory T3): thickness after t from delta0. */
 WT_API double wt_layer_exponential(double start_thickness, double kappa, double formation_rate_zero,
                                    double wear_rate, double time);
-/* U_c that makes an observed thickness the balance (single exponential): (mu/k) exp(-kappa d)/Lambda. */
+/* U_c that makes an observed thickness the balance (single exponential): (mu/k) exp(-kappa
+ * d)/Lambda. */
 WT_API double wt_layer_calibrate(double hysteresis, double specific_wear_rate, double kappa,
                                  double observed_thickness, double damage);
 

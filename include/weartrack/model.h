@@ -22,10 +22,10 @@ typedef enum wt_tip_shape {
 
 typedef struct wt_tip {
     wt_tip_shape shape;
-    unsigned sides;            /* of the pyramid, >= 3; 0 = axisymmetric (cone limit, m = 1) */
-    double half_angle;         /* axis to FACE [rad] */
-    double radius;             /* of the cap [m] */
-    double transition_radius;  /* b: where the cap meets the faces [m]; 0 = sharp */
+    unsigned sides;           /* of the pyramid, >= 3; 0 = axisymmetric (cone limit, m = 1) */
+    double half_angle;        /* axis to FACE [rad] */
+    double radius;            /* of the cap [m] */
+    double transition_radius; /* b: where the cap meets the faces [m]; 0 = sharp */
 } wt_tip;
 
 /* b = R cos(theta): the sphere tangent to the faces (default of the field's programs). */

@@ -68,12 +68,12 @@ WT_API wt_status wt_detect(const wt_formats *formats, wt_input *input, unsigned 
 /* A zero-initialised struct passed through wt_read_defaults. Nothing that is not asked for is
  * decoded. */
 typedef struct wt_read_options {
-    const char *format;      /* id that overrules detection, or NULL */
-    wt_quantity_set want;    /* channels to decode; a force needs no more than its own column */
-    unsigned segments;       /* WT_SEGMENT_BIT()s to decode */
-    double spring_constant;  /* [N/m] replaces the file's; NaN = the file's */
-    double sensitivity;      /* [m/V] replaces the file's; NaN = the file's */
-    double temperature;      /* [K] for a sweep whose file gives none; NaN = none */
+    const char *format;       /* id that overrules detection, or NULL */
+    wt_quantity_set want;     /* channels to decode; a force needs no more than its own column */
+    unsigned segments;        /* WT_SEGMENT_BIT()s to decode */
+    double spring_constant;   /* [N/m] replaces the file's; NaN = the file's */
+    double sensitivity;       /* [m/V] replaces the file's; NaN = the file's */
+    double temperature;       /* [K] for a sweep whose file gives none; NaN = none */
     const char *const *units; /* "NAME=UNIT" for columns of files that carry no units */
     size_t n_units;
 } wt_read_options;
@@ -92,7 +92,8 @@ WT_API wt_status wt_force_next(wt_force_source *source, wt_force_curve *curve,
                                wt_error *err) WT_NODISCARD;
 WT_API void wt_force_close(wt_force_source *source);
 WT_API size_t wt_force_count(const wt_force_source *source); /* SIZE_MAX if not known */
-WT_API void wt_force_grid(const wt_force_source *source, long *columns, long *rows); /* 0, 0: none */
+WT_API void wt_force_grid(const wt_force_source *source, long *columns,
+                          long *rows); /* 0, 0: none */
 
 /* Appends the isotherms of one file to `sweep` (zero-initialised for the first file). Mixing
  * tension and shear is WT_E_UNIT. */
@@ -102,8 +103,8 @@ WT_API wt_status wt_sweep_read(const wt_formats *formats, wt_input *input,
 /* All images (or one-row spectra) of a file: *images is an array of *n, each to be cleared, then
  * the array freed with free(). */
 WT_API wt_status wt_images_read(const wt_formats *formats, wt_input *input,
-                                const wt_read_options *options, wt_parselog *log,
-                                wt_image **images, size_t *n, wt_error *err) WT_NODISCARD;
+                                const wt_read_options *options, wt_parselog *log, wt_image **images,
+                                size_t *n, wt_error *err) WT_NODISCARD;
 WT_API wt_status wt_power_spectrum_read(const wt_formats *formats, wt_input *input,
                                         const wt_read_options *options, wt_parselog *log,
                                         wt_power_spectrum *spectrum, wt_error *err) WT_NODISCARD;

@@ -28,7 +28,7 @@ WT_API wt_status wt_report_write(const wt_result *result, const char *folder,
 
 /* The figures this library knows, in the order of the page. */
 typedef struct wt_figure_info {
-    const char *name;   /* "force_displacement" */
+    const char *name; /* "force_displacement" */
     const char *title;
     const char *const *needs; /* names of tables, NULL-terminated */
 } wt_figure_info;

@@ -9,7 +9,8 @@
 typedef enum wt_answer {
     WT_ANSWER_NO,          /* not mine */
     WT_ANSWER_YES,         /* mine, with a score */
-    WT_ANSWER_UNSUPPORTED, /* mine, but damaged or of a kind that I cannot handle; `reason` says why */
+    WT_ANSWER_UNSUPPORTED, /* mine, but damaged or of a kind that I cannot handle; `reason` says why
+                            */
     WT_ANSWER_MORE         /* cannot say yet: show me at least `need` bytes */
 } wt_answer;
 
@@ -55,7 +56,7 @@ typedef struct wt_reader {
 struct wt_force_source {
     wt_status (*next)(wt_force_source *source, wt_force_curve *curve, wt_error *err);
     void (*close)(wt_force_source *source);
-    size_t n_curves; /* SIZE_MAX if not known before reading */
+    size_t n_curves;              /* SIZE_MAX if not known before reading */
     long grid_columns, grid_rows; /* 0 if there is no grid */
 };
 
