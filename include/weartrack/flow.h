@@ -1,4 +1,8 @@
-/* weartrack - flow room: the case file, the plan (which stages it needs and why), running it.
+/* weartrack - flow room: the jobs (one for each step of the work, used alone by a subcommand and
+ * together by a run), the case file, the plan (which stages it needs and why), running it.
+ *
+ * Jobs give tables with the names, columns and units of weartrack-result(5); see base.h for
+ * ownership and errors.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -13,27 +17,300 @@
 extern "C" {
 #endif
 
+/* ---- quantities as text, for options and case files ----------------------------------------- */
+
+/* "0.4MPa", "0.4MPa +- 0.02MPa", "0.4MPa +- 5%" ("±" is accepted too). The part after +- is one
+ * standard error; without it the standard error is 0 (not stated). */
+WT_API wt_status wt_estimate_parse(const char *text, wt_quantity quantity, wt_estimate *estimate,
+                                   wt_error *err) WT_NODISCARD;
+/* "0.3m/s" | "1mm/s,1cm/s,0.3m/s" | "1e-4:10m/s:log:40" | "0:50s:lin:11" (the unit stands after the
+ * second number and holds for both). Values rise strictly. *values is freed with free(). */
+WT_API wt_status wt_list_parse(const char *text, wt_quantity quantity, double **values, size_t *n,
+                               wt_error *err) WT_NODISCARD;
+
+/* ---- what all jobs share --------------------------------------------------------------------- */
+
+typedef struct wt_job {
+    const wt_formats *formats; /* borrowed; needed by jobs that read files */
+    unsigned threads;          /* 0 = one per processor; never changes a result */
+    double tolerance;          /* relative numerical error asked for; 0 = each part's default */
+    uint64_t seed;             /* of the replicates */
+    size_t replicates;         /* for standard errors; default 64, 0 = no standard errors */
+    wt_progress progress;
+    wt_parselog *log;          /* borrowed, may be NULL */
+    wt_provenance *provenance; /* every file read is added with its digest; may be NULL */
+    wt_table *failures;        /* of wt_failures_new: a file or curve that fails gets a row and the
+                                  work goes on; NULL: the first one that fails ends the job */
+} wt_job;
+WT_API wt_job wt_job_defaults(void);
+WT_API wt_table *wt_failures_new(void); /* table "failures"; NULL when out of memory */
+/* Table "inputs" of the files in a provenance, table "notes" of a log. */
+WT_API wt_status wt_inputs_table(const wt_provenance *provenance, wt_table **table,
+                                 wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_notes_table(const wt_parselog *log, wt_table **table,
+                                wt_error *err) WT_NODISCARD;
+
+/* Files that are read with the same options. */
+typedef struct wt_file_set {
+    const char *const *patterns; /* [n_patterns] files, folders or shell patterns */
+    size_t n_patterns;
+    const char *folder; /* the patterns are relative to it; NULL = current folder */
+    wt_read_options read;
+    const char *spot; /* force files: the place on the sample all these curves come from; NULL: each
+                         file is a spot, or each grid position if the whole group is one file */
+} wt_file_set;
+
+/* ---- indentation ------------------------------------------------------------------------------
+ */
+
+typedef struct wt_indent_job {
+    const char *group; /* "bulk", "track" or another name of [a-z0-9_]+ */
+    const wt_file_set *sets;
+    size_t n_sets;
+    wt_tip tip;
+    wt_indent_options options;
+    wt_estimate spring_constant; /* for the table's key when given; value NaN: as in the files */
+    bool rates;                  /* decode what tells the time (piezo and indentation rate) */
+    bool curves;                 /* representative curves for the figures */
+} wt_indent_job;
+WT_API wt_indent_job wt_indent_job_defaults(void);
+
+/* Tables; each freed with wt_table_free, all by wt_indent_tables_clear. Zero-initialise it; given
+ * to a second group, `indentation` must have been taken out (set to NULL) and the curve tables are
+ * appended to. */
+typedef struct wt_indent_tables {
+    wt_table *indentation;        /* indentation/GROUP, one row per curve, rejected ones included */
+    wt_table *force_displacement; /* NULL unless curves are asked for */
+    wt_table *force_indentation;
+    size_t n_files, n_curves, n_accepted, n_failed;
+} wt_indent_tables;
+WT_API void wt_indent_tables_clear(wt_indent_tables *tables);
+
+/* Fits every curve of every file. Files are streamed and fitted in parallel in batches, so memory
+ * is bounded; rows come in the order of the files and curves for any number of threads. WT_E_EMPTY
+ * if no file gives a curve. */
+WT_API wt_status wt_indent_group(const wt_indent_job *job, const wt_job *common,
+                                 wt_indent_tables *tables, wt_error *err) WT_NODISCARD;
+
+/* The accepted moduli of an indentation table as a group of the fit room; modulus and spot are
+ * allocated, to be released with wt_group_clear. */
+typedef struct wt_group_data {
+    wt_group group; /* borrows the arrays below */
+    double *modulus;
+    long *spot;
+    double *indentation_rate;     /* [n] m/s, NaN if unknown */
+    double *equivalent_frequency; /* [n] rad/s, NaN if unknown */
+    bool spots_given;             /* the user named the spots */
+} wt_group_data;
+WT_API wt_status wt_group_from_table(const wt_table *indentation, wt_group_data *data,
+                                     wt_error *err) WT_NODISCARD;
+WT_API void wt_group_data_clear(wt_group_data *data);
+/* Table "modulus_groups", one row per indentation table. A group without an accepted curve has a
+ * row with n = 0. */
+WT_API wt_status wt_modulus_groups(const wt_table *const *indentation, size_t n, wt_table **table,
+                                   wt_error *err) WT_NODISCARD;
+
+/* ---- DMA: shift factors, WLF, master curve, Prony ---------------------------------------------
+ */
+
+typedef struct wt_master_job {
+    const wt_file_set *sets;
+    size_t n_sets;
+    wt_shift_options shift; /* reference_temperature NaN: the isotherm in the middle */
+    wt_prony_options prony;
+} wt_master_job;
+WT_API wt_master_job wt_master_job_defaults(void);
+
+/* The rubber as the later stages know it: moduli at one reference temperature and how to go to
+ * another one. */
+typedef struct wt_rubber {
+    wt_prony prony; /* E or G as measured, vertical shift applied, at the reference temperature */
+    double poisson_ratio;
+    bool has_wlf;
+    wt_wlf wlf;
+    double temperature_min, temperature_max; /* of the isotherms [K]; NaN = not known */
+    size_t n_vertical;                       /* log_b against temperature; 0 = no vertical shift */
+    double *vertical_temperature, *vertical_log_b;
+    bool has_master; /* measured: replicates are possible */
+    wt_master_curve master;
+    wt_prony_options prony_options;
+} wt_rubber;
+WT_API void wt_rubber_clear(wt_rubber *rubber);
+
+typedef struct wt_master_tables {
+    wt_table *shift_factors, *master_curve, *prony;
+    size_t n_isotherms;
+} wt_master_tables;
+WT_API void wt_master_tables_clear(wt_master_tables *tables);
+
+/* Reads the sweeps, shifts them, fits WLF and Prony. `rubber` gets all that friction needs;
+ * poisson_ratio in [0, 0.5]. One isotherm is allowed: no shift, no WLF. Either output may be NULL.
+ */
+WT_API wt_status wt_master_make(const wt_master_job *job, double poisson_ratio,
+                                const wt_job *common, wt_master_tables *tables, wt_rubber *rubber,
+                                wt_error *err) WT_NODISCARD;
+/* From the tables that wt_master_make gave (as read from a stream); shift_factors may be NULL (no
+ * other temperature then). Without the measured points there are no replicates. */
+WT_API wt_status wt_rubber_from_tables(const wt_table *prony, const wt_table *shift_factors,
+                                       double poisson_ratio, wt_rubber *rubber,
+                                       wt_error *err) WT_NODISCARD;
+/* The material at a temperature [K] (NaN = reference): relaxation times times a_T, moduli divided
+ * by b_T. `statement` (may be NULL) gets what must be said: outside the isotherms, b held.
+ * WT_E_MISSING more than 1 K away without a WLF law; WT_E_RANGE at or below its pole. replicate:
+ * SIZE_MAX = the fit itself, else that replicate of it. */
+WT_API wt_status wt_rubber_at(const wt_rubber *rubber, double temperature, uint64_t seed,
+                              size_t replicate, wt_material **material, char statement[256],
+                              wt_error *err) WT_NODISCARD;
+
+/* ---- comparison ------------------------------------------------------------------------------ */
+
+typedef struct wt_compare_job {
+    const wt_table *bulk, *track; /* indentation tables */
+    const wt_rubber *rubber;      /* for the DMA comparison; NULL = none */
+    double temperature;           /* of the indentation [K]; NaN = the rubber's reference */
+    bool rates;                   /* modulus against rate, and the comparison rate by rate */
+} wt_compare_job;
+
+typedef struct wt_compare_tables {
+    wt_table *modulus_groups;
+    wt_table *comparison;
+    wt_table *modulus_rate;   /* NULL if no rate is known or asked for */
+    wt_table *dma_comparison; /* NULL without rubber or rates */
+} wt_compare_tables;
+WT_API void wt_compare_tables_clear(wt_compare_tables *tables);
+/* Also with bulk or track NULL: then without "comparison". */
+WT_API wt_status wt_compare_groups(const wt_compare_job *job, const wt_job *common,
+                                   wt_compare_tables *tables, wt_error *err) WT_NODISCARD;
+
+/* ---- roughness ------------------------------------------------------------------------------- */
+
+/* A counter surface with its stated error. */
+typedef struct wt_surface {
+    bool self_affine;
+    double q0, qr, q1, hurst;   /* of the self-affine law; q0, q1 cut a spectrum (NaN = its ends) */
+    wt_estimate c0;             /* [m^4]; of a spectrum: value 1, relative error of the densities */
+    wt_power_spectrum spectrum; /* if not self-affine; 2-D */
+} wt_surface;
+WT_API void wt_surface_clear(wt_surface *surface);
+/* "self-affine:q0=1e3rad/m,qr=5e3rad/m,q1=1e7rad/m,hurst=0.8,c0=1e-17m^4+-10%" or the path of a
+ * spectrum. read NULL = defaults. */
+WT_API wt_status wt_surface_open(const char *text, const wt_read_options *read,
+                                 const wt_job *common, wt_surface *surface,
+                                 wt_error *err) WT_NODISCARD;
+/* The law with all densities multiplied by `factor` > 0. It borrows nothing. */
+WT_API wt_status wt_surface_roughness(const wt_surface *surface, double factor,
+                                      wt_roughness **roughness, wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_surface_table(const wt_surface *surface, wt_table **table,
+                                  wt_error *err) WT_NODISCARD; /* "roughness" */
+
+/* ---- friction -------------------------------------------------------------------------------- */
+
+/* Rubber on a counter surface under conditions. */
+typedef struct wt_sliding {
+    const wt_rubber *rubber;   /* borrowed */
+    const wt_surface *surface; /* borrowed */
+    wt_estimate pressure;      /* [Pa] */
+    wt_estimate temperature;   /* [K]; value NaN = the rubber's reference */
+    wt_estimate
+        shear_stress;       /* of the real contact [Pa]; value NaN: not known, no total friction */
+    double gamma;           /* as in wt_friction_options; default 1 */
+    const double *velocity; /* [n_velocity] m/s, borrowed */
+    size_t n_velocity;
+    double reference_velocity; /* of the answer and the layer [m/s]; NaN = middle of the list */
+} wt_sliding;
+WT_API wt_sliding wt_sliding_defaults(void);
+
+/* What is on the surface of the track. */
+typedef struct wt_layer_known {
+    wt_estimate thickness;     /* [m] */
+    wt_estimate modulus_ratio; /* E_track / E_bulk */
+} wt_layer_known;
+
+typedef struct wt_friction_tables {
+    wt_table *friction, *contact_area;
+    size_t n_points;           /* velocities times replicates computed */
+    double tolerance_asked;    /* relative */
+    double error_reached;      /* largest relative numerical error of the hysteresis friction */
+    double extrapolated_share; /* largest of all velocities */
+} wt_friction_tables;
+WT_API void wt_friction_tables_clear(wt_friction_tables *tables);
+
+/* Hysteresis friction, contact area and total friction at every velocity. Standard errors come from
+ * replicates: the Prony series refitted to resampled isotherms, and pressure, temperature, shear
+ * stress and C0 drawn from their stated errors; the key `standard_error_includes` says which. With
+ * a layer (NULL = none): the same with a bonded layer and tau_s = tau_bulk x modulus ratio. */
+WT_API wt_status wt_friction_make(const wt_sliding *sliding, const wt_layer_known *layer,
+                                  const wt_job *common, wt_friction_tables *tables,
+                                  wt_error *err) WT_NODISCARD;
+
+/* ---- modified layer ---------------------------------------------------------------------------
+ */
+
+typedef struct wt_layer_job {
+    wt_estimate critical_energy;    /* U_c [J/m^3]; value NaN: calibrated from the next */
+    wt_estimate observed_thickness; /* [m]; value NaN = not observed */
+    wt_estimate specific_wear_rate; /* k [m^2/N] */
+    double damage;                  /* Lambda; default 1 */
+    double duty;                    /* share of the time in contact; default 1 */
+    double start_thickness;         /* [m]; default 0 */
+    bool incubation;
+    wt_depth_profile profile;
+    double local_friction; /* m of the incompressible profile */
+    const double *time;    /* [n_time] s; NULL: chosen around the time scales */
+    size_t n_time;
+} wt_layer_job;
+WT_API wt_layer_job wt_layer_job_defaults(void);
+
+typedef struct wt_layer_tables {
+    wt_table *layer, *energy_density;
+    wt_estimate thickness; /* at balance [m]; infinity without wear */
+    wt_layer_balance balance;
+} wt_layer_tables;
+WT_API void wt_layer_tables_clear(wt_layer_tables *tables);
+
+/* Thickness of the layer at the reference velocity. Standard errors from the replicates of the
+ * friction and the stated errors of k and U_c (or of the observed thickness). */
+WT_API wt_status wt_layer_make(const wt_sliding *sliding, const wt_layer_job *job,
+                               const wt_job *common, wt_layer_tables *tables,
+                               wt_error *err) WT_NODISCARD;
+
+/* ---- case -------------------------------------------------------------------------------------
+ */
+
 typedef struct wt_case wt_case;
 /* Reads and checks a case file (schema, then what a schema cannot say). Paths in it are relative to
  * it. */
 WT_API wt_status wt_case_read(const char *path, wt_case **out, wt_error *err) WT_NODISCARD;
 WT_API void wt_case_free(wt_case *c);
-WT_API const char *wt_case_schema(void); /* XSD text; static */
+WT_API const char *wt_case_schema(void);            /* XSD text; static */
+WT_API const char *wt_case_title(const wt_case *c); /* "" if none; borrowed */
+WT_API const char *wt_case_style(const wt_case *c); /* plot style asked for, NULL if none */
+WT_API bool wt_case_has_sliding(const wt_case *c);  /* friction can be computed */
+/* Rubber, surface and conditions of a case, for work outside a run (`weartrack accuracy`). The case
+ * keeps what `sliding` borrows, except the rubber, which the caller clears after use. */
+WT_API wt_status wt_case_sliding(const wt_case *c, const wt_job *common, wt_rubber *rubber,
+                                 wt_surface *surface, wt_sliding *sliding,
+                                 wt_error *err) WT_NODISCARD;
+
+/* ---- plan and run -----------------------------------------------------------------------------
+ */
 
 typedef struct wt_run_options {
     const char *formats; /* folder of further descriptions, NULL = none */
     double tolerance;    /* numerical error asked for; 0 = the case's or the default */
     unsigned threads;    /* 0 = one per processor */
     uint64_t seed;       /* of the resampling */
+    size_t replicates;   /* of the resampling; default 64 */
     wt_progress progress;
 } wt_run_options;
 WT_API wt_run_options wt_run_defaults(void);
 
-/* The plan as a table: stage, runs (1 or 0), because (words), needs, gives. Reads no data file. */
+/* The plan as a table: stage, title, runs (1 or 0), because (words), needs, gives. Reads no data
+ * file. */
 WT_API wt_status wt_plan(const wt_case *c, wt_table **plan, wt_error *err) WT_NODISCARD;
 /* Runs what the plan says. Stages left out leave no tables; the table "cost" lists every stage.
  * A file that fails in a batch does not stop the others: it is listed in the table "failures" and
- * *n_failed counts it. */
+ * *n_failed counts it; so is a stage that fails, and the stages that need it are left out. */
 WT_API wt_status wt_run(const wt_case *c, const wt_run_options *options, wt_parselog *log,
                         wt_result **result, size_t *n_failed, wt_error *err) WT_NODISCARD;
 
