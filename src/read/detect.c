@@ -1,0 +1,247 @@
+/* Detection: asks every reader, shows more of the file to those that cannot say yet, and never
+ * settles a tie by the order of a list.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "read/formats.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define FIRST_PEEK ((size_t)4096)
+
+/* ---- what an unknown file looks like ------------------------------------------------------ */
+
+typedef struct signature {
+    const char *bytes;
+    size_t length;
+    const char *words;
+} signature;
+
+#define SIGNATURE(bytes, words)                                                                    \
+    {                                                                                              \
+        bytes, sizeof bytes - 1, words                                                             \
+    }
+static const signature signatures[] = {
+    SIGNATURE("PK\3\4", "a ZIP archive (also .docx, .xlsx) that holds no force curves"),
+    SIGNATURE("PK\5\6", "an empty ZIP archive"),
+    SIGNATURE("\037\213", "a gzip archive: unpack it first, `gunzip -c FILE | weartrack ... -`"),
+    SIGNATURE("\211HDF\r\n\032\n", "an HDF5 file"),
+    SIGNATURE("\320\317\021\340\241\261\032\341",
+              "an old Excel or Word file: save it as CSV or text"),
+    SIGNATURE("%PDF", "a PDF document"),
+    SIGNATURE("\211PNG", "a PNG picture"),
+    SIGNATURE("\377\330\377", "a JPEG picture"),
+    SIGNATURE("II*\0", "a TIFF picture"),
+    SIGNATURE("MM\0*", "a TIFF picture"),
+    SIGNATURE("GWYP", "a Gwyddion file"),
+    SIGNATURE("\\*File list", "a NanoScope image: export it as text"),
+    SIGNATURE("\\*Force file list", "NanoScope force curves: export them as text"),
+    SIGNATURE("\5\0", "an Igor binary wave (version 5) or unknown binary data"),
+    SIGNATURE("<?xml", "an XML document"),
+    SIGNATURE("<!DOCTYPE", "an HTML or XML document"),
+    SIGNATURE("<html", "an HTML page"),
+    SIGNATURE("\377\376", "UTF-16 text of no known layout"),
+    SIGNATURE("\376\377", "UTF-16 text of no known layout"),
+};
+
+const char *wt_looks_like(const unsigned char *bytes, size_t length)
+{
+    if (length == 0)
+        return "an empty file";
+    for (size_t i = 0; i < sizeof signatures / sizeof *signatures; i++) {
+        const signature *s = &signatures[i];
+        if (length >= s->length && memcmp(bytes, s->bytes, s->length) == 0)
+            return s->words;
+    }
+    size_t n = length < FIRST_PEEK ? length : FIRST_PEEK;
+    for (size_t i = 0; i < n; i++) {
+        unsigned char c = bytes[i];
+        if (c == 0x7f || (c < 0x20 && c != '\t' && c != '\n' && c != '\r' && c != '\f'))
+            return "unknown binary data";
+    }
+    return "text of no known layout";
+}
+
+/* ---- asking the readers ------------------------------------------------------------------- */
+
+/* The answers to one question: the best reader, one that ties with it, one that knows the file but
+ * cannot read it. */
+typedef struct verdict {
+    const wt_reader *best;
+    const wt_reader *tied;
+    int score;
+    const wt_reader *unsupported;
+    char reason[sizeof((wt_match *)0)->reason];
+} verdict;
+
+static void take(verdict *v, const wt_reader *reader, const wt_match *match)
+{
+    if (match->answer == WT_ANSWER_UNSUPPORTED && v->unsupported == NULL) {
+        v->unsupported = reader;
+        memcpy(v->reason, match->reason, sizeof v->reason);
+        v->reason[sizeof v->reason - 1] = '\0';
+    }
+    if (match->answer != WT_ANSWER_YES)
+        return;
+    if (v->best == NULL || match->score > v->score) {
+        v->best = reader;
+        v->score = match->score;
+        v->tied = NULL;
+    } else if (match->score == v->score) {
+        v->tied = reader;
+    }
+}
+
+/* Asks all readers whose kinds meet `kinds` (0 = all) if `meet`, or all others if not. */
+static wt_status ask(const wt_formats *formats, wt_input *input, unsigned kinds, bool meet,
+                     verdict *v, wt_error *err)
+{
+    size_t n = wt_formats_count(formats);
+    wt_status status = WT_OK;
+    *v = (verdict){0};
+    bool *open = calloc(n + 1, sizeof *open);
+    if (open == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory to detect the format");
+    size_t n_open = 0;
+    for (size_t i = 0; i < n; i++) {
+        const wt_reader *reader = wt_formats_reader(formats, i);
+        open[i] = (kinds == 0 || (reader->info.kinds & kinds) != 0) == meet;
+        n_open += open[i];
+    }
+    size_t want = FIRST_PEEK;
+    while (n_open > 0) {
+        wt_peek peek = {.name = wt_input_name(input)};
+        status = wt_input_peek(input, want, &peek.bytes, &peek.length, &peek.whole, err);
+        if (status != WT_OK)
+            break;
+        size_t need = 0;
+        for (size_t i = 0; i < n; i++) {
+            if (!open[i])
+                continue;
+            const wt_reader *reader = wt_formats_reader(formats, i);
+            wt_match match = reader->detect(reader, &peek);
+            if (match.answer == WT_ANSWER_MORE && !peek.whole) {
+                need = match.need > need ? match.need : need;
+                continue;
+            }
+            take(v, reader, &match);
+            open[i] = false;
+            n_open--;
+        }
+        /* Growing at least twofold keeps the number of questions small whatever readers ask. */
+        size_t twice = want > SIZE_MAX / 2 ? SIZE_MAX : 2 * want;
+        want = need > twice ? need : twice;
+    }
+    free(open);
+    return status;
+}
+
+static const char *kind_words(unsigned kinds)
+{
+    switch (kinds) {
+    case WT_KIND_FORCE:
+        return "force curves";
+    case WT_KIND_SWEEP:
+        return "DMA sweeps";
+    case WT_KIND_IMAGE:
+        return "images";
+    case WT_KIND_SPECTRUM:
+        return "power spectra";
+    default:
+        return "data of the kind asked for";
+    }
+}
+
+static wt_status wrong_kind(const wt_reader *reader, unsigned kinds, wt_error *err)
+{
+    wt_fail(err, WT_E_UNSUPPORTED, "this format holds no %s", kind_words(kinds));
+    wt_error_found(err, "%s (%s)", reader->info.title, reader->info.id);
+    return WT_E_UNSUPPORTED;
+}
+
+static wt_status unknown(wt_input *input, wt_error *err)
+{
+    const unsigned char *bytes = NULL;
+    size_t length = 0;
+    bool whole = false;
+    wt_status status = wt_input_peek(input, FIRST_PEEK, &bytes, &length, &whole, err);
+    if (status != WT_OK)
+        return status;
+    wt_fail(err, WT_E_FORMAT, "file format not recognised");
+    wt_error_found(err, "%s", wt_looks_like(bytes, length));
+    wt_error_advice(err, "see `weartrack formats list`");
+    return WT_E_FORMAT;
+}
+
+static wt_status detect(const wt_formats *formats, wt_input *input, unsigned kinds,
+                        const wt_reader **reader, wt_error *err)
+{
+    verdict v;
+    wt_status status = ask(formats, input, kinds, true, &v, err);
+    if (status != WT_OK)
+        return status;
+    if (v.best != NULL && v.tied != NULL) {
+        wt_fail(err, WT_E_AMBIGUOUS, "two formats describe this file equally well");
+        wt_error_found(err, "%s and %s", v.best->info.id, v.tied->info.id);
+        wt_error_advice(err, "choose with --format %s or --format %s", v.best->info.id,
+                        v.tied->info.id);
+        return WT_E_AMBIGUOUS;
+    }
+    if (v.best != NULL) {
+        *reader = v.best;
+        return WT_OK;
+    }
+    if (v.unsupported != NULL) {
+        wt_fail(err, WT_E_UNSUPPORTED, "%s", v.reason);
+        wt_error_found(err, "%s (%s)", v.unsupported->info.title, v.unsupported->info.id);
+        return WT_E_UNSUPPORTED;
+    }
+    if (kinds != 0) {
+        status = ask(formats, input, kinds, false, &v, err);
+        if (status != WT_OK)
+            return status;
+        if (v.best != NULL)
+            return wrong_kind(v.best, kinds, err);
+    }
+    return unknown(input, err);
+}
+
+wt_status wt_find_reader(const wt_formats *formats, wt_input *input, const char *format,
+                         unsigned kinds, const wt_reader **reader, wt_error *err)
+{
+    wt_status status = WT_E_NOT_FOUND;
+    if (format == NULL) {
+        status = detect(formats, input, kinds, reader, err);
+    } else {
+        const wt_reader *found = NULL;
+        size_t n = wt_formats_count(formats);
+        for (size_t i = 0; i < n && found == NULL; i++) {
+            const wt_reader *r = wt_formats_reader(formats, i);
+            if (strcmp(r->info.id, format) == 0)
+                found = r;
+        }
+        if (found == NULL) {
+            wt_fail(err, status, "there is no format \"%s\"", format);
+            wt_error_advice(err, "see `weartrack formats list`");
+        } else if (kinds != 0 && (found->info.kinds & kinds) == 0) {
+            status = wrong_kind(found, kinds, err);
+        } else {
+            *reader = found;
+            status = WT_OK;
+        }
+    }
+    if (status != WT_OK)
+        wt_error_file(err, wt_input_name(input));
+    return status;
+}
+
+wt_status wt_detect(const wt_formats *formats, wt_input *input, unsigned kinds,
+                    const wt_format_info **info, wt_error *err)
+{
+    const wt_reader *reader = NULL;
+    wt_status status = wt_find_reader(formats, input, NULL, kinds, &reader, err);
+    if (status == WT_OK)
+        *info = &reader->info;
+    return status;
+}
