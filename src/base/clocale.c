@@ -1,0 +1,24 @@
+/* Thread-local use of the C locale. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/clocale.h"
+
+#include <pthread.h>
+
+static pthread_once_t once = PTHREAD_ONCE_INIT;
+static locale_t c_locale = (locale_t)0;
+
+static void make_c_locale(void)
+{
+    c_locale = newlocale(LC_ALL_MASK, "C", (locale_t)0);
+}
+
+locale_t wt_clocale_enter(void)
+{
+    (void)pthread_once(&once, make_c_locale);
+    /* uselocale((locale_t)0) only asks, which is right if the C locale could not be made. */
+    return uselocale(c_locale);
+}
+
+void wt_clocale_leave(locale_t previous)
+{
+    (void)uselocale(previous);
+}

@@ -1,0 +1,119 @@
+/* Numbers as text, independent of the locale. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/number.h"
+#include "base/clocale.h"
+#include "weartrack/base.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Far more digits than any instrument writes; what is longer is not a number of this trade. */
+enum { NUMBER_MAX = 512 };
+
+static bool is_blank(char c)
+{
+    return c == ' ' || (c >= '\t' && c <= '\r');
+}
+
+static size_t skip_digits(const char *text, size_t length, size_t i)
+{
+    while (i < length && text[i] >= '0' && text[i] <= '9')
+        i++;
+    return i;
+}
+
+/* strtod alone would also take hexadecimal digits, "nan" and "infinity". */
+size_t wt_number_prefix(const char *text, size_t length, char decimal)
+{
+    size_t i = 0;
+    if (i < length && (text[i] == '+' || text[i] == '-'))
+        i++;
+    const size_t whole = i;
+    i = skip_digits(text, length, i);
+    size_t digits = i - whole;
+    if (i < length && text[i] == decimal) {
+        const size_t fraction = i + 1;
+        const size_t end = skip_digits(text, length, fraction);
+        digits += end - fraction;
+        i = end;
+    }
+    if (digits == 0)
+        return 0;
+    if (i < length && (text[i] == 'e' || text[i] == 'E')) {
+        size_t exponent = i + 1;
+        if (exponent < length && (text[exponent] == '+' || text[exponent] == '-'))
+            exponent++;
+        const size_t end = skip_digits(text, length, exponent);
+        if (end > exponent)
+            i = end;
+    }
+    return i;
+}
+
+bool wt_number_parse(const char *text, size_t length, char decimal, double *value)
+{
+    char copy[NUMBER_MAX];
+    while (length > 0 && is_blank(text[0])) {
+        text++;
+        length--;
+    }
+    while (length > 0 && is_blank(text[length - 1]))
+        length--;
+    if (length == 0 || length >= sizeof copy || wt_number_prefix(text, length, decimal) != length)
+        return false;
+    memcpy(copy, text, length);
+    copy[length] = '\0';
+    char *const mark = decimal == '.' ? NULL : memchr(copy, decimal, length);
+    if (mark != NULL)
+        *mark = '.';
+    const locale_t previous = wt_clocale_enter();
+    const double parsed = strtod(copy, NULL);
+    wt_clocale_leave(previous);
+    if (!isfinite(parsed))
+        return false;
+    *value = parsed;
+    return true;
+}
+
+/* "1e-05" to "1e-5", "1e+20" to "1e20". */
+static size_t shorten_exponent(char *text, size_t length)
+{
+    char *const e = memchr(text, 'e', length);
+    if (e == NULL)
+        return length;
+    char *to = e + 1;
+    const char *from = e + 1;
+    if (*from == '-')
+        *to++ = *from++;
+    else if (*from == '+')
+        from++;
+    while (*from == '0' && from[1] != '\0')
+        from++;
+    while (*from != '\0')
+        *to++ = *from++;
+    *to = '\0';
+    return (size_t)(to - text);
+}
+
+size_t wt_number_format(double value, char *buffer)
+{
+    enum { SIZE = 32 };
+    if (!isfinite(value)) {
+        const char *const text = isnan(value) ? "nan" : value > 0 ? "inf" : "-inf";
+        const size_t length = strlen(text);
+        memcpy(buffer, text, length + 1);
+        return length;
+    }
+    /* Any decimal number of 15 digits survives a normal double, so 15 digits without their trailing
+     * zeros are the shortest text if they read back. Subnormal numbers hold fewer digits. */
+    const bool subnormal = fpclassify(value) == FP_SUBNORMAL;
+    const locale_t previous = wt_clocale_enter();
+    int length = 0;
+    for (int digits = subnormal ? 1 : 15; digits <= 17; digits++) {
+        length = snprintf(buffer, SIZE, "%.*g", digits, value);
+        if (strtod(buffer, NULL) == value)
+            break;
+    }
+    wt_clocale_leave(previous);
+    return shorten_exponent(buffer, (size_t)length);
+}

@@ -1,0 +1,11 @@
+/* The number at the start of a text. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WT_BASE_NUMBER_H
+#define WT_BASE_NUMBER_H
+
+#include <stddef.h>
+
+/* Length of the longest number at the start of `text`, 0 if there is none. An "e" that no digit
+ * follows belongs to what comes after ("5eV"). */
+size_t wt_number_prefix(const char *text, size_t length, char decimal);
+
+#endif

@@ -1,0 +1,151 @@
+/* The parse log: notes and warnings, each text once per file with a count.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/clocale.h"
+#include "base/utf8.h"
+#include "weartrack/base.h"
+
+#include <search.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct log_entry {
+    wt_severity severity;
+    char *file, *place, *text;
+    size_t count;
+} log_entry;
+
+struct wt_parselog {
+    log_entry **entries; /* in the order they came */
+    size_t n, capacity;
+    void *tree; /* the same entries for tsearch */
+    size_t lost;
+};
+
+static int compare(const void *a, const void *b)
+{
+    const log_entry *const p = a, *const q = b;
+    if (p->severity != q->severity)
+        return p->severity < q->severity ? -1 : 1;
+    const int by_file = strcmp(p->file, q->file);
+    return by_file != 0 ? by_file : strcmp(p->text, q->text);
+}
+
+static void entry_free(log_entry *e)
+{
+    if (e == NULL)
+        return;
+    free(e->file);
+    free(e->place);
+    free(e->text);
+    free(e);
+}
+
+static void keep(void *node)
+{
+    (void)node; /* the entries belong to the list */
+}
+
+wt_parselog *wt_parselog_new(void)
+{
+    return calloc(1, sizeof(wt_parselog));
+}
+
+void wt_parselog_free(wt_parselog *log)
+{
+    if (log == NULL)
+        return;
+    tdestroy(log->tree, keep);
+    for (size_t i = 0; i < log->n; i++)
+        entry_free(log->entries[i]);
+    free(log->entries);
+    free(log);
+}
+
+/* Adds `count` times the text, which it copies. */
+static bool add(wt_parselog *log, wt_severity severity, const char *file, const char *place,
+                const char *text, size_t count)
+{
+    bool good = false;
+    log_entry *new_entry = calloc(1, sizeof *new_entry);
+    if (new_entry == NULL)
+        return false;
+    new_entry->severity = severity;
+    new_entry->file = strdup(file != NULL ? file : "");
+    new_entry->place = strdup(place != NULL ? place : "");
+    new_entry->text = strdup(text);
+    new_entry->count = count;
+    if (new_entry->file == NULL || new_entry->place == NULL || new_entry->text == NULL)
+        goto done;
+    if (log->n == log->capacity) {
+        const size_t capacity = log->capacity > 0 ? 2 * log->capacity : 16;
+        log_entry **const entries = realloc(log->entries, capacity * sizeof *entries);
+        if (entries == NULL)
+            goto done;
+        log->entries = entries;
+        log->capacity = capacity;
+    }
+    log_entry *const *const found = tsearch(new_entry, &log->tree, compare);
+    if (found == NULL)
+        goto done;
+    if (*found == new_entry) {
+        log->entries[log->n++] = new_entry;
+        new_entry = NULL;
+    } else {
+        (*found)->count += count;
+    }
+    good = true;
+done:
+    entry_free(new_entry);
+    return good;
+}
+
+void wt_parselog_add(wt_parselog *log, wt_severity severity, const char *file, const char *place,
+                     const char *format, ...)
+{
+    if (log == NULL)
+        return;
+    char *text = NULL;
+    va_list arguments;
+    va_start(arguments, format);
+    const locale_t previous = wt_clocale_enter();
+    const int length = vasprintf(&text, format, arguments);
+    wt_clocale_leave(previous);
+    va_end(arguments);
+    if (length < 0) {
+        log->lost++;
+        return;
+    }
+    wt_utf8_tidy(text);
+    if (!add(log, severity, file, place, text, 1))
+        log->lost++;
+    free(text);
+}
+
+size_t wt_parselog_count(const wt_parselog *log)
+{
+    return log != NULL ? log->n : 0;
+}
+
+wt_log_entry wt_parselog_get(const wt_parselog *log, size_t i)
+{
+    const log_entry *const e = log->entries[i];
+    return (wt_log_entry){e->severity, e->file, e->place, e->text, e->count};
+}
+
+size_t wt_parselog_lost(const wt_parselog *log)
+{
+    return log != NULL ? log->lost : 0;
+}
+
+void wt_parselog_append(wt_parselog *to, const wt_parselog *from)
+{
+    if (to == NULL || from == NULL)
+        return;
+    for (size_t i = 0; i < from->n; i++) {
+        const log_entry *const e = from->entries[i];
+        if (!add(to, e->severity, e->file, e->place, e->text, e->count))
+            to->lost += e->count;
+    }
+    to->lost += from->lost;
+}
