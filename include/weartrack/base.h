@@ -208,8 +208,9 @@ WT_API wt_status wt_unit_to_si(const char *unit, wt_quantity quantity, double *f
  * quantity is dimensionless; the error shows the right spelling. */
 WT_API wt_status wt_quantity_parse(const char *text, wt_quantity quantity, double *value,
                                    wt_error *err) WT_NODISCARD;
-/* A value of SI unit `unit` as short text with an SI prefix: "412 kPa", "1.15 µm", "20.0 °C" (for
- * K with celsius true). digits = significant digits. Returns the length as snprintf does. */
+/* A value of SI unit `unit` as short text with an SI prefix: "412 kPa", "1.15 µm". For the unit
+ * "degC" the value is in K and written in °C: "20.0 °C". digits = significant digits. Returns the
+ * length as snprintf does. */
 WT_API size_t wt_format_si(double value, const char *unit, int digits, char *buffer, size_t size);
 
 /* ---- numbers ------------------------------------------------------------------------------ */

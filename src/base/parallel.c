@@ -1,0 +1,100 @@
+/* Independent items on several threads. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "weartrack/base.h"
+
+#include <pthread.h>
+#include <sched.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+typedef struct job {
+    size_t n;
+    wt_parallel_fn body;
+    void *user;
+    const wt_progress *progress;
+    const char *what;
+    atomic_size_t next;
+    atomic_bool cancelled;
+    pthread_mutex_t lock; /* for what follows, and so that progress is told by one at a time */
+    size_t done;
+    size_t first_failed; /* n = none */
+    wt_status status;
+} job;
+
+typedef struct worker {
+    job *job;
+    unsigned number;
+    pthread_t thread;
+} worker;
+
+static void *work(void *argument)
+{
+    const worker *const w = argument;
+    job *const j = w->job;
+    while (!atomic_load(&j->cancelled)) {
+        const size_t i = atomic_fetch_add(&j->next, 1);
+        if (i >= j->n)
+            break;
+        const wt_status status = j->body(j->user, i, w->number);
+        const bool failed = status != WT_OK;
+        const bool tell = j->progress != NULL && j->progress->report != NULL;
+        if (!failed && !tell)
+            continue;
+        (void)pthread_mutex_lock(&j->lock);
+        if (failed && i < j->first_failed) {
+            j->first_failed = i;
+            j->status = status;
+        }
+        j->done++;
+        if (tell && !atomic_load(&j->cancelled) &&
+            !j->progress->report(j->progress->user, j->what, j->done, j->n))
+            atomic_store(&j->cancelled, true);
+        (void)pthread_mutex_unlock(&j->lock);
+    }
+    return NULL;
+}
+
+unsigned wt_thread_count(unsigned threads)
+{
+    if (threads > 0)
+        return threads;
+    cpu_set_t set; /* the processors that this process may use, not those of the machine */
+    if (sched_getaffinity(0, sizeof set, &set) == 0 && CPU_COUNT(&set) > 0)
+        return (unsigned)CPU_COUNT(&set);
+    const long online = sysconf(_SC_NPROCESSORS_ONLN);
+    return online > 0 ? (unsigned)online : 1;
+}
+
+wt_status wt_parallel_for(size_t n, unsigned threads, wt_parallel_fn body, void *user,
+                          const wt_progress *progress, const char *what)
+{
+    job j = {.n = n,
+             .body = body,
+             .user = user,
+             .progress = progress,
+             .what = what,
+             .lock = PTHREAD_MUTEX_INITIALIZER,
+             .first_failed = n,
+             .status = WT_OK};
+    worker self = {.job = &j, .number = 0};
+    size_t n_threads = wt_thread_count(threads);
+    if (n_threads > n)
+        n_threads = n;
+    /* Threads that cannot be had are done without: this one does the rest. */
+    worker *const helpers = n_threads > 1 ? calloc(n_threads - 1, sizeof *helpers) : NULL;
+    size_t started = 0;
+    while (helpers != NULL && started < n_threads - 1) {
+        worker *const w = &helpers[started];
+        w->job = &j;
+        w->number = (unsigned)started + 1;
+        if (pthread_create(&w->thread, NULL, work, w) != 0)
+            break;
+        started++;
+    }
+    (void)work(&self);
+    for (size_t i = 0; i < started; i++)
+        (void)pthread_join(helpers[i].thread, NULL);
+    free(helpers);
+    (void)pthread_mutex_destroy(&j.lock);
+    return atomic_load(&j.cancelled) ? WT_E_CANCELLED : j.status;
+}

@@ -1,0 +1,118 @@
+/* Where a result comes from: the command and its inputs. SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "weartrack/base.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+struct wt_provenance {
+    char *command;
+    wt_provenance_input *inputs;
+    size_t n, capacity;
+};
+
+wt_provenance *wt_provenance_new(void)
+{
+    return calloc(1, sizeof(wt_provenance));
+}
+
+static void input_free(wt_provenance_input *input)
+{
+    free((char *)input->path);
+    free((char *)input->role);
+    free((char *)input->format);
+}
+
+void wt_provenance_free(wt_provenance *p)
+{
+    if (p == NULL)
+        return;
+    for (size_t i = 0; i < p->n; i++)
+        input_free(&p->inputs[i]);
+    free(p->inputs);
+    free(p->command);
+    free(p);
+}
+
+static bool is_plain(const char *word)
+{
+    return word[0] != '\0' && word[strspn(word, "abcdefghijklmnopqrstuvwxyz"
+                                                "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                                "0123456789_@%+=:,./-")] == '\0';
+}
+
+/* Writes `word` as a shell would need it; returns the end. */
+static char *quote(char *to, const char *word)
+{
+    if (is_plain(word))
+        return stpcpy(to, word);
+    *to++ = '\'';
+    for (; *word != '\0'; word++) {
+        if (*word == '\'')
+            to = stpcpy(to, "'\\''");
+        else
+            *to++ = *word;
+    }
+    *to++ = '\'';
+    *to = '\0';
+    return to;
+}
+
+wt_status wt_provenance_set_command(wt_provenance *p, int argc, char *const argv[])
+{
+    size_t size = 1;
+    for (int i = 0; i < argc; i++)
+        size += 4 * strlen(argv[i]) + 3;
+    char *const command = malloc(size);
+    if (command == NULL)
+        return WT_E_MEMORY;
+    char *to = command;
+    *to = '\0';
+    for (int i = 0; i < argc; i++) {
+        if (i > 0)
+            *to++ = ' ';
+        /* Where the program is installed says nothing about the result. */
+        to = quote(to, i == 0 ? wt_path_base(argv[i]) : argv[i]);
+    }
+    free(p->command);
+    p->command = command;
+    return WT_OK;
+}
+
+wt_status wt_provenance_add_input(wt_provenance *p, const wt_provenance_input *input)
+{
+    if (p->n == p->capacity) {
+        const size_t capacity = p->capacity > 0 ? 2 * p->capacity : 16;
+        wt_provenance_input *const inputs = realloc(p->inputs, capacity * sizeof *inputs);
+        if (inputs == NULL)
+            return WT_E_MEMORY;
+        p->inputs = inputs;
+        p->capacity = capacity;
+    }
+    wt_provenance_input copy = *input;
+    copy.path = strdup(input->path != NULL ? input->path : "");
+    copy.role = strdup(input->role != NULL ? input->role : "");
+    copy.format = strdup(input->format != NULL ? input->format : "");
+    if (copy.path == NULL || copy.role == NULL || copy.format == NULL) {
+        input_free(&copy);
+        return WT_E_MEMORY;
+    }
+    copy.sha256[sizeof copy.sha256 - 1] = '\0';
+    p->inputs[p->n++] = copy;
+    return WT_OK;
+}
+
+const char *wt_provenance_command(const wt_provenance *p)
+{
+    return p->command != NULL ? p->command : "";
+}
+
+size_t wt_provenance_n_inputs(const wt_provenance *p)
+{
+    return p->n;
+}
+
+const wt_provenance_input *wt_provenance_get_input(const wt_provenance *p, size_t i)
+{
+    return &p->inputs[i];
+}

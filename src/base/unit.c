@@ -1,0 +1,321 @@
+/* Units of files and of the command line to SI, by UDUNITS-2.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/clocale.h"
+#include "base/number.h"
+#include "base/utf8.h"
+#include "weartrack/base.h"
+
+#include <math.h>
+#include <pthread.h>
+#include <string.h>
+#include <udunits2.h>
+
+/* Longer than any unit; also keeps the UDUNITS parser from long work on a hostile file. */
+enum { UNIT_MAX = 128 };
+
+/* UDUNITS-2 is not thread-safe and its database takes long to read, so there is one unit system for
+ * the process, made when first needed and used under a lock. */
+static pthread_once_t once = PTHREAD_ONCE_INIT;
+static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+static ut_system *units = NULL;
+
+/* A spelling of instruments that the database lacks. */
+static void add_spelling(const char *spelling, const char *name)
+{
+    ut_unit *const unit = ut_get_unit_by_name(units, name);
+    (void)ut_map_name_to_unit(spelling, UT_ASCII, unit);
+    ut_free(unit);
+}
+
+static void make_units(void)
+{
+    const locale_t previous_locale = wt_clocale_enter();
+    const ut_error_message_handler previous = ut_set_error_message_handler(ut_ignore);
+    units = ut_read_xml(NULL);
+    if (units != NULL) {
+        add_spelling("deg", "degree");
+        add_spelling("dyn", "dyne");
+        /* The database takes a byte for the number 8. */
+        ut_unit *const byte = ut_new_dimensionless_unit(units);
+        (void)ut_unmap_name_to_unit(units, "byte", UT_ASCII);
+        (void)ut_map_name_to_unit("byte", UT_ASCII, byte);
+        ut_free(byte);
+    }
+    (void)ut_set_error_message_handler(previous);
+    wt_clocale_leave(previous_locale);
+}
+
+/* What a unit is a multiple of: a product of base units, among which UDUNITS counts the radian. */
+typedef struct base_of {
+    const ut_unit *product;
+    bool offset;
+} base_of;
+
+static ut_status visit_basic(const ut_unit *unit, void *user)
+{
+    ((base_of *)user)->product = unit;
+    return UT_SUCCESS;
+}
+
+static ut_status visit_product(const ut_unit *unit, int count, const ut_unit *const *basic,
+                               const int *powers, void *user)
+{
+    (void)count;
+    (void)basic;
+    (void)powers;
+    ((base_of *)user)->product = unit;
+    return UT_SUCCESS;
+}
+
+static ut_status visit_galilean(const ut_unit *unit, double scale, const ut_unit *underlying,
+                                double offset, void *user);
+
+static ut_status visit_timestamp(const ut_unit *unit, const ut_unit *time, double origin,
+                                 void *user)
+{
+    (void)unit;
+    (void)time;
+    (void)origin;
+    (void)user;
+    return UT_VISIT_ERROR;
+}
+
+static ut_status visit_logarithmic(const ut_unit *unit, double base, const ut_unit *reference,
+                                   void *user)
+{
+    (void)unit;
+    (void)base;
+    (void)reference;
+    (void)user;
+    return UT_VISIT_ERROR;
+}
+
+static const ut_visitor visitor = {visit_basic, visit_product, visit_galilean, visit_timestamp,
+                                   visit_logarithmic};
+
+static ut_status visit_galilean(const ut_unit *unit, double scale, const ut_unit *underlying,
+                                double offset, void *user)
+{
+    (void)unit;
+    (void)scale;
+    if (fpclassify(offset) != FP_ZERO)
+        ((base_of *)user)->offset = true;
+    return ut_accept_visitor(underlying, &visitor, user);
+}
+
+/* Converts under the lock. False if `unit` is unknown or not a multiple of `si`. UDUNITS itself
+ * would also convert between Hz and rad/s, and between a unit and its reciprocal. */
+static bool convert(const char *unit, const char *si, double *factor, double *offset)
+{
+    bool good = false;
+    ut_unit *from = NULL, *to = NULL;
+    cv_converter *converter = NULL;
+    base_of base = {NULL, false};
+    from = ut_parse(units, unit, UT_UTF8);
+    to = ut_parse(units, si, UT_UTF8);
+    if (from == NULL || to == NULL || ut_accept_visitor(from, &visitor, &base) != UT_SUCCESS ||
+        ut_compare(base.product, to) != 0)
+        goto done;
+    converter = ut_get_converter(from, to);
+    if (converter == NULL)
+        goto done;
+    *offset = base.offset ? cv_convert_double(converter, 0.0) : 0.0;
+    /* At 2^60 an offset of temperature is below the last digit. */
+    *factor = base.offset ? ldexp(cv_convert_double(converter, ldexp(1.0, 60)), -60)
+                          : cv_convert_double(converter, 1.0);
+    good = isfinite(*offset) && isfinite(*factor) && *factor > 0.0;
+done:
+    cv_free(converter);
+    ut_free(from);
+    ut_free(to);
+    return good;
+}
+
+/* UDUNITS knows whole powers only: the square root of the hertz is taken off the text. */
+static bool strip_root_hertz(char *unit)
+{
+    static const char *const spellings[] = {"/sqrt(Hz)", "/\xE2\x88\x9AHz", "/rtHz",   "/Hz^0.5",
+                                            "/Hz^(1/2)", ".Hz^-0.5",        " Hz^-0.5"};
+    const size_t length = strlen(unit);
+    for (size_t i = 0; i < sizeof spellings / sizeof *spellings; i++) {
+        const size_t n = strlen(spellings[i]);
+        if (length > n && strcmp(unit + length - n, spellings[i]) == 0) {
+            unit[length - n] = '\0';
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Copies without blanks and one pair of square brackets around it. False if it does not fit or is
+ * not UTF-8. */
+static bool trim(const char *unit, char copy[UNIT_MAX])
+{
+    static const char blanks[] = " \t\r\n\v\f";
+    unit += strspn(unit, blanks);
+    size_t length = strlen(unit);
+    while (length > 0 && strchr(blanks, unit[length - 1]) != NULL)
+        length--;
+    if (length >= 2 && unit[0] == '[' && unit[length - 1] == ']') {
+        unit++;
+        length -= 2;
+        while (length > 0 && strchr(blanks, unit[0]) != NULL) {
+            unit++;
+            length--;
+        }
+        while (length > 0 && strchr(blanks, unit[length - 1]) != NULL)
+            length--;
+    }
+    if (length >= UNIT_MAX || wt_utf8_check(unit, length) != length)
+        return false;
+    memcpy(copy, unit, length);
+    copy[length] = '\0';
+    return true;
+}
+
+/* "a pressure", "an angular frequency". */
+static void quantity_words(wt_quantity quantity, char *buffer, size_t size)
+{
+    const char *const id = quantity == WT_Q_NONE ? "number" : wt_quantity_id(quantity);
+    (void)snprintf(buffer, size, "%s %s", strchr("aeiou", id[0]) != NULL ? "an" : "a", id);
+    for (char *c = buffer; *c != '\0'; c++) {
+        if (*c == '_')
+            *c = ' ';
+    }
+}
+
+wt_status wt_unit_to_si(const char *unit, wt_quantity quantity, double *factor, double *offset,
+                        wt_error *err)
+{
+    const char *const si = wt_quantity_unit(quantity);
+    const bool dimensionless = strcmp(si, "1") == 0;
+    char text[UNIT_MAX] = "", words[64];
+    quantity_words(quantity, words, sizeof words);
+    if (!trim(unit, text)) {
+        (void)wt_fail(err, WT_E_UNIT, "the unit is too long or not UTF-8 text");
+        wt_error_expected(err, "a unit of %s, such as %s", words, si);
+        wt_error_found(err, "\"%s\"", unit);
+        return WT_E_UNIT;
+    }
+    if (text[0] == '\0' && !dimensionless) {
+        (void)wt_fail(err, WT_E_UNIT, "unit missing");
+        wt_error_expected(err, "a unit of %s, such as %s", words, si);
+        return WT_E_UNIT;
+    }
+    if (dimensionless && (text[0] == '\0' || strcmp(text, "-") == 0)) {
+        *factor = 1.0;
+        *offset = 0.0;
+        return WT_OK;
+    }
+    double f = 0.0, o = 0.0;
+    bool good = false;
+    bool angular = false; /* the radian is what stands in the way */
+    (void)pthread_once(&once, make_units);
+    if (units == NULL) {
+        (void)wt_fail(err, WT_E_INTERNAL, "the units database of UDUNITS-2 cannot be read");
+        wt_error_advice(err, "install it, or name it in the variable UDUNITS2_XML_PATH");
+        return WT_E_INTERNAL;
+    }
+    (void)pthread_mutex_lock(&lock);
+    const locale_t previous_locale = wt_clocale_enter();
+    const ut_error_message_handler previous = ut_set_error_message_handler(ut_ignore);
+    if (quantity == WT_Q_SPECTRAL_DENSITY) {
+        char length[UNIT_MAX];
+        memcpy(length, text, sizeof length);
+        good = strip_root_hertz(length) && convert(length, "m", &f, &o);
+    } else {
+        good = convert(text, si, &f, &o);
+        /* A spatial frequency per cycle would be cycles/m, so 1/m can only mean rad/m. */
+        if (!good && quantity == WT_Q_WAVENUMBER)
+            good = convert(text, "1/m", &f, &o);
+        if (!good && quantity == WT_Q_ANGULAR_FREQUENCY)
+            angular = convert(text, "Hz", &f, &o);
+        if (!good && quantity == WT_Q_FREQUENCY)
+            angular = convert(text, "rad/s", &f, &o);
+    }
+    (void)ut_set_error_message_handler(previous);
+    wt_clocale_leave(previous_locale);
+    (void)pthread_mutex_unlock(&lock);
+
+    /* An offset makes sense for a temperature; a difference of temperatures has the same unit
+     * without it, and nothing else has one. */
+    if (good && fpclassify(o) != FP_ZERO && quantity != WT_Q_TEMPERATURE) {
+        o = 0.0;
+        good = quantity == WT_Q_TEMPERATURE_DIFFERENCE;
+    }
+    if (!good) {
+        (void)wt_fail(err, WT_E_UNIT, "the unit does not measure %s", words);
+        wt_error_expected(err, "a unit of %s, such as %s", words, si);
+        wt_error_found(err, "\"%s\"", text);
+        if (angular)
+            wt_error_advice(err, "Hz and rad/s differ by 2 pi: name the quantity that is meant");
+        return WT_E_UNIT;
+    }
+    *factor = f;
+    *offset = o;
+    return WT_OK;
+}
+
+static const char *example(wt_quantity quantity)
+{
+    static const struct {
+        const char *unit, *text;
+    } examples[] = {{"1", "0.5"},          {"s", "10s"},
+                    {"m", "250nm"},        {"V", "1.5V"},
+                    {"N", "20nN"},         {"rad", "35deg"},
+                    {"Hz", "10Hz"},        {"rad/s", "63rad/s"},
+                    {"Pa", "0.4MPa"},      {"rad/m", "1e6rad/m"},
+                    {"m^4", "1e-30m^4"},   {"m^3", "1e-24m^3"},
+                    {"m/s", "1mm/s"},      {"N/m", "0.3N/m"},
+                    {"m/V", "50nm/V"},     {"m^2/N", "1e-4mm^3/(N m)"},
+                    {"J/m^3", "1e5J/m^3"}, {"W/m^3", "1e9W/m^3"},
+                    {"1/s", "0.1s^-1"},    {"byte", "1000byte"},
+                    {"K", "20degC"},       {"m.Hz^-0.5", "1e-12m/sqrt(Hz)"}};
+    if (quantity == WT_Q_TEMPERATURE_DIFFERENCE)
+        return "5K";
+    for (size_t i = 0; i < sizeof examples / sizeof *examples; i++) {
+        if (strcmp(examples[i].unit, wt_quantity_unit(quantity)) == 0)
+            return examples[i].text;
+    }
+    return "";
+}
+
+wt_status wt_quantity_parse(const char *text, wt_quantity quantity, double *value, wt_error *err)
+{
+    wt_status status = WT_OK;
+    double number = NAN, factor = 1.0, offset = 0.0, result = NAN;
+    const char *const advice = "write the number with a decimal point, the unit behind it";
+    const char *reason = NULL;
+    const char *start = text + strspn(text, " \t");
+    const size_t n = wt_number_prefix(start, strlen(start), '.');
+    const char *const unit = start + n + strspn(start + n, " \t");
+    if (n == 0 || !wt_number_parse(start, n, '.', &number)) {
+        status = wt_fail(err, WT_E_ARG, "not a quantity");
+        reason = advice;
+    } else if (strchr("0123456789+-.,", unit[0]) != NULL && unit[0] != '\0' &&
+               strncmp(unit, "1/", 2) != 0) {
+        /* "1 200 Pa" and "1,200Pa" would be read as one times 200 Pa. */
+        status = wt_fail(err, WT_E_ARG, "not one number with its unit");
+        reason = advice;
+    } else {
+        status = wt_unit_to_si(unit, quantity, &factor, &offset, err);
+        result = number * factor + offset;
+        if (status == WT_OK && !isfinite(result))
+            status = wt_fail(err, WT_E_RANGE, "the value is too large");
+        else if (status == WT_OK && quantity == WT_Q_TEMPERATURE && result < 0.0)
+            status = wt_fail(err, WT_E_RANGE, "the temperature is below absolute zero");
+    }
+    if (status == WT_OK) {
+        *value = result;
+    } else if (status != WT_E_INTERNAL) {
+        char words[64];
+        quantity_words(quantity, words, sizeof words);
+        wt_error_expected(err, "%s%s, such as %s", words,
+                          strcmp(wt_quantity_unit(quantity), "1") == 0 ? "" : " with its unit",
+                          example(quantity));
+        wt_error_found(err, "\"%s\"", text);
+        if (reason != NULL)
+            wt_error_advice(err, "%s", reason);
+    }
+    return status;
+}

@@ -1,0 +1,287 @@
+/* Units, quantities on the command line, SI prefixes. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "near.h"
+#include "weartrack/base.h"
+
+#include <locale.h>
+#include <pthread.h>
+#include <stdio.h>
+#include <string.h>
+
+static void check_unit(const char *unit, wt_quantity quantity, double factor, double offset)
+{
+    double f = NAN, o = NAN;
+    wt_error err = WT_ERROR_INIT;
+    if (wt_unit_to_si(unit, quantity, &f, &o, &err) != WT_OK) {
+        print_error("unit \"%s\" refused: %s\n", unit, err.message);
+        fail();
+    }
+    assert_near(f, factor, 4e-16);
+    assert_near(o, offset, 4e-16);
+}
+
+static void check_refused(const char *unit, wt_quantity quantity)
+{
+    double f = 7.5, o = 8.5;
+    wt_error err = WT_ERROR_INIT;
+    if (wt_unit_to_si(unit, quantity, &f, &o, &err) != WT_E_UNIT) {
+        print_error("unit \"%s\" accepted\n", unit);
+        fail();
+    }
+    assert_int_equal(err.status, WT_E_UNIT);
+    assert_true(err.message[0] != '\0' && err.expected[0] != '\0');
+    /* Unchanged on failure. */
+    assert_near(f, 7.5, 0.0);
+    assert_near(o, 8.5, 0.0);
+}
+
+static void units_of_instruments(void **state)
+{
+    (void)state;
+    check_unit("MPa", WT_Q_STORAGE_MODULUS, 1e6, 0);
+    check_unit("[MPa]", WT_Q_STORAGE_MODULUS, 1e6, 0);
+    check_unit(" [ kPa ] ", WT_Q_LOSS_MODULUS, 1e3, 0);
+    check_unit("dyn/cm^2", WT_Q_STRESS, 0.1, 0);
+    check_unit("nm", WT_Q_HEIGHT, 1e-9, 0);
+    check_unit("um", WT_Q_HEIGHT, 1e-6, 0);
+    check_unit("\xC2\xB5m", WT_Q_HEIGHT, 1e-6, 0);
+    check_unit("\xCE\xBCm", WT_Q_HEIGHT, 1e-6, 0);
+    check_unit("nN", WT_Q_FORCE, 1e-9, 0);
+    check_unit("pN/nm", WT_Q_SPRING_CONSTANT, 1e-3, 0);
+    check_unit("nm/V", WT_Q_SENSITIVITY, 1e-9, 0);
+    check_unit("mV", WT_Q_DEFLECTION_VOLTAGE, 1e-3, 0);
+    check_unit("%", WT_Q_STRAIN, 1e-2, 0);
+    check_unit("-", WT_Q_LOSS_FACTOR, 1, 0);
+    check_unit("", WT_Q_LOSS_FACTOR, 1, 0);
+    check_unit("1", WT_Q_NONE, 1, 0);
+    check_unit("min", WT_Q_TIME, 60, 0);
+    check_unit("deg", WT_Q_PHASE, 3.14159265358979323846 / 180, 0);
+    check_unit("\xC2\xB0", WT_Q_ANGLE, 3.14159265358979323846 / 180, 0);
+    check_unit("mm^3/(N m)", WT_Q_WEAR_RATE, 1e-9, 0);
+    check_unit("1/m", WT_Q_WAVENUMBER, 1, 0);
+    check_unit("rad/um", WT_Q_WAVENUMBER, 1e6, 0);
+    check_unit("cycle/m", WT_Q_WAVENUMBER, 2 * 3.14159265358979323846, 0);
+    check_unit("nm^4", WT_Q_POWER_SPECTRUM_2D, 1e-36, 0);
+    check_unit("fm/sqrt(Hz)", WT_Q_SPECTRAL_DENSITY, 1e-15, 0);
+    check_unit("m.Hz^-0.5", WT_Q_SPECTRAL_DENSITY, 1, 0);
+    check_unit("kbyte", WT_Q_DATA_SIZE, 1e3, 0);
+}
+
+static void temperatures(void **state)
+{
+    (void)state;
+    check_unit("K", WT_Q_TEMPERATURE, 1, 0);
+    check_unit("\xC2\xB0"
+               "C",
+               WT_Q_TEMPERATURE, 1, 273.15);
+    check_unit("degC", WT_Q_TEMPERATURE, 1, 273.15);
+    check_unit("degF", WT_Q_TEMPERATURE, 5.0 / 9.0, 459.67 * 5.0 / 9.0);
+    check_unit("degC", WT_Q_TEMPERATURE_DIFFERENCE, 1, 0);
+    check_unit("degF", WT_Q_TEMPERATURE_DIFFERENCE, 5.0 / 9.0, 0);
+    check_refused("C", WT_Q_TEMPERATURE); /* coulomb */
+}
+
+static void frequency_is_not_angular(void **state)
+{
+    (void)state;
+    check_unit("kHz", WT_Q_FREQUENCY, 1e3, 0);
+    check_unit("1/s", WT_Q_FREQUENCY, 1, 0);
+    check_unit("rad/s", WT_Q_ANGULAR_FREQUENCY, 1, 0);
+    check_unit("rad/sec", WT_Q_ANGULAR_FREQUENCY, 1, 0);
+    check_refused("rad/s", WT_Q_FREQUENCY);
+    check_refused("Hz", WT_Q_ANGULAR_FREQUENCY);
+    check_refused("1/s", WT_Q_ANGULAR_FREQUENCY);
+    wt_error err = WT_ERROR_INIT;
+    double f, o;
+    assert_int_equal(wt_unit_to_si("Hz", WT_Q_ANGULAR_FREQUENCY, &f, &o, &err), WT_E_UNIT);
+    assert_non_null(strstr(err.advice, "2 pi"));
+}
+
+static void wrong_units(void **state)
+{
+    (void)state;
+    check_refused("Ohm", WT_Q_PRESSURE);
+    check_refused("MPA", WT_Q_PRESSURE);
+    check_refused("", WT_Q_PRESSURE);
+    check_refused("furlongish", WT_Q_LENGTH);
+    check_refused("s", WT_Q_FREQUENCY); /* UDUNITS would take the reciprocal */
+    check_refused("Hz", WT_Q_TIME);
+    check_refused("rad", WT_Q_LOSS_FACTOR);
+    check_refused("deg", WT_Q_STRAIN);
+    check_refused("m/m", WT_Q_ANGLE);
+    check_refused("byte", WT_Q_NONE);
+    check_refused("1", WT_Q_DATA_SIZE);
+    check_refused("s since 1970-01-01", WT_Q_TIME);
+    check_refused("lg(re 1 Pa)", WT_Q_PRESSURE);
+    check_refused("m @ 5", WT_Q_LENGTH);
+    check_refused("-1 m", WT_Q_LENGTH);
+    check_refused("0 m", WT_Q_LENGTH);
+    check_refused("m\xB5", WT_Q_LENGTH); /* not UTF-8 */
+    check_refused("m/Hz", WT_Q_SPECTRAL_DENSITY);
+    char long_unit[400];
+    memset(long_unit, 'm', sizeof long_unit);
+    long_unit[sizeof long_unit - 1] = '\0';
+    check_refused(long_unit, WT_Q_LENGTH);
+    double f, o;
+    assert_int_equal(wt_unit_to_si("Ohm", WT_Q_PRESSURE, &f, &o, NULL), WT_E_UNIT);
+}
+
+static void every_si_unit_is_itself(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < (size_t)WT_Q_COUNT; i++) {
+        wt_quantity found = WT_Q_COUNT;
+        const wt_quantity q = (wt_quantity)i;
+        check_unit(wt_quantity_unit(q), q, 1, 0);
+        assert_true(wt_quantity_find(wt_quantity_id(q), &found));
+        assert_int_equal(found, q);
+    }
+    wt_quantity q = WT_Q_FORCE;
+    assert_false(wt_quantity_find("mass", &q));
+    assert_int_equal(q, WT_Q_FORCE);
+}
+
+static void check_parse(const char *text, wt_quantity quantity, double expected)
+{
+    double value = NAN;
+    wt_error err = WT_ERROR_INIT;
+    if (wt_quantity_parse(text, quantity, &value, &err) != WT_OK) {
+        print_error("\"%s\" refused: %s\n", text, err.message);
+        fail();
+    }
+    assert_near(value, expected, 4e-16);
+}
+
+static void quantities(void **state)
+{
+    (void)state;
+    check_parse("0.4MPa", WT_Q_PRESSURE, 0.4e6);
+    check_parse("20 degC", WT_Q_TEMPERATURE, 293.15);
+    check_parse("-40\xC2\xB0"
+                "C",
+                WT_Q_TEMPERATURE, 233.15);
+    check_parse("35deg", WT_Q_ANGLE, 35 * (3.14159265358979323846 / 180));
+    check_parse("1e-4 mm^3/(N m)", WT_Q_WEAR_RATE, 1e-13);
+    check_parse("0.45", WT_Q_NONE, 0.45);
+    check_parse("45%", WT_Q_NONE, 0.45);
+    check_parse("1e3s", WT_Q_TIME, 1000);
+    check_parse(" 2.5 1/s ", WT_Q_RATE, 2.5);
+}
+
+static void quantities_refused(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        wt_quantity quantity;
+        wt_status status;
+    } cases[] = {
+        {"0.4", WT_Q_PRESSURE, WT_E_UNIT},          {"0,4MPa", WT_Q_PRESSURE, WT_E_ARG},
+        {"MPa", WT_Q_PRESSURE, WT_E_ARG},           {"", WT_Q_PRESSURE, WT_E_ARG},
+        {"1 200 Pa", WT_Q_PRESSURE, WT_E_ARG},      {"nanPa", WT_Q_PRESSURE, WT_E_ARG},
+        {"0x10Pa", WT_Q_PRESSURE, WT_E_UNIT},       {"4 K", WT_Q_PRESSURE, WT_E_UNIT},
+        {"1e308MPa", WT_Q_PRESSURE, WT_E_RANGE},    {"-300degC", WT_Q_TEMPERATURE, WT_E_RANGE},
+        {"10Hz", WT_Q_ANGULAR_FREQUENCY, WT_E_UNIT}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        double value = 7.5;
+        wt_error err = WT_ERROR_INIT;
+        assert_int_equal(wt_quantity_parse(cases[i].text, cases[i].quantity, &value, &err),
+                         cases[i].status);
+        assert_near(value, 7.5, 0);
+        assert_non_null(strstr(err.expected, "such as "));
+    }
+    wt_error err = WT_ERROR_INIT;
+    double value;
+    assert_int_equal(wt_quantity_parse("0.4", WT_Q_PRESSURE, &value, &err), WT_E_UNIT);
+    assert_string_equal(err.expected, "a pressure with its unit, such as 0.4MPa");
+    assert_string_equal(err.found, "\"0.4\"");
+    /* What is shown as the right spelling is right. */
+    for (size_t i = 0; i < (size_t)WT_Q_COUNT; i++) {
+        assert_int_equal(wt_quantity_parse("bad", (wt_quantity)i, &value, &err), WT_E_ARG);
+        const char *const example = strstr(err.expected, "such as ") + 8;
+        assert_int_equal(wt_quantity_parse(example, (wt_quantity)i, &value, &err), WT_OK);
+    }
+}
+
+static void check_format(double value, const char *unit, int digits, const char *expected)
+{
+    char text[64];
+    assert_int_equal(wt_format_si(value, unit, digits, text, sizeof text), strlen(expected));
+    assert_string_equal(text, expected);
+}
+
+static void formatted(void **state)
+{
+    (void)state;
+    check_format(412e3, "Pa", 3, "412 kPa");
+    check_format(412e3, "Pa", 2, "410 kPa");
+    check_format(1.15e-6, "m", 3, "1.15 \xC2\xB5m");
+    check_format(293.15, "degC", 3,
+                 "20.0 \xC2\xB0"
+                 "C");
+    check_format(293.16, "K", 4, "293.2 K");
+    check_format(999.96e3, "Pa", 3, "1.00 MPa");
+    check_format(-2.5e-9, "N", 2, "-2.5 nN");
+    check_format(0.0, "m", 3, "0.00 m");
+    check_format(2.385e-3, "m/s", 3, "2.38 mm/s"); /* the double is just below */
+    check_format(7200, "s", 2, "7200 s");
+    check_format(25e3, "m", 2, "25 km");
+    check_format(1.5e-13, "m^2/N", 2, "1.5e-13 m^2/N");
+    check_format(2.5e7, "rad/m", 2, "2.5e7 rad/m");
+    check_format(0.853, "1", 3, "0.853");
+    check_format(0.853, "", 3, "0.853");
+    check_format(1234567, "byte", 3, "1.23 MB");
+    check_format((double)NAN, "Pa", 3, "nan Pa");
+    check_format(-(double)INFINITY, "m", 3, "-inf m");
+    char small[4];
+    assert_int_equal(wt_format_si(412e3, "Pa", 3, small, sizeof small), 7);
+    assert_string_equal(small, "412");
+}
+
+static void foreign_locale(void **state)
+{
+    (void)state;
+    if (setlocale(LC_ALL, "de_DE.UTF-8") == NULL)
+        skip();
+    check_unit("0.5 MPa", WT_Q_PRESSURE, 0.5e6, 0);
+    check_parse("0.4MPa", WT_Q_PRESSURE, 0.4e6);
+    check_format(1.15e-6, "m", 3, "1.15 \xC2\xB5m");
+    (void)setlocale(LC_ALL, "C");
+}
+
+static void *convert_often(void *user)
+{
+    double *const sum = user;
+    for (int i = 0; i < 200; i++) {
+        double f = NAN, o = NAN;
+        if (wt_unit_to_si(i % 2 == 0 ? "kPa" : "mm", i % 2 == 0 ? WT_Q_PRESSURE : WT_Q_LENGTH, &f,
+                          &o, NULL) != WT_OK)
+            f = NAN;
+        *sum += f;
+    }
+    return NULL;
+}
+
+static void several_threads(void **state)
+{
+    (void)state;
+    pthread_t threads[4];
+    double sums[4] = {0, 0, 0, 0};
+    for (size_t i = 0; i < 4; i++)
+        assert_int_equal(pthread_create(&threads[i], NULL, convert_often, &sums[i]), 0);
+    for (size_t i = 0; i < 4; i++) {
+        assert_int_equal(pthread_join(threads[i], NULL), 0);
+        assert_near(sums[i], 100 * 1000.001, 1e-12);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(units_of_instruments),     cmocka_unit_test(temperatures),
+        cmocka_unit_test(frequency_is_not_angular), cmocka_unit_test(wrong_units),
+        cmocka_unit_test(every_si_unit_is_itself),  cmocka_unit_test(quantities),
+        cmocka_unit_test(quantities_refused),       cmocka_unit_test(formatted),
+        cmocka_unit_test(foreign_locale),           cmocka_unit_test(several_threads),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
