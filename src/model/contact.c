@@ -1,0 +1,96 @@
+/* Contact laws of rigid tips on an elastic half-space: Hertz, Sneddon, blunted pyramid.
+ *
+ * Blunted pyramid: Rico et al., Phys. Rev. E 72 (2005) 021914, with a parabolic cap r^2/(2R) up to
+ * the transition radius b. The published pair delta(a), F(a) loses digits at both ends in double
+ * precision; here it is written in s = sqrt(a^2 - b^2)/b, h = sqrt(1 + s^2), a = b h:
+ *
+ *   delta = b^2 h / (R (h + s)) + m cot(theta) b h atan(s)
+ *   G     = 2 { b^3 (2h + s) / (3 R (h + s)^2) + (m/2) cot(theta) (a^2 atan(s) + b^2 s) }
+ *
+ * in which nothing cancels. delta(s) is convex and rises, so Newton's method from above converges
+ * without a safeguard.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "model/tip.h"
+
+#include <math.h>
+
+double wt_tip_facet_factor(unsigned sides)
+{
+    return sides == 0 ? 1.0 : sides / M_PI * sin(M_PI / sides);
+}
+
+static bool is_sharp(const wt_tip *tip)
+{
+    return tip->shape == WT_TIP_CONE || tip->transition_radius == 0.0;
+}
+
+double wt_contact_switch_depth(const wt_tip *tip)
+{
+    if (tip->shape == WT_TIP_PARABOLOID)
+        return INFINITY;
+    if (is_sharp(tip))
+        return 0.0;
+    return tip->transition_radius * tip->transition_radius / tip->radius;
+}
+
+static wt_contact_point_values paraboloid(double radius, double delta)
+{
+    double a = sqrt(radius * delta);
+    return (wt_contact_point_values){4.0 / 3.0 * a * delta, 2.0 * a, a / delta};
+}
+
+static wt_contact_point_values sharp(const wt_tip *tip, double delta)
+{
+    unsigned sides = tip->shape == WT_TIP_CONE ? 0 : tip->sides;
+    double c = 2.0 / (M_PI * wt_tip_facet_factor(sides)) * tan(tip->half_angle);
+    return (wt_contact_point_values){c * delta * delta, 2.0 * c * delta, 2.0 * c};
+}
+
+static wt_contact_point_values faces(const wt_tip *tip, double delta)
+{
+    const double b = tip->transition_radius;
+    const double cap = b * b / tip->radius;
+    const double mcot = wt_tip_facet_factor(tip->sides) / tan(tip->half_angle);
+    /* h atan(s) >= pi s/2 - 1 makes this an upper bound of the root. */
+    double s = 2.0 / M_PI * (delta / (mcot * b) + 1.0);
+    double h = 0.0, hs = 0.0, rise = 0.0;
+    for (;;) {
+        h = hypot(1.0, s);
+        hs = h + s;
+        rise = mcot * b * (1.0 + s * atan(s)) - cap / (hs * hs); /* h ddelta/ds */
+        double excess = cap * h / hs + mcot * b * h * atan(s) - delta;
+        double next = s - excess * h / rise;
+        /* The iterates fall until rounding stops them: that is the root. */
+        if (!(next < s) || !(next > 0.0))
+            break;
+        s = next;
+    }
+    double a = b * h;
+    return (wt_contact_point_values){2.0 * (cap * b * (2.0 * h + s) / (3.0 * hs * hs) +
+                                            0.5 * mcot * (a * a * atan(s) + b * (b * s))),
+                                     2.0 * a, 2.0 * b * s / rise};
+}
+
+wt_contact_point_values wt_contact_values(const wt_tip *tip, double delta)
+{
+    if (tip->shape == WT_TIP_PARABOLOID)
+        return paraboloid(tip->radius, delta);
+    if (is_sharp(tip))
+        return sharp(tip, delta);
+    if (delta < wt_contact_switch_depth(tip))
+        return paraboloid(tip->radius, delta);
+    return faces(tip, delta);
+}
+
+void wt_contact_function(const wt_tip *tip, double delta, double *g, double *slope)
+{
+    wt_contact_point_values v = {0.0, 0.0, 0.0};
+    if (isnan(delta))
+        v.g = v.slope = delta;
+    else if (delta > 0.0)
+        v = wt_contact_values(tip, delta);
+    *g = v.g;
+    *slope = v.slope;
+}

@@ -1,0 +1,142 @@
+/* A contact function made ready for millions of calls: piecewise quintic polynomials.
+ *
+ * The knots lie in the depth e = delta - b^2/R beyond the switch, 64 to every power of two, so that
+ * the bits of e are the number of the piece and the jump of the curvature at the switch falls on a
+ * border. Value, slope and curvature of every knot are exact; the interpolation error is below
+ * 1e-13 of G. Below the switch, and for tips without one, the law is a formula that needs no table.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "model/tip.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    MANTISSA_BITS = 6,                  /* 64 pieces to an octave */
+    SHIFT = 52 - MANTISSA_BITS,         /* of an IEEE double */
+    OCTAVES_BELOW_SWITCH_DEPTH = 16,    /* nearer to the switch the direct function is used */
+    MAX_PIECES = 2048 << MANTISSA_BITS, /* all exponents of a double */
+};
+
+typedef struct piece {
+    double c[6]; /* in t = 0..1 over the piece */
+} piece;
+
+struct wt_contact_table {
+    wt_tip tip;
+    double switch_depth;
+    double cap_radius;
+    uint64_t first; /* bits >> SHIFT of the first piece */
+    size_t n;
+    piece pieces[];
+};
+
+static uint64_t piece_number(double e)
+{
+    uint64_t bits;
+    memcpy(&bits, &e, sizeof bits);
+    return bits >> SHIFT;
+}
+
+static double piece_start(uint64_t number)
+{
+    uint64_t bits = number << SHIFT;
+    double e;
+    memcpy(&e, &bits, sizeof e);
+    return e;
+}
+
+static piece piece_make(const wt_tip *tip, double switch_depth, uint64_t number)
+{
+    double e0 = piece_start(number), w = piece_start(number + 1) - e0;
+    wt_contact_point_values lo = wt_contact_values(tip, switch_depth + e0);
+    wt_contact_point_values hi = wt_contact_values(tip, switch_depth + e0 + w);
+    double f = lo.g, d = lo.slope * w, s = 0.5 * lo.curvature * w * w;
+    /* What the first three terms leave at the far end, for the last three to supply. */
+    double rf = hi.g - f - d - s, rd = hi.slope * w - d - 2.0 * s,
+           rs = hi.curvature * w * w - 2.0 * s;
+    return (piece){{f, d, s, 10.0 * rf - 4.0 * rd + 0.5 * rs, -15.0 * rf + 7.0 * rd - rs,
+                    6.0 * rf - 3.0 * rd + 0.5 * rs}};
+}
+
+wt_status wt_contact_table_new(const wt_tip *tip, double delta_min, double delta_max,
+                               wt_contact_table **table, wt_error *err)
+{
+    wt_status status = wt_tip_check(tip, err);
+    if (status != WT_OK)
+        return status;
+    if (!(delta_min > 0.0) || !(delta_max > delta_min) || !isfinite(delta_max)) {
+        status =
+            wt_fail(err, WT_E_RANGE, "range of indentations for a contact table is not usable");
+        wt_error_expected(err, "0 < smallest < largest indentation");
+        wt_error_found(err, "%g m to %g m", delta_min, delta_max);
+        return status;
+    }
+    double at = wt_contact_switch_depth(tip);
+    uint64_t first = 0;
+    size_t n = 0;
+    if (at > 0.0 && delta_max > at) {
+        double lo = ldexp(at, -OCTAVES_BELOW_SWITCH_DEPTH), hi = delta_max - at;
+        if (delta_min - at > lo)
+            lo = delta_min - at;
+        if (hi > lo) {
+            first = piece_number(lo);
+            n = (size_t)(piece_number(hi) - first) + 1;
+        }
+    }
+    if (n > MAX_PIECES)
+        return wt_fail(err, WT_E_INTERNAL, "contact table of %zu pieces", n);
+    wt_contact_table *t = malloc(sizeof *t + n * sizeof t->pieces[0]);
+    if (t == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for a contact table of %zu pieces", n);
+    t->tip = *tip;
+    t->switch_depth = at;
+    t->cap_radius = tip->radius;
+    t->first = first;
+    t->n = n;
+    for (size_t i = 0; i < n; i++)
+        t->pieces[i] = piece_make(tip, at, first + i);
+    *table = t;
+    return WT_OK;
+}
+
+void wt_contact_table_free(wt_contact_table *table)
+{
+    free(table);
+}
+
+const wt_tip *wt_contact_table_tip(const wt_contact_table *table)
+{
+    return &table->tip;
+}
+
+void wt_contact_table_eval(const wt_contact_table *table, const double *delta, size_t n, double *g,
+                           double *slope)
+{
+    const double at = table->switch_depth;
+    for (size_t i = 0; i < n; i++) {
+        double d = delta[i], value = 0.0, rise = 0.0;
+        uint64_t number;
+        if (d <= 0.0) {
+            /* out of contact */
+        } else if (d <= at) {
+            double a = sqrt(table->cap_radius * d);
+            value = 4.0 / 3.0 * a * d;
+            rise = 2.0 * a;
+        } else if ((number = piece_number(d - at) - table->first) < table->n) {
+            const double *c = table->pieces[number].c;
+            double e0 = piece_start(table->first + number);
+            double w = piece_start(table->first + number + 1) - e0;
+            double t = (d - at - e0) / w;
+            value = c[0] + t * (c[1] + t * (c[2] + t * (c[3] + t * (c[4] + t * c[5]))));
+            rise = (c[1] + t * (2 * c[2] + t * (3 * c[3] + t * (4 * c[4] + t * 5 * c[5])))) / w;
+        } else {
+            wt_contact_function(&table->tip, d, &value, &rise);
+        }
+        g[i] = value;
+        if (slope != NULL)
+            slope[i] = rise;
+    }
+}

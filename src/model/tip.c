@@ -1,0 +1,83 @@
+/* Tips: what is a possible geometry.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "model/tip.h"
+
+#include <math.h>
+
+static const double degree = M_PI / 180.0;
+
+double wt_tip_tangent_transition(double radius, double half_angle)
+{
+    return radius * cos(half_angle);
+}
+
+static wt_status check_positive(double value, const char *what, wt_error *err)
+{
+    if (value > 0.0 && isfinite(value))
+        return WT_OK;
+    wt_status status = wt_fail(err, WT_E_RANGE, "%s of the tip is not usable", what);
+    wt_error_expected(err, "a length above 0");
+    wt_error_found(err, "%g m", value);
+    return status;
+}
+
+static wt_status check_half_angle(double half_angle, wt_error *err)
+{
+    if (half_angle > 0.0 && half_angle < M_PI_2)
+        return WT_OK;
+    wt_status status = wt_fail(err, WT_E_RANGE, "half-angle of the tip is not usable");
+    wt_error_expected(err, "an angle from the axis to the face between 0 and 90 degrees");
+    wt_error_found(err, "%g degrees", half_angle / degree);
+    return status;
+}
+
+static wt_status check_cap(const wt_tip *tip, wt_error *err)
+{
+    double b = tip->transition_radius;
+    if (!(b >= 0.0) || !isfinite(b)) {
+        wt_status status = wt_fail(err, WT_E_RANGE, "transition radius of the tip is not usable");
+        wt_error_expected(err, "a length of 0 (sharp) or more");
+        wt_error_found(err, "%g m", b);
+        return status;
+    }
+    /* The slope of the cap at b must not exceed that of the faces. The smooth cap, where both are
+     * equal, is allowed: it may have been computed, hence the rounding. */
+    double b_max = tip->radius * wt_tip_facet_factor(tip->sides) / tan(tip->half_angle);
+    if (b <= b_max * (1.0 + 4.0 * 2.220446049250313e-16))
+        return WT_OK;
+    wt_status status = wt_fail(err, WT_E_RANGE, "the tip is concave where the cap meets the faces");
+    wt_error_expected(err, "a transition radius of at most %.4g nm for this radius and half-angle",
+                      b_max * 1e9);
+    wt_error_found(err, "%.4g nm", b * 1e9);
+    wt_error_advice(err,
+                    "check that half-angle is measured from the axis to a face, or give a smaller "
+                    "transition radius, e.g. transition=%.3gnm",
+                    floor(b_max * 1e11) / 1e2);
+    return status;
+}
+
+wt_status wt_tip_check(const wt_tip *tip, wt_error *err)
+{
+    wt_status status = WT_OK;
+    switch (tip->shape) {
+    case WT_TIP_PARABOLOID:
+        return check_positive(tip->radius, "radius", err);
+    case WT_TIP_CONE:
+        return check_half_angle(tip->half_angle, err);
+    case WT_TIP_BLUNTED_PYRAMID:
+        if (tip->sides == 1 || tip->sides == 2) {
+            status = wt_fail(err, WT_E_RANGE, "a pyramid of %u sides does not exist", tip->sides);
+            wt_error_expected(err, "3 sides or more, or 0 for a cone");
+            return status;
+        }
+        status = check_half_angle(tip->half_angle, err);
+        if (status == WT_OK)
+            status = check_positive(tip->radius, "cap radius", err);
+        if (status == WT_OK)
+            status = check_cap(tip, err);
+        return status;
+    }
+    return wt_fail(err, WT_E_ARG, "unknown tip shape %d", (int)tip->shape);
+}

@@ -1,0 +1,170 @@
+/* Tips: the short text form of the command line and the case file, and the description in words.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "model/tip.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { HALF_ANGLE, RADIUS, SIDES, TRANSITION, N_KEYS };
+
+static const struct {
+    const char *name;
+    wt_quantity quantity;
+} keys[N_KEYS] = {{"half-angle", WT_Q_ANGLE},
+                  {"radius", WT_Q_LENGTH},
+                  {"sides", WT_Q_NONE},
+                  {"transition", WT_Q_LENGTH}};
+
+/* What each shape takes: "allowed" includes "needed". */
+static const struct {
+    const char *name, *example;
+    unsigned allowed, needed;
+} shapes[] = {
+    {"pyramid", "pyramid:half-angle=35deg,radius=20nm",
+     1u << HALF_ANGLE | 1u << RADIUS | 1u << SIDES | 1u << TRANSITION,
+     1u << HALF_ANGLE | 1u << RADIUS},
+    {"cone", "cone:half-angle=20deg", 1u << HALF_ANGLE | 1u << RADIUS | 1u << TRANSITION,
+     1u << HALF_ANGLE},
+    {"sphere", "sphere:radius=5um", 1u << RADIUS, 1u << RADIUS},
+};
+enum { PYRAMID, CONE, SPHERE, N_SHAPES };
+
+static void advise(wt_error *err, size_t shape)
+{
+    if (shape < N_SHAPES)
+        wt_error_advice(err, "write it like %s", shapes[shape].example);
+    else
+        wt_error_advice(err, "write it like %s, %s or %s", shapes[PYRAMID].example,
+                        shapes[CONE].example, shapes[SPHERE].example);
+}
+
+static wt_status tip_syntax(wt_error *err, size_t shape, const char *text, const char *expected,
+                            const char *found, size_t found_length)
+{
+    wt_status status = wt_fail(err, WT_E_ARG, "tip \"%s\" is not understood", text);
+    wt_error_expected(err, "%s", expected);
+    wt_error_found(err, "\"%.*s\"", (int)found_length, found);
+    advise(err, shape);
+    return status;
+}
+
+static wt_status parse_item(const char *text, size_t shape, const char *item, size_t length,
+                            double values[N_KEYS], unsigned *seen, wt_error *err)
+{
+    const char *equals = memchr(item, '=', length);
+    if (equals == NULL)
+        return tip_syntax(err, shape, text, "name=value", item, length);
+    size_t name_length = (size_t)(equals - item), key = 0;
+    while (key < N_KEYS && (strlen(keys[key].name) != name_length ||
+                            strncmp(keys[key].name, item, name_length) != 0))
+        key++;
+    if (key == N_KEYS || !(shapes[shape].allowed & 1u << key))
+        return tip_syntax(err, shape, text,
+                          shape == PYRAMID ? "half-angle, radius, sides or transition"
+                          : shape == CONE  ? "half-angle, radius or transition"
+                                           : "radius",
+                          item, name_length);
+    if (*seen & 1u << key)
+        return tip_syntax(err, shape, text, "every name once", item, length);
+    *seen |= 1u << key;
+
+    char value[64];
+    size_t value_length = length - name_length - 1;
+    if (value_length >= sizeof value)
+        return tip_syntax(err, shape, text, "a number with its unit", equals + 1, value_length);
+    memcpy(value, equals + 1, value_length);
+    value[value_length] = '\0';
+    wt_status status = wt_quantity_parse(value, keys[key].quantity, &values[key], err);
+    if (status != WT_OK)
+        wt_error_place(err, "tip \"%s\", %s", text, keys[key].name);
+    return status;
+}
+
+wt_status wt_tip_parse(const char *text, wt_tip *tip, wt_error *err)
+{
+    const char *colon = strchr(text, ':');
+    size_t name_length = colon != NULL ? (size_t)(colon - text) : strlen(text);
+    size_t shape = 0;
+    while (shape < N_SHAPES && (strlen(shapes[shape].name) != name_length ||
+                                strncmp(shapes[shape].name, text, name_length) != 0))
+        shape++;
+    if (shape == N_SHAPES)
+        return tip_syntax(err, shape, text, "pyramid, cone or sphere", text, name_length);
+
+    double values[N_KEYS] = {0.0};
+    unsigned seen = 0;
+    for (const char *item = colon != NULL ? colon + 1 : ""; *item != '\0';) {
+        size_t length = strcspn(item, ",");
+        wt_status status = parse_item(text, shape, item, length, values, &seen, err);
+        if (status != WT_OK)
+            return status;
+        item += length;
+        if (*item == ',')
+            item++;
+    }
+    unsigned missing = shapes[shape].needed & ~seen;
+    if (!(seen & 1u << RADIUS) && (seen & 1u << TRANSITION))
+        missing |= 1u << RADIUS; /* a transition without a cap */
+    for (size_t key = 0; key < N_KEYS; key++) {
+        if (missing & 1u << key) {
+            wt_status status =
+                wt_fail(err, WT_E_ARG, "tip \"%s\" lacks its %s", text, keys[key].name);
+            advise(err, shape);
+            return status;
+        }
+    }
+    if ((seen & 1u << SIDES) &&
+        !(values[SIDES] >= 3.0 && values[SIDES] <= 1e6 && floor(values[SIDES]) == values[SIDES])) {
+        wt_status status = wt_fail(err, WT_E_RANGE, "tip \"%s\": sides is not usable", text);
+        wt_error_expected(err, "a whole number of 3 or more");
+        wt_error_found(err, "%g", values[SIDES]);
+        return status;
+    }
+
+    wt_tip made = {.half_angle = values[HALF_ANGLE], .radius = values[RADIUS]};
+    if (shape == SPHERE) {
+        made.shape = WT_TIP_PARABOLOID;
+    } else if (shape == CONE && !(seen & 1u << RADIUS)) {
+        made.shape = WT_TIP_CONE;
+    } else {
+        made.shape = WT_TIP_BLUNTED_PYRAMID;
+        if (shape == PYRAMID)
+            made.sides = seen & 1u << SIDES ? (unsigned)values[SIDES] : 4;
+        made.transition_radius = seen & 1u << TRANSITION
+                                     ? values[TRANSITION]
+                                     : wt_tip_tangent_transition(made.radius, made.half_angle);
+    }
+    wt_status status = wt_tip_check(&made, err);
+    if (status != WT_OK) {
+        wt_error_place(err, "tip \"%s\"", text);
+        return status;
+    }
+    *tip = made;
+    return WT_OK;
+}
+
+size_t wt_tip_describe(const wt_tip *tip, char *buffer, size_t size)
+{
+    char radius[32], transition[32];
+    wt_format_si(tip->radius, "m", 4, radius, sizeof radius);
+    wt_format_si(tip->transition_radius, "m", 4, transition, sizeof transition);
+    double angle = tip->half_angle * 180.0 / M_PI;
+    int length = 0;
+    if (tip->shape == WT_TIP_PARABOLOID)
+        length = snprintf(buffer, size, "sphere (paraboloid), radius %s", radius);
+    else if (tip->shape == WT_TIP_CONE)
+        length = snprintf(buffer, size, "cone, half-angle %.4g degrees", angle);
+    else if (tip->sides == 0)
+        length = snprintf(buffer, size,
+                          "blunted cone, half-angle %.4g degrees, cap radius %s, transition radius "
+                          "b %s",
+                          angle, radius, transition);
+    else
+        length = snprintf(buffer, size,
+                          "blunted pyramid, %u sides, half-angle %.4g degrees from the axis to a "
+                          "face, cap radius %s, transition radius b %s",
+                          tip->sides, angle, radius, transition);
+    return length > 0 ? (size_t)length : 0;
+}
