@@ -34,18 +34,22 @@ WT_API double wt_tip_tangent_transition(double radius, double half_angle);
  * transition radius that makes the cap concave: b/R > m cot(theta). */
 WT_API wt_status wt_tip_check(const wt_tip *tip, wt_error *err) WT_NODISCARD;
 /* "pyramid:half-angle=35deg,radius=20nm[,sides=4][,transition=12nm]", "sphere:radius=5um",
- * "cone:half-angle=20deg". */
+ * "cone:half-angle=20deg[,radius=20nm][,transition=12nm]" (a blunted cone with a radius). The
+ * transition radius is the tangent one unless given; transition=0nm is a sharp pyramid. WT_E_ARG or
+ * WT_E_UNIT for the spelling, else as wt_tip_check. `tip` is unchanged on failure. */
 WT_API wt_status wt_tip_parse(const char *text, wt_tip *tip, wt_error *err) WT_NODISCARD;
-/* The tip in words with all its numbers, b included; returns the length as snprintf does. */
+/* The tip in words with all its numbers, b included; returns the length as snprintf does. `tip`
+ * must have passed wt_tip_check. */
 WT_API size_t wt_tip_describe(const wt_tip *tip, char *buffer, size_t size);
 
 /* G(delta) [m^2] and dG/ddelta = 2a [m] for delta >= 0 (0 and 0 for delta <= 0). Rico et al.,
  * Phys. Rev. E 72 (2005) 021914, in the cancellation-free form. Relative error below 1e-12. */
 WT_API void wt_contact_function(const wt_tip *tip, double delta, double *g, double *slope);
 
-/* ln G against ln delta with exact slopes (cubic Hermite), made once for a tip and shared by all
- * curves and threads. Relative error below 1e-11 in [delta_min, delta_max], the direct function
- * outside. */
+/* G and its slope made ready for millions of calls, once for a tip and shared by all curves and
+ * threads: piecewise quintic beyond the switch depth b^2/R, exact formula elsewhere. Relative error
+ * below 1e-11 in [delta_min, delta_max]; outside, the direct function. WT_E_RANGE as wt_tip_check,
+ * and unless 0 < delta_min < delta_max. */
 typedef struct wt_contact_table wt_contact_table;
 WT_API wt_status wt_contact_table_new(const wt_tip *tip, double delta_min, double delta_max,
                                       wt_contact_table **table, wt_error *err) WT_NODISCARD;

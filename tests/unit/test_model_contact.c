@@ -12,8 +12,8 @@ static const double degree = M_PI / 180.0;
 static wt_tip pyramid(unsigned sides, double degrees, double radius, double transition)
 {
     return (wt_tip){WT_TIP_BLUNTED_PYRAMID, sides, degrees * degree, radius,
-                    transition >= 0.0 ? transition
-                                      : wt_tip_tangent_transition(radius, degrees * degree)};
+                    transition < 0.0 ? wt_tip_tangent_transition(radius, degrees * degree)
+                                     : transition};
 }
 
 /* The smooth cap: b = R m cot(theta). */
@@ -79,24 +79,18 @@ static void shared_reference(void **state)
     int n = 0;
     while (fgets(line, sizeof line, in) != NULL) {
         unsigned sides = 0;
-        double degrees, radius, b, ratio, delta, a, force, stiffness;
-        char rule;
-        if (sscanf(line, "%u,%lf,%lf,%c,%lf,%lf,%lf,%lf,%lf,%lf", &sides, &degrees, &radius, &rule,
-                   &b, &ratio, &delta, &a, &force, &stiffness) != 10)
+        double degrees, radius, b, delta, a, force, stiffness;
+        char rule[32], ratio[32];
+        if (sscanf(line, "%u,%lf,%lf,%31[^,],%lf,%31[^,],%lf,%lf,%lf,%lf", &sides, &degrees,
+                   &radius, rule, &b, ratio, &delta, &a, &force, &stiffness) != 10)
             continue;
         wt_tip tip = pyramid(sides, degrees, radius, b);
-        /* Geometries with a concave cap have no place here. */
-        wt_error err = WT_ERROR_INIT;
-        if (wt_tip_check(&tip, &err) != WT_OK) {
-            print_message("left out: %s", line);
-            continue;
-        }
         const double reduced = 1e6 / 0.75;
         check_point(&tip, delta, force / reduced, stiffness / reduced);
         n++;
     }
     fclose(in);
-    assert_true(n > 800);
+    assert_int_equal(n, 924);
 }
 
 static void sharp_limits(void **state)
@@ -190,8 +184,8 @@ static void no_contact_and_not_a_number(void **state)
     for (size_t i = 0; i < 4; i++) {
         double g1 = 1.0, slope1 = 1.0;
         wt_contact_function(&tip, delta[i], &g1, &slope1);
-        assert_near(g1, i < 3 ? 0.0 : NAN, 0.0);
-        assert_near(slope1, i < 3 ? 0.0 : NAN, 0.0);
+        assert_near(g1, i < 3 ? 0.0 : (double)NAN, 0.0);
+        assert_near(slope1, i < 3 ? 0.0 : (double)NAN, 0.0);
         assert_near(g[i], g1, 0.0);
         assert_near(slope[i], slope1, 0.0);
     }
