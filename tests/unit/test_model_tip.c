@@ -1,0 +1,133 @@
+/* Tips as text: what is understood, what is refused and in which words, the description. */
+#include "near.h"
+
+#include "weartrack/model.h"
+
+#include <string.h>
+
+static const double degree = M_PI / 180.0;
+
+static wt_tip parsed(const char *text)
+{
+    wt_tip tip = {.radius = NAN};
+    wt_error err = WT_ERROR_INIT;
+    if (wt_tip_parse(text, &tip, &err) != WT_OK)
+        fail_msg("%s: %s; %s; %s", text, err.message, err.expected, err.advice);
+    return tip;
+}
+
+static void understood(void **state)
+{
+    (void)state;
+    wt_tip tip = parsed("pyramid:half-angle=35deg,radius=20nm");
+    assert_int_equal(tip.shape, WT_TIP_BLUNTED_PYRAMID);
+    assert_int_equal(tip.sides, 4);
+    assert_near(tip.half_angle, 35 * degree, 1e-14);
+    assert_near(tip.radius, 20e-9, 1e-14);
+    assert_near(tip.transition_radius, 20e-9 * cos(35 * degree), 1e-14);
+
+    tip = parsed("pyramid:sides=3,transition=12 nm,radius=0.02um,half-angle=0.314159 rad");
+    assert_int_equal(tip.sides, 3);
+    assert_near(tip.half_angle, 0.314159, 1e-14);
+    assert_near(tip.radius, 20e-9, 1e-14);
+    assert_near(tip.transition_radius, 12e-9, 1e-14);
+
+    tip = parsed("pyramid:half-angle=17.5deg,radius=8nm,transition=0nm");
+    assert_near(tip.transition_radius, 0.0, 0.0);
+
+    tip = parsed("sphere:radius=5um");
+    assert_int_equal(tip.shape, WT_TIP_PARABOLOID);
+    assert_near(tip.radius, 5e-6, 1e-14);
+
+    tip = parsed("cone:half-angle=20deg");
+    assert_int_equal(tip.shape, WT_TIP_CONE);
+    assert_near(tip.half_angle, 20 * degree, 1e-14);
+
+    tip = parsed("cone:half-angle=20deg,radius=10nm");
+    assert_int_equal(tip.shape, WT_TIP_BLUNTED_PYRAMID);
+    assert_int_equal(tip.sides, 0);
+    assert_near(tip.transition_radius, 10e-9 * cos(20 * degree), 1e-14);
+}
+
+static void refused_in_clear_words(void **state)
+{
+    (void)state;
+    const struct {
+        const char *text;
+        wt_status status;
+        const char *words; /* somewhere in the message */
+    } cases[] = {
+        {"", WT_E_ARG, "pyramid, cone or sphere"},
+        {"cube:radius=5um", WT_E_ARG, "pyramid, cone or sphere"},
+        {"pyramids:radius=5um", WT_E_ARG, "pyramid, cone or sphere"},
+        {"pyramid", WT_E_ARG, "lacks its half-angle"},
+        {"pyramid:", WT_E_ARG, "lacks its half-angle"},
+        {"pyramid:half-angle=35deg", WT_E_ARG, "pyramid:half-angle=35deg,radius=20nm"},
+        {"pyramid:half-angle=35deg,radius", WT_E_ARG, "name=value"},
+        {"pyramid:half-angle=35deg,,radius=20nm", WT_E_ARG, "name=value"},
+        {"pyramid:half-angle=35deg,radius=20nm,height=5um", WT_E_ARG, "height"},
+        {"pyramid:half-angle=35deg,radius=20nm,radius=30nm", WT_E_ARG, "every name once"},
+        {"sphere:radius=5um,half-angle=35deg", WT_E_ARG, "half-angle"},
+        {"sphere:half-angle=35deg", WT_E_ARG, "sphere:radius=5um"},
+        {"cone:half-angle=20deg,transition=5nm", WT_E_ARG, "lacks its radius"},
+        {"pyramid:half-angle=35,radius=20nm", WT_E_UNIT, "half-angle"},
+        {"pyramid:half-angle=35deg,radius=20", WT_E_UNIT, "radius"},
+        {"pyramid:half-angle=35deg,radius=20deg", WT_E_UNIT, "radius"},
+        {"pyramid:half-angle=35deg,radius=20nm,sides=3.5", WT_E_RANGE, "whole number"},
+        {"pyramid:half-angle=35deg,radius=20nm,sides=2", WT_E_RANGE, "3 or more"},
+        {"pyramid:half-angle=35deg,radius=20nm,sides=-4", WT_E_RANGE, "3 or more"},
+        {"pyramid:half-angle=65deg,radius=20nm", WT_E_RANGE, "concave"},
+        {"pyramid:half-angle=95deg,radius=20nm", WT_E_RANGE, "between 0 and 90"},
+        {"sphere:radius=-5um", WT_E_RANGE, "above 0"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        wt_tip tip = {.radius = 1.0};
+        wt_error err = WT_ERROR_INIT;
+        wt_status status = wt_tip_parse(cases[i].text, &tip, &err);
+        char words[2048];
+        wt_error_format(&err, words, sizeof words);
+        if (status != cases[i].status || strstr(words, cases[i].words) == NULL)
+            fail_msg("%s: %s: %s", cases[i].text, wt_status_name(status), words);
+        assert_near(tip.radius, 1.0, 0.0); /* unchanged */
+        assert_int_equal(wt_tip_parse(cases[i].text, &tip, NULL), status);
+    }
+    /* A value that is too long for any number. */
+    char text[400] = "sphere:radius=";
+    memset(text + strlen(text), '1', 300);
+    wt_tip tip;
+    assert_int_equal(wt_tip_parse(text, &tip, NULL), WT_E_ARG);
+}
+
+static void described_with_all_numbers(void **state)
+{
+    (void)state;
+    const struct {
+        const char *text, *words[4];
+    } cases[] = {
+        {"pyramid:half-angle=35deg,radius=20nm", {"4 sides", "35 deg", "20.00 nm", "16.38 nm"}},
+        {"cone:half-angle=20deg,radius=10nm", {"cone", "20 deg", "10.00 nm", "9.397 nm"}},
+        {"cone:half-angle=20deg", {"cone", "20 deg", "", ""}},
+        {"sphere:radius=5um", {"sphere", "5.000 ", "", ""}},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        wt_tip tip = parsed(cases[i].text);
+        char words[256], few[10];
+        size_t length = wt_tip_describe(&tip, words, sizeof words);
+        assert_int_equal(length, strlen(words));
+        for (size_t k = 0; k < 4; k++)
+            if (strstr(words, cases[i].words[k]) == NULL)
+                fail_msg("\"%s\" lacks \"%s\"", words, cases[i].words[k]);
+        assert_int_equal(wt_tip_describe(&tip, few, sizeof few), length);
+        assert_int_equal(strlen(few), sizeof few - 1);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(understood),
+        cmocka_unit_test(refused_in_clear_words),
+        cmocka_unit_test(described_with_all_numbers),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
