@@ -75,6 +75,21 @@ bool wt_number_parse(const char *text, size_t length, char decimal, double *valu
     return true;
 }
 
+bool wt_number_read(const char *text, size_t length, double *value)
+{
+    static const struct {
+        const char *text;
+        double value;
+    } special[] = {{"nan", (double)NAN}, {"inf", (double)INFINITY}, {"-inf", -(double)INFINITY}};
+    for (size_t i = 0; i < sizeof special / sizeof *special; i++) {
+        if (length == strlen(special[i].text) && memcmp(text, special[i].text, length) == 0) {
+            *value = special[i].value;
+            return true;
+        }
+    }
+    return wt_number_parse(text, length, '.', value);
+}
+
 /* "1e-05" to "1e-5", "1e+20" to "1e20". */
 static size_t shorten_exponent(char *text, size_t length)
 {

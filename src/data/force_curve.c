@@ -1,0 +1,122 @@
+/* Force curves, whose memory is used again from curve to curve.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "weartrack/data.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+const char *wt_segment_kind_name(wt_segment_kind kind)
+{
+    switch (kind) {
+    case WT_SEGMENT_APPROACH:
+        return "approach";
+    case WT_SEGMENT_RETRACT:
+        return "retract";
+    case WT_SEGMENT_DWELL:
+        return "dwell";
+    case WT_SEGMENT_MODULATION:
+        return "modulation";
+    case WT_SEGMENT_OTHER:
+        break;
+    }
+    return "other";
+}
+
+static void free_channels(wt_segment *segment, size_t from)
+{
+    for (size_t i = from; i < segment->n_channels; i++)
+        free(segment->channels[i].values);
+    if (segment->n_channels > from)
+        segment->n_channels = from;
+}
+
+void wt_force_curve_clear(wt_force_curve *curve)
+{
+    if (curve == NULL)
+        return;
+    for (size_t i = 0; i < curve->capacity; i++) {
+        free_channels(&curve->segments[i], 0);
+        free(curve->segments[i].channels);
+    }
+    free(curve->segments);
+    *curve = (wt_force_curve){0};
+}
+
+void wt_force_curve_reset(wt_force_curve *curve)
+{
+    curve->index = 0;
+    curve->x = curve->y = (double)NAN;
+    curve->grid_x = curve->grid_y = -1;
+    curve->cantilever = (wt_cantilever){(double)NAN, (double)NAN, false, false};
+    curve->n_segments = 0;
+}
+
+/* A segment beyond n_segments keeps its arrays, so that the next curve only resizes them. */
+static bool fit_channels(wt_segment *segment, size_t n_points, size_t n_channels)
+{
+    if (n_points > SIZE_MAX / sizeof(double) || n_channels > SIZE_MAX / sizeof(wt_channel))
+        return false;
+    free_channels(segment, n_channels);
+    if (n_channels > segment->n_channels || segment->channels == NULL) {
+        const size_t n = n_channels > 0 ? n_channels : 1;
+        wt_channel *const channels = realloc(segment->channels, n * sizeof *channels);
+        if (channels == NULL)
+            return false;
+        segment->channels = channels;
+        memset(channels + segment->n_channels, 0, (n - segment->n_channels) * sizeof *channels);
+        segment->n_channels = n_channels;
+    }
+    for (size_t i = 0; i < n_channels; i++) {
+        wt_channel *const channel = &segment->channels[i];
+        double *const values =
+            realloc(channel->values, (n_points > 0 ? n_points : 1) * sizeof *values);
+        if (values == NULL)
+            return false;
+        *channel = (wt_channel){.quantity = WT_Q_NONE, .values = values};
+    }
+    return true;
+}
+
+wt_segment *wt_force_curve_add_segment(wt_force_curve *curve, wt_segment_kind kind, size_t n_points,
+                                       size_t n_channels)
+{
+    if (curve->n_segments == curve->capacity) {
+        const size_t capacity = curve->capacity > 0 ? 2 * curve->capacity : 4;
+        if (capacity > SIZE_MAX / sizeof(wt_segment))
+            return NULL;
+        wt_segment *const segments = realloc(curve->segments, capacity * sizeof *segments);
+        if (segments == NULL)
+            return NULL;
+        memset(segments + curve->capacity, 0, (capacity - curve->capacity) * sizeof *segments);
+        curve->segments = segments;
+        curve->capacity = capacity;
+    }
+    wt_segment *const segment = &curve->segments[curve->n_segments];
+    if (!fit_channels(segment, n_points, n_channels))
+        return NULL;
+    segment->kind = kind;
+    segment->index = curve->n_segments;
+    segment->n_points = n_points;
+    segment->duration = segment->setpoint = segment->velocity = (double)NAN;
+    curve->n_segments++;
+    return segment;
+}
+
+const wt_channel *wt_segment_channel(const wt_segment *segment, wt_quantity quantity)
+{
+    for (size_t i = 0; i < segment->n_channels; i++) {
+        if (segment->channels[i].quantity == quantity)
+            return &segment->channels[i];
+    }
+    return NULL;
+}
+
+const wt_segment *wt_force_curve_segment(const wt_force_curve *curve, wt_segment_kind kind)
+{
+    for (size_t i = 0; i < curve->n_segments; i++) {
+        if (curve->segments[i].kind == kind)
+            return &curve->segments[i];
+    }
+    return NULL;
+}

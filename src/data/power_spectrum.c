@@ -1,0 +1,13 @@
+/* Power spectra. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "weartrack/data.h"
+
+#include <stdlib.h>
+
+void wt_power_spectrum_clear(wt_power_spectrum *spectrum)
+{
+    if (spectrum == NULL)
+        return;
+    free(spectrum->wavenumber);
+    free(spectrum->density);
+    *spectrum = (wt_power_spectrum){0};
+}

@@ -1,0 +1,33 @@
+/* Prony series. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "weartrack/data.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+void wt_prony_clear(wt_prony *prony)
+{
+    if (prony == NULL)
+        return;
+    free(prony->relaxation_time);
+    free(prony->modulus);
+    *prony = (wt_prony){0};
+}
+
+wt_status wt_prony_alloc(wt_prony *prony, size_t n, wt_error *err)
+{
+    double *const relaxation_time = calloc(n > 0 ? n : 1, sizeof *relaxation_time);
+    double *const modulus = calloc(n > 0 ? n : 1, sizeof *modulus);
+    if (relaxation_time == NULL || modulus == NULL) {
+        free(relaxation_time);
+        free(modulus);
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    }
+    *prony = (wt_prony){.deformation = WT_TENSION,
+                        .reference_temperature = (double)NAN,
+                        .n = n,
+                        .relaxation_time = relaxation_time,
+                        .modulus = modulus,
+                        .frequency_min = (double)NAN,
+                        .frequency_max = (double)NAN};
+    return WT_OK;
+}

@@ -1,0 +1,40 @@
+/* What a table is made of, and the rules for its names. SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#ifndef WT_DATA_TABLE_H
+#define WT_DATA_TABLE_H
+
+#include "weartrack/data.h"
+
+typedef struct table_column {
+    wt_column_kind kind;
+    char *name, *unit, *long_name;
+    double *numbers; /* [capacity] of a number column */
+    char **texts;    /* [capacity] of a text column; NULL stands for "" */
+} table_column;
+
+typedef struct table_key {
+    char *name;
+    char *text;         /* one line; of an estimate as estimate_text writes it */
+    bool is_estimate;   /* the text is that of an estimate, */
+    wt_estimate parsed; /* which is this one; its unit points into `unit` */
+    char *unit;
+} table_key;
+
+struct wt_table {
+    char *name, *title;
+    table_column *columns;
+    size_t n_columns;
+    size_t n_rows, capacity; /* of every column */
+    size_t *blocks;          /* first row of every block */
+    size_t n_blocks, blocks_capacity;
+    table_key *keys;
+    size_t n_keys, keys_capacity;
+};
+
+/* Parts of [a-z0-9_]+ joined by '/'. */
+bool wt_table_name_is_valid(const char *name);
+/* [A-Za-z0-9_]+ */
+bool wt_table_word_is_valid(const char *word);
+void wt_table_free_keys(wt_table *table);
+
+#endif
