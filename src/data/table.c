@@ -99,6 +99,8 @@ static wt_status add_column(wt_table *table, wt_column_kind kind, const char *na
     if (table->n_rows > 0)
         return wt_fail(err, WT_E_ARG, "column \"%s\" added to table \"%s\" after its rows", name,
                        table->name);
+    if (table->n_columns >= TABLE_COLUMNS_MAX)
+        return wt_fail(err, WT_E_ARG, "more than %d columns", (int)TABLE_COLUMNS_MAX);
     if (!wt_table_word_is_valid(name) || strcmp(name, "block") == 0) {
         (void)wt_fail(err, WT_E_ARG, "not a name for a column");
         wt_error_expected(err, "letters, digits and '_', but not \"block\"");

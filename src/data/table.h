@@ -5,6 +5,9 @@
 
 #include "weartrack/data.h"
 
+/* More than any table has: names are searched one by one, and a file is not to be trusted. */
+enum { TABLE_COLUMNS_MAX = 4096, TABLE_KEYS_MAX = 4096 };
+
 typedef struct table_column {
     wt_column_kind kind;
     char *name, *unit, *long_name;

@@ -127,6 +127,10 @@ static wt_status set_key(wt_table *table, const char *name, char *text, wt_error
     key.parsed.unit = key.unit;
     table_key *place = find_key(table, name);
     if (place == NULL) {
+        if (table->n_keys >= TABLE_KEYS_MAX) {
+            status = wt_fail(err, WT_E_ARG, "more than %d keys", (int)TABLE_KEYS_MAX);
+            goto done;
+        }
         if (table->n_keys == table->keys_capacity) {
             const size_t capacity = table->keys_capacity > 0 ? 2 * table->keys_capacity : 8;
             table_key *const keys = realloc(table->keys, capacity * sizeof *keys);
