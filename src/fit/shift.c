@@ -12,9 +12,13 @@
 /* An isotherm this close to the reference temperature is the reference [K]: what thermometers and
  * chambers agree to. */
 static const double same_temperature = 0.1;
-/* A shift with a larger error, or one tied so closely to the vertical shift, is not determined. */
+/* A shift with a larger error is not determined; nor is one tied to the vertical shift (a larger
+ * correlation) on so small a slope that a vertical error moves it by more than that. */
 static const double largest_sigma = 0.2; /* decade */
 static const double largest_correlation = 0.95;
+
+/* What a vertical shift is off by through sample geometry and clamping [decade], 5 %. */
+static const double vertical_error = 0.02;
 
 enum { NEIGHBOURS = 3 };
 
@@ -152,8 +156,13 @@ static void judge(wt_shift_work *work)
             continue;
         else if (!(sigma <= largest_sigma))
             work->verdict[i] = WT_SHIFT_NO_SLOPE;
-        else if (!(fabs(work->correlation[i]) <= largest_correlation))
-            work->verdict[i] = WT_SHIFT_COLLINEAR;
+        else if (fabs(work->correlation[i]) > largest_correlation) {
+            /* Along the valley of equally good fits a changes by this much per decade of b. */
+            const double tie = fabs(work->correlation[i]) * sigma / work->sigma_b[i];
+            work->tied[i] = vertical_error * tie;
+            if (!(work->tied[i] <= largest_sigma))
+                work->verdict[i] = WT_SHIFT_COLLINEAR;
+        }
     }
 }
 
@@ -181,10 +190,22 @@ static wt_status out_of_range(const wt_shift_work *work, wt_error *err)
     return status;
 }
 
+/* Variance of log aT that the law gives for a temperature, from the errors of its constants. */
+static double variance_of_law(const wt_wlf_fit *fit, double temperature)
+{
+    const double rise = temperature - fit->wlf.reference_temperature;
+    const double by_c1 = -rise / (fit->wlf.c2 + rise);
+    const double by_c2 = -by_c1 * fit->wlf.c1 / (fit->wlf.c2 + rise);
+    if (fit->straight)
+        return rise * rise * fit->slope_error * fit->slope_error;
+    const double s1 = by_c1 * fit->c1_error, s2 = by_c2 * fit->c2_error;
+    return s1 * s1 + s2 * s2 + 2.0 * fit->correlation * s1 * s2;
+}
+
 /* Value of the law at the reference temperature, relative to the anchor, with the weight of each
  * isotherm in it: WLF for the shape, the two neighbours' residuals from it for the place. */
 static wt_status offset_of_reference(wt_shift_work *work, double *offset, double *weight,
-                                     wt_error *err)
+                                     double *law_variance, wt_error *err)
 {
     const size_t n = work->set.n;
     double *temperature = work->scratch, *log_a = temperature + n, *covariance = log_a + n;
@@ -208,9 +229,14 @@ static wt_status offset_of_reference(wt_shift_work *work, double *offset, double
                           work->options.floor, &fit, NULL) == WT_OK;
     if (!inside && !law)
         return out_of_range(work, err);
+    *law_variance = 0.0;
     if (!inside) {
-        weight[below < n ? below : above] = 1.0;
+        const size_t end = below < n ? below : above;
+        weight[end] = 1.0;
         work->extrapolated = true;
+        *law_variance = variance_of_law(&fit, work->set.curves[end].temperature);
+        if (!(sqrt(*law_variance) <= largest_sigma))
+            return out_of_range(work, err);
     } else {
         const double t0 = work->set.curves[below].temperature;
         const double t1 = work->set.curves[above].temperature;
@@ -230,12 +256,12 @@ static wt_status offset_of_reference(wt_shift_work *work, double *offset, double
 static wt_status move_reference(wt_shift_work *work, wt_error *err)
 {
     const size_t n = work->set.n;
-    double offset = NAN, offset_b = 0.0, variance = 0.0;
+    double offset = NAN, law_variance = 0.0, offset_b = 0.0, variance = 0.0;
     double *weight = calloc(2 * n, sizeof *weight);
     if (weight == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for the reference temperature");
     double *shared = weight + n; /* covariance of a curve with the offset */
-    wt_status status = offset_of_reference(work, &offset, weight, err);
+    wt_status status = offset_of_reference(work, &offset, weight, &law_variance, err);
     if (status != WT_OK)
         goto done;
     for (size_t i = 0; i < n; i++)
@@ -243,6 +269,7 @@ static wt_status move_reference(wt_shift_work *work, wt_error *err)
             shared[i] += weight[k] * work->covariance[i * n + k];
     for (size_t i = 0; i < n; i++)
         variance += weight[i] * shared[i];
+    variance += law_variance;
     for (size_t i = 0; i < n; i++) {
         work->a[i] -= offset;
         for (size_t k = 0; k < n; k++)
@@ -264,7 +291,7 @@ done:
 static wt_status work_alloc(wt_shift_work *work, wt_error *err)
 {
     const size_t n = work->set.n;
-    work->numbers = calloc(7 * n + 2 * n * n + 2 * n, sizeof *work->numbers);
+    work->numbers = calloc(10 * n + 2 * n * n, sizeof *work->numbers);
     work->placed = calloc(n, sizeof *work->placed);
     work->verdict = calloc(n, sizeof *work->verdict);
     work->n_outliers = calloc(n, sizeof *work->n_outliers);
@@ -278,7 +305,8 @@ static wt_status work_alloc(wt_shift_work *work, wt_error *err)
     work->physical = work->correlation + n;
     for (int q = 0; q < WT_MODULI; q++)
         work->overlap[q] = work->physical + (size_t)(q + 1) * n;
-    work->covariance = work->physical + 3 * n;
+    work->tied = work->physical + 3 * n;
+    work->covariance = work->tied + n;
     work->scratch = work->covariance + n * n;
     return WT_OK;
 }

@@ -6,6 +6,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* The two moduli disagree if their shifts are this many standard errors apart on average, and
+ * somewhere by more than what counts as determined [decade]. */
+static const double many_errors = 2.5;
+static const double large_difference = 0.2;
+
 /* Shifts of one modulus alone; a, covariance: [n], [n * n] out. */
 static wt_status fit_alone(const wt_shift_joint *joint, int q, double *a, double *b,
                            double *covariance, double *scratch, wt_error *err)
@@ -53,6 +58,7 @@ wt_status wt_shift_superposition(const wt_shift_joint *joint, double floor,
     }
     if (made.n > 0)
         made.normalised = sqrt(square / (double)made.n);
+    made.failed = made.normalised > many_errors && made.largest > large_difference;
     *result = made;
     free(numbers);
     return status;

@@ -20,6 +20,8 @@
 static const double prior_spread = 3.0;
 /* Residuals beyond this many robust standard deviations lose weight (Huber). */
 static const double huber_limit = 3.0;
+/* Weight below which a point is named as an outlier: twice the limit. */
+static const double outlier_weight = 0.5;
 
 enum { MAX_ITERATIONS = 100, REWEIGHTINGS = 3 };
 
@@ -231,8 +233,9 @@ static wt_status minimise(struct joint *j, wt_pspline spline[WT_MODULI], wt_erro
             largest = fmax(largest, fabs(j->trial[u] - j->value[u]));
         memcpy(j->value, j->trial, j->n_unknowns * sizeof *j->value);
         j->task->last_step = largest;
-        /* A shift is read to a thousandth of a decade; a hundredth of that is done. */
-        if (largest < 1e-5)
+        /* Done when no shift moves by a hundredth of what one reads, or when the gain is nothing
+         * beside the noise (one standard error is a gain of objective / n_points). */
+        if (largest < 1e-5 || objective - next < 1e-3 * objective / (double)j->n_points)
             moved = false;
         objective = next;
         damping = fmax(damping, 1e-9);
@@ -442,8 +445,8 @@ static void count_outliers(struct joint *j)
     for (size_t i = 0; i < j->task->set->n; i++)
         j->task->n_outliers[i] = 0;
     for (size_t k = 0; k < j->n_points; k++)
-        if ((j->task->use[WT_STORAGE] && j->weight[WT_STORAGE][k] < 1.0) ||
-            (j->task->use[WT_LOSS] && j->weight[WT_LOSS][k] < 1.0))
+        if ((j->task->use[WT_STORAGE] && j->weight[WT_STORAGE][k] < outlier_weight) ||
+            (j->task->use[WT_LOSS] && j->weight[WT_LOSS][k] < outlier_weight))
             j->task->n_outliers[j->points[k].curve]++;
 }
 

@@ -57,9 +57,7 @@ static void note_verdict(const wt_shift_work *work, size_t i, wt_shift *shift)
         append(note, sizeof shift->note, "only %zu points", work->set.curves[i].n);
         break;
     case WT_SHIFT_NO_OVERLAP:
-        append(note, sizeof shift->note,
-               "no overlap with its neighbours: temperature step too "
-               "large for the frequency range");
+        append(note, sizeof shift->note, "no overlap with its neighbours");
         break;
     case WT_SHIFT_NO_SLOPE:
         append(note, sizeof shift->note, "no slope decides: error of log aT %.2g decade", sigma);
@@ -76,12 +74,14 @@ static void note_oddities(const wt_shift_work *work, size_t i, wt_shift *shift)
 {
     const wt_shift_curve *curve = &work->set.curves[i];
     char *note = shift->note;
+    if (shift->determined && work->tied[i] > 0.0)
+        append(note, sizeof shift->note,
+               "tied to log bT (correlation %.3f): 0.02 of it is %.2f of log aT",
+               work->correlation[i], work->tied[i]);
     if (shift->determined && fabs(work->b[i] - work->physical[i]) > odd_vertical &&
         work->options.vertical == WT_VERTICAL_FREE)
-        append(note, sizeof shift->note,
-               "vertical shift %+.3f, rho T gives %+.3f: compliance, "
-               "filler or strain?",
-               work->b[i], work->physical[i]);
+        append(note, sizeof shift->note, "log bT %+.3f where rho T gives %+.3f", work->b[i],
+               work->physical[i]);
     if (curve->n_left_out > 0)
         append(note, sizeof shift->note, "%zu points without positive modulus left out",
                curve->n_left_out);
@@ -165,8 +165,9 @@ static wt_status fill_shifts(const wt_shift_work *work, wt_master_curve *master,
             shift->log_b.numerical_error = 0.0;
         }
         for (size_t k = 0; k < n; k++)
-            master->covariance[i * n + k] =
-                good && work->verdict[k] == WT_SHIFT_GOOD ? work->covariance[i * n + k] : (double)NAN;
+            master->covariance[i * n + k] = good && work->verdict[k] == WT_SHIFT_GOOD
+                                                ? work->covariance[i * n + k]
+                                                : (double)NAN;
         shift->overlap_storage = work->overlap[WT_STORAGE][i];
         shift->overlap_loss = work->overlap[WT_LOSS][i];
         shift->log_b_physical = work->physical[i];
@@ -216,8 +217,9 @@ static void note_whole(const wt_shift_work *work, wt_master_curve *master, wt_pa
     const wt_superposition *superposition = &work->superposition;
     if (master->superposition_failed) {
         append(master->note, sizeof master->note,
-               "superposition fails: E' and E'' ask for shifts up to %.2g decades apart",
-               superposition->largest);
+               "superposition fails: E' and E'' ask for shifts up to %.2g decades apart%s",
+               superposition->largest,
+               work->options.vertical == WT_VERTICAL_FREE ? "" : " (try a free vertical shift)");
         wt_parselog_add(log, WT_WARNING, NULL, NULL,
                         "time-temperature superposition fails: the shifts of storage and loss "
                         "modulus differ by up to %.2g decades, %.2g times their errors",

@@ -30,8 +30,9 @@ typedef struct wt_shift_work {
     double *correlation;        /* [n] */
     double *physical;           /* [n] log b of rho T */
     double *overlap[WT_MODULI]; /* [n] */
-    double *covariance;         /* [n * n] of a */
-    double *scratch;            /* [n * n + 2 n] */
+    double *tied; /* [n] what an error of b moves a by, 0 unless they are collinear [decade] */
+    double *covariance; /* [n * n] of a */
+    double *scratch;    /* [n * n + 2 n] */
     double rms[WT_MODULI];
     double last_step;
     wt_superposition superposition;

@@ -110,8 +110,8 @@ static double refine(struct pair *pair, double a, double step, gsl_min_fminimize
     return gsl_min_fminimizer_x_minimum(minimiser);
 }
 
-/* Shared range of ordinates, and whether it is enough: a twentieth of a decade, or half of the
- * flatter curve (a plateau has no more to give). */
+/* Shared range of ordinates, and whether it is enough: a twentieth of a decade, or a quarter
+ * of the flatter curve (a plateau has no more to give). */
 static bool ordinates_overlap(const wt_shift_curve *p, const wt_shift_curve *s, int q,
                               double *shared)
 {
@@ -126,7 +126,7 @@ static bool ordinates_overlap(const wt_shift_curve *p, const wt_shift_curve *s, 
     }
     *shared = fmax(fmin(high[0], high[1]) - fmax(low[0], low[1]), 0.0);
     const double flatter = fmin(high[0] - low[0], high[1] - low[1]);
-    return *shared >= fmin(least_overlap, 0.5 * flatter) && *shared > 0.0;
+    return *shared >= fmin(least_overlap, 0.25 * flatter) && *shared > 0.0;
 }
 
 wt_status wt_shift_pair_fit(const wt_shift_curve *p, const wt_shift_curve *s, bool free_b,

@@ -12,12 +12,19 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Unknowns: c1 = exp(q), c2 = lead + exp(p), offset. `lead` is the distance from the coldest
- * isotherm to the reference, so the pole stays below all data whatever p is. */
+/* Unknowns: c1 = exp(q), c2 = lead + farthest/(1 + exp(-p)), offset. `lead` is the distance from
+ * the coldest isotherm to the reference, so the pole stays below all data whatever p is. */
 enum { Q, P, OFFSET, N_WLF };
 
 /* Beyond this c2 the law is a straight line over any measurable range [K]. */
 static const double straight_c2 = 1000.0;
+/* Largest distance of the pole below the coldest isotherm [K]: straight to 1 % over 100 K. */
+static const double farthest = 1e4;
+
+static double above_pole_of(double p)
+{
+    return farthest / (1.0 + exp(-p));
+}
 
 struct problem {
     size_t n;
@@ -74,7 +81,7 @@ static int residuals(const gsl_vector *unknown, void *parameters, gsl_vector *f)
 {
     const struct problem *problem = parameters;
     const double c1 = exp(gsl_vector_get(unknown, Q));
-    const double c2 = problem->lead + exp(gsl_vector_get(unknown, P));
+    const double c2 = problem->lead + above_pole_of(gsl_vector_get(unknown, P));
     for (size_t i = 0; i < problem->n; i++) {
         const double rise = problem->temperature[i] - problem->reference;
         gsl_vector_set(
@@ -88,13 +95,14 @@ static int jacobian(const gsl_vector *unknown, void *parameters, gsl_matrix *der
 {
     const struct problem *problem = parameters;
     const double c1 = exp(gsl_vector_get(unknown, Q));
-    const double above = exp(gsl_vector_get(unknown, P)); /* of the pole, coldest isotherm */
+    const double above = above_pole_of(gsl_vector_get(unknown, P));
+    const double slope = above * (1.0 - above / farthest); /* d c2 / d p */
     const double c2 = problem->lead + above;
     for (size_t i = 0; i < problem->n; i++) {
         const double rise = problem->temperature[i] - problem->reference;
         const double u = rise / (c2 + rise);
         gsl_matrix_set(derivative, i, Q, -c1 * u);
-        gsl_matrix_set(derivative, i, P, c1 * u * (above / (c2 + rise)));
+        gsl_matrix_set(derivative, i, P, c1 * u * (slope / (c2 + rise)));
         gsl_matrix_set(derivative, i, OFFSET, 1.0);
     }
     for (size_t k = 0; k < N_WLF; k++) {
@@ -159,7 +167,7 @@ static wt_status fit_from(struct problem *problem, double above_pole,
     if (status != WT_OK)
         return status;
     unknown[Q] = log(line[1] > 0.0 ? line[1] : 1.0);
-    unknown[P] = log(above_pole);
+    unknown[P] = log(above_pole / (farthest - above_pole));
     unknown[OFFSET] = line[0];
     gsl_multifit_nlinear_fdf fdf = {
         .f = residuals, .df = jacobian, .n = problem->n, .p = N_WLF, .params = problem};
@@ -182,15 +190,18 @@ static wt_status fit_from(struct problem *problem, double above_pole,
     return WT_OK;
 }
 
-/* Carries the covariance of (q, p, offset) over to what is reported. */
+/* Carries the covariance of (q, p, offset) over to what is reported. A straight line has a slope
+ * and no more: its errors of c1, c2 and what follows from them are not known. */
 static void fill_wlf(const struct problem *problem, const double unknown[N_WLF],
                      const gsl_matrix *cov, double chi_square, wt_wlf_fit *fit)
 {
     const double factor = scatter_factor(chi_square, problem->n, N_WLF);
-    const double c1 = exp(unknown[Q]), above = exp(unknown[P]), c2 = problem->lead + above;
+    const double c1 = exp(unknown[Q]), above = above_pole_of(unknown[P]);
+    const double c2 = problem->lead + above;
+    const double slope = above * (1.0 - above / farthest);
     const double s1 = c1 * sqrt(gsl_matrix_get(cov, Q, Q)) * factor;
-    const double s2 = above * sqrt(gsl_matrix_get(cov, P, P)) * factor;
-    const double s12 = c1 * above * gsl_matrix_get(cov, Q, P) * factor * factor;
+    const double s2 = slope * sqrt(gsl_matrix_get(cov, P, P)) * factor;
+    const double s12 = c1 * slope * gsl_matrix_get(cov, Q, P) * factor * factor;
     fit->wlf = (wt_wlf){problem->reference, c1, c2};
     fit->c1_error = s1;
     fit->c2_error = s2;
@@ -207,6 +218,10 @@ static void fill_wlf(const struct problem *problem, const double unknown[N_WLF],
     fit->offset_error = sqrt(gsl_matrix_get(cov, OFFSET, OFFSET)) * factor;
     fit->aicc_wlf = aicc(chi_square, problem->n, N_WLF);
     fit->straight = !(c2 <= straight_c2) || !(s2 <= c2);
+    if (fit->straight) {
+        fit->c1_error = fit->c2_error = fit->correlation = NAN;
+        fit->b_error = fit->pole_error = NAN;
+    }
 }
 
 static double weighted_rms(const struct problem *problem, const double *covariance, double floor,
@@ -282,6 +297,9 @@ wt_status wt_wlf_fit_arrays(const double *temperature, const double *log_a,
         status = check_falls(line[1], err);
     if (status != WT_OK)
         goto done;
+    const double line_slope = line[1];
+    const double line_error =
+        sqrt(gsl_matrix_get(linear_cov, 1, 1)) * scatter_factor(chi_square, n, 2);
 
     for (size_t i = 0; i < n; i++)
         gsl_vector_set(problem.column, i,
@@ -307,6 +325,10 @@ wt_status wt_wlf_fit_arrays(const double *temperature, const double *log_a,
     if (!(best < HUGE_VAL))
         goto done; /* with the last failure */
     status = WT_OK;
+    if (made.straight) {
+        made.slope = line_slope;
+        made.slope_error = line_error;
+    }
     made.rms = weighted_rms(&problem, covariance, floor, &made);
     *fit = made;
 done:
