@@ -186,6 +186,21 @@ void jpk_file_close(jpk_file *file)
     *file = (jpk_file){0};
 }
 
+/* The place in the grid follows from the number of the position, which is not the number of the
+ * curve in a file that was cut out of a larger one. */
+static void find_place(const jpk_file *file, size_t number, wt_force_curve *curve)
+{
+    if (file->columns == 0)
+        return;
+    size_t row = number / (size_t)file->columns;
+    long column = (long)(number % (size_t)file->columns);
+    if (row >= (size_t)file->rows)
+        return;
+    bool back = file->back_and_forth && row % 2 == 1;
+    curve->grid_x = back ? file->columns - 1 - column : column;
+    curve->grid_y = (long)row;
+}
+
 void jpk_file_position(jpk_file *file, size_t ref, wt_force_curve *curve)
 {
     size_t number = file->refs[ref].curve;
@@ -195,14 +210,6 @@ void jpk_file_position(jpk_file *file, size_t ref, wt_force_curve *curve)
     curve->y = NAN;
     curve->grid_x = -1;
     curve->grid_y = -1;
-    if (file->columns > 0) {
-        long column = (long)number % file->columns, row = (long)number / file->columns;
-        if (row < file->rows) {
-            bool back = file->back_and_forth && row % 2 == 1;
-            curve->grid_x = back ? file->columns - 1 - column : column;
-            curve->grid_y = row;
-        }
-    }
     if (file->map) {
         snprintf(key, sizeof key, "index/%zu/header.properties", number);
         header = &file->position;
@@ -211,8 +218,12 @@ void jpk_file_position(jpk_file *file, size_t ref, wt_force_curve *curve)
             wt_parselog_add(file->log, WT_WARNING, file->name, key,
                             "header of a curve cannot be read: its position is unknown");
     }
-    if (root_key(header, "header.position.", key, sizeof key)) {
-        curve->x = wt_properties_number(header, key, "x");
-        curve->y = wt_properties_number(header, key, "y");
+    if (root_key(header, "header.", key, sizeof key)) {
+        curve->x = wt_properties_number(header, key, "position.x");
+        curve->y = wt_properties_number(header, key, "position.y");
+        double place = wt_properties_number(header, key, "position-index");
+        if (place >= 0 && place < 1e9)
+            number = (size_t)place;
     }
+    find_place(file, number, curve);
 }
