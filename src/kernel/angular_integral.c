@@ -1,0 +1,122 @@
+/* Angular integrals by Gauss-Legendre panels between the knots of the law: in phi where cos(phi) is
+ * above 1/2, in s = -ln cos(phi) below, down to where the rest of the integral is rounding.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "kernel/angular_integral.h"
+
+#include <float.h>
+#include <math.h>
+
+enum { SHORT_NODES = 12, LONG_NODES = 20 };
+static const double short_width = 1; /* of a panel for the short rule */
+static const double panel_width = 2; /* the Maxwell pole is pi/2 away from the real axis */
+static const double s_limit = 700;   /* exp(-s) is 1e-304 */
+
+typedef struct panel_sum {
+    const wt_angular_quadrature *quadrature;
+    double w;
+    unsigned refine;
+    double j1, j2;           /* so far */
+    double last_j1, last_j2; /* of the last panel */
+} panel_sum;
+
+/* One panel in phi (over_phi) or in s. */
+static void add_panel(panel_sum *sum, double from, double to, bool over_phi)
+{
+    double omega[LONG_NODES], storage[LONG_NODES], loss[LONG_NODES], cosine[LONG_NODES],
+        jacobian[LONG_NODES];
+    const wt_angular_quadrature *a = sum->quadrature;
+    sum->last_j1 = 0;
+    sum->last_j2 = 0;
+    const unsigned parts = sum->refine;
+    const double half = (to - from) / (2 * parts);
+    const wt_rule *rule = to - from < short_width ? a->short_rule : a->long_rule;
+    for (unsigned p = 0; p < parts; p++) {
+        const double middle = from + (2 * p + 1) * half;
+        for (size_t i = 0; i < rule->n; i++) {
+            const double x = middle + half * rule->node[i];
+            cosine[i] = over_phi ? cos(x) : exp(-x);
+            jacobian[i] = over_phi ? 1 : 1 / sqrt(expm1(2 * x));
+            omega[i] = fmax(sum->w * cosine[i], DBL_MIN);
+        }
+        a->material->law->modulus(a->material, omega, rule->n, storage, loss);
+        for (size_t i = 0; i < rule->n; i++) {
+            const double weight = 4 * half * rule->weight[i] * jacobian[i];
+            sum->last_j1 += weight * cosine[i] * loss[i];
+            sum->last_j2 += weight * (storage[i] * storage[i] + loss[i] * loss[i]);
+        }
+    }
+    sum->j1 += sum->last_j1;
+    sum->j2 += sum->last_j2;
+}
+
+static void add_wide(panel_sum *sum, double from, double to, bool over_phi)
+{
+    if (!(to > from))
+        return;
+    const size_t pieces = 1 + (size_t)((to - from) / panel_width);
+    for (size_t p = 0; p < pieces; p++)
+        add_panel(sum, from + (to - from) * ((double)p / (double)pieces),
+                  from + (to - from) * ((double)(p + 1) / (double)pieces), over_phi);
+}
+
+/* acos(c) for c = omega / w in (0, 1], accurate near 1. */
+static double angle_of(double omega, double w)
+{
+    return 2 * asin(sqrt(fmax(0, (w - omega) / (2 * w))));
+}
+
+void wt_angular_integrate(const wt_angular_quadrature *quadrature, double w, double cosine_limit,
+                          unsigned refine, double *j1, double *j2)
+{
+    panel_sum sum = {.quadrature = quadrature, .w = w, .refine = refine};
+    size_t k = quadrature->n_breaks;
+    while (k > 0 && quadrature->breaks[k - 1] >= w * cosine_limit)
+        k--; /* breaks[k - 1] is the highest knot that is reached */
+
+    const double corner = acos(0.5);
+    if (cosine_limit > 0.5) {
+        double from = angle_of(w * cosine_limit, w);
+        for (; k > 0 && quadrature->breaks[k - 1] > 0.5 * w; k--) {
+            const double to = fmin(angle_of(quadrature->breaks[k - 1], w), corner);
+            add_wide(&sum, from, to, true);
+            from = fmax(from, to);
+        }
+        add_wide(&sum, from, corner, true);
+    }
+    double from = -log(fmin(cosine_limit, 0.5));
+    for (; k > 0; k--) {
+        const double to = log(w / quadrature->breaks[k - 1]);
+        add_wide(&sum, from, to, false);
+        from = fmax(from, to);
+    }
+    do {
+        add_panel(&sum, from, from + panel_width, false);
+        from += panel_width;
+    } while (from < s_limit &&
+             (sum.last_j1 > DBL_EPSILON / 64 * sum.j1 || sum.last_j2 > DBL_EPSILON / 64 * sum.j2));
+    *j1 = sum.j1;
+    *j2 = sum.j2;
+}
+
+wt_status wt_angular_quadrature_init(const wt_material *material, wt_angular_quadrature *quadrature,
+                                     wt_error *err)
+{
+    *quadrature = (wt_angular_quadrature){.material = material};
+    if (material->law->breaks)
+        quadrature->breaks = material->law->breaks(material, &quadrature->n_breaks);
+    wt_status status = wt_rule_new(SHORT_NODES, &quadrature->short_rule, err);
+    if (status == WT_OK)
+        status = wt_rule_new(LONG_NODES, &quadrature->long_rule, err);
+    if (status != WT_OK)
+        wt_angular_quadrature_clear(quadrature);
+    return status;
+}
+
+void wt_angular_quadrature_clear(wt_angular_quadrature *quadrature)
+{
+    wt_rule_free(quadrature->short_rule);
+    wt_rule_free(quadrature->long_rule);
+    *quadrature = (wt_angular_quadrature){0};
+}

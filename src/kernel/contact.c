@@ -1,0 +1,98 @@
+/* Contact area, its integral over the stress variance, and the stiffness of a layered half-space.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "kernel/contact.h"
+
+#include <math.h>
+
+double wt_contact_area(double variance)
+{
+    return variance > WT_CONTACT_FULL ? erf(0.5 / sqrt(variance)) : 1;
+}
+
+double wt_contact_gap(double variance)
+{
+    return variance > 0 ? erfc(0.5 / sqrt(variance)) : 0;
+}
+
+/* int_0^G P^3 dG = int_y^inf erf(u)^3 / (2 u^3) du with y = 1 / (2 sqrt G): erf is 1 beyond u = 6,
+ * and below it the integrand is smooth, so composite Gauss-Legendre with 8 nodes is exact. */
+static double cube_integral(double variance)
+{
+    static const double node[4] = {0.1834346424956498049, 0.5255324099163289858,
+                                   0.7966664774136267396, 0.9602898564975362317};
+    static const double weight[4] = {0.3626837833783619830, 0.3137066458778872873,
+                                     0.2223810344533744706, 0.1012285362903762592};
+    const double end = 6;
+    const double y = 0.5 / sqrt(variance);
+    if (!(y < end))
+        return variance;
+    const int pieces = 16;
+    const double half = (end - y) / (2 * pieces);
+    double sum = 0;
+    for (int p = 0; p < pieces; p++) {
+        const double middle = y + (2 * p + 1) * half;
+        for (int i = 0; i < 4; i++) {
+            const double low = middle - half * node[i];
+            const double high = middle + half * node[i];
+            const double at_low = erf(low) / low;
+            const double at_high = erf(high) / high;
+            sum += half * weight[i] * (at_low * at_low * at_low + at_high * at_high * at_high) / 2;
+        }
+    }
+    return sum + 0.25 / (end * end);
+}
+
+double wt_contact_integral(double variance, double gamma)
+{
+    if (!(variance > WT_CONTACT_FULL))
+        return variance;
+    const double y = 0.5 / sqrt(variance);
+    const double plain = variance * erf(y) + sqrt(variance / M_PI) * exp(-y * y) - 0.5 * erfc(y);
+    return gamma == 1 ? plain : gamma * plain + (1 - gamma) * cube_integral(variance);
+}
+
+/* exp(-x) (sinh(x) - x) for x >= 0, without cancellation. */
+static double sinh_excess(double x)
+{
+    if (x > 1)
+        return -0.5 * expm1(-2 * x) - x * exp(-x);
+    const double square = x * x;
+    double term = x;
+    double sum = 0;
+    for (int k = 1; k <= 9; k++) { /* x^19/19! is 8e-18 at x = 1, and the sum at least x^3/6 */
+        term *= square / ((2 * k) * (2 * k + 1));
+        sum += term;
+    }
+    return exp(-x) * sum;
+}
+
+/* Burmister (1943), nu = 1/2, bonded: E_eff = E_layer / F with
+ *   F = [1 + 4 N x e - N^2 e^2] / [1 - 2 N (1 + 2 x^2) e + N^2 e^2],
+ *   e = exp(-2 x), N = (ratio - 1) / (ratio + 1),
+ * both brackets written as sums of positive terms, which F itself is not. */
+double wt_layered_scale(double x, double ratio)
+{
+    if (ratio == 1 || !(x > 0))
+        return 1;
+    if (x > 400) /* exp(-2 x) is 0 in double precision */
+        return ratio;
+    const double contrast = fabs(ratio - 1) / (ratio + 1);
+    const double rest = 2 * fmin(1, ratio) / (ratio + 1); /* 1 - |N| */
+    const double e = exp(-2 * x);
+    double numerator, denominator;
+    if (ratio < 1) { /* N < 0 */
+        numerator = rest * (1 + contrast * e * e) + 2 * contrast * sinh_excess(2 * x);
+        denominator = (1 + contrast * e) * (1 + contrast * e) + 4 * contrast * x * x * e;
+    } else {
+        const double m = sqrt(contrast);
+        const double rest_m = rest / (1 + m);
+        const double low = rest_m * (1 + m * e) + 2 * m * sinh_excess(x);
+        const double high = 1 - contrast * e + 2 * x * m * exp(-x);
+        numerator =
+            (1 + contrast) * rest - contrast * contrast * expm1(-4 * x) + 4 * contrast * x * e;
+        denominator = low * high;
+    }
+    return ratio * denominator / numerator;
+}

@@ -1,0 +1,350 @@
+/* Friction: preparation once per material and roughness, then G, P and mu at many velocities.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "kernel/friction.h"
+
+#include "kernel/contact.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+
+static const size_t rule_nodes[WT_FRICTION_RULES] = {4, 8, 12, 16, 20, WT_FRICTION_MAX_NODES};
+
+wt_friction_options wt_friction_defaults(void)
+{
+    return (wt_friction_options){.tolerance = 1e-10,
+                                 .gamma = 1,
+                                 .layer = {.thickness = 0, .modulus_ratio = 1},
+                                 .threads = 1};
+}
+
+static wt_status out_of_range(const char *name, double value, const char *expected, wt_error *err)
+{
+    wt_fail(err, WT_E_RANGE, "%s is outside its range", name);
+    wt_error_expected(err, "%s", expected);
+    wt_error_found(err, "%g", value);
+    return WT_E_RANGE;
+}
+
+static wt_status check_options(const wt_friction_options *o, wt_error *err)
+{
+    if (!(o->tolerance > 0 && o->tolerance < 1))
+        return out_of_range("tolerance of the friction integral", o->tolerance,
+                            "0 < tolerance < 1, for example 1e-10", err);
+    if (!(o->gamma >= 0 && o->gamma <= 1))
+        return out_of_range("gamma of the partial-contact correction", o->gamma,
+                            "0 <= gamma <= 1; 1 = Persson 2001", err);
+    if (!(o->layer.thickness >= 0) || !isfinite(o->layer.thickness))
+        return out_of_range("thickness of the layer", o->layer.thickness, "finite and >= 0 m", err);
+    if (!(o->layer.modulus_ratio > 0) || !isfinite(o->layer.modulus_ratio))
+        return out_of_range("modulus ratio of the layer", o->layer.modulus_ratio, "finite and > 0",
+                            err);
+    return WT_OK;
+}
+
+/* The closed form in the core neglects the change of dmu/dG over it, which is about the length of
+ * the core; its share of mu is about the square root of that length. */
+static size_t levels_for(double tolerance)
+{
+    const double core = fmax(1e-10, 0.1 * cbrt(tolerance * tolerance));
+    return (size_t)ceil(-0.5 * log2(core));
+}
+
+wt_status wt_friction_scratch_init(wt_friction_scratch *scratch, const wt_friction_workspace *ws,
+                                   size_t n_cuts, wt_error *err)
+{
+    *scratch = (wt_friction_scratch){0};
+    wt_status status =
+        wt_plan_init(&scratch->plan, ws->roughness, ws->plan.levels, ws->n_knots + n_cuts, err);
+    if (status == WT_OK)
+        status = wt_grid_init(&scratch->grid, &scratch->plan, WT_FRICTION_MAX_NODES, err);
+    if (status != WT_OK)
+        goto fail;
+    const size_t panels = scratch->plan.capacity;
+    const size_t nodes = panels * WT_FRICTION_MAX_NODES;
+    double **arrays[] = {&scratch->omega, &scratch->j1, &scratch->j2, &scratch->variance};
+    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
+        *arrays[i] = calloc(nodes, sizeof **arrays[i]);
+    scratch->knots = calloc(ws->n_knots + 1, sizeof *scratch->knots);
+    scratch->bounds = calloc(panels + 1, sizeof *scratch->bounds);
+    bool good = scratch->omega && scratch->j1 && scratch->j2 && scratch->variance &&
+                scratch->knots && scratch->bounds;
+    for (size_t i = 0; i < 2; i++) {
+        scratch->panel_mu[i] = calloc(panels + 1, sizeof *scratch->panel_mu[i]);
+        scratch->panel_g[i] = calloc(panels + 1, sizeof *scratch->panel_g[i]);
+        good = good && scratch->panel_mu[i] && scratch->panel_g[i];
+    }
+    if (good)
+        return WT_OK;
+    status = wt_fail(err, WT_E_MEMORY, "out of memory for the friction integral");
+fail:
+    wt_friction_scratch_clear(scratch);
+    return status;
+}
+
+void wt_friction_scratch_clear(wt_friction_scratch *scratch)
+{
+    wt_plan_clear(&scratch->plan);
+    wt_grid_clear(&scratch->grid);
+    free(scratch->knots);
+    free(scratch->bounds);
+    free(scratch->omega);
+    free(scratch->j1);
+    free(scratch->j2);
+    free(scratch->variance);
+    for (size_t i = 0; i < 2; i++) {
+        free(scratch->panel_mu[i]);
+        free(scratch->panel_g[i]);
+    }
+    *scratch = (wt_friction_scratch){0};
+}
+
+/* The common plan and its grids. */
+static wt_status prepare_grids(wt_friction_workspace *ws, wt_error *err)
+{
+    const size_t levels = levels_for(ws->options.tolerance);
+    wt_status status = wt_plan_init(&ws->plan, ws->roughness, levels, 0, err);
+    double *bounds = NULL;
+    if (status != WT_OK || ws->n_knots)
+        return status;
+    bounds = calloc(ws->plan.capacity + 1, sizeof *bounds);
+    if (!bounds)
+        return wt_fail(err, WT_E_MEMORY, "out of memory for the friction integral");
+    wt_plan_lay(&ws->plan, ws->roughness, NULL, 0, NULL, 0, bounds);
+    free(bounds);
+    for (size_t r = 0; r < WT_FRICTION_RULES; r++) {
+        status = wt_grid_init(&ws->grids[r], &ws->plan, rule_nodes[r], err);
+        if (status != WT_OK)
+            return status;
+        wt_grid_fill(&ws->grids[r], &ws->plan, ws->rules[r], ws->roughness, &ws->options.layer);
+    }
+    return WT_OK;
+}
+
+wt_status wt_friction_workspace_new(const wt_material *material, const wt_roughness *roughness,
+                                    const wt_friction_options *options,
+                                    wt_friction_workspace **workspace, wt_error *err)
+{
+    if (!material || !roughness || !workspace)
+        return wt_fail(err, WT_E_ARG, "friction needs a material and a power spectrum");
+    const wt_friction_options o = options ? *options : wt_friction_defaults();
+    wt_status status = check_options(&o, err);
+    if (status != WT_OK)
+        return status;
+    wt_friction_workspace *ws = calloc(1, sizeof *ws);
+    if (!ws)
+        return wt_fail(err, WT_E_MEMORY, "out of memory for the friction integral");
+    ws->material = material;
+    ws->roughness = roughness;
+    ws->options = o;
+    ws->stiffness = 1 / (1 - material->poisson_ratio * material->poisson_ratio);
+    if (material->law->breaks && !material->law->angular)
+        ws->knots = material->law->breaks(material, &ws->n_knots);
+
+    status = wt_angular_new(material, &ws->angular, err);
+    for (size_t r = 0; status == WT_OK && r < WT_FRICTION_RULES; r++)
+        status = wt_rule_new(rule_nodes[r], &ws->rules[r], err);
+    if (status == WT_OK)
+        status = prepare_grids(ws, err);
+    if (status == WT_OK) {
+        ws->threads = wt_thread_count(o.threads);
+        ws->scratch = calloc(ws->threads, sizeof *ws->scratch);
+        if (!ws->scratch)
+            status = wt_fail(err, WT_E_MEMORY, "out of memory for the friction integral");
+    }
+    for (unsigned i = 0; status == WT_OK && i < ws->threads; i++)
+        status = wt_friction_scratch_init(&ws->scratch[i], ws, 0, err);
+    if (status != WT_OK) {
+        wt_friction_workspace_free(ws);
+        return status;
+    }
+    *workspace = ws;
+    return WT_OK;
+}
+
+void wt_friction_workspace_free(wt_friction_workspace *ws)
+{
+    if (!ws)
+        return;
+    wt_angular_free(ws->angular);
+    for (size_t r = 0; r < WT_FRICTION_RULES; r++) {
+        wt_rule_free(ws->rules[r]);
+        wt_grid_clear(&ws->grids[r]);
+    }
+    wt_plan_clear(&ws->plan);
+    if (ws->scratch)
+        for (unsigned i = 0; i < ws->threads; i++)
+            wt_friction_scratch_clear(&ws->scratch[i]);
+    free(ws->scratch);
+    free(ws);
+}
+
+wt_status wt_friction_prepare(wt_friction_workspace *ws, double pressure, const double *velocity,
+                              size_t n, wt_error *err)
+{
+    if (!(pressure > 0) || !isfinite(pressure))
+        return out_of_range("pressure", pressure, "finite and > 0 Pa", err);
+    double slowest = INFINITY, fastest = 0;
+    for (size_t i = 0; i < n; i++) {
+        const double speed = fabs(velocity[i]);
+        if (!isfinite(speed))
+            return out_of_range("velocity", velocity[i], "finite, in m/s", err);
+        slowest = fmin(slowest, speed);
+        fastest = fmax(fastest, speed);
+    }
+    if (n == 0 || ws->material->law->angular)
+        return WT_OK;
+    const double lowest = slowest * ws->roughness->q0;
+    const double highest = fastest * ws->roughness->q1;
+    if (!(lowest >= DBL_MIN && highest <= DBL_MAX)) {
+        (void)out_of_range("velocity", lowest >= DBL_MIN ? fastest : slowest,
+                           "not 0, and so that q v is a frequency in range", err);
+        wt_error_advice(err, "a material of kind %s has no static limit; a Prony series has",
+                        ws->material->law->name);
+        return WT_E_RANGE;
+    }
+    return wt_angular_cover(ws->angular, lowest, highest, err);
+}
+
+const wt_plan *wt_friction_plan(const wt_friction_workspace *ws, wt_friction_scratch *scratch,
+                                double speed, const double *cuts, size_t n_cuts)
+{
+    if (!ws->n_knots && !n_cuts)
+        return &ws->plan;
+    for (size_t k = 0; k < ws->n_knots; k++)
+        scratch->knots[k] = log(ws->knots[k] / (speed * ws->roughness->q0));
+    wt_plan_lay(&scratch->plan, ws->roughness, cuts, n_cuts, scratch->knots, ws->n_knots,
+                scratch->bounds);
+    return &scratch->plan;
+}
+
+const wt_grid *wt_friction_grid(const wt_friction_workspace *ws, wt_friction_scratch *scratch,
+                                const wt_plan *plan, size_t rule)
+{
+    if (plan == &ws->plan)
+        return &ws->grids[rule];
+    wt_grid_fill(&scratch->grid, plan, ws->rules[rule], ws->roughness, &ws->options.layer);
+    return &scratch->grid;
+}
+
+/* ---- velocities ------------------------------------------------------------------------------ */
+
+static wt_estimate number(double value, double error)
+{
+    return (wt_estimate){.value = value, .numerical_error = error, .unit = "1"};
+}
+
+/* Error of a value from its differences to the last rule and of that to the one before. The rules
+ * gain as many nodes at each step and converge geometrically or faster, so the next difference, and
+ * with it the error, would be smaller again by the ratio of these two; a hundred times that is
+ * stated, and never more than the difference itself. Both are sums over the panels of absolute
+ * values, which do not vanish by accident. */
+static double converged(double difference, double last_difference)
+{
+    const double ratio = difference / last_difference;
+    return ratio < 0.01 ? 100 * ratio * difference : difference;
+}
+
+static void compute_point(const wt_friction_workspace *ws, wt_friction_scratch *scratch,
+                          double pressure, double velocity, wt_friction_point *point)
+{
+    const wt_friction_conditions at = {.pressure = pressure, .speed = fabs(velocity)};
+    const double sign = velocity < 0 ? -1 : velocity > 0 ? 1 : 0;
+    const double tolerance = ws->options.tolerance;
+    const double series_error = wt_angular_error(ws->angular);
+    const double rounding = wt_friction_rounding();
+    const wt_plan *plan = wt_friction_plan(ws, scratch, at.speed, NULL, 0);
+    const wt_grid *grid = wt_friction_grid(ws, scratch, plan, 0);
+    const size_t level = wt_friction_level(ws, scratch, grid, at);
+
+    wt_friction_pass pass;
+    unsigned slot = 0;
+    wt_friction_evaluate(ws, scratch, grid, level, at, slot, wt_angular_limited(ws->angular), NULL,
+                         &pass);
+    point->extrapolated_share = pass.hysteresis > 0 ? fmin(pass.outside / pass.hysteresis, 1) : 0;
+    double last_g = 0, last_mu = 0; /* no difference yet */
+    for (size_t r = 1; r < WT_FRICTION_RULES; r++) {
+        slot = 1 - slot;
+        grid = wt_friction_grid(ws, scratch, plan, r);
+        wt_friction_evaluate(ws, scratch, grid, level, at, slot, false, NULL, &pass);
+        double difference_g = 0, difference_mu = 0;
+        for (size_t p = 0; p < pass.parts; p++) {
+            difference_g += fabs(scratch->panel_g[0][p] - scratch->panel_g[1][p]);
+            difference_mu += fabs(scratch->panel_mu[0][p] - scratch->panel_mu[1][p]);
+        }
+        const double error_g =
+            converged(difference_g, last_g) + (rounding + series_error) * pass.variance;
+        const double error_mu = converged(difference_mu, last_mu) + pass.core_error +
+                                (rounding + 2 * series_error) * pass.hysteresis;
+        last_g = difference_g;
+        last_mu = difference_mu;
+        const double area = wt_contact_area(pass.variance);
+        const double error_area = wt_friction_area_error(pass.variance, error_g);
+        point->velocity = velocity;
+        point->stress_variance = number(pass.variance, error_g);
+        point->area_ratio = number(area, error_area);
+        point->one_minus_area =
+            number(wt_contact_gap(pass.variance), wt_friction_gap_error(pass.variance, error_g));
+        point->hysteresis = number(sign * pass.hysteresis, error_mu);
+        point->nodes = pass.nodes;
+        point->reached = error_g <= tolerance * pass.variance && error_area <= tolerance * area &&
+                         error_mu <= tolerance * pass.hysteresis;
+        if (point->reached)
+            break;
+    }
+}
+
+typedef struct compute_job {
+    const wt_friction_workspace *ws;
+    double pressure;
+    const double *velocity;
+    wt_friction_point *points;
+} compute_job;
+
+static wt_status compute_item(void *user, size_t i, unsigned worker)
+{
+    const compute_job *job = user;
+    compute_point(job->ws, &job->ws->scratch[worker], job->pressure, job->velocity[i],
+                  &job->points[i]);
+    const wt_friction_point *point = &job->points[i];
+    return isfinite(point->stress_variance.value) && isfinite(point->hysteresis.value) ? WT_OK
+                                                                                       : WT_E_RANGE;
+}
+
+wt_status wt_friction_compute(wt_friction_workspace *workspace, double pressure,
+                              const double *velocity, size_t n, wt_friction_point *points,
+                              wt_error *err)
+{
+    if (!workspace || !velocity || !points)
+        return wt_fail(err, WT_E_ARG, "friction needs velocities and a place for the results");
+    wt_status status = wt_friction_prepare(workspace, pressure, velocity, n, err);
+    if (status != WT_OK)
+        return status;
+    compute_job job = {workspace, pressure, velocity, points};
+    status = wt_parallel_for(n, workspace->threads, compute_item, &job, NULL, "friction");
+    if (status == WT_E_RANGE) {
+        (void)out_of_range("pressure", pressure,
+                           "so high that the stress variance G stays finite, in Pa", err);
+        wt_error_advice(err, "check the units of pressure, moduli and power spectrum");
+    } else if (status != WT_OK) {
+        wt_fail(err, status, "the friction integral could not be run");
+    }
+    return status;
+}
+
+wt_estimate wt_friction_total(wt_estimate hysteresis, wt_estimate area_ratio,
+                              wt_estimate shear_stress, double pressure)
+{
+    const double per_area = shear_stress.value / pressure;
+    const double per_stress = area_ratio.value / pressure;
+    return (wt_estimate){.value = hysteresis.value + per_area * area_ratio.value,
+                         .standard_error = hypot(hysteresis.standard_error,
+                                                 hypot(per_area * area_ratio.standard_error,
+                                                       per_stress * shear_stress.standard_error)),
+                         .numerical_error = hysteresis.numerical_error +
+                                            fabs(per_area) * area_ratio.numerical_error +
+                                            fabs(per_stress) * shear_stress.numerical_error,
+                         .unit = "1"};
+}

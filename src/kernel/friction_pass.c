@@ -1,0 +1,181 @@
+/* One pass of the friction integral: from the angular integrals at the nodes to G, P and mu.
+ *
+ *   G(q)  = 1/(8 sigma0^2) int k^3 C J2(k v) dk          P = erf(1 / (2 sqrt G))
+ *   mu    = 1/(2 sigma0) int k^3 C S P J1(k v) dk        S = gamma + (1 - gamma) P^2
+ *
+ * Persson, J. Chem. Phys. 115 (2001) 3840; S: Scaraggi and Persson, J. Phys.: Condens. Matter 27
+ * (2015) 105102.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "kernel/friction.h"
+
+#include "kernel/contact.h"
+
+#include <float.h>
+#include <math.h>
+
+double wt_friction_rounding(void)
+{
+    return 32 * DBL_EPSILON;
+}
+
+double wt_friction_area_error(double variance, double variance_error)
+{
+    const double area = wt_contact_area(variance);
+    const double above = area - wt_contact_area(variance + variance_error);
+    const double below = wt_contact_area(fmax(0, variance - variance_error)) - area;
+    return fmax(fabs(above), fabs(below)) + 4 * DBL_EPSILON * area;
+}
+
+double wt_friction_gap_error(double variance, double variance_error)
+{
+    const double gap = wt_contact_gap(variance);
+    const double above = wt_contact_gap(variance + variance_error) - gap;
+    const double below = gap - wt_contact_gap(fmax(0, variance - variance_error));
+    /* where erfc underflows the true value is still below the smallest normal number */
+    return fmax(fmax(above, below) + 4 * DBL_EPSILON * gap, variance > 0 ? DBL_MIN : 0);
+}
+
+static void angular_at(const wt_friction_workspace *ws, wt_friction_scratch *scratch,
+                       const double *q, size_t n, double speed)
+{
+    for (size_t i = 0; i < n; i++)
+        scratch->omega[i] = q[i] * speed;
+    wt_angular_eval(ws->angular, scratch->omega, n, scratch->j1, scratch->j2);
+}
+
+/* G over one core. */
+static double core_variance(const wt_friction_workspace *ws, wt_friction_scratch *scratch,
+                            const wt_grid *grid, size_t level, wt_friction_conditions at)
+{
+    const size_t n = grid->rule->n;
+    const double ratio = ws->stiffness / at.pressure;
+    const double *factor2 = grid->core_factor2 + level * n;
+    angular_at(ws, scratch, grid->core_q + level * n, n, at.speed);
+    double sum = 0;
+    for (size_t i = 0; i < n; i++)
+        sum += grid->rule->weight[i] * factor2[i] * scratch->j2[i];
+    return sum * grid->core_half_width[level] * (ratio * ratio / 8);
+}
+
+size_t wt_friction_level(const wt_friction_workspace *ws, wt_friction_scratch *scratch,
+                         const wt_grid *grid, wt_friction_conditions at)
+{
+    const double target = 0.5 * WT_CONTACT_FULL;
+    size_t level = 0;
+    while (level < grid->levels) {
+        const double variance = core_variance(ws, scratch, grid, level, at);
+        if (!(variance > target))
+            break;
+        const double deeper = ceil(0.5 * log2(variance / target)); /* a cell is 1/4 of the next */
+        const size_t left = grid->levels - level;
+        level += deeper < (double)left ? (size_t)fmax(1, deeper) : left;
+    }
+    return level;
+}
+
+/* P is 1 in the core, or the core is so short that dmu/dG hardly changes in it:
+ * mu = (dmu/dG) int S P dG in closed form. */
+static double core_pass(const wt_friction_workspace *ws, wt_friction_scratch *scratch,
+                        const wt_grid *grid, size_t level, wt_friction_conditions at,
+                        double mu_scale, wt_friction_record *record, wt_friction_pass *pass)
+{
+    const size_t n = grid->rule->n;
+    const double ratio = ws->stiffness / at.pressure;
+    const double g_scale = ratio * ratio / 8;
+    const double *factor1 = grid->core_factor1 + level * n;
+    const double *factor2 = grid->core_factor2 + level * n;
+    const double half = grid->core_half_width[level];
+    pass->variance = core_variance(ws, scratch, grid, level, at);
+    double full = 0, least = INFINITY, most = 0;
+    for (size_t i = 0; i < n; i++) {
+        const double f1 = mu_scale * factor1[i] * scratch->j1[i];
+        const double f2 = g_scale * factor2[i] * scratch->j2[i];
+        full += half * grid->rule->weight[i] * f1;
+        if (f2 > 0) {
+            least = fmin(least, f1 / f2);
+            most = fmax(most, f1 / f2);
+        }
+    }
+    double contact = 1;
+    if (pass->variance > WT_CONTACT_FULL) {
+        const double integral = wt_contact_integral(pass->variance, ws->options.gamma);
+        contact = integral / pass->variance;
+        pass->core_error = (most - least) * integral;
+    }
+    if (record)
+        for (size_t i = 0; i < n; i++) {
+            record->q[record->n] = grid->core_q[level * n + i];
+            record->mu[record->n++] =
+                contact * half * grid->rule->weight[i] * mu_scale * factor1[i] * scratch->j1[i];
+        }
+    return contact * full;
+}
+
+void wt_friction_evaluate(const wt_friction_workspace *ws, wt_friction_scratch *scratch,
+                          const wt_grid *grid, size_t level, wt_friction_conditions at,
+                          unsigned slot, bool with_outside, wt_friction_record *record,
+                          wt_friction_pass *pass)
+{
+    const wt_rule *rule = grid->rule;
+    const size_t n = rule->n;
+    const double gamma = ws->options.gamma;
+    const double ratio = ws->stiffness / at.pressure;
+    const double g_scale = ratio * ratio / 8;
+    const double mu_scale = ratio / 2;
+    double *panel_mu = scratch->panel_mu[slot];
+    double *panel_g = scratch->panel_g[slot];
+    *pass = (wt_friction_pass){0};
+    pass->hysteresis = core_pass(ws, scratch, grid, level, at, mu_scale, record, pass);
+    panel_mu[0] = pass->hysteresis;
+    panel_g[0] = pass->variance;
+    if (with_outside && scratch->j1[0] > 0)
+        pass->outside =
+            pass->hysteresis *
+            (wt_angular_outside(ws->angular, scratch->omega[0], scratch->j1[0]) / scratch->j1[0]);
+
+    const size_t first = grid->levels - level;
+    const size_t panels = grid->n_panels - first;
+    const double *q = grid->q + first * n;
+    const double *factor1 = grid->factor1 + first * n;
+    const double *factor2 = grid->factor2 + first * n;
+    angular_at(ws, scratch, q, panels * n, at.speed);
+    for (size_t p = 0; p < panels; p++) {
+        const double half = grid->half_width[first + p];
+        const double *j1 = scratch->j1 + p * n;
+        const double *j2 = scratch->j2 + p * n;
+        double running[WT_FRICTION_MAX_NODES];
+        double sum_g = 0, sum_mu = 0;
+        for (size_t j = 0; j < n; j++)
+            running[j] = pass->variance;
+        for (size_t i = 0; i < n; i++) {
+            const double f2 = half * g_scale * factor2[p * n + i] * j2[i];
+            const double *row = rule->running + i * n;
+            sum_g += rule->weight[i] * f2;
+            for (size_t j = 0; j < n; j++)
+                running[j] += f2 * row[j];
+        }
+        for (size_t j = 0; j < n; j++) {
+            const double area = wt_contact_area(running[j]);
+            const double correction = gamma + (1 - gamma) * area * area;
+            const double share =
+                half * mu_scale * rule->weight[j] * factor1[p * n + j] * j1[j] * area * correction;
+            sum_mu += share;
+            if (record) {
+                record->q[record->n] = q[p * n + j];
+                record->mu[record->n++] = share;
+            }
+            if (with_outside && share > 0)
+                pass->outside +=
+                    share *
+                    (wt_angular_outside(ws->angular, scratch->omega[p * n + j], j1[j]) / j1[j]);
+        }
+        pass->variance += sum_g;
+        pass->hysteresis += sum_mu;
+        panel_g[p + 1] = sum_g;
+        panel_mu[p + 1] = sum_mu;
+    }
+    pass->parts = panels + 1;
+    pass->nodes = pass->parts * n;
+}

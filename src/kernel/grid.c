@@ -1,0 +1,220 @@
+/* Panels over the wavenumber and their nodes.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "kernel/grid.h"
+
+#include "kernel/contact.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* In ln q; the Maxwell poles lie pi/2 off the real axis. */
+static const double panel_width = 1.2;
+static const double cell_ratio = 4;
+
+static const double *roughness_breaks(const wt_roughness *roughness, size_t *n)
+{
+    *n = 0;
+    return roughness->law->breaks ? roughness->law->breaks(roughness, n) : NULL;
+}
+
+static double log_ratio(double q, double q0)
+{
+    return log1p((q - q0) / q0);
+}
+
+wt_status wt_plan_init(wt_plan *plan, const wt_roughness *roughness, size_t levels, size_t n_breaks,
+                       wt_error *err)
+{
+    size_t n_roughness = 0;
+    (void)roughness_breaks(roughness, &n_roughness);
+    const double length = log_ratio(roughness->q1, roughness->q0);
+    *plan = (wt_plan){.q0 = roughness->q0, .q1 = roughness->q1, .levels = levels};
+    plan->capacity = levels + n_roughness + n_breaks + 2 + (size_t)(length / panel_width);
+    plan->core = calloc(levels + 1, sizeof *plan->core);
+    plan->panels = calloc(plan->capacity, sizeof *plan->panels);
+    if (!plan->core || !plan->panels) {
+        wt_plan_clear(plan);
+        return wt_fail(err, WT_E_MEMORY, "out of memory for the panels of the friction integral");
+    }
+    return WT_OK;
+}
+
+void wt_plan_clear(wt_plan *plan)
+{
+    free(plan->core);
+    free(plan->panels);
+    *plan = (wt_plan){0};
+}
+
+static int compare(const void *left, const void *right)
+{
+    const double a = *(const double *)left;
+    const double b = *(const double *)right;
+    return (a > b) - (a < b);
+}
+
+/* The nearest knot at or below t, if it is close enough to spoil a polynomial. */
+static wt_panel panel_at(double t_low, double t_high, const double *knots, size_t n_knots)
+{
+    wt_panel panel = {.t_low = t_low, .t_high = t_high, .map = WT_MAP_LINEAR};
+    const double slack = 1e-12;
+    for (size_t k = 0; k < n_knots && knots[k] <= t_low + slack; k++)
+        if (knots[k] > t_low - panel_width) {
+            panel.map = WT_MAP_SQUARE_ROOT;
+            panel.anchor = fmin(knots[k], t_low);
+        }
+    return panel;
+}
+
+void wt_plan_lay(wt_plan *plan, const wt_roughness *roughness, const double *cuts, size_t n_cuts,
+                 const double *knots, size_t n_knots, double *bounds)
+{
+    const double length = log_ratio(plan->q1, plan->q0);
+    const double least = 1e-13 * fmax(1, length); /* cuts closer than rounding are one */
+    size_t n_roughness = 0;
+    const double *breaks = roughness_breaks(roughness, &n_roughness);
+    size_t n = 0;
+    bounds[n++] = 0;
+    for (size_t i = 0; i < n_roughness; i++)
+        bounds[n++] = log_ratio(breaks[i], plan->q0);
+    for (size_t i = 0; i < n_cuts; i++)
+        if (cuts[i] > 0 && cuts[i] < length)
+            bounds[n++] = cuts[i];
+    for (size_t i = 0; i < n_knots; i++)
+        if (knots[i] > least && knots[i] < length - least)
+            bounds[n++] = knots[i];
+    bounds[n++] = length;
+    qsort(bounds, n, sizeof *bounds, compare);
+
+    plan->n_panels = plan->levels;
+    double from = 0;
+    for (size_t i = 1; i < n; i++) {
+        const double width = bounds[i] - from;
+        /* A knot that falls on a break up to rounding; the last bound always counts. */
+        if (!(width > 0) || (i + 1 < n && n_knots && width < least))
+            continue;
+        const size_t pieces = 1 + (size_t)(width / panel_width);
+        for (size_t p = 0; p < pieces; p++) {
+            const double low = from + width * ((double)p / (double)pieces);
+            const double high =
+                p + 1 < pieces ? from + width * ((double)(p + 1) / (double)pieces) : bounds[i];
+            plan->panels[plan->n_panels++] = panel_at(low, high, knots, n_knots);
+        }
+        from = bounds[i];
+    }
+
+    /* The first of them becomes cells and cores. */
+    const wt_panel first = plan->panels[plan->levels];
+    plan->n_panels--;
+    memmove(plan->panels + plan->levels, plan->panels + plan->levels + 1,
+            (plan->n_panels - plan->levels) * sizeof *plan->panels);
+    double high = first.t_high;
+    for (size_t level = 0; level <= plan->levels; level++) {
+        plan->core[level] = first;
+        plan->core[level].t_high = high;
+        if (level < plan->levels)
+            plan->panels[plan->levels - 1 - level] =
+                (wt_panel){.t_low = high / cell_ratio, .t_high = high, .map = WT_MAP_LOGARITHM};
+        high /= cell_ratio;
+    }
+}
+
+/* ---- nodes ----------------------------------------------------------------------------------- */
+
+wt_status wt_grid_init(wt_grid *grid, const wt_plan *plan, size_t max_nodes, wt_error *err)
+{
+    *grid = (wt_grid){0};
+    const size_t nodes = plan->capacity * max_nodes;
+    const size_t core_nodes = (plan->levels + 1) * max_nodes;
+    grid->q = calloc(nodes, sizeof *grid->q);
+    grid->factor1 = calloc(nodes, sizeof *grid->factor1);
+    grid->factor2 = calloc(nodes, sizeof *grid->factor2);
+    grid->half_width = calloc(plan->capacity, sizeof *grid->half_width);
+    grid->core_q = calloc(core_nodes, sizeof *grid->core_q);
+    grid->core_factor1 = calloc(core_nodes, sizeof *grid->core_factor1);
+    grid->core_factor2 = calloc(core_nodes, sizeof *grid->core_factor2);
+    grid->core_half_width = calloc(plan->levels + 1, sizeof *grid->core_half_width);
+    if (!grid->q || !grid->factor1 || !grid->factor2 || !grid->half_width || !grid->core_q ||
+        !grid->core_factor1 || !grid->core_factor2 || !grid->core_half_width) {
+        wt_grid_clear(grid);
+        return wt_fail(err, WT_E_MEMORY, "out of memory for the nodes of the friction integral");
+    }
+    return WT_OK;
+}
+
+void wt_grid_clear(wt_grid *grid)
+{
+    free(grid->q);
+    free(grid->factor1);
+    free(grid->factor2);
+    free(grid->half_width);
+    free(grid->core_q);
+    free(grid->core_factor1);
+    free(grid->core_factor2);
+    free(grid->core_half_width);
+    *grid = (wt_grid){0};
+}
+
+/* Fills q and dt/ds (into factor1) on one panel; returns the half width in s. */
+static double place_nodes(const wt_plan *plan, const wt_panel *panel, const wt_rule *rule,
+                          double *q, double *slope)
+{
+    double s_low = panel->t_low, s_high = panel->t_high;
+    if (panel->map == WT_MAP_LOGARITHM) {
+        s_low = log(panel->t_low);
+        s_high = log(panel->t_high);
+    } else if (panel->map == WT_MAP_SQUARE_ROOT) {
+        s_low = sqrt(panel->t_low - panel->anchor);
+        s_high = sqrt(panel->t_high - panel->anchor);
+    }
+    const double half = 0.5 * (s_high - s_low);
+    for (size_t i = 0; i < rule->n; i++) {
+        const double s = s_low + half * (1 + rule->node[i]);
+        double t = s;
+        slope[i] = 1;
+        if (panel->map == WT_MAP_LOGARITHM) {
+            t = exp(s);
+            slope[i] = t;
+        } else if (panel->map == WT_MAP_SQUARE_ROOT) {
+            t = panel->anchor + s * s;
+            slope[i] = 2 * s;
+        }
+        /* q0 + q0 (e^t - 1) keeps the digits of a range as short as q1/q0 - 1 = 1e-4 */
+        q[i] = fmin(fmax(plan->q0 + plan->q0 * expm1(t), plan->q0), plan->q1);
+    }
+    return half;
+}
+
+static void weigh_nodes(const wt_roughness *roughness, const wt_layer_state *layer, size_t n,
+                        const double *q, double *factor1, double *factor2)
+{
+    roughness->law->density(roughness, q, n, factor2);
+    for (size_t i = 0; i < n; i++) {
+        const double square = q[i] * q[i];
+        const double base = square * square * factor2[i] * factor1[i];
+        const double scale = wt_layered_scale(q[i] * layer->thickness, layer->modulus_ratio);
+        factor1[i] = base * scale;
+        factor2[i] = base * scale * scale;
+    }
+}
+
+void wt_grid_fill(wt_grid *grid, const wt_plan *plan, const wt_rule *rule,
+                  const wt_roughness *roughness, const wt_layer_state *layer)
+{
+    const size_t n = rule->n;
+    grid->rule = rule;
+    grid->levels = plan->levels;
+    grid->n_panels = plan->n_panels;
+    for (size_t p = 0; p < plan->n_panels; p++)
+        grid->half_width[p] =
+            place_nodes(plan, &plan->panels[p], rule, grid->q + p * n, grid->factor1 + p * n);
+    for (size_t p = 0; p <= plan->levels; p++)
+        grid->core_half_width[p] = place_nodes(plan, &plan->core[p], rule, grid->core_q + p * n,
+                                               grid->core_factor1 + p * n);
+    weigh_nodes(roughness, layer, plan->n_panels * n, grid->q, grid->factor1, grid->factor2);
+    weigh_nodes(roughness, layer, (plan->levels + 1) * n, grid->core_q, grid->core_factor1,
+                grid->core_factor2);
+}

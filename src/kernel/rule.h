@@ -1,0 +1,25 @@
+/* Internal to the kernel room: Gauss-Legendre rules with the matrix of their running integral.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#ifndef WT_KERNEL_RULE_H
+#define WT_KERNEL_RULE_H
+
+#include "weartrack/base.h"
+
+/* On [-1, 1]. */
+typedef struct wt_rule {
+    size_t n;
+    double *node;    /* [n], rising */
+    double *weight;  /* [n] */
+    double *running; /* [n * n], row i: int from -1 to node[j] of the i-th Lagrange polynomial */
+} wt_rule;
+
+/* n must be one of the sizes that GSL tabulates to full precision: 2 to 20, or 32. */
+wt_status wt_rule_new(size_t n, wt_rule **rule, wt_error *err) WT_NODISCARD;
+void wt_rule_free(wt_rule *rule);
+
+/* GSL must report by status, never abort; call before the first use of GSL. */
+void wt_kernel_use_gsl(void);
+
+#endif

@@ -1,0 +1,54 @@
+/* Materials: what every law shares - construction around a law, its checks and its release.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "model/material.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+wt_status wt_material_check_poisson(double poisson_ratio, wt_error *err)
+{
+    if (poisson_ratio >= 0 && poisson_ratio <= 0.5)
+        return WT_OK;
+    wt_fail(err, WT_E_RANGE, "poisson_ratio of a material is outside its range");
+    wt_error_expected(err, "0 <= poisson_ratio <= 0.5");
+    wt_error_found(err, "%g", poisson_ratio);
+    wt_error_advice(err, "filled rubber is nearly incompressible: 0.5 unless it was measured");
+    return WT_E_RANGE;
+}
+
+wt_status wt_material_check_value(const char *name, double value, const char *expected, bool good,
+                                  wt_error *err)
+{
+    if (good && isfinite(value))
+        return WT_OK;
+    wt_fail(err, WT_E_RANGE, "%s of a material is outside its range", name);
+    wt_error_expected(err, "%s", expected);
+    wt_error_found(err, "%g", value);
+    return WT_E_RANGE;
+}
+
+wt_status wt_material_wrap(const wt_material_law *law, void *data, double poisson_ratio,
+                           wt_material **material, wt_error *err)
+{
+    wt_material *made = malloc(sizeof *made);
+    if (!made)
+        return wt_fail(err, WT_E_MEMORY, "out of memory for a material");
+    made->law = law;
+    made->poisson_ratio = poisson_ratio;
+    made->frequency_min = NAN;
+    made->frequency_max = NAN;
+    made->data = data;
+    *material = made;
+    return WT_OK;
+}
+
+void wt_material_free(wt_material *material)
+{
+    if (!material)
+        return;
+    if (material->law->free)
+        material->law->free(material);
+    free(material);
+}

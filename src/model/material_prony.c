@@ -1,0 +1,200 @@
+/* Generalised Maxwell (Prony) material with its angular integrals in closed form.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "model/material.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+typedef struct prony_data {
+    double equilibrium; /* E_inf [Pa] */
+    size_t n;
+    double *modulus;         /* E_k [Pa] */
+    double *relaxation_time; /* tau_k [s] */
+    double *weight;          /* 2 E_k V_k, V_k = E_inf + sum_j E_j tau_j / (tau_j + tau_k) */
+} prony_data;
+
+/* Beyond it a = omega tau is indistinguishable from infinity, and a^2 must not overflow. */
+static const double a_limit = 1e150;
+
+static void prony_modulus(const wt_material *material, const double *omega, size_t n,
+                          double *storage, double *loss)
+{
+    const prony_data *d = material->data;
+    for (size_t i = 0; i < n; i++) {
+        storage[i] = d->equilibrium;
+        loss[i] = 0;
+    }
+    for (size_t k = 0; k < d->n; k++) {
+        const double e = d->modulus[k];
+        const double tau = d->relaxation_time[k];
+        for (size_t i = 0; i < n; i++) {
+            double a = omega[i] * tau;
+            a = a < a_limit ? a : a_limit;
+            const double b = e * (a / (1 + a * a));
+            storage[i] += b * a;
+            loss[i] += b;
+        }
+    }
+}
+
+/* The same code for wider registers where the machine has them; all its operations are correctly
+ * rounded, so the bits do not depend on the width. */
+#if defined(__x86_64__) && defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) &&                 \
+    defined(__GNUC__) && !defined(__clang__)
+#define WIDE_REGISTERS __attribute__((target_clones("avx2", "default")))
+#else
+#define WIDE_REGISTERS
+#endif
+
+/* One term of the series added to J1 and J2: the loop in which friction spends its time. Without
+ * the cap it has no branch and vectorises. */
+WIDE_REGISTERS
+static void add_term(const double *restrict omega, size_t n, double modulus, double tau,
+                     double weight, double *restrict j1, double *restrict j2)
+{
+    for (size_t i = 0; i < n; i++) {
+        const double a = omega[i] * tau;
+        const double square = 1 + a * a;
+        const double s = a / (square + sqrt(square));
+        j1[i] += modulus * s;
+        j2[i] += weight * (a * s);
+    }
+}
+
+static void add_term_capped(const double *omega, size_t n, double modulus, double tau,
+                            double weight, double *j1, double *j2)
+{
+    for (size_t i = 0; i < n; i++) {
+        const double a = fmin(omega[i] * tau, a_limit);
+        const double square = 1 + a * a;
+        const double s = a / (square + sqrt(square));
+        j1[i] += modulus * s;
+        j2[i] += weight * (a * s);
+    }
+}
+
+/* With a = w tau, R = sqrt(1 + a^2), s = a / (R (1 + R)):
+ *   int cos E'' = 2 pi sum E_k s_k,   int |E|^2 = 2 pi (E_inf^2 + 2 sum E_k V_k a_k s_k).
+ * The double sum of |E|^2 collapses because int Re[1 / ((1 + i a c)(1 - i b c))] dphi =
+ * 2 pi (a/R_a + b/R_b) / (a + b). All terms are positive: nothing cancels. */
+static void prony_angular(const wt_material *material, const double *restrict omega, size_t n,
+                          double *restrict j1, double *restrict j2)
+{
+    const prony_data *d = material->data;
+    const double base = d->equilibrium * d->equilibrium;
+    double highest = 0;
+    for (size_t i = 0; i < n; i++) {
+        j1[i] = 0;
+        j2[i] = base;
+        highest = highest < omega[i] ? omega[i] : highest;
+    }
+    for (size_t k = 0; k < d->n; k++) {
+        const double tau = d->relaxation_time[k];
+        if (highest * tau < a_limit)
+            add_term(omega, n, d->modulus[k], tau, d->weight[k], j1, j2);
+        else
+            add_term_capped(omega, n, d->modulus[k], tau, d->weight[k], j1, j2);
+    }
+    const double two_pi = 2 * M_PI;
+    for (size_t i = 0; i < n; i++) {
+        j1[i] *= two_pi;
+        j2[i] *= two_pi;
+    }
+}
+
+static void prony_data_free(prony_data *d)
+{
+    if (!d)
+        return;
+    free(d->modulus);
+    free(d->relaxation_time);
+    free(d->weight);
+    free(d);
+}
+
+static void prony_free(wt_material *material)
+{
+    prony_data_free(material->data);
+}
+
+static const wt_material_law prony_law = {
+    .name = "prony",
+    .modulus = prony_modulus,
+    .angular = prony_angular,
+    .breaks = NULL,
+    .free = prony_free,
+};
+
+static wt_status prony_check(const wt_prony *prony, wt_error *err)
+{
+    wt_status status =
+        wt_material_check_value("equilibrium_modulus", prony->equilibrium_modulus,
+                                "finite and >= 0 Pa", prony->equilibrium_modulus >= 0, err);
+    double sum = prony->equilibrium_modulus;
+    for (size_t k = 0; status == WT_OK && k < prony->n; k++) {
+        status = wt_material_check_value("relaxation_time", prony->relaxation_time[k],
+                                         "finite and > 0 s", prony->relaxation_time[k] > 0, err);
+        if (status == WT_OK)
+            status = wt_material_check_value("modulus", prony->modulus[k], "finite and >= 0 Pa",
+                                             prony->modulus[k] >= 0, err);
+        if (status != WT_OK)
+            wt_error_place(err, "Prony term %zu of %zu", k + 1, prony->n);
+        else
+            sum += prony->modulus[k];
+    }
+    if (status == WT_OK)
+        status = wt_material_check_value("glass modulus (the sum of all moduli)", sum,
+                                         "finite and > 0 Pa", sum > 0, err);
+    return status;
+}
+
+wt_status wt_material_prony(const wt_prony *prony, double poisson_ratio, wt_material **material,
+                            wt_error *err)
+{
+    if (!prony || !material)
+        return wt_fail(err, WT_E_ARG, "a Prony material needs a series and a place for the result");
+    prony_data *d = NULL;
+    wt_status status = wt_material_check_poisson(poisson_ratio, err);
+    if (status == WT_OK)
+        status = prony_check(prony, err);
+    if (status != WT_OK)
+        goto done;
+
+    const size_t room = prony->n ? prony->n : 1;
+    d = calloc(1, sizeof *d);
+    if (d) {
+        d->modulus = calloc(room, sizeof *d->modulus);
+        d->relaxation_time = calloc(room, sizeof *d->relaxation_time);
+        d->weight = calloc(room, sizeof *d->weight);
+    }
+    if (!d || !d->modulus || !d->relaxation_time || !d->weight) {
+        status =
+            wt_fail(err, WT_E_MEMORY, "out of memory for a Prony series of %zu terms", prony->n);
+        goto done;
+    }
+    const double to_young = prony->deformation == WT_SHEAR ? 2 * (1 + poisson_ratio) : 1;
+    d->equilibrium = to_young * prony->equilibrium_modulus;
+    d->n = prony->n;
+    for (size_t k = 0; k < d->n; k++) {
+        d->modulus[k] = to_young * prony->modulus[k];
+        d->relaxation_time[k] = prony->relaxation_time[k];
+    }
+    for (size_t k = 0; k < d->n; k++) {
+        const double tau = d->relaxation_time[k];
+        double v = d->equilibrium;
+        for (size_t j = 0; j < d->n; j++) /* the ratio first: a sum of two times may overflow */
+            v += d->modulus[j] / (1 + tau / d->relaxation_time[j]);
+        d->weight[k] = 2 * d->modulus[k] * v;
+    }
+    status = wt_material_wrap(&prony_law, d, poisson_ratio, material, err);
+    if (status != WT_OK)
+        goto done;
+    (*material)->frequency_min = prony->frequency_min;
+    (*material)->frequency_max = prony->frequency_max;
+    d = NULL;
+done:
+    prony_data_free(d);
+    return status;
+}

@@ -1,0 +1,166 @@
+/* Material from a measured master curve: ln E' and ln E'' linear in ln omega between the knots.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "model/material.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+typedef struct table_data {
+    size_t n;
+    wt_extrapolation extrapolation;
+    double *omega;       /* [n] rad/s, rising */
+    double *log_omega;   /* [n] */
+    double *log_storage; /* [n] */
+    double *log_loss;    /* [n] */
+} table_data;
+
+/* The segment whose line holds at x: knots i and i + 1. */
+static size_t table_segment(const table_data *d, double x)
+{
+    size_t low = 0, high = d->n - 1;
+    while (high - low > 1) {
+        const size_t middle = low + (high - low) / 2;
+        if (x < d->log_omega[middle])
+            high = middle;
+        else
+            low = middle;
+    }
+    return low;
+}
+
+static void table_modulus(const wt_material *material, const double *omega, size_t n,
+                          double *storage, double *loss)
+{
+    const table_data *d = material->data;
+    for (size_t i = 0; i < n; i++) {
+        double x = log(omega[i]);
+        if (d->extrapolation == WT_EXTRAPOLATE_HOLD)
+            x = fmin(fmax(x, d->log_omega[0]), d->log_omega[d->n - 1]);
+        const size_t k = table_segment(d, x);
+        const double t = (x - d->log_omega[k]) / (d->log_omega[k + 1] - d->log_omega[k]);
+        storage[i] = exp(d->log_storage[k] + t * (d->log_storage[k + 1] - d->log_storage[k]));
+        loss[i] = exp(d->log_loss[k] + t * (d->log_loss[k + 1] - d->log_loss[k]));
+    }
+}
+
+static const double *table_breaks(const wt_material *material, size_t *n)
+{
+    const table_data *d = material->data;
+    *n = d->n;
+    return d->omega;
+}
+
+static void table_data_free(table_data *d)
+{
+    if (!d)
+        return;
+    free(d->omega);
+    free(d->log_omega);
+    free(d->log_storage);
+    free(d->log_loss);
+    free(d);
+}
+
+static void table_free(wt_material *material)
+{
+    table_data_free(material->data);
+}
+
+static const wt_material_law table_law = {
+    .name = "table",
+    .modulus = table_modulus,
+    .angular = NULL,
+    .breaks = table_breaks,
+    .free = table_free,
+};
+
+static wt_status table_check(const double *omega, const double *storage, const double *loss,
+                             size_t n, wt_error *err)
+{
+    for (size_t i = 0; i < n; i++) {
+        wt_status status =
+            wt_material_check_value("angular frequency", omega[i], "finite, > 0 rad/s and rising",
+                                    omega[i] > (i ? omega[i - 1] : 0), err);
+        if (status == WT_OK)
+            status = wt_material_check_value("storage modulus", storage[i], "finite and > 0 Pa",
+                                             storage[i] > 0, err);
+        if (status == WT_OK)
+            status = wt_material_check_value("loss modulus", loss[i], "finite and > 0 Pa",
+                                             loss[i] > 0, err);
+        if (status != WT_OK) {
+            wt_error_place(err, "knot %zu of %zu", i + 1, n);
+            return status;
+        }
+    }
+    return WT_OK;
+}
+
+/* Sliding always reaches down to omega = 0, where |E|^2 must stay integrable over the angle. */
+static wt_status table_check_slope(const table_data *d, wt_error *err)
+{
+    if (d->extrapolation != WT_EXTRAPOLATE_SLOPE)
+        return WT_OK;
+    const double width = d->log_omega[1] - d->log_omega[0];
+    const double storage = (d->log_storage[1] - d->log_storage[0]) / width;
+    const double loss = (d->log_loss[1] - d->log_loss[0]) / width;
+    const double lowest = fmin(storage, loss);
+    wt_status status = wt_material_check_value(
+        "log-log slope of the modulus at the low end of a table", lowest,
+        "> -0.25, so that it can be continued to frequency 0", lowest > -0.25, err);
+    if (status != WT_OK)
+        wt_error_advice(err, "hold the end values instead, or leave out the first knots");
+    return status;
+}
+
+wt_status wt_material_table(const double *omega, const double *storage, const double *loss,
+                            size_t n, double poisson_ratio, wt_extrapolation extrapolation,
+                            wt_material **material, wt_error *err)
+{
+    if (!omega || !storage || !loss || !material || n < 2)
+        return wt_fail(err, WT_E_ARG, "a material table needs at least 2 knots; found %zu", n);
+    table_data *d = NULL;
+    wt_status status = wt_material_check_poisson(poisson_ratio, err);
+    if (status == WT_OK)
+        status = table_check(omega, storage, loss, n, err);
+    if (status != WT_OK)
+        goto done;
+
+    d = calloc(1, sizeof *d);
+    if (d) {
+        d->omega = calloc(n, sizeof *d->omega);
+        d->log_omega = calloc(n, sizeof *d->log_omega);
+        d->log_storage = calloc(n, sizeof *d->log_storage);
+        d->log_loss = calloc(n, sizeof *d->log_loss);
+    }
+    if (!d || !d->omega || !d->log_omega || !d->log_storage || !d->log_loss) {
+        status = wt_fail(err, WT_E_MEMORY, "out of memory for a material table of %zu knots", n);
+        goto done;
+    }
+    d->n = n;
+    d->extrapolation = extrapolation;
+    for (size_t i = 0; i < n; i++) {
+        d->omega[i] = omega[i];
+        d->log_omega[i] = log(omega[i]);
+        d->log_storage[i] = log(storage[i]);
+        d->log_loss[i] = log(loss[i]);
+    }
+    for (size_t i = 1; status == WT_OK && i < n; i++)
+        if (!(d->log_omega[i] > d->log_omega[i - 1]))
+            status =
+                wt_fail(err, WT_E_RANGE,
+                        "knots %zu and %zu of a material table are too close together", i, i + 1);
+    if (status == WT_OK)
+        status = table_check_slope(d, err);
+    if (status == WT_OK)
+        status = wt_material_wrap(&table_law, d, poisson_ratio, material, err);
+    if (status != WT_OK)
+        goto done;
+    (*material)->frequency_min = omega[0];
+    (*material)->frequency_max = omega[n - 1];
+    d = NULL;
+done:
+    table_data_free(d);
+    return status;
+}

@@ -1,0 +1,184 @@
+/* Power spectra made of power laws: self-affine with a roll-off, and log-log tables.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "weartrack/model.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* C = density[i] (q / knot[i])^slope[i] for knot[i] <= q <= knot[i + 1]. */
+typedef struct power_data {
+    size_t n;        /* pieces */
+    double *knot;    /* [n + 1] rad/m, rising */
+    double *density; /* [n] m^4 at the left end */
+    double *slope;   /* [n] */
+} power_data;
+
+static size_t power_piece(const power_data *d, double q)
+{
+    size_t low = 0, high = d->n;
+    while (high - low > 1) {
+        const size_t middle = low + (high - low) / 2;
+        if (q < d->knot[middle])
+            high = middle;
+        else
+            low = middle;
+    }
+    return low;
+}
+
+static void power_density(const wt_roughness *roughness, const double *q, size_t n, double *c)
+{
+    const power_data *d = roughness->data;
+    for (size_t i = 0; i < n; i++) {
+        const size_t k = power_piece(d, q[i]);
+        if (!(q[i] >= roughness->q0 && q[i] <= roughness->q1))
+            c[i] = 0;
+        else if (d->slope[k] == 0)
+            c[i] = d->density[k];
+        else
+            c[i] = d->density[k] * pow(q[i] / d->knot[k], d->slope[k]);
+    }
+}
+
+static const double *power_breaks(const wt_roughness *roughness, size_t *n)
+{
+    const power_data *d = roughness->data;
+    *n = d->n - 1;
+    return d->knot + 1;
+}
+
+static double power_moment(const wt_roughness *roughness, int m, double q)
+{
+    const power_data *d = roughness->data;
+    double sum = 0;
+    for (size_t k = 0; k < d->n && d->knot[k] < q; k++) {
+        const double from = d->knot[k];
+        const double to = fmin(q, d->knot[k + 1]);
+        const double length = log1p((to - from) / from);
+        const double exponent = (m + 1) + d->slope[k];
+        const double integral = exponent == 0 ? length : expm1(exponent * length) / exponent;
+        sum += d->density[k] * pow(from, m + 1) * integral;
+    }
+    return sum;
+}
+
+static void power_data_free(power_data *d)
+{
+    if (!d)
+        return;
+    free(d->knot);
+    free(d->density);
+    free(d->slope);
+    free(d);
+}
+
+static void power_free(wt_roughness *roughness)
+{
+    power_data_free(roughness->data);
+}
+
+static const wt_roughness_law self_affine_law = {
+    .name = "self_affine",
+    .density = power_density,
+    .breaks = power_breaks,
+    .moment = power_moment,
+    .free = power_free,
+};
+
+static const wt_roughness_law table_law = {
+    .name = "table",
+    .density = power_density,
+    .breaks = power_breaks,
+    .moment = power_moment,
+    .free = power_free,
+};
+
+static wt_status power_new(const wt_roughness_law *law, const double *knot, const double *density,
+                           const double *slope, size_t pieces, wt_roughness **roughness,
+                           wt_error *err)
+{
+    wt_roughness *made = malloc(sizeof *made);
+    power_data *d = calloc(1, sizeof *d);
+    if (d) {
+        d->knot = calloc(pieces + 1, sizeof *d->knot);
+        d->density = calloc(pieces, sizeof *d->density);
+        d->slope = calloc(pieces, sizeof *d->slope);
+    }
+    if (!made || !d || !d->knot || !d->density || !d->slope) {
+        power_data_free(d);
+        free(made);
+        return wt_fail(err, WT_E_MEMORY, "out of memory for a power spectrum");
+    }
+    d->n = pieces;
+    for (size_t i = 0; i < pieces; i++) {
+        d->knot[i] = knot[i];
+        d->density[i] = density[i];
+        d->slope[i] = slope[i];
+    }
+    d->knot[pieces] = knot[pieces];
+    *made = (wt_roughness){.law = law, .q0 = knot[0], .q1 = knot[pieces], .data = d};
+    *roughness = made;
+    return WT_OK;
+}
+
+static wt_status out_of_range(const char *name, double value, const char *expected, wt_error *err)
+{
+    wt_fail(err, WT_E_RANGE, "%s of a power spectrum is outside its range", name);
+    wt_error_expected(err, "%s", expected);
+    wt_error_found(err, "%g", value);
+    return WT_E_RANGE;
+}
+
+wt_status wt_roughness_self_affine(double q0, double qr, double q1, double hurst, double c0,
+                                   wt_roughness **roughness, wt_error *err)
+{
+    if (!roughness)
+        return wt_fail(err, WT_E_ARG, "a power spectrum needs a place for the result");
+    if (!(q0 > 0) || !isfinite(q0))
+        return out_of_range("q0", q0, "finite and > 0 rad/m", err);
+    if (!(q1 > q0) || !isfinite(q1))
+        return out_of_range("q1", q1, "finite and > q0, in rad/m", err);
+    if (!(qr >= q0 && qr <= q1))
+        return out_of_range("qr", qr, "q0 <= qr <= q1, in rad/m", err);
+    if (!(hurst > -1 && hurst <= 3))
+        return out_of_range("hurst", hurst, "-1 < hurst <= 3 (0 to 1 for a self-affine surface)",
+                            err);
+    if (!(c0 > 0) || !isfinite(c0))
+        return out_of_range("c0", c0, "finite and > 0 m^4", err);
+    const double fall = -2 * (1 + hurst);
+    if (qr == q0)
+        return power_new(&self_affine_law, (double[]){q0, q1}, &c0, &fall, 1, roughness, err);
+    if (qr == q1)
+        return power_new(&self_affine_law, (double[]){q0, q1}, &c0, (double[]){0}, 1, roughness,
+                         err);
+    return power_new(&self_affine_law, (double[]){q0, qr, q1}, (double[]){c0, c0},
+                     (double[]){0, fall}, 2, roughness, err);
+}
+
+wt_status wt_roughness_table(const double *q, const double *c, size_t n, wt_roughness **roughness,
+                             wt_error *err)
+{
+    if (!q || !c || !roughness || n < 2)
+        return wt_fail(err, WT_E_ARG, "a table of a power spectrum needs at least 2 knots");
+    for (size_t i = 0; i < n; i++) {
+        wt_status status = WT_OK;
+        if (!(q[i] > (i ? q[i - 1] : 0)) || !isfinite(q[i]))
+            status = out_of_range("wavenumber", q[i], "finite, > 0 rad/m and rising", err);
+        else if (!(c[i] > 0) || !isfinite(c[i]))
+            status = out_of_range("density", c[i], "finite and > 0 m^4", err);
+        if (status != WT_OK) {
+            wt_error_place(err, "knot %zu of %zu", i + 1, n);
+            return status;
+        }
+    }
+    double *slope = calloc(n - 1, sizeof *slope);
+    if (!slope)
+        return wt_fail(err, WT_E_MEMORY, "out of memory for a power spectrum");
+    for (size_t i = 0; i + 1 < n; i++)
+        slope[i] = log(c[i + 1] / c[i]) / log1p((q[i + 1] - q[i]) / q[i]);
+    const wt_status status = power_new(&table_law, q, c, slope, n - 1, roughness, err);
+    free(slope);
+    return status;
+}

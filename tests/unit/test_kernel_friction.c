@@ -1,0 +1,435 @@
+/* Friction against numeric cases, its stated errors, and the laws it must obey. */
+#include "near.h"
+
+#include "friction_cases.h"
+#include "kernel/contact.h"
+#include "weartrack/kernel.h"
+
+#include <float.h>
+
+typedef struct rig {
+    numeric_case *c;
+    wt_material *material;
+    wt_roughness *roughness;
+    double pressure, velocity, gamma;
+} rig;
+
+static void rig_free(rig *r)
+{
+    wt_material_free(r->material);
+    wt_roughness_free(r->roughness);
+    free(r->c);
+}
+
+static void rig_set(rig *r)
+{
+    wt_error err = WT_ERROR_INIT;
+    assert_int_equal(friction_case_material(r->c, &r->material, &err), WT_OK);
+    assert_int_equal(friction_case_roughness(r->c, &r->roughness, &err), WT_OK);
+    r->pressure = case_number(r->c, false, "pressure", 0);
+    r->velocity = case_number(r->c, false, "velocity", 0);
+    r->gamma = case_number(r->c, false, "gamma", 1);
+}
+
+static FILE *open_cases(void)
+{
+    FILE *in = fopen(WT_SOURCE_DIR "/tests/numeric/friction.txt", "r");
+    assert_non_null(in);
+    return in;
+}
+
+/* A rig with the material and roughness of a named case. */
+static rig rig_named(const char *name)
+{
+    rig r = {.c = malloc(sizeof *r.c)};
+    assert_non_null(r.c);
+    FILE *in = open_cases();
+    bool found = false;
+    while (!found && case_read(in, r.c))
+        found = strcmp(r.c->name, name) == 0;
+    fclose(in);
+    assert_true(found);
+    rig_set(&r);
+    return r;
+}
+
+static wt_friction_workspace *prepare(const rig *r, double tolerance, unsigned threads)
+{
+    wt_friction_options options = wt_friction_defaults();
+    options.tolerance = tolerance;
+    options.gamma = r->gamma;
+    options.threads = threads;
+    wt_friction_workspace *ws = NULL;
+    wt_error err = WT_ERROR_INIT;
+    assert_int_equal(wt_friction_workspace_new(r->material, r->roughness, &options, &ws, &err),
+                     WT_OK);
+    return ws;
+}
+
+static wt_friction_point solve(const rig *r, double tolerance)
+{
+    wt_friction_workspace *ws = prepare(r, tolerance, 1);
+    wt_friction_point point;
+    assert_int_equal(wt_friction_compute(ws, r->pressure, &r->velocity, 1, &point, NULL), WT_OK);
+    wt_friction_workspace_free(ws);
+    return point;
+}
+
+/* ---- numeric cases --------------------------------------------------------------------------- */
+
+static void check_bound(const char *name, const char *what, wt_estimate actual, double expected)
+{
+    if (!(fabs(actual.value - expected) <= actual.numerical_error))
+        fail_msg("%s: %s %.17g is %.3g from %.17g, but %.3g is stated", name, what, actual.value,
+                 fabs(actual.value - expected), expected, actual.numerical_error);
+}
+
+static void numeric_cases(void **state)
+{
+    (void)state;
+    FILE *in = open_cases();
+    size_t n = 0;
+    rig r = {.c = malloc(sizeof *r.c)};
+    assert_non_null(r.c);
+    while (case_read(in, r.c)) {
+        rig_set(&r);
+        const wt_friction_point p = solve(&r, wt_friction_defaults().tolerance);
+        const double variance = case_number(r.c, true, "stress_variance", 0);
+        const double area = case_number(r.c, true, "area_ratio", 0);
+        const double gap = case_number(r.c, true, "one_minus_area", 0);
+        const double hysteresis = case_number(r.c, true, "hysteresis", 0);
+        assert_near(p.stress_variance.value, variance, 1e-10);
+        assert_near(p.area_ratio.value, area, 1e-10);
+        assert_near(p.one_minus_area.value, gap, 1e-10);
+        assert_near(p.hysteresis.value, hysteresis, 1e-10);
+        assert_true(p.reached);
+
+        for (double tolerance = 1e-4; tolerance > 1e-13; tolerance *= 0.1) {
+            const wt_friction_point q = solve(&r, tolerance);
+            check_bound(r.c->name, "G", q.stress_variance, variance);
+            check_bound(r.c->name, "P", q.area_ratio, area);
+            check_bound(r.c->name, "1-P", q.one_minus_area, gap);
+            check_bound(r.c->name, "mu", q.hysteresis, hysteresis);
+            if (q.reached) {
+                assert_true(q.hysteresis.numerical_error <= tolerance * q.hysteresis.value);
+                assert_true(q.area_ratio.numerical_error <= tolerance * q.area_ratio.value);
+                assert_true(q.stress_variance.numerical_error <=
+                            tolerance * q.stress_variance.value);
+            }
+        }
+        wt_material_free(r.material);
+        wt_roughness_free(r.roughness);
+        n++;
+    }
+    assert_int_equal(n, 17);
+    free(r.c);
+    fclose(in);
+}
+
+/* The contact area on the way to the full range of wavenumbers. */
+static void numeric_profiles(void **state)
+{
+    (void)state;
+    FILE *in = open_cases();
+    rig r = {.c = malloc(sizeof *r.c)};
+    assert_non_null(r.c);
+    size_t n = 0;
+    while (case_read(in, r.c)) {
+        rig_set(&r);
+        double q[16];
+        const case_line *lines[16];
+        size_t points = 0;
+        for (size_t i = 0; i < r.c->n; i++)
+            if (r.c->lines[i].expected && strcmp(r.c->lines[i].key, "at") == 0) {
+                lines[points] = &r.c->lines[i];
+                q[points++] = r.c->lines[i].value[0];
+            }
+        wt_friction_workspace *ws = prepare(&r, 1e-10, 1);
+        wt_friction_node nodes[16];
+        assert_int_equal(wt_friction_profile(ws, r.pressure, r.velocity, q, points, nodes, NULL),
+                         WT_OK);
+        for (size_t i = 0; i < points; i++, n++) {
+            assert_near(nodes[i].stress_variance, lines[i]->value[1], 1e-10);
+            assert_near(nodes[i].area_ratio, lines[i]->value[2], 1e-10);
+            assert_near(nodes[i].hysteresis, lines[i]->value[3], 1e-10);
+            assert_true(fabs(nodes[i].area_ratio - lines[i]->value[2]) <= nodes[i].numerical_error);
+        }
+        wt_friction_workspace_free(ws);
+        wt_material_free(r.material);
+        wt_roughness_free(r.roughness);
+    }
+    assert_int_equal(n, 9);
+    free(r.c);
+    fclose(in);
+}
+
+/* The ends of the profile: nothing at q0, everything at q1. */
+static void profile_ends(void **state)
+{
+    (void)state;
+    rig r = rig_named("normal_table_hold");
+    wt_friction_workspace *ws = prepare(&r, 1e-10, 1);
+    const wt_friction_point all = solve(&r, 1e-10);
+    const double q[] = {500, 500, 1000, 5e5, 1e6};
+    wt_friction_node nodes[5];
+    assert_int_equal(wt_friction_profile(ws, r.pressure, -r.velocity, q, 5, nodes, NULL), WT_OK);
+    assert_near(nodes[0].area_ratio, 1, 0);
+    assert_near(nodes[1].stress_variance, 0, 0);
+    assert_near(nodes[4].stress_variance, all.stress_variance.value, 1e-10);
+    assert_near(nodes[4].hysteresis, -all.hysteresis.value, 1e-10);
+    wt_error err = WT_ERROR_INIT;
+    const double falling[] = {1000, 600};
+    assert_int_equal(wt_friction_profile(ws, r.pressure, r.velocity, falling, 2, nodes, &err),
+                     WT_E_RANGE);
+    assert_non_null(strstr(err.message, "wavenumber 2 of 2"));
+    wt_friction_workspace_free(ws);
+    rig_free(&r);
+}
+
+/* ---- closed forms ---------------------------------------------------------------------------- */
+
+static void area_functions(void **state)
+{
+    (void)state;
+    FILE *in = fopen(WT_SOURCE_DIR "/tests/numeric/friction-functions.txt", "r");
+    assert_non_null(in);
+    char line[512];
+    size_t n = 0;
+    while (fgets(line, sizeof line, in)) {
+        double variance, area, gap, integral;
+        if (sscanf(line, "area %lf %lf %lf %lf", &variance, &area, &gap, &integral) != 4)
+            continue;
+        assert_near(wt_contact_area(variance), area, 4 * DBL_EPSILON);
+        assert_near_abs(wt_contact_gap(variance), gap, fmax(1e-13 * gap, DBL_MIN));
+        assert_near(wt_contact_integral(variance, 1), integral, 4 * DBL_EPSILON);
+        n++;
+    }
+    fclose(in);
+    assert_int_equal(n, 9);
+}
+
+/* int S P dG against its own derivative by a fine sum. */
+static void area_integral_with_correction(void **state)
+{
+    (void)state;
+    const double gamma = 0.45;
+    const double from = 0.0385, to = 7.91;
+    const int n = 4000;
+    double sum = 0;
+    for (int i = 0; i < n; i++) { /* midpoint rule in ln G */
+        const double variance = from * pow(to / from, (i + 0.5) / n);
+        const double area = wt_contact_area(variance);
+        sum += variance * area * (gamma + (1 - gamma) * area * area);
+    }
+    sum *= log(to / from) / n;
+    assert_near(wt_contact_integral(to, gamma) - wt_contact_integral(from, gamma), sum, 1e-6);
+}
+
+/* ---- laws ------------------------------------------------------------------------------------ */
+
+static void odd_in_velocity(void **state)
+{
+    (void)state;
+    rig r = rig_named("normal_prony_v1e-2");
+    wt_friction_workspace *ws = prepare(&r, 1e-10, 1);
+    const double velocity[] = {0.0385, -0.0385, 0};
+    wt_friction_point p[3];
+    assert_int_equal(wt_friction_compute(ws, r.pressure, velocity, 3, p, NULL), WT_OK);
+    assert_near(p[1].hysteresis.value, -p[0].hysteresis.value, 0);
+    assert_near(p[1].stress_variance.value, p[0].stress_variance.value, 0);
+    assert_near(p[2].hysteresis.value, 0, 0);
+    assert_true(p[2].stress_variance.value > 0 && p[2].reached);
+    wt_friction_workspace_free(ws);
+    rig_free(&r);
+}
+
+/* (E, sigma0) -> (s E, s sigma0) and (q, C, v) -> (s q, C / s^4, v / s) change nothing. */
+static void scalings(void **state)
+{
+    (void)state;
+    const double s = 7.3;
+    double e[] = {3e6, 4e7, 5e8}, tau[] = {1e-3, 1e-5, 1e-7};
+    wt_prony prony = {.equilibrium_modulus = 2.385e6, .n = 3, .relaxation_time = tau, .modulus = e};
+    prony.frequency_min = prony.frequency_max = (double)NAN;
+    rig r = {.pressure = 2.9e5, .velocity = 0.31, .gamma = 0.5};
+    assert_int_equal(wt_material_prony(&prony, 0.47, &r.material, NULL), WT_OK);
+    assert_int_equal(wt_roughness_self_affine(740, 1900, 3e6, 0.83, 3e-16, &r.roughness, NULL),
+                     WT_OK);
+    const wt_friction_point plain = solve(&r, 1e-12);
+    wt_roughness_free(r.roughness);
+    assert_int_equal(wt_roughness_self_affine(s * 740, s * 1900, s * 3e6, 0.83,
+                                              3e-16 / (s * s * s * s), &r.roughness, NULL),
+                     WT_OK);
+    r.velocity /= s;
+    const wt_friction_point finer = solve(&r, 1e-12);
+    assert_near(finer.hysteresis.value, plain.hysteresis.value, 1e-12);
+    assert_near(finer.area_ratio.value, plain.area_ratio.value, 1e-12);
+    wt_material_free(r.material);
+    prony.equilibrium_modulus *= s;
+    for (size_t i = 0; i < 3; i++)
+        e[i] *= s;
+    assert_int_equal(wt_material_prony(&prony, 0.47, &r.material, NULL), WT_OK);
+    r.pressure *= s;
+    const wt_friction_point stiffer = solve(&r, 1e-12);
+    assert_near(stiffer.hysteresis.value, plain.hysteresis.value, 1e-12);
+    assert_near(stiffer.stress_variance.value, plain.stress_variance.value, 1e-12);
+    rig_free(&r);
+}
+
+/* Elastic: P = erf(sqrt(2) sigma0 / (E* h')). */
+static void elastic_area(void **state)
+{
+    (void)state;
+    rig r = rig_named("elastic");
+    const wt_friction_point p = solve(&r, 1e-12);
+    const double slope = wt_roughness_rms_slope(r.roughness);
+    assert_near(p.area_ratio.value, erf(M_SQRT2 * r.pressure / (5e6 / 0.75 * slope)), 1e-12);
+    assert_near(p.hysteresis.value, 0, 0);
+    assert_near(p.hysteresis.numerical_error, 0, 0);
+    rig_free(&r);
+}
+
+static void same_bits_for_any_threads(void **state)
+{
+    (void)state;
+    rig r = rig_named("normal_table_loglog");
+    double velocity[37];
+    for (size_t i = 0; i < 37; i++)
+        velocity[i] = 1e-6 * pow(10, 0.21 * (double)i);
+    wt_friction_point one[37], many[37];
+    memset(one, 0, sizeof one);
+    memset(many, 0, sizeof many);
+    wt_friction_workspace *ws = prepare(&r, 1e-9, 1);
+    /* another range first: results must not depend on what was asked before */
+    assert_int_equal(wt_friction_compute(ws, r.pressure, &velocity[20], 1, one, NULL), WT_OK);
+    assert_int_equal(wt_friction_compute(ws, r.pressure, velocity, 37, one, NULL), WT_OK);
+    wt_friction_workspace_free(ws);
+    ws = prepare(&r, 1e-9, 5);
+    assert_int_equal(wt_friction_compute(ws, r.pressure, velocity, 37, many, NULL), WT_OK);
+    wt_friction_workspace_free(ws);
+    for (size_t i = 0; i < 37; i++) {
+        assert_near(many[i].hysteresis.value, one[i].hysteresis.value, 0);
+        assert_near(many[i].hysteresis.numerical_error, one[i].hysteresis.numerical_error, 0);
+        assert_near(many[i].stress_variance.value, one[i].stress_variance.value, 0);
+        assert_near(many[i].extrapolated_share, one[i].extrapolated_share, 0);
+        assert_true(many[i].extrapolated_share >= 0 && many[i].extrapolated_share <= 1);
+        assert_true(many[i].reached);
+    }
+    rig_free(&r);
+}
+
+static void bad_input(void **state)
+{
+    (void)state;
+    rig r = rig_named("normal_table_hold");
+    wt_error err = WT_ERROR_INIT;
+    wt_friction_options options = wt_friction_defaults();
+    wt_friction_workspace *ws = NULL;
+    options.tolerance = 0;
+    assert_int_equal(wt_friction_workspace_new(r.material, r.roughness, &options, &ws, &err),
+                     WT_E_RANGE);
+    assert_non_null(strstr(err.message, "tolerance"));
+    options = wt_friction_defaults();
+    options.gamma = 1.5;
+    assert_int_equal(wt_friction_workspace_new(r.material, r.roughness, &options, &ws, &err),
+                     WT_E_RANGE);
+    assert_non_null(strstr(err.message, "gamma"));
+    options = wt_friction_defaults();
+    options.layer.modulus_ratio = 0;
+    assert_int_equal(wt_friction_workspace_new(r.material, r.roughness, &options, &ws, &err),
+                     WT_E_RANGE);
+    assert_non_null(strstr(err.message, "modulus ratio"));
+    assert_null(ws);
+
+    ws = prepare(&r, 1e-10, 1);
+    wt_friction_point point;
+    const double velocities[] = {(double)NAN, (double)INFINITY, 0};
+    for (size_t i = 0; i < 3; i++) {
+        assert_int_equal(wt_friction_compute(ws, r.pressure, &velocities[i], 1, &point, &err),
+                         WT_E_RANGE);
+        assert_non_null(strstr(err.message, "velocity"));
+    }
+    const double pressures[] = {0, -1, (double)NAN, (double)INFINITY, 1e-300};
+    for (size_t i = 0; i < 5; i++) {
+        assert_int_equal(wt_friction_compute(ws, pressures[i], &r.velocity, 1, &point, &err),
+                         WT_E_RANGE);
+        assert_non_null(strstr(err.message, "pressure"));
+    }
+    wt_friction_workspace_free(ws);
+    rig_free(&r);
+}
+
+/* ---- a layer on the bulk --------------------------------------------------------------------- */
+
+static wt_friction_point with_layer(const rig *r, double thickness, double ratio)
+{
+    wt_friction_options options = wt_friction_defaults();
+    options.layer = (wt_layer_state){.thickness = thickness, .modulus_ratio = ratio};
+    wt_friction_workspace *ws = NULL;
+    wt_friction_point point;
+    assert_int_equal(wt_friction_workspace_new(r->material, r->roughness, &options, &ws, NULL),
+                     WT_OK);
+    assert_int_equal(wt_friction_compute(ws, r->pressure, &r->velocity, 1, &point, NULL), WT_OK);
+    assert_true(point.reached);
+    wt_friction_workspace_free(ws);
+    return point;
+}
+
+static void layer_limits(void **state)
+{
+    (void)state;
+    rig r = rig_named("normal_prony_v1e-2");
+    const wt_friction_point bulk = solve(&r, 1e-10);
+    const double same[][2] = {{0, 0.3}, {1e-6, 1}, {1e-20, 0.3}};
+    for (size_t i = 0; i < 3; i++) {
+        const wt_friction_point p = with_layer(&r, same[i][0], same[i][1]);
+        assert_near(p.hysteresis.value, bulk.hysteresis.value, 1e-10);
+        assert_near(p.stress_variance.value, bulk.stress_variance.value, 1e-10);
+    }
+    /* all layer: the bulk with another modulus, or the same at another pressure */
+    const wt_friction_point thick = with_layer(&r, 1e6, 0.3);
+    r.pressure /= 0.3;
+    const wt_friction_point soft = solve(&r, 1e-10);
+    assert_near(thick.hysteresis.value, soft.hysteresis.value, 1e-10);
+    assert_near(thick.area_ratio.value, soft.area_ratio.value, 1e-10);
+    /* a real layer lies between */
+    r.pressure *= 0.3;
+    const wt_friction_point some = with_layer(&r, 1e-6, 0.3);
+    assert_true(some.area_ratio.value > bulk.area_ratio.value);
+    assert_true(some.area_ratio.value < thick.area_ratio.value);
+    rig_free(&r);
+}
+
+static void total_friction(void **state)
+{
+    (void)state;
+    const wt_estimate hysteresis = {.value = 0.2, .standard_error = 0.03, .numerical_error = 1e-9};
+    const wt_estimate area = {.value = 0.05, .standard_error = 0.004, .numerical_error = 1e-8};
+    const wt_estimate shear = {.value = 3004626.504404032, .standard_error = 1e5};
+    const wt_estimate mu = wt_friction_total(hysteresis, area, shear, 4e5);
+    assert_near(mu.value, 0.575578313050504, 1e-14);
+    const double from_area = 3004626.504404032 / 4e5 * 0.004;
+    const double from_shear = 0.05 / 4e5 * 1e5;
+    assert_near(mu.standard_error,
+                sqrt(0.03 * 0.03 + from_area * from_area + from_shear * from_shear), 1e-14);
+    assert_near(mu.numerical_error, 1e-9 + 3004626.504404032 / 4e5 * 1e-8, 1e-14);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(numeric_cases),
+        cmocka_unit_test(numeric_profiles),
+        cmocka_unit_test(profile_ends),
+        cmocka_unit_test(area_functions),
+        cmocka_unit_test(area_integral_with_correction),
+        cmocka_unit_test(odd_in_velocity),
+        cmocka_unit_test(scalings),
+        cmocka_unit_test(elastic_area),
+        cmocka_unit_test(same_bits_for_any_threads),
+        cmocka_unit_test(bad_input),
+        cmocka_unit_test(layer_limits),
+        cmocka_unit_test(total_friction),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
