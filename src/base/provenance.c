@@ -1,6 +1,6 @@
 /* Where a result comes from: the command and its inputs. SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "weartrack/base.h"
+#include "base/provenance.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -76,6 +76,16 @@ wt_status wt_provenance_set_command(wt_provenance *p, int argc, char *const argv
     }
     free(p->command);
     p->command = command;
+    return WT_OK;
+}
+
+wt_status wt_provenance_restore_command(wt_provenance *p, const char *command)
+{
+    char *const copy = strdup(command);
+    if (copy == NULL)
+        return WT_E_MEMORY;
+    free(p->command);
+    p->command = copy;
     return WT_OK;
 }
 

@@ -58,6 +58,10 @@ wt_status wt_result_add(wt_result *result, wt_table *table, wt_error *err)
         wt_error_found(err, "\"%s\"", table->name);
         goto done;
     }
+    if (result->n >= RESULT_TABLES_MAX) {
+        status = wt_fail(err, WT_E_ARG, "more than %d tables", (int)RESULT_TABLES_MAX);
+        goto done;
+    }
     for (size_t i = 0; i < result->n; i++) {
         if (collide(result->tables[i]->name, table->name)) {
             status = wt_fail(err, WT_E_ARG, "tables \"%s\" and \"%s\" collide",

@@ -6,7 +6,7 @@
 #include "weartrack/data.h"
 
 /* More than any table has: names are searched one by one, and a file is not to be trusted. */
-enum { TABLE_COLUMNS_MAX = 4096, TABLE_KEYS_MAX = 4096 };
+enum { TABLE_COLUMNS_MAX = 2048, TABLE_KEYS_MAX = 2048, RESULT_TABLES_MAX = 2048 };
 
 typedef struct table_column {
     wt_column_kind kind;
@@ -22,6 +22,9 @@ typedef struct table_key {
     wt_estimate parsed; /* which is this one; its unit points into `unit` */
     char *unit;
 } table_key;
+
+/* An estimate has four names in a store: its own and those of its other parts. */
+enum { WT_KEY_STANDARD_ERROR, WT_KEY_NUMERICAL_ERROR, WT_KEY_UNITS, WT_KEY_PARTS };
 
 struct wt_table {
     char *name, *title;
@@ -39,5 +42,8 @@ bool wt_table_name_is_valid(const char *name);
 /* [A-Za-z0-9_]+ */
 bool wt_table_word_is_valid(const char *word);
 void wt_table_free_keys(wt_table *table);
+/* Names of the parts of an estimate key, new, to be freed also on failure. False when out of
+ * memory. */
+bool wt_table_key_part_names(const char *key, char *names[WT_KEY_PARTS]);
 
 #endif

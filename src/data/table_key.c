@@ -11,8 +11,23 @@ static const char standard_error_mark[] = " standard_error=";
 static const char numerical_error_mark[] = " numerical_error=";
 static const char unit_mark[] = " unit=";
 
-static const char *const estimate_suffixes[] = {"_standard_error", "_numerical_error", "_units"};
-enum { N_SUFFIXES = sizeof estimate_suffixes / sizeof *estimate_suffixes };
+static const char *const part_suffixes[WT_KEY_PARTS] = {
+    [WT_KEY_STANDARD_ERROR] = "_standard_error",
+    [WT_KEY_NUMERICAL_ERROR] = "_numerical_error",
+    [WT_KEY_UNITS] = "_units",
+};
+
+bool wt_table_key_part_names(const char *key, char *names[WT_KEY_PARTS])
+{
+    bool good = true;
+    for (size_t i = 0; i < WT_KEY_PARTS; i++) {
+        if (asprintf(&names[i], "%s%s", key, part_suffixes[i]) < 0) {
+            names[i] = NULL;
+            good = false;
+        }
+    }
+    return good;
+}
 
 static void key_free(table_key *key)
 {
@@ -81,8 +96,8 @@ static bool is_part_of(const char *name, const char *estimate)
     const size_t length = strlen(estimate);
     if (strncmp(name, estimate, length) != 0)
         return false;
-    for (size_t i = 0; i < N_SUFFIXES; i++) {
-        if (strcmp(name + length, estimate_suffixes[i]) == 0)
+    for (size_t i = 0; i < WT_KEY_PARTS; i++) {
+        if (strcmp(name + length, part_suffixes[i]) == 0)
             return true;
     }
     return false;
@@ -109,6 +124,16 @@ static wt_status set_key(wt_table *table, const char *name, char *text, wt_error
         goto done;
     }
     key.is_estimate = parse_estimate(key.text, &key.parsed);
+    if (key.is_estimate) {
+        /* One spelling for one estimate, wherever it came from. */
+        char *const canonical = estimate_text(&key.parsed);
+        free(key.text);
+        key.text = canonical;
+        if (canonical == NULL || !parse_estimate(key.text, &key.parsed)) {
+            status = wt_fail(err, WT_E_MEMORY, "out of memory");
+            goto done;
+        }
+    }
     for (size_t i = 0; i < table->n_keys; i++) {
         const table_key *const other = &table->keys[i];
         if ((other->is_estimate && is_part_of(name, other->name)) ||

@@ -1,0 +1,36 @@
+/* What the writer and the reader of the HDF5 store share; see weartrack-hdf5(5).
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WT_DATA_STORE_H
+#define WT_DATA_STORE_H
+
+#include "data/table.h"
+
+/* Version of the layout, in the root attribute "weartrack_format". */
+enum { STORE_FORMAT = 1 };
+
+#define STORE_FORMAT_ATTRIBUTE "weartrack_format"
+#define STORE_VERSION_ATTRIBUTE "weartrack_version"
+#define STORE_COMMAND_ATTRIBUTE "command"
+#define STORE_CREATED_ATTRIBUTE "created"
+#define STORE_DIGEST_ATTRIBUTE "content_sha256"
+#define STORE_TABLES_ATTRIBUTE "table_order"
+#define STORE_TITLE_ATTRIBUTE "title"
+#define STORE_COLUMNS_ATTRIBUTE "column_order"
+#define STORE_KEYS_ATTRIBUTE "key_order"
+#define STORE_UNITS_ATTRIBUTE "units"
+#define STORE_LONG_NAME_ATTRIBUTE "long_name"
+#define STORE_BLOCK_DATASET "block"
+#define STORE_CASE_DATASET "case"
+#define STORE_INPUTS_TABLE "provenance/inputs"
+
+/* Digest of what a store holds: its tables as text streams in their order, the list of inputs the
+ * same way (NULL if there is none), and the case file. The layout of HDF5 keeps no checksum over
+ * the values, so a flipped bit would otherwise be a wrong number. */
+wt_status wt_store_digest(const wt_result *result, const wt_table *inputs, char hex[65],
+                          wt_error *err);
+
+/* The inputs of a provenance as a table named STORE_INPUTS_TABLE, and back. */
+wt_status wt_store_inputs_table(const wt_provenance *provenance, wt_table **table, wt_error *err);
+wt_status wt_store_inputs_read(const wt_table *table, wt_provenance *provenance, wt_error *err);
+
+#endif

@@ -1,0 +1,574 @@
+/* The HDF5 store to results. The file may be damaged or made to do harm: types, ranks and lengths
+ * are checked before memory is taken, no link leads out of the file, and the content must agree
+ * with its digest. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "data/hdf5_scope.h"
+#include "data/store.h"
+
+#include "base/provenance.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+typedef struct reader {
+    hid_t file;
+    hsize_t file_size; /* no array and no text in the file can be larger */
+    const char *table; /* for messages, NULL outside of tables */
+    wt_error *err;
+} reader;
+
+static wt_status corrupt(const reader *r, const char *name, const char *message)
+{
+    (void)wt_fail(r->err, WT_E_CORRUPT, "%s", message);
+    wt_error_place(r->err, "%s%s%s", r->table != NULL ? r->table : "", r->table != NULL ? "/" : "",
+                   name);
+    wt_error_advice(r->err, "make the file again");
+    return WT_E_CORRUPT;
+}
+
+static wt_status no_memory(const reader *r)
+{
+    return wt_fail(r->err, WT_E_MEMORY, "out of memory");
+}
+
+/* A name that the data types refuse is the file's fault, not an argument's. */
+static wt_status refused(const reader *r, wt_status status)
+{
+    if (status == WT_E_ARG) {
+        status = WT_E_CORRUPT;
+        if (r->err != NULL)
+            r->err->status = status;
+    }
+    return status;
+}
+
+/* Reads n variable-length strings of an attribute or a data set (is_attribute) into new copies. */
+static wt_status read_texts(const reader *r, hid_t source, bool is_attribute, const char *name,
+                            size_t n, char **texts)
+{
+    wt_status status = WT_OK;
+    char **raw = NULL;
+    hsize_t needed = 0;
+    const hid_t type = is_attribute ? H5Aget_type(source) : H5Dget_type(source);
+    const hid_t space = is_attribute ? H5Aget_space(source) : H5Dget_space(source);
+    const hid_t memory_type = H5Tcopy(H5T_C_S1);
+    if (type < 0 || space < 0 || memory_type < 0 || H5Tget_class(type) != H5T_STRING ||
+        H5Tis_variable_str(type) <= 0 || H5Tset_size(memory_type, H5T_VARIABLE) < 0 ||
+        H5Tset_cset(memory_type, H5Tget_cset(type)) < 0) {
+        status = corrupt(r, name, "not text of variable length");
+        goto done;
+    }
+    /* Many cells may point at one long text. */
+    if (!is_attribute &&
+        (H5Dvlen_get_buf_size(source, memory_type, space, &needed) < 0 || needed > r->file_size)) {
+        status = corrupt(r, name, "text longer than the file");
+        goto done;
+    }
+    raw = calloc(n + 1, sizeof *raw);
+    if (raw == NULL) {
+        status = no_memory(r);
+        goto done;
+    }
+    if ((is_attribute ? H5Aread(source, memory_type, raw)
+                      : H5Dread(source, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, raw)) < 0) {
+        status = corrupt(r, name, "text cannot be read");
+        goto done;
+    }
+    for (size_t i = 0; i < n; i++) {
+        if (status == WT_OK && raw[i] != NULL && raw[i][0] != '\0') {
+            texts[i] = strdup(raw[i]);
+            if (texts[i] == NULL)
+                status = no_memory(r);
+        }
+        (void)H5free_memory(raw[i]);
+    }
+done:
+    free(raw);
+    if (memory_type >= 0)
+        (void)H5Tclose(memory_type);
+    if (space >= 0)
+        (void)H5Sclose(space);
+    if (type >= 0)
+        (void)H5Tclose(type);
+    return status;
+}
+
+/* Opens an attribute and gives its number of elements. */
+static hid_t open_attribute(hid_t object, const char *name, size_t *n)
+{
+    const hid_t attribute = H5Aopen(object, name, H5P_DEFAULT);
+    const hid_t space = attribute >= 0 ? H5Aget_space(attribute) : -1;
+    const hssize_t points = space >= 0 ? H5Sget_simple_extent_npoints(space) : -1;
+    if (space >= 0)
+        (void)H5Sclose(space);
+    if (attribute >= 0 && points < 0) {
+        (void)H5Aclose(attribute);
+        return -1;
+    }
+    *n = (size_t)points;
+    return attribute;
+}
+
+/* One text, new. */
+static wt_status read_text(const reader *r, hid_t object, const char *name, char **text)
+{
+    size_t n = 0;
+    char *found = NULL;
+    const hid_t attribute = open_attribute(object, name, &n);
+    wt_status status = WT_OK;
+    if (attribute < 0 || n != 1)
+        status = corrupt(r, name, "attribute missing or not one text");
+    else
+        status = read_texts(r, attribute, true, name, 1, &found);
+    if (status == WT_OK && found == NULL) {
+        found = strdup("");
+        if (found == NULL)
+            status = no_memory(r);
+    }
+    if (attribute >= 0)
+        (void)H5Aclose(attribute);
+    if (status == WT_OK)
+        *text = found;
+    return status;
+}
+
+/* A list of words, which is left out of the file where it is empty. */
+static wt_status read_words(const reader *r, hid_t object, const char *name, size_t max,
+                            char ***words, size_t *n_words)
+{
+    size_t n = 0;
+    if (H5Aexists(object, name) == 0)
+        return WT_OK;
+    const hid_t attribute = open_attribute(object, name, &n);
+    char **const found = attribute >= 0 && n <= max ? calloc(n + 1, sizeof *found) : NULL;
+    wt_status status = WT_OK;
+    if (attribute < 0 || n > max)
+        status = corrupt(r, name, "not a list of names");
+    else if (found == NULL)
+        status = no_memory(r);
+    else
+        status = read_texts(r, attribute, true, name, n, found);
+    for (size_t i = 0; status == WT_OK && i < n; i++) {
+        if (found[i] == NULL)
+            status = corrupt(r, name, "an empty name");
+    }
+    if (attribute >= 0)
+        (void)H5Aclose(attribute);
+    if (status == WT_OK) {
+        *words = found;
+        *n_words = n;
+    } else {
+        wt_strings_free(found, found != NULL ? n : 0);
+    }
+    return status;
+}
+
+/* WT_END if the attribute is not a number. */
+static wt_status read_number(const reader *r, hid_t object, const char *name, double *value)
+{
+    size_t n = 0;
+    const hid_t attribute = open_attribute(object, name, &n);
+    const hid_t type = attribute >= 0 ? H5Aget_type(attribute) : -1;
+    wt_status status = WT_OK;
+    if (type < 0 || n != 1)
+        status = corrupt(r, name, "attribute missing or not one value");
+    else if (H5Tget_class(type) != H5T_FLOAT)
+        status = WT_END;
+    else if (H5Aread(attribute, H5T_NATIVE_DOUBLE, value) < 0)
+        status = corrupt(r, name, "attribute cannot be read");
+    if (type >= 0)
+        (void)H5Tclose(type);
+    if (attribute >= 0)
+        (void)H5Aclose(attribute);
+    return status;
+}
+
+/* Whether `name` in `group` is a link within this file. */
+static bool is_inside(hid_t group, const char *name)
+{
+    H5L_info_t info;
+    return H5Lexists(group, name, H5P_DEFAULT) > 0 &&
+           H5Lget_info(group, name, &info, H5P_DEFAULT) >= 0 && info.type == H5L_TYPE_HARD;
+}
+
+/* Opens a group by its path, step by step; -1 if a step is missing or leads out of the file. */
+static hid_t open_group(const reader *r, const char *path)
+{
+    char *const steps = strdup(path);
+    hid_t group = steps != NULL ? H5Gopen2(r->file, "/", H5P_DEFAULT) : -1;
+    for (char *step = steps; group >= 0 && step != NULL;) {
+        char *const slash = strchr(step, '/');
+        if (slash != NULL)
+            *slash = '\0';
+        const hid_t inner = is_inside(group, step) ? H5Gopen2(group, step, H5P_DEFAULT) : -1;
+        (void)H5Gclose(group);
+        group = inner;
+        step = slash != NULL ? slash + 1 : NULL;
+    }
+    free(steps);
+    return group;
+}
+
+/* Opens a data set whose values all stand in one piece in this file. */
+static hid_t open_dataset(const reader *r, hid_t group, const char *name, int rank, hsize_t *n)
+{
+    bool good = false;
+    if (!is_inside(group, name))
+        return -1;
+    const hid_t dataset = H5Dopen2(group, name, H5P_DEFAULT);
+    if (dataset < 0)
+        return -1;
+    const hid_t creation = H5Dget_create_plist(dataset);
+    const hid_t space = H5Dget_space(dataset);
+    const hid_t type = H5Dget_type(dataset);
+    if (creation >= 0 && space >= 0 && type >= 0 && H5Sget_simple_extent_ndims(space) == rank &&
+        H5Pget_layout(creation) == H5D_CONTIGUOUS && H5Pget_external_count(creation) == 0) {
+        const hssize_t points = H5Sget_simple_extent_npoints(space);
+        const hsize_t size = H5Tget_size(type);
+        const hsize_t stored = H5Dget_storage_size(dataset);
+        /* Text takes more in the file than its pointers do in memory. */
+        good =
+            points >= 0 && size > 0 && stored <= r->file_size && (hsize_t)points <= stored / size;
+        *n = (hsize_t)points;
+    }
+    if (type >= 0)
+        (void)H5Tclose(type);
+    if (space >= 0)
+        (void)H5Sclose(space);
+    if (creation >= 0)
+        (void)H5Pclose(creation);
+    if (!good) {
+        (void)H5Dclose(dataset);
+        return -1;
+    }
+    return dataset;
+}
+
+static wt_status read_estimate(const reader *r, hid_t group, const char *key, double value,
+                               wt_table *table)
+{
+    char *names[WT_KEY_PARTS] = {NULL};
+    char *unit = NULL;
+    wt_estimate estimate = {.value = value};
+    wt_status status = wt_table_key_part_names(key, names) ? WT_OK : no_memory(r);
+    if (status == WT_OK)
+        status = read_number(r, group, names[WT_KEY_STANDARD_ERROR], &estimate.standard_error);
+    if (status == WT_OK)
+        status = read_number(r, group, names[WT_KEY_NUMERICAL_ERROR], &estimate.numerical_error);
+    if (status == WT_OK)
+        status = read_text(r, group, names[WT_KEY_UNITS], &unit);
+    if (status == WT_END)
+        status = corrupt(r, key, "an error of the value is not a number");
+    estimate.unit = unit;
+    if (status == WT_OK)
+        status = refused(r, wt_table_set_estimate(table, key, estimate, r->err));
+    for (size_t i = 0; i < WT_KEY_PARTS; i++)
+        free(names[i]);
+    free(unit);
+    return status;
+}
+
+static wt_status read_keys(const reader *r, hid_t group, wt_table *table)
+{
+    char **keys = NULL;
+    size_t n = 0;
+    wt_status status = read_words(r, group, STORE_KEYS_ATTRIBUTE, TABLE_KEYS_MAX, &keys, &n);
+    for (size_t i = 0; status == WT_OK && i < n; i++) {
+        double value;
+        char *text = NULL;
+        status = read_number(r, group, keys[i], &value);
+        if (status == WT_OK) {
+            status = read_estimate(r, group, keys[i], value, table);
+        } else if (status == WT_END) {
+            status = read_text(r, group, keys[i], &text);
+            if (status == WT_OK)
+                status = refused(r, wt_table_set_key(table, keys[i], text, r->err));
+            free(text);
+        }
+    }
+    wt_strings_free(keys, n);
+    return status;
+}
+
+/* Adds the column without its rows; WT_COLUMN_TEXT or _NUMBER follows from the type. */
+static wt_status read_column(const reader *r, hid_t group, const char *name, hsize_t n_rows,
+                             wt_table *table)
+{
+    hsize_t n = 0;
+    char *units = NULL, *long_name = NULL;
+    wt_status status = WT_OK;
+    const hid_t dataset = open_dataset(r, group, name, 1, &n);
+    if (dataset < 0 || n != n_rows)
+        return corrupt(r, name, "column missing, of another length or not stored in one piece");
+    const hid_t type = H5Dget_type(dataset);
+    const H5T_class_t class = H5Tget_class(type);
+    status = read_text(r, dataset, STORE_UNITS_ATTRIBUTE, &units);
+    if (status == WT_OK)
+        status = read_text(r, dataset, STORE_LONG_NAME_ATTRIBUTE, &long_name);
+    if (status == WT_OK) {
+        if (class == H5T_FLOAT)
+            status = refused(r, wt_table_add_column(table, name, units, long_name, r->err));
+        else if (class == H5T_STRING)
+            status = refused(r, wt_table_add_text_column(table, name, long_name, r->err));
+        else
+            status = corrupt(r, name, "a column that is neither numbers nor text");
+    }
+    free(units);
+    free(long_name);
+    (void)H5Tclose(type);
+    (void)H5Dclose(dataset);
+    return status;
+}
+
+/* Adds the rows with their blocks. */
+static wt_status read_blocks(const reader *r, hid_t group, hsize_t n, wt_table *table)
+{
+    hsize_t n_again = 0;
+    const hid_t dataset = open_dataset(r, group, STORE_BLOCK_DATASET, 1, &n_again);
+    uint64_t *const blocks = calloc((size_t)n + 1, sizeof *blocks);
+    wt_status status = blocks != NULL ? WT_OK : no_memory(r);
+    if (status == WT_OK && n > 0 &&
+        (dataset < 0 || n_again != n ||
+         H5Dread(dataset, H5T_NATIVE_UINT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, blocks) < 0))
+        status = corrupt(r, STORE_BLOCK_DATASET, "blocks cannot be read");
+    for (size_t row = 0; status == WT_OK && row < n; row++) {
+        const uint64_t before = row > 0 ? blocks[row - 1] : 0;
+        if (blocks[row] != before && blocks[row] != before + (row > 0))
+            status = corrupt(r, STORE_BLOCK_DATASET, "blocks are not numbered in order");
+        else if (blocks[row] != before)
+            status = wt_table_new_block(table, r->err);
+        if (status == WT_OK)
+            status = refused(r, wt_table_add_row(table, r->err));
+    }
+    free(blocks);
+    if (dataset >= 0)
+        (void)H5Dclose(dataset);
+    return status;
+}
+
+static wt_status read_cells(const reader *r, hid_t group, table_column *column, hsize_t n)
+{
+    hsize_t n_again = 0;
+    const hid_t dataset = open_dataset(r, group, column->name, 1, &n_again);
+    wt_status status = WT_OK;
+    if (dataset < 0 || n_again != n)
+        status = corrupt(r, column->name, "column cannot be read");
+    else if (column->kind == WT_COLUMN_TEXT)
+        status = read_texts(r, dataset, false, column->name, (size_t)n, column->texts);
+    else if (H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, column->numbers) <
+             0)
+        status = corrupt(r, column->name, "column cannot be read");
+    if (dataset >= 0)
+        (void)H5Dclose(dataset);
+    return status;
+}
+
+static wt_status read_table(reader *r, const char *name, wt_table **table)
+{
+    wt_status status = WT_OK;
+    hsize_t n_rows = 0;
+    char *title = NULL, **columns = NULL;
+    size_t n_columns = 0;
+    wt_table *new_table = NULL;
+    r->table = name;
+    const hid_t group = wt_table_name_is_valid(name) ? open_group(r, name) : -1;
+    if (group < 0) {
+        status = corrupt(r, "", "table missing or misnamed");
+        goto done;
+    }
+    status = read_text(r, group, STORE_TITLE_ATTRIBUTE, &title);
+    if (status != WT_OK)
+        goto done;
+    new_table = wt_table_new(name, title);
+    if (new_table == NULL) {
+        status = no_memory(r);
+        goto done;
+    }
+    const hid_t blocks = open_dataset(r, group, STORE_BLOCK_DATASET, 1, &n_rows);
+    if (blocks < 0) {
+        status = corrupt(r, STORE_BLOCK_DATASET, "blocks missing");
+        goto done;
+    }
+    (void)H5Dclose(blocks);
+    status = read_keys(r, group, new_table);
+    if (status == WT_OK)
+        status =
+            read_words(r, group, STORE_COLUMNS_ATTRIBUTE, TABLE_COLUMNS_MAX, &columns, &n_columns);
+    for (size_t i = 0; status == WT_OK && i < n_columns; i++)
+        status = read_column(r, group, columns[i], n_rows, new_table);
+    if (status == WT_OK)
+        status = read_blocks(r, group, n_rows, new_table);
+    for (size_t i = 0; status == WT_OK && n_rows > 0 && i < n_columns; i++)
+        status = read_cells(r, group, &new_table->columns[i], n_rows);
+    if (status == WT_OK) {
+        *table = new_table;
+        new_table = NULL;
+    }
+done:
+    wt_table_free(new_table);
+    wt_strings_free(columns, n_columns);
+    free(title);
+    if (group >= 0)
+        (void)H5Gclose(group);
+    r->table = NULL;
+    return status;
+}
+
+static wt_status read_case(const reader *r, wt_result *result)
+{
+    hsize_t n = 0;
+    wt_status status = WT_OK;
+    char *text = NULL;
+    if (H5Lexists(r->file, STORE_CASE_DATASET, H5P_DEFAULT) == 0)
+        return WT_OK;
+    const hid_t dataset = open_dataset(r, r->file, STORE_CASE_DATASET, 0, &n);
+    const hid_t type = dataset >= 0 ? H5Dget_type(dataset) : -1;
+    if (type < 0 || H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0) {
+        status = corrupt(r, STORE_CASE_DATASET, "not one text of fixed length");
+        goto done;
+    }
+    const size_t length = H5Tget_size(type); /* not more than the file: open_dataset checked */
+    text = malloc(length);
+    if (text == NULL)
+        status = no_memory(r);
+    else if (H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text) < 0)
+        status = corrupt(r, STORE_CASE_DATASET, "cannot be read");
+    else
+        status = wt_result_set_case(result, text, length, r->err);
+done:
+    free(text);
+    if (type >= 0)
+        (void)H5Tclose(type);
+    if (dataset >= 0)
+        (void)H5Dclose(dataset);
+    return status;
+}
+
+static wt_status read_origin(reader *r, wt_result *result, wt_table **inputs)
+{
+    char *command = NULL;
+    if (H5Aexists(r->file, STORE_COMMAND_ATTRIBUTE) == 0)
+        return WT_OK;
+    wt_provenance *const provenance = wt_result_provenance(result);
+    wt_status status = read_text(r, r->file, STORE_COMMAND_ATTRIBUTE, &command);
+    if (status == WT_OK && wt_provenance_restore_command(provenance, command) != WT_OK)
+        status = no_memory(r);
+    if (status == WT_OK)
+        status = read_table(r, STORE_INPUTS_TABLE, inputs);
+    if (status == WT_OK)
+        status = wt_store_inputs_read(*inputs, provenance, r->err);
+    free(command);
+    return status;
+}
+
+static wt_status check_format(const reader *r)
+{
+    int format = 0;
+    size_t n = 0;
+    wt_status status = WT_OK;
+    const hid_t attribute = open_attribute(r->file, STORE_FORMAT_ATTRIBUTE, &n);
+    const hid_t type = attribute >= 0 ? H5Aget_type(attribute) : -1;
+    if (type < 0 || n != 1 || H5Tget_class(type) != H5T_INTEGER ||
+        H5Aread(attribute, H5T_NATIVE_INT, &format) < 0) {
+        status = wt_fail(r->err, WT_E_FORMAT, "not a result file of weartrack");
+        wt_error_expected(r->err, "the attribute \"%s\"", STORE_FORMAT_ATTRIBUTE);
+    } else if (format != STORE_FORMAT) {
+        status = wt_fail(r->err, WT_E_UNSUPPORTED, "result file of another version");
+        wt_error_expected(r->err, "layout %d", STORE_FORMAT);
+        wt_error_found(r->err, "%d", format);
+        wt_error_advice(r->err, "use the weartrack that wrote it, or a newer one");
+    }
+    if (type >= 0)
+        (void)H5Tclose(type);
+    if (attribute >= 0)
+        (void)H5Aclose(attribute);
+    return status;
+}
+
+static wt_status read_all(reader *r, wt_result *result)
+{
+    char **names = NULL, *digest = NULL, found[65];
+    size_t n = 0;
+    wt_table *inputs = NULL;
+    wt_status status = check_format(r);
+    if (status == WT_OK)
+        status = read_words(r, r->file, STORE_TABLES_ATTRIBUTE, RESULT_TABLES_MAX, &names, &n);
+    for (size_t i = 0; status == WT_OK && i < n; i++) {
+        wt_table *table = NULL;
+        status = read_table(r, names[i], &table);
+        if (status == WT_OK)
+            status = refused(r, wt_result_add(result, table, r->err));
+    }
+    if (status == WT_OK)
+        status = read_case(r, result);
+    if (status == WT_OK)
+        status = read_origin(r, result, &inputs);
+    if (status == WT_OK)
+        status = read_text(r, r->file, STORE_DIGEST_ATTRIBUTE, &digest);
+    if (status == WT_OK)
+        status = refused(r, wt_store_digest(result, inputs, found, r->err));
+    if (status == WT_OK && strcmp(digest, found) != 0)
+        status = corrupt(r, STORE_DIGEST_ATTRIBUTE, "the content does not agree with its digest");
+    wt_strings_free(names, n);
+    wt_table_free(inputs);
+    free(digest);
+    return status;
+}
+
+/* Opens for reading; -1 if it is not an intact HDF5 file. */
+static hid_t open_file(const char *path)
+{
+    hid_t file = -1;
+    const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
+    /* A result file never changes once it has its name, so nobody needs to be kept from it. */
+    if (access >= 0 && H5Pset_fclose_degree(access, H5F_CLOSE_STRONG) >= 0 &&
+        H5Pset_file_locking(access, false, true) >= 0)
+        file = H5Fopen(path, H5F_ACC_RDONLY, access);
+    if (access >= 0)
+        (void)H5Pclose(access);
+    return file;
+}
+
+wt_status wt_store_read(const char *path, wt_result **result, wt_error *err)
+{
+    wt_status status = WT_OK;
+    struct stat info;
+    wt_result *new_result = NULL;
+    if (stat(path, &info) != 0) {
+        status = wt_fail(err, errno == ENOENT ? WT_E_NOT_FOUND : WT_E_IO, "%s", strerror(errno));
+        goto done;
+    }
+    if (!S_ISREG(info.st_mode)) {
+        status = wt_fail(err, WT_E_IO, "not a regular file");
+        wt_error_expected(err, "an HDF5 file, which cannot come through a pipe");
+        goto done;
+    }
+    new_result = wt_result_new();
+    if (new_result == NULL) {
+        status = wt_fail(err, WT_E_MEMORY, "out of memory");
+        goto done;
+    }
+    wt_hdf5_scope scope;
+    wt_hdf5_enter(&scope);
+    reader r = {.file = open_file(path), .file_size = (hsize_t)info.st_size, .err = err};
+    if (r.file >= 0) {
+        status = read_all(&r, new_result);
+        (void)H5Fclose(r.file);
+    } else if (H5Fis_hdf5(path) > 0) {
+        status = wt_fail(err, WT_E_CORRUPT, "the HDF5 file is damaged or cut off");
+        wt_error_advice(err, "make the file again");
+    } else {
+        status = wt_fail(err, WT_E_FORMAT, "not an HDF5 file, or its first bytes are damaged");
+    }
+    wt_hdf5_leave(&scope);
+    if (status == WT_OK) {
+        *result = new_result;
+        new_result = NULL;
+    }
+done:
+    if (status != WT_OK)
+        wt_error_file(err, path);
+    wt_result_free(new_result);
+    return status;
+}

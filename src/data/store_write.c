@@ -1,0 +1,299 @@
+/* Results to the HDF5 store. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "data/hdf5_scope.h"
+#include "data/store.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+
+/* What is used again and again while one file is written. */
+typedef struct writer {
+    hid_t file;
+    hid_t string;         /* variable-length UTF-8 */
+    hid_t scalar;         /* dataspace of one */
+    hid_t group_creation; /* no times, all links and attributes in the header */
+    hid_t dataset_creation;
+} writer;
+
+static bool put_attribute(hid_t object, const char *name, hid_t file_type, hid_t memory_type,
+                          hid_t space, const void *value)
+{
+    const hid_t attribute = H5Acreate2(object, name, file_type, space, H5P_DEFAULT, H5P_DEFAULT);
+    if (attribute < 0)
+        return false;
+    const bool good = H5Awrite(attribute, memory_type, value) >= 0;
+    return H5Aclose(attribute) >= 0 && good;
+}
+
+static bool put_text(const writer *w, hid_t object, const char *name, const char *text)
+{
+    return put_attribute(object, name, w->string, w->string, w->scalar, &text);
+}
+
+static bool put_number(const writer *w, hid_t object, const char *name, double value)
+{
+    return put_attribute(object, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, w->scalar, &value);
+}
+
+/* A list of words; none is written for an empty one. */
+static bool put_words(const writer *w, hid_t object, const char *name, const char *const *words,
+                      size_t n)
+{
+    const hsize_t size = n;
+    if (n == 0)
+        return true;
+    const hid_t space = H5Screate_simple(1, &size, NULL);
+    if (space < 0)
+        return false;
+    const bool good = put_attribute(object, name, w->string, w->string, space, words);
+    return H5Sclose(space) >= 0 && good;
+}
+
+static bool put_dataset(const writer *w, hid_t group, const char *name, hid_t file_type,
+                        hid_t memory_type, const void *values, size_t n, const char *units,
+                        const char *long_name)
+{
+    const hsize_t size = n;
+    const hid_t space = H5Screate_simple(1, &size, NULL);
+    const hid_t dataset =
+        H5Dcreate2(group, name, file_type, space, H5P_DEFAULT, w->dataset_creation, H5P_DEFAULT);
+    bool good = dataset >= 0;
+    if (good && n > 0)
+        good = H5Dwrite(dataset, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0;
+    good = good && put_text(w, dataset, STORE_UNITS_ATTRIBUTE, units) &&
+           put_text(w, dataset, STORE_LONG_NAME_ATTRIBUTE, long_name);
+    if (dataset >= 0)
+        good = H5Dclose(dataset) >= 0 && good;
+    return space >= 0 && H5Sclose(space) >= 0 && good;
+}
+
+/* Opens a group by its path, making what is missing. */
+static hid_t make_group(const writer *w, const char *path)
+{
+    char *const partial = strdup(path);
+    hid_t group = -1;
+    for (char *slash = partial; slash != NULL;) {
+        slash = strchr(slash, '/');
+        if (slash != NULL)
+            *slash = '\0';
+        const htri_t exists = H5Lexists(w->file, partial, H5P_DEFAULT);
+        if (group >= 0)
+            (void)H5Gclose(group);
+        group = exists > 0
+                    ? H5Gopen2(w->file, partial, H5P_DEFAULT)
+                    : H5Gcreate2(w->file, partial, H5P_DEFAULT, w->group_creation, H5P_DEFAULT);
+        if (group < 0)
+            break;
+        if (slash != NULL)
+            *slash++ = '/';
+    }
+    free(partial);
+    return group;
+}
+
+static bool put_keys(const writer *w, hid_t group, const wt_table *table)
+{
+    const char **const words = calloc(table->n_keys + 1, sizeof *words);
+    bool good = words != NULL;
+    for (size_t i = 0; good && i < table->n_keys; i++) {
+        const table_key *const key = &table->keys[i];
+        words[i] = key->name;
+        if (!key->is_estimate) {
+            good = put_text(w, group, key->name, key->text);
+            continue;
+        }
+        char *names[WT_KEY_PARTS] = {NULL};
+        good = wt_table_key_part_names(key->name, names) &&
+               put_number(w, group, key->name, key->parsed.value) &&
+               put_number(w, group, names[WT_KEY_STANDARD_ERROR], key->parsed.standard_error) &&
+               put_number(w, group, names[WT_KEY_NUMERICAL_ERROR], key->parsed.numerical_error) &&
+               put_text(w, group, names[WT_KEY_UNITS], key->unit);
+        for (size_t k = 0; k < WT_KEY_PARTS; k++)
+            free(names[k]);
+    }
+    good = good && put_words(w, group, STORE_KEYS_ATTRIBUTE, words, table->n_keys);
+    free(words);
+    return good;
+}
+
+static bool put_columns(const writer *w, hid_t group, const wt_table *table)
+{
+    const size_t n = table->n_rows > table->n_columns ? table->n_rows : table->n_columns;
+    const char **const words = calloc(n + 1, sizeof *words);
+    uint64_t *const blocks = calloc(table->n_rows + 1, sizeof *blocks);
+    bool good = words != NULL && blocks != NULL;
+    for (size_t i = 0; good && i < table->n_columns; i++)
+        words[i] = table->columns[i].name;
+    good = good && put_words(w, group, STORE_COLUMNS_ATTRIBUTE, words, table->n_columns);
+    for (size_t i = 0; good && i < table->n_columns; i++) {
+        const table_column *const column = &table->columns[i];
+        if (column->kind == WT_COLUMN_NUMBER) {
+            good = put_dataset(w, group, column->name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE,
+                               column->numbers, table->n_rows, column->unit, column->long_name);
+            continue;
+        }
+        for (size_t row = 0; row < table->n_rows; row++)
+            words[row] = wt_table_text(table, row, i);
+        good = put_dataset(w, group, column->name, w->string, w->string, words, table->n_rows, "",
+                           column->long_name);
+    }
+    for (size_t row = 0; good && row < table->n_rows; row++)
+        blocks[row] = wt_table_block(table, row);
+    good = good && put_dataset(w, group, STORE_BLOCK_DATASET, H5T_STD_U64LE, H5T_NATIVE_UINT64,
+                               blocks, table->n_rows, "1", "number of the block of a row");
+    free(words);
+    free(blocks);
+    return good;
+}
+
+static bool put_table(const writer *w, const wt_table *table)
+{
+    const hid_t group = make_group(w, table->name);
+    if (group < 0)
+        return false;
+    const bool good = put_text(w, group, STORE_TITLE_ATTRIBUTE, table->title) &&
+                      put_keys(w, group, table) && put_columns(w, group, table);
+    return H5Gclose(group) >= 0 && good;
+}
+
+/* One string of the length of the file, so that nothing in it needs to be UTF-8. */
+static bool put_case(const writer *w, const char *text, size_t length)
+{
+    const hid_t type = H5Tcopy(H5T_C_S1);
+    hid_t dataset = -1;
+    if (H5Tset_size(type, length) >= 0 && H5Tset_strpad(type, H5T_STR_NULLPAD) >= 0 &&
+        H5Tset_cset(type, H5T_CSET_UTF8) >= 0)
+        dataset = H5Dcreate2(w->file, STORE_CASE_DATASET, type, w->scalar, H5P_DEFAULT,
+                             w->dataset_creation, H5P_DEFAULT);
+    bool good = dataset >= 0 && H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text) >= 0 &&
+                put_text(w, dataset, STORE_UNITS_ATTRIBUTE, "") &&
+                put_text(w, dataset, STORE_LONG_NAME_ATTRIBUTE, "the case file, whole");
+    if (dataset >= 0)
+        good = H5Dclose(dataset) >= 0 && good;
+    return H5Tclose(type) >= 0 && good;
+}
+
+static bool put_origin(const writer *w, const wt_provenance *provenance, const wt_table *inputs)
+{
+    char created[32];
+    const time_t now = time(NULL);
+    struct tm utc;
+    if (gmtime_r(&now, &utc) == NULL ||
+        strftime(created, sizeof created, "%Y-%m-%dT%H:%M:%SZ", &utc) == 0)
+        return false;
+    return put_text(w, w->file, STORE_VERSION_ATTRIBUTE, wt_version()) &&
+           put_text(w, w->file, STORE_COMMAND_ATTRIBUTE, wt_provenance_command(provenance)) &&
+           put_text(w, w->file, STORE_CREATED_ATTRIBUTE, created) && put_table(w, inputs);
+}
+
+static bool put_result(const writer *w, const wt_result *result, const wt_table *inputs,
+                       const char *digest)
+{
+    const int format = STORE_FORMAT;
+    const size_t n = wt_result_n_tables(result);
+    size_t case_length = 0;
+    const char *const case_file = wt_result_case(result, &case_length);
+    const char **const names = calloc(n + 1, sizeof *names);
+    bool good = names != NULL &&
+                put_attribute(w->file, STORE_FORMAT_ATTRIBUTE, H5T_STD_I32LE, H5T_NATIVE_INT,
+                              w->scalar, &format) &&
+                put_text(w, w->file, STORE_DIGEST_ATTRIBUTE, digest);
+    for (size_t i = 0; good && i < n; i++)
+        names[i] = wt_table_name(wt_result_table(result, i));
+    good = good && put_words(w, w->file, STORE_TABLES_ATTRIBUTE, names, n);
+    if (inputs != NULL)
+        good = good && put_origin(w, wt_result_provenance_const(result), inputs);
+    for (size_t i = 0; good && i < n; i++)
+        good = put_table(w, wt_result_table(result, i));
+    if (case_file != NULL)
+        good = good && put_case(w, case_file, case_length);
+    free(names);
+    return good;
+}
+
+/* Object headers without times and with everything in place: the bytes depend on the content alone.
+ */
+static bool set_creation(hid_t list)
+{
+    return list >= 0 && H5Pset_obj_track_times(list, false) >= 0;
+}
+
+static bool set_group_creation(hid_t list)
+{
+    return set_creation(list) && H5Pset_attr_phase_change(list, UINT16_MAX, 0) >= 0 &&
+           H5Pset_link_phase_change(list, UINT16_MAX, 0) >= 0;
+}
+
+/* Fills the file of that name. */
+static bool write_file(const char *path, const wt_result *result, const wt_table *inputs,
+                       const char *digest)
+{
+    bool good = false;
+    writer w = {.file = -1,
+                .string = H5Tcopy(H5T_C_S1),
+                .scalar = H5Screate(H5S_SCALAR),
+                .group_creation = H5Pcreate(H5P_GROUP_CREATE),
+                .dataset_creation = H5Pcreate(H5P_DATASET_CREATE)};
+    const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
+    const hid_t creation = H5Pcreate(H5P_FILE_CREATE);
+    /* Nobody else knows the temporary name, and some file systems cannot lock. The layout of HDF5
+     * 1.8 has checksums over its own structures and is read everywhere. */
+    if (w.string >= 0 && w.scalar >= 0 && H5Tset_size(w.string, H5T_VARIABLE) >= 0 &&
+        H5Tset_cset(w.string, H5T_CSET_UTF8) >= 0 && set_group_creation(w.group_creation) &&
+        set_creation(w.dataset_creation) && set_group_creation(creation) &&
+        H5Pset_file_locking(access, false, true) >= 0 &&
+        H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18) >= 0 &&
+        H5Pset_fclose_degree(access, H5F_CLOSE_STRONG) >= 0)
+        w.file = H5Fcreate(path, H5F_ACC_TRUNC, creation, access);
+    if (w.file >= 0) {
+        good = put_result(&w, result, inputs, digest);
+        good = H5Fclose(w.file) >= 0 && good;
+    }
+    (void)H5Pclose(access);
+    (void)H5Pclose(creation);
+    (void)H5Pclose(w.group_creation);
+    (void)H5Pclose(w.dataset_creation);
+    (void)H5Sclose(w.scalar);
+    (void)H5Tclose(w.string);
+    return good;
+}
+
+wt_status wt_store_write(const char *path, const wt_result *result, bool with_provenance,
+                         wt_error *err)
+{
+    char digest[65];
+    wt_table *inputs = NULL;
+    wt_outfile *out = NULL;
+    wt_status status = WT_OK;
+    struct stat info;
+    if (stat(path, &info) == 0 && !S_ISREG(info.st_mode)) {
+        status = wt_fail(err, WT_E_IO, "cannot write: not a regular file");
+        wt_error_expected(err, "the name of a file, since HDF5 cannot go through a pipe");
+        goto done;
+    }
+    if (with_provenance)
+        status = wt_store_inputs_table(wt_result_provenance_const(result), &inputs, err);
+    if (status == WT_OK)
+        status = wt_store_digest(result, inputs, digest, err);
+    if (status == WT_OK)
+        status = wt_outfile_open(path, &out, err);
+    if (status != WT_OK)
+        goto done;
+    wt_hdf5_scope scope;
+    wt_hdf5_enter(&scope);
+    const bool good = write_file(wt_outfile_path(out), result, inputs, digest);
+    wt_hdf5_leave(&scope);
+    if (good) {
+        status = wt_outfile_commit(out, err);
+    } else {
+        wt_outfile_discard(out);
+        status = wt_fail(err, WT_E_IO, "HDF5 cannot write the file");
+        wt_error_advice(err, "check that there is room on the disk");
+    }
+done:
+    if (status != WT_OK)
+        wt_error_file(err, path);
+    wt_table_free(inputs);
+    return status;
+}

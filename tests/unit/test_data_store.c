@@ -1,0 +1,429 @@
+/* The HDF5 store: round trip, same bytes, damaged files. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
+#include "near.h"
+#include "weartrack/data.h"
+
+#include <hdf5.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static char folder[] = "/tmp/weartrack-store-XXXXXX";
+static const char case_text[] = "<?xml version=\"1.0\"?>\n<case title=\"\xC3\xBC\"/>\n";
+
+static void path_of(const char *name, char path[256])
+{
+    (void)snprintf(path, 256, "%s/%s", folder, name);
+}
+
+static void add_table(wt_result *result, const char *name, size_t n_rows)
+{
+    wt_table *const t = wt_table_new(name, "Words with \xC2\xB5");
+    assert_non_null(t);
+    assert_int_equal(wt_table_add_text_column(t, "file", "name", NULL), WT_OK);
+    assert_int_equal(wt_table_add_column(t, "modulus", "Pa", "Young's modulus", NULL), WT_OK);
+    assert_int_equal(wt_table_add_column(t, "count", "1", "", NULL), WT_OK);
+    assert_int_equal(wt_table_set_key(t, "tip", "sphere", NULL), WT_OK);
+    assert_int_equal(wt_table_set_key(t, "empty", "", NULL), WT_OK);
+    for (int i = 0; i < 20; i++) {
+        char key[32];
+        (void)snprintf(key, sizeof key, "value%d", i);
+        assert_int_equal(
+            wt_table_set_estimate(t, key, (wt_estimate){i * 0.1, (double)NAN, 1e-300, "N/m"}, NULL),
+            WT_OK);
+    }
+    for (size_t i = 0; i < n_rows; i++) {
+        char text[32] = "";
+        if (i % 5 != 1)
+            (void)snprintf(text, sizeof text, "curve \xC2\xB5 %zu\n", i);
+        if (i % 7 == 0)
+            assert_int_equal(wt_table_new_block(t, NULL), WT_OK);
+        assert_int_equal(wt_table_add_row(t, NULL), WT_OK);
+        assert_int_equal(wt_table_put_text(t, 0, text, NULL), WT_OK);
+        wt_table_put(t, 1, i % 4 == 0 ? (double)NAN : 1e6 / (double)(i + 3));
+        wt_table_put(t, 2, i % 4 == 1 ? -(double)INFINITY : -0.0);
+    }
+    assert_int_equal(wt_result_add(result, t, NULL), WT_OK);
+}
+
+static wt_result *make_result(void)
+{
+    wt_result *const result = wt_result_new();
+    assert_non_null(result);
+    add_table(result, "indentation/track", 40);
+    add_table(result, "answer", 1);
+    add_table(result, "indentation/bulk", 0);
+    wt_provenance *const p = wt_result_provenance(result);
+    char *const argv[] = {"weartrack", "run", "a case.xml"};
+    assert_int_equal(wt_provenance_set_command(p, 3, argv), WT_OK);
+    wt_provenance_input input = {"a case.xml", "case", "weartrack-case 1", 54321, ""};
+    wt_digest("abc", 3, input.sha256);
+    assert_int_equal(wt_provenance_add_input(p, &input), WT_OK);
+    assert_int_equal(wt_result_set_case(result, case_text, sizeof case_text - 1, NULL), WT_OK);
+    return result;
+}
+
+/* The text stream of a table says all there is in it. */
+static char *text_of(const wt_table *t)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *const out = open_memstream(&text, &size);
+    assert_int_equal(wt_stream_write(out, t, NULL, NULL), WT_OK);
+    assert_int_equal(fclose(out), 0);
+    return text;
+}
+
+static void assert_results_equal(const wt_result *a, const wt_result *b)
+{
+    size_t length_a = 0, length_b = 0;
+    assert_int_equal(wt_result_n_tables(a), wt_result_n_tables(b));
+    for (size_t i = 0; i < wt_result_n_tables(a); i++) {
+        char *const text_a = text_of(wt_result_table(a, i));
+        char *const text_b = text_of(wt_result_table(b, i));
+        assert_string_equal(text_a, text_b);
+        free(text_a);
+        free(text_b);
+    }
+    const char *const case_a = wt_result_case(a, &length_a);
+    const char *const case_b = wt_result_case(b, &length_b);
+    assert_int_equal(length_a, length_b);
+    assert_memory_equal(case_a, case_b, length_a);
+}
+
+static unsigned char *read_bytes(const char *path, size_t *size)
+{
+    struct stat info;
+    assert_int_equal(stat(path, &info), 0);
+    *size = (size_t)info.st_size;
+    unsigned char *const bytes = malloc(*size);
+    FILE *const in = fopen(path, "rb");
+    assert_true(in != NULL && bytes != NULL);
+    assert_int_equal(fread(bytes, 1, *size, in), *size);
+    (void)fclose(in);
+    return bytes;
+}
+
+static void write_bytes(const char *path, const unsigned char *bytes, size_t size)
+{
+    FILE *const out = fopen(path, "wb");
+    assert_non_null(out);
+    assert_int_equal(fwrite(bytes, 1, size, out), size);
+    assert_int_equal(fclose(out), 0);
+}
+
+static void round_trip(void **state)
+{
+    (void)state;
+    char path[256];
+    path_of("a.h5", path);
+    wt_result *const result = make_result();
+    wt_result *read = NULL;
+    wt_error err = WT_ERROR_INIT;
+    assert_int_equal(wt_store_write(path, result, true, &err), WT_OK);
+    const wt_status status = wt_store_read(path, &read, &err);
+    if (status != WT_OK)
+        print_error("%s %s\n", err.place, err.message);
+    assert_int_equal(status, WT_OK);
+    assert_results_equal(result, read);
+    const wt_provenance *const p = wt_result_provenance_const(read);
+    assert_string_equal(wt_provenance_command(p), "weartrack run 'a case.xml'");
+    assert_int_equal(wt_provenance_n_inputs(p), 1);
+    const wt_provenance_input *const input = wt_provenance_get_input(p, 0);
+    assert_string_equal(input->path, "a case.xml");
+    assert_string_equal(input->role, "case");
+    assert_string_equal(input->format, "weartrack-case 1");
+    assert_int_equal(input->bytes, 54321);
+    assert_int_equal(strlen(input->sha256), 64);
+    wt_result_free(read);
+    wt_result_free(result);
+}
+
+static void same_bytes(void **state)
+{
+    (void)state;
+    char path_a[256], path_b[256];
+    size_t size_a = 0, size_b = 0;
+    path_of("a.h5", path_a);
+    path_of("b.h5", path_b);
+    wt_result *const result = make_result();
+    assert_int_equal(wt_store_write(path_a, result, false, NULL), WT_OK);
+    (void)sleep(1); /* times in HDF5 count seconds */
+    assert_int_equal(wt_store_write(path_b, result, false, NULL), WT_OK);
+    unsigned char *const a = read_bytes(path_a, &size_a);
+    unsigned char *const b = read_bytes(path_b, &size_b);
+    assert_int_equal(size_a, size_b);
+    assert_memory_equal(a, b, size_a);
+    wt_result *read = NULL;
+    assert_int_equal(wt_store_read(path_a, &read, NULL), WT_OK);
+    assert_string_equal(wt_provenance_command(wt_result_provenance(read)), "");
+    assert_int_equal(wt_provenance_n_inputs(wt_result_provenance(read)), 0);
+    wt_result_free(read);
+    wt_result_free(result);
+    free(a);
+    free(b);
+}
+
+static void empty_result(void **state)
+{
+    (void)state;
+    char path[256];
+    path_of("empty.h5", path);
+    wt_result *const result = wt_result_new();
+    wt_result *read = NULL;
+    assert_int_equal(wt_store_write(path, result, true, NULL), WT_OK);
+    assert_int_equal(wt_store_read(path, &read, NULL), WT_OK);
+    assert_int_equal(wt_result_n_tables(read), 0);
+    assert_null(wt_result_case(read, NULL));
+    wt_result_free(read);
+    wt_result_free(result);
+}
+
+/* What other programs see: SI units and words on every column. */
+static void as_others_see_it(void **state)
+{
+    (void)state;
+    char path[256];
+    path_of("a.h5", path);
+    wt_result *const result = make_result();
+    assert_int_equal(wt_store_write(path, result, true, NULL), WT_OK);
+    const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
+    assert_true(file >= 0);
+    static const char *const columns[] = {"file", "modulus", "count", "block"};
+    for (size_t i = 0; i < 4; i++) {
+        char name[64];
+        (void)snprintf(name, sizeof name, "/indentation/track/%s", columns[i]);
+        const hid_t dataset = H5Dopen2(file, name, H5P_DEFAULT);
+        assert_true(dataset >= 0);
+        assert_true(H5Aexists(dataset, "units") > 0);
+        assert_true(H5Aexists(dataset, "long_name") > 0);
+        (void)H5Dclose(dataset);
+    }
+    double value = 0;
+    const hid_t key =
+        H5Aopen_by_name(file, "/answer", "value3_numerical_error", H5P_DEFAULT, H5P_DEFAULT);
+    assert_true(H5Aread(key, H5T_NATIVE_DOUBLE, &value) >= 0);
+    assert_near(value, 1e-300, 0);
+    (void)H5Aclose(key);
+    (void)H5Fclose(file);
+    wt_result_free(result);
+}
+
+static void check_refused(const char *path, wt_status expected)
+{
+    wt_result *read = NULL;
+    wt_error err = WT_ERROR_INIT;
+    assert_int_equal(wt_store_read(path, &read, &err), expected);
+    assert_int_equal(err.status, expected);
+    assert_null(read);
+    assert_string_equal(err.file, path);
+}
+
+static void not_a_store(void **state)
+{
+    (void)state;
+    char path[256];
+    path_of("absent.h5", path);
+    check_refused(path, WT_E_NOT_FOUND);
+    check_refused(folder, WT_E_IO);
+    path_of("text.h5", path);
+    write_bytes(path, (const unsigned char *)"no HDF5 at all", 14);
+    check_refused(path, WT_E_FORMAT);
+    path_of("other.h5", path);
+    const hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    assert_true(file >= 0 && H5Fclose(file) >= 0);
+    check_refused(path, WT_E_FORMAT);
+}
+
+static void cut_files(void **state)
+{
+    (void)state;
+    char path[256], cut_path[256];
+    size_t size = 0;
+    path_of("a.h5", path);
+    path_of("cut.h5", cut_path);
+    wt_result *const result = make_result();
+    assert_int_equal(wt_store_write(path, result, false, NULL), WT_OK);
+    unsigned char *const bytes = read_bytes(path, &size);
+    for (size_t cut = 0; cut < size; cut += 997) {
+        write_bytes(cut_path, bytes, cut);
+        wt_result *read = NULL;
+        assert_int_not_equal(wt_store_read(cut_path, &read, NULL), WT_OK);
+        assert_null(read);
+    }
+    free(bytes);
+    wt_result_free(result);
+}
+
+/* A flipped bit may go unnoticed only where it changes nothing. */
+static void flipped_values(void **state)
+{
+    (void)state;
+    char path[256], flipped_path[256];
+    size_t size = 0, found = 0;
+    path_of("a.h5", path);
+    path_of("flipped.h5", flipped_path);
+    wt_result *const result = make_result();
+    assert_int_equal(wt_store_write(path, result, false, NULL), WT_OK);
+    unsigned char *const bytes = read_bytes(path, &size);
+    const double value = 1e6 / 4.0; /* the modulus of row 1 */
+    for (size_t i = 0; i + sizeof value <= size; i++) {
+        if (memcmp(bytes + i, &value, sizeof value) != 0)
+            continue;
+        found++;
+        bytes[i + 5] ^= 1;
+        write_bytes(flipped_path, bytes, size);
+        check_refused(flipped_path, WT_E_CORRUPT);
+        bytes[i + 5] ^= 1;
+    }
+    assert_true(found > 0);
+    static const unsigned char word[] = "Young's modulus";
+    for (size_t i = 0; i + sizeof word <= size; i++) {
+        if (memcmp(bytes + i, word, sizeof word - 1) == 0) {
+            bytes[i] ^= 1;
+            write_bytes(flipped_path, bytes, size);
+            check_refused(flipped_path, WT_E_CORRUPT);
+            bytes[i] ^= 1;
+        }
+    }
+    free(bytes);
+    wt_result_free(result);
+}
+
+/* A link that leads to another file is not followed. */
+static void outside_links(void **state)
+{
+    (void)state;
+    char path[256], linked[256];
+    path_of("a.h5", path);
+    path_of("linked.h5", linked);
+    wt_result *const result = make_result();
+    assert_int_equal(wt_store_write(path, result, false, NULL), WT_OK);
+    assert_int_equal(wt_store_write(linked, result, false, NULL), WT_OK);
+    hid_t file = H5Fopen(linked, H5F_ACC_RDWR, H5P_DEFAULT);
+    assert_true(H5Ldelete(file, "answer", H5P_DEFAULT) >= 0);
+    assert_true(H5Lcreate_external("a.h5", "/answer", file, "answer", H5P_DEFAULT, H5P_DEFAULT) >=
+                0);
+    assert_true(H5Fclose(file) >= 0);
+    check_refused(linked, WT_E_CORRUPT);
+    wt_result_free(result);
+}
+
+/* Replaces the column "modulus" of the one table by something else. */
+static void replace_column(const char *path, const wt_result *result, hid_t type, hsize_t n,
+                           bool chunked)
+{
+    assert_int_equal(wt_store_write(path, result, false, NULL), WT_OK);
+    const hid_t file = H5Fopen(path, H5F_ACC_RDWR, H5P_DEFAULT);
+    assert_true(H5Ldelete(file, "answer/modulus", H5P_DEFAULT) >= 0);
+    const hid_t space = H5Screate_simple(1, &n, NULL);
+    const hid_t creation = H5Pcreate(H5P_DATASET_CREATE);
+    if (chunked)
+        assert_true(H5Pset_chunk(creation, 1, &n) >= 0);
+    const hid_t dataset =
+        H5Dcreate2(file, "answer/modulus", type, space, H5P_DEFAULT, creation, H5P_DEFAULT);
+    assert_true(dataset >= 0);
+    (void)H5Dclose(dataset);
+    (void)H5Pclose(creation);
+    (void)H5Sclose(space);
+    (void)H5Fclose(file);
+}
+
+static void odd_columns(void **state)
+{
+    (void)state;
+    char path[256];
+    path_of("odd.h5", path);
+    wt_result *const result = make_result();
+    replace_column(path, result, H5T_IEEE_F64LE, 1, false); /* without its attributes */
+    check_refused(path, WT_E_CORRUPT);
+    replace_column(path, result, H5T_IEEE_F64LE, (hsize_t)1 << 50, false); /* a petabyte */
+    check_refused(path, WT_E_CORRUPT);
+    replace_column(path, result, H5T_IEEE_F64LE, 1, true);
+    check_refused(path, WT_E_CORRUPT);
+    replace_column(path, result, H5T_STD_I32LE, 1, false);
+    check_refused(path, WT_E_CORRUPT);
+    replace_column(path, result, H5T_IEEE_F64LE, 2, false); /* another length */
+    check_refused(path, WT_E_CORRUPT);
+    wt_result_free(result);
+}
+
+static void cannot_write(void **state)
+{
+    (void)state;
+    wt_result *const result = make_result();
+    wt_error err = WT_ERROR_INIT;
+    char path[256];
+    path_of("no/such/folder.h5", path);
+    assert_int_equal(wt_store_write(path, result, false, &err), WT_E_IO);
+    assert_string_equal(err.file, path);
+    assert_int_equal(wt_store_write("/dev/null", result, false, &err), WT_E_IO);
+    /* As on a full disk. */
+    struct rlimit before, small;
+    assert_int_equal(getrlimit(RLIMIT_FSIZE, &before), 0);
+    small = before;
+    small.rlim_cur = 4096;
+    (void)signal(SIGXFSZ, SIG_IGN);
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &small), 0);
+    path_of("full.h5", path);
+    const wt_status status = wt_store_write(path, result, false, &err);
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &before), 0);
+    assert_int_equal(status, WT_E_IO);
+    assert_int_not_equal(access(path, F_OK), 0);
+    assert_int_equal(wt_store_write(path, result, false, &err), WT_OK);
+    wt_result_free(result);
+}
+
+static void names_that_collide(void **state)
+{
+    (void)state;
+    static const char *const bad[] = {
+        "answer", "answer/more", "indentation", "case", "provenance",
+        "a//b",   "/a",          "A",           "",     "provenance/inputs"};
+    wt_result *const result = make_result();
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        wt_table *const t = wt_table_new(bad[i], "");
+        assert_int_equal(wt_result_add(result, t, NULL), WT_E_ARG);
+    }
+    assert_int_equal(wt_result_n_tables(result), 3);
+    assert_non_null(wt_result_find(result, "answer"));
+    assert_null(wt_result_find(result, "indentation"));
+    wt_result_free(result);
+}
+
+static int make_folder(void **state)
+{
+    (void)state;
+    (void)H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+    return mkdtemp(folder) != NULL ? 0 : -1;
+}
+
+static int remove_folder(void **state)
+{
+    (void)state;
+    char **paths = NULL;
+    size_t n = 0;
+    if (wt_glob(NULL, folder, &paths, &n, NULL) != WT_OK)
+        return -1;
+    for (size_t i = 0; i < n; i++)
+        (void)unlink(paths[i]);
+    wt_strings_free(paths, n);
+    return rmdir(folder); /* fails if a temporary file was left */
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(round_trip),         cmocka_unit_test(same_bytes),
+        cmocka_unit_test(empty_result),       cmocka_unit_test(as_others_see_it),
+        cmocka_unit_test(not_a_store),        cmocka_unit_test(cut_files),
+        cmocka_unit_test(flipped_values),     cmocka_unit_test(outside_links),
+        cmocka_unit_test(odd_columns),        cmocka_unit_test(cannot_write),
+        cmocka_unit_test(names_that_collide),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}
