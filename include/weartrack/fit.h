@@ -175,6 +175,7 @@ typedef struct wt_wlf_fit {
     double c1_error, c2_error, correlation; /* standard errors and correlation of c1 and c2 */
     double b, b_error;                      /* c1 c2 [K] */
     double pole, pole_error;                /* Tref - c2 [K] */
+    double slope, slope_error;              /* d log10 aT / dT at Tref, -c1/c2 [decade/K] */
     double offset, offset_error;            /* of the reference isotherm [decade] */
     double rms;                             /* weighted rms residual [decade] */
     bool straight; /* C2 is not determined: only the slope c1/c2 means anything */

@@ -1,0 +1,30 @@
+/* Prony series from points (internal to the fit room). SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WT_FIT_PRONY_H
+#define WT_FIT_PRONY_H
+
+#include "weartrack/fit.h"
+
+/* Points of a relaxation spectrum: log10 w [rad/s] and log10 moduli [Pa]. */
+typedef struct wt_prony_points {
+    size_t n;
+    const double *log_frequency;
+    const double *log_storage;
+    const double *log_loss;  /* NULL: the storage modulus alone is fitted */
+    double log_min, log_max; /* range of frequencies that sets the relaxation times */
+} wt_prony_points;
+
+/* Fits; allocates the series (moduli, times, range; not temperature and deformation). */
+wt_status wt_prony_fit_points(const wt_prony_points *points, const wt_prony_options *options,
+                              wt_prony *prony, wt_error *err) WT_NODISCARD;
+/* log10 E', log10 E'' of the series at log10 w; -inf where the series gives 0. */
+void wt_prony_log_moduli(const wt_prony *prony, double log_frequency, double *log_storage,
+                         double *log_loss);
+/* Checks what the public functions are given. */
+wt_status wt_prony_check(const wt_master_curve *master, const wt_prony_options *options,
+                         wt_error *err) WT_NODISCARD;
+/* Rms relative misfit of E'' predicted from a non-negative series fitted to E' alone, half a decade
+ * inside the ends (E'' there hangs on E' beyond); NaN if there are too few points. */
+wt_status wt_prony_kramers_kronig(const wt_prony_points *points, double *misfit,
+                                  wt_error *err) WT_NODISCARD;
+
+#endif

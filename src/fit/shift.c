@@ -1,0 +1,370 @@
+/* Shift factors and master curve of a sweep: neighbour by neighbour from the reference outwards,
+ * then all isotherms together, then the move to the reference temperature asked for.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "fit/shift.h"
+
+#include "fit/shift_master.h"
+#include "fit/wlf_fit.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* An isotherm this close to the reference temperature is the reference [K]: what thermometers and
+ * chambers agree to. */
+static const double same_temperature = 0.1;
+/* A shift with a larger error is not determined; nor is one tied to the vertical shift (a larger
+ * correlation) on so small a slope that a vertical error moves it by more than that. */
+static const double largest_sigma = 0.2; /* decade */
+static const double largest_correlation = 0.95;
+
+/* What a vertical shift is off by through sample geometry and clamping [decade], 5 %. */
+static const double vertical_error = 0.02;
+
+enum { NEIGHBOURS = 3 };
+
+wt_shift_options wt_shift_defaults(void)
+{
+    return (wt_shift_options){.reference_temperature = NAN,
+                              .vertical = WT_VERTICAL_FREE,
+                              .expansion = 0.0,
+                              .floor = 0.02};
+}
+
+static wt_status check_options(const wt_shift_options *options, wt_error *err)
+{
+    wt_status status = WT_OK;
+    if (!isnan(options->reference_temperature) &&
+        !(options->reference_temperature > 0.0 && isfinite(options->reference_temperature))) {
+        status = wt_fail(err, WT_E_RANGE, "the reference temperature is not possible");
+        wt_error_expected(err, "an absolute temperature above 0 K");
+        wt_error_found(err, "%g", options->reference_temperature);
+        wt_error_advice(err, "give it with its unit, for example 20degC");
+    } else if (!(options->floor > 0.0) || !isfinite(options->floor)) {
+        status = wt_fail(err, WT_E_RANGE, "the floor of the shift error is not positive");
+        wt_error_found(err, "%g decade", options->floor);
+    } else if (!isfinite(options->expansion)) {
+        status = wt_fail(err, WT_E_RANGE, "the thermal expansion is not a number");
+    }
+    return status;
+}
+
+/* log10 of rho0 T0 / (rho T), density from a constant expansion coefficient. */
+static double physical_shift(const wt_shift_work *work, double temperature)
+{
+    const double t0 = work->reference_temperature;
+    return log10(t0 / temperature) +
+           work->options.expansion * (temperature - t0) / 2.302585092994045684;
+}
+
+/* The isotherm to start from: nearest to the reference temperature, or the one in the middle. */
+static wt_status choose_anchor(wt_shift_work *work, wt_error *err)
+{
+    const wt_shift_set *set = &work->set;
+    size_t best = set->n;
+    double nearest = HUGE_VAL;
+    for (size_t i = 0; i < set->n; i++) {
+        const double away =
+            isnan(work->options.reference_temperature)
+                ? fabs((double)i - 0.5 * (double)(set->n - 1))
+                : fabs(set->curves[i].temperature - work->options.reference_temperature);
+        if (set->curves[i].n >= WT_SHIFT_MIN_POINTS && away < nearest) {
+            nearest = away;
+            best = i;
+        }
+    }
+    if (best == set->n) {
+        wt_status status = wt_fail(err, WT_E_MISSING, "no isotherm has enough points");
+        wt_error_expected(err, "at least %d points each", WT_SHIFT_MIN_POINTS);
+        return status;
+    }
+    const double at = set->curves[best].temperature;
+    work->anchor = best;
+    work->reference_temperature =
+        isnan(work->options.reference_temperature) ? at : work->options.reference_temperature;
+    work->measured_reference = fabs(at - work->reference_temperature) <= same_temperature;
+    return WT_OK;
+}
+
+/* Places curve i on one of the placed curves towards the anchor: the next one, or one behind it if
+ * that is not to be had. */
+static wt_status place(wt_shift_work *work, size_t i, long inwards, wt_error *err)
+{
+    const bool free_b = work->options.vertical == WT_VERTICAL_FREE;
+    int tried = 0;
+    for (long p = (long)i + inwards; tried < NEIGHBOURS; p += inwards) {
+        if (work->placed[p]) {
+            wt_shift_pair pair;
+            wt_status status = wt_shift_pair_fit(&work->set.curves[p], &work->set.curves[i], free_b,
+                                                 work->b[i] - work->b[p], &pair, err);
+            if (status != WT_OK)
+                return status;
+            if (tried++ == 0)
+                for (int q = 0; q < WT_MODULI; q++)
+                    work->overlap[q][i] = pair.overlap[q];
+            if (pair.found) {
+                work->a[i] = work->a[p] + pair.a;
+                if (free_b)
+                    work->b[i] = work->b[p] + pair.b;
+                work->placed[i] = true;
+                return WT_OK;
+            }
+        }
+        if ((size_t)p == work->anchor)
+            break;
+    }
+    return WT_OK;
+}
+
+static wt_status place_all(wt_shift_work *work, wt_error *err)
+{
+    wt_status status = WT_OK;
+    size_t n_placed = 1;
+    for (size_t i = 0; i < work->set.n; i++)
+        work->b[i] = work->options.vertical == WT_VERTICAL_PHYSICAL
+                         ? physical_shift(work, work->set.curves[i].temperature)
+                         : 0.0;
+    work->placed[work->anchor] = true;
+    for (size_t i = work->anchor + 1; i < work->set.n && status == WT_OK; i++)
+        status = place(work, i, -1, err);
+    for (size_t i = work->anchor; i-- > 0 && status == WT_OK;)
+        status = place(work, i, 1, err);
+    if (status != WT_OK)
+        return status;
+    for (size_t i = 0; i < work->set.n; i++)
+        n_placed += work->placed[i] && i != work->anchor ? 1 : 0;
+    if (n_placed == 1) {
+        status = wt_fail(err, WT_E_NO_OVERLAP, "no isotherm overlaps the one of %.2f K",
+                         work->set.curves[work->anchor].temperature);
+        wt_error_expected(err, "neighbouring isotherms that share a range of storage modulus");
+        wt_error_advice(err, "measure at smaller steps of temperature or over more frequencies");
+    }
+    return status;
+}
+
+/* Which shifts are good for anything; the anchor is one by definition. */
+static void judge(wt_shift_work *work)
+{
+    const size_t n = work->set.n;
+    for (size_t i = 0; i < n; i++) {
+        const double sigma = sqrt(work->covariance[i * n + i]);
+        work->verdict[i] = WT_SHIFT_GOOD;
+        if (work->set.curves[i].n < WT_SHIFT_MIN_POINTS)
+            work->verdict[i] = WT_SHIFT_TOO_SHORT;
+        else if (!work->placed[i])
+            work->verdict[i] = WT_SHIFT_NO_OVERLAP;
+        else if (i == work->anchor)
+            continue;
+        else if (!(sigma <= largest_sigma))
+            work->verdict[i] = WT_SHIFT_NO_SLOPE;
+        else if (fabs(work->correlation[i]) > largest_correlation) {
+            /* Along the valley of equally good fits a changes by this much per decade of b. */
+            const double tie = fabs(work->correlation[i]) * sigma / work->sigma_b[i];
+            work->tied[i] = vertical_error * tie;
+            if (!(work->tied[i] <= largest_sigma))
+                work->verdict[i] = WT_SHIFT_COLLINEAR;
+        }
+    }
+}
+
+/* Good isotherms on either side of the reference temperature; set->n if there is none. */
+static void bracket(const wt_shift_work *work, size_t *below, size_t *above)
+{
+    *below = *above = work->set.n;
+    for (size_t i = 0; i < work->set.n; i++) {
+        if (work->verdict[i] != WT_SHIFT_GOOD)
+            continue;
+        if (work->set.curves[i].temperature <= work->reference_temperature)
+            *below = i;
+        else if (*above == work->set.n)
+            *above = i;
+    }
+}
+
+static wt_status out_of_range(const wt_shift_work *work, wt_error *err)
+{
+    wt_status status =
+        wt_fail(err, WT_E_RANGE, "no shift can be given for the reference temperature %.2f K",
+                work->reference_temperature);
+    wt_error_expected(err, "a temperature between the isotherms that could be shifted");
+    wt_error_advice(err, "choose one of the measured temperatures");
+    return status;
+}
+
+/* Variance of log aT that the law gives for a temperature, from the errors of its constants. */
+static double variance_of_law(const wt_wlf_fit *fit, double temperature)
+{
+    const double rise = temperature - fit->wlf.reference_temperature;
+    const double by_c1 = -rise / (fit->wlf.c2 + rise);
+    const double by_c2 = -by_c1 * fit->wlf.c1 / (fit->wlf.c2 + rise);
+    if (fit->straight)
+        return rise * rise * fit->slope_error * fit->slope_error;
+    const double s1 = by_c1 * fit->c1_error, s2 = by_c2 * fit->c2_error;
+    return s1 * s1 + s2 * s2 + 2.0 * fit->correlation * s1 * s2;
+}
+
+/* Value of the law at the reference temperature, relative to the anchor, with the weight of each
+ * isotherm in it: WLF for the shape, the two neighbours' residuals from it for the place. */
+static wt_status offset_of_reference(wt_shift_work *work, double *offset, double *weight,
+                                     double *law_variance, wt_error *err)
+{
+    const size_t n = work->set.n;
+    double *temperature = work->scratch, *log_a = temperature + n, *covariance = log_a + n;
+    size_t below, above, m = 0;
+    wt_wlf_fit fit;
+
+    bracket(work, &below, &above);
+    const bool inside = below < n && above < n;
+    for (size_t i = 0; i < n; i++) {
+        if (work->verdict[i] != WT_SHIFT_GOOD)
+            continue;
+        size_t column = 0;
+        for (size_t k = 0; k < n; k++)
+            if (work->verdict[k] == WT_SHIFT_GOOD)
+                covariance[m * work->n_good + column++] = work->covariance[i * n + k];
+        temperature[m] = work->set.curves[i].temperature;
+        log_a[m++] = work->a[i];
+    }
+    const bool law =
+        wt_wlf_fit_arrays(temperature, log_a, covariance, m, work->reference_temperature,
+                          work->options.floor, &fit, NULL) == WT_OK;
+    if (!inside && !law)
+        return out_of_range(work, err);
+    *law_variance = 0.0;
+    if (!inside) {
+        const size_t end = below < n ? below : above;
+        weight[end] = 1.0;
+        work->extrapolated = true;
+        *law_variance = variance_of_law(&fit, work->set.curves[end].temperature);
+        if (!(sqrt(*law_variance) <= largest_sigma))
+            return out_of_range(work, err);
+    } else {
+        const double t0 = work->set.curves[below].temperature;
+        const double t1 = work->set.curves[above].temperature;
+        weight[above] = (work->reference_temperature - t0) / (t1 - t0);
+        weight[below] = 1.0 - weight[above];
+    }
+    *offset = 0.0;
+    for (size_t i = 0; i < n; i++)
+        if (weight[i] > 0.0)
+            *offset += weight[i] *
+                       (work->a[i] -
+                        (law ? wt_wlf_log_shift(&fit.wlf, work->set.curves[i].temperature) : 0.0));
+    return isfinite(*offset) ? WT_OK : out_of_range(work, err);
+}
+
+/* Makes the shifts relative to a reference temperature that was not measured: a, b, covariance. */
+static wt_status move_reference(wt_shift_work *work, wt_error *err)
+{
+    const size_t n = work->set.n;
+    double offset = NAN, law_variance = 0.0, offset_b = 0.0, variance = 0.0;
+    double *weight = calloc(2 * n, sizeof *weight);
+    if (weight == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for the reference temperature");
+    double *shared = weight + n; /* covariance of a curve with the offset */
+    wt_status status = offset_of_reference(work, &offset, weight, &law_variance, err);
+    if (status != WT_OK)
+        goto done;
+    for (size_t i = 0; i < n; i++)
+        for (size_t k = 0; k < n; k++)
+            shared[i] += weight[k] * work->covariance[i * n + k];
+    for (size_t i = 0; i < n; i++)
+        variance += weight[i] * shared[i];
+    variance += law_variance;
+    for (size_t i = 0; i < n; i++) {
+        work->a[i] -= offset;
+        for (size_t k = 0; k < n; k++)
+            work->covariance[i * n + k] += variance - shared[i] - shared[k];
+        /* Between isotherms b follows its neighbours, beyond them rho T. */
+        if (work->options.vertical == WT_VERTICAL_FREE && weight[i] > 0.0)
+            offset_b += weight[i] *
+                        (work->b[i] - (work->extrapolated
+                                           ? physical_shift(work, work->set.curves[i].temperature)
+                                           : 0.0));
+    }
+    for (size_t i = 0; i < n; i++)
+        work->b[i] -= offset_b;
+done:
+    free(weight);
+    return status;
+}
+
+static wt_status work_alloc(wt_shift_work *work, wt_error *err)
+{
+    const size_t n = work->set.n;
+    work->numbers = calloc(10 * n + 2 * n * n, sizeof *work->numbers);
+    work->placed = calloc(n, sizeof *work->placed);
+    work->verdict = calloc(n, sizeof *work->verdict);
+    work->n_outliers = calloc(n, sizeof *work->n_outliers);
+    if (work->numbers == NULL || work->placed == NULL || work->verdict == NULL ||
+        work->n_outliers == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for %zu isotherms", n);
+    work->a = work->numbers;
+    work->b = work->a + n;
+    work->sigma_b = work->b + n;
+    work->correlation = work->sigma_b + n;
+    work->physical = work->correlation + n;
+    for (int q = 0; q < WT_MODULI; q++)
+        work->overlap[q] = work->physical + (size_t)(q + 1) * n;
+    work->tied = work->physical + 3 * n;
+    work->covariance = work->tied + n;
+    work->scratch = work->covariance + n * n;
+    return WT_OK;
+}
+
+static void work_free(wt_shift_work *work)
+{
+    wt_shift_set_free(&work->set);
+    free(work->numbers);
+    free(work->placed);
+    free(work->verdict);
+    free(work->n_outliers);
+}
+
+wt_status wt_shift_fit(const wt_sweep *sweep, const wt_shift_options *options, wt_parselog *log,
+                       wt_master_curve *master, wt_error *err)
+{
+    wt_shift_work work = {.options = options != NULL ? *options : wt_shift_defaults()};
+    wt_status status = check_options(&work.options, err);
+
+    if (status == WT_OK)
+        status = wt_shift_set_new(sweep, log, &work.set, err);
+    if (status == WT_OK)
+        status = work_alloc(&work, err);
+    if (status == WT_OK)
+        status = choose_anchor(&work, err);
+    if (status == WT_OK)
+        status = place_all(&work, err);
+    if (status != WT_OK)
+        goto done;
+    wt_shift_joint joint = {.set = &work.set,
+                            .placed = work.placed,
+                            .anchor = work.anchor,
+                            .use = {true, true},
+                            .free_b = work.options.vertical == WT_VERTICAL_FREE,
+                            .a = work.a,
+                            .b = work.b,
+                            .covariance_a = work.covariance,
+                            .sigma_b = work.sigma_b,
+                            .correlation = work.correlation,
+                            .n_outliers = work.n_outliers};
+    status = wt_shift_joint_fit(&joint, err);
+    if (status == WT_OK)
+        status = wt_shift_superposition(&joint, work.options.floor, &work.superposition, err);
+    if (status != WT_OK)
+        goto done;
+    judge(&work);
+    for (size_t i = 0; i < work.set.n; i++) {
+        work.n_good += work.verdict[i] == WT_SHIFT_GOOD ? 1 : 0;
+        work.physical[i] = physical_shift(&work, work.set.curves[i].temperature);
+    }
+    for (int q = 0; q < WT_MODULI; q++)
+        work.rms[q] = joint.rms[q];
+    work.last_step = joint.last_step;
+    if (!work.measured_reference)
+        status = move_reference(&work, err);
+    if (status == WT_OK)
+        status = wt_shift_master_new(sweep, &work, log, master, err);
+done:
+    work_free(&work);
+    return status;
+}

@@ -1,0 +1,44 @@
+/* What the shift fit knows when it is done, and the master curve made of it (internal to the fit
+ * room). SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WT_FIT_SHIFT_MASTER_H
+#define WT_FIT_SHIFT_MASTER_H
+
+#include "fit/shift.h"
+
+typedef enum wt_shift_verdict {
+    WT_SHIFT_GOOD,
+    WT_SHIFT_TOO_SHORT,
+    WT_SHIFT_NO_OVERLAP,
+    WT_SHIFT_NO_SLOPE,
+    WT_SHIFT_COLLINEAR
+} wt_shift_verdict;
+
+typedef struct wt_shift_work {
+    wt_shift_options options;
+    wt_shift_set set;
+    double reference_temperature; /* [K] */
+    bool measured_reference;      /* the anchor is the reference */
+    bool extrapolated;            /* the reference temperature lies outside the isotherms */
+    size_t anchor;
+    size_t n_good;
+    bool *placed;               /* [n] */
+    wt_shift_verdict *verdict;  /* [n] */
+    size_t *n_outliers;         /* [n] */
+    double *numbers;            /* one block for the arrays below */
+    double *a, *b;              /* [n] */
+    double *sigma_b;            /* [n] */
+    double *correlation;        /* [n] */
+    double *physical;           /* [n] log b of rho T */
+    double *overlap[WT_MODULI]; /* [n] */
+    double *tied; /* [n] what an error of b moves a by, 0 unless they are collinear [decade] */
+    double *covariance; /* [n * n] of a */
+    double *scratch;    /* [n * n + 2 n] */
+    double rms[WT_MODULI];
+    double last_step;
+    wt_superposition superposition;
+} wt_shift_work;
+
+wt_status wt_shift_master_new(const wt_sweep *sweep, const wt_shift_work *work, wt_parselog *log,
+                              wt_master_curve *master, wt_error *err) WT_NODISCARD;
+
+#endif

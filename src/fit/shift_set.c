@@ -1,0 +1,162 @@
+/* Isotherms of a sweep as logarithms, sorted, with unusable points left out and named.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "fit/shift.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct point {
+    double x, y[WT_MODULI];
+};
+
+static int by_x(const void *left, const void *right)
+{
+    const double a = ((const struct point *)left)->x, b = ((const struct point *)right)->x;
+    return (a > b) - (a < b);
+}
+
+struct order {
+    double temperature;
+    size_t index;
+};
+
+static int by_temperature(const void *left, const void *right)
+{
+    const struct order *a = left, *b = right;
+    if (a->temperature != b->temperature)
+        return a->temperature > b->temperature ? 1 : -1;
+    return (a->index > b->index) - (a->index < b->index); /* runs of one temperature keep order */
+}
+
+static wt_status check_temperatures(const wt_sweep *sweep, wt_error *err)
+{
+    for (size_t i = 0; i < sweep->n_isotherms; i++) {
+        const double t = sweep->isotherms[i].temperature;
+        if (isfinite(t) && t > 0.0)
+            continue;
+        wt_status status =
+            wt_fail(err, WT_E_RANGE, "isotherm %zu has no usable temperature", i + 1);
+        wt_error_place(err, "%s", sweep->isotherms[i].source);
+        wt_error_expected(err, "an absolute temperature above 0 K");
+        wt_error_found(err, "%g", t);
+        wt_error_advice(err, "check the temperature column and its unit");
+        return status;
+    }
+    return WT_OK;
+}
+
+/* Fills one curve from an isotherm; scratch: [isotherm->n]. */
+static wt_status fill_curve(const wt_isotherm *isotherm, struct point *scratch,
+                            wt_shift_curve *curve, wt_parselog *log, wt_error *err)
+{
+    size_t n = 0;
+    size_t first_bad = isotherm->n;
+    for (size_t k = 0; k < isotherm->n; k++) {
+        const double w = isotherm->angular_frequency[k];
+        const double storage = isotherm->storage_modulus[k], loss = isotherm->loss_modulus[k];
+        if (w > 0.0 && storage > 0.0 && loss > 0.0 && isfinite(w) && isfinite(storage) &&
+            isfinite(loss)) {
+            scratch[n++] = (struct point){log10(w), {log10(storage), log10(loss)}};
+        } else {
+            if (first_bad == isotherm->n)
+                first_bad = k;
+            curve->n_left_out++;
+        }
+    }
+    if (curve->n_left_out > 0 && n < WT_SHIFT_MIN_POINTS) {
+        wt_status status =
+            wt_fail(err, WT_E_RANGE,
+                    "the isotherm of %.2f K has too few points with positive frequency and moduli",
+                    isotherm->temperature);
+        wt_error_place(err, "%s", isotherm->source);
+        wt_error_expected(err, "at least %d", WT_SHIFT_MIN_POINTS);
+        wt_error_found(err, "%zu of %zu; point %zu: %g rad/s, storage %g Pa, loss %g Pa", n,
+                       isotherm->n, first_bad + 1, isotherm->angular_frequency[first_bad],
+                       isotherm->storage_modulus[first_bad], isotherm->loss_modulus[first_bad]);
+        wt_error_advice(err, "leave this temperature out of the sweep");
+        return status;
+    }
+    if (curve->n_left_out > 0)
+        wt_parselog_add(log, WT_WARNING, isotherm->source, NULL,
+                        "isotherm of %.2f K: %zu of %zu points left out, no positive modulus "
+                        "(first: %g rad/s, storage %g Pa, loss %g Pa)",
+                        isotherm->temperature, curve->n_left_out, isotherm->n,
+                        isotherm->angular_frequency[first_bad],
+                        isotherm->storage_modulus[first_bad], isotherm->loss_modulus[first_bad]);
+    qsort(scratch, n, sizeof *scratch, by_x);
+    for (size_t k = 0; k < n; k++) {
+        curve->x[k] = scratch[k].x;
+        for (int q = 0; q < WT_MODULI; q++)
+            curve->y[q][k] = scratch[k].y[q];
+    }
+    curve->n = n;
+    return WT_OK;
+}
+
+wt_status wt_shift_set_new(const wt_sweep *sweep, wt_parselog *log, wt_shift_set *set,
+                           wt_error *err)
+{
+    const size_t n = sweep->n_isotherms;
+    size_t n_points = 0, n_longest = 1;
+    struct order *order = NULL;
+    struct point *scratch = NULL;
+    wt_shift_set made = {0};
+    wt_status status = check_temperatures(sweep, err);
+
+    if (status != WT_OK)
+        return status;
+    for (size_t i = 0; i < n; i++) {
+        n_points += sweep->isotherms[i].n;
+        n_longest = sweep->isotherms[i].n > n_longest ? sweep->isotherms[i].n : n_longest;
+    }
+    if (n < 2 || n_points == 0) {
+        status = wt_fail(err, WT_E_MISSING, "a master curve needs at least two isotherms");
+        wt_error_found(err, "%zu", n);
+        wt_error_advice(err, "give all temperatures of the sweep together");
+        return status;
+    }
+    order = calloc(n, sizeof *order);
+    scratch = calloc(n_longest, sizeof *scratch);
+    made.curves = calloc(n, sizeof *made.curves);
+    made.numbers = calloc(n_points, (1 + WT_MODULI) * sizeof *made.numbers);
+    if (order == NULL || scratch == NULL || made.curves == NULL || made.numbers == NULL) {
+        status = wt_fail(err, WT_E_MEMORY, "no memory for %zu isotherms", n);
+        goto done;
+    }
+    made.n = n;
+    for (size_t i = 0; i < n; i++)
+        order[i] = (struct order){sweep->isotherms[i].temperature, i};
+    qsort(order, n, sizeof *order, by_temperature);
+    double *next = made.numbers;
+    for (size_t i = 0; i < n; i++) {
+        const wt_isotherm *isotherm = &sweep->isotherms[order[i].index];
+        wt_shift_curve *curve = &made.curves[i];
+        curve->temperature = isotherm->temperature;
+        curve->sweep_index = order[i].index;
+        curve->x = next;
+        curve->y[WT_STORAGE] = next + isotherm->n;
+        curve->y[WT_LOSS] = next + 2 * isotherm->n;
+        next += 3 * isotherm->n;
+        status = fill_curve(isotherm, scratch, curve, log, err);
+        if (status != WT_OK)
+            goto done;
+        made.n_points += curve->n;
+    }
+    *set = made;
+    made = (wt_shift_set){0};
+done:
+    wt_shift_set_free(&made);
+    free(scratch);
+    free(order);
+    return status;
+}
+
+void wt_shift_set_free(wt_shift_set *set)
+{
+    if (set == NULL)
+        return;
+    free(set->curves);
+    free(set->numbers);
+    *set = (wt_shift_set){0};
+}

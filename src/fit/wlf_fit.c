@@ -1,0 +1,378 @@
+/* WLF and Arrhenius laws fitted to shift factors by generalised least squares.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "fit/wlf_fit.h"
+
+#include "fit/gsl_quiet.h"
+
+#include <gsl/gsl_blas.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_linalg.h>
+#include <gsl/gsl_multifit.h>
+#include <gsl/gsl_multifit_nlinear.h>
+#include <math.h>
+#include <stdlib.h>
+
+/* Unknowns: c1 = exp(q), c2 = lead + farthest/(1 + exp(-p)), offset. `lead` is the distance from
+ * the coldest isotherm to the reference, so the pole stays below all data whatever p is. */
+enum { Q, P, OFFSET, N_WLF };
+
+/* Beyond this c2 the law is a straight line over any measurable range [K]. */
+static const double straight_c2 = 1000.0;
+/* Largest distance of the pole below the coldest isotherm [K]: straight to 1 % over 100 K. */
+static const double farthest = 1e4;
+
+static double above_pole_of(double p)
+{
+    return farthest / (1.0 + exp(-p));
+}
+
+struct problem {
+    size_t n;
+    const double *temperature, *log_a;
+    double reference, lead;
+    gsl_matrix *root;   /* lower Cholesky factor of the covariance */
+    gsl_vector *column; /* [n] scratch */
+    gsl_matrix *linear; /* n x 2 whitened design of the linear laws */
+    gsl_vector *white;  /* [n] whitened log_a */
+};
+
+static void problem_free(struct problem *problem)
+{
+    gsl_matrix_free(problem->root);
+    gsl_vector_free(problem->column);
+    gsl_matrix_free(problem->linear);
+    gsl_vector_free(problem->white);
+}
+
+static void whiten(const struct problem *problem, gsl_vector *v)
+{
+    gsl_blas_dtrsv(CblasLower, CblasNoTrans, CblasNonUnit, problem->root, v);
+}
+
+static wt_status problem_init(struct problem *problem, const double *covariance, double floor,
+                              wt_error *err)
+{
+    const size_t n = problem->n;
+    problem->root = gsl_matrix_alloc(n, n);
+    problem->column = gsl_vector_alloc(n);
+    problem->linear = gsl_matrix_alloc(n, 2);
+    problem->white = gsl_vector_alloc(n);
+    if (problem->root == NULL || problem->column == NULL || problem->linear == NULL ||
+        problem->white == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for %zu shift factors", n);
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j < n; j++)
+            gsl_matrix_set(problem->root, i, j,
+                           0.5 * (covariance[i * n + j] + covariance[j * n + i]) +
+                               (i == j ? floor * floor : 0.0));
+    if (gsl_linalg_cholesky_decomp1(problem->root) != GSL_SUCCESS) {
+        wt_status status =
+            wt_fail(err, WT_E_CONVERGENCE, "the covariance of the shifts is not positive");
+        wt_error_advice(err, "use a larger floor of the shift error than %g decade", floor);
+        return status;
+    }
+    for (size_t i = 0; i < n; i++)
+        gsl_vector_set(problem->white, i, problem->log_a[i]);
+    whiten(problem, problem->white);
+    return WT_OK;
+}
+
+static int residuals(const gsl_vector *unknown, void *parameters, gsl_vector *f)
+{
+    const struct problem *problem = parameters;
+    const double c1 = exp(gsl_vector_get(unknown, Q));
+    const double c2 = problem->lead + above_pole_of(gsl_vector_get(unknown, P));
+    for (size_t i = 0; i < problem->n; i++) {
+        const double rise = problem->temperature[i] - problem->reference;
+        gsl_vector_set(
+            f, i, gsl_vector_get(unknown, OFFSET) - c1 * rise / (c2 + rise) - problem->log_a[i]);
+    }
+    whiten(problem, f);
+    return GSL_SUCCESS;
+}
+
+static int jacobian(const gsl_vector *unknown, void *parameters, gsl_matrix *derivative)
+{
+    const struct problem *problem = parameters;
+    const double c1 = exp(gsl_vector_get(unknown, Q));
+    const double above = above_pole_of(gsl_vector_get(unknown, P));
+    const double slope = above * (1.0 - above / farthest); /* d c2 / d p */
+    const double c2 = problem->lead + above;
+    for (size_t i = 0; i < problem->n; i++) {
+        const double rise = problem->temperature[i] - problem->reference;
+        const double u = rise / (c2 + rise);
+        gsl_matrix_set(derivative, i, Q, -c1 * u);
+        gsl_matrix_set(derivative, i, P, c1 * u * (slope / (c2 + rise)));
+        gsl_matrix_set(derivative, i, OFFSET, 1.0);
+    }
+    for (size_t k = 0; k < N_WLF; k++) {
+        gsl_vector_view column = gsl_matrix_column(derivative, k);
+        whiten(problem, &column.vector);
+    }
+    return GSL_SUCCESS;
+}
+
+/* Generalised least squares of log_a = offset + factor * regressor (in problem->column).
+ * cov: of (offset, factor) for the variances as given. */
+static wt_status fit_linear(struct problem *problem, gsl_multifit_linear_workspace *workspace,
+                            double result[2], gsl_matrix *cov, double *chi_square, wt_error *err)
+{
+    double found[2];
+    gsl_vector_view view = gsl_vector_view_array(found, 2);
+    gsl_vector_view one = gsl_matrix_column(problem->linear, 0);
+    gsl_vector_view regressor = gsl_matrix_column(problem->linear, 1);
+    gsl_vector_set_all(&one.vector, 1.0);
+    gsl_vector_memcpy(&regressor.vector, problem->column);
+    whiten(problem, &one.vector);
+    whiten(problem, &regressor.vector);
+    if (gsl_multifit_linear(problem->linear, problem->white, &view.vector, cov, chi_square,
+                            workspace) != GSL_SUCCESS)
+        return wt_fail(err, WT_E_CONVERGENCE, "the straight line through the shifts is singular");
+    /* gsl scales by chi^2/(n - 2); the covariance of the shifts is known here. */
+    if (*chi_square > 0.0)
+        gsl_matrix_scale(cov, (double)(problem->n - 2) / *chi_square);
+    result[0] = found[0];
+    result[1] = found[1];
+    return WT_OK;
+}
+
+/* Akaike's criterion for small samples; NaN if there are too few shifts for it. */
+static double aicc(double chi_square, size_t n, size_t n_parameters)
+{
+    const double k = (double)n_parameters + 1.0; /* the scale of the residuals is one more */
+    const double count = (double)n;
+    if (count - k - 1.0 <= 0.0)
+        return NAN;
+    return count * log(chi_square / count) + 2.0 * k + 2.0 * k * (k + 1.0) / (count - k - 1.0);
+}
+
+/* Errors grow when the shifts scatter more about the law than their covariance says. */
+static double scatter_factor(double chi_square, size_t n, size_t n_parameters)
+{
+    return fmax(sqrt(chi_square / (double)(n - n_parameters)), 1.0);
+}
+
+/* Levenberg-Marquardt from c2 = start_c2, with the best c1 and offset for it. */
+static wt_status fit_from(struct problem *problem, double above_pole,
+                          gsl_multifit_linear_workspace *linear, gsl_matrix *linear_cov,
+                          gsl_multifit_nlinear_workspace *workspace, double unknown[N_WLF],
+                          double *chi_square, gsl_matrix *cov, wt_error *err)
+{
+    double line[2], ignored;
+    for (size_t i = 0; i < problem->n; i++) {
+        const double rise = problem->temperature[i] - problem->reference;
+        gsl_vector_set(problem->column, i, -rise / (problem->lead + above_pole + rise));
+    }
+    wt_status status = fit_linear(problem, linear, line, linear_cov, &ignored, err);
+    if (status != WT_OK)
+        return status;
+    unknown[Q] = log(line[1] > 0.0 ? line[1] : 1.0);
+    unknown[P] = log(above_pole / (farthest - above_pole));
+    unknown[OFFSET] = line[0];
+    gsl_multifit_nlinear_fdf fdf = {
+        .f = residuals, .df = jacobian, .n = problem->n, .p = N_WLF, .params = problem};
+    gsl_vector_view start = gsl_vector_view_array(unknown, N_WLF);
+    int info;
+    if (gsl_multifit_nlinear_init(&start.vector, &fdf, workspace) != GSL_SUCCESS)
+        return wt_fail(err, WT_E_CONVERGENCE, "the WLF fit could not start");
+    /* A straight line drives c2 to infinity: there the iteration limit is an answer too. */
+    const int code =
+        gsl_multifit_nlinear_driver(200, 1e-10, 1e-12, 1e-14, NULL, NULL, &info, workspace);
+    if (code != GSL_SUCCESS && code != GSL_EMAXITER && code != GSL_ENOPROG)
+        return wt_fail(err, WT_E_CONVERGENCE, "the WLF fit failed: %s", gsl_strerror(code));
+    for (size_t k = 0; k < N_WLF; k++)
+        unknown[k] = gsl_vector_get(gsl_multifit_nlinear_position(workspace), k);
+    gsl_blas_ddot(gsl_multifit_nlinear_residual(workspace),
+                  gsl_multifit_nlinear_residual(workspace), chi_square);
+    if (!isfinite(*chi_square) ||
+        gsl_multifit_nlinear_covar(gsl_multifit_nlinear_jac(workspace), 0.0, cov) != GSL_SUCCESS)
+        return wt_fail(err, WT_E_CONVERGENCE, "the WLF fit failed");
+    return WT_OK;
+}
+
+/* Carries the covariance of (q, p, offset) over to what is reported. A straight line has a slope
+ * and no more: its errors of c1, c2 and what follows from them are not known. */
+static void fill_wlf(const struct problem *problem, const double unknown[N_WLF],
+                     const gsl_matrix *cov, double chi_square, wt_wlf_fit *fit)
+{
+    const double factor = scatter_factor(chi_square, problem->n, N_WLF);
+    const double c1 = exp(unknown[Q]), above = above_pole_of(unknown[P]);
+    const double c2 = problem->lead + above;
+    const double slope = above * (1.0 - above / farthest);
+    const double s1 = c1 * sqrt(gsl_matrix_get(cov, Q, Q)) * factor;
+    const double s2 = slope * sqrt(gsl_matrix_get(cov, P, P)) * factor;
+    const double s12 = c1 * slope * gsl_matrix_get(cov, Q, P) * factor * factor;
+    fit->wlf = (wt_wlf){problem->reference, c1, c2};
+    fit->c1_error = s1;
+    fit->c2_error = s2;
+    fit->correlation = s12 / (s1 * s2);
+    fit->b = c1 * c2;
+    fit->b_error = sqrt(fmax(c2 * c2 * s1 * s1 + c1 * c1 * s2 * s2 + 2.0 * c1 * c2 * s12, 0.0));
+    fit->pole = problem->reference - c2;
+    fit->pole_error = s2;
+    fit->slope = -c1 / c2;
+    fit->slope_error =
+        c1 / c2 *
+        sqrt(fmax(s1 * s1 / (c1 * c1) + s2 * s2 / (c2 * c2) - 2.0 * s12 / (c1 * c2), 0.0));
+    fit->offset = unknown[OFFSET];
+    fit->offset_error = sqrt(gsl_matrix_get(cov, OFFSET, OFFSET)) * factor;
+    fit->aicc_wlf = aicc(chi_square, problem->n, N_WLF);
+    fit->straight = !(c2 <= straight_c2) || !(s2 <= c2);
+    if (fit->straight) {
+        fit->c1_error = fit->c2_error = fit->correlation = NAN;
+        fit->b_error = fit->pole_error = NAN;
+    }
+}
+
+static double weighted_rms(const struct problem *problem, const double *covariance, double floor,
+                           const wt_wlf_fit *fit)
+{
+    double square = 0.0, weights = 0.0;
+    for (size_t i = 0; i < problem->n; i++) {
+        const double w = 1.0 / (covariance[i * problem->n + i] + floor * floor);
+        const double r =
+            problem->log_a[i] - fit->offset - wt_wlf_log_shift(&fit->wlf, problem->temperature[i]);
+        square += w * r * r;
+        weights += w;
+    }
+    return sqrt(square / weights);
+}
+
+static wt_status check_falls(double slope, wt_error *err)
+{
+    if (slope < 0.0)
+        return WT_OK;
+    wt_status status = wt_fail(err, WT_E_RANGE, "the shift factors do not fall with temperature");
+    wt_error_expected(err, "log10 aT falling from cold to warm");
+    wt_error_found(err, "%+.3g decade/K on average", slope);
+    wt_error_advice(err, "check the temperatures of the isotherms and the sign of the shifts");
+    return status;
+}
+
+wt_status wt_wlf_fit_arrays(const double *temperature, const double *log_a,
+                            const double *covariance, size_t n, double reference_temperature,
+                            double floor, wt_wlf_fit *fit, wt_error *err)
+{
+    /* Distance of the pole below the coldest isotherm to start from [K]. */
+    static const double starts[] = {10.0, 40.0, 150.0, 600.0};
+    struct problem problem = {
+        .n = n, .temperature = temperature, .log_a = log_a, .reference = reference_temperature};
+    gsl_multifit_linear_workspace *linear = NULL;
+    gsl_multifit_nlinear_workspace *nonlinear = NULL;
+    gsl_matrix *linear_cov = NULL, *cov = NULL;
+    wt_wlf_fit made = {.n = n};
+    double line[2], chi_square;
+
+    wt_fit_gsl_quiet();
+    if (!(reference_temperature > 0.0) || !(floor > 0.0) || n <= N_WLF) {
+        wt_status bad =
+            wt_fail(err, n <= N_WLF ? WT_E_MISSING : WT_E_RANGE, "no WLF fit of %zu shifts", n);
+        wt_error_expected(err,
+                          "at least %d determined shifts, a reference temperature above 0 K, "
+                          "a floor above 0",
+                          N_WLF + 1);
+        wt_error_found(err, "%zu shifts, %g K, floor %g decade", n, reference_temperature, floor);
+        return bad;
+    }
+    double coldest = reference_temperature;
+    for (size_t i = 0; i < n; i++)
+        coldest = fmin(coldest, temperature[i]);
+    problem.lead = reference_temperature - coldest;
+    wt_status status = problem_init(&problem, covariance, floor, err);
+    if (status != WT_OK)
+        goto done;
+    linear = gsl_multifit_linear_alloc(n, 2);
+    gsl_multifit_nlinear_parameters settings = gsl_multifit_nlinear_default_parameters();
+    nonlinear = gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &settings, n, N_WLF);
+    linear_cov = gsl_matrix_alloc(2, 2);
+    cov = gsl_matrix_alloc(N_WLF, N_WLF);
+    if (linear == NULL || nonlinear == NULL || linear_cov == NULL || cov == NULL) {
+        status = wt_fail(err, WT_E_MEMORY, "no memory for the WLF fit");
+        goto done;
+    }
+    for (size_t i = 0; i < n; i++)
+        gsl_vector_set(problem.column, i, temperature[i] - reference_temperature);
+    status = fit_linear(&problem, linear, line, linear_cov, &chi_square, err);
+    if (status == WT_OK)
+        status = check_falls(line[1], err);
+    if (status != WT_OK)
+        goto done;
+    const double line_slope = line[1];
+    const double line_error =
+        sqrt(gsl_matrix_get(linear_cov, 1, 1)) * scatter_factor(chi_square, n, 2);
+
+    for (size_t i = 0; i < n; i++)
+        gsl_vector_set(problem.column, i,
+                       wt_arrhenius_log_shift(1.0, reference_temperature, temperature[i]));
+    status = fit_linear(&problem, linear, line, linear_cov, &chi_square, err);
+    if (status != WT_OK)
+        goto done;
+    made.activation_energy = line[1];
+    made.activation_energy_error =
+        sqrt(gsl_matrix_get(linear_cov, 1, 1)) * scatter_factor(chi_square, n, 2);
+    made.aicc_arrhenius = aicc(chi_square, n, 2);
+
+    double best = HUGE_VAL;
+    for (size_t k = 0; k < sizeof starts / sizeof *starts; k++) {
+        double unknown[N_WLF];
+        status = fit_from(&problem, starts[k], linear, linear_cov, nonlinear, unknown, &chi_square,
+                          cov, err);
+        if (status == WT_OK && chi_square < best) {
+            best = chi_square;
+            fill_wlf(&problem, unknown, cov, chi_square, &made);
+        }
+    }
+    if (!(best < HUGE_VAL))
+        goto done; /* with the last failure */
+    status = WT_OK;
+    if (made.straight) {
+        made.slope = line_slope;
+        made.slope_error = line_error;
+    }
+    made.rms = weighted_rms(&problem, covariance, floor, &made);
+    *fit = made;
+done:
+    problem_free(&problem);
+    gsl_multifit_linear_free(linear);
+    if (nonlinear != NULL)
+        gsl_multifit_nlinear_free(nonlinear);
+    gsl_matrix_free(linear_cov);
+    gsl_matrix_free(cov);
+    return status;
+}
+
+wt_status wt_wlf_fit_shifts(const wt_master_curve *master, const wt_shift_options *options,
+                            wt_wlf_fit *fit, wt_error *err)
+{
+    const wt_shift_options defaults = wt_shift_defaults();
+    const double floor = (options != NULL ? options : &defaults)->floor;
+    const size_t n_all = master->n_shifts;
+    size_t n = 0;
+    double *temperature = calloc(n_all + 1, sizeof *temperature);
+    double *log_a = calloc(n_all + 1, sizeof *log_a);
+    double *covariance = calloc(n_all * n_all + 1, sizeof *covariance);
+    size_t *index = calloc(n_all + 1, sizeof *index);
+    wt_status status;
+
+    if (temperature == NULL || log_a == NULL || covariance == NULL || index == NULL) {
+        status = wt_fail(err, WT_E_MEMORY, "no memory for %zu shift factors", n_all);
+        goto done;
+    }
+    for (size_t i = 0; i < n_all; i++)
+        if (master->shifts[i].determined) {
+            temperature[n] = master->shifts[i].temperature;
+            log_a[n] = master->shifts[i].log_a.value;
+            index[n++] = i;
+        }
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j < n; j++)
+            covariance[i * n + j] = master->covariance[index[i] * n_all + index[j]];
+    status = wt_wlf_fit_arrays(temperature, log_a, covariance, n, master->reference_temperature,
+                               floor, fit, err);
+done:
+    free(temperature);
+    free(log_a);
+    free(covariance);
+    free(index);
+    return status;
+}

@@ -1,0 +1,32 @@
+/* Material, roughness and conditions of one replicate of a sliding contact. Internal to flow.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WEARTRACK_FLOW_CONDITIONS_H
+#define WEARTRACK_FLOW_CONDITIONS_H
+
+#include "weartrack/flow.h"
+
+/* Relative numerical error asked of replicates: far below the scatter between them. */
+#define FLOW_REPLICATE_TOLERANCE 1e-5
+
+typedef struct flow_conditions {
+    double pressure, shear_stress;
+    wt_material *material;
+    wt_roughness *roughness;
+    wt_friction_workspace *workspace;
+    char statement[256]; /* what must be said of the material, "" if nothing */
+} flow_conditions;
+
+/* Checks the numbers of a sliding contact. */
+wt_status flow_sliding_check(const wt_sliding *sliding, wt_error *err) WT_NODISCARD;
+/* The velocity of the answer: as given, or the middle of the list. */
+double flow_reference_velocity(const wt_sliding *sliding);
+/* Draws replicate `replicate` (FLOW_CENTRE = the values themselves) and prepares the kernel. */
+wt_status flow_conditions_make(const wt_sliding *sliding, uint64_t seed, size_t replicate,
+                               double tolerance, unsigned threads, wt_layer_state layer,
+                               flow_conditions *conditions, wt_error *err) WT_NODISCARD;
+void flow_conditions_clear(flow_conditions *conditions);
+/* Whether any error is stated or measured, and which, as words. */
+bool flow_conditions_vary(const wt_sliding *sliding, const wt_job *common, char *words,
+                          size_t size);
+
+#endif

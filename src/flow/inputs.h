@@ -1,0 +1,38 @@
+/* The files of a job: listing, opening with provenance, recording what failed. Internal to flow.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WEARTRACK_FLOW_INPUTS_H
+#define WEARTRACK_FLOW_INPUTS_H
+
+#include "weartrack/flow.h"
+
+/* One file of the sets of a job. */
+typedef struct flow_file {
+    char *path;             /* to open */
+    const char *name;       /* to show: `path` without the folder of the set; borrowed from it */
+    const wt_file_set *set; /* whose options hold */
+} flow_file;
+
+typedef struct flow_files {
+    flow_file *file;
+    size_t n;
+} flow_files;
+
+/* All files of the sets in their order. A file that is named twice is taken once, with a warning. A
+ * pattern without a match is recorded as a failure (or ends the job, see wt_job.failures). */
+wt_status flow_files_list(const wt_file_set *sets, size_t n_sets, const wt_job *common,
+                          flow_files *files, wt_error *err) WT_NODISCARD;
+void flow_files_clear(flow_files *files);
+
+/* Opens a file, finds its format among `kinds` and adds it to the provenance under `role`. *format
+ * (may be NULL) is the recognised format. */
+wt_status flow_open(const wt_job *common, const flow_file *file, const char *role, unsigned kinds,
+                    wt_input **input, const wt_format_info **format, wt_error *err) WT_NODISCARD;
+
+/* Whether a failure of one file leaves the others alone: false for lack of memory, cancelling,
+ * internal errors, and when the job keeps no failures. */
+bool flow_goes_on(const wt_job *common, wt_status status);
+/* Adds a row to the failures. */
+wt_status flow_failed(const wt_job *common, const char *file, const wt_error *failure,
+                      wt_error *err) WT_NODISCARD;
+
+#endif

@@ -1,0 +1,232 @@
+/* Quantities as text: an estimate with its stated error, a list of values.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "weartrack/flow.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static bool is_blank(char c)
+{
+    return c == ' ' || c == '\t' || c == '\n' || c == '\r';
+}
+
+/* A copy of [begin, end) without blanks around it; NULL when out of memory. */
+static char *copy_trimmed(const char *begin, const char *end)
+{
+    while (begin < end && is_blank(*begin))
+        begin++;
+    while (end > begin && is_blank(end[-1]))
+        end--;
+    return strndup(begin, (size_t)(end - begin));
+}
+
+/* The place of "+-" or "±" in the text and its length; NULL if there is none. */
+static const char *find_plus_minus(const char *text, size_t *length)
+{
+    const char *ascii = strstr(text, "+-");
+    const char *sign = strstr(text, "\xc2\xb1");
+    *length = 2;
+    return ascii != NULL ? ascii : sign;
+}
+
+/* The stated error: "5%" of the value, or a quantity of the same dimension. */
+static wt_status parse_error_part(const char *text, wt_quantity quantity, double value,
+                                  double *error, wt_error *err)
+{
+    size_t n = strlen(text);
+    if (n > 1 && text[n - 1] == '%' && quantity != WT_Q_NONE) {
+        double percent = NAN;
+        if (!wt_number_parse(text, n - 1, '.', &percent) || percent < 0) {
+            wt_fail(err, WT_E_RANGE, "the stated error is not a share in per cent");
+            wt_error_expected(err, "a number >= 0 before %%, as in \"0.4MPa +- 5%%\"");
+            wt_error_found(err, "\"%s\"", text);
+            return WT_E_RANGE;
+        }
+        if (quantity == WT_Q_TEMPERATURE) {
+            wt_fail(err, WT_E_UNIT, "a share of a temperature means nothing");
+            wt_error_advice(err, "state it in kelvin: \"20degC +- 0.5K\"");
+            return WT_E_UNIT;
+        }
+        *error = fabs(value) * percent / 100;
+        return WT_OK;
+    }
+    wt_quantity kind = quantity == WT_Q_TEMPERATURE ? WT_Q_TEMPERATURE_DIFFERENCE : quantity;
+    double parsed = NAN;
+    wt_status status = wt_quantity_parse(text, kind, &parsed, err);
+    if (status != WT_OK)
+        return status;
+    if (!(parsed >= 0)) {
+        wt_fail(err, WT_E_RANGE, "a standard error is not negative");
+        wt_error_found(err, "\"%s\"", text);
+        return WT_E_RANGE;
+    }
+    *error = parsed;
+    return WT_OK;
+}
+
+wt_status wt_estimate_parse(const char *text, wt_quantity quantity, wt_estimate *estimate,
+                            wt_error *err)
+{
+    if (text == NULL || estimate == NULL)
+        return wt_fail(err, WT_E_ARG, "no text to parse");
+    wt_status status;
+    wt_estimate parsed = {NAN, 0, 0, wt_quantity_unit(quantity)};
+    char *head = NULL, *tail = NULL;
+    size_t length = 0;
+    const char *sign = find_plus_minus(text, &length);
+
+    head = copy_trimmed(text, sign != NULL ? sign : text + strlen(text));
+    if (sign != NULL)
+        tail = copy_trimmed(sign + length, text + strlen(text));
+    if (head == NULL || (sign != NULL && tail == NULL)) {
+        status = wt_fail(err, WT_E_MEMORY, "out of memory");
+        goto done;
+    }
+    status = wt_quantity_parse(head, quantity, &parsed.value, err);
+    if (status == WT_OK && tail != NULL)
+        status = parse_error_part(tail, quantity, parsed.value, &parsed.standard_error, err);
+    if (status == WT_OK)
+        *estimate = parsed;
+done:
+    free(head);
+    free(tail);
+    return status;
+}
+
+/* ---- lists ------------------------------------------------------------------------------------
+ */
+
+#define MAX_LIST 100000
+
+typedef struct values {
+    double *v;
+    size_t n;
+} values;
+
+static wt_status list_error(const char *text, const char *what, wt_error *err)
+{
+    wt_fail(err, WT_E_RANGE, "%s", what);
+    wt_error_expected(err, "one value, values parted by commas, or FIRST:LAST UNIT:log|lin:COUNT");
+    wt_error_found(err, "\"%s\"", text);
+    wt_error_advice(err, "for example 1e-4:10m/s:log:40");
+    return WT_E_RANGE;
+}
+
+static wt_status parse_commas(const char *text, wt_quantity quantity, values *out, wt_error *err)
+{
+    size_t n = 1;
+    for (const char *p = text; *p != '\0'; p++)
+        n += *p == ',';
+    if (n > MAX_LIST)
+        return list_error(text, "the list is too long", err);
+    out->v = malloc(n * sizeof *out->v);
+    if (out->v == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    const char *begin = text;
+    for (size_t i = 0; i < n; i++) {
+        const char *end = begin + strcspn(begin, ",");
+        char *item = copy_trimmed(begin, end);
+        if (item == NULL)
+            return wt_fail(err, WT_E_MEMORY, "out of memory");
+        wt_status status = wt_quantity_parse(item, quantity, &out->v[i], err);
+        free(item);
+        if (status != WT_OK)
+            return status;
+        begin = end + 1;
+    }
+    out->n = n;
+    return WT_OK;
+}
+
+/* FIRST:LAST UNIT:log|lin:COUNT; `part` are the four pieces. */
+static wt_status parse_range(const char *text, char *const part[4], wt_quantity quantity,
+                             values *out, wt_error *err)
+{
+    const char *unit = part[1];
+    unit += strspn(unit, "0123456789.");
+    if ((*unit == 'e' || *unit == 'E') && strspn(unit + 1, "+-0123456789") > 0)
+        unit += 1 + strspn(unit + 1, "+-0123456789");
+    char first_text[128];
+    size_t plain = strspn(part[0], "+-0123456789.eE");
+    int written = part[0][plain] == '\0'
+                      ? snprintf(first_text, sizeof first_text, "%s%s", part[0], unit)
+                      : snprintf(first_text, sizeof first_text, "%s", part[0]);
+    if (written < 0 || (size_t)written >= sizeof first_text)
+        return list_error(text, "the first value is too long", err);
+    double first = NAN, last = NAN, count = NAN;
+    wt_status status = wt_quantity_parse(first_text, quantity, &first, err);
+    if (status == WT_OK)
+        status = wt_quantity_parse(part[1], quantity, &last, err);
+    if (status != WT_OK)
+        return status;
+    bool logarithmic = strcmp(part[2], "log") == 0;
+    if (!logarithmic && strcmp(part[2], "lin") != 0)
+        return list_error(text, "the spacing is neither log nor lin", err);
+    if (!wt_number_parse(part[3], strlen(part[3]), '.', &count) || count < 2 || count > MAX_LIST ||
+        floor(count) < count)
+        return list_error(text, "the count is not a whole number from 2 to 100000", err);
+    if (!(last > first) || (logarithmic && !(first > 0)))
+        return list_error(text, "the values do not rise (and are positive for log)", err);
+    out->n = (size_t)count;
+    out->v = malloc(out->n * sizeof *out->v);
+    if (out->v == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t i = 0; i < out->n; i++) {
+        double t = (double)i / (double)(out->n - 1);
+        out->v[i] = logarithmic ? first * pow(last / first, t) : first + (last - first) * t;
+    }
+    out->v[out->n - 1] = last;
+    return WT_OK;
+}
+
+wt_status wt_list_parse(const char *text, wt_quantity quantity, double **result, size_t *n,
+                        wt_error *err)
+{
+    if (text == NULL || result == NULL || n == NULL)
+        return wt_fail(err, WT_E_ARG, "no text to parse");
+    wt_status status = WT_OK;
+    values list = {NULL, 0};
+    char *part[4] = {NULL, NULL, NULL, NULL};
+    size_t n_parts = 0;
+
+    if (strchr(text, ':') == NULL) {
+        status = parse_commas(text, quantity, &list, err);
+    } else {
+        const char *begin = text;
+        for (;;) {
+            const char *end = begin + strcspn(begin, ":");
+            if (n_parts == 4) {
+                status = list_error(text, "too many parts", err);
+                goto done;
+            }
+            part[n_parts] = copy_trimmed(begin, end);
+            if (part[n_parts] == NULL) {
+                status = wt_fail(err, WT_E_MEMORY, "out of memory");
+                goto done;
+            }
+            n_parts++;
+            if (*end == '\0')
+                break;
+            begin = end + 1;
+        }
+        status = n_parts == 4 ? parse_range(text, part, quantity, &list, err)
+                              : list_error(text, "a range has four parts", err);
+    }
+    if (status != WT_OK)
+        goto done;
+    for (size_t i = 1; i < list.n; i++) {
+        if (!(list.v[i] > list.v[i - 1])) {
+            status = list_error(text, "the values do not rise", err);
+            goto done;
+        }
+    }
+    *result = list.v;
+    *n = list.n;
+    list.v = NULL;
+done:
+    free(list.v);
+    for (size_t i = 0; i < n_parts; i++)
+        free(part[i]);
+    return status;
+}
