@@ -72,7 +72,11 @@ wt_status wt_archive_open(wt_input *input, wt_archive **archive, wt_error *err)
         goto done;
     }
     zip_int64_t n = zip_get_num_entries(a->zip, 0);
-    a->n = n > 0 ? (size_t)n : 0;
+    if (n <= 0) {
+        status = wt_fail(err, WT_E_CORRUPT, "the ZIP archive is empty");
+        goto done;
+    }
+    a->n = (size_t)n;
     *archive = a;
     a = NULL;
 done:

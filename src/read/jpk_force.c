@@ -155,6 +155,8 @@ static wt_status add_segment(jpk_source *source, const jpk_segment_ref *ref, dou
         jpk_calibrate(&deflection->lcd, &source->options, &calibration);
         curve->cantilever = calibration.cantilever;
     }
+    if (segment->n_points == 0 && segment->incomplete)
+        return wt_fail(err, WT_E_CORRUPT, "data of the segment are missing");
     if (segment->n_points == 0) {
         wt_parselog_add(source->file.log, WT_NOTE, source->file.name, place,
                         "segment without samples left out");

@@ -1,0 +1,197 @@
+/* Input and detection: files, pipes and memory give the same bytes; the four answers of a detector;
+ * ties; words for what is not known.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "near.h"
+
+#include "read/formats.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* ---- input -------------------------------------------------------------------------------- */
+
+/* Standard input replaced by a pipe that holds `text`. */
+static int replace_stdin(const char *text, size_t n)
+{
+    int ends[2], saved = dup(STDIN_FILENO);
+    assert_true(saved >= 0 && pipe(ends) == 0);
+    assert_int_equal(write(ends[1], text, n), (ssize_t)n);
+    close(ends[1]);
+    assert_true(dup2(ends[0], STDIN_FILENO) >= 0);
+    close(ends[0]);
+    return saved;
+}
+
+static void restore_stdin(int saved)
+{
+    assert_true(dup2(saved, STDIN_FILENO) >= 0);
+    close(saved);
+}
+
+static void pipe_file_and_memory(void **state)
+{
+    (void)state;
+    static const char text[] = "some bytes of an instrument";
+    static const char path[] = "test_read_detect.tmp";
+    FILE *out = fopen(path, "wb");
+    assert_non_null(out);
+    assert_int_equal(fwrite(text, 1, sizeof text, out), sizeof text);
+    assert_int_equal(fclose(out), 0);
+    int saved = replace_stdin(text, sizeof text);
+    wt_input *inputs[3] = {NULL};
+    assert_int_equal(wt_input_open("-", &inputs[0], NULL), WT_OK);
+    assert_int_equal(wt_input_open(path, &inputs[1], NULL), WT_OK);
+    assert_int_equal(wt_input_open_memory(text, sizeof text, "m", &inputs[2], NULL), WT_OK);
+    for (size_t i = 0; i < 3; i++) {
+        const unsigned char *bytes = NULL;
+        size_t n = 0;
+        bool whole = false;
+        assert_int_equal(wt_input_peek(inputs[i], 4, &bytes, &n, &whole, NULL), WT_OK);
+        assert_true(n >= 4 && memcmp(bytes, text, 4) == 0);
+        assert_int_equal(wt_input_bytes(inputs[i], &bytes, &n, NULL), WT_OK);
+        assert_int_equal(n, sizeof text);
+        assert_memory_equal(bytes, text, n);
+        assert_int_equal(wt_input_peek(inputs[i], 4, &bytes, &n, &whole, NULL), WT_OK);
+        assert_true(whole);
+        wt_input_close(inputs[i]);
+    }
+    restore_stdin(saved);
+    unlink(path);
+}
+
+static void files_that_cannot_be_read(void **state)
+{
+    (void)state;
+    wt_input *input = NULL;
+    wt_error err = WT_ERROR_INIT;
+    assert_int_equal(wt_input_open("no such file", &input, &err), WT_E_NOT_FOUND);
+    assert_string_equal(err.file, "no such file");
+    assert_int_equal(wt_input_open(".", &input, &err), WT_E_ARG);
+    assert_int_equal(wt_input_open("", &input, &err), WT_E_ARG);
+    assert_null(input);
+}
+
+/* ---- detection: with the real set --------------------------------------------------------- */
+
+static wt_status detect_text(const char *text, size_t n, unsigned kinds, const char **id,
+                             wt_error *err)
+{
+    wt_formats *formats = NULL;
+    wt_input *input = NULL;
+    const wt_format_info *info = NULL;
+    assert_int_equal(wt_formats_new(NULL, &formats, NULL, NULL), WT_OK);
+    assert_int_equal(wt_input_open_memory(text, n, "test", &input, NULL), WT_OK);
+    wt_status status = wt_detect(formats, input, kinds, &info, err);
+    /* The readers outlive the set. */
+    *id = status == WT_OK && info == &wt_reader_nid.info ? "nid" : NULL;
+    wt_input_close(input);
+    wt_formats_free(formats);
+    return status;
+}
+
+static void unknown_files_are_described(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *bytes;
+        size_t n;
+        const char *words;
+    } cases[] = {
+        {"", 0, "an empty file"},
+        {"\037\213\10\0", 4, "gzip"},
+        {"\211HDF\r\n\032\n\0", 9, "HDF5"},
+        {"PK\3\4\24\0\0\0 some other archive", 27, "ZIP"},
+        {"\320\317\021\340\241\261\032\341", 8, "Excel"},
+        {"\1\2\3\0\0\0\0\0", 8, "binary"},
+        {"%PDF-1.4", 8, "PDF"},
+        {"Dear diary, no columns today.\n", 30, "text"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        wt_error err = WT_ERROR_INIT;
+        const char *id = NULL;
+        assert_int_equal(detect_text(cases[i].bytes, cases[i].n, 0, &id, &err), WT_E_FORMAT);
+        assert_non_null(strstr(err.found, cases[i].words));
+        assert_string_equal(err.advice, "see `weartrack formats list`");
+        assert_string_equal(err.file, "test");
+    }
+}
+
+static void nanosurf_answers(void **state)
+{
+    (void)state;
+    wt_error err = WT_ERROR_INIT;
+    const char *id = NULL;
+    static const char good[] = "[DataSet]\r\nVersion=2\r\nGroupCount=1\r\n\r\n#!";
+    assert_int_equal(detect_text(good, sizeof good - 1, 0, &id, &err), WT_OK);
+    assert_string_equal(id, "nid");
+    /* The header alone: recognised, but not to be read. */
+    assert_int_equal(detect_text(good, sizeof good - 3, 0, &id, &err), WT_E_UNSUPPORTED);
+    assert_non_null(strstr(err.message, "without its data"));
+    /* Recognised, but of another kind. */
+    assert_int_equal(detect_text(good, sizeof good - 1, WT_KIND_SWEEP, &id, &err),
+                     WT_E_UNSUPPORTED);
+    assert_non_null(strstr(err.message, "DMA sweeps"));
+    assert_non_null(strstr(err.found, "nid"));
+}
+
+/* A long header on a pipe: the detector asks for more until it has seen enough. */
+static void more_is_shown(void **state)
+{
+    (void)state;
+    size_t n = 40000;
+    char *text = malloc(n);
+    assert_non_null(text);
+    memset(text, '\n', n);
+    memcpy(text, "[DataSet]\r\nGroupCount=1\r\n", 25);
+    memcpy(text + n - 3, "\n#!", 3);
+    int saved = replace_stdin(text, n);
+    wt_formats *formats = NULL;
+    wt_input *input = NULL;
+    const wt_format_info *info = NULL;
+    assert_int_equal(wt_formats_new(NULL, &formats, NULL, NULL), WT_OK);
+    assert_int_equal(wt_input_open("-", &input, NULL), WT_OK);
+    assert_int_equal(wt_detect(formats, input, 0, &info, NULL), WT_OK);
+    assert_string_equal(info->id, "nid");
+    wt_input_close(input);
+    wt_formats_free(formats);
+    restore_stdin(saved);
+    free(text);
+}
+
+static void chosen_format(void **state)
+{
+    (void)state;
+    wt_formats *formats = NULL;
+    wt_input *input = NULL;
+    wt_force_source *source = NULL;
+    wt_error err = WT_ERROR_INIT;
+    wt_read_options o = wt_read_defaults();
+    assert_int_equal(wt_formats_new(NULL, &formats, NULL, NULL), WT_OK);
+    assert_int_equal(wt_input_open_memory("text", 4, "test", &input, NULL), WT_OK);
+    o.format = "no-such-format";
+    assert_int_equal(wt_force_open(formats, input, &o, NULL, &source, &err), WT_E_NOT_FOUND);
+    o.format = "nid"; /* overrules detection; the reader then says what is wrong */
+    assert_int_equal(wt_force_open(formats, input, &o, NULL, &source, &err), WT_E_CORRUPT);
+    o = wt_read_defaults();
+    o.spring_constant = -1;
+    assert_int_equal(wt_force_open(formats, input, &o, NULL, &source, &err), WT_E_RANGE);
+    wt_input_close(input);
+    wt_formats_free(formats);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(pipe_file_and_memory),
+        cmocka_unit_test(files_that_cannot_be_read),
+        cmocka_unit_test(unknown_files_are_described),
+        cmocka_unit_test(nanosurf_answers),
+        cmocka_unit_test(more_is_shown),
+        cmocka_unit_test(chosen_format),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,405 @@
+/* JPK files of known content, written by the independent writer: what is read back is what was
+ * written, to the step of the stored numbers.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "near.h"
+
+#include "weartrack/read.h"
+#include "writers/jpk_writer.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#define MAX_POINTS 64
+
+/* Curves with awkward numbers: approach, pause, modulation, retract, each of its own length. */
+typedef struct sample {
+    double height[4][MAX_POINTS], force[4][MAX_POINTS], sensor[4][MAX_POINTS];
+    jpk_writer_segment segments[4];
+    jpk_writer_curve curve;
+} sample;
+
+static void make_sample(sample *s, size_t index)
+{
+    static const char *const styles[] = {"extend", "pause", "modulation", "retract"};
+    static const size_t points[] = {60, 11, 17, 40};
+    for (size_t k = 0; k < 4; k++) {
+        size_t n = points[k] - index % 3;
+        for (size_t i = 0; i < n; i++) {
+            double t = (double)i / (double)n;
+            s->height[k][i] = 7.3e-6 - 2.385e-6 * t + 1e-8 * (double)index;
+            s->force[k][i] = -3.1e-10 + 4.77e-9 * t * t * (1 + 0.1 * (double)index);
+            s->sensor[k][i] = 1.1e-6 - 2.2e-6 * t;
+        }
+        s->segments[k] = (jpk_writer_segment){.style = styles[k],
+                                              .n = n,
+                                              .duration = 0.25 + 0.5 * (double)k,
+                                              .height = s->height[k],
+                                              .force = s->force[k],
+                                              .measured_height = k == 1 ? NULL : s->sensor[k]};
+    }
+    s->curve = (jpk_writer_curve){.index = index,
+                                  .x = 1.5e-6 * (double)index,
+                                  .y = -2.5e-6,
+                                  .n_segments = 4,
+                                  .segments = s->segments};
+}
+
+static sample samples[3];
+static jpk_writer_curve curves[3];
+
+/* A map of 3 x 2 places of which 0, 4 and 5 were measured. */
+static jpk_writer_file make_file(const char *path)
+{
+    static const size_t index[] = {0, 4, 5};
+    for (size_t i = 0; i < 3; i++) {
+        make_sample(&samples[i], index[i]);
+        curves[i] = samples[i].curve;
+    }
+    jpk_writer_file f = jpk_writer_defaults();
+    f.path = path;
+    f.map = true;
+    f.n_curves = 3;
+    f.curves = curves;
+    f.columns = 3;
+    f.rows = 2;
+    f.back_and_forth = true;
+    f.n_planned = 6;
+    f.spring_constant = 0.0477;
+    f.sensitivity = 61.3e-9;
+    f.setpoint = 2.5e-9;
+    return f;
+}
+
+typedef struct reading {
+    wt_formats *formats;
+    wt_input *input;
+    wt_force_source *source;
+    wt_parselog *log;
+    wt_force_curve curve;
+    wt_error err;
+} reading;
+
+static wt_status open_path(reading *r, const char *path, const wt_read_options *options)
+{
+    *r = (reading){.log = wt_parselog_new()};
+    assert_int_equal(wt_formats_new(NULL, &r->formats, r->log, &r->err), WT_OK);
+    assert_int_equal(wt_input_open(path, &r->input, &r->err), WT_OK);
+    return wt_force_open(r->formats, r->input, options, r->log, &r->source, &r->err);
+}
+
+static void close_all(reading *r)
+{
+    wt_force_close(r->source);
+    wt_input_close(r->input);
+    wt_formats_free(r->formats);
+    wt_parselog_free(r->log);
+    wt_force_curve_clear(&r->curve);
+}
+
+static bool logged(const reading *r, const char *words)
+{
+    for (size_t i = 0; i < wt_parselog_count(r->log); i++)
+        if (strstr(wt_parselog_get(r->log, i).text, words) != NULL)
+            return true;
+    return false;
+}
+
+static void assert_values(const wt_segment *s, wt_quantity quantity, const double *expected,
+                          double step)
+{
+    const wt_channel *c = wt_segment_channel(s, quantity);
+    assert_non_null(c);
+    for (size_t i = 0; i < s->n_points; i++)
+        assert_near_abs(c->values[i], expected[i], step + 1e-15 * 1e-4);
+}
+
+static void assert_curve(const wt_force_curve *c, const sample *s, const jpk_writer_file *f)
+{
+    static const wt_segment_kind kinds[] = {WT_SEGMENT_APPROACH, WT_SEGMENT_DWELL,
+                                            WT_SEGMENT_MODULATION, WT_SEGMENT_RETRACT};
+    double start = 0;
+    assert_int_equal(c->index, s->curve.index);
+    assert_near(c->x, s->curve.x, 0);
+    assert_near(c->y, s->curve.y, 0);
+    assert_near(c->cantilever.spring_constant, f->spring_constant, 0);
+    assert_near(c->cantilever.sensitivity, f->sensitivity, 0);
+    assert_false(c->cantilever.spring_constant_given || c->cantilever.sensitivity_given);
+    assert_int_equal(c->n_segments, 4);
+    double single = f->encoding == JPK_WRITE_FLOAT ? 6e-8 : 0;
+    for (size_t k = 0; k < 4; k++) {
+        const wt_segment *segment = &c->segments[k];
+        const jpk_writer_segment *w = &s->segments[k];
+        assert_int_equal(segment->kind, kinds[k]);
+        assert_int_equal(segment->index, k);
+        assert_int_equal(segment->n_points, w->n);
+        assert_near(segment->duration, w->duration, 0);
+        assert_values(segment, WT_Q_HEIGHT, w->height, jpk_writer_height_step(f) + single * 2.5e-5);
+        assert_values(segment, WT_Q_FORCE, w->force, jpk_writer_force_step(f) + single * 1e-8);
+        if (w->measured_height == NULL)
+            assert_null(wt_segment_channel(segment, WT_Q_MEASURED_HEIGHT));
+        const wt_channel *force = wt_segment_channel(segment, WT_Q_FORCE);
+        const wt_channel *bending = wt_segment_channel(segment, WT_Q_DEFLECTION);
+        const wt_channel *volts = wt_segment_channel(segment, WT_Q_DEFLECTION_VOLTAGE);
+        const wt_channel *time = wt_segment_channel(segment, WT_Q_TIME);
+        for (size_t i = 0; i < w->n; i++) {
+            assert_near(bending->values[i] * f->spring_constant, force->values[i], 1e-12);
+            assert_near(volts->values[i] * f->sensitivity, bending->values[i], 1e-12);
+            assert_near_abs(time->values[i], start + w->duration * (double)i / (double)w->n, 1e-14);
+        }
+        start += w->duration;
+    }
+    assert_near(c->segments[0].setpoint, f->setpoint, 1e-14);
+    const jpk_writer_segment *approach = &s->segments[0];
+    double range = approach->height[0] - approach->height[approach->n - 1];
+    assert_near(c->segments[0].velocity, range / approach->duration, 1e-12);
+    assert_true(isnan(c->segments[1].velocity) && isnan(c->segments[3].setpoint));
+}
+
+static void round_trip(const char *path, jpk_writer_file f)
+{
+    reading r;
+    long columns = 0, rows = 0;
+    assert_int_equal(jpk_write(&f), 0);
+    assert_int_equal(open_path(&r, path, NULL), WT_OK);
+    assert_int_equal(wt_force_count(r.source), f.n_curves);
+    wt_force_grid(r.source, &columns, &rows);
+    assert_int_equal(columns, f.map ? 3 : 0);
+    for (size_t i = 0; i < f.n_curves; i++) {
+        assert_int_equal(wt_force_next(r.source, &r.curve, &r.err), WT_OK);
+        assert_curve(&r.curve, &samples[i], &f);
+    }
+    assert_int_equal(wt_force_next(r.source, &r.curve, &r.err), WT_END);
+    close_all(&r);
+    unlink(path);
+}
+
+static void every_encoding_and_layout(void **state)
+{
+    (void)state;
+    static const char path[] = "test_read_jpk_layout.jpk-force-map";
+    for (int layout = 0; layout < 16; layout++) {
+        jpk_writer_file f = make_file(path);
+        f.encoding = (jpk_writer_encoding)(layout & 3);
+        f.inline_headers = (layout & 4) != 0;
+        f.folders = (layout & 8) != 0;
+        round_trip(path, f);
+    }
+}
+
+static void single_curve(void **state)
+{
+    (void)state;
+    static const char path[] = "test_read_jpk_single.jpk-force";
+    jpk_writer_file f = make_file(path);
+    f.map = false;
+    f.n_curves = 1;
+    round_trip(path, f);
+}
+
+static void missing_indices(void **state)
+{
+    (void)state;
+    static const char path[] = "test_read_jpk_missing.jpk-force-map";
+    /* Places 0 1 2 | 5 4 3: the second row runs back. */
+    static const long grid[][2] = {{0, 0}, {1, 1}, {0, 1}};
+    jpk_writer_file f = make_file(path);
+    reading r;
+    assert_int_equal(jpk_write(&f), 0);
+    assert_int_equal(open_path(&r, path, NULL), WT_OK);
+    for (size_t i = 0; i < 3; i++) {
+        assert_int_equal(wt_force_next(r.source, &r.curve, &r.err), WT_OK);
+        assert_int_equal(r.curve.grid_x, grid[i][0]);
+        assert_int_equal(r.curve.grid_y, grid[i][1]);
+    }
+    assert_true(logged(&r, "3 of the 6 curves"));
+    close_all(&r);
+    unlink(path);
+}
+
+static void only_what_is_wanted(void **state)
+{
+    (void)state;
+    static const char path[] = "test_read_jpk_wanted.jpk-force-map";
+    jpk_writer_file f = make_file(path);
+    wt_read_options o = wt_read_defaults();
+    reading r;
+    o.want = WT_Q_BIT(WT_Q_FORCE) | WT_Q_BIT(WT_Q_TIME);
+    o.segments = WT_SEGMENT_BIT(WT_SEGMENT_RETRACT);
+    assert_int_equal(jpk_write(&f), 0);
+    assert_int_equal(open_path(&r, path, &o), WT_OK);
+    assert_int_equal(wt_force_next(r.source, &r.curve, &r.err), WT_OK);
+    assert_int_equal(r.curve.n_segments, 1);
+    const wt_segment *s = &r.curve.segments[0];
+    assert_int_equal(s->kind, WT_SEGMENT_RETRACT);
+    assert_int_equal(s->index, 3);
+    assert_int_equal(s->n_channels, 2);
+    /* The segments that are not read have taken their time all the same. */
+    assert_near(wt_segment_channel(s, WT_Q_TIME)->values[0], 0.25 + 0.75 + 1.25, 1e-15);
+    close_all(&r);
+    unlink(path);
+}
+
+static void user_calibration(void **state)
+{
+    (void)state;
+    static const char path[] = "test_read_jpk_user.jpk-force-map";
+    jpk_writer_file f = make_file(path);
+    assert_int_equal(jpk_write(&f), 0);
+    static const double given[][2] = {{0.1, NAN}, {NAN, 100e-9}, {0.1, 100e-9}};
+    for (size_t i = 0; i < 3; i++) {
+        wt_read_options o = wt_read_defaults();
+        reading r;
+        o.spring_constant = given[i][0];
+        o.sensitivity = given[i][1];
+        double k = isnan(given[i][0]) ? f.spring_constant : given[i][0];
+        double s = isnan(given[i][1]) ? f.sensitivity : given[i][1];
+        assert_int_equal(open_path(&r, path, &o), WT_OK);
+        assert_int_equal(wt_force_next(r.source, &r.curve, &r.err), WT_OK);
+        const wt_channel *force = wt_segment_channel(&r.curve.segments[0], WT_Q_FORCE);
+        double factor = k * s / (f.spring_constant * f.sensitivity);
+        for (size_t j = 0; j < samples[0].segments[0].n; j++)
+            assert_near_abs(force->values[j], factor * samples[0].force[0][j],
+                            factor * jpk_writer_force_step(&f) + 1e-22);
+        assert_near(r.curve.cantilever.spring_constant, k, 0);
+        assert_near(r.curve.cantilever.sensitivity, s, 0);
+        assert_int_equal(r.curve.cantilever.spring_constant_given, !isnan(given[i][0]));
+        assert_int_equal(r.curve.cantilever.sensitivity_given, !isnan(given[i][1]));
+        assert_near(r.curve.segments[0].setpoint, factor * f.setpoint, 1e-14);
+        close_all(&r);
+    }
+    unlink(path);
+}
+
+static void missing_calibration(void **state)
+{
+    (void)state;
+    static const char path[] = "test_read_jpk_uncalibrated.jpk-force-map";
+    static const struct {
+        double spring_constant, sensitivity;
+        const char *advice;
+    } cases[] = {
+        {NAN, NAN, "give --spring-constant 0.1N/m and --sensitivity 120nm/V"},
+        {NAN, 60e-9, "give --spring-constant 0.1N/m"},
+    };
+    for (size_t i = 0; i < 2; i++) {
+        jpk_writer_file f = make_file(path);
+        wt_read_options o = wt_read_defaults();
+        reading r;
+        f.spring_constant = cases[i].spring_constant;
+        f.sensitivity = cases[i].sensitivity;
+        assert_int_equal(jpk_write(&f), 0);
+        /* Asked for by name: an error for each curve. */
+        o.want = WT_Q_BIT(WT_Q_FORCE);
+        assert_int_equal(open_path(&r, path, &o), WT_OK);
+        for (size_t j = 0; j < 3; j++) {
+            assert_int_equal(wt_force_next(r.source, &r.curve, &r.err), WT_E_MISSING);
+            assert_string_equal(r.err.advice, cases[i].advice);
+            assert_string_equal(r.err.file, path);
+            assert_int_equal(r.curve.n_segments, 0);
+        }
+        assert_int_equal(wt_force_next(r.source, &r.curve, &r.err), WT_END);
+        close_all(&r);
+        /* With everything: a warning, and the volts. */
+        assert_int_equal(open_path(&r, path, NULL), WT_OK);
+        assert_int_equal(wt_force_next(r.source, &r.curve, &r.err), WT_OK);
+        assert_null(wt_segment_channel(&r.curve.segments[0], WT_Q_FORCE));
+        assert_non_null(wt_segment_channel(&r.curve.segments[0], WT_Q_DEFLECTION_VOLTAGE));
+        assert_true(logged(&r, "--spring-constant"));
+        close_all(&r);
+        /* Given by the user. */
+        o.spring_constant = 0.2;
+        o.sensitivity = 50e-9;
+        assert_int_equal(open_path(&r, path, &o), WT_OK);
+        assert_int_equal(wt_force_next(r.source, &r.curve, &r.err), WT_OK);
+        assert_non_null(wt_segment_channel(&r.curve.segments[0], WT_Q_FORCE));
+        close_all(&r);
+        unlink(path);
+    }
+}
+
+/* Cut at many places: what is complete is read and equals what was written. */
+static void cut_off(void **state)
+{
+    (void)state;
+    static const char path[] = "test_read_jpk_cut.jpk-force-map";
+    static unsigned char bytes[65536];
+    jpk_writer_file f = make_file(path);
+    assert_int_equal(jpk_write(&f), 0);
+    FILE *in = fopen(path, "rb");
+    assert_non_null(in);
+    size_t whole = fread(bytes, 1, sizeof bytes, in);
+    fclose(in);
+    assert_in_range(whole, 1000, sizeof bytes - 1);
+    size_t most = 0;
+    for (size_t n = 0; n < whole; n += 13) {
+        reading r = {.log = wt_parselog_new()};
+        assert_int_equal(wt_formats_new(NULL, &r.formats, NULL, NULL), WT_OK);
+        assert_int_equal(wt_input_open_memory(bytes, n, "cut", &r.input, NULL), WT_OK);
+        wt_status status = wt_force_open(r.formats, r.input, NULL, r.log, &r.source, &r.err);
+        size_t read = 0;
+        while (status == WT_OK) {
+            status = wt_force_next(r.source, &r.curve, &r.err);
+            if (status != WT_OK)
+                break;
+            assert_true(logged(&r, "end of the archive is missing"));
+            assert_values(&r.curve.segments[0], WT_Q_FORCE, samples[read].force[0],
+                          jpk_writer_force_step(&f));
+            read++;
+        }
+        most = read > most ? read : most;
+        close_all(&r);
+    }
+    assert_int_equal(most, 3);
+    unlink(path);
+}
+
+static void described(void **state)
+{
+    (void)state;
+    static const char path[] = "test_read_jpk_described.jpk-force-map";
+    static const char *const expected[][2] = {{"format", "jpk"},
+                                              {"instrument", "WT-TEST"},
+                                              {"curves", "3"},
+                                              {"curves planned", "6"},
+                                              {"grid", "3 x 2, back and forth"},
+                                              {"spring constant", "0.0477"},
+                                              {"segment 1", "dwell (pause), 11 points"},
+                                              {"segment 3 channel vDeflection", "force"},
+                                              {"segment 3 channel height", "height"}};
+    jpk_writer_file f = make_file(path);
+    wt_table *facts = NULL;
+    reading r = {.log = NULL};
+    assert_int_equal(jpk_write(&f), 0);
+    assert_int_equal(wt_formats_new(NULL, &r.formats, NULL, NULL), WT_OK);
+    assert_int_equal(wt_input_open(path, &r.input, NULL), WT_OK);
+    assert_int_equal(wt_describe(r.formats, r.input, NULL, NULL, &facts, &r.err), WT_OK);
+    for (size_t i = 0; i < sizeof expected / sizeof *expected; i++) {
+        const char *value = NULL;
+        for (size_t row = 0; row < wt_table_n_rows(facts); row++)
+            if (strcmp(wt_table_text(facts, row, 0), expected[i][0]) == 0)
+                value = wt_table_text(facts, row, 1);
+        assert_string_equal(value != NULL ? value : "(none)", expected[i][1]);
+    }
+    wt_table_free(facts);
+    close_all(&r);
+    unlink(path);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_encoding_and_layout),
+        cmocka_unit_test(single_curve),
+        cmocka_unit_test(missing_indices),
+        cmocka_unit_test(only_what_is_wanted),
+        cmocka_unit_test(user_calibration),
+        cmocka_unit_test(missing_calibration),
+        cmocka_unit_test(cut_off),
+        cmocka_unit_test(described),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

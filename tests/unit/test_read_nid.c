@@ -1,0 +1,473 @@
+/* Nanosurf .nid: files of known content from the independent writer, numbers chosen so that they
+ * read back exactly; and, where present, the measured images and the thermal spectrum.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "near.h"
+
+#include "weartrack/read.h"
+#include "writers/nid_writer.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#define LINES 6
+#define POINTS 16
+
+static const char path[] = "test_read_nid.nid";
+
+typedef struct reading {
+    wt_formats *formats;
+    wt_input *input;
+    wt_force_source *source;
+    wt_parselog *log;
+    wt_force_curve curve;
+    wt_error err;
+} reading;
+
+static void open_input(reading *r, const char *name)
+{
+    *r = (reading){.log = wt_parselog_new()};
+    assert_int_equal(wt_formats_new(NULL, &r->formats, NULL, &r->err), WT_OK);
+    assert_int_equal(wt_input_open(name, &r->input, &r->err), WT_OK);
+}
+
+static wt_status open_force(reading *r, const char *name, const wt_read_options *options)
+{
+    open_input(r, name);
+    return wt_force_open(r->formats, r->input, options, r->log, &r->source, &r->err);
+}
+
+static void close_all(reading *r)
+{
+    wt_force_close(r->source);
+    wt_input_close(r->input);
+    wt_formats_free(r->formats);
+    wt_parselog_free(r->log);
+    wt_force_curve_clear(&r->curve);
+}
+
+static bool logged(const reading *r, const char *words)
+{
+    for (size_t i = 0; i < wt_parselog_count(r->log); i++)
+        if (strstr(wt_parselog_get(r->log, i).text, words) != NULL)
+            return true;
+    return false;
+}
+
+/* ---- force curves ------------------------------------------------------------------------- */
+
+/* Forward, a pause and backward; each with height and deflection. */
+static double z[3][LINES * POINTS], bending[3][LINES * POINTS];
+static size_t lengths[3][LINES];
+static nid_writer_channel channels[3][2];
+static nid_writer_group groups[3];
+
+/* Ranges are powers of two, so that each stored number is exactly a double. */
+static nid_writer_file make_file(const char *unit, bool lengths_differ, bool latin1)
+{
+    static const char *const names[] = {"Spec forward", "Spec fwd pause", "Spec backward"};
+    for (size_t g = 0; g < 3; g++) {
+        for (size_t i = 0; i < LINES * POINTS; i++) {
+            z[g][i] = ldexp(1, -16) * ((double)(7 * i % 61) / 64 - 0.5);
+            bending[g][i] = ldexp(1, -20) * ((double)(1000 * g + 13 * i) / 4096 - 0.5);
+        }
+        for (size_t line = 0; line < LINES; line++)
+            lengths[g][line] = POINTS - (g + line) % 4;
+        channels[g][0] = (nid_writer_channel){0,  "Deflection", unit, -ldexp(1, -21), ldexp(1, -20),
+                                              32, bending[g]};
+        channels[g][1] =
+            (nid_writer_channel){7, "Z-Axis Sensor", "m", -ldexp(1, -17), ldexp(1, -16), 16, z[g]};
+        groups[g] = (nid_writer_group){.name = names[g],
+                                       .points = POINTS,
+                                       .lines = LINES,
+                                       .line_points = lengths_differ ? lengths[g] : NULL,
+                                       .x_name = "Z-Axis",
+                                       .x_unit = "m",
+                                       .y_name = "SpecPoint",
+                                       .y_unit = "",
+                                       .x_range = 1e-6,
+                                       .n_channels = 2,
+                                       .channels = channels[g]};
+    }
+    nid_writer_file f = nid_writer_defaults();
+    f.path = path;
+    f.n_groups = 3;
+    f.groups = groups;
+    f.latin1 = latin1;
+    f.spring_constant = 0.25;
+    f.deflection_range_m = 1.25e-6;
+    f.deflection_range_v = 10;
+    f.forward_time = 0.5;
+    f.forward_points = POINTS;
+    f.forward_pause = 2;
+    f.forward_pause_points = POINTS;
+    f.backward_time = 1;
+    f.backward_points = POINTS;
+    f.backward_pause_points = 1;
+    f.forward_range = 2e-6;
+    return f;
+}
+
+static void assert_exact(const wt_segment *s, wt_quantity quantity, const double *expected,
+                         double factor)
+{
+    const wt_channel *c = wt_segment_channel(s, quantity);
+    assert_non_null(c);
+    for (size_t i = 0; i < s->n_points; i++)
+        assert_near(c->values[i], factor * expected[i], factor == 1 ? 0 : 1e-15);
+}
+
+/* factor: from the exported unit to force, deflection and voltage. */
+static void assert_curves(reading *r, bool lengths_differ, const double factor[3])
+{
+    static const wt_segment_kind kinds[] = {WT_SEGMENT_APPROACH, WT_SEGMENT_DWELL,
+                                            WT_SEGMENT_RETRACT};
+    static const double times[] = {0.5, 2, 1};
+    assert_int_equal(wt_force_count(r->source), LINES);
+    for (size_t line = 0; line < LINES; line++) {
+        double start = 0;
+        assert_int_equal(wt_force_next(r->source, &r->curve, &r->err), WT_OK);
+        assert_int_equal(r->curve.index, line);
+        assert_int_equal(r->curve.n_segments, 3);
+        for (size_t g = 0; g < 3; g++) {
+            const wt_segment *s = &r->curve.segments[g];
+            assert_int_equal(s->kind, kinds[g]);
+            assert_int_equal(s->n_points, lengths_differ ? lengths[g][line] : POINTS);
+            assert_exact(s, WT_Q_MEASURED_HEIGHT, z[g] + line * POINTS, 1);
+            assert_exact(s, WT_Q_FORCE, bending[g] + line * POINTS, factor[0]);
+            assert_exact(s, WT_Q_DEFLECTION, bending[g] + line * POINTS, factor[1]);
+            assert_exact(s, WT_Q_DEFLECTION_VOLTAGE, bending[g] + line * POINTS, factor[2]);
+            const wt_channel *time = wt_segment_channel(s, WT_Q_TIME);
+            for (size_t i = 0; i < s->n_points; i++)
+                assert_near_abs(time->values[i], start + times[g] * (double)i / POINTS, 1e-15);
+            start += times[g] * (double)s->n_points / POINTS;
+        }
+        assert_near(r->curve.segments[0].velocity, 2e-6 / 0.5, 1e-15);
+    }
+    assert_int_equal(wt_force_next(r->source, &r->curve, &r->err), WT_END);
+}
+
+static void units_versions_encodings(void **state)
+{
+    (void)state;
+    static const char *const units[] = {"V", "m", "N"};
+    const double k = 0.25, s = 1.25e-7;
+    const double factors[][3] = {{k * s, s, 1}, {k, 1, 1 / s}, {1, 1 / k, 1 / (k * s)}};
+    for (size_t i = 0; i < 12; i++) {
+        bool lengths_differ = i / 3 % 2 == 1;
+        nid_writer_file f = make_file(units[i % 3], lengths_differ, i / 6 == 1);
+        reading r;
+        assert_int_equal(nid_write(&f), 0);
+        assert_int_equal(open_force(&r, path, NULL), WT_OK);
+        assert_true(logged(&r, "not verified on a genuine file"));
+        assert_curves(&r, lengths_differ, factors[i % 3]);
+        assert_near(r.curve.cantilever.spring_constant, k, 0);
+        assert_near(r.curve.cantilever.sensitivity, s, 1e-15);
+        close_all(&r);
+    }
+    unlink(path);
+}
+
+/* What the user gives replaces what the instrument has applied, whatever the exported unit. */
+static void user_calibration(void **state)
+{
+    (void)state;
+    static const char *const units[] = {"V", "m", "N"};
+    const double k = 0.25, s = 1.25e-7;
+    const double to_volts[] = {1, 1 / s, 1 / (k * s)};
+    for (size_t i = 0; i < 9; i++) {
+        nid_writer_file f = make_file(units[i % 3], false, false);
+        wt_read_options o = wt_read_defaults();
+        reading r;
+        if (i / 3 != 1)
+            o.spring_constant = 0.4;
+        if (i / 3 != 0)
+            o.sensitivity = 1e-7;
+        double used_k = isnan(o.spring_constant) ? k : 0.4;
+        double used_s = isnan(o.sensitivity) ? s : 1e-7;
+        assert_int_equal(nid_write(&f), 0);
+        assert_int_equal(open_force(&r, path, &o), WT_OK);
+        assert_int_equal(wt_force_next(r.source, &r.curve, &r.err), WT_OK);
+        const wt_channel *force = wt_segment_channel(&r.curve.segments[0], WT_Q_FORCE);
+        const wt_channel *deflection = wt_segment_channel(&r.curve.segments[0], WT_Q_DEFLECTION);
+        for (size_t j = 0; j < POINTS; j++) {
+            assert_near(deflection->values[j], bending[0][j] * to_volts[i % 3] * used_s, 1e-14);
+            assert_near(force->values[j], bending[0][j] * to_volts[i % 3] * used_s * used_k, 1e-14);
+        }
+        assert_near(r.curve.cantilever.spring_constant, used_k, 0);
+        assert_int_equal(r.curve.cantilever.spring_constant_given, !isnan(o.spring_constant));
+        close_all(&r);
+    }
+    unlink(path);
+}
+
+static void missing_calibration(void **state)
+{
+    (void)state;
+    nid_writer_file f = make_file("V", false, false);
+    wt_read_options o = wt_read_defaults();
+    reading r;
+    f.spring_constant = NAN;
+    f.deflection_range_m = NAN;
+    assert_int_equal(nid_write(&f), 0);
+    o.want = WT_Q_BIT(WT_Q_FORCE) | WT_Q_BIT(WT_Q_MEASURED_HEIGHT);
+    assert_int_equal(open_force(&r, path, &o), WT_OK);
+    assert_int_equal(wt_force_next(r.source, &r.curve, &r.err), WT_E_MISSING);
+    assert_string_equal(r.err.advice, "give --spring-constant 0.1N/m and --sensitivity 120nm/V");
+    close_all(&r);
+    o.spring_constant = 0.5;
+    o.sensitivity = 1e-7;
+    assert_int_equal(open_force(&r, path, &o), WT_OK);
+    assert_int_equal(wt_force_next(r.source, &r.curve, &r.err), WT_OK);
+    assert_exact(&r.curve.segments[0], WT_Q_FORCE, bending[0], 0.5 * 1e-7);
+    assert_int_equal(r.curve.segments[0].n_channels, 2);
+    close_all(&r);
+    unlink(path);
+}
+
+static void serpentine_map(void **state)
+{
+    (void)state;
+    /* 2 columns, 3 rows: 0 1 | 3 2 | 4 5 */
+    static const long grid[LINES][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 2}, {1, 2}};
+    nid_writer_file f = make_file("N", true, false);
+    reading r;
+    long columns = 0, rows = 0;
+    f.map = "-1e-06;3e-06;2e-06;6e-06;2;3;0;1";
+    assert_int_equal(nid_write(&f), 0);
+    assert_int_equal(open_force(&r, path, NULL), WT_OK);
+    wt_force_grid(r.source, &columns, &rows);
+    assert_int_equal(columns, 2);
+    assert_int_equal(rows, 3);
+    for (size_t i = 0; i < LINES; i++) {
+        assert_int_equal(wt_force_next(r.source, &r.curve, &r.err), WT_OK);
+        assert_int_equal(r.curve.grid_x, grid[i][0]);
+        assert_int_equal(r.curve.grid_y, grid[i][1]);
+        assert_near(r.curve.x, -1e-6 + 4e-6 * (double)grid[i][0], 1e-15);
+        assert_near(r.curve.y, 2e-6 + 2e-6 * (double)grid[i][1], 1e-15);
+    }
+    close_all(&r);
+    f.map = "-1e-06;3e-06;2e-06;6e-06;2;3;0.3;1";
+    assert_int_equal(nid_write(&f), 0);
+    assert_int_equal(open_force(&r, path, NULL), WT_OK);
+    assert_int_equal(wt_force_next(r.source, &r.curve, &r.err), WT_OK);
+    assert_true(isnan(r.curve.x) && logged(&r, "rotated"));
+    close_all(&r);
+    unlink(path);
+}
+
+static void listed_positions(void **state)
+{
+    (void)state;
+    static const double positions[LINES][3] = {{1.5e-6, -2e-6, 0}, {2.5e-6, -3e-6, 0},
+                                               {3.5e-6, -4e-6, 0}, {4.5e-6, -5e-6, 0},
+                                               {5.5e-6, -6e-6, 0}, {6.5e-6, -7e-6, 0}};
+    nid_writer_file f = make_file("N", false, false);
+    reading r;
+    f.n_positions = LINES;
+    f.positions = positions;
+    assert_int_equal(nid_write(&f), 0);
+    assert_int_equal(open_force(&r, path, NULL), WT_OK);
+    for (size_t i = 0; i < LINES; i++) {
+        assert_int_equal(wt_force_next(r.source, &r.curve, &r.err), WT_OK);
+        assert_near(r.curve.x, positions[i][0], 0);
+        assert_near(r.curve.y, positions[i][1], 0);
+        assert_int_equal(r.curve.grid_x, -1);
+    }
+    close_all(&r);
+    unlink(path);
+}
+
+/* ---- images ------------------------------------------------------------------------------- */
+
+static void image_with_known_rows(void **state)
+{
+    (void)state;
+    double heights[4 * 8], phase[4 * 8];
+    for (size_t i = 0; i < 32; i++) {
+        heights[i] = ldexp((double)i, -30);
+        phase[i] = 2.5 * (double)i;
+    }
+    const nid_writer_channel two[] = {
+        {1, "Z-Axis", "m", -ldexp(1, -20), ldexp(1, -19), 16, heights},
+        {3, "Phase", "\302\260", -160, 320, 32, phase},
+    };
+    const nid_writer_group scan = {.name = "Scan forward",
+                                   .points = 8,
+                                   .lines = 4,
+                                   .x_name = "X*",
+                                   .x_unit = "m",
+                                   .y_name = "Y*",
+                                   .y_unit = "m",
+                                   .x_range = 8e-6,
+                                   .y_range = 4e-6,
+                                   .n_channels = 2,
+                                   .channels = two};
+    nid_writer_file f = nid_writer_defaults();
+    f.path = path;
+    f.n_groups = 1;
+    f.groups = &scan;
+    assert_int_equal(nid_write(&f), 0);
+    reading r;
+    wt_image *images = NULL;
+    size_t n = 0;
+    open_input(&r, path);
+    assert_int_equal(wt_images_read(r.formats, r.input, NULL, r.log, &images, &n, &r.err), WT_OK);
+    assert_int_equal(n, 2);
+    assert_string_equal(images[0].name, "Scan forward: Z-Axis");
+    assert_string_equal(images[0].unit, "m");
+    assert_string_equal(images[1].unit, "rad");
+    assert_int_equal(images[0].n_columns, 8);
+    assert_int_equal(images[0].n_rows, 4);
+    assert_near(images[0].width, 8e-6, 0);
+    assert_near(images[0].height, 4e-6, 0);
+    for (size_t i = 0; i < 32; i++) {
+        assert_near(images[0].values[i], heights[i], 0);
+        assert_near_abs(images[1].values[i], phase[i] * acos(-1) / 180, 1e-8);
+    }
+    /* The same file has no force curves and says so. */
+    assert_int_equal(wt_force_open(r.formats, r.input, NULL, r.log, &r.source, &r.err), WT_E_EMPTY);
+    for (size_t i = 0; i < n; i++)
+        wt_image_clear(&images[i]);
+    free(images);
+    close_all(&r);
+    unlink(path);
+}
+
+/* Every change of the file's length, and of what the header says of it, is found. */
+static void sizes_must_add_up(void **state)
+{
+    (void)state;
+    static unsigned char bytes[65536];
+    nid_writer_file f = make_file("N", true, false);
+    assert_int_equal(nid_write(&f), 0);
+    FILE *in = fopen(path, "rb");
+    assert_non_null(in);
+    size_t whole = fread(bytes, 1, sizeof bytes, in);
+    fclose(in);
+    unlink(path);
+    for (size_t n = whole - 1500; n < whole + 3; n++) {
+        reading r = {.log = NULL};
+        assert_int_equal(wt_formats_new(NULL, &r.formats, NULL, NULL), WT_OK);
+        assert_int_equal(wt_input_open_memory(bytes, n, "cut", &r.input, NULL), WT_OK);
+        wt_status status = wt_force_open(r.formats, r.input, NULL, NULL, &r.source, &r.err);
+        assert_int_equal(status, n == whole ? WT_OK : WT_E_CORRUPT);
+        close_all(&r);
+    }
+}
+
+/* ---- measured files, where present -------------------------------------------------------- */
+
+static wt_image *read_shared(const char *name, size_t *n)
+{
+    wt_image *images = NULL;
+    char full[512];
+    reading r;
+    snprintf(full, sizeof full, WT_SHARED_DIR "/data/afm/nanosurf/%s", name);
+    if (access(full, R_OK) != 0)
+        return NULL;
+    open_input(&r, full);
+    if (wt_images_read(r.formats, r.input, NULL, r.log, &images, n, &r.err) != WT_OK)
+        fail_msg("%s: %s", name, r.err.message);
+    close_all(&r);
+    return images;
+}
+
+static void clear_images(wt_image *images, size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        wt_image_clear(&images[i]);
+    free(images);
+}
+
+/* The header of this file calls the peak 772 fm/sqrt(Hz) at 179.8 kHz, in bins of 38.147 Hz. */
+static void measured_thermal_spectrum(void **state)
+{
+    (void)state;
+    size_t n = 0, peak = 0;
+    wt_image *images = read_shared("thermal.nid", &n);
+    if (images == NULL) {
+        skip();
+        return;
+    }
+    assert_int_equal(n, 2);
+    const wt_image *s = &images[0];
+    assert_string_equal(s->name, "Spectrum FFT: Amplitude Spectral Density");
+    assert_string_equal(s->unit, "m.Hz^-0.5");
+    assert_string_equal(s->x_unit, "Hz");
+    assert_int_equal(s->n_rows, 1);
+    assert_int_equal(s->n_columns, 8369);
+    double bin = s->width / (double)(s->n_columns - 1);
+    assert_near(bin, 38.147, 1e-5);
+    /* The fit range of the instrument keeps clear of the noise at low frequency. */
+    for (size_t i = (size_t)(114e3 / bin); i < (size_t)(266e3 / bin); i++)
+        peak = s->values[i] > s->values[peak] || peak == 0 ? i : peak;
+    assert_near_abs(s->values[peak], 777e-15, 0.5e-15);
+    assert_near_abs(s->x_min + bin * (double)peak, 179787, 0.5);
+    clear_images(images, n);
+}
+
+static double correlation(const wt_image *a, const wt_image *b, bool mirrored)
+{
+    size_t n = a->n_columns, m = n * a->n_rows;
+    double mean_a = 0, mean_b = 0, ab = 0, aa = 0, bb = 0;
+    for (size_t i = 0; i < m; i++) {
+        mean_a += a->values[i] / (double)m;
+        mean_b += b->values[i] / (double)m;
+    }
+    for (size_t i = 0; i < m; i++) {
+        double x = a->values[i] - mean_a;
+        double y = b->values[mirrored ? i - i % n + n - 1 - i % n : i] - mean_b;
+        ab += x * y;
+        aa += x * x;
+        bb += y * y;
+    }
+    return ab / sqrt(aa * bb);
+}
+
+static void measured_images(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *name;
+        size_t n, side;
+        double width;
+    } files[] = {{"image.nid", 6, 256, 7.40729e-6},
+                 {"circles.nid", 4, 256, 5e-5},
+                 {"20160301DKRUStorageMedium10um.nid", 4, 128, 1e-5}};
+    for (size_t i = 0; i < 3; i++) {
+        size_t n = 0;
+        wt_image *images = read_shared(files[i].name, &n);
+        if (images == NULL) {
+            skip();
+            return;
+        }
+        assert_int_equal(n, files[i].n);
+        for (size_t j = 0; j < n; j++) {
+            assert_int_equal(images[j].n_columns, files[i].side);
+            assert_int_equal(images[j].n_rows, files[i].side);
+            assert_near(images[j].width, files[i].width, 1e-12);
+            assert_near(images[j].height, files[i].width, 1e-12);
+        }
+        /* Forward and backward see the same surface, the same way round. */
+        assert_string_equal(images[0].unit, "m");
+        assert_true(correlation(&images[0], &images[n / 2], false) > 0.7);
+        assert_true(correlation(&images[0], &images[n / 2], true) < 0.2);
+        clear_images(images, n);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(units_versions_encodings), cmocka_unit_test(user_calibration),
+        cmocka_unit_test(missing_calibration),      cmocka_unit_test(serpentine_map),
+        cmocka_unit_test(listed_positions),         cmocka_unit_test(image_with_known_rows),
+        cmocka_unit_test(sizes_must_add_up),        cmocka_unit_test(measured_thermal_spectrum),
+        cmocka_unit_test(measured_images),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
