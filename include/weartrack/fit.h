@@ -41,21 +41,26 @@ WT_API const char *wt_curve_verdict_text(wt_curve_verdict verdict); /* static */
 
 typedef struct wt_indent_options {
     double poisson_ratio;       /* default 0.5 */
-    double fit_depth;           /* only indentations up to this [m]; 0 = all */
+    double fit_depth;           /* only indentations up to this [m]; 0 = all (default) */
     double fit_force_fraction;  /* only forces up to this share of the largest; default 1 */
     bool fit_tilt;              /* baseline tilt is fitted, else offset only; default true */
-    double minimum_r_squared;   /* of the contact part, below it POOR_FIT; default stated in text */
+    double minimum_r_squared;   /* of the contact part, below it POOR_FIT; default 0.9 */
     double fixed_contact_point; /* [m] tip position, NaN = fitted */
 } wt_indent_options;
 WT_API wt_indent_options wt_indent_defaults(void);
 
-/* Result of one curve. Positions are tip positions [m] = height - deflection, along the approach,
- * rising into the sample. */
+/* Result of one curve. Positions are tip positions [m] = height - deflection along the approach,
+ * turned to rise into the sample, with the deflection free of the baseline (which is not a bending of
+ * the lever). So the contact point is the height at which the tip touches with the lever straight,
+ * and with z = direction * height - contact_point and the force above the baseline
+ *     f = force - baseline_offset - baseline_tilt z
+ * the indentation is z - f/k. Model: f = modulus/(1 - nu^2) G(indentation). */
 typedef struct wt_indent_fit {
     wt_curve_verdict verdict;
-    char reason[160];            /* verdict with its numbers: "R^2 0.71 below 0.90" */
+    char reason[160];            /* verdict with its numbers: "R^2 0.71 below 0.90"; of an accepted
+                                    curve what is odd: snap-on left out, missing samples */
     wt_estimate modulus;         /* E [Pa]; standard error includes baseline and contact point and
-                                    correlated residuals; NaN unless accepted (or as `reason` says) */
+                                    correlated residuals; NaN unless accepted */
     wt_estimate contact_point;   /* [m] */
     wt_estimate baseline_offset; /* [N] at the contact point */
     wt_estimate baseline_tilt;   /* [N/m] */
@@ -64,13 +69,16 @@ typedef struct wt_indent_fit {
     double r_squared;            /* of the contact part */
     double max_force;            /* [N] above the baseline */
     double max_indentation;      /* [m] */
-    double adhesion_force;   /* largest pull in the approach before contact (snap-on) [N], >= 0 */
+    double adhesion_force;   /* pull of the snap-on [N], 0 if none stands out of the baseline */
     double piezo_rate;       /* [m/s], NaN if no time */
     double indentation_rate; /* mean of the contact part [m/s], NaN if no time */
     double load_time;        /* contact to end of approach [s], NaN if no time */
     double second_minimum_ratio; /* cost of the second best contact point / best; NaN if none */
     double second_contact_point; /* [m], NaN if none */
-    double sensitivity_gain;     /* d ln E / d ln sensitivity: 15.6 means 1 % gives 15.6 % */
+    double sensitivity_gain;     /* d ln E / d ln sensitivity of this fit, contact point and baseline
+                                    fitted anew: 15.6 means 1 % gives 15.6 %. Of a single point at
+                                    known contact it would be 1 + (contact stiffness)/k */
+    double direction;            /* +1: the height rises into the sample, -1: it falls */
     size_t contact_index;        /* sample of the contact point in the approach */
     size_t n_fitted;             /* samples used */
 } wt_indent_fit;

@@ -1,0 +1,119 @@
+/* Inside the fit room: the parts of the fit of one force curve.
+ *
+ * Coordinates. position = piezo height, turned so that it rises into the sample; force = as measured,
+ * both less an origin (their means) so that sums keep their digits. With the baseline
+ * f0 + t (position - c) removed, the tip is at
+ *     tip - c = delta = (position - c) (1 + t/k) - (force - f0)/k
+ * where c is the contact point: the position at which the tip touches with the lever straight.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#ifndef WT_FIT_CURVE_H
+#define WT_FIT_CURVE_H
+
+#include "weartrack/fit.h"
+
+#include <gsl/gsl_min.h>
+
+enum {
+    WT_CURVE_MIN_SAMPLES = 32,
+    WT_CURVE_MAX_BINS = 1024, /* of the coarse scan */
+    WT_CURVE_MAX_MINIMA = 4,
+};
+
+/* Samples in the order of time. */
+typedef struct wt_curve_samples {
+    size_t n;
+    double *position, *force;
+    double spring_constant;
+} wt_curve_samples;
+
+struct wt_indent_workspace {
+    size_t capacity;
+    double *block; /* what the arrays below are parts of */
+    double *position, *force, *tip, *running_max, *delta, *g, *slope, *residual, *scratch;
+    double *given_force, *given_time; /* of wt_indent_force_curve */
+    double bin_position[WT_CURVE_MAX_BINS], bin_force[WT_CURVE_MAX_BINS], bin_tip[WT_CURVE_MAX_BINS],
+        bin_running_max[WT_CURVE_MAX_BINS], bin_delta[WT_CURVE_MAX_BINS], bin_g[WT_CURVE_MAX_BINS];
+    gsl_min_fminimizer *minimizer;
+};
+
+/* A fit without numbers. */
+void wt_curve_fit_empty(wt_indent_fit *fit);
+
+/* WT_E_MEMORY when n samples find no room. */
+wt_status wt_curve_reserve(wt_indent_workspace *workspace, size_t n, wt_error *err);
+
+/* ---- preparation: curve_prepare.c ------------------------------------------------------------ */
+
+typedef struct wt_curve_input {
+    wt_curve_samples samples; /* of the workspace; without missing and repeated ones, centred */
+    size_t n_all;             /* samples.n may be less: a limit of the force */
+    double position_origin, force_origin;
+    double direction; /* +1 or -1: position = direction * height */
+    size_t n_missing, n_repeated;
+    double step_noise; /* noise from successive differences [N] */
+} wt_curve_input;
+
+/* Cleans, turns and centres; finds what no fit can mend. A verdict other than accepted ends it. */
+wt_curve_verdict wt_curve_prepare(const double *height, const double *force, size_t n,
+                                  double spring_constant, double force_fraction,
+                                  wt_indent_workspace *workspace, wt_curve_input *input,
+                                  char reason[160]);
+/* Turns the samples into those of the motion in reverse: a retract becomes an approach. */
+void wt_curve_reverse(wt_curve_samples *samples);
+
+/* ---- scan of the contact point: curve_scan.c ------------------------------------------------- */
+
+/* A local minimum of the cost with modulus, offset and tilt projected out. */
+typedef struct wt_curve_minimum {
+    double contact_point;
+    double reduced_modulus; /* E/(1-nu^2) */
+    double offset, tilt;    /* baseline at the contact point, its slope */
+    double cost;            /* sum of squares [N^2] */
+} wt_curve_minimum;
+
+/* Fills `minima`, best first; returns how many (0: no contact point gives a positive modulus).
+ * *cost_without: the cost of the baseline alone. */
+size_t wt_curve_scan(const wt_contact_table *table, const wt_curve_samples *samples, bool tilt,
+                     wt_indent_workspace *workspace, wt_curve_minimum minima[WT_CURVE_MAX_MINIMA],
+                     double *cost_without);
+/* The same for one given contact point (a position of the samples). */
+bool wt_curve_scan_at(const wt_contact_table *table, const wt_curve_samples *samples, bool tilt,
+                      double contact_point, wt_indent_workspace *workspace,
+                      wt_curve_minimum *minimum);
+
+/* ---- refinement and errors: curve_refine.c ---------------------------------------------------- */
+
+enum { WT_CURVE_E, WT_CURVE_C, WT_CURVE_F0, WT_CURVE_T, WT_CURVE_N_PARAMETERS };
+
+typedef struct wt_curve_solution {
+    double p[WT_CURVE_N_PARAMETERS]; /* reduced modulus, contact point, offset, tilt */
+    double standard_error[WT_CURVE_N_PARAMETERS];
+    double cost;
+    double sensitivity_gain;
+    size_t first_contact; /* samples before it are baseline */
+    double max_indentation;
+    double noise, correlation_length;
+    double effective_n; /* samples over correlation length, baseline and contact part together */
+    double r_squared;
+    bool converged;
+} wt_curve_solution;
+
+/* Least squares in all free parameters at once, starting from a minimum of the scan; then the
+ * covariance with correlated residuals. */
+void wt_curve_refine(const wt_contact_table *table, const wt_curve_samples *samples,
+                     const wt_curve_minimum *start, bool tilt, bool contact_fixed,
+                     wt_indent_workspace *workspace, wt_curve_solution *solution);
+
+/* ---- noise: curve_noise.c --------------------------------------------------------------------- */
+
+typedef struct wt_noise {
+    double variance;           /* of one sample */
+    double correlation_length; /* tau = 1 + 2 sum rho_k [samples] */
+} wt_noise;
+
+/* Of a residual with mean 0. Destroys x. */
+wt_noise wt_noise_estimate(double *x, size_t n);
+
+#endif

@@ -1,0 +1,274 @@
+/* Before the fit of a force curve: missing and repeated samples, the direction of the piezo, a limit
+ * of the force, a saturated detector, a sample too stiff for the lever.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "fit/curve.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Tests of plausibility; each is named in the reason that it gives. */
+static const double missing_share = 0.1;
+static const double travel_share = 0.5;  /* of the range of the height that must be net travel */
+static const double rigid_share = 0.02;  /* least advance of the tip per bending of the lever */
+static const double plateau_ratio = 5.0; /* force gained before a flat top against in it */
+static const size_t plateau_samples = 5;
+
+wt_status wt_curve_reserve(wt_indent_workspace *w, size_t n, wt_error *err)
+{
+    enum { N_ARRAYS = 11 };
+    if (n <= w->capacity)
+        return WT_OK;
+    size_t capacity = n + n / 4;
+    double *block =
+        capacity < SIZE_MAX / sizeof(double) / N_ARRAYS
+            ? malloc(N_ARRAYS * capacity * sizeof *block)
+            : NULL;
+    if (block == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory to fit a force curve of %zu samples", n);
+    free(w->block);
+    w->block = block;
+    w->capacity = capacity;
+    double **const arrays[N_ARRAYS] = {&w->position, &w->force,       &w->tip,       &w->running_max,
+                                       &w->delta,    &w->g,           &w->slope,     &w->residual,
+                                       &w->scratch,  &w->given_force, &w->given_time};
+    for (size_t i = 0; i < N_ARRAYS; i++)
+        *arrays[i] = block + i * capacity;
+    return WT_OK;
+}
+
+static double mean(const double *x, size_t n)
+{
+    double sum = 0.0;
+    for (size_t i = 0; i < n; i++)
+        sum += x[i];
+    return sum / (double)n;
+}
+
+/* The k-th smallest of x (Hoare's selection). Destroys the order of x. */
+static double select_kth(double *x, size_t n, size_t k)
+{
+    size_t lo = 0, hi = n - 1;
+    while (lo < hi) {
+        double pivot = x[lo + (hi - lo) / 2];
+        size_t i = lo, j = hi;
+        for (;;) {
+            while (x[i] < pivot)
+                i++;
+            while (pivot < x[j])
+                j--;
+            if (i <= j) {
+                double t = x[i];
+                x[i++] = x[j];
+                x[j] = t;
+                if (j == 0)
+                    break;
+                j--;
+            }
+            if (i > j)
+                break;
+        }
+        if (k <= j)
+            hi = j;
+        else if (k >= i)
+            lo = i;
+        else
+            break;
+    }
+    return x[k];
+}
+
+/* Standard deviation of white noise from the median of |successive differences|, and the smallest
+ * step that occurs (the resolution of the converter where there is one). */
+static double difference_noise(const wt_curve_samples *s, double *scratch, double *resolution)
+{
+    *resolution = INFINITY;
+    for (size_t i = 1; i < s->n; i++) {
+        scratch[i - 1] = fabs(s->force[i] - s->force[i - 1]);
+        if (scratch[i - 1] > 0.0 && scratch[i - 1] < *resolution)
+            *resolution = scratch[i - 1];
+    }
+    if (!isfinite(*resolution))
+        *resolution = 0.0;
+    return select_kth(scratch, s->n - 1, (s->n - 1) / 2) / (0.6744897501960817 * M_SQRT2);
+}
+
+/* Force that the travel of the samples from `first` on had gained just before it. */
+static bool flat_top(const wt_curve_samples *s, double noise, double resolution, size_t *first)
+{
+    double max = s->force[0], min = s->force[0];
+    for (size_t i = 1; i < s->n; i++) {
+        max = fmax(max, s->force[i]);
+        min = fmin(min, s->force[i]);
+    }
+    double band = fmax(fmax(8.0 * noise, 1.5 * resolution), 1e-6 * (max - min));
+    size_t i = s->n;
+    while (i > 0 && s->force[i - 1] >= max - band)
+        i--;
+    *first = i;
+    if (i == 0 || s->n - i < plateau_samples)
+        return false;
+    double travel = s->position[s->n - 1] - s->position[i];
+    size_t j = i;
+    while (j > 0 && s->position[i] - s->position[j] < travel)
+        j--;
+    return travel > 0.0 && s->force[i] - s->force[j] > plateau_ratio * band;
+}
+
+/* Slope of the position against the deflection in the upper half of the force; NaN if the force does
+ * not rise enough. Of a rigid sample it is 1. */
+static double advance_per_bending(const wt_curve_samples *s, double noise)
+{
+    size_t n_start = s->n / 10;
+    double start = mean(s->force, n_start), max = start;
+    for (size_t i = 0; i < s->n; i++)
+        max = fmax(max, s->force[i]);
+    if (!(max - start > 40.0 * noise))
+        return (double)NAN;
+    double n = 0.0, sz = 0.0, sf = 0.0, sff = 0.0, szf = 0.0;
+    for (size_t i = n_start; i < s->n; i++) {
+        double f = s->force[i] - start, z = s->position[i];
+        if (f < 0.5 * (max - start))
+            continue;
+        n += 1.0;
+        sz += z;
+        sf += f;
+        sff += f * f;
+        szf += z * f;
+    }
+    double variance = sff - sf * sf / n;
+    if (n < 5.0 || !(variance > 0.0))
+        return (double)NAN;
+    return (szf - sz * sf / n) / variance * s->spring_constant;
+}
+
+/* Copies the good samples; the direction is not yet known. */
+static size_t clean(const double *height, const double *force, size_t n, wt_curve_input *input)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < n; i++) {
+        if (!isfinite(height[i]) || !isfinite(force[i])) {
+            input->n_missing++;
+        } else if (kept > 0 && height[i] == input->samples.position[kept - 1] &&
+                   force[i] == input->samples.force[kept - 1]) {
+            input->n_repeated++;
+        } else {
+            input->samples.position[kept] = height[i];
+            input->samples.force[kept++] = force[i];
+        }
+    }
+    return kept;
+}
+
+/* Samples up to where the force passes a share of its largest value: halfway between the first above
+ * and the last below. */
+static size_t limit_force(const wt_curve_samples *s, double fraction)
+{
+    double start = mean(s->force, s->n / 10), max = start;
+    for (size_t i = 0; i < s->n; i++)
+        max = fmax(max, s->force[i]);
+    double limit = start + fraction * (max - start);
+    size_t first_above = s->n, last_below = 0;
+    for (size_t i = 0; i < s->n; i++) {
+        if (s->force[i] > limit && i < first_above)
+            first_above = i;
+        if (s->force[i] <= limit)
+            last_below = i;
+    }
+    return (first_above + last_below + 1) / 2;
+}
+
+static void si(double value, const char *unit, char text[24])
+{
+    wt_format_si(value, unit, 3, text, 24);
+}
+
+wt_curve_verdict wt_curve_prepare(const double *height, const double *force, size_t n,
+                                  double spring_constant, double force_fraction,
+                                  wt_indent_workspace *w, wt_curve_input *input, char reason[160])
+{
+    char a[24], b[24];
+    *input = (wt_curve_input){.samples = {0, w->position, w->force, spring_constant}};
+    wt_curve_samples *s = &input->samples;
+    s->n = clean(height, force, n, input);
+    if ((double)input->n_missing > missing_share * (double)n) {
+        snprintf(reason, 160, "%zu of %zu samples are not numbers, %g %% allowed", input->n_missing,
+                 n, 100.0 * missing_share);
+        return WT_CURVE_NOT_FINITE;
+    }
+    if (s->n < WT_CURVE_MIN_SAMPLES) {
+        snprintf(reason, 160, "%zu different samples, %d needed", s->n, WT_CURVE_MIN_SAMPLES);
+        return WT_CURVE_TOO_SHORT;
+    }
+
+    size_t end = s->n / 20 + 1;
+    double min = s->position[0], max = s->position[0];
+    for (size_t i = 1; i < s->n; i++) {
+        min = fmin(min, s->position[i]);
+        max = fmax(max, s->position[i]);
+    }
+    double travel = mean(s->position + s->n - end, end) - mean(s->position, end);
+    if (!(fabs(travel) > travel_share * (max - min))) {
+        si(travel, "m", a);
+        si(max - min, "m", b);
+        snprintf(reason, 160, "the height does not go one way: from start to end %s in a range of %s",
+                 a, b);
+        return WT_CURVE_NO_APPROACH;
+    }
+    input->direction = travel > 0.0 ? 1.0 : -1.0;
+    for (size_t i = 0; i < s->n; i++)
+        s->position[i] *= input->direction;
+    input->position_origin = mean(s->position, s->n);
+    input->force_origin = mean(s->force, s->n);
+    for (size_t i = 0; i < s->n; i++) {
+        s->position[i] -= input->position_origin;
+        s->force[i] -= input->force_origin;
+    }
+
+    input->n_all = s->n;
+    if (force_fraction < 1.0)
+        s->n = limit_force(s, force_fraction);
+    if (s->n < WT_CURVE_MIN_SAMPLES) {
+        snprintf(reason, 160, "%zu samples below %g of the largest force, %d needed", s->n,
+                 force_fraction, WT_CURVE_MIN_SAMPLES);
+        return WT_CURVE_TOO_SHORT;
+    }
+
+    double resolution = 0.0;
+    input->step_noise = difference_noise(s, w->scratch, &resolution);
+    size_t top = 0;
+    if (flat_top(s, input->step_noise, resolution, &top)) {
+        si(s->position[s->n - 1] - s->position[top], "m", a);
+        double level = s->force[top] - mean(s->force, s->n / 10);
+        si(level, "N", b);
+        snprintf(reason, 160,
+                 "force stands still at %s above its start over the last %zu samples (%s of travel); "
+                 "a force limit below it makes the rest usable",
+                 b, s->n - top, a);
+        return WT_CURVE_SATURATED;
+    }
+    double advance = advance_per_bending(s, input->step_noise) - 1.0;
+    if (advance > -0.5 && advance < rigid_share) {
+        snprintf(reason, 160,
+                 "the tip advances %.1f %% of the bending of the lever, %g %% needed to tell a modulus",
+                 100.0 * advance, 100.0 * rigid_share);
+        return WT_CURVE_RIGID;
+    }
+    return WT_CURVE_ACCEPTED;
+}
+
+void wt_curve_reverse(wt_curve_samples *s)
+{
+    for (size_t i = 0; i < s->n / 2; i++) {
+        size_t j = s->n - 1 - i;
+        double z = s->position[i], f = s->force[i];
+        s->position[i] = s->position[j];
+        s->force[i] = s->force[j];
+        s->position[j] = z;
+        s->force[j] = f;
+    }
+    for (size_t i = 0; i < s->n; i++)
+        s->position[i] = -s->position[i];
+}

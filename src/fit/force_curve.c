@@ -1,0 +1,131 @@
+/* The fit of a force curve as it was read: which segment, which channels, what is missing; and the
+ * indentation for plots.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "fit/curve.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double *channel(const wt_segment *segment, wt_quantity quantity)
+{
+    const wt_channel *c = wt_segment_channel(segment, quantity);
+    return c != NULL ? c->values : NULL;
+}
+
+static wt_status no_approach(const wt_force_curve *curve, wt_indent_fit *fit)
+{
+    fit->verdict = WT_CURVE_NO_APPROACH;
+    size_t length = (size_t)snprintf(fit->reason, sizeof fit->reason, "segments in the curve:");
+    for (size_t i = 0; i < curve->n_segments && length < sizeof fit->reason; i++)
+        length += (size_t)snprintf(fit->reason + length, sizeof fit->reason - length, "%s %s",
+                                   i == 0 ? "" : ",",
+                                   wt_segment_kind_name(curve->segments[i].kind));
+    if (curve->n_segments == 0)
+        snprintf(fit->reason, sizeof fit->reason, "the curve has no segments");
+    return WT_OK;
+}
+
+static wt_status missing(wt_error *err, const wt_segment *segment, const char *what,
+                         const char *expected, const char *advice)
+{
+    wt_status status = wt_fail(err, WT_E_MISSING, "%s is missing", what);
+    wt_error_place(err, "segment %zu", segment->index);
+    wt_error_expected(err, "%s", expected);
+    wt_error_advice(err, "%s", advice);
+    return status;
+}
+
+/* Force [N] of every sample: as stored, or from the deflection. */
+static wt_status force_of(const wt_force_curve *curve, const wt_segment *segment,
+                          wt_indent_workspace *w, const double **force, wt_error *err)
+{
+    const double k = curve->cantilever.spring_constant;
+    const double *stored = channel(segment, WT_Q_FORCE);
+    if (stored != NULL) {
+        *force = stored;
+        return WT_OK;
+    }
+    const double *deflection = channel(segment, WT_Q_DEFLECTION);
+    double factor = k;
+    if (deflection == NULL) {
+        deflection = channel(segment, WT_Q_DEFLECTION_VOLTAGE);
+        factor = k * curve->cantilever.sensitivity;
+        if (deflection != NULL && isnan(curve->cantilever.sensitivity))
+            return missing(err, segment, "the deflection sensitivity",
+                           "metres per volt in the file or given",
+                           "give it, e.g. --sensitivity 120nm/V");
+    }
+    if (deflection == NULL)
+        return missing(err, segment, "the force",
+                       "a channel of force, deflection or deflection voltage",
+                       "see what the file holds with: weartrack info FILE");
+    for (size_t i = 0; i < segment->n_points; i++)
+        w->given_force[i] = factor * deflection[i];
+    *force = w->given_force;
+    return WT_OK;
+}
+
+static const double *time_of(const wt_segment *segment, wt_indent_workspace *w)
+{
+    const double *time = channel(segment, WT_Q_TIME);
+    if (time != NULL || !(segment->duration > 0.0) || segment->n_points < 2)
+        return time;
+    for (size_t i = 0; i < segment->n_points; i++)
+        w->given_time[i] = segment->duration * (double)i / (double)(segment->n_points - 1);
+    return w->given_time;
+}
+
+wt_status wt_indent_force_curve(const wt_contact_table *table, const wt_indent_options *options,
+                                const wt_force_curve *curve, wt_indent_workspace *workspace,
+                                wt_indent_fit *fit, wt_error *err)
+{
+    const double k = curve->cantilever.spring_constant;
+    const wt_segment *approach = wt_force_curve_segment(curve, WT_SEGMENT_APPROACH);
+    if (approach == NULL || approach->n_points == 0) {
+        wt_curve_fit_empty(fit);
+        return no_approach(curve, fit);
+    }
+    if (isnan(k))
+        return missing(err, approach, "the spring constant", "a value in the file or given",
+                       "give it, e.g. --spring-constant 0.1N/m");
+    const double *height = channel(approach, WT_Q_MEASURED_HEIGHT);
+    if (height == NULL)
+        height = channel(approach, WT_Q_HEIGHT);
+    if (height == NULL)
+        return missing(err, approach, "the height", "a channel of height or measured height",
+                       "see what the file holds with: weartrack info FILE");
+    const double *force = NULL;
+    wt_status status = wt_curve_reserve(workspace, approach->n_points, err);
+    if (status == WT_OK)
+        status = force_of(curve, approach, workspace, &force, err);
+    if (status == WT_OK)
+        status =
+            wt_indent_fit_curve(table, options, height, force, time_of(approach, workspace),
+                                approach->n_points, k, workspace, fit, err);
+    if (status == WT_OK && fit->verdict == WT_CURVE_ACCEPTED) {
+        const wt_segment *retract = wt_force_curve_segment(curve, WT_SEGMENT_RETRACT);
+        if (retract != NULL && retract < approach)
+            strncat(fit->reason, "; the retract comes first in the file",
+                    sizeof fit->reason - 1 - strlen(fit->reason));
+    }
+    return status;
+}
+
+size_t wt_indent_curve(const wt_indent_fit *fit, const double *height, const double *force,
+                       size_t n, double spring_constant, double *delta, double *out_force)
+{
+    size_t m = 0;
+    for (size_t i = 0; i < n; i++) {
+        double z = fit->direction * height[i] - fit->contact_point.value;
+        double f = force[i] - fit->baseline_offset.value;
+        double tilted = fit->baseline_tilt.value * z;
+        if (!(z >= 0.0) || !isfinite(f))
+            continue;
+        out_force[m] = f - tilted;
+        delta[m] = z - out_force[m] / spring_constant;
+        m++;
+    }
+    return m;
+}
