@@ -45,16 +45,21 @@ typedef struct wt_indent_options {
     double fit_force_fraction;  /* only forces up to this share of the largest; default 1 */
     bool fit_tilt;              /* baseline tilt is fitted, else offset only; default true */
     double minimum_r_squared;   /* of the contact part, below it POOR_FIT; default 0.9 */
-    double fixed_contact_point; /* [m] tip position, NaN = fitted */
+    double fixed_contact_point; /* [m] tip position, NaN = fitted (default) */
+    /* Default false: the force is compared with that of lever and sample together at the height of
+     * the sample, which is where the noise of the force belongs. true: with the force at the
+     * measured indentation, as most programs do, for comparison with them; biased where the contact
+     * is much stiffer than the lever. */
+    bool plain_least_squares;
 } wt_indent_options;
 WT_API wt_indent_options wt_indent_defaults(void);
 
 /* Result of one curve. Positions are tip positions [m] = height - deflection along the approach,
- * turned to rise into the sample, with the deflection free of the baseline (which is not a bending of
- * the lever). So the contact point is the height at which the tip touches with the lever straight,
- * and with z = direction * height - contact_point and the force above the baseline
- *     f = force - baseline_offset - baseline_tilt z
- * the indentation is z - f/k. Model: f = modulus/(1 - nu^2) G(indentation). */
+ * turned to rise into the sample, with the deflection free of the baseline (which is not a bending
+ * of the lever). So the contact point is the height at which the tip touches with the lever
+ * straight, and with z = direction * height - contact_point and the force above the baseline f =
+ * force - baseline_offset - baseline_tilt z the indentation is z - f/k. Model: f = modulus/(1 -
+ * nu^2) G(indentation). */
 typedef struct wt_indent_fit {
     wt_curve_verdict verdict;
     char reason[160];            /* verdict with its numbers: "R^2 0.71 below 0.90"; of an accepted
@@ -69,18 +74,18 @@ typedef struct wt_indent_fit {
     double r_squared;            /* of the contact part */
     double max_force;            /* [N] above the baseline */
     double max_indentation;      /* [m] */
-    double adhesion_force;   /* pull of the snap-on [N], 0 if none stands out of the baseline */
-    double piezo_rate;       /* [m/s], NaN if no time */
-    double indentation_rate; /* mean of the contact part [m/s], NaN if no time */
-    double load_time;        /* contact to end of approach [s], NaN if no time */
+    double adhesion_force;       /* pull of the snap-on [N], 0 if none stands out of the baseline */
+    double piezo_rate;           /* [m/s], NaN if no time */
+    double indentation_rate;     /* mean of the contact part [m/s], NaN if no time */
+    double load_time;            /* contact to end of approach [s], NaN if no time */
     double second_minimum_ratio; /* cost of the second best contact point / best; NaN if none */
     double second_contact_point; /* [m], NaN if none */
-    double sensitivity_gain;     /* d ln E / d ln sensitivity of this fit, contact point and baseline
-                                    fitted anew: 15.6 means 1 % gives 15.6 %. Of a single point at
-                                    known contact it would be 1 + (contact stiffness)/k */
-    double direction;            /* +1: the height rises into the sample, -1: it falls */
-    size_t contact_index;        /* sample of the contact point in the approach */
-    size_t n_fitted;             /* samples used */
+    double sensitivity_gain; /* d ln E / d ln sensitivity of this fit, contact point and baseline
+                                fitted anew: 15.6 means 1 % gives 15.6 %. Of a single point at
+                                known contact it would be 1 + (contact stiffness)/k */
+    double direction;        /* +1: the height rises into the sample, -1: it falls */
+    size_t contact_index;    /* sample of the contact point in the approach */
+    size_t n_fitted;         /* samples used */
 } wt_indent_fit;
 
 /* Scratch for curves of any length; one per thread. */
@@ -133,21 +138,25 @@ typedef struct wt_comparison {
     wt_estimate log_ratio;               /* ln(E_track / E_bulk) */
     double ratio, ratio_low, ratio_high; /* with 95 % interval (Welch on ln E) */
     wt_estimate difference;              /* E_track - E_bulk [Pa], of the means */
-    double welch_t, welch_df, welch_p;
-    double mann_whitney_u, mann_whitney_p; /* exact if small and without ties, else normal */
-    bool mann_whitney_exact;
-    double effect_size; /* Hedges g of ln E */
+    double welch_t, welch_df, welch_p;   /* of `difference`: the same sign */
+    double mann_whitney_u;               /* pairs in which the track is stiffer; ties count half */
+    double mann_whitney_p;               /* two-sided */
+    bool mann_whitney_exact; /* small and without ties; else normal, corrected for ties */
+    double effect_size;      /* Hedges g of ln E, track minus bulk */
 } wt_comparison;
 
+/* WT_E_EMPTY for n = 0, WT_E_RANGE for a modulus that is not positive. With one unit its interval
+ * is NaN. */
 WT_API wt_status wt_group_summarise(const wt_group *group, wt_group_summary *summary,
                                     wt_error *err) WT_NODISCARD;
-/* WT_E_EMPTY with fewer than two units in a group. Fed with tribolayer.json case N in the tests. */
+/* The units are spots if both groups name them, else curves. WT_E_EMPTY with fewer than two units
+ * in a group, WT_E_RANGE for a modulus that is not positive or groups without any scatter. */
 WT_API wt_status wt_compare(const wt_group *bulk, const wt_group *track, wt_comparison *result,
                             wt_error *err) WT_NODISCARD;
-/* Holm's correction of n p-values for n rates; adjusted[n]. */
+/* Holm's correction of n p-values for n rates; adjusted[n]. A NaN stays and is not counted. */
 WT_API void wt_holm(const double *p, size_t n, double *adjusted);
 /* Equivalent angular frequency [rad/s] of a loading of time t [s] with F ~ delta^p: exp(psi(p+1))/t
- * (2.52/t for p = 2, 2.02/t for p = 1.5). */
+ * (2.52/t for p = 2, 2.02/t for p = 1.5). NaN for t <= 0. */
 WT_API double wt_equivalent_frequency(double load_time, double force_exponent);
 
 /* ---- shift factors -----------------------------------------------------------------------------

@@ -1,10 +1,10 @@
 /* Inside the fit room: the parts of the fit of one force curve.
  *
- * Coordinates. position = piezo height, turned so that it rises into the sample; force = as measured,
- * both less an origin (their means) so that sums keep their digits. With the baseline
- * f0 + t (position - c) removed, the tip is at
- *     tip - c = delta = (position - c) (1 + t/k) - (force - f0)/k
- * where c is the contact point: the position at which the tip touches with the lever straight.
+ * Coordinates. position = piezo height, turned so that it rises into the sample; force = as
+ * measured, both less an origin (their means) so that sums keep their digits. With the baseline f0
+ * + t (position - c) removed, the tip is at tip - c = delta = (position - c) (1 + t/k) - (force -
+ * f0)/k where c is the contact point: the position at which the tip touches with the lever
+ * straight.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -31,10 +31,11 @@ typedef struct wt_curve_samples {
 struct wt_indent_workspace {
     size_t capacity;
     double *block; /* what the arrays below are parts of */
-    double *position, *force, *tip, *running_max, *delta, *g, *slope, *residual, *scratch;
+    double *position, *force, *tip, *running_max, *delta, *g, *slope, *residual, *scratch, *weight;
     double *given_force, *given_time; /* of wt_indent_force_curve */
-    double bin_position[WT_CURVE_MAX_BINS], bin_force[WT_CURVE_MAX_BINS], bin_tip[WT_CURVE_MAX_BINS],
-        bin_running_max[WT_CURVE_MAX_BINS], bin_delta[WT_CURVE_MAX_BINS], bin_g[WT_CURVE_MAX_BINS];
+    double bin_position[WT_CURVE_MAX_BINS], bin_force[WT_CURVE_MAX_BINS],
+        bin_tip[WT_CURVE_MAX_BINS], bin_running_max[WT_CURVE_MAX_BINS],
+        bin_delta[WT_CURVE_MAX_BINS], bin_g[WT_CURVE_MAX_BINS], bin_weight[WT_CURVE_MAX_BINS];
     gsl_min_fminimizer *minimizer;
 };
 
@@ -43,6 +44,10 @@ void wt_curve_fit_empty(wt_indent_fit *fit);
 
 /* WT_E_MEMORY when n samples find no room. */
 wt_status wt_curve_reserve(wt_indent_workspace *workspace, size_t n, wt_error *err);
+
+/* The reason of a verdict; a value as short text with its unit. */
+void wt_curve_say(char reason[160], const char *format, ...) WT_PRINTF(2, 3);
+void wt_curve_si(double value, const char *unit, char text[24]);
 
 /* ---- preparation: curve_prepare.c ------------------------------------------------------------ */
 
@@ -74,16 +79,17 @@ typedef struct wt_curve_minimum {
 } wt_curve_minimum;
 
 /* Fills `minima`, best first; returns how many (0: no contact point gives a positive modulus).
- * *cost_without: the cost of the baseline alone. */
+ * weighted: with the weights of the workspace. *cost_without: the cost of the baseline alone. */
 size_t wt_curve_scan(const wt_contact_table *table, const wt_curve_samples *samples, bool tilt,
-                     wt_indent_workspace *workspace, wt_curve_minimum minima[WT_CURVE_MAX_MINIMA],
-                     double *cost_without);
+                     bool weighted, wt_indent_workspace *workspace,
+                     wt_curve_minimum minima[WT_CURVE_MAX_MINIMA], double *cost_without);
 /* The same for one given contact point (a position of the samples). */
 bool wt_curve_scan_at(const wt_contact_table *table, const wt_curve_samples *samples, bool tilt,
                       double contact_point, wt_indent_workspace *workspace,
                       wt_curve_minimum *minimum);
 
-/* ---- refinement and errors: curve_refine.c ---------------------------------------------------- */
+/* ---- refinement and errors: curve_refine.c ----------------------------------------------------
+ */
 
 enum { WT_CURVE_E, WT_CURVE_C, WT_CURVE_F0, WT_CURVE_T, WT_CURVE_N_PARAMETERS };
 
@@ -97,16 +103,21 @@ typedef struct wt_curve_solution {
     double noise, correlation_length;
     double effective_n; /* samples over correlation length, baseline and contact part together */
     double r_squared;
+    double largest_lever_factor; /* 1 + S/k */
     bool converged;
 } wt_curve_solution;
 
 /* Least squares in all free parameters at once, starting from a minimum of the scan; then the
- * covariance with correlated residuals. */
+ * covariance with correlated residuals. plain: force against measured indentation. */
 void wt_curve_refine(const wt_contact_table *table, const wt_curve_samples *samples,
-                     const wt_curve_minimum *start, bool tilt, bool contact_fixed,
+                     const wt_curve_minimum *start, bool tilt, bool contact_fixed, bool plain,
                      wt_indent_workspace *workspace, wt_curve_solution *solution);
+/* Weights 1/(1 + S/k)^2 of all samples for a scan, from a solution. */
+void wt_curve_weights(const wt_contact_table *table, const wt_curve_samples *samples,
+                      const wt_curve_solution *solution, wt_indent_workspace *workspace);
 
-/* ---- noise: curve_noise.c --------------------------------------------------------------------- */
+/* ---- noise: curve_noise.c ---------------------------------------------------------------------
+ */
 
 typedef struct wt_noise {
     double variance;           /* of one sample */

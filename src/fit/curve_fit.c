@@ -10,16 +10,18 @@
 #include <string.h>
 
 /* Limits of plausibility; every verdict names the number and the limit. */
-static const double contact_noise = 5.0;     /* force in contact, in noise of the baseline */
-static const double snap_noise = 6.0;        /* pull of a snap-on, in noise of the baseline */
-static const double snap_rest = 1.5;         /* and against the deepest pull elsewhere */
-static const double baseline_length = 0.1;   /* of the largest indentation */
+static const double contact_noise = 5.0;   /* force in contact, in noise of the baseline */
+static const double snap_noise = 6.0;      /* pull of a snap-on, in noise of the baseline */
+static const double snap_rest = 1.5;       /* and against the deepest pull elsewhere */
+static const double baseline_length = 0.1; /* of the largest indentation */
 static const size_t baseline_samples = 10;
-static const double baseline_bend = 0.1;     /* departure from a line, of the largest force */
-static const double rigid_gain = 50.0;       /* % of modulus per % of sensitivity */
-static const double ambiguous_chi2 = 4.0;    /* 2 ln(likelihood ratio) of two contact points */
-static const double ambiguous_ratio = 0.1;   /* least |ln(E2/E1)| to call them different */
-static const double gap_tolerance = 0.5;     /* of the indentation: how far a snap-on may lie */
+static const double baseline_bend = 0.05;  /* departure from a line, of the largest force */
+static const double rigid_gain = 50.0;     /* % of modulus per % of sensitivity */
+static const double ambiguous_chi2 = 4.0;  /* 2 ln(likelihood ratio) of two contact points */
+static const double ambiguous_ratio = 0.1; /* least |ln(E2/E1)| to call them different */
+static const double weights_matter = 1.2;  /* largest 1 + S/k */
+static const double reverse_ratio = 0.5;   /* cost of the fit in reverse against the fit */
+static const double gap_tolerance = 0.5;   /* of the indentation: how far a snap-on may lie */
 enum { MAX_DEPTH_ROUNDS = 8, BEND_BLOCKS = 16 };
 
 static const struct {
@@ -49,6 +51,7 @@ wt_indent_options wt_indent_defaults(void)
                                .fit_force_fraction = 1.0,
                                .fit_tilt = true,
                                .minimum_r_squared = 0.9,
+                               .plain_least_squares = false,
                                .fixed_contact_point = (double)NAN};
 }
 
@@ -85,7 +88,6 @@ typedef struct fitting {
     wt_curve_solution solution;
     wt_curve_minimum minima[WT_CURVE_MAX_MINIMA];
     size_t n_minima;
-    double cost_without;
     double adhesion;
     size_t n_snap; /* samples left out because of a snap-on */
     bool depth_settled;
@@ -96,30 +98,42 @@ static double baseline_at(const wt_curve_solution *s, double position)
     return s->p[WT_CURVE_F0] + s->p[WT_CURVE_T] * (position - s->p[WT_CURVE_C]);
 }
 
-/* Scan and refinement on the samples as they are now; false if nothing but a baseline is found. */
-static bool scan_and_refine(fitting *f)
+static bool scan_once(fitting *f, bool weighted)
 {
+    const wt_indent_options *o = f->options;
     const wt_curve_samples *s = &f->input.samples;
-    bool fixed = !isnan(f->options->fixed_contact_point);
+    bool fixed = !isnan(o->fixed_contact_point);
     if (fixed) {
-        double c = f->options->fixed_contact_point - f->input.position_origin;
-        f->n_minima = wt_curve_scan_at(f->table, s, f->options->fit_tilt, c, f->workspace,
-                                       &f->minima[0])
-                          ? 1
-                          : 0;
+        double c = o->fixed_contact_point - f->input.position_origin;
+        f->n_minima =
+            wt_curve_scan_at(f->table, s, o->fit_tilt, c, f->workspace, &f->minima[0]) ? 1 : 0;
     } else {
-        f->n_minima = wt_curve_scan(f->table, s, f->options->fit_tilt, f->workspace, f->minima,
-                                    &f->cost_without);
+        double cost_without = 0.0;
+        f->n_minima = wt_curve_scan(f->table, s, o->fit_tilt, weighted, f->workspace, f->minima,
+                                    &cost_without);
     }
     if (f->n_minima == 0)
         return false;
-    wt_curve_refine(f->table, s, &f->minima[0], f->options->fit_tilt, fixed, f->workspace,
-                    &f->solution);
+    wt_curve_refine(f->table, s, &f->minima[0], o->fit_tilt, fixed, o->plain_least_squares,
+                    f->workspace, &f->solution);
     return true;
 }
 
-/* A jump to contact: a pull right before the force rises that stands out of everything before it. The
- * law knows no attraction, so these samples are taken out. True if samples were removed. */
+/* Scan and refinement on the samples as they are now; false if nothing but a baseline is found.
+ * The weights of the scan follow from a fit: any that describes the curve will do. */
+static bool scan_and_refine(fitting *f)
+{
+    if (!scan_once(f, false))
+        return false;
+    if (f->options->plain_least_squares || !isnan(f->options->fixed_contact_point) ||
+        f->solution.largest_lever_factor < weights_matter)
+        return true;
+    wt_curve_weights(f->table, &f->input.samples, &f->solution, f->workspace);
+    return scan_once(f, true);
+}
+
+/* A jump to contact: a pull right before the force rises that stands out of everything before it.
+ * The law knows no attraction, so these samples are taken out. True if samples were removed. */
 static bool remove_snap_on(fitting *f)
 {
     wt_curve_samples *s = &f->input.samples;
@@ -211,12 +225,8 @@ static double baseline_departure(const fitting *f)
     return hi - lo;
 }
 
-/* ---- verdict ---------------------------------------------------------------------------------- */
-
-static void si(double value, const char *unit, char text[24])
-{
-    wt_format_si(value, unit, 3, text, 24);
-}
+/* ---- verdict ----------------------------------------------------------------------------------
+ */
 
 static wt_curve_verdict no_contact_verdict(fitting *f, char reason[160])
 {
@@ -228,25 +238,46 @@ static wt_curve_verdict no_contact_verdict(fitting *f, char reason[160])
         last += s->force[s->n - 1 - i] / (double)tenth;
     }
     char a[24], b[24];
-    /* Would it be a contact if it went the other way? */
-    double cost_without = 0.0;
-    wt_curve_reverse(s);
-    size_t n = wt_curve_scan(f->table, s, true, f->workspace, f->minima, &cost_without);
-    if (n > 0 && f->minima[0].contact_point > s->position[0] &&
-        f->minima[0].cost < 0.1 * cost_without) {
-        si(first - last, "N", a);
-        snprintf(reason, 160, "the force falls by %s along the segment: it leaves the sample", a);
-        return WT_CURVE_NO_APPROACH;
-    }
-    si(fabs(last - first), "N", a);
-    si(f->input.step_noise, "N", b);
+    wt_curve_si(fabs(last - first), "N", a);
+    wt_curve_si(f->input.step_noise, "N", b);
     if (first - last > contact_noise * f->input.step_noise) {
-        snprintf(reason, 160,
-                 "the force falls by %s towards the sample (noise %s): sign of the deflection?", a, b);
+        wt_curve_say(reason,
+                     "the force falls by %s towards the sample (noise %s): sign of the deflection?",
+                     a, b);
         return WT_CURVE_NEGATIVE;
     }
-    snprintf(reason, 160, "the force changes by %s from start to end (noise %s)", a, b);
+    wt_curve_say(reason, "the force changes by %s from start to end (noise %s)", a, b);
     return WT_CURVE_NO_CONTACT;
+}
+
+/* Does the curve look more like a contact when it is run backwards? Destroys the samples then. */
+static bool leaves_the_sample(fitting *f, char reason[160])
+{
+    wt_curve_samples *s = &f->input.samples;
+    size_t tenth = s->n / 10;
+    double first = 0.0, last = 0.0, unused = 0.0;
+    for (size_t i = 0; i < tenth; i++) {
+        first += s->force[i] / (double)tenth;
+        last += s->force[s->n - 1 - i] / (double)tenth;
+    }
+    if (!(first - last > contact_noise * f->input.step_noise))
+        return false;
+    wt_curve_minimum minima[WT_CURVE_MAX_MINIMA];
+    double cost = INFINITY;
+    size_t n = wt_curve_scan(f->table, s, true, false, f->workspace, minima, &unused);
+    if (n > 0 && minima[0].contact_point > s->position[0])
+        cost = minima[0].cost;
+    wt_curve_reverse(s);
+    n = wt_curve_scan(f->table, s, true, false, f->workspace, minima, &unused);
+    if (n > 0 && minima[0].contact_point > s->position[0] &&
+        minima[0].cost < reverse_ratio * cost) {
+        char a[24];
+        wt_curve_si(first - last, "N", a);
+        wt_curve_say(reason, "the force falls by %s along the segment: it leaves the sample", a);
+        return true;
+    }
+    wt_curve_reverse(s);
+    return false;
 }
 
 static wt_curve_verdict judge(fitting *f, double max_force, wt_indent_fit *fit)
@@ -254,49 +285,49 @@ static wt_curve_verdict judge(fitting *f, double max_force, wt_indent_fit *fit)
     const wt_curve_solution *s = &f->solution;
     const wt_curve_samples *samples = &f->input.samples;
     char a[24], b[24], c[24], *reason = fit->reason;
-    const size_t size = sizeof fit->reason;
 
     double length = s->p[WT_CURVE_C] - samples->position[0];
     if (length <= 0.0) {
-        si(-length, "m", a);
-        snprintf(reason, size, "contact is found %s before the first sample", a);
+        wt_curve_si(-length, "m", a);
+        wt_curve_say(reason, "contact is found %s before the first sample", a);
         return WT_CURVE_NO_BASELINE;
     }
     if (!(max_force > contact_noise * s->noise)) {
-        si(max_force, "N", a);
-        si(s->noise, "N", b);
-        snprintf(reason, size, "largest force %s is %.1f times the noise of %s, %g needed", a,
-                 max_force / s->noise, b, contact_noise);
+        wt_curve_si(max_force, "N", a);
+        wt_curve_si(s->noise, "N", b);
+        wt_curve_say(reason, "largest force %s is %.1f times the noise of %s, %g needed", a,
+                     max_force / s->noise, b, contact_noise);
         return WT_CURVE_NO_CONTACT;
     }
     if (s->first_contact < baseline_samples || length < baseline_length * s->max_indentation) {
-        si(length, "m", a);
-        si(baseline_length * s->max_indentation, "m", b);
-        snprintf(reason, size, "baseline of %zu samples and %s; %zu samples and %s needed",
-                 s->first_contact, a, baseline_samples, b);
+        wt_curve_si(length, "m", a);
+        wt_curve_si(baseline_length * s->max_indentation, "m", b);
+        wt_curve_say(reason, "baseline of %zu samples and %s; %zu samples and %s needed",
+                     s->first_contact, a, baseline_samples, b);
         return WT_CURVE_NO_BASELINE;
     }
     if (s->sensitivity_gain > rigid_gain) {
-        snprintf(reason, size,
-                 "1 %% of deflection sensitivity would change the modulus by %.0f %%, %g %% allowed",
-                 s->sensitivity_gain, rigid_gain);
+        wt_curve_say(
+            reason,
+            "1 %% of deflection sensitivity would change the modulus by %.0f %%, %g %% allowed",
+            s->sensitivity_gain, rigid_gain);
         return WT_CURVE_RIGID;
     }
     double departure = baseline_departure(f);
     if (departure > baseline_bend * max_force) {
-        si(departure, "N", a);
-        si(max_force, "N", b);
-        snprintf(reason, size, "baseline departs from a line by %s, %.0f %% of %s; %g %% allowed", a,
-                 100.0 * departure / max_force, b, 100.0 * baseline_bend);
+        wt_curve_si(departure, "N", a);
+        wt_curve_si(max_force, "N", b);
+        wt_curve_say(reason, "baseline departs from a line by %s, %.0f %% of %s; %g %% allowed", a,
+                     100.0 * departure / max_force, b, 100.0 * baseline_bend);
         return WT_CURVE_DRIFT;
     }
     if (!s->converged || isnan(s->standard_error[WT_CURVE_E])) {
-        snprintf(reason, size, "the least-squares fit found no minimum within its iterations");
+        wt_curve_say(reason, "the least-squares fit found no minimum within its iterations");
         return WT_CURVE_POOR_FIT;
     }
     if (!(s->r_squared >= f->options->minimum_r_squared)) {
-        snprintf(reason, size, "R^2 of the contact part %.3f is below %g", s->r_squared,
-                 f->options->minimum_r_squared);
+        wt_curve_say(reason, "R^2 of the contact part %.3f is below %g", s->r_squared,
+                     f->options->minimum_r_squared);
         return WT_CURVE_POOR_FIT;
     }
     if (f->n_minima > 1) {
@@ -304,16 +335,16 @@ static wt_curve_verdict judge(fitting *f, double max_force, wt_indent_fit *fit)
         double ratio = second->cost / f->minima[0].cost;
         double moduli = log(second->reduced_modulus / s->p[WT_CURVE_E]);
         if (s->effective_n * log(ratio) < ambiguous_chi2 && fabs(moduli) > ambiguous_ratio) {
-            si(fabs(second->contact_point - s->p[WT_CURVE_C]), "m", a);
-            si(second->reduced_modulus * fit->modulus.value / s->p[WT_CURVE_E], "Pa", b);
-            si(fit->modulus.value, "Pa", c);
-            snprintf(reason, size,
-                     "a contact point %s away gives %s instead of %s at %.3f times the cost", a, b,
-                     c, ratio);
+            wt_curve_si(fabs(second->contact_point - s->p[WT_CURVE_C]), "m", a);
+            wt_curve_si(second->reduced_modulus * fit->modulus.value / s->p[WT_CURVE_E], "Pa", b);
+            wt_curve_si(fit->modulus.value, "Pa", c);
+            wt_curve_say(reason,
+                         "a contact point %s away gives %s instead of %s at %.3f times the cost", a,
+                         b, c, ratio);
             return WT_CURVE_AMBIGUOUS;
         }
     }
-    snprintf(reason, size, "accepted");
+    wt_curve_say(reason, "accepted");
     return WT_CURVE_ACCEPTED;
 }
 
@@ -322,7 +353,7 @@ static void add_notes(const fitting *f, char reason[160])
 {
     char text[64], a[24];
     if (f->n_snap > 0) {
-        si(f->adhesion, "N", a);
+        wt_curve_si(f->adhesion, "N", a);
         snprintf(text, sizeof text, "; snap-on of %s left out (%zu samples)", a, f->n_snap);
         strncat(reason, text, 159 - strlen(reason));
     }
@@ -338,7 +369,8 @@ static void add_notes(const fitting *f, char reason[160])
         strncat(reason, "; the limit of depth did not settle", 159 - strlen(reason));
 }
 
-/* ---- rates ------------------------------------------------------------------------------------ */
+/* ---- rates ------------------------------------------------------------------------------------
+ */
 
 static void find_rates(const fitting *f, const double *height, const double *force,
                        const double *time, size_t n, wt_indent_fit *fit)
@@ -463,14 +495,17 @@ wt_status wt_indent_fit_curve(const wt_contact_table *table, const wt_indent_opt
     if (status != WT_OK)
         return status;
 
-    fitting f = {
-        .table = table, .options = options, .workspace = workspace, .depth_settled = true};
+    fitting f = {.table = table, .options = options, .workspace = workspace, .depth_settled = true};
     wt_curve_fit_empty(fit);
     fit->verdict = wt_curve_prepare(height, force, n, spring_constant, options->fit_force_fraction,
                                     workspace, &f.input, fit->reason);
     if (fit->verdict != WT_CURVE_ACCEPTED)
         return WT_OK;
     fit->direction = f.input.direction;
+    if (leaves_the_sample(&f, fit->reason)) {
+        fit->verdict = WT_CURVE_NO_APPROACH;
+        return WT_OK;
+    }
     bool found = scan_and_refine(&f);
     if (found && remove_snap_on(&f))
         found = scan_and_refine(&f);

@@ -1,9 +1,9 @@
 /* Variance and correlation length of a residual.
  *
  * The variance of a mean of n correlated samples is that of n/tau independent ones, with
- * tau = 1 + 2 sum_k rho_k (Sokal, Monte Carlo Methods in Statistical Mechanics, 1989, section 3). The
- * sum is cut at the first autocorrelation that is not above its own noise; where it would become
- * long, neighbours are averaged in pairs first, so that the work stays proportional to n.
+ * tau = 1 + 2 sum_k rho_k (Sokal, Monte Carlo Methods in Statistical Mechanics, 1989, section 3).
+ * The sum is cut at the first autocorrelation that is not above its own noise; where it would
+ * become long, neighbours are averaged in pairs first, so that the work stays proportional to n.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */

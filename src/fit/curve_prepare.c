@@ -1,11 +1,12 @@
-/* Before the fit of a force curve: missing and repeated samples, the direction of the piezo, a limit
- * of the force, a saturated detector, a sample too stiff for the lever.
+/* Before the fit of a force curve: missing and repeated samples, the direction of the piezo, a
+ * limit of the force, a saturated detector, a sample too stiff for the lever.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "fit/curve.h"
 
 #include <math.h>
+#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -18,22 +19,21 @@ static const size_t plateau_samples = 5;
 
 wt_status wt_curve_reserve(wt_indent_workspace *w, size_t n, wt_error *err)
 {
-    enum { N_ARRAYS = 11 };
+    enum { N_ARRAYS = 12 };
     if (n <= w->capacity)
         return WT_OK;
     size_t capacity = n + n / 4;
-    double *block =
-        capacity < SIZE_MAX / sizeof(double) / N_ARRAYS
-            ? malloc(N_ARRAYS * capacity * sizeof *block)
-            : NULL;
+    double *block = capacity < SIZE_MAX / sizeof(double) / N_ARRAYS
+                        ? malloc(N_ARRAYS * capacity * sizeof *block)
+                        : NULL;
     if (block == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory to fit a force curve of %zu samples", n);
     free(w->block);
     w->block = block;
     w->capacity = capacity;
-    double **const arrays[N_ARRAYS] = {&w->position, &w->force,       &w->tip,       &w->running_max,
-                                       &w->delta,    &w->g,           &w->slope,     &w->residual,
-                                       &w->scratch,  &w->given_force, &w->given_time};
+    double **const arrays[N_ARRAYS] = {&w->position, &w->force,  &w->tip,         &w->running_max,
+                                       &w->delta,    &w->g,      &w->slope,       &w->residual,
+                                       &w->scratch,  &w->weight, &w->given_force, &w->given_time};
     for (size_t i = 0; i < N_ARRAYS; i++)
         *arrays[i] = block + i * capacity;
     return WT_OK;
@@ -117,8 +117,8 @@ static bool flat_top(const wt_curve_samples *s, double noise, double resolution,
     return travel > 0.0 && s->force[i] - s->force[j] > plateau_ratio * band;
 }
 
-/* Slope of the position against the deflection in the upper half of the force; NaN if the force does
- * not rise enough. Of a rigid sample it is 1. */
+/* Slope of the position against the deflection in the upper half of the force; NaN if the force
+ * does not rise enough. Of a rigid sample it is 1. */
 static double advance_per_bending(const wt_curve_samples *s, double noise)
 {
     size_t n_start = s->n / 10;
@@ -162,8 +162,8 @@ static size_t clean(const double *height, const double *force, size_t n, wt_curv
     return kept;
 }
 
-/* Samples up to where the force passes a share of its largest value: halfway between the first above
- * and the last below. */
+/* Samples up to where the force passes a share of its largest value: halfway between the first
+ * above and the last below. */
 static size_t limit_force(const wt_curve_samples *s, double fraction)
 {
     double start = mean(s->force, s->n / 10), max = start;
@@ -180,7 +180,15 @@ static size_t limit_force(const wt_curve_samples *s, double fraction)
     return (first_above + last_below + 1) / 2;
 }
 
-static void si(double value, const char *unit, char text[24])
+void wt_curve_say(char reason[160], const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(reason, 160, format, arguments);
+    va_end(arguments);
+}
+
+void wt_curve_si(double value, const char *unit, char text[24])
 {
     wt_format_si(value, unit, 3, text, 24);
 }
@@ -194,12 +202,12 @@ wt_curve_verdict wt_curve_prepare(const double *height, const double *force, siz
     wt_curve_samples *s = &input->samples;
     s->n = clean(height, force, n, input);
     if ((double)input->n_missing > missing_share * (double)n) {
-        snprintf(reason, 160, "%zu of %zu samples are not numbers, %g %% allowed", input->n_missing,
-                 n, 100.0 * missing_share);
+        wt_curve_say(reason, "%zu of %zu samples are not numbers, %g %% allowed", input->n_missing,
+                     n, 100.0 * missing_share);
         return WT_CURVE_NOT_FINITE;
     }
     if (s->n < WT_CURVE_MIN_SAMPLES) {
-        snprintf(reason, 160, "%zu different samples, %d needed", s->n, WT_CURVE_MIN_SAMPLES);
+        wt_curve_say(reason, "%zu different samples, %d needed", s->n, WT_CURVE_MIN_SAMPLES);
         return WT_CURVE_TOO_SHORT;
     }
 
@@ -211,10 +219,10 @@ wt_curve_verdict wt_curve_prepare(const double *height, const double *force, siz
     }
     double travel = mean(s->position + s->n - end, end) - mean(s->position, end);
     if (!(fabs(travel) > travel_share * (max - min))) {
-        si(travel, "m", a);
-        si(max - min, "m", b);
-        snprintf(reason, 160, "the height does not go one way: from start to end %s in a range of %s",
-                 a, b);
+        wt_curve_si(travel, "m", a);
+        wt_curve_si(max - min, "m", b);
+        wt_curve_say(reason,
+                     "the height does not go one way: from start to end %s in a range of %s", a, b);
         return WT_CURVE_NO_APPROACH;
     }
     input->direction = travel > 0.0 ? 1.0 : -1.0;
@@ -231,8 +239,8 @@ wt_curve_verdict wt_curve_prepare(const double *height, const double *force, siz
     if (force_fraction < 1.0)
         s->n = limit_force(s, force_fraction);
     if (s->n < WT_CURVE_MIN_SAMPLES) {
-        snprintf(reason, 160, "%zu samples below %g of the largest force, %d needed", s->n,
-                 force_fraction, WT_CURVE_MIN_SAMPLES);
+        wt_curve_say(reason, "%zu samples below %g of the largest force, %d needed", s->n,
+                     force_fraction, WT_CURVE_MIN_SAMPLES);
         return WT_CURVE_TOO_SHORT;
     }
 
@@ -240,20 +248,22 @@ wt_curve_verdict wt_curve_prepare(const double *height, const double *force, siz
     input->step_noise = difference_noise(s, w->scratch, &resolution);
     size_t top = 0;
     if (flat_top(s, input->step_noise, resolution, &top)) {
-        si(s->position[s->n - 1] - s->position[top], "m", a);
+        wt_curve_si(s->position[s->n - 1] - s->position[top], "m", a);
         double level = s->force[top] - mean(s->force, s->n / 10);
-        si(level, "N", b);
-        snprintf(reason, 160,
-                 "force stands still at %s above its start over the last %zu samples (%s of travel); "
-                 "a force limit below it makes the rest usable",
-                 b, s->n - top, a);
+        wt_curve_si(level, "N", b);
+        wt_curve_say(
+            reason,
+            "force stands still at %s above its start over the last %zu samples (%s of travel); "
+            "a force limit below it makes the rest usable",
+            b, s->n - top, a);
         return WT_CURVE_SATURATED;
     }
     double advance = advance_per_bending(s, input->step_noise) - 1.0;
     if (advance > -0.5 && advance < rigid_share) {
-        snprintf(reason, 160,
-                 "the tip advances %.1f %% of the bending of the lever, %g %% needed to tell a modulus",
-                 100.0 * advance, 100.0 * rigid_share);
+        wt_curve_say(
+            reason,
+            "the tip advances %.1f %% of the bending of the lever, %g %% needed to tell a modulus",
+            100.0 * advance, 100.0 * rigid_share);
         return WT_CURVE_RIGID;
     }
     return WT_CURVE_ACCEPTED;

@@ -2,12 +2,12 @@
  *
  * For a given contact point the modulus, the offset and the tilt are linear and are projected out.
  * The cost has several minima on real curves, so it is scanned first: on averaged samples, over
- * contact points whose depths below the deepest point form a geometric series, because a length that
- * does not scale with the indentation of the curve itself has no meaning. The lowest minima are then
- * refined on all samples (Brent).
+ * contact points whose depths below the deepest point form a geometric series, because a length
+ * that does not scale with the indentation of the curve itself has no meaning. The lowest minima
+ * are then refined on all samples (Brent).
  *
- * In the scan the tilt is not yet taken out of the deflection (that makes the tip position depend on
- * it); the refinement does that.
+ * In the scan the tilt is not yet taken out of the deflection (that makes the tip position depend
+ * on it); the refinement does that.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -25,7 +25,9 @@ typedef struct projection {
     const wt_contact_table *table;
     size_t n;
     const double *position, *force, *tip, *running_max;
+    const double *weight; /* NULL: 1 */
     double *delta, *g;
+    double s_w;
     double origin_position, origin_force; /* means */
     double s_zz, s_zf, s_ff;              /* centred sums */
     bool tilt;
@@ -36,22 +38,31 @@ typedef struct projected {
     double cost;
 } projected;
 
+static double weight_of(const projection *p, size_t i)
+{
+    return p->weight != NULL ? p->weight[i] : 1.0;
+}
+
 static void projection_sums(projection *p)
 {
     double z = 0.0, f = 0.0;
+    p->s_w = 0.0;
     for (size_t i = 0; i < p->n; i++) {
-        z += p->position[i];
-        f += p->force[i];
+        double w = weight_of(p, i);
+        p->s_w += w;
+        z += w * p->position[i];
+        f += w * p->force[i];
     }
-    p->origin_position = z / (double)p->n;
-    p->origin_force = f / (double)p->n;
+    p->origin_position = z / p->s_w;
+    p->origin_force = f / p->s_w;
     p->s_zz = p->s_zf = p->s_ff = 0.0;
     for (size_t i = 0; i < p->n; i++) {
+        double w = weight_of(p, i);
         z = p->position[i] - p->origin_position;
         f = p->force[i] - p->origin_force;
-        p->s_zz += z * z;
-        p->s_zf += z * f;
-        p->s_ff += f * f;
+        p->s_zz += w * z * z;
+        p->s_zf += w * z * f;
+        p->s_ff += w * f * f;
     }
 }
 
@@ -96,12 +107,13 @@ static projected project(const projection *p, double contact)
     wt_contact_table_eval(p->table, delta, m, g, NULL);
     double sg = 0.0, sgg = 0.0, sgf = 0.0, sgz = 0.0;
     for (size_t i = 0; i < m; i++) {
-        sg += g[i];
-        sgg += g[i] * g[i];
-        sgf += g[i] * (p->force[first + i] - p->origin_force);
-        sgz += g[i] * (p->position[first + i] - p->origin_position);
+        double wg = weight_of(p, first + i) * g[i];
+        sg += wg;
+        sgg += wg * g[i];
+        sgf += wg * (p->force[first + i] - p->origin_force);
+        sgz += wg * (p->position[first + i] - p->origin_position);
     }
-    double n = (double)p->n, free_gg = sgg - sg * sg / n, free_gf = sgf;
+    double free_gg = sgg - sg * sg / p->s_w, free_gf = sgf;
     if (p->tilt) {
         free_gg -= sgz * sgz / p->s_zz;
         free_gf -= sgz * p->s_zf / p->s_zz;
@@ -112,7 +124,7 @@ static projected project(const projection *p, double contact)
     if (free_gf > 0.0 && free_gg > 1e-12 * sgg) {
         result.modulus = free_gf / free_gg;
         result.cost = fmax(0.0, result.cost - free_gf * result.modulus);
-        result.offset -= result.modulus * sg / n;
+        result.offset -= result.modulus * sg / p->s_w;
         if (p->tilt)
             result.tilt -= result.modulus * sgz / p->s_zz;
     }
@@ -130,22 +142,23 @@ static wt_curve_minimum to_minimum(const projection *p, double contact, double k
     projected at = project(p, contact);
     double offset0 = at.offset - at.tilt * p->origin_position; /* at position 0 */
     double position = (contact + offset0 / k) / (1.0 - at.tilt / k);
-    return (wt_curve_minimum){position, at.modulus, offset0 + at.tilt * position, at.tilt,
-                              at.cost};
+    return (wt_curve_minimum){position, at.modulus, offset0 + at.tilt * position, at.tilt, at.cost};
 }
 
-/* Averages neighbours so that no more than WT_CURVE_MAX_BINS are left; a rest at the start, far from
- * contact, is left out. */
+/* Averages neighbours so that no more than WT_CURVE_MAX_BINS are left; a rest at the start, far
+ * from contact, is left out. */
 static projection make_bins(const projection *full, double k, wt_indent_workspace *w)
 {
     size_t width = (full->n + WT_CURVE_MAX_BINS - 1) / WT_CURVE_MAX_BINS;
     size_t n = full->n / width, skip = full->n - n * width;
     for (size_t bin = 0; bin < n; bin++) {
-        double z = 0.0, f = 0.0;
+        double z = 0.0, f = 0.0, weight = 0.0;
         for (size_t i = skip + bin * width; i < skip + (bin + 1) * width; i++) {
             z += full->position[i];
             f += full->force[i];
+            weight += weight_of(full, i);
         }
+        w->bin_weight[bin] = weight;
         w->bin_position[bin] = z / (double)width;
         w->bin_force[bin] = f / (double)width;
     }
@@ -153,6 +166,7 @@ static projection make_bins(const projection *full, double k, wt_indent_workspac
     bins.n = n;
     bins.position = w->bin_position;
     bins.force = w->bin_force;
+    bins.weight = w->bin_weight;
     bins.tip = w->bin_tip;
     bins.running_max = w->bin_running_max;
     bins.delta = w->bin_delta;
@@ -163,12 +177,13 @@ static projection make_bins(const projection *full, double k, wt_indent_workspac
 }
 
 static projection make_full(const wt_contact_table *table, const wt_curve_samples *samples,
-                            bool tilt, wt_indent_workspace *w)
+                            bool tilt, bool weighted, wt_indent_workspace *w)
 {
     projection full = {.table = table,
                        .n = samples->n,
                        .position = samples->position,
                        .force = samples->force,
+                       .weight = weighted ? w->weight : NULL,
                        .tip = w->tip,
                        .running_max = w->running_max,
                        .delta = w->delta,
@@ -211,11 +226,11 @@ static void keep_best(wt_curve_minimum *minima, size_t *n, wt_curve_minimum cand
 }
 
 size_t wt_curve_scan(const wt_contact_table *table, const wt_curve_samples *samples, bool tilt,
-                     wt_indent_workspace *w, wt_curve_minimum minima[WT_CURVE_MAX_MINIMA],
-                     double *cost_without)
+                     bool weighted, wt_indent_workspace *w,
+                     wt_curve_minimum minima[WT_CURVE_MAX_MINIMA], double *cost_without)
 {
     const double k = samples->spring_constant;
-    projection full = make_full(table, samples, tilt, w);
+    projection full = make_full(table, samples, tilt, weighted, w);
     projection bins = make_bins(&full, k, w);
     *cost_without = cost_without_contact(&full);
 
@@ -267,7 +282,7 @@ bool wt_curve_scan_at(const wt_contact_table *table, const wt_curve_samples *sam
                       double contact_point, wt_indent_workspace *w, wt_curve_minimum *minimum)
 {
     const double k = samples->spring_constant;
-    projection full = make_full(table, samples, tilt, w);
+    projection full = make_full(table, samples, tilt, false, w);
     /* The tip position of the contact depends on the baseline, which is part of the answer. */
     double tip = contact_point - full.origin_force / k;
     for (int i = 0; i < MAX_ITERATIONS; i++) {

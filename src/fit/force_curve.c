@@ -19,9 +19,9 @@ static wt_status no_approach(const wt_force_curve *curve, wt_indent_fit *fit)
     fit->verdict = WT_CURVE_NO_APPROACH;
     size_t length = (size_t)snprintf(fit->reason, sizeof fit->reason, "segments in the curve:");
     for (size_t i = 0; i < curve->n_segments && length < sizeof fit->reason; i++)
-        length += (size_t)snprintf(fit->reason + length, sizeof fit->reason - length, "%s %s",
-                                   i == 0 ? "" : ",",
-                                   wt_segment_kind_name(curve->segments[i].kind));
+        length +=
+            (size_t)snprintf(fit->reason + length, sizeof fit->reason - length, "%s %s",
+                             i == 0 ? "" : ",", wt_segment_kind_name(curve->segments[i].kind));
     if (curve->n_segments == 0)
         snprintf(fit->reason, sizeof fit->reason, "the curve has no segments");
     return WT_OK;
@@ -101,9 +101,8 @@ wt_status wt_indent_force_curve(const wt_contact_table *table, const wt_indent_o
     if (status == WT_OK)
         status = force_of(curve, approach, workspace, &force, err);
     if (status == WT_OK)
-        status =
-            wt_indent_fit_curve(table, options, height, force, time_of(approach, workspace),
-                                approach->n_points, k, workspace, fit, err);
+        status = wt_indent_fit_curve(table, options, height, force, time_of(approach, workspace),
+                                     approach->n_points, k, workspace, fit, err);
     if (status == WT_OK && fit->verdict == WT_CURVE_ACCEPTED) {
         const wt_segment *retract = wt_force_curve_segment(curve, WT_SEGMENT_RETRACT);
         if (retract != NULL && retract < approach)

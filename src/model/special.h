@@ -1,0 +1,8 @@
+/* Inside the library: special functions for the rooms above. */
+#ifndef WT_MODEL_SPECIAL_H
+#define WT_MODEL_SPECIAL_H
+
+/* psi(x) = d ln Gamma/dx for x > 0; NaN elsewhere. */
+double wt_digamma(double x);
+
+#endif
