@@ -271,7 +271,7 @@ static wt_status make_comparison(pair *p, bool rates, const wt_job *common, wt_t
         {"ratio_low", "1", "lower end of its 95 % interval"},
         {"ratio_high", "1", "upper end of its 95 % interval"},
         {"difference", "Pa", "difference of the mean moduli, track minus bulk"},
-        {"welch_t", "1", "Welch's t of ln E"},
+        {"welch_t", "1", "Welch's t of the means"},
         {"welch_df", "1", "its degrees of freedom"},
         {"welch_p", "1", "its two-sided p"},
         {"holm_p", "1", "p after Holm's correction for the number of rates"},
