@@ -43,52 +43,46 @@ static wt_status refused(const reader *r, wt_status status)
     return status;
 }
 
-/* Reads n variable-length strings of an attribute or a data set (is_attribute) into new copies. */
+/* Copies n texts, each `width` bytes of `packed` or up to the first zero, NULL for empty ones. */
+static bool unpack(const char *packed, size_t width, size_t n, char **texts)
+{
+    for (size_t i = 0; i < n; i++) {
+        const char *const text = packed + i * width;
+        const size_t length = strnlen(text, width);
+        if (length > 0) {
+            texts[i] = strndup(text, length);
+            if (texts[i] == NULL)
+                return false;
+        }
+    }
+    return true;
+}
+
+/* Reads n texts of an attribute or a data set (is_attribute) into new copies. */
 static wt_status read_texts(const reader *r, hid_t source, bool is_attribute, const char *name,
                             size_t n, char **texts)
 {
     wt_status status = WT_OK;
-    char **raw = NULL;
-    hsize_t needed = 0;
+    char *packed = NULL;
     const hid_t type = is_attribute ? H5Aget_type(source) : H5Dget_type(source);
-    const hid_t space = is_attribute ? H5Aget_space(source) : H5Dget_space(source);
-    const hid_t memory_type = H5Tcopy(H5T_C_S1);
-    if (type < 0 || space < 0 || memory_type < 0 || H5Tget_class(type) != H5T_STRING ||
-        H5Tis_variable_str(type) <= 0 || H5Tset_size(memory_type, H5T_VARIABLE) < 0 ||
-        H5Tset_cset(memory_type, H5Tget_cset(type)) < 0) {
-        status = corrupt(r, name, "not text of variable length");
+    const size_t width = type >= 0 ? H5Tget_size(type) : 0;
+    if (width == 0 || H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0 ||
+        n > r->file_size / width) {
+        status = corrupt(r, name, "not text of fixed length");
         goto done;
     }
-    /* Many cells may point at one long text. */
-    if (!is_attribute &&
-        (H5Dvlen_get_buf_size(source, memory_type, space, &needed) < 0 || needed > r->file_size)) {
-        status = corrupt(r, name, "text longer than the file");
-        goto done;
-    }
-    raw = calloc(n + 1, sizeof *raw);
-    if (raw == NULL) {
+    packed = malloc(n > 0 ? n * width : 1);
+    if (packed == NULL) {
         status = no_memory(r);
         goto done;
     }
-    if ((is_attribute ? H5Aread(source, memory_type, raw)
-                      : H5Dread(source, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, raw)) < 0) {
+    if ((is_attribute ? H5Aread(source, type, packed)
+                      : H5Dread(source, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, packed)) < 0)
         status = corrupt(r, name, "text cannot be read");
-        goto done;
-    }
-    for (size_t i = 0; i < n; i++) {
-        if (status == WT_OK && raw[i] != NULL && raw[i][0] != '\0') {
-            texts[i] = strdup(raw[i]);
-            if (texts[i] == NULL)
-                status = no_memory(r);
-        }
-        (void)H5free_memory(raw[i]);
-    }
+    else if (!unpack(packed, width, n, texts))
+        status = no_memory(r);
 done:
-    free(raw);
-    if (memory_type >= 0)
-        (void)H5Tclose(memory_type);
-    if (space >= 0)
-        (void)H5Sclose(space);
+    free(packed);
     if (type >= 0)
         (void)H5Tclose(type);
     return status;
@@ -227,9 +221,8 @@ static hid_t open_dataset(const reader *r, hid_t group, const char *name, int ra
         const hssize_t points = H5Sget_simple_extent_npoints(space);
         const hsize_t size = H5Tget_size(type);
         const hsize_t stored = H5Dget_storage_size(dataset);
-        /* Text takes more in the file than its pointers do in memory. */
         good =
-            points >= 0 && size > 0 && stored <= r->file_size && (hsize_t)points <= stored / size;
+            points >= 0 && size > 0 && stored <= r->file_size && stored / size == (hsize_t)points;
         *n = (hsize_t)points;
     }
     if (type >= 0)

@@ -10,7 +10,6 @@
 /* What is used again and again while one file is written. */
 typedef struct writer {
     hid_t file;
-    hid_t string;         /* variable-length UTF-8 */
     hid_t scalar;         /* dataspace of one */
     hid_t group_creation; /* no times, all links and attributes in the header */
     hid_t dataset_creation;
@@ -26,9 +25,39 @@ static bool put_attribute(hid_t object, const char *name, hid_t file_type, hid_t
     return H5Aclose(attribute) >= 0 && good;
 }
 
+/* UTF-8 text of so many bytes, filled up with zeros. HDF5 1.10 fails on damaged text of variable
+ * length with a violation of memory, so the store has none. */
+static hid_t text_type(size_t length)
+{
+    const hid_t type = H5Tcopy(H5T_C_S1);
+    if (type < 0 || H5Tset_size(type, length > 0 ? length : 1) < 0 ||
+        H5Tset_strpad(type, H5T_STR_NULLPAD) < 0 || H5Tset_cset(type, H5T_CSET_UTF8) < 0) {
+        (void)H5Tclose(type);
+        return -1;
+    }
+    return type;
+}
+
 static bool put_text(const writer *w, hid_t object, const char *name, const char *text)
 {
-    return put_attribute(object, name, w->string, w->string, w->scalar, &text);
+    const hid_t type = text_type(strlen(text));
+    const bool good = type >= 0 && put_attribute(object, name, type, type, w->scalar, text);
+    return type >= 0 && H5Tclose(type) >= 0 && good;
+}
+
+/* Texts of one width as an array, new, with that width; NULL when out of memory. */
+static char *pack(const char *const *texts, size_t n, size_t *width)
+{
+    *width = 1;
+    for (size_t i = 0; i < n; i++) {
+        const size_t length = strlen(texts[i]);
+        if (length > *width)
+            *width = length;
+    }
+    char *const packed = calloc(n > 0 ? n : 1, *width);
+    for (size_t i = 0; packed != NULL && i < n; i++)
+        memcpy(packed + i * *width, texts[i], strlen(texts[i]));
+    return packed;
 }
 
 static bool put_number(const writer *w, hid_t object, const char *name, double value)
@@ -37,17 +66,23 @@ static bool put_number(const writer *w, hid_t object, const char *name, double v
 }
 
 /* A list of words; none is written for an empty one. */
-static bool put_words(const writer *w, hid_t object, const char *name, const char *const *words,
-                      size_t n)
+static bool put_words(hid_t object, const char *name, const char *const *words, size_t n)
 {
     const hsize_t size = n;
+    size_t width = 0;
     if (n == 0)
         return true;
+    char *const packed = pack(words, n, &width);
+    const hid_t type = text_type(width);
     const hid_t space = H5Screate_simple(1, &size, NULL);
-    if (space < 0)
-        return false;
-    const bool good = put_attribute(object, name, w->string, w->string, space, words);
-    return H5Sclose(space) >= 0 && good;
+    const bool good = packed != NULL && type >= 0 && space >= 0 &&
+                      put_attribute(object, name, type, type, space, packed);
+    free(packed);
+    if (type >= 0)
+        (void)H5Tclose(type);
+    if (space >= 0)
+        (void)H5Sclose(space);
+    return good;
 }
 
 static bool put_dataset(const writer *w, hid_t group, const char *name, hid_t file_type,
@@ -112,7 +147,7 @@ static bool put_keys(const writer *w, hid_t group, const wt_table *table)
         for (size_t k = 0; k < WT_KEY_PARTS; k++)
             free(names[k]);
     }
-    good = good && put_words(w, group, STORE_KEYS_ATTRIBUTE, words, table->n_keys);
+    good = good && put_words(group, STORE_KEYS_ATTRIBUTE, words, table->n_keys);
     free(words);
     return good;
 }
@@ -125,7 +160,7 @@ static bool put_columns(const writer *w, hid_t group, const wt_table *table)
     bool good = words != NULL && blocks != NULL;
     for (size_t i = 0; good && i < table->n_columns; i++)
         words[i] = table->columns[i].name;
-    good = good && put_words(w, group, STORE_COLUMNS_ATTRIBUTE, words, table->n_columns);
+    good = good && put_words(group, STORE_COLUMNS_ATTRIBUTE, words, table->n_columns);
     for (size_t i = 0; good && i < table->n_columns; i++) {
         const table_column *const column = &table->columns[i];
         if (column->kind == WT_COLUMN_NUMBER) {
@@ -135,8 +170,15 @@ static bool put_columns(const writer *w, hid_t group, const wt_table *table)
         }
         for (size_t row = 0; row < table->n_rows; row++)
             words[row] = wt_table_text(table, row, i);
-        good = put_dataset(w, group, column->name, w->string, w->string, words, table->n_rows, "",
+        size_t width = 0;
+        char *const packed = pack(words, table->n_rows, &width);
+        const hid_t type = text_type(width);
+        good = packed != NULL && type >= 0 &&
+               put_dataset(w, group, column->name, type, type, packed, table->n_rows, "",
                            column->long_name);
+        free(packed);
+        if (type >= 0)
+            (void)H5Tclose(type);
     }
     for (size_t row = 0; good && row < table->n_rows; row++)
         blocks[row] = wt_table_block(table, row);
@@ -160,18 +202,15 @@ static bool put_table(const writer *w, const wt_table *table)
 /* One string of the length of the file, so that nothing in it needs to be UTF-8. */
 static bool put_case(const writer *w, const char *text, size_t length)
 {
-    const hid_t type = H5Tcopy(H5T_C_S1);
-    hid_t dataset = -1;
-    if (H5Tset_size(type, length) >= 0 && H5Tset_strpad(type, H5T_STR_NULLPAD) >= 0 &&
-        H5Tset_cset(type, H5T_CSET_UTF8) >= 0)
-        dataset = H5Dcreate2(w->file, STORE_CASE_DATASET, type, w->scalar, H5P_DEFAULT,
-                             w->dataset_creation, H5P_DEFAULT);
+    const hid_t type = text_type(length);
+    const hid_t dataset = H5Dcreate2(w->file, STORE_CASE_DATASET, type, w->scalar, H5P_DEFAULT,
+                                     w->dataset_creation, H5P_DEFAULT);
     bool good = dataset >= 0 && H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text) >= 0 &&
                 put_text(w, dataset, STORE_UNITS_ATTRIBUTE, "") &&
                 put_text(w, dataset, STORE_LONG_NAME_ATTRIBUTE, "the case file, whole");
     if (dataset >= 0)
         good = H5Dclose(dataset) >= 0 && good;
-    return H5Tclose(type) >= 0 && good;
+    return type >= 0 && H5Tclose(type) >= 0 && good;
 }
 
 static bool put_origin(const writer *w, const wt_provenance *provenance, const wt_table *inputs)
@@ -201,7 +240,7 @@ static bool put_result(const writer *w, const wt_result *result, const wt_table 
                 put_text(w, w->file, STORE_DIGEST_ATTRIBUTE, digest);
     for (size_t i = 0; good && i < n; i++)
         names[i] = wt_table_name(wt_result_table(result, i));
-    good = good && put_words(w, w->file, STORE_TABLES_ATTRIBUTE, names, n);
+    good = good && put_words(w->file, STORE_TABLES_ATTRIBUTE, names, n);
     if (inputs != NULL)
         good = good && put_origin(w, wt_result_provenance_const(result), inputs);
     for (size_t i = 0; good && i < n; i++)
@@ -229,20 +268,19 @@ static bool set_group_creation(hid_t list)
 static bool write_file(const char *path, const wt_result *result, const wt_table *inputs,
                        const char *digest)
 {
+    enum { INCREMENT = 1 << 20 };
     bool good = false;
     writer w = {.file = -1,
-                .string = H5Tcopy(H5T_C_S1),
                 .scalar = H5Screate(H5S_SCALAR),
                 .group_creation = H5Pcreate(H5P_GROUP_CREATE),
                 .dataset_creation = H5Pcreate(H5P_DATASET_CREATE)};
     const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
     const hid_t creation = H5Pcreate(H5P_FILE_CREATE);
-    /* Nobody else knows the temporary name, and some file systems cannot lock. The layout of HDF5
-     * 1.8 has checksums over its own structures and is read everywhere. */
-    if (w.string >= 0 && w.scalar >= 0 && H5Tset_size(w.string, H5T_VARIABLE) >= 0 &&
-        H5Tset_cset(w.string, H5T_CSET_UTF8) >= 0 && set_group_creation(w.group_creation) &&
-        set_creation(w.dataset_creation) && set_group_creation(creation) &&
-        H5Pset_file_locking(access, false, true) >= 0 &&
+    /* Made in memory and written at once when it is closed: HDF5 does not survive a disk that fills
+     * up before. The layout of HDF5 1.8 has checksums over its own structures and is read
+     * everywhere. */
+    if (w.scalar >= 0 && set_group_creation(w.group_creation) && set_creation(w.dataset_creation) &&
+        set_group_creation(creation) && H5Pset_fapl_core(access, INCREMENT, true) >= 0 &&
         H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18) >= 0 &&
         H5Pset_fclose_degree(access, H5F_CLOSE_STRONG) >= 0)
         w.file = H5Fcreate(path, H5F_ACC_TRUNC, creation, access);
@@ -255,7 +293,6 @@ static bool write_file(const char *path, const wt_result *result, const wt_table
     (void)H5Pclose(w.group_creation);
     (void)H5Pclose(w.dataset_creation);
     (void)H5Sclose(w.scalar);
-    (void)H5Tclose(w.string);
     return good;
 }
 
