@@ -1,0 +1,272 @@
+/* Patterns, output files, digests, provenance. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "near.h"
+#include "weartrack/base.h"
+
+#include <dirent.h>
+#include <locale.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static char folder[] = "/tmp/weartrack-files-XXXXXX";
+
+static void path_of(const char *name, char path[256])
+{
+    (void)snprintf(path, 256, "%s/%s", folder, name);
+}
+
+static void write_file(const char *name, const char *text)
+{
+    char path[256];
+    path_of(name, path);
+    FILE *const out = fopen(path, "w");
+    assert_non_null(out);
+    (void)fputs(text, out);
+    assert_int_equal(fclose(out), 0);
+}
+
+static void assert_content(const char *name, const char *expected)
+{
+    char path[256], text[256] = "";
+    path_of(name, path);
+    FILE *const in = fopen(path, "r");
+    assert_non_null(in);
+    const size_t n = fread(text, 1, sizeof text - 1, in);
+    (void)fclose(in);
+    text[n] = '\0';
+    assert_string_equal(text, expected);
+}
+
+/* Names in the folder, hidden ones too. */
+static size_t count_files(void)
+{
+    size_t n = 0;
+    DIR *const listing = opendir(folder);
+    assert_non_null(listing);
+    for (const struct dirent *item; (item = readdir(listing)) != NULL;) {
+        if (strcmp(item->d_name, ".") != 0 && strcmp(item->d_name, "..") != 0)
+            n++;
+    }
+    (void)closedir(listing);
+    return n;
+}
+
+static void check_glob(const char *base, const char *pattern, const char *const *expected)
+{
+    char **paths = NULL;
+    size_t n = 0, i = 0;
+    assert_int_equal(wt_glob(base, pattern, &paths, &n, NULL), WT_OK);
+    for (; expected[i] != NULL; i++) {
+        char path[256];
+        path_of(expected[i], path);
+        assert_true(i < n);
+        assert_string_equal(paths[i], path);
+    }
+    assert_int_equal(n, i);
+    wt_strings_free(paths, n);
+}
+
+static void globs(void **state)
+{
+    (void)state;
+    char sub[256], inner[256], odd[256];
+    path_of("sub[1]", sub);
+    assert_int_equal(mkdir(sub, 0700), 0);
+    write_file("b.txt", "");
+    write_file("a.txt", "");
+    write_file("B.txt", "");
+    write_file("curve[1].dat", "");
+    write_file("sub[1]/2.jpk", "");
+    write_file("sub[1]/10.jpk", "");
+    write_file("sub[1]/.hidden", "");
+    path_of("sub[1]/deeper", inner);
+    assert_int_equal(mkdir(inner, 0700), 0);
+    /* Bytewise, whatever the locale would say. */
+    (void)setlocale(LC_ALL, "en_GB.UTF-8");
+    check_glob(folder, "*.txt", (const char *const[]){"B.txt", "a.txt", "b.txt", NULL});
+    (void)setlocale(LC_ALL, "C");
+    check_glob(folder, "a.txt", (const char *const[]){"a.txt", NULL});
+    check_glob(folder, "curve[1].dat", (const char *const[]){"curve[1].dat", NULL});
+    check_glob(folder, "sub*", (const char *const[]){"sub[1]/10.jpk", "sub[1]/2.jpk", NULL});
+    check_glob(sub, "*.jpk", (const char *const[]){"sub[1]/10.jpk", "sub[1]/2.jpk", NULL});
+    check_glob(NULL, sub, (const char *const[]){"sub[1]/10.jpk", "sub[1]/2.jpk", NULL});
+    wt_error err = WT_ERROR_INIT;
+    char **paths = NULL;
+    size_t n = 7;
+    assert_int_equal(wt_glob(folder, "*.none", &paths, &n, &err), WT_E_NOT_FOUND);
+    path_of("*.none", odd);
+    assert_string_equal(err.file, odd);
+    assert_true(paths == NULL && n == 7);
+    assert_int_equal(wt_glob(NULL, inner, &paths, &n, &err), WT_E_NOT_FOUND); /* an empty folder */
+    static const char *const names[] = {"b.txt",         "a.txt",        "B.txt",
+                                        "curve[1].dat",  "sub[1]/2.jpk", "sub[1]/10.jpk",
+                                        "sub[1]/.hidden"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        path_of(names[i], odd);
+        assert_int_equal(unlink(odd), 0);
+    }
+    assert_int_equal(rmdir(inner), 0);
+    assert_int_equal(rmdir(sub), 0);
+}
+
+static void complete_or_not_at_all(void **state)
+{
+    (void)state;
+    char path[256];
+    struct stat info;
+    wt_outfile *file = NULL;
+    path_of("out.txt", path);
+    const mode_t before = umask(027);
+    assert_int_equal(wt_outfile_open(path, &file, NULL), WT_OK);
+    (void)umask(before);
+    (void)fputs("one", wt_outfile_stream(file));
+    assert_int_not_equal(access(path, F_OK), 0); /* not yet there */
+    assert_int_equal(access(wt_outfile_path(file), F_OK), 0);
+    assert_int_equal(wt_outfile_commit(file, NULL), WT_OK);
+    assert_content("out.txt", "one");
+    assert_int_equal(stat(path, &info), 0);
+    assert_int_equal(info.st_mode & 0777, 0640);
+    assert_int_equal(count_files(), 1);
+
+    assert_int_equal(wt_outfile_open(path, &file, NULL), WT_OK);
+    (void)fputs("two", wt_outfile_stream(file));
+    wt_outfile_discard(file);
+    assert_content("out.txt", "one");
+    wt_outfile_discard(NULL);
+
+    /* Through a link the file behind it is replaced. */
+    char link_path[256];
+    path_of("link.txt", link_path);
+    assert_int_equal(symlink("out.txt", link_path), 0);
+    assert_int_equal(wt_outfile_open(link_path, &file, NULL), WT_OK);
+    (void)fputs("three", wt_outfile_stream(file));
+    assert_int_equal(wt_outfile_commit(file, NULL), WT_OK);
+    assert_content("out.txt", "three");
+    assert_int_equal(lstat(link_path, &info), 0);
+    assert_true(S_ISLNK(info.st_mode));
+    assert_int_equal(count_files(), 2);
+    assert_int_equal(unlink(link_path), 0);
+    assert_int_equal(unlink(path), 0);
+}
+
+static void outfile_failures(void **state)
+{
+    (void)state;
+    char path[256];
+    wt_error err = WT_ERROR_INIT;
+    wt_outfile *file = NULL;
+    path_of("none/out.txt", path);
+    assert_int_equal(wt_outfile_open(path, &file, &err), WT_E_IO);
+    assert_string_equal(err.file, path);
+    assert_int_equal(wt_outfile_open(folder, &file, &err), WT_E_IO);
+    assert_null(file);
+
+    /* A full disk. */
+    struct rlimit before, small;
+    assert_int_equal(getrlimit(RLIMIT_FSIZE, &before), 0);
+    small = before;
+    small.rlim_cur = 100;
+    (void)signal(SIGXFSZ, SIG_IGN);
+    path_of("full.txt", path);
+    assert_int_equal(wt_outfile_open(path, &file, &err), WT_OK);
+    for (int i = 0; i < 1000; i++)
+        (void)fputs("0123456789", wt_outfile_stream(file));
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &small), 0);
+    const wt_status status = wt_outfile_commit(file, &err);
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &before), 0);
+    assert_int_equal(status, WT_E_IO);
+    assert_int_equal(count_files(), 0);
+
+    /* The target became a folder meanwhile. */
+    path_of("taken", path);
+    assert_int_equal(wt_outfile_open(path, &file, &err), WT_OK);
+    assert_int_equal(mkdir(path, 0700), 0);
+    assert_int_equal(wt_outfile_commit(file, &err), WT_E_IO);
+    assert_string_equal(err.file, path);
+    assert_int_equal(count_files(), 1);
+    assert_int_equal(rmdir(path), 0);
+
+    /* A device is written in place and stays one. */
+    struct stat info;
+    assert_int_equal(wt_outfile_open("/dev/null", &file, &err), WT_OK);
+    (void)fputs("x", wt_outfile_stream(file));
+    assert_int_equal(wt_outfile_commit(file, &err), WT_OK);
+    assert_int_equal(stat("/dev/null", &info), 0);
+    assert_true(S_ISCHR(info.st_mode));
+    if (access("/dev/full", W_OK) == 0) {
+        assert_int_equal(wt_outfile_open("/dev/full", &file, &err), WT_OK);
+        (void)fputs("x", wt_outfile_stream(file));
+        assert_int_equal(wt_outfile_commit(file, &err), WT_E_IO);
+    }
+}
+
+/* Known answers of FIPS 180-2. */
+static void digests(void **state)
+{
+    (void)state;
+    char hex[65];
+    wt_digest("abc", 3, hex);
+    assert_string_equal(hex, "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+    wt_digest("", 0, hex);
+    assert_string_equal(hex, "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+    char *const million = malloc(1000000);
+    assert_non_null(million);
+    memset(million, 'a', 1000000);
+    wt_digest(million, 1000000, hex);
+    assert_string_equal(hex, "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
+    free(million);
+}
+
+static void provenance(void **state)
+{
+    (void)state;
+    wt_provenance *const p = wt_provenance_new();
+    assert_non_null(p);
+    assert_string_equal(wt_provenance_command(p), "");
+    char *const argv[] = {"/usr/bin/weartrack", "indent", "--tip", "sphere:radius=2um",
+                          "my file.txt",        "it's",   "",      "a*b"};
+    assert_int_equal(wt_provenance_set_command(p, 8, argv), WT_OK);
+    assert_string_equal(
+        wt_provenance_command(p),
+        "weartrack indent --tip sphere:radius=2um 'my file.txt' 'it'\\''s' '' 'a*b'");
+    char name[] = "a.txt";
+    for (int i = 0; i < 40; i++) {
+        name[0] = (char)('a' + i % 26);
+        wt_provenance_input input = {name, "bulk", NULL, (uint64_t)i, "ff"};
+        assert_int_equal(wt_provenance_add_input(p, &input), WT_OK);
+    }
+    assert_int_equal(wt_provenance_n_inputs(p), 40);
+    assert_string_equal(wt_provenance_get_input(p, 2)->path, "c.txt");
+    assert_string_equal(wt_provenance_get_input(p, 2)->format, "");
+    assert_int_equal(wt_provenance_get_input(p, 39)->bytes, 39);
+    wt_provenance_free(p);
+    wt_provenance_free(NULL);
+}
+
+static int make_folder(void **state)
+{
+    (void)state;
+    return mkdtemp(folder) != NULL ? 0 : -1;
+}
+
+static int remove_folder(void **state)
+{
+    (void)state;
+    return rmdir(folder); /* fails if something was left */
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(globs),
+        cmocka_unit_test(complete_or_not_at_all),
+        cmocka_unit_test(outfile_failures),
+        cmocka_unit_test(digests),
+        cmocka_unit_test(provenance),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}

@@ -1,0 +1,210 @@
+/* Force curves, sweeps, Prony series, tables. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "near.h"
+#include "weartrack/data.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static void force_curve_memory(void **state)
+{
+    (void)state;
+    static const struct {
+        size_t segments, points, channels;
+    } rounds[] = {{2, 100, 3}, {5, 10, 1}, {1, 5000, 4}, {0, 0, 0}, {3, 0, 2}, {2, 7, 0}};
+    wt_force_curve curve = {0};
+    for (size_t i = 0; i < sizeof rounds / sizeof *rounds; i++) {
+        wt_force_curve_reset(&curve);
+        assert_int_equal(curve.n_segments, 0);
+        assert_near(curve.x, (double)NAN, 0);
+        assert_int_equal(curve.grid_x, -1);
+        for (size_t s = 0; s < rounds[i].segments; s++) {
+            wt_segment *const segment = wt_force_curve_add_segment(
+                &curve, s == 1 ? WT_SEGMENT_RETRACT : WT_SEGMENT_APPROACH, rounds[i].points,
+                rounds[i].channels);
+            assert_non_null(segment);
+            assert_int_equal(segment->index, s);
+            assert_int_equal(segment->n_points, rounds[i].points);
+            assert_int_equal(segment->n_channels, rounds[i].channels);
+            assert_near(segment->duration, (double)NAN, 0);
+            for (size_t c = 0; c < rounds[i].channels; c++) {
+                wt_channel *const channel = &segment->channels[c];
+                assert_int_equal(channel->quantity, WT_Q_NONE);
+                assert_string_equal(channel->name, "");
+                channel->quantity = c == 0 ? WT_Q_FORCE : WT_Q_HEIGHT;
+                (void)snprintf(channel->name, sizeof channel->name, "channel %zu", c);
+                for (size_t k = 0; k < rounds[i].points; k++)
+                    channel->values[k] = (double)k;
+            }
+        }
+        assert_int_equal(curve.n_segments, rounds[i].segments);
+    }
+    const wt_segment *const retract = wt_force_curve_segment(&curve, WT_SEGMENT_RETRACT);
+    assert_ptr_equal(retract, &curve.segments[1]);
+    assert_null(wt_force_curve_segment(&curve, WT_SEGMENT_DWELL));
+    wt_force_curve_reset(&curve);
+    wt_segment *const one = wt_force_curve_add_segment(&curve, WT_SEGMENT_DWELL, 3, 2);
+    one->channels[1].quantity = WT_Q_TIME;
+    assert_ptr_equal(wt_segment_channel(one, WT_Q_TIME), &one->channels[1]);
+    assert_null(wt_segment_channel(one, WT_Q_FORCE));
+    /* Sizes that a damaged file may claim. */
+    assert_null(wt_force_curve_add_segment(&curve, WT_SEGMENT_APPROACH, SIZE_MAX / 4, 1));
+    assert_null(wt_force_curve_add_segment(&curve, WT_SEGMENT_APPROACH, 1, SIZE_MAX / 4));
+    assert_int_equal(curve.n_segments, 1);
+    wt_force_curve_clear(&curve);
+    assert_null(curve.segments);
+    wt_force_curve_clear(&curve);
+    wt_force_curve_clear(NULL);
+    assert_string_equal(wt_segment_kind_name(WT_SEGMENT_MODULATION), "modulation");
+}
+
+static void add_isotherm(wt_sweep *sweep, double temperature, const char *source, bool strain)
+{
+    static const double frequency[] = {100.0, 1.0, 31.6, 10.0, 3.16, 0.1, 0.316};
+    const size_t n = sizeof frequency / sizeof *frequency;
+    wt_isotherm *const isotherm = wt_sweep_add(sweep, n, strain);
+    assert_non_null(isotherm);
+    assert_int_equal(isotherm->strain != NULL, strain);
+    isotherm->temperature = temperature;
+    (void)snprintf(isotherm->source, sizeof isotherm->source, "%s", source);
+    for (size_t i = 0; i < n; i++) {
+        isotherm->angular_frequency[i] = frequency[i];
+        isotherm->storage_modulus[i] = 2.0 * frequency[i];
+        isotherm->loss_modulus[i] = 3.0 * frequency[i];
+        if (strain)
+            isotherm->strain[i] = 4.0 * frequency[i];
+    }
+}
+
+static void sweep_order(void **state)
+{
+    (void)state;
+    wt_sweep sweep = {0};
+    add_isotherm(&sweep, 300.0, "a.txt step 10", false);
+    add_isotherm(&sweep, (double)NAN, "a.txt step 3", false);
+    add_isotherm(&sweep, 300.0, "a.txt step 9", true);
+    add_isotherm(&sweep, 250.0, "b.txt", false);
+    wt_sweep_sort(&sweep);
+    static const char *const sources[] = {"b.txt", "a.txt step 9", "a.txt step 10", "a.txt step 3"};
+    assert_int_equal(sweep.n_isotherms, 4);
+    for (size_t i = 0; i < 4; i++) {
+        const wt_isotherm *const t = &sweep.isotherms[i];
+        assert_string_equal(t->source, sources[i]);
+        for (size_t k = 0; k < t->n; k++) {
+            assert_true(k == 0 || t->angular_frequency[k] > t->angular_frequency[k - 1]);
+            assert_near(t->storage_modulus[k], 2.0 * t->angular_frequency[k], 0);
+            assert_near(t->loss_modulus[k], 3.0 * t->angular_frequency[k], 0);
+            if (t->strain != NULL)
+                assert_near(t->strain[k], 4.0 * t->angular_frequency[k], 0);
+        }
+    }
+    assert_null(wt_sweep_add(&sweep, SIZE_MAX / 4, false));
+    assert_int_equal(sweep.n_isotherms, 4);
+    wt_sweep_clear(&sweep);
+    wt_sweep_clear(NULL);
+    wt_sweep_sort(&sweep);
+}
+
+static void small_types(void **state)
+{
+    (void)state;
+    wt_prony prony = {0};
+    assert_int_equal(wt_prony_alloc(&prony, 3, NULL), WT_OK);
+    assert_int_equal(prony.n, 3);
+    assert_near(prony.reference_temperature, (double)NAN, 0);
+    prony.modulus[2] = 2.385e6;
+    wt_prony_clear(&prony);
+    assert_null(prony.modulus);
+    wt_prony_clear(NULL);
+    wt_error err = WT_ERROR_INIT;
+    assert_int_equal(wt_prony_alloc(&prony, SIZE_MAX / 2, &err), WT_E_MEMORY);
+    assert_null(prony.modulus);
+    wt_image_clear(NULL);
+    wt_power_spectrum_clear(NULL);
+}
+
+static void table_columns(void **state)
+{
+    (void)state;
+    wt_error err = WT_ERROR_INIT;
+    wt_table *const t = wt_table_new("friction", "Friction");
+    assert_int_equal(wt_table_add_row(t, &err), WT_E_ARG); /* no columns */
+    static const char *const bad_names[] = {"", "a b", "a[m]", "block", "\xC2\xB5"};
+    for (size_t i = 0; i < sizeof bad_names / sizeof *bad_names; i++)
+        assert_int_equal(wt_table_add_column(t, bad_names[i], "m", "", &err), WT_E_ARG);
+    static const char *const bad_units[] = {"", "text", "m]", "m\tm", "m\xFF"};
+    for (size_t i = 0; i < sizeof bad_units / sizeof *bad_units; i++)
+        assert_int_equal(wt_table_add_column(t, "x", bad_units[i], "", &err), WT_E_ARG);
+    assert_int_equal(wt_table_add_column(t, "x", "m", "", &err), WT_OK);
+    assert_int_equal(wt_table_add_column(t, "x", "m", "", &err), WT_E_ARG);
+    assert_int_equal(wt_table_add_text_column(t, "note", "", &err), WT_OK);
+    assert_int_equal(wt_table_find(t, "note"), 1);
+    assert_int_equal(wt_table_find(t, "none"), -1);
+    for (int i = 0; i < 100; i++) {
+        if (i % 10 == 0) {
+            /* An empty block does not exist. */
+            assert_int_equal(wt_table_new_block(t, &err), WT_OK);
+            assert_int_equal(wt_table_new_block(t, &err), WT_OK);
+        }
+        assert_int_equal(wt_table_add_row(t, &err), WT_OK);
+        assert_near(wt_table_number(t, (size_t)i, 0), (double)NAN, 0);
+        assert_string_equal(wt_table_text(t, (size_t)i, 1), "");
+        wt_table_put(t, 0, i);
+        assert_int_equal(wt_table_put_text(t, 1, "first", &err), WT_OK);
+        assert_int_equal(wt_table_put_text(t, 1, i % 2 == 0 ? "second" : NULL, &err), WT_OK);
+    }
+    assert_int_equal(wt_table_add_column(t, "late", "m", "", &err), WT_E_ARG);
+    assert_int_equal(wt_table_n_rows(t), 100);
+    for (size_t i = 0; i < 100; i++) {
+        assert_int_equal(wt_table_block(t, i), i / 10);
+        assert_near(wt_table_numbers(t, 0)[i], (double)i, 0);
+        assert_string_equal(wt_table_text(t, i, 1), i % 2 == 0 ? "second" : "");
+    }
+    wt_table_free(t);
+    wt_table_free(NULL);
+}
+
+static void table_keys(void **state)
+{
+    (void)state;
+    wt_error err = WT_ERROR_INIT;
+    wt_table *const t = wt_table_new("friction", "Friction");
+    assert_null(wt_table_key(t, "tip"));
+    assert_int_equal(wt_table_set_key(t, "tip", "sphere", &err), WT_OK);
+    assert_int_equal(wt_table_set_key(t, "tip", "cone", &err), WT_OK);
+    assert_int_equal(wt_table_n_keys(t), 1);
+    assert_string_equal(wt_table_key(t, "tip"), "cone");
+    static const char *const bad[] = {"", "a b", "a:b", "title", "column", "key_order", "table"};
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
+        assert_int_equal(wt_table_set_key(t, bad[i], "x", &err), WT_E_ARG);
+    wt_estimate e = {2.385, 0.1, (double)NAN, NULL}, found = {0};
+    assert_int_equal(wt_table_set_estimate(t, "ratio", e, &err), WT_OK);
+    assert_true(wt_table_estimate(t, "ratio", &found));
+    assert_near(found.value, 2.385, 0);
+    assert_string_equal(found.unit, "1");
+    assert_string_equal(wt_table_key(t, "ratio"),
+                        "2.385 standard_error=0.1 numerical_error=nan unit=1");
+    /* Names that the parts of an estimate need in a store. */
+    assert_int_equal(wt_table_set_key(t, "ratio_units", "x", &err), WT_E_ARG);
+    assert_int_equal(wt_table_set_key(t, "other_units", "x", &err), WT_OK);
+    assert_int_equal(wt_table_set_estimate(t, "other", e, &err), WT_E_ARG);
+    assert_null(wt_table_key(t, "other"));
+    /* The same estimate however it is spelled. */
+    assert_int_equal(
+        wt_table_set_key(t, "again", "2.50 standard_error=1e0 numerical_error=0 unit=N/m", &err),
+        WT_OK);
+    assert_string_equal(wt_table_key(t, "again"),
+                        "2.5 standard_error=1 numerical_error=0 unit=N/m");
+    assert_int_equal(wt_table_set_key(t, "ratio", "none", &err), WT_OK);
+    assert_false(wt_table_estimate(t, "ratio", &found));
+    wt_table_free(t);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(force_curve_memory), cmocka_unit_test(sweep_order),
+        cmocka_unit_test(small_types),        cmocka_unit_test(table_columns),
+        cmocka_unit_test(table_keys),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
