@@ -169,19 +169,24 @@ typedef enum wt_vertical_shift {
 } wt_vertical_shift;
 
 typedef struct wt_shift_options {
-    double reference_temperature; /* [K]; need not be a measured isotherm */
+    double reference_temperature; /* [K]; need not be a measured isotherm; NaN (default): the
+                                     isotherm in the middle */
     wt_vertical_shift vertical;   /* default FREE: E' and E'' together make it identifiable */
     double expansion;             /* volumetric thermal expansion for PHYSICAL [1/K], default 0 */
-    double floor; /* model error of a shift for the WLF fit [decade], default 0.02 */
+    double floor; /* model error of a shift for the WLF fit [decade], > 0, default 0.02 */
 } wt_shift_options;
 WT_API wt_shift_options wt_shift_defaults(void);
 
-/* One isotherm's shift: x_r = log10 w + log_a, y_r = log10 M + log_b. */
+/* One isotherm's shift: x_r = log10 w + log_a, y_r = log10 M + log_b, b multiplies what was
+ * measured. Standard errors are those of the joint fit with the master curve projected out, raised
+ * for residuals that go together along an isotherm; failing superposition is not in them. */
 typedef struct wt_shift {
     double temperature;       /* [K] */
     wt_estimate log_a, log_b; /* decades; 0 with error 0 at the reference isotherm */
     double correlation;       /* of log_a and log_b */
-    bool determined;          /* false: no overlap or no slope decides; the value is NaN */
+    bool determined; /* false: no overlap, no slope that stands out of the scatter, an error
+                        above 0.2 decade, or tied to log_b so that 0.02 decade of it is
+                        more than 0.2 of log_a; log_a and log_b are then NaN */
     double overlap_storage, overlap_loss; /* shared ordinate range with the neighbour [decade] */
     double log_b_physical;                /* what rho T would give */
     char note[128];                       /* "" or what is odd */
@@ -193,12 +198,13 @@ typedef struct wt_wlf_fit {
     double b, b_error;                      /* c1 c2 [K] */
     double pole, pole_error;                /* Tref - c2 [K] */
     double slope, slope_error;              /* d log10 aT / dT at Tref, -c1/c2 [decade/K] */
-    double offset, offset_error;            /* of the reference isotherm [decade] */
+    double offset, offset_error;            /* of the reference isotherm [decade], free */
     double rms;                             /* weighted rms residual [decade] */
-    bool straight; /* C2 is not determined: only the slope c1/c2 means anything */
+    bool straight; /* C2 is not determined (above 1000 K, or its error above itself): only the
+                      slope means anything; c1 and c2 draw the line, their errors are NaN */
     double activation_energy,
-        activation_energy_error; /* Arrhenius fit of the same shifts [J/mol] */
-    double aicc_wlf, aicc_arrhenius;
+        activation_energy_error;     /* Arrhenius fit of the same shifts [J/mol] */
+    double aicc_wlf, aicc_arrhenius; /* the smaller one describes better; NaN below 6 shifts */
     size_t n;
 } wt_wlf_fit;
 
@@ -209,25 +215,39 @@ typedef struct wt_master_curve {
     wt_vertical_shift vertical;
     size_t n_shifts;
     wt_shift *shifts;   /* [n_shifts], rising temperature */
-    double *covariance; /* [n_shifts * n_shifts] of log_a */
+    double *covariance; /* [n_shifts * n_shifts] of log_a; NaN where not determined */
     size_t n;
     double *log_frequency;        /* [n] log10 of the reduced angular frequency [rad/s], rising */
     double *log_storage;          /* [n] log10 of E' or G' [Pa], vertical shift applied */
     double *log_loss;             /* [n] */
-    size_t *isotherm;             /* [n] which isotherm */
-    double rms_storage, rms_loss; /* overlap residual [decade] */
-    double kramers_kronig;        /* rms relative misfit of E'' predicted from E' alone; NaN */
-    bool superposition_failed;    /* the shifts of E' and E'' disagree beyond their errors */
+    size_t *isotherm;             /* [n] which of `shifts` */
+    double rms_storage, rms_loss; /* residual about one smooth curve [decade] */
+    double kramers_kronig;        /* rms relative misfit of E'' predicted from E' alone, where tan
+                                     delta > 0.1 and half a decade inside the ends; NaN if nowhere */
+    bool superposition_failed;    /* E' alone and E'' alone ask for shifts 2.5 standard errors apart
+                                     (rms) and somewhere more than 0.2 decade */
     char note[256];
 } wt_master_curve;
 WT_API void wt_master_curve_clear(wt_master_curve *master);
 
-/* Shifts all isotherms of a sweep onto the reference. Points with a modulus <= 0 are an error
- * (WT_E_RANGE) naming the isotherm unless they can be left out with a warning in the log. Isotherms
- * that overlap nothing are not clamped: undetermined, with a note; WT_E_NO_OVERLAP if none does. */
+/* Shifts all isotherms of a sweep onto the reference. Neighbours are matched pairwise in E' and E''
+ * and both directions, outwards from the reference; then all together by least squares with one
+ * penalised spline for log E' and one for log E'' projected out (single far points lose weight).
+ * Isotherms and points may come in any order. A reference temperature between isotherms gets its
+ * shift from the WLF law plus the neighbours' residuals, one outside from the law alone with its
+ * error (WT_E_RANGE above 0.2 decade). options NULL = wt_shift_defaults(); log may be NULL.
+ *
+ * Points with a modulus <= 0 are left out with a warning in the log, and are an error (WT_E_RANGE)
+ * naming the isotherm if fewer than four others remain. Isotherms that overlap nothing or have no
+ * slope are not clamped: undetermined, with a note, not in the master curve. WT_E_NO_OVERLAP if no
+ * isotherm can be shifted, WT_E_MISSING for fewer than two isotherms, WT_E_RANGE for temperatures
+ * that are not kelvin. master: cleared by the caller with wt_master_curve_clear. */
 WT_API wt_status wt_shift_fit(const wt_sweep *sweep, const wt_shift_options *options,
                               wt_parselog *log, wt_master_curve *master,
                               wt_error *err) WT_NODISCARD;
+/* Generalised least squares of the determined shifts (at least four, else WT_E_MISSING) with their
+ * full covariance plus floor^2, c1 > 0 and the pole below all isotherms; errors grow with the
+ * scatter about the law. WT_E_RANGE if the shifts do not fall with temperature. */
 WT_API wt_status wt_wlf_fit_shifts(const wt_master_curve *master, const wt_shift_options *options,
                                    wt_wlf_fit *fit, wt_error *err) WT_NODISCARD;
 
@@ -236,7 +256,8 @@ WT_API wt_status wt_wlf_fit_shifts(const wt_master_curve *master, const wt_shift
 
 typedef struct wt_prony_options {
     double terms_per_decade; /* default 1 */
-    double smoothing;        /* Tikhonov lambda; 0 = none (default) */
+    double smoothing;        /* Tikhonov lambda on second differences of the terms, each measured by
+                                what it gives to the data; 0 = none (default), 0.01 to 1 useful */
     bool liquid;             /* equilibrium modulus forced to 0 */
 } wt_prony_options;
 WT_API wt_prony_options wt_prony_defaults(void);
@@ -246,12 +267,18 @@ typedef struct wt_prony_fit {
     double rms_storage, rms_loss; /* relative */
 } wt_prony_fit;
 
-/* Relative-weight non-negative least squares (Lawson-Hanson) of E' and E'' together. */
+/* Relative-weight non-negative least squares (Lawson-Hanson) of E' and E'' together; relaxation
+ * times evenly in log tau over the measured range and half a decade beyond. With one term per
+ * decade a few percent of the misfit are ripple. options NULL = wt_prony_defaults(). WT_E_MISSING
+ * with fewer values than terms. */
 WT_API wt_status wt_prony_fit_master(const wt_master_curve *master, const wt_prony_options *options,
                                      wt_prony_fit *fit, wt_error *err) WT_NODISCARD;
-/* Replicate `index` of the same fit: the shifts drawn from their covariance and the residuals of
- * whole isotherms resampled (block bootstrap); the same seed and index give the same series. For
- * carrying the uncertainty of the material on to friction. */
+/* Replicate `index` of the same fit, for carrying the uncertainty of the material on to friction:
+ * shifts drawn from their covariance (log_b given log_a from its own error and correlation),
+ * residuals of whole isotherms exchanged with random sign. The same seed and index give the same
+ * series, whatever ran before; relaxation times are those of the fit. Covers the statistical error
+ * of shifts, noise and the misfit of the series; not failing superposition, wrong temperatures, or
+ * strain amplitude. Costs two fits, below a millisecond for 300 points and 10 terms. */
 WT_API wt_status wt_prony_replicate(const wt_master_curve *master, const wt_prony_options *options,
                                     uint64_t seed, size_t index, wt_prony *prony,
                                     wt_error *err) WT_NODISCARD;

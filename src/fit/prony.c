@@ -10,6 +10,8 @@
 
 /* How far the relaxation times reach beyond the measured range, on either side [decade]. */
 static const double margin = 0.5;
+/* On a plateau 1 % of E' is more than all of E'': E' predicts it only where tan delta > 0.1. */
+static const double least_log_loss_factor = -1.0;
 /* Densest sensible series, and the longest. */
 static const double most_terms_per_decade = 10.0;
 enum { MAX_TERMS = 1000 };
@@ -140,7 +142,7 @@ wt_status wt_prony_fit_points(const wt_prony_points *points, const wt_prony_opti
     for (size_t k = 0; k < n_terms; k++)
         made.modulus[k] = gsl_vector_get(x, k);
     made.equilibrium_modulus = options->liquid ? 0.0 : gsl_vector_get(x, n_terms);
-    made.reference_temperature = NAN;
+    made.reference_temperature = (double)NAN;
     made.frequency_min = pow(10.0, points->log_min);
     made.frequency_max = pow(10.0, points->log_max);
     *prony = made;
@@ -215,7 +217,7 @@ wt_status wt_prony_kramers_kronig(const wt_prony_points *points, double *misfit,
     double square = 0.0;
     size_t n = 0;
 
-    *misfit = NAN;
+    *misfit = (double)NAN;
     storage.log_loss = NULL;
     wt_status status = wt_prony_fit_points(&storage, &options, &series, err);
     if (status == WT_E_MISSING)
@@ -224,7 +226,8 @@ wt_status wt_prony_kramers_kronig(const wt_prony_points *points, double *misfit,
         return status;
     for (size_t i = 0; i < points->n; i++) {
         if (points->log_frequency[i] < points->log_min + margin ||
-            points->log_frequency[i] > points->log_max - margin)
+            points->log_frequency[i] > points->log_max - margin ||
+            points->log_loss[i] - points->log_storage[i] < least_log_loss_factor)
             continue;
         double predicted_storage, predicted_loss;
         wt_prony_log_moduli(&series, points->log_frequency[i], &predicted_storage, &predicted_loss);

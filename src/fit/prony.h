@@ -23,7 +23,8 @@ void wt_prony_log_moduli(const wt_prony *prony, double log_frequency, double *lo
 wt_status wt_prony_check(const wt_master_curve *master, const wt_prony_options *options,
                          wt_error *err) WT_NODISCARD;
 /* Rms relative misfit of E'' predicted from a non-negative series fitted to E' alone, half a decade
- * inside the ends (E'' there hangs on E' beyond); NaN if there are too few points. */
+ * inside the ends (E'' there hangs on E' beyond) and where tan delta > 0.1 (below it E' knows E''
+ * no better than its own noise); NaN if there are no such points. */
 wt_status wt_prony_kramers_kronig(const wt_prony_points *points, double *misfit,
                                   wt_error *err) WT_NODISCARD;
 

@@ -99,23 +99,37 @@ wt_status wt_pspline_solve(wt_pspline *s, double *penalty, wt_error *err)
     return WT_OK;
 }
 
-/* trace(G^-1 (G - P)) = n - trace(G^-1 P) */
-wt_status wt_pspline_freedom(const wt_pspline *s, double *freedom, wt_error *err)
+wt_status wt_pspline_inverse(const wt_pspline *s, gsl_matrix **inverse, wt_error *err)
 {
-    gsl_matrix *inverse = gsl_matrix_alloc(s->n, s->n);
-    wt_status status = WT_OK;
-    if (inverse == NULL)
+    gsl_matrix *made = gsl_matrix_alloc(s->n, s->n);
+    if (made == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for the covariance of a spline");
-    if (gsl_linalg_cholesky_band_invert(s->gram, inverse) != GSL_SUCCESS)
-        status = wt_fail(err, WT_E_INTERNAL, "banded inverse failed");
+    if (gsl_linalg_cholesky_band_invert(s->gram, made) != GSL_SUCCESS) {
+        gsl_matrix_free(made);
+        return wt_fail(err, WT_E_INTERNAL, "banded inverse failed");
+    }
+    *inverse = made;
+    return WT_OK;
+}
+
+/* trace(G^-1 (G - P)) = n - trace(G^-1 P) */
+double wt_pspline_freedom(const wt_pspline *s, const gsl_matrix *inverse)
+{
     double held = 0.0;
-    for (size_t k = 0; k + 2 < s->n && status == WT_OK; k++)
+    for (size_t k = 0; k + 2 < s->n; k++)
         for (size_t i = 0; i < 3; i++)
             for (size_t j = 0; j < 3; j++)
                 held += penalty_weight * difference[i] * difference[j] *
                         gsl_matrix_get(inverse, k + i, k + j);
-    if (status == WT_OK)
-        *freedom = (double)s->n - held;
-    gsl_matrix_free(inverse);
-    return status;
+    return (double)s->n - held;
+}
+
+double wt_pspline_slope_variance(const wt_pspline *s, const gsl_matrix *inverse, double x)
+{
+    double value[WT_PSPLINE_ORDER], slope[WT_PSPLINE_ORDER], sum = 0.0;
+    const size_t cell = wt_pspline_locate(s, x, value, slope);
+    for (size_t i = 0; i < WT_PSPLINE_ORDER; i++)
+        for (size_t j = 0; j < WT_PSPLINE_ORDER; j++)
+            sum += slope[i] * slope[j] * gsl_matrix_get(inverse, cell + i, cell + j);
+    return sum;
 }

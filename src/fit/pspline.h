@@ -29,7 +29,11 @@ size_t wt_pspline_locate(const wt_pspline *s, double x, double value[WT_PSPLINE_
 void wt_pspline_add(wt_pspline *s, double x, double y, double weight);
 /* Coefficients of the penalised least squares; *penalty: the penalty at the solution. */
 wt_status wt_pspline_solve(wt_pspline *s, double *penalty, wt_error *err) WT_NODISCARD;
+/* Inverse of the solved normal matrix; *inverse is new, free with gsl_matrix_free. */
+wt_status wt_pspline_inverse(const wt_pspline *s, gsl_matrix **inverse, wt_error *err) WT_NODISCARD;
 /* Effective number of parameters of the solved spline. */
-wt_status wt_pspline_freedom(const wt_pspline *s, double *freedom, wt_error *err) WT_NODISCARD;
+double wt_pspline_freedom(const wt_pspline *s, const gsl_matrix *inverse);
+/* Variance of the slope at x for data of unit variance. */
+double wt_pspline_slope_variance(const wt_pspline *s, const gsl_matrix *inverse, double x);
 
 #endif

@@ -17,6 +17,8 @@ static const double same_temperature = 0.1;
 static const double largest_sigma = 0.2; /* decade */
 static const double largest_correlation = 0.95;
 
+/* Share of noise in the squared slopes of a curve above which it has none to be shifted by. */
+static const double most_slope_noise = 0.3;
 /* What a vertical shift is off by through sample geometry and clamping [decade], 5 %. */
 static const double vertical_error = 0.02;
 
@@ -24,7 +26,7 @@ enum { NEIGHBOURS = 3 };
 
 wt_shift_options wt_shift_defaults(void)
 {
-    return (wt_shift_options){.reference_temperature = NAN,
+    return (wt_shift_options){.reference_temperature = (double)NAN,
                               .vertical = WT_VERTICAL_FREE,
                               .expansion = 0.0,
                               .floor = 0.02};
@@ -118,26 +120,81 @@ static wt_status place(wt_shift_work *work, size_t i, long inwards, wt_error *er
 static wt_status place_all(wt_shift_work *work, wt_error *err)
 {
     wt_status status = WT_OK;
-    size_t n_placed = 1;
-    for (size_t i = 0; i < work->set.n; i++)
+    size_t n_placed = 0, n_flat = 0;
+    for (size_t i = 0; i < work->set.n; i++) {
+        work->placed[i] = false;
+        work->a[i] = 0.0;
         work->b[i] = work->options.vertical == WT_VERTICAL_PHYSICAL
                          ? physical_shift(work, work->set.curves[i].temperature)
                          : 0.0;
+    }
     work->placed[work->anchor] = true;
     for (size_t i = work->anchor + 1; i < work->set.n && status == WT_OK; i++)
-        status = place(work, i, -1, err);
+        status = work->flat[i] ? WT_OK : place(work, i, -1, err);
     for (size_t i = work->anchor; i-- > 0 && status == WT_OK;)
-        status = place(work, i, 1, err);
+        status = work->flat[i] ? WT_OK : place(work, i, 1, err);
     if (status != WT_OK)
         return status;
-    for (size_t i = 0; i < work->set.n; i++)
-        n_placed += work->placed[i] && i != work->anchor ? 1 : 0;
-    if (n_placed == 1) {
+    for (size_t i = 0; i < work->set.n; i++) {
+        n_placed += work->placed[i] ? 1 : 0;
+        n_flat += work->flat[i] ? 1 : 0;
+    }
+    if (n_placed > 1)
+        return WT_OK;
+    if (n_flat > 0) {
+        status = wt_fail(err, WT_E_NO_OVERLAP, "the isotherms are flat: no slope to shift them by");
+        wt_error_expected(err, "a storage or loss modulus that changes with frequency by more "
+                               "than its noise");
+        wt_error_advice(err, "measure colder, into the transition");
+    } else {
         status = wt_fail(err, WT_E_NO_OVERLAP, "no isotherm overlaps the one of %.2f K",
                          work->set.curves[work->anchor].temperature);
         wt_error_expected(err, "neighbouring isotherms that share a range of storage modulus");
         wt_error_advice(err, "measure at smaller steps of temperature or over more frequencies");
     }
+    return status;
+}
+
+/* Takes out the curves whose slopes are mostly noise: a fit can slide noise over noise and find a
+ * best place for it. Returns whether there were any. */
+static bool take_out_flat(wt_shift_work *work)
+{
+    bool found = false;
+    for (size_t i = 0; i < work->set.n; i++)
+        if (work->placed[i] && i != work->anchor && !(work->slope_noise[i] <= most_slope_noise)) {
+            work->flat[i] = true;
+            found = true;
+        }
+    return found;
+}
+
+/* All isotherms that can be placed, in one fit; a flat one is no bridge for those behind it, so
+ * without it they are placed anew. */
+static wt_status fit_together(wt_shift_work *work, wt_error *err)
+{
+    wt_shift_joint joint = {.set = &work->set,
+                            .placed = work->placed,
+                            .anchor = work->anchor,
+                            .use = {true, true},
+                            .free_b = work->options.vertical == WT_VERTICAL_FREE,
+                            .a = work->a,
+                            .b = work->b,
+                            .covariance_a = work->covariance,
+                            .sigma_b = work->sigma_b,
+                            .correlation = work->correlation,
+                            .slope_noise = work->slope_noise,
+                            .n_outliers = work->n_outliers};
+    wt_status status;
+    do {
+        status = place_all(work, err);
+        if (status == WT_OK)
+            status = wt_shift_joint_fit(&joint, err);
+    } while (status == WT_OK && take_out_flat(work));
+    if (status == WT_OK)
+        status = wt_shift_superposition(&joint, work->options.floor, &work->superposition, err);
+    for (int q = 0; q < WT_MODULI; q++)
+        work->rms[q] = joint.rms[q];
+    work->last_step = joint.last_step;
     return status;
 }
 
@@ -150,6 +207,8 @@ static void judge(wt_shift_work *work)
         work->verdict[i] = WT_SHIFT_GOOD;
         if (work->set.curves[i].n < WT_SHIFT_MIN_POINTS)
             work->verdict[i] = WT_SHIFT_TOO_SHORT;
+        else if (work->flat[i])
+            work->verdict[i] = WT_SHIFT_FLAT;
         else if (!work->placed[i])
             work->verdict[i] = WT_SHIFT_NO_OVERLAP;
         else if (i == work->anchor)
@@ -256,7 +315,7 @@ static wt_status offset_of_reference(wt_shift_work *work, double *offset, double
 static wt_status move_reference(wt_shift_work *work, wt_error *err)
 {
     const size_t n = work->set.n;
-    double offset = NAN, law_variance = 0.0, offset_b = 0.0, variance = 0.0;
+    double offset = (double)NAN, law_variance = 0.0, offset_b = 0.0, variance = 0.0;
     double *weight = calloc(2 * n, sizeof *weight);
     if (weight == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for the reference temperature");
@@ -291,12 +350,13 @@ done:
 static wt_status work_alloc(wt_shift_work *work, wt_error *err)
 {
     const size_t n = work->set.n;
-    work->numbers = calloc(10 * n + 2 * n * n, sizeof *work->numbers);
+    work->numbers = calloc(11 * n + 2 * n * n, sizeof *work->numbers);
     work->placed = calloc(n, sizeof *work->placed);
     work->verdict = calloc(n, sizeof *work->verdict);
     work->n_outliers = calloc(n, sizeof *work->n_outliers);
+    work->flat = calloc(n, sizeof *work->flat);
     if (work->numbers == NULL || work->placed == NULL || work->verdict == NULL ||
-        work->n_outliers == NULL)
+        work->n_outliers == NULL || work->flat == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for %zu isotherms", n);
     work->a = work->numbers;
     work->b = work->a + n;
@@ -306,7 +366,8 @@ static wt_status work_alloc(wt_shift_work *work, wt_error *err)
     for (int q = 0; q < WT_MODULI; q++)
         work->overlap[q] = work->physical + (size_t)(q + 1) * n;
     work->tied = work->physical + 3 * n;
-    work->covariance = work->tied + n;
+    work->slope_noise = work->tied + n;
+    work->covariance = work->slope_noise + n;
     work->scratch = work->covariance + n * n;
     return WT_OK;
 }
@@ -318,6 +379,7 @@ static void work_free(wt_shift_work *work)
     free(work->placed);
     free(work->verdict);
     free(work->n_outliers);
+    free(work->flat);
 }
 
 wt_status wt_shift_fit(const wt_sweep *sweep, const wt_shift_options *options, wt_parselog *log,
@@ -333,23 +395,7 @@ wt_status wt_shift_fit(const wt_sweep *sweep, const wt_shift_options *options, w
     if (status == WT_OK)
         status = choose_anchor(&work, err);
     if (status == WT_OK)
-        status = place_all(&work, err);
-    if (status != WT_OK)
-        goto done;
-    wt_shift_joint joint = {.set = &work.set,
-                            .placed = work.placed,
-                            .anchor = work.anchor,
-                            .use = {true, true},
-                            .free_b = work.options.vertical == WT_VERTICAL_FREE,
-                            .a = work.a,
-                            .b = work.b,
-                            .covariance_a = work.covariance,
-                            .sigma_b = work.sigma_b,
-                            .correlation = work.correlation,
-                            .n_outliers = work.n_outliers};
-    status = wt_shift_joint_fit(&joint, err);
-    if (status == WT_OK)
-        status = wt_shift_superposition(&joint, work.options.floor, &work.superposition, err);
+        status = fit_together(&work, err);
     if (status != WT_OK)
         goto done;
     judge(&work);
@@ -357,9 +403,6 @@ wt_status wt_shift_fit(const wt_sweep *sweep, const wt_shift_options *options, w
         work.n_good += work.verdict[i] == WT_SHIFT_GOOD ? 1 : 0;
         work.physical[i] = physical_shift(&work, work.set.curves[i].temperature);
     }
-    for (int q = 0; q < WT_MODULI; q++)
-        work.rms[q] = joint.rms[q];
-    work.last_step = joint.last_step;
     if (!work.measured_reference)
         status = move_reference(&work, err);
     if (status == WT_OK)

@@ -65,6 +65,7 @@ typedef struct wt_shift_joint {
     double *covariance_a;  /* [n * n] out; 0 for the anchor and curves not placed */
     double *sigma_b;       /* [n] out */
     double *correlation;   /* [n] of a and b, out */
+    double *slope_noise;   /* [n] share of noise in the squared slopes a curve is shifted by, out */
     double rms[WT_MODULI]; /* residual standard deviation [decade], out */
     double last_step;      /* largest change of an `a` in the last iteration, out */
     size_t *n_outliers;    /* [n] points beyond 3 robust standard deviations, out; or NULL */

@@ -24,6 +24,7 @@ static wt_status fit_alone(const wt_shift_joint *joint, int q, double *a, double
     alone.covariance_a = covariance;
     alone.sigma_b = scratch;
     alone.correlation = scratch + n;
+    alone.slope_noise = scratch + 2 * n;
     alone.n_outliers = NULL;
     alone.free_b = false;
     for (int m = 0; m < WT_MODULI; m++)
@@ -35,7 +36,7 @@ wt_status wt_shift_superposition(const wt_shift_joint *joint, double floor,
                                  wt_superposition *result, wt_error *err)
 {
     const size_t n = joint->set->n;
-    double *numbers = calloc(5 * n + 2 * n * n, sizeof *numbers);
+    double *numbers = calloc(6 * n + 2 * n * n, sizeof *numbers);
     wt_superposition made = {0};
     wt_status status = WT_OK;
 
@@ -43,7 +44,7 @@ wt_status wt_shift_superposition(const wt_shift_joint *joint, double floor,
         return wt_fail(err, WT_E_MEMORY, "no memory for the superposition check");
     double *a[WT_MODULI] = {numbers, numbers + n};
     double *b = numbers + 2 * n, *scratch = b + n;
-    double *covariance[WT_MODULI] = {scratch + 2 * n, scratch + 2 * n + n * n};
+    double *covariance[WT_MODULI] = {scratch + 3 * n, scratch + 3 * n + n * n};
     for (int q = 0; q < WT_MODULI && status == WT_OK; q++)
         status = fit_alone(joint, q, a[q], b, covariance[q], scratch, err);
     double square = 0.0;

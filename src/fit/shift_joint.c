@@ -47,8 +47,9 @@ struct joint {
     gsl_matrix *normal[WT_MODULI]; /* Schur complement of one modulus */
     gsl_matrix *matrix, *factor;   /* n_unknowns squared */
     gsl_vector *gradient, *step;
-    double prior;                /* weight of the prior in the objective */
-    double effective[WT_MODULI]; /* degrees of freedom of the spline */
+    double prior;                       /* weight of the prior in the objective */
+    double *slope_square, *slope_noise; /* [set->n] */
+    double effective[WT_MODULI];        /* degrees of freedom of the spline */
 };
 
 /* ---- evaluation for given shifts --------------------------------------------------------------
@@ -271,25 +272,44 @@ static void reweight(struct joint *j)
     }
 }
 
-/* Variance of the residuals of modulus q, raised for the correlation of neighbouring points (first
- * order autoregression; the regressors are smooth, so its long-run variance is what counts). */
-static double residual_variance(struct joint *j, int q, double *spread)
+/* What the residuals of a modulus say: a first-order autoregression along each isotherm. */
+struct noise {
+    double spread;   /* standard deviation */
+    double long_run; /* variance that counts for smooth regressors such as the shifts */
+    double white;    /* variance of what changes from point to point */
+};
+
+static struct noise residual_noise(const struct joint *j, int q)
 {
-    double square = 0.0, n = 0.0, product = 0.0, plain = 0.0;
+    double square = 0.0, n = 0.0, product = 0.0;
     for (size_t k = 0; k < j->n_points; k++) {
-        const double r = j->residual[q][k], w = sqrt(j->weight[q][k]);
-        square += w * w * r * r;
-        n += w * w;
+        const double r = sqrt(j->weight[q][k]) * j->residual[q][k];
+        square += r * r;
+        n += j->weight[q][k];
         if (k > 0 && j->points[k].curve == j->points[k - 1].curve)
-            product += w * r * sqrt(j->weight[q][k - 1]) * j->residual[q][k - 1];
-        plain += w * w * r * r;
+            product += r * sqrt(j->weight[q][k - 1]) * j->residual[q][k - 1];
     }
     const double moduli = j->task->use[WT_STORAGE] && j->task->use[WT_LOSS] ? 2.0 : 1.0;
     const double freedom = fmax(n - j->effective[q] - (double)j->n_unknowns / moduli, 1.0);
+    const double correlation = square > 0.0 ? fmin(fmax(product / square, 0.0), 0.9) : 0.0;
+    const double inflation = (1.0 + correlation) / (1.0 - correlation);
     const double floor_square = WT_SHIFT_NOISE_FLOOR * WT_SHIFT_NOISE_FLOOR;
-    *spread = sqrt(square / freedom);
-    const double correlation = plain > 0.0 ? fmin(fmax(product / plain, 0.0), 0.9) : 0.0;
-    return fmax(square / freedom * (1.0 + correlation) / (1.0 - correlation), floor_square);
+    return (struct noise){.spread = sqrt(square / freedom),
+                          .long_run = fmax(square / freedom * inflation, floor_square),
+                          .white = fmax(square / freedom / inflation, floor_square)};
+}
+
+/* Squared slopes and their variances, summed over the points of each curve. */
+static void add_slopes(struct joint *j, int q, const wt_pspline *s, const gsl_matrix *inverse,
+                       double variance)
+{
+    for (size_t k = 0; k < j->n_points; k++) {
+        const size_t curve = j->points[k].curve;
+        const double w = j->weight[q][k];
+        const double x = j->points[k].x + shift_a(j, j->value, curve);
+        j->slope_square[curve] += w * j->slope[q][k] * j->slope[q][k] / variance;
+        j->slope_noise[curve] += w * wt_pspline_slope_variance(s, inverse, x);
+    }
 }
 
 /* Covariance N^-1 (sum_q s_q^2 N_q) N^-1, written out per curve. */
@@ -307,17 +327,22 @@ static wt_status covariance(struct joint *j, wt_pspline spline[WT_MODULI], wt_er
         goto done;
     }
     for (int q = 0; q < WT_MODULI; q++) {
-        task->rms[q] = NAN;
+        task->rms[q] = (double)NAN;
         if (!task->use[q])
             continue;
-        status = wt_pspline_freedom(&spline[q], &j->effective[q], err);
+        gsl_matrix *inverse = NULL;
+        status = wt_pspline_inverse(&spline[q], &inverse, err);
         if (status != WT_OK)
             goto done;
-        const double variance = residual_variance(j, q, &task->rms[q]);
+        j->effective[q] = wt_pspline_freedom(&spline[q], inverse);
+        const struct noise noise = residual_noise(j, q);
+        task->rms[q] = noise.spread;
+        add_slopes(j, q, &spline[q], inverse, noise.white);
+        gsl_matrix_free(inverse);
         gsl_matrix_memcpy(left, j->normal[q]);
-        gsl_matrix_scale(left, variance);
+        gsl_matrix_scale(left, noise.long_run);
         gsl_matrix_add(middle, left);
-        largest = fmax(largest, variance);
+        largest = fmax(largest, noise.long_run);
     }
     for (size_t u = 0; u < m; u++) /* the prior is information of the same kind */
         *gsl_matrix_ptr(middle, u, u) += largest * j->prior;
@@ -344,6 +369,7 @@ static wt_status covariance(struct joint *j, wt_pspline spline[WT_MODULI], wt_er
                 gsl_matrix_get(middle, a, b) /
                 sqrt(gsl_matrix_get(middle, a, a) * gsl_matrix_get(middle, b, b));
         }
+        task->slope_noise[i] = j->slope_noise[i] / j->slope_square[i];
     }
 done:
     gsl_matrix_free(middle);
@@ -399,7 +425,7 @@ static wt_status joint_alloc(struct joint *j, wt_error *err)
         return wt_fail(err, WT_E_MEMORY, "no memory for the joint fit");
     const size_t m = j->n_unknowns, n = j->n_points;
     j->points = calloc(n, sizeof *j->points);
-    j->numbers = calloc((4 * WT_MODULI + 1) * n + 3 * m, sizeof *j->numbers);
+    j->numbers = calloc((4 * WT_MODULI + 1) * n + 3 * m + 2 * task->set->n, sizeof *j->numbers);
     for (int q = 0; q < WT_MODULI; q++)
         j->normal[q] = gsl_matrix_calloc(m, m);
     j->matrix = gsl_matrix_alloc(m, m);
@@ -421,6 +447,8 @@ static wt_status joint_alloc(struct joint *j, wt_error *err)
     j->start = take(&next, m);
     j->value = take(&next, m);
     j->trial = take(&next, m);
+    j->slope_square = take(&next, task->set->n);
+    j->slope_noise = take(&next, task->set->n);
     size_t k = 0;
     for (size_t i = 0; i < task->set->n; i++) {
         const wt_shift_curve *curve = &task->set->curves[i];

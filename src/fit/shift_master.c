@@ -59,6 +59,10 @@ static void note_verdict(const wt_shift_work *work, size_t i, wt_shift *shift)
     case WT_SHIFT_NO_OVERLAP:
         append(note, sizeof shift->note, "no overlap with its neighbours");
         break;
+    case WT_SHIFT_FLAT:
+        append(note, sizeof shift->note,
+               "no slope decides: both moduli are flat within their scatter");
+        break;
     case WT_SHIFT_NO_SLOPE:
         append(note, sizeof shift->note, "no slope decides: error of log aT %.2g decade", sigma);
         break;
@@ -153,8 +157,8 @@ static wt_status fill_shifts(const wt_shift_work *work, wt_master_curve *master,
         const bool reference = work->measured_reference && i == work->anchor;
         shift->temperature = work->set.curves[i].temperature;
         shift->determined = good;
-        shift->log_a = (wt_estimate){NAN, NAN, NAN, "1"};
-        shift->log_b = (wt_estimate){NAN, NAN, NAN, "1"};
+        shift->log_a = (wt_estimate){(double)NAN, (double)NAN, (double)NAN, "1"};
+        shift->log_b = (wt_estimate){(double)NAN, (double)NAN, (double)NAN, "1"};
         shift->correlation = good ? work->correlation[i] : (double)NAN;
         if (good) {
             shift->log_a.value = work->a[i];
@@ -249,7 +253,7 @@ wt_status wt_shift_master_new(const wt_sweep *sweep, const wt_shift_work *work, 
                             .vertical = work->options.vertical,
                             .rms_storage = work->rms[WT_STORAGE],
                             .rms_loss = work->rms[WT_LOSS],
-                            .kramers_kronig = NAN,
+                            .kramers_kronig = (double)NAN,
                             .superposition_failed = work->superposition.failed};
     wt_status status = fill_shifts(work, &made, err);
     if (status == WT_OK)

@@ -9,6 +9,7 @@ typedef enum wt_shift_verdict {
     WT_SHIFT_GOOD,
     WT_SHIFT_TOO_SHORT,
     WT_SHIFT_NO_OVERLAP,
+    WT_SHIFT_FLAT,
     WT_SHIFT_NO_SLOPE,
     WT_SHIFT_COLLINEAR
 } wt_shift_verdict;
@@ -31,8 +32,10 @@ typedef struct wt_shift_work {
     double *physical;           /* [n] log b of rho T */
     double *overlap[WT_MODULI]; /* [n] */
     double *tied; /* [n] what an error of b moves a by, 0 unless they are collinear [decade] */
-    double *covariance; /* [n * n] of a */
-    double *scratch;    /* [n * n + 2 n] */
+    double *slope_noise; /* [n] share of noise in the slopes */
+    bool *flat;          /* [n] no slope of its own: takes no part */
+    double *covariance;  /* [n * n] of a */
+    double *scratch;     /* [n * n + 2 n] */
     double rms[WT_MODULI];
     double last_step;
     wt_superposition superposition;

@@ -142,7 +142,7 @@ static double aicc(double chi_square, size_t n, size_t n_parameters)
     const double k = (double)n_parameters + 1.0; /* the scale of the residuals is one more */
     const double count = (double)n;
     if (count - k - 1.0 <= 0.0)
-        return NAN;
+        return (double)NAN;
     return count * log(chi_square / count) + 2.0 * k + 2.0 * k * (k + 1.0) / (count - k - 1.0);
 }
 
@@ -219,8 +219,8 @@ static void fill_wlf(const struct problem *problem, const double unknown[N_WLF],
     fit->aicc_wlf = aicc(chi_square, problem->n, N_WLF);
     fit->straight = !(c2 <= straight_c2) || !(s2 <= c2);
     if (fit->straight) {
-        fit->c1_error = fit->c2_error = fit->correlation = NAN;
-        fit->b_error = fit->pole_error = NAN;
+        fit->c1_error = fit->c2_error = fit->correlation = (double)NAN;
+        fit->b_error = fit->pole_error = (double)NAN;
     }
 }
 

@@ -13,7 +13,7 @@ double wt_wlf_log_shift(const wt_wlf *wlf, double temperature)
     const double above_pole = wlf->c2 + rise;
     /* A pole at or above the reference would make the law infinite between the two. */
     if (!(above_pole > 0.0) || !(wlf->c2 > 0.0))
-        return NAN;
+        return (double)NAN;
     return -wlf->c1 * rise / above_pole;
 }
 
@@ -47,7 +47,7 @@ double wt_arrhenius_log_shift(double activation_energy, double reference_tempera
                               double temperature)
 {
     if (!(temperature > 0.0) || !(reference_temperature > 0.0))
-        return NAN;
+        return (double)NAN;
     /* 1/T - 1/Tref as one quotient: no cancellation for neighbouring temperatures. */
     return activation_energy / (gas_constant * ln10) *
            ((reference_temperature - temperature) / (temperature * reference_temperature));
