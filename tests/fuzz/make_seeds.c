@@ -1,0 +1,183 @@
+/* Makes the seeds of the fuzz targets of the binary readers, each below 20 kB: make_seeds FOLDER.
+ * Committed in fixtures/fuzz; run again after a change of the writers.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "writers/jpk_writer.h"
+#include "writers/nid_writer.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <zip.h>
+
+#define POINTS 12
+static double height[POINTS], force[POINTS], sensor[POINTS];
+
+static void path_of(char *path, size_t size, const char *folder, const char *name)
+{
+    snprintf(path, size, "%s/%s", folder, name);
+}
+
+/* ---- JPK ---------------------------------------------------------------------------------- */
+
+/* The same entries as the list that fuzz_jpk packs again. */
+static int write_list(const char *archive, const char *list)
+{
+    zip_t *zip = zip_open(archive, ZIP_RDONLY, NULL);
+    FILE *out = fopen(list, "wb");
+    int bad = zip == NULL || out == NULL;
+    zip_int64_t n = bad ? 0 : zip_get_num_entries(zip, 0);
+    for (zip_int64_t i = 0; i < n && !bad; i++) {
+        char buffer[16384];
+        zip_file_t *file = zip_fopen_index(zip, (zip_uint64_t)i, 0);
+        zip_int64_t length = file != NULL ? zip_fread(file, buffer, sizeof buffer) : -1;
+        bad = length < 0;
+        if (!bad) {
+            fprintf(out, "%s%s\036", i > 0 ? "\037" : "", zip_get_name(zip, (zip_uint64_t)i, 0));
+            fwrite(buffer, 1, (size_t)length, out);
+        }
+        if (file != NULL)
+            zip_fclose(file);
+    }
+    if (zip != NULL)
+        zip_discard(zip);
+    if (out != NULL && fclose(out) != 0)
+        bad = 1;
+    return bad ? -1 : 0;
+}
+
+static int make_jpk(const char *folder)
+{
+    static const char *const styles[] = {"extend", "pause", "retract"};
+    jpk_writer_segment segments[3];
+    jpk_writer_curve curves[2];
+    for (size_t i = 0; i < 3; i++)
+        segments[i] =
+            (jpk_writer_segment){styles[i], POINTS - i, 0.5, height, force, i == 1 ? NULL : sensor};
+    for (size_t i = 0; i < 2; i++)
+        curves[i] = (jpk_writer_curve){3 * i, 1e-6, 2e-6, 3, segments};
+    jpk_writer_file f = jpk_writer_defaults();
+    f.curves = curves;
+    f.spring_constant = 0.05;
+    f.sensitivity = 6e-8;
+    f.setpoint = 1e-9;
+    for (int kind = 0; kind < 4; kind++) {
+        char archive[512], list[512], name[32];
+        f.map = kind % 2 == 1;
+        f.n_curves = f.map ? 2 : 1;
+        f.columns = f.rows = f.map ? 2 : 0;
+        f.inline_headers = kind >= 2;
+        /* Headers that repeat everything are long. */
+        curves[0].n_segments = curves[1].n_segments = f.inline_headers ? 1 : 3;
+        f.encoding = (jpk_writer_encoding)kind;
+        snprintf(name, sizeof name, "seed%d.zip", kind);
+        path_of(archive, sizeof archive, folder, name);
+        snprintf(name, sizeof name, "seed%d.list", kind);
+        path_of(list, sizeof list, folder, name);
+        f.path = archive;
+        if (jpk_write(&f) != 0 || write_list(archive, list) != 0)
+            return -1;
+    }
+    return 0;
+}
+
+/* ---- Nanosurf ----------------------------------------------------------------------------- */
+
+static int make_nid(const char *folder)
+{
+    static const double places[2][3] = {{1e-6, 2e-6, 0}, {3e-6, 4e-6, 0}};
+    static const size_t lengths[] = {6, 4};
+    const nid_writer_channel both[] = {{0, "Deflection", "V", -1e-5, 2e-5, 32, force},
+                                       {7, "Z-Axis Sensor", "m", -1e-5, 2e-5, 16, height}};
+    nid_writer_group groups[2];
+    for (size_t i = 0; i < 2; i++)
+        groups[i] = (nid_writer_group){.name = i == 0 ? "Spec forward" : "Spec backward",
+                                       .points = POINTS / 2,
+                                       .lines = 2,
+                                       .line_points = lengths,
+                                       .x_name = "Z-Axis",
+                                       .x_unit = "m",
+                                       .y_name = "SpecPoint",
+                                       .y_unit = "",
+                                       .x_range = 1e-6,
+                                       .n_channels = 2,
+                                       .channels = both};
+    for (int kind = 0; kind < 3; kind++) {
+        char path[512], name[32];
+        nid_writer_file f = nid_writer_defaults();
+        snprintf(name, sizeof name, "seed%d.nid", kind);
+        path_of(path, sizeof path, folder, name);
+        f.path = path;
+        f.n_groups = 2;
+        f.groups = groups;
+        f.latin1 = kind == 1;
+        f.spring_constant = 0.2;
+        f.deflection_range_m = 1e-6;
+        f.deflection_range_v = 10;
+        f.forward_time = f.backward_time = 1;
+        f.forward_points = f.backward_points = POINTS / 2;
+        f.forward_pause_points = f.backward_pause_points = 1;
+        f.forward_range = 1e-6;
+        f.map = kind == 0 ? "0;1e-6;0;1e-6;2;1;0;1" : NULL;
+        f.n_positions = kind == 1 ? 2 : 0;
+        f.positions = places;
+        if (kind == 2) {
+            groups[0].name = "Scan forward";
+            groups[1].name = "Scan backward";
+            groups[0].line_points = groups[1].line_points = NULL;
+        }
+        if (nid_write(&f) != 0)
+            return -1;
+    }
+    return 0;
+}
+
+/* ---- properties --------------------------------------------------------------------------- */
+
+static int make_properties(const char *folder)
+{
+    char path[512];
+    path_of(path, sizeof path, folder, "seed0.properties");
+    FILE *out = fopen(path, "wb");
+    if (out == NULL)
+        return -1;
+    fputs("#Sat Oct 29 12:27:44 CEST 2022\r\nstart-time=2022-10-29 12\\:27\\:34.358 +0200\n"
+          "! another comment\nz-scanner.description=100\\u00B5m \\uD834\\uDD1E\nlatin=\265m\n"
+          "channels.list = height \\\n   vDeflection\nkey\\ with\\=all : value\nempty\n=\n"
+          "channel.height.lcd-info.*=0\nnumber=-3.2226296801682413E-5\nnumber=2",
+          out);
+    return fclose(out);
+}
+
+static int make_folder(char *path, size_t size, const char *parent, const char *name)
+{
+    path_of(path, size, parent, name);
+    return mkdir(path, 0777) == 0 || access(path, W_OK) == 0 ? 0 : -1;
+}
+
+int main(int argc, char *argv[])
+{
+    static int (*const make[])(const char *) = {make_jpk, make_nid, make_properties};
+    static const char *const names[] = {"jpk", "nid", "properties"};
+    char folder[256];
+    if (argc != 2) {
+        fprintf(stderr, "usage: make_seeds FOLDER\n");
+        return 2;
+    }
+    for (size_t i = 0; i < POINTS; i++) {
+        height[i] = 7e-6 - 1e-7 * (double)i;
+        force[i] = 1e-9 * (double)(i * i) / POINTS;
+        sensor[i] = 2e-6 - 1e-7 * (double)i;
+    }
+    for (size_t i = 0; i < 3; i++) {
+        if (make_folder(folder, sizeof folder, argv[1], names[i]) != 0 || make[i](folder) != 0) {
+            fprintf(stderr, "%s/%s: cannot be written\n", argv[1], names[i]);
+            return 1;
+        }
+    }
+    return 0;
+}
