@@ -92,7 +92,8 @@ static void assert_results_equal(const wt_result *a, const wt_result *b)
     const char *const case_a = wt_result_case(a, &length_a);
     const char *const case_b = wt_result_case(b, &length_b);
     assert_int_equal(length_a, length_b);
-    assert_memory_equal(case_a, case_b, length_a);
+    if (length_a > 0)
+        assert_memory_equal(case_a, case_b, length_a);
 }
 
 static unsigned char *read_bytes(const char *path, size_t *size)
@@ -166,6 +167,34 @@ static void same_bytes(void **state)
     wt_result_free(result);
     free(a);
     free(b);
+}
+
+/* The length that the file says of itself (HDF5 File Format Specification, superblock version 2:
+ * bytes 28 to 35) is its length. */
+static void length_is_right(void **state)
+{
+    (void)state;
+    char path[256];
+    path_of("a.h5", path);
+    for (size_t n_rows = 0; n_rows < 2000; n_rows = n_rows * 3 + 1) {
+        wt_result *const result = wt_result_new();
+        wt_result *read = NULL;
+        size_t size = 0;
+        uint64_t end = 0;
+        add_table(result, "one", n_rows);
+        assert_int_equal(wt_store_write(path, result, false, NULL), WT_OK);
+        unsigned char *const bytes = read_bytes(path, &size);
+        assert_true(size > 36);
+        for (size_t i = 0; i < 8; i++)
+            end |= (uint64_t)bytes[28 + i] << (8 * i);
+        assert_int_equal(bytes[8], 2);
+        assert_int_equal(end, size);
+        assert_int_equal(wt_store_read(path, &read, NULL), WT_OK);
+        assert_results_equal(result, read);
+        free(bytes);
+        wt_result_free(read);
+        wt_result_free(result);
+    }
 }
 
 static void empty_result(void **state)
@@ -361,7 +390,8 @@ static void cannot_write(void **state)
     path_of("no/such/folder.h5", path);
     assert_int_equal(wt_store_write(path, result, false, &err), WT_E_IO);
     assert_string_equal(err.file, path);
-    assert_int_equal(wt_store_write("/dev/null", result, false, &err), WT_E_IO);
+    if (access("/dev/full", W_OK) == 0)
+        assert_int_equal(wt_store_write("/dev/full", result, false, &err), WT_E_IO);
     /* As on a full disk. */
     struct rlimit before, small;
     assert_int_equal(getrlimit(RLIMIT_FSIZE, &before), 0);
@@ -418,12 +448,12 @@ static int remove_folder(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(round_trip),         cmocka_unit_test(same_bytes),
-        cmocka_unit_test(empty_result),       cmocka_unit_test(as_others_see_it),
-        cmocka_unit_test(not_a_store),        cmocka_unit_test(cut_files),
-        cmocka_unit_test(flipped_values),     cmocka_unit_test(outside_links),
-        cmocka_unit_test(odd_columns),        cmocka_unit_test(cannot_write),
-        cmocka_unit_test(names_that_collide),
+        cmocka_unit_test(round_trip),       cmocka_unit_test(same_bytes),
+        cmocka_unit_test(length_is_right),  cmocka_unit_test(empty_result),
+        cmocka_unit_test(as_others_see_it), cmocka_unit_test(not_a_store),
+        cmocka_unit_test(cut_files),        cmocka_unit_test(flipped_values),
+        cmocka_unit_test(outside_links),    cmocka_unit_test(odd_columns),
+        cmocka_unit_test(cannot_write),     cmocka_unit_test(names_that_collide),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }
