@@ -32,7 +32,7 @@ static int by_x(const void *left, const void *right)
 
 static void append(char *text, size_t size, const char *format, ...) WT_PRINTF(3, 4);
 
-/* Adds a remark to a note, parted by "; ". */
+/* Adds a remark to a note, parted by "; "; one that is cut ends in "...". */
 static void append(char *text, size_t size, const char *format, ...)
 {
     size_t length = strlen(text);
@@ -42,8 +42,10 @@ static void append(char *text, size_t size, const char *format, ...)
     }
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(text + length, size - length, format, arguments);
+    const int needed = vsnprintf(text + length, size - length, format, arguments);
     va_end(arguments);
+    if (needed >= 0 && (size_t)needed >= size - length)
+        memcpy(text + size - 4, "...", 4);
 }
 
 static void note_verdict(const wt_shift_work *work, size_t i, wt_shift *shift)
