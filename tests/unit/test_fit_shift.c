@@ -556,27 +556,6 @@ static void isotherms_of_few_points_are_left_out(void **state)
     wt_sweep_clear(&sweep);
 }
 
-/* A technician waits for nothing: 20 isotherms of 20 points. */
-static void twenty_isotherms_take_little_time(void **state)
-{
-    (void)state;
-    wt_sweep sweep = {0};
-    uint64_t noise = 109;
-    for (int i = 0; i < 20; i++)
-        (void)dma_add(&sweep, &dma_rubber, 253.15 + 6.0 * i, 0.1, 100.0, 20, true, 0.01, &noise);
-    const wt_shift_options at = at_reference(293.15, WT_VERTICAL_FREE);
-    double least = HUGE_VAL;
-    for (int run = 0; run < 3; run++) {
-        const double start = wt_time_cpu();
-        wt_master_curve master = fit_good(&sweep, &at, NULL);
-        least = fmin(least, wt_time_cpu() - start);
-        wt_master_curve_clear(&master);
-    }
-    print_message("20 isotherms of 20 points: %.1f ms\n", 1e3 * least);
-    assert_true(least < 0.1);
-    wt_sweep_clear(&sweep);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -599,7 +578,6 @@ int main(void)
         cmocka_unit_test(mixed_strain_amplitudes_are_said),
         cmocka_unit_test(impossible_input_is_refused),
         cmocka_unit_test(isotherms_of_few_points_are_left_out),
-        cmocka_unit_test(twenty_isotherms_take_little_time),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -294,6 +294,29 @@ static void shifts_of_the_wrong_sign_are_refused(void **state)
     wt_master_curve_clear(&master);
 }
 
+/* A technician waits for nothing: 20 isotherms of 20 points, from the sweep to the law. */
+static void twenty_isotherms_take_little_time(void **state)
+{
+    (void)state;
+    wt_sweep sweep = {0};
+    uint64_t noise = 109;
+    for (int i = 0; i < 20; i++)
+        (void)dma_add(&sweep, &dma_rubber, 253.15 + 6.0 * i, 0.1, 100.0, 20, true, 0.01, &noise);
+    double least = HUGE_VAL;
+    for (int run = 0; run < 3; run++) {
+        const double start = wt_time_cpu();
+        wt_master_curve master = {0};
+        wt_wlf_fit fit;
+        assert_int_equal(wt_shift_fit(&sweep, NULL, NULL, &master, NULL), WT_OK);
+        assert_int_equal(wt_wlf_fit_shifts(&master, NULL, &fit, NULL), WT_OK);
+        least = fmin(least, wt_time_cpu() - start);
+        wt_master_curve_clear(&master);
+    }
+    print_message("20 isotherms of 20 points: %.1f ms\n", 1e3 * least);
+    assert_true(least < 0.1);
+    wt_sweep_clear(&sweep);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -308,6 +331,7 @@ int main(void)
         cmocka_unit_test(arrhenius_shifts_are_recognised),
         cmocka_unit_test(few_shifts_have_no_criterion),
         cmocka_unit_test(shifts_of_the_wrong_sign_are_refused),
+        cmocka_unit_test(twenty_isotherms_take_little_time),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
