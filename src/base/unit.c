@@ -283,7 +283,7 @@ static const char *example(wt_quantity quantity)
 wt_status wt_quantity_parse(const char *text, wt_quantity quantity, double *value, wt_error *err)
 {
     wt_status status = WT_OK;
-    double number = NAN, factor = 1.0, offset = 0.0, result = NAN;
+    double number = (double)NAN, factor = 1.0, offset = 0.0, result = (double)NAN;
     const char *const advice = "write the number with a decimal point, the unit behind it";
     const char *reason = NULL;
     const char *start = text + strspn(text, " \t");

@@ -220,8 +220,8 @@ static void formatted_numbers(void **state)
                  {1e300, "1e300"},
                  {5e-324, "5e-324"},
                  {-2.5, "-2.5"},
-                 {NAN, "nan"},
-                 {INFINITY, "inf"},
+                 {(double)NAN, "nan"},
+                 {(double)INFINITY, "inf"},
                  {-(double)INFINITY, "-inf"},
                  {1.0 / 3.0, "0.3333333333333333"},
                  {0.30000000000000004, "0.30000000000000004"}};

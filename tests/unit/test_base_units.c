@@ -9,7 +9,7 @@
 
 static void check_unit(const char *unit, wt_quantity quantity, double factor, double offset)
 {
-    double f = NAN, o = NAN;
+    double f = (double)NAN, o = (double)NAN;
     wt_error err = WT_ERROR_INIT;
     if (wt_unit_to_si(unit, quantity, &f, &o, &err) != WT_OK) {
         print_error("unit \"%s\" refused: %s\n", unit, err.message);
@@ -142,7 +142,7 @@ static void every_si_unit_is_itself(void **state)
 
 static void check_parse(const char *text, wt_quantity quantity, double expected)
 {
-    double value = NAN;
+    double value = (double)NAN;
     wt_error err = WT_ERROR_INIT;
     if (wt_quantity_parse(text, quantity, &value, &err) != WT_OK) {
         print_error("\"%s\" refused: %s\n", text, err.message);
@@ -252,10 +252,10 @@ static void *convert_often(void *user)
 {
     double *const sum = user;
     for (int i = 0; i < 200; i++) {
-        double f = NAN, o = NAN;
+        double f = (double)NAN, o = (double)NAN;
         if (wt_unit_to_si(i % 2 == 0 ? "kPa" : "mm", i % 2 == 0 ? WT_Q_PRESSURE : WT_Q_LENGTH, &f,
                           &o, NULL) != WT_OK)
-            f = NAN;
+            f = (double)NAN;
         *sum += f;
     }
     return NULL;
