@@ -1,0 +1,172 @@
+/* Axes of a figure: ranges that end at whole tics, tics that read well, factors to lab units.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "report/drawing.h"
+
+#include <math.h>
+#include <string.h>
+
+bool wt_span_empty(const wt_span *span)
+{
+    return !(span->low <= span->high);
+}
+
+void wt_span_add(wt_span *span, double value, bool positive_only)
+{
+    if (!isfinite(value) || (positive_only && value <= 0))
+        return;
+    if (wt_span_empty(span))
+        span->low = span->high = value;
+    span->low = fmin(span->low, value);
+    span->high = fmax(span->high, value);
+}
+
+void wt_span_add_column(wt_span *span, const wt_table *table, const char *column,
+                        bool positive_only)
+{
+    long c = wt_table_find(table, column);
+    if (c < 0 || wt_table_column_kind(table, (size_t)c) != WT_COLUMN_NUMBER)
+        return;
+    for (size_t row = 0; row < wt_table_n_rows(table); row++)
+        wt_span_add(span, wt_table_number(table, row, (size_t)c), positive_only);
+}
+
+void wt_span_add_section(wt_span *span, const wt_drawing *d, int section, const char *column,
+                         bool positive_only)
+{
+    if (section >= 0)
+        wt_span_add_column(span, d->sections[section], column, positive_only);
+}
+
+static void write_label(wt_drawing *d, const char *axis, const char *label, const wt_lab_unit *lab)
+{
+    wt_text words = {0};
+    wt_text_add(&words, label);
+    if (lab->label[0] != '\0')
+        wt_text_format(&words, " (%s)", lab->label);
+    if (strcmp(axis, "cb") == 0) // beside the scale of colour, which stands right of the picture
+        wt_text_add(&d->script, "set rmargin 14\n");
+    wt_text_format(&d->script, "set %slabel ", axis);
+    wt_text_quoted(&d->script, wt_text_string(&words));
+    wt_text_add(&d->script, "\n");
+    if (words.failed)
+        d->script.failed = true;
+    wt_text_free(&words);
+}
+
+static void write_unit(wt_drawing *d, const char *axis, const char *unit, const wt_lab_unit *lab)
+{
+    wt_text words = {0};
+    wt_text_format(&d->script, "%s_unit = ", axis);
+    wt_text_literal(&d->script, lab->factor);
+    if (lab->offset != 0) {
+        wt_text_format(&d->script, "; %s_offset = ", axis);
+        wt_text_literal(&d->script, lab->offset);
+    }
+    wt_text_format(&words, "from %s to %s", unit, lab->label[0] != '\0' ? lab->label : "1");
+    wt_text_add(&d->script, "  ");
+    wt_text_comment(&d->script, wt_text_string(&words));
+    if (words.failed)
+        d->script.failed = true;
+    wt_text_free(&words);
+}
+
+static void write_range(wt_drawing *d, const char *axis, double low, double high)
+{
+    wt_text_format(&d->script, "set %srange [", axis);
+    wt_text_literal(&d->script, low);
+    wt_text_add(&d->script, ":");
+    wt_text_literal(&d->script, high);
+    wt_text_add(&d->script, "]\n");
+}
+
+/* 1, 2, 2.5 or 5 times a power of ten that divides `width` into about five parts. */
+static double tidy_step(double width)
+{
+    double raw = width / 5, power = pow(10, floor(log10(raw))), part = raw / power;
+    return (part < 1.5 ? 1 : part < 2.25 ? 2 : part < 3.5 ? 2.5 : part < 7.5 ? 5 : 10) * power;
+}
+
+wt_lab_unit wt_axis_linear(wt_drawing *d, const char *axis, const char *label, const char *unit,
+                           const char *quantity, wt_span span)
+{
+    wt_lab_unit lab = wt_lab_unit_for(unit, quantity, fmax(fabs(span.low), fabs(span.high)) / 2);
+    double low = wt_lab_value(&lab, span.low), high = wt_lab_value(&lab, span.high);
+    if (!(high > low)) { // one value: a range around it
+        double half = low != 0 ? fabs(low) / 2 : 1;
+        low -= half;
+        high += half;
+    }
+    double step = tidy_step(high - low), margin = 0.04 * (high - low);
+    // A zero that ends the data ends the axis: nothing is drawn beyond it.
+    low = low == 0 ? 0 : low - margin;
+    high = high == 0 ? 0 : high + margin;
+    write_unit(d, axis, unit, &lab);
+    write_label(d, axis, label, &lab);
+    wt_text_format(&d->script, "unset logscale %s\n", axis);
+    write_range(d, axis, low, high);
+    wt_text_format(&d->script, "set %stics ", axis);
+    wt_text_literal(&d->script, step);
+    wt_text_format(&d->script, "\nset format %s '%%g'\n", axis);
+    return lab;
+}
+
+/* Little more than two decades at most: 1-2-5 tics with plain numbers. */
+static void short_log(wt_drawing *d, const char *axis, double low, double high, double width)
+{
+    double margin = pow(10, fmax(0.05 * width, 0.02));
+    low /= margin;
+    high *= margin;
+    static const double few[] = {1, 2, 5}, many[] = {1, 1.5, 2, 3, 4, 5, 6, 8};
+    const double *digits = width < 0.7 ? many : few;
+    size_t n = width < 0.7 ? sizeof many / sizeof many[0] : sizeof few / sizeof few[0];
+    size_t written = 0;
+    write_range(d, axis, low, high);
+    wt_text_format(&d->script, "unset m%stics\nset %stics (", axis, axis);
+    if (width < 0.15) { // less than a factor of 1.4: as on a linear axis
+        double step = tidy_step(high - low);
+        for (double tic = ceil(low / step) * step; tic <= high; tic += step) {
+            wt_text_add(&d->script, written++ == 0 ? "" : ", ");
+            wt_text_literal(&d->script, tic);
+        }
+    } else
+        for (int decade = (int)floor(log10(low)); decade <= (int)floor(log10(high)); decade++)
+            for (size_t i = 0; i < n; i++) {
+                double tic = digits[i] * pow(10, decade);
+                if (tic < low || tic > high)
+                    continue;
+                wt_text_add(&d->script, written++ == 0 ? "" : ", ");
+                wt_text_literal(&d->script, tic);
+            }
+    wt_text_format(&d->script, ")\nset format %s '%%g'\n", axis);
+}
+
+wt_lab_unit wt_axis_log(wt_drawing *d, const char *axis, const char *label, const char *unit,
+                        wt_span span)
+{
+    double decades = log10(span.high / span.low);
+    // The unit of the geometric middle, as decades go both ways from it; times and velocities over
+    // many decades are better known in SI.
+    bool wide = decades > 2.5 && (strcmp(unit, "s") == 0 || strcmp(unit, "m/s") == 0);
+    wt_lab_unit lab = wt_lab_unit_for(unit, "", wide ? 1 : sqrt(span.low) * sqrt(span.high));
+    double low = span.low * lab.factor, high = span.high * lab.factor;
+    write_unit(d, axis, unit, &lab);
+    write_label(d, axis, label, &lab);
+    wt_text_format(&d->script, "set logscale %s\n", axis);
+    if (decades < 2.2) {
+        short_log(d, axis, low, high, decades);
+        return lab;
+    }
+    double margin = pow(10, 0.03 * decades);
+    low /= margin;
+    high *= margin;
+    write_range(d, axis, low, high);
+    // Seven labels at most. The first tic must be given: else
+    // gnuplot counts from the end of the axis, which is no whole decade.
+    int step = 1 + (int)(decades / 7), first = (int)ceil(log10(low));
+    wt_text_format(&d->script, "set %stics 1e%d,1e%d\n", axis, first, step);
+    wt_text_format(&d->script, step == 1 ? "set m%stics 10\n" : "unset m%stics\n", axis);
+    wt_text_format(&d->script, "set format %s '10^{%%T}'\n", axis);
+    return lab;
+}

@@ -1,0 +1,15 @@
+/* Files that are part of the library: plot styles and the style sheet of the page.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#ifndef WT_REPORT_FILES_H
+#define WT_REPORT_FILES_H
+
+#include <stddef.h>
+
+/* Text of "page.css", "paper.gp", ...; NULL if there is none of that name. Static. */
+const char *wt_report_file(const char *name);
+/* Names of the plot styles, "paper, screen"; at most `size` bytes. */
+void wt_report_styles(char *names, size_t size);
+
+#endif

@@ -1,0 +1,58 @@
+# weartrack plot style "screen": larger type and stronger lines, for slides and a beamer.
+# Each script sets figure_width and figure_height (in panels of this style) and loads this file.
+# Terminal and sizes are set here; everything else of a figure is in its script.
+set encoding utf8
+set terminal svg size 760*figure_width,540*figure_height dynamic enhanced font 'Helvetica,22' background '#ffffff'
+
+set border 3 lw 1.54 lc rgb '#333333'
+set tics nomirror out scale 0.8,0.4 textcolor rgb '#1a1a1a'
+set title offset 0,-0.4
+set key tmargin left horizontal reverse Left samplen 2.2 width 1.5 maxcols 5
+set lmargin 10
+set bmargin 3.6
+set rmargin 3
+set errorbars small
+
+# Dark blue and light orange differ for every kind of colour vision, and in grey.
+# 1 bulk, 2 track, 3 to 6 other groups; 30 more: the same on the way back; 40 more: single curves.
+set style line 1 lc rgb '#0b4f8a' lw 2.8 dt solid pt 7 ps 1.05
+set style line 2 lc rgb '#e88a0c' lw 2.8 dt solid pt 9 ps 1.26
+set style line 3 lc rgb '#0f8f6b' lw 2.8 dt solid pt 5 ps 0.98
+set style line 4 lc rgb '#b8569a' lw 2.8 dt solid pt 13 ps 1.33
+set style line 5 lc rgb '#555555' lw 2.8 dt solid pt 11 ps 1.26
+set style line 6 lc rgb '#7a1f2b' lw 2.8 dt solid pt 6 ps 1.05
+set style line 31 lc rgb '#8fb0d3' lw 2.24 dt (8,4) pt 7 ps 1.05
+set style line 32 lc rgb '#f2bd7a' lw 2.24 dt (8,4) pt 9 ps 1.26
+set style line 33 lc rgb '#8fcdb9' lw 2.24 dt (8,4) pt 5 ps 0.98
+set style line 34 lc rgb '#dba9cb' lw 2.24 dt (8,4) pt 13 ps 1.33
+set style line 35 lc rgb '#aaaaaa' lw 2.24 dt (8,4) pt 11 ps 1.26
+set style line 36 lc rgb '#bf8a91' lw 2.24 dt (8,4) pt 6 ps 1.05
+set style line 41 lc rgb '#8fb0d3' lw 1.4 dt solid pt 7 ps 0.84
+set style line 42 lc rgb '#f2bd7a' lw 1.4 dt solid pt 9 ps 1.01
+set style line 43 lc rgb '#8fcdb9' lw 1.4 dt solid pt 5 ps 0.78
+set style line 44 lc rgb '#dba9cb' lw 1.4 dt solid pt 13 ps 1.06
+set style line 45 lc rgb '#aaaaaa' lw 1.4 dt solid pt 11 ps 1.01
+set style line 46 lc rgb '#bf8a91' lw 1.4 dt solid pt 6 ps 0.84
+
+# 11 fitted law, 12 mark or guide, 13 mean with its interval, 14 point without weight, 15 second law
+set style line 11 lc rgb '#111111' lw 2.24 dt solid
+set style line 12 lc rgb '#777777' lw 1.54 dt (3,3)
+set style line 13 lc rgb '#111111' lw 2.8 dt solid pt 7 ps 1.12
+set style line 14 lc rgb '#777777' lw 1.96 dt solid pt 6 ps 1.12
+set style line 15 lc rgb '#111111' lw 2.24 dt (8,4)
+
+# 21 the whole, 22 and 23 its two parts, 24 the whole with a layer; 50 more: bands of error
+set style line 21 lc rgb '#111111' lw 3.36 dt solid
+set style line 22 lc rgb '#0b4f8a' lw 3.08 dt (10,4)
+set style line 23 lc rgb '#2f9bd6' lw 3.08 dt (10,4,2,4)
+set style line 24 lc rgb '#e88a0c' lw 3.36 dt (6,3)
+set style fill solid 1 noborder
+set style line 71 lc rgb '#d9d9d9'
+set style line 72 lc rgb '#cfdded'
+set style line 74 lc rgb '#fbe3c3'
+
+# 51 and 52 points that take their colour from the palette: full and open
+set style line 51 lw 1.68 pt 7 ps 0.84
+set style line 52 lw 1.68 pt 6 ps 0.84
+set palette defined (0 '#2b0b57', 0.25 '#31558c', 0.5 '#1f8f8b', 0.75 '#5fc161', 1 '#d9c80f') maxcolors 64
+set colorbox user origin graph 1.03, graph 0 size graph 0.035, graph 1

@@ -1,0 +1,63 @@
+/* A picture of gnuplot's made fit to stand inside a page.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "report/svg.h"
+
+#include <string.h>
+
+/* Length of the beginning of s (n bytes left) if it is `word`, else 0. */
+static size_t starts(const char *s, size_t n, const char *word)
+{
+    size_t length = strlen(word);
+    return n >= length && memcmp(s, word, length) == 0 ? length : 0;
+}
+
+/* Length up to and including the next `end`, or what is left. */
+static size_t up_to(const char *s, size_t n, const char *end)
+{
+    const char *found = memmem(s, n, end, strlen(end));
+    return found != NULL ? (size_t)(found - s) + strlen(end) : n;
+}
+
+bool wt_svg_inline(wt_text *page, const char *svg, size_t length, const char *name,
+                   const char *label)
+{
+    static const char *const references[] = {" id='", " id=\"", "href='#", "href=\"#",
+                                             "url(#", "url('#", "url(\"#"};
+    const char *begin = memmem(svg, length, "<svg", 4);
+    if (begin == NULL)
+        return false;
+    size_t left = length - (size_t)(begin - svg);
+    wt_text_add(page, "<svg role=\"img\" aria-label=\"");
+    wt_text_html(page, label);
+    wt_text_add(page, "\"");
+    const char *s = begin + 4;
+    left -= 4;
+    while (left > 0) {
+        size_t skip = 0;
+        if (starts(s, left, "<title>"))
+            skip = up_to(s, left, "</title>");
+        else if (starts(s, left, "<desc>"))
+            skip = up_to(s, left, "</desc>");
+        if (skip > 0) {
+            s += skip;
+            left -= skip;
+            continue;
+        }
+        size_t word = 0;
+        for (size_t i = 0; i < sizeof references / sizeof references[0] && word == 0; i++)
+            word = starts(s, left, references[i]);
+        if (word == 0) {
+            wt_text_bytes(page, s, 1);
+            s++;
+            left--;
+            continue;
+        }
+        wt_text_bytes(page, s, word);
+        wt_text_format(page, "%s-", name);
+        s += word;
+        left -= word;
+    }
+    return true;
+}

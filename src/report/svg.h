@@ -1,0 +1,16 @@
+/* A picture of gnuplot's made fit to stand inside a page.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#ifndef WT_REPORT_SVG_H
+#define WT_REPORT_SVG_H
+
+#include "report/text.h"
+
+/* Appends the <svg> element of `svg` to a page: without XML declaration, its ids and references
+ * prefixed by `name` so that they are unique on the page, without gnuplot's own titles (they would
+ * pop up as tool tips), and with `label` as its accessible name. false if it holds no <svg>. */
+bool wt_svg_inline(wt_text *page, const char *svg, size_t length, const char *name,
+                   const char *label);
+
+#endif
