@@ -98,8 +98,7 @@ static char *program_path(const char *program)
     return absolute != NULL ? absolute : strdup(program);
 }
 
-wt_status wt_gnuplot_run(const char *program, const char *folder, const char *const *scripts,
-                         size_t n, wt_error *err)
+wt_status wt_gnuplot_run(const char *program, const char *folder, const char *script, wt_error *err)
 {
     wt_status status = WT_OK;
     posix_spawn_file_actions_t actions;
@@ -107,16 +106,13 @@ wt_status wt_gnuplot_run(const char *program, const char *folder, const char *co
     int channel[2] = {-1, -1};
     char **environment_list = environment();
     char *path = program_path(program);
-    const char **arguments = calloc(n + 3, sizeof *arguments);
 
-    if (environment_list == NULL || path == NULL || arguments == NULL) {
+    char settings[] = "--default-settings", *name = strdup(script);
+
+    if (environment_list == NULL || path == NULL || name == NULL) {
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
         goto done;
     }
-    arguments[0] = path;
-    arguments[1] = "--default-settings";
-    for (size_t i = 0; i < n; i++)
-        arguments[2 + i] = scripts[i];
     if (pipe2(channel, O_CLOEXEC) != 0) {
         status = wt_fail(err, WT_E_IO, "no pipe for the messages of gnuplot: %s", strerror(errno));
         goto done;
@@ -132,14 +128,9 @@ wt_status wt_gnuplot_run(const char *program, const char *folder, const char *co
     if (code == 0) // what a script prints must not end in the data of a pipe
         code = posix_spawn_file_actions_adddup2(&actions, channel[1], STDOUT_FILENO);
     pid_t child = 0;
-    if (code == 0) {
-        // posix_spawnp wants char *const[] for historical reasons; it does not write.
-        union {
-            const char **in;
-            char **out;
-        } words_in = {arguments};
-        code = posix_spawnp(&child, path, &actions, NULL, words_in.out, environment_list);
-    }
+    char *arguments[] = {path, settings, name, NULL};
+    if (code == 0)
+        code = posix_spawnp(&child, path, &actions, NULL, arguments, environment_list);
     if (code != 0) {
         status = cannot_start(program, code, err);
         goto done;
@@ -163,7 +154,7 @@ done:
         close(channel[1]);
     if (have_actions)
         posix_spawn_file_actions_destroy(&actions);
-    free(arguments);
+    free(name);
     free(path);
     free(environment_list);
     return status;

@@ -7,10 +7,11 @@
 
 #include "weartrack/base.h"
 
-/* Runs `program` (a name looked up in PATH, or a path) in `folder` on n scripts (names in that
+/* Runs `program` (a name looked up in PATH, or a path) in `folder` on a script (a name in that
  * folder), without a shell, without standard input, without the user's gnuplot settings, in the C
- * locale. WT_E_TOOL if it cannot be started or fails; the error carries its words. */
-wt_status wt_gnuplot_run(const char *program, const char *folder, const char *const *scripts,
-                         size_t n, wt_error *err) WT_NODISCARD;
+ * locale. WT_E_TOOL if it cannot be started or fails; the error carries its words. One process for
+ * each script: what one leaves behind would change the bytes of the next picture. */
+wt_status wt_gnuplot_run(const char *program, const char *folder, const char *script,
+                         wt_error *err) WT_NODISCARD;
 
 #endif

@@ -104,6 +104,18 @@ typedef struct drawn_figure {
     wt_text svg;
 } drawn_figure;
 
+/* One report while it is written. */
+typedef struct report {
+    const wt_result *result;
+    const char *gnuplot;
+    const wt_progress *progress;
+    wt_text style;
+    wt_folder *folder;
+    drawn_figure *figures; /* one for each that this library knows */
+    wt_page_figure *pages; /* those whose tables are there */
+    size_t n_pages, n_pictures;
+} report;
+
 static bool has_tables(const wt_result *result, const wt_figure_info *info)
 {
     for (size_t i = 0; info->needs[i] != NULL; i++) {
@@ -165,127 +177,121 @@ static wt_status write_script(const wt_folder *folder, const wt_drawing *d,
     return status;
 }
 
-/* Draws what the result has tables for; pages[*n_pages] and scripts[*n_scripts] list them. */
-static wt_status make_figures(const wt_result *result, const wt_folder *folder,
-                              drawn_figure *figures, wt_page_figure *pages, size_t *n_pages,
-                              char (*scripts)[96], size_t *n_scripts, wt_error *err)
+/* The picture of one figure, from its script. */
+static wt_status draw_picture(report *r, drawn_figure *figure, const wt_figure_info *info,
+                              wt_error *err)
 {
+    enum { PICTURE_LIMIT = 64 << 20 };
+    char script[96], picture[96];
     wt_status status = WT_OK;
-    for (size_t i = 0; i < wt_figure_count() && status == WT_OK; i++) {
-        const wt_figure_info *info = wt_figure_get(i);
-        if (!has_tables(result, info))
-            continue;
-        wt_drawing *d = &figures[i].drawing;
-        *d = (wt_drawing){.result = result, .name = info->name, .err = err};
-        wt_figure_draw(i)(d);
-        if (d->status != WT_OK)
-            return d->status;
-        wt_page_figure *page = &pages[(*n_pages)++];
-        *page = (wt_page_figure){.info = info, .width = d->width};
-        if (d->script.length == 0) {
-            page->omitted = wt_text_string(&d->omitted);
-            continue;
-        }
-        if ((status = write_data(folder, d, err)) == WT_OK)
-            status = write_script(folder, d, info, err);
-        (void)snprintf(scripts[(*n_scripts)++], sizeof *scripts, "%s.gp", info->name);
-    }
+    (void)snprintf(script, sizeof script, "%s.gp", info->name);
+    (void)snprintf(picture, sizeof picture, "%s.svg", info->name);
+    if (r->n_pictures++ == 0)
+        status = wt_folder_write(r->folder, "plots/style.gp", wt_text_string(&r->style),
+                                 r->style.length, err);
+    if (status == WT_OK)
+        status = wt_gnuplot_run(r->gnuplot, wt_folder_plots(r->folder), script, err);
+    if (status != WT_OK)
+        return status;
+    char *path = wt_path_join(wt_folder_plots(r->folder), picture);
+    if (path == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    status = read_file(path, PICTURE_LIMIT, &figure->svg, err);
+    free(path);
     return status;
 }
 
-static wt_status read_pictures(const wt_folder *folder, drawn_figure *figures,
-                               wt_page_figure *pages, size_t n_pages, wt_error *err)
+static wt_status make_figure(report *r, size_t i, wt_error *err)
 {
-    enum { PICTURE_LIMIT = 64 << 20 };
-    for (size_t i = 0; i < n_pages; i++) {
-        if (pages[i].omitted != NULL)
-            continue;
-        drawn_figure *figure = figures;
-        while (figure->drawing.name != pages[i].info->name)
-            figure++;
-        char name[128];
-        (void)snprintf(name, sizeof name, "%s.svg", pages[i].info->name);
-        char *path = wt_path_join(wt_folder_plots(folder), name);
-        if (path == NULL)
-            return wt_fail(err, WT_E_MEMORY, "out of memory");
-        wt_status status = read_file(path, PICTURE_LIMIT, &figure->svg, err);
-        free(path);
-        if (status != WT_OK)
-            return status;
-        pages[i].svg = wt_text_string(&figure->svg);
-        pages[i].svg_length = figure->svg.length;
-        pages[i].caption = wt_text_string(&figure->drawing.caption);
+    const wt_figure_info *info = wt_figure_get(i);
+    drawn_figure *figure = &r->figures[i];
+    wt_drawing *d = &figure->drawing;
+    wt_status status = WT_OK;
+    *d = (wt_drawing){.result = r->result, .name = info->name, .err = err};
+    wt_figure_draw(i)(d);
+    if (d->status != WT_OK)
+        return d->status;
+    wt_page_figure *page = &r->pages[r->n_pages++];
+    *page = (wt_page_figure){.info = info, .width = d->width};
+    if (d->script.length == 0) {
+        page->omitted = wt_text_string(&d->omitted);
+        return WT_OK;
     }
+    if ((status = write_data(r->folder, d, err)) != WT_OK ||
+        (status = write_script(r->folder, d, info, err)) != WT_OK ||
+        (status = draw_picture(r, figure, info, err)) != WT_OK)
+        return status;
+    page->caption = wt_text_string(&d->caption);
+    page->svg = wt_text_string(&figure->svg);
+    page->svg_length = figure->svg.length;
     return WT_OK;
 }
 
-static wt_status tell(const wt_progress *progress, const char *what, size_t done, wt_error *err)
+/* The page is the last step. */
+static wt_status tell(const report *r, const char *what, size_t done, wt_error *err)
 {
-    enum { STEPS = 3 };
-    if (progress == NULL || progress->report == NULL ||
-        progress->report(progress->user, what, done, STEPS))
+    if (r->progress == NULL || r->progress->report == NULL ||
+        r->progress->report(r->progress->user, what, done, wt_figure_count() + 1))
         return WT_OK;
     return wt_fail(err, WT_E_CANCELLED, "the report was cancelled");
 }
 
-wt_status wt_report_write(const wt_result *result, const char *folder_name,
+static wt_status make_page(const report *r, bool with_provenance, wt_error *err)
+{
+    wt_page page = {.result = r->result,
+                    .with_provenance = with_provenance,
+                    .figures = r->pages,
+                    .n_figures = r->n_pages};
+    wt_status status = wt_page_write(&page, err);
+    if (status == WT_OK)
+        status = wt_folder_write(r->folder, "index.html", page.out.bytes, page.out.length, err);
+    wt_text_free(&page.out);
+    return status;
+}
+
+wt_status wt_report_write(const wt_result *result, const char *folder,
                           const wt_report_options *options, const wt_progress *progress,
                           wt_error *err)
 {
     const wt_report_options chosen = options != NULL ? *options : wt_report_defaults();
     wt_status status = WT_OK;
-    wt_folder *folder = NULL;
-    wt_text style = {0};
-    wt_page page = {.result = result, .with_provenance = chosen.with_provenance};
-    size_t n = wt_figure_count(), n_pages = 0, n_scripts = 0;
-    drawn_figure *figures = calloc(n, sizeof *figures);
-    wt_page_figure *pages = calloc(n, sizeof *pages);
-    char(*scripts)[96] = calloc(n, sizeof *scripts);
-    const char **names = calloc(n, sizeof *names);
+    size_t n = wt_figure_count();
+    report r = {.result = result,
+                .gnuplot = chosen.gnuplot != NULL ? chosen.gnuplot : "gnuplot",
+                .progress = progress,
+                .figures = calloc(n, sizeof *r.figures),
+                .pages = calloc(n, sizeof *r.pages)};
 
-    if (figures == NULL || pages == NULL || scripts == NULL || names == NULL) {
+    if (r.figures == NULL || r.pages == NULL) {
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
         goto done;
     }
-    if ((status = find_style(chosen.style, &style, err)) != WT_OK ||
-        (status = wt_folder_open(folder_name, &folder, err)) != WT_OK ||
-        (status = tell(progress, "figures", 0, err)) != WT_OK ||
-        (status = make_figures(result, folder, figures, pages, &n_pages, scripts, &n_scripts,
-                               err)) != WT_OK)
+    if ((status = find_style(chosen.style, &r.style, err)) != WT_OK ||
+        (status = wt_folder_open(folder, &r.folder, err)) != WT_OK)
         goto done;
-    if (n_scripts > 0) {
-        for (size_t i = 0; i < n_scripts; i++)
-            names[i] = scripts[i];
-        if ((status = wt_folder_write(folder, "plots/style.gp", wt_text_string(&style),
-                                      style.length, err)) != WT_OK ||
-            (status = tell(progress, "pictures", 1, err)) != WT_OK ||
-            (status = wt_gnuplot_run(chosen.gnuplot != NULL ? chosen.gnuplot : "gnuplot",
-                                     wt_folder_plots(folder), names, n_scripts, err)) != WT_OK ||
-            (status = read_pictures(folder, figures, pages, n_pages, err)) != WT_OK)
+    for (size_t i = 0; i < n; i++) {
+        const wt_figure_info *info = wt_figure_get(i);
+        if (!has_tables(result, info))
+            continue;
+        if ((status = tell(&r, info->name, i, err)) != WT_OK ||
+            (status = make_figure(&r, i, err)) != WT_OK)
             goto done;
     }
-    page.figures = pages;
-    page.n_figures = n_pages;
-    if ((status = tell(progress, "page", 2, err)) != WT_OK ||
-        (status = wt_page_write(&page, err)) != WT_OK ||
-        (status = wt_folder_write(folder, "index.html", page.out.bytes, page.out.length, err)) !=
-            WT_OK)
+    if ((status = tell(&r, "page", n, err)) != WT_OK ||
+        (status = make_page(&r, chosen.with_provenance, err)) != WT_OK)
         goto done;
-    status = wt_folder_commit(folder, err);
-    folder = NULL;
+    status = wt_folder_commit(r.folder, err);
+    r.folder = NULL;
     if (status == WT_OK)
-        (void)tell(progress, "page", 3, NULL); // it is there: too late to cancel
+        (void)tell(&r, "page", n + 1, NULL); // it is there: too late to cancel
 done:
-    wt_folder_discard(folder);
-    for (size_t i = 0; figures != NULL && i < n; i++) {
-        wt_drawing_clear(&figures[i].drawing);
-        wt_text_free(&figures[i].svg);
+    wt_folder_discard(r.folder);
+    for (size_t i = 0; r.figures != NULL && i < n; i++) {
+        wt_drawing_clear(&r.figures[i].drawing);
+        wt_text_free(&r.figures[i].svg);
     }
-    free(figures);
-    free(pages);
-    free(scripts);
-    free(names);
-    wt_text_free(&style);
-    wt_text_free(&page.out);
+    free(r.figures);
+    free(r.pages);
+    wt_text_free(&r.style);
     return status;
 }

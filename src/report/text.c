@@ -226,10 +226,12 @@ static void add_number(wt_text *text, double value, int significant, bool trim)
     char digits[MAX_DIGITS + 1];
     int exponent = 0;
     int count = significant < 1 ? 1 : significant > MAX_DIGITS ? MAX_DIGITS : significant;
+    int whole = 0; // exponent before rounding
+    decimal_digits(value, MAX_DIGITS, digits, &whole);
     decimal_digits(value, count, digits, &exponent);
-    bool plain = exponent >= -3 && exponent <= 4;
-    if (plain && exponent + 1 > count)
-        decimal_digits(value, exponent + 1, digits, &exponent);
+    bool plain = exponent >= -3 && whole <= 4;
+    if (plain && whole + 1 > count)
+        decimal_digits(value, whole + 1, digits, &exponent);
     for (size_t n = strlen(digits); trim && n > 1 && digits[n - 1] == '0'; n--)
         digits[n - 1] = '\0';
     if (value < 0)
@@ -255,36 +257,18 @@ void wt_text_fixed(wt_text *text, double value, int decimals)
 {
     if (not_finite(text, value))
         return;
-    double size = fabs(value);
-    int leading = size > 0 ? (int)floor(log10(size)) : 0;
-    int count = leading + 1 + decimals;
-    if (count > MAX_DIGITS - 1) {
-        wt_text_number(text, value, MAX_DIGITS - 1);
-        return;
-    }
-    char digits[MAX_DIGITS + 1] = "0";
-    int exponent = 0;
-    if (size > 0 && count >= 1) {
-        decimal_digits(value, count, digits, &exponent);
-        if (exponent > leading && count < MAX_DIGITS) // 9.97 rounds up to 10.0
-            decimal_digits(value, count + 1, digits, &exponent);
-    } else if (count == 0) { // may round up to one unit of the last decimal
-        decimal_digits(value, 1, digits, &exponent);
-        bool up = digits[0] >= '5';
-        digits[0] = up ? '1' : '0';
-        exponent = up ? -decimals : 0;
-    }
-    digits[MAX_DIGITS] = '\0';
-    bool zero = strspn(digits, "0") == strlen(digits);
-    if (value < 0 && !zero)
+    enum { MAX_DECIMALS = 15 };
+    char plain[400]; // 309 digits before the decimal mark at most
+    int after = decimals < 0 ? 0 : decimals > MAX_DECIMALS ? MAX_DECIMALS : decimals;
+    (void)snprintf(plain, sizeof plain, "%.*f", after, fabs(value));
+    size_t length = strlen(plain), before = strspn(plain, "0123456789");
+    if (value < 0 && strpbrk(plain, "123456789") != NULL)
         wt_text_add(text, "−");
-    if (zero) {
-        wt_text_add(text, "0");
-        for (int i = 0; i < decimals; i++)
-            wt_text_add(text, i == 0 ? ".0" : "0");
-        return;
+    wt_text_bytes(text, plain, before);
+    if (after > 0) { // the mark between is that of the locale
+        wt_text_add(text, ".");
+        wt_text_add(text, plain + length - (size_t)after);
     }
-    add_plain(text, digits, exponent);
 }
 
 void wt_text_literal(wt_text *text, double value)

@@ -1,0 +1,752 @@
+/* The report room: texts and numbers for reading, lab units, figures, folder, page.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "near.h"
+#include "report/drawing.h"
+#include "report/svg.h"
+#include "report/text.h"
+#include "report/units.h"
+#include "report_fixture.h"
+#include "weartrack/report.h"
+
+#include <dirent.h>
+#include <libxml/parser.h>
+#include <libxml/xpath.h>
+#include <libxml/xpathInternals.h>
+#include <locale.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* ---- helpers ----------------------------------------------------------------------------------
+ */
+
+/* Every test works in a folder of its own, so that nothing depends on another test. */
+static int make_workplace(void **state)
+{
+    char *folder = strdup("/tmp/weartrack-report-XXXXXX");
+    if (folder == NULL || mkdtemp(folder) == NULL || chdir(folder) != 0)
+        return -1;
+    *state = folder;
+    return 0;
+}
+
+static void remove_all(const char *path)
+{
+    DIR *folder = unlink(path) == 0 ? NULL : opendir(path); // a link is removed, not followed
+    if (folder == NULL)
+        return;
+    for (const struct dirent *entry; (entry = readdir(folder)) != NULL;) {
+        if (strcmp(entry->d_name, ".") == 0 || strcmp(entry->d_name, "..") == 0)
+            continue;
+        char *inner = wt_path_join(path, entry->d_name);
+        remove_all(inner);
+        free(inner);
+    }
+    closedir(folder);
+    (void)rmdir(path);
+}
+
+static int remove_workplace(void **state)
+{
+    int status = chdir("/");
+    remove_all(*state);
+    free(*state);
+    return status;
+}
+
+static char *read_all(const char *path, size_t *length)
+{
+    FILE *file = fopen(path, "rb");
+    if (file == NULL)
+        fail_msg("%s is not there", path);
+    (void)fseek(file, 0, SEEK_END);
+    long size = ftell(file);
+    assert_true(size >= 0);
+    rewind(file);
+    char *bytes = malloc((size_t)size + 1);
+    assert_non_null(bytes);
+    *length = fread(bytes, 1, (size_t)size, file);
+    bytes[*length] = '\0';
+    (void)fclose(file);
+    return bytes;
+}
+
+static void write_all(const char *path, const char *text)
+{
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_true(fputs(text, file) >= 0);
+    assert_int_equal(fclose(file), 0);
+}
+
+static bool exists(const char *path)
+{
+    struct stat info;
+    return lstat(path, &info) == 0;
+}
+
+static size_t count_files(const char *path)
+{
+    size_t n = 0;
+    DIR *folder = opendir(path);
+    assert_non_null(folder);
+    for (const struct dirent *entry; (entry = readdir(folder)) != NULL;)
+        n += strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0;
+    closedir(folder);
+    return n;
+}
+
+static bool have_gnuplot(void)
+{
+    const char *path = getenv("PATH");
+    char *copy = strdup(path != NULL ? path : ""), *rest = NULL;
+    bool found = false;
+    for (char *part = strtok_r(copy, ":", &rest); part != NULL && !found;
+         part = strtok_r(NULL, ":", &rest)) {
+        char *program = wt_path_join(part, "gnuplot");
+        found = program != NULL && access(program, X_OK) == 0;
+        free(program);
+    }
+    free(copy);
+    return found;
+}
+
+#define NEED_GNUPLOT()                                                                             \
+    do {                                                                                           \
+        if (!have_gnuplot())                                                                       \
+            skip();                                                                                \
+    } while (0)
+
+static void write_report(const wt_result *result, const char *folder,
+                         const wt_report_options *options)
+{
+    wt_error err = WT_ERROR_INIT;
+    if (wt_report_write(result, folder, options, NULL, &err) != WT_OK) {
+        char line[1600];
+        (void)wt_error_format(&err, line, sizeof line);
+        fail_msg("%s", line);
+    }
+}
+
+/* ---- texts and numbers ------------------------------------------------------------------------
+ */
+
+static void assert_text(wt_text *text, const char *expected)
+{
+    assert_false(text->failed);
+    assert_string_equal(wt_text_string(text), expected);
+    wt_text_free(text);
+}
+
+static void test_numbers_for_reading(void **state)
+{
+    (void)state;
+    static const struct {
+        double value;
+        int digits;
+        const char *expected;
+    } cases[] = {
+        {12.345, 3, "12.3"},           {-0.0046249, 3, "−0.00462"},
+        {1.234e-7, 2, "1.2×10⁻⁷"},     {9.996, 3, "10.0"},
+        {123456, 3, "1.23×10⁵"},       {2519.7, 3, "2520"},
+        {0.00099996, 3, "0.00100"},    {0, 3, "0"},
+        {(double)NAN, 3, "not known"}, {(double)INFINITY, 3, "∞"},
+        {-(double)INFINITY, 3, "−∞"},  {99999, 1, "99999"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        wt_text text = {0};
+        wt_text_number(&text, cases[i].value, cases[i].digits);
+        assert_text(&text, cases[i].expected);
+    }
+    wt_text text = {0};
+    wt_text_short(&text, 0.5, 4);
+    wt_text_add(&text, " ");
+    wt_text_short(&text, 300, 2);
+    wt_text_add(&text, " ");
+    wt_text_short(&text, 20.04, 3);
+    assert_text(&text, "0.5 300 20");
+}
+
+static void test_fixed_decimals(void **state)
+{
+    (void)state;
+    static const struct {
+        double value;
+        int decimals;
+        const char *expected;
+    } cases[] = {
+        {2.385, 2, "2.38"},  {9.97, 1, "10.0"},   {-0.04, 1, "0.0"},  {0.06, 1, "0.1"},
+        {0.004, 1, "0.0"},   {0, 2, "0.00"},      {32, 0, "32"},      {-7.26, 0, "−7"},
+        {99.96, 1, "100.0"}, {0.0999, 2, "0.10"}, {1e-9, 3, "0.000"}, {2438121, 0, "2438121"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        wt_text text = {0};
+        wt_text_fixed(&text, cases[i].value, cases[i].decimals);
+        assert_text(&text, cases[i].expected);
+    }
+}
+
+static void test_numbers_do_not_follow_the_locale(void **state)
+{
+    (void)state;
+    bool comma = setlocale(LC_NUMERIC, "de_DE.UTF-8") != NULL;
+    wt_text text = {0};
+    wt_text_number(&text, 12.345, 3);
+    wt_text_add(&text, " ");
+    wt_text_literal(&text, 1.5e-9);
+    (void)setlocale(LC_NUMERIC, "C");
+    assert_text(&text, "12.3 1.5e-9");
+    if (!comma)
+        skip();
+}
+
+static void test_literals(void **state)
+{
+    (void)state;
+    static const struct {
+        double value;
+        const char *expected;
+    } cases[] = {{1e9, "1e9"},   {3, "3.0"},           {-273.15, "-273.15"},      {0.1, "0.1"},
+                 {1e-6, "1e-6"}, {(double)NAN, "NaN"}, {1.0 / 3, "0.3333333333"}, {120, "120.0"}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        wt_text text = {0};
+        wt_text_literal(&text, cases[i].value);
+        assert_text(&text, cases[i].expected);
+    }
+}
+
+static void test_escaping(void **state)
+{
+    (void)state;
+    wt_text text = {0};
+    wt_text_html(&text, "<a href=\"x\">'&'</a>\x01\xff\xc3\x28 µ\r");
+    assert_text(&text, "&lt;a href=&quot;x&quot;&gt;&#39;&amp;&#39;&lt;/a&gt;"
+                       "\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd( µ&#13;");
+    wt_text_quoted(&text, "it's `rm`\nset output\\");
+    assert_text(&text, "'it''s `rm` set output\\ '");
+    wt_text_comment(&text, "a\nb `c` \\");
+    assert_text(&text, "# a b  c   \n");
+}
+
+static void test_lab_units(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *unit, *name;
+        double value;
+        const char *label;
+        double shown;
+    } cases[] = {
+        {"m", "indentation", 1.3e-7, "nm", 130},
+        {"m", "height", 2.28e-6, "µm", 2.28},
+        {"N", "force", 5.36e-8, "nN", 53.6},
+        {"Pa", "modulus", 2.005e7, "MPa", 20.05},
+        {"K", "temperature", 293.15, "°C", 20},
+        {"K", "wlf_c2", 96.3, "K", 96.3},
+        {"K", "temperature_spread", 0.4, "K", 0.4},
+        {"m/s", "velocity", 5e-3, "mm/s", 5},
+        {"m^2/N", "k", 1e-13, "mm³/(N·m)", 1e-4},
+        {"W/m^3", "w", 3e9, "GW/m³", 3},
+        {"m^4", "density", 2e-16, "m⁴", 2e-16},
+        {"m.Hz^-0.5", "noise", 2, "m·Hz^-0·5", 2},
+        {"1", "ratio", 0.6, "", 0.6},
+        {"m", "zero", 0, "nm", 0},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        wt_lab_unit lab = wt_lab_unit_for(cases[i].unit, cases[i].name, cases[i].value);
+        if (strcmp(cases[i].unit, "m.Hz^-0.5") != 0)
+            assert_string_equal(lab.label, cases[i].label);
+        assert_near_abs(wt_lab_value(&lab, cases[i].value), cases[i].shown,
+                        1e-12 * fabs(cases[i].shown) + 1e-12);
+    }
+}
+
+static void test_svg_is_made_fit_for_a_page(void **state)
+{
+    (void)state;
+    static const char svg[] =
+        "<?xml version=\"1.0\"?>\n<svg viewBox=\"0 0 1 1\">\n<title>Gnuplot</title>"
+        "<desc>Produced</desc><g id=\"a\"><title>x</title><use xlink:href='#a' "
+        "clip-path='url(#c)'/></g></svg>";
+    wt_text text = {0};
+    assert_true(wt_svg_inline(&text, svg, sizeof svg - 1, "mu", "a < b"));
+    assert_text(&text, "<svg role=\"img\" aria-label=\"a &lt; b\" viewBox=\"0 0 1 1\">\n"
+                       "<g id=\"mu-a\"><use xlink:href='#mu-a' clip-path='url(#mu-c)'/></g></svg>");
+    assert_false(wt_svg_inline(&text, "%PDF-1.4", 8, "mu", ""));
+    wt_text_free(&text);
+}
+
+/* ---- axes -------------------------------------------------------------------------------------
+ */
+
+static void test_logarithmic_tics_are_at_whole_decades(void **state)
+{
+    (void)state;
+    wt_drawing d = {.name = "x"};
+    (void)wt_axis_log(&d, "x", "q", "rad/m", (wt_span){1e3, 3e7});
+    // gnuplot would count decades from the end of the axis if the first tic were not given.
+    assert_non_null(strstr(wt_text_string(&d.script), "set xtics 1e3,1e1\n"));
+    wt_text_free(&d.script);
+    (void)wt_axis_log(&d, "y", "E", "Pa", (wt_span){11e6, 24e6});
+    assert_non_null(strstr(wt_text_string(&d.script), "set ylabel 'E (MPa)'\n"));
+    assert_non_null(strstr(wt_text_string(&d.script), "set ytics (15.0, 20.0)\n"));
+    wt_text_free(&d.script);
+    (void)wt_axis_log(&d, "y", "E", "Pa", (wt_span){20.1e6, 20.3e6});
+    assert_non_null(strstr(wt_text_string(&d.script), "set ytics (19.5, 20.0, 20.5, 21.0)\n"));
+    wt_text_free(&d.script);
+    (void)wt_axis_linear(&d, "x", "T", "K", "temperature", (wt_span){293.15, 293.15});
+    assert_non_null(strstr(wt_text_string(&d.script), "x_offset = -273.15"));
+    wt_drawing_clear(&d);
+}
+
+/* ---- the whole --------------------------------------------------------------------------------
+ */
+
+static void test_every_figure_is_listed_once(void **state)
+{
+    (void)state;
+    size_t n = wt_figure_count();
+    assert_true(n >= 12);
+    for (size_t i = 0; i < n; i++) {
+        const wt_figure_info *info = wt_figure_get(i);
+        assert_non_null(info->needs[0]);
+        for (size_t k = 0; k < i; k++)
+            assert_string_not_equal(info->name, wt_figure_get(k)->name);
+    }
+    assert_null(wt_figure_get(n));
+}
+
+static void test_everything(void **state)
+{
+    (void)state;
+    NEED_GNUPLOT();
+    wt_result *result = fixture_result();
+    write_report(result, "out", NULL);
+    assert_int_equal(count_files("out"), 2);
+    assert_int_equal(count_files("out/plots"), 3 * wt_figure_count() + 1);
+    assert_true(exists("out/plots/style.gp"));
+    for (size_t i = 0; i < wt_figure_count(); i++) {
+        static const char *const endings[] = {"tsv", "gp", "svg"};
+        for (size_t k = 0; k < 3; k++) {
+            char path[160];
+            (void)snprintf(path, sizeof path, "out/plots/%s.%s", wt_figure_get(i)->name,
+                           endings[k]);
+            size_t length = 0;
+            char *bytes = read_all(path, &length);
+            assert_true(length > 200);
+            if (k == 1) { // relative names only, and nothing that runs a program
+                assert_null(strstr(bytes, "/tmp"));
+                assert_null(strstr(bytes, "`"));
+                assert_null(strstr(bytes, "system"));
+            }
+            free(bytes);
+        }
+    }
+    assert_int_equal(count_files("."), 1); // nothing temporary is left beside it
+    wt_result_free(result);
+}
+
+/* The data of a figure are tables of the text stream. */
+static void test_data_can_be_read_back(void **state)
+{
+    (void)state;
+    NEED_GNUPLOT();
+    wt_result *result = fixture_result();
+    write_report(result, "out", NULL);
+    for (size_t i = 0; i < wt_figure_count(); i++) {
+        char path[160];
+        (void)snprintf(path, sizeof path, "out/plots/%s.tsv", wt_figure_get(i)->name);
+        FILE *file = fopen(path, "rb");
+        assert_non_null(file);
+        wt_status status;
+        size_t n = 0;
+        do {
+            wt_table *table = NULL;
+            status = wt_stream_read(file, path, &table, NULL);
+            n += status == WT_OK;
+            assert_true(status == WT_END || (status == WT_OK && wt_table_n_rows(table) > 0));
+            wt_table_free(table);
+        } while (status == WT_OK);
+        assert_true(n > 0);
+        (void)fclose(file);
+    }
+    wt_result_free(result);
+}
+
+static double count_nodes(xmlXPathContext *context, const char *expression)
+{
+    xmlXPathObject *found = xmlXPathEvalExpression((const xmlChar *)expression, context);
+    assert_non_null(found);
+    double value = xmlXPathCastToNumber(found);
+    xmlXPathFreeObject(found);
+    return value;
+}
+
+/* The page as XML: well-formed, self-contained, accessible, without repeated ids. */
+static void check_page(const char *path, double figures, double tables)
+{
+    size_t length = 0;
+    char *bytes = read_all(path, &length);
+    assert_null(strstr(bytes, "<script"));
+    assert_null(strstr(bytes, "http://www.w3.org/2000/svg\" src"));
+    xmlDoc *page = xmlReadMemory(bytes, (int)length, "page", NULL, XML_PARSE_NONET);
+    assert_non_null(page);
+    xmlXPathContext *context = xmlXPathNewContext(page);
+    (void)xmlXPathRegisterNs(context, (const xmlChar *)"h",
+                             (const xmlChar *)"http://www.w3.org/1999/xhtml");
+    (void)xmlXPathRegisterNs(context, (const xmlChar *)"s",
+                             (const xmlChar *)"http://www.w3.org/2000/svg");
+    assert_near(count_nodes(context, "count(/h:html[@lang='en'])"), 1, 0);
+    assert_near(count_nodes(context, "count(//h:figure[h:figcaption]//s:svg[@role='img' and "
+                                     "string-length(@aria-label) > 5])"),
+                figures, 0);
+    assert_near(count_nodes(context, "count(//s:svg)"), figures, 0);
+    assert_near(count_nodes(context, "count(//s:title)"), 0, 0);
+    assert_true(count_nodes(context, "count(//h:table)") >= tables);
+    assert_near(count_nodes(context, "count(//h:th[not(@scope)])"), 0, 0);
+    assert_near(count_nodes(context, "count(//h:table[not(h:caption)])"), 0, 0);
+    assert_near(count_nodes(context, "count(//h:b)"), 0, 0); // the one of the fixture's path
+    assert_near(count_nodes(context, "count(//*[@src])"), 0, 0);
+    assert_near(count_nodes(context, "count(//h:link)"), 0, 0);
+    assert_near(count_nodes(context, "count(//h:a[starts-with(@href, 'http')])"), 0, 0);
+    xmlXPathObject *ids = xmlXPathEvalExpression((const xmlChar *)"//@id", context);
+    for (int i = 0; ids->nodesetval != NULL && i < ids->nodesetval->nodeNr; i++)
+        for (int k = 0; k < i; k++)
+            if (xmlStrEqual(ids->nodesetval->nodeTab[i]->children->content,
+                            ids->nodesetval->nodeTab[k]->children->content))
+                fail_msg("id %s twice", ids->nodesetval->nodeTab[i]->children->content);
+    // Each part of the contents leads somewhere.
+    xmlXPathObject *links = xmlXPathEvalExpression((const xmlChar *)"//h:nav//h:a/@href", context);
+    for (int i = 0; links->nodesetval != NULL && i < links->nodesetval->nodeNr; i++) {
+        char expression[128];
+        (void)snprintf(expression, sizeof expression, "count(//*[@id='%s'])",
+                       (const char *)links->nodesetval->nodeTab[i]->children->content + 1);
+        assert_near(count_nodes(context, expression), 1, 0);
+    }
+    xmlXPathFreeObject(links);
+    xmlXPathFreeObject(ids);
+    xmlXPathFreeContext(context);
+    xmlFreeDoc(page);
+    free(bytes);
+}
+
+static void test_page(void **state)
+{
+    (void)state;
+    NEED_GNUPLOT();
+    wt_result *result = fixture_result();
+    write_report(result, "out", NULL);
+    check_page("out/index.html", (double)wt_figure_count(), 18);
+    size_t length = 0;
+    char *page = read_all("out/index.html", &length);
+    // The answer stands before everything else.
+    const char *answer = strstr(page, "Is there a modified layer?"),
+               *numbers = strstr(page, "id=\"numbers\""), *figure = strstr(page, "<figure");
+    assert_non_null(answer);
+    assert_non_null(numbers);
+    assert_non_null(figure);
+    assert_true(answer < numbers && numbers < figure);
+    static const char *const expected[] = {
+        "<h1>EPDM, high carbon black, severe &lt;case&gt;</h1>",
+        // value, interval, no numerical error
+        ">0.636</td><td class=\"n\">0.587 to 0.688 (95 % interval)</td><td class=\"n\">–</td>",
+        ">20.05 MPa</td>",
+        ">1.15 µm</td><td class=\"n\">± 0.21 µm</td><td class=\"n\">± 2.0×10⁻⁶ µm</td>",
+        "bulk: 4 of 36 curves rejected",
+        "R^2 0.71 below 0.90 &lt;i&gt;",
+        "&lt;b&gt;&#39;`touch fixture_was_run`&quot;&amp;;$(rm -r x)\\",
+        "Correlation of C₁ and C₂</th><td colspan=\"3\">0.987</td>",
+        "left out: nothing asked for it",
+        "&lt;case title=&quot;HC &amp;amp; severe&quot;&gt;",
+        "weartrack run &#39;&lt;case&gt;.xml&#39;",
+        "9f86d081884c7d659a2feaa0c55ad015",
+        "@media (prefers-color-scheme: dark)",
+    };
+    for (size_t i = 0; i < sizeof expected / sizeof *expected; i++)
+        if (strstr(page, expected[i]) == NULL)
+            fail_msg("the page lacks: %s", expected[i]);
+    free(page);
+    wt_result_free(result);
+}
+
+static void test_nothing_from_a_file_is_run(void **state)
+{
+    (void)state;
+    NEED_GNUPLOT();
+    wt_result *result = fixture_result();
+    write_report(result, "out", NULL);
+    assert_false(exists("fixture_was_run"));
+    assert_false(exists("out/plots/fixture_was_run"));
+    wt_result_free(result);
+
+    // Also where a text becomes a title in a script: a group of that name.
+    result = wt_result_new();
+    wt_table *groups = fixture_table("modulus_groups", "",
+                                     "group:T n:1 n_rejected:1 "
+                                     "geometric_mean:Pa low:Pa high:Pa");
+    fixture_row(groups);
+    fixture_text(groups, "group", FIXTURE_EVIL);
+    fixture_put(groups, "geometric_mean", 1e7);
+    fixture_put(groups, "low", 0.9e7);
+    fixture_put(groups, "high", 1.1e7);
+    fixture_add(result, groups);
+    write_report(result, "out", NULL);
+    assert_true(exists("out/plots/modulus_groups.svg"));
+    assert_false(exists("out/plots/fixture_was_run"));
+    check_page("out/index.html", 1, 2);
+    wt_result_free(result);
+}
+
+static void test_the_same_bytes_twice(void **state)
+{
+    (void)state;
+    NEED_GNUPLOT();
+    wt_result *result = fixture_result();
+    const wt_report_options options = {.with_provenance = false};
+    write_report(result, "one", &options);
+    write_report(result, "two", &options);
+    for (size_t i = 0; i <= wt_figure_count(); i++) {
+        char one[160], two[160];
+        const char *name = i < wt_figure_count() ? wt_figure_get(i)->name : NULL;
+        (void)snprintf(one, sizeof one, name != NULL ? "one/plots/%s.svg" : "one/index.html", name);
+        (void)snprintf(two, sizeof two, name != NULL ? "two/plots/%s.svg" : "two/index.html", name);
+        size_t n = 0, m = 0;
+        char *first = read_all(one, &n), *second = read_all(two, &m);
+        assert_int_equal(n, m);
+        assert_memory_equal(first, second, n);
+        if (name == NULL) {
+            assert_null(strstr(first, wt_version()));
+            assert_null(strstr(first, "Wall time"));
+            assert_null(strstr(first, "weartrack run"));
+        }
+        free(first);
+        free(second);
+    }
+    wt_result_free(result);
+}
+
+/* `cd plots && gnuplot NAME.gp` gives the same picture, also after the folder has moved. */
+static void test_plots_can_be_drawn_again(void **state)
+{
+    (void)state;
+    NEED_GNUPLOT();
+    wt_result *result = fixture_result();
+    write_report(result, "out", NULL);
+    assert_int_equal(rename("out", "moved"), 0);
+    size_t n = 0, m = 0;
+    char *before = read_all("moved/plots/layer.svg", &n);
+    assert_int_equal(unlink("moved/plots/layer.svg"), 0);
+    assert_int_equal(system("cd moved/plots && gnuplot -d layer.gp >/dev/null 2>&1"), 0); // NOLINT
+    char *after = read_all("moved/plots/layer.svg", &m);
+    assert_int_equal(n, m);
+    assert_memory_equal(before, after, n);
+    free(before);
+    free(after);
+    wt_result_free(result);
+}
+
+static void test_missing_tables(void **state)
+{
+    (void)state;
+    NEED_GNUPLOT();
+    // Friction only: one figure, its tables, nothing else.
+    wt_result *result = wt_result_new();
+    fixture_friction(result);
+    write_report(result, "friction", NULL);
+    assert_true(exists("friction/plots/friction.svg"));
+    assert_false(exists("friction/plots/layer.gp"));
+    check_page("friction/index.html", 4, 3);
+    wt_result_free(result);
+
+    // One row and one velocity.
+    result = wt_result_new();
+    wt_table *table = fixture_table("friction", "", "velocity:m/s hysteresis:1");
+    fixture_row(table);
+    fixture_put(table, "velocity", 0.1);
+    fixture_put(table, "hysteresis", 0.3);
+    fixture_add(result, table);
+    write_report(result, "one", NULL);
+    check_page("one/index.html", 1, 1);
+    wt_result_free(result);
+
+    // Nothing to draw: tables without a single number. The page says so.
+    result = wt_result_new();
+    for (size_t i = 0; i < wt_figure_count(); i++) {
+        const char *name = wt_figure_get(i)->needs[0];
+        if (wt_result_find(result, name) != NULL)
+            continue;
+        table = fixture_table(name, "", "group:T velocity:m/s time:s density:m^4 depth:m");
+        fixture_row(table);
+        fixture_text(table, "group", "bulk");
+        fixture_add(result, table);
+    }
+    write_report(result, "nothing", NULL);
+    check_page("nothing/index.html", 0, 0);
+    size_t length = 0;
+    char *page = read_all("nothing/index.html", &length);
+    assert_non_null(strstr(page, "Not drawn: Master curve – no point of the master curve"));
+    assert_false(exists("nothing/plots/style.gp"));
+    free(page);
+    wt_result_free(result);
+}
+
+static void test_an_empty_result_needs_no_gnuplot(void **state)
+{
+    (void)state;
+    wt_result *result = wt_result_new();
+    const wt_report_options options = {.gnuplot = "/nonexistent", .with_provenance = true};
+    write_report(result, "out", &options);
+    check_page("out/index.html", 0, 0);
+    wt_result_free(result);
+}
+
+/* ---- failures ---------------------------------------------------------------------------------
+ */
+
+static wt_status try_report(const wt_result *result, const char *folder,
+                            const wt_report_options *options, wt_error *err)
+{
+    *err = (wt_error)WT_ERROR_INIT;
+    return wt_report_write(result, folder, options, NULL, err);
+}
+
+static void test_no_gnuplot(void **state)
+{
+    (void)state;
+    wt_result *result = fixture_result();
+    wt_error err;
+    static const char *const programs[] = {"/nonexistent", "no-such-program-xyz", "./neither"};
+    for (size_t i = 0; i < sizeof programs / sizeof *programs; i++) {
+        const wt_report_options options = {.gnuplot = programs[i]};
+        assert_int_equal(try_report(result, "out", &options, &err), WT_E_TOOL);
+        assert_non_null(strstr(err.advice, "apt-get install gnuplot-nox"));
+        assert_string_equal(err.file, programs[i]);
+    }
+    assert_int_equal(count_files("."), 0);
+    wt_result_free(result);
+}
+
+static void test_words_of_gnuplot(void **state)
+{
+    (void)state;
+    NEED_GNUPLOT();
+    wt_result *result = fixture_result();
+    wt_error err;
+    write_all("bad.gp", "set terminal svg\nthis is no command\n");
+    wt_report_options options = {.style = "bad.gp"};
+    assert_int_equal(try_report(result, "out", &options, &err), WT_E_TOOL);
+    assert_non_null(strstr(err.found, "style.gp"));
+    assert_non_null(strstr(err.found, "line 2"));
+    write_all("bad.gp", "set terminal dumb\n");
+    assert_int_equal(try_report(result, "out", &options, &err), WT_E_TOOL);
+    assert_non_null(strstr(err.advice, "svg"));
+    options.style = "nosuch";
+    assert_int_equal(try_report(result, "out", &options, &err), WT_E_NOT_FOUND);
+    assert_non_null(strstr(err.expected, "paper, screen"));
+    options.style = "./nosuch.gp";
+    assert_int_equal(try_report(result, "out", &options, &err), WT_E_NOT_FOUND);
+    assert_int_equal(count_files("."), 1);
+    options.style = "screen";
+    write_report(result, "out", &options);
+    wt_result_free(result);
+}
+
+static void test_only_reports_are_replaced(void **state)
+{
+    (void)state;
+    wt_result *result = wt_result_new();
+    wt_error err;
+    // An empty folder may be taken; an older report may be replaced.
+    assert_int_equal(mkdir("out", 0777), 0);
+    write_report(result, "out/", NULL);
+    write_all("out/plots/old.svg", "<svg/>");
+    write_report(result, "out", NULL);
+    assert_int_equal(count_files("out/plots"), 0);
+    // A file of the user's stays, and the report is refused.
+    write_all("out/notes.txt", "mine");
+    assert_int_equal(try_report(result, "out", NULL, &err), WT_E_IO);
+    assert_non_null(strstr(err.found, "notes.txt"));
+    assert_true(exists("out/notes.txt") && exists("out/index.html"));
+    assert_int_equal(unlink("out/notes.txt"), 0);
+    write_all("out/plots/figure.pdf", "mine");
+    assert_int_equal(try_report(result, "out", NULL, &err), WT_E_IO);
+    assert_true(exists("out/plots/figure.pdf"));
+    // A page that is not ours.
+    assert_int_equal(mkdir("site", 0777), 0);
+    write_all("site/index.html", "<html><meta name=\"generator\" content=\"other\"></html>");
+    assert_int_equal(try_report(result, "site", NULL, &err), WT_E_IO);
+    assert_non_null(strstr(err.advice, "another folder"));
+    assert_true(exists("site/index.html"));
+    // A file, the folder itself, a place that cannot be.
+    write_all("file", "x");
+    assert_int_equal(try_report(result, "file", NULL, &err), WT_E_IO);
+    assert_int_equal(try_report(result, ".", NULL, &err), WT_E_ARG);
+    assert_int_equal(try_report(result, "a/b/..", NULL, &err), WT_E_ARG);
+    assert_int_equal(try_report(result, "no/such/place", NULL, &err), WT_E_IO);
+    assert_int_equal(count_files("."), 3);
+    // Through a symbolic link: the link stays.
+    assert_int_equal(mkdir("real", 0777), 0);
+    assert_int_equal(symlink("real", "link"), 0);
+    write_report(result, "link", NULL);
+    assert_true(exists("real/index.html"));
+    char target[16];
+    assert_true(readlink("link", target, sizeof target) == 4);
+    wt_result_free(result);
+}
+
+static bool cancel_at(void *user, const char *what, size_t done, size_t total)
+{
+    assert_non_null(what);
+    assert_true(done <= total);
+    return done < *(const size_t *)user;
+}
+
+static void test_cancelled(void **state)
+{
+    (void)state;
+    NEED_GNUPLOT();
+    wt_result *result = fixture_result();
+    for (size_t step = 0; step <= wt_figure_count(); step += wt_figure_count() / 2) {
+        const wt_progress progress = {cancel_at, &step};
+        wt_error err = WT_ERROR_INIT;
+        assert_int_equal(wt_report_write(result, "out", NULL, &progress, &err), WT_E_CANCELLED);
+        assert_int_equal(count_files("."), 0);
+    }
+    wt_result_free(result);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_numbers_for_reading),
+        cmocka_unit_test(test_fixed_decimals),
+        cmocka_unit_test(test_numbers_do_not_follow_the_locale),
+        cmocka_unit_test(test_literals),
+        cmocka_unit_test(test_escaping),
+        cmocka_unit_test(test_lab_units),
+        cmocka_unit_test(test_svg_is_made_fit_for_a_page),
+        cmocka_unit_test(test_logarithmic_tics_are_at_whole_decades),
+        cmocka_unit_test(test_every_figure_is_listed_once),
+        cmocka_unit_test_setup_teardown(test_everything, make_workplace, remove_workplace),
+        cmocka_unit_test_setup_teardown(test_data_can_be_read_back, make_workplace,
+                                        remove_workplace),
+        cmocka_unit_test_setup_teardown(test_page, make_workplace, remove_workplace),
+        cmocka_unit_test_setup_teardown(test_nothing_from_a_file_is_run, make_workplace,
+                                        remove_workplace),
+        cmocka_unit_test_setup_teardown(test_the_same_bytes_twice, make_workplace,
+                                        remove_workplace),
+        cmocka_unit_test_setup_teardown(test_plots_can_be_drawn_again, make_workplace,
+                                        remove_workplace),
+        cmocka_unit_test_setup_teardown(test_missing_tables, make_workplace, remove_workplace),
+        cmocka_unit_test_setup_teardown(test_an_empty_result_needs_no_gnuplot, make_workplace,
+                                        remove_workplace),
+        cmocka_unit_test_setup_teardown(test_no_gnuplot, make_workplace, remove_workplace),
+        cmocka_unit_test_setup_teardown(test_words_of_gnuplot, make_workplace, remove_workplace),
+        cmocka_unit_test_setup_teardown(test_only_reports_are_replaced, make_workplace,
+                                        remove_workplace),
+        cmocka_unit_test_setup_teardown(test_cancelled, make_workplace, remove_workplace),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
