@@ -122,7 +122,8 @@ typedef struct wt_log_entry {
     size_t count; /* how often the same text was logged for this file; place is the first one */
 } wt_log_entry;
 
-/* Notes and warnings of reading and fitting. Equal texts for one file are counted, not repeated. */
+/* Notes and warnings of reading and fitting. Equal texts for one file are counted, not repeated.
+ * One thread at a time: give each worker its own and append them in order. */
 typedef struct wt_parselog wt_parselog;
 
 WT_API wt_parselog *wt_parselog_new(void); /* NULL when out of memory */
@@ -200,12 +201,14 @@ WT_API const char *wt_quantity_title(wt_quantity quantity); /* static */
 WT_API bool wt_quantity_find(const char *id, wt_quantity *quantity);
 
 /* x_si = factor * x + offset for x in `unit` (any UDUNITS-2 spelling, UTF-8; also "%", "°C", "µm",
- * square brackets around it). WT_E_UNIT if it is unknown or does not measure `quantity`. Hz and
- * rad/s are never converted into each other: that is the reader's decision. Thread-safe. */
+ * square brackets around it; "" and "-" for a dimensionless quantity). WT_E_UNIT if it is unknown
+ * or does not measure `quantity`. Hz and rad/s are never converted into each other: that is the
+ * reader's decision. 1/m is taken for rad/m. Only a temperature has an offset. Thread-safe. */
 WT_API wt_status wt_unit_to_si(const char *unit, wt_quantity quantity, double *factor,
                                double *offset, wt_error *err) WT_NODISCARD;
 /* Parses "0.4MPa", "20 degC", "35deg", "1e-4 mm^3/(N m)" to SI. The unit is required unless the
- * quantity is dimensionless; the error shows the right spelling. */
+ * quantity is dimensionless; the error shows the right spelling. WT_E_ARG if it is not a number
+ * with a unit, WT_E_UNIT, WT_E_RANGE if it overflows or is below absolute zero. */
 WT_API wt_status wt_quantity_parse(const char *text, wt_quantity quantity, double *value,
                                    wt_error *err) WT_NODISCARD;
 /* A value of SI unit `unit` as short text with an SI prefix: "412 kPa", "1.15 µm". For the unit
@@ -241,13 +244,14 @@ WT_API char *wt_path_join(const char *folder, const char *name);
 WT_API char *wt_path_folder(const char *path);     /* folder of a path, "." if none; new */
 WT_API const char *wt_path_base(const char *path); /* name after the last '/'; borrowed */
 /* Files that match a shell pattern, relative to `folder` (NULL = current), sorted bytewise; a
- * folder stands for the files in it. No match is WT_E_NOT_FOUND. */
+ * folder stands for the regular files in it that are not hidden. The paths begin with `folder`. A
+ * pattern that is the name of a file is that file. No match is WT_E_NOT_FOUND. */
 WT_API wt_status wt_glob(const char *folder, const char *pattern, char ***paths, size_t *n,
                          wt_error *err) WT_NODISCARD;
 WT_API void wt_strings_free(char **strings, size_t n);
 
 /* A file that appears under its name only when it is complete: written beside it under a temporary
- * name, then renamed. */
+ * name, then renamed. A symbolic link is followed; a device or a pipe is written in place. */
 typedef struct wt_outfile wt_outfile;
 WT_API wt_status wt_outfile_open(const char *path, wt_outfile **file, wt_error *err) WT_NODISCARD;
 WT_API FILE *wt_outfile_stream(wt_outfile *file);           /* borrowed */

@@ -67,11 +67,12 @@ typedef struct wt_force_curve {
 
 WT_API void wt_force_curve_clear(wt_force_curve *curve); /* frees all; the curve is empty again */
 /* Makes room for one more segment of n_points samples and n_channels channels (values allocated,
- * not initialised) and returns it; NULL when out of memory. Reuses memory of a curve that was
- * emptied by wt_force_curve_reset. */
+ * not initialised) and returns it, valid until the next one is added; NULL when out of memory.
+ * Reuses memory of a curve that was emptied by wt_force_curve_reset. */
 WT_API wt_segment *wt_force_curve_add_segment(wt_force_curve *curve, wt_segment_kind kind,
                                               size_t n_points, size_t n_channels);
-WT_API void wt_force_curve_reset(wt_force_curve *curve); /* no segments, memory kept */
+/* No segments, index 0, position, grid and cantilever unknown; memory kept. */
+WT_API void wt_force_curve_reset(wt_force_curve *curve);
 WT_API const wt_channel *wt_segment_channel(const wt_segment *segment, wt_quantity quantity);
 /* First segment of a kind, NULL if there is none. */
 WT_API const wt_segment *wt_force_curve_segment(const wt_force_curve *curve, wt_segment_kind kind);
@@ -114,7 +115,8 @@ typedef struct wt_sweep {
 } wt_sweep;
 WT_API void wt_sweep_clear(wt_sweep *sweep);
 /* Appends an isotherm with uninitialised arrays of n points (strain if with_strain); NULL when out
- * of memory. Call wt_sweep_sort when all are in. */
+ * of memory. Call wt_sweep_sort when all are in: it orders the isotherms by temperature (then by
+ * source) and the points of each by frequency. */
 WT_API wt_isotherm *wt_sweep_add(wt_sweep *sweep, size_t n, bool with_strain);
 WT_API void wt_sweep_sort(wt_sweep *sweep);
 
@@ -143,6 +145,7 @@ typedef struct wt_prony {
     double frequency_min, frequency_max; /* measured range [rad/s], NaN if unknown */
 } wt_prony;
 WT_API void wt_prony_clear(wt_prony *prony);
+/* Fills an empty series with n terms, all zero; what is not known is NaN. */
 WT_API wt_status wt_prony_alloc(wt_prony *prony, size_t n, wt_error *err) WT_NODISCARD;
 
 /* ---- table -------------------------------------------------------------------------------- */
@@ -158,8 +161,9 @@ WT_API void wt_table_free(wt_table *table);
 WT_API const char *wt_table_name(const wt_table *table);
 WT_API const char *wt_table_title(const wt_table *table);
 
-/* Columns are added before rows. unit: UDUNITS spelling of an SI unit, "1" for a number. The text
- * arguments are copied. */
+/* Columns are added before rows. name: letters, digits and '_', not "block". unit: UDUNITS spelling
+ * of an SI unit, "1" for a number. The text arguments are copied. A wrong name or unit is WT_E_ARG.
+ */
 WT_API wt_status wt_table_add_column(wt_table *table, const char *name, const char *unit,
                                      const char *long_name, wt_error *err) WT_NODISCARD;
 WT_API wt_status wt_table_add_text_column(wt_table *table, const char *name, const char *long_name,
@@ -182,11 +186,15 @@ WT_API const char *wt_table_text(const wt_table *table, size_t row, size_t colum
 WT_API const double *wt_table_numbers(const wt_table *table, size_t column); /* [n_rows] */
 
 /* A block break: rows from here on belong to a new block (a new curve, a new velocity). In the
- * stream it is a blank line. wt_table_block(row) numbers the blocks from 0. */
+ * stream it is a blank line. A block without rows does not exist. wt_table_block(row) numbers the
+ * blocks from 0. */
 WT_API wt_status wt_table_new_block(wt_table *table, wt_error *err) WT_NODISCARD;
 WT_API size_t wt_table_block(const wt_table *table, size_t row);
 
-/* Keys: one line of text each, in the order they were set; setting again replaces. */
+/* Keys: one line of text each, in the order they were set; setting again replaces. key: letters,
+ * digits and '_', no word that the file formats use ("table", "title", "column", ...), not the name
+ * of an estimate key with "_standard_error", "_numerical_error" or "_units"; else WT_E_ARG. The
+ * text of an estimate is "17.4 standard_error=0.3 numerical_error=0 unit=K". */
 WT_API wt_status wt_table_set_key(wt_table *table, const char *key, const char *text,
                                   wt_error *err) WT_NODISCARD;
 WT_API wt_status wt_table_set_estimate(wt_table *table, const char *key, wt_estimate estimate,
@@ -217,11 +225,12 @@ WT_API const char *wt_result_case(const wt_result *result, size_t *length); /* N
 /* ---- stream: weartrack-stream(5) ---------------------------------------------------------- */
 
 /* Writes one table: `## key: value` lines, one header line, tab-separated rows, a blank line
- * between blocks. provenance NULL = none (byte-stable output). */
+ * between blocks, a line `##` alone at its end. provenance NULL = none (byte-stable output). */
 WT_API wt_status wt_stream_write(FILE *out, const wt_table *table, const wt_provenance *provenance,
                                  wt_error *err) WT_NODISCARD;
-/* Reads the next table of a stream (tables are parted by a line `##` alone); WT_END when there is
- * none. `name` is used in errors. */
+/* Reads the next table of a stream; WT_END when there is none. `name` is used in errors, in which
+ * lines are counted from the start of the table. A table with a `## table:` line that does not end
+ * in `##` was cut off: WT_E_CORRUPT. */
 WT_API wt_status wt_stream_read(FILE *in, const char *name, wt_table **table,
                                 wt_error *err) WT_NODISCARD;
 

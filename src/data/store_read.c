@@ -21,8 +21,8 @@ typedef struct reader {
 static wt_status corrupt(const reader *r, const char *name, const char *message)
 {
     (void)wt_fail(r->err, WT_E_CORRUPT, "%s", message);
-    wt_error_place(r->err, "%s%s%s", r->table != NULL ? r->table : "", r->table != NULL ? "/" : "",
-                   name);
+    const bool both = r->table != NULL && name[0] != '\0';
+    wt_error_place(r->err, "%s%s%s", r->table != NULL ? r->table : "", both ? "/" : "", name);
     wt_error_advice(r->err, "make the file again");
     return WT_E_CORRUPT;
 }
