@@ -82,14 +82,14 @@ static void draw_force_panel(wt_drawing *d, const force_panel *panel, int style)
     if (panel->has_contact)
         wt_text_add(&d->script, "set arrow from 0, graph 0 to 0, graph 1 nohead ls 12 back\n");
     wt_plot_begin(d);
-    wt_plot_item(d, panel->retract,
-                 "(($1-contact_point)*x_unit):($2*y_unit) every %zu with lines ls %d title "
-                 "'retract'",
-                 wt_drawing_every(d, panel->retract, LINE_POINTS), style + 30);
     wt_plot_item(d, panel->approach,
                  "(($1-contact_point)*x_unit):($2*y_unit) every %zu with lines ls %d title "
                  "'approach'",
                  every, style);
+    wt_plot_item(d, panel->retract,
+                 "(($1-contact_point)*x_unit):($2*y_unit) every %zu with lines ls %d title "
+                 "'retract'",
+                 wt_drawing_every(d, panel->retract, LINE_POINTS), style + 30);
     wt_plot_item(d, panel->contact,
                  "(($1-contact_point)*x_unit):($3*y_unit):($2*x_unit) with xerrorbars ls 13 title "
                  "'contact'");
@@ -187,11 +187,9 @@ void wt_draw_force_indentation(wt_drawing *d)
     for (size_t i = 0; i < n; i++) {
         if (section[i] < 0)
             continue;
-        wt_plot_item(
-            d, section[i], "($1*x_unit):($2*y_unit) every %zu with points ls %d ps 0.45 notitle",
-            wt_drawing_every(d, section[i], MARKER_POINTS), wt_drawing_group_style(groups[i], i));
-        // The marker of the key is larger than those of the crowd.
-        wt_plot_other(d, "keyentry with points ls %d", wt_drawing_group_style(groups[i], i));
+        wt_plot_item(d, section[i], "($1*x_unit):($2*y_unit) every %zu with points ls %d",
+                     wt_drawing_every(d, section[i], MARKER_POINTS),
+                     wt_drawing_group_style(groups[i], i) + 40);
         wt_plot_title(d, groups[i]);
         wt_span fit = WT_SPAN_EMPTY;
         wt_span_add_section(&fit, d, section[i], "fitted_force", false);
@@ -246,7 +244,7 @@ void wt_draw_modulus_groups(wt_drawing *d)
     }
     d->width = n <= 2 ? 0.8 : 1;
     wt_axis_log(d, "y", "Modulus", "Pa", y);
-    wt_text_format(&d->script, "set xrange [0.4:%zu.7]\nset xtics (", n);
+    wt_text_format(&d->script, "set xrange [0.5:%zu.6]\nset xtics (", n);
     for (size_t i = 0; i < n; i++) {
         wt_text label = {0};
         wt_text_format(&label, "%s (n = %zu)", groups[i], wt_drawing_rows(d, curves[i]));

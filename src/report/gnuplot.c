@@ -38,11 +38,12 @@ static char **environment(void)
     return list;
 }
 
-/* Reads `fd` to its end; keeps the first size - 1 bytes, without empty lines and the line breaks at
- * the end. */
-static void read_words(int fd, char *words, size_t size)
+/* Reads `fd` to its end and keeps the last line that is not blank: gnuplot repeats the command
+ * before it says what is wrong with it. */
+static void read_last_line(int fd, char *last, size_t size)
 {
     size_t n = 0;
+    bool ended = false; // the next byte that is not blank begins a new line
     char chunk[1024];
     for (;;) {
         ssize_t got = read(fd, chunk, sizeof chunk);
@@ -50,16 +51,16 @@ static void read_words(int fd, char *words, size_t size)
             continue;
         if (got <= 0)
             break;
-        for (ssize_t i = 0; i < got && n + 1 < size; i++) {
+        for (ssize_t i = 0; i < got; i++) {
             bool blank = chunk[i] == '\n' || chunk[i] == '\t' || chunk[i] == ' ';
-            if (blank && (n == 0 || words[n - 1] == ' '))
-                continue;
-            words[n++] = blank ? ' ' : chunk[i];
+            if (ended && !blank)
+                n = 0;
+            ended = chunk[i] == '\n' || (ended && blank);
+            if (!ended && n + 1 < size && !(blank && n == 0))
+                last[n++] = blank ? ' ' : chunk[i];
         }
     }
-    while (n > 0 && words[n - 1] == ' ')
-        n--;
-    words[n] = '\0';
+    last[n] = '\0';
 }
 
 static wt_status cannot_start(const char *program, int code, wt_error *err)
@@ -138,7 +139,7 @@ wt_status wt_gnuplot_run(const char *program, const char *folder, const char *sc
     close(channel[1]);
     channel[1] = -1;
     char words[400];
-    read_words(channel[0], words, sizeof words);
+    read_last_line(channel[0], words, sizeof words);
     int state = 0;
     while (waitpid(child, &state, 0) < 0)
         if (errno != EINTR) {

@@ -318,6 +318,17 @@ static void test_every_figure_is_listed_once(void **state)
     assert_null(wt_figure_get(n));
 }
 
+static void test_the_man_page_names_every_figure(void **state)
+{
+    (void)state;
+    size_t length = 0;
+    char *page = read_all(WT_SOURCE_DIR "/man/weartrack-report.1", &length);
+    for (size_t i = 0; i < wt_figure_count(); i++)
+        if (strstr(page, wt_figure_get(i)->name) == NULL)
+            fail_msg("figure %s is not in the man page", wt_figure_get(i)->name);
+    free(page);
+}
+
 static void test_everything(void **state)
 {
     (void)state;
@@ -729,6 +740,7 @@ int main(void)
         cmocka_unit_test(test_svg_is_made_fit_for_a_page),
         cmocka_unit_test(test_logarithmic_tics_are_at_whole_decades),
         cmocka_unit_test(test_every_figure_is_listed_once),
+        cmocka_unit_test(test_the_man_page_names_every_figure),
         cmocka_unit_test_setup_teardown(test_everything, make_workplace, remove_workplace),
         cmocka_unit_test_setup_teardown(test_data_can_be_read_back, make_workplace,
                                         remove_workplace),

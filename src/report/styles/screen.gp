@@ -7,7 +7,7 @@ set terminal svg size 760*figure_width,540*figure_height dynamic enhanced font '
 set border 3 lw 1.54 lc rgb '#333333'
 set tics nomirror out scale 0.8,0.4 textcolor rgb '#1a1a1a'
 set title offset 0,-0.4
-set key tmargin left horizontal reverse Left samplen 2.2 width 1.5 maxcols 5
+set key tmargin left horizontal reverse Left samplen 2 width -0.5 maxcols 5
 set lmargin 10
 set bmargin 3.6
 set rmargin 3
@@ -38,7 +38,7 @@ set style line 46 lc rgb '#bf8a91' lw 1.4 dt solid pt 6 ps 0.84
 set style line 11 lc rgb '#111111' lw 2.24 dt solid
 set style line 12 lc rgb '#777777' lw 1.54 dt (3,3)
 set style line 13 lc rgb '#111111' lw 2.8 dt solid pt 7 ps 1.12
-set style line 14 lc rgb '#777777' lw 1.96 dt solid pt 6 ps 1.12
+set style line 14 lc rgb '#555555' lw 2.8 dt solid pt 6 ps 1.12
 set style line 15 lc rgb '#111111' lw 2.24 dt (8,4)
 
 # 21 the whole, 22 and 23 its two parts, 24 the whole with a layer; 50 more: bands of error
