@@ -15,9 +15,9 @@ wt_read_options wt_read_defaults(void)
         .format = NULL,
         .want = WT_Q_ALL,
         .segments = WT_SEGMENT_ALL,
-        .spring_constant = NAN,
-        .sensitivity = NAN,
-        .temperature = NAN,
+        .spring_constant = (double)NAN,
+        .sensitivity = (double)NAN,
+        .temperature = (double)NAN,
         .units = NULL,
         .n_units = 0,
     };

@@ -85,18 +85,25 @@ static wt_status add_curves(const jpk_file *file, wt_table *facts, wt_error *err
     return status;
 }
 
-static wt_quantity quantity_of(const jpk_segment *segment, const jpk_channel *channel)
+/* What a channel is read as; the deflection is as much as its calibration allows. */
+static wt_quantity quantity_of(const jpk_segment *segment, const jpk_channel *channel,
+                               const wt_read_options *options)
 {
     static const wt_quantity shown[] = {WT_Q_FORCE, WT_Q_HEIGHT, WT_Q_MEASURED_HEIGHT,
                                         WT_Q_LATERAL_DEFLECTION};
-    for (size_t i = 0; i < sizeof shown / sizeof *shown; i++)
+    wt_quantity quantity = WT_Q_NONE;
+    for (size_t i = 0; i < sizeof shown / sizeof *shown && quantity == WT_Q_NONE; i++)
         if (jpk_segment_source(segment, shown[i]) == channel)
-            return shown[i];
-    return WT_Q_NONE;
+            quantity = shown[i];
+    if (quantity != WT_Q_FORCE || !channel->understood)
+        return quantity;
+    jpk_calibration c;
+    jpk_calibrate(&channel->lcd, options, &c);
+    return c.has_force ? WT_Q_FORCE : c.has_deflection ? WT_Q_DEFLECTION : WT_Q_DEFLECTION_VOLTAGE;
 }
 
-static wt_status add_channels(const jpk_segment *segment, size_t number, wt_table *facts,
-                              wt_error *err)
+static wt_status add_channels(const jpk_segment *segment, size_t number,
+                              const wt_read_options *options, wt_table *facts, wt_error *err)
 {
     char item[160], value[512];
     snprintf(item, sizeof item, "segment %zu", number);
@@ -118,7 +125,7 @@ static wt_status add_channels(const jpk_segment *segment, size_t number, wt_tabl
     }
     for (size_t i = 0; i < segment->n_channels && status == WT_OK; i++) {
         const jpk_channel *c = &segment->channels[i];
-        wt_quantity quantity = quantity_of(segment, c);
+        wt_quantity quantity = quantity_of(segment, c, options);
         const jpk_slot *slot = c->understood ? jpk_lcd_slot(&c->lcd, c->lcd.preferred) : NULL;
         const char *unit = !c->understood ? "" : slot != NULL ? slot->unit : c->lcd.base_unit;
         snprintf(item, sizeof item, "segment %zu channel %s", number, c->name);
@@ -178,7 +185,7 @@ static wt_status describe(const wt_reader *self, wt_input *input, const wt_read_
         if (status == WT_OK && i == 0)
             status = add_calibration(segment, options, facts, err);
         if (status == WT_OK)
-            status = add_channels(segment, file.refs[i].segment, facts, err);
+            status = add_channels(segment, file.refs[i].segment, options, facts, err);
         if (status != WT_OK)
             goto done;
     }

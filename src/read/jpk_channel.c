@@ -248,7 +248,7 @@ size_t jpk_decode(jpk_encoding encoding, jpk_linear scaling, const unsigned char
     for (size_t i = 0; i < n; i++) {
         if (isfinite(values[i]))
             continue;
-        values[i] = NAN;
+        values[i] = (double)NAN;
         missing++;
     }
     return missing;

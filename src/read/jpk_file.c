@@ -206,8 +206,8 @@ void jpk_file_position(jpk_file *file, size_t ref, wt_force_curve *curve)
     size_t number = file->refs[ref].curve;
     const wt_properties *header = &file->header;
     char key[192];
-    curve->x = NAN;
-    curve->y = NAN;
+    curve->x = (double)NAN;
+    curve->y = (double)NAN;
     curve->grid_x = -1;
     curve->grid_y = -1;
     if (file->map) {

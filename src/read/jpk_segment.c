@@ -39,9 +39,9 @@ static const char *segment_key(const jpk_file *file, const jpk_segment *segment,
 static double segment_number(const jpk_file *file, const jpk_segment *segment, const char *key)
 {
     const char *text = segment_key(file, segment, key);
-    double value = NAN;
+    double value = (double)NAN;
     if (text == NULL || !wt_number_parse(text, strlen(text), '.', &value))
-        return NAN;
+        return (double)NAN;
     return value;
 }
 
@@ -77,8 +77,8 @@ static void read_settings(const jpk_file *file, jpk_segment *segment)
 
     double duration = segment_number(file, segment, "duration");
     segment->duration = duration >= 0 ? duration : (double)NAN;
-    segment->setpoint_voltage = NAN;
-    segment->velocity = NAN;
+    segment->setpoint_voltage = (double)NAN;
+    segment->velocity = (double)NAN;
     if (segment->kind == WT_SEGMENT_APPROACH)
         segment->setpoint_voltage = setting(file, segment, "setpoint");
     if (segment->kind == WT_SEGMENT_APPROACH || segment->kind == WT_SEGMENT_RETRACT) {

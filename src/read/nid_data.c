@@ -211,7 +211,7 @@ static void read_axis(const nid_header *header, const char *section, int axis, d
 static wt_status read_image(const nid_file *file, const nid_channel *c, wt_parselog *log,
                             wt_image *image, wt_error *err)
 {
-    double factor = 1, offset = 0, current = NAN;
+    double factor = 1, offset = 0, current = (double)NAN;
     const char *unit = nid_si_unit(c->unit, &factor, &offset);
     if (unit[0] == '\0' && c->unit[0] != '\0') {
         unit = c->unit;

@@ -35,9 +35,9 @@ static double full_scale(const nid_header *header, const char *name, wt_quantity
     char key[32], item[NID_TEXT], unit[NID_TEXT];
     size_t n = 0;
     if (!nid_count(header, SCANHEAD, "InCount", 1000, &n))
-        return NAN;
+        return (double)NAN;
     for (size_t i = 0; i < n; i++) {
-        double value = NAN, factor = 1, offset = 0;
+        double value = (double)NAN, factor = 1, offset = 0;
         snprintf(key, sizeof key, "In%zu", i);
         const char *list = nid_get(header, SCANHEAD, key);
         if (list == NULL || !nid_list_item(list, ',', 1, item, sizeof item) ||
@@ -48,9 +48,9 @@ static double full_scale(const nid_header *header, const char *name, wt_quantity
             wt_number_parse(item, strlen(item), '.', &value) &&
             wt_unit_to_si(unit, quantity, &factor, &offset, NULL) == WT_OK)
             return factor * value;
-        return NAN;
+        return (double)NAN;
     }
-    return NAN;
+    return (double)NAN;
 }
 
 static double positive(double value)
@@ -62,15 +62,15 @@ static void read_phase(const nid_header *header, size_t i, nid_phase *phase)
 {
     double time = nid_typed(header, SPECTROSCOPY, phase_names[i].time, WT_Q_TIME);
     const char *points = nid_get(header, SPECTROSCOPY, phase_names[i].points);
-    double n = NAN;
+    double n = (double)NAN;
     /* "L[1024]*[]": a number without a unit */
     if (points != NULL && strncmp(points, "L[", 2) == 0 &&
         !wt_number_parse(points + 2, strcspn(points + 2, "]"), '.', &n))
-        n = NAN;
+        n = (double)NAN;
     phase->kind = phase_names[i].kind;
     phase->group = phase_names[i].group;
     phase->interval = positive(time / n);
-    phase->velocity = NAN;
+    phase->velocity = (double)NAN;
     if (phase_names[i].range != NULL)
         phase->velocity = positive(
             fabs(nid_typed(header, SPECTROSCOPY, phase_names[i].range, WT_Q_LENGTH)) / time);
@@ -324,7 +324,7 @@ static wt_status add_phase(const nid_source *source, size_t p, size_t line, doub
     segment->index = p;
     segment->duration = (double)n * phase->interval;
     segment->velocity = phase->velocity;
-    segment->setpoint = NAN;
+    segment->setpoint = (double)NAN;
     for (size_t i = 0; i < columns; i++)
         fill(source, &outputs[i], line, n, begin, phase->interval, &segment->channels[i]);
     return WT_OK;

@@ -153,9 +153,9 @@ const char *nid_get(const nid_header *header, const char *section, const char *k
 double nid_number(const nid_header *header, const char *section, const char *key)
 {
     const char *text = nid_get(header, section, key);
-    double value = NAN;
+    double value = (double)NAN;
     if (text == NULL || !wt_number_parse(text, strlen(text), '.', &value))
-        return NAN;
+        return (double)NAN;
     return value;
 }
 
@@ -173,21 +173,21 @@ double nid_typed(const nid_header *header, const char *section, const char *key,
                  wt_quantity quantity)
 {
     const char *text = nid_get(header, section, key);
-    double value = NAN, factor = 1, offset = 0;
+    double value = (double)NAN, factor = 1, offset = 0;
     char unit[NID_TEXT];
     if (text == NULL || text[0] == '\0' || text[1] != '[')
-        return NAN;
+        return (double)NAN;
     const char *end = strstr(text, "]*[");
     if (end == NULL || !wt_number_parse(text + 2, (size_t)(end - text - 2), '.', &value))
-        return NAN;
+        return (double)NAN;
     const char *start = end + 3;
     size_t n = strcspn(start, "]");
     if (n == 0 || n >= sizeof unit)
-        return NAN;
+        return (double)NAN;
     memcpy(unit, start, n);
     unit[n] = '\0';
     if (wt_unit_to_si(unit, quantity, &factor, &offset, NULL) != WT_OK)
-        return NAN;
+        return (double)NAN;
     return factor * value + offset;
 }
 

@@ -20,10 +20,10 @@ typedef struct nid_map {
 static double list_number(const char *list, size_t i)
 {
     char item[NID_TEXT];
-    double value = NAN;
+    double value = (double)NAN;
     if (!nid_list_item(list, ';', i, item, sizeof item) ||
         !wt_number_parse(item, strlen(item), '.', &value))
-        return NAN;
+        return (double)NAN;
     return value;
 }
 
@@ -92,9 +92,9 @@ static double axis_factor(const nid_header *header, size_t axis)
     /* One unit for all axes, or one for each. */
     if (list == NULL || (!nid_list_item(list, ';', axis, unit, sizeof unit) &&
                          !nid_list_item(list, ';', 0, unit, sizeof unit)))
-        return NAN;
+        return (double)NAN;
     if (wt_unit_to_si(unit, WT_Q_LENGTH, &factor, &offset, NULL) != WT_OK)
-        return NAN;
+        return (double)NAN;
     return factor;
 }
 
@@ -123,8 +123,8 @@ void nid_position(const nid_header *header, size_t i, const char *name, wt_parse
                   wt_force_curve *curve)
 {
     nid_map map;
-    curve->x = NAN;
-    curve->y = NAN;
+    curve->x = (double)NAN;
+    curve->y = (double)NAN;
     curve->grid_x = -1;
     curve->grid_y = -1;
     if (read_map(header, &map))

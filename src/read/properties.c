@@ -290,8 +290,8 @@ const char *wt_properties_find(const wt_properties *properties, const char *pref
 double wt_properties_number(const wt_properties *properties, const char *prefix, const char *suffix)
 {
     const char *text = wt_properties_find(properties, prefix, suffix);
-    double value = NAN;
+    double value = (double)NAN;
     if (text == NULL || !wt_number_parse(text, strlen(text), '.', &value))
-        return NAN;
+        return (double)NAN;
     return value;
 }

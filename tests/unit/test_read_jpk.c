@@ -74,8 +74,23 @@ static jpk_writer_file make_file(const char *path)
     return f;
 }
 
+/* One set serves all tests: making it parses every description. */
+static wt_formats *formats;
+
+static int make_formats(void **state)
+{
+    (void)state;
+    return wt_formats_new(NULL, &formats, NULL, NULL) == WT_OK ? 0 : -1;
+}
+
+static int free_formats(void **state)
+{
+    (void)state;
+    wt_formats_free(formats);
+    return 0;
+}
+
 typedef struct reading {
-    wt_formats *formats;
     wt_input *input;
     wt_force_source *source;
     wt_parselog *log;
@@ -86,16 +101,14 @@ typedef struct reading {
 static wt_status open_path(reading *r, const char *path, const wt_read_options *options)
 {
     *r = (reading){.log = wt_parselog_new()};
-    assert_int_equal(wt_formats_new(NULL, &r->formats, r->log, &r->err), WT_OK);
     assert_int_equal(wt_input_open(path, &r->input, &r->err), WT_OK);
-    return wt_force_open(r->formats, r->input, options, r->log, &r->source, &r->err);
+    return wt_force_open(formats, r->input, options, r->log, &r->source, &r->err);
 }
 
 static void close_all(reading *r)
 {
     wt_force_close(r->source);
     wt_input_close(r->input);
-    wt_formats_free(r->formats);
     wt_parselog_free(r->log);
     wt_force_curve_clear(&r->curve);
 }
@@ -249,7 +262,7 @@ static void user_calibration(void **state)
     static const char path[] = "test_read_jpk_user.jpk-force-map";
     jpk_writer_file f = make_file(path);
     assert_int_equal(jpk_write(&f), 0);
-    static const double given[][2] = {{0.1, NAN}, {NAN, 100e-9}, {0.1, 100e-9}};
+    static const double given[][2] = {{0.1, (double)NAN}, {(double)NAN, 100e-9}, {0.1, 100e-9}};
     for (size_t i = 0; i < 3; i++) {
         wt_read_options o = wt_read_defaults();
         reading r;
@@ -282,8 +295,8 @@ static void missing_calibration(void **state)
         double spring_constant, sensitivity;
         const char *advice;
     } cases[] = {
-        {NAN, NAN, "give --spring-constant 0.1N/m and --sensitivity 120nm/V"},
-        {NAN, 60e-9, "give --spring-constant 0.1N/m"},
+        {(double)NAN, (double)NAN, "give --spring-constant 0.1N/m and --sensitivity 120nm/V"},
+        {(double)NAN, 60e-9, "give --spring-constant 0.1N/m"},
     };
     for (size_t i = 0; i < 2; i++) {
         jpk_writer_file f = make_file(path);
@@ -337,9 +350,8 @@ static void cut_off(void **state)
     size_t most = 0;
     for (size_t n = 0; n < whole; n += 13) {
         reading r = {.log = wt_parselog_new()};
-        assert_int_equal(wt_formats_new(NULL, &r.formats, NULL, NULL), WT_OK);
         assert_int_equal(wt_input_open_memory(bytes, n, "cut", &r.input, NULL), WT_OK);
-        wt_status status = wt_force_open(r.formats, r.input, NULL, r.log, &r.source, &r.err);
+        wt_status status = wt_force_open(formats, r.input, NULL, r.log, &r.source, &r.err);
         size_t read = 0;
         while (status == WT_OK) {
             status = wt_force_next(r.source, &r.curve, &r.err);
@@ -374,9 +386,8 @@ static void described(void **state)
     wt_table *facts = NULL;
     reading r = {.log = NULL};
     assert_int_equal(jpk_write(&f), 0);
-    assert_int_equal(wt_formats_new(NULL, &r.formats, NULL, NULL), WT_OK);
     assert_int_equal(wt_input_open(path, &r.input, NULL), WT_OK);
-    assert_int_equal(wt_describe(r.formats, r.input, NULL, NULL, &facts, &r.err), WT_OK);
+    assert_int_equal(wt_describe(formats, r.input, NULL, NULL, &facts, &r.err), WT_OK);
     for (size_t i = 0; i < sizeof expected / sizeof *expected; i++) {
         const char *value = NULL;
         for (size_t row = 0; row < wt_table_n_rows(facts); row++)
@@ -401,5 +412,5 @@ int main(void)
         cmocka_unit_test(cut_off),
         cmocka_unit_test(described),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, make_formats, free_formats);
 }

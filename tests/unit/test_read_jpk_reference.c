@@ -149,7 +149,7 @@ static void check_values(const wt_segment *segment, const wt_channel *c, char *c
                          const char *row)
 {
     size_t n = segment->n_points;
-    double low = INFINITY, high = -INFINITY, sum = 0;
+    double low = (double)INFINITY, high = -(double)INFINITY, sum = 0;
     assert_int_equal(n, strtoul(field[N], NULL, 10));
     for (size_t i = 0; i < n; i++) {
         low = fmin(low, c->values[i]);

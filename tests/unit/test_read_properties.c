@@ -72,9 +72,9 @@ static void numbers(void **state)
     (void)state;
     wt_properties p = parse("a.x=1.5E-5\na.y=NaN\na.z=12 V\n");
     assert_near(wt_properties_number(&p, "a.", "x"), 1.5e-5, 0);
-    assert_near(wt_properties_number(&p, "a.", "y"), NAN, 0);
-    assert_near(wt_properties_number(&p, "a.", "z"), NAN, 0);
-    assert_near(wt_properties_number(&p, "a.", "none"), NAN, 0);
+    assert_near(wt_properties_number(&p, "a.", "y"), (double)NAN, 0);
+    assert_near(wt_properties_number(&p, "a.", "z"), (double)NAN, 0);
+    assert_near(wt_properties_number(&p, "a.", "none"), (double)NAN, 0);
     wt_properties_clear(&p);
 }
 

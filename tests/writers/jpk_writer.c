@@ -38,8 +38,10 @@ typedef struct writer {
 
 jpk_writer_file jpk_writer_defaults(void)
 {
-    return (jpk_writer_file){
-        .spring_constant = NAN, .sensitivity = NAN, .setpoint = NAN, .encoding = JPK_WRITE_INT32};
+    return (jpk_writer_file){.spring_constant = (double)NAN,
+                             .sensitivity = (double)NAN,
+                             .setpoint = (double)NAN,
+                             .encoding = JPK_WRITE_INT32};
 }
 
 /* ---- from SI to what the channel stores --------------------------------------------------- */
@@ -72,7 +74,7 @@ static double raw_limit(const jpk_writer_file *file)
 /* The encoder that uses the whole range of the integers. */
 static encoder make_encoder(const jpk_writer_file *file, enum channel c)
 {
-    double low = INFINITY, high = -INFINITY;
+    double low = (double)INFINITY, high = -(double)INFINITY;
     if (file->encoding == JPK_WRITE_FLOAT || file->encoding == JPK_WRITE_DOUBLE)
         return (encoder){0, 1};
     for (size_t i = 0; i < file->n_curves; i++) {

@@ -10,8 +10,9 @@
 
 nid_writer_file nid_writer_defaults(void)
 {
-    return (nid_writer_file){
-        .spring_constant = NAN, .deflection_range_m = NAN, .deflection_range_v = NAN};
+    return (nid_writer_file){.spring_constant = (double)NAN,
+                             .deflection_range_m = (double)NAN,
+                             .deflection_range_v = (double)NAN};
 }
 
 static void put_main(const nid_writer_file *f, FILE *out)
