@@ -171,13 +171,13 @@ static bool is_missing(wt_cell cell, const wt_description *d)
 wt_cell_is wt_cell_read(wt_cell cell, char decimal, const wt_description *description,
                         double *value)
 {
-    *value = NAN;
+    *value = (double)NAN;
     if (cell.length > 0 && wt_number_parse(cell.text, cell.length, decimal, value)) {
         if (!(fabs(*value) < no_value))
-            *value = NAN;
+            *value = (double)NAN;
         else if (description->n_missing == 0 || !is_missing(cell, description))
             return WT_CELL_NUMBER;
-        *value = NAN;
+        *value = (double)NAN;
         return WT_CELL_MISSING;
     }
     return is_missing(cell, description) ? WT_CELL_MISSING : WT_CELL_TEXT;

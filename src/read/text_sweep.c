@@ -126,7 +126,7 @@ static wt_status set_temperature(const builder *b, wt_isotherm *isotherm)
 /* The rows collected so far become an isotherm, if their frequency was swept. */
 static wt_status flush(builder *b)
 {
-    double low = INFINITY, high = 0;
+    double low = (double)INFINITY, high = 0;
     char place[32];
     const char *title = b->table->title;
     for (size_t i = 0; i < b->n; i++) {
