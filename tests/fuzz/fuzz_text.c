@@ -1,0 +1,77 @@
+/* Any bytes as a text export: every description is asked whether it is its file and then reads it
+ * all the same, as force curves, sweep, spectrum and facts.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "read_all.h"
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+static const char *const units[] = {"f=Hz", "E'=MPa", "E''=MPa"};
+
+static void all_finite(const double *values, size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        if (!isfinite(values[i]))
+            abort();
+}
+
+static void read_as(const wt_reader *reader, wt_input *input, const wt_read_options *options)
+{
+    wt_error err = WT_ERROR_INIT;
+    if (reader->read_sweep != NULL) {
+        wt_sweep sweep = {.n_isotherms = 0};
+        (void)reader->read_sweep(reader, input, options, NULL, &sweep, &err);
+        for (size_t i = 0; i < sweep.n_isotherms; i++) {
+            const wt_isotherm *s = &sweep.isotherms[i];
+            all_finite(&s->temperature, 1);
+            all_finite(s->angular_frequency, s->n);
+            all_finite(s->storage_modulus, s->n);
+            all_finite(s->loss_modulus, s->n);
+        }
+        wt_sweep_clear(&sweep);
+    }
+    if (reader->read_spectrum != NULL) {
+        wt_power_spectrum spectrum = {.n = 0};
+        (void)reader->read_spectrum(reader, input, options, NULL, &spectrum, &err);
+        all_finite(spectrum.wavenumber, spectrum.n);
+        all_finite(spectrum.density, spectrum.n);
+        for (size_t i = 1; i < spectrum.n; i++)
+            if (!(spectrum.wavenumber[i] > spectrum.wavenumber[i - 1]))
+                abort();
+        wt_power_spectrum_clear(&spectrum);
+    }
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    static wt_formats *formats;
+    wt_input *input = NULL;
+    wt_error err = WT_ERROR_INIT;
+    wt_read_options options = wt_read_defaults();
+    if (formats == NULL && wt_formats_new(NULL, &formats, NULL, &err) != WT_OK)
+        abort();
+    if (wt_input_open_memory(data, size, "fuzz", &input, &err) != WT_OK)
+        return 0;
+    /* Even inputs carry what the file lacks, so that more of it is read. */
+    if (size % 2 == 0) {
+        options.units = units;
+        options.n_units = sizeof units / sizeof *units;
+        options.temperature = 300;
+        options.sensitivity = 5e-8;
+        options.spring_constant = 0.1;
+    }
+    for (size_t i = 0; i < wt_formats_count(formats); i++) {
+        const wt_reader *reader = wt_formats_reader(formats, i);
+        const wt_peek peek = {.bytes = data, .length = size, .whole = size % 3 > 0, .name = "fuzz"};
+        if (wt_formats_xml(formats, reader->info.id) == NULL)
+            continue;
+        (void)reader->detect(reader, &peek);
+        read_as(reader, input, &options);
+        if (reader->open_force != NULL)
+            read_curves(reader, data, size, &options);
+        describe(reader, data, size, &options);
+    }
+    wt_input_close(input);
+    return 0;
+}

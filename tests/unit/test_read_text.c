@@ -1,0 +1,526 @@
+/* The engine that runs format descriptions: encodings, line ends, decimal marks, damaged rows, and
+ * what parts a sweep into isotherms. Every text is written here, so that its truth is known.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "near.h"
+
+#include "read/text.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static wt_description_schema *schema;
+static wt_formats *formats;
+
+/* A description of a sweep from the attributes of its parts. */
+static wt_description *describe_as(const char *text, const char *header, const char *table,
+                                   const char *inside, const char *after)
+{
+    char xml[4096];
+    wt_error err = WT_ERROR_INIT;
+    wt_description *d = NULL;
+    int n = snprintf(
+        xml, sizeof xml,
+        "<format id=\"x\" version=\"1\" kinds=\"sweep\" verified=\"false\"><title>t</title>"
+        "<evidence>e</evidence><detect><names score=\"9\"/></detect><text %s/>%s<table %s>%s"
+        "<column quantity=\"frequency\"><name>f</name></column>"
+        "<column quantity=\"angular_frequency\"><name>w</name></column>"
+        "<column quantity=\"storage_modulus\"><name>E'</name></column>"
+        "<column quantity=\"loss_modulus\"><name>E''</name></column>"
+        "<column quantity=\"shear_storage_modulus\"><name>G'</name></column>"
+        "<column quantity=\"shear_loss_modulus\"><name>G''</name></column>"
+        "<column quantity=\"storage_modulus\" with=\"pull\"><name>M'</name></column>"
+        "<column quantity=\"loss_modulus\" with=\"pull\"><name>M''</name></column>"
+        "<column quantity=\"temperature\"><name>T</name></column></table>%s</format>",
+        text, header, table, inside, after);
+    assert_true(n > 0 && (size_t)n < sizeof xml);
+    if (wt_description_parse(schema, xml, (size_t)n, "x.xml", &d, &err) != WT_OK)
+        print_message("%s: %s %s %s\n", err.place, err.message, err.expected, err.found);
+    assert_non_null(d);
+    return d;
+}
+
+static wt_status read_bytes(const wt_description *d, const void *bytes, size_t n, wt_sweep *sweep,
+                            wt_parselog *log, wt_error *err)
+{
+    const wt_read_options options = wt_read_defaults();
+    wt_input *input = NULL;
+    assert_int_equal(wt_input_open_memory(bytes, n, "made-up.txt", &input, err), WT_OK);
+    wt_status status = wt_text_read_sweep(d, input, &options, log, sweep, err);
+    wt_input_close(input);
+    return status;
+}
+
+static wt_status read_text(const wt_description *d, const char *text, wt_sweep *sweep,
+                           wt_parselog *log, wt_error *err)
+{
+    return read_bytes(d, text, strlen(text), sweep, log, err);
+}
+
+static bool logged(const wt_parselog *log, const char *text)
+{
+    for (size_t i = 0; i < wt_parselog_count(log); i++)
+        if (strstr(wt_parselog_get(log, i).text, text) != NULL)
+            return true;
+    return false;
+}
+
+/* ---- bytes -------------------------------------------------------------------------------- */
+
+/* U+00B0 as one byte; converted below. */
+static const char latin[] = "f\tE'\tE''\tT\nHz\tMPa\tMPa\t\xb0"
+                            "C\n2\t3\t4\t20\n20\t5\t6\t20\n";
+
+static size_t as_utf_16(const char *text, bool big, bool mark, char *out)
+{
+    size_t n = 0;
+    if (mark) {
+        out[n++] = big ? '\xfe' : '\xff';
+        out[n++] = big ? '\xff' : '\xfe';
+    }
+    for (const char *c = text; *c != '\0'; c++) {
+        out[n++] = big ? '\0' : *c;
+        out[n++] = big ? *c : '\0';
+    }
+    return n;
+}
+
+static size_t with_line_end(const char *text, const char *end, char *out)
+{
+    size_t n = 0;
+    for (const char *c = text; *c != '\0'; c++) {
+        if (*c != '\n')
+            out[n++] = *c;
+        else
+            for (const char *e = end; *e != '\0'; e++)
+                out[n++] = *e;
+    }
+    return n;
+}
+
+static void check_small(const wt_description *d, const char *bytes, size_t n)
+{
+    wt_sweep sweep = {.n_isotherms = 0};
+    wt_error err = WT_ERROR_INIT;
+    wt_status status = read_bytes(d, bytes, n, &sweep, NULL, &err);
+    if (status != WT_OK)
+        print_message("%s %s: %s; %s\n", err.message, err.place, err.expected, err.found);
+    assert_int_equal(status, WT_OK);
+    assert_int_equal(sweep.n_isotherms, 1);
+    assert_int_equal(sweep.isotherms[0].n, 2);
+    assert_near(sweep.isotherms[0].temperature, 293.15, 1e-15);
+    assert_near(sweep.isotherms[0].angular_frequency[0], 12.566370614359172, 1e-15);
+    assert_near(sweep.isotherms[0].storage_modulus[1], 5e6, 1e-15);
+    assert_near(sweep.isotherms[0].loss_modulus[0], 4e6, 1e-15);
+    wt_sweep_clear(&sweep);
+}
+
+static void encodings(void **state)
+{
+    wt_description *d = describe_as("separator=\"tab\"", "", "", "", "");
+    char out[512], utf8[512];
+    (void)state;
+    check_small(d, latin, sizeof latin - 1);
+    for (int big = 0; big < 2; big++)
+        for (int mark = 0; mark < 2; mark++) {
+            size_t n = as_utf_16(latin, big != 0, mark != 0, out);
+            check_small(d, out, n);
+            out[n] = '\n'; /* half a character */
+            check_small(d, out, n + 1);
+        }
+    size_t n = 0;
+    memcpy(utf8, "\xef\xbb\xbf", 3);
+    for (const char *c = latin; *c != '\0'; c++) {
+        if (*c == '\xb0')
+            utf8[3 + n++] = '\xc2';
+        utf8[3 + n++] = *c;
+    }
+    check_small(d, utf8, n + 3);
+    check_small(d, utf8 + 3, n);
+    wt_description_free(d);
+}
+
+static void line_ends(void **state)
+{
+    static const char *const ends[] = {"\n", "\r\n", "\r", "\r\r\n", "\n\n"};
+    wt_description *d = describe_as("separator=\"tab\"", "", "", "", "");
+    char out[512];
+    (void)state;
+    for (size_t i = 0; i < sizeof ends / sizeof *ends; i++)
+        check_small(d, out, with_line_end(latin, ends[i], out));
+    check_small(d, latin, sizeof latin - 2); /* no line end at the end */
+    wt_description_free(d);
+}
+
+static void separators_and_decimal_marks(void **state)
+{
+    static const char *const texts[] = {
+        "f,E',E'',T\nHz,MPa,MPa,degC\n2,3,4,20\n20,5,6,20\n",
+        "f;E';E'';T\nHz;MPa;MPa;degC\n2,0;3,0;4,0;20,0\n2,0E1;5,0;6,0;20,0\n",
+        "f\tE'\tE''\tT\nHz\tMPa\tMPa\tdegC\n2,0\t3\t4\t20\n20\t5\t6\t20\n",
+        "f E' E'' T\nHz MPa MPa degC\n 2.0   3 4    20\n\t20 5 6 20\n",
+        "\"f\",\"E'\",\"E''\",\"T\"\n\"Hz\",\"MPa\",\"MPa\",\"degC\"\n\"2\",\"3\",\"4\",\"20\"\n"
+        "20,5,6,20\n",
+        "f;E';E\";T\nHz;MPa;MPa;degC\n\"2,0\";3;4;20\n20;5;6;20\n",
+    };
+    wt_description *d = describe_as("", "", "", "", "");
+    (void)state;
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
+        check_small(d, texts[i], strlen(texts[i]));
+    wt_description_free(d);
+}
+
+static void declared_by_the_file(void **state)
+{
+    /* Whole numbers with commas look like decimals; the file says what they are. */
+    static const char text[] = "#DECIMAL:COMMA\n#SEPARATOR:SEMICOLON\n"
+                               "f;E';E'';T\nHz;MPa;MPa;degC\n2,0;3;4;20\n20;5;6;20\n";
+    wt_description *d =
+        describe_as("",
+                    "<header><field name=\"d\" regex=\"^#DECIMAL: *([A-Z]+)\" sets=\"decimal\"/>"
+                    "<field name=\"s\" regex=\"^#SEPARATOR: *([A-Z]+)\" sets=\"separator\"/>"
+                    "</header>",
+                    "", "", "");
+    wt_sweep sweep = {.n_isotherms = 0};
+    wt_error err = WT_ERROR_INIT;
+    (void)state;
+    check_small(d, text, sizeof text - 1);
+    static const char wrong[] = "#DECIMAL:POINT\nf;E';E'';T\nHz;MPa;MPa;degC\n2,0;3;4;20\n";
+    assert_int_equal(read_text(d, wrong, &sweep, NULL, &err), WT_E_CORRUPT);
+    assert_non_null(strstr(err.expected, "decimal point"));
+    wt_description_free(d);
+}
+
+static void fixed_columns(void **state)
+{
+    /* The degree sign is one character of two bytes; the third cell of the first row is empty. */
+    static const char text[] = "   f  E' E''   T\n  Hz MPa MPa  \xc2\xb0"
+                               "C\n"
+                               "   1   3      20\n   2   3   4  20\n  20   5   6  20\n";
+    wt_description *d = describe_as("separator=\"fixed\" widths=\"4\"", "", "", "", "");
+    (void)state;
+    check_small(d, text, sizeof text - 1);
+    wt_description_free(d);
+}
+
+/* ---- rows --------------------------------------------------------------------------------- */
+
+static const char head[] = "f\tE'\tE''\tT\nHz\tMPa\tMPa\tdegC\n";
+
+static wt_status read_rows(const wt_description *d, const char *rows, wt_sweep *sweep,
+                           wt_parselog *log, wt_error *err)
+{
+    char text[2048];
+    snprintf(text, sizeof text, "%s%s", head, rows);
+    return read_text(d, text, sweep, log, err);
+}
+
+static void damaged_rows(void **state)
+{
+    wt_description *d = describe_as("separator=\"tab\"", "", "", "", "");
+    wt_sweep sweep = {.n_isotherms = 0};
+    wt_error err = WT_ERROR_INIT;
+    (void)state;
+    assert_int_equal(read_rows(d, "1\t2\t3\t20\n10\t2x\t3\t20\n", &sweep, NULL, &err),
+                     WT_E_CORRUPT);
+    assert_string_equal(err.file, "made-up.txt");
+    assert_string_equal(err.place, "line 4, column 2 (E')");
+    assert_non_null(strstr(err.found, "2x"));
+    /* After a blank line too: the rest of the table must not get lost. */
+    assert_int_equal(
+        read_rows(d, "1\t2\t3\t20\n\n10\t2\t3x\t20\n20\t2\t3\t20\n", &sweep, NULL, &err),
+        WT_E_CORRUPT);
+    assert_string_equal(err.place, "line 5, column 3 (E'')");
+    assert_int_equal(read_rows(d, "1\t2\t3\t20\nend of data\n", &sweep, NULL, &err), WT_E_CORRUPT);
+    assert_int_equal(sweep.n_isotherms, 0);
+    wt_description_free(d);
+}
+
+static void text_after_the_table(void **state)
+{
+    wt_description *d = describe_as("separator=\"tab\"", "", "", "", "");
+    wt_sweep sweep = {.n_isotherms = 0};
+    wt_error err = WT_ERROR_INIT;
+    wt_parselog *log = wt_parselog_new();
+    (void)state;
+    assert_int_equal(
+        read_rows(d, "1\t2\t3\t20\n10\t2\t3\t20\n\nRemarks: none\n", &sweep, log, &err), WT_OK);
+    assert_false(logged(log, "after the end"));
+    assert_int_equal(
+        read_rows(d, "1\t2\t3\t20\n10\t2\t3\t20\n\nRemarks\n30\t2\t3\t20\n", &sweep, log, &err),
+        WT_OK);
+    assert_true(logged(log, "after the end"));
+    wt_sweep_clear(&sweep);
+    wt_parselog_free(log);
+    wt_description_free(d);
+    d = describe_as("separator=\"tab\"", "", "", "<end regex=\"^end\"/>", "");
+    assert_int_equal(read_rows(d, "1\t2\t3\t20\n10\t2\t3\t20\nend of data\n", &sweep, NULL, &err),
+                     WT_OK);
+    wt_sweep_clear(&sweep);
+    wt_description_free(d);
+}
+
+static void missing_values(void **state)
+{
+    static const char *const rows[] = {
+        "\t3\t4\t20", "--\t3\t4\t20", "2\tNaN\t4\t20", "2\t1.0E+99\t4\t20",
+        "2\t3",       "0\t3\t4\t20",  "-2\t3\t4\t20",  "2\toverload\t4\t20"};
+    wt_description *d = describe_as("separator=\"tab\" missing=\"overload none\"", "", "", "", "");
+    wt_error err = WT_ERROR_INIT;
+    char text[256];
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        wt_sweep sweep = {.n_isotherms = 0};
+        wt_parselog *log = wt_parselog_new();
+        snprintf(text, sizeof text, "1\t2\t3\t20\n%s\n10\t2\t3\t20\textra\n", rows[i]);
+        assert_int_equal(read_rows(d, text, &sweep, log, &err), WT_OK);
+        assert_int_equal(sweep.isotherms[0].n, 2);
+        assert_true(logged(log, "1 rows without"));
+        wt_sweep_clear(&sweep);
+        wt_parselog_free(log);
+    }
+    wt_description_free(d);
+}
+
+static void odd_moduli_are_handed_on(void **state)
+{
+    wt_description *d = describe_as("separator=\"tab\"", "", "", "", "");
+    wt_sweep sweep = {.n_isotherms = 0};
+    wt_error err = WT_ERROR_INIT;
+    (void)state;
+    assert_int_equal(read_rows(d, "1\t0\t-3\t20\n10\t2\t3\t20\n", &sweep, NULL, &err), WT_OK);
+    assert_near(sweep.isotherms[0].loss_modulus[0], -3e6, 1e-15);
+    assert_near_abs(sweep.isotherms[0].storage_modulus[0], 0, 0);
+    wt_sweep_clear(&sweep);
+    assert_int_equal(read_rows(d, "1\t1\t3\t-280\n10\t2\t3\t-280\n", &sweep, NULL, &err),
+                     WT_E_RANGE);
+    wt_description_free(d);
+}
+
+/* ---- isotherms ---------------------------------------------------------------------------- */
+
+static void check_split(const wt_description *d, const char *rows, size_t expected,
+                        const char *note)
+{
+    wt_sweep sweep = {.n_isotherms = 0};
+    wt_error err = WT_ERROR_INIT;
+    wt_parselog *log = wt_parselog_new();
+    wt_status status = read_rows(d, rows, &sweep, log, &err);
+    assert_int_equal(status, expected > 0 ? WT_OK : WT_E_EMPTY);
+    assert_int_equal(sweep.n_isotherms, expected);
+    for (size_t i = 0; i < sweep.n_isotherms; i++)
+        for (size_t k = 1; k < sweep.isotherms[i].n; k++)
+            assert_true(sweep.isotherms[i].angular_frequency[k] >=
+                        sweep.isotherms[i].angular_frequency[k - 1]);
+    if (note != NULL)
+        assert_true(logged(log, note));
+    wt_sweep_clear(&sweep);
+    wt_parselog_free(log);
+}
+
+static void splits(void **state)
+{
+    wt_description *plain = describe_as("separator=\"tab\"", "", "", "", "");
+    wt_description *jump =
+        describe_as("separator=\"tab\"", "", "", "", "<isotherms temperature-jump=\"3 K\"/>");
+    wt_description *block = describe_as("separator=\"tab\"", "", "blank=\"block\"", "", "");
+    (void)state;
+    /* rising saw-tooth, falling saw-tooth, there and back */
+    check_split(plain, "1\t2\t3\t20\n10\t2\t3\t20\n1\t2\t3\t25\n10\t2\t3\t25\n", 2, NULL);
+    check_split(plain, "10\t2\t3\t20\n1\t2\t3\t20\n10\t2\t3\t20\n1\t2\t3\t20\n", 2, NULL);
+    check_split(plain, "1\t2\t3\t20\n10\t2\t3\t20\n5\t2\t3\t20\n1\t2\t3\t20\n", 2, NULL);
+    /* the set frequency jitters, the temperature drifts */
+    check_split(jump, "1\t2\t3\t20\n1.002\t2\t3\t21\n1.001\t2\t3\t22\n10\t2\t3\t23\n", 1, NULL);
+    /* frequencies go on over two temperatures */
+    check_split(jump, "1\t2\t3\t20\n2\t2\t3\t20\n5\t2\t3\t30\n10\t2\t3\t30\n", 2, NULL);
+    check_split(plain, "1\t2\t3\t20\n2\t2\t3\t20\n\n5\t2\t3\t30\n10\t2\t3\t30\n", 1, NULL);
+    check_split(block, "1\t2\t3\t20\n2\t2\t3\t20\n\n5\t2\t3\t30\n10\t2\t3\t30\n", 2, NULL);
+    /* one frequency, temperature ramp */
+    check_split(jump, "1\t2\t3\t20\n1\t2\t3\t21\n1\t2\t3\t30\n", 0, "one frequency");
+    wt_description_free(plain);
+    wt_description_free(jump);
+    wt_description_free(block);
+}
+
+static void tension_and_shear(void **state)
+{
+    wt_description *d = describe_as("separator=\"tab\"", "", "", "", "");
+    wt_sweep sweep = {.n_isotherms = 0};
+    wt_error err = WT_ERROR_INIT;
+    (void)state;
+    assert_int_equal(read_rows(d, "1\t2\t3\t20\n10\t2\t3\t20\n", &sweep, NULL, &err), WT_OK);
+    assert_int_equal(read_text(d, "w\tG'\tG''\tT\nrad/s\tPa\tPa\tK\n1\t2\t3\t300\n10\t2\t3\t300\n",
+                               &sweep, NULL, &err),
+                     WT_E_UNIT);
+    assert_int_equal(sweep.n_isotherms, 1);
+    wt_sweep_clear(&sweep);
+    assert_int_equal(read_text(d, "w\tG'\tG''\tT\nrad/s\tPa\tPa\tK\n1\t2\t3\t300\n10\t2\t3\t300\n",
+                               &sweep, NULL, &err),
+                     WT_OK);
+    assert_int_equal(sweep.deformation, WT_SHEAR);
+    assert_near(sweep.isotherms[0].angular_frequency[1], 10, 1e-15);
+    wt_sweep_clear(&sweep);
+    wt_description_free(d);
+}
+
+static void nothing_is_guessed(void **state)
+{
+    wt_description *d = describe_as("separator=\"tab\"", "", "", "", "");
+    wt_sweep sweep = {.n_isotherms = 0};
+    wt_error err = WT_ERROR_INIT;
+    (void)state;
+    /* the unit of a modulus, Hz or rad/s, the kind of modulus, the temperature */
+    assert_int_equal(read_text(d, "f\tE'\tE''\tT\nHz\t\tMPa\tK\n1\t2\t3\t300\n10\t2\t3\t300\n",
+                               &sweep, NULL, &err),
+                     WT_E_UNIT);
+    assert_string_equal(err.advice, "give it with --units \"E'=MPa\"");
+    assert_string_equal(err.place, "line 1, column 2");
+    assert_int_equal(read_text(d, "f\tE'\tE''\tT\nrad/s\tPa\tPa\tK\n1\t2\t3\t300\n10\t2\t3\t300\n",
+                               &sweep, NULL, &err),
+                     WT_E_UNIT);
+    assert_string_equal(err.found, "\"rad/s\"");
+    assert_int_equal(read_text(d, "f\tM'\tM''\tT\nHz\tPa\tPa\tK\n1\t2\t3\t300\n10\t2\t3\t300\n",
+                               &sweep, NULL, &err),
+                     WT_E_MISSING);
+    assert_non_null(strstr(err.expected, "pull"));
+    assert_int_equal(
+        read_text(d, "f\tE'\tE''\nHz\tPa\tPa\n1\t2\t3\n10\t2\t3\n", &sweep, NULL, &err),
+        WT_E_MISSING);
+    assert_non_null(strstr(err.advice, "--temperature"));
+    assert_int_equal(read_text(d, "f\tE'\tE''\tT\nHz\tPa\tPa\t\n1\t2\t3\t20\n10\t2\t3\t20\n",
+                               &sweep, NULL, &err),
+                     WT_E_UNIT);
+    assert_string_equal(err.advice, "give it with --units \"T=degC\"");
+    assert_int_equal(read_text(d,
+                               "pull\tf\tM'\tM''\tT\nN\tHz\tPa\tPa\tK\n0\t1\t2\t3\t300\n"
+                               "0\t10\t2\t3\t300\n",
+                               &sweep, NULL, &err),
+                     WT_OK);
+    assert_int_equal(sweep.deformation, WT_TENSION);
+    wt_sweep_clear(&sweep);
+    wt_description_free(d);
+}
+
+static void unknown_columns_are_named(void **state)
+{
+    wt_description *d = describe_as("separator=\"tab\"", "", "", "", "");
+    wt_sweep sweep = {.n_isotherms = 0};
+    wt_error err = WT_ERROR_INIT;
+    wt_parselog *log = wt_parselog_new();
+    (void)state;
+    assert_int_equal(read_text(d,
+                               "f\tE'\tE''\tT\tcolour\tT\nHz\tPa\tPa\tK\t\tK\n"
+                               "1\t2\t3\t300\tred\t7\n10\t2\t3\t300\tblue\t7\n",
+                               &sweep, log, &err),
+                     WT_OK);
+    assert_true(logged(log, "columns not used: colour, T"));
+    assert_near(sweep.isotherms[0].temperature, 300, 1e-15);
+    wt_sweep_clear(&sweep);
+    wt_parselog_free(log);
+    wt_description_free(d);
+}
+
+/* ---- detection ---------------------------------------------------------------------------- */
+
+static wt_status detect_text(const char *text, size_t n, unsigned kinds, const char **id,
+                             wt_error *err)
+{
+    wt_input *input = NULL;
+    const wt_format_info *info = NULL;
+    assert_int_equal(wt_input_open_memory(text, n, "made-up", &input, err), WT_OK);
+    wt_status status = wt_detect(formats, input, kinds, &info, err);
+    *id = status == WT_OK ? info->id : "";
+    wt_input_close(input);
+    return status;
+}
+
+static void detection(void **state)
+{
+    static const char words[] = "Dear reader,\nthis is a letter and no table at all.\n";
+    static const char binary[] = "f\tE'\tE''\n\1\2\3\4\5\6\7\1\2\3\4\5\6\7\1\2\3\4\5\6\7";
+    const char *id = NULL;
+    wt_error err = WT_ERROR_INIT;
+    (void)state;
+    assert_int_equal(detect_text(words, sizeof words - 1, 0, &id, &err), WT_E_FORMAT);
+    assert_int_equal(detect_text(binary, sizeof binary - 1, 0, &id, &err), WT_E_FORMAT);
+    assert_int_equal(detect_text("", 0, 0, &id, &err), WT_E_FORMAT);
+    assert_int_equal(detect_text(head, sizeof head - 1, 0, &id, &err), WT_OK);
+    assert_string_equal(id, "table-units");
+    assert_int_equal(detect_text(head, sizeof head - 1, WT_KIND_FORCE, &id, &err),
+                     WT_E_UNSUPPORTED);
+    /* A marker far down: the detector asks for more of the file. */
+    const size_t n = 40000;
+    char *deep = calloc(n + 200, 1);
+    assert_non_null(deep);
+    size_t used = (size_t)sprintf(deep, "proceduresegments\tFrequency sweep\n");
+    while (used < n)
+        used += (size_t)sprintf(deep + used, "Key number %zu\tvalue\n", used);
+    used += (size_t)sprintf(deep + used, "[step]\nFrequency sweep - 1\n");
+    assert_int_equal(detect_text(deep, used, 0, &id, &err), WT_OK);
+    assert_string_equal(id, "trios-text");
+    free(deep);
+}
+
+/* Twice the file takes about twice the time, not four times; the bound only catches the latter. */
+static void long_files(void **state)
+{
+    wt_description *d = describe_as("", "", "", "<step regex=\"^Step (.*)$\"/>", "");
+    const size_t rows = 200000;
+    char *text = malloc(rows * 32);
+    wt_sweep sweep = {.n_isotherms = 0};
+    wt_error err = WT_ERROR_INIT;
+    (void)state;
+    assert_non_null(text);
+    size_t used = (size_t)sprintf(text, "%s", head);
+    for (size_t i = 0; i < rows; i++)
+        used += (size_t)sprintf(text + used, "%.2f\t2.5\t3.5\t%zu\n", 1.0 + (double)(i % 100),
+                                i / 100 % 99);
+    const double start = wt_time_cpu();
+    assert_int_equal(read_bytes(d, text, used, &sweep, NULL, &err), WT_OK);
+    assert_int_equal(sweep.n_isotherms, rows / 100);
+    assert_true(wt_time_cpu() - start < 20);
+    wt_sweep_clear(&sweep);
+    free(text);
+    wt_description_free(d);
+}
+
+static int setup(void **state)
+{
+    (void)state;
+    return wt_description_schema_new(&schema, NULL) == WT_OK &&
+                   wt_formats_new(NULL, &formats, NULL, NULL) == WT_OK
+               ? 0
+               : -1;
+}
+
+static int teardown(void **state)
+{
+    (void)state;
+    wt_description_schema_free(schema);
+    wt_formats_free(formats);
+    return 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(encodings),
+        cmocka_unit_test(line_ends),
+        cmocka_unit_test(separators_and_decimal_marks),
+        cmocka_unit_test(declared_by_the_file),
+        cmocka_unit_test(fixed_columns),
+        cmocka_unit_test(damaged_rows),
+        cmocka_unit_test(text_after_the_table),
+        cmocka_unit_test(missing_values),
+        cmocka_unit_test(odd_moduli_are_handed_on),
+        cmocka_unit_test(splits),
+        cmocka_unit_test(tension_and_shear),
+        cmocka_unit_test(nothing_is_guessed),
+        cmocka_unit_test(unknown_columns_are_named),
+        cmocka_unit_test(detection),
+        cmocka_unit_test(long_files),
+    };
+    return cmocka_run_group_tests(tests, setup, teardown);
+}
