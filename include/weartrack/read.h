@@ -68,9 +68,11 @@ WT_API wt_status wt_detect(const wt_formats *formats, wt_input *input, unsigned 
 /* A zero-initialised struct passed through wt_read_defaults. Nothing that is not asked for is
  * decoded. */
 typedef struct wt_read_options {
-    const char *format;       /* id that overrules detection, or NULL */
-    wt_quantity_set want;     /* channels to decode; a force needs no more than its own column */
-    unsigned segments;        /* WT_SEGMENT_BIT()s to decode */
+    const char *format;   /* id that overrules detection, or NULL */
+    wt_quantity_set want; /* channels to decode; a force needs no more than its own column. A force
+                             that the calibration does not allow is WT_E_MISSING, or with
+                             WT_Q_ALL left out with a warning */
+    unsigned segments;    /* WT_SEGMENT_BIT()s to decode */
     double spring_constant;   /* [N/m] replaces the file's; NaN = the file's */
     double sensitivity;       /* [m/V] replaces the file's; NaN = the file's */
     double temperature;       /* [K] for a sweep whose file gives none; NaN = none */
@@ -81,9 +83,11 @@ WT_API wt_read_options wt_read_defaults(void); /* everything, nothing replaced *
 
 /* ---- reading ------------------------------------------------------------------------------ */
 
-/* Force curves as a stream: memory does not grow with the map. The source borrows the input and
- * the formats. A curve that cannot be read gives its status and message; the next call goes on
- * with the curve after it, until WT_END. */
+/* Force curves as a stream: memory does not grow with the map. Samples are in the order of time,
+ * which runs on from segment to segment; a force is positive when the tip is pushed away from the
+ * sample; heights keep the direction of the file (in JPK files they fall during the approach). The
+ * source borrows the input and the formats. A curve that cannot be read gives its status and
+ * message; the next call goes on with the curve after it, until WT_END. */
 typedef struct wt_force_source wt_force_source;
 WT_API wt_status wt_force_open(const wt_formats *formats, wt_input *input,
                                const wt_read_options *options, wt_parselog *log,

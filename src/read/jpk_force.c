@@ -78,7 +78,7 @@ static wt_status plan(jpk_source *source, const char *place, double start,
         if (!wanted(&source->options, o.quantity))
             continue;
         if (o.quantity == WT_Q_TIME) {
-            if (isnan(start) || isnan(segment->duration))
+            if (!isfinite(start + segment->duration))
                 wt_parselog_add(source->file.log, WT_WARNING, source->file.name, place,
                                 "no duration: the time is left out");
             else
@@ -119,7 +119,7 @@ static wt_status fill(jpk_source *source, const output *o, double start, size_t 
     snprintf(column->unit, sizeof column->unit, "%s", o->unit);
     if (o->channel == NULL) {
         for (size_t i = 0; i < n_points; i++)
-            column->values[i] = start + (double)i * segment->duration / (double)n_points;
+            column->values[i] = start + segment->duration * ((double)i / (double)n_points);
         return WT_OK;
     }
     const jpk_lcd *lcd = &o->channel->lcd;

@@ -167,7 +167,9 @@ void nid_decode(const nid_file *file, const nid_channel *c, size_t line, size_t 
     double half = ldexp(1.0, (int)c->bits - 1), whole = ldexp(1.0, (int)c->bits);
     for (size_t i = 0; i < n; i++, b += width) {
         double raw = width == 2 ? (double)wt_signed16(wt_le16(b)) : (double)wt_signed32(wt_le32(b));
-        values[i] = factor * (c->minimum + c->range * ((raw + half) / whole)) + offset;
+        double value = factor * (c->minimum + c->range * ((raw + half) / whole)) + offset;
+        /* Only a range beyond all sense overflows: then nothing is known. */
+        values[i] = isfinite(value) ? value : (double)NAN;
     }
 }
 

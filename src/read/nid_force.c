@@ -265,10 +265,15 @@ static wt_status plan(const nid_source *source, const nid_phase *phase, bool tim
         }
         if ((source->options.want & WT_Q_BIT(calibrated[i].quantity)) == 0)
             continue;
+        if (calibrated[i].quantity == WT_Q_DEFLECTION_VOLTAGE) {
+            wt_parselog_add(source->log, WT_NOTE, source->file.name, phase->bending->section,
+                            "no deflection_voltage: the file's own calibration is not known");
+            continue;
+        }
         wt_error missing = WT_ERROR_INIT;
         uncalibrated(phase->bending, file, &source->options, &missing);
         /* Asked for by name it is an error, asked for with everything else it is left out. */
-        if (source->options.want != WT_Q_ALL && calibrated[i].quantity == WT_Q_FORCE) {
+        if (source->options.want != WT_Q_ALL) {
             if (err != NULL)
                 *err = missing;
             return WT_E_MISSING;
@@ -311,7 +316,7 @@ static wt_status add_phase(const nid_source *source, size_t p, size_t line, doub
     *start += (double)n * phase->interval;
     if ((source->options.segments & WT_SEGMENT_BIT(phase->kind)) == 0)
         return WT_OK;
-    bool timed = !isnan(*start);
+    bool timed = isfinite(*start);
     if (!timed && (source->options.want & WT_Q_BIT(WT_Q_TIME)) != 0)
         wt_parselog_add(source->log, WT_WARNING, source->file.name, SPECTROSCOPY,
                         "no duration: the time is left out");

@@ -7,9 +7,11 @@
 
 #include "read/formats.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 /* ---- input -------------------------------------------------------------------------------- */
@@ -162,6 +164,43 @@ static void more_is_shown(void **state)
     free(text);
 }
 
+/* A description and its copy under another name know the same files equally well. */
+static void ties_name_both(void **state)
+{
+    (void)state;
+    static const char sample[] = "Force-Distance Curve\nFile Format:\t3\n\n"
+                                 "Extend Z-Sense(nm),Extend T-B(V),Retract Z-Sense(nm),"
+                                 "Retract T-B(V)\n1,2,3,4\n5,6,7,8\n";
+    static const char folder[] = "test_read_detect_formats";
+    static const char copy[] = "test_read_detect_formats/the-copy.xml";
+    wt_formats *formats = NULL;
+    wt_input *input = NULL;
+    const wt_format_info *info = NULL;
+    wt_error err = WT_ERROR_INIT;
+    assert_int_equal(wt_formats_new(NULL, &formats, NULL, NULL), WT_OK);
+    const char *xml = wt_formats_xml(formats, "afm-workshop");
+    const char *id = xml != NULL ? strstr(xml, "id=\"afm-workshop\"") : NULL;
+    assert_non_null(id);
+    assert_true(mkdir(folder, 0777) == 0 || errno == EEXIST);
+    FILE *out = fopen(copy, "wb");
+    assert_non_null(out);
+    fprintf(out, "%.*sid=\"the-copy\"%s", (int)(id - xml), xml, id + strlen("id=\"afm-workshop\""));
+    assert_int_equal(fclose(out), 0);
+    wt_formats_free(formats);
+    formats = NULL;
+    assert_int_equal(wt_formats_new(folder, &formats, NULL, &err), WT_OK);
+    assert_int_equal(wt_input_open_memory(sample, sizeof sample - 1, "test", &input, NULL), WT_OK);
+    assert_int_equal(wt_detect(formats, input, 0, &info, &err), WT_E_AMBIGUOUS);
+    assert_non_null(strstr(err.found, "afm-workshop"));
+    assert_non_null(strstr(err.found, "the-copy"));
+    assert_non_null(strstr(err.advice, "--format the-copy"));
+    assert_null(info);
+    wt_input_close(input);
+    wt_formats_free(formats);
+    unlink(copy);
+    rmdir(folder);
+}
+
 static void chosen_format(void **state)
 {
     (void)state;
@@ -191,6 +230,7 @@ int main(void)
         cmocka_unit_test(unknown_files_are_described),
         cmocka_unit_test(nanosurf_answers),
         cmocka_unit_test(more_is_shown),
+        cmocka_unit_test(ties_name_both),
         cmocka_unit_test(chosen_format),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
