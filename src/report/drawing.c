@@ -179,6 +179,7 @@ static void next_item(wt_drawing *d)
     wt_text_add(&d->script, d->n_items++ == 0 ? "plot \\\n  " : ", \\\n  ");
 }
 
+WT_PRINTF(2, 0)
 static void add_formatted(wt_drawing *d, const char *format, va_list arguments)
 {
     char line[512];

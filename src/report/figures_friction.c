@@ -63,7 +63,7 @@ void wt_draw_power_spectrum(wt_drawing *d)
 static double largest_ratio(const wt_table *table, const char *error, const char *value)
 {
     long e = wt_table_find(table, error), v = wt_table_find(table, value);
-    double largest = NAN;
+    double largest = (double)NAN;
     for (size_t row = 0; e >= 0 && v >= 0 && row < wt_table_n_rows(table); row++)
         largest = fmax(largest, fabs(wt_table_number(table, row, (size_t)e) /
                                      wt_table_number(table, row, (size_t)v)));

@@ -70,7 +70,7 @@ static bool is_error(const char *name)
 static double typical_size(const wt_table *table, size_t column, const size_t *rows, size_t n_rows,
                            const char *unit)
 {
-    double *sizes = calloc(n_rows > 0 ? n_rows : 1, sizeof *sizes), median = NAN;
+    double *sizes = calloc(n_rows > 0 ? n_rows : 1, sizeof *sizes), median = 0;
     size_t n = 0;
     for (size_t i = 0; sizes != NULL && i < n_rows; i++) {
         double size = fabs(wt_table_number(table, rows != NULL ? rows[i] : i, column));
