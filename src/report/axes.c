@@ -2,6 +2,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
+#include "report/cells.h"
 #include "report/drawing.h"
 
 #include <math.h>
@@ -25,8 +26,8 @@ void wt_span_add(wt_span *span, double value, bool positive_only)
 void wt_span_add_column(wt_span *span, const wt_table *table, const char *column,
                         bool positive_only)
 {
-    long c = wt_table_find(table, column);
-    if (c < 0 || wt_table_column_kind(table, (size_t)c) != WT_COLUMN_NUMBER)
+    long c = wt_number_column(table, column);
+    if (c < 0)
         return;
     for (size_t row = 0; row < wt_table_n_rows(table); row++)
         wt_span_add(span, wt_table_number(table, row, (size_t)c), positive_only);

@@ -4,6 +4,8 @@
  */
 #include "report/drawing.h"
 
+#include "report/cells.h"
+
 #include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -24,8 +26,8 @@ static bool row_matches(const wt_table *table, size_t row, const wt_rows *rows)
     for (int i = 0; rows != NULL && i < 2; i++) {
         if (rows->column[i] == NULL)
             continue;
-        long column = wt_table_find(table, rows->column[i]);
-        if (column < 0 || wt_table_column_kind(table, (size_t)column) != WT_COLUMN_TEXT ||
+        long column = wt_text_column(table, rows->column[i]);
+        if (column < 0 ||
             (strcmp(wt_table_text(table, row, (size_t)column), rows->text[i]) == 0) == rows->other)
             return false;
     }
@@ -66,9 +68,7 @@ int wt_drawing_section(wt_drawing *d, const wt_table *table, const char *title, 
     if (d->status != WT_OK || (copy = section_new(d, title)) == NULL)
         return WT_NO_SECTION;
     for (; columns[n] != NULL && n < MAX_COLUMNS; n++) {
-        source[n] = wt_table_find(table, columns[n]);
-        if (source[n] >= 0 && wt_table_column_kind(table, (size_t)source[n]) != WT_COLUMN_NUMBER)
-            source[n] = -1;
+        source[n] = wt_number_column(table, columns[n]);
         bool there = source[n] >= 0;
         size_t column = there ? (size_t)source[n] : 0;
         d->status = wt_table_add_column(
@@ -143,9 +143,9 @@ size_t wt_drawing_every(const wt_drawing *d, int section, size_t limit)
 size_t wt_drawing_groups(const wt_table *table, const char *column,
                          const char *groups[WT_DRAWING_GROUPS])
 {
-    long c = table == NULL ? -1 : wt_table_find(table, column);
+    long c = table == NULL ? -1 : wt_text_column(table, column);
     size_t n = 0;
-    if (c < 0 || wt_table_column_kind(table, (size_t)c) != WT_COLUMN_TEXT)
+    if (c < 0)
         return 0;
     static const char *const usual[] = {"bulk", "track"};
     for (size_t pass = 0; pass < 3; pass++)

@@ -5,6 +5,8 @@
  */
 #include "report/figures.h"
 
+#include "report/cells.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -137,9 +139,8 @@ void wt_draw_shift_factors(wt_drawing *d)
     wt_plot_item(d, section,
                  "($1+x_offset):($4 == 0 ? NaN : $2):3 with yerrorbars ls 1 title 'from overlap'");
     size_t undetermined = 0;
-    long determined = wt_table_find(table, "determined");
-    for (size_t row = 0; determined >= 0 && row < wt_table_n_rows(table); row++)
-        undetermined += wt_table_number(table, row, (size_t)determined) == 0;
+    for (size_t row = 0; row < wt_table_n_rows(table); row++)
+        undetermined += wt_cell_number(table, row, "determined") == 0;
     if (undetermined > 0)
         wt_plot_item(d, section,
                      "($1+x_offset):($4 == 0 ? $2 : NaN) with points ls 14 title "
@@ -202,9 +203,8 @@ void wt_draw_dma_comparison(wt_drawing *d)
     }
     wt_plot_end(d);
     size_t extrapolated = 0;
-    long column = wt_table_find(table, "extrapolated");
-    for (size_t row = 0; column >= 0 && row < wt_table_n_rows(table); row++)
-        extrapolated += wt_table_number(table, row, (size_t)column) > 0;
+    for (size_t row = 0; row < wt_table_n_rows(table); row++)
+        extrapolated += wt_cell_number(table, row, "extrapolated") > 0;
     wt_text_add(&d->caption,
                 "Indentation modulus (geometric mean, bars: 95 % confidence interval) against the "
                 "angular frequency equivalent to the time of loading, with the modulus of the DMA "

@@ -4,6 +4,8 @@
  */
 #include "report/figures.h"
 
+#include "report/cells.h"
+
 #include <math.h>
 
 /* ", at 0.4 MPa and 20 °C" as far as the keys of a table say. */
@@ -36,7 +38,7 @@ void wt_draw_power_spectrum(wt_drawing *d)
         wt_text_add(&d->omitted, "no density above zero");
         return;
     }
-    long density = wt_table_find(table, "density");
+    long density = wt_number_column(table, "density");
     const char *unit = wt_table_column_unit(table, (size_t)density);
     wt_axis_log(d, "x", "Wavenumber q", "rad/m", x);
     wt_axis_log(d, "y", "Power spectrum C(q)", unit, y);
@@ -62,11 +64,10 @@ void wt_draw_power_spectrum(wt_drawing *d)
 
 static double largest_ratio(const wt_table *table, const char *error, const char *value)
 {
-    long e = wt_table_find(table, error), v = wt_table_find(table, value);
     double largest = (double)NAN;
-    for (size_t row = 0; e >= 0 && v >= 0 && row < wt_table_n_rows(table); row++)
-        largest = fmax(largest, fabs(wt_table_number(table, row, (size_t)e) /
-                                     wt_table_number(table, row, (size_t)v)));
+    for (size_t row = 0; row < wt_table_n_rows(table); row++)
+        largest = fmax(largest,
+                       fabs(wt_cell_number(table, row, error) / wt_cell_number(table, row, value)));
     return largest;
 }
 

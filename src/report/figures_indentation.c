@@ -4,11 +4,13 @@
  */
 #include "report/figures.h"
 
+#include "report/cells.h"
+
 #include <math.h>
 #include <string.h>
 
 /* More points than that cannot be told apart in one panel. */
-enum { LINE_POINTS = 1200, MARKER_POINTS = 220 };
+enum { LINE_POINTS = 1200, MARKER_POINTS = 220, CROWD_POINTS = 3000 };
 
 static const char *const force_columns[] = {"displacement", "force", NULL};
 
@@ -225,6 +227,7 @@ void wt_draw_modulus_groups(wt_drawing *d)
     size_t n = wt_drawing_groups(summary, "group", groups);
     int curves[WT_DRAWING_GROUPS], mean[WT_DRAWING_GROUPS];
     wt_span y = WT_SPAN_EMPTY;
+    size_t every = 1;
 
     for (size_t i = 0; i < n; i++) {
         const wt_rows accepted = {{"verdict", NULL}, {"accepted", NULL}, false};
@@ -260,8 +263,11 @@ void wt_draw_modulus_groups(wt_drawing *d)
     wt_plot_begin(d);
     for (size_t i = 0; i < n; i++) {
         int style = wt_drawing_group_style(groups[i], i);
-        wt_plot_item(d, curves[i], "(%zu + spread($0)):($1*y_unit) with points ls %d ps 0.6", i + 1,
-                     style + 40);
+        size_t one = wt_drawing_every(d, curves[i], CROWD_POINTS);
+        every = one > every ? one : every;
+        wt_plot_item(d, curves[i],
+                     "(%zu + spread($0)):($1*y_unit) every %zu with points ls %d ps 0.6", i + 1,
+                     one, style + 40);
         wt_plot_item(d, mean[i],
                      "(%zu.32):($1*y_unit):($2*y_unit):($3*y_unit) with yerrorbars ls 13", i + 1);
     }
@@ -271,17 +277,19 @@ void wt_draw_modulus_groups(wt_drawing *d)
                 "Modulus of every accepted curve (spread sideways for sight only) and, "
                 "to the right, the geometric mean of the group with its 95 % "
                 "confidence interval; logarithmic axis.");
+    if (every > 1)
+        wt_text_format(&d->caption, " One curve of up to %zu is drawn.", every);
     const wt_table *comparison = wt_result_find(d->result, "comparison");
     const char *unit = comparison != NULL ? wt_table_key(comparison, "unit_of_analysis") : NULL;
     if (unit != NULL)
         wt_text_format(&d->caption, " Unit of analysis of the interval: %s.", unit);
-    long n_column = wt_table_find(summary, "n"), out = wt_table_find(summary, "n_rejected"),
-         group = wt_table_find(summary, "group");
-    for (size_t row = 0; n_column >= 0 && out >= 0 && row < wt_table_n_rows(summary); row++)
-        wt_text_format(&d->caption, " %s: n = %.0f, rejected %.0f.",
-                       wt_table_text(summary, row, (size_t)group),
-                       wt_table_number(summary, row, (size_t)n_column),
-                       wt_table_number(summary, row, (size_t)out));
+    for (size_t row = 0; row < wt_table_n_rows(summary); row++) {
+        double all = wt_cell_number(summary, row, "n"),
+               out = wt_cell_number(summary, row, "n_rejected");
+        if (isfinite(all) && isfinite(out))
+            wt_text_format(&d->caption, " %s: n = %.0f, rejected %.0f.",
+                           wt_cell_text(summary, row, "group"), all, out);
+    }
 }
 
 void wt_draw_modulus_rate(wt_drawing *d)
@@ -319,15 +327,14 @@ void wt_draw_modulus_rate(wt_drawing *d)
     wt_plot_end(d);
     wt_text_add(&d->caption, "Geometric mean of the modulus against indentation rate, binned by "
                              "half a decade; bars: 95 % confidence interval. Curves in the bins:");
-    long count = wt_table_find(table, "n"), group = wt_table_find(table, "group");
-    for (size_t i = 0; count >= 0 && i < n; i++) {
+    for (size_t i = 0; i < n; i++) {
         bool first = true;
         wt_text_format(&d->caption, "%s %s n = ", i == 0 ? "" : ";", groups[i]);
         for (size_t row = 0; row < wt_table_n_rows(table); row++) {
-            if (strcmp(wt_table_text(table, row, (size_t)group), groups[i]) != 0)
+            if (strcmp(wt_cell_text(table, row, "group"), groups[i]) != 0)
                 continue;
-            wt_text_format(&d->caption, "%s%.0f", first ? "" : ", ",
-                           wt_table_number(table, row, (size_t)count));
+            wt_text_add(&d->caption, first ? "" : ", ");
+            wt_text_short(&d->caption, wt_cell_number(table, row, "n"), 9);
             first = false;
         }
     }

@@ -4,6 +4,8 @@
  */
 #include "report/figures.h"
 
+#include "report/cells.h"
+
 #include <math.h>
 
 void wt_draw_energy_density(wt_drawing *d)
@@ -18,7 +20,7 @@ void wt_draw_energy_density(wt_drawing *d)
         wt_text_add(&d->omitted, "no energy density above zero");
         return;
     }
-    long column = wt_table_find(table, "energy_density");
+    long column = wt_number_column(table, "energy_density");
     wt_axis_log(d, "x", "Depth below the surface", "m", x);
     wt_axis_log(d, "y", "Dissipated power per volume", wt_table_column_unit(table, (size_t)column),
                 y);

@@ -4,11 +4,13 @@
  */
 #include "report/figures.h"
 
+#include "report/cells.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAP_POINTS = 9 }; /* fewer are no map */
+enum { MAP_POINTS = 9, MAP_LIMIT = 70000 }; /* fewer are no map, more no picture for a page */
 
 static int compare_numbers(const void *a, const void *b)
 {
@@ -20,7 +22,7 @@ static int compare_numbers(const void *a, const void *b)
  * thousandth of the whole is the same position. */
 static double grid_step(const wt_table *table, const char *column)
 {
-    size_t c = (size_t)wt_table_find(table, column), n = wt_table_n_rows(table);
+    size_t c = (size_t)wt_number_column(table, column), n = wt_table_n_rows(table);
     double *x = calloc(n, sizeof *x), step = 0;
     if (x == NULL)
         return 0;
@@ -39,18 +41,14 @@ static double grid_step(const wt_table *table, const char *column)
 /* Positions that are known, from one file: places of several files need not share an origin. */
 static bool is_map(const wt_table *table)
 {
-    long x = wt_table_find(table, "x"), y = wt_table_find(table, "y"),
-         file = wt_table_find(table, "file");
     size_t n = wt_table_n_rows(table);
-    if (x < 0 || y < 0 || file < 0 || n < MAP_POINTS ||
-        wt_table_column_kind(table, (size_t)x) != WT_COLUMN_NUMBER ||
-        wt_table_column_kind(table, (size_t)y) != WT_COLUMN_NUMBER ||
-        wt_table_column_kind(table, (size_t)file) != WT_COLUMN_TEXT)
+    if (wt_number_column(table, "x") < 0 || wt_number_column(table, "y") < 0 ||
+        wt_text_column(table, "file") < 0 || n < MAP_POINTS || n > MAP_LIMIT)
         return false;
     for (size_t row = 0; row < n; row++)
-        if (!isfinite(wt_table_number(table, row, (size_t)x)) ||
-            !isfinite(wt_table_number(table, row, (size_t)y)) ||
-            strcmp(wt_table_text(table, row, (size_t)file), wt_table_text(table, 0, (size_t)file)))
+        if (!isfinite(wt_cell_number(table, row, "x")) ||
+            !isfinite(wt_cell_number(table, row, "y")) ||
+            strcmp(wt_cell_text(table, row, "file"), wt_cell_text(table, 0, "file")) != 0)
             return false;
     return grid_step(table, "x") > 0 && grid_step(table, "y") > 0;
 }
@@ -115,7 +113,8 @@ void wt_draw_modulus_map(wt_drawing *d)
             panels[n++] = panel;
     }
     if (n == 0 || wt_span_empty(&colour) || d->status != WT_OK) {
-        wt_text_add(&d->omitted, "the curves are not on a grid of known positions in one file");
+        wt_text_add(&d->omitted,
+                    "no group has its curves at 9 to 70000 known positions of one file");
         return;
     }
     d->width = 0.95 * (double)n;

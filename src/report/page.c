@@ -4,6 +4,7 @@
  */
 #include "report/page.h"
 
+#include "report/cells.h"
 #include "report/folder.h"
 #include "report/report_files.h"
 #include "report/svg.h"
@@ -29,14 +30,6 @@ static void page_head(const wt_page *page, wt_text *out, const char *title)
     wt_text_add(out, "</ul>\n</nav>\n</header>\n");
 }
 
-static const char *text_cell(const wt_table *table, size_t row, const char *column)
-{
-    long c = wt_table_find(table, column);
-    return c >= 0 && wt_table_column_kind(table, (size_t)c) == WT_COLUMN_TEXT
-               ? wt_table_text(table, row, (size_t)c)
-               : "";
-}
-
 /* Only words of the closed list of kinds become a class of the style sheet. */
 static const char *kind_class(const char *kind)
 {
@@ -51,10 +44,10 @@ static void page_answer(wt_page *page)
     wt_page_heading(page, "answer", "Answer");
     for (size_t row = 0; row < wt_table_n_rows(table); row++) {
         wt_text_format(&page->out, "<section class=\"%s\">\n<h3>",
-                       kind_class(text_cell(table, row, "kind")));
-        wt_text_html(&page->out, text_cell(table, row, "question"));
+                       kind_class(wt_cell_text(table, row, "kind")));
+        wt_text_html(&page->out, wt_cell_text(table, row, "question"));
         wt_text_add(&page->out, "</h3>\n<p>");
-        wt_text_html(&page->out, text_cell(table, row, "answer"));
+        wt_text_html(&page->out, wt_cell_text(table, row, "answer"));
         wt_text_add(&page->out, "</p>\n</section>\n");
     }
 }

@@ -4,24 +4,10 @@
  */
 #include "report/page.h"
 
+#include "report/cells.h"
+
 #include <math.h>
 #include <string.h>
-
-static double cell(const wt_table *table, size_t row, const char *column)
-{
-    long c = wt_table_find(table, column);
-    return c >= 0 && wt_table_column_kind(table, (size_t)c) == WT_COLUMN_NUMBER
-               ? wt_table_number(table, row, (size_t)c)
-               : (double)NAN;
-}
-
-static const char *words(const wt_table *table, size_t row, const char *column)
-{
-    long c = wt_table_find(table, column);
-    return c >= 0 && wt_table_column_kind(table, (size_t)c) == WT_COLUMN_TEXT
-               ? wt_table_text(table, row, (size_t)c)
-               : "";
-}
 
 /* An interval as statistical error: "0.59 to 0.69 (95 %)". */
 static void interval_row(wt_page *page, const char *name, double value, double low, double high,
@@ -43,20 +29,21 @@ static void ratio_row(wt_page *page)
 {
     const wt_table *table = wt_result_find(page->result, "comparison");
     for (size_t row = 0; table != NULL && row < wt_table_n_rows(table); row++) {
-        if (!isnan(cell(table, row, "rate_low")) || !isfinite(cell(table, row, "ratio")))
+        if (!isnan(wt_cell_number(table, row, "rate_low")) ||
+            !isfinite(wt_cell_number(table, row, "ratio")))
             continue; // the row over all rates has no limits of the rate
         wt_text remark = {0};
         const char *unit = wt_table_key(table, "unit_of_analysis");
         wt_text_add(&remark, "geometric means; n = ");
-        wt_text_fixed(&remark, cell(table, row, "n_track"), 0);
+        wt_text_fixed(&remark, wt_cell_number(table, row, "n_track"), 0);
         wt_text_add(&remark, " in the track, ");
-        wt_text_fixed(&remark, cell(table, row, "n_bulk"), 0);
+        wt_text_fixed(&remark, wt_cell_number(table, row, "n_bulk"), 0);
         wt_text_add(&remark, " in the bulk");
         if (unit != NULL)
             wt_text_format(&remark, ", unit of analysis: %s", unit);
-        interval_row(page, "Modulus, track over bulk", cell(table, row, "ratio"),
-                     cell(table, row, "ratio_low"), cell(table, row, "ratio_high"), "1",
-                     wt_text_string(&remark));
+        interval_row(page, "Modulus, track over bulk", wt_cell_number(table, row, "ratio"),
+                     wt_cell_number(table, row, "ratio_low"),
+                     wt_cell_number(table, row, "ratio_high"), "1", wt_text_string(&remark));
         page->out.failed = page->out.failed || remark.failed;
         wt_text_free(&remark);
         return;
@@ -68,13 +55,13 @@ static void group_rows(wt_page *page)
     const wt_table *table = wt_result_find(page->result, "modulus_groups");
     for (size_t row = 0; table != NULL && row < wt_table_n_rows(table); row++) {
         wt_text name = {0}, remark = {0};
-        wt_text_format(&name, "Modulus, %s", words(table, row, "group"));
-        wt_text_format(&remark, "geometric mean; n = %.0f, rejected %.0f", cell(table, row, "n"),
-                       cell(table, row, "n_rejected"));
-        if (isfinite(cell(table, row, "geometric_mean")))
-            interval_row(page, wt_text_string(&name), cell(table, row, "geometric_mean"),
-                         cell(table, row, "low"), cell(table, row, "high"), "Pa",
-                         wt_text_string(&remark));
+        wt_text_format(&name, "Modulus, %s", wt_cell_text(table, row, "group"));
+        wt_text_format(&remark, "geometric mean; n = %.0f, rejected %.0f",
+                       wt_cell_number(table, row, "n"), wt_cell_number(table, row, "n_rejected"));
+        if (isfinite(wt_cell_number(table, row, "geometric_mean")))
+            interval_row(page, wt_text_string(&name), wt_cell_number(table, row, "geometric_mean"),
+                         wt_cell_number(table, row, "low"), wt_cell_number(table, row, "high"),
+                         "Pa", wt_text_string(&remark));
         page->out.failed = page->out.failed || name.failed || remark.failed;
         wt_text_free(&name);
         wt_text_free(&remark);
@@ -127,14 +114,15 @@ static void friction_row(wt_page *page, const wt_table *table, const char *colum
     (void)snprintf(numerical, sizeof numerical, "%s_numerical_error", column);
     size_t best = SIZE_MAX;
     for (size_t row = 0; row < wt_table_n_rows(table); row++)
-        if (isfinite(cell(table, row, column)) &&
-            (best == SIZE_MAX || cell(table, row, column) > cell(table, best, column)))
+        if (isfinite(wt_cell_number(table, row, column)) &&
+            (best == SIZE_MAX ||
+             wt_cell_number(table, row, column) > wt_cell_number(table, best, column)))
             best = row;
     if (best == SIZE_MAX)
         return;
     wt_text remark = {0};
-    double velocity = cell(table, best, "velocity"),
-           share = cell(table, best, "extrapolated_share");
+    double velocity = wt_cell_number(table, best, "velocity"),
+           share = wt_cell_number(table, best, "extrapolated_share");
     wt_text_add(&remark, "at ");
     add_velocity(&remark, velocity);
     if (share > 0) {
@@ -142,8 +130,9 @@ static void friction_row(wt_page *page, const wt_table *table, const char *colum
         wt_text_number(&remark, 100 * share, 2);
         wt_text_add(&remark, " % from frequencies outside the measured ones");
     }
-    const wt_estimate estimate = {cell(table, best, column), cell(table, best, standard),
-                                  cell(table, best, numerical), "1"};
+    const wt_estimate estimate = {wt_cell_number(table, best, column),
+                                  wt_cell_number(table, best, standard),
+                                  wt_cell_number(table, best, numerical), "1"};
     wt_page_estimate(page, name, &estimate, column, NULL, wt_text_string(&remark));
     page->out.failed = page->out.failed || remark.failed;
     wt_text_free(&remark);

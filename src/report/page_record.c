@@ -4,6 +4,8 @@
  */
 #include "report/page.h"
 
+#include "report/cells.h"
+
 #include <string.h>
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
@@ -70,9 +72,8 @@ void wt_page_cost(wt_page *page)
         return;
     enum { STAGES = 64 };
     size_t rows[2][STAGES], n[2] = {0, 0};
-    long runs = wt_table_find(table, "runs");
     for (size_t row = 0; row < wt_table_n_rows(table); row++) {
-        size_t out = runs >= 0 && wt_table_number(table, row, (size_t)runs) == 0;
+        size_t out = wt_cell_number(table, row, "runs") == 0;
         if (n[out] < STAGES)
             rows[out][n[out]++] = row;
     }

@@ -4,8 +4,9 @@
  */
 #include "report/page.h"
 
+#include "report/cells.h"
+
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
@@ -102,25 +103,32 @@ static const wt_page_column friction_columns[] = {
     {"extrapolated_share", "Outside measured frequencies, share", NULL, NULL, false},
 };
 
+enum { DECADES = 40 }; /* 1e-20 to 1e20 m/s, rounded */
+
 /* Rows nearest to whole decades of the velocity, and the first and last one; *n of them. */
-static size_t *decade_rows(const wt_table *table, size_t *n)
+static void decade_rows(const wt_table *table, size_t rows[DECADES + 3], size_t *n)
 {
-    long column = wt_table_find(table, "velocity");
-    size_t n_rows = wt_table_n_rows(table);
-    size_t *rows = calloc(n_rows > 0 ? n_rows : 1, sizeof *rows);
-    *n = 0;
-    for (size_t row = 0; rows != NULL && column >= 0 && row < n_rows; row++) {
-        double x = log10(wt_table_number(table, row, (size_t)column));
-        bool nearest = true; // of all rows to the whole number beside it
-        for (size_t other = 0; other < n_rows && nearest; other++) {
-            double y = log10(wt_table_number(table, other, (size_t)column));
-            nearest = other == row ||
-                      !(fabs(y - round(x)) < fabs(x - round(x)) || (other < row && y == x));
+    size_t n_rows = wt_table_n_rows(table), best[DECADES + 1];
+    double distance[DECADES + 1];
+    for (int i = 0; i <= DECADES; i++)
+        distance[i] = (double)INFINITY;
+    for (size_t row = 0; row < n_rows; row++) {
+        double x = log10(wt_cell_number(table, row, "velocity")), decade = round(x);
+        if (!(fabs(decade) <= DECADES / 2))
+            continue;
+        int i = (int)decade + DECADES / 2;
+        if (fabs(x - decade) < distance[i]) {
+            distance[i] = fabs(x - decade);
+            best[i] = row;
         }
-        if (row == 0 || row + 1 == n_rows || (isfinite(x) && nearest))
-            rows[(*n)++] = row;
     }
-    return rows;
+    *n = 0;
+    rows[(*n)++] = 0;
+    for (int i = 0; i <= DECADES; i++)
+        if (isfinite(distance[i]) && best[i] != 0 && best[i] + 1 != n_rows)
+            rows[(*n)++] = best[i];
+    if (n_rows > 1)
+        rows[(*n)++] = n_rows - 1;
 }
 
 static void friction_table(wt_page *page)
@@ -128,20 +136,15 @@ static void friction_table(wt_page *page)
     const wt_table *table = wt_result_find(page->result, "friction");
     if (table == NULL || wt_table_n_rows(table) == 0)
         return;
-    size_t n = 0;
-    size_t *rows = decade_rows(table, &n);
-    if (rows == NULL)
-        page->out.failed = true;
-    else
-        wt_page_table(
-            page, table,
-            n < wt_table_n_rows(table)
-                ? "Friction at the computed velocities next to whole decades (± stat.: one "
-                  "standard error, ± num.: numerical error); the result file holds all"
-                : "Friction at the computed velocities (± stat.: one standard error, "
-                  "± num.: numerical error)",
-            friction_columns, COUNT(friction_columns), rows, n);
-    free(rows);
+    size_t rows[DECADES + 3], n = 0;
+    decade_rows(table, rows, &n);
+    wt_page_table(page, table,
+                  n < wt_table_n_rows(table)
+                      ? "Friction at the computed velocities next to whole decades (± stat.: one "
+                        "standard error, ± num.: numerical error); the result file holds all"
+                      : "Friction at the computed velocities (± stat.: one standard error, "
+                        "± num.: numerical error)",
+                  friction_columns, COUNT(friction_columns), rows, n);
 }
 
 void wt_page_results(wt_page *page)
@@ -185,11 +188,10 @@ static void rejected_of(wt_page *page, const wt_table *table, const char *group)
 {
     enum { SHOWN = 200 };
     size_t rows[SHOWN], n = 0, rejected = 0;
-    long verdict = wt_table_find(table, "verdict");
-    if (verdict < 0 || wt_table_column_kind(table, (size_t)verdict) != WT_COLUMN_TEXT)
+    if (wt_text_column(table, "verdict") < 0)
         return;
     for (size_t row = 0; row < wt_table_n_rows(table); row++) {
-        if (strcmp(wt_table_text(table, row, (size_t)verdict), "accepted") == 0)
+        if (strcmp(wt_cell_text(table, row, "verdict"), "accepted") == 0)
             continue;
         if (n < SHOWN)
             rows[n++] = row;

@@ -603,6 +603,41 @@ static void test_missing_tables(void **state)
     wt_result_free(result);
 }
 
+/* A copy of a table with text for numbers and numbers for text. */
+static wt_table *swapped(const wt_table *table)
+{
+    wt_table *copy = wt_table_new(wt_table_name(table), wt_table_title(table));
+    for (size_t c = 0; c < wt_table_n_columns(table); c++) {
+        const char *name = wt_table_column_name(table, c);
+        fixture_check(wt_table_column_kind(table, c) == WT_COLUMN_TEXT
+                          ? wt_table_add_column(copy, name, "1", name, NULL)
+                          : wt_table_add_text_column(copy, name, name, NULL));
+    }
+    for (size_t row = 0; row < wt_table_n_rows(table) && row < 20; row++) {
+        fixture_row(copy);
+        for (size_t c = 0; c < wt_table_n_columns(table); c++)
+            if (wt_table_column_kind(copy, c) == WT_COLUMN_TEXT)
+                fixture_check(wt_table_put_text(copy, c, "1e3", NULL));
+            else
+                wt_table_put(copy, c, 1e3);
+    }
+    return copy;
+}
+
+/* Results come from files, so a table of a known name may hold anything. */
+static void test_columns_of_the_wrong_kind(void **state)
+{
+    (void)state;
+    NEED_GNUPLOT();
+    wt_result *result = fixture_result(), *odd = wt_result_new();
+    for (size_t i = 0; i < wt_result_n_tables(result); i++)
+        fixture_add(odd, swapped(wt_result_table(result, i)));
+    write_report(odd, "out", NULL);
+    check_page("out/index.html", 0, 1);
+    wt_result_free(odd);
+    wt_result_free(result);
+}
+
 static void test_an_empty_result_needs_no_gnuplot(void **state)
 {
     (void)state;
@@ -752,6 +787,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_plots_can_be_drawn_again, make_workplace,
                                         remove_workplace),
         cmocka_unit_test_setup_teardown(test_missing_tables, make_workplace, remove_workplace),
+        cmocka_unit_test_setup_teardown(test_columns_of_the_wrong_kind, make_workplace,
+                                        remove_workplace),
         cmocka_unit_test_setup_teardown(test_an_empty_result_needs_no_gnuplot, make_workplace,
                                         remove_workplace),
         cmocka_unit_test_setup_teardown(test_no_gnuplot, make_workplace, remove_workplace),
