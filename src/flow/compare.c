@@ -192,7 +192,8 @@ static wt_status compare_part(pair *p, size_t bin, bool by_curve, row *r, wt_err
     wt_error ignored = WT_ERROR_INIT;
     wt_status status = wt_compare(&bulk, &track, &r->c, &ignored);
     r->valid = status == WT_OK;
-    if (status == WT_OK || status == WT_E_EMPTY)
+    /* without enough units, or at one rate without scatter, the row stays without numbers */
+    if (status == WT_OK || status == WT_E_EMPTY || (status == WT_E_RANGE && bin != SIZE_MAX))
         return WT_OK;
     if (err != NULL)
         *err = ignored;

@@ -18,14 +18,18 @@ static const double *segment_height(const wt_segment *segment)
     return channel == NULL ? NULL : channel->values;
 }
 
-/* Force of a segment [N], from its own channel or from deflection; false if neither is there. */
-static bool segment_force(const wt_segment *segment, double spring_constant, double *force)
+/* Force of a segment [N], from its own channel or from the deflection; false if there is none. */
+static bool segment_force(const wt_segment *segment, const wt_cantilever *lever, double *force)
 {
     const wt_channel *channel = wt_segment_channel(segment, WT_Q_FORCE);
     double factor = 1;
     if (channel == NULL) {
         channel = wt_segment_channel(segment, WT_Q_DEFLECTION);
-        factor = spring_constant;
+        factor = lever->spring_constant;
+    }
+    if (channel == NULL) {
+        channel = wt_segment_channel(segment, WT_Q_DEFLECTION_VOLTAGE);
+        factor = lever->spring_constant * lever->sensitivity;
     }
     if (channel == NULL || isnan(factor))
         return false;
@@ -119,10 +123,10 @@ wt_status flow_curve_tables_add(wt_indent_tables *tables, const char *group, con
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     double *force = scratch, *delta = scratch + longest, *shown = scratch + 2 * longest,
            *model = scratch + 3 * longest;
-    double sign = height[approach->n_points - 1] > height[0] ? 1 : -1;
+    const double sign = fit->direction;
 
     wt_status status = make_tables(tables, err);
-    if (status != WT_OK || !segment_force(approach, k, force))
+    if (status != WT_OK || !segment_force(approach, &curve->cantilever, force))
         goto done;
     if (wt_table_n_rows(tables->force_displacement) > 0)
         status = wt_table_new_block(tables->force_displacement, err);
@@ -148,7 +152,7 @@ wt_status flow_curve_tables_add(wt_indent_tables *tables, const char *group, con
         wt_table_put(tables->force_indentation, FI_FORCE, shown[i]);
         wt_table_put(tables->force_indentation, FI_FITTED, effective * model[i]);
     }
-    if (status == WT_OK && retract != NULL && segment_force(retract, k, force))
+    if (status == WT_OK && retract != NULL && segment_force(retract, &curve->cantilever, force))
         status = add_segment(tables->force_displacement, group, retract, sign, fit, force, err);
 done:
     free(scratch);

@@ -63,7 +63,8 @@ wt_indent_job wt_indent_job_defaults(void)
 static wt_quantity_set wanted_channels(bool rates)
 {
     wt_quantity_set want = WT_Q_BIT(WT_Q_HEIGHT) | WT_Q_BIT(WT_Q_MEASURED_HEIGHT) |
-                           WT_Q_BIT(WT_Q_FORCE) | WT_Q_BIT(WT_Q_DEFLECTION);
+                           WT_Q_BIT(WT_Q_FORCE) | WT_Q_BIT(WT_Q_DEFLECTION) |
+                           WT_Q_BIT(WT_Q_DEFLECTION_VOLTAGE);
     return rates ? want | WT_Q_BIT(WT_Q_TIME) : want;
 }
 

@@ -59,7 +59,22 @@ wt_status wt_inputs_table(const wt_provenance *provenance, wt_table **result, wt
     return WT_OK;
 }
 
+/* `path` without `folder` in front of it. */
+static const char *below(const char *folder, const char *path)
+{
+    size_t length = folder == NULL ? 0 : strlen(folder);
+    if (length == 0 || strncmp(path, folder, length) != 0 || path[length] != '/')
+        return path;
+    return path + length + strspn(path + length, "/");
+}
+
 wt_status wt_notes_table(const wt_parselog *log, wt_table **result, wt_error *err)
+{
+    return flow_notes_table(log, NULL, result, err);
+}
+
+wt_status flow_notes_table(const wt_parselog *log, const char *folder, wt_table **result,
+                           wt_error *err)
 {
     enum { SEVERITY, FILE_NAME, PLACE, TEXT, COUNT };
     static const flow_column columns[] = {
@@ -79,7 +94,7 @@ wt_status wt_notes_table(const wt_parselog *log, wt_table **result, wt_error *er
             status = wt_table_put_text(table, SEVERITY,
                                        entry.severity == WT_WARNING ? "warning" : "note", err);
         if (status == WT_OK)
-            status = wt_table_put_text(table, FILE_NAME, entry.file, err);
+            status = wt_table_put_text(table, FILE_NAME, below(folder, entry.file), err);
         if (status == WT_OK)
             status = wt_table_put_text(table, PLACE, entry.place, err);
         if (status == WT_OK)
@@ -133,11 +148,7 @@ static wt_status files_add(flow_files *files, size_t *capacity, char *path, cons
         files->file = array;
         *capacity = grown;
     }
-    const char *name = path;
-    size_t length = set->folder == NULL ? 0 : strlen(set->folder);
-    if (length > 0 && strncmp(path, set->folder, length) == 0 && path[length] == '/')
-        name = path + length + 1 + strspn(path + length + 1, "/");
-    files->file[files->n++] = (flow_file){path, name, set};
+    files->file[files->n++] = (flow_file){path, below(set->folder, path), set};
     return WT_OK;
 }
 

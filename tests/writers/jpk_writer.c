@@ -155,6 +155,9 @@ static int add_entry(const writer *w, const char *name, void *data, size_t size)
         zip_source_free(source);
         return -1;
     }
+    if (w->file->stored &&
+        zip_set_file_compression(w->zip, (zip_uint64_t)i, ZIP_CM_STORE, 0) != 0)
+        return -1;
     return zip_file_set_dostime(w->zip, (zip_uint64_t)i, 0, 0x5021, 0);
 }
 

@@ -46,6 +46,7 @@ typedef struct jpk_writer_file {
     jpk_writer_encoding encoding;
     bool inline_headers; /* no shared-data: every key stands in the segment header */
     bool folders;        /* with entries for the folders */
+    bool stored;         /* not compressed: the same bytes with any version of zlib */
 } jpk_writer_file;
 
 /* A file to be filled in: 32-bit integers, shared headers. */

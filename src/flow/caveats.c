@@ -1,0 +1,239 @@
+/* What must be said with the answer: what the numbers rest on and what they leave out.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/answer.h"
+#include "flow/tables.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char question[] = "What must be kept in mind?";
+
+/* An indentation feels what is below a layer when it goes deeper than this share of it (Bueckle's
+ * rule for films). */
+#define DEEP_SHARE 0.1
+
+static int compare_numbers(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return x < y ? -1 : x > y;
+}
+
+/* Median of a column over the accepted curves; NaN if there are none. */
+static double median_accepted(const wt_table *table, const char *column)
+{
+    size_t rows = wt_table_n_rows(table), n = 0;
+    double *values = malloc((rows + 1) * sizeof *values), median = NAN;
+    if (values == NULL)
+        return NAN;
+    for (size_t i = 0; i < rows; i++) {
+        double value = flow_table_get(table, i, column);
+        if (!isnan(value) && strcmp(flow_table_get_text(table, i, "verdict"), "accepted") == 0)
+            values[n++] = value;
+    }
+    if (n > 0) {
+        qsort(values, n, sizeof *values, compare_numbers);
+        median = (values[(n - 1) / 2] + values[n / 2]) / 2;
+    }
+    free(values);
+    return median;
+}
+
+/* "3 poor_fit, 1 saturated" of the rejected curves. */
+static size_t list_rejected(const wt_table *table, char *text, size_t size)
+{
+    size_t counts[64] = {0}, total = 0, used = 0;
+    text[0] = '\0';
+    for (size_t i = 0; i < wt_table_n_rows(table); i++) {
+        const char *verdict = flow_table_get_text(table, i, "verdict");
+        for (int v = WT_CURVE_ACCEPTED + 1; v <= WT_CURVE_UNREADABLE && v < 64; v++)
+            if (strcmp(verdict, wt_curve_verdict_id((wt_curve_verdict)v)) == 0)
+                counts[v]++;
+    }
+    for (int v = WT_CURVE_ACCEPTED + 1; v <= WT_CURVE_UNREADABLE && v < 64; v++) {
+        total += counts[v];
+        if (counts[v] > 0 && used < size)
+            used += (size_t)snprintf(text + used, size - used, "%s%zu %s", used > 0 ? ", " : "",
+                                     counts[v], wt_curve_verdict_text((wt_curve_verdict)v));
+    }
+    return total;
+}
+
+static wt_status indentation_caveats(const flow_story *story, wt_table *table, wt_error *err)
+{
+    static const char *const names[2] = {"indentation/bulk", "indentation/track"};
+    static const char *const words[2] = {"bulk", "wear-track"};
+    wt_status status = WT_OK;
+    for (int g = 0; status == WT_OK && g < 2; g++) {
+        const wt_table *t = wt_result_find(story->result, names[g]);
+        if (t == NULL)
+            continue;
+        char reasons[512];
+        size_t rejected = list_rejected(t, reasons, sizeof reasons);
+        const char *spots = wt_table_key(t, "spots");
+        double gain = median_accepted(t, "sensitivity_gain");
+        if (rejected > 0)
+            status = flow_answer_add(table, err, question, "caveat",
+                                     "%zu of %zu %s curves were rejected: %s.", rejected,
+                                     wt_table_n_rows(t), words[g], reasons);
+        if (status == WT_OK && spots != NULL && strcmp(spots, "named") != 0)
+            status = flow_answer_add(table, err, question, "caveat",
+                                     "The spots of the %s curves are not all named (%s): curves of "
+                                     "one place count as independent if they lie in several of "
+                                     "these.",
+                                     words[g], spots);
+        if (status == WT_OK && !isnan(gain))
+            status = flow_answer_add(table, err, question, "caveat",
+                                     "An error of 1 %% in the deflection sensitivity changes the "
+                                     "%s modulus by %.3g %%. Errors of sensitivity, spring "
+                                     "constant and tip are common to track and bulk: the ratio is "
+                                     "far safer than either modulus.",
+                                     words[g], gain);
+    }
+    return status;
+}
+
+static wt_status comparison_caveats(const flow_story *story, wt_table *table, wt_error *err)
+{
+    const wt_table *comparison = wt_result_find(story->result, "comparison");
+    const wt_table *dma = wt_result_find(story->result, "dma_comparison");
+    const char *unit = comparison == NULL ? NULL : wt_table_key(comparison, "unit_of_analysis");
+    wt_status status = WT_OK;
+    if (unit != NULL && strcmp(unit, "spot") != 0)
+        status = flow_answer_add(table, err, question, "caveat",
+                                 "The unit of analysis of the comparison is the %s.", unit);
+    size_t extrapolated = 0;
+    for (size_t i = 0; dma != NULL && i < wt_table_n_rows(dma); i++)
+        extrapolated += flow_table_get(dma, i, "extrapolated") > 0;
+    if (status == WT_OK && extrapolated > 0)
+        status = flow_answer_add(table, err, question, "caveat",
+                                 "%zu of %zu comparisons with DMA lie outside the measured "
+                                 "frequencies.",
+                                 extrapolated, wt_table_n_rows(dma));
+    const char *statement = dma == NULL ? NULL : wt_table_key(dma, "material_statement");
+    if (status == WT_OK && statement != NULL)
+        status =
+            flow_answer_add(table, err, question, "caveat", "Comparison with DMA: %s.", statement);
+    return status;
+}
+
+static wt_status material_caveats(const flow_story *story, wt_table *table, wt_error *err)
+{
+    const wt_table *shifts = wt_result_find(story->result, "shift_factors");
+    wt_status status = WT_OK;
+    if (shifts == NULL)
+        return WT_OK;
+    const char *superposition = wt_table_key(shifts, "superposition");
+    const char *straight = wt_table_key(shifts, "wlf_straight");
+    size_t undetermined = 0, rows = wt_table_n_rows(shifts);
+    for (size_t i = 0; i < rows; i++)
+        undetermined += !(flow_table_get(shifts, i, "determined") > 0);
+    if (superposition != NULL && strncmp(superposition, "failed", 6) == 0)
+        status = flow_answer_add(table, err, question, "caveat",
+                                 "Time-temperature superposition %s. What rests on the master "
+                                 "curve is doubtful.",
+                                 superposition);
+    if (status == WT_OK && undetermined > 0)
+        status = flow_answer_add(table, err, question, "caveat",
+                                 "The shift of %zu of %zu isotherms is not determined by the data; "
+                                 "they are not in the master curve.",
+                                 undetermined, rows);
+    if (status == WT_OK && straight != NULL && strncmp(straight, "yes", 3) == 0)
+        status = flow_answer_add(table, err, question, "caveat",
+                                 "The shift factors determine only the slope c1/c2 of the WLF law, "
+                                 "not c1 and c2: use it inside the measured temperatures.");
+    return status;
+}
+
+static wt_status friction_caveats(const flow_story *story, wt_table *table, wt_error *err)
+{
+    const wt_table *friction = wt_result_find(story->result, "friction");
+    if (friction == NULL)
+        return WT_OK;
+    double share = 0;
+    for (size_t i = 0; i < wt_table_n_rows(friction); i++)
+        share = fmax(share, flow_table_get(friction, i, "extrapolated_share"));
+    const char *statement = wt_table_key(friction, "material_statement");
+    const char *includes = wt_table_key(friction, "standard_error_includes");
+    wt_status status = WT_OK;
+    if (share > 0) {
+        char percent[32] = "Less than 0.1";
+        if (share >= 0.001)
+            snprintf(percent, sizeof percent, "Up to %.2g", 100 * share);
+        status = flow_answer_add(table, err, question, "caveat",
+                                 "%s %% of the hysteresis friction comes from frequencies outside "
+                                 "the measured range of the material.",
+                                 percent);
+    }
+    if (status == WT_OK && statement != NULL)
+        status = flow_answer_add(table, err, question, "caveat", "Friction: %s.", statement);
+    if (status == WT_OK && includes != NULL)
+        status = flow_answer_add(table, err, question, "caveat",
+                                 "The standard errors of the friction include: %s. They do not "
+                                 "include the model.",
+                                 includes);
+    if (status == WT_OK)
+        status = flow_answer_add(table, err, question, "caveat",
+                                 "Friction is that of Persson's theory for small strain at one "
+                                 "temperature: no flash heating, no strain softening, dry "
+                                 "contact.");
+    if (status == WT_OK && wt_table_key(friction, "layer_thickness") != NULL)
+        status = flow_answer_add(table, err, question, "caveat",
+                                 "With the layer, its modulus is the bulk's times one ratio at all "
+                                 "frequencies, and the shear stress is scaled by the same ratio; "
+                                 "neither is measured at the frequencies of sliding.");
+    return status;
+}
+
+static wt_status layer_caveats(const flow_story *story, wt_table *table, wt_error *err)
+{
+    const wt_table *layer = wt_result_find(story->result, "layer");
+    if (layer == NULL)
+        return WT_OK;
+    const char *from = wt_table_key(layer, "critical_energy_from");
+    bool calibrated = from != NULL && strncmp(from, "calibrated", 10) == 0;
+    wt_estimate energy = flow_key(layer, "critical_energy");
+    wt_status status = flow_answer_add(
+        table, err, question, "caveat",
+        calibrated ? "The critical energy U_c = %s is calibrated so that the observed thickness is "
+                     "the balance: the thickness is put in, not predicted."
+                   : "The critical energy U_c = %s is given: nothing in this case measures it.",
+        flow_say_estimate(energy).text);
+    if (status == WT_OK)
+        status = flow_answer_add(table, err, question, "caveat",
+                                 "The layer model (energy closure, wear by Archard's law) is not "
+                                 "validated against measured thicknesses. Its energy is the "
+                                 "hysteresis of the bulk alone: the layer does not act back on it, "
+                                 "and shearing of the surface is not counted.");
+    double thickness = flow_key(layer, "balance_thickness").value;
+    const wt_table *track = wt_result_find(story->result, "indentation/track");
+    double depth = track == NULL ? (double)NAN : median_accepted(track, "max_indentation");
+    if (status == WT_OK && isfinite(thickness) && depth > DEEP_SHARE * thickness)
+        status = flow_answer_add(table, err, question, "caveat",
+                                 "Indentations in the track go %s deep, %.2g times the thickness "
+                                 "of the layer: the bulk below it is felt, so the layer differs "
+                                 "more than the ratio says.",
+                                 flow_say(depth, "m").text, depth / thickness);
+    return status;
+}
+
+wt_status flow_caveats(const flow_story *story, wt_table *table, wt_error *err)
+{
+    wt_status status = WT_OK;
+    if (story->n_failures > 0)
+        status = flow_answer_add(table, err, question, "caveat",
+                                 "%zu files or stages failed and are not in these results; the "
+                                 "table failures lists them.",
+                                 story->n_failures);
+    if (status == WT_OK)
+        status = indentation_caveats(story, table, err);
+    if (status == WT_OK)
+        status = comparison_caveats(story, table, err);
+    if (status == WT_OK)
+        status = material_caveats(story, table, err);
+    if (status == WT_OK)
+        status = friction_caveats(story, table, err);
+    if (status == WT_OK)
+        status = layer_caveats(story, table, err);
+    return status;
+}

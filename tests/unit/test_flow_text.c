@@ -1,0 +1,107 @@
+/* Estimates and lists as text. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "near.h"
+
+#include "weartrack/flow.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static void check_estimate(const char *text, wt_quantity quantity, double value, double error)
+{
+    wt_estimate e = {0};
+    wt_error err = WT_ERROR_INIT;
+    if (wt_estimate_parse(text, quantity, &e, &err) != WT_OK)
+        fail_msg("%s: %s", text, err.message);
+    assert_near(e.value, value, 1e-14);
+    assert_near(e.standard_error, error, 1e-13);
+    assert_string_equal(e.unit, wt_quantity_unit(quantity));
+}
+
+static void test_estimates(void **state)
+{
+    (void)state;
+    check_estimate("0.4MPa", WT_Q_PRESSURE, 0.4e6, 0);
+    check_estimate("0.4MPa +- 0.02MPa", WT_Q_PRESSURE, 0.4e6, 0.02e6);
+    check_estimate("0.4MPa+-5%", WT_Q_PRESSURE, 0.4e6, 0.02e6);
+    check_estimate(" 0.4 MPa \xc2\xb1 20 kPa\n", WT_Q_PRESSURE, 0.4e6, 0.02e6);
+    check_estimate("20degC +- 0.5K", WT_Q_TEMPERATURE, 293.15, 0.5);
+    check_estimate("0.64 +- 0.03", WT_Q_NONE, 0.64, 0.03);
+    check_estimate("1e-3 mm^3/(N m) +- 10%", WT_Q_WEAR_RATE, 1e-12, 1e-13);
+}
+
+static void test_estimate_errors(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        wt_quantity quantity;
+        wt_status status;
+    } cases[] = {
+        {"0.4", WT_Q_PRESSURE, WT_E_UNIT},
+        {"0.4MPa +- 0.02", WT_Q_PRESSURE, WT_E_UNIT},
+        {"0.4MPa +- -0.02MPa", WT_Q_PRESSURE, WT_E_RANGE},
+        {"0.4MPa +- -5%", WT_Q_PRESSURE, WT_E_RANGE},
+        {"20degC +- 5%", WT_Q_TEMPERATURE, WT_E_UNIT},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        wt_estimate e = {7, 7, 7, "kept"};
+        assert_int_equal(wt_estimate_parse(cases[i].text, cases[i].quantity, &e, NULL),
+                         cases[i].status);
+        assert_string_equal(e.unit, "kept");
+    }
+}
+
+static void check_list(const char *text, wt_quantity quantity, const double *expected, size_t n)
+{
+    double *values = NULL;
+    size_t count = 0;
+    wt_error err = WT_ERROR_INIT;
+    if (wt_list_parse(text, quantity, &values, &count, &err) != WT_OK)
+        fail_msg("%s: %s", text, err.message);
+    assert_int_equal(count, n);
+    for (size_t i = 0; i < n; i++)
+        assert_near(values[i], expected[i], 1e-13);
+    free(values);
+}
+
+static void test_lists(void **state)
+{
+    (void)state;
+    const double one[] = {0.3}, three[] = {1e-3, 1e-2, 0.3}, log5[] = {1e-4, 1e-3, 1e-2, 0.1, 1};
+    const double lin[] = {0, 25, 50}, milli[] = {1e-5, 1e-4, 1e-3};
+    check_list("0.3m/s", WT_Q_VELOCITY, one, 1);
+    check_list("1mm/s, 1cm/s,0.3 m/s", WT_Q_VELOCITY, three, 3);
+    check_list("1e-4:1m/s:log:5", WT_Q_VELOCITY, log5, 5);
+    check_list("1e-2:1e0mm/s:log:3", WT_Q_VELOCITY, milli, 3);
+    check_list("0.1mm/s:1m/s:log:5", WT_Q_VELOCITY, log5, 5);
+    check_list("0:50s:lin:3", WT_Q_TIME, lin, 3);
+}
+
+static void test_list_errors(void **state)
+{
+    (void)state;
+    static const char *const wrong[] = {
+        "1e-4:1m/s:log",     "1e-4:1m/s:log:1",
+        "1e-4:1m/s:log:2.5", "1:1e-4m/s:log:5",
+        "0:1m/s:log:5",      "1e-4:1m/s:cubic:5",
+        "1e-4:1m/s:log:5:6", "0.3m/s,0.2m/s",
+        "0.3m/s,,0.4m/s",    "",
+    };
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        double *values = NULL;
+        size_t n = 0;
+        assert_int_not_equal(wt_list_parse(wrong[i], WT_Q_VELOCITY, &values, &n, NULL), WT_OK);
+        assert_null(values);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_estimates),
+        cmocka_unit_test(test_estimate_errors),
+        cmocka_unit_test(test_lists),
+        cmocka_unit_test(test_list_errors),
+    };
+    return cmocka_run_group_tests_name("flow text", tests, NULL, NULL);
+}
