@@ -463,6 +463,51 @@ static void detection(void **state)
     free(deep);
 }
 
+/* What the program writes it reads again: the same bits. */
+static void own_stream(void **state)
+{
+    static const double kelvin[] = {253.15, 293.15}, omega[] = {0.1, 1. / 3, 2e7};
+    wt_table *t = wt_table_new("sweep", "isotherms");
+    wt_error err = WT_ERROR_INIT;
+    char *text = NULL;
+    size_t n = 0;
+    wt_input *input = NULL;
+    wt_sweep sweep = {.n_isotherms = 0};
+    const wt_quantity columns[] = {WT_Q_TEMPERATURE, WT_Q_ANGULAR_FREQUENCY,
+                                   WT_Q_SHEAR_STORAGE_MODULUS, WT_Q_SHEAR_LOSS_MODULUS};
+    (void)state;
+    for (size_t c = 0; c < 4; c++)
+        assert_int_equal(wt_table_add_column(t, wt_quantity_id(columns[c]),
+                                             wt_quantity_unit(columns[c]), "", &err),
+                         WT_OK);
+    for (size_t i = 0; i < 6; i++) {
+        if (i == 3)
+            assert_int_equal(wt_table_new_block(t, &err), WT_OK);
+        assert_int_equal(wt_table_add_row(t, &err), WT_OK);
+        const double row[] = {kelvin[i / 3], omega[i % 3], 1e6 / (double)(i + 3), 1e5};
+        for (size_t c = 0; c < 4; c++)
+            wt_table_put(t, c, row[c]);
+    }
+    FILE *out = open_memstream(&text, &n);
+    assert_non_null(out);
+    assert_int_equal(wt_stream_write(out, t, NULL, &err), WT_OK);
+    assert_int_equal(fclose(out), 0);
+    assert_int_equal(wt_input_open_memory(text, n, "-", &input, &err), WT_OK);
+    assert_int_equal(wt_sweep_read(formats, input, NULL, NULL, &sweep, &err), WT_OK);
+    assert_int_equal(sweep.n_isotherms, 2);
+    assert_int_equal(sweep.deformation, WT_SHEAR);
+    for (size_t i = 0; i < 6; i++) {
+        const wt_isotherm *s = &sweep.isotherms[i / 3];
+        assert_near(s->temperature, kelvin[i / 3], 1e-15);
+        assert_near_abs(s->angular_frequency[i % 3], omega[i % 3], 0);
+        assert_near_abs(s->storage_modulus[i % 3], 1e6 / (double)(i + 3), 0);
+    }
+    wt_sweep_clear(&sweep);
+    wt_input_close(input);
+    free(text);
+    wt_table_free(t);
+}
+
 /* Twice the file takes about twice the time, not four times; the bound only catches the latter. */
 static void long_files(void **state)
 {
@@ -520,6 +565,7 @@ int main(void)
         cmocka_unit_test(nothing_is_guessed),
         cmocka_unit_test(unknown_columns_are_named),
         cmocka_unit_test(detection),
+        cmocka_unit_test(own_stream),
         cmocka_unit_test(long_files),
     };
     return cmocka_run_group_tests(tests, setup, teardown);
