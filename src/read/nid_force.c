@@ -147,7 +147,10 @@ static nid_factors calibrate(const nid_channel *c, const wt_cantilever *file,
                             .spring_constant_given = k_given,
                             .sensitivity_given = s_given};
     double s_ratio = s_given ? used->sensitivity / file->sensitivity : 1;
-    double k_ratio = k_given ? used->spring_constant / file->spring_constant : 1;
+    /* A force without a spring constant in the file: the instrument knew one, the user says which.
+     */
+    bool k_replaces = k_given && !isnan(file->spring_constant);
+    double k_ratio = k_replaces ? used->spring_constant / file->spring_constant : 1;
     if (has_unit(c, WT_Q_DEFLECTION_VOLTAGE))
         return (nid_factors){1, used->sensitivity, used->spring_constant * used->sensitivity};
     if (has_unit(c, WT_Q_DEFLECTION))

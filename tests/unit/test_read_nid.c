@@ -241,6 +241,30 @@ static void missing_calibration(void **state)
     unlink(path);
 }
 
+/* A force in newton whose spring constant the file does not tell: the force stands, the deflection
+ * needs the user. */
+static void force_without_spring_constant(void **state)
+{
+    (void)state;
+    nid_writer_file f = make_file("N", false, false);
+    wt_read_options o = wt_read_defaults();
+    reading r;
+    f.spring_constant = (double)NAN;
+    assert_int_equal(nid_write(&f), 0);
+    o.want = WT_Q_BIT(WT_Q_FORCE) | WT_Q_BIT(WT_Q_DEFLECTION);
+    assert_int_equal(open_force(&r, path, &o), WT_OK);
+    assert_int_equal(wt_force_next(r.source, &r.curve, &r.err), WT_E_MISSING);
+    assert_string_equal(r.err.advice, "give --spring-constant 0.1N/m");
+    close_all(&r);
+    o.spring_constant = 0.5;
+    assert_int_equal(open_force(&r, path, &o), WT_OK);
+    assert_int_equal(wt_force_next(r.source, &r.curve, &r.err), WT_OK);
+    assert_exact(&r.curve.segments[0], WT_Q_FORCE, bending[0], 1);
+    assert_exact(&r.curve.segments[0], WT_Q_DEFLECTION, bending[0], 2);
+    close_all(&r);
+    unlink(path);
+}
+
 static void serpentine_map(void **state)
 {
     (void)state;
@@ -477,10 +501,15 @@ static void measured_images(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(units_versions_encodings), cmocka_unit_test(user_calibration),
-        cmocka_unit_test(missing_calibration),      cmocka_unit_test(serpentine_map),
-        cmocka_unit_test(listed_positions),         cmocka_unit_test(image_with_known_rows),
-        cmocka_unit_test(sizes_must_add_up),        cmocka_unit_test(measured_thermal_spectrum),
+        cmocka_unit_test(units_versions_encodings),
+        cmocka_unit_test(user_calibration),
+        cmocka_unit_test(missing_calibration),
+        cmocka_unit_test(force_without_spring_constant),
+        cmocka_unit_test(serpentine_map),
+        cmocka_unit_test(listed_positions),
+        cmocka_unit_test(image_with_known_rows),
+        cmocka_unit_test(sizes_must_add_up),
+        cmocka_unit_test(measured_thermal_spectrum),
         cmocka_unit_test(measured_images),
     };
     return cmocka_run_group_tests(tests, make_formats, free_formats);
