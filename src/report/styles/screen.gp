@@ -27,8 +27,8 @@ set style line 33 lc rgb '#8fcdb9' lw 2.24 dt (8,4) pt 5 ps 0.98
 set style line 34 lc rgb '#dba9cb' lw 2.24 dt (8,4) pt 13 ps 1.33
 set style line 35 lc rgb '#aaaaaa' lw 2.24 dt (8,4) pt 11 ps 1.26
 set style line 36 lc rgb '#bf8a91' lw 2.24 dt (8,4) pt 6 ps 1.05
-set style line 41 lc rgb '#8fb0d3' lw 1.4 dt solid pt 7 ps 0.84
-set style line 42 lc rgb '#f2bd7a' lw 1.4 dt solid pt 9 ps 1.01
+set style line 41 lc rgb '#6f9ccb' lw 1.4 dt solid pt 7 ps 0.84
+set style line 42 lc rgb '#f2b566' lw 1.4 dt solid pt 9 ps 1.01
 set style line 43 lc rgb '#8fcdb9' lw 1.4 dt solid pt 5 ps 0.78
 set style line 44 lc rgb '#dba9cb' lw 1.4 dt solid pt 13 ps 1.06
 set style line 45 lc rgb '#aaaaaa' lw 1.4 dt solid pt 11 ps 1.01
