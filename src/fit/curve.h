@@ -103,7 +103,6 @@ typedef struct wt_curve_solution {
     double noise, correlation_length;
     double effective_n; /* samples over correlation length, baseline and contact part together */
     double r_squared;
-    double largest_lever_factor; /* 1 + S/k */
     bool converged;
 } wt_curve_solution;
 
@@ -112,9 +111,10 @@ typedef struct wt_curve_solution {
 void wt_curve_refine(const wt_contact_table *table, const wt_curve_samples *samples,
                      const wt_curve_minimum *start, bool tilt, bool contact_fixed, bool plain,
                      wt_indent_workspace *workspace, wt_curve_solution *solution);
-/* Weights 1/(1 + S/k)^2 of all samples for a scan, from a solution. */
-void wt_curve_weights(const wt_contact_table *table, const wt_curve_samples *samples,
-                      const wt_curve_solution *solution, wt_indent_workspace *workspace);
+/* Weights 1/h^2, h = 1 + S/k, of all samples for a scan, from a minimum of another. Returns the
+ * largest h. */
+double wt_curve_weights(const wt_contact_table *table, const wt_curve_samples *samples,
+                        const wt_curve_minimum *minimum, wt_indent_workspace *workspace);
 
 /* ---- noise: curve_noise.c ---------------------------------------------------------------------
  */

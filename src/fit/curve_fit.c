@@ -15,7 +15,8 @@ static const double snap_noise = 6.0;      /* pull of a snap-on, in noise of the
 static const double snap_rest = 1.5;       /* and against the deepest pull elsewhere */
 static const double baseline_length = 0.1; /* of the largest indentation */
 static const size_t baseline_samples = 10;
-static const double baseline_bend = 0.05;  /* departure from a line, of the largest force */
+static const size_t contact_samples = 8;
+static const double baseline_bend = 0.1;   /* departure from a line, of the largest force */
 static const double rigid_gain = 50.0;     /* % of modulus per % of sensitivity */
 static const double ambiguous_chi2 = 4.0;  /* 2 ln(likelihood ratio) of two contact points */
 static const double ambiguous_ratio = 0.1; /* least |ln(E2/E1)| to call them different */
@@ -98,38 +99,37 @@ static double baseline_at(const wt_curve_solution *s, double position)
     return s->p[WT_CURVE_F0] + s->p[WT_CURVE_T] * (position - s->p[WT_CURVE_C]);
 }
 
-static bool scan_once(fitting *f, bool weighted)
+static bool scan(fitting *f, bool weighted)
+{
+    double unused = 0.0;
+    f->n_minima = wt_curve_scan(f->table, &f->input.samples, f->options->fit_tilt, weighted,
+                                f->workspace, f->minima, &unused);
+    return f->n_minima > 0;
+}
+
+/* Scan and refinement on the samples as they are now; false if nothing but a baseline is found.
+ * The weights of the scan follow from a solution: any that describes the curve will do. */
+static bool scan_and_refine(fitting *f)
 {
     const wt_indent_options *o = f->options;
     const wt_curve_samples *s = &f->input.samples;
     bool fixed = !isnan(o->fixed_contact_point);
     if (fixed) {
         double c = o->fixed_contact_point - f->input.position_origin;
-        f->n_minima =
-            wt_curve_scan_at(f->table, s, o->fit_tilt, c, f->workspace, &f->minima[0]) ? 1 : 0;
+        if (!wt_curve_scan_at(f->table, s, o->fit_tilt, c, f->workspace, &f->minima[0]))
+            return false;
+        f->n_minima = 1;
     } else {
-        double cost_without = 0.0;
-        f->n_minima = wt_curve_scan(f->table, s, o->fit_tilt, weighted, f->workspace, f->minima,
-                                    &cost_without);
+        if (!scan(f, false))
+            return false;
+        if (!o->plain_least_squares &&
+            wt_curve_weights(f->table, s, &f->minima[0], f->workspace) > weights_matter &&
+            !scan(f, true))
+            return false;
     }
-    if (f->n_minima == 0)
-        return false;
     wt_curve_refine(f->table, s, &f->minima[0], o->fit_tilt, fixed, o->plain_least_squares,
                     f->workspace, &f->solution);
     return true;
-}
-
-/* Scan and refinement on the samples as they are now; false if nothing but a baseline is found.
- * The weights of the scan follow from a fit: any that describes the curve will do. */
-static bool scan_and_refine(fitting *f)
-{
-    if (!scan_once(f, false))
-        return false;
-    if (f->options->plain_least_squares || !isnan(f->options->fixed_contact_point) ||
-        f->solution.largest_lever_factor < weights_matter)
-        return true;
-    wt_curve_weights(f->table, &f->input.samples, &f->solution, f->workspace);
-    return scan_once(f, true);
 }
 
 /* A jump to contact: a pull right before the force rises that stands out of everything before it.
@@ -162,7 +162,8 @@ static bool remove_snap_on(fitting *f)
     double after_contact = s->position[start] - fit->p[WT_CURVE_C];
     double reach = s->position[s->n - 1] - fit->p[WT_CURVE_C];
     if (!(pull > snap_noise * noise) || !(pull > snap_rest * elsewhere) ||
-        !(fabs(after_contact) < gap_tolerance * reach) || end == s->n)
+        !(fabs(after_contact) < gap_tolerance * reach) || end == s->n ||
+        s->n - (end - start) < WT_CURVE_MIN_SAMPLES)
         return false;
     f->adhesion = pull;
     f->n_snap = end - start;
@@ -206,23 +207,23 @@ static bool fit_to_depth(fitting *f)
     return true;
 }
 
-/* Largest departure of block means of the baseline residual from each other, beyond what noise of
- * that correlation does. */
+/* How far means over blocks of the baseline residual depart from a line, peak to peak of a wave of
+ * their scatter, beyond what white noise does. */
 static double baseline_departure(const fitting *f)
 {
     const wt_curve_samples *s = &f->input.samples;
-    size_t n = f->solution.first_contact, length = n / BEND_BLOCKS;
+    size_t length = f->solution.first_contact / BEND_BLOCKS;
     if (length == 0)
         return 0.0;
-    double lo = INFINITY, hi = -INFINITY;
+    double square = 0.0;
     for (size_t block = 0; block < BEND_BLOCKS; block++) {
         double sum = 0.0;
         for (size_t i = block * length; i < (block + 1) * length; i++)
             sum += s->force[i] - baseline_at(&f->solution, s->position[i]);
-        lo = fmin(lo, sum / (double)length);
-        hi = fmax(hi, sum / (double)length);
+        square += sum / (double)length * (sum / (double)length) / BEND_BLOCKS;
     }
-    return hi - lo;
+    square -= f->input.step_noise * f->input.step_noise / (double)length;
+    return square > 0.0 ? 2.0 * M_SQRT2 * sqrt(square) : 0.0;
 }
 
 /* ---- verdict ----------------------------------------------------------------------------------
@@ -306,12 +307,31 @@ static wt_curve_verdict judge(fitting *f, double max_force, wt_indent_fit *fit)
                      s->first_contact, a, baseline_samples, b);
         return WT_CURVE_NO_BASELINE;
     }
+    if (samples->n - s->first_contact < contact_samples) {
+        wt_curve_say(reason, "%zu samples in contact, %zu needed", samples->n - s->first_contact,
+                     contact_samples);
+        return WT_CURVE_TOO_SHORT;
+    }
     if (s->sensitivity_gain > rigid_gain) {
         wt_curve_say(
             reason,
             "1 %% of deflection sensitivity would change the modulus by %.0f %%, %g %% allowed",
             s->sensitivity_gain, rigid_gain);
         return WT_CURVE_RIGID;
+    }
+    if (f->n_minima > 1) {
+        const wt_curve_minimum *second = &f->minima[1];
+        double ratio = second->cost / f->minima[0].cost;
+        double moduli = log(second->reduced_modulus / s->p[WT_CURVE_E]);
+        if (s->effective_n * log(ratio) < ambiguous_chi2 && fabs(moduli) > ambiguous_ratio) {
+            wt_curve_si(fabs(second->contact_point - s->p[WT_CURVE_C]), "m", a);
+            wt_curve_si(second->reduced_modulus * fit->modulus.value / s->p[WT_CURVE_E], "Pa", b);
+            wt_curve_si(fit->modulus.value, "Pa", c);
+            wt_curve_say(reason,
+                         "a contact point %s away gives %s instead of %s at %.3f times the cost", a,
+                         b, c, ratio);
+            return WT_CURVE_AMBIGUOUS;
+        }
     }
     double departure = baseline_departure(f);
     if (departure > baseline_bend * max_force) {
@@ -329,20 +349,6 @@ static wt_curve_verdict judge(fitting *f, double max_force, wt_indent_fit *fit)
         wt_curve_say(reason, "R^2 of the contact part %.3f is below %g", s->r_squared,
                      f->options->minimum_r_squared);
         return WT_CURVE_POOR_FIT;
-    }
-    if (f->n_minima > 1) {
-        const wt_curve_minimum *second = &f->minima[1];
-        double ratio = second->cost / f->minima[0].cost;
-        double moduli = log(second->reduced_modulus / s->p[WT_CURVE_E]);
-        if (s->effective_n * log(ratio) < ambiguous_chi2 && fabs(moduli) > ambiguous_ratio) {
-            wt_curve_si(fabs(second->contact_point - s->p[WT_CURVE_C]), "m", a);
-            wt_curve_si(second->reduced_modulus * fit->modulus.value / s->p[WT_CURVE_E], "Pa", b);
-            wt_curve_si(fit->modulus.value, "Pa", c);
-            wt_curve_say(reason,
-                         "a contact point %s away gives %s instead of %s at %.3f times the cost", a,
-                         b, c, ratio);
-            return WT_CURVE_AMBIGUOUS;
-        }
     }
     wt_curve_say(reason, "accepted");
     return WT_CURVE_ACCEPTED;

@@ -2,8 +2,10 @@
  *
  * The variance of a mean of n correlated samples is that of n/tau independent ones, with
  * tau = 1 + 2 sum_k rho_k (Sokal, Monte Carlo Methods in Statistical Mechanics, 1989, section 3).
- * The sum is cut at the first autocorrelation that is not above its own noise; where it would
- * become long, neighbours are averaged in pairs first, so that the work stays proportional to n.
+ * The sum is cut at the first autocorrelation that is not above its own noise. Slow drift under
+ * fast noise would be cut off, too; so neighbours are averaged in pairs again and again (Flyvbjerg
+ * and Petersen, J. Chem. Phys. 91 (1989) 461) and the longest of the answers is taken. The work is
+ * proportional to n.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -11,7 +13,7 @@
 
 #include <math.h>
 
-enum { MAX_LAG = 48, MIN_SAMPLES = 64 };
+enum { MAX_LAG = 48, MIN_BLOCKS = 64 };
 
 static double autocovariance(const double *x, size_t n, size_t lag)
 {
@@ -39,21 +41,20 @@ wt_noise wt_noise_estimate(double *x, size_t n)
     double variance = noise.variance;
     for (double block = 1.0;; block *= 2.0) {
         double tau = 1.0, threshold = 2.0 / sqrt((double)n);
-        size_t lag = 1;
-        for (; lag <= MAX_LAG && lag < n / 2; lag++) {
+        for (size_t lag = 1; lag <= MAX_LAG && lag < n / 2; lag++) {
             double rho = autocovariance(x, n, lag) / variance;
             if (rho < threshold)
                 break;
             tau += 2.0 * rho;
         }
         /* var(mean) = variance tau / n is the same for blocks as for samples. */
-        noise.correlation_length = tau * block * variance / noise.variance;
-        if (lag <= MAX_LAG || n < 2 * MIN_SAMPLES)
-            break;
+        noise.correlation_length =
+            fmax(noise.correlation_length, tau * block * variance / noise.variance);
+        if (n < 2 * MIN_BLOCKS)
+            return noise;
         n = average_pairs(x, n);
         variance = autocovariance(x, n, 0);
+        if (!(variance > 0.0))
+            return noise;
     }
-    if (!(noise.correlation_length >= 1.0))
-        noise.correlation_length = 1.0;
-    return noise;
 }

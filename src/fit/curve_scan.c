@@ -19,6 +19,7 @@
 /* Depths per e-fold and how far before the first sample a contact point is looked for. */
 static const double depth_ratio = 1.04;
 static const double reach_before_start = 4.0;
+static const double least_rise = 1.001; /* of the cost between two minima */
 enum { MAX_DEPTHS = 400, MAX_ITERATIONS = 40 };
 
 typedef struct projection {
@@ -195,12 +196,12 @@ static projection make_full(const wt_contact_table *table, const wt_curve_sample
     return full;
 }
 
-static double brent(projection *full, double lo, double middle, double hi,
+static double brent(projection *bins, double lo, double middle, double hi,
                     gsl_min_fminimizer *minimizer)
 {
-    gsl_function function = {project_cost, full};
+    gsl_function function = {project_cost, bins};
     if (gsl_min_fminimizer_set(minimizer, &function, middle, lo, hi) != GSL_SUCCESS)
-        return middle; /* not bracketed on all samples: the refinement decides */
+        return middle; /* flat to rounding */
     for (int i = 0; i < MAX_ITERATIONS; i++) {
         if (gsl_min_fminimizer_iterate(minimizer) != GSL_SUCCESS)
             break;
@@ -209,6 +210,37 @@ static double brent(projection *full, double lo, double middle, double hi,
             break;
     }
     return gsl_min_fminimizer_x_minimum(minimizer);
+}
+
+/* Indices of the minima of the scan, lowest first, no more than WT_CURVE_MAX_MINIMA. One that no
+ * rise parts from a lower one is only a ripple. A minimum at the far end counts: contact before the
+ * start.
+ */
+static size_t find_bottoms(const double *cost, size_t n, double nothing, size_t *bottom)
+{
+    size_t m = 0;
+    double highest_since = 0.0;
+    for (size_t i = 0; i < n; i++) {
+        highest_since = fmax(highest_since, cost[i]);
+        bool falls = i == 0 || cost[i] < cost[i - 1];
+        bool rises = i + 1 == n || cost[i] <= cost[i + 1];
+        if (!falls || !rises || !(cost[i] < nothing))
+            continue;
+        if (m > 0 && highest_since <= least_rise * fmax(cost[bottom[m - 1]], cost[i])) {
+            if (cost[i] >= cost[bottom[m - 1]])
+                continue;
+            m--;
+        }
+        bottom[m++] = i;
+        highest_since = cost[i];
+    }
+    for (size_t i = 1; i < m; i++) { /* by insertion: they are few */
+        size_t index = bottom[i], j = i;
+        for (; j > 0 && cost[bottom[j - 1]] > cost[index]; j--)
+            bottom[j] = bottom[j - 1];
+        bottom[j] = index;
+    }
+    return m < WT_CURVE_MAX_MINIMA ? m : WT_CURVE_MAX_MINIMA;
 }
 
 static void keep_best(wt_curve_minimum *minima, size_t *n, wt_curve_minimum candidate)
@@ -250,27 +282,14 @@ size_t wt_curve_scan(const wt_contact_table *table, const wt_curve_samples *samp
         n_depths++;
     }
 
-    /* The lowest minima of the scan; a minimum at the far end is one, too: before the start. */
-    wt_curve_minimum coarse[WT_CURVE_MAX_MINIMA];
-    size_t index_of[WT_CURVE_MAX_MINIMA], n_coarse = 0;
-    const double nothing = cost_without_contact(&bins);
-    for (size_t i = 0; i < n_depths; i++) {
-        bool lower_than_before = i == 0 || cost[i] < cost[i - 1];
-        bool lower_than_after = i + 1 == n_depths || cost[i] <= cost[i + 1];
-        if (!lower_than_before || !lower_than_after || !(cost[i] < nothing))
-            continue;
-        wt_curve_minimum candidate = {.contact_point = (double)i, .cost = cost[i]};
-        keep_best(coarse, &n_coarse, candidate);
-    }
-    for (size_t i = 0; i < n_coarse; i++)
-        index_of[i] = (size_t)coarse[i].contact_point;
-
+    size_t bottom[MAX_DEPTHS];
+    size_t n_bottoms = find_bottoms(cost, n_depths, cost_without_contact(&bins), bottom);
     size_t n = 0;
-    for (size_t i = 0; i < n_coarse; i++) {
-        size_t j = index_of[i];
+    for (size_t i = 0; i < n_bottoms; i++) {
+        size_t j = bottom[i];
         double at = contact[j];
         if (j > 0 && j + 1 < n_depths)
-            at = brent(&full, contact[j - 1], at, contact[j + 1], w->minimizer);
+            at = brent(&bins, contact[j - 1], at, contact[j + 1], w->minimizer);
         wt_curve_minimum minimum = to_minimum(&full, at, k);
         if (minimum.reduced_modulus > 0.0)
             keep_best(minima, &n, minimum);

@@ -20,8 +20,10 @@ enum {
     MAX_PIECES = 2048 << MANTISSA_BITS, /* all exponents of a double */
 };
 
+/* One cache line. */
 typedef struct piece {
     double c[6]; /* in t = 0..1 over the piece */
+    double start, inverse_width;
 } piece;
 
 struct wt_contact_table {
@@ -70,7 +72,9 @@ static piece piece_make(const wt_tip *tip, double switch_depth, uint64_t number)
     double rf = piece_rise(tip, switch_depth + e, w) - d - s, rd = hi.slope * w - d - 2.0 * s,
            rs = hi.curvature * w * w - 2.0 * s;
     return (piece){{lo.g, d, s, 10.0 * rf - 4.0 * rd + 0.5 * rs, -15.0 * rf + 7.0 * rd - rs,
-                    6.0 * rf - 3.0 * rd + 0.5 * rs}};
+                    6.0 * rf - 3.0 * rd + 0.5 * rs},
+                   e,
+                   1.0 / w};
 }
 
 wt_status wt_contact_table_new(const wt_tip *tip, double delta_min, double delta_max,
@@ -138,12 +142,12 @@ void wt_contact_table_eval(const wt_contact_table *table, const double *delta, s
             value = 4.0 / 3.0 * a * d;
             rise = 2.0 * a;
         } else if ((number = piece_number(d - at) - table->first) < table->n) {
-            const double *c = table->pieces[number].c;
-            double e0 = piece_start(table->first + number);
-            double w = piece_start(table->first + number + 1) - e0;
-            double t = (d - at - e0) / w;
+            const piece *p = &table->pieces[number];
+            const double *c = p->c;
+            double t = (d - at - p->start) * p->inverse_width;
             value = c[0] + t * (c[1] + t * (c[2] + t * (c[3] + t * (c[4] + t * c[5]))));
-            rise = (c[1] + t * (2 * c[2] + t * (3 * c[3] + t * (4 * c[4] + t * 5 * c[5])))) / w;
+            rise = (c[1] + t * (2 * c[2] + t * (3 * c[3] + t * (4 * c[4] + t * 5 * c[5])))) *
+                   p->inverse_width;
         } else {
             wt_contact_function(&table->tip, d, &value, &rise);
         }

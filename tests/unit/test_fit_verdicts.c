@@ -1,0 +1,309 @@
+/* Awkward force curves: each has its own verdict and a reason with numbers. */
+#include "near.h"
+
+#include "synthetic_curve.h"
+#include "weartrack/fit.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static curve_data data;
+static wt_indent_workspace *workspace;
+
+static wt_indent_fit fit_with(const curve_truth *t, const wt_indent_options *options)
+{
+    wt_contact_table *table = NULL;
+    wt_indent_fit fit;
+    wt_error err = WT_ERROR_INIT;
+    assert_int_equal(wt_contact_table_new(&t->tip, 1e-11, 1e-4, &table, NULL), WT_OK);
+    if (wt_indent_fit_curve(table, options, data.height, data.force, data.time, t->n,
+                            t->spring_constant, workspace, &fit, &err) != WT_OK)
+        fail_msg("%s", err.message);
+    wt_contact_table_free(table);
+    return fit;
+}
+
+/* Fits and checks the verdict and a word of the reason; a rejected curve has no modulus. */
+static wt_indent_fit expect(const curve_truth *t, wt_curve_verdict verdict, const char *words)
+{
+    wt_indent_options options = wt_indent_defaults();
+    wt_indent_fit fit = fit_with(t, &options);
+    if (fit.verdict != verdict || strstr(fit.reason, words) == NULL)
+        fail_msg("%s: %s (expected %s with \"%s\")", wt_curve_verdict_id(fit.verdict), fit.reason,
+                 wt_curve_verdict_id(verdict), words);
+    assert_true(isnan(fit.modulus.value) == (verdict != WT_CURVE_ACCEPTED));
+    return fit;
+}
+
+static void never_touches(void **state)
+{
+    (void)state;
+    curve_truth t = curve_standard();
+    t.contact_point = 10e-6;
+    for (uint64_t seed = 1; seed <= 20; seed++) {
+        t.correlation = seed % 2 == 0 ? 0.0 : 0.9;
+        curve_make(&t, seed, &data);
+        wt_indent_options options = wt_indent_defaults();
+        wt_indent_fit fit = fit_with(&t, &options);
+        if (fit.verdict != WT_CURVE_NO_CONTACT)
+            fail_msg("seed %d: %s: %s", (int)seed, wt_curve_verdict_id(fit.verdict), fit.reason);
+    }
+    for (size_t i = 0; i < t.n; i++)
+        data.force[i] = 1e-9;
+    expect(&t, WT_CURVE_NO_CONTACT, "changes by 0");
+}
+
+static void starts_in_contact(void **state)
+{
+    (void)state;
+    curve_truth t = curve_standard();
+    t.travel = 100e-9;
+    t.contact_point = -30e-9;
+    curve_make(&t, 1, &data);
+    expect(&t, WT_CURVE_NO_BASELINE, "before the first sample");
+    t.contact_point = 0.3e-9;
+    curve_make(&t, 1, &data);
+    expect(&t, WT_CURVE_NO_BASELINE, "");
+}
+
+static void saturated_detector(void **state)
+{
+    (void)state;
+    curve_truth t = curve_standard();
+    for (int noisy = 0; noisy < 2; noisy++) {
+        uint64_t random = 9;
+        curve_make(&t, 1, &data);
+        for (size_t i = 0; i < t.n; i++)
+            if (data.force[i] > 30e-9)
+                data.force[i] = 30e-9 + noisy * 20e-12 * curve_normal(&random);
+        expect(&t, WT_CURVE_SATURATED, "samples");
+        wt_indent_options options = wt_indent_defaults();
+        options.fit_force_fraction = 0.9; /* as the reason advises */
+        wt_indent_fit fit = fit_with(&t, &options);
+        assert_int_equal(fit.verdict, WT_CURVE_ACCEPTED);
+        assert_near(fit.modulus.value, t.modulus, 4 * fit.modulus.standard_error / t.modulus);
+    }
+    /* A piezo that rests at the end is no saturation. */
+    curve_make(&t, 1, &data);
+    for (size_t i = t.n - 200; i < t.n; i++) {
+        data.height[i] = data.height[t.n - 200];
+        data.force[i] += data.force[t.n - 200] -
+                         curve_contact_force(&t, data.height[i] - t.height0 - t.contact_point) -
+                         data.force[i] + 1e-12 * (double)(i % 7);
+    }
+    wt_indent_options options = wt_indent_defaults();
+    assert_int_not_equal(fit_with(&t, &options).verdict, WT_CURVE_SATURATED);
+    /* A coarse converter with steps of 0.5 nN neither. */
+    curve_make(&t, 1, &data);
+    for (size_t i = 0; i < t.n; i++)
+        data.force[i] = 0.5e-9 * round(data.force[i] / 0.5e-9);
+    expect(&t, WT_CURVE_ACCEPTED, "accepted");
+}
+
+static void missing_and_repeated_samples(void **state)
+{
+    (void)state;
+    curve_truth t = curve_standard();
+    curve_make(&t, 1, &data);
+    double modulus = expect(&t, WT_CURVE_ACCEPTED, "accepted").modulus.value;
+    for (size_t i = 7; i < t.n; i += 50) {
+        data.force[i] = (double)NAN;
+        data.height[i + 3] = (double)INFINITY;
+    }
+    wt_indent_fit fit = expect(&t, WT_CURVE_ACCEPTED, "80 missing samples");
+    assert_near(fit.modulus.value, modulus, 1e-3);
+    assert_int_equal(fit.n_fitted, t.n - 80);
+    for (size_t i = 0; i < t.n; i += 5)
+        data.force[i] = (double)NAN;
+    expect(&t, WT_CURVE_NOT_FINITE, "of 2000");
+    for (size_t i = 0; i < t.n; i++)
+        data.force[i] = (double)NAN;
+    expect(&t, WT_CURVE_NOT_FINITE, "2000 of 2000");
+
+    curve_make(&t, 1, &data);
+    for (size_t i = 3; i < t.n; i += 3) {
+        data.force[i] = data.force[i - 1];
+        data.height[i] = data.height[i - 1];
+    }
+    fit = expect(&t, WT_CURVE_ACCEPTED, "666 repeated samples");
+    assert_near(fit.modulus.value, modulus, 2e-3);
+
+    t.n = 31;
+    curve_make(&t, 1, &data);
+    expect(&t, WT_CURVE_TOO_SHORT, "31 different samples");
+    t.n = 1;
+    expect(&t, WT_CURVE_TOO_SHORT, "1 different");
+}
+
+static void disturbed_baseline(void **state)
+{
+    (void)state;
+    curve_truth t = curve_standard();
+    curve_make(&t, 1, &data);
+    for (size_t i = 0; i < t.n; i++) /* laser interference */
+        data.force[i] += 4e-9 * sin(data.height[i] / 30e-9);
+    expect(&t, WT_CURVE_DRIFT, "departs from a line");
+    curve_make(&t, 1, &data);
+    for (size_t i = 0; i < t.n; i++) { /* drag that settles */
+        double x = (data.height[i] - t.height0) / t.travel;
+        data.force[i] += 400e-9 * x * exp(-8.0 * x);
+    }
+    expect(&t, WT_CURVE_DRIFT, "departs from a line");
+
+    /* A ripple of 2 % is carried by the error instead. */
+    curve_make(&t, 1, &data);
+    for (size_t i = 0; i < t.n; i++)
+        data.force[i] += 0.5e-9 * sin(data.height[i] / 20e-9);
+    wt_indent_fit fit = expect(&t, WT_CURVE_ACCEPTED, "accepted");
+    assert_true(fit.modulus.standard_error > 0.01 * t.modulus);
+    assert_true(fabs(fit.modulus.value - t.modulus) < 4 * fit.modulus.standard_error);
+}
+
+static void wrong_way(void **state)
+{
+    (void)state;
+    curve_truth t = curve_standard();
+    curve_make(&t, 1, &data);
+    for (size_t i = 0, j = t.n - 1; i < j; i++, j--) {
+        double h = data.height[i], f = data.force[i];
+        data.height[i] = data.height[j];
+        data.force[i] = data.force[j];
+        data.height[j] = h;
+        data.force[j] = f;
+    }
+    expect(&t, WT_CURVE_NO_APPROACH, "leaves the sample");
+    curve_make(&t, 1, &data);
+    for (size_t i = 0; i < t.n; i++)
+        data.force[i] = -data.force[i];
+    expect(&t, WT_CURVE_NEGATIVE, "sign of the deflection");
+    curve_make(&t, 1, &data);
+    for (size_t i = t.n / 2; i < t.n; i++)
+        data.height[i] = data.height[t.n - 1 - i] + 1e-12;
+    expect(&t, WT_CURVE_NO_APPROACH, "does not go one way");
+    for (size_t i = 0; i < t.n; i++)
+        data.height[i] = 1e-6;
+    expect(&t, WT_CURVE_NO_APPROACH, "does not go one way");
+}
+
+static void too_stiff_for_the_lever(void **state)
+{
+    (void)state;
+    curve_truth t = curve_standard();
+    t.modulus = 70e9; /* silica */
+    t.spring_constant = 0.1;
+    curve_make(&t, 1, &data);
+    expect(&t, WT_CURVE_RIGID, "bending of the lever");
+    /* Sensitivity 1 % too large: the tip seems to go back. */
+    for (size_t i = 0; i < t.n; i++)
+        data.force[i] *= 1.01;
+    expect(&t, WT_CURVE_RIGID, "bending of the lever");
+}
+
+static void snap_on_is_left_out(void **state)
+{
+    (void)state;
+    curve_truth t = curve_standard();
+    t.contact_point = 450e-9;
+    curve_make(&t, 1, &data);
+    double depth = 4e-9;
+    for (size_t i = 0; i < t.n; i++) { /* pulled down by 4 nN from 4 nm before contact */
+        double z = data.height[i] - t.height0 - t.contact_point + depth;
+        if (z > 0.0 && z < 12e-9)
+            data.force[i] -= 4e-9 * (1.0 - z / 12e-9) + curve_contact_force(&t, z - depth);
+    }
+    wt_indent_fit fit = expect(&t, WT_CURVE_ACCEPTED, "snap-on of");
+    assert_near(fit.adhesion_force, 4e-9, 0.1);
+    assert_near(fit.modulus.value, t.modulus, 0.02);
+    assert_near_abs(fit.contact_point.value, t.height0 + t.contact_point, 0.5e-9);
+}
+
+static void not_this_tip(void **state)
+{
+    (void)state;
+    curve_truth t = curve_standard();
+    curve_make(&t, 1, &data);
+    for (size_t i = 0; i < t.n; i++) { /* a membrane that breaks */
+        double z = data.height[i] - t.height0 - t.contact_point;
+        if (z > 50e-9)
+            data.force[i] -= 0.85 * curve_contact_force(&t, z);
+    }
+    wt_indent_fit fit = expect(&t, WT_CURVE_POOR_FIT, "R^2");
+    assert_true(fit.r_squared < 0.9);
+    wt_indent_options options = wt_indent_defaults();
+    options.minimum_r_squared = -1.0;
+    fit = fit_with(&t, &options);
+    assert_int_not_equal(fit.verdict, WT_CURVE_POOR_FIT);
+}
+
+/* A contact of 10 nm in slow noise: the noise makes contact points of its own, and some curves
+ * cannot tell which one is right. */
+static void several_contact_points(void **state)
+{
+    (void)state;
+    curve_truth t = curve_standard();
+    t.n = 800;
+    t.contact_point = 590e-9;
+    t.noise = 0.4e-9;
+    t.correlation = 0.95;
+    int ambiguous = 0, second = 0;
+    for (uint64_t seed = 1; seed <= 30; seed++) {
+        curve_make(&t, seed, &data);
+        wt_indent_options options = wt_indent_defaults();
+        options.minimum_r_squared = 0.0;
+        wt_indent_fit fit = fit_with(&t, &options);
+        if (!isnan(fit.second_minimum_ratio)) {
+            second++;
+            assert_true(fit.second_minimum_ratio >= 1.0);
+            assert_true(fabs(fit.second_contact_point - fit.contact_point.value) > 1e-9);
+        }
+        if (fit.verdict == WT_CURVE_AMBIGUOUS) {
+            ambiguous++;
+            assert_non_null(strstr(fit.reason, "instead of"));
+            assert_true(fit.second_minimum_ratio < 1.5);
+            assert_true(isnan(fit.modulus.value));
+        }
+    }
+    print_message("%d with a second minimum, %d ambiguous of 30\n", second, ambiguous);
+    assert_true(second > 5);
+    assert_true(ambiguous > 0);
+}
+
+static void names_of_verdicts(void **state)
+{
+    (void)state;
+    assert_string_equal(wt_curve_verdict_id(WT_CURVE_DRIFT), "disturbed_baseline");
+    assert_string_equal(wt_curve_verdict_text(WT_CURVE_ACCEPTED), "accepted");
+    assert_string_equal(wt_curve_verdict_id((wt_curve_verdict)999), "unknown");
+}
+
+static int set_up(void **state)
+{
+    (void)state;
+    workspace = wt_indent_workspace_new();
+    return workspace == NULL;
+}
+
+static int tear_down(void **state)
+{
+    (void)state;
+    wt_indent_workspace_free(workspace);
+    return 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(never_touches),
+        cmocka_unit_test(starts_in_contact),
+        cmocka_unit_test(saturated_detector),
+        cmocka_unit_test(missing_and_repeated_samples),
+        cmocka_unit_test(disturbed_baseline),
+        cmocka_unit_test(wrong_way),
+        cmocka_unit_test(too_stiff_for_the_lever),
+        cmocka_unit_test(snap_on_is_left_out),
+        cmocka_unit_test(not_this_tip),
+        cmocka_unit_test(several_contact_points),
+        cmocka_unit_test(names_of_verdicts),
+    };
+    return cmocka_run_group_tests(tests, set_up, tear_down);
+}
