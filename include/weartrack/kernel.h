@@ -86,8 +86,9 @@ typedef struct wt_energy_source {
     wt_depth_profile profile;
     double local_friction; /* m of the incompressible profile */
     size_t n;
-    double *wavenumber; /* [n] rad/m */
-    double *power;      /* [n] W/m^2 */
+    double *wavenumber;     /* [n] rad/m */
+    double *power;          /* [n] W/m^2 */
+    double numerical_error; /* relative, of wt_energy_tail at any depth; 0 = exact */
 } wt_energy_source;
 WT_API void wt_energy_source_clear(wt_energy_source *source);
 /* From the hysteresis integrand at one velocity: J_i = j(q_i) dq_i, sum = mu_hys sigma0 v. */

@@ -89,7 +89,7 @@ double wt_layered_scale(double x, double ratio)
         const double m = sqrt(contrast);
         const double rest_m = rest / (1 + m);
         const double low = rest_m * (1 + m * e) + 2 * m * sinh_excess(x);
-        const double high = 1 - contrast * e + 2 * x * m * exp(-x);
+        const double high = rest - contrast * expm1(-2 * x) + 2 * x * m * exp(-x);
         numerator =
             (1 + contrast) * rest - contrast * contrast * expm1(-4 * x) + 4 * contrast * x * e;
         denominator = low * high;

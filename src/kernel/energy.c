@@ -1,0 +1,175 @@
+/* Energy density with depth: w(z) = sum_i power_i g(z; q_i), and its integrals.
+ *
+ * `persson`: g = 2 q exp(-2 q z), the profile of the flash-temperature heat source of Persson,
+ * J. Phys.: Condens. Matter 18 (2006) 7789. `incompressible`: with x = q z and local friction m,
+ *   g = 4 q exp(-2 x) [x^2 + m^2 (1 - x)^2] / (1 + m^2)
+ * and its tail exp(-2 x) [1 + 2 x^2 + 2 x r], r = (1 - m^2) / (1 + m^2): the square of the Mohr
+ * radius in a half-space of Poisson ratio 1/2 under a cosine of pressure and shear.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "kernel/energy.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+void wt_energy_source_clear(wt_energy_source *source)
+{
+    if (!source)
+        return;
+    free(source->wavenumber);
+    free(source->power);
+    *source = (wt_energy_source){0};
+}
+
+static wt_status out_of_range(const char *name, double value, const char *expected, wt_error *err)
+{
+    wt_fail(err, WT_E_RANGE, "%s of an energy source is outside its range", name);
+    wt_error_expected(err, "%s", expected);
+    wt_error_found(err, "%g", value);
+    return WT_E_RANGE;
+}
+
+wt_status wt_energy_check(const wt_energy_source *source, wt_error *err)
+{
+    if (!source || !source->n || !source->wavenumber || !source->power)
+        return wt_fail(err, WT_E_ARG, "a layer needs an energy source with at least one term");
+    double sum = 0;
+    for (size_t i = 0; i < source->n; i++) {
+        const double q = source->wavenumber[i];
+        const double power = source->power[i];
+        wt_status status = WT_OK;
+        if (!(q > 0) || !isfinite(q))
+            status = out_of_range("wavenumber", q, "finite and > 0 rad/m", err);
+        else if (!(power >= 0) || !isfinite(power))
+            status = out_of_range("power", power, "finite and >= 0 W/m^2", err);
+        if (status != WT_OK) {
+            wt_error_place(err, "term %zu of %zu", i + 1, source->n);
+            return status;
+        }
+        sum += power;
+    }
+    if (!isfinite(sum))
+        return out_of_range("total power", sum, "finite, in W/m^2", err);
+    if (!(source->local_friction >= 0) || !isfinite(source->local_friction))
+        return out_of_range("local_friction", source->local_friction, "finite and >= 0", err);
+    if (!(source->numerical_error >= 0) || !isfinite(source->numerical_error))
+        return out_of_range("numerical_error", source->numerical_error, "finite and >= 0", err);
+    return WT_OK;
+}
+
+bool wt_energy_range(const wt_energy_source *source, double *q_min, double *q_max)
+{
+    *q_min = INFINITY;
+    *q_max = 0;
+    for (size_t i = 0; i < source->n; i++)
+        if (source->power[i] > 0) {
+            *q_min = fmin(*q_min, source->wavenumber[i]);
+            *q_max = fmax(*q_max, source->wavenumber[i]);
+        }
+    return *q_max > 0;
+}
+
+/* r = (1 - m^2) / (1 + m^2), for any m. */
+static double asymmetry(double m)
+{
+    return m > 1 ? -(1 - 1 / (m * m)) / (1 + 1 / (m * m)) : (1 - m * m) / (1 + m * m);
+}
+
+/* The incompressible density of one wavenumber has its extrema at q z = 1 and 1 - r; they fall
+ * together for m = 1, and only then does it fall all the way. */
+bool wt_energy_falls(const wt_energy_source *source)
+{
+    return source->profile == WT_PROFILE_PERSSON || source->local_friction == 1;
+}
+
+/* g(z; q) exp(2 q z) */
+static double shape(const wt_energy_source *source, double r, double q, double depth)
+{
+    if (source->profile == WT_PROFILE_PERSSON)
+        return 2 * q;
+    const double x = q * depth;
+    /* 1/(1+m^2) = (1+r)/2 and m^2/(1+m^2) = (1-r)/2 */
+    return 2 * q * ((1 + r) * x * x + (1 - r) * (1 - x) * (1 - x));
+}
+
+/* exp(2 q z) int_z^inf g */
+static double tail_shape(const wt_energy_source *source, double r, double q, double depth)
+{
+    if (source->profile == WT_PROFILE_PERSSON)
+        return 1;
+    const double x = q * depth;
+    return 1 + 2 * x * (x + r);
+}
+
+/* exp(2 q z) int_z^(z+length) g */
+static double gain_shape(const wt_energy_source *source, double r, double q, double depth,
+                         double length)
+{
+    const double l = q * length;
+    const double gone = -expm1(-2 * l);
+    if (source->profile == WT_PROFILE_PERSSON)
+        return gone;
+    const double x = q * depth;
+    const double here = 1 + 2 * x * (x + r);
+    const double grown =
+        2 * l * (2 * x + l + r); /* the bracket of the tail at x + l, less `here` */
+    return l < 300 ? gone * here - (1 - gone) * grown : here;
+}
+
+double wt_energy_log_density(const wt_energy_source *source, double depth)
+{
+    double q_min, q_max;
+    if (!wt_energy_range(source, &q_min, &q_max))
+        return -INFINITY;
+    const double r = asymmetry(source->local_friction);
+    double sum = 0;
+    for (size_t i = 0; i < source->n; i++) {
+        const double q = source->wavenumber[i];
+        if (source->power[i] > 0)
+            sum += source->power[i] * shape(source, r, q, depth) * exp(-2 * (q - q_min) * depth);
+    }
+    return log(sum) - 2 * q_min * depth;
+}
+
+double wt_energy_log_tail(const wt_energy_source *source, double depth)
+{
+    double q_min, q_max;
+    if (!wt_energy_range(source, &q_min, &q_max))
+        return -INFINITY;
+    const double r = asymmetry(source->local_friction);
+    double sum = 0;
+    for (size_t i = 0; i < source->n; i++) {
+        const double q = source->wavenumber[i];
+        if (source->power[i] > 0)
+            sum +=
+                source->power[i] * tail_shape(source, r, q, depth) * exp(-2 * (q - q_min) * depth);
+    }
+    return log(sum) - 2 * q_min * depth;
+}
+
+double wt_energy_log_gain(const wt_energy_source *source, double depth, double length)
+{
+    double q_min, q_max;
+    if (!wt_energy_range(source, &q_min, &q_max) || !(length > 0))
+        return -INFINITY;
+    const double r = asymmetry(source->local_friction);
+    double sum = 0;
+    for (size_t i = 0; i < source->n; i++) {
+        const double q = source->wavenumber[i];
+        if (source->power[i] > 0)
+            sum += source->power[i] * fmax(0, gain_shape(source, r, q, depth, length)) *
+                   exp(-2 * (q - q_min) * depth);
+    }
+    return log(sum) - 2 * q_min * depth;
+}
+
+double wt_energy_density(const wt_energy_source *source, double depth)
+{
+    return depth >= 0 ? exp(wt_energy_log_density(source, depth)) : 0;
+}
+
+double wt_energy_tail(const wt_energy_source *source, double depth)
+{
+    return exp(wt_energy_log_tail(source, fmax(depth, 0)));
+}

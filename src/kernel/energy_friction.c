@@ -1,0 +1,89 @@
+/* The energy source of sliding: the power that each wavenumber of the roughness dissipates.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "kernel/energy.h"
+#include "kernel/friction.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Depths at which two sources are compared, from 0.1 / q1 to 10 / q0. */
+enum { DEPTHS = 24 };
+
+static double compare_sources(const wt_energy_source *a, const wt_energy_source *b,
+                              const wt_roughness *roughness)
+{
+    double worst = 0;
+    const double from = 0.1 / roughness->q1;
+    const double to = 10 / roughness->q0;
+    for (size_t i = 0; i <= DEPTHS; i++) {
+        const double depth = i ? from * pow(to / from, (double)(i - 1) / (DEPTHS - 1)) : 0;
+        const double difference = wt_energy_log_tail(a, depth) - wt_energy_log_tail(b, depth);
+        if (!isnan(difference)) /* both without power */
+            worst = fmax(worst, fabs(difference));
+    }
+    return worst;
+}
+
+static wt_status source_alloc(wt_energy_source *source, size_t room, wt_error *err)
+{
+    *source = (wt_energy_source){.profile = WT_PROFILE_PERSSON};
+    source->wavenumber = calloc(room, sizeof *source->wavenumber);
+    source->power = calloc(room, sizeof *source->power);
+    if (source->wavenumber && source->power)
+        return WT_OK;
+    wt_energy_source_clear(source);
+    return wt_fail(err, WT_E_MEMORY, "out of memory for an energy source");
+}
+
+wt_status wt_energy_source_friction(wt_friction_workspace *workspace, double pressure,
+                                    double velocity, wt_energy_source *source, wt_error *err)
+{
+    if (!workspace || !source)
+        return wt_fail(err, WT_E_ARG, "an energy source needs a friction workspace");
+    wt_status status = wt_friction_prepare(workspace, pressure, &velocity, 1, err);
+    if (status != WT_OK)
+        return status;
+    const wt_friction_conditions at = {.pressure = pressure, .speed = fabs(velocity)};
+    const size_t room = (workspace->plan.capacity + workspace->n_knots + 1) * WT_FRICTION_MAX_NODES;
+    wt_friction_scratch scratch = {0};
+    wt_energy_source pair[2] = {{0}, {0}};
+    status = wt_friction_scratch_init(&scratch, workspace, 0, err);
+    for (size_t i = 0; status == WT_OK && i < 2; i++)
+        status = source_alloc(&pair[i], room, err);
+    if (status != WT_OK)
+        goto done;
+
+    const wt_plan *plan = wt_friction_plan(workspace, &scratch, at.speed, NULL, 0);
+    const size_t level =
+        wt_friction_level(workspace, &scratch, wt_friction_grid(workspace, &scratch, plan, 0), at);
+    size_t now = 0;
+    double error = INFINITY;
+    for (size_t r = 0; r < WT_FRICTION_RULES && error > workspace->options.tolerance; r++) {
+        now = r % 2;
+        wt_energy_source *s = &pair[now];
+        wt_friction_record record = {.q = s->wavenumber, .mu = s->power};
+        wt_friction_pass pass;
+        wt_friction_evaluate(workspace, &scratch, wt_friction_grid(workspace, &scratch, plan, r),
+                             level, at, 0, false, &record, &pass);
+        s->n = record.n;
+        for (size_t i = 0; i < s->n; i++)
+            s->power[i] *= pressure * at.speed;
+        if (r > 0)
+            error = compare_sources(s, &pair[1 - now], workspace->roughness) +
+                    pass.core_error / (pass.hysteresis > 0 ? pass.hysteresis : 1);
+        s->numerical_error =
+            error + wt_friction_rounding() + 2 * wt_angular_error(workspace->angular);
+    }
+    status = wt_energy_check(&pair[now], err);
+    if (status != WT_OK)
+        goto done;
+    *source = pair[now];
+    pair[now] = (wt_energy_source){0};
+done:
+    wt_energy_source_clear(&pair[0]);
+    wt_energy_source_clear(&pair[1]);
+    wt_friction_scratch_clear(&scratch);
+    return status;
+}

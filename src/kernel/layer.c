@@ -1,0 +1,160 @@
+/* Rates of formation, Qf(d) = int_d^inf w dz / (Lambda U_c), and of wear, Qw = k sigma0 v, and the
+ * thickness at which one is a given multiple of the other.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "kernel/layer.h"
+
+#include "kernel/root.h"
+
+#include <float.h>
+#include <math.h>
+
+wt_layer_parameters wt_layer_defaults(void)
+{
+    return (wt_layer_parameters){.damage = 1, .duty = 1};
+}
+
+static wt_status check_value(const char *name, double value, bool good, const char *expected,
+                             wt_error *err)
+{
+    if (good && isfinite(value))
+        return WT_OK;
+    wt_fail(err, WT_E_RANGE, "%s of a layer is outside its range", name);
+    wt_error_expected(err, "%s", expected);
+    wt_error_found(err, "%g", value);
+    return WT_E_RANGE;
+}
+
+static wt_status check_parameters(const wt_layer_parameters *p, wt_error *err)
+{
+    wt_status status = check_value("critical_energy", p->critical_energy, p->critical_energy > 0,
+                                   "finite and > 0 J/m^3", err);
+    if (status == WT_OK)
+        status = check_value("damage", p->damage, p->damage > 0, "finite and > 0", err);
+    if (status == WT_OK)
+        status = check_value("specific_wear_rate", p->specific_wear_rate,
+                             p->specific_wear_rate >= 0, "finite and >= 0 m^2/N", err);
+    if (status == WT_OK)
+        status = check_value("pressure", p->pressure, p->pressure >= 0, "finite and >= 0 Pa", err);
+    if (status == WT_OK)
+        status = check_value("velocity", p->velocity, p->velocity >= 0, "finite and >= 0 m/s", err);
+    if (status == WT_OK)
+        status = check_value("start_thickness", p->start_thickness, p->start_thickness >= 0,
+                             "finite and >= 0 m", err);
+    if (status == WT_OK)
+        status = check_value("duty", p->duty, p->duty > 0 && p->duty <= 1, "0 < duty <= 1", err);
+    return status;
+}
+
+wt_status wt_layer_rates_make(const wt_energy_source *source, const wt_layer_parameters *parameters,
+                              wt_layer_rates *rates, wt_error *err)
+{
+    if (!parameters)
+        return wt_fail(err, WT_E_ARG, "a layer needs its parameters");
+    wt_status status = wt_energy_check(source, err);
+    if (status == WT_OK)
+        status = check_parameters(parameters, err);
+    if (status != WT_OK)
+        return status;
+    const wt_layer_parameters *p = parameters;
+    wt_layer_rates r = {.source = source, .duty = p->duty};
+    if (!wt_energy_range(source, &r.q_min, &r.q_max))
+        r.q_min = 0;
+    for (size_t i = 0; i < source->n; i++)
+        r.power += source->power[i];
+    r.log_power = r.power > 0 ? log(r.power) : 0;
+    r.threshold = log(p->critical_energy) + log(p->damage);
+    r.formation = p->duty * (r.power / p->critical_energy / p->damage);
+    r.wear = p->duty * p->specific_wear_rate * p->pressure * p->velocity;
+    if (!isfinite(r.formation) || !isfinite(r.wear)) {
+        wt_fail(err, WT_E_RANGE, "formation or wear of a layer is faster than any number");
+        wt_error_found(err, "formation %g m/s, wear %g m/s", r.formation, r.wear);
+        wt_error_advice(err, "check the units: 1 mm^3/(N m) is 1e-9 m^2/N");
+        return WT_E_RANGE;
+    }
+    r.log_ratio = r.formation == 0 ? -HUGE_VAL : log(r.formation / r.wear);
+    if (r.formation > 0 && r.wear > 0 && isinf(r.log_ratio))
+        r.log_ratio = log(r.formation) - log(r.wear);
+    *rates = r;
+    return WT_OK;
+}
+
+double wt_layer_formation(const wt_layer_rates *rates, double thickness)
+{
+    if (rates->formation == 0)
+        return 0;
+    return rates->formation * exp(wt_energy_log_tail(rates->source, thickness) - rates->log_power);
+}
+
+double wt_layer_decay(const wt_layer_rates *rates, double thickness)
+{
+    if (rates->formation == 0)
+        return 0;
+    return exp(wt_energy_log_density(rates->source, thickness) -
+               wt_energy_log_tail(rates->source, thickness));
+}
+
+double wt_layer_single_kappa(const wt_layer_rates *rates)
+{
+    const bool single = rates->source->profile == WT_PROFILE_PERSSON && rates->q_min > 0 &&
+                        rates->q_min == rates->q_max;
+    return single ? 2 * rates->q_min : 0;
+}
+
+/* ---- fixed point ----------------------------------------------------------------------------- */
+
+typedef struct balance_root {
+    const wt_layer_rates *rates;
+    double level; /* ln(Qf / Qf(0)) wanted */
+} balance_root;
+
+static double balance_function(double depth, void *user)
+{
+    const balance_root *b = user;
+    return wt_energy_log_tail(b->rates->source, depth) - b->rates->log_power - b->level;
+}
+
+/* How far the root moves when the logarithm of Qf moves by `error`: found by going there. */
+static double root_error(balance_root *b, double root, double error)
+{
+    const double kappa = wt_layer_decay(b->rates, root);
+    double reach = fmax(kappa > 0 ? error / kappa : 0, 2 * DBL_EPSILON * root);
+    for (int i = 0; i < 200; i++) {
+        const bool above = balance_function(root + reach, b) < -error;
+        const bool below = root - reach <= 0 || balance_function(root - reach, b) > error;
+        if (above && below)
+            break;
+        reach = fmax(2 * reach, DBL_MIN);
+    }
+    return reach;
+}
+
+wt_status wt_layer_fixed_point(const wt_layer_rates *rates, double log_scale,
+                               wt_estimate *thickness, wt_error *err)
+{
+    *thickness = (wt_estimate){.unit = "m"};
+    double excess = rates->log_ratio - log_scale; /* ln(Qf(0) / (scale Qw)) */
+    const double error = 8 * DBL_EPSILON * (1 + fabs(excess) + fabs(rates->log_power)) +
+                         rates->source->numerical_error;
+    const bool none = !(excess > 0);
+    if (none) /* how thick it might be all the same */
+        excess += error;
+    if (!(excess > 0))
+        return WT_OK;
+    if (isinf(excess)) {
+        thickness->value = INFINITY;
+        return WT_OK;
+    }
+    balance_root b = {.rates = rates, .level = -excess};
+    double high = excess / (2 * rates->q_min);
+    while (balance_function(high, &b) > 0)
+        high *= 2;
+    double root = 0;
+    const wt_status status = wt_root_find(balance_function, &b, 0, high, &root, err);
+    if (status != WT_OK)
+        return status;
+    thickness->value = none ? 0 : root;
+    thickness->numerical_error = none ? root : root_error(&b, root, error);
+    return WT_OK;
+}

@@ -1,0 +1,120 @@
+/* Thickness against time at constant load: which of the three ways, and in what order.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "kernel/layer.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+
+/* Damage transport: the old layer is carried up and worn off, new damage grows below. */
+static wt_status history_damage(const wt_layer_rates *rates, double start, const double *time,
+                                size_t n, wt_layer_point *points, wt_error *err)
+{
+    for (size_t i = 0; i < n; i++) {
+        wt_estimate grown;
+        const wt_status status = wt_layer_damage_depth(rates, time[i], &grown, err);
+        if (status != WT_OK)
+            return status;
+        const double old = fmax(0, start - rates->wear * time[i]);
+        if (old > grown.value) {
+            grown.value = old;
+            grown.numerical_error = fmax(grown.numerical_error, 4 * DBL_EPSILON * start);
+        }
+        points[i].thickness = grown;
+    }
+    return WT_OK;
+}
+
+/* The closed form; its error is how far rounding and the error of Qf(0) move it. */
+static void history_exponential(const wt_layer_rates *rates, double kappa, double start,
+                                const double *time, size_t n, wt_layer_point *points)
+{
+    const double relative = rates->source->numerical_error + 8 * DBL_EPSILON;
+    for (size_t i = 0; i < n; i++) {
+        const double formation = rates->formation;
+        const double value = wt_layer_exponential(start, kappa, formation, rates->wear, time[i]);
+        const double more =
+            wt_layer_exponential(start, kappa, formation * (1 + relative), rates->wear, time[i]);
+        const double less = wt_layer_exponential(start, kappa, formation * fmax(0, 1 - relative),
+                                                 rates->wear, time[i]);
+        points[i].thickness = (wt_estimate){
+            .value = value,
+            .numerical_error = fmax(more - value, value - less) +
+                               8 * DBL_EPSILON * (fmax(start, value) + fmin(value, 1 / kappa)),
+            .unit = "m"};
+    }
+}
+
+typedef struct timed_point {
+    double time;
+    wt_layer_point *point;
+} timed_point;
+
+static int by_time(const void *left, const void *right)
+{
+    const timed_point *a = left;
+    const timed_point *b = right;
+    return (a->time > b->time) - (a->time < b->time);
+}
+
+static wt_status history_march(const wt_layer_rates *rates, double start, const double *time,
+                               size_t n, wt_layer_point *points, wt_error *err)
+{
+    timed_point *order = calloc(n, sizeof *order);
+    double *sorted = calloc(n, sizeof *sorted);
+    wt_layer_point **places = calloc(n, sizeof *places);
+    wt_status status = WT_OK;
+    if (!order || !sorted || !places) {
+        status = wt_fail(err, WT_E_MEMORY, "out of memory for the history of a layer");
+        goto done;
+    }
+    for (size_t i = 0; i < n; i++)
+        order[i] = (timed_point){time[i], &points[i]};
+    qsort(order, n, sizeof *order, by_time);
+    for (size_t i = 0; i < n; i++) {
+        sorted[i] = order[i].time;
+        places[i] = order[i].point;
+    }
+    status = wt_layer_march(rates, start, sorted, n, places, err);
+done:
+    free(order);
+    free(sorted);
+    free(places);
+    return status;
+}
+
+wt_status wt_layer_history(const wt_energy_source *source, const wt_layer_parameters *parameters,
+                           const double *time, size_t n, wt_layer_point *points, wt_error *err)
+{
+    if (n && (!time || !points))
+        return wt_fail(err, WT_E_ARG, "the history of a layer needs times and a place for it");
+    wt_layer_rates rates;
+    wt_status status = wt_layer_rates_make(source, parameters, &rates, err);
+    if (status != WT_OK || n == 0)
+        return status;
+    for (size_t i = 0; i < n; i++)
+        if (!(time[i] >= 0) || !isfinite(time[i])) {
+            wt_fail(err, WT_E_RANGE, "time %zu of %zu of a layer is outside its range", i + 1, n);
+            wt_error_expected(err, "finite and >= 0 s");
+            wt_error_found(err, "%g", time[i]);
+            return WT_E_RANGE;
+        }
+    const double start = parameters->start_thickness;
+    const double kappa = wt_layer_single_kappa(&rates);
+    if (parameters->incubation)
+        status = history_damage(&rates, start, time, n, points, err);
+    else if (kappa > 0)
+        history_exponential(&rates, kappa, start, time, n, points);
+    else
+        status = history_march(&rates, start, time, n, points, err);
+    if (status != WT_OK)
+        return status;
+    for (size_t i = 0; i < n; i++) {
+        points[i].time = time[i];
+        points[i].formation_rate = wt_layer_formation(&rates, points[i].thickness.value);
+        points[i].wear_rate = rates.wear;
+    }
+    return WT_OK;
+}

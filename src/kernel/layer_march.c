@@ -1,0 +1,265 @@
+/* Rate balance d delta/dt = Qf(delta) - Qw for any profile. The equation does not contain the time,
+ * so it is integrated over the thickness, t = int d delta / (Qf - Qw), by Gauss-Legendre panels
+ * that shrink in proportion to the distance from the balance: no step is ever too fast for it, from
+ * nanoseconds to years. Two rules per panel give the error.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "kernel/layer.h"
+
+#include "kernel/rule.h"
+
+#include <float.h>
+#include <math.h>
+
+enum { LOW_NODES = 12, HIGH_NODES = 16 };
+
+/* Panel length as a part of the way to the balance, and in units of the local decay length. */
+static const double way_part = 0.7;
+static const double decay_part = 2;
+/* A panel whose two rules differ by more is halved. */
+static const double panel_goal = 1e-12;
+/* Formation is left out where it is a smaller part of wear. */
+static const double log_negligible = -41.5; /* 1e-18 */
+
+typedef struct march {
+    const wt_layer_rates *rates;
+    wt_rule *low, *high;
+    double target;    /* where the motion ends: the balance, or 0 */
+    double direction; /* +1 growing, -1 being worn */
+    double thickness, time;
+    double time_error;
+    double sensitivity; /* int Qf / (Qf - Qw)^2: minus d time / d ln Qf */
+} march;
+
+static double net_rate(const wt_layer_rates *rates, double thickness)
+{
+    return wt_layer_formation(rates, thickness) - rates->wear;
+}
+
+/* Time from `from` over `length` in the direction of the march. */
+static double panel_time(const march *m, const wt_rule *rule, double from, double length,
+                         double *sensitivity)
+{
+    double sum = 0;
+    *sensitivity = 0;
+    for (size_t i = 0; i < rule->n; i++) {
+        const double thickness = from + m->direction * 0.5 * length * (1 + rule->node[i]);
+        const double formation = wt_layer_formation(m->rates, thickness);
+        const double rate = formation - m->rates->wear;
+        const double weight = 0.5 * length * rule->weight[i] / fabs(rate);
+        sum += weight;
+        *sensitivity += weight * (formation / fabs(rate));
+    }
+    return sum;
+}
+
+/* Length of the next panel; 0 when the target is reached to rounding. */
+static double panel_length(const march *m)
+{
+    const double kappa = wt_layer_decay(m->rates, m->thickness);
+    const double rate = fabs(net_rate(m->rates, m->thickness));
+    const double slope = wt_layer_formation(m->rates, m->thickness) * kappa;
+    double length = fabs(m->target - m->thickness);
+    const double noise = 4 * DBL_EPSILON * (m->thickness + (kappa > 0 ? 1 / kappa : 0));
+    const bool balance = m->direction > 0 || m->rates->log_ratio >= 0;
+    if (balance) {
+        if (length <= noise)
+            return 0;
+        length *= way_part;
+    } else if (slope > 0) { /* the balance is virtual, above the surface */
+        length = fmin(length, way_part * log1p(kappa * rate / slope) / kappa);
+    }
+    if (kappa == 0) /* the surface of a profile that begins with 0 */
+        return m->rates->q_min > 0 ? fmin(length, 1 / m->rates->q_min) : length;
+    return fmin(length, decay_part / kappa);
+}
+
+/* Relative rounding error of Qf, which is the exponential of a sum of logarithms. */
+static double rounding(const wt_layer_rates *rates, double thickness)
+{
+    const double depth = rates->q_min * thickness;
+    return 16 * DBL_EPSILON * (1 + fabs(rates->log_power) + 2 * depth);
+}
+
+/* Takes the time of one panel, shortened until its two rules agree, down to the noise of Qf - Qw.
+ */
+static double panel_take(const march *m, double *length, double *error, double *sensitivity)
+{
+    double time = 0, ignored;
+    for (int i = 0; i < 60; i++) {
+        const double end = m->thickness + m->direction * *length;
+        const double formation = wt_layer_formation(m->rates, end);
+        const double noise = rounding(m->rates, end) * formation / fabs(formation - m->rates->wear);
+        time = panel_time(m, m->high, m->thickness, *length, sensitivity);
+        *error = fabs(time - panel_time(m, m->low, m->thickness, *length, &ignored));
+        if (*error <= (panel_goal + 4 * noise) * time)
+            break;
+        *length *= 0.5;
+    }
+    return time;
+}
+
+/* Thickness at a time inside the panel that starts here: Newton's method, kept inside. */
+static double panel_find(const march *m, double length, double time)
+{
+    double low = 0, high = length;
+    double way = fmin(fabs(net_rate(m->rates, m->thickness)) * (time - m->time), length);
+    for (int i = 0; i < 100; i++) {
+        double ignored;
+        const double excess = m->time + panel_time(m, m->high, m->thickness, way, &ignored) - time;
+        if (excess > 0)
+            high = way;
+        else
+            low = way;
+        const double here = m->thickness + m->direction * way;
+        double next = way - excess * fabs(net_rate(m->rates, here));
+        if (!(next >= low && next <= high))
+            next = 0.5 * (low + high);
+        const double change = fabs(next - way);
+        way = next;
+        if (change <= 4 * DBL_EPSILON * way || change <= DBL_EPSILON * m->thickness ||
+            high - low <= DBL_EPSILON * high)
+            break;
+    }
+    return m->thickness + m->direction * way;
+}
+
+static wt_estimate estimate_at(const march *m, double thickness, double time, double time_error,
+                               double sensitivity)
+{
+    const double rate = fabs(net_rate(m->rates, thickness));
+    const double relative = rounding(m->rates, thickness);
+    const double error = rate * (time_error + relative * time +
+                                 (m->rates->source->numerical_error + relative) * sensitivity) +
+                         4 * DBL_EPSILON * thickness;
+    return (wt_estimate){.value = fmax(thickness, 0), .numerical_error = error, .unit = "m"};
+}
+
+static wt_status march_begin(march *m, const wt_layer_rates *rates, double start,
+                             wt_estimate *target, wt_error *err)
+{
+    *m = (march){.rates = rates, .thickness = start};
+    wt_status status = wt_layer_fixed_point(rates, 0, target, err);
+    if (status == WT_OK)
+        status = wt_rule_new(LOW_NODES, &m->low, err);
+    if (status == WT_OK)
+        status = wt_rule_new(HIGH_NODES, &m->high, err);
+    m->target = target->value;
+    m->direction = net_rate(rates, start) > 0 ? 1 : -1;
+    if (status != WT_OK || m->direction > 0)
+        return status;
+    m->target = fmin(m->target, start);
+    return WT_OK;
+}
+
+static void march_end(march *m)
+{
+    wt_rule_free(m->low);
+    wt_rule_free(m->high);
+}
+
+/* Far above the balance only wear counts: down to where formation begins to be felt, the thickness
+ * is linear in time. */
+static wt_status skip_pure_wear(march *m, double *length, wt_error *err)
+{
+    *length = 0;
+    if (m->direction > 0 || m->rates->wear == 0)
+        return WT_OK;
+    wt_estimate felt = {0};
+    if (m->rates->formation > 0) {
+        const wt_status status = wt_layer_fixed_point(m->rates, log_negligible, &felt, err);
+        if (status != WT_OK)
+            return status;
+    }
+    *length = fmax(0, m->thickness - fmax(felt.value, m->target));
+    return WT_OK;
+}
+
+wt_status wt_layer_march(const wt_layer_rates *rates, double start, const double *time, size_t n,
+                         wt_layer_point *const *points, wt_error *err)
+{
+    march m;
+    wt_estimate target;
+    double linear = 0;
+    wt_status status = march_begin(&m, rates, start, &target, err);
+    if (status == WT_OK)
+        status = skip_pure_wear(&m, &linear, err);
+    if (status != WT_OK)
+        goto done;
+
+    size_t i = 0;
+    if (net_rate(rates, start) == 0) { /* nothing happens, or the balance itself */
+        for (; i < n; i++)
+            points[i]->thickness = (wt_estimate){
+                .value = start, .numerical_error = target.numerical_error, .unit = "m"};
+        goto done;
+    }
+    if (linear > 0) {
+        const double until = linear / rates->wear;
+        for (; i < n && time[i] < until; i++)
+            points[i]->thickness = estimate_at(&m, start - rates->wear * time[i], time[i], 0, 0);
+        m.thickness = start - linear;
+        m.time = until;
+    }
+    for (; i < n && time[i] == 0; i++)
+        points[i]->thickness = (wt_estimate){.value = start, .unit = "m"};
+    while (i < n) {
+        double length = panel_length(&m);
+        if (!(length > 0))
+            break;
+        double error, sensitivity;
+        const double took = panel_take(&m, &length, &error, &sensitivity);
+        const double sum_error = m.time_error + error;
+        const double sum_sensitivity = m.sensitivity + sensitivity;
+        for (; i < n && time[i] <= m.time + took; i++)
+            points[i]->thickness = estimate_at(&m, panel_find(&m, length, time[i]), time[i],
+                                               sum_error, sum_sensitivity);
+        m.thickness += m.direction * length;
+        m.time += took;
+        m.time_error = sum_error;
+        m.sensitivity = sum_sensitivity;
+        if (!isfinite(m.time))
+            break;
+    }
+    for (; i < n; i++) { /* arrived */
+        points[i]->thickness = (wt_estimate){.value = m.target, .unit = "m"};
+        points[i]->thickness.numerical_error =
+            target.numerical_error + fabs(m.thickness - m.target);
+    }
+done:
+    march_end(&m);
+    return status;
+}
+
+wt_status wt_layer_removal(const wt_layer_rates *rates, double start, double *time, wt_error *err)
+{
+    *time = 0;
+    if (start == 0)
+        return WT_OK;
+    *time = INFINITY;
+    if (rates->wear == 0 || rates->log_ratio >= 0)
+        return WT_OK;
+    march m;
+    wt_estimate target;
+    double linear = 0;
+    wt_status status = march_begin(&m, rates, start, &target, err);
+    if (status == WT_OK)
+        status = skip_pure_wear(&m, &linear, err);
+    if (status != WT_OK)
+        goto done;
+    m.thickness -= linear;
+    m.time = linear / rates->wear;
+    while (m.thickness > 0) {
+        double error, sensitivity;
+        double length = panel_length(&m);
+        if (!(length > 0))
+            break;
+        m.time += panel_take(&m, &length, &error, &sensitivity);
+        m.thickness = length >= m.thickness ? 0 : m.thickness - length;
+    }
+    *time = m.time;
+done:
+    march_end(&m);
+    return status;
+}

@@ -1,0 +1,49 @@
+/* Bracketed roots by Brent's method.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "kernel/root.h"
+
+#include "kernel/rule.h"
+
+#include <float.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_roots.h>
+#include <math.h>
+
+wt_status wt_root_find(wt_root_fn f, void *user, double low, double high, double *root,
+                       wt_error *err)
+{
+    const double at_low = f(low, user);
+    const double at_high = f(high, user);
+    if (at_low == 0 || at_high == 0) {
+        *root = at_low == 0 ? low : high;
+        return WT_OK;
+    }
+    wt_kernel_use_gsl();
+    wt_status status = WT_OK;
+    gsl_root_fsolver *solver = gsl_root_fsolver_alloc(gsl_root_fsolver_brent);
+    if (!solver)
+        return wt_fail(err, WT_E_MEMORY, "out of memory for a root");
+    gsl_function function = {.function = f, .params = user};
+    const int limit = 300;
+    int code = gsl_root_fsolver_set(solver, &function, low, high);
+    for (int i = 0; code == GSL_SUCCESS; i++) {
+        if (i == limit) {
+            code = GSL_EMAXITER;
+            break;
+        }
+        const double width = gsl_root_fsolver_x_upper(solver) - gsl_root_fsolver_x_lower(solver);
+        if (width <= 2 * DBL_EPSILON * fabs(gsl_root_fsolver_root(solver)) ||
+            f(gsl_root_fsolver_root(solver), user) == 0)
+            break;
+        code = gsl_root_fsolver_iterate(solver);
+    }
+    if (code == GSL_SUCCESS)
+        *root = gsl_root_fsolver_root(solver);
+    else
+        status = wt_fail(err, WT_E_CONVERGENCE, "no root between %g and %g: %s", low, high,
+                         gsl_strerror(code));
+    gsl_root_fsolver_free(solver);
+    return status;
+}

@@ -1,0 +1,16 @@
+/* Internal to the kernel room: roots of monotone functions.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#ifndef WT_KERNEL_ROOT_H
+#define WT_KERNEL_ROOT_H
+
+#include "weartrack/base.h"
+
+typedef double (*wt_root_fn)(double x, void *user);
+
+/* A root between low and high, where f has different signs, to the last digits. */
+wt_status wt_root_find(wt_root_fn f, void *user, double low, double high, double *root,
+                       wt_error *err) WT_NODISCARD;
+
+#endif

@@ -1,0 +1,617 @@
+/* The modified layer against numeric cases, and the laws that formation and wear must obey. */
+#include "near.h"
+
+#include "kernel/contact.h"
+#include "kernel/energy.h"
+#include "numeric/cases.h"
+#include "weartrack/kernel.h"
+
+#include <float.h>
+
+typedef struct rig {
+    wt_energy_source source;
+    wt_layer_parameters parameters;
+} rig;
+
+static double *copy_numbers(const double *values, size_t n)
+{
+    double *copy = malloc(n * sizeof *copy);
+    assert_non_null(copy);
+    memcpy(copy, values, n * sizeof *copy);
+    return copy;
+}
+
+static rig rig_make(const double *q, const double *power, size_t n)
+{
+    rig r = {.source = {.profile = WT_PROFILE_PERSSON,
+                        .n = n,
+                        .wavenumber = copy_numbers(q, n),
+                        .power = copy_numbers(power, n)},
+             .parameters = wt_layer_defaults()};
+    r.parameters.critical_energy = 2e10;
+    r.parameters.specific_wear_rate = 1e-12;
+    r.parameters.pressure = 4e5;
+    r.parameters.velocity = 5e-3;
+    return r;
+}
+
+/* Case B of the numeric cases. */
+static rig rig_mild(void)
+{
+    return rig_make((double[]){1e6}, (double[]){400}, 1);
+}
+
+static rig rig_several(void)
+{
+    return rig_make((double[]){3e4, 4.1e5, 6e6}, (double[]){120, 90, 200}, 3);
+}
+
+static rig rig_case(const numeric_case *c)
+{
+    const case_line *q = case_find(c, false, "wavenumber");
+    const case_line *power = case_find(c, false, "power");
+    assert_non_null(q);
+    assert_non_null(power);
+    rig r = rig_make(q->value, power->value, q->n);
+    if (strcmp(case_word(c, false, "profile"), "incompressible") == 0)
+        r.source.profile = WT_PROFILE_INCOMPRESSIBLE;
+    r.source.local_friction = case_number(c, false, "local_friction", 0);
+    wt_layer_parameters *p = &r.parameters;
+    p->critical_energy = case_number(c, false, "critical_energy", (double)NAN);
+    p->damage = case_number(c, false, "damage", 1);
+    p->specific_wear_rate = case_number(c, false, "specific_wear_rate", 0);
+    p->pressure = case_number(c, false, "pressure", (double)NAN);
+    p->velocity = case_number(c, false, "velocity", (double)NAN);
+    p->start_thickness = case_number(c, false, "start_thickness", 0);
+    return r;
+}
+
+static void rig_free(rig *r)
+{
+    wt_energy_source_clear(&r->source);
+}
+
+static wt_layer_balance balance_of(const rig *r)
+{
+    wt_layer_balance b;
+    wt_error err = WT_ERROR_INIT;
+    if (wt_layer_balance_compute(&r->source, &r->parameters, &b, &err) != WT_OK)
+        fail_msg("balance: %s", err.message);
+    return b;
+}
+
+static wt_layer_point point_at(const rig *r, double time)
+{
+    wt_layer_point p;
+    wt_error err = WT_ERROR_INIT;
+    if (wt_layer_history(&r->source, &r->parameters, &time, 1, &p, &err) != WT_OK)
+        fail_msg("history: %s", err.message);
+    return p;
+}
+
+/* ---- numeric cases --------------------------------------------------------------------------- */
+
+static void check_bound(const char *name, const char *what, wt_estimate actual, double expected)
+{
+    /* closed-form references carry 1e-15 themselves, and are 0 where the truth is below 1e-15 m */
+    const double slack = 1e-14 * fabs(expected) + (expected == 0 ? 1e-15 : 0);
+    if (!(fabs(actual.value - expected) <= actual.numerical_error + slack))
+        fail_msg("%s: %s %.17g is %.3g from %.17g, but %.3g is stated", name, what, actual.value,
+                 fabs(actual.value - expected), expected, actual.numerical_error);
+}
+
+static void check_thickness(const char *name, const char *what, wt_estimate actual, double expected)
+{
+    if (fabs(actual.value - expected) > 1e-9 * expected + (expected == 0 ? 1e-15 : 0))
+        fail_msg("%s: %s %.17g is not %.17g", name, what, actual.value, expected);
+    check_bound(name, what, actual, expected);
+    assert_true(actual.value >= 0);
+    assert_true(actual.numerical_error <= 1e-10 * actual.value + 1e-18);
+}
+
+static void check_balance(const numeric_case *c, const rig *r, const case_line *line)
+{
+    const wt_layer_balance b = balance_of(r);
+    const double expected = line->value[0];
+    rig worn = *r;
+    worn.parameters.incubation = true;
+    if (strcmp(line->key, "thickness") == 0)
+        check_thickness(c->name, line->key, b.thickness, expected);
+    else if (strcmp(line->key, "surface_power") == 0)
+        assert_near(b.surface_power, expected, 1e-14);
+    else if (strcmp(line->key, "formation_rate_zero") == 0)
+        assert_near(b.formation_rate_zero, expected, 1e-14);
+    else if (strcmp(line->key, "wear_rate") == 0)
+        assert_near(b.wear_rate, expected, 1e-14);
+    else if (strcmp(line->key, "ratio") == 0)
+        assert_near(b.ratio, expected, 1e-14);
+    else if (strcmp(line->key, "relaxation_time") == 0)
+        assert_near(b.relaxation_time, expected, 1e-12);
+    else if (strcmp(line->key, "critical_specific_wear_rate") == 0)
+        assert_near(b.critical_specific_wear_rate, expected, 1e-12);
+    else if (strcmp(line->key, "eigenvalue") == 0)
+        assert_near(b.eigenvalue, expected, 1e-12);
+    else if (strcmp(line->key, "incubation_time") == 0)
+        assert_near(b.incubation_time, expected, 1e-12);
+    else if (strcmp(line->key, "incubation_time_with_wear") == 0)
+        assert_near(balance_of(&worn).incubation_time, expected, 1e-12);
+    else if (strcmp(line->key, "removal_time") == 0)
+        assert_near(b.removal_time, expected, 1e-9);
+    else
+        fail_msg("%s: no quantity %s", c->name, line->key);
+}
+
+/* true if the line was one of a history. */
+static bool check_history(const numeric_case *c, rig *r, const case_line *line)
+{
+    const bool history = strcmp(line->key, "history") == 0;
+    const bool damage = strcmp(line->key, "damage") == 0;
+    const bool formation = strcmp(line->key, "formation") == 0;
+    if (!history && !damage && !formation)
+        return false;
+    r->parameters.incubation = !history;
+    const wt_layer_point p = point_at(r, line->value[0]);
+    r->parameters.incubation = false;
+    if (formation)
+        assert_near(p.formation_rate, line->value[1], 1e-12);
+    else
+        check_thickness(c->name, line->key, p.thickness, line->value[1]);
+    assert_near(p.wear_rate,
+                r->parameters.specific_wear_rate * r->parameters.pressure * r->parameters.velocity,
+                1e-15);
+    return true;
+}
+
+static void check_exponential(const case_line *line)
+{
+    const double *v = line->value;
+    const double delta = wt_layer_exponential(v[0], v[1], v[2], v[3], v[4]);
+    assert_near(delta, v[5], 1e-12);
+}
+
+/* Qf / Qf(0) of j ~ q^(1 - 2 H) between q0 and q1, the source a fine rule in ln q. */
+static void check_tail_ratio(const numeric_case *c, const case_line *line)
+{
+    enum { TERMS = 4000 };
+    const double q0 = case_number(c, false, "q0", 0), q1 = case_number(c, false, "q1", 0);
+    double q[TERMS], power[TERMS];
+    for (size_t i = 0; i < TERMS; i++) {
+        q[i] = q0 * pow(q1 / q0, ((double)i + 0.5) / TERMS);
+        power[i] = pow(q[i] / q0, 2 - 2 * line->value[0]);
+    }
+    rig r = rig_make(q, power, TERMS);
+    assert_near(wt_energy_tail(&r.source, line->value[1]) / wt_energy_tail(&r.source, 0),
+                line->value[2], 1e-5);
+    rig_free(&r);
+}
+
+static void numeric_cases(void **state)
+{
+    (void)state;
+    FILE *in = fopen(WT_SOURCE_DIR "/tests/numeric/layer.txt", "r");
+    assert_non_null(in);
+    numeric_case *c = malloc(sizeof *c);
+    assert_non_null(c);
+    size_t lines = 0;
+    while (case_read(in, c)) {
+        if (strcmp(c->name, "Q_step_in_severity") == 0)
+            continue; /* its own test */
+        const bool layer = case_find(c, false, "critical_energy") != NULL;
+        rig r = layer ? rig_case(c) : rig_mild();
+        for (size_t i = 0; i < c->n; i++) {
+            const case_line *line = &c->lines[i];
+            if (!line->expected)
+                continue;
+            lines++;
+            if (strcmp(line->key, "exponential") == 0)
+                check_exponential(line);
+            else if (strcmp(line->key, "tail_ratio") == 0)
+                check_tail_ratio(c, line);
+            else if (strcmp(line->key, "layered") == 0)
+                assert_near(wt_layered_scale(line->value[1], line->value[0]), line->value[2],
+                            1e-13);
+            else if (!check_history(c, &r, line))
+                check_balance(c, &r, line);
+        }
+        rig_free(&r);
+    }
+    assert_int_equal(lines, 168);
+    free(c);
+    fclose(in);
+}
+
+/* Two stages of constant load: the second starts where the first ended. */
+static void step_in_severity(void **state)
+{
+    (void)state;
+    FILE *in = fopen(WT_SOURCE_DIR "/tests/numeric/layer.txt", "r");
+    assert_non_null(in);
+    numeric_case *c = malloc(sizeof *c);
+    assert_non_null(c);
+    bool found = false;
+    while (!found && case_read(in, c))
+        found = strcmp(c->name, "Q_step_in_severity") == 0;
+    fclose(in);
+    assert_true(found);
+    rig r = rig_mild();
+    const double end = point_at(&r, 1000).thickness.value;
+    assert_near(end, case_number(c, true, "end_of_stage_1", 0), 1e-12);
+    r.source.power[0] = 72000;
+    r.parameters.pressure = 1.2e6;
+    r.parameters.velocity = 0.3;
+    r.parameters.specific_wear_rate = 2e-11;
+    r.parameters.start_thickness = end;
+    assert_near(balance_of(&r).removal_time, case_number(c, true, "removal_time", 0), 1e-9);
+    for (size_t i = 0; i < c->n; i++)
+        if (strcmp(c->lines[i].key, "history") == 0)
+            assert_near(point_at(&r, c->lines[i].value[0]).thickness.value, c->lines[i].value[1],
+                        1e-9);
+    rig_free(&r);
+    free(c);
+}
+
+/* A profile that peaks at z = 1/q begins there: e^2 U_c Lambda / (4 q J0). */
+static void buried_band(void **state)
+{
+    (void)state;
+    rig r = rig_mild();
+    r.source.profile = WT_PROFILE_INCOMPRESSIBLE;
+    r.parameters.specific_wear_rate = 0;
+    const double onset = exp(2) * 2e10 / (4 * 1e6 * 400);
+    assert_near(balance_of(&r).incubation_time, onset, 1e-12);
+    r.parameters.incubation = true;
+    assert_near(point_at(&r, onset * (1 - 1e-9)).thickness.value, 0, 0);
+    const wt_estimate first = point_at(&r, onset * (1 + 1e-9)).thickness;
+    assert_near(first.value, 1e-6, 1e-3);
+    r.parameters.specific_wear_rate = 1e-12; /* wear carries the band up: it starts later */
+    assert_true(balance_of(&r).incubation_time > onset);
+    rig_free(&r);
+}
+
+/* ---- laws ------------------------------------------------------------------------------------ */
+
+static void three_ways_agree(void **state)
+{
+    (void)state;
+    /* a sum of two equal exponentials is one, but it takes the general way */
+    rig one = rig_mild();
+    rig two = rig_make((double[]){1e6, 1e6 * (1 + 1e-15)}, (double[]){150, 250}, 2);
+    for (double time = 1e-9; time < 1e7; time *= 7.3) {
+        for (double start = 0; start < 1e-4; start = start * 9.1 + 1e-9) {
+            one.parameters.start_thickness = two.parameters.start_thickness = start;
+            const wt_layer_point a = point_at(&one, time);
+            const wt_layer_point b = point_at(&two, time);
+            assert_near_abs(b.thickness.value, a.thickness.value,
+                            a.thickness.numerical_error + b.thickness.numerical_error);
+            assert_near(b.thickness.value, a.thickness.value, 1e-9);
+        }
+    }
+    /* the damage transport is the rate balance started at the incubation time */
+    one.parameters.start_thickness = 0;
+    rig late = one;
+    late.parameters.incubation = true;
+    const double incubation = balance_of(&late).incubation_time;
+    for (double time = 1; time < 1e5; time *= 4.7)
+        assert_near(point_at(&late, incubation + time).thickness.value,
+                    point_at(&one, time).thickness.value, 1e-9);
+    rig_free(&one);
+    rig_free(&two);
+}
+
+static void restart_changes_nothing(void **state)
+{
+    (void)state;
+    rig r = rig_several();
+    for (double time = 1e-6; time < 1e6; time *= 11) {
+        r.parameters.start_thickness = 0;
+        const double whole = point_at(&r, time).thickness.value;
+        r.parameters.start_thickness = point_at(&r, 0.385 * time).thickness.value;
+        assert_near(point_at(&r, 0.615 * time).thickness.value, whole, 1e-9);
+    }
+    rig_free(&r);
+}
+
+/* Thickness never falls on the way up from 0, never rises on the way down, and both ends meet. */
+static void monotone_and_same_end(void **state)
+{
+    (void)state;
+    rig r = rig_several();
+    const wt_layer_balance b = balance_of(&r);
+    enum { TIMES = 120 };
+    double time[TIMES];
+    wt_layer_point up[TIMES], down[TIMES], damage[TIMES];
+    for (size_t i = 0; i < TIMES; i++) /* any order */
+        time[i] = 1e-9 * pow(10, 18.0 * (double)((i * 7) % TIMES) / TIMES);
+    assert_int_equal(wt_layer_history(&r.source, &r.parameters, time, TIMES, up, NULL), WT_OK);
+    r.parameters.start_thickness = 10 * b.thickness.value;
+    assert_int_equal(wt_layer_history(&r.source, &r.parameters, time, TIMES, down, NULL), WT_OK);
+    r.parameters.start_thickness = 0;
+    r.parameters.incubation = true;
+    assert_int_equal(wt_layer_history(&r.source, &r.parameters, time, TIMES, damage, NULL), WT_OK);
+    for (size_t i = 0; i < TIMES; i++) {
+        assert_true(up[i].thickness.value <= b.thickness.value * (1 + 1e-12));
+        assert_true(down[i].thickness.value >= b.thickness.value * (1 - 1e-12));
+        assert_true(damage[i].thickness.value <= up[i].thickness.value * (1 + 1e-9));
+        for (size_t k = 0; k < TIMES; k++)
+            if (time[k] > time[i]) {
+                assert_true(up[k].thickness.value >= up[i].thickness.value);
+                assert_true(down[k].thickness.value <= down[i].thickness.value);
+                assert_true(damage[k].thickness.value >= damage[i].thickness.value);
+            }
+    }
+    const size_t last = 17; /* (17 * 7) % 120 = 119 */
+    assert_near(up[last].thickness.value, b.thickness.value, 1e-12);
+    assert_near(down[last].thickness.value, b.thickness.value, 1e-12);
+    assert_near(damage[last].thickness.value, b.thickness.value, 1e-12);
+    rig_free(&r);
+}
+
+static void what_moves_the_balance(void **state)
+{
+    (void)state;
+    rig r = rig_several();
+    const wt_layer_balance b = balance_of(&r);
+    /* severity at a fixed k: only the clock */
+    rig severe = rig_several();
+    for (size_t i = 0; i < 3; i++)
+        severe.source.power[i] *= 2;
+    severe.parameters.velocity *= 2;
+    assert_near(balance_of(&severe).thickness.value, b.thickness.value, 1e-12);
+    assert_near(point_at(&severe, 50).thickness.value, point_at(&r, 100).thickness.value, 1e-9);
+    /* duty: likewise */
+    rig rare = rig_several();
+    rare.parameters.duty = 0.01325359400733194;
+    assert_near(balance_of(&rare).thickness.value, b.thickness.value, 1e-12);
+    rare.parameters.incubation = r.parameters.incubation = true;
+    assert_near(point_at(&rare, 1000 / rare.parameters.duty).thickness.value,
+                point_at(&r, 1000).thickness.value, 1e-9);
+    r.parameters.incubation = false;
+    /* more energy, thicker; more wear, higher U_c or damage, thinner */
+    severe.parameters.velocity /= 2;
+    assert_true(balance_of(&severe).thickness.value > b.thickness.value);
+    double *worse[] = {&r.parameters.specific_wear_rate, &r.parameters.critical_energy,
+                       &r.parameters.damage};
+    for (size_t i = 0; i < 3; i++) {
+        *worse[i] *= 2;
+        assert_true(balance_of(&r).thickness.value < b.thickness.value);
+        *worse[i] /= 2;
+    }
+    /* z -> c z, q -> q / c */
+    rig coarse = rig_several();
+    for (size_t i = 0; i < 3; i++)
+        coarse.source.wavenumber[i] /= 17;
+    assert_near(balance_of(&coarse).thickness.value, 17 * b.thickness.value, 1e-12);
+    rig_free(&r);
+    rig_free(&severe);
+    rig_free(&rare);
+    rig_free(&coarse);
+}
+
+static void regimes(void **state)
+{
+    (void)state;
+    rig r = rig_mild();
+    const double critical = balance_of(&r).critical_specific_wear_rate;
+    const struct {
+        double k;
+        wt_layer_regime regime;
+    } table[] = {{2 * critical, WT_LAYER_NONE},
+                 {critical / 1.5, WT_LAYER_THIN},
+                 {critical / 3, WT_LAYER_THICK},
+                 {0, WT_LAYER_THICK}};
+    for (size_t i = 0; i < 4; i++) {
+        r.parameters.specific_wear_rate = table[i].k;
+        const wt_layer_balance b = balance_of(&r);
+        assert_int_equal(b.regime, table[i].regime);
+        assert_int_equal(b.thickness.value > 0, table[i].regime != WT_LAYER_NONE);
+        assert_int_equal(isnan(b.removal_time), table[i].regime != WT_LAYER_NONE);
+    }
+    assert_true(isinf(balance_of(&r).thickness.value));
+    assert_true(isinf(balance_of(&r).ratio));
+    assert_near(wt_layer_calibrate(0.2, 1e-12, 2e6, 1.1512925464970228e-06, 1), 2e10, 1e-12);
+    rig_free(&r);
+}
+
+static bool whole(double x)
+{
+    return !isnan(x);
+}
+
+/* Nothing is NaN where nothing happens. */
+static void nothing_happens(void **state)
+{
+    (void)state;
+    for (unsigned bits = 0; bits < 128; bits++) {
+        rig r = bits & 1 ? rig_several() : rig_mild();
+        if (bits & 2)
+            for (size_t i = 0; i < r.source.n; i++)
+                r.source.power[i] = 0;
+        if (bits & 4)
+            r.parameters.specific_wear_rate = 0;
+        if (bits & 8)
+            r.parameters.velocity = 0;
+        if (bits & 16)
+            r.parameters.start_thickness = 1e-6;
+        if (bits & 32)
+            r.parameters.incubation = true;
+        if (bits & 64)
+            r.source.profile = WT_PROFILE_INCOMPRESSIBLE;
+        const wt_layer_balance b = balance_of(&r);
+        assert_true(whole(b.surface_power) && whole(b.formation_rate_zero) && whole(b.wear_rate));
+        assert_true(whole(b.ratio) && whole(b.critical_specific_wear_rate));
+        assert_true(whole(b.thickness.value) && whole(b.thickness.numerical_error));
+        assert_true(whole(b.eigenvalue) && whole(b.relaxation_time));
+        const double times[] = {0, 1e-9, 1, 1e9};
+        wt_layer_point p[4];
+        assert_int_equal(wt_layer_history(&r.source, &r.parameters, times, 4, p, NULL), WT_OK);
+        for (size_t i = 0; i < 4; i++) {
+            assert_true(p[i].thickness.value >= 0 && isfinite(p[i].thickness.value));
+            assert_true(p[i].thickness.numerical_error >= 0);
+            assert_true(isfinite(p[i].thickness.numerical_error));
+            assert_true(isfinite(p[i].formation_rate) && isfinite(p[i].wear_rate));
+        }
+        assert_near(p[0].thickness.value, r.parameters.start_thickness, 0);
+        rig_free(&r);
+    }
+    assert_true(isnan(wt_layer_exponential(-1, 1, 1, 1, 1)));
+    assert_true(isnan(wt_layer_exponential(0, 1, (double)NAN, 1, 1)));
+}
+
+static void bad_input(void **state)
+{
+    (void)state;
+    const double nan = (double)NAN, infinite = (double)INFINITY;
+    rig r = rig_mild();
+    wt_layer_parameters *p = &r.parameters;
+    const struct {
+        const char *name;
+        double *value;
+        double bad[4];
+    } table[] = {
+        {"critical_energy", &p->critical_energy, {0, -1, nan, infinite}},
+        {"damage", &p->damage, {0, -1, nan, infinite}},
+        {"specific_wear_rate", &p->specific_wear_rate, {-1e-30, -1, nan, infinite}},
+        {"pressure", &p->pressure, {-1, -1e-9, nan, infinite}},
+        {"velocity", &p->velocity, {-1, -1e-9, nan, infinite}},
+        {"start_thickness", &p->start_thickness, {-1, -1e-20, nan, infinite}},
+        {"duty", &p->duty, {0, -1, nan, 1.01}},
+        {"wavenumber", &r.source.wavenumber[0], {0, -1, nan, infinite}},
+        {"power", &r.source.power[0], {-1, -1e-30, nan, infinite}},
+        {"local_friction", &r.source.local_friction, {-1, -1e-9, nan, infinite}},
+    };
+    for (size_t i = 0; i < sizeof table / sizeof *table; i++)
+        for (size_t k = 0; k < 4; k++) {
+            const double good = *table[i].value;
+            *table[i].value = table[i].bad[k];
+            wt_layer_balance b;
+            wt_error err = WT_ERROR_INIT;
+            assert_int_equal(wt_layer_balance_compute(&r.source, p, &b, &err), WT_E_RANGE);
+            assert_non_null(strstr(err.message, table[i].name));
+            assert_true(err.expected[0] != '\0' && err.found[0] != '\0');
+            *table[i].value = good;
+        }
+    const double times[] = {1, -1};
+    wt_layer_point points[2];
+    wt_error err = WT_ERROR_INIT;
+    assert_int_equal(wt_layer_history(&r.source, p, times, 2, points, &err), WT_E_RANGE);
+    assert_non_null(strstr(err.message, "time 2 of 2"));
+    rig_free(&r);
+}
+
+/* ---- energy density -------------------------------------------------------------------------- */
+
+/* The tail is the integral of the density, and the gain a difference of tails. */
+static void density_tail_gain(void **state)
+{
+    (void)state;
+    rig r = rig_several();
+    const double frictions[] = {0, 0.385, 1, 2.385, 1e9};
+    for (size_t i = 0; i <= 5; i++) {
+        if (i > 0) {
+            r.source.profile = WT_PROFILE_INCOMPRESSIBLE;
+            r.source.local_friction = frictions[i - 1];
+        }
+        assert_near(wt_energy_tail(&r.source, 0), 410, 1e-14);
+        const double low = 3e-7, high = 9e-6;
+        const int n = 20000;
+        double sum = 0;
+        for (int k = 0; k < n; k++)
+            sum += wt_energy_density(&r.source, low + (high - low) * (k + 0.5) / n);
+        sum *= (high - low) / n;
+        const double difference = wt_energy_tail(&r.source, low) - wt_energy_tail(&r.source, high);
+        assert_near(sum, difference, 1e-5);
+        assert_near(exp(wt_energy_log_gain(&r.source, low, high - low)), difference, 1e-12);
+        assert_near(exp(wt_energy_log_gain(&r.source, low, 1e-15)) / 1e-15,
+                    wt_energy_density(&r.source, low), 1e-6);
+    }
+    assert_near(wt_energy_density(&r.source, -1), 0, 0);
+    rig_free(&r);
+}
+
+/* All that friction dissipates: int w dz = mu_hys sigma0 v, and a thickness that does not depend on
+ * the tolerance beyond what is stated. */
+static void source_of_friction(void **state)
+{
+    (void)state;
+    double modulus[] = {2e6, 8e6, 6e7, 5e8, 4e8}, tau[] = {1e-1, 1e-3, 1e-5, 1e-7, 1e-9};
+    const wt_prony prony = {.equilibrium_modulus = 4e6,
+                            .n = 5,
+                            .relaxation_time = tau,
+                            .modulus = modulus,
+                            .frequency_min = (double)NAN,
+                            .frequency_max = (double)NAN};
+    wt_material *material = NULL;
+    wt_roughness *roughness = NULL;
+    assert_int_equal(wt_material_prony(&prony, 0.49, &material, NULL), WT_OK);
+    assert_int_equal(wt_roughness_self_affine(900, 2500, 4e6, 0.8, 4e-16, &roughness, NULL), WT_OK);
+    const double pressure = 4e5, velocity = 5e-3;
+    double exact = 0;
+    for (double tolerance = 1e-12; tolerance < 1e-2; tolerance *= 100) {
+        wt_friction_options options = wt_friction_defaults();
+        options.tolerance = tolerance;
+        wt_friction_workspace *ws = NULL;
+        wt_friction_point point;
+        rig r = {.parameters = wt_layer_defaults()};
+        assert_int_equal(wt_friction_workspace_new(material, roughness, &options, &ws, NULL),
+                         WT_OK);
+        assert_int_equal(wt_friction_compute(ws, pressure, &velocity, 1, &point, NULL), WT_OK);
+        assert_int_equal(wt_energy_source_friction(ws, pressure, velocity, &r.source, NULL), WT_OK);
+        assert_true(r.source.numerical_error <= tolerance + 1e-13);
+        assert_near(wt_energy_tail(&r.source, 0), point.hysteresis.value * pressure * velocity,
+                    point.hysteresis.numerical_error / point.hysteresis.value +
+                        r.source.numerical_error);
+        r.parameters.critical_energy = 2e10;
+        r.parameters.specific_wear_rate = 2e-13;
+        r.parameters.pressure = pressure;
+        r.parameters.velocity = velocity;
+        const wt_estimate thickness = balance_of(&r).thickness;
+        if (exact == 0)
+            exact = thickness.value;
+        assert_true(exact > 1e-7);
+        assert_near_abs(thickness.value, exact, thickness.numerical_error * (1 + 1e-3));
+        rig_free(&r);
+        wt_friction_workspace_free(ws);
+    }
+    wt_material_free(material);
+    wt_roughness_free(roughness);
+}
+
+/* ---- a layer on a half-space ----------------------------------------------------------------- */
+
+static void layered_limits(void **state)
+{
+    (void)state;
+    const double ratios[] = {1e-9, 1e-3, 0.385, 1, 2.385, 1e3, 1e9};
+    for (size_t i = 0; i < 7; i++) {
+        assert_near(wt_layered_scale(0, ratios[i]), 1, 0);
+        assert_near(wt_layered_scale(1e200, ratios[i]), ratios[i], 0);
+        assert_near(wt_layered_scale(50, ratios[i]), ratios[i], 1e-14);
+        double last = 1;
+        for (double x = 1e-9; x < 100; x *= 1.3) { /* from bulk to layer, without a turn */
+            const double scale = wt_layered_scale(x, ratios[i]);
+            const double step = (scale - last) * (ratios[i] > 1 ? 1 : -1);
+            assert_true(step >= -4 * DBL_EPSILON * scale);
+            last = scale;
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(numeric_cases),
+        cmocka_unit_test(step_in_severity),
+        cmocka_unit_test(buried_band),
+        cmocka_unit_test(three_ways_agree),
+        cmocka_unit_test(restart_changes_nothing),
+        cmocka_unit_test(monotone_and_same_end),
+        cmocka_unit_test(what_moves_the_balance),
+        cmocka_unit_test(regimes),
+        cmocka_unit_test(nothing_happens),
+        cmocka_unit_test(bad_input),
+        cmocka_unit_test(density_tail_gain),
+        cmocka_unit_test(source_of_friction),
+        cmocka_unit_test(layered_limits),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
