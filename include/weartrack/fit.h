@@ -15,7 +15,22 @@ extern "C" {
 /* ---- one force curve: baseline, contact point, modulus ----------------------------------------
  */
 
-/* Why a curve has no modulus, or what is odd about it. One list: identifier, words. */
+/* Why a curve has no modulus. One list: identifier, words. Tested in about this
+ * order; the first that applies is given, with its numbers:
+ *   not_finite         more than 10 % of the samples are missing
+ *   too_short          fewer than 32 different samples, or than 8 in contact
+ *   no_approach        the height does not go one way; the force falls along the segment
+ *   saturated          the force stands still while the piezo goes on
+ *   rigid              the tip advances less than 2 % of the bending of the lever, or 1 % of
+ *                      sensitivity would change the modulus by more than 50 %
+ *   negative_modulus, no_contact   no contact point gives a positive modulus; the largest force is
+ *                      less than 5 times the noise
+ *   no_baseline        contact before the first sample; baseline of fewer than 10 samples, or
+ *                      shorter than 10 % of the indentation
+ *   ambiguous_contact  a second contact point is as likely (2 ln likelihood ratio < 4, with the
+ *                      effective number of samples) and gives a modulus that differs by 10 %
+ *   disturbed_baseline a wave on it of more than 10 % of the largest force, peak to peak
+ *   poor_fit           R^2 of force against indentation in contact, or no convergence */
 #define WT_CURVE_VERDICT_LIST(X)                                                                   \
     X(WT_CURVE_ACCEPTED, "accepted", "accepted")                                                   \
     X(WT_CURVE_NO_APPROACH, "no_approach", "the curve has no approach segment")                    \

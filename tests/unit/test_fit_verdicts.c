@@ -4,6 +4,7 @@
 #include "synthetic_curve.h"
 #include "weartrack/fit.h"
 
+#include <float.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -268,6 +269,39 @@ static void several_contact_points(void **state)
     assert_true(ambiguous > 0);
 }
 
+/* Numbers of no meaning at all: always a verdict with a reason, never a modulus that is not a
+ * number.
+ */
+static void nonsense_has_a_verdict_too(void **state)
+{
+    (void)state;
+    curve_truth t = curve_standard();
+    uint64_t random = 4711;
+    for (int i = 0; i < 400; i++) {
+        t.n = 1 + (size_t)(200.0 * curve_uniform(&random));
+        double scale = pow(10.0, 40.0 * curve_uniform(&random) - 30.0), walk = 0.0;
+        double height_scale = i % 5 == 0 ? 1e300 : pow(10.0, 20.0 * curve_uniform(&random) - 15.0);
+        for (size_t k = 0; k < t.n; k++) {
+            walk += curve_normal(&random);
+            data.force[k] = scale * (i % 2 == 0 ? walk : curve_normal(&random));
+            data.height[k] = height_scale * (i % 3 == 0 ? curve_normal(&random) : (double)k);
+            data.time[k] = i % 7 == 0 ? (double)NAN : (double)k;
+            if (i % 4 == 0 && curve_uniform(&random) < 0.05)
+                data.force[k] = k % 2 == 0 ? (double)NAN : -DBL_MAX;
+        }
+        wt_indent_options options = wt_indent_defaults();
+        options.minimum_r_squared = -DBL_MAX;
+        options.fit_tilt = i % 2 == 1;
+        options.fit_depth = i % 6 == 0 ? 1e-8 : 0.0;
+        options.plain_least_squares = i % 8 == 0;
+        wt_indent_fit fit = fit_with(&t, &options);
+        assert_true(fit.reason[0] != '\0');
+        assert_true(fit.verdict == WT_CURVE_ACCEPTED
+                        ? isfinite(fit.modulus.value) && fit.modulus.value > 0.0
+                        : isnan(fit.modulus.value));
+    }
+}
+
 static void names_of_verdicts(void **state)
 {
     (void)state;
@@ -303,6 +337,7 @@ int main(void)
         cmocka_unit_test(snap_on_is_left_out),
         cmocka_unit_test(not_this_tip),
         cmocka_unit_test(several_contact_points),
+        cmocka_unit_test(nonsense_has_a_verdict_too),
         cmocka_unit_test(names_of_verdicts),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
