@@ -1,0 +1,28 @@
+/* The truth behind the bundled case. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef TESTS_GENERATE_GENERATE_H
+#define TESTS_GENERATE_GENERATE_H
+
+#include "weartrack/flow.h"
+
+/* Rubber: a Prony series in shear at 20 degC, WLF, moduli proportional to the temperature. */
+#define TRUTH_REFERENCE 293.15
+#define TRUTH_C1 6.5
+#define TRUTH_C2 110.0
+#define TRUTH_TERMS 23
+
+/* Indentation at 23 degC; the wear track is softer by one factor at all rates. */
+#define TRUTH_TEMPERATURE 296.15
+#define TRUTH_RATIO 0.64
+
+wt_rubber truth_rubber(double relaxation_time[TRUTH_TERMS], double modulus[TRUTH_TERMS]);
+/* Vertical shift b(T): the measured moduli times b are those at the reference. */
+double truth_vertical(double temperature);
+
+/* Normal deviates that are the same on every machine (up to the mathematical library). */
+double truth_normal(uint64_t *state);
+
+/* Each writes its files into a folder; 0, or -1 with a text on stderr. */
+int generate_dma(const wt_rubber *rubber, const char *folder);
+int generate_curves(const wt_rubber *rubber, const char *folder);
+
+#endif

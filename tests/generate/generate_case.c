@@ -1,0 +1,137 @@
+/* Writes the data files of the bundled case and the truth behind them:
+ *   generate_case FOLDER CASE.xml
+ * The same bytes every time. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/steps.h"
+#include "generate.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* splitmix64 and Box-Muller. */
+static double uniform(uint64_t *state)
+{
+    uint64_t z = (*state += UINT64_C(0x9e3779b97f4a7c15));
+    z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
+    z = (z ^ (z >> 27)) * UINT64_C(0x94d049bb133111eb);
+    return ((double)((z ^ (z >> 31)) >> 11) + 0.5) * 0x1p-53;
+}
+
+double truth_normal(uint64_t *state)
+{
+    double radius = sqrt(-2 * log(uniform(state)));
+    return radius * cos(2 * 3.14159265358979323846 * uniform(state));
+}
+
+double truth_vertical(double temperature)
+{
+    return TRUTH_REFERENCE / temperature;
+}
+
+/* Two terms for each decade from 1e-8 s to 1e3 s: the transition, and a slow process on the
+ * plateau, without which horizontal and vertical shifts could not be told apart there. */
+wt_rubber truth_rubber(double relaxation_time[TRUTH_TERMS], double modulus[TRUTH_TERMS])
+{
+    for (int k = 0; k < TRUTH_TERMS; k++) {
+        double decade = -8 + 0.5 * k;
+        relaxation_time[k] = pow(10, decade);
+        modulus[k] = 3e7 * pow(10, -0.62 * (decade + 8)) + 3e4 +
+                     3e5 * exp(-(decade - 0.5) * (decade - 0.5) / 2);
+    }
+    return (wt_rubber){
+        .prony = {.deformation = WT_SHEAR,
+                  .reference_temperature = TRUTH_REFERENCE,
+                  .equilibrium_modulus = 1.2e6,
+                  .n = TRUTH_TERMS,
+                  .relaxation_time = relaxation_time,
+                  .modulus = modulus,
+                  .frequency_min = NAN,
+                  .frequency_max = NAN},
+        .poisson_ratio = 0.5,
+        .has_wlf = true,
+        .wlf = {TRUTH_REFERENCE, TRUTH_C1, TRUTH_C2},
+        .temperature_min = NAN,
+        .temperature_max = NAN,
+    };
+}
+
+static double key(const wt_table *table, const char *name)
+{
+    wt_estimate e = {NAN, NAN, NAN, ""};
+    return wt_table_estimate(table, name, &e) ? e.value : (double)NAN;
+}
+
+/* Friction and thickness of the true material under the conditions of the case file. */
+static int write_truth(const wt_rubber *rubber, const char *folder, const char *case_path)
+{
+    int result = -1;
+    wt_case *c = NULL;
+    wt_surface surface = {0};
+    wt_layer_tables layer = {0};
+    wt_friction_tables friction = {0};
+    wt_job job = wt_job_defaults();
+    wt_error err = WT_ERROR_INIT;
+    FILE *out = NULL;
+    char *path = wt_path_join(folder, "truth.txt");
+    job.replicates = 0;
+    wt_status status = wt_case_read(case_path, &c, &err);
+    if (status == WT_OK)
+        status = flow_case_surface(c, &job, &surface, &err);
+    if (status != WT_OK)
+        goto done;
+    wt_sliding sliding = flow_case_conditions(c, rubber, &surface);
+    status = wt_layer_make(&sliding, &c->layer, &job, &layer, &err);
+    if (status != WT_OK)
+        goto done;
+    wt_layer_known known = {layer.thickness, {TRUTH_RATIO, 0, 0, "1"}};
+    status = wt_friction_make(&sliding, &known, &job, &friction, &err);
+    out = status != WT_OK || path == NULL ? NULL : fopen(path, "w");
+    if (out == NULL)
+        goto done;
+    fputs("# What the data of this case were made from, and what follows from it without error.\n"
+          "# name value (SI units)\n",
+          out);
+    fprintf(out, "modulus_ratio %.6g\n", TRUTH_RATIO);
+    fprintf(out, "reference_temperature %.6g\n", TRUTH_REFERENCE);
+    fprintf(out, "wlf_c1 %.6g\nwlf_c2 %.6g\n", TRUTH_C1, TRUTH_C2);
+    fprintf(out, "hysteresis %.6g\n", key(friction.friction, "hysteresis_at_reference"));
+    fprintf(out, "area_ratio %.6g\n", key(friction.friction, "area_ratio_at_reference"));
+    fprintf(out, "friction %.6g\n", key(friction.friction, "friction_at_reference"));
+    fprintf(out, "friction_with_layer %.6g\n",
+            key(friction.friction, "friction_with_layer_at_reference"));
+    fprintf(out, "thickness %.6g\n", layer.thickness.value);
+    result = ferror(out) ? -1 : 0;
+done:
+    if (out != NULL && fclose(out) != 0)
+        result = -1;
+    if (result != 0)
+        fprintf(stderr, "%s: %s: %s; %s\n", err.file, err.place, err.message, err.found);
+    wt_layer_tables_clear(&layer);
+    wt_friction_tables_clear(&friction);
+    wt_case_free(c);
+    free(path);
+    return result;
+}
+
+int main(int argc, char **argv)
+{
+    double relaxation_time[TRUTH_TERMS], modulus[TRUTH_TERMS];
+    if (argc != 3) {
+        fprintf(stderr, "usage: generate_case FOLDER CASE.xml\n");
+        return 2;
+    }
+    wt_rubber rubber = truth_rubber(relaxation_time, modulus);
+    /* log b of the isotherms, for the material at another temperature */
+    double temperature[13], log_b[13];
+    for (int i = 0; i < 13; i++) {
+        temperature[i] = 243.15 + 10 * i;
+        log_b[i] = log10(truth_vertical(temperature[i]));
+    }
+    rubber.n_vertical = 13;
+    rubber.vertical_temperature = temperature;
+    rubber.vertical_log_b = log_b;
+    return generate_dma(&rubber, argv[1]) != 0 || generate_curves(&rubber, argv[1]) != 0 ||
+                   write_truth(&rubber, argv[1], argv[2]) != 0
+               ? EXIT_FAILURE
+               : EXIT_SUCCESS;
+}

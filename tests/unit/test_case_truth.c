@@ -1,0 +1,171 @@
+/* The bundled case gives back the truth behind its data, inside the intervals it states.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "near.h"
+
+#include "flow/tables.h"
+#include "weartrack/flow.h"
+
+#include <string.h>
+
+#define CASE WT_SOURCE_DIR "/fixtures/case"
+
+/* Two-sided 99.7 % of a normal distribution: a test that fails by chance would be no test. */
+#define SIGMAS 3.0
+
+static wt_result *result;
+static size_t n_failed;
+
+static int run_case(void **state)
+{
+    (void)state;
+    wt_case *c = NULL;
+    wt_error err = WT_ERROR_INIT;
+    if (wt_case_read(CASE "/case.xml", &c, &err) != WT_OK ||
+        wt_run(c, NULL, NULL, &result, &n_failed, &err) != WT_OK) {
+        print_error("%s: %s: %s\n", err.file, err.place, err.message);
+        wt_case_free(c);
+        return -1;
+    }
+    wt_case_free(c);
+    return 0;
+}
+
+static int free_result(void **state)
+{
+    (void)state;
+    wt_result_free(result);
+    return 0;
+}
+
+static double truth(const char *name)
+{
+    FILE *in = fopen(CASE "/truth.txt", "r");
+    char line[256], key[64];
+    double value = NAN, found = NAN;
+    assert_non_null(in);
+    while (fgets(line, sizeof line, in) != NULL)
+        if (sscanf(line, "%63s %lf", key, &value) == 2 && strcmp(key, name) == 0)
+            found = value;
+    fclose(in);
+    assert_true(isfinite(found) != 0);
+    return found;
+}
+
+static wt_estimate estimate(const char *table, const char *key)
+{
+    wt_estimate e = {0};
+    const wt_table *t = wt_result_find(result, table);
+    assert_non_null(t);
+    if (!wt_table_estimate(t, key, &e))
+        fail_msg("table %s has no estimate %s", table, key);
+    return e;
+}
+
+/* The truth lies within the stated error, and the stated error is worth stating. */
+static void check(const char *table, const char *key, const char *name, double most)
+{
+    wt_estimate e = estimate(table, key);
+    double expected = truth(name);
+    if (!(fabs(e.value - expected) <= SIGMAS * e.standard_error) ||
+        !(e.standard_error <= most * fabs(expected)))
+        fail_msg("%s: %.6g +- %.2g, truth %.6g", name, e.value, e.standard_error, expected);
+}
+
+static void test_nothing_failed(void **state)
+{
+    (void)state;
+    const wt_table *failures = wt_result_find(result, "failures");
+    assert_non_null(failures);
+    for (size_t i = 0; i < wt_table_n_rows(failures); i++)
+        print_error("%s: %s\n", flow_table_get_text(failures, i, "file"),
+                    flow_table_get_text(failures, i, "message"));
+    assert_int_equal(n_failed, 0);
+}
+
+static void test_ratio(void **state)
+{
+    (void)state;
+    const wt_table *c = wt_result_find(result, "comparison");
+    double expected = truth("modulus_ratio");
+    assert_non_null(c);
+    assert_string_equal(wt_table_key(c, "unit_of_analysis"), "spot");
+    assert_true(flow_table_get(c, 0, "ratio_low") < expected);
+    assert_true(flow_table_get(c, 0, "ratio_high") > expected);
+    assert_true(flow_table_get(c, 0, "ratio_high") < 1);
+    assert_true(flow_table_get(c, 0, "welch_p") < 0.01);
+    assert_int_equal(wt_table_n_rows(c), 4); /* all, and three rates */
+    for (size_t i = 1; i < 4; i++) {
+        assert_true(flow_table_get(c, i, "ratio_low") < expected);
+        assert_true(flow_table_get(c, i, "ratio_high") > expected);
+    }
+}
+
+static void test_material(void **state)
+{
+    (void)state;
+    check("shift_factors", "wlf_c1", "wlf_c1", 0.1);
+    check("shift_factors", "wlf_c2", "wlf_c2", 0.1);
+    const char *superposition =
+        wt_table_key(wt_result_find(result, "shift_factors"), "superposition");
+    assert_int_equal(strncmp(superposition, "holds", 5), 0);
+}
+
+/* The indentation modulus of the bulk is that of the DMA at the same rate. */
+static void test_against_dma(void **state)
+{
+    (void)state;
+    const wt_table *dma = wt_result_find(result, "dma_comparison");
+    size_t n_bulk = 0;
+    assert_non_null(dma);
+    for (size_t i = 0; i < wt_table_n_rows(dma); i++) {
+        bool bulk = strcmp(flow_table_get_text(dma, i, "group"), "bulk") == 0;
+        double modulus =
+            flow_table_get(dma, i, "dma_complex_modulus") * (bulk ? 1 : truth("modulus_ratio"));
+        assert_near(flow_table_get(dma, i, "indentation_modulus"), modulus, 0.1);
+        assert_near(flow_table_get(dma, i, "extrapolated"), 0, 0);
+        n_bulk += bulk ? 1 : 0;
+    }
+    assert_int_equal(n_bulk, 3);
+}
+
+static void test_friction(void **state)
+{
+    (void)state;
+    check("friction", "hysteresis_at_reference", "hysteresis", 0.2);
+    check("friction", "area_ratio_at_reference", "area_ratio", 0.2);
+    check("friction", "friction_at_reference", "friction", 0.2);
+    check("friction", "friction_with_layer_at_reference", "friction_with_layer", 0.3);
+}
+
+static void test_thickness(void **state)
+{
+    (void)state;
+    check("layer", "balance_thickness", "thickness", 0.5);
+}
+
+/* Every question has an answer that is not "not asked". */
+static void test_answer(void **state)
+{
+    (void)state;
+    const wt_table *answer = wt_result_find(result, "answer");
+    assert_non_null(answer);
+    assert_true(wt_table_n_rows(answer) >= 8);
+    for (size_t i = 0; i < wt_table_n_rows(answer); i++) {
+        const char *text = flow_table_get_text(answer, i, "answer");
+        print_message("%-10s %s\n", flow_table_get_text(answer, i, "kind"), text);
+        assert_null(strstr(text, "Not a"));
+        assert_null(strstr(text, "nan"));
+        assert_null(strstr(text, "not known"));
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_nothing_failed), cmocka_unit_test(test_ratio),
+        cmocka_unit_test(test_material),       cmocka_unit_test(test_against_dma),
+        cmocka_unit_test(test_friction),       cmocka_unit_test(test_thickness),
+        cmocka_unit_test(test_answer),
+    };
+    return cmocka_run_group_tests_name("case truth", tests, run_case, free_result);
+}

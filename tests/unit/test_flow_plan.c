@@ -1,0 +1,160 @@
+/* The plan: what runs, what is left out, and why. No data file exists in any of these cases.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "near.h"
+
+#include "flow/stages.h"
+#include "flow/tables.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#define HEAD "<case version=\"1\">\n"
+#define BULK "<bulk><files>bulk/*</files></bulk>"
+#define TRACK "<track><files>track/*</files></track>"
+#define TIP "<tip>sphere:radius=5um</tip>"
+#define DMA "<dma><files>dma/*</files></dma>"
+#define PRONY                                                                                      \
+    "<dma><prony deformation=\"tension\"><equilibrium>1MPa</equilibrium>"                          \
+    "<term time=\"1ms\" modulus=\"5MPa\"/></prony></dma>"
+#define ROAD                                                                                       \
+    "<roughness><self-affine><q0>1e3rad/m</q0><q1>1e6rad/m</q1><hurst>0.8</hurst>"                 \
+    "<c0>1e-17m^4</c0></self-affine></roughness>"
+#define SLIDE "<sliding><pressure>0.4MPa</pressure><velocity>1m/s</velocity></sliding>"
+#define LAYER                                                                                      \
+    "<layer><specific-wear-rate>1e-3mm^3/(N m)</specific-wear-rate>"                               \
+    "<critical-energy>1e10J/m^3</critical-energy></layer>"
+
+static wt_table *plan_of(const char *text)
+{
+    char path[] = "/tmp/weartrack-plan-XXXXXX";
+    int file = mkstemp(path);
+    wt_case *c = NULL;
+    wt_table *plan = NULL;
+    wt_error err = WT_ERROR_INIT;
+    assert_true(file >= 0);
+    assert_int_equal(write(file, text, strlen(text)), (ssize_t)strlen(text));
+    close(file);
+    if (wt_case_read(path, &c, &err) != WT_OK)
+        fail_msg("%s: %s %s", err.place, err.message, err.found);
+    assert_int_equal(wt_plan(c, &plan, NULL), WT_OK);
+    unlink(path);
+    wt_case_free(c);
+    return plan;
+}
+
+static size_t row_of(const wt_table *plan, const char *stage)
+{
+    for (size_t i = 0; i < wt_table_n_rows(plan); i++)
+        if (strcmp(flow_table_get_text(plan, i, "stage"), stage) == 0)
+            return i;
+    fail_msg("no stage %s", stage);
+    return 0;
+}
+
+/* `runs` lists the stages that run, each followed by a blank. */
+static void check_plan(const char *text, const char *runs)
+{
+    wt_table *plan = plan_of(text);
+    char found[512] = "";
+    assert_int_equal(wt_table_n_rows(plan), flow_n_stages);
+    for (size_t i = 0; i < wt_table_n_rows(plan); i++) {
+        bool chosen = flow_table_get(plan, i, "runs") > 0;
+        const char *because = flow_table_get_text(plan, i, "because");
+        assert_int_equal(
+            strncmp(because, chosen ? "runs because " : "left out because ", chosen ? 13 : 17), 0);
+        if (chosen) {
+            strcat(found, flow_table_get_text(plan, i, "stage"));
+            strcat(found, " ");
+        }
+    }
+    assert_string_equal(found, runs);
+    wt_table_free(plan);
+}
+
+static void check_because(const char *text, const char *stage, const char *part)
+{
+    wt_table *plan = plan_of(text);
+    const char *because = flow_table_get_text(plan, row_of(plan, stage), "because");
+    if (strstr(because, part) == NULL)
+        fail_msg("%s: %s", stage, because);
+    wt_table_free(plan);
+}
+
+static void test_what_runs(void **state)
+{
+    (void)state;
+    check_plan(HEAD "</case>", "");
+    check_plan(HEAD "<indentation>" TIP BULK "</indentation></case>",
+               "indentation_bulk bulk_alone ");
+    check_plan(HEAD "<indentation>" TIP BULK TRACK "</indentation></case>",
+               "indentation_bulk indentation_track comparison ");
+    check_plan(HEAD DMA "</case>", "master_curve ");
+    check_plan(HEAD PRONY ROAD SLIDE "</case>", "given_material roughness friction ");
+    check_plan(HEAD PRONY ROAD SLIDE LAYER "</case>", "given_material roughness layer friction ");
+    check_plan(HEAD "<indentation>" TIP BULK "</indentation>" DMA "</case>",
+               "indentation_bulk bulk_alone master_curve dma_comparison_bulk ");
+    check_plan(HEAD "<indentation>" TIP BULK TRACK "</indentation>" DMA ROAD SLIDE LAYER "</case>",
+               "indentation_bulk indentation_track comparison master_curve dma_comparison "
+               "roughness layer friction_with_layer ");
+}
+
+/* What is asked for decides: nothing else runs, and nothing else is read. */
+static void test_what_is_asked(void **state)
+{
+    (void)state;
+#define ALL HEAD "<indentation>" TIP BULK TRACK "</indentation>" DMA ROAD SLIDE LAYER
+    check_plan(ALL "<report><result>prony</result></report></case>", "master_curve ");
+    check_plan(ALL "<report><result>layer</result></report></case>",
+               "master_curve roughness layer ");
+    check_plan(ALL "<report><result>roughness</result></report></case>", "roughness ");
+    check_plan(ALL "<report><result>indentation/track</result></report></case>",
+               "indentation_track ");
+    check_plan(ALL "<report><result>cost</result></report></case>", "");
+    check_plan(ALL "<report><figure>power_spectrum</figure></report></case>", "roughness ");
+    check_plan(ALL "<compare><track-to-bulk/></compare></case>",
+               "indentation_bulk indentation_track comparison master_curve roughness layer "
+               "friction_with_layer ");
+}
+
+static void test_reasons(void **state)
+{
+    (void)state;
+    check_because(HEAD PRONY ROAD SLIDE "</case>", "layer", "no layer parameters (<layer>)");
+    check_because(HEAD PRONY ROAD "</case>", "friction", "no sliding conditions (<sliding>)");
+    check_because(HEAD ROAD SLIDE "</case>", "friction", "no DMA files");
+    check_because(HEAD "<indentation>" TIP BULK "</indentation></case>", "comparison",
+                  "no wear-track curves");
+    check_because(HEAD PRONY ROAD SLIDE LAYER "</case>", "friction_with_layer",
+                  "no bulk curves (<bulk> in <indentation>) and no modulus ratio");
+    check_because(ALL "</case>", "friction", "friction_with_layer gives its results");
+    check_because(ALL "</case>", "master_curve", "dma_comparison needs its material");
+    check_because(ALL "<report><result>layer</result></report></case>", "master_curve",
+                  "layer needs its material");
+    check_because(ALL "<report><result>layer</result></report></case>", "indentation_bulk",
+                  "nothing that is asked for needs it");
+}
+
+/* Every stage comes after those it needs, and every table has a stage that gives it. */
+static void test_table_of_stages(void **state)
+{
+    (void)state;
+    flow_things given = FLOW_BIT(FLOW_INDENTATION_BULK) - 1;
+    for (size_t i = 0; i < flow_n_stages; i++) {
+        assert_int_equal(flow_stages[i].needs & ~given, 0);
+        assert_non_null(flow_stages[i].run);
+        given |= flow_stages[i].gives;
+    }
+    assert_true(given == FLOW_BIT(FLOW_N_THINGS) - 1);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_what_runs),
+        cmocka_unit_test(test_what_is_asked),
+        cmocka_unit_test(test_reasons),
+        cmocka_unit_test(test_table_of_stages),
+    };
+    return cmocka_run_group_tests_name("flow plan", tests, NULL, NULL);
+}
