@@ -1,7 +1,7 @@
 /* weartrack - flow room: the jobs (one for each step of the work, used alone by a subcommand and
  * together by a run), the case file, the plan (which stages it needs and why), running it.
  *
- * Jobs give tables with the names, columns and units of weartrack-result(5); see base.h for
+ * Jobs give tables with the names, columns and units that the report room draws; see base.h for
  * ownership and errors.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
@@ -129,8 +129,8 @@ typedef struct wt_rubber {
     bool has_wlf;
     wt_wlf wlf;
     double c1_error, c2_error, c_correlation; /* of the WLF constants; 0 if given without */
-    double temperature_min, temperature_max; /* of the isotherms [K]; NaN = not known */
-    size_t n_vertical;                       /* log_b against temperature; 0 = no vertical shift */
+    double temperature_min, temperature_max;  /* of the isotherms [K]; NaN = not known */
+    size_t n_vertical;                        /* log_b against temperature; 0 = no vertical shift */
     double *vertical_temperature, *vertical_log_b;
     bool has_master; /* measured: replicates are possible */
     wt_master_curve master;

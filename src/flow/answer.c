@@ -38,7 +38,7 @@ flow_words flow_say_estimate(wt_estimate e)
         return words;
     const char *suffix = strchr(value.text, ' ');
     size_t length = suffix == NULL ? strlen(value.text) : (size_t)(suffix - value.text);
-    double shown = NAN;
+    double shown = (double)NAN;
     if (!wt_number_parse(value.text, length, '.', &shown) || !(fabs(shown) > 0))
         return words;
     double error = e.standard_error * fabs(shown / e.value);
@@ -48,11 +48,21 @@ flow_words flow_say_estimate(wt_estimate e)
     return words;
 }
 
+flow_words flow_say_celsius(double kelvin)
+{
+    flow_words words;
+    snprintf(words.text, sizeof words.text,
+             "%.1f \xc2\xb0"
+             "C",
+             kelvin - 273.15);
+    return words;
+}
+
 wt_estimate flow_key(const wt_table *table, const char *key)
 {
-    wt_estimate e = {NAN, NAN, NAN, "1"};
+    wt_estimate e = {(double)NAN, (double)NAN, (double)NAN, "1"};
     if (table == NULL || !wt_table_estimate(table, key, &e))
-        return (wt_estimate){NAN, NAN, NAN, "1"};
+        return (wt_estimate){(double)NAN, (double)NAN, (double)NAN, "1"};
     return e;
 }
 
@@ -155,7 +165,7 @@ static wt_status say_group(const wt_table *groups, const char *name, const char 
 
 static wt_status say_rates(const wt_table *comparison, wt_table *table, wt_error *err)
 {
-    double low = NAN, high = NAN, least = NAN;
+    double low = (double)NAN, high = (double)NAN, least = (double)NAN;
     size_t n = 0;
     for (size_t i = 1; i < wt_table_n_rows(comparison); i++) {
         double ratio = flow_table_get(comparison, i, "ratio");
@@ -176,7 +186,7 @@ static wt_status say_rates(const wt_table *comparison, wt_table *table, wt_error
 
 static wt_status say_dma(const wt_table *dma, wt_table *table, wt_error *err)
 {
-    double low = NAN, high = NAN;
+    double low = (double)NAN, high = (double)NAN;
     size_t n = 0;
     for (size_t i = 0; i < wt_table_n_rows(dma); i++) {
         if (strcmp(flow_table_get_text(dma, i, "group"), "bulk") != 0)
@@ -188,10 +198,12 @@ static wt_status say_dma(const wt_table *dma, wt_table *table, wt_error *err)
     }
     if (n == 0)
         return WT_OK;
+    char range[64];
+    snprintf(range, sizeof range, n > 1 ? "%.3g to %.3g" : "%.3g", low, high);
     return flow_answer_add(table, err, how_different, "difference",
-                           "At equal frequency the indentation modulus of the bulk is %.3g to "
-                           "%.3g times |E*| of the DMA.",
-                           low, high);
+                           "At equal frequency the indentation modulus of the bulk is %s times "
+                           "|E*| of the DMA.",
+                           range);
 }
 
 static wt_status answer_difference(const flow_story *story, wt_table *table, wt_error *err)

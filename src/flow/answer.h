@@ -14,6 +14,7 @@ typedef struct flow_story {
     const flow_plan *plan;
     const flow_outcome *outcome; /* [flow_n_stages] */
     const wt_result *result;
+    const wt_parselog *log;
     size_t n_failures;
 } flow_story;
 
@@ -33,6 +34,7 @@ typedef struct flow_words {
 } flow_words;
 flow_words flow_say(double value, const char *unit);
 flow_words flow_say_estimate(wt_estimate estimate);
+flow_words flow_say_celsius(double kelvin);
 /* Reads an estimate key of a table (NULL allowed); all NaN if absent. */
 wt_estimate flow_key(const wt_table *table, const char *key);
 

@@ -53,17 +53,17 @@ static void set_defaults(wt_case *c)
 {
     c->title = "";
     c->indent = wt_indent_defaults();
-    c->indentation_temperature = NAN;
-    c->bulk.spring_constant = c->track.spring_constant = (wt_estimate){NAN, 0, 0, "N/m"};
+    c->indentation_temperature = (double)NAN;
+    c->bulk.spring_constant = c->track.spring_constant = (wt_estimate){(double)NAN, 0, 0, "N/m"};
     c->shift = wt_shift_defaults();
-    c->shift.reference_temperature = NAN;
+    c->shift.reference_temperature = (double)NAN;
     c->prony_options = wt_prony_defaults();
     c->poisson_ratio = 0.5;
-    c->spectrum_q0 = c->spectrum_q1 = NAN;
+    c->spectrum_q0 = c->spectrum_q1 = (double)NAN;
     c->sliding = wt_sliding_defaults();
     c->layer = wt_layer_job_defaults();
-    c->layer_velocity = NAN;
-    c->modulus_ratio = (wt_estimate){NAN, 0, 0, "1"};
+    c->layer_velocity = (double)NAN;
+    c->modulus_ratio = (wt_estimate){(double)NAN, 0, 0, "1"};
 }
 
 wt_status wt_case_read(const char *path, wt_case **out, wt_error *err)

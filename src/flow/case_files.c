@@ -85,7 +85,7 @@ wt_status case_read_files(wt_case *c, const xmlNode *parent, const char *name, c
     for (const xmlNode *node = case_child(parent, name); node != NULL; node = case_next(node, name))
         n++;
     wt_file_set defaults = {.folder = c->folder, .read = wt_read_defaults()};
-    wt_estimate common = {NAN, 0, 0, "N/m"};
+    wt_estimate common = {(double)NAN, 0, 0, "N/m"};
     wt_status status = read_attributes(c, parent, &defaults, &common, err);
     files->sets = case_alloc(c, n * sizeof *files->sets);
     const char **patterns = case_alloc(c, n * sizeof *patterns);
@@ -106,7 +106,7 @@ wt_status case_read_files(wt_case *c, const xmlNode *parent, const char *name, c
         if (i == 0)
             files->spring_constant = k;
         else if (!same(files->spring_constant.value, k.value))
-            files->spring_constant.value = NAN;
+            files->spring_constant.value = (double)NAN;
     }
     return status;
 }

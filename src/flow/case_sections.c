@@ -82,7 +82,7 @@ static wt_status read_terms(wt_case *c, const xmlNode *prony, wt_error *err)
 {
     wt_prony *p = &c->prony;
     const char *deformation = NULL;
-    wt_estimate low = {NAN, 0, 0, ""}, high = {NAN, 0, 0, ""};
+    wt_estimate low = {(double)NAN, 0, 0, ""}, high = {(double)NAN, 0, 0, ""};
     wt_status status = case_get_attribute(c, prony, "deformation", &deformation, err);
     if (status == WT_OK)
         status =
@@ -110,7 +110,7 @@ static wt_status read_terms(wt_case *c, const xmlNode *prony, wt_error *err)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     const xmlNode *node = case_child(prony, "term");
     for (size_t i = 0; i < p->n; i++, node = case_next(node, "term")) {
-        wt_estimate time = {NAN, 0, 0, "s"}, modulus = {NAN, 0, 0, "Pa"};
+        wt_estimate time = {(double)NAN, 0, 0, "s"}, modulus = {(double)NAN, 0, 0, "Pa"};
         status = case_get_attribute_estimate(c, node, "time", WT_Q_TIME, &time, err);
         if (status == WT_OK)
             status = case_get_attribute_estimate(c, node, "modulus", WT_Q_MODULUS, &modulus, err);
@@ -199,7 +199,7 @@ static wt_status read_self_affine(wt_case *c, const xmlNode *node, wt_error *err
     wt_surface *s = &c->self_affine;
     wt_roughness *law = NULL;
     s->self_affine = true;
-    s->qr = NAN;
+    s->qr = (double)NAN;
     wt_status status = case_get_number(c, node, "q0", WT_Q_WAVENUMBER, &s->q0, err);
     if (status == WT_OK)
         status = case_get_number(c, node, "qr", WT_Q_WAVENUMBER, &s->qr, err);

@@ -23,9 +23,9 @@ static int compare_numbers(const void *a, const void *b)
 static double median_accepted(const wt_table *table, const char *column)
 {
     size_t rows = wt_table_n_rows(table), n = 0;
-    double *values = malloc((rows + 1) * sizeof *values), median = NAN;
+    double *values = malloc((rows + 1) * sizeof *values), median = (double)NAN;
     if (values == NULL)
-        return NAN;
+        return (double)NAN;
     for (size_t i = 0; i < rows; i++) {
         double value = flow_table_get(table, i, column);
         if (!isnan(value) && strcmp(flow_table_get_text(table, i, "verdict"), "accepted") == 0)
@@ -78,9 +78,8 @@ static wt_status indentation_caveats(const flow_story *story, wt_table *table, w
                                      wt_table_n_rows(t), words[g], reasons);
         if (status == WT_OK && spots != NULL && strcmp(spots, "named") != 0)
             status = flow_answer_add(table, err, question, "caveat",
-                                     "The spots of the %s curves are not all named (%s): curves of "
-                                     "one place count as independent if they lie in several of "
-                                     "these.",
+                                     "Spots of the %s curves (%s): if some are of one place, they "
+                                     "are not independent and the intervals are too narrow.",
                                      words[g], spots);
         if (status == WT_OK && !isnan(gain))
             status = flow_answer_add(table, err, question, "caveat",
@@ -90,6 +89,45 @@ static wt_status indentation_caveats(const flow_story *story, wt_table *table, w
                                      "far safer than either modulus.",
                                      words[g], gain);
     }
+    return status;
+}
+
+/* A temperature that the case does not say is taken from the material. */
+static wt_status temperature_caveats(const flow_story *story, wt_table *table, wt_error *err)
+{
+    const wt_table *friction = wt_result_find(story->result, "friction");
+    const wt_table *dma = wt_result_find(story->result, "dma_comparison");
+    wt_status status = WT_OK;
+    if (friction != NULL && isnan(story->c->sliding.temperature.value))
+        status = flow_answer_add(table, err, question, "caveat",
+                                 "The case does not say the temperature of sliding: friction is "
+                                 "that at the reference temperature of the material, %s.",
+                                 flow_say_celsius(flow_key(friction, "temperature").value).text);
+    if (status == WT_OK && dma != NULL && isnan(story->c->indentation_temperature))
+        status = flow_answer_add(table, err, question, "caveat",
+                                 "The case does not say the temperature of indentation: it is "
+                                 "compared with DMA at the reference temperature, %s.",
+                                 flow_say_celsius(flow_key(dma, "temperature").value).text);
+    return status;
+}
+
+/* The first warnings in full, the others by number. */
+static wt_status warnings(const flow_story *story, wt_table *table, wt_error *err)
+{
+    enum { SHOWN = 5 };
+    size_t n = 0;
+    wt_status status = WT_OK;
+    for (size_t i = 0; status == WT_OK && i < wt_parselog_count(story->log); i++) {
+        wt_log_entry entry = wt_parselog_get(story->log, i);
+        if (entry.severity != WT_WARNING || ++n > SHOWN)
+            continue;
+        status = flow_answer_add(table, err, question, "caveat", "Warning%s%s: %s.",
+                                 entry.file[0] != '\0' ? " of " : "", wt_path_base(entry.file),
+                                 entry.text);
+    }
+    if (status == WT_OK && n > SHOWN)
+        status = flow_answer_add(table, err, question, "caveat",
+                                 "%zu more warnings are in the table notes.", n - SHOWN);
     return status;
 }
 
@@ -235,5 +273,9 @@ wt_status flow_caveats(const flow_story *story, wt_table *table, wt_error *err)
         status = friction_caveats(story, table, err);
     if (status == WT_OK)
         status = layer_caveats(story, table, err);
+    if (status == WT_OK)
+        status = temperature_caveats(story, table, err);
+    if (status == WT_OK)
+        status = warnings(story, table, err);
     return status;
 }

@@ -188,7 +188,7 @@ static wt_status compare_part(pair *p, size_t bin, bool by_curve, row *r, wt_err
     r->n[1] = track.n;
     r->low = bin == SIZE_MAX ? (double)NAN : p->low[bin];
     r->high = bin == SIZE_MAX ? (double)NAN : p->high[bin];
-    r->holm = NAN;
+    r->holm = (double)NAN;
     wt_error ignored = WT_ERROR_INIT;
     wt_status status = wt_compare(&bulk, &track, &r->c, &ignored);
     r->valid = status == WT_OK;
@@ -372,7 +372,7 @@ static wt_status dma_row(wt_table *table, int g, const rate_point *point,
                          const wt_material *material, wt_error *err)
 {
     enum { GROUP, FREQUENCY, MODULUS, LOW, HIGH, STORAGE, COMPLEX, RATIO, EXTRAPOLATED };
-    double storage = NAN, loss = NAN;
+    double storage = (double)NAN, loss = (double)NAN;
     wt_status status = wt_table_add_row(table, err);
     if (status == WT_OK)
         status = wt_table_put_text(table, GROUP, group_name[g], err);

@@ -9,11 +9,11 @@
 wt_sliding wt_sliding_defaults(void)
 {
     return (wt_sliding){
-        .pressure = {NAN, 0, 0, "Pa"},
-        .temperature = {NAN, 0, 0, "K"},
-        .shear_stress = {NAN, 0, 0, "Pa"},
+        .pressure = {(double)NAN, 0, 0, "Pa"},
+        .temperature = {(double)NAN, 0, 0, "K"},
+        .shear_stress = {(double)NAN, 0, 0, "Pa"},
         .gamma = 1,
-        .reference_velocity = NAN,
+        .reference_velocity = (double)NAN,
     };
 }
 

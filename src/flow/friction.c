@@ -63,9 +63,9 @@ static wt_status compute(const work *w, size_t replicate, double tolerance, unsi
         slot(out, w->n, AREA)[i] = points[i].area_ratio.value;
         slot(out, w->n, TOTAL)[i] =
             points[i].hysteresis.value + c.shear_stress * points[i].area_ratio.value / c.pressure;
-        slot(out, w->n, LAYERED)[i] = NAN;
-        slot(out, w->n, CHANGE)[i] = NAN;
-        slot(out, w->n, RELATIVE)[i] = NAN;
+        slot(out, w->n, LAYERED)[i] = (double)NAN;
+        slot(out, w->n, CHANGE)[i] = (double)NAN;
+        slot(out, w->n, RELATIVE)[i] = (double)NAN;
     }
 done:
     flow_conditions_clear(&c);
@@ -116,7 +116,7 @@ static wt_status one_replicate(void *user, size_t i, unsigned worker)
     if (status == WT_OK || status == WT_E_MEMORY)
         return status;
     for (size_t k = 0; k < N_KINDS * w->n; k++)
-        out[k] = NAN; /* a draw that has no solution is left out and counted */
+        out[k] = (double)NAN; /* a draw that has no solution is left out and counted */
     return WT_OK;
 }
 
@@ -124,7 +124,7 @@ static wt_status replicate_all(work *w, wt_error *err)
 {
     size_t stride = N_KINDS * w->n;
     for (size_t k = 0; k < stride; k++)
-        w->error[k] = NAN;
+        w->error[k] = (double)NAN;
     if (!w->varies)
         return WT_OK;
     wt_status status = wt_parallel_for(w->n_replicates, w->common->threads, one_replicate, w,
@@ -143,7 +143,7 @@ static wt_status replicate_all(work *w, wt_error *err)
         w->error[k] = flow_spread(w->replicate + k, w->n_replicates, stride);
     for (size_t i = 0; !w->bulk_varies && i < w->n; i++)
         slot(w->error, w->n, HYSTERESIS)[i] = slot(w->error, w->n, AREA)[i] =
-            slot(w->error, w->n, TOTAL)[i] = NAN;
+            slot(w->error, w->n, TOTAL)[i] = (double)NAN;
     return WT_OK;
 }
 
@@ -207,9 +207,9 @@ static wt_status layer_keys(work *w, wt_table *table, wt_error *err)
         status = flow_table_value(table, "relative_change_at_reference", relative[last],
                                   slot(w->error, w->n, RELATIVE)[last], 0, "1", err);
     if (status == WT_OK)
-        status = flow_table_value(table, "relative_change_low", low, NAN, 0, "1", err);
+        status = flow_table_value(table, "relative_change_low", low, (double)NAN, 0, "1", err);
     if (status == WT_OK)
-        status = flow_table_value(table, "relative_change_high", high, NAN, 0, "1", err);
+        status = flow_table_value(table, "relative_change_high", high, (double)NAN, 0, "1", err);
     return status;
 }
 

@@ -55,7 +55,7 @@ wt_indent_job wt_indent_job_defaults(void)
     return (wt_indent_job){
         .group = "bulk",
         .options = wt_indent_defaults(),
-        .spring_constant = {NAN, 0, 0, "N/m"},
+        .spring_constant = {(double)NAN, 0, 0, "N/m"},
         .rates = true,
     };
 }
@@ -113,26 +113,28 @@ static wt_status fit_item(void *user, size_t i, unsigned worker)
 
 static wt_indent_fit unreadable(const wt_error *error)
 {
-    wt_estimate none_pa = {NAN, NAN, NAN, "Pa"}, none_m = {NAN, NAN, NAN, "m"},
-                none_n = {NAN, NAN, NAN, "N"}, none_tilt = {NAN, NAN, NAN, "N/m"};
+    wt_estimate none_pa = {(double)NAN, (double)NAN, (double)NAN, "Pa"},
+                none_m = {(double)NAN, (double)NAN, (double)NAN, "m"},
+                none_n = {(double)NAN, (double)NAN, (double)NAN, "N"},
+                none_tilt = {(double)NAN, (double)NAN, (double)NAN, "N/m"};
     wt_indent_fit fit = {
         .verdict = WT_CURVE_UNREADABLE,
         .modulus = none_pa,
         .contact_point = none_m,
         .baseline_offset = none_n,
         .baseline_tilt = none_tilt,
-        .noise = NAN,
-        .correlation_length = NAN,
-        .r_squared = NAN,
-        .max_force = NAN,
-        .max_indentation = NAN,
-        .adhesion_force = NAN,
-        .piezo_rate = NAN,
-        .indentation_rate = NAN,
-        .load_time = NAN,
-        .second_minimum_ratio = NAN,
-        .second_contact_point = NAN,
-        .sensitivity_gain = NAN,
+        .noise = (double)NAN,
+        .correlation_length = (double)NAN,
+        .r_squared = (double)NAN,
+        .max_force = (double)NAN,
+        .max_indentation = (double)NAN,
+        .adhesion_force = (double)NAN,
+        .piezo_rate = (double)NAN,
+        .indentation_rate = (double)NAN,
+        .load_time = (double)NAN,
+        .second_minimum_ratio = (double)NAN,
+        .second_contact_point = (double)NAN,
+        .sensitivity_gain = (double)NAN,
     };
     snprintf(fit.reason, sizeof fit.reason, "%.159s", error->message);
     return fit;
@@ -155,9 +157,9 @@ static wt_status keep_modulus(work *w, double modulus, wt_error *err)
 /* Local exponent p of F ~ delta^p at the deepest point, for the equivalent frequency. */
 static double equivalent_frequency(const wt_tip *tip, const wt_indent_fit *fit)
 {
-    double g = NAN, slope = NAN;
+    double g = (double)NAN, slope = (double)NAN;
     if (!(fit->load_time > 0) || !(fit->max_indentation > 0))
-        return NAN;
+        return (double)NAN;
     wt_contact_function(tip, fit->max_indentation, &g, &slope);
     return wt_equivalent_frequency(fit->load_time, fit->max_indentation * slope / g);
 }
@@ -192,8 +194,8 @@ static wt_status write_item(work *w, item *it, wt_error *err)
         .fit = it->fit,
     };
     if (!w->job->rates) {
-        row.fit.piezo_rate = row.fit.indentation_rate = row.fit.load_time = NAN;
-        row.equivalent_frequency = NAN;
+        row.fit.piezo_rate = row.fit.indentation_rate = row.fit.load_time = (double)NAN;
+        row.equivalent_frequency = (double)NAN;
     }
     if (status == WT_OK)
         status = flow_indentation_add(w->table, &row, err);

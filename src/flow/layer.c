@@ -47,9 +47,9 @@ typedef struct centre {
 wt_layer_job wt_layer_job_defaults(void)
 {
     return (wt_layer_job){
-        .critical_energy = {NAN, 0, 0, "J/m^3"},
-        .observed_thickness = {NAN, 0, 0, "m"},
-        .specific_wear_rate = {NAN, 0, 0, "m^2/N"},
+        .critical_energy = {(double)NAN, 0, 0, "J/m^3"},
+        .observed_thickness = {(double)NAN, 0, 0, "m"},
+        .specific_wear_rate = {(double)NAN, 0, 0, "m^2/N"},
         .damage = 1,
         .duty = 1,
         .profile = WT_PROFILE_PERSSON,
@@ -202,7 +202,7 @@ static wt_status one_replicate(void *user, size_t i, unsigned worker)
             out[N_NUMBERS + k] = points[k].thickness.value;
     } else {
         for (size_t k = 0; k < w->stride; k++)
-            out[k] = NAN;
+            out[k] = (double)NAN;
     }
     wt_energy_source_clear(&source);
     free(points);
@@ -212,7 +212,7 @@ static wt_status one_replicate(void *user, size_t i, unsigned worker)
 static wt_status replicate_all(work *w, wt_error *err)
 {
     for (size_t k = 0; k < w->stride; k++)
-        w->error[k] = NAN;
+        w->error[k] = (double)NAN;
     if (!w->varies)
         return WT_OK;
     wt_status status = wt_parallel_for(w->n_replicates, w->common->threads, one_replicate, w,

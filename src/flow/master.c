@@ -10,7 +10,7 @@
 wt_master_job wt_master_job_defaults(void)
 {
     wt_master_job job = {.shift = wt_shift_defaults(), .prony = wt_prony_defaults()};
-    job.shift.reference_temperature = NAN;
+    job.shift.reference_temperature = (double)NAN;
     return job;
 }
 
@@ -338,8 +338,8 @@ wt_status wt_master_make(const wt_master_job *job, double poisson_ratio, const w
     wt_master_tables t = {0};
     wt_rubber r = {.poisson_ratio = poisson_ratio,
                    .prony_options = job->prony,
-                   .temperature_min = NAN,
-                   .temperature_max = NAN};
+                   .temperature_min = (double)NAN,
+                   .temperature_max = (double)NAN};
     wt_status status = read_sweeps(job, common, &sweep, err);
     if (status != WT_OK)
         goto done;

@@ -36,7 +36,7 @@ static wt_status parse_error_part(const char *text, wt_quantity quantity, double
 {
     size_t n = strlen(text);
     if (n > 1 && text[n - 1] == '%' && quantity != WT_Q_NONE) {
-        double percent = NAN;
+        double percent = (double)NAN;
         if (!wt_number_parse(text, n - 1, '.', &percent) || percent < 0) {
             wt_fail(err, WT_E_RANGE, "the stated error is not a share in per cent");
             wt_error_expected(err, "a number >= 0 before %%, as in \"0.4MPa +- 5%%\"");
@@ -52,7 +52,7 @@ static wt_status parse_error_part(const char *text, wt_quantity quantity, double
         return WT_OK;
     }
     wt_quantity kind = quantity == WT_Q_TEMPERATURE ? WT_Q_TEMPERATURE_DIFFERENCE : quantity;
-    double parsed = NAN;
+    double parsed = (double)NAN;
     wt_status status = wt_quantity_parse(text, kind, &parsed, err);
     if (status != WT_OK)
         return status;
@@ -71,7 +71,7 @@ wt_status wt_estimate_parse(const char *text, wt_quantity quantity, wt_estimate 
     if (text == NULL || estimate == NULL)
         return wt_fail(err, WT_E_ARG, "no text to parse");
     wt_status status;
-    wt_estimate parsed = {NAN, 0, 0, wt_quantity_unit(quantity)};
+    wt_estimate parsed = {(double)NAN, 0, 0, wt_quantity_unit(quantity)};
     char *head = NULL, *tail = NULL;
     size_t length = 0;
     const char *sign = find_plus_minus(text, &length);
@@ -154,7 +154,7 @@ static wt_status parse_range(const char *text, char *const part[4], wt_quantity 
                       : snprintf(first_text, sizeof first_text, "%s", part[0]);
     if (written < 0 || (size_t)written >= sizeof first_text)
         return list_error(text, "the first value is too long", err);
-    double first = NAN, last = NAN, count = NAN;
+    double first = (double)NAN, last = (double)NAN, count = (double)NAN;
     wt_status status = wt_quantity_parse(first_text, quantity, &first, err);
     if (status == WT_OK)
         status = wt_quantity_parse(part[1], quantity, &last, err);

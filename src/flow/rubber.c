@@ -149,7 +149,7 @@ static double key_value(const wt_table *table, const char *key, double *standard
 {
     wt_estimate e;
     if (table == NULL || !wt_table_estimate(table, key, &e))
-        return NAN;
+        return (double)NAN;
     if (standard_error != NULL)
         *standard_error = e.standard_error;
     return e.value;
@@ -191,8 +191,9 @@ wt_status wt_rubber_from_tables(const wt_table *prony, const wt_table *shift_fac
 {
     if (prony == NULL || result == NULL)
         return wt_fail(err, WT_E_ARG, "no Prony table");
-    wt_rubber rubber = {
-        .poisson_ratio = poisson_ratio, .temperature_min = NAN, .temperature_max = NAN};
+    wt_rubber rubber = {.poisson_ratio = poisson_ratio,
+                        .temperature_min = (double)NAN,
+                        .temperature_max = (double)NAN};
     size_t n = wt_table_n_rows(prony);
     const char *deformation = wt_table_key(prony, "deformation");
     wt_status status = wt_prony_alloc(&rubber.prony, n, err);

@@ -71,7 +71,7 @@ static wt_status report_progress(const conduct *d, const char *what, wt_error *e
 
 static wt_status run_stage(conduct *d, size_t i, const char *because, wt_error *err)
 {
-    flow_cost cost = {NAN, NAN, NAN};
+    flow_cost cost = {(double)NAN, (double)NAN, (double)NAN};
     wt_error failure = WT_ERROR_INIT;
     wt_status status = report_progress(d, flow_stages[i].title, err);
     if (status != WT_OK)
@@ -106,7 +106,7 @@ static wt_status run_stage(conduct *d, size_t i, const char *because, wt_error *
 static wt_status consider_stage(conduct *d, size_t i, wt_error *err)
 {
     const flow_plan *plan = &d->run.plan;
-    const flow_cost none = {0, NAN, NAN};
+    const flow_cost none = {0, (double)NAN, (double)NAN};
     char missing[160], because[256];
     if (stands_in(d, i))
         return run_stage(d, i, "runs because the stage that gives more did not succeed", err);
@@ -189,8 +189,8 @@ static wt_status finish(conduct *d, wt_error *err)
     warn_of_copies(d);
     wt_status status = publish_stages(d, err);
     if (status == WT_OK) {
-        const flow_story story = {d->run.c, &d->run.plan, d->outcome, d->result,
-                                  wt_table_n_rows(d->failures)};
+        const flow_story story = {d->run.c,  &d->run.plan,   d->outcome,
+                                  d->result, d->run.job.log, wt_table_n_rows(d->failures)};
         status = flow_answer(&story, &answer, err);
     }
     if (status == WT_OK)

@@ -44,8 +44,8 @@ wt_status flow_case_rubber(const wt_case *c, wt_rubber *result, wt_error *err)
         .wlf = {c->shift.reference_temperature, c->c1, c->c2},
         .c1_error = c->c1_error,
         .c2_error = c->c2_error,
-        .temperature_min = NAN,
-        .temperature_max = NAN,
+        .temperature_min = (double)NAN,
+        .temperature_max = (double)NAN,
     };
     wt_status status = wt_prony_alloc(&rubber.prony, c->prony.n, err);
     if (status != WT_OK)

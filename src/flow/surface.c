@@ -108,7 +108,7 @@ static wt_status read_spectrum(const char *path, const wt_read_options *read, co
         wt_error_file(err, path);
         wt_error_expected(err, "a two-dimensional spectrum C(q) in m^4");
     }
-    surface->q0 = surface->q1 = NAN;
+    surface->q0 = surface->q1 = (double)NAN;
     surface->c0 = (wt_estimate){1, 0, 0, "1"};
     return status;
 }
@@ -196,7 +196,7 @@ wt_status wt_surface_roughness(const wt_surface *surface, double factor, wt_roug
 
 static wt_status add_point(wt_table *table, const wt_roughness *roughness, double q, wt_error *err)
 {
-    double density = NAN;
+    double density = (double)NAN;
     wt_status status = wt_table_add_row(table, err);
     if (status != WT_OK)
         return status;

@@ -45,19 +45,19 @@ wt_rubber truth_rubber(double relaxation_time[TRUTH_TERMS], double modulus[TRUTH
                   .n = TRUTH_TERMS,
                   .relaxation_time = relaxation_time,
                   .modulus = modulus,
-                  .frequency_min = NAN,
-                  .frequency_max = NAN},
+                  .frequency_min = (double)NAN,
+                  .frequency_max = (double)NAN},
         .poisson_ratio = 0.5,
         .has_wlf = true,
         .wlf = {TRUTH_REFERENCE, TRUTH_C1, TRUTH_C2},
-        .temperature_min = NAN,
-        .temperature_max = NAN,
+        .temperature_min = (double)NAN,
+        .temperature_max = (double)NAN,
     };
 }
 
 static double key(const wt_table *table, const char *name)
 {
-    wt_estimate e = {NAN, NAN, NAN, ""};
+    wt_estimate e = {(double)NAN, (double)NAN, (double)NAN, ""};
     return wt_table_estimate(table, name, &e) ? e.value : (double)NAN;
 }
 

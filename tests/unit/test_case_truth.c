@@ -41,7 +41,7 @@ static double truth(const char *name)
 {
     FILE *in = fopen(CASE "/truth.txt", "r");
     char line[256], key[64];
-    double value = NAN, found = NAN;
+    double value = (double)NAN, found = (double)NAN;
     assert_non_null(in);
     while (fgets(line, sizeof line, in) != NULL)
         if (sscanf(line, "%63s %lf", key, &value) == 2 && strcmp(key, name) == 0)

@@ -72,7 +72,7 @@ static void test_full(void **state)
     assert_string_equal(c->bulk.sets[1].patterns[0], "bulk/2.jpk-force-map");
     assert_near(c->bulk.sets[1].read.spring_constant, 1, 0);
     assert_near(c->bulk.sets[1].read.sensitivity, 60e-9, 1e-14);
-    assert_near(c->bulk.sets[0].read.sensitivity, NAN, 0);
+    assert_near(c->bulk.sets[0].read.sensitivity, (double)NAN, 0);
     assert_near(c->bulk.spring_constant.standard_error, 0.05, 1e-14);
     assert_int_equal(c->track.sets[0].read.n_units, 2);
     assert_string_equal(c->track.sets[0].read.units[1], "Height=um");
