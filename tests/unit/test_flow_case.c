@@ -182,12 +182,72 @@ static void test_schema(void **state)
     wt_input_close(input);
 }
 
+/* Reads a whole file; to be freed. */
+static char *slurp(const char *name)
+{
+    wt_input *input = NULL;
+    const unsigned char *bytes = NULL;
+    size_t length = 0;
+    assert_int_equal(wt_input_open(name, &input, NULL), WT_OK);
+    assert_int_equal(wt_input_bytes(input, &bytes, &length, NULL), WT_OK);
+    char *copy = strndup((const char *)bytes, length);
+    assert_non_null(copy);
+    wt_input_close(input);
+    return copy;
+}
+
+/* The man page without the backslashes of its hyphens. */
+static char *man_page(void)
+{
+    char *page = slurp(WT_SOURCE_DIR "/man/weartrack-case.5"), *to = page;
+    for (const char *from = page; *from != '\0'; from++)
+        if (!(from[0] == '\\' && from[1] == '-'))
+            *to++ = *from;
+    *to = '\0';
+    return page;
+}
+
+/* Every element and attribute of the schema is described. */
+static void test_man_page_is_complete(void **state)
+{
+    (void)state;
+    char *page = man_page();
+    for (const char *at = wt_case_schema(); (at = strstr(at, " name=\"")) != NULL; at++) {
+        bool element = at - wt_case_schema() > 10 && strncmp(at - 10, "xs:element", 10) == 0;
+        bool attribute = at - wt_case_schema() > 12 && strncmp(at - 12, "xs:attribute", 12) == 0;
+        char name[64], wanted[72];
+        assert_int_equal(sscanf(at, " name=\"%63[^\"]\"", name), 1);
+        snprintf(wanted, sizeof wanted, element ? "<%s" : "%s", name);
+        if ((element || attribute) && strstr(page, wanted) == NULL)
+            fail_msg("weartrack-case(5) does not describe %s", wanted);
+    }
+    free(page);
+}
+
+/* Its example is a case. */
+static void test_man_page_example(void **state)
+{
+    (void)state;
+    char *page = man_page(), *begin = strstr(page, ".nf\n"), *end = strstr(page, ".fi\n");
+    wt_case *c = NULL;
+    wt_error err = WT_ERROR_INIT;
+    assert_true(begin != NULL && end > begin);
+    *end = '\0';
+    if (read_text(begin + 4, &c, &err) != WT_OK)
+        fail_msg("%s: %s; %s", err.place, err.message, err.found);
+    assert_true(wt_case_has_sliding(c));
+    wt_case_free(c);
+    free(page);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_full),
         cmocka_unit_test(test_wrong),
         cmocka_unit_test(test_schema),
+        cmocka_unit_test(test_man_page_is_complete),
+        cmocka_unit_test(test_man_page_example),
     };
     return cmocka_run_group_tests_name("flow case", tests, NULL, NULL);
 }

@@ -1,0 +1,137 @@
+/* A whole case from measured files of other people, where the shared reference data are present:
+ * two JPK maps in the place of bulk and wear track, an isotherm set of a soft polymer.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "near.h"
+
+#include "flow/tables.h"
+#include "weartrack/flow.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#define JPK WT_SHARED_DIR "/data/afm/jpk/"
+#define SWEEPS WT_SHARED_DIR "/data/dma/trios/frequency_sweep_tts.txt"
+
+static const char text[] =
+    "<case version=\"1\"><indentation><tip>pyramid:half-angle=17.5deg,radius=20nm</tip>"
+    "<bulk><files>" JPK "map-data-2022.10.29-12.27.34.564.jpk-force-map</files></bulk>"
+    "<track><files>" JPK "fmt-jpk-fd_map-data-reference-points.jpk-force-map</files></track>"
+    "</indentation><dma><files>" SWEEPS "</files></dma>"
+    "<roughness><self-affine><q0>2e3rad/m</q0><qr>4e3rad/m</qr><q1>2e6rad/m</q1>"
+    "<hurst>0.8</hurst><c0>2e-17m^4</c0></self-affine></roughness>"
+    "<sliding><pressure>0.4MPa</pressure><velocity>1e-4:10m/s:log:11</velocity>"
+    "<temperature>60degC</temperature><shear-stress>5MPa</shear-stress></sliding>"
+    "<layer><specific-wear-rate>1e-3mm^3/(N m)</specific-wear-rate>"
+    "<critical-energy>1e11J/m^3</critical-energy></layer></case>";
+
+static wt_result *run_case(const char *xml, size_t *n_failed)
+{
+    char path[] = "/tmp/weartrack-measured-XXXXXX";
+    int file = mkstemp(path);
+    wt_case *c = NULL;
+    wt_result *result = NULL;
+    wt_error err = WT_ERROR_INIT;
+    wt_run_options options = wt_run_defaults();
+    options.replicates = 8;
+    assert_true(file >= 0);
+    assert_int_equal(write(file, xml, strlen(xml)), (ssize_t)strlen(xml));
+    close(file);
+    if (wt_case_read(path, &c, &err) != WT_OK ||
+        wt_run(c, &options, NULL, &result, n_failed, &err) != WT_OK)
+        fail_msg("%s: %s: %s", err.file, err.place, err.message);
+    wt_case_free(c);
+    unlink(path);
+    return result;
+}
+
+static void test_measured(void **state)
+{
+    (void)state;
+    static const char *const tables[] = {"indentation/bulk",
+                                         "indentation/track",
+                                         "force_displacement",
+                                         "force_indentation",
+                                         "modulus_groups",
+                                         "modulus_rate",
+                                         "comparison",
+                                         "dma_comparison",
+                                         "shift_factors",
+                                         "master_curve",
+                                         "prony",
+                                         "roughness",
+                                         "friction",
+                                         "contact_area",
+                                         "layer",
+                                         "energy_density",
+                                         "answer",
+                                         "inputs",
+                                         "notes",
+                                         "failures",
+                                         "cost"};
+    if (access(SWEEPS, R_OK) != 0)
+        skip();
+    size_t n_failed = 99;
+    wt_result *result = run_case(text, &n_failed);
+    assert_int_equal(n_failed, 0);
+    for (size_t i = 0; i < FLOW_COUNT(tables); i++)
+        if (wt_result_find(result, tables[i]) == NULL)
+            fail_msg("no table %s", tables[i]);
+    assert_int_equal(wt_result_n_tables(result), FLOW_COUNT(tables));
+    assert_int_equal(wt_table_n_rows(wt_result_find(result, "indentation/bulk")), 16);
+    assert_int_equal(wt_table_n_rows(wt_result_find(result, "indentation/track")), 3);
+    assert_int_equal(wt_table_n_rows(wt_result_find(result, "shift_factors")), 20);
+    assert_int_equal(wt_table_n_rows(wt_result_find(result, "inputs")), 4);
+
+    /* a glass on the cold side, so friction is finite, positive, and known with its error */
+    const wt_table *friction = wt_result_find(result, "friction");
+    assert_int_equal(wt_table_n_rows(friction), 11);
+    for (size_t i = 0; i < 11; i++) {
+        double mu = flow_table_get(friction, i, "friction");
+        double area = flow_table_get(friction, i, "area_ratio");
+        assert_true(mu > 0 && mu < 15 && area > 0 && area <= 1);
+        assert_true(flow_table_get(friction, i, "friction_standard_error") > 0);
+        assert_true(flow_table_get(friction, i, "hysteresis_numerical_error") <=
+                    1e-9 * flow_table_get(friction, i, "hysteresis"));
+        assert_true(flow_table_get(friction, i, "friction_with_layer") > 0);
+    }
+    /* the two samples are not one material: the answer says what it rests on */
+    const wt_table *answer = wt_result_find(result, "answer");
+    bool spots = false, strain = false;
+    for (size_t i = 0; i < wt_table_n_rows(answer); i++) {
+        const char *sentence = flow_table_get_text(answer, i, "answer");
+        spots = spots || strstr(sentence, "each curve is a spot") != NULL;
+        strain = strain || strstr(sentence, "strain amplitudes") != NULL;
+    }
+    assert_true(spots && strain);
+    wt_result_free(result);
+}
+
+/* What is asked for decides what is opened: the curves of a case that asks for its material only
+ * need not exist. */
+static void test_only_what_is_asked(void **state)
+{
+    (void)state;
+    static const char xml[] =
+        "<case version=\"1\"><indentation><tip>sphere:radius=5um</tip><bulk><files>/nowhere/*"
+        "</files></bulk></indentation><dma><files>" SWEEPS "</files></dma>"
+        "<report><result>prony</result></report></case>";
+    if (access(SWEEPS, R_OK) != 0)
+        skip();
+    size_t n_failed = 99;
+    wt_result *result = run_case(xml, &n_failed);
+    assert_int_equal(n_failed, 0);
+    assert_int_equal(wt_table_n_rows(wt_result_find(result, "inputs")), 2);
+    assert_non_null(wt_result_find(result, "prony"));
+    assert_null(wt_result_find(result, "master_curve"));
+    wt_result_free(result);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_measured),
+        cmocka_unit_test(test_only_what_is_asked),
+    };
+    return cmocka_run_group_tests_name("flow measured", tests, NULL, NULL);
+}
