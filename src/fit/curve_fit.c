@@ -264,7 +264,7 @@ static bool leaves_the_sample(fitting *f, char reason[160])
     if (!(first - last > contact_noise * f->input.step_noise))
         return false;
     wt_curve_minimum minima[WT_CURVE_MAX_MINIMA];
-    double cost = INFINITY;
+    double cost = (double)INFINITY;
     size_t n = wt_curve_scan(f->table, s, true, false, f->workspace, minima, &unused);
     if (n > 0 && minima[0].contact_point > s->position[0])
         cost = minima[0].cost;

@@ -24,7 +24,7 @@ static void sum_baseline(wt_curve_model *m, size_t n)
 {
     const wt_curve_samples *s = m->samples;
     m->n_baseline = n;
-    m->baseline_end = -INFINITY;
+    m->baseline_end = -(double)INFINITY;
     m->z = m->zz = m->f = m->zf = m->ff = m->z0 = m->f0 = 0.0;
     for (size_t i = 0; i < n; i++) {
         m->z0 += s->position[i] / (double)n;
@@ -80,7 +80,7 @@ static void balance(const wt_curve_model *m, const double p[N], size_t first)
             deepest = z;
     }
     /* After a step of 1e-7 the error is of the order of its square. */
-    double largest_step = INFINITY;
+    double largest_step = (double)INFINITY;
     for (int i = 0; i < MAX_NEWTON && largest_step > 1e-7 * deepest; i++) {
         wt_contact_table_eval(m->table, w->delta + first, s->n - first, w->g + first,
                               w->slope + first);

@@ -84,7 +84,7 @@ static double select_kth(double *x, size_t n, size_t k)
  * step that occurs (the resolution of the converter where there is one). */
 static double difference_noise(const wt_curve_samples *s, double *scratch, double *resolution)
 {
-    *resolution = INFINITY;
+    *resolution = (double)INFINITY;
     for (size_t i = 1; i < s->n; i++) {
         scratch[i - 1] = fabs(s->force[i] - s->force[i - 1]);
         if (scratch[i - 1] > 0.0 && scratch[i - 1] < *resolution)

@@ -56,7 +56,7 @@ static double dot(const double a[N], const double b[N])
 static bool minimise(wt_curve_model *m, double p[N], double *cost)
 {
     const wt_curve_samples *s = m->samples;
-    double scale = 0.0, expected = INFINITY;
+    double scale = 0.0, expected = (double)INFINITY;
     for (size_t i = 0; i < s->n; i++)
         scale += s->force[i] * s->force[i];
     /* A step of 1e-5 standard errors, and of the rounding of the forces. */

@@ -70,7 +70,7 @@ static void projection_sums(projection *p)
 static void tip_positions(size_t n, const double *position, const double *force, double k,
                           double *tip, double *running_max)
 {
-    double max = -INFINITY;
+    double max = -(double)INFINITY;
     for (size_t i = 0; i < n; i++) {
         tip[i] = position[i] - force[i] / k;
         if (tip[i] > max)

@@ -29,7 +29,7 @@ static bool is_sharp(const wt_tip *tip)
 double wt_contact_switch_depth(const wt_tip *tip)
 {
     if (tip->shape == WT_TIP_PARABOLOID)
-        return INFINITY;
+        return (double)INFINITY;
     if (is_sharp(tip))
         return 0.0;
     return tip->transition_radius * tip->transition_radius / tip->radius;

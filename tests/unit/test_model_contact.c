@@ -178,7 +178,7 @@ static void no_contact_and_not_a_number(void **state)
     (void)state;
     wt_tip tip = pyramid(4, 35, 20e-9, -1.0);
     wt_contact_table *table = table_of(&tip, 1e-10, 1e-6);
-    const double delta[4] = {0.0, -1e-9, -INFINITY, NAN};
+    const double delta[4] = {0.0, -1e-9, -(double)INFINITY, (double)NAN};
     double g[4], slope[4];
     wt_contact_table_eval(table, delta, 4, g, slope);
     for (size_t i = 0; i < 4; i++) {
@@ -236,12 +236,12 @@ static void impossible_tips_are_refused(void **state)
         {pyramid(2, 35, 20e-9, -1.0), "2 sides"},
         {pyramid(4, 0, 20e-9, 1e-9), "half-angle"},
         {pyramid(4, 90, 20e-9, 1e-9), "half-angle"},
-        {pyramid(4, NAN, 20e-9, 1e-9), "half-angle"},
+        {pyramid(4, (double)NAN, 20e-9, 1e-9), "half-angle"},
         {pyramid(4, 35, 0, 1e-9), "radius"},
         {pyramid(4, 35, -1e-9, 1e-9), "radius"},
-        {pyramid(4, 35, INFINITY, 1e-9), "radius"},
-        {pyramid(4, 35, 20e-9, NAN), "transition"},
-        {{.shape = WT_TIP_PARABOLOID, .radius = NAN}, "radius"},
+        {pyramid(4, 35, (double)INFINITY, 1e-9), "radius"},
+        {pyramid(4, 35, 20e-9, (double)NAN), "transition"},
+        {{.shape = WT_TIP_PARABOLOID, .radius = (double)NAN}, "radius"},
         {{.shape = WT_TIP_CONE, .half_angle = -0.1}, "half-angle"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {

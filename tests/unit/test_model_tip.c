@@ -9,7 +9,7 @@ static const double degree = M_PI / 180.0;
 
 static wt_tip parsed(const char *text)
 {
-    wt_tip tip = {.radius = NAN};
+    wt_tip tip = {.radius = (double)NAN};
     wt_error err = WT_ERROR_INIT;
     if (wt_tip_parse(text, &tip, &err) != WT_OK)
         fail_msg("%s: %s; %s; %s", text, err.message, err.expected, err.advice);
