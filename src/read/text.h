@@ -54,6 +54,8 @@ typedef enum wt_cell_is { WT_CELL_NUMBER, WT_CELL_MISSING, WT_CELL_TEXT } wt_cel
  * something else. */
 wt_cell_is wt_cell_read(wt_cell cell, char decimal, const wt_description *description,
                         double *value);
+/* Copies text that is cut, if it must be, at a whole character. */
+void wt_text_copy(char *to, size_t size, const char *text, size_t length);
 /* Counts cells with a decimal comma and with a point. */
 void wt_cells_count_marks(const wt_cells *cells, size_t *commas, size_t *points);
 

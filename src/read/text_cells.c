@@ -5,6 +5,7 @@
 #include "read/text.h"
 
 #include "base/number.h"
+#include "base/utf8.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -181,6 +182,13 @@ wt_cell_is wt_cell_read(wt_cell cell, char decimal, const wt_description *descri
         return WT_CELL_MISSING;
     }
     return is_missing(cell, description) ? WT_CELL_MISSING : WT_CELL_TEXT;
+}
+
+void wt_text_copy(char *to, size_t size, const char *text, size_t length)
+{
+    const size_t n = wt_utf8_cut(text, length, size - 1);
+    memcpy(to, text, n);
+    to[n] = '\0';
 }
 
 void wt_cells_count_marks(const wt_cells *cells, size_t *commas, size_t *points)

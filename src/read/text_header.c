@@ -4,6 +4,8 @@
  */
 #include "read/text_scan.h"
 
+#include "base/utf8.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -41,7 +43,7 @@ static wt_status set_field(wt_scan *s, size_t f, size_t line_number, const char 
     const regmatch_t *found = &groups[field->group];
     const char *text = line + found->rm_so;
     const size_t length = (size_t)(found->rm_eo - found->rm_so);
-    char *copy = strndup(text, length < 200 ? length : 200);
+    char *copy = strndup(text, wt_utf8_cut(text, length, 200));
     if (copy == NULL)
         return wt_scan_no_memory(s);
     free(value->text);
@@ -49,9 +51,8 @@ static wt_status set_field(wt_scan *s, size_t f, size_t line_number, const char 
     value->line = line_number;
     value->unit[0] = '\0';
     if (field->unit_group > 0 && groups[field->unit_group].rm_so >= 0)
-        snprintf(value->unit, sizeof value->unit, "%.*s",
-                 (int)(groups[field->unit_group].rm_eo - groups[field->unit_group].rm_so),
-                 line + groups[field->unit_group].rm_so);
+        wt_text_copy(value->unit, sizeof value->unit, line + groups[field->unit_group].rm_so,
+                     (size_t)(groups[field->unit_group].rm_eo - groups[field->unit_group].rm_so));
     else if (field->unit != NULL)
         snprintf(value->unit, sizeof value->unit, "%s", field->unit);
     set_declared(s, field->sets, text, length);
@@ -132,8 +133,8 @@ wt_status wt_scan_marks(wt_scan *s, size_t line_number, const char *line, size_t
         s->title_next = d->steps[i].title_next;
         s->title[0] = '\0';
         if (groups[1].rm_so >= 0)
-            snprintf(s->title, sizeof s->title, "%.*s", (int)(groups[1].rm_eo - groups[1].rm_so),
-                     line + groups[1].rm_so);
+            wt_text_copy(s->title, sizeof s->title, line + groups[1].rm_so,
+                         (size_t)(groups[1].rm_eo - groups[1].rm_so));
         s->block++;
         *is = true;
         return status;

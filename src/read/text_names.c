@@ -218,12 +218,12 @@ static wt_text_column resolve_column(const resolver *r, size_t cell, size_t firs
         (void)wt_name_unit(full.text, &length, &ignored);
     while (length > 0 && full.text[length - 1] == ' ')
         length--;
-    snprintf(column.name, sizeof column.name, "%.*s", (int)length, full.text);
+    wt_text_copy(column.name, sizeof column.name, full.text, length);
     const char *given = given_unit(r->options, r->normalised[cell]);
     if (given != NULL)
         snprintf(column.unit, sizeof column.unit, "%s", given);
     else
-        snprintf(column.unit, sizeof column.unit, "%.*s", (int)unit.length, unit.text);
+        wt_text_copy(column.unit, sizeof column.unit, unit.text, unit.length);
     for (size_t k = first; k < first + n; k++) {
         const wt_column_rule *rule = &r->d->rules[r->d->names[k].rule];
         double factor = 1, offset = 0;

@@ -8,12 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *cut(char buffer[64], const char *text, size_t length)
-{
-    snprintf(buffer, 64, "%.*s", (int)(length < 48 ? length : 48), text);
-    return buffer;
-}
-
 wt_status wt_scan_grow(wt_scan *s)
 {
     wt_text_table *t = s->table;
@@ -114,7 +108,8 @@ wt_status wt_scan_bad_row(wt_scan *s, size_t line_number, size_t bad)
         const wt_cell cell = s->row.cells[column->cell];
         wt_error_place(s->err, "line %zu, column %zu (%s)", line_number, column->cell + 1,
                        column->name);
-        wt_error_found(s->err, "\"%s\"", cut(found, cell.text, cell.length));
+        wt_text_copy(found, sizeof found, cell.text, cell.length);
+        wt_error_found(s->err, "\"%s\"", found);
     } else {
         wt_error_place(s->err, "line %zu", line_number);
         wt_error_found(s->err, "a line of %zu cells", s->row.n);

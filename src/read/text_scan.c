@@ -206,7 +206,7 @@ static wt_status header_line(wt_scan *s, size_t *i, const char *line, size_t len
 {
     bool is = false;
     if (s->title_next && !comment) {
-        snprintf(s->title, sizeof s->title, "%.*s", (int)(length < 95 ? length : 95), line);
+        wt_text_copy(s->title, sizeof s->title, line, length);
         s->title_next = false;
         return WT_OK;
     }

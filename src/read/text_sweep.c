@@ -123,6 +123,21 @@ static wt_status set_temperature(const builder *b, wt_isotherm *isotherm)
     return WT_OK;
 }
 
+/* "FILE, TITLE OF THE STEP"; the title is what tells the isotherms apart, so the name gives way. */
+static void set_source(const builder *b, wt_isotherm *isotherm)
+{
+    const wt_text_table *t = b->table;
+    const char *name = wt_path_base(b->file->name);
+    char end[112];
+    if (t->title[0] != '\0')
+        snprintf(end, sizeof end, ", %s", t->title);
+    else
+        snprintf(end, sizeof end, ", line %zu", t->names_line);
+    const size_t length = strlen(end);
+    wt_text_copy(isotherm->source, sizeof isotherm->source - length, name, strlen(name));
+    memcpy(isotherm->source + strlen(isotherm->source), end, length + 1);
+}
+
 /* The rows collected so far become an isotherm, if their frequency was swept. */
 static wt_status flush(builder *b)
 {
@@ -153,12 +168,7 @@ static wt_status flush(builder *b)
         if (b->c.strain != NULL)
             isotherm->strain[i] = wt_text_table_value(b->table, b->rows[i], b->c.strain);
     }
-    if (title[0] != '\0')
-        snprintf(isotherm->source, sizeof isotherm->source, "%.60s, %.60s",
-                 wt_path_base(b->file->name), title);
-    else
-        snprintf(isotherm->source, sizeof isotherm->source, "%.80s, line %zu",
-                 wt_path_base(b->file->name), b->table->names_line);
+    set_source(b, isotherm);
     wt_status status = set_temperature(b, isotherm);
     b->n = 0;
     return status;

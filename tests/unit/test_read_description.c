@@ -302,6 +302,56 @@ static void checked_with_a_sample(void **state)
     wt_parselog_free(log);
 }
 
+/* The example of weartrack-format(5): its first block is the sample, those with tags are the
+ * description. */
+static void example_of_the_manual(void **state)
+{
+    static char sample[4096], xml[8192], line[512];
+    char path[128];
+    size_t block = 0, samples = 0, used = 0;
+    bool inside = false;
+    wt_error err = WT_ERROR_INIT;
+    wt_input *input = NULL;
+    wt_table *report = NULL;
+    wt_parselog *log = wt_parselog_new();
+    (void)state;
+    FILE *page = fopen(WT_SOURCE_DIR "/man/weartrack-format.5", "r");
+    assert_non_null(page);
+    while (block < 8 && fgets(line, sizeof line, page) != NULL) {
+        char *to = line;
+        if (line[0] == '.') {
+            inside = strncmp(line, ".nf", 3) == 0 || (inside && strncmp(line, ".fi", 3) != 0);
+            block += strncmp(line, ".nf", 3) == 0;
+            continue;
+        }
+        for (const char *from = line; *from != '\0'; from++) {
+            *to++ = *from;
+            from += from[0] == '\\' && from[1] == 'e'; /* \e prints a backslash */
+        }
+        *to = '\0';
+        if (inside && block == 1)
+            samples += (size_t)snprintf(sample + samples, sizeof sample - samples, "%s", line);
+        else if (inside && block < 8)
+            used += (size_t)snprintf(xml + used, sizeof xml - used, "%s", line);
+    }
+    fclose(page);
+    write_file("nanoprobe.xml", xml, path);
+    assert_int_equal(wt_input_open_memory(sample, samples, "sample", &input, &err), WT_OK);
+    wt_status status = wt_description_check(path, input, NULL, log, &report, &err);
+    if (status != WT_OK)
+        print_message("%s: %s; %s; %s\n", err.place, err.message, err.expected, err.found);
+    assert_int_equal(status, WT_OK);
+    assert_int_equal(wt_parselog_count(log), 0);
+    assert_int_equal(wt_table_n_rows(report), 3);
+    assert_string_equal(wt_table_text(report, 1, 1), "deflection");
+    assert_near(wt_table_number(report, 0, 4), 12.5e-6, 1e-15);
+    assert_near(wt_table_number(report, 1, 4), 0.31e-9, 1e-15);
+    wt_table_free(report);
+    wt_input_close(input);
+    unlink(path);
+    wt_parselog_free(log);
+}
+
 static int setup(void **state)
 {
     (void)state;
@@ -327,6 +377,7 @@ int main(void)
         cmocka_unit_test(units_in_names),
         cmocka_unit_test(replaced_by_a_folder),
         cmocka_unit_test(checked_with_a_sample),
+        cmocka_unit_test(example_of_the_manual),
     };
     return cmocka_run_group_tests(tests, setup, teardown);
 }
