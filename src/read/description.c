@@ -105,6 +105,9 @@ wt_status wt_description_parse(const wt_description_schema *schema, const char *
                                const char *name, wt_description **description, wt_error *err)
 {
     const size_t most = (size_t)1 << 20;
+    /* Complaints about an encoding go to standard error unless this thread has a handler. */
+    const xmlStructuredErrorFunc previous = xmlStructuredError;
+    void *const previous_context = xmlStructuredErrorContext;
     wt_parse p = {.name = name, .status = WT_OK, .err = err};
     xmlParserCtxtPtr context = NULL;
     xmlDocPtr document = NULL;
@@ -126,6 +129,7 @@ wt_status wt_description_parse(const wt_description_schema *schema, const char *
         wt_parse_no_memory(&p);
         goto done;
     }
+    xmlSetStructuredErrorFunc(NULL, keep_quiet);
     document = xmlCtxtReadMemory(context, xml, (int)length, NULL, NULL,
                                  XML_PARSE_NONET | XML_PARSE_NOERROR | XML_PARSE_NOWARNING |
                                      XML_PARSE_NOCDATA);
@@ -141,6 +145,7 @@ wt_status wt_description_parse(const wt_description_schema *schema, const char *
     if (p.status == WT_OK)
         wt_parse_format(&p, xmlDocGetRootElement(document));
 done:
+    xmlSetStructuredErrorFunc(previous_context, previous);
     xmlFreeDoc(document);
     if (context != NULL)
         xmlFreeParserCtxt(context);

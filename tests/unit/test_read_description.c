@@ -19,8 +19,7 @@ static const char *const good[] = {
     "<title>a title</title><evidence>made up</evidence>",
     "<detect><names score=\"10\"/></detect>",
     "<text separator=\"tab\"/>",
-    "<header><field name=\"T\" regex=\"^T=(.*)$\" quantity=\"temperature\" "
-    "unit=\"degC\"/></header>",
+    "<header><field name='T' regex='^T=(.*)$' quantity='temperature' unit='degC'/></header>",
     "<table units=\"row\">",
     "<column quantity=\"frequency\"><name>f</name></column>",
     "<column quantity=\"storage_modulus\" unit=\"MPa\"><name>E'</name></column>",

@@ -161,8 +161,7 @@ static void separators_and_decimal_marks(void **state)
         "f;E';E'';T\nHz;MPa;MPa;degC\n2,0;3,0;4,0;20,0\n2,0E1;5,0;6,0;20,0\n",
         "f\tE'\tE''\tT\nHz\tMPa\tMPa\tdegC\n2,0\t3\t4\t20\n20\t5\t6\t20\n",
         "f E' E'' T\nHz MPa MPa degC\n 2.0   3 4    20\n\t20 5 6 20\n",
-        "\"f\",\"E'\",\"E''\",\"T\"\n\"Hz\",\"MPa\",\"MPa\",\"degC\"\n\"2\",\"3\",\"4\",\"20\"\n"
-        "20,5,6,20\n",
+        "\"f\",\"E'\",\"E''\",\"T\"\nHz,MPa,\"MPa\",degC\n\"2\",3,\"4\",20\n20,5,6,20\n",
         "f;E';E\";T\nHz;MPa;MPa;degC\n\"2,0\";3;4;20\n20;5;6;20\n",
     };
     wt_description *d = describe_as("", "", "", "", "");

@@ -257,7 +257,7 @@ static size_t compare_channels(const char *file, const wt_force_curve *curve)
         const wt_channel *channel = wt_segment_channel(&curve->segments[segment], q);
         assert_non_null(channel);
         assert_int_equal(curve->segments[segment].n_points, n);
-        double low = INFINITY, high = -INFINITY, sum = 0;
+        double low = (double)INFINITY, high = -(double)INFINITY, sum = 0;
         for (size_t i = 0; i < n; i++) {
             low = fmin(low, channel->values[i]);
             high = fmax(high, channel->values[i]);
