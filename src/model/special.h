@@ -1,4 +1,7 @@
-/* Inside the library: special functions for the rooms above. */
+/* Inside the library: special functions for the rooms above.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
 #ifndef WT_MODEL_SPECIAL_H
 #define WT_MODEL_SPECIAL_H
 

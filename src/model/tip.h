@@ -1,4 +1,7 @@
-/* Inside the model room: what tips and contact laws share. */
+/* Inside the model room: what tips and contact laws share.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
 #ifndef WT_MODEL_TIP_H
 #define WT_MODEL_TIP_H
 

@@ -1,5 +1,8 @@
 /* Force curves with known truth: a lever of spring constant k driven into a sample of known modulus
- * and law, with baseline, noise of the force and the awkward things that instruments add. */
+ * and law, with baseline, noise of the force and the awkward things that instruments add.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
 #ifndef WT_TESTS_SYNTHETIC_CURVE_H
 #define WT_TESTS_SYNTHETIC_CURVE_H
 

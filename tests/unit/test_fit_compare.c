@@ -1,4 +1,6 @@
 /* Groups of moduli: the numeric cases, what has no answer, invariances, Holm, equivalent frequency.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "near.h"
 

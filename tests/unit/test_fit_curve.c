@@ -1,5 +1,8 @@
 /* The fit of one force curve on curves of known truth: values, errors and their coverage, ranges of
- * the fit, the sensitivity budget, the way from a force curve as it was read. */
+ * the fit, the sensitivity budget, the way from a force curve as it was read.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
 #include "near.h"
 
 #include "fit/curve.h"

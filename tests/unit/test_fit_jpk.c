@@ -5,7 +5,10 @@
  *
  * The same function of the same samples is minimised here, so modulus and smallest cost must agree.
  * The scan looks over the whole curve, the other program goes downhill from its first guess: where
- * the results part, the cost found here must be the lower one. */
+ * the results part, the cost found here must be the lower one.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
 #include "near.h"
 
 #include "fit/curve.h"

@@ -1,4 +1,7 @@
-/* Awkward force curves: each has its own verdict and a reason with numbers. */
+/* Awkward force curves: each has its own verdict and a reason with numbers.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
 #include "near.h"
 
 #include "synthetic_curve.h"

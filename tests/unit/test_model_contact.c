@@ -1,4 +1,7 @@
-/* Tips and contact laws: reference values, limits, continuity, the table against the function. */
+/* Tips and contact laws: reference values, limits, continuity, the table against the function.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
 #include "near.h"
 
 #include "weartrack/model.h"

@@ -1,4 +1,7 @@
-/* Tips as text: what is understood, what is refused and in which words, the description. */
+/* Tips as text: what is understood, what is refused and in which words, the description.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
 #include "near.h"
 
 #include "weartrack/model.h"
