@@ -147,10 +147,14 @@ wt_lab_unit wt_axis_log(wt_drawing *d, const char *axis, const char *label, cons
                         wt_span span)
 {
     double decades = log10(span.high / span.low);
-    // The unit of the geometric middle, as decades go both ways from it; times and velocities over
-    // many decades are better known in SI.
-    bool wide = decades > 2.5 && (strcmp(unit, "s") == 0 || strcmp(unit, "m/s") == 0);
-    wt_lab_unit lab = wt_lab_unit_for(unit, "", wide ? 1 : sqrt(span.low) * sqrt(span.high));
+    // The unit that suits three times the geometric middle, as decades go both ways from it; over
+    // many decades, times and velocities are better known in SI, moduli in MPa.
+    double size = 3 * sqrt(span.low) * sqrt(span.high);
+    if (decades > 2.5 && (strcmp(unit, "s") == 0 || strcmp(unit, "m/s") == 0))
+        size = 1;
+    else if (decades > 2.5 && strcmp(unit, "Pa") == 0)
+        size = 1e6;
+    wt_lab_unit lab = wt_lab_unit_for(unit, "", size);
     double low = span.low * lab.factor, high = span.high * lab.factor;
     write_unit(d, axis, unit, &lab);
     write_label(d, axis, label, &lab);

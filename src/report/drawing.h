@@ -24,7 +24,7 @@ typedef struct wt_drawing {
     size_t n_sections;
     wt_text script;  /* what follows the loading of the style */
     wt_text caption; /* plain text */
-    wt_text omitted; /* why nothing can be drawn; plain text */
+    wt_text omitted; /* why nothing can be drawn; plain text, empty where that is usual */
     size_t n_items;  /* of the plot command that is being written */
 } wt_drawing;
 

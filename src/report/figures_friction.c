@@ -98,8 +98,9 @@ static void caption_friction(wt_drawing *d, const wt_table *table, bool layer)
     wt_span share = WT_SPAN_EMPTY;
     wt_span_add_column(&share, table, "extrapolated_share", false);
     if (!wt_span_empty(&share) && share.high > 0) {
-        wt_text_add(&d->caption, " Up to ");
-        wt_text_number(&d->caption, 100 * share.high, 2);
+        wt_text_add(&d->caption, share.high < 1e-3 ? " Less than 0.1" : " Up to ");
+        if (share.high >= 1e-3)
+            wt_text_number(&d->caption, 100 * share.high, 2);
         wt_text_add(&d->caption, " % of the hysteresis part comes from frequencies outside the "
                                  "measured ones.");
     }

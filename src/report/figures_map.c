@@ -112,11 +112,8 @@ void wt_draw_modulus_map(wt_drawing *d)
         if (panel.accepted >= 0)
             panels[n++] = panel;
     }
-    if (n == 0 || wt_span_empty(&colour) || d->status != WT_OK) {
-        wt_text_add(&d->omitted,
-                    "no group has its curves at 9 to 70000 known positions of one file");
+    if (n == 0 || wt_span_empty(&colour) || d->status != WT_OK)
         return;
-    }
     d->width = 0.95 * (double)n;
     wt_axis_log(d, "cb", "Modulus", "Pa", colour);
     wt_text_format(&d->script, "set size ratio -1\nset border 15\nset multiplot layout 1,%zu\n", n);

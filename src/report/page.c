@@ -30,26 +30,30 @@ static void page_head(const wt_page *page, wt_text *out, const char *title)
     wt_text_add(out, "</ul>\n</nav>\n</header>\n");
 }
 
-/* Only words of the closed list of kinds become a class of the style sheet. */
-static const char *kind_class(const char *kind)
-{
-    return strcmp(kind, "caveat") == 0 ? "answer caveat" : "answer";
-}
-
+/* Several answers to one question stand under it together. */
 static void page_answer(wt_page *page)
 {
     const wt_table *table = wt_result_find(page->result, "answer");
     if (table == NULL || wt_table_n_rows(table) == 0)
         return;
     wt_page_heading(page, "answer", "Answer");
+    const char *question = NULL;
     for (size_t row = 0; row < wt_table_n_rows(table); row++) {
-        wt_text_format(&page->out, "<section class=\"%s\">\n<h3>",
-                       kind_class(wt_cell_text(table, row, "kind")));
-        wt_text_html(&page->out, wt_cell_text(table, row, "question"));
-        wt_text_add(&page->out, "</h3>\n<p>");
+        const char *next = wt_cell_text(table, row, "question");
+        if (question == NULL || strcmp(question, next) != 0) {
+            bool caveat = strcmp(wt_cell_text(table, row, "kind"), "caveat") == 0;
+            wt_text_format(&page->out, "%s<section class=\"%s\">\n<h3>",
+                           question == NULL ? "" : "</section>\n",
+                           caveat ? "answer caveat" : "answer");
+            wt_text_html(&page->out, next);
+            wt_text_add(&page->out, "</h3>\n");
+            question = next;
+        }
+        wt_text_add(&page->out, "<p>");
         wt_text_html(&page->out, wt_cell_text(table, row, "answer"));
-        wt_text_add(&page->out, "</p>\n</section>\n");
+        wt_text_add(&page->out, "</p>\n");
     }
+    wt_text_add(&page->out, "</section>\n");
 }
 
 /* One column of the page, or all of it with the type of the same size. */
@@ -91,7 +95,7 @@ static wt_status page_figures(wt_page *page, wt_error *err)
     wt_text_add(&page->out, "</div>\n");
     for (size_t i = 0; i < page->n_figures; i++) {
         const wt_page_figure *figure = &page->figures[i];
-        if (figure->omitted == NULL)
+        if (figure->omitted == NULL || figure->omitted[0] == '\0')
             continue;
         wt_text_add(&page->out, "<p class=\"omitted\">Not drawn: ");
         wt_text_html(&page->out, figure->info->title);

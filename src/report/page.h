@@ -13,7 +13,7 @@
 typedef struct wt_page_figure {
     const wt_figure_info *info;
     const char *caption; /* plain text */
-    const char *omitted; /* why it is not there, NULL if it is */
+    const char *omitted; /* why it is not there ("" = not worth a word), NULL if it is */
     const char *svg;
     size_t svg_length;
     double width; /* in panels */

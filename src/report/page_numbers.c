@@ -125,7 +125,7 @@ static void friction_row(wt_page *page, const wt_table *table, const char *colum
            share = wt_cell_number(table, best, "extrapolated_share");
     wt_text_add(&remark, "at ");
     add_velocity(&remark, velocity);
-    if (share > 0) {
+    if (share >= 1e-3) {
         wt_text_add(&remark, "; ");
         wt_text_number(&remark, 100 * share, 2);
         wt_text_add(&remark, " % from frequencies outside the measured ones");

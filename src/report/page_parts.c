@@ -65,8 +65,8 @@ static bool is_error(const char *name)
     return strstr(name, "_error") != NULL || strstr(name, "_spread") != NULL;
 }
 
-/* The median of the absolute values decides the unit; numbers over many decades of time, length or
- * velocity stay in SI. */
+/* The median of the absolute values decides the unit; numbers over many decades stay in SI, and
+ * moduli in MPa. */
 static double typical_size(const wt_table *table, size_t column, const size_t *rows, size_t n_rows,
                            const char *unit)
 {
@@ -80,7 +80,7 @@ static double typical_size(const wt_table *table, size_t column, const size_t *r
     if (n > 0) {
         qsort(sizes, n, sizeof *sizes, compare_numbers);
         bool wide = sizes[n - 1] / sizes[0] > 1e4;
-        median = wide && strcmp(unit, "Pa") != 0 ? 1 : sizes[n / 2];
+        median = wide ? (strcmp(unit, "Pa") == 0 ? 1e6 : 1) : sizes[n / 2];
     }
     free(sizes);
     return median;
@@ -110,11 +110,16 @@ static void choose_column(shown_column *shown, const wt_table *table, const wt_p
     else if (strcmp(column->name, "temperature") == 0)
         shown->decimals = 1;
     shown->whole = true;
-    for (size_t i = 0; i < n_rows && shown->whole; i++) {
+    bool any = column->missing != NULL;
+    for (size_t i = 0; i < n_rows; i++) {
         double value =
             wt_lab_value(&shown->lab, wt_table_number(table, rows != NULL ? rows[i] : i, source));
-        shown->whole = !isfinite(value) || (value == floor(value) && fabs(value) < 1e15);
+        any = any || !isnan(value);
+        shown->whole =
+            shown->whole && (!isfinite(value) || (value == floor(value) && fabs(value) < 1e15));
     }
+    if (!any) // nothing is known: no column for it
+        shown->source = -1;
 }
 
 static void number_cell(wt_page *page, const shown_column *shown, double value,
@@ -276,6 +281,12 @@ static const char *const key_words[][2] = {
     {"wlf_c1", "WLF constant C₁"},
     {"wlf_c2", "WLF constant C₂"},
     {"wlf_correlation", "Correlation of C₁ and C₂"},
+    {"wlf_rms", "Residual of the WLF law, rms (decades)"},
+    {"wlf_straight", "Shift factors on a straight line"},
+    {"frequency_min", "Lowest angular frequency measured"},
+    {"frequency_max", "Highest angular frequency measured"},
+    {"hurst", "Hurst exponent"},
+    {"roll_off", "Roll-off wavenumber"},
     {"pole", "Pole of the WLF law"},
     {"rms_storage", "Residual of the storage modulus, rms"},
     {"rms_loss", "Residual of the loss modulus, rms"},

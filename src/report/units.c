@@ -49,6 +49,8 @@ static const lab_choice choices[] = {
     {"J/m^3", 1e-3, "kJ/m³"},
     {"J/m^3", 1e-6, "MJ/m³"},
     {"J/m^3", 1e-9, "GJ/m³"},
+    {"J/mol", 1, "J/mol"},
+    {"J/mol", 1e-3, "kJ/mol"},
     {"m^2/N", 1e9, "mm³/(N·m)"},
     {"byte", 1, "byte"},
     {"1", 1, ""},
