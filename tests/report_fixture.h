@@ -420,7 +420,7 @@ static inline void fixture_layer(wt_result *result)
         double thickness = log1p(-expm1(-done) * (formation / wear - 1)) / kappa;
         fixture_row(t);
         fixture_put(t, "time", time);
-        fixture_put(t, "thickness", i < 4 ? 0 : thickness);
+        fixture_put(t, "thickness", time < 0.21 ? 0 : thickness);
         fixture_put(t, "thickness_standard_error", 0.18 * thickness);
         fixture_put(t, "thickness_numerical_error", 1e-15);
         fixture_put(t, "formation_rate", formation * exp(-kappa * thickness));

@@ -193,6 +193,11 @@ static wt_status finish(conduct *d, wt_error *err)
                                   d->result, d->run.job.log, wt_table_n_rows(d->failures)};
         status = flow_answer(&story, &answer, err);
     }
+    if (status == WT_OK && wt_case_title(d->run.c)[0] != '\0') { // the title of the page
+        status = wt_table_set_key(answer, "case_title", wt_case_title(d->run.c), err);
+        if (status != WT_OK)
+            wt_table_free(answer);
+    }
     if (status == WT_OK)
         status = publish(d, &answer, err);
     if (status == WT_OK)

@@ -43,10 +43,23 @@ static double positive_key(const wt_table *table, const char *key)
     return wt_key_number(table, key, &value) && value > 0 ? value : (double)NAN;
 }
 
+/* Whether the curve itself shows the incubation: without it in the model the layer grows from the
+ * beginning, and a mark would contradict the curve. */
+static bool shows_incubation(const wt_table *table, double incubation)
+{
+    for (size_t row = 0; row < wt_table_n_rows(table); row++)
+        if (wt_cell_number(table, row, "time") < incubation &&
+            wt_cell_number(table, row, "thickness") > 0)
+            return false;
+    return true;
+}
+
 static layer_marks read_marks(const wt_table *table)
 {
     layer_marks marks = {.incubation = positive_key(table, "incubation_time"),
                          .relaxation = positive_key(table, "relaxation_time")};
+    if (!shows_incubation(table, marks.incubation))
+        marks.incubation = (double)NAN;
     marks.has_balance = wt_table_estimate(table, "balance_thickness", &marks.balance) &&
                         isfinite(marks.balance.value) && marks.balance.value > 0;
     return marks;

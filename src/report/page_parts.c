@@ -79,8 +79,12 @@ static double typical_size(const wt_table *table, size_t column, const size_t *r
     }
     if (n > 0) {
         qsort(sizes, n, sizeof *sizes, compare_numbers);
-        bool wide = sizes[n - 1] / sizes[0] > 1e4;
-        median = wide ? (strcmp(unit, "Pa") == 0 ? 1e6 : 1) : sizes[n / 2];
+        double range = sizes[n - 1] / sizes[0];
+        median = sizes[n / 2];
+        if (strcmp(unit, "Pa") == 0 && range > 100)
+            median = 1e6;
+        else if (range > 1e4)
+            median = 1;
     }
     free(sizes);
     return median;
@@ -296,6 +300,9 @@ static const char *const key_words[][2] = {
     {"rms_height", "Root-mean-square height"},
     {"rms_slope", "Root-mean-square slope"},
     {"c0", "C₀"},
+    {"relative_change_at_reference", "Relative change at reference"},
+    {"relative_change_low", "Relative change, lowest of all velocities"},
+    {"relative_change_high", "Relative change, highest of all velocities"},
     {"vertical", "Vertical shift"},
     {"standard_error_includes", "Standard errors include"},
     {"shear_stress", "Shear stress of the real contact"},

@@ -624,6 +624,30 @@ static wt_table *swapped(const wt_table *table)
     return copy;
 }
 
+/* A model without incubation still states its time; the curve then shows none, nor may a mark. */
+static void test_incubation_is_marked_where_the_curve_shows_it(void **state)
+{
+    (void)state;
+    NEED_GNUPLOT();
+    for (int grows = 0; grows < 2; grows++) {
+        wt_result *result = wt_result_new();
+        wt_table *table = fixture_table("layer", "", "time:s thickness:m");
+        for (int i = 0; i < 12; i++) {
+            fixture_row(table);
+            fixture_put(table, "time", 0.1 * (i + 1));
+            fixture_put(table, "thickness", grows || i > 4 ? 1e-7 * (i + 1) : 0);
+        }
+        fixture_key(table, "incubation_time", 0.5, 0, 0, "s");
+        fixture_add(result, table);
+        write_report(result, "out", NULL);
+        size_t length = 0;
+        char *script = read_all("out/plots/layer.gp", &length);
+        assert_int_equal(strstr(script, "incubation") == NULL, grows);
+        free(script);
+        wt_result_free(result);
+    }
+}
+
 /* Results come from files, so a table of a known name may hold anything. */
 static void test_columns_of_the_wrong_kind(void **state)
 {
@@ -787,6 +811,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_plots_can_be_drawn_again, make_workplace,
                                         remove_workplace),
         cmocka_unit_test_setup_teardown(test_missing_tables, make_workplace, remove_workplace),
+        cmocka_unit_test_setup_teardown(test_incubation_is_marked_where_the_curve_shows_it,
+                                        make_workplace, remove_workplace),
         cmocka_unit_test_setup_teardown(test_columns_of_the_wrong_kind, make_workplace,
                                         remove_workplace),
         cmocka_unit_test_setup_teardown(test_an_empty_result_needs_no_gnuplot, make_workplace,
