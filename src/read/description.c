@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "read/description_xml.h"
-#include "read/embedded_formats.h"
+#include "read/wt_embedded_formats.h"
 
 #include <libxml/parser.h>
 #include <libxml/xmlschemas.h>
@@ -19,7 +19,7 @@ struct wt_description_schema {
 
 static const wt_embedded *embedded_schema(void)
 {
-    const wt_embedded *e = embedded_formats;
+    const wt_embedded *e = wt_embedded_formats;
     while (e->name != NULL && strcmp(e->name, "weartrack-format.xsd") != 0)
         e++;
     return e;

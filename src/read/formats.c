@@ -4,7 +4,7 @@
  */
 #include "read/formats.h"
 
-#include "read/embedded_formats.h"
+#include "read/wt_embedded_formats.h"
 #include "read/formats_text.h"
 #include "read/text.h"
 
@@ -114,7 +114,7 @@ static wt_status add(wt_formats *f, wt_description *d, wt_parselog *log, const c
 static wt_status add_built_in(wt_formats *f, const wt_description_schema *schema, wt_error *err)
 {
     wt_status status = WT_OK;
-    for (const wt_embedded *e = embedded_formats; e->name != NULL && status == WT_OK; e++) {
+    for (const wt_embedded *e = wt_embedded_formats; e->name != NULL && status == WT_OK; e++) {
         wt_description *d = NULL;
         const size_t n = strlen(e->name);
         if (n < 4 || strcmp(e->name + n - 4, ".xml") != 0)

@@ -54,7 +54,7 @@ typedef enum wt_cell_is { WT_CELL_NUMBER, WT_CELL_MISSING, WT_CELL_TEXT } wt_cel
  * something else. */
 wt_cell_is wt_cell_read(wt_cell cell, char decimal, const wt_description *description,
                         double *value);
-/* Copies text that is cut, if it must be, at a whole character. */
+/* Copies text for messages and tables: without control characters, cut at a whole character. */
 void wt_text_copy(char *to, size_t size, const char *text, size_t length);
 /* Counts cells with a decimal comma and with a point. */
 void wt_cells_count_marks(const wt_cells *cells, size_t *commas, size_t *points);
@@ -143,6 +143,10 @@ wt_status wt_text_table_require(const wt_text_file *file, const wt_text_table *t
 /* Fails with what is wrong with the column of `quantity`, if there is one with a problem. */
 wt_status wt_text_table_problem(const wt_text_file *file, const wt_text_table *table,
                                 wt_quantity_set quantities, wt_error *err);
+/* The names of unknown columns, with commas; cut with "..." if there is no room. */
+void wt_text_unknown(const wt_text_file *file, char *names, size_t size);
+/* Notes which columns were left out. */
+void wt_text_log_unknown(const wt_text_file *file, wt_parselog *log);
 /* "no frequency sweep in it" and which steps are there instead: WT_E_EMPTY. */
 wt_status wt_text_nothing(const wt_text_file *file, const char *what, wt_error *err);
 

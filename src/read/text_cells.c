@@ -189,6 +189,7 @@ void wt_text_copy(char *to, size_t size, const char *text, size_t length)
     const size_t n = wt_utf8_cut(text, length, size - 1);
     memcpy(to, text, n);
     to[n] = '\0';
+    wt_utf8_tidy(to);
 }
 
 void wt_cells_count_marks(const wt_cells *cells, size_t *commas, size_t *points)

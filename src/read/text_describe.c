@@ -76,11 +76,13 @@ static wt_status add_table(const wt_text_file *file, size_t number, wt_table *fa
     return status;
 }
 
-static wt_status add_problem(wt_table *facts, const wt_error *problem, wt_error *err)
+static wt_status add_problem(wt_table *facts, wt_error *problem, wt_error *err)
 {
-    char text[512];
+    char text[1024], place[sizeof problem->place];
+    memcpy(place, problem->place, sizeof place);
+    problem->file[0] = problem->place[0] = '\0'; /* they stand elsewhere */
     wt_error_format(problem, text, sizeof text);
-    return wt_facts_add(facts, "not readable as it is", text, "", problem->place, err);
+    return wt_facts_add(facts, "not readable as it is", text, "", place, err);
 }
 
 static wt_status add_sweep(const wt_text_file *file, const wt_read_options *options,
@@ -121,33 +123,53 @@ static wt_status add_curve(const wt_force_curve *curve, wt_table *facts, wt_erro
     return status;
 }
 
+/* The curves without their forces, which may need a calibration that is not known. */
+static wt_status add_curves(const wt_description *description, wt_input *input,
+                            const wt_read_options *options, wt_table *facts, wt_error *err)
+{
+    wt_force_source *source = NULL;
+    wt_force_curve curve = {.n_segments = 0};
+    wt_error problem = WT_ERROR_INIT;
+    wt_read_options bare = *options;
+    bare.want &= ~WT_Q_BIT(WT_Q_FORCE);
+    if (wt_text_open_force(description, input, &bare, NULL, &source, &problem) != WT_OK)
+        return add_problem(facts, &problem, err);
+    wt_status status = wt_facts_count(facts, "curves", wt_force_count(source), "", err);
+    for (size_t i = 0; i < TABLES_SHOWN && status == WT_OK; i++) {
+        const wt_status got = wt_force_next(source, &curve, &problem);
+        if (got == WT_END)
+            break;
+        if (got != WT_OK) {
+            status = add_problem(facts, &problem, err);
+            break;
+        }
+        status = add_curve(&curve, facts, err);
+        if (status == WT_OK && i == 0)
+            status = wt_facts_number(facts, "spring constant", curve.cantilever.spring_constant,
+                                     "N/m", "", err);
+        if (status == WT_OK && i == 0)
+            status =
+                wt_facts_number(facts, "sensitivity", curve.cantilever.sensitivity, "m/V", "", err);
+    }
+    wt_force_curve_clear(&curve);
+    wt_force_close(source);
+    return status;
+}
+
 static wt_status add_force(const wt_description *description, wt_input *input,
                            const wt_read_options *options, wt_table *facts, wt_error *err)
 {
     wt_force_source *source = NULL;
     wt_force_curve curve = {.n_segments = 0};
     wt_error problem = WT_ERROR_INIT;
-    wt_status status = WT_OK;
-    if (wt_text_open_force(description, input, options, NULL, &source, &problem) != WT_OK)
-        return add_problem(facts, &problem, err);
-    status = wt_facts_count(facts, "curves", wt_force_count(source), "", err);
-    for (size_t i = 0; i < TABLES_SHOWN && status == WT_OK; i++) {
-        wt_status got = wt_force_next(source, &curve, &problem);
-        if (got == WT_END)
-            break;
-        status = got == WT_OK ? add_curve(&curve, facts, err) : add_problem(facts, &problem, err);
-        if (status == WT_OK && i == 0 && got == WT_OK) {
-            status = wt_facts_number(facts, "spring constant", curve.cantilever.spring_constant,
-                                     "N/m", "", err);
-            if (status == WT_OK)
-                status = wt_facts_number(facts, "sensitivity", curve.cantilever.sensitivity, "m/V",
-                                         "", err);
-        }
-        if (got != WT_OK)
-            break;
+    wt_status status = add_curves(description, input, options, facts, err);
+    if (status == WT_OK &&
+        wt_text_open_force(description, input, options, NULL, &source, &problem) == WT_OK) {
+        if (wt_force_next(source, &curve, &problem) == WT_E_MISSING)
+            status = add_problem(facts, &problem, err);
+        wt_force_curve_clear(&curve);
+        wt_force_close(source);
     }
-    wt_force_curve_clear(&curve);
-    wt_force_close(source);
     return status;
 }
 
@@ -178,8 +200,11 @@ static wt_status add_layout(const wt_text_file *file, wt_table *facts, wt_error 
     for (size_t i = 0; i < file->n_steps && status == WT_OK; i++)
         status = wt_facts_add(facts, "step without a table that is understood", file->steps[i], "",
                               "", err);
-    for (size_t i = 0; i < file->n_unknown && status == WT_OK; i++)
-        status = wt_facts_add(facts, "column not used", file->unknown[i], "", "", err);
+    if (status == WT_OK && file->n_unknown > 0) {
+        char names[4096];
+        wt_text_unknown(file, names, sizeof names);
+        status = wt_facts_add(facts, "columns not used", names, "", "", err);
+    }
     return status;
 }
 

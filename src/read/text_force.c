@@ -311,6 +311,7 @@ wt_status wt_text_open_force(const wt_description *description, wt_input *input,
         text_close(&s->base);
         return status;
     }
+    wt_text_log_unknown(&s->file, log);
     s->base.next = text_next;
     s->base.close = text_close;
     s->base.n_curves = count_curves(&s->file);

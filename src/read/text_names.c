@@ -273,6 +273,24 @@ static wt_status add_unknown(wt_text_file *file, wt_cell cell, wt_error *err)
     return WT_OK;
 }
 
+/* A column that does not fit (F beside f, in newton) is just another one where the quantity is
+ * known from a column that does. */
+static wt_status settle_problems(const wt_names *names, wt_text_file *file, wt_text_table *table,
+                                 wt_error *err)
+{
+    wt_status status = WT_OK;
+    size_t kept = 0;
+    for (size_t i = 0; i < table->n_problems && status == WT_OK; i++) {
+        const wt_text_column column = table->problems[i];
+        if ((table->quantities & WT_Q_BIT(column.rule->quantity)) != 0)
+            status = add_unknown(file, names->names.cells[column.cell], err);
+        else
+            table->problems[kept++] = column;
+    }
+    table->n_problems = kept;
+    return status;
+}
+
 static size_t find_cell(const resolver *r, const char *name)
 {
     if (name != NULL)
@@ -330,5 +348,5 @@ wt_status wt_names_resolve(const wt_names *names, wt_text_file *file, wt_text_ta
         }
     }
     free(r.normalised);
-    return status;
+    return status == WT_OK ? settle_problems(names, file, table, err) : status;
 }

@@ -342,8 +342,6 @@ static void drop_empty_tables(wt_text_file *file)
 static void log_text(const wt_text_file *file, wt_parselog *log)
 {
     const wt_lines *lines = &file->lines;
-    char names[256] = "";
-    size_t used = 0;
     if (lines->odd_byte)
         wt_parselog_add(log, WT_NOTE, file->name, NULL,
                         "half a character at the end of the file was dropped");
@@ -351,17 +349,6 @@ static void log_text(const wt_text_file *file, wt_parselog *log)
         wt_parselog_add(log, WT_WARNING, file->name, NULL,
                         "%zu byte sequences are no characters of %s", lines->n_replaced,
                         lines->encoding);
-    for (size_t i = 0; i < file->n_unknown; i++) {
-        int n = snprintf(names + used, sizeof names - used, "%s%s", i > 0 ? ", " : "",
-                         file->unknown[i]);
-        if (n < 0 || used + (size_t)n >= sizeof names - 4) {
-            memcpy(names + used, "...", 4);
-            break;
-        }
-        used += (size_t)n;
-    }
-    if (file->n_unknown > 0)
-        wt_parselog_add(log, WT_NOTE, file->name, NULL, "columns not used: %s", names);
 }
 
 wt_status wt_text_scan(const wt_description *description, wt_input *input, unsigned kinds,

@@ -65,6 +65,7 @@ wt_status wt_text_read_spectrum(const wt_description *description, wt_input *inp
     wt_status status = wt_text_scan(description, input, WT_KIND_SPECTRUM, options, log, &file, err);
     if (status != WT_OK)
         return status;
+    wt_text_log_unknown(&file, log);
     for (size_t i = 0; i < file.n_tables; i++)
         rows += file.tables[i].n_rows;
     points = malloc((rows + 1) * sizeof *points);

@@ -298,6 +298,7 @@ wt_status wt_text_read_sweep(const wt_description *description, wt_input *input,
     wt_status status = wt_text_scan(description, input, WT_KIND_SWEEP, options, log, &file, err);
     if (status != WT_OK)
         return status;
+    wt_text_log_unknown(&file, log);
     status = wt_text_sweep(&file, options, log, sweep, err);
     if (status != WT_OK)
         wt_error_file(err, file.name);

@@ -4,6 +4,8 @@
  */
 #include "read/text.h"
 
+#include <string.h>
+
 const wt_text_column *wt_text_table_column(const wt_text_table *table, wt_quantity quantity,
                                            int segment)
 {
@@ -112,6 +114,30 @@ wt_status wt_text_table_require(const wt_text_file *file, const wt_text_table *t
     wt_error_place(err, "line %zu", table->names_line);
     wt_error_expected(err, "%s", wt_quantities_needed(kind));
     return WT_E_MISSING;
+}
+
+void wt_text_unknown(const wt_text_file *file, char *names, size_t size)
+{
+    size_t used = 0;
+    names[0] = '\0';
+    for (size_t i = 0; i < file->n_unknown; i++) {
+        const size_t length = strlen(file->unknown[i]) + (i > 0 ? 2 : 0);
+        /* Room for what says that there are more. */
+        if (used + length + 5 > size) {
+            memcpy(names + used, " ...", 5);
+            return;
+        }
+        used += (size_t)snprintf(names + used, size - used, "%s%s", i > 0 ? ", " : "",
+                                 file->unknown[i]);
+    }
+}
+
+void wt_text_log_unknown(const wt_text_file *file, wt_parselog *log)
+{
+    char names[256];
+    wt_text_unknown(file, names, sizeof names);
+    if (file->n_unknown > 0)
+        wt_parselog_add(log, WT_NOTE, file->name, NULL, "columns not used: %s", names);
 }
 
 wt_status wt_text_nothing(const wt_text_file *file, const char *what, wt_error *err)
