@@ -298,7 +298,7 @@ WT_API wt_status wt_case_sliding(const wt_case *c, const wt_job *common, wt_rubb
 
 typedef struct wt_run_options {
     const char *formats; /* folder of further descriptions, NULL = none */
-    double tolerance;    /* numerical error asked for; 0 = the case's or the default */
+    double tolerance;    /* relative numerical error asked for; 0 = the default */
     unsigned threads;    /* 0 = one per processor */
     uint64_t seed;       /* of the resampling */
     size_t replicates;   /* of the resampling; default 64 */

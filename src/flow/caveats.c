@@ -86,7 +86,8 @@ static wt_status indentation_caveats(const flow_story *story, wt_table *table, w
                                      "An error of 1 %% in the deflection sensitivity changes the "
                                      "%s modulus by %.3g %%. Errors of sensitivity, spring "
                                      "constant and tip are common to track and bulk: the ratio is "
-                                     "far safer than either modulus.",
+                                     "far safer than either modulus, whose intervals do not "
+                                     "include them.",
                                      words[g], gain);
     }
     return status;

@@ -129,8 +129,9 @@ static wt_status group_row(wt_table *table, const char *name, const wt_group *gr
     return WT_OK;
 }
 
-wt_status wt_modulus_groups(const wt_table *const *indentation, size_t n, wt_table **result,
-                            wt_error *err)
+/* names NULL: those of the tables. */
+static wt_status groups_table(const wt_table *const *indentation, const char *const *names,
+                              size_t n, wt_table **result, wt_error *err)
 {
     static const flow_column columns[] = {
         {"group", NULL, "group of curves"},
@@ -151,7 +152,7 @@ wt_status wt_modulus_groups(const wt_table *const *indentation, size_t n, wt_tab
         wt_group_data data = {0};
         status = wt_group_from_table(indentation[i], &data, err);
         if (status == WT_OK) {
-            const char *name = wt_table_name(indentation[i]);
+            const char *name = names != NULL ? names[i] : wt_table_name(indentation[i]);
             name = strncmp(name, "indentation/", 12) == 0 ? name + 12 : name;
             status = group_row(table, name, &data.group, err);
         }
@@ -163,6 +164,14 @@ wt_status wt_modulus_groups(const wt_table *const *indentation, size_t n, wt_tab
     }
     *result = table;
     return WT_OK;
+}
+
+wt_status wt_modulus_groups(const wt_table *const *indentation, size_t n, wt_table **result,
+                            wt_error *err)
+{
+    if (result == NULL || (n > 0 && indentation == NULL))
+        return wt_fail(err, WT_E_ARG, "no indentation tables");
+    return groups_table(indentation, NULL, n, result, err);
 }
 
 /* ---- comparison -------------------------------------------------------------------------------
@@ -461,6 +470,7 @@ wt_status wt_compare_groups(const wt_compare_job *job, const wt_job *common,
         return wt_fail(err, WT_E_ARG, "nothing to compare");
     const wt_table *given[2] = {job->bulk, job->track};
     const wt_table *listed[2];
+    const char *names[2]; /* by their place, whatever the tables are called */
     size_t n = 0;
     pair p = {0};
     wt_compare_tables t = {0};
@@ -470,12 +480,13 @@ wt_status wt_compare_groups(const wt_compare_job *job, const wt_job *common,
     for (int g = 0; status == WT_OK && g < 2; g++) {
         if (given[g] == NULL)
             continue;
+        names[n] = group_name[g];
         listed[n++] = given[g];
         p.present[g] = true;
         status = wt_group_from_table(given[g], &p.data[g], err);
     }
     if (status == WT_OK)
-        status = wt_modulus_groups(listed, n, &t.modulus_groups, err);
+        status = groups_table(listed, names, n, &t.modulus_groups, err);
     if (status == WT_OK)
         status = make_bins(&p, err);
     if (status == WT_OK && n == 2)

@@ -28,6 +28,10 @@ void flow_files_clear(flow_files *files);
 wt_status flow_open(const wt_job *common, const flow_file *file, const char *role, unsigned kinds,
                     wt_input **input, const wt_format_info **format, wt_error *err) WT_NODISCARD;
 
+/* A measured spectrum as a surface, uncut; the densities are not checked. */
+wt_status flow_surface_read(const flow_file *file, const wt_job *common, wt_surface *surface,
+                            wt_error *err) WT_NODISCARD;
+
 /* Table "notes" with the names of files below `folder` shown without it; NULL = as they are. */
 wt_status flow_notes_table(const wt_parselog *log, const char *folder, wt_table **table,
                            wt_error *err) WT_NODISCARD;

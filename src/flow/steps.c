@@ -1,6 +1,7 @@
 /* The function of each stage: takes what the case and the stages before gave, runs one job.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/steps.h"
+#include "flow/inputs.h"
 #include "flow/tables.h"
 
 #include <math.h>
@@ -74,7 +75,8 @@ wt_status flow_case_surface(const wt_case *c, const wt_job *common, wt_surface *
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     wt_surface opened = {0};
     wt_roughness *law = NULL;
-    wt_status status = wt_surface_open(path, &set->read, common, &opened, err);
+    const flow_file file = {path, set->patterns[0], set};
+    wt_status status = flow_surface_read(&file, common, &opened, err);
     if (status == WT_OK) {
         opened.q0 = c->spectrum_q0;
         opened.q1 = c->spectrum_q1;

@@ -88,28 +88,35 @@ static wt_status parse_self_affine(const char *text, wt_surface *surface, wt_err
     return status;
 }
 
+wt_status flow_surface_read(const flow_file *file, const wt_job *common, wt_surface *surface,
+                            wt_error *err)
+{
+    wt_input *input = NULL;
+    wt_status status = flow_open(common, file, "roughness", WT_KIND_SPECTRUM, &input, NULL, err);
+    if (status == WT_OK)
+        status = wt_power_spectrum_read(common->formats, input, &file->set->read, common->log,
+                                        &surface->spectrum, err);
+    wt_input_close(input);
+    if (status == WT_OK && surface->spectrum.kind != WT_SPECTRUM_2D) {
+        status = wt_fail(err, WT_E_UNIT, "the spectrum is that of a line (m^3)");
+        wt_error_file(err, file->name);
+        wt_error_expected(err, "a two-dimensional spectrum C(q) in m^4");
+    }
+    surface->q0 = surface->q1 = (double)NAN;
+    surface->c0 = (wt_estimate){1, 0, 0, "1"};
+    return status;
+}
+
 static wt_status read_spectrum(const char *path, const wt_read_options *read, const wt_job *common,
                                wt_surface *surface, wt_error *err)
 {
     char *own = strdup(path);
     if (own == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    wt_file_set set = {.read = read != NULL ? *read : wt_read_defaults()};
-    flow_file file = {own, path, &set};
-    wt_input *input = NULL;
-    wt_status status = flow_open(common, &file, "roughness", WT_KIND_SPECTRUM, &input, NULL, err);
-    if (status == WT_OK)
-        status = wt_power_spectrum_read(common->formats, input, &set.read, common->log,
-                                        &surface->spectrum, err);
-    wt_input_close(input);
+    const wt_file_set set = {.read = read != NULL ? *read : wt_read_defaults()};
+    const flow_file file = {own, own, &set};
+    wt_status status = flow_surface_read(&file, common, surface, err);
     free(own);
-    if (status == WT_OK && surface->spectrum.kind != WT_SPECTRUM_2D) {
-        status = wt_fail(err, WT_E_UNIT, "the spectrum is that of a line (m^3)");
-        wt_error_file(err, path);
-        wt_error_expected(err, "a two-dimensional spectrum C(q) in m^4");
-    }
-    surface->q0 = surface->q1 = (double)NAN;
-    surface->c0 = (wt_estimate){1, 0, 0, "1"};
     return status;
 }
 

@@ -1,0 +1,477 @@
+/* The jobs one by one: batches of curves, spots, groups, the rubber at a temperature, surfaces, the
+ * layer. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "near.h"
+
+#include "flow/draws.h"
+#include "flow/tables.h"
+#include "weartrack/flow.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#define CASE WT_SOURCE_DIR "/fixtures/case"
+
+static wt_formats *formats;
+
+static int open_formats(void **state)
+{
+    (void)state;
+    return wt_formats_new(NULL, &formats, NULL, NULL) == WT_OK ? 0 : -1;
+}
+
+static int close_formats(void **state)
+{
+    (void)state;
+    wt_formats_free(formats);
+    return 0;
+}
+
+static wt_job common_job(void)
+{
+    wt_job job = wt_job_defaults();
+    job.formats = formats;
+    job.threads = 1;
+    job.replicates = 8;
+    return job;
+}
+
+static wt_indent_job bulk_job(const wt_file_set *sets, size_t n)
+{
+    wt_indent_job job = wt_indent_job_defaults();
+    assert_int_equal(wt_tip_parse("pyramid:half-angle=20deg,radius=20nm", &job.tip, NULL), WT_OK);
+    job.sets = sets;
+    job.n_sets = n;
+    return job;
+}
+
+static wt_file_set files(const char *const *patterns, size_t n, const char *spot)
+{
+    return (wt_file_set){.patterns = patterns,
+                         .n_patterns = n,
+                         .folder = CASE,
+                         .read = wt_read_defaults(),
+                         .spot = spot};
+}
+
+/* ---- indentation ------------------------------------------------------------------------------
+ */
+
+/* A bad file is recorded and the others are fitted; a file named twice counts once. */
+static void test_bad_files(void **state)
+{
+    (void)state;
+    static const char *const patterns[] = {"bulk-1.jpk-force-map", "dma.txt", "no-such-*",
+                                           "bulk-[12].jpk-force-map"};
+    const wt_file_set set = files(patterns, 4, NULL);
+    const wt_indent_job job = bulk_job(&set, 1);
+    wt_job common = common_job();
+    wt_indent_tables tables = {0};
+    wt_error err = WT_ERROR_INIT;
+
+    /* without a list of failures the first one ends the job and is named */
+    wt_status status = wt_indent_group(&job, &common, &tables, &err);
+    assert_int_equal(status, WT_E_NOT_FOUND);
+    assert_null(tables.indentation);
+
+    common.failures = wt_failures_new();
+    common.log = wt_parselog_new();
+    common.provenance = wt_provenance_new();
+    assert_int_equal(wt_indent_group(&job, &common, &tables, &err), WT_OK);
+    assert_int_equal(wt_table_n_rows(common.failures), 2);
+    assert_string_equal(wt_table_text(common.failures, 0, 0), "no-such-*");
+    assert_string_equal(wt_table_text(common.failures, 1, 0), "dma.txt");
+    assert_int_equal(wt_table_n_rows(tables.indentation), 24);
+    assert_int_equal(tables.n_accepted, 24);
+    assert_int_equal(wt_parselog_count(common.log), 1);
+    assert_non_null(strstr(wt_parselog_get(common.log, 0).text, "taken once"));
+    assert_int_equal(wt_provenance_n_inputs(common.provenance), 2);
+    assert_string_equal(wt_provenance_get_input(common.provenance, 1)->path,
+                        "bulk-2.jpk-force-map");
+    for (size_t i = 0; i < 24; i++) {
+        assert_string_equal(flow_table_get_text(tables.indentation, i, "file"),
+                            i < 12 ? "bulk-1.jpk-force-map" : "bulk-2.jpk-force-map");
+        assert_near(flow_table_get(tables.indentation, i, "curve"), (double)(i % 12), 0);
+    }
+    wt_provenance_free(common.provenance);
+    wt_parselog_free(common.log);
+    wt_table_free(common.failures);
+    wt_indent_tables_clear(&tables);
+}
+
+static wt_table *fit(const wt_file_set *sets, size_t n, unsigned threads, bool rates)
+{
+    wt_indent_job job = bulk_job(sets, n);
+    wt_job common = common_job();
+    wt_indent_tables tables = {0};
+    wt_error err = WT_ERROR_INIT;
+    common.threads = threads;
+    job.rates = rates;
+    job.curves = true;
+    if (wt_indent_group(&job, &common, &tables, &err) != WT_OK)
+        fail_msg("%s: %s", err.file, err.message);
+    wt_table *table = tables.indentation;
+    tables.indentation = NULL;
+    assert_true(wt_table_n_rows(tables.force_displacement) == 520);
+    assert_true(wt_table_n_rows(tables.force_indentation) > 100);
+    wt_indent_tables_clear(&tables);
+    return table;
+}
+
+static void test_threads_and_rates(void **state)
+{
+    (void)state;
+    static const char *const patterns[] = {"bulk-*"};
+    const wt_file_set set = files(patterns, 1, NULL);
+    wt_table *one = fit(&set, 1, 1, true), *three = fit(&set, 1, 3, true);
+    wt_table *without = fit(&set, 1, 2, false);
+    for (size_t c = 0; c < wt_table_n_columns(one); c++)
+        if (wt_table_column_kind(one, c) == WT_COLUMN_NUMBER)
+            assert_memory_equal(wt_table_numbers(one, c), wt_table_numbers(three, c),
+                                wt_table_n_rows(one) * sizeof(double));
+    for (size_t i = 0; i < wt_table_n_rows(one); i++) {
+        assert_true(flow_table_get(one, i, "equivalent_frequency") > 0);
+        assert_near(flow_table_get(without, i, "modulus"), flow_table_get(one, i, "modulus"), 0);
+        assert_near(flow_table_get(without, i, "piezo_rate"), (double)NAN, 0);
+        assert_near(flow_table_get(without, i, "load_time"), (double)NAN, 0);
+    }
+    wt_table_free(one);
+    wt_table_free(three);
+    wt_table_free(without);
+}
+
+static void check_spots(const wt_file_set *sets, size_t n, const char *key, size_t expected)
+{
+    wt_table *table = fit(sets, n, 1, false), *groups = NULL;
+    const wt_table *const listed[] = {table};
+    assert_int_equal(strncmp(wt_table_key(table, "spots"), key, strlen(key)), 0);
+    assert_int_equal(wt_modulus_groups(listed, 1, &groups, NULL), WT_OK);
+    assert_near(flow_table_get(groups, 0, "n_spots"), (double)expected, 0);
+    assert_string_equal(flow_table_get_text(groups, 0, "group"), "bulk");
+    wt_table_free(groups);
+    wt_table_free(table);
+}
+
+static void test_spots(void **state)
+{
+    (void)state;
+    static const char *const one[] = {"bulk-1.jpk-force-map"}, *const three[] = {"bulk-[123]*"};
+    const wt_file_set named[] = {files(one, 1, "a"), files(three, 1, "b")};
+    const wt_file_set mixed[] = {files(one, 1, "a"), files(three, 1, NULL)};
+    check_spots(&mixed[1], 1, "file", 3);
+    check_spots(named, 2, "named", 2);
+    check_spots(mixed, 2, "mixed", 3);
+    const wt_file_set single = files(one, 1, NULL);
+    check_spots(&single, 1, "position", 12);
+}
+
+/* ---- comparison -------------------------------------------------------------------------------
+ */
+
+static void test_one_spot(void **state)
+{
+    (void)state;
+    static const char *const bulk[] = {"bulk-1.jpk-force-map"}, *const track[] = {"track-*"};
+    const wt_file_set b = files(bulk, 1, "b"), t = files(track, 1, NULL);
+    wt_table *x = fit(&b, 1, 1, true), *y = fit(&t, 1, 1, true);
+    wt_compare_job job = {
+        .bulk = x, .track = y, .temperature = (double)NAN, .rates = true, .rubber = NULL};
+    wt_job common = common_job();
+    wt_compare_tables tables = {0};
+    assert_int_equal(wt_compare_groups(&job, &common, &tables, NULL), WT_OK);
+    const char *unit = wt_table_key(tables.comparison, "unit_of_analysis");
+    assert_non_null(strstr(unit, "curve: fewer than two spots"));
+    assert_true(flow_table_get(tables.comparison, 0, "ratio_high") < 1);
+    /* the groups are named by their place, whatever the tables are called */
+    assert_string_equal(flow_table_get_text(tables.modulus_groups, 1, "group"), "track");
+    assert_int_equal(wt_table_n_rows(tables.modulus_rate), 6);
+    assert_null(tables.dma_comparison);
+    wt_compare_tables_clear(&tables);
+
+    /* the tables as another program reads them from the stream give the same comparison */
+    FILE *file = tmpfile();
+    wt_table *again = NULL;
+    wt_estimate direct, read_back;
+    assert_int_equal(wt_stream_write(file, x, NULL, NULL), WT_OK);
+    rewind(file);
+    assert_int_equal(wt_stream_read(file, "table", &again, NULL), WT_OK);
+    fclose(file);
+    assert_int_equal(wt_compare_groups(&job, &common, &tables, NULL), WT_OK);
+    assert_true(wt_table_estimate(tables.comparison, "modulus_ratio", &direct));
+    const double value = direct.value;
+    wt_compare_tables_clear(&tables);
+    job.bulk = again;
+    assert_int_equal(wt_compare_groups(&job, &common, &tables, NULL), WT_OK);
+    assert_true(wt_table_estimate(tables.comparison, "modulus_ratio", &read_back));
+    assert_near(read_back.value, value, 0);
+    wt_compare_tables_clear(&tables);
+    wt_table_free(again);
+
+    /* bulk alone: groups and rates, no comparison */
+    job.bulk = x;
+    job.track = NULL;
+    assert_int_equal(wt_compare_groups(&job, &common, &tables, NULL), WT_OK);
+    assert_null(tables.comparison);
+    assert_int_equal(wt_table_n_rows(tables.modulus_groups), 1);
+    wt_compare_tables_clear(&tables);
+    wt_table_free(x);
+    wt_table_free(y);
+}
+
+/* ---- rubber -----------------------------------------------------------------------------------
+ */
+
+static wt_rubber measured_rubber(wt_master_tables *tables)
+{
+    static const char *const patterns[] = {"dma.txt"};
+    const wt_file_set set = files(patterns, 1, NULL);
+    wt_master_job job = wt_master_job_defaults();
+    wt_job common = common_job();
+    wt_rubber rubber = {0};
+    wt_error err = WT_ERROR_INIT;
+    job.sets = &set;
+    job.n_sets = 1;
+    job.shift.reference_temperature = 293.15;
+    if (wt_master_make(&job, 0.5, &common, tables, &rubber, &err) != WT_OK)
+        fail_msg("%s: %s", err.file, err.message);
+    return rubber;
+}
+
+/* At another temperature the material is what was measured there: the moduli of the isotherm of
+ * 60 degC in the file, E = 3 G, come back although friction never sees that isotherm as such. */
+static void test_rubber_at(void **state)
+{
+    (void)state;
+    wt_master_tables tables = {0};
+    wt_rubber rubber = measured_rubber(&tables), read_back = {0};
+    wt_material *material = NULL, *again = NULL;
+    char statement[256] = "", line[512];
+    FILE *in = fopen(CASE "/dma.txt", "r");
+    size_t n = 0;
+    bool here = false;
+    assert_non_null(in);
+    assert_int_equal(wt_rubber_at(&rubber, 333.15, 1, SIZE_MAX, &material, statement, NULL), WT_OK);
+    assert_string_equal(statement, "");
+    while (fgets(line, sizeof line, in) != NULL) {
+        double t, omega, f, torque, storage, loss, e1, e2;
+        if (strncmp(line, "Step name", 9) == 0)
+            here = strstr(line, "(60.0") != NULL;
+        if (!here || sscanf(line, "Data point %lf %lf %lf %lf %lf %lf", &t, &omega, &f, &torque,
+                            &storage, &loss) != 6)
+            continue;
+        material->law->modulus(material, &omega, 1, &e1, &e2);
+        assert_near(e1, 3e6 * storage, 0.03);
+        assert_near(e2, 3e6 * loss, 0.12);
+        n++;
+    }
+    fclose(in);
+    assert_int_equal(n, 16);
+
+    /* the same from the tables */
+    assert_int_equal(
+        wt_rubber_from_tables(tables.prony, tables.shift_factors, 0.5, &read_back, NULL), WT_OK);
+    assert_int_equal(wt_rubber_at(&read_back, 333.15, 1, SIZE_MAX, &again, NULL, NULL), WT_OK);
+    const double omega = 2.385;
+    double a[2], b[2];
+    material->law->modulus(material, &omega, 1, &a[0], &a[1]);
+    again->law->modulus(again, &omega, 1, &b[0], &b[1]);
+    assert_near(b[0], a[0], 1e-10);
+    assert_near(b[1], a[1], 1e-10);
+    assert_near(again->frequency_max, material->frequency_max, 1e-10);
+    wt_material_free(again);
+    wt_material_free(material);
+
+    /* outside the isotherms it says so; below the pole there is nothing */
+    assert_int_equal(wt_rubber_at(&rubber, 383.15, 1, SIZE_MAX, &material, statement, NULL), WT_OK);
+    assert_non_null(strstr(statement, "outside the isotherms"));
+    assert_non_null(strstr(statement, "vertical shift held"));
+    wt_material_free(material);
+    assert_int_equal(wt_rubber_at(&rubber, 170, 1, SIZE_MAX, &material, NULL, NULL), WT_E_RANGE);
+
+    /* replicates differ, and repeat */
+    double e[3], loss;
+    const size_t index[3] = {0, 1, 0};
+    for (int i = 0; i < 3; i++) {
+        assert_int_equal(wt_rubber_at(&rubber, 333.15, 1, index[i], &material, NULL, NULL), WT_OK);
+        material->law->modulus(material, &omega, 1, &e[i], &loss);
+        wt_material_free(material);
+    }
+    assert_near(e[2], e[0], 0);
+    assert_true(fabs(e[1] / e[0] - 1) > 1e-6 && fabs(e[1] / e[0] - 1) < 0.1);
+
+    /* without a law only the reference is known */
+    rubber.has_wlf = false;
+    assert_int_equal(wt_rubber_at(&rubber, 293.65, 1, SIZE_MAX, &material, NULL, NULL), WT_OK);
+    wt_material_free(material);
+    assert_int_equal(wt_rubber_at(&rubber, 298.15, 1, SIZE_MAX, &material, NULL, NULL),
+                     WT_E_MISSING);
+    wt_rubber_clear(&read_back);
+    wt_rubber_clear(&rubber);
+    wt_master_tables_clear(&tables);
+}
+
+/* ---- surface ----------------------------------------------------------------------------------
+ */
+
+static void test_surface_text(void **state)
+{
+    (void)state;
+    const wt_job common = common_job();
+    wt_surface surface = {0};
+    wt_table *table = NULL;
+    wt_estimate height;
+    assert_int_equal(
+        wt_surface_open("self-affine:q0=1e3rad/m,qr=4e3rad/m,q1=1e6rad/m,hurst=0.8,c0=1e-17m^4+-8%",
+                        NULL, &common, &surface, NULL),
+        WT_OK);
+    assert_near(surface.c0.standard_error, 8e-19, 1e-12);
+    assert_int_equal(wt_surface_table(&surface, &table, NULL), WT_OK);
+    assert_true(wt_table_estimate(table, "rms_height", &height));
+    assert_near(height.standard_error, 0.04 * height.value, 1e-12);
+    wt_table_free(table);
+    wt_surface_clear(&surface);
+    static const char *const wrong[] = {
+        "self-affine:q0=1e3rad/m,q1=1e6rad/m,hurst=0.8",
+        "self-affine:q0=1e3,q1=1e6rad/m,hurst=0.8,c0=1e-17m^4",
+        "self-affine:q0=1e7rad/m,q1=1e6rad/m,hurst=0.8,c0=1e-17m^4",
+        "self-affine:q0=1e3rad/m,q1=1e6rad/m,hurst=0.8,c0=1e-17m^4,foam=3",
+        "self-affine:q0=1e3rad/m+-5%,q1=1e6rad/m,hurst=0.8,c0=1e-17m^4",
+        CASE "/no-such-file",
+        CASE "/dma.txt",
+    };
+    for (size_t i = 0; i < FLOW_COUNT(wrong); i++) {
+        wt_error err = WT_ERROR_INIT;
+        assert_int_not_equal(wt_surface_open(wrong[i], NULL, &common, &surface, &err), WT_OK);
+        assert_true(err.message[0] != '\0');
+    }
+}
+
+/* A self-affine law sampled at a few points and cut between them is that law on the cut range. */
+static void test_surface_cut(void **state)
+{
+    (void)state;
+    double q[8], c[8], slope[2];
+    for (int i = 0; i < 8; i++) {
+        q[i] = 1e3 * pow(10, 0.5 * i);
+        c[i] = 1e-17 * pow(q[i] / 1e3, -3.6);
+    }
+    wt_surface spectrum = {
+        .q0 = 2.385e3, .q1 = 1.7e6, .c0 = {1, 0, 0, "1"}, .spectrum = {WT_SPECTRUM_2D, 8, q, c}};
+    wt_surface law = {.self_affine = true,
+                      .q0 = 2.385e3,
+                      .qr = 2.385e3,
+                      .q1 = 1.7e6,
+                      .hurst = 0.8,
+                      .c0 = {1e-17 * pow(2.385, -3.6), 0, 0, "m^4"}};
+    const wt_surface *const both[2] = {&spectrum, &law};
+    for (int i = 0; i < 2; i++) {
+        wt_roughness *roughness = NULL;
+        assert_int_equal(wt_surface_roughness(both[i], 4, &roughness, NULL), WT_OK);
+        slope[i] = wt_roughness_rms_slope(roughness);
+        assert_near(roughness->q1, 1.7e6, 0);
+        wt_roughness_free(roughness);
+    }
+    assert_near(slope[0], slope[1], 1e-9);
+    spectrum.q1 = 1e9;
+    wt_roughness *roughness = NULL;
+    assert_int_equal(wt_surface_roughness(&spectrum, 1, &roughness, NULL), WT_E_RANGE);
+}
+
+/* ---- layer ------------------------------------------------------------------------------------
+ */
+
+/* The critical energy that an observed thickness gives is the one that gives that thickness. */
+static void test_calibration(void **state)
+{
+    (void)state;
+    const wt_job common = common_job();
+    double tau[] = {1e-6, 1e-4}, modulus[] = {300e6, 10e6};
+    const double velocity[] = {0.3};
+    wt_rubber rubber = {.prony = {.deformation = WT_TENSION,
+                                  .reference_temperature = 293.15,
+                                  .equilibrium_modulus = 3e6,
+                                  .n = 2,
+                                  .relaxation_time = tau,
+                                  .modulus = modulus,
+                                  .frequency_min = (double)NAN,
+                                  .frequency_max = (double)NAN},
+                        .poisson_ratio = 0.5,
+                        .temperature_min = (double)NAN,
+                        .temperature_max = (double)NAN};
+    wt_surface surface = {.self_affine = true,
+                          .q0 = 2e3,
+                          .qr = 4e3,
+                          .q1 = 1e6,
+                          .hurst = 0.8,
+                          .c0 = {2e-17, 0, 0, "m^4"}};
+    wt_sliding sliding = wt_sliding_defaults();
+    sliding.rubber = &rubber;
+    sliding.surface = &surface;
+    sliding.pressure.value = 0.4e6;
+    sliding.velocity = velocity;
+    sliding.n_velocity = 1;
+    wt_layer_job job = wt_layer_job_defaults();
+    job.observed_thickness.value = 2.385e-6;
+    job.specific_wear_rate.value = 1e-12;
+    wt_layer_tables tables = {0};
+    wt_estimate energy;
+    assert_int_equal(wt_layer_make(&sliding, &job, &common, &tables, NULL), WT_OK);
+    assert_near(tables.thickness.value, 2.385e-6, 1e-8);
+    assert_true(wt_table_estimate(tables.layer, "critical_energy", &energy));
+    assert_string_equal(wt_table_key(tables.layer, "standard_error_includes"),
+                        "nothing: no error was measured or stated");
+    assert_near(tables.thickness.standard_error, (double)NAN, 0);
+    const double given = energy.value;
+    wt_layer_tables_clear(&tables);
+
+    job.critical_energy.value = given;
+    job.observed_thickness.value = (double)NAN;
+    job.duty = 0.02; /* part-time contact slows the clock and leaves the balance */
+    assert_int_equal(wt_layer_make(&sliding, &job, &common, &tables, NULL), WT_OK);
+    assert_near(tables.thickness.value, 2.385e-6, 1e-8);
+    wt_layer_tables_clear(&tables);
+
+    job.observed_thickness.value = 1e-6;
+    assert_int_equal(wt_layer_make(&sliding, &job, &common, &tables, NULL), WT_E_ARG);
+    job.critical_energy.value = job.observed_thickness.value = (double)NAN;
+    assert_int_equal(wt_layer_make(&sliding, &job, &common, &tables, NULL), WT_E_MISSING);
+    job.critical_energy.value = given;
+    job.specific_wear_rate.value = (double)NAN;
+    assert_int_equal(wt_layer_make(&sliding, &job, &common, &tables, NULL), WT_E_MISSING);
+}
+
+/* ---- draws ------------------------------------------------------------------------------------
+ */
+
+static void test_draws(void **state)
+{
+    (void)state;
+    enum { N = 20000 };
+    double *x = malloc(N * sizeof *x), sum = 0, product = 0;
+    assert_non_null(x);
+    for (size_t i = 0; i < N; i++) {
+        x[i] = flow_draw_normal(7, i, FLOW_DRAW_WEAR);
+        sum += x[i];
+        product += x[i] * flow_draw_normal(7, i, FLOW_DRAW_PRESSURE);
+    }
+    assert_near_abs(sum / N, 0, 4 / sqrt(N));
+    assert_near_abs(product / N, 0, 4 / sqrt(N));
+    assert_near_abs(flow_spread(x, N, 1), 1, 4 / sqrt(2.0 * N));
+    assert_near(flow_draw_normal(7, FLOW_CENTRE, FLOW_DRAW_WEAR), 0, 0);
+    const double odd[] = {1, (double)NAN, 3, (double)NAN};
+    assert_near(flow_spread(odd, 4, 1), sqrt(2), 1e-15);
+    assert_near(flow_spread(odd, 2, 1), (double)NAN, 0);
+    free(x);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_bad_files),   cmocka_unit_test(test_threads_and_rates),
+        cmocka_unit_test(test_spots),       cmocka_unit_test(test_one_spot),
+        cmocka_unit_test(test_rubber_at),   cmocka_unit_test(test_surface_text),
+        cmocka_unit_test(test_surface_cut), cmocka_unit_test(test_calibration),
+        cmocka_unit_test(test_draws),
+    };
+    return cmocka_run_group_tests_name("flow jobs", tests, open_formats, close_formats);
+}
