@@ -15,7 +15,8 @@ bool wt_span_empty(const wt_span *span)
 
 void wt_span_add(wt_span *span, double value, bool positive_only)
 {
-    if (!isfinite(value) || (positive_only && value <= 0))
+    // Beyond a hundred decades nothing is measured, and no axis can show it.
+    if (!(fabs(value) < 1e100) || (positive_only && !(value > 1e-100)))
         return;
     if (wt_span_empty(span))
         span->low = span->high = value;
@@ -94,8 +95,9 @@ wt_lab_unit wt_axis_linear(wt_drawing *d, const char *axis, const char *label, c
 {
     wt_lab_unit lab = wt_lab_unit_for(unit, quantity, fmax(fabs(span.low), fabs(span.high)) / 2);
     double low = wt_lab_value(&lab, span.low), high = wt_lab_value(&lab, span.high);
-    if (!(high > low)) { // one value: a range around it
-        double half = low != 0 ? fabs(low) / 2 : 1;
+    double size = fmax(fabs(high), fabs(low));
+    if (!(high - low > fmax(1e-12 * size, 1e-100))) { // one value: a range around it
+        double half = size > 1e-100 ? size / 2 : 1;
         low -= half;
         high += half;
     }
@@ -127,9 +129,9 @@ static void short_log(wt_drawing *d, const char *axis, double low, double high, 
     wt_text_format(&d->script, "unset m%stics\nset %stics (", axis, axis);
     if (width < 0.15) { // less than a factor of 1.4: as on a linear axis
         double step = tidy_step(high - low);
-        for (double tic = ceil(low / step) * step; tic <= high; tic += step) {
+        for (int i = (int)ceil(low / step); i <= (int)floor(high / step); i++) {
             wt_text_add(&d->script, written++ == 0 ? "" : ", ");
-            wt_text_literal(&d->script, tic);
+            wt_text_literal(&d->script, i * step);
         }
     } else
         for (int decade = (int)floor(log10(low)); decade <= (int)floor(log10(high)); decade++)

@@ -61,7 +61,7 @@ int wt_drawing_group_style(const char *group, size_t place);
 
 /* ---- axes ----------------------------------------------------------------------------------- */
 
-/* Smallest and largest of finite numbers; low > high while empty. */
+/* Smallest and largest of numbers between -1e100 and 1e100; low > high while empty. */
 typedef struct wt_span {
     double low, high;
 } wt_span;

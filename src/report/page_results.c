@@ -103,7 +103,7 @@ static const wt_page_column friction_columns[] = {
     {"extrapolated_share", "Outside measured frequencies, share", NULL, NULL, false},
 };
 
-enum { DECADES = 40 }; /* 1e-20 to 1e20 m/s, rounded */
+enum { HALF = 20, DECADES = 2 * HALF }; /* 1e-20 to 1e20 m/s, rounded */
 
 /* Rows nearest to whole decades of the velocity, and the first and last one; *n of them. */
 static void decade_rows(const wt_table *table, size_t rows[DECADES + 3], size_t *n)
@@ -114,9 +114,9 @@ static void decade_rows(const wt_table *table, size_t rows[DECADES + 3], size_t 
         distance[i] = (double)INFINITY;
     for (size_t row = 0; row < n_rows; row++) {
         double x = log10(wt_cell_number(table, row, "velocity")), decade = round(x);
-        if (!(fabs(decade) <= DECADES / 2))
+        if (!(fabs(decade) <= HALF))
             continue;
-        int i = (int)decade + DECADES / 2;
+        int i = (int)decade + HALF;
         if (fabs(x - decade) < distance[i]) {
             distance[i] = fabs(x - decade);
             best[i] = row;

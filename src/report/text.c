@@ -180,7 +180,7 @@ static void decimal_digits(double value, int count, char digits[MAX_DIGITS + 1],
         if (*s >= '0' && *s <= '9' && n < count)
             digits[n++] = *s;
     digits[n] = '\0';
-    *exponent = *s == 'e' ? atoi(s + 1) : 0;
+    *exponent = *s == 'e' ? (int)strtol(s + 1, NULL, 10) : 0;
 }
 
 static bool not_finite(wt_text *text, double value)

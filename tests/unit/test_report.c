@@ -1,11 +1,7 @@
-/* The report room: texts and numbers for reading, lab units, figures, folder, page.
+/* The report room: the folder with its figures and its page.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "near.h"
-#include "report/drawing.h"
-#include "report/svg.h"
-#include "report/text.h"
-#include "report/units.h"
 #include "report_fixture.h"
 #include "weartrack/report.h"
 
@@ -13,7 +9,6 @@
 #include <libxml/parser.h>
 #include <libxml/xpath.h>
 #include <libxml/xpathInternals.h>
-#include <locale.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -128,177 +123,6 @@ static void write_report(const wt_result *result, const char *folder,
         (void)wt_error_format(&err, line, sizeof line);
         fail_msg("%s", line);
     }
-}
-
-/* ---- texts and numbers ------------------------------------------------------------------------
- */
-
-static void assert_text(wt_text *text, const char *expected)
-{
-    assert_false(text->failed);
-    assert_string_equal(wt_text_string(text), expected);
-    wt_text_free(text);
-}
-
-static void test_numbers_for_reading(void **state)
-{
-    (void)state;
-    static const struct {
-        double value;
-        int digits;
-        const char *expected;
-    } cases[] = {
-        {12.345, 3, "12.3"},           {-0.0046249, 3, "−0.00462"},
-        {1.234e-7, 2, "1.2×10⁻⁷"},     {9.996, 3, "10.0"},
-        {123456, 3, "1.23×10⁵"},       {2519.7, 3, "2520"},
-        {0.00099996, 3, "0.00100"},    {0, 3, "0"},
-        {(double)NAN, 3, "not known"}, {(double)INFINITY, 3, "∞"},
-        {-(double)INFINITY, 3, "−∞"},  {99999, 1, "99999"},
-    };
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        wt_text text = {0};
-        wt_text_number(&text, cases[i].value, cases[i].digits);
-        assert_text(&text, cases[i].expected);
-    }
-    wt_text text = {0};
-    wt_text_short(&text, 0.5, 4);
-    wt_text_add(&text, " ");
-    wt_text_short(&text, 300, 2);
-    wt_text_add(&text, " ");
-    wt_text_short(&text, 20.04, 3);
-    assert_text(&text, "0.5 300 20");
-}
-
-static void test_fixed_decimals(void **state)
-{
-    (void)state;
-    static const struct {
-        double value;
-        int decimals;
-        const char *expected;
-    } cases[] = {
-        {2.385, 2, "2.38"},  {9.97, 1, "10.0"},   {-0.04, 1, "0.0"},  {0.06, 1, "0.1"},
-        {0.004, 1, "0.0"},   {0, 2, "0.00"},      {32, 0, "32"},      {-7.26, 0, "−7"},
-        {99.96, 1, "100.0"}, {0.0999, 2, "0.10"}, {1e-9, 3, "0.000"}, {2438121, 0, "2438121"},
-    };
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        wt_text text = {0};
-        wt_text_fixed(&text, cases[i].value, cases[i].decimals);
-        assert_text(&text, cases[i].expected);
-    }
-}
-
-static void test_numbers_do_not_follow_the_locale(void **state)
-{
-    (void)state;
-    bool comma = setlocale(LC_NUMERIC, "de_DE.UTF-8") != NULL;
-    wt_text text = {0};
-    wt_text_number(&text, 12.345, 3);
-    wt_text_add(&text, " ");
-    wt_text_literal(&text, 1.5e-9);
-    (void)setlocale(LC_NUMERIC, "C");
-    assert_text(&text, "12.3 1.5e-9");
-    if (!comma)
-        skip();
-}
-
-static void test_literals(void **state)
-{
-    (void)state;
-    static const struct {
-        double value;
-        const char *expected;
-    } cases[] = {{1e9, "1e9"},   {3, "3.0"},           {-273.15, "-273.15"},      {0.1, "0.1"},
-                 {1e-6, "1e-6"}, {(double)NAN, "NaN"}, {1.0 / 3, "0.3333333333"}, {120, "120.0"}};
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        wt_text text = {0};
-        wt_text_literal(&text, cases[i].value);
-        assert_text(&text, cases[i].expected);
-    }
-}
-
-static void test_escaping(void **state)
-{
-    (void)state;
-    wt_text text = {0};
-    wt_text_html(&text, "<a href=\"x\">'&'</a>\x01\xff\xc3\x28 µ\r");
-    assert_text(&text, "&lt;a href=&quot;x&quot;&gt;&#39;&amp;&#39;&lt;/a&gt;"
-                       "\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd( µ&#13;");
-    wt_text_quoted(&text, "it's `rm`\nset output\\");
-    assert_text(&text, "'it''s `rm` set output\\ '");
-    wt_text_comment(&text, "a\nb `c` \\");
-    assert_text(&text, "# a b  c   \n");
-}
-
-static void test_lab_units(void **state)
-{
-    (void)state;
-    static const struct {
-        const char *unit, *name;
-        double value;
-        const char *label;
-        double shown;
-    } cases[] = {
-        {"m", "indentation", 1.3e-7, "nm", 130},
-        {"m", "height", 2.28e-6, "µm", 2.28},
-        {"N", "force", 5.36e-8, "nN", 53.6},
-        {"Pa", "modulus", 2.005e7, "MPa", 20.05},
-        {"K", "temperature", 293.15, "°C", 20},
-        {"K", "wlf_c2", 96.3, "K", 96.3},
-        {"K", "temperature_spread", 0.4, "K", 0.4},
-        {"m/s", "velocity", 5e-3, "mm/s", 5},
-        {"m^2/N", "k", 1e-13, "mm³/(N·m)", 1e-4},
-        {"W/m^3", "w", 3e9, "GW/m³", 3},
-        {"m^4", "density", 2e-16, "m⁴", 2e-16},
-        {"m.Hz^-0.5", "noise", 2, "m·Hz^-0·5", 2},
-        {"1", "ratio", 0.6, "", 0.6},
-        {"m", "zero", 0, "nm", 0},
-    };
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        wt_lab_unit lab = wt_lab_unit_for(cases[i].unit, cases[i].name, cases[i].value);
-        if (strcmp(cases[i].unit, "m.Hz^-0.5") != 0)
-            assert_string_equal(lab.label, cases[i].label);
-        assert_near_abs(wt_lab_value(&lab, cases[i].value), cases[i].shown,
-                        1e-12 * fabs(cases[i].shown) + 1e-12);
-    }
-}
-
-static void test_svg_is_made_fit_for_a_page(void **state)
-{
-    (void)state;
-    static const char svg[] =
-        "<?xml version=\"1.0\"?>\n<svg viewBox=\"0 0 1 1\">\n<title>Gnuplot</title>"
-        "<desc>Produced</desc><g id=\"a\"><title>x</title><use xlink:href='#a' "
-        "clip-path='url(#c)'/></g></svg>";
-    wt_text text = {0};
-    assert_true(wt_svg_inline(&text, svg, sizeof svg - 1, "mu", "a < b"));
-    assert_text(&text, "<svg role=\"img\" aria-label=\"a &lt; b\" viewBox=\"0 0 1 1\">\n"
-                       "<g id=\"mu-a\"><use xlink:href='#mu-a' clip-path='url(#mu-c)'/></g></svg>");
-    assert_false(wt_svg_inline(&text, "%PDF-1.4", 8, "mu", ""));
-    wt_text_free(&text);
-}
-
-/* ---- axes -------------------------------------------------------------------------------------
- */
-
-static void test_logarithmic_tics_are_at_whole_decades(void **state)
-{
-    (void)state;
-    wt_drawing d = {.name = "x"};
-    (void)wt_axis_log(&d, "x", "q", "rad/m", (wt_span){1e3, 3e7});
-    // gnuplot would count decades from the end of the axis if the first tic were not given.
-    assert_non_null(strstr(wt_text_string(&d.script), "set xtics 1e3,1e1\n"));
-    wt_text_free(&d.script);
-    (void)wt_axis_log(&d, "y", "E", "Pa", (wt_span){11e6, 24e6});
-    assert_non_null(strstr(wt_text_string(&d.script), "set ylabel 'E (MPa)'\n"));
-    assert_non_null(strstr(wt_text_string(&d.script), "set ytics (15.0, 20.0)\n"));
-    wt_text_free(&d.script);
-    (void)wt_axis_log(&d, "y", "E", "Pa", (wt_span){20.1e6, 20.3e6});
-    assert_non_null(strstr(wt_text_string(&d.script), "set ytics (19.5, 20.0, 20.5, 21.0)\n"));
-    wt_text_free(&d.script);
-    (void)wt_axis_linear(&d, "x", "T", "K", "temperature", (wt_span){293.15, 293.15});
-    assert_non_null(strstr(wt_text_string(&d.script), "x_offset = -273.15"));
-    wt_drawing_clear(&d);
 }
 
 /* ---- the whole --------------------------------------------------------------------------------
@@ -790,14 +614,6 @@ static void test_cancelled(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_numbers_for_reading),
-        cmocka_unit_test(test_fixed_decimals),
-        cmocka_unit_test(test_numbers_do_not_follow_the_locale),
-        cmocka_unit_test(test_literals),
-        cmocka_unit_test(test_escaping),
-        cmocka_unit_test(test_lab_units),
-        cmocka_unit_test(test_svg_is_made_fit_for_a_page),
-        cmocka_unit_test(test_logarithmic_tics_are_at_whole_decades),
         cmocka_unit_test(test_every_figure_is_listed_once),
         cmocka_unit_test(test_the_man_page_names_every_figure),
         cmocka_unit_test_setup_teardown(test_everything, make_workplace, remove_workplace),
