@@ -4,9 +4,9 @@
  */
 #include "read/formats.h"
 
-#include "read/wt_embedded_formats.h"
 #include "read/formats_text.h"
 #include "read/text.h"
+#include "read/wt_embedded_formats.h"
 
 #include <stdlib.h>
 #include <string.h>

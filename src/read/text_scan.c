@@ -351,6 +351,43 @@ static void log_text(const wt_text_file *file, wt_parselog *log)
                         lines->encoding);
 }
 
+static bool has_column(const wt_text_column *columns, size_t n, const char *name)
+{
+    char own[WT_NAME_MAX];
+    for (size_t i = 0; i < n; i++) {
+        wt_name_normalise(columns[i].name, strlen(columns[i].name), own);
+        if (strcmp(own, name) == 0)
+            return true;
+    }
+    return false;
+}
+
+/* A unit that is given for a column that is not there is most likely misspelled. */
+static wt_status check_given_units(const wt_text_file *file, const wt_read_options *options,
+                                   wt_parselog *log, wt_error *err)
+{
+    for (size_t u = 0; u < options->n_units; u++) {
+        char name[WT_NAME_MAX];
+        const char *equal = strrchr(options->units[u], '=');
+        bool found = false;
+        if (equal == NULL || equal == options->units[u] || equal[1] == '\0') {
+            wt_fail(err, WT_E_ARG, "a unit is not given as NAME=UNIT");
+            wt_error_found(err, "\"%s\"", options->units[u]);
+            wt_error_advice(err, "for example --units \"E'=MPa\"");
+            return WT_E_ARG;
+        }
+        wt_name_normalise(options->units[u], (size_t)(equal - options->units[u]), name);
+        for (size_t i = 0; i < file->n_tables && !found; i++)
+            found = has_column(file->tables[i].columns, file->tables[i].n_columns, name) ||
+                    has_column(file->tables[i].problems, file->tables[i].n_problems, name);
+        if (!found)
+            wt_parselog_add(log, WT_WARNING, file->name, NULL,
+                            "a unit is given for \"%.*s\", but there is no such column",
+                            (int)(equal - options->units[u]), options->units[u]);
+    }
+    return WT_OK;
+}
+
 wt_status wt_text_scan(const wt_description *description, wt_input *input, unsigned kinds,
                        const wt_read_options *options, wt_parselog *log, wt_text_file *file,
                        wt_error *err)
@@ -374,6 +411,8 @@ wt_status wt_text_scan(const wt_description *description, wt_input *input, unsig
         made.values = calloc(description->n_fields + 1, sizeof *made.values);
         status = made.values != NULL ? walk(&s) : wt_scan_no_memory(&s);
     }
+    if (status == WT_OK)
+        status = check_given_units(&made, options, log, err);
     wt_names_free(&s.names);
     free(s.row.cells);
     if (status != WT_OK) {

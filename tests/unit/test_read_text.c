@@ -402,6 +402,35 @@ static void nothing_is_guessed(void **state)
     wt_description_free(d);
 }
 
+static void given_units(void **state)
+{
+    static const char text[] = "f\tE'\tE''\tT\nHz\t\tMPa\tK\n1\t2\t3\t300\n10\t2\t3\t300\n";
+    static const char *const units[] = {"e\xe2\x80\xb2=kPa", "E\"=GPa", "D'=MPa"};
+    static const char *const bad[] = {"MPa"};
+    wt_description *d = describe_as("separator=\"tab\"", "", "", "", "");
+    wt_read_options options = wt_read_defaults();
+    wt_sweep sweep = {.n_isotherms = 0};
+    wt_error err = WT_ERROR_INIT;
+    wt_parselog *log = wt_parselog_new();
+    wt_input *input = NULL;
+    (void)state;
+    assert_int_equal(wt_input_open_memory(text, sizeof text - 1, "x", &input, &err), WT_OK);
+    options.units = units;
+    options.n_units = 3;
+    assert_int_equal(wt_text_read_sweep(d, input, &options, log, &sweep, &err), WT_OK);
+    assert_near(sweep.isotherms[0].storage_modulus[0], 2e3, 1e-15);
+    assert_near(sweep.isotherms[0].loss_modulus[0], 3e9, 1e-15); /* what is given has precedence */
+    assert_true(logged(log, "\"D'\", but there is no such column"));
+    assert_false(logged(log, "\"E\"\""));
+    wt_sweep_clear(&sweep);
+    options.units = bad;
+    options.n_units = 1;
+    assert_int_equal(wt_text_read_sweep(d, input, &options, log, &sweep, &err), WT_E_ARG);
+    wt_input_close(input);
+    wt_parselog_free(log);
+    wt_description_free(d);
+}
+
 static void unknown_columns_are_named(void **state)
 {
     wt_description *d = describe_as("separator=\"tab\"", "", "", "", "");
@@ -562,6 +591,7 @@ int main(void)
         cmocka_unit_test(splits),
         cmocka_unit_test(tension_and_shear),
         cmocka_unit_test(nothing_is_guessed),
+        cmocka_unit_test(given_units),
         cmocka_unit_test(unknown_columns_are_named),
         cmocka_unit_test(detection),
         cmocka_unit_test(own_stream),
