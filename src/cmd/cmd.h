@@ -1,0 +1,124 @@
+/* The command: the table of subcommands, options that are one table each, output and messages.
+ * Only this room prints, exits and parses options. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WT_CMD_CMD_H
+#define WT_CMD_CMD_H
+
+#include <stdlib.h>
+
+#include "weartrack/weartrack.h"
+
+/* Exit status: good, data or run-time error, usage error. */
+enum { CMD_OK = 0, CMD_FAILED = 1, CMD_USAGE = 2 };
+
+/* A subcommand gets its own argv: argv[0] is its name. */
+typedef struct cmd_command {
+    const char *name;
+    int (*run)(int argc, char **argv); /* NULL: `name` is the heading of a group */
+    const char *help;                  /* one line */
+} cmd_command;
+extern const cmd_command cmd_commands[]; /* ends with a NULL name */
+
+int cmd_info(int argc, char **argv);
+int cmd_convert(int argc, char **argv);
+int cmd_formats(int argc, char **argv);
+int cmd_indent(int argc, char **argv);
+int cmd_compare(int argc, char **argv);
+int cmd_master(int argc, char **argv);
+int cmd_friction(int argc, char **argv);
+int cmd_layer(int argc, char **argv);
+int cmd_run(int argc, char **argv);
+int cmd_report(int argc, char **argv);
+
+/* ---- options ------------------------------------------------------------------------------ */
+
+typedef enum cmd_option_kind {
+    CMD_FLAG,     /* bool */
+    CMD_TEXT,     /* const char *, borrowed from argv */
+    CMD_LIST,     /* cmd_list, may be given several times */
+    CMD_QUANTITY, /* double in SI, of `quantity` */
+    CMD_ESTIMATE, /* wt_estimate: "VALUE" or "VALUE+-ERROR", each with its unit */
+    CMD_NUMBER,   /* double, dimensionless */
+    CMD_COUNT,    /* unsigned long, >= 0 */
+    CMD_CHOICE    /* int: which of the words of `value`, parted by '|' */
+} cmd_option_kind;
+
+typedef struct cmd_list {
+    const char **items; /* borrowed texts; the array is freed by cmd_list_free */
+    size_t n;
+} cmd_list;
+void cmd_list_free(cmd_list *list);
+
+typedef struct cmd_option {
+    const char *name; /* long name, without the dashes */
+    char letter;      /* 0 if none */
+    cmd_option_kind kind;
+    void *target;
+    const char *value; /* what stands for the value in the help, or the choices; NULL for a flag */
+    wt_quantity quantity;
+    const char *help;
+} cmd_option;
+
+/* Options that mean the same everywhere. A subcommand shows those it names. */
+typedef struct cmd_common {
+    const char *output;  /* -o, NULL = standard output */
+    const char *format;  /* id that overrules detection */
+    const char *formats; /* folder of further descriptions */
+    unsigned long threads;
+    unsigned long seed;
+    bool quiet;
+    bool no_provenance;
+} cmd_common;
+#define CMD_COMMON_DEFAULTS                                                                        \
+    {                                                                                              \
+        NULL, NULL, NULL, 0, 1, false, false                                                       \
+    }
+#define CMD_OPT_OUTPUT 1u
+#define CMD_OPT_FORMAT 2u
+#define CMD_OPT_FORMATS 4u
+#define CMD_OPT_THREADS 8u
+#define CMD_OPT_SEED 16u
+#define CMD_OPT_PROVENANCE 32u
+
+typedef struct cmd_usage {
+    const char *name;      /* of the subcommand */
+    const char *arguments; /* "[OPTION]... FILE..." */
+    const char *what;      /* what it does, a few lines */
+    unsigned common;       /* CMD_OPT_ bits; --quiet and --help are everywhere */
+    const char *notes;     /* after the options; NULL if none */
+} cmd_usage;
+
+/* Parses argv. Returns true to go on, with *first the index of the first argument that is no
+ * option; false with the exit status in *status (help was printed, or the words were wrong). */
+bool cmd_parse(const cmd_usage *usage, const cmd_option *options, size_t n_options,
+               cmd_common *common, int argc, char **argv, int *first, int *status);
+/* Says what is wrong with the call on stderr, and where help is; returns CMD_USAGE. */
+int cmd_usage_error(const char *name, const char *format, ...) WT_PRINTF(2, 3);
+
+/* ---- messages ----------------------------------------------------------------------------- */
+
+/* Prints the error on stderr as one line and returns the exit status that fits. */
+int cmd_fail(const char *name, const wt_error *err);
+/* Prints the warnings of the log on stderr, notes too if `notes`; nothing if quiet. */
+void cmd_print_log(const char *name, const wt_parselog *log, bool notes, bool quiet);
+
+/* Shows progress on stderr if it is a terminal, after a second. */
+typedef struct cmd_progress {
+    double start, shown;
+    bool active, printed;
+} cmd_progress;
+wt_progress cmd_progress_start(cmd_progress *state, bool quiet);
+void cmd_progress_end(cmd_progress *state);
+
+/* ---- output ------------------------------------------------------------------------------- */
+
+/* Writes the tables to -o: a name that ends in .h5 is the HDF5 store, anything else the text
+ * stream; without -o or with "-" the stream on standard output. `result` is not freed. */
+wt_status cmd_write(const cmd_common *common, wt_result *result, wt_error *err);
+/* Records the call in the result's provenance. */
+wt_status cmd_provenance(wt_result *result, int argc, char **argv, wt_error *err);
+
+/* The call as the user typed it, set by main. */
+extern int cmd_full_argc;
+extern char **cmd_full_argv;
+
+#endif

@@ -1,0 +1,99 @@
+/* The command line's beginning and end: finds the subcommand in the table, and makes sure that what
+ * was printed has arrived. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <errno.h>
+#include <signal.h>
+#include <string.h>
+
+#include "cmd/cmd.h"
+
+int cmd_full_argc;
+char **cmd_full_argv;
+
+/* One table drives dispatch, --help and the tests. */
+const cmd_command cmd_commands[] = {
+    {"Files", NULL, NULL},
+    {"info", cmd_info, "what a file is, what is in it, what is missing or odd"},
+    {"convert", cmd_convert, "instrument file to an open one (text table or HDF5)"},
+    {"formats", cmd_formats, "the formats that are understood; check a description"},
+    {"Indentation", NULL, NULL},
+    {"indent", cmd_indent, "contact point and modulus of every force curve"},
+    {"compare", cmd_compare, "wear track against bulk, by rate, against DMA"},
+    {"Material and sliding", NULL, NULL},
+    {"master", cmd_master, "shift factors, master curve, WLF and Prony series of DMA sweeps"},
+    {"friction", cmd_friction, "hysteresis friction and contact area against velocity"},
+    {"layer", cmd_layer, "formation, wear, balance and thickness of the modified layer"},
+    {"Everything", NULL, NULL},
+    {"run", cmd_run, "a whole case from one case file; --plan shows what it would do"},
+    {"report", cmd_report, "plots and one page from a result file"},
+    {NULL, NULL, NULL}};
+
+static void print_help(FILE *out)
+{
+    fputs("usage: weartrack SUBCOMMAND [OPTION]... [FILE]...\n\n"
+          "How does the rubber in a wear track differ from the bulk, and what does that do to\n"
+          "friction? From the files the instruments export to one page that answers.\n",
+          out);
+    for (const cmd_command *c = cmd_commands; c->name != NULL; c++) {
+        if (c->run == NULL)
+            fprintf(out, "\n%s\n", c->name);
+        else
+            fprintf(out, "  %-10s %s\n", c->name, c->help);
+    }
+    fputs("\n  help       the same; `weartrack help SUBCOMMAND` for one of them\n\n"
+          "options: --help, --version. Each subcommand has --help and a page weartrack-SUBCOMMAND(1).\n"
+          "Exit status: 0 good, 1 data or run-time error, 2 usage error.\n",
+          out);
+}
+
+/* A full disk or a closed pipe is not a success. */
+static int close_stdout(int status)
+{
+    if (fflush(stdout) != 0 || ferror(stdout) || fclose(stdout) != 0) {
+        if (errno != EPIPE)
+            fprintf(stderr, "weartrack: standard output: %s\n", strerror(errno));
+        return status == CMD_OK ? CMD_FAILED : status;
+    }
+    return status;
+}
+
+static int dispatch(int argc, char **argv)
+{
+    const char *name = argv[0];
+    for (const cmd_command *c = cmd_commands; c->name != NULL; c++)
+        if (c->run != NULL && strcmp(c->name, name) == 0)
+            return c->run(argc, argv);
+    fprintf(stderr, "weartrack: there is no subcommand '%s'; see weartrack --help\n", name);
+    return CMD_USAGE;
+}
+
+int main(int argc, char **argv)
+{
+    cmd_full_argc = argc;
+    cmd_full_argv = argv;
+    /* `weartrack ... | head` shall end quietly, also where a parent ignores the signal. */
+    signal(SIGPIPE, SIG_DFL);
+
+    if (argc < 2) {
+        print_help(stderr);
+        return CMD_USAGE;
+    }
+    const char *word = argv[1];
+    if (strcmp(word, "--version") == 0 || strcmp(word, "-V") == 0) {
+        printf("weartrack %s\nLicence GPL-3.0-or-later. There is no warranty.\n", wt_version());
+        return close_stdout(CMD_OK);
+    }
+    if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0) {
+        print_help(stdout);
+        return close_stdout(CMD_OK);
+    }
+    if (strcmp(word, "help") == 0) {
+        if (argc == 2) {
+            print_help(stdout);
+            return close_stdout(CMD_OK);
+        }
+        char help_option[] = "--help";
+        char *help_argv[] = {argv[2], help_option, NULL};
+        return close_stdout(dispatch(2, help_argv));
+    }
+    return close_stdout(dispatch(argc - 1, argv + 1));
+}

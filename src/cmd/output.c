@@ -1,0 +1,56 @@
+/* Tables to where the user wants them. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+
+#include "cmd/cmd.h"
+
+static bool ends_with(const char *text, const char *end)
+{
+    const size_t n = strlen(text), m = strlen(end);
+    return n >= m && strcmp(text + n - m, end) == 0;
+}
+
+static wt_status write_stream(FILE *out, const wt_result *result, bool with_provenance,
+                              wt_error *err)
+{
+    const wt_provenance *provenance =
+        with_provenance ? wt_result_provenance_const(result) : NULL;
+    for (size_t i = 0; i < wt_result_n_tables(result); i++) {
+        if (i > 0)
+            fputs("##\n", out);
+        wt_status status =
+            wt_stream_write(out, wt_result_table(result, i), i == 0 ? provenance : NULL, err);
+        if (status != WT_OK)
+            return status;
+    }
+    return WT_OK;
+}
+
+wt_status cmd_provenance(wt_result *result, int argc, char **argv, wt_error *err)
+{
+    wt_status status = wt_provenance_set_command(wt_result_provenance(result), argc, argv);
+    return status == WT_OK ? WT_OK : wt_fail(err, status, "out of memory");
+}
+
+wt_status cmd_write(const cmd_common *common, wt_result *result, wt_error *err)
+{
+    wt_status status = cmd_provenance(result, cmd_full_argc, cmd_full_argv, err);
+    if (status != WT_OK)
+        return status;
+    const bool with_provenance = !common->no_provenance;
+    if (common->output == NULL || strcmp(common->output, "-") == 0) {
+        status = write_stream(stdout, result, with_provenance, err);
+        return status;
+    }
+    if (ends_with(common->output, ".h5") || ends_with(common->output, ".hdf5"))
+        return wt_store_write(common->output, result, with_provenance, err);
+    wt_outfile *file = NULL;
+    status = wt_outfile_open(common->output, &file, err);
+    if (status != WT_OK)
+        return status;
+    status = write_stream(wt_outfile_stream(file), result, with_provenance, err);
+    if (status != WT_OK) {
+        wt_outfile_discard(file);
+        return status;
+    }
+    return wt_outfile_commit(file, err);
+}

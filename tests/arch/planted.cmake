@@ -1,0 +1,42 @@
+# The layer check must see what it is for: plants one violation of each kind in a copy of a small
+# house and expects the check to fail on it and to pass without.
+# Run: cmake -DSOURCE=<project folder> -DWORK=<scratch folder> -P planted.cmake
+# SPDX-License-Identifier: GPL-3.0-or-later
+cmake_minimum_required(VERSION 3.25)
+
+function(run_check expected what)
+  execute_process(COMMAND ${CMAKE_COMMAND} -DSOURCE=${WORK}/house -P ${SOURCE}/tests/arch/layers.cmake
+                  RESULT_VARIABLE result OUTPUT_VARIABLE out ERROR_VARIABLE out)
+  if(expected STREQUAL "pass" AND NOT result EQUAL 0)
+    message(FATAL_ERROR "the check fails on a good house: ${out}")
+  elseif(expected STREQUAL "fail" AND result EQUAL 0)
+    message(FATAL_ERROR "the check does not see: ${what}")
+  endif()
+endfunction()
+
+function(fresh_house)
+  file(REMOVE_RECURSE ${WORK}/house)
+  file(COPY ${SOURCE}/src ${SOURCE}/include DESTINATION ${WORK}/house)
+endfunction()
+
+fresh_house()
+run_check(pass "")
+set(plants
+  "read/planted.c|#include \"weartrack/fit.h\""
+  "base/planted.c|#include \"weartrack/data.h\""
+  "kernel/planted.c|#include \"report/planted.h\""
+  "report/planted.c|#include <hdf5.h>"
+  "flow/planted.c|#include \"weartrack/report.h\""
+  "model/planted.c|#include <gsl/gsl_multifit_nlinear.h>"
+  "fit/planted.c|int f(void) { return printf(\"words\"); }"
+  "data/planted.c|void g(void) { exit(1); }")
+foreach(plant IN LISTS plants)
+  string(REGEX MATCH "^([^|]+)\\|(.*)$" unused "${plant}")
+  set(where ${CMAKE_MATCH_1})
+  set(what "${CMAKE_MATCH_2}")
+  file(WRITE ${WORK}/house/src/${where} "${what}\n")
+  run_check(fail "${plant}")
+  file(REMOVE ${WORK}/house/src/${where})
+endforeach()
+file(WRITE ${WORK}/house/include/weartrack/fit.h "#include <gsl/gsl_math.h>\n")
+run_check(fail "a third-party header in a public header")
