@@ -36,7 +36,8 @@ typedef enum cmd_option_kind {
     CMD_TEXT,     /* const char *, borrowed from argv */
     CMD_LIST,     /* cmd_list, may be given several times */
     CMD_QUANTITY, /* double in SI, of `quantity` */
-    CMD_ESTIMATE, /* wt_estimate: "VALUE" or "VALUE+-ERROR", each with its unit */
+    CMD_ESTIMATE, /* wt_estimate, as wt_estimate_parse reads it */
+    CMD_VALUES,   /* cmd_values: a list of `quantity`, as wt_list_parse reads it */
     CMD_NUMBER,   /* double, dimensionless */
     CMD_COUNT,    /* unsigned long, >= 0 */
     CMD_CHOICE    /* int: which of the words of `value`, parted by '|' */
@@ -47,6 +48,12 @@ typedef struct cmd_list {
     size_t n;
 } cmd_list;
 void cmd_list_free(cmd_list *list);
+
+typedef struct cmd_values {
+    double *values; /* [n] SI */
+    size_t n;
+} cmd_values;
+void cmd_values_free(cmd_values *list);
 
 typedef struct cmd_option {
     const char *name; /* long name, without the dashes */
@@ -100,6 +107,9 @@ int cmd_usage_error(const char *name, const char *format, ...) WT_PRINTF(2, 3);
 int cmd_fail(const char *name, const wt_error *err);
 /* Prints the warnings of the log on stderr, notes too if `notes`; nothing if quiet. */
 void cmd_print_log(const char *name, const wt_parselog *log, bool notes, bool quiet);
+
+/* Lists the files that failed (table "failures") on stderr; returns how many there are. */
+size_t cmd_print_failures(const char *name, const wt_table *failures);
 
 /* Shows progress on stderr if it is a terminal, after a second. */
 typedef struct cmd_progress {

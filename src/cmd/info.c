@@ -65,11 +65,11 @@ int cmd_info(int argc, char **argv)
     size_t n = cmd_read_force_options(&values, options);
     n += cmd_read_dma_options(&values, options + n);
     n += cmd_read_units_option(&values, options + n);
-    const cmd_usage usage = {
-        "info", "[OPTION]... FILE...",
-        "Says what each file is and who recognised it, its segments, channels and calibration, and\n"
-        "what is missing or odd. - is standard input.",
-        CMD_OPT_FORMAT | CMD_OPT_FORMATS, NULL};
+    const cmd_usage usage = {"info", "[OPTION]... FILE...",
+                             "Says what each file is and who recognised it, its segments, channels "
+                             "and calibration, and\n"
+                             "what is missing or odd. - is standard input.",
+                             CMD_OPT_FORMAT | CMD_OPT_FORMATS, NULL};
     int first = 0, status = CMD_OK;
     wt_formats *formats = NULL;
     if (!cmd_parse(&usage, options, n, &common, argc, argv, &first, &status))

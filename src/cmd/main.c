@@ -40,7 +40,8 @@ static void print_help(FILE *out)
             fprintf(out, "  %-10s %s\n", c->name, c->help);
     }
     fputs("\n  help       the same; `weartrack help SUBCOMMAND` for one of them\n\n"
-          "options: --help, --version. Each subcommand has --help and a page weartrack-SUBCOMMAND(1).\n"
+          "options: --help, --version. Each subcommand has --help and a page "
+          "weartrack-SUBCOMMAND(1).\n"
           "Exit status: 0 good, 1 data or run-time error, 2 usage error.\n",
           out);
 }

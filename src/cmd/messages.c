@@ -32,6 +32,25 @@ void cmd_print_log(const char *name, const wt_parselog *log, bool notes, bool qu
                 wt_parselog_lost(log));
 }
 
+size_t cmd_print_failures(const char *name, const wt_table *failures)
+{
+    if (failures == NULL || wt_table_n_rows(failures) == 0)
+        return 0;
+    const size_t n = wt_table_n_rows(failures);
+    const long file = wt_table_find(failures, "file"), message = wt_table_find(failures, "message");
+    fprintf(stderr, "weartrack %s: %zu failed:\n", name, n);
+    for (size_t i = 0; i < n; i++) {
+        const char *where = wt_table_text(failures, i, (size_t)file);
+        const char *what = wt_table_text(failures, i, (size_t)message);
+        /* most messages begin with the file they are about */
+        if (strncmp(what, where, strlen(where)) == 0)
+            fprintf(stderr, "  %s\n", what);
+        else
+            fprintf(stderr, "  %s: %s\n", where, what);
+    }
+    return n;
+}
+
 static bool report_progress(void *user, const char *what, size_t done, size_t total)
 {
     cmd_progress *state = user;

@@ -16,6 +16,13 @@ void cmd_list_free(cmd_list *list)
     list->n = 0;
 }
 
+void cmd_values_free(cmd_values *list)
+{
+    free(list->values);
+    list->values = NULL;
+    list->n = 0;
+}
+
 int cmd_usage_error(const char *name, const char *format, ...)
 {
     va_list args;
@@ -31,24 +38,59 @@ static size_t common_options(unsigned bits, cmd_common *common, bool *help, cmd_
 {
     size_t n = 0;
     if (bits & CMD_OPT_OUTPUT)
-        out[n++] = (cmd_option){"output", 'o', CMD_TEXT, &common->output, "FILE", WT_Q_NONE,
+        out[n++] = (cmd_option){"output",
+                                'o',
+                                CMD_TEXT,
+                                &common->output,
+                                "FILE",
+                                WT_Q_NONE,
                                 "write there instead of standard output; - is standard output"};
     if (bits & CMD_OPT_FORMAT)
-        out[n++] = (cmd_option){"format", 0, CMD_TEXT, &common->format, "ID", WT_Q_NONE,
+        out[n++] = (cmd_option){"format",
+                                0,
+                                CMD_TEXT,
+                                &common->format,
+                                "ID",
+                                WT_Q_NONE,
                                 "read the files as this format (see weartrack formats list)"};
     if (bits & CMD_OPT_FORMATS)
-        out[n++] = (cmd_option){"formats", 0, CMD_TEXT, &common->formats, "FOLDER", WT_Q_NONE,
+        out[n++] = (cmd_option){"formats",
+                                0,
+                                CMD_TEXT,
+                                &common->formats,
+                                "FOLDER",
+                                WT_Q_NONE,
                                 "use the format descriptions of this folder too"};
     if (bits & CMD_OPT_THREADS)
-        out[n++] = (cmd_option){"threads", 0, CMD_COUNT, &common->threads, "N", WT_Q_NONE,
+        out[n++] = (cmd_option){"threads",
+                                0,
+                                CMD_COUNT,
+                                &common->threads,
+                                "N",
+                                WT_Q_NONE,
                                 "threads to use; 0, the default, is one per processor"};
     if (bits & CMD_OPT_SEED)
-        out[n++] = (cmd_option){"seed", 0, CMD_COUNT, &common->seed, "N", WT_Q_NONE,
+        out[n++] = (cmd_option){"seed",
+                                0,
+                                CMD_COUNT,
+                                &common->seed,
+                                "N",
+                                WT_Q_NONE,
                                 "seed of the resampling behind the standard errors; default 1"};
     if (bits & CMD_OPT_PROVENANCE)
-        out[n++] = (cmd_option){"no-provenance", 0, CMD_FLAG, &common->no_provenance, NULL,
-                                WT_Q_NONE, "leave out version, command line and times"};
-    out[n++] = (cmd_option){"quiet", 'q', CMD_FLAG, &common->quiet, NULL, WT_Q_NONE,
+        out[n++] = (cmd_option){"no-provenance",
+                                0,
+                                CMD_FLAG,
+                                &common->no_provenance,
+                                NULL,
+                                WT_Q_NONE,
+                                "leave out version, command line and times"};
+    out[n++] = (cmd_option){"quiet",
+                            'q',
+                            CMD_FLAG,
+                            &common->quiet,
+                            NULL,
+                            WT_Q_NONE,
                             "no progress and no warnings on standard error"};
     out[n++] = (cmd_option){"help", 'h', CMD_FLAG, help, NULL, WT_Q_NONE, "print this"};
     return n;
@@ -76,39 +118,6 @@ static void print_help(const cmd_usage *usage, const cmd_option *options, size_t
     if (usage->notes != NULL)
         printf("\n%s\n", usage->notes);
     printf("\nMore in weartrack-%s(1).\n", usage->name);
-}
-
-/* "VALUE" or "VALUE+-ERROR" (also with the sign U+00B1). */
-static wt_status parse_estimate(const char *text, wt_quantity quantity, wt_estimate *out,
-                                wt_error *err)
-{
-    const char *sign = strstr(text, "+-");
-    size_t skip = 2;
-    if (sign == NULL)
-        sign = strstr(text, "\xc2\xb1"); /* the sign is two bytes as well */
-    wt_estimate e = {0, 0, 0, wt_quantity_unit(quantity)};
-    if (sign == NULL) {
-        wt_status status = wt_quantity_parse(text, quantity, &e.value, err);
-        if (status != WT_OK)
-            return status;
-        *out = e;
-        return WT_OK;
-    }
-    char *first = strndup(text, (size_t)(sign - text));
-    if (first == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    wt_status status = wt_quantity_parse(first, quantity, &e.value, err);
-    free(first);
-    if (status == WT_OK)
-        status = wt_quantity_parse(sign + skip, quantity, &e.standard_error, err);
-    if (status != WT_OK)
-        return status;
-    if (!(e.standard_error >= 0)) {
-        wt_fail(err, WT_E_RANGE, "the error of '%s' is negative", text);
-        return WT_E_RANGE;
-    }
-    *out = e;
-    return WT_OK;
 }
 
 static bool find_choice(const char *choices, const char *text, int *out)
@@ -169,7 +178,12 @@ static int set_option(const char *name, const cmd_option *o, const char *text)
         status = wt_quantity_parse(text, o->quantity, o->target, &err);
         break;
     case CMD_ESTIMATE:
-        status = parse_estimate(text, o->quantity, o->target, &err);
+        status = wt_estimate_parse(text, o->quantity, o->target, &err);
+        break;
+    case CMD_VALUES:
+        cmd_values_free(o->target);
+        status = wt_list_parse(text, o->quantity, &((cmd_values *)o->target)->values,
+                               &((cmd_values *)o->target)->n, &err);
         break;
     case CMD_NUMBER:
         if (!wt_number_parse(text, strlen(text), '.', o->target))

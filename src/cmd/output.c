@@ -12,8 +12,7 @@ static bool ends_with(const char *text, const char *end)
 static wt_status write_stream(FILE *out, const wt_result *result, bool with_provenance,
                               wt_error *err)
 {
-    const wt_provenance *provenance =
-        with_provenance ? wt_result_provenance_const(result) : NULL;
+    const wt_provenance *provenance = with_provenance ? wt_result_provenance_const(result) : NULL;
     for (size_t i = 0; i < wt_result_n_tables(result); i++) {
         if (i > 0)
             fputs("##\n", out);

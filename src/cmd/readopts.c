@@ -15,10 +15,18 @@ void cmd_read_values_free(cmd_read_values *values)
 
 size_t cmd_read_force_options(cmd_read_values *values, cmd_option *options)
 {
-    options[0] = (cmd_option){"spring-constant", 0, CMD_QUANTITY, &values->spring_constant, "K",
+    options[0] = (cmd_option){"spring-constant",
+                              0,
+                              CMD_QUANTITY,
+                              &values->spring_constant,
+                              "K",
                               WT_Q_SPRING_CONSTANT,
                               "spring constant, such as 0.1N/m; replaces that of the files"};
-    options[1] = (cmd_option){"sensitivity", 0, CMD_QUANTITY, &values->sensitivity, "S",
+    options[1] = (cmd_option){"sensitivity",
+                              0,
+                              CMD_QUANTITY,
+                              &values->sensitivity,
+                              "S",
                               WT_Q_SENSITIVITY,
                               "deflection sensitivity, such as 120nm/V; replaces the files'"};
     return 2;
@@ -26,7 +34,11 @@ size_t cmd_read_force_options(cmd_read_values *values, cmd_option *options)
 
 size_t cmd_read_dma_options(cmd_read_values *values, cmd_option *options)
 {
-    options[0] = (cmd_option){"temperature", 0, CMD_QUANTITY, &values->temperature, "T",
+    options[0] = (cmd_option){"temperature",
+                              0,
+                              CMD_QUANTITY,
+                              &values->temperature,
+                              "T",
                               WT_Q_TEMPERATURE,
                               "temperature of files that say none, such as 20degC"};
     return 1;
@@ -34,7 +46,12 @@ size_t cmd_read_dma_options(cmd_read_values *values, cmd_option *options)
 
 size_t cmd_read_units_option(cmd_read_values *values, cmd_option *options)
 {
-    options[0] = (cmd_option){"units", 0, CMD_LIST, &values->units, "NAME=UNIT", WT_Q_NONE,
+    options[0] = (cmd_option){"units",
+                              0,
+                              CMD_LIST,
+                              &values->units,
+                              "NAME=UNIT",
+                              WT_Q_NONE,
                               "unit of a column that carries none, such as \"E'=MPa\"; repeatable"};
     return 1;
 }

@@ -1,0 +1,89 @@
+/* weartrack master: shift factors, master curve, WLF and Prony series.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cmd/dma.h"
+
+int cmd_master(int argc, char **argv)
+{
+    cmd_common common = CMD_COMMON_DEFAULTS;
+    cmd_read_values values;
+    cmd_read_values_init(&values);
+    cmd_dma dma;
+    cmd_dma_init(&dma);
+    cmd_option options[16];
+    size_t n = cmd_dma_options(&dma, options);
+    n += cmd_read_dma_options(&values, options + n);
+    n += cmd_read_units_option(&values, options + n);
+    const cmd_usage usage = {
+        "master", "[OPTION]... FILE...",
+        "Shifts the isotherms of DMA frequency sweeps onto one reference temperature, storage and\n"
+        "loss modulus together; fits WLF (with Arrhenius beside it) and a Prony series. Folders "
+        "and\n"
+        "patterns are allowed.",
+        CMD_OPT_OUTPUT | CMD_OPT_FORMAT | CMD_OPT_FORMATS | CMD_OPT_PROVENANCE,
+        "The tables prony, shift_factors and master_curve follow one another; weartrack friction "
+        "and\n"
+        "weartrack compare read them as they are."};
+    int first = 0, status = CMD_OK;
+    wt_error err = WT_ERROR_INIT;
+    wt_formats *formats = NULL;
+    wt_parselog *log = NULL;
+    wt_result *result = NULL;
+    wt_master_tables tables = {0};
+    wt_job work = wt_job_defaults();
+    wt_file_set set = {0};
+    cmd_progress progress;
+
+    if (!cmd_parse(&usage, options, n, &common, argc, argv, &first, &status))
+        goto done;
+    if (first == argc) {
+        status = cmd_usage_error("master", "no file given");
+        goto done;
+    }
+    cmd_dma_finish(&dma);
+    log = wt_parselog_new();
+    result = wt_result_new();
+    work.failures = wt_failures_new();
+    if (log == NULL || result == NULL || work.failures == NULL) {
+        wt_fail(&err, WT_E_MEMORY, "out of memory");
+        goto fail;
+    }
+    if (wt_formats_new(common.formats, &formats, log, &err) != WT_OK)
+        goto fail;
+    set.patterns = (const char *const *)(argv + first);
+    set.n_patterns = (size_t)(argc - first);
+    set.read = cmd_read_make(&values, &common);
+    dma.job.sets = &set;
+    dma.job.n_sets = 1;
+    work.formats = formats;
+    work.log = log;
+    work.provenance = wt_result_provenance(result);
+    work.progress = cmd_progress_start(&progress, common.quiet);
+    const wt_status made = wt_master_make(&dma.job, 0.5, &work, &tables, NULL, &err);
+    cmd_progress_end(&progress);
+    if (cmd_print_failures("master", work.failures) > 0)
+        status = CMD_FAILED;
+    if (made != WT_OK)
+        goto fail;
+    wt_table **parts[] = {&tables.prony, &tables.shift_factors, &tables.master_curve};
+    for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++) {
+        wt_table *t = *parts[i];
+        *parts[i] = NULL;
+        if (t != NULL && wt_result_add(result, t, &err) != WT_OK)
+            goto fail;
+    }
+    if (cmd_write(&common, result, &err) != WT_OK)
+        goto fail;
+    cmd_print_log("master", log, false, common.quiet);
+    goto done;
+fail:
+    cmd_print_log("master", log, false, common.quiet);
+    status = cmd_fail("master", &err);
+done:
+    wt_master_tables_clear(&tables);
+    wt_table_free(work.failures);
+    wt_result_free(result);
+    wt_parselog_free(log);
+    wt_formats_free(formats);
+    cmd_read_values_free(&values);
+    return status;
+}

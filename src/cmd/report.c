@@ -1,0 +1,46 @@
+/* weartrack report: plots and one page from a result file.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cmd/cmd.h"
+
+int cmd_report(int argc, char **argv)
+{
+    cmd_common common = CMD_COMMON_DEFAULTS;
+    wt_report_options report_options = wt_report_defaults();
+    const cmd_option options[] = {{"style", 0, CMD_TEXT, &report_options.style, "STYLE", WT_Q_NONE,
+                                   "plot style: paper, screen or a file; default paper"},
+                                  {"gnuplot", 0, CMD_TEXT, &report_options.gnuplot, "PROGRAM",
+                                   WT_Q_NONE, "the gnuplot to use; default: gnuplot"}};
+    const cmd_usage usage = {
+        "report", "RESULT.h5 -o FOLDER [OPTION]...",
+        "Writes a folder with one page, index.html, and for each figure its data, script and\n"
+        "picture; the figures can be drawn again without weartrack.",
+        CMD_OPT_OUTPUT | CMD_OPT_PROVENANCE, NULL};
+    int first = 0, status = CMD_OK;
+    wt_error err = WT_ERROR_INIT;
+    wt_result *result = NULL;
+    if (!cmd_parse(&usage, options, sizeof options / sizeof options[0], &common, argc, argv, &first,
+                   &status))
+        goto done;
+    if (argc - first != 1) {
+        status = cmd_usage_error("report", "one result file is needed; %d given", argc - first);
+        goto done;
+    }
+    if (common.output == NULL) {
+        status = cmd_usage_error("report", "-o FOLDER is missing");
+        goto done;
+    }
+    report_options.with_provenance = !common.no_provenance;
+    cmd_progress state;
+    const wt_progress progress = cmd_progress_start(&state, common.quiet);
+    wt_status made = wt_store_read(argv[first], &result, &err);
+    if (made == WT_OK)
+        made = wt_report_write(result, common.output, &report_options, &progress, &err);
+    cmd_progress_end(&state);
+    if (made != WT_OK)
+        status = cmd_fail("report", &err);
+    else if (!common.quiet)
+        fprintf(stderr, "report page: %s/index.html\n", common.output);
+done:
+    wt_result_free(result);
+    return status;
+}

@@ -1,0 +1,155 @@
+/* weartrack run: a whole case. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+
+#include "cmd/cmd.h"
+
+static int print_plan(const wt_table *plan)
+{
+    const long title = wt_table_find(plan, "title"), runs = wt_table_find(plan, "runs");
+    const long because = wt_table_find(plan, "because");
+    for (size_t i = 0; i < wt_table_n_rows(plan); i++)
+        printf("%-5s %-28s %s\n", wt_table_number(plan, i, (size_t)runs) > 0 ? "run" : "leave",
+               wt_table_text(plan, i, (size_t)title), wt_table_text(plan, i, (size_t)because));
+    return CMD_OK;
+}
+
+/* The answer is the data of this subcommand: it goes to standard output. */
+static void print_answer(const wt_result *result)
+{
+    const wt_table *answer = wt_result_find(result, "answer");
+    if (answer == NULL)
+        return;
+    const long question = wt_table_find(answer, "question"), text = wt_table_find(answer, "answer");
+    const char *last = "";
+    for (size_t i = 0; i < wt_table_n_rows(answer); i++) {
+        const char *q = wt_table_text(answer, i, (size_t)question);
+        if (strcmp(q, last) != 0)
+            printf("%s%s\n", i > 0 ? "\n" : "", q);
+        last = q;
+        printf("  %s\n", wt_table_text(answer, i, (size_t)text));
+    }
+}
+
+/* "case/road.xml" -> "road" + ending, in the current folder. */
+static char *default_name(const char *path, const char *ending)
+{
+    const char *base = wt_path_base(path);
+    const char *dot = strrchr(base, '.');
+    const size_t stem = dot != NULL && dot != base ? (size_t)(dot - base) : strlen(base);
+    char *name = malloc(stem + strlen(ending) + 1);
+    if (name != NULL) {
+        memcpy(name, base, stem);
+        memcpy(name + stem, ending, strlen(ending) + 1);
+    }
+    return name;
+}
+
+int cmd_run(int argc, char **argv)
+{
+    cmd_common common = CMD_COMMON_DEFAULTS;
+    wt_run_options run_options = wt_run_defaults();
+    wt_report_options report_options = wt_report_defaults();
+    bool plan_only = false, no_report = false;
+    const char *folder = NULL, *style = NULL;
+    unsigned long replicates = run_options.replicates;
+    const cmd_option options[] = {
+        {"plan", 0, CMD_FLAG, &plan_only, NULL, WT_Q_NONE,
+         "only say which stages would run and why, and why the others would not"},
+        {"report", 'r', CMD_TEXT, &folder, "FOLDER", WT_Q_NONE,
+         "where the report goes; default: the case's name with -report"},
+        {"no-report", 0, CMD_FLAG, &no_report, NULL, WT_Q_NONE, "write no report"},
+        {"style", 0, CMD_TEXT, &style, "STYLE", WT_Q_NONE,
+         "plot style: paper, screen or a file; default: the case's, or paper"},
+        {"tolerance", 0, CMD_NUMBER, &run_options.tolerance, "X", WT_Q_NONE,
+         "relative numerical error asked for; default: the case's, or 1e-10"},
+        {"replicates", 0, CMD_COUNT, &replicates, "N", WT_Q_NONE,
+         "refits behind the standard errors; default 64, 0 for none"}};
+    const cmd_usage usage = {
+        "run", "[OPTION]... CASE.xml",
+        "Runs a whole case: what the case asks for, and nothing else. The answer goes to standard\n"
+        "output, the result to an HDF5 file and the figures to a report folder with one page.",
+        CMD_OPT_OUTPUT | CMD_OPT_FORMATS | CMD_OPT_THREADS | CMD_OPT_SEED | CMD_OPT_PROVENANCE,
+        "The result goes to -o FILE; the default is the case's name with .h5 in the current "
+        "folder.\n"
+        "Exit status 1 if a file of the case failed; the rest is answered all the same."};
+    int first = 0, status = CMD_OK;
+    wt_error err = WT_ERROR_INIT;
+    wt_case *the_case = NULL;
+    wt_parselog *log = NULL;
+    wt_result *result = NULL;
+    wt_table *plan = NULL;
+    char *result_name = NULL, *folder_name = NULL;
+    size_t n_failed = 0;
+
+    if (!cmd_parse(&usage, options, sizeof options / sizeof options[0], &common, argc, argv, &first,
+                   &status))
+        goto done;
+    if (argc - first != 1) {
+        status = cmd_usage_error("run", "one case file is needed; %d given", argc - first);
+        goto done;
+    }
+    const char *path = argv[first];
+    if (wt_case_read(path, &the_case, &err) != WT_OK)
+        goto fail;
+    if (plan_only) {
+        if (wt_plan(the_case, &plan, &err) != WT_OK)
+            goto fail;
+        status = print_plan(plan);
+        goto done;
+    }
+    result_name = common.output != NULL ? strdup(common.output) : default_name(path, ".h5");
+    folder_name = folder != NULL ? strdup(folder) : default_name(path, "-report");
+    log = wt_parselog_new();
+    if (result_name == NULL || folder_name == NULL || log == NULL) {
+        wt_fail(&err, WT_E_MEMORY, "out of memory");
+        goto fail;
+    }
+    if (strcmp(result_name, "-") == 0) {
+        status = cmd_usage_error("run", "the result is an HDF5 file and cannot go to a pipe");
+        goto done;
+    }
+    cmd_progress progress;
+    run_options.progress = cmd_progress_start(&progress, common.quiet);
+    run_options.formats = common.formats;
+    run_options.threads = (unsigned)common.threads;
+    run_options.seed = common.seed;
+    run_options.replicates = replicates;
+    const wt_status ran = wt_run(the_case, &run_options, log, &result, &n_failed, &err);
+    cmd_progress_end(&progress);
+    cmd_print_log("run", log, false, common.quiet);
+    if (result != NULL && n_failed > 0) {
+        cmd_print_failures("run", wt_result_find(result, "failures"));
+        status = CMD_FAILED;
+    }
+    if (ran != WT_OK)
+        goto fail;
+    if (cmd_provenance(result, cmd_full_argc, cmd_full_argv, &err) != WT_OK ||
+        wt_store_write(result_name, result, !common.no_provenance, &err) != WT_OK)
+        goto fail;
+    print_answer(result);
+    if (!common.quiet)
+        fprintf(stderr, "result: %s\n", result_name);
+    if (!no_report) {
+        report_options.style = style != NULL ? style : wt_case_style(the_case);
+        report_options.with_provenance = !common.no_provenance;
+        run_options.progress = cmd_progress_start(&progress, common.quiet);
+        const wt_status drawn =
+            wt_report_write(result, folder_name, &report_options, &run_options.progress, &err);
+        cmd_progress_end(&progress);
+        if (drawn != WT_OK)
+            goto fail;
+        if (!common.quiet)
+            fprintf(stderr, "report page: %s/index.html\n", folder_name);
+    }
+    goto done;
+fail:
+    status = cmd_fail("run", &err);
+done:
+    free(result_name);
+    free(folder_name);
+    wt_table_free(plan);
+    wt_result_free(result);
+    wt_parselog_free(log);
+    wt_case_free(the_case);
+    return status;
+}

@@ -1,0 +1,80 @@
+/* Tables from files. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <errno.h>
+#include <string.h>
+
+#include "cmd/tables.h"
+
+static wt_status read_stream(FILE *in, const char *name, wt_result *tables, wt_error *err)
+{
+    for (;;) {
+        wt_table *table = NULL;
+        wt_status status = wt_stream_read(in, name, &table, err);
+        if (status == WT_END)
+            return WT_OK;
+        if (status == WT_OK)
+            status = wt_result_add(tables, table, err);
+        if (status != WT_OK)
+            return status;
+    }
+}
+
+wt_status cmd_tables_read(const char *path, wt_result **tables, wt_error *err)
+{
+    static const unsigned char hdf5_signature[8] = {0x89, 'H', 'D', 'F', '\r', '\n', 0x1a, '\n'};
+    const bool is_pipe = strcmp(path, "-") == 0;
+    wt_result *read = NULL;
+    wt_status status = WT_OK;
+    FILE *in = is_pipe ? stdin : fopen(path, "rb");
+    if (in == NULL) {
+        status = wt_fail(err, errno == ENOENT ? WT_E_NOT_FOUND : WT_E_IO, "%s", strerror(errno));
+        wt_error_file(err, path);
+        return status;
+    }
+    if (!is_pipe) {
+        unsigned char head[sizeof hdf5_signature];
+        const bool is_hdf5 = fread(head, 1, sizeof head, in) == sizeof head &&
+                             memcmp(head, hdf5_signature, sizeof head) == 0;
+        if (is_hdf5) {
+            fclose(in);
+            return wt_store_read(path, tables, err);
+        }
+        rewind(in);
+    }
+    read = wt_result_new();
+    if (read == NULL)
+        status = wt_fail(err, WT_E_MEMORY, "out of memory");
+    else
+        status = read_stream(in, path, read, err);
+    wt_error_file(err, path);
+    if (!is_pipe)
+        fclose(in);
+    if (status == WT_OK && wt_result_n_tables(read) == 0) {
+        status = wt_fail(err, WT_E_EMPTY, "no table");
+        wt_error_file(err, path);
+        wt_error_expected(err, "a weartrack text stream or HDF5 result");
+    }
+    if (status != WT_OK) {
+        wt_result_free(read);
+        return status;
+    }
+    *tables = read;
+    return WT_OK;
+}
+
+wt_status cmd_tables_find(const wt_result *tables, const char *path, const char *prefix,
+                          const char *made_by, const wt_table **table, wt_error *err)
+{
+    for (size_t i = 0; i < wt_result_n_tables(tables); i++) {
+        const wt_table *t = wt_result_table(tables, i);
+        if (strncmp(wt_table_name(t), prefix, strlen(prefix)) == 0) {
+            *table = t;
+            return WT_OK;
+        }
+    }
+    wt_fail(err, WT_E_NOT_FOUND, "a table is missing");
+    wt_error_file(err, path);
+    wt_error_expected(err, "a table '%s'", prefix);
+    wt_error_found(err, "'%s'", wt_table_name(wt_result_table(tables, 0)));
+    wt_error_advice(err, "give the output of weartrack %s", made_by);
+    return WT_E_NOT_FOUND;
+}
