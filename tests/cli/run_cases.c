@@ -194,7 +194,7 @@ static bool check_text(const char *what, const char *text, const char *rule)
 
 static bool check_same(char *rest)
 {
-    char *words[MAX_WORDS];
+    char *words[MAX_WORDS + 1];
     if (split(rest, words) != 2)
         return false;
     size_t n[2] = {0, 0};
@@ -237,7 +237,7 @@ static int run_case(cli_case *c)
     bool good = true;
 
     for (int i = 0; i < c->n; i++) {
-        char *words[MAX_WORDS];
+        char *words[MAX_WORDS + 1];
         if (starts(c->lines[i], "needs", &rest)) {
             if (stat(rest, &st) != 0)
                 return -1;
