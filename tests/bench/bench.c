@@ -1,0 +1,85 @@
+/* Benchmark of weartrack. Run by hand; the tests only build it and run it once for a short time.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "bench/bench.h"
+
+static double run_seconds = 0.5;
+
+static int compare(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+double bench_time(void (*work)(void *), void *data)
+{
+    enum { RUNS = 5 };
+    double seconds[RUNS];
+    work(data); /* warm-up */
+    for (int r = 0; r < RUNS; r++) {
+        size_t calls = 0;
+        const double start = wt_time_wall();
+        double now = start;
+        do {
+            work(data);
+            calls++;
+            now = wt_time_wall();
+        } while (now - start < run_seconds);
+        seconds[r] = (now - start) / (double)calls;
+    }
+    qsort(seconds, RUNS, sizeof *seconds, compare);
+    return seconds[RUNS / 2];
+}
+
+void bench_row(const char *what, double seconds, double textbook_seconds, double items,
+               const char *unit, const char *agreement)
+{
+    printf("%-34s %10.4g %-14s %10.4g  %8.1f x  %s\n", what, items / seconds, unit,
+           items / textbook_seconds, textbook_seconds / seconds, agreement);
+    fflush(stdout);
+}
+
+void bench_check(wt_status status, const wt_error *err)
+{
+    if (status == WT_OK)
+        return;
+    char line[1024];
+    wt_error_format(err, line, sizeof line);
+    fprintf(stderr, "bench: %s: %s\n", wt_status_name(status), line);
+    exit(1);
+}
+
+double bench_uniform(bench_random *random)
+{
+    /* splitmix64 */
+    uint64_t z = random->state += 0x9e3779b97f4a7c15u;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return ((double)((z ^ (z >> 31)) >> 11) + 0.5) / 9007199254740992.0;
+}
+
+double bench_normal(bench_random *random)
+{
+    const double u = bench_uniform(random), v = bench_uniform(random);
+    return sqrt(-2 * log(u)) * cos(6.283185307179586 * v);
+}
+
+int main(int argc, char **argv)
+{
+    if (argc == 2 && strcmp(argv[1], "--short") == 0)
+        run_seconds = 0.01;
+    else if (argc > 1) {
+        fprintf(stderr, "usage: bench [--short]\n");
+        return 2;
+    }
+    printf("weartrack %s, one thread; median of five\n\n", wt_version());
+    printf("%-34s %10s %-14s %10s  %10s  %s\n", "what", "weartrack", "", "textbook", "ratio",
+           "largest difference");
+    bench_curves();
+    bench_friction();
+    bench_shift();
+    return 0;
+}
