@@ -105,8 +105,6 @@ static wt_status convert_force(const wt_formats *formats, wt_input *input,
             continue;
         }
         if (status == WT_OK) {
-            if (!first)
-                fputs("##\n", stream);
             status = wt_stream_write(
                 stream, table, first && with_provenance ? wt_result_provenance_const(result) : NULL,
                 err);
@@ -389,8 +387,6 @@ int cmd_convert(int argc, char **argv)
             goto fail;
     } else {
         for (size_t i = 0; i < wt_result_n_tables(result); i++) {
-            if (i > 0)
-                fputs("##\n", stream);
             if (wt_stream_write(stream, wt_result_table(result, i),
                                 i == 0 && !common.no_provenance ? wt_result_provenance_const(result)
                                                                 : NULL,

@@ -14,8 +14,6 @@ static wt_status write_stream(FILE *out, const wt_result *result, bool with_prov
 {
     const wt_provenance *provenance = with_provenance ? wt_result_provenance_const(result) : NULL;
     for (size_t i = 0; i < wt_result_n_tables(result); i++) {
-        if (i > 0)
-            fputs("##\n", out);
         wt_status status =
             wt_stream_write(out, wt_result_table(result, i), i == 0 ? provenance : NULL, err);
         if (status != WT_OK)
