@@ -26,9 +26,12 @@ static void print_facts(const char *name, const wt_table *facts)
         const char *label = wt_table_text(facts, row, (size_t)item);
         const char *u = wt_table_text(facts, row, (size_t)unit);
         const char *s = source >= 0 ? wt_table_text(facts, row, (size_t)source) : "";
-        printf("  %s%*s  %s", label, (int)(width - text_width(label)), "",
-               wt_table_text(facts, row, (size_t)value));
-        if (*u != '\0' && strcmp(u, "1") != 0)
+        const char *v = wt_table_text(facts, row, (size_t)value);
+        const size_t n_value = strlen(v), n_unit = strlen(u);
+        /* a text that tells a conversion ends in the unit already */
+        const bool has_unit = n_value > n_unit && strcmp(v + n_value - n_unit, u) == 0;
+        printf("  %s%*s  %s", label, (int)(width - text_width(label)), "", v);
+        if (*u != '\0' && strcmp(u, "1") != 0 && !has_unit)
             printf(" %s", u);
         if (*s != '\0')
             printf("  (%s)", s);
