@@ -270,7 +270,7 @@ WT_API wt_status wt_wlf_fit_shifts(const wt_master_curve *master, const wt_shift
  */
 
 typedef struct wt_prony_options {
-    double terms_per_decade; /* default 1 */
+    double terms_per_decade; /* default 2: with 1 the ripple of the series alone is 4 to 16 % */
     double smoothing;        /* Tikhonov lambda on second differences of the terms, each measured by
                                 what it gives to the data; 0 = none (default), 0.01 to 1 useful */
     bool liquid;             /* equilibrium modulus forced to 0 */

@@ -17,7 +17,7 @@ size_t cmd_dma_options(cmd_dma *dma, cmd_option *options)
         {"expansion", 0, CMD_NUMBER, &dma->job.shift.expansion, "X", WT_Q_NONE,
          "volumetric thermal expansion in 1/K, for --vertical physical; default 0"},
         {"terms-per-decade", 0, CMD_NUMBER, &dma->job.prony.terms_per_decade, "X", WT_Q_NONE,
-         "of the Prony series; default 1"},
+         "of the Prony series; default 2"},
         {"smoothing", 0, CMD_NUMBER, &dma->job.prony.smoothing, "X", WT_Q_NONE,
          "Tikhonov parameter of the Prony series; default 0, none"},
         {"liquid", 0, CMD_FLAG, &dma->job.prony.liquid, NULL, WT_Q_NONE, "no equilibrium modulus"}};

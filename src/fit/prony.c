@@ -18,7 +18,7 @@ enum { MAX_TERMS = 1000 };
 
 wt_prony_options wt_prony_defaults(void)
 {
-    return (wt_prony_options){.terms_per_decade = 1.0, .smoothing = 0.0, .liquid = false};
+    return (wt_prony_options){.terms_per_decade = 2.0, .smoothing = 0.0, .liquid = false};
 }
 
 /* z^2/(1+z^2) and z/(1+z^2), z = 10^log_z, without overflow. */
