@@ -7,7 +7,7 @@ int cmd_compare(int argc, char **argv)
 {
     cmd_common common = CMD_COMMON_DEFAULTS;
     const char *master = NULL;
-    double temperature = NAN, poisson_ratio = 0.5;
+    double temperature = (double)NAN, poisson_ratio = 0.5;
     const cmd_option options[] = {
         {"master", 0, CMD_TEXT, &master, "FILE", WT_Q_NONE,
          "output of weartrack master, to compare with DMA at the frequency of the indentation"},
@@ -27,7 +27,7 @@ int cmd_compare(int argc, char **argv)
     wt_result *bulk = NULL, *track = NULL, *dma = NULL, *result = NULL;
     wt_rubber rubber = {0};
     wt_compare_tables tables = {0};
-    wt_compare_job job = {.temperature = NAN, .rates = true};
+    wt_compare_job job = {.temperature = (double)NAN, .rates = true};
     wt_job work = wt_job_defaults();
 
     if (!cmd_parse(&usage, options, sizeof options / sizeof options[0], &common, argc, argv, &first,

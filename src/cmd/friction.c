@@ -9,7 +9,8 @@ int cmd_friction(int argc, char **argv)
     cmd_common common = CMD_COMMON_DEFAULTS;
     cmd_sliding s;
     cmd_sliding_init(&s);
-    wt_layer_known layer = {.thickness = {NAN, 0, 0, "m"}, .modulus_ratio = {NAN, 0, 0, "1"}};
+    wt_layer_known layer = {.thickness = {(double)NAN, 0, 0, "m"},
+                            .modulus_ratio = {(double)NAN, 0, 0, "1"}};
     cmd_option options[CMD_SLIDING_OPTIONS + 2];
     size_t n = cmd_sliding_options(&s, options);
     options[n++] = (cmd_option){"layer-thickness",

@@ -12,7 +12,7 @@ int cmd_layer(int argc, char **argv)
     wt_layer_job job = wt_layer_job_defaults();
     cmd_values time = {NULL, 0};
     int profile = (int)job.profile;
-    job.specific_wear_rate.value = NAN;
+    job.specific_wear_rate.value = (double)NAN;
     cmd_option options[CMD_SLIDING_OPTIONS + 10];
     size_t n = cmd_sliding_options(&s, options);
     const cmd_option own[] = {

@@ -5,7 +5,7 @@
 
 void cmd_read_values_init(cmd_read_values *values)
 {
-    *values = (cmd_read_values){NAN, NAN, NAN, {NULL, 0}};
+    *values = (cmd_read_values){(double)NAN, (double)NAN, (double)NAN, {NULL, 0}};
 }
 
 void cmd_read_values_free(cmd_read_values *values)

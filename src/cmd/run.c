@@ -8,7 +8,8 @@ static int print_plan(const wt_table *plan)
     const long title = wt_table_find(plan, "title"), runs = wt_table_find(plan, "runs");
     const long because = wt_table_find(plan, "because");
     for (size_t i = 0; i < wt_table_n_rows(plan); i++)
-        printf("%-5s %-28s %s\n", wt_table_number(plan, i, (size_t)runs) > 0 ? "run" : "leave",
+        printf("%s  %s\n       %s\n",
+               wt_table_number(plan, i, (size_t)runs) > 0 ? "run  " : "leave",
                wt_table_text(plan, i, (size_t)title), wt_table_text(plan, i, (size_t)because));
     return CMD_OK;
 }

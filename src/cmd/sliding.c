@@ -12,7 +12,7 @@ void cmd_sliding_init(cmd_sliding *s)
     cmd_read_values_init(&s->read);
     cmd_dma_init(&s->dma);
     s->conditions = wt_sliding_defaults();
-    s->conditions.pressure.value = NAN;
+    s->conditions.pressure.value = (double)NAN;
     s->work = wt_job_defaults();
     s->poisson_ratio = 0.5;
     s->replicates = s->work.replicates;

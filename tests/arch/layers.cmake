@@ -14,7 +14,7 @@ set(knows_model base data)
 set(knows_fit base data model)
 set(knows_kernel base data model)
 set(knows_report base data)
-set(knows_flow base data read model fit kernel)
+set(knows_flow base data read model fit kernel report)
 set(knows_cmd base data read model fit kernel report flow)
 
 # Third-party headers: pattern, then the rooms that may include it (joined by '+': lists do not nest).

@@ -26,14 +26,14 @@ set(plants
   "base/planted.c|#include \"weartrack/data.h\""
   "kernel/planted.c|#include \"report/planted.h\""
   "report/planted.c|#include <hdf5.h>"
-  "flow/planted.c|#include \"weartrack/report.h\""
+  "flow/planted.c|#include \"cmd/cmd.h\""
   "model/planted.c|#include <gsl/gsl_multifit_nlinear.h>"
-  "fit/planted.c|int f(void) { return printf(\"words\"); }"
-  "data/planted.c|void g(void) { exit(1); }")
+  "fit/planted.c|int f(void) { return printf(\"words\")@ }"
+  "data/planted.c|void g(void) { exit(1)@ }")
 foreach(plant IN LISTS plants)
   string(REGEX MATCH "^([^|]+)\\|(.*)$" unused "${plant}")
   set(where ${CMAKE_MATCH_1})
-  set(what "${CMAKE_MATCH_2}")
+  string(REPLACE "@" ";" what "${CMAKE_MATCH_2}") # a semicolon would part the list
   file(WRITE ${WORK}/house/src/${where} "${what}\n")
   run_check(fail "${plant}")
   file(REMOVE ${WORK}/house/src/${where})
