@@ -254,7 +254,7 @@ typedef struct wt_layer_job {
     double damage;                  /* Lambda; default 1 */
     double duty;                    /* share of the time in contact; default 1 */
     double start_thickness;         /* [m]; default 0 */
-    bool incubation;
+    bool incubation;                /* as in wt_layer_parameters; default true: exact */
     wt_depth_profile profile;
     double local_friction; /* m of the incompressible profile */
     const double *time;    /* [n_time] s; NULL: chosen around the time scales */

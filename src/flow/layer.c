@@ -52,6 +52,7 @@ wt_layer_job wt_layer_job_defaults(void)
         .specific_wear_rate = {(double)NAN, 0, 0, "m^2/N"},
         .damage = 1,
         .duty = 1,
+        .incubation = true,
         .profile = WT_PROFILE_PERSSON,
     };
 }
@@ -169,8 +170,8 @@ static wt_status choose_times(work *w, const wt_layer_balance *b, wt_error *err)
         first = isfinite(last) && last > 0 ? last / 1000 : 1;
     if (!(last > 0) || !isfinite(last))
         last = 1e6 * first;
-    first /= 10;
-    last = fmax(10 * last, 100 * first);
+    first /= 2;
+    last = fmax(100 * last, 100 * first);
     for (size_t i = 0; i < w->n; i++)
         w->time[i] = first * pow(last / first, (double)i / (double)(w->n - 1));
     return WT_OK;
