@@ -170,6 +170,7 @@ typedef struct wt_compare_job {
     const wt_rubber *rubber;      /* for the DMA comparison; NULL = none */
     double temperature;           /* of the indentation [K]; NaN = the rubber's reference */
     bool rates;                   /* modulus against rate, and the comparison rate by rate */
+    bool groups_only;             /* no comparison of the two groups */
 } wt_compare_job;
 
 typedef struct wt_compare_tables {
@@ -179,7 +180,8 @@ typedef struct wt_compare_tables {
     wt_table *dma_comparison; /* NULL without rubber or rates */
 } wt_compare_tables;
 WT_API void wt_compare_tables_clear(wt_compare_tables *tables);
-/* Also with bulk or track NULL: then without "comparison". */
+/* Also with bulk or track NULL: then without "comparison". WT_E_EMPTY if a comparison is asked for
+ * with fewer than two accepted curves in a group. */
 WT_API wt_status wt_compare_groups(const wt_compare_job *job, const wt_job *common,
                                    wt_compare_tables *tables, wt_error *err) WT_NODISCARD;
 

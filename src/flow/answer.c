@@ -85,6 +85,17 @@ wt_status flow_answer_add(wt_table *table, wt_error *err, const char *question, 
     return status;
 }
 
+/* The message of a stage that failed. */
+static const char *why_failed(const flow_story *story, const char *stage)
+{
+    for (size_t i = 0; i < wt_table_n_rows(story->failures); i++) {
+        const char *name = flow_table_get_text(story->failures, i, "file");
+        if (strncmp(name, "stage ", 6) == 0 && strcmp(name + 6, stage) == 0)
+            return flow_table_get_text(story->failures, i, "message");
+    }
+    return "the stage failed";
+}
+
 /* Why a stage gave nothing, as a sentence. */
 static wt_status say_missing(const flow_story *story, const char *stage, const char *question,
                              const char *kind, wt_table *table, wt_error *err)
@@ -95,9 +106,8 @@ static wt_status say_missing(const flow_story *story, const char *stage, const c
         i++;
     const char *because = story->plan->because[i];
     if (story->outcome[i] == FLOW_FAILED)
-        return flow_answer_add(table, err, question, kind,
-                               "Not answered: the stage %s failed; the table failures says why.",
-                               stage);
+        return flow_answer_add(table, err, question, kind, "Not answered: %s.",
+                               why_failed(story, stage));
     if (story->outcome[i] == FLOW_BLOCKED)
         return flow_answer_add(table, err, question, kind,
                                "Not answered: a stage that %s needs failed; the table failures "

@@ -15,7 +15,7 @@ typedef struct flow_story {
     const flow_outcome *outcome; /* [flow_n_stages] */
     const wt_result *result;
     const wt_parselog *log;
-    size_t n_failures;
+    const wt_table *failures;
 } flow_story;
 
 /* Table "answer". */

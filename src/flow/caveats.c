@@ -259,11 +259,12 @@ static wt_status layer_caveats(const flow_story *story, wt_table *table, wt_erro
 wt_status flow_caveats(const flow_story *story, wt_table *table, wt_error *err)
 {
     wt_status status = WT_OK;
-    if (story->n_failures > 0)
+    const size_t n_failures = wt_table_n_rows(story->failures);
+    if (n_failures > 0)
         status = flow_answer_add(table, err, question, "caveat",
                                  "%zu files or stages failed and are not in these results; the "
                                  "table failures lists them.",
-                                 story->n_failures);
+                                 n_failures);
     if (status == WT_OK)
         status = indentation_caveats(story, table, err);
     if (status == WT_OK)

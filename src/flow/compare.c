@@ -489,7 +489,7 @@ wt_status wt_compare_groups(const wt_compare_job *job, const wt_job *common,
         status = groups_table(listed, names, n, &t.modulus_groups, err);
     if (status == WT_OK)
         status = make_bins(&p, err);
-    if (status == WT_OK && n == 2)
+    if (status == WT_OK && n == 2 && !job->groups_only)
         status = make_comparison(&p, job->rates, common, &t.comparison, err);
     if (status == WT_OK && job->rates && p.n_bins > 0) {
         if (job->rubber != NULL)

@@ -156,7 +156,18 @@ static void find_able(flow_things sources, bool able[FLOW_MAX_STAGES])
     }
 }
 
-/* Chooses the fullest stage that gives a thing, then what it needs. */
+/* Whether stage a is to be preferred to b for what they both give: the one that takes more into
+ * account, or else the one that does less that nobody asked for. */
+static bool is_better(const flow_plan *plan, size_t a, size_t b)
+{
+    int more = count_bits(flow_stages[a].needs) - count_bits(flow_stages[b].needs);
+    if (more != 0)
+        return more > 0;
+    return count_bits(flow_stages[a].gives & ~plan->required) <
+           count_bits(flow_stages[b].gives & ~plan->required);
+}
+
+/* Chooses the best stage that gives a thing, then what it needs. */
 static void choose(flow_plan *plan, const bool able[FLOW_MAX_STAGES], flow_thing thing,
                    const char *because)
 {
@@ -166,8 +177,7 @@ static void choose(flow_plan *plan, const bool able[FLOW_MAX_STAGES], flow_thing
             continue;
         if (plan->chosen[i])
             return;
-        if (best == flow_n_stages ||
-            count_bits(flow_stages[i].needs) > count_bits(flow_stages[best].needs))
+        if (best == flow_n_stages || is_better(plan, i, best))
             best = i;
     }
     if (best == flow_n_stages)

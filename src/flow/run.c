@@ -190,7 +190,7 @@ static wt_status finish(conduct *d, wt_error *err)
     wt_status status = publish_stages(d, err);
     if (status == WT_OK) {
         const flow_story story = {d->run.c,  &d->run.plan,   d->outcome,
-                                  d->result, d->run.job.log, wt_table_n_rows(d->failures)};
+                                  d->result, d->run.job.log, d->failures};
         status = flow_answer(&story, &answer, err);
     }
     if (status == WT_OK && wt_case_title(d->run.c)[0] != '\0') { // the title of the page

@@ -20,8 +20,8 @@ typedef enum flow_thing {
     FLOW_INDENTATION_TRACK,
     FLOW_CURVE_BULK, /* blocks of the two curve tables */
     FLOW_CURVE_TRACK,
-    FLOW_MODULUS_GROUPS,
     FLOW_COMPARISON,
+    FLOW_MODULUS_GROUPS,
     FLOW_MODULUS_RATE,
     FLOW_DMA_COMPARISON,
     FLOW_SHIFT_FACTORS,

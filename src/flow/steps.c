@@ -141,24 +141,37 @@ wt_status flow_step_track(flow_run *run, flow_cost *cost, wt_error *err)
 /* ---- comparison -------------------------------------------------------------------------------
  */
 
-wt_status flow_step_compare(flow_run *run, flow_cost *cost, wt_error *err)
+static wt_status compare(flow_run *run, bool groups_only, flow_cost *cost, wt_error *err)
 {
     wt_compare_job job = {
         .bulk = run->indentation[0],
         .track = run->indentation[1],
         .temperature = run->c->indentation_temperature,
         .rates = (run->plan.required & FLOW_BIT(FLOW_MODULUS_RATE)) != 0,
+        .groups_only = groups_only,
     };
     wt_compare_tables_clear(&run->compare);
     wt_status status = wt_compare_groups(&job, &run->job, &run->compare, err);
+    if (status == WT_OK)
+        cost->items = (double)wt_table_n_rows(run->compare.modulus_groups);
+    return status;
+}
+
+wt_status flow_step_compare(flow_run *run, flow_cost *cost, wt_error *err)
+{
+    wt_status status = compare(run, false, cost, err);
     if (status != WT_OK)
         return status;
-    cost->items = (double)wt_table_n_rows(run->compare.modulus_groups);
-    if (run->compare.comparison != NULL &&
-        !wt_table_estimate(run->compare.comparison, "modulus_ratio", &run->modulus_ratio))
+    if (!wt_table_estimate(run->compare.comparison, "modulus_ratio", &run->modulus_ratio))
         return wt_fail(err, WT_E_INTERNAL, "the comparison gave no modulus ratio");
     run->modulus_ratio.unit = "1";
     return WT_OK;
+}
+
+/* Of the groups there are. */
+wt_status flow_step_groups(flow_run *run, flow_cost *cost, wt_error *err)
+{
+    return compare(run, true, cost, err);
 }
 
 wt_status flow_step_dma_comparison(flow_run *run, flow_cost *cost, wt_error *err)
@@ -170,6 +183,7 @@ wt_status flow_step_dma_comparison(flow_run *run, flow_cost *cost, wt_error *err
         .rubber = &run->rubber,
         .temperature = run->c->indentation_temperature,
         .rates = true,
+        .groups_only = true,
     };
     /* the warnings of the comparison itself have been given by its own stage */
     wt_job quiet = run->job;

@@ -34,6 +34,7 @@ wt_sliding flow_case_conditions(const wt_case *c, const wt_rubber *rubber,
 wt_status flow_step_bulk(flow_run *run, flow_cost *cost, wt_error *err);
 wt_status flow_step_track(flow_run *run, flow_cost *cost, wt_error *err);
 wt_status flow_step_compare(flow_run *run, flow_cost *cost, wt_error *err);
+wt_status flow_step_groups(flow_run *run, flow_cost *cost, wt_error *err);
 wt_status flow_step_master(flow_run *run, flow_cost *cost, wt_error *err);
 wt_status flow_step_given_material(flow_run *run, flow_cost *cost, wt_error *err);
 wt_status flow_step_dma_comparison(flow_run *run, flow_cost *cost, wt_error *err);

@@ -127,11 +127,37 @@ static void test_only_what_is_asked(void **state)
     wt_result_free(result);
 }
 
+/* No curve of the track can be used: no comparison, but the bulk is there, and all is said. */
+static void test_no_track(void **state)
+{
+    (void)state;
+    static const char xml[] =
+        "<case version=\"1\"><indentation><tip>pyramid:half-angle=17.5deg,radius=20nm</tip>"
+        "<bulk><files>" JPK "map-data-2022.10.29-12.27.34.564.jpk-force-map</files></bulk>"
+        "<track><files>" JPK "fmt-jpk-fd_2020.02.07-16.29.05.036.jpk-qi-data</files></track>"
+        "</indentation></case>";
+    if (access(SWEEPS, R_OK) != 0)
+        skip();
+    size_t n_failed = 99;
+    wt_result *result = run_case(xml, &n_failed);
+    const wt_table *groups = wt_result_find(result, "modulus_groups");
+    assert_int_equal(n_failed, 1);
+    assert_null(wt_result_find(result, "comparison"));
+    assert_non_null(groups);
+    assert_int_equal(wt_table_n_rows(groups), 2);
+    assert_true(flow_table_get(groups, 0, "n") > 5);
+    assert_near(flow_table_get(groups, 1, "n"), 0, 0);
+    assert_non_null(
+        strstr(flow_table_get_text(wt_result_find(result, "answer"), 0, "answer"), "Not answered"));
+    wt_result_free(result);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_measured),
         cmocka_unit_test(test_only_what_is_asked),
+        cmocka_unit_test(test_no_track),
     };
     return cmocka_run_group_tests_name("flow measured", tests, NULL, NULL);
 }

@@ -89,6 +89,8 @@ static void test_what_runs(void **state)
                "indentation_bulk bulk_alone ");
     check_plan(HEAD "<indentation>" TIP BULK TRACK "</indentation></case>",
                "indentation_bulk indentation_track comparison ");
+    check_plan(HEAD "<indentation>" TIP BULK TRACK "</indentation><compare/></case>",
+               "indentation_bulk indentation_track groups ");
     check_plan(HEAD DMA "</case>", "master_curve ");
     check_plan(HEAD PRONY ROAD SLIDE "</case>", "given_material roughness friction ");
     check_plan(HEAD PRONY ROAD SLIDE LAYER "</case>", "given_material roughness layer friction ");
