@@ -1,6 +1,6 @@
 # Installs into an empty prefix, moves it, builds and runs a small consumer with the CMake package
 # and with pkg-config, and runs the installed command.
-# Run: cmake -DBUILD=.. -DSOURCE=.. -DWORK=.. -DCC=.. -DCFLAGS=.. -P install.cmake
+# Run: cmake -DBUILD=.. -DSOURCE=.. -DWORK=.. -DCC=.. -DCFLAGS=.. -DGENERATOR=.. -P install.cmake
 # SPDX-License-Identifier: GPL-3.0-or-later
 cmake_minimum_required(VERSION 3.25)
 
@@ -43,7 +43,7 @@ foreach(file IN LISTS installed)
 endforeach()
 
 separate_arguments(flags UNIX_COMMAND "${CFLAGS}")
-run(${CMAKE_COMMAND} -S ${SOURCE}/tests/install/consumer -B ${WORK}/cmake
+run(${CMAKE_COMMAND} -G "${GENERATOR}" -S ${SOURCE}/tests/install/consumer -B ${WORK}/cmake
     -DCMAKE_C_COMPILER=${CC} "-DCMAKE_C_FLAGS=${CFLAGS}" -DCMAKE_PREFIX_PATH=${prefix})
 run(${CMAKE_COMMAND} --build ${WORK}/cmake)
 run(${WORK}/cmake/consumer)
