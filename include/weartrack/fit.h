@@ -110,7 +110,8 @@ WT_API void wt_indent_workspace_free(wt_indent_workspace *workspace);
 
 /* Fits one approach: height [m] (piezo extension; the direction is found from the data), force [N],
  * time [s] or NULL, n samples in the order of time, spring constant [N/m]. A curve that cannot be
- * fitted is not an error: WT_OK with its verdict. WT_E_ARG for n = 0 or a spring constant <= 0. */
+ * fitted is not an error: WT_OK with its verdict. WT_E_ARG for n = 0 or a spring constant <= 0.
+ * options NULL = wt_indent_defaults(). */
 WT_API wt_status wt_indent_fit_curve(const wt_contact_table *table,
                                      const wt_indent_options *options, const double *height,
                                      const double *force, const double *time, size_t n,

@@ -495,6 +495,9 @@ wt_status wt_indent_fit_curve(const wt_contact_table *table, const wt_indent_opt
                               size_t n, double spring_constant, wt_indent_workspace *workspace,
                               wt_indent_fit *fit, wt_error *err)
 {
+    const wt_indent_options defaults = wt_indent_defaults();
+    if (options == NULL)
+        options = &defaults;
     wt_status status = check_arguments(options, n, spring_constant, err);
     if (status == WT_OK)
         status = wt_curve_reserve(workspace, n, err);
