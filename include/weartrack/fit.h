@@ -232,6 +232,8 @@ typedef struct wt_master_curve {
     size_t n_shifts;
     wt_shift *shifts;   /* [n_shifts], rising temperature */
     double *covariance; /* [n_shifts * n_shifts] of log_a; NaN where not determined */
+    double
+        *covariance_ab; /* [(2 n_shifts)^2] of all log_a, then all log_b; 0 where not determined */
     size_t n;
     double *log_frequency;        /* [n] log10 of the reduced angular frequency [rad/s], rising */
     double *log_storage;          /* [n] log10 of E' or G' [Pa], vertical shift applied */
@@ -290,11 +292,11 @@ typedef struct wt_prony_fit {
 WT_API wt_status wt_prony_fit_master(const wt_master_curve *master, const wt_prony_options *options,
                                      wt_prony_fit *fit, wt_error *err) WT_NODISCARD;
 /* Replicate `index` of the same fit, for carrying the uncertainty of the material on to friction:
- * shifts drawn from their covariance (log_b given log_a from its own error and correlation),
- * residuals of whole isotherms exchanged with random sign. The same seed and index give the same
- * series, whatever ran before; relaxation times are those of the fit. Covers the statistical error
- * of shifts, noise and the misfit of the series; not failing superposition, wrong temperatures, or
- * strain amplitude. Costs two fits, below a millisecond for 300 points and 10 terms. */
+ * shifts drawn from their joint covariance, residuals of whole isotherms exchanged with random
+ * sign. The same seed and index give the same series, whatever ran before; relaxation times are
+ * those of the fit. Covers the statistical error of shifts, noise and the misfit of the series; not
+ * failing superposition, wrong temperatures, or strain amplitude. Costs two fits, below a
+ * millisecond for 300 points and 10 terms. */
 WT_API wt_status wt_prony_replicate(const wt_master_curve *master, const wt_prony_options *options,
                                     uint64_t seed, size_t index, wt_prony *prony,
                                     wt_error *err) WT_NODISCARD;

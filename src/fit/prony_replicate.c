@@ -8,6 +8,7 @@
 #include <gsl/gsl_rng.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* Steele, Lea and Flood, OOPSLA 2014: neighbouring seeds and indices become unrelated. */
 static uint64_t split_mix(uint64_t state)
@@ -41,8 +42,9 @@ static void cholesky_semidefinite(double *matrix, size_t n)
 }
 
 struct replicate {
-    double *covariance;                 /* [n_shifts^2], becomes its Cholesky factor */
-    double *normal, *da, *db;           /* [n_shifts] */
+    double *covariance;                 /* [(2 n_shifts)^2], becomes its Cholesky factor */
+    double *normal;                     /* [2 n_shifts] */
+    double *da, *db;                    /* [n_shifts] each, one after the other */
     double *frequency, *storage, *loss; /* [n] the replicate's points */
     double *storage_fit, *loss_fit;     /* [n] of the base series */
     size_t *first, *count;              /* [n_shifts] points of an isotherm in `order` */
@@ -56,13 +58,13 @@ struct replicate {
 static wt_status replicate_alloc(struct replicate *r, const wt_master_curve *master, wt_error *err)
 {
     const size_t m = master->n_shifts, n = master->n;
-    r->numbers = calloc(m * m + 3 * m + 5 * n, sizeof *r->numbers);
+    r->numbers = calloc(4 * m * m + 4 * m + 5 * n, sizeof *r->numbers);
     r->indices = calloc(3 * m + n, sizeof *r->indices);
     if (r->numbers == NULL || r->indices == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for a replicate of %zu points", n);
     r->covariance = r->numbers;
-    r->normal = r->covariance + m * m;
-    r->da = r->normal + m;
+    r->normal = r->covariance + 4 * m * m;
+    r->da = r->normal + 2 * m;
     r->db = r->da + m;
     r->frequency = r->db + m;
     r->storage = r->frequency + n;
@@ -94,30 +96,19 @@ static void sort_points(struct replicate *r, const wt_master_curve *master)
     }
 }
 
-/* Changes of the shifts: `a` from their covariance, `b` given `a` from its own error and the
- * correlation of the two. */
+/* Changes of the shifts, all together from their covariance: the errors of neighbours, horizontal
+ * and vertical, go together. */
 static void draw_shifts(struct replicate *r, const wt_master_curve *master, gsl_rng *rng)
 {
-    const size_t m = master->n_shifts;
-    for (size_t i = 0; i < m; i++)
-        for (size_t j = 0; j < m; j++) {
-            const double c = master->covariance[i * m + j];
-            r->covariance[i * m + j] = isfinite(c) ? c : 0.0; /* undetermined: has no points */
-        }
+    const size_t m = 2 * master->n_shifts;
+    memcpy(r->covariance, master->covariance_ab, m * m * sizeof *r->covariance);
     cholesky_semidefinite(r->covariance, m);
     for (size_t i = 0; i < m; i++)
         r->normal[i] = gsl_ran_gaussian_ziggurat(rng, 1.0);
     for (size_t i = 0; i < m; i++) {
-        r->da[i] = 0.0;
+        r->da[i] = 0.0; /* db follows da */
         for (size_t j = 0; j <= i; j++)
             r->da[i] += r->covariance[i * m + j] * r->normal[j];
-        const wt_shift *shift = &master->shifts[i];
-        const double extra = gsl_ran_gaussian_ziggurat(rng, 1.0);
-        const double sa = shift->log_a.standard_error, sb = shift->log_b.standard_error;
-        r->db[i] = 0.0;
-        if (shift->determined && sb > 0.0)
-            r->db[i] = (sa > 0.0 ? shift->correlation * (sb / sa) * r->da[i] : 0.0) +
-                       sb * sqrt(fmax(1.0 - shift->correlation * shift->correlation, 0.0)) * extra;
     }
 }
 

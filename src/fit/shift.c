@@ -180,6 +180,7 @@ static wt_status fit_together(wt_shift_work *work, wt_error *err)
                             .a = work->a,
                             .b = work->b,
                             .covariance_a = work->covariance,
+                            .covariance_ab = work->covariance_ab,
                             .sigma_b = work->sigma_b,
                             .correlation = work->correlation,
                             .slope_noise = work->slope_noise,
@@ -311,12 +312,39 @@ static wt_status offset_of_reference(wt_shift_work *work, double *offset, double
     return isfinite(*offset) ? WT_OK : out_of_range(work, err);
 }
 
+/* The same for the covariance of all shifts: each block loses its own weighted mean, `a` gains the
+ * variance of the law. `mean` is scratch of 2n. */
+static void move_covariance(wt_shift_work *work, const double *weight, double law_variance,
+                            double *mean)
+{
+    const size_t n = work->set.n;
+    const bool moved[2] = {true, work->options.vertical == WT_VERTICAL_FREE};
+    for (size_t row = 0; row < 2; row++)
+        for (size_t column = 0; column < 2; column++) {
+            double *block = work->covariance_ab + row * n * 2 * n + column * n;
+            double *by_row = mean, *by_column = mean + n, both = 0.0;
+            for (size_t i = 0; i < n; i++) {
+                by_row[i] = by_column[i] = 0.0;
+                for (size_t k = 0; k < n; k++) {
+                    by_row[i] += moved[column] ? weight[k] * block[i * 2 * n + k] : 0.0;
+                    by_column[i] += moved[row] ? weight[k] * block[k * 2 * n + i] : 0.0;
+                }
+            }
+            for (size_t i = 0; i < n; i++)
+                both += moved[row] ? weight[i] * by_row[i] : 0.0;
+            for (size_t i = 0; i < n; i++)
+                for (size_t k = 0; k < n; k++)
+                    block[i * 2 * n + k] += both - by_row[i] - by_column[k] +
+                                            (row == 0 && column == 0 ? law_variance : 0.0);
+        }
+}
+
 /* Makes the shifts relative to a reference temperature that was not measured: a, b, covariance. */
 static wt_status move_reference(wt_shift_work *work, wt_error *err)
 {
     const size_t n = work->set.n;
     double offset = (double)NAN, law_variance = 0.0, offset_b = 0.0, variance = 0.0;
-    double *weight = calloc(2 * n, sizeof *weight);
+    double *weight = calloc(4 * n, sizeof *weight);
     if (weight == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for the reference temperature");
     double *shared = weight + n; /* covariance of a curve with the offset */
@@ -329,6 +357,7 @@ static wt_status move_reference(wt_shift_work *work, wt_error *err)
     for (size_t i = 0; i < n; i++)
         variance += weight[i] * shared[i];
     variance += law_variance;
+    move_covariance(work, weight, law_variance, weight + 2 * n);
     for (size_t i = 0; i < n; i++) {
         work->a[i] -= offset;
         for (size_t k = 0; k < n; k++)
@@ -350,7 +379,7 @@ done:
 static wt_status work_alloc(wt_shift_work *work, wt_error *err)
 {
     const size_t n = work->set.n;
-    work->numbers = calloc(11 * n + 2 * n * n, sizeof *work->numbers);
+    work->numbers = calloc(11 * n + 6 * n * n, sizeof *work->numbers);
     work->placed = calloc(n, sizeof *work->placed);
     work->verdict = calloc(n, sizeof *work->verdict);
     work->n_outliers = calloc(n, sizeof *work->n_outliers);
@@ -369,6 +398,7 @@ static wt_status work_alloc(wt_shift_work *work, wt_error *err)
     work->slope_noise = work->tied + n;
     work->covariance = work->slope_noise + n;
     work->scratch = work->covariance + n * n;
+    work->covariance_ab = work->scratch + n * n + 2 * n;
     return WT_OK;
 }
 

@@ -22,6 +22,7 @@ static wt_status fit_alone(const wt_shift_joint *joint, int q, double *a, double
     alone.a = a;
     alone.b = b;
     alone.covariance_a = covariance;
+    alone.covariance_ab = NULL;
     alone.sigma_b = scratch;
     alone.correlation = scratch + n;
     alone.slope_noise = scratch + 2 * n;

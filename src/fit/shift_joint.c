@@ -354,6 +354,14 @@ static wt_status covariance(struct joint *j, wt_pspline spline[WT_MODULI], wt_er
     }
     gsl_blas_dgemm(CblasNoTrans, CblasNoTrans, 1.0, j->factor, middle, 0.0, left);
     gsl_blas_dgemm(CblasNoTrans, CblasNoTrans, 1.0, left, j->factor, 0.0, middle);
+    for (size_t i = 0; i < 2 * n && task->covariance_ab != NULL; i++) {
+        const long row = i < n ? j->column_a[i] : j->column_b[i - n];
+        for (size_t k = 0; k < 2 * n; k++) {
+            const long column = k < n ? j->column_a[k] : j->column_b[k - n];
+            task->covariance_ab[i * 2 * n + k] =
+                row < 0 || column < 0 ? 0.0 : gsl_matrix_get(middle, (size_t)row, (size_t)column);
+        }
+    }
     for (size_t i = 0; i < n; i++) {
         for (size_t k = 0; k < n; k++)
             task->covariance_a[i * n + k] =

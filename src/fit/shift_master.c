@@ -150,7 +150,8 @@ static wt_status fill_shifts(const wt_shift_work *work, wt_master_curve *master,
     const size_t n = work->set.n;
     master->shifts = calloc(n, sizeof *master->shifts);
     master->covariance = calloc(n * n, sizeof *master->covariance);
-    if (master->shifts == NULL || master->covariance == NULL)
+    master->covariance_ab = calloc(4 * n * n, sizeof *master->covariance_ab);
+    if (master->shifts == NULL || master->covariance == NULL || master->covariance_ab == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for %zu shift factors", n);
     master->n_shifts = n;
     for (size_t i = 0; i < n; i++) {
@@ -180,6 +181,10 @@ static wt_status fill_shifts(const wt_shift_work *work, wt_master_curve *master,
         note_verdict(work, i, shift);
         note_oddities(work, i, shift);
     }
+    for (size_t i = 0; i < 2 * n; i++)
+        for (size_t k = 0; k < 2 * n; k++)
+            if (work->verdict[i % n] == WT_SHIFT_GOOD && work->verdict[k % n] == WT_SHIFT_GOOD)
+                master->covariance_ab[i * 2 * n + k] = work->covariance_ab[i * 2 * n + k];
     note_duplicates(work, master);
     return WT_OK;
 }
@@ -282,6 +287,7 @@ void wt_master_curve_clear(wt_master_curve *master)
         return;
     free(master->shifts);
     free(master->covariance);
+    free(master->covariance_ab);
     free(master->log_frequency);
     free(master->log_storage);
     free(master->log_loss);

@@ -32,10 +32,11 @@ typedef struct wt_shift_work {
     double *physical;           /* [n] log b of rho T */
     double *overlap[WT_MODULI]; /* [n] */
     double *tied; /* [n] what an error of b moves a by, 0 unless they are collinear [decade] */
-    double *slope_noise; /* [n] share of noise in the slopes */
-    bool *flat;          /* [n] no slope of its own: takes no part */
-    double *covariance;  /* [n * n] of a */
-    double *scratch;     /* [n * n + 2 n] */
+    double *slope_noise;   /* [n] share of noise in the slopes */
+    bool *flat;            /* [n] no slope of its own: takes no part */
+    double *covariance;    /* [n * n] of a */
+    double *scratch;       /* [n * n + 2 n] */
+    double *covariance_ab; /* [2n * 2n] of a, then b */
     double rms[WT_MODULI];
     double last_step;
     wt_superposition superposition;

@@ -108,6 +108,7 @@ static wt_master_curve curve_of(void (*moduli)(double log_w, double *storage, do
                               .n_shifts = 1,
                               .shifts = calloc(1, sizeof(wt_shift)),
                               .covariance = calloc(1, sizeof(double)),
+                              .covariance_ab = calloc(4, sizeof(double)),
                               .n = n,
                               .log_frequency = calloc(n, sizeof(double)),
                               .log_storage = calloc(n, sizeof(double)),
@@ -352,9 +353,14 @@ static void replicates_carry_the_errors_of_the_shifts(void **state)
     for (size_t i = 0; i < n; i++) {
         const bool reference = master.shifts[i].log_a.standard_error == 0.0;
         master.shifts[i].log_a.standard_error = reference ? 0.0 : 0.1;
-        for (size_t k = 0; k < n; k++)
-            master.covariance[i * n + k] =
-                reference || master.shifts[k].log_a.value == 0.0 ? 0.0 : 0.01;
+        for (size_t k = 0; k < n; k++) {
+            const double both = reference || master.shifts[k].log_a.value == 0.0 ? 0.0 : 0.01;
+            master.covariance[i * n + k] = both;
+            master.covariance_ab[i * 2 * n + k] = both;
+            master.covariance_ab[i * 2 * n + n + k] = 0.0;
+            master.covariance_ab[(n + i) * 2 * n + k] = 0.0;
+            master.covariance_ab[(n + i) * 2 * n + n + k] = 0.0;
+        }
     }
     double before, after, unused, middle = 0.0, square = 0.0;
     enum { DRAWS = 200 };
