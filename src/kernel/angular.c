@@ -6,30 +6,34 @@
 
 #include "kernel/angular_integral.h"
 
-#include <float.h>
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
-enum { COEFFICIENTS = 48, OUTSIDE_COEFFICIENTS = 16 };
+enum { SHORT_SERIES = 12, COEFFICIENTS = 24, OUTSIDE_COEFFICIENTS = 16, MOST_CUTS = 10 };
 
 /* Pieces end at the whole multiples of this in ln w and at the knots of the law. */
 static const double piece_width = 2;
 /* Two bounds closer than this are one. */
 static const double same_bound = 1e-12;
-/* Relative error at which a series is long enough. */
-static const double series_goal = 64 * DBL_EPSILON;
+/* Relative error at which a series is good enough; a piece with more is cut in two. */
+static const double series_goal = 4e-14;
 
-/* To the right of a knot w_k both integrals have a (ln w - ln w_k)^(3/2) singularity: the series
- * there runs in sqrt(ln w - ln w_k). */
+/* ln(J / scale) of J1 and J2 on a piece. To the right of a knot w_k both integrals have a
+ * (ln w - ln w_k)^(3/2) singularity: the series there runs in sqrt(ln w - ln w_k). */
 typedef struct series {
     double low, high; /* ln w */
     double anchor;    /* ln w_k, NaN = the series runs in ln w itself */
     double u_low, u_high;
     size_t n;
-    double error; /* relative */
+    double error;              /* relative */
+    double scale_j1, scale_j2; /* J in the middle; 0 for J1 of an elastic material */
     double j1[COEFFICIENTS], j2[COEFFICIENTS];
 } series;
+
+typedef struct series_list {
+    size_t n, room;
+    series *items;
+} series_list;
 
 /* int over the angles with w cos(phi) < limit of cos(phi) E'' is theta^2 times a smooth function
  * of theta = asin(limit / w). */
@@ -41,8 +45,7 @@ typedef struct outside_part {
 struct wt_angular {
     const wt_material *material;
     wt_angular_quadrature quadrature;
-    size_t n;
-    series *pieces; /* rising, without gaps */
+    series_list pieces; /* rising, without gaps */
     outside_part below, above;
 };
 
@@ -82,48 +85,90 @@ static double series_omega(const series *s, double z)
     return exp(isnan(s->anchor) ? u : s->anchor + u * u);
 }
 
-/* Relative error from the end of the series. */
-static double series_tail(const double *coefficient, const double *value, size_t n)
+static double series_tail(const double *coefficient, size_t n)
 {
-    double least = INFINITY, most = 0, tail = 0;
-    for (size_t j = 0; j < n; j++) {
-        least = fmin(least, fabs(value[j]));
-        most = fmax(most, fabs(value[j]));
-    }
+    double tail = 0;
     for (size_t k = n - 3; k < n; k++)
         tail = fmax(tail, fabs(coefficient[k]));
-    return most == 0 ? 0 : 2 * tail / least;
+    return 2 * tail;
 }
 
-static double relative(double value, double reference)
+/* Logarithms, so that the relative error is the same all over a piece. */
+static void series_values(const wt_angular *a, const series *s, double z, unsigned refine,
+                          double *j1, double *j2)
 {
-    return reference == value ? 0 : fabs(value - reference) / fabs(reference);
+    wt_angular_integrate(&a->quadrature, series_omega(s, z), 1, refine, j1, j2);
+    *j1 = s->scale_j1 > 0 ? log(*j1 / s->scale_j1) : 0;
+    *j2 = log(*j2 / s->scale_j2);
+}
+
+static void series_fit(const wt_angular *a, series *s, size_t n)
+{
+    double j1[COEFFICIENTS], j2[COEFFICIENTS];
+    s->n = n;
+    for (size_t j = 0; j < n; j++)
+        series_values(a, s, cos(M_PI * ((double)j + 0.5) / (double)n), 1, &j1[j], &j2[j]);
+    chebyshev_fit(j1, n, s->j1);
+    chebyshev_fit(j2, n, s->j2);
+    s->error = fmax(series_tail(s->j1, n), series_tail(s->j2, n));
+}
+
+/* Error of the series, also between its nodes. Against finer panels (refine 2) this holds the error
+ * of the quadrature too. */
+static double series_check(const wt_angular *a, const series *s, unsigned refine)
+{
+    static const double checks[] = {-0.83, 0.37};
+    double error = s->error;
+    for (size_t i = 0; i < sizeof checks / sizeof *checks; i++) {
+        double j1, j2;
+        series_values(a, s, checks[i], refine, &j1, &j2);
+        error = fmax(error, fabs(chebyshev(s->j1, s->n, checks[i]) - j1));
+        error = fmax(error, fabs(chebyshev(s->j2, s->n, checks[i]) - j2));
+    }
+    return error;
 }
 
 static void series_make(const wt_angular *a, series *s)
 {
-    static const size_t lengths[] = {12, 24, COEFFICIENTS};
-    double j1[COEFFICIENTS], j2[COEFFICIENTS];
-    for (size_t trial = 0; trial < sizeof lengths / sizeof *lengths; trial++) {
-        s->n = lengths[trial];
-        for (size_t j = 0; j < s->n; j++) {
-            const double z = cos(M_PI * ((double)j + 0.5) / (double)s->n);
-            wt_angular_integrate(&a->quadrature, series_omega(s, z), 1, 1, &j1[j], &j2[j]);
-        }
-        chebyshev_fit(j1, s->n, s->j1);
-        chebyshev_fit(j2, s->n, s->j2);
-        s->error = fmax(series_tail(s->j1, j1, s->n), series_tail(s->j2, j2, s->n));
-        if (s->error <= series_goal)
-            break;
+    wt_angular_integrate(&a->quadrature, series_omega(s, 0), 1, 1, &s->scale_j1, &s->scale_j2);
+    series_fit(a, s, SHORT_SERIES);
+    if (series_check(a, s, 1) > series_goal)
+        series_fit(a, s, COEFFICIENTS);
+    s->error = series_check(a, s, 1);
+}
+
+static bool series_push(series_list *list, const series *s)
+{
+    if (list->n == list->room) {
+        const size_t room = 2 * list->room + 8;
+        series *items = realloc(list->items, room * sizeof *items);
+        if (!items)
+            return false;
+        list->items = items;
+        list->room = room;
     }
-    /* The quadrature itself is checked with finer panels, between the nodes of the series. */
-    static const double checks[] = {-0.83, 0.37};
-    for (size_t i = 0; i < sizeof checks / sizeof *checks; i++) {
-        double fine_j1, fine_j2;
-        wt_angular_integrate(&a->quadrature, series_omega(s, checks[i]), 1, 2, &fine_j1, &fine_j2);
-        s->error = fmax(s->error, relative(chebyshev(s->j1, s->n, checks[i]), fine_j1));
-        s->error = fmax(s->error, relative(chebyshev(s->j2, s->n, checks[i]), fine_j2));
+    list->items[list->n++] = *s;
+    return true;
+}
+
+/* The piece, or its halves where one series is not good enough: close knots, steep tables. */
+static bool series_add(const wt_angular *a, series_list *list, double low, double high,
+                       double anchor, int cuts)
+{
+    series s = {.low = low, .high = high, .anchor = anchor, .u_low = low, .u_high = high};
+    if (!isnan(anchor)) {
+        s.u_low = sqrt(fmax(0, low - anchor));
+        s.u_high = sqrt(high - anchor);
     }
+    series_make(a, &s);
+    if (s.error <= series_goal || cuts == MOST_CUTS) {
+        s.error = series_check(a, &s, 2);
+        return series_push(list, &s);
+    }
+    const double u = 0.5 * (s.u_low + s.u_high);
+    const double middle = isnan(anchor) ? u : anchor + u * u;
+    return series_add(a, list, low, middle, anchor, cuts + 1) &&
+           series_add(a, list, middle, high, anchor, cuts + 1);
 }
 
 static int compare(const void *left, const void *right)
@@ -133,8 +178,21 @@ static int compare(const void *left, const void *right)
     return (a > b) - (a < b);
 }
 
-/* Makes the pieces from one multiple of piece_width to another into `out` (NULL: only counts). */
-static size_t make_pieces(const wt_angular *a, long first, long last, double *bounds, series *out)
+/* The nearest knot at or below x that a piece there must mind, or NaN. */
+static double knot_before(const wt_angular *a, double x)
+{
+    double anchor = NAN;
+    for (size_t k = 0; k < a->quadrature.n_breaks; k++) {
+        const double knot = log(a->quadrature.breaks[k]);
+        if (knot <= x + same_bound && knot > x - piece_width)
+            anchor = knot;
+    }
+    return anchor;
+}
+
+/* Adds the pieces from one multiple of piece_width to another. */
+static bool add_pieces(const wt_angular *a, long first, long last, double *bounds,
+                       series_list *list)
 {
     size_t n = 0;
     for (long m = first; m <= last; m++)
@@ -145,26 +203,14 @@ static size_t make_pieces(const wt_angular *a, long first, long last, double *bo
             bounds[n++] = x;
     }
     qsort(bounds, n, sizeof *bounds, compare);
-    size_t made = 0;
     for (size_t i = 1, from = 0; i < n; i++) {
         if (bounds[i] - bounds[from] < same_bound)
             continue;
-        if (out) {
-            series *s = &out[made];
-            *s = (series){.low = bounds[from], .high = bounds[i], .anchor = NAN};
-            for (size_t k = 0; k < a->quadrature.n_breaks; k++) {
-                const double x = log(a->quadrature.breaks[k]);
-                if (x <= s->low + same_bound && x > s->low - piece_width)
-                    s->anchor = x;
-            }
-            s->u_low = isnan(s->anchor) ? s->low : sqrt(fmax(0, s->low - s->anchor));
-            s->u_high = isnan(s->anchor) ? s->high : sqrt(s->high - s->anchor);
-            series_make(a, s);
-        }
-        made++;
+        if (!series_add(a, list, bounds[from], bounds[i], knot_before(a, bounds[from]), 0))
+            return false;
         from = i;
     }
-    return made;
+    return true;
 }
 
 wt_status wt_angular_cover(wt_angular *angular, double w_min, double w_max, wt_error *err)
@@ -175,32 +221,30 @@ wt_status wt_angular_cover(wt_angular *angular, double w_min, double w_max, wt_e
     long last = (long)ceil(log(w_max) / piece_width);
     if (last <= first)
         last = first + 1;
+    const series_list *have = &angular->pieces;
     long have_first = last, have_last = last; /* nothing yet */
-    if (angular->n) {
-        have_first = lround(angular->pieces[0].low / piece_width);
-        have_last = lround(angular->pieces[angular->n - 1].high / piece_width);
+    if (have->n) {
+        have_first = lround(have->items[0].low / piece_width);
+        have_last = lround(have->items[have->n - 1].high / piece_width);
         if (first >= have_first && last <= have_last)
             return WT_OK;
         first = first < have_first ? first : have_first;
         last = last > have_last ? last : have_last;
     }
-    const size_t room = (size_t)(last - first) + 1 + angular->quadrature.n_breaks;
-    double *bounds = calloc(room, sizeof *bounds);
-    series *pieces = calloc(room, sizeof *pieces);
-    if (!bounds || !pieces) {
-        free(bounds);
-        free(pieces);
+    series_list made = {0};
+    double *bounds =
+        calloc((size_t)(last - first) + 1 + angular->quadrature.n_breaks, sizeof *bounds);
+    bool good = bounds && add_pieces(angular, first, have_first, bounds, &made);
+    for (size_t i = 0; good && i < have->n; i++)
+        good = series_push(&made, &have->items[i]);
+    good = good && add_pieces(angular, have_last, last, bounds, &made);
+    free(bounds);
+    if (!good) {
+        free(made.items);
         return wt_fail(err, WT_E_MEMORY, "out of memory for the angular integrals");
     }
-    size_t n = make_pieces(angular, first, have_first, bounds, pieces);
-    if (angular->n)
-        memcpy(pieces + n, angular->pieces, angular->n * sizeof *pieces);
-    n += angular->n;
-    n += make_pieces(angular, have_last, last, bounds, pieces + n);
-    free(bounds);
-    free(angular->pieces);
-    angular->pieces = pieces;
-    angular->n = n;
+    free(angular->pieces.items);
+    angular->pieces = made;
     return WT_OK;
 }
 
@@ -210,25 +254,26 @@ void wt_angular_eval(const wt_angular *angular, const double *w, size_t n, doubl
         angular->material->law->angular(angular->material, w, n, j1, j2);
         return;
     }
+    const series_list *pieces = &angular->pieces;
     size_t k = 0;
     for (size_t i = 0; i < n; i++) {
         const double x = log(w[i]);
-        while (k + 1 < angular->n && x > angular->pieces[k].high)
+        while (k + 1 < pieces->n && x > pieces->items[k].high)
             k++;
-        while (k > 0 && x < angular->pieces[k].low)
+        while (k > 0 && x < pieces->items[k].low)
             k--;
-        const series *s = &angular->pieces[k];
+        const series *s = &pieces->items[k];
         const double z = series_coordinate(s, x);
-        j1[i] = chebyshev(s->j1, s->n, z);
-        j2[i] = chebyshev(s->j2, s->n, z);
+        j1[i] = s->scale_j1 > 0 ? s->scale_j1 * exp(chebyshev(s->j1, s->n, z)) : 0;
+        j2[i] = s->scale_j2 * exp(chebyshev(s->j2, s->n, z));
     }
 }
 
 double wt_angular_error(const wt_angular *angular)
 {
     double error = 0;
-    for (size_t i = 0; i < angular->n; i++)
-        error = fmax(error, angular->pieces[i].error);
+    for (size_t i = 0; i < angular->pieces.n; i++)
+        error = fmax(error, angular->pieces.items[i].error);
     return error;
 }
 
@@ -295,6 +340,6 @@ void wt_angular_free(wt_angular *angular)
     if (!angular)
         return;
     wt_angular_quadrature_clear(&angular->quadrature);
-    free(angular->pieces);
+    free(angular->pieces.items);
     free(angular);
 }

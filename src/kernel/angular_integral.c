@@ -8,10 +8,14 @@
 #include <float.h>
 #include <math.h>
 
-enum { SHORT_NODES = 12, LONG_NODES = 20 };
-static const double short_width = 1; /* of a panel for the short rule */
-static const double panel_width = 2; /* the Maxwell pole is pi/2 away from the real axis */
-static const double s_limit = 700;   /* exp(-s) is 1e-304 */
+enum { SHORT_NODES = 10, LONG_NODES = 20 };
+static const double short_width = 0.3; /* of a panel for the short rule */
+/* The Maxwell pole is pi/2 away from the real axis; the deeper, the less a panel counts. */
+static double panel_width(double s)
+{
+    return 1.5 + 0.15 * s;
+}
+static const double s_limit = 700; /* exp(-s) is 1e-304 */
 
 typedef struct panel_sum {
     const wt_angular_quadrature *quadrature;
@@ -53,12 +57,13 @@ static void add_panel(panel_sum *sum, double from, double to, bool over_phi)
 
 static void add_wide(panel_sum *sum, double from, double to, bool over_phi)
 {
-    if (!(to > from))
-        return;
-    const size_t pieces = 1 + (size_t)((to - from) / panel_width);
-    for (size_t p = 0; p < pieces; p++)
-        add_panel(sum, from + (to - from) * ((double)p / (double)pieces),
-                  from + (to - from) * ((double)(p + 1) / (double)pieces), over_phi);
+    double low = from;
+    while (low < to) {
+        const double pieces = 1 + floor((to - low) / panel_width(over_phi ? 0 : low));
+        const double high = pieces > 1 ? low + (to - low) / pieces : to;
+        add_panel(sum, low, high, over_phi);
+        low = high;
+    }
 }
 
 /* acos(c) for c = omega / w in (0, 1], accurate near 1. */
@@ -92,8 +97,9 @@ void wt_angular_integrate(const wt_angular_quadrature *quadrature, double w, dou
         from = fmax(from, to);
     }
     do {
-        add_panel(&sum, from, from + panel_width, false);
-        from += panel_width;
+        const double to = from + panel_width(from);
+        add_panel(&sum, from, to, false);
+        from = to;
     } while (from < s_limit &&
              (sum.last_j1 > DBL_EPSILON / 64 * sum.j1 || sum.last_j2 > DBL_EPSILON / 64 * sum.j2));
     *j1 = sum.j1;

@@ -76,6 +76,12 @@ wt_status wt_friction_scratch_init(wt_friction_scratch *scratch, const wt_fricti
         scratch->panel_g[i] = calloc(panels + 1, sizeof *scratch->panel_g[i]);
         good = good && scratch->panel_mu[i] && scratch->panel_g[i];
     }
+    wt_friction_trend *trends[] = {&scratch->trend_mu, &scratch->trend_g};
+    for (size_t i = 0; i < 2; i++) {
+        trends[i]->last = calloc(panels + 1, sizeof *trends[i]->last);
+        trends[i]->foretold = calloc(panels + 1, sizeof *trends[i]->foretold);
+        good = good && trends[i]->last && trends[i]->foretold;
+    }
     if (good)
         return WT_OK;
     status = wt_fail(err, WT_E_MEMORY, "out of memory for the friction integral");
@@ -98,6 +104,10 @@ void wt_friction_scratch_clear(wt_friction_scratch *scratch)
         free(scratch->panel_mu[i]);
         free(scratch->panel_g[i]);
     }
+    free(scratch->trend_mu.last);
+    free(scratch->trend_mu.foretold);
+    free(scratch->trend_g.last);
+    free(scratch->trend_g.foretold);
     *scratch = (wt_friction_scratch){0};
 }
 
@@ -236,15 +246,34 @@ static wt_estimate number(double value, double error)
     return (wt_estimate){.value = value, .numerical_error = error, .unit = "1"};
 }
 
-/* Error of a value from its differences to the last rule and of that to the one before. The rules
- * gain as many nodes at each step and converge geometrically or faster, so the next difference, and
- * with it the error, would be smaller again by the ratio of these two; a hundred times that is
- * stated, and never more than the difference itself. Both are sums over the panels of absolute
- * values, which do not vanish by accident. */
-static double converged(double difference, double last_difference)
+static const double inflation = 200;
+static const double least_part = 0.02;
+
+/* Error of a sum over panels from the differences of two rules, and of those before. The rules gain
+ * as many nodes at each step and converge geometrically or faster, so the next differences, and
+ * with them the error, would be smaller again by the ratio of these two in the slowest panel that
+ * counts. `inflation` times that is stated, but not less than a part of the differences and not
+ * more than they are. A difference far below what the two before it foretold is taken for an
+ * accident, and raised to the geometric mean of both. `lower` is used up. */
+static double converged(double *lower, const double *higher, wt_friction_trend *trend, size_t parts,
+                        size_t step)
 {
-    const double ratio = difference / last_difference;
-    return ratio < 0.01 ? 100 * ratio * difference : difference;
+    double sum = 0, most = 0, ratio = 0;
+    for (size_t p = 0; p < parts; p++) {
+        lower[p] = fabs(higher[p] - lower[p]);
+        if (step > 1 && trend->foretold[p] > lower[p])
+            lower[p] = sqrt(lower[p] * trend->foretold[p]);
+        sum += lower[p];
+        most = fmax(most, lower[p]);
+    }
+    for (size_t p = 0; p < parts; p++) {
+        const double gain = step > 0 && trend->last[p] > 0 ? lower[p] / trend->last[p] : 1;
+        if (lower[p] > 0.01 * most)
+            ratio = fmax(ratio, inflation * gain);
+        trend->foretold[p] = lower[p] * gain;
+        trend->last[p] = lower[p];
+    }
+    return step > 0 ? sum * fmin(fmax(ratio, least_part), 1) : sum;
 }
 
 static void compute_point(const wt_friction_workspace *ws, wt_friction_scratch *scratch,
@@ -264,22 +293,16 @@ static void compute_point(const wt_friction_workspace *ws, wt_friction_scratch *
     wt_friction_evaluate(ws, scratch, grid, level, at, slot, wt_angular_limited(ws->angular), NULL,
                          &pass);
     point->extrapolated_share = pass.hysteresis > 0 ? fmin(pass.outside / pass.hysteresis, 1) : 0;
-    double last_g = 0, last_mu = 0; /* no difference yet */
     for (size_t r = 1; r < WT_FRICTION_RULES; r++) {
         slot = 1 - slot;
         grid = wt_friction_grid(ws, scratch, plan, r);
         wt_friction_evaluate(ws, scratch, grid, level, at, slot, false, NULL, &pass);
-        double difference_g = 0, difference_mu = 0;
-        for (size_t p = 0; p < pass.parts; p++) {
-            difference_g += fabs(scratch->panel_g[0][p] - scratch->panel_g[1][p]);
-            difference_mu += fabs(scratch->panel_mu[0][p] - scratch->panel_mu[1][p]);
-        }
-        const double error_g =
-            converged(difference_g, last_g) + (rounding + series_error) * pass.variance;
-        const double error_mu = converged(difference_mu, last_mu) + pass.core_error +
-                                (rounding + 2 * series_error) * pass.hysteresis;
-        last_g = difference_g;
-        last_mu = difference_mu;
+        const double error_g = (rounding + series_error) * pass.variance +
+                               converged(scratch->panel_g[1 - slot], scratch->panel_g[slot],
+                                         &scratch->trend_g, pass.parts, r - 1);
+        const double error_mu = (rounding + 2 * series_error) * pass.hysteresis + pass.core_error +
+                                converged(scratch->panel_mu[1 - slot], scratch->panel_mu[slot],
+                                          &scratch->trend_mu, pass.parts, r - 1);
         const double area = wt_contact_area(pass.variance);
         const double error_area = wt_friction_area_error(pass.variance, error_g);
         point->velocity = velocity;

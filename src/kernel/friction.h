@@ -11,6 +11,11 @@
 /* Rules of rising order; neighbours give a value and its error. */
 enum { WT_FRICTION_RULES = 6, WT_FRICTION_MAX_NODES = 32 };
 
+/* Differences of the rules, per panel [capacity + 1]: the last ones, and the next ones to come. */
+typedef struct wt_friction_trend {
+    double *last, *foretold;
+} wt_friction_trend;
+
 /* What one thread needs. */
 typedef struct wt_friction_scratch {
     wt_plan plan;                       /* of this velocity, where knots move with it */
@@ -19,6 +24,7 @@ typedef struct wt_friction_scratch {
     double *bounds;                     /* [capacity + 1] t */
     double *omega, *j1, *j2, *variance; /* [capacity * max nodes] */
     double *panel_mu[2], *panel_g[2];   /* [capacity + 1]; of two passes */
+    wt_friction_trend trend_mu, trend_g;
 } wt_friction_scratch;
 
 struct wt_friction_workspace {

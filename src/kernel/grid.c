@@ -32,7 +32,8 @@ wt_status wt_plan_init(wt_plan *plan, const wt_roughness *roughness, size_t leve
     (void)roughness_breaks(roughness, &n_roughness);
     const double length = log_ratio(roughness->q1, roughness->q0);
     *plan = (wt_plan){.q0 = roughness->q0, .q1 = roughness->q1, .levels = levels};
-    plan->capacity = levels + n_roughness + n_breaks + 2 + (size_t)(length / panel_width);
+    /* from the smallest t up to the width of a panel there are 27 steps of the cell ratio */
+    plan->capacity = levels + n_roughness + n_breaks + 32 + (size_t)(length / panel_width);
     plan->core = calloc(levels + 1, sizeof *plan->core);
     plan->panels = calloc(plan->capacity, sizeof *plan->panels);
     if (!plan->core || !plan->panels) {
@@ -56,10 +57,13 @@ static int compare(const void *left, const void *right)
     return (a > b) - (a < b);
 }
 
-/* The nearest knot at or below t, if it is close enough to spoil a polynomial. */
+/* Square roots right of a knot that is close enough to spoil a polynomial, logarithms close to
+ * t = 0, where G is 0. */
 static wt_panel panel_at(double t_low, double t_high, const double *knots, size_t n_knots)
 {
     wt_panel panel = {.t_low = t_low, .t_high = t_high, .map = WT_MAP_LINEAR};
+    if (t_low > 0 && t_high > 2 * t_low)
+        panel.map = WT_MAP_LOGARITHM;
     const double slack = 1e-12;
     for (size_t k = 0; k < n_knots && knots[k] <= t_low + slack; k++)
         if (knots[k] > t_low - panel_width) {
@@ -96,12 +100,16 @@ void wt_plan_lay(wt_plan *plan, const wt_roughness *roughness, const double *cut
         /* A knot that falls on a break up to rounding; the last bound always counts. */
         if (!(width > 0) || (i + 1 < n && n_knots && width < least))
             continue;
-        const size_t pieces = 1 + (size_t)(width / panel_width);
-        for (size_t p = 0; p < pieces; p++) {
-            const double low = from + width * ((double)p / (double)pieces);
-            const double high =
-                p + 1 < pieces ? from + width * ((double)(p + 1) / (double)pieces) : bounds[i];
+        double low = from;
+        while (low < bounds[i]) {
+            double high = bounds[i];
+            if (low > 0 && high > cell_ratio * low)
+                high = cell_ratio * low;
+            const double pieces = 1 + floor((bounds[i] - low) / panel_width);
+            if (pieces > 1)
+                high = fmin(high, low + (bounds[i] - low) / pieces);
             plan->panels[plan->n_panels++] = panel_at(low, high, knots, n_knots);
+            low = high;
         }
         from = bounds[i];
     }

@@ -1,0 +1,19 @@
+/* Friction by the plain textbook method, as a measure for the kernel: one grid of wavenumbers,
+ * equally spaced in ln q, the trapezoidal rule along it, and Simpson's rule over the angle at each.
+ * The contact area of an interval is the one at its end. No closed form, no grading, no error. */
+#ifndef WT_TESTS_FRICTION_TEXTBOOK_H
+#define WT_TESTS_FRICTION_TEXTBOOK_H
+
+#include "weartrack/model.h"
+
+typedef struct textbook_friction {
+    double stress_variance, area_ratio, hysteresis;
+} textbook_friction;
+
+/* n_q >= 2 wavenumbers from q0 to q1, n_angle >= 2 intervals (even) over a quarter turn. Velocity
+ * > 0. WT_E_MEMORY, or WT_E_ARG for too few of either. */
+wt_status friction_textbook(const wt_material *material, const wt_roughness *roughness,
+                            double pressure, double velocity, size_t n_q, size_t n_angle,
+                            textbook_friction *result) WT_NODISCARD;
+
+#endif

@@ -1,0 +1,247 @@
+/* Materials: moduli, closed angular integrals, limits, what is refused. */
+#include "near.h"
+
+#include "kernel/angular_integral.h"
+#include "weartrack/model.h"
+
+#include <float.h>
+#include <stdio.h>
+#include <string.h>
+
+static wt_prony series(double equilibrium, size_t n, double *modulus, double *tau)
+{
+    return (wt_prony){.deformation = WT_TENSION,
+                      .reference_temperature = (double)NAN,
+                      .equilibrium_modulus = equilibrium,
+                      .n = n,
+                      .relaxation_time = tau,
+                      .modulus = modulus,
+                      .frequency_min = 1e-3,
+                      .frequency_max = 1e7};
+}
+
+/* One Maxwell element against 25-digit values. */
+static void closed_angular_integrals(void **state)
+{
+    (void)state;
+    FILE *in = fopen(WT_SOURCE_DIR "/tests/numeric/friction-functions.txt", "r");
+    assert_non_null(in);
+    double modulus = 1e9, tau = 1;
+    const wt_prony prony = series(1e3, 1, &modulus, &tau);
+    wt_material *m = NULL;
+    assert_int_equal(wt_material_prony(&prony, 0.5, &m, NULL), WT_OK);
+    char line[512];
+    size_t n = 0;
+    while (fgets(line, sizeof line, in)) {
+        double omega, j1_over_e, j2;
+        if (sscanf(line, "maxwell %lf %lf %lf", &omega, &j1_over_e, &j2) != 3)
+            continue;
+        double actual_j1, actual_j2;
+        m->law->angular(m, &omega, 1, &actual_j1, &actual_j2);
+        assert_near(actual_j1, 1e9 * j1_over_e, 8 * DBL_EPSILON);
+        assert_near(actual_j2, j2, 8 * DBL_EPSILON);
+        n++;
+    }
+    fclose(in);
+    assert_int_equal(n, 10);
+    /* far beyond any rubber: no overflow, and the glass modulus */
+    const double ends[] = {0, 1e-300, 1e150, 1e200, 1e300, (double)INFINITY};
+    double j1[6], j2[6];
+    m->law->angular(m, ends, 6, j1, j2);
+    for (size_t i = 0; i < 6; i++) {
+        assert_near(j2[i], 2 * M_PI * (i < 2 ? 1e6 : (1e9 + 1e3) * (1e9 + 1e3)), 1e-14);
+        assert_true(j1[i] >= 0 && j1[i] < 1e-100 * 1e9);
+    }
+    wt_material_free(m);
+}
+
+/* The closed form, its capped twin and plain quadrature over E(w) are one thing. */
+static void closed_form_against_quadrature(void **state)
+{
+    (void)state;
+    double modulus[] = {2.385e6, 4.1e7, 7e8}, tau[] = {3.1e-2, 5e-5, 2e-8};
+    const wt_prony prony = series(3e6, 3, modulus, tau);
+    wt_material *m = NULL;
+    wt_angular_quadrature quadrature;
+    assert_int_equal(wt_material_prony(&prony, 0.5, &m, NULL), WT_OK);
+    assert_int_equal(wt_angular_quadrature_init(m, &quadrature, NULL), WT_OK);
+    for (double w = 1e-3; w < 1e12; w *= 17) {
+        double j1, j2, closed_j1[2], closed_j2[2];
+        wt_angular_integrate(&quadrature, w, 1, 1, &j1, &j2);
+        m->law->angular(m, (double[]){w, 1e160}, 2, closed_j1, closed_j2); /* capped */
+        assert_near(j1, closed_j1[0], 1e-13);
+        assert_near(j2, closed_j2[0], 1e-13);
+        m->law->angular(m, &w, 1, &j1, &j2);
+        assert_near(j1, closed_j1[0], 0);
+        assert_near(j2, closed_j2[0], 0);
+    }
+    wt_angular_quadrature_clear(&quadrature);
+    wt_material_free(m);
+}
+
+static void prony_moduli(void **state)
+{
+    (void)state;
+    double modulus[] = {2e6, 5e8}, tau[] = {1e-2, 1e-6};
+    wt_prony prony = series(3e6, 2, modulus, tau);
+    wt_material *young = NULL, *shear = NULL;
+    assert_int_equal(wt_material_prony(&prony, 0.45, &young, NULL), WT_OK);
+    prony.deformation = WT_SHEAR;
+    assert_int_equal(wt_material_prony(&prony, 0.45, &shear, NULL), WT_OK);
+    modulus[0] = 0; /* the series was copied */
+    const double omega[] = {1e-9, 1e2, 1e300};
+    double storage[3], loss[3], shear_storage[3], shear_loss[3];
+    young->law->modulus(young, omega, 3, storage, loss);
+    shear->law->modulus(shear, omega, 3, shear_storage, shear_loss);
+    assert_near(storage[0], 3e6, 1e-15);
+    assert_near(storage[1], 3e6 + 2e6 * 0.5 + 5e8 * 1e-8 / (1 + 1e-8), 1e-14);
+    assert_near(loss[1], 2e6 * 0.5 + 5e8 * 1e-4 / (1 + 1e-8), 1e-14);
+    assert_near(storage[2], 505e6, 1e-15);
+    for (size_t i = 0; i < 3; i++) {
+        assert_near(shear_storage[i], 2.9 * storage[i], 1e-14);
+        assert_near(shear_loss[i], 2.9 * loss[i], 1e-14);
+    }
+    assert_near(young->frequency_min, 1e-3, 0);
+    assert_near(young->frequency_max, 1e7, 0);
+    wt_material_free(young);
+    wt_material_free(shear);
+}
+
+static void table_moduli(void **state)
+{
+    (void)state;
+    const double omega[] = {1e-2, 1, 1e3}, storage[] = {1e6, 4e6, 4e8}, loss[] = {1e5, 1e6, 1e8};
+    wt_material *hold = NULL, *slope = NULL;
+    assert_int_equal(
+        wt_material_table(omega, storage, loss, 3, 0.5, WT_EXTRAPOLATE_HOLD, &hold, NULL), WT_OK);
+    assert_int_equal(
+        wt_material_table(omega, storage, loss, 3, 0.5, WT_EXTRAPOLATE_SLOPE, &slope, NULL), WT_OK);
+    const double at[] = {1e-4, 1e-2, 1e-1, 1, 1e3, 1e6};
+    double e1[6], e2[6], s1[6], s2[6];
+    hold->law->modulus(hold, at, 6, e1, e2);
+    slope->law->modulus(slope, at, 6, s1, s2);
+    assert_near(e1[0], 1e6, 1e-13);
+    assert_near(e1[2], 2e6, 1e-13);
+    assert_near(e2[2], 1e5 * sqrt(10), 1e-13);
+    assert_near(e1[5], 4e8, 1e-13);
+    assert_near(s1[0], 0.25e6, 1e-13);
+    assert_near(s2[0], 1e4, 1e-13);
+    assert_near(s1[5], 4e10, 1e-13);
+    for (size_t i = 1; i < 5; i++) { /* inside they are the same */
+        assert_near(s1[i], e1[i], 0);
+        assert_near(s2[i], e2[i], 0);
+    }
+    size_t n = 0;
+    const double *breaks = hold->law->breaks(hold, &n);
+    assert_int_equal(n, 3);
+    assert_near(breaks[2], 1e3, 0);
+    assert_near(hold->frequency_min, 1e-2, 0);
+    assert_near(hold->frequency_max, 1e3, 0);
+    wt_material_free(hold);
+    wt_material_free(slope);
+}
+
+/* alpha = 1 is a Maxwell element beside a spring; the ends are E0 and Eg. */
+static void fractional_zener_moduli(void **state)
+{
+    (void)state;
+    double modulus = 2e9 - 5e6, tau = 1e-6;
+    const wt_prony prony = series(5e6, 1, &modulus, &tau);
+    wt_material *maxwell = NULL, *zener = NULL, *wide = NULL;
+    assert_int_equal(wt_material_prony(&prony, 0.49, &maxwell, NULL), WT_OK);
+    assert_int_equal(wt_material_fractional_zener(5e6, 2e9, 1e-6, 1, 0.49, &zener, NULL), WT_OK);
+    assert_int_equal(wt_material_fractional_zener(5e6, 2e9, 1e-6, 0.4, 0.49, &wide, NULL), WT_OK);
+    for (double omega = 1e-9; omega < 1e20; omega *= 37) {
+        double a1, a2, b1, b2;
+        maxwell->law->modulus(maxwell, &omega, 1, &a1, &a2);
+        zener->law->modulus(zener, &omega, 1, &b1, &b2);
+        assert_near(b1, a1, 1e-13);
+        assert_near(b2, a2, 1e-13);
+    }
+    const double ends[] = {DBL_MIN, 1e6, DBL_MAX};
+    double storage[3], loss[3];
+    wide->law->modulus(wide, ends, 3, storage, loss);
+    assert_near(storage[0], 5e6, 1e-12);
+    assert_near(storage[2], 2e9, 1e-12);
+    assert_near(storage[1], 5e6 + (2e9 - 5e6) / 2, 1e-14); /* |z| = 1: the middle, by symmetry */
+    assert_near(loss[1], (2e9 - 5e6) * tan(0.1 * M_PI) / 2, 1e-13);
+    wt_material_free(maxwell);
+    wt_material_free(zener);
+    wt_material_free(wide);
+}
+
+static void refused(wt_status status, const wt_error *err, wt_status expected, const char *word)
+{
+    assert_int_equal(status, expected);
+    assert_int_equal(err->status, expected);
+    assert_non_null(strstr(err->message, word));
+}
+
+static void bad_input(void **state)
+{
+    (void)state;
+    const double nan = (double)NAN, infinite = (double)INFINITY;
+    wt_material *m = NULL;
+    wt_error err = WT_ERROR_INIT;
+    double modulus[] = {1e6, 1e7}, tau[] = {1, 1e-3};
+    wt_prony prony = series(1e6, 2, modulus, tau);
+    const double bad_nu[] = {-0.01, 0.51, nan};
+    for (size_t i = 0; i < 3; i++) {
+        refused(wt_material_prony(&prony, bad_nu[i], &m, &err), &err, WT_E_RANGE, "poisson");
+        assert_non_null(strstr(err.expected, "0.5"));
+    }
+    const double bad[] = {-1, nan, infinite};
+    for (size_t i = 0; i < 3; i++) {
+        prony.equilibrium_modulus = bad[i];
+        refused(wt_material_prony(&prony, 0.5, &m, &err), &err, WT_E_RANGE, "equilibrium_modulus");
+        prony.equilibrium_modulus = 1e6;
+        modulus[1] = bad[i];
+        refused(wt_material_prony(&prony, 0.5, &m, &err), &err, WT_E_RANGE, "modulus");
+        assert_non_null(strstr(err.place, "term 2 of 2"));
+        modulus[1] = 1e7;
+        tau[0] = bad[i];
+        refused(wt_material_prony(&prony, 0.5, &m, &err), &err, WT_E_RANGE, "relaxation_time");
+        tau[0] = 1;
+    }
+    prony.n = 0;
+    prony.equilibrium_modulus = 0;
+    refused(wt_material_prony(&prony, 0.5, &m, &err), &err, WT_E_RANGE, "glass modulus");
+
+    const double omega[] = {1, 10, 10}, storage[] = {3e6, 2e6, 1e6}, loss[] = {1, 1, 0};
+    const wt_extrapolation hold = WT_EXTRAPOLATE_HOLD;
+    refused(wt_material_table(omega, storage, loss, 3, 0.5, hold, &m, &err), &err, WT_E_RANGE,
+            "angular frequency");
+    assert_non_null(strstr(err.place, "knot 3 of 3"));
+    refused(wt_material_table(omega, loss + 1, storage, 2, 0.5, hold, &m, &err), &err, WT_E_RANGE,
+            "storage modulus");
+    refused(wt_material_table(omega, storage, loss + 1, 2, 0.5, hold, &m, &err), &err, WT_E_RANGE,
+            "loss modulus");
+    refused(wt_material_table(omega, storage, loss, 1, 0.5, hold, &m, &err), &err, WT_E_ARG,
+            "knots");
+    const double falling[] = {3e6, 1e6};
+    refused(wt_material_table(omega, falling, storage, 2, 0.5, WT_EXTRAPOLATE_SLOPE, &m, &err),
+            &err, WT_E_RANGE, "slope");
+
+    const double zener[][4] = {{-1, 1e9, 1, 0.5}, {2e9, 1e9, 1, 0.5}, {1e6, 1e9, 0, 0.5},
+                               {1e6, 1e9, 1, 0},  {1e6, 1e9, 1, 1.1}, {1e6, nan, 1, 0.5}};
+    const char *word[] = {"e0", "eg", "tau", "alpha", "alpha", "eg"};
+    for (size_t i = 0; i < 6; i++)
+        refused(wt_material_fractional_zener(zener[i][0], zener[i][1], zener[i][2], zener[i][3],
+                                             0.5, &m, &err),
+                &err, WT_E_RANGE, word[i]);
+    assert_null(m);
+    wt_material_free(NULL);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(closed_angular_integrals),
+        cmocka_unit_test(closed_form_against_quadrature),
+        cmocka_unit_test(prony_moduli),
+        cmocka_unit_test(table_moduli),
+        cmocka_unit_test(fractional_zener_moduli),
+        cmocka_unit_test(bad_input),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
