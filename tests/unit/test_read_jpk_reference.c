@@ -101,8 +101,8 @@ static void go_to(open_file *f, const char *name, size_t index)
     if (strcmp(f->name, name) != 0) {
         close_file(f);
         char path[512];
-        snprintf(f->name, sizeof f->name, "%s", name);
-        snprintf(path, sizeof path, DATA "%s", name);
+        snprintf(f->name, sizeof f->name, "%.255s", name);
+        snprintf(path, sizeof path, DATA "%.255s", name);
         f->log = wt_parselog_new();
         if (wt_input_open(path, &f->input, &err) != WT_OK)
             fail_with(&err);

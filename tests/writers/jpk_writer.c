@@ -155,8 +155,7 @@ static int add_entry(const writer *w, const char *name, void *data, size_t size)
         zip_source_free(source);
         return -1;
     }
-    if (w->file->stored &&
-        zip_set_file_compression(w->zip, (zip_uint64_t)i, ZIP_CM_STORE, 0) != 0)
+    if (w->file->stored && zip_set_file_compression(w->zip, (zip_uint64_t)i, ZIP_CM_STORE, 0) != 0)
         return -1;
     return zip_file_set_dostime(w->zip, (zip_uint64_t)i, 0, 0x5021, 0);
 }
@@ -197,12 +196,10 @@ static void put_unit(FILE *out, const char *prefix, const char *unit)
 static void put_scaling(FILE *out, const char *prefix, double offset, double multiplier,
                         const char *unit)
 {
-    char inner[160];
     fprintf(out, "%sscaling.type=linear\n%sscaling.style=offsetmultiplier\n", prefix, prefix);
     fprintf(out, "%sscaling.offset=%.17g\n%sscaling.multiplier=%.17g\n", prefix, offset, prefix,
             multiplier);
-    snprintf(inner, sizeof inner, "%sscaling.", prefix);
-    put_unit(out, inner, unit);
+    fprintf(out, "%sscaling.unit.type=metric-unit\n%sscaling.unit.unit=%s\n", prefix, prefix, unit);
 }
 
 static void put_slot(FILE *out, const char *prefix, const char *name, const char *base,
