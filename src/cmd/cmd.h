@@ -98,8 +98,24 @@ typedef struct cmd_usage {
  * option; false with the exit status in *status (help was printed, or the words were wrong). */
 bool cmd_parse(const cmd_usage *usage, const cmd_option *options, size_t n_options,
                cmd_common *common, int argc, char **argv, int *first, int *status);
+/* What the option expects if this value (SI) is outside its limits; NULL if it is good. */
+const char *cmd_outside(const char *option, double value);
+/* A usage error if one of the inputs (NULL is skipped) is empty or is the file of -o: the input
+ * would be lost. cmd_parse does this for all files that the call names. */
+int cmd_check_files(const char *name, const cmd_common *common, const char *const *inputs,
+                    size_t n);
+/* The two names are those of one regular file. */
+bool cmd_same_file(const char *a, const char *b);
+/* A usage error if --format names no format. */
+int cmd_check_format(const char *name, const cmd_common *common, const wt_formats *formats);
 /* Says what is wrong with the call on stderr, and where help is; returns CMD_USAGE. */
 int cmd_usage_error(const char *name, const char *format, ...) WT_PRINTF(2, 3);
+
+/* Characters, not bytes: labels hold degree and micro signs. */
+size_t cmd_text_width(const char *text, size_t n);
+/* Prints the text and a line feed; `column` characters stand on the line already. Lines that grow
+ * too long are broken between words and go on after `indent` blanks. */
+void cmd_wrap(FILE *out, size_t column, size_t indent, const char *text);
 
 /* ---- messages ----------------------------------------------------------------------------- */
 
@@ -121,9 +137,13 @@ void cmd_progress_end(cmd_progress *state);
 
 /* ---- output ------------------------------------------------------------------------------- */
 
-/* Writes the tables to -o: a name that ends in .h5 is the HDF5 store, anything else the text
- * stream; without -o or with "-" the stream on standard output. `result` is not freed. */
+/* Writes the tables to -o: a name that ends in .h5 or .hdf5 is the HDF5 store, anything else
+ * the text stream; without -o or with "-" the stream on standard output. `result` is not freed. */
 wt_status cmd_write(const cmd_common *common, wt_result *result, wt_error *err);
+/* Whether the name after -o asks for the HDF5 store. */
+bool cmd_is_store(const char *path);
+/* Refuses an output that is one of the files read: the input would be lost. */
+wt_status cmd_check_output(const char *output, const wt_result *result, wt_error *err);
 /* Records the call in the result's provenance. */
 wt_status cmd_provenance(wt_result *result, int argc, char **argv, wt_error *err);
 

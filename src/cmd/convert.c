@@ -80,8 +80,8 @@ static wt_status curve_table(const wt_force_curve *curve, wt_table **out, wt_err
  * result is collected first. A curve that cannot be read is said and the others go on. */
 static wt_status convert_force(const wt_formats *formats, wt_input *input,
                                const wt_read_options *options, wt_parselog *log, FILE *stream,
-                               bool with_provenance, wt_result *result, size_t *n_failed,
-                               wt_error *err)
+                               const char *output, bool with_provenance, wt_result *result,
+                               size_t *n_failed, wt_error *err)
 {
     wt_force_source *source = NULL;
     wt_force_curve curve = {0};
@@ -114,6 +114,7 @@ static wt_status convert_force(const wt_formats *formats, wt_input *input,
             status = wt_stream_write(
                 stream, table, first && with_provenance ? wt_result_provenance_const(result) : NULL,
                 err);
+            wt_error_file(status != WT_OK ? err : NULL, output);
             first = false;
         }
         wt_table_free(table);
@@ -271,11 +272,12 @@ static const struct {
 
 static wt_status convert(const wt_formats *formats, wt_input *input, unsigned kind,
                          const wt_read_options *options, wt_parselog *log, FILE *stream,
-                         bool with_provenance, wt_result *result, size_t *n_failed, wt_error *err)
+                         const char *output, bool with_provenance, wt_result *result,
+                         size_t *n_failed, wt_error *err)
 {
     switch (kind) {
     case WT_KIND_FORCE:
-        return convert_force(formats, input, options, log, stream, with_provenance, result,
+        return convert_force(formats, input, options, log, stream, output, with_provenance, result,
                              n_failed, err);
     case WT_KIND_SWEEP:
         return convert_sweep(formats, input, options, log, result, err);
@@ -284,12 +286,6 @@ static wt_status convert(const wt_formats *formats, wt_input *input, unsigned ki
     default:
         return convert_images(formats, input, options, log, result, err);
     }
-}
-
-static bool is_hdf5_name(const char *path)
-{
-    const size_t n = path != NULL ? strlen(path) : 0;
-    return n > 3 && strcmp(path + n - 3, ".h5") == 0;
 }
 
 int cmd_convert(int argc, char **argv)
@@ -307,7 +303,7 @@ int cmd_convert(int argc, char **argv)
     const cmd_usage usage = {
         "convert", "[OPTION]... FILE",
         "Writes an instrument file as a text stream (weartrack-stream(5)), or as HDF5 if the name\n"
-        "after -o ends in .h5, in SI units. - is standard input.",
+        "after -o ends in .h5 or .hdf5, in SI units. - is standard input.",
         CMD_OPT_OUTPUT | CMD_OPT_FORMAT | CMD_OPT_FORMATS | CMD_OPT_PROVENANCE, NULL};
     int first = 0, status = CMD_OK;
     size_t n_failed = 0;
@@ -334,6 +330,9 @@ int cmd_convert(int argc, char **argv)
     if (wt_formats_new(common.formats, &formats, log, &err) != WT_OK ||
         wt_input_open(path, &input, &err) != WT_OK)
         goto fail;
+    status = cmd_check_format("convert", &common, formats);
+    if (status != CMD_OK)
+        goto done;
     wt_read_options read_options = cmd_read_make(&values, &common);
     if (read_options.format == NULL &&
         wt_detect(formats, input, wanted >= 0 ? kinds[wanted].kind : 0, &info, &err) != WT_OK)
@@ -341,10 +340,6 @@ int cmd_convert(int argc, char **argv)
     for (size_t i = 0; info == NULL && i < wt_formats_count(formats); i++)
         if (strcmp(wt_formats_get(formats, i)->id, read_options.format) == 0)
             info = wt_formats_get(formats, i);
-    if (info == NULL) {
-        status = cmd_usage_error("convert", "there is no format '%s'", read_options.format);
-        goto done;
-    }
     read_options.format = info->id;
 
     /* provenance: the file that was read */
@@ -362,8 +357,9 @@ int cmd_convert(int argc, char **argv)
         goto fail;
     }
 
-    const bool to_store = is_hdf5_name(common.output);
+    const bool to_store = cmd_is_store(common.output);
     const bool to_file = common.output != NULL && strcmp(common.output, "-") != 0;
+    const char *place = to_file ? common.output : "standard output";
     FILE *stream = to_store ? NULL : stdout;
     if (to_file && !to_store) {
         if (wt_outfile_open(common.output, &file, &err) != WT_OK)
@@ -377,7 +373,7 @@ int cmd_convert(int argc, char **argv)
         if ((info->kinds & kinds[k].kind) == 0 || (wanted >= 0 && (size_t)wanted != k))
             continue;
         err = (wt_error)WT_ERROR_INIT;
-        converted = convert(formats, input, kinds[k].kind, &read_options, log, stream,
+        converted = convert(formats, input, kinds[k].kind, &read_options, log, stream, place,
                             !common.no_provenance, result, &n_failed, &err);
         /* Without calibration there is no force, but what was recorded can be written. */
         if (converted == WT_E_MISSING && kinds[k].kind == WT_KIND_FORCE &&
@@ -386,7 +382,7 @@ int cmd_convert(int argc, char **argv)
                             err.message);
             read_options.want &= ~(WT_Q_BIT(WT_Q_FORCE) | WT_Q_BIT(WT_Q_DEFLECTION));
             err = (wt_error)WT_ERROR_INIT;
-            converted = convert(formats, input, kinds[k].kind, &read_options, log, stream,
+            converted = convert(formats, input, kinds[k].kind, &read_options, log, stream, place,
                                 !common.no_provenance, result, &n_failed, &err);
         }
         if (converted == WT_OK && kinds[k].kind == WT_KIND_FORCE && stream != NULL)
@@ -406,16 +402,20 @@ int cmd_convert(int argc, char **argv)
             if (wt_stream_write(stream, wt_result_table(result, i),
                                 i == 0 && !common.no_provenance ? wt_result_provenance_const(result)
                                                                 : NULL,
-                                &err) != WT_OK)
+                                &err) != WT_OK) {
+                wt_error_file(&err, place);
                 goto fail;
+            }
         }
     }
 written:
     if (file != NULL) {
         wt_outfile *done_file = file;
         file = NULL;
-        if (wt_outfile_commit(done_file, &err) != WT_OK)
+        if (wt_outfile_commit(done_file, &err) != WT_OK) {
+            wt_error_file(&err, place);
             goto fail;
+        }
     }
     cmd_print_log("convert", log, false, common.quiet);
     if (n_failed > 0)

@@ -5,7 +5,6 @@
 
 static int list_formats(const wt_formats *formats)
 {
-    printf("%-16s %-24s %-9s %s\n", "id", "holds", "verified", "what");
     for (size_t i = 0; i < wt_formats_count(formats); i++) {
         const wt_format_info *f = wt_formats_get(formats, i);
         static const struct {
@@ -21,9 +20,14 @@ static int list_formats(const wt_formats *formats)
             if (f->kinds & kinds[k].bit)
                 used += (size_t)snprintf(holds + used, sizeof holds - used, "%s%s",
                                          used > 0 ? ", " : "", kinds[k].word);
-        printf("%-16s %-24s %-9s %s\n", f->id, holds, f->verified ? "yes" : "no", f->title);
-        if (f->evidence != NULL && *f->evidence != '\0')
-            printf("%-16s %-24s %-9s   %s\n", "", "", "", f->evidence);
+        enum { INDENT = 6 };
+        printf("%s%-18s %-22s %s\n%*s", i > 0 ? "\n" : "", f->id, holds,
+               f->verified ? "verified" : "not verified on a measured file", INDENT, "");
+        cmd_wrap(stdout, INDENT, INDENT, f->title);
+        if (f->evidence != NULL && *f->evidence != '\0') {
+            printf("%*s", INDENT, "");
+            cmd_wrap(stdout, INDENT, INDENT, f->evidence);
+        }
     }
     return CMD_OK;
 }

@@ -41,8 +41,8 @@ int cmd_indent(int argc, char **argv)
     bool no_tilt = false, curves = false;
     cmd_option options[24] = {
         {"tip", 0, CMD_TEXT, &tip, "TIP", WT_Q_NONE,
-         "pyramid:half-angle=35deg,radius=20nm[,sides=4][,transition=16nm] (axis to FACE),\n"
-         "                              sphere:radius=5um or cone:half-angle=20deg; required"},
+         "pyramid:half-angle=35deg,radius=20nm[,sides=4][,transition=16nm] (axis to FACE), "
+         "sphere:radius=5um or cone:half-angle=20deg; required"},
         {"group", 0, CMD_TEXT, &group, "NAME", WT_Q_NONE,
          "what these curves are: bulk (default), track, or another name"},
         {"spot", 0, CMD_TEXT, &set.spot, "NAME", WT_Q_NONE,
@@ -110,6 +110,9 @@ int cmd_indent(int argc, char **argv)
     }
     if (wt_formats_new(common.formats, &formats, log, &err) != WT_OK)
         goto fail;
+    status = cmd_check_format("indent", &common, formats);
+    if (status != CMD_OK)
+        goto done;
     set.patterns = (const char *const *)(argv + first);
     set.n_patterns = (size_t)(argc - first);
     set.read = cmd_read_make(&values, &common);

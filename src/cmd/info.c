@@ -3,39 +3,57 @@
 
 #include "cmd/readopts.h"
 
-/* Length in characters, not bytes: labels hold degree and micro signs. */
-static size_t text_width(const char *text)
+/* Numbers as people read them: few digits, the unit with its prefix. Anything else as it is. */
+static void format_value(const char *value, const char *unit, char *out, size_t size)
 {
-    size_t n = 0;
-    for (; *text != '\0'; text++)
-        n += ((unsigned char)*text & 0xC0) != 0x80;
-    return n;
+    enum { DIGITS = 6 };
+    static const char *const si[] = {"m", "m/s", "m/V", "N", "N/m", "Pa", "s", "V", "rad/s"};
+    double number = 0;
+    const bool is_number = wt_number_parse(value, strlen(value), '.', &number);
+    const bool has_unit = *unit != '\0' && strcmp(unit, "1") != 0;
+    for (size_t i = 0; is_number && i < sizeof si / sizeof si[0]; i++)
+        if (strcmp(unit, si[i]) == 0) {
+            char digits[128];
+            wt_format_si(number, unit, DIGITS, digits, sizeof digits);
+            /* without the zeros at the end: 61.0000 mN/m is 61 mN/m */
+            const size_t n = strcspn(digits, " e");
+            size_t kept = n;
+            while (memchr(digits, '.', n) != NULL && kept > 0 && digits[kept - 1] == '0')
+                kept--;
+            kept -= kept > 0 && digits[kept - 1] == '.';
+            snprintf(out, size, "%.*s%s", (int)kept, digits, digits + n);
+            return;
+        }
+    if (is_number && has_unit)
+        snprintf(out, size, "%s %s", value, strcmp(unit, "byte") == 0 ? "bytes" : unit);
+    else
+        snprintf(out, size, "%s", value);
 }
 
 static void print_facts(const char *name, const wt_table *facts)
 {
+    enum { MAX_LABEL = 42 };
     const long item = wt_table_find(facts, "item"), value = wt_table_find(facts, "value");
     const long unit = wt_table_find(facts, "unit"), source = wt_table_find(facts, "source");
     size_t width = 0;
     for (size_t row = 0; row < wt_table_n_rows(facts); row++) {
-        const size_t w = text_width(wt_table_text(facts, row, (size_t)item));
-        width = w > width ? w : width;
+        const char *label = wt_table_text(facts, row, (size_t)item);
+        const size_t w = cmd_text_width(label, strlen(label));
+        width = w > width && w <= MAX_LABEL ? w : width;
     }
     printf("%s\n", name);
     for (size_t row = 0; row < wt_table_n_rows(facts); row++) {
         const char *label = wt_table_text(facts, row, (size_t)item);
-        const char *u = wt_table_text(facts, row, (size_t)unit);
         const char *s = source >= 0 ? wt_table_text(facts, row, (size_t)source) : "";
         const char *v = wt_table_text(facts, row, (size_t)value);
-        const size_t n_value = strlen(v), n_unit = strlen(u);
-        /* a text that tells a conversion ends in the unit already */
-        const bool has_unit = n_value > n_unit && strcmp(v + n_value - n_unit, u) == 0;
-        printf("  %s%*s  %s", label, (int)(width - text_width(label)), "", v);
-        if (*u != '\0' && strcmp(u, "1") != 0 && !has_unit)
-            printf(" %s", u);
-        if (*s != '\0')
-            printf("  (%s)", s);
-        putchar('\n');
+        if (strcmp(label, "file") == 0 && strcmp(v, name) == 0)
+            continue; /* the heading says it */
+        char shown[1024], line[2048];
+        format_value(v, wt_table_text(facts, row, (size_t)unit), shown, sizeof shown);
+        snprintf(line, sizeof line, *s != '\0' ? "%s  (%s)" : "%s%s", shown, s);
+        const size_t w = cmd_text_width(label, strlen(label));
+        printf("  %s%*s  ", label, w < width ? (int)(width - w) : 0, "");
+        cmd_wrap(stdout, 4 + (w > width ? w : width), width + 4, line);
     }
 }
 
@@ -86,6 +104,9 @@ int cmd_info(int argc, char **argv)
         status = cmd_fail("info", &err);
         goto done;
     }
+    status = cmd_check_format("info", &common, formats);
+    if (status != CMD_OK)
+        goto done;
     const wt_read_options read_options = cmd_read_make(&values, &common);
     for (int i = first; i < argc; i++) {
         err = (wt_error)WT_ERROR_INIT;

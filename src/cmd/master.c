@@ -49,6 +49,9 @@ int cmd_master(int argc, char **argv)
     }
     if (wt_formats_new(common.formats, &formats, log, &err) != WT_OK)
         goto fail;
+    status = cmd_check_format("master", &common, formats);
+    if (status != CMD_OK)
+        goto done;
     set.patterns = (const char *const *)(argv + first);
     set.n_patterns = (size_t)(argc - first);
     set.read = cmd_read_make(&values, &common);

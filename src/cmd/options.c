@@ -1,9 +1,10 @@
 /* Options: one table per subcommand gives the parser and the help, so they cannot disagree.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <getopt.h>
-#include <math.h>
+#include <limits.h>
 #include <stdarg.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "cmd/cmd.h"
 
@@ -98,15 +99,16 @@ static size_t common_options(unsigned bits, cmd_common *common, bool *help, cmd_
 
 static void print_option(const cmd_option *o)
 {
-    char left[80];
-    int used = o->letter != 0 ? snprintf(left, sizeof left, "  -%c, --%s", o->letter, o->name)
-                              : snprintf(left, sizeof left, "      --%s", o->name);
-    if (o->value != NULL && used > 0 && (size_t)used < sizeof left)
-        snprintf(left + used, sizeof left - (size_t)used, " %s", o->value);
-    if (strlen(left) > 28)
-        printf("%s\n%30s%s\n", left, "", o->help);
+    enum { HELP_COLUMN = 30 };
+    int used =
+        o->letter != 0 ? printf("  -%c, --%s", o->letter, o->name) : printf("      --%s", o->name);
+    if (o->value != NULL)
+        used += printf(" %s", o->value);
+    if (used > HELP_COLUMN - 2)
+        printf("\n%*s", HELP_COLUMN, "");
     else
-        printf("%-30s%s\n", left, o->help);
+        printf("%*s", HELP_COLUMN - used, "");
+    cmd_wrap(stdout, HELP_COLUMN, HELP_COLUMN, o->help);
 }
 
 static void print_help(const cmd_usage *usage, const cmd_option *options, size_t n)
@@ -139,69 +141,146 @@ static bool find_choice(const char *choices, const char *text, int *out)
 
 static bool parse_count(const char *text, unsigned long *out)
 {
-    if (*text < '0' || *text > '9')
-        return false;
     unsigned long value = 0;
     for (const char *p = text; *p != '\0'; p++) {
-        if (*p < '0' || *p > '9' || value > (1ul << 62) / 10)
+        const unsigned long digit = (unsigned long)*p - '0';
+        if (*p < '0' || *p > '9' || value > (ULONG_MAX - digit) / 10)
             return false;
-        value = value * 10 + (unsigned long)(*p - '0');
+        value = value * 10 + digit;
     }
     *out = value;
-    return true;
+    return *text != '\0';
+}
+
+/* Says what the option expects, if the value is not that. */
+static int check_limits(const char *name, const cmd_option *o, const char *text, double value)
+{
+    const char *expected = cmd_outside(o->name, value);
+    if (expected == NULL)
+        return CMD_OK;
+    return cmd_usage_error(name, "--%s: out of range; expected %s; found %s", o->name, expected,
+                           text);
+}
+
+static int append(const char *name, const cmd_option *o, const char *text)
+{
+    cmd_list *list = o->target;
+    const char *equals = strchr(text, '=');
+    if (strchr(o->value, '=') != NULL && (equals == NULL || equals == text || equals[1] == '\0'))
+        return cmd_usage_error(name, "--%s: expected %s; found '%s'", o->name, o->value, text);
+    const char **grown = realloc((void *)list->items, (list->n + 1) * sizeof *grown);
+    if (grown == NULL) {
+        fprintf(stderr, "weartrack %s: out of memory\n", name);
+        return CMD_FAILED;
+    }
+    grown[list->n++] = text;
+    list->items = grown;
+    return CMD_OK;
+}
+
+static int set_values(const char *name, const cmd_option *o, const char *text, wt_error *err)
+{
+    cmd_values *list = o->target;
+    cmd_values_free(list);
+    if (wt_list_parse(text, o->quantity, &list->values, &list->n, err) != WT_OK)
+        return CMD_USAGE;
+    int status = CMD_OK;
+    for (size_t i = 0; i < list->n && status == CMD_OK; i++)
+        status = check_limits(name, o, text, list->values[i]);
+    return status;
 }
 
 /* Stores one value; an exit status other than CMD_OK when it is wrong. */
 static int set_option(const char *name, const cmd_option *o, const char *text)
 {
     wt_error err = WT_ERROR_INIT;
-    wt_status status = WT_OK;
+    int status = CMD_OK;
+    if (o->kind != CMD_FLAG && *text == '\0')
+        return cmd_usage_error(name, "--%s: the value is empty", o->name);
     switch (o->kind) {
     case CMD_FLAG:
         *(bool *)o->target = true;
-        return CMD_OK;
+        break;
     case CMD_TEXT:
         *(const char **)o->target = text;
-        return CMD_OK;
-    case CMD_LIST: {
-        cmd_list *list = o->target;
-        const char **grown = realloc((void *)list->items, (list->n + 1) * sizeof *grown);
-        if (grown == NULL) {
-            fprintf(stderr, "weartrack %s: out of memory\n", name);
-            return CMD_FAILED;
-        }
-        grown[list->n++] = text;
-        list->items = grown;
-        return CMD_OK;
-    }
+        break;
+    case CMD_LIST:
+        status = append(name, o, text);
+        break;
     case CMD_QUANTITY:
-        status = wt_quantity_parse(text, o->quantity, o->target, &err);
+        if (wt_quantity_parse(text, o->quantity, o->target, &err) == WT_OK)
+            status = check_limits(name, o, text, *(double *)o->target);
         break;
     case CMD_ESTIMATE:
-        status = wt_estimate_parse(text, o->quantity, o->target, &err);
+        if (wt_estimate_parse(text, o->quantity, o->target, &err) == WT_OK)
+            status = check_limits(name, o, text, ((wt_estimate *)o->target)->value);
         break;
     case CMD_VALUES:
-        cmd_values_free(o->target);
-        status = wt_list_parse(text, o->quantity, &((cmd_values *)o->target)->values,
-                               &((cmd_values *)o->target)->n, &err);
+        status = set_values(name, o, text, &err);
         break;
     case CMD_NUMBER:
         if (!wt_number_parse(text, strlen(text), '.', o->target))
-            return cmd_usage_error(name, "--%s: '%s' is not a number", o->name, text);
-        return CMD_OK;
+            status = cmd_usage_error(name, "--%s: '%s' is not a number", o->name, text);
+        else
+            status = check_limits(name, o, text, *(double *)o->target);
+        break;
     case CMD_COUNT:
         if (!parse_count(text, o->target))
-            return cmd_usage_error(name, "--%s: '%s' is not a whole number", o->name, text);
-        return CMD_OK;
+            status = cmd_usage_error(name, "--%s: '%s' is not a whole number, or too large",
+                                     o->name, text);
+        else
+            status = check_limits(name, o, text, (double)*(unsigned long *)o->target);
+        break;
     case CMD_CHOICE:
         if (!find_choice(o->value, text, o->target))
-            return cmd_usage_error(name, "--%s: '%s' is none of %s", o->name, text, o->value);
-        return CMD_OK;
+            status = cmd_usage_error(name, "--%s: '%s' is none of %s", o->name, text, o->value);
+        break;
     }
-    if (status != WT_OK) {
+    if (err.status != WT_OK) {
         char line[1024];
         wt_error_format(&err, line, sizeof line);
-        return cmd_usage_error(name, "--%s: %s", o->name, line);
+        status = cmd_usage_error(name, "--%s: %s", o->name, line);
+    }
+    return status;
+}
+
+/* What getopt did not like, in words. `word` is the argument it stopped at. */
+static int bad_option(const char *name, const struct option *longs, int code, const char *word)
+{
+    if (code == ':')
+        return cmd_usage_error(name, "%s needs a value", word);
+    const size_t length = strcspn(word, "=");
+    size_t n_like = 0;
+    const struct option *like = NULL;
+    for (const struct option *o = longs; o->name != NULL && strncmp(word, "--", 2) == 0; o++)
+        if (length > 2 && strncmp(o->name, word + 2, length - 2) == 0) {
+            if (strlen(o->name) == length - 2)
+                return cmd_usage_error(name, "--%s takes no value", o->name);
+            like = o;
+            n_like++;
+        }
+    if (n_like == 1)
+        return cmd_usage_error(name, "--%s takes no value", like->name);
+    return cmd_usage_error(name, "%s option '%s'", n_like > 1 ? "ambiguous" : "unknown", word);
+}
+
+bool cmd_same_file(const char *a, const char *b)
+{
+    struct stat one, other;
+    return stat(a, &one) == 0 && S_ISREG(one.st_mode) && stat(b, &other) == 0 &&
+           one.st_dev == other.st_dev && one.st_ino == other.st_ino;
+}
+
+int cmd_check_files(const char *name, const cmd_common *common, const char *const *inputs, size_t n)
+{
+    for (size_t i = 0; i < n; i++) {
+        if (inputs[i] == NULL)
+            continue;
+        if (*inputs[i] == '\0')
+            return cmd_usage_error(name, "a file name is empty");
+        if (common->output != NULL && cmd_same_file(common->output, inputs[i]))
+            return cmd_usage_error(name, "-o %s is also an input; give another name",
+                                   common->output);
     }
     return CMD_OK;
 }
@@ -236,9 +315,9 @@ bool cmd_parse(const cmd_usage *usage, const cmd_option *options, size_t n_optio
     int code;
     while ((code = getopt_long(argc, argv, letters, longs, NULL)) != -1) {
         if (code == '?' || code == ':') {
-            const char *word = argv[optind - 1];
-            *status = code == ':' ? cmd_usage_error(usage->name, "%s needs a value", word)
-                                  : cmd_usage_error(usage->name, "unknown option '%s'", word);
+            const char letter[] = {'-', (char)optopt, '\0'};
+            const bool is_letter = optopt > 0 && optopt < FIRST_CODE;
+            *status = bad_option(usage->name, longs, code, is_letter ? letter : argv[optind - 1]);
             return false;
         }
         const cmd_option *chosen = NULL;
@@ -254,5 +333,21 @@ bool cmd_parse(const cmd_usage *usage, const cmd_option *options, size_t n_optio
         return false;
     }
     *first = optind;
-    return true;
+    for (size_t i = 0; i < n && *status == CMD_OK; i++) {
+        const cmd_option *o = &all[i];
+        const bool is_file =
+            o->value != NULL && (strcmp(o->value, "FILE") == 0 || strcmp(o->value, "R") == 0);
+        if (!is_file || o->target == &common->output)
+            continue;
+        if (o->kind == CMD_TEXT)
+            *status = cmd_check_files(usage->name, common, o->target, 1);
+        else if (o->kind == CMD_LIST) {
+            const cmd_list *list = o->target;
+            *status = cmd_check_files(usage->name, common, list->items, list->n);
+        }
+    }
+    if (*status == CMD_OK)
+        *status = cmd_check_files(usage->name, common, (const char *const *)(argv + optind),
+                                  (size_t)(argc - optind));
+    return *status == CMD_OK;
 }

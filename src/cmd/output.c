@@ -9,6 +9,24 @@ static bool ends_with(const char *text, const char *end)
     return n >= m && strcmp(text + n - m, end) == 0;
 }
 
+bool cmd_is_store(const char *path)
+{
+    return path != NULL && (ends_with(path, ".h5") || ends_with(path, ".hdf5"));
+}
+
+wt_status cmd_check_output(const char *output, const wt_result *result, wt_error *err)
+{
+    const wt_provenance *provenance = wt_result_provenance_const(result);
+    for (size_t i = 0; output != NULL && i < wt_provenance_n_inputs(provenance); i++)
+        if (cmd_same_file(output, wt_provenance_get_input(provenance, i)->path)) {
+            wt_fail(err, WT_E_ARG, "this file was read and would be lost: nothing is written");
+            wt_error_file(err, output);
+            wt_error_advice(err, "give another name after -o");
+            return WT_E_ARG;
+        }
+    return WT_OK;
+}
+
 static wt_status write_stream(FILE *out, const wt_result *result, bool with_provenance,
                               wt_error *err)
 {
@@ -33,12 +51,16 @@ wt_status cmd_write(const cmd_common *common, wt_result *result, wt_error *err)
     wt_status status = cmd_provenance(result, cmd_full_argc, cmd_full_argv, err);
     if (status != WT_OK)
         return status;
+    status = cmd_check_output(common->output, result, err);
+    if (status != WT_OK)
+        return status;
     const bool with_provenance = !common->no_provenance;
     if (common->output == NULL || strcmp(common->output, "-") == 0) {
         status = write_stream(stdout, result, with_provenance, err);
+        wt_error_file(err, "standard output");
         return status;
     }
-    if (ends_with(common->output, ".h5") || ends_with(common->output, ".hdf5"))
+    if (cmd_is_store(common->output))
         return wt_store_write(common->output, result, with_provenance, err);
     wt_outfile *file = NULL;
     status = wt_outfile_open(common->output, &file, err);
@@ -46,6 +68,7 @@ wt_status cmd_write(const cmd_common *common, wt_result *result, wt_error *err)
         return status;
     status = write_stream(wt_outfile_stream(file), result, with_provenance, err);
     if (status != WT_OK) {
+        wt_error_file(err, common->output);
         wt_outfile_discard(file);
         return status;
     }

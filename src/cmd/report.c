@@ -6,7 +6,9 @@ int cmd_report(int argc, char **argv)
 {
     cmd_common common = CMD_COMMON_DEFAULTS;
     wt_report_options report_options = wt_report_defaults();
-    const cmd_option options[] = {{"style", 0, CMD_TEXT, &report_options.style, "STYLE", WT_Q_NONE,
+    const cmd_option options[] = {{"output", 'o', CMD_TEXT, &common.output, "FOLDER", WT_Q_NONE,
+                                   "the folder to write; required"},
+                                  {"style", 0, CMD_TEXT, &report_options.style, "STYLE", WT_Q_NONE,
                                    "plot style: paper, screen or a file; default paper"},
                                   {"gnuplot", 0, CMD_TEXT, &report_options.gnuplot, "PROGRAM",
                                    WT_Q_NONE, "the gnuplot to use; default: gnuplot"}};
@@ -14,7 +16,7 @@ int cmd_report(int argc, char **argv)
         "report", "RESULT.h5 -o FOLDER [OPTION]...",
         "Writes a folder with one page, index.html, and for each figure its data, script and\n"
         "picture; the figures can be drawn again without weartrack.",
-        CMD_OPT_OUTPUT | CMD_OPT_PROVENANCE, NULL};
+        CMD_OPT_PROVENANCE, NULL};
     int first = 0, status = CMD_OK;
     wt_error err = WT_ERROR_INIT;
     wt_result *result = NULL;

@@ -3,15 +3,17 @@
 
 #include "cmd/cmd.h"
 
-static int print_plan(const wt_table *plan)
+static void print_plan(const wt_table *plan)
 {
+    enum { INDENT = 8 };
     const long title = wt_table_find(plan, "title"), runs = wt_table_find(plan, "runs");
     const long because = wt_table_find(plan, "because");
-    for (size_t i = 0; i < wt_table_n_rows(plan); i++)
-        printf("%s  %s\n       %s\n",
-               wt_table_number(plan, i, (size_t)runs) > 0 ? "run  " : "leave",
-               wt_table_text(plan, i, (size_t)title), wt_table_text(plan, i, (size_t)because));
-    return CMD_OK;
+    for (size_t i = 0; i < wt_table_n_rows(plan); i++) {
+        const bool does = wt_table_number(plan, i, (size_t)runs) > 0;
+        printf("%-*s%s\n%*s", INDENT, does ? "run" : "leave", wt_table_text(plan, i, (size_t)title),
+               INDENT, "");
+        cmd_wrap(stdout, INDENT, INDENT, wt_table_text(plan, i, (size_t)because));
+    }
 }
 
 /* The answer is the data of this subcommand: it goes to standard output. */
@@ -27,7 +29,8 @@ static void print_answer(const wt_result *result)
         if (strcmp(q, last) != 0)
             printf("%s%s\n", i > 0 ? "\n" : "", q);
         last = q;
-        printf("  %s\n", wt_table_text(answer, i, (size_t)text));
+        fputs("  ", stdout);
+        cmd_wrap(stdout, 2, 4, wt_table_text(answer, i, (size_t)text));
     }
 }
 
@@ -54,10 +57,12 @@ int cmd_run(int argc, char **argv)
     const char *folder = NULL, *style = NULL;
     unsigned long replicates = run_options.replicates;
     const cmd_option options[] = {
+        {"output", 'o', CMD_TEXT, &common.output, "FILE", WT_Q_NONE,
+         "the result, HDF5; default: the case's name with .h5, in the current folder"},
         {"plan", 0, CMD_FLAG, &plan_only, NULL, WT_Q_NONE,
          "only say which stages would run and why, and why the others would not"},
         {"report", 'r', CMD_TEXT, &folder, "FOLDER", WT_Q_NONE,
-         "where the report goes; default: the case's name with -report"},
+         "where the report goes; default: the case's name with -report, in the current folder"},
         {"no-report", 0, CMD_FLAG, &no_report, NULL, WT_Q_NONE, "write no report"},
         {"style", 0, CMD_TEXT, &style, "STYLE", WT_Q_NONE,
          "plot style: paper, screen or a file; default: the case's, or paper"},
@@ -69,9 +74,7 @@ int cmd_run(int argc, char **argv)
         "run", "[OPTION]... CASE.xml",
         "Runs a whole case: what the case asks for, and nothing else. The answer goes to standard\n"
         "output, the result to an HDF5 file and the figures to a report folder with one page.",
-        CMD_OPT_OUTPUT | CMD_OPT_FORMATS | CMD_OPT_THREADS | CMD_OPT_SEED | CMD_OPT_PROVENANCE,
-        "The result goes to -o FILE; the default is the case's name with .h5 in the current "
-        "folder.\n"
+        CMD_OPT_FORMATS | CMD_OPT_THREADS | CMD_OPT_SEED | CMD_OPT_PROVENANCE,
         "Exit status 1 if a file of the case failed; the rest is answered all the same."};
     int first = 0, status = CMD_OK;
     wt_error err = WT_ERROR_INIT;
@@ -95,7 +98,7 @@ int cmd_run(int argc, char **argv)
     if (plan_only) {
         if (wt_plan(the_case, &plan, &err) != WT_OK)
             goto fail;
-        status = print_plan(plan);
+        print_plan(plan);
         goto done;
     }
     result_name = common.output != NULL ? strdup(common.output) : default_name(path, ".h5");
@@ -125,6 +128,7 @@ int cmd_run(int argc, char **argv)
     if (ran != WT_OK)
         goto fail;
     if (cmd_provenance(result, cmd_full_argc, cmd_full_argv, &err) != WT_OK ||
+        cmd_check_output(result_name, result, &err) != WT_OK ||
         wt_store_write(result_name, result, !common.no_provenance, &err) != WT_OK)
         goto fail;
     print_answer(result);

@@ -37,8 +37,8 @@ size_t cmd_sliding_options(cmd_sliding *s, cmd_option *options)
         {"material", 'm', CMD_TEXT, &s->material, "FILE", WT_Q_NONE,
          "output of weartrack master (text stream or .h5); - is standard input"},
         {"dma", 0, CMD_LIST, &s->dma_files, "FILE", WT_Q_NONE,
-         "DMA file, folder or pattern instead of --material; repeatable. The standard errors\n"
-         "                              then include those of the shift and of the series"},
+         "DMA file, folder or pattern instead of --material; repeatable. The standard errors "
+         "then include those of the shift and of the series"},
         {"roughness", 0, CMD_TEXT, &s->roughness, "R", WT_Q_NONE,
          "self-affine:q0=..rad/m,qr=..rad/m,q1=..rad/m,hurst=..,c0=..m^4 or a spectrum file"},
         {"pressure", 'p', CMD_ESTIMATE, &s->conditions.pressure, "P", WT_Q_PRESSURE,
@@ -102,6 +102,9 @@ int cmd_sliding_open(cmd_sliding *s, const char *name, const cmd_common *common,
                                      "--dma");
     if ((s->material == NULL) == (s->dma_files.n == 0))
         return cmd_usage_error(name, "give either --material FILE or --dma FILE");
+    if (s->material != NULL && !isnan(s->read.temperature))
+        return cmd_usage_error(name, "--temperature is that of --dma files; the rubber's while it "
+                                     "slides is --sliding-temperature");
     if (s->roughness == NULL)
         return cmd_usage_error(name, "--roughness is missing");
     if (isnan(s->conditions.pressure.value))
@@ -117,6 +120,9 @@ int cmd_sliding_open(cmd_sliding *s, const char *name, const cmd_common *common,
     }
     if (wt_formats_new(common->formats, &s->formats, s->log, &err) != WT_OK)
         return cmd_fail(name, &err);
+    const int format_status = cmd_check_format(name, common, s->formats);
+    if (format_status != CMD_OK)
+        return format_status;
     s->work.formats = s->formats;
     s->work.threads = (unsigned)common->threads;
     s->work.seed = common->seed;

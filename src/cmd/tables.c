@@ -52,6 +52,7 @@ wt_status cmd_tables_read(const char *path, wt_result **tables, wt_error *err)
         status = wt_fail(err, WT_E_EMPTY, "no table");
         wt_error_file(err, path);
         wt_error_expected(err, "a weartrack text stream or HDF5 result");
+        wt_error_advice(err, "give what weartrack indent or weartrack master wrote");
     }
     if (status != WT_OK) {
         wt_result_free(read);

@@ -1,0 +1,42 @@
+/* Lines for people: text broken between words. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+
+#include "cmd/cmd.h"
+
+/* Readable on the screen of an instrument computer and in an e-mail. */
+enum { LINE_WIDTH = 96 };
+
+size_t cmd_text_width(const char *text, size_t n)
+{
+    size_t width = 0;
+    for (size_t i = 0; i < n; i++)
+        width += ((unsigned char)text[i] & 0xC0) != 0x80;
+    return width;
+}
+
+void cmd_wrap(FILE *out, size_t column, size_t indent, const char *text)
+{
+    bool begin = true; /* nothing of the text is on this line yet */
+    for (const char *p = text; *p != '\0';) {
+        const size_t blanks = strspn(p, " ");
+        const size_t word = strcspn(p + blanks, " \n");
+        const size_t width = cmd_text_width(p, blanks + word);
+        if (!begin && column + width > LINE_WIDTH) {
+            fprintf(out, "\n%*s", (int)indent, "");
+            column = indent;
+            begin = true;
+        }
+        const size_t skip = begin ? blanks : 0;
+        fwrite(p + skip, 1, blanks - skip + word, out);
+        column += width - skip;
+        begin = begin && word == 0;
+        p += blanks + word;
+        if (*p == '\n') {
+            fprintf(out, "\n%*s", (int)indent, "");
+            column = indent;
+            begin = true;
+            p++;
+        }
+    }
+    fputc('\n', out);
+}
