@@ -66,43 +66,56 @@ static void set_defaults(wt_case *c)
     c->modulus_ratio = (wt_estimate){(double)NAN, 0, 0, "1"};
 }
 
+wt_status case_from_bytes(const void *bytes, size_t length, const char *path, wt_case **out,
+                          wt_error *err)
+{
+    if (length == 0 || length > MAX_CASE_BYTES) {
+        wt_fail(err, WT_E_SCHEMA, "this is no case file");
+        wt_error_expected(err, "XML of 1 byte to 4 MiB");
+        wt_error_found(err, "%zu bytes", length);
+        wt_error_file(err, path);
+        return WT_E_SCHEMA;
+    }
+    wt_status status = WT_OK;
+    wt_case *c = calloc(1, sizeof *c);
+    char *folder = wt_path_folder(path);
+    if (c == NULL || folder == NULL) {
+        status = wt_fail(err, WT_E_MEMORY, "out of memory");
+        goto done;
+    }
+    set_defaults(c);
+    c->xml_length = length;
+    c->path = case_text(c, path, strlen(path));
+    c->folder = case_text(c, folder, strlen(folder));
+    c->xml = case_text(c, bytes, length);
+    status = c->path == NULL || c->folder == NULL || c->xml == NULL
+                 ? wt_fail(err, WT_E_MEMORY, "out of memory")
+                 : case_parse(c, err);
+done:
+    free(folder);
+    if (status != WT_OK) {
+        wt_error_file(err, path);
+        wt_case_free(c);
+        return status;
+    }
+    *out = c;
+    return WT_OK;
+}
+
 wt_status wt_case_read(const char *path, wt_case **out, wt_error *err)
 {
     if (path == NULL || out == NULL)
         return wt_fail(err, WT_E_ARG, "no case file");
     wt_input *input = NULL;
     const unsigned char *bytes = NULL;
-    char *folder = NULL;
-    wt_case *c = calloc(1, sizeof *c);
-    wt_status status = c == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
+    size_t length = 0;
+    wt_status status = wt_input_open(path, &input, err);
     if (status == WT_OK)
-        status = wt_input_open(path, &input, err);
+        status = wt_input_bytes(input, &bytes, &length, err);
     if (status == WT_OK)
-        status = wt_input_bytes(input, &bytes, &c->xml_length, err);
-    if (status != WT_OK)
-        goto done;
-    if (c->xml_length == 0 || c->xml_length > MAX_CASE_BYTES) {
-        status = wt_fail(err, WT_E_SCHEMA, "this is no case file");
-        wt_error_expected(err, "XML of 1 byte to 4 MiB");
-        wt_error_found(err, "%zu bytes", c->xml_length);
-        goto done;
-    }
-    set_defaults(c);
-    folder = wt_path_folder(path);
-    c->path = case_text(c, path, strlen(path));
-    c->folder = folder == NULL ? NULL : case_text(c, folder, strlen(folder));
-    c->xml = case_text(c, (const char *)bytes, c->xml_length);
-    status = c->path == NULL || c->folder == NULL || c->xml == NULL
-                 ? wt_fail(err, WT_E_MEMORY, "out of memory")
-                 : case_parse(c, err);
-done:
-    if (status != WT_OK) {
+        status = case_from_bytes(bytes, length, path, out, err);
+    else
         wt_error_file(err, path);
-        wt_case_free(c);
-    } else {
-        *out = c;
-    }
-    free(folder);
     wt_input_close(input);
     return status;
 }

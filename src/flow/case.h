@@ -60,6 +60,10 @@ struct wt_case {
 void *case_alloc(wt_case *c, size_t size);
 char *case_text(wt_case *c, const char *text, size_t length);
 
+/* A case from the bytes of its file; `path` names it and its folder. */
+wt_status case_from_bytes(const void *bytes, size_t length, const char *path, wt_case **out,
+                          wt_error *err) WT_NODISCARD;
+
 /* The whole file `bytes` to a case; `c` has path, folder and xml set. */
 wt_status case_parse(wt_case *c, wt_error *err) WT_NODISCARD;
 
