@@ -16,7 +16,9 @@ extern "C" {
 /* ---- contact and friction -----------------------------------------------------------------------
  */
 
-/* A soft (or stiff) bonded surface layer on the bulk: E_layer = ratio E_bulk at every frequency. */
+/* A soft (or stiff) bonded surface layer on the bulk: E_layer = ratio E_bulk at every frequency.
+ * Its stiffness at a wavenumber is that of Burmister (1943) for nu = 1/2, whatever the material
+ * says. */
 typedef struct wt_layer_state {
     double thickness;     /* [m], 0 = none */
     double modulus_ratio; /* E_layer / E_bulk, > 0 */
@@ -26,20 +28,22 @@ typedef struct wt_friction_options {
     double tolerance; /* relative numerical error asked for; default 1e-10 */
     double gamma;     /* S = gamma + (1 - gamma) P^2 in the friction integrand; 1 = Persson 2001 */
     wt_layer_state layer; /* default none */
-    unsigned threads;     /* over velocities; 0 = one per processor */
+    unsigned threads;     /* over velocities; 0 = one per processor; default 1 */
 } wt_friction_options;
 WT_API wt_friction_options wt_friction_defaults(void);
 
-/* At one velocity. numerical_error is an estimate that bounds the true error. */
+/* At one velocity. numerical_error is an estimate that bounds the true error; it is stated whether
+ * or not the tolerance was met. */
 typedef struct wt_friction_point {
     double velocity;             /* [m/s] */
     wt_estimate stress_variance; /* G(q1) */
     wt_estimate area_ratio;      /* P(q1) = A/A0 */
     wt_estimate one_minus_area;  /* 1 - P without cancellation */
     wt_estimate hysteresis;      /* mu_hys */
-    double extrapolated_share;   /* share of mu_hys from frequencies outside the material's range */
-    size_t nodes;                /* q nodes used */
-    bool reached;                /* tolerance met */
+    double extrapolated_share; /* share of mu_hys from frequencies outside the material's range: the
+                                  angle is cut where q v cos(phi) leaves it; good to 3 digits */
+    size_t nodes;              /* q nodes of the last rule */
+    bool reached;              /* G, P and mu_hys meet the tolerance, relative to each */
 } wt_friction_point;
 
 /* Per wavenumber: contact area against magnification q/q0, running friction, dissipated power. */
@@ -57,8 +61,9 @@ WT_API wt_status wt_friction_workspace_new(const wt_material *material,
                                            wt_friction_workspace **workspace,
                                            wt_error *err) WT_NODISCARD;
 WT_API void wt_friction_workspace_free(wt_friction_workspace *workspace);
-/* mu_hys, P, G at n velocities; pressure [Pa] > 0. A negative velocity gives negative friction.
- * points: [n]. */
+/* mu_hys, P, G at n velocities; pressure [Pa] > 0. A negative velocity gives negative friction; 0
+ * is allowed where the law has closed angular integrals (Prony). points: [n], undefined on failure.
+ * WT_E_RANGE names pressure or velocity. One call at a time per workspace. */
 WT_API wt_status wt_friction_compute(wt_friction_workspace *workspace, double pressure,
                                      const double *velocity, size_t n, wt_friction_point *points,
                                      wt_error *err) WT_NODISCARD;
@@ -125,10 +130,12 @@ typedef struct wt_layer_balance {
     double ratio;                       /* R = Qf(0)/Qw, infinity without wear */
     double critical_specific_wear_rate; /* k* [m^2/N] */
     wt_estimate thickness;              /* delta_total [m]; infinity without wear */
-    double eigenvalue;                  /* [1/s] */
-    double relaxation_time;             /* 1/(kappa Qw) [s] */
-    double incubation_time; /* [s] without and with wear as `incubation` says; NaN if never */
-    double removal_time;    /* of the start thickness when there is no layer [s]; NaN */
+    double eigenvalue;                  /* of the balance [1/s]; 0 if there is none or no wear */
+    double relaxation_time; /* 1/(kappa Qw) [s], kappa = w / int w there; infinity without wear */
+    double incubation_time; /* until any depth is modified, with wear if `incubation`, else as if
+                               there were none [s]; NaN if never */
+    double removal_time;    /* of the start thickness where there is no layer [s]; NaN where there
+                               is one, infinity if never (R = 1) */
     wt_layer_regime regime;
 } wt_layer_balance;
 
@@ -142,11 +149,15 @@ typedef struct wt_layer_point {
     double formation_rate; /* Qf(delta) [m/s] */
     double wear_rate;      /* [m/s] */
 } wt_layer_point;
-/* Thickness at n times (any order, >= 0) at constant load; points: [n]. */
+/* Thickness at n times (any order, >= 0) at constant load; points: [n]. A load that changes in
+ * steps is a chain of calls, each from where the last one ended. With `incubation` the thickness is
+ * that of the deepest modified place (a profile that peaks below the surface begins as a buried
+ * band), and a start thickness is old layer that is worn off from the top. */
 WT_API wt_status wt_layer_history(const wt_energy_source *source,
                                   const wt_layer_parameters *parameters, const double *time,
                                   size_t n, wt_layer_point *points, wt_error *err) WT_NODISCARD;
-/* Single exponential in closed form (theory T3): thickness after t from delta0. */
+/* Single exponential in closed form (theory T3): thickness after t from delta0; NaN for a negative
+ * or infinite argument. */
 WT_API double wt_layer_exponential(double start_thickness, double kappa, double formation_rate_zero,
                                    double wear_rate, double time);
 /* U_c that makes an observed thickness the balance (single exponential): (mu/k) exp(-kappa

@@ -110,7 +110,8 @@ typedef enum wt_extrapolation { WT_EXTRAPOLATE_HOLD, WT_EXTRAPOLATE_SLOPE } wt_e
 /* Copies the series; shear moduli are converted, E = 2 (1 + nu) G. poisson_ratio in [0, 0.5]. */
 WT_API wt_status wt_material_prony(const wt_prony *prony, double poisson_ratio,
                                    wt_material **material, wt_error *err) WT_NODISCARD;
-/* ln E' and ln E'' linear in ln w between n >= 2 rising knots, all values > 0. */
+/* ln E' and ln E'' linear in ln w between n >= 2 rising knots, all values > 0. Continued with
+ * slopes, those at the low end must be above -0.25: sliding always reaches down to frequency 0. */
 WT_API wt_status wt_material_table(const double *omega, const double *storage, const double *loss,
                                    size_t n, double poisson_ratio, wt_extrapolation extrapolation,
                                    wt_material **material, wt_error *err) WT_NODISCARD;
@@ -140,7 +141,7 @@ struct wt_roughness {
     void *data;
 };
 
-/* C = c0 for q0 <= q <= qr, c0 (q/qr)^(-2(1+H)) for qr < q <= q1. */
+/* C = c0 for q0 <= q <= qr, c0 (q/qr)^(-2(1+H)) for qr < q <= q1; -1 < H <= 3. */
 WT_API wt_status wt_roughness_self_affine(double q0, double qr, double q1, double hurst, double c0,
                                           wt_roughness **roughness, wt_error *err) WT_NODISCARD;
 /* Log-log linear between n >= 2 rising knots; q0, q1 = first and last knot. */

@@ -247,7 +247,7 @@ static wt_estimate number(double value, double error)
 }
 
 static const double inflation = 200;
-static const double least_part = 0.02;
+static const double least_part = 0.05;
 
 /* Error of a sum over panels from the differences of two rules, and of those before. The rules gain
  * as many nodes at each step and converge geometrically or faster, so the next differences, and

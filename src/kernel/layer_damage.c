@@ -13,7 +13,7 @@
 #include <math.h>
 
 /* Depths are scanned in steps of this ratio for the highest and the deepest damage. */
-static const double scan_ratio = 1.1;
+static const double scan_ratio = 1.2;
 
 typedef struct damage {
     const wt_layer_rates *rates;
@@ -94,18 +94,21 @@ wt_status wt_layer_damage_depth(const wt_layer_rates *rates, double time, wt_est
     damage d = {.rates = rates, .time = time};
     if (rates->formation == 0 || time == 0)
         return WT_OK;
-    double low = 0;
-    if (damage_peak(&d, &low) < 0)
-        return WT_OK;
-    double high = damage_end(&d);
+    double high = damage_end(&d), low = 0;
+    bool found = false;
     if (!wt_energy_falls(rates->source))
-        for (double z = high; z > low * scan_ratio; z /= scan_ratio) {
-            if (damage_at(z, &d) >= 0) {
+        for (double z = high / scan_ratio; !found && z > 1e-3 / rates->q_max; z /= scan_ratio) {
+            found = damage_at(z, &d) >= 0;
+            if (found)
                 low = z;
-                break;
-            }
-            high = z;
+            else
+                high = z;
         }
+    if (!found) { /* between the steps of the scan, or at the surface, or nowhere */
+        if (damage_peak(&d, &low) < 0)
+            return WT_OK;
+        high = fmax(low * scan_ratio, high);
+    }
     wt_status status = WT_OK;
     if (damage_at(low, &d) > 0)
         status = wt_root_find(damage_at, &d, low, high, &thickness->value, err);

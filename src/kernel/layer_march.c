@@ -100,12 +100,13 @@ static double panel_take(const march *m, double *length, double *error, double *
     return time;
 }
 
-/* Thickness at a time inside the panel that starts here: Newton's method, kept inside. */
-static double panel_find(const march *m, double length, double time)
+/* Thickness at a time inside the panel that starts here and takes `took`: Newton's method from a
+ * straight line, kept inside. */
+static double panel_find(const march *m, double length, double took, double time)
 {
     double low = 0, high = length;
-    double way = fmin(fabs(net_rate(m->rates, m->thickness)) * (time - m->time), length);
-    for (int i = 0; i < 100; i++) {
+    double way = length * ((time - m->time) / took);
+    for (int i = 0; i < 60; i++) {
         double ignored;
         const double excess = m->time + panel_time(m, m->high, m->thickness, way, &ignored) - time;
         if (excess > 0)
@@ -118,8 +119,8 @@ static double panel_find(const march *m, double length, double time)
             next = 0.5 * (low + high);
         const double change = fabs(next - way);
         way = next;
-        if (change <= 4 * DBL_EPSILON * way || change <= DBL_EPSILON * m->thickness ||
-            high - low <= DBL_EPSILON * high)
+        /* the noise of the quadrature moves it by some ulps of the whole thickness */
+        if (change <= 4 * DBL_EPSILON * way || change <= 16 * DBL_EPSILON * m->thickness)
             break;
     }
     return m->thickness + m->direction * way;
@@ -213,7 +214,7 @@ wt_status wt_layer_march(const wt_layer_rates *rates, double start, const double
         const double sum_error = m.time_error + error;
         const double sum_sensitivity = m.sensitivity + sensitivity;
         for (; i < n && time[i] <= m.time + took; i++)
-            points[i]->thickness = estimate_at(&m, panel_find(&m, length, time[i]), time[i],
+            points[i]->thickness = estimate_at(&m, panel_find(&m, length, took, time[i]), time[i],
                                                sum_error, sum_sensitivity);
         m.thickness += m.direction * length;
         m.time += took;

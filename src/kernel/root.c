@@ -34,8 +34,7 @@ wt_status wt_root_find(wt_root_fn f, void *user, double low, double high, double
             break;
         }
         const double width = gsl_root_fsolver_x_upper(solver) - gsl_root_fsolver_x_lower(solver);
-        if (width <= 2 * DBL_EPSILON * fabs(gsl_root_fsolver_root(solver)) ||
-            f(gsl_root_fsolver_root(solver), user) == 0)
+        if (width <= 2 * DBL_EPSILON * fabs(gsl_root_fsolver_root(solver)))
             break;
         code = gsl_root_fsolver_iterate(solver);
     }

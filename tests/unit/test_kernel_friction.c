@@ -318,6 +318,64 @@ static void same_bits_for_any_threads(void **state)
     rig_free(&r);
 }
 
+/* The share of mu from frequencies outside the data, against mu of a material that loses nothing
+ * there: where P is 1 everywhere, mu is linear in the loss. */
+static void extrapolated_share(void **state)
+{
+    (void)state;
+    const double omega[] = {1e-2, 1e2, 1e2 * (1 + 1e-9), 1e6, 1e6 * (1 + 1e-9), 1e12};
+    const double storage[] = {1e7, 1e7, 1e7, 1e7, 1e7, 1e7};
+    const double all[] = {1e6, 1e6, 1e6, 1e6, 1e6, 1e6};
+    const double inside[] = {1e-9, 1e-9, 1e6, 1e6, 1e-9, 1e-9};
+    rig r = {.pressure = 1e12, .velocity = 0.0385, .gamma = 1};
+    assert_int_equal(wt_roughness_self_affine(1e3, 1e4, 1e9, 0.8, 1e-16, &r.roughness, NULL),
+                     WT_OK);
+    double mu[2], share = 0;
+    for (size_t i = 0; i < 2; i++) {
+        assert_int_equal(wt_material_table(omega, storage, i ? inside : all, 6, 0.5,
+                                           WT_EXTRAPOLATE_HOLD, &r.material, NULL),
+                         WT_OK);
+        r.material->frequency_min = 1e2;
+        r.material->frequency_max = 1e6;
+        const wt_friction_point p = solve(&r, 1e-6);
+        mu[i] = p.hysteresis.value;
+        if (i == 0)
+            share = p.extrapolated_share;
+        else
+            assert_true(p.extrapolated_share < 1e-6);
+        wt_material_free(r.material);
+    }
+    assert_true(share > 0.1 && share < 0.9);
+    assert_near(share, 1 - mu[1] / mu[0], 1e-3);
+    wt_roughness_free(r.roughness);
+}
+
+/* The numbers of the text file are those of the shared reference data, where present. */
+static void same_as_shared_reference(void **state)
+{
+    (void)state;
+    FILE *shared = fopen(WT_SHARED_DIR "/reference/friction.json", "r");
+    if (!shared)
+        skip();
+    enum { ROOM = 1 << 20 };
+    char *all = calloc(ROOM, 1);
+    assert_non_null(all);
+    assert_true(fread(all, 1, ROOM - 1, shared) > 1000);
+    fclose(shared);
+    FILE *in = open_cases();
+    char line[4096], number[64];
+    size_t n = 0;
+    while (fgets(line, sizeof line, in))
+        if (sscanf(line, "expect %*[a-z_] %63s", number) == 1 &&
+            strncmp(line, "expect at", 9) != 0) {
+            assert_non_null(strstr(all, number));
+            n++;
+        }
+    assert_int_equal(n, 6 * 17);
+    fclose(in);
+    free(all);
+}
+
 static void bad_input(void **state)
 {
     (void)state;
@@ -427,6 +485,8 @@ int main(void)
         cmocka_unit_test(scalings),
         cmocka_unit_test(elastic_area),
         cmocka_unit_test(same_bits_for_any_threads),
+        cmocka_unit_test(extrapolated_share),
+        cmocka_unit_test(same_as_shared_reference),
         cmocka_unit_test(bad_input),
         cmocka_unit_test(layer_limits),
         cmocka_unit_test(total_friction),

@@ -498,104 +498,6 @@ static void bad_input(void **state)
     rig_free(&r);
 }
 
-/* ---- energy density -------------------------------------------------------------------------- */
-
-/* The tail is the integral of the density, and the gain a difference of tails. */
-static void density_tail_gain(void **state)
-{
-    (void)state;
-    rig r = rig_several();
-    const double frictions[] = {0, 0.385, 1, 2.385, 1e9};
-    for (size_t i = 0; i <= 5; i++) {
-        if (i > 0) {
-            r.source.profile = WT_PROFILE_INCOMPRESSIBLE;
-            r.source.local_friction = frictions[i - 1];
-        }
-        assert_near(wt_energy_tail(&r.source, 0), 410, 1e-14);
-        const double low = 3e-7, high = 9e-6;
-        const int n = 20000;
-        double sum = 0;
-        for (int k = 0; k < n; k++)
-            sum += wt_energy_density(&r.source, low + (high - low) * (k + 0.5) / n);
-        sum *= (high - low) / n;
-        const double difference = wt_energy_tail(&r.source, low) - wt_energy_tail(&r.source, high);
-        assert_near(sum, difference, 1e-5);
-        assert_near(exp(wt_energy_log_gain(&r.source, low, high - low)), difference, 1e-12);
-        assert_near(exp(wt_energy_log_gain(&r.source, low, 1e-15)) / 1e-15,
-                    wt_energy_density(&r.source, low), 1e-6);
-    }
-    assert_near(wt_energy_density(&r.source, -1), 0, 0);
-    rig_free(&r);
-}
-
-/* All that friction dissipates: int w dz = mu_hys sigma0 v, and a thickness that does not depend on
- * the tolerance beyond what is stated. */
-static void source_of_friction(void **state)
-{
-    (void)state;
-    double modulus[] = {2e6, 8e6, 6e7, 5e8, 4e8}, tau[] = {1e-1, 1e-3, 1e-5, 1e-7, 1e-9};
-    const wt_prony prony = {.equilibrium_modulus = 4e6,
-                            .n = 5,
-                            .relaxation_time = tau,
-                            .modulus = modulus,
-                            .frequency_min = (double)NAN,
-                            .frequency_max = (double)NAN};
-    wt_material *material = NULL;
-    wt_roughness *roughness = NULL;
-    assert_int_equal(wt_material_prony(&prony, 0.49, &material, NULL), WT_OK);
-    assert_int_equal(wt_roughness_self_affine(900, 2500, 4e6, 0.8, 4e-16, &roughness, NULL), WT_OK);
-    const double pressure = 4e5, velocity = 5e-3;
-    double exact = 0;
-    for (double tolerance = 1e-12; tolerance < 1e-2; tolerance *= 100) {
-        wt_friction_options options = wt_friction_defaults();
-        options.tolerance = tolerance;
-        wt_friction_workspace *ws = NULL;
-        wt_friction_point point;
-        rig r = {.parameters = wt_layer_defaults()};
-        assert_int_equal(wt_friction_workspace_new(material, roughness, &options, &ws, NULL),
-                         WT_OK);
-        assert_int_equal(wt_friction_compute(ws, pressure, &velocity, 1, &point, NULL), WT_OK);
-        assert_int_equal(wt_energy_source_friction(ws, pressure, velocity, &r.source, NULL), WT_OK);
-        assert_true(r.source.numerical_error <= tolerance + 1e-13);
-        assert_near(wt_energy_tail(&r.source, 0), point.hysteresis.value * pressure * velocity,
-                    point.hysteresis.numerical_error / point.hysteresis.value +
-                        r.source.numerical_error);
-        r.parameters.critical_energy = 2e10;
-        r.parameters.specific_wear_rate = 2e-13;
-        r.parameters.pressure = pressure;
-        r.parameters.velocity = velocity;
-        const wt_estimate thickness = balance_of(&r).thickness;
-        if (exact == 0)
-            exact = thickness.value;
-        assert_true(exact > 1e-7);
-        assert_near_abs(thickness.value, exact, thickness.numerical_error * (1 + 1e-3));
-        rig_free(&r);
-        wt_friction_workspace_free(ws);
-    }
-    wt_material_free(material);
-    wt_roughness_free(roughness);
-}
-
-/* ---- a layer on a half-space ----------------------------------------------------------------- */
-
-static void layered_limits(void **state)
-{
-    (void)state;
-    const double ratios[] = {1e-9, 1e-3, 0.385, 1, 2.385, 1e3, 1e9};
-    for (size_t i = 0; i < 7; i++) {
-        assert_near(wt_layered_scale(0, ratios[i]), 1, 0);
-        assert_near(wt_layered_scale(1e200, ratios[i]), ratios[i], 0);
-        assert_near(wt_layered_scale(50, ratios[i]), ratios[i], 1e-14);
-        double last = 1;
-        for (double x = 1e-9; x < 100; x *= 1.3) { /* from bulk to layer, without a turn */
-            const double scale = wt_layered_scale(x, ratios[i]);
-            const double step = (scale - last) * (ratios[i] > 1 ? 1 : -1);
-            assert_true(step >= -4 * DBL_EPSILON * scale);
-            last = scale;
-        }
-    }
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -609,9 +511,6 @@ int main(void)
         cmocka_unit_test(regimes),
         cmocka_unit_test(nothing_happens),
         cmocka_unit_test(bad_input),
-        cmocka_unit_test(density_tail_gain),
-        cmocka_unit_test(source_of_friction),
-        cmocka_unit_test(layered_limits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
