@@ -46,8 +46,9 @@ void bench_check(wt_status status, const wt_error *err)
 {
     if (status == WT_OK)
         return;
-    char line[1024];
-    wt_error_format(err, line, sizeof line);
+    char line[1024] = "";
+    if (err != NULL)
+        wt_error_format(err, line, sizeof line);
     fprintf(stderr, "bench: %s: %s\n", wt_status_name(status), line);
     exit(1);
 }

@@ -26,7 +26,7 @@ static void kernel_against_textbook(void **state)
         assert_int_equal(friction_case_roughness(c, &roughness, NULL), WT_OK);
         assert_int_equal(wt_friction_workspace_new(material, roughness, NULL, &ws, NULL), WT_OK);
         assert_int_equal(wt_friction_compute(ws, pressure, &velocity, 1, &point, NULL), WT_OK);
-        textbook_friction coarse, fine;
+        textbook_friction coarse = {0}, fine = {0};
         assert_int_equal(
             friction_textbook(material, roughness, pressure, velocity, 201, 100, &coarse), WT_OK);
         assert_int_equal(
