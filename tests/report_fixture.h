@@ -505,7 +505,7 @@ static inline void fixture_record(wt_result *result)
                                             {"master curve", "friction needs the material"},
                                             {"friction", "the case has a sliding section"},
                                             {"layer", "the case has a layer section"},
-                                            {"accuracy", "left out: nothing asked for it"}};
+                                            {"roughness", "left out: nothing asked for it"}};
     for (size_t i = 0; i < sizeof stages / sizeof *stages; i++) {
         bool runs = i < 4;
         fixture_row(cost);

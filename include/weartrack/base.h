@@ -211,6 +211,8 @@ WT_API wt_status wt_unit_to_si(const char *unit, wt_quantity quantity, double *f
  * with a unit, WT_E_UNIT, WT_E_RANGE if it overflows or is below absolute zero. */
 WT_API wt_status wt_quantity_parse(const char *text, wt_quantity quantity, double *value,
                                    wt_error *err) WT_NODISCARD;
+/* The zero of the Celsius scale [K], by definition. */
+#define WT_ZERO_CELSIUS 273.15
 /* A value of SI unit `unit` as short text with an SI prefix: "412 kPa", "1.15 µm". For the unit
  * "degC" the value is in K and written in °C: "20.0 °C". digits = significant digits. Returns the
  * length as snprintf does. */

@@ -44,11 +44,6 @@ typedef struct wt_job {
 } wt_job;
 WT_API wt_job wt_job_defaults(void);
 WT_API wt_table *wt_failures_new(void); /* table "failures"; NULL when out of memory */
-/* Table "inputs" of the files in a provenance, table "notes" of a log. */
-WT_API wt_status wt_inputs_table(const wt_provenance *provenance, wt_table **table,
-                                 wt_error *err) WT_NODISCARD;
-WT_API wt_status wt_notes_table(const wt_parselog *log, wt_table **table,
-                                wt_error *err) WT_NODISCARD;
 
 /* Files that are read with the same options. */
 typedef struct wt_file_set {
@@ -93,7 +88,7 @@ WT_API wt_status wt_indent_group(const wt_indent_job *job, const wt_job *common,
                                  wt_indent_tables *tables, wt_error *err) WT_NODISCARD;
 
 /* The accepted moduli of an indentation table as a group of the fit room; modulus and spot are
- * allocated, to be released with wt_group_clear. */
+ * allocated, to be released with wt_group_data_clear. */
 typedef struct wt_group_data {
     wt_group group; /* borrows the arrays below */
     double *modulus;
@@ -288,12 +283,6 @@ WT_API void wt_case_free(wt_case *c);
 WT_API const char *wt_case_schema(void);            /* XSD text; static */
 WT_API const char *wt_case_title(const wt_case *c); /* "" if none; borrowed */
 WT_API const char *wt_case_style(const wt_case *c); /* plot style asked for, NULL if none */
-WT_API bool wt_case_has_sliding(const wt_case *c);  /* friction can be computed */
-/* Rubber, surface and conditions of a case, for work outside a run (`weartrack accuracy`). The case
- * keeps what `sliding` borrows, except the rubber, which the caller clears after use. */
-WT_API wt_status wt_case_sliding(const wt_case *c, const wt_job *common, wt_rubber *rubber,
-                                 wt_surface *surface, wt_sliding *sliding,
-                                 wt_error *err) WT_NODISCARD;
 
 /* ---- plan and run -----------------------------------------------------------------------------
  */

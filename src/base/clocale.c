@@ -2,6 +2,7 @@
 #include "base/clocale.h"
 
 #include <pthread.h>
+#include <stdio.h>
 
 static pthread_once_t once = PTHREAD_ONCE_INIT;
 static locale_t c_locale = (locale_t)0;
@@ -21,4 +22,21 @@ locale_t wt_clocale_enter(void)
 void wt_clocale_leave(locale_t previous)
 {
     (void)uselocale(previous);
+}
+
+int wt_clocale_vprint(char *buffer, size_t size, const char *format, va_list arguments)
+{
+    const locale_t previous = wt_clocale_enter();
+    const int needed = vsnprintf(buffer, size, format, arguments);
+    wt_clocale_leave(previous);
+    return needed;
+}
+
+int wt_clocale_print(char *buffer, size_t size, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    const int needed = wt_clocale_vprint(buffer, size, format, arguments);
+    va_end(arguments);
+    return needed;
 }

@@ -39,9 +39,7 @@ static void set_text(char *buffer, size_t size, const char *format, va_list argu
     WT_PRINTF(3, 0);
 static void set_text(char *buffer, size_t size, const char *format, va_list arguments)
 {
-    const locale_t previous = wt_clocale_enter();
-    const int needed = vsnprintf(buffer, size, format, arguments);
-    wt_clocale_leave(previous);
+    const int needed = wt_clocale_vprint(buffer, size, format, arguments);
     if (needed < 0)
         buffer[0] = '\0';
     else if ((size_t)needed >= size)

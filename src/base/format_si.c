@@ -6,9 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Zero of the Celsius scale [K], by definition. */
-#define CELSIUS_ZERO 273.15
-
 /* What a unit may be prefixed with, as powers of a thousand. */
 typedef struct prefixes {
     const char *unit;
@@ -62,7 +59,7 @@ size_t wt_format_si(double value, const char *unit, int digits, char *buffer, si
     const bool celsius = strcmp(unit, "degC") == 0 || strcmp(unit, "\xC2\xB0"
                                                                    "C") == 0;
     if (celsius) {
-        value -= CELSIUS_ZERO;
+        value -= WT_ZERO_CELSIUS;
         unit = "\xC2\xB0"
                "C";
     }

@@ -5,6 +5,8 @@
  */
 #include "fit/curve.h"
 
+#include "base/clocale.h"
+
 #include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -184,7 +186,7 @@ void wt_curve_say(char reason[160], const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(reason, 160, format, arguments);
+    wt_clocale_vprint(reason, 160, format, arguments);
     va_end(arguments);
 }
 

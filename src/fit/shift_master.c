@@ -2,6 +2,7 @@
  * words. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "fit/shift_master.h"
 
+#include "base/clocale.h"
 #include "fit/prony.h"
 
 #include <math.h>
@@ -42,7 +43,7 @@ static void append(char *text, size_t size, const char *format, ...)
     }
     va_list arguments;
     va_start(arguments, format);
-    const int needed = vsnprintf(text + length, size - length, format, arguments);
+    const int needed = wt_clocale_vprint(text + length, size - length, format, arguments);
     va_end(arguments);
     if (needed >= 0 && (size_t)needed >= size - length)
         memcpy(text + size - 4, "...", 4);

@@ -3,6 +3,8 @@
 #include "flow/answer.h"
 #include "flow/tables.h"
 
+#include "base/clocale.h"
+
 #include <math.h>
 #include <stdarg.h>
 #include <string.h>
@@ -23,7 +25,7 @@ flow_words flow_say(double value, const char *unit)
     else if (isinf(value))
         snprintf(words.text, sizeof words.text, "without limit");
     else if (strcmp(unit, "1") == 0)
-        snprintf(words.text, sizeof words.text, "%.3g", value);
+        wt_clocale_print(words.text, sizeof words.text, "%.3g", value);
     else
         wt_format_si(value, unit, 3, words.text, sizeof words.text);
     return words;
@@ -42,19 +44,19 @@ flow_words flow_say_estimate(wt_estimate e)
     if (!wt_number_parse(value.text, length, '.', &shown) || !(fabs(shown) > 0))
         return words;
     double error = e.standard_error * fabs(shown / e.value);
-    snprintf(words.text, sizeof words.text,
-             error >= 10 ? "%.*s \xc2\xb1 %.0f%.40s" : "%.*s \xc2\xb1 %.2g%.40s", (int)length,
-             value.text, error, suffix == NULL ? "" : suffix);
+    wt_clocale_print(words.text, sizeof words.text,
+                     error >= 10 ? "%.*s \xc2\xb1 %.0f%.40s" : "%.*s \xc2\xb1 %.2g%.40s",
+                     (int)length, value.text, error, suffix == NULL ? "" : suffix);
     return words;
 }
 
 flow_words flow_say_celsius(double kelvin)
 {
     flow_words words;
-    snprintf(words.text, sizeof words.text,
-             "%.1f \xc2\xb0"
-             "C",
-             kelvin - 273.15);
+    wt_clocale_print(words.text, sizeof words.text,
+                     "%.1f \xc2\xb0"
+                     "C",
+                     kelvin - WT_ZERO_CELSIUS);
     return words;
 }
 
@@ -73,7 +75,7 @@ wt_status flow_answer_add(wt_table *table, wt_error *err, const char *question, 
     char text[1200];
     va_list list;
     va_start(list, format);
-    vsnprintf(text, sizeof text, format, list);
+    wt_clocale_vprint(text, sizeof text, format, list);
     va_end(list);
     wt_status status = wt_table_add_row(table, err);
     if (status == WT_OK)
@@ -209,7 +211,7 @@ static wt_status say_dma(const wt_table *dma, wt_table *table, wt_error *err)
     if (n == 0)
         return WT_OK;
     char range[64];
-    snprintf(range, sizeof range, n > 1 ? "%.3g to %.3g" : "%.3g", low, high);
+    wt_clocale_print(range, sizeof range, n > 1 ? "%.3g to %.3g" : "%.3g", low, high);
     return flow_answer_add(table, err, how_different, "difference",
                            "At equal frequency the indentation modulus of the bulk is %s times "
                            "|E*| of the DMA.",

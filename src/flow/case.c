@@ -129,9 +129,3 @@ const char *wt_case_style(const wt_case *c)
 {
     return c->style;
 }
-
-bool wt_case_has_sliding(const wt_case *c)
-{
-    return c->has_sliding && (c->dma.n > 0 || c->has_prony) &&
-           (c->has_self_affine || c->has_spectrum);
-}

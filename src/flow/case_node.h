@@ -15,8 +15,8 @@ xmlNode *case_next(const xmlNode *node, const char *name);
 /* Adds "line N, <name>" to an error and returns `status`. */
 wt_status case_at(const xmlNode *node, const char *attribute, wt_status status, wt_error *err);
 
-/* Each reads a child element (or an attribute) if it is there and leaves the output alone if not;
- * `found` (may be NULL) says which. Text is owned by the case. */
+/* Each reads a child element (or an attribute) if it is there and leaves the output alone if not.
+ * Text is owned by the case. */
 wt_status case_get_text(wt_case *c, const xmlNode *parent, const char *name, const char **text,
                         wt_error *err) WT_NODISCARD;
 /* Text of the node itself. */

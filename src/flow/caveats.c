@@ -3,6 +3,8 @@
 #include "flow/answer.h"
 #include "flow/tables.h"
 
+#include "base/clocale.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,12 +14,6 @@ static const char question[] = "What must be kept in mind?";
 /* An indentation feels what is below a layer when it goes deeper than this share of it (Bueckle's
  * rule for films). */
 #define DEEP_SHARE 0.1
-
-static int compare_numbers(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return x < y ? -1 : x > y;
-}
 
 /* Median of a column over the accepted curves; NaN if there are none. */
 static double median_accepted(const wt_table *table, const char *column)
@@ -32,7 +28,7 @@ static double median_accepted(const wt_table *table, const char *column)
             values[n++] = value;
     }
     if (n > 0) {
-        qsort(values, n, sizeof *values, compare_numbers);
+        flow_sort(values, n);
         median = (values[(n - 1) / 2] + values[n / 2]) / 2;
     }
     free(values);
@@ -198,7 +194,7 @@ static wt_status friction_caveats(const flow_story *story, wt_table *table, wt_e
     if (share > 0) {
         char percent[32] = "Less than 0.1";
         if (share >= 0.001)
-            snprintf(percent, sizeof percent, "Up to %.2g", 100 * share);
+            wt_clocale_print(percent, sizeof percent, "Up to %.2g", 100 * share);
         status = flow_answer_add(table, err, question, "caveat",
                                  "%s %% of the hysteresis friction comes from frequencies outside "
                                  "the measured range of the material.",

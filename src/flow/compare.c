@@ -37,12 +37,6 @@ static void pair_clear(pair *p)
     free(p->spot);
 }
 
-static int compare_numbers(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return x < y ? -1 : x > y;
-}
-
 /* Bins start at the lowest rate that is not in one yet, so a nominal rate is never cut in two by a
  * border that happens to lie in its scatter. */
 static wt_status make_bins(pair *p, wt_error *err)
@@ -64,7 +58,7 @@ static wt_status make_bins(pair *p, wt_error *err)
         for (size_t i = 0; i < p->data[g].group.n; i++)
             if (p->data[g].indentation_rate[i] > 0)
                 rates[n++] = p->data[g].indentation_rate[i];
-    qsort(rates, n, sizeof *rates, compare_numbers);
+    flow_sort(rates, n);
     for (size_t i = 0; i < n; i++) {
         if (p->n_bins == 0 || log10(rates[i] / p->low[p->n_bins - 1]) > BIN_DECADES)
             p->low[p->n_bins++] = rates[i];

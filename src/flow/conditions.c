@@ -2,9 +2,9 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/conditions.h"
 #include "flow/draws.h"
+#include "flow/tables.h"
 
 #include <math.h>
-#include <string.h>
 
 wt_sliding wt_sliding_defaults(void)
 {
@@ -87,28 +87,22 @@ void flow_conditions_clear(flow_conditions *conditions)
     *conditions = (flow_conditions){0};
 }
 
-static void add_words(char *words, size_t size, const char *what)
-{
-    size_t used = strlen(words);
-    snprintf(words + used, size - used, "%s%s", used > 0 ? ", " : "", what);
-}
-
 bool flow_conditions_vary(const wt_sliding *sliding, const wt_job *common, char *words, size_t size)
 {
     words[0] = '\0';
     if (common->replicates < 2)
         return false;
     if (sliding->rubber->has_master)
-        add_words(words, size, "material (isotherms resampled)");
+        flow_add_words(words, size, "material (isotherms resampled)");
     if (sliding->rubber->c1_error > 0 || sliding->rubber->c2_error > 0)
-        add_words(words, size, "shift law");
+        flow_add_words(words, size, "shift law");
     if (sliding->pressure.standard_error > 0)
-        add_words(words, size, "pressure");
+        flow_add_words(words, size, "pressure");
     if (sliding->temperature.standard_error > 0)
-        add_words(words, size, "temperature");
+        flow_add_words(words, size, "temperature");
     if (sliding->shear_stress.standard_error > 0)
-        add_words(words, size, "shear stress");
+        flow_add_words(words, size, "shear stress");
     if (sliding->surface->c0.standard_error > 0)
-        add_words(words, size, "roughness");
+        flow_add_words(words, size, "roughness");
     return words[0] != '\0';
 }

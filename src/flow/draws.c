@@ -25,7 +25,7 @@ double flow_draw_normal(uint64_t seed, size_t replicate, flow_draw what)
         return 0;
     uint64_t state = mix(mix(mix(seed) ^ (uint64_t)replicate) ^ (uint64_t)what);
     double radius = sqrt(-2 * log(uniform(state)));
-    return radius * cos(2 * 3.14159265358979323846 * uniform(mix(state)));
+    return radius * cos(2 * M_PI * uniform(mix(state)));
 }
 
 double flow_draw_value(wt_estimate e, uint64_t seed, size_t replicate, flow_draw what)

@@ -364,7 +364,7 @@ static wt_status allocate(work *w, wt_error *err)
     w->centre = malloc(stride * sizeof *w->centre);
     w->error = malloc(stride * sizeof *w->error);
     w->points = malloc(w->n * sizeof *w->points);
-    w->replicate = calloc(w->varies ? w->n_replicates * stride : 1, sizeof *w->replicate);
+    w->replicate = calloc(w->varies ? w->n_replicates : 1, stride * sizeof *w->replicate);
     if (w->velocity == NULL || w->centre == NULL || w->error == NULL || w->points == NULL ||
         w->replicate == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
@@ -432,9 +432,7 @@ wt_status wt_friction_make(const wt_sliding *sliding, const wt_layer_known *laye
     w.varies = w.bulk_varies;
     if (layer != NULL && common->replicates > 1 &&
         (layer->thickness.standard_error > 0 || layer->modulus_ratio.standard_error > 0)) {
-        size_t used = strlen(w.words);
-        snprintf(w.words + used, sizeof w.words - used,
-                 "%sthickness and modulus ratio of the layer", used > 0 ? ", " : "");
+        flow_add_words(w.words, sizeof w.words, "thickness and modulus ratio of the layer");
         w.varies = true;
     }
     t.tolerance_asked =

@@ -396,6 +396,8 @@ static wt_status prepare(work *w, wt_error *err)
     if (status != WT_OK)
         return status;
     w->n_workers = wt_thread_count(w->common->threads);
+    if (w->n_workers > BATCH_CURVES)
+        w->n_workers = BATCH_CURVES;
     w->scratch = calloc(w->n_workers, sizeof(wt_indent_workspace *));
     w->items = calloc(BATCH_CURVES, sizeof *w->items);
     if (w->scratch == NULL || w->items == NULL)

@@ -108,14 +108,32 @@ wt_status flow_indentation_add(wt_table *table, const flow_indentation *row, wt_
 /* ---- a group from the table -------------------------------------------------------------------
  */
 
-/* The number of a spot by its name, in the order of first appearance. */
-static long spot_number(const wt_table *table, const size_t *first_row, size_t *n_spots,
-                        const char *name)
+typedef struct named {
+    const char *spot;
+    size_t item;
+} named;
+
+static int by_name(const void *a, const void *b)
 {
-    for (size_t i = 0; i < *n_spots; i++)
-        if (strcmp(flow_table_get_text(table, first_row[i], "spot"), name) == 0)
-            return (long)i;
-    return -1;
+    const named *x = a, *y = b;
+    int order = strcmp(x->spot, y->spot);
+    return order != 0 ? order : (x->item > y->item) - (x->item < y->item);
+}
+
+/* Numbers the spots in the order of their first appearance. A map has a spot for each curve, so
+ * equal names are found by sorting. */
+static void number_spots(named *names, size_t n, long *spot)
+{
+    long next = 0;
+    qsort(names, n, sizeof *names, by_name);
+    for (size_t i = 0, first = 0; i < n; i++) {
+        if (strcmp(names[i].spot, names[first].spot) != 0)
+            first = i;
+        spot[names[i].item] = (long)names[first].item;
+    }
+    /* The first of a name comes before the others, and has its number when they ask for it. */
+    for (size_t i = 0; i < n; i++)
+        spot[i] = spot[i] == (long)i ? next++ : spot[spot[i]];
 }
 
 wt_status wt_group_from_table(const wt_table *table, wt_group_data *data, wt_error *err)
@@ -132,13 +150,13 @@ wt_status wt_group_from_table(const wt_table *table, wt_group_data *data, wt_err
     size_t rows = wt_table_n_rows(table), allocated = rows > 0 ? rows : 1;
     bool with_spot = wt_table_find(table, "spot") >= 0;
     wt_group_data d = {0};
-    size_t *first_row = malloc(allocated * sizeof *first_row), n_spots = 0;
+    named *names = malloc(allocated * sizeof *names);
     d.modulus = malloc(allocated * sizeof *d.modulus);
     d.spot = malloc(allocated * sizeof *d.spot);
     d.indentation_rate = malloc(allocated * sizeof *d.indentation_rate);
     d.equivalent_frequency = malloc(allocated * sizeof *d.equivalent_frequency);
     wt_status status = WT_OK;
-    if (first_row == NULL || d.modulus == NULL || d.spot == NULL || d.indentation_rate == NULL ||
+    if (names == NULL || d.modulus == NULL || d.spot == NULL || d.indentation_rate == NULL ||
         d.equivalent_frequency == NULL) {
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
         goto done;
@@ -156,16 +174,12 @@ wt_status wt_group_from_table(const wt_table *table, wt_group_data *data, wt_err
             goto done;
         }
         size_t i = d.group.n++;
-        const char *spot = flow_table_get_text(table, row, "spot");
         d.modulus[i] = modulus;
-        d.spot[i] = spot_number(table, first_row, &n_spots, spot);
-        if (d.spot[i] < 0) {
-            first_row[n_spots] = row;
-            d.spot[i] = (long)n_spots++;
-        }
+        names[i] = (named){flow_table_get_text(table, row, "spot"), i};
         d.indentation_rate[i] = flow_table_get(table, row, "indentation_rate");
         d.equivalent_frequency[i] = flow_table_get(table, row, "equivalent_frequency");
     }
+    number_spots(names, d.group.n, d.spot);
     const char *spots = wt_table_key(table, "spots");
     d.spots_given = spots != NULL && strncmp(spots, "named", 5) == 0;
     d.group.modulus = d.modulus;
@@ -173,7 +187,7 @@ wt_status wt_group_from_table(const wt_table *table, wt_group_data *data, wt_err
     *data = d;
     d = (wt_group_data){0};
 done:
-    free(first_row);
+    free(names);
     wt_group_data_clear(&d);
     return status;
 }

@@ -24,7 +24,7 @@ wt_table *wt_failures_new(void)
                : NULL;
 }
 
-wt_status wt_inputs_table(const wt_provenance *provenance, wt_table **result, wt_error *err)
+wt_status flow_inputs_table(const wt_provenance *provenance, wt_table **result, wt_error *err)
 {
     enum { PATH, ROLE, FORMAT, BYTES, SHA256 };
     static const flow_column columns[] = {
@@ -66,11 +66,6 @@ static const char *below(const char *folder, const char *path)
     if (length == 0 || strncmp(path, folder, length) != 0 || path[length] != '/')
         return path;
     return path + length + strspn(path + length, "/");
-}
-
-wt_status wt_notes_table(const wt_parselog *log, wt_table **result, wt_error *err)
-{
-    return flow_notes_table(log, NULL, result, err);
 }
 
 wt_status flow_notes_table(const wt_parselog *log, const char *folder, wt_table **result,

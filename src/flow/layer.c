@@ -398,9 +398,7 @@ static void find_words(work *w)
     for (size_t i = 0; w->common->replicates > 1 && i < FLOW_COUNT(stated); i++) {
         if (!(stated[i].error > 0))
             continue;
-        size_t used = strlen(w->words);
-        snprintf(w->words + used, sizeof w->words - used, "%s%s", used > 0 ? ", " : "",
-                 stated[i].what);
+        flow_add_words(w->words, sizeof w->words, stated[i].what);
         w->varies = true;
     }
 }
@@ -409,7 +407,7 @@ static wt_status allocate(work *w, centre *c, wt_error *err)
 {
     w->stride = N_NUMBERS + w->n;
     w->error = malloc(w->stride * sizeof *w->error);
-    w->replicate = calloc(w->varies ? w->n_replicates * w->stride : 1, sizeof *w->replicate);
+    w->replicate = calloc(w->varies ? w->n_replicates : 1, w->stride * sizeof *w->replicate);
     c->points = malloc((w->n > 0 ? w->n : 1) * sizeof *c->points);
     if (w->error == NULL || w->replicate == NULL || c->points == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");

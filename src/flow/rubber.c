@@ -4,6 +4,8 @@
 #include "flow/tables.h"
 #include "weartrack/flow.h"
 
+#include "base/clocale.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -58,8 +60,8 @@ static wt_status horizontal_shift(const wt_rubber *rubber, double temperature, d
             return WT_OK;
         wt_fail(err, WT_E_MISSING, "no shift law takes the material to another temperature");
         wt_error_expected(err, "a temperature within 1 K of %.2f degC",
-                          rubber->prony.reference_temperature - 273.15);
-        wt_error_found(err, "%.2f degC", temperature - 273.15);
+                          rubber->prony.reference_temperature - WT_ZERO_CELSIUS);
+        wt_error_found(err, "%.2f degC", temperature - WT_ZERO_CELSIUS);
         wt_error_advice(err, "give WLF constants, or DMA isotherms at several temperatures");
         return WT_E_MISSING;
     }
@@ -67,8 +69,8 @@ static wt_status horizontal_shift(const wt_rubber *rubber, double temperature, d
     if (isnan(*log_a)) {
         wt_fail(err, WT_E_RANGE, "the temperature is at or below the pole of the WLF law");
         wt_error_expected(err, "more than %.2f degC",
-                          rubber->wlf.reference_temperature - rubber->wlf.c2 - 273.15);
-        wt_error_found(err, "%.2f degC", temperature - 273.15);
+                          rubber->wlf.reference_temperature - rubber->wlf.c2 - WT_ZERO_CELSIUS);
+        wt_error_found(err, "%.2f degC", temperature - WT_ZERO_CELSIUS);
         return WT_E_RANGE;
     }
     double step = temperature - rubber->wlf.reference_temperature;
@@ -85,11 +87,12 @@ static void make_statement(const wt_rubber *rubber, double temperature, bool hel
 {
     statement[0] = '\0';
     if (temperature < rubber->temperature_min || temperature > rubber->temperature_max)
-        snprintf(statement, 256,
-                 "%.1f degC is outside the isotherms (%.1f to %.1f degC): the WLF law is "
-                 "extrapolated%s",
-                 temperature - 273.15, rubber->temperature_min - 273.15,
-                 rubber->temperature_max - 273.15, held ? " and the vertical shift held" : "");
+        wt_clocale_print(statement, 256,
+                         "%.1f degC is outside the isotherms (%.1f to %.1f degC): the WLF law is "
+                         "extrapolated%s",
+                         temperature - WT_ZERO_CELSIUS, rubber->temperature_min - WT_ZERO_CELSIUS,
+                         rubber->temperature_max - WT_ZERO_CELSIUS,
+                         held ? " and the vertical shift held" : "");
 }
 
 wt_status wt_rubber_at(const wt_rubber *rubber, double temperature, uint64_t seed, size_t replicate,
@@ -178,7 +181,9 @@ static wt_status read_shifts(const wt_table *shifts, wt_rubber *rubber, wt_error
             rubber->temperature_min = t;
         if (i == 0 || t > rubber->temperature_max)
             rubber->temperature_max = t;
-        if (isnan(b) || (vertical != NULL && strcmp(vertical, "none") == 0))
+        bool undetermined = flow_table_get(shifts, i, "determined") <= 0;
+        if (isnan(t) || isnan(b) || undetermined ||
+            (vertical != NULL && strcmp(vertical, "none") == 0))
             continue;
         rubber->vertical_temperature[rubber->n_vertical] = t;
         rubber->vertical_log_b[rubber->n_vertical++] = b;

@@ -193,7 +193,7 @@ static wt_status finish(conduct *d, wt_error *err)
                                   d->result, d->run.job.log, d->failures};
         status = flow_answer(&story, &answer, err);
     }
-    if (status == WT_OK && wt_case_title(d->run.c)[0] != '\0') { // the title of the page
+    if (status == WT_OK && wt_case_title(d->run.c)[0] != '\0') { /* the title of the page */
         status = wt_table_set_key(answer, "case_title", wt_case_title(d->run.c), err);
         if (status != WT_OK)
             wt_table_free(answer);
@@ -201,7 +201,7 @@ static wt_status finish(conduct *d, wt_error *err)
     if (status == WT_OK)
         status = publish(d, &answer, err);
     if (status == WT_OK)
-        status = wt_inputs_table(wt_result_provenance_const(d->result), &inputs, err);
+        status = flow_inputs_table(wt_result_provenance_const(d->result), &inputs, err);
     if (status == WT_OK)
         status = publish(d, &inputs, err);
     if (status == WT_OK)
@@ -299,30 +299,4 @@ done:
     wt_table_free(d.cost);
     wt_parselog_free(d.own_log);
     return status;
-}
-
-wt_status wt_case_sliding(const wt_case *c, const wt_job *common, wt_rubber *rubber,
-                          wt_surface *surface, wt_sliding *sliding, wt_error *err)
-{
-    if (c == NULL || common == NULL || rubber == NULL || surface == NULL || sliding == NULL)
-        return wt_fail(err, WT_E_ARG, "no case");
-    if (!wt_case_has_sliding(c)) {
-        wt_fail(err, WT_E_MISSING, "the case does not describe a sliding contact");
-        wt_error_file(err, c->path);
-        wt_error_expected(err, "the sections <dma>, <roughness> and <sliding>");
-        return WT_E_MISSING;
-    }
-    wt_rubber r = {0};
-    wt_master_job job = flow_case_master(c);
-    wt_status status = c->has_prony ? flow_case_rubber(c, &r, err)
-                                    : wt_master_make(&job, c->poisson_ratio, common, NULL, &r, err);
-    if (status == WT_OK)
-        status = flow_case_surface(c, common, surface, err);
-    if (status != WT_OK) {
-        wt_rubber_clear(&r);
-        return status;
-    }
-    *rubber = r;
-    *sliding = flow_case_conditions(c, rubber, surface);
-    return WT_OK;
 }

@@ -2,7 +2,11 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/tables.h"
 
+#include "base/clocale.h"
+
 #include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
 
 wt_status flow_table_new(const char *name, const char *title, const flow_column *columns, size_t n,
                          wt_table **table, wt_error *err)
@@ -30,7 +34,7 @@ wt_status flow_table_key(wt_table *table, wt_error *err, const char *key, const 
     char text[1024];
     va_list list;
     va_start(list, format);
-    vsnprintf(text, sizeof text, format, list);
+    wt_clocale_vprint(text, sizeof text, format, list);
     va_end(list);
     return wt_table_set_key(table, key, text, err);
 }
@@ -40,6 +44,23 @@ wt_status flow_table_value(wt_table *table, const char *key, double value, doubl
 {
     wt_estimate estimate = {value, standard_error, numerical_error, unit};
     return wt_table_set_estimate(table, key, estimate, err);
+}
+
+void flow_add_words(char *words, size_t size, const char *what)
+{
+    size_t used = strlen(words);
+    snprintf(words + used, size - used, "%s%s", used > 0 ? ", " : "", what);
+}
+
+static int compare_numbers(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return x < y ? -1 : x > y;
+}
+
+void flow_sort(double *x, size_t n)
+{
+    qsort(x, n, sizeof *x, compare_numbers);
 }
 
 double flow_table_get(const wt_table *table, size_t row, const char *column)

@@ -27,8 +27,14 @@ wt_status flow_table_key(wt_table *table, wt_error *err, const char *key, const 
 wt_status flow_table_value(wt_table *table, const char *key, double value, double standard_error,
                            double numerical_error, const char *unit, wt_error *err) WT_NODISCARD;
 
+/* Appends `what` to a list of words parted by ", "; cut where there is no room. */
+void flow_add_words(char *words, size_t size, const char *what);
+
 /* A number of a row by column name, NaN if there is no such column. */
 double flow_table_get(const wt_table *table, size_t row, const char *column);
+
+/* Sorts numbers, none of which is NaN, rising. */
+void flow_sort(double *x, size_t n);
 
 /* A text of a row by column name, "" if there is no such column. */
 const char *flow_table_get_text(const wt_table *table, size_t row, const char *column);

@@ -4,6 +4,8 @@
  */
 #include "read/text.h"
 
+#include "base/clocale.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -29,8 +31,8 @@ static wt_status add_header(const wt_text_file *file, wt_table *facts, wt_error 
     return status;
 }
 
-static wt_status add_column(const wt_text_file *file, const wt_text_table *t,
-                            const wt_text_column *c, wt_table *facts, wt_error *err)
+static wt_status add_column(const wt_text_table *t, const wt_text_column *c, wt_table *facts,
+                            wt_error *err)
 {
     char item[96], value[160];
     const wt_quantity q = c->rule->quantity;
@@ -53,7 +55,6 @@ static wt_status add_column(const wt_text_file *file, const wt_text_table *t,
         snprintf(value, sizeof value, "not clear without a column \"%s\"", c->rule->with);
         break;
     }
-    (void)file;
     return add(facts, item, value, c->unit, t->names_line, err);
 }
 
@@ -70,9 +71,9 @@ static wt_status add_table(const wt_text_file *file, size_t number, wt_table *fa
     const bool same = number > 0 && t->n_columns == file->tables[0].n_columns &&
                       t->quantities == file->tables[0].quantities && t->n_problems == 0;
     for (size_t i = 0; !same && i < t->n_columns && status == WT_OK; i++)
-        status = add_column(file, t, &t->columns[i], facts, err);
+        status = add_column(t, &t->columns[i], facts, err);
     for (size_t i = 0; !same && i < t->n_problems && status == WT_OK; i++)
-        status = add_column(file, t, &t->problems[i], facts, err);
+        status = add_column(t, &t->problems[i], facts, err);
     return status;
 }
 
@@ -101,9 +102,9 @@ static wt_status add_sweep(const wt_text_file *file, const wt_read_options *opti
     for (size_t i = 0; i < sweep.n_isotherms && status == WT_OK; i++) {
         const wt_isotherm *s = &sweep.isotherms[i];
         char value[128];
-        snprintf(value, sizeof value, "%.2f degC, %zu points, %.4g to %.4g rad/s",
-                 s->temperature - 273.15, s->n, s->angular_frequency[0],
-                 s->angular_frequency[s->n - 1]);
+        wt_clocale_print(value, sizeof value, "%.2f degC, %zu points, %.4g to %.4g rad/s",
+                         s->temperature - WT_ZERO_CELSIUS, s->n, s->angular_frequency[0],
+                         s->angular_frequency[s->n - 1]);
         status = wt_facts_add(facts, "isotherm", value, "", s->source, err);
     }
     wt_sweep_clear(&sweep);
@@ -181,9 +182,9 @@ static wt_status add_spectrum(const wt_description *description, wt_input *input
     char value[128];
     if (wt_text_read_spectrum(description, input, options, NULL, &spectrum, &problem) != WT_OK)
         return add_problem(facts, &problem, err);
-    snprintf(value, sizeof value, "%s, %zu points, %.4g to %.4g rad/m",
-             spectrum.kind == WT_SPECTRUM_2D ? "two-dimensional" : "one-dimensional", spectrum.n,
-             spectrum.wavenumber[0], spectrum.wavenumber[spectrum.n - 1]);
+    wt_clocale_print(value, sizeof value, "%s, %zu points, %.4g to %.4g rad/m",
+                     spectrum.kind == WT_SPECTRUM_2D ? "two-dimensional" : "one-dimensional",
+                     spectrum.n, spectrum.wavenumber[0], spectrum.wavenumber[spectrum.n - 1]);
     wt_power_spectrum_clear(&spectrum);
     return wt_facts_add(facts, "power spectrum", value, "", "", err);
 }

@@ -11,8 +11,6 @@
 /* Instruments hold a set frequency better than this; what differs by less is the same one. */
 static const double same_frequency = 0.01;
 
-static const double two_pi = 6.283185307179586476925286766559;
-
 typedef struct sweep_columns {
     const wt_text_column *frequency, *storage, *loss, *factor, *temperature, *strain;
     double to_angular; /* 2 pi for a frequency in Hz */
@@ -40,7 +38,7 @@ static sweep_columns find_columns(const wt_text_table *t)
     c.frequency = wt_text_table_column(t, WT_Q_ANGULAR_FREQUENCY, -1);
     if (c.frequency == NULL) {
         c.frequency = wt_text_table_column(t, WT_Q_FREQUENCY, -1);
-        c.to_angular = two_pi;
+        c.to_angular = 2 * M_PI;
     }
     c.storage =
         wt_text_table_column(t, tension ? WT_Q_STORAGE_MODULUS : WT_Q_SHEAR_STORAGE_MODULUS, -1);
@@ -98,7 +96,7 @@ static wt_status set_temperature(const builder *b, wt_isotherm *isotherm)
         if (fallback)
             wt_parselog_add(b->log, WT_WARNING, b->file->name, NULL,
                             "the temperature of %.2f degC stands in the header text only",
-                            header - 273.15);
+                            header - WT_ZERO_CELSIUS);
     } else if (n > 0) {
         isotherm->temperature = mean;
     } else if (!isnan(b->options->temperature)) {

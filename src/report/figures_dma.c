@@ -125,11 +125,12 @@ void wt_draw_shift_factors(wt_drawing *d)
         wt_text_add(&d->script, "; c2 = ");
         wt_text_literal(&d->script, c2.value);
         wt_text_add(&d->script, "; t_ref = ");
-        wt_text_literal(&d->script, wt_lab_value(&(wt_lab_unit){1, -273.15, ""}, reference.value));
+        wt_text_literal(&d->script,
+                        wt_lab_value(&(wt_lab_unit){1, -WT_ZERO_CELSIUS, ""}, reference.value));
         wt_text_add(&d->script, "  # K and degrees Celsius\nt_low = ");
-        wt_text_literal(&d->script, x.low - 273.15);
+        wt_text_literal(&d->script, x.low - WT_ZERO_CELSIUS);
         wt_text_add(&d->script, "; t_high = ");
-        wt_text_literal(&d->script, x.high - 273.15);
+        wt_text_literal(&d->script, x.high - WT_ZERO_CELSIUS);
         wt_text_add(&d->script, "\nwlf(t) = t < t_low || t > t_high || c2 + t - t_ref <= 0 ? NaN : "
                                 "-c1*(t - t_ref)/(c2 + t - t_ref)\nset samples 400\n");
     }

@@ -90,7 +90,7 @@ wt_lab_unit wt_lab_unit_for(const char *unit, const char *name, double magnitude
 {
     wt_lab_unit lab = {.factor = 1, .offset = 0, .label = ""};
     if (strcmp(unit, "K") == 0 && is_temperature(name)) {
-        lab.offset = -273.15;
+        lab.offset = -WT_ZERO_CELSIUS;
         (void)strcpy(lab.label, "°C");
         return lab;
     }

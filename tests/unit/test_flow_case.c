@@ -91,7 +91,6 @@ static void test_full(void **state)
     assert_true(c->layer.incubation);
     assert_true(c->compare_groups && c->compare_rates && !c->compare_dma);
     assert_int_equal(c->n_asked, 2);
-    assert_true(wt_case_has_sliding(c));
     wt_case_free(c);
 }
 
@@ -235,7 +234,6 @@ static void test_man_page_example(void **state)
     *end = '\0';
     if (read_text(begin + 4, &c, &err) != WT_OK)
         fail_msg("%s: %s; %s", err.place, err.message, err.found);
-    assert_true(wt_case_has_sliding(c));
     wt_case_free(c);
     free(page);
 }
