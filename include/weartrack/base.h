@@ -61,7 +61,6 @@ WT_API const char *wt_version(void);
     X(WT_E_MISSING, "required information is missing")                                             \
     X(WT_E_RANGE, "value outside its allowed range")                                               \
     X(WT_E_SCHEMA, "XML document does not follow its schema")                                      \
-    X(WT_E_NO_CONTACT, "no contact found")                                                         \
     X(WT_E_NO_OVERLAP, "curves do not overlap")                                                    \
     X(WT_E_CONVERGENCE, "no convergence")                                                          \
     X(WT_E_TOOL, "an external program failed")                                                     \

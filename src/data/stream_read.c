@@ -29,7 +29,7 @@ static void reader_free(reader *r)
 }
 
 /* Says where; column counts from 1, 0 = the whole line. */
-static wt_status at(const reader *r, size_t column, wt_error *err)
+static void at(const reader *r, size_t column, wt_error *err)
 {
     char of_table[96] = "", of_column[96] = "";
     if (r->named)
@@ -40,7 +40,6 @@ static wt_status at(const reader *r, size_t column, wt_error *err)
     else if (column > 0)
         (void)snprintf(of_column, sizeof of_column, ", column %zu", column);
     wt_error_place(err, "line %zu%s%s", r->number, of_table, of_column);
-    return err != NULL ? err->status : WT_E_CORRUPT;
 }
 
 /* WT_OK, WT_END, or an error. */
@@ -69,7 +68,7 @@ static wt_status next_line(reader *r, wt_error *err)
     if (good != r->length || memchr(r->line, '\0', r->length) != NULL) {
         (void)wt_fail(err, WT_E_CORRUPT, "the line is not UTF-8 text");
         wt_error_expected(err, "a text stream of weartrack");
-        (void)at(r, 0, err);
+        at(r, 0, err);
         return WT_E_CORRUPT;
     }
     return WT_OK;
@@ -82,7 +81,7 @@ static wt_status corrupt(const reader *r, size_t column, const char *message, co
     wt_error_expected(err, "%s", expected);
     if (found != NULL)
         wt_error_found(err, "\"%s\"", found);
-    (void)at(r, column, err);
+    at(r, column, err);
     return WT_E_CORRUPT;
 }
 
@@ -94,7 +93,7 @@ static wt_status refused(const reader *r, size_t column, wt_status status, wt_er
         if (err != NULL)
             err->status = status;
     }
-    (void)at(r, column, err);
+    at(r, column, err);
     return status;
 }
 
@@ -263,7 +262,7 @@ static wt_status read_row(reader *r, wt_error *err)
         status = wt_fail(err, WT_E_CORRUPT, "the row does not fit the header line");
         wt_error_expected(err, "%zu cells parted by tabs", table->n_columns);
         wt_error_found(err, "%zu", n_cells);
-        (void)at(r, 0, err);
+        at(r, 0, err);
     }
     return status;
 }
@@ -300,7 +299,7 @@ wt_status wt_stream_read(FILE *in, const char *name, wt_table **table, wt_error 
             status = wt_fail(err, WT_E_CORRUPT, "the stream ends before the table does");
             wt_error_expected(err, "a line \"##\" alone at its end");
             wt_error_advice(err, "the program that wrote it may have failed: look at its message");
-            (void)at(&r, 0, err);
+            at(&r, 0, err);
         }
     }
     if (status == WT_OK && !header)

@@ -156,8 +156,8 @@ done:
     return status;
 }
 
-wt_status wt_prony_check(const wt_master_curve *master, const wt_prony_options *options,
-                         wt_error *err)
+static wt_status check(const wt_master_curve *master, const wt_prony_options *options,
+                       wt_error *err)
 {
     if (master->n < 2)
         return wt_fail(err, WT_E_MISSING, "the master curve has no points");
@@ -182,7 +182,7 @@ wt_status wt_prony_fit_master(const wt_master_curve *master, const wt_prony_opti
 
     if (options == NULL)
         options = &defaults;
-    wt_status status = wt_prony_check(master, options, err);
+    wt_status status = check(master, options, err);
     if (status != WT_OK)
         return status;
     const wt_prony_points points = {

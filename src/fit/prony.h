@@ -19,9 +19,6 @@ wt_status wt_prony_fit_points(const wt_prony_points *points, const wt_prony_opti
 /* log10 E', log10 E'' of the series at log10 w; -inf where the series gives 0. */
 void wt_prony_log_moduli(const wt_prony *prony, double log_frequency, double *log_storage,
                          double *log_loss);
-/* Checks what the public functions are given. */
-wt_status wt_prony_check(const wt_master_curve *master, const wt_prony_options *options,
-                         wt_error *err) WT_NODISCARD;
 /* Rms relative misfit of E'' predicted from a non-negative series fitted to E' alone, half a decade
  * inside the ends (E'' there hangs on E' beyond) and where tan delta > 0.1 (below it E' knows E''
  * no better than its own noise); NaN if there are no such points. */

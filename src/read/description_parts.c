@@ -7,6 +7,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* In the order of wt_segment_kind. */
+static const char *const segment_kinds[] = {"approach", "retract", "dwell", "modulation", "other"};
+#define N_KINDS (sizeof segment_kinds / sizeof *segment_kinds)
+
 static wt_quantity quantity_attribute(wt_parse *p, const xmlNode *node)
 {
     char *id = wt_parse_attribute(p, node, "quantity");
@@ -182,16 +186,15 @@ static void read_columns(wt_parse *p, const xmlNode *table)
     if (d->names == NULL)
         wt_parse_no_memory(p);
     for (const xmlNode *c = table->children; c != NULL && p->status == WT_OK; c = c->next) {
-        static const char *const kinds[] = {"approach", "retract", "dwell", "modulation", "other"};
         if (!wt_parse_is(c, "column"))
             continue;
         wt_column_rule *rule = &d->rules[d->n_rules];
-        size_t kind = wt_parse_one_of(p, c, "segment", kinds, 5, 5);
+        size_t kind = wt_parse_one_of(p, c, "segment", segment_kinds, N_KINDS, N_KINDS);
         rule->quantity = quantity_attribute(p, c);
         rule->unit = wt_parse_attribute(p, c, "unit");
         rule->with = wt_parse_normalised(p, wt_parse_attribute(p, c, "with"));
-        rule->has_segment = kind < 5;
-        rule->segment = kind < 5 ? (wt_segment_kind)kind : WT_SEGMENT_OTHER;
+        rule->has_segment = kind < N_KINDS;
+        rule->segment = kind < N_KINDS ? (wt_segment_kind)kind : WT_SEGMENT_OTHER;
         rule->negate = wt_parse_true(p, c, "negate");
         check_unit(p, c, rule->unit, rule->quantity);
         for (const xmlNode *name = c->children; name != NULL && p->status == WT_OK;
@@ -261,7 +264,6 @@ static void read_isotherms(wt_parse *p, const xmlNode *node)
 
 static void read_segments(wt_parse *p, const xmlNode *node)
 {
-    static const char *const kinds[] = {"approach", "retract", "dwell", "modulation", "other"};
     wt_description *d = p->d;
     d->segment_column = wt_parse_normalised(p, wt_parse_attribute(p, node, "column"));
     d->curve_column = wt_parse_normalised(p, wt_parse_attribute(p, node, "curve"));
@@ -271,11 +273,13 @@ static void read_segments(wt_parse *p, const xmlNode *node)
     for (const xmlNode *c = node->children; c != NULL && p->status == WT_OK; c = c->next) {
         if (wt_parse_is(c, "marker")) {
             wt_marker *marker = &d->markers[d->n_markers++];
-            marker->kind = (wt_segment_kind)wt_parse_one_of(p, c, "kind", kinds, 5, 4);
+            marker->kind = (wt_segment_kind)wt_parse_one_of(p, c, "kind", segment_kinds, N_KINDS,
+                                                            WT_SEGMENT_OTHER);
             wt_parse_pattern(p, c, "regex", &marker->pattern, 0);
         } else if (wt_parse_is(c, "value")) {
             wt_marker *value = &d->values[d->n_values++];
-            value->kind = (wt_segment_kind)wt_parse_one_of(p, c, "kind", kinds, 5, 4);
+            value->kind = (wt_segment_kind)wt_parse_one_of(p, c, "kind", segment_kinds, N_KINDS,
+                                                           WT_SEGMENT_OTHER);
             value->text = wt_parse_attribute(p, c, "text");
         }
     }

@@ -45,7 +45,8 @@ static const signature signatures[] = {
     SIGNATURE("\376\377", "UTF-16 text of no known layout"),
 };
 
-const char *wt_looks_like(const unsigned char *bytes, size_t length)
+/* Words for bytes that no reader knows: "a gzip archive". */
+static const char *looks_like(const unsigned char *bytes, size_t length)
 {
     if (length == 0)
         return "an empty file";
@@ -169,7 +170,7 @@ static wt_status unknown(wt_input *input, wt_error *err)
     if (status != WT_OK)
         return status;
     wt_fail(err, WT_E_FORMAT, "file format not recognised");
-    wt_error_found(err, "%s", wt_looks_like(bytes, length));
+    wt_error_found(err, "%s", looks_like(bytes, length));
     wt_error_advice(err, "see `weartrack formats list`");
     return WT_E_FORMAT;
 }

@@ -17,9 +17,6 @@ const wt_reader *wt_formats_reader(const wt_formats *formats, size_t i);
 wt_status wt_find_reader(const wt_formats *formats, wt_input *input, const char *format,
                          unsigned kinds, const wt_reader **reader, wt_error *err);
 
-/* Words for bytes that no reader knows: "a gzip archive"; static. */
-const char *wt_looks_like(const unsigned char *bytes, size_t length);
-
 /* Adds a row (item, value, unit, source) to the table of wt_describe. */
 wt_status wt_facts_add(wt_table *facts, const char *item, const char *value, const char *unit,
                        const char *source, wt_error *err);

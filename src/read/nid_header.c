@@ -4,32 +4,11 @@
  */
 #include "read/nid.h"
 
+#include "base/utf8.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* Length of the UTF-8 character at `b` with n bytes left, 0 if it is none. */
-static size_t utf8_length(const unsigned char *b, size_t n)
-{
-    size_t length = b[0] < 0x80 ? 1 : b[0] < 0xc2 ? 0 : b[0] < 0xe0 ? 2 : b[0] < 0xf0 ? 3 : 4;
-    if (length == 0 || length > n || b[0] > 0xf4)
-        return 0;
-    for (size_t i = 1; i < length; i++)
-        if ((b[i] & 0xc0) != 0x80)
-            return 0;
-    return length;
-}
-
-static bool is_utf8(const unsigned char *bytes, size_t n)
-{
-    for (size_t i = 0; i < n;) {
-        size_t length = utf8_length(bytes + i, n - i);
-        if (length == 0)
-            return false;
-        i += length;
-    }
-    return true;
-}
 
 /* A copy in UTF-8 with a terminating zero. */
 static char *to_utf8(const unsigned char *bytes, size_t n, bool latin1)
@@ -123,7 +102,7 @@ wt_status nid_header_read(const unsigned char *bytes, size_t length, nid_header 
     size_t n = (size_t)(end - bytes) + 1;
     if (memchr(bytes, '\0', n) != NULL)
         return wt_fail(err, WT_E_CORRUPT, "the header holds zero bytes");
-    header->latin1 = !is_utf8(bytes, n);
+    header->latin1 = wt_utf8_check((const char *)bytes, n) < n;
     header->data = n + 2;
     header->text = to_utf8(bytes, n, header->latin1);
     wt_status status = header->text != NULL ? parse(header, err)

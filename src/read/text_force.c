@@ -193,6 +193,11 @@ static wt_status add_turning(const text_source *s, wt_force_curve *curve, span r
     double farthest = 0;
     if (height == NULL)
         height = wt_text_table_column(t, WT_Q_HEIGHT, -1);
+    /* Rows without a height at either end tell no distance. */
+    while (rows.first + 1 < rows.end && isnan(wt_text_table_value(t, rows.first, height)))
+        rows.first++;
+    while (rows.end - 1 > rows.first && isnan(wt_text_table_value(t, rows.end - 1, height)))
+        rows.end--;
     const double start = wt_text_table_value(t, rows.first, height);
     const double end = wt_text_table_value(t, rows.end - 1, height);
     size_t turn = rows.end - 1;

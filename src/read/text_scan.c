@@ -15,7 +15,7 @@ wt_status wt_scan_no_memory(wt_scan *s)
     return wt_fail(s->err, WT_E_MEMORY, "no memory for the tables of the file");
 }
 
-bool wt_scan_starts_with(const char *line, size_t length, const char *prefix)
+static bool starts_with(const char *line, size_t length, const char *prefix)
 {
     size_t n = strlen(prefix);
     return length >= n && memcmp(line, prefix, n) == 0;
@@ -60,7 +60,7 @@ static wt_status new_table(wt_scan *s, size_t line_number)
 /* Text without the comment mark in front. */
 static void uncomment(const wt_scan *s, const char **line, size_t *length)
 {
-    if (s->d->comment != NULL && wt_scan_starts_with(*line, *length, s->d->comment)) {
+    if (s->d->comment != NULL && starts_with(*line, *length, s->d->comment)) {
         size_t n = strlen(s->d->comment);
         *line += n;
         *length -= n;
@@ -300,7 +300,7 @@ static wt_status walk(wt_scan *s)
     for (size_t i = 0; i < lines->n && status == WT_OK; i++) {
         size_t length;
         const char *line = wt_lines_get(lines, i, &length);
-        bool comment = s->d->comment != NULL && wt_scan_starts_with(line, length, s->d->comment);
+        bool comment = s->d->comment != NULL && starts_with(line, length, s->d->comment);
         if (s->state == SCAN_UNITS) {
             status = units_line(s, &i, line, length, comment);
         } else if (comment) {

@@ -47,7 +47,6 @@ typedef enum wt_row_is {
 } wt_row_is;
 
 wt_status wt_scan_no_memory(wt_scan *s);
-bool wt_scan_starts_with(const char *line, size_t length, const char *prefix);
 /* Is the text, normalised, that word? */
 bool wt_scan_same_word(const char *text, size_t length, const char *word);
 

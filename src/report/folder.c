@@ -248,11 +248,6 @@ fail:
     return status;
 }
 
-const char *wt_folder_path(const wt_folder *folder)
-{
-    return folder->made;
-}
-
 const char *wt_folder_plots(const wt_folder *folder)
 {
     return folder->plots;

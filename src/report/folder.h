@@ -14,7 +14,6 @@ typedef struct wt_folder wt_folder;
 /* Makes a new folder with an empty folder "plots" in it, beside `path`. WT_E_IO if something else
  * than an older report or an empty folder is at `path`; nothing is touched then. */
 wt_status wt_folder_open(const char *path, wt_folder **folder, wt_error *err) WT_NODISCARD;
-const char *wt_folder_path(const wt_folder *folder);  /* the temporary one; borrowed */
 const char *wt_folder_plots(const wt_folder *folder); /* "plots" in it; borrowed */
 /* Writes a file; `name` is relative to the folder. */
 wt_status wt_folder_write(const wt_folder *folder, const char *name, const char *bytes,

@@ -28,7 +28,8 @@ const char *wt_report_file(const char *name)
     return NULL;
 }
 
-void wt_report_styles(char *names, size_t size)
+/* Names of the plot styles, "paper, screen"; at most `size` bytes. */
+static void style_names(char *names, size_t size)
 {
     size_t n = 0;
     names[0] = '\0';
@@ -89,7 +90,7 @@ static wt_status find_style(const char *style, wt_text *text, wt_error *err)
         return text->failed ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
     }
     char names[128];
-    wt_report_styles(names, sizeof names);
+    style_names(names, sizeof names);
     wt_status status = wt_fail(err, WT_E_NOT_FOUND, "no plot style of that name");
     wt_error_expected(err, "%s, or a file name that ends in .gp", names);
     wt_error_found(err, "\"%s\"", name);

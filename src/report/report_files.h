@@ -9,7 +9,5 @@
 
 /* Text of "page.css", "paper.gp", ...; NULL if there is none of that name. Static. */
 const char *wt_report_file(const char *name);
-/* Names of the plot styles, "paper, screen"; at most `size` bytes. */
-void wt_report_styles(char *names, size_t size);
 
 #endif

@@ -157,7 +157,8 @@ void wt_text_comment(wt_text *text, const char *string)
     wt_text_add(text, "\n");
 }
 
-void wt_text_superscript(wt_text *text, long value)
+/* A whole number as exponent: "⁻⁷". */
+static void superscript(wt_text *text, long value)
 {
     static const char *const digit[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
     char plain[32];
@@ -240,7 +241,7 @@ static void add_number(wt_text *text, double value, int significant, bool trim)
     if (plain)
         return;
     wt_text_add(text, "×10");
-    wt_text_superscript(text, exponent);
+    superscript(text, exponent);
 }
 
 void wt_text_number(wt_text *text, double value, int significant)

@@ -39,7 +39,5 @@ void wt_text_short(wt_text *text, double value, int significant);
 void wt_text_fixed(wt_text *text, double value, int decimals);
 /* A number as gnuplot reads it, to 10 digits. */
 void wt_text_literal(wt_text *text, double value);
-/* A whole number as exponent: "⁻⁷". */
-void wt_text_superscript(wt_text *text, long value);
 
 #endif

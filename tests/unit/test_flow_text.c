@@ -1,8 +1,11 @@
 /* Estimates and lists as text. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "near.h"
 
+#include "flow/answer.h"
+#include "flow/tables.h"
 #include "weartrack/flow.h"
 
+#include <locale.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -95,6 +98,60 @@ static void test_list_errors(void **state)
     }
 }
 
+static void check_words(void)
+{
+    const wt_tip tip = {.shape = WT_TIP_CONE, .half_angle = 0.3};
+    wt_table *table = wt_table_new("words", "");
+    char text[64];
+    assert_non_null(table);
+    assert_int_equal(flow_table_key(table, NULL, "half", "%g", 0.5), WT_OK);
+    assert_string_equal(wt_table_key(table, "half"), "0.5");
+    wt_table_free(table);
+    assert_string_equal(flow_say(0.25, "1").text, "0.25");
+    assert_string_equal(flow_say_estimate((wt_estimate){0.25, 0.125, 0, "1"}).text,
+                        "0.25 \xc2\xb1 0.12");
+    assert_string_equal(flow_say_celsius(WT_ZERO_CELSIUS + 20.5).text, "20.5 \xc2\xb0"
+                                                                       "C");
+    (void)wt_tip_describe(&tip, text, sizeof text);
+    assert_string_equal(text, "cone, half-angle 17.19 degrees");
+}
+
+static void test_words_in_any_locale(void **state)
+{
+    (void)state;
+    check_words();
+    if (setlocale(LC_ALL, "de_DE.UTF-8") == NULL)
+        skip();
+    check_words();
+    (void)setlocale(LC_ALL, "C");
+}
+
+/* Equal names are one spot, numbered as they first appear, whatever stands between. */
+static void test_spots(void **state)
+{
+    (void)state;
+    static const char *const spots[] = {"b", "a", "b", "c", "a", "b"};
+    static const long expected[] = {0, 1, 0, 2, 1, 0};
+    enum { N = sizeof spots / sizeof spots[0] };
+    static const flow_column columns[] = {
+        {"spot", NULL, ""}, {"verdict", NULL, ""}, {"modulus", "Pa", ""}};
+    wt_table *table = NULL;
+    wt_group_data data;
+    assert_int_equal(flow_table_new("indentation/bulk", "", columns, 3, &table, NULL), WT_OK);
+    for (size_t i = 0; i < N; i++) {
+        assert_int_equal(wt_table_add_row(table, NULL), WT_OK);
+        assert_int_equal(wt_table_put_text(table, 0, spots[i], NULL), WT_OK);
+        assert_int_equal(wt_table_put_text(table, 1, "accepted", NULL), WT_OK);
+        wt_table_put(table, 2, 1e6);
+    }
+    assert_int_equal(wt_group_from_table(table, &data, NULL), WT_OK);
+    assert_int_equal(data.group.n, N);
+    for (size_t i = 0; i < N; i++)
+        assert_int_equal(data.spot[i], expected[i]);
+    wt_group_data_clear(&data);
+    wt_table_free(table);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -102,6 +159,8 @@ int main(void)
         cmocka_unit_test(test_estimate_errors),
         cmocka_unit_test(test_lists),
         cmocka_unit_test(test_list_errors),
+        cmocka_unit_test(test_words_in_any_locale),
+        cmocka_unit_test(test_spots),
     };
     return cmocka_run_group_tests_name("flow text", tests, NULL, NULL);
 }
