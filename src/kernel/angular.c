@@ -181,7 +181,7 @@ static int compare(const void *left, const void *right)
 /* The nearest knot at or below x that a piece there must mind, or NaN. */
 static double knot_before(const wt_angular *a, double x)
 {
-    double anchor = NAN;
+    double anchor = (double)NAN;
     for (size_t k = 0; k < a->quadrature.n_breaks; k++) {
         const double knot = log(a->quadrature.breaks[k]);
         if (knot <= x + same_bound && knot > x - piece_width)

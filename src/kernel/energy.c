@@ -60,7 +60,7 @@ wt_status wt_energy_check(const wt_energy_source *source, wt_error *err)
 
 bool wt_energy_range(const wt_energy_source *source, double *q_min, double *q_max)
 {
-    *q_min = INFINITY;
+    *q_min = (double)INFINITY;
     *q_max = 0;
     for (size_t i = 0; i < source->n; i++)
         if (source->power[i] > 0) {
@@ -121,7 +121,7 @@ double wt_energy_log_density(const wt_energy_source *source, double depth)
 {
     double q_min, q_max;
     if (!wt_energy_range(source, &q_min, &q_max))
-        return -INFINITY;
+        return -(double)INFINITY;
     const double r = asymmetry(source->local_friction);
     double sum = 0;
     for (size_t i = 0; i < source->n; i++) {
@@ -136,7 +136,7 @@ double wt_energy_log_tail(const wt_energy_source *source, double depth)
 {
     double q_min, q_max;
     if (!wt_energy_range(source, &q_min, &q_max))
-        return -INFINITY;
+        return -(double)INFINITY;
     const double r = asymmetry(source->local_friction);
     double sum = 0;
     for (size_t i = 0; i < source->n; i++) {
@@ -152,7 +152,7 @@ double wt_energy_log_gain(const wt_energy_source *source, double depth, double l
 {
     double q_min, q_max;
     if (!wt_energy_range(source, &q_min, &q_max) || !(length > 0))
-        return -INFINITY;
+        return -(double)INFINITY;
     const double r = asymmetry(source->local_friction);
     double sum = 0;
     for (size_t i = 0; i < source->n; i++) {

@@ -59,7 +59,7 @@ wt_status wt_energy_source_friction(wt_friction_workspace *workspace, double pre
     const size_t level =
         wt_friction_level(workspace, &scratch, wt_friction_grid(workspace, &scratch, plan, 0), at);
     size_t now = 0;
-    double error = INFINITY;
+    double error = (double)INFINITY;
     for (size_t r = 0; r < WT_FRICTION_RULES && error > workspace->options.tolerance; r++) {
         now = r % 2;
         wt_energy_source *s = &pair[now];

@@ -196,7 +196,7 @@ wt_status wt_friction_prepare(wt_friction_workspace *ws, double pressure, const 
 {
     if (!(pressure > 0) || !isfinite(pressure))
         return out_of_range("pressure", pressure, "finite and > 0 Pa", err);
-    double slowest = INFINITY, fastest = 0;
+    double slowest = (double)INFINITY, fastest = 0;
     for (size_t i = 0; i < n; i++) {
         const double speed = fabs(velocity[i]);
         if (!isfinite(speed))

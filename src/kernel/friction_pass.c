@@ -88,7 +88,7 @@ static double core_pass(const wt_friction_workspace *ws, wt_friction_scratch *sc
     const double *factor2 = grid->core_factor2 + level * n;
     const double half = grid->core_half_width[level];
     pass->variance = core_variance(ws, scratch, grid, level, at);
-    double full = 0, least = INFINITY, most = 0;
+    double full = 0, least = (double)INFINITY, most = 0;
     for (size_t i = 0; i < n; i++) {
         const double f1 = mu_scale * factor1[i] * scratch->j1[i];
         const double f2 = g_scale * factor2[i] * scratch->j2[i];

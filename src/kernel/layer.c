@@ -143,7 +143,7 @@ wt_status wt_layer_fixed_point(const wt_layer_rates *rates, double log_scale,
     if (!(excess > 0))
         return WT_OK;
     if (isinf(excess)) {
-        thickness->value = INFINITY;
+        thickness->value = (double)INFINITY;
         return WT_OK;
     }
     balance_root b = {.rates = rates, .level = -excess};

@@ -50,7 +50,7 @@ wt_status wt_layer_balance_compute(const wt_energy_source *source,
     const double rate = r.wear > 0 ? r.wear * wt_layer_decay(&r, b.thickness.value) : 0;
     b.eigenvalue = b.regime == WT_LAYER_NONE ? 0 : -rate;
     b.relaxation_time = rate > 0 ? 1 / rate : HUGE_VAL;
-    b.removal_time = NAN;
+    b.removal_time = (double)NAN;
     if (b.regime == WT_LAYER_NONE) {
         if (parameters->incubation)
             b.removal_time = removal_of_old_layer(&r, parameters->start_thickness);

@@ -131,7 +131,7 @@ static double peak_at(double log_time, void *user)
 wt_status wt_layer_incubation(const wt_layer_rates *rates, bool with_wear, double *time,
                               wt_error *err)
 {
-    *time = NAN;
+    *time = (double)NAN;
     wt_layer_rates r = *rates;
     if (!with_wear)
         r.wear = 0;

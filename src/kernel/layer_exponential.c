@@ -23,7 +23,7 @@ double wt_layer_exponential(double start_thickness, double kappa, double formati
           time >= 0) ||
         !isfinite(start_thickness) || !isfinite(kappa) || !isfinite(formation_rate_zero) ||
         !isfinite(wear_rate) || !isfinite(time))
-        return NAN;
+        return (double)NAN;
     if (kappa == 0)
         return fmax(0, start_thickness + (formation_rate_zero - wear_rate) * time);
     const double s = kappa * wear_rate * time;

@@ -238,7 +238,7 @@ wt_status wt_layer_removal(const wt_layer_rates *rates, double start, double *ti
     *time = 0;
     if (start == 0)
         return WT_OK;
-    *time = INFINITY;
+    *time = (double)INFINITY;
     if (rates->wear == 0 || rates->log_ratio >= 0)
         return WT_OK;
     march m;

@@ -37,8 +37,8 @@ wt_status wt_material_wrap(const wt_material_law *law, void *data, double poisso
         return wt_fail(err, WT_E_MEMORY, "out of memory for a material");
     made->law = law;
     made->poisson_ratio = poisson_ratio;
-    made->frequency_min = NAN;
-    made->frequency_max = NAN;
+    made->frequency_min = (double)NAN;
+    made->frequency_max = (double)NAN;
     made->data = data;
     *material = made;
     return WT_OK;

@@ -74,7 +74,7 @@ static bool interpolate(const wt_isotherm *iso, double x, double *y)
 
 static double pair_shift(const wt_isotherm *from, const wt_isotherm *to)
 {
-    double best = 0, best_cost = INFINITY;
+    double best = 0, best_cost = (double)INFINITY;
     for (int t = 0; t < TRIALS; t++) {
         const double shift = -2.8 + 5.6 * t / (TRIALS - 1);
         double cost = 0;
