@@ -293,12 +293,13 @@ WT_API wt_status wt_prony_fit_master(const wt_master_curve *master, const wt_pro
                                      wt_prony_fit *fit, wt_error *err) WT_NODISCARD;
 /* Replicate `index` of the same fit, for carrying the uncertainty of the material on to friction:
  * shifts drawn from their joint covariance, residuals of whole isotherms exchanged with random
- * sign. The same seed and index give the same series, whatever ran before; relaxation times are
- * those of the fit. Covers the statistical error of shifts, noise and the misfit of the series; not
- * failing superposition, wrong temperatures, or strain amplitude. Costs two fits, below a
- * millisecond for 300 points and 10 terms. */
+ * sign. change_b: [n_shifts] out, what the draw added to log_b (0 where not determined), for the
+ * material at the temperature of an isotherm; or NULL. The same seed and index give the same
+ * series, whatever ran before; relaxation times are those of the fit. Covers the statistical error
+ * of shifts, noise and the misfit of the series; not failing superposition, wrong temperatures, or
+ * strain amplitude. Costs two fits, below a millisecond for 300 points and 10 terms. */
 WT_API wt_status wt_prony_replicate(const wt_master_curve *master, const wt_prony_options *options,
-                                    uint64_t seed, size_t index, wt_prony *prony,
+                                    uint64_t seed, size_t index, wt_prony *prony, double *change_b,
                                     wt_error *err) WT_NODISCARD;
 
 #ifdef __cplusplus

@@ -134,7 +134,8 @@ static void draw_residuals(struct replicate *r, const wt_master_curve *master, g
 }
 
 wt_status wt_prony_replicate(const wt_master_curve *master, const wt_prony_options *options,
-                             uint64_t seed, size_t index, wt_prony *prony, wt_error *err)
+                             uint64_t seed, size_t index, wt_prony *prony, double *change_b,
+                             wt_error *err)
 {
     const wt_prony_options defaults = wt_prony_defaults();
     struct replicate r = {0};
@@ -176,6 +177,8 @@ wt_status wt_prony_replicate(const wt_master_curve *master, const wt_prony_optio
         goto done;
     made.deformation = master->deformation;
     made.reference_temperature = master->reference_temperature;
+    if (change_b != NULL)
+        memcpy(change_b, r.db, master->n_shifts * sizeof *change_b);
     *prony = made;
 done:
     gsl_rng_free(rng);

@@ -359,6 +359,12 @@ static wt_status move_reference(wt_shift_work *work, wt_error *err)
     variance += law_variance;
     move_covariance(work, weight, law_variance, weight + 2 * n);
     for (size_t i = 0; i < n; i++) {
+        const double *of_a = work->covariance_ab + i * 2 * n;
+        const double *of_b = work->covariance_ab + (n + i) * 2 * n;
+        work->sigma_b[i] = sqrt(fmax(of_b[n + i], 0.0));
+        work->correlation[i] = of_a[i] > 0.0 && work->sigma_b[i] > 0.0
+                                   ? of_a[n + i] / (sqrt(of_a[i]) * work->sigma_b[i])
+                                   : 0.0;
         work->a[i] -= offset;
         for (size_t k = 0; k < n; k++)
             work->covariance[i * n + k] += variance - shared[i] - shared[k];

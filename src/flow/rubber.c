@@ -26,17 +26,22 @@ void wt_rubber_clear(wt_rubber *rubber)
     *rubber = (wt_rubber){0};
 }
 
-/* log10 b_T by linear interpolation; held outside, which *held says. */
-static double vertical_shift(const wt_rubber *rubber, double temperature, bool *held)
+/* log10 b_T, or a change of it at the isotherms, by linear interpolation; held outside, which *held
+ * says, except that it is 0 at the reference temperature wherever that is. */
+static double vertical_shift(const wt_rubber *rubber, const double *b, double temperature,
+                             bool *held)
 {
-    const double *t = rubber->vertical_temperature, *b = rubber->vertical_log_b;
+    const double *t = rubber->vertical_temperature;
     size_t n = rubber->n_vertical;
     *held = false;
     if (n == 0)
         return 0;
     if (temperature <= t[0] || temperature >= t[n - 1]) {
         size_t end = temperature <= t[0] ? 0 : n - 1;
-        *held = temperature < t[0] || temperature > t[n - 1];
+        double way = rubber->prony.reference_temperature - t[end], gone = temperature - t[end];
+        *held = gone != 0;
+        if ((end == 0 ? way < 0 : way > 0) && gone != 0)
+            return b[end] * (1 - fmin(gone / way, 1));
         return b[end];
     }
     size_t i = 1;
@@ -95,6 +100,30 @@ static void make_statement(const wt_rubber *rubber, double temperature, bool hel
                          held ? " and the vertical shift held" : "");
 }
 
+/* Replicate of the series at the reference temperature, and what the same draw changes log10 b_T by
+ * at another temperature. */
+static wt_status material_replicate(const wt_rubber *rubber, double temperature, uint64_t seed,
+                                    size_t replicate, wt_prony *prony, double *change,
+                                    wt_error *err)
+{
+    const wt_master_curve *master = &rubber->master;
+    double *change_b = malloc((master->n_shifts + 1) * sizeof *change_b);
+    bool held;
+    if (change_b == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    wt_status status =
+        wt_prony_replicate(master, &rubber->prony_options, seed, replicate, prony, change_b, err);
+    if (status == WT_OK) {
+        size_t n = 0; /* the rubber has the determined shifts only */
+        for (size_t i = 0; i < master->n_shifts; i++)
+            if (master->shifts[i].determined)
+                change_b[n++] = change_b[i];
+        *change = vertical_shift(rubber, change_b, temperature, &held);
+    }
+    free(change_b);
+    return status;
+}
+
 wt_status wt_rubber_at(const wt_rubber *rubber, double temperature, uint64_t seed, size_t replicate,
                        wt_material **material, char statement[256], wt_error *err)
 {
@@ -110,12 +139,13 @@ wt_status wt_rubber_at(const wt_rubber *rubber, double temperature, uint64_t see
         status = horizontal_shift(rubber, temperature, &log_a, &log_a_error, err);
     if (status != WT_OK)
         return status;
-    log_b = vertical_shift(rubber, temperature, &held);
+    log_b = vertical_shift(rubber, rubber->vertical_log_b, temperature, &held);
     log_a += log_a_error * flow_draw_normal(seed, replicate, FLOW_DRAW_SHIFT_LAW);
 
     if (replicate != FLOW_CENTRE && rubber->has_master) {
-        status = wt_prony_replicate(&rubber->master, &rubber->prony_options, seed, replicate,
-                                    &prony, err);
+        double change = 0;
+        status = material_replicate(rubber, temperature, seed, replicate, &prony, &change, err);
+        log_b += change;
     } else {
         status = wt_prony_alloc(&prony, rubber->prony.n, err);
         if (status == WT_OK) {

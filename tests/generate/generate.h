@@ -21,8 +21,9 @@ double truth_vertical(double temperature);
 /* Normal deviates that are the same on every machine (up to the mathematical library). */
 double truth_normal(uint64_t *state);
 
-/* Each writes its files into a folder; 0, or -1 with a text on stderr. */
-int generate_dma(const wt_rubber *rubber, const char *folder);
-int generate_curves(const wt_rubber *rubber, const char *folder);
+/* Each writes its files into a folder; 0, or -1 with a text on stderr. Variant 0 is the bundled
+ * case; another one has the same truth and other errors of measurement. */
+int generate_dma(const wt_rubber *rubber, const char *folder, uint64_t variant);
+int generate_curves(const wt_rubber *rubber, const char *folder, uint64_t variant);
 
 #endif

@@ -1,6 +1,7 @@
 /* Writes the data files of the bundled case and the truth behind them:
- *   generate_case FOLDER CASE.xml
- * The same bytes every time. SPDX-License-Identifier: GPL-3.0-or-later */
+ *   generate_case FOLDER CASE.xml [VARIANT]
+ * The same bytes every time; variants, for counting how often a stated interval holds the truth,
+ * differ in their errors of measurement. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/steps.h"
 #include "generate.h"
 
@@ -116,10 +117,11 @@ done:
 int main(int argc, char **argv)
 {
     double relaxation_time[TRUTH_TERMS], modulus[TRUTH_TERMS];
-    if (argc != 3) {
-        fprintf(stderr, "usage: generate_case FOLDER CASE.xml\n");
+    if (argc != 3 && argc != 4) {
+        fprintf(stderr, "usage: generate_case FOLDER CASE.xml [VARIANT]\n");
         return 2;
     }
+    uint64_t variant = argc == 4 ? strtoull(argv[3], NULL, 10) : 0;
     wt_rubber rubber = truth_rubber(relaxation_time, modulus);
     /* log b of the isotherms, for the material at another temperature */
     double temperature[13], log_b[13];
@@ -130,7 +132,8 @@ int main(int argc, char **argv)
     rubber.n_vertical = 13;
     rubber.vertical_temperature = temperature;
     rubber.vertical_log_b = log_b;
-    return generate_dma(&rubber, argv[1]) != 0 || generate_curves(&rubber, argv[1]) != 0 ||
+    return generate_dma(&rubber, argv[1], variant) != 0 ||
+                   generate_curves(&rubber, argv[1], variant) != 0 ||
                    write_truth(&rubber, argv[1], argv[2]) != 0
                ? EXIT_FAILURE
                : EXIT_SUCCESS;

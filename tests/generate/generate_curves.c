@@ -123,11 +123,11 @@ static int write_spot(buffers *b, const char *path)
     return jpk_write(&file);
 }
 
-int generate_curves(const wt_rubber *rubber, const char *folder)
+int generate_curves(const wt_rubber *rubber, const char *folder, uint64_t variant)
 {
     static const char *const zone[2] = {"bulk", "track"};
     int result = -1;
-    uint64_t seed = 64;
+    uint64_t seed = 64 + (variant << 32);
     wt_tip tip = the_tip();
     wt_material *material = NULL;
     buffers *b = calloc(1, sizeof *b);

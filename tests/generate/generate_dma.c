@@ -49,9 +49,9 @@ static void write_step(FILE *out, const wt_rubber *rubber, double celsius, uint6
     }
 }
 
-int generate_dma(const wt_rubber *rubber, const char *folder)
+int generate_dma(const wt_rubber *rubber, const char *folder, uint64_t variant)
 {
-    uint64_t seed = 20;
+    uint64_t seed = 20 + (variant << 32);
     char *path = wt_path_join(folder, "dma.txt");
     FILE *out = path == NULL ? NULL : fopen(path, "w");
     free(path);

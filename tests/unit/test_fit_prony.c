@@ -312,10 +312,10 @@ static void replicates_are_reproducible_and_distinct(void **state)
     (void)state;
     wt_master_curve master = shifted_rubber();
     wt_prony first = {0}, again = {0}, next = {0}, seeded = {0};
-    assert_int_equal(wt_prony_replicate(&master, NULL, 5, 3, &first, NULL), WT_OK);
-    assert_int_equal(wt_prony_replicate(&master, NULL, 5, 4, &next, NULL), WT_OK);
-    assert_int_equal(wt_prony_replicate(&master, NULL, 5, 3, &again, NULL), WT_OK);
-    assert_int_equal(wt_prony_replicate(&master, NULL, 6, 3, &seeded, NULL), WT_OK);
+    assert_int_equal(wt_prony_replicate(&master, NULL, 5, 3, &first, NULL, NULL), WT_OK);
+    assert_int_equal(wt_prony_replicate(&master, NULL, 5, 4, &next, NULL, NULL), WT_OK);
+    assert_int_equal(wt_prony_replicate(&master, NULL, 5, 3, &again, NULL, NULL), WT_OK);
+    assert_int_equal(wt_prony_replicate(&master, NULL, 6, 3, &seeded, NULL, NULL), WT_OK);
     assert_int_equal(first.n, again.n);
     assert_int_equal(first.n, next.n);
     assert_near(first.reference_temperature, 293.15, 0.0);
@@ -366,7 +366,7 @@ static void replicates_carry_the_errors_of_the_shifts(void **state)
     enum { DRAWS = 200 };
     for (size_t r = 0; r < DRAWS; r++) {
         wt_prony prony = {0};
-        assert_int_equal(wt_prony_replicate(&master, &options, 11, r, &prony, NULL), WT_OK);
+        assert_int_equal(wt_prony_replicate(&master, &options, 11, r, &prony, NULL, NULL), WT_OK);
         double storage;
         wt_prony_log_moduli(&prony, 4.5, &storage, &unused);
         middle += storage / DRAWS;
@@ -381,6 +381,43 @@ static void replicates_carry_the_errors_of_the_shifts(void **state)
     wt_master_curve_clear(&master);
 }
 
+/* An error of the reference isotherm is one of all other vertical shifts together: it does not
+ * average out over the isotherms, and is told for the material at another temperature. */
+static void replicates_carry_the_common_error_of_the_vertical_shifts(void **state)
+{
+    (void)state;
+    wt_master_curve master = shifted_rubber();
+    const wt_prony_options options = {.terms_per_decade = 2.0};
+    const size_t n = master.n_shifts;
+    enum { DRAWS = 200 };
+    double *change = calloc(n, sizeof *change), middle = 0.0, square = 0.0, of_change = 0.0;
+    wt_prony_fit fit;
+    assert_non_null(change);
+    assert_int_equal(wt_prony_fit_master(&master, &options, &fit, NULL), WT_OK);
+    for (size_t i = 0; i < master.n; i++)
+        wt_prony_log_moduli(&fit.prony, master.log_frequency[i], &master.log_storage[i],
+                            &master.log_loss[i]);
+    for (size_t i = 0; i < 2 * n; i++)
+        for (size_t k = 0; k < 2 * n; k++) /* 0.01 decade */
+            master.covariance_ab[i * 2 * n + k] = i < n || k < n ? 0.0 : 1e-4;
+    for (size_t r = 0; r < DRAWS; r++) {
+        wt_prony prony = {0};
+        double storage, loss;
+        assert_int_equal(wt_prony_replicate(&master, &options, 11, r, &prony, change, NULL), WT_OK);
+        wt_prony_log_moduli(&prony, 4.5, &storage, &loss);
+        middle += storage / DRAWS;
+        square += storage * storage / DRAWS;
+        of_change += change[0] * change[0] / DRAWS;
+        assert_near(change[n - 1], change[0], 1e-12);
+        wt_prony_clear(&prony);
+    }
+    assert_near(sqrt(square - middle * middle), 0.01, 0.15);
+    assert_near(sqrt(of_change), 0.01, 0.15);
+    free(change);
+    wt_prony_clear(&fit.prony);
+    wt_master_curve_clear(&master);
+}
+
 /* The spread of replicates holds the truth about as often as two standard deviations should. */
 static void replicates_spread_about_the_truth(void **state)
 {
@@ -391,7 +428,7 @@ static void replicates_spread_about_the_truth(void **state)
     double sum[20] = {0.0}, square[20] = {0.0};
     for (size_t r = 0; r < DRAWS; r++) {
         wt_prony prony = {0};
-        assert_int_equal(wt_prony_replicate(&master, &options, 13, r, &prony, NULL), WT_OK);
+        assert_int_equal(wt_prony_replicate(&master, &options, 13, r, &prony, NULL, NULL), WT_OK);
         for (size_t g = 0; g < 20; g++) {
             double storage, loss;
             wt_prony_log_moduli(&prony, -3.0 + 0.47 * (double)g, &storage, &loss);
@@ -426,6 +463,7 @@ int main(void)
         cmocka_unit_test(kramers_kronig_tells_a_causal_material_from_a_miscalibrated_one),
         cmocka_unit_test(replicates_are_reproducible_and_distinct),
         cmocka_unit_test(replicates_carry_the_errors_of_the_shifts),
+        cmocka_unit_test(replicates_carry_the_common_error_of_the_vertical_shifts),
         cmocka_unit_test(replicates_spread_about_the_truth),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

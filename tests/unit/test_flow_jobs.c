@@ -237,6 +237,39 @@ static wt_rubber measured_rubber(wt_master_tables *tables)
     return rubber;
 }
 
+/* The vertical shift is none at the reference temperature, also where that lies outside the
+ * isotherms. */
+static void test_rubber_at_reference(void **state)
+{
+    (void)state;
+    double relaxation_time = 1e-3, modulus = 1e6, temperature[2] = {280, 290},
+           log_b[2] = {0.05, 0.03}, storage, loss;
+    const double omega = 1e-6;
+    wt_rubber rubber = {.prony = {.deformation = WT_TENSION,
+                                  .reference_temperature = 300,
+                                  .equilibrium_modulus = 2e6,
+                                  .n = 1,
+                                  .relaxation_time = &relaxation_time,
+                                  .modulus = &modulus},
+                        .poisson_ratio = 0.5,
+                        .has_wlf = true,
+                        .wlf = {300, 6, 100},
+                        .n_vertical = 2,
+                        .vertical_temperature = temperature,
+                        .vertical_log_b = log_b};
+    const struct {
+        double at, log_b;
+    } cases[] = {{300, 0}, {(double)NAN, 0}, {295, 0.015}, {290, 0.03}, {285, 0.04}, {305, 0}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        wt_material *material = NULL;
+        assert_int_equal(wt_rubber_at(&rubber, cases[i].at, 1, SIZE_MAX, &material, NULL, NULL),
+                         WT_OK);
+        material->law->modulus(material, &omega, 1, &storage, &loss);
+        assert_near(storage, 2e6 / pow(10, cases[i].log_b), 1e-9);
+        wt_material_free(material);
+    }
+}
+
 /* At another temperature the material is what was measured there: the moduli of the isotherm of
  * 60 degC in the file, E = 3 G, come back although friction never sees that isotherm as such. */
 static void test_rubber_at(void **state)
@@ -467,11 +500,11 @@ static void test_draws(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_bad_files),   cmocka_unit_test(test_threads_and_rates),
-        cmocka_unit_test(test_spots),       cmocka_unit_test(test_one_spot),
-        cmocka_unit_test(test_rubber_at),   cmocka_unit_test(test_surface_text),
-        cmocka_unit_test(test_surface_cut), cmocka_unit_test(test_calibration),
-        cmocka_unit_test(test_draws),
+        cmocka_unit_test(test_bad_files),    cmocka_unit_test(test_threads_and_rates),
+        cmocka_unit_test(test_spots),        cmocka_unit_test(test_one_spot),
+        cmocka_unit_test(test_rubber_at),    cmocka_unit_test(test_rubber_at_reference),
+        cmocka_unit_test(test_surface_text), cmocka_unit_test(test_surface_cut),
+        cmocka_unit_test(test_calibration),  cmocka_unit_test(test_draws),
     };
     return cmocka_run_group_tests_name("flow jobs", tests, open_formats, close_formats);
 }
