@@ -14,6 +14,7 @@ struct wt_outfile {
     char *final;     /* where it goes */
     char *temporary; /* where it is written; equal text if the target is a device or a pipe */
     bool direct;     /* the target is not a regular file and is written in place */
+    bool unnamed;    /* `temporary` is no name in a folder: nothing is left if this program dies */
     FILE *stream;
 };
 
@@ -26,19 +27,26 @@ static void outfile_free(wt_outfile *file)
     free(file);
 }
 
-/* Creates a new file in `folder`; the name begins with a dot, so that no pattern picks it up. */
+enum { ATTEMPTS = 16 }; /* to find a name that is not taken */
+
+/* A new name in `folder`; it begins with a dot, so that no pattern picks it up. */
+static char *random_name(const char *folder)
+{
+    uint64_t random = 0;
+    char base[48];
+    if (getrandom(&random, sizeof random, 0) != (ssize_t)sizeof random)
+        return NULL;
+    (void)snprintf(base, sizeof base, ".weartrack-%016llx", (unsigned long long)random);
+    return wt_path_join(folder, base);
+}
+
+/* Mode as for any new file: the umask decides. */
 static int create_beside(const char *folder, char **name)
 {
-    for (int attempt = 0; attempt < 16; attempt++) {
-        uint64_t random = 0;
-        char base[48];
-        if (getrandom(&random, sizeof random, 0) != (ssize_t)sizeof random)
-            return -1;
-        (void)snprintf(base, sizeof base, ".weartrack-%016llx", (unsigned long long)random);
-        char *const path = wt_path_join(folder, base);
+    for (int attempt = 0; attempt < ATTEMPTS; attempt++) {
+        char *const path = random_name(folder);
         if (path == NULL)
             return -1;
-        /* Mode as for any new file: the umask decides. */
         const int descriptor = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (descriptor >= 0) {
             *name = path;
@@ -51,6 +59,58 @@ static int create_beside(const char *folder, char **name)
             return -1;
     }
     return -1;
+}
+
+/* A file without a name on the file system of `folder`. Not every file system can do that, and it
+ * gets its name through /proc: -1 where either is missing. */
+static int create_unnamed(const char *folder, char **name)
+{
+    char path[48];
+    const int descriptor = open(folder, O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
+    if (descriptor < 0)
+        return -1;
+    (void)snprintf(path, sizeof path, "/proc/self/fd/%d", descriptor);
+    *name = access(path, F_OK) == 0 ? strdup(path) : NULL;
+    if (*name != NULL)
+        return descriptor;
+    (void)close(descriptor);
+    return -1;
+}
+
+/* Gives an unnamed file a temporary name in the folder of its final one. */
+static bool name_unnamed(wt_outfile *file)
+{
+    char *const folder = wt_path_folder(file->final);
+    bool named = false;
+    errno = ENOMEM;
+    for (int attempt = 0; folder != NULL && attempt < ATTEMPTS && !named; attempt++) {
+        char *const path = random_name(folder);
+        if (path == NULL)
+            break;
+        named = linkat(AT_FDCWD, file->temporary, AT_FDCWD, path, AT_SYMLINK_FOLLOW) == 0;
+        if (named) {
+            free(file->temporary);
+            file->temporary = path;
+            file->unnamed = false;
+            break;
+        }
+        const int reason = errno;
+        free(path);
+        errno = reason;
+        if (reason != EEXIST)
+            break;
+    }
+    const int reason = errno;
+    free(folder);
+    errno = reason;
+    return named;
+}
+
+/* Removes what was written, if it has a name. */
+static void remove_temporary(const wt_outfile *file)
+{
+    if (!file->direct && !file->unnamed)
+        (void)unlink(file->temporary);
 }
 
 wt_status wt_outfile_open(const char *path, wt_outfile **file, wt_error *err)
@@ -83,7 +143,10 @@ wt_status wt_outfile_open(const char *path, wt_outfile **file, wt_error *err)
         if (new_file->temporary != NULL)
             descriptor = open(new_file->final, O_WRONLY | O_CLOEXEC);
     } else {
-        descriptor = create_beside(folder, &new_file->temporary);
+        descriptor = create_unnamed(folder, &new_file->temporary);
+        new_file->unnamed = descriptor >= 0;
+        if (descriptor < 0)
+            descriptor = create_beside(folder, &new_file->temporary);
     }
     if (descriptor >= 0)
         new_file->stream = fdopen(descriptor, "w");
@@ -92,8 +155,7 @@ wt_status wt_outfile_open(const char *path, wt_outfile **file, wt_error *err)
         wt_error_advice(err, "check that the folder exists and may be written to");
         if (descriptor >= 0) {
             (void)close(descriptor);
-            if (!new_file->direct)
-                (void)unlink(new_file->temporary);
+            remove_temporary(new_file);
         }
         goto done;
     }
@@ -139,6 +201,9 @@ wt_status wt_outfile_commit(wt_outfile *file, wt_error *err)
     } else if (!file->direct && fsync(fileno(file->stream)) != 0) {
         what = "cannot write the file to the disk";
         reason = errno;
+    } else if (file->unnamed && !name_unnamed(file)) {
+        what = "cannot give the file its name";
+        reason = errno;
     }
     if (fclose(file->stream) != 0 && what == NULL) {
         what = "cannot close the file";
@@ -154,8 +219,7 @@ wt_status wt_outfile_commit(wt_outfile *file, wt_error *err)
     }
     wt_status status = WT_OK;
     if (what != NULL) {
-        if (!file->direct)
-            (void)unlink(file->temporary);
+        remove_temporary(file);
         status = wt_fail(err, WT_E_IO, "%s: %s", what, strerror(reason));
         wt_error_file(err, file->final);
     }
@@ -168,7 +232,6 @@ void wt_outfile_discard(wt_outfile *file)
     if (file == NULL)
         return;
     (void)fclose(file->stream);
-    if (!file->direct)
-        (void)unlink(file->temporary);
+    remove_temporary(file);
     outfile_free(file);
 }

@@ -16,52 +16,61 @@ typedef struct signature {
     const char *bytes;
     size_t length;
     const char *words;
+    const char *advice;
 } signature;
 
-#define SIGNATURE(bytes, words)                                                                    \
+#define SIGNATURE(bytes, words, advice)                                                            \
     {                                                                                              \
-        bytes, sizeof bytes - 1, words                                                             \
+        bytes, sizeof bytes - 1, words, advice                                                     \
     }
+#define AS_TEXT "export it as text or CSV from the program of the instrument"
+#define NO_DATA "give the file that the instrument exported, as text or CSV"
+#define DESCRIBE                                                                                   \
+    "export it in one of the formats of `weartrack formats list`, or describe its layout in a "    \
+    "file (weartrack-format(5)) and give its folder with --formats"
 static const signature signatures[] = {
-    SIGNATURE("PK\3\4", "a ZIP archive (also .docx, .xlsx) that holds no force curves"),
-    SIGNATURE("PK\5\6", "an empty ZIP archive"),
-    SIGNATURE("\037\213", "a gzip archive: unpack it first, `gunzip -c FILE | weartrack ... -`"),
-    SIGNATURE("\211HDF\r\n\032\n", "an HDF5 file"),
-    SIGNATURE("\320\317\021\340\241\261\032\341",
-              "an old Excel or Word file: save it as CSV or text"),
-    SIGNATURE("%PDF", "a PDF document"),
-    SIGNATURE("\211PNG", "a PNG picture"),
-    SIGNATURE("\377\330\377", "a JPEG picture"),
-    SIGNATURE("II*\0", "a TIFF picture"),
-    SIGNATURE("MM\0*", "a TIFF picture"),
-    SIGNATURE("GWYP", "a Gwyddion file"),
-    SIGNATURE("\\*File list", "a NanoScope image: export it as text"),
-    SIGNATURE("\\*Force file list", "NanoScope force curves: export them as text"),
-    SIGNATURE("\5\0", "an Igor binary wave (version 5) or unknown binary data"),
-    SIGNATURE("<?xml", "an XML document"),
-    SIGNATURE("<!DOCTYPE", "an HTML or XML document"),
-    SIGNATURE("<html", "an HTML page"),
-    SIGNATURE("\377\376", "UTF-16 text of no known layout"),
-    SIGNATURE("\376\377", "UTF-16 text of no known layout"),
+    SIGNATURE("PK\3\4", "a ZIP archive (also .docx, .xlsx) without force curves, or a cut one",
+              "copy a JPK file again, save a spreadsheet as CSV, unpack any other archive"),
+    SIGNATURE("PK\5\6", "an empty ZIP archive", NO_DATA),
+    SIGNATURE("\037\213", "a gzip archive", "unpack it first: gunzip -c FILE | weartrack ... -"),
+    SIGNATURE("\211HDF\r\n\032\n", "an HDF5 file of another program", AS_TEXT),
+    SIGNATURE("\320\317\021\340\241\261\032\341", "an old Excel or Word file",
+              "save it as CSV or text"),
+    SIGNATURE("%PDF", "a PDF document", NO_DATA),
+    SIGNATURE("\211PNG", "a PNG picture", NO_DATA),
+    SIGNATURE("\377\330\377", "a JPEG picture", NO_DATA),
+    SIGNATURE("II*\0", "a TIFF picture", NO_DATA),
+    SIGNATURE("MM\0*", "a TIFF picture", NO_DATA),
+    SIGNATURE("GWYP", "a Gwyddion file", "export it as text from Gwyddion"),
+    SIGNATURE("\\*File list", "a NanoScope (Bruker, Veeco) image", AS_TEXT),
+    SIGNATURE("\\*Force file list", "a NanoScope (Bruker, Veeco) force curve", AS_TEXT),
+    SIGNATURE("\5\0", "an Igor binary wave (Asylum Research), or unknown binary data", AS_TEXT),
+    SIGNATURE("<?xml", "an XML document", NO_DATA),
+    SIGNATURE("<!DOCTYPE", "an HTML or XML document", NO_DATA),
+    SIGNATURE("<html", "an HTML page", NO_DATA),
+    SIGNATURE("\377\376", "UTF-16 text of no known layout", DESCRIBE),
+    SIGNATURE("\376\377", "UTF-16 text of no known layout", DESCRIBE),
 };
+static const signature empty = {"", 0, "an empty file", "export it again"};
+static const signature binary = {"", 0, "unknown binary data", AS_TEXT};
+static const signature text = {"", 0, "text of no known layout", DESCRIBE};
 
-/* Words for bytes that no reader knows: "a gzip archive". */
-static const char *looks_like(const unsigned char *bytes, size_t length)
+static const signature *looks_like(const unsigned char *bytes, size_t length)
 {
     if (length == 0)
-        return "an empty file";
+        return &empty;
     for (size_t i = 0; i < sizeof signatures / sizeof *signatures; i++) {
         const signature *s = &signatures[i];
         if (length >= s->length && memcmp(bytes, s->bytes, s->length) == 0)
-            return s->words;
+            return s;
     }
     size_t n = length < FIRST_PEEK ? length : FIRST_PEEK;
     for (size_t i = 0; i < n; i++) {
         unsigned char c = bytes[i];
         if (c == 0x7f || (c < 0x20 && c != '\t' && c != '\n' && c != '\r' && c != '\f'))
-            return "unknown binary data";
+            return &binary;
     }
-    return "text of no known layout";
+    return &text;
 }
 
 /* ---- asking the readers ------------------------------------------------------------------- */
@@ -170,8 +179,9 @@ static wt_status unknown(wt_input *input, wt_error *err)
     if (status != WT_OK)
         return status;
     wt_fail(err, WT_E_FORMAT, "file format not recognised");
-    wt_error_found(err, "%s", looks_like(bytes, length));
-    wt_error_advice(err, "see `weartrack formats list`");
+    const signature *like = looks_like(bytes, length);
+    wt_error_found(err, "%s", like->words);
+    wt_error_advice(err, "%s", like->advice);
     return WT_E_FORMAT;
 }
 

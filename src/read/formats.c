@@ -5,6 +5,7 @@
 #include "read/formats.h"
 
 #include "read/formats_text.h"
+#include "read/stored.h"
 #include "read/text.h"
 #include "read/wt_embedded_formats.h"
 
@@ -22,6 +23,7 @@ struct wt_formats {
     size_t n;
     text_reader *texts;
     size_t n_texts;
+    text_reader stored; /* runs the description of the text stream on HDF5 */
 };
 
 static const wt_reader *const binary[] = {&wt_reader_jpk, &wt_reader_nid};
@@ -60,6 +62,58 @@ static wt_status describe(const wt_reader *self, wt_input *input, const wt_read_
                           wt_parselog *log, wt_table *facts, wt_error *err)
 {
     return wt_text_describe(of(self), input, options, log, facts, err);
+}
+
+static wt_match stored_detect(const wt_reader *self, const wt_peek *peek)
+{
+    (void)self;
+    return wt_stored_detect(peek);
+}
+
+static wt_status stored_open_force(const wt_reader *self, wt_input *input,
+                                   const wt_read_options *options, wt_parselog *log,
+                                   wt_force_source **source, wt_error *err)
+{
+    return wt_stored_open_force(of(self), input, options, log, source, err);
+}
+
+static wt_status stored_read_sweep(const wt_reader *self, wt_input *input,
+                                   const wt_read_options *options, wt_parselog *log,
+                                   wt_sweep *sweep, wt_error *err)
+{
+    return wt_stored_read_sweep(of(self), input, options, log, sweep, err);
+}
+
+static wt_status stored_read_spectrum(const wt_reader *self, wt_input *input,
+                                      const wt_read_options *options, wt_parselog *log,
+                                      wt_power_spectrum *spectrum, wt_error *err)
+{
+    return wt_stored_read_spectrum(of(self), input, options, log, spectrum, err);
+}
+
+static wt_status stored_describe(const wt_reader *self, wt_input *input,
+                                 const wt_read_options *options, wt_parselog *log, wt_table *facts,
+                                 wt_error *err)
+{
+    return wt_stored_describe(of(self), input, options, log, facts, err);
+}
+
+static text_reader make_stored_reader(wt_description *stream)
+{
+    return (text_reader){
+        .description = stream,
+        .reader = {.info = {.id = "weartrack-hdf5",
+                            .title = "weartrack-hdf5(5): sweeps, spectra and force curves of this "
+                                     "program",
+                            .kinds = WT_KIND_FORCE | WT_KIND_SWEEP | WT_KIND_SPECTRUM,
+                            .verified = true,
+                            .evidence = "the HDF5 file that this program writes",
+                            .version = "1"},
+                   .detect = stored_detect,
+                   .open_force = stored_open_force,
+                   .read_sweep = stored_read_sweep,
+                   .read_spectrum = stored_read_spectrum,
+                   .describe = stored_describe}};
 }
 
 static text_reader make_reader(wt_description *d)
@@ -170,7 +224,7 @@ wt_status wt_formats_new(const char *folder, wt_formats **formats, wt_parselog *
         status = add_folder(f, schema, folder, log, err);
     wt_description_schema_free(schema);
     if (status == WT_OK) {
-        f->readers = malloc((N_BINARY + f->n_texts) * sizeof(const wt_reader *));
+        f->readers = malloc((N_BINARY + f->n_texts + 1) * sizeof(const wt_reader *));
         if (f->readers == NULL)
             status = wt_fail(err, WT_E_MEMORY, "no memory for the formats");
     }
@@ -182,6 +236,11 @@ wt_status wt_formats_new(const char *folder, wt_formats **formats, wt_parselog *
         f->readers[f->n++] = binary[i];
     for (size_t i = 0; i < f->n_texts; i++)
         f->readers[f->n++] = &f->texts[i].reader;
+    for (size_t i = 0; i < f->n_texts; i++)
+        if (strcmp(f->texts[i].description->id, "weartrack-stream") == 0) {
+            f->stored = make_stored_reader(f->texts[i].description);
+            f->readers[f->n++] = &f->stored.reader;
+        }
     *formats = f;
     return WT_OK;
 }

@@ -101,23 +101,23 @@ static void unknown_files_are_described(void **state)
     static const struct {
         const char *bytes;
         size_t n;
-        const char *words;
+        const char *words, *advice;
     } cases[] = {
-        {"", 0, "an empty file"},
-        {"\037\213\10\0", 4, "gzip"},
-        {"\211HDF\r\n\032\n\0", 9, "HDF5"},
-        {"PK\3\4\24\0\0\0 some other archive", 27, "ZIP"},
-        {"\320\317\021\340\241\261\032\341", 8, "Excel"},
-        {"\1\2\3\0\0\0\0\0", 8, "binary"},
-        {"%PDF-1.4", 8, "PDF"},
-        {"Dear diary, no columns today.\n", 30, "text"},
+        {"", 0, "an empty file", "export it again"},
+        {"\037\213\10\0", 4, "gzip", "gunzip"},
+        {"\211HDF\r\n\032\n\0", 9, "HDF5", "export it as text"},
+        {"PK\3\4\24\0\0\0 some other archive", 27, "ZIP", "unpack"},
+        {"\320\317\021\340\241\261\032\341", 8, "Excel", "save it as CSV"},
+        {"\1\2\3\0\0\0\0\0", 8, "binary", "export it as text"},
+        {"%PDF-1.4", 8, "PDF", "CSV"},
+        {"Dear diary, no columns today.\n", 30, "text", "weartrack formats list"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         wt_error err = WT_ERROR_INIT;
         const char *id = NULL;
         assert_int_equal(detect_text(cases[i].bytes, cases[i].n, 0, &id, &err), WT_E_FORMAT);
         assert_non_null(strstr(err.found, cases[i].words));
-        assert_string_equal(err.advice, "see `weartrack formats list`");
+        assert_non_null(strstr(err.advice, cases[i].advice));
         assert_string_equal(err.file, "test");
     }
 }

@@ -1,0 +1,169 @@
+/* Measurements in this program's own HDF5 files. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "read/stored.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* The file's tables of measurements as a text stream in memory. */
+typedef struct stored_text {
+    char *bytes;
+    size_t length;
+    wt_input *input; /* of the bytes */
+} stored_text;
+
+static void stored_text_clear(stored_text *text)
+{
+    wt_input_close(text->input);
+    free(text->bytes);
+    *text = (stored_text){0};
+}
+
+wt_match wt_stored_detect(const wt_peek *peek)
+{
+    static const char signature[] = "\211HDF\r\n\032\n", mark[] = "weartrack";
+    wt_match match = {.answer = WT_ANSWER_NO};
+    /* The root's attributes, the version among them, stand right behind the signature. */
+    if (peek->length >= sizeof signature - 1 &&
+        memcmp(peek->bytes, signature, sizeof signature - 1) == 0 &&
+        memmem(peek->bytes, peek->length, mark, sizeof mark - 1) != NULL) {
+        match.answer = WT_ANSWER_YES;
+        match.score = 90;
+    }
+    return match;
+}
+
+/* Results (a master curve, moduli) have columns of the same names and are no measurements. */
+static bool is_measured(const char *name)
+{
+    static const char *const names[] = {"force_curve/", "sweep", "roughness"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (strncmp(name, names[i], strlen(names[i])) == 0)
+            return true;
+    return false;
+}
+
+static wt_status open_text(wt_input *input, stored_text *text, wt_error *err)
+{
+    const char *name = wt_input_name(input);
+    wt_result *result = NULL;
+    FILE *stream = NULL;
+    size_t n_measured = 0;
+    wt_status status = wt_store_read(name, &result, err);
+    if (status != WT_OK)
+        return status;
+    stream = open_memstream(&text->bytes, &text->length);
+    if (stream == NULL)
+        status = wt_fail(err, WT_E_MEMORY, "no memory for the tables of the file");
+    for (size_t i = 0; i < wt_result_n_tables(result) && status == WT_OK; i++) {
+        const wt_table *table = wt_result_table(result, i);
+        if (!is_measured(wt_table_name(table)))
+            continue;
+        n_measured++;
+        status = wt_stream_write(stream, table, NULL, err);
+    }
+    if (stream != NULL && fclose(stream) != 0 && status == WT_OK)
+        status = wt_fail(err, WT_E_MEMORY, "no memory for the tables of the file");
+    if (status == WT_OK && n_measured == 0) {
+        status = wt_fail(err, WT_E_EMPTY, "no force curve, sweep or spectrum in it");
+        wt_error_expected(err, "what weartrack convert wrote");
+        if (wt_result_n_tables(result) > 0)
+            wt_error_found(err, "other tables, the first is \"%s\"",
+                           wt_table_name(wt_result_table(result, 0)));
+    }
+    if (status == WT_OK)
+        status = wt_input_open_memory(text->bytes, text->length, name, &text->input, err);
+    wt_result_free(result);
+    if (status != WT_OK)
+        stored_text_clear(text);
+    return status;
+}
+
+typedef struct stored_source {
+    wt_force_source base; /* first */
+    wt_force_source *inner;
+    stored_text text;
+} stored_source;
+
+static wt_status next(wt_force_source *source, wt_force_curve *curve, wt_error *err)
+{
+    return wt_force_next(((stored_source *)source)->inner, curve, err);
+}
+
+static void close_source(wt_force_source *source)
+{
+    stored_source *s = (stored_source *)source;
+    wt_force_close(s->inner);
+    stored_text_clear(&s->text);
+    free(s);
+}
+
+wt_status wt_stored_open_force(const wt_description *stream, wt_input *input,
+                               const wt_read_options *options, wt_parselog *log,
+                               wt_force_source **source, wt_error *err)
+{
+    stored_source *s = calloc(1, sizeof *s);
+    if (s == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for the force curves");
+    wt_status status = open_text(input, &s->text, err);
+    if (status == WT_OK)
+        status = wt_text_open_force(stream, s->text.input, options, log, &s->inner, err);
+    if (status != WT_OK) {
+        stored_text_clear(&s->text);
+        free(s);
+        return status;
+    }
+    s->base = *s->inner;
+    s->base.next = next;
+    s->base.close = close_source;
+    *source = &s->base;
+    return WT_OK;
+}
+
+wt_status wt_stored_read_sweep(const wt_description *stream, wt_input *input,
+                               const wt_read_options *options, wt_parselog *log, wt_sweep *sweep,
+                               wt_error *err)
+{
+    stored_text text = {0};
+    wt_status status = open_text(input, &text, err);
+    if (status == WT_OK)
+        status = wt_text_read_sweep(stream, text.input, options, log, sweep, err);
+    stored_text_clear(&text);
+    return status;
+}
+
+wt_status wt_stored_read_spectrum(const wt_description *stream, wt_input *input,
+                                  const wt_read_options *options, wt_parselog *log,
+                                  wt_power_spectrum *spectrum, wt_error *err)
+{
+    stored_text text = {0};
+    wt_status status = open_text(input, &text, err);
+    if (status == WT_OK)
+        status = wt_text_read_spectrum(stream, text.input, options, log, spectrum, err);
+    stored_text_clear(&text);
+    return status;
+}
+
+wt_status wt_stored_describe(const wt_description *stream, wt_input *input,
+                             const wt_read_options *options, wt_parselog *log, wt_table *facts,
+                             wt_error *err)
+{
+    wt_result *result = NULL;
+    stored_text text = {0};
+    bool measured = false;
+    wt_status status = wt_store_read(wt_input_name(input), &result, err);
+    for (size_t i = 0; status == WT_OK && i < wt_result_n_tables(result); i++) {
+        const wt_table *table = wt_result_table(result, i);
+        char item[128], rows[64];
+        snprintf(item, sizeof item, "table %s", wt_table_name(table));
+        snprintf(rows, sizeof rows, "%zu rows", wt_table_n_rows(table));
+        status = wt_facts_add(facts, item, rows, "", "", err);
+        measured = measured || is_measured(wt_table_name(table));
+    }
+    if (status == WT_OK && measured)
+        status = open_text(input, &text, err);
+    if (status == WT_OK && measured)
+        status = wt_text_describe(stream, text.input, options, log, facts, err);
+    stored_text_clear(&text);
+    wt_result_free(result);
+    return status;
+}

@@ -1,0 +1,26 @@
+/* Measurements in this program's own HDF5 files, weartrack-hdf5(5), as `weartrack convert` writes
+ * them. The tables are those of the text stream, so they are read by its description.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#ifndef WT_READ_STORED_H
+#define WT_READ_STORED_H
+
+#include "read/text.h"
+
+/* `stream` is the description of the text stream, borrowed. */
+wt_match wt_stored_detect(const wt_peek *peek);
+wt_status wt_stored_open_force(const wt_description *stream, wt_input *input,
+                               const wt_read_options *options, wt_parselog *log,
+                               wt_force_source **source, wt_error *err);
+wt_status wt_stored_read_sweep(const wt_description *stream, wt_input *input,
+                               const wt_read_options *options, wt_parselog *log, wt_sweep *sweep,
+                               wt_error *err);
+wt_status wt_stored_read_spectrum(const wt_description *stream, wt_input *input,
+                                  const wt_read_options *options, wt_parselog *log,
+                                  wt_power_spectrum *spectrum, wt_error *err);
+wt_status wt_stored_describe(const wt_description *stream, wt_input *input,
+                             const wt_read_options *options, wt_parselog *log, wt_table *facts,
+                             wt_error *err);
+
+#endif
