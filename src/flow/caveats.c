@@ -168,6 +168,10 @@ static wt_status material_caveats(const flow_story *story, wt_table *table, wt_e
                                  "Time-temperature superposition %s. What rests on the master "
                                  "curve is doubtful.",
                                  superposition);
+    if (status == WT_OK && superposition != NULL && strncmp(superposition, "not", 3) == 0)
+        status = flow_answer_add(table, err, question, "caveat",
+                                 "The material is known from one isotherm: no time-temperature "
+                                 "superposition widens its frequencies.");
     if (status == WT_OK && undetermined > 0)
         status = flow_answer_add(table, err, question, "caveat",
                                  "The shift of %zu of %zu isotherms is not determined by the data; "
@@ -194,7 +198,8 @@ static wt_status friction_caveats(const flow_story *story, wt_table *table, wt_e
     if (share > 0) {
         char percent[32] = "Less than 0.1";
         if (share >= 0.001)
-            wt_clocale_print(percent, sizeof percent, "Up to %.2g", 100 * share);
+            wt_clocale_print(percent, sizeof percent, share >= 0.1 ? "Up to %.0f" : "Up to %.2g",
+                             100 * share);
         status = flow_answer_add(table, err, question, "caveat",
                                  "%s %% of the hysteresis friction comes from frequencies outside "
                                  "the measured range of the material.",

@@ -1,6 +1,7 @@
 /* The DMA job: sweeps to shift factors, WLF, master curve and Prony series.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/inputs.h"
+#include "flow/single_isotherm.h"
 #include "flow/tables.h"
 
 #include <math.h>
@@ -148,7 +149,9 @@ static wt_status shift_table(const wt_master_curve *master, const wt_wlf_fit *wl
         status = wt_table_set_key(table, "deformation", deformation_name(master->deformation), err);
     if (status == WT_OK)
         status = flow_table_key(table, err, "superposition", "%s%s%s",
-                                master->superposition_failed ? "failed" : "holds",
+                                master->n_shifts < 2           ? "not tested"
+                                : master->superposition_failed ? "failed"
+                                                               : "holds",
                                 master->note[0] != '\0' ? ": " : "", master->note);
     if (status != WT_OK) {
         wt_table_free(table);
@@ -345,7 +348,9 @@ wt_status wt_master_make(const wt_master_job *job, double poisson_ratio, const w
         goto done;
     wt_shift_options shift = with_reference(job, &sweep);
     t.n_isotherms = sweep.n_isotherms;
-    status = wt_shift_fit(&sweep, &shift, common->log, &master, err);
+    status = sweep.n_isotherms == 1
+                 ? flow_single_isotherm(&sweep, &shift, common->log, &master, err)
+                 : wt_shift_fit(&sweep, &shift, common->log, &master, err);
     if (status == WT_OK)
         status = fit_law(&master, &shift, common, &wlf, &has_wlf, err);
     if (status == WT_OK)

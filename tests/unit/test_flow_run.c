@@ -200,6 +200,48 @@ static void test_missing_file(void **state)
     wt_result_free(r.result);
 }
 
+/* A measured spectrum with units given in the case, cut at both ends, with its own error. */
+static void test_spectrum(void **state)
+{
+    (void)state;
+    ran r =
+        run_text(HEAD PRONY "<roughness><spectrum><file units=\"q=rad/m; C(q)=m^4\">" WT_SOURCE_DIR
+                            "/fixtures/formats/table-spectrum/surface.txt</file>"
+                            "<error>20%</error></spectrum></roughness>" SLIDE("") "</case>",
+                 1);
+    const wt_table *friction = table_of(&r, "friction");
+    wt_estimate height;
+    assert_int_equal(r.n_failed, 0);
+    assert_int_equal(wt_table_n_rows(table_of(&r, "inputs")), 2);
+    assert_string_equal(wt_table_text(table_of(&r, "inputs"), 1, 1), "roughness");
+    assert_true(wt_table_estimate(table_of(&r, "roughness"), "rms_height", &height));
+    assert_near(height.standard_error, 0.1 * height.value, 1e-12);
+    assert_non_null(strstr(wt_table_key(friction, "standard_error_includes"), "roughness"));
+    for (size_t i = 0; i < 4; i++)
+        assert_true(flow_table_get(friction, i, "hysteresis") > 0);
+    wt_result_free(r.result);
+}
+
+/* One isotherm: no shift, no law; friction at its temperature, and nowhere else. */
+static void test_one_isotherm(void **state)
+{
+    (void)state;
+#define STARE                                                                                      \
+    "<dma><terms-per-decade>1</terms-per-decade><files>" WT_SOURCE_DIR                             \
+    "/fixtures/formats/stare/*</files></dma>"
+    ran r = run_text(HEAD STARE ROAD SLIDE("") "</case>", 1);
+    assert_int_equal(r.n_failed, 0);
+    assert_int_equal(wt_table_n_rows(table_of(&r, "shift_factors")), 1);
+    assert_null(wt_table_key(table_of(&r, "shift_factors"), "wlf_c1"));
+    assert_true(flow_table_get(table_of(&r, "friction"), 0, "hysteresis") > 0);
+    check_answer(&r, "caveat", "does not say the temperature of sliding");
+    wt_result_free(r.result);
+    r = run_text(HEAD STARE ROAD SLIDE("<temperature>90degC</temperature>") "</case>", 1);
+    assert_int_equal(r.n_failed, 1);
+    check_answer(&r, "friction", "no shift law takes the material to another temperature");
+    wt_result_free(r.result);
+}
+
 /* The number of threads changes nothing but the time. */
 static void test_threads(void **state)
 {
@@ -227,6 +269,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_friction_only), cmocka_unit_test(test_layer),
         cmocka_unit_test(test_stand_in),      cmocka_unit_test(test_missing_file),
+        cmocka_unit_test(test_spectrum),      cmocka_unit_test(test_one_isotherm),
         cmocka_unit_test(test_threads),
     };
     return cmocka_run_group_tests_name("flow run", tests, NULL, NULL);
