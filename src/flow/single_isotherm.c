@@ -55,8 +55,8 @@ wt_status flow_single_isotherm(const wt_sweep *sweep, const wt_shift_options *op
     if (fabs(options->reference_temperature - isotherm->temperature) > SAME_TEMPERATURE) {
         wt_fail(err, WT_E_MISSING, "one isotherm cannot be taken to another temperature");
         wt_error_expected(err, "a reference temperature of %.2f degC",
-                          isotherm->temperature - 273.15);
-        wt_error_found(err, "%.2f degC", options->reference_temperature - 273.15);
+                          isotherm->temperature - WT_ZERO_CELSIUS);
+        wt_error_found(err, "%.2f degC", options->reference_temperature - WT_ZERO_CELSIUS);
         wt_error_advice(err, "measure at several temperatures, or leave the reference out");
         return WT_E_MISSING;
     }
