@@ -18,6 +18,11 @@ typedef struct wt_report_options {
 } wt_report_options;
 WT_API wt_report_options wt_report_defaults(void);
 
+/* Whether wt_report_write could begin: the style is known and the folder may be made or replaced.
+ * For use before long work; nothing is left behind. */
+WT_API wt_status wt_report_check(const char *folder, const wt_report_options *options,
+                                 wt_error *err) WT_NODISCARD;
+
 /* Writes FOLDER/index.html (self-contained), FOLDER/plots/NAME.tsv, NAME.gp, NAME.svg and the style
  * file, for every figure whose tables are in the result. The folder appears whole or not at all:
  * built beside it under a temporary name, then renamed; an older report of that name is replaced.

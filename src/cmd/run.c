@@ -3,6 +3,15 @@
 
 #include "cmd/cmd.h"
 
+static bool any_stage(const wt_table *plan)
+{
+    const long runs = wt_table_find(plan, "runs");
+    for (size_t i = 0; i < wt_table_n_rows(plan); i++)
+        if (wt_table_number(plan, i, (size_t)runs) > 0)
+            return true;
+    return false;
+}
+
 static void print_plan(const wt_table *plan)
 {
     enum { INDENT = 8 };
@@ -112,6 +121,23 @@ int cmd_run(int argc, char **argv)
         status = cmd_usage_error("run", "the result is an HDF5 file and cannot go to a pipe");
         goto done;
     }
+    if (!cmd_is_store(result_name)) {
+        status = cmd_usage_error(
+            "run", "-o %s: the result is an HDF5 file; its name must end in .h5", result_name);
+        goto done;
+    }
+    if (wt_plan(the_case, &plan, &err) != WT_OK)
+        goto fail;
+    if (!any_stage(plan)) {
+        wt_fail(&err, WT_E_EMPTY, "nothing to do: the case gives no stage what it needs");
+        wt_error_file(&err, path);
+        wt_error_advice(&err, "`weartrack run --plan` says what each stage lacks");
+        goto fail;
+    }
+    report_options.style = style != NULL ? style : wt_case_style(the_case);
+    report_options.with_provenance = !common.no_provenance;
+    if (!no_report && wt_report_check(folder_name, &report_options, &err) != WT_OK)
+        goto fail;
     cmd_progress progress;
     run_options.progress = cmd_progress_start(&progress, common.quiet);
     run_options.formats = common.formats;
@@ -135,8 +161,6 @@ int cmd_run(int argc, char **argv)
     if (!common.quiet)
         fprintf(stderr, "result: %s\n", result_name);
     if (!no_report) {
-        report_options.style = style != NULL ? style : wt_case_style(the_case);
-        report_options.with_provenance = !common.no_provenance;
         run_options.progress = cmd_progress_start(&progress, common.quiet);
         const wt_status drawn =
             wt_report_write(result, folder_name, &report_options, &run_options.progress, &err);

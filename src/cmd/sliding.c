@@ -130,8 +130,14 @@ int cmd_sliding_open(cmd_sliding *s, const char *name, const cmd_common *common,
     s->work.log = s->log;
     s->work.provenance = wt_result_provenance(s->result);
     const wt_read_options read = cmd_read_make(&s->read, common);
-    if (read_material(s, common, &err) != WT_OK ||
-        wt_surface_open(s->roughness, &read, &s->work, &s->surface, &err) != WT_OK) {
+    wt_status opened = read_material(s, common, &err);
+    if (opened == WT_OK) {
+        opened = wt_surface_open(s->roughness, &read, &s->work, &s->surface, &err);
+        if (opened == WT_E_NOT_FOUND)
+            wt_error_advice(&err, "--roughness takes a spectrum file or "
+                                  "self-affine:q0=..,qr=..,q1=..,hurst=..,c0=..");
+    }
+    if (opened != WT_OK) {
         cmd_print_log(name, s->log, false, common->quiet);
         return cmd_fail(name, &err);
     }

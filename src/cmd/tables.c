@@ -46,6 +46,8 @@ wt_status cmd_tables_read(const char *path, wt_result **tables, wt_error *err)
     else
         status = read_stream(in, path, read, err);
     wt_error_file(err, path);
+    if ((status == WT_E_FORMAT || status == WT_E_CORRUPT) && err->advice[0] == '\0')
+        wt_error_advice(err, "give what weartrack indent or weartrack master wrote");
     if (!is_pipe)
         fclose(in);
     if (status == WT_OK && wt_result_n_tables(read) == 0) {

@@ -1,4 +1,5 @@
-/* The answer of a run: the four questions a user brings.
+/* The answer of a run: the four questions a user brings, and the material of a case that is about
+ * nothing else.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/answer.h"
 #include "flow/tables.h"
@@ -9,6 +10,7 @@
 #include <stdarg.h>
 #include <string.h>
 
+static const char what_rubber[] = "What is the rubber like?";
 static const char is_there[] = "Is there a modified layer?";
 static const char how_different[] = "How different is it?";
 static const char how_thick[] = "How thick is it?";
@@ -359,16 +361,39 @@ static wt_status answer_friction(const flow_story *story, wt_table *table, wt_er
     return say_change(friction, table, err);
 }
 
+/* Only where no later stage uses the material: there it is an answer, else a step. */
+static wt_status answer_rubber(const flow_story *story, wt_table *table, wt_error *err)
+{
+    const wt_table *shift = wt_result_find(story->result, "shift_factors");
+    const wt_table *prony = wt_result_find(story->result, "prony");
+    if (shift == NULL || prony == NULL || wt_result_find(story->result, "comparison") != NULL ||
+        wt_result_find(story->result, "friction") != NULL)
+        return WT_OK;
+    const char *deformation = wt_table_key(prony, "deformation");
+    const char *superposition = wt_table_key(shift, "superposition");
+    return flow_answer_add(
+        table, err, what_rubber, "material",
+        "At %s: WLF C1 = %s, C2 = %s, from %zu isotherms; equilibrium modulus %s (%s). "
+        "Time-temperature superposition: %s.",
+        flow_say_celsius(flow_key(shift, "reference_temperature").value).text,
+        flow_say_estimate(flow_key(shift, "wlf_c1")).text,
+        flow_say_estimate(flow_key(shift, "wlf_c2")).text, wt_table_n_rows(shift),
+        flow_say_estimate(flow_key(prony, "equilibrium_modulus")).text,
+        deformation != NULL ? deformation : "", superposition != NULL ? superposition : "");
+}
+
 wt_status flow_answer(const flow_story *story, wt_table **result, wt_error *err)
 {
     static const flow_column columns[] = {
         {"question", NULL, "question"},
         {"answer", NULL, "answer"},
-        {"kind", NULL, "layer, difference, thickness, friction or caveat"},
+        {"kind", NULL, "material, layer, difference, thickness, friction or caveat"},
     };
     wt_table *table = NULL;
     wt_status status =
         flow_table_new("answer", "The answer", columns, FLOW_COUNT(columns), &table, err);
+    if (status == WT_OK)
+        status = answer_rubber(story, table, err);
     if (status == WT_OK)
         status = answer_layer(story, table, err);
     if (status == WT_OK)

@@ -250,6 +250,18 @@ static wt_status make_page(const report *r, bool with_provenance, wt_error *err)
     return status;
 }
 
+wt_status wt_report_check(const char *folder, const wt_report_options *options, wt_error *err)
+{
+    wt_text style = {0};
+    wt_folder *made = NULL;
+    wt_status status = find_style(options->style, &style, err);
+    if (status == WT_OK)
+        status = wt_folder_open(folder, &made, err);
+    wt_folder_discard(made);
+    wt_text_free(&style);
+    return status;
+}
+
 wt_status wt_report_write(const wt_result *result, const char *folder,
                           const wt_report_options *options, const wt_progress *progress,
                           wt_error *err)
