@@ -7,6 +7,8 @@
 #   extern const wt_embedded OUTPUT[];   (base/embed.h; ends with a NULL name)
 # and OUTPUT.h that declares it, to be included by its path below the build tree's src/.
 # As a script (cmake -DOUTPUT=... -DNAME=... -DFILES=a|b -P embed.cmake) it writes that source.
+#
+# SPDX-License-Identifier: GPL-3.0-or-later
 
 if(CMAKE_SCRIPT_MODE_FILE)
   string(REPLACE "|" ";" files "${FILES}")

@@ -14,7 +14,8 @@ extern "C" {
 
 /* ---- input -------------------------------------------------------------------------------- */
 
-/* Bytes with peek. A file is mapped or read as needed; a pipe is buffered. */
+/* Bytes with peek. A file below 1 GiB is read into memory, a pipe is buffered. A larger file is
+ * mapped: the system ends the program if another one shortens it meanwhile. */
 typedef struct wt_input wt_input;
 /* path "-" is standard input. */
 WT_API wt_status wt_input_open(const char *path, wt_input **input, wt_error *err) WT_NODISCARD;

@@ -140,6 +140,9 @@ void cmd_progress_end(cmd_progress *state);
 /* Writes the tables to -o: a name that ends in .h5 or .hdf5 is the HDF5 store, anything else
  * the text stream; without -o or with "-" the stream on standard output. `result` is not freed. */
 wt_status cmd_write(const cmd_common *common, wt_result *result, wt_error *err);
+/* Moves n tables into the result, in this order; those that are NULL are left out. Takes them all,
+ * also on failure. */
+wt_status cmd_collect(wt_result *result, wt_table **const tables[], size_t n, wt_error *err);
 /* Whether the name after -o asks for the HDF5 store. */
 bool cmd_is_store(const char *path);
 /* Refuses an output that is one of the files read: the input would be lost. */

@@ -25,6 +25,7 @@ int cmd_compare(int argc, char **argv)
     int first = 0, status = CMD_OK;
     wt_error err = WT_ERROR_INIT;
     wt_result *bulk = NULL, *track = NULL, *dma = NULL, *result = NULL;
+    wt_parselog *log = NULL;
     wt_rubber rubber = {0};
     wt_compare_tables tables = {0};
     wt_compare_job job = {.temperature = (double)NAN, .rates = true};
@@ -55,26 +56,25 @@ int cmd_compare(int argc, char **argv)
         job.rubber = &rubber;
     }
     result = wt_result_new();
-    if (result == NULL) {
+    work.log = log = wt_parselog_new();
+    if (result == NULL || log == NULL) {
         wt_fail(&err, WT_E_MEMORY, "out of memory");
         goto fail;
     }
     if (wt_compare_groups(&job, &work, &tables, &err) != WT_OK)
         goto fail;
-    wt_table **parts[] = {&tables.comparison, &tables.modulus_groups, &tables.modulus_rate,
-                          &tables.dma_comparison};
-    for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++) {
-        wt_table *t = *parts[i];
-        *parts[i] = NULL;
-        if (t != NULL && wt_result_add(result, t, &err) != WT_OK)
-            goto fail;
-    }
-    if (cmd_write(&common, result, &err) != WT_OK)
+    wt_table **const parts[] = {&tables.comparison, &tables.modulus_groups, &tables.modulus_rate,
+                                &tables.dma_comparison};
+    if (cmd_collect(result, parts, sizeof parts / sizeof parts[0], &err) != WT_OK ||
+        cmd_write(&common, result, &err) != WT_OK)
         goto fail;
+    cmd_print_log("compare", log, false, common.quiet);
     goto done;
 fail:
+    cmd_print_log("compare", log, false, common.quiet);
     status = cmd_fail("compare", &err);
 done:
+    wt_parselog_free(log);
     wt_compare_tables_clear(&tables);
     wt_rubber_clear(&rubber);
     wt_result_free(bulk);

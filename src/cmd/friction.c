@@ -58,16 +58,9 @@ int cmd_friction(int argc, char **argv)
         status = cmd_fail("friction", &err);
         goto done;
     }
-    wt_table **parts[] = {&tables.friction, &tables.contact_area};
-    for (size_t i = 0; i < 2; i++) {
-        wt_table *t = *parts[i];
-        *parts[i] = NULL;
-        if (t != NULL && wt_result_add(s.result, t, &err) != WT_OK) {
-            status = cmd_fail("friction", &err);
-            goto done;
-        }
-    }
-    if (cmd_write(&common, s.result, &err) != WT_OK)
+    wt_table **const parts[] = {&tables.friction, &tables.contact_area};
+    if (cmd_collect(s.result, parts, sizeof parts / sizeof parts[0], &err) != WT_OK ||
+        cmd_write(&common, s.result, &err) != WT_OK)
         status = cmd_fail("friction", &err);
 done:
     wt_friction_tables_clear(&tables);

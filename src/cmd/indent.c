@@ -10,26 +10,6 @@ static bool is_group_name(const char *text)
     return *text != '\0' && strspn(text, "abcdefghijklmnopqrstuvwxyz0123456789_") == strlen(text);
 }
 
-/* Takes what the job made into the result, in the order of reading. */
-static wt_status collect(wt_result *result, wt_indent_tables *tables, wt_table *groups,
-                         wt_table *failures, wt_error *err)
-{
-    wt_table **parts[] = {&tables->indentation, &groups, &tables->force_displacement,
-                          &tables->force_indentation, &failures};
-    wt_status status = WT_OK;
-    for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++) {
-        wt_table *t = *parts[i];
-        *parts[i] = NULL;
-        if (t == NULL)
-            continue;
-        if (status == WT_OK)
-            status = wt_result_add(result, t, err);
-        else
-            wt_table_free(t);
-    }
-    return status;
-}
-
 int cmd_indent(int argc, char **argv)
 {
     cmd_common common = CMD_COMMON_DEFAULTS;
@@ -144,9 +124,10 @@ int cmd_indent(int argc, char **argv)
         wt_table_free(failures);
         failures = NULL;
     }
-    wt_status collected = collect(result, &tables, groups, failures, &err);
-    groups = NULL;
-    if (collected != WT_OK || cmd_write(&common, result, &err) != WT_OK)
+    wt_table **const parts[] = {&tables.indentation, &groups, &tables.force_displacement,
+                                &tables.force_indentation, &failures};
+    if (cmd_collect(result, parts, sizeof parts / sizeof parts[0], &err) != WT_OK ||
+        cmd_write(&common, result, &err) != WT_OK)
         goto fail;
     cmd_print_log("indent", log, false, common.quiet);
     goto done;

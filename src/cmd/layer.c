@@ -12,6 +12,7 @@ int cmd_layer(int argc, char **argv)
     wt_layer_job job = wt_layer_job_defaults();
     cmd_values time = {NULL, 0};
     int profile = (int)job.profile;
+    bool no_incubation = false;
     job.specific_wear_rate.value = (double)NAN;
     cmd_option options[CMD_SLIDING_OPTIONS + 10];
     size_t n = cmd_sliding_options(&s, options);
@@ -27,8 +28,8 @@ int cmd_layer(int argc, char **argv)
          "share of the time in contact; default 1: times are contact times"},
         {"start-thickness", 0, CMD_QUANTITY, &job.start_thickness, "D", WT_Q_LENGTH,
          "of the layer at time 0; default 0"},
-        {"incubation", 0, CMD_FLAG, &job.incubation, NULL, WT_Q_NONE,
-         "damage transport with incubation instead of the balance of rates"},
+        {"no-incubation", 0, CMD_FLAG, &no_incubation, NULL, WT_Q_NONE,
+         "balance of the rates from the beginning instead of transport of damage"},
         {"profile", 0, CMD_CHOICE, &profile, "persson|incompressible", WT_Q_NONE,
          "how the energy falls off with depth; default persson"},
         {"local-friction", 0, CMD_NUMBER, &job.local_friction, "M", WT_Q_NONE,
@@ -66,6 +67,7 @@ int cmd_layer(int argc, char **argv)
     if (status != CMD_OK)
         goto done;
     job.profile = (wt_depth_profile)profile;
+    job.incubation = !no_incubation;
     job.time = time.values;
     job.n_time = time.n;
     cmd_progress progress;
@@ -77,16 +79,9 @@ int cmd_layer(int argc, char **argv)
         status = cmd_fail("layer", &err);
         goto done;
     }
-    wt_table **parts[] = {&tables.layer, &tables.energy_density};
-    for (size_t i = 0; i < 2; i++) {
-        wt_table *t = *parts[i];
-        *parts[i] = NULL;
-        if (t != NULL && wt_result_add(s.result, t, &err) != WT_OK) {
-            status = cmd_fail("layer", &err);
-            goto done;
-        }
-    }
-    if (cmd_write(&common, s.result, &err) != WT_OK)
+    wt_table **const parts[] = {&tables.layer, &tables.energy_density};
+    if (cmd_collect(s.result, parts, sizeof parts / sizeof parts[0], &err) != WT_OK ||
+        cmd_write(&common, s.result, &err) != WT_OK)
         status = cmd_fail("layer", &err);
 done:
     wt_layer_tables_clear(&tables);

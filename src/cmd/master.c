@@ -67,14 +67,9 @@ int cmd_master(int argc, char **argv)
         status = CMD_FAILED;
     if (made != WT_OK)
         goto fail;
-    wt_table **parts[] = {&tables.prony, &tables.shift_factors, &tables.master_curve};
-    for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++) {
-        wt_table *t = *parts[i];
-        *parts[i] = NULL;
-        if (t != NULL && wt_result_add(result, t, &err) != WT_OK)
-            goto fail;
-    }
-    if (cmd_write(&common, result, &err) != WT_OK)
+    wt_table **const parts[] = {&tables.prony, &tables.shift_factors, &tables.master_curve};
+    if (cmd_collect(result, parts, sizeof parts / sizeof parts[0], &err) != WT_OK ||
+        cmd_write(&common, result, &err) != WT_OK)
         goto fail;
     cmd_print_log("master", log, false, common.quiet);
     goto done;

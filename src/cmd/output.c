@@ -40,6 +40,20 @@ static wt_status write_stream(FILE *out, const wt_result *result, bool with_prov
     return WT_OK;
 }
 
+wt_status cmd_collect(wt_result *result, wt_table **const tables[], size_t n, wt_error *err)
+{
+    wt_status status = WT_OK;
+    for (size_t i = 0; i < n; i++) {
+        wt_table *table = *tables[i];
+        *tables[i] = NULL;
+        if (status != WT_OK)
+            wt_table_free(table);
+        else if (table != NULL)
+            status = wt_result_add(result, table, err);
+    }
+    return status;
+}
+
 wt_status cmd_provenance(wt_result *result, int argc, char **argv, wt_error *err)
 {
     wt_status status = wt_provenance_set_command(wt_result_provenance(result), argc, argv);

@@ -10,7 +10,7 @@ typedef struct cmd_sliding {
     cmd_list dma_files;   /* or DMA files */
     const char *roughness;
     cmd_values velocity;
-    double poisson_ratio, tolerance;
+    double poisson_ratio;
     unsigned long replicates;
     cmd_read_values read;
     cmd_dma dma;
@@ -30,7 +30,7 @@ void cmd_sliding_free(cmd_sliding *s);
 enum { CMD_SLIDING_OPTIONS = 24 };
 size_t cmd_sliding_options(cmd_sliding *s, cmd_option *options);
 /* Reads material and roughness and fills `conditions` and `work`. Returns an exit status; what was
- * wrong has been said. `need_velocity`: a list is required. */
+ * wrong has been said. */
 int cmd_sliding_open(cmd_sliding *s, const char *name, const cmd_common *common, int argc,
                      int first);
 

@@ -189,21 +189,54 @@ static void count_rankings(size_t m, size_t n, double *counts)
     }
 }
 
+typedef struct ranked {
+    double value;
+    bool track;
+} ranked;
+
+static int by_value(const void *a, const void *b)
+{
+    const ranked *x = a, *y = b;
+    return (x->value > y->value) - (x->value < y->value);
+}
+
+/* U of the track by the sum of its ranks, equal values sharing the mean of theirs; *ties is the sum
+ * of t^3 - t over groups of t equal values. Exact: all are whole numbers or halves. */
+static wt_status rank_units(const units *bulk, const units *track, double *u, double *ties,
+                            wt_error *err)
+{
+    const size_t m = track->n, n = m + bulk->n;
+    ranked *all = malloc(n * sizeof *all);
+    if (all == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for the comparison of two groups");
+    for (size_t i = 0; i < n; i++)
+        all[i] = i < m ? (ranked){track->log_modulus[i], true}
+                       : (ranked){bulk->log_modulus[i - m], false};
+    qsort(all, n, sizeof *all, by_value);
+    double ranks = 0.0;
+    *ties = 0.0;
+    for (size_t first = 0, end = 0; first < n; first = end) {
+        double of_track = 0.0;
+        do
+            of_track += all[end].track ? 1.0 : 0.0;
+        while (++end < n && all[end].value == all[first].value);
+        const double t = (double)(end - first);
+        ranks += of_track * 0.5 * (double)(first + 1 + end);
+        *ties += t * t * t - t;
+    }
+    free(all);
+    *u = ranks - 0.5 * (double)m * (double)(m + 1);
+    return WT_OK;
+}
+
 static wt_status mann_whitney(const units *bulk, const units *track, wt_comparison *result,
                               wt_error *err)
 {
     const size_t m = track->n, n = bulk->n;
-    const double *const x = track->log_modulus, *const y = bulk->log_modulus;
-    double u = 0.0, ties = 0.0; /* ties: sum of t^3 - t over groups of t equal values */
-    for (size_t i = 0; i < m; i++)
-        for (size_t j = 0; j < n; j++)
-            u += x[i] > y[j] ? 1.0 : x[i] == y[j] ? 0.5 : 0.0;
-    for (size_t i = 0; i < m + n; i++) { /* each member of such a group adds t^2 - 1 */
-        double value = i < m ? x[i] : y[i - m], t = 0.0;
-        for (size_t j = 0; j < m + n; j++)
-            t += (j < m ? x[j] : y[j - m]) == value ? 1.0 : 0.0;
-        ties += t * t - 1.0;
-    }
+    double u = 0.0, ties = 0.0;
+    wt_status status = rank_units(bulk, track, &u, &ties, err);
+    if (status != WT_OK)
+        return status;
     const double pairs = (double)m * (double)n, all = (double)(m + n);
     const double lower = fmin(u, pairs - u);
     result->mann_whitney_u = u;

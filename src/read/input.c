@@ -1,5 +1,5 @@
-/* Input: the bytes of a file (mapped), of a pipe (buffered as far as it was asked for) or of memory
- * (borrowed), all behind the same two functions.
+/* Input: the bytes of a file or a pipe (read as far as they were asked for), of a file too large
+ * for that (mapped) or of memory (borrowed), all behind the same two functions.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -14,6 +14,9 @@
 #include <unistd.h>
 
 #define FIRST_READ ((size_t)64 * 1024)
+/* A file that another program shortens while it is mapped ends this one with a signal, so only what
+ * is too large to be copied is mapped. */
+#define MAPPED_FROM ((size_t)1 << 30)
 
 struct wt_input {
     char *name;
@@ -21,9 +24,10 @@ struct wt_input {
     size_t length;
     bool whole;            /* bytes..length is all there is */
     void *mapping;         /* of `length` bytes, or NULL */
-    unsigned char *buffer; /* of a pipe */
+    unsigned char *buffer; /* what was read */
     size_t capacity;
-    int fd; /* of a pipe, -1 if there is none to read or to close */
+    size_t expected; /* size of a file, 0 of a pipe */
+    int fd;          /* -1 if there is nothing left to read or to close */
 };
 
 static wt_status input_new(const char *name, wt_input **input, wt_error *err)
@@ -53,15 +57,13 @@ static wt_status fail_io(const wt_input *in, wt_error *err, int number, const ch
 
 static wt_status map_file(wt_input *in, size_t size, wt_error *err)
 {
-    in->whole = true;
-    if (size == 0)
-        return WT_OK;
     void *mapping = mmap(NULL, size, PROT_READ, MAP_PRIVATE, in->fd, 0);
     if (mapping == MAP_FAILED)
         return fail_io(in, err, errno, "cannot be mapped");
     in->mapping = mapping;
     in->bytes = mapping;
     in->length = size;
+    in->whole = true;
     close(in->fd);
     in->fd = -1;
     return WT_OK;
@@ -96,7 +98,9 @@ wt_status wt_input_open(const char *path, wt_input **input, wt_error *err)
     /* Standard input that was redirected from a file may stand anywhere in it: read it as a pipe.
      */
     if (S_ISREG(st.st_mode) && !standard) {
-        status = map_file(in, (size_t)st.st_size, err);
+        in->expected = (size_t)st.st_size;
+        if (in->expected >= MAPPED_FROM)
+            status = map_file(in, in->expected, err);
         if (status != WT_OK)
             goto fail;
     }
@@ -141,12 +145,15 @@ const char *wt_input_name(const wt_input *input)
     return input->name;
 }
 
-/* Reads the pipe until `want` bytes are there or it ends. */
+/* Reads on until `want` bytes are there or it ends. A file gets its memory at once, with one byte
+ * more in which its end is seen; but a part of it is read in parts. */
 static wt_status fill(wt_input *in, size_t want, wt_error *err)
 {
     while (!in->whole && in->length < want) {
         if (in->length == in->capacity) {
-            size_t capacity = in->capacity == 0 ? FIRST_READ : in->capacity;
+            size_t capacity = in->capacity > 0   ? in->capacity
+                              : in->expected > 0 ? in->expected + 1
+                                                 : FIRST_READ;
             if (in->capacity > SIZE_MAX / 2)
                 return wt_fail(err, WT_E_MEMORY, "input too large");
             if (in->capacity > 0)
@@ -161,7 +168,10 @@ static wt_status fill(wt_input *in, size_t want, wt_error *err)
             in->bytes = buffer;
             in->capacity = capacity;
         }
-        ssize_t got = read(in->fd, in->buffer + in->length, in->capacity - in->length);
+        size_t room = in->capacity - in->length;
+        if (want - in->length < room && room > FIRST_READ)
+            room = want - in->length > FIRST_READ ? want - in->length : FIRST_READ;
+        ssize_t got = read(in->fd, in->buffer + in->length, room);
         if (got < 0 && errno == EINTR)
             continue;
         if (got < 0)

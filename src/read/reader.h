@@ -1,5 +1,8 @@
 /* What a reader is: one descriptor, shared by the binary readers and by the engine that runs the
- * XML descriptions. Detection never opens a file itself and never trusts a name. */
+ * XML descriptions. Detection never opens a file itself and never trusts a name.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
 #ifndef WT_READ_READER_H
 #define WT_READ_READER_H
 
