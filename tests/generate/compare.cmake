@@ -1,5 +1,7 @@
 # The generator gives the committed files, byte for byte:
 #   cmake -DGENERATOR=... -DFIXTURES=... -DFOLDER=... -P compare.cmake
+#
+# SPDX-License-Identifier: GPL-3.0-or-later
 file(REMOVE_RECURSE ${FOLDER})
 file(MAKE_DIRECTORY ${FOLDER})
 execute_process(COMMAND ${GENERATOR} ${FOLDER} ${FIXTURES}/case.xml RESULT_VARIABLE result)
