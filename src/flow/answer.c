@@ -198,7 +198,8 @@ static wt_status say_rates(const wt_table *comparison, wt_table *table, wt_error
                            n, low, high, least);
 }
 
-static wt_status say_dma(const wt_table *dma, wt_table *table, wt_error *err)
+static wt_status say_dma(const wt_table *dma, const wt_table *indentation, wt_table *table,
+                         wt_error *err)
 {
     double low = (double)NAN, high = (double)NAN;
     size_t n = 0;
@@ -212,12 +213,17 @@ static wt_status say_dma(const wt_table *dma, wt_table *table, wt_error *err)
     }
     if (n == 0)
         return WT_OK;
-    char range[64];
+    char range[64], lever[128] = "";
     wt_clocale_print(range, sizeof range, n > 1 ? "%.3g to %.3g" : "%.3g", low, high);
+    wt_estimate k = flow_key(indentation, "spring_constant");
+    if (k.standard_error > 0)
+        wt_clocale_print(lever, sizeof lever,
+                         "; the stated error of the spring constant is one of %.2g %% in this",
+                         100 * k.standard_error / k.value);
     return flow_answer_add(table, err, how_different, "difference",
                            "At equal frequency the indentation modulus of the bulk is %s times "
-                           "|E*| of the DMA.",
-                           range);
+                           "|E*| of the DMA%s.",
+                           range, lever);
 }
 
 static wt_status answer_difference(const flow_story *story, wt_table *table, wt_error *err)
@@ -245,7 +251,7 @@ static wt_status answer_difference(const flow_story *story, wt_table *table, wt_
     if (status == WT_OK && comparison != NULL)
         status = say_rates(comparison, table, err);
     if (status == WT_OK && dma != NULL)
-        status = say_dma(dma, table, err);
+        status = say_dma(dma, wt_result_find(story->result, "indentation/bulk"), table, err);
     return status;
 }
 
@@ -255,13 +261,16 @@ static wt_status answer_difference(const flow_story *story, wt_table *table, wt_
 static wt_status say_times(const wt_table *layer, wt_table *table, wt_error *err)
 {
     wt_estimate incubation = flow_key(layer, "incubation_time");
-    wt_estimate relaxation = flow_key(layer, "relaxation_time");
-    if (isnan(incubation.value) && isnan(relaxation.value))
+    wt_estimate settled = flow_key(layer, "time_to_90_percent");
+    if (isnan(incubation.value))
         return WT_OK;
+    char then[192] = "";
+    if (!isnan(settled.value))
+        wt_clocale_print(then, sizeof then, " and reaches 90 %% of the balance after %s",
+                         flow_say_estimate(settled).text);
     return flow_answer_add(table, err, how_thick, "thickness",
-                           "It begins to form after %s and settles with a time constant of %s "
-                           "(time under load).",
-                           flow_say_estimate(incubation).text, flow_say_estimate(relaxation).text);
+                           "It begins to form after %s%s (time under load).",
+                           flow_say_estimate(incubation).text, then);
 }
 
 static wt_status answer_thickness(const flow_story *story, wt_table *table, wt_error *err)
@@ -288,14 +297,14 @@ static wt_status answer_thickness(const flow_story *story, wt_table *table, wt_e
                                  "Without wear it grows without end, ever more slowly; the table "
                                  "layer gives its thickness in time.");
     else
-        status = flow_answer_add(
-            table, err, how_thick, "thickness",
-            "%s where formation balances wear, at %s and %s (formation over wear R = %s: %s).",
-            flow_say_estimate(thickness).text, flow_say(velocity.value, "m/s").text,
-            flow_say(pressure.value, "Pa").text, flow_say_estimate(ratio).text,
-            regime != NULL && strcmp(regime, "thin") == 0
-                ? "thin and sensitive to the wear rate"
-                : "thick, depending on the wear rate only by its logarithm");
+        status =
+            flow_answer_add(table, err, how_thick, "thickness",
+                            "%s where formation balances wear, at %s and %s (formation over wear R "
+                            "= %s). With 1 %% "
+                            "more wear it is %.2g %% thinner.",
+                            flow_say_estimate(thickness).text, flow_say(velocity.value, "m/s").text,
+                            flow_say(pressure.value, "Pa").text, flow_say_estimate(ratio).text,
+                            -flow_key(layer, "wear_sensitivity").value);
     return status == WT_OK ? say_times(layer, table, err) : status;
 }
 

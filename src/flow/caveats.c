@@ -67,7 +67,6 @@ static wt_status indentation_caveats(const flow_story *story, wt_table *table, w
         char reasons[512];
         size_t rejected = list_rejected(t, reasons, sizeof reasons);
         const char *spots = wt_table_key(t, "spots");
-        double gain = median_accepted(t, "sensitivity_gain");
         if (rejected > 0)
             status = flow_answer_add(table, err, question, "caveat",
                                      "%zu of %zu %s curves were rejected: %s.", rejected,
@@ -77,16 +76,62 @@ static wt_status indentation_caveats(const flow_story *story, wt_table *table, w
                                      "Spots of the %s curves (%s): if some are of one place, they "
                                      "are not independent and the intervals are too narrow.",
                                      words[g], spots);
-        if (status == WT_OK && !isnan(gain))
-            status = flow_answer_add(table, err, question, "caveat",
-                                     "An error of 1 %% in the deflection sensitivity changes the "
-                                     "%s modulus by %.3g %%. Errors of sensitivity, spring "
-                                     "constant and tip are common to track and bulk: the ratio is "
-                                     "far safer than either modulus, whose intervals do not "
-                                     "include them.",
-                                     words[g], gain);
     }
     return status;
+}
+
+/* Relative stated error of the spring constant; 0 if none is stated. */
+static double lever_error(const wt_table *indentation)
+{
+    wt_estimate k = flow_key(indentation, "spring_constant");
+    double error = k.standard_error / k.value;
+    return error > 0 ? error : 0;
+}
+
+/* What an error of calibration does: to a modulus by its gain, to the ratio only if the cantilevers
+ * were calibrated separately, or as far as the gains differ. */
+static wt_status calibration_caveats(const flow_story *story, wt_table *table, wt_error *err)
+{
+    const wt_table *bulk = wt_result_find(story->result, "indentation/bulk");
+    const wt_table *track = wt_result_find(story->result, "indentation/track");
+    const wt_table *const both[2] = {bulk, track};
+    static const char *const words[2] = {"bulk", "wear-track"};
+    double gain[2] = {(double)NAN, (double)NAN};
+    wt_status status = WT_OK;
+    for (int g = 0; status == WT_OK && g < 2; g++) {
+        if (both[g] == NULL || isnan(gain[g] = median_accepted(both[g], "sensitivity_gain")))
+            continue;
+        double k = lever_error(both[g]);
+        char lever[96] = "No error of the spring constant is stated";
+        if (k > 0)
+            wt_clocale_print(lever, sizeof lever,
+                             "The stated error of the spring constant is %.2g %%", 100 * k);
+        status = flow_answer_add(table, err, question, "caveat",
+                                 "An error of 1 %% in the deflection sensitivity changes the %s "
+                                 "modulus by %.3g %%, one of the spring constant by about as much "
+                                 "as itself. %s. The interval of the modulus does not include "
+                                 "errors of sensitivity, spring constant and tip.",
+                                 words[g], gain[g], lever);
+    }
+    if (status != WT_OK || isnan(gain[0]) || isnan(gain[1]))
+        return status;
+    double k[2] = {flow_key(bulk, "spring_constant").value,
+                   flow_key(track, "spring_constant").value};
+    if (fabs(k[0] - k[1]) <= 1e-9 * k[0])
+        return flow_answer_add(table, err, question, "caveat",
+                               "Track and bulk have the same spring constant: if it is one "
+                               "cantilever, its error cancels in the ratio, and 1 %% of "
+                               "sensitivity changes the ratio by %.2g %% only.",
+                               fabs(gain[1] - gain[0]));
+    char which[256] = "";
+    if (!isnan(k[0]) && !isnan(k[1]))
+        snprintf(which, sizeof which, " (bulk %s, track %s)", flow_say(k[0], "N/m").text,
+                 flow_say(k[1], "N/m").text);
+    return flow_answer_add(table, err, question, "caveat",
+                           "The spring constants of the curves differ%s: they were calibrated "
+                           "separately, so errors of spring constant and sensitivity do not cancel "
+                           "in the ratio, and its interval does not include them.",
+                           which);
 }
 
 /* A temperature that the case does not say is taken from the material. */
@@ -106,6 +151,21 @@ static wt_status temperature_caveats(const flow_story *story, wt_table *table, w
                                  "compared with DMA at the reference temperature, %s.",
                                  flow_say_celsius(flow_key(dma, "temperature").value).text);
     return status;
+}
+
+/* "The standard errors of the friction include: ...; they do not include the model." */
+static wt_status say_includes(const wt_table *of, const char *what, wt_table *table, wt_error *err)
+{
+    const char *includes = wt_table_key(of, "standard_error_includes");
+    const char *lacks = wt_table_key(of, "standard_error_lacks");
+    if (includes == NULL)
+        return WT_OK;
+    return flow_answer_add(table, err, question, "caveat",
+                           "The standard errors of the %s include: %s. They do not include the "
+                           "model%s%s.",
+                           what, includes,
+                           lacks != NULL ? ", nor, because no error is stated: " : "",
+                           lacks != NULL ? lacks : "");
 }
 
 /* The first warnings in full, the others by number. */
@@ -193,7 +253,6 @@ static wt_status friction_caveats(const flow_story *story, wt_table *table, wt_e
     for (size_t i = 0; i < wt_table_n_rows(friction); i++)
         share = fmax(share, flow_table_get(friction, i, "extrapolated_share"));
     const char *statement = wt_table_key(friction, "material_statement");
-    const char *includes = wt_table_key(friction, "standard_error_includes");
     wt_status status = WT_OK;
     if (share > 0) {
         char percent[32] = "Less than 0.1";
@@ -207,11 +266,8 @@ static wt_status friction_caveats(const flow_story *story, wt_table *table, wt_e
     }
     if (status == WT_OK && statement != NULL)
         status = flow_answer_add(table, err, question, "caveat", "Friction: %s.", statement);
-    if (status == WT_OK && includes != NULL)
-        status = flow_answer_add(table, err, question, "caveat",
-                                 "The standard errors of the friction include: %s. They do not "
-                                 "include the model.",
-                                 includes);
+    if (status == WT_OK)
+        status = say_includes(friction, "friction", table, err);
     if (status == WT_OK)
         status = flow_answer_add(table, err, question, "caveat",
                                  "Friction is that of Persson's theory for small strain at one "
@@ -240,12 +296,22 @@ static wt_status layer_caveats(const flow_story *story, wt_table *table, wt_erro
                    : "The critical energy U_c = %s is given: nothing in this case measures it.",
         flow_say_estimate(energy).text);
     if (status == WT_OK)
+        status = say_includes(layer, "thickness", table, err);
+    if (status == WT_OK)
         status = flow_answer_add(table, err, question, "caveat",
                                  "The layer model (energy closure, wear by Archard's law) is not "
                                  "validated against measured thicknesses. Its energy is the "
                                  "hysteresis of the bulk alone: the layer does not act back on it, "
                                  "and shearing of the surface is not counted.");
     double thickness = flow_key(layer, "balance_thickness").value;
+    const wt_table *roughness = wt_result_find(story->result, "roughness");
+    double longest =
+        roughness == NULL ? (double)NAN : 1 / flow_table_get(roughness, 0, "wavenumber");
+    if (status == WT_OK && isfinite(thickness) && thickness > longest)
+        status = flow_answer_add(table, err, question, "caveat",
+                                 "The layer is thicker than the longest wave of the roughness "
+                                 "reaches (1/q0 = %s): the layer model is outside its range.",
+                                 flow_say(longest, "m").text);
     const wt_table *track = wt_result_find(story->result, "indentation/track");
     double depth = track == NULL ? (double)NAN : median_accepted(track, "max_indentation");
     if (status == WT_OK && isfinite(thickness) && depth > DEEP_SHARE * thickness)
@@ -268,6 +334,8 @@ wt_status flow_caveats(const flow_story *story, wt_table *table, wt_error *err)
                                  n_failures);
     if (status == WT_OK)
         status = indentation_caveats(story, table, err);
+    if (status == WT_OK)
+        status = calibration_caveats(story, table, err);
     if (status == WT_OK)
         status = comparison_caveats(story, table, err);
     if (status == WT_OK)

@@ -87,6 +87,17 @@ void flow_conditions_clear(flow_conditions *conditions)
     *conditions = (flow_conditions){0};
 }
 
+void flow_conditions_lack(const wt_sliding *sliding, char *words, size_t size)
+{
+    words[0] = '\0';
+    if (!(sliding->pressure.standard_error > 0))
+        flow_add_words(words, size, "pressure");
+    if (!(sliding->temperature.standard_error > 0))
+        flow_add_words(words, size, "temperature");
+    if (!(sliding->surface->c0.standard_error > 0))
+        flow_add_words(words, size, "roughness");
+}
+
 bool flow_conditions_vary(const wt_sliding *sliding, const wt_job *common, char *words, size_t size)
 {
     words[0] = '\0';
@@ -100,8 +111,6 @@ bool flow_conditions_vary(const wt_sliding *sliding, const wt_job *common, char 
         flow_add_words(words, size, "pressure");
     if (sliding->temperature.standard_error > 0)
         flow_add_words(words, size, "temperature");
-    if (sliding->shear_stress.standard_error > 0)
-        flow_add_words(words, size, "shear stress");
     if (sliding->surface->c0.standard_error > 0)
         flow_add_words(words, size, "roughness");
     return words[0] != '\0';

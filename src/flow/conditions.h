@@ -25,7 +25,10 @@ wt_status flow_conditions_make(const wt_sliding *sliding, uint64_t seed, size_t 
                                double tolerance, unsigned threads, wt_layer_state layer,
                                flow_conditions *conditions, wt_error *err) WT_NODISCARD;
 void flow_conditions_clear(flow_conditions *conditions);
-/* Whether any error is stated or measured, and which, as words. */
+/* What of the conditions has no stated error, as words. */
+void flow_conditions_lack(const wt_sliding *sliding, char *words, size_t size);
+/* Whether any error is stated or measured, and which, as words. The shear stress, which only the
+ * total friction knows, is left to the caller in both. */
 bool flow_conditions_vary(const wt_sliding *sliding, const wt_job *common, char *words,
                           size_t size);
 

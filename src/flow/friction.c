@@ -21,8 +21,9 @@ typedef struct work {
     double *centre;           /* [N_KINDS * n] */
     double *replicate;        /* [replicates * N_KINDS * n] */
     double *error;            /* [N_KINDS * n] standard errors */
+    double numerical[2];      /* of the total friction at the reference: without, with the layer */
     bool varies, bulk_varies; /* with, without the stated errors of the layer */
-    char words[256];
+    char words[256], lacks[256];
     size_t n_replicates;
     wt_friction_point *points; /* [n] at the values themselves, without a layer */
 } work;
@@ -198,14 +199,16 @@ static wt_status layer_keys(work *w, wt_table *table, wt_error *err)
     if (status == WT_OK)
         status = flow_table_value(table, "friction_with_layer_at_reference",
                                   slot(w->centre, w->n, LAYERED)[last],
-                                  slot(w->error, w->n, LAYERED)[last], 0, "1", err);
+                                  slot(w->error, w->n, LAYERED)[last], w->numerical[1], "1", err);
     if (status == WT_OK)
-        status = flow_table_value(table, "friction_change_at_reference",
-                                  slot(w->centre, w->n, CHANGE)[last],
-                                  slot(w->error, w->n, CHANGE)[last], 0, "1", err);
+        status = flow_table_value(
+            table, "friction_change_at_reference", slot(w->centre, w->n, CHANGE)[last],
+            slot(w->error, w->n, CHANGE)[last], w->numerical[0] + w->numerical[1], "1", err);
     if (status == WT_OK)
-        status = flow_table_value(table, "relative_change_at_reference", relative[last],
-                                  slot(w->error, w->n, RELATIVE)[last], 0, "1", err);
+        status = flow_table_value(
+            table, "relative_change_at_reference", relative[last],
+            slot(w->error, w->n, RELATIVE)[last],
+            (w->numerical[0] + w->numerical[1]) / slot(w->centre, w->n, TOTAL)[last], "1", err);
     if (status == WT_OK)
         status = flow_table_value(table, "relative_change_low", low, (double)NAN, 0, "1", err);
     if (status == WT_OK)
@@ -235,7 +238,7 @@ static wt_status set_keys(work *w, wt_table *table, const char *statement, wt_er
     if (status == WT_OK)
         status =
             flow_table_value(table, "friction_at_reference", slot(w->centre, w->n, TOTAL)[last],
-                             slot(w->error, w->n, TOTAL)[last], 0, "1", err);
+                             slot(w->error, w->n, TOTAL)[last], w->numerical[0], "1", err);
     if (status == WT_OK)
         status =
             flow_table_value(table, "hysteresis_at_reference", w->points[last].hysteresis.value,
@@ -249,6 +252,8 @@ static wt_status set_keys(work *w, wt_table *table, const char *statement, wt_er
         status = wt_table_set_key(table, "standard_error_includes",
                                   w->varies ? w->words : "nothing: no error was measured or stated",
                                   err);
+    if (status == WT_OK && w->lacks[0] != '\0')
+        status = wt_table_set_key(table, "standard_error_lacks", w->lacks, err);
     if (status == WT_OK)
         status = flow_table_key(table, err, "replicates", "%zu", w->varies ? w->n_replicates : 0);
     if (status == WT_OK && statement[0] != '\0')
@@ -399,6 +404,12 @@ static wt_status check_layer(const wt_layer_known *layer, wt_error *err)
     return WT_OK;
 }
 
+/* Numerical error of hysteresis + shear x area. */
+static double total_error(const wt_friction_point *point, double shear)
+{
+    return point->hysteresis.numerical_error + shear * point->area_ratio.numerical_error;
+}
+
 static void summarise(const work *w, wt_friction_tables *t)
 {
     for (size_t i = 0; i < w->n; i++) {
@@ -429,7 +440,14 @@ wt_status wt_friction_make(const wt_sliding *sliding, const wt_layer_known *laye
     w.n = sliding->n_velocity + 1;
     w.n_replicates = common->replicates;
     w.bulk_varies = flow_conditions_vary(sliding, common, w.words, sizeof w.words);
+    if (common->replicates > 1 && sliding->shear_stress.standard_error > 0) {
+        flow_add_words(w.words, sizeof w.words, "shear stress");
+        w.bulk_varies = true;
+    }
     w.varies = w.bulk_varies;
+    flow_conditions_lack(sliding, w.lacks, sizeof w.lacks);
+    if (!isnan(sliding->shear_stress.value) && !(sliding->shear_stress.standard_error > 0))
+        flow_add_words(w.lacks, sizeof w.lacks, "shear stress");
     if (layer != NULL && common->replicates > 1 &&
         (layer->thickness.standard_error > 0 || layer->modulus_ratio.standard_error > 0)) {
         flow_add_words(w.words, sizeof w.words, "thickness and modulus ratio of the layer");
@@ -447,8 +465,14 @@ wt_status wt_friction_make(const wt_sliding *sliding, const wt_layer_known *laye
                                  : compute_layered(&w, FLOW_CENTRE, common->tolerance,
                                                    common->threads, layered, w.centre, err);
     }
-    if (status == WT_OK)
+    if (status == WT_OK) {
+        double shear = sliding->shear_stress.value / sliding->pressure.value;
+        w.numerical[0] = total_error(&w.points[w.n - 1], shear);
+        if (layered != NULL)
+            w.numerical[1] =
+                total_error(&layered[w.n - 1], shear * layer_of(&w, FLOW_CENTRE).modulus_ratio);
         status = replicate_all(&w, err);
+    }
     if (status == WT_OK) {
         const wt_layer_state none = {0, 1};
         status = flow_conditions_make(sliding, common->seed, FLOW_CENTRE, common->tolerance,

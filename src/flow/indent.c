@@ -48,6 +48,7 @@ typedef struct work {
     /* accepted moduli with the row they are in, for the representative curve */
     accepted *moduli;
     size_t n_moduli, capacity;
+    double k_low, k_high; /* spring constants of the accepted curves [N/m] */
 } work;
 
 wt_indent_job wt_indent_job_defaults(void)
@@ -205,6 +206,8 @@ static wt_status write_item(work *w, item *it, wt_error *err)
     if (it->fit.verdict != WT_CURVE_ACCEPTED)
         return WT_OK;
     w->n_accepted++;
+    w->k_low = fmin(w->k_low, it->curve.cantilever.spring_constant);
+    w->k_high = fmax(w->k_high, it->curve.cantilever.spring_constant);
     return keep_modulus(w, it->fit.modulus.value, err);
 }
 
@@ -375,8 +378,15 @@ static wt_status set_keys(const work *w, const flow_files *files, wt_error *err)
     wt_status status = wt_table_set_key(w->table, "tip", text, err);
     if (status == WT_OK)
         status = flow_table_key(w->table, err, "poisson_ratio", "%g", job->options.poisson_ratio);
-    if (status == WT_OK && !isnan(job->spring_constant.value))
-        status = wt_table_set_estimate(w->table, "spring_constant", job->spring_constant, err);
+    /* that of the user; else that of the files, whose error they do not say */
+    wt_estimate k = job->spring_constant;
+    if (isnan(k.value) && w->k_low >= w->k_high)
+        k = (wt_estimate){w->k_low, (double)NAN, 0, "N/m"};
+    if (status == WT_OK && !isnan(k.value))
+        status = wt_table_set_estimate(w->table, "spring_constant", k, err);
+    if (status == WT_OK && w->k_low < w->k_high)
+        status = flow_table_key(w->table, err, "spring_constants", "%.4g to %.4g N/m", w->k_low,
+                                w->k_high);
     if (status == WT_OK)
         status = wt_table_set_key(w->table, "spots", spots, err);
     if (status == WT_OK)
@@ -428,7 +438,7 @@ wt_status wt_indent_group(const wt_indent_job *job, const wt_job *common, wt_ind
         return wt_fail(err, WT_E_ARG, "no indentation job");
     if (tables->indentation != NULL)
         return wt_fail(err, WT_E_ARG, "the indentation table of the group before is still there");
-    work w = {.job = job, .common = common};
+    work w = {.job = job, .common = common, .k_low = (double)NAN, .k_high = (double)NAN};
     flow_files files = {NULL, 0};
     wt_status status = flow_files_list(job->sets, job->n_sets, common, &files, err);
     if (status == WT_OK)

@@ -19,6 +19,7 @@ enum {
     REMOVAL,
     ENERGY,
     SURFACE_POWER,
+    NINETY,
     N_NUMBERS
 };
 
@@ -32,7 +33,7 @@ typedef struct work {
     double *replicate; /* [n_replicates * stride] */
     double *error;     /* [stride] */
     bool varies;
-    char words[256];
+    char words[256], lacks[256];
 } work;
 
 /* The centre, kept for the tables. */
@@ -149,6 +150,23 @@ static void put_numbers(const wt_layer_balance *b, const wt_layer_parameters *p,
     out[SURFACE_POWER] = b->surface_power;
 }
 
+/* When a growing layer gets to a thickness, between the times of its history; NaN if outside them.
+ * The relaxation time is no such time: the slowest waves of the roughness decide how the layer with
+ * its damage beneath settles. */
+static double time_to_share(const wt_layer_point *points, size_t n, double thickness)
+{
+    if (!(thickness > 0) || !isfinite(thickness))
+        return (double)NAN;
+    for (size_t i = 1; i < n; i++) {
+        double before = points[i - 1].thickness.value, after = points[i].thickness.value;
+        if (!(points[i - 1].time > 0) || !(before < thickness) || !(after >= thickness))
+            continue;
+        double share = (thickness - before) / (after - before);
+        return points[i - 1].time * pow(points[i].time / points[i - 1].time, share);
+    }
+    return (double)NAN;
+}
+
 /* ---- times ------------------------------------------------------------------------------------
  */
 
@@ -199,6 +217,7 @@ static wt_status one_replicate(void *user, size_t i, unsigned worker)
         status = wt_layer_history(&source, &parameters, w->time, w->n, points, &ignored);
     if (status == WT_OK) {
         put_numbers(&balance, &parameters, out);
+        out[NINETY] = time_to_share(points, w->n, 0.9 * balance.thickness.value);
         for (size_t k = 0; k < w->n; k++)
             out[N_NUMBERS + k] = points[k].thickness.value;
     } else {
@@ -263,12 +282,19 @@ static wt_status set_numbers(const work *w, const centre *c, wt_table *table, wt
         {REMOVAL, "removal_time", "s"},
         {ENERGY, "critical_energy", "J/m^3"},
         {SURFACE_POWER, "surface_power", "W/m^2"},
+        {NINETY, "time_to_90_percent", "s"},
     };
     double value[N_NUMBERS];
     put_numbers(&c->balance, &c->parameters, value);
+    value[NINETY] = time_to_share(c->points, w->n, 0.9 * c->balance.thickness.value);
     wt_status status =
         flow_table_value(table, "balance_thickness", value[THICKNESS], w->error[THICKNESS],
                          c->balance.thickness.numerical_error, "m", err);
+    /* d ln thickness / d ln k = -Qw / (thickness |dQf/dz|): the balance is where Qf(z) = Qw */
+    double sensitivity =
+        -c->balance.wear_rate * c->balance.relaxation_time / c->balance.thickness.value;
+    if (status == WT_OK && isfinite(sensitivity))
+        status = flow_table_value(table, "wear_sensitivity", sensitivity, (double)NAN, 0, "1", err);
     for (size_t i = 0; status == WT_OK && i < FLOW_COUNT(keys); i++)
         status = flow_table_value(table, keys[i].key, value[keys[i].index], w->error[keys[i].index],
                                   0, keys[i].unit, err);
@@ -303,6 +329,8 @@ static wt_status set_keys(const work *w, const centre *c, wt_table *table, wt_er
         status = wt_table_set_key(table, "standard_error_includes",
                                   w->varies ? w->words : "nothing: no error was measured or stated",
                                   err);
+    if (status == WT_OK && w->lacks[0] != '\0')
+        status = wt_table_set_key(table, "standard_error_lacks", w->lacks, err);
     if (status == WT_OK && c->statement[0] != '\0')
         status = wt_table_set_key(table, "material_statement", c->statement, err);
     return status;
@@ -401,6 +429,13 @@ static void find_words(work *w)
         flow_add_words(w->words, sizeof w->words, stated[i].what);
         w->varies = true;
     }
+    flow_conditions_lack(w->sliding, w->lacks, sizeof w->lacks);
+    if (!(job->specific_wear_rate.standard_error > 0))
+        flow_add_words(w->lacks, sizeof w->lacks, "specific wear rate");
+    if (!isnan(job->critical_energy.value) && !(job->critical_energy.standard_error > 0))
+        flow_add_words(w->lacks, sizeof w->lacks, "critical energy");
+    if (!isnan(job->observed_thickness.value) && !(job->observed_thickness.standard_error > 0))
+        flow_add_words(w->lacks, sizeof w->lacks, "observed thickness");
 }
 
 static wt_status allocate(work *w, centre *c, wt_error *err)

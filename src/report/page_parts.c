@@ -305,6 +305,9 @@ static const char *const key_words[][2] = {
     {"relative_change_high", "Relative change, highest of all velocities"},
     {"vertical", "Vertical shift"},
     {"standard_error_includes", "Standard errors include"},
+    {"standard_error_lacks", "No error stated for"},
+    {"time_to_90_percent", "Time to 90 % of the balance thickness"},
+    {"wear_sensitivity", "Relative change of the thickness per relative change of the wear rate"},
     {"shear_stress", "Shear stress of the real contact"},
 };
 

@@ -135,12 +135,24 @@ static void test_friction(void **state)
     check("friction", "area_ratio_at_reference", "area_ratio", 0.2);
     check("friction", "friction_at_reference", "friction", 0.2);
     check("friction", "friction_with_layer_at_reference", "friction_with_layer", 0.3);
+    /* the numerical error of a sum is that of its parts, never none */
+    static const char *const keys[] = {"friction_at_reference", "friction_with_layer_at_reference",
+                                       "friction_change_at_reference"};
+    for (size_t i = 0; i < 3; i++) {
+        double error = estimate("friction", keys[i]).numerical_error;
+        assert_true(error > 0 && error < 1e-9);
+    }
 }
 
 static void test_thickness(void **state)
 {
     (void)state;
     check("layer", "balance_thickness", "thickness", 0.5);
+    /* wear rate and critical energy, 10 % each, through the sensitivity; other errors are small */
+    wt_estimate thickness = estimate("layer", "balance_thickness");
+    double relative = thickness.standard_error / thickness.value;
+    double sensitivity = -estimate("layer", "wear_sensitivity").value;
+    assert_near(relative, sensitivity * sqrt(2) * 0.1, 0.25);
 }
 
 /* Every question has an answer that is not "not asked". */
@@ -150,13 +162,17 @@ static void test_answer(void **state)
     const wt_table *answer = wt_result_find(result, "answer");
     assert_non_null(answer);
     assert_true(wt_table_n_rows(answer) >= 8);
+    bool dma = false, lever = false;
     for (size_t i = 0; i < wt_table_n_rows(answer); i++) {
         const char *text = flow_table_get_text(answer, i, "answer");
         print_message("%-10s %s\n", flow_table_get_text(answer, i, "kind"), text);
         assert_null(strstr(text, "Not a"));
         assert_null(strstr(text, "nan"));
         assert_null(strstr(text, "not known"));
+        dma = dma || strstr(text, "stated error of the spring constant is one of 5 % in this");
+        lever = lever || strstr(text, "Track and bulk have the same spring constant");
     }
+    assert_true(dma && lever);
 }
 
 int main(void)

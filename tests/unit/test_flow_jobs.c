@@ -476,6 +476,50 @@ static void test_calibration(void **state)
 /* ---- draws ------------------------------------------------------------------------------------
  */
 
+/* The answer says what wear does to the thickness, and when the layer is there: both against the
+ * layer computed anew. */
+static void test_layer_numbers(void **state)
+{
+    (void)state;
+    double velocity = 0.3;
+    wt_master_tables master = {0};
+    wt_rubber rubber = measured_rubber(&master);
+    wt_surface surface = {.self_affine = true, .q0 = 2e3, .qr = 4e3, .q1 = 2e6, .hurst = 0.8};
+    surface.c0 = (wt_estimate){2e-17, 0, 0, "m^4"};
+    wt_sliding sliding = wt_sliding_defaults();
+    wt_job common = common_job();
+    wt_layer_job job = wt_layer_job_defaults();
+    wt_layer_tables tables = {0}, other = {0};
+    wt_estimate sensitivity, settled;
+    common.replicates = 0;
+    sliding.rubber = &rubber;
+    sliding.surface = &surface;
+    sliding.pressure.value = 4e5;
+    sliding.velocity = &velocity;
+    sliding.n_velocity = 1;
+    job.critical_energy.value = 2e10;
+    job.specific_wear_rate.value = 1e-12;
+    assert_int_equal(wt_layer_make(&sliding, &job, &common, &tables, NULL), WT_OK);
+    assert_true(wt_table_estimate(tables.layer, "wear_sensitivity", &sensitivity));
+    assert_true(wt_table_estimate(tables.layer, "time_to_90_percent", &settled));
+
+    job.specific_wear_rate.value *= 1.0001;
+    assert_int_equal(wt_layer_make(&sliding, &job, &common, &other, NULL), WT_OK);
+    assert_near(log(other.thickness.value / tables.thickness.value) / log(1.0001),
+                sensitivity.value, 1e-3);
+    wt_layer_tables_clear(&other);
+
+    job.specific_wear_rate.value = 1e-12;
+    job.time = &settled.value;
+    job.n_time = 1;
+    assert_int_equal(wt_layer_make(&sliding, &job, &common, &other, NULL), WT_OK);
+    assert_near(flow_table_get(other.layer, 0, "thickness"), 0.9 * tables.thickness.value, 0.01);
+    wt_layer_tables_clear(&other);
+    wt_layer_tables_clear(&tables);
+    wt_master_tables_clear(&master);
+    wt_rubber_clear(&rubber);
+}
+
 static void test_draws(void **state)
 {
     (void)state;
@@ -504,7 +548,8 @@ int main(void)
         cmocka_unit_test(test_spots),        cmocka_unit_test(test_one_spot),
         cmocka_unit_test(test_rubber_at),    cmocka_unit_test(test_rubber_at_reference),
         cmocka_unit_test(test_surface_text), cmocka_unit_test(test_surface_cut),
-        cmocka_unit_test(test_calibration),  cmocka_unit_test(test_draws),
+        cmocka_unit_test(test_calibration),  cmocka_unit_test(test_layer_numbers),
+        cmocka_unit_test(test_draws),
     };
     return cmocka_run_group_tests_name("flow jobs", tests, open_formats, close_formats);
 }
