@@ -9,7 +9,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "fit/gsl_quiet.h"
+#include "base/gsl_quiet.h"
 #include "model/special.h"
 #include "weartrack/fit.h"
 
@@ -73,7 +73,7 @@ static wt_status make_units(const wt_group *group, bool use_spots, units *u, wt_
     wt_status status = check_group(group, err);
     if (status != WT_OK)
         return status;
-    wt_fit_gsl_quiet();
+    wt_gsl_quiet();
     curve *curves = malloc(group->n * sizeof *curves);
     u->modulus = malloc(2 * group->n * sizeof *u->modulus);
     if (curves == NULL || u->modulus == NULL) {

@@ -2,8 +2,8 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
+#include "base/gsl_quiet.h"
 #include "fit/curve.h"
-#include "fit/gsl_quiet.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -58,7 +58,7 @@ wt_indent_options wt_indent_defaults(void)
 
 wt_indent_workspace *wt_indent_workspace_new(void)
 {
-    wt_fit_gsl_quiet();
+    wt_gsl_quiet();
     wt_indent_workspace *workspace = calloc(1, sizeof *workspace);
     if (workspace == NULL)
         return NULL;

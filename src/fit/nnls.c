@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "fit/nnls.h"
 
-#include "fit/gsl_quiet.h"
+#include "base/gsl_quiet.h"
 
 #include <float.h>
 #include <gsl/gsl_blas.h>
@@ -166,7 +166,7 @@ wt_status wt_nnls(gsl_matrix *a, gsl_vector *b, double *x, wt_error *err)
     gsl_vector *tau = NULL;
     wt_status status = WT_OK;
 
-    wt_fit_gsl_quiet();
+    wt_gsl_quiet();
     if (n == 0 || a->size1 < n || b->size != a->size1)
         return wt_fail(err, WT_E_ARG, "non-negative least squares needs rows >= columns > 0");
     norm = calloc(n, sizeof *norm);

@@ -2,7 +2,7 @@
  * Kramers-Kronig check that follows from it. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "fit/prony.h"
 
-#include "fit/gsl_quiet.h"
+#include "base/gsl_quiet.h"
 #include "fit/nnls.h"
 
 #include <gsl/gsl_blas.h>
@@ -104,7 +104,7 @@ wt_status wt_prony_fit_points(const wt_prony_points *points, const wt_prony_opti
     wt_prony made = {0};
     wt_status status = number_of_terms(points, options, &n_terms, err);
 
-    wt_fit_gsl_quiet();
+    wt_gsl_quiet();
     if (status != WT_OK)
         return status;
     const size_t n_columns = n_terms + (options->liquid ? 0 : 1);

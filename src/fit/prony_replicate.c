@@ -1,6 +1,6 @@
 /* Replicates of a Prony series for carrying the error of the material on: shifts drawn from their
  * covariance, residuals of whole isotherms resampled. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "fit/gsl_quiet.h"
+#include "base/gsl_quiet.h"
 #include "fit/prony.h"
 
 #include <float.h>
@@ -143,7 +143,7 @@ wt_status wt_prony_replicate(const wt_master_curve *master, const wt_prony_optio
     wt_prony made = {0};
     gsl_rng *rng = NULL;
 
-    wt_fit_gsl_quiet();
+    wt_gsl_quiet();
     if (options == NULL)
         options = &defaults;
     wt_status status = wt_prony_fit_master(master, options, &base, err);

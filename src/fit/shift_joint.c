@@ -2,7 +2,7 @@
  * projected out of the least squares; Levenberg-Marquardt on the shifts alone (variable projection
  * in the form of Kaufman, BIT 15 (1975) 49; P-splines: Eilers and Marx, Statist. Sci. 11 (1996)
  * 89). SPDX-License-Identifier: GPL-3.0-or-later */
-#include "fit/gsl_quiet.h"
+#include "base/gsl_quiet.h"
 #include "fit/pspline.h"
 #include "fit/shift.h"
 
@@ -502,7 +502,7 @@ wt_status wt_shift_joint_fit(wt_shift_joint *task, wt_error *err)
     wt_pspline spline[WT_MODULI] = {{0}};
     double objective;
 
-    wt_fit_gsl_quiet();
+    wt_gsl_quiet();
     task->last_step = 0.0;
     wt_status status = joint_alloc(&j, err);
     if (status == WT_OK)

@@ -1,7 +1,7 @@
 /* The shift between two neighbouring isotherms: least squares over their overlap, both moduli, both
  * directions, vertical shift projected out. The start of the joint fit.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "fit/gsl_quiet.h"
+#include "base/gsl_quiet.h"
 #include "fit/shift.h"
 
 #include <gsl/gsl_errno.h>
@@ -134,7 +134,7 @@ wt_status wt_shift_pair_fit(const wt_shift_curve *p, const wt_shift_curve *s, bo
 {
     struct pair pair = {p, s, free_b, free_b ? 0.0 : fixed_b};
     *result = (wt_shift_pair){0};
-    wt_fit_gsl_quiet();
+    wt_gsl_quiet();
     if (p->n < WT_SHIFT_MIN_POINTS || s->n < WT_SHIFT_MIN_POINTS)
         return WT_OK;
     const bool storage = ordinates_overlap(p, s, WT_STORAGE, &result->overlap[WT_STORAGE]);

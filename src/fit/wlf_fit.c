@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "fit/wlf_fit.h"
 
-#include "fit/gsl_quiet.h"
+#include "base/gsl_quiet.h"
 
 #include <gsl/gsl_blas.h>
 #include <gsl/gsl_errno.h>
@@ -263,7 +263,7 @@ wt_status wt_wlf_fit_arrays(const double *temperature, const double *log_a,
     wt_wlf_fit made = {.n = n};
     double line[2], chi_square;
 
-    wt_fit_gsl_quiet();
+    wt_gsl_quiet();
     if (!(reference_temperature > 0.0) || !(floor > 0.0) || n <= N_WLF) {
         wt_status bad =
             wt_fail(err, n <= N_WLF ? WT_E_MISSING : WT_E_RANGE, "no WLF fit of %zu shifts", n);

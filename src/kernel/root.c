@@ -4,7 +4,7 @@
  */
 #include "kernel/root.h"
 
-#include "kernel/rule.h"
+#include "base/gsl_quiet.h"
 
 #include <float.h>
 #include <gsl/gsl_errno.h>
@@ -20,7 +20,7 @@ wt_status wt_root_find(wt_root_fn f, void *user, double low, double high, double
         *root = at_low == 0 ? low : high;
         return WT_OK;
     }
-    wt_kernel_use_gsl();
+    wt_gsl_quiet();
     wt_status status = WT_OK;
     gsl_root_fsolver *solver = gsl_root_fsolver_alloc(gsl_root_fsolver_brent);
     if (!solver)

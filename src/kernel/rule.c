@@ -4,22 +4,11 @@
  */
 #include "kernel/rule.h"
 
+#include "base/gsl_quiet.h"
+
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_integration.h>
-#include <pthread.h>
 #include <stdlib.h>
-
-static pthread_once_t gsl_once = PTHREAD_ONCE_INIT;
-
-static void gsl_silence(void)
-{
-    gsl_set_error_handler_off();
-}
-
-void wt_kernel_use_gsl(void)
-{
-    (void)pthread_once(&gsl_once, gsl_silence);
-}
 
 /* P_0(x) ... P_n(x). */
 static void legendre(size_t n, double x, double *p)
@@ -50,7 +39,7 @@ static void fill_running(wt_rule *rule, double *at_i, double *at_j)
 
 wt_status wt_rule_new(size_t n, wt_rule **rule, wt_error *err)
 {
-    wt_kernel_use_gsl();
+    wt_gsl_quiet();
     wt_status status = WT_OK;
     wt_rule *made = calloc(1, sizeof *made);
     double *scratch = calloc(2 * (n + 1), sizeof *scratch);

@@ -19,7 +19,4 @@ typedef struct wt_rule {
 wt_status wt_rule_new(size_t n, wt_rule **rule, wt_error *err) WT_NODISCARD;
 void wt_rule_free(wt_rule *rule);
 
-/* GSL must report by status, never abort; call before the first use of GSL. */
-void wt_kernel_use_gsl(void);
-
 #endif

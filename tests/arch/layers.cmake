@@ -25,7 +25,8 @@ set(third_party
   "^zip\\.h" read
   "^libxml/" read+flow
   "^(iconv|regex)\\.h" read
-  "^gsl/gsl_(sf_|math|errno|const|poly)" model+fit+kernel
+  "^gsl/gsl_errno" base+model+fit+kernel
+  "^gsl/gsl_(sf_|math|const|poly)" model+fit+kernel
   "^gsl/" fit+kernel
   "^fftw3" fit
   "^(spawn\\.h|sys/wait\\.h)" report

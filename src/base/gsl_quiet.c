@@ -1,5 +1,5 @@
 /* Switching off GSL's aborting error handler, once. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "fit/gsl_quiet.h"
+#include "base/gsl_quiet.h"
 
 #include <gsl/gsl_errno.h>
 #include <pthread.h>
@@ -10,7 +10,7 @@ static void switch_off(void)
     gsl_set_error_handler_off();
 }
 
-void wt_fit_gsl_quiet(void)
+void wt_gsl_quiet(void)
 {
     static pthread_once_t once = PTHREAD_ONCE_INIT;
     pthread_once(&once, switch_off);
