@@ -133,6 +133,9 @@ typedef struct cmd_progress {
     bool active, printed;
 } cmd_progress;
 wt_progress cmd_progress_start(cmd_progress *state, bool quiet);
+/* From here to cmd_progress_end, an interruption (Ctrl-C) ends the work at its next step, so that
+ * it removes what it had begun. */
+void cmd_catch_interruptions(void);
 void cmd_progress_end(cmd_progress *state);
 
 /* ---- output ------------------------------------------------------------------------------- */

@@ -1,4 +1,5 @@
 /* Words on standard error: errors, warnings, progress. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <signal.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -51,10 +52,44 @@ size_t cmd_print_failures(const char *name, const wt_table *failures)
     return n;
 }
 
+static const int interruptions[] = {SIGINT, SIGTERM, SIGHUP};
+enum { N_INTERRUPTIONS = sizeof interruptions / sizeof interruptions[0] };
+static volatile sig_atomic_t interrupted; /* number of the signal; all that a handler may write */
+
+static void note_interruption(int number)
+{
+    interrupted = number;
+}
+
+void cmd_catch_interruptions(void)
+{
+    /* The second one ends the program at once. A signal that the parent ignores stays ignored. */
+    struct sigaction catch = {.sa_handler = note_interruption, .sa_flags = (int)SA_RESETHAND};
+    struct sigaction before;
+    sigemptyset(&catch.sa_mask);
+    for (size_t i = 0; i < N_INTERRUPTIONS; i++)
+        if (sigaction(interruptions[i], NULL, &before) == 0 && before.sa_handler == SIG_DFL)
+            sigaction(interruptions[i], &catch, NULL);
+}
+
+/* What was begun has been removed: now the signal does what it always does. */
+static void release_interruptions(void)
+{
+    struct sigaction before;
+    for (size_t i = 0; i < N_INTERRUPTIONS; i++)
+        if (sigaction(interruptions[i], NULL, &before) == 0 &&
+            before.sa_handler == note_interruption)
+            signal(interruptions[i], SIG_DFL);
+    if (interrupted != 0)
+        raise(interrupted);
+}
+
 static bool report_progress(void *user, const char *what, size_t done, size_t total)
 {
     cmd_progress *state = user;
     const double now = wt_time_wall();
+    if (interrupted != 0)
+        return false;
     /* Only work over a second is worth a line, and ten lines a second are enough. */
     if (!state->active || now - state->start < 1 || now - state->shown < 0.1)
         return true;
@@ -80,4 +115,5 @@ void cmd_progress_end(cmd_progress *state)
     if (state->printed)
         fputs("\r\033[K", stderr);
     state->active = false;
+    release_interruptions();
 }

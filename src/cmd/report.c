@@ -34,6 +34,7 @@ int cmd_report(int argc, char **argv)
     report_options.with_provenance = !common.no_provenance;
     cmd_progress state;
     const wt_progress progress = cmd_progress_start(&state, common.quiet);
+    cmd_catch_interruptions();
     wt_status made = wt_store_read(argv[first], &result, &err);
     if (made == WT_OK)
         made = wt_report_write(result, common.output, &report_options, &progress, &err);

@@ -140,6 +140,7 @@ int cmd_run(int argc, char **argv)
         goto fail;
     cmd_progress progress;
     run_options.progress = cmd_progress_start(&progress, common.quiet);
+    run_options.no_timing = common.no_provenance;
     run_options.formats = common.formats;
     run_options.threads = (unsigned)common.threads;
     run_options.seed = common.seed;
@@ -158,10 +159,12 @@ int cmd_run(int argc, char **argv)
         wt_store_write(result_name, result, !common.no_provenance, &err) != WT_OK)
         goto fail;
     print_answer(result);
+    fflush(stdout); /* it stands, whatever becomes of the pictures */
     if (!common.quiet)
         fprintf(stderr, "result: %s\n", result_name);
     if (!no_report) {
         run_options.progress = cmd_progress_start(&progress, common.quiet);
+        cmd_catch_interruptions();
         const wt_status drawn =
             wt_report_write(result, folder_name, &report_options, &run_options.progress, &err);
         cmd_progress_end(&progress);

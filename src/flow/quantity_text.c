@@ -2,6 +2,8 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "weartrack/flow.h"
 
+#include "base/clocale.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -173,9 +175,15 @@ static wt_status parse_range(const char *text, char *const part[4], wt_quantity 
     if (out->v == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t i = 0; i < out->n; i++) {
-        double t = (double)i / (double)(out->n - 1);
-        out->v[i] = logarithmic ? first * pow(last / first, t) : first + (last - first) * t;
+        const double t = (double)i / (double)(out->n - 1);
+        const double v = logarithmic ? first * pow(last / first, t) : first + (last - first) * t;
+        /* 15 digits, so that a decade is 0.01 and not 0.009999999999999998 */
+        char digits[32];
+        wt_clocale_print(digits, sizeof digits, "%.15g", v);
+        if (!wt_number_parse(digits, strlen(digits), '.', &out->v[i]))
+            out->v[i] = v;
     }
+    out->v[0] = first;
     out->v[out->n - 1] = last;
     return WT_OK;
 }

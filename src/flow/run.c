@@ -16,6 +16,7 @@ wt_run_options wt_run_defaults(void)
 /* One run with what it reports. */
 typedef struct conduct {
     flow_run run;
+    bool no_timing;
     flow_outcome outcome[FLOW_MAX_STAGES];
     flow_things have;
     wt_formats *formats;
@@ -53,8 +54,8 @@ static wt_status cost_row(conduct *d, size_t i, bool runs, const char *because, 
     if (status != WT_OK)
         return status;
     wt_table_put(d->cost, RUNS, runs);
-    wt_table_put(d->cost, WALL, wall);
-    wt_table_put(d->cost, CPU, cpu);
+    wt_table_put(d->cost, WALL, d->no_timing ? (double)NAN : wall);
+    wt_table_put(d->cost, CPU, d->no_timing ? (double)NAN : cpu);
     wt_table_put(d->cost, ITEMS, cost->items);
     wt_table_put(d->cost, TOLERANCE, cost->tolerance_asked);
     wt_table_put(d->cost, ERROR, cost->error_estimated);
@@ -245,6 +246,7 @@ static wt_status prepare(conduct *d, const wt_run_options *options, wt_parselog 
     };
     if (log == NULL)
         log = d->own_log = wt_parselog_new();
+    d->no_timing = options->no_timing;
     d->result = wt_result_new();
     d->failures = wt_failures_new();
     if (log == NULL || d->result == NULL || d->failures == NULL)
