@@ -123,7 +123,9 @@ typedef struct wt_rubber {
     double poisson_ratio;
     bool has_wlf;
     wt_wlf wlf;
-    double c1_error, c2_error, c_correlation; /* of the WLF constants; 0 if given without */
+    double c1_error, c2_error, c_correlation; /* of the WLF constants; 0 if given without; NaN if
+                                                 only the slope c1/c2 is determined */
+    double slope_error;                       /* of c1/c2 [decade/K], used where they are NaN */
     double temperature_min, temperature_max;  /* of the isotherms [K]; NaN = not known */
     size_t n_vertical;                        /* log_b against temperature; 0 = no vertical shift */
     double *vertical_temperature, *vertical_log_b;

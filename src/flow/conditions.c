@@ -105,7 +105,8 @@ bool flow_conditions_vary(const wt_sliding *sliding, const wt_job *common, char 
         return false;
     if (sliding->rubber->has_master)
         flow_add_words(words, size, "material (isotherms resampled)");
-    if (sliding->rubber->c1_error > 0 || sliding->rubber->c2_error > 0)
+    if (sliding->rubber->c1_error > 0 || sliding->rubber->c2_error > 0 ||
+        sliding->rubber->slope_error > 0)
         flow_add_words(words, size, "shift law");
     if (sliding->pressure.standard_error > 0)
         flow_add_words(words, size, "pressure");

@@ -127,6 +127,9 @@ static wt_status shift_table(const wt_master_curve *master, const wt_wlf_fit *wl
         if (status == WT_OK)
             status = flow_table_value(table, "wlf_c2", wlf->wlf.c2, wlf->c2_error, 0, "K", err);
         if (status == WT_OK)
+            status =
+                flow_table_value(table, "wlf_slope", wlf->slope, wlf->slope_error, 0, "1/K", err);
+        if (status == WT_OK)
             status = flow_table_key(table, err, "wlf_correlation", "%.6g", wlf->correlation);
         if (status == WT_OK)
             status = flow_table_value(table, "pole", wlf->pole, wlf->pole_error, 0, "K", err);
@@ -375,6 +378,7 @@ wt_status wt_master_make(const wt_master_job *job, double poisson_ratio, const w
         r.c1_error = wlf.c1_error;
         r.c2_error = wlf.c2_error;
         r.c_correlation = wlf.correlation;
+        r.slope_error = wlf.straight ? wlf.slope_error : 0;
         r.temperature_min = sweep.isotherms[0].temperature;
         r.temperature_max = sweep.isotherms[sweep.n_isotherms - 1].temperature;
         r.prony = prony.prony;

@@ -80,6 +80,10 @@ static wt_status horizontal_shift(const wt_rubber *rubber, double temperature, d
     }
     double step = temperature - rubber->wlf.reference_temperature;
     double sum = rubber->wlf.c2 + step;
+    if (isnan(rubber->c1_error) || isnan(rubber->c2_error)) {
+        *log_a_error = fabs(step) * rubber->slope_error;
+        return WT_OK;
+    }
     double by_c1 = -step / sum * rubber->c1_error;
     double by_c2 = rubber->wlf.c1 * step / (sum * sum) * rubber->c2_error;
     double variance = by_c1 * by_c1 + by_c2 * by_c2 + 2 * rubber->c_correlation * by_c1 * by_c2;
@@ -196,6 +200,7 @@ static wt_status read_shifts(const wt_table *shifts, wt_rubber *rubber, wt_error
     rubber->wlf.c1 = key_value(shifts, "wlf_c1", &rubber->c1_error);
     rubber->wlf.c2 = key_value(shifts, "wlf_c2", &rubber->c2_error);
     rubber->wlf.reference_temperature = rubber->prony.reference_temperature;
+    key_value(shifts, "wlf_slope", &rubber->slope_error);
     rubber->has_wlf = isfinite(rubber->wlf.c1) && isfinite(rubber->wlf.c2);
     if (correlation != NULL &&
         !wt_number_parse(correlation, strlen(correlation), '.', &rubber->c_correlation))

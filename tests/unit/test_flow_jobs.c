@@ -332,6 +332,22 @@ static void test_rubber_at(void **state)
     assert_near(e[2], e[0], 0);
     assert_true(fabs(e[1] / e[0] - 1) > 1e-6 && fabs(e[1] / e[0] - 1) < 0.1);
 
+    /* where only the slope of the law is determined, its error is carried, not dropped */
+    wt_rubber plain = rubber; /* borrows */
+    plain.has_master = false;
+    plain.n_vertical = 0;
+    plain.c1_error = plain.c2_error = plain.c_correlation = (double)NAN;
+    plain.slope_error = 1e-3;
+    double shift[200], first_time = 0;
+    for (size_t i = 0; i < 200; i++) {
+        assert_int_equal(wt_rubber_at(&plain, 333.15, 1, i, &material, NULL, NULL), WT_OK);
+        if (i == 0)
+            first_time = material->frequency_max;
+        shift[i] = log10(material->frequency_max / first_time);
+        wt_material_free(material);
+    }
+    assert_near(flow_spread(shift, 200, 1), 40 * 1e-3, 0.15);
+
     /* without a law only the reference is known */
     rubber.has_wlf = false;
     assert_int_equal(wt_rubber_at(&rubber, 293.65, 1, SIZE_MAX, &material, NULL, NULL), WT_OK);
