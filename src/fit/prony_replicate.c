@@ -1,6 +1,7 @@
 /* Replicates of a Prony series for carrying the error of the material on: shifts drawn from their
  * covariance, residuals of whole isotherms resampled. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/gsl_quiet.h"
+#include "base/mix.h"
 #include "fit/prony.h"
 
 #include <float.h>
@@ -9,15 +10,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* Steele, Lea and Flood, OOPSLA 2014: neighbouring seeds and indices become unrelated. */
-static uint64_t split_mix(uint64_t state)
-{
-    state += UINT64_C(0x9e3779b97f4a7c15);
-    state = (state ^ (state >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
-    state = (state ^ (state >> 27)) * UINT64_C(0x94d049bb133111eb);
-    return state ^ (state >> 31);
-}
 
 /* Replaces a symmetric, positive semi-definite n x n matrix by its lower Cholesky factor; a pivot
  * at rounding level (the reference isotherm has none) gives a column of zeros. */
@@ -157,7 +149,7 @@ wt_status wt_prony_replicate(const wt_master_curve *master, const wt_prony_optio
         status = wt_fail(err, WT_E_MEMORY, "no memory for random numbers");
         goto done;
     }
-    gsl_rng_set(rng, (unsigned long)(split_mix(split_mix(seed) + index) & 0xffffffffU));
+    gsl_rng_set(rng, (unsigned long)(wt_mix(wt_mix(seed) + index) & 0xffffffffU));
     sort_points(&r, master);
     for (size_t i = 0; i < master->n; i++)
         wt_prony_log_moduli(&base.prony, master->log_frequency[i], &r.storage_fit[i],

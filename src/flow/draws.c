@@ -1,17 +1,10 @@
-/* Random draws from stated errors: splitmix64 (Steele, Lea, Flood, OOPSLA 2014) as a hash of seed,
- * replicate and purpose, then Box-Muller.
+/* Random draws from stated errors: a hash of seed, replicate and purpose, then Box-Muller.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/draws.h"
 
-#include <math.h>
+#include "base/mix.h"
 
-static uint64_t mix(uint64_t x)
-{
-    x += UINT64_C(0x9e3779b97f4a7c15);
-    x = (x ^ (x >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
-    x = (x ^ (x >> 27)) * UINT64_C(0x94d049bb133111eb);
-    return x ^ (x >> 31);
-}
+#include <math.h>
 
 /* In (0, 1). */
 static double uniform(uint64_t bits)
@@ -23,9 +16,9 @@ double flow_draw_normal(uint64_t seed, size_t replicate, flow_draw what)
 {
     if (replicate == FLOW_CENTRE)
         return 0;
-    uint64_t state = mix(mix(mix(seed) ^ (uint64_t)replicate) ^ (uint64_t)what);
+    uint64_t state = wt_mix(wt_mix(wt_mix(seed) ^ (uint64_t)replicate) ^ (uint64_t)what);
     double radius = sqrt(-2 * log(uniform(state)));
-    return radius * cos(2 * M_PI * uniform(mix(state)));
+    return radius * cos(2 * M_PI * uniform(wt_mix(state)));
 }
 
 double flow_draw_value(wt_estimate e, uint64_t seed, size_t replicate, flow_draw what)
