@@ -141,11 +141,17 @@ static wt_status answer_layer(const flow_story *story, wt_table *table, wt_error
         verdict = "Yes: the wear track is softer than the bulk";
     else if (low > 1)
         verdict = "Yes: the wear track is stiffer than the bulk";
+    const char *unit = wt_table_key(comparison, "unit_of_analysis");
+    bool by_curve = unit != NULL && strncmp(unit, "curve", 5) == 0;
     return flow_answer_add(
         table, err, is_there, "layer",
-        "%s. E_track/E_bulk = %.3g, 95 %% interval %.3g to %.3g (Welch p of the "
+        "%s%s. E_track/E_bulk = %.3g, 95 %% interval %.3g to %.3g (Welch p of the "
         "difference %.2g, Mann-Whitney p %.2g; %.0f bulk and %.0f track curves).",
-        verdict, ratio, low, high, p, mann_whitney, flow_table_get(comparison, 0, "n_bulk"),
+        verdict,
+        by_curve ? ", where it was measured; whether it is so elsewhere cannot be said without two "
+                   "spots or more in each group"
+                 : "",
+        ratio, low, high, p, mann_whitney, flow_table_get(comparison, 0, "n_bulk"),
         flow_table_get(comparison, 0, "n_track"));
 }
 
@@ -171,9 +177,10 @@ static wt_status say_group(const wt_table *groups, const char *name, const char 
                  flow_say(high, "Pa").text);
     return flow_answer_add(
         table, err, how_different, "difference",
-        "%s: E = %s (geometric mean, %s) from %.0f curves on %.0f spots, %.0f rejected.", words,
+        "%s: E = %s (geometric mean, %s) from %.0f curves on %.0f spot%s, %.0f rejected.", words,
         flow_say(flow_table_get(groups, row, "geometric_mean"), "Pa").text, interval,
         flow_table_get(groups, row, "n"), flow_table_get(groups, row, "n_spots"),
+        flow_table_get(groups, row, "n_spots") > 1 ? "s" : "",
         flow_table_get(groups, row, "n_rejected"));
 }
 
@@ -367,6 +374,10 @@ static wt_status answer_friction(const flow_story *story, wt_table *table, wt_er
         return say_missing(story, "friction_with_layer", what_friction, "friction", table, err);
     if (isnan(flow_key(friction, "friction_with_layer_at_reference").value))
         return WT_OK;
+    if (!(flow_key(friction, "layer_thickness").value > 0))
+        return flow_answer_add(table, err, what_friction, "friction",
+                               "Where wear leaves no layer, that is the friction: nothing "
+                               "changes.");
     return say_change(friction, table, err);
 }
 

@@ -314,7 +314,7 @@ static wt_status layer_caveats(const flow_story *story, wt_table *table, wt_erro
                                  flow_say(longest, "m").text);
     const wt_table *track = wt_result_find(story->result, "indentation/track");
     double depth = track == NULL ? (double)NAN : median_accepted(track, "max_indentation");
-    if (status == WT_OK && isfinite(thickness) && depth > DEEP_SHARE * thickness)
+    if (status == WT_OK && isfinite(thickness) && thickness > 0 && depth > DEEP_SHARE * thickness)
         status = flow_answer_add(table, err, question, "caveat",
                                  "Indentations in the track go %s deep, %.2g times the thickness "
                                  "of the layer: the bulk below it is felt, so the layer differs "

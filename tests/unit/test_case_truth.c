@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "near.h"
 
+#include "flow/case.h"
 #include "flow/tables.h"
 #include "weartrack/flow.h"
 
@@ -175,13 +176,43 @@ static void test_answer(void **state)
     assert_true(dma && lever);
 }
 
+/* The case with one thing changed; says whether an answer holds the words. */
+static bool answer_holds(double wear, size_t spots, const char *words)
+{
+    wt_case *c = NULL;
+    wt_result *other = NULL;
+    size_t failed = 0;
+    bool found = false;
+    assert_int_equal(wt_case_read(CASE "/case.xml", &c, NULL), WT_OK);
+    c->layer.specific_wear_rate.value *= wear;
+    c->bulk.n = c->track.n = spots;
+    assert_int_equal(wt_run(c, NULL, NULL, &other, &failed, NULL), WT_OK);
+    const wt_table *answer = wt_result_find(other, "answer");
+    assert_non_null(answer);
+    for (size_t i = 0; i < wt_table_n_rows(answer); i++)
+        found = found || strstr(flow_table_get_text(answer, i, "answer"), words) != NULL;
+    wt_result_free(other);
+    wt_case_free(c);
+    return found;
+}
+
+/* No layer is not a layer of no thickness, and one spot does not speak for all. */
+static void test_answer_of_other_cases(void **state)
+{
+    (void)state;
+    assert_true(answer_holds(100, 4, "Where wear leaves no layer"));
+    assert_false(answer_holds(100, 4, "times the thickness of the layer"));
+    assert_true(answer_holds(1, 1, "whether it is so elsewhere cannot be said"));
+    assert_false(answer_holds(1, 4, "whether it is so elsewhere cannot be said"));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_nothing_failed), cmocka_unit_test(test_ratio),
         cmocka_unit_test(test_material),       cmocka_unit_test(test_against_dma),
         cmocka_unit_test(test_friction),       cmocka_unit_test(test_thickness),
-        cmocka_unit_test(test_answer),
+        cmocka_unit_test(test_answer),         cmocka_unit_test(test_answer_of_other_cases),
     };
     return cmocka_run_group_tests_name("case truth", tests, run_case, free_result);
 }
