@@ -38,15 +38,15 @@ static double median_accepted(const wt_table *table, const char *column)
 /* "3 poor_fit, 1 saturated" of the rejected curves. */
 static size_t list_rejected(const wt_table *table, char *text, size_t size)
 {
-    size_t counts[64] = {0}, total = 0, used = 0;
+    size_t counts[WT_CURVE_UNREADABLE + 1] = {0}, total = 0, used = 0;
     text[0] = '\0';
     for (size_t i = 0; i < wt_table_n_rows(table); i++) {
         const char *verdict = flow_table_get_text(table, i, "verdict");
-        for (int v = WT_CURVE_ACCEPTED + 1; v <= WT_CURVE_UNREADABLE && v < 64; v++)
+        for (int v = WT_CURVE_ACCEPTED + 1; v <= WT_CURVE_UNREADABLE; v++)
             if (strcmp(verdict, wt_curve_verdict_id((wt_curve_verdict)v)) == 0)
                 counts[v]++;
     }
-    for (int v = WT_CURVE_ACCEPTED + 1; v <= WT_CURVE_UNREADABLE && v < 64; v++) {
+    for (int v = WT_CURVE_ACCEPTED + 1; v <= WT_CURVE_UNREADABLE; v++) {
         total += counts[v];
         if (counts[v] > 0 && used < size)
             used += (size_t)snprintf(text + used, size - used, "%s%zu %s", used > 0 ? ", " : "",
