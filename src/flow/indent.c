@@ -449,7 +449,7 @@ wt_status wt_indent_group(const wt_indent_job *job, const wt_job *common, wt_ind
         goto done;
     if (w.n_curves == 0) {
         status = wt_fail(err, WT_E_EMPTY, "no force curve could be read for \"%s\"", job->group);
-        wt_error_found(err, "%zu files, %zu of them failed", files.n, w.n_failed);
+        wt_error_found(err, "files: %zu, failed: %zu", files.n, w.n_failed);
         wt_error_advice(err, "`weartrack info FILE` shows what a file holds");
         goto done;
     }

@@ -60,8 +60,11 @@ static wt_status read_sweeps(const wt_master_job *job, const wt_job *common, wt_
         else if (err != NULL)
             *err = failure;
     }
-    if (status == WT_OK && sweep->n_isotherms == 0)
-        status = wt_fail(err, WT_E_EMPTY, "no DMA isotherm could be read from %zu files", files.n);
+    if (status == WT_OK && sweep->n_isotherms == 0) {
+        status = wt_fail(err, WT_E_EMPTY, "no DMA isotherm could be read");
+        wt_error_found(err, "files: %zu", files.n);
+        wt_error_advice(err, "`weartrack info FILE` shows what a file holds");
+    }
     if (status == WT_OK)
         wt_sweep_sort(sweep);
     flow_files_clear(&files);

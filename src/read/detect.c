@@ -45,7 +45,7 @@ static const signature signatures[] = {
     SIGNATURE("\\*File list", "a NanoScope (Bruker, Veeco) image", AS_TEXT),
     SIGNATURE("\\*Force file list", "a NanoScope (Bruker, Veeco) force curve", AS_TEXT),
     SIGNATURE("\5\0", "an Igor binary wave (Asylum Research), or unknown binary data", AS_TEXT),
-    SIGNATURE("<?xml", "an XML document", NO_DATA),
+    SIGNATURE("<?xml", "an XML document", "a case file is for `weartrack run`; " NO_DATA),
     SIGNATURE("<!DOCTYPE", "an HTML or XML document", NO_DATA),
     SIGNATURE("<html", "an HTML page", NO_DATA),
     SIGNATURE("\377\376", "UTF-16 text of no known layout", DESCRIBE),
