@@ -100,10 +100,6 @@ bool cmd_parse(const cmd_usage *usage, const cmd_option *options, size_t n_optio
                cmd_common *common, int argc, char **argv, int *first, int *status);
 /* What the option expects if this value (SI) is outside its limits; NULL if it is good. */
 const char *cmd_outside(const char *option, double value);
-/* A usage error if one of the inputs (NULL is skipped) is empty or is the file of -o: the input
- * would be lost. cmd_parse does this for all files that the call names. */
-int cmd_check_files(const char *name, const cmd_common *common, const char *const *inputs,
-                    size_t n);
 /* The two names are those of one regular file. */
 bool cmd_same_file(const char *a, const char *b);
 /* A usage error if --format names no format. */

@@ -271,7 +271,10 @@ bool cmd_same_file(const char *a, const char *b)
            one.st_dev == other.st_dev && one.st_ino == other.st_ino;
 }
 
-int cmd_check_files(const char *name, const cmd_common *common, const char *const *inputs, size_t n)
+/* A usage error if one of the inputs (NULL is skipped) is empty, is the file of -o, which would be
+ * lost, or is standard input a second time. */
+static int check_files(const char *name, const cmd_common *common, const char *const *inputs,
+                       size_t n, size_t *n_pipes)
 {
     for (size_t i = 0; i < n; i++) {
         if (inputs[i] == NULL)
@@ -281,6 +284,9 @@ int cmd_check_files(const char *name, const cmd_common *common, const char *cons
         if (common->output != NULL && cmd_same_file(common->output, inputs[i]))
             return cmd_usage_error(name, "-o %s is also an input; give another name",
                                    common->output);
+        *n_pipes += strcmp(inputs[i], "-") == 0;
+        if (*n_pipes > 1)
+            return cmd_usage_error(name, "- can stand for one input only");
     }
     return CMD_OK;
 }
@@ -333,6 +339,7 @@ bool cmd_parse(const cmd_usage *usage, const cmd_option *options, size_t n_optio
         return false;
     }
     *first = optind;
+    size_t n_pipes = 0;
     for (size_t i = 0; i < n && *status == CMD_OK; i++) {
         const cmd_option *o = &all[i];
         const bool is_file =
@@ -340,14 +347,14 @@ bool cmd_parse(const cmd_usage *usage, const cmd_option *options, size_t n_optio
         if (!is_file || o->target == &common->output)
             continue;
         if (o->kind == CMD_TEXT)
-            *status = cmd_check_files(usage->name, common, o->target, 1);
+            *status = check_files(usage->name, common, o->target, 1, &n_pipes);
         else if (o->kind == CMD_LIST) {
             const cmd_list *list = o->target;
-            *status = cmd_check_files(usage->name, common, list->items, list->n);
+            *status = check_files(usage->name, common, list->items, list->n, &n_pipes);
         }
     }
     if (*status == CMD_OK)
-        *status = cmd_check_files(usage->name, common, (const char *const *)(argv + optind),
-                                  (size_t)(argc - optind));
+        *status = check_files(usage->name, common, (const char *const *)(argv + optind),
+                              (size_t)(argc - optind), &n_pipes);
     return *status == CMD_OK;
 }
