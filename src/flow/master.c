@@ -74,8 +74,8 @@ static wt_status read_sweeps(const wt_master_job *job, const wt_job *common, wt_
 /* ---- tables -----------------------------------------------------------------------------------
  */
 
-static wt_status shift_table(const wt_master_curve *master, const wt_wlf_fit *wlf, wt_table **out,
-                             wt_error *err)
+static wt_status shift_table(const wt_master_curve *master, const wt_wlf_fit *wlf, double floor,
+                             wt_table **out, wt_error *err)
 {
     static const flow_column columns[] = {
         {"temperature", "K", "temperature of the isotherm"},
@@ -136,6 +136,9 @@ static wt_status shift_table(const wt_master_curve *master, const wt_wlf_fit *wl
             status = flow_table_key(table, err, "wlf_correlation", "%.6g", wlf->correlation);
         if (status == WT_OK)
             status = flow_table_value(table, "pole", wlf->pole, wlf->pole_error, 0, "K", err);
+        /* what the errors of c1 and c2 take every shift to be wrong by, on top of its own */
+        if (status == WT_OK)
+            status = flow_table_value(table, "wlf_floor", floor, 0, 0, "1", err);
         if (status == WT_OK)
             status = flow_table_value(table, "wlf_rms", wlf->rms, 0, 0, "1", err);
         if (status == WT_OK)
@@ -364,7 +367,7 @@ wt_status wt_master_make(const wt_master_job *job, double poisson_ratio, const w
     if (status != WT_OK)
         goto done;
     if (tables != NULL) {
-        status = shift_table(&master, has_wlf ? &wlf : NULL, &t.shift_factors, err);
+        status = shift_table(&master, has_wlf ? &wlf : NULL, shift.floor, &t.shift_factors, err);
         if (status == WT_OK)
             status = master_table(&master, &prony, &t.master_curve, err);
         if (status == WT_OK)

@@ -286,6 +286,7 @@ static const char *const key_words[][2] = {
     {"wlf_c2", "WLF constant C₂"},
     {"wlf_correlation", "Correlation of C₁ and C₂"},
     {"wlf_rms", "Residual of the WLF law, rms (decades)"},
+    {"wlf_floor", "Systematic error of each shift that the errors of C1 and C2 include [decade]"},
     {"wlf_straight", "Shift factors on a straight line"},
     {"frequency_min", "Lowest angular frequency measured"},
     {"frequency_max", "Highest angular frequency measured"},
