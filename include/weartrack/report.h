@@ -19,7 +19,7 @@ typedef struct wt_report_options {
 WT_API wt_report_options wt_report_defaults(void);
 
 /* Whether wt_report_write could begin: the style is known and the folder may be made or replaced.
- * For use before long work; nothing is left behind. */
+ * For use before long work; nothing is left behind. Options NULL: the defaults. */
 WT_API wt_status wt_report_check(const char *folder, const wt_report_options *options,
                                  wt_error *err) WT_NODISCARD;
 

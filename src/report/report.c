@@ -252,9 +252,10 @@ static wt_status make_page(const report *r, bool with_provenance, wt_error *err)
 
 wt_status wt_report_check(const char *folder, const wt_report_options *options, wt_error *err)
 {
+    const wt_report_options chosen = options != NULL ? *options : wt_report_defaults();
     wt_text style = {0};
     wt_folder *made = NULL;
-    wt_status status = find_style(options->style, &style, err);
+    wt_status status = find_style(chosen.style, &style, err);
     if (status == WT_OK)
         status = wt_folder_open(folder, &made, err);
     wt_folder_discard(made);
