@@ -41,8 +41,8 @@ static wt_status split_units(wt_case *c, const xmlNode *node, const char *text,
 static wt_status read_attributes(wt_case *c, const xmlNode *node, wt_file_set *set,
                                  wt_estimate *spring_constant, wt_error *err)
 {
-    wt_estimate k = *spring_constant, sensitivity = {set->read.sensitivity, 0, 0, "m/V"},
-                temperature = {set->read.temperature, 0, 0, "K"};
+    wt_estimate k = *spring_constant;
+    double sensitivity = set->read.sensitivity, temperature = set->read.temperature;
     const char *units = NULL;
     wt_status status = case_get_attribute(c, node, "format", &set->read.format, err);
     if (status == WT_OK)
@@ -55,20 +55,20 @@ static wt_status read_attributes(wt_case *c, const xmlNode *node, wt_file_set *s
         status =
             case_get_attribute_estimate(c, node, "spring-constant", WT_Q_SPRING_CONSTANT, &k, err);
     if (status == WT_OK)
-        status = case_get_attribute_estimate(c, node, "sensitivity", WT_Q_SENSITIVITY, &sensitivity,
-                                             err);
+        status =
+            case_get_attribute_number(c, node, "sensitivity", WT_Q_SENSITIVITY, &sensitivity, err);
     if (status == WT_OK)
-        status = case_get_attribute_estimate(c, node, "temperature", WT_Q_TEMPERATURE, &temperature,
-                                             err);
+        status =
+            case_get_attribute_number(c, node, "temperature", WT_Q_TEMPERATURE, &temperature, err);
     if (status != WT_OK)
         return status;
-    if (k.value <= 0 || sensitivity.value <= 0) {
+    if (k.value <= 0 || sensitivity <= 0) {
         wt_fail(err, WT_E_RANGE, "a calibration is not positive");
         return case_at(node, k.value <= 0 ? "spring-constant" : "sensitivity", WT_E_RANGE, err);
     }
     set->read.spring_constant = k.value;
-    set->read.sensitivity = sensitivity.value;
-    set->read.temperature = temperature.value;
+    set->read.sensitivity = sensitivity;
+    set->read.temperature = temperature;
     *spring_constant = k;
     return WT_OK;
 }

@@ -98,6 +98,14 @@ wt_status case_get_attribute_estimate(wt_case *c, const xmlNode *node, const cha
     return status == WT_OK ? WT_OK : case_at(node, name, status, err);
 }
 
+/* An error that is stated but changes nothing would be a number that is wrong without saying so. */
+static wt_status refuse_error(wt_error *err)
+{
+    wt_fail(err, WT_E_ARG, "an error stated here would not be used");
+    wt_error_advice(err, "leave out what follows +-");
+    return WT_E_ARG;
+}
+
 wt_status case_get_number(wt_case *c, const xmlNode *parent, const char *name, wt_quantity quantity,
                           double *value, wt_error *err)
 {
@@ -107,11 +115,21 @@ wt_status case_get_number(wt_case *c, const xmlNode *parent, const char *name, w
     wt_status status = case_get_estimate(c, parent, name, quantity, &e, err);
     if (status != WT_OK)
         return status;
-    if (e.standard_error > 0) {
-        wt_fail(err, WT_E_ARG, "an error stated here would not be used");
-        wt_error_advice(err, "leave out what follows +-");
-        return case_at(case_child(parent, name), NULL, WT_E_ARG, err);
-    }
+    if (e.standard_error > 0)
+        return case_at(case_child(parent, name), NULL, refuse_error(err), err);
+    *value = e.value;
+    return WT_OK;
+}
+
+wt_status case_get_attribute_number(wt_case *c, const xmlNode *node, const char *name,
+                                    wt_quantity quantity, double *value, wt_error *err)
+{
+    wt_estimate e = {*value, 0, 0, wt_quantity_unit(quantity)};
+    wt_status status = case_get_attribute_estimate(c, node, name, quantity, &e, err);
+    if (status != WT_OK)
+        return status;
+    if (e.standard_error > 0)
+        return case_at(node, name, refuse_error(err), err);
     *value = e.value;
     return WT_OK;
 }

@@ -33,6 +33,9 @@ wt_status case_get_number(wt_case *c, const xmlNode *parent, const char *name, w
 wt_status case_get_attribute_estimate(wt_case *c, const xmlNode *node, const char *name,
                                       wt_quantity quantity, wt_estimate *estimate,
                                       wt_error *err) WT_NODISCARD;
+/* The same for a value that carries no error: stating one is refused. */
+wt_status case_get_attribute_number(wt_case *c, const xmlNode *node, const char *name,
+                                    wt_quantity quantity, double *value, wt_error *err);
 wt_status case_get_flag(wt_case *c, const xmlNode *parent, const char *name, bool *flag,
                         wt_error *err) WT_NODISCARD;
 wt_status case_get_list(wt_case *c, const xmlNode *parent, const char *name, wt_quantity quantity,
