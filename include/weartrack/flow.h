@@ -296,8 +296,7 @@ typedef struct wt_run_options {
     uint64_t seed;       /* of the resampling */
     size_t replicates;   /* of the resampling; default 64 */
     wt_progress progress;
-    bool
-        no_timing; /* leave the times of the table "cost" NaN: two runs then give the same result */
+    bool no_timing; /* leave the times of "cost" NaN: two runs then give the same result */
 } wt_run_options;
 WT_API wt_run_options wt_run_defaults(void);
 
