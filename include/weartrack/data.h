@@ -222,6 +222,10 @@ WT_API wt_status wt_result_set_case(wt_result *result, const char *xml, size_t l
                                     wt_error *err) WT_NODISCARD; /* the case file, whole */
 WT_API const char *wt_result_case(const wt_result *result, size_t *length); /* NULL if none */
 
+/* The inputs of a provenance as a table called `name`: path, role, format, bytes [byte], sha256. */
+WT_API wt_status wt_provenance_table(const wt_provenance *provenance, const char *name,
+                                     wt_table **table, wt_error *err) WT_NODISCARD;
+
 /* ---- stream: weartrack-stream(5) ---------------------------------------------------------- */
 
 /* Writes one table: `## key: value` lines, one header line, tab-separated rows, a blank line

@@ -33,12 +33,13 @@ wt_status wt_store_digest(const wt_result *result, const wt_table *inputs, char 
 enum { PATH, ROLE, FORMAT, BYTES, SHA256, N_COLUMNS };
 static const char *const names[N_COLUMNS] = {"path", "role", "format", "bytes", "sha256"};
 
-wt_status wt_store_inputs_table(const wt_provenance *provenance, wt_table **table, wt_error *err)
+wt_status wt_provenance_table(const wt_provenance *provenance, const char *name, wt_table **table,
+                              wt_error *err)
 {
     static const char *const words[N_COLUMNS] = {"path as given", "what it was used for",
                                                  "format it was read as", "size of the file",
                                                  "SHA-256 digest of the file"};
-    wt_table *const t = wt_table_new(STORE_INPUTS_TABLE, "Files that were read");
+    wt_table *const t = wt_table_new(name, "Files that were read");
     wt_status status = t != NULL ? WT_OK : wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t i = 0; status == WT_OK && i < N_COLUMNS; i++)
         status = i == BYTES ? wt_table_add_column(t, names[i], "byte", words[i], err)

@@ -29,8 +29,7 @@ enum { STORE_FORMAT = 1 };
 wt_status wt_store_digest(const wt_result *result, const wt_table *inputs, char hex[65],
                           wt_error *err);
 
-/* The inputs of a provenance as a table named STORE_INPUTS_TABLE, and back. */
-wt_status wt_store_inputs_table(const wt_provenance *provenance, wt_table **table, wt_error *err);
+/* A table of wt_provenance_table back to the inputs of a provenance. */
 wt_status wt_store_inputs_read(const wt_table *table, wt_provenance *provenance, wt_error *err);
 
 #endif

@@ -303,7 +303,8 @@ wt_status wt_store_write(const char *path, const wt_result *result, bool with_pr
     wt_outfile *out = NULL;
     wt_status status = WT_OK;
     if (with_provenance)
-        status = wt_store_inputs_table(wt_result_provenance_const(result), &inputs, err);
+        status = wt_provenance_table(wt_result_provenance_const(result), STORE_INPUTS_TABLE,
+                                     &inputs, err);
     if (status == WT_OK)
         status = wt_store_digest(result, inputs, digest, err);
     if (status != WT_OK)

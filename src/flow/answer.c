@@ -280,6 +280,27 @@ static wt_status say_times(const wt_table *layer, wt_table *table, wt_error *err
                            flow_say_estimate(incubation).text, then);
 }
 
+/* Indentation and layer model need not agree; where they do not, the reader is told. */
+static wt_status say_disagreement(const flow_story *story, bool modelled, wt_table *table,
+                                  wt_error *err)
+{
+    const wt_table *comparison = wt_result_find(story->result, "comparison");
+    if (comparison == NULL)
+        return WT_OK;
+    const bool measured = flow_table_get(comparison, 0, "ratio_high") < 1 ||
+                          flow_table_get(comparison, 0, "ratio_low") > 1;
+    if (measured && !modelled)
+        return flow_answer_add(table, err, how_thick, "caveat",
+                               "This does not agree with the indentation, which shows a modified "
+                               "track: the specific wear rate, the critical energy or the model "
+                               "does not fit it.");
+    if (!measured && modelled)
+        return flow_answer_add(table, err, how_thick, "caveat",
+                               "The indentation does not show this layer: it is what the model "
+                               "makes of the specific wear rate and the critical energy given.");
+    return WT_OK;
+}
+
 static wt_status answer_thickness(const flow_story *story, wt_table *table, wt_error *err)
 {
     const wt_table *layer = wt_result_find(story->result, "layer");
@@ -289,16 +310,18 @@ static wt_status answer_thickness(const flow_story *story, wt_table *table, wt_e
     wt_estimate ratio = flow_key(layer, "formation_wear_ratio");
     wt_estimate velocity = flow_key(layer, "velocity"), pressure = flow_key(layer, "pressure");
     const char *regime = wt_table_key(layer, "regime");
-    if (regime != NULL && strcmp(regime, "none") == 0)
-        return flow_answer_add(
+    wt_status status = WT_OK;
+    if (regime != NULL && strcmp(regime, "none") == 0) {
+        status = flow_answer_add(
             table, err, how_thick, "thickness",
             "There is none at %s and %s: wear removes the rubber faster than it is modified "
             "(formation over wear R = %s, not above 1). The specific wear rate would have to be "
-            "below %s.",
+            "below %.3g mm^3/(N m).",
             flow_say(velocity.value, "m/s").text, flow_say(pressure.value, "Pa").text,
             flow_say_estimate(ratio).text,
-            flow_say(flow_key(layer, "critical_specific_wear_rate").value, "m^2/N").text);
-    wt_status status = WT_OK;
+            1e9 * flow_key(layer, "critical_specific_wear_rate").value);
+        return status == WT_OK ? say_disagreement(story, false, table, err) : status;
+    }
     if (isinf(thickness.value))
         status = flow_answer_add(table, err, how_thick, "thickness",
                                  "Without wear it grows without end, ever more slowly; the table "
@@ -312,7 +335,9 @@ static wt_status answer_thickness(const flow_story *story, wt_table *table, wt_e
                             flow_say_estimate(thickness).text, flow_say(velocity.value, "m/s").text,
                             flow_say(pressure.value, "Pa").text, flow_say_estimate(ratio).text,
                             -flow_key(layer, "wear_sensitivity").value);
-    return status == WT_OK ? say_times(layer, table, err) : status;
+    if (status == WT_OK)
+        status = say_times(layer, table, err);
+    return status == WT_OK ? say_disagreement(story, true, table, err) : status;
 }
 
 /* ---- friction ---------------------------------------------------------------------------------

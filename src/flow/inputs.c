@@ -24,41 +24,6 @@ wt_table *wt_failures_new(void)
                : NULL;
 }
 
-wt_status flow_inputs_table(const wt_provenance *provenance, wt_table **result, wt_error *err)
-{
-    enum { PATH, ROLE, FORMAT, BYTES, SHA256 };
-    static const flow_column columns[] = {
-        {"path", NULL, "file as named in the case or on the command line"},
-        {"role", NULL, "what it was used for"},
-        {"format", NULL, "format and version of its description"},
-        {"bytes", "byte", "size of the file"},
-        {"sha256", NULL, "SHA-256 digest of the file"},
-    };
-    wt_table *table = NULL;
-    wt_status status =
-        flow_table_new("inputs", "Files read", columns, FLOW_COUNT(columns), &table, err);
-    for (size_t i = 0; status == WT_OK && i < wt_provenance_n_inputs(provenance); i++) {
-        const wt_provenance_input *input = wt_provenance_get_input(provenance, i);
-        status = wt_table_add_row(table, err);
-        if (status == WT_OK)
-            status = wt_table_put_text(table, PATH, input->path, err);
-        if (status == WT_OK)
-            status = wt_table_put_text(table, ROLE, input->role, err);
-        if (status == WT_OK)
-            status = wt_table_put_text(table, FORMAT, input->format, err);
-        if (status == WT_OK)
-            status = wt_table_put_text(table, SHA256, input->sha256, err);
-        if (status == WT_OK)
-            wt_table_put(table, BYTES, (double)input->bytes);
-    }
-    if (status != WT_OK) {
-        wt_table_free(table);
-        return status;
-    }
-    *result = table;
-    return WT_OK;
-}
-
 /* `path` without `folder` in front of it. */
 static const char *below(const char *folder, const char *path)
 {

@@ -32,9 +32,6 @@ wt_status flow_open(const wt_job *common, const flow_file *file, const char *rol
 wt_status flow_surface_read(const flow_file *file, const wt_job *common, wt_surface *surface,
                             wt_error *err) WT_NODISCARD;
 
-/* Table "inputs" of the files in a provenance. */
-wt_status flow_inputs_table(const wt_provenance *provenance, wt_table **table,
-                            wt_error *err) WT_NODISCARD;
 /* Table "notes" of a log, with the names of files below `folder` shown without it; NULL = as they
  * are. */
 wt_status flow_notes_table(const wt_parselog *log, const char *folder, wt_table **table,

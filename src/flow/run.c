@@ -202,7 +202,7 @@ static wt_status finish(conduct *d, wt_error *err)
     if (status == WT_OK)
         status = publish(d, &answer, err);
     if (status == WT_OK)
-        status = flow_inputs_table(wt_result_provenance_const(d->result), &inputs, err);
+        status = wt_provenance_table(wt_result_provenance_const(d->result), "inputs", &inputs, err);
     if (status == WT_OK)
         status = publish(d, &inputs, err);
     if (status == WT_OK)
