@@ -364,8 +364,16 @@ wt_status wt_master_make(const wt_master_job *job, double poisson_ratio, const w
         status = fit_law(&master, &shift, common, &wlf, &has_wlf, err);
     if (status == WT_OK)
         status = wt_prony_fit_master(&master, &job->prony, &prony, err);
-    if (status != WT_OK)
+    if (status != WT_OK) {
+        /* the fit sees isotherms, not files */
+        const size_t n = sweep.n_isotherms;
+        if (job->n_sets > 0 && job->sets[0].n_patterns > 0)
+            wt_error_file(err, job->sets[0].patterns[0]);
+        if (err != NULL && err->place[0] == '\0' && n > 0)
+            wt_error_place(err, "%zu isotherm%s from %s", n, n == 1 ? "" : "s",
+                           sweep.isotherms[0].source);
         goto done;
+    }
     if (tables != NULL) {
         status = shift_table(&master, has_wlf ? &wlf : NULL, shift.floor, &t.shift_factors, err);
         if (status == WT_OK)
