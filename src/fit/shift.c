@@ -147,8 +147,8 @@ static wt_status place_all(wt_shift_work *work, wt_error *err)
                                "than its noise");
         wt_error_advice(err, "measure colder, into the transition");
     } else {
-        status = wt_fail(err, WT_E_NO_OVERLAP, "no isotherm overlaps the one of %.2f K",
-                         work->set.curves[work->anchor].temperature);
+        status = wt_fail(err, WT_E_NO_OVERLAP, "no isotherm overlaps the one of %.2f °C",
+                         work->set.curves[work->anchor].temperature - WT_ZERO_CELSIUS);
         wt_error_expected(err, "neighbouring isotherms that share a range of storage modulus");
         wt_error_advice(err, "measure at smaller steps of temperature or over more frequencies");
     }
@@ -243,8 +243,8 @@ static void bracket(const wt_shift_work *work, size_t *below, size_t *above)
 static wt_status out_of_range(const wt_shift_work *work, wt_error *err)
 {
     wt_status status =
-        wt_fail(err, WT_E_RANGE, "no shift can be given for the reference temperature %.2f K",
-                work->reference_temperature);
+        wt_fail(err, WT_E_RANGE, "no shift can be given for the reference temperature %.2f °C",
+                work->reference_temperature - WT_ZERO_CELSIUS);
     wt_error_expected(err, "a temperature between the isotherms that could be shifted");
     wt_error_advice(err, "choose one of the measured temperatures");
     return status;

@@ -67,8 +67,8 @@ static wt_status fill_curve(const wt_isotherm *isotherm, struct point *scratch,
     if (curve->n_left_out > 0 && n < WT_SHIFT_MIN_POINTS) {
         wt_status status =
             wt_fail(err, WT_E_RANGE,
-                    "the isotherm of %.2f K has too few points with positive frequency and moduli",
-                    isotherm->temperature);
+                    "the isotherm of %.2f °C has too few points with positive frequency and moduli",
+                    isotherm->temperature - WT_ZERO_CELSIUS);
         wt_error_place(err, "%s", isotherm->source);
         wt_error_expected(err, "at least %d", WT_SHIFT_MIN_POINTS);
         wt_error_found(err, "%zu of %zu; point %zu: %g rad/s, storage %g Pa, loss %g Pa", n,
@@ -79,9 +79,9 @@ static wt_status fill_curve(const wt_isotherm *isotherm, struct point *scratch,
     }
     if (curve->n_left_out > 0)
         wt_parselog_add(log, WT_WARNING, isotherm->source, NULL,
-                        "isotherm of %.2f K: %zu of %zu points left out, no positive modulus "
+                        "isotherm of %.2f °C: %zu of %zu points left out, no positive modulus "
                         "(first: %g rad/s, storage %g Pa, loss %g Pa)",
-                        isotherm->temperature, curve->n_left_out, isotherm->n,
+                        isotherm->temperature - WT_ZERO_CELSIUS, curve->n_left_out, isotherm->n,
                         isotherm->angular_frequency[first_bad],
                         isotherm->storage_modulus[first_bad], isotherm->loss_modulus[first_bad]);
     qsort(scratch, n, sizeof *scratch, by_x);

@@ -24,16 +24,16 @@ wt_status wt_wlf_rereference(const wt_wlf *wlf, double temperature, wt_wlf *out,
         wt_status status = wt_fail(err, WT_E_RANGE, "the WLF constants are not usable");
         wt_error_expected(err, "finite c1 and c2 > 0 K");
         wt_error_found(err, "c1 = %g, c2 = %g K", wlf->c1, wlf->c2);
-        wt_error_advice(err, "check that the constants belong to the reference temperature %.2f K",
-                        wlf->reference_temperature);
+        wt_error_advice(err, "check that the constants belong to the reference temperature %.2f °C",
+                        wlf->reference_temperature - WT_ZERO_CELSIUS);
         return status;
     }
     if (!(c2 > 0.0) || !isfinite(c2)) {
         wt_status status =
             wt_fail(err, WT_E_RANGE, "the WLF law has no value at the new reference temperature");
-        wt_error_expected(err, "a temperature above the pole at %.2f K",
-                          wlf->reference_temperature - wlf->c2);
-        wt_error_found(err, "%.2f K", temperature);
+        wt_error_expected(err, "a temperature above the pole at %.2f °C",
+                          wlf->reference_temperature - wlf->c2 - WT_ZERO_CELSIUS);
+        wt_error_found(err, "%.2f °C", temperature - WT_ZERO_CELSIUS);
         wt_error_advice(err, "choose a warmer reference temperature");
         return status;
     }
