@@ -127,10 +127,15 @@ bool wt_pattern_match(const wt_pattern *pattern, const char *line, size_t length
     return regexec(&pattern->regex, line, n, groups, 0) == 0;
 }
 
-/* Counts and back references make the cost of a match explode, and no description needs them. */
+/* Each + doubles what stands before it when the expression is compiled, nested ones again. */
+enum { MOST_PLUSES = 16 };
+
+/* Counts, back references and repeats of repeats make the cost of compiling or of a match explode,
+ * and no description needs them. */
 static const char *forbidden(const char *source)
 {
     bool set = false;
+    int pluses = 0;
     for (const char *c = source; *c != '\0'; c++) {
         if (*c == '\\' && c[1] != '\0') {
             c++;
@@ -144,6 +149,12 @@ static const char *forbidden(const char *source)
             c += c[1] == ']';
         } else if (*c == '{') {
             return "a repeat count {...}; write \\{ for the character";
+        } else if (strchr("*+?", *c) != NULL) {
+            if (c[1] != '\0' && strchr("*+?", c[1]) != NULL)
+                return "a repeat of a repeat, such as ++";
+            pluses += *c == '+';
+            if (pluses > MOST_PLUSES)
+                return "more than 16 times +; write * where it may be absent";
         }
     }
     return NULL;
