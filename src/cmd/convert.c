@@ -92,11 +92,6 @@ static wt_status convert_force(const wt_formats *formats, wt_input *input,
         const wt_status got = wt_force_next(source, &curve, &curve_err);
         if (got == WT_END)
             break;
-        if (got == WT_E_MISSING && first) {
-            status = got;
-            *err = curve_err;
-            break;
-        }
         if (got != WT_OK) {
             wt_error_file(&curve_err, wt_input_name(input));
             cmd_fail("convert", &curve_err);
@@ -119,6 +114,8 @@ static wt_status convert_force(const wt_formats *formats, wt_input *input,
         }
         wt_table_free(table);
     }
+    if (status == WT_OK && first)
+        status = wt_fail(err, *n_failed > 0 ? WT_E_CORRUPT : WT_E_EMPTY, "no curve could be read");
     wt_force_curve_clear(&curve);
     wt_force_close(source);
     return status;
@@ -375,16 +372,6 @@ int cmd_convert(int argc, char **argv)
         err = (wt_error)WT_ERROR_INIT;
         converted = convert(formats, input, kinds[k].kind, &read_options, log, stream, place,
                             !common.no_provenance, result, &n_failed, &err);
-        /* Without calibration there is no force, but what was recorded can be written. */
-        if (converted == WT_E_MISSING && kinds[k].kind == WT_KIND_FORCE &&
-            (read_options.want & WT_Q_BIT(WT_Q_FORCE)) != 0) {
-            wt_parselog_add(log, WT_WARNING, path, NULL, "%s: written without force and deflection",
-                            err.message);
-            read_options.want &= ~(WT_Q_BIT(WT_Q_FORCE) | WT_Q_BIT(WT_Q_DEFLECTION));
-            err = (wt_error)WT_ERROR_INIT;
-            converted = convert(formats, input, kinds[k].kind, &read_options, log, stream, place,
-                                !common.no_provenance, result, &n_failed, &err);
-        }
         if (converted == WT_OK && kinds[k].kind == WT_KIND_FORCE && stream != NULL)
             goto written;
     }

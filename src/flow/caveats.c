@@ -141,10 +141,15 @@ static wt_status temperature_caveats(const flow_story *story, wt_table *table, w
     const wt_table *dma = wt_result_find(story->result, "dma_comparison");
     wt_status status = WT_OK;
     if (friction != NULL && isnan(story->c->sliding.temperature.value))
-        status = flow_answer_add(table, err, question, "caveat",
-                                 "The case does not say the temperature of sliding: friction is "
-                                 "that at the reference temperature of the material, %s.",
-                                 flow_say_celsius(flow_key(friction, "temperature").value).text);
+        status =
+            isnan(flow_key(friction, "temperature").value)
+                ? flow_answer_add(table, err, question, "caveat",
+                                  "Neither the case nor its material says a temperature: friction "
+                                  "is that at the temperature the material was given for.")
+                : flow_answer_add(table, err, question, "caveat",
+                                  "The case does not say the temperature of sliding: friction is "
+                                  "that at the reference temperature of the material, %s.",
+                                  flow_say_celsius(flow_key(friction, "temperature").value).text);
     if (status == WT_OK && dma != NULL && isnan(story->c->indentation_temperature))
         status = flow_answer_add(table, err, question, "caveat",
                                  "The case does not say the temperature of indentation: it is "

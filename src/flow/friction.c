@@ -249,9 +249,9 @@ static wt_status set_keys(work *w, wt_table *table, const char *statement, wt_er
             table, "area_ratio_at_reference", w->points[last].area_ratio.value,
             slot(w->error, w->n, AREA)[last], w->points[last].area_ratio.numerical_error, "1", err);
     if (status == WT_OK)
-        status = wt_table_set_key(table, "standard_error_includes",
-                                  w->varies ? w->words : "nothing: no error was measured or stated",
-                                  err);
+        status = wt_table_set_key(
+            table, "standard_error_includes",
+            w->varies ? w->words : "nothing, for no error was measured or stated", err);
     if (status == WT_OK && w->lacks[0] != '\0')
         status = wt_table_set_key(table, "standard_error_lacks", w->lacks, err);
     if (status == WT_OK)

@@ -326,9 +326,9 @@ static wt_status set_keys(const work *w, const centre *c, wt_table *table, wt_er
     if (status == WT_OK)
         status = flow_table_key(table, err, "duty", "%g", job->duty);
     if (status == WT_OK)
-        status = wt_table_set_key(table, "standard_error_includes",
-                                  w->varies ? w->words : "nothing: no error was measured or stated",
-                                  err);
+        status = wt_table_set_key(
+            table, "standard_error_includes",
+            w->varies ? w->words : "nothing, for no error was measured or stated", err);
     if (status == WT_OK && w->lacks[0] != '\0')
         status = wt_table_set_key(table, "standard_error_lacks", w->lacks, err);
     if (status == WT_OK && c->statement[0] != '\0')

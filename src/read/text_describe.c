@@ -163,9 +163,11 @@ static wt_status add_force(const wt_description *description, wt_input *input,
     wt_force_source *source = NULL;
     wt_force_curve curve = {.n_segments = 0};
     wt_error problem = WT_ERROR_INIT;
+    wt_read_options force_only = *options;
+    force_only.want = WT_Q_BIT(WT_Q_FORCE);
     wt_status status = add_curves(description, input, options, facts, err);
     if (status == WT_OK &&
-        wt_text_open_force(description, input, options, NULL, &source, &problem) == WT_OK) {
+        wt_text_open_force(description, input, &force_only, NULL, &source, &problem) == WT_OK) {
         if (wt_force_next(source, &curve, &problem) == WT_E_MISSING)
             status = add_problem(facts, &problem, err);
         wt_force_curve_clear(&curve);

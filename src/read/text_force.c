@@ -121,10 +121,19 @@ static wt_status plan_channels(const text_source *s, const wt_text_table *t, int
 {
     *n = 0;
     if ((s->options.want & WT_Q_BIT(WT_Q_FORCE)) != 0) {
-        wt_status status = plan_force(s, t, kind, c, &plan[0], err);
-        if (status != WT_OK)
+        wt_error missed = WT_ERROR_INIT;
+        wt_status status = plan_force(s, t, kind, c, &plan[0], &missed);
+        /* who asks for all that is there gets what is there; who asks for the force must have it */
+        if (status == WT_E_MISSING && s->options.want == WT_Q_ALL) {
+            wt_parselog_add(s->log, WT_WARNING, s->file.name, missed.place, "no force: %s; %s",
+                            missed.message, missed.advice);
+        } else if (status != WT_OK) {
+            if (err != NULL)
+                *err = missed;
             return status;
-        *n = plan[0].column != NULL;
+        } else {
+            *n = plan[0].column != NULL;
+        }
     }
     for (size_t i = 0; i < t->n_columns && *n < CHANNELS_MAX; i++) {
         const wt_column_rule *rule = t->columns[i].rule;

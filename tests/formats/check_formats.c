@@ -66,6 +66,8 @@ static void is_word(reading *r, const char *what, const char *found, const char 
 static void take_options(reading *r)
 {
     r->options = wt_read_defaults();
+    /* every quantity by its name: what a file cannot give is then an error, not left out */
+    r->options.want = WT_Q_ALL & ~WT_Q_BIT(WT_Q_NONE);
     r->options.units = r->units;
     for (size_t i = 0; i < r->n; i++) {
         if (strcmp(r->keys[i], "units") == 0)

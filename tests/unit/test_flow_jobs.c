@@ -468,7 +468,7 @@ static void test_calibration(void **state)
     assert_near(tables.thickness.value, 2.385e-6, 1e-8);
     assert_true(wt_table_estimate(tables.layer, "critical_energy", &energy));
     assert_string_equal(wt_table_key(tables.layer, "standard_error_includes"),
-                        "nothing: no error was measured or stated");
+                        "nothing, for no error was measured or stated");
     assert_near(tables.thickness.standard_error, (double)NAN, 0);
     const double given = energy.value;
     wt_layer_tables_clear(&tables);

@@ -284,7 +284,17 @@ static void workshop_file(const char *file)
     snprintf(path, sizeof path, AFM "%s", file);
     wt_input *input = open_measured(path);
     check_id(input, 0, "afm-workshop");
-    /* The file has volts only. */
+    /* The file has volts only: an error for who asks for the force, left out for who asks for all.
+     */
+    wt_parselog *log = wt_parselog_new();
+    assert_int_equal(wt_force_open(formats, input, &options, log, &source, &err), WT_OK);
+    assert_int_equal(wt_force_next(source, &curve, &err), WT_OK);
+    assert_null(wt_segment_channel(&curve.segments[0], WT_Q_FORCE));
+    assert_non_null(wt_segment_channel(&curve.segments[0], WT_Q_DEFLECTION_VOLTAGE));
+    assert_non_null(strstr(wt_parselog_get(log, 0).text, "no force"));
+    wt_force_close(source);
+    wt_parselog_free(log);
+    options.want = WT_Q_ALL & ~WT_Q_BIT(WT_Q_NONE);
     assert_int_equal(wt_force_open(formats, input, &options, NULL, &source, &err), WT_OK);
     assert_int_equal(wt_force_next(source, &curve, &err), WT_E_MISSING);
     assert_non_null(strstr(err.advice, "--sensitivity"));
