@@ -6,7 +6,7 @@
 
 #include "read/formats_text.h"
 #include "read/stored.h"
-#include "read/text.h"
+#include "read/text/text.h"
 #include "read/wt_embedded_formats.h"
 
 #include <stdlib.h>

@@ -2,7 +2,7 @@
 #ifndef WT_READ_FORMATS_TEXT_H
 #define WT_READ_FORMATS_TEXT_H
 
-#include "read/description.h"
+#include "read/description/description.h"
 
 wt_status wt_formats_parse_file(const wt_description_schema *schema, const char *path,
                                 wt_description **description, wt_error *err);

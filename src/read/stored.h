@@ -6,7 +6,7 @@
 #ifndef WT_READ_STORED_H
 #define WT_READ_STORED_H
 
-#include "read/text.h"
+#include "read/text/text.h"
 
 /* `stream` is the description of the text stream, borrowed. */
 wt_match wt_stored_detect(const wt_peek *peek);

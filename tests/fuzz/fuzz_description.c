@@ -2,7 +2,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "read/text.h"
+#include "read/text/text.h"
 
 #include <stdlib.h>
 

@@ -4,7 +4,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "read/archive.h"
+#include "read/bytes/archive.h"
 #include "read_all.h"
 
 #include <string.h>

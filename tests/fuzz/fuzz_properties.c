@@ -2,7 +2,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "read/properties.h"
+#include "read/jpk/properties.h"
 
 #include <stdlib.h>
 #include <string.h>

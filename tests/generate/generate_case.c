@@ -2,7 +2,7 @@
  *   generate_case FOLDER CASE.xml [VARIANT]
  * The same bytes every time; variants, for counting how often a stated interval holds the truth,
  * differ in their errors of measurement. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "flow/steps.h"
+#include "flow/run/steps.h"
 #include "generate.h"
 
 #include <math.h>

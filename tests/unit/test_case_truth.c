@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "near.h"
 
-#include "flow/case.h"
-#include "flow/tables.h"
+#include "flow/case/case.h"
+#include "flow/job/tables.h"
 #include "weartrack/flow.h"
 
 #include <string.h>

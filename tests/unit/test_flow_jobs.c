@@ -2,8 +2,8 @@
  * layer. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "near.h"
 
-#include "flow/draws.h"
-#include "flow/tables.h"
+#include "flow/job/draws.h"
+#include "flow/job/tables.h"
 #include "weartrack/flow.h"
 
 #include <stdlib.h>

@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "near.h"
 
-#include "flow/tables.h"
+#include "flow/job/tables.h"
 #include "weartrack/flow.h"
 
 #include <stdlib.h>

@@ -1,8 +1,8 @@
 /* Estimates and lists as text. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "near.h"
 
-#include "flow/answer.h"
-#include "flow/tables.h"
+#include "flow/answer/answer.h"
+#include "flow/job/tables.h"
 #include "weartrack/flow.h"
 
 #include <locale.h>

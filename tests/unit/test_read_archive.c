@@ -4,7 +4,7 @@
  */
 #include "near.h"
 
-#include "read/archive.h"
+#include "read/bytes/archive.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -4,7 +4,7 @@
  */
 #include "near.h"
 
-#include "read/text.h"
+#include "read/text/text.h"
 
 #include <stdio.h>
 #include <stdlib.h>

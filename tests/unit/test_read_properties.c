@@ -5,7 +5,7 @@
  */
 #include "near.h"
 
-#include "read/properties.h"
+#include "read/jpk/properties.h"
 
 #include <stdlib.h>
 #include <string.h>

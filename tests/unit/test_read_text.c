@@ -5,7 +5,7 @@
  */
 #include "near.h"
 
-#include "read/text.h"
+#include "read/text/text.h"
 
 #include <stdio.h>
 #include <stdlib.h>

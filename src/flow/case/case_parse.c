@@ -1,0 +1,160 @@
+/* XML, schema, sections: the text of a case file to a case.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/case/case_sections.h"
+
+#include <libxml/parser.h>
+#include <libxml/xmlschemas.h>
+#include <string.h>
+
+/* ---- schema messages in our form --------------------------------------------------------------
+ */
+
+/* The text between `begin` and `end` in a message; "" if they are not there. */
+static void between(const char *message, const char *begin, const char *end, char *out, size_t size)
+{
+    out[0] = '\0';
+    const char *from = strstr(message, begin);
+    if (from == NULL)
+        return;
+    from += strlen(begin);
+    const char *to = strstr(from, end);
+    size_t length = to == NULL ? strlen(from) : (size_t)(to - from);
+    if (length >= size)
+        length = size - 1;
+    memcpy(out, from, length);
+    out[length] = '\0';
+}
+
+typedef struct complaint {
+    bool any;
+    long line;
+    char message[512];
+} complaint;
+
+/* Keeps the first message: the others follow from it. */
+static void complain(void *user, xmlErrorPtr error)
+{
+    complaint *c = user;
+    if (c->any || error == NULL)
+        return;
+    c->any = true;
+    c->line = error->line;
+    snprintf(c->message, sizeof c->message, "%s", error->message != NULL ? error->message : "");
+    c->message[strcspn(c->message, "\n")] = '\0';
+}
+
+static wt_status schema_error(const complaint *c, wt_error *err)
+{
+    char element[96], expected[160], value[96], said[256];
+    between(c->message, "Element '", "'", element, sizeof element);
+    between(c->message, "Expected is ", ".", expected, sizeof expected);
+    if (expected[0] == '\0')
+        between(c->message, "is not an element of the set {", "}", expected, sizeof expected);
+    between(c->message, "The value '", "'", value, sizeof value);
+    between(c->message, "': ", "\n", said, sizeof said);
+    char *tail = strstr(said, " Expected is");
+    if (tail != NULL)
+        *tail = '\0';
+    wt_fail(err, WT_E_SCHEMA, "%s", said[0] != '\0' ? said : c->message);
+    wt_error_place(err, "line %ld", c->line);
+    if (expected[0] != '\0')
+        wt_error_expected(err, "%s", expected);
+    if (value[0] != '\0')
+        wt_error_found(err, "\"%s\" in <%s>", value, element);
+    else if (element[0] != '\0')
+        wt_error_found(err, "<%s>", element);
+    wt_error_advice(err, "weartrack-case(5) lists the elements of every section");
+    return WT_E_SCHEMA;
+}
+
+static wt_status validate(xmlDoc *doc, wt_error *err)
+{
+    wt_status status = WT_OK;
+    complaint c = {0};
+    const char *text = wt_case_schema();
+    xmlSchemaParserCtxt *parser = xmlSchemaNewMemParserCtxt(text, (int)strlen(text));
+    xmlSchema *schema = parser == NULL ? NULL : xmlSchemaParse(parser);
+    xmlSchemaValidCtxt *valid = schema == NULL ? NULL : xmlSchemaNewValidCtxt(schema);
+    if (valid == NULL) {
+        status = wt_fail(err, WT_E_INTERNAL, "the schema of case files cannot be used");
+        goto done;
+    }
+    xmlSchemaSetValidStructuredErrors(valid, complain, &c);
+    int result = xmlSchemaValidateDoc(valid, doc);
+    if (result > 0 || c.any)
+        status = schema_error(&c, err);
+    else if (result < 0)
+        status = wt_fail(err, WT_E_INTERNAL, "the case file could not be checked");
+done:
+    xmlSchemaFreeValidCtxt(valid);
+    xmlSchemaFree(schema);
+    xmlSchemaFreeParserCtxt(parser);
+    return status;
+}
+
+/* ---- document ---------------------------------------------------------------------------------
+ */
+
+static wt_status read_document(const wt_case *c, xmlDoc **out, wt_error *err)
+{
+    const int options = XML_PARSE_NONET | XML_PARSE_NOERROR | XML_PARSE_NOWARNING;
+    xmlParserCtxt *context = xmlNewParserCtxt();
+    if (context == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    wt_status status = WT_OK;
+    xmlDoc *doc = xmlCtxtReadMemory(context, c->xml, (int)c->xml_length, NULL, NULL, options);
+    if (doc == NULL) {
+        const xmlError *last = xmlCtxtGetLastError(context);
+        char message[200];
+        snprintf(message, sizeof message, "%s",
+                 last != NULL && last->message != NULL ? last->message : "not well-formed");
+        message[strcspn(message, "\n")] = '\0';
+        status = wt_fail(err, WT_E_SCHEMA, "not well-formed XML: %s", message);
+        if (last != NULL)
+            wt_error_place(err, "line %d", last->line);
+        wt_error_advice(err, "`xmllint --noout FILE` shows all such places");
+    } else if (doc->intSubset != NULL || doc->extSubset != NULL) {
+        status = wt_fail(err, WT_E_SCHEMA, "a case file has no document type declaration");
+        wt_error_found(err, "<!DOCTYPE ...>");
+        wt_error_advice(err, "delete the declaration; entities are not used");
+    }
+    xmlFreeParserCtxt(context);
+    if (status != WT_OK) {
+        xmlFreeDoc(doc);
+        return status;
+    }
+    *out = doc;
+    return WT_OK;
+}
+
+wt_status case_parse(wt_case *c, wt_error *err)
+{
+    static const struct {
+        const char *name;
+        wt_status (*read)(wt_case *c, const xmlNode *section, wt_error *err);
+    } sections[] = {
+        {"indentation", case_read_indentation},
+        {"dma", case_read_dma},
+        {"roughness", case_read_roughness},
+        {"sliding", case_read_sliding},
+        {"layer", case_read_layer},
+        {"compare", case_read_compare},
+        {"report", case_read_report},
+    };
+    xmlDoc *doc = NULL;
+    wt_status status = read_document(c, &doc, err);
+    if (status == WT_OK)
+        status = validate(doc, err);
+    if (status != WT_OK)
+        goto done;
+    const xmlNode *root = xmlDocGetRootElement(doc);
+    status = case_get_text(c, root, "title", &c->title, err);
+    for (size_t i = 0; status == WT_OK && i < sizeof sections / sizeof sections[0]; i++) {
+        const xmlNode *section = case_child(root, sections[i].name);
+        if (section != NULL)
+            status = sections[i].read(c, section, err);
+    }
+done:
+    xmlFreeDoc(doc);
+    return status;
+}

@@ -1,0 +1,500 @@
+/* The layer job: energy density with depth, formation against wear, thickness at balance and in
+ * time, with standard errors from replicates.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/job/conditions.h"
+#include "flow/job/draws.h"
+#include "flow/job/tables.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Single numbers of one replicate; the thicknesses in time follow them. */
+enum {
+    THICKNESS,
+    RATIO,
+    INCUBATION,
+    RELAXATION,
+    CRITICAL_WEAR,
+    REMOVAL,
+    ENERGY,
+    SURFACE_POWER,
+    NINETY,
+    N_NUMBERS
+};
+
+typedef struct work {
+    const wt_sliding *sliding;
+    const wt_layer_job *job;
+    const wt_job *common;
+    double velocity;
+    double *time; /* [n] */
+    size_t n, stride, n_replicates;
+    double *replicate; /* [n_replicates * stride] */
+    double *error;     /* [stride] */
+    bool varies;
+    char words[256], lacks[256];
+} work;
+
+/* The centre, kept for the tables. */
+typedef struct centre {
+    wt_energy_source source;
+    wt_layer_parameters parameters;
+    wt_layer_balance balance;
+    wt_layer_point *points; /* [n] */
+    char statement[256];
+} centre;
+
+wt_layer_job wt_layer_job_defaults(void)
+{
+    return (wt_layer_job){
+        .critical_energy = {(double)NAN, 0, 0, "J/m^3"},
+        .observed_thickness = {(double)NAN, 0, 0, "m"},
+        .specific_wear_rate = {(double)NAN, 0, 0, "m^2/N"},
+        .damage = 1,
+        .duty = 1,
+        .incubation = true,
+        .profile = WT_PROFILE_PERSSON,
+    };
+}
+
+void wt_layer_tables_clear(wt_layer_tables *tables)
+{
+    if (tables == NULL)
+        return;
+    wt_table_free(tables->layer);
+    wt_table_free(tables->energy_density);
+    *tables = (wt_layer_tables){0};
+}
+
+static wt_status check(const wt_layer_job *job, wt_error *err)
+{
+    bool energy = !isnan(job->critical_energy.value);
+    bool observed = !isnan(job->observed_thickness.value);
+    if (energy == observed) {
+        wt_fail(err, energy ? WT_E_ARG : WT_E_MISSING,
+                energy ? "both a critical energy and an observed thickness are given"
+                       : "neither a critical energy nor an observed thickness is given");
+        wt_error_expected(err, "one of the two: the other follows from it");
+        return energy ? WT_E_ARG : WT_E_MISSING;
+    }
+    if (!(job->specific_wear_rate.value >= 0)) {
+        wt_fail(err, WT_E_MISSING, "the specific wear rate is not known");
+        wt_error_advice(err, "give it with its unit, for example 1e-3mm^3/(N m)");
+        return WT_E_MISSING;
+    }
+    if (observed && !(job->specific_wear_rate.value > 0))
+        return wt_fail(err, WT_E_RANGE,
+                       "an observed thickness calibrates the critical energy only against wear: "
+                       "the specific wear rate must be positive");
+    return WT_OK;
+}
+
+/* U_c that makes the observed thickness the balance of this source: Qf(d) = Qw (theory B3), for any
+ * depth profile. The duty cancels. */
+static double calibrate(const wt_energy_source *source, const wt_layer_parameters *p,
+                        double thickness)
+{
+    return wt_energy_tail(source, thickness) /
+           (p->damage * p->specific_wear_rate * p->pressure * p->velocity);
+}
+
+static wt_status source_and_parameters(const work *w, size_t replicate, wt_energy_source *source,
+                                       wt_layer_parameters *parameters, char statement[256],
+                                       wt_error *err)
+{
+    const wt_layer_state none = {0, 1};
+    const wt_layer_job *job = w->job;
+    uint64_t seed = w->common->seed;
+    flow_conditions c = {0};
+    double tolerance = replicate == FLOW_CENTRE ? w->common->tolerance : FLOW_REPLICATE_TOLERANCE;
+    wt_status status =
+        flow_conditions_make(w->sliding, seed, replicate, tolerance, 1, none, &c, err);
+    if (status == WT_OK)
+        status = wt_energy_source_friction(c.workspace, c.pressure, w->velocity, source, err);
+    if (status != WT_OK)
+        goto done;
+    source->profile = job->profile;
+    source->local_friction = job->local_friction;
+    *parameters = wt_layer_defaults();
+    parameters->damage = job->damage;
+    parameters->duty = job->duty;
+    parameters->start_thickness = job->start_thickness;
+    parameters->incubation = job->incubation;
+    parameters->pressure = c.pressure;
+    parameters->velocity = w->velocity;
+    parameters->specific_wear_rate =
+        flow_draw_positive(job->specific_wear_rate, seed, replicate, FLOW_DRAW_WEAR);
+    parameters->critical_energy =
+        isnan(job->critical_energy.value)
+            ? calibrate(
+                  source, parameters,
+                  flow_draw_positive(job->observed_thickness, seed, replicate, FLOW_DRAW_OBSERVED))
+            : flow_draw_positive(job->critical_energy, seed, replicate, FLOW_DRAW_CRITICAL_ENERGY);
+    if (statement != NULL)
+        memcpy(statement, c.statement, sizeof c.statement);
+done:
+    flow_conditions_clear(&c);
+    return status;
+}
+
+static void put_numbers(const wt_layer_balance *b, const wt_layer_parameters *p, double *out)
+{
+    out[THICKNESS] = b->thickness.value;
+    out[RATIO] = b->ratio;
+    out[INCUBATION] = b->incubation_time;
+    out[RELAXATION] = b->relaxation_time;
+    out[CRITICAL_WEAR] = b->critical_specific_wear_rate;
+    out[REMOVAL] = b->removal_time;
+    out[ENERGY] = p->critical_energy;
+    out[SURFACE_POWER] = b->surface_power;
+}
+
+/* When a growing layer gets to a thickness, between the times of its history; NaN if outside them.
+ * The relaxation time is no such time: the slowest waves of the roughness decide how the layer with
+ * its damage beneath settles. */
+static double time_to_share(const wt_layer_point *points, size_t n, double thickness)
+{
+    if (!(thickness > 0) || !isfinite(thickness))
+        return (double)NAN;
+    for (size_t i = 1; i < n; i++) {
+        double before = points[i - 1].thickness.value, after = points[i].thickness.value;
+        if (!(points[i - 1].time > 0) || !(before < thickness) || !(after >= thickness))
+            continue;
+        double share = (thickness - before) / (after - before);
+        return points[i - 1].time * pow(points[i].time / points[i - 1].time, share);
+    }
+    return (double)NAN;
+}
+
+/* ---- times ------------------------------------------------------------------------------------
+ */
+
+#define TIMES 61
+
+/* From well before the first change to well after the last one. */
+static wt_status choose_times(work *w, const wt_layer_balance *b, wt_error *err)
+{
+    w->n = w->job->time != NULL ? w->job->n_time : TIMES;
+    w->time = malloc((w->n > 0 ? w->n : 1) * sizeof *w->time);
+    if (w->time == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    if (w->job->time != NULL) {
+        memcpy(w->time, w->job->time, w->n * sizeof *w->time);
+        return WT_OK;
+    }
+    double first = b->incubation_time, last = b->relaxation_time;
+    if (!(first > 0) || !isfinite(first))
+        first = isfinite(last) && last > 0 ? last / 1000 : 1;
+    if (!(last > 0) || !isfinite(last))
+        last = 1e6 * first;
+    first /= 2;
+    last = fmax(100 * last, 100 * first);
+    for (size_t i = 0; i < w->n; i++)
+        w->time[i] = first * pow(last / first, (double)i / (double)(w->n - 1));
+    return WT_OK;
+}
+
+/* ---- replicates -------------------------------------------------------------------------------
+ */
+
+static wt_status one_replicate(void *user, size_t i, unsigned worker)
+{
+    (void)worker;
+    work *w = user;
+    double *out = w->replicate + i * w->stride;
+    wt_energy_source source = {0};
+    wt_layer_parameters parameters;
+    wt_layer_balance balance;
+    wt_error ignored = WT_ERROR_INIT;
+    wt_layer_point *points = malloc((w->n > 0 ? w->n : 1) * sizeof *points);
+    if (points == NULL)
+        return WT_E_MEMORY;
+    wt_status status = source_and_parameters(w, i, &source, &parameters, NULL, &ignored);
+    if (status == WT_OK)
+        status = wt_layer_balance_compute(&source, &parameters, &balance, &ignored);
+    if (status == WT_OK)
+        status = wt_layer_history(&source, &parameters, w->time, w->n, points, &ignored);
+    if (status == WT_OK) {
+        put_numbers(&balance, &parameters, out);
+        out[NINETY] = time_to_share(points, w->n, 0.9 * balance.thickness.value);
+        for (size_t k = 0; k < w->n; k++)
+            out[N_NUMBERS + k] = points[k].thickness.value;
+    } else {
+        for (size_t k = 0; k < w->stride; k++)
+            out[k] = (double)NAN;
+    }
+    wt_energy_source_clear(&source);
+    free(points);
+    return status == WT_E_MEMORY ? status : WT_OK;
+}
+
+static wt_status replicate_all(work *w, wt_error *err)
+{
+    for (size_t k = 0; k < w->stride; k++)
+        w->error[k] = (double)NAN;
+    if (!w->varies)
+        return WT_OK;
+    wt_status status = wt_parallel_for(w->n_replicates, w->common->threads, one_replicate, w,
+                                       &w->common->progress, "layer replicates");
+    if (status != WT_OK)
+        return wt_fail(err, status, "the replicates of the layer failed");
+    size_t without = 0, lost = 0;
+    for (size_t i = 0; i < w->n_replicates; i++) {
+        double thickness = w->replicate[i * w->stride + THICKNESS];
+        lost += isnan(thickness) != 0;
+        without += thickness <= 0;
+    }
+    if (lost > 0)
+        wt_parselog_add(w->common->log, WT_WARNING, NULL, NULL,
+                        "%zu of %zu replicates of the layer have no solution and are left out of "
+                        "the standard errors",
+                        lost, w->n_replicates);
+    if (without > 0 && without + lost < w->n_replicates)
+        wt_parselog_add(w->common->log, WT_WARNING, NULL, NULL,
+                        "within the stated errors the layer may be there or not: %zu of %zu "
+                        "replicates have none",
+                        without, w->n_replicates - lost);
+    for (size_t k = 0; k < w->stride; k++)
+        w->error[k] = flow_spread(w->replicate + k, w->n_replicates, w->stride);
+    return WT_OK;
+}
+
+/* ---- tables -----------------------------------------------------------------------------------
+ */
+
+static const char *regime_name(wt_layer_regime regime)
+{
+    static const char *const names[] = {"none", "thin", "thick"};
+    return names[regime];
+}
+
+static wt_status set_numbers(const work *w, const centre *c, wt_table *table, wt_error *err)
+{
+    static const struct {
+        int index;
+        const char *key, *unit;
+    } keys[] = {
+        {RATIO, "formation_wear_ratio", "1"},
+        {INCUBATION, "incubation_time", "s"},
+        {RELAXATION, "relaxation_time", "s"},
+        {CRITICAL_WEAR, "critical_specific_wear_rate", "m^2/N"},
+        {REMOVAL, "removal_time", "s"},
+        {ENERGY, "critical_energy", "J/m^3"},
+        {SURFACE_POWER, "surface_power", "W/m^2"},
+        {NINETY, "time_to_90_percent", "s"},
+    };
+    double value[N_NUMBERS];
+    put_numbers(&c->balance, &c->parameters, value);
+    value[NINETY] = time_to_share(c->points, w->n, 0.9 * c->balance.thickness.value);
+    wt_status status =
+        flow_table_value(table, "balance_thickness", value[THICKNESS], w->error[THICKNESS],
+                         c->balance.thickness.numerical_error, "m", err);
+    /* d ln thickness / d ln k = -Qw / (thickness |dQf/dz|): the balance is where Qf(z) = Qw */
+    double sensitivity =
+        -c->balance.wear_rate * c->balance.relaxation_time / c->balance.thickness.value;
+    if (status == WT_OK && isfinite(sensitivity))
+        status = flow_table_value(table, "wear_sensitivity", sensitivity, (double)NAN, 0, "1", err);
+    for (size_t i = 0; status == WT_OK && i < FLOW_COUNT(keys); i++)
+        status = flow_table_value(table, keys[i].key, value[keys[i].index], w->error[keys[i].index],
+                                  0, keys[i].unit, err);
+    return status;
+}
+
+static wt_status set_keys(const work *w, const centre *c, wt_table *table, wt_error *err)
+{
+    const wt_layer_job *job = w->job;
+    wt_status status = set_numbers(w, c, table, err);
+    if (status == WT_OK)
+        status = wt_table_set_key(table, "regime", regime_name(c->balance.regime), err);
+    if (status == WT_OK)
+        status = flow_table_value(table, "velocity", w->velocity, 0, 0, "m/s", err);
+    if (status == WT_OK)
+        status = wt_table_set_estimate(table, "pressure", w->sliding->pressure, err);
+    if (status == WT_OK)
+        status = wt_table_set_estimate(table, "specific_wear_rate", job->specific_wear_rate, err);
+    if (status == WT_OK && !isnan(job->observed_thickness.value))
+        status = wt_table_set_estimate(table, "observed_thickness", job->observed_thickness, err);
+    if (status == WT_OK)
+        status = wt_table_set_key(table, "critical_energy_from",
+                                  isnan(job->critical_energy.value)
+                                      ? "calibrated: makes the observed thickness the balance"
+                                      : "given",
+                                  err);
+    if (status == WT_OK)
+        status = flow_table_key(table, err, "damage", "%g", job->damage);
+    if (status == WT_OK)
+        status = flow_table_key(table, err, "duty", "%g", job->duty);
+    if (status == WT_OK)
+        status = wt_table_set_key(
+            table, "standard_error_includes",
+            w->varies ? w->words : "nothing, for no error was measured or stated", err);
+    if (status == WT_OK && w->lacks[0] != '\0')
+        status = wt_table_set_key(table, "standard_error_lacks", w->lacks, err);
+    if (status == WT_OK && c->statement[0] != '\0')
+        status = wt_table_set_key(table, "material_statement", c->statement, err);
+    return status;
+}
+
+static wt_status layer_table(const work *w, const centre *c, wt_table **out, wt_error *err)
+{
+    static const flow_column columns[] = {
+        {"time", "s", "time since the start"},
+        {"thickness", "m", "thickness of the modified layer"},
+        {"thickness_standard_error", "m", "its standard error"},
+        {"thickness_numerical_error", "m", "its numerical error"},
+        {"formation_rate", "m/s", "rate of formation at this thickness"},
+        {"wear_rate", "m/s", "rate of wear"},
+    };
+    wt_table *table = NULL;
+    wt_status status = flow_table_new("layer", "Thickness of the modified layer", columns,
+                                      FLOW_COUNT(columns), &table, err);
+    for (size_t i = 0; status == WT_OK && i < w->n; i++) {
+        status = wt_table_add_row(table, err);
+        if (status != WT_OK)
+            break;
+        const double row[] = {c->points[i].time,           c->points[i].thickness.value,
+                              w->error[N_NUMBERS + i],     c->points[i].thickness.numerical_error,
+                              c->points[i].formation_rate, c->points[i].wear_rate};
+        for (size_t k = 0; k < FLOW_COUNT(row); k++)
+            wt_table_put(table, k, row[k]);
+    }
+    if (status == WT_OK)
+        status = set_keys(w, c, table, err);
+    if (status != WT_OK) {
+        wt_table_free(table);
+        return status;
+    }
+    *out = table;
+    return WT_OK;
+}
+
+#define DEPTHS 121
+
+static wt_status energy_table(const work *w, const wt_energy_source *source, wt_table **out,
+                              wt_error *err)
+{
+    static const flow_column columns[] = {
+        {"depth", "m", "depth below the surface"},
+        {"energy_density", "W/m^3", "power dissipated per volume"},
+    };
+    wt_table *table = NULL;
+    double q_min = source->wavenumber[0], q_max = source->wavenumber[0];
+    for (size_t i = 1; i < source->n; i++) {
+        q_min = fmin(q_min, source->wavenumber[i]);
+        q_max = fmax(q_max, source->wavenumber[i]);
+    }
+    /* from a tenth of the shortest wave to where the longest one has died out */
+    double first = 0.1 / q_max, last = 3 / q_min;
+    wt_status status = flow_table_new("energy_density", "Energy density with depth", columns,
+                                      FLOW_COUNT(columns), &table, err);
+    for (size_t i = 0; status == WT_OK && i < DEPTHS; i++) {
+        double depth = first * pow(last / first, (double)i / (DEPTHS - 1));
+        status = wt_table_add_row(table, err);
+        if (status != WT_OK)
+            break;
+        wt_table_put(table, 0, depth);
+        wt_table_put(table, 1, wt_energy_density(source, depth));
+    }
+    if (status == WT_OK)
+        status = flow_table_value(table, "velocity", w->velocity, 0, 0, "m/s", err);
+    if (status != WT_OK) {
+        wt_table_free(table);
+        return status;
+    }
+    *out = table;
+    return WT_OK;
+}
+
+/* ---- the job ----------------------------------------------------------------------------------
+ */
+
+static void find_words(work *w)
+{
+    const wt_layer_job *job = w->job;
+    w->varies = flow_conditions_vary(w->sliding, w->common, w->words, sizeof w->words);
+    const struct {
+        double error;
+        const char *what;
+    } stated[] = {
+        {job->specific_wear_rate.standard_error, "specific wear rate"},
+        {isnan(job->critical_energy.value) ? 0 : job->critical_energy.standard_error,
+         "critical energy"},
+        {isnan(job->observed_thickness.value) ? 0 : job->observed_thickness.standard_error,
+         "observed thickness"},
+    };
+    for (size_t i = 0; w->common->replicates > 1 && i < FLOW_COUNT(stated); i++) {
+        if (!(stated[i].error > 0))
+            continue;
+        flow_add_words(w->words, sizeof w->words, stated[i].what);
+        w->varies = true;
+    }
+    flow_conditions_lack(w->sliding, w->lacks, sizeof w->lacks);
+    if (!(job->specific_wear_rate.standard_error > 0))
+        flow_add_words(w->lacks, sizeof w->lacks, "specific wear rate");
+    if (!isnan(job->critical_energy.value) && !(job->critical_energy.standard_error > 0))
+        flow_add_words(w->lacks, sizeof w->lacks, "critical energy");
+    if (!isnan(job->observed_thickness.value) && !(job->observed_thickness.standard_error > 0))
+        flow_add_words(w->lacks, sizeof w->lacks, "observed thickness");
+}
+
+static wt_status allocate(work *w, centre *c, wt_error *err)
+{
+    w->stride = N_NUMBERS + w->n;
+    w->error = malloc(w->stride * sizeof *w->error);
+    w->replicate = calloc(w->varies ? w->n_replicates : 1, w->stride * sizeof *w->replicate);
+    c->points = malloc((w->n > 0 ? w->n : 1) * sizeof *c->points);
+    if (w->error == NULL || w->replicate == NULL || c->points == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    return WT_OK;
+}
+
+wt_status wt_layer_make(const wt_sliding *sliding, const wt_layer_job *job, const wt_job *common,
+                        wt_layer_tables *tables, wt_error *err)
+{
+    if (job == NULL || common == NULL || tables == NULL)
+        return wt_fail(err, WT_E_ARG, "no layer job");
+    wt_status status = flow_sliding_check(sliding, err);
+    if (status == WT_OK)
+        status = check(job, err);
+    if (status != WT_OK)
+        return status;
+    work w = {.sliding = sliding,
+              .job = job,
+              .common = common,
+              .velocity = flow_reference_velocity(sliding),
+              .n_replicates = common->replicates};
+    centre c = {0};
+    wt_layer_tables t = {0};
+    find_words(&w);
+    status = source_and_parameters(&w, FLOW_CENTRE, &c.source, &c.parameters, c.statement, err);
+    if (status == WT_OK)
+        status = wt_layer_balance_compute(&c.source, &c.parameters, &c.balance, err);
+    if (status == WT_OK)
+        status = choose_times(&w, &c.balance, err);
+    if (status == WT_OK)
+        status = allocate(&w, &c, err);
+    if (status == WT_OK)
+        status = wt_layer_history(&c.source, &c.parameters, w.time, w.n, c.points, err);
+    if (status == WT_OK)
+        status = replicate_all(&w, err);
+    if (status == WT_OK)
+        status = layer_table(&w, &c, &t.layer, err);
+    if (status == WT_OK)
+        status = energy_table(&w, &c.source, &t.energy_density, err);
+    if (status == WT_OK) {
+        t.balance = c.balance;
+        t.thickness = c.balance.thickness;
+        t.thickness.standard_error = w.error[THICKNESS];
+        t.balance.thickness = t.thickness;
+        *tables = t;
+        t = (wt_layer_tables){0};
+    }
+    wt_energy_source_clear(&c.source);
+    wt_layer_tables_clear(&t);
+    free(c.points);
+    free(w.time);
+    free(w.error);
+    free(w.replicate);
+    return status;
+}

@@ -1,0 +1,258 @@
+/* The counter surface: a self-affine law or a measured spectrum, with its stated error.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/job/inputs.h"
+#include "flow/job/tables.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define PREFIX "self-affine:"
+
+void wt_surface_clear(wt_surface *surface)
+{
+    if (surface == NULL)
+        return;
+    wt_power_spectrum_clear(&surface->spectrum);
+    *surface = (wt_surface){0};
+}
+
+/* ---- from text --------------------------------------------------------------------------------
+ */
+
+static wt_status spelling(wt_error *err)
+{
+    wt_error_expected(err, "%sq0=1e3rad/m,qr=5e3rad/m,q1=1e7rad/m,hurst=0.8,c0=1e-17m^4", PREFIX);
+    return WT_E_ARG;
+}
+
+/* One NAME=VALUE of the text. */
+static wt_status set_parameter(wt_surface *surface, char *text, unsigned *seen, wt_error *err)
+{
+    static const struct {
+        const char *name;
+        wt_quantity quantity;
+    } parameters[] = {
+        {"q0", WT_Q_WAVENUMBER}, {"qr", WT_Q_WAVENUMBER},        {"q1", WT_Q_WAVENUMBER},
+        {"hurst", WT_Q_NONE},    {"c0", WT_Q_POWER_SPECTRUM_2D},
+    };
+    char *value = strchr(text, '=');
+    if (value == NULL) {
+        wt_fail(err, WT_E_ARG, "\"%s\" is not NAME=VALUE", text);
+        return spelling(err);
+    }
+    *value++ = '\0';
+    for (unsigned i = 0; i < FLOW_COUNT(parameters); i++) {
+        if (strcmp(text, parameters[i].name) != 0)
+            continue;
+        wt_estimate e = {0};
+        wt_status status = wt_estimate_parse(value, parameters[i].quantity, &e, err);
+        if (status != WT_OK) {
+            wt_error_place(err, "roughness, %s", text);
+            return status;
+        }
+        if (i < 4 && e.standard_error > 0)
+            return wt_fail(err, WT_E_ARG, "only c0 takes a stated error, not %s", text);
+        double *const plain[] = {&surface->q0, &surface->qr, &surface->q1, &surface->hurst};
+        if (i < 4)
+            *plain[i] = e.value;
+        else
+            surface->c0 = e;
+        *seen |= 1u << i;
+        return WT_OK;
+    }
+    wt_fail(err, WT_E_ARG, "roughness has no parameter \"%s\"", text);
+    return spelling(err);
+}
+
+static wt_status parse_self_affine(const char *text, wt_surface *surface, wt_error *err)
+{
+    char *copy = strdup(text), *rest = NULL;
+    if (copy == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    unsigned seen = 0;
+    wt_status status = WT_OK;
+    surface->self_affine = true;
+    for (char *item = strtok_r(copy, ",", &rest); status == WT_OK && item != NULL;
+         item = strtok_r(NULL, ",", &rest))
+        status = set_parameter(surface, item, &seen, err);
+    if (status == WT_OK && (seen & 2u) == 0)
+        surface->qr = surface->q0; /* no roll-off */
+    if (status == WT_OK && (seen | 2u) != 31u) {
+        wt_fail(err, WT_E_MISSING, "the self-affine law is not complete");
+        wt_error_found(err, "\"%s\"", text);
+        (void)spelling(err);
+        status = WT_E_MISSING;
+    }
+    free(copy);
+    return status;
+}
+
+wt_status flow_surface_read(const flow_file *file, const wt_job *common, wt_surface *surface,
+                            wt_error *err)
+{
+    wt_input *input = NULL;
+    wt_status status = flow_open(common, file, "roughness", WT_KIND_SPECTRUM, &input, NULL, err);
+    if (status == WT_OK)
+        status = wt_power_spectrum_read(common->formats, input, &file->set->read, common->log,
+                                        &surface->spectrum, err);
+    wt_input_close(input);
+    if (status == WT_OK && surface->spectrum.kind != WT_SPECTRUM_2D) {
+        status = wt_fail(err, WT_E_UNIT, "the spectrum is that of a line (m^3)");
+        wt_error_file(err, file->name);
+        wt_error_expected(err, "a two-dimensional spectrum C(q) in m^4");
+    }
+    surface->q0 = surface->q1 = (double)NAN;
+    surface->c0 = (wt_estimate){1, 0, 0, "1"};
+    return status;
+}
+
+static wt_status read_spectrum(const char *path, const wt_read_options *read, const wt_job *common,
+                               wt_surface *surface, wt_error *err)
+{
+    char *own = strdup(path);
+    if (own == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    const wt_file_set set = {.read = read != NULL ? *read : wt_read_defaults()};
+    const flow_file file = {own, own, &set};
+    wt_status status = flow_surface_read(&file, common, surface, err);
+    free(own);
+    return status;
+}
+
+wt_status wt_surface_open(const char *text, const wt_read_options *read, const wt_job *common,
+                          wt_surface *surface, wt_error *err)
+{
+    if (text == NULL || surface == NULL || common == NULL)
+        return wt_fail(err, WT_E_ARG, "no roughness");
+    wt_surface s = {0};
+    wt_roughness *law = NULL;
+    wt_status status = strncmp(text, PREFIX, strlen(PREFIX)) == 0
+                           ? parse_self_affine(text + strlen(PREFIX), &s, err)
+                           : read_spectrum(text, read, common, &s, err);
+    if (status == WT_OK)
+        status = wt_surface_roughness(&s, 1, &law, err); /* checks the numbers */
+    wt_roughness_free(law);
+    if (status != WT_OK) {
+        wt_surface_clear(&s);
+        return status;
+    }
+    *surface = s;
+    return WT_OK;
+}
+
+/* ---- the law ----------------------------------------------------------------------------------
+ */
+
+/* The measured densities from q0 to q1, the ends interpolated in log-log. */
+static wt_status spectrum_roughness(const wt_surface *surface, double factor,
+                                    wt_roughness **roughness, wt_error *err)
+{
+    const wt_power_spectrum *s = &surface->spectrum;
+    if (s->n < 2)
+        return wt_fail(err, WT_E_EMPTY, "a spectrum needs two points or more");
+    double q0 = isnan(surface->q0) ? s->wavenumber[0] : surface->q0;
+    double q1 = isnan(surface->q1) ? s->wavenumber[s->n - 1] : surface->q1;
+    if (!(q0 >= s->wavenumber[0]) || !(q1 <= s->wavenumber[s->n - 1]) || !(q0 < q1)) {
+        wt_fail(err, WT_E_RANGE, "the cut-offs lie outside the spectrum");
+        wt_error_expected(err, "%g <= q0 < q1 <= %g rad/m", s->wavenumber[0],
+                          s->wavenumber[s->n - 1]);
+        wt_error_found(err, "q0 = %g, q1 = %g rad/m", q0, q1);
+        return WT_E_RANGE;
+    }
+    double *q = malloc(2 * (s->n + 2) * sizeof *q);
+    if (q == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    double *c = q + s->n + 2;
+    size_t n = 0;
+    for (size_t i = 0; i < s->n; i++) {
+        double ends[2] = {q0, q1};
+        for (int e = 0; e < 2; e++) {
+            if (i == 0 || !(ends[e] > s->wavenumber[i - 1]) || !(ends[e] < s->wavenumber[i]))
+                continue;
+            double t =
+                log(ends[e] / s->wavenumber[i - 1]) / log(s->wavenumber[i] / s->wavenumber[i - 1]);
+            q[n] = ends[e];
+            c[n++] = factor * exp((1 - t) * log(s->density[i - 1]) + t * log(s->density[i]));
+        }
+        if (s->wavenumber[i] < q0 || s->wavenumber[i] > q1)
+            continue;
+        q[n] = s->wavenumber[i];
+        c[n++] = factor * s->density[i];
+    }
+    wt_status status = wt_roughness_table(q, c, n, roughness, err);
+    free(q);
+    return status;
+}
+
+wt_status wt_surface_roughness(const wt_surface *surface, double factor, wt_roughness **roughness,
+                               wt_error *err)
+{
+    if (surface == NULL || roughness == NULL || !(factor > 0) || !isfinite(factor))
+        return wt_fail(err, WT_E_ARG, "no surface, or a factor that is not positive");
+    if (surface->self_affine)
+        return wt_roughness_self_affine(surface->q0, surface->qr, surface->q1, surface->hurst,
+                                        factor * surface->c0.value, roughness, err);
+    return spectrum_roughness(surface, factor, roughness, err);
+}
+
+/* ---- the table --------------------------------------------------------------------------------
+ */
+
+#define POINTS_PER_DECADE 20
+
+static wt_status add_point(wt_table *table, const wt_roughness *roughness, double q, wt_error *err)
+{
+    double density = (double)NAN;
+    wt_status status = wt_table_add_row(table, err);
+    if (status != WT_OK)
+        return status;
+    roughness->law->density(roughness, &q, 1, &density);
+    wt_table_put(table, 0, q);
+    wt_table_put(table, 1, density);
+    return WT_OK;
+}
+
+wt_status wt_surface_table(const wt_surface *surface, wt_table **result, wt_error *err)
+{
+    static const flow_column columns[] = {
+        {"wavenumber", "rad/m", "wavenumber"},
+        {"density", "m^4", "two-dimensional power spectrum C(q)"},
+    };
+    wt_roughness *roughness = NULL;
+    wt_table *table = NULL;
+    wt_status status = wt_surface_roughness(surface, 1, &roughness, err);
+    if (status == WT_OK)
+        status = flow_table_new("roughness", "Power spectrum of the counter surface", columns,
+                                FLOW_COUNT(columns), &table, err);
+    if (status != WT_OK)
+        goto done;
+    double decades = log10(roughness->q1 / roughness->q0);
+    size_t n = 2 + (size_t)ceil(decades * POINTS_PER_DECADE);
+    for (size_t i = 0; status == WT_OK && i < n; i++) {
+        double q = i + 1 == n ? roughness->q1
+                              : roughness->q0 * pow(10, decades * (double)i / (double)(n - 1));
+        status = add_point(table, roughness, q, err);
+    }
+    /* rms height goes with the square root of C, so its relative error is half */
+    double share = surface->c0.standard_error / surface->c0.value / 2;
+    double height = wt_roughness_rms_height(roughness), slope = wt_roughness_rms_slope(roughness);
+    if (status == WT_OK)
+        status = flow_table_value(table, "rms_height", height, share * height, 0, "m", err);
+    if (status == WT_OK)
+        status = flow_table_value(table, "rms_slope", slope, share * slope, 0, "1", err);
+    if (status == WT_OK && surface->self_affine)
+        status = flow_table_key(table, err, "hurst", "%g", surface->hurst);
+    if (status == WT_OK && surface->self_affine)
+        status = wt_table_set_estimate(table, "c0", surface->c0, err);
+    if (status == WT_OK && surface->self_affine)
+        status = flow_table_value(table, "roll_off", surface->qr, 0, 0, "rad/m", err);
+done:
+    wt_roughness_free(roughness);
+    if (status != WT_OK) {
+        wt_table_free(table);
+        return status;
+    }
+    *result = table;
+    return WT_OK;
+}

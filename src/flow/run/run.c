@@ -1,0 +1,304 @@
+/* Running a case: the stages of the plan in order, their cost, what failed, the tables.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/answer/answer.h"
+#include "flow/job/inputs.h"
+#include "flow/job/tables.h"
+
+#include <math.h>
+#include <string.h>
+
+wt_run_options wt_run_defaults(void)
+{
+    return (wt_run_options){.seed = wt_job_defaults().seed,
+                            .replicates = wt_job_defaults().replicates};
+}
+
+/* One run with what it reports. */
+typedef struct conduct {
+    flow_run run;
+    bool no_timing;
+    flow_outcome outcome[FLOW_MAX_STAGES];
+    flow_things have;
+    wt_formats *formats;
+    wt_parselog *own_log;
+    wt_result *result;
+    wt_table *failures, *cost;
+} conduct;
+
+/* ---- one stage --------------------------------------------------------------------------------
+ */
+
+/* Whether a stage that was not chosen must stand in for a fuller one that did not succeed. */
+static bool stands_in(const conduct *d, size_t i)
+{
+    const flow_plan *plan = &d->run.plan;
+    flow_things lacking = flow_stages[i].gives & plan->required & ~d->have;
+    if (plan->chosen[i] || lacking == 0 || (flow_stages[i].needs & ~d->have) != 0)
+        return false;
+    for (size_t k = 0; k < i; k++)
+        if ((d->outcome[k] == FLOW_FAILED || d->outcome[k] == FLOW_BLOCKED) &&
+            (flow_stages[k].gives & lacking) != 0)
+            return true;
+    return false;
+}
+
+static wt_status cost_row(conduct *d, size_t i, bool runs, const char *because, double wall,
+                          double cpu, const flow_cost *cost, wt_error *err)
+{
+    enum { STAGE, RUNS, BECAUSE, WALL, CPU, ITEMS, TOLERANCE, ERROR };
+    wt_status status = wt_table_add_row(d->cost, err);
+    if (status == WT_OK)
+        status = wt_table_put_text(d->cost, STAGE, flow_stages[i].id, err);
+    if (status == WT_OK)
+        status = wt_table_put_text(d->cost, BECAUSE, because, err);
+    if (status != WT_OK)
+        return status;
+    wt_table_put(d->cost, RUNS, runs);
+    wt_table_put(d->cost, WALL, d->no_timing ? (double)NAN : wall);
+    wt_table_put(d->cost, CPU, d->no_timing ? (double)NAN : cpu);
+    wt_table_put(d->cost, ITEMS, cost->items);
+    wt_table_put(d->cost, TOLERANCE, cost->tolerance_asked);
+    wt_table_put(d->cost, ERROR, cost->error_estimated);
+    return WT_OK;
+}
+
+static wt_status report_progress(const conduct *d, const char *what, wt_error *err)
+{
+    const wt_progress *progress = &d->run.job.progress;
+    if (progress->report != NULL && !progress->report(progress->user, what, 0, 0))
+        return wt_fail(err, WT_E_CANCELLED, "cancelled");
+    return WT_OK;
+}
+
+static wt_status run_stage(conduct *d, size_t i, const char *because, wt_error *err)
+{
+    flow_cost cost = {(double)NAN, (double)NAN, (double)NAN};
+    wt_error failure = WT_ERROR_INIT;
+    wt_status status = report_progress(d, flow_stages[i].title, err);
+    if (status != WT_OK)
+        return status;
+    double wall = wt_time_wall(), cpu = wt_time_cpu();
+    status = flow_stages[i].run(&d->run, &cost, &failure);
+    wall = wt_time_wall() - wall;
+    cpu = wt_time_cpu() - cpu;
+    if (status == WT_E_MEMORY || status == WT_E_CANCELLED || status == WT_E_INTERNAL) {
+        if (err != NULL)
+            *err = failure;
+        return status;
+    }
+    if (status == WT_OK) {
+        d->outcome[i] = FLOW_DONE;
+        d->have |= flow_stages[i].gives;
+        return cost_row(d, i, true, because, wall, cpu, &cost, err);
+    }
+    char text[256], stage[96], message[2048];
+    d->outcome[i] = FLOW_FAILED;
+    wt_error_format(&failure, message, sizeof message);
+    snprintf(stage, sizeof stage, "stage %s", flow_stages[i].id);
+    snprintf(text, sizeof text, "%s, and failed", because);
+    status = wt_table_add_row(d->failures, err);
+    if (status == WT_OK)
+        status = wt_table_put_text(d->failures, 0, stage, err);
+    if (status == WT_OK)
+        status = wt_table_put_text(d->failures, 1, message, err);
+    return status == WT_OK ? cost_row(d, i, true, text, wall, cpu, &cost, err) : status;
+}
+
+static wt_status consider_stage(conduct *d, size_t i, wt_error *err)
+{
+    const flow_plan *plan = &d->run.plan;
+    const flow_cost none = {0, (double)NAN, (double)NAN};
+    char missing[160], because[256];
+    if (stands_in(d, i))
+        return run_stage(d, i, "runs because the stage that gives more did not succeed", err);
+    if (!plan->chosen[i])
+        return cost_row(d, i, false, plan->because[i], 0, 0, &none, err);
+    if ((flow_stages[i].needs & ~d->have) == 0)
+        return run_stage(d, i, plan->because[i], err);
+    d->outcome[i] = FLOW_BLOCKED;
+    flow_things_list(flow_stages[i].needs & ~d->have, missing, sizeof missing);
+    snprintf(because, sizeof because, "left out because a stage before failed to give its %s",
+             missing);
+    return cost_row(d, i, false, because, 0, 0, &none, err);
+}
+
+/* ---- tables -----------------------------------------------------------------------------------
+ */
+
+/* Moves a table into the result. */
+static wt_status publish(conduct *d, wt_table **table, wt_error *err)
+{
+    if (*table == NULL)
+        return WT_OK;
+    wt_table *taken = *table;
+    *table = NULL;
+    return wt_result_add(d->result, taken, err);
+}
+
+/* The tables of the stages; what nobody asked for stays out. */
+static wt_status publish_stages(conduct *d, wt_error *err)
+{
+    flow_run *r = &d->run;
+    flow_things curves = FLOW_BIT(FLOW_CURVE_BULK) | FLOW_BIT(FLOW_CURVE_TRACK);
+    const struct {
+        wt_table **table;
+        flow_things thing;
+    } tables[] = {
+        {&r->indentation[0], FLOW_BIT(FLOW_INDENTATION_BULK)},
+        {&r->indentation[1], FLOW_BIT(FLOW_INDENTATION_TRACK)},
+        {&r->curves.force_displacement, curves},
+        {&r->curves.force_indentation, curves},
+        {&r->compare.modulus_groups, FLOW_BIT(FLOW_MODULUS_GROUPS)},
+        {&r->compare.modulus_rate, FLOW_BIT(FLOW_MODULUS_RATE)},
+        {&r->compare.comparison, FLOW_BIT(FLOW_COMPARISON)},
+        {&r->dma_comparison, FLOW_BIT(FLOW_DMA_COMPARISON)},
+        {&r->master.shift_factors, FLOW_BIT(FLOW_SHIFT_FACTORS)},
+        {&r->master.master_curve, FLOW_BIT(FLOW_MASTER_CURVE)},
+        {&r->master.prony, FLOW_BIT(FLOW_PRONY)},
+        {&r->roughness, FLOW_BIT(FLOW_ROUGHNESS)},
+        {&r->friction.friction, FLOW_BIT(FLOW_FRICTION)},
+        {&r->friction.contact_area, FLOW_BIT(FLOW_CONTACT_AREA)},
+        {&r->layer.layer, FLOW_BIT(FLOW_LAYER)},
+        {&r->layer.energy_density, FLOW_BIT(FLOW_ENERGY_DENSITY)},
+    };
+    wt_status status = WT_OK;
+    for (size_t i = 0; status == WT_OK && i < FLOW_COUNT(tables); i++)
+        if ((tables[i].thing & r->plan.required) != 0)
+            status = publish(d, tables[i].table, err);
+    return status;
+}
+
+/* The same bytes under two names count twice in a statistic. */
+static void warn_of_copies(const conduct *d)
+{
+    const wt_provenance *p = wt_result_provenance_const(d->result);
+    size_t n = wt_provenance_n_inputs(p);
+    for (size_t i = 0; i < n; i++) {
+        const wt_provenance_input *a = wt_provenance_get_input(p, i);
+        for (size_t k = i + 1; k < n; k++) {
+            const wt_provenance_input *b = wt_provenance_get_input(p, k);
+            if (strcmp(a->sha256, b->sha256) == 0)
+                wt_parselog_add(d->run.job.log, WT_WARNING, b->path, NULL,
+                                "the same bytes as %s (%s and %s)", a->path, a->role, b->role);
+        }
+    }
+}
+
+static wt_status finish(conduct *d, wt_error *err)
+{
+    wt_table *answer = NULL, *inputs = NULL, *notes = NULL;
+    warn_of_copies(d);
+    wt_status status = publish_stages(d, err);
+    if (status == WT_OK) {
+        const flow_story story = {d->run.c,  &d->run.plan,   d->outcome,
+                                  d->result, d->run.job.log, d->failures};
+        status = flow_answer(&story, &answer, err);
+    }
+    if (status == WT_OK && wt_case_title(d->run.c)[0] != '\0') { /* the title of the page */
+        status = wt_table_set_key(answer, "case_title", wt_case_title(d->run.c), err);
+        if (status != WT_OK)
+            wt_table_free(answer);
+    }
+    if (status == WT_OK)
+        status = publish(d, &answer, err);
+    if (status == WT_OK)
+        status = wt_provenance_table(wt_result_provenance_const(d->result), "inputs", &inputs, err);
+    if (status == WT_OK)
+        status = publish(d, &inputs, err);
+    if (status == WT_OK)
+        status = flow_notes_table(d->run.job.log, d->run.c->folder, &notes, err);
+    if (status == WT_OK)
+        status = publish(d, &notes, err);
+    if (status == WT_OK)
+        status = publish(d, &d->failures, err);
+    if (status == WT_OK)
+        status = publish(d, &d->cost, err);
+    return status;
+}
+
+/* ---- the run ----------------------------------------------------------------------------------
+ */
+
+static wt_status add_case(conduct *d, wt_error *err)
+{
+    const wt_case *c = d->run.c;
+    wt_provenance_input input = {.path = wt_path_base(c->path),
+                                 .role = "case",
+                                 .format = "weartrack-case 1",
+                                 .bytes = c->xml_length};
+    wt_digest(c->xml, c->xml_length, input.sha256);
+    if (wt_provenance_add_input(d->run.job.provenance, &input) != WT_OK)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    return wt_result_set_case(d->result, c->xml, c->xml_length, err);
+}
+
+static wt_status prepare(conduct *d, const wt_run_options *options, wt_parselog *log, wt_error *err)
+{
+    static const flow_column columns[] = {
+        {"stage", NULL, "stage"},
+        {"runs", "1", "1: ran, 0: left out"},
+        {"because", NULL, "why"},
+        {"wall_time", "s", "elapsed time"},
+        {"cpu_time", "s", "processor time"},
+        {"items", "1", "curves, isotherms, points"},
+        {"tolerance_asked", "1", "relative numerical error asked for"},
+        {"error_estimated", "1", "largest relative numerical error estimated"},
+    };
+    if (log == NULL)
+        log = d->own_log = wt_parselog_new();
+    d->no_timing = options->no_timing;
+    d->result = wt_result_new();
+    d->failures = wt_failures_new();
+    if (log == NULL || d->result == NULL || d->failures == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    wt_status status = flow_table_new("cost", "Stages, their time and their numerical error",
+                                      columns, FLOW_COUNT(columns), &d->cost, err);
+    if (status == WT_OK)
+        status = wt_formats_new(options->formats, &d->formats, log, err);
+    d->run.job = (wt_job){
+        .formats = d->formats,
+        .threads = options->threads,
+        .tolerance = options->tolerance,
+        .seed = options->seed,
+        .replicates = options->replicates,
+        .progress = options->progress,
+        .log = log,
+        .provenance = wt_result_provenance(d->result),
+        .failures = d->failures,
+    };
+    return status == WT_OK ? add_case(d, err) : status;
+}
+
+wt_status wt_run(const wt_case *c, const wt_run_options *options, wt_parselog *log,
+                 wt_result **result, size_t *n_failed, wt_error *err)
+{
+    if (c == NULL || result == NULL)
+        return wt_fail(err, WT_E_ARG, "no case");
+    wt_run_options defaults = wt_run_defaults();
+    conduct d = {.run = {.c = c}};
+    wt_status status = prepare(&d, options != NULL ? options : &defaults, log, err);
+    if (status != WT_OK)
+        goto done;
+    flow_plan_make(c, &d.run.plan);
+    d.have = d.run.plan.sources;
+    for (size_t i = 0; status == WT_OK && i < flow_n_stages; i++)
+        status = consider_stage(&d, i, err);
+    if (status != WT_OK)
+        goto done;
+    size_t failed = wt_table_n_rows(d.failures);
+    status = finish(&d, err);
+    if (status == WT_OK) {
+        *result = d.result;
+        d.result = NULL;
+        if (n_failed != NULL)
+            *n_failed = failed;
+    }
+done:
+    flow_run_clear(&d.run);
+    wt_formats_free(d.formats);
+    wt_result_free(d.result);
+    wt_table_free(d.failures);
+    wt_table_free(d.cost);
+    wt_parselog_free(d.own_log);
+    return status;
+}

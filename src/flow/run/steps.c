@@ -1,0 +1,285 @@
+/* The function of each stage: takes what the case and the stages before gave, runs one job.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/run/steps.h"
+#include "flow/job/inputs.h"
+#include "flow/job/tables.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+void flow_run_clear(flow_run *run)
+{
+    wt_table_free(run->indentation[0]);
+    wt_table_free(run->indentation[1]);
+    wt_indent_tables_clear(&run->curves);
+    wt_compare_tables_clear(&run->compare);
+    wt_table_free(run->dma_comparison);
+    wt_master_tables_clear(&run->master);
+    wt_rubber_clear(&run->rubber);
+    wt_surface_clear(&run->surface);
+    wt_table_free(run->roughness);
+    wt_layer_tables_clear(&run->layer);
+    wt_friction_tables_clear(&run->friction);
+    *run = (flow_run){0};
+}
+
+/* ---- from the case ----------------------------------------------------------------------------
+ */
+
+wt_master_job flow_case_master(const wt_case *c)
+{
+    return (wt_master_job){
+        .sets = c->dma.sets,
+        .n_sets = c->dma.n,
+        .shift = c->shift,
+        .prony = c->prony_options,
+    };
+}
+
+wt_status flow_case_rubber(const wt_case *c, wt_rubber *result, wt_error *err)
+{
+    wt_rubber rubber = {
+        .poisson_ratio = c->poisson_ratio,
+        .has_wlf = c->has_wlf,
+        .wlf = {c->shift.reference_temperature, c->c1, c->c2},
+        .c1_error = c->c1_error,
+        .c2_error = c->c2_error,
+        .temperature_min = (double)NAN,
+        .temperature_max = (double)NAN,
+    };
+    wt_status status = wt_prony_alloc(&rubber.prony, c->prony.n, err);
+    if (status != WT_OK)
+        return status;
+    rubber.prony.deformation = c->prony.deformation;
+    rubber.prony.reference_temperature = c->shift.reference_temperature;
+    rubber.prony.equilibrium_modulus = c->prony.equilibrium_modulus;
+    rubber.prony.frequency_min = c->prony.frequency_min;
+    rubber.prony.frequency_max = c->prony.frequency_max;
+    memcpy(rubber.prony.relaxation_time, c->prony.relaxation_time, c->prony.n * sizeof(double));
+    memcpy(rubber.prony.modulus, c->prony.modulus, c->prony.n * sizeof(double));
+    *result = rubber;
+    return WT_OK;
+}
+
+wt_status flow_case_surface(const wt_case *c, const wt_job *common, wt_surface *surface,
+                            wt_error *err)
+{
+    if (c->has_self_affine) {
+        *surface = c->self_affine;
+        return WT_OK;
+    }
+    const wt_file_set *set = &c->spectrum.sets[0];
+    char *path = wt_path_join(set->folder, set->patterns[0]);
+    if (path == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    wt_surface opened = {0};
+    wt_roughness *law = NULL;
+    const flow_file file = {path, set->patterns[0], set};
+    wt_status status = flow_surface_read(&file, common, &opened, err);
+    if (status == WT_OK) {
+        opened.q0 = c->spectrum_q0;
+        opened.q1 = c->spectrum_q1;
+        opened.c0.standard_error = c->spectrum_error;
+        status = wt_surface_roughness(&opened, 1, &law, err); /* checks the cut-offs */
+    }
+    wt_roughness_free(law);
+    if (status == WT_OK)
+        *surface = opened;
+    else
+        wt_surface_clear(&opened);
+    free(path);
+    return status;
+}
+
+wt_sliding flow_case_conditions(const wt_case *c, const wt_rubber *rubber,
+                                const wt_surface *surface)
+{
+    wt_sliding sliding = c->sliding;
+    sliding.rubber = rubber;
+    sliding.surface = surface;
+    if (isnan(sliding.reference_velocity))
+        sliding.reference_velocity = c->layer_velocity;
+    return sliding;
+}
+
+/* ---- indentation ------------------------------------------------------------------------------
+ */
+
+static wt_status indent(flow_run *run, int g, flow_cost *cost, wt_error *err)
+{
+    static const flow_thing curve[2] = {FLOW_CURVE_BULK, FLOW_CURVE_TRACK};
+    static const char *const names[2] = {"bulk", "track"};
+    const case_files *files = g == 0 ? &run->c->bulk : &run->c->track;
+    wt_indent_job job = wt_indent_job_defaults();
+    job.group = names[g];
+    job.sets = files->sets;
+    job.n_sets = files->n;
+    job.tip = run->c->tip;
+    job.options = run->c->indent;
+    job.spring_constant = files->spring_constant;
+    job.rates =
+        (run->plan.required & (FLOW_BIT(FLOW_MODULUS_RATE) | FLOW_BIT(FLOW_DMA_COMPARISON))) != 0;
+    job.curves = (run->plan.wanted & FLOW_BIT(curve[g])) != 0;
+    wt_status status = wt_indent_group(&job, &run->job, &run->curves, err);
+    run->indentation[g] = run->curves.indentation;
+    run->curves.indentation = NULL;
+    cost->items = (double)run->curves.n_curves;
+    return status;
+}
+
+wt_status flow_step_bulk(flow_run *run, flow_cost *cost, wt_error *err)
+{
+    return indent(run, 0, cost, err);
+}
+
+wt_status flow_step_track(flow_run *run, flow_cost *cost, wt_error *err)
+{
+    return indent(run, 1, cost, err);
+}
+
+/* ---- comparison -------------------------------------------------------------------------------
+ */
+
+static wt_status compare(flow_run *run, bool groups_only, flow_cost *cost, wt_error *err)
+{
+    wt_compare_job job = {
+        .bulk = run->indentation[0],
+        .track = run->indentation[1],
+        .temperature = run->c->indentation_temperature,
+        .rates = (run->plan.required & FLOW_BIT(FLOW_MODULUS_RATE)) != 0,
+        .groups_only = groups_only,
+    };
+    wt_compare_tables_clear(&run->compare);
+    wt_status status = wt_compare_groups(&job, &run->job, &run->compare, err);
+    if (status == WT_OK)
+        cost->items = (double)wt_table_n_rows(run->compare.modulus_groups);
+    return status;
+}
+
+wt_status flow_step_compare(flow_run *run, flow_cost *cost, wt_error *err)
+{
+    wt_status status = compare(run, false, cost, err);
+    if (status != WT_OK)
+        return status;
+    if (!wt_table_estimate(run->compare.comparison, "modulus_ratio", &run->modulus_ratio))
+        return wt_fail(err, WT_E_INTERNAL, "the comparison gave no modulus ratio");
+    run->modulus_ratio.unit = "1";
+    return WT_OK;
+}
+
+/* Of the groups there are. */
+wt_status flow_step_groups(flow_run *run, flow_cost *cost, wt_error *err)
+{
+    return compare(run, true, cost, err);
+}
+
+wt_status flow_step_dma_comparison(flow_run *run, flow_cost *cost, wt_error *err)
+{
+    wt_compare_tables tables = {0};
+    wt_compare_job job = {
+        .bulk = run->indentation[0],
+        .track = run->indentation[1],
+        .rubber = &run->rubber,
+        .temperature = run->c->indentation_temperature,
+        .rates = true,
+        .groups_only = true,
+    };
+    /* the warnings of the comparison itself have been given by its own stage */
+    wt_job quiet = run->job;
+    quiet.log = NULL;
+    wt_status status = wt_compare_groups(&job, &quiet, &tables, err);
+    if (status == WT_OK && tables.dma_comparison == NULL)
+        status =
+            wt_fail(err, WT_E_MISSING,
+                    "the curves tell no indentation rate, so no frequency corresponds to them");
+    if (status == WT_OK) {
+        run->dma_comparison = tables.dma_comparison;
+        tables.dma_comparison = NULL;
+        cost->items = (double)wt_table_n_rows(run->dma_comparison);
+    }
+    wt_compare_tables_clear(&tables);
+    return status;
+}
+
+wt_status flow_step_given_ratio(flow_run *run, flow_cost *cost, wt_error *err)
+{
+    (void)err;
+    run->modulus_ratio = run->c->modulus_ratio;
+    cost->items = 1;
+    return WT_OK;
+}
+
+/* ---- material ---------------------------------------------------------------------------------
+ */
+
+wt_status flow_step_master(flow_run *run, flow_cost *cost, wt_error *err)
+{
+    wt_master_job job = flow_case_master(run->c);
+    wt_status status =
+        wt_master_make(&job, run->c->poisson_ratio, &run->job, &run->master, &run->rubber, err);
+    cost->items = (double)run->master.n_isotherms;
+    return status;
+}
+
+wt_status flow_step_given_material(flow_run *run, flow_cost *cost, wt_error *err)
+{
+    cost->items = (double)run->c->prony.n;
+    return flow_case_rubber(run->c, &run->rubber, err);
+}
+
+/* ---- counter surface --------------------------------------------------------------------------
+ */
+
+wt_status flow_step_roughness(flow_run *run, flow_cost *cost, wt_error *err)
+{
+    wt_status status = flow_case_surface(run->c, &run->job, &run->surface, err);
+    if (status == WT_OK)
+        status = wt_surface_table(&run->surface, &run->roughness, err);
+    if (status == WT_OK)
+        cost->items = (double)wt_table_n_rows(run->roughness);
+    return status;
+}
+
+/* ---- friction and layer -----------------------------------------------------------------------
+ */
+
+wt_status flow_step_layer(flow_run *run, flow_cost *cost, wt_error *err)
+{
+    wt_sliding sliding = flow_case_conditions(run->c, &run->rubber, &run->surface);
+    if (!isnan(run->c->layer_velocity))
+        sliding.reference_velocity = run->c->layer_velocity;
+    wt_status status = wt_layer_make(&sliding, &run->c->layer, &run->job, &run->layer, err);
+    if (status != WT_OK)
+        return status;
+    cost->items = (double)wt_table_n_rows(run->layer.layer);
+    cost->tolerance_asked =
+        run->job.tolerance > 0 ? run->job.tolerance : wt_friction_defaults().tolerance;
+    if (run->layer.thickness.value > 0)
+        cost->error_estimated = run->layer.thickness.numerical_error / run->layer.thickness.value;
+    return WT_OK;
+}
+
+static wt_status friction(flow_run *run, const wt_layer_known *layer, flow_cost *cost,
+                          wt_error *err)
+{
+    wt_sliding sliding = flow_case_conditions(run->c, &run->rubber, &run->surface);
+    wt_status status = wt_friction_make(&sliding, layer, &run->job, &run->friction, err);
+    if (status != WT_OK)
+        return status;
+    cost->items = (double)run->friction.n_points;
+    cost->tolerance_asked = run->friction.tolerance_asked;
+    cost->error_estimated = run->friction.error_reached;
+    return WT_OK;
+}
+
+wt_status flow_step_friction_with_layer(flow_run *run, flow_cost *cost, wt_error *err)
+{
+    wt_layer_known layer = {run->layer.thickness, run->modulus_ratio};
+    return friction(run, &layer, cost, err);
+}
+
+wt_status flow_step_friction(flow_run *run, flow_cost *cost, wt_error *err)
+{
+    return friction(run, NULL, cost, err);
+}

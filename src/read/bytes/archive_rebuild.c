@@ -1,0 +1,159 @@
+/* The directory of a ZIP archive whose end is missing, made again from the headers that stand
+ * before each entry. Layout: APPNOTE.TXT of the ZIP format, sections 4.3.7 to 4.3.16.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "read/bytes/archive.h"
+#include "read/bytes/bytes.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define LOCAL_SIZE ((size_t)30)
+#define CENTRAL_SIZE ((size_t)46)
+#define DESCRIPTOR_SIZE ((size_t)16)
+#define END_SIZE ((size_t)22)
+#define END64_SIZE ((size_t)56)
+#define LOCATOR64_SIZE ((size_t)20)
+#define FLAG_DESCRIPTOR 8u
+
+/* One complete entry. */
+typedef struct entry {
+    const unsigned char *header;
+    const unsigned char *name;
+    size_t name_length;
+    uint32_t crc, packed, size;
+    size_t end; /* where the next header is expected */
+} entry;
+
+/* Sizes unknown when the header was written stand behind the data, after a signature: the right
+ * place is the one whose packed size leads back to where the data began. */
+static bool find_descriptor(const unsigned char *bytes, size_t length, size_t start, entry *e)
+{
+    static const unsigned char signature[] = {'P', 'K', 7, 8};
+    size_t at = start;
+    while (at < length) {
+        const unsigned char *hit = memmem(bytes + at, length - at, signature, sizeof signature);
+        if (hit == NULL)
+            return false;
+        size_t place = (size_t)(hit - bytes);
+        if (length - place < DESCRIPTOR_SIZE)
+            return false;
+        if (wt_le32(hit + 8) == place - start) {
+            e->crc = wt_le32(hit + 4);
+            e->packed = wt_le32(hit + 8);
+            e->size = wt_le32(hit + 12);
+            e->end = place + DESCRIPTOR_SIZE;
+            return true;
+        }
+        at = place + 1;
+    }
+    return false;
+}
+
+static bool next_entry(const unsigned char *bytes, size_t length, size_t at, entry *e)
+{
+    static const unsigned char signature[] = {'P', 'K', 3, 4};
+    if (length - at < LOCAL_SIZE || memcmp(bytes + at, signature, sizeof signature) != 0)
+        return false;
+    const unsigned char *h = bytes + at;
+    size_t name_length = wt_le16(h + 26);
+    size_t start = LOCAL_SIZE + name_length + wt_le16(h + 28);
+    if (length - at < start)
+        return false;
+    start += at;
+    *e = (entry){.header = h, .name = h + LOCAL_SIZE, .name_length = name_length};
+    if ((wt_le16(h + 6) & FLAG_DESCRIPTOR) != 0)
+        return find_descriptor(bytes, length, start, e);
+    e->crc = wt_le32(h + 14);
+    e->packed = wt_le32(h + 18);
+    e->size = wt_le32(h + 22);
+    if (e->packed > length - start)
+        return false;
+    e->end = start + e->packed;
+    return true;
+}
+
+static unsigned char *put16(unsigned char *at, uint32_t value)
+{
+    at[0] = (unsigned char)(value & 0xff);
+    at[1] = (unsigned char)(value >> 8 & 0xff);
+    return at + 2;
+}
+
+static unsigned char *put32(unsigned char *at, uint32_t value)
+{
+    return put16(put16(at, value & 0xffff), value >> 16);
+}
+
+static unsigned char *put64(unsigned char *at, uint64_t value)
+{
+    return put32(put32(at, (uint32_t)(value & 0xffffffff)), (uint32_t)(value >> 32));
+}
+
+static unsigned char *put_central(unsigned char *at, const entry *e, size_t offset)
+{
+    const unsigned char *h = e->header;
+    at = put32(at, 0x02014b50);
+    at = put16(at, 20);    /* made by version 2.0 */
+    memcpy(at, h + 4, 10); /* needed version, flags, method, time, date */
+    at = put32(at + 10, e->crc);
+    at = put32(at, e->packed);
+    at = put32(at, e->size);
+    at = put16(at, (uint32_t)e->name_length);
+    memset(at, 0, 12); /* no extra field, no comment, first disk, no attributes */
+    at = put32(at + 12, (uint32_t)offset);
+    memcpy(at, e->name, e->name_length);
+    return at + e->name_length;
+}
+
+/* The 64-bit form always stands before the old one, which alone could not count past 65534. */
+static void put_end(unsigned char *at, size_t n, size_t size, size_t offset)
+{
+    at = put32(at, 0x06064b50);
+    at = put64(at, END64_SIZE - 12);
+    at = put16(put16(at, 45), 45);
+    at = put32(put32(at, 0), 0);
+    at = put64(put64(at, n), n);
+    at = put64(put64(at, size), offset);
+    at = put32(at, 0x07064b50);
+    at = put32(at, 0);
+    at = put64(at, offset + size);
+    at = put32(at, 1);
+    at = put32(at, 0x06054b50);
+    at = put32(at, 0);
+    at = put16(put16(at, 0xffff), 0xffff);
+    at = put32(put32(at, 0xffffffff), 0xffffffff);
+    put16(at, 0);
+}
+
+wt_status wt_archive_rebuild(const unsigned char *bytes, size_t length, unsigned char **directory,
+                             size_t *directory_length, size_t *end, size_t *n, wt_error *err)
+{
+    entry e;
+    size_t count = 0, at = 0, size = 0;
+    /* Offsets beyond 32 bits would need the extra field of each entry: stop there. */
+    while (at < UINT32_MAX && next_entry(bytes, length, at, &e)) {
+        size += CENTRAL_SIZE + e.name_length;
+        count++;
+        at = e.end;
+    }
+    *n = count;
+    if (count == 0)
+        return WT_OK;
+    size_t total = size + END64_SIZE + LOCATOR64_SIZE + END_SIZE;
+    unsigned char *out = malloc(total);
+    if (out == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for the directory of the archive");
+    unsigned char *to = out;
+    *end = at;
+    at = 0;
+    for (size_t i = 0; i < count && next_entry(bytes, length, at, &e); i++) {
+        to = put_central(to, &e, at);
+        at = e.end;
+    }
+    put_end(to, count, size, *end);
+    *directory = out;
+    *directory_length = total;
+    return WT_OK;
+}

@@ -1,0 +1,225 @@
+/* From the XML of a format description to what the engine runs.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "read/description/description_xml.h"
+#include "read/wt_embedded_formats.h"
+
+#include <libxml/parser.h>
+#include <libxml/xmlschemas.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- schema ------------------------------------------------------------------------------- */
+
+struct wt_description_schema {
+    xmlSchemaPtr schema;
+};
+
+static const wt_embedded *embedded_schema(void)
+{
+    const wt_embedded *e = wt_embedded_formats;
+    while (e->name != NULL && strcmp(e->name, "weartrack-format.xsd") != 0)
+        e++;
+    return e;
+}
+
+const char *wt_formats_schema(void)
+{
+    return embedded_schema()->text;
+}
+
+static void keep_quiet(void *user, xmlErrorPtr error)
+{
+    (void)user;
+    (void)error;
+}
+
+wt_status wt_description_schema_new(wt_description_schema **schema, wt_error *err)
+{
+    const wt_embedded *text = embedded_schema();
+    wt_status status = WT_E_INTERNAL;
+    wt_description_schema *made = calloc(1, sizeof *made);
+    xmlSchemaParserCtxtPtr context = NULL;
+    if (made == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for the schema of descriptions");
+    context = xmlSchemaNewMemParserCtxt(text->text, (int)text->length);
+    if (context != NULL) {
+        xmlSchemaSetParserStructuredErrors(context, keep_quiet, NULL);
+        made->schema = xmlSchemaParse(context);
+        xmlSchemaFreeParserCtxt(context);
+    }
+    if (made->schema != NULL) {
+        *schema = made;
+        return WT_OK;
+    }
+    free(made);
+    return wt_fail(err, status, "the schema of descriptions cannot be compiled");
+}
+
+void wt_description_schema_free(wt_description_schema *schema)
+{
+    if (schema == NULL)
+        return;
+    xmlSchemaFree(schema->schema);
+    free(schema);
+}
+
+/* ---- document ----------------------------------------------------------------------------- */
+
+static void explain(wt_parse *p, const xmlError *error, const char *otherwise)
+{
+    char text[256];
+    const char *message = error != NULL && error->message != NULL ? error->message : otherwise;
+    size_t length = strcspn(message, "\r\n");
+    if (p->status != WT_OK)
+        return;
+    snprintf(text, sizeof text, "%.*s", (int)(length < 255 ? length : 255), message);
+    p->status = wt_fail(p->err, WT_E_SCHEMA, "%s", text);
+    wt_error_file(p->err, p->name);
+    if (error != NULL && error->line > 0)
+        wt_error_place(p->err, "line %d", error->line);
+    wt_error_advice(p->err, "see weartrack-format(5)");
+}
+
+static void first_complaint(void *user, xmlErrorPtr error)
+{
+    explain(user, error, "not valid");
+}
+
+static void validate(wt_parse *p, const wt_description_schema *schema, xmlDocPtr document)
+{
+    xmlSchemaValidCtxtPtr context = xmlSchemaNewValidCtxt(schema->schema);
+    if (context == NULL) {
+        wt_parse_no_memory(p);
+        return;
+    }
+    xmlSchemaSetValidStructuredErrors(context, first_complaint, p);
+    if (xmlSchemaValidateDoc(context, document) != 0)
+        explain(p, NULL, "the document does not follow the schema of descriptions");
+    xmlSchemaFreeValidCtxt(context);
+}
+
+wt_status wt_description_parse(const wt_description_schema *schema, const char *xml, size_t length,
+                               const char *name, wt_description **description, wt_error *err)
+{
+    const size_t most = (size_t)1 << 20;
+    /* Complaints about an encoding go to standard error unless this thread has a handler. */
+    const xmlStructuredErrorFunc previous = xmlStructuredError;
+    void *const previous_context = xmlStructuredErrorContext;
+    wt_parse p = {.name = name, .status = WT_OK, .err = err};
+    xmlParserCtxtPtr context = NULL;
+    xmlDocPtr document = NULL;
+    if (length > most) {
+        wt_fail(err, WT_E_SCHEMA, "too long for a format description");
+        wt_error_file(err, name);
+        wt_error_expected(err, "at most 1 MiB");
+        return WT_E_SCHEMA;
+    }
+    p.d = calloc(1, sizeof *p.d);
+    context = xmlNewParserCtxt();
+    if (p.d == NULL || context == NULL) {
+        wt_parse_no_memory(&p);
+        goto done;
+    }
+    p.d->temperature_jump = (double)NAN;
+    p.d->xml = strndup(xml, length);
+    if (p.d->xml == NULL) {
+        wt_parse_no_memory(&p);
+        goto done;
+    }
+    xmlSetStructuredErrorFunc(NULL, keep_quiet);
+    document = xmlCtxtReadMemory(context, xml, (int)length, NULL, NULL,
+                                 XML_PARSE_NONET | XML_PARSE_NOERROR | XML_PARSE_NOWARNING |
+                                     XML_PARSE_NOCDATA);
+    if (document == NULL) {
+        explain(&p, xmlCtxtGetLastError(context), "not well-formed XML");
+        goto done;
+    }
+    if (document->intSubset != NULL) {
+        explain(&p, NULL, "a document type or entities are not allowed in a description");
+        goto done;
+    }
+    validate(&p, schema, document);
+    if (p.status == WT_OK)
+        wt_parse_format(&p, xmlDocGetRootElement(document));
+done:
+    xmlSetStructuredErrorFunc(previous_context, previous);
+    xmlFreeDoc(document);
+    if (context != NULL)
+        xmlFreeParserCtxt(context);
+    if (p.status == WT_OK)
+        *description = p.d;
+    else
+        wt_description_free(p.d);
+    return p.status;
+}
+
+static void free_pattern(wt_pattern *pattern)
+{
+    if (pattern->compiled)
+        regfree(&pattern->regex);
+}
+
+void wt_description_free(wt_description *d)
+{
+    if (d == NULL)
+        return;
+    for (size_t i = 0; i < d->n_probes; i++) {
+        free(d->probes[i].text);
+        free_pattern(&d->probes[i].pattern);
+    }
+    for (size_t i = 0; i < d->n_fields; i++) {
+        free(d->fields[i].name);
+        free(d->fields[i].unit);
+        free_pattern(&d->fields[i].pattern);
+    }
+    for (size_t i = 0; i < d->n_steps; i++)
+        free_pattern(&d->steps[i].pattern);
+    for (size_t i = 0; i < d->n_ends; i++)
+        free_pattern(&d->ends[i]);
+    for (size_t i = 0; i < d->n_aliases; i++) {
+        free(d->aliases[i].found);
+        free(d->aliases[i].means);
+    }
+    for (size_t i = 0; i < d->n_rules; i++) {
+        free(d->rules[i].unit);
+        free(d->rules[i].with);
+    }
+    for (size_t i = 0; i < d->n_names; i++)
+        free(d->names[i].name);
+    for (size_t i = 0; i < d->n_markers; i++)
+        free_pattern(&d->markers[i].pattern);
+    for (size_t i = 0; i < d->n_values; i++)
+        free(d->values[i].text);
+    for (size_t i = 0; i < d->n_missing; i++)
+        free(d->missing[i]);
+    free_pattern(&d->names_line);
+    free_pattern(&d->units_line);
+    void *const parts[] = {d->id,          d->title,  d->evidence, d->version, d->xml,
+                           d->probes,      d->widths, d->comment,  d->missing, d->fields,
+                           d->steps,       d->ends,   d->aliases,  d->rules,   d->names,
+                           d->row_prefix,  d->group,  d->markers,  d->values,  d->segment_column,
+                           d->curve_column};
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
+        free(parts[i]);
+    free(d);
+}
+
+bool wt_description_find_name(const wt_description *d, const char *name, size_t *first, size_t *n)
+{
+    size_t low = 0, high = d->n_names;
+    while (low < high) {
+        size_t middle = low + (high - low) / 2;
+        if (strcmp(d->names[middle].name, name) < 0)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    *first = low;
+    *n = 0;
+    while (low + *n < d->n_names && strcmp(d->names[low + *n].name, name) == 0)
+        (*n)++;
+    return *n > 0;
+}

@@ -1,0 +1,230 @@
+/* Checks of a description that need all of it, and its trial on a sample.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "read/formats_text.h"
+#include "read/text/text.h"
+
+#include <math.h>
+#include <string.h>
+
+static const char *kind_name(unsigned kind)
+{
+    return kind == WT_KIND_FORCE ? "force" : kind == WT_KIND_SWEEP ? "sweep" : "spectrum";
+}
+
+static bool alias_is_unit(const wt_description *d, const char *unit)
+{
+    double factor, offset;
+    for (size_t i = 0; i < d->n_rules; i++)
+        if (wt_unit_to_si(unit, d->rules[i].quantity, &factor, &offset, NULL) == WT_OK)
+            return true;
+    for (size_t i = 0; i < d->n_fields; i++)
+        if (d->fields[i].quantity != WT_Q_NONE &&
+            wt_unit_to_si(unit, d->fields[i].quantity, &factor, &offset, NULL) == WT_OK)
+            return true;
+    return false;
+}
+
+static wt_status complain(wt_error *err, const char *name, const char *element)
+{
+    wt_error_file(err, name);
+    wt_error_place(err, "element %s", element);
+    wt_error_advice(err, "see weartrack-format(5)");
+    return WT_E_SCHEMA;
+}
+
+wt_status wt_description_check_whole(const wt_description *d, const char *name, wt_error *err)
+{
+    wt_quantity_set set = 0;
+    for (size_t i = 0; i < d->n_rules; i++)
+        set |= WT_Q_BIT(d->rules[i].quantity);
+    for (unsigned kind = 1; kind <= WT_KIND_SPECTRUM; kind *= 2)
+        if ((d->kinds & kind) != 0 && !wt_quantities_suffice(set, kind)) {
+            wt_fail(err, WT_E_SCHEMA, "the columns do not make a %s", kind_name(kind));
+            wt_error_expected(err, "%s", wt_quantities_needed(kind));
+            return complain(err, name, "table");
+        }
+    for (size_t i = 0; i < d->n_aliases; i++)
+        if (!alias_is_unit(d, d->aliases[i].means)) {
+            wt_fail(err, WT_E_SCHEMA, "not a unit of any column");
+            wt_error_expected(err, "a unit of one of the quantities");
+            wt_error_found(err, "means=\"%s\"", d->aliases[i].means);
+            return complain(err, name, "unit");
+        }
+    for (size_t i = 1; i < d->n_names; i++) {
+        const wt_column_name *a = &d->names[i - 1], *b = &d->names[i];
+        if (strcmp(a->name, b->name) == 0 && a->rule == b->rule) {
+            wt_fail(err, WT_E_SCHEMA, "a name stands twice in one column");
+            wt_error_found(err, "\"%s\" (compared in lower case without blanks)", b->name);
+            return complain(err, name, "column");
+        }
+    }
+    if ((d->kinds & WT_KIND_SWEEP) == 0 && (d->group != NULL || !isnan(d->temperature_jump))) {
+        wt_fail(err, WT_E_SCHEMA, "isotherms without a sweep");
+        wt_error_expected(err, "kinds with sweep in it");
+        return complain(err, name, "isotherms");
+    }
+    if ((d->kinds & WT_KIND_FORCE) == 0 &&
+        (d->n_markers > 0 || d->n_values > 0 || d->curve_column != NULL || d->turning_point)) {
+        wt_fail(err, WT_E_SCHEMA, "segments without a force curve");
+        wt_error_expected(err, "kinds with force in it");
+        return complain(err, name, "segments");
+    }
+    return WT_OK;
+}
+
+/* ---- trial -------------------------------------------------------------------------------- */
+
+static wt_status add_report_row(wt_table *report, const wt_text_table *t, const wt_text_column *c,
+                                wt_error *err)
+{
+    const wt_quantity q = c->rule->quantity;
+    wt_status status = wt_table_add_row(report, err);
+    if (status == WT_OK)
+        status = wt_table_put_text(report, 0, c->name, err);
+    if (status == WT_OK)
+        status = wt_table_put_text(report, 1, wt_quantity_id(q), err);
+    if (status == WT_OK)
+        status = wt_table_put_text(report, 2, c->unit, err);
+    if (status == WT_OK)
+        status = wt_table_put_text(report, 3, wt_quantity_unit(q), err);
+    if (status != WT_OK)
+        return status;
+    const char *problem = "";
+    if (c->problem == WT_COLUMN_NO_UNIT)
+        problem = "its unit is not said";
+    else if (c->problem == WT_COLUMN_BAD_UNIT)
+        problem = "its unit does not fit";
+    else if (c->problem == WT_COLUMN_UNCLEAR)
+        problem = "the column that tells what it is is not there";
+    else
+        wt_table_put(report, 4, wt_text_table_value(t, 0, c));
+    wt_table_put(report, 5, (double)t->n_rows);
+    wt_table_put(report, 6, (double)t->names_line);
+    return wt_table_put_text(report, 7, problem, err);
+}
+
+static wt_status add_report_columns(wt_table *report, wt_error *err)
+{
+    static const struct {
+        const char *name, *words;
+        bool number;
+    } columns[] = {{"column", "name in the file", false},
+                   {"quantity", "what it measures", false},
+                   {"unit", "unit in the file", false},
+                   {"si_unit", "unit of the first value", false},
+                   {"first_value", "first value in the SI unit", true},
+                   {"rows", "rows of its table", true},
+                   {"line", "line of the names row", true},
+                   {"problem", "why it is not read", false}};
+    wt_status status = WT_OK;
+    for (size_t i = 0; i < sizeof columns / sizeof *columns && status == WT_OK; i++)
+        status = columns[i].number
+                     ? wt_table_add_column(report, columns[i].name, "1", columns[i].words, err)
+                     : wt_table_add_text_column(report, columns[i].name, columns[i].words, err);
+    return status;
+}
+
+/* All columns of the first table of each layout. */
+static wt_status fill_report(const wt_text_file *file, wt_table *report, wt_error *err)
+{
+    wt_status status = add_report_columns(report, err);
+    for (size_t i = 0; i < file->n_tables && status == WT_OK; i++) {
+        const wt_text_table *t = &file->tables[i];
+        if (i > 0 && t->quantities == file->tables[i - 1].quantities &&
+            t->n_problems == file->tables[i - 1].n_problems)
+            continue;
+        for (size_t c = 0; c < t->n_columns && status == WT_OK; c++)
+            status = add_report_row(report, t, &t->columns[c], err);
+        for (size_t c = 0; c < t->n_problems && status == WT_OK; c++)
+            status = add_report_row(report, t, &t->problems[c], err);
+    }
+    return status;
+}
+
+/* Reads the sample as each kind that its columns promise. */
+static wt_status try_kinds(const wt_description *d, wt_input *sample,
+                           const wt_read_options *options, wt_quantity_set found, wt_parselog *log,
+                           wt_error *err)
+{
+    const bool many = (d->kinds & (d->kinds - 1)) != 0;
+    wt_status status = WT_OK;
+    if ((d->kinds & WT_KIND_SWEEP) != 0 && (!many || wt_quantities_suffice(found, WT_KIND_SWEEP))) {
+        wt_sweep sweep = {.n_isotherms = 0};
+        status = wt_text_read_sweep(d, sample, options, log, &sweep, err);
+        wt_sweep_clear(&sweep);
+    }
+    if (status == WT_OK && (d->kinds & WT_KIND_SPECTRUM) != 0 &&
+        (!many || wt_quantities_suffice(found, WT_KIND_SPECTRUM))) {
+        wt_power_spectrum spectrum = {.n = 0};
+        status = wt_text_read_spectrum(d, sample, options, log, &spectrum, err);
+        wt_power_spectrum_clear(&spectrum);
+    }
+    if (status == WT_OK && (d->kinds & WT_KIND_FORCE) != 0 &&
+        (!many || wt_quantities_suffice(found, WT_KIND_FORCE))) {
+        wt_force_source *source = NULL;
+        wt_force_curve curve = {.n_segments = 0};
+        status = wt_text_open_force(d, sample, options, log, &source, err);
+        if (status == WT_OK) {
+            status = wt_force_next(source, &curve, err);
+            wt_force_curve_clear(&curve);
+            wt_force_close(source);
+        }
+        status = status == WT_END ? WT_OK : status;
+    }
+    return status;
+}
+
+static wt_status try_sample(const wt_description *d, wt_input *sample,
+                            const wt_read_options *options, wt_parselog *log, wt_table *report,
+                            wt_error *err)
+{
+    wt_text_file file;
+    wt_peek peek = {.whole = true, .name = wt_input_name(sample)};
+    wt_quantity_set found = 0;
+    wt_status status = wt_input_bytes(sample, &peek.bytes, &peek.length, err);
+    if (status != WT_OK)
+        return status;
+    if (wt_text_detect(d, &peek).answer != WT_ANSWER_YES)
+        wt_parselog_add(log, WT_WARNING, peek.name, NULL,
+                        "the detect element does not recognise this file");
+    status = wt_text_scan(d, sample, d->kinds, options, log, &file, err);
+    if (status != WT_OK)
+        return status;
+    for (size_t i = 0; i < file.n_tables; i++)
+        found |= file.tables[i].quantities;
+    if (file.n_tables == 0)
+        status = wt_text_nothing(&file, "table whose names are understood", err);
+    if (status == WT_OK)
+        status = fill_report(&file, report, err);
+    wt_text_file_free(&file);
+    return status == WT_OK ? try_kinds(d, sample, options, found, log, err) : status;
+}
+
+wt_status wt_description_check(const char *xml_path, wt_input *sample,
+                               const wt_read_options *options, wt_parselog *log, wt_table **report,
+                               wt_error *err)
+{
+    const wt_read_options o = options != NULL ? *options : wt_read_defaults();
+    wt_description_schema *schema = NULL;
+    wt_description *d = NULL;
+    wt_table *table = wt_table_new("description", "Columns that the description understands");
+    if (table == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for the report on a description");
+    wt_status status = wt_description_schema_new(&schema, err);
+    if (status == WT_OK)
+        status = wt_formats_parse_file(schema, xml_path, &d, err);
+    if (status == WT_OK && sample != NULL)
+        status = try_sample(d, sample, &o, log, table, err);
+    else if (status == WT_OK)
+        status = add_report_columns(table, err);
+    if (status == WT_OK) {
+        *report = table;
+        table = NULL;
+    }
+    wt_table_free(table);
+    wt_description_free(d);
+    wt_description_schema_free(schema);
+    return status;
+}

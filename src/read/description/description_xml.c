@@ -1,0 +1,225 @@
+/* Attributes, elements and regular expressions of a description.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "read/description/description_xml.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+void wt_parse_no_memory(wt_parse *p)
+{
+    if (p->status == WT_OK)
+        p->status = wt_fail(p->err, WT_E_MEMORY, "no memory for a format description");
+}
+
+void wt_parse_complain(wt_parse *p, const xmlNode *node, const char *message, const char *expected,
+                       const char *found)
+{
+    if (p->status != WT_OK)
+        return;
+    p->status = wt_fail(p->err, WT_E_SCHEMA, "%s", message);
+    wt_error_file(p->err, p->name);
+    wt_error_place(p->err, "line %ld, element %s", xmlGetLineNo(node), (const char *)node->name);
+    if (expected != NULL)
+        wt_error_expected(p->err, "%s", expected);
+    if (found != NULL)
+        wt_error_found(p->err, "%s", found);
+    wt_error_advice(p->err, "see weartrack-format(5)");
+}
+
+static char *copy_xml(wt_parse *p, xmlChar *text)
+{
+    char *copy = NULL;
+    if (text != NULL) {
+        copy = strdup((const char *)text);
+        if (copy == NULL)
+            wt_parse_no_memory(p);
+        xmlFree(text);
+    }
+    return copy;
+}
+
+char *wt_parse_attribute(wt_parse *p, const xmlNode *node, const char *name)
+{
+    return copy_xml(p, xmlGetNoNsProp(node, (const xmlChar *)name));
+}
+
+char *wt_parse_content(wt_parse *p, const xmlNode *node)
+{
+    return copy_xml(p, xmlNodeGetContent(node));
+}
+
+char *wt_parse_normalised(wt_parse *p, char *text)
+{
+    char name[WT_NAME_MAX];
+    char *copy = NULL;
+    if (text == NULL)
+        return NULL;
+    wt_name_normalise(text, strlen(text), name);
+    free(text);
+    copy = strdup(name);
+    if (copy == NULL)
+        wt_parse_no_memory(p);
+    return copy;
+}
+
+bool wt_parse_true(wt_parse *p, const xmlNode *node, const char *name)
+{
+    char *text = wt_parse_attribute(p, node, name);
+    bool yes = text != NULL && (strcmp(text, "true") == 0 || strcmp(text, "1") == 0);
+    free(text);
+    return yes;
+}
+
+/* Of texts that the schema has checked, so the list is complete. */
+size_t wt_parse_one_of(wt_parse *p, const xmlNode *node, const char *name,
+                       const char *const words[], size_t n, size_t absent)
+{
+    char *text = wt_parse_attribute(p, node, name);
+    size_t i = absent;
+    if (text != NULL)
+        for (i = 0; i + 1 < n && strcmp(text, words[i]) != 0;)
+            i++;
+    free(text);
+    return i;
+}
+
+size_t wt_parse_count(wt_parse *p, const xmlNode *node, const char *name, size_t absent)
+{
+    char *text = wt_parse_attribute(p, node, name);
+    size_t value = text != NULL ? (size_t)strtoul(text, NULL, 10) : absent;
+    free(text);
+    return value;
+}
+
+bool wt_parse_is(const xmlNode *node, const char *name)
+{
+    return node->type == XML_ELEMENT_NODE && strcmp((const char *)node->name, name) == 0;
+}
+
+const xmlNode *wt_parse_child(const xmlNode *node, const char *name)
+{
+    const xmlNode *c = node->children;
+    while (c != NULL && !wt_parse_is(c, name))
+        c = c->next;
+    return c;
+}
+
+void *wt_parse_room(wt_parse *p, const xmlNode *node, const char *name, size_t size)
+{
+    size_t n = 0;
+    for (const xmlNode *c = node->children; c != NULL; c = c->next)
+        n += name == NULL || wt_parse_is(c, name);
+    void *items = calloc(n + 1, size);
+    if (items == NULL)
+        wt_parse_no_memory(p);
+    return items;
+}
+
+/* ---- regular expressions ------------------------------------------------------------------ */
+
+bool wt_pattern_match(const wt_pattern *pattern, const char *line, size_t length,
+                      regmatch_t *groups, size_t n)
+{
+    if (length > WT_PATTERN_LINE_MAX || (pattern->first != '\0' && line[0] != pattern->first))
+        return false;
+    return regexec(&pattern->regex, line, n, groups, 0) == 0;
+}
+
+/* Each + doubles what stands before it when the expression is compiled, nested ones again. */
+enum { MOST_PLUSES = 16 };
+
+/* Counts, back references and repeats of repeats make the cost of compiling or of a match explode,
+ * and no description needs them. */
+static const char *forbidden(const char *source)
+{
+    bool set = false;
+    int pluses = 0;
+    for (const char *c = source; *c != '\0'; c++) {
+        if (*c == '\\' && c[1] != '\0') {
+            c++;
+            if (*c >= '1' && *c <= '9')
+                return "a back reference";
+        } else if (set) {
+            set = *c != ']';
+        } else if (*c == '[') {
+            set = true;
+            c += c[1] == '^';
+            c += c[1] == ']';
+        } else if (*c == '{') {
+            return "a repeat count {...}; write \\{ for the character";
+        } else if (strchr("*+?", *c) != NULL) {
+            if (c[1] != '\0' && strchr("*+?", c[1]) != NULL)
+                return "a repeat of a repeat, such as ++";
+            pluses += *c == '+';
+            if (pluses > MOST_PLUSES)
+                return "more than 16 times +; write * where it may be absent";
+        }
+    }
+    return NULL;
+}
+
+/* \t stands for the tabulator, which an attribute of XML cannot hold as it is. */
+static void tabulators(char *source)
+{
+    char *to = source;
+    for (const char *from = source; *from != '\0'; from++) {
+        if (from[0] == '\\' && from[1] == 't') {
+            *to++ = '\t';
+            from++;
+        } else if (from[0] == '\\' && from[1] != '\0') {
+            *to++ = *from++;
+            *to++ = *from;
+        } else {
+            *to++ = *from;
+        }
+    }
+    *to = '\0';
+}
+
+static char first_byte(const char *source)
+{
+    char c = source[0] == '^' ? source[1] : '\0';
+    char after = c != '\0' ? source[2] : '\0';
+    if (c == '\\') {
+        c = source[2];
+        after = c != '\0' ? source[3] : '\0';
+        if ((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'))
+            return '\0';
+    } else if (c != '\0' && strchr(".[]()*+?{}|^$", c) != NULL) {
+        return '\0';
+    }
+    if ((after != '\0' && strchr("*?{|", after) != NULL) || strchr(source, '|') != NULL)
+        return '\0';
+    return c;
+}
+
+void wt_parse_pattern(wt_parse *p, const xmlNode *node, const char *name, wt_pattern *pattern,
+                      size_t groups)
+{
+    char *source = wt_parse_attribute(p, node, name);
+    char message[128];
+    if (source == NULL)
+        return;
+    const char *what = forbidden(source);
+    if (what != NULL) {
+        wt_parse_complain(p, node, "regular expression not accepted",
+                          "an extended POSIX expression", what);
+        free(source);
+        return;
+    }
+    tabulators(source);
+    int code = regcomp(&pattern->regex, source, REG_EXTENDED | (groups == 0 ? REG_NOSUB : 0));
+    if (code != 0) {
+        regerror(code, &pattern->regex, message, sizeof message);
+        wt_parse_complain(p, node, message, "an extended POSIX regular expression", source);
+    } else {
+        pattern->compiled = true;
+        pattern->first = first_byte(source);
+        if (pattern->regex.re_nsub < groups)
+            wt_parse_complain(p, node, "regular expression without a group",
+                              "parentheses around the part that is the value", source);
+    }
+    free(source);
+}

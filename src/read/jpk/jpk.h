@@ -1,0 +1,165 @@
+/* JPK force files: what the parts of the reader share.
+ *
+ * A file is a ZIP archive of .properties headers and raw channels. Names of entries, not of
+ * folders, say which curves and segments there are. Keys that many segments share stand once in
+ * shared-data/header.properties: `channel.C.lcd-info.*=N` means that channel C has the keys
+ * `lcd-info.N.…` of it, and likewise for the segment header.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#ifndef WT_READ_JPK_H
+#define WT_READ_JPK_H
+
+#include "read/bytes/archive.h"
+#include "read/jpk/properties.h"
+#include "read/reader.h"
+
+#define JPK_NAME 64
+#define JPK_SLOTS 12
+#define JPK_CHANNELS 64
+/* Headers are a few kilobytes; what is larger is not a header. */
+#define JPK_HEADER_MAX ((size_t)8 * 1024 * 1024)
+
+/* ---- channels: jpk_channel.c -------------------------------------------------------------- */
+
+typedef enum jpk_encoding {
+    JPK_INT16,
+    JPK_UINT16,
+    JPK_INT32,
+    JPK_UINT32,
+    JPK_FLOAT32,
+    JPK_FLOAT64,
+    JPK_RASTER /* start + i step, no data file */
+} jpk_encoding;
+
+size_t jpk_encoding_width(jpk_encoding encoding); /* bytes per sample, 0 for a raster */
+
+/* y = multiplier x + offset */
+typedef struct jpk_linear {
+    double multiplier, offset;
+} jpk_linear;
+
+/* A calibration slot: how its values follow from those of the slot named `base`. */
+typedef struct jpk_slot {
+    char name[JPK_NAME];
+    char base[JPK_NAME];
+    char unit[16];
+    jpk_linear scaling;
+} jpk_slot;
+
+/* Encoding and calibration of a channel ("lcd-info"). */
+typedef struct jpk_lcd {
+    jpk_encoding encoding;
+    jpk_linear encoder;       /* raw number -> value of the base slot */
+    char base[JPK_NAME];      /* "volts", "absolute" */
+    char base_unit[16];       /* "V", "m" */
+    char preferred[JPK_NAME]; /* the slot that the instrument shows */
+    jpk_slot slots[JPK_SLOTS];
+    size_t n_slots;
+} jpk_lcd;
+
+/* Reads it from keys that start with `prefix`, e.g. "lcd-info.1.". */
+wt_status jpk_lcd_read(const wt_properties *properties, const char *prefix, jpk_lcd *lcd,
+                       wt_error *err);
+const jpk_slot *jpk_lcd_slot(const jpk_lcd *lcd, const char *name); /* NULL: none or not defined */
+/* Base value -> value of the slot, walking the slots down to the base; false if they do not lead
+ * there. */
+bool jpk_lcd_chain(const jpk_lcd *lcd, const char *slot, jpk_linear *chain);
+/* values[n] = scaling of the raw numbers; raw holds n samples of the encoding (not for a raster).
+ * Returns how many samples are not finite; they become NaN. */
+size_t jpk_decode(jpk_encoding encoding, jpk_linear scaling, const unsigned char *raw, size_t n,
+                  double *values);
+
+/* ---- the file: jpk_file.c ----------------------------------------------------------------- */
+
+typedef struct jpk_segment_ref {
+    size_t curve;   /* as the file counts */
+    size_t segment; /* as the file counts */
+    size_t entry;   /* its segment-header.properties */
+} jpk_segment_ref;
+
+typedef struct jpk_cached_lcd {
+    long id;
+    jpk_lcd lcd;
+} jpk_cached_lcd;
+
+typedef struct jpk_file {
+    wt_archive *archive;
+    const char *name;       /* of the input */
+    wt_parselog *log;       /* borrowed, may be NULL */
+    bool map;               /* curves stand in index/N/ */
+    wt_properties header;   /* header.properties; empty if missing */
+    wt_properties shared;   /* shared-data/header.properties; empty if missing */
+    wt_properties position; /* scratch: index/N/header.properties */
+    wt_buffer buffer;       /* scratch: unpacked entry */
+    jpk_segment_ref *refs;  /* [n_refs] by curve, then segment */
+    size_t n_refs;
+    size_t n_curves;
+    jpk_cached_lcd *lcds; /* those of `shared` that were needed */
+    size_t n_lcds;
+    long columns, rows; /* grid; 0 if there is none */
+    bool back_and_forth;
+    size_t n_expected; /* curves that the header announces; 0 if it does not */
+} jpk_file;
+
+wt_status jpk_file_open(wt_input *input, wt_parselog *log, jpk_file *file, wt_error *err);
+void jpk_file_close(jpk_file *file); /* accepts a zero-initialised one */
+/* Position and place in the grid of the curve that refs[ref] belongs to; unknown ones are NaN and
+ * -1. */
+void jpk_file_position(jpk_file *file, size_t ref, wt_force_curve *curve);
+
+/* ---- a segment: jpk_segment.c ------------------------------------------------------------- */
+
+typedef struct jpk_channel {
+    char name[JPK_NAME];
+    size_t n_points;
+    size_t entry;      /* of its data file, if `has_file` */
+    bool has_file;     /* false: a raster, or missing from the archive */
+    bool understood;   /* `lcd` is filled */
+    char problem[192]; /* why it is not */
+    jpk_linear raster; /* value of the base slot = multiplier i + offset */
+    jpk_lcd lcd;
+} jpk_channel;
+
+typedef struct jpk_segment {
+    wt_properties header; /* reused from segment to segment */
+    jpk_channel channels[JPK_CHANNELS];
+    size_t n_channels;
+    wt_segment_kind kind;
+    char style[JPK_NAME];
+    size_t n_points;         /* that every channel with a file has */
+    bool incomplete;         /* a data file is missing or short */
+    double duration;         /* [s], NaN if unknown */
+    double velocity;         /* [m/s], NaN if unknown */
+    double setpoint_voltage; /* [V], NaN if none */
+} jpk_segment;
+
+wt_status jpk_segment_read(jpk_file *file, const jpk_segment_ref *ref, jpk_segment *segment,
+                           wt_error *err);
+const jpk_channel *jpk_segment_channel(const jpk_segment *segment, const char *name);
+/* The channel of a quantity: "vDeflection", "height", the best of the sensors; NULL if none. */
+const jpk_channel *jpk_segment_source(const jpk_segment *segment, wt_quantity quantity);
+
+/* ---- calibration: jpk_calibration.c ------------------------------------------------------- */
+
+/* What the deflection channel and the user say together. */
+typedef struct jpk_calibration {
+    wt_cantilever cantilever;
+    bool has_deflection, has_force;
+    jpk_linear deflection, force; /* of the base value (volts) */
+} jpk_calibration;
+
+void jpk_calibrate(const jpk_lcd *deflection, const wt_read_options *options,
+                   jpk_calibration *calibration);
+/* Base value -> SI value of the quantity of this channel; false if the file does not say how. */
+bool jpk_quantity_chain(const jpk_lcd *lcd, wt_quantity quantity,
+                        const jpk_calibration *calibration, jpk_linear *chain, const char **unit);
+/* WT_E_MISSING with the options that would help. */
+wt_status jpk_uncalibrated(const jpk_calibration *calibration, wt_error *err);
+
+/* ---- curves: jpk_force.c ------------------------------------------------------------------ */
+
+wt_status jpk_open_force(const wt_reader *self, wt_input *input, const wt_read_options *options,
+                         wt_parselog *log, wt_force_source **source, wt_error *err);
+
+#endif

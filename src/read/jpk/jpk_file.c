@@ -1,0 +1,229 @@
+/* A JPK file opened: which curves and segments it holds, its headers and its grid.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "read/jpk/jpk.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Reads digits up to `stop`; nine digits number more curves than a file can hold. */
+static bool read_number(const char **at, char stop, size_t *number)
+{
+    const char *p = *at;
+    size_t value = 0;
+    for (; *p >= '0' && *p <= '9'; p++) {
+        if (p - *at >= 9)
+            return false;
+        value = 10 * value + (size_t)(*p - '0');
+    }
+    if (p == *at || *p != stop)
+        return false;
+    *at = p + 1;
+    *number = value;
+    return true;
+}
+
+static bool read_word(const char **at, const char *word)
+{
+    size_t n = strlen(word);
+    if (strncmp(*at, word, n) != 0)
+        return false;
+    *at += n;
+    return true;
+}
+
+/* "[index/N/]segments/S/segment-header.properties" */
+static bool parse_name(const char *name, jpk_segment_ref *ref, bool *map)
+{
+    ref->curve = 0;
+    *map = read_word(&name, "index/");
+    if (*map && !read_number(&name, '/', &ref->curve))
+        return false;
+    return read_word(&name, "segments/") && read_number(&name, '/', &ref->segment) &&
+           strcmp(name, "segment-header.properties") == 0;
+}
+
+static int by_place(const void *a, const void *b)
+{
+    const jpk_segment_ref *x = a, *y = b;
+    if (x->curve != y->curve)
+        return x->curve < y->curve ? -1 : 1;
+    if (x->segment != y->segment)
+        return x->segment < y->segment ? -1 : 1;
+    return x->entry < y->entry ? -1 : x->entry > y->entry;
+}
+
+static wt_status find_segments(jpk_file *file, wt_error *err)
+{
+    size_t count = wt_archive_count(file->archive);
+    size_t capacity = 0;
+    for (size_t i = 0; i < count; i++) {
+        jpk_segment_ref ref = {.entry = i};
+        bool map = false;
+        if (!parse_name(wt_archive_name(file->archive, i), &ref, &map))
+            continue;
+        if (file->n_refs == capacity) {
+            capacity = capacity == 0 ? 16 : 2 * capacity;
+            jpk_segment_ref *grown = realloc(file->refs, capacity * sizeof *grown);
+            if (grown == NULL)
+                return wt_fail(err, WT_E_MEMORY, "no memory for the list of segments");
+            file->refs = grown;
+        }
+        file->map = file->map || map;
+        file->refs[file->n_refs++] = ref;
+    }
+    if (file->n_refs == 0) {
+        wt_fail(err, WT_E_EMPTY, "the file holds no force curve");
+        wt_error_expected(err, "entries segments/0/segment-header.properties");
+        return WT_E_EMPTY;
+    }
+    qsort(file->refs, file->n_refs, sizeof *file->refs, by_place);
+    size_t kept = 0;
+    for (size_t i = 0; i < file->n_refs; i++) {
+        bool new_curve = i == 0 || file->refs[i].curve != file->refs[kept - 1].curve;
+        if (!new_curve && file->refs[i].segment == file->refs[kept - 1].segment) {
+            wt_parselog_add(file->log, WT_WARNING, file->name,
+                            wt_archive_name(file->archive, file->refs[i].entry),
+                            "segment stands twice in the archive; the first is read");
+            continue;
+        }
+        file->n_curves += new_curve;
+        file->refs[kept++] = file->refs[i];
+    }
+    file->n_refs = kept;
+    return WT_OK;
+}
+
+/* A header that may be missing; then it is empty. */
+static wt_status read_header(jpk_file *file, const char *name, wt_properties *header, wt_error *err)
+{
+    size_t i = 0;
+    if (!wt_archive_find(file->archive, name, &i))
+        return WT_OK;
+    wt_status status = wt_archive_read(file->archive, i, JPK_HEADER_MAX, &file->buffer, err);
+    if (status == WT_OK)
+        status = wt_properties_parse(header, file->buffer.data, file->buffer.length, err);
+    if (status != WT_OK)
+        wt_error_place(err, "%s", name);
+    return status;
+}
+
+/* "force-scan-map.position-pattern.grid.": the prefix of a key of the root header. */
+static bool root_key(const wt_properties *header, const char *rest, char *key, size_t size)
+{
+    const char *type = wt_properties_get(header, "type");
+    if (type == NULL)
+        return false;
+    int n = snprintf(key, size, "%s.%s", type, rest);
+    return n > 0 && (size_t)n < size;
+}
+
+static void read_grid(jpk_file *file)
+{
+    char key[192];
+    if (!root_key(&file->header, "position-pattern.", key, sizeof key))
+        return;
+    double columns = wt_properties_number(&file->header, key, "grid.ilength");
+    double rows = wt_properties_number(&file->header, key, "grid.jlength");
+    if (columns >= 1 && columns <= 1e6 && rows >= 1 && rows <= 1e6) {
+        file->columns = lround(columns);
+        file->rows = lround(rows);
+    }
+    const char *turns = wt_properties_find(&file->header, key, "back-and-forth");
+    file->back_and_forth = turns != NULL && strcmp(turns, "true") == 0;
+    if (!root_key(&file->header, "indexes.", key, sizeof key))
+        return;
+    double first = wt_properties_number(&file->header, key, "min");
+    double last = wt_properties_number(&file->header, key, "max");
+    if (first >= 0 && last >= first && last < 1e9)
+        file->n_expected = (size_t)(last - first) + 1;
+}
+
+static void note_oddities(const jpk_file *file)
+{
+    if (wt_archive_truncated(file->archive))
+        wt_parselog_add(file->log, WT_WARNING, file->name, NULL,
+                        "the end of the archive is missing; read as far as it goes");
+    if (file->header.n == 0)
+        wt_parselog_add(file->log, WT_WARNING, file->name, "header.properties",
+                        "header is missing: no grid, no instrument");
+    if (file->n_expected > file->n_curves)
+        wt_parselog_add(file->log, WT_NOTE, file->name, NULL, "holds %zu of the %zu curves planned",
+                        file->n_curves, file->n_expected);
+}
+
+wt_status jpk_file_open(wt_input *input, wt_parselog *log, jpk_file *file, wt_error *err)
+{
+    *file = (jpk_file){.log = log, .name = wt_input_name(input)};
+    wt_status status = wt_archive_open(input, &file->archive, err);
+    if (status == WT_OK)
+        status = find_segments(file, err);
+    if (status == WT_OK)
+        status = read_header(file, "header.properties", &file->header, err);
+    if (status == WT_OK)
+        status = read_header(file, "shared-data/header.properties", &file->shared, err);
+    if (status != WT_OK) {
+        jpk_file_close(file);
+        return status;
+    }
+    if (file->map)
+        read_grid(file);
+    note_oddities(file);
+    return WT_OK;
+}
+
+void jpk_file_close(jpk_file *file)
+{
+    wt_archive_close(file->archive);
+    wt_properties_clear(&file->header);
+    wt_properties_clear(&file->shared);
+    wt_properties_clear(&file->position);
+    free(file->buffer.data);
+    free(file->refs);
+    free(file->lcds);
+    *file = (jpk_file){0};
+}
+
+/* The place in the grid follows from the number of the position, which is not the number of the
+ * curve in a file that was cut out of a larger one. */
+static void find_place(const jpk_file *file, size_t number, wt_force_curve *curve)
+{
+    if (file->columns == 0)
+        return;
+    size_t row = number / (size_t)file->columns;
+    long column = (long)(number % (size_t)file->columns);
+    if (row >= (size_t)file->rows)
+        return;
+    bool back = file->back_and_forth && row % 2 == 1;
+    curve->grid_x = back ? file->columns - 1 - column : column;
+    curve->grid_y = (long)row;
+}
+
+void jpk_file_position(jpk_file *file, size_t ref, wt_force_curve *curve)
+{
+    size_t number = file->refs[ref].curve;
+    const wt_properties *header = &file->header;
+    char key[192];
+    curve->x = (double)NAN;
+    curve->y = (double)NAN;
+    curve->grid_x = -1;
+    curve->grid_y = -1;
+    if (file->map) {
+        snprintf(key, sizeof key, "index/%zu/header.properties", number);
+        header = &file->position;
+        file->position.n = 0;
+        if (read_header(file, key, &file->position, NULL) != WT_OK || file->position.n == 0)
+            wt_parselog_add(file->log, WT_WARNING, file->name, key,
+                            "header of a curve cannot be read: its position is unknown");
+    }
+    if (root_key(header, "header.", key, sizeof key)) {
+        curve->x = wt_properties_number(header, key, "position.x");
+        curve->y = wt_properties_number(header, key, "position.y");
+        double place = wt_properties_number(header, key, "position-index");
+        if (place >= 0 && place < 1e9)
+            number = (size_t)place;
+    }
+    find_place(file, number, curve);
+}

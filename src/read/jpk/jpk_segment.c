@@ -1,0 +1,310 @@
+/* A segment of a JPK curve: its header with what it inherits, and which channels it has.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "read/jpk/jpk.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The number N of a key "….*=N"; false if it is not one. */
+static bool reference(const char *text, long *number)
+{
+    char *end = NULL;
+    if (text == NULL || *text < '0' || *text > '9')
+        return false;
+    errno = 0;
+    *number = strtol(text, &end, 10);
+    return *end == '\0' && errno == 0;
+}
+
+/* A key of the segment header: its own, or that of the shared header that it points to. */
+static const char *segment_key(const jpk_file *file, const jpk_segment *segment, const char *key)
+{
+    const char *own = wt_properties_find(&segment->header, "force-segment-header.", key);
+    if (own != NULL)
+        return own;
+    long n = 0;
+    if (!reference(
+            wt_properties_get(&segment->header, "force-segment-header.force-segment-header-info.*"),
+            &n))
+        return NULL;
+    char prefix[64];
+    snprintf(prefix, sizeof prefix, "force-segment-header-info.%ld.", n);
+    return wt_properties_find(&file->shared, prefix, key);
+}
+
+static double segment_number(const jpk_file *file, const jpk_segment *segment, const char *key)
+{
+    const char *text = segment_key(file, segment, key);
+    double value = (double)NAN;
+    if (text == NULL || !wt_number_parse(text, strlen(text), '.', &value))
+        return (double)NAN;
+    return value;
+}
+
+/* Newer files keep what the user set below "settings.segment-settings.". */
+static double setting(const jpk_file *file, const jpk_segment *segment, const char *name)
+{
+    char key[96];
+    snprintf(key, sizeof key, "settings.segment-settings.%s", name);
+    double value = segment_number(file, segment, key);
+    if (!isnan(value))
+        return value;
+    snprintf(key, sizeof key, "settings.%s", name);
+    return segment_number(file, segment, key);
+}
+
+static void read_settings(const jpk_file *file, jpk_segment *segment)
+{
+    const char *style = segment_key(file, segment, "settings.segment-settings.style");
+    if (style == NULL)
+        style = segment_key(file, segment, "settings.style");
+    const char *type = segment_key(file, segment, "settings.segment-settings.type");
+    snprintf(segment->style, sizeof segment->style, "%s", style != NULL ? style : "");
+    segment->kind = WT_SEGMENT_OTHER;
+    if (strcmp(segment->style, "extend") == 0)
+        segment->kind = WT_SEGMENT_APPROACH;
+    else if (strcmp(segment->style, "retract") == 0)
+        segment->kind = WT_SEGMENT_RETRACT;
+    else if (strstr(segment->style, "modulation") != NULL ||
+             (type != NULL && strstr(type, "modulation") != NULL))
+        segment->kind = WT_SEGMENT_MODULATION;
+    else if (strcmp(segment->style, "pause") == 0)
+        segment->kind = WT_SEGMENT_DWELL;
+
+    double duration = segment_number(file, segment, "duration");
+    segment->duration = duration >= 0 ? duration : (double)NAN;
+    segment->setpoint_voltage = (double)NAN;
+    segment->velocity = (double)NAN;
+    if (segment->kind == WT_SEGMENT_APPROACH)
+        segment->setpoint_voltage = setting(file, segment, "setpoint");
+    if (segment->kind == WT_SEGMENT_APPROACH || segment->kind == WT_SEGMENT_RETRACT) {
+        double range = setting(file, segment, "z-start") - setting(file, segment, "z-end");
+        double time = setting(file, segment, "duration");
+        if (time > 0)
+            segment->velocity = fabs(range) / time;
+    }
+}
+
+static wt_status shared_lcd(jpk_file *file, long id, const jpk_lcd **lcd, wt_error *err)
+{
+    for (size_t i = 0; i < file->n_lcds; i++) {
+        if (file->lcds[i].id == id) {
+            *lcd = &file->lcds[i].lcd;
+            return WT_OK;
+        }
+    }
+    if (file->shared.n == 0) {
+        wt_fail(err, WT_E_CORRUPT, "shared-data/header.properties is missing");
+        wt_error_advice(err, "without it the channels cannot be converted");
+        return WT_E_CORRUPT;
+    }
+    char prefix[64];
+    jpk_lcd found;
+    snprintf(prefix, sizeof prefix, "lcd-info.%ld.", id);
+    wt_status status = jpk_lcd_read(&file->shared, prefix, &found, err);
+    if (status != WT_OK)
+        return status;
+    jpk_cached_lcd *grown = realloc(file->lcds, (file->n_lcds + 1) * sizeof *grown);
+    if (grown == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for the calibration of a channel");
+    file->lcds = grown;
+    file->lcds[file->n_lcds] = (jpk_cached_lcd){id, found};
+    *lcd = &file->lcds[file->n_lcds++].lcd;
+    return WT_OK;
+}
+
+static wt_status read_lcd(jpk_file *file, const jpk_segment *segment, const char *prefix,
+                          jpk_lcd *lcd, wt_error *err)
+{
+    const char *text = wt_properties_find(&segment->header, prefix, "lcd-info.*");
+    long id = 0;
+    if (text == NULL)
+        return jpk_lcd_read(&segment->header, prefix, lcd, err);
+    if (!reference(text, &id)) {
+        wt_fail(err, WT_E_CORRUPT, "reference to shared data is not a number");
+        wt_error_found(err, "%slcd-info.*=%s", prefix, text);
+        return WT_E_CORRUPT;
+    }
+    const jpk_lcd *shared = NULL;
+    wt_status status = shared_lcd(file, id, &shared, err);
+    if (status == WT_OK)
+        *lcd = *shared;
+    return status;
+}
+
+/* Where the data file is and how many whole samples it can give. `folder` ends in '/'. */
+static wt_status find_data(const jpk_file *file, const jpk_segment *segment, const char *prefix,
+                           const char *folder, jpk_channel *channel, wt_error *err)
+{
+    char name[512];
+    double announced = wt_properties_number(&segment->header, prefix, "data.num-points");
+    size_t n = announced >= 0 && announced < 4e9 ? (size_t)announced : 0;
+    if (channel->lcd.encoding == JPK_RASTER) {
+        double start = wt_properties_number(&segment->header, prefix, "data.start");
+        double step = wt_properties_number(&segment->header, prefix, "data.step");
+        channel->n_points = n;
+        channel->raster = (jpk_linear){step, start};
+        if (isnan(start) || isnan(step)) {
+            channel->understood = false;
+            snprintf(channel->problem, sizeof channel->problem,
+                     "raster without data.start and data.step");
+        }
+        return WT_OK;
+    }
+    const char *path = wt_properties_find(&segment->header, prefix, "data.file.name");
+    int length = snprintf(name, sizeof name, "%s%s", folder, path != NULL ? path : "");
+    if (path == NULL || length < 0 || (size_t)length >= sizeof name ||
+        !wt_archive_find(file->archive, name, &channel->entry))
+        return WT_OK;
+    size_t size = 0;
+    wt_status status = wt_archive_size(file->archive, channel->entry, &size, err);
+    if (status != WT_OK)
+        return status;
+    size_t held = size / jpk_encoding_width(channel->lcd.encoding);
+    channel->has_file = true;
+    channel->n_points = isnan(announced) || held < n ? held : n;
+    return WT_OK;
+}
+
+static wt_status read_channel(jpk_file *file, jpk_segment *segment, const char *folder,
+                              jpk_channel *channel, wt_error *err)
+{
+    char prefix[JPK_NAME + 16];
+    wt_error problem = WT_ERROR_INIT;
+    snprintf(prefix, sizeof prefix, "channel.%s.", channel->name);
+    wt_status status = read_lcd(file, segment, prefix, &channel->lcd, &problem);
+    if (status == WT_E_MEMORY)
+        return wt_fail(err, status, "%s", problem.message);
+    channel->understood = status == WT_OK;
+    if (!channel->understood) {
+        wt_error_format(&problem, channel->problem, sizeof channel->problem);
+        return WT_OK;
+    }
+    return find_data(file, segment, prefix, folder, channel, err);
+}
+
+static wt_status read_channels(jpk_file *file, jpk_segment *segment, const char *folder,
+                               wt_error *err)
+{
+    const char *list = wt_properties_get(&segment->header, "channels.list");
+    segment->n_channels = 0;
+    while (list != NULL && *list != '\0') {
+        size_t n = strcspn(list, " ");
+        if (n >= JPK_NAME || segment->n_channels == JPK_CHANNELS)
+            return wt_fail(err, WT_E_UNSUPPORTED, "list of channels too long");
+        if (n > 0) {
+            jpk_channel *channel = &segment->channels[segment->n_channels++];
+            /* The calibration is large and filled by read_channel. */
+            memcpy(channel->name, list, n);
+            channel->name[n] = '\0';
+            channel->has_file = false;
+            channel->n_points = 0;
+            channel->problem[0] = '\0';
+            wt_status status = read_channel(file, segment, folder, channel, err);
+            if (status != WT_OK)
+                return status;
+        }
+        list += n + strspn(list + n, " ");
+    }
+    return WT_OK;
+}
+
+/* All channels of a segment are cut to the shortest. Only those with a data file can say how long
+ * it is at most: a raster costs nothing and may announce anything. */
+static void common_length(const jpk_file *file, jpk_segment *segment, const char *folder)
+{
+    size_t shortest = SIZE_MAX, longest = 0;
+    segment->incomplete = false;
+    for (size_t i = 0; i < segment->n_channels; i++) {
+        const jpk_channel *c = &segment->channels[i];
+        if (!c->understood || c->lcd.encoding == JPK_RASTER)
+            continue;
+        if (!c->has_file) {
+            segment->incomplete = true;
+            continue;
+        }
+        shortest = c->n_points < shortest ? c->n_points : shortest;
+        longest = c->n_points > longest ? c->n_points : longest;
+    }
+    if (shortest == SIZE_MAX)
+        shortest = 0;
+    for (size_t i = 0; i < segment->n_channels; i++) {
+        const jpk_channel *c = &segment->channels[i];
+        if (c->understood && c->lcd.encoding == JPK_RASTER && c->n_points < shortest)
+            shortest = c->n_points;
+    }
+    segment->n_points = shortest;
+    double announced =
+        wt_properties_number(&segment->header, "force-segment-header.", "num-points");
+    bool cut = announced > (double)shortest || longest > shortest;
+    segment->incomplete = segment->incomplete || cut;
+    if (shortest > 0 && cut)
+        wt_parselog_add(file->log, WT_WARNING, file->name, folder,
+                        "channels are of different length; cut to the shortest");
+}
+
+wt_status jpk_segment_read(jpk_file *file, const jpk_segment_ref *ref, jpk_segment *segment,
+                           wt_error *err)
+{
+    char folder[128];
+    wt_status status =
+        wt_archive_read(file->archive, ref->entry, JPK_HEADER_MAX, &file->buffer, err);
+    if (status == WT_OK)
+        status = wt_properties_parse(&segment->header, file->buffer.data, file->buffer.length, err);
+    if (file->map)
+        snprintf(folder, sizeof folder, "index/%zu/segments/%zu/", ref->curve, ref->segment);
+    else
+        snprintf(folder, sizeof folder, "segments/%zu/", ref->segment);
+    if (status == WT_OK)
+        status = read_channels(file, segment, folder, err);
+    if (status != WT_OK) {
+        wt_error_place(err, "%s", folder);
+        return status;
+    }
+    read_settings(file, segment);
+    common_length(file, segment, folder);
+    return WT_OK;
+}
+
+const jpk_channel *jpk_segment_channel(const jpk_segment *segment, const char *name)
+{
+    for (size_t i = 0; i < segment->n_channels; i++)
+        if (strcmp(segment->channels[i].name, name) == 0)
+            return &segment->channels[i];
+    return NULL;
+}
+
+const jpk_channel *jpk_segment_source(const jpk_segment *segment, wt_quantity quantity)
+{
+    /* Of several sensors the one that the instrument itself works with. */
+    static const char *const sensors[] = {"measuredHeight", "capacitiveSensorHeight",
+                                          "strainGaugeHeight", "smoothedMeasuredHeight"};
+    const char *name = NULL;
+    switch (quantity) {
+    case WT_Q_FORCE:
+    case WT_Q_DEFLECTION:
+    case WT_Q_DEFLECTION_VOLTAGE:
+        name = "vDeflection";
+        break;
+    case WT_Q_LATERAL_DEFLECTION:
+        name = "hDeflection";
+        break;
+    case WT_Q_HEIGHT:
+        name = "height";
+        break;
+    case WT_Q_MEASURED_HEIGHT:
+        for (size_t i = 0; i < sizeof sensors / sizeof *sensors; i++) {
+            const jpk_channel *c = jpk_segment_channel(segment, sensors[i]);
+            if (c != NULL && c->understood)
+                return c;
+        }
+        return NULL;
+    default:
+        return NULL;
+    }
+    return jpk_segment_channel(segment, name);
+}

@@ -1,0 +1,297 @@
+/* Java .properties: the text format of every header in a JPK file.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "read/jpk/properties.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define KEY_MAX 512
+
+/* What is left to read, and where the text goes. A Latin-1 byte becomes at most two bytes of UTF-8
+ * and an escape of six bytes at most three (a pair of twelve at most four), so twice the input plus
+ * the terminating zeros always suffices. */
+typedef struct parser {
+    const unsigned char *at;
+    const unsigned char *end;
+    char *out;
+    size_t line;
+} parser;
+
+static void put(parser *p, uint32_t c)
+{
+    if (c < 0x80) {
+        *p->out++ = (char)c;
+    } else if (c < 0x800) {
+        *p->out++ = (char)(0xc0 | c >> 6);
+        *p->out++ = (char)(0x80 | (c & 0x3f));
+    } else if (c < 0x10000) {
+        *p->out++ = (char)(0xe0 | c >> 12);
+        *p->out++ = (char)(0x80 | (c >> 6 & 0x3f));
+        *p->out++ = (char)(0x80 | (c & 0x3f));
+    } else {
+        *p->out++ = (char)(0xf0 | c >> 18);
+        *p->out++ = (char)(0x80 | (c >> 12 & 0x3f));
+        *p->out++ = (char)(0x80 | (c >> 6 & 0x3f));
+        *p->out++ = (char)(0x80 | (c & 0x3f));
+    }
+}
+
+static bool is_blank(unsigned char c)
+{
+    return c == ' ' || c == '\t' || c == '\f';
+}
+
+static bool is_break(unsigned char c)
+{
+    return c == '\n' || c == '\r';
+}
+
+static void skip_blanks(parser *p)
+{
+    while (p->at < p->end && is_blank(*p->at))
+        p->at++;
+}
+
+static void skip_break(parser *p)
+{
+    if (p->at == p->end)
+        return;
+    bool carriage = *p->at++ == '\r';
+    if (carriage && p->at < p->end && *p->at == '\n')
+        p->at++;
+    p->line++;
+}
+
+static bool hex4(const parser *p, const unsigned char *at, uint32_t *value)
+{
+    if (p->end - at < 4)
+        return false;
+    uint32_t v = 0;
+    for (int i = 0; i < 4; i++) {
+        unsigned char c = at[i];
+        uint32_t digit;
+        if (c >= '0' && c <= '9')
+            digit = (uint32_t)(c - '0');
+        else if (c >= 'a' && c <= 'f')
+            digit = (uint32_t)(c - 'a' + 10);
+        else if (c >= 'A' && c <= 'F')
+            digit = (uint32_t)(c - 'A' + 10);
+        else
+            return false;
+        v = v << 4 | digit;
+    }
+    *value = v;
+    return true;
+}
+
+/* After "\u". Two halves of a pair become one character; a half alone, which no text encoding can
+ * hold, becomes the replacement character. */
+static bool unicode(parser *p)
+{
+    uint32_t c = 0;
+    if (!hex4(p, p->at, &c) || c == 0)
+        return false;
+    p->at += 4;
+    if (c >= 0xd800 && c < 0xe000) {
+        uint32_t low = 0;
+        if (c < 0xdc00 && p->end - p->at >= 6 && p->at[0] == '\\' && p->at[1] == 'u' &&
+            hex4(p, p->at + 2, &low) && low >= 0xdc00 && low < 0xe000) {
+            c = 0x10000 + ((c - 0xd800) << 10) + (low - 0xdc00);
+            p->at += 6;
+        } else {
+            c = 0xfffd;
+        }
+    }
+    put(p, c);
+    return true;
+}
+
+/* After a backslash. */
+static bool escape(parser *p)
+{
+    if (p->at == p->end)
+        return true;
+    unsigned char c = *p->at;
+    if (is_break(c)) {
+        skip_break(p);
+        skip_blanks(p);
+        return true;
+    }
+    p->at++;
+    switch (c) {
+    case 'u':
+        return unicode(p);
+    case 't':
+        put(p, '\t');
+        return true;
+    case 'n':
+        put(p, '\n');
+        return true;
+    case 'r':
+        put(p, '\r');
+        return true;
+    case 'f':
+        put(p, '\f');
+        return true;
+    case '\0':
+        return false;
+    default:
+        put(p, c);
+        return true;
+    }
+}
+
+/* Copies up to the end of the line, or of the key if `key`. */
+static bool word(parser *p, bool key)
+{
+    while (p->at < p->end && !is_break(*p->at)) {
+        unsigned char c = *p->at;
+        if (key && (c == '=' || c == ':' || is_blank(c)))
+            break;
+        p->at++;
+        if (c == '\0')
+            return false;
+        if (c != '\\')
+            put(p, c);
+        else if (!escape(p))
+            return false;
+    }
+    *p->out++ = '\0';
+    return true;
+}
+
+static int by_key(const void *a, const void *b)
+{
+    const wt_property *x = a, *y = b;
+    int order = strcmp(x->key, y->key);
+    if (order != 0)
+        return order;
+    /* All keys lie in one block of text in the order of the file. */
+    return x->key < y->key ? -1 : x->key > y->key;
+}
+
+static wt_status reserve(wt_properties *p, size_t length, wt_error *err)
+{
+    if (length > SIZE_MAX / 64)
+        return wt_fail(err, WT_E_RANGE, "header too large");
+    size_t text = 2 * length + 2;
+    /* A property is at least one byte and a line break; the last one needs no break. */
+    size_t items = length / 2 + 1;
+    if (text > p->text_capacity) {
+        char *grown = realloc(p->text, text);
+        if (grown == NULL)
+            return wt_fail(err, WT_E_MEMORY, "no memory for a header");
+        p->text = grown;
+        p->text_capacity = text;
+    }
+    if (items > p->capacity) {
+        wt_property *grown = realloc(p->items, items * sizeof *grown);
+        if (grown == NULL)
+            return wt_fail(err, WT_E_MEMORY, "no memory for a header");
+        p->items = grown;
+        p->capacity = items;
+    }
+    return WT_OK;
+}
+
+static void sort(wt_properties *p)
+{
+    if (p->n < 2)
+        return;
+    qsort(p->items, p->n, sizeof *p->items, by_key);
+    size_t kept = 0;
+    for (size_t i = 0; i < p->n; i++) {
+        bool again = i + 1 < p->n && strcmp(p->items[i].key, p->items[i + 1].key) == 0;
+        if (!again)
+            p->items[kept++] = p->items[i];
+    }
+    p->n = kept;
+}
+
+wt_status wt_properties_parse(wt_properties *properties, const unsigned char *bytes, size_t length,
+                              wt_error *err)
+{
+    properties->n = 0;
+    wt_status status = reserve(properties, length, err);
+    if (status != WT_OK)
+        return status;
+    parser p = {.at = bytes, .end = bytes + length, .out = properties->text, .line = 1};
+    while (p.at < p.end) {
+        skip_blanks(&p);
+        if (p.at == p.end)
+            break;
+        if (is_break(*p.at)) {
+            skip_break(&p);
+            continue;
+        }
+        if (*p.at == '#' || *p.at == '!') {
+            while (p.at < p.end && !is_break(*p.at))
+                p.at++;
+            continue;
+        }
+        wt_property item = {.key = p.out};
+        size_t line = p.line;
+        bool good = word(&p, true);
+        if (good) {
+            skip_blanks(&p);
+            if (p.at < p.end && (*p.at == '=' || *p.at == ':')) {
+                p.at++;
+                skip_blanks(&p);
+            }
+            item.value = p.out;
+            good = word(&p, false);
+        }
+        if (!good) {
+            properties->n = 0;
+            wt_fail(err, WT_E_CORRUPT, "header is damaged");
+            wt_error_place(err, "line %zu", line);
+            wt_error_expected(err, "text with \\uXXXX for characters beyond Latin-1");
+            return WT_E_CORRUPT;
+        }
+        properties->items[properties->n++] = item;
+    }
+    sort(properties);
+    return WT_OK;
+}
+
+void wt_properties_clear(wt_properties *properties)
+{
+    free(properties->items);
+    free(properties->text);
+    *properties = (wt_properties){0};
+}
+
+static int key_of(const void *key, const void *item)
+{
+    return strcmp(key, ((const wt_property *)item)->key);
+}
+
+const char *wt_properties_get(const wt_properties *properties, const char *key)
+{
+    if (properties->n == 0)
+        return NULL;
+    const wt_property *found =
+        bsearch(key, properties->items, properties->n, sizeof *properties->items, key_of);
+    return found != NULL ? found->value : NULL;
+}
+
+const char *wt_properties_find(const wt_properties *properties, const char *prefix,
+                               const char *suffix)
+{
+    char key[KEY_MAX];
+    int n = snprintf(key, sizeof key, "%s%s", prefix, suffix);
+    return n < 0 || (size_t)n >= sizeof key ? NULL : wt_properties_get(properties, key);
+}
+
+double wt_properties_number(const wt_properties *properties, const char *prefix, const char *suffix)
+{
+    const char *text = wt_properties_find(properties, prefix, suffix);
+    double value = (double)NAN;
+    if (text == NULL || !wt_number_parse(text, strlen(text), '.', &value))
+        return (double)NAN;
+    return value;
+}

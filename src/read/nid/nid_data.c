@@ -1,0 +1,275 @@
+/* The channels of a .nid file: where their blocks are, what their numbers mean; images and spectra.
+ *
+ * Value of a sample: Dim2Min + Dim2Range (raw + 2^(bits-1)) / 2^bits. Rows run from the bottom
+ * upwards.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "read/bytes/bytes.h"
+#include "read/nid/nid.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#define MAX_GROUPS 256
+#define MAX_SLOTS 256
+#define MAX_SIDE ((size_t)1 << 30)
+
+static const char *text_or_empty(const char *text)
+{
+    return text != NULL ? text : "";
+}
+
+static wt_status bad_key(wt_error *err, const char *section, const char *key, const char *found,
+                         const char *expected)
+{
+    wt_fail(err, WT_E_CORRUPT, "%s is missing or not understood", key);
+    wt_error_place(err, "[%s]", section);
+    wt_error_expected(err, "%s", expected);
+    wt_error_found(err, "%s", found != NULL ? found : "nothing");
+    return WT_E_CORRUPT;
+}
+
+static wt_status expect(const nid_header *header, const char *section, const char *key,
+                        const char *value, wt_error *err)
+{
+    const char *found = nid_get(header, section, key);
+    if (found != NULL && strcmp(found, value) == 0)
+        return WT_OK;
+    return bad_key(err, section, key, found, value);
+}
+
+static wt_status read_channel(const nid_header *header, nid_channel *c, wt_error *err)
+{
+    const char *s = c->section;
+    size_t bits = 0;
+    if (!nid_count(header, s, "Points", MAX_SIDE, &c->points) || c->points == 0)
+        return bad_key(err, s, "Points", nid_get(header, s, "Points"), "a number of samples");
+    if (!nid_count(header, s, "Lines", MAX_SIDE, &c->lines) || c->lines == 0)
+        return bad_key(err, s, "Lines", nid_get(header, s, "Lines"), "a number of lines");
+    if (!nid_count(header, s, "SaveBits", 32, &bits) || (bits != 16 && bits != 32))
+        return bad_key(err, s, "SaveBits", nid_get(header, s, "SaveBits"), "16 or 32");
+    c->bits = (unsigned)bits;
+    c->minimum = nid_number(header, s, "Dim2Min");
+    c->range = nid_number(header, s, "Dim2Range");
+    if (isnan(c->minimum))
+        return bad_key(err, s, "Dim2Min", nid_get(header, s, "Dim2Min"), "a number");
+    if (isnan(c->range))
+        return bad_key(err, s, "Dim2Range", nid_get(header, s, "Dim2Range"), "a number");
+    if (!nid_count(header, s, "Version", 1000, &c->version))
+        return bad_key(err, s, "Version", nid_get(header, s, "Version"), "a whole number");
+    c->name = text_or_empty(nid_get(header, s, "Dim2Name"));
+    c->unit = text_or_empty(nid_get(header, s, "Dim2Unit"));
+    wt_status status = expect(header, s, "SaveMode", "Binary", err);
+    if (status == WT_OK)
+        status = expect(header, s, "SaveSign", "Signed", err);
+    if (status == WT_OK)
+        status = expect(header, s, "SaveOrder", "Intel", err);
+    return status;
+}
+
+/* Adds the channel of slot (g, c) if the file holds it, and moves *at behind its block. */
+static wt_status add_channel(nid_file *file, size_t g, size_t c, const char *group_name,
+                             size_t length, size_t *at, wt_error *err)
+{
+    char key[64];
+    snprintf(key, sizeof key, "Gr%zu-Ch%zu", g, c);
+    nid_channel channel = {.group = g, .slot = c, .group_name = group_name, .offset = *at};
+    channel.section = nid_get(&file->header, "DataSet", key);
+    if (channel.section == NULL)
+        return WT_OK;
+    wt_status status = read_channel(&file->header, &channel, err);
+    if (status != WT_OK)
+        return status;
+    size_t width = channel.bits / 8, left = length - *at;
+    if (channel.points > left / width || channel.lines > left / width / channel.points) {
+        wt_fail(err, WT_E_CORRUPT, "the file is shorter than its blocks");
+        wt_error_place(err, "[%s]", channel.section);
+        wt_error_expected(err, "%zu x %zu samples of %u bits", channel.points, channel.lines,
+                          channel.bits);
+        wt_error_found(err, "%zu bytes left", left);
+        return WT_E_CORRUPT;
+    }
+    *at += channel.points * channel.lines * width;
+    nid_channel *grown = realloc(file->channels, (file->n + 1) * sizeof *grown);
+    if (grown == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for the list of channels");
+    file->channels = grown;
+    file->channels[file->n++] = channel;
+    return WT_OK;
+}
+
+static wt_status find_channels(nid_file *file, size_t length, wt_error *err)
+{
+    size_t groups = 0, at = file->header.data;
+    if (!nid_count(&file->header, "DataSet", "GroupCount", MAX_GROUPS, &groups))
+        return bad_key(err, "DataSet", "GroupCount",
+                       nid_get(&file->header, "DataSet", "GroupCount"), "a number up to 256");
+    for (size_t g = 0; g < groups; g++) {
+        char key[64];
+        size_t slots = 0;
+        snprintf(key, sizeof key, "Gr%zu-Count", g);
+        if (!nid_count(&file->header, "DataSet", key, MAX_SLOTS, &slots))
+            return bad_key(err, "DataSet", key, nid_get(&file->header, "DataSet", key),
+                           "a number up to 256");
+        snprintf(key, sizeof key, "Gr%zu-Name", g);
+        const char *name = text_or_empty(nid_get(&file->header, "DataSet", key));
+        for (size_t c = 0; c < slots; c++) {
+            wt_status status = add_channel(file, g, c, name, length, &at, err);
+            if (status != WT_OK)
+                return status;
+        }
+    }
+    if (at != length) {
+        wt_fail(err, WT_E_CORRUPT, "the blocks do not end where the file ends");
+        wt_error_expected(err, "%zu bytes", at);
+        wt_error_found(err, "%zu bytes", length);
+        return WT_E_CORRUPT;
+    }
+    if (file->n == 0)
+        return wt_fail(err, WT_E_EMPTY, "the file holds no channel");
+    return WT_OK;
+}
+
+wt_status nid_file_open(wt_input *input, nid_file *file, wt_error *err)
+{
+    size_t length = 0;
+    *file = (nid_file){.name = wt_input_name(input)};
+    wt_status status = wt_input_bytes(input, &file->bytes, &length, err);
+    if (status == WT_OK)
+        status = nid_header_read(file->bytes, length, &file->header, err);
+    if (status == WT_OK)
+        status = find_channels(file, length, err);
+    if (status != WT_OK)
+        nid_file_close(file);
+    return status;
+}
+
+void nid_file_close(nid_file *file)
+{
+    nid_header_clear(&file->header);
+    free(file->channels);
+    *file = (nid_file){0};
+}
+
+bool nid_is_spectroscopy(const nid_channel *channel)
+{
+    return strncasecmp(channel->group_name, "Spec ", 5) == 0;
+}
+
+void nid_decode(const nid_file *file, const nid_channel *c, size_t line, size_t n, double factor,
+                double offset, double *values)
+{
+    size_t width = c->bits / 8;
+    const unsigned char *b = file->bytes + c->offset + line * c->points * width;
+    double half = ldexp(1.0, (int)c->bits - 1), whole = ldexp(1.0, (int)c->bits);
+    for (size_t i = 0; i < n; i++, b += width) {
+        double raw = width == 2 ? (double)wt_signed16(wt_le16(b)) : (double)wt_signed32(wt_le32(b));
+        double value = factor * (c->minimum + c->range * ((raw + half) / whole)) + offset;
+        /* Only a range beyond all sense overflows: then nothing is known. */
+        values[i] = isfinite(value) ? value : (double)NAN;
+    }
+}
+
+const char *nid_si_unit(const char *unit, double *factor, double *offset)
+{
+    static const wt_quantity known[] = {WT_Q_LENGTH, WT_Q_DEFLECTION_VOLTAGE, WT_Q_FORCE,
+                                        WT_Q_PHASE,  WT_Q_FREQUENCY,          WT_Q_TIME};
+    *factor = 1;
+    *offset = 0;
+    /* A root has no spelling in UDUNITS. */
+    if (strcmp(unit, "m/sqrt(Hz)") == 0)
+        return wt_quantity_unit(WT_Q_SPECTRAL_DENSITY);
+    if (unit[0] == '\0')
+        return "";
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+        if (wt_unit_to_si(unit, known[i], factor, offset, NULL) == WT_OK)
+            return wt_quantity_unit(known[i]);
+    *factor = 1;
+    *offset = 0;
+    return "";
+}
+
+/* ---- images ------------------------------------------------------------------------------- */
+
+/* Range and beginning of an axis in SI; an axis without a known unit keeps its numbers. */
+static void read_axis(const nid_header *header, const char *section, int axis, double *range,
+                      double *minimum, char *unit, size_t size)
+{
+    char key[16];
+    double factor = 1, offset = 0;
+    snprintf(key, sizeof key, "Dim%dUnit", axis);
+    const char *si = nid_si_unit(text_or_empty(nid_get(header, section, key)), &factor, &offset);
+    snprintf(key, sizeof key, "Dim%dRange", axis);
+    *range = factor * nid_number(header, section, key);
+    snprintf(key, sizeof key, "Dim%dMin", axis);
+    *minimum = factor * nid_number(header, section, key) + offset;
+    if (unit != NULL)
+        snprintf(unit, size, "%s", si);
+}
+
+static wt_status read_image(const nid_file *file, const nid_channel *c, wt_parselog *log,
+                            wt_image *image, wt_error *err)
+{
+    double factor = 1, offset = 0, current = (double)NAN;
+    const char *unit = nid_si_unit(c->unit, &factor, &offset);
+    if (unit[0] == '\0' && c->unit[0] != '\0') {
+        unit = c->unit;
+        wt_parselog_add(log, WT_NOTE, file->name, c->section, "unit %s is kept as it is", c->unit);
+    }
+    image->values = malloc(c->points * c->lines * sizeof *image->values);
+    if (image->values == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for an image of %zu x %zu points", c->points,
+                       c->lines);
+    snprintf(image->name, sizeof image->name, "%s: %s", c->group_name, c->name);
+    snprintf(image->unit, sizeof image->unit, "%s", unit[0] != '\0' ? unit : "1");
+    image->n_columns = c->points;
+    image->n_rows = c->lines;
+    read_axis(&file->header, c->section, 0, &image->width, &image->x_min, image->x_unit,
+              sizeof image->x_unit);
+    read_axis(&file->header, c->section, 1, &image->height, &image->y_min, NULL, 0);
+    current = nid_number(&file->header, c->section, "CurLine");
+    if (current >= 0 && current + 1 < (double)c->lines)
+        wt_parselog_add(log, WT_WARNING, file->name, c->section,
+                        "scan was stopped: line %.0f of %zu is the last that was measured",
+                        current + 1, c->lines);
+    for (size_t line = 0; line < c->lines; line++)
+        nid_decode(file, c, line, c->points, factor, offset, image->values + line * c->points);
+    return WT_OK;
+}
+
+wt_status nid_read_images(const wt_reader *self, wt_input *input, const wt_read_options *options,
+                          wt_parselog *log, wt_image **images, size_t *n_images, wt_error *err)
+{
+    (void)self;
+    (void)options;
+    nid_file file = {0};
+    wt_image *list = NULL;
+    size_t n = 0;
+    wt_status status = nid_file_open(input, &file, err);
+    if (status != WT_OK)
+        return status;
+    list = calloc(file.n, sizeof *list);
+    if (list == NULL) {
+        status = wt_fail(err, WT_E_MEMORY, "no memory for the images");
+        goto done;
+    }
+    for (size_t i = 0; i < file.n && status == WT_OK; i++)
+        if (!nid_is_spectroscopy(&file.channels[i]))
+            status = read_image(&file, &file.channels[i], log, &list[n++], err);
+    if (status == WT_OK && n == 0)
+        status = wt_fail(err, WT_E_EMPTY, "the file holds force curves but no image");
+    if (status == WT_OK) {
+        *images = list;
+        *n_images = n;
+        list = NULL;
+    }
+done:
+    for (size_t i = 0; list != NULL && i < n; i++)
+        wt_image_clear(&list[i]);
+    free(list);
+    nid_file_close(&file);
+    return status;
+}

@@ -1,0 +1,397 @@
+/* Force curves of a .nid file.
+ *
+ * Known from other programs only; no genuine file was at hand. So every assumption is checked as it
+ * is used, and reading leaves a note. Heights and signs are those of the file.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "read/nid/nid.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#define SPECTROSCOPY "DataSet\\Parameters\\Spectroscopy"
+#define CANTILEVER "DataSet\\Calibration\\Cantilever"
+#define SCANHEAD "DataSet\\Calibration\\Scanhead"
+
+/* What the header calls the phases, in the order of time. */
+static const struct {
+    wt_segment_kind kind;
+    const char *group, *time, *points, *range;
+} phase_names[NID_PHASES] = {
+    {WT_SEGMENT_APPROACH, "Spec forward", "FwModTime", "FwModDatapoints", "FwModRange"},
+    {WT_SEGMENT_DWELL, "Spec fwd pause", "FwPauseTime", "FwPauseDatapoints", NULL},
+    {WT_SEGMENT_RETRACT, "Spec backward", "BwModTime", "BwModDatapoints", "BwModRange"},
+    {WT_SEGMENT_DWELL, "Spec bwd pause", "BwPauseTime", "BwPauseDatapoints", NULL},
+};
+
+/* ---- what the header says ----------------------------------------------------------------- */
+
+/* Full scale of the input with this name: "In5=5,TipSignalDC,Deflection,m,1.393e-06,0". */
+static double full_scale(const nid_header *header, const char *name, wt_quantity quantity)
+{
+    char key[32], item[NID_TEXT], unit[NID_TEXT];
+    size_t n = 0;
+    if (!nid_count(header, SCANHEAD, "InCount", 1000, &n))
+        return (double)NAN;
+    for (size_t i = 0; i < n; i++) {
+        double value = (double)NAN, factor = 1, offset = 0;
+        snprintf(key, sizeof key, "In%zu", i);
+        const char *list = nid_get(header, SCANHEAD, key);
+        if (list == NULL || !nid_list_item(list, ',', 1, item, sizeof item) ||
+            strcmp(item, name) != 0)
+            continue;
+        if (nid_list_item(list, ',', 3, unit, sizeof unit) &&
+            nid_list_item(list, ',', 4, item, sizeof item) &&
+            wt_number_parse(item, strlen(item), '.', &value) &&
+            wt_unit_to_si(unit, quantity, &factor, &offset, NULL) == WT_OK)
+            return factor * value;
+        return (double)NAN;
+    }
+    return (double)NAN;
+}
+
+static double positive(double value)
+{
+    return value > 0 && isfinite(value) ? value : (double)NAN;
+}
+
+static void read_phase(const nid_header *header, size_t i, nid_phase *phase)
+{
+    double time = nid_typed(header, SPECTROSCOPY, phase_names[i].time, WT_Q_TIME);
+    const char *points = nid_get(header, SPECTROSCOPY, phase_names[i].points);
+    double n = (double)NAN;
+    /* "L[1024]*[]": a number without a unit */
+    if (points != NULL && strncmp(points, "L[", 2) == 0 &&
+        !wt_number_parse(points + 2, strcspn(points + 2, "]"), '.', &n))
+        n = (double)NAN;
+    phase->kind = phase_names[i].kind;
+    phase->group = phase_names[i].group;
+    phase->interval = positive(time / n);
+    phase->velocity = (double)NAN;
+    if (phase_names[i].range != NULL)
+        phase->velocity = positive(
+            fabs(nid_typed(header, SPECTROSCOPY, phase_names[i].range, WT_Q_LENGTH)) / time);
+}
+
+static bool has_unit(const nid_channel *c, wt_quantity quantity)
+{
+    double factor = 1, offset = 0;
+    return wt_unit_to_si(c->unit, quantity, &factor, &offset, NULL) == WT_OK;
+}
+
+static void sort_channel(const nid_channel *c, nid_phase *phase)
+{
+    bool deflection = has_unit(c, WT_Q_DEFLECTION) || has_unit(c, WT_Q_FORCE) ||
+                      has_unit(c, WT_Q_DEFLECTION_VOLTAGE);
+    if (strcmp(c->name, "Deflection") == 0 && deflection)
+        phase->bending = phase->bending == NULL ? c : phase->bending;
+    else if (strcmp(c->name, "Z-Axis Sensor") == 0 && has_unit(c, WT_Q_LENGTH))
+        phase->sensor = phase->sensor == NULL ? c : phase->sensor;
+    else if (strncmp(c->name, "Z-Axis", 6) == 0 && has_unit(c, WT_Q_LENGTH))
+        phase->z = phase->z == NULL ? c : phase->z;
+}
+
+static void count_lines(const nid_channel *c, size_t *n)
+{
+    if (c != NULL && c->lines > *n)
+        *n = c->lines;
+}
+
+wt_status nid_spectroscopy_find(const nid_file *file, nid_spectroscopy *s, wt_error *err)
+{
+    *s = (nid_spectroscopy){0};
+    for (size_t p = 0; p < NID_PHASES; p++) {
+        nid_phase *phase = &s->phases[p];
+        read_phase(&file->header, p, phase);
+        for (size_t i = 0; i < file->n; i++)
+            if (strcasecmp(file->channels[i].group_name, phase->group) == 0)
+                sort_channel(&file->channels[i], phase);
+        count_lines(phase->z, &s->n_curves);
+        count_lines(phase->sensor, &s->n_curves);
+        count_lines(phase->bending, &s->n_curves);
+    }
+    if (s->n_curves == 0) {
+        wt_fail(err, WT_E_EMPTY, "the file holds no force curve");
+        wt_error_expected(err, "groups \"Spec forward\" with Deflection and Z-Axis");
+        wt_error_found(err, "group \"%s\"", file->channels[0].group_name);
+        return WT_E_EMPTY;
+    }
+    s->file_cantilever = (wt_cantilever){
+        .spring_constant =
+            positive(nid_typed(&file->header, CANTILEVER, "Prop0", WT_Q_SPRING_CONSTANT)),
+        .sensitivity =
+            positive(full_scale(&file->header, "TipSignalDC", WT_Q_DEFLECTION) /
+                     full_scale(&file->header, "TipSignalDC1", WT_Q_DEFLECTION_VOLTAGE))};
+    nid_grid(&file->header, &s->columns, &s->rows);
+    return WT_OK;
+}
+
+/* ---- calibration -------------------------------------------------------------------------- */
+
+/* Factors from the exported deflection signal to the three quantities; NaN = not possible. What the
+ * user gives replaces what the instrument has already applied. */
+typedef struct nid_factors {
+    double voltage, deflection, force;
+} nid_factors;
+
+static nid_factors calibrate(const nid_channel *c, const wt_cantilever *file,
+                             const wt_read_options *options, wt_cantilever *used)
+{
+    bool k_given = !isnan(options->spring_constant), s_given = !isnan(options->sensitivity);
+    *used = (wt_cantilever){.spring_constant =
+                                k_given ? options->spring_constant : file->spring_constant,
+                            .sensitivity = s_given ? options->sensitivity : file->sensitivity,
+                            .spring_constant_given = k_given,
+                            .sensitivity_given = s_given};
+    double s_ratio = s_given ? used->sensitivity / file->sensitivity : 1;
+    /* A force without a spring constant in the file: the instrument knew one, the user says which.
+     */
+    bool k_replaces = k_given && !isnan(file->spring_constant);
+    double k_ratio = k_replaces ? used->spring_constant / file->spring_constant : 1;
+    if (has_unit(c, WT_Q_DEFLECTION_VOLTAGE))
+        return (nid_factors){1, used->sensitivity, used->spring_constant * used->sensitivity};
+    if (has_unit(c, WT_Q_DEFLECTION))
+        return (nid_factors){1 / file->sensitivity, s_ratio, used->spring_constant * s_ratio};
+    double force = k_ratio * s_ratio;
+    return (nid_factors){1 / (file->spring_constant * file->sensitivity),
+                         force / used->spring_constant, force};
+}
+
+static wt_status uncalibrated(const nid_channel *c, const wt_cantilever *file,
+                              const wt_read_options *options, wt_error *err)
+{
+    bool no_k = isnan(file->spring_constant) && isnan(options->spring_constant);
+    bool no_s = isnan(file->sensitivity) && isnan(options->sensitivity) &&
+                has_unit(c, WT_Q_DEFLECTION_VOLTAGE);
+    wt_fail(err, WT_E_MISSING, "the file does not say how %s (%s) becomes a force", c->name,
+            c->unit);
+    if (no_k || no_s)
+        wt_error_advice(err, "give %s%s%s", no_k ? "--spring-constant 0.1N/m" : "",
+                        no_k && no_s ? " and " : "", no_s ? "--sensitivity 120nm/V" : "");
+    else
+        wt_error_advice(err, "the file's own %s is missing, so it cannot be replaced",
+                        isnan(file->sensitivity) ? "deflection sensitivity" : "spring constant");
+    return WT_E_MISSING;
+}
+
+/* ---- curves ------------------------------------------------------------------------------- */
+
+typedef struct nid_source {
+    wt_force_source base;
+    nid_file file;
+    nid_spectroscopy spectroscopy;
+    wt_read_options options;
+    wt_parselog *log;
+    size_t next;
+} nid_source;
+
+typedef struct output {
+    const nid_channel *channel; /* NULL for the time */
+    wt_quantity quantity;
+    double factor; /* on top of the SI value of what was exported */
+} output;
+#define MAX_OUTPUTS 6
+
+static wt_status line_length(const nid_file *file, const nid_channel *c, size_t line, size_t *n,
+                             wt_error *err)
+{
+    char key[48];
+    *n = c->points;
+    if (line >= c->lines)
+        *n = 0;
+    if (c->version < 3 || *n == 0)
+        return WT_OK;
+    snprintf(key, sizeof key, "LineDim%zuPoints", line);
+    if (nid_count(&file->header, c->section, key, c->points, n))
+        return WT_OK;
+    wt_fail(err, WT_E_CORRUPT, "length of a line is missing or not understood");
+    wt_error_place(err, "[%s] %s", c->section, key);
+    wt_error_expected(err, "a whole number up to %zu", c->points);
+    const char *found = nid_get(&file->header, c->section, key);
+    wt_error_found(err, "%s", found != NULL ? found : "nothing");
+    return WT_E_CORRUPT;
+}
+
+/* Samples that all channels of a phase have; they are recorded together. */
+static wt_status phase_length(const nid_source *source, const nid_phase *phase, size_t line,
+                              size_t *n, wt_error *err)
+{
+    const nid_channel *const channels[] = {phase->z, phase->sensor, phase->bending};
+    *n = SIZE_MAX;
+    for (size_t i = 0; i < 3; i++) {
+        size_t own = 0;
+        if (channels[i] == NULL)
+            continue;
+        wt_status status = line_length(&source->file, channels[i], line, &own, err);
+        if (status != WT_OK)
+            return status;
+        if (*n != SIZE_MAX && own != *n)
+            wt_parselog_add(source->log, WT_WARNING, source->file.name, channels[i]->section,
+                            "channels are of different length; cut to the shortest");
+        *n = own < *n ? own : *n;
+    }
+    if (*n == SIZE_MAX)
+        *n = 0;
+    return WT_OK;
+}
+
+static void add_output(const nid_source *source, output outputs[MAX_OUTPUTS], size_t *n, output o)
+{
+    if ((source->options.want & WT_Q_BIT(o.quantity)) != 0)
+        outputs[(*n)++] = o;
+}
+
+static wt_status plan(const nid_source *source, const nid_phase *phase, bool timed,
+                      wt_force_curve *curve, output outputs[MAX_OUTPUTS], size_t *n, wt_error *err)
+{
+    *n = 0;
+    if (timed)
+        add_output(source, outputs, n, (output){NULL, WT_Q_TIME, 1});
+    if (phase->z != NULL)
+        add_output(source, outputs, n, (output){phase->z, WT_Q_HEIGHT, 1});
+    if (phase->sensor != NULL)
+        add_output(source, outputs, n, (output){phase->sensor, WT_Q_MEASURED_HEIGHT, 1});
+    if (phase->bending == NULL)
+        return WT_OK;
+    const wt_cantilever *file = &source->spectroscopy.file_cantilever;
+    nid_factors f = calibrate(phase->bending, file, &source->options, &curve->cantilever);
+    const output calibrated[] = {{phase->bending, WT_Q_FORCE, f.force},
+                                 {phase->bending, WT_Q_DEFLECTION, f.deflection},
+                                 {phase->bending, WT_Q_DEFLECTION_VOLTAGE, f.voltage}};
+    for (size_t i = 0; i < 3; i++) {
+        if (!isnan(calibrated[i].factor)) {
+            add_output(source, outputs, n, calibrated[i]);
+            continue;
+        }
+        if ((source->options.want & WT_Q_BIT(calibrated[i].quantity)) == 0)
+            continue;
+        if (calibrated[i].quantity == WT_Q_DEFLECTION_VOLTAGE) {
+            wt_parselog_add(source->log, WT_NOTE, source->file.name, phase->bending->section,
+                            "no deflection_voltage: the file's own calibration is not known");
+            continue;
+        }
+        wt_error missing = WT_ERROR_INIT;
+        uncalibrated(phase->bending, file, &source->options, &missing);
+        /* Asked for by name it is an error, asked for with everything else it is left out. */
+        if (source->options.want != WT_Q_ALL) {
+            if (err != NULL)
+                *err = missing;
+            return WT_E_MISSING;
+        }
+        wt_parselog_add(source->log, WT_WARNING, source->file.name, phase->bending->section,
+                        "no %s: %s; %s", wt_quantity_id(calibrated[i].quantity), missing.message,
+                        missing.advice);
+    }
+    return WT_OK;
+}
+
+static void fill(const nid_source *source, const output *o, size_t line, size_t n, double start,
+                 double interval, wt_channel *column)
+{
+    double factor = 1, offset = 0;
+    column->quantity = o->quantity;
+    snprintf(column->name, sizeof column->name, "%s", o->channel ? o->channel->name : "time");
+    snprintf(column->unit, sizeof column->unit, "%s", o->channel ? o->channel->unit : "s");
+    if (o->channel == NULL) {
+        for (size_t i = 0; i < n; i++)
+            column->values[i] = start + (double)i * interval;
+        return;
+    }
+    nid_si_unit(o->channel->unit, &factor, &offset);
+    nid_decode(&source->file, o->channel, line, n, factor * o->factor, offset * o->factor,
+               column->values);
+}
+
+/* Adds a phase of the curve; *start moves to its end, NaN once a duration is not known. */
+static wt_status add_phase(const nid_source *source, size_t p, size_t line, double *start,
+                           wt_force_curve *curve, wt_error *err)
+{
+    const nid_phase *phase = &source->spectroscopy.phases[p];
+    output outputs[MAX_OUTPUTS];
+    size_t n = 0, columns = 0;
+    wt_status status = phase_length(source, phase, line, &n, err);
+    if (status != WT_OK || n == 0)
+        return status;
+    double begin = *start;
+    *start += (double)n * phase->interval;
+    if ((source->options.segments & WT_SEGMENT_BIT(phase->kind)) == 0)
+        return WT_OK;
+    bool timed = isfinite(*start);
+    if (!timed && (source->options.want & WT_Q_BIT(WT_Q_TIME)) != 0)
+        wt_parselog_add(source->log, WT_WARNING, source->file.name, SPECTROSCOPY,
+                        "no duration: the time is left out");
+    status = plan(source, phase, timed, curve, outputs, &columns, err);
+    if (status != WT_OK)
+        return status;
+    wt_segment *segment = wt_force_curve_add_segment(curve, phase->kind, n, columns);
+    if (segment == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for a segment of %zu samples", n);
+    segment->index = p;
+    segment->duration = (double)n * phase->interval;
+    segment->velocity = phase->velocity;
+    segment->setpoint = (double)NAN;
+    for (size_t i = 0; i < columns; i++)
+        fill(source, &outputs[i], line, n, begin, phase->interval, &segment->channels[i]);
+    return WT_OK;
+}
+
+static wt_status next_curve(wt_force_source *base, wt_force_curve *curve, wt_error *err)
+{
+    nid_source *source = (nid_source *)base;
+    size_t line = source->next;
+    double start = 0;
+    wt_status status = WT_OK;
+    if (line == source->spectroscopy.n_curves)
+        return WT_END;
+    source->next++;
+    wt_force_curve_reset(curve);
+    curve->index = line;
+    curve->cantilever = source->spectroscopy.file_cantilever;
+    nid_position(&source->file.header, line, source->file.name, source->log, curve);
+    for (size_t p = 0; p < NID_PHASES && status == WT_OK; p++)
+        status = add_phase(source, p, line, &start, curve, err);
+    if (status != WT_OK) {
+        wt_force_curve_reset(curve);
+        wt_error_file(err, source->file.name);
+    }
+    return status;
+}
+
+static void close_source(wt_force_source *base)
+{
+    nid_source *source = (nid_source *)base;
+    nid_file_close(&source->file);
+    free(source);
+}
+
+wt_status nid_open_force(const wt_reader *self, wt_input *input, const wt_read_options *options,
+                         wt_parselog *log, wt_force_source **source, wt_error *err)
+{
+    (void)self;
+    nid_source *s = calloc(1, sizeof *s);
+    if (s == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory to read the file");
+    wt_status status = nid_file_open(input, &s->file, err);
+    if (status == WT_OK)
+        status = nid_spectroscopy_find(&s->file, &s->spectroscopy, err);
+    if (status != WT_OK) {
+        nid_file_close(&s->file);
+        free(s);
+        return status;
+    }
+    wt_parselog_add(log, WT_NOTE, s->file.name, NULL,
+                    "force curves of this format were not verified on a genuine file: compare one "
+                    "with the instrument's own software");
+    s->base = (wt_force_source){.next = next_curve,
+                                .close = close_source,
+                                .n_curves = s->spectroscopy.n_curves,
+                                .grid_columns = s->spectroscopy.columns,
+                                .grid_rows = s->spectroscopy.rows};
+    s->options = *options;
+    s->log = log;
+    *source = &s->base;
+    return WT_OK;
+}

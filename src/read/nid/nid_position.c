@@ -1,0 +1,134 @@
+/* Where the curves of a .nid file were measured: on a grid (SpecMapTable) or at listed places
+ * (SpecPosTable).
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "read/nid/nid.h"
+
+#include <math.h>
+#include <string.h>
+
+#define MAP_SECTION "DataSet\\SpecInfos\\SpecMapTable"
+#define POSITION_SECTION "DataSet\\SpecInfos\\SpecPosTable"
+
+/* Map0 = x0;x1;y0;y1;columns;rows;rotation;placement */
+typedef struct nid_map {
+    double x0, x1, y0, y1, rotation;
+    long columns, rows;
+} nid_map;
+
+static double list_number(const char *list, size_t i)
+{
+    char item[NID_TEXT];
+    double value = (double)NAN;
+    if (!nid_list_item(list, ';', i, item, sizeof item) ||
+        !wt_number_parse(item, strlen(item), '.', &value))
+        return (double)NAN;
+    return value;
+}
+
+static bool read_map(const nid_header *header, nid_map *map)
+{
+    const char *list = nid_get(header, MAP_SECTION, "Map0");
+    if (list == NULL)
+        return false;
+    double columns = list_number(list, 4), rows = list_number(list, 5);
+    if (!(columns >= 1 && columns <= 1e6 && rows >= 1 && rows <= 1e6))
+        return false;
+    *map = (nid_map){.x0 = list_number(list, 0),
+                     .x1 = list_number(list, 1),
+                     .y0 = list_number(list, 2),
+                     .y1 = list_number(list, 3),
+                     .rotation = list_number(list, 6),
+                     .columns = lround(columns),
+                     .rows = lround(rows)};
+    return true;
+}
+
+void nid_grid(const nid_header *header, long *columns, long *rows)
+{
+    nid_map map;
+    *columns = 0;
+    *rows = 0;
+    if (read_map(header, &map)) {
+        *columns = map.columns;
+        *rows = map.rows;
+    }
+}
+
+static double between(double first, double last, long i, long n)
+{
+    return n > 1 ? first + (last - first) * (double)i / (double)(n - 1) : first;
+}
+
+static void from_map(const nid_map *map, size_t i, const char *name, wt_parselog *log,
+                     wt_force_curve *curve)
+{
+    if (i / (size_t)map->columns >= (size_t)map->rows) {
+        wt_parselog_add(log, WT_WARNING, name, MAP_SECTION,
+                        "more curves than places in the map: place unknown");
+        return;
+    }
+    long row = (long)(i / (size_t)map->columns), column = (long)(i % (size_t)map->columns);
+    /* Every other row is measured on the way back. */
+    curve->grid_x = row % 2 == 1 ? map->columns - 1 - column : column;
+    curve->grid_y = row;
+    if (map->rotation != 0) {
+        wt_parselog_add(log, WT_WARNING, name, MAP_SECTION,
+                        "the map is rotated, its unit is not known: positions left out");
+        return;
+    }
+    curve->x = between(map->x0, map->x1, curve->grid_x, map->columns);
+    curve->y = between(map->y0, map->y1, curve->grid_y, map->rows);
+}
+
+static double axis_factor(const nid_header *header, size_t axis)
+{
+    char unit[NID_TEXT];
+    double factor = 1, offset = 0;
+    const char *list = nid_get(header, POSITION_SECTION, "PosUnit");
+    if (list == NULL)
+        list = nid_get(header, POSITION_SECTION, "PosUnits");
+    /* One unit for all axes, or one for each. */
+    if (list == NULL || (!nid_list_item(list, ';', axis, unit, sizeof unit) &&
+                         !nid_list_item(list, ';', 0, unit, sizeof unit)))
+        return (double)NAN;
+    if (wt_unit_to_si(unit, WT_Q_LENGTH, &factor, &offset, NULL) != WT_OK)
+        return (double)NAN;
+    return factor;
+}
+
+static void from_list(const nid_header *header, size_t i, const char *name, wt_parselog *log,
+                      wt_force_curve *curve)
+{
+    char key[32], axis[NID_TEXT];
+    snprintf(key, sizeof key, "Pos%zu", i);
+    const char *list = nid_get(header, POSITION_SECTION, key);
+    const char *axes = nid_get(header, POSITION_SECTION, "PosAxis");
+    for (size_t a = 0; list != NULL && axes != NULL; a++) {
+        if (!nid_list_item(axes, ';', a, axis, sizeof axis))
+            break;
+        double value = axis_factor(header, a) * list_number(list, a);
+        if (strcmp(axis, "X") == 0)
+            curve->x = value;
+        else if (strcmp(axis, "Y") == 0)
+            curve->y = value;
+    }
+    if (isnan(curve->x) || isnan(curve->y))
+        wt_parselog_add(log, WT_WARNING, name, POSITION_SECTION,
+                        "no position for a curve that is not in the list");
+}
+
+void nid_position(const nid_header *header, size_t i, const char *name, wt_parselog *log,
+                  wt_force_curve *curve)
+{
+    nid_map map;
+    curve->x = (double)NAN;
+    curve->y = (double)NAN;
+    curve->grid_x = -1;
+    curve->grid_y = -1;
+    if (read_map(header, &map))
+        from_map(&map, i, name, log, curve);
+    else if (nid_get(header, POSITION_SECTION, "Count") != NULL)
+        from_list(header, i, name, log, curve);
+}

@@ -1,0 +1,206 @@
+/* One line to cells, one cell to a number.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "read/text/text.h"
+
+#include "base/number.h"
+#include "base/utf8.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+/* Instruments write 1e99 or more for "no value"; no quantity of this field comes near. */
+static const double no_value = 1e99;
+
+const char *wt_separator_name(wt_separator separator)
+{
+    static const char *const names[] = {"auto",  "tab",        "semicolon",
+                                        "comma", "whitespace", "fixed columns"};
+    return names[separator];
+}
+
+static bool is_blank(char c)
+{
+    return c == ' ' || (c >= '\t' && c <= '\r') || c == '\0';
+}
+
+static void trim(wt_cell *cell)
+{
+    while (cell->length > 0 && is_blank(cell->text[0])) {
+        cell->text++;
+        cell->length--;
+    }
+    while (cell->length > 0 && is_blank(cell->text[cell->length - 1]))
+        cell->length--;
+}
+
+static bool append(wt_cells *cells, const char *text, size_t length)
+{
+    if (cells->n == cells->capacity) {
+        size_t capacity = cells->capacity > 0 ? 2 * cells->capacity : 32;
+        if (capacity > SIZE_MAX / sizeof *cells->cells)
+            return false;
+        wt_cell *grown = realloc(cells->cells, capacity * sizeof *grown);
+        if (grown == NULL)
+            return false;
+        cells->cells = grown;
+        cells->capacity = capacity;
+    }
+    wt_cell cell = {text, length};
+    trim(&cell);
+    if (cell.length >= 2 && cell.text[0] == '"' && cell.text[cell.length - 1] == '"') {
+        cell.text++;
+        cell.length -= 2;
+        trim(&cell);
+    }
+    cells->cells[cells->n++] = cell;
+    return true;
+}
+
+/* Where the cell that begins at `from` ends. A separator inside quotes does not count, but a lone
+ * quotation mark (E" is the loss modulus) is a character like others. */
+static size_t cell_end(const char *line, size_t from, size_t length, char mark)
+{
+    size_t i = from;
+    while (i < length && line[i] == ' ')
+        i++;
+    if (i < length && line[i] == '"') {
+        const char *close = memchr(line + i + 1, '"', length - i - 1);
+        if (close != NULL) {
+            size_t after = (size_t)(close - line) + 1;
+            while (after < length && line[after] == ' ')
+                after++;
+            if (after == length || line[after] == mark)
+                return after;
+        }
+    }
+    const char *end = memchr(line + from, mark, length - from);
+    return end != NULL ? (size_t)(end - line) : length;
+}
+
+static bool split_at(wt_cells *cells, const char *line, size_t length, char mark)
+{
+    for (size_t from = 0;;) {
+        size_t end = cell_end(line, from, length, mark);
+        if (!append(cells, line + from, end - from))
+            return false;
+        if (end >= length)
+            return true;
+        from = end + 1;
+    }
+}
+
+static bool split_whitespace(wt_cells *cells, const char *line, size_t length)
+{
+    for (size_t i = 0; i < length;) {
+        while (i < length && is_blank(line[i]))
+            i++;
+        size_t from = i;
+        while (i < length && !is_blank(line[i]))
+            i++;
+        if (i > from && !append(cells, line + from, i - from))
+            return false;
+    }
+    return true;
+}
+
+/* Widths count characters, not bytes. */
+static bool split_fixed(wt_cells *cells, const char *line, size_t length, const wt_description *d)
+{
+    size_t column = 0;
+    for (size_t i = 0; i < length;) {
+        size_t from = i;
+        size_t width = d->widths[column < d->n_widths ? column : d->n_widths - 1];
+        for (size_t c = 0; c < width && i < length; c++) {
+            i++;
+            while (i < length && ((unsigned char)line[i] & 0xc0u) == 0x80u)
+                i++;
+        }
+        if (!append(cells, line + from, i - from))
+            return false;
+        column++;
+    }
+    return true;
+}
+
+bool wt_cells_split(wt_cells *cells, const char *line, size_t length, wt_separator separator,
+                    const wt_description *description)
+{
+    cells->n = 0;
+    switch (separator) {
+    case WT_SEPARATOR_TAB:
+        return split_at(cells, line, length, '\t');
+    case WT_SEPARATOR_SEMICOLON:
+        return split_at(cells, line, length, ';');
+    case WT_SEPARATOR_COMMA:
+        return split_at(cells, line, length, ',');
+    case WT_SEPARATOR_FIXED:
+        return split_fixed(cells, line, length, description);
+    default:
+        return split_whitespace(cells, line, length);
+    }
+}
+
+bool wt_cells_blank(const wt_cells *cells)
+{
+    for (size_t i = 0; i < cells->n; i++)
+        if (cells->cells[i].length > 0)
+            return false;
+    return true;
+}
+
+static bool is_missing(wt_cell cell, const wt_description *d)
+{
+    static const char *const usual[] = {"-",       "--",     "---",    "nan",  "n/a",
+                                        "na",      "inf",    "-inf",   "+inf", "#n/a",
+                                        "1.#qnan", "1.#inf", "-1.#ind"};
+    if (cell.length == 0)
+        return true;
+    for (size_t i = 0; i < sizeof usual / sizeof *usual; i++)
+        if (strlen(usual[i]) == cell.length && strncasecmp(usual[i], cell.text, cell.length) == 0)
+            return true;
+    for (size_t i = 0; i < d->n_missing; i++)
+        if (strlen(d->missing[i]) == cell.length &&
+            memcmp(d->missing[i], cell.text, cell.length) == 0)
+            return true;
+    return false;
+}
+
+wt_cell_is wt_cell_read(wt_cell cell, char decimal, const wt_description *description,
+                        double *value)
+{
+    *value = (double)NAN;
+    if (cell.length > 0 && wt_number_parse(cell.text, cell.length, decimal, value)) {
+        if (!(fabs(*value) < no_value))
+            *value = (double)NAN;
+        else if (description->n_missing == 0 || !is_missing(cell, description))
+            return WT_CELL_NUMBER;
+        *value = (double)NAN;
+        return WT_CELL_MISSING;
+    }
+    return is_missing(cell, description) ? WT_CELL_MISSING : WT_CELL_TEXT;
+}
+
+void wt_text_copy(char *to, size_t size, const char *text, size_t length)
+{
+    const size_t n = wt_utf8_cut(text, length, size - 1);
+    memcpy(to, text, n);
+    to[n] = '\0';
+    wt_utf8_tidy(to);
+}
+
+void wt_cells_count_marks(const wt_cells *cells, size_t *commas, size_t *points)
+{
+    for (size_t i = 0; i < cells->n; i++) {
+        const wt_cell cell = cells->cells[i];
+        const char *comma = memchr(cell.text, ',', cell.length);
+        const char *point = memchr(cell.text, '.', cell.length);
+        if (comma != NULL && point == NULL)
+            *commas += wt_number_prefix(cell.text, cell.length, ',') == cell.length;
+        else if (point != NULL && comma == NULL)
+            *points += wt_number_prefix(cell.text, cell.length, '.') == cell.length;
+    }
+}

@@ -1,0 +1,155 @@
+/* Lines outside the rows: header values, steps, markers.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "read/text/text_scan.h"
+
+#include "base/utf8.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define STEPS_MAX ((size_t)64)
+
+static void set_declared(wt_scan *s, wt_field_sets sets, const char *text, size_t length)
+{
+    static const struct {
+        const char *word;
+        wt_separator separator;
+    } separators[] = {{"tab", WT_SEPARATOR_TAB},          {"semicolon", WT_SEPARATOR_SEMICOLON},
+                      {";", WT_SEPARATOR_SEMICOLON},      {"comma", WT_SEPARATOR_COMMA},
+                      {",", WT_SEPARATOR_COMMA},          {"space", WT_SEPARATOR_WHITESPACE},
+                      {"blank", WT_SEPARATOR_WHITESPACE}, {"whitespace", WT_SEPARATOR_WHITESPACE}};
+    if (sets == WT_FIELD_SETS_DECIMAL) {
+        if (wt_scan_same_word(text, length, "comma") || wt_scan_same_word(text, length, ","))
+            s->decimal = ',';
+        else if (wt_scan_same_word(text, length, "point") ||
+                 wt_scan_same_word(text, length, "dot") || wt_scan_same_word(text, length, "."))
+            s->decimal = '.';
+    } else if (sets == WT_FIELD_SETS_SEPARATOR) {
+        for (size_t i = 0; i < sizeof separators / sizeof *separators; i++)
+            if (wt_scan_same_word(text, length, separators[i].word))
+                s->separator = separators[i].separator;
+    }
+}
+
+static wt_status set_field(wt_scan *s, size_t f, size_t line_number, const char *line,
+                           const regmatch_t groups[WT_GROUPS])
+{
+    const wt_field *field = &s->d->fields[f];
+    wt_text_value *value = &s->file->values[f];
+    char place[32];
+    const regmatch_t *found = &groups[field->group];
+    const char *text = line + found->rm_so;
+    const size_t length = (size_t)(found->rm_eo - found->rm_so);
+    char *copy = strndup(text, wt_utf8_cut(text, length, 200));
+    if (copy == NULL)
+        return wt_scan_no_memory(s);
+    free(value->text);
+    value->text = copy;
+    value->line = line_number;
+    value->unit[0] = '\0';
+    if (field->unit_group > 0 && groups[field->unit_group].rm_so >= 0)
+        wt_text_copy(value->unit, sizeof value->unit, line + groups[field->unit_group].rm_so,
+                     (size_t)(groups[field->unit_group].rm_eo - groups[field->unit_group].rm_so));
+    else if (field->unit != NULL)
+        snprintf(value->unit, sizeof value->unit, "%s", field->unit);
+    set_declared(s, field->sets, text, length);
+    if (field->quantity == WT_Q_NONE)
+        return WT_OK;
+    double number, factor, offset;
+    const char *unit = value->unit;
+    for (size_t i = 0; i < s->d->n_aliases; i++)
+        if (strcmp(s->d->aliases[i].found, unit) == 0)
+            unit = s->d->aliases[i].means;
+    snprintf(place, sizeof place, "line %zu", line_number);
+    if (!wt_number_parse(text, length, '.', &number) &&
+        !wt_number_parse(text, length, ',', &number)) {
+        wt_parselog_add(s->log, WT_NOTE, s->file->name, place, "%s: \"%s\" is not a number",
+                        field->name, value->text);
+        return WT_OK;
+    }
+    if (wt_unit_to_si(unit, field->quantity, &factor, &offset, NULL) != WT_OK) {
+        wt_parselog_add(s->log, WT_WARNING, s->file->name, place,
+                        "%s: \"%s\" is not a unit of %s; the value is left out", field->name, unit,
+                        wt_quantity_id(field->quantity));
+        return WT_OK;
+    }
+    const wt_header_value h = wt_header_of(field->quantity);
+    if (h < WT_HEADER_COUNT) {
+        s->header.value[h] = factor * number + offset;
+        s->header.fallback[h] = field->fallback;
+    }
+    return WT_OK;
+}
+
+wt_status wt_scan_fields(wt_scan *s, size_t line_number, const char *line, size_t length)
+{
+    wt_status status = WT_OK;
+    for (size_t f = 0; f < s->d->n_fields && status == WT_OK; f++) {
+        regmatch_t groups[WT_GROUPS];
+        for (size_t g = 0; g < WT_GROUPS; g++)
+            groups[g].rm_so = groups[g].rm_eo = -1;
+        if (wt_pattern_match(&s->d->fields[f].pattern, line, length, groups, WT_GROUPS) &&
+            groups[s->d->fields[f].group].rm_so >= 0)
+            status = set_field(s, f, line_number, line, groups);
+    }
+    return status;
+}
+
+wt_status wt_scan_finish_step(wt_scan *s)
+{
+    wt_text_file *file = s->file;
+    if (s->step_line == 0 || s->step_has_table || file->n_steps >= STEPS_MAX)
+        return WT_OK;
+    if (file->steps == NULL)
+        file->steps = calloc(STEPS_MAX, sizeof *file->steps);
+    char *copy = file->steps != NULL ? strdup(s->title[0] != '\0' ? s->title : "(no title)") : NULL;
+    if (copy == NULL)
+        return wt_scan_no_memory(s);
+    file->steps[file->n_steps++] = copy;
+    return WT_OK;
+}
+
+void wt_scan_close(wt_scan *s)
+{
+    s->state = SCAN_HEADER;
+}
+
+wt_status wt_scan_marks(wt_scan *s, size_t line_number, const char *line, size_t length, bool *is)
+{
+    const wt_description *d = s->d;
+    *is = false;
+    for (size_t i = 0; i < d->n_steps; i++) {
+        regmatch_t groups[2] = {{-1, -1}, {-1, -1}};
+        if (!wt_pattern_match(&d->steps[i].pattern, line, length, groups,
+                              d->steps[i].title_next ? 0 : 2))
+            continue;
+        wt_status status = wt_scan_finish_step(s);
+        wt_scan_close(s);
+        s->step_line = line_number;
+        s->step_has_table = false;
+        s->title_next = d->steps[i].title_next;
+        s->title[0] = '\0';
+        if (groups[1].rm_so >= 0)
+            wt_text_copy(s->title, sizeof s->title, line + groups[1].rm_so,
+                         (size_t)(groups[1].rm_eo - groups[1].rm_so));
+        s->block++;
+        *is = true;
+        return status;
+    }
+    for (size_t i = 0; i < d->n_ends; i++)
+        if (wt_pattern_match(&d->ends[i], line, length, NULL, 0)) {
+            wt_scan_close(s);
+            *is = true;
+            return WT_OK;
+        }
+    for (size_t i = 0; i < d->n_markers; i++)
+        if (wt_pattern_match(&d->markers[i].pattern, line, length, NULL, 0)) {
+            s->kind = (unsigned char)d->markers[i].kind;
+            *is = true;
+            return WT_OK;
+        }
+    return WT_OK;
+}

@@ -1,0 +1,185 @@
+/* Bytes of any usual encoding to UTF-8 lines of any usual line end.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "read/text/text.h"
+
+#include "base/utf8.h"
+
+#include <errno.h>
+#include <iconv.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef enum byte_order { ORDER_NONE, ORDER_LITTLE, ORDER_BIG } byte_order;
+
+/* Without a mark, text of mostly Latin letters shows a zero in every other byte. */
+static byte_order guess_utf_16(const unsigned char *bytes, size_t length)
+{
+    size_t even = 0, odd = 0;
+    const size_t n = length < 1024 ? length : 1024;
+    for (size_t i = 0; i < n; i++) {
+        even += i % 2 == 0 && bytes[i] == 0;
+        odd += i % 2 == 1 && bytes[i] == 0;
+    }
+    if (4 * odd > n && even < odd)
+        return ORDER_LITTLE;
+    if (4 * even > n && odd < even)
+        return ORDER_BIG;
+    return ORDER_NONE;
+}
+
+typedef struct choice {
+    const char *words; /* for people */
+    const char *iconv; /* NULL: UTF-8 already */
+    size_t mark;       /* bytes of the byte order mark */
+    bool utf_16;
+} choice;
+
+static choice choose(const unsigned char *bytes, size_t length, wt_encoding encoding)
+{
+    const bool any = encoding == WT_ENCODING_AUTO;
+    if ((any || encoding == WT_ENCODING_UTF_8) && length >= 3 &&
+        memcmp(bytes, "\xef\xbb\xbf", 3) == 0)
+        return (choice){"UTF-8 with byte order mark", NULL, 3, false};
+    if (any || encoding == WT_ENCODING_UTF_16) {
+        if (length >= 2 && bytes[0] == 0xff && bytes[1] == 0xfe)
+            return (choice){"UTF-16LE with byte order mark", "UTF-16LE", 2, true};
+        if (length >= 2 && bytes[0] == 0xfe && bytes[1] == 0xff)
+            return (choice){"UTF-16BE with byte order mark", "UTF-16BE", 2, true};
+        byte_order order = guess_utf_16(bytes, length);
+        if (order == ORDER_BIG)
+            return (choice){"UTF-16BE", "UTF-16BE", 0, true};
+        if (order == ORDER_LITTLE || encoding == WT_ENCODING_UTF_16)
+            return (choice){"UTF-16LE", "UTF-16LE", 0, true};
+    }
+    if (encoding == WT_ENCODING_LATIN_1)
+        return (choice){"Latin-1", "ISO-8859-1", 0, false};
+    if (any && wt_utf8_check((const char *)bytes, length) < length)
+        return (choice){"Latin-1", "ISO-8859-1", 0, false};
+    return (choice){"UTF-8", NULL, 0, false};
+}
+
+static const char replacement[] = "\xef\xbf\xbd";
+
+/* What is not UTF-8 in a text that is said to be: each bad byte becomes U+FFFD. */
+static char *clean_utf_8(const char *bytes, size_t length, size_t *n_out, size_t *n_replaced)
+{
+    const size_t good = wt_utf8_check(bytes, length);
+    if (length > (SIZE_MAX - 1) / 3)
+        return NULL;
+    char *text = malloc((good == length ? length : 3 * length) + 1);
+    if (text == NULL)
+        return NULL;
+    if (length > 0)
+        memcpy(text, bytes, good);
+    size_t out = good;
+    for (size_t i = good; i < length;) {
+        size_t n = wt_utf8_character(bytes + i, length - i);
+        memcpy(text + out, n > 0 ? bytes + i : replacement, n > 0 ? n : 3);
+        out += n > 0 ? n : 3;
+        *n_replaced += n == 0;
+        i += n > 0 ? n : 1;
+    }
+    *n_out = out;
+    return text;
+}
+
+/* NULL when out of memory or when the system cannot convert. */
+static char *convert(const choice *c, const unsigned char *bytes, size_t length, size_t *n_out,
+                     size_t *n_replaced)
+{
+    const size_t unit = c->utf_16 ? 2 : 1;
+    /* Two bytes of UTF-16 become at most three, one of Latin-1 at most two. */
+    if (length > (SIZE_MAX - 4) / 3)
+        return NULL;
+    const size_t capacity = (c->utf_16 ? length / 2 * 3 : 2 * length) + 4;
+    char *text = malloc(capacity);
+    iconv_t converter = iconv_open("UTF-8", c->iconv);
+    if (text == NULL || converter == (iconv_t)-1)
+        goto fail;
+    char *in = (char *)(uintptr_t)bytes; /* iconv does not write to its input */
+    size_t left = length, room = capacity - 1;
+    char *out = text;
+    while (left >= unit) {
+        if (iconv(converter, &in, &left, &out, &room) != (size_t)-1)
+            break;
+        if (errno == E2BIG || room < 3)
+            goto fail;
+        memcpy(out, replacement, 3);
+        out += 3;
+        room -= 3;
+        in += unit;
+        left -= unit;
+        (*n_replaced)++;
+    }
+    iconv_close(converter);
+    *n_out = (size_t)(out - text);
+    return text;
+fail:
+    if (converter != (iconv_t)-1)
+        iconv_close(converter);
+    free(text);
+    return NULL;
+}
+
+/* CR LF, LF and CR end a line; the byte there becomes zero. */
+static bool find_lines(wt_lines *lines, size_t length)
+{
+    size_t n = 1;
+    for (size_t i = 0; i < length; i++)
+        n += lines->text[i] == '\n' || lines->text[i] == '\r';
+    lines->lines = calloc(n, sizeof *lines->lines);
+    if (lines->lines == NULL)
+        return false;
+    size_t start = 0;
+    for (size_t i = 0; i < length; i++) {
+        const char c = lines->text[i];
+        if (c != '\n' && c != '\r')
+            continue;
+        lines->text[i] = '\0';
+        lines->lines[lines->n++] = (wt_line){start, i - start};
+        if (c == '\r' && i + 1 < length && lines->text[i + 1] == '\n')
+            i++;
+        start = i + 1;
+    }
+    lines->text[length] = '\0';
+    if (start < length)
+        lines->lines[lines->n++] = (wt_line){start, length - start};
+    return true;
+}
+
+wt_status wt_lines_decode(const unsigned char *bytes, size_t length, wt_encoding encoding,
+                          wt_lines *lines, wt_error *err)
+{
+    const choice c = choose(bytes, length, encoding);
+    wt_lines made = {.encoding = c.words};
+    size_t n = 0;
+    bytes = c.mark > 0 ? bytes + c.mark : bytes;
+    length -= c.mark;
+    made.odd_byte = c.utf_16 && length % 2 == 1;
+    length -= made.odd_byte;
+    if (c.iconv == NULL)
+        made.text = clean_utf_8((const char *)bytes, length, &n, &made.n_replaced);
+    else
+        made.text = convert(&c, bytes, length, &n, &made.n_replaced);
+    if (made.text == NULL || !find_lines(&made, n)) {
+        wt_lines_free(&made);
+        return wt_fail(err, WT_E_MEMORY, "no memory for the text of the file");
+    }
+    *lines = made;
+    return WT_OK;
+}
+
+void wt_lines_free(wt_lines *lines)
+{
+    free(lines->text);
+    free(lines->lines);
+    *lines = (wt_lines){0};
+}
+
+const char *wt_lines_get(const wt_lines *lines, size_t i, size_t *length)
+{
+    *length = lines->lines[i].length;
+    return lines->text + lines->lines[i].start;
+}

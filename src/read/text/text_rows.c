@@ -1,0 +1,144 @@
+/* Rows of a table: numbers, blocks, kinds of segments.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "read/text/text_scan.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+wt_status wt_scan_grow(wt_scan *s)
+{
+    wt_text_table *t = s->table;
+    if (t->n_rows < t->capacity)
+        return WT_OK;
+    size_t capacity = t->capacity > 0 ? 2 * t->capacity : 64;
+    const size_t width = t->n_columns > 0 ? t->n_columns : 1;
+    if (capacity > SIZE_MAX / sizeof(double) / width)
+        return wt_scan_no_memory(s);
+    double *values = realloc(t->values, capacity * width * sizeof *values);
+    if (values == NULL)
+        return wt_scan_no_memory(s);
+    t->values = values;
+    size_t *blocks = realloc(t->blocks, capacity * sizeof *blocks);
+    if (blocks == NULL)
+        return wt_scan_no_memory(s);
+    t->blocks = blocks;
+    unsigned char *kinds = realloc(t->kinds, capacity);
+    if (kinds == NULL)
+        return wt_scan_no_memory(s);
+    t->kinds = kinds;
+    t->capacity = capacity;
+    return WT_OK;
+}
+
+static size_t hash_cell(const wt_cells *cells, size_t i, size_t hash)
+{
+    if (i >= cells->n)
+        return hash;
+    for (size_t k = 0; k < cells->cells[i].length; k++)
+        hash = (hash ^ (unsigned char)cells->cells[i].text[k]) * (size_t)1099511628211u;
+    return hash * 31 + 7;
+}
+
+/* A new block where a group or curve cell changes. */
+static void follow_groups(wt_scan *s)
+{
+    const wt_text_table *t = s->table;
+    size_t hash = (size_t)1469598103934665603u;
+    if (t->group_cell == SIZE_MAX && t->curve_cell == SIZE_MAX)
+        return;
+    hash = hash_cell(&s->row, t->group_cell, hash);
+    hash = hash_cell(&s->row, t->curve_cell, hash);
+    s->block += s->has_group && hash != s->group_hash;
+    s->group_hash = hash;
+    s->has_group = true;
+}
+
+static unsigned char row_kind(const wt_scan *s)
+{
+    const size_t i = s->table->segment_cell;
+    if (i == SIZE_MAX || i >= s->row.n)
+        return s->kind;
+    const wt_cell cell = s->row.cells[i];
+    for (size_t v = 0; v < s->d->n_values; v++)
+        if (strlen(s->d->values[v].text) == cell.length &&
+            memcmp(s->d->values[v].text, cell.text, cell.length) == 0)
+            return (unsigned char)s->d->values[v].kind;
+    return WT_SEGMENT_OTHER;
+}
+
+wt_row_is wt_scan_read_row(wt_scan *s, size_t *bad)
+{
+    wt_text_table *t = s->table;
+    double *values = t->values + t->n_rows * t->n_columns;
+    size_t numbers = 0, texts = 0;
+    for (size_t c = 0; c < t->n_columns; c++) {
+        const wt_text_column *column = &t->columns[c];
+        double value;
+        values[c] = (double)NAN;
+        if (column->cell >= s->row.n)
+            continue;
+        switch (wt_cell_read(s->row.cells[column->cell], t->decimal, s->d, &value)) {
+        case WT_CELL_NUMBER:
+            values[c] = column->factor * value + column->offset;
+            numbers++;
+            break;
+        case WT_CELL_MISSING:
+            break;
+        case WT_CELL_TEXT:
+            if (texts++ == 0)
+                *bad = c;
+            break;
+        }
+    }
+    if (texts > 0)
+        return numbers > 0 ? ROW_BROKEN : ROW_TEXT;
+    return numbers > 0 || s->row.n >= t->n_names ? ROW_GOOD : ROW_TEXT;
+}
+
+wt_status wt_scan_bad_row(wt_scan *s, size_t line_number, size_t bad)
+{
+    char found[64];
+    const wt_text_table *t = s->table;
+    wt_fail(s->err, WT_E_CORRUPT, "a cell of the table is not a number");
+    if (bad < t->n_columns && t->columns[bad].cell < s->row.n) {
+        const wt_text_column *column = &t->columns[bad];
+        const wt_cell cell = s->row.cells[column->cell];
+        wt_error_place(s->err, "line %zu, column %zu (%s)", line_number, column->cell + 1,
+                       column->name);
+        wt_text_copy(found, sizeof found, cell.text, cell.length);
+        wt_error_found(s->err, "\"%s\"", found);
+    } else {
+        wt_error_place(s->err, "line %zu", line_number);
+        wt_error_found(s->err, "a line of %zu cells", s->row.n);
+    }
+    wt_error_expected(s->err, "numbers with decimal %s, separated by %s",
+                      t->decimal == ',' ? "comma" : "point", wt_separator_name(t->separator));
+    return WT_E_CORRUPT;
+}
+
+wt_status wt_scan_add_row(wt_scan *s, size_t line_number)
+{
+    wt_text_table *t = s->table;
+    size_t last = 0;
+    for (size_t c = 0; c < t->n_columns; c++)
+        last = t->columns[c].cell > last ? t->columns[c].cell : last;
+    if (s->row.n <= last) {
+        char place[32];
+        snprintf(place, sizeof place, "line %zu", line_number);
+        wt_parselog_add(s->log, WT_NOTE, s->file->name, place,
+                        "row with fewer cells than columns; the missing ones are empty");
+    }
+    follow_groups(s);
+    if (!s->snapshot) {
+        t->header = s->header;
+        s->snapshot = true;
+    }
+    t->blocks[t->n_rows] = s->block;
+    t->kinds[t->n_rows] = row_kind(s);
+    t->n_rows++;
+    s->blank = false;
+    return WT_OK;
+}

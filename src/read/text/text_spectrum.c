@@ -1,0 +1,110 @@
+/* Tables of a text export to a power spectrum.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "read/text/text.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct point {
+    double wavenumber, density;
+} point;
+
+static int by_wavenumber(const void *a, const void *b)
+{
+    const point *x = a, *y = b;
+    return (x->wavenumber > y->wavenumber) - (x->wavenumber < y->wavenumber);
+}
+
+static wt_status collect(const wt_text_file *file, point *points, size_t *n, wt_spectrum_kind *kind,
+                         wt_parselog *log, wt_error *err)
+{
+    size_t dropped = 0;
+    for (size_t i = 0; i < file->n_tables; i++) {
+        const wt_text_table *t = &file->tables[i];
+        wt_status status = wt_text_table_require(file, t, WT_KIND_SPECTRUM, err);
+        if (status != WT_OK)
+            return status;
+        const wt_text_column *q = wt_text_table_column(t, WT_Q_WAVENUMBER, -1);
+        const wt_text_column *c = wt_text_table_column(t, WT_Q_POWER_SPECTRUM_2D, -1);
+        const wt_spectrum_kind this_kind = c != NULL ? WT_SPECTRUM_2D : WT_SPECTRUM_1D;
+        if (c == NULL)
+            c = wt_text_table_column(t, WT_Q_POWER_SPECTRUM_1D, -1);
+        if (i > 0 && this_kind != *kind) {
+            wt_fail(err, WT_E_UNIT, "one- and two-dimensional spectra in one file");
+            wt_error_place(err, "line %zu", t->names_line);
+            wt_error_expected(err, "densities of one unit, m^4 or m^3");
+            return WT_E_UNIT;
+        }
+        *kind = this_kind;
+        for (size_t r = 0; r < t->n_rows; r++) {
+            point p = {wt_text_table_value(t, r, q), wt_text_table_value(t, r, c)};
+            if (p.wavenumber > 0 && !isnan(p.density))
+                points[(*n)++] = p;
+            else
+                dropped++;
+        }
+    }
+    if (dropped > 0)
+        wt_parselog_add(log, WT_NOTE, file->name, NULL,
+                        "%zu rows without a positive wavenumber or without a density left out",
+                        dropped);
+    return WT_OK;
+}
+
+wt_status wt_text_read_spectrum(const wt_description *description, wt_input *input,
+                                const wt_read_options *options, wt_parselog *log,
+                                wt_power_spectrum *spectrum, wt_error *err)
+{
+    wt_text_file file;
+    wt_power_spectrum made = {.n = 0};
+    point *points = NULL;
+    size_t rows = 0, n = 0;
+    wt_status status = wt_text_scan(description, input, WT_KIND_SPECTRUM, options, log, &file, err);
+    if (status != WT_OK)
+        return status;
+    wt_text_log_unknown(&file, log);
+    for (size_t i = 0; i < file.n_tables; i++)
+        rows += file.tables[i].n_rows;
+    points = malloc((rows + 1) * sizeof *points);
+    if (points == NULL) {
+        status = wt_fail(err, WT_E_MEMORY, "no memory for the spectrum");
+        goto done;
+    }
+    status = collect(&file, points, &n, &made.kind, log, err);
+    if (status != WT_OK)
+        goto done;
+    if (n < 2) {
+        status = wt_text_nothing(&file, "power spectrum", err);
+        goto done;
+    }
+    qsort(points, n, sizeof *points, by_wavenumber);
+    made.wavenumber = malloc(n * sizeof *made.wavenumber);
+    made.density = malloc(n * sizeof *made.density);
+    if (made.wavenumber == NULL || made.density == NULL) {
+        status = wt_fail(err, WT_E_MEMORY, "no memory for the spectrum");
+        goto done;
+    }
+    for (size_t i = 0; i < n; i++) {
+        if (i > 0 && !(points[i].wavenumber > points[i - 1].wavenumber)) {
+            status = wt_fail(err, WT_E_CORRUPT, "a wavenumber stands twice");
+            wt_error_expected(err, "one density for each wavenumber");
+            wt_error_found(err, "two for %g rad/m", points[i].wavenumber);
+            goto done;
+        }
+        made.wavenumber[i] = points[i].wavenumber;
+        made.density[i] = points[i].density;
+    }
+    made.n = n;
+    *spectrum = made;
+    made = (wt_power_spectrum){.n = 0};
+done:
+    if (status != WT_OK)
+        wt_error_file(err, file.name);
+    wt_power_spectrum_clear(&made);
+    free(points);
+    wt_text_file_free(&file);
+    return status;
+}

@@ -1,0 +1,157 @@
+/* What the tables of a scanned file hold, and what to say when that is not enough.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "read/text/text.h"
+
+#include <string.h>
+
+const wt_text_column *wt_text_table_column(const wt_text_table *table, wt_quantity quantity,
+                                           int segment)
+{
+    for (size_t i = 0; i < table->n_columns; i++) {
+        const wt_column_rule *rule = table->columns[i].rule;
+        if (rule->quantity == quantity &&
+            (segment < 0 || !rule->has_segment || (int)rule->segment == segment))
+            return &table->columns[i];
+    }
+    return NULL;
+}
+
+double wt_text_table_value(const wt_text_table *table, size_t row, const wt_text_column *column)
+{
+    return table->values[row * table->n_columns + (size_t)(column - table->columns)];
+}
+
+/* A unit that is usual for the quantity, to show how one is given. */
+static const char *usual_unit(wt_quantity quantity)
+{
+    switch (quantity) {
+    case WT_Q_STORAGE_MODULUS:
+    case WT_Q_LOSS_MODULUS:
+    case WT_Q_SHEAR_STORAGE_MODULUS:
+    case WT_Q_SHEAR_LOSS_MODULUS:
+        return "MPa";
+    case WT_Q_TEMPERATURE:
+        return "degC";
+    case WT_Q_HEIGHT:
+    case WT_Q_MEASURED_HEIGHT:
+    case WT_Q_DEFLECTION:
+        return "nm";
+    case WT_Q_FORCE:
+        return "nN";
+    default:
+        return wt_quantity_unit(quantity);
+    }
+}
+
+wt_status wt_text_table_problem(const wt_text_file *file, const wt_text_table *table,
+                                wt_quantity_set quantities, wt_error *err)
+{
+    for (size_t i = 0; i < table->n_problems; i++) {
+        const wt_text_column *c = &table->problems[i];
+        const wt_quantity q = c->rule->quantity;
+        if ((quantities & ~table->quantities & WT_Q_BIT(q)) == 0)
+            continue;
+        wt_status status = WT_E_UNIT;
+        switch (c->problem) {
+        case WT_COLUMN_NO_UNIT:
+            wt_fail(err, status, "the file does not say the unit of column \"%s\"", c->name);
+            wt_error_expected(err, "a unit of %s", wt_quantity_id(q));
+            if (q == WT_Q_FREQUENCY || q == WT_Q_ANGULAR_FREQUENCY)
+                wt_error_advice(err, "give it with --units \"%s=Hz\" or \"%s=rad/s\"", c->name,
+                                c->name);
+            else
+                wt_error_advice(err, "give it with --units \"%s=%s\"", c->name, usual_unit(q));
+            break;
+        case WT_COLUMN_BAD_UNIT:
+            wt_fail(err, status, "the unit of column \"%s\" does not fit", c->name);
+            wt_error_expected(err, "a unit of %s", wt_quantity_id(q));
+            wt_error_found(err, "\"%s\"", c->unit);
+            wt_error_advice(err, "if the file is wrong, give it with --units \"%s=%s\"", c->name,
+                            usual_unit(q));
+            break;
+        default:
+            status = WT_E_MISSING;
+            wt_fail(err, status, "column \"%s\" may be tension or shear", c->name);
+            wt_error_expected(err, "a column that tells which, such as \"%s\"", c->rule->with);
+            wt_error_advice(err, "export that column too");
+            break;
+        }
+        wt_error_file(err, file->name);
+        wt_error_place(err, "line %zu, column %zu", table->names_line, c->cell + 1);
+        return status;
+    }
+    return WT_OK;
+}
+
+static wt_quantity_set essential(unsigned kind)
+{
+    switch (kind) {
+    case WT_KIND_SWEEP:
+        return WT_Q_BIT(WT_Q_FREQUENCY) | WT_Q_BIT(WT_Q_ANGULAR_FREQUENCY) |
+               WT_Q_BIT(WT_Q_STORAGE_MODULUS) | WT_Q_BIT(WT_Q_LOSS_MODULUS) |
+               WT_Q_BIT(WT_Q_SHEAR_STORAGE_MODULUS) | WT_Q_BIT(WT_Q_SHEAR_LOSS_MODULUS);
+    case WT_KIND_FORCE:
+        return WT_Q_BIT(WT_Q_HEIGHT) | WT_Q_BIT(WT_Q_MEASURED_HEIGHT) | WT_Q_BIT(WT_Q_FORCE) |
+               WT_Q_BIT(WT_Q_DEFLECTION) | WT_Q_BIT(WT_Q_DEFLECTION_VOLTAGE);
+    default:
+        return WT_Q_BIT(WT_Q_WAVENUMBER) | WT_Q_BIT(WT_Q_POWER_SPECTRUM_2D) |
+               WT_Q_BIT(WT_Q_POWER_SPECTRUM_1D);
+    }
+}
+
+wt_status wt_text_table_require(const wt_text_file *file, const wt_text_table *table, unsigned kind,
+                                wt_error *err)
+{
+    if (wt_quantities_suffice(table->quantities, kind))
+        return WT_OK;
+    wt_status status = wt_text_table_problem(file, table, essential(kind), err);
+    if (status != WT_OK)
+        return status;
+    wt_fail(err, WT_E_MISSING, "columns are missing");
+    wt_error_file(err, file->name);
+    wt_error_place(err, "line %zu", table->names_line);
+    wt_error_expected(err, "%s", wt_quantities_needed(kind));
+    return WT_E_MISSING;
+}
+
+void wt_text_unknown(const wt_text_file *file, char *names, size_t size)
+{
+    size_t used = 0;
+    names[0] = '\0';
+    for (size_t i = 0; i < file->n_unknown; i++) {
+        const size_t length = strlen(file->unknown[i]) + (i > 0 ? 2 : 0);
+        /* Room for what says that there are more. */
+        if (used + length + 5 > size) {
+            memcpy(names + used, " ...", 5);
+            return;
+        }
+        used += (size_t)snprintf(names + used, size - used, "%s%s", i > 0 ? ", " : "",
+                                 file->unknown[i]);
+    }
+}
+
+void wt_text_log_unknown(const wt_text_file *file, wt_parselog *log)
+{
+    char names[256];
+    wt_text_unknown(file, names, sizeof names);
+    if (file->n_unknown > 0)
+        wt_parselog_add(log, WT_NOTE, file->name, NULL, "columns not used: %s", names);
+}
+
+wt_status wt_text_nothing(const wt_text_file *file, const char *what, wt_error *err)
+{
+    char steps[160] = "";
+    size_t used = 0;
+    for (size_t i = 0; i < file->n_steps && used < sizeof steps; i++) {
+        int n = snprintf(steps + used, sizeof steps - used, "%s\"%s\"", i > 0 ? ", " : "",
+                         file->steps[i]);
+        used += n > 0 ? (size_t)n : 0;
+    }
+    wt_fail(err, WT_E_EMPTY, "no %s in it", what);
+    wt_error_file(err, file->name);
+    if (file->n_steps > 0)
+        wt_error_found(err, "%s", steps);
+    return WT_E_EMPTY;
+}
