@@ -4,7 +4,7 @@
 #   wt_embed(TARGET OUTPUT FILE...)
 #
 # adds to TARGET a C source, made at build time, with the files in the order given:
-#   extern const wt_embedded OUTPUT[];   (base/embed.h; ends with a NULL name)
+#   extern const embedded_text OUTPUT[];   (base/embed.h; ends with a NULL name)
 # and OUTPUT.h that declares it, to be included by its path below the build tree's src/.
 # As a script (cmake -DOUTPUT=... -DNAME=... -DFILES=a|b -P embed.cmake) it writes that source.
 #
@@ -26,13 +26,13 @@ if(CMAKE_SCRIPT_MODE_FILE)
     math(EXPR index "${index} + 1")
   endforeach()
   file(WRITE "${OUTPUT}.c.new"
-    "#include \"base/embed.h\"\n\nextern const wt_embedded ${NAME}[];\n\n${arrays}\n"
-    "const wt_embedded ${NAME}[] = {\n${rows}    {0, 0, 0}};\n")
+    "#include \"base/embed.h\"\n\nextern const embedded_text ${NAME}[];\n\n${arrays}\n"
+    "const embedded_text ${NAME}[] = {\n${rows}    {0, 0, 0}};\n")
   file(RENAME "${OUTPUT}.c.new" "${OUTPUT}.c")
   return()
 endif()
 
-set(WT_EMBED_SCRIPT "${CMAKE_CURRENT_LIST_FILE}")
+set(EMBED_SCRIPT "${CMAKE_CURRENT_LIST_FILE}")
 
 function(wt_embed target output)
   set(files "")
@@ -44,11 +44,11 @@ function(wt_embed target output)
   list(JOIN files "|" joined)
   add_custom_command(OUTPUT "${made}.c"
     COMMAND ${CMAKE_COMMAND} "-DOUTPUT=${made}" "-DNAME=${output}" "-DFILES=${joined}"
-            -P "${WT_EMBED_SCRIPT}"
-    DEPENDS ${files} "${WT_EMBED_SCRIPT}"
+            -P "${EMBED_SCRIPT}"
+    DEPENDS ${files} "${EMBED_SCRIPT}"
     COMMENT "Embedding ${output}" VERBATIM)
   file(CONFIGURE OUTPUT "${made}.h" @ONLY CONTENT
-    "#include \"base/embed.h\"\n\nextern const wt_embedded @output@[];\n")
+    "#include \"base/embed.h\"\n\nextern const embedded_text @output@[];\n")
   # The command belongs to this folder, the target may not.
   add_custom_target(${output}_source DEPENDS "${made}.c")
   add_dependencies(${target} ${output}_source)

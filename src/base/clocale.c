@@ -12,31 +12,31 @@ static void make_c_locale(void)
     c_locale = newlocale(LC_ALL_MASK, "C", (locale_t)0);
 }
 
-locale_t wt_clocale_enter(void)
+locale_t clocale_enter(void)
 {
     (void)pthread_once(&once, make_c_locale);
     /* uselocale((locale_t)0) only asks, which is right if the C locale could not be made. */
     return uselocale(c_locale);
 }
 
-void wt_clocale_leave(locale_t previous)
+void clocale_leave(locale_t previous)
 {
     (void)uselocale(previous);
 }
 
-int wt_clocale_vprint(char *buffer, size_t size, const char *format, va_list arguments)
+int clocale_vprint(char *buffer, size_t size, const char *format, va_list arguments)
 {
-    const locale_t previous = wt_clocale_enter();
+    const locale_t previous = clocale_enter();
     const int needed = vsnprintf(buffer, size, format, arguments);
-    wt_clocale_leave(previous);
+    clocale_leave(previous);
     return needed;
 }
 
-int wt_clocale_print(char *buffer, size_t size, const char *format, ...)
+int clocale_print(char *buffer, size_t size, const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
-    const int needed = wt_clocale_vprint(buffer, size, format, arguments);
+    const int needed = clocale_vprint(buffer, size, format, arguments);
     va_end(arguments);
     return needed;
 }

@@ -8,13 +8,13 @@
 #include <locale.h>
 #include <stdarg.h>
 
-/* Returns what wt_clocale_leave needs. Calls nest; only the calling thread is affected. */
-locale_t wt_clocale_enter(void);
-void wt_clocale_leave(locale_t previous);
+/* Returns what clocale_leave needs. Calls nest; only the calling thread is affected. */
+locale_t clocale_enter(void);
+void clocale_leave(locale_t previous);
 
 /* snprintf and vsnprintf under the C locale: for every text with a number that is not whole. */
-int wt_clocale_print(char *buffer, size_t size, const char *format, ...) WT_PRINTF(3, 4);
-int wt_clocale_vprint(char *buffer, size_t size, const char *format, va_list arguments)
+int clocale_print(char *buffer, size_t size, const char *format, ...) WT_PRINTF(3, 4);
+int clocale_vprint(char *buffer, size_t size, const char *format, va_list arguments)
     WT_PRINTF(3, 0);
 
 #endif

@@ -7,10 +7,10 @@
 
 #include <stddef.h>
 
-typedef struct wt_embedded {
+typedef struct embedded_text {
     const char *name; /* file name without its folder; NULL ends the list */
     const char *text; /* followed by a terminating zero that `length` does not count */
     size_t length;
-} wt_embedded;
+} embedded_text;
 
 #endif

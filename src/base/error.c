@@ -31,7 +31,7 @@ const char *wt_status_text(wt_status status)
 /* Ends text that did not fit with "...", at a whole character. */
 static void mark_cut(char *buffer, size_t size)
 {
-    const size_t cut = wt_utf8_cut(buffer, strlen(buffer), size - 4);
+    const size_t cut = utf8_cut(buffer, strlen(buffer), size - 4);
     memcpy(buffer + cut, "...", 4);
 }
 
@@ -39,12 +39,12 @@ static void set_text(char *buffer, size_t size, const char *format, va_list argu
     WT_PRINTF(3, 0);
 static void set_text(char *buffer, size_t size, const char *format, va_list arguments)
 {
-    const int needed = wt_clocale_vprint(buffer, size, format, arguments);
+    const int needed = clocale_vprint(buffer, size, format, arguments);
     if (needed < 0)
         buffer[0] = '\0';
     else if ((size_t)needed >= size)
         mark_cut(buffer, size);
-    wt_utf8_tidy(buffer);
+    utf8_tidy(buffer);
 }
 
 wt_status wt_fail(wt_error *err, wt_status status, const char *format, ...)
@@ -99,7 +99,7 @@ size_t wt_error_format(const wt_error *err, char *buffer, size_t size)
 {
     char file[sizeof err->file];
     memcpy(file, err->file, sizeof file);
-    wt_utf8_tidy(file);
+    utf8_tidy(file);
     const char *const message =
         err->message[0] != '\0' ? err->message : wt_status_text(err->status);
     const struct {

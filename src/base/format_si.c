@@ -64,7 +64,7 @@ size_t wt_format_si(double value, const char *unit, int digits, char *buffer, si
                "C";
     }
     digits = digits < 1 ? 1 : digits > 17 ? 17 : digits;
-    const locale_t previous = wt_clocale_enter();
+    const locale_t previous = clocale_enter();
     if (!isfinite(value)) {
         (void)wt_number_format(value, number);
     } else {
@@ -81,6 +81,6 @@ size_t wt_format_si(double value, const char *unit, int digits, char *buffer, si
     const int needed =
         snprintf(buffer, size, "%s%s%s%s%s", number, bare ? "" : " ", names[step + 8], prefix.text,
                  bare ? "" : unit + strlen(prefix.unit));
-    wt_clocale_leave(previous);
+    clocale_leave(previous);
     return needed > 0 ? (size_t)needed : 0;
 }

@@ -10,7 +10,7 @@ static void switch_off(void)
     gsl_set_error_handler_off();
 }
 
-void wt_gsl_quiet(void)
+void gsl_quiet(void)
 {
     static pthread_once_t once = PTHREAD_ONCE_INIT;
     pthread_once(&once, switch_off);

@@ -5,6 +5,6 @@
 
 /* GSL's default handler aborts the program; a library must not. Once per process, thread-safe;
  * every entry into GSL that can fail comes after it and checks the status it gets. */
-void wt_gsl_quiet(void);
+void gsl_quiet(void);
 
 #endif

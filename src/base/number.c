@@ -23,7 +23,7 @@ static size_t skip_digits(const char *text, size_t length, size_t i)
 }
 
 /* strtod alone would also take hexadecimal digits, "nan" and "infinity". */
-size_t wt_number_prefix(const char *text, size_t length, char decimal)
+size_t number_prefix(const char *text, size_t length, char decimal)
 {
     size_t i = 0;
     if (i < length && (text[i] == '+' || text[i] == '-'))
@@ -59,23 +59,23 @@ bool wt_number_parse(const char *text, size_t length, char decimal, double *valu
     }
     while (length > 0 && is_blank(text[length - 1]))
         length--;
-    if (length == 0 || length >= sizeof copy || wt_number_prefix(text, length, decimal) != length)
+    if (length == 0 || length >= sizeof copy || number_prefix(text, length, decimal) != length)
         return false;
     memcpy(copy, text, length);
     copy[length] = '\0';
     char *const mark = decimal == '.' ? NULL : memchr(copy, decimal, length);
     if (mark != NULL)
         *mark = '.';
-    const locale_t previous = wt_clocale_enter();
+    const locale_t previous = clocale_enter();
     const double parsed = strtod(copy, NULL);
-    wt_clocale_leave(previous);
+    clocale_leave(previous);
     if (!isfinite(parsed))
         return false;
     *value = parsed;
     return true;
 }
 
-bool wt_number_read(const char *text, size_t length, double *value)
+bool number_read(const char *text, size_t length, double *value)
 {
     static const struct {
         const char *text;
@@ -122,13 +122,13 @@ size_t wt_number_format(double value, char *buffer)
     /* Any decimal number of 15 digits survives a normal double, so 15 digits without their trailing
      * zeros are the shortest text if they read back. Subnormal numbers hold fewer digits. */
     const bool subnormal = fpclassify(value) == FP_SUBNORMAL;
-    const locale_t previous = wt_clocale_enter();
+    const locale_t previous = clocale_enter();
     int length = 0;
     for (int digits = subnormal ? 1 : 15; digits <= 17; digits++) {
         length = snprintf(buffer, SIZE, "%.*g", digits, value);
         if (strtod(buffer, NULL) == value)
             break;
     }
-    wt_clocale_leave(previous);
+    clocale_leave(previous);
     return shorten_exponent(buffer, (size_t)length);
 }

@@ -7,8 +7,8 @@
 
 /* Length of the longest number at the start of `text`, 0 if there is none. An "e" that no digit
  * follows belongs to what comes after ("5eV"). */
-size_t wt_number_prefix(const char *text, size_t length, char decimal);
+size_t number_prefix(const char *text, size_t length, char decimal);
 /* Reads what wt_number_format writes: also "nan", "inf" and "-inf". */
-bool wt_number_read(const char *text, size_t length, double *value);
+bool number_read(const char *text, size_t length, double *value);
 
 #endif

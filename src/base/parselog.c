@@ -108,15 +108,15 @@ void wt_parselog_add(wt_parselog *log, wt_severity severity, const char *file, c
     char *text = NULL;
     va_list arguments;
     va_start(arguments, format);
-    const locale_t previous = wt_clocale_enter();
+    const locale_t previous = clocale_enter();
     const int length = vasprintf(&text, format, arguments);
-    wt_clocale_leave(previous);
+    clocale_leave(previous);
     va_end(arguments);
     if (length < 0) {
         log->lost++;
         return;
     }
-    wt_utf8_tidy(text);
+    utf8_tidy(text);
     if (!add(log, severity, file, place, text, 1))
         log->lost++;
     free(text);

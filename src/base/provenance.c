@@ -79,7 +79,7 @@ wt_status wt_provenance_set_command(wt_provenance *p, int argc, char *const argv
     return WT_OK;
 }
 
-wt_status wt_provenance_restore_command(wt_provenance *p, const char *command)
+wt_status provenance_restore_command(wt_provenance *p, const char *command)
 {
     char *const copy = strdup(command);
     if (copy == NULL)

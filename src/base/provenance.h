@@ -5,6 +5,6 @@
 #include "weartrack/base.h"
 
 /* As wt_provenance_command gave it. */
-wt_status wt_provenance_restore_command(wt_provenance *p, const char *command) WT_NODISCARD;
+wt_status provenance_restore_command(wt_provenance *p, const char *command) WT_NODISCARD;
 
 #endif

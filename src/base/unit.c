@@ -29,7 +29,7 @@ static void add_spelling(const char *spelling, const char *name)
 
 static void make_units(void)
 {
-    const locale_t previous_locale = wt_clocale_enter();
+    const locale_t previous_locale = clocale_enter();
     const ut_error_message_handler previous = ut_set_error_message_handler(ut_ignore);
     units = ut_read_xml(NULL);
     if (units != NULL) {
@@ -42,7 +42,7 @@ static void make_units(void)
         ut_free(byte);
     }
     (void)ut_set_error_message_handler(previous);
-    wt_clocale_leave(previous_locale);
+    clocale_leave(previous_locale);
 }
 
 /* What a unit is a multiple of: a product of base units, among which UDUNITS counts the radian. */
@@ -166,7 +166,7 @@ static bool trim(const char *unit, char copy[UNIT_MAX])
         while (length > 0 && strchr(blanks, unit[length - 1]) != NULL)
             length--;
     }
-    if (length >= UNIT_MAX || wt_utf8_check(unit, length) != length)
+    if (length >= UNIT_MAX || utf8_check(unit, length) != length)
         return false;
     memcpy(copy, unit, length);
     copy[length] = '\0';
@@ -217,7 +217,7 @@ wt_status wt_unit_to_si(const char *unit, wt_quantity quantity, double *factor, 
         return WT_E_INTERNAL;
     }
     (void)pthread_mutex_lock(&lock);
-    const locale_t previous_locale = wt_clocale_enter();
+    const locale_t previous_locale = clocale_enter();
     const ut_error_message_handler previous = ut_set_error_message_handler(ut_ignore);
     if (quantity == WT_Q_SPECTRAL_DENSITY) {
         char length[UNIT_MAX];
@@ -234,7 +234,7 @@ wt_status wt_unit_to_si(const char *unit, wt_quantity quantity, double *factor, 
             angular = convert(text, "rad/s", &f, &o);
     }
     (void)ut_set_error_message_handler(previous);
-    wt_clocale_leave(previous_locale);
+    clocale_leave(previous_locale);
     (void)pthread_mutex_unlock(&lock);
 
     /* An offset makes sense for a temperature; a difference of temperatures has the same unit
@@ -287,7 +287,7 @@ wt_status wt_quantity_parse(const char *text, wt_quantity quantity, double *valu
     const char *const advice = "write the number with a decimal point, the unit behind it";
     const char *reason = NULL;
     const char *start = text + strspn(text, " \t");
-    const size_t n = wt_number_prefix(start, strlen(start), '.');
+    const size_t n = number_prefix(start, strlen(start), '.');
     const char *const unit = start + n + strspn(start + n, " \t");
     if (n == 0 || !wt_number_parse(start, n, '.', &number)) {
         status = wt_fail(err, WT_E_ARG, "not a quantity");

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-size_t wt_utf8_character(const char *text, size_t length)
+size_t utf8_character(const char *text, size_t length)
 {
     const unsigned char *s = (const unsigned char *)text;
     size_t n;
@@ -38,11 +38,11 @@ size_t wt_utf8_character(const char *text, size_t length)
     return n;
 }
 
-size_t wt_utf8_check(const char *text, size_t length)
+size_t utf8_check(const char *text, size_t length)
 {
     size_t i = 0;
     while (i < length) {
-        const size_t n = wt_utf8_character(text + i, length - i);
+        const size_t n = utf8_character(text + i, length - i);
         if (n == 0)
             return i;
         i += n;
@@ -50,11 +50,11 @@ size_t wt_utf8_check(const char *text, size_t length)
     return length;
 }
 
-size_t wt_utf8_cut(const char *text, size_t length, size_t limit)
+size_t utf8_cut(const char *text, size_t length, size_t limit)
 {
     size_t i = 0;
     while (i < length) {
-        size_t n = wt_utf8_character(text + i, length - i);
+        size_t n = utf8_character(text + i, length - i);
         if (n == 0)
             n = 1;
         if (i + n > limit)
@@ -64,12 +64,12 @@ size_t wt_utf8_cut(const char *text, size_t length, size_t limit)
     return length;
 }
 
-void wt_utf8_tidy(char *text)
+void utf8_tidy(char *text)
 {
     const size_t length = strlen(text);
     size_t i = 0;
     while (i < length) {
-        const size_t n = wt_utf8_character(text + i, length - i);
+        const size_t n = utf8_character(text + i, length - i);
         if (n == 0)
             text[i] = '?';
         else if (n == 1 && ((unsigned char)text[i] < 0x20 || text[i] == 0x7F))

@@ -6,15 +6,15 @@
 #include <stdbool.h>
 
 /* The bytes of a file, to be released with free(). */
-typedef struct wt_hdf5_image {
+typedef struct hdf5_image {
     void *bytes;
     size_t size;
-} wt_hdf5_image;
+} hdf5_image;
 
 /* Makes a file that is created with this access list live in memory: nothing is written under its
  * name, so HDF5 meets no full disk, which it does not survive. `image` must outlive the file. */
-bool wt_hdf5_image_access(hid_t access, wt_hdf5_image *image);
+bool hdf5_image_access(hid_t access, hdf5_image *image);
 /* Closes the file; then the image holds it. False if HDF5 failed, and there is no image. */
-bool wt_hdf5_image_close(hid_t file, wt_hdf5_image *image);
+bool hdf5_image_close(hid_t file, hdf5_image *image);
 
 #endif

@@ -5,15 +5,15 @@
 
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 
-void wt_hdf5_enter(wt_hdf5_scope *scope)
+void hdf5_enter(hdf5_scope *scope)
 {
     (void)pthread_mutex_lock(&lock);
-    *scope = (wt_hdf5_scope){NULL, NULL};
+    *scope = (hdf5_scope){NULL, NULL};
     (void)H5Eget_auto2(H5E_DEFAULT, &scope->function, &scope->user);
     (void)H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
 }
 
-void wt_hdf5_leave(const wt_hdf5_scope *scope)
+void hdf5_leave(const hdf5_scope *scope)
 {
     (void)H5Eclear2(H5E_DEFAULT);
     (void)H5Eset_auto2(H5E_DEFAULT, scope->function, scope->user);

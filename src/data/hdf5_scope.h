@@ -5,15 +5,15 @@
 
 #include <hdf5.h>
 
-typedef struct wt_hdf5_scope {
+typedef struct hdf5_scope {
     H5E_auto2_t function;
     void *user;
-} wt_hdf5_scope;
+} hdf5_scope;
 
 /* Every use of HDF5 in this library stands between these two, in whatever room it is. They lock
  * (do not nest them) and silence the error messages of this thread. A program that itself calls
  * HDF5 from other threads needs a thread-safe build of it. */
-void wt_hdf5_enter(wt_hdf5_scope *scope);
-void wt_hdf5_leave(const wt_hdf5_scope *scope);
+void hdf5_enter(hdf5_scope *scope);
+void hdf5_leave(const hdf5_scope *scope);
 
 #endif

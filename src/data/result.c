@@ -50,7 +50,7 @@ static bool collide(const char *a, const char *b)
 wt_status wt_result_add(wt_result *result, wt_table *table, wt_error *err)
 {
     wt_status status = WT_OK;
-    if (!wt_table_name_is_valid(table->name) || collide(table->name, "case") ||
+    if (!table_name_is_valid(table->name) || collide(table->name, "case") ||
         collide(table->name, "provenance")) {
         status = wt_fail(err, WT_E_ARG, "not a name for a table");
         wt_error_expected(err, "a to z, digits and '_' in parts joined by '/', but not \"case\" "

@@ -5,8 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-wt_status wt_store_digest(const wt_result *result, const wt_table *inputs, char hex[65],
-                          wt_error *err)
+wt_status store_digest(const wt_result *result, const wt_table *inputs, char hex[65], wt_error *err)
 {
     wt_status status = WT_OK;
     char *text = NULL;
@@ -63,7 +62,7 @@ wt_status wt_provenance_table(const wt_provenance *provenance, const char *name,
     return status;
 }
 
-wt_status wt_store_inputs_read(const wt_table *table, wt_provenance *provenance, wt_error *err)
+wt_status store_inputs_read(const wt_table *table, wt_provenance *provenance, wt_error *err)
 {
     size_t columns[N_COLUMNS];
     for (size_t i = 0; i < N_COLUMNS; i++) {

@@ -26,10 +26,10 @@ enum { STORE_FORMAT = 1 };
 /* Digest of what a store holds: its tables as text streams in their order, the list of inputs the
  * same way (NULL if there is none), and the case file. The layout of HDF5 keeps no checksum over
  * the values, so a flipped bit would otherwise be a wrong number. */
-wt_status wt_store_digest(const wt_result *result, const wt_table *inputs, char hex[65],
-                          wt_error *err);
+wt_status store_digest(const wt_result *result, const wt_table *inputs, char hex[65],
+                       wt_error *err);
 
 /* A table of wt_provenance_table back to the inputs of a provenance. */
-wt_status wt_store_inputs_read(const wt_table *table, wt_provenance *provenance, wt_error *err);
+wt_status store_inputs_read(const wt_table *table, wt_provenance *provenance, wt_error *err);
 
 #endif

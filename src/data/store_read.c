@@ -241,22 +241,22 @@ static hid_t open_dataset(const reader *r, hid_t group, const char *name, int ra
 static wt_status read_estimate(const reader *r, hid_t group, const char *key, double value,
                                wt_table *table)
 {
-    char *names[WT_KEY_PARTS] = {NULL};
+    char *names[KEY_PARTS] = {NULL};
     char *unit = NULL;
     wt_estimate estimate = {.value = value};
-    wt_status status = wt_table_key_part_names(key, names) ? WT_OK : no_memory(r);
+    wt_status status = table_key_part_names(key, names) ? WT_OK : no_memory(r);
     if (status == WT_OK)
-        status = read_number(r, group, names[WT_KEY_STANDARD_ERROR], &estimate.standard_error);
+        status = read_number(r, group, names[KEY_STANDARD_ERROR], &estimate.standard_error);
     if (status == WT_OK)
-        status = read_number(r, group, names[WT_KEY_NUMERICAL_ERROR], &estimate.numerical_error);
+        status = read_number(r, group, names[KEY_NUMERICAL_ERROR], &estimate.numerical_error);
     if (status == WT_OK)
-        status = read_text(r, group, names[WT_KEY_UNITS], &unit);
+        status = read_text(r, group, names[KEY_UNITS], &unit);
     if (status == WT_END)
         status = corrupt(r, key, "an error of the value is not a number");
     estimate.unit = unit;
     if (status == WT_OK)
         status = refused(r, wt_table_set_estimate(table, key, estimate, r->err));
-    for (size_t i = 0; i < WT_KEY_PARTS; i++)
+    for (size_t i = 0; i < KEY_PARTS; i++)
         free(names[i]);
     free(unit);
     return status;
@@ -365,7 +365,7 @@ static wt_status read_table(reader *r, const char *name, wt_table **table)
     size_t n_columns = 0;
     wt_table *new_table = NULL;
     r->table = name;
-    const hid_t group = wt_table_name_is_valid(name) ? open_group(r, name) : -1;
+    const hid_t group = table_name_is_valid(name) ? open_group(r, name) : -1;
     if (group < 0) {
         status = corrupt(r, "", "table missing or misnamed");
         goto done;
@@ -445,12 +445,12 @@ static wt_status read_origin(reader *r, wt_result *result, wt_table **inputs)
         return WT_OK;
     wt_provenance *const provenance = wt_result_provenance(result);
     wt_status status = read_text(r, r->file, STORE_COMMAND_ATTRIBUTE, &command);
-    if (status == WT_OK && wt_provenance_restore_command(provenance, command) != WT_OK)
+    if (status == WT_OK && provenance_restore_command(provenance, command) != WT_OK)
         status = no_memory(r);
     if (status == WT_OK)
         status = read_table(r, STORE_INPUTS_TABLE, inputs);
     if (status == WT_OK)
-        status = wt_store_inputs_read(*inputs, provenance, r->err);
+        status = store_inputs_read(*inputs, provenance, r->err);
     free(command);
     return status;
 }
@@ -500,7 +500,7 @@ static wt_status read_all(reader *r, wt_result *result)
     if (status == WT_OK)
         status = read_text(r, r->file, STORE_DIGEST_ATTRIBUTE, &digest);
     if (status == WT_OK)
-        status = refused(r, wt_store_digest(result, inputs, found, r->err));
+        status = refused(r, store_digest(result, inputs, found, r->err));
     if (status == WT_OK && strcmp(digest, found) != 0)
         status = corrupt(r, STORE_DIGEST_ATTRIBUTE, "the content does not agree with its digest");
     wt_strings_free(names, n);
@@ -542,8 +542,8 @@ wt_status wt_store_read(const char *path, wt_result **result, wt_error *err)
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
         goto done;
     }
-    wt_hdf5_scope scope;
-    wt_hdf5_enter(&scope);
+    hdf5_scope scope;
+    hdf5_enter(&scope);
     reader r = {.file = open_file(path), .file_size = (hsize_t)info.st_size, .err = err};
     if (r.file >= 0) {
         status = read_all(&r, new_result);
@@ -554,7 +554,7 @@ wt_status wt_store_read(const char *path, wt_result **result, wt_error *err)
     } else {
         status = wt_fail(err, WT_E_FORMAT, "not an HDF5 file, or its first bytes are damaged");
     }
-    wt_hdf5_leave(&scope);
+    hdf5_leave(&scope);
     if (status == WT_OK) {
         *result = new_result;
         new_result = NULL;

@@ -139,13 +139,13 @@ static bool put_keys(const writer *w, hid_t group, const wt_table *table)
             good = put_text(w, group, key->name, key->text);
             continue;
         }
-        char *names[WT_KEY_PARTS] = {NULL};
-        good = wt_table_key_part_names(key->name, names) &&
+        char *names[KEY_PARTS] = {NULL};
+        good = table_key_part_names(key->name, names) &&
                put_number(w, group, key->name, key->parsed.value) &&
-               put_number(w, group, names[WT_KEY_STANDARD_ERROR], key->parsed.standard_error) &&
-               put_number(w, group, names[WT_KEY_NUMERICAL_ERROR], key->parsed.numerical_error) &&
-               put_text(w, group, names[WT_KEY_UNITS], key->unit);
-        for (size_t k = 0; k < WT_KEY_PARTS; k++)
+               put_number(w, group, names[KEY_STANDARD_ERROR], key->parsed.standard_error) &&
+               put_number(w, group, names[KEY_NUMERICAL_ERROR], key->parsed.numerical_error) &&
+               put_text(w, group, names[KEY_UNITS], key->unit);
+        for (size_t k = 0; k < KEY_PARTS; k++)
             free(names[k]);
     }
     good = good && put_words(group, STORE_KEYS_ATTRIBUTE, words, table->n_keys);
@@ -267,7 +267,7 @@ static bool set_group_creation(hid_t list)
 
 /* Makes the file in memory. */
 static bool make_image(const wt_result *result, const wt_table *inputs, const char *digest,
-                       wt_hdf5_image *image)
+                       hdf5_image *image)
 {
     bool good = false;
     writer w = {.file = -1,
@@ -278,13 +278,13 @@ static bool make_image(const wt_result *result, const wt_table *inputs, const ch
     const hid_t creation = H5Pcreate(H5P_FILE_CREATE);
     /* The layout of HDF5 1.8 has checksums over its own structures and is read everywhere. */
     if (w.scalar >= 0 && set_group_creation(w.group_creation) && set_creation(w.dataset_creation) &&
-        set_group_creation(creation) && wt_hdf5_image_access(access, image) &&
+        set_group_creation(creation) && hdf5_image_access(access, image) &&
         H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18) >= 0 &&
         H5Pset_fclose_degree(access, H5F_CLOSE_STRONG) >= 0)
         w.file = H5Fcreate("weartrack.h5", H5F_ACC_TRUNC, creation, access);
     if (w.file >= 0) {
         good = put_result(&w, result, inputs, digest);
-        good = wt_hdf5_image_close(w.file, image) && good;
+        good = hdf5_image_close(w.file, image) && good;
     }
     (void)H5Pclose(access);
     (void)H5Pclose(creation);
@@ -298,7 +298,7 @@ wt_status wt_store_write(const char *path, const wt_result *result, bool with_pr
                          wt_error *err)
 {
     char digest[65];
-    wt_hdf5_image image = {NULL, 0};
+    hdf5_image image = {NULL, 0};
     wt_table *inputs = NULL;
     wt_outfile *out = NULL;
     wt_status status = WT_OK;
@@ -306,13 +306,13 @@ wt_status wt_store_write(const char *path, const wt_result *result, bool with_pr
         status = wt_provenance_table(wt_result_provenance_const(result), STORE_INPUTS_TABLE,
                                      &inputs, err);
     if (status == WT_OK)
-        status = wt_store_digest(result, inputs, digest, err);
+        status = store_digest(result, inputs, digest, err);
     if (status != WT_OK)
         goto done;
-    wt_hdf5_scope scope;
-    wt_hdf5_enter(&scope);
+    hdf5_scope scope;
+    hdf5_enter(&scope);
     const bool good = make_image(result, inputs, digest, &image);
-    wt_hdf5_leave(&scope);
+    hdf5_leave(&scope);
     if (!good) {
         status = wt_fail(err, WT_E_INTERNAL, "HDF5 cannot make the file");
         goto done;

@@ -12,8 +12,8 @@
 
 /* Writes text as one cell: "-" for the empty text, escapes for what would break the line, for what
  * is not UTF-8 and, at the start of a cell, for '-' alone and '#'. */
-void wt_stream_put_text(FILE *out, const char *text);
+void stream_put_text(FILE *out, const char *text);
 /* Undoes it in place and ends the text with a zero. False if an escape is not one of ours. */
-bool wt_stream_unescape(char *text, size_t length);
+bool stream_unescape(char *text, size_t length);
 
 #endif

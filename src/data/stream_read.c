@@ -64,7 +64,7 @@ static wt_status next_line(reader *r, wt_error *err)
         r->length -= 3;
         memmove(r->line, r->line + 3, r->length + 1);
     }
-    const size_t good = wt_utf8_check(r->line, r->length);
+    const size_t good = utf8_check(r->line, r->length);
     if (good != r->length || memchr(r->line, '\0', r->length) != NULL) {
         (void)wt_fail(err, WT_E_CORRUPT, "the line is not UTF-8 text");
         wt_error_expected(err, "a text stream of weartrack");
@@ -149,7 +149,7 @@ static wt_status read_key(reader *r, wt_error *err)
     char *const text = tab != NULL ? tab + 1 : value;
     if (strcmp(key, "input") == 0)
         return WT_OK; /* for people: the table is what is read */
-    if (!wt_stream_unescape(text, strlen(text)))
+    if (!stream_unescape(text, strlen(text)))
         return corrupt(r, 0, "an escape that is not known",
                        "\\t, \\n, \\r, \\\\, \\#, \\- or \\x41", text, err);
     if (strcmp(key, "weartrack") == 0 || strcmp(key, "command") == 0)
@@ -158,7 +158,7 @@ static wt_status read_key(reader *r, wt_error *err)
         if (r->table != NULL)
             return corrupt(r, 0, "the table has a name already, or its name comes late",
                            "\"## table:\" once, before the other keys", text, err);
-        if (!wt_table_name_is_valid(text))
+        if (!table_name_is_valid(text))
             return corrupt(r, 0, "not a name for a table", "a to z, digits, '_' and '/'", text,
                            err);
         const wt_status status = begin_table(r, text, err);
@@ -246,13 +246,13 @@ static wt_status read_row(reader *r, wt_error *err)
         if (column >= table->n_columns)
             continue;
         if (table->columns[column].kind == WT_COLUMN_TEXT) {
-            if (!wt_stream_unescape(cell, strlen(cell)))
+            if (!stream_unescape(cell, strlen(cell)))
                 return corrupt(r, column + 1, "an escape that is not known",
                                "\\t, \\n, \\r, \\\\, \\#, \\- or \\x41", cell, err);
             status = wt_table_put_text(table, column, cell, err);
         } else {
             double value;
-            if (!wt_number_read(cell, strlen(cell), &value))
+            if (!number_read(cell, strlen(cell), &value))
                 return corrupt(r, column + 1, "not a number",
                                "a number with a decimal point, or nan", cell, err);
             wt_table_put(table, column, value);

@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-void wt_stream_put_text(FILE *out, const char *text)
+void stream_put_text(FILE *out, const char *text)
 {
     const size_t length = strlen(text);
     if (length == 0) {
@@ -17,7 +17,7 @@ void wt_stream_put_text(FILE *out, const char *text)
         (void)putc('\\', out);
     size_t i = 0;
     while (i < length) {
-        const size_t n = wt_utf8_character(text + i, length - i);
+        const size_t n = utf8_character(text + i, length - i);
         const unsigned char c = (unsigned char)text[i];
         if (n > 1)
             (void)fwrite(text + i, 1, n, out);
@@ -44,7 +44,7 @@ static int hex_digit(char c)
     return found != NULL ? (int)(found - digits) : -1;
 }
 
-bool wt_stream_unescape(char *text, size_t length)
+bool stream_unescape(char *text, size_t length)
 {
     if (length == 1 && text[0] == '-')
         length = 0;

@@ -9,7 +9,7 @@
 static void put_line(FILE *out, const char *key, const char *text)
 {
     (void)fprintf(out, "## %s: ", key);
-    wt_stream_put_text(out, text);
+    stream_put_text(out, text);
     (void)putc('\n', out);
 }
 
@@ -22,11 +22,11 @@ static void put_provenance(FILE *out, const wt_provenance *provenance)
         const wt_provenance_input *const input = wt_provenance_get_input(provenance, i);
         /* Tab-separated like a row, so that a path may hold blanks. */
         (void)fprintf(out, "## input: ");
-        wt_stream_put_text(out, input->path);
+        stream_put_text(out, input->path);
         (void)putc('\t', out);
-        wt_stream_put_text(out, input->role);
+        stream_put_text(out, input->role);
         (void)putc('\t', out);
-        wt_stream_put_text(out, input->format);
+        stream_put_text(out, input->format);
         (void)fprintf(out, "\t%" PRIu64 "\t%s\n", input->bytes,
                       input->sha256[0] != '\0' ? input->sha256 : "-");
     }
@@ -38,7 +38,7 @@ static void put_columns(FILE *out, const wt_table *table)
         const table_column *const column = &table->columns[i];
         if (column->long_name[0] != '\0') {
             (void)fprintf(out, "## column: %s\t", column->name);
-            wt_stream_put_text(out, column->long_name);
+            stream_put_text(out, column->long_name);
             (void)putc('\n', out);
         }
     }
@@ -62,7 +62,7 @@ static void put_rows(FILE *out, const wt_table *table)
             if (i > 0)
                 (void)putc('\t', out);
             if (table->columns[i].kind == WT_COLUMN_TEXT) {
-                wt_stream_put_text(out, wt_table_text(table, row, i));
+                stream_put_text(out, wt_table_text(table, row, i));
             } else {
                 char number[32];
                 (void)wt_number_format(table->columns[i].numbers[row], number);
@@ -76,7 +76,7 @@ static void put_rows(FILE *out, const wt_table *table)
 wt_status wt_stream_write(FILE *out, const wt_table *table, const wt_provenance *provenance,
                           wt_error *err)
 {
-    if (!wt_table_name_is_valid(table->name) || table->n_columns == 0) {
+    if (!table_name_is_valid(table->name) || table->n_columns == 0) {
         return wt_fail(err, WT_E_ARG, "table \"%s\" has no columns or no valid name", table->name);
     }
     if (provenance != NULL)

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-bool wt_table_name_is_valid(const char *name)
+bool table_name_is_valid(const char *name)
 {
     size_t part = 0;
     for (; *name != '\0'; name++) {
@@ -25,7 +25,7 @@ bool wt_table_name_is_valid(const char *name)
     return part > 0;
 }
 
-bool wt_table_word_is_valid(const char *word)
+bool table_word_is_valid(const char *word)
 {
     return word[0] != '\0' && word[strspn(word, "abcdefghijklmnopqrstuvwxyz"
                                                 "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_")] == '\0';
@@ -64,7 +64,7 @@ void wt_table_free(wt_table *table)
         column_free(&table->columns[i], table->n_rows);
     free(table->columns);
     free(table->blocks);
-    wt_table_free_keys(table);
+    table_free_keys(table);
     free(table->name);
     free(table->title);
     free(table);
@@ -84,7 +84,7 @@ const char *wt_table_title(const wt_table *table)
 static bool unit_is_valid(const char *unit)
 {
     const size_t length = strlen(unit);
-    if (length == 0 || strcmp(unit, "text") == 0 || wt_utf8_check(unit, length) != length)
+    if (length == 0 || strcmp(unit, "text") == 0 || utf8_check(unit, length) != length)
         return false;
     for (size_t i = 0; i < length; i++) {
         if ((unsigned char)unit[i] < ' ' || strchr("[]\x7F", unit[i]) != NULL)
@@ -101,7 +101,7 @@ static wt_status add_column(wt_table *table, wt_column_kind kind, const char *na
                        table->name);
     if (table->n_columns >= TABLE_COLUMNS_MAX)
         return wt_fail(err, WT_E_ARG, "more than %d columns", (int)TABLE_COLUMNS_MAX);
-    if (!wt_table_word_is_valid(name) || strcmp(name, "block") == 0) {
+    if (!table_word_is_valid(name) || strcmp(name, "block") == 0) {
         (void)wt_fail(err, WT_E_ARG, "not a name for a column");
         wt_error_expected(err, "letters, digits and '_', but not \"block\"");
         wt_error_found(err, "\"%s\"", name);

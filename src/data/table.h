@@ -24,7 +24,7 @@ typedef struct table_key {
 } table_key;
 
 /* An estimate has four names in a store: its own and those of its other parts. */
-enum { WT_KEY_STANDARD_ERROR, WT_KEY_NUMERICAL_ERROR, WT_KEY_UNITS, WT_KEY_PARTS };
+enum { KEY_STANDARD_ERROR, KEY_NUMERICAL_ERROR, KEY_UNITS, KEY_PARTS };
 
 struct wt_table {
     char *name, *title;
@@ -38,12 +38,12 @@ struct wt_table {
 };
 
 /* Parts of [a-z0-9_]+ joined by '/'. */
-bool wt_table_name_is_valid(const char *name);
+bool table_name_is_valid(const char *name);
 /* [A-Za-z0-9_]+ */
-bool wt_table_word_is_valid(const char *word);
-void wt_table_free_keys(wt_table *table);
+bool table_word_is_valid(const char *word);
+void table_free_keys(wt_table *table);
 /* Names of the parts of an estimate key, new, to be freed also on failure. False when out of
  * memory. */
-bool wt_table_key_part_names(const char *key, char *names[WT_KEY_PARTS]);
+bool table_key_part_names(const char *key, char *names[KEY_PARTS]);
 
 #endif

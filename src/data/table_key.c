@@ -11,16 +11,16 @@ static const char standard_error_mark[] = " standard_error=";
 static const char numerical_error_mark[] = " numerical_error=";
 static const char unit_mark[] = " unit=";
 
-static const char *const part_suffixes[WT_KEY_PARTS] = {
-    [WT_KEY_STANDARD_ERROR] = "_standard_error",
-    [WT_KEY_NUMERICAL_ERROR] = "_numerical_error",
-    [WT_KEY_UNITS] = "_units",
+static const char *const part_suffixes[KEY_PARTS] = {
+    [KEY_STANDARD_ERROR] = "_standard_error",
+    [KEY_NUMERICAL_ERROR] = "_numerical_error",
+    [KEY_UNITS] = "_units",
 };
 
-bool wt_table_key_part_names(const char *key, char *names[WT_KEY_PARTS])
+bool table_key_part_names(const char *key, char *names[KEY_PARTS])
 {
     bool good = true;
-    for (size_t i = 0; i < WT_KEY_PARTS; i++) {
+    for (size_t i = 0; i < KEY_PARTS; i++) {
         if (asprintf(&names[i], "%s%s", key, part_suffixes[i]) < 0) {
             names[i] = NULL;
             good = false;
@@ -36,7 +36,7 @@ static void key_free(table_key *key)
     free(key->unit);
 }
 
-void wt_table_free_keys(wt_table *table)
+void table_free_keys(wt_table *table)
 {
     for (size_t i = 0; i < table->n_keys; i++)
         key_free(&table->keys[i]);
@@ -71,11 +71,11 @@ static bool parse_estimate(const char *text, wt_estimate *estimate)
     const char *const numerical_error = third + strlen(numerical_error_mark);
     estimate->unit = fourth + strlen(unit_mark);
     return estimate->unit[0] != '\0' &&
-           wt_number_read(text, (size_t)(second - text), &estimate->value) &&
-           wt_number_read(standard_error, (size_t)(third - standard_error),
-                          &estimate->standard_error) &&
-           wt_number_read(numerical_error, (size_t)(fourth - numerical_error),
-                          &estimate->numerical_error);
+           number_read(text, (size_t)(second - text), &estimate->value) &&
+           number_read(standard_error, (size_t)(third - standard_error),
+                       &estimate->standard_error) &&
+           number_read(numerical_error, (size_t)(fourth - numerical_error),
+                       &estimate->numerical_error);
 }
 
 /* Words that lead other lines of a stream or other attributes of a store. */
@@ -96,7 +96,7 @@ static bool is_part_of(const char *name, const char *estimate)
     const size_t length = strlen(estimate);
     if (strncmp(name, estimate, length) != 0)
         return false;
-    for (size_t i = 0; i < WT_KEY_PARTS; i++) {
+    for (size_t i = 0; i < KEY_PARTS; i++) {
         if (strcmp(name + length, part_suffixes[i]) == 0)
             return true;
     }
@@ -117,7 +117,7 @@ static wt_status set_key(wt_table *table, const char *name, char *text, wt_error
 {
     wt_status status = WT_OK;
     table_key key = {.text = text};
-    if (!wt_table_word_is_valid(name) || is_reserved(name)) {
+    if (!table_word_is_valid(name) || is_reserved(name)) {
         status = wt_fail(err, WT_E_ARG, "not a name for a key");
         wt_error_expected(err, "letters, digits and '_', no word that the file formats use");
         wt_error_found(err, "\"%s\"", name);

@@ -73,7 +73,7 @@ static wt_status make_units(const wt_group *group, bool use_spots, units *u, wt_
     wt_status status = check_group(group, err);
     if (status != WT_OK)
         return status;
-    wt_gsl_quiet();
+    gsl_quiet();
     curve *curves = malloc(group->n * sizeof *curves);
     u->modulus = malloc(2 * group->n * sizeof *u->modulus);
     if (curves == NULL || u->modulus == NULL) {
@@ -342,5 +342,5 @@ double wt_equivalent_frequency(double load_time, double force_exponent)
 {
     if (!(load_time > 0.0))
         return (double)NAN;
-    return exp(wt_digamma(force_exponent + 1.0)) / load_time;
+    return exp(digamma(force_exponent + 1.0)) / load_time;
 }

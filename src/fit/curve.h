@@ -16,86 +16,85 @@
 #include <gsl/gsl_min.h>
 
 enum {
-    WT_CURVE_MIN_SAMPLES = 32,
-    WT_CURVE_MAX_BINS = 1024, /* of the coarse scan */
-    WT_CURVE_MAX_MINIMA = 4,
+    CURVE_MIN_SAMPLES = 32,
+    CURVE_MAX_BINS = 1024, /* of the coarse scan */
+    CURVE_MAX_MINIMA = 4,
 };
 
 /* Samples in the order of time. */
-typedef struct wt_curve_samples {
+typedef struct curve_samples {
     size_t n;
     double *position, *force;
     double spring_constant;
-} wt_curve_samples;
+} curve_samples;
 
 struct wt_indent_workspace {
     size_t capacity;
     double *block; /* what the arrays below are parts of */
     double *position, *force, *tip, *running_max, *delta, *g, *slope, *residual, *scratch, *weight;
     double *given_force, *given_time; /* of wt_indent_force_curve */
-    double bin_position[WT_CURVE_MAX_BINS], bin_force[WT_CURVE_MAX_BINS],
-        bin_tip[WT_CURVE_MAX_BINS], bin_running_max[WT_CURVE_MAX_BINS],
-        bin_delta[WT_CURVE_MAX_BINS], bin_g[WT_CURVE_MAX_BINS], bin_weight[WT_CURVE_MAX_BINS];
+    double bin_position[CURVE_MAX_BINS], bin_force[CURVE_MAX_BINS], bin_tip[CURVE_MAX_BINS],
+        bin_running_max[CURVE_MAX_BINS], bin_delta[CURVE_MAX_BINS], bin_g[CURVE_MAX_BINS],
+        bin_weight[CURVE_MAX_BINS];
     gsl_min_fminimizer *minimizer;
 };
 
 /* A fit without numbers. */
-void wt_curve_fit_empty(wt_indent_fit *fit);
+void curve_fit_empty(wt_indent_fit *fit);
 
 /* WT_E_MEMORY when n samples find no room. */
-wt_status wt_curve_reserve(wt_indent_workspace *workspace, size_t n, wt_error *err);
+wt_status curve_reserve(wt_indent_workspace *workspace, size_t n, wt_error *err);
 
 /* The reason of a verdict; a value as short text with its unit. */
-void wt_curve_say(char reason[160], const char *format, ...) WT_PRINTF(2, 3);
-void wt_curve_si(double value, const char *unit, char text[24]);
+void curve_say(char reason[160], const char *format, ...) WT_PRINTF(2, 3);
+void curve_si(double value, const char *unit, char text[24]);
 
 /* ---- preparation: curve_prepare.c ------------------------------------------------------------ */
 
-typedef struct wt_curve_input {
-    wt_curve_samples samples; /* of the workspace; without missing and repeated ones, centred */
-    size_t n_all;             /* samples.n may be less: a limit of the force */
+typedef struct curve_input {
+    curve_samples samples; /* of the workspace; without missing and repeated ones, centred */
+    size_t n_all;          /* samples.n may be less: a limit of the force */
     double position_origin, force_origin;
     double direction; /* +1 or -1: position = direction * height */
     size_t n_missing, n_repeated;
     double step_noise; /* noise from successive differences [N] */
-} wt_curve_input;
+} curve_input;
 
 /* Cleans, turns and centres; finds what no fit can mend. A verdict other than accepted ends it. */
-wt_curve_verdict wt_curve_prepare(const double *height, const double *force, size_t n,
-                                  double spring_constant, double force_fraction,
-                                  wt_indent_workspace *workspace, wt_curve_input *input,
-                                  char reason[160]);
+wt_curve_verdict curve_prepare(const double *height, const double *force, size_t n,
+                               double spring_constant, double force_fraction,
+                               wt_indent_workspace *workspace, curve_input *input,
+                               char reason[160]);
 /* Turns the samples into those of the motion in reverse: a retract becomes an approach. */
-void wt_curve_reverse(wt_curve_samples *samples);
+void curve_reverse(curve_samples *samples);
 
 /* ---- scan of the contact point: curve_scan.c ------------------------------------------------- */
 
 /* A local minimum of the cost with modulus, offset and tilt projected out. */
-typedef struct wt_curve_minimum {
+typedef struct curve_minimum {
     double contact_point;
     double reduced_modulus; /* E/(1-nu^2) */
     double offset, tilt;    /* baseline at the contact point, its slope */
     double cost;            /* sum of squares [N^2] */
-} wt_curve_minimum;
+} curve_minimum;
 
 /* Fills `minima`, best first; returns how many (0: no contact point gives a positive modulus).
  * weighted: with the weights of the workspace. *cost_without: the cost of the baseline alone. */
-size_t wt_curve_scan(const wt_contact_table *table, const wt_curve_samples *samples, bool tilt,
-                     bool weighted, wt_indent_workspace *workspace,
-                     wt_curve_minimum minima[WT_CURVE_MAX_MINIMA], double *cost_without);
+size_t curve_scan(const wt_contact_table *table, const curve_samples *samples, bool tilt,
+                  bool weighted, wt_indent_workspace *workspace,
+                  curve_minimum minima[CURVE_MAX_MINIMA], double *cost_without);
 /* The same for one given contact point (a position of the samples). */
-bool wt_curve_scan_at(const wt_contact_table *table, const wt_curve_samples *samples, bool tilt,
-                      double contact_point, wt_indent_workspace *workspace,
-                      wt_curve_minimum *minimum);
+bool curve_scan_at(const wt_contact_table *table, const curve_samples *samples, bool tilt,
+                   double contact_point, wt_indent_workspace *workspace, curve_minimum *minimum);
 
 /* ---- refinement and errors: curve_refine.c ----------------------------------------------------
  */
 
-enum { WT_CURVE_E, WT_CURVE_C, WT_CURVE_F0, WT_CURVE_T, WT_CURVE_N_PARAMETERS };
+enum { CURVE_E, CURVE_C, CURVE_F0, CURVE_T, CURVE_N_PARAMETERS };
 
-typedef struct wt_curve_solution {
-    double p[WT_CURVE_N_PARAMETERS]; /* reduced modulus, contact point, offset, tilt */
-    double standard_error[WT_CURVE_N_PARAMETERS];
+typedef struct curve_solution {
+    double p[CURVE_N_PARAMETERS]; /* reduced modulus, contact point, offset, tilt */
+    double standard_error[CURVE_N_PARAMETERS];
     double cost;
     double sensitivity_gain;
     size_t first_contact; /* samples before it are baseline */
@@ -104,27 +103,27 @@ typedef struct wt_curve_solution {
     double effective_n; /* samples over correlation length, baseline and contact part together */
     double r_squared;
     bool converged;
-} wt_curve_solution;
+} curve_solution;
 
 /* Least squares in all free parameters at once, starting from a minimum of the scan; then the
  * covariance with correlated residuals. plain: force against measured indentation. */
-void wt_curve_refine(const wt_contact_table *table, const wt_curve_samples *samples,
-                     const wt_curve_minimum *start, bool tilt, bool contact_fixed, bool plain,
-                     wt_indent_workspace *workspace, wt_curve_solution *solution);
+void curve_refine(const wt_contact_table *table, const curve_samples *samples,
+                  const curve_minimum *start, bool tilt, bool contact_fixed, bool plain,
+                  wt_indent_workspace *workspace, curve_solution *solution);
 /* Weights 1/h^2, h = 1 + S/k, of all samples for a scan, from a minimum of another. Returns the
  * largest h. */
-double wt_curve_weights(const wt_contact_table *table, const wt_curve_samples *samples,
-                        const wt_curve_minimum *minimum, wt_indent_workspace *workspace);
+double curve_weights(const wt_contact_table *table, const curve_samples *samples,
+                     const curve_minimum *minimum, wt_indent_workspace *workspace);
 
 /* ---- noise: curve_noise.c ---------------------------------------------------------------------
  */
 
-typedef struct wt_noise {
+typedef struct noise_level {
     double variance;           /* of one sample */
     double correlation_length; /* tau = 1 + 2 sum rho_k [samples] */
-} wt_noise;
+} noise_level;
 
 /* Of a residual with mean 0. Destroys x. */
-wt_noise wt_noise_estimate(double *x, size_t n);
+noise_level noise_estimate(double *x, size_t n);
 
 #endif

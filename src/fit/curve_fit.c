@@ -58,7 +58,7 @@ wt_indent_options wt_indent_defaults(void)
 
 wt_indent_workspace *wt_indent_workspace_new(void)
 {
-    wt_gsl_quiet();
+    gsl_quiet();
     wt_indent_workspace *workspace = calloc(1, sizeof *workspace);
     if (workspace == NULL)
         return NULL;
@@ -85,25 +85,25 @@ typedef struct fitting {
     const wt_contact_table *table;
     const wt_indent_options *options;
     wt_indent_workspace *workspace;
-    wt_curve_input input;
-    wt_curve_solution solution;
-    wt_curve_minimum minima[WT_CURVE_MAX_MINIMA];
+    curve_input input;
+    curve_solution solution;
+    curve_minimum minima[CURVE_MAX_MINIMA];
     size_t n_minima;
     double adhesion;
     size_t n_snap; /* samples left out because of a snap-on */
     bool depth_settled;
 } fitting;
 
-static double baseline_at(const wt_curve_solution *s, double position)
+static double baseline_at(const curve_solution *s, double position)
 {
-    return s->p[WT_CURVE_F0] + s->p[WT_CURVE_T] * (position - s->p[WT_CURVE_C]);
+    return s->p[CURVE_F0] + s->p[CURVE_T] * (position - s->p[CURVE_C]);
 }
 
 static bool scan(fitting *f, bool weighted)
 {
     double unused = 0.0;
-    f->n_minima = wt_curve_scan(f->table, &f->input.samples, f->options->fit_tilt, weighted,
-                                f->workspace, f->minima, &unused);
+    f->n_minima = curve_scan(f->table, &f->input.samples, f->options->fit_tilt, weighted,
+                             f->workspace, f->minima, &unused);
     return f->n_minima > 0;
 }
 
@@ -112,23 +112,23 @@ static bool scan(fitting *f, bool weighted)
 static bool scan_and_refine(fitting *f)
 {
     const wt_indent_options *o = f->options;
-    const wt_curve_samples *s = &f->input.samples;
+    const curve_samples *s = &f->input.samples;
     bool fixed = !isnan(o->fixed_contact_point);
     if (fixed) {
         double c = o->fixed_contact_point - f->input.position_origin;
-        if (!wt_curve_scan_at(f->table, s, o->fit_tilt, c, f->workspace, &f->minima[0]))
+        if (!curve_scan_at(f->table, s, o->fit_tilt, c, f->workspace, &f->minima[0]))
             return false;
         f->n_minima = 1;
     } else {
         if (!scan(f, false))
             return false;
         if (!o->plain_least_squares &&
-            wt_curve_weights(f->table, s, &f->minima[0], f->workspace) > weights_matter &&
+            curve_weights(f->table, s, &f->minima[0], f->workspace) > weights_matter &&
             !scan(f, true))
             return false;
     }
-    wt_curve_refine(f->table, s, &f->minima[0], o->fit_tilt, fixed, o->plain_least_squares,
-                    f->workspace, &f->solution);
+    curve_refine(f->table, s, &f->minima[0], o->fit_tilt, fixed, o->plain_least_squares,
+                 f->workspace, &f->solution);
     return true;
 }
 
@@ -136,8 +136,8 @@ static bool scan_and_refine(fitting *f)
  * The law knows no attraction, so these samples are taken out. True if samples were removed. */
 static bool remove_snap_on(fitting *f)
 {
-    wt_curve_samples *s = &f->input.samples;
-    const wt_curve_solution *fit = &f->solution;
+    curve_samples *s = &f->input.samples;
+    const curve_solution *fit = &f->solution;
     double *above = f->workspace->scratch;
     size_t deepest = 0;
     for (size_t i = 0; i < s->n; i++) {
@@ -159,11 +159,11 @@ static bool remove_snap_on(fitting *f)
     if (start < baseline_samples)
         return false;
     noise = sqrt(noise / (double)start);
-    double after_contact = s->position[start] - fit->p[WT_CURVE_C];
-    double reach = s->position[s->n - 1] - fit->p[WT_CURVE_C];
+    double after_contact = s->position[start] - fit->p[CURVE_C];
+    double reach = s->position[s->n - 1] - fit->p[CURVE_C];
     if (!(pull > snap_noise * noise) || !(pull > snap_rest * elsewhere) ||
         !(fabs(after_contact) < gap_tolerance * reach) || end == s->n ||
-        s->n - (end - start) < WT_CURVE_MIN_SAMPLES)
+        s->n - (end - start) < CURVE_MIN_SAMPLES)
         return false;
     f->adhesion = pull;
     f->n_snap = end - start;
@@ -176,12 +176,12 @@ static bool remove_snap_on(fitting *f)
 /* Samples up to the first that is deeper than the limit. */
 static size_t count_to_depth(const fitting *f)
 {
-    const wt_curve_samples *s = &f->input.samples;
+    const curve_samples *s = &f->input.samples;
     const double *p = f->solution.p;
     double k = s->spring_constant;
     for (size_t i = 0; i < f->input.n_all - f->n_snap; i++) {
-        double delta = (s->position[i] - p[WT_CURVE_C]) * (1.0 + p[WT_CURVE_T] / k) -
-                       (s->force[i] - p[WT_CURVE_F0]) / k;
+        double delta = (s->position[i] - p[CURVE_C]) * (1.0 + p[CURVE_T] / k) -
+                       (s->force[i] - p[CURVE_F0]) / k;
         if (delta > f->options->fit_depth)
             return i;
     }
@@ -197,7 +197,7 @@ static bool fit_to_depth(fitting *f)
         n = n < limit ? n : limit;
         if (n == f->input.samples.n)
             return true;
-        if (n < WT_CURVE_MIN_SAMPLES)
+        if (n < CURVE_MIN_SAMPLES)
             return true; /* the verdict on the samples in contact follows */
         f->input.samples.n = n;
         if (!scan_and_refine(f))
@@ -211,7 +211,7 @@ static bool fit_to_depth(fitting *f)
  * their scatter, beyond what white noise does. */
 static double baseline_departure(const fitting *f)
 {
-    const wt_curve_samples *s = &f->input.samples;
+    const curve_samples *s = &f->input.samples;
     size_t length = f->solution.first_contact / BEND_BLOCKS;
     if (length == 0)
         return 0.0;
@@ -231,7 +231,7 @@ static double baseline_departure(const fitting *f)
 
 static wt_curve_verdict no_contact_verdict(fitting *f, char reason[160])
 {
-    wt_curve_samples *s = &f->input.samples;
+    curve_samples *s = &f->input.samples;
     size_t tenth = s->n / 10;
     double first = 0.0, last = 0.0;
     for (size_t i = 0; i < tenth; i++) {
@@ -239,22 +239,22 @@ static wt_curve_verdict no_contact_verdict(fitting *f, char reason[160])
         last += s->force[s->n - 1 - i] / (double)tenth;
     }
     char a[24], b[24];
-    wt_curve_si(fabs(last - first), "N", a);
-    wt_curve_si(f->input.step_noise, "N", b);
+    curve_si(fabs(last - first), "N", a);
+    curve_si(f->input.step_noise, "N", b);
     if (first - last > contact_noise * f->input.step_noise) {
-        wt_curve_say(reason,
-                     "the force falls by %s towards the sample (noise %s): sign of the deflection?",
-                     a, b);
+        curve_say(reason,
+                  "the force falls by %s towards the sample (noise %s): sign of the deflection?", a,
+                  b);
         return WT_CURVE_NEGATIVE;
     }
-    wt_curve_say(reason, "the force changes by %s from start to end (noise %s)", a, b);
+    curve_say(reason, "the force changes by %s from start to end (noise %s)", a, b);
     return WT_CURVE_NO_CONTACT;
 }
 
 /* Does the curve look more like a contact when it is run backwards? Destroys the samples then. */
 static bool leaves_the_sample(fitting *f, char reason[160])
 {
-    wt_curve_samples *s = &f->input.samples;
+    curve_samples *s = &f->input.samples;
     size_t tenth = s->n / 10;
     double first = 0.0, last = 0.0, unused = 0.0;
     for (size_t i = 0; i < tenth; i++) {
@@ -263,94 +263,94 @@ static bool leaves_the_sample(fitting *f, char reason[160])
     }
     if (!(first - last > contact_noise * f->input.step_noise))
         return false;
-    wt_curve_minimum minima[WT_CURVE_MAX_MINIMA];
+    curve_minimum minima[CURVE_MAX_MINIMA];
     double cost = (double)INFINITY;
-    size_t n = wt_curve_scan(f->table, s, true, false, f->workspace, minima, &unused);
+    size_t n = curve_scan(f->table, s, true, false, f->workspace, minima, &unused);
     if (n > 0 && minima[0].contact_point > s->position[0])
         cost = minima[0].cost;
-    wt_curve_reverse(s);
-    n = wt_curve_scan(f->table, s, true, false, f->workspace, minima, &unused);
+    curve_reverse(s);
+    n = curve_scan(f->table, s, true, false, f->workspace, minima, &unused);
     if (n > 0 && minima[0].contact_point > s->position[0] &&
         minima[0].cost < reverse_ratio * cost) {
         char a[24];
-        wt_curve_si(first - last, "N", a);
-        wt_curve_say(reason, "the force falls by %s along the segment: it leaves the sample", a);
+        curve_si(first - last, "N", a);
+        curve_say(reason, "the force falls by %s along the segment: it leaves the sample", a);
         return true;
     }
-    wt_curve_reverse(s);
+    curve_reverse(s);
     return false;
 }
 
 static wt_curve_verdict judge(fitting *f, double max_force, wt_indent_fit *fit)
 {
-    const wt_curve_solution *s = &f->solution;
-    const wt_curve_samples *samples = &f->input.samples;
+    const curve_solution *s = &f->solution;
+    const curve_samples *samples = &f->input.samples;
     char a[24], b[24], c[24], *reason = fit->reason;
 
-    double length = s->p[WT_CURVE_C] - samples->position[0];
+    double length = s->p[CURVE_C] - samples->position[0];
     if (length <= 0.0) {
-        wt_curve_si(-length, "m", a);
-        wt_curve_say(reason, "contact is found %s before the first sample", a);
+        curve_si(-length, "m", a);
+        curve_say(reason, "contact is found %s before the first sample", a);
         return WT_CURVE_NO_BASELINE;
     }
     if (!(max_force > contact_noise * s->noise)) {
-        wt_curve_si(max_force, "N", a);
-        wt_curve_si(s->noise, "N", b);
-        wt_curve_say(reason, "largest force %s is %.1f times the noise of %s, %g needed", a,
-                     max_force / s->noise, b, contact_noise);
+        curve_si(max_force, "N", a);
+        curve_si(s->noise, "N", b);
+        curve_say(reason, "largest force %s is %.1f times the noise of %s, %g needed", a,
+                  max_force / s->noise, b, contact_noise);
         return WT_CURVE_NO_CONTACT;
     }
     if (s->first_contact < baseline_samples || length < baseline_length * s->max_indentation) {
-        wt_curve_si(length, "m", a);
-        wt_curve_si(baseline_length * s->max_indentation, "m", b);
-        wt_curve_say(reason, "baseline of %zu samples and %s; %zu samples and %s needed",
-                     s->first_contact, a, baseline_samples, b);
+        curve_si(length, "m", a);
+        curve_si(baseline_length * s->max_indentation, "m", b);
+        curve_say(reason, "baseline of %zu samples and %s; %zu samples and %s needed",
+                  s->first_contact, a, baseline_samples, b);
         return WT_CURVE_NO_BASELINE;
     }
     if (samples->n - s->first_contact < contact_samples) {
-        wt_curve_say(reason, "%zu samples in contact, %zu needed", samples->n - s->first_contact,
-                     contact_samples);
+        curve_say(reason, "%zu samples in contact, %zu needed", samples->n - s->first_contact,
+                  contact_samples);
         return WT_CURVE_TOO_SHORT;
     }
     if (s->sensitivity_gain > rigid_gain) {
-        wt_curve_say(
+        curve_say(
             reason,
             "1 %% of deflection sensitivity would change the modulus by %.0f %%, %g %% allowed",
             s->sensitivity_gain, rigid_gain);
         return WT_CURVE_RIGID;
     }
     if (f->n_minima > 1) {
-        const wt_curve_minimum *second = &f->minima[1];
+        const curve_minimum *second = &f->minima[1];
         double ratio = second->cost / f->minima[0].cost;
-        double moduli = log(second->reduced_modulus / s->p[WT_CURVE_E]);
+        double moduli = log(second->reduced_modulus / s->p[CURVE_E]);
         if (s->effective_n * log(ratio) < ambiguous_chi2 && fabs(moduli) > ambiguous_ratio) {
-            wt_curve_si(fabs(second->contact_point - s->p[WT_CURVE_C]), "m", a);
-            wt_curve_si(second->reduced_modulus * fit->modulus.value / s->p[WT_CURVE_E], "Pa", b);
-            wt_curve_si(fit->modulus.value, "Pa", c);
-            wt_curve_say(reason,
-                         "a contact point %s away gives %s instead of %s at %.3f times the cost", a,
-                         b, c, ratio);
+            curve_si(fabs(second->contact_point - s->p[CURVE_C]), "m", a);
+            curve_si(second->reduced_modulus * fit->modulus.value / s->p[CURVE_E], "Pa", b);
+            curve_si(fit->modulus.value, "Pa", c);
+            curve_say(reason,
+                      "a contact point %s away gives %s instead of %s at %.3f times the cost", a, b,
+                      c, ratio);
             return WT_CURVE_AMBIGUOUS;
         }
     }
     double departure = baseline_departure(f);
     if (departure > baseline_bend * max_force) {
-        wt_curve_si(departure, "N", a);
-        wt_curve_si(max_force, "N", b);
-        wt_curve_say(reason, "baseline departs from a line by %s, %.0f %% of %s; %g %% allowed", a,
-                     100.0 * departure / max_force, b, 100.0 * baseline_bend);
+        curve_si(departure, "N", a);
+        curve_si(max_force, "N", b);
+        curve_say(reason, "baseline departs from a line by %s, %.0f %% of %s; %g %% allowed", a,
+                  100.0 * departure / max_force, b, 100.0 * baseline_bend);
         return WT_CURVE_DRIFT;
     }
-    if (!s->converged || isnan(s->standard_error[WT_CURVE_E])) {
-        wt_curve_say(reason, "the least-squares fit found no minimum within its iterations");
+    if (!s->converged || isnan(s->standard_error[CURVE_E])) {
+        curve_say(reason, "the least-squares fit found no minimum within its iterations");
         return WT_CURVE_POOR_FIT;
     }
     if (!(s->r_squared >= f->options->minimum_r_squared)) {
-        wt_curve_say(reason, "R^2 of the contact part %.3f is below %g", s->r_squared,
-                     f->options->minimum_r_squared);
+        curve_say(reason, "R^2 of the contact part %.3f is below %g", s->r_squared,
+                  f->options->minimum_r_squared);
         return WT_CURVE_POOR_FIT;
     }
-    wt_curve_say(reason, "accepted");
+    curve_say(reason, "accepted");
     return WT_CURVE_ACCEPTED;
 }
 
@@ -359,7 +359,7 @@ static void add_notes(const fitting *f, char reason[160])
 {
     char text[64], a[24];
     if (f->n_snap > 0) {
-        wt_curve_si(f->adhesion, "N", a);
+        curve_si(f->adhesion, "N", a);
         snprintf(text, sizeof text, "; snap-on of %s left out (%zu samples)", a, f->n_snap);
         strncat(reason, text, 159 - strlen(reason));
     }
@@ -411,7 +411,7 @@ static void find_rates(const fitting *f, const double *height, const double *for
     }
 }
 
-void wt_curve_fit_empty(wt_indent_fit *fit)
+void curve_fit_empty(wt_indent_fit *fit)
 {
     const double nan_ = (double)NAN;
     *fit = (wt_indent_fit){.modulus = {nan_, nan_, 0.0, "Pa"},
@@ -435,17 +435,17 @@ void wt_curve_fit_empty(wt_indent_fit *fit)
 
 static void report(fitting *f, wt_indent_fit *fit)
 {
-    const wt_curve_solution *s = &f->solution;
-    const wt_curve_samples *samples = &f->input.samples;
+    const curve_solution *s = &f->solution;
+    const curve_samples *samples = &f->input.samples;
     double reduced = 1.0 - f->options->poisson_ratio * f->options->poisson_ratio;
-    fit->modulus.value = reduced * s->p[WT_CURVE_E];
-    fit->modulus.standard_error = reduced * s->standard_error[WT_CURVE_E];
-    fit->contact_point.value = s->p[WT_CURVE_C] + f->input.position_origin;
-    fit->contact_point.standard_error = s->standard_error[WT_CURVE_C];
-    fit->baseline_offset.value = s->p[WT_CURVE_F0] + f->input.force_origin;
-    fit->baseline_offset.standard_error = s->standard_error[WT_CURVE_F0];
-    fit->baseline_tilt.value = s->p[WT_CURVE_T];
-    fit->baseline_tilt.standard_error = s->standard_error[WT_CURVE_T];
+    fit->modulus.value = reduced * s->p[CURVE_E];
+    fit->modulus.standard_error = reduced * s->standard_error[CURVE_E];
+    fit->contact_point.value = s->p[CURVE_C] + f->input.position_origin;
+    fit->contact_point.standard_error = s->standard_error[CURVE_C];
+    fit->baseline_offset.value = s->p[CURVE_F0] + f->input.force_origin;
+    fit->baseline_offset.standard_error = s->standard_error[CURVE_F0];
+    fit->baseline_tilt.value = s->p[CURVE_T];
+    fit->baseline_tilt.standard_error = s->standard_error[CURVE_T];
     fit->noise = s->noise;
     fit->correlation_length = s->correlation_length;
     fit->r_squared = s->r_squared;
@@ -500,14 +500,14 @@ wt_status wt_indent_fit_curve(const wt_contact_table *table, const wt_indent_opt
         options = &defaults;
     wt_status status = check_arguments(options, n, spring_constant, err);
     if (status == WT_OK)
-        status = wt_curve_reserve(workspace, n, err);
+        status = curve_reserve(workspace, n, err);
     if (status != WT_OK)
         return status;
 
     fitting f = {.table = table, .options = options, .workspace = workspace, .depth_settled = true};
-    wt_curve_fit_empty(fit);
-    fit->verdict = wt_curve_prepare(height, force, n, spring_constant, options->fit_force_fraction,
-                                    workspace, &f.input, fit->reason);
+    curve_fit_empty(fit);
+    fit->verdict = curve_prepare(height, force, n, spring_constant, options->fit_force_fraction,
+                                 workspace, &f.input, fit->reason);
     if (fit->verdict != WT_CURVE_ACCEPTED)
         return WT_OK;
     fit->direction = f.input.direction;

@@ -15,14 +15,14 @@
 #include <math.h>
 #include <string.h>
 
-enum { N = WT_CURVE_N_PARAMETERS, MAX_NEWTON = 50 };
+enum { N = CURVE_N_PARAMETERS, MAX_NEWTON = 50 };
 
 /* How far before contact samples begin to be looked at one by one, as a share of the depth. */
 static const double margin = 0.1;
 
-static void sum_baseline(wt_curve_model *m, size_t n)
+static void sum_baseline(curve_law *m, size_t n)
 {
-    const wt_curve_samples *s = m->samples;
+    const curve_samples *s = m->samples;
     m->n_baseline = n;
     m->baseline_end = -(double)INFINITY;
     m->z = m->zz = m->f = m->zf = m->ff = m->z0 = m->f0 = 0.0;
@@ -43,9 +43,9 @@ static void sum_baseline(wt_curve_model *m, size_t n)
 }
 
 /* In the plain residual noise decides which samples are in contact: none is left to the sums. */
-static size_t count_baseline(const wt_curve_model *m, double c)
+static size_t count_baseline(const curve_law *m, double c)
 {
-    const wt_curve_samples *s = m->samples;
+    const curve_samples *s = m->samples;
     const double limit = c - margin * fabs(s->position[s->n - 1] - c);
     size_t n = 0;
     while (!m->plain && n < s->n && s->position[n] < limit)
@@ -54,26 +54,26 @@ static size_t count_baseline(const wt_curve_model *m, double c)
 }
 
 /* Indentations as measured. */
-static void measure(const wt_curve_model *m, const double p[N], size_t first)
+static void measure(const curve_law *m, const double p[N], size_t first)
 {
-    const wt_curve_samples *s = m->samples;
-    const double k = s->spring_constant, stretch = 1.0 + p[WT_CURVE_T] / k;
+    const curve_samples *s = m->samples;
+    const double k = s->spring_constant, stretch = 1.0 + p[CURVE_T] / k;
     for (size_t i = first; i < s->n; i++)
         m->workspace->delta[i] =
-            (s->position[i] - p[WT_CURVE_C]) * stretch - (s->force[i] - p[WT_CURVE_F0]) / k;
+            (s->position[i] - p[CURVE_C]) * stretch - (s->force[i] - p[CURVE_F0]) / k;
 }
 
 /* Turns the indentations of the workspace into those at which lever and sample are in balance, with
  * G and G' there. k (z - x) - E* G(x) falls and is concave in x, so Newton's method converges from
  * anywhere; the indentations of the evaluation before are a good start. */
-static void balance(const wt_curve_model *m, const double p[N], size_t first)
+static void balance(const curve_law *m, const double p[N], size_t first)
 {
-    const wt_curve_samples *s = m->samples;
+    const curve_samples *s = m->samples;
     wt_indent_workspace *w = m->workspace;
-    const double k = s->spring_constant, e = p[WT_CURVE_E];
+    const double k = s->spring_constant, e = p[CURVE_E];
     double deepest = 0.0;
     for (size_t i = first; i < s->n; i++) {
-        double z = s->position[i] - p[WT_CURVE_C];
+        double z = s->position[i] - p[CURVE_C];
         if (!(w->delta[i] > 0.0 && w->delta[i] < z))
             w->delta[i] = z;
         if (z > deepest)
@@ -86,7 +86,7 @@ static void balance(const wt_curve_model *m, const double p[N], size_t first)
                               w->slope + first);
         largest_step = 0.0;
         for (size_t j = first; j < s->n; j++) {
-            double z = s->position[j] - p[WT_CURVE_C];
+            double z = s->position[j] - p[CURVE_C];
             if (z <= 0.0)
                 continue;
             double step = (k * (z - w->delta[j]) - e * w->g[j]) / (k + e * w->slope[j]);
@@ -100,9 +100,9 @@ static void balance(const wt_curve_model *m, const double p[N], size_t first)
     }
 }
 
-static double evaluate(wt_curve_model *m, const double p[N], size_t first)
+static double evaluate(curve_law *m, const double p[N], size_t first)
 {
-    const wt_curve_samples *s = m->samples;
+    const curve_samples *s = m->samples;
     wt_indent_workspace *w = m->workspace;
     if (m->plain) {
         measure(m, p, first);
@@ -113,83 +113,83 @@ static double evaluate(wt_curve_model *m, const double p[N], size_t first)
     }
     double cost = 0.0;
     for (size_t i = first; i < s->n; i++) {
-        double r = s->force[i] - p[WT_CURVE_F0] - p[WT_CURVE_T] * (s->position[i] - p[WT_CURVE_C]) -
-                   p[WT_CURVE_E] * w->g[i];
+        double r = s->force[i] - p[CURVE_F0] - p[CURVE_T] * (s->position[i] - p[CURVE_C]) -
+                   p[CURVE_E] * w->g[i];
         w->residual[i] = r;
         cost += r * r;
     }
     return cost;
 }
 
-void wt_curve_model_start(wt_curve_model *m, const double p[N])
+void curve_model_start(curve_law *m, const double p[N])
 {
-    sum_baseline(m, count_baseline(m, p[WT_CURVE_C]));
+    sum_baseline(m, count_baseline(m, p[CURVE_C]));
     measure(m, p, 0);
 }
 
-double wt_curve_model_cost(wt_curve_model *m, const double p[N])
+double curve_model_cost(curve_law *m, const double p[N])
 {
-    if (m->n_baseline > 0 && p[WT_CURVE_C] < m->baseline_end) {
-        sum_baseline(m, count_baseline(m, p[WT_CURVE_C]));
+    if (m->n_baseline > 0 && p[CURVE_C] < m->baseline_end) {
+        sum_baseline(m, count_baseline(m, p[CURVE_C]));
         measure(m, p, 0);
     }
-    double n = (double)m->n_baseline, t = p[WT_CURVE_T];
-    double offset = m->f0 - p[WT_CURVE_F0] - t * (m->z0 - p[WT_CURVE_C]);
+    double n = (double)m->n_baseline, t = p[CURVE_T];
+    double offset = m->f0 - p[CURVE_F0] - t * (m->z0 - p[CURVE_C]);
     double baseline = m->ff + t * t * m->zz - 2.0 * t * m->zf +
                       offset * (n * offset + 2.0 * m->f - 2.0 * t * m->z);
     return baseline + evaluate(m, p, m->n_baseline);
 }
 
-double wt_curve_model_complete(wt_curve_model *m, const double p[N])
+double curve_model_complete(curve_law *m, const double p[N])
 {
     sum_baseline(m, 0);
     measure(m, p, 0);
     return evaluate(m, p, 0);
 }
 
-double wt_curve_model_factor(const wt_curve_model *m, const double p[N], size_t i)
+double curve_model_factor(const curve_law *m, const double p[N], size_t i)
 {
-    return 1.0 + p[WT_CURVE_E] * m->workspace->slope[i] / m->samples->spring_constant;
+    return 1.0 + p[CURVE_E] * m->workspace->slope[i] / m->samples->spring_constant;
 }
 
-double wt_curve_model_row(const wt_curve_model *m, const double p[N], size_t i, double row[N])
+double curve_model_row(const curve_law *m, const double p[N], size_t i, double row[N])
 {
     const wt_indent_workspace *w = m->workspace;
-    double h = wt_curve_model_factor(m, p, i), stiffness = p[WT_CURVE_E] * w->slope[i];
+    double h = curve_model_factor(m, p, i), stiffness = p[CURVE_E] * w->slope[i];
     double plain = m->plain ? h : 1.0, balanced = m->plain ? 1.0 : 1.0 / h;
-    row[WT_CURVE_E] = w->g[i] * balanced;
-    row[WT_CURVE_C] = m->free[WT_CURVE_C] ? -p[WT_CURVE_T] * plain - stiffness * balanced : 0.0;
-    row[WT_CURVE_F0] = plain;
-    row[WT_CURVE_T] = m->free[WT_CURVE_T] ? (m->samples->position[i] - p[WT_CURVE_C]) * plain : 0.0;
+    row[CURVE_E] = w->g[i] * balanced;
+    row[CURVE_C] = m->free[CURVE_C] ? -p[CURVE_T] * plain - stiffness * balanced : 0.0;
+    row[CURVE_F0] = plain;
+    row[CURVE_T] = m->free[CURVE_T] ? (m->samples->position[i] - p[CURVE_C]) * plain : 0.0;
     return plain;
 }
 
-void wt_curve_model_normal(const wt_curve_model *m, const double p[N], wt_normal_equations *e)
+void curve_model_normal(const curve_law *m, const double p[N], normal_equations *e)
 {
     memset(e, 0, sizeof *e);
     /* Before contact the row is (0, -t, 1, z - c), and r = f - f0 - t (z - c). */
-    const double n = (double)m->n_baseline, t = p[WT_CURVE_T], shift = m->z0 - p[WT_CURVE_C];
-    const double offset = m->f0 - p[WT_CURVE_F0] - t * shift;
+    const double n = (double)m->n_baseline, t = p[CURVE_T], shift = m->z0 - p[CURVE_C];
+    const double offset = m->f0 - p[CURVE_F0] - t * shift;
     const double sz = m->z + n * shift, szz = m->zz + shift * (2.0 * m->z + n * shift);
     const double sr = m->f - t * m->z + n * offset;
     const double szr = m->zf - t * m->zz + offset * m->z + shift * sr;
-    if (m->free[WT_CURVE_C]) {
-        e->jj[WT_CURVE_C][WT_CURVE_C] = t * t * n;
-        e->jj[WT_CURVE_C][WT_CURVE_F0] = -t * n;
-        e->jr[WT_CURVE_C] = -t * sr;
-        if (m->free[WT_CURVE_T])
-            e->jj[WT_CURVE_C][WT_CURVE_T] = -t * sz;
+    if (m->free[CURVE_C]) {
+        e->jj[CURVE_C][CURVE_C] = t * t * n;
+        e->jj[CURVE_C][CURVE_F0] = -t * n;
+        e->jr[CURVE_C] = -t * sr;
+        if (m->free[CURVE_T])
+            e->jj[CURVE_C][CURVE_T] = -t * sz;
     }
-    e->jj[WT_CURVE_F0][WT_CURVE_F0] = n;
-    e->jr[WT_CURVE_F0] = sr;
-    if (m->free[WT_CURVE_T]) {
-        e->jj[WT_CURVE_F0][WT_CURVE_T] = sz;
-        e->jj[WT_CURVE_T][WT_CURVE_T] = szz;
-        e->jr[WT_CURVE_T] = szr;
+    e->jj[CURVE_F0][CURVE_F0] = n;
+    e->jr[CURVE_F0] = sr;
+    if (m->free[CURVE_T]) {
+        e->jj[CURVE_F0][CURVE_T] = sz;
+        e->jj[CURVE_T][CURVE_T] = szz;
+        e->jr[CURVE_T] = szr;
     }
     for (size_t i = m->n_baseline; i < m->samples->n; i++) {
         double row[N], r = m->workspace->residual[i];
-        wt_curve_model_row(m, p, i, row);
+        curve_model_row(m, p, i, row);
         for (size_t a = 0; a < N; a++) {
             for (size_t b = a; b < N; b++)
                 e->jj[a][b] += row[a] * row[b];

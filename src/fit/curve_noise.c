@@ -30,9 +30,9 @@ static size_t average_pairs(double *x, size_t n)
     return n / 2;
 }
 
-wt_noise wt_noise_estimate(double *x, size_t n)
+noise_level noise_estimate(double *x, size_t n)
 {
-    wt_noise noise = {0.0, 1.0};
+    noise_level noise = {0.0, 1.0};
     if (n == 0)
         return noise;
     noise.variance = autocovariance(x, n, 0);

@@ -19,7 +19,7 @@ static const double rigid_share = 0.02;  /* least advance of the tip per bending
 static const double plateau_ratio = 5.0; /* force gained before a flat top against in it */
 static const size_t plateau_samples = 5;
 
-wt_status wt_curve_reserve(wt_indent_workspace *w, size_t n, wt_error *err)
+wt_status curve_reserve(wt_indent_workspace *w, size_t n, wt_error *err)
 {
     enum { N_ARRAYS = 12 };
     if (n <= w->capacity)
@@ -84,7 +84,7 @@ static double select_kth(double *x, size_t n, size_t k)
 
 /* Standard deviation of white noise from the median of |successive differences|, and the smallest
  * step that occurs (the resolution of the converter where there is one). */
-static double difference_noise(const wt_curve_samples *s, double *scratch, double *resolution)
+static double difference_noise(const curve_samples *s, double *scratch, double *resolution)
 {
     *resolution = (double)INFINITY;
     for (size_t i = 1; i < s->n; i++) {
@@ -98,7 +98,7 @@ static double difference_noise(const wt_curve_samples *s, double *scratch, doubl
 }
 
 /* Force that the travel of the samples from `first` on had gained just before it. */
-static bool flat_top(const wt_curve_samples *s, double noise, double resolution, size_t *first)
+static bool flat_top(const curve_samples *s, double noise, double resolution, size_t *first)
 {
     double max = s->force[0], min = s->force[0];
     for (size_t i = 1; i < s->n; i++) {
@@ -121,7 +121,7 @@ static bool flat_top(const wt_curve_samples *s, double noise, double resolution,
 
 /* Slope of the position against the deflection in the upper half of the force; NaN if the force
  * does not rise enough. Of a rigid sample it is 1. */
-static double advance_per_bending(const wt_curve_samples *s, double noise)
+static double advance_per_bending(const curve_samples *s, double noise)
 {
     size_t n_start = s->n / 10;
     double start = mean(s->force, n_start), max = start;
@@ -147,7 +147,7 @@ static double advance_per_bending(const wt_curve_samples *s, double noise)
 }
 
 /* Copies the good samples; the direction is not yet known. */
-static size_t clean(const double *height, const double *force, size_t n, wt_curve_input *input)
+static size_t clean(const double *height, const double *force, size_t n, curve_input *input)
 {
     size_t kept = 0;
     for (size_t i = 0; i < n; i++) {
@@ -166,7 +166,7 @@ static size_t clean(const double *height, const double *force, size_t n, wt_curv
 
 /* Samples up to where the force passes a share of its largest value: halfway between the first
  * above and the last below. */
-static size_t limit_force(const wt_curve_samples *s, double fraction)
+static size_t limit_force(const curve_samples *s, double fraction)
 {
     double start = mean(s->force, s->n / 10), max = start;
     for (size_t i = 0; i < s->n; i++)
@@ -182,34 +182,34 @@ static size_t limit_force(const wt_curve_samples *s, double fraction)
     return (first_above + last_below + 1) / 2;
 }
 
-void wt_curve_say(char reason[160], const char *format, ...)
+void curve_say(char reason[160], const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
-    wt_clocale_vprint(reason, 160, format, arguments);
+    clocale_vprint(reason, 160, format, arguments);
     va_end(arguments);
 }
 
-void wt_curve_si(double value, const char *unit, char text[24])
+void curve_si(double value, const char *unit, char text[24])
 {
     wt_format_si(value, unit, 3, text, 24);
 }
 
-wt_curve_verdict wt_curve_prepare(const double *height, const double *force, size_t n,
-                                  double spring_constant, double force_fraction,
-                                  wt_indent_workspace *w, wt_curve_input *input, char reason[160])
+wt_curve_verdict curve_prepare(const double *height, const double *force, size_t n,
+                               double spring_constant, double force_fraction,
+                               wt_indent_workspace *w, curve_input *input, char reason[160])
 {
     char a[24], b[24];
-    *input = (wt_curve_input){.samples = {0, w->position, w->force, spring_constant}};
-    wt_curve_samples *s = &input->samples;
+    *input = (curve_input){.samples = {0, w->position, w->force, spring_constant}};
+    curve_samples *s = &input->samples;
     s->n = clean(height, force, n, input);
     if ((double)input->n_missing > missing_share * (double)n) {
-        wt_curve_say(reason, "%zu of %zu samples are not numbers, %g %% allowed", input->n_missing,
-                     n, 100.0 * missing_share);
+        curve_say(reason, "%zu of %zu samples are not numbers, %g %% allowed", input->n_missing, n,
+                  100.0 * missing_share);
         return WT_CURVE_NOT_FINITE;
     }
-    if (s->n < WT_CURVE_MIN_SAMPLES) {
-        wt_curve_say(reason, "%zu different samples, %d needed", s->n, WT_CURVE_MIN_SAMPLES);
+    if (s->n < CURVE_MIN_SAMPLES) {
+        curve_say(reason, "%zu different samples, %d needed", s->n, CURVE_MIN_SAMPLES);
         return WT_CURVE_TOO_SHORT;
     }
 
@@ -221,10 +221,10 @@ wt_curve_verdict wt_curve_prepare(const double *height, const double *force, siz
     }
     double travel = mean(s->position + s->n - end, end) - mean(s->position, end);
     if (!(fabs(travel) > travel_share * (max - min))) {
-        wt_curve_si(travel, "m", a);
-        wt_curve_si(max - min, "m", b);
-        wt_curve_say(reason,
-                     "the height does not go one way: from start to end %s in a range of %s", a, b);
+        curve_si(travel, "m", a);
+        curve_si(max - min, "m", b);
+        curve_say(reason, "the height does not go one way: from start to end %s in a range of %s",
+                  a, b);
         return WT_CURVE_NO_APPROACH;
     }
     input->direction = travel > 0.0 ? 1.0 : -1.0;
@@ -240,9 +240,9 @@ wt_curve_verdict wt_curve_prepare(const double *height, const double *force, siz
     input->n_all = s->n;
     if (force_fraction < 1.0)
         s->n = limit_force(s, force_fraction);
-    if (s->n < WT_CURVE_MIN_SAMPLES) {
-        wt_curve_say(reason, "%zu samples below %g of the largest force, %d needed", s->n,
-                     force_fraction, WT_CURVE_MIN_SAMPLES);
+    if (s->n < CURVE_MIN_SAMPLES) {
+        curve_say(reason, "%zu samples below %g of the largest force, %d needed", s->n,
+                  force_fraction, CURVE_MIN_SAMPLES);
         return WT_CURVE_TOO_SHORT;
     }
 
@@ -250,10 +250,10 @@ wt_curve_verdict wt_curve_prepare(const double *height, const double *force, siz
     input->step_noise = difference_noise(s, w->scratch, &resolution);
     size_t top = 0;
     if (flat_top(s, input->step_noise, resolution, &top)) {
-        wt_curve_si(s->position[s->n - 1] - s->position[top], "m", a);
+        curve_si(s->position[s->n - 1] - s->position[top], "m", a);
         double level = s->force[top] - mean(s->force, s->n / 10);
-        wt_curve_si(level, "N", b);
-        wt_curve_say(
+        curve_si(level, "N", b);
+        curve_say(
             reason,
             "force stands still at %s above its start over the last %zu samples (%s of travel); "
             "a force limit below it makes the rest usable",
@@ -262,7 +262,7 @@ wt_curve_verdict wt_curve_prepare(const double *height, const double *force, siz
     }
     double advance = advance_per_bending(s, input->step_noise) - 1.0;
     if (advance > -0.5 && advance < rigid_share) {
-        wt_curve_say(
+        curve_say(
             reason,
             "the tip advances %.1f %% of the bending of the lever, %g %% needed to tell a modulus",
             100.0 * advance, 100.0 * rigid_share);
@@ -271,7 +271,7 @@ wt_curve_verdict wt_curve_prepare(const double *height, const double *force, siz
     return WT_CURVE_ACCEPTED;
 }
 
-void wt_curve_reverse(wt_curve_samples *s)
+void curve_reverse(curve_samples *s)
 {
     for (size_t i = 0; i < s->n / 2; i++) {
         size_t j = s->n - 1 - i;

@@ -16,10 +16,10 @@
 #include <math.h>
 #include <string.h>
 
-enum { N = WT_CURVE_N_PARAMETERS, MAX_ITERATIONS = 60 };
+enum { N = CURVE_N_PARAMETERS, MAX_ITERATIONS = 60 };
 
 /* Solves (J'J + damping diag) x = y for several y, columns scaled to 1. */
-static bool solve(const wt_normal_equations *e, double damping, double (*y)[N], size_t n_y)
+static bool solve(const normal_equations *e, double damping, double (*y)[N], size_t n_y)
 {
     double scaled[N * N], scale[N];
     for (size_t a = 0; a < N; a++) {
@@ -53,19 +53,19 @@ static double dot(const double a[N], const double b[N])
     return sum;
 }
 
-static bool minimise(wt_curve_model *m, double p[N], double *cost)
+static bool minimise(curve_law *m, double p[N], double *cost)
 {
-    const wt_curve_samples *s = m->samples;
+    const curve_samples *s = m->samples;
     double scale = 0.0, expected = (double)INFINITY;
     for (size_t i = 0; i < s->n; i++)
         scale += s->force[i] * s->force[i];
     /* A step of 1e-5 standard errors, and of the rounding of the forces. */
     const double small = 1e-10 / (double)s->n, rounding = 1e-28 * scale;
-    wt_curve_model_start(m, p);
-    *cost = wt_curve_model_cost(m, p);
+    curve_model_start(m, p);
+    *cost = curve_model_cost(m, p);
     for (int iteration = 0; iteration < MAX_ITERATIONS; iteration++) {
-        wt_normal_equations e;
-        wt_curve_model_normal(m, p, &e);
+        normal_equations e;
+        curve_model_normal(m, p, &e);
         bool moved = false;
         for (double damping = 0.0; !moved; damping = damping > 0.0 ? 10.0 * damping : 1e-3) {
             double step[1][N], trial[N];
@@ -78,8 +78,8 @@ static bool minimise(wt_curve_model *m, double p[N], double *cost)
             }
             for (size_t a = 0; a < N; a++)
                 trial[a] = p[a] + step[0][a];
-            if (solved && trial[WT_CURVE_E] > 0.0) {
-                double trial_cost = wt_curve_model_cost(m, trial);
+            if (solved && trial[CURVE_E] > 0.0) {
+                double trial_cost = curve_model_cost(m, trial);
                 /* Near the minimum the decrease drowns in the rounding of the cost. */
                 if (trial_cost < *cost || (damping == 0.0 && expected < 1e-9 * *cost)) {
                     *cost = trial_cost;
@@ -95,54 +95,53 @@ static bool minimise(wt_curve_model *m, double p[N], double *cost)
 }
 
 /* Variance of the mean per sample, v = variance * tau, with the samples that the fit used up. */
-static double long_run_variance(wt_noise noise, size_t n, double used)
+static double long_run_variance(noise_level noise, size_t n, double used)
 {
     double independent = (double)n / noise.correlation_length;
     return noise.variance * noise.correlation_length * independent /
            fmax(independent - used, 1.0 / 3.0 * independent);
 }
 
-static void statistics(const wt_curve_model *m, wt_curve_solution *s)
+static void statistics(const curve_law *m, curve_solution *s)
 {
-    const wt_curve_samples *samples = m->samples;
+    const curve_samples *samples = m->samples;
     wt_indent_workspace *w = m->workspace;
     const double *p = s->p;
     const size_t n = samples->n;
 
     size_t first = 0;
-    while (first < n && samples->position[first] < p[WT_CURVE_C])
+    while (first < n && samples->position[first] < p[CURVE_C])
         first++;
     s->first_contact = first;
 
     double row[N], n_contact = (double)(n - first);
     s->max_indentation = 0.0;
     for (size_t i = 0; i < n; i++) {
-        w->scratch[i] = w->residual[i] / wt_curve_model_row(m, p, i, row); /* e */
+        w->scratch[i] = w->residual[i] / curve_model_row(m, p, i, row); /* e */
         s->max_indentation = fmax(s->max_indentation, w->delta[i]);
     }
 
-    wt_noise before = wt_noise_estimate(w->scratch, first);
-    wt_noise contact = wt_noise_estimate(w->scratch + first, n - first);
-    double v_before = long_run_variance(before, first, 1.0 + (m->free[WT_CURVE_T] ? 1.0 : 0.0));
-    double v_contact =
-        long_run_variance(contact, n - first, 1.0 + (m->free[WT_CURVE_C] ? 1.0 : 0.0));
+    noise_level before = noise_estimate(w->scratch, first);
+    noise_level contact = noise_estimate(w->scratch + first, n - first);
+    double v_before = long_run_variance(before, first, 1.0 + (m->free[CURVE_T] ? 1.0 : 0.0));
+    double v_contact = long_run_variance(contact, n - first, 1.0 + (m->free[CURVE_C] ? 1.0 : 0.0));
     v_contact = fmax(v_contact, v_before);
     s->noise = sqrt(before.variance);
     s->effective_n =
         (double)first / before.correlation_length + n_contact / contact.correlation_length;
     s->correlation_length = (double)n / s->effective_n;
 
-    wt_normal_equations e;
-    wt_curve_model_normal(m, p, &e);
+    normal_equations e;
+    curve_model_normal(m, p, &e);
     double middle[N][N] = {{0.0}}, gain[N] = {0.0};
     for (size_t i = 0; i < n; i++) {
-        double h = wt_curve_model_row(m, p, i, row), v = (i < first ? v_before : v_contact) * h * h;
+        double h = curve_model_row(m, p, i, row), v = (i < first ? v_before : v_contact) * h * h;
         for (size_t a = 0; a < N; a++)
             for (size_t b = 0; b < N; b++)
                 middle[a][b] += v * row[a] * row[b];
         /* A sensitivity larger by a share u acts like a noise of u times the force. */
-        double f = samples->force[i] - p[WT_CURVE_F0] -
-                   p[WT_CURVE_T] * (samples->position[i] - p[WT_CURVE_C]);
+        double f =
+            samples->force[i] - p[CURVE_F0] - p[CURVE_T] * (samples->position[i] - p[CURVE_C]);
         for (size_t a = 0; a < N; a++)
             gain[a] += row[a] * h * f;
     }
@@ -158,19 +157,19 @@ static void statistics(const wt_curve_model *m, wt_curve_solution *s)
                 variance += inverse[a][b] * middle[b][c] * inverse[a][c];
         s->standard_error[a] = !m->free[a] ? 0.0 : solved ? sqrt(variance) : (double)NAN;
     }
-    s->sensitivity_gain = solved ? inverse[N][WT_CURVE_E] / p[WT_CURVE_E] : (double)NAN;
+    s->sensitivity_gain = solved ? inverse[N][CURVE_E] / p[CURVE_E] : (double)NAN;
 }
 
 /* Of the force against the measured indentation in contact, as a plot of them shows it. */
-static double r_squared(const wt_curve_model *m, const wt_curve_solution *s)
+static double r_squared(const curve_law *m, const curve_solution *s)
 {
-    wt_curve_model plain = *m;
+    curve_law plain = *m;
     plain.plain = true;
-    wt_curve_model_complete(&plain, s->p);
+    curve_model_complete(&plain, s->p);
     const wt_indent_workspace *w = m->workspace;
     double total = 0.0, sum = 0.0, sum2 = 0.0;
     for (size_t i = s->first_contact; i < m->samples->n; i++) {
-        double f = s->p[WT_CURVE_E] * w->g[i] + w->residual[i];
+        double f = s->p[CURVE_E] * w->g[i] + w->residual[i];
         total += w->residual[i] * w->residual[i];
         sum += f;
         sum2 += f * f;
@@ -179,34 +178,34 @@ static double r_squared(const wt_curve_model *m, const wt_curve_solution *s)
     return scatter > 0.0 ? 1.0 - total / scatter : (double)NAN;
 }
 
-void wt_curve_refine(const wt_contact_table *table, const wt_curve_samples *samples,
-                     const wt_curve_minimum *start, bool tilt, bool contact_fixed, bool plain,
-                     wt_indent_workspace *workspace, wt_curve_solution *solution)
+void curve_refine(const wt_contact_table *table, const curve_samples *samples,
+                  const curve_minimum *start, bool tilt, bool contact_fixed, bool plain,
+                  wt_indent_workspace *workspace, curve_solution *solution)
 {
-    wt_curve_model m = {.table = table,
-                        .samples = samples,
-                        .workspace = workspace,
-                        .free = {true, !contact_fixed, true, tilt},
-                        .plain = plain};
-    wt_curve_solution s = {
+    curve_law m = {.table = table,
+                   .samples = samples,
+                   .workspace = workspace,
+                   .free = {true, !contact_fixed, true, tilt},
+                   .plain = plain};
+    curve_solution s = {
         .p = {start->reduced_modulus, start->contact_point, start->offset, tilt ? start->tilt : 0}};
     s.converged = minimise(&m, s.p, &s.cost);
-    s.cost = wt_curve_model_complete(&m, s.p);
+    s.cost = curve_model_complete(&m, s.p);
     statistics(&m, &s);
     s.r_squared = r_squared(&m, &s);
     *solution = s;
 }
 
-double wt_curve_weights(const wt_contact_table *table, const wt_curve_samples *samples,
-                        const wt_curve_minimum *minimum, wt_indent_workspace *workspace)
+double curve_weights(const wt_contact_table *table, const curve_samples *samples,
+                     const curve_minimum *minimum, wt_indent_workspace *workspace)
 {
-    wt_curve_model m = {.table = table, .samples = samples, .workspace = workspace};
+    curve_law m = {.table = table, .samples = samples, .workspace = workspace};
     const double p[N] = {minimum->reduced_modulus, minimum->contact_point, minimum->offset,
                          minimum->tilt};
     double largest = 1.0;
-    wt_curve_model_complete(&m, p);
+    curve_model_complete(&m, p);
     for (size_t i = 0; i < samples->n; i++) {
-        double h = wt_curve_model_factor(&m, p, i);
+        double h = curve_model_factor(&m, p, i);
         workspace->weight[i] = 1.0 / (h * h);
         largest = fmax(largest, h);
     }

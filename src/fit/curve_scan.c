@@ -138,19 +138,19 @@ static double project_cost(double contact, void *projection_)
 }
 
 /* From the tip position at contact to the position at which the lever is straight there. */
-static wt_curve_minimum to_minimum(const projection *p, double contact, double k)
+static curve_minimum to_minimum(const projection *p, double contact, double k)
 {
     projected at = project(p, contact);
     double offset0 = at.offset - at.tilt * p->origin_position; /* at position 0 */
     double position = (contact + offset0 / k) / (1.0 - at.tilt / k);
-    return (wt_curve_minimum){position, at.modulus, offset0 + at.tilt * position, at.tilt, at.cost};
+    return (curve_minimum){position, at.modulus, offset0 + at.tilt * position, at.tilt, at.cost};
 }
 
-/* Averages neighbours so that no more than WT_CURVE_MAX_BINS are left; a rest at the start, far
+/* Averages neighbours so that no more than CURVE_MAX_BINS are left; a rest at the start, far
  * from contact, is left out. */
 static projection make_bins(const projection *full, double k, wt_indent_workspace *w)
 {
-    size_t width = (full->n + WT_CURVE_MAX_BINS - 1) / WT_CURVE_MAX_BINS;
+    size_t width = (full->n + CURVE_MAX_BINS - 1) / CURVE_MAX_BINS;
     size_t n = full->n / width, skip = full->n - n * width;
     for (size_t bin = 0; bin < n; bin++) {
         double z = 0.0, f = 0.0, weight = 0.0;
@@ -177,8 +177,8 @@ static projection make_bins(const projection *full, double k, wt_indent_workspac
     return bins;
 }
 
-static projection make_full(const wt_contact_table *table, const wt_curve_samples *samples,
-                            bool tilt, bool weighted, wt_indent_workspace *w)
+static projection make_full(const wt_contact_table *table, const curve_samples *samples, bool tilt,
+                            bool weighted, wt_indent_workspace *w)
 {
     projection full = {.table = table,
                        .n = samples->n,
@@ -212,7 +212,7 @@ static double brent(projection *bins, double lo, double middle, double hi,
     return gsl_min_fminimizer_x_minimum(minimizer);
 }
 
-/* Indices of the minima of the scan, lowest first, no more than WT_CURVE_MAX_MINIMA. One that no
+/* Indices of the minima of the scan, lowest first, no more than CURVE_MAX_MINIMA. One that no
  * rise parts from a lower one is only a ripple. A minimum at the far end counts: contact before the
  * start.
  */
@@ -240,26 +240,26 @@ static size_t find_bottoms(const double *cost, size_t n, double nothing, size_t 
             bottom[j] = bottom[j - 1];
         bottom[j] = index;
     }
-    return m < WT_CURVE_MAX_MINIMA ? m : WT_CURVE_MAX_MINIMA;
+    return m < CURVE_MAX_MINIMA ? m : CURVE_MAX_MINIMA;
 }
 
-static void keep_best(wt_curve_minimum *minima, size_t *n, wt_curve_minimum candidate)
+static void keep_best(curve_minimum *minima, size_t *n, curve_minimum candidate)
 {
     size_t at = *n;
     while (at > 0 && minima[at - 1].cost > candidate.cost)
         at--;
-    if (at == WT_CURVE_MAX_MINIMA)
+    if (at == CURVE_MAX_MINIMA)
         return;
-    if (*n < WT_CURVE_MAX_MINIMA)
+    if (*n < CURVE_MAX_MINIMA)
         ++*n;
     for (size_t i = *n - 1; i > at; i--)
         minima[i] = minima[i - 1];
     minima[at] = candidate;
 }
 
-size_t wt_curve_scan(const wt_contact_table *table, const wt_curve_samples *samples, bool tilt,
-                     bool weighted, wt_indent_workspace *w,
-                     wt_curve_minimum minima[WT_CURVE_MAX_MINIMA], double *cost_without)
+size_t curve_scan(const wt_contact_table *table, const curve_samples *samples, bool tilt,
+                  bool weighted, wt_indent_workspace *w, curve_minimum minima[CURVE_MAX_MINIMA],
+                  double *cost_without)
 {
     const double k = samples->spring_constant;
     projection full = make_full(table, samples, tilt, weighted, w);
@@ -290,15 +290,15 @@ size_t wt_curve_scan(const wt_contact_table *table, const wt_curve_samples *samp
         double at = contact[j];
         if (j > 0 && j + 1 < n_depths)
             at = brent(&bins, contact[j - 1], at, contact[j + 1], w->minimizer);
-        wt_curve_minimum minimum = to_minimum(&full, at, k);
+        curve_minimum minimum = to_minimum(&full, at, k);
         if (minimum.reduced_modulus > 0.0)
             keep_best(minima, &n, minimum);
     }
     return n;
 }
 
-bool wt_curve_scan_at(const wt_contact_table *table, const wt_curve_samples *samples, bool tilt,
-                      double contact_point, wt_indent_workspace *w, wt_curve_minimum *minimum)
+bool curve_scan_at(const wt_contact_table *table, const curve_samples *samples, bool tilt,
+                   double contact_point, wt_indent_workspace *w, curve_minimum *minimum)
 {
     const double k = samples->spring_constant;
     projection full = make_full(table, samples, tilt, false, w);

@@ -84,7 +84,7 @@ wt_status wt_indent_force_curve(const wt_contact_table *table, const wt_indent_o
     const double k = curve->cantilever.spring_constant;
     const wt_segment *approach = wt_force_curve_segment(curve, WT_SEGMENT_APPROACH);
     if (approach == NULL || approach->n_points == 0) {
-        wt_curve_fit_empty(fit);
+        curve_fit_empty(fit);
         return no_approach(curve, fit);
     }
     if (isnan(k))
@@ -97,7 +97,7 @@ wt_status wt_indent_force_curve(const wt_contact_table *table, const wt_indent_o
         return missing(err, approach, "the height", "a channel of height or measured height",
                        "see what the file holds with: weartrack info FILE");
     const double *force = NULL;
-    wt_status status = wt_curve_reserve(workspace, approach->n_points, err);
+    wt_status status = curve_reserve(workspace, approach->n_points, err);
     if (status == WT_OK)
         status = force_of(curve, approach, workspace, &force, err);
     if (status == WT_OK)

@@ -158,7 +158,7 @@ static wt_status iterate(struct active_set *s, double *x, wt_error *err)
     return wt_fail(err, WT_E_CONVERGENCE, "non-negative least squares did not end");
 }
 
-wt_status wt_nnls(gsl_matrix *a, gsl_vector *b, double *x, wt_error *err)
+wt_status nnls(gsl_matrix *a, gsl_vector *b, double *x, wt_error *err)
 {
     const size_t n = a->size2;
     struct active_set s = {0};
@@ -166,7 +166,7 @@ wt_status wt_nnls(gsl_matrix *a, gsl_vector *b, double *x, wt_error *err)
     gsl_vector *tau = NULL;
     wt_status status = WT_OK;
 
-    wt_gsl_quiet();
+    gsl_quiet();
     if (n == 0 || a->size1 < n || b->size != a->size1)
         return wt_fail(err, WT_E_ARG, "non-negative least squares needs rows >= columns > 0");
     norm = calloc(n, sizeof *norm);

@@ -29,8 +29,8 @@ static void maxwell(double log_z, double *storage, double *loss)
     *loss = 1.0 / (z + inverse);
 }
 
-void wt_prony_log_moduli(const wt_prony *prony, double log_frequency, double *log_storage,
-                         double *log_loss)
+void prony_log_moduli(const wt_prony *prony, double log_frequency, double *log_storage,
+                      double *log_loss)
 {
     double storage = prony->equilibrium_modulus, loss = 0.0;
     for (size_t k = 0; k < prony->n; k++) {
@@ -44,7 +44,7 @@ void wt_prony_log_moduli(const wt_prony *prony, double log_frequency, double *lo
 }
 
 /* The terms, spread evenly over the range and its margins. */
-static wt_status number_of_terms(const wt_prony_points *points, const wt_prony_options *options,
+static wt_status number_of_terms(const prony_points *points, const wt_prony_options *options,
                                  size_t *n, wt_error *err)
 {
     const double range = points->log_max - points->log_min + 2.0 * margin;
@@ -60,7 +60,7 @@ static wt_status number_of_terms(const wt_prony_points *points, const wt_prony_o
 }
 
 /* Rows of relative residuals: E'(fit)/E' - 1 and E''(fit)/E'' - 1. */
-static void fill_data_rows(const wt_prony_points *points, const double *log_tau, size_t n_terms,
+static void fill_data_rows(const prony_points *points, const double *log_tau, size_t n_terms,
                            gsl_matrix *a, gsl_vector *b)
 {
     for (size_t i = 0; i < points->n; i++) {
@@ -94,8 +94,8 @@ static void fill_smoothing_rows(double smoothing, size_t n_data, size_t n_terms,
     }
 }
 
-wt_status wt_prony_fit_points(const wt_prony_points *points, const wt_prony_options *options,
-                              wt_prony *prony, wt_error *err)
+wt_status prony_fit_points(const prony_points *points, const wt_prony_options *options,
+                           wt_prony *prony, wt_error *err)
 {
     const size_t n_data = points->n * (points->log_loss != NULL ? 2 : 1);
     size_t n_terms = 0;
@@ -104,7 +104,7 @@ wt_status wt_prony_fit_points(const wt_prony_points *points, const wt_prony_opti
     wt_prony made = {0};
     wt_status status = number_of_terms(points, options, &n_terms, err);
 
-    wt_gsl_quiet();
+    gsl_quiet();
     if (status != WT_OK)
         return status;
     const size_t n_columns = n_terms + (options->liquid ? 0 : 1);
@@ -136,7 +136,7 @@ wt_status wt_prony_fit_points(const wt_prony_points *points, const wt_prony_opti
     fill_data_rows(points, gsl_vector_const_ptr(log_tau, 0), n_terms, a, b);
     if (n_smooth > 0)
         fill_smoothing_rows(options->smoothing, n_data, n_terms, a);
-    status = wt_nnls(a, b, gsl_vector_ptr(x, 0), err);
+    status = nnls(a, b, gsl_vector_ptr(x, 0), err);
     if (status != WT_OK)
         goto done;
     for (size_t k = 0; k < n_terms; k++)
@@ -185,17 +185,17 @@ wt_status wt_prony_fit_master(const wt_master_curve *master, const wt_prony_opti
     wt_status status = check(master, options, err);
     if (status != WT_OK)
         return status;
-    const wt_prony_points points = {
+    const prony_points points = {
         master->n,        master->log_frequency,    master->log_storage,
         master->log_loss, master->log_frequency[0], master->log_frequency[master->n - 1]};
-    status = wt_prony_fit_points(&points, options, &made.prony, err);
+    status = prony_fit_points(&points, options, &made.prony, err);
     if (status != WT_OK)
         return status;
     made.prony.deformation = master->deformation;
     made.prony.reference_temperature = master->reference_temperature;
     for (size_t i = 0; i < master->n; i++) {
         double storage, loss;
-        wt_prony_log_moduli(&made.prony, master->log_frequency[i], &storage, &loss);
+        prony_log_moduli(&made.prony, master->log_frequency[i], &storage, &loss);
         const double ds = pow(10.0, storage - master->log_storage[i]) - 1.0;
         const double dl = pow(10.0, loss - master->log_loss[i]) - 1.0;
         storage_square += ds * ds;
@@ -207,19 +207,19 @@ wt_status wt_prony_fit_master(const wt_master_curve *master, const wt_prony_opti
     return WT_OK;
 }
 
-wt_status wt_prony_kramers_kronig(const wt_prony_points *points, double *misfit, wt_error *err)
+wt_status prony_kramers_kronig(const prony_points *points, double *misfit, wt_error *err)
 {
     /* Two terms per decade: the ripple of one would be most of the misfit; a little smoothing,
      * because the storage modulus alone leaves neighbouring terms undecided. */
     const wt_prony_options options = {.terms_per_decade = 2.0, .smoothing = 0.01};
-    wt_prony_points storage = *points;
+    prony_points storage = *points;
     wt_prony series = {0};
     double square = 0.0;
     size_t n = 0;
 
     *misfit = (double)NAN;
     storage.log_loss = NULL;
-    wt_status status = wt_prony_fit_points(&storage, &options, &series, err);
+    wt_status status = prony_fit_points(&storage, &options, &series, err);
     if (status == WT_E_MISSING)
         return WT_OK;
     if (status != WT_OK)
@@ -230,7 +230,7 @@ wt_status wt_prony_kramers_kronig(const wt_prony_points *points, double *misfit,
             points->log_loss[i] - points->log_storage[i] < least_log_loss_factor)
             continue;
         double predicted_storage, predicted_loss;
-        wt_prony_log_moduli(&series, points->log_frequency[i], &predicted_storage, &predicted_loss);
+        prony_log_moduli(&series, points->log_frequency[i], &predicted_storage, &predicted_loss);
         const double difference = pow(10.0, predicted_loss - points->log_loss[i]) - 1.0;
         square += difference * difference;
         n++;

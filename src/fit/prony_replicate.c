@@ -135,7 +135,7 @@ wt_status wt_prony_replicate(const wt_master_curve *master, const wt_prony_optio
     wt_prony made = {0};
     gsl_rng *rng = NULL;
 
-    wt_gsl_quiet();
+    gsl_quiet();
     if (options == NULL)
         options = &defaults;
     wt_status status = wt_prony_fit_master(master, options, &base, err);
@@ -149,22 +149,21 @@ wt_status wt_prony_replicate(const wt_master_curve *master, const wt_prony_optio
         status = wt_fail(err, WT_E_MEMORY, "no memory for random numbers");
         goto done;
     }
-    gsl_rng_set(rng, (unsigned long)(wt_mix(wt_mix(seed) + index) & 0xffffffffU));
+    gsl_rng_set(rng, (unsigned long)(mix64(mix64(seed) + index) & 0xffffffffU));
     sort_points(&r, master);
     for (size_t i = 0; i < master->n; i++)
-        wt_prony_log_moduli(&base.prony, master->log_frequency[i], &r.storage_fit[i],
-                            &r.loss_fit[i]);
+        prony_log_moduli(&base.prony, master->log_frequency[i], &r.storage_fit[i], &r.loss_fit[i]);
     draw_shifts(&r, master, rng);
     draw_residuals(&r, master, rng);
     /* The relaxation times stay those of the base series: replicates can be averaged term by
      * term. */
-    const wt_prony_points points = {master->n,
-                                    r.frequency,
-                                    r.storage,
-                                    r.loss,
-                                    master->log_frequency[0],
-                                    master->log_frequency[master->n - 1]};
-    status = wt_prony_fit_points(&points, options, &made, err);
+    const prony_points points = {master->n,
+                                 r.frequency,
+                                 r.storage,
+                                 r.loss,
+                                 master->log_frequency[0],
+                                 master->log_frequency[master->n - 1]};
+    status = prony_fit_points(&points, options, &made, err);
     if (status != WT_OK)
         goto done;
     made.deformation = master->deformation;

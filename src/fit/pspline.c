@@ -16,7 +16,7 @@ static const double difference[3] = {1.0, -2.0, 1.0};
 /* Decades; no rubber spans a tenth of it. */
 enum { MAX_SPAN = 400 };
 
-static void basis(double u, double value[WT_PSPLINE_ORDER], double slope[WT_PSPLINE_ORDER])
+static void basis(double u, double value[PSPLINE_ORDER], double slope[PSPLINE_ORDER])
 {
     const double v = 1.0 - u;
     value[0] = v * v * v / 6.0;
@@ -29,33 +29,33 @@ static void basis(double u, double value[WT_PSPLINE_ORDER], double slope[WT_PSPL
     slope[3] = 0.5 * u * u / knot_spacing;
 }
 
-wt_status wt_pspline_new(wt_pspline *s, double x_min, double x_max, wt_error *err)
+wt_status pspline_new(spline_fit *s, double x_min, double x_max, wt_error *err)
 {
     if (!(x_max - x_min <= MAX_SPAN))
         return wt_fail(err, WT_E_CONVERGENCE, "the shifts spread the isotherms over %g decades",
                        x_max - x_min);
     s->first = (long)floor(x_min / knot_spacing);
-    s->n = (size_t)((long)floor(x_max / knot_spacing) - s->first) + WT_PSPLINE_ORDER;
-    s->gram = gsl_matrix_calloc(s->n, WT_PSPLINE_ORDER);
+    s->n = (size_t)((long)floor(x_max / knot_spacing) - s->first) + PSPLINE_ORDER;
+    s->gram = gsl_matrix_calloc(s->n, PSPLINE_ORDER);
     s->coefficient = gsl_vector_calloc(s->n);
     if (s->gram == NULL || s->coefficient == NULL) {
-        wt_pspline_free(s);
+        pspline_free(s);
         return wt_fail(err, WT_E_MEMORY, "no memory for a spline");
     }
     return WT_OK;
 }
 
-void wt_pspline_free(wt_pspline *s)
+void pspline_free(spline_fit *s)
 {
     if (s == NULL)
         return;
     gsl_matrix_free(s->gram);
     gsl_vector_free(s->coefficient);
-    *s = (wt_pspline){0};
+    *s = (spline_fit){0};
 }
 
-size_t wt_pspline_locate(const wt_pspline *s, double x, double value[WT_PSPLINE_ORDER],
-                         double slope[WT_PSPLINE_ORDER])
+size_t pspline_locate(const spline_fit *s, double x, double value[PSPLINE_ORDER],
+                      double slope[PSPLINE_ORDER])
 {
     const double scaled = x / knot_spacing;
     const double cell = floor(scaled);
@@ -68,18 +68,18 @@ static void add_to_band(gsl_matrix *gram, size_t row, size_t column, double valu
     *gsl_matrix_ptr(gram, column, row - column) += value;
 }
 
-void wt_pspline_add(wt_pspline *s, double x, double y, double weight)
+void pspline_add(spline_fit *s, double x, double y, double weight)
 {
-    double value[WT_PSPLINE_ORDER], slope[WT_PSPLINE_ORDER];
-    const size_t cell = wt_pspline_locate(s, x, value, slope);
-    for (size_t r = 0; r < WT_PSPLINE_ORDER; r++) {
+    double value[PSPLINE_ORDER], slope[PSPLINE_ORDER];
+    const size_t cell = pspline_locate(s, x, value, slope);
+    for (size_t r = 0; r < PSPLINE_ORDER; r++) {
         *gsl_vector_ptr(s->coefficient, cell + r) += weight * value[r] * y;
         for (size_t c = 0; c <= r; c++)
             add_to_band(s->gram, cell + r, cell + c, weight * value[r] * value[c]);
     }
 }
 
-wt_status wt_pspline_solve(wt_pspline *s, double *penalty, wt_error *err)
+wt_status pspline_solve(spline_fit *s, double *penalty, wt_error *err)
 {
     for (size_t k = 0; k + 2 < s->n; k++)
         for (size_t i = 0; i < 3; i++)
@@ -99,7 +99,7 @@ wt_status wt_pspline_solve(wt_pspline *s, double *penalty, wt_error *err)
     return WT_OK;
 }
 
-wt_status wt_pspline_inverse(const wt_pspline *s, gsl_matrix **inverse, wt_error *err)
+wt_status pspline_inverse(const spline_fit *s, gsl_matrix **inverse, wt_error *err)
 {
     gsl_matrix *made = gsl_matrix_alloc(s->n, s->n);
     if (made == NULL)
@@ -113,7 +113,7 @@ wt_status wt_pspline_inverse(const wt_pspline *s, gsl_matrix **inverse, wt_error
 }
 
 /* trace(G^-1 (G - P)) = n - trace(G^-1 P) */
-double wt_pspline_freedom(const wt_pspline *s, const gsl_matrix *inverse)
+double pspline_freedom(const spline_fit *s, const gsl_matrix *inverse)
 {
     double held = 0.0;
     for (size_t k = 0; k + 2 < s->n; k++)
@@ -124,12 +124,12 @@ double wt_pspline_freedom(const wt_pspline *s, const gsl_matrix *inverse)
     return (double)s->n - held;
 }
 
-double wt_pspline_slope_variance(const wt_pspline *s, const gsl_matrix *inverse, double x)
+double pspline_slope_variance(const spline_fit *s, const gsl_matrix *inverse, double x)
 {
-    double value[WT_PSPLINE_ORDER], slope[WT_PSPLINE_ORDER], sum = 0.0;
-    const size_t cell = wt_pspline_locate(s, x, value, slope);
-    for (size_t i = 0; i < WT_PSPLINE_ORDER; i++)
-        for (size_t j = 0; j < WT_PSPLINE_ORDER; j++)
+    double value[PSPLINE_ORDER], slope[PSPLINE_ORDER], sum = 0.0;
+    const size_t cell = pspline_locate(s, x, value, slope);
+    for (size_t i = 0; i < PSPLINE_ORDER; i++)
+        for (size_t j = 0; j < PSPLINE_ORDER; j++)
             sum += slope[i] * slope[j] * gsl_matrix_get(inverse, cell + i, cell + j);
     return sum;
 }

@@ -51,7 +51,7 @@ static wt_status check_options(const wt_shift_options *options, wt_error *err)
 }
 
 /* log10 of rho0 T0 / (rho T), density from a constant expansion coefficient. */
-static double physical_shift(const wt_shift_work *work, double temperature)
+static double physical_shift(const shift_work *work, double temperature)
 {
     const double t0 = work->reference_temperature;
     return log10(t0 / temperature) +
@@ -59,9 +59,9 @@ static double physical_shift(const wt_shift_work *work, double temperature)
 }
 
 /* The isotherm to start from: nearest to the reference temperature, or the one in the middle. */
-static wt_status choose_anchor(wt_shift_work *work, wt_error *err)
+static wt_status choose_anchor(shift_work *work, wt_error *err)
 {
-    const wt_shift_set *set = &work->set;
+    const shift_set *set = &work->set;
     size_t best = set->n;
     double nearest = HUGE_VAL;
     for (size_t i = 0; i < set->n; i++) {
@@ -69,14 +69,14 @@ static wt_status choose_anchor(wt_shift_work *work, wt_error *err)
             isnan(work->options.reference_temperature)
                 ? fabs((double)i - 0.5 * (double)(set->n - 1))
                 : fabs(set->curves[i].temperature - work->options.reference_temperature);
-        if (set->curves[i].n >= WT_SHIFT_MIN_POINTS && away < nearest) {
+        if (set->curves[i].n >= SHIFT_MIN_POINTS && away < nearest) {
             nearest = away;
             best = i;
         }
     }
     if (best == set->n) {
         wt_status status = wt_fail(err, WT_E_MISSING, "no isotherm has enough points");
-        wt_error_expected(err, "at least %d points each", WT_SHIFT_MIN_POINTS);
+        wt_error_expected(err, "at least %d points each", SHIFT_MIN_POINTS);
         return status;
     }
     const double at = set->curves[best].temperature;
@@ -89,19 +89,19 @@ static wt_status choose_anchor(wt_shift_work *work, wt_error *err)
 
 /* Places curve i on one of the placed curves towards the anchor: the next one, or one behind it if
  * that is not to be had. */
-static wt_status place(wt_shift_work *work, size_t i, long inwards, wt_error *err)
+static wt_status place(shift_work *work, size_t i, long inwards, wt_error *err)
 {
     const bool free_b = work->options.vertical == WT_VERTICAL_FREE;
     int tried = 0;
     for (long p = (long)i + inwards; tried < NEIGHBOURS; p += inwards) {
         if (work->placed[p]) {
-            wt_shift_pair pair;
-            wt_status status = wt_shift_pair_fit(&work->set.curves[p], &work->set.curves[i], free_b,
-                                                 work->b[i] - work->b[p], &pair, err);
+            shift_pair pair;
+            wt_status status = shift_pair_fit(&work->set.curves[p], &work->set.curves[i], free_b,
+                                              work->b[i] - work->b[p], &pair, err);
             if (status != WT_OK)
                 return status;
             if (tried++ == 0)
-                for (int q = 0; q < WT_MODULI; q++)
+                for (int q = 0; q < MODULI; q++)
                     work->overlap[q][i] = pair.overlap[q];
             if (pair.found) {
                 work->a[i] = work->a[p] + pair.a;
@@ -117,7 +117,7 @@ static wt_status place(wt_shift_work *work, size_t i, long inwards, wt_error *er
     return WT_OK;
 }
 
-static wt_status place_all(wt_shift_work *work, wt_error *err)
+static wt_status place_all(shift_work *work, wt_error *err)
 {
     wt_status status = WT_OK;
     size_t n_placed = 0, n_flat = 0;
@@ -157,7 +157,7 @@ static wt_status place_all(wt_shift_work *work, wt_error *err)
 
 /* Takes out the curves whose slopes are mostly noise: a fit can slide noise over noise and find a
  * best place for it. Returns whether there were any. */
-static bool take_out_flat(wt_shift_work *work)
+static bool take_out_flat(shift_work *work)
 {
     bool found = false;
     for (size_t i = 0; i < work->set.n; i++)
@@ -170,68 +170,68 @@ static bool take_out_flat(wt_shift_work *work)
 
 /* All isotherms that can be placed, in one fit; a flat one is no bridge for those behind it, so
  * without it they are placed anew. */
-static wt_status fit_together(wt_shift_work *work, wt_error *err)
+static wt_status fit_together(shift_work *work, wt_error *err)
 {
-    wt_shift_joint joint = {.set = &work->set,
-                            .placed = work->placed,
-                            .anchor = work->anchor,
-                            .use = {true, true},
-                            .free_b = work->options.vertical == WT_VERTICAL_FREE,
-                            .a = work->a,
-                            .b = work->b,
-                            .covariance_a = work->covariance,
-                            .covariance_ab = work->covariance_ab,
-                            .sigma_b = work->sigma_b,
-                            .correlation = work->correlation,
-                            .slope_noise = work->slope_noise,
-                            .n_outliers = work->n_outliers};
+    shift_joint joint = {.set = &work->set,
+                         .placed = work->placed,
+                         .anchor = work->anchor,
+                         .use = {true, true},
+                         .free_b = work->options.vertical == WT_VERTICAL_FREE,
+                         .a = work->a,
+                         .b = work->b,
+                         .covariance_a = work->covariance,
+                         .covariance_ab = work->covariance_ab,
+                         .sigma_b = work->sigma_b,
+                         .correlation = work->correlation,
+                         .slope_noise = work->slope_noise,
+                         .n_outliers = work->n_outliers};
     wt_status status;
     do {
         status = place_all(work, err);
         if (status == WT_OK)
-            status = wt_shift_joint_fit(&joint, err);
+            status = shift_joint_fit(&joint, err);
     } while (status == WT_OK && take_out_flat(work));
     if (status == WT_OK)
-        status = wt_shift_superposition(&joint, work->options.floor, &work->superposition, err);
-    for (int q = 0; q < WT_MODULI; q++)
+        status = shift_superposition(&joint, work->options.floor, &work->superposition, err);
+    for (int q = 0; q < MODULI; q++)
         work->rms[q] = joint.rms[q];
     work->last_step = joint.last_step;
     return status;
 }
 
 /* Which shifts are good for anything; the anchor is one by definition. */
-static void judge(wt_shift_work *work)
+static void judge(shift_work *work)
 {
     const size_t n = work->set.n;
     for (size_t i = 0; i < n; i++) {
         const double sigma = sqrt(work->covariance[i * n + i]);
-        work->verdict[i] = WT_SHIFT_GOOD;
-        if (work->set.curves[i].n < WT_SHIFT_MIN_POINTS)
-            work->verdict[i] = WT_SHIFT_TOO_SHORT;
+        work->verdict[i] = SHIFT_GOOD;
+        if (work->set.curves[i].n < SHIFT_MIN_POINTS)
+            work->verdict[i] = SHIFT_TOO_SHORT;
         else if (work->flat[i])
-            work->verdict[i] = WT_SHIFT_FLAT;
+            work->verdict[i] = SHIFT_FLAT;
         else if (!work->placed[i])
-            work->verdict[i] = WT_SHIFT_NO_OVERLAP;
+            work->verdict[i] = SHIFT_NO_OVERLAP;
         else if (i == work->anchor)
             continue;
         else if (!(sigma <= largest_sigma))
-            work->verdict[i] = WT_SHIFT_NO_SLOPE;
+            work->verdict[i] = SHIFT_NO_SLOPE;
         else if (fabs(work->correlation[i]) > largest_correlation) {
             /* Along the valley of equally good fits a changes by this much per decade of b. */
             const double tie = fabs(work->correlation[i]) * sigma / work->sigma_b[i];
             work->tied[i] = vertical_error * tie;
             if (!(work->tied[i] <= largest_sigma))
-                work->verdict[i] = WT_SHIFT_COLLINEAR;
+                work->verdict[i] = SHIFT_COLLINEAR;
         }
     }
 }
 
 /* Good isotherms on either side of the reference temperature; set->n if there is none. */
-static void bracket(const wt_shift_work *work, size_t *below, size_t *above)
+static void bracket(const shift_work *work, size_t *below, size_t *above)
 {
     *below = *above = work->set.n;
     for (size_t i = 0; i < work->set.n; i++) {
-        if (work->verdict[i] != WT_SHIFT_GOOD)
+        if (work->verdict[i] != SHIFT_GOOD)
             continue;
         if (work->set.curves[i].temperature <= work->reference_temperature)
             *below = i;
@@ -240,7 +240,7 @@ static void bracket(const wt_shift_work *work, size_t *below, size_t *above)
     }
 }
 
-static wt_status out_of_range(const wt_shift_work *work, wt_error *err)
+static wt_status out_of_range(const shift_work *work, wt_error *err)
 {
     wt_status status =
         wt_fail(err, WT_E_RANGE, "no shift can be given for the reference temperature %.2f °C",
@@ -264,7 +264,7 @@ static double variance_of_law(const wt_wlf_fit *fit, double temperature)
 
 /* Value of the law at the reference temperature, relative to the anchor, with the weight of each
  * isotherm in it: WLF for the shape, the two neighbours' residuals from it for the place. */
-static wt_status offset_of_reference(wt_shift_work *work, double *offset, double *weight,
+static wt_status offset_of_reference(shift_work *work, double *offset, double *weight,
                                      double *law_variance, wt_error *err)
 {
     const size_t n = work->set.n;
@@ -275,18 +275,17 @@ static wt_status offset_of_reference(wt_shift_work *work, double *offset, double
     bracket(work, &below, &above);
     const bool inside = below < n && above < n;
     for (size_t i = 0; i < n; i++) {
-        if (work->verdict[i] != WT_SHIFT_GOOD)
+        if (work->verdict[i] != SHIFT_GOOD)
             continue;
         size_t column = 0;
         for (size_t k = 0; k < n; k++)
-            if (work->verdict[k] == WT_SHIFT_GOOD)
+            if (work->verdict[k] == SHIFT_GOOD)
                 covariance[m * work->n_good + column++] = work->covariance[i * n + k];
         temperature[m] = work->set.curves[i].temperature;
         log_a[m++] = work->a[i];
     }
-    const bool law =
-        wt_wlf_fit_arrays(temperature, log_a, covariance, m, work->reference_temperature,
-                          work->options.floor, &fit, NULL) == WT_OK;
+    const bool law = wlf_fit_arrays(temperature, log_a, covariance, m, work->reference_temperature,
+                                    work->options.floor, &fit, NULL) == WT_OK;
     if (!inside && !law)
         return out_of_range(work, err);
     *law_variance = 0.0;
@@ -314,7 +313,7 @@ static wt_status offset_of_reference(wt_shift_work *work, double *offset, double
 
 /* The same for the covariance of all shifts: each block loses its own weighted mean, `a` gains the
  * variance of the law. `mean` is scratch of 2n. */
-static void move_covariance(wt_shift_work *work, const double *weight, double law_variance,
+static void move_covariance(shift_work *work, const double *weight, double law_variance,
                             double *mean)
 {
     const size_t n = work->set.n;
@@ -340,7 +339,7 @@ static void move_covariance(wt_shift_work *work, const double *weight, double la
 }
 
 /* Makes the shifts relative to a reference temperature that was not measured: a, b, covariance. */
-static wt_status move_reference(wt_shift_work *work, wt_error *err)
+static wt_status move_reference(shift_work *work, wt_error *err)
 {
     const size_t n = work->set.n;
     double offset = (double)NAN, law_variance = 0.0, offset_b = 0.0, variance = 0.0;
@@ -382,7 +381,7 @@ done:
     return status;
 }
 
-static wt_status work_alloc(wt_shift_work *work, wt_error *err)
+static wt_status work_alloc(shift_work *work, wt_error *err)
 {
     const size_t n = work->set.n;
     work->numbers = calloc(11 * n + 6 * n * n, sizeof *work->numbers);
@@ -398,7 +397,7 @@ static wt_status work_alloc(wt_shift_work *work, wt_error *err)
     work->sigma_b = work->b + n;
     work->correlation = work->sigma_b + n;
     work->physical = work->correlation + n;
-    for (int q = 0; q < WT_MODULI; q++)
+    for (int q = 0; q < MODULI; q++)
         work->overlap[q] = work->physical + (size_t)(q + 1) * n;
     work->tied = work->physical + 3 * n;
     work->slope_noise = work->tied + n;
@@ -408,9 +407,9 @@ static wt_status work_alloc(wt_shift_work *work, wt_error *err)
     return WT_OK;
 }
 
-static void work_free(wt_shift_work *work)
+static void work_free(shift_work *work)
 {
-    wt_shift_set_free(&work->set);
+    shift_set_free(&work->set);
     free(work->numbers);
     free(work->placed);
     free(work->verdict);
@@ -421,11 +420,11 @@ static void work_free(wt_shift_work *work)
 wt_status wt_shift_fit(const wt_sweep *sweep, const wt_shift_options *options, wt_parselog *log,
                        wt_master_curve *master, wt_error *err)
 {
-    wt_shift_work work = {.options = options != NULL ? *options : wt_shift_defaults()};
+    shift_work work = {.options = options != NULL ? *options : wt_shift_defaults()};
     wt_status status = check_options(&work.options, err);
 
     if (status == WT_OK)
-        status = wt_shift_set_new(sweep, log, &work.set, err);
+        status = shift_set_new(sweep, log, &work.set, err);
     if (status == WT_OK)
         status = work_alloc(&work, err);
     if (status == WT_OK)
@@ -436,13 +435,13 @@ wt_status wt_shift_fit(const wt_sweep *sweep, const wt_shift_options *options, w
         goto done;
     judge(&work);
     for (size_t i = 0; i < work.set.n; i++) {
-        work.n_good += work.verdict[i] == WT_SHIFT_GOOD ? 1 : 0;
+        work.n_good += work.verdict[i] == SHIFT_GOOD ? 1 : 0;
         work.physical[i] = physical_shift(&work, work.set.curves[i].temperature);
     }
     if (!work.measured_reference)
         status = move_reference(&work, err);
     if (status == WT_OK)
-        status = wt_shift_master_new(sweep, &work, log, master, err);
+        status = shift_master_new(sweep, &work, log, master, err);
 done:
     work_free(&work);
     return status;

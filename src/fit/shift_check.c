@@ -12,11 +12,11 @@ static const double many_errors = 2.5;
 static const double large_difference = 0.2;
 
 /* Shifts of one modulus alone; a, covariance: [n], [n * n] out. */
-static wt_status fit_alone(const wt_shift_joint *joint, int q, double *a, double *b,
+static wt_status fit_alone(const shift_joint *joint, int q, double *a, double *b,
                            double *covariance, double *scratch, wt_error *err)
 {
     const size_t n = joint->set->n;
-    wt_shift_joint alone = *joint;
+    shift_joint alone = *joint;
     memcpy(a, joint->a, n * sizeof *a);
     memcpy(b, joint->b, n * sizeof *b);
     alone.a = a;
@@ -28,32 +28,32 @@ static wt_status fit_alone(const wt_shift_joint *joint, int q, double *a, double
     alone.slope_noise = scratch + 2 * n;
     alone.n_outliers = NULL;
     alone.free_b = false;
-    for (int m = 0; m < WT_MODULI; m++)
+    for (int m = 0; m < MODULI; m++)
         alone.use[m] = m == q;
-    return wt_shift_joint_fit(&alone, err);
+    return shift_joint_fit(&alone, err);
 }
 
-wt_status wt_shift_superposition(const wt_shift_joint *joint, double floor,
-                                 wt_superposition *result, wt_error *err)
+wt_status shift_superposition(const shift_joint *joint, double floor, superposition_check *result,
+                              wt_error *err)
 {
     const size_t n = joint->set->n;
     double *numbers = calloc(6 * n + 2 * n * n, sizeof *numbers);
-    wt_superposition made = {0};
+    superposition_check made = {0};
     wt_status status = WT_OK;
 
     if (numbers == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for the superposition check");
-    double *a[WT_MODULI] = {numbers, numbers + n};
+    double *a[MODULI] = {numbers, numbers + n};
     double *b = numbers + 2 * n, *scratch = b + n;
-    double *covariance[WT_MODULI] = {scratch + 3 * n, scratch + 3 * n + n * n};
-    for (int q = 0; q < WT_MODULI && status == WT_OK; q++)
+    double *covariance[MODULI] = {scratch + 3 * n, scratch + 3 * n + n * n};
+    for (int q = 0; q < MODULI && status == WT_OK; q++)
         status = fit_alone(joint, q, a[q], b, covariance[q], scratch, err);
     double square = 0.0;
     for (size_t i = 0; i < n && status == WT_OK; i++) {
         if (!joint->placed[i] || i == joint->anchor)
             continue;
-        const double difference = a[WT_STORAGE][i] - a[WT_LOSS][i];
-        const double variance = covariance[WT_STORAGE][i * n + i] + covariance[WT_LOSS][i * n + i];
+        const double difference = a[STORAGE][i] - a[LOSS][i];
+        const double variance = covariance[STORAGE][i * n + i] + covariance[LOSS][i * n + i];
         made.largest = fmax(made.largest, fabs(difference));
         square += difference * difference / (variance + 2.0 * floor * floor);
         made.n++;

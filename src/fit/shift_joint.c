@@ -32,24 +32,24 @@ struct point {
 };
 
 struct joint {
-    wt_shift_joint *task;
+    shift_joint *task;
     size_t n_points, n_unknowns;
-    struct point *points;          /* [n_points] curve by curve */
-    double *numbers;               /* one block for the arrays of doubles below */
-    double *y[WT_MODULI];          /* [n_points] measured ordinates */
-    double *weight[WT_MODULI];     /* [n_points] */
-    double *residual[WT_MODULI];   /* [n_points] */
-    double *slope[WT_MODULI];      /* [n_points] spline slope at the shifted abscissa */
-    double *scratch;               /* [n_points] */
-    double *start;                 /* [n_unknowns] centre of the prior */
-    double *value, *trial;         /* [n_unknowns] */
-    long *column_a, *column_b;     /* [set->n] unknown of a curve, -1 if none */
-    gsl_matrix *normal[WT_MODULI]; /* Schur complement of one modulus */
-    gsl_matrix *matrix, *factor;   /* n_unknowns squared */
+    struct point *points;        /* [n_points] curve by curve */
+    double *numbers;             /* one block for the arrays of doubles below */
+    double *y[MODULI];           /* [n_points] measured ordinates */
+    double *weight[MODULI];      /* [n_points] */
+    double *residual[MODULI];    /* [n_points] */
+    double *slope[MODULI];       /* [n_points] spline slope at the shifted abscissa */
+    double *scratch;             /* [n_points] */
+    double *start;               /* [n_unknowns] centre of the prior */
+    double *value, *trial;       /* [n_unknowns] */
+    long *column_a, *column_b;   /* [set->n] unknown of a curve, -1 if none */
+    gsl_matrix *normal[MODULI];  /* Schur complement of one modulus */
+    gsl_matrix *matrix, *factor; /* n_unknowns squared */
     gsl_vector *gradient, *step;
     double prior;                       /* weight of the prior in the objective */
     double *slope_square, *slope_noise; /* [set->n] */
-    double effective[WT_MODULI];        /* degrees of freedom of the spline */
+    double effective[MODULI];           /* degrees of freedom of the spline */
 };
 
 /* ---- evaluation for given shifts --------------------------------------------------------------
@@ -67,34 +67,34 @@ static double shift_b(const struct joint *j, const double *unknown, size_t curve
 
 /* Fits the spline of one modulus for given shifts: coefficients, residuals, slopes; adds the
  * weighted sum of squares and the penalty to *objective. */
-static wt_status fit_spline(struct joint *j, const double *unknown, int q, wt_pspline *s,
+static wt_status fit_spline(struct joint *j, const double *unknown, int q, spline_fit *s,
                             double *objective, wt_error *err)
 {
-    double value[WT_PSPLINE_ORDER], slope[WT_PSPLINE_ORDER];
+    double value[PSPLINE_ORDER], slope[PSPLINE_ORDER];
     double x_min = HUGE_VAL, x_max = -HUGE_VAL;
     for (size_t k = 0; k < j->n_points; k++) {
         const double x = j->points[k].x + shift_a(j, unknown, j->points[k].curve);
         x_min = fmin(x_min, x);
         x_max = fmax(x_max, x);
     }
-    wt_status status = wt_pspline_new(s, x_min, x_max, err);
+    wt_status status = pspline_new(s, x_min, x_max, err);
     if (status != WT_OK)
         return status;
     for (size_t k = 0; k < j->n_points; k++) {
         const size_t curve = j->points[k].curve;
-        wt_pspline_add(s, j->points[k].x + shift_a(j, unknown, curve),
-                       j->y[q][k] + shift_b(j, unknown, curve), j->weight[q][k]);
+        pspline_add(s, j->points[k].x + shift_a(j, unknown, curve),
+                    j->y[q][k] + shift_b(j, unknown, curve), j->weight[q][k]);
     }
     double sum;
-    status = wt_pspline_solve(s, &sum, err);
+    status = pspline_solve(s, &sum, err);
     if (status != WT_OK)
         return status;
     for (size_t k = 0; k < j->n_points; k++) {
         const size_t curve = j->points[k].curve;
         const size_t cell =
-            wt_pspline_locate(s, j->points[k].x + shift_a(j, unknown, curve), value, slope);
+            pspline_locate(s, j->points[k].x + shift_a(j, unknown, curve), value, slope);
         double fitted = 0.0, rise = 0.0;
-        for (size_t r = 0; r < WT_PSPLINE_ORDER; r++) {
+        for (size_t r = 0; r < PSPLINE_ORDER; r++) {
             fitted += value[r] * gsl_vector_get(s->coefficient, cell + r);
             rise += slope[r] * gsl_vector_get(s->coefficient, cell + r);
         }
@@ -107,15 +107,15 @@ static wt_status fit_spline(struct joint *j, const double *unknown, int q, wt_ps
 }
 
 /* Sum over the moduli in use and the prior, for given shifts. */
-static wt_status evaluate(struct joint *j, const double *unknown, wt_pspline spline[WT_MODULI],
+static wt_status evaluate(struct joint *j, const double *unknown, spline_fit spline[MODULI],
                           double *objective, wt_error *err)
 {
     wt_status status = WT_OK;
     *objective = 0.0;
     for (size_t u = 0; u < j->n_unknowns; u++)
         *objective += j->prior * (unknown[u] - j->start[u]) * (unknown[u] - j->start[u]);
-    for (int q = 0; q < WT_MODULI && status == WT_OK; q++) {
-        wt_pspline_free(&spline[q]);
+    for (int q = 0; q < MODULI && status == WT_OK; q++) {
+        pspline_free(&spline[q]);
         if (j->task->use[q])
             status = fit_spline(j, unknown, q, &spline[q], objective, err);
     }
@@ -125,14 +125,14 @@ static wt_status evaluate(struct joint *j, const double *unknown, wt_pspline spl
 /* Normal matrix of the unknowns with the spline of modulus q projected out, V'WV - (B'WV)' G^-1
  * (B'WV), into normal[q]; adds V'W r to the gradient. V: derivatives of the residual at fixed
  * coefficients. */
-static wt_status add_normal(struct joint *j, const double *unknown, int q, const wt_pspline *s,
+static wt_status add_normal(struct joint *j, const double *unknown, int q, const spline_fit *s,
                             wt_error *err)
 {
     const size_t n_unknowns = j->n_unknowns;
     gsl_matrix *cross = gsl_matrix_calloc(s->n, n_unknowns);
     gsl_matrix *solved = gsl_matrix_alloc(s->n, n_unknowns);
     wt_status status = WT_OK;
-    double value[WT_PSPLINE_ORDER], slope[WT_PSPLINE_ORDER];
+    double value[PSPLINE_ORDER], slope[PSPLINE_ORDER];
 
     if (cross == NULL || solved == NULL) {
         status = wt_fail(err, WT_E_MEMORY, "no memory for the normal equations");
@@ -145,13 +145,13 @@ static wt_status add_normal(struct joint *j, const double *unknown, int q, const
         const double derivative[2] = {-j->slope[q][k], 1.0};
         const double w = j->weight[q][k];
         const size_t cell =
-            wt_pspline_locate(s, j->points[k].x + shift_a(j, unknown, curve), value, slope);
+            pspline_locate(s, j->points[k].x + shift_a(j, unknown, curve), value, slope);
         for (int m = 0; m < 2; m++) {
             if (column[m] < 0)
                 continue;
             const size_t c = (size_t)column[m];
             *gsl_vector_ptr(j->gradient, c) += w * derivative[m] * j->residual[q][k];
-            for (size_t r = 0; r < WT_PSPLINE_ORDER; r++)
+            for (size_t r = 0; r < PSPLINE_ORDER; r++)
                 *gsl_matrix_ptr(cross, cell + r, c) += w * derivative[m] * value[r];
             for (int l = 0; l < 2; l++)
                 if (column[l] >= 0)
@@ -170,12 +170,12 @@ done:
     return status;
 }
 
-static wt_status normal_equations(struct joint *j, wt_pspline spline[WT_MODULI], wt_error *err)
+static wt_status normal_equations(struct joint *j, spline_fit spline[MODULI], wt_error *err)
 {
     wt_status status = WT_OK;
     gsl_matrix_set_zero(j->matrix);
     gsl_vector_set_zero(j->gradient);
-    for (int q = 0; q < WT_MODULI && status == WT_OK; q++) {
+    for (int q = 0; q < MODULI && status == WT_OK; q++) {
         if (!j->task->use[q])
             continue;
         status = add_normal(j, j->value, q, &spline[q], err);
@@ -209,7 +209,7 @@ static bool damped_step(struct joint *j, double damping)
 
 /* Minimises over the shifts with the present weights. Leaves splines, residuals and normal
  * equations of the solution behind. */
-static wt_status minimise(struct joint *j, wt_pspline spline[WT_MODULI], wt_error *err)
+static wt_status minimise(struct joint *j, spline_fit spline[MODULI], wt_error *err)
 {
     double objective, next, damping = 1e-3;
     wt_status status = evaluate(j, j->value, spline, &objective, err);
@@ -258,12 +258,12 @@ static double robust_spread(struct joint *j, int q)
         j->scratch[k] = fabs(j->residual[q][k]);
     gsl_sort(j->scratch, 1, j->n_points);
     return fmax(1.4826 * gsl_stats_median_from_sorted_data(j->scratch, 1, j->n_points),
-                WT_SHIFT_NOISE_FLOOR);
+                SHIFT_NOISE_FLOOR);
 }
 
 static void reweight(struct joint *j)
 {
-    for (int q = 0; q < WT_MODULI; q++) {
+    for (int q = 0; q < MODULI; q++) {
         if (!j->task->use[q])
             continue;
         const double limit = huber_limit * robust_spread(j, q);
@@ -289,18 +289,18 @@ static struct noise residual_noise(const struct joint *j, int q)
         if (k > 0 && j->points[k].curve == j->points[k - 1].curve)
             product += r * sqrt(j->weight[q][k - 1]) * j->residual[q][k - 1];
     }
-    const double moduli = j->task->use[WT_STORAGE] && j->task->use[WT_LOSS] ? 2.0 : 1.0;
+    const double moduli = j->task->use[STORAGE] && j->task->use[LOSS] ? 2.0 : 1.0;
     const double freedom = fmax(n - j->effective[q] - (double)j->n_unknowns / moduli, 1.0);
     const double correlation = square > 0.0 ? fmin(fmax(product / square, 0.0), 0.9) : 0.0;
     const double inflation = (1.0 + correlation) / (1.0 - correlation);
-    const double floor_square = WT_SHIFT_NOISE_FLOOR * WT_SHIFT_NOISE_FLOOR;
+    const double floor_square = SHIFT_NOISE_FLOOR * SHIFT_NOISE_FLOOR;
     return (struct noise){.spread = sqrt(square / freedom),
                           .long_run = fmax(square / freedom * inflation, floor_square),
                           .white = fmax(square / freedom / inflation, floor_square)};
 }
 
 /* Squared slopes and their variances, summed over the points of each curve. */
-static void add_slopes(struct joint *j, int q, const wt_pspline *s, const gsl_matrix *inverse,
+static void add_slopes(struct joint *j, int q, const spline_fit *s, const gsl_matrix *inverse,
                        double variance)
 {
     for (size_t k = 0; k < j->n_points; k++) {
@@ -308,14 +308,14 @@ static void add_slopes(struct joint *j, int q, const wt_pspline *s, const gsl_ma
         const double w = j->weight[q][k];
         const double x = j->points[k].x + shift_a(j, j->value, curve);
         j->slope_square[curve] += w * j->slope[q][k] * j->slope[q][k] / variance;
-        j->slope_noise[curve] += w * wt_pspline_slope_variance(s, inverse, x);
+        j->slope_noise[curve] += w * pspline_slope_variance(s, inverse, x);
     }
 }
 
 /* Covariance N^-1 (sum_q s_q^2 N_q) N^-1, written out per curve. */
-static wt_status covariance(struct joint *j, wt_pspline spline[WT_MODULI], wt_error *err)
+static wt_status covariance(struct joint *j, spline_fit spline[MODULI], wt_error *err)
 {
-    wt_shift_joint *task = j->task;
+    shift_joint *task = j->task;
     const size_t n = task->set->n, m = j->n_unknowns;
     gsl_matrix *middle = gsl_matrix_calloc(m, m);
     gsl_matrix *left = gsl_matrix_alloc(m, m);
@@ -326,15 +326,15 @@ static wt_status covariance(struct joint *j, wt_pspline spline[WT_MODULI], wt_er
         status = wt_fail(err, WT_E_MEMORY, "no memory for the covariance of the shifts");
         goto done;
     }
-    for (int q = 0; q < WT_MODULI; q++) {
+    for (int q = 0; q < MODULI; q++) {
         task->rms[q] = (double)NAN;
         if (!task->use[q])
             continue;
         gsl_matrix *inverse = NULL;
-        status = wt_pspline_inverse(&spline[q], &inverse, err);
+        status = pspline_inverse(&spline[q], &inverse, err);
         if (status != WT_OK)
             goto done;
-        j->effective[q] = wt_pspline_freedom(&spline[q], inverse);
+        j->effective[q] = pspline_freedom(&spline[q], inverse);
         const struct noise noise = residual_noise(j, q);
         task->rms[q] = noise.spread;
         add_slopes(j, q, &spline[q], inverse, noise.white);
@@ -394,7 +394,7 @@ static void joint_free(struct joint *j)
     free(j->numbers);
     free(j->column_a);
     free(j->column_b);
-    for (int q = 0; q < WT_MODULI; q++)
+    for (int q = 0; q < MODULI; q++)
         gsl_matrix_free(j->normal[q]);
     gsl_matrix_free(j->matrix);
     gsl_matrix_free(j->factor);
@@ -412,7 +412,7 @@ static double *take(double **next, size_t n)
 /* Counts unknowns and points, numbers the unknowns. */
 static bool number_unknowns(struct joint *j)
 {
-    const wt_shift_joint *task = j->task;
+    const shift_joint *task = j->task;
     j->column_a = calloc(task->set->n, sizeof *j->column_a);
     j->column_b = calloc(task->set->n, sizeof *j->column_b);
     if (j->column_a == NULL || j->column_b == NULL)
@@ -428,24 +428,24 @@ static bool number_unknowns(struct joint *j)
 
 static wt_status joint_alloc(struct joint *j, wt_error *err)
 {
-    const wt_shift_joint *task = j->task;
+    const shift_joint *task = j->task;
     if (!number_unknowns(j))
         return wt_fail(err, WT_E_MEMORY, "no memory for the joint fit");
     const size_t m = j->n_unknowns, n = j->n_points;
     j->points = calloc(n, sizeof *j->points);
-    j->numbers = calloc((4 * WT_MODULI + 1) * n + 3 * m + 2 * task->set->n, sizeof *j->numbers);
-    for (int q = 0; q < WT_MODULI; q++)
+    j->numbers = calloc((4 * MODULI + 1) * n + 3 * m + 2 * task->set->n, sizeof *j->numbers);
+    for (int q = 0; q < MODULI; q++)
         j->normal[q] = gsl_matrix_calloc(m, m);
     j->matrix = gsl_matrix_alloc(m, m);
     j->factor = gsl_matrix_alloc(m, m);
     j->gradient = gsl_vector_alloc(m);
     j->step = gsl_vector_alloc(m);
-    if (j->points == NULL || j->numbers == NULL || j->normal[WT_STORAGE] == NULL ||
-        j->normal[WT_LOSS] == NULL || j->matrix == NULL || j->factor == NULL ||
-        j->gradient == NULL || j->step == NULL)
+    if (j->points == NULL || j->numbers == NULL || j->normal[STORAGE] == NULL ||
+        j->normal[LOSS] == NULL || j->matrix == NULL || j->factor == NULL || j->gradient == NULL ||
+        j->step == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for the joint fit of %zu points", n);
     double *next = j->numbers;
-    for (int q = 0; q < WT_MODULI; q++) {
+    for (int q = 0; q < MODULI; q++) {
         j->y[q] = take(&next, n);
         j->weight[q] = take(&next, n);
         j->residual[q] = take(&next, n);
@@ -459,10 +459,10 @@ static wt_status joint_alloc(struct joint *j, wt_error *err)
     j->slope_noise = take(&next, task->set->n);
     size_t k = 0;
     for (size_t i = 0; i < task->set->n; i++) {
-        const wt_shift_curve *curve = &task->set->curves[i];
+        const shift_curve *curve = &task->set->curves[i];
         for (size_t p = 0; task->placed[i] && p < curve->n; p++, k++) {
             j->points[k] = (struct point){i, curve->x[p]};
-            for (int q = 0; q < WT_MODULI; q++) {
+            for (int q = 0; q < MODULI; q++) {
                 j->y[q][k] = curve->y[q][p];
                 j->weight[q][k] = 1.0;
             }
@@ -481,28 +481,28 @@ static void count_outliers(struct joint *j)
     for (size_t i = 0; i < j->task->set->n; i++)
         j->task->n_outliers[i] = 0;
     for (size_t k = 0; k < j->n_points; k++)
-        if ((j->task->use[WT_STORAGE] && j->weight[WT_STORAGE][k] < outlier_weight) ||
-            (j->task->use[WT_LOSS] && j->weight[WT_LOSS][k] < outlier_weight))
+        if ((j->task->use[STORAGE] && j->weight[STORAGE][k] < outlier_weight) ||
+            (j->task->use[LOSS] && j->weight[LOSS][k] < outlier_weight))
             j->task->n_outliers[j->points[k].curve]++;
 }
 
 /* Weight of the prior for the present residuals. */
 static void set_prior(struct joint *j)
 {
-    double spread = WT_SHIFT_NOISE_FLOOR;
-    for (int q = 0; q < WT_MODULI; q++)
+    double spread = SHIFT_NOISE_FLOOR;
+    for (int q = 0; q < MODULI; q++)
         if (j->task->use[q])
             spread = fmax(spread, robust_spread(j, q));
     j->prior = (spread / prior_spread) * (spread / prior_spread);
 }
 
-wt_status wt_shift_joint_fit(wt_shift_joint *task, wt_error *err)
+wt_status shift_joint_fit(shift_joint *task, wt_error *err)
 {
     struct joint j = {.task = task};
-    wt_pspline spline[WT_MODULI] = {{0}};
+    spline_fit spline[MODULI] = {{0}};
     double objective;
 
-    wt_gsl_quiet();
+    gsl_quiet();
     task->last_step = 0.0;
     wt_status status = joint_alloc(&j, err);
     if (status == WT_OK)
@@ -524,8 +524,8 @@ wt_status wt_shift_joint_fit(wt_shift_joint *task, wt_error *err)
     if (task->n_outliers != NULL)
         count_outliers(&j);
 done:
-    for (int q = 0; q < WT_MODULI; q++)
-        wt_pspline_free(&spline[q]);
+    for (int q = 0; q < MODULI; q++)
+        pspline_free(&spline[q]);
     joint_free(&j);
     return status;
 }

@@ -43,33 +43,33 @@ static void append(char *text, size_t size, const char *format, ...)
     }
     va_list arguments;
     va_start(arguments, format);
-    const int needed = wt_clocale_vprint(text + length, size - length, format, arguments);
+    const int needed = clocale_vprint(text + length, size - length, format, arguments);
     va_end(arguments);
     if (needed >= 0 && (size_t)needed >= size - length)
         memcpy(text + size - 4, "...", 4);
 }
 
-static void note_verdict(const wt_shift_work *work, size_t i, wt_shift *shift)
+static void note_verdict(const shift_work *work, size_t i, wt_shift *shift)
 {
     const double sigma = sqrt(work->covariance[i * work->set.n + i]);
     char *note = shift->note;
     switch (work->verdict[i]) {
-    case WT_SHIFT_GOOD:
+    case SHIFT_GOOD:
         break;
-    case WT_SHIFT_TOO_SHORT:
+    case SHIFT_TOO_SHORT:
         append(note, sizeof shift->note, "only %zu points", work->set.curves[i].n);
         break;
-    case WT_SHIFT_NO_OVERLAP:
+    case SHIFT_NO_OVERLAP:
         append(note, sizeof shift->note, "no overlap with its neighbours");
         break;
-    case WT_SHIFT_FLAT:
+    case SHIFT_FLAT:
         append(note, sizeof shift->note,
                "no slope decides: both moduli are flat within their scatter");
         break;
-    case WT_SHIFT_NO_SLOPE:
+    case SHIFT_NO_SLOPE:
         append(note, sizeof shift->note, "no slope decides: error of log aT %.2g decade", sigma);
         break;
-    case WT_SHIFT_COLLINEAR:
+    case SHIFT_COLLINEAR:
         append(note, sizeof shift->note,
                "horizontal and vertical shift not separable: correlation %.3f",
                work->correlation[i]);
@@ -77,9 +77,9 @@ static void note_verdict(const wt_shift_work *work, size_t i, wt_shift *shift)
     }
 }
 
-static void note_oddities(const wt_shift_work *work, size_t i, wt_shift *shift)
+static void note_oddities(const shift_work *work, size_t i, wt_shift *shift)
 {
-    const wt_shift_curve *curve = &work->set.curves[i];
+    const shift_curve *curve = &work->set.curves[i];
     char *note = shift->note;
     if (shift->determined && work->tied[i] > 0.0)
         append(note, sizeof shift->note,
@@ -98,7 +98,7 @@ static void note_oddities(const wt_shift_work *work, size_t i, wt_shift *shift)
 }
 
 /* Two runs at one temperature should get one shift. */
-static void note_duplicates(const wt_shift_work *work, wt_master_curve *master)
+static void note_duplicates(const shift_work *work, wt_master_curve *master)
 {
     const size_t n = work->set.n;
     for (size_t i = 1; i < n; i++) {
@@ -146,7 +146,7 @@ static void note_strain(const wt_sweep *sweep, wt_master_curve *master, wt_parse
                     low, high);
 }
 
-static wt_status fill_shifts(const wt_shift_work *work, wt_master_curve *master, wt_error *err)
+static wt_status fill_shifts(const shift_work *work, wt_master_curve *master, wt_error *err)
 {
     const size_t n = work->set.n;
     master->shifts = calloc(n, sizeof *master->shifts);
@@ -157,7 +157,7 @@ static wt_status fill_shifts(const wt_shift_work *work, wt_master_curve *master,
     master->n_shifts = n;
     for (size_t i = 0; i < n; i++) {
         wt_shift *shift = &master->shifts[i];
-        const bool good = work->verdict[i] == WT_SHIFT_GOOD;
+        const bool good = work->verdict[i] == SHIFT_GOOD;
         const bool reference = work->measured_reference && i == work->anchor;
         shift->temperature = work->set.curves[i].temperature;
         shift->determined = good;
@@ -173,28 +173,27 @@ static wt_status fill_shifts(const wt_shift_work *work, wt_master_curve *master,
             shift->log_b.numerical_error = 0.0;
         }
         for (size_t k = 0; k < n; k++)
-            master->covariance[i * n + k] = good && work->verdict[k] == WT_SHIFT_GOOD
-                                                ? work->covariance[i * n + k]
-                                                : (double)NAN;
-        shift->overlap_storage = work->overlap[WT_STORAGE][i];
-        shift->overlap_loss = work->overlap[WT_LOSS][i];
+            master->covariance[i * n + k] =
+                good && work->verdict[k] == SHIFT_GOOD ? work->covariance[i * n + k] : (double)NAN;
+        shift->overlap_storage = work->overlap[STORAGE][i];
+        shift->overlap_loss = work->overlap[LOSS][i];
         shift->log_b_physical = work->physical[i];
         note_verdict(work, i, shift);
         note_oddities(work, i, shift);
     }
     for (size_t i = 0; i < 2 * n; i++)
         for (size_t k = 0; k < 2 * n; k++)
-            if (work->verdict[i % n] == WT_SHIFT_GOOD && work->verdict[k % n] == WT_SHIFT_GOOD)
+            if (work->verdict[i % n] == SHIFT_GOOD && work->verdict[k % n] == SHIFT_GOOD)
                 master->covariance_ab[i * 2 * n + k] = work->covariance_ab[i * 2 * n + k];
     note_duplicates(work, master);
     return WT_OK;
 }
 
-static wt_status fill_points(const wt_shift_work *work, wt_master_curve *master, wt_error *err)
+static wt_status fill_points(const shift_work *work, wt_master_curve *master, wt_error *err)
 {
     size_t n = 0;
     for (size_t i = 0; i < work->set.n; i++)
-        n += work->verdict[i] == WT_SHIFT_GOOD ? work->set.curves[i].n : 0;
+        n += work->verdict[i] == SHIFT_GOOD ? work->set.curves[i].n : 0;
     struct point *points = calloc(n, sizeof *points);
     master->log_frequency = calloc(n, sizeof *master->log_frequency);
     master->log_storage = calloc(n, sizeof *master->log_storage);
@@ -206,11 +205,11 @@ static wt_status fill_points(const wt_shift_work *work, wt_master_curve *master,
         return wt_fail(err, WT_E_MEMORY, "no memory for a master curve of %zu points", n);
     }
     for (size_t i = 0; i < work->set.n; i++) {
-        const wt_shift_curve *curve = &work->set.curves[i];
-        for (size_t k = 0; work->verdict[i] == WT_SHIFT_GOOD && k < curve->n; k++)
+        const shift_curve *curve = &work->set.curves[i];
+        for (size_t k = 0; work->verdict[i] == SHIFT_GOOD && k < curve->n; k++)
             points[master->n++] =
-                (struct point){curve->x[k] + work->a[i], curve->y[WT_STORAGE][k] + work->b[i],
-                               curve->y[WT_LOSS][k] + work->b[i], i};
+                (struct point){curve->x[k] + work->a[i], curve->y[STORAGE][k] + work->b[i],
+                               curve->y[LOSS][k] + work->b[i], i};
     }
     qsort(points, master->n, sizeof *points, by_x);
     for (size_t k = 0; k < master->n; k++) {
@@ -224,9 +223,9 @@ static wt_status fill_points(const wt_shift_work *work, wt_master_curve *master,
 }
 
 /* Says what hangs on no single isotherm, in the note and in the log. */
-static void note_whole(const wt_shift_work *work, wt_master_curve *master, wt_parselog *log)
+static void note_whole(const shift_work *work, wt_master_curve *master, wt_parselog *log)
 {
-    const wt_superposition *superposition = &work->superposition;
+    const superposition_check *superposition = &work->superposition;
     if (master->superposition_failed) {
         append(master->note, sizeof master->note,
                "superposition fails: E' and E'' ask for shifts up to %.2g decades apart%s",
@@ -253,24 +252,24 @@ static void note_whole(const wt_shift_work *work, wt_master_curve *master, wt_pa
                100.0 * master->kramers_kronig);
 }
 
-wt_status wt_shift_master_new(const wt_sweep *sweep, const wt_shift_work *work, wt_parselog *log,
-                              wt_master_curve *master, wt_error *err)
+wt_status shift_master_new(const wt_sweep *sweep, const shift_work *work, wt_parselog *log,
+                           wt_master_curve *master, wt_error *err)
 {
     wt_master_curve made = {.deformation = sweep->deformation,
                             .reference_temperature = work->reference_temperature,
                             .vertical = work->options.vertical,
-                            .rms_storage = work->rms[WT_STORAGE],
-                            .rms_loss = work->rms[WT_LOSS],
+                            .rms_storage = work->rms[STORAGE],
+                            .rms_loss = work->rms[LOSS],
                             .kramers_kronig = (double)NAN,
                             .superposition_failed = work->superposition.failed};
     wt_status status = fill_shifts(work, &made, err);
     if (status == WT_OK)
         status = fill_points(work, &made, err);
     if (status == WT_OK) {
-        const wt_prony_points points = {
+        const prony_points points = {
             made.n,        made.log_frequency,    made.log_storage,
             made.log_loss, made.log_frequency[0], made.log_frequency[made.n - 1]};
-        status = wt_prony_kramers_kronig(&points, &made.kramers_kronig, err);
+        status = prony_kramers_kronig(&points, &made.kramers_kronig, err);
     }
     if (status == WT_OK) {
         note_whole(work, &made, log);

@@ -5,44 +5,44 @@
 
 #include "fit/shift.h"
 
-typedef enum wt_shift_verdict {
-    WT_SHIFT_GOOD,
-    WT_SHIFT_TOO_SHORT,
-    WT_SHIFT_NO_OVERLAP,
-    WT_SHIFT_FLAT,
-    WT_SHIFT_NO_SLOPE,
-    WT_SHIFT_COLLINEAR
-} wt_shift_verdict;
+typedef enum shift_verdict {
+    SHIFT_GOOD,
+    SHIFT_TOO_SHORT,
+    SHIFT_NO_OVERLAP,
+    SHIFT_FLAT,
+    SHIFT_NO_SLOPE,
+    SHIFT_COLLINEAR
+} shift_verdict;
 
-typedef struct wt_shift_work {
+typedef struct shift_work {
     wt_shift_options options;
-    wt_shift_set set;
+    shift_set set;
     double reference_temperature; /* [K] */
     bool measured_reference;      /* the anchor is the reference */
     bool extrapolated;            /* the reference temperature lies outside the isotherms */
     size_t anchor;
     size_t n_good;
-    bool *placed;               /* [n] */
-    wt_shift_verdict *verdict;  /* [n] */
-    size_t *n_outliers;         /* [n] */
-    double *numbers;            /* one block for the arrays below */
-    double *a, *b;              /* [n] */
-    double *sigma_b;            /* [n] */
-    double *correlation;        /* [n] */
-    double *physical;           /* [n] log b of rho T */
-    double *overlap[WT_MODULI]; /* [n] */
+    bool *placed;            /* [n] */
+    shift_verdict *verdict;  /* [n] */
+    size_t *n_outliers;      /* [n] */
+    double *numbers;         /* one block for the arrays below */
+    double *a, *b;           /* [n] */
+    double *sigma_b;         /* [n] */
+    double *correlation;     /* [n] */
+    double *physical;        /* [n] log b of rho T */
+    double *overlap[MODULI]; /* [n] */
     double *tied; /* [n] what an error of b moves a by, 0 unless they are collinear [decade] */
     double *slope_noise;   /* [n] share of noise in the slopes */
     bool *flat;            /* [n] no slope of its own: takes no part */
     double *covariance;    /* [n * n] of a */
     double *scratch;       /* [n * n + 2 n] */
     double *covariance_ab; /* [2n * 2n] of a, then b */
-    double rms[WT_MODULI];
+    double rms[MODULI];
     double last_step;
-    wt_superposition superposition;
-} wt_shift_work;
+    superposition_check superposition;
+} shift_work;
 
-wt_status wt_shift_master_new(const wt_sweep *sweep, const wt_shift_work *work, wt_parselog *log,
-                              wt_master_curve *master, wt_error *err) WT_NODISCARD;
+wt_status shift_master_new(const wt_sweep *sweep, const shift_work *work, wt_parselog *log,
+                           wt_master_curve *master, wt_error *err) WT_NODISCARD;
 
 #endif

@@ -19,19 +19,19 @@ static const double equal_residual = 0.003;
 enum { GRID = 400 };
 
 struct pair {
-    const wt_shift_curve *p, *s;
+    const shift_curve *p, *s;
     bool free_b;
     double fixed_b;
 };
 
 struct overlap {
-    size_t n[WT_MODULI];
+    size_t n[MODULI];
     double sum, square; /* of the gaps y_p - y_s */
 };
 
 /* Gaps y_onto(x + a) - y_from(x) times `sign` for the points of `from` that fall on `onto`. Both
  * abscissas rise, so one pass over `onto` is enough. */
-static void add_gaps(const wt_shift_curve *onto, const wt_shift_curve *from, double a, double sign,
+static void add_gaps(const shift_curve *onto, const shift_curve *from, double a, double sign,
                      double pivot, struct overlap *sum)
 {
     size_t k = 0;
@@ -45,7 +45,7 @@ static void add_gaps(const wt_shift_curve *onto, const wt_shift_curve *from, dou
             k++;
         const double width = onto->x[k + 1] - onto->x[k];
         const double share = width > 0.0 ? (x - onto->x[k]) / width : 0.5;
-        for (int q = 0; q < WT_MODULI; q++) {
+        for (int q = 0; q < MODULI; q++) {
             const double y = onto->y[q][k] + share * (onto->y[q][k + 1] - onto->y[q][k]);
             const double gap = sign * (y - from->y[q][i]) - pivot;
             sum->n[q]++;
@@ -66,7 +66,7 @@ static struct overlap overlap_at(const struct pair *pair, double a)
 /* Mean square residual; b is the vertical shift that belongs to it. */
 static double mean_square(const struct pair *pair, const struct overlap *sum, double *b)
 {
-    const double n = (double)(sum->n[WT_STORAGE] + sum->n[WT_LOSS]);
+    const double n = (double)(sum->n[STORAGE] + sum->n[LOSS]);
     const double mean = sum->sum / n;
     *b = pair->fixed_b + (pair->free_b ? mean : 0.0);
     return fmax(sum->square / n - (pair->free_b ? mean * mean : 0.0), 0.0);
@@ -74,14 +74,14 @@ static double mean_square(const struct pair *pair, const struct overlap *sum, do
 
 static bool enough(const struct overlap *sum)
 {
-    return sum->n[WT_STORAGE] >= WT_SHIFT_MIN_POINTS && sum->n[WT_LOSS] >= WT_SHIFT_MIN_POINTS;
+    return sum->n[STORAGE] >= SHIFT_MIN_POINTS && sum->n[LOSS] >= SHIFT_MIN_POINTS;
 }
 
 /* Log likelihood lost against all points lying off by `indifferent_residual`; smaller is better.
  * The plain mean square would prefer a chance match of a few points at the ends. */
 static double cost_of(const struct overlap *sum, double square)
 {
-    const double n = (double)(sum->n[WT_STORAGE] + sum->n[WT_LOSS]);
+    const double n = (double)(sum->n[STORAGE] + sum->n[LOSS]);
     return n * log((square + equal_residual * equal_residual) /
                    (indifferent_residual * indifferent_residual));
 }
@@ -112,11 +112,10 @@ static double refine(struct pair *pair, double a, double step, gsl_min_fminimize
 
 /* Shared range of ordinates, and whether it is enough: a twentieth of a decade, or a quarter
  * of the flatter curve (a plateau has no more to give). */
-static bool ordinates_overlap(const wt_shift_curve *p, const wt_shift_curve *s, int q,
-                              double *shared)
+static bool ordinates_overlap(const shift_curve *p, const shift_curve *s, int q, double *shared)
 {
     double low[2], high[2];
-    const wt_shift_curve *curve[2] = {p, s};
+    const shift_curve *curve[2] = {p, s};
     for (int c = 0; c < 2; c++) {
         low[c] = high[c] = curve[c]->y[q][0];
         for (size_t k = 1; k < curve[c]->n; k++) {
@@ -129,16 +128,16 @@ static bool ordinates_overlap(const wt_shift_curve *p, const wt_shift_curve *s, 
     return *shared >= fmin(least_overlap, 0.25 * flatter) && *shared > 0.0;
 }
 
-wt_status wt_shift_pair_fit(const wt_shift_curve *p, const wt_shift_curve *s, bool free_b,
-                            double fixed_b, wt_shift_pair *result, wt_error *err)
+wt_status shift_pair_fit(const shift_curve *p, const shift_curve *s, bool free_b, double fixed_b,
+                         shift_pair *result, wt_error *err)
 {
     struct pair pair = {p, s, free_b, free_b ? 0.0 : fixed_b};
-    *result = (wt_shift_pair){0};
-    wt_gsl_quiet();
-    if (p->n < WT_SHIFT_MIN_POINTS || s->n < WT_SHIFT_MIN_POINTS)
+    *result = (shift_pair){0};
+    gsl_quiet();
+    if (p->n < SHIFT_MIN_POINTS || s->n < SHIFT_MIN_POINTS)
         return WT_OK;
-    const bool storage = ordinates_overlap(p, s, WT_STORAGE, &result->overlap[WT_STORAGE]);
-    (void)ordinates_overlap(p, s, WT_LOSS, &result->overlap[WT_LOSS]);
+    const bool storage = ordinates_overlap(p, s, STORAGE, &result->overlap[STORAGE]);
+    (void)ordinates_overlap(p, s, LOSS, &result->overlap[LOSS]);
     /* E'' may turn back and meet anything; E' rises with frequency, so it decides. */
     if (!storage)
         return WT_OK;

@@ -7,7 +7,7 @@
 #include <string.h>
 
 struct point {
-    double x, y[WT_MODULI];
+    double x, y[MODULI];
 };
 
 static int by_x(const void *left, const void *right)
@@ -47,8 +47,8 @@ static wt_status check_temperatures(const wt_sweep *sweep, wt_error *err)
 }
 
 /* Fills one curve from an isotherm; scratch: [isotherm->n]. */
-static wt_status fill_curve(const wt_isotherm *isotherm, struct point *scratch,
-                            wt_shift_curve *curve, wt_parselog *log, wt_error *err)
+static wt_status fill_curve(const wt_isotherm *isotherm, struct point *scratch, shift_curve *curve,
+                            wt_parselog *log, wt_error *err)
 {
     size_t n = 0;
     size_t first_bad = isotherm->n;
@@ -64,13 +64,13 @@ static wt_status fill_curve(const wt_isotherm *isotherm, struct point *scratch,
             curve->n_left_out++;
         }
     }
-    if (curve->n_left_out > 0 && n < WT_SHIFT_MIN_POINTS) {
+    if (curve->n_left_out > 0 && n < SHIFT_MIN_POINTS) {
         wt_status status =
             wt_fail(err, WT_E_RANGE,
                     "the isotherm of %.2f °C has too few points with positive frequency and moduli",
                     isotherm->temperature - WT_ZERO_CELSIUS);
         wt_error_place(err, "%s", isotherm->source);
-        wt_error_expected(err, "at least %d", WT_SHIFT_MIN_POINTS);
+        wt_error_expected(err, "at least %d", SHIFT_MIN_POINTS);
         wt_error_found(err, "%zu of %zu; point %zu: %g rad/s, storage %g Pa, loss %g Pa", n,
                        isotherm->n, first_bad + 1, isotherm->angular_frequency[first_bad],
                        isotherm->storage_modulus[first_bad], isotherm->loss_modulus[first_bad]);
@@ -87,21 +87,20 @@ static wt_status fill_curve(const wt_isotherm *isotherm, struct point *scratch,
     qsort(scratch, n, sizeof *scratch, by_x);
     for (size_t k = 0; k < n; k++) {
         curve->x[k] = scratch[k].x;
-        for (int q = 0; q < WT_MODULI; q++)
+        for (int q = 0; q < MODULI; q++)
             curve->y[q][k] = scratch[k].y[q];
     }
     curve->n = n;
     return WT_OK;
 }
 
-wt_status wt_shift_set_new(const wt_sweep *sweep, wt_parselog *log, wt_shift_set *set,
-                           wt_error *err)
+wt_status shift_set_new(const wt_sweep *sweep, wt_parselog *log, shift_set *set, wt_error *err)
 {
     const size_t n = sweep->n_isotherms;
     size_t n_points = 0, n_longest = 1;
     struct order *order = NULL;
     struct point *scratch = NULL;
-    wt_shift_set made = {0};
+    shift_set made = {0};
     wt_status status = check_temperatures(sweep, err);
 
     if (status != WT_OK)
@@ -119,7 +118,7 @@ wt_status wt_shift_set_new(const wt_sweep *sweep, wt_parselog *log, wt_shift_set
     order = calloc(n, sizeof *order);
     scratch = calloc(n_longest, sizeof *scratch);
     made.curves = calloc(n, sizeof *made.curves);
-    made.numbers = calloc(n_points, (1 + WT_MODULI) * sizeof *made.numbers);
+    made.numbers = calloc(n_points, (1 + MODULI) * sizeof *made.numbers);
     if (order == NULL || scratch == NULL || made.curves == NULL || made.numbers == NULL) {
         status = wt_fail(err, WT_E_MEMORY, "no memory for %zu isotherms", n);
         goto done;
@@ -131,12 +130,12 @@ wt_status wt_shift_set_new(const wt_sweep *sweep, wt_parselog *log, wt_shift_set
     double *next = made.numbers;
     for (size_t i = 0; i < n; i++) {
         const wt_isotherm *isotherm = &sweep->isotherms[order[i].index];
-        wt_shift_curve *curve = &made.curves[i];
+        shift_curve *curve = &made.curves[i];
         curve->temperature = isotherm->temperature;
         curve->sweep_index = order[i].index;
         curve->x = next;
-        curve->y[WT_STORAGE] = next + isotherm->n;
-        curve->y[WT_LOSS] = next + 2 * isotherm->n;
+        curve->y[STORAGE] = next + isotherm->n;
+        curve->y[LOSS] = next + 2 * isotherm->n;
         next += 3 * isotherm->n;
         status = fill_curve(isotherm, scratch, curve, log, err);
         if (status != WT_OK)
@@ -144,19 +143,19 @@ wt_status wt_shift_set_new(const wt_sweep *sweep, wt_parselog *log, wt_shift_set
         made.n_points += curve->n;
     }
     *set = made;
-    made = (wt_shift_set){0};
+    made = (shift_set){0};
 done:
-    wt_shift_set_free(&made);
+    shift_set_free(&made);
     free(scratch);
     free(order);
     return status;
 }
 
-void wt_shift_set_free(wt_shift_set *set)
+void shift_set_free(shift_set *set)
 {
     if (set == NULL)
         return;
     free(set->curves);
     free(set->numbers);
-    *set = (wt_shift_set){0};
+    *set = (shift_set){0};
 }

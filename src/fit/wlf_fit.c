@@ -249,9 +249,9 @@ static wt_status check_falls(double slope, wt_error *err)
     return status;
 }
 
-wt_status wt_wlf_fit_arrays(const double *temperature, const double *log_a,
-                            const double *covariance, size_t n, double reference_temperature,
-                            double floor, wt_wlf_fit *fit, wt_error *err)
+wt_status wlf_fit_arrays(const double *temperature, const double *log_a, const double *covariance,
+                         size_t n, double reference_temperature, double floor, wt_wlf_fit *fit,
+                         wt_error *err)
 {
     /* Distance of the pole below the coldest isotherm to start from [K]. */
     static const double starts[] = {10.0, 40.0, 150.0, 600.0};
@@ -263,7 +263,7 @@ wt_status wt_wlf_fit_arrays(const double *temperature, const double *log_a,
     wt_wlf_fit made = {.n = n};
     double line[2], chi_square;
 
-    wt_gsl_quiet();
+    gsl_quiet();
     if (!(reference_temperature > 0.0) || !(floor > 0.0) || n <= N_WLF) {
         wt_status bad =
             wt_fail(err, n <= N_WLF ? WT_E_MISSING : WT_E_RANGE, "no WLF fit of %zu shifts", n);
@@ -367,8 +367,8 @@ wt_status wt_wlf_fit_shifts(const wt_master_curve *master, const wt_shift_option
     for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j < n; j++)
             covariance[i * n + j] = master->covariance[index[i] * n_all + index[j]];
-    status = wt_wlf_fit_arrays(temperature, log_a, covariance, n, master->reference_temperature,
-                               floor, fit, err);
+    status = wlf_fit_arrays(temperature, log_a, covariance, n, master->reference_temperature, floor,
+                            fit, err);
 done:
     free(temperature);
     free(log_a);

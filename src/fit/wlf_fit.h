@@ -7,8 +7,8 @@
 
 /* Generalised least squares of n >= 4 shifts log_a (decades, relative to any isotherm) at
  * temperatures [K] with covariance[n * n] plus floor^2 on the diagonal; the offset is free. */
-wt_status wt_wlf_fit_arrays(const double *temperature, const double *log_a,
-                            const double *covariance, size_t n, double reference_temperature,
-                            double floor, wt_wlf_fit *fit, wt_error *err) WT_NODISCARD;
+wt_status wlf_fit_arrays(const double *temperature, const double *log_a, const double *covariance,
+                         size_t n, double reference_temperature, double floor, wt_wlf_fit *fit,
+                         wt_error *err) WT_NODISCARD;
 
 #endif

@@ -42,9 +42,9 @@ typedef struct outside_part {
     double coefficient[OUTSIDE_COEFFICIENTS];
 } outside_part;
 
-struct wt_angular {
+struct angular_law {
     const wt_material *material;
-    wt_angular_quadrature quadrature;
+    angular_quadrature quadrature;
     series_list pieces; /* rising, without gaps */
     outside_part below, above;
 };
@@ -94,15 +94,15 @@ static double series_tail(const double *coefficient, size_t n)
 }
 
 /* Logarithms, so that the relative error is the same all over a piece. */
-static void series_values(const wt_angular *a, const series *s, double z, unsigned refine,
+static void series_values(const angular_law *a, const series *s, double z, unsigned refine,
                           double *j1, double *j2)
 {
-    wt_angular_integrate(&a->quadrature, series_omega(s, z), 1, refine, j1, j2);
+    angular_integrate(&a->quadrature, series_omega(s, z), 1, refine, j1, j2);
     *j1 = s->scale_j1 > 0 ? log(*j1 / s->scale_j1) : 0;
     *j2 = log(*j2 / s->scale_j2);
 }
 
-static void series_fit(const wt_angular *a, series *s, size_t n)
+static void series_fit(const angular_law *a, series *s, size_t n)
 {
     double j1[COEFFICIENTS], j2[COEFFICIENTS];
     s->n = n;
@@ -115,7 +115,7 @@ static void series_fit(const wt_angular *a, series *s, size_t n)
 
 /* Error of the series, also between its nodes. Against finer panels (refine 2) this holds the error
  * of the quadrature too. */
-static double series_check(const wt_angular *a, const series *s, unsigned refine)
+static double series_check(const angular_law *a, const series *s, unsigned refine)
 {
     static const double checks[] = {-0.83, 0.37};
     double error = s->error;
@@ -128,9 +128,9 @@ static double series_check(const wt_angular *a, const series *s, unsigned refine
     return error;
 }
 
-static void series_make(const wt_angular *a, series *s)
+static void series_make(const angular_law *a, series *s)
 {
-    wt_angular_integrate(&a->quadrature, series_omega(s, 0), 1, 1, &s->scale_j1, &s->scale_j2);
+    angular_integrate(&a->quadrature, series_omega(s, 0), 1, 1, &s->scale_j1, &s->scale_j2);
     series_fit(a, s, SHORT_SERIES);
     if (series_check(a, s, 1) > series_goal)
         series_fit(a, s, COEFFICIENTS);
@@ -152,7 +152,7 @@ static bool series_push(series_list *list, const series *s)
 }
 
 /* The piece, or its halves where one series is not good enough: close knots, steep tables. */
-static bool series_add(const wt_angular *a, series_list *list, double low, double high,
+static bool series_add(const angular_law *a, series_list *list, double low, double high,
                        double anchor, int cuts)
 {
     series s = {.low = low, .high = high, .anchor = anchor, .u_low = low, .u_high = high};
@@ -179,7 +179,7 @@ static int compare(const void *left, const void *right)
 }
 
 /* The nearest knot at or below x that a piece there must mind, or NaN. */
-static double knot_before(const wt_angular *a, double x)
+static double knot_before(const angular_law *a, double x)
 {
     double anchor = (double)NAN;
     for (size_t k = 0; k < a->quadrature.n_breaks; k++) {
@@ -191,7 +191,7 @@ static double knot_before(const wt_angular *a, double x)
 }
 
 /* Adds the pieces from one multiple of piece_width to another. */
-static bool add_pieces(const wt_angular *a, long first, long last, double *bounds,
+static bool add_pieces(const angular_law *a, long first, long last, double *bounds,
                        series_list *list)
 {
     size_t n = 0;
@@ -213,7 +213,7 @@ static bool add_pieces(const wt_angular *a, long first, long last, double *bound
     return true;
 }
 
-wt_status wt_angular_cover(wt_angular *angular, double w_min, double w_max, wt_error *err)
+wt_status angular_cover(angular_law *angular, double w_min, double w_max, wt_error *err)
 {
     if (angular->material->law->angular)
         return WT_OK;
@@ -248,7 +248,7 @@ wt_status wt_angular_cover(wt_angular *angular, double w_min, double w_max, wt_e
     return WT_OK;
 }
 
-void wt_angular_eval(const wt_angular *angular, const double *w, size_t n, double *j1, double *j2)
+void angular_eval(const angular_law *angular, const double *w, size_t n, double *j1, double *j2)
 {
     if (angular->material->law->angular) {
         angular->material->law->angular(angular->material, w, n, j1, j2);
@@ -269,7 +269,7 @@ void wt_angular_eval(const wt_angular *angular, const double *w, size_t n, doubl
     }
 }
 
-double wt_angular_error(const wt_angular *angular)
+double angular_error(const angular_law *angular)
 {
     double error = 0;
     for (size_t i = 0; i < angular->pieces.n; i++)
@@ -279,7 +279,7 @@ double wt_angular_error(const wt_angular *angular)
 
 /* ---- the share of extrapolated frequencies --------------------------------------------------- */
 
-static void outside_make(const wt_angular *a, double limit, outside_part *part)
+static void outside_make(const angular_law *a, double limit, outside_part *part)
 {
     part->limit = limit > 0 && isfinite(limit) ? limit : (double)NAN;
     if (isnan(part->limit))
@@ -289,7 +289,7 @@ static void outside_make(const wt_angular *a, double limit, outside_part *part)
         const double z = cos(M_PI * ((double)j + 0.5) / OUTSIDE_COEFFICIENTS);
         const double theta = M_PI_4 * (1 + z);
         double j1, j2;
-        wt_angular_integrate(&a->quadrature, limit / sin(theta), sin(theta), 1, &j1, &j2);
+        angular_integrate(&a->quadrature, limit / sin(theta), sin(theta), 1, &j1, &j2);
         value[j] = j1 / (theta * theta);
     }
     chebyshev_fit(value, OUTSIDE_COEFFICIENTS, part->coefficient);
@@ -303,12 +303,12 @@ static double outside_below(const outside_part *part, double w, double j1)
     return theta * theta * chebyshev(part->coefficient, OUTSIDE_COEFFICIENTS, theta / M_PI_4 - 1);
 }
 
-bool wt_angular_limited(const wt_angular *angular)
+bool angular_limited(const angular_law *angular)
 {
     return !isnan(angular->below.limit) || !isnan(angular->above.limit);
 }
 
-double wt_angular_outside(const wt_angular *angular, double w, double j1)
+double angular_outside(const angular_law *angular, double w, double j1)
 {
     double outside = 0;
     if (!isnan(angular->below.limit))
@@ -318,13 +318,13 @@ double wt_angular_outside(const wt_angular *angular, double w, double j1)
     return fmin(fmax(outside, 0), j1);
 }
 
-wt_status wt_angular_new(const wt_material *material, wt_angular **angular, wt_error *err)
+wt_status angular_new(const wt_material *material, angular_law **angular, wt_error *err)
 {
-    wt_angular *made = calloc(1, sizeof *made);
+    angular_law *made = calloc(1, sizeof *made);
     if (!made)
         return wt_fail(err, WT_E_MEMORY, "out of memory for the angular integrals");
     made->material = material;
-    const wt_status status = wt_angular_quadrature_init(material, &made->quadrature, err);
+    const wt_status status = angular_quadrature_init(material, &made->quadrature, err);
     if (status != WT_OK) {
         free(made);
         return status;
@@ -335,11 +335,11 @@ wt_status wt_angular_new(const wt_material *material, wt_angular **angular, wt_e
     return WT_OK;
 }
 
-void wt_angular_free(wt_angular *angular)
+void angular_free(angular_law *angular)
 {
     if (!angular)
         return;
-    wt_angular_quadrature_clear(&angular->quadrature);
+    angular_quadrature_clear(&angular->quadrature);
     free(angular->pieces.items);
     free(angular);
 }

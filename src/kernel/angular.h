@@ -12,25 +12,25 @@
 
 #include "weartrack/model.h"
 
-typedef struct wt_angular wt_angular;
+typedef struct angular_law angular_law;
 
 /* The material is borrowed. */
-wt_status wt_angular_new(const wt_material *material, wt_angular **angular,
-                         wt_error *err) WT_NODISCARD;
-void wt_angular_free(wt_angular *angular);
+wt_status angular_new(const wt_material *material, angular_law **angular,
+                      wt_error *err) WT_NODISCARD;
+void angular_free(angular_law *angular);
 
 /* Prepares the series for w from w_min to w_max > 0; nothing to do for a closed form. A series,
  * once made, does not change: results do not depend on the order of the calls. */
-wt_status wt_angular_cover(wt_angular *angular, double w_min, double w_max,
-                           wt_error *err) WT_NODISCARD;
+wt_status angular_cover(angular_law *angular, double w_min, double w_max,
+                        wt_error *err) WT_NODISCARD;
 /* J1 and J2 at n values of w inside the covered range, best in rising order. */
-void wt_angular_eval(const wt_angular *angular, const double *w, size_t n, double *j1, double *j2);
+void angular_eval(const angular_law *angular, const double *w, size_t n, double *j1, double *j2);
 /* Largest relative error of J1 and of J2 in the series; 0 for a closed form. */
-double wt_angular_error(const wt_angular *angular);
+double angular_error(const angular_law *angular);
 /* The part of J1(w) that comes from frequencies outside the range backed by data; j1 = J1(w).
  * Relative error about 1e-8. */
-double wt_angular_outside(const wt_angular *angular, double w, double j1);
+double angular_outside(const angular_law *angular, double w, double j1);
 /* Whether the range of the material is limited at all. */
-bool wt_angular_limited(const wt_angular *angular);
+bool angular_limited(const angular_law *angular);
 
 #endif

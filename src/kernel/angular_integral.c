@@ -18,7 +18,7 @@ static double panel_width(double s)
 static const double s_limit = 700; /* exp(-s) is 1e-304 */
 
 typedef struct panel_sum {
-    const wt_angular_quadrature *quadrature;
+    const angular_quadrature *quadrature;
     double w;
     unsigned refine;
     double j1, j2;           /* so far */
@@ -30,12 +30,12 @@ static void add_panel(panel_sum *sum, double from, double to, bool over_phi)
 {
     double omega[LONG_NODES], storage[LONG_NODES], loss[LONG_NODES], cosine[LONG_NODES],
         jacobian[LONG_NODES];
-    const wt_angular_quadrature *a = sum->quadrature;
+    const angular_quadrature *a = sum->quadrature;
     sum->last_j1 = 0;
     sum->last_j2 = 0;
     const unsigned parts = sum->refine;
     const double half = (to - from) / (2 * parts);
-    const wt_rule *rule = to - from < short_width ? a->short_rule : a->long_rule;
+    const gauss_rule *rule = to - from < short_width ? a->short_rule : a->long_rule;
     for (unsigned p = 0; p < parts; p++) {
         const double middle = from + (2 * p + 1) * half;
         for (size_t i = 0; i < rule->n; i++) {
@@ -72,8 +72,8 @@ static double angle_of(double omega, double w)
     return 2 * asin(sqrt(fmax(0, (w - omega) / (2 * w))));
 }
 
-void wt_angular_integrate(const wt_angular_quadrature *quadrature, double w, double cosine_limit,
-                          unsigned refine, double *j1, double *j2)
+void angular_integrate(const angular_quadrature *quadrature, double w, double cosine_limit,
+                       unsigned refine, double *j1, double *j2)
 {
     panel_sum sum = {.quadrature = quadrature, .w = w, .refine = refine};
     size_t k = quadrature->n_breaks;
@@ -106,23 +106,23 @@ void wt_angular_integrate(const wt_angular_quadrature *quadrature, double w, dou
     *j2 = sum.j2;
 }
 
-wt_status wt_angular_quadrature_init(const wt_material *material, wt_angular_quadrature *quadrature,
-                                     wt_error *err)
+wt_status angular_quadrature_init(const wt_material *material, angular_quadrature *quadrature,
+                                  wt_error *err)
 {
-    *quadrature = (wt_angular_quadrature){.material = material};
+    *quadrature = (angular_quadrature){.material = material};
     if (material->law->breaks)
         quadrature->breaks = material->law->breaks(material, &quadrature->n_breaks);
-    wt_status status = wt_rule_new(SHORT_NODES, &quadrature->short_rule, err);
+    wt_status status = rule_new(SHORT_NODES, &quadrature->short_rule, err);
     if (status == WT_OK)
-        status = wt_rule_new(LONG_NODES, &quadrature->long_rule, err);
+        status = rule_new(LONG_NODES, &quadrature->long_rule, err);
     if (status != WT_OK)
-        wt_angular_quadrature_clear(quadrature);
+        angular_quadrature_clear(quadrature);
     return status;
 }
 
-void wt_angular_quadrature_clear(wt_angular_quadrature *quadrature)
+void angular_quadrature_clear(angular_quadrature *quadrature)
 {
-    wt_rule_free(quadrature->short_rule);
-    wt_rule_free(quadrature->long_rule);
-    *quadrature = (wt_angular_quadrature){0};
+    rule_free(quadrature->short_rule);
+    rule_free(quadrature->long_rule);
+    *quadrature = (angular_quadrature){0};
 }

@@ -8,20 +8,20 @@
 #include "kernel/rule.h"
 #include "weartrack/model.h"
 
-typedef struct wt_angular_quadrature {
+typedef struct angular_quadrature {
     const wt_material *material;
     const double *breaks; /* borrowed from the material */
     size_t n_breaks;
-    wt_rule *short_rule, *long_rule;
-} wt_angular_quadrature;
+    gauss_rule *short_rule, *long_rule;
+} angular_quadrature;
 
-wt_status wt_angular_quadrature_init(const wt_material *material, wt_angular_quadrature *quadrature,
-                                     wt_error *err) WT_NODISCARD;
-void wt_angular_quadrature_clear(wt_angular_quadrature *quadrature);
+wt_status angular_quadrature_init(const wt_material *material, angular_quadrature *quadrature,
+                                  wt_error *err) WT_NODISCARD;
+void angular_quadrature_clear(angular_quadrature *quadrature);
 
 /* J1 and J2 from the angles where w cos(phi) < w cosine_limit (1 = all). `refine` cuts every panel
  * in `refine` parts: 1 is the working setting, 2 checks it. */
-void wt_angular_integrate(const wt_angular_quadrature *quadrature, double w, double cosine_limit,
-                          unsigned refine, double *j1, double *j2);
+void angular_integrate(const angular_quadrature *quadrature, double w, double cosine_limit,
+                       unsigned refine, double *j1, double *j2);
 
 #endif

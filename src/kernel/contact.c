@@ -6,12 +6,12 @@
 
 #include <math.h>
 
-double wt_contact_area(double variance)
+double contact_area(double variance)
 {
-    return variance > WT_CONTACT_FULL ? erf(0.5 / sqrt(variance)) : 1;
+    return variance > CONTACT_FULL ? erf(0.5 / sqrt(variance)) : 1;
 }
 
-double wt_contact_gap(double variance)
+double contact_gap(double variance)
 {
     return variance > 0 ? erfc(0.5 / sqrt(variance)) : 0;
 }
@@ -44,9 +44,9 @@ static double cube_integral(double variance)
     return sum + 0.25 / (end * end);
 }
 
-double wt_contact_integral(double variance, double gamma)
+double contact_integral(double variance, double gamma)
 {
-    if (!(variance > WT_CONTACT_FULL))
+    if (!(variance > CONTACT_FULL))
         return variance;
     const double y = 0.5 / sqrt(variance);
     const double plain = variance * erf(y) + sqrt(variance / M_PI) * exp(-y * y) - 0.5 * erfc(y);
@@ -72,7 +72,7 @@ static double sinh_excess(double x)
  *   F = [1 + 4 N x e - N^2 e^2] / [1 - 2 N (1 + 2 x^2) e + N^2 e^2],
  *   e = exp(-2 x), N = (ratio - 1) / (ratio + 1),
  * both brackets written as sums of positive terms, which F itself is not. */
-double wt_layered_scale(double x, double ratio)
+double layered_scale(double x, double ratio)
 {
     if (ratio == 1 || !(x > 0))
         return 1;

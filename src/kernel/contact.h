@@ -8,17 +8,17 @@
 #include <stddef.h>
 
 /* Below it the distance of P to 1 is less than 1e-38. */
-#define WT_CONTACT_FULL 3e-3
+#define CONTACT_FULL 3e-3
 
 /* P = erf(1 / (2 sqrt G)); 1 for G <= 0. */
-double wt_contact_area(double variance);
+double contact_area(double variance);
 /* 1 - P without cancellation. */
-double wt_contact_gap(double variance);
+double contact_gap(double variance);
 /* int_0^G S P dG' with S = gamma + (1 - gamma) P^2. */
-double wt_contact_integral(double variance, double gamma);
+double contact_integral(double variance, double gamma);
 
 /* Scale of the modulus of a bonded layer on a bulk: E_eff(q) / E_bulk with x = q thickness and
  * ratio = E_layer / E_bulk. 1 for x = 0, ratio for x = infinity. */
-double wt_layered_scale(double x, double ratio);
+double layered_scale(double x, double ratio);
 
 #endif

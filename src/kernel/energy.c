@@ -30,7 +30,7 @@ static wt_status out_of_range(const char *name, double value, const char *expect
     return WT_E_RANGE;
 }
 
-wt_status wt_energy_check(const wt_energy_source *source, wt_error *err)
+wt_status energy_check(const wt_energy_source *source, wt_error *err)
 {
     if (!source || !source->n || !source->wavenumber || !source->power)
         return wt_fail(err, WT_E_ARG, "a layer needs an energy source with at least one term");
@@ -58,7 +58,7 @@ wt_status wt_energy_check(const wt_energy_source *source, wt_error *err)
     return WT_OK;
 }
 
-bool wt_energy_range(const wt_energy_source *source, double *q_min, double *q_max)
+bool energy_range(const wt_energy_source *source, double *q_min, double *q_max)
 {
     *q_min = (double)INFINITY;
     *q_max = 0;
@@ -78,7 +78,7 @@ static double asymmetry(double m)
 
 /* The incompressible density of one wavenumber has its extrema at q z = 1 and 1 - r; they fall
  * together for m = 1, and only then does it fall all the way. */
-bool wt_energy_falls(const wt_energy_source *source)
+bool energy_falls(const wt_energy_source *source)
 {
     return source->profile == WT_PROFILE_PERSSON || source->local_friction == 1;
 }
@@ -117,10 +117,10 @@ static double gain_shape(const wt_energy_source *source, double r, double q, dou
     return l < 300 ? gone * here - (1 - gone) * grown : here;
 }
 
-double wt_energy_log_density(const wt_energy_source *source, double depth)
+double energy_log_density(const wt_energy_source *source, double depth)
 {
     double q_min, q_max;
-    if (!wt_energy_range(source, &q_min, &q_max))
+    if (!energy_range(source, &q_min, &q_max))
         return -(double)INFINITY;
     const double r = asymmetry(source->local_friction);
     double sum = 0;
@@ -132,10 +132,10 @@ double wt_energy_log_density(const wt_energy_source *source, double depth)
     return log(sum) - 2 * q_min * depth;
 }
 
-double wt_energy_log_tail(const wt_energy_source *source, double depth)
+double energy_log_tail(const wt_energy_source *source, double depth)
 {
     double q_min, q_max;
-    if (!wt_energy_range(source, &q_min, &q_max))
+    if (!energy_range(source, &q_min, &q_max))
         return -(double)INFINITY;
     const double r = asymmetry(source->local_friction);
     double sum = 0;
@@ -148,10 +148,10 @@ double wt_energy_log_tail(const wt_energy_source *source, double depth)
     return log(sum) - 2 * q_min * depth;
 }
 
-double wt_energy_log_gain(const wt_energy_source *source, double depth, double length)
+double energy_log_gain(const wt_energy_source *source, double depth, double length)
 {
     double q_min, q_max;
-    if (!wt_energy_range(source, &q_min, &q_max) || !(length > 0))
+    if (!energy_range(source, &q_min, &q_max) || !(length > 0))
         return -(double)INFINITY;
     const double r = asymmetry(source->local_friction);
     double sum = 0;
@@ -166,10 +166,10 @@ double wt_energy_log_gain(const wt_energy_source *source, double depth, double l
 
 double wt_energy_density(const wt_energy_source *source, double depth)
 {
-    return depth >= 0 ? exp(wt_energy_log_density(source, depth)) : 0;
+    return depth >= 0 ? exp(energy_log_density(source, depth)) : 0;
 }
 
 double wt_energy_tail(const wt_energy_source *source, double depth)
 {
-    return exp(wt_energy_log_tail(source, fmax(depth, 0)));
+    return exp(energy_log_tail(source, fmax(depth, 0)));
 }

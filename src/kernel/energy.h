@@ -9,14 +9,14 @@
 #include "weartrack/kernel.h"
 
 /* WT_E_RANGE naming what is wrong with a source. */
-wt_status wt_energy_check(const wt_energy_source *source, wt_error *err) WT_NODISCARD;
+wt_status energy_check(const wt_energy_source *source, wt_error *err) WT_NODISCARD;
 /* ln of w(z), of int_z^inf w, and of int_z^(z+length) w; -infinity for a source without power. */
-double wt_energy_log_density(const wt_energy_source *source, double depth);
-double wt_energy_log_tail(const wt_energy_source *source, double depth);
-double wt_energy_log_gain(const wt_energy_source *source, double depth, double length);
+double energy_log_density(const wt_energy_source *source, double depth);
+double energy_log_tail(const wt_energy_source *source, double depth);
+double energy_log_gain(const wt_energy_source *source, double depth, double length);
 /* Smallest and largest wavenumber with power; false if there is none. */
-bool wt_energy_range(const wt_energy_source *source, double *q_min, double *q_max);
+bool energy_range(const wt_energy_source *source, double *q_min, double *q_max);
 /* w falls from the surface on, for any set of wavenumbers. */
-bool wt_energy_falls(const wt_energy_source *source);
+bool energy_falls(const wt_energy_source *source);
 
 #endif

@@ -19,7 +19,7 @@ static double compare_sources(const wt_energy_source *a, const wt_energy_source 
     const double to = 10 / roughness->q0;
     for (size_t i = 0; i <= DEPTHS; i++) {
         const double depth = i ? from * pow(to / from, (double)(i - 1) / (DEPTHS - 1)) : 0;
-        const double difference = wt_energy_log_tail(a, depth) - wt_energy_log_tail(b, depth);
+        const double difference = energy_log_tail(a, depth) - energy_log_tail(b, depth);
         if (!isnan(difference)) /* both without power */
             worst = fmax(worst, fabs(difference));
     }
@@ -42,41 +42,40 @@ wt_status wt_energy_source_friction(wt_friction_workspace *workspace, double pre
 {
     if (!workspace || !source)
         return wt_fail(err, WT_E_ARG, "an energy source needs a friction workspace");
-    wt_status status = wt_friction_prepare(workspace, pressure, &velocity, 1, err);
+    wt_status status = friction_prepare(workspace, pressure, &velocity, 1, err);
     if (status != WT_OK)
         return status;
-    const wt_friction_conditions at = {.pressure = pressure, .speed = fabs(velocity)};
-    const size_t room = (workspace->plan.capacity + workspace->n_knots + 1) * WT_FRICTION_MAX_NODES;
-    wt_friction_scratch scratch = {0};
+    const friction_conditions at = {.pressure = pressure, .speed = fabs(velocity)};
+    const size_t room = (workspace->plan.capacity + workspace->n_knots + 1) * FRICTION_MAX_NODES;
+    friction_scratch scratch = {0};
     wt_energy_source pair[2] = {{0}, {0}};
-    status = wt_friction_scratch_init(&scratch, workspace, 0, err);
+    status = friction_scratch_init(&scratch, workspace, 0, err);
     for (size_t i = 0; status == WT_OK && i < 2; i++)
         status = source_alloc(&pair[i], room, err);
     if (status != WT_OK)
         goto done;
 
-    const wt_plan *plan = wt_friction_plan(workspace, &scratch, at.speed, NULL, 0);
+    const panel_plan *plan = friction_plan(workspace, &scratch, at.speed, NULL, 0);
     const size_t level =
-        wt_friction_level(workspace, &scratch, wt_friction_grid(workspace, &scratch, plan, 0), at);
+        friction_level(workspace, &scratch, friction_grid(workspace, &scratch, plan, 0), at);
     size_t now = 0;
     double error = (double)INFINITY;
-    for (size_t r = 0; r < WT_FRICTION_RULES && error > workspace->options.tolerance; r++) {
+    for (size_t r = 0; r < FRICTION_RULES && error > workspace->options.tolerance; r++) {
         now = r % 2;
         wt_energy_source *s = &pair[now];
-        wt_friction_record record = {.q = s->wavenumber, .mu = s->power};
-        wt_friction_pass pass;
-        wt_friction_evaluate(workspace, &scratch, wt_friction_grid(workspace, &scratch, plan, r),
-                             level, at, 0, false, &record, &pass);
+        friction_record record = {.q = s->wavenumber, .mu = s->power};
+        friction_pass pass;
+        friction_evaluate(workspace, &scratch, friction_grid(workspace, &scratch, plan, r), level,
+                          at, 0, false, &record, &pass);
         s->n = record.n;
         for (size_t i = 0; i < s->n; i++)
             s->power[i] *= pressure * at.speed;
         if (r > 0)
             error = compare_sources(s, &pair[1 - now], workspace->roughness) +
                     pass.core_error / (pass.hysteresis > 0 ? pass.hysteresis : 1);
-        s->numerical_error =
-            error + wt_friction_rounding() + 2 * wt_angular_error(workspace->angular);
+        s->numerical_error = error + friction_rounding() + 2 * angular_error(workspace->angular);
     }
-    status = wt_energy_check(&pair[now], err);
+    status = energy_check(&pair[now], err);
     if (status != WT_OK)
         goto done;
     *source = pair[now];
@@ -84,6 +83,6 @@ wt_status wt_energy_source_friction(wt_friction_workspace *workspace, double pre
 done:
     wt_energy_source_clear(&pair[0]);
     wt_energy_source_clear(&pair[1]);
-    wt_friction_scratch_clear(&scratch);
+    friction_scratch_clear(&scratch);
     return status;
 }

@@ -10,7 +10,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-static const size_t rule_nodes[WT_FRICTION_RULES] = {4, 8, 12, 16, 20, WT_FRICTION_MAX_NODES};
+static const size_t rule_nodes[FRICTION_RULES] = {4, 8, 12, 16, 20, FRICTION_MAX_NODES};
 
 wt_friction_options wt_friction_defaults(void)
 {
@@ -52,18 +52,18 @@ static size_t levels_for(double tolerance)
     return (size_t)ceil(-0.5 * log2(core));
 }
 
-wt_status wt_friction_scratch_init(wt_friction_scratch *scratch, const wt_friction_workspace *ws,
-                                   size_t n_cuts, wt_error *err)
+wt_status friction_scratch_init(friction_scratch *scratch, const wt_friction_workspace *ws,
+                                size_t n_cuts, wt_error *err)
 {
-    *scratch = (wt_friction_scratch){0};
+    *scratch = (friction_scratch){0};
     wt_status status =
-        wt_plan_init(&scratch->plan, ws->roughness, ws->plan.levels, ws->n_knots + n_cuts, err);
+        panel_plan_init(&scratch->plan, ws->roughness, ws->plan.levels, ws->n_knots + n_cuts, err);
     if (status == WT_OK)
-        status = wt_grid_init(&scratch->grid, &scratch->plan, WT_FRICTION_MAX_NODES, err);
+        status = grid_init(&scratch->grid, &scratch->plan, FRICTION_MAX_NODES, err);
     if (status != WT_OK)
         goto fail;
     const size_t panels = scratch->plan.capacity;
-    const size_t nodes = panels * WT_FRICTION_MAX_NODES;
+    const size_t nodes = panels * FRICTION_MAX_NODES;
     double **arrays[] = {&scratch->omega, &scratch->j1, &scratch->j2, &scratch->variance};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
         *arrays[i] = calloc(nodes, sizeof **arrays[i]);
@@ -76,7 +76,7 @@ wt_status wt_friction_scratch_init(wt_friction_scratch *scratch, const wt_fricti
         scratch->panel_g[i] = calloc(panels + 1, sizeof *scratch->panel_g[i]);
         good = good && scratch->panel_mu[i] && scratch->panel_g[i];
     }
-    wt_friction_trend *trends[] = {&scratch->trend_mu, &scratch->trend_g};
+    friction_trend *trends[] = {&scratch->trend_mu, &scratch->trend_g};
     for (size_t i = 0; i < 2; i++) {
         trends[i]->last = calloc(panels + 1, sizeof *trends[i]->last);
         trends[i]->foretold = calloc(panels + 1, sizeof *trends[i]->foretold);
@@ -86,14 +86,14 @@ wt_status wt_friction_scratch_init(wt_friction_scratch *scratch, const wt_fricti
         return WT_OK;
     status = wt_fail(err, WT_E_MEMORY, "out of memory for the friction integral");
 fail:
-    wt_friction_scratch_clear(scratch);
+    friction_scratch_clear(scratch);
     return status;
 }
 
-void wt_friction_scratch_clear(wt_friction_scratch *scratch)
+void friction_scratch_clear(friction_scratch *scratch)
 {
-    wt_plan_clear(&scratch->plan);
-    wt_grid_clear(&scratch->grid);
+    panel_plan_clear(&scratch->plan);
+    grid_clear(&scratch->grid);
     free(scratch->knots);
     free(scratch->bounds);
     free(scratch->omega);
@@ -108,27 +108,27 @@ void wt_friction_scratch_clear(wt_friction_scratch *scratch)
     free(scratch->trend_mu.foretold);
     free(scratch->trend_g.last);
     free(scratch->trend_g.foretold);
-    *scratch = (wt_friction_scratch){0};
+    *scratch = (friction_scratch){0};
 }
 
 /* The common plan and its grids. */
 static wt_status prepare_grids(wt_friction_workspace *ws, wt_error *err)
 {
     const size_t levels = levels_for(ws->options.tolerance);
-    wt_status status = wt_plan_init(&ws->plan, ws->roughness, levels, 0, err);
+    wt_status status = panel_plan_init(&ws->plan, ws->roughness, levels, 0, err);
     double *bounds = NULL;
     if (status != WT_OK || ws->n_knots)
         return status;
     bounds = calloc(ws->plan.capacity + 1, sizeof *bounds);
     if (!bounds)
         return wt_fail(err, WT_E_MEMORY, "out of memory for the friction integral");
-    wt_plan_lay(&ws->plan, ws->roughness, NULL, 0, NULL, 0, bounds);
+    panel_plan_lay(&ws->plan, ws->roughness, NULL, 0, NULL, 0, bounds);
     free(bounds);
-    for (size_t r = 0; r < WT_FRICTION_RULES; r++) {
-        status = wt_grid_init(&ws->grids[r], &ws->plan, rule_nodes[r], err);
+    for (size_t r = 0; r < FRICTION_RULES; r++) {
+        status = grid_init(&ws->grids[r], &ws->plan, rule_nodes[r], err);
         if (status != WT_OK)
             return status;
-        wt_grid_fill(&ws->grids[r], &ws->plan, ws->rules[r], ws->roughness, &ws->options.layer);
+        grid_fill(&ws->grids[r], &ws->plan, ws->rules[r], ws->roughness, &ws->options.layer);
     }
     return WT_OK;
 }
@@ -153,9 +153,9 @@ wt_status wt_friction_workspace_new(const wt_material *material, const wt_roughn
     if (material->law->breaks && !material->law->angular)
         ws->knots = material->law->breaks(material, &ws->n_knots);
 
-    status = wt_angular_new(material, &ws->angular, err);
-    for (size_t r = 0; status == WT_OK && r < WT_FRICTION_RULES; r++)
-        status = wt_rule_new(rule_nodes[r], &ws->rules[r], err);
+    status = angular_new(material, &ws->angular, err);
+    for (size_t r = 0; status == WT_OK && r < FRICTION_RULES; r++)
+        status = rule_new(rule_nodes[r], &ws->rules[r], err);
     if (status == WT_OK)
         status = prepare_grids(ws, err);
     if (status == WT_OK) {
@@ -165,7 +165,7 @@ wt_status wt_friction_workspace_new(const wt_material *material, const wt_roughn
             status = wt_fail(err, WT_E_MEMORY, "out of memory for the friction integral");
     }
     for (unsigned i = 0; status == WT_OK && i < ws->threads; i++)
-        status = wt_friction_scratch_init(&ws->scratch[i], ws, 0, err);
+        status = friction_scratch_init(&ws->scratch[i], ws, 0, err);
     if (status != WT_OK) {
         wt_friction_workspace_free(ws);
         return status;
@@ -178,21 +178,21 @@ void wt_friction_workspace_free(wt_friction_workspace *ws)
 {
     if (!ws)
         return;
-    wt_angular_free(ws->angular);
-    for (size_t r = 0; r < WT_FRICTION_RULES; r++) {
-        wt_rule_free(ws->rules[r]);
-        wt_grid_clear(&ws->grids[r]);
+    angular_free(ws->angular);
+    for (size_t r = 0; r < FRICTION_RULES; r++) {
+        rule_free(ws->rules[r]);
+        grid_clear(&ws->grids[r]);
     }
-    wt_plan_clear(&ws->plan);
+    panel_plan_clear(&ws->plan);
     if (ws->scratch)
         for (unsigned i = 0; i < ws->threads; i++)
-            wt_friction_scratch_clear(&ws->scratch[i]);
+            friction_scratch_clear(&ws->scratch[i]);
     free(ws->scratch);
     free(ws);
 }
 
-wt_status wt_friction_prepare(wt_friction_workspace *ws, double pressure, const double *velocity,
-                              size_t n, wt_error *err)
+wt_status friction_prepare(wt_friction_workspace *ws, double pressure, const double *velocity,
+                           size_t n, wt_error *err)
 {
     if (!(pressure > 0) || !isfinite(pressure))
         return out_of_range("pressure", pressure, "finite and > 0 Pa", err);
@@ -215,27 +215,27 @@ wt_status wt_friction_prepare(wt_friction_workspace *ws, double pressure, const 
                         ws->material->law->name);
         return WT_E_RANGE;
     }
-    return wt_angular_cover(ws->angular, lowest, highest, err);
+    return angular_cover(ws->angular, lowest, highest, err);
 }
 
-const wt_plan *wt_friction_plan(const wt_friction_workspace *ws, wt_friction_scratch *scratch,
+const panel_plan *friction_plan(const wt_friction_workspace *ws, friction_scratch *scratch,
                                 double speed, const double *cuts, size_t n_cuts)
 {
     if (!ws->n_knots && !n_cuts)
         return &ws->plan;
     for (size_t k = 0; k < ws->n_knots; k++)
         scratch->knots[k] = log(ws->knots[k] / (speed * ws->roughness->q0));
-    wt_plan_lay(&scratch->plan, ws->roughness, cuts, n_cuts, scratch->knots, ws->n_knots,
-                scratch->bounds);
+    panel_plan_lay(&scratch->plan, ws->roughness, cuts, n_cuts, scratch->knots, ws->n_knots,
+                   scratch->bounds);
     return &scratch->plan;
 }
 
-const wt_grid *wt_friction_grid(const wt_friction_workspace *ws, wt_friction_scratch *scratch,
-                                const wt_plan *plan, size_t rule)
+const scale_grid *friction_grid(const wt_friction_workspace *ws, friction_scratch *scratch,
+                                const panel_plan *plan, size_t rule)
 {
     if (plan == &ws->plan)
         return &ws->grids[rule];
-    wt_grid_fill(&scratch->grid, plan, ws->rules[rule], ws->roughness, &ws->options.layer);
+    grid_fill(&scratch->grid, plan, ws->rules[rule], ws->roughness, &ws->options.layer);
     return &scratch->grid;
 }
 
@@ -255,7 +255,7 @@ static const double least_part = 0.05;
  * counts. `inflation` times that is stated, but not less than a part of the differences and not
  * more than they are. A difference far below what the two before it foretold is taken for an
  * accident, and raised to the geometric mean of both. `lower` is used up. */
-static double converged(double *lower, const double *higher, wt_friction_trend *trend, size_t parts,
+static double converged(double *lower, const double *higher, friction_trend *trend, size_t parts,
                         size_t step)
 {
     double sum = 0, most = 0, ratio = 0;
@@ -276,40 +276,40 @@ static double converged(double *lower, const double *higher, wt_friction_trend *
     return step > 0 ? sum * fmin(fmax(ratio, least_part), 1) : sum;
 }
 
-static void compute_point(const wt_friction_workspace *ws, wt_friction_scratch *scratch,
+static void compute_point(const wt_friction_workspace *ws, friction_scratch *scratch,
                           double pressure, double velocity, wt_friction_point *point)
 {
-    const wt_friction_conditions at = {.pressure = pressure, .speed = fabs(velocity)};
+    const friction_conditions at = {.pressure = pressure, .speed = fabs(velocity)};
     const double sign = velocity < 0 ? -1 : velocity > 0 ? 1 : 0;
     const double tolerance = ws->options.tolerance;
-    const double series_error = wt_angular_error(ws->angular);
-    const double rounding = wt_friction_rounding();
-    const wt_plan *plan = wt_friction_plan(ws, scratch, at.speed, NULL, 0);
-    const wt_grid *grid = wt_friction_grid(ws, scratch, plan, 0);
-    const size_t level = wt_friction_level(ws, scratch, grid, at);
+    const double series_error = angular_error(ws->angular);
+    const double rounding = friction_rounding();
+    const panel_plan *plan = friction_plan(ws, scratch, at.speed, NULL, 0);
+    const scale_grid *grid = friction_grid(ws, scratch, plan, 0);
+    const size_t level = friction_level(ws, scratch, grid, at);
 
-    wt_friction_pass pass;
+    friction_pass pass;
     unsigned slot = 0;
-    wt_friction_evaluate(ws, scratch, grid, level, at, slot, wt_angular_limited(ws->angular), NULL,
-                         &pass);
+    friction_evaluate(ws, scratch, grid, level, at, slot, angular_limited(ws->angular), NULL,
+                      &pass);
     point->extrapolated_share = pass.hysteresis > 0 ? fmin(pass.outside / pass.hysteresis, 1) : 0;
-    for (size_t r = 1; r < WT_FRICTION_RULES; r++) {
+    for (size_t r = 1; r < FRICTION_RULES; r++) {
         slot = 1 - slot;
-        grid = wt_friction_grid(ws, scratch, plan, r);
-        wt_friction_evaluate(ws, scratch, grid, level, at, slot, false, NULL, &pass);
+        grid = friction_grid(ws, scratch, plan, r);
+        friction_evaluate(ws, scratch, grid, level, at, slot, false, NULL, &pass);
         const double error_g = (rounding + series_error) * pass.variance +
                                converged(scratch->panel_g[1 - slot], scratch->panel_g[slot],
                                          &scratch->trend_g, pass.parts, r - 1);
         const double error_mu = (rounding + 2 * series_error) * pass.hysteresis + pass.core_error +
                                 converged(scratch->panel_mu[1 - slot], scratch->panel_mu[slot],
                                           &scratch->trend_mu, pass.parts, r - 1);
-        const double area = wt_contact_area(pass.variance);
-        const double error_area = wt_friction_area_error(pass.variance, error_g);
+        const double area = contact_area(pass.variance);
+        const double error_area = friction_area_error(pass.variance, error_g);
         point->velocity = velocity;
         point->stress_variance = number(pass.variance, error_g);
         point->area_ratio = number(area, error_area);
         point->one_minus_area =
-            number(wt_contact_gap(pass.variance), wt_friction_gap_error(pass.variance, error_g));
+            number(contact_gap(pass.variance), friction_gap_error(pass.variance, error_g));
         point->hysteresis = number(sign * pass.hysteresis, error_mu);
         point->nodes = pass.nodes;
         point->reached = error_g <= tolerance * pass.variance && error_area <= tolerance * area &&
@@ -342,7 +342,7 @@ wt_status wt_friction_compute(wt_friction_workspace *workspace, double pressure,
 {
     if (!workspace || !velocity || !points)
         return wt_fail(err, WT_E_ARG, "friction needs velocities and a place for the results");
-    wt_status status = wt_friction_prepare(workspace, pressure, velocity, n, err);
+    wt_status status = friction_prepare(workspace, pressure, velocity, n, err);
     if (status != WT_OK)
         return status;
     compute_job job = {workspace, pressure, velocity, points};

@@ -15,39 +15,39 @@
 #include <float.h>
 #include <math.h>
 
-double wt_friction_rounding(void)
+double friction_rounding(void)
 {
     return 32 * DBL_EPSILON;
 }
 
-double wt_friction_area_error(double variance, double variance_error)
+double friction_area_error(double variance, double variance_error)
 {
-    const double area = wt_contact_area(variance);
-    const double above = area - wt_contact_area(variance + variance_error);
-    const double below = wt_contact_area(fmax(0, variance - variance_error)) - area;
+    const double area = contact_area(variance);
+    const double above = area - contact_area(variance + variance_error);
+    const double below = contact_area(fmax(0, variance - variance_error)) - area;
     return fmax(fabs(above), fabs(below)) + 4 * DBL_EPSILON * area;
 }
 
-double wt_friction_gap_error(double variance, double variance_error)
+double friction_gap_error(double variance, double variance_error)
 {
-    const double gap = wt_contact_gap(variance);
-    const double above = wt_contact_gap(variance + variance_error) - gap;
-    const double below = gap - wt_contact_gap(fmax(0, variance - variance_error));
+    const double gap = contact_gap(variance);
+    const double above = contact_gap(variance + variance_error) - gap;
+    const double below = gap - contact_gap(fmax(0, variance - variance_error));
     /* where erfc underflows the true value is still below the smallest normal number */
     return fmax(fmax(above, below) + 4 * DBL_EPSILON * gap, variance > 0 ? DBL_MIN : 0);
 }
 
-static void angular_at(const wt_friction_workspace *ws, wt_friction_scratch *scratch,
-                       const double *q, size_t n, double speed)
+static void angular_at(const wt_friction_workspace *ws, friction_scratch *scratch, const double *q,
+                       size_t n, double speed)
 {
     for (size_t i = 0; i < n; i++)
         scratch->omega[i] = q[i] * speed;
-    wt_angular_eval(ws->angular, scratch->omega, n, scratch->j1, scratch->j2);
+    angular_eval(ws->angular, scratch->omega, n, scratch->j1, scratch->j2);
 }
 
 /* G over one core. */
-static double core_variance(const wt_friction_workspace *ws, wt_friction_scratch *scratch,
-                            const wt_grid *grid, size_t level, wt_friction_conditions at)
+static double core_variance(const wt_friction_workspace *ws, friction_scratch *scratch,
+                            const scale_grid *grid, size_t level, friction_conditions at)
 {
     const size_t n = grid->rule->n;
     const double ratio = ws->stiffness / at.pressure;
@@ -59,10 +59,10 @@ static double core_variance(const wt_friction_workspace *ws, wt_friction_scratch
     return sum * grid->core_half_width[level] * (ratio * ratio / 8);
 }
 
-size_t wt_friction_level(const wt_friction_workspace *ws, wt_friction_scratch *scratch,
-                         const wt_grid *grid, wt_friction_conditions at)
+size_t friction_level(const wt_friction_workspace *ws, friction_scratch *scratch,
+                      const scale_grid *grid, friction_conditions at)
 {
-    const double target = 0.5 * WT_CONTACT_FULL;
+    const double target = 0.5 * CONTACT_FULL;
     size_t level = 0;
     while (level < grid->levels) {
         const double variance = core_variance(ws, scratch, grid, level, at);
@@ -77,9 +77,9 @@ size_t wt_friction_level(const wt_friction_workspace *ws, wt_friction_scratch *s
 
 /* P is 1 in the core, or the core is so short that dmu/dG hardly changes in it:
  * mu = (dmu/dG) int S P dG in closed form. */
-static double core_pass(const wt_friction_workspace *ws, wt_friction_scratch *scratch,
-                        const wt_grid *grid, size_t level, wt_friction_conditions at,
-                        double mu_scale, wt_friction_record *record, wt_friction_pass *pass)
+static double core_pass(const wt_friction_workspace *ws, friction_scratch *scratch,
+                        const scale_grid *grid, size_t level, friction_conditions at,
+                        double mu_scale, friction_record *record, friction_pass *pass)
 {
     const size_t n = grid->rule->n;
     const double ratio = ws->stiffness / at.pressure;
@@ -99,8 +99,8 @@ static double core_pass(const wt_friction_workspace *ws, wt_friction_scratch *sc
         }
     }
     double contact = 1;
-    if (pass->variance > WT_CONTACT_FULL) {
-        const double integral = wt_contact_integral(pass->variance, ws->options.gamma);
+    if (pass->variance > CONTACT_FULL) {
+        const double integral = contact_integral(pass->variance, ws->options.gamma);
         contact = integral / pass->variance;
         pass->core_error = (most - least) * integral;
     }
@@ -113,12 +113,11 @@ static double core_pass(const wt_friction_workspace *ws, wt_friction_scratch *sc
     return contact * full;
 }
 
-void wt_friction_evaluate(const wt_friction_workspace *ws, wt_friction_scratch *scratch,
-                          const wt_grid *grid, size_t level, wt_friction_conditions at,
-                          unsigned slot, bool with_outside, wt_friction_record *record,
-                          wt_friction_pass *pass)
+void friction_evaluate(const wt_friction_workspace *ws, friction_scratch *scratch,
+                       const scale_grid *grid, size_t level, friction_conditions at, unsigned slot,
+                       bool with_outside, friction_record *record, friction_pass *pass)
 {
-    const wt_rule *rule = grid->rule;
+    const gauss_rule *rule = grid->rule;
     const size_t n = rule->n;
     const double gamma = ws->options.gamma;
     const double ratio = ws->stiffness / at.pressure;
@@ -126,14 +125,14 @@ void wt_friction_evaluate(const wt_friction_workspace *ws, wt_friction_scratch *
     const double mu_scale = ratio / 2;
     double *panel_mu = scratch->panel_mu[slot];
     double *panel_g = scratch->panel_g[slot];
-    *pass = (wt_friction_pass){0};
+    *pass = (friction_pass){0};
     pass->hysteresis = core_pass(ws, scratch, grid, level, at, mu_scale, record, pass);
     panel_mu[0] = pass->hysteresis;
     panel_g[0] = pass->variance;
     if (with_outside && scratch->j1[0] > 0)
         pass->outside =
             pass->hysteresis *
-            (wt_angular_outside(ws->angular, scratch->omega[0], scratch->j1[0]) / scratch->j1[0]);
+            (angular_outside(ws->angular, scratch->omega[0], scratch->j1[0]) / scratch->j1[0]);
 
     const size_t first = grid->levels - level;
     const size_t panels = grid->n_panels - first;
@@ -145,7 +144,7 @@ void wt_friction_evaluate(const wt_friction_workspace *ws, wt_friction_scratch *
         const double half = grid->half_width[first + p];
         const double *j1 = scratch->j1 + p * n;
         const double *j2 = scratch->j2 + p * n;
-        double running[WT_FRICTION_MAX_NODES];
+        double running[FRICTION_MAX_NODES];
         double sum_g = 0, sum_mu = 0;
         for (size_t j = 0; j < n; j++)
             running[j] = pass->variance;
@@ -157,7 +156,7 @@ void wt_friction_evaluate(const wt_friction_workspace *ws, wt_friction_scratch *
                 running[j] += f2 * row[j];
         }
         for (size_t j = 0; j < n; j++) {
-            const double area = wt_contact_area(running[j]);
+            const double area = contact_area(running[j]);
             const double correction = gamma + (1 - gamma) * area * area;
             const double share =
                 half * mu_scale * rule->weight[j] * factor1[p * n + j] * j1[j] * area * correction;
@@ -169,7 +168,7 @@ void wt_friction_evaluate(const wt_friction_workspace *ws, wt_friction_scratch *
             if (with_outside && share > 0)
                 pass->outside +=
                     share *
-                    (wt_angular_outside(ws->angular, scratch->omega[p * n + j], j1[j]) / j1[j]);
+                    (angular_outside(ws->angular, scratch->omega[p * n + j], j1[j]) / j1[j]);
         }
         pass->variance += sum_g;
         pass->hysteresis += sum_mu;

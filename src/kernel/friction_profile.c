@@ -25,19 +25,19 @@ static wt_status check_wavenumbers(const wt_roughness *roughness, const double *
 }
 
 /* Runs the two rules of a profile and leaves their parts in the slots 0 (lower) and 1. */
-static wt_friction_pass run_pair(const wt_friction_workspace *ws, wt_friction_scratch *scratch,
-                                 const wt_plan *plan, size_t level, wt_friction_conditions at,
-                                 size_t rule)
+static friction_pass run_pair(const wt_friction_workspace *ws, friction_scratch *scratch,
+                              const panel_plan *plan, size_t level, friction_conditions at,
+                              size_t rule)
 {
-    wt_friction_pass pass;
+    friction_pass pass;
     for (unsigned slot = 0; slot < 2; slot++)
-        wt_friction_evaluate(ws, scratch, wt_friction_grid(ws, scratch, plan, rule + slot), level,
-                             at, slot, false, NULL, &pass);
+        friction_evaluate(ws, scratch, friction_grid(ws, scratch, plan, rule + slot), level, at,
+                          slot, false, NULL, &pass);
     return pass;
 }
 
-static bool pair_reached(const wt_friction_workspace *ws, const wt_friction_scratch *scratch,
-                         const wt_friction_pass *pass)
+static bool pair_reached(const wt_friction_workspace *ws, const friction_scratch *scratch,
+                         const friction_pass *pass)
 {
     double difference_g = 0, difference_mu = 0;
     for (size_t p = 0; p < pass->parts; p++) {
@@ -55,17 +55,17 @@ wt_status wt_friction_profile(wt_friction_workspace *workspace, double pressure,
     if (!workspace || (n && (!wavenumber || !nodes)))
         return wt_fail(err, WT_E_ARG, "a friction profile needs wavenumbers and a place for it");
     const wt_roughness *roughness = workspace->roughness;
-    wt_status status = wt_friction_prepare(workspace, pressure, &velocity, 1, err);
+    wt_status status = friction_prepare(workspace, pressure, &velocity, 1, err);
     if (status == WT_OK)
         status = check_wavenumbers(roughness, wavenumber, n, err);
     if (status != WT_OK || n == 0)
         return status;
 
-    const wt_friction_conditions at = {.pressure = pressure, .speed = fabs(velocity)};
+    const friction_conditions at = {.pressure = pressure, .speed = fabs(velocity)};
     const double sign = velocity < 0 ? -1 : velocity > 0 ? 1 : 0;
-    wt_friction_scratch scratch;
+    friction_scratch scratch;
     double *cuts = NULL;
-    status = wt_friction_scratch_init(&scratch, workspace, n, err);
+    status = friction_scratch_init(&scratch, workspace, n, err);
     if (status != WT_OK)
         return status;
     cuts = calloc(n, sizeof *cuts);
@@ -75,15 +75,15 @@ wt_status wt_friction_profile(wt_friction_workspace *workspace, double pressure,
     }
     for (size_t i = 0; i < n; i++)
         cuts[i] = log1p((wavenumber[i] - roughness->q0) / roughness->q0);
-    const wt_plan *plan = wt_friction_plan(workspace, &scratch, at.speed, cuts, n);
+    const panel_plan *plan = friction_plan(workspace, &scratch, at.speed, cuts, n);
     const size_t level =
-        wt_friction_level(workspace, &scratch, wt_friction_grid(workspace, &scratch, plan, 0), at);
+        friction_level(workspace, &scratch, friction_grid(workspace, &scratch, plan, 0), at);
     size_t rule = 1;
-    wt_friction_pass pass = run_pair(workspace, &scratch, plan, level, at, rule);
-    while (!pair_reached(workspace, &scratch, &pass) && rule + 2 < WT_FRICTION_RULES)
+    friction_pass pass = run_pair(workspace, &scratch, plan, level, at, rule);
+    while (!pair_reached(workspace, &scratch, &pass) && rule + 2 < FRICTION_RULES)
         pass = run_pair(workspace, &scratch, plan, level, at, ++rule);
 
-    const double relative = wt_friction_rounding() + wt_angular_error(workspace->angular);
+    const double relative = friction_rounding() + angular_error(workspace->angular);
     const double slack = 1e-13 * fmax(1, log(roughness->q1 / roughness->q0));
     const size_t first = plan->levels - level;
     double variance = 0, difference = 0, hysteresis = 0;
@@ -102,12 +102,12 @@ wt_status wt_friction_profile(wt_friction_workspace *workspace, double pressure,
         nodes[i] = (wt_friction_node){
             .wavenumber = wavenumber[i],
             .stress_variance = variance,
-            .area_ratio = wt_contact_area(variance),
+            .area_ratio = contact_area(variance),
             .hysteresis = sign * hysteresis,
-            .numerical_error = wt_friction_area_error(variance, difference + relative * variance)};
+            .numerical_error = friction_area_error(variance, difference + relative * variance)};
     }
 done:
     free(cuts);
-    wt_friction_scratch_clear(&scratch);
+    friction_scratch_clear(&scratch);
     return status;
 }

@@ -25,29 +25,29 @@ static double log_ratio(double q, double q0)
     return log1p((q - q0) / q0);
 }
 
-wt_status wt_plan_init(wt_plan *plan, const wt_roughness *roughness, size_t levels, size_t n_breaks,
-                       wt_error *err)
+wt_status panel_plan_init(panel_plan *plan, const wt_roughness *roughness, size_t levels,
+                          size_t n_breaks, wt_error *err)
 {
     size_t n_roughness = 0;
     (void)roughness_breaks(roughness, &n_roughness);
     const double length = log_ratio(roughness->q1, roughness->q0);
-    *plan = (wt_plan){.q0 = roughness->q0, .q1 = roughness->q1, .levels = levels};
+    *plan = (panel_plan){.q0 = roughness->q0, .q1 = roughness->q1, .levels = levels};
     /* from the smallest t up to the width of a panel there are 27 steps of the cell ratio */
     plan->capacity = levels + n_roughness + n_breaks + 32 + (size_t)(length / panel_width);
     plan->core = calloc(levels + 1, sizeof *plan->core);
     plan->panels = calloc(plan->capacity, sizeof *plan->panels);
     if (!plan->core || !plan->panels) {
-        wt_plan_clear(plan);
+        panel_plan_clear(plan);
         return wt_fail(err, WT_E_MEMORY, "out of memory for the panels of the friction integral");
     }
     return WT_OK;
 }
 
-void wt_plan_clear(wt_plan *plan)
+void panel_plan_clear(panel_plan *plan)
 {
     free(plan->core);
     free(plan->panels);
-    *plan = (wt_plan){0};
+    *plan = (panel_plan){0};
 }
 
 static int compare(const void *left, const void *right)
@@ -59,22 +59,22 @@ static int compare(const void *left, const void *right)
 
 /* Square roots right of a knot that is close enough to spoil a polynomial, logarithms close to
  * t = 0, where G is 0. */
-static wt_panel panel_at(double t_low, double t_high, const double *knots, size_t n_knots)
+static grid_panel panel_at(double t_low, double t_high, const double *knots, size_t n_knots)
 {
-    wt_panel panel = {.t_low = t_low, .t_high = t_high, .map = WT_MAP_LINEAR};
+    grid_panel panel = {.t_low = t_low, .t_high = t_high, .map = MAP_LINEAR};
     if (t_low > 0 && t_high > 2 * t_low)
-        panel.map = WT_MAP_LOGARITHM;
+        panel.map = MAP_LOGARITHM;
     const double slack = 1e-12;
     for (size_t k = 0; k < n_knots && knots[k] <= t_low + slack; k++)
         if (knots[k] > t_low - panel_width) {
-            panel.map = WT_MAP_SQUARE_ROOT;
+            panel.map = MAP_SQUARE_ROOT;
             panel.anchor = fmin(knots[k], t_low);
         }
     return panel;
 }
 
-void wt_plan_lay(wt_plan *plan, const wt_roughness *roughness, const double *cuts, size_t n_cuts,
-                 const double *knots, size_t n_knots, double *bounds)
+void panel_plan_lay(panel_plan *plan, const wt_roughness *roughness, const double *cuts,
+                    size_t n_cuts, const double *knots, size_t n_knots, double *bounds)
 {
     const double length = log_ratio(plan->q1, plan->q0);
     const double least = 1e-13 * fmax(1, length); /* cuts closer than rounding are one */
@@ -115,7 +115,7 @@ void wt_plan_lay(wt_plan *plan, const wt_roughness *roughness, const double *cut
     }
 
     /* The first of them becomes cells and cores. */
-    const wt_panel first = plan->panels[plan->levels];
+    const grid_panel first = plan->panels[plan->levels];
     plan->n_panels--;
     memmove(plan->panels + plan->levels, plan->panels + plan->levels + 1,
             (plan->n_panels - plan->levels) * sizeof *plan->panels);
@@ -125,16 +125,16 @@ void wt_plan_lay(wt_plan *plan, const wt_roughness *roughness, const double *cut
         plan->core[level].t_high = high;
         if (level < plan->levels)
             plan->panels[plan->levels - 1 - level] =
-                (wt_panel){.t_low = high / cell_ratio, .t_high = high, .map = WT_MAP_LOGARITHM};
+                (grid_panel){.t_low = high / cell_ratio, .t_high = high, .map = MAP_LOGARITHM};
         high /= cell_ratio;
     }
 }
 
 /* ---- nodes ----------------------------------------------------------------------------------- */
 
-wt_status wt_grid_init(wt_grid *grid, const wt_plan *plan, size_t max_nodes, wt_error *err)
+wt_status grid_init(scale_grid *grid, const panel_plan *plan, size_t max_nodes, wt_error *err)
 {
-    *grid = (wt_grid){0};
+    *grid = (scale_grid){0};
     const size_t nodes = plan->capacity * max_nodes;
     const size_t core_nodes = (plan->levels + 1) * max_nodes;
     grid->q = calloc(nodes, sizeof *grid->q);
@@ -147,13 +147,13 @@ wt_status wt_grid_init(wt_grid *grid, const wt_plan *plan, size_t max_nodes, wt_
     grid->core_half_width = calloc(plan->levels + 1, sizeof *grid->core_half_width);
     if (!grid->q || !grid->factor1 || !grid->factor2 || !grid->half_width || !grid->core_q ||
         !grid->core_factor1 || !grid->core_factor2 || !grid->core_half_width) {
-        wt_grid_clear(grid);
+        grid_clear(grid);
         return wt_fail(err, WT_E_MEMORY, "out of memory for the nodes of the friction integral");
     }
     return WT_OK;
 }
 
-void wt_grid_clear(wt_grid *grid)
+void grid_clear(scale_grid *grid)
 {
     free(grid->q);
     free(grid->factor1);
@@ -163,18 +163,18 @@ void wt_grid_clear(wt_grid *grid)
     free(grid->core_factor1);
     free(grid->core_factor2);
     free(grid->core_half_width);
-    *grid = (wt_grid){0};
+    *grid = (scale_grid){0};
 }
 
 /* Fills q and dt/ds (into factor1) on one panel; returns the half width in s. */
-static double place_nodes(const wt_plan *plan, const wt_panel *panel, const wt_rule *rule,
+static double place_nodes(const panel_plan *plan, const grid_panel *panel, const gauss_rule *rule,
                           double *q, double *slope)
 {
     double s_low = panel->t_low, s_high = panel->t_high;
-    if (panel->map == WT_MAP_LOGARITHM) {
+    if (panel->map == MAP_LOGARITHM) {
         s_low = log(panel->t_low);
         s_high = log(panel->t_high);
-    } else if (panel->map == WT_MAP_SQUARE_ROOT) {
+    } else if (panel->map == MAP_SQUARE_ROOT) {
         s_low = sqrt(panel->t_low - panel->anchor);
         s_high = sqrt(panel->t_high - panel->anchor);
     }
@@ -183,10 +183,10 @@ static double place_nodes(const wt_plan *plan, const wt_panel *panel, const wt_r
         const double s = s_low + half * (1 + rule->node[i]);
         double t = s;
         slope[i] = 1;
-        if (panel->map == WT_MAP_LOGARITHM) {
+        if (panel->map == MAP_LOGARITHM) {
             t = exp(s);
             slope[i] = t;
-        } else if (panel->map == WT_MAP_SQUARE_ROOT) {
+        } else if (panel->map == MAP_SQUARE_ROOT) {
             t = panel->anchor + s * s;
             slope[i] = 2 * s;
         }
@@ -203,14 +203,14 @@ static void weigh_nodes(const wt_roughness *roughness, const wt_layer_state *lay
     for (size_t i = 0; i < n; i++) {
         const double square = q[i] * q[i];
         const double base = square * square * factor2[i] * factor1[i];
-        const double scale = wt_layered_scale(q[i] * layer->thickness, layer->modulus_ratio);
+        const double scale = layered_scale(q[i] * layer->thickness, layer->modulus_ratio);
         factor1[i] = base * scale;
         factor2[i] = base * scale * scale;
     }
 }
 
-void wt_grid_fill(wt_grid *grid, const wt_plan *plan, const wt_rule *rule,
-                  const wt_roughness *roughness, const wt_layer_state *layer)
+void grid_fill(scale_grid *grid, const panel_plan *plan, const gauss_rule *rule,
+               const wt_roughness *roughness, const wt_layer_state *layer)
 {
     const size_t n = rule->n;
     grid->rule = rule;

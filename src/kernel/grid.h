@@ -13,54 +13,54 @@
 #include "kernel/rule.h"
 #include "weartrack/kernel.h"
 
-typedef enum wt_panel_map {
-    WT_MAP_LINEAR,     /* t = s */
-    WT_MAP_LOGARITHM,  /* t = exp(s): the cells */
-    WT_MAP_SQUARE_ROOT /* t = anchor + s^2: right of a knot of the material */
-} wt_panel_map;
+typedef enum panel_map {
+    MAP_LINEAR,     /* t = s */
+    MAP_LOGARITHM,  /* t = exp(s): the cells */
+    MAP_SQUARE_ROOT /* t = anchor + s^2: right of a knot of the material */
+} panel_map;
 
-typedef struct wt_panel {
+typedef struct grid_panel {
     double t_low, t_high;
     double anchor;
-    wt_panel_map map;
-} wt_panel;
+    panel_map map;
+} grid_panel;
 
 /* Panels in rising t: cell[levels - 1] ... cell[0], then the others; cores apart. */
-typedef struct wt_plan {
+typedef struct panel_plan {
     double q0, q1;
     size_t levels;
-    wt_panel *core;   /* [levels + 1] */
-    size_t n_panels;  /* levels cells and the others */
-    wt_panel *panels; /* [capacity] */
+    grid_panel *core;   /* [levels + 1] */
+    size_t n_panels;    /* levels cells and the others */
+    grid_panel *panels; /* [capacity] */
     size_t capacity;
-} wt_plan;
+} panel_plan;
 
 /* Room for a plan with up to n_breaks cuts besides those of the roughness. */
-wt_status wt_plan_init(wt_plan *plan, const wt_roughness *roughness, size_t levels, size_t n_breaks,
-                       wt_error *err) WT_NODISCARD;
-void wt_plan_clear(wt_plan *plan);
+wt_status panel_plan_init(panel_plan *plan, const wt_roughness *roughness, size_t levels,
+                          size_t n_breaks, wt_error *err) WT_NODISCARD;
+void panel_plan_clear(panel_plan *plan);
 /* Lays the panels: cut at the breaks of the roughness, at `cuts` (plain, t rising) and at `knots`
  * (of the material: square-root maps to their right; t rising, also outside the range).
  * `bounds` is scratch for capacity + 1 numbers. */
-void wt_plan_lay(wt_plan *plan, const wt_roughness *roughness, const double *cuts, size_t n_cuts,
-                 const double *knots, size_t n_knots, double *bounds);
+void panel_plan_lay(panel_plan *plan, const wt_roughness *roughness, const double *cuts,
+                    size_t n_cuts, const double *knots, size_t n_knots, double *bounds);
 
 /* Nodes of one rule on a plan. The factors hold q^4 C(q) dt/ds and the scale of a layered modulus:
  * int k^3 C J1 s dk -> sum of half_width weight factor1 J1, with s^2 in factor2. */
-typedef struct wt_grid {
-    const wt_rule *rule;
+typedef struct scale_grid {
+    const gauss_rule *rule;
     size_t levels;
     size_t n_panels;
     double *q, *factor1, *factor2;                /* [n_panels * n] */
     double *half_width;                           /* [n_panels] */
     double *core_q, *core_factor1, *core_factor2; /* [(levels + 1) * n] */
     double *core_half_width;                      /* [levels + 1] */
-} wt_grid;
+} scale_grid;
 
-wt_status wt_grid_init(wt_grid *grid, const wt_plan *plan, size_t max_nodes,
-                       wt_error *err) WT_NODISCARD;
-void wt_grid_clear(wt_grid *grid);
-void wt_grid_fill(wt_grid *grid, const wt_plan *plan, const wt_rule *rule,
-                  const wt_roughness *roughness, const wt_layer_state *layer);
+wt_status grid_init(scale_grid *grid, const panel_plan *plan, size_t max_nodes,
+                    wt_error *err) WT_NODISCARD;
+void grid_clear(scale_grid *grid);
+void grid_fill(scale_grid *grid, const panel_plan *plan, const gauss_rule *rule,
+               const wt_roughness *roughness, const wt_layer_state *layer);
 
 #endif

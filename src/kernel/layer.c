@@ -47,19 +47,19 @@ static wt_status check_parameters(const wt_layer_parameters *p, wt_error *err)
     return status;
 }
 
-wt_status wt_layer_rates_make(const wt_energy_source *source, const wt_layer_parameters *parameters,
-                              wt_layer_rates *rates, wt_error *err)
+wt_status layer_rates_make(const wt_energy_source *source, const wt_layer_parameters *parameters,
+                           layer_rates *rates, wt_error *err)
 {
     if (!parameters)
         return wt_fail(err, WT_E_ARG, "a layer needs its parameters");
-    wt_status status = wt_energy_check(source, err);
+    wt_status status = energy_check(source, err);
     if (status == WT_OK)
         status = check_parameters(parameters, err);
     if (status != WT_OK)
         return status;
     const wt_layer_parameters *p = parameters;
-    wt_layer_rates r = {.source = source, .duty = p->duty};
-    if (!wt_energy_range(source, &r.q_min, &r.q_max))
+    layer_rates r = {.source = source, .duty = p->duty};
+    if (!energy_range(source, &r.q_min, &r.q_max))
         r.q_min = 0;
     for (size_t i = 0; i < source->n; i++)
         r.power += source->power[i];
@@ -80,22 +80,22 @@ wt_status wt_layer_rates_make(const wt_energy_source *source, const wt_layer_par
     return WT_OK;
 }
 
-double wt_layer_formation(const wt_layer_rates *rates, double thickness)
+double layer_formation(const layer_rates *rates, double thickness)
 {
     if (rates->formation == 0)
         return 0;
-    return rates->formation * exp(wt_energy_log_tail(rates->source, thickness) - rates->log_power);
+    return rates->formation * exp(energy_log_tail(rates->source, thickness) - rates->log_power);
 }
 
-double wt_layer_decay(const wt_layer_rates *rates, double thickness)
+double layer_decay(const layer_rates *rates, double thickness)
 {
     if (rates->formation == 0)
         return 0;
-    return exp(wt_energy_log_density(rates->source, thickness) -
-               wt_energy_log_tail(rates->source, thickness));
+    return exp(energy_log_density(rates->source, thickness) -
+               energy_log_tail(rates->source, thickness));
 }
 
-double wt_layer_single_kappa(const wt_layer_rates *rates)
+double layer_single_kappa(const layer_rates *rates)
 {
     const bool single = rates->source->profile == WT_PROFILE_PERSSON && rates->q_min > 0 &&
                         rates->q_min == rates->q_max;
@@ -105,20 +105,20 @@ double wt_layer_single_kappa(const wt_layer_rates *rates)
 /* ---- fixed point ----------------------------------------------------------------------------- */
 
 typedef struct balance_root {
-    const wt_layer_rates *rates;
+    const layer_rates *rates;
     double level; /* ln(Qf / Qf(0)) wanted */
 } balance_root;
 
 static double balance_function(double depth, void *user)
 {
     const balance_root *b = user;
-    return wt_energy_log_tail(b->rates->source, depth) - b->rates->log_power - b->level;
+    return energy_log_tail(b->rates->source, depth) - b->rates->log_power - b->level;
 }
 
 /* How far the root moves when the logarithm of Qf moves by `error`: found by going there. */
 static double root_error(balance_root *b, double root, double error)
 {
-    const double kappa = wt_layer_decay(b->rates, root);
+    const double kappa = layer_decay(b->rates, root);
     double reach = fmax(kappa > 0 ? error / kappa : 0, 2 * DBL_EPSILON * root);
     for (int i = 0; i < 200; i++) {
         const bool above = balance_function(root + reach, b) < -error;
@@ -130,8 +130,8 @@ static double root_error(balance_root *b, double root, double error)
     return reach;
 }
 
-wt_status wt_layer_fixed_point(const wt_layer_rates *rates, double log_scale,
-                               wt_estimate *thickness, wt_error *err)
+wt_status layer_fixed_point(const layer_rates *rates, double log_scale, wt_estimate *thickness,
+                            wt_error *err)
 {
     *thickness = (wt_estimate){.unit = "m"};
     double excess = rates->log_ratio - log_scale; /* ln(Qf(0) / (scale Qw)) */
@@ -151,7 +151,7 @@ wt_status wt_layer_fixed_point(const wt_layer_rates *rates, double log_scale,
     while (balance_function(high, &b) > 0)
         high *= 2;
     double root = 0;
-    const wt_status status = wt_root_find(balance_function, &b, 0, high, &root, err);
+    const wt_status status = root_find(balance_function, &b, 0, high, &root, err);
     if (status != WT_OK)
         return status;
     thickness->value = none ? 0 : root;

@@ -8,7 +8,7 @@
 #include "kernel/energy.h"
 
 /* Qf(d) = formation exp(log_tail(d) - log_power), Qw = wear; R = Qf(0)/Qw. */
-typedef struct wt_layer_rates {
+typedef struct layer_rates {
     const wt_energy_source *source;
     double q_min, q_max; /* of the terms with power; 0 without any */
     double formation;    /* Qf(0) [m/s], duty included */
@@ -18,31 +18,31 @@ typedef struct wt_layer_rates {
     double log_ratio;    /* ln R; -infinity without power, +infinity without wear */
     double threshold;    /* ln(U_c Lambda) */
     double duty;
-} wt_layer_rates;
+} layer_rates;
 
-wt_status wt_layer_rates_make(const wt_energy_source *source, const wt_layer_parameters *parameters,
-                              wt_layer_rates *rates, wt_error *err) WT_NODISCARD;
-double wt_layer_formation(const wt_layer_rates *rates, double thickness); /* Qf */
+wt_status layer_rates_make(const wt_energy_source *source, const wt_layer_parameters *parameters,
+                           layer_rates *rates, wt_error *err) WT_NODISCARD;
+double layer_formation(const layer_rates *rates, double thickness); /* Qf */
 /* Local decay rate of Qf, w / int w [1/m]. */
-double wt_layer_decay(const wt_layer_rates *rates, double thickness);
+double layer_decay(const layer_rates *rates, double thickness);
 /* Where Qf = scale Qw, 0 if Qf(0) is below, with the numerical error of the place. */
-wt_status wt_layer_fixed_point(const wt_layer_rates *rates, double log_scale,
-                               wt_estimate *thickness, wt_error *err) WT_NODISCARD;
+wt_status layer_fixed_point(const layer_rates *rates, double log_scale, wt_estimate *thickness,
+                            wt_error *err) WT_NODISCARD;
 
 /* Damage transport: the deepest place where int Omega dt >= Lambda at `time`; 0 before incubation.
  */
-wt_status wt_layer_damage_depth(const wt_layer_rates *rates, double time, wt_estimate *thickness,
-                                wt_error *err) WT_NODISCARD;
+wt_status layer_damage_depth(const layer_rates *rates, double time, wt_estimate *thickness,
+                             wt_error *err) WT_NODISCARD;
 /* First time at which any place is modified; NaN if never. */
-wt_status wt_layer_incubation(const wt_layer_rates *rates, bool with_wear, double *time,
-                              wt_error *err) WT_NODISCARD;
-/* Time until a layer is worn off where wear exceeds formation. */
-wt_status wt_layer_removal(const wt_layer_rates *rates, double start, double *time,
+wt_status layer_incubation(const layer_rates *rates, bool with_wear, double *time,
                            wt_error *err) WT_NODISCARD;
+/* Time until a layer is worn off where wear exceeds formation. */
+wt_status layer_removal(const layer_rates *rates, double start, double *time,
+                        wt_error *err) WT_NODISCARD;
 /* Rate balance: thickness at n rising times. points[i].thickness only. */
-wt_status wt_layer_march(const wt_layer_rates *rates, double start, const double *time, size_t n,
-                         wt_layer_point *const *points, wt_error *err) WT_NODISCARD;
+wt_status layer_march(const layer_rates *rates, double start, const double *time, size_t n,
+                      wt_layer_point *const *points, wt_error *err) WT_NODISCARD;
 /* All power at one wavenumber under an exponential profile: kappa, or 0 if not so. */
-double wt_layer_single_kappa(const wt_layer_rates *rates);
+double layer_single_kappa(const layer_rates *rates);
 
 #endif

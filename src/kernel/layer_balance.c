@@ -15,7 +15,7 @@ static wt_layer_regime regime_of(double log_ratio)
 }
 
 /* With damage transport nothing regrows where R <= 1: the old layer is worn off from the top. */
-static double removal_of_old_layer(const wt_layer_rates *rates, double start)
+static double removal_of_old_layer(const layer_rates *rates, double start)
 {
     if (start == 0)
         return 0;
@@ -28,13 +28,13 @@ wt_status wt_layer_balance_compute(const wt_energy_source *source,
 {
     if (!balance)
         return wt_fail(err, WT_E_ARG, "a balance needs a place for the result");
-    wt_layer_rates r;
+    layer_rates r;
     wt_layer_balance b = {0};
-    wt_status status = wt_layer_rates_make(source, parameters, &r, err);
+    wt_status status = layer_rates_make(source, parameters, &r, err);
     if (status == WT_OK)
-        status = wt_layer_fixed_point(&r, 0, &b.thickness, err);
+        status = layer_fixed_point(&r, 0, &b.thickness, err);
     if (status == WT_OK)
-        status = wt_layer_incubation(&r, parameters->incubation, &b.incubation_time, err);
+        status = layer_incubation(&r, parameters->incubation, &b.incubation_time, err);
     if (status != WT_OK)
         return status;
 
@@ -47,7 +47,7 @@ wt_status wt_layer_balance_compute(const wt_energy_source *source,
             ? 0
             : exp(r.log_power - r.threshold) / (parameters->pressure * parameters->velocity);
     b.regime = regime_of(r.log_ratio);
-    const double rate = r.wear > 0 ? r.wear * wt_layer_decay(&r, b.thickness.value) : 0;
+    const double rate = r.wear > 0 ? r.wear * layer_decay(&r, b.thickness.value) : 0;
     b.eigenvalue = b.regime == WT_LAYER_NONE ? 0 : -rate;
     b.relaxation_time = rate > 0 ? 1 / rate : HUGE_VAL;
     b.removal_time = (double)NAN;
@@ -55,7 +55,7 @@ wt_status wt_layer_balance_compute(const wt_energy_source *source,
         if (parameters->incubation)
             b.removal_time = removal_of_old_layer(&r, parameters->start_thickness);
         else
-            status = wt_layer_removal(&r, parameters->start_thickness, &b.removal_time, err);
+            status = layer_removal(&r, parameters->start_thickness, &b.removal_time, err);
     }
     if (status == WT_OK)
         *balance = b;

@@ -16,7 +16,7 @@
 static const double scan_ratio = 1.2;
 
 typedef struct damage {
-    const wt_layer_rates *rates;
+    const layer_rates *rates;
     double time;
 } damage;
 
@@ -24,11 +24,11 @@ typedef struct damage {
 static double damage_at(double depth, void *user)
 {
     const damage *d = user;
-    const wt_layer_rates *r = d->rates;
+    const layer_rates *r = d->rates;
     if (r->wear > 0)
-        return wt_energy_log_gain(r->source, depth, r->wear * d->time) - r->threshold -
+        return energy_log_gain(r->source, depth, r->wear * d->time) - r->threshold -
                log(r->wear / r->duty);
-    return wt_energy_log_density(r->source, depth) + log(r->duty * d->time) - r->threshold;
+    return energy_log_density(r->source, depth) + log(r->duty * d->time) - r->threshold;
 }
 
 /* Largest value of D at any depth and its depth: a scan, then bisection of the ratio around the
@@ -37,7 +37,7 @@ static double damage_peak(damage *d, double *depth)
 {
     *depth = 0;
     double best = damage_at(0, d);
-    if (wt_energy_falls(d->rates->source))
+    if (energy_falls(d->rates->source))
         return best;
     const double last = 4 / d->rates->q_min;
     for (double z = 1e-3 / d->rates->q_max; z < last; z *= scan_ratio) {
@@ -87,8 +87,8 @@ static double depth_error(damage *d, double root)
     return reach;
 }
 
-wt_status wt_layer_damage_depth(const wt_layer_rates *rates, double time, wt_estimate *thickness,
-                                wt_error *err)
+wt_status layer_damage_depth(const layer_rates *rates, double time, wt_estimate *thickness,
+                             wt_error *err)
 {
     *thickness = (wt_estimate){.unit = "m"};
     damage d = {.rates = rates, .time = time};
@@ -96,7 +96,7 @@ wt_status wt_layer_damage_depth(const wt_layer_rates *rates, double time, wt_est
         return WT_OK;
     double high = damage_end(&d), low = 0;
     bool found = false;
-    if (!wt_energy_falls(rates->source))
+    if (!energy_falls(rates->source))
         for (double z = high / scan_ratio; !found && z > 1e-3 / rates->q_max; z /= scan_ratio) {
             found = damage_at(z, &d) >= 0;
             if (found)
@@ -111,7 +111,7 @@ wt_status wt_layer_damage_depth(const wt_layer_rates *rates, double time, wt_est
     }
     wt_status status = WT_OK;
     if (damage_at(low, &d) > 0)
-        status = wt_root_find(damage_at, &d, low, high, &thickness->value, err);
+        status = root_find(damage_at, &d, low, high, &thickness->value, err);
     else
         thickness->value = low;
     if (status == WT_OK)
@@ -128,17 +128,16 @@ static double peak_at(double log_time, void *user)
     return damage_peak(d, &depth);
 }
 
-wt_status wt_layer_incubation(const wt_layer_rates *rates, bool with_wear, double *time,
-                              wt_error *err)
+wt_status layer_incubation(const layer_rates *rates, bool with_wear, double *time, wt_error *err)
 {
     *time = (double)NAN;
-    wt_layer_rates r = *rates;
+    layer_rates r = *rates;
     if (!with_wear)
         r.wear = 0;
     if (r.formation == 0 || (r.wear > 0 && !(r.log_ratio > 0)))
         return WT_OK;
     damage d = {.rates = &r, .time = 1};
-    wt_layer_rates unworn = r;
+    layer_rates unworn = r;
     unworn.wear = 0;
     d.rates = &unworn;
     double depth;
@@ -156,7 +155,7 @@ wt_status wt_layer_incubation(const wt_layer_rates *rates, bool with_wear, doubl
     double log_time = first;
     wt_status status = WT_OK;
     if (high > first)
-        status = wt_root_find(peak_at, &d, first, high, &log_time, err);
+        status = root_find(peak_at, &d, first, high, &log_time, err);
     if (status == WT_OK)
         *time = exp(log_time);
     return status;

@@ -9,12 +9,12 @@
 #include <stdlib.h>
 
 /* Damage transport: the old layer is carried up and worn off, new damage grows below. */
-static wt_status history_damage(const wt_layer_rates *rates, double start, const double *time,
+static wt_status history_damage(const layer_rates *rates, double start, const double *time,
                                 size_t n, wt_layer_point *points, wt_error *err)
 {
     for (size_t i = 0; i < n; i++) {
         wt_estimate grown;
-        const wt_status status = wt_layer_damage_depth(rates, time[i], &grown, err);
+        const wt_status status = layer_damage_depth(rates, time[i], &grown, err);
         if (status != WT_OK)
             return status;
         const double old = fmax(0, start - rates->wear * time[i]);
@@ -28,7 +28,7 @@ static wt_status history_damage(const wt_layer_rates *rates, double start, const
 }
 
 /* The closed form; its error is how far rounding and the error of Qf(0) move it. */
-static void history_exponential(const wt_layer_rates *rates, double kappa, double start,
+static void history_exponential(const layer_rates *rates, double kappa, double start,
                                 const double *time, size_t n, wt_layer_point *points)
 {
     const double relative = rates->source->numerical_error + 8 * DBL_EPSILON;
@@ -59,8 +59,8 @@ static int by_time(const void *left, const void *right)
     return (a->time > b->time) - (a->time < b->time);
 }
 
-static wt_status history_march(const wt_layer_rates *rates, double start, const double *time,
-                               size_t n, wt_layer_point *points, wt_error *err)
+static wt_status history_march(const layer_rates *rates, double start, const double *time, size_t n,
+                               wt_layer_point *points, wt_error *err)
 {
     timed_point *order = calloc(n, sizeof *order);
     double *sorted = calloc(n, sizeof *sorted);
@@ -77,7 +77,7 @@ static wt_status history_march(const wt_layer_rates *rates, double start, const 
         sorted[i] = order[i].time;
         places[i] = order[i].point;
     }
-    status = wt_layer_march(rates, start, sorted, n, places, err);
+    status = layer_march(rates, start, sorted, n, places, err);
 done:
     free(order);
     free(sorted);
@@ -90,8 +90,8 @@ wt_status wt_layer_history(const wt_energy_source *source, const wt_layer_parame
 {
     if (n && (!time || !points))
         return wt_fail(err, WT_E_ARG, "the history of a layer needs times and a place for it");
-    wt_layer_rates rates;
-    wt_status status = wt_layer_rates_make(source, parameters, &rates, err);
+    layer_rates rates;
+    wt_status status = layer_rates_make(source, parameters, &rates, err);
     if (status != WT_OK || n == 0)
         return status;
     for (size_t i = 0; i < n; i++)
@@ -102,7 +102,7 @@ wt_status wt_layer_history(const wt_energy_source *source, const wt_layer_parame
             return WT_E_RANGE;
         }
     const double start = parameters->start_thickness;
-    const double kappa = wt_layer_single_kappa(&rates);
+    const double kappa = layer_single_kappa(&rates);
     if (parameters->incubation)
         status = history_damage(&rates, start, time, n, points, err);
     else if (kappa > 0)
@@ -113,7 +113,7 @@ wt_status wt_layer_history(const wt_energy_source *source, const wt_layer_parame
         return status;
     for (size_t i = 0; i < n; i++) {
         points[i].time = time[i];
-        points[i].formation_rate = wt_layer_formation(&rates, points[i].thickness.value);
+        points[i].formation_rate = layer_formation(&rates, points[i].thickness.value);
         points[i].wear_rate = rates.wear;
     }
     return WT_OK;

@@ -23,8 +23,8 @@ static const double panel_goal = 1e-12;
 static const double log_negligible = -41.5; /* 1e-18 */
 
 typedef struct march {
-    const wt_layer_rates *rates;
-    wt_rule *low, *high;
+    const layer_rates *rates;
+    gauss_rule *low, *high;
     double target;    /* where the motion ends: the balance, or 0 */
     double direction; /* +1 growing, -1 being worn */
     double thickness, time;
@@ -32,20 +32,20 @@ typedef struct march {
     double sensitivity; /* int Qf / (Qf - Qw)^2: minus d time / d ln Qf */
 } march;
 
-static double net_rate(const wt_layer_rates *rates, double thickness)
+static double net_rate(const layer_rates *rates, double thickness)
 {
-    return wt_layer_formation(rates, thickness) - rates->wear;
+    return layer_formation(rates, thickness) - rates->wear;
 }
 
 /* Time from `from` over `length` in the direction of the march. */
-static double panel_time(const march *m, const wt_rule *rule, double from, double length,
+static double panel_time(const march *m, const gauss_rule *rule, double from, double length,
                          double *sensitivity)
 {
     double sum = 0;
     *sensitivity = 0;
     for (size_t i = 0; i < rule->n; i++) {
         const double thickness = from + m->direction * 0.5 * length * (1 + rule->node[i]);
-        const double formation = wt_layer_formation(m->rates, thickness);
+        const double formation = layer_formation(m->rates, thickness);
         const double rate = formation - m->rates->wear;
         const double weight = 0.5 * length * rule->weight[i] / fabs(rate);
         sum += weight;
@@ -57,9 +57,9 @@ static double panel_time(const march *m, const wt_rule *rule, double from, doubl
 /* Length of the next panel; 0 when the target is reached to rounding. */
 static double panel_length(const march *m)
 {
-    const double kappa = wt_layer_decay(m->rates, m->thickness);
+    const double kappa = layer_decay(m->rates, m->thickness);
     const double rate = fabs(net_rate(m->rates, m->thickness));
-    const double slope = wt_layer_formation(m->rates, m->thickness) * kappa;
+    const double slope = layer_formation(m->rates, m->thickness) * kappa;
     double length = fabs(m->target - m->thickness);
     const double noise = 4 * DBL_EPSILON * (m->thickness + (kappa > 0 ? 1 / kappa : 0));
     const bool balance = m->direction > 0 || m->rates->log_ratio >= 0;
@@ -76,7 +76,7 @@ static double panel_length(const march *m)
 }
 
 /* Relative rounding error of Qf, which is the exponential of a sum of logarithms. */
-static double rounding(const wt_layer_rates *rates, double thickness)
+static double rounding(const layer_rates *rates, double thickness)
 {
     const double depth = rates->q_min * thickness;
     return 16 * DBL_EPSILON * (1 + fabs(rates->log_power) + 2 * depth);
@@ -89,7 +89,7 @@ static double panel_take(const march *m, double *length, double *error, double *
     double time = 0, ignored;
     for (int i = 0; i < 60; i++) {
         const double end = m->thickness + m->direction * *length;
-        const double formation = wt_layer_formation(m->rates, end);
+        const double formation = layer_formation(m->rates, end);
         const double noise = rounding(m->rates, end) * formation / fabs(formation - m->rates->wear);
         time = panel_time(m, m->high, m->thickness, *length, sensitivity);
         *error = fabs(time - panel_time(m, m->low, m->thickness, *length, &ignored));
@@ -137,15 +137,15 @@ static wt_estimate estimate_at(const march *m, double thickness, double time, do
     return (wt_estimate){.value = fmax(thickness, 0), .numerical_error = error, .unit = "m"};
 }
 
-static wt_status march_begin(march *m, const wt_layer_rates *rates, double start,
-                             wt_estimate *target, wt_error *err)
+static wt_status march_begin(march *m, const layer_rates *rates, double start, wt_estimate *target,
+                             wt_error *err)
 {
     *m = (march){.rates = rates, .thickness = start};
-    wt_status status = wt_layer_fixed_point(rates, 0, target, err);
+    wt_status status = layer_fixed_point(rates, 0, target, err);
     if (status == WT_OK)
-        status = wt_rule_new(LOW_NODES, &m->low, err);
+        status = rule_new(LOW_NODES, &m->low, err);
     if (status == WT_OK)
-        status = wt_rule_new(HIGH_NODES, &m->high, err);
+        status = rule_new(HIGH_NODES, &m->high, err);
     m->target = target->value;
     m->direction = net_rate(rates, start) > 0 ? 1 : -1;
     if (status != WT_OK || m->direction > 0)
@@ -156,8 +156,8 @@ static wt_status march_begin(march *m, const wt_layer_rates *rates, double start
 
 static void march_end(march *m)
 {
-    wt_rule_free(m->low);
-    wt_rule_free(m->high);
+    rule_free(m->low);
+    rule_free(m->high);
 }
 
 /* Far above the balance only wear counts: down to where formation begins to be felt, the thickness
@@ -169,7 +169,7 @@ static wt_status skip_pure_wear(march *m, double *length, wt_error *err)
         return WT_OK;
     wt_estimate felt = {0};
     if (m->rates->formation > 0) {
-        const wt_status status = wt_layer_fixed_point(m->rates, log_negligible, &felt, err);
+        const wt_status status = layer_fixed_point(m->rates, log_negligible, &felt, err);
         if (status != WT_OK)
             return status;
     }
@@ -177,8 +177,8 @@ static wt_status skip_pure_wear(march *m, double *length, wt_error *err)
     return WT_OK;
 }
 
-wt_status wt_layer_march(const wt_layer_rates *rates, double start, const double *time, size_t n,
-                         wt_layer_point *const *points, wt_error *err)
+wt_status layer_march(const layer_rates *rates, double start, const double *time, size_t n,
+                      wt_layer_point *const *points, wt_error *err)
 {
     march m;
     wt_estimate target;
@@ -233,7 +233,7 @@ done:
     return status;
 }
 
-wt_status wt_layer_removal(const wt_layer_rates *rates, double start, double *time, wt_error *err)
+wt_status layer_removal(const layer_rates *rates, double start, double *time, wt_error *err)
 {
     *time = 0;
     if (start == 0)

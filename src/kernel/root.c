@@ -11,8 +11,7 @@
 #include <gsl/gsl_roots.h>
 #include <math.h>
 
-wt_status wt_root_find(wt_root_fn f, void *user, double low, double high, double *root,
-                       wt_error *err)
+wt_status root_find(root_fn f, void *user, double low, double high, double *root, wt_error *err)
 {
     const double at_low = f(low, user);
     const double at_high = f(high, user);
@@ -20,7 +19,7 @@ wt_status wt_root_find(wt_root_fn f, void *user, double low, double high, double
         *root = at_low == 0 ? low : high;
         return WT_OK;
     }
-    wt_gsl_quiet();
+    gsl_quiet();
     wt_status status = WT_OK;
     gsl_root_fsolver *solver = gsl_root_fsolver_alloc(gsl_root_fsolver_brent);
     if (!solver)

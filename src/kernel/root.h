@@ -7,10 +7,10 @@
 
 #include "weartrack/base.h"
 
-typedef double (*wt_root_fn)(double x, void *user);
+typedef double (*root_fn)(double x, void *user);
 
 /* A root between low and high, where f has different signs, to the last digits. */
-wt_status wt_root_find(wt_root_fn f, void *user, double low, double high, double *root,
-                       wt_error *err) WT_NODISCARD;
+wt_status root_find(root_fn f, void *user, double low, double high, double *root,
+                    wt_error *err) WT_NODISCARD;
 
 #endif

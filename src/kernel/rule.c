@@ -22,7 +22,7 @@ static void legendre(size_t n, double x, double *p)
 }
 
 /* l_i(x) = w_i sum_k (k + 1/2) P_k(x_i) P_k(x), and int P_k = (P_{k+1} - P_{k-1}) / (2k + 1). */
-static void fill_running(wt_rule *rule, double *at_i, double *at_j)
+static void fill_running(gauss_rule *rule, double *at_i, double *at_j)
 {
     const size_t n = rule->n;
     for (size_t i = 0; i < n; i++) {
@@ -37,11 +37,11 @@ static void fill_running(wt_rule *rule, double *at_i, double *at_j)
     }
 }
 
-wt_status wt_rule_new(size_t n, wt_rule **rule, wt_error *err)
+wt_status rule_new(size_t n, gauss_rule **rule, wt_error *err)
 {
-    wt_gsl_quiet();
+    gsl_quiet();
     wt_status status = WT_OK;
-    wt_rule *made = calloc(1, sizeof *made);
+    gauss_rule *made = calloc(1, sizeof *made);
     double *scratch = calloc(2 * (n + 1), sizeof *scratch);
     gsl_integration_glfixed_table *table = gsl_integration_glfixed_table_alloc(n);
     if (made) {
@@ -64,13 +64,13 @@ wt_status wt_rule_new(size_t n, wt_rule **rule, wt_error *err)
     *rule = made;
     made = NULL;
 done:
-    wt_rule_free(made);
+    rule_free(made);
     free(scratch);
     gsl_integration_glfixed_table_free(table);
     return status;
 }
 
-void wt_rule_free(wt_rule *rule)
+void rule_free(gauss_rule *rule)
 {
     if (!rule)
         return;

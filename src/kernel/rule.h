@@ -8,15 +8,15 @@
 #include "weartrack/base.h"
 
 /* On [-1, 1]. */
-typedef struct wt_rule {
+typedef struct gauss_rule {
     size_t n;
     double *node;    /* [n], rising */
     double *weight;  /* [n] */
     double *running; /* [n * n], row i: int from -1 to node[j] of the i-th Lagrange polynomial */
-} wt_rule;
+} gauss_rule;
 
 /* n must be one of the sizes that GSL tabulates to full precision: 2 to 20, or 32. */
-wt_status wt_rule_new(size_t n, wt_rule **rule, wt_error *err) WT_NODISCARD;
-void wt_rule_free(wt_rule *rule);
+wt_status rule_new(size_t n, gauss_rule **rule, wt_error *err) WT_NODISCARD;
+void rule_free(gauss_rule *rule);
 
 #endif

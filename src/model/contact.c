@@ -16,7 +16,7 @@
 
 #include <math.h>
 
-double wt_tip_facet_factor(unsigned sides)
+double tip_facet_factor(unsigned sides)
 {
     return sides == 0 ? 1.0 : sides / M_PI * sin(M_PI / sides);
 }
@@ -26,7 +26,7 @@ static bool is_sharp(const wt_tip *tip)
     return tip->shape == WT_TIP_CONE || tip->transition_radius == 0.0;
 }
 
-double wt_contact_switch_depth(const wt_tip *tip)
+double contact_switch_depth(const wt_tip *tip)
 {
     if (tip->shape == WT_TIP_PARABOLOID)
         return (double)INFINITY;
@@ -35,24 +35,24 @@ double wt_contact_switch_depth(const wt_tip *tip)
     return tip->transition_radius * tip->transition_radius / tip->radius;
 }
 
-static wt_contact_point_values paraboloid(double radius, double delta)
+static contact_point_values paraboloid(double radius, double delta)
 {
     double a = sqrt(radius * delta);
-    return (wt_contact_point_values){4.0 / 3.0 * a * delta, 2.0 * a, a / delta};
+    return (contact_point_values){4.0 / 3.0 * a * delta, 2.0 * a, a / delta};
 }
 
-static wt_contact_point_values sharp(const wt_tip *tip, double delta)
+static contact_point_values sharp(const wt_tip *tip, double delta)
 {
     unsigned sides = tip->shape == WT_TIP_CONE ? 0 : tip->sides;
-    double c = 2.0 / (M_PI * wt_tip_facet_factor(sides)) * tan(tip->half_angle);
-    return (wt_contact_point_values){c * delta * delta, 2.0 * c * delta, 2.0 * c};
+    double c = 2.0 / (M_PI * tip_facet_factor(sides)) * tan(tip->half_angle);
+    return (contact_point_values){c * delta * delta, 2.0 * c * delta, 2.0 * c};
 }
 
-static wt_contact_point_values faces(const wt_tip *tip, double delta)
+static contact_point_values faces(const wt_tip *tip, double delta)
 {
     const double b = tip->transition_radius;
     const double cap = b * b / tip->radius;
-    const double mcot = wt_tip_facet_factor(tip->sides) / tan(tip->half_angle);
+    const double mcot = tip_facet_factor(tip->sides) / tan(tip->half_angle);
     /* h atan(s) >= pi s/2 - 1 makes this an upper bound of the root. */
     double s = 2.0 / M_PI * (delta / (mcot * b) + 1.0);
     double h = 0.0, hs = 0.0, rise = 0.0;
@@ -68,29 +68,29 @@ static wt_contact_point_values faces(const wt_tip *tip, double delta)
         s = next;
     }
     double a = b * h;
-    return (wt_contact_point_values){2.0 * (cap * b * (2.0 * h + s) / (3.0 * hs * hs) +
-                                            0.5 * mcot * (a * a * atan(s) + b * (b * s))),
-                                     2.0 * a, 2.0 * b * s / rise};
+    return (contact_point_values){2.0 * (cap * b * (2.0 * h + s) / (3.0 * hs * hs) +
+                                         0.5 * mcot * (a * a * atan(s) + b * (b * s))),
+                                  2.0 * a, 2.0 * b * s / rise};
 }
 
-wt_contact_point_values wt_contact_values(const wt_tip *tip, double delta)
+contact_point_values contact_values(const wt_tip *tip, double delta)
 {
     if (tip->shape == WT_TIP_PARABOLOID)
         return paraboloid(tip->radius, delta);
     if (is_sharp(tip))
         return sharp(tip, delta);
-    if (delta < wt_contact_switch_depth(tip))
+    if (delta < contact_switch_depth(tip))
         return paraboloid(tip->radius, delta);
     return faces(tip, delta);
 }
 
 void wt_contact_function(const wt_tip *tip, double delta, double *g, double *slope)
 {
-    wt_contact_point_values v = {0.0, 0.0, 0.0};
+    contact_point_values v = {0.0, 0.0, 0.0};
     if (isnan(delta))
         v.g = v.slope = delta;
     else if (delta > 0.0)
-        v = wt_contact_values(tip, delta);
+        v = contact_values(tip, delta);
     *g = v.g;
     *slope = v.slope;
 }

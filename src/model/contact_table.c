@@ -57,16 +57,16 @@ static double piece_rise(const wt_tip *tip, double from, double w)
 {
     double half = sqrt(0.15) * w, middle = from + 0.5 * w;
     return w / 18.0 *
-           (5.0 * (wt_contact_values(tip, middle - half).slope +
-                   wt_contact_values(tip, middle + half).slope) +
-            8.0 * wt_contact_values(tip, middle).slope);
+           (5.0 * (contact_values(tip, middle - half).slope +
+                   contact_values(tip, middle + half).slope) +
+            8.0 * contact_values(tip, middle).slope);
 }
 
 static piece piece_make(const wt_tip *tip, double switch_depth, uint64_t number)
 {
     double e = piece_start(number), w = piece_start(number + 1) - e;
-    wt_contact_point_values lo = wt_contact_values(tip, switch_depth + e);
-    wt_contact_point_values hi = wt_contact_values(tip, switch_depth + e + w);
+    contact_point_values lo = contact_values(tip, switch_depth + e);
+    contact_point_values hi = contact_values(tip, switch_depth + e + w);
     double d = lo.slope * w, s = 0.5 * lo.curvature * w * w;
     /* What the first three terms leave at the far end, for the last three to supply. */
     double rf = piece_rise(tip, switch_depth + e, w) - d - s, rd = hi.slope * w - d - 2.0 * s,
@@ -90,7 +90,7 @@ wt_status wt_contact_table_new(const wt_tip *tip, double delta_min, double delta
         wt_error_found(err, "%g m to %g m", delta_min, delta_max);
         return status;
     }
-    double at = wt_contact_switch_depth(tip);
+    double at = contact_switch_depth(tip);
     uint64_t first = 0;
     size_t n = 0;
     if (at > 0.0 && delta_max > at) {

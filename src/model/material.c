@@ -7,7 +7,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-wt_status wt_material_check_poisson(double poisson_ratio, wt_error *err)
+wt_status material_check_poisson(double poisson_ratio, wt_error *err)
 {
     if (poisson_ratio >= 0 && poisson_ratio <= 0.5)
         return WT_OK;
@@ -18,8 +18,8 @@ wt_status wt_material_check_poisson(double poisson_ratio, wt_error *err)
     return WT_E_RANGE;
 }
 
-wt_status wt_material_check_value(const char *name, double value, const char *expected, bool good,
-                                  wt_error *err)
+wt_status material_check_value(const char *name, double value, const char *expected, bool good,
+                               wt_error *err)
 {
     if (good && isfinite(value))
         return WT_OK;
@@ -29,8 +29,8 @@ wt_status wt_material_check_value(const char *name, double value, const char *ex
     return WT_E_RANGE;
 }
 
-wt_status wt_material_wrap(const wt_material_law *law, void *data, double poisson_ratio,
-                           wt_material **material, wt_error *err)
+wt_status material_wrap(const wt_material_law *law, void *data, double poisson_ratio,
+                        wt_material **material, wt_error *err)
 {
     wt_material *made = malloc(sizeof *made);
     if (!made)

@@ -8,12 +8,12 @@
 #include "weartrack/model.h"
 
 /* WT_E_RANGE unless 0 <= poisson_ratio <= 0.5. */
-wt_status wt_material_check_poisson(double poisson_ratio, wt_error *err) WT_NODISCARD;
+wt_status material_check_poisson(double poisson_ratio, wt_error *err) WT_NODISCARD;
 /* WT_E_RANGE naming the parameter unless `good` and the value is finite. */
-wt_status wt_material_check_value(const char *name, double value, const char *expected, bool good,
-                                  wt_error *err) WT_NODISCARD;
+wt_status material_check_value(const char *name, double value, const char *expected, bool good,
+                               wt_error *err) WT_NODISCARD;
 /* A material of unlimited frequency range around `data`, which it takes only on success. */
-wt_status wt_material_wrap(const wt_material_law *law, void *data, double poisson_ratio,
-                           wt_material **material, wt_error *err) WT_NODISCARD;
+wt_status material_wrap(const wt_material_law *law, void *data, double poisson_ratio,
+                        wt_material **material, wt_error *err) WT_NODISCARD;
 
 #endif

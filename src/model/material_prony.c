@@ -130,23 +130,23 @@ static const wt_material_law prony_law = {
 static wt_status prony_check(const wt_prony *prony, wt_error *err)
 {
     wt_status status =
-        wt_material_check_value("equilibrium_modulus", prony->equilibrium_modulus,
-                                "finite and >= 0 Pa", prony->equilibrium_modulus >= 0, err);
+        material_check_value("equilibrium_modulus", prony->equilibrium_modulus,
+                             "finite and >= 0 Pa", prony->equilibrium_modulus >= 0, err);
     double sum = prony->equilibrium_modulus;
     for (size_t k = 0; status == WT_OK && k < prony->n; k++) {
-        status = wt_material_check_value("relaxation_time", prony->relaxation_time[k],
-                                         "finite and > 0 s", prony->relaxation_time[k] > 0, err);
+        status = material_check_value("relaxation_time", prony->relaxation_time[k],
+                                      "finite and > 0 s", prony->relaxation_time[k] > 0, err);
         if (status == WT_OK)
-            status = wt_material_check_value("modulus", prony->modulus[k], "finite and >= 0 Pa",
-                                             prony->modulus[k] >= 0, err);
+            status = material_check_value("modulus", prony->modulus[k], "finite and >= 0 Pa",
+                                          prony->modulus[k] >= 0, err);
         if (status != WT_OK)
             wt_error_place(err, "Prony term %zu of %zu", k + 1, prony->n);
         else
             sum += prony->modulus[k];
     }
     if (status == WT_OK)
-        status = wt_material_check_value("glass modulus (the sum of all moduli)", sum,
-                                         "finite and > 0 Pa", sum > 0, err);
+        status = material_check_value("glass modulus (the sum of all moduli)", sum,
+                                      "finite and > 0 Pa", sum > 0, err);
     return status;
 }
 
@@ -156,7 +156,7 @@ wt_status wt_material_prony(const wt_prony *prony, double poisson_ratio, wt_mate
     if (!prony || !material)
         return wt_fail(err, WT_E_ARG, "a Prony material needs a series and a place for the result");
     prony_data *d = NULL;
-    wt_status status = wt_material_check_poisson(poisson_ratio, err);
+    wt_status status = material_check_poisson(poisson_ratio, err);
     if (status == WT_OK)
         status = prony_check(prony, err);
     if (status != WT_OK)
@@ -188,7 +188,7 @@ wt_status wt_material_prony(const wt_prony *prony, double poisson_ratio, wt_mate
             v += d->modulus[j] / (1 + tau / d->relaxation_time[j]);
         d->weight[k] = 2 * d->modulus[k] * v;
     }
-    status = wt_material_wrap(&prony_law, d, poisson_ratio, material, err);
+    status = material_wrap(&prony_law, d, poisson_ratio, material, err);
     if (status != WT_OK)
         goto done;
     (*material)->frequency_min = prony->frequency_min;

@@ -81,14 +81,14 @@ static wt_status table_check(const double *omega, const double *storage, const d
 {
     for (size_t i = 0; i < n; i++) {
         wt_status status =
-            wt_material_check_value("angular frequency", omega[i], "finite, > 0 rad/s and rising",
-                                    omega[i] > (i ? omega[i - 1] : 0), err);
+            material_check_value("angular frequency", omega[i], "finite, > 0 rad/s and rising",
+                                 omega[i] > (i ? omega[i - 1] : 0), err);
         if (status == WT_OK)
-            status = wt_material_check_value("storage modulus", storage[i], "finite and > 0 Pa",
-                                             storage[i] > 0, err);
+            status = material_check_value("storage modulus", storage[i], "finite and > 0 Pa",
+                                          storage[i] > 0, err);
         if (status == WT_OK)
-            status = wt_material_check_value("loss modulus", loss[i], "finite and > 0 Pa",
-                                             loss[i] > 0, err);
+            status = material_check_value("loss modulus", loss[i], "finite and > 0 Pa", loss[i] > 0,
+                                          err);
         if (status != WT_OK) {
             wt_error_place(err, "knot %zu of %zu", i + 1, n);
             return status;
@@ -106,7 +106,7 @@ static wt_status table_check_slope(const table_data *d, wt_error *err)
     const double storage = (d->log_storage[1] - d->log_storage[0]) / width;
     const double loss = (d->log_loss[1] - d->log_loss[0]) / width;
     const double lowest = fmin(storage, loss);
-    wt_status status = wt_material_check_value(
+    wt_status status = material_check_value(
         "log-log slope of the modulus at the low end of a table", lowest,
         "> -0.25, so that it can be continued to frequency 0", lowest > -0.25, err);
     if (status != WT_OK)
@@ -121,7 +121,7 @@ wt_status wt_material_table(const double *omega, const double *storage, const do
     if (!omega || !storage || !loss || !material || n < 2)
         return wt_fail(err, WT_E_ARG, "a material table needs at least 2 knots; found %zu", n);
     table_data *d = NULL;
-    wt_status status = wt_material_check_poisson(poisson_ratio, err);
+    wt_status status = material_check_poisson(poisson_ratio, err);
     if (status == WT_OK)
         status = table_check(omega, storage, loss, n, err);
     if (status != WT_OK)
@@ -154,7 +154,7 @@ wt_status wt_material_table(const double *omega, const double *storage, const do
     if (status == WT_OK)
         status = table_check_slope(d, err);
     if (status == WT_OK)
-        status = wt_material_wrap(&table_law, d, poisson_ratio, material, err);
+        status = material_wrap(&table_law, d, poisson_ratio, material, err);
     if (status != WT_OK)
         goto done;
     (*material)->frequency_min = omega[0];

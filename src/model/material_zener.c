@@ -47,17 +47,17 @@ wt_status wt_material_fractional_zener(double e0, double eg, double tau, double 
 {
     if (!material)
         return wt_fail(err, WT_E_ARG, "a material needs a place for the result");
-    wt_status status = wt_material_check_poisson(poisson_ratio, err);
+    wt_status status = material_check_poisson(poisson_ratio, err);
     if (status == WT_OK)
-        status = wt_material_check_value("e0", e0, "finite and >= 0 Pa", e0 >= 0, err);
-    if (status == WT_OK)
-        status =
-            wt_material_check_value("eg", eg, "finite, > 0 Pa and >= e0", eg > 0 && eg >= e0, err);
-    if (status == WT_OK)
-        status = wt_material_check_value("tau", tau, "finite and > 0 s", tau > 0, err);
+        status = material_check_value("e0", e0, "finite and >= 0 Pa", e0 >= 0, err);
     if (status == WT_OK)
         status =
-            wt_material_check_value("alpha", alpha, "0 < alpha <= 1", alpha > 0 && alpha <= 1, err);
+            material_check_value("eg", eg, "finite, > 0 Pa and >= e0", eg > 0 && eg >= e0, err);
+    if (status == WT_OK)
+        status = material_check_value("tau", tau, "finite and > 0 s", tau > 0, err);
+    if (status == WT_OK)
+        status =
+            material_check_value("alpha", alpha, "0 < alpha <= 1", alpha > 0 && alpha <= 1, err);
     if (status != WT_OK)
         return status;
     zener_data *d = malloc(sizeof *d);
@@ -69,7 +69,7 @@ wt_status wt_material_fractional_zener(double e0, double eg, double tau, double 
     d->alpha = alpha;
     d->cosine = alpha < 1 ? cos(alpha * M_PI_2) : 0;
     d->sine = sin(alpha * M_PI_2);
-    status = wt_material_wrap(&zener_law, d, poisson_ratio, material, err);
+    status = material_wrap(&zener_law, d, poisson_ratio, material, err);
     if (status != WT_OK)
         free(d);
     return status;

@@ -8,7 +8,7 @@
 #include <gsl/gsl_sf_psi.h>
 #include <math.h>
 
-double wt_digamma(double x)
+double digamma(double x)
 {
     gsl_sf_result result;
     if (!(x > 0.0) || isinf(x) || gsl_sf_psi_e(x, &result) != GSL_SUCCESS)

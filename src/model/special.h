@@ -6,6 +6,6 @@
 #define WT_MODEL_SPECIAL_H
 
 /* psi(x) = d ln Gamma/dx for x > 0; NaN elsewhere. */
-double wt_digamma(double x);
+double digamma(double x);
 
 #endif

@@ -45,7 +45,7 @@ static wt_status check_cap(const wt_tip *tip, wt_error *err)
     }
     /* The slope of the cap at b must not exceed that of the faces. The smooth cap, where both are
      * equal, is allowed: it may have been computed, hence the rounding. */
-    double b_max = tip->radius * wt_tip_facet_factor(tip->sides) / tan(tip->half_angle);
+    double b_max = tip->radius * tip_facet_factor(tip->sides) / tan(tip->half_angle);
     if (b <= b_max * (1.0 + 4.0 * DBL_EPSILON))
         return WT_OK;
     wt_status status = wt_fail(err, WT_E_RANGE, "the tip is concave where the cap meets the faces");

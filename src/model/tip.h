@@ -9,17 +9,17 @@
 
 /* m(n) = (n/pi) sin(pi/n), the ratio of the mean to the largest distance of the faces from the axis
  * in Rico's averaging; 1 for sides = 0. */
-double wt_tip_facet_factor(unsigned sides);
+double tip_facet_factor(unsigned sides);
 
 /* G, dG/ddelta = 2a and d2G/ddelta2 at delta > 0; the curvature is that of the side above at the
  * switch depth b^2/R, where it jumps. */
-typedef struct wt_contact_point_values {
+typedef struct contact_point_values {
     double g, slope, curvature;
-} wt_contact_point_values;
-wt_contact_point_values wt_contact_values(const wt_tip *tip, double delta);
+} contact_point_values;
+contact_point_values contact_values(const wt_tip *tip, double delta);
 
 /* The depth b^2/R below which a blunted tip is a paraboloid; 0 for a sharp one, infinite for a
  * paraboloid. */
-double wt_contact_switch_depth(const wt_tip *tip);
+double contact_switch_depth(const wt_tip *tip);
 
 #endif

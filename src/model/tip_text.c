@@ -157,18 +157,18 @@ size_t wt_tip_describe(const wt_tip *tip, char *buffer, size_t size)
     if (tip->shape == WT_TIP_PARABOLOID)
         length = snprintf(buffer, size, "sphere (paraboloid), radius %s", radius);
     else if (tip->shape == WT_TIP_CONE)
-        length = wt_clocale_print(buffer, size, "cone, half-angle %.4g degrees", angle);
+        length = clocale_print(buffer, size, "cone, half-angle %.4g degrees", angle);
     else if (tip->sides == 0)
-        length = wt_clocale_print(
-            buffer, size,
-            "blunted cone, half-angle %.4g degrees, cap radius %s, transition radius "
-            "b %s",
-            angle, radius, transition);
+        length =
+            clocale_print(buffer, size,
+                          "blunted cone, half-angle %.4g degrees, cap radius %s, transition radius "
+                          "b %s",
+                          angle, radius, transition);
     else
-        length = wt_clocale_print(
-            buffer, size,
-            "blunted pyramid, %u sides, half-angle %.4g degrees from the axis to a "
-            "face, cap radius %s, transition radius b %s",
-            tip->sides, angle, radius, transition);
+        length =
+            clocale_print(buffer, size,
+                          "blunted pyramid, %u sides, half-angle %.4g degrees from the axis to a "
+                          "face, cap radius %s, transition radius b %s",
+                          tip->sides, angle, radius, transition);
     return length > 0 ? (size_t)length : 0;
 }

@@ -78,21 +78,21 @@ static const signature *looks_like(const unsigned char *bytes, size_t length)
 /* The answers to one question: the best reader, one that ties with it, one that knows the file but
  * cannot read it. */
 typedef struct verdict {
-    const wt_reader *best;
-    const wt_reader *tied;
+    const file_reader *best;
+    const file_reader *tied;
     int score;
-    const wt_reader *unsupported;
-    char reason[sizeof((wt_match *)0)->reason];
+    const file_reader *unsupported;
+    char reason[sizeof((detector_match *)0)->reason];
 } verdict;
 
-static void take(verdict *v, const wt_reader *reader, const wt_match *match)
+static void take(verdict *v, const file_reader *reader, const detector_match *match)
 {
-    if (match->answer == WT_ANSWER_UNSUPPORTED && v->unsupported == NULL) {
+    if (match->answer == ANSWER_UNSUPPORTED && v->unsupported == NULL) {
         v->unsupported = reader;
         memcpy(v->reason, match->reason, sizeof v->reason);
         v->reason[sizeof v->reason - 1] = '\0';
     }
-    if (match->answer != WT_ANSWER_YES)
+    if (match->answer != ANSWER_YES)
         return;
     if (v->best == NULL || match->score > v->score) {
         v->best = reader;
@@ -115,13 +115,13 @@ static wt_status ask(const wt_formats *formats, wt_input *input, unsigned kinds,
         return wt_fail(err, WT_E_MEMORY, "no memory to detect the format");
     size_t n_open = 0;
     for (size_t i = 0; i < n; i++) {
-        const wt_reader *reader = wt_formats_reader(formats, i);
+        const file_reader *reader = formats_reader(formats, i);
         open[i] = (kinds == 0 || (reader->info.kinds & kinds) != 0) == meet;
         n_open += open[i];
     }
     size_t want = FIRST_PEEK;
     while (n_open > 0) {
-        wt_peek peek = {.name = wt_input_name(input)};
+        file_peek peek = {.name = wt_input_name(input)};
         status = wt_input_peek(input, want, &peek.bytes, &peek.length, &peek.whole, err);
         if (status != WT_OK)
             break;
@@ -129,9 +129,9 @@ static wt_status ask(const wt_formats *formats, wt_input *input, unsigned kinds,
         for (size_t i = 0; i < n; i++) {
             if (!open[i])
                 continue;
-            const wt_reader *reader = wt_formats_reader(formats, i);
-            wt_match match = reader->detect(reader, &peek);
-            if (match.answer == WT_ANSWER_MORE && !peek.whole) {
+            const file_reader *reader = formats_reader(formats, i);
+            detector_match match = reader->detect(reader, &peek);
+            if (match.answer == ANSWER_MORE && !peek.whole) {
                 need = match.need > need ? match.need : need;
                 continue;
             }
@@ -163,7 +163,7 @@ static const char *kind_words(unsigned kinds)
     }
 }
 
-static wt_status wrong_kind(const wt_reader *reader, unsigned kinds, wt_error *err)
+static wt_status wrong_kind(const file_reader *reader, unsigned kinds, wt_error *err)
 {
     wt_fail(err, WT_E_UNSUPPORTED, "this format holds no %s", kind_words(kinds));
     wt_error_found(err, "%s (%s)", reader->info.title, reader->info.id);
@@ -186,7 +186,7 @@ static wt_status unknown(wt_input *input, wt_error *err)
 }
 
 static wt_status detect(const wt_formats *formats, wt_input *input, unsigned kinds,
-                        const wt_reader **reader, wt_error *err)
+                        const file_reader **reader, wt_error *err)
 {
     verdict v;
     wt_status status = ask(formats, input, kinds, true, &v, err);
@@ -218,17 +218,17 @@ static wt_status detect(const wt_formats *formats, wt_input *input, unsigned kin
     return unknown(input, err);
 }
 
-wt_status wt_find_reader(const wt_formats *formats, wt_input *input, const char *format,
-                         unsigned kinds, const wt_reader **reader, wt_error *err)
+wt_status find_reader(const wt_formats *formats, wt_input *input, const char *format,
+                      unsigned kinds, const file_reader **reader, wt_error *err)
 {
     wt_status status = WT_E_NOT_FOUND;
     if (format == NULL) {
         status = detect(formats, input, kinds, reader, err);
     } else {
-        const wt_reader *found = NULL;
+        const file_reader *found = NULL;
         size_t n = wt_formats_count(formats);
         for (size_t i = 0; i < n && found == NULL; i++) {
-            const wt_reader *r = wt_formats_reader(formats, i);
+            const file_reader *r = formats_reader(formats, i);
             if (strcmp(r->info.id, format) == 0)
                 found = r;
         }
@@ -250,8 +250,8 @@ wt_status wt_find_reader(const wt_formats *formats, wt_input *input, const char 
 wt_status wt_detect(const wt_formats *formats, wt_input *input, unsigned kinds,
                     const wt_format_info **info, wt_error *err)
 {
-    const wt_reader *reader = NULL;
-    wt_status status = wt_find_reader(formats, input, NULL, kinds, &reader, err);
+    const file_reader *reader = NULL;
+    wt_status status = find_reader(formats, input, NULL, kinds, &reader, err);
     if (status == WT_OK)
         *info = &reader->info;
     return status;

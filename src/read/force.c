@@ -38,21 +38,21 @@ static wt_status check_options(const wt_read_options *options, wt_error *err)
 }
 
 static wt_status start(const wt_formats *formats, wt_input *input, const wt_read_options *given,
-                       unsigned kind, wt_read_options *options, const wt_reader **reader,
+                       unsigned kind, wt_read_options *options, const file_reader **reader,
                        wt_error *err)
 {
     *options = given != NULL ? *given : wt_read_defaults();
     wt_status status = check_options(options, err);
     if (status != WT_OK)
         return status;
-    return wt_find_reader(formats, input, options->format, kind, reader, err);
+    return find_reader(formats, input, options->format, kind, reader, err);
 }
 
 wt_status wt_force_open(const wt_formats *formats, wt_input *input, const wt_read_options *options,
                         wt_parselog *log, wt_force_source **source, wt_error *err)
 {
     wt_read_options o;
-    const wt_reader *reader = NULL;
+    const file_reader *reader = NULL;
     wt_status status = start(formats, input, options, WT_KIND_FORCE, &o, &reader, err);
     if (status != WT_OK)
         return status;
@@ -88,7 +88,7 @@ wt_status wt_sweep_read(const wt_formats *formats, wt_input *input, const wt_rea
                         wt_parselog *log, wt_sweep *sweep, wt_error *err)
 {
     wt_read_options o;
-    const wt_reader *reader = NULL;
+    const file_reader *reader = NULL;
     wt_status status = start(formats, input, options, WT_KIND_SWEEP, &o, &reader, err);
     if (status != WT_OK)
         return status;
@@ -102,7 +102,7 @@ wt_status wt_images_read(const wt_formats *formats, wt_input *input, const wt_re
                          wt_parselog *log, wt_image **images, size_t *n, wt_error *err)
 {
     wt_read_options o;
-    const wt_reader *reader = NULL;
+    const file_reader *reader = NULL;
     wt_status status = start(formats, input, options, WT_KIND_IMAGE, &o, &reader, err);
     if (status != WT_OK)
         return status;
@@ -117,7 +117,7 @@ wt_status wt_power_spectrum_read(const wt_formats *formats, wt_input *input,
                                  wt_power_spectrum *spectrum, wt_error *err)
 {
     wt_read_options o;
-    const wt_reader *reader = NULL;
+    const file_reader *reader = NULL;
     wt_status status = start(formats, input, options, WT_KIND_SPECTRUM, &o, &reader, err);
     if (status != WT_OK)
         return status;
@@ -129,8 +129,8 @@ wt_status wt_power_spectrum_read(const wt_formats *formats, wt_input *input,
 
 /* ---- facts -------------------------------------------------------------------------------- */
 
-wt_status wt_facts_add(wt_table *facts, const char *item, const char *value, const char *unit,
-                       const char *source, wt_error *err)
+wt_status facts_add(wt_table *facts, const char *item, const char *value, const char *unit,
+                    const char *source, wt_error *err)
 {
     const char *cells[] = {item, value, unit, source};
     wt_status status = wt_table_add_row(facts, err);
@@ -139,20 +139,20 @@ wt_status wt_facts_add(wt_table *facts, const char *item, const char *value, con
     return status;
 }
 
-wt_status wt_facts_number(wt_table *facts, const char *item, double value, const char *unit,
-                          const char *source, wt_error *err)
+wt_status facts_number(wt_table *facts, const char *item, double value, const char *unit,
+                       const char *source, wt_error *err)
 {
     char text[32];
     wt_number_format(value, text);
-    return wt_facts_add(facts, item, isnan(value) ? "unknown" : text, unit, source, err);
+    return facts_add(facts, item, isnan(value) ? "unknown" : text, unit, source, err);
 }
 
-wt_status wt_facts_count(wt_table *facts, const char *item, size_t value, const char *source,
-                         wt_error *err)
+wt_status facts_count(wt_table *facts, const char *item, size_t value, const char *source,
+                      wt_error *err)
 {
     char text[32];
     snprintf(text, sizeof text, "%zu", value);
-    return wt_facts_add(facts, item, text, "", source, err);
+    return facts_add(facts, item, text, "", source, err);
 }
 
 static wt_status add_columns(wt_table *facts, wt_error *err)
@@ -169,8 +169,8 @@ static wt_status add_columns(wt_table *facts, wt_error *err)
     return status;
 }
 
-static wt_status add_common(const wt_reader *reader, wt_input *input, bool chosen, wt_table *facts,
-                            wt_error *err)
+static wt_status add_common(const file_reader *reader, wt_input *input, bool chosen,
+                            wt_table *facts, wt_error *err)
 {
     const unsigned char *bytes = NULL;
     size_t length = 0;
@@ -179,17 +179,17 @@ static wt_status add_common(const wt_reader *reader, wt_input *input, bool chose
     if (status != WT_OK)
         return status;
     snprintf(text, sizeof text, "%zu", length);
-    status = wt_facts_add(facts, "file", wt_input_name(input), "", "", err);
+    status = facts_add(facts, "file", wt_input_name(input), "", "", err);
     if (status == WT_OK)
-        status = wt_facts_add(facts, "size", text, "byte", "", err);
+        status = facts_add(facts, "size", text, "byte", "", err);
     if (status == WT_OK)
-        status = wt_facts_add(facts, "format", reader->info.id, "",
-                              chosen ? "chosen with --format" : "recognised by its content", err);
+        status = facts_add(facts, "format", reader->info.id, "",
+                           chosen ? "chosen with --format" : "recognised by its content", err);
     if (status == WT_OK)
-        status = wt_facts_add(facts, "format title", reader->info.title, "", "", err);
+        status = facts_add(facts, "format title", reader->info.title, "", "", err);
     if (status == WT_OK)
-        status = wt_facts_add(facts, "format verified", reader->info.verified ? "yes" : "no", "",
-                              reader->info.evidence, err);
+        status = facts_add(facts, "format verified", reader->info.verified ? "yes" : "no", "",
+                           reader->info.evidence, err);
     return status;
 }
 
@@ -197,7 +197,7 @@ wt_status wt_describe(const wt_formats *formats, wt_input *input, const wt_read_
                       wt_parselog *log, wt_table **facts, wt_error *err)
 {
     wt_read_options o;
-    const wt_reader *reader = NULL;
+    const file_reader *reader = NULL;
     wt_table *table = NULL;
     wt_status status = start(formats, input, options, 0, &o, &reader, err);
     if (status != WT_OK)

@@ -4,101 +4,103 @@
  */
 #include "read/formats.h"
 
+#include "read/embedded_formats.h"
 #include "read/formats_text.h"
 #include "read/stored.h"
 #include "read/text/text.h"
-#include "read/wt_embedded_formats.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 /* A reader that runs a description. */
 typedef struct text_reader {
-    wt_reader reader; /* first: `self` of its functions is this */
-    wt_description *description;
+    file_reader reader; /* first: `self` of its functions is this */
+    text_description *description;
 } text_reader;
 
 struct wt_formats {
-    const wt_reader **readers; /* binary readers, then text readers */
+    const file_reader **readers; /* binary readers, then text readers */
     size_t n;
     text_reader *texts;
     size_t n_texts;
     text_reader stored; /* runs the description of the text stream on HDF5 */
 };
 
-static const wt_reader *const binary[] = {&wt_reader_jpk, &wt_reader_nid};
+static const file_reader *const binary[] = {&reader_jpk, &reader_nid};
 #define N_BINARY (sizeof binary / sizeof *binary)
 
-static const wt_description *of(const wt_reader *self)
+static const text_description *of(const file_reader *self)
 {
     return ((const text_reader *)self)->description;
 }
 
-static wt_match detect(const wt_reader *self, const wt_peek *peek)
+static detector_match detect(const file_reader *self, const file_peek *peek)
 {
-    return wt_text_detect(of(self), peek);
+    return text_detect(of(self), peek);
 }
 
-static wt_status open_force(const wt_reader *self, wt_input *input, const wt_read_options *options,
-                            wt_parselog *log, wt_force_source **source, wt_error *err)
+static wt_status open_force(const file_reader *self, wt_input *input,
+                            const wt_read_options *options, wt_parselog *log,
+                            wt_force_source **source, wt_error *err)
 {
-    return wt_text_open_force(of(self), input, options, log, source, err);
+    return text_open_force(of(self), input, options, log, source, err);
 }
 
-static wt_status read_sweep(const wt_reader *self, wt_input *input, const wt_read_options *options,
-                            wt_parselog *log, wt_sweep *sweep, wt_error *err)
+static wt_status read_sweep(const file_reader *self, wt_input *input,
+                            const wt_read_options *options, wt_parselog *log, wt_sweep *sweep,
+                            wt_error *err)
 {
-    return wt_text_read_sweep(of(self), input, options, log, sweep, err);
+    return text_read_sweep(of(self), input, options, log, sweep, err);
 }
 
-static wt_status read_spectrum(const wt_reader *self, wt_input *input,
+static wt_status read_spectrum(const file_reader *self, wt_input *input,
                                const wt_read_options *options, wt_parselog *log,
                                wt_power_spectrum *spectrum, wt_error *err)
 {
-    return wt_text_read_spectrum(of(self), input, options, log, spectrum, err);
+    return text_read_spectrum(of(self), input, options, log, spectrum, err);
 }
 
-static wt_status describe(const wt_reader *self, wt_input *input, const wt_read_options *options,
+static wt_status describe(const file_reader *self, wt_input *input, const wt_read_options *options,
                           wt_parselog *log, wt_table *facts, wt_error *err)
 {
-    return wt_text_describe(of(self), input, options, log, facts, err);
+    return text_describe(of(self), input, options, log, facts, err);
 }
 
-static wt_match stored_detect(const wt_reader *self, const wt_peek *peek)
+static detector_match detect_stored(const file_reader *self, const file_peek *peek)
 {
     (void)self;
-    return wt_stored_detect(peek);
+    return stored_detect(peek);
 }
 
-static wt_status stored_open_force(const wt_reader *self, wt_input *input,
+static wt_status open_force_stored(const file_reader *self, wt_input *input,
                                    const wt_read_options *options, wt_parselog *log,
                                    wt_force_source **source, wt_error *err)
 {
-    return wt_stored_open_force(of(self), input, options, log, source, err);
+    return stored_open_force(of(self), input, options, log, source, err);
 }
 
-static wt_status stored_read_sweep(const wt_reader *self, wt_input *input,
+static wt_status read_sweep_stored(const file_reader *self, wt_input *input,
                                    const wt_read_options *options, wt_parselog *log,
                                    wt_sweep *sweep, wt_error *err)
 {
-    return wt_stored_read_sweep(of(self), input, options, log, sweep, err);
+    return stored_read_sweep(of(self), input, options, log, sweep, err);
 }
 
-static wt_status stored_read_spectrum(const wt_reader *self, wt_input *input,
+static wt_status read_spectrum_stored(const file_reader *self, wt_input *input,
                                       const wt_read_options *options, wt_parselog *log,
                                       wt_power_spectrum *spectrum, wt_error *err)
 {
-    return wt_stored_read_spectrum(of(self), input, options, log, spectrum, err);
+    return stored_read_spectrum(of(self), input, options, log, spectrum, err);
 }
 
-static wt_status stored_describe(const wt_reader *self, wt_input *input,
+static wt_status describe_stored(const file_reader *self, wt_input *input,
                                  const wt_read_options *options, wt_parselog *log, wt_table *facts,
                                  wt_error *err)
 {
-    return wt_stored_describe(of(self), input, options, log, facts, err);
+    return stored_describe(of(self), input, options, log, facts, err);
 }
 
-static text_reader make_stored_reader(wt_description *stream)
+static text_reader make_stored_reader(text_description *stream)
 {
     return (text_reader){
         .description = stream,
@@ -109,14 +111,14 @@ static text_reader make_stored_reader(wt_description *stream)
                             .verified = true,
                             .evidence = "the HDF5 file that this program writes",
                             .version = "1"},
-                   .detect = stored_detect,
-                   .open_force = stored_open_force,
-                   .read_sweep = stored_read_sweep,
-                   .read_spectrum = stored_read_spectrum,
-                   .describe = stored_describe}};
+                   .detect = detect_stored,
+                   .open_force = open_force_stored,
+                   .read_sweep = read_sweep_stored,
+                   .read_spectrum = read_spectrum_stored,
+                   .describe = describe_stored}};
 }
 
-static text_reader make_reader(wt_description *d)
+static text_reader make_reader(text_description *d)
 {
     text_reader t = {.description = d};
     t.reader.info = (wt_format_info){.id = d->id,
@@ -134,7 +136,7 @@ static text_reader make_reader(wt_description *d)
 }
 
 /* Takes the description, also on failure. */
-static wt_status add(wt_formats *f, wt_description *d, wt_parselog *log, const char *path,
+static wt_status add(wt_formats *f, text_description *d, wt_parselog *log, const char *path,
                      wt_error *err)
 {
     for (size_t i = 0; i < N_BINARY; i++)
@@ -143,7 +145,7 @@ static wt_status add(wt_formats *f, wt_description *d, wt_parselog *log, const c
             wt_error_file(err, path);
             wt_error_found(err, "id=\"%s\"", d->id);
             wt_error_advice(err, "choose another id");
-            wt_description_free(d);
+            description_free(d);
             return WT_E_SCHEMA;
         }
     for (size_t i = 0; i < f->n_texts; i++)
@@ -151,13 +153,13 @@ static wt_status add(wt_formats *f, wt_description *d, wt_parselog *log, const c
             wt_parselog_add(log, WT_NOTE, path, NULL,
                             "replaces the description \"%s\" of version %s", d->id,
                             f->texts[i].description->version);
-            wt_description_free(f->texts[i].description);
+            description_free(f->texts[i].description);
             f->texts[i] = make_reader(d);
             return WT_OK;
         }
     text_reader *grown = realloc(f->texts, (f->n_texts + 1) * sizeof *grown);
     if (grown == NULL) {
-        wt_description_free(d);
+        description_free(d);
         return wt_fail(err, WT_E_MEMORY, "no memory for the formats");
     }
     f->texts = grown;
@@ -165,23 +167,23 @@ static wt_status add(wt_formats *f, wt_description *d, wt_parselog *log, const c
     return WT_OK;
 }
 
-static wt_status add_built_in(wt_formats *f, const wt_description_schema *schema, wt_error *err)
+static wt_status add_built_in(wt_formats *f, const description_schema *schema, wt_error *err)
 {
     wt_status status = WT_OK;
-    for (const wt_embedded *e = wt_embedded_formats; e->name != NULL && status == WT_OK; e++) {
-        wt_description *d = NULL;
+    for (const embedded_text *e = embedded_formats; e->name != NULL && status == WT_OK; e++) {
+        text_description *d = NULL;
         const size_t n = strlen(e->name);
         if (n < 4 || strcmp(e->name + n - 4, ".xml") != 0)
             continue;
-        status = wt_description_parse(schema, e->text, e->length, e->name, &d, err);
+        status = description_parse(schema, e->text, e->length, e->name, &d, err);
         if (status == WT_OK)
             status = add(f, d, NULL, e->name, err);
     }
     return status;
 }
 
-wt_status wt_formats_parse_file(const wt_description_schema *schema, const char *path,
-                                wt_description **description, wt_error *err)
+wt_status formats_parse_file(const description_schema *schema, const char *path,
+                             text_description **description, wt_error *err)
 {
     wt_input *input = NULL;
     const unsigned char *bytes = NULL;
@@ -190,20 +192,20 @@ wt_status wt_formats_parse_file(const wt_description_schema *schema, const char 
     if (status == WT_OK)
         status = wt_input_bytes(input, &bytes, &length, err);
     if (status == WT_OK)
-        status = wt_description_parse(schema, (const char *)bytes, length, path, description, err);
+        status = description_parse(schema, (const char *)bytes, length, path, description, err);
     wt_input_close(input);
     return status;
 }
 
-static wt_status add_folder(wt_formats *f, const wt_description_schema *schema, const char *folder,
+static wt_status add_folder(wt_formats *f, const description_schema *schema, const char *folder,
                             wt_parselog *log, wt_error *err)
 {
     char **paths = NULL;
     size_t n = 0;
     wt_status status = wt_glob(folder, "*.xml", &paths, &n, err);
     for (size_t i = 0; i < n && status == WT_OK; i++) {
-        wt_description *d = NULL;
-        status = wt_formats_parse_file(schema, paths[i], &d, err);
+        text_description *d = NULL;
+        status = formats_parse_file(schema, paths[i], &d, err);
         if (status == WT_OK)
             status = add(f, d, log, paths[i], err);
     }
@@ -213,18 +215,18 @@ static wt_status add_folder(wt_formats *f, const wt_description_schema *schema, 
 
 wt_status wt_formats_new(const char *folder, wt_formats **formats, wt_parselog *log, wt_error *err)
 {
-    wt_description_schema *schema = NULL;
+    description_schema *schema = NULL;
     wt_formats *f = calloc(1, sizeof *f);
     if (f == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for the formats");
-    wt_status status = wt_description_schema_new(&schema, err);
+    wt_status status = description_schema_new(&schema, err);
     if (status == WT_OK)
         status = add_built_in(f, schema, err);
     if (status == WT_OK && folder != NULL)
         status = add_folder(f, schema, folder, log, err);
-    wt_description_schema_free(schema);
+    description_schema_free(schema);
     if (status == WT_OK) {
-        f->readers = malloc((N_BINARY + f->n_texts + 1) * sizeof(const wt_reader *));
+        f->readers = malloc((N_BINARY + f->n_texts + 1) * sizeof(const file_reader *));
         if (f->readers == NULL)
             status = wt_fail(err, WT_E_MEMORY, "no memory for the formats");
     }
@@ -250,7 +252,7 @@ void wt_formats_free(wt_formats *formats)
     if (formats == NULL)
         return;
     for (size_t i = 0; i < formats->n_texts; i++)
-        wt_description_free(formats->texts[i].description);
+        description_free(formats->texts[i].description);
     free(formats->texts);
     free(formats->readers);
     free(formats);
@@ -261,7 +263,7 @@ size_t wt_formats_count(const wt_formats *formats)
     return formats->n;
 }
 
-const wt_reader *wt_formats_reader(const wt_formats *formats, size_t i)
+const file_reader *formats_reader(const wt_formats *formats, size_t i)
 {
     return formats->readers[i];
 }

@@ -4,7 +4,7 @@
 
 #include "read/description/description.h"
 
-wt_status wt_formats_parse_file(const wt_description_schema *schema, const char *path,
-                                wt_description **description, wt_error *err);
+wt_status formats_parse_file(const description_schema *schema, const char *path,
+                             text_description **description, wt_error *err);
 
 #endif

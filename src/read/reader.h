@@ -9,51 +9,51 @@
 #include "weartrack/read.h"
 
 /* The four honest answers of a detector. */
-typedef enum wt_answer {
-    WT_ANSWER_NO,          /* not mine */
-    WT_ANSWER_YES,         /* mine, with a score */
-    WT_ANSWER_UNSUPPORTED, /* mine, but damaged or of a kind that I cannot handle; `reason` says why
-                            */
-    WT_ANSWER_MORE         /* cannot say yet: show me at least `need` bytes */
-} wt_answer;
+typedef enum detector_answer {
+    ANSWER_NO,          /* not mine */
+    ANSWER_YES,         /* mine, with a score */
+    ANSWER_UNSUPPORTED, /* mine, but damaged or of a kind that I cannot handle; `reason` says why
+                         */
+    ANSWER_MORE         /* cannot say yet: show me at least `need` bytes */
+} detector_answer;
 
-typedef struct wt_match {
-    wt_answer answer;
+typedef struct detector_match {
+    detector_answer answer;
     int score;        /* 1..100, higher wins; a tie of the highest is an error that names both */
-    size_t need;      /* for WT_ANSWER_MORE */
-    char reason[160]; /* for WT_ANSWER_UNSUPPORTED, and a hint for `info` */
-} wt_match;
+    size_t need;      /* for ANSWER_MORE */
+    char reason[160]; /* for ANSWER_UNSUPPORTED, and a hint for `info` */
+} detector_match;
 
 /* The beginning of a file. `whole` says that bytes..length is all there is. */
-typedef struct wt_peek {
+typedef struct file_peek {
     const unsigned char *bytes;
     size_t length;
     bool whole;
     const char *name; /* as the user wrote it; for messages only */
-} wt_peek;
+} file_peek;
 
-typedef struct wt_reader {
+typedef struct file_reader {
     wt_format_info info; /* id, title, kind, how it was verified: read.h */
     /* `self` is the reader itself (a description carries its own data behind it). */
-    wt_match (*detect)(const struct wt_reader *self, const wt_peek *peek);
+    detector_match (*detect)(const struct file_reader *self, const file_peek *peek);
     /* Kinds that it cannot deliver are NULL. The source borrows the input until it is closed. */
-    wt_status (*open_force)(const struct wt_reader *self, wt_input *input,
+    wt_status (*open_force)(const struct file_reader *self, wt_input *input,
                             const wt_read_options *options, wt_parselog *log,
                             wt_force_source **source, wt_error *err);
-    wt_status (*read_sweep)(const struct wt_reader *self, wt_input *input,
+    wt_status (*read_sweep)(const struct file_reader *self, wt_input *input,
                             const wt_read_options *options, wt_parselog *log, wt_sweep *sweep,
                             wt_error *err);
-    wt_status (*read_images)(const struct wt_reader *self, wt_input *input,
+    wt_status (*read_images)(const struct file_reader *self, wt_input *input,
                              const wt_read_options *options, wt_parselog *log, wt_image **images,
                              size_t *n_images, wt_error *err);
-    wt_status (*read_spectrum)(const struct wt_reader *self, wt_input *input,
+    wt_status (*read_spectrum)(const struct file_reader *self, wt_input *input,
                                const wt_read_options *options, wt_parselog *log,
                                wt_power_spectrum *spectrum, wt_error *err);
     /* Adds what `info` shows: segments, channels, calibration, what is missing or odd. */
-    wt_status (*describe)(const struct wt_reader *self, wt_input *input,
+    wt_status (*describe)(const struct file_reader *self, wt_input *input,
                           const wt_read_options *options, wt_parselog *log, wt_table *facts,
                           wt_error *err);
-} wt_reader;
+} file_reader;
 
 /* A force source: the first member of each reader's own struct. */
 struct wt_force_source {
@@ -64,7 +64,7 @@ struct wt_force_source {
 };
 
 /* The binary readers, one file each. */
-extern const wt_reader wt_reader_jpk; /* jpk.c */
-extern const wt_reader wt_reader_nid; /* nid.c */
+extern const file_reader reader_jpk; /* jpk.c */
+extern const file_reader reader_nid; /* nid.c */
 
 #endif

@@ -18,15 +18,15 @@ static void stored_text_clear(stored_text *text)
     *text = (stored_text){0};
 }
 
-wt_match wt_stored_detect(const wt_peek *peek)
+detector_match stored_detect(const file_peek *peek)
 {
     static const char signature[] = "\211HDF\r\n\032\n", mark[] = "weartrack";
-    wt_match match = {.answer = WT_ANSWER_NO};
+    detector_match match = {.answer = ANSWER_NO};
     /* The root's attributes, the version among them, stand right behind the signature. */
     if (peek->length >= sizeof signature - 1 &&
         memcmp(peek->bytes, signature, sizeof signature - 1) == 0 &&
         memmem(peek->bytes, peek->length, mark, sizeof mark - 1) != NULL) {
-        match.answer = WT_ANSWER_YES;
+        match.answer = ANSWER_YES;
         match.score = 90;
     }
     return match;
@@ -97,16 +97,16 @@ static void close_source(wt_force_source *source)
     free(s);
 }
 
-wt_status wt_stored_open_force(const wt_description *stream, wt_input *input,
-                               const wt_read_options *options, wt_parselog *log,
-                               wt_force_source **source, wt_error *err)
+wt_status stored_open_force(const text_description *stream, wt_input *input,
+                            const wt_read_options *options, wt_parselog *log,
+                            wt_force_source **source, wt_error *err)
 {
     stored_source *s = calloc(1, sizeof *s);
     if (s == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for the force curves");
     wt_status status = open_text(input, &s->text, err);
     if (status == WT_OK)
-        status = wt_text_open_force(stream, s->text.input, options, log, &s->inner, err);
+        status = text_open_force(stream, s->text.input, options, log, &s->inner, err);
     if (status != WT_OK) {
         stored_text_clear(&s->text);
         free(s);
@@ -119,33 +119,33 @@ wt_status wt_stored_open_force(const wt_description *stream, wt_input *input,
     return WT_OK;
 }
 
-wt_status wt_stored_read_sweep(const wt_description *stream, wt_input *input,
-                               const wt_read_options *options, wt_parselog *log, wt_sweep *sweep,
-                               wt_error *err)
+wt_status stored_read_sweep(const text_description *stream, wt_input *input,
+                            const wt_read_options *options, wt_parselog *log, wt_sweep *sweep,
+                            wt_error *err)
 {
     stored_text text = {0};
     wt_status status = open_text(input, &text, err);
     if (status == WT_OK)
-        status = wt_text_read_sweep(stream, text.input, options, log, sweep, err);
+        status = text_read_sweep(stream, text.input, options, log, sweep, err);
     stored_text_clear(&text);
     return status;
 }
 
-wt_status wt_stored_read_spectrum(const wt_description *stream, wt_input *input,
-                                  const wt_read_options *options, wt_parselog *log,
-                                  wt_power_spectrum *spectrum, wt_error *err)
+wt_status stored_read_spectrum(const text_description *stream, wt_input *input,
+                               const wt_read_options *options, wt_parselog *log,
+                               wt_power_spectrum *spectrum, wt_error *err)
 {
     stored_text text = {0};
     wt_status status = open_text(input, &text, err);
     if (status == WT_OK)
-        status = wt_text_read_spectrum(stream, text.input, options, log, spectrum, err);
+        status = text_read_spectrum(stream, text.input, options, log, spectrum, err);
     stored_text_clear(&text);
     return status;
 }
 
-wt_status wt_stored_describe(const wt_description *stream, wt_input *input,
-                             const wt_read_options *options, wt_parselog *log, wt_table *facts,
-                             wt_error *err)
+wt_status stored_describe(const text_description *stream, wt_input *input,
+                          const wt_read_options *options, wt_parselog *log, wt_table *facts,
+                          wt_error *err)
 {
     wt_result *result = NULL;
     stored_text text = {0};
@@ -156,13 +156,13 @@ wt_status wt_stored_describe(const wt_description *stream, wt_input *input,
         char item[128], rows[64];
         snprintf(item, sizeof item, "table %s", wt_table_name(table));
         snprintf(rows, sizeof rows, "%zu rows", wt_table_n_rows(table));
-        status = wt_facts_add(facts, item, rows, "", "", err);
+        status = facts_add(facts, item, rows, "", "", err);
         measured = measured || is_measured(wt_table_name(table));
     }
     if (status == WT_OK && measured)
         status = open_text(input, &text, err);
     if (status == WT_OK && measured)
-        status = wt_text_describe(stream, text.input, options, log, facts, err);
+        status = text_describe(stream, text.input, options, log, facts, err);
     stored_text_clear(&text);
     wt_result_free(result);
     return status;

@@ -9,18 +9,18 @@
 #include "read/text/text.h"
 
 /* `stream` is the description of the text stream, borrowed. */
-wt_match wt_stored_detect(const wt_peek *peek);
-wt_status wt_stored_open_force(const wt_description *stream, wt_input *input,
+detector_match stored_detect(const file_peek *peek);
+wt_status stored_open_force(const text_description *stream, wt_input *input,
+                            const wt_read_options *options, wt_parselog *log,
+                            wt_force_source **source, wt_error *err);
+wt_status stored_read_sweep(const text_description *stream, wt_input *input,
+                            const wt_read_options *options, wt_parselog *log, wt_sweep *sweep,
+                            wt_error *err);
+wt_status stored_read_spectrum(const text_description *stream, wt_input *input,
                                const wt_read_options *options, wt_parselog *log,
-                               wt_force_source **source, wt_error *err);
-wt_status wt_stored_read_sweep(const wt_description *stream, wt_input *input,
-                               const wt_read_options *options, wt_parselog *log, wt_sweep *sweep,
-                               wt_error *err);
-wt_status wt_stored_read_spectrum(const wt_description *stream, wt_input *input,
-                                  const wt_read_options *options, wt_parselog *log,
-                                  wt_power_spectrum *spectrum, wt_error *err);
-wt_status wt_stored_describe(const wt_description *stream, wt_input *input,
-                             const wt_read_options *options, wt_parselog *log, wt_table *facts,
-                             wt_error *err);
+                               wt_power_spectrum *spectrum, wt_error *err);
+wt_status stored_describe(const text_description *stream, wt_input *input,
+                          const wt_read_options *options, wt_parselog *log, wt_table *facts,
+                          wt_error *err);
 
 #endif

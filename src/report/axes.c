@@ -8,79 +8,79 @@
 #include <math.h>
 #include <string.h>
 
-bool wt_span_empty(const wt_span *span)
+bool span_empty(const value_span *span)
 {
     return !(span->low <= span->high);
 }
 
-void wt_span_add(wt_span *span, double value, bool positive_only)
+void span_add(value_span *span, double value, bool positive_only)
 {
     // Beyond a hundred decades nothing is measured, and no axis can show it.
     if (!(fabs(value) < 1e100) || (positive_only && !(value > 1e-100)))
         return;
-    if (wt_span_empty(span))
+    if (span_empty(span))
         span->low = span->high = value;
     span->low = fmin(span->low, value);
     span->high = fmax(span->high, value);
 }
 
-void wt_span_add_column(wt_span *span, const wt_table *table, const char *column,
-                        bool positive_only)
+void span_add_column(value_span *span, const wt_table *table, const char *column,
+                     bool positive_only)
 {
-    long c = wt_number_column(table, column);
+    long c = number_column(table, column);
     if (c < 0)
         return;
     for (size_t row = 0; row < wt_table_n_rows(table); row++)
-        wt_span_add(span, wt_table_number(table, row, (size_t)c), positive_only);
+        span_add(span, wt_table_number(table, row, (size_t)c), positive_only);
 }
 
-void wt_span_add_section(wt_span *span, const wt_drawing *d, int section, const char *column,
-                         bool positive_only)
+void span_add_section(value_span *span, const figure_drawing *d, int section, const char *column,
+                      bool positive_only)
 {
     if (section >= 0)
-        wt_span_add_column(span, d->sections[section], column, positive_only);
+        span_add_column(span, d->sections[section], column, positive_only);
 }
 
-static void write_label(wt_drawing *d, const char *axis, const char *label, const wt_lab_unit *lab)
+static void write_label(figure_drawing *d, const char *axis, const char *label, const lab_unit *lab)
 {
-    wt_text words = {0};
-    wt_text_add(&words, label);
+    growing_text words = {0};
+    text_add(&words, label);
     if (lab->label[0] != '\0')
-        wt_text_format(&words, " (%s)", lab->label);
+        text_format(&words, " (%s)", lab->label);
     if (strcmp(axis, "cb") == 0) // beside the scale of colour, which stands right of the picture
-        wt_text_add(&d->script, "set rmargin 14\n");
-    wt_text_format(&d->script, "set %slabel ", axis);
-    wt_text_quoted(&d->script, wt_text_string(&words));
-    wt_text_add(&d->script, "\n");
+        text_add(&d->script, "set rmargin 14\n");
+    text_format(&d->script, "set %slabel ", axis);
+    text_quoted(&d->script, text_string(&words));
+    text_add(&d->script, "\n");
     if (words.failed)
         d->script.failed = true;
-    wt_text_free(&words);
+    text_free(&words);
 }
 
-static void write_unit(wt_drawing *d, const char *axis, const char *unit, const wt_lab_unit *lab)
+static void write_unit(figure_drawing *d, const char *axis, const char *unit, const lab_unit *lab)
 {
-    wt_text words = {0};
-    wt_text_format(&d->script, "%s_unit = ", axis);
-    wt_text_literal(&d->script, lab->factor);
+    growing_text words = {0};
+    text_format(&d->script, "%s_unit = ", axis);
+    text_literal(&d->script, lab->factor);
     if (lab->offset != 0) {
-        wt_text_format(&d->script, "; %s_offset = ", axis);
-        wt_text_literal(&d->script, lab->offset);
+        text_format(&d->script, "; %s_offset = ", axis);
+        text_literal(&d->script, lab->offset);
     }
-    wt_text_format(&words, "from %s to %s", unit, lab->label[0] != '\0' ? lab->label : "1");
-    wt_text_add(&d->script, "  ");
-    wt_text_comment(&d->script, wt_text_string(&words));
+    text_format(&words, "from %s to %s", unit, lab->label[0] != '\0' ? lab->label : "1");
+    text_add(&d->script, "  ");
+    text_comment(&d->script, text_string(&words));
     if (words.failed)
         d->script.failed = true;
-    wt_text_free(&words);
+    text_free(&words);
 }
 
-static void write_range(wt_drawing *d, const char *axis, double low, double high)
+static void write_range(figure_drawing *d, const char *axis, double low, double high)
 {
-    wt_text_format(&d->script, "set %srange [", axis);
-    wt_text_literal(&d->script, low);
-    wt_text_add(&d->script, ":");
-    wt_text_literal(&d->script, high);
-    wt_text_add(&d->script, "]\n");
+    text_format(&d->script, "set %srange [", axis);
+    text_literal(&d->script, low);
+    text_add(&d->script, ":");
+    text_literal(&d->script, high);
+    text_add(&d->script, "]\n");
 }
 
 /* 1, 2, 2.5 or 5 times a power of ten that divides `width` into about five parts. */
@@ -90,11 +90,11 @@ static double tidy_step(double width)
     return (part < 1.5 ? 1 : part < 2.25 ? 2 : part < 3.5 ? 2.5 : part < 7.5 ? 5 : 10) * power;
 }
 
-wt_lab_unit wt_axis_linear(wt_drawing *d, const char *axis, const char *label, const char *unit,
-                           const char *quantity, wt_span span)
+lab_unit axis_linear(figure_drawing *d, const char *axis, const char *label, const char *unit,
+                     const char *quantity, value_span span)
 {
-    wt_lab_unit lab = wt_lab_unit_for(unit, quantity, fmax(fabs(span.low), fabs(span.high)) / 2);
-    double low = wt_lab_value(&lab, span.low), high = wt_lab_value(&lab, span.high);
+    lab_unit lab = lab_unit_for(unit, quantity, fmax(fabs(span.low), fabs(span.high)) / 2);
+    double low = lab_value(&lab, span.low), high = lab_value(&lab, span.high);
     double size = fmax(fabs(high), fabs(low));
     if (!(high - low > fmax(1e-12 * size, 1e-100))) { // one value: a range around it
         double half = size > 1e-100 ? size / 2 : 1;
@@ -107,16 +107,16 @@ wt_lab_unit wt_axis_linear(wt_drawing *d, const char *axis, const char *label, c
     high = high == 0 ? 0 : high + margin;
     write_unit(d, axis, unit, &lab);
     write_label(d, axis, label, &lab);
-    wt_text_format(&d->script, "unset logscale %s\n", axis);
+    text_format(&d->script, "unset logscale %s\n", axis);
     write_range(d, axis, low, high);
-    wt_text_format(&d->script, "set %stics ", axis);
-    wt_text_literal(&d->script, step);
-    wt_text_format(&d->script, "\nset format %s '%%g'\n", axis);
+    text_format(&d->script, "set %stics ", axis);
+    text_literal(&d->script, step);
+    text_format(&d->script, "\nset format %s '%%g'\n", axis);
     return lab;
 }
 
 /* Little more than two decades at most: 1-2-5 tics with plain numbers. */
-static void short_log(wt_drawing *d, const char *axis, double low, double high, double width)
+static void short_log(figure_drawing *d, const char *axis, double low, double high, double width)
 {
     double margin = pow(10, fmax(0.05 * width, 0.02));
     low /= margin;
@@ -126,12 +126,12 @@ static void short_log(wt_drawing *d, const char *axis, double low, double high, 
     size_t n = width < 0.7 ? sizeof many / sizeof many[0] : sizeof few / sizeof few[0];
     size_t written = 0;
     write_range(d, axis, low, high);
-    wt_text_format(&d->script, "unset m%stics\nset %stics (", axis, axis);
+    text_format(&d->script, "unset m%stics\nset %stics (", axis, axis);
     if (width < 0.15) { // less than a factor of 1.4: as on a linear axis
         double step = tidy_step(high - low);
         for (int i = (int)ceil(low / step); i <= (int)floor(high / step); i++) {
-            wt_text_add(&d->script, written++ == 0 ? "" : ", ");
-            wt_text_literal(&d->script, i * step);
+            text_add(&d->script, written++ == 0 ? "" : ", ");
+            text_literal(&d->script, i * step);
         }
     } else
         for (int decade = (int)floor(log10(low)); decade <= (int)floor(log10(high)); decade++)
@@ -139,14 +139,14 @@ static void short_log(wt_drawing *d, const char *axis, double low, double high, 
                 double tic = digits[i] * pow(10, decade);
                 if (tic < low || tic > high)
                     continue;
-                wt_text_add(&d->script, written++ == 0 ? "" : ", ");
-                wt_text_literal(&d->script, tic);
+                text_add(&d->script, written++ == 0 ? "" : ", ");
+                text_literal(&d->script, tic);
             }
-    wt_text_format(&d->script, ")\nset format %s '%%g'\n", axis);
+    text_format(&d->script, ")\nset format %s '%%g'\n", axis);
 }
 
-wt_lab_unit wt_axis_log(wt_drawing *d, const char *axis, const char *label, const char *unit,
-                        wt_span span)
+lab_unit axis_log(figure_drawing *d, const char *axis, const char *label, const char *unit,
+                  value_span span)
 {
     double decades = log10(span.high / span.low);
     // The unit that suits three times the geometric middle, as decades go both ways from it; over
@@ -156,11 +156,11 @@ wt_lab_unit wt_axis_log(wt_drawing *d, const char *axis, const char *label, cons
         size = 1;
     else if (decades > 2.5 && strcmp(unit, "Pa") == 0)
         size = 1e6;
-    wt_lab_unit lab = wt_lab_unit_for(unit, "", size);
+    lab_unit lab = lab_unit_for(unit, "", size);
     double low = span.low * lab.factor, high = span.high * lab.factor;
     write_unit(d, axis, unit, &lab);
     write_label(d, axis, label, &lab);
-    wt_text_format(&d->script, "set logscale %s\n", axis);
+    text_format(&d->script, "set logscale %s\n", axis);
     if (decades < 2.2) {
         short_log(d, axis, low, high, decades);
         return lab;
@@ -172,8 +172,8 @@ wt_lab_unit wt_axis_log(wt_drawing *d, const char *axis, const char *label, cons
     // Seven labels at most. The first tic must be given: else
     // gnuplot counts from the end of the axis, which is no whole decade.
     int step = 1 + (int)(decades / 7), first = (int)ceil(log10(low));
-    wt_text_format(&d->script, "set %stics 1e%d,1e%d\n", axis, first, step);
-    wt_text_format(&d->script, step == 1 ? "set m%stics 10\n" : "unset m%stics\n", axis);
-    wt_text_format(&d->script, "set format %s '10^{%%T}'\n", axis);
+    text_format(&d->script, "set %stics 1e%d,1e%d\n", axis, first, step);
+    text_format(&d->script, step == 1 ? "set m%stics 10\n" : "unset m%stics\n", axis);
+    text_format(&d->script, "set format %s '10^{%%T}'\n", axis);
     return lab;
 }

@@ -12,24 +12,24 @@ static long find(const wt_table *table, const char *name, wt_column_kind kind)
     return column >= 0 && wt_table_column_kind(table, (size_t)column) == kind ? column : -1;
 }
 
-long wt_number_column(const wt_table *table, const char *name)
+long number_column(const wt_table *table, const char *name)
 {
     return find(table, name, WT_COLUMN_NUMBER);
 }
 
-long wt_text_column(const wt_table *table, const char *name)
+long text_column(const wt_table *table, const char *name)
 {
     return find(table, name, WT_COLUMN_TEXT);
 }
 
-double wt_cell_number(const wt_table *table, size_t row, const char *name)
+double cell_number(const wt_table *table, size_t row, const char *name)
 {
-    long column = wt_number_column(table, name);
+    long column = number_column(table, name);
     return column >= 0 ? wt_table_number(table, row, (size_t)column) : (double)NAN;
 }
 
-const char *wt_cell_text(const wt_table *table, size_t row, const char *name)
+const char *cell_text(const wt_table *table, size_t row, const char *name)
 {
-    long column = wt_text_column(table, name);
+    long column = text_column(table, name);
     return column >= 0 ? wt_table_text(table, row, (size_t)column) : "";
 }

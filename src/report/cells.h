@@ -9,10 +9,10 @@
 #include "weartrack/data.h"
 
 /* Index of a column of that name and kind, -1 if there is none. */
-long wt_number_column(const wt_table *table, const char *name);
-long wt_text_column(const wt_table *table, const char *name);
+long number_column(const wt_table *table, const char *name);
+long text_column(const wt_table *table, const char *name);
 /* NaN and "" if there is no such column. */
-double wt_cell_number(const wt_table *table, size_t row, const char *name);
-const char *wt_cell_text(const wt_table *table, size_t row, const char *name);
+double cell_number(const wt_table *table, size_t row, const char *name);
+const char *cell_text(const wt_table *table, size_t row, const char *name);
 
 #endif

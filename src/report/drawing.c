@@ -11,22 +11,22 @@
 #include <stdlib.h>
 #include <string.h>
 
-void wt_drawing_clear(wt_drawing *d)
+void drawing_clear(figure_drawing *d)
 {
     for (size_t i = 0; i < d->n_sections; i++)
         wt_table_free(d->sections[i]);
-    wt_text_free(&d->script);
-    wt_text_free(&d->caption);
-    wt_text_free(&d->omitted);
-    *d = (wt_drawing){0};
+    text_free(&d->script);
+    text_free(&d->caption);
+    text_free(&d->omitted);
+    *d = (figure_drawing){0};
 }
 
-static bool row_matches(const wt_table *table, size_t row, const wt_rows *rows)
+static bool row_matches(const wt_table *table, size_t row, const row_filter *rows)
 {
     for (int i = 0; rows != NULL && i < 2; i++) {
         if (rows->column[i] == NULL)
             continue;
-        long column = wt_text_column(table, rows->column[i]);
+        long column = text_column(table, rows->column[i]);
         if (column < 0 ||
             (strcmp(wt_table_text(table, row, (size_t)column), rows->text[i]) == 0) == rows->other)
             return false;
@@ -35,7 +35,7 @@ static bool row_matches(const wt_table *table, size_t row, const wt_rows *rows)
 }
 
 /* Name of section `i`: figure and number, as table names are written. */
-static wt_table *section_new(wt_drawing *d, const char *title)
+static wt_table *section_new(figure_drawing *d, const char *title)
 {
     char name[96];
     (void)snprintf(name, sizeof name, "%s/%zu", d->name, d->n_sections);
@@ -45,19 +45,19 @@ static wt_table *section_new(wt_drawing *d, const char *title)
     return table;
 }
 
-static int section_take(wt_drawing *d, wt_table *table)
+static int section_take(figure_drawing *d, wt_table *table)
 {
-    if (d->n_sections == WT_DRAWING_SECTIONS) {
+    if (d->n_sections == DRAWING_SECTIONS) {
         wt_table_free(table);
         d->status = wt_fail(d->err, WT_E_INTERNAL, "figure %s has too many parts", d->name);
-        return WT_NO_SECTION;
+        return NO_SECTION;
     }
     d->sections[d->n_sections] = table;
     return (int)d->n_sections++;
 }
 
-int wt_drawing_section(wt_drawing *d, const wt_table *table, const char *title, const wt_rows *rows,
-                       const char *const *columns, size_t needed, bool blocks)
+int drawing_section(figure_drawing *d, const wt_table *table, const char *title,
+                    const row_filter *rows, const char *const *columns, size_t needed, bool blocks)
 {
     enum { MAX_COLUMNS = 12 };
     long source[MAX_COLUMNS];
@@ -66,9 +66,9 @@ int wt_drawing_section(wt_drawing *d, const wt_table *table, const char *title, 
     wt_table *copy = NULL;
 
     if (d->status != WT_OK || (copy = section_new(d, title)) == NULL)
-        return WT_NO_SECTION;
+        return NO_SECTION;
     for (; columns[n] != NULL && n < MAX_COLUMNS; n++) {
-        source[n] = wt_number_column(table, columns[n]);
+        source[n] = number_column(table, columns[n]);
         bool there = source[n] >= 0;
         size_t column = there ? (size_t)source[n] : 0;
         d->status = wt_table_add_column(
@@ -104,15 +104,15 @@ int wt_drawing_section(wt_drawing *d, const wt_table *table, const char *title, 
     return section_take(d, copy);
 fail:
     wt_table_free(copy);
-    return WT_NO_SECTION;
+    return NO_SECTION;
 }
 
-int wt_drawing_point(wt_drawing *d, const char *title, const char *const *columns,
-                     const char *const *units, const double *values)
+int drawing_point(figure_drawing *d, const char *title, const char *const *columns,
+                  const char *const *units, const double *values)
 {
     wt_table *point = NULL;
     if (d->status != WT_OK || (point = section_new(d, title)) == NULL)
-        return WT_NO_SECTION;
+        return NO_SECTION;
     for (size_t i = 0; columns[i] != NULL; i++) {
         d->status = wt_table_add_column(point, columns[i], units[i], columns[i], d->err);
         if (d->status != WT_OK)
@@ -126,30 +126,29 @@ int wt_drawing_point(wt_drawing *d, const char *title, const char *const *column
     return section_take(d, point);
 fail:
     wt_table_free(point);
-    return WT_NO_SECTION;
+    return NO_SECTION;
 }
 
-size_t wt_drawing_rows(const wt_drawing *d, int section)
+size_t drawing_rows(const figure_drawing *d, int section)
 {
     return section < 0 ? 0 : wt_table_n_rows(d->sections[section]);
 }
 
-size_t wt_drawing_every(const wt_drawing *d, int section, size_t limit)
+size_t drawing_every(const figure_drawing *d, int section, size_t limit)
 {
-    size_t rows = wt_drawing_rows(d, section);
+    size_t rows = drawing_rows(d, section);
     return rows <= limit ? 1 : (rows + limit - 1) / limit;
 }
 
-size_t wt_drawing_groups(const wt_table *table, const char *column,
-                         const char *groups[WT_DRAWING_GROUPS])
+size_t drawing_groups(const wt_table *table, const char *column, const char *groups[DRAWING_GROUPS])
 {
-    long c = table == NULL ? -1 : wt_text_column(table, column);
+    long c = table == NULL ? -1 : text_column(table, column);
     size_t n = 0;
     if (c < 0)
         return 0;
     static const char *const usual[] = {"bulk", "track"};
     for (size_t pass = 0; pass < 3; pass++)
-        for (size_t row = 0; row < wt_table_n_rows(table) && n < WT_DRAWING_GROUPS; row++) {
+        for (size_t row = 0; row < wt_table_n_rows(table) && n < DRAWING_GROUPS; row++) {
             const char *group = wt_table_text(table, row, (size_t)c);
             bool seen = pass < 2 && strcmp(group, usual[pass]) != 0;
             for (size_t i = 0; i < n && !seen; i++)
@@ -160,7 +159,7 @@ size_t wt_drawing_groups(const wt_table *table, const char *column,
     return n;
 }
 
-int wt_drawing_group_style(const char *group, size_t place)
+int drawing_group_style(const char *group, size_t place)
 {
     if (strcmp(group, "bulk") == 0)
         return 1;
@@ -169,40 +168,40 @@ int wt_drawing_group_style(const char *group, size_t place)
     return place < 2 ? 3 + (int)place : 1 + (int)place;
 }
 
-void wt_plot_begin(wt_drawing *d)
+void plot_begin(figure_drawing *d)
 {
     d->n_items = 0;
 }
 
-static void next_item(wt_drawing *d)
+static void next_item(figure_drawing *d)
 {
-    wt_text_add(&d->script, d->n_items++ == 0 ? "plot \\\n  " : ", \\\n  ");
+    text_add(&d->script, d->n_items++ == 0 ? "plot \\\n  " : ", \\\n  ");
 }
 
 WT_PRINTF(2, 0)
-static void add_formatted(wt_drawing *d, const char *format, va_list arguments)
+static void add_formatted(figure_drawing *d, const char *format, va_list arguments)
 {
     char line[512];
     int length = vsnprintf(line, sizeof line, format, arguments);
     if (length < 0 || (size_t)length >= sizeof line)
         d->script.failed = true;
     else
-        wt_text_add(&d->script, line);
+        text_add(&d->script, line);
 }
 
-void wt_plot_item(wt_drawing *d, int section, const char *format, ...)
+void plot_item(figure_drawing *d, int section, const char *format, ...)
 {
     if (section < 0)
         return;
     next_item(d);
-    wt_text_format(&d->script, "'%s.tsv' index %d using ", d->name, section);
+    text_format(&d->script, "'%s.tsv' index %d using ", d->name, section);
     va_list arguments;
     va_start(arguments, format);
     add_formatted(d, format, arguments);
     va_end(arguments);
 }
 
-void wt_plot_other(wt_drawing *d, const char *format, ...)
+void plot_other(figure_drawing *d, const char *format, ...)
 {
     next_item(d);
     va_list arguments;
@@ -211,20 +210,20 @@ void wt_plot_other(wt_drawing *d, const char *format, ...)
     va_end(arguments);
 }
 
-void wt_plot_title(wt_drawing *d, const char *title)
+void plot_title(figure_drawing *d, const char *title)
 {
-    wt_text_add(&d->script, " title ");
-    wt_text_quoted(&d->script, title);
-    wt_text_add(&d->script, " noenhanced");
+    text_add(&d->script, " title ");
+    text_quoted(&d->script, title);
+    text_add(&d->script, " noenhanced");
 }
 
-void wt_plot_end(wt_drawing *d)
+void plot_end(figure_drawing *d)
 {
-    wt_text_add(&d->script, "\n");
+    text_add(&d->script, "\n");
     d->n_items = 0;
 }
 
-bool wt_key_number(const wt_table *table, const char *key, double *value)
+bool key_number(const wt_table *table, const char *key, double *value)
 {
     wt_estimate estimate;
     if (wt_table_estimate(table, key, &estimate)) {
@@ -235,28 +234,28 @@ bool wt_key_number(const wt_table *table, const char *key, double *value)
     return text != NULL && wt_number_parse(text, strlen(text), '.', value);
 }
 
-void wt_caption_value(wt_drawing *d, double value, const char *unit, const char *quantity)
+void caption_value(figure_drawing *d, double value, const char *unit, const char *quantity)
 {
-    wt_lab_unit lab = wt_lab_unit_for(unit, quantity, value);
-    wt_text_short(&d->caption, wt_lab_value(&lab, value), 3);
+    lab_unit lab = lab_unit_for(unit, quantity, value);
+    text_short(&d->caption, lab_value(&lab, value), 3);
     if (isfinite(value) && lab.label[0] != '\0')
-        wt_text_format(&d->caption, " %s", lab.label);
+        text_format(&d->caption, " %s", lab.label);
 }
 
-void wt_caption_estimate(wt_drawing *d, const wt_estimate *estimate, const char *quantity)
+void caption_estimate(figure_drawing *d, const wt_estimate *estimate, const char *quantity)
 {
     double error = fabs(estimate->standard_error);
     if (!(error > 0) || !isfinite(estimate->value)) {
-        wt_caption_value(d, estimate->value, estimate->unit, quantity);
+        caption_value(d, estimate->value, estimate->unit, quantity);
         return;
     }
-    wt_lab_unit lab = wt_lab_unit_for(estimate->unit, quantity, estimate->value);
+    lab_unit lab = lab_unit_for(estimate->unit, quantity, estimate->value);
     double scaled = error * lab.factor;
     int decimals = 1 - (int)floor(log10(scaled));
     decimals = decimals < 0 ? 0 : decimals > 9 ? 9 : decimals;
-    wt_text_fixed(&d->caption, wt_lab_value(&lab, estimate->value), decimals);
-    wt_text_add(&d->caption, " ± ");
-    wt_text_fixed(&d->caption, scaled, decimals);
+    text_fixed(&d->caption, lab_value(&lab, estimate->value), decimals);
+    text_add(&d->caption, " ± ");
+    text_fixed(&d->caption, scaled, decimals);
     if (lab.label[0] != '\0')
-        wt_text_format(&d->caption, " %s", lab.label);
+        text_format(&d->caption, " %s", lab.label);
 }

@@ -9,22 +9,22 @@
 
 /* Fills sections, script and caption of a zeroed drawing; the tables it needs are there. Without
  * anything to draw it leaves no script and says why in `omitted`. */
-typedef void (*wt_draw_fn)(wt_drawing *d);
-wt_draw_fn wt_figure_draw(size_t i);
+typedef void (*draw_fn)(figure_drawing *d);
+draw_fn figure_draw(size_t i);
 
-void wt_draw_force_displacement(wt_drawing *d);
-void wt_draw_force_indentation(wt_drawing *d);
-void wt_draw_modulus_groups(wt_drawing *d);
-void wt_draw_modulus_map(wt_drawing *d);
-void wt_draw_modulus_rate(wt_drawing *d);
-void wt_draw_dma_comparison(wt_drawing *d);
-void wt_draw_master_curve(wt_drawing *d);
-void wt_draw_shift_factors(wt_drawing *d);
-void wt_draw_power_spectrum(wt_drawing *d);
-void wt_draw_friction(wt_drawing *d);
-void wt_draw_contact_area(wt_drawing *d);
-void wt_draw_friction_scales(wt_drawing *d);
-void wt_draw_energy_density(wt_drawing *d);
-void wt_draw_layer(wt_drawing *d);
+void draw_force_displacement(figure_drawing *d);
+void draw_force_indentation(figure_drawing *d);
+void draw_modulus_groups(figure_drawing *d);
+void draw_modulus_map(figure_drawing *d);
+void draw_modulus_rate(figure_drawing *d);
+void draw_dma_comparison(figure_drawing *d);
+void draw_master_curve(figure_drawing *d);
+void draw_shift_factors(figure_drawing *d);
+void draw_power_spectrum(figure_drawing *d);
+void draw_friction(figure_drawing *d);
+void draw_contact_area(figure_drawing *d);
+void draw_friction_scales(figure_drawing *d);
+void draw_energy_density(figure_drawing *d);
+void draw_layer(figure_drawing *d);
 
 #endif

@@ -12,7 +12,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-struct wt_folder {
+struct report_folder {
     char *place; /* where it goes */
     char *made;  /* the temporary one */
     char *plots;
@@ -78,7 +78,7 @@ static bool has_mark(const char *folder)
     size_t n = fread(head, 1, HEAD, file);
     fclose(file);
     head[n] = '\0';
-    return strstr(head, WT_REPORT_MARK) != NULL;
+    return strstr(head, REPORT_MARK) != NULL;
 }
 
 static wt_status refuse(wt_error *err, const char *path, const char *found)
@@ -153,7 +153,7 @@ static void remove_folder(const char *path, bool plots)
 
 /* ---- making ---------------------------------------------------------------------------------- */
 
-static void folder_free(wt_folder *folder)
+static void folder_free(report_folder *folder)
 {
     free(folder->place);
     free(folder->made);
@@ -217,10 +217,10 @@ static char *make_beside(const char *place, const char *kind, bool make)
     return made;
 }
 
-wt_status wt_folder_open(const char *path, wt_folder **out, wt_error *err)
+wt_status folder_open(const char *path, report_folder **out, wt_error *err)
 {
     wt_status status = WT_OK;
-    wt_folder *folder = calloc(1, sizeof *folder);
+    report_folder *folder = calloc(1, sizeof *folder);
     if (folder == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     if ((status = find_place(path, &folder->place, err)) != WT_OK ||
@@ -244,17 +244,17 @@ wt_status wt_folder_open(const char *path, wt_folder **out, wt_error *err)
     *out = folder;
     return WT_OK;
 fail:
-    wt_folder_discard(folder);
+    folder_discard(folder);
     return status;
 }
 
-const char *wt_folder_plots(const wt_folder *folder)
+const char *folder_plots(const report_folder *folder)
 {
     return folder->plots;
 }
 
-wt_status wt_folder_write(const wt_folder *folder, const char *name, const char *bytes,
-                          size_t length, wt_error *err)
+wt_status folder_write(const report_folder *folder, const char *name, const char *bytes,
+                       size_t length, wt_error *err)
 {
     wt_status status = WT_OK;
     char *path = wt_path_join(folder->made, name);
@@ -275,7 +275,7 @@ wt_status wt_folder_write(const wt_folder *folder, const char *name, const char 
     return status;
 }
 
-wt_status wt_folder_commit(wt_folder *folder, wt_error *err)
+wt_status folder_commit(report_folder *folder, wt_error *err)
 {
     wt_status status = WT_OK;
     char *old = NULL;
@@ -304,11 +304,11 @@ wt_status wt_folder_commit(wt_folder *folder, wt_error *err)
         remove_folder(old, true);
 done:
     free(old);
-    wt_folder_discard(folder);
+    folder_discard(folder);
     return status;
 }
 
-void wt_folder_discard(wt_folder *folder)
+void folder_discard(report_folder *folder)
 {
     if (folder == NULL)
         return;

@@ -99,7 +99,7 @@ static char *program_path(const char *program)
     return absolute != NULL ? absolute : strdup(program);
 }
 
-wt_status wt_gnuplot_run(const char *program, const char *folder, const char *script, wt_error *err)
+wt_status gnuplot_run(const char *program, const char *folder, const char *script, wt_error *err)
 {
     wt_status status = WT_OK;
     posix_spawn_file_actions_t actions;

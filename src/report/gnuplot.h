@@ -11,7 +11,7 @@
  * folder), without a shell, without standard input, without the user's gnuplot settings, in the C
  * locale. WT_E_TOOL if it cannot be started or fails; the error carries its words. One process for
  * each script: what one leaves behind would change the bytes of the next picture. */
-wt_status wt_gnuplot_run(const char *program, const char *folder, const char *script,
-                         wt_error *err) WT_NODISCARD;
+wt_status gnuplot_run(const char *program, const char *folder, const char *script,
+                      wt_error *err) WT_NODISCARD;
 
 #endif

@@ -11,49 +11,49 @@
 
 #include <string.h>
 
-static void page_head(const wt_page *page, wt_text *out, const char *title)
+static void page_head(const page_writer *page, growing_text *out, const char *title)
 {
-    wt_text_add(out, "<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" lang=\"en\" "
-                     "xml:lang=\"en\">\n<head>\n<meta charset=\"utf-8\" />\n" WT_REPORT_MARK);
+    text_add(out, "<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" lang=\"en\" "
+                  "xml:lang=\"en\">\n<head>\n<meta charset=\"utf-8\" />\n" REPORT_MARK);
     if (page->with_provenance)
-        wt_text_format(out, " %s", wt_version());
-    wt_text_add(out, "\" />\n<meta name=\"viewport\" content=\"width=device-width, "
-                     "initial-scale=1\" />\n<meta name=\"color-scheme\" content=\"light dark\" "
-                     "/>\n<title>");
-    wt_text_html(out, title);
-    wt_text_add(out, "</title>\n<style>\n");
-    wt_text_add(out, wt_report_file("page.css"));
-    wt_text_add(out, "</style>\n</head>\n<body>\n<main>\n<header>\n<h1>");
-    wt_text_html(out, title);
-    wt_text_add(out, "</h1>\n<nav aria-label=\"Contents\">\n<ul>\n");
-    wt_text_add(out, wt_text_string(&page->contents));
-    wt_text_add(out, "</ul>\n</nav>\n</header>\n");
+        text_format(out, " %s", wt_version());
+    text_add(out, "\" />\n<meta name=\"viewport\" content=\"width=device-width, "
+                  "initial-scale=1\" />\n<meta name=\"color-scheme\" content=\"light dark\" "
+                  "/>\n<title>");
+    text_html(out, title);
+    text_add(out, "</title>\n<style>\n");
+    text_add(out, report_file("page.css"));
+    text_add(out, "</style>\n</head>\n<body>\n<main>\n<header>\n<h1>");
+    text_html(out, title);
+    text_add(out, "</h1>\n<nav aria-label=\"Contents\">\n<ul>\n");
+    text_add(out, text_string(&page->contents));
+    text_add(out, "</ul>\n</nav>\n</header>\n");
 }
 
 /* Several answers to one question stand under it together. */
-static void page_answer(wt_page *page)
+static void page_answer(page_writer *page)
 {
     const wt_table *table = wt_result_find(page->result, "answer");
     if (table == NULL || wt_table_n_rows(table) == 0)
         return;
-    wt_page_heading(page, "answer", "Answer");
+    page_heading(page, "answer", "Answer");
     const char *question = NULL;
     for (size_t row = 0; row < wt_table_n_rows(table); row++) {
-        const char *next = wt_cell_text(table, row, "question");
+        const char *next = cell_text(table, row, "question");
         if (question == NULL || strcmp(question, next) != 0) {
-            bool caveat = strcmp(wt_cell_text(table, row, "kind"), "caveat") == 0;
-            wt_text_format(&page->out, "%s<section class=\"%s\">\n<h3>",
-                           question == NULL ? "" : "</section>\n",
-                           caveat ? "answer caveat" : "answer");
-            wt_text_html(&page->out, next);
-            wt_text_add(&page->out, "</h3>\n");
+            bool caveat = strcmp(cell_text(table, row, "kind"), "caveat") == 0;
+            text_format(&page->out, "%s<section class=\"%s\">\n<h3>",
+                        question == NULL ? "" : "</section>\n",
+                        caveat ? "answer caveat" : "answer");
+            text_html(&page->out, next);
+            text_add(&page->out, "</h3>\n");
             question = next;
         }
-        wt_text_add(&page->out, "<p>");
-        wt_text_html(&page->out, wt_cell_text(table, row, "answer"));
-        wt_text_add(&page->out, "</p>\n");
+        text_add(&page->out, "<p>");
+        text_html(&page->out, cell_text(table, row, "answer"));
+        text_add(&page->out, "</p>\n");
     }
-    wt_text_add(&page->out, "</section>\n");
+    text_add(&page->out, "</section>\n");
 }
 
 /* One column of the page, or all of it with the type of the same size. */
@@ -62,46 +62,45 @@ static const char *width_class(double width)
     return width > 1.2 ? "wide" : width > 0 && width < 0.9 ? "narrow" : "single";
 }
 
-static wt_status page_figures(wt_page *page, wt_error *err)
+static wt_status page_figures(page_writer *page, wt_error *err)
 {
     if (page->n_figures == 0)
         return WT_OK;
     size_t number = 0;
-    wt_page_heading(page, "figures", "Figures");
-    wt_text_add(&page->out, "<div class=\"figures\">\n");
+    page_heading(page, "figures", "Figures");
+    text_add(&page->out, "<div class=\"figures\">\n");
     for (size_t i = 0; i < page->n_figures; i++) {
-        const wt_page_figure *figure = &page->figures[i];
+        const page_figure *figure = &page->figures[i];
         if (figure->omitted != NULL)
             continue;
-        wt_text_format(&page->out, "<figure id=\"figure-%s\" class=\"%s\">\n<div class=\"card\">",
-                       figure->info->name, width_class(figure->width));
-        if (!wt_svg_inline(&page->out, figure->svg, figure->svg_length, figure->info->name,
-                           figure->info->title)) {
+        text_format(&page->out, "<figure id=\"figure-%s\" class=\"%s\">\n<div class=\"card\">",
+                    figure->info->name, width_class(figure->width));
+        if (!svg_inline(&page->out, figure->svg, figure->svg_length, figure->info->name,
+                        figure->info->title)) {
             wt_status status =
                 wt_fail(err, WT_E_TOOL, "the picture of figure %s is not SVG", figure->info->name);
             wt_error_advice(err, "a plot style must use `set terminal svg`");
             return status;
         }
-        wt_text_format(&page->out, "</div>\n<figcaption><strong>Figure %zu. ", ++number);
-        wt_text_html(&page->out, figure->info->title);
-        wt_text_add(&page->out, ".</strong> ");
-        wt_text_html(&page->out, figure->caption);
-        wt_text_format(&page->out,
-                       " <span class=\"source\">Data and script: <a href=\"plots/%s.tsv\">%s.tsv"
-                       "</a>, <a href=\"plots/%s.gp\">%s.gp</a>.</span></figcaption>\n</figure>\n",
-                       figure->info->name, figure->info->name, figure->info->name,
-                       figure->info->name);
+        text_format(&page->out, "</div>\n<figcaption><strong>Figure %zu. ", ++number);
+        text_html(&page->out, figure->info->title);
+        text_add(&page->out, ".</strong> ");
+        text_html(&page->out, figure->caption);
+        text_format(&page->out,
+                    " <span class=\"source\">Data and script: <a href=\"plots/%s.tsv\">%s.tsv"
+                    "</a>, <a href=\"plots/%s.gp\">%s.gp</a>.</span></figcaption>\n</figure>\n",
+                    figure->info->name, figure->info->name, figure->info->name, figure->info->name);
     }
-    wt_text_add(&page->out, "</div>\n");
+    text_add(&page->out, "</div>\n");
     for (size_t i = 0; i < page->n_figures; i++) {
-        const wt_page_figure *figure = &page->figures[i];
+        const page_figure *figure = &page->figures[i];
         if (figure->omitted == NULL || figure->omitted[0] == '\0')
             continue;
-        wt_text_add(&page->out, "<p class=\"omitted\">Not drawn: ");
-        wt_text_html(&page->out, figure->info->title);
-        wt_text_add(&page->out, " – ");
-        wt_text_html(&page->out, figure->omitted);
-        wt_text_add(&page->out, ".</p>\n");
+        text_add(&page->out, "<p class=\"omitted\">Not drawn: ");
+        text_html(&page->out, figure->info->title);
+        text_add(&page->out, " – ");
+        text_html(&page->out, figure->omitted);
+        text_add(&page->out, ".</p>\n");
     }
     return WT_OK;
 }
@@ -114,29 +113,29 @@ static const char *page_title(const wt_result *result)
     return title != NULL && title[0] != '\0' ? title : "Wear track against bulk";
 }
 
-wt_status wt_page_write(wt_page *page, wt_error *err)
+wt_status page_write(page_writer *page, wt_error *err)
 {
     // The body first, so that the contents before it are known.
-    wt_text body = {0};
+    growing_text body = {0};
     page_answer(page);
-    wt_page_numbers(page);
+    page_numbers(page);
     wt_status status = page_figures(page, err);
     if (status != WT_OK)
         goto done;
-    wt_page_results(page);
-    wt_page_indentation(page);
-    wt_page_inputs(page);
-    wt_page_cost(page);
-    wt_page_record(page);
+    page_results(page);
+    page_indentation(page);
+    page_inputs(page);
+    page_cost(page);
+    page_record(page);
     body = page->out;
-    page->out = (wt_text){.failed = body.failed || page->contents.failed};
+    page->out = (growing_text){.failed = body.failed || page->contents.failed};
     page_head(page, &page->out, page_title(page->result));
-    wt_text_bytes(&page->out, wt_text_string(&body), body.length);
-    wt_text_add(&page->out, "</main>\n</body>\n</html>\n");
+    text_bytes(&page->out, text_string(&body), body.length);
+    text_add(&page->out, "</main>\n</body>\n</html>\n");
     if (page->out.failed)
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
 done:
-    wt_text_free(&body);
-    wt_text_free(&page->contents);
+    text_free(&body);
+    text_free(&page->contents);
     return status;
 }

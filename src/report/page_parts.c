@@ -8,41 +8,41 @@
 #include <stdlib.h>
 #include <string.h>
 
-void wt_page_heading(wt_page *page, const char *id, const char *words)
+void page_heading(page_writer *page, const char *id, const char *words)
 {
-    wt_text_format(&page->out, "<h2 id=\"%s\">", id);
-    wt_text_html(&page->out, words);
-    wt_text_add(&page->out, "</h2>\n");
-    wt_text_format(&page->contents, "<li><a href=\"#%s\">", id);
-    wt_text_html(&page->contents, words);
-    wt_text_add(&page->contents, "</a></li>\n");
+    text_format(&page->out, "<h2 id=\"%s\">", id);
+    text_html(&page->out, words);
+    text_add(&page->out, "</h2>\n");
+    text_format(&page->contents, "<li><a href=\"#%s\">", id);
+    text_html(&page->contents, words);
+    text_add(&page->contents, "</a></li>\n");
 }
 
-static void begin_table(wt_page *page, const char *caption)
+static void begin_table(page_writer *page, const char *caption)
 {
     // The wrapper scrolls on a narrow screen, also with the keyboard.
-    wt_text_add(&page->out, "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"");
-    wt_text_html(&page->out, caption);
-    wt_text_add(&page->out, "\">\n<table>\n<caption>");
-    wt_text_html(&page->out, caption);
-    wt_text_add(&page->out, "</caption>\n<thead><tr>");
+    text_add(&page->out, "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"");
+    text_html(&page->out, caption);
+    text_add(&page->out, "\">\n<table>\n<caption>");
+    text_html(&page->out, caption);
+    text_add(&page->out, "</caption>\n<thead><tr>");
 }
 
-static void end_table(wt_page *page)
+static void end_table(page_writer *page)
 {
-    wt_text_add(&page->out, "</tbody>\n</table>\n</div>\n");
+    text_add(&page->out, "</tbody>\n</table>\n</div>\n");
 }
 
-static void heading_cell(wt_page *page, const char *words, const char *unit, bool number)
+static void heading_cell(page_writer *page, const char *words, const char *unit, bool number)
 {
-    wt_text_format(&page->out, "<th scope=\"col\"%s>", number ? " class=\"n\"" : "");
-    wt_text_html(&page->out, words);
+    text_format(&page->out, "<th scope=\"col\"%s>", number ? " class=\"n\"" : "");
+    text_html(&page->out, words);
     if (unit[0] != '\0') {
-        wt_text_add(&page->out, " <span class=\"unit\">(");
-        wt_text_html(&page->out, unit);
-        wt_text_add(&page->out, ")</span>");
+        text_add(&page->out, " <span class=\"unit\">(");
+        text_html(&page->out, unit);
+        text_add(&page->out, ")</span>");
     }
-    wt_text_add(&page->out, "</th>");
+    text_add(&page->out, "</th>");
 }
 
 /* ---- tables ---------------------------------------------------------------------------------- */
@@ -50,7 +50,7 @@ static void heading_cell(wt_page *page, const char *words, const char *unit, boo
 typedef struct shown_column {
     long source; /* -1: not in the table */
     bool text, whole;
-    wt_lab_unit lab;
+    lab_unit lab;
     int digits, decimals; /* decimals < 0: so many digits */
 } shown_column;
 
@@ -90,7 +90,7 @@ static double typical_size(const wt_table *table, size_t column, const size_t *r
     return median;
 }
 
-static void choose_column(shown_column *shown, const wt_table *table, const wt_page_column *column,
+static void choose_column(shown_column *shown, const wt_table *table, const page_column *column,
                           const size_t *rows, size_t n_rows)
 {
     shown->source = wt_table_find(table, column->name);
@@ -105,8 +105,7 @@ static void choose_column(shown_column *shown, const wt_table *table, const wt_p
         like = -1;
     size_t unit_of = like >= 0 ? (size_t)like : source;
     const char *unit = wt_table_column_unit(table, source);
-    shown->lab =
-        wt_lab_unit_for(unit, column->name, typical_size(table, unit_of, rows, n_rows, unit));
+    shown->lab = lab_unit_for(unit, column->name, typical_size(table, unit_of, rows, n_rows, unit));
     shown->digits = is_error(column->name) || strstr(column->name, "_p") != NULL ? 2 : 3;
     shown->decimals = -1;
     if (strncmp(column->name, "log_", 4) == 0 || strstr(column->name, "_log_") != NULL)
@@ -117,7 +116,7 @@ static void choose_column(shown_column *shown, const wt_table *table, const wt_p
     bool any = column->missing != NULL;
     for (size_t i = 0; i < n_rows; i++) {
         double value =
-            wt_lab_value(&shown->lab, wt_table_number(table, rows != NULL ? rows[i] : i, source));
+            lab_value(&shown->lab, wt_table_number(table, rows != NULL ? rows[i] : i, source));
         any = any || !isnan(value);
         shown->whole =
             shown->whole && (!isfinite(value) || (value == floor(value) && fabs(value) < 1e15));
@@ -126,26 +125,25 @@ static void choose_column(shown_column *shown, const wt_table *table, const wt_p
         shown->source = -1;
 }
 
-static void number_cell(wt_page *page, const shown_column *shown, double value,
-                        const wt_page_column *column)
+static void number_cell(page_writer *page, const shown_column *shown, double value,
+                        const page_column *column)
 {
-    wt_text_add(&page->out, "<td class=\"n\">");
+    text_add(&page->out, "<td class=\"n\">");
     if (isnan(value))
-        wt_text_html(&page->out, column->missing != NULL ? column->missing : "–");
+        text_html(&page->out, column->missing != NULL ? column->missing : "–");
     else if (column->yes_no)
-        wt_text_add(&page->out, value != 0 ? "yes" : "no");
+        text_add(&page->out, value != 0 ? "yes" : "no");
     else if (shown->decimals >= 0)
-        wt_text_fixed(&page->out, wt_lab_value(&shown->lab, value), shown->decimals);
+        text_fixed(&page->out, lab_value(&shown->lab, value), shown->decimals);
     else if (shown->whole)
-        wt_text_fixed(&page->out, wt_lab_value(&shown->lab, value), 0);
+        text_fixed(&page->out, lab_value(&shown->lab, value), 0);
     else
-        wt_text_number(&page->out, wt_lab_value(&shown->lab, value), shown->digits);
-    wt_text_add(&page->out, "</td>");
+        text_number(&page->out, lab_value(&shown->lab, value), shown->digits);
+    text_add(&page->out, "</td>");
 }
 
-void wt_page_table(wt_page *page, const wt_table *table, const char *caption,
-                   const wt_page_column *columns, size_t n_columns, const size_t *rows,
-                   size_t n_rows)
+void page_table(page_writer *page, const wt_table *table, const char *caption,
+                const page_column *columns, size_t n_columns, const size_t *rows, size_t n_rows)
 {
     enum { MAX_COLUMNS = 20 };
     shown_column shown[MAX_COLUMNS] = {{0}};
@@ -161,11 +159,11 @@ void wt_page_table(wt_page *page, const wt_table *table, const char *caption,
                                   : wt_table_column_long_name(table, (size_t)shown[c].source);
         heading_cell(page, heading, shown[c].lab.label, !shown[c].text);
     }
-    wt_text_add(&page->out, "</tr></thead>\n<tbody>\n");
+    text_add(&page->out, "</tr></thead>\n<tbody>\n");
     for (size_t i = 0; i < n_rows; i++) {
         size_t row = rows != NULL ? rows[i] : i;
         bool first = true;
-        wt_text_add(&page->out, "<tr>");
+        text_add(&page->out, "<tr>");
         for (size_t c = 0; c < n_columns; c++) {
             if (shown[c].source < 0)
                 continue;
@@ -173,20 +171,20 @@ void wt_page_table(wt_page *page, const wt_table *table, const char *caption,
             if (!shown[c].text)
                 number_cell(page, &shown[c], wt_table_number(table, row, source), &columns[c]);
             else { // the first text of a row names it
-                wt_text_add(&page->out, first ? "<th scope=\"row\">" : "<td>");
-                wt_text_html(&page->out, wt_table_text(table, row, source));
-                wt_text_add(&page->out, first ? "</th>" : "</td>");
+                text_add(&page->out, first ? "<th scope=\"row\">" : "<td>");
+                text_html(&page->out, wt_table_text(table, row, source));
+                text_add(&page->out, first ? "</th>" : "</td>");
             }
             first = false;
         }
-        wt_text_add(&page->out, "</tr>\n");
+        text_add(&page->out, "</tr>\n");
     }
     end_table(page);
 }
 
 /* ---- values with both errors ----------------------------------------------------------------- */
 
-void wt_page_estimates_begin(wt_page *page, const char *caption, bool remarks)
+void page_estimates_begin(page_writer *page, const char *caption, bool remarks)
 {
     begin_table(page, caption);
     heading_cell(page, "Quantity", "", false);
@@ -195,88 +193,88 @@ void wt_page_estimates_begin(wt_page *page, const char *caption, bool remarks)
     heading_cell(page, "Numerical error", "", true);
     if (remarks)
         heading_cell(page, "Remark", "", false);
-    wt_text_add(&page->out, "</tr></thead>\n<tbody>\n");
+    text_add(&page->out, "</tr></thead>\n<tbody>\n");
 }
 
-void wt_page_estimates_end(wt_page *page)
+void page_estimates_end(page_writer *page)
 {
     end_table(page);
 }
 
-static void add_unit(wt_text *text, const char *label)
+static void add_unit(growing_text *text, const char *label)
 {
     if (label[0] == '\0')
         return;
-    wt_text_add(text, " ");
-    wt_text_html(text, label);
+    text_add(text, " ");
+    text_html(text, label);
 }
 
 /* As many decimals as the larger error has meaning, and no more than six digits in all. */
-static void add_value(wt_text *text, const wt_estimate *e, const wt_lab_unit *lab)
+static void add_value(growing_text *text, const wt_estimate *e, const lab_unit *lab)
 {
-    double value = wt_lab_value(lab, e->value), error = 0;
+    double value = lab_value(lab, e->value), error = 0;
     if (isfinite(e->standard_error))
         error = fabs(e->standard_error) * lab->factor;
     if (isfinite(e->numerical_error))
         error = fmax(error, fabs(e->numerical_error) * lab->factor);
     int leading = value != 0 && isfinite(value) ? (int)floor(log10(fabs(value))) : 0;
     if (!(error > 0) || !isfinite(value) || leading > 5 || leading < -4)
-        wt_text_short(text, value, 4);
+        text_short(text, value, 4);
     else {
         int decimals = 1 - (int)floor(log10(error));
         decimals = decimals > 5 - leading ? 5 - leading : decimals;
-        wt_text_fixed(text, value, decimals < 0 ? 0 : decimals);
+        text_fixed(text, value, decimals < 0 ? 0 : decimals);
     }
 }
 
-static void add_error(wt_text *text, double error, const wt_lab_unit *lab)
+static void add_error(growing_text *text, double error, const lab_unit *lab)
 {
     if (isnan(error))
-        wt_text_add(text, "not known");
+        text_add(text, "not known");
     else if (error == 0)
-        wt_text_add(text, "–");
+        text_add(text, "–");
     else {
-        wt_text_add(text, "± ");
-        wt_text_number(text, fabs(error) * lab->factor, 2);
+        text_add(text, "± ");
+        text_number(text, fabs(error) * lab->factor, 2);
         add_unit(text, strcmp(lab->label, "°C") == 0 ? "K" : lab->label);
     }
 }
 
-void wt_page_interval(wt_text *text, double low, double high, double value, const char *unit,
-                      const char *quantity)
+void page_interval(growing_text *text, double low, double high, double value, const char *unit,
+                   const char *quantity)
 {
-    wt_lab_unit lab = wt_lab_unit_for(unit, quantity, value);
-    wt_text_number(text, wt_lab_value(&lab, low), 3);
-    wt_text_add(text, " to ");
-    wt_text_number(text, wt_lab_value(&lab, high), 3);
+    lab_unit lab = lab_unit_for(unit, quantity, value);
+    text_number(text, lab_value(&lab, low), 3);
+    text_add(text, " to ");
+    text_number(text, lab_value(&lab, high), 3);
     if (lab.label[0] != '\0')
-        wt_text_format(text, " %s", lab.label);
+        text_format(text, " %s", lab.label);
 }
 
-void wt_page_estimate(wt_page *page, const char *words, const wt_estimate *estimate,
-                      const char *quantity, const char *interval, const char *remark)
+void page_estimate(page_writer *page, const char *words, const wt_estimate *estimate,
+                   const char *quantity, const char *interval, const char *remark)
 {
-    wt_lab_unit lab = wt_lab_unit_for(estimate->unit, quantity, estimate->value);
-    wt_text_add(&page->out, "<tr><th scope=\"row\">");
-    wt_text_html(&page->out, words);
-    wt_text_add(&page->out, "</th><td class=\"n\">");
+    lab_unit lab = lab_unit_for(estimate->unit, quantity, estimate->value);
+    text_add(&page->out, "<tr><th scope=\"row\">");
+    text_html(&page->out, words);
+    text_add(&page->out, "</th><td class=\"n\">");
     add_value(&page->out, estimate, &lab);
     if (isfinite(estimate->value))
         add_unit(&page->out, lab.label);
-    wt_text_add(&page->out, "</td><td class=\"n\">");
+    text_add(&page->out, "</td><td class=\"n\">");
     if (interval != NULL)
-        wt_text_html(&page->out, interval);
+        text_html(&page->out, interval);
     else
         add_error(&page->out, estimate->standard_error, &lab);
-    wt_text_add(&page->out, "</td><td class=\"n\">");
+    text_add(&page->out, "</td><td class=\"n\">");
     add_error(&page->out, estimate->numerical_error, &lab);
-    wt_text_add(&page->out, "</td>");
+    text_add(&page->out, "</td>");
     if (remark != NULL) {
-        wt_text_add(&page->out, "<td>");
-        wt_text_html(&page->out, remark);
-        wt_text_add(&page->out, "</td>");
+        text_add(&page->out, "<td>");
+        text_html(&page->out, remark);
+        text_add(&page->out, "</td>");
     }
-    wt_text_add(&page->out, "</tr>\n");
+    text_add(&page->out, "</tr>\n");
 }
 
 /* ---- keys ------------------------------------------------------------------------------------ */
@@ -327,25 +325,25 @@ static void key_label(const char *key, char *label, size_t size)
         label[0] = (char)(label[0] - 'a' + 'A');
 }
 
-void wt_page_keys(wt_page *page, const wt_table *table, const char *caption)
+void page_keys(page_writer *page, const wt_table *table, const char *caption)
 {
     if (wt_table_n_keys(table) == 0)
         return;
-    wt_page_estimates_begin(page, caption, false);
+    page_estimates_begin(page, caption, false);
     for (size_t i = 0; i < wt_table_n_keys(table); i++) {
         const char *key = wt_table_key_name(table, i), *text = wt_table_key(table, key);
         char label[128];
         wt_estimate estimate;
         key_label(key, label, sizeof label);
         if (wt_table_estimate(table, key, &estimate)) {
-            wt_page_estimate(page, label, &estimate, key, NULL, NULL);
+            page_estimate(page, label, &estimate, key, NULL, NULL);
             continue;
         }
-        wt_text_add(&page->out, "<tr><th scope=\"row\">");
-        wt_text_html(&page->out, label);
-        wt_text_add(&page->out, "</th><td colspan=\"3\">");
-        wt_text_html(&page->out, text != NULL ? text : "");
-        wt_text_add(&page->out, "</td></tr>\n");
+        text_add(&page->out, "<tr><th scope=\"row\">");
+        text_html(&page->out, label);
+        text_add(&page->out, "</th><td colspan=\"3\">");
+        text_html(&page->out, text != NULL ? text : "");
+        text_add(&page->out, "</td></tr>\n");
     }
     end_table(page);
 }

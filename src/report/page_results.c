@@ -11,22 +11,22 @@
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
-static void whole_table(wt_page *page, const char *name, const char *caption,
-                        const wt_page_column *columns, size_t n)
+static void whole_table(page_writer *page, const char *name, const char *caption,
+                        const page_column *columns, size_t n)
 {
     const wt_table *table = wt_result_find(page->result, name);
     if (table != NULL && wt_table_n_rows(table) > 0)
-        wt_page_table(page, table, caption, columns, n, NULL, wt_table_n_rows(table));
+        page_table(page, table, caption, columns, n, NULL, wt_table_n_rows(table));
 }
 
-static void keys_of(wt_page *page, const char *name, const char *caption)
+static void keys_of(page_writer *page, const char *name, const char *caption)
 {
     const wt_table *table = wt_result_find(page->result, name);
     if (table != NULL)
-        wt_page_keys(page, table, caption);
+        page_keys(page, table, caption);
 }
 
-static const wt_page_column group_columns[] = {
+static const page_column group_columns[] = {
     {"group", "Group", NULL, NULL, false},
     {"n", "Curves n", NULL, NULL, false},
     {"n_rejected", "Rejected", NULL, NULL, false},
@@ -39,7 +39,7 @@ static const wt_page_column group_columns[] = {
     {"standard_deviation", "Standard deviation", "geometric_mean", NULL, false},
 };
 
-static const wt_page_column comparison_columns[] = {
+static const page_column comparison_columns[] = {
     {"rate_low", "Indentation rate from", "rate_high", "all", false},
     {"rate_high", "to", NULL, "all", false},
     {"n_bulk", "n bulk", NULL, NULL, false},
@@ -56,7 +56,7 @@ static const wt_page_column comparison_columns[] = {
     {"effect_size", "Effect size", NULL, NULL, false},
 };
 
-static const wt_page_column dma_columns[] = {
+static const page_column dma_columns[] = {
     {"group", "Group", NULL, NULL, false},
     {"equivalent_frequency", "Equivalent frequency", NULL, NULL, false},
     {"indentation_modulus", "Indentation", NULL, NULL, false},
@@ -68,7 +68,7 @@ static const wt_page_column dma_columns[] = {
     {"extrapolated", "Outside measured frequencies", NULL, NULL, true},
 };
 
-static const wt_page_column shift_columns[] = {
+static const page_column shift_columns[] = {
     {"temperature", "Temperature", NULL, NULL, false},
     {"log_a", "log₁₀ a", NULL, NULL, false},
     {"log_a_standard_error", "Standard error", NULL, NULL, false},
@@ -81,12 +81,12 @@ static const wt_page_column shift_columns[] = {
     {"note", "Note", NULL, NULL, false},
 };
 
-static const wt_page_column prony_columns[] = {
+static const page_column prony_columns[] = {
     {"relaxation_time", "Relaxation time", NULL, NULL, false},
     {"modulus", "Modulus", NULL, NULL, false},
 };
 
-static const wt_page_column friction_columns[] = {
+static const page_column friction_columns[] = {
     {"velocity", "Velocity", NULL, NULL, false},
     {"friction", "Total μ", NULL, NULL, false},
     {"friction_standard_error", "± stat.", NULL, NULL, false},
@@ -113,7 +113,7 @@ static void decade_rows(const wt_table *table, size_t rows[DECADES + 3], size_t 
     for (int i = 0; i <= DECADES; i++)
         distance[i] = (double)INFINITY;
     for (size_t row = 0; row < n_rows; row++) {
-        double x = log10(wt_cell_number(table, row, "velocity")), decade = round(x);
+        double x = log10(cell_number(table, row, "velocity")), decade = round(x);
         if (!(fabs(decade) <= HALF))
             continue;
         int i = (int)decade + HALF;
@@ -131,23 +131,23 @@ static void decade_rows(const wt_table *table, size_t rows[DECADES + 3], size_t 
         rows[(*n)++] = n_rows - 1;
 }
 
-static void friction_table(wt_page *page)
+static void friction_table(page_writer *page)
 {
     const wt_table *table = wt_result_find(page->result, "friction");
     if (table == NULL || wt_table_n_rows(table) == 0)
         return;
     size_t rows[DECADES + 3], n = 0;
     decade_rows(table, rows, &n);
-    wt_page_table(page, table,
-                  n < wt_table_n_rows(table)
-                      ? "Friction at the computed velocities next to whole decades (± stat.: one "
-                        "standard error, ± num.: numerical error); the result file holds all"
-                      : "Friction at the computed velocities (± stat.: one standard error, "
-                        "± num.: numerical error)",
-                  friction_columns, COUNT(friction_columns), rows, n);
+    page_table(page, table,
+               n < wt_table_n_rows(table)
+                   ? "Friction at the computed velocities next to whole decades (± stat.: one "
+                     "standard error, ± num.: numerical error); the result file holds all"
+                   : "Friction at the computed velocities (± stat.: one standard error, "
+                     "± num.: numerical error)",
+               friction_columns, COUNT(friction_columns), rows, n);
 }
 
-void wt_page_results(wt_page *page)
+void page_results(page_writer *page)
 {
     static const char *const tables[] = {"modulus_groups", "comparison", "dma_comparison",
                                          "shift_factors",  "prony",      "roughness",
@@ -157,7 +157,7 @@ void wt_page_results(wt_page *page)
         any = wt_result_find(page->result, tables[i]) != NULL;
     if (!any)
         return;
-    wt_page_heading(page, "tables", "Tables");
+    page_heading(page, "tables", "Tables");
     whole_table(page, "modulus_groups", "Modulus by group", group_columns, COUNT(group_columns));
     whole_table(page, "comparison",
                 "Wear track against bulk: ratio of geometric means, by indentation rate",
@@ -177,43 +177,43 @@ void wt_page_results(wt_page *page)
 
 /* ---- curves without a modulus ---------------------------------------------------------------- */
 
-static const wt_page_column rejected_columns[] = {
+static const page_column rejected_columns[] = {
     {"file", "File", NULL, NULL, false},
     {"curve", "Curve", NULL, NULL, false},
     {"spot", "Spot", NULL, NULL, false},
     {"reason", "Reason", NULL, NULL, false},
 };
 
-static void rejected_of(wt_page *page, const wt_table *table, const char *group)
+static void rejected_of(page_writer *page, const wt_table *table, const char *group)
 {
     enum { SHOWN = 200 };
     size_t rows[SHOWN], n = 0, rejected = 0;
-    if (wt_text_column(table, "verdict") < 0)
+    if (text_column(table, "verdict") < 0)
         return;
     for (size_t row = 0; row < wt_table_n_rows(table); row++) {
-        if (strcmp(wt_cell_text(table, row, "verdict"), "accepted") == 0)
+        if (strcmp(cell_text(table, row, "verdict"), "accepted") == 0)
             continue;
         if (n < SHOWN)
             rows[n++] = row;
         rejected++;
     }
-    wt_text caption = {0};
-    wt_text_format(&caption, "%s: %zu of %zu curves rejected", group, rejected,
-                   wt_table_n_rows(table));
+    growing_text caption = {0};
+    text_format(&caption, "%s: %zu of %zu curves rejected", group, rejected,
+                wt_table_n_rows(table));
     if (rejected > n)
-        wt_text_format(&caption, ", the first %zu; the result file holds all", n);
+        text_format(&caption, ", the first %zu; the result file holds all", n);
     if (n == 0) {
-        wt_text_add(&page->out, "<p>");
-        wt_text_html(&page->out, wt_text_string(&caption));
-        wt_text_add(&page->out, ".</p>\n");
+        text_add(&page->out, "<p>");
+        text_html(&page->out, text_string(&caption));
+        text_add(&page->out, ".</p>\n");
     } else
-        wt_page_table(page, table, wt_text_string(&caption), rejected_columns,
-                      COUNT(rejected_columns), rows, n);
+        page_table(page, table, text_string(&caption), rejected_columns, COUNT(rejected_columns),
+                   rows, n);
     page->out.failed = page->out.failed || caption.failed;
-    wt_text_free(&caption);
+    text_free(&caption);
 }
 
-void wt_page_indentation(wt_page *page)
+void page_indentation(page_writer *page)
 {
     static const char prefix[] = "indentation/";
     bool first = true;
@@ -223,13 +223,13 @@ void wt_page_indentation(wt_page *page)
         if (strncmp(name, prefix, sizeof prefix - 1) != 0)
             continue;
         if (first)
-            wt_page_heading(page, "indentation", "Indentation record");
+            page_heading(page, "indentation", "Indentation record");
         first = false;
         rejected_of(page, table, name + sizeof prefix - 1);
-        wt_text caption = {0};
-        wt_text_format(&caption, "%s: how it was indented", name + sizeof prefix - 1);
-        wt_page_keys(page, table, wt_text_string(&caption));
+        growing_text caption = {0};
+        text_format(&caption, "%s: how it was indented", name + sizeof prefix - 1);
+        page_keys(page, table, text_string(&caption));
         page->out.failed = page->out.failed || caption.failed;
-        wt_text_free(&caption);
+        text_free(&caption);
     }
 }

@@ -20,9 +20,9 @@ wt_report_options wt_report_defaults(void)
     return (wt_report_options){.style = NULL, .gnuplot = NULL, .with_provenance = true};
 }
 
-const char *wt_report_file(const char *name)
+const char *report_file(const char *name)
 {
-    for (const wt_embedded *file = report_embedded; file->name != NULL; file++)
+    for (const embedded_text *file = report_embedded; file->name != NULL; file++)
         if (strcmp(file->name, name) == 0)
             return file->text;
     return NULL;
@@ -33,7 +33,7 @@ static void style_names(char *names, size_t size)
 {
     size_t n = 0;
     names[0] = '\0';
-    for (const wt_embedded *file = report_embedded; file->name != NULL; file++) {
+    for (const embedded_text *file = report_embedded; file->name != NULL; file++) {
         const char *end = strstr(file->name, ".gp");
         if (end == NULL || n >= size)
             continue;
@@ -44,7 +44,7 @@ static void style_names(char *names, size_t size)
 }
 
 /* Reads a whole file of at most `limit` bytes into a text. */
-static wt_status read_file(const char *path, size_t limit, wt_text *text, wt_error *err)
+static wt_status read_file(const char *path, size_t limit, growing_text *text, wt_error *err)
 {
     wt_status status = WT_OK;
     char chunk[8192];
@@ -56,7 +56,7 @@ static wt_status read_file(const char *path, size_t limit, wt_text *text, wt_err
         return status;
     }
     for (size_t got; (got = fread(chunk, 1, sizeof chunk, file)) > 0;) {
-        wt_text_bytes(text, chunk, got);
+        text_bytes(text, chunk, got);
         if (text->length > limit) {
             status = wt_fail(err, WT_E_RANGE, "larger than %zu bytes", limit);
             wt_error_file(err, path);
@@ -74,19 +74,19 @@ done:
 }
 
 /* A built-in style by name; anything with a slash or ending in .gp is a file. */
-static wt_status find_style(const char *style, wt_text *text, wt_error *err)
+static wt_status find_style(const char *style, growing_text *text, wt_error *err)
 {
     enum { STYLE_LIMIT = 1 << 20 };
     const char *name = style != NULL ? style : "paper";
     size_t length = strlen(name);
     if (strchr(name, '/') != NULL || (length > 3 && strcmp(name + length - 3, ".gp") == 0))
         return read_file(name, STYLE_LIMIT, text, err);
-    wt_text file = {0};
-    wt_text_format(&file, "%s.gp", name);
-    const char *built_in = wt_report_file(wt_text_string(&file));
-    wt_text_free(&file);
+    growing_text file = {0};
+    text_format(&file, "%s.gp", name);
+    const char *built_in = report_file(text_string(&file));
+    text_free(&file);
     if (built_in != NULL) {
-        wt_text_add(text, built_in);
+        text_add(text, built_in);
         return text->failed ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
     }
     char names[128];
@@ -101,8 +101,8 @@ static wt_status find_style(const char *style, wt_text *text, wt_error *err)
 
 /* What becomes of one figure. */
 typedef struct drawn_figure {
-    wt_drawing drawing;
-    wt_text svg;
+    figure_drawing drawing;
+    growing_text svg;
 } drawn_figure;
 
 /* One report while it is written. */
@@ -110,10 +110,10 @@ typedef struct report {
     const wt_result *result;
     const char *gnuplot;
     const wt_progress *progress;
-    wt_text style;
-    wt_folder *folder;
+    growing_text style;
+    report_folder *folder;
     drawn_figure *figures; /* one for each that this library knows */
-    wt_page_figure *pages; /* those whose tables are there */
+    page_figure *pages;    /* those whose tables are there */
     size_t n_pages, n_pictures;
 } report;
 
@@ -127,7 +127,7 @@ static bool has_tables(const wt_result *result, const wt_figure_info *info)
     return true;
 }
 
-static wt_status write_data(const wt_folder *folder, const wt_drawing *d, wt_error *err)
+static wt_status write_data(const report_folder *folder, const figure_drawing *d, wt_error *err)
 {
     wt_status status = WT_OK;
     char name[128], *bytes = NULL;
@@ -144,37 +144,35 @@ static wt_status write_data(const wt_folder *folder, const wt_drawing *d, wt_err
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
     (void)snprintf(name, sizeof name, "plots/%s.tsv", d->name);
     if (status == WT_OK)
-        status = wt_folder_write(folder, name, bytes, length, err);
+        status = folder_write(folder, name, bytes, length, err);
     free(bytes);
     return status;
 }
 
-static wt_status write_script(const wt_folder *folder, const wt_drawing *d,
+static wt_status write_script(const report_folder *folder, const figure_drawing *d,
                               const wt_figure_info *info, wt_error *err)
 {
-    wt_text script = {0};
+    growing_text script = {0};
     char name[128];
-    wt_text_format(&script, "# %s. To draw it again: gnuplot %s.gp\n", info->title, info->name);
-    wt_text_format(&script,
-                   "# Data: %s.tsv, in SI units; x_unit and so on turn them into those of "
-                   "the axes.\n",
-                   info->name);
-    wt_text_comment(&script, wt_text_string(&d->caption));
-    wt_text_add(&script, "reset\nfigure_width = ");
-    wt_text_literal(&script, d->width > 0 ? d->width : 1);
-    wt_text_add(&script, "; figure_height = ");
-    wt_text_literal(&script, d->height > 0 ? d->height : 1);
-    wt_text_format(&script,
-                   "\nload 'style.gp'\nset datafile separator \"\\t\"\nset output '%s.svg'\n",
-                   info->name);
-    wt_text_add(&script, wt_text_string(&d->script));
-    wt_text_add(&script, "set output\n");
+    text_format(&script, "# %s. To draw it again: gnuplot %s.gp\n", info->title, info->name);
+    text_format(&script,
+                "# Data: %s.tsv, in SI units; x_unit and so on turn them into those of "
+                "the axes.\n",
+                info->name);
+    text_comment(&script, text_string(&d->caption));
+    text_add(&script, "reset\nfigure_width = ");
+    text_literal(&script, d->width > 0 ? d->width : 1);
+    text_add(&script, "; figure_height = ");
+    text_literal(&script, d->height > 0 ? d->height : 1);
+    text_format(&script, "\nload 'style.gp'\nset datafile separator \"\\t\"\nset output '%s.svg'\n",
+                info->name);
+    text_add(&script, text_string(&d->script));
+    text_add(&script, "set output\n");
     (void)snprintf(name, sizeof name, "plots/%s.gp", info->name);
-    wt_status status =
-        script.failed || d->script.failed || d->caption.failed
-            ? wt_fail(err, WT_E_MEMORY, "out of memory")
-            : wt_folder_write(folder, name, wt_text_string(&script), script.length, err);
-    wt_text_free(&script);
+    wt_status status = script.failed || d->script.failed || d->caption.failed
+                           ? wt_fail(err, WT_E_MEMORY, "out of memory")
+                           : folder_write(folder, name, text_string(&script), script.length, err);
+    text_free(&script);
     return status;
 }
 
@@ -188,13 +186,13 @@ static wt_status draw_picture(report *r, drawn_figure *figure, const wt_figure_i
     (void)snprintf(script, sizeof script, "%s.gp", info->name);
     (void)snprintf(picture, sizeof picture, "%s.svg", info->name);
     if (r->n_pictures++ == 0)
-        status = wt_folder_write(r->folder, "plots/style.gp", wt_text_string(&r->style),
-                                 r->style.length, err);
+        status =
+            folder_write(r->folder, "plots/style.gp", text_string(&r->style), r->style.length, err);
     if (status == WT_OK)
-        status = wt_gnuplot_run(r->gnuplot, wt_folder_plots(r->folder), script, err);
+        status = gnuplot_run(r->gnuplot, folder_plots(r->folder), script, err);
     if (status != WT_OK)
         return status;
-    char *path = wt_path_join(wt_folder_plots(r->folder), picture);
+    char *path = wt_path_join(folder_plots(r->folder), picture);
     if (path == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     status = read_file(path, PICTURE_LIMIT, &figure->svg, err);
@@ -206,24 +204,24 @@ static wt_status make_figure(report *r, size_t i, wt_error *err)
 {
     const wt_figure_info *info = wt_figure_get(i);
     drawn_figure *figure = &r->figures[i];
-    wt_drawing *d = &figure->drawing;
+    figure_drawing *d = &figure->drawing;
     wt_status status = WT_OK;
-    *d = (wt_drawing){.result = r->result, .name = info->name, .err = err};
-    wt_figure_draw(i)(d);
+    *d = (figure_drawing){.result = r->result, .name = info->name, .err = err};
+    figure_draw(i)(d);
     if (d->status != WT_OK)
         return d->status;
-    wt_page_figure *page = &r->pages[r->n_pages++];
-    *page = (wt_page_figure){.info = info, .width = d->width};
+    page_figure *page = &r->pages[r->n_pages++];
+    *page = (page_figure){.info = info, .width = d->width};
     if (d->script.length == 0) {
-        page->omitted = wt_text_string(&d->omitted);
+        page->omitted = text_string(&d->omitted);
         return WT_OK;
     }
     if ((status = write_data(r->folder, d, err)) != WT_OK ||
         (status = write_script(r->folder, d, info, err)) != WT_OK ||
         (status = draw_picture(r, figure, info, err)) != WT_OK)
         return status;
-    page->caption = wt_text_string(&d->caption);
-    page->svg = wt_text_string(&figure->svg);
+    page->caption = text_string(&d->caption);
+    page->svg = text_string(&figure->svg);
     page->svg_length = figure->svg.length;
     return WT_OK;
 }
@@ -239,27 +237,27 @@ static wt_status tell(const report *r, const char *what, size_t done, wt_error *
 
 static wt_status make_page(const report *r, bool with_provenance, wt_error *err)
 {
-    wt_page page = {.result = r->result,
-                    .with_provenance = with_provenance,
-                    .figures = r->pages,
-                    .n_figures = r->n_pages};
-    wt_status status = wt_page_write(&page, err);
+    page_writer page = {.result = r->result,
+                        .with_provenance = with_provenance,
+                        .figures = r->pages,
+                        .n_figures = r->n_pages};
+    wt_status status = page_write(&page, err);
     if (status == WT_OK)
-        status = wt_folder_write(r->folder, "index.html", page.out.bytes, page.out.length, err);
-    wt_text_free(&page.out);
+        status = folder_write(r->folder, "index.html", page.out.bytes, page.out.length, err);
+    text_free(&page.out);
     return status;
 }
 
 wt_status wt_report_check(const char *folder, const wt_report_options *options, wt_error *err)
 {
     const wt_report_options chosen = options != NULL ? *options : wt_report_defaults();
-    wt_text style = {0};
-    wt_folder *made = NULL;
+    growing_text style = {0};
+    report_folder *made = NULL;
     wt_status status = find_style(chosen.style, &style, err);
     if (status == WT_OK)
-        status = wt_folder_open(folder, &made, err);
-    wt_folder_discard(made);
-    wt_text_free(&style);
+        status = folder_open(folder, &made, err);
+    folder_discard(made);
+    text_free(&style);
     return status;
 }
 
@@ -281,7 +279,7 @@ wt_status wt_report_write(const wt_result *result, const char *folder,
         goto done;
     }
     if ((status = find_style(chosen.style, &r.style, err)) != WT_OK ||
-        (status = wt_folder_open(folder, &r.folder, err)) != WT_OK)
+        (status = folder_open(folder, &r.folder, err)) != WT_OK)
         goto done;
     for (size_t i = 0; i < n; i++) {
         const wt_figure_info *info = wt_figure_get(i);
@@ -294,18 +292,18 @@ wt_status wt_report_write(const wt_result *result, const char *folder,
     if ((status = tell(&r, "page", n, err)) != WT_OK ||
         (status = make_page(&r, chosen.with_provenance, err)) != WT_OK)
         goto done;
-    status = wt_folder_commit(r.folder, err);
+    status = folder_commit(r.folder, err);
     r.folder = NULL;
     if (status == WT_OK)
         (void)tell(&r, "page", n + 1, NULL); // it is there: too late to cancel
 done:
-    wt_folder_discard(r.folder);
+    folder_discard(r.folder);
     for (size_t i = 0; r.figures != NULL && i < n; i++) {
-        wt_drawing_clear(&r.figures[i].drawing);
-        wt_text_free(&r.figures[i].svg);
+        drawing_clear(&r.figures[i].drawing);
+        text_free(&r.figures[i].svg);
     }
     free(r.figures);
     free(r.pages);
-    wt_text_free(&r.style);
+    text_free(&r.style);
     return status;
 }

@@ -8,6 +8,6 @@
 #include <stddef.h>
 
 /* Text of "page.css", "paper.gp", ...; NULL if there is none of that name. Static. */
-const char *wt_report_file(const char *name);
+const char *report_file(const char *name);
 
 #endif

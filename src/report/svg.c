@@ -20,8 +20,8 @@ static size_t up_to(const char *s, size_t n, const char *end)
     return found != NULL ? (size_t)(found - s) + strlen(end) : n;
 }
 
-bool wt_svg_inline(wt_text *page, const char *svg, size_t length, const char *name,
-                   const char *label)
+bool svg_inline(growing_text *page, const char *svg, size_t length, const char *name,
+                const char *label)
 {
     static const char *const references[] = {" id='", " id=\"", "href='#", "href=\"#",
                                              "url(#", "url('#", "url(\"#"};
@@ -29,9 +29,9 @@ bool wt_svg_inline(wt_text *page, const char *svg, size_t length, const char *na
     if (begin == NULL)
         return false;
     size_t left = length - (size_t)(begin - svg);
-    wt_text_add(page, "<svg role=\"img\" aria-label=\"");
-    wt_text_html(page, label);
-    wt_text_add(page, "\"");
+    text_add(page, "<svg role=\"img\" aria-label=\"");
+    text_html(page, label);
+    text_add(page, "\"");
     const char *s = begin + 4;
     left -= 4;
     while (left > 0) {
@@ -49,13 +49,13 @@ bool wt_svg_inline(wt_text *page, const char *svg, size_t length, const char *na
         for (size_t i = 0; i < sizeof references / sizeof references[0] && word == 0; i++)
             word = starts(s, left, references[i]);
         if (word == 0) {
-            wt_text_bytes(page, s, 1);
+            text_bytes(page, s, 1);
             s++;
             left--;
             continue;
         }
-        wt_text_bytes(page, s, word);
-        wt_text_format(page, "%s-", name);
+        text_bytes(page, s, word);
+        text_format(page, "%s-", name);
         s += word;
         left -= word;
     }

@@ -11,18 +11,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-void wt_text_free(wt_text *text)
+void text_free(growing_text *text)
 {
     free(text->bytes);
-    *text = (wt_text){0};
+    *text = (growing_text){0};
 }
 
-const char *wt_text_string(const wt_text *text)
+const char *text_string(const growing_text *text)
 {
     return text->bytes != NULL ? text->bytes : "";
 }
 
-static bool make_room(wt_text *text, size_t more)
+static bool make_room(growing_text *text, size_t more)
 {
     if (text->failed)
         return false;
@@ -46,7 +46,7 @@ static bool make_room(wt_text *text, size_t more)
     return true;
 }
 
-void wt_text_bytes(wt_text *text, const char *bytes, size_t length)
+void text_bytes(growing_text *text, const char *bytes, size_t length)
 {
     if (!make_room(text, length))
         return;
@@ -55,12 +55,12 @@ void wt_text_bytes(wt_text *text, const char *bytes, size_t length)
     text->bytes[text->length] = '\0';
 }
 
-void wt_text_add(wt_text *text, const char *string)
+void text_add(growing_text *text, const char *string)
 {
-    wt_text_bytes(text, string, strlen(string));
+    text_bytes(text, string, strlen(string));
 }
 
-void wt_text_format(wt_text *text, const char *format, ...)
+void text_format(growing_text *text, const char *format, ...)
 {
     va_list arguments, again;
     va_start(arguments, format);
@@ -79,7 +79,7 @@ void wt_text_format(wt_text *text, const char *format, ...)
 /* Length of the character at s, 0 if it is not UTF-8 or not allowed in XML 1.0. */
 static size_t character_length(const char *s, size_t left)
 {
-    size_t length = wt_utf8_character(s, left);
+    size_t length = utf8_character(s, left);
     unsigned char first = (unsigned char)s[0];
     if (length == 1 && first < 0x20 && first != '\t' && first != '\n' && first != '\r')
         return 0;
@@ -88,83 +88,83 @@ static size_t character_length(const char *s, size_t left)
     return length;
 }
 
-void wt_text_html(wt_text *text, const char *string)
+void text_html(growing_text *text, const char *string)
 {
     size_t left = strlen(string);
     for (const char *s = string; left > 0;) {
         size_t length = character_length(s, left);
         if (length == 0) {
-            wt_text_add(text, "\xef\xbf\xbd");
+            text_add(text, "\xef\xbf\xbd");
             s++;
             left--;
             continue;
         }
         switch (*s) {
         case '&':
-            wt_text_add(text, "&amp;");
+            text_add(text, "&amp;");
             break;
         case '<':
-            wt_text_add(text, "&lt;");
+            text_add(text, "&lt;");
             break;
         case '>':
-            wt_text_add(text, "&gt;");
+            text_add(text, "&gt;");
             break;
         case '"':
-            wt_text_add(text, "&quot;");
+            text_add(text, "&quot;");
             break;
         case '\'':
-            wt_text_add(text, "&#39;");
+            text_add(text, "&#39;");
             break;
         case '\r': // a literal one would be read back as a line feed
-            wt_text_add(text, "&#13;");
+            text_add(text, "&#13;");
             break;
         default:
-            wt_text_bytes(text, s, length);
+            text_bytes(text, s, length);
         }
         s += length;
         left -= length;
     }
 }
 
-void wt_text_quoted(wt_text *text, const char *string)
+void text_quoted(growing_text *text, const char *string)
 {
-    wt_text_add(text, "'");
+    text_add(text, "'");
     for (const char *s = string; *s != '\0'; s++) {
         unsigned char c = (unsigned char)*s;
         if (c == '\'')
-            wt_text_add(text, "''");
+            text_add(text, "''");
         else if (c < 0x20 || c == 0x7f)
-            wt_text_add(text, " ");
+            text_add(text, " ");
         else if (c == '\\' && s[1] == '\0') // the last one would join this line to the next
-            wt_text_add(text, "\\ ");
+            text_add(text, "\\ ");
         else
-            wt_text_bytes(text, s, 1);
+            text_bytes(text, s, 1);
     }
-    wt_text_add(text, "'");
+    text_add(text, "'");
 }
 
-void wt_text_comment(wt_text *text, const char *string)
+void text_comment(growing_text *text, const char *string)
 {
-    wt_text_add(text, "# ");
+    text_add(text, "# ");
     for (const char *s = string; *s != '\0'; s++) {
         unsigned char c = (unsigned char)*s;
         // A backslash at the end would continue the comment, a back quote would run a command.
         if (c < 0x20 || c == 0x7f || c == '\\' || c == '`')
-            wt_text_add(text, " ");
+            text_add(text, " ");
         else
-            wt_text_bytes(text, s, 1);
+            text_bytes(text, s, 1);
     }
-    wt_text_add(text, "\n");
+    text_add(text, "\n");
 }
 
 /* A whole number as exponent: "⁻⁷". */
-static void superscript(wt_text *text, long value)
+static void superscript(growing_text *text, long value)
 {
     static const char *const digit[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
     char plain[32];
     (void)snprintf(plain, sizeof plain, "%ld", value);
     for (const char *s = plain; *s != '\0'; s++)
-        wt_text_add(text, *s == '-' ? "⁻" : digit[*s - '0']);
+        text_add(text, *s == '-' ? "⁻" : digit[*s - '0']);
 }
 
 enum { MAX_DIGITS = 17 };
@@ -184,44 +184,44 @@ static void decimal_digits(double value, int count, char digits[MAX_DIGITS + 1],
     *exponent = *s == 'e' ? (int)strtol(s + 1, NULL, 10) : 0;
 }
 
-static bool not_finite(wt_text *text, double value)
+static bool not_finite(growing_text *text, double value)
 {
     if (isnan(value))
-        wt_text_add(text, "not known");
+        text_add(text, "not known");
     else if (isinf(value))
-        wt_text_add(text, value < 0 ? "−∞" : "∞");
+        text_add(text, value < 0 ? "−∞" : "∞");
     else
         return false;
     return true;
 }
 
 /* Digits with the decimal point after the one of weight 10^0. */
-static void add_plain(wt_text *text, const char *digits, int exponent)
+static void add_plain(growing_text *text, const char *digits, int exponent)
 {
     int count = (int)strlen(digits);
     if (exponent < 0) {
-        wt_text_add(text, "0.");
+        text_add(text, "0.");
         for (int i = -1; i > exponent; i--)
-            wt_text_add(text, "0");
-        wt_text_add(text, digits);
+            text_add(text, "0");
+        text_add(text, digits);
         return;
     }
     for (int i = 0; i < count || i <= exponent; i++) {
         if (i == exponent + 1)
-            wt_text_add(text, ".");
+            text_add(text, ".");
         if (i < count)
-            wt_text_bytes(text, digits + i, 1);
+            text_bytes(text, digits + i, 1);
         else
-            wt_text_add(text, "0");
+            text_add(text, "0");
     }
 }
 
-static void add_number(wt_text *text, double value, int significant, bool trim)
+static void add_number(growing_text *text, double value, int significant, bool trim)
 {
     if (not_finite(text, value))
         return;
     if (value == 0) {
-        wt_text_add(text, "0");
+        text_add(text, "0");
         return;
     }
     char digits[MAX_DIGITS + 1];
@@ -236,25 +236,25 @@ static void add_number(wt_text *text, double value, int significant, bool trim)
     for (size_t n = strlen(digits); trim && n > 1 && digits[n - 1] == '0'; n--)
         digits[n - 1] = '\0';
     if (value < 0)
-        wt_text_add(text, "−");
+        text_add(text, "−");
     add_plain(text, digits, plain ? exponent : 0);
     if (plain)
         return;
-    wt_text_add(text, "×10");
+    text_add(text, "×10");
     superscript(text, exponent);
 }
 
-void wt_text_number(wt_text *text, double value, int significant)
+void text_number(growing_text *text, double value, int significant)
 {
     add_number(text, value, significant, false);
 }
 
-void wt_text_short(wt_text *text, double value, int significant)
+void text_short(growing_text *text, double value, int significant)
 {
     add_number(text, value, significant, true);
 }
 
-void wt_text_fixed(wt_text *text, double value, int decimals)
+void text_fixed(growing_text *text, double value, int decimals)
 {
     if (not_finite(text, value))
         return;
@@ -264,22 +264,22 @@ void wt_text_fixed(wt_text *text, double value, int decimals)
     (void)snprintf(plain, sizeof plain, "%.*f", after, fabs(value));
     size_t length = strlen(plain), before = strspn(plain, "0123456789");
     if (value < 0 && strpbrk(plain, "123456789") != NULL)
-        wt_text_add(text, "−");
-    wt_text_bytes(text, plain, before);
+        text_add(text, "−");
+    text_bytes(text, plain, before);
     if (after > 0) { // the mark between is that of the locale
-        wt_text_add(text, ".");
-        wt_text_add(text, plain + length - (size_t)after);
+        text_add(text, ".");
+        text_add(text, plain + length - (size_t)after);
     }
 }
 
-void wt_text_literal(wt_text *text, double value)
+void text_literal(growing_text *text, double value)
 {
     if (isnan(value)) {
-        wt_text_add(text, "NaN");
+        text_add(text, "NaN");
         return;
     }
     if (value == 0 || isinf(value)) {
-        wt_text_add(text, value == 0 ? "0" : value < 0 ? "-1e308" : "1e308");
+        text_add(text, value == 0 ? "0" : value < 0 ? "-1e308" : "1e308");
         return;
     }
     char digits[MAX_DIGITS + 1];
@@ -288,14 +288,14 @@ void wt_text_literal(wt_text *text, double value)
     size_t n = strlen(digits);
     while (n > 1 && digits[n - 1] == '0')
         digits[--n] = '\0';
-    wt_text_add(text, value < 0 ? "-" : "");
+    text_add(text, value < 0 ? "-" : "");
     if (exponent >= -3 && exponent <= 5)
         add_plain(text, digits, exponent);
     else {
         add_plain(text, digits, 0);
-        wt_text_format(text, "e%d", exponent);
+        text_format(text, "e%d", exponent);
     }
     // 1/3 of whole numbers would be 0 in gnuplot.
     if (exponent >= 0 && exponent <= 5 && n <= (size_t)exponent + 1)
-        wt_text_add(text, ".0");
+        text_add(text, ".0");
 }

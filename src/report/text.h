@@ -9,35 +9,35 @@
 
 /* Zero-initialised it is empty. A write that finds no memory sets `failed` and later writes do
  * nothing, so that one check at the end is enough. */
-typedef struct wt_text {
+typedef struct growing_text {
     char *bytes; /* NULL while empty, else zero-terminated */
     size_t length, capacity;
     bool failed;
-} wt_text;
+} growing_text;
 
-void wt_text_free(wt_text *text);                /* empty again */
-const char *wt_text_string(const wt_text *text); /* "" while empty; borrowed */
-void wt_text_bytes(wt_text *text, const char *bytes, size_t length);
-void wt_text_add(wt_text *text, const char *string);
-void wt_text_format(wt_text *text, const char *format, ...) WT_PRINTF(2, 3);
+void text_free(growing_text *text);                /* empty again */
+const char *text_string(const growing_text *text); /* "" while empty; borrowed */
+void text_bytes(growing_text *text, const char *bytes, size_t length);
+void text_add(growing_text *text, const char *string);
+void text_format(growing_text *text, const char *format, ...) WT_PRINTF(2, 3);
 
 /* Escaped for HTML element content and quoted attributes. What is not UTF-8 or not allowed in XML
  * becomes U+FFFD. */
-void wt_text_html(wt_text *text, const char *string);
+void text_html(growing_text *text, const char *string);
 /* A gnuplot string in single quotes: no substitution happens inside; line breaks become blanks. */
-void wt_text_quoted(wt_text *text, const char *string);
+void text_quoted(growing_text *text, const char *string);
 /* A comment of one line for a gnuplot script, "# " and line break included. */
-void wt_text_comment(wt_text *text, const char *string);
+void text_comment(growing_text *text, const char *string);
 
 /* A number for reading, independent of the locale, in plain UTF-8: rounded to `significant` digits
  * (but never left of the decimal point): "12.3", "−0.0046", 1.2e-7 as "1.2×10⁻⁷". "not known" for
  * NaN, "∞". */
-void wt_text_number(wt_text *text, double value, int significant);
+void text_number(growing_text *text, double value, int significant);
 /* The same without zeros at the end of its decimals: "20", "0.5". */
-void wt_text_short(wt_text *text, double value, int significant);
+void text_short(growing_text *text, double value, int significant);
 /* With a fixed number of decimals. */
-void wt_text_fixed(wt_text *text, double value, int decimals);
+void text_fixed(growing_text *text, double value, int decimals);
 /* A number as gnuplot reads it, to 10 digits. */
-void wt_text_literal(wt_text *text, double value);
+void text_literal(growing_text *text, double value);
 
 #endif

@@ -86,9 +86,9 @@ static bool is_temperature(const char *name)
            strstr(name, "spread") == NULL && strstr(name, "difference") == NULL;
 }
 
-wt_lab_unit wt_lab_unit_for(const char *unit, const char *name, double magnitude)
+lab_unit lab_unit_for(const char *unit, const char *name, double magnitude)
 {
-    wt_lab_unit lab = {.factor = 1, .offset = 0, .label = ""};
+    lab_unit lab = {.factor = 1, .offset = 0, .label = ""};
     if (strcmp(unit, "K") == 0 && is_temperature(name)) {
         lab.offset = -WT_ZERO_CELSIUS;
         (void)strcpy(lab.label, "°C");
@@ -111,7 +111,7 @@ wt_lab_unit wt_lab_unit_for(const char *unit, const char *name, double magnitude
     return lab;
 }
 
-double wt_lab_value(const wt_lab_unit *lab, double value)
+double lab_value(const lab_unit *lab, double value)
 {
     return value * lab->factor + lab->offset;
 }

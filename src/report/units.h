@@ -8,15 +8,15 @@
 #include "weartrack/base.h"
 
 /* lab value = SI value * factor + offset */
-typedef struct wt_lab_unit {
+typedef struct lab_unit {
     double factor, offset;
     char label[40]; /* "MPa", "" for a number */
-} wt_lab_unit;
+} lab_unit;
 
 /* The unit in which a value of that size [SI] reads best; a magnitude that is 0 or not finite gives
  * the smallest usual one. `name` of the column or key tells a temperature (°C) from a difference of
  * temperatures (K). */
-wt_lab_unit wt_lab_unit_for(const char *unit, const char *name, double magnitude);
-double wt_lab_value(const wt_lab_unit *lab, double value);
+lab_unit lab_unit_for(const char *unit, const char *name, double magnitude);
+double lab_value(const lab_unit *lab, double value);
 
 #endif

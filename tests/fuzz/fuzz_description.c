@@ -14,29 +14,29 @@ static const char sample[] =
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    static wt_description_schema *schema;
-    wt_description *description = NULL;
+    static description_schema *schema;
+    text_description *description = NULL;
     wt_input *input = NULL;
     wt_error err = WT_ERROR_INIT;
     const wt_read_options options = wt_read_defaults();
-    if (schema == NULL && wt_description_schema_new(&schema, &err) != WT_OK)
+    if (schema == NULL && description_schema_new(&schema, &err) != WT_OK)
         abort();
-    if (wt_description_parse(schema, (const char *)data, size, "fuzz", &description, &err) != WT_OK)
+    if (description_parse(schema, (const char *)data, size, "fuzz", &description, &err) != WT_OK)
         return 0;
     if (wt_input_open_memory(sample, sizeof sample - 1, "sample", &input, &err) == WT_OK) {
-        const wt_peek peek = {(const unsigned char *)sample, sizeof sample - 1, true, "sample"};
-        wt_text_file file;
-        (void)wt_text_detect(description, &peek);
-        if (wt_text_scan(description, input, description->kinds, &options, NULL, &file, &err) ==
+        const file_peek peek = {(const unsigned char *)sample, sizeof sample - 1, true, "sample"};
+        text_file file;
+        (void)text_detect(description, &peek);
+        if (text_scan(description, input, description->kinds, &options, NULL, &file, &err) ==
             WT_OK) {
             wt_sweep sweep = {.n_isotherms = 0};
             if ((description->kinds & WT_KIND_SWEEP) != 0)
-                (void)wt_text_sweep(&file, &options, NULL, &sweep, &err);
+                (void)text_sweep(&file, &options, NULL, &sweep, &err);
             wt_sweep_clear(&sweep);
-            wt_text_file_free(&file);
+            text_file_free(&file);
         }
     }
     wt_input_close(input);
-    wt_description_free(description);
+    description_free(description);
     return 0;
 }

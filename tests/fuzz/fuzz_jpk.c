@@ -77,12 +77,12 @@ static uint8_t *pack(const uint8_t *data, size_t size, size_t *length)
 static void read_all(const uint8_t *data, size_t size)
 {
     wt_read_options options = wt_read_defaults();
-    detect(&wt_reader_jpk, data, size);
-    read_curves(&wt_reader_jpk, data, size, &options);
+    detect(&reader_jpk, data, size);
+    read_curves(&reader_jpk, data, size, &options);
     options.want = WT_Q_BIT(WT_Q_FORCE);
     options.sensitivity = 1e-7;
-    read_curves(&wt_reader_jpk, data, size, &options);
-    describe(&wt_reader_jpk, data, size, &options);
+    read_curves(&reader_jpk, data, size, &options);
+    describe(&reader_jpk, data, size, &options);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)

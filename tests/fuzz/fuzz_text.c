@@ -16,7 +16,7 @@ static void all_finite(const double *values, size_t n)
             abort();
 }
 
-static void read_as(const wt_reader *reader, wt_input *input, const wt_read_options *options)
+static void read_as(const file_reader *reader, wt_input *input, const wt_read_options *options)
 {
     wt_error err = WT_ERROR_INIT;
     if (reader->read_sweep != NULL) {
@@ -62,13 +62,14 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         options.spring_constant = 0.1;
     }
     for (size_t i = 0; i < wt_formats_count(formats); i++) {
-        const wt_reader *reader = wt_formats_reader(formats, i);
-        const wt_peek peek = {.bytes = data, .length = size, .whole = size % 3 > 0, .name = "fuzz"};
+        const file_reader *reader = formats_reader(formats, i);
+        const file_peek peek = {
+            .bytes = data, .length = size, .whole = size % 3 > 0, .name = "fuzz"};
         if (wt_formats_xml(formats, reader->info.id) == NULL)
             continue;
         /* All descriptions for each input would be slow: those that want it, and one that may not.
          */
-        if (reader->detect(reader, &peek).answer != WT_ANSWER_YES &&
+        if (reader->detect(reader, &peek).answer != ANSWER_YES &&
             i != size % wt_formats_count(formats))
             continue;
         read_as(reader, input, &options);

@@ -23,7 +23,7 @@ static inline void look_at(const wt_force_curve *curve)
     }
 }
 
-static inline void read_curves(const wt_reader *reader, const uint8_t *data, size_t size,
+static inline void read_curves(const file_reader *reader, const uint8_t *data, size_t size,
                                const wt_read_options *options)
 {
     wt_input *input = NULL;
@@ -47,7 +47,7 @@ static inline void read_curves(const wt_reader *reader, const uint8_t *data, siz
     wt_input_close(input);
 }
 
-static inline void describe(const wt_reader *reader, const uint8_t *data, size_t size,
+static inline void describe(const file_reader *reader, const uint8_t *data, size_t size,
                             const wt_read_options *options)
 {
     wt_input *input = NULL;
@@ -64,11 +64,11 @@ static inline void describe(const wt_reader *reader, const uint8_t *data, size_t
     (void)status;
 }
 
-static inline void detect(const wt_reader *reader, const uint8_t *data, size_t size)
+static inline void detect(const file_reader *reader, const uint8_t *data, size_t size)
 {
-    wt_peek peek = {data, size, true, "fuzz"};
-    wt_match match = reader->detect(reader, &peek);
-    if (match.answer == WT_ANSWER_YES && (match.score < 1 || match.score > 100))
+    file_peek peek = {data, size, true, "fuzz"};
+    detector_match match = reader->detect(reader, &peek);
+    if (match.answer == ANSWER_YES && (match.score < 1 || match.score > 100))
         abort();
 }
 

@@ -69,7 +69,7 @@ static void texts_are_cut_at_a_character(void **state)
             for (size_t p = 0; p < 2; p++) {
                 const size_t n = strlen(parts[p]);
                 assert_true(n < sizes[p] && n + 5 > sizes[p] - 3);
-                assert_int_equal(wt_utf8_check(parts[p], n), n);
+                assert_int_equal(utf8_check(parts[p], n), n);
                 assert_string_equal(parts[p] + n - 3, "...");
                 assert_memory_equal(parts[p], text, n - 3);
             }
@@ -94,7 +94,7 @@ static void utf8(void **state)
                  {"ab\xE2\x88", 2}, /* cut */
                  {"\x80", 0}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
-        assert_int_equal(wt_utf8_check(cases[i].text, strlen(cases[i].text)), cases[i].good);
+        assert_int_equal(utf8_check(cases[i].text, strlen(cases[i].text)), cases[i].good);
 }
 
 static void parse_log(void **state)

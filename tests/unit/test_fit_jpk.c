@@ -111,21 +111,21 @@ static void compare(const char *file, const wt_force_curve *curve)
     const wt_channel *force = wt_segment_channel(approach, WT_Q_FORCE);
     assert_true(height != NULL && force != NULL);
 
-    wt_curve_input input;
-    wt_curve_minimum minima[WT_CURVE_MAX_MINIMA];
-    wt_curve_solution solution;
+    curve_input input;
+    curve_minimum minima[CURVE_MAX_MINIMA];
+    curve_solution solution;
     char reason[160];
     double cost_without;
-    assert_int_equal(wt_curve_reserve(workspace, approach->n_points, NULL), WT_OK);
+    assert_int_equal(curve_reserve(workspace, approach->n_points, NULL), WT_OK);
     wt_curve_verdict verdict =
-        wt_curve_prepare(height->values, force->values, approach->n_points,
-                         curve->cantilever.spring_constant, 1.0, workspace, &input, reason);
+        curve_prepare(height->values, force->values, approach->n_points,
+                      curve->cantilever.spring_constant, 1.0, workspace, &input, reason);
     if (verdict != WT_CURVE_ACCEPTED)
         fail_msg("%s %zu: %s", file, curve->index, reason);
-    size_t n = wt_curve_scan(table, &input.samples, false, false, workspace, minima, &cost_without);
+    size_t n = curve_scan(table, &input.samples, false, false, workspace, minima, &cost_without);
     assert_true(n > 0);
-    wt_curve_refine(table, &input.samples, &minima[0], false, false, true, workspace, &solution);
-    double modulus = 0.75 * solution.p[WT_CURVE_E], cost = solution.cost;
+    curve_refine(table, &input.samples, &minima[0], false, false, true, workspace, &solution);
+    double modulus = 0.75 * solution.p[CURVE_E], cost = solution.cost;
     if (!(cost <= r->cost * (1.0 + cost_tolerance)))
         fail_msg("%s %zu: cost %.6g above %.6g of the other program", file, curve->index, cost,
                  r->cost);

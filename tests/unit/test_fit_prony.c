@@ -37,7 +37,7 @@ static void solve_and_check(const gsl_matrix *a, const gsl_vector *b, double *x)
     gsl_vector *rhs = gsl_vector_alloc(b->size);
     gsl_matrix_memcpy(work, a);
     gsl_vector_memcpy(rhs, b);
-    assert_int_equal(wt_nnls(work, rhs, x, NULL), WT_OK);
+    assert_int_equal(nnls(work, rhs, x, NULL), WT_OK);
     assert_optimal(a, b, x);
     gsl_matrix_free(work);
     gsl_vector_free(rhs);
@@ -91,7 +91,7 @@ static void nnls_refuses_too_few_rows(void **state)
     gsl_matrix *a = gsl_matrix_calloc(2, 3);
     gsl_vector *b = gsl_vector_calloc(2);
     double x[3];
-    assert_int_equal(wt_nnls(a, b, x, NULL), WT_E_ARG);
+    assert_int_equal(nnls(a, b, x, NULL), WT_E_ARG);
     gsl_matrix_free(a);
     gsl_vector_free(b);
 }
@@ -137,9 +137,9 @@ static void maxwell_liquid(double log_w, double *storage, double *loss)
     *loss = 2.385e5 * z / (1.0 + z * z);
 }
 
-static wt_prony_points points_of(const wt_master_curve *master)
+static prony_points points_of(const wt_master_curve *master)
 {
-    return (wt_prony_points){
+    return (prony_points){
         master->n,        master->log_frequency,    master->log_storage,
         master->log_loss, master->log_frequency[0], master->log_frequency[master->n - 1]};
 }
@@ -167,7 +167,7 @@ static void a_known_rubber_comes_back(void **state)
     for (double x = -5.0; x <= 7.0; x += 0.237) { /* between the points too */
         double storage, loss, log_storage, log_loss;
         rubber(x, &storage, &loss);
-        wt_prony_log_moduli(&fit.prony, x, &log_storage, &log_loss);
+        prony_log_moduli(&fit.prony, x, &log_storage, &log_loss);
         assert_near(pow(10.0, log_storage), storage, 0.02);
         assert_near(pow(10.0, log_loss), loss, 0.03);
     }
@@ -275,18 +275,18 @@ static void kramers_kronig_tells_a_causal_material_from_a_miscalibrated_one(void
 {
     (void)state;
     wt_master_curve master = curve_of(rubber, -5.0, 7.0, 200, 0.01, 103);
-    wt_prony_points points = points_of(&master);
+    prony_points points = points_of(&master);
     double misfit;
-    assert_int_equal(wt_prony_kramers_kronig(&points, &misfit, NULL), WT_OK);
+    assert_int_equal(prony_kramers_kronig(&points, &misfit, NULL), WT_OK);
     assert_true(misfit < 0.05);
     for (size_t i = 0; i < master.n; i++)
         master.log_loss[i] += log10(1.5);
-    assert_int_equal(wt_prony_kramers_kronig(&points, &misfit, NULL), WT_OK);
+    assert_int_equal(prony_kramers_kronig(&points, &misfit, NULL), WT_OK);
     assert_near(misfit, 1.0 - 1.0 / 1.5, 0.15);
     /* Nothing but plateau: E' cannot tell. */
     for (size_t i = 0; i < master.n; i++)
         master.log_loss[i] = master.log_storage[i] - 1.5;
-    assert_int_equal(wt_prony_kramers_kronig(&points, &misfit, NULL), WT_OK);
+    assert_int_equal(prony_kramers_kronig(&points, &misfit, NULL), WT_OK);
     assert_near(misfit, (double)NAN, 0.0);
     wt_master_curve_clear(&master);
 }
@@ -346,8 +346,8 @@ static void replicates_carry_the_errors_of_the_shifts(void **state)
     wt_prony_fit fit;
     assert_int_equal(wt_prony_fit_master(&master, &options, &fit, NULL), WT_OK);
     for (size_t i = 0; i < master.n; i++)
-        wt_prony_log_moduli(&fit.prony, master.log_frequency[i], &master.log_storage[i],
-                            &master.log_loss[i]);
+        prony_log_moduli(&fit.prony, master.log_frequency[i], &master.log_storage[i],
+                         &master.log_loss[i]);
     const size_t n = master.n_shifts;
     /* all shifts but the reference move together, by 0.1 decade */
     for (size_t i = 0; i < n; i++) {
@@ -368,13 +368,13 @@ static void replicates_carry_the_errors_of_the_shifts(void **state)
         wt_prony prony = {0};
         assert_int_equal(wt_prony_replicate(&master, &options, 11, r, &prony, NULL, NULL), WT_OK);
         double storage;
-        wt_prony_log_moduli(&prony, 4.5, &storage, &unused);
+        prony_log_moduli(&prony, 4.5, &storage, &unused);
         middle += storage / DRAWS;
         square += storage * storage / DRAWS;
         wt_prony_clear(&prony);
     }
-    wt_prony_log_moduli(&fit.prony, 4.4, &before, &unused);
-    wt_prony_log_moduli(&fit.prony, 4.6, &after, &unused);
+    prony_log_moduli(&fit.prony, 4.4, &before, &unused);
+    prony_log_moduli(&fit.prony, 4.6, &after, &unused);
     const double slope = (after - before) / 0.2;
     assert_near(sqrt(square - middle * middle), 0.1 * slope, 0.2);
     wt_prony_clear(&fit.prony);
@@ -395,8 +395,8 @@ static void replicates_carry_the_common_error_of_the_vertical_shifts(void **stat
     assert_non_null(change);
     assert_int_equal(wt_prony_fit_master(&master, &options, &fit, NULL), WT_OK);
     for (size_t i = 0; i < master.n; i++)
-        wt_prony_log_moduli(&fit.prony, master.log_frequency[i], &master.log_storage[i],
-                            &master.log_loss[i]);
+        prony_log_moduli(&fit.prony, master.log_frequency[i], &master.log_storage[i],
+                         &master.log_loss[i]);
     for (size_t i = 0; i < 2 * n; i++)
         for (size_t k = 0; k < 2 * n; k++) /* 0.01 decade */
             master.covariance_ab[i * 2 * n + k] = i < n || k < n ? 0.0 : 1e-4;
@@ -404,7 +404,7 @@ static void replicates_carry_the_common_error_of_the_vertical_shifts(void **stat
         wt_prony prony = {0};
         double storage, loss;
         assert_int_equal(wt_prony_replicate(&master, &options, 11, r, &prony, change, NULL), WT_OK);
-        wt_prony_log_moduli(&prony, 4.5, &storage, &loss);
+        prony_log_moduli(&prony, 4.5, &storage, &loss);
         middle += storage / DRAWS;
         square += storage * storage / DRAWS;
         of_change += change[0] * change[0] / DRAWS;
@@ -431,7 +431,7 @@ static void replicates_spread_about_the_truth(void **state)
         assert_int_equal(wt_prony_replicate(&master, &options, 13, r, &prony, NULL, NULL), WT_OK);
         for (size_t g = 0; g < 20; g++) {
             double storage, loss;
-            wt_prony_log_moduli(&prony, -3.0 + 0.47 * (double)g, &storage, &loss);
+            prony_log_moduli(&prony, -3.0 + 0.47 * (double)g, &storage, &loss);
             sum[g] += storage / DRAWS;
             square[g] += storage * storage / DRAWS;
         }

@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "near.h"
 
-#include "flow/run/stages.h"
 #include "flow/job/tables.h"
+#include "flow/run/stages.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -199,9 +199,9 @@ static void area_functions(void **state)
         double variance, area, gap, integral;
         if (sscanf(line, "area %lf %lf %lf %lf", &variance, &area, &gap, &integral) != 4)
             continue;
-        assert_near(wt_contact_area(variance), area, 4 * DBL_EPSILON);
-        assert_near_abs(wt_contact_gap(variance), gap, fmax(1e-13 * gap, DBL_MIN));
-        assert_near(wt_contact_integral(variance, 1), integral, 4 * DBL_EPSILON);
+        assert_near(contact_area(variance), area, 4 * DBL_EPSILON);
+        assert_near_abs(contact_gap(variance), gap, fmax(1e-13 * gap, DBL_MIN));
+        assert_near(contact_integral(variance, 1), integral, 4 * DBL_EPSILON);
         n++;
     }
     fclose(in);
@@ -218,11 +218,11 @@ static void area_integral_with_correction(void **state)
     double sum = 0;
     for (int i = 0; i < n; i++) { /* midpoint rule in ln G */
         const double variance = from * pow(to / from, (i + 0.5) / n);
-        const double area = wt_contact_area(variance);
+        const double area = contact_area(variance);
         sum += variance * area * (gamma + (1 - gamma) * area * area);
     }
     sum *= log(to / from) / n;
-    assert_near(wt_contact_integral(to, gamma) - wt_contact_integral(from, gamma), sum, 1e-6);
+    assert_near(contact_integral(to, gamma) - contact_integral(from, gamma), sum, 1e-6);
 }
 
 /* ---- laws ------------------------------------------------------------------------------------ */

@@ -208,8 +208,7 @@ static void numeric_cases(void **state)
             else if (strcmp(line->key, "tail_ratio") == 0)
                 check_tail_ratio(c, line);
             else if (strcmp(line->key, "layered") == 0)
-                assert_near(wt_layered_scale(line->value[1], line->value[0]), line->value[2],
-                            1e-13);
+                assert_near(layered_scale(line->value[1], line->value[0]), line->value[2], 1e-13);
             else if (!check_history(c, &r, line))
                 check_balance(c, &r, line);
         }

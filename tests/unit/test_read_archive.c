@@ -60,18 +60,18 @@ static void put_entry(bytes *b, const char *name, const char *text, bool late, u
     }
 }
 
-static wt_status open_bytes(const bytes *b, wt_input **input, wt_archive **archive, wt_error *err)
+static wt_status open_bytes(const bytes *b, wt_input **input, zip_archive **archive, wt_error *err)
 {
     assert_int_equal(wt_input_open_memory(b->data, b->n, "test", input, NULL), WT_OK);
-    return wt_archive_open(*input, archive, err);
+    return archive_open(*input, archive, err);
 }
 
-static void assert_entry(const wt_archive *a, const char *name, const char *text)
+static void assert_entry(const zip_archive *a, const char *name, const char *text)
 {
-    wt_buffer buffer = {0};
+    byte_buffer buffer = {0};
     size_t i = 0;
-    assert_true(wt_archive_find(a, name, &i));
-    assert_int_equal(wt_archive_read(a, i, 1000, &buffer, NULL), WT_OK);
+    assert_true(archive_find(a, name, &i));
+    assert_int_equal(archive_read(a, i, 1000, &buffer, NULL), WT_OK);
     assert_int_equal(buffer.length, strlen(text));
     assert_memory_equal(buffer.data, text, buffer.length);
     free(buffer.data);
@@ -93,20 +93,20 @@ static void cut_anywhere(void **state)
         bytes part = b;
         part.n = n;
         wt_input *input = NULL;
-        wt_archive *archive = NULL;
+        zip_archive *archive = NULL;
         size_t complete = (size_t)(n >= one) + (size_t)(n >= two) + (size_t)(n >= three);
         wt_status status = open_bytes(&part, &input, &archive, NULL);
         assert_int_equal(status, complete > 0 ? WT_OK : WT_E_CORRUPT);
         if (complete > 0) {
-            assert_true(wt_archive_truncated(archive));
-            assert_int_equal(wt_archive_count(archive), complete);
+            assert_true(archive_truncated(archive));
+            assert_int_equal(archive_count(archive), complete);
             assert_entry(archive, "one", "first text");
         }
         if (complete > 1)
             assert_entry(archive, "two", "has PK\7\10 in it and goes on");
         if (complete > 2)
             assert_entry(archive, "three", "sizes in front");
-        wt_archive_close(archive);
+        archive_close(archive);
         wt_input_close(input);
     }
 }
@@ -118,14 +118,14 @@ static void declared_sizes_are_checked(void **state)
     for (size_t i = 0; i < 3; i++) {
         bytes b = {.n = 0};
         wt_input *input = NULL;
-        wt_archive *archive = NULL;
-        wt_buffer buffer = {0};
+        zip_archive *archive = NULL;
+        byte_buffer buffer = {0};
         wt_error err = WT_ERROR_INIT;
         put_entry(&b, "one", "first text", true, sizes[i]);
         assert_int_equal(open_bytes(&b, &input, &archive, &err), WT_OK);
-        assert_int_equal(wt_archive_read(archive, 0, SIZE_MAX, &buffer, &err), WT_E_CORRUPT);
+        assert_int_equal(archive_read(archive, 0, SIZE_MAX, &buffer, &err), WT_E_CORRUPT);
         assert_string_equal(err.place, "one");
-        wt_archive_close(archive);
+        archive_close(archive);
         wt_input_close(input);
         free(buffer.data);
     }
@@ -136,17 +136,17 @@ static void check_sum_and_limit(void **state)
     (void)state;
     bytes b = {.n = 0};
     wt_input *input = NULL;
-    wt_archive *archive = NULL;
-    wt_buffer buffer = {0};
+    zip_archive *archive = NULL;
+    byte_buffer buffer = {0};
     put_entry(&b, "one", "first text", true, 10);
     assert_int_equal(open_bytes(&b, &input, &archive, NULL), WT_OK);
-    assert_int_equal(wt_archive_read(archive, 0, 9, &buffer, NULL), WT_E_CORRUPT);
-    wt_archive_close(archive);
+    assert_int_equal(archive_read(archive, 0, 9, &buffer, NULL), WT_E_CORRUPT);
+    archive_close(archive);
     wt_input_close(input);
     b.data[35] ^= 1; /* in the text */
     assert_int_equal(open_bytes(&b, &input, &archive, NULL), WT_OK);
-    assert_int_equal(wt_archive_read(archive, 0, 10, &buffer, NULL), WT_E_CORRUPT);
-    wt_archive_close(archive);
+    assert_int_equal(archive_read(archive, 0, 10, &buffer, NULL), WT_E_CORRUPT);
+    archive_close(archive);
     wt_input_close(input);
     free(buffer.data);
 }

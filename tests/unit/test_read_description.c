@@ -29,18 +29,18 @@ static const char *const good[] = {
 };
 #define LINES (sizeof good / sizeof *good)
 
-static wt_description_schema *schema;
+static description_schema *schema;
 
 static wt_status parse_with(size_t line, const char *text, wt_error *err)
 {
     char xml[4096];
     size_t used = 0;
-    wt_description *d = NULL;
+    text_description *d = NULL;
     for (size_t i = 0; i < LINES; i++)
         used +=
             (size_t)snprintf(xml + used, sizeof xml - used, "%s\n", i + 1 == line ? text : good[i]);
-    wt_status status = wt_description_parse(schema, xml, used, "mine.xml", &d, err);
-    wt_description_free(d);
+    wt_status status = description_parse(schema, xml, used, "mine.xml", &d, err);
+    description_free(d);
     return status;
 }
 
@@ -119,9 +119,9 @@ static void entities_are_refused(void **state)
                               "<format id=\"x\" version=\"1\" kinds=\"sweep\" verified=\"false\">"
                               "<title>&a;</title></format>";
     wt_error err = WT_ERROR_INIT;
-    wt_description *d = NULL;
+    text_description *d = NULL;
     (void)state;
-    assert_int_equal(wt_description_parse(schema, xml, sizeof xml - 1, "x", &d, &err), WT_E_SCHEMA);
+    assert_int_equal(description_parse(schema, xml, sizeof xml - 1, "x", &d, &err), WT_E_SCHEMA);
     assert_non_null(strstr(err.message, "entities"));
 }
 
@@ -162,16 +162,16 @@ static void names(void **state)
         {"\xc2\xb5m", "um"},
         {"\xce\xbcm", "um"},
     };
-    char name[WT_NAME_MAX];
+    char name[NAME_MAX];
     (void)state;
     for (size_t i = 0; i < sizeof same / sizeof *same; i++) {
-        wt_name_normalise(same[i][0], strlen(same[i][0]), name);
+        name_normalise(same[i][0], strlen(same[i][0]), name);
         assert_string_equal(name, same[i][1]);
     }
     char lengthy[500];
     memset(lengthy, 'x', sizeof lengthy);
-    wt_name_normalise(lengthy, sizeof lengthy, name);
-    assert_int_equal(strlen(name), WT_NAME_MAX - 1);
+    name_normalise(lengthy, sizeof lengthy, name);
+    assert_int_equal(strlen(name), NAME_MAX - 1);
 }
 
 static void units_in_names(void **state)
@@ -195,8 +195,8 @@ static void units_in_names(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         size_t length = strlen(cases[i].name);
-        wt_cell unit = {NULL, 0};
-        const bool has = wt_name_unit(cases[i].name, &length, &unit);
+        text_cell unit = {NULL, 0};
+        const bool has = name_unit(cases[i].name, &length, &unit);
         assert_int_equal(has, cases[i].bare != NULL);
         if (!has)
             continue;
@@ -359,13 +359,13 @@ static int setup(void **state)
 {
     (void)state;
     snprintf(folder, sizeof folder, "description.XXXXXX");
-    return mkdtemp(folder) != NULL && wt_description_schema_new(&schema, NULL) == WT_OK ? 0 : -1;
+    return mkdtemp(folder) != NULL && description_schema_new(&schema, NULL) == WT_OK ? 0 : -1;
 }
 
 static int teardown(void **state)
 {
     (void)state;
-    wt_description_schema_free(schema);
+    description_schema_free(schema);
     return rmdir(folder);
 }
 

@@ -89,7 +89,7 @@ static wt_status detect_text(const char *text, size_t n, unsigned kinds, const c
     assert_int_equal(wt_input_open_memory(text, n, "test", &input, NULL), WT_OK);
     wt_status status = wt_detect(formats, input, kinds, &info, err);
     /* The readers outlive the set. */
-    *id = status == WT_OK && info == &wt_reader_nid.info ? "nid" : NULL;
+    *id = status == WT_OK && info == &reader_nid.info ? "nid" : NULL;
     wt_input_close(input);
     wt_formats_free(formats);
     return status;

@@ -10,24 +10,23 @@
 #include <stdlib.h>
 #include <string.h>
 
-static wt_properties parse(const char *text)
+static property_list parse(const char *text)
 {
-    wt_properties p = {0};
+    property_list p = {0};
     wt_error err = WT_ERROR_INIT;
-    assert_int_equal(wt_properties_parse(&p, (const unsigned char *)text, strlen(text), &err),
-                     WT_OK);
+    assert_int_equal(properties_parse(&p, (const unsigned char *)text, strlen(text), &err), WT_OK);
     return p;
 }
 
 static void assert_value(const char *text, const char *key, const char *value)
 {
-    wt_properties p = parse(text);
-    const char *found = wt_properties_get(&p, key);
+    property_list p = parse(text);
+    const char *found = properties_get(&p, key);
     if (value == NULL)
         assert_null(found);
     else
         assert_string_equal(found != NULL ? found : "(none)", value);
-    wt_properties_clear(&p);
+    properties_clear(&p);
 }
 
 static void separators(void **state)
@@ -70,12 +69,12 @@ static void lines(void **state)
 static void numbers(void **state)
 {
     (void)state;
-    wt_properties p = parse("a.x=1.5E-5\na.y=NaN\na.z=12 V\n");
-    assert_near(wt_properties_number(&p, "a.", "x"), 1.5e-5, 0);
-    assert_near(wt_properties_number(&p, "a.", "y"), (double)NAN, 0);
-    assert_near(wt_properties_number(&p, "a.", "z"), (double)NAN, 0);
-    assert_near(wt_properties_number(&p, "a.", "none"), (double)NAN, 0);
-    wt_properties_clear(&p);
+    property_list p = parse("a.x=1.5E-5\na.y=NaN\na.z=12 V\n");
+    assert_near(properties_number(&p, "a.", "x"), 1.5e-5, 0);
+    assert_near(properties_number(&p, "a.", "y"), (double)NAN, 0);
+    assert_near(properties_number(&p, "a.", "z"), (double)NAN, 0);
+    assert_near(properties_number(&p, "a.", "none"), (double)NAN, 0);
+    properties_clear(&p);
 }
 
 static void damage(void **state)
@@ -89,35 +88,35 @@ static void damage(void **state)
                {"a=\\uzzzz", 8, "line 1"},
                {"a=\\u0000", 8, "line 1"},
                {"a=1\n\nb\0=2", 9, "line 3"}};
-    wt_properties p = {0};
+    property_list p = {0};
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         wt_error err = WT_ERROR_INIT;
         const unsigned char *bytes = (const unsigned char *)bad[i].text;
-        assert_int_equal(wt_properties_parse(&p, bytes, bad[i].length, &err), WT_E_CORRUPT);
+        assert_int_equal(properties_parse(&p, bytes, bad[i].length, &err), WT_E_CORRUPT);
         assert_string_equal(err.place, bad[i].place);
-        assert_null(wt_properties_get(&p, "a"));
+        assert_null(properties_get(&p, "a"));
     }
-    wt_properties_clear(&p);
+    properties_clear(&p);
 }
 
 /* The worst growth of text: Latin-1 bytes and empty keys, in memory of exactly the input's size. */
 static void growth(void **state)
 {
     (void)state;
-    wt_properties p = {0};
+    property_list p = {0};
     unsigned char bytes[512];
     for (size_t n = 0; n < sizeof bytes; n++) {
         unsigned char *exact = malloc(n + 1);
         assert_non_null(exact);
         for (size_t i = 0; i < n; i++)
             exact[i] = i % 2 == 0 ? 0xff : '\n';
-        assert_int_equal(wt_properties_parse(&p, exact, n, NULL), WT_OK);
+        assert_int_equal(properties_parse(&p, exact, n, NULL), WT_OK);
         assert_int_equal(p.n, n == 0 ? 0 : 1);
         memset(exact, '=', n);
-        assert_int_equal(wt_properties_parse(&p, exact, n, NULL), WT_OK);
+        assert_int_equal(properties_parse(&p, exact, n, NULL), WT_OK);
         free(exact);
     }
-    wt_properties_clear(&p);
+    properties_clear(&p);
 }
 
 int main(void)

@@ -11,16 +11,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-static wt_description_schema *schema;
+static description_schema *schema;
 static wt_formats *formats;
 
 /* A description of a sweep from the attributes of its parts. */
-static wt_description *describe_as(const char *text, const char *header, const char *table,
-                                   const char *inside, const char *after)
+static text_description *describe_as(const char *text, const char *header, const char *table,
+                                     const char *inside, const char *after)
 {
     char xml[4096];
     wt_error err = WT_ERROR_INIT;
-    wt_description *d = NULL;
+    text_description *d = NULL;
     int n = snprintf(
         xml, sizeof xml,
         "<format id=\"x\" version=\"1\" kinds=\"sweep\" verified=\"false\"><title>t</title>"
@@ -36,24 +36,24 @@ static wt_description *describe_as(const char *text, const char *header, const c
         "<column quantity=\"temperature\"><name>T</name></column></table>%s</format>",
         text, header, table, inside, after);
     assert_true(n > 0 && (size_t)n < sizeof xml);
-    if (wt_description_parse(schema, xml, (size_t)n, "x.xml", &d, &err) != WT_OK)
+    if (description_parse(schema, xml, (size_t)n, "x.xml", &d, &err) != WT_OK)
         print_message("%s: %s %s %s\n", err.place, err.message, err.expected, err.found);
     assert_non_null(d);
     return d;
 }
 
-static wt_status read_bytes(const wt_description *d, const void *bytes, size_t n, wt_sweep *sweep,
+static wt_status read_bytes(const text_description *d, const void *bytes, size_t n, wt_sweep *sweep,
                             wt_parselog *log, wt_error *err)
 {
     const wt_read_options options = wt_read_defaults();
     wt_input *input = NULL;
     assert_int_equal(wt_input_open_memory(bytes, n, "made-up.txt", &input, err), WT_OK);
-    wt_status status = wt_text_read_sweep(d, input, &options, log, sweep, err);
+    wt_status status = text_read_sweep(d, input, &options, log, sweep, err);
     wt_input_close(input);
     return status;
 }
 
-static wt_status read_text(const wt_description *d, const char *text, wt_sweep *sweep,
+static wt_status read_text(const text_description *d, const char *text, wt_sweep *sweep,
                            wt_parselog *log, wt_error *err)
 {
     return read_bytes(d, text, strlen(text), sweep, log, err);
@@ -100,7 +100,7 @@ static size_t with_line_end(const char *text, const char *end, char *out)
     return n;
 }
 
-static void check_small(const wt_description *d, const char *bytes, size_t n)
+static void check_small(const text_description *d, const char *bytes, size_t n)
 {
     wt_sweep sweep = {.n_isotherms = 0};
     wt_error err = WT_ERROR_INIT;
@@ -119,7 +119,7 @@ static void check_small(const wt_description *d, const char *bytes, size_t n)
 
 static void encodings(void **state)
 {
-    wt_description *d = describe_as("separator=\"tab\"", "", "", "", "");
+    text_description *d = describe_as("separator=\"tab\"", "", "", "", "");
     char out[512], utf8[512];
     (void)state;
     check_small(d, latin, sizeof latin - 1);
@@ -139,19 +139,19 @@ static void encodings(void **state)
     }
     check_small(d, utf8, n + 3);
     check_small(d, utf8 + 3, n);
-    wt_description_free(d);
+    description_free(d);
 }
 
 static void line_ends(void **state)
 {
     static const char *const ends[] = {"\n", "\r\n", "\r", "\r\r\n", "\n\n"};
-    wt_description *d = describe_as("separator=\"tab\"", "", "", "", "");
+    text_description *d = describe_as("separator=\"tab\"", "", "", "", "");
     char out[512];
     (void)state;
     for (size_t i = 0; i < sizeof ends / sizeof *ends; i++)
         check_small(d, out, with_line_end(latin, ends[i], out));
     check_small(d, latin, sizeof latin - 2); /* no line end at the end */
-    wt_description_free(d);
+    description_free(d);
 }
 
 static void separators_and_decimal_marks(void **state)
@@ -164,11 +164,11 @@ static void separators_and_decimal_marks(void **state)
         "\"f\",\"E'\",\"E''\",\"T\"\nHz,MPa,\"MPa\",degC\n\"2\",3,\"4\",20\n20,5,6,20\n",
         "f;E';E\";T\nHz;MPa;MPa;degC\n\"2,0\";3;4;20\n20;5;6;20\n",
     };
-    wt_description *d = describe_as("", "", "", "", "");
+    text_description *d = describe_as("", "", "", "", "");
     (void)state;
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
         check_small(d, texts[i], strlen(texts[i]));
-    wt_description_free(d);
+    description_free(d);
 }
 
 static void declared_by_the_file(void **state)
@@ -176,7 +176,7 @@ static void declared_by_the_file(void **state)
     /* Whole numbers with commas look like decimals; the file says what they are. */
     static const char text[] = "#DECIMAL:COMMA\n#SEPARATOR:SEMICOLON\n"
                                "f;E';E'';T\nHz;MPa;MPa;degC\n2,0;3;4;20\n20;5;6;20\n";
-    wt_description *d =
+    text_description *d =
         describe_as("",
                     "<header><field name=\"d\" regex=\"^#DECIMAL: *([A-Z]+)\" sets=\"decimal\"/>"
                     "<field name=\"s\" regex=\"^#SEPARATOR: *([A-Z]+)\" sets=\"separator\"/>"
@@ -189,7 +189,7 @@ static void declared_by_the_file(void **state)
     static const char wrong[] = "#DECIMAL:POINT\nf;E';E'';T\nHz;MPa;MPa;degC\n2,0;3;4;20\n";
     assert_int_equal(read_text(d, wrong, &sweep, NULL, &err), WT_E_CORRUPT);
     assert_non_null(strstr(err.expected, "decimal point"));
-    wt_description_free(d);
+    description_free(d);
 }
 
 static void fixed_columns(void **state)
@@ -198,17 +198,17 @@ static void fixed_columns(void **state)
     static const char text[] = "   f  E' E''   T\n  Hz MPa MPa  \xc2\xb0"
                                "C\n"
                                "   1   3      20\n   2   3   4  20\n  20   5   6  20\n";
-    wt_description *d = describe_as("separator=\"fixed\" widths=\"4\"", "", "", "", "");
+    text_description *d = describe_as("separator=\"fixed\" widths=\"4\"", "", "", "", "");
     (void)state;
     check_small(d, text, sizeof text - 1);
-    wt_description_free(d);
+    description_free(d);
 }
 
 /* ---- rows --------------------------------------------------------------------------------- */
 
 static const char head[] = "f\tE'\tE''\tT\nHz\tMPa\tMPa\tdegC\n";
 
-static wt_status read_rows(const wt_description *d, const char *rows, wt_sweep *sweep,
+static wt_status read_rows(const text_description *d, const char *rows, wt_sweep *sweep,
                            wt_parselog *log, wt_error *err)
 {
     char text[2048];
@@ -218,7 +218,7 @@ static wt_status read_rows(const wt_description *d, const char *rows, wt_sweep *
 
 static void damaged_rows(void **state)
 {
-    wt_description *d = describe_as("separator=\"tab\"", "", "", "", "");
+    text_description *d = describe_as("separator=\"tab\"", "", "", "", "");
     wt_sweep sweep = {.n_isotherms = 0};
     wt_error err = WT_ERROR_INIT;
     (void)state;
@@ -234,12 +234,12 @@ static void damaged_rows(void **state)
     assert_string_equal(err.place, "line 5, column 3 (E'')");
     assert_int_equal(read_rows(d, "1\t2\t3\t20\nend of data\n", &sweep, NULL, &err), WT_E_CORRUPT);
     assert_int_equal(sweep.n_isotherms, 0);
-    wt_description_free(d);
+    description_free(d);
 }
 
 static void text_after_the_table(void **state)
 {
-    wt_description *d = describe_as("separator=\"tab\"", "", "", "", "");
+    text_description *d = describe_as("separator=\"tab\"", "", "", "", "");
     wt_sweep sweep = {.n_isotherms = 0};
     wt_error err = WT_ERROR_INIT;
     wt_parselog *log = wt_parselog_new();
@@ -253,12 +253,12 @@ static void text_after_the_table(void **state)
     assert_true(logged(log, "after the end"));
     wt_sweep_clear(&sweep);
     wt_parselog_free(log);
-    wt_description_free(d);
+    description_free(d);
     d = describe_as("separator=\"tab\"", "", "", "<end regex=\"^end\"/>", "");
     assert_int_equal(read_rows(d, "1\t2\t3\t20\n10\t2\t3\t20\nend of data\n", &sweep, NULL, &err),
                      WT_OK);
     wt_sweep_clear(&sweep);
-    wt_description_free(d);
+    description_free(d);
 }
 
 static void missing_values(void **state)
@@ -266,7 +266,8 @@ static void missing_values(void **state)
     static const char *const rows[] = {
         "\t3\t4\t20", "--\t3\t4\t20", "2\tNaN\t4\t20", "2\t1.0E+99\t4\t20",
         "2\t3",       "0\t3\t4\t20",  "-2\t3\t4\t20",  "2\toverload\t4\t20"};
-    wt_description *d = describe_as("separator=\"tab\" missing=\"overload none\"", "", "", "", "");
+    text_description *d =
+        describe_as("separator=\"tab\" missing=\"overload none\"", "", "", "", "");
     wt_error err = WT_ERROR_INIT;
     char text[256];
     (void)state;
@@ -280,12 +281,12 @@ static void missing_values(void **state)
         wt_sweep_clear(&sweep);
         wt_parselog_free(log);
     }
-    wt_description_free(d);
+    description_free(d);
 }
 
 static void odd_moduli_are_handed_on(void **state)
 {
-    wt_description *d = describe_as("separator=\"tab\"", "", "", "", "");
+    text_description *d = describe_as("separator=\"tab\"", "", "", "", "");
     wt_sweep sweep = {.n_isotherms = 0};
     wt_error err = WT_ERROR_INIT;
     (void)state;
@@ -295,12 +296,12 @@ static void odd_moduli_are_handed_on(void **state)
     wt_sweep_clear(&sweep);
     assert_int_equal(read_rows(d, "1\t1\t3\t-280\n10\t2\t3\t-280\n", &sweep, NULL, &err),
                      WT_E_RANGE);
-    wt_description_free(d);
+    description_free(d);
 }
 
 /* ---- isotherms ---------------------------------------------------------------------------- */
 
-static void check_split(const wt_description *d, const char *rows, size_t expected,
+static void check_split(const text_description *d, const char *rows, size_t expected,
                         const char *note)
 {
     wt_sweep sweep = {.n_isotherms = 0};
@@ -321,10 +322,10 @@ static void check_split(const wt_description *d, const char *rows, size_t expect
 
 static void splits(void **state)
 {
-    wt_description *plain = describe_as("separator=\"tab\"", "", "", "", "");
-    wt_description *jump =
+    text_description *plain = describe_as("separator=\"tab\"", "", "", "", "");
+    text_description *jump =
         describe_as("separator=\"tab\"", "", "", "", "<isotherms temperature-jump=\"3 K\"/>");
-    wt_description *block = describe_as("separator=\"tab\"", "", "blank=\"block\"", "", "");
+    text_description *block = describe_as("separator=\"tab\"", "", "blank=\"block\"", "", "");
     (void)state;
     /* rising saw-tooth, falling saw-tooth, there and back */
     check_split(plain, "1\t2\t3\t20\n10\t2\t3\t20\n1\t2\t3\t25\n10\t2\t3\t25\n", 2, NULL);
@@ -338,14 +339,14 @@ static void splits(void **state)
     check_split(block, "1\t2\t3\t20\n2\t2\t3\t20\n\n5\t2\t3\t30\n10\t2\t3\t30\n", 2, NULL);
     /* one frequency, temperature ramp */
     check_split(jump, "1\t2\t3\t20\n1\t2\t3\t21\n1\t2\t3\t30\n", 0, "one frequency");
-    wt_description_free(plain);
-    wt_description_free(jump);
-    wt_description_free(block);
+    description_free(plain);
+    description_free(jump);
+    description_free(block);
 }
 
 static void tension_and_shear(void **state)
 {
-    wt_description *d = describe_as("separator=\"tab\"", "", "", "", "");
+    text_description *d = describe_as("separator=\"tab\"", "", "", "", "");
     wt_sweep sweep = {.n_isotherms = 0};
     wt_error err = WT_ERROR_INIT;
     (void)state;
@@ -361,12 +362,12 @@ static void tension_and_shear(void **state)
     assert_int_equal(sweep.deformation, WT_SHEAR);
     assert_near(sweep.isotherms[0].angular_frequency[1], 10, 1e-15);
     wt_sweep_clear(&sweep);
-    wt_description_free(d);
+    description_free(d);
 }
 
 static void nothing_is_guessed(void **state)
 {
-    wt_description *d = describe_as("separator=\"tab\"", "", "", "", "");
+    text_description *d = describe_as("separator=\"tab\"", "", "", "", "");
     wt_sweep sweep = {.n_isotherms = 0};
     wt_error err = WT_ERROR_INIT;
     (void)state;
@@ -399,7 +400,7 @@ static void nothing_is_guessed(void **state)
                      WT_OK);
     assert_int_equal(sweep.deformation, WT_TENSION);
     wt_sweep_clear(&sweep);
-    wt_description_free(d);
+    description_free(d);
 }
 
 static void given_units(void **state)
@@ -407,7 +408,7 @@ static void given_units(void **state)
     static const char text[] = "f\tE'\tE''\tT\nHz\t\tMPa\tK\n1\t2\t3\t300\n10\t2\t3\t300\n";
     static const char *const units[] = {"e\xe2\x80\xb2=kPa", "E\"=GPa", "D'=MPa"};
     static const char *const bad[] = {"MPa"};
-    wt_description *d = describe_as("separator=\"tab\"", "", "", "", "");
+    text_description *d = describe_as("separator=\"tab\"", "", "", "", "");
     wt_read_options options = wt_read_defaults();
     wt_sweep sweep = {.n_isotherms = 0};
     wt_error err = WT_ERROR_INIT;
@@ -417,7 +418,7 @@ static void given_units(void **state)
     assert_int_equal(wt_input_open_memory(text, sizeof text - 1, "x", &input, &err), WT_OK);
     options.units = units;
     options.n_units = 3;
-    assert_int_equal(wt_text_read_sweep(d, input, &options, log, &sweep, &err), WT_OK);
+    assert_int_equal(text_read_sweep(d, input, &options, log, &sweep, &err), WT_OK);
     assert_near(sweep.isotherms[0].storage_modulus[0], 2e3, 1e-15);
     assert_near(sweep.isotherms[0].loss_modulus[0], 3e9, 1e-15); /* what is given has precedence */
     assert_true(logged(log, "\"D'\", but there is no such column"));
@@ -425,15 +426,15 @@ static void given_units(void **state)
     wt_sweep_clear(&sweep);
     options.units = bad;
     options.n_units = 1;
-    assert_int_equal(wt_text_read_sweep(d, input, &options, log, &sweep, &err), WT_E_ARG);
+    assert_int_equal(text_read_sweep(d, input, &options, log, &sweep, &err), WT_E_ARG);
     wt_input_close(input);
     wt_parselog_free(log);
-    wt_description_free(d);
+    description_free(d);
 }
 
 static void unknown_columns_are_named(void **state)
 {
-    wt_description *d = describe_as("separator=\"tab\"", "", "", "", "");
+    text_description *d = describe_as("separator=\"tab\"", "", "", "", "");
     wt_sweep sweep = {.n_isotherms = 0};
     wt_error err = WT_ERROR_INIT;
     wt_parselog *log = wt_parselog_new();
@@ -447,7 +448,7 @@ static void unknown_columns_are_named(void **state)
     assert_near(sweep.isotherms[0].temperature, 300, 1e-15);
     wt_sweep_clear(&sweep);
     wt_parselog_free(log);
-    wt_description_free(d);
+    description_free(d);
 }
 
 /* ---- detection ---------------------------------------------------------------------------- */
@@ -539,7 +540,7 @@ static void own_stream(void **state)
 /* Twice the file takes about twice the time, not four times; the bound only catches the latter. */
 static void long_files(void **state)
 {
-    wt_description *d = describe_as("", "", "", "<step regex=\"^Step (.*)$\"/>", "");
+    text_description *d = describe_as("", "", "", "<step regex=\"^Step (.*)$\"/>", "");
     const size_t rows = 200000;
     char *text = malloc(rows * 32);
     wt_sweep sweep = {.n_isotherms = 0};
@@ -556,13 +557,13 @@ static void long_files(void **state)
     assert_true(wt_time_cpu() - start < 20);
     wt_sweep_clear(&sweep);
     free(text);
-    wt_description_free(d);
+    description_free(d);
 }
 
 static int setup(void **state)
 {
     (void)state;
-    return wt_description_schema_new(&schema, NULL) == WT_OK &&
+    return description_schema_new(&schema, NULL) == WT_OK &&
                    wt_formats_new(NULL, &formats, NULL, NULL) == WT_OK
                ? 0
                : -1;
@@ -571,7 +572,7 @@ static int setup(void **state)
 static int teardown(void **state)
 {
     (void)state;
-    wt_description_schema_free(schema);
+    description_schema_free(schema);
     wt_formats_free(formats);
     return 0;
 }

@@ -13,11 +13,11 @@
 /* ---- texts and numbers ------------------------------------------------------------------------
  */
 
-static void assert_text(wt_text *text, const char *expected)
+static void assert_text(growing_text *text, const char *expected)
 {
     assert_false(text->failed);
-    assert_string_equal(wt_text_string(text), expected);
-    wt_text_free(text);
+    assert_string_equal(text_string(text), expected);
+    text_free(text);
 }
 
 static void test_numbers_for_reading(void **state)
@@ -36,16 +36,16 @@ static void test_numbers_for_reading(void **state)
         {-(double)INFINITY, 3, "−∞"},  {99999, 1, "99999"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        wt_text text = {0};
-        wt_text_number(&text, cases[i].value, cases[i].digits);
+        growing_text text = {0};
+        text_number(&text, cases[i].value, cases[i].digits);
         assert_text(&text, cases[i].expected);
     }
-    wt_text text = {0};
-    wt_text_short(&text, 0.5, 4);
-    wt_text_add(&text, " ");
-    wt_text_short(&text, 300, 2);
-    wt_text_add(&text, " ");
-    wt_text_short(&text, 20.04, 3);
+    growing_text text = {0};
+    text_short(&text, 0.5, 4);
+    text_add(&text, " ");
+    text_short(&text, 300, 2);
+    text_add(&text, " ");
+    text_short(&text, 20.04, 3);
     assert_text(&text, "0.5 300 20");
 }
 
@@ -62,8 +62,8 @@ static void test_fixed_decimals(void **state)
         {99.96, 1, "100.0"}, {0.0999, 2, "0.10"}, {1e-9, 3, "0.000"}, {2438121, 0, "2438121"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        wt_text text = {0};
-        wt_text_fixed(&text, cases[i].value, cases[i].decimals);
+        growing_text text = {0};
+        text_fixed(&text, cases[i].value, cases[i].decimals);
         assert_text(&text, cases[i].expected);
     }
 }
@@ -72,10 +72,10 @@ static void test_numbers_do_not_follow_the_locale(void **state)
 {
     (void)state;
     bool comma = setlocale(LC_NUMERIC, "de_DE.UTF-8") != NULL;
-    wt_text text = {0};
-    wt_text_number(&text, 12.345, 3);
-    wt_text_add(&text, " ");
-    wt_text_literal(&text, 1.5e-9);
+    growing_text text = {0};
+    text_number(&text, 12.345, 3);
+    text_add(&text, " ");
+    text_literal(&text, 1.5e-9);
     (void)setlocale(LC_NUMERIC, "C");
     assert_text(&text, "12.3 1.5e-9");
     if (!comma)
@@ -91,8 +91,8 @@ static void test_literals(void **state)
     } cases[] = {{1e9, "1e9"},   {3, "3.0"},           {-273.15, "-273.15"},      {0.1, "0.1"},
                  {1e-6, "1e-6"}, {(double)NAN, "NaN"}, {1.0 / 3, "0.3333333333"}, {120, "120.0"}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        wt_text text = {0};
-        wt_text_literal(&text, cases[i].value);
+        growing_text text = {0};
+        text_literal(&text, cases[i].value);
         assert_text(&text, cases[i].expected);
     }
 }
@@ -100,13 +100,13 @@ static void test_literals(void **state)
 static void test_escaping(void **state)
 {
     (void)state;
-    wt_text text = {0};
-    wt_text_html(&text, "<a href=\"x\">'&'</a>\x01\xff\xc3\x28 µ\r");
+    growing_text text = {0};
+    text_html(&text, "<a href=\"x\">'&'</a>\x01\xff\xc3\x28 µ\r");
     assert_text(&text, "&lt;a href=&quot;x&quot;&gt;&#39;&amp;&#39;&lt;/a&gt;"
                        "\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd( µ&#13;");
-    wt_text_quoted(&text, "it's `rm`\nset output\\");
+    text_quoted(&text, "it's `rm`\nset output\\");
     assert_text(&text, "'it''s `rm` set output\\ '");
-    wt_text_comment(&text, "a\nb `c` \\");
+    text_comment(&text, "a\nb `c` \\");
     assert_text(&text, "# a b  c   \n");
 }
 
@@ -135,10 +135,10 @@ static void test_lab_units(void **state)
         {"m", "zero", 0, "nm", 0},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        wt_lab_unit lab = wt_lab_unit_for(cases[i].unit, cases[i].name, cases[i].value);
+        lab_unit lab = lab_unit_for(cases[i].unit, cases[i].name, cases[i].value);
         if (strcmp(cases[i].unit, "m.Hz^-0.5") != 0)
             assert_string_equal(lab.label, cases[i].label);
-        assert_near_abs(wt_lab_value(&lab, cases[i].value), cases[i].shown,
+        assert_near_abs(lab_value(&lab, cases[i].value), cases[i].shown,
                         1e-12 * fabs(cases[i].shown) + 1e-12);
     }
 }
@@ -150,12 +150,12 @@ static void test_svg_is_made_fit_for_a_page(void **state)
         "<?xml version=\"1.0\"?>\n<svg viewBox=\"0 0 1 1\">\n<title>Gnuplot</title>"
         "<desc>Produced</desc><g id=\"a\"><title>x</title><use xlink:href='#a' "
         "clip-path='url(#c)'/></g></svg>";
-    wt_text text = {0};
-    assert_true(wt_svg_inline(&text, svg, sizeof svg - 1, "mu", "a < b"));
+    growing_text text = {0};
+    assert_true(svg_inline(&text, svg, sizeof svg - 1, "mu", "a < b"));
     assert_text(&text, "<svg role=\"img\" aria-label=\"a &lt; b\" viewBox=\"0 0 1 1\">\n"
                        "<g id=\"mu-a\"><use xlink:href='#mu-a' clip-path='url(#mu-c)'/></g></svg>");
-    assert_false(wt_svg_inline(&text, "%PDF-1.4", 8, "mu", ""));
-    wt_text_free(&text);
+    assert_false(svg_inline(&text, "%PDF-1.4", 8, "mu", ""));
+    text_free(&text);
 }
 
 /* ---- axes -------------------------------------------------------------------------------------
@@ -164,36 +164,36 @@ static void test_svg_is_made_fit_for_a_page(void **state)
 static void test_logarithmic_tics_are_at_whole_decades(void **state)
 {
     (void)state;
-    wt_drawing d = {.name = "x"};
-    (void)wt_axis_log(&d, "x", "q", "rad/m", (wt_span){1e3, 3e7});
+    figure_drawing d = {.name = "x"};
+    (void)axis_log(&d, "x", "q", "rad/m", (value_span){1e3, 3e7});
     // gnuplot would count decades from the end of the axis if the first tic were not given.
-    assert_non_null(strstr(wt_text_string(&d.script), "set xtics 1e3,1e1\n"));
-    wt_text_free(&d.script);
-    (void)wt_axis_log(&d, "y", "E", "Pa", (wt_span){11e6, 24e6});
-    assert_non_null(strstr(wt_text_string(&d.script), "set ylabel 'E (MPa)'\n"));
-    assert_non_null(strstr(wt_text_string(&d.script), "set ytics (15.0, 20.0)\n"));
-    wt_text_free(&d.script);
-    (void)wt_axis_log(&d, "y", "E", "Pa", (wt_span){20.1e6, 20.3e6});
-    assert_non_null(strstr(wt_text_string(&d.script), "set ytics (19.5, 20.0, 20.5, 21.0)\n"));
-    wt_text_free(&d.script);
-    (void)wt_axis_linear(&d, "x", "T", "K", "temperature", (wt_span){293.15, 293.15});
-    assert_non_null(strstr(wt_text_string(&d.script), "x_offset = -273.15"));
-    wt_text_free(&d.script);
+    assert_non_null(strstr(text_string(&d.script), "set xtics 1e3,1e1\n"));
+    text_free(&d.script);
+    (void)axis_log(&d, "y", "E", "Pa", (value_span){11e6, 24e6});
+    assert_non_null(strstr(text_string(&d.script), "set ylabel 'E (MPa)'\n"));
+    assert_non_null(strstr(text_string(&d.script), "set ytics (15.0, 20.0)\n"));
+    text_free(&d.script);
+    (void)axis_log(&d, "y", "E", "Pa", (value_span){20.1e6, 20.3e6});
+    assert_non_null(strstr(text_string(&d.script), "set ytics (19.5, 20.0, 20.5, 21.0)\n"));
+    text_free(&d.script);
+    (void)axis_linear(&d, "x", "T", "K", "temperature", (value_span){293.15, 293.15});
+    assert_non_null(strstr(text_string(&d.script), "x_offset = -273.15"));
+    text_free(&d.script);
     // Numbers that no axis can show do not make one.
-    wt_span span = WT_SPAN_EMPTY;
-    wt_span_add(&span, 1e300, true);
-    wt_span_add(&span, 1e-300, true);
-    wt_span_add(&span, (double)NAN, false);
-    wt_span_add(&span, -1, true);
-    assert_true(wt_span_empty(&span));
-    wt_span_add(&span, 1e-99, true);
-    wt_span_add(&span, 1e99, true);
-    (void)wt_axis_log(&d, "x", "q", "1", span);
-    assert_non_null(strstr(wt_text_string(&d.script), ",1e29\n"));
-    wt_text_free(&d.script);
-    (void)wt_axis_linear(&d, "x", "q", "1", "", (wt_span){5e-324, 1e-323});
-    assert_non_null(strstr(wt_text_string(&d.script), "set xtics 0.5\n"));
-    wt_drawing_clear(&d);
+    value_span span = SPAN_EMPTY;
+    span_add(&span, 1e300, true);
+    span_add(&span, 1e-300, true);
+    span_add(&span, (double)NAN, false);
+    span_add(&span, -1, true);
+    assert_true(span_empty(&span));
+    span_add(&span, 1e-99, true);
+    span_add(&span, 1e99, true);
+    (void)axis_log(&d, "x", "q", "1", span);
+    assert_non_null(strstr(text_string(&d.script), ",1e29\n"));
+    text_free(&d.script);
+    (void)axis_linear(&d, "x", "q", "1", "", (value_span){5e-324, 1e-323});
+    assert_non_null(strstr(text_string(&d.script), "set xtics 0.5\n"));
+    drawing_clear(&d);
 }
 
 int main(void)

@@ -27,7 +27,7 @@ flow_words flow_say(double value, const char *unit)
     else if (isinf(value))
         snprintf(words.text, sizeof words.text, "without limit");
     else if (strcmp(unit, "1") == 0)
-        wt_clocale_print(words.text, sizeof words.text, "%.3g", value);
+        clocale_print(words.text, sizeof words.text, "%.3g", value);
     else
         wt_format_si(value, unit, 3, words.text, sizeof words.text);
     return words;
@@ -46,19 +46,19 @@ flow_words flow_say_estimate(wt_estimate e)
     if (!wt_number_parse(value.text, length, '.', &shown) || !(fabs(shown) > 0))
         return words;
     double error = e.standard_error * fabs(shown / e.value);
-    wt_clocale_print(words.text, sizeof words.text,
-                     error >= 10 ? "%.*s \xc2\xb1 %.0f%.40s" : "%.*s \xc2\xb1 %.2g%.40s",
-                     (int)length, value.text, error, suffix == NULL ? "" : suffix);
+    clocale_print(words.text, sizeof words.text,
+                  error >= 10 ? "%.*s \xc2\xb1 %.0f%.40s" : "%.*s \xc2\xb1 %.2g%.40s", (int)length,
+                  value.text, error, suffix == NULL ? "" : suffix);
     return words;
 }
 
 flow_words flow_say_celsius(double kelvin)
 {
     flow_words words;
-    wt_clocale_print(words.text, sizeof words.text,
-                     "%.1f \xc2\xb0"
-                     "C",
-                     kelvin - WT_ZERO_CELSIUS);
+    clocale_print(words.text, sizeof words.text,
+                  "%.1f \xc2\xb0"
+                  "C",
+                  kelvin - WT_ZERO_CELSIUS);
     return words;
 }
 
@@ -77,7 +77,7 @@ wt_status flow_answer_add(wt_table *table, wt_error *err, const char *question, 
     char text[1200];
     va_list list;
     va_start(list, format);
-    wt_clocale_vprint(text, sizeof text, format, list);
+    clocale_vprint(text, sizeof text, format, list);
     va_end(list);
     wt_status status = wt_table_add_row(table, err);
     if (status == WT_OK)
@@ -221,12 +221,12 @@ static wt_status say_dma(const wt_table *dma, const wt_table *indentation, wt_ta
     if (n == 0)
         return WT_OK;
     char range[64], lever[128] = "";
-    wt_clocale_print(range, sizeof range, n > 1 ? "%.3g to %.3g" : "%.3g", low, high);
+    clocale_print(range, sizeof range, n > 1 ? "%.3g to %.3g" : "%.3g", low, high);
     wt_estimate k = flow_key(indentation, "spring_constant");
     if (k.standard_error > 0)
-        wt_clocale_print(lever, sizeof lever,
-                         "; the stated error of the spring constant is one of %.2g %% in this",
-                         100 * k.standard_error / k.value);
+        clocale_print(lever, sizeof lever,
+                      "; the stated error of the spring constant is one of %.2g %% in this",
+                      100 * k.standard_error / k.value);
     return flow_answer_add(table, err, how_different, "difference",
                            "At equal frequency the indentation modulus of the bulk is %s times "
                            "|E*| of the DMA%s.",
@@ -273,8 +273,8 @@ static wt_status say_times(const wt_table *layer, wt_table *table, wt_error *err
         return WT_OK;
     char then[192] = "";
     if (!isnan(settled.value))
-        wt_clocale_print(then, sizeof then, " and reaches 90 %% of the balance after %s",
-                         flow_say_estimate(settled).text);
+        clocale_print(then, sizeof then, " and reaches 90 %% of the balance after %s",
+                      flow_say_estimate(settled).text);
     return flow_answer_add(table, err, how_thick, "thickness",
                            "It begins to form after %s%s (time under load).",
                            flow_say_estimate(incubation).text, then);

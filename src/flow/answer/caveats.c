@@ -104,8 +104,8 @@ static wt_status calibration_caveats(const flow_story *story, wt_table *table, w
         double k = lever_error(both[g]);
         char lever[96] = "No error of the spring constant is stated";
         if (k > 0)
-            wt_clocale_print(lever, sizeof lever,
-                             "The stated error of the spring constant is %.2g %%", 100 * k);
+            clocale_print(lever, sizeof lever, "The stated error of the spring constant is %.2g %%",
+                          100 * k);
         status = flow_answer_add(table, err, question, "caveat",
                                  "An error of 1 %% in the deflection sensitivity changes the %s "
                                  "modulus by %.3g %%, one of the spring constant by about as much "
@@ -262,8 +262,8 @@ static wt_status friction_caveats(const flow_story *story, wt_table *table, wt_e
     if (share > 0) {
         char percent[32] = "Less than 0.1";
         if (share >= 0.001)
-            wt_clocale_print(percent, sizeof percent, share >= 0.1 ? "Up to %.0f" : "Up to %.2g",
-                             100 * share);
+            clocale_print(percent, sizeof percent, share >= 0.1 ? "Up to %.0f" : "Up to %.2g",
+                          100 * share);
         status = flow_answer_add(table, err, question, "caveat",
                                  "%s %% of the hysteresis friction comes from frequencies outside "
                                  "the measured range of the material.",

@@ -16,9 +16,9 @@ double flow_draw_normal(uint64_t seed, size_t replicate, flow_draw what)
 {
     if (replicate == FLOW_CENTRE)
         return 0;
-    uint64_t state = wt_mix(wt_mix(wt_mix(seed) ^ (uint64_t)replicate) ^ (uint64_t)what);
+    uint64_t state = mix64(mix64(mix64(seed) ^ (uint64_t)replicate) ^ (uint64_t)what);
     double radius = sqrt(-2 * log(uniform(state)));
-    return radius * cos(2 * M_PI * uniform(wt_mix(state)));
+    return radius * cos(2 * M_PI * uniform(mix64(state)));
 }
 
 double flow_draw_value(wt_estimate e, uint64_t seed, size_t replicate, flow_draw what)

@@ -179,7 +179,7 @@ static wt_status parse_range(const char *text, char *const part[4], wt_quantity 
         const double v = logarithmic ? first * pow(last / first, t) : first + (last - first) * t;
         /* 15 digits, so that a decade is 0.01 and not 0.009999999999999998 */
         char digits[32];
-        wt_clocale_print(digits, sizeof digits, "%.15g", v);
+        clocale_print(digits, sizeof digits, "%.15g", v);
         if (!wt_number_parse(digits, strlen(digits), '.', &out->v[i]))
             out->v[i] = v;
     }

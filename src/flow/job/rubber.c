@@ -96,12 +96,12 @@ static void make_statement(const wt_rubber *rubber, double temperature, bool hel
 {
     statement[0] = '\0';
     if (temperature < rubber->temperature_min || temperature > rubber->temperature_max)
-        wt_clocale_print(statement, 256,
-                         "%.1f degC is outside the isotherms (%.1f to %.1f degC): the WLF law is "
-                         "extrapolated%s",
-                         temperature - WT_ZERO_CELSIUS, rubber->temperature_min - WT_ZERO_CELSIUS,
-                         rubber->temperature_max - WT_ZERO_CELSIUS,
-                         held ? " and the vertical shift held" : "");
+        clocale_print(statement, 256,
+                      "%.1f degC is outside the isotherms (%.1f to %.1f degC): the WLF law is "
+                      "extrapolated%s",
+                      temperature - WT_ZERO_CELSIUS, rubber->temperature_min - WT_ZERO_CELSIUS,
+                      rubber->temperature_max - WT_ZERO_CELSIUS,
+                      held ? " and the vertical shift held" : "");
 }
 
 /* Replicate of the series at the reference temperature, and what the same draw changes log10 b_T by

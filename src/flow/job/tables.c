@@ -34,7 +34,7 @@ wt_status flow_table_key(wt_table *table, wt_error *err, const char *key, const 
     char text[1024];
     va_list list;
     va_start(list, format);
-    wt_clocale_vprint(text, sizeof text, format, list);
+    clocale_vprint(text, sizeof text, format, list);
     va_end(list);
     return wt_table_set_key(table, key, text, err);
 }

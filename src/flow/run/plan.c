@@ -1,7 +1,7 @@
 /* The plan: which stages this case needs, and why the others are left out.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "flow/run/stages.h"
 #include "flow/job/tables.h"
+#include "flow/run/stages.h"
 #include "weartrack/report.h"
 
 #include <math.h>

@@ -13,7 +13,7 @@
 #define MAX_RATIO 1032u
 #define RATIO_SLACK 64u
 
-struct wt_archive {
+struct zip_archive {
     zip_t *zip;
     size_t n;
     bool truncated;
@@ -31,12 +31,12 @@ static wt_status open_source(zip_source_t *source, zip_t **zip, zip_error_t *err
     return WT_E_CORRUPT;
 }
 
-wt_status wt_archive_open(wt_input *input, wt_archive **archive, wt_error *err)
+wt_status archive_open(wt_input *input, zip_archive **archive, wt_error *err)
 {
     const unsigned char *bytes = NULL;
     size_t length = 0;
     zip_error_t error;
-    wt_archive *a = NULL;
+    zip_archive *a = NULL;
     zip_error_init(&error);
     wt_status status = wt_input_bytes(input, &bytes, &length, err);
     if (status != WT_OK)
@@ -49,7 +49,7 @@ wt_status wt_archive_open(wt_input *input, wt_archive **archive, wt_error *err)
     status = open_source(zip_source_buffer_create(bytes, length, 0, &error), &a->zip, &error);
     if (status == WT_E_CORRUPT) {
         size_t directory_length = 0, end = 0, n = 0;
-        status = wt_archive_rebuild(bytes, length, &a->directory, &directory_length, &end, &n, err);
+        status = archive_rebuild(bytes, length, &a->directory, &directory_length, &end, &n, err);
         if (status != WT_OK)
             goto done;
         a->truncated = true;
@@ -81,11 +81,11 @@ wt_status wt_archive_open(wt_input *input, wt_archive **archive, wt_error *err)
     a = NULL;
 done:
     zip_error_fini(&error);
-    wt_archive_close(a);
+    archive_close(a);
     return status;
 }
 
-void wt_archive_close(wt_archive *archive)
+void archive_close(zip_archive *archive)
 {
     if (archive == NULL)
         return;
@@ -95,23 +95,23 @@ void wt_archive_close(wt_archive *archive)
     free(archive);
 }
 
-bool wt_archive_truncated(const wt_archive *archive)
+bool archive_truncated(const zip_archive *archive)
 {
     return archive->truncated;
 }
 
-size_t wt_archive_count(const wt_archive *archive)
+size_t archive_count(const zip_archive *archive)
 {
     return archive->n;
 }
 
-const char *wt_archive_name(const wt_archive *archive, size_t i)
+const char *archive_name(const zip_archive *archive, size_t i)
 {
     const char *name = zip_get_name(archive->zip, i, ZIP_FL_ENC_RAW);
     return name != NULL ? name : "";
 }
 
-bool wt_archive_find(const wt_archive *archive, const char *name, size_t *i)
+bool archive_find(const zip_archive *archive, const char *name, size_t *i)
 {
     zip_int64_t found = zip_name_locate(archive->zip, name, ZIP_FL_ENC_RAW);
     if (found < 0)
@@ -120,15 +120,15 @@ bool wt_archive_find(const wt_archive *archive, const char *name, size_t *i)
     return true;
 }
 
-static wt_status entry_fail(const wt_archive *archive, size_t i, wt_error *err, wt_status status,
+static wt_status entry_fail(const zip_archive *archive, size_t i, wt_error *err, wt_status status,
                             const char *message)
 {
     wt_fail(err, status, "%s", message);
-    wt_error_place(err, "%s", wt_archive_name(archive, i));
+    wt_error_place(err, "%s", archive_name(archive, i));
     return status;
 }
 
-wt_status wt_archive_size(const wt_archive *archive, size_t i, size_t *size, wt_error *err)
+wt_status archive_size(const zip_archive *archive, size_t i, size_t *size, wt_error *err)
 {
     static const zip_uint64_t needed =
         ZIP_STAT_SIZE | ZIP_STAT_COMP_SIZE | ZIP_STAT_COMP_METHOD | ZIP_STAT_ENCRYPTION_METHOD;
@@ -151,8 +151,8 @@ wt_status wt_archive_size(const wt_archive *archive, size_t i, size_t *size, wt_
     return WT_OK;
 }
 
-static wt_status read_all(const wt_archive *archive, size_t i, zip_file_t *file, wt_buffer *buffer,
-                          size_t size, wt_error *err)
+static wt_status read_all(const zip_archive *archive, size_t i, zip_file_t *file,
+                          byte_buffer *buffer, size_t size, wt_error *err)
 {
     size_t got = 0;
     /* One byte more than declared: reaching the end makes libzip compare the check sum, and an
@@ -177,11 +177,11 @@ static wt_status read_all(const wt_archive *archive, size_t i, zip_file_t *file,
     return WT_OK;
 }
 
-wt_status wt_archive_read(const wt_archive *archive, size_t i, size_t limit, wt_buffer *buffer,
-                          wt_error *err)
+wt_status archive_read(const zip_archive *archive, size_t i, size_t limit, byte_buffer *buffer,
+                       wt_error *err)
 {
     size_t size = 0;
-    wt_status status = wt_archive_size(archive, i, &size, err);
+    wt_status status = archive_size(archive, i, &size, err);
     if (status != WT_OK)
         return status;
     if (size > limit) {

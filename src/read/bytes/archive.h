@@ -7,35 +7,35 @@
 
 #include "weartrack/read.h"
 
-typedef struct wt_archive wt_archive;
+typedef struct zip_archive zip_archive;
 
 /* A buffer that grows and is used again; zero-initialised is empty; free with free(data). */
-typedef struct wt_buffer {
+typedef struct byte_buffer {
     unsigned char *data;
     size_t length;
     size_t capacity;
-} wt_buffer;
+} byte_buffer;
 
 /* Borrows the bytes of the input until closed. An archive without its directory (the end of the
  * file is missing) is opened with the entries that are complete. WT_E_CORRUPT if there is none. */
-wt_status wt_archive_open(wt_input *input, wt_archive **archive, wt_error *err) WT_NODISCARD;
-void wt_archive_close(wt_archive *archive);
-bool wt_archive_truncated(const wt_archive *archive); /* the end is missing */
-size_t wt_archive_count(const wt_archive *archive);
+wt_status archive_open(wt_input *input, zip_archive **archive, wt_error *err) WT_NODISCARD;
+void archive_close(zip_archive *archive);
+bool archive_truncated(const zip_archive *archive); /* the end is missing */
+size_t archive_count(const zip_archive *archive);
 /* Borrowed until closed; "" for an entry without a usable name. */
-const char *wt_archive_name(const wt_archive *archive, size_t i);
-bool wt_archive_find(const wt_archive *archive, const char *name, size_t *i);
+const char *archive_name(const zip_archive *archive, size_t i);
+bool archive_find(const zip_archive *archive, const char *name, size_t *i);
 /* Size as declared, after checking that so many bytes can come out of the packed ones. */
-wt_status wt_archive_size(const wt_archive *archive, size_t i, size_t *size,
-                          wt_error *err) WT_NODISCARD;
+wt_status archive_size(const zip_archive *archive, size_t i, size_t *size,
+                       wt_error *err) WT_NODISCARD;
 /* Unpacks a whole entry of at most `limit` bytes. Its size and check sum must agree. */
-wt_status wt_archive_read(const wt_archive *archive, size_t i, size_t limit, wt_buffer *buffer,
-                          wt_error *err) WT_NODISCARD;
+wt_status archive_read(const zip_archive *archive, size_t i, size_t limit, byte_buffer *buffer,
+                       wt_error *err) WT_NODISCARD;
 
 /* The directory of the complete entries at the beginning of `bytes`, as it would stand behind
  * *end. *n = 0: none is complete. The caller frees *directory. */
-wt_status wt_archive_rebuild(const unsigned char *bytes, size_t length, unsigned char **directory,
-                             size_t *directory_length, size_t *end, size_t *n,
-                             wt_error *err) WT_NODISCARD;
+wt_status archive_rebuild(const unsigned char *bytes, size_t length, unsigned char **directory,
+                          size_t *directory_length, size_t *end, size_t *n,
+                          wt_error *err) WT_NODISCARD;
 
 #endif

@@ -39,10 +39,10 @@ static bool find_descriptor(const unsigned char *bytes, size_t length, size_t st
         size_t place = (size_t)(hit - bytes);
         if (length - place < DESCRIPTOR_SIZE)
             return false;
-        if (wt_le32(hit + 8) == place - start) {
-            e->crc = wt_le32(hit + 4);
-            e->packed = wt_le32(hit + 8);
-            e->size = wt_le32(hit + 12);
+        if (le32(hit + 8) == place - start) {
+            e->crc = le32(hit + 4);
+            e->packed = le32(hit + 8);
+            e->size = le32(hit + 12);
             e->end = place + DESCRIPTOR_SIZE;
             return true;
         }
@@ -57,17 +57,17 @@ static bool next_entry(const unsigned char *bytes, size_t length, size_t at, ent
     if (length - at < LOCAL_SIZE || memcmp(bytes + at, signature, sizeof signature) != 0)
         return false;
     const unsigned char *h = bytes + at;
-    size_t name_length = wt_le16(h + 26);
-    size_t start = LOCAL_SIZE + name_length + wt_le16(h + 28);
+    size_t name_length = le16(h + 26);
+    size_t start = LOCAL_SIZE + name_length + le16(h + 28);
     if (length - at < start)
         return false;
     start += at;
     *e = (entry){.header = h, .name = h + LOCAL_SIZE, .name_length = name_length};
-    if ((wt_le16(h + 6) & FLAG_DESCRIPTOR) != 0)
+    if ((le16(h + 6) & FLAG_DESCRIPTOR) != 0)
         return find_descriptor(bytes, length, start, e);
-    e->crc = wt_le32(h + 14);
-    e->packed = wt_le32(h + 18);
-    e->size = wt_le32(h + 22);
+    e->crc = le32(h + 14);
+    e->packed = le32(h + 18);
+    e->size = le32(h + 22);
     if (e->packed > length - start)
         return false;
     e->end = start + e->packed;
@@ -127,8 +127,8 @@ static void put_end(unsigned char *at, size_t n, size_t size, size_t offset)
     put16(at, 0);
 }
 
-wt_status wt_archive_rebuild(const unsigned char *bytes, size_t length, unsigned char **directory,
-                             size_t *directory_length, size_t *end, size_t *n, wt_error *err)
+wt_status archive_rebuild(const unsigned char *bytes, size_t length, unsigned char **directory,
+                          size_t *directory_length, size_t *end, size_t *n, wt_error *err)
 {
     entry e;
     size_t count = 0, at = 0, size = 0;

@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "read/description/description_xml.h"
-#include "read/wt_embedded_formats.h"
+#include "read/embedded_formats.h"
 
 #include <libxml/parser.h>
 #include <libxml/xmlschemas.h>
@@ -13,13 +13,13 @@
 
 /* ---- schema ------------------------------------------------------------------------------- */
 
-struct wt_description_schema {
+struct description_schema {
     xmlSchemaPtr schema;
 };
 
-static const wt_embedded *embedded_schema(void)
+static const embedded_text *embedded_schema(void)
 {
-    const wt_embedded *e = wt_embedded_formats;
+    const embedded_text *e = embedded_formats;
     while (e->name != NULL && strcmp(e->name, "weartrack-format.xsd") != 0)
         e++;
     return e;
@@ -36,11 +36,11 @@ static void keep_quiet(void *user, xmlErrorPtr error)
     (void)error;
 }
 
-wt_status wt_description_schema_new(wt_description_schema **schema, wt_error *err)
+wt_status description_schema_new(description_schema **schema, wt_error *err)
 {
-    const wt_embedded *text = embedded_schema();
+    const embedded_text *text = embedded_schema();
     wt_status status = WT_E_INTERNAL;
-    wt_description_schema *made = calloc(1, sizeof *made);
+    description_schema *made = calloc(1, sizeof *made);
     xmlSchemaParserCtxtPtr context = NULL;
     if (made == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for the schema of descriptions");
@@ -58,7 +58,7 @@ wt_status wt_description_schema_new(wt_description_schema **schema, wt_error *er
     return wt_fail(err, status, "the schema of descriptions cannot be compiled");
 }
 
-void wt_description_schema_free(wt_description_schema *schema)
+void description_schema_free(description_schema *schema)
 {
     if (schema == NULL)
         return;
@@ -68,7 +68,7 @@ void wt_description_schema_free(wt_description_schema *schema)
 
 /* ---- document ----------------------------------------------------------------------------- */
 
-static void explain(wt_parse *p, const xmlError *error, const char *otherwise)
+static void explain(xml_parse *p, const xmlError *error, const char *otherwise)
 {
     char text[256];
     const char *message = error != NULL && error->message != NULL ? error->message : otherwise;
@@ -88,11 +88,11 @@ static void first_complaint(void *user, xmlErrorPtr error)
     explain(user, error, "not valid");
 }
 
-static void validate(wt_parse *p, const wt_description_schema *schema, xmlDocPtr document)
+static void validate(xml_parse *p, const description_schema *schema, xmlDocPtr document)
 {
     xmlSchemaValidCtxtPtr context = xmlSchemaNewValidCtxt(schema->schema);
     if (context == NULL) {
-        wt_parse_no_memory(p);
+        parse_no_memory(p);
         return;
     }
     xmlSchemaSetValidStructuredErrors(context, first_complaint, p);
@@ -101,14 +101,14 @@ static void validate(wt_parse *p, const wt_description_schema *schema, xmlDocPtr
     xmlSchemaFreeValidCtxt(context);
 }
 
-wt_status wt_description_parse(const wt_description_schema *schema, const char *xml, size_t length,
-                               const char *name, wt_description **description, wt_error *err)
+wt_status description_parse(const description_schema *schema, const char *xml, size_t length,
+                            const char *name, text_description **description, wt_error *err)
 {
     const size_t most = (size_t)1 << 20;
     /* Complaints about an encoding go to standard error unless this thread has a handler. */
     const xmlStructuredErrorFunc previous = xmlStructuredError;
     void *const previous_context = xmlStructuredErrorContext;
-    wt_parse p = {.name = name, .status = WT_OK, .err = err};
+    xml_parse p = {.name = name, .status = WT_OK, .err = err};
     xmlParserCtxtPtr context = NULL;
     xmlDocPtr document = NULL;
     if (length > most) {
@@ -120,13 +120,13 @@ wt_status wt_description_parse(const wt_description_schema *schema, const char *
     p.d = calloc(1, sizeof *p.d);
     context = xmlNewParserCtxt();
     if (p.d == NULL || context == NULL) {
-        wt_parse_no_memory(&p);
+        parse_no_memory(&p);
         goto done;
     }
     p.d->temperature_jump = (double)NAN;
     p.d->xml = strndup(xml, length);
     if (p.d->xml == NULL) {
-        wt_parse_no_memory(&p);
+        parse_no_memory(&p);
         goto done;
     }
     xmlSetStructuredErrorFunc(NULL, keep_quiet);
@@ -143,7 +143,7 @@ wt_status wt_description_parse(const wt_description_schema *schema, const char *
     }
     validate(&p, schema, document);
     if (p.status == WT_OK)
-        wt_parse_format(&p, xmlDocGetRootElement(document));
+        parse_format(&p, xmlDocGetRootElement(document));
 done:
     xmlSetStructuredErrorFunc(previous_context, previous);
     xmlFreeDoc(document);
@@ -152,17 +152,17 @@ done:
     if (p.status == WT_OK)
         *description = p.d;
     else
-        wt_description_free(p.d);
+        description_free(p.d);
     return p.status;
 }
 
-static void free_pattern(wt_pattern *pattern)
+static void free_pattern(name_pattern *pattern)
 {
     if (pattern->compiled)
         regfree(&pattern->regex);
 }
 
-void wt_description_free(wt_description *d)
+void description_free(text_description *d)
 {
     if (d == NULL)
         return;
@@ -207,7 +207,7 @@ void wt_description_free(wt_description *d)
     free(d);
 }
 
-bool wt_description_find_name(const wt_description *d, const char *name, size_t *first, size_t *n)
+bool description_find_name(const text_description *d, const char *name, size_t *first, size_t *n)
 {
     size_t low = 0, high = d->n_names;
     while (low < high) {

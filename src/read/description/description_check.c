@@ -13,7 +13,7 @@ static const char *kind_name(unsigned kind)
     return kind == WT_KIND_FORCE ? "force" : kind == WT_KIND_SWEEP ? "sweep" : "spectrum";
 }
 
-static bool alias_is_unit(const wt_description *d, const char *unit)
+static bool alias_is_unit(const text_description *d, const char *unit)
 {
     double factor, offset;
     for (size_t i = 0; i < d->n_rules; i++)
@@ -34,15 +34,15 @@ static wt_status complain(wt_error *err, const char *name, const char *element)
     return WT_E_SCHEMA;
 }
 
-wt_status wt_description_check_whole(const wt_description *d, const char *name, wt_error *err)
+wt_status description_check_whole(const text_description *d, const char *name, wt_error *err)
 {
     wt_quantity_set set = 0;
     for (size_t i = 0; i < d->n_rules; i++)
         set |= WT_Q_BIT(d->rules[i].quantity);
     for (unsigned kind = 1; kind <= WT_KIND_SPECTRUM; kind *= 2)
-        if ((d->kinds & kind) != 0 && !wt_quantities_suffice(set, kind)) {
+        if ((d->kinds & kind) != 0 && !quantities_suffice(set, kind)) {
             wt_fail(err, WT_E_SCHEMA, "the columns do not make a %s", kind_name(kind));
-            wt_error_expected(err, "%s", wt_quantities_needed(kind));
+            wt_error_expected(err, "%s", quantities_needed(kind));
             return complain(err, name, "table");
         }
     for (size_t i = 0; i < d->n_aliases; i++)
@@ -53,7 +53,7 @@ wt_status wt_description_check_whole(const wt_description *d, const char *name, 
             return complain(err, name, "unit");
         }
     for (size_t i = 1; i < d->n_names; i++) {
-        const wt_column_name *a = &d->names[i - 1], *b = &d->names[i];
+        const column_name *a = &d->names[i - 1], *b = &d->names[i];
         if (strcmp(a->name, b->name) == 0 && a->rule == b->rule) {
             wt_fail(err, WT_E_SCHEMA, "a name stands twice in one column");
             wt_error_found(err, "\"%s\" (compared in lower case without blanks)", b->name);
@@ -76,7 +76,7 @@ wt_status wt_description_check_whole(const wt_description *d, const char *name, 
 
 /* ---- trial -------------------------------------------------------------------------------- */
 
-static wt_status add_report_row(wt_table *report, const wt_text_table *t, const wt_text_column *c,
+static wt_status add_report_row(wt_table *report, const text_table *t, const text_column *c,
                                 wt_error *err)
 {
     const wt_quantity q = c->rule->quantity;
@@ -92,14 +92,14 @@ static wt_status add_report_row(wt_table *report, const wt_text_table *t, const 
     if (status != WT_OK)
         return status;
     const char *problem = "";
-    if (c->problem == WT_COLUMN_NO_UNIT)
+    if (c->problem == COLUMN_NO_UNIT)
         problem = "its unit is not said";
-    else if (c->problem == WT_COLUMN_BAD_UNIT)
+    else if (c->problem == COLUMN_BAD_UNIT)
         problem = "its unit does not fit";
-    else if (c->problem == WT_COLUMN_UNCLEAR)
+    else if (c->problem == COLUMN_UNCLEAR)
         problem = "the column that tells what it is is not there";
     else
-        wt_table_put(report, 4, wt_text_table_value(t, 0, c));
+        wt_table_put(report, 4, text_table_value(t, 0, c));
     wt_table_put(report, 5, (double)t->n_rows);
     wt_table_put(report, 6, (double)t->names_line);
     return wt_table_put_text(report, 7, problem, err);
@@ -127,11 +127,11 @@ static wt_status add_report_columns(wt_table *report, wt_error *err)
 }
 
 /* All columns of the first table of each layout. */
-static wt_status fill_report(const wt_text_file *file, wt_table *report, wt_error *err)
+static wt_status fill_report(const text_file *file, wt_table *report, wt_error *err)
 {
     wt_status status = add_report_columns(report, err);
     for (size_t i = 0; i < file->n_tables && status == WT_OK; i++) {
-        const wt_text_table *t = &file->tables[i];
+        const text_table *t = &file->tables[i];
         if (i > 0 && t->quantities == file->tables[i - 1].quantities &&
             t->n_problems == file->tables[i - 1].n_problems)
             continue;
@@ -144,28 +144,28 @@ static wt_status fill_report(const wt_text_file *file, wt_table *report, wt_erro
 }
 
 /* Reads the sample as each kind that its columns promise. */
-static wt_status try_kinds(const wt_description *d, wt_input *sample,
+static wt_status try_kinds(const text_description *d, wt_input *sample,
                            const wt_read_options *options, wt_quantity_set found, wt_parselog *log,
                            wt_error *err)
 {
     const bool many = (d->kinds & (d->kinds - 1)) != 0;
     wt_status status = WT_OK;
-    if ((d->kinds & WT_KIND_SWEEP) != 0 && (!many || wt_quantities_suffice(found, WT_KIND_SWEEP))) {
+    if ((d->kinds & WT_KIND_SWEEP) != 0 && (!many || quantities_suffice(found, WT_KIND_SWEEP))) {
         wt_sweep sweep = {.n_isotherms = 0};
-        status = wt_text_read_sweep(d, sample, options, log, &sweep, err);
+        status = text_read_sweep(d, sample, options, log, &sweep, err);
         wt_sweep_clear(&sweep);
     }
     if (status == WT_OK && (d->kinds & WT_KIND_SPECTRUM) != 0 &&
-        (!many || wt_quantities_suffice(found, WT_KIND_SPECTRUM))) {
+        (!many || quantities_suffice(found, WT_KIND_SPECTRUM))) {
         wt_power_spectrum spectrum = {.n = 0};
-        status = wt_text_read_spectrum(d, sample, options, log, &spectrum, err);
+        status = text_read_spectrum(d, sample, options, log, &spectrum, err);
         wt_power_spectrum_clear(&spectrum);
     }
     if (status == WT_OK && (d->kinds & WT_KIND_FORCE) != 0 &&
-        (!many || wt_quantities_suffice(found, WT_KIND_FORCE))) {
+        (!many || quantities_suffice(found, WT_KIND_FORCE))) {
         wt_force_source *source = NULL;
         wt_force_curve curve = {.n_segments = 0};
-        status = wt_text_open_force(d, sample, options, log, &source, err);
+        status = text_open_force(d, sample, options, log, &source, err);
         if (status == WT_OK) {
             status = wt_force_next(source, &curve, err);
             wt_force_curve_clear(&curve);
@@ -176,29 +176,29 @@ static wt_status try_kinds(const wt_description *d, wt_input *sample,
     return status;
 }
 
-static wt_status try_sample(const wt_description *d, wt_input *sample,
+static wt_status try_sample(const text_description *d, wt_input *sample,
                             const wt_read_options *options, wt_parselog *log, wt_table *report,
                             wt_error *err)
 {
-    wt_text_file file;
-    wt_peek peek = {.whole = true, .name = wt_input_name(sample)};
+    text_file file;
+    file_peek peek = {.whole = true, .name = wt_input_name(sample)};
     wt_quantity_set found = 0;
     wt_status status = wt_input_bytes(sample, &peek.bytes, &peek.length, err);
     if (status != WT_OK)
         return status;
-    if (wt_text_detect(d, &peek).answer != WT_ANSWER_YES)
+    if (text_detect(d, &peek).answer != ANSWER_YES)
         wt_parselog_add(log, WT_WARNING, peek.name, NULL,
                         "the detect element does not recognise this file");
-    status = wt_text_scan(d, sample, d->kinds, options, log, &file, err);
+    status = text_scan(d, sample, d->kinds, options, log, &file, err);
     if (status != WT_OK)
         return status;
     for (size_t i = 0; i < file.n_tables; i++)
         found |= file.tables[i].quantities;
     if (file.n_tables == 0)
-        status = wt_text_nothing(&file, "table whose names are understood", err);
+        status = text_nothing(&file, "table whose names are understood", err);
     if (status == WT_OK)
         status = fill_report(&file, report, err);
-    wt_text_file_free(&file);
+    text_file_free(&file);
     return status == WT_OK ? try_kinds(d, sample, options, found, log, err) : status;
 }
 
@@ -207,14 +207,14 @@ wt_status wt_description_check(const char *xml_path, wt_input *sample,
                                wt_error *err)
 {
     const wt_read_options o = options != NULL ? *options : wt_read_defaults();
-    wt_description_schema *schema = NULL;
-    wt_description *d = NULL;
+    description_schema *schema = NULL;
+    text_description *d = NULL;
     wt_table *table = wt_table_new("description", "Columns that the description understands");
     if (table == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for the report on a description");
-    wt_status status = wt_description_schema_new(&schema, err);
+    wt_status status = description_schema_new(&schema, err);
     if (status == WT_OK)
-        status = wt_formats_parse_file(schema, xml_path, &d, err);
+        status = formats_parse_file(schema, xml_path, &d, err);
     if (status == WT_OK && sample != NULL)
         status = try_sample(d, sample, &o, log, table, err);
     else if (status == WT_OK)
@@ -224,7 +224,7 @@ wt_status wt_description_check(const char *xml_path, wt_input *sample,
         table = NULL;
     }
     wt_table_free(table);
-    wt_description_free(d);
-    wt_description_schema_free(schema);
+    description_free(d);
+    description_schema_free(schema);
     return status;
 }

@@ -39,7 +39,7 @@ static const struct {
     {"\xe2\x81\xb4", "^4"},
 };
 
-void wt_name_normalise(const char *text, size_t length, char name[WT_NAME_MAX])
+void name_normalise(const char *text, size_t length, char name[NAME_MAX])
 {
     size_t out = 0, i = 0;
     while (i < length) {
@@ -63,7 +63,7 @@ void wt_name_normalise(const char *text, size_t length, char name[WT_NAME_MAX])
                 break;
             }
         }
-        if (out + written >= WT_NAME_MAX)
+        if (out + written >= NAME_MAX)
             break;
         memcpy(name + out, piece, written);
         out += written;
@@ -77,7 +77,7 @@ static bool any(wt_quantity_set set, wt_quantity_set of)
     return (set & of) != 0;
 }
 
-bool wt_quantities_suffice(wt_quantity_set set, unsigned kind)
+bool quantities_suffice(wt_quantity_set set, unsigned kind)
 {
     const wt_quantity_set factor = WT_Q_BIT(WT_Q_LOSS_FACTOR);
     switch (kind) {
@@ -99,7 +99,7 @@ bool wt_quantities_suffice(wt_quantity_set set, unsigned kind)
     }
 }
 
-const char *wt_quantities_needed(unsigned kind)
+const char *quantities_needed(unsigned kind)
 {
     switch (kind) {
     case WT_KIND_SWEEP:
@@ -113,26 +113,26 @@ const char *wt_quantities_needed(unsigned kind)
     }
 }
 
-wt_header_value wt_header_of(wt_quantity quantity)
+header_value header_of(wt_quantity quantity)
 {
     switch (quantity) {
     case WT_Q_TEMPERATURE:
-        return WT_HEADER_TEMPERATURE;
+        return HEADER_TEMPERATURE;
     case WT_Q_SPRING_CONSTANT:
-        return WT_HEADER_SPRING_CONSTANT;
+        return HEADER_SPRING_CONSTANT;
     case WT_Q_SENSITIVITY:
-        return WT_HEADER_SENSITIVITY;
+        return HEADER_SENSITIVITY;
     case WT_Q_POSITION_X:
-        return WT_HEADER_POSITION_X;
+        return HEADER_POSITION_X;
     case WT_Q_POSITION_Y:
-        return WT_HEADER_POSITION_Y;
+        return HEADER_POSITION_Y;
     case WT_Q_VELOCITY:
-        return WT_HEADER_VELOCITY;
+        return HEADER_VELOCITY;
     case WT_Q_TIME:
-        return WT_HEADER_DURATION;
+        return HEADER_DURATION;
     case WT_Q_FORCE:
-        return WT_HEADER_SETPOINT;
+        return HEADER_SETPOINT;
     default:
-        return WT_HEADER_COUNT;
+        return HEADER_COUNT;
     }
 }

@@ -11,17 +11,17 @@
 static const char *const segment_kinds[] = {"approach", "retract", "dwell", "modulation", "other"};
 #define N_KINDS (sizeof segment_kinds / sizeof *segment_kinds)
 
-static wt_quantity quantity_attribute(wt_parse *p, const xmlNode *node)
+static wt_quantity quantity_attribute(xml_parse *p, const xmlNode *node)
 {
-    char *id = wt_parse_attribute(p, node, "quantity");
+    char *id = parse_attribute(p, node, "quantity");
     wt_quantity quantity = WT_Q_NONE;
     if (id != NULL && !wt_quantity_find(id, &quantity))
-        wt_parse_complain(p, node, "unknown quantity", "a quantity of the schema", id);
+        parse_complain(p, node, "unknown quantity", "a quantity of the schema", id);
     free(id);
     return quantity;
 }
 
-static void check_unit(wt_parse *p, const xmlNode *node, const char *unit, wt_quantity quantity)
+static void check_unit(xml_parse *p, const xmlNode *node, const char *unit, wt_quantity quantity)
 {
     double factor = 1, offset = 0;
     char expected[128];
@@ -30,46 +30,46 @@ static void check_unit(wt_parse *p, const xmlNode *node, const char *unit, wt_qu
         return;
     snprintf(expected, sizeof expected, "a unit of %s, such as %s", wt_quantity_id(quantity),
              wt_quantity_unit(quantity));
-    wt_parse_complain(p, node, "the unit does not fit the quantity", expected, unit);
+    parse_complain(p, node, "the unit does not fit the quantity", expected, unit);
 }
 
-static void read_detect(wt_parse *p, const xmlNode *detect)
+static void read_detect(xml_parse *p, const xmlNode *detect)
 {
     static const char *const kinds[] = {"require", "hint", "forbid", "names"};
-    wt_description *d = p->d;
+    text_description *d = p->d;
     bool decides = false;
     int score = 0;
-    d->probes = wt_parse_room(p, detect, NULL, sizeof *d->probes);
+    d->probes = parse_room(p, detect, NULL, sizeof *d->probes);
     for (const xmlNode *c = detect->children; c != NULL && p->status == WT_OK; c = c->next) {
         if (c->type != XML_ELEMENT_NODE)
             continue;
-        wt_probe *probe = &d->probes[d->n_probes++];
+        text_probe *probe = &d->probes[d->n_probes++];
         for (size_t k = 0; k < 4; k++)
-            if (wt_parse_is(c, kinds[k]))
-                probe->kind = (wt_probe_kind)k;
-        decides |= probe->kind == WT_PROBE_REQUIRE || probe->kind == WT_PROBE_NAMES;
-        probe->within = wt_parse_count(p, c, "within", 100);
-        probe->score = (int)wt_parse_count(p, c, "score", 0);
-        score += probe->kind == WT_PROBE_FORBID ? 0 : probe->score;
-        if (probe->kind == WT_PROBE_NAMES)
+            if (parse_is(c, kinds[k]))
+                probe->kind = (probe_kind)k;
+        decides |= probe->kind == PROBE_REQUIRE || probe->kind == PROBE_NAMES;
+        probe->within = parse_count(p, c, "within", 100);
+        probe->score = (int)parse_count(p, c, "score", 0);
+        score += probe->kind == PROBE_FORBID ? 0 : probe->score;
+        if (probe->kind == PROBE_NAMES)
             continue;
-        probe->text = wt_parse_attribute(p, c, "text");
-        wt_parse_pattern(p, c, "regex", &probe->pattern, 0);
+        probe->text = parse_attribute(p, c, "text");
+        parse_pattern(p, c, "regex", &probe->pattern, 0);
         if ((probe->text != NULL) == probe->pattern.compiled)
-            wt_parse_complain(p, c, "what is looked for must be said once", "either text or regex",
-                              probe->text != NULL ? "both" : "neither");
+            parse_complain(p, c, "what is looked for must be said once", "either text or regex",
+                           probe->text != NULL ? "both" : "neither");
     }
     if (!decides)
-        wt_parse_complain(p, detect, "nothing tells a file of this format from others",
-                          "at least one require or names element", NULL);
+        parse_complain(p, detect, "nothing tells a file of this format from others",
+                       "at least one require or names element", NULL);
     if (score < 1)
-        wt_parse_complain(p, detect, "a match would count nothing", "a score of 1 to 100",
-                          "no score in any element");
+        parse_complain(p, detect, "a match would count nothing", "a score of 1 to 100",
+                       "no score in any element");
 }
 
-static void read_list(wt_parse *p, const xmlNode *node, const char *name, char ***items, size_t *n)
+static void read_list(xml_parse *p, const xmlNode *node, const char *name, char ***items, size_t *n)
 {
-    char *text = wt_parse_attribute(p, node, name);
+    char *text = parse_attribute(p, node, name);
     char *rest = NULL;
     size_t most = 1;
     if (text == NULL)
@@ -78,13 +78,13 @@ static void read_list(wt_parse *p, const xmlNode *node, const char *name, char *
         most += *c == ' ';
     *items = calloc(most, sizeof **items);
     if (*items == NULL)
-        wt_parse_no_memory(p);
+        parse_no_memory(p);
     else
         for (char *word = strtok_r(text, " ", &rest); word != NULL;
              word = strtok_r(NULL, " ", &rest)) {
             (*items)[*n] = strdup(word);
             if ((*items)[*n] == NULL) {
-                wt_parse_no_memory(p);
+                parse_no_memory(p);
                 break;
             }
             (*n)++;
@@ -92,117 +92,115 @@ static void read_list(wt_parse *p, const xmlNode *node, const char *name, char *
     free(text);
 }
 
-static void read_text(wt_parse *p, const xmlNode *node)
+static void read_text(xml_parse *p, const xmlNode *node)
 {
     static const char *const encodings[] = {"auto", "utf-8", "latin-1", "utf-16"};
     static const char *const separators[] = {"auto",  "tab",        "semicolon",
                                              "comma", "whitespace", "fixed"};
     static const char *const decimals[] = {"auto", "point", "comma"};
     static const char marks[] = {'\0', '.', ','};
-    wt_description *d = p->d;
+    text_description *d = p->d;
     char **widths = NULL;
     size_t n = 0;
-    d->encoding = (wt_encoding)wt_parse_one_of(p, node, "encoding", encodings, 4, 0);
-    d->separator = (wt_separator)wt_parse_one_of(p, node, "separator", separators, 6, 0);
-    d->names_separator = (wt_separator)wt_parse_one_of(p, node, "names-separator", separators, 6,
-                                                       (size_t)d->separator);
-    d->decimal = marks[wt_parse_one_of(p, node, "decimal", decimals, 3, 0)];
-    d->comment = wt_parse_attribute(p, node, "comment");
+    d->encoding = (text_encoding)parse_one_of(p, node, "encoding", encodings, 4, 0);
+    d->separator = (cell_separator)parse_one_of(p, node, "separator", separators, 6, 0);
+    d->names_separator = (cell_separator)parse_one_of(p, node, "names-separator", separators, 6,
+                                                      (size_t)d->separator);
+    d->decimal = marks[parse_one_of(p, node, "decimal", decimals, 3, 0)];
+    d->comment = parse_attribute(p, node, "comment");
     read_list(p, node, "missing", &d->missing, &d->n_missing);
     read_list(p, node, "widths", &widths, &n);
     d->widths = calloc(n + 1, sizeof *d->widths);
     if (d->widths == NULL)
-        wt_parse_no_memory(p);
+        parse_no_memory(p);
     for (size_t i = 0; i < n; i++) {
         if (d->widths != NULL)
             d->widths[d->n_widths++] = (size_t)strtoul(widths[i], NULL, 10);
         free(widths[i]);
     }
     free(widths);
-    bool fixed = d->separator == WT_SEPARATOR_FIXED || d->names_separator == WT_SEPARATOR_FIXED;
+    bool fixed = d->separator == SEPARATOR_FIXED || d->names_separator == SEPARATOR_FIXED;
     if (fixed != (n > 0))
-        wt_parse_complain(p, node, "fixed columns and their widths belong together",
-                          "separator=\"fixed\" with widths=\"...\"",
-                          fixed ? "no widths" : "only widths");
-    if (d->separator == WT_SEPARATOR_COMMA && d->decimal == ',')
-        wt_parse_complain(p, node, "a comma cannot be both",
-                          "another separator or decimal=\"point\"",
-                          "separator and decimal mark are commas");
+        parse_complain(p, node, "fixed columns and their widths belong together",
+                       "separator=\"fixed\" with widths=\"...\"",
+                       fixed ? "no widths" : "only widths");
+    if (d->separator == SEPARATOR_COMMA && d->decimal == ',')
+        parse_complain(p, node, "a comma cannot be both", "another separator or decimal=\"point\"",
+                       "separator and decimal mark are commas");
 }
 
-static void read_header(wt_parse *p, const xmlNode *node)
+static void read_header(xml_parse *p, const xmlNode *node)
 {
     static const char *const sets[] = {"decimal", "separator"};
-    wt_description *d = p->d;
-    d->fields = wt_parse_room(p, node, "field", sizeof *d->fields);
+    text_description *d = p->d;
+    d->fields = parse_room(p, node, "field", sizeof *d->fields);
     for (const xmlNode *c = node->children; c != NULL && p->status == WT_OK; c = c->next) {
-        if (!wt_parse_is(c, "field"))
+        if (!parse_is(c, "field"))
             continue;
-        wt_field *field = &d->fields[d->n_fields++];
-        field->name = wt_parse_attribute(p, c, "name");
-        field->group = wt_parse_count(p, c, "group", 1);
-        field->unit_group = wt_parse_count(p, c, "unit-group", 0);
-        wt_parse_pattern(p, c, "regex", &field->pattern,
-                         field->group > field->unit_group ? field->group : field->unit_group);
+        name_field *field = &d->fields[d->n_fields++];
+        field->name = parse_attribute(p, c, "name");
+        field->group = parse_count(p, c, "group", 1);
+        field->unit_group = parse_count(p, c, "unit-group", 0);
+        parse_pattern(p, c, "regex", &field->pattern,
+                      field->group > field->unit_group ? field->group : field->unit_group);
         field->quantity = quantity_attribute(p, c);
-        field->unit = wt_parse_attribute(p, c, "unit");
-        field->fallback = wt_parse_true(p, c, "fallback");
-        field->sets = (wt_field_sets)(wt_parse_one_of(p, c, "sets", sets, 2, (size_t)-1) + 1);
+        field->unit = parse_attribute(p, c, "unit");
+        field->fallback = parse_true(p, c, "fallback");
+        field->sets = (field_sets)(parse_one_of(p, c, "sets", sets, 2, (size_t)-1) + 1);
         if (field->quantity == WT_Q_NONE)
             continue;
-        if (wt_header_of(field->quantity) == WT_HEADER_COUNT)
-            wt_parse_complain(
+        if (header_of(field->quantity) == HEADER_COUNT)
+            parse_complain(
                 p, c, "a header line cannot give this quantity",
                 "temperature, spring_constant, sensitivity, position_x, position_y, velocity, "
                 "time (duration) or force (set-point)",
                 wt_quantity_id(field->quantity));
         check_unit(p, c, field->unit, field->quantity);
         if ((field->unit != NULL) == (field->unit_group > 0))
-            wt_parse_complain(p, c, "the unit of a header value must be said once",
-                              "either unit or unit-group",
-                              field->unit != NULL ? "both" : "neither");
+            parse_complain(p, c, "the unit of a header value must be said once",
+                           "either unit or unit-group", field->unit != NULL ? "both" : "neither");
     }
 }
 
 static int compare_names(const void *a, const void *b)
 {
-    const wt_column_name *x = a, *y = b;
+    const column_name *x = a, *y = b;
     int order = strcmp(x->name, y->name);
     if (order != 0)
         return order;
     return (x->rule > y->rule) - (x->rule < y->rule);
 }
 
-static void read_columns(wt_parse *p, const xmlNode *table)
+static void read_columns(xml_parse *p, const xmlNode *table)
 {
-    wt_description *d = p->d;
+    text_description *d = p->d;
     size_t n = 0;
-    d->rules = wt_parse_room(p, table, "column", sizeof *d->rules);
+    d->rules = parse_room(p, table, "column", sizeof *d->rules);
     for (const xmlNode *c = table->children; c != NULL; c = c->next)
-        if (wt_parse_is(c, "column"))
+        if (parse_is(c, "column"))
             for (const xmlNode *name = c->children; name != NULL; name = name->next)
-                n += wt_parse_is(name, "name");
+                n += parse_is(name, "name");
     d->names = calloc(n + 1, sizeof *d->names);
     if (d->names == NULL)
-        wt_parse_no_memory(p);
+        parse_no_memory(p);
     for (const xmlNode *c = table->children; c != NULL && p->status == WT_OK; c = c->next) {
-        if (!wt_parse_is(c, "column"))
+        if (!parse_is(c, "column"))
             continue;
-        wt_column_rule *rule = &d->rules[d->n_rules];
-        size_t kind = wt_parse_one_of(p, c, "segment", segment_kinds, N_KINDS, N_KINDS);
+        column_rule *rule = &d->rules[d->n_rules];
+        size_t kind = parse_one_of(p, c, "segment", segment_kinds, N_KINDS, N_KINDS);
         rule->quantity = quantity_attribute(p, c);
-        rule->unit = wt_parse_attribute(p, c, "unit");
-        rule->with = wt_parse_normalised(p, wt_parse_attribute(p, c, "with"));
+        rule->unit = parse_attribute(p, c, "unit");
+        rule->with = parse_normalised(p, parse_attribute(p, c, "with"));
         rule->has_segment = kind < N_KINDS;
         rule->segment = kind < N_KINDS ? (wt_segment_kind)kind : WT_SEGMENT_OTHER;
-        rule->negate = wt_parse_true(p, c, "negate");
+        rule->negate = parse_true(p, c, "negate");
         check_unit(p, c, rule->unit, rule->quantity);
         for (const xmlNode *name = c->children; name != NULL && p->status == WT_OK;
              name = name->next) {
-            if (!wt_parse_is(name, "name"))
+            if (!parse_is(name, "name"))
                 continue;
             d->names[d->n_names].rule = d->n_rules;
-            d->names[d->n_names].name = wt_parse_normalised(p, wt_parse_content(p, name));
+            d->names[d->n_names].name = parse_normalised(p, parse_content(p, name));
             if (p->status == WT_OK)
                 d->n_names++;
         }
@@ -211,87 +209,87 @@ static void read_columns(wt_parse *p, const xmlNode *table)
     qsort(d->names, d->n_names, sizeof *d->names, compare_names);
 }
 
-static void read_table(wt_parse *p, const xmlNode *table)
+static void read_table(xml_parse *p, const xmlNode *table)
 {
     static const char *const units[] = {"row", "name", "name-or-row", "line", "none"};
     static const char *const titles[] = {"same", "next"};
     static const char *const blanks[] = {"skip", "block"};
-    wt_description *d = p->d;
-    wt_parse_pattern(p, table, "names", &d->names_line, 1);
+    text_description *d = p->d;
+    parse_pattern(p, table, "names", &d->names_line, 1);
     d->has_names_line = d->names_line.compiled;
-    d->units = (wt_units_where)wt_parse_one_of(p, table, "units", units, 5, 0);
-    wt_parse_pattern(p, table, "units-line", &d->units_line, 1);
-    if ((d->units == WT_UNITS_LINE) != d->units_line.compiled)
-        wt_parse_complain(p, table, "a line of units must be described",
-                          "units=\"line\" with units-line",
-                          d->units_line.compiled ? "only units-line" : "no units-line");
-    if (d->units == WT_UNITS_LINE && !d->has_names_line)
-        wt_parse_complain(p, table, "a line of units goes with a line of names",
-                          "an attribute names", NULL);
-    d->row_prefix = wt_parse_normalised(p, wt_parse_attribute(p, table, "row-prefix"));
-    d->blank_is_block = wt_parse_one_of(p, table, "blank", blanks, 2, 0) == 1;
-    d->steps = wt_parse_room(p, table, "step", sizeof *d->steps);
-    d->ends = wt_parse_room(p, table, "end", sizeof *d->ends);
-    d->aliases = wt_parse_room(p, table, "unit", sizeof *d->aliases);
+    d->units = (units_where)parse_one_of(p, table, "units", units, 5, 0);
+    parse_pattern(p, table, "units-line", &d->units_line, 1);
+    if ((d->units == UNITS_LINE) != d->units_line.compiled)
+        parse_complain(p, table, "a line of units must be described",
+                       "units=\"line\" with units-line",
+                       d->units_line.compiled ? "only units-line" : "no units-line");
+    if (d->units == UNITS_LINE && !d->has_names_line)
+        parse_complain(p, table, "a line of units goes with a line of names", "an attribute names",
+                       NULL);
+    d->row_prefix = parse_normalised(p, parse_attribute(p, table, "row-prefix"));
+    d->blank_is_block = parse_one_of(p, table, "blank", blanks, 2, 0) == 1;
+    d->steps = parse_room(p, table, "step", sizeof *d->steps);
+    d->ends = parse_room(p, table, "end", sizeof *d->ends);
+    d->aliases = parse_room(p, table, "unit", sizeof *d->aliases);
     for (const xmlNode *c = table->children; c != NULL && p->status == WT_OK; c = c->next) {
-        if (wt_parse_is(c, "step")) {
-            wt_step *step = &d->steps[d->n_steps++];
-            step->title_next = wt_parse_one_of(p, c, "title", titles, 2, 0) == 1;
-            wt_parse_pattern(p, c, "regex", &step->pattern, step->title_next ? 0 : 1);
-        } else if (wt_parse_is(c, "end")) {
-            wt_parse_pattern(p, c, "regex", &d->ends[d->n_ends++], 0);
-        } else if (wt_parse_is(c, "unit")) {
-            wt_unit_alias *alias = &d->aliases[d->n_aliases++];
-            alias->found = wt_parse_attribute(p, c, "found");
-            alias->means = wt_parse_attribute(p, c, "means");
+        if (parse_is(c, "step")) {
+            scan_step *step = &d->steps[d->n_steps++];
+            step->title_next = parse_one_of(p, c, "title", titles, 2, 0) == 1;
+            parse_pattern(p, c, "regex", &step->pattern, step->title_next ? 0 : 1);
+        } else if (parse_is(c, "end")) {
+            parse_pattern(p, c, "regex", &d->ends[d->n_ends++], 0);
+        } else if (parse_is(c, "unit")) {
+            unit_alias *alias = &d->aliases[d->n_aliases++];
+            alias->found = parse_attribute(p, c, "found");
+            alias->means = parse_attribute(p, c, "means");
         }
     }
     if (p->status == WT_OK)
         read_columns(p, table);
 }
 
-static void read_isotherms(wt_parse *p, const xmlNode *node)
+static void read_isotherms(xml_parse *p, const xmlNode *node)
 {
-    char *jump = wt_parse_attribute(p, node, "temperature-jump");
-    p->d->group = wt_parse_normalised(p, wt_parse_attribute(p, node, "group"));
+    char *jump = parse_attribute(p, node, "temperature-jump");
+    p->d->group = parse_normalised(p, parse_attribute(p, node, "group"));
     if (jump != NULL && (wt_quantity_parse(jump, WT_Q_TEMPERATURE_DIFFERENCE,
                                            &p->d->temperature_jump, NULL) != WT_OK ||
                          !(p->d->temperature_jump > 0)))
-        wt_parse_complain(p, node, "not a temperature difference",
-                          "a positive one with its unit, \"5 K\"", jump);
+        parse_complain(p, node, "not a temperature difference",
+                       "a positive one with its unit, \"5 K\"", jump);
     free(jump);
 }
 
-static void read_segments(wt_parse *p, const xmlNode *node)
+static void read_segments(xml_parse *p, const xmlNode *node)
 {
-    wt_description *d = p->d;
-    d->segment_column = wt_parse_normalised(p, wt_parse_attribute(p, node, "column"));
-    d->curve_column = wt_parse_normalised(p, wt_parse_attribute(p, node, "curve"));
-    d->turning_point = wt_parse_true(p, node, "turning-point");
-    d->markers = wt_parse_room(p, node, "marker", sizeof *d->markers);
-    d->values = wt_parse_room(p, node, "value", sizeof *d->values);
+    text_description *d = p->d;
+    d->segment_column = parse_normalised(p, parse_attribute(p, node, "column"));
+    d->curve_column = parse_normalised(p, parse_attribute(p, node, "curve"));
+    d->turning_point = parse_true(p, node, "turning-point");
+    d->markers = parse_room(p, node, "marker", sizeof *d->markers);
+    d->values = parse_room(p, node, "value", sizeof *d->values);
     for (const xmlNode *c = node->children; c != NULL && p->status == WT_OK; c = c->next) {
-        if (wt_parse_is(c, "marker")) {
-            wt_marker *marker = &d->markers[d->n_markers++];
-            marker->kind = (wt_segment_kind)wt_parse_one_of(p, c, "kind", segment_kinds, N_KINDS,
-                                                            WT_SEGMENT_OTHER);
-            wt_parse_pattern(p, c, "regex", &marker->pattern, 0);
-        } else if (wt_parse_is(c, "value")) {
-            wt_marker *value = &d->values[d->n_values++];
-            value->kind = (wt_segment_kind)wt_parse_one_of(p, c, "kind", segment_kinds, N_KINDS,
-                                                           WT_SEGMENT_OTHER);
-            value->text = wt_parse_attribute(p, c, "text");
+        if (parse_is(c, "marker")) {
+            row_marker *marker = &d->markers[d->n_markers++];
+            marker->kind = (wt_segment_kind)parse_one_of(p, c, "kind", segment_kinds, N_KINDS,
+                                                         WT_SEGMENT_OTHER);
+            parse_pattern(p, c, "regex", &marker->pattern, 0);
+        } else if (parse_is(c, "value")) {
+            row_marker *value = &d->values[d->n_values++];
+            value->kind = (wt_segment_kind)parse_one_of(p, c, "kind", segment_kinds, N_KINDS,
+                                                        WT_SEGMENT_OTHER);
+            value->text = parse_attribute(p, c, "text");
         }
     }
     if ((d->segment_column != NULL) != (d->n_values > 0))
-        wt_parse_complain(p, node, "a segment column and its values belong together",
-                          "column=\"NAME\" with value elements",
-                          d->n_values > 0 ? "only values" : "no values");
+        parse_complain(p, node, "a segment column and its values belong together",
+                       "column=\"NAME\" with value elements",
+                       d->n_values > 0 ? "only values" : "no values");
 }
 
-static unsigned read_kinds(wt_parse *p, const xmlNode *root)
+static unsigned read_kinds(xml_parse *p, const xmlNode *root)
 {
-    char *text = wt_parse_attribute(p, root, "kinds");
+    char *text = parse_attribute(p, root, "kinds");
     unsigned kinds = 0;
     if (text != NULL) {
         kinds |= strstr(text, "force") != NULL ? WT_KIND_FORCE : 0u;
@@ -302,26 +300,26 @@ static unsigned read_kinds(wt_parse *p, const xmlNode *root)
     return kinds;
 }
 
-void wt_parse_format(wt_parse *p, const xmlNode *root)
+void parse_format(xml_parse *p, const xmlNode *root)
 {
     static const struct {
         const char *name;
-        void (*read)(wt_parse *p, const xmlNode *node);
+        void (*read)(xml_parse *p, const xmlNode *node);
     } parts[] = {{"detect", read_detect},       {"text", read_text},
                  {"header", read_header},       {"table", read_table},
                  {"isotherms", read_isotherms}, {"segments", read_segments}};
-    wt_description *d = p->d;
-    d->id = wt_parse_attribute(p, root, "id");
-    d->version = wt_parse_attribute(p, root, "version");
+    text_description *d = p->d;
+    d->id = parse_attribute(p, root, "id");
+    d->version = parse_attribute(p, root, "version");
     d->kinds = read_kinds(p, root);
-    d->verified = wt_parse_true(p, root, "verified");
-    d->title = wt_parse_content(p, wt_parse_child(root, "title"));
-    d->evidence = wt_parse_content(p, wt_parse_child(root, "evidence"));
+    d->verified = parse_true(p, root, "verified");
+    d->title = parse_content(p, parse_child(root, "title"));
+    d->evidence = parse_content(p, parse_child(root, "evidence"));
     for (size_t i = 0; i < sizeof parts / sizeof *parts && p->status == WT_OK; i++) {
-        const xmlNode *node = wt_parse_child(root, parts[i].name);
+        const xmlNode *node = parse_child(root, parts[i].name);
         if (node != NULL)
             parts[i].read(p, node);
     }
     if (p->status == WT_OK)
-        p->status = wt_description_check_whole(d, p->name, p->err);
+        p->status = description_check_whole(d, p->name, p->err);
 }

@@ -7,14 +7,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-void wt_parse_no_memory(wt_parse *p)
+void parse_no_memory(xml_parse *p)
 {
     if (p->status == WT_OK)
         p->status = wt_fail(p->err, WT_E_MEMORY, "no memory for a format description");
 }
 
-void wt_parse_complain(wt_parse *p, const xmlNode *node, const char *message, const char *expected,
-                       const char *found)
+void parse_complain(xml_parse *p, const xmlNode *node, const char *message, const char *expected,
+                    const char *found)
 {
     if (p->status != WT_OK)
         return;
@@ -28,55 +28,55 @@ void wt_parse_complain(wt_parse *p, const xmlNode *node, const char *message, co
     wt_error_advice(p->err, "see weartrack-format(5)");
 }
 
-static char *copy_xml(wt_parse *p, xmlChar *text)
+static char *copy_xml(xml_parse *p, xmlChar *text)
 {
     char *copy = NULL;
     if (text != NULL) {
         copy = strdup((const char *)text);
         if (copy == NULL)
-            wt_parse_no_memory(p);
+            parse_no_memory(p);
         xmlFree(text);
     }
     return copy;
 }
 
-char *wt_parse_attribute(wt_parse *p, const xmlNode *node, const char *name)
+char *parse_attribute(xml_parse *p, const xmlNode *node, const char *name)
 {
     return copy_xml(p, xmlGetNoNsProp(node, (const xmlChar *)name));
 }
 
-char *wt_parse_content(wt_parse *p, const xmlNode *node)
+char *parse_content(xml_parse *p, const xmlNode *node)
 {
     return copy_xml(p, xmlNodeGetContent(node));
 }
 
-char *wt_parse_normalised(wt_parse *p, char *text)
+char *parse_normalised(xml_parse *p, char *text)
 {
-    char name[WT_NAME_MAX];
+    char name[NAME_MAX];
     char *copy = NULL;
     if (text == NULL)
         return NULL;
-    wt_name_normalise(text, strlen(text), name);
+    name_normalise(text, strlen(text), name);
     free(text);
     copy = strdup(name);
     if (copy == NULL)
-        wt_parse_no_memory(p);
+        parse_no_memory(p);
     return copy;
 }
 
-bool wt_parse_true(wt_parse *p, const xmlNode *node, const char *name)
+bool parse_true(xml_parse *p, const xmlNode *node, const char *name)
 {
-    char *text = wt_parse_attribute(p, node, name);
+    char *text = parse_attribute(p, node, name);
     bool yes = text != NULL && (strcmp(text, "true") == 0 || strcmp(text, "1") == 0);
     free(text);
     return yes;
 }
 
 /* Of texts that the schema has checked, so the list is complete. */
-size_t wt_parse_one_of(wt_parse *p, const xmlNode *node, const char *name,
-                       const char *const words[], size_t n, size_t absent)
+size_t parse_one_of(xml_parse *p, const xmlNode *node, const char *name, const char *const words[],
+                    size_t n, size_t absent)
 {
-    char *text = wt_parse_attribute(p, node, name);
+    char *text = parse_attribute(p, node, name);
     size_t i = absent;
     if (text != NULL)
         for (i = 0; i + 1 < n && strcmp(text, words[i]) != 0;)
@@ -85,44 +85,44 @@ size_t wt_parse_one_of(wt_parse *p, const xmlNode *node, const char *name,
     return i;
 }
 
-size_t wt_parse_count(wt_parse *p, const xmlNode *node, const char *name, size_t absent)
+size_t parse_count(xml_parse *p, const xmlNode *node, const char *name, size_t absent)
 {
-    char *text = wt_parse_attribute(p, node, name);
+    char *text = parse_attribute(p, node, name);
     size_t value = text != NULL ? (size_t)strtoul(text, NULL, 10) : absent;
     free(text);
     return value;
 }
 
-bool wt_parse_is(const xmlNode *node, const char *name)
+bool parse_is(const xmlNode *node, const char *name)
 {
     return node->type == XML_ELEMENT_NODE && strcmp((const char *)node->name, name) == 0;
 }
 
-const xmlNode *wt_parse_child(const xmlNode *node, const char *name)
+const xmlNode *parse_child(const xmlNode *node, const char *name)
 {
     const xmlNode *c = node->children;
-    while (c != NULL && !wt_parse_is(c, name))
+    while (c != NULL && !parse_is(c, name))
         c = c->next;
     return c;
 }
 
-void *wt_parse_room(wt_parse *p, const xmlNode *node, const char *name, size_t size)
+void *parse_room(xml_parse *p, const xmlNode *node, const char *name, size_t size)
 {
     size_t n = 0;
     for (const xmlNode *c = node->children; c != NULL; c = c->next)
-        n += name == NULL || wt_parse_is(c, name);
+        n += name == NULL || parse_is(c, name);
     void *items = calloc(n + 1, size);
     if (items == NULL)
-        wt_parse_no_memory(p);
+        parse_no_memory(p);
     return items;
 }
 
 /* ---- regular expressions ------------------------------------------------------------------ */
 
-bool wt_pattern_match(const wt_pattern *pattern, const char *line, size_t length,
-                      regmatch_t *groups, size_t n)
+bool pattern_match(const name_pattern *pattern, const char *line, size_t length, regmatch_t *groups,
+                   size_t n)
 {
-    if (length > WT_PATTERN_LINE_MAX || (pattern->first != '\0' && line[0] != pattern->first))
+    if (length > PATTERN_LINE_MAX || (pattern->first != '\0' && line[0] != pattern->first))
         return false;
     return regexec(&pattern->regex, line, n, groups, 0) == 0;
 }
@@ -195,17 +195,17 @@ static char first_byte(const char *source)
     return c;
 }
 
-void wt_parse_pattern(wt_parse *p, const xmlNode *node, const char *name, wt_pattern *pattern,
-                      size_t groups)
+void parse_pattern(xml_parse *p, const xmlNode *node, const char *name, name_pattern *pattern,
+                   size_t groups)
 {
-    char *source = wt_parse_attribute(p, node, name);
+    char *source = parse_attribute(p, node, name);
     char message[128];
     if (source == NULL)
         return;
     const char *what = forbidden(source);
     if (what != NULL) {
-        wt_parse_complain(p, node, "regular expression not accepted",
-                          "an extended POSIX expression", what);
+        parse_complain(p, node, "regular expression not accepted", "an extended POSIX expression",
+                       what);
         free(source);
         return;
     }
@@ -213,13 +213,13 @@ void wt_parse_pattern(wt_parse *p, const xmlNode *node, const char *name, wt_pat
     int code = regcomp(&pattern->regex, source, REG_EXTENDED | (groups == 0 ? REG_NOSUB : 0));
     if (code != 0) {
         regerror(code, &pattern->regex, message, sizeof message);
-        wt_parse_complain(p, node, message, "an extended POSIX regular expression", source);
+        parse_complain(p, node, message, "an extended POSIX regular expression", source);
     } else {
         pattern->compiled = true;
         pattern->first = first_byte(source);
         if (pattern->regex.re_nsub < groups)
-            wt_parse_complain(p, node, "regular expression without a group",
-                              "parentheses around the part that is the value", source);
+            parse_complain(p, node, "regular expression without a group",
+                           "parentheses around the part that is the value", source);
     }
     free(source);
 }

@@ -10,27 +10,27 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool contains(const wt_peek *peek, const char *text)
+static bool contains(const file_peek *peek, const char *text)
 {
     return memmem(peek->bytes, peek->length, text, strlen(text)) != NULL;
 }
 
 /* Names of entries stand unpacked in the archive; a name this long does not come about by chance in
  * packed data. */
-static wt_match detect(const wt_reader *self, const wt_peek *peek)
+static detector_match detect(const file_reader *self, const file_peek *peek)
 {
     (void)self;
-    wt_match match = {.answer = WT_ANSWER_NO};
+    detector_match match = {.answer = ANSWER_NO};
     if (peek->length < 4 || memcmp(peek->bytes, "PK\3\4", 4) != 0)
         return match;
     if (contains(peek, "/segment-header.properties")) {
-        match.answer = WT_ANSWER_YES;
+        match.answer = ANSWER_YES;
         match.score = 95;
     } else if (!peek->whole) {
-        match.answer = WT_ANSWER_MORE;
+        match.answer = ANSWER_MORE;
         match.need = 4 * peek->length;
     } else if (contains(peek, "data-image.") && contains(peek, "header.properties")) {
-        match.answer = WT_ANSWER_UNSUPPORTED;
+        match.answer = ANSWER_UNSUPPORTED;
         snprintf(match.reason, sizeof match.reason, "a JPK file without force curves");
     }
     return match;
@@ -41,11 +41,11 @@ static wt_match detect(const wt_reader *self, const wt_peek *peek)
 static const char *described(const jpk_file *file, const char *name)
 {
     char key[192];
-    const char *type = wt_properties_get(&file->header, "type");
+    const char *type = properties_get(&file->header, "type");
     if (type == NULL)
         return NULL;
     snprintf(key, sizeof key, "%s.description.", type);
-    return wt_properties_find(&file->header, key, name);
+    return properties_find(&file->header, key, name);
 }
 
 static wt_status add_identity(const jpk_file *file, wt_table *facts, wt_error *err)
@@ -58,13 +58,13 @@ static wt_status add_identity(const jpk_file *file, wt_table *facts, wt_error *e
                  {"probe", "probe"},
                  {"comment", "comment"}};
     wt_status status = WT_OK;
-    const char *version = wt_properties_get(&file->header, "file-format-version");
-    status = wt_facts_add(facts, "format version", version != NULL ? version : "not stated", "",
-                          "file-format-version", err);
+    const char *version = properties_get(&file->header, "file-format-version");
+    status = facts_add(facts, "format version", version != NULL ? version : "not stated", "",
+                       "file-format-version", err);
     for (size_t i = 0; i < sizeof known / sizeof *known && status == WT_OK; i++) {
         const char *text = described(file, known[i].name);
         if (text != NULL && *text != '\0')
-            status = wt_facts_add(facts, known[i].item, text, "", known[i].name, err);
+            status = facts_add(facts, known[i].item, text, "", known[i].name, err);
     }
     return status;
 }
@@ -72,16 +72,16 @@ static wt_status add_identity(const jpk_file *file, wt_table *facts, wt_error *e
 static wt_status add_curves(const jpk_file *file, wt_table *facts, wt_error *err)
 {
     char text[64];
-    wt_status status = wt_facts_count(facts, "curves", file->n_curves, "entries", err);
+    wt_status status = facts_count(facts, "curves", file->n_curves, "entries", err);
     if (status == WT_OK && file->n_expected > 0)
-        status = wt_facts_count(facts, "curves planned", file->n_expected, "indexes", err);
+        status = facts_count(facts, "curves planned", file->n_expected, "indexes", err);
     if (status == WT_OK && file->columns > 0) {
         snprintf(text, sizeof text, "%ld x %ld%s", file->columns, file->rows,
                  file->back_and_forth ? ", back and forth" : "");
-        status = wt_facts_add(facts, "grid", text, "", "position-pattern.grid", err);
+        status = facts_add(facts, "grid", text, "", "position-pattern.grid", err);
     }
-    if (status == WT_OK && wt_archive_truncated(file->archive))
-        status = wt_facts_add(facts, "odd", "the end of the archive is missing", "", "", err);
+    if (status == WT_OK && archive_truncated(file->archive))
+        status = facts_add(facts, "odd", "the end of the archive is missing", "", "", err);
     return status;
 }
 
@@ -109,19 +109,19 @@ static wt_status add_channels(const jpk_segment *segment, size_t number,
     snprintf(item, sizeof item, "segment %zu", number);
     snprintf(value, sizeof value, "%s (%s), %zu points", wt_segment_kind_name(segment->kind),
              segment->style[0] != '\0' ? segment->style : "no style", segment->n_points);
-    wt_status status = wt_facts_add(facts, item, value, "", "segment-header.properties", err);
+    wt_status status = facts_add(facts, item, value, "", "segment-header.properties", err);
     if (status == WT_OK && !isnan(segment->duration)) {
         snprintf(item, sizeof item, "segment %zu duration", number);
-        status = wt_facts_number(facts, item, segment->duration, "s", "duration", err);
+        status = facts_number(facts, item, segment->duration, "s", "duration", err);
     }
     if (status == WT_OK && !isnan(segment->velocity)) {
         snprintf(item, sizeof item, "segment %zu velocity", number);
         status =
-            wt_facts_number(facts, item, segment->velocity, "m/s", "z-start, z-end, duration", err);
+            facts_number(facts, item, segment->velocity, "m/s", "z-start, z-end, duration", err);
     }
     if (status == WT_OK && segment->incomplete) {
         snprintf(item, sizeof item, "segment %zu odd", number);
-        status = wt_facts_add(facts, item, "data are missing or short", "", "", err);
+        status = facts_add(facts, item, "data are missing or short", "", "", err);
     }
     for (size_t i = 0; i < segment->n_channels && status == WT_OK; i++) {
         const jpk_channel *c = &segment->channels[i];
@@ -132,7 +132,7 @@ static wt_status add_channels(const jpk_segment *segment, size_t number,
         snprintf(value, sizeof value, "%s%s%s",
                  quantity == WT_Q_NONE ? "not read" : wt_quantity_id(quantity),
                  c->understood ? "" : ": ", c->understood ? "" : c->problem);
-        status = wt_facts_add(facts, item, value, unit, c->understood ? c->lcd.preferred : "", err);
+        status = facts_add(facts, item, value, unit, c->understood ? c->lcd.preferred : "", err);
     }
     return status;
 }
@@ -142,27 +142,27 @@ static wt_status add_calibration(const jpk_segment *segment, const wt_read_optio
 {
     const jpk_channel *deflection = jpk_segment_channel(segment, "vDeflection");
     if (deflection == NULL || !deflection->understood)
-        return wt_facts_add(facts, "missing", "no channel vDeflection", "", "", err);
+        return facts_add(facts, "missing", "no channel vDeflection", "", "", err);
     jpk_calibration c;
     jpk_calibrate(&deflection->lcd, options, &c);
     const wt_cantilever *lever = &c.cantilever;
-    wt_status status = wt_facts_number(
+    wt_status status = facts_number(
         facts, "spring constant", lever->spring_constant, "N/m",
         lever->spring_constant_given ? "given by the user" : "conversion to force", err);
     if (status == WT_OK)
-        status = wt_facts_number(
+        status = facts_number(
             facts, "deflection sensitivity", lever->sensitivity, "m/V",
             lever->sensitivity_given ? "given by the user" : "conversion to distance", err);
     if (status == WT_OK && !c.has_force) {
         wt_error missing = WT_ERROR_INIT;
         jpk_uncalibrated(&c, &missing);
-        status = wt_facts_add(facts, "missing", missing.message, "", missing.advice, err);
+        status = facts_add(facts, "missing", missing.message, "", missing.advice, err);
     }
     return status;
 }
 
 /* The segments of the first curve stand for all: a map has the same ones at each place. */
-static wt_status describe(const wt_reader *self, wt_input *input, const wt_read_options *options,
+static wt_status describe(const file_reader *self, wt_input *input, const wt_read_options *options,
                           wt_parselog *log, wt_table *facts, wt_error *err)
 {
     (void)self;
@@ -191,13 +191,13 @@ static wt_status describe(const wt_reader *self, wt_input *input, const wt_read_
     }
 done:
     if (segment != NULL)
-        wt_properties_clear(&segment->header);
+        properties_clear(&segment->header);
     free(segment);
     jpk_file_close(&file);
     return status;
 }
 
-const wt_reader wt_reader_jpk = {
+const file_reader reader_jpk = {
     .info = {.id = "jpk",
              .title = "JPK force curves, maps and quantitative imaging (ZIP)",
              .kinds = WT_KIND_FORCE,

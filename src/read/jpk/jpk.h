@@ -59,7 +59,7 @@ typedef struct jpk_lcd {
 } jpk_lcd;
 
 /* Reads it from keys that start with `prefix`, e.g. "lcd-info.1.". */
-wt_status jpk_lcd_read(const wt_properties *properties, const char *prefix, jpk_lcd *lcd,
+wt_status jpk_lcd_read(const property_list *properties, const char *prefix, jpk_lcd *lcd,
                        wt_error *err);
 const jpk_slot *jpk_lcd_slot(const jpk_lcd *lcd, const char *name); /* NULL: none or not defined */
 /* Base value -> value of the slot, walking the slots down to the base; false if they do not lead
@@ -84,14 +84,14 @@ typedef struct jpk_cached_lcd {
 } jpk_cached_lcd;
 
 typedef struct jpk_file {
-    wt_archive *archive;
+    zip_archive *archive;
     const char *name;       /* of the input */
     wt_parselog *log;       /* borrowed, may be NULL */
     bool map;               /* curves stand in index/N/ */
-    wt_properties header;   /* header.properties; empty if missing */
-    wt_properties shared;   /* shared-data/header.properties; empty if missing */
-    wt_properties position; /* scratch: index/N/header.properties */
-    wt_buffer buffer;       /* scratch: unpacked entry */
+    property_list header;   /* header.properties; empty if missing */
+    property_list shared;   /* shared-data/header.properties; empty if missing */
+    property_list position; /* scratch: index/N/header.properties */
+    byte_buffer buffer;     /* scratch: unpacked entry */
     jpk_segment_ref *refs;  /* [n_refs] by curve, then segment */
     size_t n_refs;
     size_t n_curves;
@@ -122,7 +122,7 @@ typedef struct jpk_channel {
 } jpk_channel;
 
 typedef struct jpk_segment {
-    wt_properties header; /* reused from segment to segment */
+    property_list header; /* reused from segment to segment */
     jpk_channel channels[JPK_CHANNELS];
     size_t n_channels;
     wt_segment_kind kind;
@@ -159,7 +159,7 @@ wt_status jpk_uncalibrated(const jpk_calibration *calibration, wt_error *err);
 
 /* ---- curves: jpk_force.c ------------------------------------------------------------------ */
 
-wt_status jpk_open_force(const wt_reader *self, wt_input *input, const wt_read_options *options,
+wt_status jpk_open_force(const file_reader *self, wt_input *input, const wt_read_options *options,
                          wt_parselog *log, wt_force_source **source, wt_error *err);
 
 #endif

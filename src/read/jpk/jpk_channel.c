@@ -39,12 +39,12 @@ static bool one_of(const char *text, const char *const names[], size_t n)
            sizeof((const char *const[]){__VA_ARGS__}) / sizeof(char *))
 
 /* Files of version 0 keep type and encoder below "data.". */
-static const char *either(const wt_properties *properties, const char *prefix, const char *key)
+static const char *either(const property_list *properties, const char *prefix, const char *key)
 {
     char longer[128];
     snprintf(longer, sizeof longer, "data.%s", key);
-    const char *text = wt_properties_find(properties, prefix, longer);
-    return text != NULL ? text : wt_properties_find(properties, prefix, key);
+    const char *text = properties_find(properties, prefix, longer);
+    return text != NULL ? text : properties_find(properties, prefix, key);
 }
 
 static wt_status unsupported(wt_error *err, const char *what, const char *found)
@@ -54,7 +54,7 @@ static wt_status unsupported(wt_error *err, const char *what, const char *found)
     return WT_E_UNSUPPORTED;
 }
 
-static wt_status read_encoding(const wt_properties *properties, const char *prefix, jpk_lcd *lcd,
+static wt_status read_encoding(const property_list *properties, const char *prefix, jpk_lcd *lcd,
                                wt_error *err)
 {
     const char *type = either(properties, prefix, "type");
@@ -93,14 +93,14 @@ static bool copy_name(char *to, size_t size, const char *from)
 }
 
 /* "….scaling." keys: y = multiplier x + offset. */
-static wt_status read_scaling(const wt_properties *properties, const char *prefix,
+static wt_status read_scaling(const property_list *properties, const char *prefix,
                               jpk_linear *scaling, wt_error *err)
 {
-    const char *style = wt_properties_find(properties, prefix, "scaling.style");
+    const char *style = properties_find(properties, prefix, "scaling.style");
     if (style != NULL && strcmp(style, "offsetmultiplier") != 0)
         return unsupported(err, "scaling style", style);
-    scaling->multiplier = wt_properties_number(properties, prefix, "scaling.multiplier");
-    scaling->offset = wt_properties_number(properties, prefix, "scaling.offset");
+    scaling->multiplier = properties_number(properties, prefix, "scaling.multiplier");
+    scaling->offset = properties_number(properties, prefix, "scaling.offset");
     if (isnan(scaling->multiplier) || isnan(scaling->offset)) {
         wt_fail(err, WT_E_CORRUPT, "scaling without multiplier or offset");
         wt_error_found(err, "%sscaling", prefix);
@@ -109,21 +109,21 @@ static wt_status read_scaling(const wt_properties *properties, const char *prefi
     return WT_OK;
 }
 
-static wt_status read_encoder(const wt_properties *properties, const char *prefix, jpk_lcd *lcd,
+static wt_status read_encoder(const property_list *properties, const char *prefix, jpk_lcd *lcd,
                               wt_error *err)
 {
     static const char *const places[] = {"encoder.", "data.encoder."};
     char key[192];
     lcd->encoder = (jpk_linear){1, 0};
-    const char *unit = wt_properties_find(properties, prefix, "unit.unit");
+    const char *unit = properties_find(properties, prefix, "unit.unit");
     for (size_t i = 0; i < 2; i++) {
         snprintf(key, sizeof key, "%s%s", prefix, places[i]);
-        if (wt_properties_find(properties, key, "scaling.multiplier") == NULL)
+        if (properties_find(properties, key, "scaling.multiplier") == NULL)
             continue;
         wt_status status = read_scaling(properties, key, &lcd->encoder, err);
         if (status != WT_OK)
             return status;
-        const char *own = wt_properties_find(properties, key, "scaling.unit.unit");
+        const char *own = properties_find(properties, key, "scaling.unit.unit");
         unit = own != NULL ? own : unit;
         break;
     }
@@ -133,19 +133,19 @@ static wt_status read_encoder(const wt_properties *properties, const char *prefi
 }
 
 /* One calibration slot; those that the file does not define are left out. */
-static wt_status read_slot(const wt_properties *properties, const char *prefix, const char *name,
+static wt_status read_slot(const property_list *properties, const char *prefix, const char *name,
                            jpk_lcd *lcd, wt_error *err)
 {
     char key[192 + JPK_NAME];
     snprintf(key, sizeof key, "%sconversion-set.conversion.%s.", prefix, name);
-    const char *defined = wt_properties_find(properties, key, "defined");
+    const char *defined = properties_find(properties, key, "defined");
     if (defined == NULL || strcmp(defined, "true") != 0)
         return WT_OK;
     if (lcd->n_slots == JPK_SLOTS)
         return unsupported(err, "channel with so many calibration slots", name);
     jpk_slot *slot = &lcd->slots[lcd->n_slots];
-    const char *base = wt_properties_find(properties, key, "base-calibration-slot");
-    const char *unit = wt_properties_find(properties, key, "scaling.unit.unit");
+    const char *base = properties_find(properties, key, "base-calibration-slot");
+    const char *unit = properties_find(properties, key, "scaling.unit.unit");
     if (!copy_name(slot->name, sizeof slot->name, name) ||
         !copy_name(slot->base, sizeof slot->base, base) ||
         !copy_name(slot->unit, sizeof slot->unit, unit))
@@ -156,7 +156,7 @@ static wt_status read_slot(const wt_properties *properties, const char *prefix, 
     return status;
 }
 
-wt_status jpk_lcd_read(const wt_properties *properties, const char *prefix, jpk_lcd *lcd,
+wt_status jpk_lcd_read(const property_list *properties, const char *prefix, jpk_lcd *lcd,
                        wt_error *err)
 {
     *lcd = (jpk_lcd){0};
@@ -165,13 +165,13 @@ wt_status jpk_lcd_read(const wt_properties *properties, const char *prefix, jpk_
         status = read_encoder(properties, prefix, lcd, err);
     if (status != WT_OK)
         return status;
-    const char *base = wt_properties_find(properties, prefix, "conversion-set.conversions.base");
+    const char *base = properties_find(properties, prefix, "conversion-set.conversions.base");
     const char *preferred =
-        wt_properties_find(properties, prefix, "conversion-set.conversions.default");
+        properties_find(properties, prefix, "conversion-set.conversions.default");
     if (!copy_name(lcd->base, sizeof lcd->base, base) ||
         !copy_name(lcd->preferred, sizeof lcd->preferred, preferred != NULL ? preferred : base))
         return unsupported(err, "calibration slot", base);
-    const char *list = wt_properties_find(properties, prefix, "conversion-set.conversions.list");
+    const char *list = properties_find(properties, prefix, "conversion-set.conversions.list");
     while (list != NULL && *list != '\0') {
         char name[JPK_NAME];
         size_t n = strcspn(list, " ");
@@ -228,17 +228,17 @@ size_t jpk_decode(jpk_encoding encoding, jpk_linear scaling, const unsigned char
     const double m = scaling.multiplier, o = scaling.offset;
     switch (encoding) {
     case JPK_INT16:
-        DECODE(2, wt_signed16(wt_be16(b)));
+        DECODE(2, signed16(be16(b)));
     case JPK_UINT16:
-        DECODE(2, wt_be16(b));
+        DECODE(2, be16(b));
     case JPK_INT32:
-        DECODE(4, wt_signed32(wt_be32(b)));
+        DECODE(4, signed32(be32(b)));
     case JPK_UINT32:
-        DECODE(4, wt_be32(b));
+        DECODE(4, be32(b));
     case JPK_FLOAT32:
-        DECODE(4, wt_float32(wt_be32(b)));
+        DECODE(4, float32(be32(b)));
     case JPK_FLOAT64:
-        DECODE(8, wt_float64(wt_be64(b)));
+        DECODE(8, float64(be64(b)));
     case JPK_RASTER:
         for (size_t i = 0; i < n; i++)
             values[i] = m * (double)i + o;

@@ -57,12 +57,12 @@ static int by_place(const void *a, const void *b)
 
 static wt_status find_segments(jpk_file *file, wt_error *err)
 {
-    size_t count = wt_archive_count(file->archive);
+    size_t count = archive_count(file->archive);
     size_t capacity = 0;
     for (size_t i = 0; i < count; i++) {
         jpk_segment_ref ref = {.entry = i};
         bool map = false;
-        if (!parse_name(wt_archive_name(file->archive, i), &ref, &map))
+        if (!parse_name(archive_name(file->archive, i), &ref, &map))
             continue;
         if (file->n_refs == capacity) {
             capacity = capacity == 0 ? 16 : 2 * capacity;
@@ -85,7 +85,7 @@ static wt_status find_segments(jpk_file *file, wt_error *err)
         bool new_curve = i == 0 || file->refs[i].curve != file->refs[kept - 1].curve;
         if (!new_curve && file->refs[i].segment == file->refs[kept - 1].segment) {
             wt_parselog_add(file->log, WT_WARNING, file->name,
-                            wt_archive_name(file->archive, file->refs[i].entry),
+                            archive_name(file->archive, file->refs[i].entry),
                             "segment stands twice in the archive; the first is read");
             continue;
         }
@@ -97,23 +97,23 @@ static wt_status find_segments(jpk_file *file, wt_error *err)
 }
 
 /* A header that may be missing; then it is empty. */
-static wt_status read_header(jpk_file *file, const char *name, wt_properties *header, wt_error *err)
+static wt_status read_header(jpk_file *file, const char *name, property_list *header, wt_error *err)
 {
     size_t i = 0;
-    if (!wt_archive_find(file->archive, name, &i))
+    if (!archive_find(file->archive, name, &i))
         return WT_OK;
-    wt_status status = wt_archive_read(file->archive, i, JPK_HEADER_MAX, &file->buffer, err);
+    wt_status status = archive_read(file->archive, i, JPK_HEADER_MAX, &file->buffer, err);
     if (status == WT_OK)
-        status = wt_properties_parse(header, file->buffer.data, file->buffer.length, err);
+        status = properties_parse(header, file->buffer.data, file->buffer.length, err);
     if (status != WT_OK)
         wt_error_place(err, "%s", name);
     return status;
 }
 
 /* "force-scan-map.position-pattern.grid.": the prefix of a key of the root header. */
-static bool root_key(const wt_properties *header, const char *rest, char *key, size_t size)
+static bool root_key(const property_list *header, const char *rest, char *key, size_t size)
 {
-    const char *type = wt_properties_get(header, "type");
+    const char *type = properties_get(header, "type");
     if (type == NULL)
         return false;
     int n = snprintf(key, size, "%s.%s", type, rest);
@@ -125,25 +125,25 @@ static void read_grid(jpk_file *file)
     char key[192];
     if (!root_key(&file->header, "position-pattern.", key, sizeof key))
         return;
-    double columns = wt_properties_number(&file->header, key, "grid.ilength");
-    double rows = wt_properties_number(&file->header, key, "grid.jlength");
+    double columns = properties_number(&file->header, key, "grid.ilength");
+    double rows = properties_number(&file->header, key, "grid.jlength");
     if (columns >= 1 && columns <= 1e6 && rows >= 1 && rows <= 1e6) {
         file->columns = lround(columns);
         file->rows = lround(rows);
     }
-    const char *turns = wt_properties_find(&file->header, key, "back-and-forth");
+    const char *turns = properties_find(&file->header, key, "back-and-forth");
     file->back_and_forth = turns != NULL && strcmp(turns, "true") == 0;
     if (!root_key(&file->header, "indexes.", key, sizeof key))
         return;
-    double first = wt_properties_number(&file->header, key, "min");
-    double last = wt_properties_number(&file->header, key, "max");
+    double first = properties_number(&file->header, key, "min");
+    double last = properties_number(&file->header, key, "max");
     if (first >= 0 && last >= first && last < 1e9)
         file->n_expected = (size_t)(last - first) + 1;
 }
 
 static void note_oddities(const jpk_file *file)
 {
-    if (wt_archive_truncated(file->archive))
+    if (archive_truncated(file->archive))
         wt_parselog_add(file->log, WT_WARNING, file->name, NULL,
                         "the end of the archive is missing; read as far as it goes");
     if (file->header.n == 0)
@@ -157,7 +157,7 @@ static void note_oddities(const jpk_file *file)
 wt_status jpk_file_open(wt_input *input, wt_parselog *log, jpk_file *file, wt_error *err)
 {
     *file = (jpk_file){.log = log, .name = wt_input_name(input)};
-    wt_status status = wt_archive_open(input, &file->archive, err);
+    wt_status status = archive_open(input, &file->archive, err);
     if (status == WT_OK)
         status = find_segments(file, err);
     if (status == WT_OK)
@@ -176,10 +176,10 @@ wt_status jpk_file_open(wt_input *input, wt_parselog *log, jpk_file *file, wt_er
 
 void jpk_file_close(jpk_file *file)
 {
-    wt_archive_close(file->archive);
-    wt_properties_clear(&file->header);
-    wt_properties_clear(&file->shared);
-    wt_properties_clear(&file->position);
+    archive_close(file->archive);
+    properties_clear(&file->header);
+    properties_clear(&file->shared);
+    properties_clear(&file->position);
     free(file->buffer.data);
     free(file->refs);
     free(file->lcds);
@@ -204,7 +204,7 @@ static void find_place(const jpk_file *file, size_t number, wt_force_curve *curv
 void jpk_file_position(jpk_file *file, size_t ref, wt_force_curve *curve)
 {
     size_t number = file->refs[ref].curve;
-    const wt_properties *header = &file->header;
+    const property_list *header = &file->header;
     char key[192];
     curve->x = (double)NAN;
     curve->y = (double)NAN;
@@ -219,9 +219,9 @@ void jpk_file_position(jpk_file *file, size_t ref, wt_force_curve *curve)
                             "header of a curve cannot be read: its position is unknown");
     }
     if (root_key(header, "header.", key, sizeof key)) {
-        curve->x = wt_properties_number(header, key, "position.x");
-        curve->y = wt_properties_number(header, key, "position.y");
-        double place = wt_properties_number(header, key, "position-index");
+        curve->x = properties_number(header, key, "position.x");
+        curve->y = properties_number(header, key, "position.y");
+        double place = properties_number(header, key, "position-index");
         if (place >= 0 && place < 1e9)
             number = (size_t)place;
     }

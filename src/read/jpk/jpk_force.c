@@ -112,7 +112,7 @@ static wt_status fill(jpk_source *source, const output *o, double start, size_t 
                       const char *place, wt_channel *column, const output *loaded, wt_error *err)
 {
     const jpk_segment *segment = &source->segment;
-    wt_buffer *buffer = &source->file.buffer;
+    byte_buffer *buffer = &source->file.buffer;
     column->quantity = o->quantity;
     snprintf(column->name, sizeof column->name, "%s",
              o->channel != NULL ? o->channel->name : "time");
@@ -129,9 +129,9 @@ static wt_status fill(jpk_source *source, const output *o, double start, size_t 
     bool again = loaded != NULL && loaded->channel == o->channel;
     if (lcd->encoding != JPK_RASTER && !again) {
         size_t size = 0;
-        wt_status status = wt_archive_size(source->file.archive, o->channel->entry, &size, err);
+        wt_status status = archive_size(source->file.archive, o->channel->entry, &size, err);
         if (status == WT_OK)
-            status = wt_archive_read(source->file.archive, o->channel->entry, size, buffer, err);
+            status = archive_read(source->file.archive, o->channel->entry, size, buffer, err);
         if (status != WT_OK)
             return status;
     }
@@ -149,7 +149,7 @@ static wt_status add_segment(jpk_source *source, const jpk_segment_ref *ref, dou
     output outputs[N_QUANTITIES];
     size_t n = 0;
     jpk_calibration calibration = {.cantilever = {(double)NAN, (double)NAN, false, false}};
-    const char *place = wt_archive_name(source->file.archive, ref->entry);
+    const char *place = archive_name(source->file.archive, ref->entry);
     const jpk_channel *deflection = jpk_segment_channel(segment, "vDeflection");
     if (deflection != NULL && deflection->understood) {
         jpk_calibrate(&deflection->lcd, &source->options, &calibration);
@@ -202,16 +202,16 @@ static wt_status read_curve(jpk_source *source, size_t first, size_t end, wt_for
         wt_status status = jpk_segment_read(file, ref, &source->segment, err);
         if (status == WT_OK && segment_wanted(&source->options, source->segment.kind))
             status = add_segment(source, ref, start, curve, err);
-        if (status == WT_E_CORRUPT && wt_archive_truncated(file->archive) && before > 0) {
+        if (status == WT_E_CORRUPT && archive_truncated(file->archive) && before > 0) {
             curve->n_segments = before;
             wt_parselog_add(file->log, WT_WARNING, file->name,
-                            wt_archive_name(file->archive, ref->entry),
+                            archive_name(file->archive, ref->entry),
                             "last curve ends early: incomplete segment left out");
             return WT_OK;
         }
         if (status != WT_OK) {
             if (err != NULL && err->place[0] == '\0')
-                wt_error_place(err, "%s", wt_archive_name(file->archive, ref->entry));
+                wt_error_place(err, "%s", archive_name(file->archive, ref->entry));
             return status;
         }
         start += source->segment.duration;
@@ -244,12 +244,12 @@ static wt_status next_curve(wt_force_source *base, wt_force_curve *curve, wt_err
 static void close_source(wt_force_source *base)
 {
     jpk_source *source = (jpk_source *)base;
-    wt_properties_clear(&source->segment.header);
+    properties_clear(&source->segment.header);
     jpk_file_close(&source->file);
     free(source);
 }
 
-wt_status jpk_open_force(const wt_reader *self, wt_input *input, const wt_read_options *options,
+wt_status jpk_open_force(const file_reader *self, wt_input *input, const wt_read_options *options,
                          wt_parselog *log, wt_force_source **source, wt_error *err)
 {
     (void)self;

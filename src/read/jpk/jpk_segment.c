@@ -23,17 +23,17 @@ static bool reference(const char *text, long *number)
 /* A key of the segment header: its own, or that of the shared header that it points to. */
 static const char *segment_key(const jpk_file *file, const jpk_segment *segment, const char *key)
 {
-    const char *own = wt_properties_find(&segment->header, "force-segment-header.", key);
+    const char *own = properties_find(&segment->header, "force-segment-header.", key);
     if (own != NULL)
         return own;
     long n = 0;
     if (!reference(
-            wt_properties_get(&segment->header, "force-segment-header.force-segment-header-info.*"),
+            properties_get(&segment->header, "force-segment-header.force-segment-header-info.*"),
             &n))
         return NULL;
     char prefix[64];
     snprintf(prefix, sizeof prefix, "force-segment-header-info.%ld.", n);
-    return wt_properties_find(&file->shared, prefix, key);
+    return properties_find(&file->shared, prefix, key);
 }
 
 static double segment_number(const jpk_file *file, const jpk_segment *segment, const char *key)
@@ -120,7 +120,7 @@ static wt_status shared_lcd(jpk_file *file, long id, const jpk_lcd **lcd, wt_err
 static wt_status read_lcd(jpk_file *file, const jpk_segment *segment, const char *prefix,
                           jpk_lcd *lcd, wt_error *err)
 {
-    const char *text = wt_properties_find(&segment->header, prefix, "lcd-info.*");
+    const char *text = properties_find(&segment->header, prefix, "lcd-info.*");
     long id = 0;
     if (text == NULL)
         return jpk_lcd_read(&segment->header, prefix, lcd, err);
@@ -141,11 +141,11 @@ static wt_status find_data(const jpk_file *file, const jpk_segment *segment, con
                            const char *folder, jpk_channel *channel, wt_error *err)
 {
     char name[512];
-    double announced = wt_properties_number(&segment->header, prefix, "data.num-points");
+    double announced = properties_number(&segment->header, prefix, "data.num-points");
     size_t n = announced >= 0 && announced < 4e9 ? (size_t)announced : 0;
     if (channel->lcd.encoding == JPK_RASTER) {
-        double start = wt_properties_number(&segment->header, prefix, "data.start");
-        double step = wt_properties_number(&segment->header, prefix, "data.step");
+        double start = properties_number(&segment->header, prefix, "data.start");
+        double step = properties_number(&segment->header, prefix, "data.step");
         channel->n_points = n;
         channel->raster = (jpk_linear){step, start};
         if (isnan(start) || isnan(step)) {
@@ -155,13 +155,13 @@ static wt_status find_data(const jpk_file *file, const jpk_segment *segment, con
         }
         return WT_OK;
     }
-    const char *path = wt_properties_find(&segment->header, prefix, "data.file.name");
+    const char *path = properties_find(&segment->header, prefix, "data.file.name");
     int length = snprintf(name, sizeof name, "%s%s", folder, path != NULL ? path : "");
     if (path == NULL || length < 0 || (size_t)length >= sizeof name ||
-        !wt_archive_find(file->archive, name, &channel->entry))
+        !archive_find(file->archive, name, &channel->entry))
         return WT_OK;
     size_t size = 0;
-    wt_status status = wt_archive_size(file->archive, channel->entry, &size, err);
+    wt_status status = archive_size(file->archive, channel->entry, &size, err);
     if (status != WT_OK)
         return status;
     size_t held = size / jpk_encoding_width(channel->lcd.encoding);
@@ -190,7 +190,7 @@ static wt_status read_channel(jpk_file *file, jpk_segment *segment, const char *
 static wt_status read_channels(jpk_file *file, jpk_segment *segment, const char *folder,
                                wt_error *err)
 {
-    const char *list = wt_properties_get(&segment->header, "channels.list");
+    const char *list = properties_get(&segment->header, "channels.list");
     segment->n_channels = 0;
     while (list != NULL && *list != '\0') {
         size_t n = strcspn(list, " ");
@@ -238,8 +238,7 @@ static void common_length(const jpk_file *file, jpk_segment *segment, const char
             shortest = c->n_points;
     }
     segment->n_points = shortest;
-    double announced =
-        wt_properties_number(&segment->header, "force-segment-header.", "num-points");
+    double announced = properties_number(&segment->header, "force-segment-header.", "num-points");
     bool cut = announced > (double)shortest || longest > shortest;
     segment->incomplete = segment->incomplete || cut;
     if (shortest > 0 && cut)
@@ -251,10 +250,9 @@ wt_status jpk_segment_read(jpk_file *file, const jpk_segment_ref *ref, jpk_segme
                            wt_error *err)
 {
     char folder[128];
-    wt_status status =
-        wt_archive_read(file->archive, ref->entry, JPK_HEADER_MAX, &file->buffer, err);
+    wt_status status = archive_read(file->archive, ref->entry, JPK_HEADER_MAX, &file->buffer, err);
     if (status == WT_OK)
-        status = wt_properties_parse(&segment->header, file->buffer.data, file->buffer.length, err);
+        status = properties_parse(&segment->header, file->buffer.data, file->buffer.length, err);
     if (file->map)
         snprintf(folder, sizeof folder, "index/%zu/segments/%zu/", ref->curve, ref->segment);
     else

@@ -166,7 +166,7 @@ static bool word(parser *p, bool key)
 
 static int by_key(const void *a, const void *b)
 {
-    const wt_property *x = a, *y = b;
+    const property_entry *x = a, *y = b;
     int order = strcmp(x->key, y->key);
     if (order != 0)
         return order;
@@ -174,7 +174,7 @@ static int by_key(const void *a, const void *b)
     return x->key < y->key ? -1 : x->key > y->key;
 }
 
-static wt_status reserve(wt_properties *p, size_t length, wt_error *err)
+static wt_status reserve(property_list *p, size_t length, wt_error *err)
 {
     if (length > SIZE_MAX / 64)
         return wt_fail(err, WT_E_RANGE, "header too large");
@@ -189,7 +189,7 @@ static wt_status reserve(wt_properties *p, size_t length, wt_error *err)
         p->text_capacity = text;
     }
     if (items > p->capacity) {
-        wt_property *grown = realloc(p->items, items * sizeof *grown);
+        property_entry *grown = realloc(p->items, items * sizeof *grown);
         if (grown == NULL)
             return wt_fail(err, WT_E_MEMORY, "no memory for a header");
         p->items = grown;
@@ -198,7 +198,7 @@ static wt_status reserve(wt_properties *p, size_t length, wt_error *err)
     return WT_OK;
 }
 
-static void sort(wt_properties *p)
+static void sort(property_list *p)
 {
     if (p->n < 2)
         return;
@@ -212,8 +212,8 @@ static void sort(wt_properties *p)
     p->n = kept;
 }
 
-wt_status wt_properties_parse(wt_properties *properties, const unsigned char *bytes, size_t length,
-                              wt_error *err)
+wt_status properties_parse(property_list *properties, const unsigned char *bytes, size_t length,
+                           wt_error *err)
 {
     properties->n = 0;
     wt_status status = reserve(properties, length, err);
@@ -233,7 +233,7 @@ wt_status wt_properties_parse(wt_properties *properties, const unsigned char *by
                 p.at++;
             continue;
         }
-        wt_property item = {.key = p.out};
+        property_entry item = {.key = p.out};
         size_t line = p.line;
         bool good = word(&p, true);
         if (good) {
@@ -258,38 +258,37 @@ wt_status wt_properties_parse(wt_properties *properties, const unsigned char *by
     return WT_OK;
 }
 
-void wt_properties_clear(wt_properties *properties)
+void properties_clear(property_list *properties)
 {
     free(properties->items);
     free(properties->text);
-    *properties = (wt_properties){0};
+    *properties = (property_list){0};
 }
 
 static int key_of(const void *key, const void *item)
 {
-    return strcmp(key, ((const wt_property *)item)->key);
+    return strcmp(key, ((const property_entry *)item)->key);
 }
 
-const char *wt_properties_get(const wt_properties *properties, const char *key)
+const char *properties_get(const property_list *properties, const char *key)
 {
     if (properties->n == 0)
         return NULL;
-    const wt_property *found =
+    const property_entry *found =
         bsearch(key, properties->items, properties->n, sizeof *properties->items, key_of);
     return found != NULL ? found->value : NULL;
 }
 
-const char *wt_properties_find(const wt_properties *properties, const char *prefix,
-                               const char *suffix)
+const char *properties_find(const property_list *properties, const char *prefix, const char *suffix)
 {
     char key[KEY_MAX];
     int n = snprintf(key, sizeof key, "%s%s", prefix, suffix);
-    return n < 0 || (size_t)n >= sizeof key ? NULL : wt_properties_get(properties, key);
+    return n < 0 || (size_t)n >= sizeof key ? NULL : properties_get(properties, key);
 }
 
-double wt_properties_number(const wt_properties *properties, const char *prefix, const char *suffix)
+double properties_number(const property_list *properties, const char *prefix, const char *suffix)
 {
-    const char *text = wt_properties_find(properties, prefix, suffix);
+    const char *text = properties_find(properties, prefix, suffix);
     double value = (double)NAN;
     if (text == NULL || !wt_number_parse(text, strlen(text), '.', &value))
         return (double)NAN;

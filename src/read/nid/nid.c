@@ -8,22 +8,22 @@
 #include <math.h>
 #include <string.h>
 
-static wt_match detect(const wt_reader *self, const wt_peek *peek)
+static detector_match detect(const file_reader *self, const file_peek *peek)
 {
     static const char first[] = "[DataSet]";
     (void)self;
-    wt_match match = {.answer = WT_ANSWER_NO};
+    detector_match match = {.answer = ANSWER_NO};
     if (peek->length < sizeof first - 1 || memcmp(peek->bytes, first, sizeof first - 1) != 0)
         return match;
     if (memmem(peek->bytes, peek->length, "GroupCount=", 11) == NULL) {
-        match.answer = peek->whole ? WT_ANSWER_NO : WT_ANSWER_MORE;
+        match.answer = peek->whole ? ANSWER_NO : ANSWER_MORE;
     } else if (memmem(peek->bytes, peek->length, "\n#!", 3) != NULL) {
-        match.answer = WT_ANSWER_YES;
+        match.answer = ANSWER_YES;
         match.score = 95;
     } else if (!peek->whole) {
-        match.answer = WT_ANSWER_MORE;
+        match.answer = ANSWER_MORE;
     } else {
-        match.answer = WT_ANSWER_UNSUPPORTED;
+        match.answer = ANSWER_UNSUPPORTED;
         snprintf(match.reason, sizeof match.reason,
                  "the header of a Nanosurf file without its data");
     }
@@ -37,7 +37,7 @@ static wt_status add_text(const nid_header *header, const char *item, const char
     const char *text = nid_get(header, section, key);
     if (text == NULL || *text == '\0')
         return WT_OK;
-    return wt_facts_add(facts, item, text, "", key, err);
+    return facts_add(facts, item, text, "", key, err);
 }
 
 static wt_status add_identity(const nid_file *file, wt_table *facts, wt_error *err)
@@ -52,9 +52,8 @@ static wt_status add_identity(const nid_file *file, wt_table *facts, wt_error *e
                  {"cantilever", "DataSet-Info", "Cantilever type"},
                  {"date (day-month-year)", "DataSet-Info", "Date"},
                  {"time", "DataSet-Info", "Time"}};
-    wt_status status =
-        wt_facts_add(facts, "text encoding", file->header.latin1 ? "Latin-1" : "UTF-8", "",
-                     "the bytes of the header", err);
+    wt_status status = facts_add(facts, "text encoding", file->header.latin1 ? "Latin-1" : "UTF-8",
+                                 "", "the bytes of the header", err);
     for (size_t i = 0; i < sizeof known / sizeof *known && status == WT_OK; i++)
         status = add_text(&file->header, known[i].item, known[i].section, known[i].key, facts, err);
     return status;
@@ -69,7 +68,7 @@ static wt_status add_channels(const nid_file *file, wt_table *facts, wt_error *e
         snprintf(item, sizeof item, "%s: %s", c->group_name, c->name);
         snprintf(value, sizeof value, "%zu x %zu %s, %u bits", c->points, c->lines,
                  nid_is_spectroscopy(c) ? "samples x curves" : "points x lines", c->bits);
-        status = wt_facts_add(facts, item, value, c->unit, c->section, err);
+        status = facts_add(facts, item, value, c->unit, c->section, err);
     }
     return status;
 }
@@ -78,12 +77,12 @@ static wt_status add_calibration(const nid_spectroscopy *s, const wt_read_option
                                  wt_table *facts, wt_error *err)
 {
     bool k_given = !isnan(options->spring_constant), s_given = !isnan(options->sensitivity);
-    wt_status status = wt_facts_number(
-        facts, "spring constant",
-        k_given ? options->spring_constant : s->file_cantilever.spring_constant, "N/m",
-        k_given ? "given by the user" : "Calibration\\Cantilever, Prop0", err);
+    wt_status status =
+        facts_number(facts, "spring constant",
+                     k_given ? options->spring_constant : s->file_cantilever.spring_constant, "N/m",
+                     k_given ? "given by the user" : "Calibration\\Cantilever, Prop0", err);
     if (status == WT_OK)
-        status = wt_facts_number(
+        status = facts_number(
             facts, "deflection sensitivity",
             s_given ? options->sensitivity : s->file_cantilever.sensitivity, "m/V",
             s_given ? "given by the user" : "Calibration\\Scanhead, TipSignalDC / TipSignalDC1",
@@ -95,10 +94,10 @@ static wt_status add_curves(const nid_spectroscopy *s, const wt_read_options *op
                             wt_table *facts, wt_error *err)
 {
     char item[64], value[128];
-    wt_status status = wt_facts_count(facts, "curves", s->n_curves, "Lines", err);
+    wt_status status = facts_count(facts, "curves", s->n_curves, "Lines", err);
     if (status == WT_OK && s->columns > 0) {
         snprintf(value, sizeof value, "%ld x %ld, back and forth", s->columns, s->rows);
-        status = wt_facts_add(facts, "grid", value, "", "SpecMapTable", err);
+        status = facts_add(facts, "grid", value, "", "SpecMapTable", err);
     }
     for (size_t p = 0; p < NID_PHASES && status == WT_OK; p++) {
         const nid_phase *phase = &s->phases[p];
@@ -110,24 +109,24 @@ static wt_status add_curves(const nid_spectroscopy *s, const wt_read_options *op
                  phase->bending != NULL  ? phase->bending->points
                  : phase->sensor != NULL ? phase->sensor->points
                                          : phase->z->points);
-        status = wt_facts_add(facts, item, value, "", "", err);
+        status = facts_add(facts, item, value, "", "", err);
         if (status == WT_OK && phase->bending == NULL)
-            status = wt_facts_add(facts, "missing", "no channel Deflection in m, N or V", "",
-                                  phase->group, err);
+            status = facts_add(facts, "missing", "no channel Deflection in m, N or V", "",
+                               phase->group, err);
         if (status == WT_OK && phase->z == NULL && phase->sensor == NULL)
-            status = wt_facts_add(facts, "missing", "no channel Z-Axis or Z-Axis Sensor in m", "",
-                                  phase->group, err);
+            status = facts_add(facts, "missing", "no channel Z-Axis or Z-Axis Sensor in m", "",
+                               phase->group, err);
     }
     if (status == WT_OK)
         status = add_calibration(s, options, facts, err);
     if (status == WT_OK)
-        status = wt_facts_add(facts, "odd",
-                              "force curves of this format were not verified on a genuine file", "",
-                              "", err);
+        status = facts_add(facts, "odd",
+                           "force curves of this format were not verified on a genuine file", "",
+                           "", err);
     return status;
 }
 
-static wt_status describe(const wt_reader *self, wt_input *input, const wt_read_options *options,
+static wt_status describe(const file_reader *self, wt_input *input, const wt_read_options *options,
                           wt_parselog *log, wt_table *facts, wt_error *err)
 {
     (void)self;
@@ -146,7 +145,7 @@ static wt_status describe(const wt_reader *self, wt_input *input, const wt_read_
     return status;
 }
 
-const wt_reader wt_reader_nid = {
+const file_reader reader_nid = {
     .info = {.id = "nid",
              .title = "Nanosurf images, spectra and force curves (.nid)",
              .kinds = WT_KIND_FORCE | WT_KIND_IMAGE,

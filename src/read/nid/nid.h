@@ -76,7 +76,7 @@ void nid_decode(const nid_file *file, const nid_channel *channel, size_t line, s
                 double factor, double offset, double *values);
 /* The SI unit for an exported one, "" with factor 1 if it is none of the units known here. */
 const char *nid_si_unit(const char *unit, double *factor, double *offset);
-wt_status nid_read_images(const wt_reader *self, wt_input *input, const wt_read_options *options,
+wt_status nid_read_images(const file_reader *self, wt_input *input, const wt_read_options *options,
                           wt_parselog *log, wt_image **images, size_t *n_images, wt_error *err);
 
 /* ---- force curves: nid_force.c ------------------------------------------------------------ */
@@ -103,7 +103,7 @@ typedef struct nid_spectroscopy {
 /* WT_E_EMPTY if there are no curves. */
 wt_status nid_spectroscopy_find(const nid_file *file, nid_spectroscopy *spectroscopy,
                                 wt_error *err);
-wt_status nid_open_force(const wt_reader *self, wt_input *input, const wt_read_options *options,
+wt_status nid_open_force(const file_reader *self, wt_input *input, const wt_read_options *options,
                          wt_parselog *log, wt_force_source **source, wt_error *err);
 
 /* ---- where the curves are: nid_position.c ------------------------------------------------- */

@@ -166,7 +166,7 @@ void nid_decode(const nid_file *file, const nid_channel *c, size_t line, size_t 
     const unsigned char *b = file->bytes + c->offset + line * c->points * width;
     double half = ldexp(1.0, (int)c->bits - 1), whole = ldexp(1.0, (int)c->bits);
     for (size_t i = 0; i < n; i++, b += width) {
-        double raw = width == 2 ? (double)wt_signed16(wt_le16(b)) : (double)wt_signed32(wt_le32(b));
+        double raw = width == 2 ? (double)signed16(le16(b)) : (double)signed32(le32(b));
         double value = factor * (c->minimum + c->range * ((raw + half) / whole)) + offset;
         /* Only a range beyond all sense overflows: then nothing is known. */
         values[i] = isfinite(value) ? value : (double)NAN;
@@ -240,7 +240,7 @@ static wt_status read_image(const nid_file *file, const nid_channel *c, wt_parse
     return WT_OK;
 }
 
-wt_status nid_read_images(const wt_reader *self, wt_input *input, const wt_read_options *options,
+wt_status nid_read_images(const file_reader *self, wt_input *input, const wt_read_options *options,
                           wt_parselog *log, wt_image **images, size_t *n_images, wt_error *err)
 {
     (void)self;

@@ -367,7 +367,7 @@ static void close_source(wt_force_source *base)
     free(source);
 }
 
-wt_status nid_open_force(const wt_reader *self, wt_input *input, const wt_read_options *options,
+wt_status nid_open_force(const file_reader *self, wt_input *input, const wt_read_options *options,
                          wt_parselog *log, wt_force_source **source, wt_error *err)
 {
     (void)self;

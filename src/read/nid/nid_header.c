@@ -102,7 +102,7 @@ wt_status nid_header_read(const unsigned char *bytes, size_t length, nid_header 
     size_t n = (size_t)(end - bytes) + 1;
     if (memchr(bytes, '\0', n) != NULL)
         return wt_fail(err, WT_E_CORRUPT, "the header holds zero bytes");
-    header->latin1 = wt_utf8_check((const char *)bytes, n) < n;
+    header->latin1 = utf8_check((const char *)bytes, n) < n;
     header->data = n + 2;
     header->text = to_utf8(bytes, n, header->latin1);
     wt_status status = header->text != NULL ? parse(header, err)

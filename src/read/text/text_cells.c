@@ -15,7 +15,7 @@
 /* Instruments write 1e99 or more for "no value"; no quantity of this field comes near. */
 static const double no_value = 1e99;
 
-const char *wt_separator_name(wt_separator separator)
+const char *separator_name(cell_separator separator)
 {
     static const char *const names[] = {"auto",  "tab",        "semicolon",
                                         "comma", "whitespace", "fixed columns"};
@@ -27,7 +27,7 @@ static bool is_blank(char c)
     return c == ' ' || (c >= '\t' && c <= '\r') || c == '\0';
 }
 
-static void trim(wt_cell *cell)
+static void trim(text_cell *cell)
 {
     while (cell->length > 0 && is_blank(cell->text[0])) {
         cell->text++;
@@ -37,19 +37,19 @@ static void trim(wt_cell *cell)
         cell->length--;
 }
 
-static bool append(wt_cells *cells, const char *text, size_t length)
+static bool append(text_cells *cells, const char *text, size_t length)
 {
     if (cells->n == cells->capacity) {
         size_t capacity = cells->capacity > 0 ? 2 * cells->capacity : 32;
         if (capacity > SIZE_MAX / sizeof *cells->cells)
             return false;
-        wt_cell *grown = realloc(cells->cells, capacity * sizeof *grown);
+        text_cell *grown = realloc(cells->cells, capacity * sizeof *grown);
         if (grown == NULL)
             return false;
         cells->cells = grown;
         cells->capacity = capacity;
     }
-    wt_cell cell = {text, length};
+    text_cell cell = {text, length};
     trim(&cell);
     if (cell.length >= 2 && cell.text[0] == '"' && cell.text[cell.length - 1] == '"') {
         cell.text++;
@@ -81,7 +81,7 @@ static size_t cell_end(const char *line, size_t from, size_t length, char mark)
     return end != NULL ? (size_t)(end - line) : length;
 }
 
-static bool split_at(wt_cells *cells, const char *line, size_t length, char mark)
+static bool split_at(text_cells *cells, const char *line, size_t length, char mark)
 {
     for (size_t from = 0;;) {
         size_t end = cell_end(line, from, length, mark);
@@ -93,7 +93,7 @@ static bool split_at(wt_cells *cells, const char *line, size_t length, char mark
     }
 }
 
-static bool split_whitespace(wt_cells *cells, const char *line, size_t length)
+static bool split_whitespace(text_cells *cells, const char *line, size_t length)
 {
     for (size_t i = 0; i < length;) {
         while (i < length && is_blank(line[i]))
@@ -108,7 +108,8 @@ static bool split_whitespace(wt_cells *cells, const char *line, size_t length)
 }
 
 /* Widths count characters, not bytes. */
-static bool split_fixed(wt_cells *cells, const char *line, size_t length, const wt_description *d)
+static bool split_fixed(text_cells *cells, const char *line, size_t length,
+                        const text_description *d)
 {
     size_t column = 0;
     for (size_t i = 0; i < length;) {
@@ -126,25 +127,25 @@ static bool split_fixed(wt_cells *cells, const char *line, size_t length, const 
     return true;
 }
 
-bool wt_cells_split(wt_cells *cells, const char *line, size_t length, wt_separator separator,
-                    const wt_description *description)
+bool cells_split(text_cells *cells, const char *line, size_t length, cell_separator separator,
+                 const text_description *description)
 {
     cells->n = 0;
     switch (separator) {
-    case WT_SEPARATOR_TAB:
+    case SEPARATOR_TAB:
         return split_at(cells, line, length, '\t');
-    case WT_SEPARATOR_SEMICOLON:
+    case SEPARATOR_SEMICOLON:
         return split_at(cells, line, length, ';');
-    case WT_SEPARATOR_COMMA:
+    case SEPARATOR_COMMA:
         return split_at(cells, line, length, ',');
-    case WT_SEPARATOR_FIXED:
+    case SEPARATOR_FIXED:
         return split_fixed(cells, line, length, description);
     default:
         return split_whitespace(cells, line, length);
     }
 }
 
-bool wt_cells_blank(const wt_cells *cells)
+bool cells_blank(const text_cells *cells)
 {
     for (size_t i = 0; i < cells->n; i++)
         if (cells->cells[i].length > 0)
@@ -152,7 +153,7 @@ bool wt_cells_blank(const wt_cells *cells)
     return true;
 }
 
-static bool is_missing(wt_cell cell, const wt_description *d)
+static bool is_missing(text_cell cell, const text_description *d)
 {
     static const char *const usual[] = {"-",       "--",     "---",    "nan",  "n/a",
                                         "na",      "inf",    "-inf",   "+inf", "#n/a",
@@ -169,38 +170,38 @@ static bool is_missing(wt_cell cell, const wt_description *d)
     return false;
 }
 
-wt_cell_is wt_cell_read(wt_cell cell, char decimal, const wt_description *description,
-                        double *value)
+cell_kind cell_read(text_cell cell, char decimal, const text_description *description,
+                    double *value)
 {
     *value = (double)NAN;
     if (cell.length > 0 && wt_number_parse(cell.text, cell.length, decimal, value)) {
         if (!(fabs(*value) < no_value))
             *value = (double)NAN;
         else if (description->n_missing == 0 || !is_missing(cell, description))
-            return WT_CELL_NUMBER;
+            return CELL_NUMBER;
         *value = (double)NAN;
-        return WT_CELL_MISSING;
+        return CELL_MISSING;
     }
-    return is_missing(cell, description) ? WT_CELL_MISSING : WT_CELL_TEXT;
+    return is_missing(cell, description) ? CELL_MISSING : CELL_TEXT;
 }
 
-void wt_text_copy(char *to, size_t size, const char *text, size_t length)
+void text_copy(char *to, size_t size, const char *text, size_t length)
 {
-    const size_t n = wt_utf8_cut(text, length, size - 1);
+    const size_t n = utf8_cut(text, length, size - 1);
     memcpy(to, text, n);
     to[n] = '\0';
-    wt_utf8_tidy(to);
+    utf8_tidy(to);
 }
 
-void wt_cells_count_marks(const wt_cells *cells, size_t *commas, size_t *points)
+void cells_count_marks(const text_cells *cells, size_t *commas, size_t *points)
 {
     for (size_t i = 0; i < cells->n; i++) {
-        const wt_cell cell = cells->cells[i];
+        const text_cell cell = cells->cells[i];
         const char *comma = memchr(cell.text, ',', cell.length);
         const char *point = memchr(cell.text, '.', cell.length);
         if (comma != NULL && point == NULL)
-            *commas += wt_number_prefix(cell.text, cell.length, ',') == cell.length;
+            *commas += number_prefix(cell.text, cell.length, ',') == cell.length;
         else if (point != NULL && comma == NULL)
-            *points += wt_number_prefix(cell.text, cell.length, '.') == cell.length;
+            *points += number_prefix(cell.text, cell.length, '.') == cell.length;
     }
 }

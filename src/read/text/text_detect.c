@@ -12,7 +12,7 @@
 typedef enum probe_is { PROBE_NOT_FOUND, PROBE_FOUND, PROBE_MORE } probe_is;
 
 /* A file with these bytes is not text in any encoding. */
-static bool is_binary(const wt_peek *peek)
+static bool is_binary(const file_peek *peek)
 {
     const size_t n = peek->length < 1024 ? peek->length : 1024;
     size_t zeros = 0, controls = 0;
@@ -25,11 +25,11 @@ static bool is_binary(const wt_peek *peek)
     return 10 * zeros > 6 * n || 20 * controls > n;
 }
 
-static bool names_line(wt_names *names, const wt_description *d, const char *line, size_t length)
+static bool names_line(name_set *names, const text_description *d, const char *line, size_t length)
 {
     if (d->has_names_line) {
         regmatch_t groups[2] = {{-1, -1}, {-1, -1}};
-        if (!wt_pattern_match(&d->names_line, line, length, groups, 2) || groups[1].rm_so < 0)
+        if (!pattern_match(&d->names_line, line, length, groups, 2) || groups[1].rm_so < 0)
             return false;
         line += groups[1].rm_so;
         length = (size_t)(groups[1].rm_eo - groups[1].rm_so);
@@ -37,36 +37,36 @@ static bool names_line(wt_names *names, const wt_description *d, const char *lin
         line += strlen(d->comment);
         length -= strlen(d->comment);
     }
-    return wt_names_match(names, d, line, length, d->names_separator, d->kinds);
+    return names_match(names, d, line, length, d->names_separator, d->kinds);
 }
 
-static probe_is look_for(const wt_description *d, const wt_probe *probe, const wt_lines *lines,
-                         bool whole)
+static probe_is look_for(const text_description *d, const text_probe *probe,
+                         const text_lines *lines, bool whole)
 {
     /* The last line of a part of a file may be half a line. */
     const size_t complete = whole || lines->n == 0 ? lines->n : lines->n - 1;
-    wt_names names = {.separator = WT_SEPARATOR_AUTO};
+    name_set names = {.separator = SEPARATOR_AUTO};
     bool found = false;
     for (size_t i = 0; i < complete && i < probe->within && !found; i++) {
         size_t length;
-        const char *line = wt_lines_get(lines, i, &length);
-        if (probe->kind == WT_PROBE_NAMES)
+        const char *line = lines_get(lines, i, &length);
+        if (probe->kind == PROBE_NAMES)
             found = names_line(&names, d, line, length);
         else if (probe->text != NULL)
             found = strstr(line, probe->text) != NULL;
         else
-            found = wt_pattern_match(&probe->pattern, line, length, NULL, 0);
+            found = pattern_match(&probe->pattern, line, length, NULL, 0);
     }
-    wt_names_free(&names);
+    names_free(&names);
     if (found)
         return PROBE_FOUND;
     return whole || complete >= probe->within ? PROBE_NOT_FOUND : PROBE_MORE;
 }
 
-wt_match wt_text_detect(const wt_description *d, const wt_peek *peek)
+detector_match text_detect(const text_description *d, const file_peek *peek)
 {
-    wt_match match = {.answer = WT_ANSWER_NO};
-    wt_lines lines = {.n = 0};
+    detector_match match = {.answer = ANSWER_NO};
+    text_lines lines = {.n = 0};
     bool more = false;
     const bool whole = peek->whole || peek->length >= PEEK_MAX;
     /* Up to a line end, so that no character is cut in two. */
@@ -75,35 +75,35 @@ wt_match wt_text_detect(const wt_description *d, const wt_peek *peek)
            peek->bytes[length - 1] != '\r')
         length--;
     if (peek->length == 0 || is_binary(peek) ||
-        wt_lines_decode(peek->bytes, length > 0 ? length : peek->length, d->encoding, &lines,
-                        NULL) != WT_OK)
+        lines_decode(peek->bytes, length > 0 ? length : peek->length, d->encoding, &lines, NULL) !=
+            WT_OK)
         return match;
     int score = 0;
     bool fits = true;
     for (size_t i = 0; i < d->n_probes && fits; i++) {
-        const wt_probe *probe = &d->probes[i];
+        const text_probe *probe = &d->probes[i];
         switch (look_for(d, probe, &lines, whole)) {
         case PROBE_FOUND:
-            fits = probe->kind != WT_PROBE_FORBID;
+            fits = probe->kind != PROBE_FORBID;
             score += probe->score;
             break;
         case PROBE_NOT_FOUND:
-            fits = probe->kind == WT_PROBE_FORBID || probe->kind == WT_PROBE_HINT;
+            fits = probe->kind == PROBE_FORBID || probe->kind == PROBE_HINT;
             break;
         case PROBE_MORE:
             more = true;
             break;
         }
     }
-    wt_lines_free(&lines);
+    lines_free(&lines);
     if (!fits)
         return match;
     if (more) {
-        match.answer = WT_ANSWER_MORE;
+        match.answer = ANSWER_MORE;
         match.need = peek->length > PEEK_MAX / 2 ? PEEK_MAX : 2 * peek->length;
         return match;
     }
-    match.answer = WT_ANSWER_YES;
+    match.answer = ANSWER_YES;
     match.score = score < 1 ? 1 : score > 100 ? 100 : score;
     return match;
 }

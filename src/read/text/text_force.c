@@ -18,7 +18,7 @@ typedef struct span {
 
 typedef struct text_source {
     wt_force_source base;
-    wt_text_file file;
+    text_file file;
     wt_read_options options;
     wt_parselog *log;
     span next; /* where the next curve begins */
@@ -28,20 +28,20 @@ typedef struct text_source {
 /* One channel of a segment: a column, or a force made from a deflection. */
 typedef struct channel_plan {
     wt_quantity quantity;
-    const wt_text_column *column;
+    const text_column *column;
     double factor;
 } channel_plan;
 #define CHANNELS_MAX ((size_t)WT_Q_COUNT + 2)
 
-static double header(const wt_text_table *t, wt_header_value value)
+static double header(const text_table *t, header_value value)
 {
     return t->header.value[value];
 }
 
-static wt_cantilever cantilever(const text_source *s, const wt_text_table *t)
+static wt_cantilever cantilever(const text_source *s, const text_table *t)
 {
-    wt_cantilever c = {.spring_constant = header(t, WT_HEADER_SPRING_CONSTANT),
-                       .sensitivity = header(t, WT_HEADER_SENSITIVITY),
+    wt_cantilever c = {.spring_constant = header(t, HEADER_SPRING_CONSTANT),
+                       .sensitivity = header(t, HEADER_SENSITIVITY),
                        .spring_constant_given = !isnan(s->options.spring_constant),
                        .sensitivity_given = !isnan(s->options.sensitivity)};
     if (c.spring_constant_given)
@@ -51,7 +51,7 @@ static wt_cantilever cantilever(const text_source *s, const wt_text_table *t)
     return c;
 }
 
-static wt_status missing(const text_source *s, const wt_text_table *t, const char *what,
+static wt_status missing(const text_source *s, const text_table *t, const char *what,
                          const char *advice, const char *column, wt_error *err)
 {
     wt_fail(err, WT_E_MISSING, "the %s is not known", what);
@@ -63,10 +63,10 @@ static wt_status missing(const text_source *s, const wt_text_table *t, const cha
 }
 
 /* The file's force or deflection was made with the file's calibration; a given one replaces it. */
-static double recalibrate(const text_source *s, const wt_text_table *t, bool force)
+static double recalibrate(const text_source *s, const text_table *t, bool force)
 {
-    const double k = header(t, WT_HEADER_SPRING_CONSTANT);
-    const double sensitivity = header(t, WT_HEADER_SENSITIVITY);
+    const double k = header(t, HEADER_SPRING_CONSTANT);
+    const double sensitivity = header(t, HEADER_SENSITIVITY);
     double factor = 1;
     if (!isnan(s->options.sensitivity)) {
         if (sensitivity > 0)
@@ -90,18 +90,18 @@ static double recalibrate(const text_source *s, const wt_text_table *t, bool for
 
 /* Force from what the table has: force, deflection times k, or voltage times sensitivity times k.
  */
-static wt_status plan_force(const text_source *s, const wt_text_table *t, int kind,
+static wt_status plan_force(const text_source *s, const text_table *t, int kind,
                             const wt_cantilever *c, channel_plan *plan, wt_error *err)
 {
     plan->quantity = WT_Q_FORCE;
-    plan->column = wt_text_table_column(t, WT_Q_FORCE, kind);
+    plan->column = text_table_column(t, WT_Q_FORCE, kind);
     if (plan->column != NULL) {
         plan->factor = recalibrate(s, t, true);
         return WT_OK;
     }
-    const wt_text_column *deflection = wt_text_table_column(t, WT_Q_DEFLECTION, kind);
+    const text_column *deflection = text_table_column(t, WT_Q_DEFLECTION, kind);
     plan->column =
-        deflection != NULL ? deflection : wt_text_table_column(t, WT_Q_DEFLECTION_VOLTAGE, kind);
+        deflection != NULL ? deflection : text_table_column(t, WT_Q_DEFLECTION_VOLTAGE, kind);
     if (plan->column == NULL)
         return WT_OK;
     if (deflection == NULL && !(c->sensitivity > 0))
@@ -115,7 +115,7 @@ static wt_status plan_force(const text_source *s, const wt_text_table *t, int ki
     return WT_OK;
 }
 
-static wt_status plan_channels(const text_source *s, const wt_text_table *t, int kind,
+static wt_status plan_channels(const text_source *s, const text_table *t, int kind,
                                const wt_cantilever *c, channel_plan plan[CHANNELS_MAX], size_t *n,
                                wt_error *err)
 {
@@ -136,7 +136,7 @@ static wt_status plan_channels(const text_source *s, const wt_text_table *t, int
         }
     }
     for (size_t i = 0; i < t->n_columns && *n < CHANNELS_MAX; i++) {
-        const wt_column_rule *rule = t->columns[i].rule;
+        const column_rule *rule = t->columns[i].rule;
         if ((rule->has_segment && (int)rule->segment != kind) || rule->quantity == WT_Q_FORCE ||
             (s->options.want & WT_Q_BIT(rule->quantity)) == 0)
             continue;
@@ -148,18 +148,18 @@ static wt_status plan_channels(const text_source *s, const wt_text_table *t, int
 }
 
 /* Rows where every channel is empty belong to the longer partner of a column pair. */
-static void trim(const wt_text_table *t, const channel_plan *plan, size_t n, span *rows)
+static void trim(const text_table *t, const channel_plan *plan, size_t n, span *rows)
 {
     for (; rows->end > rows->first; rows->end--)
         for (size_t i = 0; i < n; i++)
-            if (!isnan(wt_text_table_value(t, rows->end - 1, plan[i].column)))
+            if (!isnan(text_table_value(t, rows->end - 1, plan[i].column)))
                 return;
 }
 
 static wt_status add_segment(const text_source *s, wt_force_curve *curve, wt_segment_kind kind,
                              span rows, wt_error *err)
 {
-    const wt_text_table *t = &s->file.tables[rows.table];
+    const text_table *t = &s->file.tables[rows.table];
     channel_plan plan[CHANNELS_MAX];
     size_t n = 0;
     if ((s->options.segments & WT_SEGMENT_BIT(kind)) == 0)
@@ -181,43 +181,43 @@ static wt_status add_segment(const text_source *s, wt_force_curve *curve, wt_seg
         memcpy(channel->unit, plan[i].column->unit, sizeof channel->unit);
         for (size_t r = 0; r < n_points; r++)
             channel->values[r] =
-                plan[i].factor * wt_text_table_value(t, rows.first + r, plan[i].column);
+                plan[i].factor * text_table_value(t, rows.first + r, plan[i].column);
     }
-    segment->duration = header(t, WT_HEADER_DURATION);
-    segment->setpoint = header(t, WT_HEADER_SETPOINT);
-    segment->velocity = header(t, WT_HEADER_VELOCITY);
-    const wt_text_column *time = wt_text_table_column(t, WT_Q_TIME, (int)kind);
+    segment->duration = header(t, HEADER_DURATION);
+    segment->setpoint = header(t, HEADER_SETPOINT);
+    segment->velocity = header(t, HEADER_VELOCITY);
+    const text_column *time = text_table_column(t, WT_Q_TIME, (int)kind);
     if (isnan(segment->duration) && time != NULL)
         segment->duration =
-            wt_text_table_value(t, rows.end - 1, time) - wt_text_table_value(t, rows.first, time);
+            text_table_value(t, rows.end - 1, time) - text_table_value(t, rows.first, time);
     return WT_OK;
 }
 
 /* Approach and retract in one column: it turns where the height is farthest from its start. */
 static wt_status add_turning(const text_source *s, wt_force_curve *curve, span rows, wt_error *err)
 {
-    const wt_text_table *t = &s->file.tables[rows.table];
-    const wt_text_column *height = wt_text_table_column(t, WT_Q_MEASURED_HEIGHT, -1);
+    const text_table *t = &s->file.tables[rows.table];
+    const text_column *height = text_table_column(t, WT_Q_MEASURED_HEIGHT, -1);
     span approach = rows, retract = rows;
     double farthest = 0;
     if (height == NULL)
-        height = wt_text_table_column(t, WT_Q_HEIGHT, -1);
+        height = text_table_column(t, WT_Q_HEIGHT, -1);
     /* Rows without a height at either end tell no distance. */
-    while (rows.first + 1 < rows.end && isnan(wt_text_table_value(t, rows.first, height)))
+    while (rows.first + 1 < rows.end && isnan(text_table_value(t, rows.first, height)))
         rows.first++;
-    while (rows.end - 1 > rows.first && isnan(wt_text_table_value(t, rows.end - 1, height)))
+    while (rows.end - 1 > rows.first && isnan(text_table_value(t, rows.end - 1, height)))
         rows.end--;
-    const double start = wt_text_table_value(t, rows.first, height);
-    const double end = wt_text_table_value(t, rows.end - 1, height);
+    const double start = text_table_value(t, rows.first, height);
+    const double end = text_table_value(t, rows.end - 1, height);
     size_t turn = rows.end - 1;
     for (size_t r = rows.first; r < rows.end; r++) {
-        const double distance = fabs(wt_text_table_value(t, r, height) - start);
+        const double distance = fabs(text_table_value(t, r, height) - start);
         if (distance > farthest) {
             farthest = distance;
             turn = r;
         }
     }
-    const double back = fabs(end - wt_text_table_value(t, turn, height));
+    const double back = fabs(end - text_table_value(t, turn, height));
     if (back > least_return * farthest)
         approach.end = retract.first = turn + 1;
     else
@@ -231,7 +231,7 @@ static wt_status add_turning(const text_source *s, wt_force_curve *curve, span r
 /* Rows of one table and one kind. */
 static wt_status add_rows(const text_source *s, wt_force_curve *curve, span rows, wt_error *err)
 {
-    const wt_text_table *t = &s->file.tables[rows.table];
+    const text_table *t = &s->file.tables[rows.table];
     wt_status status = WT_OK;
     bool pairs = false;
     for (int kind = WT_SEGMENT_APPROACH; kind <= WT_SEGMENT_OTHER && status == WT_OK; kind++) {
@@ -244,7 +244,7 @@ static wt_status add_rows(const text_source *s, wt_force_curve *curve, span rows
     }
     if (pairs || status != WT_OK)
         return status;
-    if (t->kinds[rows.first] != WT_ROW_KIND_NONE)
+    if (t->kinds[rows.first] != ROW_KIND_NONE)
         return add_segment(s, curve, (wt_segment_kind)t->kinds[rows.first], rows, err);
     if (s->file.description->turning_point)
         return add_turning(s, curve, rows, err);
@@ -255,16 +255,16 @@ static wt_status add_rows(const text_source *s, wt_force_curve *curve, span rows
 static wt_status text_next(wt_force_source *source, wt_force_curve *curve, wt_error *err)
 {
     text_source *s = (text_source *)source;
-    const wt_text_file *file = &s->file;
+    const text_file *file = &s->file;
     wt_status status = WT_OK;
     wt_force_curve_reset(curve);
     if (s->next.table >= file->n_tables)
         return WT_END;
-    const wt_text_table *t = &file->tables[s->next.table];
+    const text_table *t = &file->tables[s->next.table];
     const size_t block = t->blocks[s->next.first];
     curve->index = s->index++;
-    curve->x = header(t, WT_HEADER_POSITION_X);
-    curve->y = header(t, WT_HEADER_POSITION_Y);
+    curve->x = header(t, HEADER_POSITION_X);
+    curve->y = header(t, HEADER_POSITION_Y);
     curve->grid_x = curve->grid_y = -1;
     curve->cantilever = cantilever(s, t);
     while (s->next.table < file->n_tables) {
@@ -276,7 +276,7 @@ static wt_status text_next(wt_force_source *source, wt_force_curve *curve, wt_er
             if (t->blocks[rows.end] != block || t->kinds[rows.end] != t->kinds[rows.first])
                 break;
         if (status == WT_OK)
-            status = wt_text_table_require(file, t, WT_KIND_FORCE, err);
+            status = text_table_require(file, t, WT_KIND_FORCE, err);
         if (status == WT_OK)
             status = add_rows(s, curve, rows, err);
         s->next.first = rows.end;
@@ -293,11 +293,11 @@ static wt_status text_next(wt_force_source *source, wt_force_curve *curve, wt_er
 static void text_close(wt_force_source *source)
 {
     text_source *s = (text_source *)source;
-    wt_text_file_free(&s->file);
+    text_file_free(&s->file);
     free(s);
 }
 
-static size_t count_curves(const wt_text_file *file)
+static size_t count_curves(const text_file *file)
 {
     size_t n = 0, block = 0;
     for (size_t i = 0; i < file->n_tables; i++)
@@ -308,24 +308,24 @@ static size_t count_curves(const wt_text_file *file)
     return n;
 }
 
-wt_status wt_text_open_force(const wt_description *description, wt_input *input,
-                             const wt_read_options *options, wt_parselog *log,
-                             wt_force_source **source, wt_error *err)
+wt_status text_open_force(const text_description *description, wt_input *input,
+                          const wt_read_options *options, wt_parselog *log,
+                          wt_force_source **source, wt_error *err)
 {
     text_source *s = calloc(1, sizeof *s);
     if (s == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for the force curves");
-    wt_status status = wt_text_scan(description, input, WT_KIND_FORCE, options, log, &s->file, err);
+    wt_status status = text_scan(description, input, WT_KIND_FORCE, options, log, &s->file, err);
     if (status != WT_OK) {
         free(s);
         return status;
     }
     if (s->file.n_tables == 0) {
-        status = wt_text_nothing(&s->file, "force curve", err);
+        status = text_nothing(&s->file, "force curve", err);
         text_close(&s->base);
         return status;
     }
-    wt_text_log_unknown(&s->file, log);
+    text_log_unknown(&s->file, log);
     s->base.next = text_next;
     s->base.close = text_close;
     s->base.n_curves = count_curves(&s->file);

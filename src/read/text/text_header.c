@@ -12,47 +12,47 @@
 
 #define STEPS_MAX ((size_t)64)
 
-static void set_declared(wt_scan *s, wt_field_sets sets, const char *text, size_t length)
+static void set_declared(text_scanner *s, field_sets sets, const char *text, size_t length)
 {
     static const struct {
         const char *word;
-        wt_separator separator;
-    } separators[] = {{"tab", WT_SEPARATOR_TAB},          {"semicolon", WT_SEPARATOR_SEMICOLON},
-                      {";", WT_SEPARATOR_SEMICOLON},      {"comma", WT_SEPARATOR_COMMA},
-                      {",", WT_SEPARATOR_COMMA},          {"space", WT_SEPARATOR_WHITESPACE},
-                      {"blank", WT_SEPARATOR_WHITESPACE}, {"whitespace", WT_SEPARATOR_WHITESPACE}};
-    if (sets == WT_FIELD_SETS_DECIMAL) {
-        if (wt_scan_same_word(text, length, "comma") || wt_scan_same_word(text, length, ","))
+        cell_separator separator;
+    } separators[] = {{"tab", SEPARATOR_TAB},          {"semicolon", SEPARATOR_SEMICOLON},
+                      {";", SEPARATOR_SEMICOLON},      {"comma", SEPARATOR_COMMA},
+                      {",", SEPARATOR_COMMA},          {"space", SEPARATOR_WHITESPACE},
+                      {"blank", SEPARATOR_WHITESPACE}, {"whitespace", SEPARATOR_WHITESPACE}};
+    if (sets == FIELD_SETS_DECIMAL) {
+        if (scan_same_word(text, length, "comma") || scan_same_word(text, length, ","))
             s->decimal = ',';
-        else if (wt_scan_same_word(text, length, "point") ||
-                 wt_scan_same_word(text, length, "dot") || wt_scan_same_word(text, length, "."))
+        else if (scan_same_word(text, length, "point") || scan_same_word(text, length, "dot") ||
+                 scan_same_word(text, length, "."))
             s->decimal = '.';
-    } else if (sets == WT_FIELD_SETS_SEPARATOR) {
+    } else if (sets == FIELD_SETS_SEPARATOR) {
         for (size_t i = 0; i < sizeof separators / sizeof *separators; i++)
-            if (wt_scan_same_word(text, length, separators[i].word))
+            if (scan_same_word(text, length, separators[i].word))
                 s->separator = separators[i].separator;
     }
 }
 
-static wt_status set_field(wt_scan *s, size_t f, size_t line_number, const char *line,
-                           const regmatch_t groups[WT_GROUPS])
+static wt_status set_field(text_scanner *s, size_t f, size_t line_number, const char *line,
+                           const regmatch_t groups[GROUPS])
 {
-    const wt_field *field = &s->d->fields[f];
-    wt_text_value *value = &s->file->values[f];
+    const name_field *field = &s->d->fields[f];
+    text_value *value = &s->file->values[f];
     char place[32];
     const regmatch_t *found = &groups[field->group];
     const char *text = line + found->rm_so;
     const size_t length = (size_t)(found->rm_eo - found->rm_so);
-    char *copy = strndup(text, wt_utf8_cut(text, length, 200));
+    char *copy = strndup(text, utf8_cut(text, length, 200));
     if (copy == NULL)
-        return wt_scan_no_memory(s);
+        return scan_no_memory(s);
     free(value->text);
     value->text = copy;
     value->line = line_number;
     value->unit[0] = '\0';
     if (field->unit_group > 0 && groups[field->unit_group].rm_so >= 0)
-        wt_text_copy(value->unit, sizeof value->unit, line + groups[field->unit_group].rm_so,
-                     (size_t)(groups[field->unit_group].rm_eo - groups[field->unit_group].rm_so));
+        text_copy(value->unit, sizeof value->unit, line + groups[field->unit_group].rm_so,
+                  (size_t)(groups[field->unit_group].rm_eo - groups[field->unit_group].rm_so));
     else if (field->unit != NULL)
         snprintf(value->unit, sizeof value->unit, "%s", field->unit);
     set_declared(s, field->sets, text, length);
@@ -76,77 +76,77 @@ static wt_status set_field(wt_scan *s, size_t f, size_t line_number, const char 
                         wt_quantity_id(field->quantity));
         return WT_OK;
     }
-    const wt_header_value h = wt_header_of(field->quantity);
-    if (h < WT_HEADER_COUNT) {
+    const header_value h = header_of(field->quantity);
+    if (h < HEADER_COUNT) {
         s->header.value[h] = factor * number + offset;
         s->header.fallback[h] = field->fallback;
     }
     return WT_OK;
 }
 
-wt_status wt_scan_fields(wt_scan *s, size_t line_number, const char *line, size_t length)
+wt_status scan_fields(text_scanner *s, size_t line_number, const char *line, size_t length)
 {
     wt_status status = WT_OK;
     for (size_t f = 0; f < s->d->n_fields && status == WT_OK; f++) {
-        regmatch_t groups[WT_GROUPS];
-        for (size_t g = 0; g < WT_GROUPS; g++)
+        regmatch_t groups[GROUPS];
+        for (size_t g = 0; g < GROUPS; g++)
             groups[g].rm_so = groups[g].rm_eo = -1;
-        if (wt_pattern_match(&s->d->fields[f].pattern, line, length, groups, WT_GROUPS) &&
+        if (pattern_match(&s->d->fields[f].pattern, line, length, groups, GROUPS) &&
             groups[s->d->fields[f].group].rm_so >= 0)
             status = set_field(s, f, line_number, line, groups);
     }
     return status;
 }
 
-wt_status wt_scan_finish_step(wt_scan *s)
+wt_status scan_finish_step(text_scanner *s)
 {
-    wt_text_file *file = s->file;
+    text_file *file = s->file;
     if (s->step_line == 0 || s->step_has_table || file->n_steps >= STEPS_MAX)
         return WT_OK;
     if (file->steps == NULL)
         file->steps = calloc(STEPS_MAX, sizeof *file->steps);
     char *copy = file->steps != NULL ? strdup(s->title[0] != '\0' ? s->title : "(no title)") : NULL;
     if (copy == NULL)
-        return wt_scan_no_memory(s);
+        return scan_no_memory(s);
     file->steps[file->n_steps++] = copy;
     return WT_OK;
 }
 
-void wt_scan_close(wt_scan *s)
+void scan_close(text_scanner *s)
 {
     s->state = SCAN_HEADER;
 }
 
-wt_status wt_scan_marks(wt_scan *s, size_t line_number, const char *line, size_t length, bool *is)
+wt_status scan_marks(text_scanner *s, size_t line_number, const char *line, size_t length, bool *is)
 {
-    const wt_description *d = s->d;
+    const text_description *d = s->d;
     *is = false;
     for (size_t i = 0; i < d->n_steps; i++) {
         regmatch_t groups[2] = {{-1, -1}, {-1, -1}};
-        if (!wt_pattern_match(&d->steps[i].pattern, line, length, groups,
-                              d->steps[i].title_next ? 0 : 2))
+        if (!pattern_match(&d->steps[i].pattern, line, length, groups,
+                           d->steps[i].title_next ? 0 : 2))
             continue;
-        wt_status status = wt_scan_finish_step(s);
-        wt_scan_close(s);
+        wt_status status = scan_finish_step(s);
+        scan_close(s);
         s->step_line = line_number;
         s->step_has_table = false;
         s->title_next = d->steps[i].title_next;
         s->title[0] = '\0';
         if (groups[1].rm_so >= 0)
-            wt_text_copy(s->title, sizeof s->title, line + groups[1].rm_so,
-                         (size_t)(groups[1].rm_eo - groups[1].rm_so));
+            text_copy(s->title, sizeof s->title, line + groups[1].rm_so,
+                      (size_t)(groups[1].rm_eo - groups[1].rm_so));
         s->block++;
         *is = true;
         return status;
     }
     for (size_t i = 0; i < d->n_ends; i++)
-        if (wt_pattern_match(&d->ends[i], line, length, NULL, 0)) {
-            wt_scan_close(s);
+        if (pattern_match(&d->ends[i], line, length, NULL, 0)) {
+            scan_close(s);
             *is = true;
             return WT_OK;
         }
     for (size_t i = 0; i < d->n_markers; i++)
-        if (wt_pattern_match(&d->markers[i].pattern, line, length, NULL, 0)) {
+        if (pattern_match(&d->markers[i].pattern, line, length, NULL, 0)) {
             s->kind = (unsigned char)d->markers[i].kind;
             *is = true;
             return WT_OK;

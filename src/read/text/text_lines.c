@@ -36,13 +36,12 @@ typedef struct choice {
     bool utf_16;
 } choice;
 
-static choice choose(const unsigned char *bytes, size_t length, wt_encoding encoding)
+static choice choose(const unsigned char *bytes, size_t length, text_encoding encoding)
 {
-    const bool any = encoding == WT_ENCODING_AUTO;
-    if ((any || encoding == WT_ENCODING_UTF_8) && length >= 3 &&
-        memcmp(bytes, "\xef\xbb\xbf", 3) == 0)
+    const bool any = encoding == ENCODING_AUTO;
+    if ((any || encoding == ENCODING_UTF_8) && length >= 3 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0)
         return (choice){"UTF-8 with byte order mark", NULL, 3, false};
-    if (any || encoding == WT_ENCODING_UTF_16) {
+    if (any || encoding == ENCODING_UTF_16) {
         if (length >= 2 && bytes[0] == 0xff && bytes[1] == 0xfe)
             return (choice){"UTF-16LE with byte order mark", "UTF-16LE", 2, true};
         if (length >= 2 && bytes[0] == 0xfe && bytes[1] == 0xff)
@@ -50,12 +49,12 @@ static choice choose(const unsigned char *bytes, size_t length, wt_encoding enco
         byte_order order = guess_utf_16(bytes, length);
         if (order == ORDER_BIG)
             return (choice){"UTF-16BE", "UTF-16BE", 0, true};
-        if (order == ORDER_LITTLE || encoding == WT_ENCODING_UTF_16)
+        if (order == ORDER_LITTLE || encoding == ENCODING_UTF_16)
             return (choice){"UTF-16LE", "UTF-16LE", 0, true};
     }
-    if (encoding == WT_ENCODING_LATIN_1)
+    if (encoding == ENCODING_LATIN_1)
         return (choice){"Latin-1", "ISO-8859-1", 0, false};
-    if (any && wt_utf8_check((const char *)bytes, length) < length)
+    if (any && utf8_check((const char *)bytes, length) < length)
         return (choice){"Latin-1", "ISO-8859-1", 0, false};
     return (choice){"UTF-8", NULL, 0, false};
 }
@@ -65,7 +64,7 @@ static const char replacement[] = "\xef\xbf\xbd";
 /* What is not UTF-8 in a text that is said to be: each bad byte becomes U+FFFD. */
 static char *clean_utf_8(const char *bytes, size_t length, size_t *n_out, size_t *n_replaced)
 {
-    const size_t good = wt_utf8_check(bytes, length);
+    const size_t good = utf8_check(bytes, length);
     if (length > (SIZE_MAX - 1) / 3)
         return NULL;
     char *text = malloc((good == length ? length : 3 * length) + 1);
@@ -75,7 +74,7 @@ static char *clean_utf_8(const char *bytes, size_t length, size_t *n_out, size_t
         memcpy(text, bytes, good);
     size_t out = good;
     for (size_t i = good; i < length;) {
-        size_t n = wt_utf8_character(bytes + i, length - i);
+        size_t n = utf8_character(bytes + i, length - i);
         memcpy(text + out, n > 0 ? bytes + i : replacement, n > 0 ? n : 3);
         out += n > 0 ? n : 3;
         *n_replaced += n == 0;
@@ -124,7 +123,7 @@ fail:
 }
 
 /* CR LF, LF and CR end a line; the byte there becomes zero. */
-static bool find_lines(wt_lines *lines, size_t length)
+static bool find_lines(text_lines *lines, size_t length)
 {
     size_t n = 1;
     for (size_t i = 0; i < length; i++)
@@ -138,22 +137,22 @@ static bool find_lines(wt_lines *lines, size_t length)
         if (c != '\n' && c != '\r')
             continue;
         lines->text[i] = '\0';
-        lines->lines[lines->n++] = (wt_line){start, i - start};
+        lines->lines[lines->n++] = (text_line){start, i - start};
         if (c == '\r' && i + 1 < length && lines->text[i + 1] == '\n')
             i++;
         start = i + 1;
     }
     lines->text[length] = '\0';
     if (start < length)
-        lines->lines[lines->n++] = (wt_line){start, length - start};
+        lines->lines[lines->n++] = (text_line){start, length - start};
     return true;
 }
 
-wt_status wt_lines_decode(const unsigned char *bytes, size_t length, wt_encoding encoding,
-                          wt_lines *lines, wt_error *err)
+wt_status lines_decode(const unsigned char *bytes, size_t length, text_encoding encoding,
+                       text_lines *lines, wt_error *err)
 {
     const choice c = choose(bytes, length, encoding);
-    wt_lines made = {.encoding = c.words};
+    text_lines made = {.encoding = c.words};
     size_t n = 0;
     bytes = c.mark > 0 ? bytes + c.mark : bytes;
     length -= c.mark;
@@ -164,21 +163,21 @@ wt_status wt_lines_decode(const unsigned char *bytes, size_t length, wt_encoding
     else
         made.text = convert(&c, bytes, length, &n, &made.n_replaced);
     if (made.text == NULL || !find_lines(&made, n)) {
-        wt_lines_free(&made);
+        lines_free(&made);
         return wt_fail(err, WT_E_MEMORY, "no memory for the text of the file");
     }
     *lines = made;
     return WT_OK;
 }
 
-void wt_lines_free(wt_lines *lines)
+void lines_free(text_lines *lines)
 {
     free(lines->text);
     free(lines->lines);
-    *lines = (wt_lines){0};
+    *lines = (text_lines){0};
 }
 
-const char *wt_lines_get(const wt_lines *lines, size_t i, size_t *length)
+const char *lines_get(const text_lines *lines, size_t i, size_t *length)
 {
     *length = lines->lines[i].length;
     return lines->text + lines->lines[i].start;

@@ -12,7 +12,7 @@
 #define COLUMNS_MAX ((size_t)1024)
 #define UNKNOWN_MAX ((size_t)256)
 
-bool wt_name_unit(const char *name, size_t *length, wt_cell *unit)
+bool name_unit(const char *name, size_t *length, text_cell *unit)
 {
     const size_t n = *length;
     size_t open = n;
@@ -32,45 +32,46 @@ bool wt_name_unit(const char *name, size_t *length, wt_cell *unit)
         }
         if (open == n || open == 0)
             return false;
-        *unit = (wt_cell){name + open + 1, n - open - 2};
+        *unit = (text_cell){name + open + 1, n - open - 2};
         *length = open;
         return true;
     }
     for (size_t i = n; i-- > 2;)
         if (name[i] == ' ' && name[i - 1] == '/' && name[i - 2] == ' ') {
-            *unit = (wt_cell){name + i + 1, n - i - 1};
+            *unit = (text_cell){name + i + 1, n - i - 1};
             *length = i - 2;
             return *length > 0;
         }
     return false;
 }
 
-bool wt_names_known(const wt_description *d, wt_cell cell, size_t *first, size_t *n, wt_cell *unit)
+bool names_known(const text_description *d, text_cell cell, size_t *first, size_t *n,
+                 text_cell *unit)
 {
-    char name[WT_NAME_MAX];
+    char name[NAME_MAX];
     size_t length = cell.length;
-    *unit = (wt_cell){"", 0};
-    if (length == 0 || length >= WT_NAME_MAX)
+    *unit = (text_cell){"", 0};
+    if (length == 0 || length >= NAME_MAX)
         return false;
-    wt_name_normalise(cell.text, length, name);
-    if (wt_description_find_name(d, name, first, n))
+    name_normalise(cell.text, length, name);
+    if (description_find_name(d, name, first, n))
         return true;
-    if ((d->units != WT_UNITS_NAME && d->units != WT_UNITS_NAME_OR_ROW) ||
-        !wt_name_unit(cell.text, &length, unit))
+    if ((d->units != UNITS_NAME && d->units != UNITS_NAME_OR_ROW) ||
+        !name_unit(cell.text, &length, unit))
         return false;
-    wt_name_normalise(cell.text, length, name);
-    return wt_description_find_name(d, name, first, n);
+    name_normalise(cell.text, length, name);
+    return description_find_name(d, name, first, n);
 }
 
 /* Number of known names and what they may measure. */
-static size_t count_known(const wt_description *d, const wt_cells *cells, wt_quantity_set *set)
+static size_t count_known(const text_description *d, const text_cells *cells, wt_quantity_set *set)
 {
     size_t known = 0;
     *set = 0;
     for (size_t i = 0; i < cells->n; i++) {
         size_t first, n;
-        wt_cell unit;
-        if (!wt_names_known(d, cells->cells[i], &first, &n, &unit))
+        text_cell unit;
+        if (!names_known(d, cells->cells[i], &first, &n, &unit))
             continue;
         known++;
         for (size_t k = first; k < first + n; k++)
@@ -82,31 +83,31 @@ static size_t count_known(const wt_description *d, const wt_cells *cells, wt_qua
 static bool suffices(wt_quantity_set set, unsigned kinds)
 {
     for (unsigned kind = 1; kind <= WT_KIND_SPECTRUM; kind *= 2)
-        if ((kinds & kind) != 0 && wt_quantities_suffice(set, kind))
+        if ((kinds & kind) != 0 && quantities_suffice(set, kind))
             return true;
     return false;
 }
 
-static size_t try_separator(wt_names *names, const wt_description *d, const char *line,
-                            size_t length, wt_separator separator, unsigned kinds)
+static size_t try_separator(name_set *names, const text_description *d, const char *line,
+                            size_t length, cell_separator separator, unsigned kinds)
 {
     wt_quantity_set set;
-    if (!wt_cells_split(&names->names, line, length, separator, d) || names->names.n > COLUMNS_MAX)
+    if (!cells_split(&names->names, line, length, separator, d) || names->names.n > COLUMNS_MAX)
         return 0;
     size_t known = count_known(d, &names->names, &set);
     return suffices(set, kinds) ? known : 0;
 }
 
-bool wt_names_match(wt_names *names, const wt_description *d, const char *line, size_t length,
-                    wt_separator separator, unsigned kinds)
+bool names_match(name_set *names, const text_description *d, const char *line, size_t length,
+                 cell_separator separator, unsigned kinds)
 {
-    static const wt_separator all[] = {WT_SEPARATOR_TAB, WT_SEPARATOR_SEMICOLON, WT_SEPARATOR_COMMA,
-                                       WT_SEPARATOR_WHITESPACE};
+    static const cell_separator all[] = {SEPARATOR_TAB, SEPARATOR_SEMICOLON, SEPARATOR_COMMA,
+                                         SEPARATOR_WHITESPACE};
     size_t best = 0;
     names->units.n = 0;
-    if (length > WT_PATTERN_LINE_MAX)
+    if (length > PATTERN_LINE_MAX)
         return false;
-    if (separator != WT_SEPARATOR_AUTO) {
+    if (separator != SEPARATOR_AUTO) {
         names->separator = separator;
         return try_separator(names, d, line, length, separator, kinds) > 0;
     }
@@ -120,17 +121,17 @@ bool wt_names_match(wt_names *names, const wt_description *d, const char *line, 
     return best > 0 && try_separator(names, d, line, length, names->separator, kinds) > 0;
 }
 
-void wt_names_free(wt_names *names)
+void names_free(name_set *names)
 {
     free(names->names.cells);
     free(names->units.cells);
-    *names = (wt_names){0};
+    *names = (name_set){0};
 }
 
 /* ---- units -------------------------------------------------------------------------------- */
 
 /* Without brackets around it; "-" says that there is none. */
-static wt_cell bare_unit(wt_cell unit)
+static text_cell bare_unit(text_cell unit)
 {
     while (unit.length >= 2 && ((unit.text[0] == '[' && unit.text[unit.length - 1] == ']') ||
                                 (unit.text[0] == '(' && unit.text[unit.length - 1] == ')'))) {
@@ -151,19 +152,19 @@ static wt_cell bare_unit(wt_cell unit)
 /* The unit that the user gives for a column, NULL if none. */
 static const char *given_unit(const wt_read_options *options, const char *normalised)
 {
-    char name[WT_NAME_MAX];
+    char name[NAME_MAX];
     for (size_t i = 0; i < options->n_units; i++) {
         const char *equal = strrchr(options->units[i], '=');
         if (equal == NULL)
             continue;
-        wt_name_normalise(options->units[i], (size_t)(equal - options->units[i]), name);
+        name_normalise(options->units[i], (size_t)(equal - options->units[i]), name);
         if (strcmp(name, normalised) == 0)
             return equal + 1;
     }
     return NULL;
 }
 
-static bool to_si(const wt_description *d, const wt_column_rule *rule, const char *unit,
+static bool to_si(const text_description *d, const column_rule *rule, const char *unit,
                   double *factor, double *offset)
 {
     for (size_t i = 0; i < d->n_aliases; i++)
@@ -176,10 +177,10 @@ static bool to_si(const wt_description *d, const wt_column_rule *rule, const cha
 /* ---- columns ------------------------------------------------------------------------------ */
 
 typedef struct resolver {
-    const wt_description *d;
-    const wt_names *names;
-    char (*normalised)[WT_NAME_MAX];
-    wt_text_table *table;
+    const text_description *d;
+    const name_set *names;
+    char (*normalised)[NAME_MAX];
+    text_table *table;
     const wt_read_options *options;
 } resolver;
 
@@ -191,10 +192,10 @@ static bool has_name(const resolver *r, const char *name)
     return false;
 }
 
-static bool is_taken(const wt_text_table *table, const wt_column_rule *rule)
+static bool is_taken(const text_table *table, const column_rule *rule)
 {
     for (size_t i = 0; i < table->n_columns; i++) {
-        const wt_column_rule *other = table->columns[i].rule;
+        const column_rule *other = table->columns[i].rule;
         if (other->quantity == rule->quantity && other->has_segment == rule->has_segment &&
             (!rule->has_segment || other->segment == rule->segment))
             return true;
@@ -203,29 +204,29 @@ static bool is_taken(const wt_text_table *table, const wt_column_rule *rule)
 }
 
 /* The first rule of that name whose condition holds and whose quantity has that unit. */
-static wt_text_column resolve_column(const resolver *r, size_t cell, size_t first, size_t n,
-                                     wt_cell in_name)
+static text_column resolve_column(const resolver *r, size_t cell, size_t first, size_t n,
+                                  text_cell in_name)
 {
-    const wt_cell full = r->names->names.cells[cell];
-    wt_text_column column = {.cell = cell, .problem = WT_COLUMN_UNCLEAR, .factor = 1};
-    wt_cell unit = in_name;
+    const text_cell full = r->names->names.cells[cell];
+    text_column column = {.cell = cell, .problem = COLUMN_UNCLEAR, .factor = 1};
+    text_cell unit = in_name;
     if (unit.length == 0 && cell < r->names->units.n)
         unit = r->names->units.cells[cell];
     unit = bare_unit(unit);
     size_t length = full.length;
-    wt_cell ignored;
+    text_cell ignored;
     if (in_name.length > 0)
-        (void)wt_name_unit(full.text, &length, &ignored);
+        (void)name_unit(full.text, &length, &ignored);
     while (length > 0 && full.text[length - 1] == ' ')
         length--;
-    wt_text_copy(column.name, sizeof column.name, full.text, length);
+    text_copy(column.name, sizeof column.name, full.text, length);
     const char *given = given_unit(r->options, r->normalised[cell]);
     if (given != NULL)
         snprintf(column.unit, sizeof column.unit, "%s", given);
     else
-        wt_text_copy(column.unit, sizeof column.unit, unit.text, unit.length);
+        text_copy(column.unit, sizeof column.unit, unit.text, unit.length);
     for (size_t k = first; k < first + n; k++) {
-        const wt_column_rule *rule = &r->d->rules[r->d->names[k].rule];
+        const column_rule *rule = &r->d->rules[r->d->names[k].rule];
         double factor = 1, offset = 0;
         bool good;
         if (rule->with != NULL && !has_name(r, rule->with)) {
@@ -239,16 +240,16 @@ static wt_text_column resolve_column(const resolver *r, size_t cell, size_t firs
             good = to_si(r->d, rule, column.unit[0] != '\0' ? column.unit : rule->unit, &factor,
                          &offset);
         if (!good) {
-            if (column.problem == WT_COLUMN_UNCLEAR) {
+            if (column.problem == COLUMN_UNCLEAR) {
                 column.rule = rule;
-                column.problem = column.unit[0] == '\0' ? WT_COLUMN_NO_UNIT : WT_COLUMN_BAD_UNIT;
+                column.problem = column.unit[0] == '\0' ? COLUMN_NO_UNIT : COLUMN_BAD_UNIT;
             }
             continue;
         }
         if (column.unit[0] == '\0' && rule->unit != NULL)
             snprintf(column.unit, sizeof column.unit, "%s", rule->unit);
         column.rule = rule;
-        column.problem = WT_COLUMN_GOOD;
+        column.problem = COLUMN_GOOD;
         column.factor = rule->negate ? -factor : factor;
         column.offset = rule->negate ? -offset : offset;
         break;
@@ -256,7 +257,7 @@ static wt_text_column resolve_column(const resolver *r, size_t cell, size_t firs
     return column;
 }
 
-static wt_status add_unknown(wt_text_file *file, wt_cell cell, wt_error *err)
+static wt_status add_unknown(text_file *file, text_cell cell, wt_error *err)
 {
     if (file->n_unknown >= UNKNOWN_MAX)
         return WT_OK;
@@ -275,13 +276,13 @@ static wt_status add_unknown(wt_text_file *file, wt_cell cell, wt_error *err)
 
 /* A column that does not fit (F beside f, in newton) is just another one where the quantity is
  * known from a column that does. */
-static wt_status settle_problems(const wt_names *names, wt_text_file *file, wt_text_table *table,
+static wt_status settle_problems(const name_set *names, text_file *file, text_table *table,
                                  wt_error *err)
 {
     wt_status status = WT_OK;
     size_t kept = 0;
     for (size_t i = 0; i < table->n_problems && status == WT_OK; i++) {
-        const wt_text_column column = table->problems[i];
+        const text_column column = table->problems[i];
         if ((table->quantities & WT_Q_BIT(column.rule->quantity)) != 0)
             status = add_unknown(file, names->names.cells[column.cell], err);
         else
@@ -300,10 +301,10 @@ static size_t find_cell(const resolver *r, const char *name)
     return SIZE_MAX;
 }
 
-wt_status wt_names_resolve(const wt_names *names, wt_text_file *file, wt_text_table *table,
-                           const wt_read_options *options, wt_error *err)
+wt_status names_resolve(const name_set *names, text_file *file, text_table *table,
+                        const wt_read_options *options, wt_error *err)
 {
-    const wt_description *d = file->description;
+    const text_description *d = file->description;
     const size_t n_cells = names->names.n;
     resolver r = {.d = d, .names = names, .table = table, .options = options};
     wt_status status = WT_OK;
@@ -315,30 +316,30 @@ wt_status wt_names_resolve(const wt_names *names, wt_text_file *file, wt_text_ta
         return wt_fail(err, WT_E_MEMORY, "no memory for the columns of a table");
     }
     for (size_t i = 0; i < n_cells; i++) {
-        wt_cell cell = names->names.cells[i];
+        text_cell cell = names->names.cells[i];
         size_t first, n;
-        wt_cell unit;
+        text_cell unit;
         /* A name with its unit inside is compared without it. */
-        if (wt_names_known(d, cell, &first, &n, &unit) ? unit.length > 0 : d->units != WT_UNITS_ROW)
-            (void)wt_name_unit(cell.text, &cell.length, &unit);
-        wt_name_normalise(cell.text, cell.length, r.normalised[i]);
+        if (names_known(d, cell, &first, &n, &unit) ? unit.length > 0 : d->units != UNITS_ROW)
+            (void)name_unit(cell.text, &cell.length, &unit);
+        name_normalise(cell.text, cell.length, r.normalised[i]);
     }
     table->n_names = n_cells;
     table->group_cell = find_cell(&r, d->group);
     table->segment_cell = find_cell(&r, d->segment_column);
     table->curve_cell = find_cell(&r, d->curve_column);
     for (size_t i = 0; i < n_cells && status == WT_OK; i++) {
-        const wt_cell cell = names->names.cells[i];
+        const text_cell cell = names->names.cells[i];
         size_t first, n;
-        wt_cell unit;
-        if (!wt_names_known(d, cell, &first, &n, &unit)) {
+        text_cell unit;
+        if (!names_known(d, cell, &first, &n, &unit)) {
             if (cell.length > 0 && i != table->group_cell && i != table->segment_cell &&
                 i != table->curve_cell && !(i == 0 && d->row_prefix != NULL))
                 status = add_unknown(file, cell, err);
             continue;
         }
-        wt_text_column column = resolve_column(&r, i, first, n, unit);
-        if (column.problem != WT_COLUMN_GOOD) {
+        text_column column = resolve_column(&r, i, first, n, unit);
+        if (column.problem != COLUMN_GOOD) {
             table->problems[table->n_problems++] = column;
         } else if (is_taken(table, column.rule)) {
             status = add_unknown(file, cell, err);

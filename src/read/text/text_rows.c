@@ -8,32 +8,32 @@
 #include <stdlib.h>
 #include <string.h>
 
-wt_status wt_scan_grow(wt_scan *s)
+wt_status scan_grow(text_scanner *s)
 {
-    wt_text_table *t = s->table;
+    text_table *t = s->table;
     if (t->n_rows < t->capacity)
         return WT_OK;
     size_t capacity = t->capacity > 0 ? 2 * t->capacity : 64;
     const size_t width = t->n_columns > 0 ? t->n_columns : 1;
     if (capacity > SIZE_MAX / sizeof(double) / width)
-        return wt_scan_no_memory(s);
+        return scan_no_memory(s);
     double *values = realloc(t->values, capacity * width * sizeof *values);
     if (values == NULL)
-        return wt_scan_no_memory(s);
+        return scan_no_memory(s);
     t->values = values;
     size_t *blocks = realloc(t->blocks, capacity * sizeof *blocks);
     if (blocks == NULL)
-        return wt_scan_no_memory(s);
+        return scan_no_memory(s);
     t->blocks = blocks;
     unsigned char *kinds = realloc(t->kinds, capacity);
     if (kinds == NULL)
-        return wt_scan_no_memory(s);
+        return scan_no_memory(s);
     t->kinds = kinds;
     t->capacity = capacity;
     return WT_OK;
 }
 
-static size_t hash_cell(const wt_cells *cells, size_t i, size_t hash)
+static size_t hash_cell(const text_cells *cells, size_t i, size_t hash)
 {
     if (i >= cells->n)
         return hash;
@@ -43,9 +43,9 @@ static size_t hash_cell(const wt_cells *cells, size_t i, size_t hash)
 }
 
 /* A new block where a group or curve cell changes. */
-static void follow_groups(wt_scan *s)
+static void follow_groups(text_scanner *s)
 {
-    const wt_text_table *t = s->table;
+    const text_table *t = s->table;
     size_t hash = (size_t)1469598103934665603u;
     if (t->group_cell == SIZE_MAX && t->curve_cell == SIZE_MAX)
         return;
@@ -56,12 +56,12 @@ static void follow_groups(wt_scan *s)
     s->has_group = true;
 }
 
-static unsigned char row_kind(const wt_scan *s)
+static unsigned char segment_kind(const text_scanner *s)
 {
     const size_t i = s->table->segment_cell;
     if (i == SIZE_MAX || i >= s->row.n)
         return s->kind;
-    const wt_cell cell = s->row.cells[i];
+    const text_cell cell = s->row.cells[i];
     for (size_t v = 0; v < s->d->n_values; v++)
         if (strlen(s->d->values[v].text) == cell.length &&
             memcmp(s->d->values[v].text, cell.text, cell.length) == 0)
@@ -69,25 +69,25 @@ static unsigned char row_kind(const wt_scan *s)
     return WT_SEGMENT_OTHER;
 }
 
-wt_row_is wt_scan_read_row(wt_scan *s, size_t *bad)
+row_kind scan_read_row(text_scanner *s, size_t *bad)
 {
-    wt_text_table *t = s->table;
+    text_table *t = s->table;
     double *values = t->values + t->n_rows * t->n_columns;
     size_t numbers = 0, texts = 0;
     for (size_t c = 0; c < t->n_columns; c++) {
-        const wt_text_column *column = &t->columns[c];
+        const text_column *column = &t->columns[c];
         double value;
         values[c] = (double)NAN;
         if (column->cell >= s->row.n)
             continue;
-        switch (wt_cell_read(s->row.cells[column->cell], t->decimal, s->d, &value)) {
-        case WT_CELL_NUMBER:
+        switch (cell_read(s->row.cells[column->cell], t->decimal, s->d, &value)) {
+        case CELL_NUMBER:
             values[c] = column->factor * value + column->offset;
             numbers++;
             break;
-        case WT_CELL_MISSING:
+        case CELL_MISSING:
             break;
-        case WT_CELL_TEXT:
+        case CELL_TEXT:
             if (texts++ == 0)
                 *bad = c;
             break;
@@ -98,30 +98,30 @@ wt_row_is wt_scan_read_row(wt_scan *s, size_t *bad)
     return numbers > 0 || s->row.n >= t->n_names ? ROW_GOOD : ROW_TEXT;
 }
 
-wt_status wt_scan_bad_row(wt_scan *s, size_t line_number, size_t bad)
+wt_status scan_bad_row(text_scanner *s, size_t line_number, size_t bad)
 {
     char found[64];
-    const wt_text_table *t = s->table;
+    const text_table *t = s->table;
     wt_fail(s->err, WT_E_CORRUPT, "a cell of the table is not a number");
     if (bad < t->n_columns && t->columns[bad].cell < s->row.n) {
-        const wt_text_column *column = &t->columns[bad];
-        const wt_cell cell = s->row.cells[column->cell];
+        const text_column *column = &t->columns[bad];
+        const text_cell cell = s->row.cells[column->cell];
         wt_error_place(s->err, "line %zu, column %zu (%s)", line_number, column->cell + 1,
                        column->name);
-        wt_text_copy(found, sizeof found, cell.text, cell.length);
+        text_copy(found, sizeof found, cell.text, cell.length);
         wt_error_found(s->err, "\"%s\"", found);
     } else {
         wt_error_place(s->err, "line %zu", line_number);
         wt_error_found(s->err, "a line of %zu cells", s->row.n);
     }
     wt_error_expected(s->err, "numbers with decimal %s, separated by %s",
-                      t->decimal == ',' ? "comma" : "point", wt_separator_name(t->separator));
+                      t->decimal == ',' ? "comma" : "point", separator_name(t->separator));
     return WT_E_CORRUPT;
 }
 
-wt_status wt_scan_add_row(wt_scan *s, size_t line_number)
+wt_status scan_add_row(text_scanner *s, size_t line_number)
 {
-    wt_text_table *t = s->table;
+    text_table *t = s->table;
     size_t last = 0;
     for (size_t c = 0; c < t->n_columns; c++)
         last = t->columns[c].cell > last ? t->columns[c].cell : last;
@@ -137,7 +137,7 @@ wt_status wt_scan_add_row(wt_scan *s, size_t line_number)
         s->snapshot = true;
     }
     t->blocks[t->n_rows] = s->block;
-    t->kinds[t->n_rows] = row_kind(s);
+    t->kinds[t->n_rows] = segment_kind(s);
     t->n_rows++;
     s->blank = false;
     return WT_OK;

@@ -10,7 +10,7 @@
 
 #define TABLES_MAX ((size_t)100000)
 
-wt_status wt_scan_no_memory(wt_scan *s)
+wt_status scan_no_memory(text_scanner *s)
 {
     return wt_fail(s->err, WT_E_MEMORY, "no memory for the tables of the file");
 }
@@ -21,33 +21,33 @@ static bool starts_with(const char *line, size_t length, const char *prefix)
     return length >= n && memcmp(line, prefix, n) == 0;
 }
 
-bool wt_scan_same_word(const char *text, size_t length, const char *word)
+bool scan_same_word(const char *text, size_t length, const char *word)
 {
-    char name[WT_NAME_MAX];
-    wt_name_normalise(text, length, name);
+    char name[NAME_MAX];
+    name_normalise(text, length, name);
     return strcmp(name, word) == 0;
 }
 
 /* ---- beginning of a table ----------------------------------------------------------------- */
 
-static wt_status new_table(wt_scan *s, size_t line_number)
+static wt_status new_table(text_scanner *s, size_t line_number)
 {
-    wt_text_file *file = s->file;
+    text_file *file = s->file;
     if (file->n_tables >= TABLES_MAX)
         return wt_fail(s->err, WT_E_RANGE, "more than %zu tables in one file", TABLES_MAX);
     if (file->n_tables == file->capacity) {
         size_t capacity = file->capacity > 0 ? 2 * file->capacity : 8;
-        wt_text_table *grown = realloc(file->tables, capacity * sizeof *grown);
+        text_table *grown = realloc(file->tables, capacity * sizeof *grown);
         if (grown == NULL)
-            return wt_scan_no_memory(s);
+            return scan_no_memory(s);
         file->tables = grown;
         file->capacity = capacity;
     }
     s->table = &file->tables[file->n_tables];
-    *s->table = (wt_text_table){.names_line = line_number,
-                                .step_line = s->step_line,
-                                .separator = s->names.separator,
-                                .decimal = '.'};
+    *s->table = (text_table){.names_line = line_number,
+                             .step_line = s->step_line,
+                             .separator = s->names.separator,
+                             .decimal = '.'};
     memcpy(s->table->title, s->title, sizeof s->title);
     file->n_tables++;
     s->step_has_table = true;
@@ -58,7 +58,7 @@ static wt_status new_table(wt_scan *s, size_t line_number)
 }
 
 /* Text without the comment mark in front. */
-static void uncomment(const wt_scan *s, const char **line, size_t *length)
+static void uncomment(const text_scanner *s, const char **line, size_t *length)
 {
     if (s->d->comment != NULL && starts_with(*line, *length, s->d->comment)) {
         size_t n = strlen(s->d->comment);
@@ -68,17 +68,17 @@ static void uncomment(const wt_scan *s, const char **line, size_t *length)
 }
 
 /* Could the row be units? Not if a known column holds a number. */
-static bool units_row(wt_scan *s, const wt_cells *cells)
+static bool units_row(text_scanner *s, const text_cells *cells)
 {
-    const wt_description *d = s->d;
+    const text_description *d = s->d;
     if (d->row_prefix != NULL && cells->n > 0 &&
-        wt_scan_same_word(cells->cells[0].text, cells->cells[0].length, d->row_prefix))
+        scan_same_word(cells->cells[0].text, cells->cells[0].length, d->row_prefix))
         return false;
     for (size_t i = 0; i < cells->n && i < s->names.names.n; i++) {
         size_t first, n;
-        wt_cell unit;
+        text_cell unit;
         double value;
-        if (wt_names_known(d, s->names.names.cells[i], &first, &n, &unit) &&
+        if (names_known(d, s->names.names.cells[i], &first, &n, &unit) &&
             (wt_number_parse(cells->cells[i].text, cells->cells[i].length, '.', &value) ||
              wt_number_parse(cells->cells[i].text, cells->cells[i].length, ',', &value)))
             return false;
@@ -86,31 +86,31 @@ static bool units_row(wt_scan *s, const wt_cells *cells)
     return true;
 }
 
-static bool names_have_units(const wt_scan *s)
+static bool names_have_units(const text_scanner *s)
 {
     for (size_t i = 0; i < s->names.names.n; i++) {
         size_t first, n;
-        wt_cell unit;
-        if (wt_names_known(s->d, s->names.names.cells[i], &first, &n, &unit) && unit.length > 0)
+        text_cell unit;
+        if (names_known(s->d, s->names.names.cells[i], &first, &n, &unit) && unit.length > 0)
             return true;
     }
     return false;
 }
 
 /* Looks for the units row after the names row; *last is the last line that belongs to the two. */
-static wt_status find_units(wt_scan *s, size_t *last)
+static wt_status find_units(text_scanner *s, size_t *last)
 {
-    const wt_lines *lines = &s->file->lines;
-    if (s->d->units == WT_UNITS_NAME_OR_ROW && names_have_units(s))
+    const text_lines *lines = &s->file->lines;
+    if (s->d->units == UNITS_NAME_OR_ROW && names_have_units(s))
         return WT_OK;
     for (size_t i = *last + 1; i < lines->n && i <= *last + 4; i++) {
         size_t length;
-        const char *line = wt_lines_get(lines, i, &length);
+        const char *line = lines_get(lines, i, &length);
         if (s->comment_names)
             uncomment(s, &line, &length);
-        if (!wt_cells_split(&s->names.units, line, length, s->names.separator, s->d))
-            return wt_scan_no_memory(s);
-        if (wt_cells_blank(&s->names.units))
+        if (!cells_split(&s->names.units, line, length, s->names.separator, s->d))
+            return scan_no_memory(s);
+        if (cells_blank(&s->names.units))
             continue;
         if (units_row(s, &s->names.units)) {
             *last = i;
@@ -122,32 +122,32 @@ static wt_status find_units(wt_scan *s, size_t *last)
     return WT_OK;
 }
 
-static wt_separator row_separator(const wt_scan *s)
+static cell_separator row_separator(const text_scanner *s)
 {
-    if (s->separator != WT_SEPARATOR_AUTO)
+    if (s->separator != SEPARATOR_AUTO)
         return s->separator;
-    if (s->d->separator != WT_SEPARATOR_AUTO)
+    if (s->d->separator != SEPARATOR_AUTO)
         return s->d->separator;
     return s->names.separator;
 }
 
-static wt_status choose_decimal(wt_scan *s, size_t from, char *decimal)
+static wt_status choose_decimal(text_scanner *s, size_t from, char *decimal)
 {
-    const wt_lines *lines = &s->file->lines;
+    const text_lines *lines = &s->file->lines;
     size_t commas = 0, points = 0;
     if (s->decimal != '\0' || s->d->decimal != '\0') {
         *decimal = s->decimal != '\0' ? s->decimal : s->d->decimal;
         return WT_OK;
     }
     *decimal = '.';
-    if (s->table->separator == WT_SEPARATOR_COMMA)
+    if (s->table->separator == SEPARATOR_COMMA)
         return WT_OK;
     for (size_t i = from; i < lines->n && i < from + 100 && commas + points < 64; i++) {
         size_t length;
-        const char *line = wt_lines_get(lines, i, &length);
-        if (!wt_cells_split(&s->row, line, length, s->table->separator, s->d))
-            return wt_scan_no_memory(s);
-        wt_cells_count_marks(&s->row, &commas, &points);
+        const char *line = lines_get(lines, i, &length);
+        if (!cells_split(&s->row, line, length, s->table->separator, s->d))
+            return scan_no_memory(s);
+        cells_count_marks(&s->row, &commas, &points);
     }
     if (commas > points)
         *decimal = ',';
@@ -155,9 +155,9 @@ static wt_status choose_decimal(wt_scan *s, size_t from, char *decimal)
 }
 
 /* Names and units are known: the rows begin after line `last` (counted from 0). */
-static wt_status begin_rows(wt_scan *s, size_t last)
+static wt_status begin_rows(text_scanner *s, size_t last)
 {
-    wt_status status = wt_names_resolve(&s->names, s->file, s->table, s->options, s->err);
+    wt_status status = names_resolve(&s->names, s->file, s->table, s->options, s->err);
     if (status != WT_OK)
         return status;
     s->table->separator = row_separator(s);
@@ -166,72 +166,73 @@ static wt_status begin_rows(wt_scan *s, size_t last)
 }
 
 /* Is the line a names row? Then opens a table; *i moves to the last line of names and units. */
-static wt_status match_names(wt_scan *s, size_t *i, const char *line, size_t length, bool comment,
-                             bool *is)
+static wt_status match_names(text_scanner *s, size_t *i, const char *line, size_t length,
+                             bool comment, bool *is)
 {
-    const wt_description *d = s->d;
+    const text_description *d = s->d;
     wt_status status;
-    wt_separator separator = d->names_separator;
+    cell_separator separator = d->names_separator;
     *is = false;
     if (d->has_names_line) {
         regmatch_t groups[2] = {{-1, -1}, {-1, -1}};
-        if (!wt_pattern_match(&d->names_line, line, length, groups, 2) || groups[1].rm_so < 0)
+        if (!pattern_match(&d->names_line, line, length, groups, 2) || groups[1].rm_so < 0)
             return WT_OK;
         line += groups[1].rm_so;
         length = (size_t)(groups[1].rm_eo - groups[1].rm_so);
     } else if (comment) {
         uncomment(s, &line, &length);
     }
-    if (separator == WT_SEPARATOR_AUTO)
+    if (separator == SEPARATOR_AUTO)
         separator = s->separator;
-    if (!wt_names_match(&s->names, d, line, length, separator, s->kinds))
+    if (!names_match(&s->names, d, line, length, separator, s->kinds))
         return WT_OK;
     *is = true;
     s->comment_names = comment && !d->has_names_line;
     status = new_table(s, *i + 1);
     if (status != WT_OK)
         return status;
-    if (d->units == WT_UNITS_LINE) {
+    if (d->units == UNITS_LINE) {
         s->state = SCAN_UNITS;
         return WT_OK;
     }
-    if (d->units == WT_UNITS_ROW || d->units == WT_UNITS_NAME_OR_ROW)
+    if (d->units == UNITS_ROW || d->units == UNITS_NAME_OR_ROW)
         status = find_units(s, i);
     return status == WT_OK ? begin_rows(s, *i) : status;
 }
 
 /* ---- the walk ----------------------------------------------------------------------------- */
 
-static wt_status header_line(wt_scan *s, size_t *i, const char *line, size_t length, bool comment)
+static wt_status header_line(text_scanner *s, size_t *i, const char *line, size_t length,
+                             bool comment)
 {
     bool is = false;
     if (s->title_next && !comment) {
-        wt_text_copy(s->title, sizeof s->title, line, length);
+        text_copy(s->title, sizeof s->title, line, length);
         s->title_next = false;
         return WT_OK;
     }
-    wt_status status = wt_scan_marks(s, *i + 1, line, length, &is);
+    wt_status status = scan_marks(s, *i + 1, line, length, &is);
     if (status == WT_OK)
-        status = wt_scan_fields(s, *i + 1, line, length);
+        status = scan_fields(s, *i + 1, line, length);
     if (status == WT_OK && !is)
         status = match_names(s, i, line, length, comment, &is);
     return status;
 }
 
 /* Rows that come back after the table seemed to end would be lost without a word. */
-static wt_status watch_orphan(wt_scan *s, size_t line_number, const char *line, size_t length)
+static wt_status watch_orphan(text_scanner *s, size_t line_number, const char *line, size_t length)
 {
     size_t bad = 0;
-    wt_text_table *t = s->table;
+    text_table *t = s->table;
     if (t == NULL || t->n_columns == 0 || t->n_rows == 0 || s->d->row_prefix != NULL ||
         s->step_line != t->step_line)
         return WT_OK;
-    wt_status status = wt_scan_grow(s);
+    wt_status status = scan_grow(s);
     if (status != WT_OK)
         return status;
-    if (!wt_cells_split(&s->row, line, length, t->separator, s->d))
-        return wt_scan_no_memory(s);
-    if (s->row.n < t->n_names || wt_scan_read_row(s, &bad) != ROW_GOOD)
+    if (!cells_split(&s->row, line, length, t->separator, s->d))
+        return scan_no_memory(s);
+    if (s->row.n < t->n_names || scan_read_row(s, &bad) != ROW_GOOD)
         return WT_OK;
     char place[32];
     snprintf(place, sizeof place, "line %zu", line_number);
@@ -240,49 +241,50 @@ static wt_status watch_orphan(wt_scan *s, size_t line_number, const char *line, 
     return WT_OK;
 }
 
-static wt_status table_line(wt_scan *s, size_t *i, const char *line, size_t length)
+static wt_status table_line(text_scanner *s, size_t *i, const char *line, size_t length)
 {
-    const wt_description *d = s->d;
-    wt_text_table *t = s->table;
+    const text_description *d = s->d;
+    text_table *t = s->table;
     bool is = false;
     size_t bad = SIZE_MAX;
-    if (!wt_cells_split(&s->row, line, length, t->separator, d))
-        return wt_scan_no_memory(s);
-    if (wt_cells_blank(&s->row)) {
+    if (!cells_split(&s->row, line, length, t->separator, d))
+        return scan_no_memory(s);
+    if (cells_blank(&s->row)) {
         s->block += d->blank_is_block && t->n_rows > 0 && !s->blank;
         s->blank = true;
         return WT_OK;
     }
     if (d->row_prefix != NULL &&
-        !wt_scan_same_word(s->row.cells[0].text, s->row.cells[0].length, d->row_prefix))
+        !scan_same_word(s->row.cells[0].text, s->row.cells[0].length, d->row_prefix))
         return header_line(s, i, line, length, false);
-    wt_status status = d->row_prefix == NULL ? wt_scan_marks(s, *i + 1, line, length, &is) : WT_OK;
+    wt_status status = d->row_prefix == NULL ? scan_marks(s, *i + 1, line, length, &is) : WT_OK;
     if (status != WT_OK)
         return status;
     if (is)
-        return wt_scan_fields(s, *i + 1, line, length);
-    status = wt_scan_grow(s);
+        return scan_fields(s, *i + 1, line, length);
+    status = scan_grow(s);
     if (status != WT_OK)
         return status;
-    wt_row_is row = wt_scan_read_row(s, &bad);
+    row_kind row = scan_read_row(s, &bad);
     if (row == ROW_GOOD)
-        return wt_scan_add_row(s, *i + 1);
+        return scan_add_row(s, *i + 1);
     status = match_names(s, i, line, length, false, &is);
     if (status != WT_OK || is)
         return status;
     if (!s->blank || (row == ROW_BROKEN && s->row.n == t->n_names) || d->row_prefix != NULL)
-        return wt_scan_bad_row(s, *i + 1, bad);
-    wt_scan_close(s);
+        return scan_bad_row(s, *i + 1, bad);
+    scan_close(s);
     return header_line(s, i, line, length, false);
 }
 
-static wt_status units_line(wt_scan *s, size_t *i, const char *line, size_t length, bool comment)
+static wt_status units_line(text_scanner *s, size_t *i, const char *line, size_t length,
+                            bool comment)
 {
     regmatch_t groups[2] = {{-1, -1}, {-1, -1}};
-    if (wt_pattern_match(&s->d->units_line, line, length, groups, 2) && groups[1].rm_so >= 0) {
-        if (!wt_cells_split(&s->names.units, line + groups[1].rm_so,
-                            (size_t)(groups[1].rm_eo - groups[1].rm_so), s->names.separator, s->d))
-            return wt_scan_no_memory(s);
+    if (pattern_match(&s->d->units_line, line, length, groups, 2) && groups[1].rm_so >= 0) {
+        if (!cells_split(&s->names.units, line + groups[1].rm_so,
+                         (size_t)(groups[1].rm_eo - groups[1].rm_so), s->names.separator, s->d))
+            return scan_no_memory(s);
         return begin_rows(s, *i);
     }
     if (comment)
@@ -293,13 +295,13 @@ static wt_status units_line(wt_scan *s, size_t *i, const char *line, size_t leng
     return status == WT_OK ? table_line(s, i, line, length) : status;
 }
 
-static wt_status walk(wt_scan *s)
+static wt_status walk(text_scanner *s)
 {
-    const wt_lines *lines = &s->file->lines;
+    const text_lines *lines = &s->file->lines;
     wt_status status = WT_OK;
     for (size_t i = 0; i < lines->n && status == WT_OK; i++) {
         size_t length;
-        const char *line = wt_lines_get(lines, i, &length);
+        const char *line = lines_get(lines, i, &length);
         bool comment = s->d->comment != NULL && starts_with(line, length, s->d->comment);
         if (s->state == SCAN_UNITS) {
             status = units_line(s, &i, line, length, comment);
@@ -314,10 +316,10 @@ static wt_status walk(wt_scan *s)
                 status = watch_orphan(s, before + 1, line, length);
         }
     }
-    return status == WT_OK ? wt_scan_finish_step(s) : status;
+    return status == WT_OK ? scan_finish_step(s) : status;
 }
 
-static void free_table(wt_text_table *t)
+static void free_table(text_table *t)
 {
     free(t->columns);
     free(t->problems);
@@ -327,7 +329,7 @@ static void free_table(wt_text_table *t)
 }
 
 /* Tables without a row carry nothing. */
-static void drop_empty_tables(wt_text_file *file)
+static void drop_empty_tables(text_file *file)
 {
     size_t kept = 0;
     for (size_t i = 0; i < file->n_tables; i++) {
@@ -339,9 +341,9 @@ static void drop_empty_tables(wt_text_file *file)
     file->n_tables = kept;
 }
 
-static void log_text(const wt_text_file *file, wt_parselog *log)
+static void log_text(const text_file *file, wt_parselog *log)
 {
-    const wt_lines *lines = &file->lines;
+    const text_lines *lines = &file->lines;
     if (lines->odd_byte)
         wt_parselog_add(log, WT_NOTE, file->name, NULL,
                         "half a character at the end of the file was dropped");
@@ -351,11 +353,11 @@ static void log_text(const wt_text_file *file, wt_parselog *log)
                         lines->encoding);
 }
 
-static bool has_column(const wt_text_column *columns, size_t n, const char *name)
+static bool has_column(const text_column *columns, size_t n, const char *name)
 {
-    char own[WT_NAME_MAX];
+    char own[NAME_MAX];
     for (size_t i = 0; i < n; i++) {
-        wt_name_normalise(columns[i].name, strlen(columns[i].name), own);
+        name_normalise(columns[i].name, strlen(columns[i].name), own);
         if (strcmp(own, name) == 0)
             return true;
     }
@@ -363,11 +365,11 @@ static bool has_column(const wt_text_column *columns, size_t n, const char *name
 }
 
 /* A unit that is given for a column that is not there is most likely misspelled. */
-static wt_status check_given_units(const wt_text_file *file, const wt_read_options *options,
+static wt_status check_given_units(const text_file *file, const wt_read_options *options,
                                    wt_parselog *log, wt_error *err)
 {
     for (size_t u = 0; u < options->n_units; u++) {
-        char name[WT_NAME_MAX];
+        char name[NAME_MAX];
         const char *equal = strrchr(options->units[u], '=');
         bool found = false;
         if (equal == NULL || equal == options->units[u] || equal[1] == '\0') {
@@ -376,7 +378,7 @@ static wt_status check_given_units(const wt_text_file *file, const wt_read_optio
             wt_error_advice(err, "for example --units \"E'=MPa\"");
             return WT_E_ARG;
         }
-        wt_name_normalise(options->units[u], (size_t)(equal - options->units[u]), name);
+        name_normalise(options->units[u], (size_t)(equal - options->units[u]), name);
         for (size_t i = 0; i < file->n_tables && !found; i++)
             found = has_column(file->tables[i].columns, file->tables[i].n_columns, name) ||
                     has_column(file->tables[i].problems, file->tables[i].n_problems, name);
@@ -388,36 +390,36 @@ static wt_status check_given_units(const wt_text_file *file, const wt_read_optio
     return WT_OK;
 }
 
-wt_status wt_text_scan(const wt_description *description, wt_input *input, unsigned kinds,
-                       const wt_read_options *options, wt_parselog *log, wt_text_file *file,
-                       wt_error *err)
+wt_status text_scan(const text_description *description, wt_input *input, unsigned kinds,
+                    const wt_read_options *options, wt_parselog *log, text_file *file,
+                    wt_error *err)
 {
     const unsigned char *bytes = NULL;
     size_t length = 0;
-    wt_text_file made = {.description = description, .name = wt_input_name(input)};
-    wt_scan s = {.file = &made,
-                 .d = description,
-                 .options = options,
-                 .log = log,
-                 .err = err,
-                 .kinds = kinds & description->kinds,
-                 .kind = WT_ROW_KIND_NONE};
-    for (size_t i = 0; i < WT_HEADER_COUNT; i++)
+    text_file made = {.description = description, .name = wt_input_name(input)};
+    text_scanner s = {.file = &made,
+                      .d = description,
+                      .options = options,
+                      .log = log,
+                      .err = err,
+                      .kinds = kinds & description->kinds,
+                      .kind = ROW_KIND_NONE};
+    for (size_t i = 0; i < HEADER_COUNT; i++)
         s.header.value[i] = (double)NAN;
     wt_status status = wt_input_bytes(input, &bytes, &length, err);
     if (status == WT_OK)
-        status = wt_lines_decode(bytes, length, description->encoding, &made.lines, err);
+        status = lines_decode(bytes, length, description->encoding, &made.lines, err);
     if (status == WT_OK) {
         made.values = calloc(description->n_fields + 1, sizeof *made.values);
-        status = made.values != NULL ? walk(&s) : wt_scan_no_memory(&s);
+        status = made.values != NULL ? walk(&s) : scan_no_memory(&s);
     }
     if (status == WT_OK)
         status = check_given_units(&made, options, log, err);
-    wt_names_free(&s.names);
+    names_free(&s.names);
     free(s.row.cells);
     if (status != WT_OK) {
         wt_error_file(err, made.name);
-        wt_text_file_free(&made);
+        text_file_free(&made);
         return status;
     }
     drop_empty_tables(&made);
@@ -426,7 +428,7 @@ wt_status wt_text_scan(const wt_description *description, wt_input *input, unsig
     return WT_OK;
 }
 
-void wt_text_file_free(wt_text_file *file)
+void text_file_free(text_file *file)
 {
     for (size_t i = 0; i < file->n_tables; i++)
         free_table(&file->tables[i]);
@@ -440,6 +442,6 @@ void wt_text_file_free(wt_text_file *file)
     free(file->values);
     free(file->unknown);
     free(file->steps);
-    wt_lines_free(&file->lines);
-    *file = (wt_text_file){0};
+    lines_free(&file->lines);
+    *file = (text_file){0};
 }

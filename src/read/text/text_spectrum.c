@@ -18,20 +18,20 @@ static int by_wavenumber(const void *a, const void *b)
     return (x->wavenumber > y->wavenumber) - (x->wavenumber < y->wavenumber);
 }
 
-static wt_status collect(const wt_text_file *file, point *points, size_t *n, wt_spectrum_kind *kind,
+static wt_status collect(const text_file *file, point *points, size_t *n, wt_spectrum_kind *kind,
                          wt_parselog *log, wt_error *err)
 {
     size_t dropped = 0;
     for (size_t i = 0; i < file->n_tables; i++) {
-        const wt_text_table *t = &file->tables[i];
-        wt_status status = wt_text_table_require(file, t, WT_KIND_SPECTRUM, err);
+        const text_table *t = &file->tables[i];
+        wt_status status = text_table_require(file, t, WT_KIND_SPECTRUM, err);
         if (status != WT_OK)
             return status;
-        const wt_text_column *q = wt_text_table_column(t, WT_Q_WAVENUMBER, -1);
-        const wt_text_column *c = wt_text_table_column(t, WT_Q_POWER_SPECTRUM_2D, -1);
+        const text_column *q = text_table_column(t, WT_Q_WAVENUMBER, -1);
+        const text_column *c = text_table_column(t, WT_Q_POWER_SPECTRUM_2D, -1);
         const wt_spectrum_kind this_kind = c != NULL ? WT_SPECTRUM_2D : WT_SPECTRUM_1D;
         if (c == NULL)
-            c = wt_text_table_column(t, WT_Q_POWER_SPECTRUM_1D, -1);
+            c = text_table_column(t, WT_Q_POWER_SPECTRUM_1D, -1);
         if (i > 0 && this_kind != *kind) {
             wt_fail(err, WT_E_UNIT, "one- and two-dimensional spectra in one file");
             wt_error_place(err, "line %zu", t->names_line);
@@ -40,7 +40,7 @@ static wt_status collect(const wt_text_file *file, point *points, size_t *n, wt_
         }
         *kind = this_kind;
         for (size_t r = 0; r < t->n_rows; r++) {
-            point p = {wt_text_table_value(t, r, q), wt_text_table_value(t, r, c)};
+            point p = {text_table_value(t, r, q), text_table_value(t, r, c)};
             if (p.wavenumber > 0 && !isnan(p.density))
                 points[(*n)++] = p;
             else
@@ -54,18 +54,18 @@ static wt_status collect(const wt_text_file *file, point *points, size_t *n, wt_
     return WT_OK;
 }
 
-wt_status wt_text_read_spectrum(const wt_description *description, wt_input *input,
-                                const wt_read_options *options, wt_parselog *log,
-                                wt_power_spectrum *spectrum, wt_error *err)
+wt_status text_read_spectrum(const text_description *description, wt_input *input,
+                             const wt_read_options *options, wt_parselog *log,
+                             wt_power_spectrum *spectrum, wt_error *err)
 {
-    wt_text_file file;
+    text_file file;
     wt_power_spectrum made = {.n = 0};
     point *points = NULL;
     size_t rows = 0, n = 0;
-    wt_status status = wt_text_scan(description, input, WT_KIND_SPECTRUM, options, log, &file, err);
+    wt_status status = text_scan(description, input, WT_KIND_SPECTRUM, options, log, &file, err);
     if (status != WT_OK)
         return status;
-    wt_text_log_unknown(&file, log);
+    text_log_unknown(&file, log);
     for (size_t i = 0; i < file.n_tables; i++)
         rows += file.tables[i].n_rows;
     points = malloc((rows + 1) * sizeof *points);
@@ -77,7 +77,7 @@ wt_status wt_text_read_spectrum(const wt_description *description, wt_input *inp
     if (status != WT_OK)
         goto done;
     if (n < 2) {
-        status = wt_text_nothing(&file, "power spectrum", err);
+        status = text_nothing(&file, "power spectrum", err);
         goto done;
     }
     qsort(points, n, sizeof *points, by_wavenumber);
@@ -105,6 +105,6 @@ done:
         wt_error_file(err, file.name);
     wt_power_spectrum_clear(&made);
     free(points);
-    wt_text_file_free(&file);
+    text_file_free(&file);
     return status;
 }

@@ -12,14 +12,14 @@
 static const double same_frequency = 0.01;
 
 typedef struct sweep_columns {
-    const wt_text_column *frequency, *storage, *loss, *factor, *temperature, *strain;
+    const text_column *frequency, *storage, *loss, *factor, *temperature, *strain;
     double to_angular; /* 2 pi for a frequency in Hz */
     wt_deformation deformation;
 } sweep_columns;
 
 typedef struct builder {
-    const wt_text_file *file;
-    const wt_text_table *table;
+    const text_file *file;
+    const text_table *table;
     sweep_columns c;
     const wt_read_options *options;
     wt_parselog *log;
@@ -29,56 +29,56 @@ typedef struct builder {
     wt_error *err;
 } builder;
 
-static sweep_columns find_columns(const wt_text_table *t)
+static sweep_columns find_columns(const text_table *t)
 {
     sweep_columns c = {.to_angular = 1};
     const bool tension =
-        wt_quantities_suffice(t->quantities & ~WT_Q_BIT(WT_Q_SHEAR_STORAGE_MODULUS), WT_KIND_SWEEP);
+        quantities_suffice(t->quantities & ~WT_Q_BIT(WT_Q_SHEAR_STORAGE_MODULUS), WT_KIND_SWEEP);
     c.deformation = tension ? WT_TENSION : WT_SHEAR;
-    c.frequency = wt_text_table_column(t, WT_Q_ANGULAR_FREQUENCY, -1);
+    c.frequency = text_table_column(t, WT_Q_ANGULAR_FREQUENCY, -1);
     if (c.frequency == NULL) {
-        c.frequency = wt_text_table_column(t, WT_Q_FREQUENCY, -1);
+        c.frequency = text_table_column(t, WT_Q_FREQUENCY, -1);
         c.to_angular = 2 * M_PI;
     }
     c.storage =
-        wt_text_table_column(t, tension ? WT_Q_STORAGE_MODULUS : WT_Q_SHEAR_STORAGE_MODULUS, -1);
-    c.loss = wt_text_table_column(t, tension ? WT_Q_LOSS_MODULUS : WT_Q_SHEAR_LOSS_MODULUS, -1);
-    c.factor = wt_text_table_column(t, WT_Q_LOSS_FACTOR, -1);
-    c.temperature = wt_text_table_column(t, WT_Q_TEMPERATURE, -1);
-    c.strain = wt_text_table_column(t, WT_Q_STRAIN, -1);
+        text_table_column(t, tension ? WT_Q_STORAGE_MODULUS : WT_Q_SHEAR_STORAGE_MODULUS, -1);
+    c.loss = text_table_column(t, tension ? WT_Q_LOSS_MODULUS : WT_Q_SHEAR_LOSS_MODULUS, -1);
+    c.factor = text_table_column(t, WT_Q_LOSS_FACTOR, -1);
+    c.temperature = text_table_column(t, WT_Q_TEMPERATURE, -1);
+    c.strain = text_table_column(t, WT_Q_STRAIN, -1);
     return c;
 }
 
 static double angular(const builder *b, size_t row)
 {
-    return b->c.to_angular * wt_text_table_value(b->table, row, b->c.frequency);
+    return b->c.to_angular * text_table_value(b->table, row, b->c.frequency);
 }
 
 static double loss(const builder *b, size_t row)
 {
     if (b->c.loss != NULL)
-        return wt_text_table_value(b->table, row, b->c.loss);
-    return wt_text_table_value(b->table, row, b->c.storage) *
-           wt_text_table_value(b->table, row, b->c.factor);
+        return text_table_value(b->table, row, b->c.loss);
+    return text_table_value(b->table, row, b->c.storage) *
+           text_table_value(b->table, row, b->c.factor);
 }
 
 static double temperature(const builder *b, size_t row)
 {
-    return b->c.temperature != NULL ? wt_text_table_value(b->table, row, b->c.temperature)
+    return b->c.temperature != NULL ? text_table_value(b->table, row, b->c.temperature)
                                     : (double)NAN;
 }
 
 static bool is_point(const builder *b, size_t row)
 {
-    return angular(b, row) > 0 && !isnan(wt_text_table_value(b->table, row, b->c.storage)) &&
+    return angular(b, row) > 0 && !isnan(text_table_value(b->table, row, b->c.storage)) &&
            !isnan(loss(b, row));
 }
 
 /* Mean and scatter of the column, or what the header or the user says. */
 static wt_status set_temperature(const builder *b, wt_isotherm *isotherm)
 {
-    const double header = b->table->header.value[WT_HEADER_TEMPERATURE];
-    const bool fallback = b->table->header.fallback[WT_HEADER_TEMPERATURE];
+    const double header = b->table->header.value[HEADER_TEMPERATURE];
+    const bool fallback = b->table->header.fallback[HEADER_TEMPERATURE];
     double mean = 0, scatter = 0;
     size_t n = 0;
     /* Welford's recurrence: the scatter of 0.01 K about 300 K is not lost to rounding. */
@@ -103,7 +103,7 @@ static wt_status set_temperature(const builder *b, wt_isotherm *isotherm)
         isotherm->temperature = b->options->temperature;
     } else {
         wt_status status =
-            wt_text_table_problem(b->file, b->table, WT_Q_BIT(WT_Q_TEMPERATURE), b->err);
+            text_table_problem(b->file, b->table, WT_Q_BIT(WT_Q_TEMPERATURE), b->err);
         if (status != WT_OK)
             return status;
         wt_fail(b->err, WT_E_MISSING, "no temperature");
@@ -124,7 +124,7 @@ static wt_status set_temperature(const builder *b, wt_isotherm *isotherm)
 /* "FILE, TITLE OF THE STEP"; the title is what tells the isotherms apart, so the name gives way. */
 static void set_source(const builder *b, wt_isotherm *isotherm)
 {
-    const wt_text_table *t = b->table;
+    const text_table *t = b->table;
     const char *name = wt_path_base(b->file->name);
     char end[112];
     if (t->title[0] != '\0')
@@ -132,7 +132,7 @@ static void set_source(const builder *b, wt_isotherm *isotherm)
     else
         snprintf(end, sizeof end, ", line %zu", t->names_line);
     const size_t length = strlen(end);
-    wt_text_copy(isotherm->source, sizeof isotherm->source - length, name, strlen(name));
+    text_copy(isotherm->source, sizeof isotherm->source - length, name, strlen(name));
     memcpy(isotherm->source + strlen(isotherm->source), end, length + 1);
 }
 
@@ -161,10 +161,10 @@ static wt_status flush(builder *b)
         return wt_fail(b->err, WT_E_MEMORY, "no memory for an isotherm");
     for (size_t i = 0; i < b->n; i++) {
         isotherm->angular_frequency[i] = angular(b, b->rows[i]);
-        isotherm->storage_modulus[i] = wt_text_table_value(b->table, b->rows[i], b->c.storage);
+        isotherm->storage_modulus[i] = text_table_value(b->table, b->rows[i], b->c.storage);
         isotherm->loss_modulus[i] = loss(b, b->rows[i]);
         if (b->c.strain != NULL)
-            isotherm->strain[i] = wt_text_table_value(b->table, b->rows[i], b->c.strain);
+            isotherm->strain[i] = text_table_value(b->table, b->rows[i], b->c.strain);
     }
     set_source(b, isotherm);
     wt_status status = set_temperature(b, isotherm);
@@ -176,7 +176,7 @@ static wt_status flush(builder *b)
  * jumps. */
 static wt_status split_table(builder *b)
 {
-    const wt_text_table *t = b->table;
+    const text_table *t = b->table;
     const double jump = b->file->description->temperature_jump;
     int direction = 0;
     size_t dropped = 0;
@@ -216,7 +216,7 @@ static wt_status split_table(builder *b)
 
 static wt_status read_table(builder *b)
 {
-    wt_status status = wt_text_table_require(b->file, b->table, WT_KIND_SWEEP, b->err);
+    wt_status status = text_table_require(b->file, b->table, WT_KIND_SWEEP, b->err);
     if (status != WT_OK)
         return status;
     b->c = find_columns(b->table);
@@ -263,8 +263,8 @@ static wt_status append(wt_sweep *to, wt_sweep *from, wt_error *err)
     return WT_OK;
 }
 
-wt_status wt_text_sweep(const wt_text_file *file, const wt_read_options *options, wt_parselog *log,
-                        wt_sweep *sweep, wt_error *err)
+wt_status text_sweep(const text_file *file, const wt_read_options *options, wt_parselog *log,
+                     wt_sweep *sweep, wt_error *err)
 {
     wt_sweep made = {.n_isotherms = 0};
     wt_status status = WT_OK;
@@ -281,25 +281,25 @@ wt_status wt_text_sweep(const wt_text_file *file, const wt_read_options *options
         wt_parselog_add(log, WT_NOTE, file->name, NULL, "step without a frequency sweep: %s",
                         file->steps[i]);
     if (status == WT_OK && made.n_isotherms == 0)
-        status = wt_text_nothing(file, "frequency sweep", err);
+        status = text_nothing(file, "frequency sweep", err);
     if (status == WT_OK)
         status = append(sweep, &made, err);
     wt_sweep_clear(&made);
     return status;
 }
 
-wt_status wt_text_read_sweep(const wt_description *description, wt_input *input,
-                             const wt_read_options *options, wt_parselog *log, wt_sweep *sweep,
-                             wt_error *err)
+wt_status text_read_sweep(const text_description *description, wt_input *input,
+                          const wt_read_options *options, wt_parselog *log, wt_sweep *sweep,
+                          wt_error *err)
 {
-    wt_text_file file;
-    wt_status status = wt_text_scan(description, input, WT_KIND_SWEEP, options, log, &file, err);
+    text_file file;
+    wt_status status = text_scan(description, input, WT_KIND_SWEEP, options, log, &file, err);
     if (status != WT_OK)
         return status;
-    wt_text_log_unknown(&file, log);
-    status = wt_text_sweep(&file, options, log, sweep, err);
+    text_log_unknown(&file, log);
+    status = text_sweep(&file, options, log, sweep, err);
     if (status != WT_OK)
         wt_error_file(err, file.name);
-    wt_text_file_free(&file);
+    text_file_free(&file);
     return status;
 }

@@ -6,11 +6,10 @@
 
 #include <string.h>
 
-const wt_text_column *wt_text_table_column(const wt_text_table *table, wt_quantity quantity,
-                                           int segment)
+const text_column *text_table_column(const text_table *table, wt_quantity quantity, int segment)
 {
     for (size_t i = 0; i < table->n_columns; i++) {
-        const wt_column_rule *rule = table->columns[i].rule;
+        const column_rule *rule = table->columns[i].rule;
         if (rule->quantity == quantity &&
             (segment < 0 || !rule->has_segment || (int)rule->segment == segment))
             return &table->columns[i];
@@ -18,7 +17,7 @@ const wt_text_column *wt_text_table_column(const wt_text_table *table, wt_quanti
     return NULL;
 }
 
-double wt_text_table_value(const wt_text_table *table, size_t row, const wt_text_column *column)
+double text_table_value(const text_table *table, size_t row, const text_column *column)
 {
     return table->values[row * table->n_columns + (size_t)(column - table->columns)];
 }
@@ -45,17 +44,17 @@ static const char *usual_unit(wt_quantity quantity)
     }
 }
 
-wt_status wt_text_table_problem(const wt_text_file *file, const wt_text_table *table,
-                                wt_quantity_set quantities, wt_error *err)
+wt_status text_table_problem(const text_file *file, const text_table *table,
+                             wt_quantity_set quantities, wt_error *err)
 {
     for (size_t i = 0; i < table->n_problems; i++) {
-        const wt_text_column *c = &table->problems[i];
+        const text_column *c = &table->problems[i];
         const wt_quantity q = c->rule->quantity;
         if ((quantities & ~table->quantities & WT_Q_BIT(q)) == 0)
             continue;
         wt_status status = WT_E_UNIT;
         switch (c->problem) {
-        case WT_COLUMN_NO_UNIT:
+        case COLUMN_NO_UNIT:
             wt_fail(err, status, "the file does not say the unit of column \"%s\"", c->name);
             wt_error_expected(err, "a unit of %s", wt_quantity_id(q));
             if (q == WT_Q_FREQUENCY || q == WT_Q_ANGULAR_FREQUENCY)
@@ -64,7 +63,7 @@ wt_status wt_text_table_problem(const wt_text_file *file, const wt_text_table *t
             else
                 wt_error_advice(err, "give it with --units \"%s=%s\"", c->name, usual_unit(q));
             break;
-        case WT_COLUMN_BAD_UNIT:
+        case COLUMN_BAD_UNIT:
             wt_fail(err, status, "the unit of column \"%s\" does not fit", c->name);
             wt_error_expected(err, "a unit of %s", wt_quantity_id(q));
             wt_error_found(err, "\"%s\"", c->unit);
@@ -101,22 +100,22 @@ static wt_quantity_set essential(unsigned kind)
     }
 }
 
-wt_status wt_text_table_require(const wt_text_file *file, const wt_text_table *table, unsigned kind,
-                                wt_error *err)
+wt_status text_table_require(const text_file *file, const text_table *table, unsigned kind,
+                             wt_error *err)
 {
-    if (wt_quantities_suffice(table->quantities, kind))
+    if (quantities_suffice(table->quantities, kind))
         return WT_OK;
-    wt_status status = wt_text_table_problem(file, table, essential(kind), err);
+    wt_status status = text_table_problem(file, table, essential(kind), err);
     if (status != WT_OK)
         return status;
     wt_fail(err, WT_E_MISSING, "columns are missing");
     wt_error_file(err, file->name);
     wt_error_place(err, "line %zu", table->names_line);
-    wt_error_expected(err, "%s", wt_quantities_needed(kind));
+    wt_error_expected(err, "%s", quantities_needed(kind));
     return WT_E_MISSING;
 }
 
-void wt_text_unknown(const wt_text_file *file, char *names, size_t size)
+void text_unknown(const text_file *file, char *names, size_t size)
 {
     size_t used = 0;
     names[0] = '\0';
@@ -132,15 +131,15 @@ void wt_text_unknown(const wt_text_file *file, char *names, size_t size)
     }
 }
 
-void wt_text_log_unknown(const wt_text_file *file, wt_parselog *log)
+void text_log_unknown(const text_file *file, wt_parselog *log)
 {
     char names[256];
-    wt_text_unknown(file, names, sizeof names);
+    text_unknown(file, names, sizeof names);
     if (file->n_unknown > 0)
         wt_parselog_add(log, WT_NOTE, file->name, NULL, "columns not used: %s", names);
 }
 
-wt_status wt_text_nothing(const wt_text_file *file, const char *what, wt_error *err)
+wt_status text_nothing(const text_file *file, const char *what, wt_error *err)
 {
     char steps[160] = "";
     size_t used = 0;
