@@ -1,5 +1,6 @@
-# Every function that a public header marks WT_API is exported by the library, and the library
-# exports nothing else. Run: cmake -DLIBRARY=.. -DINCLUDE=.. -DNM=.. -P exports.cmake
+# Every function that a public header marks WT_API is exported by the library, the library exports
+# nothing else, and nothing else in its objects bears the prefix of what is exported.
+# Run: cmake -DLIBRARY=.. -DOBJECTS=<file with their paths> -DINCLUDE=.. -DNM=.. -P exports.cmake
 # SPDX-License-Identifier: GPL-3.0-or-later
 cmake_minimum_required(VERSION 3.25)
 
@@ -43,4 +44,17 @@ if(missing)
 endif()
 if(extra)
   message(SEND_ERROR "exported but in no public header: ${extra}")
+endif()
+
+file(STRINGS "${OBJECTS}" objects)
+execute_process(COMMAND ${NM} -g --defined-only ${objects} OUTPUT_VARIABLE out RESULT_VARIABLE rc)
+string(REGEX MATCHALL "[0-9a-f]+ [A-Z] wt_[^\n]+" rows "${out}")
+string(REGEX REPLACE "[0-9a-f]+ [A-Z] " "" inside "${rows}")
+list(LENGTH inside n)
+if(NOT rc EQUAL 0 OR n LESS 50)
+  message(FATAL_ERROR "only ${n} names in the objects: wrong list?")
+endif()
+list(REMOVE_ITEM inside ${declared})
+if(inside)
+  message(SEND_ERROR "not exported, yet called wt_: ${inside}")
 endif()

@@ -1,0 +1,132 @@
+# No circles of files: no object file of the library needs, by however many steps, one that needs
+# it, and no header includes itself by way of others.
+# Run: cmake -DSOURCE=<project folder> -DOBJECTS=<file with the paths, one a line> -DNM=.. -P circles.cmake
+# With -DPLANTED=ON a circle is added, which must be found.
+# SPDX-License-Identifier: GPL-3.0-or-later
+cmake_minimum_required(VERSION 3.25)
+
+# Ties that are still to be cut, each "FILE > FILE".
+set(known
+  "data/table.c > data/table_key.c"
+  "fit/shift.c > fit/wlf_fit.c"
+  "flow/answer/answer.c > flow/answer/caveats.c"
+  "flow/case/case.c > flow/case/case_parse.c"
+  "read/description/description.c > read/description/description_parts.c"
+  "read/detect.c > read/formats.c"
+  "read/text/text_scan.c > read/text/text_header.c"
+  "read/text/text_scan.c > read/text/text_rows.c"
+  "report/page.c > report/report.c"
+)
+
+# A node is a file; ties_FILE are the files it needs, by_FILE_OTHER what ties them.
+set(files "")
+function(tie from to by)
+  set(ties_${from} ${ties_${from}} ${to} PARENT_SCOPE)
+  set(by_${from}_${to} "${by_${from}_${to}} ${by}" PARENT_SCOPE)
+endfunction()
+
+file(STRINGS "${OBJECTS}" objects)
+execute_process(COMMAND ${NM} -A -g ${objects} OUTPUT_VARIABLE out RESULT_VARIABLE rc)
+if(NOT rc EQUAL 0)
+  message(FATAL_ERROR "nm failed")
+endif()
+if(PLANTED)
+  string(APPEND out "wt_objects.dir/base/error.c.o: U wt_formats_new\n")
+endif()
+string(REGEX MATCHALL "[^\n]+" rows "${out}")
+set(needs "")
+foreach(row IN LISTS rows)
+  if(NOT row MATCHES "wt_objects\\.dir/[./]*(.+)\\.o: *([0-9a-f]*) ([A-Za-z]) ([^ ]+)$")
+    continue()
+  endif()
+  set(file ${CMAKE_MATCH_1})
+  set(symbol ${CMAKE_MATCH_4})
+  list(APPEND files ${file})
+  if(CMAKE_MATCH_3 STREQUAL "U")
+    list(APPEND needs "${file} ${symbol}")
+  else()
+    set(home_${symbol} ${file})
+  endif()
+endforeach()
+foreach(need IN LISTS needs)
+  string(REPLACE " " ";" need "${need}")
+  list(GET need 0 file)
+  list(GET need 1 symbol)
+  if(DEFINED home_${symbol})
+    tie(${file} ${home_${symbol}} ${symbol})
+  endif()
+endforeach()
+file(GLOB_RECURSE headers RELATIVE ${SOURCE}/src ${SOURCE}/src/*.h)
+foreach(header IN LISTS headers)
+  list(APPEND files ${header})
+  file(STRINGS ${SOURCE}/src/${header} lines REGEX "^#include \"")
+  foreach(line IN LISTS lines)
+    string(REGEX REPLACE "^#include \"(.*)\".*" "\\1" other "${line}")
+    tie(${header} ${other} "#include")
+  endforeach()
+endforeach()
+list(REMOVE_DUPLICATES files)
+list(LENGTH files n)
+if(n LESS 100)
+  message(FATAL_ERROR "only ${n} files seen: wrong folder?")
+endif()
+
+foreach(cut IN LISTS known)
+  string(REPLACE " > " ";" pair "${cut}")
+  list(JOIN pair "_" pair)
+  if(NOT DEFINED by_${pair})
+    message(SEND_ERROR "\"${cut}\" is cut: take it off the list")
+  endif()
+endforeach()
+
+# Takes away what needs nothing that is left, again and again; sets `left` to the rest.
+function(unwind)
+  set(left ${files})
+  set(gone TRUE)
+  while(gone)
+    set(gone FALSE)
+    foreach(file IN LISTS left)
+      set(free TRUE)
+      foreach(other IN LISTS ties_${file})
+        if(other IN_LIST left AND NOT "${file} > ${other}" IN_LIST known)
+          set(free FALSE)
+          break()
+        endif()
+      endforeach()
+      if(free)
+        list(REMOVE_ITEM left ${file})
+        set(gone TRUE)
+      endif()
+    endforeach()
+  endwhile()
+  set(left ${left} PARENT_SCOPE)
+endfunction()
+
+unwind()
+if(left)
+  # Everything that is left needs something that is left: following it comes round.
+  list(GET left 0 file)
+  set(way "")
+  while(NOT file IN_LIST way)
+    list(APPEND way ${file})
+    foreach(other IN LISTS ties_${file})
+      if(other IN_LIST left AND NOT "${file} > ${other}" IN_LIST known)
+        set(file ${other})
+        break()
+      endif()
+    endforeach()
+  endwhile()
+  list(FIND way ${file} begin)
+  list(SUBLIST way ${begin} -1 circle)
+  set(text "")
+  list(LENGTH circle n)
+  foreach(i RANGE 1 ${n})
+    math(EXPR k "${i} % ${n}")
+    math(EXPR j "${i} - 1")
+    list(GET circle ${j} from)
+    list(GET circle ${k} to)
+    string(APPEND text "\n  ${from} needs ${to}:${by_${from}_${to}}")
+  endforeach()
+  message(FATAL_ERROR "a circle of files:${text}")
+endif()
+message(STATUS "${n} files, no circle")
