@@ -73,7 +73,6 @@ typedef enum wt_status {
 #undef WT_STATUS_ENUM
 } wt_status;
 
-WT_API const char *wt_status_name(wt_status status); /* "WT_E_UNIT"; static */
 WT_API const char *wt_status_text(wt_status status); /* "unit missing, ..."; static */
 
 /* ---- error -------------------------------------------------------------------------------- */
@@ -122,7 +121,7 @@ typedef struct wt_log_entry {
 } wt_log_entry;
 
 /* Notes and warnings of reading and fitting. Equal texts for one file are counted, not repeated.
- * One thread at a time: give each worker its own and append them in order. */
+ * One thread at a time. */
 typedef struct wt_parselog wt_parselog;
 
 WT_API wt_parselog *wt_parselog_new(void); /* NULL when out of memory */
@@ -133,8 +132,6 @@ WT_API void wt_parselog_add(wt_parselog *log, wt_severity severity, const char *
 WT_API size_t wt_parselog_count(const wt_parselog *log); /* distinct entries; 0 for NULL */
 WT_API wt_log_entry wt_parselog_get(const wt_parselog *log, size_t i);
 WT_API size_t wt_parselog_lost(const wt_parselog *log);
-/* Appends all entries of `from` to `to`. */
-WT_API void wt_parselog_append(wt_parselog *to, const wt_parselog *from);
 
 /* ---- quantities and units ----------------------------------------------------------------- */
 
@@ -255,8 +252,7 @@ WT_API void wt_strings_free(char **strings, size_t n);
  * name, then renamed. A symbolic link is followed; a device or a pipe is written in place. */
 typedef struct wt_outfile wt_outfile;
 WT_API wt_status wt_outfile_open(const char *path, wt_outfile **file, wt_error *err) WT_NODISCARD;
-WT_API FILE *wt_outfile_stream(wt_outfile *file);           /* borrowed */
-WT_API const char *wt_outfile_path(const wt_outfile *file); /* the temporary name; borrowed */
+WT_API FILE *wt_outfile_stream(wt_outfile *file); /* borrowed */
 /* Flushes, checks, renames and frees; on failure the temporary file is gone and `file` freed. */
 WT_API wt_status wt_outfile_commit(wt_outfile *file, wt_error *err) WT_NODISCARD;
 WT_API void wt_outfile_discard(wt_outfile *file); /* removes the temporary file, frees; NULL ok */

@@ -264,10 +264,11 @@ WT_API wt_status wt_shift_fit(const wt_sweep *sweep, const wt_shift_options *opt
                               wt_parselog *log, wt_master_curve *master,
                               wt_error *err) WT_NODISCARD;
 /* Generalised least squares of the determined shifts (at least four, else WT_E_MISSING) with their
- * full covariance plus floor^2, c1 > 0 and the pole below all isotherms; errors grow with the
- * scatter about the law. WT_E_RANGE if the shifts do not fall with temperature. */
-WT_API wt_status wt_wlf_fit_shifts(const wt_master_curve *master, const wt_shift_options *options,
-                                   wt_wlf_fit *fit, wt_error *err) WT_NODISCARD;
+ * full covariance plus floor^2 (as in wt_shift_options), c1 > 0 and the pole below all isotherms;
+ * errors grow with the scatter about the law. WT_E_RANGE if the shifts do not fall with
+ * temperature. */
+WT_API wt_status wt_wlf_fit_shifts(const wt_master_curve *master, double floor, wt_wlf_fit *fit,
+                                   wt_error *err) WT_NODISCARD;
 
 /* ---- Prony series ------------------------------------------------------------------------------
  */

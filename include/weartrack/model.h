@@ -68,9 +68,6 @@ typedef struct wt_wlf {
 } wt_wlf;
 /* NaN at and below the pole Tref - c2. */
 WT_API double wt_wlf_log_shift(const wt_wlf *wlf, double temperature);
-/* The same law at another reference: c1' = c1 c2 / c2', c2' = c2 + (T' - Tref). */
-WT_API wt_status wt_wlf_rereference(const wt_wlf *wlf, double temperature, wt_wlf *out,
-                                    wt_error *err) WT_NODISCARD;
 /* log10 aT = (Ea / (R ln 10)) (1/T - 1/Tref); Ea in J/mol. */
 WT_API double wt_arrhenius_log_shift(double activation_energy, double reference_temperature,
                                      double temperature);
@@ -147,9 +144,6 @@ WT_API wt_status wt_roughness_self_affine(double q0, double qr, double q1, doubl
 /* Log-log linear between n >= 2 rising knots; q0, q1 = first and last knot. */
 WT_API wt_status wt_roughness_table(const double *q, const double *c, size_t n,
                                     wt_roughness **roughness, wt_error *err) WT_NODISCARD;
-/* A view of `base` (borrowed, must live longer) cut to [q0, q1] inside its range. */
-WT_API wt_status wt_roughness_cut(const wt_roughness *base, double q0, double q1,
-                                  wt_roughness **roughness, wt_error *err) WT_NODISCARD;
 WT_API void wt_roughness_free(wt_roughness *roughness);
 WT_API double wt_roughness_rms_height(const wt_roughness *roughness); /* [m] */
 WT_API double wt_roughness_rms_slope(const wt_roughness *roughness);  /* 1 */

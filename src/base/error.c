@@ -6,17 +6,6 @@
 #include <stdarg.h>
 #include <string.h>
 
-const char *wt_status_name(wt_status status)
-{
-    static const char *const names[] = {
-#define STATUS_NAME(name, text) #name,
-        WT_STATUS_LIST(STATUS_NAME)
-#undef STATUS_NAME
-    };
-    const size_t i = (size_t)status;
-    return i < sizeof names / sizeof *names ? names[i] : "unknown";
-}
-
 const char *wt_status_text(wt_status status)
 {
     static const char *const texts[] = {

@@ -173,11 +173,6 @@ FILE *wt_outfile_stream(wt_outfile *file)
     return file->stream;
 }
 
-const char *wt_outfile_path(const wt_outfile *file)
-{
-    return file->temporary;
-}
-
 /* The name is safe on disk only when its folder is; not every file system can do that, and the file
  * is complete either way. */
 static void sync_folder(const char *path)

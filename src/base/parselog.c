@@ -137,15 +137,3 @@ size_t wt_parselog_lost(const wt_parselog *log)
 {
     return log != NULL ? log->lost : 0;
 }
-
-void wt_parselog_append(wt_parselog *to, const wt_parselog *from)
-{
-    if (to == NULL || from == NULL)
-        return;
-    for (size_t i = 0; i < from->n; i++) {
-        const log_entry *const e = from->entries[i];
-        if (!add(to, e->severity, e->file, e->place, e->text, e->count))
-            to->lost += e->count;
-    }
-    to->lost += from->lost;
-}

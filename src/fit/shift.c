@@ -54,8 +54,7 @@ static wt_status check_options(const wt_shift_options *options, wt_error *err)
 static double physical_shift(const shift_work *work, double temperature)
 {
     const double t0 = work->reference_temperature;
-    return log10(t0 / temperature) +
-           work->options.expansion * (temperature - t0) / 2.302585092994045684;
+    return log10(t0 / temperature) + work->options.expansion * (temperature - t0) / M_LN10;
 }
 
 /* The isotherm to start from: nearest to the reference temperature, or the one in the middle. */

@@ -249,19 +249,96 @@ static wt_status check_falls(double slope, wt_error *err)
     return status;
 }
 
-wt_status wlf_fit_arrays(const double *temperature, const double *log_a, const double *covariance,
-                         size_t n, double reference_temperature, double floor, wt_wlf_fit *fit,
+/* What the fits of one set of shifts share. */
+struct workspace {
+    gsl_multifit_linear_workspace *linear;
+    gsl_multifit_nlinear_workspace *nonlinear;
+    gsl_matrix *linear_cov, *cov;
+};
+
+static wt_status workspace_init(struct workspace *w, size_t n, wt_error *err)
+{
+    const gsl_multifit_nlinear_parameters settings = gsl_multifit_nlinear_default_parameters();
+    w->linear = gsl_multifit_linear_alloc(n, 2);
+    w->nonlinear = gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &settings, n, N_WLF);
+    w->linear_cov = gsl_matrix_alloc(2, 2);
+    w->cov = gsl_matrix_alloc(N_WLF, N_WLF);
+    if (w->linear == NULL || w->nonlinear == NULL || w->linear_cov == NULL || w->cov == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for the WLF fit");
+    return WT_OK;
+}
+
+static void workspace_free(struct workspace *w)
+{
+    gsl_multifit_linear_free(w->linear);
+    if (w->nonlinear != NULL)
+        gsl_multifit_nlinear_free(w->nonlinear);
+    gsl_matrix_free(w->linear_cov);
+    gsl_matrix_free(w->cov);
+}
+
+/* A law with one factor, offset + factor * regressor (in problem->column), with its error. */
+static wt_status fit_factor(struct problem *problem, struct workspace *w, double *factor,
+                            double *error, double *criterion, wt_error *err)
+{
+    double line[2], chi_square;
+    wt_status status = fit_linear(problem, w->linear, line, w->linear_cov, &chi_square, err);
+    if (status != WT_OK)
+        return status;
+    *factor = line[1];
+    *error = sqrt(gsl_matrix_get(w->linear_cov, 1, 1)) * scatter_factor(chi_square, problem->n, 2);
+    *criterion = aicc(chi_square, problem->n, 2);
+    return WT_OK;
+}
+
+/* The straight line, by which shifts that do not fall are refused, and Arrhenius' law. */
+static wt_status fit_lines(struct problem *problem, struct workspace *w, double *slope,
+                           double *slope_error, wt_wlf_fit *fit, wt_error *err)
+{
+    double ignored;
+    for (size_t i = 0; i < problem->n; i++)
+        gsl_vector_set(problem->column, i, problem->temperature[i] - problem->reference);
+    wt_status status = fit_factor(problem, w, slope, slope_error, &ignored, err);
+    if (status == WT_OK)
+        status = check_falls(*slope, err);
+    for (size_t i = 0; i < problem->n; i++)
+        gsl_vector_set(problem->column, i,
+                       wt_arrhenius_log_shift(1.0, problem->reference, problem->temperature[i]));
+    if (status == WT_OK)
+        status = fit_factor(problem, w, &fit->activation_energy, &fit->activation_energy_error,
+                            &fit->aicc_arrhenius, err);
+    return status;
+}
+
+/* The best of fits from several starts: the cost has side minima. */
+static wt_status fit_law(struct problem *problem, struct workspace *w, wt_wlf_fit *fit,
                          wt_error *err)
 {
     /* Distance of the pole below the coldest isotherm to start from [K]. */
     static const double starts[] = {10.0, 40.0, 150.0, 600.0};
+    double best = HUGE_VAL, chi_square;
+    wt_status status = WT_OK;
+    for (size_t k = 0; k < sizeof starts / sizeof *starts; k++) {
+        double unknown[N_WLF];
+        status = fit_from(problem, starts[k], w->linear, w->linear_cov, w->nonlinear, unknown,
+                          &chi_square, w->cov, err);
+        if (status == WT_OK && chi_square < best) {
+            best = chi_square;
+            fill_wlf(problem, unknown, w->cov, chi_square, fit);
+        }
+    }
+    return best < HUGE_VAL ? WT_OK : status; /* the last failure */
+}
+
+wt_status wlf_fit_arrays(const double *temperature, const double *log_a, const double *covariance,
+                         size_t n, double reference_temperature, double floor, wt_wlf_fit *fit,
+                         wt_error *err)
+{
     struct problem problem = {
         .n = n, .temperature = temperature, .log_a = log_a, .reference = reference_temperature};
-    gsl_multifit_linear_workspace *linear = NULL;
-    gsl_multifit_nlinear_workspace *nonlinear = NULL;
-    gsl_matrix *linear_cov = NULL, *cov = NULL;
+    struct workspace w = {0};
     wt_wlf_fit made = {.n = n};
-    double line[2], chi_square;
+    double slope, slope_error;
 
     gsl_quiet();
     if (!(reference_temperature > 0.0) || !(floor > 0.0) || n <= N_WLF) {
@@ -279,73 +356,28 @@ wt_status wlf_fit_arrays(const double *temperature, const double *log_a, const d
         coldest = fmin(coldest, temperature[i]);
     problem.lead = reference_temperature - coldest;
     wt_status status = problem_init(&problem, covariance, floor, err);
-    if (status != WT_OK)
-        goto done;
-    linear = gsl_multifit_linear_alloc(n, 2);
-    gsl_multifit_nlinear_parameters settings = gsl_multifit_nlinear_default_parameters();
-    nonlinear = gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &settings, n, N_WLF);
-    linear_cov = gsl_matrix_alloc(2, 2);
-    cov = gsl_matrix_alloc(N_WLF, N_WLF);
-    if (linear == NULL || nonlinear == NULL || linear_cov == NULL || cov == NULL) {
-        status = wt_fail(err, WT_E_MEMORY, "no memory for the WLF fit");
-        goto done;
-    }
-    for (size_t i = 0; i < n; i++)
-        gsl_vector_set(problem.column, i, temperature[i] - reference_temperature);
-    status = fit_linear(&problem, linear, line, linear_cov, &chi_square, err);
     if (status == WT_OK)
-        status = check_falls(line[1], err);
-    if (status != WT_OK)
-        goto done;
-    const double line_slope = line[1];
-    const double line_error =
-        sqrt(gsl_matrix_get(linear_cov, 1, 1)) * scatter_factor(chi_square, n, 2);
-
-    for (size_t i = 0; i < n; i++)
-        gsl_vector_set(problem.column, i,
-                       wt_arrhenius_log_shift(1.0, reference_temperature, temperature[i]));
-    status = fit_linear(&problem, linear, line, linear_cov, &chi_square, err);
-    if (status != WT_OK)
-        goto done;
-    made.activation_energy = line[1];
-    made.activation_energy_error =
-        sqrt(gsl_matrix_get(linear_cov, 1, 1)) * scatter_factor(chi_square, n, 2);
-    made.aicc_arrhenius = aicc(chi_square, n, 2);
-
-    double best = HUGE_VAL;
-    for (size_t k = 0; k < sizeof starts / sizeof *starts; k++) {
-        double unknown[N_WLF];
-        status = fit_from(&problem, starts[k], linear, linear_cov, nonlinear, unknown, &chi_square,
-                          cov, err);
-        if (status == WT_OK && chi_square < best) {
-            best = chi_square;
-            fill_wlf(&problem, unknown, cov, chi_square, &made);
+        status = workspace_init(&w, n, err);
+    if (status == WT_OK)
+        status = fit_lines(&problem, &w, &slope, &slope_error, &made, err);
+    if (status == WT_OK)
+        status = fit_law(&problem, &w, &made, err);
+    if (status == WT_OK) {
+        if (made.straight) {
+            made.slope = slope;
+            made.slope_error = slope_error;
         }
+        made.rms = weighted_rms(&problem, covariance, floor, &made);
+        *fit = made;
     }
-    if (!(best < HUGE_VAL))
-        goto done; /* with the last failure */
-    status = WT_OK;
-    if (made.straight) {
-        made.slope = line_slope;
-        made.slope_error = line_error;
-    }
-    made.rms = weighted_rms(&problem, covariance, floor, &made);
-    *fit = made;
-done:
     problem_free(&problem);
-    gsl_multifit_linear_free(linear);
-    if (nonlinear != NULL)
-        gsl_multifit_nlinear_free(nonlinear);
-    gsl_matrix_free(linear_cov);
-    gsl_matrix_free(cov);
+    workspace_free(&w);
     return status;
 }
 
-wt_status wt_wlf_fit_shifts(const wt_master_curve *master, const wt_shift_options *options,
-                            wt_wlf_fit *fit, wt_error *err)
+wt_status wt_wlf_fit_shifts(const wt_master_curve *master, double floor, wt_wlf_fit *fit,
+                            wt_error *err)
 {
-    const wt_shift_options defaults = wt_shift_defaults();
-    const double floor = (options != NULL ? options : &defaults)->floor;
     const size_t n_all = master->n_shifts;
     size_t n = 0;
     double *temperature = calloc(n_all + 1, sizeof *temperature);

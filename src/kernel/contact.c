@@ -4,6 +4,8 @@
  */
 #include "kernel/contact.h"
 
+#include "model/special.h"
+
 #include <math.h>
 
 double contact_area(double variance)
@@ -20,10 +22,6 @@ double contact_gap(double variance)
  * and below it the integrand is smooth, so composite Gauss-Legendre with 8 nodes is exact. */
 static double cube_integral(double variance)
 {
-    static const double node[4] = {0.1834346424956498049, 0.5255324099163289858,
-                                   0.7966664774136267396, 0.9602898564975362317};
-    static const double weight[4] = {0.3626837833783619830, 0.3137066458778872873,
-                                     0.2223810344533744706, 0.1012285362903762592};
     const double end = 6;
     const double y = 0.5 / sqrt(variance);
     if (!(y < end))
@@ -34,11 +32,12 @@ static double cube_integral(double variance)
     for (int p = 0; p < pieces; p++) {
         const double middle = y + (2 * p + 1) * half;
         for (int i = 0; i < 4; i++) {
-            const double low = middle - half * node[i];
-            const double high = middle + half * node[i];
+            const double low = middle - half * gauss_8_node[i];
+            const double high = middle + half * gauss_8_node[i];
             const double at_low = erf(low) / low;
             const double at_high = erf(high) / high;
-            sum += half * weight[i] * (at_low * at_low * at_low + at_high * at_high * at_high) / 2;
+            sum += half * gauss_8_weight[i] *
+                   (at_low * at_low * at_low + at_high * at_high * at_high) / 2;
         }
     }
     return sum + 0.25 / (end * end);

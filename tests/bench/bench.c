@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../status_name.h"
 #include "bench/bench.h"
 
 static double run_seconds = 0.5;
@@ -49,7 +50,7 @@ void bench_check(wt_status status, const wt_error *err)
     char line[1024] = "";
     if (err != NULL)
         wt_error_format(err, line, sizeof line);
-    fprintf(stderr, "bench: %s: %s\n", wt_status_name(status), line);
+    fprintf(stderr, "bench: %s: %s\n", status_name(status), line);
     exit(1);
 }
 

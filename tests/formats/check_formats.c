@@ -5,6 +5,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
+#include "../status_name.h"
 #include "weartrack/read.h"
 
 #include <math.h>
@@ -88,7 +89,7 @@ static bool has_status(reading *r, wt_status status, const wt_error *err)
     const char *advice = item(r, "advice");
     char text[1024], wanted[128] = "";
     wt_error_format(err, text, sizeof text);
-    is_word(r, status == WT_OK ? "status" : text, wt_status_name(status),
+    is_word(r, status == WT_OK ? "status" : text, status_name(status),
             expected != NULL ? expected : "WT_OK");
     if (advice != NULL) {
         snprintf(wanted, sizeof wanted, "%s", advice);

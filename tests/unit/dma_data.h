@@ -12,6 +12,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* The same law at another reference: c1' = c1 c2 / c2', c2' = c2 + (T' - Tref). */
+static inline wt_wlf dma_moved(wt_wlf law, double temperature)
+{
+    const double c2 = law.c2 + (temperature - law.reference_temperature);
+    return (wt_wlf){temperature, law.c1 * law.c2 / c2, c2};
+}
+
 /* T_C,f_Hz,omega_rad_s,M_storage_Pa,M_loss_Pa; rows of one temperature follow one another. */
 static inline bool dma_read_tidy(const char *path, wt_sweep *sweep)
 {

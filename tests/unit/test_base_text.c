@@ -12,9 +12,8 @@
 static void statuses(void **state)
 {
     (void)state;
-    assert_string_equal(wt_status_name(WT_E_UNIT), "WT_E_UNIT");
     assert_string_equal(wt_status_text(WT_E_IO), "input or output failed");
-    assert_string_equal(wt_status_name((wt_status)999), "unknown");
+    assert_string_equal(wt_status_text((wt_status)999), "unknown status");
 }
 
 static void error_parts(void **state)
@@ -101,15 +100,13 @@ static void parse_log(void **state)
 {
     (void)state;
     wt_parselog *const log = wt_parselog_new();
-    wt_parselog *const other = wt_parselog_new();
-    assert_true(log != NULL && other != NULL);
+    assert_non_null(log);
     for (int i = 0; i < 500; i++)
         wt_parselog_add(log, WT_WARNING, "a.txt", i == 0 ? "line 1" : "line 2", "value %s", "odd");
     wt_parselog_add(log, WT_NOTE, "a.txt", NULL, "value odd");
     wt_parselog_add(log, WT_WARNING, NULL, NULL, "value odd");
-    wt_parselog_add(other, WT_WARNING, "a.txt", "line 9", "value odd");
-    wt_parselog_add(other, WT_WARNING, "b.txt", "line 9", "value\nodd");
-    wt_parselog_append(log, other);
+    wt_parselog_add(log, WT_WARNING, "a.txt", "line 9", "value odd");
+    wt_parselog_add(log, WT_WARNING, "b.txt", "line 9", "value\nodd");
     assert_int_equal(wt_parselog_count(log), 4);
     const wt_log_entry first = wt_parselog_get(log, 0);
     assert_int_equal(first.severity, WT_WARNING);
@@ -121,7 +118,6 @@ static void parse_log(void **state)
     assert_string_equal(wt_parselog_get(log, 3).text, "value odd");
     assert_int_equal(wt_parselog_lost(log), 0);
     wt_parselog_free(log);
-    wt_parselog_free(other);
     wt_parselog_free(NULL);
     wt_parselog_add(NULL, WT_NOTE, NULL, NULL, "nobody listens");
     assert_int_equal(wt_parselog_count(NULL), 0);

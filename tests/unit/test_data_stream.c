@@ -1,5 +1,6 @@
 /* The text stream: round trip, and what is refused. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "near.h"
+#include "status_name.h"
 #include "weartrack/data.h"
 
 #include <locale.h>
@@ -238,7 +239,7 @@ static void refused(void **state)
         wt_error err = WT_ERROR_INIT;
         const wt_status status = read_text(cases[i].text, &t, &err);
         if (status != WT_E_CORRUPT)
-            print_error("case %zu: %s\n", i, wt_status_name(status));
+            print_error("case %zu: %s\n", i, status_name(status));
         assert_int_equal(status, WT_E_CORRUPT);
         assert_int_equal(err.status, WT_E_CORRUPT);
         assert_null(t);

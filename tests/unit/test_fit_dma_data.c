@@ -38,9 +38,7 @@ static wt_master_curve fit_good(const wt_sweep *sweep, const wt_shift_options *o
 /* B = 691.6245 K, pole -114.3 - 14.65/94.9 degC: Auhl et al., J. Rheol. 52 (2008) 801. */
 static wt_wlf published(double kelvin)
 {
-    wt_wlf law = {243.15, 8.1893, 84.454}, moved = {0};
-    assert_int_equal(wt_wlf_rereference(&law, kelvin, &moved, NULL), WT_OK);
-    return moved;
+    return dma_moved((wt_wlf){243.15, 8.1893, 84.454}, kelvin);
 }
 
 static double rms_from_published(const wt_master_curve *master)
@@ -71,7 +69,7 @@ static void auhl_2008_polyisoprene(void **state)
         wt_master_curve master = fit_good(&sweep, &options, NULL);
         const double rms = rms_from_published(&master);
         wt_wlf_fit fit;
-        assert_int_equal(wt_wlf_fit_shifts(&master, &options, &fit, NULL), WT_OK);
+        assert_int_equal(wt_wlf_fit_shifts(&master, options.floor, &fit, NULL), WT_OK);
         print_message("vertical %d: %.4f decade from the published law; C1 %.3f +- %.3f, C2 %.2f "
                       "+- %.2f K; overlap rms %.4f, %.4f; KK %.3f\n",
                       v, rms, fit.wlf.c1, fit.c1_error, fit.wlf.c2, fit.c2_error,
@@ -116,7 +114,7 @@ static void auhl_2008_between_isotherms(void **state)
         wt_master_curve master = fit_good(&sweep, &options, NULL);
         assert_true(rms_from_published(&master) < 0.025);
         wt_wlf_fit fit;
-        assert_int_equal(wt_wlf_fit_shifts(&master, &options, &fit, NULL), WT_OK);
+        assert_int_equal(wt_wlf_fit_shifts(&master, options.floor, &fit, NULL), WT_OK);
         const wt_wlf law = published(options.reference_temperature);
         assert_near_abs(fit.wlf.c1, law.c1, 2.0 * fit.c1_error);
         assert_near_abs(fit.wlf.c2, law.c2, 2.0 * fit.c2_error);
@@ -165,7 +163,7 @@ static void soft_polymer_with_compliance_limit(void **state)
     assert_true(master.shifts[0].log_b.value < -0.1);
     assert_non_null(strstr(master.shifts[0].note, "where rho T gives"));
     wt_wlf_fit fit;
-    assert_int_equal(wt_wlf_fit_shifts(&master, &options, &fit, NULL), WT_OK);
+    assert_int_equal(wt_wlf_fit_shifts(&master, options.floor, &fit, NULL), WT_OK);
     print_message("C1 %.2f +- %.2f, C2 %.1f +- %.1f K\n", fit.wlf.c1, fit.c1_error, fit.wlf.c2,
                   fit.c2_error);
     assert_false(fit.straight);
@@ -223,7 +221,7 @@ static void thermoplastics_do_not_superpose(void **state)
             assert_non_null(strstr(master.note, "superposition fails"));
             assert_true(wt_parselog_count(log) > 0);
             wt_wlf_fit fit;
-            if (wt_wlf_fit_shifts(&master, &options, &fit, NULL) == WT_OK)
+            if (wt_wlf_fit_shifts(&master, options.floor, &fit, NULL) == WT_OK)
                 assert_true(fit.straight);
             wt_parselog_free(log);
             wt_master_curve_clear(&master);

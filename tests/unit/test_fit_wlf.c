@@ -43,7 +43,7 @@ static void exact_shifts_give_the_constants_back(void **state)
         log_a[i] = wt_wlf_log_shift(&polyisoprene, temperatures[i]);
     wt_master_curve master = shifts_only(temperatures, log_a, sigma, N, 243.15);
     wt_wlf_fit fit;
-    assert_int_equal(wt_wlf_fit_shifts(&master, NULL, &fit, NULL), WT_OK);
+    assert_int_equal(wt_wlf_fit_shifts(&master, wt_shift_defaults().floor, &fit, NULL), WT_OK);
     assert_near(fit.wlf.c1, 8.1893, 1e-7);
     assert_near(fit.wlf.c2, 84.454, 1e-7);
     assert_near(fit.b, 8.1893 * 84.454, 1e-7);
@@ -81,7 +81,7 @@ static void the_reference_isotherm_has_no_privilege(void **state)
         wt_master_curve master =
             shifts_only(temperatures, log_a, sigma, N, temperatures[reference]);
         wt_wlf_fit fit;
-        assert_int_equal(wt_wlf_fit_shifts(&master, NULL, &fit, NULL), WT_OK);
+        assert_int_equal(wt_wlf_fit_shifts(&master, wt_shift_defaults().floor, &fit, NULL), WT_OK);
         if (reference == 0)
             first = fit;
         assert_near(fit.b, first.b, 1e-5);
@@ -105,7 +105,7 @@ static void intervals_hold_the_truth_as_often_as_they_say(void **state)
             log_a[i] = wt_wlf_log_shift(&polyisoprene, temperatures[i]) + 0.01 * dma_normal(&noise);
         wt_master_curve master = shifts_only(temperatures, log_a, sigma, N, 243.15);
         wt_wlf_fit fit;
-        assert_int_equal(wt_wlf_fit_shifts(&master, &options, &fit, NULL), WT_OK);
+        assert_int_equal(wt_wlf_fit_shifts(&master, options.floor, &fit, NULL), WT_OK);
         inside1 += fabs(fit.wlf.c1 - 8.1893) < 1.96 * fit.c1_error;
         inside2 += fabs(fit.wlf.c2 - 84.454) < 1.96 * fit.c2_error;
         inside_b += fabs(fit.b - 8.1893 * 84.454) < 1.96 * fit.b_error;
@@ -136,7 +136,7 @@ static void the_whole_way_from_noisy_moduli_is_honest(void **state)
             wt_master_curve master = {0};
             wt_wlf_fit fit;
             assert_int_equal(wt_shift_fit(&sweep, &options, NULL, &master, NULL), WT_OK);
-            assert_int_equal(wt_wlf_fit_shifts(&master, &options, &fit, NULL), WT_OK);
+            assert_int_equal(wt_wlf_fit_shifts(&master, options.floor, &fit, NULL), WT_OK);
             const double z1 = (fit.wlf.c1 - 8.0) / fit.c1_error;
             const double z2 = (fit.wlf.c2 - 110.0) / fit.c2_error;
             inside1 += fabs(z1) < 1.96;
@@ -166,14 +166,14 @@ static void the_covariance_of_a_chain_counts(void **state)
     }
     wt_master_curve master = shifts_only(temperatures, log_a, sigma, N, 243.15);
     wt_wlf_fit diagonal, chain;
-    assert_int_equal(wt_wlf_fit_shifts(&master, NULL, &diagonal, NULL), WT_OK);
+    assert_int_equal(wt_wlf_fit_shifts(&master, wt_shift_defaults().floor, &diagonal, NULL), WT_OK);
     for (size_t i = 0; i < N; i++)
         for (size_t k = 0; k < N; k++) {
             const double from_i = (double)i - 2.0, from_k = (double)k - 2.0;
             master.covariance[i * N + k] =
                 from_i * from_k > 0.0 ? 0.0004 * fmin(fabs(from_i), fabs(from_k)) : 0.0;
         }
-    assert_int_equal(wt_wlf_fit_shifts(&master, NULL, &chain, NULL), WT_OK);
+    assert_int_equal(wt_wlf_fit_shifts(&master, wt_shift_defaults().floor, &chain, NULL), WT_OK);
     assert_near(chain.wlf.c1, 8.1893, 1e-6);
     assert_true(chain.slope_error > 1.2 * diagonal.slope_error);
     wt_master_curve_clear(&master);
@@ -191,13 +191,14 @@ static void undetermined_shifts_do_not_take_part(void **state)
     for (size_t k = 0; k < N; k++)
         master.covariance[5 * N + k] = master.covariance[k * N + 5] = (double)NAN;
     wt_wlf_fit fit;
-    assert_int_equal(wt_wlf_fit_shifts(&master, NULL, &fit, NULL), WT_OK);
+    assert_int_equal(wt_wlf_fit_shifts(&master, wt_shift_defaults().floor, &fit, NULL), WT_OK);
     assert_int_equal(fit.n, N - 1);
     assert_near(fit.wlf.c2, 84.454, 1e-6);
     for (size_t i = 0; i < 5; i++)
         master.shifts[i].determined = false;
     wt_error err = WT_ERROR_INIT;
-    assert_int_equal(wt_wlf_fit_shifts(&master, NULL, &fit, &err), WT_E_MISSING);
+    assert_int_equal(wt_wlf_fit_shifts(&master, wt_shift_defaults().floor, &fit, &err),
+                     WT_E_MISSING);
     assert_non_null(strstr(err.found, "2 shifts"));
     wt_master_curve_clear(&master);
 }
@@ -213,7 +214,7 @@ static void the_pole_is_not_crossed(void **state)
         log_a[i] = wt_wlf_log_shift(&steep, warm[i]);
     wt_master_curve master = shifts_only(warm, log_a, sigma, 7, 293.15);
     wt_wlf_fit fit;
-    assert_int_equal(wt_wlf_fit_shifts(&master, NULL, &fit, NULL), WT_OK);
+    assert_int_equal(wt_wlf_fit_shifts(&master, wt_shift_defaults().floor, &fit, NULL), WT_OK);
     assert_near(fit.wlf.c1, 9.0, 1e-6);
     assert_near(fit.wlf.c2, 42.0, 1e-6);
     assert_true(fit.pole < warm[0]);
@@ -229,7 +230,7 @@ static void a_straight_line_has_only_a_slope(void **state)
         log_a[i] = -0.31 * (temperatures[i] - 243.15) + 0.02 * dma_normal(&noise);
     wt_master_curve master = shifts_only(temperatures, log_a, sigma, N, 243.15);
     wt_wlf_fit fit;
-    assert_int_equal(wt_wlf_fit_shifts(&master, NULL, &fit, NULL), WT_OK);
+    assert_int_equal(wt_wlf_fit_shifts(&master, wt_shift_defaults().floor, &fit, NULL), WT_OK);
     assert_true(fit.straight);
     assert_near_abs(fit.slope, -0.31, 3.0 * fit.slope_error);
     assert_true(fit.slope_error > 0.0 && fit.slope_error < 0.002);
@@ -253,7 +254,7 @@ static void arrhenius_shifts_are_recognised(void **state)
     wt_master_curve master = shifts_only(temperatures, log_a, sigma, N, 243.15);
     wt_wlf_fit fit;
     const wt_shift_options options = with_floor(0.003);
-    assert_int_equal(wt_wlf_fit_shifts(&master, &options, &fit, NULL), WT_OK);
+    assert_int_equal(wt_wlf_fit_shifts(&master, options.floor, &fit, NULL), WT_OK);
     assert_near_abs(fit.activation_energy, 83e3, 3.0 * fit.activation_energy_error);
     assert_true(fit.activation_energy_error < 500.0);
     assert_true(fit.aicc_arrhenius < fit.aicc_wlf);
@@ -268,7 +269,7 @@ static void few_shifts_have_no_criterion(void **state)
         log_a[i] = wt_wlf_log_shift(&polyisoprene, temperatures[i]);
     wt_master_curve master = shifts_only(temperatures, log_a, sigma, 5, 243.15);
     wt_wlf_fit fit;
-    assert_int_equal(wt_wlf_fit_shifts(&master, NULL, &fit, NULL), WT_OK);
+    assert_int_equal(wt_wlf_fit_shifts(&master, wt_shift_defaults().floor, &fit, NULL), WT_OK);
     assert_near(fit.aicc_wlf, (double)NAN, 0.0);
     wt_master_curve_clear(&master);
 }
@@ -282,15 +283,15 @@ static void shifts_of_the_wrong_sign_are_refused(void **state)
     wt_master_curve master = shifts_only(temperatures, log_a, sigma, N, 243.15);
     wt_wlf_fit fit = {.n = 99};
     wt_error err = WT_ERROR_INIT;
-    assert_int_equal(wt_wlf_fit_shifts(&master, NULL, &fit, &err), WT_E_RANGE);
+    assert_int_equal(wt_wlf_fit_shifts(&master, wt_shift_defaults().floor, &fit, &err), WT_E_RANGE);
     assert_int_equal(fit.n, 99);
     assert_non_null(strstr(err.message, "do not fall with temperature"));
     /* a reference in degrees Celsius among temperatures in kelvin */
     master.reference_temperature = -30.0;
-    assert_int_equal(wt_wlf_fit_shifts(&master, NULL, &fit, &err), WT_E_RANGE);
+    assert_int_equal(wt_wlf_fit_shifts(&master, wt_shift_defaults().floor, &fit, &err), WT_E_RANGE);
     master.reference_temperature = 243.15;
     const wt_shift_options none = with_floor(0.0);
-    assert_int_equal(wt_wlf_fit_shifts(&master, &none, &fit, &err), WT_E_RANGE);
+    assert_int_equal(wt_wlf_fit_shifts(&master, none.floor, &fit, &err), WT_E_RANGE);
     wt_master_curve_clear(&master);
 }
 
@@ -308,7 +309,7 @@ static void twenty_isotherms_take_little_time(void **state)
         wt_master_curve master = {0};
         wt_wlf_fit fit;
         assert_int_equal(wt_shift_fit(&sweep, NULL, NULL, &master, NULL), WT_OK);
-        assert_int_equal(wt_wlf_fit_shifts(&master, NULL, &fit, NULL), WT_OK);
+        assert_int_equal(wt_wlf_fit_shifts(&master, wt_shift_defaults().floor, &fit, NULL), WT_OK);
         least = fmin(least, wt_time_cpu() - start);
         wt_master_curve_clear(&master);
     }

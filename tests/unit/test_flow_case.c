@@ -1,6 +1,7 @@
 /* Reading case files: what they say, and what is said when they are wrong.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "near.h"
+#include "status_name.h"
 
 #include "flow/case/case.h"
 
@@ -160,7 +161,7 @@ static void test_wrong(void **state)
         wt_error_format(&err, whole, sizeof whole);
         if (status != cases[i].status || strstr(err.place, cases[i].place) == NULL ||
             strstr(whole, cases[i].part) == NULL)
-            fail_msg("case %zu: %s: %s", i, wt_status_name(status), whole);
+            fail_msg("case %zu: %s: %s", i, status_name(status), whole);
         assert_null(c);
         assert_string_equal(err.file, path);
     }

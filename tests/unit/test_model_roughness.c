@@ -1,4 +1,4 @@
-/* Power spectra: densities, root-mean-square height and slope, cuts, what is refused. */
+/* Power spectra: densities, root-mean-square height and slope, what is refused. */
 #include "near.h"
 
 #include "friction_cases.h"
@@ -65,42 +65,6 @@ static void logarithmic_moment(void **state)
     wt_roughness_free(r);
 }
 
-/* Two cuts make the whole, and a cut of a cut is a cut. */
-static void cuts(void **state)
-{
-    (void)state;
-    wt_roughness *base = NULL, *low = NULL, *high = NULL, *inner = NULL;
-    assert_int_equal(wt_roughness_self_affine(500, 2000, 1e6, 0.8, 6e-16, &base, NULL), WT_OK);
-    assert_int_equal(wt_roughness_cut(base, 500, 3333, &low, NULL), WT_OK);
-    assert_int_equal(wt_roughness_cut(base, 3333, 1e6, &high, NULL), WT_OK);
-    assert_int_equal(wt_roughness_cut(low, 700, 1500, &inner, NULL), WT_OK);
-    size_t n = 7;
-    assert_near(low->law->breaks(low, &n)[0], 2000, 0);
-    assert_int_equal(n, 1);
-    (void)high->law->breaks(high, &n);
-    assert_int_equal(n, 0);
-    assert_near(hypot(wt_roughness_rms_height(low), wt_roughness_rms_height(high)),
-                wt_roughness_rms_height(base), 1e-14);
-    assert_near(hypot(wt_roughness_rms_slope(low), wt_roughness_rms_slope(high)),
-                wt_roughness_rms_slope(base), 1e-14);
-    assert_near(wt_roughness_rms_height(inner), sqrt(M_PI * 6e-16 * (1500. * 1500. - 700. * 700.)),
-                1e-14);
-    double c;
-    inner->law->density(inner, (double[]){1600}, 1, &c);
-    assert_near(c, 0, 0);
-    wt_error err = WT_ERROR_INIT;
-    wt_roughness *none = NULL;
-    assert_int_equal(wt_roughness_cut(low, 700, 3334, &none, &err), WT_E_RANGE);
-    assert_non_null(strstr(err.expected, "3333"));
-    assert_int_equal(wt_roughness_cut(low, 700, 700, &none, &err), WT_E_RANGE);
-    assert_int_equal(wt_roughness_cut(low, (double)NAN, 800, &none, &err), WT_E_RANGE);
-    assert_null(none);
-    wt_roughness_free(inner);
-    wt_roughness_free(low);
-    wt_roughness_free(high);
-    wt_roughness_free(base);
-}
-
 static void bad_input(void **state)
 {
     (void)state;
@@ -137,8 +101,9 @@ static void bad_input(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(numeric_cases),      cmocka_unit_test(densities),
-        cmocka_unit_test(logarithmic_moment), cmocka_unit_test(cuts),
+        cmocka_unit_test(numeric_cases),
+        cmocka_unit_test(densities),
+        cmocka_unit_test(logarithmic_moment),
         cmocka_unit_test(bad_input),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

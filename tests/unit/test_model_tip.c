@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "near.h"
+#include "status_name.h"
 
 #include "weartrack/model.h"
 
@@ -90,7 +91,7 @@ static void refused_in_clear_words(void **state)
         char words[2048];
         wt_error_format(&err, words, sizeof words);
         if (status != cases[i].status || strstr(words, cases[i].words) == NULL)
-            fail_msg("%s: %s: %s", cases[i].text, wt_status_name(status), words);
+            fail_msg("%s: %s: %s", cases[i].text, status_name(status), words);
         assert_near(tip.radius, 1.0, 0.0); /* unchanged */
         assert_int_equal(wt_tip_parse(cases[i].text, &tip, NULL), status);
     }

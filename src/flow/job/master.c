@@ -297,7 +297,7 @@ static wt_status fit_law(const wt_master_curve *master, const wt_shift_options *
     *has_wlf = false;
     if (master->n_shifts < 2)
         return WT_OK;
-    wt_status status = wt_wlf_fit_shifts(master, options, wlf, &failure);
+    wt_status status = wt_wlf_fit_shifts(master, options->floor, wlf, &failure);
     if (status == WT_OK) {
         *has_wlf = true;
         return WT_OK;
