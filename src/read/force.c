@@ -3,6 +3,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
+#include "read/facts.h"
 #include "read/formats.h"
 
 #include <math.h>
@@ -129,46 +130,6 @@ wt_status wt_power_spectrum_read(const wt_formats *formats, wt_input *input,
 
 /* ---- facts -------------------------------------------------------------------------------- */
 
-wt_status facts_add(wt_table *facts, const char *item, const char *value, const char *unit,
-                    const char *source, wt_error *err)
-{
-    const char *cells[] = {item, value, unit, source};
-    wt_status status = wt_table_add_row(facts, err);
-    for (size_t i = 0; i < 4 && status == WT_OK; i++)
-        status = wt_table_put_text(facts, i, cells[i], err);
-    return status;
-}
-
-wt_status facts_number(wt_table *facts, const char *item, double value, const char *unit,
-                       const char *source, wt_error *err)
-{
-    char text[32];
-    wt_number_format(value, text);
-    return facts_add(facts, item, isnan(value) ? "unknown" : text, unit, source, err);
-}
-
-wt_status facts_count(wt_table *facts, const char *item, size_t value, const char *source,
-                      wt_error *err)
-{
-    char text[32];
-    snprintf(text, sizeof text, "%zu", value);
-    return facts_add(facts, item, text, "", source, err);
-}
-
-static wt_status add_columns(wt_table *facts, wt_error *err)
-{
-    static const struct {
-        const char *name, *long_name;
-    } columns[] = {{"item", "what is known"},
-                   {"value", "its value"},
-                   {"unit", "unit of the value"},
-                   {"source", "where in the file it stands, or how it is known"}};
-    wt_status status = WT_OK;
-    for (size_t i = 0; i < sizeof columns / sizeof *columns && status == WT_OK; i++)
-        status = wt_table_add_text_column(facts, columns[i].name, columns[i].long_name, err);
-    return status;
-}
-
 static wt_status add_common(const file_reader *reader, wt_input *input, bool chosen,
                             wt_table *facts, wt_error *err)
 {
@@ -202,10 +163,7 @@ wt_status wt_describe(const wt_formats *formats, wt_input *input, const wt_read_
     wt_status status = start(formats, input, options, 0, &o, &reader, err);
     if (status != WT_OK)
         return status;
-    table = wt_table_new("facts", "What the file is");
-    if (table == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory to describe the file");
-    status = add_columns(table, err);
+    status = facts_new(&table, err);
     if (status == WT_OK)
         status = add_common(reader, input, o.format != NULL, table, err);
     if (status == WT_OK)

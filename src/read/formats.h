@@ -1,5 +1,4 @@
-/* The set of formats as the other files of this room see it, and the table of facts that a reader
- * fills for `info`.
+/* The set of formats as the other files of this room see it.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -16,13 +15,5 @@ const file_reader *formats_reader(const wt_formats *formats, size_t i);
  */
 wt_status find_reader(const wt_formats *formats, wt_input *input, const char *format,
                       unsigned kinds, const file_reader **reader, wt_error *err);
-
-/* Adds a row (item, value, unit, source) to the table of wt_describe. */
-wt_status facts_add(wt_table *facts, const char *item, const char *value, const char *unit,
-                    const char *source, wt_error *err);
-wt_status facts_number(wt_table *facts, const char *item, double value, const char *unit,
-                       const char *source, wt_error *err);
-wt_status facts_count(wt_table *facts, const char *item, size_t value, const char *source,
-                      wt_error *err);
 
 #endif

@@ -1,6 +1,8 @@
 /* Measurements in this program's own HDF5 files. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/stored.h"
 
+#include "read/facts.h"
+
 #include <stdlib.h>
 #include <string.h>
 

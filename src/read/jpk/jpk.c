@@ -4,7 +4,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "read/jpk/jpk.h"
-#include "read/formats.h"
+#include "read/facts.h"
 
 #include <math.h>
 #include <stdlib.h>

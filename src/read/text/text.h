@@ -7,7 +7,7 @@
 #define WT_READ_TEXT_H
 
 #include "read/description/description.h"
-#include "read/formats.h"
+#include "read/reader.h"
 
 /* ---- lines -------------------------------------------------------------------------------- */
 

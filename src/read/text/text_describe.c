@@ -5,6 +5,7 @@
 #include "read/text/text.h"
 
 #include "base/clocale.h"
+#include "read/facts.h"
 
 #include <math.h>
 #include <string.h>
