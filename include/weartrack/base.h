@@ -10,6 +10,20 @@
  *   borrowed from the object it was asked of and lives as long as that object is unchanged.
  * - The library never prints, never exits and never changes the locale.
  *
+ * What stays as it is, from one version to the next:
+ * - While MAJOR is 0 a new MINOR may break programs; from 1 on only a new MAJOR may. A new PATCH
+ *   never does. soname and CMake package say the same: libweartrack.so.0.MINOR and then .MAJOR,
+ *   find_package(weartrack 0.MINOR). A program needs a library that is at least as new as the
+ *   headers it was built with.
+ * - A structure that the caller fills ends in `reserved`. A new field takes whole elements of it,
+ *   so sizes and offsets stay. Begin with its `_defaults` function, which is in the library and
+ *   also sets the fields that a program does not know yet; a structure without one begins with
+ *   zeros, `wt_tip tip = {0}`, and zero in a new field is what was done before it came. Leave
+ *   `reserved` alone, and name the fields in an initialiser.
+ * - Any other structure (results, wt_error, wt_estimate and the like) keeps its fields. An
+ *   enumeration grows at its end only.
+ * Sizes and offsets are kept for 64-bit systems; tests/arch/layout.c holds them.
+ *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #ifndef WEARTRACK_BASE_H
@@ -268,6 +282,7 @@ typedef struct wt_provenance_input {
     const char *format; /* id of the reader or description, with its version */
     uint64_t bytes;
     char sha256[65];
+    uint64_t reserved[8];
 } wt_provenance_input;
 
 typedef struct wt_provenance wt_provenance;

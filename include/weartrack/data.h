@@ -20,6 +20,7 @@ typedef struct wt_channel {
     char name[64];  /* as exported, UTF-8 */
     char unit[32];  /* as exported, before conversion; "" if the file does not say */
     double *values; /* [n_points] of the segment, SI; NaN = missing sample */
+    uint64_t reserved[8];
 } wt_channel;
 
 typedef enum wt_segment_kind {
@@ -44,6 +45,7 @@ typedef struct wt_segment {
     double duration; /* [s], NaN if unknown */
     double setpoint; /* [N] or NaN */
     double velocity; /* piezo velocity [m/s], NaN if unknown */
+    uint64_t reserved[8];
 } wt_segment;
 
 typedef struct wt_cantilever {
@@ -51,6 +53,7 @@ typedef struct wt_cantilever {
     double sensitivity;         /* deflection sensitivity InvOLS [m/V], NaN if unknown */
     bool spring_constant_given; /* the user's value replaced (or supplied) the file's */
     bool sensitivity_given;
+    uint64_t reserved[8];
 } wt_cantilever;
 
 /* The segments of one position. A zero-initialised curve is empty and may be given to a reader,
@@ -63,6 +66,7 @@ typedef struct wt_force_curve {
     size_t n_segments;
     wt_segment *segments;
     size_t capacity; /* segments allocated; private to wt_force_curve_* */
+    uint64_t reserved[8];
 } wt_force_curve;
 
 WT_API void wt_force_curve_clear(wt_force_curve *curve); /* frees all; the curve is empty again */
@@ -105,6 +109,7 @@ typedef struct wt_isotherm {
     double *loss_modulus;      /* [n] Pa */
     double *strain;            /* [n] or NULL */
     char source[128];          /* file and step it came from */
+    uint64_t reserved[8];
 } wt_isotherm;
 
 /* Isotherms in the order of rising temperature (equal temperatures stay separate). */
@@ -112,6 +117,7 @@ typedef struct wt_sweep {
     wt_deformation deformation;
     size_t n_isotherms;
     wt_isotherm *isotherms;
+    uint64_t reserved[8];
 } wt_sweep;
 WT_API void wt_sweep_clear(wt_sweep *sweep);
 /* Appends an isotherm with uninitialised arrays of n points (strain if with_strain); NULL when out
@@ -129,6 +135,7 @@ typedef struct wt_power_spectrum {
     size_t n;
     double *wavenumber; /* [n] rad/m, rising */
     double *density;    /* [n] C(q): m^4 (2D: h_rms^2 = 2 pi int q C dq) or m^3 (1D) */
+    uint64_t reserved[8];
 } wt_power_spectrum;
 WT_API void wt_power_spectrum_clear(wt_power_spectrum *spectrum);
 
@@ -143,6 +150,7 @@ typedef struct wt_prony {
     double *relaxation_time;             /* [n] s, falling or rising, > 0 */
     double *modulus;                     /* [n] Pa, >= 0 */
     double frequency_min, frequency_max; /* measured range [rad/s], NaN if unknown */
+    uint64_t reserved[8];
 } wt_prony;
 WT_API void wt_prony_clear(wt_prony *prony);
 /* Fills an empty series with n terms, all zero; what is not known is NaN. */

@@ -66,6 +66,7 @@ typedef struct wt_indent_options {
      * measured indentation, as most programs do, for comparison with them; biased where the contact
      * is much stiffer than the lever. */
     bool plain_least_squares;
+    uint64_t reserved[8];
 } wt_indent_options;
 WT_API wt_indent_options wt_indent_defaults(void);
 
@@ -137,6 +138,7 @@ typedef struct wt_group {
     const long *spot;      /* [n] or NULL */
     size_t n;
     size_t n_rejected;
+    uint64_t reserved[8];
 } wt_group;
 
 typedef struct wt_group_summary {
@@ -190,6 +192,7 @@ typedef struct wt_shift_options {
     wt_vertical_shift vertical;   /* default FREE: E' and E'' together make it identifiable */
     double expansion;             /* volumetric thermal expansion for PHYSICAL [1/K], default 0 */
     double floor; /* model error of a shift for the WLF fit [decade], > 0, default 0.02 */
+    uint64_t reserved[8];
 } wt_shift_options;
 WT_API wt_shift_options wt_shift_defaults(void);
 
@@ -278,6 +281,7 @@ typedef struct wt_prony_options {
     double smoothing;        /* Tikhonov lambda on second differences of the terms, each measured by
                                 what it gives to the data; 0 = none (default), 0.01 to 1 useful */
     bool liquid;             /* equilibrium modulus forced to 0 */
+    uint64_t reserved[8];
 } wt_prony_options;
 WT_API wt_prony_options wt_prony_defaults(void);
 

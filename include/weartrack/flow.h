@@ -41,6 +41,7 @@ typedef struct wt_job {
     wt_provenance *provenance; /* every file read is added with its digest; may be NULL */
     wt_table *failures;        /* of wt_failures_new: a file or curve that fails gets a row and the
                                   work goes on; NULL: the first one that fails ends the job */
+    uint64_t reserved[8];
 } wt_job;
 WT_API wt_job wt_job_defaults(void);
 WT_API wt_table *wt_failures_new(void); /* table "failures"; NULL when out of memory */
@@ -53,6 +54,7 @@ typedef struct wt_file_set {
     wt_read_options read;
     const char *spot; /* force files: the place on the sample all these curves come from; NULL: each
                          file is a spot, or each grid position if the whole group is one file */
+    uint64_t reserved[8];
 } wt_file_set;
 
 /* ---- indentation ------------------------------------------------------------------------------
@@ -67,6 +69,7 @@ typedef struct wt_indent_job {
     wt_estimate spring_constant; /* for the table's key when given; value NaN: as in the files */
     bool rates;                  /* decode what tells the time (piezo and indentation rate) */
     bool curves;                 /* representative curves for the figures */
+    uint64_t reserved[8];
 } wt_indent_job;
 WT_API wt_indent_job wt_indent_job_defaults(void);
 
@@ -113,6 +116,7 @@ typedef struct wt_master_job {
     size_t n_sets;
     wt_shift_options shift; /* reference_temperature NaN: the isotherm in the middle */
     wt_prony_options prony;
+    uint64_t reserved[8];
 } wt_master_job;
 WT_API wt_master_job wt_master_job_defaults(void);
 
@@ -164,11 +168,13 @@ WT_API wt_status wt_rubber_at(const wt_rubber *rubber, double temperature, uint6
 
 typedef struct wt_compare_job {
     const wt_table *bulk, *track; /* indentation tables */
-    const wt_rubber *rubber;      /* for the DMA comparison; NULL = none */
+    const wt_rubber *rubber;      /* for the DMA comparison; NULL = none (default) */
     double temperature;           /* of the indentation [K]; NaN = the rubber's reference */
-    bool rates;                   /* modulus against rate, and the comparison rate by rate */
-    bool groups_only;             /* no comparison of the two groups */
+    bool rates;       /* default true: modulus against rate, and the comparison rate by rate */
+    bool groups_only; /* no comparison of the two groups */
+    uint64_t reserved[8];
 } wt_compare_job;
+WT_API wt_compare_job wt_compare_job_defaults(void);
 
 typedef struct wt_compare_tables {
     wt_table *modulus_groups;
@@ -190,6 +196,7 @@ typedef struct wt_surface {
     double q0, qr, q1, hurst;   /* of the self-affine law; q0, q1 cut a spectrum (NaN = its ends) */
     wt_estimate c0;             /* [m^4]; of a spectrum: value 1, relative error of the densities */
     wt_power_spectrum spectrum; /* if not self-affine; 2-D */
+    uint64_t reserved[8];
 } wt_surface;
 WT_API void wt_surface_clear(wt_surface *surface);
 /* "self-affine:q0=1e3rad/m,qr=5e3rad/m,q1=1e7rad/m,hurst=0.8,c0=1e-17m^4+-10%" or the path of a
@@ -217,6 +224,7 @@ typedef struct wt_sliding {
     const double *velocity; /* [n_velocity] m/s, borrowed */
     size_t n_velocity;
     double reference_velocity; /* of the answer and the layer [m/s]; NaN = middle of the list */
+    uint64_t reserved[8];
 } wt_sliding;
 WT_API wt_sliding wt_sliding_defaults(void);
 
@@ -224,6 +232,7 @@ WT_API wt_sliding wt_sliding_defaults(void);
 typedef struct wt_layer_known {
     wt_estimate thickness;     /* [m] */
     wt_estimate modulus_ratio; /* E_track / E_bulk */
+    uint64_t reserved[8];
 } wt_layer_known;
 
 typedef struct wt_friction_tables {
@@ -258,6 +267,7 @@ typedef struct wt_layer_job {
     double local_friction; /* m of the incompressible profile */
     const double *time;    /* [n_time] s; NULL: chosen around the time scales */
     size_t n_time;
+    uint64_t reserved[8];
 } wt_layer_job;
 WT_API wt_layer_job wt_layer_job_defaults(void);
 
@@ -297,6 +307,7 @@ typedef struct wt_run_options {
     size_t replicates;   /* of the resampling; default 64 */
     wt_progress progress;
     bool no_timing; /* leave the times of "cost" NaN: two runs then give the same result */
+    uint64_t reserved[8];
 } wt_run_options;
 WT_API wt_run_options wt_run_defaults(void);
 

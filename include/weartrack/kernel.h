@@ -22,6 +22,7 @@ extern "C" {
 typedef struct wt_layer_state {
     double thickness;     /* [m], 0 = none */
     double modulus_ratio; /* E_layer / E_bulk, > 0 */
+    uint64_t reserved[8];
 } wt_layer_state;
 
 typedef struct wt_friction_options {
@@ -29,6 +30,7 @@ typedef struct wt_friction_options {
     double gamma;     /* S = gamma + (1 - gamma) P^2 in the friction integrand; 1 = Persson 2001 */
     wt_layer_state layer; /* default none */
     unsigned threads;     /* over velocities; 0 = one per processor; default 1 */
+    uint64_t reserved[8];
 } wt_friction_options;
 WT_API wt_friction_options wt_friction_defaults(void);
 
@@ -94,6 +96,7 @@ typedef struct wt_energy_source {
     double *wavenumber;     /* [n] rad/m */
     double *power;          /* [n] W/m^2 */
     double numerical_error; /* relative, of wt_energy_tail at any depth; 0 = exact */
+    uint64_t reserved[8];
 } wt_energy_source;
 WT_API void wt_energy_source_clear(wt_energy_source *source);
 /* From the hysteresis integrand at one velocity: J_i = j(q_i) dq_i, sum = mu_hys sigma0 v. */
@@ -114,6 +117,7 @@ typedef struct wt_layer_parameters {
     double start_thickness;    /* [m] */
     double duty;               /* share of the time in contact, (0, 1]; default 1 */
     bool incubation; /* damage transport (exact, with incubation) instead of the rate balance */
+    uint64_t reserved[8];
 } wt_layer_parameters;
 WT_API wt_layer_parameters wt_layer_defaults(void);
 

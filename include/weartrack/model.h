@@ -26,6 +26,7 @@ typedef struct wt_tip {
     double half_angle;        /* axis to FACE [rad] */
     double radius;            /* of the cap [m] */
     double transition_radius; /* b: where the cap meets the faces [m]; 0 = sharp */
+    uint64_t reserved[8];
 } wt_tip;
 
 /* b = R cos(theta): the sphere tangent to the faces (default of the field's programs). */
@@ -91,6 +92,7 @@ typedef struct wt_material_law {
     /* Angular frequencies where the law is not smooth (knots), rising, borrowed; *n = 0 if none. */
     const double *(*breaks)(const wt_material *material, size_t *n);
     void (*free)(wt_material *material);
+    uint64_t reserved[8];
 } wt_material_law;
 
 struct wt_material {
@@ -98,6 +100,7 @@ struct wt_material {
     double poisson_ratio;                /* [0, 0.5] */
     double frequency_min, frequency_max; /* range backed by data [rad/s]; NaN = unlimited */
     void *data;                          /* of the law */
+    uint64_t reserved[8];
 };
 
 /* Outside a table: hold the end values, or go on with the end slope in log-log. Stated, never
@@ -130,12 +133,14 @@ typedef struct wt_roughness_law {
     /* int_q0^q k^m C dk for m = 1 or 3 in closed form; NULL: integrated numerically. */
     double (*moment)(const wt_roughness *roughness, int m, double q);
     void (*free)(wt_roughness *roughness);
+    uint64_t reserved[8];
 } wt_roughness_law;
 
 struct wt_roughness {
     const wt_roughness_law *law;
     double q0, q1; /* [rad/m] */
     void *data;
+    uint64_t reserved[8];
 };
 
 /* C = c0 for q0 <= q <= qr, c0 (q/qr)^(-2(1+H)) for qr < q <= q1; -1 < H <= 3. */

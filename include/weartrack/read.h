@@ -66,8 +66,7 @@ WT_API wt_status wt_detect(const wt_formats *formats, wt_input *input, unsigned 
 
 /* ---- options ------------------------------------------------------------------------------ */
 
-/* A zero-initialised struct passed through wt_read_defaults. Nothing that is not asked for is
- * decoded. */
+/* Nothing that is not asked for is decoded. */
 typedef struct wt_read_options {
     const char *format;   /* id that overrules detection, or NULL */
     wt_quantity_set want; /* channels to decode; a force needs no more than its own column. A force
@@ -79,6 +78,7 @@ typedef struct wt_read_options {
     double temperature;       /* [K] for a sweep whose file gives none; NaN = none */
     const char *const *units; /* "NAME=UNIT" for columns of files that carry no units */
     size_t n_units;
+    uint64_t reserved[8];
 } wt_read_options;
 WT_API wt_read_options wt_read_defaults(void); /* everything, nothing replaced */
 

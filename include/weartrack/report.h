@@ -15,6 +15,7 @@ typedef struct wt_report_options {
     const char *style;    /* name of a built-in plot style or path of one; NULL = "paper" */
     const char *gnuplot;  /* program, NULL = "gnuplot" */
     bool with_provenance; /* version, command line and times on the page; default true */
+    uint64_t reserved[8];
 } wt_report_options;
 WT_API wt_report_options wt_report_defaults(void);
 

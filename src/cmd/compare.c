@@ -28,7 +28,7 @@ int cmd_compare(int argc, char **argv)
     wt_parselog *log = NULL;
     wt_rubber rubber = {0};
     wt_compare_tables tables = {0};
-    wt_compare_job job = {.temperature = (double)NAN, .rates = true};
+    wt_compare_job job = wt_compare_job_defaults();
     wt_job work = wt_job_defaults();
 
     if (!cmd_parse(&usage, options, sizeof options / sizeof options[0], &common, argc, argv, &first,

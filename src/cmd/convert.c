@@ -341,7 +341,7 @@ int cmd_convert(int argc, char **argv)
 
     /* provenance: the file that was read */
     const unsigned char *bytes = NULL;
-    wt_provenance_input record = {path, "input", info->id, 0, ""};
+    wt_provenance_input record = {.path = path, .role = "input", .format = info->id};
     size_t length = 0;
     if (wt_input_bytes(input, &bytes, &length, &err) != WT_OK)
         goto fail;

@@ -48,7 +48,7 @@ void wt_force_curve_reset(wt_force_curve *curve)
     curve->index = 0;
     curve->x = curve->y = (double)NAN;
     curve->grid_x = curve->grid_y = -1;
-    curve->cantilever = (wt_cantilever){(double)NAN, (double)NAN, false, false};
+    curve->cantilever = (wt_cantilever){.spring_constant = (double)NAN, .sensitivity = (double)NAN};
     curve->n_segments = 0;
 }
 

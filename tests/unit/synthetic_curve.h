@@ -81,7 +81,7 @@ static inline void curve_make(const curve_truth *t, uint64_t seed, curve_data *d
 /* 20 MPa rubber under a 1 N/m lever with a pyramid: 53.6 nN at 70 nm. */
 static inline curve_truth curve_standard(void)
 {
-    curve_truth t = {.tip = {WT_TIP_BLUNTED_PYRAMID, 4, 20 * M_PI / 180, 10e-9, 0.0},
+    curve_truth t = {.tip = {.sides = 4, .half_angle = 20 * M_PI / 180, .radius = 10e-9},
                      .modulus = 20e6,
                      .poisson_ratio = 0.5,
                      .spring_constant = 1.0,

@@ -67,7 +67,8 @@ static wt_result *make_result(void)
     wt_provenance *const p = wt_result_provenance(result);
     char *const argv[] = {"weartrack", "run", "a case.xml"};
     assert_int_equal(wt_provenance_set_command(p, 3, argv), WT_OK);
-    wt_provenance_input input = {"a case.xml", "case", "weartrack-case 1", 54321, ""};
+    wt_provenance_input input = {
+        .path = "a case.xml", .role = "case", .format = "weartrack-case 1", .bytes = 54321};
     wt_digest("abc", 3, input.sha256);
     assert_int_equal(wt_provenance_add_input(p, &input), WT_OK);
     assert_int_equal(wt_result_set_case(result, case_text, sizeof case_text - 1, NULL), WT_OK);

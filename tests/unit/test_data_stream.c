@@ -128,7 +128,8 @@ static void exact_text(void **state)
     wt_provenance *const p = wt_provenance_new();
     char *const argv[] = {"/opt/x/weartrack", "friction", "it's"};
     assert_int_equal(wt_provenance_set_command(p, 3, argv), WT_OK);
-    wt_provenance_input input = {"my file", "dma", "dma-text 1", 12, "ab"};
+    wt_provenance_input input = {
+        .path = "my file", .role = "dma", .format = "dma-text 1", .bytes = 12, .sha256 = "ab"};
     assert_int_equal(wt_provenance_add_input(p, &input), WT_OK);
     char *text = write_text(t, p);
     char expected[1000];

@@ -37,7 +37,7 @@ static group_text read_group(char *words)
 
 static wt_group group_of(const group_text *g)
 {
-    return (wt_group){g->modulus, g->spots ? g->spot : NULL, g->n, 0};
+    return (wt_group){.modulus = g->modulus, .spot = g->spots ? g->spot : NULL, .n = g->n};
 }
 
 static double field(const wt_comparison *c, const char *name)
@@ -115,8 +115,10 @@ static void order_does_not_matter(void **state)
     (void)state;
     const double a[] = {3.1e6, 2.2e6, 7.7e6, 2.9e6, 3.3e6}, b[] = {1.1e6, 2.4e6, 0.7e6, 1.9e6};
     const double a2[] = {2.9e6, 7.7e6, 3.3e6, 3.1e6, 2.2e6}, b2[] = {0.7e6, 1.9e6, 2.4e6, 1.1e6};
-    wt_group bulk = {a, NULL, 5, 2}, track = {b, NULL, 4, 1};
-    wt_group bulk2 = {a2, NULL, 5, 2}, track2 = {b2, NULL, 4, 1};
+    wt_group bulk = {.modulus = a, .n = 5, .n_rejected = 2},
+             track = {.modulus = b, .n = 4, .n_rejected = 1};
+    wt_group bulk2 = {.modulus = a2, .n = 5, .n_rejected = 2},
+             track2 = {.modulus = b2, .n = 4, .n_rejected = 1};
     wt_comparison c, d;
     assert_int_equal(wt_compare(&bulk, &track, &c, NULL), WT_OK);
     assert_int_equal(wt_compare(&bulk2, &track2, &d, NULL), WT_OK);
@@ -137,7 +139,7 @@ static void order_does_not_matter(void **state)
         a3[i] = 1e-3 * a[i];
     for (int i = 0; i < 4; i++)
         b3[i] = 1e-3 * b[i];
-    wt_group bulk3 = {a3, NULL, 5, 0}, track3 = {b3, NULL, 4, 0};
+    wt_group bulk3 = {.modulus = a3, .n = 5}, track3 = {.modulus = b3, .n = 4};
     assert_int_equal(wt_compare(&bulk3, &track3, &d, NULL), WT_OK);
     assert_near(d.ratio, c.ratio, 1e-13);
     assert_near(d.ratio_high, c.ratio_high, 1e-12);
@@ -165,7 +167,7 @@ static void mann_whitney_agrees_with_enumeration(void **state)
         total += 1.0;
     }
     const double track[M] = {2.0, 3.5, 4.5, 1.0, 8.5}, bulk[N] = {3.0, 4.0, 5.0, 6.0, 7.0, 8.0};
-    wt_group a = {bulk, NULL, N, 0}, b = {track, NULL, M, 0};
+    wt_group a = {.modulus = bulk, .n = N}, b = {.modulus = track, .n = M};
     wt_comparison c;
     assert_int_equal(wt_compare(&a, &b, &c, NULL), WT_OK);
     double tail = 0.0;
@@ -181,7 +183,7 @@ static void mann_whitney_agrees_with_enumeration(void **state)
         x[i] = 10.0 + i + 0.01 * (i * 7 % 26);
         y[i] = 14.3 + i + 0.01 * (i * 11 % 26);
     }
-    wt_group p = {x, NULL, 25, 0}, q = {y, NULL, 25, 0};
+    wt_group p = {.modulus = x, .n = 25}, q = {.modulus = y, .n = 25};
     assert_int_equal(wt_compare(&p, &q, &c, NULL), WT_OK);
     assert_true(c.mann_whitney_exact);
     double exact = c.mann_whitney_p;
@@ -200,7 +202,7 @@ static void summary_of_one_group(void **state)
     (void)state;
     const double e[] = {1e6, 4e6, 2e6};
     const long spot[] = {3, 3, 9};
-    wt_group g = {e, NULL, 3, 7};
+    wt_group g = {.modulus = e, .n = 3, .n_rejected = 7};
     wt_group_summary s;
     assert_int_equal(wt_group_summarise(&g, &s, NULL), WT_OK);
     assert_int_equal(s.n, 3);
@@ -234,9 +236,12 @@ static void no_answer(void **state)
     wt_error err = WT_ERROR_INIT;
     wt_comparison c;
     wt_group_summary s;
-    wt_group a = {good, NULL, 3, 0}, empty = {NULL, NULL, 0, 5}, single = {good, NULL, 1, 0};
-    wt_group negative = {bad, NULL, 2, 0}, missing = {gap, NULL, 2, 0}, same = {equal, NULL, 2, 0};
-    wt_group spot = {good, one_spot, 3, 0}, three = {good, spots, 3, 0};
+    wt_group a = {.modulus = good, .n = 3}, empty = {.modulus = NULL, .n = 0, .n_rejected = 5},
+             single = {.modulus = good, .n = 1};
+    wt_group negative = {.modulus = bad, .n = 2}, missing = {.modulus = gap, .n = 2},
+             same = {.modulus = equal, .n = 2};
+    wt_group spot = {.modulus = good, .spot = one_spot, .n = 3},
+             three = {.modulus = good, .spot = spots, .n = 3};
     assert_int_equal(wt_group_summarise(&empty, &s, NULL), WT_E_EMPTY);
     assert_int_equal(wt_compare(&a, &empty, &c, NULL), WT_E_EMPTY);
     assert_int_equal(wt_compare(&a, &single, &c, &err), WT_E_EMPTY);

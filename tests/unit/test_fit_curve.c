@@ -384,7 +384,8 @@ static void force_curve_as_read(void **state)
     wt_error err = WT_ERROR_INIT;
     for (size_t i = 0; i < 3; i++) {
         wt_force_curve_reset(&curve);
-        curve.cantilever = (wt_cantilever){t.spring_constant, 50e-9, false, false};
+        curve.cantilever =
+            (wt_cantilever){.spring_constant = t.spring_constant, .sensitivity = 50e-9};
         add_segment(&curve, WT_SEGMENT_APPROACH, channels[i].quantity, channels[i].factor, &t);
         assert_int_equal(wt_indent_force_curve(table, &options, &curve, workspace, &fit, &err),
                          WT_OK);

@@ -206,7 +206,10 @@ static void awkward_curves(void **state)
 static int set_up(void **state)
 {
     (void)state;
-    wt_tip tip = {WT_TIP_BLUNTED_PYRAMID, 4, 20 * M_PI / 180, 20e-9, 0.0};
+    wt_tip tip = {.shape = WT_TIP_BLUNTED_PYRAMID,
+                  .sides = 4,
+                  .half_angle = 20 * M_PI / 180,
+                  .radius = 20e-9};
     tip.transition_radius = wt_tip_tangent_transition(tip.radius, tip.half_angle);
     workspace = wt_indent_workspace_new();
     return workspace == NULL || wt_contact_table_new(&tip, 1e-11, 1e-4, &table, NULL) != WT_OK ||

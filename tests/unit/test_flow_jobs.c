@@ -174,8 +174,9 @@ static void test_one_spot(void **state)
     static const char *const bulk[] = {"bulk-1.jpk-force-map"}, *const track[] = {"track-*"};
     const wt_file_set b = files(bulk, 1, "b"), t = files(track, 1, NULL);
     wt_table *x = fit(&b, 1, 1, true), *y = fit(&t, 1, 1, true);
-    wt_compare_job job = {
-        .bulk = x, .track = y, .temperature = (double)NAN, .rates = true, .rubber = NULL};
+    wt_compare_job job = wt_compare_job_defaults();
+    job.bulk = x;
+    job.track = y;
     wt_job common = common_job();
     wt_compare_tables tables = {0};
     assert_int_equal(wt_compare_groups(&job, &common, &tables, NULL), WT_OK);
@@ -404,8 +405,10 @@ static void test_surface_cut(void **state)
         q[i] = 1e3 * pow(10, 0.5 * i);
         c[i] = 1e-17 * pow(q[i] / 1e3, -3.6);
     }
-    wt_surface spectrum = {
-        .q0 = 2.385e3, .q1 = 1.7e6, .c0 = {1, 0, 0, "1"}, .spectrum = {WT_SPECTRUM_2D, 8, q, c}};
+    wt_surface spectrum = {.q0 = 2.385e3,
+                           .q1 = 1.7e6,
+                           .c0 = {1, 0, 0, "1"},
+                           .spectrum = {.n = 8, .wavenumber = q, .density = c}};
     wt_surface law = {.self_affine = true,
                       .q0 = 2.385e3,
                       .qr = 2.385e3,

@@ -14,9 +14,13 @@ static const double degree = M_PI / 180.0;
 
 static wt_tip pyramid(unsigned sides, double degrees, double radius, double transition)
 {
-    return (wt_tip){WT_TIP_BLUNTED_PYRAMID, sides, degrees * degree, radius,
-                    transition < 0.0 ? wt_tip_tangent_transition(radius, degrees * degree)
-                                     : transition};
+    return (wt_tip){.shape = WT_TIP_BLUNTED_PYRAMID,
+                    .sides = sides,
+                    .half_angle = degrees * degree,
+                    .radius = radius,
+                    .transition_radius = transition < 0.0
+                                             ? wt_tip_tangent_transition(radius, degrees * degree)
+                                             : transition};
 }
 
 /* The smooth cap: b = R m cot(theta). */

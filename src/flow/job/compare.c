@@ -81,8 +81,9 @@ static wt_status make_bins(pair *p, wt_error *err)
 static wt_group part_of(const pair *p, int g, size_t bin, size_t offset)
 {
     const wt_group_data *data = &p->data[g];
-    wt_group part = {p->modulus + offset, data->group.spot == NULL ? NULL : p->spot + offset, 0,
-                     bin == SIZE_MAX ? data->group.n_rejected : 0};
+    wt_group part = {.modulus = p->modulus + offset,
+                     .spot = data->group.spot == NULL ? NULL : p->spot + offset,
+                     .n_rejected = bin == SIZE_MAX ? data->group.n_rejected : 0};
     for (size_t i = 0; i < data->group.n; i++) {
         if (bin != SIZE_MAX && p->bin[g][i] != bin)
             continue;
@@ -454,6 +455,11 @@ static wt_status dma_keys(wt_table *table, const wt_compare_job *job, const char
     if (status == WT_OK && statement[0] != '\0')
         status = wt_table_set_key(table, "material_statement", statement, err);
     return status;
+}
+
+wt_compare_job wt_compare_job_defaults(void)
+{
+    return (wt_compare_job){.temperature = (double)NAN, .rates = true};
 }
 
 wt_status wt_compare_groups(const wt_compare_job *job, const wt_job *common,

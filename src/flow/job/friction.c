@@ -36,7 +36,7 @@ static double *slot(double *values, size_t n, int kind)
 /* Total friction of the layer has its own shear stress: tau_s = tau_bulk x modulus ratio (L3). */
 static wt_layer_state layer_of(const work *w, size_t replicate)
 {
-    wt_layer_state state = {0, 1};
+    wt_layer_state state = {.modulus_ratio = 1};
     if (w->layer == NULL)
         return state;
     uint64_t seed = w->common->seed;
@@ -51,7 +51,7 @@ static wt_layer_state layer_of(const work *w, size_t replicate)
 static wt_status compute(const work *w, size_t replicate, double tolerance, unsigned threads,
                          wt_friction_point *points, double *out, wt_error *err)
 {
-    const wt_layer_state none = {0, 1};
+    const wt_layer_state none = {.modulus_ratio = 1};
     flow_conditions c = {0};
     wt_status status = flow_conditions_make(w->sliding, w->common->seed, replicate, tolerance,
                                             threads, none, &c, err);
@@ -474,7 +474,7 @@ wt_status wt_friction_make(const wt_sliding *sliding, const wt_layer_known *laye
         status = replicate_all(&w, err);
     }
     if (status == WT_OK) {
-        const wt_layer_state none = {0, 1};
+        const wt_layer_state none = {.modulus_ratio = 1};
         status = flow_conditions_make(sliding, common->seed, FLOW_CENTRE, common->tolerance,
                                       common->threads, none, &c, err);
     }

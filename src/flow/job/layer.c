@@ -103,7 +103,7 @@ static wt_status source_and_parameters(const work *w, size_t replicate, wt_energ
                                        wt_layer_parameters *parameters, char statement[256],
                                        wt_error *err)
 {
-    const wt_layer_state none = {0, 1};
+    const wt_layer_state none = {.modulus_ratio = 1};
     const wt_layer_job *job = w->job;
     uint64_t seed = w->common->seed;
     flow_conditions c = {0};

@@ -143,13 +143,12 @@ wt_status flow_step_track(flow_run *run, flow_cost *cost, wt_error *err)
 
 static wt_status compare(flow_run *run, bool groups_only, flow_cost *cost, wt_error *err)
 {
-    wt_compare_job job = {
-        .bulk = run->indentation[0],
-        .track = run->indentation[1],
-        .temperature = run->c->indentation_temperature,
-        .rates = (run->plan.required & FLOW_BIT(FLOW_MODULUS_RATE)) != 0,
-        .groups_only = groups_only,
-    };
+    wt_compare_job job = wt_compare_job_defaults();
+    job.bulk = run->indentation[0];
+    job.track = run->indentation[1];
+    job.temperature = run->c->indentation_temperature;
+    job.rates = (run->plan.required & FLOW_BIT(FLOW_MODULUS_RATE)) != 0;
+    job.groups_only = groups_only;
     wt_compare_tables_clear(&run->compare);
     wt_status status = wt_compare_groups(&job, &run->job, &run->compare, err);
     if (status == WT_OK)
@@ -177,14 +176,12 @@ wt_status flow_step_groups(flow_run *run, flow_cost *cost, wt_error *err)
 wt_status flow_step_dma_comparison(flow_run *run, flow_cost *cost, wt_error *err)
 {
     wt_compare_tables tables = {0};
-    wt_compare_job job = {
-        .bulk = run->indentation[0],
-        .track = run->indentation[1],
-        .rubber = &run->rubber,
-        .temperature = run->c->indentation_temperature,
-        .rates = true,
-        .groups_only = true,
-    };
+    wt_compare_job job = wt_compare_job_defaults();
+    job.bulk = run->indentation[0];
+    job.track = run->indentation[1];
+    job.rubber = &run->rubber;
+    job.temperature = run->c->indentation_temperature;
+    job.groups_only = true;
     /* the warnings of the comparison itself have been given by its own stage */
     wt_job quiet = run->job;
     quiet.log = NULL;
@@ -275,7 +272,7 @@ static wt_status friction(flow_run *run, const wt_layer_known *layer, flow_cost 
 
 wt_status flow_step_friction_with_layer(flow_run *run, flow_cost *cost, wt_error *err)
 {
-    wt_layer_known layer = {run->layer.thickness, run->modulus_ratio};
+    wt_layer_known layer = {.thickness = run->layer.thickness, .modulus_ratio = run->modulus_ratio};
     return friction(run, &layer, cost, err);
 }
 

@@ -35,7 +35,8 @@ static bool chain_si(const jpk_lcd *lcd, const char *slot, wt_quantity quantity,
 
 void jpk_calibrate(const jpk_lcd *lcd, const wt_read_options *options, jpk_calibration *calibration)
 {
-    jpk_calibration c = {.cantilever = {(double)NAN, (double)NAN, false, false}};
+    jpk_calibration c = {
+        .cantilever = {.spring_constant = (double)NAN, .sensitivity = (double)NAN}};
     const char *unit = NULL;
     jpk_linear volts;
     c.has_deflection = chain_si(lcd, "distance", WT_Q_DEFLECTION, &c.deflection, &unit);

@@ -148,7 +148,8 @@ static wt_status add_segment(jpk_source *source, const jpk_segment_ref *ref, dou
     const jpk_segment *segment = &source->segment;
     output outputs[N_QUANTITIES];
     size_t n = 0;
-    jpk_calibration calibration = {.cantilever = {(double)NAN, (double)NAN, false, false}};
+    jpk_calibration calibration = {
+        .cantilever = {.spring_constant = (double)NAN, .sensitivity = (double)NAN}};
     const char *place = archive_name(source->file.archive, ref->entry);
     const jpk_channel *deflection = jpk_segment_channel(segment, "vDeflection");
     if (deflection != NULL && deflection->understood) {
@@ -231,7 +232,7 @@ static wt_status next_curve(wt_force_source *base, wt_force_curve *curve, wt_err
     source->next = end;
     wt_force_curve_reset(curve);
     curve->index = file->refs[first].curve;
-    curve->cantilever = (wt_cantilever){(double)NAN, (double)NAN, false, false};
+    curve->cantilever = (wt_cantilever){.spring_constant = (double)NAN, .sensitivity = (double)NAN};
     jpk_file_position(file, first, curve);
     wt_status status = read_curve(source, first, end, curve, err);
     if (status != WT_OK) {

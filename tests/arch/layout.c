@@ -1,0 +1,116 @@
+/* Sizes and places of what is public, on 64-bit systems: what a program was compiled with must fit
+ * the library it meets. The promise stands at the head of base.h. If a line fails:
+ * - A new field of a structure with room is taken from the front of `reserved`, which gets shorter
+ *   by as many elements; then the size here stays and the last field may be named anew.
+ * - Any other change breaks programs: allowed in a MINOR (from 1.0 on: MAJOR) that is not released
+ *   yet, for which the new numbers are written here.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "weartrack/weartrack.h"
+
+#include <stddef.h>
+
+#define MOVED " has changed its size or moved a field: see the head of tests/arch/layout.c"
+#define FIXED(type, last, offset, size)                                                            \
+    _Static_assert(offsetof(struct type, last) == (offset) && sizeof(struct type) == (size),       \
+                   #type MOVED);
+/* The caller fills it: it ends in room, and the last field in use stands just before. */
+#define ROOM(type, last, offset, size)                                                             \
+    FIXED(type, last, offset, size)                                                                \
+    _Static_assert(offsetof(struct type, reserved) + sizeof(((struct type *)0)->reserved) ==       \
+                       sizeof(struct type),                                                        \
+                   #type " does not end in `reserved`");
+/* An enumeration as far as it is written down here; new ones come after `last`. */
+#define LAST(type, last, number)                                                                   \
+    _Static_assert(sizeof(enum type) == 4 && last == (number),                                     \
+                   #type " has been renumbered: new ones come last");
+
+/* clang-format off: one a line */
+
+/* base.h */
+FIXED(wt_error, advice, 1316, 1572)
+FIXED(wt_log_entry, count, 32, 40)
+FIXED(wt_estimate, unit, 24, 32)
+ROOM(wt_provenance_input, sha256, 32, 168)
+FIXED(wt_progress, user, 8, 16)
+LAST(wt_status, WT_E_INTERNAL, 19)
+LAST(wt_severity, WT_WARNING, 1)
+LAST(wt_quantity, WT_Q_DATA_SIZE, 40)
+
+/* data.h */
+ROOM(wt_channel, values, 104, 176)
+ROOM(wt_segment, velocity, 56, 128)
+ROOM(wt_cantilever, sensitivity_given, 17, 88)
+ROOM(wt_force_curve, capacity, 144, 216)
+FIXED(wt_image, values, 176, 184)
+ROOM(wt_isotherm, source, 56, 248)
+ROOM(wt_sweep, isotherms, 16, 88)
+ROOM(wt_power_spectrum, density, 24, 96)
+ROOM(wt_prony, frequency_max, 56, 128)
+LAST(wt_segment_kind, WT_SEGMENT_OTHER, 4)
+LAST(wt_deformation, WT_SHEAR, 1)
+LAST(wt_spectrum_kind, WT_SPECTRUM_1D, 1)
+LAST(wt_column_kind, WT_COLUMN_TEXT, 1)
+
+/* read.h */
+FIXED(wt_format_info, version, 32, 40)
+ROOM(wt_read_options, n_units, 56, 128)
+
+/* model.h */
+ROOM(wt_tip, transition_radius, 24, 96)
+FIXED(wt_wlf, c2, 16, 24)
+ROOM(wt_material_law, free, 32, 104)
+ROOM(wt_material, data, 32, 104)
+ROOM(wt_roughness_law, free, 32, 104)
+ROOM(wt_roughness, data, 24, 96)
+LAST(wt_tip_shape, WT_TIP_CONE, 2)
+LAST(wt_extrapolation, WT_EXTRAPOLATE_SLOPE, 1)
+
+/* fit.h */
+ROOM(wt_indent_options, plain_least_squares, 48, 120)
+FIXED(wt_indent_fit, n_fitted, 408, 416)
+ROOM(wt_group, n_rejected, 24, 96)
+FIXED(wt_group_summary, median, 72, 80)
+FIXED(wt_comparison, effect_size, 304, 312)
+ROOM(wt_shift_options, floor, 24, 96)
+FIXED(wt_shift, note, 112, 240)
+FIXED(wt_wlf_fit, n, 160, 168)
+FIXED(wt_master_curve, note, 121, 384)
+ROOM(wt_prony_options, liquid, 16, 88)
+FIXED(wt_prony_fit, rms_loss, 136, 144)
+LAST(wt_curve_verdict, WT_CURVE_UNREADABLE, 12)
+LAST(wt_vertical_shift, WT_VERTICAL_FREE, 2)
+
+/* kernel.h */
+ROOM(wt_layer_state, modulus_ratio, 8, 80)
+ROOM(wt_friction_options, threads, 96, 168)
+FIXED(wt_friction_point, reached, 152, 160)
+FIXED(wt_friction_node, numerical_error, 32, 40)
+ROOM(wt_energy_source, numerical_error, 40, 112)
+ROOM(wt_layer_parameters, incubation, 56, 128)
+FIXED(wt_layer_balance, regime, 104, 112)
+FIXED(wt_layer_point, wear_rate, 48, 56)
+LAST(wt_depth_profile, WT_PROFILE_INCOMPRESSIBLE, 1)
+LAST(wt_layer_regime, WT_LAYER_THICK, 2)
+
+/* flow.h */
+ROOM(wt_job, failures, 72, 144)
+ROOM(wt_file_set, spot, 152, 224)
+ROOM(wt_indent_job, curves, 273, 344)
+FIXED(wt_indent_tables, n_failed, 48, 56)
+FIXED(wt_group_data, spots_given, 128, 136)
+ROOM(wt_master_job, prony, 112, 264)
+FIXED(wt_rubber, prony_options, 632, 720)
+FIXED(wt_master_tables, n_isotherms, 24, 32)
+ROOM(wt_compare_job, groups_only, 33, 104)
+FIXED(wt_compare_tables, dma_comparison, 24, 32)
+ROOM(wt_surface, spectrum, 72, 232)
+ROOM(wt_sliding, reference_velocity, 136, 208)
+ROOM(wt_layer_known, modulus_ratio, 32, 128)
+FIXED(wt_friction_tables, extrapolated_share, 40, 48)
+ROOM(wt_layer_job, n_time, 144, 216)
+FIXED(wt_layer_tables, balance, 48, 160)
+ROOM(wt_run_options, no_timing, 56, 128)
+
+/* report.h */
+ROOM(wt_report_options, with_provenance, 16, 88)
+FIXED(wt_figure_info, needs, 16, 24)
