@@ -9,11 +9,15 @@
  *   run ARGUMENT ...              one call of the program; "..." holds blanks together
  *   pipe ARGUMENT ...             a further call that reads what the one before it printed
  *   stdin PATH                    standard input of the first call
- *   exit N                        expected exit status of the last call (of all, if piped, unless
- * 0) stdout ~ REGEX  stderr ~ REGEX     some line matches (extended regular expression) stdout !
- * REGEX  stderr ! REGEX     no line matches stdout empty    stderr empty file PATH       nofile
- * PATH        exists or not after the run same PATH PATH                     two files are
- * byte-identical $FIXTURES, $SHARED and $WORK stand for folders; the case runs in a fresh $WORK.
+ *   exit N                        expected exit status of the last call, 0 without this line; 0
+ *                                 is expected of those before it in a pipe too
+ *   stdout ~ REGEX                some line matches (extended regular expression); also stderr
+ *   stdout ! REGEX                no line matches
+ *   stdout empty
+ *   file PATH, nofile PATH        exists or not after the run
+ *   same PATH PATH                two files are byte-identical
+ *   differ PATH PATH              both files are there and are not
+ * $FIXTURES, $SHARED and $WORK stand for folders; the case runs in a fresh $WORK.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <errno.h>
 #include <fcntl.h>
@@ -192,7 +196,7 @@ static bool check_text(const char *what, const char *text, const char *rule)
     return false;
 }
 
-static bool check_same(char *rest)
+static bool compare_files(char *rest, bool wanted)
 {
     char *words[MAX_WORDS + 1];
     if (split(rest, words) != 2)
@@ -200,11 +204,15 @@ static bool check_same(char *rest)
     size_t n[2] = {0, 0};
     char *a = slurp(words[0], &n[0]), *b = slurp(words[1], &n[1]);
     const bool same = a != NULL && b != NULL && n[0] == n[1] && memcmp(a, b, n[0]) == 0;
-    if (!same)
-        printf("  %s and %s differ\n", words[0], words[1]);
+    const bool read = a != NULL && b != NULL;
+    if (!read || same != wanted)
+        printf("  %s and %s %s\n", words[0], words[1],
+               !read  ? "cannot be read"
+               : same ? "are the same"
+                      : "differ");
     free(a);
     free(b);
-    return same;
+    return read && same == wanted;
 }
 
 static bool starts(const char *line, const char *word, char **rest)
@@ -292,7 +300,9 @@ static int run_case(cli_case *c)
             printf("  %s must not be there\n", rest);
             good = false;
         } else if (starts(c->lines[i], "same", &rest))
-            good = check_same(rest) && good;
+            good = compare_files(rest, true) && good;
+        else if (starts(c->lines[i], "differ", &rest))
+            good = compare_files(rest, false) && good;
     }
     if (!good && text_out != NULL && text_err != NULL)
         printf("  --- stdout\n%.2000s\n  --- stderr\n%.2000s\n", text_out, text_err);

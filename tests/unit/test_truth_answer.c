@@ -1,0 +1,340 @@
+/* What the answer of a run says, in words and numbers, of groups whose moduli are known: softer,
+ * stiffer, no difference shown, one spot; and of the thickness and friction that follow.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "truth.h"
+
+#include "weartrack/flow.h"
+
+#include <ctype.h>
+#include <sys/stat.h>
+
+enum { SPOTS = 3, RATES = 2 };
+
+#define BULK 3e6
+#define T_4 2.776445105197793 /* 97.5 % point of Student's t */
+#define BY_RATE 1.05          /* the ratio at the second rate over that at the first */
+
+static const double rate[RATES] = {1e-6, 2e-5};    /* of the piezo [m/s] */
+static const double with_rate[RATES] = {1.0, 1.2}; /* stiffer where it is faster */
+
+static char folder[] = "/tmp/weartrack-answer-XXXXXX";
+static wt_result *result;
+
+/* ---- cases ------------------------------------------------------------------------------------
+ */
+
+#define FILES(g)                                                                                   \
+    "<files spot=\"1\">" g "0.tsv</files><files spot=\"2\">" g "1.tsv</files>"                     \
+    "<files spot=\"3\">" g "2.tsv</files>"
+#define ONE_FILE(g) "<files spot=\"1\">" g "1.tsv</files>"
+#define INDENTATION(bulk, track)                                                                   \
+    "<indentation><tip>" HERTZ_TIP "</tip><temperature>20degC</temperature>"                       \
+    "<bulk spring-constant=\"10N/m +- 4%\">" bulk "</bulk>"                                        \
+    "<track spring-constant=\"10N/m +- 4%\">" track "</track></indentation>"
+#define COMPARE "<compare><track-to-bulk/><by-rate/></compare>"
+#define SLIDING                                                                                    \
+    "<dma><reference-temperature>20degC</reference-temperature>"                                   \
+    "<prony deformation=\"tension\" frequency-min=\"1e-2rad/s\" frequency-max=\"1e8rad/s\">"       \
+    "<equilibrium>2MPa</equilibrium><term time=\"1e-6s\" modulus=\"300MPa\"/>"                     \
+    "<term time=\"1e-1s\" modulus=\"3MPa\"/></prony></dma>"                                        \
+    "<roughness><self-affine><q0>2e3rad/m</q0><qr>4e3rad/m</qr><q1>1e6rad/m</q1>"                  \
+    "<hurst>0.8</hurst><c0>2e-17m^4</c0></self-affine></roughness>"                                \
+    "<sliding><pressure>0.4MPa</pressure><velocity>1e-3:1m/s:log:4</velocity>"                     \
+    "<reference-velocity>0.1m/s</reference-velocity>"                                              \
+    "<shear-stress>5MPa +- 10%</shear-stress></sliding>"
+#define LAYER(wear, energy)                                                                        \
+    "<layer><specific-wear-rate>" wear "</specific-wear-rate>"                                     \
+    "<critical-energy>" energy "</critical-energy></layer>"                                        \
+    "<compare><track-to-bulk/><by-rate/><indentation-to-dma/></compare>"
+
+/* One file for each spot and group: a curve for each rate. */
+static void write_curves(double ratio, double scatter)
+{
+    char path[256];
+    for (int g = 0; g < 2; g++)
+        for (int s = 0; s < SPOTS; s++) {
+            snprintf(path, sizeof path, "%s/%c%d.tsv", folder, "bt"[g], s);
+            FILE *out = fopen(path, "w");
+            assert_non_null(out);
+            for (int r = 0; r < RATES; r++) {
+                hertz h = hertz_standard();
+                h.modulus = BULK * with_rate[r] * exp((s - 1) * scatter);
+                if (g == 1)
+                    h.modulus *= ratio * (r == 0 ? 1 / sqrt(BY_RATE) : sqrt(BY_RATE));
+                h.velocity = rate[r];
+                h.seed = (uint64_t)(100 * g + 10 * s + r + 1);
+                hertz_write(out, &h, r);
+            }
+            fclose(out);
+        }
+}
+
+static void run(double ratio, double scatter, const char *body)
+{
+    char path[256];
+    wt_case *c = NULL;
+    wt_error err = WT_ERROR_INIT;
+    wt_run_options options = wt_run_defaults();
+    size_t n_failed = 99;
+    options.threads = 1;
+    options.replicates = 8;
+    write_curves(ratio, scatter);
+    snprintf(path, sizeof path, "%s/case.xml", folder);
+    FILE *out = fopen(path, "w");
+    assert_non_null(out);
+    fprintf(out, "<case version=\"1\">%s</case>", body);
+    fclose(out);
+    wt_result_free(result);
+    result = NULL;
+    if (wt_case_read(path, &c, &err) != WT_OK ||
+        wt_run(c, &options, NULL, &result, &n_failed, &err) != WT_OK)
+        fail_msg("%s: %s %s", err.place, err.message, err.found);
+    wt_case_free(c);
+    assert_int_equal(n_failed, 0);
+}
+
+static int make_folder(void **state)
+{
+    (void)state;
+    return mkdtemp(folder) == NULL ? -1 : 0;
+}
+
+static int clean(void **state)
+{
+    char path[256];
+    (void)state;
+    wt_result_free(result);
+    for (int i = 0; i < 2 * SPOTS; i++) {
+        snprintf(path, sizeof path, "%s/%c%d.tsv", folder, "bt"[i / SPOTS], i % SPOTS);
+        unlink(path);
+    }
+    snprintf(path, sizeof path, "%s/case.xml", folder);
+    unlink(path);
+    return rmdir(folder);
+}
+
+/* ---- reading the sentences --------------------------------------------------------------------
+ */
+
+/* What follows the words in the sentences of a kind; fails if no sentence has them. */
+static const char *after(const char *kind, const char *words)
+{
+    const wt_table *answer = wt_result_find(result, "answer");
+    assert_non_null(answer);
+    for (size_t i = 0; i < wt_table_n_rows(answer); i++) {
+        const char *at = strstr(cell_text(answer, i, "answer"), words);
+        if (at != NULL && strcmp(cell_text(answer, i, "kind"), kind) == 0)
+            return at + strlen(words);
+    }
+    for (size_t i = 0; i < wt_table_n_rows(answer); i++)
+        print_error("%s: %s\n", cell_text(answer, i, "kind"), cell_text(answer, i, "answer"));
+    fail_msg("no sentence of kind %s has \"%s\"", kind, words);
+    return "";
+}
+
+static bool says(const char *kind, const char *words)
+{
+    const wt_table *answer = wt_result_find(result, "answer");
+    assert_non_null(answer);
+    for (size_t i = 0; i < wt_table_n_rows(answer); i++)
+        if (strcmp(cell_text(answer, i, "kind"), kind) == 0 &&
+            strstr(cell_text(answer, i, "answer"), words) != NULL)
+            return true;
+    return false;
+}
+
+/* "3.15 ± 0.78 µm" and "-2.76 MPa" in SI units: the number, its error passed over, its prefix. */
+static double number(const char *text)
+{
+    char *end;
+    double value = strtod(text, &end);
+    assert_true(end != text);
+    static const char plus_minus[] = " \xc2\xb1 ";
+    if (strncmp(end, plus_minus, 4) == 0)
+        (void)strtod(end + 4, &end);
+    if (*end != ' ')
+        return value;
+    static const char *const prefixes[] = {"p", "n", "\xc2\xb5", "m", "k", "M", "G"};
+    static const double factors[] = {1e-12, 1e-9, 1e-6, 1e-3, 1e3, 1e6, 1e9};
+    for (size_t i = 0; i < 7; i++) {
+        size_t n = strlen(prefixes[i]);
+        if (strncmp(end + 1, prefixes[i], n) == 0 && isalpha((unsigned char)end[1 + n]))
+            return value * factors[i];
+    }
+    return value;
+}
+
+/* The number behind the words, to the three digits it is given with. */
+static void check(const char *kind, const char *words, double expected, double tolerance)
+{
+    double value = number(after(kind, words));
+    if (!(fabs(value - expected) <= tolerance * fabs(expected)))
+        fail_msg("%s%g: expected %g", words, value, expected);
+}
+
+/* ---- tests ------------------------------------------------------------------------------------
+ */
+
+static void check_verdict(double ratio, double scatter, const char *verdict)
+{
+    run(ratio, scatter, INDENTATION(FILES("b"), FILES("t")) COMPARE);
+    double reach = T_4 * scatter * sqrt(2.0 / SPOTS);
+    (void)after("layer", verdict);
+    check("layer", "E_track/E_bulk = ", ratio, 0.01);
+    check("layer", "95 % interval ", ratio * exp(-reach), 0.02);
+    const char *high = strstr(after("layer", "95 % interval "), " to ");
+    assert_non_null(high);
+    assert_near(number(high + 4), ratio * exp(reach), 0.02);
+    check("layer", "Mann-Whitney p ", says("layer", "Yes") ? 0.1 : 0.7, 0.1);
+    (void)after("layer", "6 bulk and 6 track curves");
+    assert_false(says("layer", "cannot be said"));
+
+    check("difference", "the wear track is ", ratio, 0.01);
+    double percent = number(after("difference", "times that of the bulk ("));
+    assert_near_abs(percent, 100 * (ratio - 1), 1.1);
+    /* of the means of the spots: those of cosh(scatter) for three */
+    double mean = 1.1 * (1 + 2 * cosh(scatter)) / 3 * BULK, by_rate = sqrt(BY_RATE);
+    double track = ratio * (1 / by_rate + 1.2 * by_rate) / 2.2 * mean;
+    assert_near_abs(number(after("difference", "the means differ by ")), track - mean, 0.02 * mean);
+    check("difference", "(Hedges' g) ", 0.8 * log(ratio) / scatter, 0.15);
+    check("difference", "Bulk: E = ", BULK * sqrt(1.2), 0.01);
+    check("difference", "Wear track: E = ", ratio * BULK * sqrt(1.2), 0.01);
+    (void)after("difference", "from 6 curves on 3 spots, 0 rejected");
+    check("difference", "(2 indentation rates) the ratio is ", ratio / by_rate, 0.01);
+    const char *to = strstr(after("difference", "indentation rates) the ratio is "), " to ");
+    assert_non_null(to);
+    assert_near(number(to + 4), ratio * by_rate, 0.01);
+    const wt_table *c = wt_result_find(result, "comparison");
+    double p = fmax(cell(c, 1, "holm_p"), cell(c, 2, "holm_p"));
+    check("difference", "largest p after Holm's correction is ", p, 0.05);
+}
+
+static void test_verdicts(void **state)
+{
+    (void)state;
+    check_verdict(0.80, 0.03, "Yes: the wear track is softer than the bulk.");
+    check_verdict(1.25, 0.03, "Yes: the wear track is stiffer than the bulk.");
+    static const char not_shown[] = "Not shown: the modulus of the wear track does not differ from "
+                                    "that of the bulk at the 95 % level.";
+    check_verdict(0.96, 0.1, not_shown);
+    check_verdict(1.05, 0.1, not_shown);
+}
+
+/* One spot speaks for itself only, and its curves are the units. */
+static void test_one_spot(void **state)
+{
+    (void)state;
+    run(0.5, 0.03, INDENTATION(ONE_FILE("b"), ONE_FILE("t")) COMPARE);
+    (void)after("layer", "where it was measured; whether it is so elsewhere cannot be said");
+    (void)after("difference", "no interval from fewer than two spots");
+    (void)after("difference", "from 2 curves on 1 spot, 0 rejected");
+    (void)after("caveat", "The unit of analysis of the comparison is the curve");
+}
+
+static double key(const char *table, const char *name)
+{
+    return key_estimate(wt_result_find(result, table), name).value;
+}
+
+/* Thickness and friction: the sentences against what is in the tables, and the tables against one
+ * another. */
+static void test_sliding(void **state)
+{
+    (void)state;
+    run(0.6, 0.03,
+        INDENTATION(FILES("b"), FILES("t")) SLIDING LAYER("1e-3mm^3/(N m)", "1e10J/m^3"));
+    /* the bulk over |E*| of the series at exp(psi(5/2)) / (time in contact) */
+    double ratio[RATES], psi = 8.0 / 3.0 - 0.57721566490153286 - log(4);
+    for (int r = 0; r < RATES; r++) {
+        hertz h = hertz_standard();
+        h.modulus = BULK * with_rate[r];
+        double omega = exp(psi) * rate[r] / hertz_travel(&h), z = omega * 0.1, fast = omega * 1e-6;
+        double storage = 2e6 + 3e6 * z * z / (1 + z * z);
+        double loss = 3e6 * z / (1 + z * z) + 300e6 * fast;
+        ratio[r] = h.modulus / hypot(storage, loss);
+    }
+    const char *of_dma = after("difference", "indentation modulus of the bulk is ");
+    assert_near(number(of_dma), fmin(ratio[0], ratio[1]), 0.01);
+    assert_non_null(strstr(of_dma, " to "));
+    assert_near(number(strstr(of_dma, " to ") + 4), fmax(ratio[0], ratio[1]), 0.01);
+    check("difference", "error of the spring constant is one of ", 4, 0.001);
+
+    double thickness = key("layer", "balance_thickness");
+    check("thickness", "", thickness, 0.01);
+    check("thickness", "formation balances wear, at ", 0.1, 0.001);
+    check("thickness", "at 100 mm/s and ", 0.4e6, 0.001);
+    check("thickness", "wear R = ", key("layer", "formation_wear_ratio"), 0.01);
+    check("thickness", "more wear it is ", -key("layer", "wear_sensitivity"), 0.05);
+    check("thickness", "begins to form after ", key("layer", "incubation_time"), 0.01);
+    check("thickness", "of the balance after ", key("layer", "time_to_90_percent"), 0.01);
+
+    double total = key("friction", "friction_at_reference");
+    double hysteresis = key("friction", "hysteresis_at_reference");
+    double area = key("friction", "area_ratio_at_reference");
+    double with = key("friction", "friction_with_layer_at_reference");
+    assert_near(total, hysteresis + 5e6 * area / 0.4e6, 1e-9);
+    check("friction", "Without a layer, at ", 0.1, 0.001);
+    check("friction", "Without a layer, at 100 mm/s, mu = ", total, 0.01);
+    check("friction", ": hysteresis ", hysteresis, 0.01);
+    check("friction", "shearing of the real contact ", total - hysteresis, 0.01);
+    check("friction", "(contact area ", area, 0.01);
+    check("friction", "With the layer (", thickness, 0.01);
+    check("friction", "modulus ratio ", 0.6, 0.01);
+    check("friction", ": a change of ", with - total, 0.02);
+    const char *percent = strchr(after("friction", ": a change of "), '(');
+    assert_non_null(percent);
+    assert_near_abs(number(percent + 1), 100 * (with / total - 1), 0.51);
+    const wt_table *friction = wt_result_find(result, "friction");
+    double low = 99, high = -99;
+    for (size_t i = 0; i < wt_table_n_rows(friction); i++) {
+        double change = cell(friction, i, "friction_with_layer") / cell(friction, i, "friction");
+        low = fmin(low, change - 1);
+        high = fmax(high, change - 1);
+    }
+    check("friction", "From ", 1e-3, 0.001);
+    const char *range = after("friction", "From 1.00 mm/s to ");
+    assert_near(number(range), 1, 0.001);
+    range = strstr(range, "the change is ");
+    assert_non_null(range);
+    assert_near_abs(number(range + 14), 100 * low, 0.51);
+    range = strstr(range, " to ");
+    assert_non_null(range);
+    assert_near_abs(number(range + 4), 100 * high, 0.51);
+    assert_false(says("caveat", "does not agree"));
+    assert_false(says("caveat", "does not show this layer"));
+}
+
+/* What does not fit together is said: a layer without a difference, a difference without a layer.
+ */
+static void test_disagreement(void **state)
+{
+    (void)state;
+    run(0.96, 0.1,
+        INDENTATION(FILES("b"), FILES("t")) SLIDING LAYER("1e-3mm^3/(N m)", "1e10J/m^3"));
+    assert_true(says("caveat", "The indentation does not show this layer"));
+    assert_false(says("caveat", "This does not agree with the indentation"));
+    static const double ratios[] = {0.6, 1.5};
+    for (int i = 0; i < 2; i++) {
+        run(ratios[i], 0.03,
+            INDENTATION(FILES("b"), FILES("t")) SLIDING LAYER("10mm^3/(N m)", "1e10J/m^3"));
+        assert_true(says("thickness", "There is none at 100 mm/s and 400 kPa"));
+        assert_true(says("caveat", "This does not agree with the indentation"));
+        assert_false(says("caveat", "The indentation does not show this layer"));
+        /* mm^3/(N m): 1e-9 m^2/N */
+        assert_near(strtod(after("thickness", "would have to be below "), NULL),
+                    1e9 * key("layer", "critical_specific_wear_rate"), 0.01);
+        assert_true(key("layer", "critical_specific_wear_rate") < 1e-8);
+        assert_true(says("friction", "Where wear leaves no layer"));
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_verdicts),
+        cmocka_unit_test(test_one_spot),
+        cmocka_unit_test(test_sliding),
+        cmocka_unit_test(test_disagreement),
+    };
+    return cmocka_run_group_tests_name("answers of known truth", tests, make_folder, clean);
+}

@@ -1,0 +1,329 @@
+/* The comparison of two groups whose moduli, spots and rates are chosen: every column of its tables
+ * against formulas written out here.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "truth.h"
+
+#include "weartrack/flow.h"
+
+enum { SPOTS = 3, RATES = 2 };
+
+#define BULK 5e6
+#define RATIO 0.8
+#define SCATTER 0.03          /* standard deviation of ln E between spots: one lower, one higher */
+#define T_2 4.302652729749464 /* 97.5 % points of Student's t */
+#define T_4 2.776445105197793
+
+static const double rate[RATES] = {1e-6, 2e-5};     /* [m/s] */
+static const double frequency[RATES] = {300, 9000}; /* [rad/s] */
+static const double with_rate[RATES] = {0.9, 1.0 / 0.9};
+static const double spread[RATES] = {1, 1.5}; /* of the scatter at a rate */
+
+/* Of curve i of a rate: the geometric means over the three are the nominal ones. */
+static const double shift[SPOTS] = {1.1, 1 / 1.1, 1};
+
+static double modulus(double mean, int r, int spot)
+{
+    return mean * with_rate[r] * exp((spot - 1) * SCATTER * spread[r]);
+}
+
+/* An indentation table with all its columns; one curve for each spot and rate, one rejected. */
+static wt_table *indentation(const char *group, double mean)
+{
+    static const struct {
+        const char *name, *unit;
+    } columns[] = {{"file", NULL},
+                   {"curve", "1"},
+                   {"spot", NULL},
+                   {"x", "m"},
+                   {"y", "m"},
+                   {"verdict", NULL},
+                   {"reason", NULL},
+                   {"modulus", "Pa"},
+                   {"modulus_standard_error", "Pa"},
+                   {"contact_point", "m"},
+                   {"contact_point_standard_error", "m"},
+                   {"baseline_offset", "N"},
+                   {"baseline_tilt", "N/m"},
+                   {"noise", "N"},
+                   {"r_squared", "1"},
+                   {"max_force", "N"},
+                   {"max_indentation", "m"},
+                   {"adhesion_force", "N"},
+                   {"piezo_rate", "m/s"},
+                   {"indentation_rate", "m/s"},
+                   {"load_time", "s"},
+                   {"second_minimum_ratio", "1"},
+                   {"sensitivity_gain", "1"},
+                   {"equivalent_frequency", "rad/s"}};
+    enum { SPOT = 2, VERDICT = 5, MODULUS = 7, RATE = 19, FREQUENCY = 23 };
+    char name[64], spot[8];
+    snprintf(name, sizeof name, "indentation/%s", group);
+    wt_table *t = wt_table_new(name, group);
+    for (size_t c = 0; c < sizeof columns / sizeof *columns; c++)
+        assert_int_equal(columns[c].unit == NULL
+                             ? wt_table_add_text_column(t, columns[c].name, "", NULL)
+                             : wt_table_add_column(t, columns[c].name, columns[c].unit, "", NULL),
+                         WT_OK);
+    for (int i = 0; i <= SPOTS * RATES; i++) {
+        int r = i / SPOTS, s = i % SPOTS;
+        bool good = i < SPOTS * RATES;
+        snprintf(spot, sizeof spot, "s%d", s);
+        assert_int_equal(wt_table_add_row(t, NULL), WT_OK);
+        assert_int_equal(wt_table_put_text(t, SPOT, spot, NULL), WT_OK);
+        assert_int_equal(wt_table_put_text(t, VERDICT, good ? "accepted" : "saturated", NULL),
+                         WT_OK);
+        if (!good)
+            break;
+        wt_table_put(t, MODULUS, modulus(mean, r, s));
+        wt_table_put(t, RATE, rate[r] * shift[s]);
+        wt_table_put(t, FREQUENCY, frequency[r] * shift[(s + 1) % SPOTS]);
+    }
+    assert_int_equal(wt_table_set_key(t, "spots", "named", NULL), WT_OK);
+    return t;
+}
+
+/* ---- statistics, from the textbook ------------------------------------------------------------
+ */
+
+typedef struct sample {
+    double mean, variance;
+} sample;
+
+static sample sample_of(const double *x, int n)
+{
+    sample s = {0, 0};
+    for (int i = 0; i < n; i++)
+        s.mean += x[i] / n;
+    for (int i = 0; i < n; i++)
+        s.variance += (x[i] - s.mean) * (x[i] - s.mean) / (n - 1);
+    return s;
+}
+
+/* Two-sided p of Student's t by Simpson's rule between -t and t. */
+static double p_of_t(double t, double df)
+{
+    enum { N = 20000 };
+    double scale = exp(lgamma((df + 1) / 2) - lgamma(df / 2)) / sqrt(df * 3.14159265358979324);
+    double sum = 0, h = 2 * fabs(t) / N;
+    for (int i = 0; i <= N; i++) {
+        double x = -fabs(t) + h * i, f = scale * pow(1 + x * x / df, -(df + 1) / 2);
+        sum += f * (i == 0 || i == N ? 1 : i % 2 == 1 ? 4 : 2);
+    }
+    return 1 - sum * h / 3;
+}
+
+typedef struct expected {
+    double difference, t, df, p;
+} expected;
+
+/* Welch's test of the means of the units of two groups; r < 0: units are spots over all rates. */
+static expected welch(double bulk, double track, int r)
+{
+    double x[2][SPOTS], mean[2] = {bulk, track};
+    for (int g = 0; g < 2; g++)
+        for (int s = 0; s < SPOTS; s++)
+            x[g][s] = r >= 0 ? modulus(mean[g], r, s)
+                             : (modulus(mean[g], 0, s) + modulus(mean[g], 1, s)) / RATES;
+    sample a = sample_of(x[0], SPOTS), b = sample_of(x[1], SPOTS);
+    double va = a.variance / SPOTS, vb = b.variance / SPOTS;
+    expected e = {b.mean - a.mean, (b.mean - a.mean) / sqrt(va + vb), 0, 0};
+    e.df = (va + vb) * (va + vb) / ((va * va + vb * vb) / (SPOTS - 1));
+    e.p = p_of_t(e.t, e.df);
+    return e;
+}
+
+/* ---- tests ------------------------------------------------------------------------------------
+ */
+
+static wt_table *bulk_table, *track_table;
+static wt_compare_tables tables;
+
+static wt_rubber rubber_of(double *tau, double *term)
+{
+    return (wt_rubber){.prony = {.deformation = WT_TENSION,
+                                 .reference_temperature = 293.15,
+                                 .equilibrium_modulus = 2e6,
+                                 .n = 1,
+                                 .relaxation_time = tau,
+                                 .modulus = term,
+                                 .frequency_min = 10,
+                                 .frequency_max = 5000},
+                       .poisson_ratio = 0.5,
+                       .has_wlf = true,
+                       .wlf = {293.15, 6.5, 110},
+                       .temperature_min = 273.15,
+                       .temperature_max = 333.15};
+}
+
+static void compare(double ratio, double temperature)
+{
+    static double tau = 1e-3, term = 6e6;
+    wt_rubber rubber = rubber_of(&tau, &term);
+    wt_job common = wt_job_defaults();
+    wt_error err = WT_ERROR_INIT;
+    wt_table_free(bulk_table);
+    wt_table_free(track_table);
+    wt_compare_tables_clear(&tables);
+    bulk_table = indentation("bulk", BULK);
+    track_table = indentation("track", ratio * BULK);
+    wt_compare_job job = {.bulk = bulk_table,
+                          .track = track_table,
+                          .rubber = &rubber,
+                          .temperature = temperature,
+                          .rates = true};
+    if (wt_compare_groups(&job, &common, &tables, &err) != WT_OK)
+        fail_msg("%s %s", err.message, err.found);
+}
+
+static int clean(void **state)
+{
+    (void)state;
+    wt_table_free(bulk_table);
+    wt_table_free(track_table);
+    wt_compare_tables_clear(&tables);
+    return 0;
+}
+
+static void check_row(size_t row, int r, double ratio)
+{
+    const wt_table *c = tables.comparison;
+    double scatter = SCATTER * (r < 0 ? (spread[0] + spread[1]) / 2 : spread[r]);
+    double reach = T_4 * scatter * sqrt(2.0 / SPOTS);
+    expected e = welch(BULK, ratio * BULK, r);
+    assert_near(cell(c, row, "ratio"), ratio, 1e-12);
+    assert_near(cell(c, row, "ratio_low"), ratio * exp(-reach), 1e-9);
+    assert_near(cell(c, row, "ratio_high"), ratio * exp(reach), 1e-9);
+    assert_near(cell(c, row, "difference"), e.difference, 1e-9);
+    assert_near(cell(c, row, "welch_t"), e.t, 1e-9);
+    assert_near(cell(c, row, "welch_df"), e.df, 1e-9);
+    assert_near(cell(c, row, "welch_p"), e.p, 1e-6);
+    /* all of one group below all of the other: 2 of the 20 rankings are as far */
+    assert_near(cell(c, row, "mann_whitney_p"), 0.1, 1e-12);
+    /* Hedges' g = J d, J(4) = gamma(2) / (sqrt(2) gamma(3/2)); its usual approximation is 0.8 */
+    assert_near(cell(c, row, "effect_size"), 0.79788 * log(ratio) / scatter, 0.005);
+}
+
+static void test_comparison(void **state)
+{
+    (void)state;
+    static const double ratios[] = {RATIO, 1 / RATIO};
+    for (int k = 0; k < 2; k++) {
+        compare(ratios[k], (double)NAN);
+        const wt_table *c = tables.comparison;
+        assert_int_equal(wt_table_n_rows(c), 1 + RATES);
+        assert_true(isnan(cell(c, 0, "rate_low")) && isnan(cell(c, 0, "rate_high")));
+        assert_near(cell(c, 0, "n_bulk"), SPOTS * RATES, 0);
+        assert_near(cell(c, 0, "n_track"), SPOTS * RATES, 0);
+        check_row(0, -1, ratios[k]);
+        assert_true(isnan(cell(c, 0, "holm_p")));
+        for (int r = 0; r < RATES; r++) {
+            size_t row = (size_t)r + 1;
+            check_row(row, r, ratios[k]);
+            assert_near(cell(c, row, "rate_low"), rate[r] / 1.1, 1e-12);
+            assert_near(cell(c, row, "rate_high"), rate[r] * 1.1, 1e-12);
+            assert_near(cell(c, row, "n_bulk"), SPOTS, 0);
+            assert_near(cell(c, row, "n_track"), SPOTS, 0);
+        }
+        /* the scatter is smaller at the first rate, and so is its p */
+        double p[2] = {cell(c, 1, "welch_p"), cell(c, 2, "welch_p")};
+        assert_true(p[0] < p[1]);
+        assert_near(cell(c, 1, "holm_p"), 2 * p[0], 1e-12);
+        assert_near(cell(c, 2, "holm_p"), fmax(2 * p[0], p[1]), 1e-12);
+        assert_string_equal(wt_table_key(c, "unit_of_analysis"), "spot");
+        wt_estimate e = key_estimate(c, "modulus_ratio");
+        double scatter = SCATTER * (spread[0] + spread[1]) / 2;
+        assert_near(e.value, ratios[k], 1e-12);
+        assert_near(e.standard_error, ratios[k] * scatter * sqrt(2.0 / SPOTS), 1e-9);
+    }
+}
+
+static void test_groups(void **state)
+{
+    (void)state;
+    compare(RATIO, (double)NAN);
+    const wt_table *t = tables.modulus_groups;
+    assert_int_equal(wt_table_n_rows(t), 2);
+    for (size_t g = 0; g < 2; g++) {
+        double mean = g == 0 ? BULK : RATIO * BULK, x[SPOTS * RATES], scatter;
+        scatter = SCATTER * (spread[0] + spread[1]) / 2;
+        for (int i = 0; i < SPOTS * RATES; i++)
+            x[i] = modulus(mean, i / SPOTS, i % SPOTS);
+        sample s = sample_of(x, SPOTS * RATES);
+        double reach = T_2 * scatter / sqrt(SPOTS);
+        assert_string_equal(cell_text(t, g, "group"), g == 0 ? "bulk" : "track");
+        assert_near(cell(t, g, "n"), SPOTS * RATES, 0);
+        assert_near(cell(t, g, "n_rejected"), 1, 0);
+        assert_near(cell(t, g, "n_spots"), SPOTS, 0);
+        assert_near(cell(t, g, "mean"), s.mean, 1e-12);
+        assert_near(cell(t, g, "standard_deviation"), sqrt(s.variance), 1e-9);
+        /* between the stiffest of the slow ones and the softest of the fast ones */
+        assert_near(cell(t, g, "median"), (modulus(mean, 0, 2) + modulus(mean, 1, 0)) / 2, 1e-12);
+        assert_near(cell(t, g, "geometric_mean"), mean, 1e-12);
+        assert_near(cell(t, g, "low"), mean * exp(-reach), 1e-9);
+        assert_near(cell(t, g, "high"), mean * exp(reach), 1e-9);
+    }
+}
+
+static void test_rates(void **state)
+{
+    (void)state;
+    compare(RATIO, (double)NAN);
+    const wt_table *t = tables.modulus_rate;
+    assert_int_equal(wt_table_n_rows(t), 2 * RATES);
+    for (size_t i = 0; i < 2 * RATES; i++) {
+        size_t r = i % RATES;
+        double mean = (i < RATES ? BULK : RATIO * BULK) * with_rate[r];
+        double reach = T_2 * SCATTER * spread[r] / sqrt(SPOTS);
+        assert_string_equal(cell_text(t, i, "group"), i < RATES ? "bulk" : "track");
+        assert_near(cell(t, i, "indentation_rate"), rate[r], 1e-12);
+        assert_near(cell(t, i, "equivalent_frequency"), frequency[r], 1e-12);
+        assert_near(cell(t, i, "n"), SPOTS, 0);
+        assert_near(cell(t, i, "geometric_mean"), mean, 1e-12);
+        assert_near(cell(t, i, "low"), mean * exp(-reach), 1e-9);
+        assert_near(cell(t, i, "high"), mean * exp(reach), 1e-9);
+        assert_int_equal(wt_table_block(t, i), i / RATES);
+    }
+}
+
+/* Against a rubber with much loss, so that |E*| is far from E'; also at another temperature. */
+static void test_dma(void **state)
+{
+    (void)state;
+    static const double temperatures[] = {(double)NAN, 303.15, 288.15};
+    for (size_t k = 0; k < 3; k++) {
+        double step = k == 0 ? 0 : temperatures[k] - 293.15;
+        double a = pow(10, -6.5 * step / (110 + step));
+        compare(RATIO, temperatures[k]);
+        const wt_table *t = tables.dma_comparison;
+        assert_int_equal(wt_table_n_rows(t), 2 * RATES);
+        for (size_t i = 0; i < 2 * RATES; i++) {
+            size_t r = i % RATES;
+            double mean = (i < RATES ? BULK : RATIO * BULK) * with_rate[r];
+            double z = frequency[r] * 1e-3 * a, storage = 2e6 + 6e6 * z * z / (1 + z * z);
+            double loss = 6e6 * z / (1 + z * z), complex = sqrt(storage * storage + loss * loss);
+            double reach = T_2 * SCATTER * spread[r] / sqrt(SPOTS);
+            assert_string_equal(cell_text(t, i, "group"), i < RATES ? "bulk" : "track");
+            assert_near(cell(t, i, "equivalent_frequency"), frequency[r], 1e-12);
+            assert_near(cell(t, i, "indentation_modulus"), mean, 1e-12);
+            assert_near(cell(t, i, "low"), mean * exp(-reach), 1e-9);
+            assert_near(cell(t, i, "high"), mean * exp(reach), 1e-9);
+            assert_near(cell(t, i, "dma_storage_modulus"), storage, 1e-9);
+            assert_near(cell(t, i, "dma_complex_modulus"), complex, 1e-9);
+            assert_near(cell(t, i, "ratio"), mean / complex, 1e-9);
+            assert_near(cell(t, i, "extrapolated"),
+                        frequency[r] * a < 10 || frequency[r] * a > 5000 ? 1 : 0, 0);
+        }
+        assert_near(key_estimate(t, "temperature").value, 293.15 + step, 1e-12);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_comparison),
+        cmocka_unit_test(test_groups),
+        cmocka_unit_test(test_rates),
+        cmocka_unit_test(test_dma),
+    };
+    return cmocka_run_group_tests_name("comparison of known truth", tests, NULL, clean);
+}

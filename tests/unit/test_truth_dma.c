@@ -1,0 +1,325 @@
+/* The DMA job on sweeps of a known rubber, and the rubber at another temperature: every column of
+ * the tables against the series and the law the sweeps were made from.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "truth.h"
+
+#include "dma_data.h"
+#include "weartrack/flow.h"
+
+enum { ISOTHERMS = 11, POINTS = 16 };
+
+#define REFERENCE 293.15
+#define NOISE 0.003
+
+static char path[] = "/tmp/weartrack-dma-XXXXXX";
+static wt_formats *formats;
+static wt_master_tables tables;
+static wt_rubber rubber;
+
+static double temperature_of(size_t i)
+{
+    return 253.15 + 10.0 * (double)i;
+}
+
+static double true_log_a(double temperature)
+{
+    double step = temperature - REFERENCE;
+    return -8.0 * step / (110.0 + step);
+}
+
+/* What isotherm i shares with its neighbour towards the reference [decade]: the smaller one of the
+ * storage and of the loss modulus, b taken out. */
+static double true_overlap(size_t i)
+{
+    size_t next = temperature_of(i) < REFERENCE ? i + 1 : i - 1;
+    double low[2] = {0, 0}, high[2] = {99, 99};
+    for (int which = 0; which < 2; which++) {
+        double shift = true_log_a(temperature_of(which == 0 ? i : next)), m[2];
+        double range[2][2] = {{99, -99}, {99, -99}};
+        for (int k = 0; k < POINTS; k++) {
+            dma_moduli(&dma_rubber, pow(10, -1 + 3.0 * k / (POINTS - 1) + shift), &m[0], &m[1]);
+            for (int j = 0; j < 2; j++) {
+                range[j][0] = fmin(range[j][0], log10(m[j]));
+                range[j][1] = fmax(range[j][1], log10(m[j]));
+            }
+        }
+        for (int j = 0; j < 2; j++) {
+            low[j] = fmax(low[j], range[j][0]);
+            high[j] = fmin(high[j], range[j][1]);
+        }
+    }
+    return fmin(high[0] - low[0], high[1] - low[1]);
+}
+
+/* E' and E'' in tension from -20 to 80 degC, rising with rho T: b = T0/T. */
+static int make(void **state)
+{
+    (void)state;
+    const char *const patterns[] = {path};
+    wt_file_set set = {.patterns = patterns, .n_patterns = 1, .read = wt_read_defaults()};
+    wt_master_job job = wt_master_job_defaults();
+    wt_job common = wt_job_defaults();
+    wt_error err = WT_ERROR_INIT;
+    uint64_t seed = 5;
+    FILE *out = truth_file(path);
+    fputs("## table: sweep\n# angular_frequency[rad/s]\tstorage_modulus[Pa]\tloss_modulus[Pa]\t"
+          "temperature[K]\n",
+          out);
+    for (size_t i = 0; i < ISOTHERMS; i++) {
+        double t = temperature_of(i);
+        for (int k = 0; k < POINTS; k++) {
+            double omega = pow(10, -1 + 3.0 * k / (POINTS - 1)), storage, loss;
+            dma_moduli(&dma_rubber, omega * pow(10, true_log_a(t)), &storage, &loss);
+            fprintf(out, "%.17g\t%.17g\t%.17g\t%.17g\n", omega,
+                    storage * t / REFERENCE * exp(NOISE * truth_normal(&seed)),
+                    loss * t / REFERENCE * exp(NOISE * truth_normal(&seed)), t);
+        }
+        fputs(i + 1 < ISOTHERMS ? "\n" : "##\n", out);
+    }
+    fclose(out);
+    if (wt_formats_new(NULL, &formats, NULL, NULL) != WT_OK)
+        return -1;
+    common.formats = formats;
+    job.sets = &set;
+    job.n_sets = 1;
+    job.shift.reference_temperature = REFERENCE;
+    if (wt_master_make(&job, 0.45, &common, &tables, &rubber, &err) == WT_OK)
+        return 0;
+    print_error("%s: %s %s\n", err.place, err.message, err.found);
+    return -1;
+}
+
+static int clean(void **state)
+{
+    (void)state;
+    wt_master_tables_clear(&tables);
+    wt_rubber_clear(&rubber);
+    wt_formats_free(formats);
+    unlink(path);
+    return 0;
+}
+
+/* ---- tables -----------------------------------------------------------------------------------
+ */
+
+static void test_shift_factors(void **state)
+{
+    (void)state;
+    const wt_table *t = tables.shift_factors;
+    assert_int_equal(tables.n_isotherms, ISOTHERMS);
+    assert_int_equal(wt_table_n_rows(t), ISOTHERMS);
+    for (size_t i = 0; i < ISOTHERMS; i++) {
+        double at = temperature_of(i), se_a = cell(t, i, "log_a_standard_error");
+        double se_b = cell(t, i, "log_b_standard_error");
+        assert_near(cell(t, i, "temperature"), at, 1e-9);
+        assert_near_abs(cell(t, i, "log_a"), true_log_a(at), 0.05);
+        assert_near_abs(cell(t, i, "log_b"), -log10(at / REFERENCE), 0.02);
+        assert_near_abs(cell(t, i, "log_b_physical"), -log10(at / REFERENCE), 1e-9);
+        assert_near_abs(cell(t, i, "wlf_log_a"), true_log_a(at), 0.05);
+        assert_near(cell(t, i, "determined"), 1, 0);
+        bool reference = fabs(at - REFERENCE) < 1;
+        assert_true(reference ? se_a == 0 : se_a > 1e-5 && se_a < 0.1);
+        assert_true(reference ? se_b == 0 : se_b > 1e-5 && se_b < 0.05);
+        /* log b is better known than log a where the slope of the moduli is below 1 */
+        assert_true(reference || se_b < se_a);
+        assert_near_abs(cell(t, i, "overlap"), reference ? 0 : true_overlap(i), 0.03);
+        assert_true(reference || (fabs(cell(t, i, "correlation")) > 0.1 &&
+                                  fabs(cell(t, i, "correlation")) <= 1));
+    }
+}
+
+static void test_law(void **state)
+{
+    (void)state;
+    const wt_table *t = tables.shift_factors;
+    wt_estimate c1 = key_estimate(t, "wlf_c1"), c2 = key_estimate(t, "wlf_c2");
+    wt_estimate slope = key_estimate(t, "wlf_slope"), pole = key_estimate(t, "pole");
+    assert_near(c1.value, 8, 0.02);
+    assert_near(c2.value, 110, 0.02);
+    assert_true(c1.standard_error > 0 && c1.standard_error < 0.5);
+    assert_true(c2.standard_error > 10 * c1.standard_error && c2.standard_error < 5);
+    assert_near(slope.value, -c1.value / c2.value, 1e-9);
+    assert_near(pole.value, REFERENCE - c2.value, 1e-9);
+    assert_near(pole.standard_error, c2.standard_error, 1e-9);
+    assert_true(atof(wt_table_key(t, "wlf_correlation")) > 0.5);
+    /* d log10 a / d(1/T) = E / (R ln 10), about the middle of the isotherms */
+    double energy = key_estimate(t, "activation_energy").value;
+    double low = true_log_a(303.15) - true_log_a(313.15), inverse = 1 / 303.15 - 1 / 313.15;
+    assert_near(energy, low / inverse * 8.314462618 * log(10), 0.3);
+    assert_near(key_estimate(t, "wlf_floor").value, wt_shift_defaults().floor, 0);
+    assert_true(key_estimate(t, "wlf_rms").value < 0.03);
+    assert_near(key_estimate(t, "reference_temperature").value, REFERENCE, 0);
+    assert_string_equal(wt_table_key(t, "vertical"), "free");
+    assert_string_equal(wt_table_key(t, "deformation"), "tension");
+    assert_string_equal(wt_table_key(t, "wlf_straight"), "no");
+    assert_int_equal(strncmp(wt_table_key(t, "superposition"), "holds", 5), 0);
+}
+
+/* The loss is far from the storage modulus, so that neither passes for the other. */
+static void test_master_curve(void **state)
+{
+    (void)state;
+    const wt_table *t = tables.master_curve;
+    assert_int_equal(wt_table_n_rows(t), ISOTHERMS * POINTS);
+    for (size_t i = 0; i < ISOTHERMS * POINTS; i++) {
+        double at = temperature_of(i / POINTS), storage, loss;
+        double omega = pow(10, -1 + 3.0 * (double)(i % POINTS) / (POINTS - 1) + true_log_a(at));
+        dma_moduli(&dma_rubber, omega, &storage, &loss);
+        assert_near(cell(t, i, "temperature"), at, 1e-9);
+        assert_near(cell(t, i, "angular_frequency"), omega, 0.12);
+        assert_near(cell(t, i, "storage_modulus"), storage, 0.06);
+        assert_near(cell(t, i, "loss_modulus"), loss, 0.06);
+        assert_near(cell(t, i, "fitted_storage"), storage, 0.08);
+        assert_near(cell(t, i, "fitted_loss"), loss, 0.15);
+        assert_int_equal(wt_table_block(t, i), i / POINTS);
+    }
+    double rms[2] = {atof(wt_table_key(t, "rms_storage")), atof(wt_table_key(t, "rms_loss"))};
+    assert_true(rms[0] > 0.2 * NOISE && rms[0] < 10 * NOISE);
+    assert_true(rms[1] > 0.2 * NOISE && rms[1] < 20 * NOISE);
+    assert_near(key_estimate(t, "reference_temperature").value, REFERENCE, 0);
+}
+
+static void test_prony(void **state)
+{
+    (void)state;
+    const wt_table *t = tables.prony;
+    for (double log_omega = -3; log_omega < 5; log_omega += 0.5) {
+        double omega = pow(10, log_omega), truth[2];
+        double sum[2] = {key_estimate(t, "equilibrium_modulus").value, 0};
+        for (size_t i = 0; i < wt_table_n_rows(t); i++) {
+            double z = omega * cell(t, i, "relaxation_time"), m = cell(t, i, "modulus");
+            sum[0] += m * z * z / (1 + z * z);
+            sum[1] += m * z / (1 + z * z);
+        }
+        dma_moduli(&dma_rubber, omega, &truth[0], &truth[1]);
+        assert_near(sum[0], truth[0], 0.05);
+        assert_near(sum[1], truth[1], 0.15);
+    }
+    double first = pow(10, -1 + true_log_a(temperature_of(ISOTHERMS - 1)));
+    double last = pow(10, 2 + true_log_a(temperature_of(0)));
+    assert_near(key_estimate(t, "frequency_min").value, first, 0.12);
+    assert_near(key_estimate(t, "frequency_max").value, last, 0.12);
+    assert_near(key_estimate(t, "reference_temperature").value, REFERENCE, 0);
+    assert_string_equal(wt_table_key(t, "deformation"), "tension");
+    assert_string_equal(wt_table_key(t, "rms_storage"),
+                        wt_table_key(tables.master_curve, "rms_storage"));
+    assert_string_equal(wt_table_key(t, "rms_loss"), wt_table_key(tables.master_curve, "rms_loss"));
+}
+
+/* ---- the rubber -------------------------------------------------------------------------------
+ */
+
+/* What the later stages get, and get again from the tables. */
+static void test_rubber(void **state)
+{
+    (void)state;
+    wt_rubber again = {0};
+    assert_int_equal(wt_rubber_from_tables(tables.prony, tables.shift_factors, 0.45, &again, NULL),
+                     WT_OK);
+    const wt_rubber *const both[2] = {&rubber, &again};
+    for (int i = 0; i < 2; i++) {
+        const wt_rubber *r = both[i];
+        assert_near(r->poisson_ratio, 0.45, 0);
+        assert_true(r->has_wlf);
+        assert_near(r->wlf.c1, key_estimate(tables.shift_factors, "wlf_c1").value, 1e-9);
+        assert_near(r->wlf.c2, key_estimate(tables.shift_factors, "wlf_c2").value, 1e-9);
+        assert_near(r->c1_error, key_estimate(tables.shift_factors, "wlf_c1").standard_error, 1e-9);
+        assert_near(r->c2_error, key_estimate(tables.shift_factors, "wlf_c2").standard_error, 1e-9);
+        assert_true(r->c_correlation > 0.5 && r->c_correlation < 1);
+        assert_near(r->temperature_min, temperature_of(0), 1e-9);
+        assert_near(r->temperature_max, temperature_of(ISOTHERMS - 1), 1e-9);
+        assert_int_equal(r->n_vertical, ISOTHERMS);
+        for (size_t k = 0; k < ISOTHERMS; k++) {
+            assert_near(r->vertical_temperature[k], temperature_of(k), 1e-9);
+            assert_near_abs(r->vertical_log_b[k], -log10(temperature_of(k) / REFERENCE), 0.02);
+        }
+    }
+    assert_true(rubber.has_master && !again.has_master);
+    wt_rubber_clear(&again);
+}
+
+/* A rubber of one term with a law, its errors, and their correlation. */
+static wt_rubber simple(double *tau, double *term, double correlation)
+{
+    return (wt_rubber){.prony = {.deformation = WT_TENSION,
+                                 .reference_temperature = REFERENCE,
+                                 .equilibrium_modulus = 2e6,
+                                 .n = 1,
+                                 .relaxation_time = tau,
+                                 .modulus = term,
+                                 .frequency_min = 0.01,
+                                 .frequency_max = 1e7},
+                       .poisson_ratio = 0.5,
+                       .has_wlf = true,
+                       .wlf = {REFERENCE, 6.5, 110},
+                       .c1_error = 0.13,
+                       .c2_error = 2.2,
+                       .c_correlation = correlation,
+                       .temperature_min = 253.15,
+                       .temperature_max = 333.15};
+}
+
+static void test_at(void **state)
+{
+    (void)state;
+    double tau = 1e-3, term = 6e6, at[2] = {273.15, 313.15}, log_b[2] = {0.1, -0.2};
+    static const double steps[] = {-20, 0, 20, 10};
+    static const double b[] = {0.1, -0.05, -0.2, -0.125}; /* between the two, linear */
+    wt_rubber r = simple(&tau, &term, 0);
+    r.n_vertical = 2;
+    r.vertical_temperature = at;
+    r.vertical_log_b = log_b;
+    for (int i = 0; i < 4; i++) {
+        double a = pow(10, -6.5 * steps[i] / (110 + steps[i])), scale = pow(10, -b[i]);
+        wt_material *m = NULL;
+        assert_int_equal(wt_rubber_at(&r, REFERENCE + steps[i], 1, SIZE_MAX, &m, NULL, NULL),
+                         WT_OK);
+        assert_near(m->frequency_min, 0.01 / a, 1e-9);
+        assert_near(m->frequency_max, 1e7 / a, 1e-9);
+        for (double omega = 1; omega < 1e6; omega *= 31) {
+            double z = omega * tau * a, storage, loss;
+            m->law->modulus(m, &omega, 1, &storage, &loss);
+            assert_near(storage, scale * (2e6 + 6e6 * z * z / (1 + z * z)), 1e-9);
+            assert_near(loss, scale * 6e6 * z / (1 + z * z), 1e-9);
+        }
+        wt_material_free(m);
+    }
+}
+
+/* Spread of log10 a over replicates: by propagation from c1, c2 and their correlation, whose sign
+ * decides whether the two errors add up or cancel. */
+static void test_shift_error(void **state)
+{
+    (void)state;
+    enum { N = 400 };
+    static const double correlations[] = {0.9, 0, -0.9}, steps[] = {20, -30};
+    double tau = 1e-3, term = 6e6;
+    for (int k = 0; k < 6; k++) {
+        wt_rubber r = simple(&tau, &term, correlations[k / 2]);
+        double s = steps[k % 2], sum = r.wlf.c2 + s, shift[N], mean = 0, variance = 0;
+        double by_c1 = -s / sum * r.c1_error, by_c2 = r.wlf.c1 * s / (sum * sum) * r.c2_error;
+        double expected = sqrt(by_c1 * by_c1 + by_c2 * by_c2 + 2 * r.c_correlation * by_c1 * by_c2);
+        for (size_t i = 0; i < N; i++) {
+            wt_material *m = NULL;
+            assert_int_equal(wt_rubber_at(&r, REFERENCE + s, 3, i, &m, NULL, NULL), WT_OK);
+            shift[i] = log10(1e7 / m->frequency_max);
+            mean += shift[i] / N;
+            wt_material_free(m);
+        }
+        for (size_t i = 0; i < N; i++)
+            variance += (shift[i] - mean) * (shift[i] - mean) / (N - 1);
+        assert_near(sqrt(variance), expected, 0.12);
+        assert_near_abs(mean, -r.wlf.c1 * s / sum, 4 * expected / sqrt(N));
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_shift_factors), cmocka_unit_test(test_law),
+        cmocka_unit_test(test_master_curve),  cmocka_unit_test(test_prony),
+        cmocka_unit_test(test_rubber),        cmocka_unit_test(test_at),
+        cmocka_unit_test(test_shift_error),
+    };
+    return cmocka_run_group_tests_name("DMA of known truth", tests, make, clean);
+}

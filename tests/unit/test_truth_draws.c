@@ -1,0 +1,191 @@
+/* The replicates behind the standard errors: what is drawn for one purpose has nothing to do with
+ * what is drawn for another, and the seed decides all of it.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "truth.h"
+
+#include "weartrack/flow.h"
+
+enum { REPLICATES = 150, MAX_KNOBS = 8 };
+
+/* Something that has a stated error. */
+typedef struct knob {
+    const char *name;
+    double *value, *error;
+} knob;
+
+static double tau[] = {1e-6, 1e-4, 1e-2}, term[] = {300e6, 10e6, 3e6}, velocity = 0.1;
+static wt_rubber rubber;
+static wt_surface surface;
+static wt_sliding sliding;
+static wt_layer_known layer;
+static wt_layer_job layer_job;
+static wt_job common;
+
+static void set_up(void)
+{
+    rubber = (wt_rubber){.prony = {.deformation = WT_TENSION,
+                                   .reference_temperature = 293.15,
+                                   .equilibrium_modulus = 3e6,
+                                   .n = 3,
+                                   .relaxation_time = tau,
+                                   .modulus = term,
+                                   .frequency_min = 1e-2,
+                                   .frequency_max = 1e8},
+                         .poisson_ratio = 0.5,
+                         .has_wlf = true,
+                         .wlf = {293.15, 6.5, 110},
+                         .temperature_min = 273.15,
+                         .temperature_max = 333.15};
+    surface = (wt_surface){.self_affine = true, .q0 = 2e3, .qr = 4e3, .q1 = 2e4, .hurst = 0.8};
+    surface.c0 = (wt_estimate){2e-17, 0, 0, "m^4"};
+    sliding = wt_sliding_defaults();
+    sliding.rubber = &rubber;
+    sliding.surface = &surface;
+    sliding.pressure.value = 0.8e6;
+    sliding.temperature.value = 313.15;
+    sliding.shear_stress.value = 5e6;
+    sliding.velocity = &velocity;
+    sliding.n_velocity = 1;
+    layer = (wt_layer_known){{100e-6, 0, 0, "m"}, {0.6, 0, 0, "1"}};
+    layer_job = wt_layer_job_defaults();
+    layer_job.specific_wear_rate.value = 1e-12;
+    common = wt_job_defaults();
+    common.threads = 1;
+    common.replicates = REPLICATES;
+}
+
+static wt_estimate friction(const char *key)
+{
+    wt_friction_tables tables = {0};
+    wt_error err = WT_ERROR_INIT;
+    if (wt_friction_make(&sliding, &layer, &common, &tables, &err) != WT_OK)
+        fail_msg("%s %s", err.message, err.found);
+    wt_estimate e = key_estimate(tables.friction, key);
+    wt_friction_tables_clear(&tables);
+    return e;
+}
+
+static wt_estimate thickness(const char *key)
+{
+    wt_layer_tables tables = {0};
+    wt_error err = WT_ERROR_INIT;
+    if (wt_layer_make(&sliding, &layer_job, &common, &tables, &err) != WT_OK)
+        fail_msg("%s %s", err.message, err.found);
+    wt_estimate e = key_estimate(tables.layer, key);
+    wt_layer_tables_clear(&tables);
+    return e;
+}
+
+/* Each knob is given the error that moves the logarithm of the result by `SHARE`; all together then
+ * move it by the root of their number; if two had the same draws, by 2/n more or less in the
+ * square: four times the scatter of the replicates. */
+#define SHARE 0.005
+
+static void check_independent(const knob *knobs, int n, wt_estimate (*result)(const char *),
+                              const char *key)
+{
+    double variance = 0, errors[MAX_KNOBS];
+    for (int i = 0; i < n; i++) {
+        const knob *k = &knobs[i];
+        double value = *k->value, step = 1e-4 * value;
+        common.replicates = 0;
+        double middle = result(key).value;
+        *k->value = value + step;
+        double slope = log(result(key).value / middle) / step;
+        *k->value = value;
+        errors[i] = SHARE / fabs(slope);
+        common.replicates = REPLICATES;
+        *k->error = errors[i];
+        wt_estimate e = result(key);
+        *k->error = 0;
+        if (!(fabs(e.standard_error / e.value / SHARE - 1) < 0.2))
+            fail_msg("%s: an error that moves %s by %g is reported as %g", k->name, key, SHARE,
+                     e.standard_error / e.value);
+        variance += e.standard_error * e.standard_error;
+    }
+    for (int i = 0; i < n; i++)
+        *knobs[i].error = errors[i];
+    wt_estimate all = result(key);
+    for (int i = 0; i < n; i++)
+        *knobs[i].error = 0;
+    print_message("%s: square of the error over the sum of squares %.3f\n", key,
+                  all.standard_error * all.standard_error / variance);
+    assert_near(all.standard_error * all.standard_error / variance, 1, 1.2 / n);
+}
+
+static void test_friction_draws(void **state)
+{
+    (void)state;
+    set_up();
+    const knob knobs[] = {
+        {"pressure", &sliding.pressure.value, &sliding.pressure.standard_error},
+        {"shear stress", &sliding.shear_stress.value, &sliding.shear_stress.standard_error},
+        {"temperature", &sliding.temperature.value, &sliding.temperature.standard_error},
+        {"density", &surface.c0.value, &surface.c0.standard_error},
+        {"shift law", &rubber.wlf.c1, &rubber.c1_error},
+        {"thickness", &layer.thickness.value, &layer.thickness.standard_error},
+        {"ratio", &layer.modulus_ratio.value, &layer.modulus_ratio.standard_error},
+    };
+    check_independent(knobs, 7, friction, "friction_with_layer_at_reference");
+}
+
+static void test_layer_draws(void **state)
+{
+    (void)state;
+    set_up();
+    layer_job.critical_energy.value = 1e9;
+    const knob knobs[] = {
+        {"pressure", &sliding.pressure.value, &sliding.pressure.standard_error},
+        {"temperature", &sliding.temperature.value, &sliding.temperature.standard_error},
+        {"density", &surface.c0.value, &surface.c0.standard_error},
+        {"wear", &layer_job.specific_wear_rate.value, &layer_job.specific_wear_rate.standard_error},
+        {"energy", &layer_job.critical_energy.value, &layer_job.critical_energy.standard_error},
+    };
+    check_independent(knobs, 5, thickness, "balance_thickness");
+}
+
+static void test_calibration_draws(void **state)
+{
+    (void)state;
+    set_up();
+    layer_job.observed_thickness.value = 3e-6;
+    const knob knobs[] = {
+        {"pressure", &sliding.pressure.value, &sliding.pressure.standard_error},
+        {"wear", &layer_job.specific_wear_rate.value, &layer_job.specific_wear_rate.standard_error},
+        {"observed", &layer_job.observed_thickness.value,
+         &layer_job.observed_thickness.standard_error},
+    };
+    check_independent(knobs, 3, thickness, "critical_energy");
+}
+
+/* Stating one more error changes none of the other draws; the seed changes all. */
+static void test_seed(void **state)
+{
+    (void)state;
+    set_up();
+    common.replicates = 16;
+    sliding.pressure.standard_error = 0.02e6;
+    layer_job.critical_energy.value = 1e9;
+    double hysteresis = friction("hysteresis_at_reference").standard_error;
+    double depth = thickness("balance_thickness").standard_error;
+    assert_true(hysteresis > 0 && depth > 0);
+    sliding.shear_stress.standard_error = 0.5e6;
+    assert_near(friction("hysteresis_at_reference").standard_error, hysteresis, 0);
+    assert_near(thickness("balance_thickness").standard_error, depth, 0);
+    common.seed += 1;
+    assert_true(fabs(friction("hysteresis_at_reference").standard_error / hysteresis - 1) > 1e-6);
+    assert_true(fabs(thickness("balance_thickness").standard_error / depth - 1) > 1e-6);
+    common.seed -= 1;
+    assert_near(friction("hysteresis_at_reference").standard_error, hysteresis, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_friction_draws),
+        cmocka_unit_test(test_layer_draws),
+        cmocka_unit_test(test_calibration_draws),
+        cmocka_unit_test(test_seed),
+    };
+    return cmocka_run_group_tests_name("draws", tests, NULL, NULL);
+}

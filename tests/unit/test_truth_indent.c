@@ -1,0 +1,162 @@
+/* The indentation job on curves of known truth: every column of its tables means what it says.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "truth.h"
+
+#include "weartrack/flow.h"
+
+#define SNAP 40e-9
+
+static char path[] = "/tmp/weartrack-indent-XXXXXX";
+static wt_formats *formats;
+static wt_indent_tables tables;
+static hertz truth;
+
+/* A file of two curves: one with contact, one that never touches. */
+static int indent(void **state)
+{
+    (void)state;
+    wt_error err = WT_ERROR_INIT;
+    const char *const patterns[] = {path};
+    wt_file_set set = {.patterns = patterns, .n_patterns = 1, .read = wt_read_defaults()};
+    wt_indent_job job = wt_indent_job_defaults();
+    wt_job common = wt_job_defaults();
+    truth = hertz_standard();
+    truth.snap = SNAP;
+    hertz soft = truth;
+    soft.modulus = 1e-3;
+    soft.snap = 0;
+    FILE *out = truth_file(path);
+    hertz_write(out, &truth, 0);
+    hertz_write(out, &soft, 1);
+    fclose(out);
+    if (wt_formats_new(NULL, &formats, NULL, NULL) != WT_OK ||
+        wt_tip_parse(HERTZ_TIP, &job.tip, NULL) != WT_OK)
+        return -1;
+    set.spot = "s7";
+    job.sets = &set;
+    job.n_sets = 1;
+    job.group = "track";
+    job.curves = true;
+    job.spring_constant = (wt_estimate){10, 0.5, 0, "N/m"};
+    common.formats = formats;
+    common.threads = 1;
+    if (wt_indent_group(&job, &common, &tables, &err) == WT_OK)
+        return 0;
+    print_error("%s: %s\n", err.place, err.message);
+    return -1;
+}
+
+static int clean(void **state)
+{
+    (void)state;
+    wt_indent_tables_clear(&tables);
+    wt_formats_free(formats);
+    unlink(path);
+    return 0;
+}
+
+/* |value - truth| within 4 of the stated errors, which are below `most`. */
+static void check(const char *column, const char *error, double expected, double most)
+{
+    double value = cell(tables.indentation, 0, column), se = cell(tables.indentation, 0, error);
+    assert_true(se > 0 && se < most);
+    assert_near_abs(value, expected, 4 * se);
+}
+
+static void test_columns(void **state)
+{
+    (void)state;
+    const wt_table *t = tables.indentation;
+    double load = hertz_travel(&truth) / truth.velocity;
+    assert_string_equal(wt_table_name(t), "indentation/track");
+    assert_int_equal(wt_table_n_rows(t), 2);
+    assert_non_null(strstr(cell_text(t, 0, "file"), "weartrack-indent"));
+    assert_near(cell(t, 1, "curve"), 1, 0);
+    assert_string_equal(cell_text(t, 0, "spot"), "s7");
+    assert_near(cell(t, 0, "x"), 1e-6, 1e-12);
+    assert_near(cell(t, 0, "y"), 2e-6, 1e-12);
+    assert_string_equal(cell_text(t, 0, "verdict"), "accepted");
+    assert_non_null(strstr(cell_text(t, 0, "reason"), "(4 samples)"));
+    check("modulus", "modulus_standard_error", truth.modulus, 0.01 * truth.modulus);
+    check("contact_point", "contact_point_standard_error", HERTZ_FREE - HERTZ_TOP, 1e-9);
+    assert_near_abs(cell(t, 0, "baseline_offset"), HERTZ_OFFSET, HERTZ_NOISE);
+    assert_near(cell(t, 0, "baseline_tilt"), HERTZ_TILT, 0.4);
+    assert_near(cell(t, 0, "noise"), HERTZ_NOISE, 0.1);
+    assert_true(cell(t, 0, "r_squared") > 0.9999 && cell(t, 0, "r_squared") < 1);
+    assert_near(cell(t, 0, "max_force"), hertz_force(&truth, truth.depth), 0.005);
+    assert_near(cell(t, 0, "max_indentation"), truth.depth, 0.005);
+    assert_near(cell(t, 0, "adhesion_force"), SNAP, 0.05);
+    assert_near(cell(t, 0, "piezo_rate"), truth.velocity, 1e-3);
+    assert_near(cell(t, 0, "indentation_rate"), truth.depth / load, 0.01);
+    assert_near(cell(t, 0, "load_time"), load, 0.01);
+    /* exp(psi(p + 1)) / t with F ~ depth^p, p = 3/2: psi(5/2) = 8/3 - gamma - ln 4 */
+    double psi = 8.0 / 3.0 - 0.57721566490153286 - log(4);
+    assert_near(cell(t, 0, "equivalent_frequency"), exp(psi) / load, 0.01);
+    /* one point at a known contact would have 1 + (contact stiffness)/k; the contact is fitted */
+    double stiffness = 1.5 * hertz_force(&truth, truth.depth) / truth.depth;
+    assert_true(cell(t, 0, "sensitivity_gain") > 1 + stiffness / truth.spring_constant);
+    assert_true(cell(t, 0, "sensitivity_gain") < 4 * (1 + stiffness / truth.spring_constant));
+    double second = cell(t, 0, "second_minimum_ratio");
+    assert_true(isnan(second) || second > 1);
+}
+
+static void test_rejected(void **state)
+{
+    (void)state;
+    const wt_table *t = tables.indentation;
+    assert_string_equal(cell_text(t, 1, "verdict"), "no_contact");
+    assert_non_null(strstr(cell_text(t, 1, "reason"), "noise"));
+    assert_true(isnan(cell(t, 1, "modulus")));
+    assert_string_equal(wt_table_key(t, "n_accepted"), "1");
+    assert_string_equal(wt_table_key(t, "n_rejected"), "1");
+    assert_string_equal(wt_table_key(t, "spots"), "named");
+    assert_near(key_estimate(t, "spring_constant").value, 10, 0);
+    assert_near(key_estimate(t, "spring_constant").standard_error, 0.5, 0);
+    assert_int_equal(tables.n_curves, 2);
+    assert_int_equal(tables.n_accepted, 1);
+    assert_int_equal(tables.n_files, 1);
+}
+
+/* The curves for the figures: from the contact point, above the baseline. */
+static void test_curves(void **state)
+{
+    (void)state;
+    const wt_table *fd = tables.force_displacement, *fi = tables.force_indentation;
+    double end = HERTZ_FREE + hertz_travel(&truth);
+    assert_int_equal(wt_table_n_rows(fd), HERTZ_N);
+    for (size_t i = 0; i < HERTZ_N; i += 37) {
+        double beyond = end * (double)i / (HERTZ_N - 1) - HERTZ_FREE;
+        if (beyond < 0 && beyond > -20e-9)
+            continue; /* the snap-on */
+        assert_string_equal(cell_text(fd, i, "group"), "track");
+        assert_string_equal(cell_text(fd, i, "segment"), "approach");
+        assert_near_abs(cell(fd, i, "displacement"), beyond, 1e-9);
+        assert_near_abs(cell(fd, i, "force"),
+                        HERTZ_TILT * beyond + hertz_force(&truth, hertz_depth(&truth, beyond)),
+                        5 * HERTZ_NOISE);
+    }
+    size_t n = wt_table_n_rows(fi);
+    assert_near_abs((double)n, HERTZ_N * hertz_travel(&truth) / end, 2);
+    for (size_t i = 9; i < n; i += 17) {
+        double beyond = end * (double)(HERTZ_N - n + i) / (HERTZ_N - 1) - HERTZ_FREE;
+        double depth = hertz_depth(&truth, beyond), force = hertz_force(&truth, depth);
+        assert_string_equal(cell_text(fi, i, "group"), "track");
+        assert_near_abs(cell(fi, i, "indentation"), depth, 1e-9);
+        assert_near_abs(cell(fi, i, "force"), force, 5 * HERTZ_NOISE);
+        assert_near_abs(cell(fi, i, "fitted_force"), force, 5 * HERTZ_NOISE);
+    }
+    assert_non_null(strstr(wt_table_key(fd, "curve_track"), "curve 0"));
+    assert_near(key_estimate(fd, "contact_point_track").standard_error,
+                cell(tables.indentation, 0, "contact_point_standard_error"), 1e-9);
+    assert_true(key_estimate(fd, "contact_force_track").standard_error > 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_columns),
+        cmocka_unit_test(test_rejected),
+        cmocka_unit_test(test_curves),
+    };
+    return cmocka_run_group_tests_name("indentation of known truth", tests, indent, clean);
+}
