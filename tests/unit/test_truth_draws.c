@@ -46,7 +46,7 @@ static void set_up(void)
     sliding.shear_stress.value = 5e6;
     sliding.velocity = &velocity;
     sliding.n_velocity = 1;
-    layer = (wt_layer_known){{100e-6, 0, 0, "m"}, {0.6, 0, 0, "1"}};
+    layer = (wt_layer_known){.thickness = {100e-6, 0, 0, "m"}, .modulus_ratio = {0.6, 0, 0, "1"}};
     layer_job = wt_layer_job_defaults();
     layer_job.specific_wear_rate.value = 1e-12;
     common = wt_job_defaults();
