@@ -57,6 +57,25 @@ typedef struct wt_file_set {
     uint64_t reserved[8];
 } wt_file_set;
 
+/* ---- convert ---------------------------------------------------------------------------------
+ */
+
+typedef struct wt_convert_job {
+    unsigned kind; /* WT_KIND_* of a file that holds several; 0: the first that has data, in the
+                      order force, sweep, spectrum, image */
+    wt_read_options read;
+    uint64_t reserved[8];
+} wt_convert_job;
+WT_API wt_convert_job wt_convert_job_defaults(void);
+
+/* Takes one table (also on failure) as soon as it is made. */
+typedef wt_status (*wt_table_sink)(void *user, wt_table *table, wt_error *err);
+/* A file as tables in SI units: "force_curve/I" of each curve, "sweep", "roughness", "image/I". The
+ * file is in the provenance before the first table is given. WT_E_EMPTY if it holds no data of that
+ * kind. */
+WT_API wt_status wt_convert_file(const wt_convert_job *job, const char *path, const wt_job *work,
+                                 wt_table_sink sink, void *user, wt_error *err) WT_NODISCARD;
+
 /* ---- indentation ------------------------------------------------------------------------------
  */
 

@@ -149,6 +149,28 @@ wt_status cmd_check_output(const char *output, const wt_result *result, wt_error
 /* Records the call in the result's provenance. */
 wt_status cmd_provenance(wt_result *result, int argc, char **argv, wt_error *err);
 
+/* ---- around a job --------------------------------------------------------------------------- */
+
+/* What a subcommand that calls a job has beside it. Zero-initialised it may be freed. */
+typedef struct cmd_session {
+    const char *name;
+    const cmd_common *common;
+    wt_formats *formats;
+    wt_parselog *log;
+    wt_result *result;
+    wt_job work; /* for the job: what failed is listed, inputs go to the result's provenance */
+    cmd_progress progress;
+} cmd_session;
+
+/* Makes all of it from the common options; an exit status other than CMD_OK ends the call. */
+int cmd_begin(cmd_session *s, const char *name, const cmd_common *common);
+/* Says what failed, the warnings and, unless `made` is WT_OK, the error; returns the exit status.
+ */
+int cmd_end(cmd_session *s, wt_status made, const wt_error *err);
+/* The same after writing the tables (see cmd_collect) if they were made. */
+int cmd_finish(cmd_session *s, wt_status made, wt_table **const tables[], size_t n, wt_error *err);
+void cmd_session_free(cmd_session *s);
+
 /* The call as the user typed it, set by main. */
 extern int cmd_full_argc;
 extern char **cmd_full_argv;

@@ -53,13 +53,9 @@ int cmd_indent(int argc, char **argv)
         "Exit status 1 if a file could not be read; the others are answered all the same."};
     int first = 0, status = CMD_OK;
     wt_error err = WT_ERROR_INIT;
-    wt_formats *formats = NULL;
-    wt_parselog *log = NULL;
-    wt_result *result = NULL;
+    cmd_session s = {0};
     wt_indent_tables tables = {0};
     wt_table *groups = NULL;
-    wt_job work = wt_job_defaults();
-    cmd_progress progress;
 
     if (!cmd_parse(&usage, options, n, &common, argc, argv, &first, &status))
         goto done;
@@ -81,18 +77,6 @@ int cmd_indent(int argc, char **argv)
         status = cmd_usage_error("indent", "--tip: %s", line);
         goto done;
     }
-    log = wt_parselog_new();
-    result = wt_result_new();
-    work.failures = wt_failures_new();
-    if (log == NULL || result == NULL || work.failures == NULL) {
-        wt_fail(&err, WT_E_MEMORY, "out of memory");
-        goto fail;
-    }
-    if (wt_formats_new(common.formats, &formats, log, &err) != WT_OK)
-        goto fail;
-    status = cmd_check_format("indent", &common, formats);
-    if (status != CMD_OK)
-        goto done;
     set.patterns = (const char *const *)(argv + first);
     set.n_patterns = (size_t)(argc - first);
     set.read = cmd_read_make(&values, &common);
@@ -102,45 +86,21 @@ int cmd_indent(int argc, char **argv)
     job.options.fit_tilt = !no_tilt;
     job.rates = true;
     job.curves = curves;
-    work.formats = formats;
-    work.threads = (unsigned)common.threads;
-    work.log = log;
-    work.provenance = wt_result_provenance(result);
-    work.progress = cmd_progress_start(&progress, common.quiet);
-    const wt_status made = wt_indent_group(&job, &work, &tables, &err);
-    cmd_progress_end(&progress);
-    if (made != WT_OK) {
-        cmd_print_failures("indent", work.failures);
-        goto fail;
-    }
+    status = cmd_begin(&s, "indent", &common);
+    if (status != CMD_OK)
+        goto done;
+    wt_status made = wt_indent_group(&job, &s.work, &tables, &err);
     const wt_table *const indentation[] = {tables.indentation};
-    if (wt_modulus_groups(indentation, 1, &groups, &err) != WT_OK)
-        goto fail;
-    if (cmd_print_failures("indent", work.failures) > 0)
-        status = CMD_FAILED;
-    wt_table *failures = work.failures;
-    work.failures = NULL;
-    if (wt_table_n_rows(failures) == 0) {
-        wt_table_free(failures);
-        failures = NULL;
-    }
+    if (made == WT_OK)
+        made = wt_modulus_groups(indentation, 1, &groups, &err);
+    wt_table *failures = wt_table_n_rows(s.work.failures) > 0 ? s.work.failures : NULL;
     wt_table **const parts[] = {&tables.indentation, &groups, &tables.force_displacement,
                                 &tables.force_indentation, &failures};
-    if (cmd_collect(result, parts, sizeof parts / sizeof parts[0], &err) != WT_OK ||
-        cmd_write(&common, result, &err) != WT_OK)
-        goto fail;
-    cmd_print_log("indent", log, false, common.quiet);
-    goto done;
-fail:
-    cmd_print_log("indent", log, false, common.quiet);
-    status = cmd_fail("indent", &err);
+    status = cmd_finish(&s, made, parts, sizeof parts / sizeof parts[0], &err);
 done:
-    wt_table_free(work.failures);
     wt_table_free(groups);
     wt_indent_tables_clear(&tables);
-    wt_result_free(result);
-    wt_parselog_free(log);
-    wt_formats_free(formats);
+    cmd_session_free(&s);
     cmd_read_values_free(&values);
     return status;
 }

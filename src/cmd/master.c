@@ -25,13 +25,9 @@ int cmd_master(int argc, char **argv)
         "weartrack compare read them as they are."};
     int first = 0, status = CMD_OK;
     wt_error err = WT_ERROR_INIT;
-    wt_formats *formats = NULL;
-    wt_parselog *log = NULL;
-    wt_result *result = NULL;
+    cmd_session s = {0};
     wt_master_tables tables = {0};
-    wt_job work = wt_job_defaults();
     wt_file_set set = {0};
-    cmd_progress progress;
 
     if (!cmd_parse(&usage, options, n, &common, argc, argv, &first, &status))
         goto done;
@@ -40,48 +36,20 @@ int cmd_master(int argc, char **argv)
         goto done;
     }
     cmd_dma_finish(&dma);
-    log = wt_parselog_new();
-    result = wt_result_new();
-    work.failures = wt_failures_new();
-    if (log == NULL || result == NULL || work.failures == NULL) {
-        wt_fail(&err, WT_E_MEMORY, "out of memory");
-        goto fail;
-    }
-    if (wt_formats_new(common.formats, &formats, log, &err) != WT_OK)
-        goto fail;
-    status = cmd_check_format("master", &common, formats);
-    if (status != CMD_OK)
-        goto done;
     set.patterns = (const char *const *)(argv + first);
     set.n_patterns = (size_t)(argc - first);
     set.read = cmd_read_make(&values, &common);
     dma.job.sets = &set;
     dma.job.n_sets = 1;
-    work.formats = formats;
-    work.log = log;
-    work.provenance = wt_result_provenance(result);
-    work.progress = cmd_progress_start(&progress, common.quiet);
-    const wt_status made = wt_master_make(&dma.job, 0.5, &work, &tables, NULL, &err);
-    cmd_progress_end(&progress);
-    if (cmd_print_failures("master", work.failures) > 0)
-        status = CMD_FAILED;
-    if (made != WT_OK)
-        goto fail;
+    status = cmd_begin(&s, "master", &common);
+    if (status != CMD_OK)
+        goto done;
+    const wt_status made = wt_master_make(&dma.job, 0.5, &s.work, &tables, NULL, &err);
     wt_table **const parts[] = {&tables.prony, &tables.shift_factors, &tables.master_curve};
-    if (cmd_collect(result, parts, sizeof parts / sizeof parts[0], &err) != WT_OK ||
-        cmd_write(&common, result, &err) != WT_OK)
-        goto fail;
-    cmd_print_log("master", log, false, common.quiet);
-    goto done;
-fail:
-    cmd_print_log("master", log, false, common.quiet);
-    status = cmd_fail("master", &err);
+    status = cmd_finish(&s, made, parts, sizeof parts / sizeof parts[0], &err);
 done:
     wt_master_tables_clear(&tables);
-    wt_table_free(work.failures);
-    wt_result_free(result);
-    wt_parselog_free(log);
-    wt_formats_free(formats);
+    cmd_session_free(&s);
     cmd_read_values_free(&values);
     return status;
 }

@@ -168,7 +168,7 @@ wt_status flow_files_list(const wt_file_set *sets, size_t n_sets, const wt_job *
 void flow_files_clear(flow_files *files)
 {
     for (size_t i = 0; i < files->n; i++)
-        free(files->file[i].path);
+        free((void *)files->file[i].path);
     free(files->file);
     *files = (flow_files){NULL, 0};
 }

@@ -7,7 +7,7 @@
 
 /* One file of the sets of a job. */
 typedef struct flow_file {
-    char *path;             /* to open */
+    const char *path;       /* to open; owned by the list */
     const char *name;       /* to show: `path` without the folder of the set; borrowed from it */
     const wt_file_set *set; /* whose options hold */
 } flow_file;

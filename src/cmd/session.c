@@ -1,0 +1,57 @@
+/* What every subcommand that calls a job sets up before it and says after it.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cmd/cmd.h"
+
+int cmd_begin(cmd_session *s, const char *name, const cmd_common *common)
+{
+    wt_error err = WT_ERROR_INIT;
+    *s = (cmd_session){.name = name, .common = common, .work = wt_job_defaults()};
+    s->log = wt_parselog_new();
+    s->result = wt_result_new();
+    s->work.failures = wt_failures_new();
+    if (s->log == NULL || s->result == NULL || s->work.failures == NULL) {
+        wt_fail(&err, WT_E_MEMORY, "out of memory");
+        return cmd_fail(name, &err);
+    }
+    if (wt_formats_new(common->formats, &s->formats, s->log, &err) != WT_OK)
+        return cmd_fail(name, &err);
+    const int status = cmd_check_format(name, common, s->formats);
+    if (status != CMD_OK)
+        return status;
+    s->work.formats = s->formats;
+    s->work.threads = (unsigned)common->threads;
+    s->work.seed = common->seed;
+    s->work.log = s->log;
+    s->work.provenance = wt_result_provenance(s->result);
+    s->work.progress = cmd_progress_start(&s->progress, common->quiet);
+    return CMD_OK;
+}
+
+int cmd_end(cmd_session *s, wt_status made, const wt_error *err)
+{
+    cmd_progress_end(&s->progress);
+    const size_t n_failed = cmd_print_failures(s->name, s->work.failures);
+    cmd_print_log(s->name, s->log, false, s->common->quiet);
+    if (made != WT_OK)
+        return cmd_fail(s->name, err);
+    return n_failed > 0 ? CMD_FAILED : CMD_OK;
+}
+
+int cmd_finish(cmd_session *s, wt_status made, wt_table **const tables[], size_t n, wt_error *err)
+{
+    cmd_progress_end(&s->progress);
+    if (made == WT_OK)
+        made = cmd_collect(s->result, tables, n, err);
+    if (made == WT_OK)
+        made = cmd_write(s->common, s->result, err);
+    return cmd_end(s, made, err);
+}
+
+void cmd_session_free(cmd_session *s)
+{
+    if (s->result == NULL || wt_result_find(s->result, "failures") != s->work.failures)
+        wt_table_free(s->work.failures); /* else the result has taken it */
+    wt_result_free(s->result);
+    wt_parselog_free(s->log);
+    wt_formats_free(s->formats);
+}
