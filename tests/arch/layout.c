@@ -95,6 +95,7 @@ LAST(wt_layer_regime, WT_LAYER_THICK, 2)
 /* flow.h */
 ROOM(wt_job, failures, 72, 144)
 ROOM(wt_file_set, spot, 152, 224)
+ROOM(wt_convert_job, read, 8, 200)
 ROOM(wt_indent_job, curves, 273, 344)
 FIXED(wt_indent_tables, n_failed, 48, 56)
 FIXED(wt_group_data, spots_given, 128, 136)
