@@ -5,6 +5,8 @@
 #include "flow/job/draws.h"
 #include "flow/job/tables.h"
 
+#include "data/tables/tables.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -151,212 +153,143 @@ static wt_status replicate_all(work *w, wt_error *err)
 /* ---- tables -----------------------------------------------------------------------------------
  */
 
-static wt_status add_rows(work *w, wt_table *table, wt_error *err)
+static void add_rows(work *w, table_writer *t)
 {
     const wt_sliding *s = w->sliding;
     const wt_estimate shear = {s->shear_stress.value, 0, 0, "Pa"};
-    wt_status status = WT_OK;
-    for (size_t i = 0; status == WT_OK && i + 1 < w->n; i++) {
+    for (size_t i = 0; i + 1 < w->n; i++) {
         const wt_friction_point *p = &w->points[i];
         wt_estimate hysteresis = {p->hysteresis.value, 0, p->hysteresis.numerical_error, "1"};
         wt_estimate area = {p->area_ratio.value, 0, p->area_ratio.numerical_error, "1"};
         wt_estimate total = wt_friction_total(hysteresis, area, shear, s->pressure.value);
-        status = wt_table_add_row(table, err);
-        if (status != WT_OK)
-            break;
-        const double row[] = {p->velocity,
-                              total.value,
-                              slot(w->error, w->n, TOTAL)[i],
-                              total.numerical_error,
-                              p->hysteresis.value,
-                              slot(w->error, w->n, HYSTERESIS)[i],
-                              p->hysteresis.numerical_error,
-                              total.value - p->hysteresis.value,
-                              p->area_ratio.value,
-                              slot(w->error, w->n, AREA)[i],
-                              p->area_ratio.numerical_error,
-                              slot(w->centre, w->n, LAYERED)[i],
-                              slot(w->error, w->n, LAYERED)[i],
-                              p->extrapolated_share};
-        for (size_t c = 0; c < FLOW_COUNT(row); c++)
-            wt_table_put(table, c, row[c]);
+        table_row(t);
+        friction_put(t, FRICTION_VELOCITY, p->velocity);
+        friction_put(t, FRICTION_TOTAL, total.value);
+        friction_put(t, FRICTION_TOTAL_STANDARD_ERROR, slot(w->error, w->n, TOTAL)[i]);
+        friction_put(t, FRICTION_TOTAL_NUMERICAL_ERROR, total.numerical_error);
+        friction_put(t, FRICTION_HYSTERESIS, hysteresis.value);
+        friction_put(t, FRICTION_HYSTERESIS_STANDARD_ERROR, slot(w->error, w->n, HYSTERESIS)[i]);
+        friction_put(t, FRICTION_HYSTERESIS_NUMERICAL_ERROR, hysteresis.numerical_error);
+        friction_put(t, FRICTION_ADHESION, total.value - hysteresis.value);
+        friction_put(t, FRICTION_AREA_RATIO, area.value);
+        friction_put(t, FRICTION_AREA_RATIO_STANDARD_ERROR, slot(w->error, w->n, AREA)[i]);
+        friction_put(t, FRICTION_AREA_RATIO_NUMERICAL_ERROR, area.numerical_error);
+        friction_put(t, FRICTION_WITH_LAYER, slot(w->centre, w->n, LAYERED)[i]);
+        friction_put(t, FRICTION_WITH_LAYER_STANDARD_ERROR, slot(w->error, w->n, LAYERED)[i]);
+        friction_put(t, FRICTION_EXTRAPOLATED_SHARE, p->extrapolated_share);
     }
-    return status;
 }
 
-static wt_status layer_keys(work *w, wt_table *table, wt_error *err)
+/* A number of the reference velocity, the last one. */
+static void set_at_reference(work *w, table_writer *t, friction_key key, int kind,
+                             double numerical_error)
 {
-    size_t last = w->n - 1;
+    const size_t last = w->n - 1;
+    friction_set_value(t, key, slot(w->centre, w->n, kind)[last], slot(w->error, w->n, kind)[last],
+                       numerical_error);
+}
+
+static void set_layer_keys(work *w, table_writer *t)
+{
+    const size_t last = w->n - 1;
     const double *relative = slot(w->centre, w->n, RELATIVE);
-    double low = relative[0], high = relative[0];
+    double low = relative[0], high = relative[0], both = w->numerical[0] + w->numerical[1];
     for (size_t i = 1; i < last; i++) {
         low = fmin(low, relative[i]);
         high = fmax(high, relative[i]);
     }
-    wt_status status = wt_table_set_estimate(table, "layer_thickness", w->layer->thickness, err);
-    if (status == WT_OK)
-        status = wt_table_set_estimate(table, "layer_modulus_ratio", w->layer->modulus_ratio, err);
-    if (status == WT_OK)
-        status = flow_table_value(table, "friction_with_layer_at_reference",
-                                  slot(w->centre, w->n, LAYERED)[last],
-                                  slot(w->error, w->n, LAYERED)[last], w->numerical[1], "1", err);
-    if (status == WT_OK)
-        status = flow_table_value(
-            table, "friction_change_at_reference", slot(w->centre, w->n, CHANGE)[last],
-            slot(w->error, w->n, CHANGE)[last], w->numerical[0] + w->numerical[1], "1", err);
-    if (status == WT_OK)
-        status = flow_table_value(
-            table, "relative_change_at_reference", relative[last],
-            slot(w->error, w->n, RELATIVE)[last],
-            (w->numerical[0] + w->numerical[1]) / slot(w->centre, w->n, TOTAL)[last], "1", err);
-    if (status == WT_OK)
-        status = flow_table_value(table, "relative_change_low", low, (double)NAN, 0, "1", err);
-    if (status == WT_OK)
-        status = flow_table_value(table, "relative_change_high", high, (double)NAN, 0, "1", err);
-    return status;
+    friction_set(t, FRICTION_KEY_LAYER_THICKNESS, w->layer->thickness);
+    friction_set(t, FRICTION_KEY_LAYER_MODULUS_RATIO, w->layer->modulus_ratio);
+    set_at_reference(w, t, FRICTION_KEY_WITH_LAYER, LAYERED, w->numerical[1]);
+    set_at_reference(w, t, FRICTION_KEY_CHANGE, CHANGE, both);
+    set_at_reference(w, t, FRICTION_KEY_RELATIVE_CHANGE, RELATIVE,
+                     both / slot(w->centre, w->n, TOTAL)[last]);
+    friction_set_value(t, FRICTION_KEY_RELATIVE_CHANGE_LOW, low, (double)NAN, 0);
+    friction_set_value(t, FRICTION_KEY_RELATIVE_CHANGE_HIGH, high, (double)NAN, 0);
 }
 
-static wt_status set_keys(work *w, wt_table *table, const char *statement, wt_error *err)
+static void set_keys(work *w, table_writer *t, const char *statement)
 {
     const wt_sliding *s = w->sliding;
-    size_t last = w->n - 1;
+    const wt_friction_point *reference = &w->points[w->n - 1];
     wt_estimate temperature = s->temperature;
     if (isnan(temperature.value))
         temperature.value = s->rubber->prony.reference_temperature;
-    wt_status status = wt_table_set_estimate(table, "pressure", s->pressure, err);
-    if (status == WT_OK)
-        status = wt_table_set_estimate(table, "temperature", temperature, err);
-    if (status == WT_OK)
-        status = isnan(s->shear_stress.value)
-                     ? wt_table_set_key(table, "shear_stress",
-                                        "not given: only the hysteresis part is known", err)
-                     : wt_table_set_estimate(table, "shear_stress", s->shear_stress, err);
-    if (status == WT_OK)
-        status = flow_table_key(table, err, "gamma", "%g", s->gamma);
-    if (status == WT_OK)
-        status = flow_table_value(table, "reference_velocity", w->velocity[last], 0, 0, "m/s", err);
-    if (status == WT_OK)
-        status =
-            flow_table_value(table, "friction_at_reference", slot(w->centre, w->n, TOTAL)[last],
-                             slot(w->error, w->n, TOTAL)[last], w->numerical[0], "1", err);
-    if (status == WT_OK)
-        status =
-            flow_table_value(table, "hysteresis_at_reference", w->points[last].hysteresis.value,
-                             slot(w->error, w->n, HYSTERESIS)[last],
-                             w->points[last].hysteresis.numerical_error, "1", err);
-    if (status == WT_OK)
-        status = flow_table_value(
-            table, "area_ratio_at_reference", w->points[last].area_ratio.value,
-            slot(w->error, w->n, AREA)[last], w->points[last].area_ratio.numerical_error, "1", err);
-    if (status == WT_OK)
-        status = wt_table_set_key(
-            table, "standard_error_includes",
-            w->varies ? w->words : "nothing, for no error was measured or stated", err);
-    if (status == WT_OK && w->lacks[0] != '\0')
-        status = wt_table_set_key(table, "standard_error_lacks", w->lacks, err);
-    if (status == WT_OK)
-        status = flow_table_key(table, err, "replicates", "%zu", w->varies ? w->n_replicates : 0);
-    if (status == WT_OK && statement[0] != '\0')
-        status = wt_table_set_key(table, "material_statement", statement, err);
-    if (status == WT_OK && w->layer != NULL)
-        status = layer_keys(w, table, err);
-    return status;
+    friction_set(t, FRICTION_KEY_PRESSURE, s->pressure);
+    friction_set(t, FRICTION_KEY_TEMPERATURE, temperature);
+    if (isnan(s->shear_stress.value))
+        friction_set_text(t, FRICTION_KEY_SHEAR_STRESS,
+                          "not given: only the hysteresis part is known");
+    else
+        friction_set(t, FRICTION_KEY_SHEAR_STRESS, s->shear_stress);
+    friction_set_print(t, FRICTION_KEY_GAMMA, "%g", s->gamma);
+    friction_set_value(t, FRICTION_KEY_REFERENCE_VELOCITY, w->velocity[w->n - 1], 0, 0);
+    set_at_reference(w, t, FRICTION_KEY_FRICTION, TOTAL, w->numerical[0]);
+    set_at_reference(w, t, FRICTION_KEY_HYSTERESIS, HYSTERESIS,
+                     reference->hysteresis.numerical_error);
+    set_at_reference(w, t, FRICTION_KEY_AREA_RATIO, AREA, reference->area_ratio.numerical_error);
+    friction_set_text(t, FRICTION_KEY_ERROR_INCLUDES,
+                      w->varies ? w->words : "nothing, for no error was measured or stated");
+    if (w->lacks[0] != '\0')
+        friction_set_text(t, FRICTION_KEY_ERROR_LACKS, w->lacks);
+    friction_set_print(t, FRICTION_KEY_REPLICATES, "%zu", w->varies ? w->n_replicates : 0);
+    if (statement[0] != '\0')
+        friction_set_text(t, FRICTION_KEY_MATERIAL_STATEMENT, statement);
+    if (w->layer != NULL)
+        set_layer_keys(w, t);
 }
 
 static wt_status friction_table(work *w, const char *statement, wt_table **out, wt_error *err)
 {
-    static const flow_column columns[] = {
-        {"velocity", "m/s", "sliding velocity"},
-        {"friction", "1", "friction coefficient, hysteresis and shearing of the real contact"},
-        {"friction_standard_error", "1", "its standard error"},
-        {"friction_numerical_error", "1", "its numerical error"},
-        {"hysteresis", "1", "hysteresis friction"},
-        {"hysteresis_standard_error", "1", "its standard error"},
-        {"hysteresis_numerical_error", "1", "its numerical error"},
-        {"adhesion", "1", "friction of shearing the real contact"},
-        {"area_ratio", "1", "real over nominal contact area"},
-        {"area_ratio_standard_error", "1", "its standard error"},
-        {"area_ratio_numerical_error", "1", "its numerical error"},
-        {"friction_with_layer", "1", "friction coefficient with the modified layer"},
-        {"friction_with_layer_standard_error", "1", "its standard error"},
-        {"extrapolated_share", "1", "share of the hysteresis from frequencies not measured"},
-    };
-    wt_table *table = NULL;
-    wt_status status = flow_table_new("friction", "Friction against velocity", columns,
-                                      FLOW_COUNT(columns), &table, err);
-    if (status == WT_OK)
-        status = add_rows(w, table, err);
-    if (status == WT_OK)
-        status = set_keys(w, table, statement, err);
-    if (status != WT_OK) {
-        wt_table_free(table);
-        return status;
-    }
-    *out = table;
-    return WT_OK;
+    table_writer t = table_begin(&friction_schema, "", err);
+    add_rows(w, &t);
+    set_keys(w, &t, statement);
+    return table_end(&t, out);
 }
 
 #define POINTS_PER_DECADE 20
 
-static wt_status area_block(const flow_conditions *c, double velocity, const double *q, size_t n,
-                            wt_friction_node *nodes, wt_table *table, wt_error *err)
+static void add_area_block(const flow_conditions *c, double velocity, const double *q, size_t n,
+                           wt_friction_node *nodes, table_writer *t)
 {
-    wt_status status = wt_friction_profile(c->workspace, c->pressure, velocity, q, n, nodes, err);
-    if (status == WT_OK && wt_table_n_rows(table) > 0)
-        status = wt_table_new_block(table, err);
-    for (size_t i = 0; status == WT_OK && i < n; i++) {
-        status = wt_table_add_row(table, err);
-        if (status != WT_OK)
-            break;
-        const double row[] = {velocity, q[i] / c->roughness->q0, q[i], nodes[i].area_ratio,
-                              nodes[i].hysteresis};
-        for (size_t k = 0; k < FLOW_COUNT(row); k++)
-            wt_table_put(table, k, row[k]);
+    if (t->status == WT_OK)
+        t->status = wt_friction_profile(c->workspace, c->pressure, velocity, q, n, nodes, t->err);
+    table_block(t);
+    for (size_t i = 0; t->status == WT_OK && i < n; i++) {
+        table_row(t);
+        contact_area_put(t, CONTACT_AREA_VELOCITY, velocity);
+        contact_area_put(t, CONTACT_AREA_MAGNIFICATION, q[i] / c->roughness->q0);
+        contact_area_put(t, CONTACT_AREA_WAVENUMBER, q[i]);
+        contact_area_put(t, CONTACT_AREA_AREA_RATIO, nodes[i].area_ratio);
+        contact_area_put(t, CONTACT_AREA_HYSTERESIS, nodes[i].hysteresis);
     }
-    return status;
 }
 
 /* Contact area against magnification at the slowest, the reference and the fastest velocity. */
 static wt_status area_table(work *w, const flow_conditions *c, wt_table **out, wt_error *err)
 {
-    static const flow_column columns[] = {
-        {"velocity", "m/s", "sliding velocity"},
-        {"magnification", "1", "wavenumber over the smallest one"},
-        {"wavenumber", "rad/m", "wavenumber up to which roughness is seen"},
-        {"area_ratio", "1", "contact area seen at this magnification over the nominal area"},
-        {"hysteresis", "1", "hysteresis friction up to this wavenumber"},
-    };
-    wt_table *table = NULL;
     double first = w->velocity[0], last = w->velocity[w->n - 2], middle = w->velocity[w->n - 1];
     double decades = log10(c->roughness->q1 / c->roughness->q0);
     size_t n = 2 + (size_t)ceil(decades * POINTS_PER_DECADE);
     double *q = malloc(n * sizeof *q);
     wt_friction_node *nodes = malloc(n * sizeof *nodes);
-    wt_status status = WT_OK;
+    table_writer t = table_begin(&contact_area_schema, "", err);
     if (q == NULL || nodes == NULL) {
-        status = wt_fail(err, WT_E_MEMORY, "out of memory");
+        t.status = wt_fail(err, WT_E_MEMORY, "out of memory");
         goto done;
     }
     for (size_t i = 0; i < n; i++)
         q[i] = c->roughness->q0 * pow(10, decades * (double)i / (double)(n - 1));
     q[n - 1] = c->roughness->q1;
-    status = flow_table_new("contact_area", "Contact area against magnification", columns,
-                            FLOW_COUNT(columns), &table, err);
-    if (status == WT_OK)
-        status = area_block(c, first, q, n, nodes, table, err);
-    if (status == WT_OK && middle > first && middle < last)
-        status = area_block(c, middle, q, n, nodes, table, err);
-    if (status == WT_OK && last > first)
-        status = area_block(c, last, q, n, nodes, table, err);
+    add_area_block(c, first, q, n, nodes, &t);
+    if (middle > first && middle < last)
+        add_area_block(c, middle, q, n, nodes, &t);
+    if (last > first)
+        add_area_block(c, last, q, n, nodes, &t);
 done:
     free(q);
     free(nodes);
-    if (status != WT_OK) {
-        wt_table_free(table);
-        return status;
-    }
-    *out = table;
-    return WT_OK;
+    return table_end(&t, out);
 }
 
 /* ---- the job ----------------------------------------------------------------------------------

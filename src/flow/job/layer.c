@@ -5,6 +5,8 @@
 #include "flow/job/draws.h"
 #include "flow/job/tables.h"
 
+#include "data/tables/tables.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -269,104 +271,69 @@ static const char *regime_name(wt_layer_regime regime)
     return names[regime];
 }
 
-static wt_status set_numbers(const work *w, const centre *c, wt_table *table, wt_error *err)
+static void set_numbers(const work *w, const centre *c, table_writer *t)
 {
     static const struct {
         int index;
-        const char *key, *unit;
+        layer_key key;
     } keys[] = {
-        {RATIO, "formation_wear_ratio", "1"},
-        {INCUBATION, "incubation_time", "s"},
-        {RELAXATION, "relaxation_time", "s"},
-        {CRITICAL_WEAR, "critical_specific_wear_rate", "m^2/N"},
-        {REMOVAL, "removal_time", "s"},
-        {ENERGY, "critical_energy", "J/m^3"},
-        {SURFACE_POWER, "surface_power", "W/m^2"},
-        {NINETY, "time_to_90_percent", "s"},
+        {RATIO, LAYER_KEY_FORMATION_WEAR_RATIO},  {INCUBATION, LAYER_KEY_INCUBATION_TIME},
+        {RELAXATION, LAYER_KEY_RELAXATION_TIME},  {CRITICAL_WEAR, LAYER_KEY_CRITICAL_WEAR_RATE},
+        {REMOVAL, LAYER_KEY_REMOVAL_TIME},        {ENERGY, LAYER_KEY_CRITICAL_ENERGY},
+        {SURFACE_POWER, LAYER_KEY_SURFACE_POWER}, {NINETY, LAYER_KEY_TIME_TO_90_PERCENT},
     };
     double value[N_NUMBERS];
     put_numbers(&c->balance, &c->parameters, value);
     value[NINETY] = time_to_share(c->points, w->n, 0.9 * c->balance.thickness.value);
-    wt_status status =
-        flow_table_value(table, "balance_thickness", value[THICKNESS], w->error[THICKNESS],
-                         c->balance.thickness.numerical_error, "m", err);
+    layer_set_value(t, LAYER_KEY_BALANCE_THICKNESS, value[THICKNESS], w->error[THICKNESS],
+                    c->balance.thickness.numerical_error);
     /* d ln thickness / d ln k = -Qw / (thickness |dQf/dz|): the balance is where Qf(z) = Qw */
     double sensitivity =
         -c->balance.wear_rate * c->balance.relaxation_time / c->balance.thickness.value;
-    if (status == WT_OK && isfinite(sensitivity))
-        status = flow_table_value(table, "wear_sensitivity", sensitivity, (double)NAN, 0, "1", err);
-    for (size_t i = 0; status == WT_OK && i < FLOW_COUNT(keys); i++)
-        status = flow_table_value(table, keys[i].key, value[keys[i].index], w->error[keys[i].index],
-                                  0, keys[i].unit, err);
-    return status;
+    if (isfinite(sensitivity))
+        layer_set_value(t, LAYER_KEY_WEAR_SENSITIVITY, sensitivity, (double)NAN, 0);
+    for (size_t i = 0; i < FLOW_COUNT(keys); i++)
+        layer_set_value(t, keys[i].key, value[keys[i].index], w->error[keys[i].index], 0);
 }
 
-static wt_status set_keys(const work *w, const centre *c, wt_table *table, wt_error *err)
+static void set_keys(const work *w, const centre *c, table_writer *t)
 {
     const wt_layer_job *job = w->job;
-    wt_status status = set_numbers(w, c, table, err);
-    if (status == WT_OK)
-        status = wt_table_set_key(table, "regime", regime_name(c->balance.regime), err);
-    if (status == WT_OK)
-        status = flow_table_value(table, "velocity", w->velocity, 0, 0, "m/s", err);
-    if (status == WT_OK)
-        status = wt_table_set_estimate(table, "pressure", w->sliding->pressure, err);
-    if (status == WT_OK)
-        status = wt_table_set_estimate(table, "specific_wear_rate", job->specific_wear_rate, err);
-    if (status == WT_OK && !isnan(job->observed_thickness.value))
-        status = wt_table_set_estimate(table, "observed_thickness", job->observed_thickness, err);
-    if (status == WT_OK)
-        status = wt_table_set_key(table, "critical_energy_from",
-                                  isnan(job->critical_energy.value)
-                                      ? "calibrated: makes the observed thickness the balance"
-                                      : "given",
-                                  err);
-    if (status == WT_OK)
-        status = flow_table_key(table, err, "damage", "%g", job->damage);
-    if (status == WT_OK)
-        status = flow_table_key(table, err, "duty", "%g", job->duty);
-    if (status == WT_OK)
-        status = wt_table_set_key(
-            table, "standard_error_includes",
-            w->varies ? w->words : "nothing, for no error was measured or stated", err);
-    if (status == WT_OK && w->lacks[0] != '\0')
-        status = wt_table_set_key(table, "standard_error_lacks", w->lacks, err);
-    if (status == WT_OK && c->statement[0] != '\0')
-        status = wt_table_set_key(table, "material_statement", c->statement, err);
-    return status;
+    const bool calibrated = isnan(job->critical_energy.value);
+    set_numbers(w, c, t);
+    layer_set_text(t, LAYER_KEY_REGIME, regime_name(c->balance.regime));
+    layer_set_value(t, LAYER_KEY_VELOCITY, w->velocity, 0, 0);
+    layer_set(t, LAYER_KEY_PRESSURE, w->sliding->pressure);
+    layer_set(t, LAYER_KEY_WEAR_RATE, job->specific_wear_rate);
+    if (calibrated)
+        layer_set(t, LAYER_KEY_OBSERVED_THICKNESS, job->observed_thickness);
+    layer_set_text(t, LAYER_KEY_CRITICAL_ENERGY_FROM,
+                   calibrated ? "calibrated: makes the observed thickness the balance" : "given");
+    layer_set_print(t, LAYER_KEY_DAMAGE, "%g", job->damage);
+    layer_set_print(t, LAYER_KEY_DUTY, "%g", job->duty);
+    layer_set_text(t, LAYER_KEY_ERROR_INCLUDES,
+                   w->varies ? w->words : "nothing, for no error was measured or stated");
+    if (w->lacks[0] != '\0')
+        layer_set_text(t, LAYER_KEY_ERROR_LACKS, w->lacks);
+    if (c->statement[0] != '\0')
+        layer_set_text(t, LAYER_KEY_MATERIAL_STATEMENT, c->statement);
 }
 
 static wt_status layer_table(const work *w, const centre *c, wt_table **out, wt_error *err)
 {
-    static const flow_column columns[] = {
-        {"time", "s", "time since the start"},
-        {"thickness", "m", "thickness of the modified layer"},
-        {"thickness_standard_error", "m", "its standard error"},
-        {"thickness_numerical_error", "m", "its numerical error"},
-        {"formation_rate", "m/s", "rate of formation at this thickness"},
-        {"wear_rate", "m/s", "rate of wear"},
-    };
-    wt_table *table = NULL;
-    wt_status status = flow_table_new("layer", "Thickness of the modified layer", columns,
-                                      FLOW_COUNT(columns), &table, err);
-    for (size_t i = 0; status == WT_OK && i < w->n; i++) {
-        status = wt_table_add_row(table, err);
-        if (status != WT_OK)
-            break;
-        const double row[] = {c->points[i].time,           c->points[i].thickness.value,
-                              w->error[N_NUMBERS + i],     c->points[i].thickness.numerical_error,
-                              c->points[i].formation_rate, c->points[i].wear_rate};
-        for (size_t k = 0; k < FLOW_COUNT(row); k++)
-            wt_table_put(table, k, row[k]);
+    table_writer t = table_begin(&layer_schema, "", err);
+    for (size_t i = 0; i < w->n; i++) {
+        const wt_layer_point *p = &c->points[i];
+        table_row(&t);
+        layer_put(&t, LAYER_TIME, p->time);
+        layer_put(&t, LAYER_THICKNESS, p->thickness.value);
+        layer_put(&t, LAYER_THICKNESS_STANDARD_ERROR, w->error[N_NUMBERS + i]);
+        layer_put(&t, LAYER_THICKNESS_NUMERICAL_ERROR, p->thickness.numerical_error);
+        layer_put(&t, LAYER_FORMATION_RATE, p->formation_rate);
+        layer_put(&t, LAYER_WEAR_RATE, p->wear_rate);
     }
-    if (status == WT_OK)
-        status = set_keys(w, c, table, err);
-    if (status != WT_OK) {
-        wt_table_free(table);
-        return status;
-    }
-    *out = table;
-    return WT_OK;
+    set_keys(w, c, &t);
+    return table_end(&t, out);
 }
 
 #define DEPTHS 121
@@ -374,11 +341,6 @@ static wt_status layer_table(const work *w, const centre *c, wt_table **out, wt_
 static wt_status energy_table(const work *w, const wt_energy_source *source, wt_table **out,
                               wt_error *err)
 {
-    static const flow_column columns[] = {
-        {"depth", "m", "depth below the surface"},
-        {"energy_density", "W/m^3", "power dissipated per volume"},
-    };
-    wt_table *table = NULL;
     double q_min = source->wavenumber[0], q_max = source->wavenumber[0];
     for (size_t i = 1; i < source->n; i++) {
         q_min = fmin(q_min, source->wavenumber[i]);
@@ -386,24 +348,15 @@ static wt_status energy_table(const work *w, const wt_energy_source *source, wt_
     }
     /* from a tenth of the shortest wave to where the longest one has died out */
     double first = 0.1 / q_max, last = 3 / q_min;
-    wt_status status = flow_table_new("energy_density", "Energy density with depth", columns,
-                                      FLOW_COUNT(columns), &table, err);
-    for (size_t i = 0; status == WT_OK && i < DEPTHS; i++) {
+    table_writer t = table_begin(&energy_density_schema, "", err);
+    for (size_t i = 0; i < DEPTHS; i++) {
         double depth = first * pow(last / first, (double)i / (DEPTHS - 1));
-        status = wt_table_add_row(table, err);
-        if (status != WT_OK)
-            break;
-        wt_table_put(table, 0, depth);
-        wt_table_put(table, 1, wt_energy_density(source, depth));
+        table_row(&t);
+        energy_density_put(&t, ENERGY_DENSITY_DEPTH, depth);
+        energy_density_put(&t, ENERGY_DENSITY_POWER, wt_energy_density(source, depth));
     }
-    if (status == WT_OK)
-        status = flow_table_value(table, "velocity", w->velocity, 0, 0, "m/s", err);
-    if (status != WT_OK) {
-        wt_table_free(table);
-        return status;
-    }
-    *out = table;
-    return WT_OK;
+    energy_density_set_value(&t, ENERGY_DENSITY_KEY_VELOCITY, w->velocity, 0, 0);
+    return table_end(&t, out);
 }
 
 /* ---- the job ----------------------------------------------------------------------------------

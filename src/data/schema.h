@@ -1,0 +1,56 @@
+/* What a table consists of, declared once: its columns and its keys. The declarations themselves
+ * are in data/tables. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WT_DATA_SCHEMA_H
+#define WT_DATA_SCHEMA_H
+
+#include "weartrack/data.h"
+
+/* A set of columns or keys is a 64-bit number. */
+enum { SCHEMA_MOST = 64 };
+
+typedef enum schema_kind {
+    SCHEMA_NUMBER, /* of a key: with its errors; a text in its place says why it is not known */
+    SCHEMA_TEXT,
+    SCHEMA_PLAIN /* a key that is a number without errors, as text */
+} schema_kind;
+
+typedef struct schema_column {
+    const char *name, *long_name;
+    schema_kind kind;
+    wt_quantity quantity;
+    const char *unit;        /* SI; NULL = that of the quantity */
+    const char *label;       /* heading on the page; NULL = the long name */
+    unsigned standard_error; /* columns with the errors of this one, 0 = none */
+    unsigned numerical_error;
+    bool yes_no;   /* 1 or 0 */
+    bool sparse;   /* a row may leave it empty */
+    bool optional; /* a table may be without it */
+} schema_column;
+
+typedef struct schema_key {
+    const char *name; /* ends in '_' where the group follows */
+    schema_kind kind;
+    wt_quantity quantity;
+    const char *unit;     /* SI; NULL = that of the quantity */
+    const char *label;    /* on the page; NULL = the name in words */
+    const char *headline; /* among the main results; NULL = not one of them */
+    bool optional;        /* a table may be without it */
+} schema_key;
+
+typedef struct table_schema {
+    const char *name; /* ends in '/' where a name follows that tells several tables apart */
+    const char *title;
+    const schema_column *columns;
+    size_t n_columns;
+    const schema_key *keys;
+    size_t n_keys;
+} table_schema;
+
+const char *schema_column_unit(const schema_column *column); /* "" for text */
+const char *schema_key_unit(const schema_key *key);
+
+/* The name of a table or key: `suffix` is used where it ends in '/' or '_'. */
+enum { SCHEMA_NAME_SIZE = 128 };
+void schema_name(const char *name, const char *suffix, char full[SCHEMA_NAME_SIZE]);
+
+#endif

@@ -1,0 +1,93 @@
+/* The columns and keys of the tables that compare groups of curves. Included by tables.h alone.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WT_DATA_TABLES_COMPARISON_H
+#define WT_DATA_TABLES_COMPARISON_H
+
+/* A group without an accepted curve has its numbers of curves alone. */
+#define MODULUS_GROUPS_COLUMNS(X)                                                                  \
+    X(MODULUS_GROUPS_GROUP, "group", "group of curves", TEXT, LABEL("Group"))                      \
+    X(MODULUS_GROUPS_N, "n", "accepted curves", NUMBER, LABEL("Curves n"))                         \
+    X(MODULUS_GROUPS_N_REJECTED, "n_rejected", "rejected curves", NUMBER, LABEL("Rejected"))       \
+    X(MODULUS_GROUPS_N_SPOTS, "n_spots", "places on the sample", NUMBER, LABEL("Spots"))           \
+    X(MODULUS_GROUPS_MEAN, "mean", "mean modulus of the curves", SI(MODULUS), LABEL("Mean"),       \
+      SPARSE)                                                                                      \
+    X(MODULUS_GROUPS_STANDARD_DEVIATION, "standard_deviation", "standard deviation of the curves", \
+      SI(MODULUS), LABEL("Standard deviation"), SPARSE)                                            \
+    X(MODULUS_GROUPS_MEDIAN, "median", "median modulus of the curves", SI(MODULUS),                \
+      LABEL("Median"), SPARSE)                                                                     \
+    X(MODULUS_GROUPS_GEOMETRIC_MEAN, "geometric_mean", "geometric mean of the spots", SI(MODULUS), \
+      LABEL("Geometric mean"), SPARSE)                                                             \
+    X(MODULUS_GROUPS_LOW, "low", "lower end of its 95 % interval", SI(MODULUS),                    \
+      LABEL("95 % interval from"), SPARSE)                                                         \
+    X(MODULUS_GROUPS_HIGH, "high", "upper end of its 95 % interval", SI(MODULUS), LABEL("to"),     \
+      SPARSE)
+#define MODULUS_GROUPS_KEYS(X)
+
+/* A row of too few curves has its numbers of curves alone. */
+#define COMPARISON_COLUMNS(X)                                                                      \
+    X(COMPARISON_RATE_LOW, "rate_low", "smallest indentation rate of the row; nan = all rates",    \
+      SI(VELOCITY), LABEL("Indentation rate from"))                                                \
+    X(COMPARISON_RATE_HIGH, "rate_high", "largest indentation rate of the row; nan = all rates",   \
+      SI(VELOCITY), LABEL("to"))                                                                   \
+    X(COMPARISON_N_BULK, "n_bulk", "accepted bulk curves", NUMBER, LABEL("n bulk"))                \
+    X(COMPARISON_N_TRACK, "n_track", "accepted wear-track curves", NUMBER, LABEL("n track"))       \
+    X(COMPARISON_RATIO, "ratio", "modulus of the track over that of the bulk", NUMBER,             \
+      LABEL("Track / bulk"), SPARSE)                                                               \
+    X(COMPARISON_RATIO_LOW, "ratio_low", "lower end of its 95 % interval", NUMBER,                 \
+      LABEL("95 % interval from"), SPARSE)                                                         \
+    X(COMPARISON_RATIO_HIGH, "ratio_high", "upper end of its 95 % interval", NUMBER, LABEL("to"),  \
+      SPARSE)                                                                                      \
+    X(COMPARISON_DIFFERENCE, "difference", "difference of the mean moduli, track minus bulk",      \
+      SI(MODULUS), LABEL("Difference"), SPARSE)                                                    \
+    X(COMPARISON_WELCH_T, "welch_t", "Welch's t of the means", NUMBER, LABEL("Welch t"), SPARSE)   \
+    X(COMPARISON_WELCH_DF, "welch_df", "its degrees of freedom", NUMBER,                           \
+      LABEL("Degrees of freedom"), SPARSE)                                                         \
+    X(COMPARISON_WELCH_P, "welch_p", "its two-sided p", NUMBER, LABEL("p (Welch)"), SPARSE)        \
+    X(COMPARISON_HOLM_P, "holm_p", "p after Holm's correction for the number of rates", NUMBER,    \
+      LABEL("p (Holm)"), SPARSE)                                                                   \
+    X(COMPARISON_MANN_WHITNEY_P, "mann_whitney_p", "two-sided p of the Mann-Whitney test", NUMBER, \
+      LABEL("p (Mann-Whitney)"), SPARSE)                                                           \
+    X(COMPARISON_EFFECT_SIZE, "effect_size", "Hedges' g of ln E", NUMBER, LABEL("Effect size"),    \
+      SPARSE)
+
+#define COMPARISON_KEYS(X)                                                                         \
+    X(COMPARISON_KEY_UNIT_OF_ANALYSIS, "unit_of_analysis", TEXT)                                   \
+    X(COMPARISON_KEY_MODULUS_RATIO, "modulus_ratio", NUMBER, OPTIONAL)
+
+#define MODULUS_RATE_COLUMNS(X)                                                                    \
+    X(MODULUS_RATE_GROUP, "group", "bulk or track", TEXT)                                          \
+    X(MODULUS_RATE_RATE, "indentation_rate", "geometric mean of the indentation rate",             \
+      SI(VELOCITY))                                                                                \
+    X(MODULUS_RATE_EQUIVALENT_FREQUENCY, "equivalent_frequency",                                   \
+      "angular frequency of equal loading", SI(ANGULAR_FREQUENCY))                                 \
+    X(MODULUS_RATE_N, "n", "accepted curves", NUMBER)                                              \
+    X(MODULUS_RATE_GEOMETRIC_MEAN, "geometric_mean", "geometric mean of the modulus", SI(MODULUS)) \
+    X(MODULUS_RATE_LOW, "low", "lower end of its 95 % interval", SI(MODULUS))                      \
+    X(MODULUS_RATE_HIGH, "high", "upper end of its 95 % interval", SI(MODULUS))
+#define MODULUS_RATE_KEYS(X)
+
+/* Without a frequency there is no DMA modulus to compare with. */
+#define DMA_COMPARISON_COLUMNS(X)                                                                  \
+    X(DMA_COMPARISON_GROUP, "group", "bulk or track", TEXT, LABEL("Group"))                        \
+    X(DMA_COMPARISON_EQUIVALENT_FREQUENCY, "equivalent_frequency",                                 \
+      "angular frequency of equal loading", SI(ANGULAR_FREQUENCY), LABEL("Equivalent frequency"))  \
+    X(DMA_COMPARISON_MODULUS, "indentation_modulus", "geometric mean of the modulus", SI(MODULUS), \
+      LABEL("Indentation"))                                                                        \
+    X(DMA_COMPARISON_LOW, "low", "lower end of its 95 % interval", SI(MODULUS),                    \
+      LABEL("95 % interval from"))                                                                 \
+    X(DMA_COMPARISON_HIGH, "high", "upper end of its 95 % interval", SI(MODULUS), LABEL("to"))     \
+    X(DMA_COMPARISON_STORAGE_MODULUS, "dma_storage_modulus", "E' of the DMA at this frequency",    \
+      SI(STORAGE_MODULUS), LABEL("DMA E′"), SPARSE)                                                \
+    X(DMA_COMPARISON_COMPLEX_MODULUS, "dma_complex_modulus", "|E*| of the DMA at this frequency",  \
+      SI(COMPLEX_MODULUS), LABEL("DMA |E*|"), SPARSE)                                              \
+    X(DMA_COMPARISON_RATIO, "ratio", "indentation modulus over |E*|", NUMBER,                      \
+      LABEL("Indentation / DMA"), SPARSE)                                                          \
+    X(DMA_COMPARISON_EXTRAPOLATED, "extrapolated", "1: outside the frequencies measured by DMA",   \
+      YES_NO, LABEL("Outside measured frequencies"), SPARSE)
+
+#define DMA_COMPARISON_KEYS(X)                                                                     \
+    X(DMA_COMPARISON_KEY_TEMPERATURE, "temperature", SI(TEMPERATURE))                              \
+    X(DMA_COMPARISON_KEY_RATIO_OF, "ratio_of", TEXT)                                               \
+    X(DMA_COMPARISON_KEY_MATERIAL_STATEMENT, "material_statement", TEXT, OPTIONAL)
+
+#endif

@@ -1,0 +1,80 @@
+/* The columns and keys of the tables of indentation. Included by tables.h alone.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WT_DATA_TABLES_INDENTATION_H
+#define WT_DATA_TABLES_INDENTATION_H
+
+/* A table written by hand needs the verdicts and the moduli only. */
+#define INDENTATION_COLUMNS(X)                                                                     \
+    X(INDENTATION_FILE, "file", "file of the curve", TEXT, LABEL("File"), OPTIONAL)                \
+    X(INDENTATION_CURVE, "curve", "number of the curve in its file", NUMBER, LABEL("Curve"),       \
+      OPTIONAL)                                                                                    \
+    X(INDENTATION_SPOT, "spot", "place on the sample; curves of one spot are not independent",     \
+      TEXT, LABEL("Spot"), OPTIONAL)                                                               \
+    X(INDENTATION_X, "x", "lateral position x", SI(POSITION_X), OPTIONAL)                          \
+    X(INDENTATION_Y, "y", "lateral position y", SI(POSITION_Y), OPTIONAL)                          \
+    X(INDENTATION_VERDICT, "verdict", "accepted, or why not", TEXT)                                \
+    X(INDENTATION_REASON, "reason", "the verdict with its numbers", TEXT, LABEL("Reason"),         \
+      OPTIONAL)                                                                                    \
+    X(INDENTATION_MODULUS, "modulus", "Young's modulus", SI(MODULUS),                              \
+      STANDARD_ERROR(INDENTATION_MODULUS))                                                         \
+    X(INDENTATION_MODULUS_STANDARD_ERROR, "modulus_standard_error",                                \
+      "standard error of the modulus", SI(MODULUS), OPTIONAL)                                      \
+    X(INDENTATION_CONTACT_POINT, "contact_point", "tip position at contact", SI(LENGTH),           \
+      STANDARD_ERROR(INDENTATION_CONTACT_POINT), OPTIONAL)                                         \
+    X(INDENTATION_CONTACT_POINT_STANDARD_ERROR, "contact_point_standard_error",                    \
+      "standard error of the contact point", SI(LENGTH), OPTIONAL)                                 \
+    X(INDENTATION_BASELINE_OFFSET, "baseline_offset", "force of the baseline at contact",          \
+      SI(FORCE), OPTIONAL)                                                                         \
+    X(INDENTATION_BASELINE_TILT, "baseline_tilt", "slope of the baseline", UNIT("N/m"), OPTIONAL)  \
+    X(INDENTATION_NOISE, "noise", "standard deviation of the baseline residual", SI(FORCE),        \
+      OPTIONAL)                                                                                    \
+    X(INDENTATION_R_SQUARED, "r_squared", "coefficient of determination of the contact part",      \
+      NUMBER, OPTIONAL)                                                                            \
+    X(INDENTATION_MAX_FORCE, "max_force", "largest force above the baseline", SI(FORCE), OPTIONAL) \
+    X(INDENTATION_MAX_INDENTATION, "max_indentation", "largest indentation", SI(INDENTATION),      \
+      OPTIONAL)                                                                                    \
+    X(INDENTATION_ADHESION_FORCE, "adhesion_force", "largest pull before contact", SI(FORCE),      \
+      OPTIONAL)                                                                                    \
+    X(INDENTATION_PIEZO_RATE, "piezo_rate", "rate of the piezo", SI(VELOCITY), OPTIONAL)           \
+    X(INDENTATION_RATE, "indentation_rate", "mean rate of indentation", SI(VELOCITY), OPTIONAL)    \
+    X(INDENTATION_LOAD_TIME, "load_time", "time from contact to the end of the approach",          \
+      SI(TIME), OPTIONAL)                                                                          \
+    X(INDENTATION_SECOND_MINIMUM_RATIO, "second_minimum_ratio",                                    \
+      "misfit of the second best contact point over the best; nan if there is no second", NUMBER,  \
+      OPTIONAL)                                                                                    \
+    X(INDENTATION_SENSITIVITY_GAIN, "sensitivity_gain",                                            \
+      "relative error of the modulus per relative error of sensitivity", NUMBER, OPTIONAL)         \
+    X(INDENTATION_EQUIVALENT_FREQUENCY, "equivalent_frequency",                                    \
+      "angular frequency of equal loading", SI(ANGULAR_FREQUENCY), OPTIONAL)
+
+#define INDENTATION_KEYS(X)                                                                        \
+    X(INDENTATION_KEY_TIP, "tip", TEXT, OPTIONAL)                                                  \
+    X(INDENTATION_KEY_POISSON_RATIO, "poisson_ratio", PLAIN, OPTIONAL)                             \
+    X(INDENTATION_KEY_SPRING_CONSTANT, "spring_constant", SI(SPRING_CONSTANT), OPTIONAL)           \
+    X(INDENTATION_KEY_SPRING_CONSTANTS, "spring_constants", TEXT, OPTIONAL)                        \
+    X(INDENTATION_KEY_SPOTS, "spots", TEXT, OPTIONAL)                                              \
+    X(INDENTATION_KEY_N_ACCEPTED, "n_accepted", PLAIN, LABEL("Curves accepted"), OPTIONAL)         \
+    X(INDENTATION_KEY_N_REJECTED, "n_rejected", PLAIN, LABEL("Curves rejected"), OPTIONAL)
+
+#define FORCE_DISPLACEMENT_COLUMNS(X)                                                              \
+    X(FORCE_DISPLACEMENT_GROUP, "group", "bulk or track", TEXT)                                    \
+    X(FORCE_DISPLACEMENT_SEGMENT, "segment", "approach or retract", TEXT)                          \
+    X(FORCE_DISPLACEMENT_DISPLACEMENT, "displacement",                                             \
+      "piezo displacement towards the sample, from the contact point", SI(LENGTH))                 \
+    X(FORCE_DISPLACEMENT_FORCE, "force", "force above the baseline at contact", SI(FORCE))
+
+/* One of each for every group. */
+#define FORCE_DISPLACEMENT_KEYS(X)                                                                 \
+    X(FORCE_DISPLACEMENT_KEY_CURVE, "curve_", TEXT, OPTIONAL)                                      \
+    X(FORCE_DISPLACEMENT_KEY_CONTACT_POINT, "contact_point_", SI(LENGTH), OPTIONAL)                \
+    X(FORCE_DISPLACEMENT_KEY_CONTACT_FORCE, "contact_force_", SI(FORCE), OPTIONAL)
+
+#define FORCE_INDENTATION_COLUMNS(X)                                                               \
+    X(FORCE_INDENTATION_GROUP, "group", "bulk or track", TEXT)                                     \
+    X(FORCE_INDENTATION_INDENTATION, "indentation", "indentation depth", SI(INDENTATION))          \
+    X(FORCE_INDENTATION_FORCE, "force", "force above the baseline", SI(FORCE))                     \
+    X(FORCE_INDENTATION_FITTED_FORCE, "fitted_force", "force of the fitted contact model",         \
+      SI(FORCE))
+#define FORCE_INDENTATION_KEYS(X)
+
+#endif

@@ -1,0 +1,44 @@
+/* The columns and keys of measurements as `weartrack convert` writes them. Included by tables.h
+ * alone. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WT_DATA_TABLES_MEASURED_H
+#define WT_DATA_TABLES_MEASURED_H
+
+/* Then a column for each quantity that the file has, called by its identifier. */
+#define FORCE_CURVE_COLUMNS(X) X(FORCE_CURVE_SEGMENT, "segment", "kind of segment", TEXT)
+#define FORCE_CURVE_KEYS(X)                                                                        \
+    X(FORCE_CURVE_KEY_POSITION_X, "position_x", SI(POSITION_X), OPTIONAL)                          \
+    X(FORCE_CURVE_KEY_POSITION_Y, "position_y", SI(POSITION_Y), OPTIONAL)                          \
+    X(FORCE_CURVE_KEY_SPRING_CONSTANT, "spring_constant", SI(SPRING_CONSTANT), OPTIONAL)           \
+    X(FORCE_CURVE_KEY_SENSITIVITY, "sensitivity", SI(SENSITIVITY), OPTIONAL)                       \
+    X(FORCE_CURVE_KEY_CURVE, "curve", PLAIN)
+
+/* The moduli in tension or in shear, as measured. */
+#define SWEEP_COLUMNS(X)                                                                           \
+    X(SWEEP_TEMPERATURE, "temperature", "temperature", SI(TEMPERATURE))                            \
+    X(SWEEP_ANGULAR_FREQUENCY, "angular_frequency", "angular frequency", SI(ANGULAR_FREQUENCY))    \
+    X(SWEEP_STORAGE_MODULUS, "storage_modulus", "tensile storage modulus E'", SI(STORAGE_MODULUS), \
+      OPTIONAL)                                                                                    \
+    X(SWEEP_LOSS_MODULUS, "loss_modulus", "tensile loss modulus E''", SI(LOSS_MODULUS), OPTIONAL)  \
+    X(SWEEP_SHEAR_STORAGE_MODULUS, "shear_storage_modulus", "shear storage modulus G'",            \
+      SI(SHEAR_STORAGE_MODULUS), OPTIONAL)                                                         \
+    X(SWEEP_SHEAR_LOSS_MODULUS, "shear_loss_modulus", "shear loss modulus G''",                    \
+      SI(SHEAR_LOSS_MODULUS), OPTIONAL)
+#define SWEEP_KEYS(X)
+
+/* The density of a surface or of a line, as measured. */
+#define SPECTRUM_COLUMNS(X)                                                                        \
+    X(SPECTRUM_WAVENUMBER, "wavenumber", "wavenumber", SI(WAVENUMBER))                             \
+    X(SPECTRUM_DENSITY_2D, "power_spectrum_2d", "two-dimensional power spectrum C(q)",             \
+      SI(POWER_SPECTRUM_2D), OPTIONAL)                                                             \
+    X(SPECTRUM_DENSITY_1D, "power_spectrum_1d", "power spectrum of a line, C1(q)",                 \
+      SI(POWER_SPECTRUM_1D), OPTIONAL)
+#define SPECTRUM_KEYS(X)
+
+/* Units, and the words of the value, are those of the image; a single line has no y. */
+#define IMAGE_COLUMNS(X)                                                                           \
+    X(IMAGE_X, "x", "first axis", UNIT("as measured"))                                             \
+    X(IMAGE_Y, "y", "second axis", SI(LENGTH), OPTIONAL)                                           \
+    X(IMAGE_VALUE, "value", "name of the image", UNIT("as measured"))
+#define IMAGE_KEYS(X)
+
+#endif

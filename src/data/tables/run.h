@@ -1,0 +1,74 @@
+/* The columns and keys of the tables about a run and its files. Included by tables.h alone.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WT_DATA_TABLES_RUN_H
+#define WT_DATA_TABLES_RUN_H
+
+#define ANSWER_COLUMNS(X)                                                                          \
+    X(ANSWER_QUESTION, "question", "question", TEXT)                                               \
+    X(ANSWER_ANSWER, "answer", "answer", TEXT)                                                     \
+    X(ANSWER_KIND, "kind", "material, layer, difference, thickness, friction or caveat", TEXT)
+#define ANSWER_KEYS(X) X(ANSWER_KEY_CASE_TITLE, "case_title", TEXT, OPTIONAL)
+
+#define INPUTS_COLUMNS(X)                                                                          \
+    X(INPUTS_PATH, "path", "path as given", TEXT, LABEL("File"))                                   \
+    X(INPUTS_ROLE, "role", "what it was used for", TEXT, LABEL("Role"))                            \
+    X(INPUTS_FORMAT, "format", "format it was read as", TEXT, LABEL("Format"))                     \
+    X(INPUTS_BYTES, "bytes", "size of the file", SI(DATA_SIZE), LABEL("Size"))                     \
+    X(INPUTS_SHA256, "sha256", "SHA-256 digest of the file", TEXT, LABEL("SHA-256"))
+#define INPUTS_KEYS(X)
+
+#define NOTES_COLUMNS(X)                                                                           \
+    X(NOTES_SEVERITY, "severity", "note or warning", TEXT, LABEL("Severity"))                      \
+    X(NOTES_FILE, "file", "file it is about", TEXT, LABEL("File"))                                 \
+    X(NOTES_PLACE, "place", "first place in the file", TEXT, LABEL("Place"))                       \
+    X(NOTES_TEXT, "text", "what was noticed", TEXT, LABEL("Note"))                                 \
+    X(NOTES_COUNT, "count", "how often", NUMBER, LABEL("Times"))
+#define NOTES_KEYS(X)
+
+#define FAILURES_COLUMNS(X)                                                                        \
+    X(FAILURES_FILE, "file", "file or stage that failed", TEXT, LABEL("File"))                     \
+    X(FAILURES_MESSAGE, "message", "what went wrong, where, and what to do", TEXT,                 \
+      LABEL("What happened"))
+#define FAILURES_KEYS(X)
+
+#define COST_COLUMNS(X)                                                                            \
+    X(COST_STAGE, "stage", "stage", TEXT, LABEL("Stage"))                                          \
+    X(COST_RUNS, "runs", "1: ran, 0: left out", YES_NO)                                            \
+    X(COST_BECAUSE, "because", "why", TEXT, LABEL("Because"))                                      \
+    X(COST_WALL_TIME, "wall_time", "elapsed time", SI(TIME), LABEL("Wall time"))                   \
+    X(COST_CPU_TIME, "cpu_time", "processor time", SI(TIME), LABEL("Processor time"))              \
+    X(COST_ITEMS, "items", "curves, isotherms, points", NUMBER, LABEL("Items"))                    \
+    X(COST_TOLERANCE_ASKED, "tolerance_asked", "relative numerical error asked for", NUMBER,       \
+      LABEL("Tolerance asked"))                                                                    \
+    X(COST_ERROR_ESTIMATED, "error_estimated", "largest relative numerical error estimated",       \
+      NUMBER, LABEL("Error estimated"))
+#define COST_KEYS(X)
+
+#define PLAN_COLUMNS(X)                                                                            \
+    X(PLAN_STAGE, "stage", "stage", TEXT)                                                          \
+    X(PLAN_TITLE, "title", "what it does", TEXT)                                                   \
+    X(PLAN_RUNS, "runs", "1: runs, 0: left out", YES_NO)                                           \
+    X(PLAN_BECAUSE, "because", "why", TEXT)                                                        \
+    X(PLAN_NEEDS, "needs", "what it needs", TEXT)                                                  \
+    X(PLAN_GIVES, "gives", "what it gives", TEXT)
+#define PLAN_KEYS(X)
+
+#define FACTS_COLUMNS(X)                                                                           \
+    X(FACTS_ITEM, "item", "what is known", TEXT)                                                   \
+    X(FACTS_VALUE, "value", "its value", TEXT)                                                     \
+    X(FACTS_UNIT, "unit", "unit of the value", TEXT)                                               \
+    X(FACTS_SOURCE, "source", "where in the file it stands, or how it is known", TEXT)
+#define FACTS_KEYS(X)
+
+#define DESCRIPTION_COLUMNS(X)                                                                     \
+    X(DESCRIPTION_COLUMN, "column", "name in the file", TEXT)                                      \
+    X(DESCRIPTION_QUANTITY, "quantity", "what it measures", TEXT)                                  \
+    X(DESCRIPTION_UNIT, "unit", "unit in the file", TEXT)                                          \
+    X(DESCRIPTION_SI_UNIT, "si_unit", "unit of the first value", TEXT)                             \
+    X(DESCRIPTION_FIRST_VALUE, "first_value", "first value in the SI unit", NUMBER, SPARSE)        \
+    X(DESCRIPTION_ROWS, "rows", "rows of its table", NUMBER)                                       \
+    X(DESCRIPTION_LINE, "line", "line of the names row", NUMBER)                                   \
+    X(DESCRIPTION_PROBLEM, "problem", "why it is not read", TEXT)
+#define DESCRIPTION_KEYS(X)
+
+#endif

@@ -1,0 +1,134 @@
+/* The columns and keys of the tables of the sliding contact: counter surface, friction, layer.
+ * Included by tables.h alone. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WT_DATA_TABLES_SLIDING_H
+#define WT_DATA_TABLES_SLIDING_H
+
+#define ROUGHNESS_COLUMNS(X)                                                                       \
+    X(ROUGHNESS_WAVENUMBER, "wavenumber", "wavenumber", SI(WAVENUMBER))                            \
+    X(ROUGHNESS_DENSITY, "density", "two-dimensional power spectrum C(q)", SI(POWER_SPECTRUM_2D))
+
+/* The last three of a self-affine law only. */
+#define ROUGHNESS_KEYS(X)                                                                          \
+    X(ROUGHNESS_KEY_RMS_HEIGHT, "rms_height", SI(LENGTH), LABEL("Root-mean-square height"))        \
+    X(ROUGHNESS_KEY_RMS_SLOPE, "rms_slope", NUMBER, LABEL("Root-mean-square slope"))               \
+    X(ROUGHNESS_KEY_HURST, "hurst", PLAIN, LABEL("Hurst exponent"), OPTIONAL)                      \
+    X(ROUGHNESS_KEY_C0, "c0", SI(POWER_SPECTRUM_2D), LABEL("C₀"), OPTIONAL)                        \
+    X(ROUGHNESS_KEY_ROLL_OFF, "roll_off", SI(WAVENUMBER), LABEL("Roll-off wavenumber"), OPTIONAL)
+
+#define FRICTION_COLUMNS(X)                                                                        \
+    X(FRICTION_VELOCITY, "velocity", "sliding velocity", SI(VELOCITY), LABEL("Velocity"))          \
+    X(FRICTION_TOTAL, "friction",                                                                  \
+      "friction coefficient, hysteresis and shearing of the real contact", NUMBER,                 \
+      LABEL("Total μ"), BOTH_ERRORS(FRICTION_TOTAL))                                               \
+    X(FRICTION_TOTAL_STANDARD_ERROR, "friction_standard_error", "its standard error", NUMBER,      \
+      LABEL("± stat."))                                                                            \
+    X(FRICTION_TOTAL_NUMERICAL_ERROR, "friction_numerical_error", "its numerical error", NUMBER,   \
+      LABEL("± num."))                                                                             \
+    X(FRICTION_HYSTERESIS, "hysteresis", "hysteresis friction", NUMBER, LABEL("Hysteresis"),       \
+      BOTH_ERRORS(FRICTION_HYSTERESIS))                                                            \
+    X(FRICTION_HYSTERESIS_STANDARD_ERROR, "hysteresis_standard_error", "its standard error",       \
+      NUMBER, LABEL("± stat."))                                                                    \
+    X(FRICTION_HYSTERESIS_NUMERICAL_ERROR, "hysteresis_numerical_error", "its numerical error",    \
+      NUMBER, LABEL("± num."))                                                                     \
+    X(FRICTION_ADHESION, "adhesion", "friction of shearing the real contact", NUMBER,              \
+      LABEL("Shearing"))                                                                           \
+    X(FRICTION_AREA_RATIO, "area_ratio", "real over nominal contact area", NUMBER, LABEL("A/A₀"),  \
+      BOTH_ERRORS(FRICTION_AREA_RATIO))                                                            \
+    X(FRICTION_AREA_RATIO_STANDARD_ERROR, "area_ratio_standard_error", "its standard error",       \
+      NUMBER, LABEL("± stat."))                                                                    \
+    X(FRICTION_AREA_RATIO_NUMERICAL_ERROR, "area_ratio_numerical_error", "its numerical error",    \
+      NUMBER, LABEL("± num."))                                                                     \
+    X(FRICTION_WITH_LAYER, "friction_with_layer", "friction coefficient with the modified layer",  \
+      NUMBER, LABEL("With layer"), STANDARD_ERROR(FRICTION_WITH_LAYER))                            \
+    X(FRICTION_WITH_LAYER_STANDARD_ERROR, "friction_with_layer_standard_error",                    \
+      "its standard error", NUMBER, LABEL("± stat."))                                              \
+    X(FRICTION_EXTRAPOLATED_SHARE, "extrapolated_share",                                           \
+      "share of the hysteresis from frequencies not measured", NUMBER,                             \
+      LABEL("Outside measured frequencies, share"))
+
+/* The last seven with a layer only. */
+#define FRICTION_KEYS(X)                                                                           \
+    X(FRICTION_KEY_PRESSURE, "pressure", SI(PRESSURE))                                             \
+    X(FRICTION_KEY_TEMPERATURE, "temperature", SI(TEMPERATURE))                                    \
+    X(FRICTION_KEY_SHEAR_STRESS, "shear_stress", SI(PRESSURE),                                     \
+      LABEL("Shear stress of the real contact"))                                                   \
+    X(FRICTION_KEY_GAMMA, "gamma", PLAIN)                                                          \
+    X(FRICTION_KEY_REFERENCE_VELOCITY, "reference_velocity", SI(VELOCITY))                         \
+    X(FRICTION_KEY_FRICTION, "friction_at_reference", NUMBER, HEADLINE("Friction coefficient"))    \
+    X(FRICTION_KEY_HYSTERESIS, "hysteresis_at_reference", NUMBER,                                  \
+      HEADLINE("Friction coefficient, hysteresis part"))                                           \
+    X(FRICTION_KEY_AREA_RATIO, "area_ratio_at_reference", NUMBER,                                  \
+      HEADLINE("Real over nominal contact area"))                                                  \
+    X(FRICTION_KEY_ERROR_INCLUDES, "standard_error_includes", TEXT,                                \
+      LABEL("Standard errors include"))                                                            \
+    X(FRICTION_KEY_ERROR_LACKS, "standard_error_lacks", TEXT, LABEL("No error stated for"),        \
+      OPTIONAL)                                                                                    \
+    X(FRICTION_KEY_REPLICATES, "replicates", PLAIN)                                                \
+    X(FRICTION_KEY_MATERIAL_STATEMENT, "material_statement", TEXT, OPTIONAL)                       \
+    X(FRICTION_KEY_LAYER_THICKNESS, "layer_thickness", SI(LENGTH), OPTIONAL)                       \
+    X(FRICTION_KEY_LAYER_MODULUS_RATIO, "layer_modulus_ratio", NUMBER, OPTIONAL)                   \
+    X(FRICTION_KEY_WITH_LAYER, "friction_with_layer_at_reference", NUMBER,                         \
+      HEADLINE("Friction coefficient with layer"), OPTIONAL)                                       \
+    X(FRICTION_KEY_CHANGE, "friction_change_at_reference", NUMBER,                                 \
+      HEADLINE("Change of friction by the layer"), OPTIONAL)                                       \
+    X(FRICTION_KEY_RELATIVE_CHANGE, "relative_change_at_reference", NUMBER,                        \
+      LABEL("Relative change at reference"), OPTIONAL)                                             \
+    X(FRICTION_KEY_RELATIVE_CHANGE_LOW, "relative_change_low", NUMBER,                             \
+      LABEL("Relative change, lowest of all velocities"), OPTIONAL)                                \
+    X(FRICTION_KEY_RELATIVE_CHANGE_HIGH, "relative_change_high", NUMBER,                           \
+      LABEL("Relative change, highest of all velocities"), OPTIONAL)
+
+#define CONTACT_AREA_COLUMNS(X)                                                                    \
+    X(CONTACT_AREA_VELOCITY, "velocity", "sliding velocity", SI(VELOCITY))                         \
+    X(CONTACT_AREA_MAGNIFICATION, "magnification", "wavenumber over the smallest one", NUMBER)     \
+    X(CONTACT_AREA_WAVENUMBER, "wavenumber", "wavenumber up to which roughness is seen",           \
+      SI(WAVENUMBER))                                                                              \
+    X(CONTACT_AREA_AREA_RATIO, "area_ratio",                                                       \
+      "contact area seen at this magnification over the nominal area", NUMBER)                     \
+    X(CONTACT_AREA_HYSTERESIS, "hysteresis", "hysteresis friction up to this wavenumber", NUMBER)
+#define CONTACT_AREA_KEYS(X)
+
+#define LAYER_COLUMNS(X)                                                                           \
+    X(LAYER_TIME, "time", "time since the start", SI(TIME))                                        \
+    X(LAYER_THICKNESS, "thickness", "thickness of the modified layer", SI(LENGTH),                 \
+      BOTH_ERRORS(LAYER_THICKNESS))                                                                \
+    X(LAYER_THICKNESS_STANDARD_ERROR, "thickness_standard_error", "its standard error",            \
+      SI(LENGTH))                                                                                  \
+    X(LAYER_THICKNESS_NUMERICAL_ERROR, "thickness_numerical_error", "its numerical error",         \
+      SI(LENGTH))                                                                                  \
+    X(LAYER_FORMATION_RATE, "formation_rate", "rate of formation at this thickness", SI(VELOCITY)) \
+    X(LAYER_WEAR_RATE, "wear_rate", "rate of wear", SI(VELOCITY))
+
+#define LAYER_KEYS(X)                                                                              \
+    X(LAYER_KEY_BALANCE_THICKNESS, "balance_thickness", SI(LENGTH),                                \
+      HEADLINE("Layer thickness at balance"))                                                      \
+    X(LAYER_KEY_WEAR_SENSITIVITY, "wear_sensitivity", NUMBER,                                      \
+      LABEL("Relative change of the thickness per relative change of the wear rate"), OPTIONAL)    \
+    X(LAYER_KEY_FORMATION_WEAR_RATIO, "formation_wear_ratio", NUMBER,                              \
+      LABEL("Formation rate over wear rate, R"))                                                   \
+    X(LAYER_KEY_INCUBATION_TIME, "incubation_time", SI(TIME))                                      \
+    X(LAYER_KEY_RELAXATION_TIME, "relaxation_time", SI(TIME))                                      \
+    X(LAYER_KEY_CRITICAL_WEAR_RATE, "critical_specific_wear_rate", SI(WEAR_RATE))                  \
+    X(LAYER_KEY_REMOVAL_TIME, "removal_time", SI(TIME))                                            \
+    X(LAYER_KEY_CRITICAL_ENERGY, "critical_energy", SI(ENERGY_DENSITY))                            \
+    X(LAYER_KEY_SURFACE_POWER, "surface_power", UNIT("W/m^2"))                                     \
+    X(LAYER_KEY_TIME_TO_90_PERCENT, "time_to_90_percent", SI(TIME),                                \
+      LABEL("Time to 90 % of the balance thickness"))                                              \
+    X(LAYER_KEY_REGIME, "regime", TEXT)                                                            \
+    X(LAYER_KEY_VELOCITY, "velocity", SI(VELOCITY))                                                \
+    X(LAYER_KEY_PRESSURE, "pressure", SI(PRESSURE))                                                \
+    X(LAYER_KEY_WEAR_RATE, "specific_wear_rate", SI(WEAR_RATE))                                    \
+    X(LAYER_KEY_OBSERVED_THICKNESS, "observed_thickness", SI(LENGTH), OPTIONAL)                    \
+    X(LAYER_KEY_CRITICAL_ENERGY_FROM, "critical_energy_from", TEXT)                                \
+    X(LAYER_KEY_DAMAGE, "damage", PLAIN)                                                           \
+    X(LAYER_KEY_DUTY, "duty", PLAIN)                                                               \
+    X(LAYER_KEY_ERROR_INCLUDES, "standard_error_includes", TEXT, LABEL("Standard errors include")) \
+    X(LAYER_KEY_ERROR_LACKS, "standard_error_lacks", TEXT, LABEL("No error stated for"), OPTIONAL) \
+    X(LAYER_KEY_MATERIAL_STATEMENT, "material_statement", TEXT, OPTIONAL)
+
+#define ENERGY_DENSITY_COLUMNS(X)                                                                  \
+    X(ENERGY_DENSITY_DEPTH, "depth", "depth below the surface", SI(LENGTH))                        \
+    X(ENERGY_DENSITY_POWER, "energy_density", "power dissipated per volume", SI(POWER_DENSITY))
+#define ENERGY_DENSITY_KEYS(X) X(ENERGY_DENSITY_KEY_VELOCITY, "velocity", SI(VELOCITY))
+
+#endif

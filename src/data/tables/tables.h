@@ -1,0 +1,113 @@
+/* All tables that leave the program, each declared once: a column or a key is a row in the list of
+ * its table, and the place where it is put.
+ *
+ * For a table `layer` this header makes the types layer_column and layer_key, the schema
+ * layer_schema, and the functions below that take nothing but those. The columns or keys of another
+ * table are then an error of the compiler.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WT_DATA_TABLES_TABLES_H
+#define WT_DATA_TABLES_TABLES_H
+
+#include "data/table_view.h"
+#include "data/table_writer.h"
+#include "data/tables/comparison.h"
+#include "data/tables/dma.h"
+#include "data/tables/indentation.h"
+#include "data/tables/measured.h"
+#include "data/tables/run.h"
+#include "data/tables/sliding.h"
+
+/* name in C, name of its lists, name of the table, title. Two tables share a name: the counter
+ * surface as computed and a spectrum as measured. */
+#define TABLES(X)                                                                                  \
+    X(answer, ANSWER, "answer", "The answer")                                                      \
+    X(inputs, INPUTS, "inputs", "Files that were read")                                            \
+    X(notes, NOTES, "notes", "Notes and warnings")                                                 \
+    X(failures, FAILURES, "failures", "What could not be used")                                    \
+    X(cost, COST, "cost", "Stages, their time and their numerical error")                          \
+    X(plan, PLAN, "plan", "Stages of this case")                                                   \
+    X(indentation, INDENTATION, "indentation/", "Indentation of every curve")                      \
+    X(force_displacement, FORCE_DISPLACEMENT, "force_displacement",                                \
+      "Force against piezo displacement")                                                          \
+    X(force_indentation, FORCE_INDENTATION, "force_indentation", "Force against indentation")      \
+    X(modulus_groups, MODULUS_GROUPS, "modulus_groups", "Modulus of the groups")                   \
+    X(modulus_rate, MODULUS_RATE, "modulus_rate", "Modulus against indentation rate")              \
+    X(comparison, COMPARISON, "comparison", "Wear track against bulk")                             \
+    X(dma_comparison, DMA_COMPARISON, "dma_comparison", "Indentation against DMA")                 \
+    X(shift_factors, SHIFT_FACTORS, "shift_factors", "Shift factors")                              \
+    X(master_curve, MASTER_CURVE, "master_curve", "Master curve")                                  \
+    X(prony, PRONY, "prony", "Prony series")                                                       \
+    X(roughness, ROUGHNESS, "roughness", "Power spectrum of the counter surface")                  \
+    X(friction, FRICTION, "friction", "Friction against velocity")                                 \
+    X(contact_area, CONTACT_AREA, "contact_area", "Contact area against magnification")            \
+    X(layer, LAYER, "layer", "Thickness of the modified layer")                                    \
+    X(energy_density, ENERGY_DENSITY, "energy_density", "Energy density with depth")               \
+    X(force_curve, FORCE_CURVE, "force_curve/", "force curve")                                     \
+    X(sweep, SWEEP, "sweep", "DMA frequency sweeps")                                               \
+    X(spectrum, SPECTRUM, "roughness", "power spectrum")                                           \
+    X(image, IMAGE, "image/", "name of the image")                                                 \
+    X(facts, FACTS, "facts", "What the file is")                                                   \
+    X(description, DESCRIPTION, "description", "Columns that the description understands")
+
+#define TABLE_ID(id, ...) id,
+#define TABLE_TYPES(table, TABLE, name, title)                                                     \
+    typedef enum table##_column{TABLE##_COLUMNS(TABLE_ID) TABLE##_N_COLUMNS} table##_column;       \
+    typedef enum table##_key{TABLE##_KEYS(TABLE_ID) TABLE##_N_KEYS} table##_key;                   \
+    extern const table_schema table##_schema;                                                      \
+    /* a cell of the last row */                                                                   \
+    static inline void table##_put(table_writer *w, table##_column c, double value)                \
+    {                                                                                              \
+        writer_number(w, &table##_schema, (unsigned)c, value);                                     \
+    }                                                                                              \
+    static inline void table##_put_text(table_writer *w, table##_column c, const char *text)       \
+    {                                                                                              \
+        writer_text(w, &table##_schema, (unsigned)c, text);                                        \
+    }                                                                                              \
+    /* keys; the unit of an estimate is that of the schema */                                      \
+    static inline void table##_set(table_writer *w, table##_key k, wt_estimate estimate)           \
+    {                                                                                              \
+        writer_key(w, &table##_schema, (unsigned)k, estimate);                                     \
+    }                                                                                              \
+    static inline void table##_set_value(table_writer *w, table##_key k, double value,             \
+                                         double standard_error, double numerical_error)            \
+    {                                                                                              \
+        table##_set(w, k, (wt_estimate){value, standard_error, numerical_error, NULL});            \
+    }                                                                                              \
+    static inline void table##_set_text(table_writer *w, table##_key k, const char *text)          \
+    {                                                                                              \
+        writer_key_text(w, &table##_schema, (unsigned)k, text);                                    \
+    }                                                                                              \
+    static inline void table##_set_print(table_writer *, table##_key, const char *, ...)           \
+        WT_PRINTF(3, 4);                                                                           \
+    static inline void table##_set_print(table_writer *w, table##_key k, const char *format, ...)  \
+    {                                                                                              \
+        va_list list;                                                                              \
+        va_start(list, format);                                                                    \
+        writer_key_print(w, &table##_schema, (unsigned)k, format, list);                           \
+        va_end(list);                                                                              \
+    }                                                                                              \
+    /* reading what is bound */                                                                    \
+    static inline double table##_get(const table_view *v, size_t row, table##_column c)            \
+    {                                                                                              \
+        return view_number(v, &table##_schema, row, (unsigned)c);                                  \
+    }                                                                                              \
+    static inline const char *table##_text(const table_view *v, size_t row, table##_column c)      \
+    {                                                                                              \
+        return view_text(v, &table##_schema, row, (unsigned)c);                                    \
+    }                                                                                              \
+    static inline wt_estimate table##_value(const table_view *v, table##_key k)                    \
+    {                                                                                              \
+        return view_key(v, &table##_schema, (unsigned)k);                                          \
+    }                                                                                              \
+    static inline const char *table##_words(const table_view *v, table##_key k)                    \
+    {                                                                                              \
+        return view_key_text(v, &table##_schema, (unsigned)k);                                     \
+    }
+TABLES(TABLE_TYPES)
+
+/* Every schema, in the order of the list. */
+extern const table_schema *const table_schemas[];
+extern const size_t table_n_schemas;
+
+#endif
