@@ -142,7 +142,7 @@ static bool series_push(series_list *list, const series *s)
     if (list->n == list->room) {
         const size_t room = 2 * list->room + 8;
         series *items = realloc(list->items, room * sizeof *items);
-        if (!items)
+        if (items == NULL)
             return false;
         list->items = items;
         list->room = room;
@@ -321,7 +321,7 @@ double angular_outside(const angular_law *angular, double w, double j1)
 wt_status angular_new(const wt_material *material, angular_law **angular, wt_error *err)
 {
     angular_law *made = calloc(1, sizeof *made);
-    if (!made)
+    if (made == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory for the angular integrals");
     made->material = material;
     const wt_status status = angular_quadrature_init(material, &made->quadrature, err);
@@ -337,7 +337,7 @@ wt_status angular_new(const wt_material *material, angular_law **angular, wt_err
 
 void angular_free(angular_law *angular)
 {
-    if (!angular)
+    if (angular == NULL)
         return;
     angular_quadrature_clear(&angular->quadrature);
     free(angular->pieces.items);

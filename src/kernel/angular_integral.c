@@ -110,7 +110,7 @@ wt_status angular_quadrature_init(const wt_material *material, angular_quadratur
                                   wt_error *err)
 {
     *quadrature = (angular_quadrature){.material = material};
-    if (material->law->breaks)
+    if (material->law->breaks != NULL)
         quadrature->breaks = material->law->breaks(material, &quadrature->n_breaks);
     wt_status status = rule_new(SHORT_NODES, &quadrature->short_rule, err);
     if (status == WT_OK)

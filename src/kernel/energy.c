@@ -15,7 +15,7 @@
 
 void wt_energy_source_clear(wt_energy_source *source)
 {
-    if (!source)
+    if (source == NULL)
         return;
     free(source->wavenumber);
     free(source->power);
@@ -32,7 +32,7 @@ static wt_status out_of_range(const char *name, double value, const char *expect
 
 wt_status energy_check(const wt_energy_source *source, wt_error *err)
 {
-    if (!source || !source->n || !source->wavenumber || !source->power)
+    if (source == NULL || source->n == 0 || source->wavenumber == NULL || source->power == NULL)
         return wt_fail(err, WT_E_ARG, "a layer needs an energy source with at least one term");
     double sum = 0;
     for (size_t i = 0; i < source->n; i++) {

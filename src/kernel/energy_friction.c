@@ -40,7 +40,7 @@ static wt_status source_alloc(wt_energy_source *source, size_t room, wt_error *e
 wt_status wt_energy_source_friction(wt_friction_workspace *workspace, double pressure,
                                     double velocity, wt_energy_source *source, wt_error *err)
 {
-    if (!workspace || !source)
+    if (workspace == NULL || source == NULL)
         return wt_fail(err, WT_E_ARG, "an energy source needs a friction workspace");
     wt_status status = friction_prepare(workspace, pressure, &velocity, 1, err);
     if (status != WT_OK)

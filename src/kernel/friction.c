@@ -120,7 +120,7 @@ static wt_status prepare_grids(wt_friction_workspace *ws, wt_error *err)
     if (status != WT_OK || ws->n_knots)
         return status;
     bounds = calloc(ws->plan.capacity + 1, sizeof *bounds);
-    if (!bounds)
+    if (bounds == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory for the friction integral");
     panel_plan_lay(&ws->plan, ws->roughness, NULL, 0, NULL, 0, bounds);
     free(bounds);
@@ -137,20 +137,20 @@ wt_status wt_friction_workspace_new(const wt_material *material, const wt_roughn
                                     const wt_friction_options *options,
                                     wt_friction_workspace **workspace, wt_error *err)
 {
-    if (!material || !roughness || !workspace)
+    if (material == NULL || roughness == NULL || workspace == NULL)
         return wt_fail(err, WT_E_ARG, "friction needs a material and a power spectrum");
     const wt_friction_options o = options ? *options : wt_friction_defaults();
     wt_status status = check_options(&o, err);
     if (status != WT_OK)
         return status;
     wt_friction_workspace *ws = calloc(1, sizeof *ws);
-    if (!ws)
+    if (ws == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory for the friction integral");
     ws->material = material;
     ws->roughness = roughness;
     ws->options = o;
     ws->stiffness = 1 / (1 - material->poisson_ratio * material->poisson_ratio);
-    if (material->law->breaks && !material->law->angular)
+    if (material->law->breaks != NULL && material->law->angular == NULL)
         ws->knots = material->law->breaks(material, &ws->n_knots);
 
     status = angular_new(material, &ws->angular, err);
@@ -161,7 +161,7 @@ wt_status wt_friction_workspace_new(const wt_material *material, const wt_roughn
     if (status == WT_OK) {
         ws->threads = wt_thread_count(o.threads);
         ws->scratch = calloc(ws->threads, sizeof *ws->scratch);
-        if (!ws->scratch)
+        if (ws->scratch == NULL)
             status = wt_fail(err, WT_E_MEMORY, "out of memory for the friction integral");
     }
     for (unsigned i = 0; status == WT_OK && i < ws->threads; i++)
@@ -176,7 +176,7 @@ wt_status wt_friction_workspace_new(const wt_material *material, const wt_roughn
 
 void wt_friction_workspace_free(wt_friction_workspace *ws)
 {
-    if (!ws)
+    if (ws == NULL)
         return;
     angular_free(ws->angular);
     for (size_t r = 0; r < FRICTION_RULES; r++) {
@@ -340,7 +340,7 @@ wt_status wt_friction_compute(wt_friction_workspace *workspace, double pressure,
                               const double *velocity, size_t n, wt_friction_point *points,
                               wt_error *err)
 {
-    if (!workspace || !velocity || !points)
+    if (workspace == NULL || velocity == NULL || points == NULL)
         return wt_fail(err, WT_E_ARG, "friction needs velocities and a place for the results");
     wt_status status = friction_prepare(workspace, pressure, velocity, n, err);
     if (status != WT_OK)

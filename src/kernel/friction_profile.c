@@ -52,7 +52,7 @@ wt_status wt_friction_profile(wt_friction_workspace *workspace, double pressure,
                               const double *wavenumber, size_t n, wt_friction_node *nodes,
                               wt_error *err)
 {
-    if (!workspace || (n && (!wavenumber || !nodes)))
+    if (workspace == NULL || (n && (wavenumber == NULL || nodes == NULL)))
         return wt_fail(err, WT_E_ARG, "a friction profile needs wavenumbers and a place for it");
     const wt_roughness *roughness = workspace->roughness;
     wt_status status = friction_prepare(workspace, pressure, &velocity, 1, err);
@@ -69,7 +69,7 @@ wt_status wt_friction_profile(wt_friction_workspace *workspace, double pressure,
     if (status != WT_OK)
         return status;
     cuts = calloc(n, sizeof *cuts);
-    if (!cuts) {
+    if (cuts == NULL) {
         status = wt_fail(err, WT_E_MEMORY, "out of memory for a friction profile");
         goto done;
     }

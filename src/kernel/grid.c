@@ -17,7 +17,7 @@ static const double cell_ratio = 4;
 static const double *roughness_breaks(const wt_roughness *roughness, size_t *n)
 {
     *n = 0;
-    return roughness->law->breaks ? roughness->law->breaks(roughness, n) : NULL;
+    return roughness->law->breaks != NULL ? roughness->law->breaks(roughness, n) : NULL;
 }
 
 static double log_ratio(double q, double q0)
@@ -36,7 +36,7 @@ wt_status panel_plan_init(panel_plan *plan, const wt_roughness *roughness, size_
     plan->capacity = levels + n_roughness + n_breaks + 32 + (size_t)(length / panel_width);
     plan->core = calloc(levels + 1, sizeof *plan->core);
     plan->panels = calloc(plan->capacity, sizeof *plan->panels);
-    if (!plan->core || !plan->panels) {
+    if (plan->core == NULL || plan->panels == NULL) {
         panel_plan_clear(plan);
         return wt_fail(err, WT_E_MEMORY, "out of memory for the panels of the friction integral");
     }
@@ -145,8 +145,9 @@ wt_status grid_init(scale_grid *grid, const panel_plan *plan, size_t max_nodes, 
     grid->core_factor1 = calloc(core_nodes, sizeof *grid->core_factor1);
     grid->core_factor2 = calloc(core_nodes, sizeof *grid->core_factor2);
     grid->core_half_width = calloc(plan->levels + 1, sizeof *grid->core_half_width);
-    if (!grid->q || !grid->factor1 || !grid->factor2 || !grid->half_width || !grid->core_q ||
-        !grid->core_factor1 || !grid->core_factor2 || !grid->core_half_width) {
+    if (grid->q == NULL || grid->factor1 == NULL || grid->factor2 == NULL ||
+        grid->half_width == NULL || grid->core_q == NULL || grid->core_factor1 == NULL ||
+        grid->core_factor2 == NULL || grid->core_half_width == NULL) {
         grid_clear(grid);
         return wt_fail(err, WT_E_MEMORY, "out of memory for the nodes of the friction integral");
     }

@@ -50,7 +50,7 @@ static wt_status check_parameters(const wt_layer_parameters *p, wt_error *err)
 wt_status layer_rates_make(const wt_energy_source *source, const wt_layer_parameters *parameters,
                            layer_rates *rates, wt_error *err)
 {
-    if (!parameters)
+    if (parameters == NULL)
         return wt_fail(err, WT_E_ARG, "a layer needs its parameters");
     wt_status status = energy_check(source, err);
     if (status == WT_OK)

@@ -26,7 +26,7 @@ wt_status wt_layer_balance_compute(const wt_energy_source *source,
                                    const wt_layer_parameters *parameters, wt_layer_balance *balance,
                                    wt_error *err)
 {
-    if (!balance)
+    if (balance == NULL)
         return wt_fail(err, WT_E_ARG, "a balance needs a place for the result");
     layer_rates r;
     wt_layer_balance b = {0};

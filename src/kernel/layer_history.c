@@ -66,7 +66,7 @@ static wt_status history_march(const layer_rates *rates, double start, const dou
     double *sorted = calloc(n, sizeof *sorted);
     wt_layer_point **places = calloc(n, sizeof *places);
     wt_status status = WT_OK;
-    if (!order || !sorted || !places) {
+    if (order == NULL || sorted == NULL || places == NULL) {
         status = wt_fail(err, WT_E_MEMORY, "out of memory for the history of a layer");
         goto done;
     }
@@ -88,7 +88,7 @@ done:
 wt_status wt_layer_history(const wt_energy_source *source, const wt_layer_parameters *parameters,
                            const double *time, size_t n, wt_layer_point *points, wt_error *err)
 {
-    if (n && (!time || !points))
+    if (n && (time == NULL || points == NULL))
         return wt_fail(err, WT_E_ARG, "the history of a layer needs times and a place for it");
     layer_rates rates;
     wt_status status = layer_rates_make(source, parameters, &rates, err);

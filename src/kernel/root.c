@@ -22,7 +22,7 @@ wt_status root_find(root_fn f, void *user, double low, double high, double *root
     gsl_quiet();
     wt_status status = WT_OK;
     gsl_root_fsolver *solver = gsl_root_fsolver_alloc(gsl_root_fsolver_brent);
-    if (!solver)
+    if (solver == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory for a root");
     gsl_function function = {.function = f, .params = user};
     const int limit = 300;

@@ -50,7 +50,8 @@ wt_status rule_new(size_t n, gauss_rule **rule, wt_error *err)
         made->weight = calloc(n, sizeof *made->weight);
         made->running = calloc(n * n, sizeof *made->running);
     }
-    if (!made || !scratch || !table || !made->node || !made->weight || !made->running) {
+    if (made == NULL || scratch == NULL || table == NULL || made->node == NULL ||
+        made->weight == NULL || made->running == NULL) {
         status = wt_fail(err, WT_E_MEMORY, "out of memory for a quadrature rule");
         goto done;
     }
@@ -72,7 +73,7 @@ done:
 
 void rule_free(gauss_rule *rule)
 {
-    if (!rule)
+    if (rule == NULL)
         return;
     free(rule->node);
     free(rule->weight);

@@ -33,7 +33,7 @@ wt_status material_wrap(const wt_material_law *law, void *data, double poisson_r
                         wt_material **material, wt_error *err)
 {
     wt_material *made = malloc(sizeof *made);
-    if (!made)
+    if (made == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory for a material");
     made->law = law;
     made->poisson_ratio = poisson_ratio;
@@ -46,9 +46,9 @@ wt_status material_wrap(const wt_material_law *law, void *data, double poisson_r
 
 void wt_material_free(wt_material *material)
 {
-    if (!material)
+    if (material == NULL)
         return;
-    if (material->law->free)
+    if (material->law->free != NULL)
         material->law->free(material);
     free(material);
 }

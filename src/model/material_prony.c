@@ -106,7 +106,7 @@ static void prony_angular(const wt_material *material, const double *restrict om
 
 static void prony_data_free(prony_data *d)
 {
-    if (!d)
+    if (d == NULL)
         return;
     free(d->modulus);
     free(d->relaxation_time);
@@ -153,7 +153,7 @@ static wt_status prony_check(const wt_prony *prony, wt_error *err)
 wt_status wt_material_prony(const wt_prony *prony, double poisson_ratio, wt_material **material,
                             wt_error *err)
 {
-    if (!prony || !material)
+    if (prony == NULL || material == NULL)
         return wt_fail(err, WT_E_ARG, "a Prony material needs a series and a place for the result");
     prony_data *d = NULL;
     wt_status status = material_check_poisson(poisson_ratio, err);
@@ -169,7 +169,7 @@ wt_status wt_material_prony(const wt_prony *prony, double poisson_ratio, wt_mate
         d->relaxation_time = calloc(room, sizeof *d->relaxation_time);
         d->weight = calloc(room, sizeof *d->weight);
     }
-    if (!d || !d->modulus || !d->relaxation_time || !d->weight) {
+    if (d == NULL || d->modulus == NULL || d->relaxation_time == NULL || d->weight == NULL) {
         status =
             wt_fail(err, WT_E_MEMORY, "out of memory for a Prony series of %zu terms", prony->n);
         goto done;

@@ -54,7 +54,7 @@ static const double *table_breaks(const wt_material *material, size_t *n)
 
 static void table_data_free(table_data *d)
 {
-    if (!d)
+    if (d == NULL)
         return;
     free(d->omega);
     free(d->log_omega);
@@ -118,7 +118,7 @@ wt_status wt_material_table(const double *omega, const double *storage, const do
                             size_t n, double poisson_ratio, wt_extrapolation extrapolation,
                             wt_material **material, wt_error *err)
 {
-    if (!omega || !storage || !loss || !material || n < 2)
+    if (omega == NULL || storage == NULL || loss == NULL || material == NULL || n < 2)
         return wt_fail(err, WT_E_ARG, "a material table needs at least 2 knots; found %zu", n);
     table_data *d = NULL;
     wt_status status = material_check_poisson(poisson_ratio, err);
@@ -134,7 +134,8 @@ wt_status wt_material_table(const double *omega, const double *storage, const do
         d->log_storage = calloc(n, sizeof *d->log_storage);
         d->log_loss = calloc(n, sizeof *d->log_loss);
     }
-    if (!d || !d->omega || !d->log_omega || !d->log_storage || !d->log_loss) {
+    if (d == NULL || d->omega == NULL || d->log_omega == NULL || d->log_storage == NULL ||
+        d->log_loss == NULL) {
         status = wt_fail(err, WT_E_MEMORY, "out of memory for a material table of %zu knots", n);
         goto done;
     }

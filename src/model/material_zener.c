@@ -45,7 +45,7 @@ static const wt_material_law zener_law = {
 wt_status wt_material_fractional_zener(double e0, double eg, double tau, double alpha,
                                        double poisson_ratio, wt_material **material, wt_error *err)
 {
-    if (!material)
+    if (material == NULL)
         return wt_fail(err, WT_E_ARG, "a material needs a place for the result");
     wt_status status = material_check_poisson(poisson_ratio, err);
     if (status == WT_OK)
@@ -61,7 +61,7 @@ wt_status wt_material_fractional_zener(double e0, double eg, double tau, double 
     if (status != WT_OK)
         return status;
     zener_data *d = malloc(sizeof *d);
-    if (!d)
+    if (d == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory for a material");
     d->e0 = e0;
     d->rise = eg - e0;

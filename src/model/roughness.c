@@ -10,9 +10,9 @@
 
 void wt_roughness_free(wt_roughness *roughness)
 {
-    if (!roughness)
+    if (roughness == NULL)
         return;
-    if (roughness->law->free)
+    if (roughness->law->free != NULL)
         roughness->law->free(roughness);
     free(roughness);
 }
@@ -41,10 +41,11 @@ static double moment_piece(const wt_roughness *roughness, int m, double from, do
 
 static double moment_all(const wt_roughness *roughness, int m)
 {
-    if (roughness->law->moment)
+    if (roughness->law->moment != NULL)
         return roughness->law->moment(roughness, m, roughness->q1);
     size_t n = 0;
-    const double *breaks = roughness->law->breaks ? roughness->law->breaks(roughness, &n) : NULL;
+    const double *breaks =
+        roughness->law->breaks != NULL ? roughness->law->breaks(roughness, &n) : NULL;
     double from = roughness->q0;
     double sum = 0;
     for (size_t i = 0; i < n; i++) {

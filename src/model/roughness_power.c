@@ -66,7 +66,7 @@ static double power_moment(const wt_roughness *roughness, int m, double q)
 
 static void power_data_free(power_data *d)
 {
-    if (!d)
+    if (d == NULL)
         return;
     free(d->knot);
     free(d->density);
@@ -106,7 +106,7 @@ static wt_status power_new(const wt_roughness_law *law, const double *knot, cons
         d->density = calloc(pieces, sizeof *d->density);
         d->slope = calloc(pieces, sizeof *d->slope);
     }
-    if (!made || !d || !d->knot || !d->density || !d->slope) {
+    if (made == NULL || d == NULL || d->knot == NULL || d->density == NULL || d->slope == NULL) {
         power_data_free(d);
         free(made);
         return wt_fail(err, WT_E_MEMORY, "out of memory for a power spectrum");
@@ -134,7 +134,7 @@ static wt_status out_of_range(const char *name, double value, const char *expect
 wt_status wt_roughness_self_affine(double q0, double qr, double q1, double hurst, double c0,
                                    wt_roughness **roughness, wt_error *err)
 {
-    if (!roughness)
+    if (roughness == NULL)
         return wt_fail(err, WT_E_ARG, "a power spectrum needs a place for the result");
     if (!(q0 > 0) || !isfinite(q0))
         return out_of_range("q0", q0, "finite and > 0 rad/m", err);
@@ -160,7 +160,7 @@ wt_status wt_roughness_self_affine(double q0, double qr, double q1, double hurst
 wt_status wt_roughness_table(const double *q, const double *c, size_t n, wt_roughness **roughness,
                              wt_error *err)
 {
-    if (!q || !c || !roughness || n < 2)
+    if (q == NULL || c == NULL || roughness == NULL || n < 2)
         return wt_fail(err, WT_E_ARG, "a table of a power spectrum needs at least 2 knots");
     for (size_t i = 0; i < n; i++) {
         wt_status status = WT_OK;
@@ -174,7 +174,7 @@ wt_status wt_roughness_table(const double *q, const double *c, size_t n, wt_roug
         }
     }
     double *slope = calloc(n - 1, sizeof *slope);
-    if (!slope)
+    if (slope == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory for a power spectrum");
     for (size_t i = 0; i + 1 < n; i++)
         slope[i] = log(c[i + 1] / c[i]) / log1p((q[i + 1] - q[i]) / q[i]);
