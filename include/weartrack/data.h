@@ -42,7 +42,7 @@ typedef struct wt_segment {
     size_t n_points; /* of every channel */
     size_t n_channels;
     wt_channel *channels;
-    double duration; /* [s], NaN if unknown */
+    double duration; /* [s] of n_points intervals: sample i is at duration i/n; NaN if unknown */
     double setpoint; /* [N] or NaN */
     double velocity; /* piezo velocity [m/s], NaN if unknown */
     uint64_t reserved[8];

@@ -1,6 +1,6 @@
 /* Force curves, whose memory is used again from curve to curve.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "weartrack/data.h"
+#include "data/force_curve.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -119,4 +119,60 @@ const wt_segment *wt_force_curve_segment(const wt_force_curve *curve, wt_segment
             return &curve->segments[i];
     }
     return NULL;
+}
+
+/* What the file's own value becomes when another is given. */
+static double replaced(bool given, double own, double value)
+{
+    return given && own > 0 ? value / own : 1;
+}
+
+double deflection_factor(wt_quantity from, wt_quantity to, const wt_cantilever *file,
+                         const wt_cantilever *used)
+{
+    const double s = used->sensitivity, k = used->spring_constant;
+    const double new_s = replaced(used->sensitivity_given, file->sensitivity, s);
+    const double new_k = replaced(used->spring_constant_given, file->spring_constant, k);
+    const bool volts = to == WT_Q_DEFLECTION_VOLTAGE, metres = to == WT_Q_DEFLECTION;
+    switch (from) {
+    case WT_Q_DEFLECTION_VOLTAGE:
+        return volts ? 1 : metres ? s : k * s;
+    case WT_Q_DEFLECTION:
+        return volts ? 1 / file->sensitivity : metres ? new_s : k * new_s;
+    default:
+        return volts    ? 1 / (file->spring_constant * file->sensitivity)
+               : metres ? new_k * new_s / k
+                        : new_k * new_s;
+    }
+}
+
+void sample_times(double start, double duration, size_t n, double *times)
+{
+    for (size_t i = 0; i < n; i++)
+        times[i] = start + duration * ((double)i / (double)n);
+}
+
+const double *segment_force(const wt_segment *segment, const wt_cantilever *cantilever,
+                            double *scratch)
+{
+    static const wt_quantity sources[] = {WT_Q_FORCE, WT_Q_DEFLECTION, WT_Q_DEFLECTION_VOLTAGE};
+    const wt_channel *channel = NULL;
+    for (size_t i = 0; i < sizeof sources / sizeof *sources && channel == NULL; i++)
+        channel = wt_segment_channel(segment, sources[i]);
+    if (channel == NULL || channel->quantity == WT_Q_FORCE)
+        return channel != NULL ? channel->values : NULL;
+    const double factor = deflection_factor(channel->quantity, WT_Q_FORCE, cantilever, cantilever);
+    if (isnan(factor))
+        return NULL;
+    for (size_t i = 0; i < segment->n_points; i++)
+        scratch[i] = factor * channel->values[i];
+    return scratch;
+}
+
+const double *segment_height(const wt_segment *segment)
+{
+    const wt_channel *channel = wt_segment_channel(segment, WT_Q_MEASURED_HEIGHT);
+    if (channel == NULL)
+        channel = wt_segment_channel(segment, WT_Q_HEIGHT);
+    return channel != NULL ? channel->values : NULL;
 }

@@ -11,6 +11,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
+#include "data/force_curve.h"
 #include "fit/curve.h"
 
 #include <gsl/gsl_errno.h>
@@ -72,7 +73,7 @@ static void tip_positions(size_t n, const double *position, const double *force,
 {
     double max = -(double)INFINITY;
     for (size_t i = 0; i < n; i++) {
-        tip[i] = position[i] - force[i] / k;
+        tip[i] = tip_position(position[i], force[i], k);
         if (tip[i] > max)
             max = tip[i];
         running_max[i] = max;
@@ -303,7 +304,7 @@ bool curve_scan_at(const wt_contact_table *table, const curve_samples *samples, 
     const double k = samples->spring_constant;
     projection full = make_full(table, samples, tilt, false, w);
     /* The tip position of the contact depends on the baseline, which is part of the answer. */
-    double tip = contact_point - full.origin_force / k;
+    double tip = tip_position(contact_point, full.origin_force, k);
     for (int i = 0; i < MAX_ITERATIONS; i++) {
         *minimum = to_minimum(&full, tip, k);
         double step = contact_point - minimum->contact_point;

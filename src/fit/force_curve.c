@@ -3,16 +3,11 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
+#include "data/force_curve.h"
 #include "fit/curve.h"
 
 #include <math.h>
 #include <string.h>
-
-static const double *channel(const wt_segment *segment, wt_quantity quantity)
-{
-    const wt_channel *c = wt_segment_channel(segment, quantity);
-    return c != NULL ? c->values : NULL;
-}
 
 static wt_status no_approach(const wt_force_curve *curve, wt_indent_fit *fit)
 {
@@ -37,44 +32,27 @@ static wt_status missing(wt_error *err, const wt_segment *segment, const char *w
     return status;
 }
 
-/* Force [N] of every sample: as stored, or from the deflection. */
-static wt_status force_of(const wt_force_curve *curve, const wt_segment *segment,
-                          wt_indent_workspace *w, const double **force, wt_error *err)
+static wt_status no_force(wt_error *err, const wt_segment *segment)
 {
-    const double k = curve->cantilever.spring_constant;
-    const double *stored = channel(segment, WT_Q_FORCE);
-    if (stored != NULL) {
-        *force = stored;
-        return WT_OK;
-    }
-    const double *deflection = channel(segment, WT_Q_DEFLECTION);
-    double factor = k;
-    if (deflection == NULL) {
-        deflection = channel(segment, WT_Q_DEFLECTION_VOLTAGE);
-        factor = k * curve->cantilever.sensitivity;
-        if (deflection != NULL && isnan(curve->cantilever.sensitivity))
-            return missing(err, segment, "the deflection sensitivity",
-                           "metres per volt in the file or given",
-                           "give it, e.g. --sensitivity 120nm/V");
-    }
-    if (deflection == NULL)
-        return missing(err, segment, "the force",
-                       "a channel of force, deflection or deflection voltage",
-                       "see what the file holds with: weartrack info FILE");
-    for (size_t i = 0; i < segment->n_points; i++)
-        w->given_force[i] = factor * deflection[i];
-    *force = w->given_force;
-    return WT_OK;
+    if (wt_segment_channel(segment, WT_Q_DEFLECTION_VOLTAGE) != NULL)
+        return missing(err, segment, "the deflection sensitivity",
+                       "metres per volt in the file or given",
+                       "give it, e.g. --sensitivity 120nm/V");
+    return missing(err, segment, "the force",
+                   "a channel of force, deflection or deflection voltage",
+                   "see what the file holds with: weartrack info FILE");
 }
 
-static const double *time_of(const wt_segment *segment, wt_indent_workspace *w)
+/* As stored, or from the duration; NULL if neither is known. */
+static const double *time_of(const wt_segment *segment, double *scratch)
 {
-    const double *time = channel(segment, WT_Q_TIME);
-    if (time != NULL || !(segment->duration > 0.0) || segment->n_points < 2)
-        return time;
-    for (size_t i = 0; i < segment->n_points; i++)
-        w->given_time[i] = segment->duration * (double)i / (double)(segment->n_points - 1);
-    return w->given_time;
+    const wt_channel *time = wt_segment_channel(segment, WT_Q_TIME);
+    if (time != NULL)
+        return time->values;
+    if (!(segment->duration > 0.0))
+        return NULL;
+    sample_times(0.0, segment->duration, segment->n_points, scratch);
+    return scratch;
 }
 
 wt_status wt_indent_force_curve(const wt_contact_table *table, const wt_indent_options *options,
@@ -90,19 +68,19 @@ wt_status wt_indent_force_curve(const wt_contact_table *table, const wt_indent_o
     if (isnan(k))
         return missing(err, approach, "the spring constant", "a value in the file or given",
                        "give it, e.g. --spring-constant 0.1N/m");
-    const double *height = channel(approach, WT_Q_MEASURED_HEIGHT);
-    if (height == NULL)
-        height = channel(approach, WT_Q_HEIGHT);
+    const double *height = segment_height(approach);
     if (height == NULL)
         return missing(err, approach, "the height", "a channel of height or measured height",
                        "see what the file holds with: weartrack info FILE");
-    const double *force = NULL;
     wt_status status = curve_reserve(workspace, approach->n_points, err);
-    if (status == WT_OK)
-        status = force_of(curve, approach, workspace, &force, err);
-    if (status == WT_OK)
-        status = wt_indent_fit_curve(table, options, height, force, time_of(approach, workspace),
-                                     approach->n_points, k, workspace, fit, err);
+    if (status != WT_OK)
+        return status;
+    const double *force = segment_force(approach, &curve->cantilever, workspace->given_force);
+    if (force == NULL)
+        return no_force(err, approach);
+    status =
+        wt_indent_fit_curve(table, options, height, force, time_of(approach, workspace->given_time),
+                            approach->n_points, k, workspace, fit, err);
     if (status == WT_OK && fit->verdict == WT_CURVE_ACCEPTED) {
         const wt_segment *retract = wt_force_curve_segment(curve, WT_SEGMENT_RETRACT);
         if (retract != NULL && retract < approach)
@@ -123,7 +101,7 @@ size_t wt_indent_curve(const wt_indent_fit *fit, const double *height, const dou
         if (!(z >= 0.0) || !isfinite(f))
             continue;
         out_force[m] = f - tilted;
-        delta[m] = z - out_force[m] / spring_constant;
+        delta[m] = tip_position(z, out_force[m], spring_constant);
         m++;
     }
     return m;

@@ -1,5 +1,7 @@
 /* Force curves, sweeps, Prony series, tables. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "near.h"
+
+#include "data/force_curve.h"
 #include "weartrack/data.h"
 
 #include <stdio.h>
@@ -55,6 +57,48 @@ static void force_curve_memory(void **state)
     wt_force_curve_clear(&curve);
     wt_force_curve_clear(NULL);
     assert_string_equal(wt_segment_kind_name(WT_SEGMENT_MODULATION), "modulation");
+}
+
+/* 2 V is 100 nm is 30 nN for the instrument; whoever gives other values starts from the volts. */
+static void deflection_and_force(void **state)
+{
+    (void)state;
+    static const wt_quantity steps[] = {WT_Q_DEFLECTION_VOLTAGE, WT_Q_DEFLECTION, WT_Q_FORCE};
+    const wt_cantilever file = {.spring_constant = 0.3, .sensitivity = 50e-9};
+    const double stored[] = {2, 100e-9, 30e-9};
+    for (unsigned given = 0; given < 4; given++) {
+        wt_cantilever used = file;
+        used.spring_constant_given = (given & 1) != 0;
+        used.sensitivity_given = (given & 2) != 0;
+        used.spring_constant = used.spring_constant_given ? 0.7 : 0.3;
+        used.sensitivity = used.sensitivity_given ? 80e-9 : 50e-9;
+        const double made[] = {2, 2 * used.sensitivity,
+                               2 * used.sensitivity * used.spring_constant};
+        for (size_t from = 0; from < 3; from++)
+            for (size_t to = 0; to < 3; to++)
+                assert_near(stored[from] * deflection_factor(steps[from], steps[to], &file, &used),
+                            made[to], 1e-14);
+    }
+    /* What is not known is not made; what the file does not tell is not replaced. */
+    const wt_cantilever none = {.spring_constant = (double)NAN, .sensitivity = (double)NAN};
+    wt_cantilever used = none;
+    assert_near(deflection_factor(WT_Q_FORCE, WT_Q_FORCE, &none, &used), 1, 0);
+    assert_near(deflection_factor(WT_Q_DEFLECTION, WT_Q_FORCE, &none, &used), (double)NAN, 0);
+    assert_near(deflection_factor(WT_Q_DEFLECTION, WT_Q_DEFLECTION_VOLTAGE, &none, &used),
+                (double)NAN, 0);
+    used = (wt_cantilever){.spring_constant = 0.5,
+                           .sensitivity = 1e-7,
+                           .spring_constant_given = true,
+                           .sensitivity_given = true};
+    assert_near(deflection_factor(WT_Q_FORCE, WT_Q_FORCE, &none, &used), 1, 0);
+    assert_near(deflection_factor(WT_Q_DEFLECTION, WT_Q_FORCE, &none, &used), 0.5, 0);
+    assert_near(deflection_factor(WT_Q_DEFLECTION_VOLTAGE, WT_Q_FORCE, &none, &used), 5e-8, 1e-15);
+    assert_near(tip_position(4e-6, 1e-8, 0.01), 3e-6, 1e-15);
+    /* Four samples of a segment of 2 s: the next one would be the first of what follows. */
+    double times[4];
+    sample_times(10, 2, 4, times);
+    for (size_t i = 0; i < 4; i++)
+        assert_near(times[i], 10 + 0.5 * (double)i, 0);
 }
 
 static void add_isotherm(wt_sweep *sweep, double temperature, const char *source, bool strain)
@@ -199,9 +243,9 @@ static void table_keys(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(force_curve_memory), cmocka_unit_test(sweep_order),
-        cmocka_unit_test(small_types),        cmocka_unit_test(table_columns),
-        cmocka_unit_test(table_keys),
+        cmocka_unit_test(force_curve_memory), cmocka_unit_test(deflection_and_force),
+        cmocka_unit_test(sweep_order),        cmocka_unit_test(small_types),
+        cmocka_unit_test(table_columns),      cmocka_unit_test(table_keys),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -357,7 +357,8 @@ static void add_segment(wt_force_curve *curve, wt_segment_kind kind, wt_quantity
 {
     wt_segment *segment = wt_force_curve_add_segment(curve, kind, t->n, 2);
     assert_non_null(segment);
-    segment->duration = 0.5;
+    /* The last sample is half a second after the first; the duration has room for the next. */
+    segment->duration = 0.5 * (double)t->n / (double)(t->n - 1);
     segment->channels[0].quantity = WT_Q_HEIGHT;
     segment->channels[1].quantity = quantity;
     for (size_t i = 0; i < t->n; i++) {

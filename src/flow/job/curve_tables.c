@@ -1,6 +1,7 @@
 /* The representative curves: the whole curve for force against displacement, the contact part with
  * its fit for force against indentation.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "data/force_curve.h"
 #include "flow/job/indentation.h"
 #include "flow/job/tables.h"
 
@@ -8,35 +9,6 @@
 
 enum { FD_GROUP, FD_SEGMENT, FD_DISPLACEMENT, FD_FORCE };
 enum { FI_GROUP, FI_INDENTATION, FI_FORCE, FI_FITTED };
-
-/* The height that the fit uses: the sensor where there is one. */
-static const double *segment_height(const wt_segment *segment)
-{
-    const wt_channel *channel = wt_segment_channel(segment, WT_Q_MEASURED_HEIGHT);
-    if (channel == NULL)
-        channel = wt_segment_channel(segment, WT_Q_HEIGHT);
-    return channel == NULL ? NULL : channel->values;
-}
-
-/* Force of a segment [N], from its own channel or from the deflection; false if there is none. */
-static bool segment_force(const wt_segment *segment, const wt_cantilever *lever, double *force)
-{
-    const wt_channel *channel = wt_segment_channel(segment, WT_Q_FORCE);
-    double factor = 1;
-    if (channel == NULL) {
-        channel = wt_segment_channel(segment, WT_Q_DEFLECTION);
-        factor = lever->spring_constant;
-    }
-    if (channel == NULL) {
-        channel = wt_segment_channel(segment, WT_Q_DEFLECTION_VOLTAGE);
-        factor = lever->spring_constant * lever->sensitivity;
-    }
-    if (channel == NULL || isnan(factor))
-        return false;
-    for (size_t i = 0; i < segment->n_points; i++)
-        force[i] = factor * channel->values[i];
-    return true;
-}
 
 static wt_status make_tables(wt_indent_tables *tables, wt_error *err)
 {
@@ -121,12 +93,13 @@ wt_status flow_curve_tables_add(wt_indent_tables *tables, const char *group, con
     double *scratch = malloc(4 * longest * sizeof *scratch);
     if (scratch == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    double *force = scratch, *delta = scratch + longest, *shown = scratch + 2 * longest,
+    double *delta = scratch + longest, *shown = scratch + 2 * longest,
            *model = scratch + 3 * longest;
+    const double *force = segment_force(approach, &curve->cantilever, scratch);
     const double sign = fit->direction;
 
     wt_status status = make_tables(tables, err);
-    if (status != WT_OK || !segment_force(approach, &curve->cantilever, force))
+    if (status != WT_OK || force == NULL)
         goto done;
     if (wt_table_n_rows(tables->force_displacement) > 0)
         status = wt_table_new_block(tables->force_displacement, err);
@@ -152,7 +125,9 @@ wt_status flow_curve_tables_add(wt_indent_tables *tables, const char *group, con
         wt_table_put(tables->force_indentation, FI_FORCE, shown[i]);
         wt_table_put(tables->force_indentation, FI_FITTED, effective * model[i]);
     }
-    if (status == WT_OK && retract != NULL && segment_force(retract, &curve->cantilever, force))
+    if (status == WT_OK && retract != NULL)
+        force = segment_force(retract, &curve->cantilever, scratch);
+    if (status == WT_OK && retract != NULL && force != NULL)
         status = add_segment(tables->force_displacement, group, retract, sign, fit, force, err);
 done:
     free(scratch);
