@@ -4,6 +4,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "read/formats.h"
+#include "read/text/text.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -75,70 +76,80 @@ static const signature *looks_like(const unsigned char *bytes, size_t length)
 
 /* ---- asking the readers ------------------------------------------------------------------- */
 
-/* The answers to one question: the best reader, one that ties with it, one that knows the file but
- * cannot read it. */
+/* Who is asked one after the other until somebody knows the file. */
+typedef enum question { ASK_SIGNATURES, ASK_TEXTS, ASK_TEXTS_OF_OTHER_KINDS, N_QUESTIONS } question;
+
+/* The answers of the readers of one kind or other: the best reader, one that ties with it, one that
+ * knows the file but cannot read it. */
 typedef struct verdict {
     const file_reader *best;
     const file_reader *tied;
     int score;
     const file_reader *unsupported;
-    char reason[sizeof((detector_match *)0)->reason];
+    char reason[sizeof((recognition *)0)->reason];
 } verdict;
 
-static void take(verdict *v, const file_reader *reader, const detector_match *match)
+static void take(verdict *v, const file_reader *reader, const recognition *answer)
 {
-    if (match->answer == ANSWER_UNSUPPORTED && v->unsupported == NULL) {
+    if (answer->answer == ANSWER_UNSUPPORTED && v->unsupported == NULL) {
         v->unsupported = reader;
-        memcpy(v->reason, match->reason, sizeof v->reason);
+        memcpy(v->reason, answer->reason, sizeof v->reason);
         v->reason[sizeof v->reason - 1] = '\0';
     }
-    if (match->answer != ANSWER_YES)
+    if (answer->answer != ANSWER_YES)
         return;
-    if (v->best == NULL || match->score > v->score) {
+    if (v->best == NULL || answer->score > v->score) {
         v->best = reader;
-        v->score = match->score;
+        v->score = answer->score;
         v->tied = NULL;
-    } else if (match->score == v->score) {
+    } else if (answer->score == v->score) {
         v->tied = reader;
     }
 }
 
-/* Asks all readers whose kinds meet `kinds` (0 = all) if `meet`, or all others if not. */
-static wt_status ask(const wt_formats *formats, wt_input *input, unsigned kinds, bool meet,
-                     verdict *v, wt_error *err)
+static bool has_kind(const file_reader *reader, unsigned kinds)
 {
-    size_t n = wt_formats_count(formats);
+    return kinds == 0 || (reader->info.kinds & kinds) != 0;
+}
+
+static bool is_asked(const file_reader *reader, question q, unsigned kinds)
+{
+    if (q == ASK_SIGNATURES || !reader_is_text(reader))
+        return q == ASK_SIGNATURES && !reader_is_text(reader);
+    return has_kind(reader, kinds) == (q == ASK_TEXTS);
+}
+
+/* Puts one question; verdicts[1] is that of the readers of the kinds asked for, [0] of others. */
+static wt_status ask(const wt_formats *formats, wt_input *input, question q, unsigned kinds,
+                     verdict verdicts[2], wt_error *err)
+{
+    const size_t n = wt_formats_count(formats);
     wt_status status = WT_OK;
-    *v = (verdict){0};
-    bool *open = calloc(n + 1, sizeof *open);
+    const file_reader **open = calloc(n + 1, sizeof *open);
     if (open == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory to detect the format");
     size_t n_open = 0;
-    for (size_t i = 0; i < n; i++) {
-        const file_reader *reader = formats_reader(formats, i);
-        open[i] = (kinds == 0 || (reader->info.kinds & kinds) != 0) == meet;
-        n_open += open[i];
-    }
+    for (size_t i = 0; i < n; i++)
+        if (is_asked(formats_reader(formats, i), q, kinds))
+            open[n_open++] = formats_reader(formats, i);
     size_t want = FIRST_PEEK;
     while (n_open > 0) {
         file_peek peek = {.name = wt_input_name(input)};
         status = wt_input_peek(input, want, &peek.bytes, &peek.length, &peek.whole, err);
         if (status != WT_OK)
             break;
-        size_t need = 0;
-        for (size_t i = 0; i < n; i++) {
-            if (!open[i])
-                continue;
-            const file_reader *reader = formats_reader(formats, i);
-            detector_match match = reader->detect(reader, &peek);
-            if (match.answer == ANSWER_MORE && !peek.whole) {
-                need = match.need > need ? match.need : need;
-                continue;
+        size_t need = 0, still_open = 0;
+        for (size_t i = 0; i < n_open; i++) {
+            const recognition answer = open[i]->detect(open[i], &peek);
+            if (answer.answer == ANSWER_MORE && !peek.whole) {
+                need = answer.need > need ? answer.need : need;
+                open[still_open++] = open[i];
+            } else {
+                take(&verdicts[has_kind(open[i], kinds)], open[i], &answer);
             }
-            take(v, reader, &match);
-            open[i] = false;
-            n_open--;
         }
+        text_peek_free(peek.text);
+        n_open = still_open;
         /* Growing at least twofold keeps the number of questions small whatever readers ask. */
         size_t twice = want > SIZE_MAX / 2 ? SIZE_MAX : 2 * want;
         want = need > twice ? need : twice;
@@ -185,35 +196,36 @@ static wt_status unknown(wt_input *input, wt_error *err)
     return WT_E_FORMAT;
 }
 
+static wt_status ambiguous(const file_reader *a, const file_reader *b, wt_error *err)
+{
+    wt_fail(err, WT_E_AMBIGUOUS, "two formats describe this file equally well");
+    wt_error_found(err, "%s and %s", a->info.id, b->info.id);
+    wt_error_advice(err, "choose with --format %s or --format %s", a->info.id, b->info.id);
+    return WT_E_AMBIGUOUS;
+}
+
 static wt_status detect(const wt_formats *formats, wt_input *input, unsigned kinds,
                         const file_reader **reader, wt_error *err)
 {
-    verdict v;
-    wt_status status = ask(formats, input, kinds, true, &v, err);
-    if (status != WT_OK)
-        return status;
-    if (v.best != NULL && v.tied != NULL) {
-        wt_fail(err, WT_E_AMBIGUOUS, "two formats describe this file equally well");
-        wt_error_found(err, "%s and %s", v.best->info.id, v.tied->info.id);
-        wt_error_advice(err, "choose with --format %s or --format %s", v.best->info.id,
-                        v.tied->info.id);
-        return WT_E_AMBIGUOUS;
-    }
-    if (v.best != NULL) {
-        *reader = v.best;
-        return WT_OK;
-    }
-    if (v.unsupported != NULL) {
-        wt_fail(err, WT_E_UNSUPPORTED, "%s", v.reason);
-        wt_error_found(err, "%s (%s)", v.unsupported->info.title, v.unsupported->info.id);
-        return WT_E_UNSUPPORTED;
-    }
-    if (kinds != 0) {
-        status = ask(formats, input, kinds, false, &v, err);
+    verdict verdicts[2] = {{.score = 0}};
+    const verdict *other = &verdicts[0], *v = &verdicts[1];
+    for (question q = ASK_SIGNATURES; q < N_QUESTIONS; q++) {
+        wt_status status = ask(formats, input, q, kinds, verdicts, err);
         if (status != WT_OK)
             return status;
-        if (v.best != NULL)
-            return wrong_kind(v.best, kinds, err);
+        if (v->tied != NULL)
+            return ambiguous(v->best, v->tied, err);
+        if (v->best != NULL) {
+            *reader = v->best;
+            return WT_OK;
+        }
+        if (other->best != NULL)
+            return wrong_kind(other->best, kinds, err);
+        if (q == ASK_TEXTS && v->unsupported != NULL) {
+            wt_fail(err, WT_E_UNSUPPORTED, "%s", v->reason);
+            wt_error_found(err, "%s (%s)", v->unsupported->info.title, v->unsupported->info.id);
+            return WT_E_UNSUPPORTED;
+        }
     }
     return unknown(input, err);
 }
@@ -226,16 +238,13 @@ wt_status find_reader(const wt_formats *formats, wt_input *input, const char *fo
         status = detect(formats, input, kinds, reader, err);
     } else {
         const file_reader *found = NULL;
-        size_t n = wt_formats_count(formats);
-        for (size_t i = 0; i < n && found == NULL; i++) {
-            const file_reader *r = formats_reader(formats, i);
-            if (strcmp(r->info.id, format) == 0)
-                found = r;
-        }
+        for (size_t i = 0; i < wt_formats_count(formats) && found == NULL; i++)
+            if (strcmp(formats_reader(formats, i)->info.id, format) == 0)
+                found = formats_reader(formats, i);
         if (found == NULL) {
             wt_fail(err, status, "there is no format \"%s\"", format);
             wt_error_advice(err, "see `weartrack formats list`");
-        } else if (kinds != 0 && (found->info.kinds & kinds) == 0) {
+        } else if (!has_kind(found, kinds)) {
             status = wrong_kind(found, kinds, err);
         } else {
             *reader = found;

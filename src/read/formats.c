@@ -5,166 +5,68 @@
 #include "read/formats.h"
 
 #include "read/embedded_formats.h"
-#include "read/formats_text.h"
-#include "read/stored.h"
 #include "read/text/text.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* A reader that runs a description. */
-typedef struct text_reader {
-    file_reader reader; /* first: `self` of its functions is this */
-    text_description *description;
-} text_reader;
-
 struct wt_formats {
-    const file_reader **readers; /* binary readers, then text readers */
+    file_reader *readers;
     size_t n;
-    text_reader *texts;
-    size_t n_texts;
-    text_reader stored; /* runs the description of the text stream on HDF5 */
 };
 
-static const file_reader *const binary[] = {&reader_jpk, &reader_nid};
+static const file_reader *const binary[] = {
+#define READER(id) &reader_##id,
+#include "read/readers.def"
+};
 #define N_BINARY (sizeof binary / sizeof *binary)
 
-static const text_description *of(const file_reader *self)
+/* ---- making a set ------------------------------------------------------------------------- */
+
+static wt_status add(wt_formats *f, const file_reader *reader, wt_error *err)
 {
-    return ((const text_reader *)self)->description;
+    file_reader *grown = realloc(f->readers, (f->n + 1) * sizeof *grown);
+    if (grown == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for the formats");
+    f->readers = grown;
+    f->readers[f->n++] = *reader;
+    return WT_OK;
 }
 
-static detector_match detect(const file_reader *self, const file_peek *peek)
+/* The reader that runs the description of that id, or NULL. */
+static file_reader *find_text(const wt_formats *f, const char *id)
 {
-    return text_detect(of(self), peek);
-}
-
-static wt_status open_force(const file_reader *self, wt_input *input,
-                            const wt_read_options *options, wt_parselog *log,
-                            wt_force_source **source, wt_error *err)
-{
-    return text_open_force(of(self), input, options, log, source, err);
-}
-
-static wt_status read_sweep(const file_reader *self, wt_input *input,
-                            const wt_read_options *options, wt_parselog *log, wt_sweep *sweep,
-                            wt_error *err)
-{
-    return text_read_sweep(of(self), input, options, log, sweep, err);
-}
-
-static wt_status read_spectrum(const file_reader *self, wt_input *input,
-                               const wt_read_options *options, wt_parselog *log,
-                               wt_power_spectrum *spectrum, wt_error *err)
-{
-    return text_read_spectrum(of(self), input, options, log, spectrum, err);
-}
-
-static wt_status describe(const file_reader *self, wt_input *input, const wt_read_options *options,
-                          wt_parselog *log, wt_table *facts, wt_error *err)
-{
-    return text_describe(of(self), input, options, log, facts, err);
-}
-
-static detector_match detect_stored(const file_reader *self, const file_peek *peek)
-{
-    (void)self;
-    return stored_detect(peek);
-}
-
-static wt_status open_force_stored(const file_reader *self, wt_input *input,
-                                   const wt_read_options *options, wt_parselog *log,
-                                   wt_force_source **source, wt_error *err)
-{
-    return stored_open_force(of(self), input, options, log, source, err);
-}
-
-static wt_status read_sweep_stored(const file_reader *self, wt_input *input,
-                                   const wt_read_options *options, wt_parselog *log,
-                                   wt_sweep *sweep, wt_error *err)
-{
-    return stored_read_sweep(of(self), input, options, log, sweep, err);
-}
-
-static wt_status read_spectrum_stored(const file_reader *self, wt_input *input,
-                                      const wt_read_options *options, wt_parselog *log,
-                                      wt_power_spectrum *spectrum, wt_error *err)
-{
-    return stored_read_spectrum(of(self), input, options, log, spectrum, err);
-}
-
-static wt_status describe_stored(const file_reader *self, wt_input *input,
-                                 const wt_read_options *options, wt_parselog *log, wt_table *facts,
-                                 wt_error *err)
-{
-    return stored_describe(of(self), input, options, log, facts, err);
-}
-
-static text_reader make_stored_reader(text_description *stream)
-{
-    return (text_reader){
-        .description = stream,
-        .reader = {.info = {.id = "weartrack-hdf5",
-                            .title = "weartrack-hdf5(5): sweeps, spectra and force curves of this "
-                                     "program",
-                            .kinds = WT_KIND_FORCE | WT_KIND_SWEEP | WT_KIND_SPECTRUM,
-                            .verified = true,
-                            .evidence = "the HDF5 file that this program writes",
-                            .version = "1"},
-                   .detect = detect_stored,
-                   .open_force = open_force_stored,
-                   .read_sweep = read_sweep_stored,
-                   .read_spectrum = read_spectrum_stored,
-                   .describe = describe_stored}};
-}
-
-static text_reader make_reader(text_description *d)
-{
-    text_reader t = {.description = d};
-    t.reader.info = (wt_format_info){.id = d->id,
-                                     .title = d->title,
-                                     .kinds = d->kinds,
-                                     .verified = d->verified,
-                                     .evidence = d->evidence,
-                                     .version = d->version};
-    t.reader.detect = detect;
-    t.reader.open_force = (d->kinds & WT_KIND_FORCE) != 0 ? open_force : NULL;
-    t.reader.read_sweep = (d->kinds & WT_KIND_SWEEP) != 0 ? read_sweep : NULL;
-    t.reader.read_spectrum = (d->kinds & WT_KIND_SPECTRUM) != 0 ? read_spectrum : NULL;
-    t.reader.describe = describe;
-    return t;
+    for (size_t i = 0; i < f->n; i++)
+        if (reader_is_text(&f->readers[i]) && strcmp(f->readers[i].info.id, id) == 0)
+            return &f->readers[i];
+    return NULL;
 }
 
 /* Takes the description, also on failure. */
-static wt_status add(wt_formats *f, text_description *d, wt_parselog *log, const char *path,
-                     wt_error *err)
+static wt_status add_text(wt_formats *f, text_description *d, wt_parselog *log, const char *path,
+                          wt_error *err)
 {
+    wt_status status = WT_OK;
+    const file_reader reader = text_reader(d);
+    file_reader *same = find_text(f, d->id);
     for (size_t i = 0; i < N_BINARY; i++)
         if (strcmp(binary[i]->info.id, d->id) == 0) {
-            wt_fail(err, WT_E_SCHEMA, "the id belongs to a built-in reader");
+            status = wt_fail(err, WT_E_SCHEMA, "the id belongs to a built-in reader");
             wt_error_file(err, path);
             wt_error_found(err, "id=\"%s\"", d->id);
             wt_error_advice(err, "choose another id");
-            description_free(d);
-            return WT_E_SCHEMA;
         }
-    for (size_t i = 0; i < f->n_texts; i++)
-        if (strcmp(f->texts[i].description->id, d->id) == 0) {
-            wt_parselog_add(log, WT_NOTE, path, NULL,
-                            "replaces the description \"%s\" of version %s", d->id,
-                            f->texts[i].description->version);
-            description_free(f->texts[i].description);
-            f->texts[i] = make_reader(d);
-            return WT_OK;
-        }
-    text_reader *grown = realloc(f->texts, (f->n_texts + 1) * sizeof *grown);
-    if (grown == NULL) {
-        description_free(d);
-        return wt_fail(err, WT_E_MEMORY, "no memory for the formats");
+    if (status == WT_OK && same != NULL) {
+        wt_parselog_add(log, WT_NOTE, path, NULL, "replaces the description \"%s\" of version %s",
+                        d->id, same->description->version);
+        description_free(same->description);
+        *same = reader;
+    } else if (status == WT_OK) {
+        status = add(f, &reader, err);
     }
-    f->texts = grown;
-    f->texts[f->n_texts++] = make_reader(d);
-    return WT_OK;
+    if (status != WT_OK)
+        description_free(d);
+    return status;
 }
 
 static wt_status add_built_in(wt_formats *f, const description_schema *schema, wt_error *err)
@@ -177,23 +79,8 @@ static wt_status add_built_in(wt_formats *f, const description_schema *schema, w
             continue;
         status = description_parse(schema, e->text, e->length, e->name, &d, err);
         if (status == WT_OK)
-            status = add(f, d, NULL, e->name, err);
+            status = add_text(f, d, NULL, e->name, err);
     }
-    return status;
-}
-
-wt_status formats_parse_file(const description_schema *schema, const char *path,
-                             text_description **description, wt_error *err)
-{
-    wt_input *input = NULL;
-    const unsigned char *bytes = NULL;
-    size_t length = 0;
-    wt_status status = wt_input_open(path, &input, err);
-    if (status == WT_OK)
-        status = wt_input_bytes(input, &bytes, &length, err);
-    if (status == WT_OK)
-        status = description_parse(schema, (const char *)bytes, length, path, description, err);
-    wt_input_close(input);
     return status;
 }
 
@@ -205,11 +92,26 @@ static wt_status add_folder(wt_formats *f, const description_schema *schema, con
     wt_status status = wt_glob(folder, "*.xml", &paths, &n, err);
     for (size_t i = 0; i < n && status == WT_OK; i++) {
         text_description *d = NULL;
-        status = formats_parse_file(schema, paths[i], &d, err);
+        status = description_parse_file(schema, paths[i], &d, err);
         if (status == WT_OK)
-            status = add(f, d, log, paths[i], err);
+            status = add_text(f, d, log, paths[i], err);
     }
     wt_strings_free(paths, n);
+    return status;
+}
+
+/* Those that run a description come after it and borrow it. */
+static wt_status add_binary(wt_formats *f, bool running, wt_error *err)
+{
+    wt_status status = WT_OK;
+    for (size_t i = 0; i < N_BINARY && status == WT_OK; i++) {
+        file_reader reader = *binary[i];
+        if ((reader.runs != NULL) != running)
+            continue;
+        if (running)
+            reader.description = find_text(f, reader.runs)->description;
+        status = add(f, &reader, err);
+    }
     return status;
 }
 
@@ -221,28 +123,18 @@ wt_status wt_formats_new(const char *folder, wt_formats **formats, wt_parselog *
         return wt_fail(err, WT_E_MEMORY, "no memory for the formats");
     wt_status status = description_schema_new(&schema, err);
     if (status == WT_OK)
+        status = add_binary(f, false, err);
+    if (status == WT_OK)
         status = add_built_in(f, schema, err);
     if (status == WT_OK && folder != NULL)
         status = add_folder(f, schema, folder, log, err);
+    if (status == WT_OK)
+        status = add_binary(f, true, err);
     description_schema_free(schema);
-    if (status == WT_OK) {
-        f->readers = malloc((N_BINARY + f->n_texts + 1) * sizeof(const file_reader *));
-        if (f->readers == NULL)
-            status = wt_fail(err, WT_E_MEMORY, "no memory for the formats");
-    }
     if (status != WT_OK) {
         wt_formats_free(f);
         return status;
     }
-    for (size_t i = 0; i < N_BINARY; i++)
-        f->readers[f->n++] = binary[i];
-    for (size_t i = 0; i < f->n_texts; i++)
-        f->readers[f->n++] = &f->texts[i].reader;
-    for (size_t i = 0; i < f->n_texts; i++)
-        if (strcmp(f->texts[i].description->id, "weartrack-stream") == 0) {
-            f->stored = make_stored_reader(f->texts[i].description);
-            f->readers[f->n++] = &f->stored.reader;
-        }
     *formats = f;
     return WT_OK;
 }
@@ -251,12 +143,14 @@ void wt_formats_free(wt_formats *formats)
 {
     if (formats == NULL)
         return;
-    for (size_t i = 0; i < formats->n_texts; i++)
-        description_free(formats->texts[i].description);
-    free(formats->texts);
+    for (size_t i = 0; i < formats->n; i++)
+        if (reader_is_text(&formats->readers[i]))
+            description_free(formats->readers[i].description);
     free(formats->readers);
     free(formats);
 }
+
+/* ---- asking it ---------------------------------------------------------------------------- */
 
 size_t wt_formats_count(const wt_formats *formats)
 {
@@ -265,18 +159,16 @@ size_t wt_formats_count(const wt_formats *formats)
 
 const file_reader *formats_reader(const wt_formats *formats, size_t i)
 {
-    return formats->readers[i];
+    return &formats->readers[i];
 }
 
 const wt_format_info *wt_formats_get(const wt_formats *formats, size_t i)
 {
-    return &formats->readers[i]->info;
+    return &formats->readers[i].info;
 }
 
 const char *wt_formats_xml(const wt_formats *formats, const char *id)
 {
-    for (size_t i = 0; i < formats->n_texts; i++)
-        if (strcmp(formats->texts[i].description->id, id) == 0)
-            return formats->texts[i].description->xml;
-    return NULL;
+    const file_reader *reader = find_text(formats, id);
+    return reader != NULL ? reader->description->xml : NULL;
 }

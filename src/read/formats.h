@@ -1,4 +1,4 @@
-/* The set of formats as the other files of this room see it.
+/* The set of formats as the other files of this room see it, and how a file finds its reader.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -10,10 +10,16 @@
 /* The i-th reader of a set, in the order of wt_formats_get; borrowed. */
 const file_reader *formats_reader(const wt_formats *formats, size_t i);
 
-/* Which reader the input belongs to: options->format if it is set, else detection. `kinds` limits
- * the question (0 = any); what is recognised but has none of them is WT_E_UNSUPPORTED and says so.
- */
+/* detect.c: the reader that the input belongs to: the one of that format, or with NULL the one that
+ * recognises it. `kinds` limits the question (0 = any); what is recognised but has none of them is
+ * WT_E_UNSUPPORTED and says so. */
 wt_status find_reader(const wt_formats *formats, wt_input *input, const char *format,
                       unsigned kinds, const file_reader **reader, wt_error *err);
+
+/* start.c: what each kind of reading begins with: `given` or the defaults, checked, and the reader.
+ */
+wt_status read_start(const wt_formats *formats, wt_input *input, const wt_read_options *given,
+                     unsigned kind, wt_read_options *options, const file_reader **reader,
+                     wt_error *err);
 
 #endif

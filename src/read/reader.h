@@ -17,25 +17,28 @@ typedef enum detector_answer {
     ANSWER_MORE         /* cannot say yet: show me at least `need` bytes */
 } detector_answer;
 
-typedef struct detector_match {
+typedef struct recognition {
     detector_answer answer;
     int score;        /* 1..100, higher wins; a tie of the highest is an error that names both */
     size_t need;      /* for ANSWER_MORE */
     char reason[160]; /* for ANSWER_UNSUPPORTED, and a hint for `info` */
-} detector_match;
+} recognition;
 
 /* The beginning of a file. `whole` says that bytes..length is all there is. */
 typedef struct file_peek {
     const unsigned char *bytes;
     size_t length;
     bool whole;
-    const char *name; /* as the user wrote it; for messages only */
+    const char *name;       /* as the user wrote it; for messages only */
+    struct text_peek *text; /* what the text readers made of it for each other; text_peek_free */
 } file_peek;
 
 typedef struct file_reader {
     wt_format_info info; /* id, title, kind, how it was verified: read.h */
-    /* `self` is the reader itself (a description carries its own data behind it). */
-    detector_match (*detect)(const struct file_reader *self, const file_peek *peek);
+    const char *runs;    /* id of the description that a binary reader runs, or NULL */
+    struct text_description *description; /* that it runs, or NULL */
+    /* `self` is the reader itself. */
+    recognition (*detect)(const struct file_reader *self, file_peek *peek);
     /* Kinds that it cannot deliver are NULL. The source borrows the input until it is closed. */
     wt_status (*open_force)(const struct file_reader *self, wt_input *input,
                             const wt_read_options *options, wt_parselog *log,
@@ -63,8 +66,13 @@ struct wt_force_source {
     long grid_columns, grid_rows; /* 0 if there is no grid */
 };
 
-/* The binary readers, one file each. */
-extern const file_reader reader_jpk; /* jpk.c */
-extern const file_reader reader_nid; /* nid.c */
+/* A reader that knows its files by their words is asked only where no signature answered. */
+static inline bool reader_is_text(const file_reader *reader)
+{
+    return reader->description != NULL && reader->runs == NULL;
+}
+
+#define READER(id) extern const file_reader reader_##id;
+#include "read/readers.def"
 
 #endif

@@ -11,10 +11,6 @@ set(known
   "fit/shift.c > fit/wlf_fit.c"
   "flow/answer/answer.c > flow/answer/caveats.c"
   "flow/case/case.c > flow/case/case_parse.c"
-  "read/description/description.c > read/description/description_parts.c"
-  "read/detect.c > read/formats.c"
-  "read/text/text_scan.c > read/text/text_header.c"
-  "read/text/text_scan.c > read/text/text_rows.c"
   "report/page.c > report/report.c"
 )
 

@@ -21,13 +21,13 @@ set(knows_cmd base data read model fit kernel report flow)
 # Which folders and single headers of its room a sub-room may include, beside its own. The files of
 # the room itself may include all of it, but for those that have a row of their own.
 set(within_data/tables data)
-set(within_read/reader.h "")
+set(within_read/reader.h read/readers.def)
+set(within_read/facts.h "")
+set(within_read/facts.c read/facts.h)
 set(within_read/bytes "")
-set(within_read/description read/reader.h read/formats_text.h read/embedded_formats.h read/bytes
-  read/text)
-set(within_read/text read/reader.h read/facts.h read/formats.h read/bytes read/description)
-set(within_read/jpk read/reader.h read/facts.h read/formats.h read/bytes)
-set(within_read/nid read/reader.h read/facts.h read/formats.h read/bytes)
+set(within_read/description read/reader.h read/embedded_formats.h read/bytes)
+set(within_read/text read/reader.h read/facts.h read/bytes read/description)
+set(within_read/stored read/reader.h read/facts.h read/bytes read/description read/text)
 set(within_flow/job "")
 set(within_flow/case flow/case_schema.h flow/job flow/run)
 set(within_flow/answer flow/job flow/case flow/run)
@@ -53,6 +53,15 @@ set(third_party
 if(NOT SOURCE)
   message(FATAL_ERROR "say where the project is: -DSOURCE=<folder>")
 endif()
+
+# Each binary reader is a sub-room that knows what a reader is, and none of the others.
+file(STRINGS "${SOURCE}/src/read/readers.def" rows REGEX "^READER\\(")
+foreach(row IN LISTS rows)
+  string(REGEX REPLACE "READER\\((.*)\\)" "read/\\1" row "${row}")
+  if(NOT DEFINED within_${row})
+    set(within_${row} read/reader.h read/facts.h read/bytes)
+  endif()
+endforeach()
 
 set(n_files 0)
 set(n_includes 0)

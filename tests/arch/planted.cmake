@@ -37,6 +37,8 @@ set(plants
   "read/bytes/planted.c|#include \"read/text/text.h\""
   "read/jpk/planted.h|#include \"read/nid/nid.h\""
   "read/jpk/planted.c|#include \"read/description/description.h\""
+  "read/description/planted.c|#include \"read/text/text.h\""
+  "read/text/planted.c|#include \"read/formats.h\""
   "read/reader.h|#include \"read/formats.h\""
   "read/new/planted.c|#include \"read/reader.h\""
   "flow/job/planted.c|#include \"flow/run/steps.h\""

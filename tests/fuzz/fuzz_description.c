@@ -24,9 +24,14 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (description_parse(schema, (const char *)data, size, "fuzz", &description, &err) != WT_OK)
         return 0;
     if (wt_input_open_memory(sample, sizeof sample - 1, "sample", &input, &err) == WT_OK) {
-        const file_peek peek = {(const unsigned char *)sample, sizeof sample - 1, true, "sample"};
+        file_peek peek = {.bytes = (const unsigned char *)sample,
+                          .length = sizeof sample - 1,
+                          .whole = true,
+                          .name = "sample"};
+        const file_reader reader = text_reader(description);
         text_file file;
-        (void)text_detect(description, &peek);
+        (void)reader.detect(&reader, &peek);
+        text_peek_free(peek.text);
         if (text_scan(description, input, description->kinds, &options, NULL, &file, &err) ==
             WT_OK) {
             wt_sweep sweep = {.n_isotherms = 0};

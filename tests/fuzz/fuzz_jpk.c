@@ -74,26 +74,15 @@ static uint8_t *pack(const uint8_t *data, size_t size, size_t *length)
     return out;
 }
 
-static void read_all(const uint8_t *data, size_t size)
-{
-    wt_read_options options = wt_read_defaults();
-    detect(&reader_jpk, data, size);
-    read_curves(&reader_jpk, data, size, &options);
-    options.want = WT_Q_BIT(WT_Q_FORCE);
-    options.sensitivity = 1e-7;
-    read_curves(&reader_jpk, data, size, &options);
-    describe(&reader_jpk, data, size, &options);
-}
-
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     if (size >= 2 && memcmp(data, "PK", 2) == 0) {
-        read_all(data, size);
+        read_all(&reader_jpk, data, size);
         return 0;
     }
     size_t length = 0;
     uint8_t *archive = pack(data, size, &length);
-    read_all(archive, length);
+    read_all(&reader_jpk, archive, length);
     free(archive);
     return 0;
 }

@@ -3,6 +3,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
+#include "read/text/text.h"
 #include "read_all.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
@@ -61,11 +62,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         options.sensitivity = 5e-8;
         options.spring_constant = 0.1;
     }
+    file_peek peek = {.bytes = data, .length = size, .whole = size % 3 > 0, .name = "fuzz"};
     for (size_t i = 0; i < wt_formats_count(formats); i++) {
         const file_reader *reader = formats_reader(formats, i);
-        const file_peek peek = {
-            .bytes = data, .length = size, .whole = size % 3 > 0, .name = "fuzz"};
-        if (wt_formats_xml(formats, reader->info.id) == NULL)
+        if (!reader_is_text(reader))
             continue;
         /* All descriptions for each input would be slow: those that want it, and one that may not.
          */
@@ -77,6 +77,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
             read_curves(reader, data, size, &options);
         describe(reader, data, size, &options);
     }
+    text_peek_free(peek.text);
     wt_input_close(input);
     return 0;
 }

@@ -6,6 +6,7 @@
 #ifndef TESTS_FUZZ_READ_ALL_H
 #define TESTS_FUZZ_READ_ALL_H
 
+#include "read/facts.h"
 #include "read/formats.h"
 
 #include <math.h>
@@ -51,13 +52,10 @@ static inline void describe(const file_reader *reader, const uint8_t *data, size
                             const wt_read_options *options)
 {
     wt_input *input = NULL;
-    wt_table *facts = wt_table_new("facts", "facts");
-    static const char *const names[] = {"item", "value", "unit", "source"};
-    if (facts == NULL || wt_input_open_memory(data, size, "fuzz", &input, NULL) != WT_OK)
+    wt_table *facts = NULL;
+    if (facts_new(&facts, NULL) != WT_OK ||
+        wt_input_open_memory(data, size, "fuzz", &input, NULL) != WT_OK)
         abort();
-    for (size_t i = 0; i < 4; i++)
-        if (wt_table_add_text_column(facts, names[i], "", NULL) != WT_OK)
-            abort();
     wt_status status = reader->describe(reader, input, options, NULL, facts, NULL);
     wt_table_free(facts);
     wt_input_close(input);
@@ -66,10 +64,42 @@ static inline void describe(const file_reader *reader, const uint8_t *data, size
 
 static inline void detect(const file_reader *reader, const uint8_t *data, size_t size)
 {
-    file_peek peek = {data, size, true, "fuzz"};
-    detector_match match = reader->detect(reader, &peek);
-    if (match.answer == ANSWER_YES && (match.score < 1 || match.score > 100))
+    file_peek peek = {.bytes = data, .length = size, .whole = true, .name = "fuzz"};
+    const recognition r = reader->detect(reader, &peek);
+    if (r.answer == ANSWER_YES && (r.score < 1 || r.score > 100))
         abort();
+}
+
+static inline void read_images(const file_reader *reader, const uint8_t *data, size_t size,
+                               const wt_read_options *options)
+{
+    wt_input *input = NULL;
+    wt_image *images = NULL;
+    size_t n = 0;
+    if (wt_input_open_memory(data, size, "fuzz", &input, NULL) != WT_OK)
+        abort();
+    if (reader->read_images(reader, input, options, NULL, &images, &n, NULL) == WT_OK)
+        for (size_t i = 0; i < n; i++)
+            wt_image_clear(&images[i]);
+    free(images);
+    wt_input_close(input);
+}
+
+/* Twice: with the calibration of the file, and with all that a user may give. */
+static inline void read_all(const file_reader *reader, const uint8_t *data, size_t size)
+{
+    wt_read_options options = wt_read_defaults();
+    detect(reader, data, size);
+    for (int given = 0; given < 2; given++) {
+        if (reader->read_images != NULL)
+            read_images(reader, data, size, &options);
+        if (reader->open_force != NULL)
+            read_curves(reader, data, size, &options);
+        options.want = WT_Q_BIT(WT_Q_FORCE);
+        options.spring_constant = 0.3;
+        options.sensitivity = 1e-7;
+    }
+    describe(reader, data, size, &options);
 }
 
 #endif

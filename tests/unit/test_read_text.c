@@ -42,19 +42,20 @@ static text_description *describe_as(const char *text, const char *header, const
     return d;
 }
 
-static wt_status read_bytes(const text_description *d, const void *bytes, size_t n, wt_sweep *sweep,
+static wt_status read_bytes(text_description *d, const void *bytes, size_t n, wt_sweep *sweep,
                             wt_parselog *log, wt_error *err)
 {
     const wt_read_options options = wt_read_defaults();
+    const file_reader reader = text_reader(d);
     wt_input *input = NULL;
     assert_int_equal(wt_input_open_memory(bytes, n, "made-up.txt", &input, err), WT_OK);
-    wt_status status = text_read_sweep(d, input, &options, log, sweep, err);
+    wt_status status = text_read_sweep(&reader, input, &options, log, sweep, err);
     wt_input_close(input);
     return status;
 }
 
-static wt_status read_text(const text_description *d, const char *text, wt_sweep *sweep,
-                           wt_parselog *log, wt_error *err)
+static wt_status read_text(text_description *d, const char *text, wt_sweep *sweep, wt_parselog *log,
+                           wt_error *err)
 {
     return read_bytes(d, text, strlen(text), sweep, log, err);
 }
@@ -100,7 +101,7 @@ static size_t with_line_end(const char *text, const char *end, char *out)
     return n;
 }
 
-static void check_small(const text_description *d, const char *bytes, size_t n)
+static void check_small(text_description *d, const char *bytes, size_t n)
 {
     wt_sweep sweep = {.n_isotherms = 0};
     wt_error err = WT_ERROR_INIT;
@@ -208,8 +209,8 @@ static void fixed_columns(void **state)
 
 static const char head[] = "f\tE'\tE''\tT\nHz\tMPa\tMPa\tdegC\n";
 
-static wt_status read_rows(const text_description *d, const char *rows, wt_sweep *sweep,
-                           wt_parselog *log, wt_error *err)
+static wt_status read_rows(text_description *d, const char *rows, wt_sweep *sweep, wt_parselog *log,
+                           wt_error *err)
 {
     char text[2048];
     snprintf(text, sizeof text, "%s%s", head, rows);
@@ -301,8 +302,7 @@ static void odd_moduli_are_handed_on(void **state)
 
 /* ---- isotherms ---------------------------------------------------------------------------- */
 
-static void check_split(const text_description *d, const char *rows, size_t expected,
-                        const char *note)
+static void check_split(text_description *d, const char *rows, size_t expected, const char *note)
 {
     wt_sweep sweep = {.n_isotherms = 0};
     wt_error err = WT_ERROR_INIT;
@@ -409,6 +409,7 @@ static void given_units(void **state)
     static const char *const units[] = {"e\xe2\x80\xb2=kPa", "E\"=GPa", "D'=MPa"};
     static const char *const bad[] = {"MPa"};
     text_description *d = describe_as("separator=\"tab\"", "", "", "", "");
+    const file_reader reader = text_reader(d);
     wt_read_options options = wt_read_defaults();
     wt_sweep sweep = {.n_isotherms = 0};
     wt_error err = WT_ERROR_INIT;
@@ -418,7 +419,7 @@ static void given_units(void **state)
     assert_int_equal(wt_input_open_memory(text, sizeof text - 1, "x", &input, &err), WT_OK);
     options.units = units;
     options.n_units = 3;
-    assert_int_equal(text_read_sweep(d, input, &options, log, &sweep, &err), WT_OK);
+    assert_int_equal(text_read_sweep(&reader, input, &options, log, &sweep, &err), WT_OK);
     assert_near(sweep.isotherms[0].storage_modulus[0], 2e3, 1e-15);
     assert_near(sweep.isotherms[0].loss_modulus[0], 3e9, 1e-15); /* what is given has precedence */
     assert_true(logged(log, "\"D'\", but there is no such column"));
@@ -426,7 +427,7 @@ static void given_units(void **state)
     wt_sweep_clear(&sweep);
     options.units = bad;
     options.n_units = 1;
-    assert_int_equal(text_read_sweep(d, input, &options, log, &sweep, &err), WT_E_ARG);
+    assert_int_equal(text_read_sweep(&reader, input, &options, log, &sweep, &err), WT_E_ARG);
     wt_input_close(input);
     wt_parselog_free(log);
     description_free(d);

@@ -156,6 +156,21 @@ done:
     return p.status;
 }
 
+wt_status description_parse_file(const description_schema *schema, const char *path,
+                                 text_description **description, wt_error *err)
+{
+    wt_input *input = NULL;
+    const unsigned char *bytes = NULL;
+    size_t length = 0;
+    wt_status status = wt_input_open(path, &input, err);
+    if (status == WT_OK)
+        status = wt_input_bytes(input, &bytes, &length, err);
+    if (status == WT_OK)
+        status = description_parse(schema, (const char *)bytes, length, path, description, err);
+    wt_input_close(input);
+    return status;
+}
+
 static void free_pattern(name_pattern *pattern)
 {
     if (pattern->compiled)

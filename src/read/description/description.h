@@ -17,7 +17,8 @@ typedef enum text_encoding {
     ENCODING_AUTO,
     ENCODING_UTF_8,
     ENCODING_LATIN_1,
-    ENCODING_UTF_16
+    ENCODING_UTF_16,
+    ENCODING_COUNT
 } text_encoding;
 
 typedef enum cell_separator {
@@ -175,6 +176,8 @@ void description_schema_free(description_schema *schema);
 /* Reads and checks one description. `name` is used in errors. */
 wt_status description_parse(const description_schema *schema, const char *xml, size_t length,
                             const char *name, text_description **description, wt_error *err);
+wt_status description_parse_file(const description_schema *schema, const char *path,
+                                 text_description **description, wt_error *err);
 void description_free(text_description *description);
 
 /* What only the parts together show: do the columns make the kinds that are promised? */
@@ -188,6 +191,8 @@ bool description_find_name(const text_description *description, const char *name
 /* Lower case, no blanks, primes and Greek letters spelled one way: "E \"" and "E″" are "e''",
  * "tan(δ)" is "tan(delta)". Cut at NAME_MAX. */
 void name_normalise(const char *text, size_t length, char name[NAME_MAX]);
+/* Is the text, normalised, that name? */
+bool name_is(const char *text, size_t length, const char *name);
 
 /* Do the quantities make a force curve, sweep or spectrum (one WT_KIND_ bit)? */
 bool quantities_suffice(wt_quantity_set set, unsigned kind);

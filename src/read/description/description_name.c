@@ -72,6 +72,13 @@ void name_normalise(const char *text, size_t length, char name[NAME_MAX])
     name[out] = '\0';
 }
 
+bool name_is(const char *text, size_t length, const char *name)
+{
+    char own[NAME_MAX];
+    name_normalise(text, length, own);
+    return strcmp(own, name) == 0;
+}
+
 static bool any(wt_quantity_set set, wt_quantity_set of)
 {
     return (set & of) != 0;

@@ -17,10 +17,10 @@ static bool contains(const file_peek *peek, const char *text)
 
 /* Names of entries stand unpacked in the archive; a name this long does not come about by chance in
  * packed data. */
-static detector_match detect(const file_reader *self, const file_peek *peek)
+static recognition detect(const file_reader *self, file_peek *peek)
 {
     (void)self;
-    detector_match match = {.answer = ANSWER_NO};
+    recognition match = {.answer = ANSWER_NO};
     if (peek->length < 4 || memcmp(peek->bytes, "PK\3\4", 4) != 0)
         return match;
     if (contains(peek, "/segment-header.properties")) {

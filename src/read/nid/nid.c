@@ -8,11 +8,11 @@
 #include <math.h>
 #include <string.h>
 
-static detector_match detect(const file_reader *self, const file_peek *peek)
+static recognition detect(const file_reader *self, file_peek *peek)
 {
     static const char first[] = "[DataSet]";
     (void)self;
-    detector_match match = {.answer = ANSWER_NO};
+    recognition match = {.answer = ANSWER_NO};
     if (peek->length < sizeof first - 1 || memcmp(peek->bytes, first, sizeof first - 1) != 0)
         return match;
     if (memmem(peek->bytes, peek->length, "GroupCount=", 11) == NULL) {

@@ -28,6 +28,8 @@ typedef struct text_lines {
 
 wt_status lines_decode(const unsigned char *bytes, size_t length, text_encoding encoding,
                        text_lines *lines, wt_error *err);
+/* The words for the encoding that the bytes will be decoded from. */
+const char *lines_encoding(const unsigned char *bytes, size_t length, text_encoding encoding);
 void lines_free(text_lines *lines);
 const char *lines_get(const text_lines *lines, size_t i, size_t *length); /* zero-terminated */
 
@@ -175,19 +177,19 @@ void names_free(name_set *names);
 
 /* ---- results ------------------------------------------------------------------------------ */
 
-detector_match text_detect(const text_description *description, const file_peek *peek);
-wt_status text_open_force(const text_description *description, wt_input *input,
-                          const wt_read_options *options, wt_parselog *log,
-                          wt_force_source **source, wt_error *err);
-wt_status text_read_sweep(const text_description *description, wt_input *input,
-                          const wt_read_options *options, wt_parselog *log, wt_sweep *sweep,
-                          wt_error *err);
-wt_status text_read_spectrum(const text_description *description, wt_input *input,
+/* The reader that runs a description, which it borrows. */
+file_reader text_reader(text_description *description);
+void text_peek_free(struct text_peek *peek);
+
+wt_status text_open_force(const file_reader *self, wt_input *input, const wt_read_options *options,
+                          wt_parselog *log, wt_force_source **source, wt_error *err);
+wt_status text_read_sweep(const file_reader *self, wt_input *input, const wt_read_options *options,
+                          wt_parselog *log, wt_sweep *sweep, wt_error *err);
+wt_status text_read_spectrum(const file_reader *self, wt_input *input,
                              const wt_read_options *options, wt_parselog *log,
                              wt_power_spectrum *spectrum, wt_error *err);
-wt_status text_describe(const text_description *description, wt_input *input,
-                        const wt_read_options *options, wt_parselog *log, wt_table *facts,
-                        wt_error *err);
+wt_status text_describe(const file_reader *self, wt_input *input, const wt_read_options *options,
+                        wt_parselog *log, wt_table *facts, wt_error *err);
 
 /* The isotherms of a scanned file, appended to `sweep`. */
 wt_status text_sweep(const text_file *file, const wt_read_options *options, wt_parselog *log,

@@ -125,7 +125,7 @@ static wt_status add_curve(const wt_force_curve *curve, wt_table *facts, wt_erro
 }
 
 /* The curves without their forces, which may need a calibration that is not known. */
-static wt_status add_curves(const text_description *description, wt_input *input,
+static wt_status add_curves(const file_reader *self, wt_input *input,
                             const wt_read_options *options, wt_table *facts, wt_error *err)
 {
     wt_force_source *source = NULL;
@@ -133,11 +133,11 @@ static wt_status add_curves(const text_description *description, wt_input *input
     wt_error problem = WT_ERROR_INIT;
     wt_read_options bare = *options;
     bare.want &= ~WT_Q_BIT(WT_Q_FORCE);
-    if (text_open_force(description, input, &bare, NULL, &source, &problem) != WT_OK)
+    if (text_open_force(self, input, &bare, NULL, &source, &problem) != WT_OK)
         return add_problem(facts, &problem, err);
-    wt_status status = facts_count(facts, "curves", wt_force_count(source), "", err);
+    wt_status status = facts_count(facts, "curves", source->n_curves, "", err);
     for (size_t i = 0; i < TABLES_SHOWN && status == WT_OK; i++) {
-        const wt_status got = wt_force_next(source, &curve, &problem);
+        const wt_status got = source->next(source, &curve, &problem);
         if (got == WT_END)
             break;
         if (got != WT_OK) {
@@ -153,36 +153,36 @@ static wt_status add_curves(const text_description *description, wt_input *input
                 facts_number(facts, "sensitivity", curve.cantilever.sensitivity, "m/V", "", err);
     }
     wt_force_curve_clear(&curve);
-    wt_force_close(source);
+    source->close(source);
     return status;
 }
 
-static wt_status add_force(const text_description *description, wt_input *input,
-                           const wt_read_options *options, wt_table *facts, wt_error *err)
+static wt_status add_force(const file_reader *self, wt_input *input, const wt_read_options *options,
+                           wt_table *facts, wt_error *err)
 {
     wt_force_source *source = NULL;
     wt_force_curve curve = {.n_segments = 0};
     wt_error problem = WT_ERROR_INIT;
     wt_read_options force_only = *options;
     force_only.want = WT_Q_BIT(WT_Q_FORCE);
-    wt_status status = add_curves(description, input, options, facts, err);
+    wt_status status = add_curves(self, input, options, facts, err);
     if (status == WT_OK &&
-        text_open_force(description, input, &force_only, NULL, &source, &problem) == WT_OK) {
-        if (wt_force_next(source, &curve, &problem) == WT_E_MISSING)
+        text_open_force(self, input, &force_only, NULL, &source, &problem) == WT_OK) {
+        if (source->next(source, &curve, &problem) == WT_E_MISSING)
             status = add_problem(facts, &problem, err);
         wt_force_curve_clear(&curve);
-        wt_force_close(source);
+        source->close(source);
     }
     return status;
 }
 
-static wt_status add_spectrum(const text_description *description, wt_input *input,
+static wt_status add_spectrum(const file_reader *self, wt_input *input,
                               const wt_read_options *options, wt_table *facts, wt_error *err)
 {
     wt_power_spectrum spectrum = {.n = 0};
     wt_error problem = WT_ERROR_INIT;
     char value[128];
-    if (text_read_spectrum(description, input, options, NULL, &spectrum, &problem) != WT_OK)
+    if (text_read_spectrum(self, input, options, NULL, &spectrum, &problem) != WT_OK)
         return add_problem(facts, &problem, err);
     clocale_print(value, sizeof value, "%s, %zu points, %.4g to %.4g rad/m",
                   spectrum.kind == WT_SPECTRUM_2D ? "two-dimensional" : "one-dimensional",
@@ -211,10 +211,10 @@ static wt_status add_layout(const text_file *file, wt_table *facts, wt_error *er
     return status;
 }
 
-wt_status text_describe(const text_description *description, wt_input *input,
-                        const wt_read_options *options, wt_parselog *log, wt_table *facts,
-                        wt_error *err)
+wt_status text_describe(const file_reader *self, wt_input *input, const wt_read_options *options,
+                        wt_parselog *log, wt_table *facts, wt_error *err)
 {
+    const text_description *description = self->description;
     text_file file;
     wt_error problem = WT_ERROR_INIT;
     wt_status status = facts_add(facts, "description version", description->version, "", "", err);
@@ -237,9 +237,9 @@ wt_status text_describe(const text_description *description, wt_input *input,
     text_file_free(&file);
     if (status == WT_OK && (description->kinds & WT_KIND_FORCE) != 0 &&
         (!many || quantities_suffice(all, WT_KIND_FORCE)))
-        status = add_force(description, input, options, facts, err);
+        status = add_force(self, input, options, facts, err);
     if (status == WT_OK && (description->kinds & WT_KIND_SPECTRUM) != 0 &&
         (!many || quantities_suffice(all, WT_KIND_SPECTRUM)))
-        status = add_spectrum(description, input, options, facts, err);
+        status = add_spectrum(self, input, options, facts, err);
     return status;
 }

@@ -308,14 +308,14 @@ static size_t count_curves(const text_file *file)
     return n;
 }
 
-wt_status text_open_force(const text_description *description, wt_input *input,
-                          const wt_read_options *options, wt_parselog *log,
-                          wt_force_source **source, wt_error *err)
+wt_status text_open_force(const file_reader *self, wt_input *input, const wt_read_options *options,
+                          wt_parselog *log, wt_force_source **source, wt_error *err)
 {
     text_source *s = calloc(1, sizeof *s);
     if (s == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for the force curves");
-    wt_status status = text_scan(description, input, WT_KIND_FORCE, options, log, &s->file, err);
+    wt_status status =
+        text_scan(self->description, input, WT_KIND_FORCE, options, log, &s->file, err);
     if (status != WT_OK) {
         free(s);
         return status;

@@ -22,14 +22,14 @@ static void set_declared(text_scanner *s, field_sets sets, const char *text, siz
                       {",", SEPARATOR_COMMA},          {"space", SEPARATOR_WHITESPACE},
                       {"blank", SEPARATOR_WHITESPACE}, {"whitespace", SEPARATOR_WHITESPACE}};
     if (sets == FIELD_SETS_DECIMAL) {
-        if (scan_same_word(text, length, "comma") || scan_same_word(text, length, ","))
+        if (name_is(text, length, "comma") || name_is(text, length, ","))
             s->decimal = ',';
-        else if (scan_same_word(text, length, "point") || scan_same_word(text, length, "dot") ||
-                 scan_same_word(text, length, "."))
+        else if (name_is(text, length, "point") || name_is(text, length, "dot") ||
+                 name_is(text, length, "."))
             s->decimal = '.';
     } else if (sets == FIELD_SETS_SEPARATOR) {
         for (size_t i = 0; i < sizeof separators / sizeof *separators; i++)
-            if (scan_same_word(text, length, separators[i].word))
+            if (name_is(text, length, separators[i].word))
                 s->separator = separators[i].separator;
     }
 }

@@ -59,6 +59,11 @@ static choice choose(const unsigned char *bytes, size_t length, text_encoding en
     return (choice){"UTF-8", NULL, 0, false};
 }
 
+const char *lines_encoding(const unsigned char *bytes, size_t length, text_encoding encoding)
+{
+    return choose(bytes, length, encoding).words;
+}
+
 static const char replacement[] = "\xef\xbf\xbd";
 
 /* What is not UTF-8 in a text that is said to be: each bad byte becomes U+FFFD. */

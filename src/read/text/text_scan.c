@@ -10,22 +10,10 @@
 
 #define TABLES_MAX ((size_t)100000)
 
-wt_status scan_no_memory(text_scanner *s)
-{
-    return wt_fail(s->err, WT_E_MEMORY, "no memory for the tables of the file");
-}
-
 static bool starts_with(const char *line, size_t length, const char *prefix)
 {
     size_t n = strlen(prefix);
     return length >= n && memcmp(line, prefix, n) == 0;
-}
-
-bool scan_same_word(const char *text, size_t length, const char *word)
-{
-    char name[NAME_MAX];
-    name_normalise(text, length, name);
-    return strcmp(name, word) == 0;
 }
 
 /* ---- beginning of a table ----------------------------------------------------------------- */
@@ -72,7 +60,7 @@ static bool units_row(text_scanner *s, const text_cells *cells)
 {
     const text_description *d = s->d;
     if (d->row_prefix != NULL && cells->n > 0 &&
-        scan_same_word(cells->cells[0].text, cells->cells[0].length, d->row_prefix))
+        name_is(cells->cells[0].text, cells->cells[0].length, d->row_prefix))
         return false;
     for (size_t i = 0; i < cells->n && i < s->names.names.n; i++) {
         size_t first, n;
@@ -255,7 +243,7 @@ static wt_status table_line(text_scanner *s, size_t *i, const char *line, size_t
         return WT_OK;
     }
     if (d->row_prefix != NULL &&
-        !scan_same_word(s->row.cells[0].text, s->row.cells[0].length, d->row_prefix))
+        !name_is(s->row.cells[0].text, s->row.cells[0].length, d->row_prefix))
         return header_line(s, i, line, length, false);
     wt_status status = d->row_prefix == NULL ? scan_marks(s, *i + 1, line, length, &is) : WT_OK;
     if (status != WT_OK)
@@ -355,12 +343,9 @@ static void log_text(const text_file *file, wt_parselog *log)
 
 static bool has_column(const text_column *columns, size_t n, const char *name)
 {
-    char own[NAME_MAX];
-    for (size_t i = 0; i < n; i++) {
-        name_normalise(columns[i].name, strlen(columns[i].name), own);
-        if (strcmp(own, name) == 0)
+    for (size_t i = 0; i < n; i++)
+        if (name_is(columns[i].name, strlen(columns[i].name), name))
             return true;
-    }
     return false;
 }
 

@@ -46,9 +46,10 @@ typedef enum row_kind {
     ROW_TEXT    /* no number where numbers belong */
 } row_kind;
 
-wt_status scan_no_memory(text_scanner *s);
-/* Is the text, normalised, that word? */
-bool scan_same_word(const char *text, size_t length, const char *word);
+static inline wt_status scan_no_memory(text_scanner *s)
+{
+    return wt_fail(s->err, WT_E_MEMORY, "no memory for the tables of the file");
+}
 
 /* ---- text_header.c ------------------------------------------------------------------------ */
 

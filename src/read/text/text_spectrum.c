@@ -54,7 +54,7 @@ static wt_status collect(const text_file *file, point *points, size_t *n, wt_spe
     return WT_OK;
 }
 
-wt_status text_read_spectrum(const text_description *description, wt_input *input,
+wt_status text_read_spectrum(const file_reader *self, wt_input *input,
                              const wt_read_options *options, wt_parselog *log,
                              wt_power_spectrum *spectrum, wt_error *err)
 {
@@ -62,7 +62,8 @@ wt_status text_read_spectrum(const text_description *description, wt_input *inpu
     wt_power_spectrum made = {.n = 0};
     point *points = NULL;
     size_t rows = 0, n = 0;
-    wt_status status = text_scan(description, input, WT_KIND_SPECTRUM, options, log, &file, err);
+    wt_status status =
+        text_scan(self->description, input, WT_KIND_SPECTRUM, options, log, &file, err);
     if (status != WT_OK)
         return status;
     text_log_unknown(&file, log);

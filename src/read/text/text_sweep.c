@@ -288,12 +288,11 @@ wt_status text_sweep(const text_file *file, const wt_read_options *options, wt_p
     return status;
 }
 
-wt_status text_read_sweep(const text_description *description, wt_input *input,
-                          const wt_read_options *options, wt_parselog *log, wt_sweep *sweep,
-                          wt_error *err)
+wt_status text_read_sweep(const file_reader *self, wt_input *input, const wt_read_options *options,
+                          wt_parselog *log, wt_sweep *sweep, wt_error *err)
 {
     text_file file;
-    wt_status status = text_scan(description, input, WT_KIND_SWEEP, options, log, &file, err);
+    wt_status status = text_scan(self->description, input, WT_KIND_SWEEP, options, log, &file, err);
     if (status != WT_OK)
         return status;
     text_log_unknown(&file, log);

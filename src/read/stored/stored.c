@@ -1,7 +1,10 @@
-/* Measurements in this program's own HDF5 files. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "read/stored.h"
-
+/* Measurements in this program's own HDF5 files, weartrack-hdf5(5), as `weartrack convert` writes
+ * them. The tables are those of the text stream, so they are read by its description.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
 #include "read/facts.h"
+#include "read/text/text.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -20,10 +23,11 @@ static void stored_text_clear(stored_text *text)
     *text = (stored_text){0};
 }
 
-detector_match stored_detect(const file_peek *peek)
+static recognition detect(const file_reader *self, file_peek *peek)
 {
     static const char signature[] = "\211HDF\r\n\032\n", mark[] = "weartrack";
-    detector_match match = {.answer = ANSWER_NO};
+    recognition match = {.answer = ANSWER_NO};
+    (void)self;
     /* The root's attributes, the version among them, stand right behind the signature. */
     if (peek->length >= sizeof signature - 1 &&
         memcmp(peek->bytes, signature, sizeof signature - 1) == 0 &&
@@ -88,18 +92,19 @@ typedef struct stored_source {
 
 static wt_status next(wt_force_source *source, wt_force_curve *curve, wt_error *err)
 {
-    return wt_force_next(((stored_source *)source)->inner, curve, err);
+    wt_force_source *inner = ((stored_source *)source)->inner;
+    return inner->next(inner, curve, err);
 }
 
 static void close_source(wt_force_source *source)
 {
     stored_source *s = (stored_source *)source;
-    wt_force_close(s->inner);
+    s->inner->close(s->inner);
     stored_text_clear(&s->text);
     free(s);
 }
 
-wt_status stored_open_force(const text_description *stream, wt_input *input,
+static wt_status open_force(const file_reader *self, wt_input *input,
                             const wt_read_options *options, wt_parselog *log,
                             wt_force_source **source, wt_error *err)
 {
@@ -108,7 +113,7 @@ wt_status stored_open_force(const text_description *stream, wt_input *input,
         return wt_fail(err, WT_E_MEMORY, "no memory for the force curves");
     wt_status status = open_text(input, &s->text, err);
     if (status == WT_OK)
-        status = text_open_force(stream, s->text.input, options, log, &s->inner, err);
+        status = text_open_force(self, s->text.input, options, log, &s->inner, err);
     if (status != WT_OK) {
         stored_text_clear(&s->text);
         free(s);
@@ -121,33 +126,32 @@ wt_status stored_open_force(const text_description *stream, wt_input *input,
     return WT_OK;
 }
 
-wt_status stored_read_sweep(const text_description *stream, wt_input *input,
+static wt_status read_sweep(const file_reader *self, wt_input *input,
                             const wt_read_options *options, wt_parselog *log, wt_sweep *sweep,
                             wt_error *err)
 {
     stored_text text = {0};
     wt_status status = open_text(input, &text, err);
     if (status == WT_OK)
-        status = text_read_sweep(stream, text.input, options, log, sweep, err);
+        status = text_read_sweep(self, text.input, options, log, sweep, err);
     stored_text_clear(&text);
     return status;
 }
 
-wt_status stored_read_spectrum(const text_description *stream, wt_input *input,
+static wt_status read_spectrum(const file_reader *self, wt_input *input,
                                const wt_read_options *options, wt_parselog *log,
                                wt_power_spectrum *spectrum, wt_error *err)
 {
     stored_text text = {0};
     wt_status status = open_text(input, &text, err);
     if (status == WT_OK)
-        status = text_read_spectrum(stream, text.input, options, log, spectrum, err);
+        status = text_read_spectrum(self, text.input, options, log, spectrum, err);
     stored_text_clear(&text);
     return status;
 }
 
-wt_status stored_describe(const text_description *stream, wt_input *input,
-                          const wt_read_options *options, wt_parselog *log, wt_table *facts,
-                          wt_error *err)
+static wt_status describe(const file_reader *self, wt_input *input, const wt_read_options *options,
+                          wt_parselog *log, wt_table *facts, wt_error *err)
 {
     wt_result *result = NULL;
     stored_text text = {0};
@@ -164,8 +168,23 @@ wt_status stored_describe(const text_description *stream, wt_input *input,
     if (status == WT_OK && measured)
         status = open_text(input, &text, err);
     if (status == WT_OK && measured)
-        status = text_describe(stream, text.input, options, log, facts, err);
+        status = text_describe(self, text.input, options, log, facts, err);
     stored_text_clear(&text);
     wt_result_free(result);
     return status;
 }
+
+const file_reader reader_stored = {
+    .info = {.id = "weartrack-hdf5",
+             .title = "weartrack-hdf5(5): sweeps, spectra and force curves of this program",
+             .kinds = WT_KIND_FORCE | WT_KIND_SWEEP | WT_KIND_SPECTRUM,
+             .verified = true,
+             .evidence = "the HDF5 file that this program writes",
+             .version = "1"},
+    .runs = "weartrack-stream",
+    .detect = detect,
+    .open_force = open_force,
+    .read_sweep = read_sweep,
+    .read_spectrum = read_spectrum,
+    .describe = describe,
+};

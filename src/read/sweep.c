@@ -1,0 +1,18 @@
+/* DMA sweeps, through the reader that the file belongs to.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "read/formats.h"
+
+wt_status wt_sweep_read(const wt_formats *formats, wt_input *input, const wt_read_options *options,
+                        wt_parselog *log, wt_sweep *sweep, wt_error *err)
+{
+    wt_read_options o;
+    const file_reader *reader = NULL;
+    wt_status status = read_start(formats, input, options, WT_KIND_SWEEP, &o, &reader, err);
+    if (status == WT_OK)
+        status = reader->read_sweep(reader, input, &o, log, sweep, err);
+    if (status != WT_OK)
+        wt_error_file(err, wt_input_name(input));
+    return status;
+}

@@ -1,0 +1,176 @@
+/* The reader that runs a description: does it fit the beginning of a file?
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "read/text/text.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Some exports have long headers; what is not seen in this much is not there. */
+#define PEEK_MAX ((size_t)1 << 18)
+
+typedef enum probe_is { PROBE_NOT_FOUND, PROBE_FOUND, PROBE_MORE } probe_is;
+
+/* A file with these bytes is not text in any encoding. */
+static bool is_binary(const file_peek *peek)
+{
+    const size_t n = peek->length < 1024 ? peek->length : 1024;
+    size_t zeros = 0, controls = 0;
+    for (size_t i = 0; i < n; i++) {
+        const unsigned char c = peek->bytes[i];
+        zeros += c == 0;
+        controls += c > 0 && c < 0x20 && !(c >= '\t' && c <= '\r') && c != 0x1a && c != 0x1b;
+    }
+    /* UTF-16 text has at most one zero in two bytes. */
+    return 10 * zeros > 6 * n || 20 * controls > n;
+}
+
+static bool names_line(name_set *names, const text_description *d, const char *line, size_t length)
+{
+    if (d->has_names_line) {
+        regmatch_t groups[2] = {{-1, -1}, {-1, -1}};
+        if (!pattern_match(&d->names_line, line, length, groups, 2) || groups[1].rm_so < 0)
+            return false;
+        line += groups[1].rm_so;
+        length = (size_t)(groups[1].rm_eo - groups[1].rm_so);
+    } else if (d->comment != NULL && strncmp(line, d->comment, strlen(d->comment)) == 0) {
+        line += strlen(d->comment);
+        length -= strlen(d->comment);
+    }
+    return names_match(names, d, line, length, d->names_separator, d->kinds);
+}
+
+static probe_is look_for(const text_description *d, const text_probe *probe,
+                         const text_lines *lines, bool whole)
+{
+    /* The last line of a part of a file may be half a line. */
+    const size_t complete = whole || lines->n == 0 ? lines->n : lines->n - 1;
+    name_set names = {.separator = SEPARATOR_AUTO};
+    bool found = false;
+    for (size_t i = 0; i < complete && i < probe->within && !found; i++) {
+        size_t length;
+        const char *line = lines_get(lines, i, &length);
+        if (probe->kind == PROBE_NAMES)
+            found = names_line(&names, d, line, length);
+        else if (probe->text != NULL)
+            found = strstr(line, probe->text) != NULL;
+        else
+            found = pattern_match(&probe->pattern, line, length, NULL, 0);
+    }
+    names_free(&names);
+    if (found)
+        return PROBE_FOUND;
+    return whole || complete >= probe->within ? PROBE_NOT_FOUND : PROBE_MORE;
+}
+
+/* ---- what the descriptions share ----------------------------------------------------------- */
+
+struct text_peek {
+    bool is_text;
+    bool whole;                       /* nothing more will be shown */
+    size_t length;                    /* up to a line end, so that no character is cut in two */
+    text_lines lines[ENCODING_COUNT]; /* as decoded so far */
+    size_t n;
+};
+
+static struct text_peek *peek_open(const file_peek *peek)
+{
+    struct text_peek *t = calloc(1, sizeof *t);
+    if (t == NULL)
+        return NULL;
+    t->is_text = peek->length > 0 && !is_binary(peek);
+    t->whole = peek->whole || peek->length >= PEEK_MAX;
+    t->length = peek->length;
+    while (!t->whole && t->length > 0 && peek->bytes[t->length - 1] != '\n' &&
+           peek->bytes[t->length - 1] != '\r')
+        t->length--;
+    if (t->length == 0)
+        t->length = peek->length;
+    return t;
+}
+
+void text_peek_free(struct text_peek *peek)
+{
+    if (peek == NULL)
+        return;
+    for (size_t i = 0; i < peek->n; i++)
+        lines_free(&peek->lines[i]);
+    free(peek);
+}
+
+/* The lines of the peek, decoded once for all descriptions that see the same encoding in it; NULL
+ * if it is no text. */
+static const text_lines *peek_lines(file_peek *peek, text_encoding encoding)
+{
+    if (peek->text == NULL)
+        peek->text = peek_open(peek);
+    struct text_peek *t = peek->text;
+    if (t == NULL || !t->is_text)
+        return NULL;
+    const char *words = lines_encoding(peek->bytes, t->length, encoding);
+    for (size_t i = 0; i < t->n; i++)
+        if (strcmp(t->lines[i].encoding, words) == 0)
+            return &t->lines[i];
+    text_lines *lines = &t->lines[t->n];
+    if (lines_decode(peek->bytes, t->length, encoding, lines, NULL) != WT_OK)
+        return NULL;
+    t->n++;
+    return lines;
+}
+
+/* ---- the reader --------------------------------------------------------------------------- */
+
+static recognition detect(const file_reader *self, file_peek *peek)
+{
+    const text_description *d = self->description;
+    const text_lines *lines = peek_lines(peek, d->encoding);
+    recognition answer = {.answer = ANSWER_NO};
+    bool more = false;
+    if (lines == NULL)
+        return answer;
+    int score = 0;
+    for (size_t i = 0; i < d->n_probes; i++) {
+        const text_probe *probe = &d->probes[i];
+        switch (look_for(d, probe, lines, peek->text->whole)) {
+        case PROBE_FOUND:
+            if (probe->kind == PROBE_FORBID)
+                return answer;
+            score += probe->score;
+            break;
+        case PROBE_NOT_FOUND:
+            if (probe->kind != PROBE_FORBID && probe->kind != PROBE_HINT)
+                return answer;
+            break;
+        case PROBE_MORE:
+            more = true;
+            break;
+        }
+    }
+    if (more) {
+        answer.answer = ANSWER_MORE;
+        answer.need = peek->length > PEEK_MAX / 2 ? PEEK_MAX : 2 * peek->length;
+        return answer;
+    }
+    answer.answer = ANSWER_YES;
+    answer.score = score < 1 ? 1 : score > 100 ? 100 : score;
+    return answer;
+}
+
+file_reader text_reader(text_description *d)
+{
+    return (file_reader){
+        .info = {.id = d->id,
+                 .title = d->title,
+                 .kinds = d->kinds,
+                 .verified = d->verified,
+                 .evidence = d->evidence,
+                 .version = d->version},
+        .description = d,
+        .detect = detect,
+        .open_force = (d->kinds & WT_KIND_FORCE) != 0 ? text_open_force : NULL,
+        .read_sweep = (d->kinds & WT_KIND_SWEEP) != 0 ? text_read_sweep : NULL,
+        .read_spectrum = (d->kinds & WT_KIND_SPECTRUM) != 0 ? text_read_spectrum : NULL,
+        .describe = text_describe,
+    };
+}
