@@ -60,7 +60,10 @@ WT_API const wt_format_info *wt_formats_get(const wt_formats *formats, size_t i)
 WT_API const char *wt_formats_xml(const wt_formats *formats, const char *id);
 /* The schema of descriptions (XSD text); static. */
 WT_API const char *wt_formats_schema(void);
-/* Which format the input is. `kinds` limits the question (0 = any). */
+/* The format of that id, or NULL. */
+WT_API const wt_format_info *wt_formats_find(const wt_formats *formats, const char *id);
+/* Which format the input is. `kinds` limits the question (0 = any). Its id in
+ * wt_read_options.format hands the answer on: nobody is asked again when the input is read. */
 WT_API wt_status wt_detect(const wt_formats *formats, wt_input *input, unsigned kinds,
                            const wt_format_info **info, wt_error *err) WT_NODISCARD;
 

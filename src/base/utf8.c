@@ -42,7 +42,7 @@ size_t utf8_check(const char *text, size_t length)
 {
     size_t i = 0;
     while (i < length) {
-        const size_t n = utf8_character(text + i, length - i);
+        const size_t n = (unsigned char)text[i] < 0x80 ? 1 : utf8_character(text + i, length - i);
         if (n == 0)
             return i;
         i += n;

@@ -43,13 +43,11 @@ static int show_format(const wt_formats *formats, const char *id)
         fputs(xml, stdout);
         return CMD_OK;
     }
-    for (size_t i = 0; i < wt_formats_count(formats); i++) {
-        const wt_format_info *f = wt_formats_get(formats, i);
-        if (strcmp(f->id, id) == 0) {
-            printf("%s: %s\nread by the program itself; there is no description to show\n", f->id,
-                   f->title);
-            return CMD_OK;
-        }
+    const wt_format_info *f = wt_formats_find(formats, id);
+    if (f != NULL) {
+        printf("%s: %s\nread by the program itself; there is no description to show\n", f->id,
+               f->title);
+        return CMD_OK;
     }
     fprintf(stderr, "weartrack formats: there is no format '%s'; see weartrack formats list\n", id);
     return CMD_FAILED;

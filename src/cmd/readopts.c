@@ -1,6 +1,5 @@
 /* Options about reading instrument files. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
-#include <string.h>
 
 #include "cmd/readopts.h"
 
@@ -71,11 +70,8 @@ wt_read_options cmd_read_make(const cmd_read_values *values, const cmd_common *c
 
 int cmd_check_format(const char *name, const cmd_common *common, const wt_formats *formats)
 {
-    if (common->format == NULL)
+    if (common->format == NULL || wt_formats_find(formats, common->format) != NULL)
         return CMD_OK;
-    for (size_t i = 0; i < wt_formats_count(formats); i++)
-        if (strcmp(wt_formats_get(formats, i)->id, common->format) == 0)
-            return CMD_OK;
     return cmd_usage_error(name, "--format: there is no format '%s', see weartrack formats list",
                            common->format);
 }

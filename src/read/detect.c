@@ -237,10 +237,7 @@ wt_status find_reader(const wt_formats *formats, wt_input *input, const char *fo
     if (format == NULL) {
         status = detect(formats, input, kinds, reader, err);
     } else {
-        const file_reader *found = NULL;
-        for (size_t i = 0; i < wt_formats_count(formats) && found == NULL; i++)
-            if (strcmp(formats_reader(formats, i)->info.id, format) == 0)
-                found = formats_reader(formats, i);
+        const file_reader *found = formats_find_reader(formats, format);
         if (found == NULL) {
             wt_fail(err, status, "there is no format \"%s\"", format);
             wt_error_advice(err, "see `weartrack formats list`");

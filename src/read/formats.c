@@ -33,12 +33,11 @@ static wt_status add(wt_formats *f, const file_reader *reader, wt_error *err)
     return WT_OK;
 }
 
-/* The reader that runs the description of that id, or NULL. */
-static file_reader *find_text(const wt_formats *f, const char *id)
+const file_reader *formats_find_reader(const wt_formats *formats, const char *id)
 {
-    for (size_t i = 0; i < f->n; i++)
-        if (reader_is_text(&f->readers[i]) && strcmp(f->readers[i].info.id, id) == 0)
-            return &f->readers[i];
+    for (size_t i = 0; i < formats->n; i++)
+        if (strcmp(formats->readers[i].info.id, id) == 0)
+            return &formats->readers[i];
     return NULL;
 }
 
@@ -48,7 +47,7 @@ static wt_status add_text(wt_formats *f, text_description *d, wt_parselog *log, 
 {
     wt_status status = WT_OK;
     const file_reader reader = text_reader(d);
-    file_reader *same = find_text(f, d->id);
+    const file_reader *same = formats_find_reader(f, d->id);
     for (size_t i = 0; i < N_BINARY; i++)
         if (strcmp(binary[i]->info.id, d->id) == 0) {
             status = wt_fail(err, WT_E_SCHEMA, "the id belongs to a built-in reader");
@@ -60,7 +59,7 @@ static wt_status add_text(wt_formats *f, text_description *d, wt_parselog *log, 
         wt_parselog_add(log, WT_NOTE, path, NULL, "replaces the description \"%s\" of version %s",
                         d->id, same->description->version);
         description_free(same->description);
-        *same = reader;
+        f->readers[same - f->readers] = reader;
     } else if (status == WT_OK) {
         status = add(f, &reader, err);
     }
@@ -109,7 +108,7 @@ static wt_status add_binary(wt_formats *f, bool running, wt_error *err)
         if ((reader.runs != NULL) != running)
             continue;
         if (running)
-            reader.description = find_text(f, reader.runs)->description;
+            reader.description = formats_find_reader(f, reader.runs)->description;
         status = add(f, &reader, err);
     }
     return status;
@@ -167,8 +166,14 @@ const wt_format_info *wt_formats_get(const wt_formats *formats, size_t i)
     return &formats->readers[i].info;
 }
 
+const wt_format_info *wt_formats_find(const wt_formats *formats, const char *id)
+{
+    const file_reader *reader = formats_find_reader(formats, id);
+    return reader != NULL ? &reader->info : NULL;
+}
+
 const char *wt_formats_xml(const wt_formats *formats, const char *id)
 {
-    const file_reader *reader = find_text(formats, id);
-    return reader != NULL ? reader->description->xml : NULL;
+    const file_reader *reader = formats_find_reader(formats, id);
+    return reader != NULL && reader_is_text(reader) ? reader->description->xml : NULL;
 }

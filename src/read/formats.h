@@ -9,6 +9,8 @@
 
 /* The i-th reader of a set, in the order of wt_formats_get; borrowed. */
 const file_reader *formats_reader(const wt_formats *formats, size_t i);
+/* The reader of that id, or NULL. */
+const file_reader *formats_find_reader(const wt_formats *formats, const char *id);
 
 /* detect.c: the reader that the input belongs to: the one of that format, or with NULL the one that
  * recognises it. `kinds` limits the question (0 = any); what is recognised but has none of them is

@@ -81,6 +81,7 @@ int main(int argc, char **argv)
     printf("%-34s %10s %-14s %10s  %10s  %s\n", "what", "weartrack", "", "textbook", "ratio",
            "largest difference");
     bench_curves();
+    bench_detect();
     bench_friction();
     bench_shift();
     return 0;

@@ -20,6 +20,7 @@ double bench_uniform(bench_random *random);
 double bench_normal(bench_random *random);
 
 void bench_curves(void);
+void bench_detect(void);
 void bench_friction(void);
 void bench_shift(void);
 

@@ -9,6 +9,7 @@
 typedef struct conversion {
     const wt_convert_job *job;
     const wt_job *work;
+    flow_file file;
     wt_input *input;
     wt_table_sink sink;
     void *user;
@@ -97,7 +98,7 @@ static wt_status convert_force(const conversion *c, wt_error *err)
     wt_force_curve curve = {0};
     size_t n = 0, n_failed = 0;
     wt_status status =
-        wt_force_open(c->work->formats, c->input, &c->job->read, c->work->log, &source, err);
+        wt_force_open(c->work->formats, c->input, &c->file.read, c->work->log, &source, err);
     while (status == WT_OK) {
         wt_error failure = WT_ERROR_INIT;
         const wt_status got = wt_force_next(source, &curve, &failure);
@@ -133,7 +134,7 @@ static wt_status convert_sweep(const conversion *c, wt_error *err)
     wt_sweep sweep = {0};
     wt_table *t = NULL;
     wt_status status =
-        wt_sweep_read(c->work->formats, c->input, &c->job->read, c->work->log, &sweep, err);
+        wt_sweep_read(c->work->formats, c->input, &c->file.read, c->work->log, &sweep, err);
     if (status != WT_OK)
         goto done;
     wt_sweep_sort(&sweep);
@@ -216,7 +217,7 @@ static wt_status convert_images(const conversion *c, wt_error *err)
     wt_image *images = NULL;
     size_t n = 0;
     wt_status status =
-        wt_images_read(c->work->formats, c->input, &c->job->read, c->work->log, &images, &n, err);
+        wt_images_read(c->work->formats, c->input, &c->file.read, c->work->log, &images, &n, err);
     for (size_t i = 0; i < n && status == WT_OK; i++) {
         wt_table *t = NULL;
         status = image_table(&images[i], i, &t, err);
@@ -233,7 +234,7 @@ static wt_status convert_spectrum(const conversion *c, wt_error *err)
 {
     wt_power_spectrum spectrum = {0};
     wt_table *t = NULL;
-    wt_status status = wt_power_spectrum_read(c->work->formats, c->input, &c->job->read,
+    wt_status status = wt_power_spectrum_read(c->work->formats, c->input, &c->file.read,
                                               c->work->log, &spectrum, err);
     if (status != WT_OK)
         return status;
@@ -275,24 +276,27 @@ wt_status wt_convert_file(const wt_convert_job *job, const char *path, const wt_
                           wt_table_sink sink, void *user, wt_error *err)
 {
     const wt_file_set set = {.read = job->read};
-    const flow_file file = {path, path, &set};
-    const wt_format_info *info = NULL;
-    conversion c = {.job = job, .work = work, .sink = sink, .user = user};
+    conversion c = {.job = job,
+                    .work = work,
+                    .file = {.path = path, .name = path, .set = &set},
+                    .sink = sink,
+                    .user = user};
     wt_error failure = WT_ERROR_INIT;
-    wt_status status = flow_open(work, &file, "input", job->kind, &c.input, &info, err);
+    wt_status status = flow_open(work, &c.file, "input", job->kind, &c.input, err);
     if (status != WT_OK)
         return status;
     /* An .nid file may hold images and curves: the first kind that has data counts. */
     status = WT_E_EMPTY;
     for (size_t k = 0; k < sizeof kinds / sizeof kinds[0] && status == WT_E_EMPTY; k++) {
-        if ((info->kinds & kinds[k].kind) == 0 || (job->kind != 0 && job->kind != kinds[k].kind))
+        if ((c.file.format->kinds & kinds[k].kind) == 0 ||
+            (job->kind != 0 && job->kind != kinds[k].kind))
             continue;
         failure = (wt_error)WT_ERROR_INIT;
         status = kinds[k].convert(&c, &failure);
     }
     if (status == WT_E_EMPTY && failure.status == WT_OK) {
         wt_fail(&failure, WT_E_EMPTY, "the file holds no data of that kind");
-        wt_error_found(&failure, "%s", info->title);
+        wt_error_found(&failure, "%s", c.file.format->title);
     }
     if (status != WT_OK) {
         wt_error_file(&failure, path);

@@ -33,7 +33,7 @@ typedef struct accepted {
 typedef struct work {
     const wt_indent_job *job;
     const wt_job *common;
-    const flow_file *file;
+    flow_file *file;
     const char *spot; /* of the set or the file; NULL = by position */
     wt_contact_table *contact;
     wt_indent_workspace **scratch; /* [n_workers] */
@@ -242,12 +242,11 @@ static wt_status read_file(work *w, wt_error *err)
 {
     wt_input *input = NULL;
     wt_force_source *source = NULL;
-    wt_read_options options = w->file->set->read;
+    size_t samples = 0;
+    wt_status status = flow_open(w->common, w->file, w->job->group, WT_KIND_FORCE, &input, err);
+    wt_read_options options = w->file->read;
     options.want &= wanted_channels(w->job->rates);
     options.segments &= WT_SEGMENT_BIT(WT_SEGMENT_APPROACH);
-    size_t samples = 0;
-    wt_status status =
-        flow_open(w->common, w->file, w->job->group, WT_KIND_FORCE, &input, NULL, err);
     if (status == WT_OK)
         status = wt_force_open(w->common->formats, input, &options, w->common->log, &source, err);
     if (status != WT_OK)
@@ -332,7 +331,7 @@ static wt_status add_representative(work *w, const flow_files *files, wt_indent_
     wt_input *input = NULL;
     wt_force_source *source = NULL;
     wt_force_curve *curve = &w->items[0].curve;
-    wt_read_options options = file->set->read;
+    wt_read_options options = file->read;
     options.want &= wanted_channels(false);
     options.segments &= WT_SEGMENT_BIT(WT_SEGMENT_APPROACH) | WT_SEGMENT_BIT(WT_SEGMENT_RETRACT);
     wt_status status = wt_input_open(file->path, &input, err);

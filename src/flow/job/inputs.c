@@ -108,7 +108,8 @@ static wt_status files_add(flow_files *files, size_t *capacity, char *path, cons
         files->file = array;
         *capacity = grown;
     }
-    files->file[files->n++] = (flow_file){path, below(set->folder, path), set};
+    files->file[files->n++] =
+        (flow_file){.path = path, .name = below(set->folder, path), .set = set};
     return WT_OK;
 }
 
@@ -176,62 +177,49 @@ void flow_files_clear(flow_files *files)
 /* ---- opening ----------------------------------------------------------------------------------
  */
 
-static const wt_format_info *format_by_id(const wt_formats *formats, const char *id)
-{
-    for (size_t i = 0; i < wt_formats_count(formats); i++) {
-        const wt_format_info *info = wt_formats_get(formats, i);
-        if (strcmp(info->id, id) == 0)
-            return info;
-    }
-    return NULL;
-}
-
-static wt_status add_provenance(const wt_job *common, wt_input *input, const char *name,
-                                const char *role, const wt_format_info *info, wt_error *err)
+static wt_status add_provenance(const wt_job *common, wt_input *input, const flow_file *file,
+                                const char *role, wt_error *err)
 {
     const unsigned char *bytes = NULL;
     size_t length = 0;
     wt_status status = wt_input_bytes(input, &bytes, &length, err);
     if (status != WT_OK)
         return status;
+    const wt_format_info *info = file->format;
     char format[128];
     snprintf(format, sizeof format, "%s %s", info->id, info->version != NULL ? info->version : "");
-    wt_provenance_input record = {.path = name, .role = role, .format = format, .bytes = length};
+    wt_provenance_input record = {
+        .path = file->name, .role = role, .format = format, .bytes = length};
     wt_digest(bytes, length, record.sha256);
     status = wt_provenance_add_input(common->provenance, &record);
     return status == WT_OK ? WT_OK : wt_fail(err, status, "cannot keep the list of inputs");
 }
 
-wt_status flow_open(const wt_job *common, const flow_file *file, const char *role, unsigned kinds,
-                    wt_input **result, const wt_format_info **format, wt_error *err)
+wt_status flow_open(const wt_job *common, flow_file *file, const char *role, unsigned kinds,
+                    wt_input **result, wt_error *err)
 {
     if (common->formats == NULL)
         return wt_fail(err, WT_E_ARG, "no formats given to a job that reads files");
     wt_input *input = NULL;
-    const wt_format_info *info = NULL;
-    const char *forced = file->set->read.format;
     wt_status status = wt_input_open(file->path, &input, err);
-    if (status != WT_OK)
-        goto fail;
-    if (forced != NULL) {
-        info = format_by_id(common->formats, forced);
-        if (info == NULL) {
-            status = wt_fail(err, WT_E_NOT_FOUND, "no format is called \"%s\"", forced);
+    file->read = file->set->read;
+    if (status == WT_OK && file->read.format != NULL) {
+        file->format = wt_formats_find(common->formats, file->read.format);
+        if (file->format == NULL) {
+            status = wt_fail(err, WT_E_NOT_FOUND, "no format is called \"%s\"", file->read.format);
             wt_error_advice(err, "`weartrack formats list` shows the formats");
         }
-    } else {
-        status = wt_detect(common->formats, input, kinds, &info, err);
+    } else if (status == WT_OK) {
+        status = wt_detect(common->formats, input, kinds, &file->format, err);
     }
     if (status == WT_OK && common->provenance != NULL)
-        status = add_provenance(common, input, file->name, role, info, err);
-    if (status != WT_OK)
-        goto fail;
-    if (format != NULL)
-        *format = info;
+        status = add_provenance(common, input, file, role, err);
+    if (status != WT_OK) {
+        wt_error_file(err, file->name);
+        wt_input_close(input);
+        return status;
+    }
+    file->read.format = file->format->id;
     *result = input;
     return WT_OK;
-fail:
-    wt_error_file(err, file->name);
-    wt_input_close(input);
-    return status;
 }

@@ -10,6 +10,9 @@ typedef struct flow_file {
     const char *path;       /* to open; owned by the list */
     const char *name;       /* to show: `path` without the folder of the set; borrowed from it */
     const wt_file_set *set; /* whose options hold */
+    /* by flow_open: */
+    const wt_format_info *format;
+    wt_read_options read; /* options of the set, with the format that was found */
 } flow_file;
 
 typedef struct flow_files {
@@ -23,13 +26,12 @@ wt_status flow_files_list(const wt_file_set *sets, size_t n_sets, const wt_job *
                           flow_files *files, wt_error *err) WT_NODISCARD;
 void flow_files_clear(flow_files *files);
 
-/* Opens a file, finds its format among `kinds` and adds it to the provenance under `role`. *format
- * (may be NULL) is the recognised format. */
-wt_status flow_open(const wt_job *common, const flow_file *file, const char *role, unsigned kinds,
-                    wt_input **input, const wt_format_info **format, wt_error *err) WT_NODISCARD;
+/* Opens a file, finds its format among `kinds` and adds it to the provenance under `role`. */
+wt_status flow_open(const wt_job *common, flow_file *file, const char *role, unsigned kinds,
+                    wt_input **input, wt_error *err) WT_NODISCARD;
 
 /* A measured spectrum as a surface, uncut; the densities are not checked. */
-wt_status flow_surface_read(const flow_file *file, const wt_job *common, wt_surface *surface,
+wt_status flow_surface_read(flow_file *file, const wt_job *common, wt_surface *surface,
                             wt_error *err) WT_NODISCARD;
 
 /* Table "notes" of a log, with the names of files below `folder` shown without it; NULL = as they

@@ -47,10 +47,10 @@ static wt_status read_sweeps(const wt_master_job *job, const wt_job *common, wt_
     for (size_t i = 0; status == WT_OK && i < files.n; i++) {
         wt_input *input = NULL;
         wt_error failure = WT_ERROR_INIT;
-        status = flow_open(common, &files.file[i], "dma", WT_KIND_SWEEP, &input, NULL, &failure);
+        status = flow_open(common, &files.file[i], "dma", WT_KIND_SWEEP, &input, &failure);
         if (status == WT_OK)
-            status = wt_sweep_read(common->formats, input, &files.file[i].set->read, common->log,
-                                   sweep, &failure);
+            status = wt_sweep_read(common->formats, input, &files.file[i].read, common->log, sweep,
+                                   &failure);
         wt_input_close(input);
         if (status == WT_OK)
             continue;

@@ -88,13 +88,13 @@ static wt_status parse_self_affine(const char *text, wt_surface *surface, wt_err
     return status;
 }
 
-wt_status flow_surface_read(const flow_file *file, const wt_job *common, wt_surface *surface,
+wt_status flow_surface_read(flow_file *file, const wt_job *common, wt_surface *surface,
                             wt_error *err)
 {
     wt_input *input = NULL;
-    wt_status status = flow_open(common, file, "roughness", WT_KIND_SPECTRUM, &input, NULL, err);
+    wt_status status = flow_open(common, file, "roughness", WT_KIND_SPECTRUM, &input, err);
     if (status == WT_OK)
-        status = wt_power_spectrum_read(common->formats, input, &file->set->read, common->log,
+        status = wt_power_spectrum_read(common->formats, input, &file->read, common->log,
                                         &surface->spectrum, err);
     wt_input_close(input);
     if (status == WT_OK && surface->spectrum.kind != WT_SPECTRUM_2D) {
@@ -114,7 +114,7 @@ static wt_status read_spectrum(const char *path, const wt_read_options *read, co
     if (own == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     const wt_file_set set = {.read = read != NULL ? *read : wt_read_defaults()};
-    const flow_file file = {own, own, &set};
+    flow_file file = {.path = own, .name = own, .set = &set};
     wt_status status = flow_surface_read(&file, common, surface, err);
     free(own);
     return status;

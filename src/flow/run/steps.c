@@ -75,7 +75,7 @@ wt_status flow_case_surface(const wt_case *c, const wt_job *common, wt_surface *
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     wt_surface opened = {0};
     wt_roughness *law = NULL;
-    const flow_file file = {path, set->patterns[0], set};
+    flow_file file = {.path = path, .name = set->patterns[0], .set = set};
     wt_status status = flow_surface_read(&file, common, &opened, err);
     if (status == WT_OK) {
         opened.q0 = c->spectrum_q0;

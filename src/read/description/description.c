@@ -68,7 +68,7 @@ void description_schema_free(description_schema *schema)
 
 /* ---- document ----------------------------------------------------------------------------- */
 
-static void explain(xml_parse *p, const xmlError *error, const char *otherwise)
+static void explain(description_parser *p, const xmlError *error, const char *otherwise)
 {
     char text[256];
     const char *message = error != NULL && error->message != NULL ? error->message : otherwise;
@@ -88,7 +88,7 @@ static void first_complaint(void *user, xmlErrorPtr error)
     explain(user, error, "not valid");
 }
 
-static void validate(xml_parse *p, const description_schema *schema, xmlDocPtr document)
+static void validate(description_parser *p, const description_schema *schema, xmlDocPtr document)
 {
     xmlSchemaValidCtxtPtr context = xmlSchemaNewValidCtxt(schema->schema);
     if (context == NULL) {
@@ -108,7 +108,7 @@ wt_status description_parse(const description_schema *schema, const char *xml, s
     /* Complaints about an encoding go to standard error unless this thread has a handler. */
     const xmlStructuredErrorFunc previous = xmlStructuredError;
     void *const previous_context = xmlStructuredErrorContext;
-    xml_parse p = {.name = name, .status = WT_OK, .err = err};
+    description_parser p = {.name = name, .status = WT_OK, .err = err};
     xmlParserCtxtPtr context = NULL;
     xmlDocPtr document = NULL;
     if (length > most) {
@@ -171,7 +171,7 @@ wt_status description_parse_file(const description_schema *schema, const char *p
     return status;
 }
 
-static void free_pattern(name_pattern *pattern)
+static void free_pattern(line_pattern *pattern)
 {
     if (pattern->compiled)
         regfree(&pattern->regex);

@@ -38,14 +38,14 @@ typedef enum units_where {
     UNITS_NONE
 } units_where;
 
-typedef struct name_pattern {
+typedef struct line_pattern {
     regex_t regex;
     bool compiled;
     char first; /* the byte that every match begins with, '\0' if that is not known */
-} name_pattern;
+} line_pattern;
 
 /* 0 groups: does it match? Else groups[0..n) get what matched; rm_so is -1 for an empty group. */
-bool pattern_match(const name_pattern *pattern, const char *line, size_t length, regmatch_t *groups,
+bool pattern_match(const line_pattern *pattern, const char *line, size_t length, regmatch_t *groups,
                    size_t n);
 
 typedef enum probe_kind { PROBE_REQUIRE, PROBE_HINT, PROBE_FORBID, PROBE_NAMES } probe_kind;
@@ -53,7 +53,7 @@ typedef enum probe_kind { PROBE_REQUIRE, PROBE_HINT, PROBE_FORBID, PROBE_NAMES }
 typedef struct text_probe {
     probe_kind kind;
     char *text; /* NULL if `pattern` is used */
-    name_pattern pattern;
+    line_pattern pattern;
     size_t within; /* lines */
     int score;
 } text_probe;
@@ -78,8 +78,8 @@ typedef enum field_sets { FIELD_SETS_NOTHING, FIELD_SETS_DECIMAL, FIELD_SETS_SEP
 
 #define GROUPS ((size_t)10) /* of a header line, the whole match included */
 
-typedef struct name_field {
-    name_pattern pattern;
+typedef struct header_field {
+    line_pattern pattern;
     char *name;
     wt_quantity quantity; /* WT_Q_NONE: a text for `info` */
     size_t group;         /* of the value */
@@ -87,12 +87,12 @@ typedef struct name_field {
     size_t unit_group;    /* 0: none */
     bool fallback;        /* only where no column has it */
     field_sets sets;
-} name_field;
+} header_field;
 
-typedef struct scan_step {
-    name_pattern pattern;
+typedef struct step_marker {
+    line_pattern pattern;
     bool title_next; /* the line after it is the title; else group 1 */
-} scan_step;
+} step_marker;
 
 typedef struct unit_alias {
     char *found, *means;
@@ -113,11 +113,11 @@ typedef struct column_name {
     size_t rule;
 } column_name;
 
-typedef struct row_marker {
-    name_pattern pattern; /* of a line */
+typedef struct segment_marker {
+    line_pattern pattern; /* of a line */
     char *text;           /* of a cell */
     wt_segment_kind kind;
-} row_marker;
+} segment_marker;
 
 typedef struct text_description {
     char *id, *title, *evidence, *version;
@@ -137,12 +137,12 @@ typedef struct text_description {
     char **missing; /* texts of an empty cell, beside the usual ones */
     size_t n_missing;
 
-    name_field *fields;
+    header_field *fields;
     size_t n_fields;
 
-    scan_step *steps;
+    step_marker *steps;
     size_t n_steps;
-    name_pattern *ends;
+    line_pattern *ends;
     size_t n_ends;
     unit_alias *aliases;
     size_t n_aliases;
@@ -151,18 +151,18 @@ typedef struct text_description {
     column_name *names; /* sorted by name, then rule */
     size_t n_names;
     bool has_names_line;
-    name_pattern names_line; /* group 1 is the names row */
+    line_pattern names_line; /* group 1 is the names row */
     units_where units;
-    name_pattern units_line; /* of UNITS_LINE; group 1 is the units row */
+    line_pattern units_line; /* of UNITS_LINE; group 1 is the units row */
     char *row_prefix;        /* normalised */
     bool blank_is_block;
 
     char *group;             /* normalised name of the column that parts isotherms */
     double temperature_jump; /* [K], NaN = none */
 
-    row_marker *markers;
+    segment_marker *markers;
     size_t n_markers;
-    row_marker *values;
+    segment_marker *values;
     size_t n_values;
     char *segment_column, *curve_column; /* normalised */
     bool turning_point;

@@ -6,11 +6,10 @@
 
 #include <string.h>
 
-/* What instruments and spreadsheets write for the same thing; longer spellings first. */
+/* What instruments and spreadsheets write for the same thing. */
 static const struct {
     const char *found, *spelled;
 } spellings[] = {
-    {"''", "''"},
     {"\"", "''"},
     {"\xe2\x80\xb3", "''"}, /* double prime */
     {"\xe2\x80\x9d", "''"}, /* right double quotation mark */
@@ -39,35 +38,37 @@ static const struct {
     {"\xe2\x81\xb4", "^4"},
 };
 
+/* The spelling at the beginning of a text, or NULL. */
+static const char *spelling(const char *text, size_t length, size_t *taken)
+{
+    if ((unsigned char)*text < 0x80 && *text != '"' && *text != '`')
+        return NULL;
+    for (size_t s = 0; s < sizeof spellings / sizeof *spellings; s++) {
+        *taken = strlen(spellings[s].found);
+        if (length >= *taken && memcmp(text, spellings[s].found, *taken) == 0)
+            return spellings[s].spelled;
+    }
+    return NULL;
+}
+
 void name_normalise(const char *text, size_t length, char name[NAME_MAX])
 {
-    size_t out = 0, i = 0;
-    while (i < length) {
-        const char *piece = text + i;
-        size_t taken = 1, written = 1;
-        char lower;
-        if (*piece == ' ' || (*piece >= '\t' && *piece <= '\r')) {
-            i++;
-            continue;
-        }
-        if (*piece >= 'A' && *piece <= 'Z') {
-            lower = (char)(*piece - 'A' + 'a');
-            piece = &lower;
-        }
-        for (size_t s = 0; s < sizeof spellings / sizeof *spellings; s++) {
-            size_t n = strlen(spellings[s].found);
-            if (length - i >= n && memcmp(text + i, spellings[s].found, n) == 0) {
-                piece = spellings[s].spelled;
-                taken = n;
-                written = strlen(piece);
-                break;
-            }
+    size_t out = 0;
+    for (size_t i = 0, taken; i < length; i += taken) {
+        const char *piece = spelling(text + i, length - i, &taken);
+        const size_t written = piece != NULL ? strlen(piece) : 1;
+        char c = text[i];
+        if (piece == NULL) {
+            taken = 1;
+            if (c == ' ' || (c >= '\t' && c <= '\r'))
+                continue;
+            c = c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c;
+            piece = &c;
         }
         if (out + written >= NAME_MAX)
             break;
         memcpy(name + out, piece, written);
         out += written;
-        i += taken;
     }
     name[out] = '\0';
 }

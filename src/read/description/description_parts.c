@@ -11,7 +11,7 @@
 static const char *const segment_kinds[] = {"approach", "retract", "dwell", "modulation", "other"};
 #define N_KINDS (sizeof segment_kinds / sizeof *segment_kinds)
 
-static wt_quantity quantity_attribute(xml_parse *p, const xmlNode *node)
+static wt_quantity quantity_attribute(description_parser *p, const xmlNode *node)
 {
     char *id = parse_attribute(p, node, "quantity");
     wt_quantity quantity = WT_Q_NONE;
@@ -21,7 +21,8 @@ static wt_quantity quantity_attribute(xml_parse *p, const xmlNode *node)
     return quantity;
 }
 
-static void check_unit(xml_parse *p, const xmlNode *node, const char *unit, wt_quantity quantity)
+static void check_unit(description_parser *p, const xmlNode *node, const char *unit,
+                       wt_quantity quantity)
 {
     double factor = 1, offset = 0;
     char expected[128];
@@ -33,7 +34,7 @@ static void check_unit(xml_parse *p, const xmlNode *node, const char *unit, wt_q
     parse_complain(p, node, "the unit does not fit the quantity", expected, unit);
 }
 
-static void read_detect(xml_parse *p, const xmlNode *detect)
+static void read_detect(description_parser *p, const xmlNode *detect)
 {
     static const char *const kinds[] = {"require", "hint", "forbid", "names"};
     text_description *d = p->d;
@@ -67,7 +68,8 @@ static void read_detect(xml_parse *p, const xmlNode *detect)
                        "no score in any element");
 }
 
-static void read_list(xml_parse *p, const xmlNode *node, const char *name, char ***items, size_t *n)
+static void read_list(description_parser *p, const xmlNode *node, const char *name, char ***items,
+                      size_t *n)
 {
     char *text = parse_attribute(p, node, name);
     char *rest = NULL;
@@ -92,7 +94,7 @@ static void read_list(xml_parse *p, const xmlNode *node, const char *name, char 
     free(text);
 }
 
-static void read_text(xml_parse *p, const xmlNode *node)
+static void read_text(description_parser *p, const xmlNode *node)
 {
     static const char *const encodings[] = {"auto", "utf-8", "latin-1", "utf-16"};
     static const char *const separators[] = {"auto",  "tab",        "semicolon",
@@ -129,7 +131,7 @@ static void read_text(xml_parse *p, const xmlNode *node)
                        "separator and decimal mark are commas");
 }
 
-static void read_header(xml_parse *p, const xmlNode *node)
+static void read_header(description_parser *p, const xmlNode *node)
 {
     static const char *const sets[] = {"decimal", "separator"};
     text_description *d = p->d;
@@ -137,7 +139,7 @@ static void read_header(xml_parse *p, const xmlNode *node)
     for (const xmlNode *c = node->children; c != NULL && p->status == WT_OK; c = c->next) {
         if (!parse_is(c, "field"))
             continue;
-        name_field *field = &d->fields[d->n_fields++];
+        header_field *field = &d->fields[d->n_fields++];
         field->name = parse_attribute(p, c, "name");
         field->group = parse_count(p, c, "group", 1);
         field->unit_group = parse_count(p, c, "unit-group", 0);
@@ -171,7 +173,7 @@ static int compare_names(const void *a, const void *b)
     return (x->rule > y->rule) - (x->rule < y->rule);
 }
 
-static void read_columns(xml_parse *p, const xmlNode *table)
+static void read_columns(description_parser *p, const xmlNode *table)
 {
     text_description *d = p->d;
     size_t n = 0;
@@ -209,7 +211,7 @@ static void read_columns(xml_parse *p, const xmlNode *table)
     qsort(d->names, d->n_names, sizeof *d->names, compare_names);
 }
 
-static void read_table(xml_parse *p, const xmlNode *table)
+static void read_table(description_parser *p, const xmlNode *table)
 {
     static const char *const units[] = {"row", "name", "name-or-row", "line", "none"};
     static const char *const titles[] = {"same", "next"};
@@ -233,7 +235,7 @@ static void read_table(xml_parse *p, const xmlNode *table)
     d->aliases = parse_room(p, table, "unit", sizeof *d->aliases);
     for (const xmlNode *c = table->children; c != NULL && p->status == WT_OK; c = c->next) {
         if (parse_is(c, "step")) {
-            scan_step *step = &d->steps[d->n_steps++];
+            step_marker *step = &d->steps[d->n_steps++];
             step->title_next = parse_one_of(p, c, "title", titles, 2, 0) == 1;
             parse_pattern(p, c, "regex", &step->pattern, step->title_next ? 0 : 1);
         } else if (parse_is(c, "end")) {
@@ -248,7 +250,7 @@ static void read_table(xml_parse *p, const xmlNode *table)
         read_columns(p, table);
 }
 
-static void read_isotherms(xml_parse *p, const xmlNode *node)
+static void read_isotherms(description_parser *p, const xmlNode *node)
 {
     char *jump = parse_attribute(p, node, "temperature-jump");
     p->d->group = parse_normalised(p, parse_attribute(p, node, "group"));
@@ -260,7 +262,7 @@ static void read_isotherms(xml_parse *p, const xmlNode *node)
     free(jump);
 }
 
-static void read_segments(xml_parse *p, const xmlNode *node)
+static void read_segments(description_parser *p, const xmlNode *node)
 {
     text_description *d = p->d;
     d->segment_column = parse_normalised(p, parse_attribute(p, node, "column"));
@@ -270,12 +272,12 @@ static void read_segments(xml_parse *p, const xmlNode *node)
     d->values = parse_room(p, node, "value", sizeof *d->values);
     for (const xmlNode *c = node->children; c != NULL && p->status == WT_OK; c = c->next) {
         if (parse_is(c, "marker")) {
-            row_marker *marker = &d->markers[d->n_markers++];
+            segment_marker *marker = &d->markers[d->n_markers++];
             marker->kind = (wt_segment_kind)parse_one_of(p, c, "kind", segment_kinds, N_KINDS,
                                                          WT_SEGMENT_OTHER);
             parse_pattern(p, c, "regex", &marker->pattern, 0);
         } else if (parse_is(c, "value")) {
-            row_marker *value = &d->values[d->n_values++];
+            segment_marker *value = &d->values[d->n_values++];
             value->kind = (wt_segment_kind)parse_one_of(p, c, "kind", segment_kinds, N_KINDS,
                                                         WT_SEGMENT_OTHER);
             value->text = parse_attribute(p, c, "text");
@@ -287,7 +289,7 @@ static void read_segments(xml_parse *p, const xmlNode *node)
                        d->n_values > 0 ? "only values" : "no values");
 }
 
-static unsigned read_kinds(xml_parse *p, const xmlNode *root)
+static unsigned read_kinds(description_parser *p, const xmlNode *root)
 {
     char *text = parse_attribute(p, root, "kinds");
     unsigned kinds = 0;
@@ -300,11 +302,11 @@ static unsigned read_kinds(xml_parse *p, const xmlNode *root)
     return kinds;
 }
 
-void parse_format(xml_parse *p, const xmlNode *root)
+void parse_format(description_parser *p, const xmlNode *root)
 {
     static const struct {
         const char *name;
-        void (*read)(xml_parse *p, const xmlNode *node);
+        void (*read)(description_parser *p, const xmlNode *node);
     } parts[] = {{"detect", read_detect},       {"text", read_text},
                  {"header", read_header},       {"table", read_table},
                  {"isotherms", read_isotherms}, {"segments", read_segments}};

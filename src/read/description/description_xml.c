@@ -7,14 +7,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-void parse_no_memory(xml_parse *p)
+void parse_no_memory(description_parser *p)
 {
     if (p->status == WT_OK)
         p->status = wt_fail(p->err, WT_E_MEMORY, "no memory for a format description");
 }
 
-void parse_complain(xml_parse *p, const xmlNode *node, const char *message, const char *expected,
-                    const char *found)
+void parse_complain(description_parser *p, const xmlNode *node, const char *message,
+                    const char *expected, const char *found)
 {
     if (p->status != WT_OK)
         return;
@@ -28,7 +28,7 @@ void parse_complain(xml_parse *p, const xmlNode *node, const char *message, cons
     wt_error_advice(p->err, "see weartrack-format(5)");
 }
 
-static char *copy_xml(xml_parse *p, xmlChar *text)
+static char *copy_xml(description_parser *p, xmlChar *text)
 {
     char *copy = NULL;
     if (text != NULL) {
@@ -40,17 +40,17 @@ static char *copy_xml(xml_parse *p, xmlChar *text)
     return copy;
 }
 
-char *parse_attribute(xml_parse *p, const xmlNode *node, const char *name)
+char *parse_attribute(description_parser *p, const xmlNode *node, const char *name)
 {
     return copy_xml(p, xmlGetNoNsProp(node, (const xmlChar *)name));
 }
 
-char *parse_content(xml_parse *p, const xmlNode *node)
+char *parse_content(description_parser *p, const xmlNode *node)
 {
     return copy_xml(p, xmlNodeGetContent(node));
 }
 
-char *parse_normalised(xml_parse *p, char *text)
+char *parse_normalised(description_parser *p, char *text)
 {
     char name[NAME_MAX];
     char *copy = NULL;
@@ -64,7 +64,7 @@ char *parse_normalised(xml_parse *p, char *text)
     return copy;
 }
 
-bool parse_true(xml_parse *p, const xmlNode *node, const char *name)
+bool parse_true(description_parser *p, const xmlNode *node, const char *name)
 {
     char *text = parse_attribute(p, node, name);
     bool yes = text != NULL && (strcmp(text, "true") == 0 || strcmp(text, "1") == 0);
@@ -73,8 +73,8 @@ bool parse_true(xml_parse *p, const xmlNode *node, const char *name)
 }
 
 /* Of texts that the schema has checked, so the list is complete. */
-size_t parse_one_of(xml_parse *p, const xmlNode *node, const char *name, const char *const words[],
-                    size_t n, size_t absent)
+size_t parse_one_of(description_parser *p, const xmlNode *node, const char *name,
+                    const char *const words[], size_t n, size_t absent)
 {
     char *text = parse_attribute(p, node, name);
     size_t i = absent;
@@ -85,7 +85,7 @@ size_t parse_one_of(xml_parse *p, const xmlNode *node, const char *name, const c
     return i;
 }
 
-size_t parse_count(xml_parse *p, const xmlNode *node, const char *name, size_t absent)
+size_t parse_count(description_parser *p, const xmlNode *node, const char *name, size_t absent)
 {
     char *text = parse_attribute(p, node, name);
     size_t value = text != NULL ? (size_t)strtoul(text, NULL, 10) : absent;
@@ -106,7 +106,7 @@ const xmlNode *parse_child(const xmlNode *node, const char *name)
     return c;
 }
 
-void *parse_room(xml_parse *p, const xmlNode *node, const char *name, size_t size)
+void *parse_room(description_parser *p, const xmlNode *node, const char *name, size_t size)
 {
     size_t n = 0;
     for (const xmlNode *c = node->children; c != NULL; c = c->next)
@@ -119,7 +119,7 @@ void *parse_room(xml_parse *p, const xmlNode *node, const char *name, size_t siz
 
 /* ---- regular expressions ------------------------------------------------------------------ */
 
-bool pattern_match(const name_pattern *pattern, const char *line, size_t length, regmatch_t *groups,
+bool pattern_match(const line_pattern *pattern, const char *line, size_t length, regmatch_t *groups,
                    size_t n)
 {
     if (length > PATTERN_LINE_MAX || (pattern->first != '\0' && line[0] != pattern->first))
@@ -195,8 +195,8 @@ static char first_byte(const char *source)
     return c;
 }
 
-void parse_pattern(xml_parse *p, const xmlNode *node, const char *name, name_pattern *pattern,
-                   size_t groups)
+void parse_pattern(description_parser *p, const xmlNode *node, const char *name,
+                   line_pattern *pattern, size_t groups)
 {
     char *source = parse_attribute(p, node, name);
     char message[128];

@@ -10,36 +10,36 @@
 #include <libxml/tree.h>
 
 /* One reading: the first failure stays. */
-typedef struct xml_parse {
+typedef struct description_parser {
     text_description *d;
     const char *name;
     wt_status status;
     wt_error *err;
-} xml_parse;
+} description_parser;
 
-void parse_no_memory(xml_parse *p);
+void parse_no_memory(description_parser *p);
 /* "FILE: line 12, element column: MESSAGE; expected ...; found ..." */
-void parse_complain(xml_parse *p, const xmlNode *node, const char *message, const char *expected,
-                    const char *found);
+void parse_complain(description_parser *p, const xmlNode *node, const char *message,
+                    const char *expected, const char *found);
 /* New strings; NULL if the attribute is absent. */
-char *parse_attribute(xml_parse *p, const xmlNode *node, const char *name);
-char *parse_content(xml_parse *p, const xmlNode *node);
+char *parse_attribute(description_parser *p, const xmlNode *node, const char *name);
+char *parse_content(description_parser *p, const xmlNode *node);
 /* The text as a normalised name; frees the text. */
-char *parse_normalised(xml_parse *p, char *text);
-bool parse_true(xml_parse *p, const xmlNode *node, const char *name);
+char *parse_normalised(description_parser *p, char *text);
+bool parse_true(description_parser *p, const xmlNode *node, const char *name);
 /* Index of an attribute in n words; `absent` if it is not there. */
-size_t parse_one_of(xml_parse *p, const xmlNode *node, const char *name, const char *const words[],
-                    size_t n, size_t absent);
-size_t parse_count(xml_parse *p, const xmlNode *node, const char *name, size_t absent);
+size_t parse_one_of(description_parser *p, const xmlNode *node, const char *name,
+                    const char *const words[], size_t n, size_t absent);
+size_t parse_count(description_parser *p, const xmlNode *node, const char *name, size_t absent);
 bool parse_is(const xmlNode *node, const char *name);
 const xmlNode *parse_child(const xmlNode *node, const char *name);
 /* Zeroed room for as many items as `node` has children of that name (NULL: of any name). */
-void *parse_room(xml_parse *p, const xmlNode *node, const char *name, size_t size);
+void *parse_room(description_parser *p, const xmlNode *node, const char *name, size_t size);
 /* Compiles an attribute that is a regular expression with at least so many groups. */
-void parse_pattern(xml_parse *p, const xmlNode *node, const char *name, name_pattern *pattern,
-                   size_t groups);
+void parse_pattern(description_parser *p, const xmlNode *node, const char *name,
+                   line_pattern *pattern, size_t groups);
 
 /* description_parts.c: all of a document that follows the schema. */
-void parse_format(xml_parse *p, const xmlNode *root);
+void parse_format(description_parser *p, const xmlNode *root);
 
 #endif

@@ -107,11 +107,11 @@ typedef struct text_table {
 } text_table;
 #define ROW_KIND_NONE 255u
 
-typedef struct text_value {
+typedef struct field_value {
     char *text; /* as found, NULL if the line was not there */
     size_t line;
     char unit[32];
-} text_value;
+} field_value;
 
 /* Everything that a description finds in a file. */
 typedef struct text_file {
@@ -120,8 +120,8 @@ typedef struct text_file {
     text_lines lines;
     text_table *tables;
     size_t n_tables, capacity;
-    text_value *values; /* [n_fields] of the description, as last seen */
-    char **unknown;     /* names of columns that no rule knows, each once */
+    field_value *values; /* [n_fields] of the description, as last seen */
+    char **unknown;      /* names of columns that no rule knows, each once */
     size_t n_unknown;
     char **steps; /* titles of steps without a table, each once */
     size_t n_steps;
@@ -154,10 +154,10 @@ wt_status text_nothing(const text_file *file, const char *what, wt_error *err);
 /* ---- the names row ------------------------------------------------------------------------ */
 
 /* Names and units of a candidate for a names row. */
-typedef struct name_set {
+typedef struct names_row {
     text_cells names, units; /* units.n is 0 if there is no such row */
     cell_separator separator;
-} name_set;
+} names_row;
 
 /* Is the name of a cell one of the description? *unit is what stands in the name. */
 bool names_known(const text_description *description, text_cell cell, size_t *first, size_t *n,
@@ -165,15 +165,15 @@ bool names_known(const text_description *description, text_cell cell, size_t *fi
 
 /* Splits `line` and tells whether its cells name enough columns for one of `kinds`. With an auto
  * separator the one that names most columns is taken. False also when out of memory. */
-bool names_match(name_set *names, const text_description *description, const char *line,
+bool names_match(names_row *names, const text_description *description, const char *line,
                  size_t length, cell_separator separator, unsigned kinds);
 /* Fills columns, quantities and problems of the table; what is not understood goes to
  * file->unknown. */
-wt_status names_resolve(const name_set *names, text_file *file, text_table *table,
+wt_status names_resolve(const names_row *names, text_file *file, text_table *table,
                         const wt_read_options *options, wt_error *err);
 /* Does a name carry its unit ("f (Hz)", "E' / MPa", "q[1/m]")? Shortens *length to the name. */
 bool name_unit(const char *name, size_t *length, text_cell *unit);
-void names_free(name_set *names);
+void names_free(names_row *names);
 
 /* ---- results ------------------------------------------------------------------------------ */
 

@@ -37,8 +37,8 @@ static void set_declared(text_scanner *s, field_sets sets, const char *text, siz
 static wt_status set_field(text_scanner *s, size_t f, size_t line_number, const char *line,
                            const regmatch_t groups[GROUPS])
 {
-    const name_field *field = &s->d->fields[f];
-    text_value *value = &s->file->values[f];
+    const header_field *field = &s->d->fields[f];
+    field_value *value = &s->file->values[f];
     char place[32];
     const regmatch_t *found = &groups[field->group];
     const char *text = line + found->rm_so;

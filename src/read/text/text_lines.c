@@ -29,34 +29,34 @@ static byte_order guess_utf_16(const unsigned char *bytes, size_t length)
     return ORDER_NONE;
 }
 
-typedef struct choice {
+typedef struct encoding_choice {
     const char *words; /* for people */
     const char *iconv; /* NULL: UTF-8 already */
     size_t mark;       /* bytes of the byte order mark */
     bool utf_16;
-} choice;
+} encoding_choice;
 
-static choice choose(const unsigned char *bytes, size_t length, text_encoding encoding)
+static encoding_choice choose(const unsigned char *bytes, size_t length, text_encoding encoding)
 {
     const bool any = encoding == ENCODING_AUTO;
     if ((any || encoding == ENCODING_UTF_8) && length >= 3 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0)
-        return (choice){"UTF-8 with byte order mark", NULL, 3, false};
+        return (encoding_choice){"UTF-8 with byte order mark", NULL, 3, false};
     if (any || encoding == ENCODING_UTF_16) {
         if (length >= 2 && bytes[0] == 0xff && bytes[1] == 0xfe)
-            return (choice){"UTF-16LE with byte order mark", "UTF-16LE", 2, true};
+            return (encoding_choice){"UTF-16LE with byte order mark", "UTF-16LE", 2, true};
         if (length >= 2 && bytes[0] == 0xfe && bytes[1] == 0xff)
-            return (choice){"UTF-16BE with byte order mark", "UTF-16BE", 2, true};
+            return (encoding_choice){"UTF-16BE with byte order mark", "UTF-16BE", 2, true};
         byte_order order = guess_utf_16(bytes, length);
         if (order == ORDER_BIG)
-            return (choice){"UTF-16BE", "UTF-16BE", 0, true};
+            return (encoding_choice){"UTF-16BE", "UTF-16BE", 0, true};
         if (order == ORDER_LITTLE || encoding == ENCODING_UTF_16)
-            return (choice){"UTF-16LE", "UTF-16LE", 0, true};
+            return (encoding_choice){"UTF-16LE", "UTF-16LE", 0, true};
     }
     if (encoding == ENCODING_LATIN_1)
-        return (choice){"Latin-1", "ISO-8859-1", 0, false};
+        return (encoding_choice){"Latin-1", "ISO-8859-1", 0, false};
     if (any && utf8_check((const char *)bytes, length) < length)
-        return (choice){"Latin-1", "ISO-8859-1", 0, false};
-    return (choice){"UTF-8", NULL, 0, false};
+        return (encoding_choice){"Latin-1", "ISO-8859-1", 0, false};
+    return (encoding_choice){"UTF-8", NULL, 0, false};
 }
 
 const char *lines_encoding(const unsigned char *bytes, size_t length, text_encoding encoding)
@@ -90,8 +90,8 @@ static char *clean_utf_8(const char *bytes, size_t length, size_t *n_out, size_t
 }
 
 /* NULL when out of memory or when the system cannot convert. */
-static char *convert(const choice *c, const unsigned char *bytes, size_t length, size_t *n_out,
-                     size_t *n_replaced)
+static char *convert(const encoding_choice *c, const unsigned char *bytes, size_t length,
+                     size_t *n_out, size_t *n_replaced)
 {
     const size_t unit = c->utf_16 ? 2 : 1;
     /* Two bytes of UTF-16 become at most three, one of Latin-1 at most two. */
@@ -156,7 +156,7 @@ static bool find_lines(text_lines *lines, size_t length)
 wt_status lines_decode(const unsigned char *bytes, size_t length, text_encoding encoding,
                        text_lines *lines, wt_error *err)
 {
-    const choice c = choose(bytes, length, encoding);
+    const encoding_choice c = choose(bytes, length, encoding);
     text_lines made = {.encoding = c.words};
     size_t n = 0;
     bytes = c.mark > 0 ? bytes + c.mark : bytes;

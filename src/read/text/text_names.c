@@ -88,7 +88,7 @@ static bool suffices(wt_quantity_set set, unsigned kinds)
     return false;
 }
 
-static size_t try_separator(name_set *names, const text_description *d, const char *line,
+static size_t try_separator(names_row *names, const text_description *d, const char *line,
                             size_t length, cell_separator separator, unsigned kinds)
 {
     wt_quantity_set set;
@@ -98,7 +98,7 @@ static size_t try_separator(name_set *names, const text_description *d, const ch
     return suffices(set, kinds) ? known : 0;
 }
 
-bool names_match(name_set *names, const text_description *d, const char *line, size_t length,
+bool names_match(names_row *names, const text_description *d, const char *line, size_t length,
                  cell_separator separator, unsigned kinds)
 {
     static const cell_separator all[] = {SEPARATOR_TAB, SEPARATOR_SEMICOLON, SEPARATOR_COMMA,
@@ -121,11 +121,11 @@ bool names_match(name_set *names, const text_description *d, const char *line, s
     return best > 0 && try_separator(names, d, line, length, names->separator, kinds) > 0;
 }
 
-void names_free(name_set *names)
+void names_free(names_row *names)
 {
     free(names->names.cells);
     free(names->units.cells);
-    *names = (name_set){0};
+    *names = (names_row){0};
 }
 
 /* ---- units -------------------------------------------------------------------------------- */
@@ -178,7 +178,7 @@ static bool to_si(const text_description *d, const column_rule *rule, const char
 
 typedef struct resolver {
     const text_description *d;
-    const name_set *names;
+    const names_row *names;
     char (*normalised)[NAME_MAX];
     text_table *table;
     const wt_read_options *options;
@@ -276,7 +276,7 @@ static wt_status add_unknown(text_file *file, text_cell cell, wt_error *err)
 
 /* A column that does not fit (F beside f, in newton) is just another one where the quantity is
  * known from a column that does. */
-static wt_status settle_problems(const name_set *names, text_file *file, text_table *table,
+static wt_status settle_problems(const names_row *names, text_file *file, text_table *table,
                                  wt_error *err)
 {
     wt_status status = WT_OK;
@@ -301,7 +301,7 @@ static size_t find_cell(const resolver *r, const char *name)
     return SIZE_MAX;
 }
 
-wt_status names_resolve(const name_set *names, text_file *file, text_table *table,
+wt_status names_resolve(const names_row *names, text_file *file, text_table *table,
                         const wt_read_options *options, wt_error *err)
 {
     const text_description *d = file->description;

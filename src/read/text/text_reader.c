@@ -10,7 +10,7 @@
 /* Some exports have long headers; what is not seen in this much is not there. */
 #define PEEK_MAX ((size_t)1 << 18)
 
-typedef enum probe_is { PROBE_NOT_FOUND, PROBE_FOUND, PROBE_MORE } probe_is;
+typedef enum probe_result { PROBE_NOT_FOUND, PROBE_FOUND, PROBE_MORE } probe_result;
 
 /* A file with these bytes is not text in any encoding. */
 static bool is_binary(const file_peek *peek)
@@ -26,7 +26,7 @@ static bool is_binary(const file_peek *peek)
     return 10 * zeros > 6 * n || 20 * controls > n;
 }
 
-static bool names_line(name_set *names, const text_description *d, const char *line, size_t length)
+static bool names_line(names_row *names, const text_description *d, const char *line, size_t length)
 {
     if (d->has_names_line) {
         regmatch_t groups[2] = {{-1, -1}, {-1, -1}};
@@ -41,12 +41,12 @@ static bool names_line(name_set *names, const text_description *d, const char *l
     return names_match(names, d, line, length, d->names_separator, d->kinds);
 }
 
-static probe_is look_for(const text_description *d, const text_probe *probe,
-                         const text_lines *lines, bool whole)
+static probe_result look_for(const text_description *d, const text_probe *probe,
+                             const text_lines *lines, bool whole)
 {
     /* The last line of a part of a file may be half a line. */
     const size_t complete = whole || lines->n == 0 ? lines->n : lines->n - 1;
-    name_set names = {.separator = SEPARATOR_AUTO};
+    names_row names = {.separator = SEPARATOR_AUTO};
     bool found = false;
     for (size_t i = 0; i < complete && i < probe->within && !found; i++) {
         size_t length;
@@ -68,10 +68,11 @@ static probe_is look_for(const text_description *d, const text_probe *probe,
 
 struct text_peek {
     bool is_text;
-    bool whole;                       /* nothing more will be shown */
-    size_t length;                    /* up to a line end, so that no character is cut in two */
-    text_lines lines[ENCODING_COUNT]; /* as decoded so far */
-    size_t n;
+    bool whole;                           /* nothing more will be shown */
+    size_t length;                        /* up to a line end, so that no character is cut in two */
+    const text_lines *as[ENCODING_COUNT]; /* what the encodings asked for come to, in `lines` */
+    text_lines lines[ENCODING_COUNT];
+    size_t n_lines;
 };
 
 static struct text_peek *peek_open(const file_peek *peek)
@@ -92,9 +93,7 @@ static struct text_peek *peek_open(const file_peek *peek)
 
 void text_peek_free(struct text_peek *peek)
 {
-    if (peek == NULL)
-        return;
-    for (size_t i = 0; i < peek->n; i++)
+    for (size_t i = 0; peek != NULL && i < peek->n_lines; i++)
         lines_free(&peek->lines[i]);
     free(peek);
 }
@@ -108,15 +107,19 @@ static const text_lines *peek_lines(file_peek *peek, text_encoding encoding)
     struct text_peek *t = peek->text;
     if (t == NULL || !t->is_text)
         return NULL;
+    if (t->as[encoding] != NULL)
+        return t->as[encoding];
     const char *words = lines_encoding(peek->bytes, t->length, encoding);
-    for (size_t i = 0; i < t->n; i++)
-        if (strcmp(t->lines[i].encoding, words) == 0)
-            return &t->lines[i];
-    text_lines *lines = &t->lines[t->n];
-    if (lines_decode(peek->bytes, t->length, encoding, lines, NULL) != WT_OK)
-        return NULL;
-    t->n++;
-    return lines;
+    size_t i = 0;
+    while (i < t->n_lines && strcmp(t->lines[i].encoding, words) != 0)
+        i++;
+    if (i == t->n_lines) {
+        if (lines_decode(peek->bytes, t->length, encoding, &t->lines[i], NULL) != WT_OK)
+            return NULL;
+        t->n_lines++;
+    }
+    t->as[encoding] = &t->lines[i];
+    return t->as[encoding];
 }
 
 /* ---- the reader --------------------------------------------------------------------------- */

@@ -69,7 +69,7 @@ static unsigned char segment_kind(const text_scanner *s)
     return WT_SEGMENT_OTHER;
 }
 
-row_kind scan_read_row(text_scanner *s, size_t *bad)
+row_quality scan_read_row(text_scanner *s, size_t *bad)
 {
     text_table *t = s->table;
     double *values = t->values + t->n_rows * t->n_columns;

@@ -253,7 +253,7 @@ static wt_status table_line(text_scanner *s, size_t *i, const char *line, size_t
     status = scan_grow(s);
     if (status != WT_OK)
         return status;
-    row_kind row = scan_read_row(s, &bad);
+    row_quality row = scan_read_row(s, &bad);
     if (row == ROW_GOOD)
         return scan_add_row(s, *i + 1);
     status = match_names(s, i, line, length, false, &is);

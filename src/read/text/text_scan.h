@@ -21,7 +21,7 @@ typedef struct text_scanner {
     wt_error *err;
     unsigned kinds;
     scan_state state;
-    name_set names;
+    names_row names;
     text_cells row;
     text_table *table; /* the open one, or the last one; NULL before the first */
     text_header header;
@@ -40,11 +40,11 @@ typedef struct text_scanner {
     bool has_group;
 } text_scanner;
 
-typedef enum row_kind {
+typedef enum row_quality {
     ROW_GOOD,
     ROW_BROKEN, /* some cells are numbers, one is not */
     ROW_TEXT    /* no number where numbers belong */
-} row_kind;
+} row_quality;
 
 static inline wt_status scan_no_memory(text_scanner *s)
 {
@@ -67,7 +67,7 @@ void scan_close(text_scanner *s);
 /* Room for one more row. */
 wt_status scan_grow(text_scanner *s);
 /* Reads the cells of s->row into the next row of the table; *bad is the first cell at fault. */
-row_kind scan_read_row(text_scanner *s, size_t *bad);
+row_quality scan_read_row(text_scanner *s, size_t *bad);
 /* Keeps the row that was read. */
 wt_status scan_add_row(text_scanner *s, size_t line_number);
 /* The error for a row that cannot be read. */
