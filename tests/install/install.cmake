@@ -1,6 +1,8 @@
 # Installs into an empty prefix, moves it, builds and runs a small consumer with the CMake package
-# and with pkg-config, and runs the installed command.
-# Run: cmake -DBUILD=.. -DSOURCE=.. -DWORK=.. -DCC=.. -DCFLAGS=.. -DGENERATOR=.. -P install.cmake
+# and with pkg-config, also one whose headers have grown, and runs the installed command. Library,
+# CMake package and .pc file hold what the head of base.h promises.
+# Run: cmake -DBUILD=.. -DSOURCE=.. -DWORK=.. -DCC=.. -DREADELF=.. -DVERSION=.. -DCFLAGS=..
+#            -DGENERATOR=.. -P install.cmake
 # SPDX-License-Identifier: GPL-3.0-or-later
 cmake_minimum_required(VERSION 3.25)
 
@@ -46,6 +48,46 @@ foreach(file IN LISTS installed)
   endif()
 endforeach()
 
+# The loader is told one folder: that beside the command.
+file(GLOB library ${prefix}/lib*/libweartrack.so ${prefix}/lib*/*/libweartrack.so)
+foreach(file IN ITEMS ${prefix}/bin/weartrack ${library})
+  run(${READELF} -d ${file})
+  string(REGEX MATCHALL "(RPATH|RUNPATH|SONAME)[^\n]*" entries "${output}")
+  list(FILTER entries EXCLUDE REGEX "R(UN)?PATH.*\\[\\$ORIGIN/\\.\\./lib[a-z0-9_/-]*\\]$")
+  list(APPEND dynamic ${entries})
+endforeach()
+string(REGEX MATCH "^([0-9]+)\\.([0-9]+)" version "${VERSION}")
+set(abi ${CMAKE_MATCH_1})
+if(abi EQUAL 0)
+  set(abi ${version})
+endif()
+if(NOT dynamic MATCHES "^SONAME[^[]*\\[libweartrack\\.so\\.([0-9.]+)\\]$" OR NOT CMAKE_MATCH_1 STREQUAL abi)
+  message(SEND_ERROR "the soname does not end in ${abi}, or a folder of libraries is named: ${dynamic}")
+endif()
+
+# The CMake package fits what the soname fits.
+file(GLOB_RECURSE version_file "${prefix}/*/weartrack-config-version.cmake")
+function(check_fits major minor expected)
+  set(PACKAGE_FIND_VERSION ${major}.${minor})
+  set(PACKAGE_FIND_VERSION_MAJOR ${major})
+  set(PACKAGE_FIND_VERSION_MINOR ${minor})
+  set(PACKAGE_VERSION_COMPATIBLE FALSE)
+  include(${version_file})
+  if(NOT PACKAGE_VERSION_COMPATIBLE STREQUAL expected)
+    message(SEND_ERROR "find_package(weartrack ${major}.${minor}) is not ${expected} for ${VERSION}")
+  endif()
+endfunction()
+string(REPLACE "." ";" parts ${version})
+list(GET parts 0 major)
+list(GET parts 1 minor)
+math(EXPR older "${minor} - 1")
+math(EXPR newer "${minor} + 1")
+check_fits(${major} ${minor} TRUE)
+check_fits(${major} ${newer} FALSE)
+if(major EQUAL 0)
+  check_fits(0 ${older} FALSE)
+endif()
+
 separate_arguments(flags UNIX_COMMAND "${CFLAGS}")
 run(${CMAKE_COMMAND} -G "${GENERATOR}" -S ${SOURCE}/tests/install/consumer -B ${WORK}/cmake
     -DCMAKE_C_COMPILER=${CC} "-DCMAKE_C_FLAGS=${CFLAGS}" -DCMAKE_PREFIX_PATH=${prefix})
@@ -65,9 +107,50 @@ get_filename_component(lib_dir ${pc_dir} DIRECTORY)
 run(${CC} -std=c17 ${flags} ${SOURCE}/tests/install/consumer/consumer.c -o ${WORK}/by_pc ${pc_flags} -lm
     -Wl,-rpath,${lib_dir})
 run(${WORK}/by_pc)
+set(answer "${output}")
+
+# A program built with later headers, in which every structure with room has taken some for a field
+# of its own, meets this library: nothing has moved.
+file(COPY ${prefix}/include DESTINATION ${WORK}/grown)
+file(GLOB headers ${WORK}/grown/include/weartrack/*.h)
+set(grown 0)
+foreach(header IN LISTS headers)
+  file(READ ${header} text)
+  string(REGEX MATCHALL "uint64_t reserved\\[8\\];" found "${text}")
+  list(LENGTH found n)
+  math(EXPR grown "${grown} + ${n}")
+  string(REPLACE "uint64_t reserved[8];" "double taken; uint64_t reserved[7];" text "${text}")
+  file(WRITE ${header} "${text}")
+endforeach()
+if(grown LESS 30)
+  message(SEND_ERROR "only ${grown} structures with room found")
+endif()
+run(${CC} -std=c17 ${flags} -I${WORK}/grown/include ${SOURCE}/tests/install/consumer/consumer.c
+    -o ${WORK}/by_grown ${pc_flags} -lm -Wl,-rpath,${lib_dir})
+run(${WORK}/by_grown)
+if(NOT output STREQUAL answer)
+  message(SEND_ERROR "with grown headers: ${output} instead of ${answer}")
+endif()
 
 run(${prefix}/bin/weartrack --version)
 if(NOT output MATCHES "^weartrack [0-9]")
   message(FATAL_ERROR "the installed command says: ${output}")
 endif()
 run(${prefix}/bin/weartrack formats list)
+
+# Nothing said: optimised. A library folder of its own outside the prefix: the .pc file names both.
+unset(ENV{CMAKE_BUILD_TYPE})
+run(${CMAKE_COMMAND} -G "${GENERATOR}" -S ${SOURCE} -B ${WORK}/plain -DCMAKE_C_COMPILER=${CC}
+    -DBUILD_TESTING=OFF -DCMAKE_INSTALL_PREFIX=/opt/weartrack -DCMAKE_INSTALL_LIBDIR=/usr/lib64)
+file(STRINGS ${WORK}/plain/CMakeCache.txt type REGEX "^CMAKE_(BUILD_TYPE|CONFIGURATION_TYPES):")
+if(NOT type MATCHES "=.*Release")
+  message(SEND_ERROR "configured without a build type: ${type}")
+endif()
+foreach(pair IN ITEMS libdir=/usr/lib64 includedir=/opt/weartrack/include prefix=/opt/weartrack)
+  string(REGEX MATCH "^(.*)=(.*)$" pair ${pair})
+  run(pkg-config --variable=${CMAKE_MATCH_1} ${WORK}/plain/src/weartrack.pc)
+  string(STRIP "${output}" output)
+  if(NOT output STREQUAL CMAKE_MATCH_2)
+    message(SEND_ERROR "weartrack.pc: ${pair} expected, ${output} found")
+  endif()
+endforeach()
