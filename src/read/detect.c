@@ -141,6 +141,8 @@ static wt_status ask(const wt_formats *formats, wt_input *input, question q, uns
         size_t need = 0, still_open = 0;
         for (size_t i = 0; i < n_open; i++) {
             const recognition answer = open[i]->detect(open[i], &peek);
+            if (answer.answer == ANSWER_NO_MEMORY)
+                status = wt_fail(err, WT_E_MEMORY, "no memory to detect the format");
             if (answer.answer == ANSWER_MORE && !peek.whole) {
                 need = answer.need > need ? answer.need : need;
                 open[still_open++] = open[i];
@@ -149,6 +151,8 @@ static wt_status ask(const wt_formats *formats, wt_input *input, question q, uns
             }
         }
         text_peek_free(peek.text);
+        if (status != WT_OK)
+            break;
         n_open = still_open;
         /* Growing at least twofold keeps the number of questions small whatever readers ask. */
         size_t twice = want > SIZE_MAX / 2 ? SIZE_MAX : 2 * want;

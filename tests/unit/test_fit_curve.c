@@ -250,6 +250,17 @@ static void sensitivity_budget(void **state)
     }
 }
 
+/* The largest force is that of any sample, the first one too. */
+static void largest_force(void **state)
+{
+    (void)state;
+    curve_truth t = curve_standard();
+    curve_make(&t, 1, &data);
+    data.force[0] += 500e-9;
+    wt_indent_fit fit = fit_with(&t, NULL);
+    assert_near(fit.max_force, 500e-9, 0.01);
+}
+
 static void range_of_the_fit(void **state)
 {
     (void)state;
@@ -471,6 +482,7 @@ int main(void)
         cmocka_unit_test(intervals_cover_the_truth),
         cmocka_unit_test(plain_least_squares_is_biased_with_a_soft_lever),
         cmocka_unit_test(sensitivity_budget),
+        cmocka_unit_test(largest_force),
         cmocka_unit_test(range_of_the_fit),
         cmocka_unit_test(nothing_hidden_decides),
         cmocka_unit_test(points_for_plots),

@@ -342,6 +342,8 @@ static wt_status add_representative(work *w, const flow_files *files, wt_indent_
         wt_status next = wt_force_next(source, curve, &ignored);
         if (next == WT_END)
             break;
+        if (next == WT_E_MEMORY)
+            status = wt_fail(err, next, "no memory for the representative curve");
         if (next != WT_OK || curve->index != number)
             continue;
         wt_indent_fit fit;

@@ -157,6 +157,7 @@ wt_status text_nothing(const text_file *file, const char *what, wt_error *err);
 typedef struct names_row {
     text_cells names, units; /* units.n is 0 if there is no such row */
     cell_separator separator;
+    bool no_memory;
 } names_row;
 
 /* Is the name of a cell one of the description? *unit is what stands in the name. */
@@ -164,7 +165,7 @@ bool names_known(const text_description *description, text_cell cell, size_t *fi
                  text_cell *unit);
 
 /* Splits `line` and tells whether its cells name enough columns for one of `kinds`. With an auto
- * separator the one that names most columns is taken. False also when out of memory. */
+ * separator the one that names most columns is taken. False also when `no_memory`. */
 bool names_match(names_row *names, const text_description *description, const char *line,
                  size_t length, cell_separator separator, unsigned kinds);
 /* Fills columns, quantities and problems of the table; what is not understood goes to

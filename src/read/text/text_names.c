@@ -92,7 +92,11 @@ static size_t try_separator(names_row *names, const text_description *d, const c
                             size_t length, cell_separator separator, unsigned kinds)
 {
     wt_quantity_set set;
-    if (!cells_split(&names->names, line, length, separator, d) || names->names.n > COLUMNS_MAX)
+    if (!cells_split(&names->names, line, length, separator, d)) {
+        names->no_memory = true;
+        return 0;
+    }
+    if (names->names.n > COLUMNS_MAX)
         return 0;
     size_t known = count_known(d, &names->names, &set);
     return suffices(set, kinds) ? known : 0;
@@ -118,7 +122,8 @@ bool names_match(names_row *names, const text_description *d, const char *line, 
             names->separator = all[i];
         }
     }
-    return best > 0 && try_separator(names, d, line, length, names->separator, kinds) > 0;
+    return best > 0 && !names->no_memory &&
+           try_separator(names, d, line, length, names->separator, kinds) > 0;
 }
 
 void names_free(names_row *names)

@@ -10,7 +10,12 @@
 /* Some exports have long headers; what is not seen in this much is not there. */
 #define PEEK_MAX ((size_t)1 << 18)
 
-typedef enum probe_result { PROBE_NOT_FOUND, PROBE_FOUND, PROBE_MORE } probe_result;
+typedef enum probe_result {
+    PROBE_NOT_FOUND,
+    PROBE_FOUND,
+    PROBE_MORE,
+    PROBE_NO_MEMORY
+} probe_result;
 
 /* A file with these bytes is not text in any encoding. */
 static bool is_binary(const file_peek *peek)
@@ -58,7 +63,10 @@ static probe_result look_for(const text_description *d, const text_probe *probe,
         else
             found = pattern_match(&probe->pattern, line, length, NULL, 0);
     }
+    const bool no_memory = names.no_memory;
     names_free(&names);
+    if (no_memory)
+        return PROBE_NO_MEMORY;
     if (found)
         return PROBE_FOUND;
     return whole || complete >= probe->within ? PROBE_NOT_FOUND : PROBE_MORE;
@@ -98,28 +106,31 @@ void text_peek_free(struct text_peek *peek)
     free(peek);
 }
 
-/* The lines of the peek, decoded once for all descriptions that see the same encoding in it; NULL
- * if it is no text. */
-static const text_lines *peek_lines(file_peek *peek, text_encoding encoding)
+/* The lines of the peek, decoded once for all descriptions that see the same encoding in it;
+ * *lines is NULL if it is no text. */
+static wt_status peek_lines(file_peek *peek, text_encoding encoding, const text_lines **lines)
 {
+    *lines = NULL;
     if (peek->text == NULL)
         peek->text = peek_open(peek);
     struct text_peek *t = peek->text;
-    if (t == NULL || !t->is_text)
-        return NULL;
-    if (t->as[encoding] != NULL)
-        return t->as[encoding];
+    if (t == NULL)
+        return WT_E_MEMORY;
+    *lines = t->as[encoding];
+    if (!t->is_text || *lines != NULL)
+        return WT_OK;
     const char *words = lines_encoding(peek->bytes, t->length, encoding);
     size_t i = 0;
     while (i < t->n_lines && strcmp(t->lines[i].encoding, words) != 0)
         i++;
     if (i == t->n_lines) {
-        if (lines_decode(peek->bytes, t->length, encoding, &t->lines[i], NULL) != WT_OK)
-            return NULL;
+        wt_status status = lines_decode(peek->bytes, t->length, encoding, &t->lines[i], NULL);
+        if (status != WT_OK)
+            return status;
         t->n_lines++;
     }
-    t->as[encoding] = &t->lines[i];
-    return t->as[encoding];
+    *lines = t->as[encoding] = &t->lines[i];
+    return WT_OK;
 }
 
 /* ---- the reader --------------------------------------------------------------------------- */
@@ -127,9 +138,11 @@ static const text_lines *peek_lines(file_peek *peek, text_encoding encoding)
 static recognition detect(const file_reader *self, file_peek *peek)
 {
     const text_description *d = self->description;
-    const text_lines *lines = peek_lines(peek, d->encoding);
+    const text_lines *lines;
     recognition answer = {.answer = ANSWER_NO};
     bool more = false;
+    if (peek_lines(peek, d->encoding, &lines) == WT_E_MEMORY)
+        answer.answer = ANSWER_NO_MEMORY;
     if (lines == NULL)
         return answer;
     int score = 0;
@@ -148,6 +161,9 @@ static recognition detect(const file_reader *self, file_peek *peek)
         case PROBE_MORE:
             more = true;
             break;
+        case PROBE_NO_MEMORY:
+            answer.answer = ANSWER_NO_MEMORY;
+            return answer;
         }
     }
     if (more) {

@@ -173,7 +173,7 @@ static wt_status match_names(text_scanner *s, size_t *i, const char *line, size_
     if (separator == SEPARATOR_AUTO)
         separator = s->separator;
     if (!names_match(&s->names, d, line, length, separator, s->kinds))
-        return WT_OK;
+        return s->names.no_memory ? scan_no_memory(s) : WT_OK;
     *is = true;
     s->comment_names = comment && !d->has_names_line;
     status = new_table(s, *i + 1);
