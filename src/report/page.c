@@ -5,8 +5,8 @@
 #include "report/page.h"
 
 #include "report/cells.h"
+#include "report/files.h"
 #include "report/folder.h"
-#include "report/report_files.h"
 #include "report/svg.h"
 
 #include <string.h>
@@ -22,7 +22,7 @@ static void page_head(const page_writer *page, growing_text *out, const char *ti
                   "/>\n<title>");
     text_html(out, title);
     text_add(out, "</title>\n<style>\n");
-    text_add(out, report_file("page.css"));
+    text_add(out, file_of_library("page.css"));
     text_add(out, "</style>\n</head>\n<body>\n<main>\n<header>\n<h1>");
     text_html(out, title);
     text_add(out, "</h1>\n<nav aria-label=\"Contents\">\n<ul>\n");

@@ -5,96 +5,17 @@
 #include "weartrack/report.h"
 
 #include "report/figures.h"
+#include "report/files.h"
 #include "report/folder.h"
 #include "report/gnuplot.h"
 #include "report/page.h"
-#include "report/report_embedded.h"
-#include "report/report_files.h"
 
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
 wt_report_options wt_report_defaults(void)
 {
     return (wt_report_options){.style = NULL, .gnuplot = NULL, .with_provenance = true};
-}
-
-const char *report_file(const char *name)
-{
-    for (const embedded_text *file = report_embedded; file->name != NULL; file++)
-        if (strcmp(file->name, name) == 0)
-            return file->text;
-    return NULL;
-}
-
-/* Names of the plot styles, "paper, screen"; at most `size` bytes. */
-static void style_names(char *names, size_t size)
-{
-    size_t n = 0;
-    names[0] = '\0';
-    for (const embedded_text *file = report_embedded; file->name != NULL; file++) {
-        const char *end = strstr(file->name, ".gp");
-        if (end == NULL || n >= size)
-            continue;
-        int more = snprintf(names + n, size - n, "%s%.*s", n == 0 ? "" : ", ",
-                            (int)(end - file->name), file->name);
-        n += more > 0 ? (size_t)more : 0;
-    }
-}
-
-/* Reads a whole file of at most `limit` bytes into a text. */
-static wt_status read_file(const char *path, size_t limit, growing_text *text, wt_error *err)
-{
-    wt_status status = WT_OK;
-    char chunk[8192];
-    FILE *file = fopen(path, "rb");
-    if (file == NULL) {
-        status = wt_fail(err, errno == ENOENT ? WT_E_NOT_FOUND : WT_E_IO, "cannot be opened: %s",
-                         strerror(errno));
-        wt_error_file(err, path);
-        return status;
-    }
-    for (size_t got; (got = fread(chunk, 1, sizeof chunk, file)) > 0;) {
-        text_bytes(text, chunk, got);
-        if (text->length > limit) {
-            status = wt_fail(err, WT_E_RANGE, "larger than %zu bytes", limit);
-            wt_error_file(err, path);
-            goto done;
-        }
-    }
-    if (ferror(file)) {
-        status = wt_fail(err, WT_E_IO, "cannot be read: %s", strerror(errno));
-        wt_error_file(err, path);
-    } else if (text->failed)
-        status = wt_fail(err, WT_E_MEMORY, "out of memory");
-done:
-    fclose(file);
-    return status;
-}
-
-/* A built-in style by name; anything with a slash or ending in .gp is a file. */
-static wt_status find_style(const char *style, growing_text *text, wt_error *err)
-{
-    enum { STYLE_LIMIT = 1 << 20 };
-    const char *name = style != NULL ? style : "paper";
-    size_t length = strlen(name);
-    if (strchr(name, '/') != NULL || (length > 3 && strcmp(name + length - 3, ".gp") == 0))
-        return read_file(name, STYLE_LIMIT, text, err);
-    growing_text file = {0};
-    text_format(&file, "%s.gp", name);
-    const char *built_in = report_file(text_string(&file));
-    text_free(&file);
-    if (built_in != NULL) {
-        text_add(text, built_in);
-        return text->failed ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
-    }
-    char names[128];
-    style_names(names, sizeof names);
-    wt_status status = wt_fail(err, WT_E_NOT_FOUND, "no plot style of that name");
-    wt_error_expected(err, "%s, or a file name that ends in .gp", names);
-    wt_error_found(err, "\"%s\"", name);
-    return status;
 }
 
 /* ---- figures --------------------------------------------------------------------------------- */
@@ -195,7 +116,7 @@ static wt_status draw_picture(report *r, drawn_figure *figure, const wt_figure_i
     char *path = wt_path_join(folder_plots(r->folder), picture);
     if (path == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    status = read_file(path, PICTURE_LIMIT, &figure->svg, err);
+    status = file_read(path, PICTURE_LIMIT, &figure->svg, err);
     free(path);
     return status;
 }
@@ -253,7 +174,7 @@ wt_status wt_report_check(const char *folder, const wt_report_options *options, 
     const wt_report_options chosen = options != NULL ? *options : wt_report_defaults();
     growing_text style = {0};
     report_folder *made = NULL;
-    wt_status status = find_style(chosen.style, &style, err);
+    wt_status status = file_style(chosen.style, &style, err);
     if (status == WT_OK)
         status = folder_open(folder, &made, err);
     folder_discard(made);
@@ -278,7 +199,7 @@ wt_status wt_report_write(const wt_result *result, const char *folder,
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
         goto done;
     }
-    if ((status = find_style(chosen.style, &r.style, err)) != WT_OK ||
+    if ((status = file_style(chosen.style, &r.style, err)) != WT_OK ||
         (status = folder_open(folder, &r.folder, err)) != WT_OK)
         goto done;
     for (size_t i = 0; i < n; i++) {
