@@ -4,7 +4,7 @@
  */
 #include "weartrack/report.h"
 
-#include "report/figures.h"
+#include "report/drawing.h"
 #include "report/files.h"
 #include "report/folder.h"
 #include "report/gnuplot.h"
@@ -28,25 +28,15 @@ typedef struct drawn_figure {
 
 /* One report while it is written. */
 typedef struct report {
-    const wt_result *result;
+    bound_tables tables;
     const char *gnuplot;
     const wt_progress *progress;
     growing_text style;
     report_folder *folder;
     drawn_figure *figures; /* one for each that this library knows */
-    page_figure *pages;    /* those whose tables are there */
+    page_figure *pages;    /* those whose table is there */
     size_t n_pages, n_pictures;
 } report;
-
-static bool has_tables(const wt_result *result, const wt_figure_info *info)
-{
-    for (size_t i = 0; info->needs[i] != NULL; i++) {
-        const wt_table *table = wt_result_find(result, info->needs[i]);
-        if (table == NULL || wt_table_n_rows(table) == 0)
-            return false;
-    }
-    return true;
-}
 
 static wt_status write_data(const report_folder *folder, const figure_drawing *d, wt_error *err)
 {
@@ -63,33 +53,33 @@ static wt_status write_data(const report_folder *folder, const figure_drawing *d
     }
     if (fclose(stream) != 0 && status == WT_OK)
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
-    (void)snprintf(name, sizeof name, "plots/%s.tsv", d->name);
+    (void)snprintf(name, sizeof name, "plots/%s.tsv", d->figure->name);
     if (status == WT_OK)
         status = folder_write(folder, name, bytes, length, err);
     free(bytes);
     return status;
 }
 
-static wt_status write_script(const report_folder *folder, const figure_drawing *d,
-                              const wt_figure_info *info, wt_error *err)
+static wt_status write_script(const report_folder *folder, const figure_drawing *d, wt_error *err)
 {
+    const char *const figure = d->figure->name;
     growing_text script = {0};
     char name[128];
-    text_format(&script, "# %s. To draw it again: gnuplot %s.gp\n", info->title, info->name);
+    text_format(&script, "# %s. To draw it again: gnuplot %s.gp\n", d->figure->title, figure);
     text_format(&script,
                 "# Data: %s.tsv, in SI units; x_unit and so on turn them into those of "
                 "the axes.\n",
-                info->name);
+                figure);
     text_comment(&script, text_string(&d->caption));
     text_add(&script, "reset\nfigure_width = ");
-    text_literal(&script, d->width > 0 ? d->width : 1);
+    text_literal(&script, d->width);
     text_add(&script, "; figure_height = ");
-    text_literal(&script, d->height > 0 ? d->height : 1);
+    text_literal(&script, d->height);
     text_format(&script, "\nload 'style.gp'\nset datafile separator \"\\t\"\nset output '%s.svg'\n",
-                info->name);
+                figure);
     text_add(&script, text_string(&d->script));
     text_add(&script, "set output\n");
-    (void)snprintf(name, sizeof name, "plots/%s.gp", info->name);
+    (void)snprintf(name, sizeof name, "plots/%s.gp", figure);
     wt_status status = script.failed || d->script.failed || d->caption.failed
                            ? wt_fail(err, WT_E_MEMORY, "out of memory")
                            : folder_write(folder, name, text_string(&script), script.length, err);
@@ -98,14 +88,14 @@ static wt_status write_script(const report_folder *folder, const figure_drawing 
 }
 
 /* The picture of one figure, from its script. */
-static wt_status draw_picture(report *r, drawn_figure *figure, const wt_figure_info *info,
-                              wt_error *err)
+static wt_status draw_picture(report *r, drawn_figure *figure, wt_error *err)
 {
     enum { PICTURE_LIMIT = 64 << 20 };
+    const char *const name = figure->drawing.figure->name;
     char script[96], picture[96];
     wt_status status = WT_OK;
-    (void)snprintf(script, sizeof script, "%s.gp", info->name);
-    (void)snprintf(picture, sizeof picture, "%s.svg", info->name);
+    (void)snprintf(script, sizeof script, "%s.gp", name);
+    (void)snprintf(picture, sizeof picture, "%s.svg", name);
     if (r->n_pictures++ == 0)
         status =
             folder_write(r->folder, "plots/style.gp", text_string(&r->style), r->style.length, err);
@@ -123,23 +113,20 @@ static wt_status draw_picture(report *r, drawn_figure *figure, const wt_figure_i
 
 static wt_status make_figure(report *r, size_t i, wt_error *err)
 {
-    const wt_figure_info *info = wt_figure_get(i);
     drawn_figure *figure = &r->figures[i];
     figure_drawing *d = &figure->drawing;
-    wt_status status = WT_OK;
-    *d = (figure_drawing){.result = r->result, .name = info->name, .err = err};
-    figure_draw(i)(d);
-    if (d->status != WT_OK)
-        return d->status;
+    wt_status status = drawing_make(d, figure_find(i), &r->tables, err);
+    if (status != WT_OK)
+        return status;
     page_figure *page = &r->pages[r->n_pages++];
-    *page = (page_figure){.info = info, .width = d->width};
+    *page = (page_figure){.figure = d->figure, .width = d->width};
     if (d->script.length == 0) {
         page->omitted = text_string(&d->omitted);
         return WT_OK;
     }
     if ((status = write_data(r->folder, d, err)) != WT_OK ||
-        (status = write_script(r->folder, d, info, err)) != WT_OK ||
-        (status = draw_picture(r, figure, info, err)) != WT_OK)
+        (status = write_script(r->folder, d, err)) != WT_OK ||
+        (status = draw_picture(r, figure, err)) != WT_OK)
         return status;
     page->caption = text_string(&d->caption);
     page->svg = text_string(&figure->svg);
@@ -156,9 +143,11 @@ static wt_status tell(const report *r, const char *what, size_t done, wt_error *
     return wt_fail(err, WT_E_CANCELLED, "the report was cancelled");
 }
 
-static wt_status make_page(const report *r, bool with_provenance, wt_error *err)
+static wt_status make_page(const report *r, const wt_result *result, bool with_provenance,
+                           wt_error *err)
 {
-    page_writer page = {.result = r->result,
+    page_writer page = {.result = result,
+                        .tables = &r->tables,
                         .with_provenance = with_provenance,
                         .figures = r->pages,
                         .n_figures = r->n_pages};
@@ -189,8 +178,7 @@ wt_status wt_report_write(const wt_result *result, const char *folder,
     const wt_report_options chosen = options != NULL ? *options : wt_report_defaults();
     wt_status status = WT_OK;
     size_t n = wt_figure_count();
-    report r = {.result = result,
-                .gnuplot = chosen.gnuplot != NULL ? chosen.gnuplot : "gnuplot",
+    report r = {.gnuplot = chosen.gnuplot != NULL ? chosen.gnuplot : "gnuplot",
                 .progress = progress,
                 .figures = calloc(n, sizeof *r.figures),
                 .pages = calloc(n, sizeof *r.pages)};
@@ -199,19 +187,20 @@ wt_status wt_report_write(const wt_result *result, const char *folder,
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
         goto done;
     }
-    if ((status = file_style(chosen.style, &r.style, err)) != WT_OK ||
+    if ((status = bound_make(result, &r.tables, err)) != WT_OK ||
+        (status = file_style(chosen.style, &r.style, err)) != WT_OK ||
         (status = folder_open(folder, &r.folder, err)) != WT_OK)
         goto done;
     for (size_t i = 0; i < n; i++) {
-        const wt_figure_info *info = wt_figure_get(i);
-        if (!has_tables(result, info))
+        const figure_description *figure = figure_find(i);
+        if (bound_find(&r.tables, figure->table)->n_rows == 0)
             continue;
-        if ((status = tell(&r, info->name, i, err)) != WT_OK ||
+        if ((status = tell(&r, figure->name, i, err)) != WT_OK ||
             (status = make_figure(&r, i, err)) != WT_OK)
             goto done;
     }
     if ((status = tell(&r, "page", n, err)) != WT_OK ||
-        (status = make_page(&r, chosen.with_provenance, err)) != WT_OK)
+        (status = make_page(&r, result, chosen.with_provenance, err)) != WT_OK)
         goto done;
     status = folder_commit(r.folder, err);
     r.folder = NULL;
@@ -226,5 +215,6 @@ done:
     free(r.figures);
     free(r.pages);
     text_free(&r.style);
+    bound_clear(&r.tables);
     return status;
 }
