@@ -80,7 +80,7 @@ static wt_status write_script(const report_folder *folder, const figure_drawing 
     text_add(&script, text_string(&d->script));
     text_add(&script, "set output\n");
     (void)snprintf(name, sizeof name, "plots/%s.gp", figure);
-    wt_status status = script.failed || d->script.failed || d->caption.failed
+    wt_status status = script.failed
                            ? wt_fail(err, WT_E_MEMORY, "out of memory")
                            : folder_write(folder, name, text_string(&script), script.length, err);
     text_free(&script);
@@ -118,6 +118,8 @@ static wt_status make_figure(report *r, size_t i, wt_error *err)
     wt_status status = drawing_make(d, figure_find(i), &r->tables, err);
     if (status != WT_OK)
         return status;
+    if (d->script.failed || d->caption.failed || d->omitted.failed)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
     page_figure *page = &r->pages[r->n_pages++];
     *page = (page_figure){.figure = d->figure, .width = d->width};
     if (d->script.length == 0) {
