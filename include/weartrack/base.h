@@ -249,6 +249,35 @@ typedef struct wt_estimate {
     const char *unit;       /* SI unit, static text */
 } wt_estimate;
 
+/* "0.4MPa", "0.4MPa +- 0.02MPa", "0.4MPa +- 5%" ("±" is accepted too). The part after +- is one
+ * standard error; without it the standard error is 0 (not stated). */
+WT_API wt_status wt_estimate_parse(const char *text, wt_quantity quantity, wt_estimate *estimate,
+                                   wt_error *err) WT_NODISCARD;
+/* "0.3m/s" | "1mm/s,1cm/s,0.3m/s" | "1e-4:10m/s:log:40" | "0:50s:lin:11" (the unit stands after the
+ * second number and holds for both). Values rise strictly. *values is freed with free(). */
+WT_API wt_status wt_list_parse(const char *text, wt_quantity quantity, double **values, size_t *n,
+                               wt_error *err) WT_NODISCARD;
+
+/* ---- parameters --------------------------------------------------------------------------- */
+
+/* The parameters of a structure of options, such as wt_layer_job: each declared once, with name,
+ * quantity, limits and help, for the command line, case files, their documentation and calls from
+ * C. A function such as wt_layer_job_params gives the table; the structure begins with its
+ * `_defaults` function. */
+typedef struct wt_param wt_param;
+typedef struct wt_params wt_params;
+WT_API size_t wt_params_count(const wt_params *params);
+WT_API const wt_param *wt_params_get(const wt_params *params, size_t i); /* static */
+/* Sets the parameter called `name` from text as a user writes it, "0.4MPa +- 5%", and bit i of
+ * *given, i its place in the table. A text is borrowed; lists are allocated: wt_params_clear frees
+ * those that are given. WT_E_NOT_FOUND for another name; else the error does not say the name. */
+WT_API wt_status wt_params_set(const wt_params *params, const char *name, void *structure,
+                               const char *text, uint64_t *given, wt_error *err) WT_NODISCARD;
+WT_API void wt_params_clear(const wt_params *params, void *structure, uint64_t *given);
+/* The default as text, "0.5", or what holds without one, "the middle isotherm"; "" where there is
+ * neither. Returns the length as snprintf does. */
+WT_API size_t wt_params_default(const wt_params *params, size_t i, char *buffer, size_t size);
+
 /* ---- paths, files ------------------------------------------------------------------------- */
 
 /* New string, NULL when out of memory. An absolute `name` is returned as it is. */

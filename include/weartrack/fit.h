@@ -69,6 +69,7 @@ typedef struct wt_indent_options {
     uint64_t reserved[8];
 } wt_indent_options;
 WT_API wt_indent_options wt_indent_defaults(void);
+WT_API const wt_params *wt_indent_params(void);
 
 /* Result of one curve. Positions are tip positions [m] = height - deflection along the approach,
  * turned to rise into the sample, with the deflection free of the baseline (which is not a bending
@@ -195,6 +196,7 @@ typedef struct wt_shift_options {
     uint64_t reserved[8];
 } wt_shift_options;
 WT_API wt_shift_options wt_shift_defaults(void);
+WT_API const wt_params *wt_shift_params(void);
 
 /* One isotherm's shift: x_r = log10 w + log_a, y_r = log10 M + log_b, b multiplies what was
  * measured. Standard errors are those of the joint fit with the master curve projected out, raised
@@ -284,6 +286,7 @@ typedef struct wt_prony_options {
     uint64_t reserved[8];
 } wt_prony_options;
 WT_API wt_prony_options wt_prony_defaults(void);
+WT_API const wt_params *wt_prony_params(void);
 
 typedef struct wt_prony_fit {
     wt_prony prony;

@@ -17,23 +17,12 @@
 extern "C" {
 #endif
 
-/* ---- quantities as text, for options and case files ----------------------------------------- */
-
-/* "0.4MPa", "0.4MPa +- 0.02MPa", "0.4MPa +- 5%" ("±" is accepted too). The part after +- is one
- * standard error; without it the standard error is 0 (not stated). */
-WT_API wt_status wt_estimate_parse(const char *text, wt_quantity quantity, wt_estimate *estimate,
-                                   wt_error *err) WT_NODISCARD;
-/* "0.3m/s" | "1mm/s,1cm/s,0.3m/s" | "1e-4:10m/s:log:40" | "0:50s:lin:11" (the unit stands after the
- * second number and holds for both). Values rise strictly. *values is freed with free(). */
-WT_API wt_status wt_list_parse(const char *text, wt_quantity quantity, double **values, size_t *n,
-                               wt_error *err) WT_NODISCARD;
-
 /* ---- what all jobs share --------------------------------------------------------------------- */
 
 typedef struct wt_job {
     const wt_formats *formats; /* borrowed; needed by jobs that read files */
     unsigned threads;          /* 0 = one per processor; never changes a result */
-    double tolerance;          /* relative numerical error asked for; 0 = each part's default */
+    double tolerance;          /* relative numerical error asked for; default 1e-10 */
     uint64_t seed;             /* of the replicates */
     size_t replicates;         /* for standard errors; default 64, 0 = no standard errors */
     wt_progress progress;
@@ -44,9 +33,10 @@ typedef struct wt_job {
     uint64_t reserved[8];
 } wt_job;
 WT_API wt_job wt_job_defaults(void);
+WT_API const wt_params *wt_job_params(void);
 WT_API wt_table *wt_failures_new(void); /* table "failures"; NULL when out of memory */
 
-/* Files that are read with the same options. Begin with {.read = wt_read_defaults()}. */
+/* Files that are read with the same options. */
 typedef struct wt_file_set {
     const char *const *patterns; /* [n_patterns] files, folders or shell patterns */
     size_t n_patterns;
@@ -56,6 +46,7 @@ typedef struct wt_file_set {
                          file is a spot, or each grid position if the whole group is one file */
     uint64_t reserved[8];
 } wt_file_set;
+WT_API const wt_params *wt_file_set_params(void);
 
 /* ---- convert ---------------------------------------------------------------------------------
  */
@@ -67,6 +58,7 @@ typedef struct wt_convert_job {
     uint64_t reserved[8];
 } wt_convert_job;
 WT_API wt_convert_job wt_convert_job_defaults(void);
+WT_API const wt_params *wt_convert_job_params(void);
 
 /* Takes one table (also on failure) as soon as it is made. */
 typedef wt_status (*wt_table_sink)(void *user, wt_table *table, wt_error *err);
@@ -91,6 +83,7 @@ typedef struct wt_indent_job {
     uint64_t reserved[8];
 } wt_indent_job;
 WT_API wt_indent_job wt_indent_job_defaults(void);
+WT_API const wt_params *wt_indent_job_params(void);
 
 /* Tables; each freed with wt_table_free, all by wt_indent_tables_clear. Zero-initialise it; given
  * to a second group, `indentation` must have been taken out (set to NULL) and the curve tables are
@@ -135,9 +128,11 @@ typedef struct wt_master_job {
     size_t n_sets;
     wt_shift_options shift; /* reference_temperature NaN: the isotherm in the middle */
     wt_prony_options prony;
-    uint64_t reserved[8];
+    double poisson_ratio; /* of the rubber; default 0.5 */
+    uint64_t reserved[7];
 } wt_master_job;
 WT_API wt_master_job wt_master_job_defaults(void);
+WT_API const wt_params *wt_master_job_params(void);
 
 /* The rubber as the later stages know it: moduli at one reference temperature and how to go to
  * another one. */
@@ -164,11 +159,10 @@ typedef struct wt_master_tables {
 } wt_master_tables;
 WT_API void wt_master_tables_clear(wt_master_tables *tables);
 
-/* Reads the sweeps, shifts them, fits WLF and Prony. `rubber` gets all that friction needs;
- * poisson_ratio in [0, 0.5]. One isotherm is allowed: no shift, no WLF. Either output may be NULL.
- */
-WT_API wt_status wt_master_make(const wt_master_job *job, double poisson_ratio,
-                                const wt_job *common, wt_master_tables *tables, wt_rubber *rubber,
+/* Reads the sweeps, shifts them, fits WLF and Prony. `rubber` gets all that friction needs.
+ * One isotherm is allowed: no shift, no WLF. Either output may be NULL. */
+WT_API wt_status wt_master_make(const wt_master_job *job, const wt_job *common,
+                                wt_master_tables *tables, wt_rubber *rubber,
                                 wt_error *err) WT_NODISCARD;
 /* From the tables that wt_master_make gave (as read from a stream); shift_factors may be NULL (no
  * other temperature then). Without the measured points there are no replicates. */
@@ -194,6 +188,7 @@ typedef struct wt_compare_job {
     uint64_t reserved[8];
 } wt_compare_job;
 WT_API wt_compare_job wt_compare_job_defaults(void);
+WT_API const wt_params *wt_compare_job_params(void);
 
 typedef struct wt_compare_tables {
     wt_table *modulus_groups;
@@ -246,6 +241,7 @@ typedef struct wt_sliding {
     uint64_t reserved[8];
 } wt_sliding;
 WT_API wt_sliding wt_sliding_defaults(void);
+WT_API const wt_params *wt_sliding_params(void);
 
 /* What is on the surface of the track. */
 typedef struct wt_layer_known {
@@ -253,6 +249,7 @@ typedef struct wt_layer_known {
     wt_estimate modulus_ratio; /* E_track / E_bulk */
     uint64_t reserved[8];
 } wt_layer_known;
+WT_API const wt_params *wt_layer_known_params(void);
 
 typedef struct wt_friction_tables {
     wt_table *friction, *contact_area;
@@ -286,9 +283,14 @@ typedef struct wt_layer_job {
     double local_friction; /* m of the incompressible profile */
     const double *time;    /* [n_time] s; NULL: chosen around the time scales */
     size_t n_time;
-    uint64_t reserved[8];
+    double velocity; /* at which the track was worn [m/s]; NaN = the reference velocity */
+    uint64_t reserved[7];
 } wt_layer_job;
 WT_API wt_layer_job wt_layer_job_defaults(void);
+WT_API const wt_params *wt_layer_job_params(void);
+/* Also what goes together: one of critical energy and observed thickness, and wear for the latter.
+ */
+WT_API wt_status wt_layer_job_check(const wt_layer_job *job, wt_error *err) WT_NODISCARD;
 
 typedef struct wt_layer_tables {
     wt_table *layer, *energy_density;
@@ -320,7 +322,7 @@ WT_API const char *wt_case_style(const wt_case *c); /* plot style asked for, NUL
 
 typedef struct wt_run_options {
     const char *formats; /* folder of further descriptions, NULL = none */
-    double tolerance;    /* relative numerical error asked for; 0 = the default */
+    double tolerance;    /* relative numerical error asked for; default 1e-10 */
     unsigned threads;    /* 0 = one per processor */
     uint64_t seed;       /* of the resampling */
     size_t replicates;   /* of the resampling; default 64 */
@@ -329,6 +331,7 @@ typedef struct wt_run_options {
     uint64_t reserved[8];
 } wt_run_options;
 WT_API wt_run_options wt_run_defaults(void);
+WT_API const wt_params *wt_run_params(void);
 
 /* The plan as a table: stage, title, runs (1 or 0), because (words), needs, gives. Reads no data
  * file. */

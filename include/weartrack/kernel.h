@@ -33,6 +33,7 @@ typedef struct wt_friction_options {
     uint64_t reserved[8];
 } wt_friction_options;
 WT_API wt_friction_options wt_friction_defaults(void);
+WT_API const wt_params *wt_friction_params(void);
 
 /* At one velocity. numerical_error is an estimate that bounds the true error; it is stated whether
  * or not the tolerance was met. */
@@ -120,6 +121,7 @@ typedef struct wt_layer_parameters {
     uint64_t reserved[8];
 } wt_layer_parameters;
 WT_API wt_layer_parameters wt_layer_defaults(void);
+WT_API const wt_params *wt_layer_params(void);
 
 typedef enum wt_layer_regime {
     WT_LAYER_NONE, /* formation never exceeds wear */

@@ -84,6 +84,7 @@ typedef struct wt_read_options {
     uint64_t reserved[8];
 } wt_read_options;
 WT_API wt_read_options wt_read_defaults(void); /* everything, nothing replaced */
+WT_API const wt_params *wt_read_params(void);
 
 /* ---- reading ------------------------------------------------------------------------------ */
 

@@ -12,12 +12,13 @@ extern "C" {
 #endif
 
 typedef struct wt_report_options {
-    const char *style;    /* name of a built-in plot style or path of one; NULL = "paper" */
-    const char *gnuplot;  /* program, NULL = "gnuplot" */
+    const char *style;    /* name of a built-in plot style or path of one; default "paper" */
+    const char *gnuplot;  /* program; default "gnuplot" */
     bool with_provenance; /* version, command line and times on the page; default true */
     uint64_t reserved[8];
 } wt_report_options;
 WT_API wt_report_options wt_report_defaults(void);
+WT_API const wt_params *wt_report_params(void);
 
 /* Whether wt_report_write could begin: the style is known and the folder may be made or replaced.
  * For use before long work; nothing is left behind. Options NULL: the defaults. */
@@ -36,10 +37,10 @@ WT_API wt_status wt_report_write(const wt_result *result, const char *folder,
 typedef struct wt_figure_info {
     const char *name; /* "force_displacement" */
     const char *title;
-    const char *table; /* it is drawn if a result has this table with a row at least */
+    const char *const *needs; /* names of tables, NULL-terminated */
 } wt_figure_info;
 WT_API size_t wt_figure_count(void);
-WT_API wt_figure_info wt_figure_get(size_t i); /* all NULL past the last one */
+WT_API const wt_figure_info *wt_figure_get(size_t i);
 
 #ifdef __cplusplus
 }

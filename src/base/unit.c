@@ -284,13 +284,15 @@ wt_status wt_quantity_parse(const char *text, wt_quantity quantity, double *valu
 {
     wt_status status = WT_OK;
     double number = (double)NAN, factor = 1.0, offset = 0.0, result = (double)NAN;
-    const char *const advice = "write the number with a decimal point, the unit behind it";
+    const bool bare = strcmp(wt_quantity_unit(quantity), "1") == 0;
+    const char *const advice =
+        bare ? NULL : "write the number with a decimal point, the unit behind it";
     const char *reason = NULL;
     const char *start = text + strspn(text, " \t");
     const size_t n = number_prefix(start, strlen(start), '.');
     const char *const unit = start + n + strspn(start + n, " \t");
     if (n == 0 || !wt_number_parse(start, n, '.', &number)) {
-        status = wt_fail(err, WT_E_ARG, "not a quantity");
+        status = wt_fail(err, WT_E_ARG, bare ? "not a number" : "not a quantity");
         reason = advice;
     } else if (strchr("0123456789+-.,", unit[0]) != NULL && unit[0] != '\0' &&
                strncmp(unit, "1/", 2) != 0) {
@@ -310,8 +312,7 @@ wt_status wt_quantity_parse(const char *text, wt_quantity quantity, double *valu
     } else if (status != WT_E_INTERNAL) {
         char words[64];
         quantity_words(quantity, words, sizeof words);
-        wt_error_expected(err, "%s%s, such as %s", words,
-                          strcmp(wt_quantity_unit(quantity), "1") == 0 ? "" : " with its unit",
+        wt_error_expected(err, "%s%s, such as %s", words, bare ? "" : " with its unit",
                           example(quantity));
         wt_error_found(err, "\"%s\"", text);
         if (reason != NULL)

@@ -5,6 +5,7 @@
 
 #include <stdlib.h>
 
+#include "base/param.h"
 #include "weartrack/weartrack.h"
 
 /* Exit status: good, data or run-time error, usage error. */
@@ -31,81 +32,47 @@ int cmd_report(int argc, char **argv);
 
 /* ---- options ------------------------------------------------------------------------------ */
 
-typedef enum cmd_option_kind {
-    CMD_FLAG,     /* bool */
-    CMD_TEXT,     /* const char *, borrowed from argv */
-    CMD_LIST,     /* cmd_list, may be given several times */
-    CMD_QUANTITY, /* double in SI, of `quantity` */
-    CMD_ESTIMATE, /* wt_estimate, as wt_estimate_parse reads it */
-    CMD_VALUES,   /* cmd_values: a list of `quantity`, as wt_list_parse reads it */
-    CMD_NUMBER,   /* double, dimensionless */
-    CMD_COUNT,    /* unsigned long, >= 0 */
-    CMD_CHOICE    /* int: which of the words of `value`, parted by '|' */
-} cmd_option_kind;
-
-typedef struct cmd_list {
-    const char **items; /* borrowed texts; the array is freed by cmd_list_free */
-    size_t n;
-} cmd_list;
-void cmd_list_free(cmd_list *list);
-
-typedef struct cmd_values {
-    double *values; /* [n] SI */
-    size_t n;
-} cmd_values;
-void cmd_values_free(cmd_values *list);
-
-typedef struct cmd_option {
-    const char *name; /* long name, without the dashes */
-    char letter;      /* 0 if none */
-    cmd_option_kind kind;
-    void *target;
-    const char *value; /* what stands for the value in the help, or the choices; NULL for a flag */
-    wt_quantity quantity;
-    const char *help;
-} cmd_option;
+/* A structure whose parameters are options of a subcommand. */
+typedef struct cmd_part {
+    const wt_params *params;
+    void *structure;
+    const char *only; /* names of those that are options here, parted by blanks; NULL: all */
+    uint64_t given;
+} cmd_part;
+/* Frees the lists of the options. */
+void cmd_parts_clear(cmd_part *parts, size_t n);
 
 /* Options that mean the same everywhere. A subcommand shows those it names. */
 typedef struct cmd_common {
     const char *output;  /* -o, NULL = standard output */
-    const char *format;  /* id that overrules detection */
     const char *formats; /* folder of further descriptions */
-    unsigned long threads;
-    unsigned long seed;
-    bool quiet;
-    bool no_provenance;
+    bool provenance;
+    bool quiet, help;
 } cmd_common;
-#define CMD_COMMON_DEFAULTS                                                                        \
-    {                                                                                              \
-        NULL, NULL, NULL, 0, 1, false, false                                                       \
-    }
-#define CMD_OPT_OUTPUT 1u
-#define CMD_OPT_FORMAT 2u
-#define CMD_OPT_FORMATS 4u
-#define CMD_OPT_THREADS 8u
-#define CMD_OPT_SEED 16u
-#define CMD_OPT_PROVENANCE 32u
+cmd_common cmd_common_defaults(void);
 
 typedef struct cmd_usage {
     const char *name;      /* of the subcommand */
     const char *arguments; /* "[OPTION]... FILE..." */
     const char *what;      /* what it does, a few lines */
-    unsigned common;       /* CMD_OPT_ bits; --quiet and --help are everywhere */
+    const char *common;    /* as `only` of the common options; quiet and help are everywhere */
     const char *notes;     /* after the options; NULL if none */
 } cmd_usage;
 
 /* Parses argv. Returns true to go on, with *first the index of the first argument that is no
  * option; false with the exit status in *status (help was printed, or the words were wrong). */
-bool cmd_parse(const cmd_usage *usage, const cmd_option *options, size_t n_options,
-               cmd_common *common, int argc, char **argv, int *first, int *status);
-/* What the option expects if this value (SI) is outside its limits; NULL if it is good. */
-const char *cmd_outside(const char *option, double value);
+bool cmd_parse(const cmd_usage *usage, cmd_part *parts, size_t n_parts, cmd_common *common,
+               int argc, char **argv, int *first, int *status);
+/* Whether an option of a part was given. */
+bool cmd_given(const cmd_part *part, const char *name);
 /* The two names are those of one regular file. */
 bool cmd_same_file(const char *a, const char *b);
-/* A usage error if --format names no format. */
-int cmd_check_format(const char *name, const cmd_common *common, const wt_formats *formats);
+/* A usage error if --format (may be NULL) names no format. */
+int cmd_check_format(const char *name, const char *format, const wt_formats *formats);
 /* Says what is wrong with the call on stderr, and where help is; returns CMD_USAGE. */
 int cmd_usage_error(const char *name, const char *format, ...) WT_PRINTF(2, 3);
+/* The same for an error of the library about a parameter, whose name is its place. */
+int cmd_param_error(const char *name, wt_error *err);
 
 /* Characters, not bytes: labels hold degree and micro signs. */
 size_t cmd_text_width(const char *text, size_t n);
@@ -151,7 +118,7 @@ wt_status cmd_provenance(wt_result *result, int argc, char **argv, wt_error *err
 
 /* ---- around a job --------------------------------------------------------------------------- */
 
-/* What a subcommand that calls a job has beside it. Zero-initialised it may be freed. */
+/* What a subcommand that calls a job has beside it. */
 typedef struct cmd_session {
     const char *name;
     const cmd_common *common;
@@ -162,8 +129,11 @@ typedef struct cmd_session {
     cmd_progress progress;
 } cmd_session;
 
-/* Makes all of it from the common options; an exit status other than CMD_OK ends the call. */
-int cmd_begin(cmd_session *s, const char *name, const cmd_common *common);
+/* Nothing but the defaults of the job, for its options; may be freed. */
+cmd_session cmd_session_defaults(void);
+/* Makes all of it from the common options and --format; an exit status other than CMD_OK ends the
+ * call. */
+int cmd_begin(cmd_session *s, const char *name, const cmd_common *common, const char *format);
 /* Says what failed, the warnings and, unless `made` is WT_OK, the error; returns the exit status.
  */
 int cmd_end(cmd_session *s, wt_status made, const wt_error *err);

@@ -1,37 +1,46 @@
 /* weartrack compare: wear track against bulk. SPDX-License-Identifier: GPL-3.0-or-later */
-#include <math.h>
-
 #include "cmd/tables.h"
+
+typedef struct own_options {
+    const char *master;
+} own_options;
+
+static own_options no_options(void)
+{
+    return (own_options){NULL};
+}
+
+static const wt_param rows[] = {
+    {PARAM_TEXT_OF("master", own_options, master), .value = "FILE", .unset = "",
+     .help = "output of weartrack master, to compare with DMA at the frequency of the indentation"},
+};
+PARAM_LOCAL_TABLE(own_params, own_options, rows, no_options, NO_PARTS)
 
 int cmd_compare(int argc, char **argv)
 {
-    cmd_common common = CMD_COMMON_DEFAULTS;
-    const char *master = NULL;
-    double temperature = (double)NAN, poisson_ratio = 0.5;
-    const cmd_option options[] = {
-        {"master", 0, CMD_TEXT, &master, "FILE", WT_Q_NONE,
-         "output of weartrack master, to compare with DMA at the frequency of the indentation"},
-        {"temperature", 0, CMD_QUANTITY, &temperature, "T", WT_Q_TEMPERATURE,
-         "of the indentation, such as 23degC; default: the reference of the master curve"},
-        {"poisson-ratio", 0, CMD_NUMBER, &poisson_ratio, "NU", WT_Q_NONE,
-         "of the rubber, to go from shear to tension; default 0.5"}};
-    const cmd_usage usage = {
+    static const cmd_usage usage = {
         "compare", "[OPTION]... BULK TRACK",
         "Compares the moduli of the wear track with those of the bulk: ratio with 95 % interval,\n"
         "difference, Welch's and the Mann-Whitney test, effect size, and the same rate by rate. "
         "BULK\n"
         "and TRACK are outputs of weartrack indent; - is standard input.",
-        CMD_OPT_OUTPUT | CMD_OPT_PROVENANCE, NULL};
+        "output provenance", NULL};
+    cmd_common common = cmd_common_defaults();
+    own_options own = no_options();
+    wt_compare_job job = wt_compare_job_defaults();
+    wt_master_job material = wt_master_job_defaults();
+    cmd_part parts[] = {{own_params(), &own, NULL, 0},
+                        {wt_compare_job_params(), &job, NULL, 0},
+                        {wt_master_job_params(), &material, "poisson-ratio", 0}};
     int first = 0, status = CMD_OK;
     wt_error err = WT_ERROR_INIT;
     wt_result *bulk = NULL, *track = NULL, *dma = NULL, *result = NULL;
     wt_parselog *log = NULL;
     wt_rubber rubber = {0};
     wt_compare_tables tables = {0};
-    wt_compare_job job = wt_compare_job_defaults();
     wt_job work = wt_job_defaults();
 
-    if (!cmd_parse(&usage, options, sizeof options / sizeof options[0], &common, argc, argv, &first,
+    if (!cmd_parse(&usage, parts, sizeof parts / sizeof parts[0], &common, argc, argv, &first,
                    &status))
         goto done;
     if (argc - first != 2) {
@@ -39,19 +48,18 @@ int cmd_compare(int argc, char **argv)
                                  argc - first);
         goto done;
     }
-    job.temperature = temperature;
     if (cmd_tables_read(argv[first], &bulk, &err) != WT_OK ||
         cmd_tables_find(bulk, argv[first], "indentation/", "indent", &job.bulk, &err) != WT_OK ||
         cmd_tables_read(argv[first + 1], &track, &err) != WT_OK ||
         cmd_tables_find(track, argv[first + 1], "indentation/", "indent", &job.track, &err) !=
             WT_OK)
         goto fail;
-    if (master != NULL) {
+    if (own.master != NULL) {
         const wt_table *prony = NULL;
-        if (cmd_tables_read(master, &dma, &err) != WT_OK ||
-            cmd_tables_find(dma, master, "prony", "master", &prony, &err) != WT_OK ||
-            wt_rubber_from_tables(prony, wt_result_find(dma, "shift_factors"), poisson_ratio,
-                                  &rubber, &err) != WT_OK)
+        if (cmd_tables_read(own.master, &dma, &err) != WT_OK ||
+            cmd_tables_find(dma, own.master, "prony", "master", &prony, &err) != WT_OK ||
+            wt_rubber_from_tables(prony, wt_result_find(dma, "shift_factors"),
+                                  material.poisson_ratio, &rubber, &err) != WT_OK)
             goto fail;
         job.rubber = &rubber;
     }
@@ -63,9 +71,9 @@ int cmd_compare(int argc, char **argv)
     }
     if (wt_compare_groups(&job, &work, &tables, &err) != WT_OK)
         goto fail;
-    wt_table **const parts[] = {&tables.comparison, &tables.modulus_groups, &tables.modulus_rate,
-                                &tables.dma_comparison};
-    if (cmd_collect(result, parts, sizeof parts / sizeof parts[0], &err) != WT_OK ||
+    wt_table **const made[] = {&tables.comparison, &tables.modulus_groups, &tables.modulus_rate,
+                               &tables.dma_comparison};
+    if (cmd_collect(result, made, sizeof made / sizeof made[0], &err) != WT_OK ||
         cmd_write(&common, result, &err) != WT_OK)
         goto fail;
     cmd_print_log("compare", log, false, common.quiet);

@@ -2,7 +2,7 @@
  */
 #include <string.h>
 
-#include "cmd/readopts.h"
+#include "cmd/cmd.h"
 
 /* Where the tables go: written as they come to a text stream, so that a map needs no more memory
  * than a curve, or collected for the HDF5 store. */
@@ -35,7 +35,7 @@ static wt_status take(void *user, wt_table *table, wt_error *err)
     wt_status status = d->begun ? WT_OK : open_destination(d, err);
     if (status != WT_OK)
         goto done;
-    const bool with_provenance = !d->begun && !d->common->no_provenance;
+    const bool with_provenance = !d->begun && d->common->provenance;
     status = wt_stream_write(d->stream, table,
                              with_provenance ? wt_result_provenance_const(d->result) : NULL, err);
     wt_error_file(status != WT_OK ? err : NULL, d->name);
@@ -58,36 +58,25 @@ static wt_status close_destination(destination *d, wt_error *err)
 
 int cmd_convert(int argc, char **argv)
 {
-    static const unsigned kinds[] = {WT_KIND_FORCE, WT_KIND_SWEEP, WT_KIND_SPECTRUM, WT_KIND_IMAGE};
-    cmd_common common = CMD_COMMON_DEFAULTS;
-    cmd_read_values values;
-    cmd_read_values_init(&values);
-    int wanted = -1;
-    cmd_option options[10] = {{"kind", 0, CMD_CHOICE, &wanted, "force|sweep|spectrum|image",
-                               WT_Q_NONE, "which data of a file that holds several kinds"}};
-    size_t n = 1;
-    n += cmd_read_force_options(&values, options + n);
-    n += cmd_read_dma_options(&values, options + n);
-    n += cmd_read_units_option(&values, options + n);
-    const cmd_usage usage = {
+    static const cmd_usage usage = {
         "convert", "[OPTION]... FILE",
         "Writes an instrument file as a text stream (weartrack-stream(5)), or as HDF5 if the name\n"
         "after -o ends in .h5 or .hdf5, in SI units. - is standard input.",
-        CMD_OPT_OUTPUT | CMD_OPT_FORMAT | CMD_OPT_FORMATS | CMD_OPT_PROVENANCE, NULL};
+        "output formats provenance", NULL};
+    cmd_common common = cmd_common_defaults();
+    wt_convert_job job = wt_convert_job_defaults();
+    cmd_part part = {wt_convert_job_params(), &job, NULL, 0};
     int first = 0, status = CMD_OK;
     wt_error err = WT_ERROR_INIT;
-    wt_convert_job job = wt_convert_job_defaults();
-    cmd_session s = {0};
+    cmd_session s = cmd_session_defaults();
     destination d = {.common = &common};
-    if (!cmd_parse(&usage, options, n, &common, argc, argv, &first, &status))
+    if (!cmd_parse(&usage, &part, 1, &common, argc, argv, &first, &status))
         goto done;
     if (argc - first != 1) {
         status = cmd_usage_error("convert", "one file is needed; %d given", argc - first);
         goto done;
     }
-    job.kind = wanted >= 0 ? kinds[wanted] : 0;
-    job.read = cmd_read_make(&values, &common);
-    status = cmd_begin(&s, "convert", &common);
+    status = cmd_begin(&s, "convert", &common, job.read.format);
     if (status != CMD_OK)
         goto done;
     d.result = s.result;
@@ -100,6 +89,6 @@ int cmd_convert(int argc, char **argv)
 done:
     wt_outfile_discard(d.file);
     cmd_session_free(&s);
-    cmd_read_values_free(&values);
+    cmd_parts_clear(&part, 1);
     return status;
 }

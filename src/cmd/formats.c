@@ -1,7 +1,7 @@
 /* weartrack formats: list, show, check. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
-#include "cmd/readopts.h"
+#include "cmd/cmd.h"
 
 static int list_formats(const wt_formats *formats)
 {
@@ -86,31 +86,26 @@ done:
 
 int cmd_formats(int argc, char **argv)
 {
-    cmd_common common = CMD_COMMON_DEFAULTS;
-    cmd_read_values values;
-    cmd_read_values_init(&values);
-    cmd_option options[8];
-    size_t n = cmd_read_force_options(&values, options);
-    n += cmd_read_dma_options(&values, options + n);
-    n += cmd_read_units_option(&values, options + n);
-    const cmd_usage usage = {
+    static const cmd_usage usage = {
         "formats", "list | show ID | check DESCRIPTION.xml [SAMPLE]",
         "list: the formats that are understood, and whether each was checked on a genuine file.\n"
         "show: the description of one of them; `show schema` prints the schema of descriptions.\n"
         "check: checks a description, and with a sample shows what is understood of it.",
-        CMD_OPT_OUTPUT | CMD_OPT_FORMATS | CMD_OPT_PROVENANCE, NULL};
+        "output formats provenance", NULL};
+    cmd_common common = cmd_common_defaults();
+    wt_read_options read = wt_read_defaults();
+    cmd_part part = {wt_read_params(), &read, "spring-constant sensitivity temperature units", 0};
     int first = 0, status = CMD_OK;
     wt_formats *formats = NULL;
     wt_parselog *log = NULL;
     wt_error err = WT_ERROR_INIT;
-    if (!cmd_parse(&usage, options, n, &common, argc, argv, &first, &status))
+    if (!cmd_parse(&usage, &part, 1, &common, argc, argv, &first, &status))
         goto done;
     const char *verb = first < argc ? argv[first] : "";
     const int rest = argc - first - 1;
     if (strcmp(verb, "check") == 0 && (rest == 1 || rest == 2)) {
-        const wt_read_options read_options = cmd_read_make(&values, &common);
-        status = check_description(argv[first + 1], rest == 2 ? argv[first + 2] : NULL,
-                                   &read_options, &common);
+        status =
+            check_description(argv[first + 1], rest == 2 ? argv[first + 2] : NULL, &read, &common);
         goto done;
     }
     const bool list = strcmp(verb, "list") == 0 && rest == 0;
@@ -128,6 +123,6 @@ int cmd_formats(int argc, char **argv)
 done:
     wt_parselog_free(log);
     wt_formats_free(formats);
-    cmd_read_values_free(&values);
+    cmd_parts_clear(&part, 1);
     return status;
 }

@@ -1,7 +1,7 @@
 /* weartrack info: what a file is. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
-#include "cmd/readopts.h"
+#include "cmd/cmd.h"
 
 /* Numbers as people read them: few digits, the unit with its prefix. Anything else as it is. */
 static void format_value(const char *value, const char *unit, char *out, size_t size)
@@ -79,21 +79,17 @@ static wt_status info_one(const wt_formats *formats, const char *path,
 
 int cmd_info(int argc, char **argv)
 {
-    cmd_common common = CMD_COMMON_DEFAULTS;
-    cmd_read_values values;
-    cmd_read_values_init(&values);
-    cmd_option options[8];
-    size_t n = cmd_read_force_options(&values, options);
-    n += cmd_read_dma_options(&values, options + n);
-    n += cmd_read_units_option(&values, options + n);
-    const cmd_usage usage = {"info", "[OPTION]... FILE...",
-                             "Says what each file is and who recognised it, its segments, channels "
-                             "and calibration, and\n"
-                             "what is missing or odd. - is standard input.",
-                             CMD_OPT_FORMAT | CMD_OPT_FORMATS, NULL};
+    static const cmd_usage usage = {"info", "[OPTION]... FILE...",
+                                    "Says what each file is and who recognised it, its segments, "
+                                    "channels and calibration, and\n"
+                                    "what is missing or odd. - is standard input.",
+                                    "formats", NULL};
+    cmd_common common = cmd_common_defaults();
+    wt_read_options read = wt_read_defaults();
+    cmd_part part = {wt_read_params(), &read, NULL, 0};
     int first = 0, status = CMD_OK;
     wt_formats *formats = NULL;
-    if (!cmd_parse(&usage, options, n, &common, argc, argv, &first, &status))
+    if (!cmd_parse(&usage, &part, 1, &common, argc, argv, &first, &status))
         goto done;
     if (first == argc) {
         status = cmd_usage_error("info", "no file given");
@@ -104,19 +100,18 @@ int cmd_info(int argc, char **argv)
         status = cmd_fail("info", &err);
         goto done;
     }
-    status = cmd_check_format("info", &common, formats);
+    status = cmd_check_format("info", read.format, formats);
     if (status != CMD_OK)
         goto done;
-    const wt_read_options read_options = cmd_read_make(&values, &common);
     for (int i = first; i < argc; i++) {
         err = (wt_error)WT_ERROR_INIT;
         if (i > first)
             putchar('\n');
-        if (info_one(formats, argv[i], &read_options, common.quiet, &err) != WT_OK)
+        if (info_one(formats, argv[i], &read, common.quiet, &err) != WT_OK)
             status = cmd_fail("info", &err);
     }
 done:
     wt_formats_free(formats);
-    cmd_read_values_free(&values);
+    cmd_parts_clear(&part, 1);
     return status;
 }

@@ -1,27 +1,61 @@
-/* Options: one table per subcommand gives the parser and the help, so they cannot disagree.
- * SPDX-License-Identifier: GPL-3.0-or-later */
+/* Options: the parameters of the structures that a subcommand fills give the parser and the help,
+ * so they cannot disagree. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <getopt.h>
-#include <limits.h>
 #include <stdarg.h>
 #include <string.h>
 #include <sys/stat.h>
 
 #include "cmd/cmd.h"
 
-enum { MAX_OPTIONS = 64, FIRST_CODE = 256 };
+enum { MAX_OPTIONS = 64, FIRST_CODE = 256, NAME_SIZE = 48, TEXT_SIZE = 512 };
 
-void cmd_list_free(cmd_list *list)
+cmd_common cmd_common_defaults(void)
 {
-    free((void *)list->items);
-    list->items = NULL;
-    list->n = 0;
+    return (cmd_common){.provenance = true};
 }
 
-void cmd_values_free(cmd_values *list)
+static const wt_param common_rows[] = {
+    {PARAM_TEXT_OF("output", cmd_common, output), .value = "FILE", .letter = 'o', .unset = "",
+     .help = "write there instead of standard output, as HDF5 if the name ends in .h5 or .hdf5; - "
+             "is standard output"},
+    {PARAM_TEXT_OF("formats", cmd_common, formats), .value = "FOLDER", .unset = "",
+     .help =
+         "use the format descriptions (*.xml) of this folder too; one with the id of a built-in "
+         "description takes its place"},
+    {PARAM_FLAG_OF("provenance", cmd_common, provenance),
+     .help = "version, command line and times in what is written"},
+    {PARAM_FLAG_OF("quiet", cmd_common, quiet), .letter = 'q',
+     .help = "no progress and no warnings on standard error; errors are printed all the same"},
+    {PARAM_FLAG_OF("help", cmd_common, help), .letter = 'h', .help = "print this"},
+};
+PARAM_LOCAL_TABLE(common_params, cmd_common, common_rows, cmd_common_defaults, NO_PARTS)
+
+/* One option of the call. */
+typedef struct option_row {
+    cmd_part *part;
+    size_t number; /* of the parameter in the table */
+    const wt_param *param;
+    bool negated; /* a flag that is set by default: --no-NAME */
+    char name[NAME_SIZE];
+} option_row;
+
+typedef struct option_list {
+    option_row rows[MAX_OPTIONS];
+    size_t n;
+} option_list;
+
+void cmd_parts_clear(cmd_part *parts, size_t n)
 {
-    free(list->values);
-    list->values = NULL;
-    list->n = 0;
+    for (size_t i = 0; i < n; i++)
+        wt_params_clear(parts[i].params, parts[i].structure, &parts[i].given);
+}
+
+bool cmd_given(const cmd_part *part, const char *name)
+{
+    for (size_t i = 0; i < wt_params_count(part->params); i++)
+        if (strcmp(wt_params_get(part->params, i)->name, name) == 0)
+            return (part->given & UINT64_C(1) << i) != 0;
+    return false;
 }
 
 int cmd_usage_error(const char *name, const char *format, ...)
@@ -35,213 +69,101 @@ int cmd_usage_error(const char *name, const char *format, ...)
     return CMD_USAGE;
 }
 
-static size_t common_options(unsigned bits, cmd_common *common, bool *help, cmd_option *out)
+static int option_error(const char *name, const char *option, const wt_error *err)
 {
-    size_t n = 0;
-    if (bits & CMD_OPT_OUTPUT)
-        out[n++] = (cmd_option){"output",
-                                'o',
-                                CMD_TEXT,
-                                &common->output,
-                                "FILE",
-                                WT_Q_NONE,
-                                "write there instead of standard output; - is standard output"};
-    if (bits & CMD_OPT_FORMAT)
-        out[n++] = (cmd_option){"format",
-                                0,
-                                CMD_TEXT,
-                                &common->format,
-                                "ID",
-                                WT_Q_NONE,
-                                "read the files as this format (see weartrack formats list)"};
-    if (bits & CMD_OPT_FORMATS)
-        out[n++] = (cmd_option){"formats",
-                                0,
-                                CMD_TEXT,
-                                &common->formats,
-                                "FOLDER",
-                                WT_Q_NONE,
-                                "use the format descriptions of this folder too"};
-    if (bits & CMD_OPT_THREADS)
-        out[n++] = (cmd_option){"threads",
-                                0,
-                                CMD_COUNT,
-                                &common->threads,
-                                "N",
-                                WT_Q_NONE,
-                                "threads to use; 0, the default, is one per processor"};
-    if (bits & CMD_OPT_SEED)
-        out[n++] = (cmd_option){"seed",
-                                0,
-                                CMD_COUNT,
-                                &common->seed,
-                                "N",
-                                WT_Q_NONE,
-                                "seed of the resampling behind the standard errors; default 1"};
-    if (bits & CMD_OPT_PROVENANCE)
-        out[n++] = (cmd_option){"no-provenance",
-                                0,
-                                CMD_FLAG,
-                                &common->no_provenance,
-                                NULL,
-                                WT_Q_NONE,
-                                "leave out version, command line and times"};
-    out[n++] = (cmd_option){"quiet",
-                            'q',
-                            CMD_FLAG,
-                            &common->quiet,
-                            NULL,
-                            WT_Q_NONE,
-                            "no progress and no warnings on standard error"};
-    out[n++] = (cmd_option){"help", 'h', CMD_FLAG, help, NULL, WT_Q_NONE, "print this"};
-    return n;
+    char line[1024];
+    wt_error_format(err, line, sizeof line);
+    return cmd_usage_error(name, "--%s: %s", option, line);
 }
 
-static void print_option(const cmd_option *o)
+int cmd_param_error(const char *name, wt_error *err)
+{
+    char line[1024], option[sizeof err->place];
+    snprintf(option, sizeof option, "%s", err->place);
+    err->place[0] = '\0';
+    if (option[0] != '\0')
+        return option_error(name, option, err);
+    wt_error_format(err, line, sizeof line);
+    return cmd_usage_error(name, "%s", line);
+}
+
+/* Whether `names`, parted by blanks, has this one. */
+static bool is_listed(const char *names, const char *name)
+{
+    const size_t length = strlen(name);
+    for (const char *p = names; *p != '\0'; p += strcspn(p, " "), p += strspn(p, " "))
+        if (strcspn(p, " ") == length && strncmp(p, name, length) == 0)
+            return true;
+    return false;
+}
+
+static void add_part(option_list *list, cmd_part *part)
+{
+    for (size_t i = 0; i < wt_params_count(part->params) && list->n < MAX_OPTIONS; i++) {
+        const wt_param *param = wt_params_get(part->params, i);
+        if ((param->flags & PARAM_NO_OPTION) != 0 ||
+            (part->only != NULL && !is_listed(part->only, param->name)))
+            continue;
+        char set[8];
+        wt_params_default(part->params, i, set, sizeof set);
+        option_row *row = &list->rows[list->n++];
+        *row =
+            (option_row){part, i, param, param->kind == PARAM_FLAG && strcmp(set, "yes") == 0, ""};
+        snprintf(row->name, sizeof row->name, "%s%s", row->negated ? "no-" : "", param->name);
+    }
+}
+
+/* ---- help --------------------------------------------------------------------------------- */
+
+static void print_option(const option_row *row)
 {
     enum { HELP_COLUMN = 30 };
-    int used =
-        o->letter != 0 ? printf("  -%c, --%s", o->letter, o->name) : printf("      --%s", o->name);
-    if (o->value != NULL)
-        used += printf(" %s", o->value);
+    const wt_param *p = row->param;
+    char text[TEXT_SIZE], set[TEXT_SIZE] = "";
+    int used = p->letter != 0 ? printf("  -%c, --%s", p->letter, row->name)
+                              : printf("      --%s", row->name);
+    if (p->value != NULL)
+        used += printf(" %s", p->value);
     if (used > HELP_COLUMN - 2)
         printf("\n%*s", HELP_COLUMN, "");
     else
         printf("%*s", HELP_COLUMN - used, "");
-    cmd_wrap(stdout, HELP_COLUMN, HELP_COLUMN, o->help);
+    if (p->kind != PARAM_FLAG)
+        wt_params_default(row->part->params, row->number, set, sizeof set);
+    const bool in_words = p->unset != NULL && strcmp(p->unset, set) == 0;
+    snprintf(text, sizeof text, "%s%s%s%s", row->negated ? "no " : "", p->help,
+             (p->flags & PARAM_REQUIRED) != 0 ? "; required"
+             : set[0] == '\0'                 ? ""
+             : in_words                       ? "; default: "
+                                              : "; default ",
+             set);
+    cmd_wrap(stdout, HELP_COLUMN, HELP_COLUMN, text);
 }
 
-static void print_help(const cmd_usage *usage, const cmd_option *options, size_t n)
+static void print_help(const cmd_usage *usage, const option_list *list)
 {
     printf("usage: weartrack %s %s\n\n%s\n\noptions:\n", usage->name, usage->arguments,
            usage->what);
-    for (size_t i = 0; i < n; i++)
-        print_option(&options[i]);
+    for (size_t i = 0; i < list->n; i++)
+        print_option(&list->rows[i]);
     if (usage->notes != NULL)
         printf("\n%s\n", usage->notes);
     printf("\nMore in weartrack-%s(1).\n", usage->name);
 }
 
-static bool find_choice(const char *choices, const char *text, int *out)
-{
-    int i = 0;
-    const size_t length = strlen(text);
-    for (const char *p = choices; *p != '\0'; i++) {
-        const size_t word = strcspn(p, "|");
-        if (word == length && strncmp(p, text, word) == 0) {
-            *out = i;
-            return true;
-        }
-        p += word;
-        if (*p == '|')
-            p++;
-    }
-    return false;
-}
-
-static bool parse_count(const char *text, unsigned long *out)
-{
-    unsigned long value = 0;
-    for (const char *p = text; *p != '\0'; p++) {
-        const unsigned long digit = (unsigned long)*p - '0';
-        if (*p < '0' || *p > '9' || value > (ULONG_MAX - digit) / 10)
-            return false;
-        value = value * 10 + digit;
-    }
-    *out = value;
-    return *text != '\0';
-}
-
-/* Says what the option expects, if the value is not that. */
-static int check_limits(const char *name, const cmd_option *o, const char *text, double value)
-{
-    const char *expected = cmd_outside(o->name, value);
-    if (expected == NULL)
-        return CMD_OK;
-    return cmd_usage_error(name, "--%s: out of range; expected %s; found %s", o->name, expected,
-                           text);
-}
-
-static int append(const char *name, const cmd_option *o, const char *text)
-{
-    cmd_list *list = o->target;
-    const char *equals = strchr(text, '=');
-    if (strchr(o->value, '=') != NULL && (equals == NULL || equals == text || equals[1] == '\0'))
-        return cmd_usage_error(name, "--%s: expected %s; found '%s'", o->name, o->value, text);
-    const char **grown = realloc((void *)list->items, (list->n + 1) * sizeof *grown);
-    if (grown == NULL) {
-        fprintf(stderr, "weartrack %s: out of memory\n", name);
-        return CMD_FAILED;
-    }
-    grown[list->n++] = text;
-    list->items = grown;
-    return CMD_OK;
-}
-
-static int set_values(const char *name, const cmd_option *o, const char *text, wt_error *err)
-{
-    cmd_values *list = o->target;
-    cmd_values_free(list);
-    if (wt_list_parse(text, o->quantity, &list->values, &list->n, err) != WT_OK)
-        return CMD_USAGE;
-    int status = CMD_OK;
-    for (size_t i = 0; i < list->n && status == CMD_OK; i++)
-        status = check_limits(name, o, text, list->values[i]);
-    return status;
-}
+/* ---- parsing ------------------------------------------------------------------------------ */
 
 /* Stores one value; an exit status other than CMD_OK when it is wrong. */
-static int set_option(const char *name, const cmd_option *o, const char *text)
+static int set_option(const char *name, const option_row *row, const char *text)
 {
     wt_error err = WT_ERROR_INIT;
-    int status = CMD_OK;
-    if (o->kind != CMD_FLAG && *text == '\0')
-        return cmd_usage_error(name, "--%s: the value is empty", o->name);
-    switch (o->kind) {
-    case CMD_FLAG:
-        *(bool *)o->target = true;
-        break;
-    case CMD_TEXT:
-        *(const char **)o->target = text;
-        break;
-    case CMD_LIST:
-        status = append(name, o, text);
-        break;
-    case CMD_QUANTITY:
-        if (wt_quantity_parse(text, o->quantity, o->target, &err) == WT_OK)
-            status = check_limits(name, o, text, *(double *)o->target);
-        break;
-    case CMD_ESTIMATE:
-        if (wt_estimate_parse(text, o->quantity, o->target, &err) == WT_OK)
-            status = check_limits(name, o, text, ((wt_estimate *)o->target)->value);
-        break;
-    case CMD_VALUES:
-        status = set_values(name, o, text, &err);
-        break;
-    case CMD_NUMBER:
-        if (!wt_number_parse(text, strlen(text), '.', o->target))
-            status = cmd_usage_error(name, "--%s: '%s' is not a number", o->name, text);
-        else
-            status = check_limits(name, o, text, *(double *)o->target);
-        break;
-    case CMD_COUNT:
-        if (!parse_count(text, o->target))
-            status = cmd_usage_error(name, "--%s: '%s' is not a whole number, or too large",
-                                     o->name, text);
-        else
-            status = check_limits(name, o, text, (double)*(unsigned long *)o->target);
-        break;
-    case CMD_CHOICE:
-        if (!find_choice(o->value, text, o->target))
-            status = cmd_usage_error(name, "--%s: '%s' is none of %s", o->name, text, o->value);
-        break;
-    }
-    if (err.status != WT_OK) {
-        char line[1024];
-        wt_error_format(&err, line, sizeof line);
-        status = cmd_usage_error(name, "--%s: %s", o->name, line);
-    }
-    return status;
+    cmd_part *part = row->part;
+    if (row->param->kind == PARAM_FLAG)
+        text = row->negated ? "no" : "yes";
+    if (wt_params_set(part->params, row->param->name, part->structure, text, &part->given, &err) ==
+        WT_OK)
+        return CMD_OK;
+    return err.status == WT_E_MEMORY ? cmd_fail(name, &err) : option_error(name, row->name, &err);
 }
 
 /* What getopt did not like, in words. `word` is the argument it stopped at. */
@@ -271,14 +193,12 @@ bool cmd_same_file(const char *a, const char *b)
            one.st_dev == other.st_dev && one.st_ino == other.st_ino;
 }
 
-/* A usage error if one of the inputs (NULL is skipped) is empty, is the file of -o, which would be
- * lost, or is standard input a second time. */
+/* A usage error if one of the inputs is empty, is the file of -o, which would be lost, or is
+ * standard input a second time. */
 static int check_files(const char *name, const cmd_common *common, const char *const *inputs,
                        size_t n, size_t *n_pipes)
 {
     for (size_t i = 0; i < n; i++) {
-        if (inputs[i] == NULL)
-            continue;
         if (*inputs[i] == '\0')
             return cmd_usage_error(name, "a file name is empty");
         if (common->output != NULL && cmd_same_file(common->output, inputs[i]))
@@ -291,70 +211,87 @@ static int check_files(const char *name, const cmd_common *common, const char *c
     return CMD_OK;
 }
 
-bool cmd_parse(const cmd_usage *usage, const cmd_option *options, size_t n_options,
-               cmd_common *common, int argc, char **argv, int *first, int *status)
+/* The options as getopt wants them. */
+static void list_for_getopt(const option_list *list, struct option *longs, char *letters)
 {
-    bool help = false;
-    cmd_option all[MAX_OPTIONS];
-    struct option longs[MAX_OPTIONS + 1];
-    char letters[2 * MAX_OPTIONS + 3] = ":";
-    size_t n_letters = 1;
-
-    for (size_t i = 0; i < n_options; i++)
-        all[i] = options[i];
-    const size_t n = n_options + common_options(usage->common, common, &help, all + n_options);
-    for (size_t i = 0; i < n; i++) {
-        const int argument = all[i].kind == CMD_FLAG ? no_argument : required_argument;
-        longs[i] = (struct option){all[i].name, argument, NULL, FIRST_CODE + (int)i};
-        if (all[i].letter != 0) {
-            letters[n_letters++] = all[i].letter;
+    size_t n_letters = 0;
+    letters[n_letters++] = ':';
+    for (size_t i = 0; i < list->n; i++) {
+        const option_row *row = &list->rows[i];
+        const int argument = row->param->kind == PARAM_FLAG ? no_argument : required_argument;
+        longs[i] = (struct option){row->name, argument, NULL, FIRST_CODE + (int)i};
+        if (row->param->letter != 0) {
+            letters[n_letters++] = row->param->letter;
             if (argument == required_argument)
                 letters[n_letters++] = ':';
         }
     }
     letters[n_letters] = '\0';
-    longs[n] = (struct option){NULL, 0, NULL, 0};
+    longs[list->n] = (struct option){NULL, 0, NULL, 0};
+}
 
-    *status = CMD_OK;
+/* Sets all options; `inputs` [argc] gets the files among their values. */
+static int parse_options(const cmd_usage *usage, const option_list *list, int argc, char **argv,
+                         const char **inputs, size_t *n_inputs)
+{
+    struct option longs[MAX_OPTIONS + 1];
+    char letters[2 * MAX_OPTIONS + 3];
+    list_for_getopt(list, longs, letters);
     optind = 1;
     opterr = 0;
-    int code;
-    while ((code = getopt_long(argc, argv, letters, longs, NULL)) != -1) {
+    int code, status = CMD_OK;
+    while (status == CMD_OK && (code = getopt_long(argc, argv, letters, longs, NULL)) != -1) {
         if (code == '?' || code == ':') {
             const char letter[] = {'-', (char)optopt, '\0'};
             const bool is_letter = optopt > 0 && optopt < FIRST_CODE;
-            *status = bad_option(usage->name, longs, code, is_letter ? letter : argv[optind - 1]);
-            return false;
+            return bad_option(usage->name, longs, code, is_letter ? letter : argv[optind - 1]);
         }
-        const cmd_option *chosen = NULL;
-        for (size_t i = 0; i < n && chosen == NULL; i++)
-            if (code == FIRST_CODE + (int)i || (code < FIRST_CODE && code == all[i].letter))
-                chosen = &all[i];
-        *status = set_option(usage->name, chosen, optarg);
-        if (*status != CMD_OK)
-            return false;
+        const option_row *row = NULL;
+        for (size_t i = 0; i < list->n && row == NULL; i++)
+            if (code == FIRST_CODE + (int)i ||
+                (code < FIRST_CODE && code == list->rows[i].param->letter))
+                row = &list->rows[i];
+        status = set_option(usage->name, row, optarg);
+        const char *value = row->param->value;
+        if (value != NULL && (strcmp(value, "FILE") == 0 || strcmp(value, "R") == 0) &&
+            strcmp(row->name, "output") != 0)
+            inputs[(*n_inputs)++] = optarg;
     }
-    if (help) {
-        print_help(usage, all, n);
+    return status;
+}
+
+bool cmd_parse(const cmd_usage *usage, cmd_part *parts, size_t n_parts, cmd_common *common,
+               int argc, char **argv, int *first, int *status)
+{
+    option_list list = {.n = 0};
+    char names[TEXT_SIZE];
+    size_t n_inputs = 0, n_pipes = 0;
+    const char **inputs = calloc((size_t)argc + 1, sizeof *inputs);
+    snprintf(names, sizeof names, "%s quiet help", usage->common);
+    cmd_part last = {common_params(), common, names, 0};
+    for (size_t i = 0; i < n_parts; i++)
+        add_part(&list, &parts[i]);
+    add_part(&list, &last);
+    if (inputs == NULL)
+        fprintf(stderr, "weartrack %s: out of memory\n", usage->name);
+    *status =
+        inputs == NULL ? CMD_FAILED : parse_options(usage, &list, argc, argv, inputs, &n_inputs);
+    if (*status == CMD_OK && common->help) {
+        print_help(usage, &list);
+        free(inputs);
         return false;
     }
     *first = optind;
-    size_t n_pipes = 0;
-    for (size_t i = 0; i < n && *status == CMD_OK; i++) {
-        const cmd_option *o = &all[i];
-        const bool is_file =
-            o->value != NULL && (strcmp(o->value, "FILE") == 0 || strcmp(o->value, "R") == 0);
-        if (!is_file || o->target == &common->output)
-            continue;
-        if (o->kind == CMD_TEXT)
-            *status = check_files(usage->name, common, o->target, 1, &n_pipes);
-        else if (o->kind == CMD_LIST) {
-            const cmd_list *list = o->target;
-            *status = check_files(usage->name, common, list->items, list->n, &n_pipes);
-        }
+    for (size_t i = 0; i < list.n && *status == CMD_OK; i++) {
+        const option_row *row = &list.rows[i];
+        if ((row->param->flags & PARAM_REQUIRED) != 0 &&
+            (row->part->given & UINT64_C(1) << row->number) == 0)
+            *status = cmd_usage_error(usage->name, "--%s is missing", row->name);
     }
+    for (int i = optind; *status == CMD_OK && i < argc; i++)
+        inputs[n_inputs++] = argv[i];
     if (*status == CMD_OK)
-        *status = check_files(usage->name, common, (const char *const *)(argv + optind),
-                              (size_t)(argc - optind), &n_pipes);
+        *status = check_files(usage->name, common, inputs, n_inputs, &n_pipes);
+    free(inputs);
     return *status == CMD_OK;
 }

@@ -68,7 +68,7 @@ wt_status cmd_write(const cmd_common *common, wt_result *result, wt_error *err)
     status = cmd_check_output(common->output, result, err);
     if (status != WT_OK)
         return status;
-    const bool with_provenance = !common->no_provenance;
+    const bool with_provenance = common->provenance;
     if (common->output == NULL || strcmp(common->output, "-") == 0) {
         status = write_stream(stdout, result, with_provenance, err);
         wt_error_file(err, "standard output");

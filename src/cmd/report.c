@@ -2,36 +2,34 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cmd/cmd.h"
 
+static const wt_param rows[] = {
+    {PARAM_TEXT_OF("output", cmd_common, output), .value = "FOLDER", .letter = 'o',
+     .flags = PARAM_REQUIRED, .help = "the folder to write"},
+};
+PARAM_LOCAL_TABLE(own_params, cmd_common, rows, cmd_common_defaults, NO_PARTS)
+
 int cmd_report(int argc, char **argv)
 {
-    cmd_common common = CMD_COMMON_DEFAULTS;
-    wt_report_options report_options = wt_report_defaults();
-    const cmd_option options[] = {{"output", 'o', CMD_TEXT, &common.output, "FOLDER", WT_Q_NONE,
-                                   "the folder to write; required"},
-                                  {"style", 0, CMD_TEXT, &report_options.style, "STYLE", WT_Q_NONE,
-                                   "plot style: paper, screen or a file; default paper"},
-                                  {"gnuplot", 0, CMD_TEXT, &report_options.gnuplot, "PROGRAM",
-                                   WT_Q_NONE, "the gnuplot to use; default: gnuplot"}};
-    const cmd_usage usage = {
+    static const cmd_usage usage = {
         "report", "RESULT.h5 -o FOLDER [OPTION]...",
         "Writes a folder with one page, index.html, and for each figure its data, script and\n"
         "picture; the figures can be drawn again without weartrack.",
-        CMD_OPT_PROVENANCE, NULL};
+        "provenance", NULL};
+    cmd_common common = cmd_common_defaults();
+    wt_report_options report_options = wt_report_defaults();
+    cmd_part parts[] = {{own_params(), &common, NULL, 0},
+                        {wt_report_params(), &report_options, NULL, 0}};
     int first = 0, status = CMD_OK;
     wt_error err = WT_ERROR_INIT;
     wt_result *result = NULL;
-    if (!cmd_parse(&usage, options, sizeof options / sizeof options[0], &common, argc, argv, &first,
+    if (!cmd_parse(&usage, parts, sizeof parts / sizeof parts[0], &common, argc, argv, &first,
                    &status))
         goto done;
     if (argc - first != 1) {
         status = cmd_usage_error("report", "one result file is needed; %d given", argc - first);
         goto done;
     }
-    if (common.output == NULL) {
-        status = cmd_usage_error("report", "-o FOLDER is missing");
-        goto done;
-    }
-    report_options.with_provenance = !common.no_provenance;
+    report_options.with_provenance = common.provenance;
     cmd_progress state;
     const wt_progress progress = cmd_progress_start(&state, common.quiet);
     cmd_catch_interruptions();
@@ -39,8 +37,6 @@ int cmd_report(int argc, char **argv)
     if (made == WT_OK)
         made = wt_report_write(result, common.output, &report_options, &progress, &err);
     cmd_progress_end(&state);
-    if ((made == WT_E_MISSING || made == WT_E_UNIT) && err.file[0] == '\0')
-        wt_error_file(&err, argv[first]); // what a table of it lacks
     if (made != WT_OK)
         status = cmd_fail("report", &err);
     else if (!common.quiet)

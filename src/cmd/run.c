@@ -57,34 +57,49 @@ static char *default_name(const char *path, const char *ending)
     return name;
 }
 
+typedef struct own_options {
+    bool plan, no_report;
+    const char *report;
+} own_options;
+
+static own_options no_options(void)
+{
+    return (own_options){false, false, NULL};
+}
+
+static const wt_param output_rows[] = {
+    {PARAM_TEXT_OF("output", cmd_common, output), .value = "FILE", .letter = 'o',
+     .unset = "the name of the case with .h5, in the current folder", .help = "the result, HDF5"},
+};
+PARAM_LOCAL_TABLE(output_params, cmd_common, output_rows, cmd_common_defaults, NO_PARTS)
+
+static const wt_param own_rows[] = {
+    {PARAM_FLAG_OF("plan", own_options, plan),
+     .help = "only say which stages would run and why, and why the others would not"},
+    {PARAM_TEXT_OF("report", own_options, report), .value = "FOLDER", .letter = 'r',
+     .unset = "the name of the case with -report, in the current folder",
+     .help = "where the report goes; a report that is there is replaced, another folder is not"},
+    {PARAM_FLAG_OF("no-report", own_options, no_report), .help = "write no report"},
+};
+PARAM_LOCAL_TABLE(own_params, own_options, own_rows, no_options, NO_PARTS)
+
 int cmd_run(int argc, char **argv)
 {
-    cmd_common common = CMD_COMMON_DEFAULTS;
-    wt_run_options run_options = wt_run_defaults();
-    wt_report_options report_options = wt_report_defaults();
-    bool plan_only = false, no_report = false;
-    const char *folder = NULL, *style = NULL;
-    unsigned long replicates = run_options.replicates;
-    const cmd_option options[] = {
-        {"output", 'o', CMD_TEXT, &common.output, "FILE", WT_Q_NONE,
-         "the result, HDF5; default: the case's name with .h5, in the current folder"},
-        {"plan", 0, CMD_FLAG, &plan_only, NULL, WT_Q_NONE,
-         "only say which stages would run and why, and why the others would not"},
-        {"report", 'r', CMD_TEXT, &folder, "FOLDER", WT_Q_NONE,
-         "where the report goes; default: the case's name with -report, in the current folder"},
-        {"no-report", 0, CMD_FLAG, &no_report, NULL, WT_Q_NONE, "write no report"},
-        {"style", 0, CMD_TEXT, &style, "STYLE", WT_Q_NONE,
-         "plot style: paper, screen or a file; default: the case's, or paper"},
-        {"tolerance", 0, CMD_NUMBER, &run_options.tolerance, "X", WT_Q_NONE,
-         "relative numerical error asked for; default: the case's, or 1e-10"},
-        {"replicates", 0, CMD_COUNT, &replicates, "N", WT_Q_NONE,
-         "refits behind the standard errors; default 64, 0 for none"}};
-    const cmd_usage usage = {
+    static const cmd_usage usage = {
         "run", "[OPTION]... CASE.xml",
         "Runs a whole case: what the case asks for, and nothing else. The answer goes to standard\n"
         "output, the result to an HDF5 file and the figures to a report folder with one page.",
-        CMD_OPT_FORMATS | CMD_OPT_THREADS | CMD_OPT_SEED | CMD_OPT_PROVENANCE,
+        "formats provenance",
+        "--style replaces that of the case.\n"
         "Exit status 1 if a file of the case failed; the rest is answered all the same."};
+    cmd_common common = cmd_common_defaults();
+    own_options own = no_options();
+    wt_run_options run_options = wt_run_defaults();
+    wt_report_options report_options = wt_report_defaults();
+    cmd_part parts[] = {{output_params(), &common, NULL, 0},
+                        {own_params(), &own, NULL, 0},
+                        {wt_report_params(), &report_options, "style", 0},
+                        {wt_run_params(), &run_options, NULL, 0}};
     int first = 0, status = CMD_OK;
     wt_error err = WT_ERROR_INIT;
     wt_case *the_case = NULL;
@@ -94,7 +109,7 @@ int cmd_run(int argc, char **argv)
     char *result_name = NULL, *folder_name = NULL;
     size_t n_failed = 0;
 
-    if (!cmd_parse(&usage, options, sizeof options / sizeof options[0], &common, argc, argv, &first,
+    if (!cmd_parse(&usage, parts, sizeof parts / sizeof parts[0], &common, argc, argv, &first,
                    &status))
         goto done;
     if (argc - first != 1) {
@@ -104,14 +119,14 @@ int cmd_run(int argc, char **argv)
     const char *path = argv[first];
     if (wt_case_read(path, &the_case, &err) != WT_OK)
         goto fail;
-    if (plan_only) {
+    if (own.plan) {
         if (wt_plan(the_case, &plan, &err) != WT_OK)
             goto fail;
         print_plan(plan);
         goto done;
     }
     result_name = common.output != NULL ? strdup(common.output) : default_name(path, ".h5");
-    folder_name = folder != NULL ? strdup(folder) : default_name(path, "-report");
+    folder_name = own.report != NULL ? strdup(own.report) : default_name(path, "-report");
     log = wt_parselog_new();
     if (result_name == NULL || folder_name == NULL || log == NULL) {
         wt_fail(&err, WT_E_MEMORY, "out of memory");
@@ -134,17 +149,15 @@ int cmd_run(int argc, char **argv)
         wt_error_advice(&err, "`weartrack run --plan` says what each stage lacks");
         goto fail;
     }
-    report_options.style = style != NULL ? style : wt_case_style(the_case);
-    report_options.with_provenance = !common.no_provenance;
-    if (!no_report && wt_report_check(folder_name, &report_options, &err) != WT_OK)
+    if (!cmd_given(&parts[2], "style"))
+        report_options.style = wt_case_style(the_case);
+    report_options.with_provenance = common.provenance;
+    if (!own.no_report && wt_report_check(folder_name, &report_options, &err) != WT_OK)
         goto fail;
     cmd_progress progress;
     run_options.progress = cmd_progress_start(&progress, common.quiet);
-    run_options.no_timing = common.no_provenance;
+    run_options.no_timing = !common.provenance;
     run_options.formats = common.formats;
-    run_options.threads = (unsigned)common.threads;
-    run_options.seed = common.seed;
-    run_options.replicates = replicates;
     const wt_status ran = wt_run(the_case, &run_options, log, &result, &n_failed, &err);
     cmd_progress_end(&progress);
     cmd_print_log("run", log, false, common.quiet);
@@ -156,13 +169,13 @@ int cmd_run(int argc, char **argv)
         goto fail;
     if (cmd_provenance(result, cmd_full_argc, cmd_full_argv, &err) != WT_OK ||
         cmd_check_output(result_name, result, &err) != WT_OK ||
-        wt_store_write(result_name, result, !common.no_provenance, &err) != WT_OK)
+        wt_store_write(result_name, result, common.provenance, &err) != WT_OK)
         goto fail;
     print_answer(result);
     fflush(stdout); /* it stands, whatever becomes of the pictures */
     if (!common.quiet)
         fprintf(stderr, "result: %s\n", result_name);
-    if (!no_report) {
+    if (!own.no_report) {
         run_options.progress = cmd_progress_start(&progress, common.quiet);
         cmd_catch_interruptions();
         const wt_status drawn =

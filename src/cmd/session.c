@@ -2,10 +2,24 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cmd/cmd.h"
 
-int cmd_begin(cmd_session *s, const char *name, const cmd_common *common)
+cmd_session cmd_session_defaults(void)
+{
+    return (cmd_session){.work = wt_job_defaults()};
+}
+
+int cmd_check_format(const char *name, const char *format, const wt_formats *formats)
+{
+    if (format == NULL || wt_formats_find(formats, format) != NULL)
+        return CMD_OK;
+    return cmd_usage_error(name, "--format: there is no format '%s', see weartrack formats list",
+                           format);
+}
+
+int cmd_begin(cmd_session *s, const char *name, const cmd_common *common, const char *format)
 {
     wt_error err = WT_ERROR_INIT;
-    *s = (cmd_session){.name = name, .common = common, .work = wt_job_defaults()};
+    s->name = name;
+    s->common = common;
     s->log = wt_parselog_new();
     s->result = wt_result_new();
     s->work.failures = wt_failures_new();
@@ -15,12 +29,10 @@ int cmd_begin(cmd_session *s, const char *name, const cmd_common *common)
     }
     if (wt_formats_new(common->formats, &s->formats, s->log, &err) != WT_OK)
         return cmd_fail(name, &err);
-    const int status = cmd_check_format(name, common, s->formats);
+    const int status = cmd_check_format(name, format, s->formats);
     if (status != CMD_OK)
         return status;
     s->work.formats = s->formats;
-    s->work.threads = (unsigned)common->threads;
-    s->work.seed = common->seed;
     s->work.log = s->log;
     s->work.provenance = wt_result_provenance(s->result);
     s->work.progress = cmd_progress_start(&s->progress, common->quiet);

@@ -3,35 +3,40 @@
 #ifndef WT_CMD_SLIDING_H
 #define WT_CMD_SLIDING_H
 
-#include "cmd/dma.h"
+#include "cmd/cmd.h"
+
+/* Where the rubber and the counter surface come from. */
+typedef struct cmd_contact {
+    const char *material;         /* output of `master` */
+    const char *const *dma_files; /* [n_dma] or DMA files */
+    size_t n_dma;
+    const char *roughness;
+} cmd_contact;
+
+/* Parts of the options; CMD_OWN are those of the subcommand itself. */
+enum { CMD_CONTACT, CMD_CONDITIONS, CMD_OWN, CMD_WORK, CMD_MASTER, CMD_READ, CMD_SLIDING_PARTS };
 
 typedef struct cmd_sliding {
-    const char *material; /* output of `master` */
-    cmd_list dma_files;   /* or DMA files */
-    const char *roughness;
-    cmd_values velocity;
-    double poisson_ratio;
-    unsigned long replicates;
-    cmd_read_values read;
-    cmd_dma dma;
+    cmd_common common;
+    cmd_contact contact;
     wt_sliding conditions;
+    wt_master_job master;
+    wt_file_set set;
+    cmd_session session;
+    cmd_part parts[CMD_SLIDING_PARTS];
     /* made by cmd_sliding_open */
-    wt_formats *formats;
-    wt_parselog *log;
     wt_result *material_tables;
-    wt_result *result;
     wt_rubber rubber;
     wt_surface surface;
-    wt_job work;
 } cmd_sliding;
 
-void cmd_sliding_init(cmd_sliding *s);
+/* `own` are the options of the subcommand itself. */
+void cmd_sliding_init(cmd_sliding *s, cmd_part own);
 void cmd_sliding_free(cmd_sliding *s);
-enum { CMD_SLIDING_OPTIONS = 24 };
-size_t cmd_sliding_options(cmd_sliding *s, cmd_option *options);
-/* Reads material and roughness and fills `conditions` and `work`. Returns an exit status; what was
- * wrong has been said. */
-int cmd_sliding_open(cmd_sliding *s, const char *name, const cmd_common *common, int argc,
-                     int first);
+/* Parses the call; as cmd_parse. */
+bool cmd_sliding_parse(cmd_sliding *s, const cmd_usage *usage, int argc, char **argv, int *status);
+/* Begins the session, reads material and roughness and fills `conditions`. Returns an exit status;
+ * what was wrong has been said. */
+int cmd_sliding_open(cmd_sliding *s, const char *name);
 
 #endif

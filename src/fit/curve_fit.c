@@ -3,7 +3,9 @@
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "base/gsl_quiet.h"
+#include "base/param.h"
 #include "fit/curve.h"
+#include "model/material.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -55,6 +57,22 @@ wt_indent_options wt_indent_defaults(void)
                                .plain_least_squares = false,
                                .fixed_contact_point = (double)NAN};
 }
+
+static const wt_param rows[] = {
+    POISSON_RATIO(wt_indent_options),
+    {PARAM("fit-depth", wt_indent_options, fit_depth, WT_Q_LENGTH, AT_LEAST(0)), .value = "D",
+     .help = "fit indentations up to this depth, such as 50nm; 0 is all"},
+    {PARAM("fit-force-fraction", wt_indent_options, fit_force_fraction, WT_Q_NONE, ABOVE_TO(0, 1)),
+     .value = "X", .help = "fit forces up to this share of the largest"},
+    {PARAM("minimum-r-squared", wt_indent_options, minimum_r_squared, WT_Q_NONE, FROM_BELOW(0, 1)),
+     .value = "X", .help = "reject a curve whose contact part has a smaller R squared"},
+    {PARAM("fixed-contact-point", wt_indent_options, fixed_contact_point, WT_Q_LENGTH, ANY_NUMBER),
+     .value = "Z", .unset = "", .flags = PARAM_NO_CASE,
+     .help = "do not fit the contact point: take this tip position"},
+    {PARAM_FLAG_OF("fit-tilt", wt_indent_options, fit_tilt),
+     .help = "tilt of the baseline, which without it has an offset only"},
+};
+PARAM_TABLE(wt_indent_params, wt_indent_options, rows, wt_indent_defaults, NO_PARTS)
 
 wt_indent_workspace *wt_indent_workspace_new(void)
 {
@@ -474,20 +492,7 @@ static wt_status check_arguments(const wt_indent_options *options, size_t n, dou
         wt_error_found(err, "%g N/m", spring_constant);
         return status;
     }
-    if (!(options->poisson_ratio >= 0.0 && options->poisson_ratio <= 0.5)) {
-        wt_status status = wt_fail(err, WT_E_ARG, "Poisson ratio is not usable");
-        wt_error_expected(err, "0 to 0.5");
-        wt_error_found(err, "%g", options->poisson_ratio);
-        return status;
-    }
-    if (!(options->fit_depth >= 0.0) || !(options->fit_force_fraction > 0.0) ||
-        !(options->fit_force_fraction <= 1.0)) {
-        wt_status status = wt_fail(err, WT_E_ARG, "range of the fit is not usable");
-        wt_error_expected(err, "a depth of 0 (all) or more, a share of the force above 0 up to 1");
-        wt_error_found(err, "%g m, %g", options->fit_depth, options->fit_force_fraction);
-        return status;
-    }
-    return WT_OK;
+    return param_check(wt_indent_params(), options, err);
 }
 
 wt_status wt_indent_fit_curve(const wt_contact_table *table, const wt_indent_options *options,

@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "fit/shift.h"
 
+#include "base/param.h"
 #include "fit/shift_master.h"
 #include "fit/wlf_fit.h"
 
@@ -32,23 +33,21 @@ wt_shift_options wt_shift_defaults(void)
                               .floor = 0.02};
 }
 
-static wt_status check_options(const wt_shift_options *options, wt_error *err)
-{
-    wt_status status = WT_OK;
-    if (!isnan(options->reference_temperature) &&
-        !(options->reference_temperature > 0.0 && isfinite(options->reference_temperature))) {
-        status = wt_fail(err, WT_E_RANGE, "the reference temperature is not possible");
-        wt_error_expected(err, "an absolute temperature above 0 K");
-        wt_error_found(err, "%g", options->reference_temperature);
-        wt_error_advice(err, "give it with its unit, for example 20degC");
-    } else if (!(options->floor > 0.0) || !isfinite(options->floor)) {
-        status = wt_fail(err, WT_E_RANGE, "the floor of the shift error is not positive");
-        wt_error_found(err, "%g decade", options->floor);
-    } else if (!isfinite(options->expansion)) {
-        status = wt_fail(err, WT_E_RANGE, "the thermal expansion is not a number");
-    }
-    return status;
-}
+static const wt_param rows[] = {
+    {PARAM("reference-temperature", wt_shift_options, reference_temperature, WT_Q_TEMPERATURE,
+           ABOVE(0)),
+     .value = "T", .unset = "the isotherm in the middle",
+     .help = "reference temperature, such as 20degC; it need not be one of the isotherms"},
+    {PARAM_CHOICE_OF("vertical-shift", wt_shift_options, vertical, "none|physical|free"),
+     .help = "vertical shift: none, as rubber elasticity says (Tref/T, with the thermal expansion "
+             "of the density), or fitted"},
+    {PARAM("expansion", wt_shift_options, expansion, WT_Q_NONE, FROM_TO(0, 0.01)), .value = "X",
+     .help = "volumetric thermal expansion in 1/K for the vertical shift physical; that of rubber "
+             "is about 7e-4"},
+    {PARAM("floor", wt_shift_options, floor, WT_Q_NONE, ABOVE(0)), .flags = PARAM_ONLY_C,
+     .help = "model error of a shift for the WLF fit in decades"},
+};
+PARAM_TABLE(wt_shift_params, wt_shift_options, rows, wt_shift_defaults, NO_PARTS)
 
 /* log10 of rho0 T0 / (rho T), density from a constant expansion coefficient. */
 static double physical_shift(const shift_work *work, double temperature)
@@ -420,7 +419,7 @@ wt_status wt_shift_fit(const wt_sweep *sweep, const wt_shift_options *options, w
                        wt_master_curve *master, wt_error *err)
 {
     shift_work work = {.options = options != NULL ? *options : wt_shift_defaults()};
-    wt_status status = check_options(&work.options, err);
+    wt_status status = param_check(wt_shift_params(), &work.options, err);
 
     if (status == WT_OK)
         status = shift_set_new(sweep, log, &work.set, err);

@@ -9,6 +9,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "kernel/energy.h"
+#include "kernel/params.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -51,11 +52,10 @@ wt_status energy_check(const wt_energy_source *source, wt_error *err)
     }
     if (!isfinite(sum))
         return out_of_range("total power", sum, "finite, in W/m^2", err);
-    if (!(source->local_friction >= 0) || !isfinite(source->local_friction))
-        return out_of_range("local_friction", source->local_friction, "finite and >= 0", err);
     if (!(source->numerical_error >= 0) || !isfinite(source->numerical_error))
         return out_of_range("numerical_error", source->numerical_error, "finite and >= 0", err);
-    return WT_OK;
+    static const wt_param local_friction = ENERGY_LOCAL_FRICTION(wt_energy_source);
+    return param_check_number(&local_friction, source->local_friction, err);
 }
 
 bool energy_range(const wt_energy_source *source, double *q_min, double *q_max)

@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "kernel/friction.h"
+#include "kernel/params.h"
 
 #include "kernel/contact.h"
 
@@ -20,28 +21,20 @@ wt_friction_options wt_friction_defaults(void)
                                  .threads = 1};
 }
 
+static const wt_param rows[] = {
+    FRICTION_TOLERANCE(wt_friction_options),
+    FRICTION_GAMMA(wt_friction_options),
+    LAYER_STATE_ROWS(wt_friction_options, layer.),
+    FRICTION_THREADS(wt_friction_options),
+};
+PARAM_TABLE(wt_friction_params, wt_friction_options, rows, wt_friction_defaults, NO_PARTS)
+
 static wt_status out_of_range(const char *name, double value, const char *expected, wt_error *err)
 {
     wt_fail(err, WT_E_RANGE, "%s is outside its range", name);
     wt_error_expected(err, "%s", expected);
     wt_error_found(err, "%g", value);
     return WT_E_RANGE;
-}
-
-static wt_status check_options(const wt_friction_options *o, wt_error *err)
-{
-    if (!(o->tolerance > 0 && o->tolerance < 1))
-        return out_of_range("tolerance of the friction integral", o->tolerance,
-                            "0 < tolerance < 1, for example 1e-10", err);
-    if (!(o->gamma >= 0 && o->gamma <= 1))
-        return out_of_range("gamma of the partial-contact correction", o->gamma,
-                            "0 <= gamma <= 1; 1 = Persson 2001", err);
-    if (!(o->layer.thickness >= 0) || !isfinite(o->layer.thickness))
-        return out_of_range("thickness of the layer", o->layer.thickness, "finite and >= 0 m", err);
-    if (!(o->layer.modulus_ratio > 0) || !isfinite(o->layer.modulus_ratio))
-        return out_of_range("modulus ratio of the layer", o->layer.modulus_ratio, "finite and > 0",
-                            err);
-    return WT_OK;
 }
 
 /* The closed form in the core neglects the change of dmu/dG over it, which is about the length of
@@ -140,7 +133,7 @@ wt_status wt_friction_workspace_new(const wt_material *material, const wt_roughn
     if (material == NULL || roughness == NULL || workspace == NULL)
         return wt_fail(err, WT_E_ARG, "friction needs a material and a power spectrum");
     const wt_friction_options o = options ? *options : wt_friction_defaults();
-    wt_status status = check_options(&o, err);
+    wt_status status = param_check(wt_friction_params(), &o, err);
     if (status != WT_OK)
         return status;
     wt_friction_workspace *ws = calloc(1, sizeof *ws);

@@ -4,6 +4,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "kernel/layer.h"
+#include "kernel/params.h"
 
 #include "kernel/root.h"
 
@@ -15,37 +16,16 @@ wt_layer_parameters wt_layer_defaults(void)
     return (wt_layer_parameters){.damage = 1, .duty = 1};
 }
 
-static wt_status check_value(const char *name, double value, bool good, const char *expected,
-                             wt_error *err)
-{
-    if (good && isfinite(value))
-        return WT_OK;
-    wt_fail(err, WT_E_RANGE, "%s of a layer is outside its range", name);
-    wt_error_expected(err, "%s", expected);
-    wt_error_found(err, "%g", value);
-    return WT_E_RANGE;
-}
-
-static wt_status check_parameters(const wt_layer_parameters *p, wt_error *err)
-{
-    wt_status status = check_value("critical_energy", p->critical_energy, p->critical_energy > 0,
-                                   "finite and > 0 J/m^3", err);
-    if (status == WT_OK)
-        status = check_value("damage", p->damage, p->damage > 0, "finite and > 0", err);
-    if (status == WT_OK)
-        status = check_value("specific_wear_rate", p->specific_wear_rate,
-                             p->specific_wear_rate >= 0, "finite and >= 0 m^2/N", err);
-    if (status == WT_OK)
-        status = check_value("pressure", p->pressure, p->pressure >= 0, "finite and >= 0 Pa", err);
-    if (status == WT_OK)
-        status = check_value("velocity", p->velocity, p->velocity >= 0, "finite and >= 0 m/s", err);
-    if (status == WT_OK)
-        status = check_value("start_thickness", p->start_thickness, p->start_thickness >= 0,
-                             "finite and >= 0 m", err);
-    if (status == WT_OK)
-        status = check_value("duty", p->duty, p->duty > 0 && p->duty <= 1, "0 < duty <= 1", err);
-    return status;
-}
+static const wt_param rows[] = {
+    LAYER_ROWS(wt_layer_parameters, 0),
+    {PARAM("critical-energy", wt_layer_parameters, critical_energy, WT_Q_ENERGY_DENSITY, ABOVE(0)),
+     .flags = PARAM_ONLY_C, .help = "energy per volume that modifies the rubber"},
+    {PARAM("pressure", wt_layer_parameters, pressure, WT_Q_PRESSURE, AT_LEAST(0)),
+     .flags = PARAM_ONLY_C, .help = "nominal pressure"},
+    {PARAM("velocity", wt_layer_parameters, velocity, WT_Q_VELOCITY, AT_LEAST(0)),
+     .flags = PARAM_ONLY_C, .help = "of sliding"},
+};
+PARAM_TABLE(wt_layer_params, wt_layer_parameters, rows, wt_layer_defaults, NO_PARTS)
 
 wt_status layer_rates_make(const wt_energy_source *source, const wt_layer_parameters *parameters,
                            layer_rates *rates, wt_error *err)
@@ -54,7 +34,7 @@ wt_status layer_rates_make(const wt_energy_source *source, const wt_layer_parame
         return wt_fail(err, WT_E_ARG, "a layer needs its parameters");
     wt_status status = energy_check(source, err);
     if (status == WT_OK)
-        status = check_parameters(parameters, err);
+        status = param_check(wt_layer_params(), parameters, err);
     if (status != WT_OK)
         return status;
     const wt_layer_parameters *p = parameters;

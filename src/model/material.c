@@ -9,13 +9,8 @@
 
 wt_status material_check_poisson(double poisson_ratio, wt_error *err)
 {
-    if (poisson_ratio >= 0 && poisson_ratio <= 0.5)
-        return WT_OK;
-    wt_fail(err, WT_E_RANGE, "poisson_ratio of a material is outside its range");
-    wt_error_expected(err, "0 <= poisson_ratio <= 0.5");
-    wt_error_found(err, "%g", poisson_ratio);
-    wt_error_advice(err, "filled rubber is nearly incompressible: 0.5 unless it was measured");
-    return WT_E_RANGE;
+    static const wt_param row = POISSON_RATIO(wt_material);
+    return param_check_number(&row, poisson_ratio, err);
 }
 
 wt_status material_check_value(const char *name, double value, const char *expected, bool good,

@@ -5,7 +5,15 @@
 #ifndef WT_MODEL_MATERIAL_H
 #define WT_MODEL_MATERIAL_H
 
+#include "base/param.h"
 #include "weartrack/model.h"
+
+/* The record of a Poisson ratio, for every structure that has one. */
+#define POISSON_RATIO(type)                                                                        \
+    {                                                                                              \
+        PARAM("poisson-ratio", type, poisson_ratio, WT_Q_NONE, FROM_TO(0, 0.5)),                   \
+            .value = "NU", .help = "of the rubber, which is nearly incompressible"                 \
+    }
 
 /* WT_E_RANGE unless 0 <= poisson_ratio <= 0.5. */
 wt_status material_check_poisson(double poisson_ratio, wt_error *err) WT_NODISCARD;

@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "read/formats.h"
+#include "read/params.h"
 
 #include <math.h>
 
@@ -20,26 +21,25 @@ wt_read_options wt_read_defaults(void)
     };
 }
 
-/* A value that replaces the file's must be a positive number. */
-static wt_status check_options(const wt_read_options *options, wt_error *err)
-{
-    if (!isnan(options->spring_constant) &&
-        !(isfinite(options->spring_constant) && options->spring_constant > 0))
-        return wt_fail(err, WT_E_RANGE, "the spring constant %g N/m is not positive",
-                       options->spring_constant);
-    if (!isnan(options->sensitivity) &&
-        !(isfinite(options->sensitivity) && options->sensitivity > 0))
-        return wt_fail(err, WT_E_RANGE, "the sensitivity %g m/V is not positive",
-                       options->sensitivity);
-    return WT_OK;
-}
+static const wt_param rows[] = {
+    SPRING_CONSTANT(wt_read_options, PARAM_NO_CASE),
+    {PARAM("sensitivity", wt_read_options, sensitivity, WT_Q_SENSITIVITY, ABOVE(0)), .value = "S",
+     .unset = "that of the files", .help = "deflection sensitivity (InvOLS), such as 120nm/V"},
+    {PARAM("temperature", wt_read_options, temperature, WT_Q_TEMPERATURE, ABOVE(0)), .value = "T",
+     .unset = "", .help = "temperature of DMA files that say none, such as 20degC"},
+    {PARAM_TEXTS_OF("units", wt_read_options, units, n_units), .value = "NAME=UNIT", .unset = "",
+     .help = "unit of a column that carries none, such as \"E'=MPa\"; repeatable"},
+    {PARAM_TEXT_OF("format", wt_read_options, format), .value = "ID", .unset = "",
+     .help = "read the files as this format (see weartrack formats list)"},
+};
+PARAM_TABLE(wt_read_params, wt_read_options, rows, wt_read_defaults, NO_PARTS)
 
 wt_status read_start(const wt_formats *formats, wt_input *input, const wt_read_options *given,
                      unsigned kind, wt_read_options *options, const file_reader **reader,
                      wt_error *err)
 {
     *options = given != NULL ? *given : wt_read_defaults();
-    wt_status status = check_options(options, err);
+    wt_status status = param_check(wt_read_params(), options, err);
     if (status != WT_OK)
         return status;
     return find_reader(formats, input, options->format, kind, reader, err);

@@ -80,12 +80,16 @@ static void pretty(const char *unit, char *label, size_t size)
     label[n] = '\0';
 }
 
-lab_unit lab_unit_for(wt_quantity quantity, const char *unit, double magnitude)
+static bool is_temperature(const char *name)
 {
-    if (unit == NULL)
-        unit = wt_quantity_unit(quantity);
+    return strstr(name, "temperature") != NULL && strstr(name, "error") == NULL &&
+           strstr(name, "spread") == NULL && strstr(name, "difference") == NULL;
+}
+
+lab_unit lab_unit_for(const char *unit, const char *name, double magnitude)
+{
     lab_unit lab = {.factor = 1, .offset = 0, .label = ""};
-    if (quantity == WT_Q_TEMPERATURE && strcmp(unit, "K") == 0) {
+    if (strcmp(unit, "K") == 0 && is_temperature(name)) {
         lab.offset = -WT_ZERO_CELSIUS;
         (void)strcpy(lab.label, "°C");
         return lab;

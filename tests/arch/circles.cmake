@@ -10,7 +10,7 @@ set(known
   "data/table.c > data/table_key.c"
   "fit/shift.c > fit/wlf_fit.c"
   "flow/answer/answer.c > flow/answer/caveats.c"
-  "flow/case/case.c > flow/case/case_parse.c"
+  "report/page.c > report/report.c"
 )
 
 # A node is a file; ties_FILE are the files it needs, by_FILE_OTHER what ties them.

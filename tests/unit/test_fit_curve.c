@@ -451,12 +451,12 @@ static void arguments(void **state)
     options.poisson_ratio = 0.6;
     assert_int_equal(wt_indent_fit_curve(table, &options, data.height, data.force, NULL, t.n, 1.0,
                                          workspace, &fit, NULL),
-                     WT_E_ARG);
+                     WT_E_RANGE);
     options = wt_indent_defaults();
     options.fit_force_fraction = 0.0;
     assert_int_equal(wt_indent_fit_curve(table, &options, data.height, data.force, NULL, t.n, 1.0,
                                          workspace, &fit, NULL),
-                     WT_E_ARG);
+                     WT_E_RANGE);
     wt_contact_table_free(table);
     wt_indent_workspace_free(NULL);
 }

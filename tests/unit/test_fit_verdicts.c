@@ -234,7 +234,7 @@ static void not_this_tip(void **state)
     wt_indent_fit fit = expect(&t, WT_CURVE_POOR_FIT, "R^2");
     assert_true(fit.r_squared < 0.9);
     wt_indent_options options = wt_indent_defaults();
-    options.minimum_r_squared = -1.0;
+    options.minimum_r_squared = 0.0;
     fit = fit_with(&t, &options);
     assert_int_not_equal(fit.verdict, WT_CURVE_POOR_FIT);
 }
@@ -293,7 +293,7 @@ static void nonsense_has_a_verdict_too(void **state)
                 data.force[k] = k % 2 == 0 ? (double)NAN : -DBL_MAX;
         }
         wt_indent_options options = wt_indent_defaults();
-        options.minimum_r_squared = -DBL_MAX;
+        options.minimum_r_squared = 0.0;
         options.fit_tilt = i % 2 == 1;
         options.fit_depth = i % 6 == 0 ? 1e-8 : 0.0;
         options.plain_least_squares = i % 8 == 0;

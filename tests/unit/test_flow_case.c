@@ -62,11 +62,11 @@ static void test_full(void **state)
         fail_msg("%s: %s; %s", err.place, err.message, err.found);
     assert_string_equal(wt_case_title(c), "Tread, severe track");
     assert_string_equal(wt_case_style(c), "screen");
-    assert_near(c->tip.half_angle, 35 * M_PI / 180, 1e-14);
-    assert_near(c->indent.poisson_ratio, 0.49, 0);
-    assert_near(c->indent.fit_depth, 70e-9, 1e-14);
-    assert_false(c->indent.fit_tilt);
-    assert_near(c->indentation_temperature, 296.15, 1e-14);
+    assert_near(c->indent.tip.half_angle, 35 * M_PI / 180, 1e-14);
+    assert_near(c->indent.options.poisson_ratio, 0.49, 0);
+    assert_near(c->indent.options.fit_depth, 70e-9, 1e-14);
+    assert_false(c->indent.options.fit_tilt);
+    assert_near(c->compare.temperature, 296.15, 1e-14);
     assert_int_equal(c->bulk.n, 2);
     assert_string_equal(c->bulk.sets[0].spot, "b1");
     assert_string_equal(c->bulk.sets[0].read.format, "jpk");
@@ -78,16 +78,16 @@ static void test_full(void **state)
     assert_int_equal(c->track.sets[0].read.n_units, 2);
     assert_string_equal(c->track.sets[0].read.units[1], "Height=um");
     assert_int_equal(c->dma.n, 1);
-    assert_int_equal(c->shift.vertical, WT_VERTICAL_NONE);
-    assert_near(c->prony_options.terms_per_decade, 2, 0);
-    assert_near(c->shift.reference_temperature, 293.15, 1e-14);
-    assert_near(c->self_affine.c0.standard_error, 1e-18, 1e-13);
+    assert_int_equal(c->master.shift.vertical, WT_VERTICAL_NONE);
+    assert_near(c->master.prony.terms_per_decade, 2, 0);
+    assert_near(c->master.shift.reference_temperature, 293.15, 1e-14);
+    assert_near(c->surface.c0.standard_error, 1e-18, 1e-13);
     assert_near(c->sliding.pressure.standard_error, 2e4, 1e-13);
     assert_int_equal(c->sliding.n_velocity, 6);
     assert_near(c->sliding.velocity[5], 10, 0);
     assert_near(c->sliding.temperature.standard_error, 1, 0);
     assert_near(c->layer.specific_wear_rate.value, 1e-12, 1e-14);
-    assert_near(c->layer_velocity, 0.3, 0);
+    assert_near(c->layer.velocity, 0.3, 0);
     assert_int_equal(c->layer.n_time, 6);
     assert_true(c->layer.incubation);
     assert_true(c->compare_groups && c->compare_rates && !c->compare_dma);
@@ -127,7 +127,7 @@ static void test_wrong(void **state)
          ""},
         {SLIDING("<pressure>1MPa</pressure><velocity>1m/s</velocity><gamma>0.5 +- 0.1</gamma>"),
          WT_E_ARG, "line 3, <gamma>", "would not be used"},
-        {LAYER("<specific-wear-rate>1e-3mm^3/(N m)</specific-wear-rate>"), WT_E_SCHEMA,
+        {LAYER("<specific-wear-rate>1e-3mm^3/(N m)</specific-wear-rate>"), WT_E_MISSING,
          "line 3, <layer>", "neither"},
         {LAYER("<specific-wear-rate>1e-3</specific-wear-rate>"
                "<critical-energy>1e10J/m^3</critical-energy>"),

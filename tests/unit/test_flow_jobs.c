@@ -233,7 +233,7 @@ static wt_rubber measured_rubber(wt_master_tables *tables)
     job.sets = &set;
     job.n_sets = 1;
     job.shift.reference_temperature = 293.15;
-    if (wt_master_make(&job, 0.5, &common, tables, &rubber, &err) != WT_OK)
+    if (wt_master_make(&job, &common, tables, &rubber, &err) != WT_OK)
         fail_msg("%s: %s", err.file, err.message);
     return rubber;
 }

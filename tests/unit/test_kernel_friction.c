@@ -386,17 +386,17 @@ static void bad_input(void **state)
     options.tolerance = 0;
     assert_int_equal(wt_friction_workspace_new(r.material, r.roughness, &options, &ws, &err),
                      WT_E_RANGE);
-    assert_non_null(strstr(err.message, "tolerance"));
+    assert_non_null(strstr(err.place, "tolerance"));
     options = wt_friction_defaults();
     options.gamma = 1.5;
     assert_int_equal(wt_friction_workspace_new(r.material, r.roughness, &options, &ws, &err),
                      WT_E_RANGE);
-    assert_non_null(strstr(err.message, "gamma"));
+    assert_non_null(strstr(err.place, "gamma"));
     options = wt_friction_defaults();
     options.layer.modulus_ratio = 0;
     assert_int_equal(wt_friction_workspace_new(r.material, r.roughness, &options, &ws, &err),
                      WT_E_RANGE);
-    assert_non_null(strstr(err.message, "modulus ratio"));
+    assert_non_null(strstr(err.place, "modulus-ratio"));
     assert_null(ws);
 
     ws = prepare(&r, 1e-10, 1);

@@ -83,7 +83,8 @@ static int make(void **state)
     job.sets = &set;
     job.n_sets = 1;
     job.shift.reference_temperature = REFERENCE;
-    if (wt_master_make(&job, 0.45, &common, &tables, &rubber, &err) == WT_OK)
+    job.poisson_ratio = 0.45;
+    if (wt_master_make(&job, &common, &tables, &rubber, &err) == WT_OK)
         return 0;
     print_error("%s: %s %s\n", err.place, err.message, err.found);
     return -1;

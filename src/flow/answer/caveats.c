@@ -150,7 +150,7 @@ static wt_status temperature_caveats(const flow_story *story, wt_table *table, w
                                   "The case does not say the temperature of sliding: friction is "
                                   "that at the reference temperature of the material, %s.",
                                   flow_say_celsius(flow_key(friction, "temperature").value).text);
-    if (status == WT_OK && dma != NULL && isnan(story->c->indentation_temperature))
+    if (status == WT_OK && dma != NULL && isnan(story->c->compare.temperature))
         status = flow_answer_add(table, err, question, "caveat",
                                  "The case does not say the temperature of indentation: it is "
                                  "compared with DMA at the reference temperature, %s.",

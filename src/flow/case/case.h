@@ -4,6 +4,7 @@
 #define WEARTRACK_FLOW_CASE_H
 
 #include "weartrack/flow.h"
+#include "weartrack/report.h"
 
 /* Files of one role. */
 typedef struct case_files {
@@ -12,50 +13,61 @@ typedef struct case_files {
     wt_estimate spring_constant; /* of the group; value NaN = as in the files */
 } case_files;
 
+/* Constants at the reference temperature of the DMA. */
+typedef struct case_wlf {
+    wt_estimate c1, c2;
+} case_wlf;
+
+/* A structure whose parameters the case has set, for its lists. */
+typedef struct case_setting {
+    const wt_params *params;
+    void *structure;
+    uint64_t given;
+    struct case_setting *next;
+} case_setting;
+
 struct wt_case {
     void **blocks; /* everything the case owns, freed together */
     size_t n_blocks, blocks_capacity;
+    case_setting *settings; /* the last one first */
     const char *path, *folder;
     const char *xml; /* the file as it was read */
     size_t xml_length;
-    const char *title, *style; /* "" and NULL if not given */
+    const char *title; /* "" if not given */
 
-    bool has_tip;
-    wt_tip tip;
-    wt_indent_options indent;
-    double indentation_temperature; /* [K], NaN = not said */
+    wt_indent_job indent;   /* files are set when it runs; likewise in the others */
+    wt_compare_job compare; /* the same for its tables */
     case_files bulk, track;
 
     case_files dma;
-    wt_shift_options shift;
-    wt_prony_options prony_options;
-    double poisson_ratio;
+    wt_master_job master;
     bool has_prony; /* given inline */
     wt_prony prony; /* its arrays are among the blocks */
     bool has_wlf;
-    double c1, c2, c1_error, c2_error;
+    case_wlf wlf;
 
     bool has_self_affine, has_spectrum;
-    wt_surface self_affine;
+    wt_surface surface;  /* the law, or the cut-offs and the error of the spectrum */
     case_files spectrum; /* one file */
-    double spectrum_q0, spectrum_q1, spectrum_error;
 
     bool has_sliding;
-    wt_sliding sliding; /* rubber and surface are set when it runs */
-    bool reference_velocity_given;
+    wt_sliding sliding;
 
     bool has_layer;
     wt_layer_job layer;
-    double layer_velocity;     /* [m/s], NaN = the reference velocity */
-    wt_estimate modulus_ratio; /* given instead of measured; value NaN = not */
+    bool has_modulus_ratio; /* given instead of measured */
+    wt_layer_known known;
 
     bool has_compare; /* the next three say what; else all that is possible */
     bool compare_groups, compare_rates, compare_dma;
 
+    wt_report_options report;
     const char **asked; /* [n_asked] tables asked for by name or through a figure */
     size_t n_asked;
 };
 
+/* A case in which nothing is given; NULL when out of memory. */
+wt_case *case_new(void);
 /* Zeroed memory that lives as long as the case; NULL when out of memory. */
 void *case_alloc(wt_case *c, size_t size);
 char *case_text(wt_case *c, const char *text, size_t length);
@@ -63,8 +75,5 @@ char *case_text(wt_case *c, const char *text, size_t length);
 /* A case from the bytes of its file; `path` names it and its folder. */
 wt_status case_from_bytes(const void *bytes, size_t length, const char *path, wt_case **out,
                           wt_error *err) WT_NODISCARD;
-
-/* The whole file `bytes` to a case; `c` has path, folder and xml set. */
-wt_status case_parse(wt_case *c, wt_error *err) WT_NODISCARD;
 
 #endif

@@ -1,9 +1,9 @@
-/* Reading quantities, flags and files from the nodes of a case file.
+/* Reading parameters and text from the nodes of a case file.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/case/case_node.h"
 
-#include <libxml/tree.h>
-#include <stdlib.h>
+#include "base/param.h"
+
 #include <string.h>
 
 static bool is_called(const xmlNode *node, const char *name)
@@ -27,17 +27,28 @@ xmlNode *case_next(const xmlNode *node, const char *name)
     return NULL;
 }
 
-wt_status case_at(const xmlNode *node, const char *attribute, wt_status status, wt_error *err)
+wt_status case_at(const xmlNode *node, wt_status status, wt_error *err)
 {
-    if (attribute != NULL)
-        wt_error_place(err, "line %ld, attribute %s of <%s>", xmlGetLineNo(node), attribute,
-                       (const char *)node->name);
-    else
-        wt_error_place(err, "line %ld, <%s>", xmlGetLineNo(node), (const char *)node->name);
+    wt_error_place(err, "line %ld, <%s>", xmlGetLineNo(node), (const char *)node->name);
     return status;
 }
 
-/* Text of a node owned by the case, blanks around it removed; takes `raw`. */
+const char *case_param_name(const char *section, const char *param)
+{
+    const size_t n = strlen(section);
+    return strncmp(param, section, n) == 0 && param[n] == '-' ? param + n + 1 : param;
+}
+
+wt_status case_at_param(const xmlNode *section, wt_status status, wt_error *err)
+{
+    if (status == WT_OK)
+        return WT_OK;
+    const char *param = err != NULL ? err->place : "";
+    const xmlNode *node = case_child(section, case_param_name((const char *)section->name, param));
+    return case_at(node != NULL ? node : section, status, err);
+}
+
+/* Text owned by the case, blanks around it removed; takes `raw`. */
 static wt_status keep(wt_case *c, xmlChar *raw, const char **text, wt_error *err)
 {
     static const char blanks[] = " \t\r\n";
@@ -61,118 +72,41 @@ wt_status case_node_text(wt_case *c, const xmlNode *node, const char **text, wt_
     return keep(c, xmlNodeGetContent(node), text, err);
 }
 
-wt_status case_get_text(wt_case *c, const xmlNode *parent, const char *name, const char **text,
-                        wt_error *err)
+static wt_status read_param(wt_case *c, const xmlNode *section, const char *param,
+                            case_setting *setting, wt_error *err)
 {
-    xmlNode *node = case_child(parent, name);
-    return node == NULL ? WT_OK : case_node_text(c, node, text, err);
-}
-
-wt_status case_get_attribute(wt_case *c, const xmlNode *node, const char *name, const char **text,
-                             wt_error *err)
-{
-    if (xmlHasProp(node, (const xmlChar *)name) == NULL)
+    const char *name = case_param_name((const char *)section->name, param), *text = NULL;
+    const xmlChar *attribute = (const xmlChar *)name;
+    const xmlNode *node = case_child(section, name);
+    if (node == NULL && xmlHasProp(section, attribute) == NULL)
         return WT_OK;
-    return keep(c, xmlGetProp(node, (const xmlChar *)name), text, err);
-}
-
-wt_status case_get_estimate(wt_case *c, const xmlNode *parent, const char *name,
-                            wt_quantity quantity, wt_estimate *estimate, wt_error *err)
-{
-    const char *text = NULL;
-    wt_status status = case_get_text(c, parent, name, &text, err);
-    if (status != WT_OK || text == NULL)
-        return status;
-    status = wt_estimate_parse(text, quantity, estimate, err);
-    return status == WT_OK ? WT_OK : case_at(case_child(parent, name), NULL, status, err);
-}
-
-wt_status case_get_attribute_estimate(wt_case *c, const xmlNode *node, const char *name,
-                                      wt_quantity quantity, wt_estimate *estimate, wt_error *err)
-{
-    const char *text = NULL;
-    wt_status status = case_get_attribute(c, node, name, &text, err);
-    if (status != WT_OK || text == NULL)
-        return status;
-    status = wt_estimate_parse(text, quantity, estimate, err);
-    return status == WT_OK ? WT_OK : case_at(node, name, status, err);
-}
-
-/* An error that is stated but changes nothing would be a number that is wrong without saying so. */
-static wt_status refuse_error(wt_error *err)
-{
-    wt_fail(err, WT_E_ARG, "an error stated here would not be used");
-    wt_error_advice(err, "leave out what follows +-");
-    return WT_E_ARG;
-}
-
-wt_status case_get_number(wt_case *c, const xmlNode *parent, const char *name, wt_quantity quantity,
-                          double *value, wt_error *err)
-{
-    if (case_child(parent, name) == NULL)
+    wt_status status = keep(
+        c, node != NULL ? xmlNodeGetContent(node) : xmlGetProp(section, attribute), &text, err);
+    if (status == WT_OK)
+        status =
+            wt_params_set(setting->params, param, setting->structure, text, &setting->given, err);
+    if (status == WT_OK)
         return WT_OK;
-    wt_estimate e = {0};
-    wt_status status = case_get_estimate(c, parent, name, quantity, &e, err);
-    if (status != WT_OK)
-        return status;
-    if (e.standard_error > 0)
-        return case_at(case_child(parent, name), NULL, refuse_error(err), err);
-    *value = e.value;
-    return WT_OK;
-}
-
-wt_status case_get_attribute_number(wt_case *c, const xmlNode *node, const char *name,
-                                    wt_quantity quantity, double *value, wt_error *err)
-{
-    wt_estimate e = {*value, 0, 0, wt_quantity_unit(quantity)};
-    wt_status status = case_get_attribute_estimate(c, node, name, quantity, &e, err);
-    if (status != WT_OK)
-        return status;
-    if (e.standard_error > 0)
-        return case_at(node, name, refuse_error(err), err);
-    *value = e.value;
-    return WT_OK;
-}
-
-wt_status case_get_flag(wt_case *c, const xmlNode *parent, const char *name, bool *flag,
-                        wt_error *err)
-{
-    const char *text = NULL;
-    wt_status status = case_get_text(c, parent, name, &text, err);
-    if (status == WT_OK && text != NULL)
-        *flag = strcmp(text, "yes") == 0;
+    if (node != NULL)
+        return case_at(node, status, err);
+    wt_error_place(err, "line %ld, attribute %s of <%s>", xmlGetLineNo(section), name,
+                   (const char *)section->name);
     return status;
 }
 
-wt_status case_get_list(wt_case *c, const xmlNode *parent, const char *name, wt_quantity quantity,
-                        const double **values, size_t *n, wt_error *err)
+wt_status case_read_params(wt_case *c, const xmlNode *section, const wt_params *params,
+                           void *structure, wt_error *err)
 {
-    const char *text = NULL;
-    double *list = NULL;
-    wt_status status = case_get_text(c, parent, name, &text, err);
-    if (status != WT_OK || text == NULL)
-        return status;
-    status = wt_list_parse(text, quantity, &list, n, err);
-    if (status != WT_OK)
-        return case_at(case_child(parent, name), NULL, status, err);
-    double *kept = case_alloc(c, *n * sizeof *kept);
-    if (kept != NULL)
-        memcpy(kept, list, *n * sizeof *kept);
-    free(list);
-    if (kept == NULL)
+    case_setting *setting = case_alloc(c, sizeof *setting);
+    if (setting == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    *values = kept;
-    return WT_OK;
-}
-
-wt_status case_require(bool good, const xmlNode *parent, const char *name, const char *expected,
-                       double found, wt_error *err)
-{
-    if (good)
-        return WT_OK;
-    const xmlNode *node = case_child(parent, name);
-    wt_fail(err, WT_E_RANGE, "the value of %s is outside its range", name);
-    wt_error_expected(err, "%s", expected);
-    wt_error_found(err, "%g", found);
-    return case_at(node != NULL ? node : parent, NULL, WT_E_RANGE, err);
+    *setting = (case_setting){params, structure, 0, c->settings};
+    c->settings = setting;
+    wt_status status = WT_OK;
+    for (size_t i = 0; status == WT_OK && i < wt_params_count(params); i++) {
+        const wt_param *param = wt_params_get(params, i);
+        if ((param->flags & PARAM_NO_CASE) == 0)
+            status = read_param(c, section, param->name, setting, err);
+    }
+    return status;
 }

@@ -1,4 +1,4 @@
-/* Reading quantities, flags and files from the nodes of a case file. Internal to flow.
+/* Reading parameters and text from the nodes of a case file. Internal to flow.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WEARTRACK_FLOW_CASE_NODE_H
 #define WEARTRACK_FLOW_CASE_NODE_H
@@ -13,36 +13,18 @@ xmlNode *case_child(const xmlNode *parent, const char *name);
 xmlNode *case_next(const xmlNode *node, const char *name);
 
 /* Adds "line N, <name>" to an error and returns `status`. */
-wt_status case_at(const xmlNode *node, const char *attribute, wt_status status, wt_error *err);
+wt_status case_at(const xmlNode *node, wt_status status, wt_error *err);
+/* The same of an error whose place is the name of a parameter in this section. */
+wt_status case_at_param(const xmlNode *section, wt_status status, wt_error *err);
 
-/* Each reads a child element (or an attribute) if it is there and leaves the output alone if not.
- * Text is owned by the case. */
-wt_status case_get_text(wt_case *c, const xmlNode *parent, const char *name, const char **text,
-                        wt_error *err) WT_NODISCARD;
-/* Text of the node itself. */
+/* Text of a node, owned by the case. */
 wt_status case_node_text(wt_case *c, const xmlNode *node, const char **text,
                          wt_error *err) WT_NODISCARD;
-wt_status case_get_attribute(wt_case *c, const xmlNode *node, const char *name, const char **text,
-                             wt_error *err) WT_NODISCARD;
-wt_status case_get_estimate(wt_case *c, const xmlNode *parent, const char *name,
-                            wt_quantity quantity, wt_estimate *estimate,
-                            wt_error *err) WT_NODISCARD;
-/* A quantity whose error has no use: stating one is refused rather than ignored. */
-wt_status case_get_number(wt_case *c, const xmlNode *parent, const char *name, wt_quantity quantity,
-                          double *value, wt_error *err) WT_NODISCARD;
-wt_status case_get_attribute_estimate(wt_case *c, const xmlNode *node, const char *name,
-                                      wt_quantity quantity, wt_estimate *estimate,
-                                      wt_error *err) WT_NODISCARD;
-/* The same for a value that carries no error: stating one is refused. */
-wt_status case_get_attribute_number(wt_case *c, const xmlNode *node, const char *name,
-                                    wt_quantity quantity, double *value, wt_error *err);
-wt_status case_get_flag(wt_case *c, const xmlNode *parent, const char *name, bool *flag,
-                        wt_error *err) WT_NODISCARD;
-wt_status case_get_list(wt_case *c, const xmlNode *parent, const char *name, wt_quantity quantity,
-                        const double **values, size_t *n, wt_error *err) WT_NODISCARD;
-
-/* WT_E_RANGE with the place unless `good`. */
-wt_status case_require(bool good, const xmlNode *parent, const char *name, const char *expected,
-                       double found, wt_error *err) WT_NODISCARD;
+/* The name of a parameter in a section: in <sliding>, "sliding-temperature" is "temperature". */
+const char *case_param_name(const char *section, const char *param);
+/* Sets every parameter of the table that is there, as an element or as an attribute of `section`.
+ * The structure must live as long as the case. */
+wt_status case_read_params(wt_case *c, const xmlNode *section, const wt_params *params,
+                           void *structure, wt_error *err) WT_NODISCARD;
 
 #endif

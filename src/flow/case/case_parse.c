@@ -4,7 +4,11 @@
 
 #include <libxml/parser.h>
 #include <libxml/xmlschemas.h>
+#include <stdlib.h>
 #include <string.h>
+
+/* A case is written by hand; anything larger is something else. */
+#define MAX_CASE_BYTES ((size_t)4 << 20)
 
 /* ---- schema messages in our form --------------------------------------------------------------
  */
@@ -127,7 +131,7 @@ static wt_status read_document(const wt_case *c, xmlDoc **out, wt_error *err)
     return WT_OK;
 }
 
-wt_status case_parse(wt_case *c, wt_error *err)
+static wt_status parse(wt_case *c, wt_error *err)
 {
     static const struct {
         const char *name;
@@ -148,7 +152,9 @@ wt_status case_parse(wt_case *c, wt_error *err)
     if (status != WT_OK)
         goto done;
     const xmlNode *root = xmlDocGetRootElement(doc);
-    status = case_get_text(c, root, "title", &c->title, err);
+    const xmlNode *title = case_child(root, "title");
+    if (title != NULL)
+        status = case_node_text(c, title, &c->title, err);
     for (size_t i = 0; status == WT_OK && i < sizeof sections / sizeof sections[0]; i++) {
         const xmlNode *section = case_child(root, sections[i].name);
         if (section != NULL)
@@ -156,5 +162,57 @@ wt_status case_parse(wt_case *c, wt_error *err)
     }
 done:
     xmlFreeDoc(doc);
+    return status;
+}
+
+wt_status case_from_bytes(const void *bytes, size_t length, const char *path, wt_case **out,
+                          wt_error *err)
+{
+    wt_status status = WT_OK;
+    wt_case *c = NULL;
+    char *folder = NULL;
+    if (length == 0 || length > MAX_CASE_BYTES) {
+        status = wt_fail(err, WT_E_SCHEMA, "this is no case file");
+        wt_error_expected(err, "XML of 1 byte to 4 MiB");
+        wt_error_found(err, "%zu bytes", length);
+        goto done;
+    }
+    c = case_new();
+    folder = wt_path_folder(path);
+    if (c != NULL && folder != NULL) {
+        c->xml_length = length;
+        c->path = case_text(c, path, strlen(path));
+        c->folder = case_text(c, folder, strlen(folder));
+        c->xml = case_text(c, bytes, length);
+    }
+    status = c == NULL || c->path == NULL || c->folder == NULL || c->xml == NULL
+                 ? wt_fail(err, WT_E_MEMORY, "out of memory")
+                 : parse(c, err);
+done:
+    free(folder);
+    if (status != WT_OK) {
+        wt_error_file(err, path);
+        wt_case_free(c);
+        return status;
+    }
+    *out = c;
+    return WT_OK;
+}
+
+wt_status wt_case_read(const char *path, wt_case **out, wt_error *err)
+{
+    if (path == NULL || out == NULL)
+        return wt_fail(err, WT_E_ARG, "no case file");
+    wt_input *input = NULL;
+    const unsigned char *bytes = NULL;
+    size_t length = 0;
+    wt_status status = wt_input_open(path, &input, err);
+    if (status == WT_OK)
+        status = wt_input_bytes(input, &bytes, &length, err);
+    if (status == WT_OK)
+        status = case_from_bytes(bytes, length, path, out, err);
+    else
+        wt_error_file(err, path);
+    wt_input_close(input);
     return status;
 }

@@ -18,4 +18,10 @@ wt_status case_read_report(wt_case *c, const xmlNode *section, wt_error *err) WT
 wt_status case_read_files(wt_case *c, const xmlNode *parent, const char *name, case_files *files,
                           wt_error *err) WT_NODISCARD;
 
+/* The parameters that only a case has. */
+const wt_params *case_group_params(void);
+const wt_params *case_prony_params(void);
+const wt_params *case_term_params(void);
+const wt_params *case_wlf_params(void);
+
 #endif

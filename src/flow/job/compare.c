@@ -1,6 +1,7 @@
 /* The comparison job: wear track against bulk, all rates together and rate by rate; both against
  * the DMA modulus at the equivalent frequency.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/param.h"
 #include "flow/job/tables.h"
 #include "weartrack/flow.h"
 
@@ -461,6 +462,13 @@ wt_compare_job wt_compare_job_defaults(void)
 {
     return (wt_compare_job){.temperature = (double)NAN, .rates = true};
 }
+
+static const wt_param rows[] = {
+    {PARAM("indentation-temperature", wt_compare_job, temperature, WT_Q_TEMPERATURE, ABOVE(0)),
+     .value = "T", .unset = "the reference temperature of the DMA",
+     .help = "at which the sample was indented, such as 23degC; for the comparison with DMA"},
+};
+PARAM_TABLE(wt_compare_job_params, wt_compare_job, rows, wt_compare_job_defaults, NO_PARTS)
 
 wt_status wt_compare_groups(const wt_compare_job *job, const wt_job *common,
                             wt_compare_tables *tables, wt_error *err)

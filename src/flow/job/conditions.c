@@ -3,6 +3,7 @@
 #include "flow/job/conditions.h"
 #include "flow/job/draws.h"
 #include "flow/job/tables.h"
+#include "kernel/params.h"
 
 #include <math.h>
 
@@ -12,32 +13,37 @@ wt_sliding wt_sliding_defaults(void)
         .pressure = {(double)NAN, 0, 0, "Pa"},
         .temperature = {(double)NAN, 0, 0, "K"},
         .shear_stress = {(double)NAN, 0, 0, "Pa"},
-        .gamma = 1,
+        .gamma = wt_friction_defaults().gamma,
         .reference_velocity = (double)NAN,
     };
 }
 
-wt_status flow_sliding_check(const wt_sliding *sliding, wt_error *err)
+static const wt_param rows[] = {
+    {PARAM("pressure", wt_sliding, pressure, WT_Q_PRESSURE, ABOVE(0)), .value = "P", .letter = 'p',
+     .flags = PARAM_REQUIRED, .help = "nominal pressure, such as 0.4MPa or \"0.4MPa +- 5%\""},
+    {PARAM_LIST_OF("velocity", wt_sliding, velocity, n_velocity, WT_Q_VELOCITY, ABOVE(0)),
+     .value = "V", .letter = 'v', .flags = PARAM_REQUIRED,
+     .help = "0.3m/s, a list 1mm/s,1cm/s or a range 1e-4:10m/s:log:40 (or lin) of 40 values"},
+    {PARAM("reference-velocity", wt_sliding, reference_velocity, WT_Q_VELOCITY, ABOVE(0)),
+     .unset = "that of the layer, else the middle of the list", .flags = PARAM_NO_OPTION,
+     .help = "velocity of the answer"},
+    {PARAM("sliding-temperature", wt_sliding, temperature, WT_Q_TEMPERATURE, ABOVE(0)),
+     .value = "T", .letter = 't', .unset = "the reference temperature of the material",
+     .help = "of the rubber while it slides; another one than the reference needs a WLF law"},
+    {PARAM("shear-stress", wt_sliding, shear_stress, WT_Q_STRESS, AT_LEAST(0)), .value = "TAU",
+     .unset = "",
+     .help = "tau_f of the real contact, such as 5MPa; without it there is no total "
+             "friction"},
+    FRICTION_GAMMA(wt_sliding),
+};
+PARAM_TABLE(wt_sliding_params, wt_sliding, rows, wt_sliding_defaults, NO_PARTS)
+
+wt_status flow_sliding_check(const wt_sliding *sliding, const wt_job *common, wt_error *err)
 {
-    if (sliding == NULL || sliding->rubber == NULL || sliding->surface == NULL ||
-        sliding->velocity == NULL || sliding->n_velocity == 0)
-        return wt_fail(err, WT_E_ARG, "sliding needs a rubber, a surface and velocities");
-    if (!(sliding->pressure.value > 0) || !isfinite(sliding->pressure.value)) {
-        wt_fail(err, WT_E_RANGE, "the nominal pressure is not positive");
-        wt_error_found(err, "%g Pa", sliding->pressure.value);
-        return WT_E_RANGE;
-    }
-    if (sliding->shear_stress.value < 0)
-        return wt_fail(err, WT_E_RANGE, "the shear stress %g Pa is negative",
-                       sliding->shear_stress.value);
-    for (size_t i = 0; i < sliding->n_velocity; i++)
-        if (!(sliding->velocity[i] > 0) || !isfinite(sliding->velocity[i]))
-            return wt_fail(err, WT_E_RANGE, "the sliding velocity %g m/s is not positive",
-                           sliding->velocity[i]);
-    if (!isnan(sliding->reference_velocity) && !(sliding->reference_velocity > 0))
-        return wt_fail(err, WT_E_RANGE, "the reference velocity %g m/s is not positive",
-                       sliding->reference_velocity);
-    return WT_OK;
+    if (sliding == NULL || sliding->rubber == NULL || sliding->surface == NULL)
+        return wt_fail(err, WT_E_ARG, "sliding needs a rubber and a surface");
+    wt_status status = param_check(wt_sliding_params(), sliding, err);
+    return status == WT_OK ? param_check(wt_job_params(), common, err) : status;
 }
 
 double flow_reference_velocity(const wt_sliding *sliding)
@@ -60,8 +66,7 @@ wt_status flow_conditions_make(const wt_sliding *sliding, uint64_t seed, size_t 
     c.shear_stress =
         flow_draw_positive(sliding->shear_stress, seed, replicate, FLOW_DRAW_SHEAR_STRESS);
     wt_friction_options options = wt_friction_defaults();
-    if (tolerance > 0)
-        options.tolerance = tolerance;
+    options.tolerance = tolerance;
     options.gamma = sliding->gamma;
     options.threads = threads;
     options.layer = layer;

@@ -16,8 +16,9 @@ typedef struct flow_conditions {
     char statement[256]; /* what must be said of the material, "" if nothing */
 } flow_conditions;
 
-/* Checks the numbers of a sliding contact. */
-wt_status flow_sliding_check(const wt_sliding *sliding, wt_error *err) WT_NODISCARD;
+/* Checks the numbers of a sliding contact and of the job. */
+wt_status flow_sliding_check(const wt_sliding *sliding, const wt_job *common,
+                             wt_error *err) WT_NODISCARD;
 /* The velocity of the answer: as given, or the middle of the list. */
 double flow_reference_velocity(const wt_sliding *sliding);
 /* Draws replicate `replicate` (FLOW_CENTRE = the values themselves) and prepares the kernel. */

@@ -265,12 +265,32 @@ static wt_status convert_spectrum(const conversion *c, wt_error *err)
 
 /* In the order in which a file that holds several kinds is asked. */
 static const struct {
+    const char *word;
     unsigned kind;
     wt_status (*convert)(const conversion *c, wt_error *err);
-} kinds[] = {{WT_KIND_FORCE, convert_force},
-             {WT_KIND_SWEEP, convert_sweep},
-             {WT_KIND_SPECTRUM, convert_spectrum},
-             {WT_KIND_IMAGE, convert_images}};
+} kinds[] = {{"force", WT_KIND_FORCE, convert_force},
+             {"sweep", WT_KIND_SWEEP, convert_sweep},
+             {"spectrum", WT_KIND_SPECTRUM, convert_spectrum},
+             {"image", WT_KIND_IMAGE, convert_images}};
+#define KIND_WORDS "force|sweep|spectrum|image"
+
+static wt_status read_kind(const char *text, void *member, wt_error *err)
+{
+    for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++)
+        if (strcmp(kinds[i].word, text) == 0) {
+            *(unsigned *)member = kinds[i].kind;
+            return WT_OK;
+        }
+    return wt_fail(err, WT_E_ARG, "'%s' is none of %s", text, KIND_WORDS);
+}
+
+static const wt_param rows[] = {
+    {PARAM_OTHER_OF("kind", wt_convert_job, kind, read_kind), .value = KIND_WORDS,
+     .unset = "the first of these that the file has", .flags = PARAM_NO_CASE,
+     .help = "which data of a file that holds several kinds"},
+};
+PARAM_TABLE(wt_convert_job_params, wt_convert_job, rows, wt_convert_job_defaults,
+            PARAM_PART(wt_read_params, wt_convert_job, read))
 
 wt_status wt_convert_file(const wt_convert_job *job, const char *path, const wt_job *work,
                           wt_table_sink sink, void *user, wt_error *err)

@@ -4,6 +4,7 @@
 #include "flow/job/conditions.h"
 #include "flow/job/draws.h"
 #include "flow/job/tables.h"
+#include "kernel/params.h"
 
 #include "data/tables/tables.h"
 
@@ -320,21 +321,26 @@ static void release(work *w)
     free(w->replicate);
 }
 
+static wt_layer_known no_layer(void)
+{
+    return (wt_layer_known){.thickness = {0, 0, 0, "m"}, .modulus_ratio = {1, 0, 0, "1"}};
+}
+
+static const wt_param rows[] = {LAYER_STATE_ROWS(wt_layer_known, )};
+PARAM_TABLE(wt_layer_known_params, wt_layer_known, rows, no_layer, NO_PARTS)
+
 static wt_status check_layer(const wt_layer_known *layer, wt_error *err)
 {
     if (layer == NULL)
         return WT_OK;
-    if (!isfinite(layer->thickness.value) || layer->thickness.value < 0) {
+    if (isinf(layer->thickness.value)) {
         wt_fail(err, WT_E_RANGE, "friction needs a layer of finite thickness");
         wt_error_found(err, "%g m", layer->thickness.value);
         wt_error_advice(err, "without wear the layer grows without end: give a specific wear rate "
                              "or an observed thickness");
         return WT_E_RANGE;
     }
-    if (!(layer->modulus_ratio.value > 0) || !isfinite(layer->modulus_ratio.value))
-        return wt_fail(err, WT_E_RANGE, "the modulus ratio %g is not positive",
-                       layer->modulus_ratio.value);
-    return WT_OK;
+    return param_check(wt_layer_known_params(), layer, err);
 }
 
 /* Numerical error of hysteresis + shear x area. */
@@ -365,7 +371,7 @@ wt_status wt_friction_make(const wt_sliding *sliding, const wt_layer_known *laye
     flow_conditions c = {0};
     wt_friction_point *layered = NULL;
     work w = {.sliding = sliding, .layer = layer, .common = common};
-    wt_status status = flow_sliding_check(sliding, err);
+    wt_status status = flow_sliding_check(sliding, common, err);
     if (status == WT_OK)
         status = check_layer(layer, err);
     if (status != WT_OK)
@@ -386,8 +392,7 @@ wt_status wt_friction_make(const wt_sliding *sliding, const wt_layer_known *laye
         flow_add_words(w.words, sizeof w.words, "thickness and modulus ratio of the layer");
         w.varies = true;
     }
-    t.tolerance_asked =
-        common->tolerance > 0 ? common->tolerance : wt_friction_defaults().tolerance;
+    t.tolerance_asked = common->tolerance;
     status = allocate(&w, err);
     if (status == WT_OK)
         status =

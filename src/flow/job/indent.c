@@ -1,6 +1,7 @@
 /* The indentation job: every curve of every file of a group, streamed, fitted in parallel in
  * batches, written in order.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/param.h"
 #include "flow/job/indentation.h"
 #include "flow/job/inputs.h"
 #include "flow/job/tables.h"
@@ -60,6 +61,37 @@ wt_indent_job wt_indent_job_defaults(void)
         .rates = true,
     };
 }
+
+static wt_status read_tip(const char *text, void *tip, wt_error *err)
+{
+    return wt_tip_parse(text, tip, err);
+}
+
+static wt_status check_tip(const void *tip, wt_error *err)
+{
+    return wt_tip_check(tip, err);
+}
+
+static wt_status check_group(const void *member, wt_error *err)
+{
+    const char *group = *(const char *const *)member;
+    if (*group != '\0' && group[strspn(group, "abcdefghijklmnopqrstuvwxyz0123456789_")] == '\0')
+        return WT_OK;
+    return wt_fail(err, WT_E_ARG, "'%s' is not made of a-z, 0-9 and _", group);
+}
+
+static const wt_param rows[] = {
+    {PARAM_OTHER_OF("tip", wt_indent_job, tip, read_tip), .check = check_tip, .value = "TIP",
+     .flags = PARAM_REQUIRED,
+     .help = "pyramid:half-angle=35deg,radius=20nm[,sides=4][,transition=16nm] (axis to FACE), "
+             "sphere:radius=5um or cone:half-angle=20deg"},
+    {PARAM_TEXT_OF("group", wt_indent_job, group), .check = check_group, .value = "NAME",
+     .flags = PARAM_NO_CASE, .help = "what these curves are: bulk, track or another name"},
+    {PARAM_FLAG_OF("curves", wt_indent_job, curves), .flags = PARAM_NO_CASE,
+     .help = "also the representative (median) curve and its fit"},
+};
+PARAM_TABLE(wt_indent_job_params, wt_indent_job, rows, wt_indent_job_defaults,
+            PARAM_PART(wt_indent_params, wt_indent_job, options))
 
 static wt_quantity_set wanted_channels(bool rates)
 {
@@ -399,7 +431,9 @@ static wt_status set_keys(const work *w, const flow_files *files, wt_error *err)
 
 static wt_status prepare(work *w, wt_error *err)
 {
-    wt_status status = wt_tip_check(&w->job->tip, err);
+    wt_status status = param_check(wt_indent_job_params(), w->job, err);
+    if (status == WT_OK)
+        status = param_check(wt_job_params(), w->common, err);
     if (status == WT_OK)
         status = wt_contact_table_new(&w->job->tip, DEPTH_MIN, DEPTH_MAX, &w->contact, err);
     if (status == WT_OK)

@@ -8,8 +8,23 @@
 
 wt_job wt_job_defaults(void)
 {
-    return (wt_job){.seed = 1, .replicates = 64};
+    return (wt_job){.tolerance = wt_friction_defaults().tolerance, .seed = 1, .replicates = 64};
 }
+
+static const wt_param job_rows[] = {JOB_ROWS(wt_job)};
+PARAM_TABLE(wt_job_params, wt_job, job_rows, wt_job_defaults, NO_PARTS)
+
+static wt_file_set no_files(void)
+{
+    return (wt_file_set){.read = wt_read_defaults()};
+}
+
+static const wt_param set_rows[] = {
+    {PARAM_TEXT_OF("spot", wt_file_set, spot), .value = "NAME", .unset = "each file is a spot",
+     .help = "place on the sample that all these curves come from"},
+};
+PARAM_TABLE(wt_file_set_params, wt_file_set, set_rows, no_files,
+            PARAM_PART(wt_read_params, wt_file_set, read))
 
 wt_table *wt_failures_new(void)
 {

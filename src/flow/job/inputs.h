@@ -3,7 +3,17 @@
 #ifndef WEARTRACK_FLOW_INPUTS_H
 #define WEARTRACK_FLOW_INPUTS_H
 
+#include "kernel/params.h"
 #include "weartrack/flow.h"
+
+/* The records that a run has too. */
+#define JOB_ROWS(type)                                                                             \
+    FRICTION_TOLERANCE(type),                                                                      \
+        {PARAM("replicates", type, replicates, WT_Q_NONE, FROM_TO(0, 100000)), .value = "N",       \
+         .flags = PARAM_NO_CASE, .help = "refits behind the standard errors; 0 for none"},         \
+        {PARAM("seed", type, seed, WT_Q_NONE, AT_LEAST(0)), .value = "N", .flags = PARAM_NO_CASE,  \
+         .help = "seed of the resampling behind the standard errors"},                             \
+        FRICTION_THREADS(type)
 
 /* One file of the sets of a job. */
 typedef struct flow_file {
@@ -30,6 +40,12 @@ void flow_files_clear(flow_files *files);
 wt_status flow_open(const wt_job *common, flow_file *file, const char *role, unsigned kinds,
                     wt_input **input, wt_error *err) WT_NODISCARD;
 
+wt_surface flow_surface_defaults(void); /* nothing is given */
+/* The parameters of a self-affine law, and of a measured spectrum, in a wt_surface. */
+const wt_params *flow_self_affine_params(void);
+const wt_params *flow_spectrum_params(void);
+/* Whether they make a law; a roll-off that is not given is q0. */
+wt_status flow_surface_check(wt_surface *surface, wt_error *err) WT_NODISCARD;
 /* A measured spectrum as a surface, uncut; the densities are not checked. */
 wt_status flow_surface_read(flow_file *file, const wt_job *common, wt_surface *surface,
                             wt_error *err) WT_NODISCARD;

@@ -4,6 +4,7 @@
 #include "flow/job/conditions.h"
 #include "flow/job/draws.h"
 #include "flow/job/tables.h"
+#include "kernel/params.h"
 
 #include "data/tables/tables.h"
 
@@ -53,12 +54,33 @@ wt_layer_job wt_layer_job_defaults(void)
         .critical_energy = {(double)NAN, 0, 0, "J/m^3"},
         .observed_thickness = {(double)NAN, 0, 0, "m"},
         .specific_wear_rate = {(double)NAN, 0, 0, "m^2/N"},
-        .damage = 1,
-        .duty = 1,
+        .damage = wt_layer_defaults().damage,
+        .duty = wt_layer_defaults().duty,
         .incubation = true,
         .profile = WT_PROFILE_PERSSON,
+        .velocity = (double)NAN,
     };
 }
+
+static const wt_param rows[] = {
+    {PARAM("critical-energy", wt_layer_job, critical_energy, WT_Q_ENERGY_DENSITY, ABOVE(0)),
+     .value = "U", .unset = "",
+     .help = "U_c, the energy per volume that modifies the rubber, such "
+             "as 2e10J/m^3"},
+    {PARAM("observed-thickness", wt_layer_job, observed_thickness, WT_Q_LENGTH, ABOVE(0)),
+     .value = "D", .unset = "",
+     .help = "of a layer, instead of the critical energy: this is to be "
+             "the balance"},
+    LAYER_ROWS(wt_layer_job, PARAM_REQUIRED),
+    ENERGY_PROFILE(wt_layer_job),
+    ENERGY_LOCAL_FRICTION(wt_layer_job),
+    {PARAM_LIST_OF("times", wt_layer_job, time, n_time, WT_Q_TIME, AT_LEAST(0)), .value = "T",
+     .unset = "around the time scales", .help = "such as 1:1e4s:log:40"},
+    {PARAM("layer-velocity", wt_layer_job, velocity, WT_Q_VELOCITY, ABOVE(0)),
+     .unset = "the reference velocity", .flags = PARAM_NO_OPTION,
+     .help = "at which the track was worn"},
+};
+PARAM_TABLE(wt_layer_job_params, wt_layer_job, rows, wt_layer_job_defaults, NO_PARTS)
 
 void wt_layer_tables_clear(wt_layer_tables *tables)
 {
@@ -69,26 +91,28 @@ void wt_layer_tables_clear(wt_layer_tables *tables)
     *tables = (wt_layer_tables){0};
 }
 
-static wt_status check(const wt_layer_job *job, wt_error *err)
+wt_status wt_layer_job_check(const wt_layer_job *job, wt_error *err)
 {
-    bool energy = !isnan(job->critical_energy.value);
-    bool observed = !isnan(job->observed_thickness.value);
+    const bool energy = !isnan(job->critical_energy.value);
+    const bool observed = !isnan(job->observed_thickness.value);
+    wt_status status = param_check(wt_layer_job_params(), job, err);
+    if (status != WT_OK)
+        return status;
     if (energy == observed) {
-        wt_fail(err, energy ? WT_E_ARG : WT_E_MISSING,
-                energy ? "both a critical energy and an observed thickness are given"
-                       : "neither a critical energy nor an observed thickness is given");
-        wt_error_expected(err, "one of the two: the other follows from it");
-        return energy ? WT_E_ARG : WT_E_MISSING;
+        status = wt_fail(err, energy ? WT_E_ARG : WT_E_MISSING,
+                         "a layer has either a critical energy or an observed thickness");
+        wt_error_expected(err, "one of critical-energy, observed-thickness");
+        wt_error_found(err, energy ? "both" : "neither");
+        wt_error_advice(err, "from an observed thickness the critical energy is calculated");
+        return status;
     }
-    if (!(job->specific_wear_rate.value >= 0)) {
-        wt_fail(err, WT_E_MISSING, "the specific wear rate is not known");
-        wt_error_advice(err, "give it with its unit, for example 1e-3mm^3/(N m)");
-        return WT_E_MISSING;
+    if (observed && !(job->specific_wear_rate.value > 0)) {
+        wt_fail(err, WT_E_RANGE, "an observed thickness is calibrated against wear");
+        wt_error_place(err, "specific-wear-rate");
+        wt_error_expected(err, "above 0");
+        wt_error_found(err, "%g m^2/N", job->specific_wear_rate.value);
+        return WT_E_RANGE;
     }
-    if (observed && !(job->specific_wear_rate.value > 0))
-        return wt_fail(err, WT_E_RANGE,
-                       "an observed thickness calibrates the critical energy only against wear: "
-                       "the specific wear rate must be positive");
     return WT_OK;
 }
 
@@ -407,15 +431,15 @@ wt_status wt_layer_make(const wt_sliding *sliding, const wt_layer_job *job, cons
 {
     if (job == NULL || common == NULL || tables == NULL)
         return wt_fail(err, WT_E_ARG, "no layer job");
-    wt_status status = flow_sliding_check(sliding, err);
+    wt_status status = flow_sliding_check(sliding, common, err);
     if (status == WT_OK)
-        status = check(job, err);
+        status = wt_layer_job_check(job, err);
     if (status != WT_OK)
         return status;
     work w = {.sliding = sliding,
               .job = job,
               .common = common,
-              .velocity = flow_reference_velocity(sliding),
+              .velocity = isnan(job->velocity) ? flow_reference_velocity(sliding) : job->velocity,
               .n_replicates = common->replicates};
     centre c = {0};
     wt_layer_tables t = {0};

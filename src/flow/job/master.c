@@ -3,6 +3,7 @@
 #include "flow/job/inputs.h"
 #include "flow/job/single_isotherm.h"
 #include "flow/job/tables.h"
+#include "model/material.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -10,10 +11,14 @@
 
 wt_master_job wt_master_job_defaults(void)
 {
-    wt_master_job job = {.shift = wt_shift_defaults(), .prony = wt_prony_defaults()};
-    job.shift.reference_temperature = (double)NAN;
-    return job;
+    return (wt_master_job){
+        .shift = wt_shift_defaults(), .prony = wt_prony_defaults(), .poisson_ratio = 0.5};
 }
+
+static const wt_param rows[] = {POISSON_RATIO(wt_master_job)};
+PARAM_TABLE(wt_master_job_params, wt_master_job, rows, wt_master_job_defaults,
+            PARAM_PART(wt_shift_params, wt_master_job, shift),
+            PARAM_PART(wt_prony_params, wt_master_job, prony))
 
 void wt_master_tables_clear(wt_master_tables *tables)
 {
@@ -337,22 +342,25 @@ static wt_shift_options with_reference(const wt_master_job *job, const wt_sweep 
     return options;
 }
 
-wt_status wt_master_make(const wt_master_job *job, double poisson_ratio, const wt_job *common,
-                         wt_master_tables *tables, wt_rubber *rubber, wt_error *err)
+wt_status wt_master_make(const wt_master_job *job, const wt_job *common, wt_master_tables *tables,
+                         wt_rubber *rubber, wt_error *err)
 {
     if (job == NULL || common == NULL)
         return wt_fail(err, WT_E_ARG, "no DMA job");
+    wt_status status = param_check(wt_master_job_params(), job, err);
+    if (status != WT_OK)
+        return status;
     wt_sweep sweep = {0};
     wt_master_curve master = {0};
     wt_prony_fit prony = {0};
     wt_wlf_fit wlf = {0};
     bool has_wlf = false;
     wt_master_tables t = {0};
-    wt_rubber r = {.poisson_ratio = poisson_ratio,
+    wt_rubber r = {.poisson_ratio = job->poisson_ratio,
                    .prony_options = job->prony,
                    .temperature_min = (double)NAN,
                    .temperature_max = (double)NAN};
-    wt_status status = read_sweeps(job, common, &sweep, err);
+    status = read_sweeps(job, common, &sweep, err);
     if (status != WT_OK)
         goto done;
     wt_shift_options shift = with_reference(job, &sweep);

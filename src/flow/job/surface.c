@@ -26,43 +26,46 @@ static wt_status spelling(wt_error *err)
     return WT_E_ARG;
 }
 
-/* One NAME=VALUE of the text. */
-static wt_status set_parameter(wt_surface *surface, char *text, unsigned *seen, wt_error *err)
+wt_surface flow_surface_defaults(void)
 {
-    static const struct {
-        const char *name;
-        wt_quantity quantity;
-    } parameters[] = {
-        {"q0", WT_Q_WAVENUMBER}, {"qr", WT_Q_WAVENUMBER},        {"q1", WT_Q_WAVENUMBER},
-        {"hurst", WT_Q_NONE},    {"c0", WT_Q_POWER_SPECTRUM_2D},
-    };
-    char *value = strchr(text, '=');
-    if (value == NULL) {
-        wt_fail(err, WT_E_ARG, "\"%s\" is not NAME=VALUE", text);
-        return spelling(err);
-    }
-    *value++ = '\0';
-    for (unsigned i = 0; i < FLOW_COUNT(parameters); i++) {
-        if (strcmp(text, parameters[i].name) != 0)
-            continue;
-        wt_estimate e = {0};
-        wt_status status = wt_estimate_parse(value, parameters[i].quantity, &e, err);
-        if (status != WT_OK) {
-            wt_error_place(err, "roughness, %s", text);
-            return status;
-        }
-        if (i < 4 && e.standard_error > 0)
-            return wt_fail(err, WT_E_ARG, "only c0 takes a stated error, not %s", text);
-        double *const plain[] = {&surface->q0, &surface->qr, &surface->q1, &surface->hurst};
-        if (i < 4)
-            *plain[i] = e.value;
-        else
-            surface->c0 = e;
-        *seen |= 1u << i;
-        return WT_OK;
-    }
-    wt_fail(err, WT_E_ARG, "roughness has no parameter \"%s\"", text);
-    return spelling(err);
+    return (wt_surface){.q0 = (double)NAN,
+                        .qr = (double)NAN,
+                        .q1 = (double)NAN,
+                        .hurst = (double)NAN,
+                        .c0 = {(double)NAN, 0, 0, "m^4"}};
+}
+
+static const wt_param law_rows[] = {
+    {PARAM("q0", wt_surface, q0, WT_Q_WAVENUMBER, ABOVE(0)), .flags = PARAM_REQUIRED,
+     .help = "smallest wavenumber"},
+    {PARAM("qr", wt_surface, qr, WT_Q_WAVENUMBER, ABOVE(0)), .unset = "q0", .help = "roll-off"},
+    {PARAM("q1", wt_surface, q1, WT_Q_WAVENUMBER, ABOVE(0)), .flags = PARAM_REQUIRED,
+     .help = "largest wavenumber"},
+    {PARAM("hurst", wt_surface, hurst, WT_Q_NONE, ABOVE_TO(-1, 3)), .flags = PARAM_REQUIRED,
+     .help = "Hurst exponent"},
+    {PARAM("c0", wt_surface, c0, WT_Q_POWER_SPECTRUM_2D, ABOVE(0)), .flags = PARAM_REQUIRED,
+     .help = "two-dimensional power spectrum from q0 to qr, with h_rms^2 = 2 pi int q C dq"},
+};
+PARAM_TABLE(flow_self_affine_params, wt_surface, law_rows, flow_surface_defaults, NO_PARTS)
+
+static const wt_param spectrum_rows[] = {
+    {PARAM("q0", wt_surface, q0, WT_Q_WAVENUMBER, ABOVE(0)), .unset = "that of the file",
+     .help = "cut-off at small wavenumbers"},
+    {PARAM("q1", wt_surface, q1, WT_Q_WAVENUMBER, ABOVE(0)), .unset = "that of the file",
+     .help = "cut-off at large wavenumbers"},
+    {PARAM("error", wt_surface, c0.standard_error, WT_Q_NONE, AT_LEAST(0)),
+     .help = "relative error of the densities"},
+};
+PARAM_TABLE(flow_spectrum_params, wt_surface, spectrum_rows, flow_surface_defaults, NO_PARTS)
+
+wt_status flow_surface_check(wt_surface *surface, wt_error *err)
+{
+    wt_roughness *law = NULL;
+    if (isnan(surface->qr))
+        surface->qr = surface->q0; /* no roll-off */
+    wt_status status = wt_surface_roughness(surface, 1, &law, err);
+    wt_roughness_free(law);
+    return status;
 }
 
 static wt_status parse_self_affine(const char *text, wt_surface *surface, wt_error *err)
@@ -70,15 +73,28 @@ static wt_status parse_self_affine(const char *text, wt_surface *surface, wt_err
     char *copy = strdup(text), *rest = NULL;
     if (copy == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    unsigned seen = 0;
+    uint64_t given = 0;
     wt_status status = WT_OK;
+    *surface = flow_surface_defaults();
     surface->self_affine = true;
     for (char *item = strtok_r(copy, ",", &rest); status == WT_OK && item != NULL;
-         item = strtok_r(NULL, ",", &rest))
-        status = set_parameter(surface, item, &seen, err);
-    if (status == WT_OK && (seen & 2u) == 0)
-        surface->qr = surface->q0; /* no roll-off */
-    if (status == WT_OK && (seen | 2u) != 31u) {
+         item = strtok_r(NULL, ",", &rest)) {
+        char *value = strchr(item, '=');
+        if (value == NULL) {
+            wt_fail(err, WT_E_ARG, "\"%s\" is not NAME=VALUE", item);
+            status = spelling(err);
+            break;
+        }
+        *value++ = '\0';
+        status = wt_params_set(flow_self_affine_params(), item, surface, value, &given, err);
+        if (status == WT_E_NOT_FOUND) {
+            wt_fail(err, WT_E_ARG, "roughness has no parameter \"%s\"", item);
+            status = spelling(err);
+        } else if (status != WT_OK) {
+            wt_error_place(err, "roughness, %s", item);
+        }
+    }
+    if (status == WT_OK && param_missing(flow_self_affine_params(), given) != NULL) {
         wt_fail(err, WT_E_MISSING, "the self-affine law is not complete");
         wt_error_found(err, "\"%s\"", text);
         (void)spelling(err);
@@ -126,13 +142,11 @@ wt_status wt_surface_open(const char *text, const wt_read_options *read, const w
     if (text == NULL || surface == NULL || common == NULL)
         return wt_fail(err, WT_E_ARG, "no roughness");
     wt_surface s = {0};
-    wt_roughness *law = NULL;
     wt_status status = strncmp(text, PREFIX, strlen(PREFIX)) == 0
                            ? parse_self_affine(text + strlen(PREFIX), &s, err)
                            : read_spectrum(text, read, common, &s, err);
     if (status == WT_OK)
-        status = wt_surface_roughness(&s, 1, &law, err); /* checks the numbers */
-    wt_roughness_free(law);
+        status = flow_surface_check(&s, err);
     if (status != WT_OK) {
         wt_surface_clear(&s);
         return status;

@@ -77,12 +77,20 @@ bool flow_table_is_known(const char *table)
     return things_of_table(table) != 0;
 }
 
-const char *flow_figure_table(const char *figure)
+size_t flow_figure_tables(const char *figure, const char *tables[FLOW_MOST_TABLES])
 {
-    for (size_t i = 0; i < wt_figure_count(); i++)
-        if (strcmp(wt_figure_get(i).name, figure) == 0)
-            return wt_figure_get(i).table;
-    return NULL;
+    for (size_t i = 0; i < wt_figure_count(); i++) {
+        const wt_figure_info *info = wt_figure_get(i);
+        if (strcmp(info->name, figure) != 0)
+            continue;
+        size_t n = 0;
+        while (n < FLOW_MOST_TABLES && info->needs[n] != NULL) {
+            tables[n] = info->needs[n];
+            n++;
+        }
+        return n;
+    }
+    return 0;
 }
 
 /* ---- what is there, what is wanted ------------------------------------------------------------
@@ -101,7 +109,7 @@ static flow_things sources_of(const wt_case *c)
         {c->has_self_affine || c->has_spectrum, FLOW_COUNTER_SURFACE},
         {c->has_sliding, FLOW_CONDITIONS},
         {c->has_layer, FLOW_LAYER_PARAMETERS},
-        {!isnan(c->modulus_ratio.value), FLOW_GIVEN_RATIO},
+        {c->has_modulus_ratio, FLOW_GIVEN_RATIO},
     };
     flow_things set = 0;
     for (size_t i = 0; i < FLOW_COUNT(all); i++)

@@ -9,9 +9,13 @@
 
 wt_run_options wt_run_defaults(void)
 {
-    return (wt_run_options){.seed = wt_job_defaults().seed,
-                            .replicates = wt_job_defaults().replicates};
+    const wt_job job = wt_job_defaults();
+    return (wt_run_options){
+        .tolerance = job.tolerance, .seed = job.seed, .replicates = job.replicates};
 }
+
+static const wt_param rows[] = {JOB_ROWS(wt_run_options)};
+PARAM_TABLE(wt_run_params, wt_run_options, rows, wt_run_defaults, NO_PARTS)
 
 /* One run with what it reports. */
 typedef struct conduct {
@@ -276,7 +280,11 @@ wt_status wt_run(const wt_case *c, const wt_run_options *options, wt_parselog *l
         return wt_fail(err, WT_E_ARG, "no case");
     wt_run_options defaults = wt_run_defaults();
     conduct d = {.run = {.c = c}};
-    wt_status status = prepare(&d, options != NULL ? options : &defaults, log, err);
+    if (options == NULL)
+        options = &defaults;
+    wt_status status = param_check(wt_run_params(), options, err);
+    if (status == WT_OK)
+        status = prepare(&d, options, log, err);
     if (status != WT_OK)
         goto done;
     flow_plan_make(c, &d.run.plan);

@@ -29,22 +29,20 @@ void flow_run_clear(flow_run *run)
 
 wt_master_job flow_case_master(const wt_case *c)
 {
-    return (wt_master_job){
-        .sets = c->dma.sets,
-        .n_sets = c->dma.n,
-        .shift = c->shift,
-        .prony = c->prony_options,
-    };
+    wt_master_job job = c->master;
+    job.sets = c->dma.sets;
+    job.n_sets = c->dma.n;
+    return job;
 }
 
 wt_status flow_case_rubber(const wt_case *c, wt_rubber *result, wt_error *err)
 {
     wt_rubber rubber = {
-        .poisson_ratio = c->poisson_ratio,
+        .poisson_ratio = c->master.poisson_ratio,
         .has_wlf = c->has_wlf,
-        .wlf = {c->shift.reference_temperature, c->c1, c->c2},
-        .c1_error = c->c1_error,
-        .c2_error = c->c2_error,
+        .wlf = {c->master.shift.reference_temperature, c->wlf.c1.value, c->wlf.c2.value},
+        .c1_error = c->wlf.c1.standard_error,
+        .c2_error = c->wlf.c2.standard_error,
         .temperature_min = (double)NAN,
         .temperature_max = (double)NAN,
     };
@@ -52,7 +50,7 @@ wt_status flow_case_rubber(const wt_case *c, wt_rubber *result, wt_error *err)
     if (status != WT_OK)
         return status;
     rubber.prony.deformation = c->prony.deformation;
-    rubber.prony.reference_temperature = c->shift.reference_temperature;
+    rubber.prony.reference_temperature = c->master.shift.reference_temperature;
     rubber.prony.equilibrium_modulus = c->prony.equilibrium_modulus;
     rubber.prony.frequency_min = c->prony.frequency_min;
     rubber.prony.frequency_max = c->prony.frequency_max;
@@ -66,7 +64,7 @@ wt_status flow_case_surface(const wt_case *c, const wt_job *common, wt_surface *
                             wt_error *err)
 {
     if (c->has_self_affine) {
-        *surface = c->self_affine;
+        *surface = c->surface;
         return WT_OK;
     }
     const wt_file_set *set = &c->spectrum.sets[0];
@@ -74,16 +72,14 @@ wt_status flow_case_surface(const wt_case *c, const wt_job *common, wt_surface *
     if (path == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     wt_surface opened = {0};
-    wt_roughness *law = NULL;
     flow_file file = {.path = path, .name = set->patterns[0], .set = set};
     wt_status status = flow_surface_read(&file, common, &opened, err);
     if (status == WT_OK) {
-        opened.q0 = c->spectrum_q0;
-        opened.q1 = c->spectrum_q1;
-        opened.c0.standard_error = c->spectrum_error;
-        status = wt_surface_roughness(&opened, 1, &law, err); /* checks the cut-offs */
+        opened.q0 = c->surface.q0;
+        opened.q1 = c->surface.q1;
+        opened.c0.standard_error = c->surface.c0.standard_error;
+        status = flow_surface_check(&opened, err); /* the cut-offs */
     }
-    wt_roughness_free(law);
     if (status == WT_OK)
         *surface = opened;
     else
@@ -99,7 +95,7 @@ wt_sliding flow_case_conditions(const wt_case *c, const wt_rubber *rubber,
     sliding.rubber = rubber;
     sliding.surface = surface;
     if (isnan(sliding.reference_velocity))
-        sliding.reference_velocity = c->layer_velocity;
+        sliding.reference_velocity = c->layer.velocity;
     return sliding;
 }
 
@@ -111,12 +107,10 @@ static wt_status indent(flow_run *run, int g, flow_cost *cost, wt_error *err)
     static const flow_thing curve[2] = {FLOW_CURVE_BULK, FLOW_CURVE_TRACK};
     static const char *const names[2] = {"bulk", "track"};
     const case_files *files = g == 0 ? &run->c->bulk : &run->c->track;
-    wt_indent_job job = wt_indent_job_defaults();
+    wt_indent_job job = run->c->indent;
     job.group = names[g];
     job.sets = files->sets;
     job.n_sets = files->n;
-    job.tip = run->c->tip;
-    job.options = run->c->indent;
     job.spring_constant = files->spring_constant;
     job.rates =
         (run->plan.required & (FLOW_BIT(FLOW_MODULUS_RATE) | FLOW_BIT(FLOW_DMA_COMPARISON))) != 0;
@@ -143,10 +137,9 @@ wt_status flow_step_track(flow_run *run, flow_cost *cost, wt_error *err)
 
 static wt_status compare(flow_run *run, bool groups_only, flow_cost *cost, wt_error *err)
 {
-    wt_compare_job job = wt_compare_job_defaults();
+    wt_compare_job job = run->c->compare;
     job.bulk = run->indentation[0];
     job.track = run->indentation[1];
-    job.temperature = run->c->indentation_temperature;
     job.rates = (run->plan.required & FLOW_BIT(FLOW_MODULUS_RATE)) != 0;
     job.groups_only = groups_only;
     wt_compare_tables_clear(&run->compare);
@@ -176,11 +169,10 @@ wt_status flow_step_groups(flow_run *run, flow_cost *cost, wt_error *err)
 wt_status flow_step_dma_comparison(flow_run *run, flow_cost *cost, wt_error *err)
 {
     wt_compare_tables tables = {0};
-    wt_compare_job job = wt_compare_job_defaults();
+    wt_compare_job job = run->c->compare;
     job.bulk = run->indentation[0];
     job.track = run->indentation[1];
     job.rubber = &run->rubber;
-    job.temperature = run->c->indentation_temperature;
     job.groups_only = true;
     /* the warnings of the comparison itself have been given by its own stage */
     wt_job quiet = run->job;
@@ -202,7 +194,7 @@ wt_status flow_step_dma_comparison(flow_run *run, flow_cost *cost, wt_error *err
 wt_status flow_step_given_ratio(flow_run *run, flow_cost *cost, wt_error *err)
 {
     (void)err;
-    run->modulus_ratio = run->c->modulus_ratio;
+    run->modulus_ratio = run->c->known.modulus_ratio;
     cost->items = 1;
     return WT_OK;
 }
@@ -213,8 +205,7 @@ wt_status flow_step_given_ratio(flow_run *run, flow_cost *cost, wt_error *err)
 wt_status flow_step_master(flow_run *run, flow_cost *cost, wt_error *err)
 {
     wt_master_job job = flow_case_master(run->c);
-    wt_status status =
-        wt_master_make(&job, run->c->poisson_ratio, &run->job, &run->master, &run->rubber, err);
+    wt_status status = wt_master_make(&job, &run->job, &run->master, &run->rubber, err);
     cost->items = (double)run->master.n_isotherms;
     return status;
 }
@@ -244,14 +235,11 @@ wt_status flow_step_roughness(flow_run *run, flow_cost *cost, wt_error *err)
 wt_status flow_step_layer(flow_run *run, flow_cost *cost, wt_error *err)
 {
     wt_sliding sliding = flow_case_conditions(run->c, &run->rubber, &run->surface);
-    if (!isnan(run->c->layer_velocity))
-        sliding.reference_velocity = run->c->layer_velocity;
     wt_status status = wt_layer_make(&sliding, &run->c->layer, &run->job, &run->layer, err);
     if (status != WT_OK)
         return status;
     cost->items = (double)wt_table_n_rows(run->layer.layer);
-    cost->tolerance_asked =
-        run->job.tolerance > 0 ? run->job.tolerance : wt_friction_defaults().tolerance;
+    cost->tolerance_asked = run->job.tolerance;
     if (run->layer.thickness.value > 0)
         cost->error_estimated = run->layer.thickness.numerical_error / run->layer.thickness.value;
     return WT_OK;

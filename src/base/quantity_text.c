@@ -1,7 +1,5 @@
 /* Quantities as text: an estimate with its stated error, a list of values.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "weartrack/flow.h"
-
 #include "base/clocale.h"
 
 #include <math.h>

@@ -1,0 +1,68 @@
+/* Records of parameters that a structure of the kernel and one of a job both have, under the same
+ * name of the member unless it is given. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WT_KERNEL_PARAMS_H
+#define WT_KERNEL_PARAMS_H
+
+#include "base/param.h"
+#include "weartrack/kernel.h"
+
+/* clang-format off: one a line */
+
+#define FRICTION_TOLERANCE(type)                                                                   \
+    {                                                                                              \
+        PARAM("tolerance", type, tolerance, WT_Q_NONE, ABOVE_TO(0, 0.1)),                          \
+            .value = "X", .flags = PARAM_NO_CASE, .help = "relative numerical error asked for"     \
+    }
+#define FRICTION_THREADS(type)                                                                     \
+    {                                                                                              \
+        PARAM("threads", type, threads, WT_Q_NONE, FROM_TO(0, 1024)),                              \
+            .value = "N", .flags = PARAM_NO_CASE,                                                  \
+            .help = "threads to use, which change no result; 0 is one per processor"               \
+    }
+#define FRICTION_GAMMA(type)                                                                       \
+    {                                                                                              \
+        PARAM("gamma", type, gamma, WT_Q_NONE, FROM_TO(0, 1)),                                     \
+            .value = "G",                                                                          \
+            .help = "partial-contact factor S = G + (1-G)P^2 of the friction integral; 1 is "      \
+                    "Persson 2001"                                                                 \
+    }
+
+/* What is on the surface. `in` stands before the member. */
+#define LAYER_STATE_ROWS(type, in)                                                                 \
+    {PARAM("layer-thickness", type, in thickness, WT_Q_LENGTH, AT_LEAST(0)), .value = "D",         \
+     .flags = PARAM_NO_CASE, .help = "of the modified layer, such as 1um"},                        \
+    {                                                                                              \
+        PARAM("modulus-ratio", type, in modulus_ratio, WT_Q_NONE, ABOVE(0)),                       \
+            .value = "X", .help = "modulus of the layer over that of the bulk"                     \
+    }
+
+#define LAYER_ROWS(type, wear_flags)                                                               \
+    {PARAM("specific-wear-rate", type, specific_wear_rate, WT_Q_WEAR_RATE, AT_LEAST(0)),           \
+     .value = "K", .flags = (wear_flags), .help = "k, such as \"1e-3mm^3/(N m)\""},                \
+        {PARAM("damage", type, damage, WT_Q_NONE, ABOVE(0)), .value = "L",                         \
+         .help = "Lambda, at which the rubber counts as modified"},                                \
+        {PARAM("duty", type, duty, WT_Q_NONE, ABOVE_TO(0, 1)), .value = "X",                       \
+         .help = "share of the time in contact; with 1, times are contact times"},                 \
+        {PARAM("start-thickness", type, start_thickness, WT_Q_LENGTH, AT_LEAST(0)), .value = "D",  \
+         .help = "of the layer at time 0"},                                                        \
+    {                                                                                              \
+        PARAM_FLAG_OF("incubation", type, incubation),                                             \
+            .help = "transport of damage (exact at constant load), without which the rates are "   \
+                    "balanced "                                                                    \
+                    "from the beginning"                                                           \
+    }
+
+#define ENERGY_PROFILE(type)                                                                       \
+    {                                                                                              \
+        PARAM_CHOICE_OF("profile", type, profile, "persson|incompressible"),                       \
+            .help = "how the energy falls off with depth"                                          \
+    }
+#define ENERGY_LOCAL_FRICTION(type)                                                                \
+    {                                                                                              \
+        PARAM("local-friction", type, local_friction, WT_Q_NONE, AT_LEAST(0)),                     \
+            .value = "M", .help = "local friction of the incompressible profile"                   \
+    }
+
+/* clang-format on */
+
+#endif

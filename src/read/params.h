@@ -1,0 +1,17 @@
+/* Records of parameters of reading that another structure has too.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WT_READ_PARAMS_H
+#define WT_READ_PARAMS_H
+
+#include "base/param.h"
+#include "weartrack/read.h"
+
+/* In a case it may state an error, which is that of a group of files and not used by reading. */
+#define SPRING_CONSTANT(type, where)                                                               \
+    {                                                                                              \
+        PARAM("spring-constant", type, spring_constant, WT_Q_SPRING_CONSTANT, ABOVE(0)),           \
+            .value = "K", .unset = "that of the files", .flags = (where),                          \
+            .help = "spring constant of the cantilever, such as 0.1N/m"                            \
+    }
+
+#endif

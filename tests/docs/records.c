@@ -1,0 +1,292 @@
+/* Puts the records of the parameters into a page or a schema: prints FILE with what stands between
+ * two markers made anew. In a page of a subcommand that is the list of its options, as --help shows
+ * them; in weartrack-case(5) and weartrack-case.xsd the elements of a section.
+ *     .\" options            .\" parameters SECTION     <!-- parameters SECTION -->
+ *     .\" end                .\" end                    <!-- end -->
+ * <!-- choices --> is for the types of those that are words.
+ * After SECTION, "= NAME..." takes these alone and "but NAME..." all others.
+ * Usage: docs_records PROGRAM FILE. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/param.h"
+#include "flow/case/case_sections.h"
+#include "flow/job/inputs.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { LINE = 1024, SET = 256, TEXT = 2048 };
+
+static const struct {
+    const char *section;
+    const wt_params *(*params[2])(void);
+} sections[] = {
+    {"indentation", {wt_indent_job_params, wt_compare_job_params}},
+    {"dma", {wt_master_job_params, NULL}},
+    {"wlf", {case_wlf_params, NULL}},
+    {"self-affine", {flow_self_affine_params, NULL}},
+    {"spectrum", {flow_spectrum_params, NULL}},
+    {"sliding", {wt_sliding_params, NULL}},
+    {"layer", {wt_layer_job_params, wt_layer_known_params}},
+};
+
+/* ---- troff ------------------------------------------------------------------------------------
+ */
+
+/* Text with what troff would take for its own; a long word may be broken after , and :. */
+static void put_troff(const char *text)
+{
+    for (const char *p = text; *p != '\0'; p++) {
+        const bool option = p[0] == '-' && p[1] == '-' && p[2] >= 'a' && p[2] <= 'z';
+        if (option) {
+            const size_t n = 2 + strspn(p + 2, "abcdefghijklmnopqrstuvwxyz-");
+            printf("\\fB\\-\\-");
+            for (const char *q = p + 2; q < p + n; q++)
+                printf(*q == '-' ? "\\-" : "%c", *q);
+            printf("\\fR");
+            p += n - 1;
+        } else if (*p == '-') {
+            printf("\\-");
+        } else if (*p == '\\') {
+            printf("\\e");
+        } else {
+            putchar(*p);
+            if (strchr(",:", *p) != NULL && p[1] != ' ' && p[1] != '\0')
+                printf("\\:");
+        }
+    }
+}
+
+/* A sentence: with a capital and a stop. */
+static void put_sentence(const char *text)
+{
+    char first[] = {text[0], '\0'};
+    const size_t word = strspn(text, "abcdefghijklmnopqrstuvwxyz-");
+    if (word > 1 && strchr(" ,;", text[word]) != NULL) /* not a formula or something to type */
+        first[0] = (char)(text[0] - 'a' + 'A');
+    printf("\\&%s", first);
+    put_troff(text + 1);
+    puts(".");
+}
+
+/* ---- options of a subcommand ------------------------------------------------------------------
+ */
+
+typedef struct option {
+    char letter, name[64], value[64], text[TEXT];
+} option;
+
+static void put_option(const option *o)
+{
+    if (o->name[0] == '\0')
+        return;
+    puts(".TP");
+    if (o->letter != '\0')
+        printf("\\fB\\-%c\\fR, ", o->letter);
+    put_troff(o->name);
+    if (o->value[0] != '\0')
+        printf(" \\fI%s\\fR", o->value);
+    putchar('\n');
+    put_sentence(o->text);
+}
+
+/* Reads the list of options out of the help. */
+static bool put_options(const char *program, const char *subcommand)
+{
+    char command[LINE], line[LINE];
+    option o = {0};
+    bool in_list = false;
+    snprintf(command, sizeof command, "\"%s\" %s --help", program, subcommand);
+    FILE *help = popen(command, "r");
+    while (help != NULL && fgets(line, sizeof line, help) != NULL) {
+        line[strcspn(line, "\n")] = '\0';
+        if (strcmp(line, "options:") == 0) {
+            in_list = true;
+            continue;
+        }
+        const char *dashes = strstr(line, "--");
+        char *rest = line + strspn(line, " ");
+        if (!in_list || *rest == '\0') {
+            in_list = in_list && *rest != '\0';
+            continue;
+        }
+        if (dashes != NULL && dashes - line == 6) {
+            put_option(&o);
+            o = (option){.letter = line[2] == '-' ? line[3] : '\0'};
+            rest = (char *)dashes;
+            snprintf(o.name, sizeof o.name, "%.*s", (int)strcspn(rest, " "), rest);
+            rest += strcspn(rest, " ");
+            if (rest[0] == ' ' && rest[1] != ' ' && rest[1] != '\0') {
+                rest++;
+                snprintf(o.value, sizeof o.value, "%.*s", (int)strcspn(rest, " "), rest);
+                rest += strcspn(rest, " ");
+            }
+            rest += strspn(rest, " ");
+        }
+        const size_t used = strlen(o.text);
+        snprintf(o.text + used, sizeof o.text - used, "%s%s", used > 0 && *rest ? " " : "", rest);
+    }
+    put_option(&o);
+    return help != NULL && pclose(help) == 0 && o.name[0] != '\0';
+}
+
+/* ---- elements of a section --------------------------------------------------------------------
+ */
+
+static const char *schema_type(const wt_param *param, const char *name)
+{
+    switch (param->kind) {
+    case PARAM_FLAG:
+        return "yes-no";
+    case PARAM_CHOICE:
+        return name;
+    case PARAM_TEXT:
+    case PARAM_OTHER:
+        return "name";
+    default:
+        return "quantity";
+    }
+}
+
+static void put_element(const wt_param *param, const char *name, const char *set,
+                        const char *indent)
+{
+    const bool required = (param->flags & PARAM_REQUIRED) != 0;
+    if (indent != NULL) {
+        printf("%s<xs:element name=\"%s\" type=\"%s\"%s/>\n", indent, name,
+               schema_type(param, name), required ? "" : " minOccurs=\"0\"");
+        return;
+    }
+    char text[TEXT];
+    const bool in_words = param->unset != NULL && strcmp(param->unset, set) == 0;
+    printf(".TP\n.B <");
+    put_troff(name);
+    puts(">");
+    snprintf(text, sizeof text, "%s%s%s%s%s",
+             param->kind == PARAM_FLAG     ? "yes or no: "
+             : param->kind == PARAM_CHOICE ? param->value
+                                           : "",
+             param->kind == PARAM_CHOICE ? ": " : "", param->help,
+             required         ? "; required"
+             : set[0] == '\0' ? ""
+             : in_words       ? "; default: "
+                              : "; default ",
+             set);
+    put_sentence(text);
+}
+
+static bool is_listed(const char *names, const char *name)
+{
+    const size_t n = strlen(name);
+    for (const char *p = names; (p = strstr(p, name)) != NULL; p++)
+        if ((p == names || p[-1] == ' ') && (p[n] == ' ' || p[n] == '\0'))
+            return true;
+    return false;
+}
+
+/* `what` is "SECTION", "SECTION = NAME..." or "SECTION but NAME..."; indent NULL: a page. */
+static bool put_section(const char *what, const char *indent)
+{
+    char section[64];
+    int n = 0;
+    sscanf(what, "%63s %n", section, &n);
+    const char *names = what + n;
+    const bool only = strncmp(names, "= ", 2) == 0, but = strncmp(names, "but ", 4) == 0;
+    for (size_t s = 0; s < sizeof sections / sizeof sections[0]; s++) {
+        if (strcmp(sections[s].section, section) != 0)
+            continue;
+        for (size_t t = 0; t < 2 && sections[s].params[t] != NULL; t++) {
+            const wt_params *params = sections[s].params[t]();
+            for (size_t i = 0; i < wt_params_count(params); i++) {
+                const wt_param *param = wt_params_get(params, i);
+                const char *name = case_param_name(section, param->name);
+                char set[SET];
+                if ((param->flags & PARAM_NO_CASE) != 0 ||
+                    ((only || but) && is_listed(names, param->name) != only))
+                    continue;
+                wt_params_default(params, i, set, sizeof set);
+                put_element(param, name, set, indent);
+            }
+        }
+        return true;
+    }
+    return false;
+}
+
+/* The types of the parameters that are one of several words. */
+static void put_choices(const char *indent)
+{
+    for (size_t s = 0; s < sizeof sections / sizeof sections[0]; s++)
+        for (size_t t = 0; t < 2 && sections[s].params[t] != NULL; t++)
+            for (size_t i = 0; i < wt_params_count(sections[s].params[t]()); i++) {
+                const wt_param *param = wt_params_get(sections[s].params[t](), i);
+                if (param->kind != PARAM_CHOICE || (param->flags & PARAM_NO_CASE) != 0)
+                    continue;
+                printf("%s<xs:simpleType name=\"%s\">\n", indent,
+                       case_param_name(sections[s].section, param->name));
+                printf("%s  <xs:restriction base=\"xs:token\">\n", indent);
+                for (const char *p = param->value; *p != '\0'; p += strspn(p, "|")) {
+                    const int n = (int)strcspn(p, "|");
+                    printf("%s    <xs:enumeration value=\"%.*s\"/>\n", indent, n, p);
+                    p += n;
+                }
+                printf("%s  </xs:restriction>\n%s</xs:simpleType>\n", indent, indent);
+            }
+}
+
+/* ---- the file ---------------------------------------------------------------------------------
+ */
+
+static bool put_block(const char *line, const char *program, const char *path)
+{
+    char what[LINE], subcommand[64] = "";
+    const char *name = strstr(path, "weartrack-");
+    if (strcmp(line, ".\\\" options\n") == 0) {
+        if (name != NULL)
+            sscanf(name, "weartrack-%63[a-z]", subcommand);
+        return put_options(program, subcommand);
+    }
+    if (sscanf(line, ".\\\" parameters %1023[^\n]", what) == 1)
+        return put_section(what, NULL);
+    char indent[64] = "";
+    snprintf(indent, sizeof indent, "%.*s", (int)strspn(line, " "), line);
+    if (sscanf(line, " <!-- parameters %1023[^>]", what) == 1 && strstr(what, " --") != NULL) {
+        *strstr(what, " --") = '\0';
+        return put_section(what, indent);
+    }
+    if (strcmp(line + strlen(indent), "<!-- choices -->\n") == 0) {
+        put_choices(indent);
+        return true;
+    }
+    return false;
+}
+
+int main(int argc, char **argv)
+{
+    char line[LINE];
+    bool inside = false;
+    FILE *in = argc == 3 ? fopen(argv[2], "r") : NULL;
+    if (in == NULL) {
+        fprintf(stderr, "usage: docs_records PROGRAM FILE\n");
+        return 2;
+    }
+    while (fgets(line, sizeof line, in) != NULL) {
+        const char *word = line + strspn(line, " ");
+        if (strcmp(word, ".\\\" end\n") == 0 || strcmp(word, "<!-- end -->\n") == 0)
+            inside = false;
+        if (inside)
+            continue;
+        fputs(line, stdout);
+        if (strncmp(word, ".\\\" options", 11) == 0 || strncmp(word, ".\\\" parameters", 14) == 0 ||
+            strncmp(word, "<!-- parameters", 15) == 0 || strncmp(word, "<!-- choices", 12) == 0) {
+            inside = true;
+            fflush(stdout);
+            if (!put_block(line, argv[1], argv[2])) {
+                fprintf(stderr, "%s: nothing is known for %s", argv[2], line);
+                return 1;
+            }
+        }
+    }
+    fclose(in);
+    if (inside)
+        fprintf(stderr, "%s: a marker without its end\n", argv[2]);
+    return inside ? 1 : 0;
+}
