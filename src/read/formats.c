@@ -68,7 +68,7 @@ static wt_status add_text(wt_formats *f, text_description *d, wt_parselog *log, 
     return status;
 }
 
-static wt_status add_built_in(wt_formats *f, const description_schema *schema, wt_error *err)
+static wt_status add_built_in(wt_formats *f, const description_xsd *schema, wt_error *err)
 {
     wt_status status = WT_OK;
     for (const embedded_text *e = embedded_formats; e->name != NULL && status == WT_OK; e++) {
@@ -83,7 +83,7 @@ static wt_status add_built_in(wt_formats *f, const description_schema *schema, w
     return status;
 }
 
-static wt_status add_folder(wt_formats *f, const description_schema *schema, const char *folder,
+static wt_status add_folder(wt_formats *f, const description_xsd *schema, const char *folder,
                             wt_parselog *log, wt_error *err)
 {
     char **paths = NULL;
@@ -116,11 +116,11 @@ static wt_status add_binary(wt_formats *f, bool running, wt_error *err)
 
 wt_status wt_formats_new(const char *folder, wt_formats **formats, wt_parselog *log, wt_error *err)
 {
-    description_schema *schema = NULL;
+    description_xsd *schema = NULL;
     wt_formats *f = calloc(1, sizeof *f);
     if (f == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for the formats");
-    wt_status status = description_schema_new(&schema, err);
+    wt_status status = description_xsd_new(&schema, err);
     if (status == WT_OK)
         status = add_binary(f, false, err);
     if (status == WT_OK)
@@ -129,7 +129,7 @@ wt_status wt_formats_new(const char *folder, wt_formats **formats, wt_parselog *
         status = add_folder(f, schema, folder, log, err);
     if (status == WT_OK)
         status = add_binary(f, true, err);
-    description_schema_free(schema);
+    description_xsd_free(schema);
     if (status != WT_OK) {
         wt_formats_free(f);
         return status;

@@ -14,12 +14,12 @@ static const char sample[] =
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    static description_schema *schema;
+    static description_xsd *schema;
     text_description *description = NULL;
     wt_input *input = NULL;
     wt_error err = WT_ERROR_INIT;
     const wt_read_options options = wt_read_defaults();
-    if (schema == NULL && description_schema_new(&schema, &err) != WT_OK)
+    if (schema == NULL && description_xsd_new(&schema, &err) != WT_OK)
         abort();
     if (description_parse(schema, (const char *)data, size, "fuzz", &description, &err) != WT_OK)
         return 0;

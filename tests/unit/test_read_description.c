@@ -29,7 +29,7 @@ static const char *const good[] = {
 };
 #define LINES (sizeof good / sizeof *good)
 
-static description_schema *schema;
+static description_xsd *schema;
 
 static wt_status parse_with(size_t line, const char *text, wt_error *err)
 {
@@ -359,13 +359,13 @@ static int setup(void **state)
 {
     (void)state;
     snprintf(folder, sizeof folder, "description.XXXXXX");
-    return mkdtemp(folder) != NULL && description_schema_new(&schema, NULL) == WT_OK ? 0 : -1;
+    return mkdtemp(folder) != NULL && description_xsd_new(&schema, NULL) == WT_OK ? 0 : -1;
 }
 
 static int teardown(void **state)
 {
     (void)state;
-    description_schema_free(schema);
+    description_xsd_free(schema);
     return rmdir(folder);
 }
 

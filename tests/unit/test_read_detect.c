@@ -232,6 +232,47 @@ static void ties_name_both(void **state)
     rmdir(folder);
 }
 
+/* A description that claims more of a file than its binary reader does is not even asked. */
+static void a_signature_comes_first(void **state)
+{
+    (void)state;
+    static const char sample[] = "[DataSet]\r\nVersion=2\r\nGroupCount=1\r\n\r\n#!";
+    static const char folder[] = "test_read_detect_greedy";
+    static const char path[] = "test_read_detect_greedy/greedy.xml";
+    wt_formats *formats = NULL;
+    wt_input *input = NULL;
+    const wt_format_info *info = NULL;
+    assert_true(mkdir(folder, 0777) == 0 || errno == EEXIST);
+    FILE *out = fopen(path, "wb");
+    assert_non_null(out);
+    fputs("<?xml version=\"1.0\"?>\n<format id=\"greedy\" "
+          "kinds=\"spectrum\" verified=\"false\" "
+          "version=\"1\"><title>greedy</title><evidence>none</evidence>"
+          "<detect><require text=\"[DataSet]\" within=\"9\" score=\"100\"/></detect><text/>"
+          "<table units=\"none\"><column quantity=\"wavenumber\" unit=\"rad/m\"><name>q</name>"
+          "</column><column quantity=\"power_spectrum_2d\" unit=\"m^4\"><name>c</name></column>"
+          "</table></format>\n",
+          out);
+    assert_int_equal(fclose(out), 0);
+    wt_error err = WT_ERROR_INIT;
+    assert_int_equal(wt_formats_new(folder, &formats, NULL, &err), WT_OK);
+    assert_non_null(wt_formats_find(formats, "greedy"));
+    assert_int_equal(wt_input_open_memory(sample, sizeof sample - 4, "test", &input, NULL), WT_OK);
+    assert_int_equal(wt_detect(formats, input, 0, &info, NULL), WT_OK);
+    assert_ptr_equal(info, wt_formats_find(formats, "greedy")); /* no data: no signature */
+    wt_input_close(input);
+    assert_int_equal(wt_input_open_memory(sample, sizeof sample - 1, "test", &input, NULL), WT_OK);
+    assert_int_equal(wt_detect(formats, input, 0, &info, NULL), WT_OK);
+    assert_ptr_equal(info, wt_formats_find(formats, "nid"));
+    assert_int_equal(wt_detect(formats, input, WT_KIND_SPECTRUM, &info, &err), WT_E_UNSUPPORTED);
+    assert_non_null(strstr(err.found, "nid"));
+    wt_input_close(input);
+    assert_null(wt_formats_find(formats, "no-such-format"));
+    wt_formats_free(formats);
+    unlink(path);
+    rmdir(folder);
+}
+
 static void chosen_format(void **state)
 {
     (void)state;
@@ -263,6 +304,7 @@ int main(void)
         cmocka_unit_test(nanosurf_answers),
         cmocka_unit_test(more_is_shown),
         cmocka_unit_test(ties_name_both),
+        cmocka_unit_test(a_signature_comes_first),
         cmocka_unit_test(chosen_format),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static description_schema *schema;
+static description_xsd *schema;
 static wt_formats *formats;
 
 /* A description of a sweep from the attributes of its parts. */
@@ -564,7 +564,7 @@ static void long_files(void **state)
 static int setup(void **state)
 {
     (void)state;
-    return description_schema_new(&schema, NULL) == WT_OK &&
+    return description_xsd_new(&schema, NULL) == WT_OK &&
                    wt_formats_new(NULL, &formats, NULL, NULL) == WT_OK
                ? 0
                : -1;
@@ -573,7 +573,7 @@ static int setup(void **state)
 static int teardown(void **state)
 {
     (void)state;
-    description_schema_free(schema);
+    description_xsd_free(schema);
     wt_formats_free(formats);
     return 0;
 }

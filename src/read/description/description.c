@@ -1,224 +1,19 @@
-/* From the XML of a format description to what the engine runs.
+/* What a description holds, and which quantities make what.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "read/description/description_xml.h"
-#include "read/embedded_formats.h"
+#include "read/description/description.h"
 
-#include <libxml/parser.h>
-#include <libxml/xmlschemas.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* ---- schema ------------------------------------------------------------------------------- */
-
-struct description_schema {
-    xmlSchemaPtr schema;
-};
-
-static const embedded_text *embedded_schema(void)
-{
-    const embedded_text *e = embedded_formats;
-    while (e->name != NULL && strcmp(e->name, "weartrack-format.xsd") != 0)
-        e++;
-    return e;
-}
-
-const char *wt_formats_schema(void)
-{
-    return embedded_schema()->text;
-}
-
-static void keep_quiet(void *user, xmlErrorPtr error)
-{
-    (void)user;
-    (void)error;
-}
-
-wt_status description_schema_new(description_schema **schema, wt_error *err)
-{
-    const embedded_text *text = embedded_schema();
-    wt_status status = WT_E_INTERNAL;
-    description_schema *made = calloc(1, sizeof *made);
-    xmlSchemaParserCtxtPtr context = NULL;
-    if (made == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the schema of descriptions");
-    context = xmlSchemaNewMemParserCtxt(text->text, (int)text->length);
-    if (context != NULL) {
-        xmlSchemaSetParserStructuredErrors(context, keep_quiet, NULL);
-        made->schema = xmlSchemaParse(context);
-        xmlSchemaFreeParserCtxt(context);
-    }
-    if (made->schema != NULL) {
-        *schema = made;
-        return WT_OK;
-    }
-    free(made);
-    return wt_fail(err, status, "the schema of descriptions cannot be compiled");
-}
-
-void description_schema_free(description_schema *schema)
-{
-    if (schema == NULL)
-        return;
-    xmlSchemaFree(schema->schema);
-    free(schema);
-}
-
-/* ---- document ----------------------------------------------------------------------------- */
-
-static void explain(description_parser *p, const xmlError *error, const char *otherwise)
-{
-    char text[256];
-    const char *message = error != NULL && error->message != NULL ? error->message : otherwise;
-    size_t length = strcspn(message, "\r\n");
-    if (p->status != WT_OK)
-        return;
-    snprintf(text, sizeof text, "%.*s", (int)(length < 255 ? length : 255), message);
-    p->status = wt_fail(p->err, WT_E_SCHEMA, "%s", text);
-    wt_error_file(p->err, p->name);
-    if (error != NULL && error->line > 0)
-        wt_error_place(p->err, "line %d", error->line);
-    wt_error_advice(p->err, "see weartrack-format(5)");
-}
-
-static void first_complaint(void *user, xmlErrorPtr error)
-{
-    explain(user, error, "not valid");
-}
-
-static void validate(description_parser *p, const description_schema *schema, xmlDocPtr document)
-{
-    xmlSchemaValidCtxtPtr context = xmlSchemaNewValidCtxt(schema->schema);
-    if (context == NULL) {
-        parse_no_memory(p);
-        return;
-    }
-    xmlSchemaSetValidStructuredErrors(context, first_complaint, p);
-    if (xmlSchemaValidateDoc(context, document) != 0)
-        explain(p, NULL, "the document does not follow the schema of descriptions");
-    xmlSchemaFreeValidCtxt(context);
-}
-
-wt_status description_parse(const description_schema *schema, const char *xml, size_t length,
-                            const char *name, text_description **description, wt_error *err)
-{
-    const size_t most = (size_t)1 << 20;
-    /* Complaints about an encoding go to standard error unless this thread has a handler. */
-    const xmlStructuredErrorFunc previous = xmlStructuredError;
-    void *const previous_context = xmlStructuredErrorContext;
-    description_parser p = {.name = name, .status = WT_OK, .err = err};
-    xmlParserCtxtPtr context = NULL;
-    xmlDocPtr document = NULL;
-    if (length > most) {
-        wt_fail(err, WT_E_SCHEMA, "too long for a format description");
-        wt_error_file(err, name);
-        wt_error_expected(err, "at most 1 MiB");
-        return WT_E_SCHEMA;
-    }
-    p.d = calloc(1, sizeof *p.d);
-    context = xmlNewParserCtxt();
-    if (p.d == NULL || context == NULL) {
-        parse_no_memory(&p);
-        goto done;
-    }
-    p.d->temperature_jump = (double)NAN;
-    p.d->xml = strndup(xml, length);
-    if (p.d->xml == NULL) {
-        parse_no_memory(&p);
-        goto done;
-    }
-    xmlSetStructuredErrorFunc(NULL, keep_quiet);
-    document = xmlCtxtReadMemory(context, xml, (int)length, NULL, NULL,
-                                 XML_PARSE_NONET | XML_PARSE_NOERROR | XML_PARSE_NOWARNING |
-                                     XML_PARSE_NOCDATA);
-    if (document == NULL) {
-        explain(&p, xmlCtxtGetLastError(context), "not well-formed XML");
-        goto done;
-    }
-    if (document->intSubset != NULL) {
-        explain(&p, NULL, "a document type or entities are not allowed in a description");
-        goto done;
-    }
-    validate(&p, schema, document);
-    if (p.status == WT_OK)
-        parse_format(&p, xmlDocGetRootElement(document));
-done:
-    xmlSetStructuredErrorFunc(previous_context, previous);
-    xmlFreeDoc(document);
-    if (context != NULL)
-        xmlFreeParserCtxt(context);
-    if (p.status == WT_OK)
-        *description = p.d;
-    else
-        description_free(p.d);
-    return p.status;
-}
-
-wt_status description_parse_file(const description_schema *schema, const char *path,
-                                 text_description **description, wt_error *err)
-{
-    wt_input *input = NULL;
-    const unsigned char *bytes = NULL;
-    size_t length = 0;
-    wt_status status = wt_input_open(path, &input, err);
-    if (status == WT_OK)
-        status = wt_input_bytes(input, &bytes, &length, err);
-    if (status == WT_OK)
-        status = description_parse(schema, (const char *)bytes, length, path, description, err);
-    wt_input_close(input);
-    return status;
-}
-
-static void free_pattern(line_pattern *pattern)
-{
-    if (pattern->compiled)
-        regfree(&pattern->regex);
-}
 
 void description_free(text_description *d)
 {
     if (d == NULL)
         return;
-    for (size_t i = 0; i < d->n_probes; i++) {
-        free(d->probes[i].text);
-        free_pattern(&d->probes[i].pattern);
-    }
-    for (size_t i = 0; i < d->n_fields; i++) {
-        free(d->fields[i].name);
-        free(d->fields[i].unit);
-        free_pattern(&d->fields[i].pattern);
-    }
-    for (size_t i = 0; i < d->n_steps; i++)
-        free_pattern(&d->steps[i].pattern);
-    for (size_t i = 0; i < d->n_ends; i++)
-        free_pattern(&d->ends[i]);
-    for (size_t i = 0; i < d->n_aliases; i++) {
-        free(d->aliases[i].found);
-        free(d->aliases[i].means);
-    }
-    for (size_t i = 0; i < d->n_rules; i++) {
-        free(d->rules[i].unit);
-        free(d->rules[i].with);
-    }
-    for (size_t i = 0; i < d->n_names; i++)
-        free(d->names[i].name);
-    for (size_t i = 0; i < d->n_markers; i++)
-        free_pattern(&d->markers[i].pattern);
-    for (size_t i = 0; i < d->n_values; i++)
-        free(d->values[i].text);
-    for (size_t i = 0; i < d->n_missing; i++)
-        free(d->missing[i]);
-    free_pattern(&d->names_line);
-    free_pattern(&d->units_line);
-    void *const parts[] = {d->id,          d->title,  d->evidence, d->version, d->xml,
-                           d->probes,      d->widths, d->comment,  d->missing, d->fields,
-                           d->steps,       d->ends,   d->aliases,  d->rules,   d->names,
-                           d->row_prefix,  d->group,  d->markers,  d->values,  d->segment_column,
-                           d->curve_column};
-    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
-        free(parts[i]);
+    for (line_pattern *pattern = d->patterns; pattern != NULL; pattern = pattern->next)
+        regfree(&pattern->regex);
+    pool_free(&d->memory);
     free(d);
 }
 
@@ -237,4 +32,104 @@ bool description_find_name(const text_description *d, const char *name, size_t *
     while (low + *n < d->n_names && strcmp(d->names[low + *n].name, name) == 0)
         (*n)++;
     return *n > 0;
+}
+
+header_value header_of(wt_quantity quantity)
+{
+    static const wt_quantity held[HEADER_COUNT] = {
+        [HEADER_TEMPERATURE] = WT_Q_TEMPERATURE, [HEADER_SPRING_CONSTANT] = WT_Q_SPRING_CONSTANT,
+        [HEADER_SENSITIVITY] = WT_Q_SENSITIVITY, [HEADER_POSITION_X] = WT_Q_POSITION_X,
+        [HEADER_POSITION_Y] = WT_Q_POSITION_Y,   [HEADER_VELOCITY] = WT_Q_VELOCITY,
+        [HEADER_DURATION] = WT_Q_TIME,           [HEADER_SETPOINT] = WT_Q_FORCE};
+    header_value value = HEADER_TEMPERATURE;
+    while (value < HEADER_COUNT && held[value] != quantity)
+        value++;
+    return value;
+}
+
+bool pattern_match(const line_pattern *pattern, const char *line, size_t length, regmatch_t *groups,
+                   size_t n)
+{
+    if (length > PATTERN_LINE_MAX || (pattern->first != '\0' && line[0] != pattern->first))
+        return false;
+    return regexec(&pattern->regex, line, n, groups, 0) == 0;
+}
+
+bool pattern_part(const line_pattern *pattern, const char **line, size_t *length)
+{
+    regmatch_t groups[2] = {{-1, -1}, {-1, -1}};
+    if (!pattern_match(pattern, *line, *length, groups, 2) || groups[1].rm_so < 0)
+        return false;
+    *line += groups[1].rm_so;
+    *length = (size_t)(groups[1].rm_eo - groups[1].rm_so);
+    return true;
+}
+
+/* ---- kinds -------------------------------------------------------------------------------- */
+
+#define Q(quantity) WT_Q_BIT(WT_Q_##quantity)
+
+/* A kind of data needs one quantity of each group of a row. */
+static const struct {
+    unsigned kind;
+    const char *name, *words;
+    wt_quantity_set groups[3];
+} needs[] = {
+    {WT_KIND_FORCE,
+     "force",
+     "columns of height and of force or deflection",
+     {Q(HEIGHT) | Q(MEASURED_HEIGHT), Q(FORCE) | Q(DEFLECTION) | Q(DEFLECTION_VOLTAGE)}},
+    {WT_KIND_SWEEP,
+     "sweep",
+     "columns of frequency, storage modulus and loss modulus (or loss factor)",
+     {Q(FREQUENCY) | Q(ANGULAR_FREQUENCY), Q(STORAGE_MODULUS), Q(LOSS_MODULUS) | Q(LOSS_FACTOR)}},
+    {WT_KIND_SWEEP,
+     "sweep",
+     "columns of frequency, storage modulus and loss modulus (or loss factor)",
+     {Q(FREQUENCY) | Q(ANGULAR_FREQUENCY), Q(SHEAR_STORAGE_MODULUS),
+      Q(SHEAR_LOSS_MODULUS) | Q(LOSS_FACTOR)}},
+    {WT_KIND_SPECTRUM,
+     "spectrum",
+     "columns of wavenumber and power spectrum",
+     {Q(WAVENUMBER), Q(POWER_SPECTRUM_2D) | Q(POWER_SPECTRUM_1D)}},
+};
+enum { N_NEEDS = sizeof needs / sizeof *needs, N_GROUPS = 3 };
+
+bool quantities_suffice(wt_quantity_set set, unsigned kinds)
+{
+    for (size_t i = 0; i < N_NEEDS; i++) {
+        bool all = (needs[i].kind & kinds) != 0;
+        for (size_t g = 0; g < N_GROUPS; g++)
+            all = all && (needs[i].groups[g] == 0 || (needs[i].groups[g] & set) != 0);
+        if (all)
+            return true;
+    }
+    return false;
+}
+
+wt_quantity_set quantities_of(unsigned kind)
+{
+    wt_quantity_set set = 0;
+    for (size_t i = 0; i < N_NEEDS; i++)
+        for (size_t g = 0; g < N_GROUPS && needs[i].kind == kind; g++)
+            set |= needs[i].groups[g];
+    return set;
+}
+
+static size_t find(unsigned kind)
+{
+    size_t i = 0;
+    while (i + 1 < N_NEEDS && needs[i].kind != kind)
+        i++;
+    return i;
+}
+
+const char *quantities_needed(unsigned kind)
+{
+    return needs[find(kind)].words;
+}
+
+const char *kind_name(unsigned kind)
+{
+    return needs[find(kind)].name;
 }

@@ -5,6 +5,7 @@
 #ifndef WT_READ_DESCRIPTION_H
 #define WT_READ_DESCRIPTION_H
 
+#include "base/pool.h"
 #include "read/reader.h"
 
 #include <regex.h>
@@ -42,11 +43,14 @@ typedef struct line_pattern {
     regex_t regex;
     bool compiled;
     char first; /* the byte that every match begins with, '\0' if that is not known */
+    struct line_pattern *next; /* of the compiled ones of a description */
 } line_pattern;
 
 /* 0 groups: does it match? Else groups[0..n) get what matched; rm_so is -1 for an empty group. */
 bool pattern_match(const line_pattern *pattern, const char *line, size_t length, regmatch_t *groups,
                    size_t n);
+/* Shortens the line to what group 1 matches; false if there is no match, or nothing in it. */
+bool pattern_part(const line_pattern *pattern, const char **line, size_t *length);
 
 typedef enum probe_kind { PROBE_REQUIRE, PROBE_HINT, PROBE_FORBID, PROBE_NAMES } probe_kind;
 
@@ -120,6 +124,9 @@ typedef struct segment_marker {
 } segment_marker;
 
 typedef struct text_description {
+    pool memory; /* of all that is pointed to below */
+    line_pattern *patterns;
+
     char *id, *title, *evidence, *version;
     char *xml; /* the document as it was read */
     unsigned kinds;
@@ -169,14 +176,14 @@ typedef struct text_description {
 } text_description;
 
 /* The schema, compiled once for a set of descriptions. */
-typedef struct description_schema description_schema;
-wt_status description_schema_new(description_schema **schema, wt_error *err);
-void description_schema_free(description_schema *schema);
+typedef struct description_xsd description_xsd;
+wt_status description_xsd_new(description_xsd **schema, wt_error *err);
+void description_xsd_free(description_xsd *schema);
 
 /* Reads and checks one description. `name` is used in errors. */
-wt_status description_parse(const description_schema *schema, const char *xml, size_t length,
+wt_status description_parse(const description_xsd *schema, const char *xml, size_t length,
                             const char *name, text_description **description, wt_error *err);
-wt_status description_parse_file(const description_schema *schema, const char *path,
+wt_status description_parse_file(const description_xsd *schema, const char *path,
                                  text_description **description, wt_error *err);
 void description_free(text_description *description);
 
@@ -194,9 +201,12 @@ void name_normalise(const char *text, size_t length, char name[NAME_MAX]);
 /* Is the text, normalised, that name? */
 bool name_is(const char *text, size_t length, const char *name);
 
-/* Do the quantities make a force curve, sweep or spectrum (one WT_KIND_ bit)? */
-bool quantities_suffice(wt_quantity_set set, unsigned kind);
-/* Words for what is needed: "a frequency, a storage modulus and ..."; static. */
+/* Do the quantities make a force curve, sweep or spectrum, whichever are among `kinds`? */
+bool quantities_suffice(wt_quantity_set set, unsigned kinds);
+/* All that is needed, or one of which is. */
+wt_quantity_set quantities_of(unsigned kind);
+/* Words for what is needed: "columns of frequency, storage modulus and ..."; static. */
 const char *quantities_needed(unsigned kind);
+const char *kind_name(unsigned kind); /* "sweep"; static */
 
 #endif

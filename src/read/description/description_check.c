@@ -7,11 +7,6 @@
 #include <math.h>
 #include <string.h>
 
-static const char *kind_name(unsigned kind)
-{
-    return kind == WT_KIND_FORCE ? "force" : kind == WT_KIND_SWEEP ? "sweep" : "spectrum";
-}
-
 static bool alias_is_unit(const text_description *d, const char *unit)
 {
     double factor, offset;

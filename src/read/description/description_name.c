@@ -1,4 +1,4 @@
-/* Column names in one spelling, and which quantities make what.
+/* Column names in one spelling.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -78,69 +78,4 @@ bool name_is(const char *text, size_t length, const char *name)
     char own[NAME_MAX];
     name_normalise(text, length, own);
     return strcmp(own, name) == 0;
-}
-
-static bool any(wt_quantity_set set, wt_quantity_set of)
-{
-    return (set & of) != 0;
-}
-
-bool quantities_suffice(wt_quantity_set set, unsigned kind)
-{
-    const wt_quantity_set factor = WT_Q_BIT(WT_Q_LOSS_FACTOR);
-    switch (kind) {
-    case WT_KIND_SWEEP:
-        return any(set, WT_Q_BIT(WT_Q_FREQUENCY) | WT_Q_BIT(WT_Q_ANGULAR_FREQUENCY)) &&
-               ((any(set, WT_Q_BIT(WT_Q_STORAGE_MODULUS)) &&
-                 any(set, WT_Q_BIT(WT_Q_LOSS_MODULUS) | factor)) ||
-                (any(set, WT_Q_BIT(WT_Q_SHEAR_STORAGE_MODULUS)) &&
-                 any(set, WT_Q_BIT(WT_Q_SHEAR_LOSS_MODULUS) | factor)));
-    case WT_KIND_FORCE:
-        return any(set, WT_Q_BIT(WT_Q_HEIGHT) | WT_Q_BIT(WT_Q_MEASURED_HEIGHT)) &&
-               any(set, WT_Q_BIT(WT_Q_FORCE) | WT_Q_BIT(WT_Q_DEFLECTION) |
-                            WT_Q_BIT(WT_Q_DEFLECTION_VOLTAGE));
-    case WT_KIND_SPECTRUM:
-        return any(set, WT_Q_BIT(WT_Q_WAVENUMBER)) &&
-               any(set, WT_Q_BIT(WT_Q_POWER_SPECTRUM_2D) | WT_Q_BIT(WT_Q_POWER_SPECTRUM_1D));
-    default:
-        return false;
-    }
-}
-
-const char *quantities_needed(unsigned kind)
-{
-    switch (kind) {
-    case WT_KIND_SWEEP:
-        return "columns of frequency, storage modulus and loss modulus (or loss factor)";
-    case WT_KIND_FORCE:
-        return "columns of height and of force or deflection";
-    case WT_KIND_SPECTRUM:
-        return "columns of wavenumber and power spectrum";
-    default:
-        return "columns that are understood";
-    }
-}
-
-header_value header_of(wt_quantity quantity)
-{
-    switch (quantity) {
-    case WT_Q_TEMPERATURE:
-        return HEADER_TEMPERATURE;
-    case WT_Q_SPRING_CONSTANT:
-        return HEADER_SPRING_CONSTANT;
-    case WT_Q_SENSITIVITY:
-        return HEADER_SENSITIVITY;
-    case WT_Q_POSITION_X:
-        return HEADER_POSITION_X;
-    case WT_Q_POSITION_Y:
-        return HEADER_POSITION_Y;
-    case WT_Q_VELOCITY:
-        return HEADER_VELOCITY;
-    case WT_Q_TIME:
-        return HEADER_DURATION;
-    case WT_Q_FORCE:
-        return HEADER_SETPOINT;
-    default:
-        return HEADER_COUNT;
-    }
 }

@@ -13,11 +13,10 @@ static const char *const segment_kinds[] = {"approach", "retract", "dwell", "mod
 
 static wt_quantity quantity_attribute(description_parser *p, const xmlNode *node)
 {
-    char *id = parse_attribute(p, node, "quantity");
+    const char *id = parse_attribute(p, node, "quantity");
     wt_quantity quantity = WT_Q_NONE;
     if (id != NULL && !wt_quantity_find(id, &quantity))
         parse_complain(p, node, "unknown quantity", "a quantity of the schema", id);
-    free(id);
     return quantity;
 }
 
@@ -41,9 +40,7 @@ static void read_detect(description_parser *p, const xmlNode *detect)
     bool decides = false;
     int score = 0;
     d->probes = parse_room(p, detect, NULL, sizeof *d->probes);
-    for (const xmlNode *c = detect->children; c != NULL && p->status == WT_OK; c = c->next) {
-        if (c->type != XML_ELEMENT_NODE)
-            continue;
+    for (const xmlNode *c = NULL; (c = parse_next(p, detect, c, NULL)) != NULL;) {
         text_probe *probe = &d->probes[d->n_probes++];
         for (size_t k = 0; k < 4; k++)
             if (parse_is(c, kinds[k]))
@@ -68,6 +65,7 @@ static void read_detect(description_parser *p, const xmlNode *detect)
                        "no score in any element");
 }
 
+/* The words of an attribute. */
 static void read_list(description_parser *p, const xmlNode *node, const char *name, char ***items,
                       size_t *n)
 {
@@ -78,20 +76,11 @@ static void read_list(description_parser *p, const xmlNode *node, const char *na
         return;
     for (const char *c = text; *c != '\0'; c++)
         most += *c == ' ';
-    *items = calloc(most, sizeof **items);
+    *items = parse_alloc(p, most, sizeof **items);
     if (*items == NULL)
-        parse_no_memory(p);
-    else
-        for (char *word = strtok_r(text, " ", &rest); word != NULL;
-             word = strtok_r(NULL, " ", &rest)) {
-            (*items)[*n] = strdup(word);
-            if ((*items)[*n] == NULL) {
-                parse_no_memory(p);
-                break;
-            }
-            (*n)++;
-        }
-    free(text);
+        return;
+    for (char *word = strtok_r(text, " ", &rest); word != NULL; word = strtok_r(NULL, " ", &rest))
+        (*items)[(*n)++] = word;
 }
 
 static void read_text(description_parser *p, const xmlNode *node)
@@ -112,15 +101,9 @@ static void read_text(description_parser *p, const xmlNode *node)
     d->comment = parse_attribute(p, node, "comment");
     read_list(p, node, "missing", &d->missing, &d->n_missing);
     read_list(p, node, "widths", &widths, &n);
-    d->widths = calloc(n + 1, sizeof *d->widths);
-    if (d->widths == NULL)
-        parse_no_memory(p);
-    for (size_t i = 0; i < n; i++) {
-        if (d->widths != NULL)
-            d->widths[d->n_widths++] = (size_t)strtoul(widths[i], NULL, 10);
-        free(widths[i]);
-    }
-    free(widths);
+    d->widths = parse_alloc(p, n, sizeof *d->widths);
+    for (size_t i = 0; i < n && d->widths != NULL; i++)
+        d->widths[d->n_widths++] = (size_t)strtoul(widths[i], NULL, 10);
     bool fixed = d->separator == SEPARATOR_FIXED || d->names_separator == SEPARATOR_FIXED;
     if (fixed != (n > 0))
         parse_complain(p, node, "fixed columns and their widths belong together",
@@ -136,9 +119,7 @@ static void read_header(description_parser *p, const xmlNode *node)
     static const char *const sets[] = {"decimal", "separator"};
     text_description *d = p->d;
     d->fields = parse_room(p, node, "field", sizeof *d->fields);
-    for (const xmlNode *c = node->children; c != NULL && p->status == WT_OK; c = c->next) {
-        if (!parse_is(c, "field"))
-            continue;
+    for (const xmlNode *c = NULL; (c = parse_next(p, node, c, "field")) != NULL;) {
         header_field *field = &d->fields[d->n_fields++];
         field->name = parse_attribute(p, c, "name");
         field->group = parse_count(p, c, "group", 1);
@@ -178,16 +159,10 @@ static void read_columns(description_parser *p, const xmlNode *table)
     text_description *d = p->d;
     size_t n = 0;
     d->rules = parse_room(p, table, "column", sizeof *d->rules);
-    for (const xmlNode *c = table->children; c != NULL; c = c->next)
-        if (parse_is(c, "column"))
-            for (const xmlNode *name = c->children; name != NULL; name = name->next)
-                n += parse_is(name, "name");
-    d->names = calloc(n + 1, sizeof *d->names);
-    if (d->names == NULL)
-        parse_no_memory(p);
-    for (const xmlNode *c = table->children; c != NULL && p->status == WT_OK; c = c->next) {
-        if (!parse_is(c, "column"))
-            continue;
+    for (const xmlNode *c = NULL; (c = parse_next(p, table, c, "column")) != NULL;)
+        n += parse_children(p, c, "name");
+    d->names = parse_alloc(p, n, sizeof *d->names);
+    for (const xmlNode *c = NULL; (c = parse_next(p, table, c, "column")) != NULL;) {
         column_rule *rule = &d->rules[d->n_rules];
         size_t kind = parse_one_of(p, c, "segment", segment_kinds, N_KINDS, N_KINDS);
         rule->quantity = quantity_attribute(p, c);
@@ -197,10 +172,7 @@ static void read_columns(description_parser *p, const xmlNode *table)
         rule->segment = kind < N_KINDS ? (wt_segment_kind)kind : WT_SEGMENT_OTHER;
         rule->negate = parse_true(p, c, "negate");
         check_unit(p, c, rule->unit, rule->quantity);
-        for (const xmlNode *name = c->children; name != NULL && p->status == WT_OK;
-             name = name->next) {
-            if (!parse_is(name, "name"))
-                continue;
+        for (const xmlNode *name = NULL; (name = parse_next(p, c, name, "name")) != NULL;) {
             d->names[d->n_names].rule = d->n_rules;
             d->names[d->n_names].name = parse_normalised(p, parse_content(p, name));
             if (p->status == WT_OK)
@@ -233,18 +205,17 @@ static void read_table(description_parser *p, const xmlNode *table)
     d->steps = parse_room(p, table, "step", sizeof *d->steps);
     d->ends = parse_room(p, table, "end", sizeof *d->ends);
     d->aliases = parse_room(p, table, "unit", sizeof *d->aliases);
-    for (const xmlNode *c = table->children; c != NULL && p->status == WT_OK; c = c->next) {
-        if (parse_is(c, "step")) {
-            step_marker *step = &d->steps[d->n_steps++];
-            step->title_next = parse_one_of(p, c, "title", titles, 2, 0) == 1;
-            parse_pattern(p, c, "regex", &step->pattern, step->title_next ? 0 : 1);
-        } else if (parse_is(c, "end")) {
-            parse_pattern(p, c, "regex", &d->ends[d->n_ends++], 0);
-        } else if (parse_is(c, "unit")) {
-            unit_alias *alias = &d->aliases[d->n_aliases++];
-            alias->found = parse_attribute(p, c, "found");
-            alias->means = parse_attribute(p, c, "means");
-        }
+    for (const xmlNode *c = NULL; (c = parse_next(p, table, c, "step")) != NULL;) {
+        step_marker *step = &d->steps[d->n_steps++];
+        step->title_next = parse_one_of(p, c, "title", titles, 2, 0) == 1;
+        parse_pattern(p, c, "regex", &step->pattern, step->title_next ? 0 : 1);
+    }
+    for (const xmlNode *c = NULL; (c = parse_next(p, table, c, "end")) != NULL;)
+        parse_pattern(p, c, "regex", &d->ends[d->n_ends++], 0);
+    for (const xmlNode *c = NULL; (c = parse_next(p, table, c, "unit")) != NULL;) {
+        unit_alias *alias = &d->aliases[d->n_aliases++];
+        alias->found = parse_attribute(p, c, "found");
+        alias->means = parse_attribute(p, c, "means");
     }
     if (p->status == WT_OK)
         read_columns(p, table);
@@ -252,14 +223,18 @@ static void read_table(description_parser *p, const xmlNode *table)
 
 static void read_isotherms(description_parser *p, const xmlNode *node)
 {
-    char *jump = parse_attribute(p, node, "temperature-jump");
+    const char *jump = parse_attribute(p, node, "temperature-jump");
     p->d->group = parse_normalised(p, parse_attribute(p, node, "group"));
     if (jump != NULL && (wt_quantity_parse(jump, WT_Q_TEMPERATURE_DIFFERENCE,
                                            &p->d->temperature_jump, NULL) != WT_OK ||
                          !(p->d->temperature_jump > 0)))
         parse_complain(p, node, "not a temperature difference",
                        "a positive one with its unit, \"5 K\"", jump);
-    free(jump);
+}
+
+static wt_segment_kind kind_attribute(description_parser *p, const xmlNode *node)
+{
+    return (wt_segment_kind)parse_one_of(p, node, "kind", segment_kinds, N_KINDS, WT_SEGMENT_OTHER);
 }
 
 static void read_segments(description_parser *p, const xmlNode *node)
@@ -270,18 +245,15 @@ static void read_segments(description_parser *p, const xmlNode *node)
     d->turning_point = parse_true(p, node, "turning-point");
     d->markers = parse_room(p, node, "marker", sizeof *d->markers);
     d->values = parse_room(p, node, "value", sizeof *d->values);
-    for (const xmlNode *c = node->children; c != NULL && p->status == WT_OK; c = c->next) {
-        if (parse_is(c, "marker")) {
-            segment_marker *marker = &d->markers[d->n_markers++];
-            marker->kind = (wt_segment_kind)parse_one_of(p, c, "kind", segment_kinds, N_KINDS,
-                                                         WT_SEGMENT_OTHER);
-            parse_pattern(p, c, "regex", &marker->pattern, 0);
-        } else if (parse_is(c, "value")) {
-            segment_marker *value = &d->values[d->n_values++];
-            value->kind = (wt_segment_kind)parse_one_of(p, c, "kind", segment_kinds, N_KINDS,
-                                                        WT_SEGMENT_OTHER);
-            value->text = parse_attribute(p, c, "text");
-        }
+    for (const xmlNode *c = NULL; (c = parse_next(p, node, c, "marker")) != NULL;) {
+        segment_marker *marker = &d->markers[d->n_markers++];
+        marker->kind = kind_attribute(p, c);
+        parse_pattern(p, c, "regex", &marker->pattern, 0);
+    }
+    for (const xmlNode *c = NULL; (c = parse_next(p, node, c, "value")) != NULL;) {
+        segment_marker *value = &d->values[d->n_values++];
+        value->kind = kind_attribute(p, c);
+        value->text = parse_attribute(p, c, "text");
     }
     if ((d->segment_column != NULL) != (d->n_values > 0))
         parse_complain(p, node, "a segment column and its values belong together",
@@ -291,14 +263,13 @@ static void read_segments(description_parser *p, const xmlNode *node)
 
 static unsigned read_kinds(description_parser *p, const xmlNode *root)
 {
-    char *text = parse_attribute(p, root, "kinds");
+    const char *text = parse_attribute(p, root, "kinds");
     unsigned kinds = 0;
     if (text != NULL) {
         kinds |= strstr(text, "force") != NULL ? WT_KIND_FORCE : 0u;
         kinds |= strstr(text, "sweep") != NULL ? WT_KIND_SWEEP : 0u;
         kinds |= strstr(text, "spectrum") != NULL ? WT_KIND_SPECTRUM : 0u;
     }
-    free(text);
     return kinds;
 }
 
@@ -315,10 +286,10 @@ void parse_format(description_parser *p, const xmlNode *root)
     d->version = parse_attribute(p, root, "version");
     d->kinds = read_kinds(p, root);
     d->verified = parse_true(p, root, "verified");
-    d->title = parse_content(p, parse_child(root, "title"));
-    d->evidence = parse_content(p, parse_child(root, "evidence"));
+    d->title = parse_content(p, parse_next(p, root, NULL, "title"));
+    d->evidence = parse_content(p, parse_next(p, root, NULL, "evidence"));
     for (size_t i = 0; i < sizeof parts / sizeof *parts && p->status == WT_OK; i++) {
-        const xmlNode *node = parse_child(root, parts[i].name);
+        const xmlNode *node = parse_next(p, root, NULL, parts[i].name);
         if (node != NULL)
             parts[i].read(p, node);
     }

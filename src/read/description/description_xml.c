@@ -28,15 +28,28 @@ void parse_complain(description_parser *p, const xmlNode *node, const char *mess
     wt_error_advice(p->err, "see weartrack-format(5)");
 }
 
+void *parse_alloc(description_parser *p, size_t n, size_t size)
+{
+    void *items = pool_alloc(&p->d->memory, n, size);
+    if (items == NULL)
+        parse_no_memory(p);
+    return items;
+}
+
+char *parse_text(description_parser *p, const char *text, size_t length)
+{
+    char *copy = pool_text(&p->d->memory, text, length);
+    if (copy == NULL)
+        parse_no_memory(p);
+    return copy;
+}
+
 static char *copy_xml(description_parser *p, xmlChar *text)
 {
-    char *copy = NULL;
-    if (text != NULL) {
-        copy = strdup((const char *)text);
-        if (copy == NULL)
-            parse_no_memory(p);
-        xmlFree(text);
-    }
+    if (text == NULL)
+        return NULL;
+    char *copy = parse_text(p, (const char *)text, strlen((const char *)text));
+    xmlFree(text);
     return copy;
 }
 
@@ -50,82 +63,69 @@ char *parse_content(description_parser *p, const xmlNode *node)
     return copy_xml(p, xmlNodeGetContent(node));
 }
 
-char *parse_normalised(description_parser *p, char *text)
+char *parse_normalised(description_parser *p, const char *text)
 {
     char name[NAME_MAX];
-    char *copy = NULL;
     if (text == NULL)
         return NULL;
     name_normalise(text, strlen(text), name);
-    free(text);
-    copy = strdup(name);
-    if (copy == NULL)
-        parse_no_memory(p);
-    return copy;
+    return parse_text(p, name, strlen(name));
 }
 
 bool parse_true(description_parser *p, const xmlNode *node, const char *name)
 {
-    char *text = parse_attribute(p, node, name);
-    bool yes = text != NULL && (strcmp(text, "true") == 0 || strcmp(text, "1") == 0);
-    free(text);
-    return yes;
+    const char *text = parse_attribute(p, node, name);
+    return text != NULL && (strcmp(text, "true") == 0 || strcmp(text, "1") == 0);
 }
 
 /* Of texts that the schema has checked, so the list is complete. */
 size_t parse_one_of(description_parser *p, const xmlNode *node, const char *name,
                     const char *const words[], size_t n, size_t absent)
 {
-    char *text = parse_attribute(p, node, name);
-    size_t i = absent;
-    if (text != NULL)
-        for (i = 0; i + 1 < n && strcmp(text, words[i]) != 0;)
-            i++;
-    free(text);
+    const char *text = parse_attribute(p, node, name);
+    size_t i = 0;
+    if (text == NULL)
+        return absent;
+    while (i + 1 < n && strcmp(text, words[i]) != 0)
+        i++;
     return i;
 }
 
 size_t parse_count(description_parser *p, const xmlNode *node, const char *name, size_t absent)
 {
-    char *text = parse_attribute(p, node, name);
-    size_t value = text != NULL ? (size_t)strtoul(text, NULL, 10) : absent;
-    free(text);
-    return value;
+    const char *text = parse_attribute(p, node, name);
+    return text != NULL ? (size_t)strtoul(text, NULL, 10) : absent;
 }
 
 bool parse_is(const xmlNode *node, const char *name)
 {
-    return node->type == XML_ELEMENT_NODE && strcmp((const char *)node->name, name) == 0;
+    return node->type == XML_ELEMENT_NODE &&
+           (name == NULL || strcmp((const char *)node->name, name) == 0);
 }
 
-const xmlNode *parse_child(const xmlNode *node, const char *name)
+const xmlNode *parse_next(const description_parser *p, const xmlNode *node, const xmlNode *after,
+                          const char *name)
 {
-    const xmlNode *c = node->children;
+    const xmlNode *c = after != NULL ? after->next : node->children;
     while (c != NULL && !parse_is(c, name))
         c = c->next;
-    return c;
+    return p->status == WT_OK ? c : NULL;
+}
+
+size_t parse_children(const description_parser *p, const xmlNode *node, const char *name)
+{
+    size_t n = 0;
+    for (const xmlNode *c = NULL; (c = parse_next(p, node, c, name)) != NULL;)
+        n++;
+    return n;
 }
 
 void *parse_room(description_parser *p, const xmlNode *node, const char *name, size_t size)
 {
-    size_t n = 0;
-    for (const xmlNode *c = node->children; c != NULL; c = c->next)
-        n += name == NULL || parse_is(c, name);
-    void *items = calloc(n + 1, size);
-    if (items == NULL)
-        parse_no_memory(p);
-    return items;
+    return parse_alloc(p, parse_children(p, node, name), size);
 }
 
 /* ---- regular expressions ------------------------------------------------------------------ */
-
-bool pattern_match(const line_pattern *pattern, const char *line, size_t length, regmatch_t *groups,
-                   size_t n)
-{
-    if (length > PATTERN_LINE_MAX || (pattern->first != '\0' && line[0] != pattern->first))
-        return false;
-    return regexec(&pattern->regex, line, n, groups, 0) == 0;
-}
 
 /* Each + doubles what stands before it when the expression is compiled, nested ones again. */
 enum { MOST_PLUSES = 16 };
@@ -206,7 +206,6 @@ void parse_pattern(description_parser *p, const xmlNode *node, const char *name,
     if (what != NULL) {
         parse_complain(p, node, "regular expression not accepted", "an extended POSIX expression",
                        what);
-        free(source);
         return;
     }
     tabulators(source);
@@ -214,12 +213,13 @@ void parse_pattern(description_parser *p, const xmlNode *node, const char *name,
     if (code != 0) {
         regerror(code, &pattern->regex, message, sizeof message);
         parse_complain(p, node, message, "an extended POSIX regular expression", source);
-    } else {
-        pattern->compiled = true;
-        pattern->first = first_byte(source);
-        if (pattern->regex.re_nsub < groups)
-            parse_complain(p, node, "regular expression without a group",
-                           "parentheses around the part that is the value", source);
+        return;
     }
-    free(source);
+    pattern->compiled = true;
+    pattern->first = first_byte(source);
+    pattern->next = p->d->patterns;
+    p->d->patterns = pattern;
+    if (pattern->regex.re_nsub < groups)
+        parse_complain(p, node, "regular expression without a group",
+                       "parentheses around the part that is the value", source);
 }

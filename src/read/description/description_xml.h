@@ -21,19 +21,26 @@ void parse_no_memory(description_parser *p);
 /* "FILE: line 12, element column: MESSAGE; expected ...; found ..." */
 void parse_complain(description_parser *p, const xmlNode *node, const char *message,
                     const char *expected, const char *found);
-/* New strings; NULL if the attribute is absent. */
+/* Memory of the description, zeroed; NULL, and a failure, when there is none. */
+void *parse_alloc(description_parser *p, size_t n, size_t size);
+char *parse_text(description_parser *p, const char *text, size_t length);
+/* NULL if the attribute is absent. */
 char *parse_attribute(description_parser *p, const xmlNode *node, const char *name);
 char *parse_content(description_parser *p, const xmlNode *node);
-/* The text as a normalised name; frees the text. */
-char *parse_normalised(description_parser *p, char *text);
+/* The text as a normalised name; NULL of NULL. */
+char *parse_normalised(description_parser *p, const char *text);
 bool parse_true(description_parser *p, const xmlNode *node, const char *name);
 /* Index of an attribute in n words; `absent` if it is not there. */
 size_t parse_one_of(description_parser *p, const xmlNode *node, const char *name,
                     const char *const words[], size_t n, size_t absent);
 size_t parse_count(description_parser *p, const xmlNode *node, const char *name, size_t absent);
 bool parse_is(const xmlNode *node, const char *name);
-const xmlNode *parse_child(const xmlNode *node, const char *name);
-/* Zeroed room for as many items as `node` has children of that name (NULL: of any name). */
+/* The next child element of that name (NULL: of any) behind `after` (NULL: the first); NULL at the
+ * end, and after a failure. */
+const xmlNode *parse_next(const description_parser *p, const xmlNode *node, const xmlNode *after,
+                          const char *name);
+size_t parse_children(const description_parser *p, const xmlNode *node, const char *name);
+/* Room for as many items as `node` has children of that name. */
 void *parse_room(description_parser *p, const xmlNode *node, const char *name, size_t size);
 /* Compiles an attribute that is a regular expression with at least so many groups. */
 void parse_pattern(description_parser *p, const xmlNode *node, const char *name,

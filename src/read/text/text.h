@@ -32,6 +32,8 @@ wt_status lines_decode(const unsigned char *bytes, size_t length, text_encoding 
 const char *lines_encoding(const unsigned char *bytes, size_t length, text_encoding encoding);
 void lines_free(text_lines *lines);
 const char *lines_get(const text_lines *lines, size_t i, size_t *length); /* zero-terminated */
+/* Takes the comment mark off the beginning; false if there is none. */
+bool line_uncomment(const text_description *description, const char **line, size_t *length);
 
 /* ---- cells -------------------------------------------------------------------------------- */
 
@@ -50,6 +52,7 @@ const char *separator_name(cell_separator separator); /* "tab"; static */
 bool cells_split(text_cells *cells, const char *line, size_t length, cell_separator separator,
                  const text_description *description);
 bool cells_blank(const text_cells *cells);
+bool cell_is(text_cell cell, const char *text);
 
 typedef enum cell_kind { CELL_NUMBER, CELL_MISSING, CELL_TEXT } cell_kind;
 /* A number, an empty cell (also "--", "nan", 1e99 and what the description lists; *value is NaN) or
@@ -108,10 +111,16 @@ typedef struct text_table {
 #define ROW_KIND_NONE 255u
 
 typedef struct field_value {
-    char *text; /* as found, NULL if the line was not there */
-    size_t line;
+    size_t line;    /* 0 if it was not there */
+    char text[208]; /* as found */
     char unit[32];
 } field_value;
+
+/* Texts found in a file. */
+typedef struct text_list {
+    char **items;
+    size_t n;
+} text_list;
 
 /* Everything that a description finds in a file. */
 typedef struct text_file {
@@ -121,10 +130,9 @@ typedef struct text_file {
     text_table *tables;
     size_t n_tables, capacity;
     field_value *values; /* [n_fields] of the description, as last seen */
-    char **unknown;      /* names of columns that no rule knows, each once */
-    size_t n_unknown;
-    char **steps; /* titles of steps without a table, each once */
-    size_t n_steps;
+    text_list unknown;   /* names of columns that no rule knows, each once */
+    text_list steps;     /* titles of steps without a table */
+    pool memory;         /* of the lists, the values and the columns of the tables */
 } text_file;
 
 /* Runs the description over the input. `kinds`: the names row of a table must suffice for one of
@@ -133,6 +141,16 @@ wt_status text_scan(const text_description *description, wt_input *input, unsign
                     const wt_read_options *options, wt_parselog *log, text_file *file,
                     wt_error *err);
 void text_file_free(text_file *file);
+/* Adds a copy of a text, unless the list has `most` already. */
+wt_status text_list_add(text_file *file, text_list *list, size_t most, text_cell text,
+                        wt_error *err);
+/* "line 12", for messages. */
+typedef struct text_place {
+    char words[32];
+} text_place;
+text_place line_place(size_t line);
+/* Does the description promise data of the kind, and do the tables have its columns? */
+bool text_has(const text_file *file, unsigned kind);
 /* The column of a quantity, or NULL; segment < 0: any. */
 const text_column *text_table_column(const text_table *table, wt_quantity quantity, int segment);
 /* Column number i of row r. */
@@ -164,6 +182,8 @@ typedef struct names_row {
 bool names_known(const text_description *description, text_cell cell, size_t *first, size_t *n,
                  text_cell *unit);
 
+/* The part of a line where names would stand; false if it cannot be a names row. */
+bool names_part(const text_description *description, const char **line, size_t *length);
 /* Splits `line` and tells whether its cells name enough columns for one of `kinds`. With an auto
  * separator the one that names most columns is taken. False also when `no_memory`. */
 bool names_match(names_row *names, const text_description *description, const char *line,

@@ -153,6 +153,11 @@ bool cells_blank(const text_cells *cells)
     return true;
 }
 
+bool cell_is(text_cell cell, const char *text)
+{
+    return strlen(text) == cell.length && memcmp(text, cell.text, cell.length) == 0;
+}
+
 static bool is_missing(text_cell cell, const text_description *d)
 {
     static const char *const usual[] = {"-",       "--",     "---",    "nan",  "n/a",
@@ -164,8 +169,7 @@ static bool is_missing(text_cell cell, const text_description *d)
         if (strlen(usual[i]) == cell.length && strncasecmp(usual[i], cell.text, cell.length) == 0)
             return true;
     for (size_t i = 0; i < d->n_missing; i++)
-        if (strlen(d->missing[i]) == cell.length &&
-            memcmp(d->missing[i], cell.text, cell.length) == 0)
+        if (cell_is(cell, d->missing[i]))
             return true;
     return false;
 }

@@ -26,7 +26,7 @@ static wt_status add_header(const text_file *file, wt_table *facts, wt_error *er
 {
     wt_status status = WT_OK;
     for (size_t i = 0; i < file->description->n_fields && status == WT_OK; i++)
-        if (file->values[i].text != NULL)
+        if (file->values[i].line > 0)
             status = add(facts, file->description->fields[i].name, file->values[i].text,
                          file->values[i].unit, file->values[i].line, err);
     return status;
@@ -200,10 +200,10 @@ static wt_status add_layout(const text_file *file, wt_table *facts, wt_error *er
         status = facts_count(facts, "tables", file->n_tables, "", err);
     for (size_t i = 0; i < file->n_tables && i < TABLES_SHOWN && status == WT_OK; i++)
         status = add_table(file, i, facts, err);
-    for (size_t i = 0; i < file->n_steps && status == WT_OK; i++)
-        status = facts_add(facts, "step without a table that is understood", file->steps[i], "", "",
-                           err);
-    if (status == WT_OK && file->n_unknown > 0) {
+    for (size_t i = 0; i < file->steps.n && status == WT_OK; i++)
+        status = facts_add(facts, "step without a table that is understood", file->steps.items[i],
+                           "", "", err);
+    if (status == WT_OK && file->unknown.n > 0) {
         char names[4096];
         text_unknown(file, names, sizeof names);
         status = facts_add(facts, "columns not used", names, "", "", err);
@@ -222,24 +222,20 @@ wt_status text_describe(const file_reader *self, wt_input *input, const wt_read_
         return status;
     if (text_scan(description, input, description->kinds, options, log, &file, &problem) != WT_OK)
         return add_problem(facts, &problem, err);
-    wt_quantity_set all = 0;
-    for (size_t i = 0; i < file.n_tables; i++)
-        all |= file.tables[i].quantities;
     status = add_layout(&file, facts, err);
     if (status == WT_OK && file.n_tables == 0) {
         (void)text_nothing(&file, "table that is understood", &problem);
         status = add_problem(facts, &problem, err);
     }
-    const bool many = (description->kinds & (description->kinds - 1)) != 0;
-    if (status == WT_OK && file.n_tables > 0 && (description->kinds & WT_KIND_SWEEP) != 0 &&
-        (!many || quantities_suffice(all, WT_KIND_SWEEP)))
+    const bool has_sweep = text_has(&file, WT_KIND_SWEEP) && file.n_tables > 0;
+    const bool has_force = text_has(&file, WT_KIND_FORCE);
+    const bool has_spectrum = text_has(&file, WT_KIND_SPECTRUM);
+    if (status == WT_OK && has_sweep)
         status = add_sweep(&file, options, log, facts, err);
     text_file_free(&file);
-    if (status == WT_OK && (description->kinds & WT_KIND_FORCE) != 0 &&
-        (!many || quantities_suffice(all, WT_KIND_FORCE)))
+    if (status == WT_OK && has_force)
         status = add_force(self, input, options, facts, err);
-    if (status == WT_OK && (description->kinds & WT_KIND_SPECTRUM) != 0 &&
-        (!many || quantities_suffice(all, WT_KIND_SPECTRUM)))
+    if (status == WT_OK && has_spectrum)
         status = add_spectrum(self, input, options, facts, err);
     return status;
 }

@@ -34,20 +34,17 @@ static void set_declared(text_scanner *s, field_sets sets, const char *text, siz
     }
 }
 
-static wt_status set_field(text_scanner *s, size_t f, size_t line_number, const char *line,
-                           const regmatch_t groups[GROUPS])
+static void set_field(text_scanner *s, size_t f, size_t line_number, const char *line,
+                      const regmatch_t groups[GROUPS])
 {
     const header_field *field = &s->d->fields[f];
     field_value *value = &s->file->values[f];
-    char place[32];
     const regmatch_t *found = &groups[field->group];
     const char *text = line + found->rm_so;
     const size_t length = (size_t)(found->rm_eo - found->rm_so);
-    char *copy = strndup(text, utf8_cut(text, length, 200));
-    if (copy == NULL)
-        return scan_no_memory(s);
-    free(value->text);
-    value->text = copy;
+    const size_t kept = utf8_cut(text, length, 200);
+    memcpy(value->text, text, kept);
+    value->text[kept] = '\0';
     value->line = line_number;
     value->unit[0] = '\0';
     if (field->unit_group > 0 && groups[field->unit_group].rm_so >= 0)
@@ -57,59 +54,52 @@ static wt_status set_field(text_scanner *s, size_t f, size_t line_number, const 
         snprintf(value->unit, sizeof value->unit, "%s", field->unit);
     set_declared(s, field->sets, text, length);
     if (field->quantity == WT_Q_NONE)
-        return WT_OK;
+        return;
     double number, factor, offset;
     const char *unit = value->unit;
     for (size_t i = 0; i < s->d->n_aliases; i++)
         if (strcmp(s->d->aliases[i].found, unit) == 0)
             unit = s->d->aliases[i].means;
-    snprintf(place, sizeof place, "line %zu", line_number);
+    const text_place place = line_place(line_number);
     if (!wt_number_parse(text, length, '.', &number) &&
         !wt_number_parse(text, length, ',', &number)) {
-        wt_parselog_add(s->log, WT_NOTE, s->file->name, place, "%s: \"%s\" is not a number",
+        wt_parselog_add(s->log, WT_NOTE, s->file->name, place.words, "%s: \"%s\" is not a number",
                         field->name, value->text);
-        return WT_OK;
+        return;
     }
     if (wt_unit_to_si(unit, field->quantity, &factor, &offset, NULL) != WT_OK) {
-        wt_parselog_add(s->log, WT_WARNING, s->file->name, place,
+        wt_parselog_add(s->log, WT_WARNING, s->file->name, place.words,
                         "%s: \"%s\" is not a unit of %s; the value is left out", field->name, unit,
                         wt_quantity_id(field->quantity));
-        return WT_OK;
+        return;
     }
     const header_value h = header_of(field->quantity);
     if (h < HEADER_COUNT) {
         s->header.value[h] = factor * number + offset;
         s->header.fallback[h] = field->fallback;
     }
-    return WT_OK;
+    return;
 }
 
-wt_status scan_fields(text_scanner *s, size_t line_number, const char *line, size_t length)
+void scan_fields(text_scanner *s, size_t line_number, const char *line, size_t length)
 {
-    wt_status status = WT_OK;
-    for (size_t f = 0; f < s->d->n_fields && status == WT_OK; f++) {
+    for (size_t f = 0; f < s->d->n_fields; f++) {
         regmatch_t groups[GROUPS];
         for (size_t g = 0; g < GROUPS; g++)
             groups[g].rm_so = groups[g].rm_eo = -1;
         if (pattern_match(&s->d->fields[f].pattern, line, length, groups, GROUPS) &&
             groups[s->d->fields[f].group].rm_so >= 0)
-            status = set_field(s, f, line_number, line, groups);
+            set_field(s, f, line_number, line, groups);
     }
-    return status;
 }
 
 wt_status scan_finish_step(text_scanner *s)
 {
-    text_file *file = s->file;
-    if (s->step_line == 0 || s->step_has_table || file->n_steps >= STEPS_MAX)
+    const char *title = s->title[0] != '\0' ? s->title : "(no title)";
+    if (s->step_line == 0 || s->step_has_table)
         return WT_OK;
-    if (file->steps == NULL)
-        file->steps = calloc(STEPS_MAX, sizeof *file->steps);
-    char *copy = file->steps != NULL ? strdup(s->title[0] != '\0' ? s->title : "(no title)") : NULL;
-    if (copy == NULL)
-        return scan_no_memory(s);
-    file->steps[file->n_steps++] = copy;
-    return WT_OK;
+    return text_list_add(s->file, &s->file->steps, STEPS_MAX, (text_cell){title, strlen(title)},
+                         s->err);
 }
 
 void scan_close(text_scanner *s)

@@ -187,3 +187,13 @@ const char *lines_get(const text_lines *lines, size_t i, size_t *length)
     *length = lines->lines[i].length;
     return lines->text + lines->lines[i].start;
 }
+
+bool line_uncomment(const text_description *d, const char **line, size_t *length)
+{
+    const size_t n = d->comment != NULL ? strlen(d->comment) : 0;
+    if (n == 0 || *length < n || memcmp(*line, d->comment, n) != 0)
+        return false;
+    *line += n;
+    *length -= n;
+    return true;
+}

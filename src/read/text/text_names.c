@@ -45,6 +45,14 @@ bool name_unit(const char *name, size_t *length, text_cell *unit)
     return false;
 }
 
+bool names_part(const text_description *d, const char **line, size_t *length)
+{
+    if (d->has_names_line)
+        return pattern_part(&d->names_line, line, length);
+    (void)line_uncomment(d, line, length);
+    return true;
+}
+
 bool names_known(const text_description *d, text_cell cell, size_t *first, size_t *n,
                  text_cell *unit)
 {
@@ -80,14 +88,6 @@ static size_t count_known(const text_description *d, const text_cells *cells, wt
     return known;
 }
 
-static bool suffices(wt_quantity_set set, unsigned kinds)
-{
-    for (unsigned kind = 1; kind <= WT_KIND_SPECTRUM; kind *= 2)
-        if ((kinds & kind) != 0 && quantities_suffice(set, kind))
-            return true;
-    return false;
-}
-
 static size_t try_separator(names_row *names, const text_description *d, const char *line,
                             size_t length, cell_separator separator, unsigned kinds)
 {
@@ -99,7 +99,7 @@ static size_t try_separator(names_row *names, const text_description *d, const c
     if (names->names.n > COLUMNS_MAX)
         return 0;
     size_t known = count_known(d, &names->names, &set);
-    return suffices(set, kinds) ? known : 0;
+    return quantities_suffice(set, kinds) ? known : 0;
 }
 
 bool names_match(names_row *names, const text_description *d, const char *line, size_t length,
@@ -189,12 +189,13 @@ typedef struct resolver {
     const wt_read_options *options;
 } resolver;
 
-static bool has_name(const resolver *r, const char *name)
+static size_t find_cell(const resolver *r, const char *name)
 {
-    for (size_t i = 0; i < r->names->names.n; i++)
-        if (strcmp(r->normalised[i], name) == 0)
-            return true;
-    return false;
+    if (name != NULL)
+        for (size_t i = 0; i < r->names->names.n; i++)
+            if (strcmp(r->normalised[i], name) == 0)
+                return i;
+    return SIZE_MAX;
 }
 
 static bool is_taken(const text_table *table, const column_rule *rule)
@@ -234,7 +235,7 @@ static text_column resolve_column(const resolver *r, size_t cell, size_t first, 
         const column_rule *rule = &r->d->rules[r->d->names[k].rule];
         double factor = 1, offset = 0;
         bool good;
-        if (rule->with != NULL && !has_name(r, rule->with)) {
+        if (rule->with != NULL && find_cell(r, rule->with) == SIZE_MAX) {
             if (column.rule == NULL)
                 column.rule = rule;
             continue;
@@ -264,19 +265,10 @@ static text_column resolve_column(const resolver *r, size_t cell, size_t first, 
 
 static wt_status add_unknown(text_file *file, text_cell cell, wt_error *err)
 {
-    if (file->n_unknown >= UNKNOWN_MAX)
-        return WT_OK;
-    for (size_t i = 0; i < file->n_unknown; i++)
-        if (strlen(file->unknown[i]) == cell.length &&
-            memcmp(file->unknown[i], cell.text, cell.length) == 0)
+    for (size_t i = 0; i < file->unknown.n; i++)
+        if (cell_is(cell, file->unknown.items[i]))
             return WT_OK;
-    if (file->unknown == NULL)
-        file->unknown = calloc(UNKNOWN_MAX, sizeof *file->unknown);
-    char *copy = file->unknown != NULL ? strndup(cell.text, cell.length) : NULL;
-    if (copy == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the names of columns");
-    file->unknown[file->n_unknown++] = copy;
-    return WT_OK;
+    return text_list_add(file, &file->unknown, UNKNOWN_MAX, cell, err);
 }
 
 /* A column that does not fit (F beside f, in newton) is just another one where the quantity is
@@ -297,15 +289,6 @@ static wt_status settle_problems(const names_row *names, text_file *file, text_t
     return status;
 }
 
-static size_t find_cell(const resolver *r, const char *name)
-{
-    if (name != NULL)
-        for (size_t i = 0; i < r->names->names.n; i++)
-            if (strcmp(r->normalised[i], name) == 0)
-                return i;
-    return SIZE_MAX;
-}
-
 wt_status names_resolve(const names_row *names, text_file *file, text_table *table,
                         const wt_read_options *options, wt_error *err)
 {
@@ -314,8 +297,8 @@ wt_status names_resolve(const names_row *names, text_file *file, text_table *tab
     resolver r = {.d = d, .names = names, .table = table, .options = options};
     wt_status status = WT_OK;
     r.normalised = calloc(n_cells, sizeof *r.normalised);
-    table->columns = calloc(n_cells, sizeof *table->columns);
-    table->problems = calloc(n_cells, sizeof *table->problems);
+    table->columns = pool_alloc(&file->memory, n_cells, sizeof *table->columns);
+    table->problems = pool_alloc(&file->memory, n_cells, sizeof *table->problems);
     if (r.normalised == NULL || table->columns == NULL || table->problems == NULL) {
         free(r.normalised);
         return wt_fail(err, WT_E_MEMORY, "no memory for the columns of a table");

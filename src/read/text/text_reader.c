@@ -31,21 +31,6 @@ static bool is_binary(const file_peek *peek)
     return 10 * zeros > 6 * n || 20 * controls > n;
 }
 
-static bool names_line(names_row *names, const text_description *d, const char *line, size_t length)
-{
-    if (d->has_names_line) {
-        regmatch_t groups[2] = {{-1, -1}, {-1, -1}};
-        if (!pattern_match(&d->names_line, line, length, groups, 2) || groups[1].rm_so < 0)
-            return false;
-        line += groups[1].rm_so;
-        length = (size_t)(groups[1].rm_eo - groups[1].rm_so);
-    } else if (d->comment != NULL && strncmp(line, d->comment, strlen(d->comment)) == 0) {
-        line += strlen(d->comment);
-        length -= strlen(d->comment);
-    }
-    return names_match(names, d, line, length, d->names_separator, d->kinds);
-}
-
 static probe_result look_for(const text_description *d, const text_probe *probe,
                              const text_lines *lines, bool whole)
 {
@@ -57,7 +42,8 @@ static probe_result look_for(const text_description *d, const text_probe *probe,
         size_t length;
         const char *line = lines_get(lines, i, &length);
         if (probe->kind == PROBE_NAMES)
-            found = names_line(&names, d, line, length);
+            found = names_part(d, &line, &length) &&
+                    names_match(&names, d, line, length, d->names_separator, d->kinds);
         else if (probe->text != NULL)
             found = strstr(line, probe->text) != NULL;
         else

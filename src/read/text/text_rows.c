@@ -63,8 +63,7 @@ static unsigned char segment_kind(const text_scanner *s)
         return s->kind;
     const text_cell cell = s->row.cells[i];
     for (size_t v = 0; v < s->d->n_values; v++)
-        if (strlen(s->d->values[v].text) == cell.length &&
-            memcmp(s->d->values[v].text, cell.text, cell.length) == 0)
+        if (cell_is(cell, s->d->values[v].text))
             return (unsigned char)s->d->values[v].kind;
     return WT_SEGMENT_OTHER;
 }
@@ -125,12 +124,9 @@ wt_status scan_add_row(text_scanner *s, size_t line_number)
     size_t last = 0;
     for (size_t c = 0; c < t->n_columns; c++)
         last = t->columns[c].cell > last ? t->columns[c].cell : last;
-    if (s->row.n <= last) {
-        char place[32];
-        snprintf(place, sizeof place, "line %zu", line_number);
-        wt_parselog_add(s->log, WT_NOTE, s->file->name, place,
+    if (s->row.n <= last)
+        wt_parselog_add(s->log, WT_NOTE, s->file->name, line_place(line_number).words,
                         "row with fewer cells than columns; the missing ones are empty");
-    }
     follow_groups(s);
     if (!s->snapshot) {
         t->header = s->header;

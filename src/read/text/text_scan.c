@@ -10,12 +10,6 @@
 
 #define TABLES_MAX ((size_t)100000)
 
-static bool starts_with(const char *line, size_t length, const char *prefix)
-{
-    size_t n = strlen(prefix);
-    return length >= n && memcmp(line, prefix, n) == 0;
-}
-
 /* ---- beginning of a table ----------------------------------------------------------------- */
 
 static wt_status new_table(text_scanner *s, size_t line_number)
@@ -43,16 +37,6 @@ static wt_status new_table(text_scanner *s, size_t line_number)
     s->snapshot = false;
     s->blank = false;
     return WT_OK;
-}
-
-/* Text without the comment mark in front. */
-static void uncomment(const text_scanner *s, const char **line, size_t *length)
-{
-    if (s->d->comment != NULL && starts_with(*line, *length, s->d->comment)) {
-        size_t n = strlen(s->d->comment);
-        *line += n;
-        *length -= n;
-    }
 }
 
 /* Could the row be units? Not if a known column holds a number. */
@@ -95,7 +79,7 @@ static wt_status find_units(text_scanner *s, size_t *last)
         size_t length;
         const char *line = lines_get(lines, i, &length);
         if (s->comment_names)
-            uncomment(s, &line, &length);
+            (void)line_uncomment(s->d, &line, &length);
         if (!cells_split(&s->names.units, line, length, s->names.separator, s->d))
             return scan_no_memory(s);
         if (cells_blank(&s->names.units))
@@ -161,17 +145,10 @@ static wt_status match_names(text_scanner *s, size_t *i, const char *line, size_
     wt_status status;
     cell_separator separator = d->names_separator;
     *is = false;
-    if (d->has_names_line) {
-        regmatch_t groups[2] = {{-1, -1}, {-1, -1}};
-        if (!pattern_match(&d->names_line, line, length, groups, 2) || groups[1].rm_so < 0)
-            return WT_OK;
-        line += groups[1].rm_so;
-        length = (size_t)(groups[1].rm_eo - groups[1].rm_so);
-    } else if (comment) {
-        uncomment(s, &line, &length);
-    }
     if (separator == SEPARATOR_AUTO)
         separator = s->separator;
+    if (!names_part(d, &line, &length))
+        return WT_OK;
     if (!names_match(&s->names, d, line, length, separator, s->kinds))
         return s->names.no_memory ? scan_no_memory(s) : WT_OK;
     *is = true;
@@ -200,8 +177,7 @@ static wt_status header_line(text_scanner *s, size_t *i, const char *line, size_
         return WT_OK;
     }
     wt_status status = scan_marks(s, *i + 1, line, length, &is);
-    if (status == WT_OK)
-        status = scan_fields(s, *i + 1, line, length);
+    scan_fields(s, *i + 1, line, length);
     if (status == WT_OK && !is)
         status = match_names(s, i, line, length, comment, &is);
     return status;
@@ -222,9 +198,7 @@ static wt_status watch_orphan(text_scanner *s, size_t line_number, const char *l
         return scan_no_memory(s);
     if (s->row.n < t->n_names || scan_read_row(s, &bad) != ROW_GOOD)
         return WT_OK;
-    char place[32];
-    snprintf(place, sizeof place, "line %zu", line_number);
-    wt_parselog_add(s->log, WT_WARNING, s->file->name, place,
+    wt_parselog_add(s->log, WT_WARNING, s->file->name, line_place(line_number).words,
                     "row of numbers after the end of its table, not read");
     return WT_OK;
 }
@@ -248,8 +222,10 @@ static wt_status table_line(text_scanner *s, size_t *i, const char *line, size_t
     wt_status status = d->row_prefix == NULL ? scan_marks(s, *i + 1, line, length, &is) : WT_OK;
     if (status != WT_OK)
         return status;
-    if (is)
-        return scan_fields(s, *i + 1, line, length);
+    if (is) {
+        scan_fields(s, *i + 1, line, length);
+        return WT_OK;
+    }
     status = scan_grow(s);
     if (status != WT_OK)
         return status;
@@ -268,10 +244,10 @@ static wt_status table_line(text_scanner *s, size_t *i, const char *line, size_t
 static wt_status units_line(text_scanner *s, size_t *i, const char *line, size_t length,
                             bool comment)
 {
-    regmatch_t groups[2] = {{-1, -1}, {-1, -1}};
-    if (pattern_match(&s->d->units_line, line, length, groups, 2) && groups[1].rm_so >= 0) {
-        if (!cells_split(&s->names.units, line + groups[1].rm_so,
-                         (size_t)(groups[1].rm_eo - groups[1].rm_so), s->names.separator, s->d))
+    const char *units = line;
+    size_t n = length;
+    if (pattern_part(&s->d->units_line, &units, &n)) {
+        if (!cells_split(&s->names.units, units, n, s->names.separator, s->d))
             return scan_no_memory(s);
         return begin_rows(s, *i);
     }
@@ -290,7 +266,9 @@ static wt_status walk(text_scanner *s)
     for (size_t i = 0; i < lines->n && status == WT_OK; i++) {
         size_t length;
         const char *line = lines_get(lines, i, &length);
-        bool comment = s->d->comment != NULL && starts_with(line, length, s->d->comment);
+        const char *rest = line;
+        size_t rest_length = length;
+        const bool comment = line_uncomment(s->d, &rest, &rest_length);
         if (s->state == SCAN_UNITS) {
             status = units_line(s, &i, line, length, comment);
         } else if (comment) {
@@ -309,8 +287,6 @@ static wt_status walk(text_scanner *s)
 
 static void free_table(text_table *t)
 {
-    free(t->columns);
-    free(t->problems);
     free(t->values);
     free(t->blocks);
     free(t->kinds);
@@ -395,7 +371,7 @@ wt_status text_scan(const text_description *description, wt_input *input, unsign
     if (status == WT_OK)
         status = lines_decode(bytes, length, description->encoding, &made.lines, err);
     if (status == WT_OK) {
-        made.values = calloc(description->n_fields + 1, sizeof *made.values);
+        made.values = pool_alloc(&made.memory, description->n_fields, sizeof *made.values);
         status = made.values != NULL ? walk(&s) : scan_no_memory(&s);
     }
     if (status == WT_OK)
@@ -417,16 +393,8 @@ void text_file_free(text_file *file)
 {
     for (size_t i = 0; i < file->n_tables; i++)
         free_table(&file->tables[i]);
-    for (size_t i = 0; file->values != NULL && i < file->description->n_fields; i++)
-        free(file->values[i].text);
-    for (size_t i = 0; i < file->n_unknown; i++)
-        free(file->unknown[i]);
-    for (size_t i = 0; i < file->n_steps; i++)
-        free(file->steps[i]);
     free(file->tables);
-    free(file->values);
-    free(file->unknown);
-    free(file->steps);
+    pool_free(&file->memory);
     lines_free(&file->lines);
     *file = (text_file){0};
 }

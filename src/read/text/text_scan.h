@@ -54,7 +54,7 @@ static inline wt_status scan_no_memory(text_scanner *s)
 /* ---- text_header.c ------------------------------------------------------------------------ */
 
 /* Header values on a line. */
-wt_status scan_fields(text_scanner *s, size_t line_number, const char *line, size_t length);
+void scan_fields(text_scanner *s, size_t line_number, const char *line, size_t length);
 /* Step, end and segment markers. *is says whether the line is one. */
 wt_status scan_marks(text_scanner *s, size_t line_number, const char *line, size_t length,
                      bool *is);

@@ -140,7 +140,6 @@ static void set_source(const builder *b, wt_isotherm *isotherm)
 static wt_status flush(builder *b)
 {
     double low = (double)INFINITY, high = 0;
-    char place[32];
     const char *title = b->table->title;
     for (size_t i = 0; i < b->n; i++) {
         low = fmin(low, angular(b, b->rows[i]));
@@ -149,8 +148,7 @@ static wt_status flush(builder *b)
     if (b->n == 0)
         return WT_OK;
     if (!(high > low * (1 + same_frequency))) {
-        snprintf(place, sizeof place, "line %zu", b->table->names_line);
-        wt_parselog_add(b->log, WT_NOTE, b->file->name, place,
+        wt_parselog_add(b->log, WT_NOTE, b->file->name, line_place(b->table->names_line).words,
                         "%s%s%zu points at one frequency: not a frequency sweep, left out", title,
                         title[0] != '\0' ? ": " : "", b->n);
         b->n = 0;
@@ -204,13 +202,10 @@ static wt_status split_table(builder *b)
     }
     if (status == WT_OK)
         status = flush(b);
-    if (dropped > 0) {
-        char place[32];
-        snprintf(place, sizeof place, "line %zu", t->names_line);
-        wt_parselog_add(b->log, WT_NOTE, b->file->name, place,
+    if (dropped > 0)
+        wt_parselog_add(b->log, WT_NOTE, b->file->name, line_place(t->names_line).words,
                         "%zu rows without a positive frequency or without a modulus left out",
                         dropped);
-    }
     return status;
 }
 
@@ -277,9 +272,9 @@ wt_status text_sweep(const text_file *file, const wt_read_options *options, wt_p
                      .err = err};
         status = read_table(&b);
     }
-    for (size_t i = 0; i < file->n_steps; i++)
+    for (size_t i = 0; i < file->steps.n; i++)
         wt_parselog_add(log, WT_NOTE, file->name, NULL, "step without a frequency sweep: %s",
-                        file->steps[i]);
+                        file->steps.items[i]);
     if (status == WT_OK && made.n_isotherms == 0)
         status = text_nothing(file, "frequency sweep", err);
     if (status == WT_OK)

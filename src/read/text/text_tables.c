@@ -6,6 +6,37 @@
 
 #include <string.h>
 
+wt_status text_list_add(text_file *file, text_list *list, size_t most, text_cell text,
+                        wt_error *err)
+{
+    if (list->n >= most)
+        return WT_OK;
+    if (list->items == NULL)
+        list->items = pool_alloc(&file->memory, most, sizeof *list->items);
+    char *copy = list->items != NULL ? pool_text(&file->memory, text.text, text.length) : NULL;
+    if (copy == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for the names in the file");
+    list->items[list->n++] = copy;
+    return WT_OK;
+}
+
+text_place line_place(size_t line)
+{
+    text_place place;
+    snprintf(place.words, sizeof place.words, "line %zu", line);
+    return place;
+}
+
+bool text_has(const text_file *file, unsigned kind)
+{
+    const unsigned kinds = file->description->kinds;
+    const bool many = (kinds & (kinds - 1)) != 0;
+    wt_quantity_set found = 0;
+    for (size_t i = 0; i < file->n_tables; i++)
+        found |= file->tables[i].quantities;
+    return (kinds & kind) != 0 && (!many || quantities_suffice(found, kind));
+}
+
 const text_column *text_table_column(const text_table *table, wt_quantity quantity, int segment)
 {
     for (size_t i = 0; i < table->n_columns; i++) {
@@ -84,28 +115,13 @@ wt_status text_table_problem(const text_file *file, const text_table *table,
     return WT_OK;
 }
 
-static wt_quantity_set essential(unsigned kind)
-{
-    switch (kind) {
-    case WT_KIND_SWEEP:
-        return WT_Q_BIT(WT_Q_FREQUENCY) | WT_Q_BIT(WT_Q_ANGULAR_FREQUENCY) |
-               WT_Q_BIT(WT_Q_STORAGE_MODULUS) | WT_Q_BIT(WT_Q_LOSS_MODULUS) |
-               WT_Q_BIT(WT_Q_SHEAR_STORAGE_MODULUS) | WT_Q_BIT(WT_Q_SHEAR_LOSS_MODULUS);
-    case WT_KIND_FORCE:
-        return WT_Q_BIT(WT_Q_HEIGHT) | WT_Q_BIT(WT_Q_MEASURED_HEIGHT) | WT_Q_BIT(WT_Q_FORCE) |
-               WT_Q_BIT(WT_Q_DEFLECTION) | WT_Q_BIT(WT_Q_DEFLECTION_VOLTAGE);
-    default:
-        return WT_Q_BIT(WT_Q_WAVENUMBER) | WT_Q_BIT(WT_Q_POWER_SPECTRUM_2D) |
-               WT_Q_BIT(WT_Q_POWER_SPECTRUM_1D);
-    }
-}
-
 wt_status text_table_require(const text_file *file, const text_table *table, unsigned kind,
                              wt_error *err)
 {
     if (quantities_suffice(table->quantities, kind))
         return WT_OK;
-    wt_status status = text_table_problem(file, table, essential(kind), err);
+    wt_status status =
+        text_table_problem(file, table, quantities_of(kind) & ~WT_Q_BIT(WT_Q_LOSS_FACTOR), err);
     if (status != WT_OK)
         return status;
     wt_fail(err, WT_E_MISSING, "columns are missing");
@@ -119,15 +135,15 @@ void text_unknown(const text_file *file, char *names, size_t size)
 {
     size_t used = 0;
     names[0] = '\0';
-    for (size_t i = 0; i < file->n_unknown; i++) {
-        const size_t length = strlen(file->unknown[i]) + (i > 0 ? 2 : 0);
+    for (size_t i = 0; i < file->unknown.n; i++) {
+        const size_t length = strlen(file->unknown.items[i]) + (i > 0 ? 2 : 0);
         /* Room for what says that there are more. */
         if (used + length + 5 > size) {
             memcpy(names + used, " ...", 5);
             return;
         }
         used += (size_t)snprintf(names + used, size - used, "%s%s", i > 0 ? ", " : "",
-                                 file->unknown[i]);
+                                 file->unknown.items[i]);
     }
 }
 
@@ -135,7 +151,7 @@ void text_log_unknown(const text_file *file, wt_parselog *log)
 {
     char names[256];
     text_unknown(file, names, sizeof names);
-    if (file->n_unknown > 0)
+    if (file->unknown.n > 0)
         wt_parselog_add(log, WT_NOTE, file->name, NULL, "columns not used: %s", names);
 }
 
@@ -143,14 +159,14 @@ wt_status text_nothing(const text_file *file, const char *what, wt_error *err)
 {
     char steps[160] = "";
     size_t used = 0;
-    for (size_t i = 0; i < file->n_steps && used < sizeof steps; i++) {
+    for (size_t i = 0; i < file->steps.n && used < sizeof steps; i++) {
         int n = snprintf(steps + used, sizeof steps - used, "%s\"%s\"", i > 0 ? ", " : "",
-                         file->steps[i]);
+                         file->steps.items[i]);
         used += n > 0 ? (size_t)n : 0;
     }
     wt_fail(err, WT_E_EMPTY, "no %s in it", what);
     wt_error_file(err, file->name);
-    if (file->n_steps > 0)
+    if (file->steps.n > 0)
         wt_error_found(err, "%s", steps);
     return WT_E_EMPTY;
 }

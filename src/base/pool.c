@@ -1,0 +1,37 @@
+/* Memory that is freed together. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/pool.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+void *pool_alloc(pool *memory, size_t n, size_t size)
+{
+    if (memory->n == memory->capacity) {
+        const size_t capacity = memory->capacity > 0 ? 2 * memory->capacity : 64;
+        void **blocks = realloc(memory->blocks, capacity * sizeof *blocks);
+        if (blocks == NULL)
+            return NULL;
+        memory->blocks = blocks;
+        memory->capacity = capacity;
+    }
+    void *block = calloc(n > 0 ? n : 1, size);
+    if (block != NULL)
+        memory->blocks[memory->n++] = block;
+    return block;
+}
+
+char *pool_text(pool *memory, const char *text, size_t length)
+{
+    char *copy = pool_alloc(memory, length + 1, 1);
+    if (copy != NULL && length > 0)
+        memcpy(copy, text, length);
+    return copy;
+}
+
+void pool_free(pool *memory)
+{
+    for (size_t i = 0; i < memory->n; i++)
+        free(memory->blocks[i]);
+    free(memory->blocks);
+    *memory = (pool){0};
+}

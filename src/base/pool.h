@@ -1,0 +1,22 @@
+/* Memory that is freed together.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#ifndef WT_BASE_POOL_H
+#define WT_BASE_POOL_H
+
+#include <stddef.h>
+
+/* Zero-initialised is empty. */
+typedef struct pool {
+    void **blocks;
+    size_t n, capacity;
+} pool;
+
+/* n zeroed items; NULL when out of memory. */
+void *pool_alloc(pool *memory, size_t n, size_t size);
+/* A copy with a terminating zero. */
+char *pool_text(pool *memory, const char *text, size_t length);
+void pool_free(pool *memory);
+
+#endif

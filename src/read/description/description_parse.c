@@ -1,0 +1,170 @@
+/* From the XML of a format description to what the engine runs.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "read/description/description_xml.h"
+#include "read/embedded_formats.h"
+
+#include <libxml/parser.h>
+#include <libxml/xmlschemas.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- schema ------------------------------------------------------------------------------- */
+
+struct description_xsd {
+    xmlSchemaPtr schema;
+};
+
+static const embedded_text *embedded_schema(void)
+{
+    const embedded_text *e = embedded_formats;
+    while (e->name != NULL && strcmp(e->name, "weartrack-format.xsd") != 0)
+        e++;
+    return e;
+}
+
+const char *wt_formats_schema(void)
+{
+    return embedded_schema()->text;
+}
+
+static void keep_quiet(void *user, xmlErrorPtr error)
+{
+    (void)user;
+    (void)error;
+}
+
+wt_status description_xsd_new(description_xsd **schema, wt_error *err)
+{
+    const embedded_text *text = embedded_schema();
+    wt_status status = WT_E_INTERNAL;
+    description_xsd *made = calloc(1, sizeof *made);
+    xmlSchemaParserCtxtPtr context = NULL;
+    if (made == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for the schema of descriptions");
+    context = xmlSchemaNewMemParserCtxt(text->text, (int)text->length);
+    if (context != NULL) {
+        xmlSchemaSetParserStructuredErrors(context, keep_quiet, NULL);
+        made->schema = xmlSchemaParse(context);
+        xmlSchemaFreeParserCtxt(context);
+    }
+    if (made->schema != NULL) {
+        *schema = made;
+        return WT_OK;
+    }
+    free(made);
+    return wt_fail(err, status, "the schema of descriptions cannot be compiled");
+}
+
+void description_xsd_free(description_xsd *schema)
+{
+    if (schema == NULL)
+        return;
+    xmlSchemaFree(schema->schema);
+    free(schema);
+}
+
+/* ---- document ----------------------------------------------------------------------------- */
+
+static void explain(description_parser *p, const xmlError *error, const char *otherwise)
+{
+    char text[256];
+    const char *message = error != NULL && error->message != NULL ? error->message : otherwise;
+    size_t length = strcspn(message, "\r\n");
+    if (p->status != WT_OK)
+        return;
+    snprintf(text, sizeof text, "%.*s", (int)(length < 255 ? length : 255), message);
+    p->status = wt_fail(p->err, WT_E_SCHEMA, "%s", text);
+    wt_error_file(p->err, p->name);
+    if (error != NULL && error->line > 0)
+        wt_error_place(p->err, "line %d", error->line);
+    wt_error_advice(p->err, "see weartrack-format(5)");
+}
+
+static void first_complaint(void *user, xmlErrorPtr error)
+{
+    explain(user, error, "not valid");
+}
+
+static void validate(description_parser *p, const description_xsd *schema, xmlDocPtr document)
+{
+    xmlSchemaValidCtxtPtr context = xmlSchemaNewValidCtxt(schema->schema);
+    if (context == NULL) {
+        parse_no_memory(p);
+        return;
+    }
+    xmlSchemaSetValidStructuredErrors(context, first_complaint, p);
+    if (xmlSchemaValidateDoc(context, document) != 0)
+        explain(p, NULL, "the document does not follow the schema of descriptions");
+    xmlSchemaFreeValidCtxt(context);
+}
+
+wt_status description_parse(const description_xsd *schema, const char *xml, size_t length,
+                            const char *name, text_description **description, wt_error *err)
+{
+    const size_t most = (size_t)1 << 20;
+    /* Complaints about an encoding go to standard error unless this thread has a handler. */
+    const xmlStructuredErrorFunc previous = xmlStructuredError;
+    void *const previous_context = xmlStructuredErrorContext;
+    description_parser p = {.name = name, .status = WT_OK, .err = err};
+    xmlParserCtxtPtr context = NULL;
+    xmlDocPtr document = NULL;
+    if (length > most) {
+        wt_fail(err, WT_E_SCHEMA, "too long for a format description");
+        wt_error_file(err, name);
+        wt_error_expected(err, "at most 1 MiB");
+        return WT_E_SCHEMA;
+    }
+    p.d = calloc(1, sizeof *p.d);
+    context = xmlNewParserCtxt();
+    if (p.d == NULL || context == NULL) {
+        parse_no_memory(&p);
+        goto done;
+    }
+    p.d->temperature_jump = (double)NAN;
+    p.d->xml = parse_text(&p, xml, length);
+    if (p.status != WT_OK)
+        goto done;
+    xmlSetStructuredErrorFunc(NULL, keep_quiet);
+    document = xmlCtxtReadMemory(context, xml, (int)length, NULL, NULL,
+                                 XML_PARSE_NONET | XML_PARSE_NOERROR | XML_PARSE_NOWARNING |
+                                     XML_PARSE_NOCDATA);
+    if (document == NULL) {
+        explain(&p, xmlCtxtGetLastError(context), "not well-formed XML");
+        goto done;
+    }
+    if (document->intSubset != NULL) {
+        explain(&p, NULL, "a document type or entities are not allowed in a description");
+        goto done;
+    }
+    validate(&p, schema, document);
+    if (p.status == WT_OK)
+        parse_format(&p, xmlDocGetRootElement(document));
+done:
+    xmlSetStructuredErrorFunc(previous_context, previous);
+    xmlFreeDoc(document);
+    if (context != NULL)
+        xmlFreeParserCtxt(context);
+    if (p.status == WT_OK)
+        *description = p.d;
+    else
+        description_free(p.d);
+    return p.status;
+}
+
+wt_status description_parse_file(const description_xsd *schema, const char *path,
+                                 text_description **description, wt_error *err)
+{
+    wt_input *input = NULL;
+    const unsigned char *bytes = NULL;
+    size_t length = 0;
+    wt_status status = wt_input_open(path, &input, err);
+    if (status == WT_OK)
+        status = wt_input_bytes(input, &bytes, &length, err);
+    if (status == WT_OK)
+        status = description_parse(schema, (const char *)bytes, length, path, description, err);
+    wt_input_close(input);
+    return status;
+}
