@@ -8,7 +8,6 @@ cmake_minimum_required(VERSION 3.25)
 # Ties that are still to be cut, each "FILE > FILE".
 set(known
   "data/table.c > data/table_key.c"
-  "fit/shift.c > fit/wlf_fit.c"
   "flow/answer/answer.c > flow/answer/caveats.c"
   "report/page.c > report/report.c"
 )

@@ -29,39 +29,13 @@ wt_case *case_new(void)
     return c;
 }
 
-void *case_alloc(wt_case *c, size_t size)
-{
-    if (c->n_blocks == c->blocks_capacity) {
-        size_t grown = c->blocks_capacity == 0 ? 64 : c->blocks_capacity * 2;
-        void **blocks = realloc(c->blocks, grown * sizeof *blocks);
-        if (blocks == NULL)
-            return NULL;
-        c->blocks = blocks;
-        c->blocks_capacity = grown;
-    }
-    void *block = calloc(1, size > 0 ? size : 1);
-    if (block != NULL)
-        c->blocks[c->n_blocks++] = block;
-    return block;
-}
-
-char *case_text(wt_case *c, const char *text, size_t length)
-{
-    char *copy = case_alloc(c, length + 1);
-    if (copy != NULL)
-        memcpy(copy, text, length);
-    return copy;
-}
-
 void wt_case_free(wt_case *c)
 {
     if (c == NULL)
         return;
     for (case_setting *s = c->settings; s != NULL; s = s->next)
         wt_params_clear(s->params, s->structure, &s->given);
-    for (size_t i = 0; i < c->n_blocks; i++)
-        free(c->blocks[i]);
-    free(c->blocks);
+    pool_free(&c->memory);
     free(c);
 }
 

@@ -3,6 +3,7 @@
 #ifndef WEARTRACK_FLOW_CASE_H
 #define WEARTRACK_FLOW_CASE_H
 
+#include "base/pool.h"
 #include "weartrack/flow.h"
 #include "weartrack/report.h"
 
@@ -27,8 +28,7 @@ typedef struct case_setting {
 } case_setting;
 
 struct wt_case {
-    void **blocks; /* everything the case owns, freed together */
-    size_t n_blocks, blocks_capacity;
+    pool memory;            /* of everything the case owns */
     case_setting *settings; /* the last one first */
     const char *path, *folder;
     const char *xml; /* the file as it was read */
@@ -42,7 +42,7 @@ struct wt_case {
     case_files dma;
     wt_master_job master;
     bool has_prony; /* given inline */
-    wt_prony prony; /* its arrays are among the blocks */
+    wt_prony prony; /* its arrays are in the memory of the case */
     bool has_wlf;
     case_wlf wlf;
 
@@ -68,10 +68,6 @@ struct wt_case {
 
 /* A case in which nothing is given; NULL when out of memory. */
 wt_case *case_new(void);
-/* Zeroed memory that lives as long as the case; NULL when out of memory. */
-void *case_alloc(wt_case *c, size_t size);
-char *case_text(wt_case *c, const char *text, size_t length);
-
 /* A case from the bytes of its file; `path` names it and its folder. */
 wt_status case_from_bytes(const void *bytes, size_t length, const char *path, wt_case **out,
                           wt_error *err) WT_NODISCARD;

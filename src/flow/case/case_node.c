@@ -58,7 +58,7 @@ static wt_status keep(wt_case *c, xmlChar *raw, const char **text, wt_error *err
         size_t length = strlen(begin);
         while (length > 0 && strchr(blanks, begin[length - 1]) != NULL)
             length--;
-        copy = case_text(c, begin, length);
+        copy = pool_text(&c->memory, begin, length);
     }
     xmlFree(raw);
     if (copy == NULL)
@@ -97,7 +97,7 @@ static wt_status read_param(wt_case *c, const xmlNode *section, const char *para
 wt_status case_read_params(wt_case *c, const xmlNode *section, const wt_params *params,
                            void *structure, wt_error *err)
 {
-    case_setting *setting = case_alloc(c, sizeof *setting);
+    case_setting *setting = pool_alloc(&c->memory, 1, sizeof *setting);
     if (setting == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     *setting = (case_setting){params, structure, 0, c->settings};

@@ -181,9 +181,9 @@ wt_status case_from_bytes(const void *bytes, size_t length, const char *path, wt
     folder = wt_path_folder(path);
     if (c != NULL && folder != NULL) {
         c->xml_length = length;
-        c->path = case_text(c, path, strlen(path));
-        c->folder = case_text(c, folder, strlen(folder));
-        c->xml = case_text(c, bytes, length);
+        c->path = pool_text(&c->memory, path, strlen(path));
+        c->folder = pool_text(&c->memory, folder, strlen(folder));
+        c->xml = pool_text(&c->memory, bytes, length);
     }
     status = c == NULL || c->path == NULL || c->folder == NULL || c->xml == NULL
                  ? wt_fail(err, WT_E_MEMORY, "out of memory")

@@ -100,9 +100,9 @@ static wt_status read_terms(wt_case *c, const xmlNode *node, wt_error *err)
     size_t n = 0;
     for (const xmlNode *t = case_child(node, "term"); t != NULL; t = case_next(t, "term"))
         n++;
-    term *terms = case_alloc(c, n * sizeof *terms);
-    p->relaxation_time = case_alloc(c, n * sizeof *p->relaxation_time);
-    p->modulus = case_alloc(c, n * sizeof *p->modulus);
+    term *terms = pool_alloc(&c->memory, n, sizeof *terms);
+    p->relaxation_time = pool_alloc(&c->memory, n, sizeof *p->relaxation_time);
+    p->modulus = pool_alloc(&c->memory, n, sizeof *p->modulus);
     if (terms == NULL || p->relaxation_time == NULL || p->modulus == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (const xmlNode *t = case_child(node, "term"); status == WT_OK && t != NULL;
@@ -218,7 +218,7 @@ wt_status case_read_report(wt_case *c, const xmlNode *section, wt_error *err)
             continue;
         n += strcmp((const char *)node->name, "figure") == 0 ? FLOW_MOST_TABLES : 1;
     }
-    c->asked = case_alloc(c, n * sizeof *c->asked);
+    c->asked = pool_alloc(&c->memory, n, sizeof *c->asked);
     if (status == WT_OK && c->asked == NULL)
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
     for (const xmlNode *node = section->children; status == WT_OK && node != NULL;
