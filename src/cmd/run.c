@@ -83,6 +83,105 @@ static const wt_param own_rows[] = {
 };
 PARAM_LOCAL_TABLE(own_params, own_options, own_rows, no_options, NO_PARTS)
 
+/* One call. */
+typedef struct run_call {
+    const char *path; /* of the case */
+    cmd_common common;
+    own_options own;
+    wt_run_options run;
+    wt_report_options report;
+    wt_case *the_case;
+    wt_table *plan;
+    wt_parselog *log;
+    wt_result *result;
+    char *result_name, *folder_name;
+} run_call;
+
+/* Everything that can be refused is refused before the work begins. */
+static wt_status prepare(run_call *r, wt_error *err)
+{
+    r->result_name =
+        r->common.output != NULL ? strdup(r->common.output) : default_name(r->path, ".h5");
+    r->folder_name =
+        r->own.report != NULL ? strdup(r->own.report) : default_name(r->path, "-report");
+    r->log = wt_parselog_new();
+    if (r->result_name == NULL || r->folder_name == NULL || r->log == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    wt_status status = wt_plan(r->the_case, &r->plan, err);
+    if (status != WT_OK)
+        return status;
+    if (!any_stage(r->plan)) {
+        wt_fail(err, WT_E_EMPTY, "nothing to do: the case gives no stage what it needs");
+        wt_error_file(err, r->path);
+        wt_error_advice(err, "`weartrack run --plan` says what each stage lacks");
+        return WT_E_EMPTY;
+    }
+    r->report.with_provenance = r->common.provenance;
+    return r->own.no_report ? WT_OK : wt_report_check(r->folder_name, &r->report, err);
+}
+
+static wt_status compute(run_call *r, size_t *n_failed, wt_error *err)
+{
+    cmd_progress progress;
+    r->run.progress = cmd_progress_start(&progress, r->common.quiet);
+    r->run.no_timing = !r->common.provenance;
+    r->run.formats = r->common.formats;
+    wt_status status = wt_run(r->the_case, &r->run, r->log, &r->result, n_failed, err);
+    cmd_progress_end(&progress);
+    cmd_print_log("run", r->log, false, r->common.quiet);
+    if (r->result != NULL && *n_failed > 0)
+        cmd_print_failures("run", wt_result_find(r->result, "failures"));
+    if (status == WT_OK)
+        status = cmd_provenance(r->result, cmd_full_argc, cmd_full_argv, err);
+    if (status == WT_OK)
+        status = cmd_check_output(r->result_name, r->result, err);
+    if (status == WT_OK)
+        status = wt_store_write(r->result_name, r->result, r->common.provenance, err);
+    return status;
+}
+
+static wt_status draw(run_call *r, wt_error *err)
+{
+    cmd_progress progress;
+    r->run.progress = cmd_progress_start(&progress, r->common.quiet);
+    cmd_catch_interruptions();
+    wt_status status =
+        wt_report_write(r->result, r->folder_name, &r->report, &r->run.progress, err);
+    cmd_progress_end(&progress);
+    if (status == WT_OK && !r->common.quiet)
+        fprintf(stderr, "report page: %s/index.html\n", r->folder_name);
+    return status;
+}
+
+static int run_case(run_call *r, bool style_given)
+{
+    wt_error err = WT_ERROR_INIT;
+    size_t n_failed = 0;
+    wt_status status = wt_case_read(r->path, &r->the_case, &err);
+    if (status == WT_OK && r->own.plan) {
+        status = wt_plan(r->the_case, &r->plan, &err);
+        if (status != WT_OK)
+            return cmd_fail("run", &err);
+        print_plan(r->plan);
+        return CMD_OK;
+    }
+    if (status == WT_OK && !style_given)
+        r->report.style = wt_case_style(r->the_case);
+    if (status == WT_OK)
+        status = prepare(r, &err);
+    if (status == WT_OK)
+        status = compute(r, &n_failed, &err);
+    if (status != WT_OK)
+        return cmd_fail("run", &err);
+    print_answer(r->result);
+    fflush(stdout); /* it stands, whatever becomes of the pictures */
+    if (!r->common.quiet)
+        fprintf(stderr, "result: %s\n", r->result_name);
+    if (!r->own.no_report && draw(r, &err) != WT_OK)
+        return cmd_fail("run", &err);
+    return n_failed > 0 ? CMD_FAILED : CMD_OK;
+}
+
 int cmd_run(int argc, char **argv)
 {
     static const cmd_usage usage = {
@@ -92,109 +191,33 @@ int cmd_run(int argc, char **argv)
         "formats provenance",
         "--style replaces that of the case.\n"
         "Exit status 1 if a file of the case failed; the rest is answered all the same."};
-    cmd_common common = cmd_common_defaults();
-    own_options own = no_options();
-    wt_run_options run_options = wt_run_defaults();
-    wt_report_options report_options = wt_report_defaults();
-    cmd_part parts[] = {{output_params(), &common, NULL, 0},
-                        {own_params(), &own, NULL, 0},
-                        {wt_report_params(), &report_options, "style", 0},
-                        {wt_run_params(), &run_options, NULL, 0}};
+    run_call r = {.common = cmd_common_defaults(),
+                  .own = no_options(),
+                  .run = wt_run_defaults(),
+                  .report = wt_report_defaults()};
+    cmd_part parts[] = {{output_params(), &r.common, NULL, 0},
+                        {own_params(), &r.own, NULL, 0},
+                        {wt_report_params(), &r.report, "style", 0},
+                        {wt_run_params(), &r.run, NULL, 0}};
     int first = 0, status = CMD_OK;
-    wt_error err = WT_ERROR_INIT;
-    wt_case *the_case = NULL;
-    wt_parselog *log = NULL;
-    wt_result *result = NULL;
-    wt_table *plan = NULL;
-    char *result_name = NULL, *folder_name = NULL;
-    size_t n_failed = 0;
-
-    if (!cmd_parse(&usage, parts, sizeof parts / sizeof parts[0], &common, argc, argv, &first,
+    if (!cmd_parse(&usage, parts, sizeof parts / sizeof parts[0], &r.common, argc, argv, &first,
                    &status))
-        goto done;
-    if (argc - first != 1) {
-        status = cmd_usage_error("run", "one case file is needed; %d given", argc - first);
-        goto done;
-    }
-    const char *path = argv[first];
-    if (wt_case_read(path, &the_case, &err) != WT_OK)
-        goto fail;
-    if (own.plan) {
-        if (wt_plan(the_case, &plan, &err) != WT_OK)
-            goto fail;
-        print_plan(plan);
-        goto done;
-    }
-    result_name = common.output != NULL ? strdup(common.output) : default_name(path, ".h5");
-    folder_name = own.report != NULL ? strdup(own.report) : default_name(path, "-report");
-    log = wt_parselog_new();
-    if (result_name == NULL || folder_name == NULL || log == NULL) {
-        wt_fail(&err, WT_E_MEMORY, "out of memory");
-        goto fail;
-    }
-    if (strcmp(result_name, "-") == 0) {
-        status = cmd_usage_error("run", "the result is an HDF5 file and cannot go to a pipe");
-        goto done;
-    }
-    if (!cmd_is_store(result_name)) {
-        status = cmd_usage_error(
-            "run", "-o %s: the result is an HDF5 file; its name must end in .h5", result_name);
-        goto done;
-    }
-    if (wt_plan(the_case, &plan, &err) != WT_OK)
-        goto fail;
-    if (!any_stage(plan)) {
-        wt_fail(&err, WT_E_EMPTY, "nothing to do: the case gives no stage what it needs");
-        wt_error_file(&err, path);
-        wt_error_advice(&err, "`weartrack run --plan` says what each stage lacks");
-        goto fail;
-    }
-    if (!cmd_given(&parts[2], "style"))
-        report_options.style = wt_case_style(the_case);
-    report_options.with_provenance = common.provenance;
-    if (!own.no_report && wt_report_check(folder_name, &report_options, &err) != WT_OK)
-        goto fail;
-    cmd_progress progress;
-    run_options.progress = cmd_progress_start(&progress, common.quiet);
-    run_options.no_timing = !common.provenance;
-    run_options.formats = common.formats;
-    const wt_status ran = wt_run(the_case, &run_options, log, &result, &n_failed, &err);
-    cmd_progress_end(&progress);
-    cmd_print_log("run", log, false, common.quiet);
-    if (result != NULL && n_failed > 0) {
-        cmd_print_failures("run", wt_result_find(result, "failures"));
-        status = CMD_FAILED;
-    }
-    if (ran != WT_OK)
-        goto fail;
-    if (cmd_provenance(result, cmd_full_argc, cmd_full_argv, &err) != WT_OK ||
-        cmd_check_output(result_name, result, &err) != WT_OK ||
-        wt_store_write(result_name, result, common.provenance, &err) != WT_OK)
-        goto fail;
-    print_answer(result);
-    fflush(stdout); /* it stands, whatever becomes of the pictures */
-    if (!common.quiet)
-        fprintf(stderr, "result: %s\n", result_name);
-    if (!own.no_report) {
-        run_options.progress = cmd_progress_start(&progress, common.quiet);
-        cmd_catch_interruptions();
-        const wt_status drawn =
-            wt_report_write(result, folder_name, &report_options, &run_options.progress, &err);
-        cmd_progress_end(&progress);
-        if (drawn != WT_OK)
-            goto fail;
-        if (!common.quiet)
-            fprintf(stderr, "report page: %s/index.html\n", folder_name);
-    }
-    goto done;
-fail:
-    status = cmd_fail("run", &err);
-done:
-    free(result_name);
-    free(folder_name);
-    wt_table_free(plan);
-    wt_result_free(result);
-    wt_parselog_free(log);
-    wt_case_free(the_case);
+        return status;
+    const char *output = r.common.output;
+    if (argc - first != 1)
+        return cmd_usage_error("run", "one case file is needed; %d given", argc - first);
+    if (output != NULL && strcmp(output, "-") == 0)
+        return cmd_usage_error("run", "the result is an HDF5 file and cannot go to a pipe");
+    if (output != NULL && !cmd_is_store(output))
+        return cmd_usage_error("run", "-o %s: the result is an HDF5 file; its name must end in .h5",
+                               output);
+    r.path = argv[first];
+    status = run_case(&r, cmd_given(&parts[2], "style"));
+    free(r.result_name);
+    free(r.folder_name);
+    wt_table_free(r.plan);
+    wt_result_free(r.result);
+    wt_parselog_free(r.log);
+    wt_case_free(r.the_case);
     return status;
 }
