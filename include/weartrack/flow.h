@@ -36,7 +36,7 @@ WT_API wt_job wt_job_defaults(void);
 WT_API const wt_params *wt_job_params(void);
 WT_API wt_table *wt_failures_new(void); /* table "failures"; NULL when out of memory */
 
-/* Files that are read with the same options. */
+/* Files that are read with the same options. Begin with {.read = wt_read_defaults()}. */
 typedef struct wt_file_set {
     const char *const *patterns; /* [n_patterns] files, folders or shell patterns */
     size_t n_patterns;

@@ -37,10 +37,10 @@ WT_API wt_status wt_report_write(const wt_result *result, const char *folder,
 typedef struct wt_figure_info {
     const char *name; /* "force_displacement" */
     const char *title;
-    const char *const *needs; /* names of tables, NULL-terminated */
+    const char *table; /* it is drawn if a result has this table with a row at least */
 } wt_figure_info;
 WT_API size_t wt_figure_count(void);
-WT_API const wt_figure_info *wt_figure_get(size_t i);
+WT_API wt_figure_info wt_figure_get(size_t i); /* all NULL past the last one */
 
 #ifdef __cplusplus
 }

@@ -37,6 +37,8 @@ int cmd_report(int argc, char **argv)
     if (made == WT_OK)
         made = wt_report_write(result, common.output, &report_options, &progress, &err);
     cmd_progress_end(&state);
+    if ((made == WT_E_MISSING || made == WT_E_UNIT) && err.file[0] == '\0')
+        wt_error_file(&err, argv[first]); // what a table of it lacks
     if (made != WT_OK)
         status = cmd_fail("report", &err);
     else if (!common.quiet)

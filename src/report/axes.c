@@ -2,7 +2,6 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "report/cells.h"
 #include "report/drawing.h"
 
 #include <math.h>
@@ -24,21 +23,17 @@ void span_add(value_span *span, double value, bool positive_only)
     span->high = fmax(span->high, value);
 }
 
-void span_add_column(value_span *span, const wt_table *table, const char *column,
-                     bool positive_only)
+void span_add_column(value_span *span, const table_view *table, unsigned column, bool positive_only)
 {
-    long c = number_column(table, column);
-    if (c < 0)
-        return;
-    for (size_t row = 0; row < wt_table_n_rows(table); row++)
-        span_add(span, wt_table_number(table, row, (size_t)c), positive_only);
+    for (size_t row = 0; row < table->n_rows; row++)
+        span_add(span, view_number(table, table->schema, row, column), positive_only);
 }
 
-void span_add_section(value_span *span, const figure_drawing *d, int section, const char *column,
+void span_add_section(value_span *span, const figure_drawing *d, int section, size_t place,
                       bool positive_only)
 {
-    if (section >= 0)
-        span_add_column(span, d->sections[section], column, positive_only);
+    for (size_t row = 0; row < drawing_rows(d, section); row++)
+        span_add(span, wt_table_number(d->sections[section], row, place), positive_only);
 }
 
 static void write_label(figure_drawing *d, const char *axis, const char *label, const lab_unit *lab)
@@ -90,10 +85,11 @@ static double tidy_step(double width)
     return (part < 1.5 ? 1 : part < 2.25 ? 2 : part < 3.5 ? 2.5 : part < 7.5 ? 5 : 10) * power;
 }
 
-lab_unit axis_linear(figure_drawing *d, const char *axis, const char *label, const char *unit,
-                     const char *quantity, value_span span)
+void axis_linear(figure_drawing *d, const char *axis, const char *label,
+                 const schema_column *column, value_span span)
 {
-    lab_unit lab = lab_unit_for(unit, quantity, fmax(fabs(span.low), fabs(span.high)) / 2);
+    const char *unit = schema_column_unit(column);
+    lab_unit lab = lab_unit_for(column->quantity, unit, fmax(fabs(span.low), fabs(span.high)) / 2);
     double low = lab_value(&lab, span.low), high = lab_value(&lab, span.high);
     double size = fmax(fabs(high), fabs(low));
     if (!(high - low > fmax(1e-12 * size, 1e-100))) { // one value: a range around it
@@ -112,7 +108,6 @@ lab_unit axis_linear(figure_drawing *d, const char *axis, const char *label, con
     text_format(&d->script, "set %stics ", axis);
     text_literal(&d->script, step);
     text_format(&d->script, "\nset format %s '%%g'\n", axis);
-    return lab;
 }
 
 /* Little more than two decades at most: 1-2-5 tics with plain numbers. */
@@ -145,9 +140,10 @@ static void short_log(figure_drawing *d, const char *axis, double low, double hi
     text_format(&d->script, ")\nset format %s '%%g'\n", axis);
 }
 
-lab_unit axis_log(figure_drawing *d, const char *axis, const char *label, const char *unit,
-                  value_span span)
+void axis_log(figure_drawing *d, const char *axis, const char *label, const schema_column *column,
+              value_span span)
 {
+    const char *unit = schema_column_unit(column);
     double decades = log10(span.high / span.low);
     // The unit that suits three times the geometric middle, as decades go both ways from it; over
     // many decades, times and velocities are better known in SI, moduli in MPa.
@@ -156,14 +152,14 @@ lab_unit axis_log(figure_drawing *d, const char *axis, const char *label, const 
         size = 1;
     else if (decades > 2.5 && strcmp(unit, "Pa") == 0)
         size = 1e6;
-    lab_unit lab = lab_unit_for(unit, "", size);
+    lab_unit lab = lab_unit_for(column->quantity, unit, size);
     double low = span.low * lab.factor, high = span.high * lab.factor;
     write_unit(d, axis, unit, &lab);
     write_label(d, axis, label, &lab);
     text_format(&d->script, "set logscale %s\n", axis);
     if (decades < 2.2) {
         short_log(d, axis, low, high, decades);
-        return lab;
+        return;
     }
     double margin = pow(10, 0.03 * decades);
     low /= margin;
@@ -175,5 +171,4 @@ lab_unit axis_log(figure_drawing *d, const char *axis, const char *label, const 
     text_format(&d->script, "set %stics 1e%d,1e%d\n", axis, first, step);
     text_format(&d->script, step == 1 ? "set m%stics 10\n" : "unset m%stics\n", axis);
     text_format(&d->script, "set format %s '10^{%%T}'\n", axis);
-    return lab;
 }

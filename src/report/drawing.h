@@ -6,84 +6,104 @@
 #ifndef WT_REPORT_DRAWING_H
 #define WT_REPORT_DRAWING_H
 
+#include "report/bound.h"
+#include "report/figure.h"
 #include "report/text.h"
 #include "report/units.h"
-#include "weartrack/report.h"
 
-enum { DRAWING_SECTIONS = 64, DRAWING_GROUPS = 6 };
+enum { DRAWING_SECTIONS = 64, DRAWING_GROUPS = 6, NO_SECTION = -1 };
 
-/* Zero-initialised but for `result`, `name` and `err`. The first failure stays in `status`; later
- * calls do nothing. */
+/* Smallest and largest of numbers between -1e100 and 1e100; low > high while empty. */
+typedef struct value_span {
+    double low, high;
+} value_span;
+#define SPAN_EMPTY ((value_span){1, 0})
+
+/* The first failure stays in `status`; later calls do nothing. */
 typedef struct figure_drawing {
-    const wt_result *result;
-    const char *name;
+    const figure_description *figure;
+    const bound_tables *tables;
+    const table_view *table;            /* that of the figure */
+    const char *groups[DRAWING_GROUPS]; /* of a figure by groups: their names, borrowed; else "" */
+    size_t n_groups;
     wt_error *err;
     wt_status status;
-    double width, height; /* of the picture, in sizes of one panel of the style; 0 = 1 */
+    double width, height;                 /* of the picture, in sizes of one panel of the style */
     wt_table *sections[DRAWING_SECTIONS]; /* gnuplot's `index`; owned */
     size_t n_sections;
-    growing_text script;  /* what follows the loading of the style */
-    growing_text caption; /* plain text */
+    int data[DRAWING_GROUPS]; /* the section of each group as the figure describes it, */
+    value_span x, y[FIGURE_PANELS], colour; /* and what they span */
+    bool titled[FIGURE_CURVES];             /* the curve is in the key */
+    growing_text script;                    /* what follows the loading of the style */
+    growing_text caption;                   /* plain text */
     growing_text omitted; /* why nothing can be drawn; plain text, empty where that is usual */
     size_t n_items;       /* of the plot command that is being written */
 } figure_drawing;
 
+/* Fills sections, script and caption. Without anything to draw it leaves no script and says why in
+ * `omitted`. drawing_clear also after a failure. */
+wt_status drawing_make(figure_drawing *d, const figure_description *figure,
+                       const bound_tables *tables, wt_error *err) WT_NODISCARD;
 void drawing_clear(figure_drawing *d);
+
+/* ---- what the description says, for the functions of figures --------------------------------- */
+
+/* The columns in the data of a figure, in their order. Returns how many. */
+size_t drawing_columns(const figure_description *figure, unsigned columns[FIGURE_COLUMNS]);
+/* Makes the sections of all groups and finds what they span; false if there is nothing to draw. */
+bool drawing_data(figure_drawing *d);
+void drawing_nothing(figure_drawing *d); /* says that there is nothing to draw */
+size_t drawing_place(const figure_drawing *d, unsigned column); /* in a section, from 0 */
+/* Axis "x", "y" or "cb"; `label` NULL = the one described. */
+void drawing_axis(figure_drawing *d, const char *letter, const figure_axis *axis, const char *label,
+                  value_span span);
+/* All that is described of one panel, in a plot command: the bands, then the curves. */
+void drawing_bands(figure_drawing *d, size_t panel);
+void drawing_curves(figure_drawing *d, size_t panel);
 
 /* ---- data ----------------------------------------------------------------------------------- */
 
 /* Rows of a table where each of up to two text columns holds a text (does not hold it if `other`);
- * column NULL = no condition. */
+ * text NULL = no condition. */
 typedef struct row_filter {
-    const char *column[2], *text[2];
+    unsigned column[2];
+    const char *text[2];
     bool other;
 } row_filter;
 
-enum { NO_SECTION = -1 };
-/* Copies number columns (NULL-terminated; one that the table does not have becomes NaN) of the rows
- * into a new section and returns its index; NO_SECTION if no row has a number in each of the
- * first `needed` columns. Blocks are kept if asked for. */
-int drawing_section(figure_drawing *d, const wt_table *table, const char *title,
-                    const row_filter *rows, const char *const *columns, size_t needed, bool blocks);
+/* Copies number columns of the rows into a new section and returns its index; NO_SECTION if no row
+ * has a number in each of the first `needed` columns. Blocks are kept. */
+int drawing_section(figure_drawing *d, const table_view *table, const char *title,
+                    const row_filter *rows, const unsigned *columns, size_t n_columns,
+                    size_t needed);
 /* A section of one row of numbers in a unit each. */
 int drawing_point(figure_drawing *d, const char *title, const char *const *columns,
                   const char *const *units, const double *values);
 size_t drawing_rows(const figure_drawing *d, int section);
 /* Draw every n-th point only, so that about `limit` are left: 1 = all. */
 size_t drawing_every(const figure_drawing *d, int section, size_t limit);
-
-/* Names of groups in a text column, "bulk" and "track" first, then as they come. Returns how many,
- * at most DRAWING_GROUPS. The names are borrowed from the table. */
-size_t drawing_groups(const wt_table *table, const char *column,
-                      const char *groups[DRAWING_GROUPS]);
-/* Line style of a group in the style file: 1 bulk, 2 track, 3... the others. */
-int drawing_group_style(const char *group, size_t place);
+/* The largest such n of the sections of all groups. */
+size_t drawing_thinning(const figure_drawing *d, size_t limit);
+/* Line style of group i in the style file: 1 bulk, 2 track, 3... the others. */
+int drawing_group_style(const figure_drawing *d, size_t i);
 
 /* ---- axes ----------------------------------------------------------------------------------- */
 
-/* Smallest and largest of numbers between -1e100 and 1e100; low > high while empty. */
-typedef struct value_span {
-    double low, high;
-} value_span;
-#define SPAN_EMPTY                                                                                 \
-    {                                                                                              \
-        1, 0                                                                                       \
-    }
 bool span_empty(const value_span *span);
 void span_add(value_span *span, double value, bool positive_only);
-void span_add_column(value_span *span, const wt_table *table, const char *column,
+void span_add_column(value_span *span, const table_view *table, unsigned column,
                      bool positive_only);
-/* A column of a section. */
-void span_add_section(value_span *span, const figure_drawing *d, int section, const char *column,
+/* Column `place` of a section, from 0. */
+void span_add_section(value_span *span, const figure_drawing *d, int section, size_t place,
                       bool positive_only);
 
 /* Write label, range and tics of axis "x", "y" or "cb" and define its factor, e.g. x_unit = 1e9
- * (and x_offset for temperatures). The span is in SI and not empty; `label` is shown with the unit
- * behind it. */
-lab_unit axis_linear(figure_drawing *d, const char *axis, const char *label, const char *unit,
-                     const char *quantity, value_span span);
-lab_unit axis_log(figure_drawing *d, const char *axis, const char *label, const char *unit,
-                  value_span span);
+ * (and x_offset for temperatures). The span is in the SI unit of the column and not empty; `label`
+ * is shown with the unit behind it. */
+void axis_linear(figure_drawing *d, const char *axis, const char *label,
+                 const schema_column *column, value_span span);
+void axis_log(figure_drawing *d, const char *axis, const char *label, const schema_column *column,
+              value_span span);
 
 /* ---- plot command --------------------------------------------------------------------------- */
 
@@ -96,13 +116,14 @@ void plot_other(figure_drawing *d, const char *format, ...) WT_PRINTF(2, 3);
 /* Ends the item with a text that comes from a file as its title. */
 void plot_title(figure_drawing *d, const char *title);
 void plot_end(figure_drawing *d);
+/* Title of a panel. */
+void plot_heading(figure_drawing *d, const char *title);
 
-/* A finite number in a key, written as an estimate or as plain text. */
-bool key_number(const wt_table *table, const char *key, double *value);
+/* ---- caption -------------------------------------------------------------------------------- */
 
-/* A value with its unit for a caption, up to 3 digits: "1.15 µm". */
-void caption_value(figure_drawing *d, double value, const char *unit, const char *quantity);
+/* A value [`unit`, NULL = that of the quantity] for a caption, up to 3 digits: "1.15 µm". */
+void caption_value(figure_drawing *d, wt_quantity quantity, const char *unit, double value);
 /* "12.3 ± 0.4 MPa" with the standard error, the value alone without one. */
-void caption_estimate(figure_drawing *d, const wt_estimate *estimate, const char *quantity);
+void caption_estimate(figure_drawing *d, const wt_estimate *estimate);
 
 #endif

@@ -2,55 +2,32 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "report/figures.h"
+#include "report/figure.h"
 
-typedef struct figure {
-    wt_figure_info info;
-    draw_fn draw;
-} figure;
+#include "weartrack/report.h"
 
-#define NEEDS(...)                                                                                 \
-    (const char *const[])                                                                          \
-    {                                                                                              \
-        __VA_ARGS__, NULL                                                                          \
-    }
-
-static const figure figures[] = {
-    {{"force_displacement", "Force against displacement", NEEDS("force_displacement")},
-     draw_force_displacement},
-    {{"force_indentation", "Force against indentation", NEEDS("force_indentation")},
-     draw_force_indentation},
-    {{"modulus_groups", "Modulus in and beside the wear track", NEEDS("modulus_groups")},
-     draw_modulus_groups},
-    {{"modulus_map", "Map of the modulus", NEEDS("modulus_groups")}, draw_modulus_map},
-    {{"modulus_rate", "Modulus against indentation rate", NEEDS("modulus_rate")},
-     draw_modulus_rate},
-    {{"dma_comparison", "Indentation against DMA", NEEDS("dma_comparison")}, draw_dma_comparison},
-    {{"master_curve", "Master curve", NEEDS("master_curve")}, draw_master_curve},
-    {{"shift_factors", "Shift factors", NEEDS("shift_factors")}, draw_shift_factors},
-    {{"power_spectrum", "Power spectrum of the counter surface", NEEDS("roughness")},
-     draw_power_spectrum},
-    {{"friction", "Friction against sliding velocity", NEEDS("friction")}, draw_friction},
-    {{"contact_area", "Real contact area against magnification", NEEDS("contact_area")},
-     draw_contact_area},
-    {{"friction_scales", "Which length scales make the friction", NEEDS("contact_area")},
-     draw_friction_scales},
-    {{"energy_density", "Dissipated energy with depth", NEEDS("energy_density")},
-     draw_energy_density},
-    {{"layer", "Thickness of the modified layer", NEEDS("layer")}, draw_layer},
-};
+const figure_description *figure_find(size_t i)
+{
+    static const figure_description *const parts[] = {figures_indentation, figures_dma,
+                                                      figures_friction, figures_layer};
+    for (size_t part = 0; part < sizeof parts / sizeof *parts; part++)
+        for (const figure_description *figure = parts[part]; figure->name != NULL; figure++)
+            if (i-- == 0)
+                return figure;
+    return NULL;
+}
 
 size_t wt_figure_count(void)
 {
-    return sizeof figures / sizeof figures[0];
+    size_t n = 0;
+    while (figure_find(n) != NULL)
+        n++;
+    return n;
 }
 
-const wt_figure_info *wt_figure_get(size_t i)
+wt_figure_info wt_figure_get(size_t i)
 {
-    return i < wt_figure_count() ? &figures[i].info : NULL;
-}
-
-draw_fn figure_draw(size_t i)
-{
-    return i < wt_figure_count() ? figures[i].draw : NULL;
+    const figure_description *figure = figure_find(i);
+    return figure == NULL ? (wt_figure_info){NULL, NULL, NULL}
+                          : (wt_figure_info){figure->name, figure->title, figure->table->name};
 }

@@ -1,216 +1,246 @@
-/* Figures of the dynamic mechanical analysis: master curve, shift factors, comparison with the
- * indentation.
+/* Figures of the dynamic mechanical analysis: comparison with the indentation, master curve, shift
+ * factors.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "report/figures.h"
-
-#include "report/cells.h"
+#include "report/drawing.h"
 
 #include <math.h>
 #include <string.h>
 
-/* 'E' or 'G', as any of the DMA tables says. */
-static char modulus_letter(const figure_drawing *d)
+/* ---- comparison with the indentation --------------------------------------------------------- */
+
+/* The DMA at the frequencies of all groups is one line. */
+static void draw_dma_comparison(figure_drawing *d)
 {
-    static const char *const tables[] = {"prony", "shift_factors", "master_curve"};
-    for (size_t i = 0; i < sizeof tables / sizeof tables[0]; i++) {
-        const wt_table *table = wt_result_find(d->result, tables[i]);
-        const char *deformation = table != NULL ? wt_table_key(table, "deformation") : NULL;
-        if (deformation != NULL)
-            return strcmp(deformation, "shear") == 0 ? 'G' : 'E';
-    }
+    static const unsigned dma[] = {DMA_COMPARISON_EQUIVALENT_FREQUENCY,
+                                   DMA_COMPARISON_STORAGE_MODULUS, DMA_COMPARISON_COMPLEX_MODULUS};
+    int section = drawing_section(d, d->table, "DMA", NULL, dma, 3, 2);
+    if (!drawing_data(d))
+        return;
+    span_add_section(&d->y[0], d, section, 1, true);
+    span_add_section(&d->y[0], d, section, 2, true);
+    drawing_axis(d, "x", &d->figure->x, NULL, d->x);
+    drawing_axis(d, "y", &d->figure->y[0], NULL, d->y[0]);
+    plot_begin(d);
+    plot_item(d, section,
+              "($1*x_unit):($3*y_unit) smooth unique with lines ls 11 title 'DMA |E*|'");
+    plot_item(d, section, "($1*x_unit):($2*y_unit) smooth unique with lines ls 15 title 'DMA E′'");
+    drawing_curves(d, 0);
+    plot_end(d);
+}
+
+static void caption_dma_comparison(figure_drawing *d)
+{
+    size_t extrapolated = 0, n = d->table->n_rows;
+    for (size_t row = 0; row < n; row++)
+        extrapolated += dma_comparison_get(d->table, row, DMA_COMPARISON_EXTRAPOLATED) > 0;
+    if (extrapolated > 0)
+        text_format(&d->caption,
+                    " %zu of %zu points lie outside the measured frequencies of the master curve.",
+                    extrapolated, n);
+}
+
+/* ---- master curve ---------------------------------------------------------------------------- */
+
+/* 'E' or 'G', as any of the DMA tables says. */
+static char modulus_letter(const bound_tables *tables)
+{
+    const char *const said[] = {
+        prony_words(&tables->prony, PRONY_KEY_DEFORMATION),
+        shift_factors_words(&tables->shift_factors, SHIFT_FACTORS_KEY_DEFORMATION),
+        master_curve_words(&tables->master_curve, MASTER_CURVE_KEY_DEFORMATION)};
+    for (size_t i = 0; i < sizeof said / sizeof *said; i++)
+        if (said[i] != NULL)
+            return strcmp(said[i], "shear") == 0 ? 'G' : 'E';
     return 'E';
 }
 
-/* " at T" with the reference temperature, if a table states it. */
-static bool reference_temperature(const figure_drawing *d, wt_estimate *temperature)
+/* Points are coloured by the temperature of the measurement. */
+static void draw_master_curve(figure_drawing *d)
 {
-    static const char *const tables[] = {"shift_factors", "prony", "master_curve"};
-    for (size_t i = 0; i < sizeof tables / sizeof tables[0]; i++) {
-        const wt_table *table = wt_result_find(d->result, tables[i]);
-        if (table != NULL && wt_table_estimate(table, "reference_temperature", temperature) &&
-            isfinite(temperature->value))
-            return true;
-    }
-    return false;
-}
-
-void draw_master_curve(figure_drawing *d)
-{
-    static const char *const columns[] = {"angular_frequency",
-                                          "storage_modulus",
-                                          "loss_modulus",
-                                          "temperature",
-                                          "fitted_storage",
-                                          "fitted_loss",
-                                          NULL};
-    const wt_table *table = wt_result_find(d->result, "master_curve");
-    int section = drawing_section(d, table, "master curve", NULL, columns, 2, true);
-    value_span x = SPAN_EMPTY, y = SPAN_EMPTY, colour = SPAN_EMPTY, fit = SPAN_EMPTY;
-    span_add_section(&x, d, section, columns[0], true);
-    span_add_section(&y, d, section, columns[1], true);
-    span_add_section(&y, d, section, columns[2], true);
-    span_add_section(&colour, d, section, columns[3], false);
-    span_add_section(&fit, d, section, columns[4], true);
-    if (span_empty(&x) || span_empty(&y) || d->status != WT_OK) {
-        text_add(&d->omitted, "no point of the master curve has numbers above zero");
+    if (!drawing_data(d))
         return;
-    }
-    char letter = modulus_letter(d), label[64];
+    char letter = modulus_letter(d->tables), label[64];
     (void)snprintf(label, sizeof label, "%c′, %c″", letter, letter);
     d->width = 1.15;
-    axis_log(d, "x", "Reduced angular frequency", "rad/s", x);
-    axis_log(d, "y", label, "Pa", y);
-    bool coloured = !span_empty(&colour);
+    drawing_axis(d, "x", &d->figure->x, NULL, d->x);
+    drawing_axis(d, "y", &d->figure->y[0], label, d->y[0]);
+    bool coloured = !span_empty(&d->colour);
     if (coloured)
-        axis_linear(d, "cb", "Temperature", "K", "temperature", colour);
+        drawing_axis(d, "cb", &d->figure->colour, NULL, d->colour);
     const char *tint = coloured ? "lc palette" : "lc rgb 'black'";
     const char *column = coloured ? ":($4+cb_offset)" : "";
     plot_begin(d);
-    plot_item(d, section, "($1*x_unit):($2*y_unit)%s with points ls 51 %s notitle", column, tint);
-    plot_item(d, section, "($1*x_unit):($3*y_unit)%s with points ls 52 %s notitle", column, tint);
+    plot_item(d, d->data[0], "($1*x_unit):($2*y_unit)%s with points ls 51 %s notitle", column,
+              tint);
+    plot_item(d, d->data[0], "($1*x_unit):($3*y_unit)%s with points ls 52 %s notitle", column,
+              tint);
     plot_other(d, "keyentry with points ls 51 lc rgb '#111111' title '%c′'", letter);
     plot_other(d, "keyentry with points ls 52 lc rgb '#111111' title '%c″'", letter);
-    if (!span_empty(&fit)) {
-        plot_item(d, section, "($1*x_unit):($5*y_unit) with lines ls 11 title 'Prony series'");
-        plot_item(d, section, "($1*x_unit):($6*y_unit) with lines ls 11 notitle");
-    }
+    drawing_curves(d, 0);
     plot_end(d);
-
-    wt_estimate temperature;
-    text_add(&d->caption, "Storage and loss modulus shifted to the reference temperature");
-    if (reference_temperature(d, &temperature)) {
-        text_add(&d->caption, " of ");
-        caption_value(d, temperature.value, "K", "reference_temperature");
-    }
-    size_t rows = wt_table_n_rows(table);
-    text_format(&d->caption,
-                "; %zu points of %zu isotherms, coloured by the temperature of the "
-                "measurement.",
-                rows, rows == 0 ? 0 : wt_table_block(table, rows - 1) + 1);
-    const wt_table *prony = wt_result_find(d->result, "prony");
-    if (!span_empty(&fit) && prony != NULL)
-        text_format(&d->caption, " Lines: Prony series with %zu terms fitted to both moduli.",
-                    wt_table_n_rows(prony));
 }
 
-void draw_shift_factors(figure_drawing *d)
+static void caption_master_curve(figure_drawing *d)
 {
-    static const char *const columns[] = {"temperature", "log_a",     "log_a_standard_error",
-                                          "determined",  "wlf_log_a", NULL};
-    const wt_table *table = wt_result_find(d->result, "shift_factors");
-    int section = drawing_section(d, table, "shift factors", NULL, columns, 2, false);
-    value_span x = SPAN_EMPTY, y = SPAN_EMPTY;
-    span_add_section(&x, d, section, columns[0], false);
-    span_add_section(&y, d, section, columns[1], false);
-    span_add_section(&y, d, section, columns[4], false);
-    if (span_empty(&x) || span_empty(&y) || d->status != WT_OK) {
-        text_add(&d->omitted, "no shift factor is known");
+    const double references[] = {
+        shift_factors_value(&d->tables->shift_factors, SHIFT_FACTORS_KEY_REFERENCE_TEMPERATURE)
+            .value,
+        prony_value(&d->tables->prony, PRONY_KEY_REFERENCE_TEMPERATURE).value,
+        master_curve_value(d->table, MASTER_CURVE_KEY_REFERENCE_TEMPERATURE).value};
+    const size_t n = d->table->n_rows, terms = d->tables->prony.n_rows;
+    value_span fit = SPAN_EMPTY;
+
+    for (size_t i = 0; i < sizeof references / sizeof *references; i++)
+        if (isfinite(references[i])) {
+            text_add(&d->caption, " of ");
+            caption_value(d, WT_Q_TEMPERATURE, NULL, references[i]);
+            break;
+        }
+    text_format(&d->caption,
+                "; %zu points of %zu isotherms, coloured by the temperature of the measurement.", n,
+                wt_table_block(d->table->table, n - 1) + 1);
+    span_add_column(&fit, d->table, MASTER_CURVE_FITTED_STORAGE, true);
+    if (!span_empty(&fit) && terms > 0)
+        text_format(&d->caption, " Lines: Prony series with %zu terms fitted to both moduli.",
+                    terms);
+}
+
+/* ---- shift factors --------------------------------------------------------------------------- */
+
+typedef struct wlf_law {
+    wt_estimate c1, c2;
+    double reference; /* [K] */
+} wlf_law;
+
+static bool find_law(const table_view *shift_factors, wlf_law *law)
+{
+    law->c1 = shift_factors_value(shift_factors, SHIFT_FACTORS_KEY_WLF_C1);
+    law->c2 = shift_factors_value(shift_factors, SHIFT_FACTORS_KEY_WLF_C2);
+    law->reference =
+        shift_factors_value(shift_factors, SHIFT_FACTORS_KEY_REFERENCE_TEMPERATURE).value;
+    return isfinite(law->c1.value) && isfinite(law->c2.value) && isfinite(law->reference);
+}
+
+/* The law is drawn over the measured range only, and the pole is never in it. */
+static void define_law(figure_drawing *d, const wlf_law *law)
+{
+    text_add(&d->script, "c1 = ");
+    text_literal(&d->script, law->c1.value);
+    text_add(&d->script, "; c2 = ");
+    text_literal(&d->script, law->c2.value);
+    text_add(&d->script, "; t_ref = ");
+    text_literal(&d->script, law->reference - WT_ZERO_CELSIUS);
+    text_add(&d->script, "  # K and degrees Celsius\nt_low = ");
+    text_literal(&d->script, d->x.low - WT_ZERO_CELSIUS);
+    text_add(&d->script, "; t_high = ");
+    text_literal(&d->script, d->x.high - WT_ZERO_CELSIUS);
+    text_add(&d->script, "\nwlf(t) = t < t_low || t > t_high || c2 + t - t_ref <= 0 ? NaN : "
+                         "-c1*(t - t_ref)/(c2 + t - t_ref)\nset samples 400\n");
+}
+
+static size_t count_undetermined(const table_view *shift_factors)
+{
+    size_t n = 0;
+    for (size_t row = 0; row < shift_factors->n_rows; row++)
+        n += shift_factors_get(shift_factors, row, SHIFT_FACTORS_DETERMINED) == 0;
+    return n;
+}
+
+static void draw_shift_factors(figure_drawing *d)
+{
+    wlf_law law;
+    bool has_law = find_law(d->table, &law);
+    if (!drawing_data(d))
         return;
-    }
-    axis_linear(d, "x", "Temperature", "K", "temperature", x);
-    axis_linear(d, "y", "Shift factor, log₁₀ a_T", "1", "", y);
+    drawing_axis(d, "x", &d->figure->x, NULL, d->x);
+    drawing_axis(d, "y", &d->figure->y[0], NULL, d->y[0]);
     text_add(&d->script, "set ylabel 'Shift factor, log_{10} a_T' enhanced\n");
-    wt_estimate c1, c2, reference;
-    bool wlf = wt_table_estimate(table, "wlf_c1", &c1) && wt_table_estimate(table, "wlf_c2", &c2) &&
-               wt_table_estimate(table, "reference_temperature", &reference) &&
-               isfinite(c1.value) && isfinite(c2.value) && isfinite(reference.value);
-    if (wlf) {
-        // The law is drawn over the measured range only, and the pole is never in it.
-        text_add(&d->script, "c1 = ");
-        text_literal(&d->script, c1.value);
-        text_add(&d->script, "; c2 = ");
-        text_literal(&d->script, c2.value);
-        text_add(&d->script, "; t_ref = ");
-        text_literal(&d->script, lab_value(&(lab_unit){1, -WT_ZERO_CELSIUS, ""}, reference.value));
-        text_add(&d->script, "  # K and degrees Celsius\nt_low = ");
-        text_literal(&d->script, x.low - WT_ZERO_CELSIUS);
-        text_add(&d->script, "; t_high = ");
-        text_literal(&d->script, x.high - WT_ZERO_CELSIUS);
-        text_add(&d->script, "\nwlf(t) = t < t_low || t > t_high || c2 + t - t_ref <= 0 ? NaN : "
-                             "-c1*(t - t_ref)/(c2 + t - t_ref)\nset samples 400\n");
-    }
+    if (has_law)
+        define_law(d, &law);
     plot_begin(d);
-    if (wlf)
+    if (has_law)
         plot_other(d, "wlf(x) with lines ls 11 title 'WLF law'");
-    plot_item(d, section,
+    plot_item(d, d->data[0],
               "($1+x_offset):($4 == 0 ? NaN : $2):3 with yerrorbars ls 1 title 'from overlap'");
-    size_t undetermined = 0;
-    for (size_t row = 0; row < wt_table_n_rows(table); row++)
-        undetermined += cell_number(table, row, "determined") == 0;
-    if (undetermined > 0)
-        plot_item(d, section,
+    if (count_undetermined(d->table) > 0)
+        plot_item(d, d->data[0],
                   "($1+x_offset):($4 == 0 ? $2 : NaN) with points ls 14 title "
                   "'too little overlap'");
     plot_end(d);
+}
 
-    text_add(&d->caption, "Horizontal shift factors with one standard error (bars; smaller than "
-                          "the symbol where not seen).");
-    if (wlf) {
+static void caption_shift_factors(figure_drawing *d)
+{
+    size_t undetermined = count_undetermined(d->table);
+    wlf_law law;
+    if (find_law(d->table, &law)) {
         text_add(&d->caption, " Line: WLF law with C₁ = ");
-        caption_estimate(d, &c1, "");
+        caption_estimate(d, &law.c1);
         text_add(&d->caption, " and C₂ = ");
-        caption_estimate(d, &c2, "");
+        caption_estimate(d, &law.c2);
         text_add(&d->caption, " at ");
-        caption_value(d, reference.value, "K", "reference_temperature");
+        caption_value(d, WT_Q_TEMPERATURE, NULL, law.reference);
         text_add(&d->caption, "; the two constants are correlated, see the table.");
     }
     if (undetermined > 0)
         text_format(&d->caption, " Not determined by overlap: %zu of %zu isotherms.", undetermined,
-                    wt_table_n_rows(table));
+                    d->table->n_rows);
 }
 
-void draw_dma_comparison(figure_drawing *d)
-{
-    static const char *const points[] = {
-        "equivalent_frequency", "indentation_modulus", "low", "high", "extrapolated", NULL};
-    static const char *const curve[] = {"equivalent_frequency", "dma_storage_modulus",
-                                        "dma_complex_modulus", NULL};
-    const wt_table *table = wt_result_find(d->result, "dma_comparison");
-    const char *groups[DRAWING_GROUPS];
-    size_t n = drawing_groups(table, "group", groups);
-    int section[DRAWING_GROUPS];
-    value_span x = SPAN_EMPTY, y = SPAN_EMPTY;
-    int dma = drawing_section(d, table, "DMA", NULL, curve, 2, false);
-    span_add_section(&y, d, dma, curve[1], true);
-    span_add_section(&y, d, dma, curve[2], true);
-    for (size_t i = 0; i < n; i++) {
-        const row_filter rows = {{"group", NULL}, {groups[i], NULL}, false};
-        section[i] = drawing_section(d, table, groups[i], &rows, points, 2, false);
-        span_add_section(&x, d, section[i], points[0], true);
-        for (size_t k = 1; k < 4; k++)
-            span_add_section(&y, d, section[i], points[k], true);
-    }
-    if (span_empty(&x) || span_empty(&y) || d->status != WT_OK) {
-        text_add(&d->omitted, "no indentation modulus with a known equivalent frequency");
-        return;
-    }
-    axis_log(d, "x", "Equivalent angular frequency", "rad/s", x);
-    axis_log(d, "y", "Young's modulus", "Pa", y);
-    plot_begin(d);
-    plot_item(d, dma, "($1*x_unit):($3*y_unit) smooth unique with lines ls 11 title 'DMA |E*|'");
-    plot_item(d, dma, "($1*x_unit):($2*y_unit) smooth unique with lines ls 15 title 'DMA E′'");
-    for (size_t i = 0; i < n; i++) {
-        if (section[i] < 0)
-            continue;
-        plot_item(d, section[i],
-                  "($1*x_unit):($2*y_unit):($3*y_unit):($4*y_unit) with yerrorbars ls %d",
-                  drawing_group_style(groups[i], i));
-        plot_title(d, groups[i]);
-    }
-    plot_end(d);
-    size_t extrapolated = 0;
-    for (size_t row = 0; row < wt_table_n_rows(table); row++)
-        extrapolated += cell_number(table, row, "extrapolated") > 0;
-    text_add(&d->caption,
-             "Indentation modulus (geometric mean, bars: 95 % confidence interval) against the "
-             "angular frequency equivalent to the time of loading, with the modulus of the DMA "
-             "master curve at the same frequencies. DMA strains the whole sample slightly, the "
-             "tip a small volume strongly: agreement is not expected to be exact.");
-    if (extrapolated > 0)
-        text_format(&d->caption,
-                    " %zu of %zu points lie outside the measured frequencies of "
-                    "the master curve.",
-                    extrapolated, wt_table_n_rows(table));
-}
+/* ---- descriptions ---------------------------------------------------------------------------- */
+
+const figure_description figures_dma[] = {
+    {.name = "dma_comparison",
+     .title = "Indentation against DMA",
+     .table = &dma_comparison_schema,
+     .by_group = true,
+     .group = DMA_COMPARISON_GROUP,
+     .x = {DMA_COMPARISON_EQUIVALENT_FREQUENCY, AXIS_LOG, "Equivalent angular frequency"},
+     .y = {{DMA_COMPARISON_MODULUS, AXIS_LOG, "Young's modulus"}},
+     .curves = {{.column = DMA_COMPARISON_MODULUS,
+                 .form = CURVE_BARS,
+                 .low = DMA_COMPARISON_LOW,
+                 .high = DMA_COMPARISON_HIGH},
+                {.column = DMA_COMPARISON_EXTRAPOLATED, .form = CURVE_DATA}},
+     .nothing = "no indentation modulus with a known equivalent frequency",
+     .words = "Indentation modulus (geometric mean, bars: 95 % confidence interval) against the "
+              "angular frequency equivalent to the time of loading, with the modulus of the DMA "
+              "master curve at the same frequencies. DMA strains the whole sample slightly, the "
+              "tip a small volume strongly: agreement is not expected to be exact.",
+     .draw = draw_dma_comparison,
+     .caption = caption_dma_comparison},
+    {.name = "master_curve",
+     .title = "Master curve",
+     .table = &master_curve_schema,
+     .x = {MASTER_CURVE_ANGULAR_FREQUENCY, AXIS_LOG, "Reduced angular frequency"},
+     .y = {{MASTER_CURVE_STORAGE_MODULUS, AXIS_LOG, "Storage and loss modulus"}},
+     .colour = {MASTER_CURVE_TEMPERATURE, AXIS_LINEAR, "Temperature"},
+     .curves = {{.column = MASTER_CURVE_STORAGE_MODULUS, .form = CURVE_OWN},
+                {.column = MASTER_CURVE_LOSS_MODULUS, .form = CURVE_OWN},
+                {.column = MASTER_CURVE_TEMPERATURE, .form = CURVE_DATA},
+                {.column = MASTER_CURVE_FITTED_STORAGE,
+                 .form = CURVE_FIT,
+                 .style = 11,
+                 .title = "Prony series"},
+                {.column = MASTER_CURVE_FITTED_LOSS, .form = CURVE_FIT, .style = 11}},
+     .nothing = "no point of the master curve has numbers above zero",
+     .words = "Storage and loss modulus shifted to the reference temperature",
+     .draw = draw_master_curve,
+     .caption = caption_master_curve},
+    {.name = "shift_factors",
+     .title = "Shift factors",
+     .table = &shift_factors_schema,
+     .x = {SHIFT_FACTORS_TEMPERATURE, AXIS_LINEAR, "Temperature"},
+     .y = {{SHIFT_FACTORS_LOG_A, AXIS_NUMBER, "Shift factor, log₁₀ a_T"}},
+     .curves = {{.column = SHIFT_FACTORS_LOG_A, .form = CURVE_OWN, .with_error = true},
+                {.column = SHIFT_FACTORS_DETERMINED, .form = CURVE_DATA},
+                {.column = SHIFT_FACTORS_WLF_LOG_A, .form = CURVE_OWN}},
+     .nothing = "no shift factor is known",
+     .words = "Horizontal shift factors with one standard error (bars; smaller than the symbol "
+              "where not seen).",
+     .draw = draw_shift_factors,
+     .caption = caption_shift_factors},
+    {.name = NULL},
+};

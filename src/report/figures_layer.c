@@ -2,73 +2,34 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "report/figures.h"
-
-#include "report/cells.h"
+#include "report/drawing.h"
 
 #include <math.h>
 
-void draw_energy_density(figure_drawing *d)
+/* ---- thickness and rates in time, one above the other ---------------------------------------- */
+
+static double positive_value(const figure_drawing *d, layer_key key)
 {
-    static const char *const columns[] = {"depth", "energy_density", NULL};
-    const wt_table *table = wt_result_find(d->result, "energy_density");
-    int section = drawing_section(d, table, "energy density", NULL, columns, 2, true);
-    value_span x = SPAN_EMPTY, y = SPAN_EMPTY;
-    span_add_section(&x, d, section, columns[0], true);
-    span_add_section(&y, d, section, columns[1], true);
-    if (span_empty(&x) || span_empty(&y) || d->status != WT_OK) {
-        text_add(&d->omitted, "no energy density above zero");
-        return;
-    }
-    long column = number_column(table, "energy_density");
-    axis_log(d, "x", "Depth below the surface", "m", x);
-    axis_log(d, "y", "Dissipated power per volume", wt_table_column_unit(table, (size_t)column), y);
-    text_add(&d->script, "unset key\n");
-    plot_begin(d);
-    plot_item(d, section, "($1*x_unit):($2*y_unit) with lines ls 21");
-    plot_end(d);
-    text_add(&d->caption, "Power per volume that sliding dissipates in the rubber, with depth.");
+    double value = layer_value(d->table, key).value;
+    return isfinite(value) && value > 0 ? value : (double)NAN;
 }
 
-typedef struct layer_marks {
-    wt_estimate balance;
-    bool has_balance;
-    double incubation, relaxation; /* [s], NaN if unknown */
-} layer_marks;
-
-static double positive_key(const wt_table *table, const char *key)
+/* NaN if unknown or if the curve itself does not show it: without incubation in the model the
+ * layer grows from the beginning, and a mark would contradict the curve. */
+static double shown_incubation(const figure_drawing *d)
 {
-    double value;
-    return key_number(table, key, &value) && value > 0 ? value : (double)NAN;
-}
-
-/* Whether the curve itself shows the incubation: without it in the model the layer grows from the
- * beginning, and a mark would contradict the curve. */
-static bool shows_incubation(const wt_table *table, double incubation)
-{
-    for (size_t row = 0; row < wt_table_n_rows(table); row++)
-        if (cell_number(table, row, "time") < incubation &&
-            cell_number(table, row, "thickness") > 0)
-            return false;
-    return true;
-}
-
-static layer_marks read_marks(const wt_table *table)
-{
-    layer_marks marks = {.incubation = positive_key(table, "incubation_time"),
-                         .relaxation = positive_key(table, "relaxation_time")};
-    if (!shows_incubation(table, marks.incubation))
-        marks.incubation = (double)NAN;
-    marks.has_balance = wt_table_estimate(table, "balance_thickness", &marks.balance) &&
-                        isfinite(marks.balance.value) && marks.balance.value > 0;
-    return marks;
+    double incubation = positive_value(d, LAYER_KEY_INCUBATION_TIME);
+    for (size_t row = 0; row < d->table->n_rows; row++)
+        if (layer_get(d->table, row, LAYER_TIME) < incubation &&
+            layer_get(d->table, row, LAYER_THICKNESS) > 0)
+            return (double)NAN;
+    return incubation;
 }
 
 /* A vertical line at a time, named at `place` of the height. */
-static void mark_time(figure_drawing *d, double time, const value_span *x, const char *label,
-                      double place)
+static void mark_time(figure_drawing *d, double time, const char *label, double place)
 {
-    if (!(time >= x->low && time <= x->high))
+    if (!(time >= d->x.low && time <= d->x.high))
         return;
     text_add(&d->script, "set arrow from ");
     text_literal(&d->script, time);
@@ -84,82 +45,115 @@ static void mark_time(figure_drawing *d, double time, const value_span *x, const
     text_add(&d->script, " offset 0.6,0 left front\n");
 }
 
-/* Thickness and rates share the axis of time, one above the other. */
-void draw_layer(figure_drawing *d)
+static void draw_thickness(figure_drawing *d)
 {
-    static const char *const columns[] = {"time",           "thickness", "thickness_standard_error",
-                                          "formation_rate", "wear_rate", NULL};
-    const wt_table *table = wt_result_find(d->result, "layer");
-    int section = drawing_section(d, table, "layer", NULL, columns, 1, true);
-    value_span x = SPAN_EMPTY, thickness = SPAN_EMPTY, rate = SPAN_EMPTY;
-    span_add_section(&x, d, section, columns[0], true);
-    span_add_section(&thickness, d, section, columns[1], true);
-    span_add_section(&rate, d, section, columns[3], true);
-    span_add_section(&rate, d, section, columns[4], true);
-    if (span_empty(&x) || (span_empty(&thickness) && span_empty(&rate)) || d->status != WT_OK) {
-        text_add(&d->omitted, "no layer forms: no thickness above zero to draw on a logarithmic "
-                              "axis");
-        return;
+    double balance = positive_value(d, LAYER_KEY_BALANCE_THICKNESS);
+    span_add(&d->y[0], balance, true);
+    drawing_axis(d, "y", &d->figure->y[0], NULL, d->y[0]);
+    mark_time(d, shown_incubation(d), "incubation", 0.75);
+    mark_time(d, positive_value(d, LAYER_KEY_RELAXATION_TIME), "relaxation", 0.1);
+    if (isfinite(balance)) {
+        text_add(&d->script, "balance = ");
+        text_literal(&d->script, balance);
+        text_add(&d->script, "  # m\n");
     }
-    layer_marks marks = read_marks(table);
-    bool both = !span_empty(&thickness) && !span_empty(&rate);
-    d->height = both ? 1.5 : 1;
-    axis_log(d, "x", "Sliding time in contact", "s", x);
-    if (both)
-        text_add(&d->script, "set multiplot layout 2,1\n");
-    if (!span_empty(&thickness)) {
-        if (marks.has_balance)
-            span_add(&thickness, marks.balance.value, true);
-        axis_log(d, "y", "Layer thickness", "m", thickness);
-        mark_time(d, marks.incubation, &x, "incubation", 0.75);
-        mark_time(d, marks.relaxation, &x, "relaxation", 0.1);
-        if (marks.has_balance) {
-            text_add(&d->script, "balance = ");
-            text_literal(&d->script, marks.balance.value);
-            text_add(&d->script, "  # m\n");
-        }
-        plot_begin(d);
-        plot_item(d, section,
-                  "($1*x_unit):($2 > 0 ? ($2 > $3 ? $2-$3 : 1e-3*$2)*y_unit : NaN):"
-                  "($2 > 0 ? ($2+$3)*y_unit : NaN) with filledcurves ls 71 notitle");
-        if (marks.has_balance)
-            plot_other(d, "balance*y_unit with lines ls 15 title 'balance'");
-        plot_item(d, section,
-                  "($1*x_unit):($2 > 0 ? $2*y_unit : NaN) with lines ls 21 title 'thickness'");
-        plot_end(d);
-    }
-    if (!span_empty(&rate)) {
-        text_add(&d->script, "unset arrow\nunset label\n");
-        axis_log(d, "y", "Rate", "m/s", rate);
-        mark_time(d, marks.incubation, &x, NULL, 0);
-        mark_time(d, marks.relaxation, &x, NULL, 0);
-        plot_begin(d);
-        plot_item(d, section,
-                  "($1*x_unit):($4 > 0 ? $4*y_unit : NaN) with lines ls 22 title "
-                  "'formation'");
-        plot_item(d, section,
-                  "($1*x_unit):($5 > 0 ? $5*y_unit : NaN) with lines ls 23 title 'wear'");
-        plot_end(d);
-    }
-    if (both)
-        text_add(&d->script, "unset multiplot\n");
-
-    text_add(&d->caption, "Thickness of the modified layer in time (band: one standard error) "
-                          "and the rates of formation and wear that make it; balance is where "
-                          "the two rates meet.");
-    if (marks.has_balance) {
-        text_add(&d->caption, " Balance thickness ");
-        caption_estimate(d, &marks.balance, "");
-        text_add(&d->caption, ".");
-    }
-    if (isfinite(marks.incubation)) {
-        text_add(&d->caption, " Incubation time ");
-        caption_value(d, marks.incubation, "s", "");
-        text_add(&d->caption, ".");
-    }
-    if (isfinite(marks.relaxation)) {
-        text_add(&d->caption, " Relaxation time ");
-        caption_value(d, marks.relaxation, "s", "");
-        text_add(&d->caption, ".");
-    }
+    plot_begin(d);
+    drawing_bands(d, 0);
+    if (isfinite(balance))
+        plot_other(d, "balance*y_unit with lines ls 15 title 'balance'");
+    drawing_curves(d, 0);
+    plot_end(d);
 }
+
+static void draw_rates(figure_drawing *d)
+{
+    text_add(&d->script, "unset arrow\nunset label\n");
+    drawing_axis(d, "y", &d->figure->y[1], NULL, d->y[1]);
+    mark_time(d, shown_incubation(d), NULL, 0);
+    mark_time(d, positive_value(d, LAYER_KEY_RELAXATION_TIME), NULL, 0);
+    plot_begin(d);
+    drawing_curves(d, 1);
+    plot_end(d);
+}
+
+static void draw_layer(figure_drawing *d)
+{
+    if (!drawing_data(d))
+        return;
+    bool thickness = !span_empty(&d->y[0]), rates = !span_empty(&d->y[1]);
+    drawing_axis(d, "x", &d->figure->x, NULL, d->x);
+    if (thickness && rates) {
+        d->height = 1.5;
+        text_add(&d->script, "set multiplot layout 2,1\n");
+    }
+    if (thickness)
+        draw_thickness(d);
+    if (rates)
+        draw_rates(d);
+    if (thickness && rates)
+        text_add(&d->script, "unset multiplot\n");
+}
+
+static void caption_time(figure_drawing *d, const char *words, double time)
+{
+    if (!isfinite(time))
+        return;
+    text_format(&d->caption, " %s ", words);
+    caption_value(d, WT_Q_TIME, NULL, time);
+    text_add(&d->caption, ".");
+}
+
+static void caption_layer(figure_drawing *d)
+{
+    wt_estimate balance = layer_value(d->table, LAYER_KEY_BALANCE_THICKNESS);
+    if (isfinite(positive_value(d, LAYER_KEY_BALANCE_THICKNESS))) {
+        text_add(&d->caption, " Balance thickness ");
+        caption_estimate(d, &balance);
+        text_add(&d->caption, ".");
+    }
+    caption_time(d, "Incubation time", shown_incubation(d));
+    caption_time(d, "Relaxation time", positive_value(d, LAYER_KEY_RELAXATION_TIME));
+}
+
+/* ---- descriptions ---------------------------------------------------------------------------- */
+
+const figure_description figures_layer[] = {
+    {.name = "energy_density",
+     .title = "Dissipated energy with depth",
+     .table = &energy_density_schema,
+     .x = {ENERGY_DENSITY_DEPTH, AXIS_LOG, "Depth below the surface"},
+     .y = {{ENERGY_DENSITY_POWER, AXIS_LOG, "Dissipated power per volume"}},
+     .curves = {{.column = ENERGY_DENSITY_POWER, .form = CURVE_LINE, .style = 21}},
+     .nothing = "no energy density above zero",
+     .words = "Power per volume that sliding dissipates in the rubber, with depth."},
+    {.name = "layer",
+     .title = "Thickness of the modified layer",
+     .table = &layer_schema,
+     .x = {LAYER_TIME, AXIS_LOG, "Sliding time in contact"},
+     .y = {{LAYER_THICKNESS, AXIS_LOG, "Layer thickness"},
+           {LAYER_FORMATION_RATE, AXIS_LOG, "Rate"}},
+     .curves = {{.column = LAYER_THICKNESS,
+                 .form = CURVE_LINE,
+                 .style = 21,
+                 .title = "thickness",
+                 .band = 71,
+                 .above_zero = true},
+                {.column = LAYER_FORMATION_RATE,
+                 .form = CURVE_LINE,
+                 .style = 22,
+                 .title = "formation",
+                 .above_zero = true,
+                 .panel = 1},
+                {.column = LAYER_WEAR_RATE,
+                 .form = CURVE_LINE,
+                 .style = 23,
+                 .title = "wear",
+                 .above_zero = true,
+                 .panel = 1}},
+     .nothing = "no layer forms: no thickness above zero to draw on a logarithmic axis",
+     .words = "Thickness of the modified layer in time (band: one standard error) and the rates of "
+              "formation and wear that make it; balance is where the two rates meet.",
+     .draw = draw_layer,
+     .caption = caption_layer},
+    {.name = NULL},
+};

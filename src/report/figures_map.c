@@ -2,9 +2,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "report/figures.h"
-
-#include "report/cells.h"
+#include "report/figures_map.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -20,14 +18,14 @@ static int compare_numbers(const void *a, const void *b)
 
 /* Smallest distance of two positions that differ, 0 if there are none. What is closer than a
  * thousandth of the whole is the same position. */
-static double grid_step(const wt_table *table, const char *column)
+static double grid_step(const table_view *table, indentation_column column)
 {
-    size_t c = (size_t)number_column(table, column), n = wt_table_n_rows(table);
+    size_t n = table->n_rows;
     double *x = calloc(n, sizeof *x), step = 0;
     if (x == NULL)
         return 0;
     for (size_t row = 0; row < n; row++)
-        x[row] = wt_table_number(table, row, c);
+        x[row] = indentation_get(table, row, column);
     qsort(x, n, sizeof *x, compare_numbers);
     for (size_t i = 1; i < n; i++) {
         double gap = x[i] - x[i - 1];
@@ -38,43 +36,49 @@ static double grid_step(const wt_table *table, const char *column)
     return step;
 }
 
-/* Positions that are known, from one file: places of several files need not share an origin. */
-static bool is_map(const wt_table *table)
-{
-    size_t n = wt_table_n_rows(table);
-    if (number_column(table, "x") < 0 || number_column(table, "y") < 0 ||
-        text_column(table, "file") < 0 || n < MAP_POINTS || n > MAP_LIMIT)
-        return false;
-    for (size_t row = 0; row < n; row++)
-        if (!isfinite(cell_number(table, row, "x")) || !isfinite(cell_number(table, row, "y")) ||
-            strcmp(cell_text(table, row, "file"), cell_text(table, 0, "file")) != 0)
-            return false;
-    return grid_step(table, "x") > 0 && grid_step(table, "y") > 0;
-}
-
 typedef struct map_panel {
     const char *group;
-    const wt_table *table;
+    const table_view *table;
     int accepted, rejected;
     double step_x, step_y;
 } map_panel;
 
+/* Positions that are known, from one file: places of several files need not share an origin. */
+static bool is_map(map_panel *panel)
+{
+    const table_view *table = panel->table;
+    if (table == NULL || table->n_rows < MAP_POINTS || table->n_rows > MAP_LIMIT)
+        return false;
+    const char *file = indentation_text(table, 0, INDENTATION_FILE);
+    for (size_t row = 0; row < table->n_rows; row++)
+        if (!isfinite(indentation_get(table, row, INDENTATION_X)) ||
+            !isfinite(indentation_get(table, row, INDENTATION_Y)) ||
+            strcmp(indentation_text(table, row, INDENTATION_FILE), file) != 0)
+            return false;
+    panel->step_x = grid_step(table, INDENTATION_X);
+    panel->step_y = grid_step(table, INDENTATION_Y);
+    return table->column[INDENTATION_FILE] >= 0 && panel->step_x > 0 && panel->step_y > 0;
+}
+
+static void map_axis(figure_drawing *d, const char *letter, const map_panel *panel,
+                     indentation_column column, double step)
+{
+    value_span span = SPAN_EMPTY;
+    span_add_column(&span, panel->table, column, false);
+    span = (value_span){span.low - step / 2, span.high + step / 2};
+    axis_linear(d, letter, letter, &indentation_schema.columns[column], span);
+}
+
 static void draw_panel(figure_drawing *d, const map_panel *panel)
 {
-    value_span x = SPAN_EMPTY, y = SPAN_EMPTY;
-    span_add_column(&x, panel->table, "x", false);
-    span_add_column(&y, panel->table, "y", false);
-    x = (value_span){x.low - panel->step_x / 2, x.high + panel->step_x / 2};
-    y = (value_span){y.low - panel->step_y / 2, y.high + panel->step_y / 2};
-    axis_linear(d, "x", "x", "m", "", x);
-    axis_linear(d, "y", "y", "m", "", y);
+    map_axis(d, "x", panel, INDENTATION_X, panel->step_x);
+    map_axis(d, "y", panel, INDENTATION_Y, panel->step_y);
     text_add(&d->script, "half_x = ");
     text_literal(&d->script, panel->step_x / 2);
     text_add(&d->script, "; half_y = ");
     text_literal(&d->script, panel->step_y / 2);
-    text_add(&d->script, "  # m\nset title ");
-    text_quoted(&d->script, panel->group);
-    text_add(&d->script, " noenhanced\n");
+    text_add(&d->script, "  # m\n");
+    plot_heading(d, panel->group);
     plot_begin(d);
     plot_item(d, panel->accepted,
               "($1*x_unit):($2*y_unit):(half_x*x_unit):(half_y*y_unit):($3*cb_unit) with "
@@ -85,39 +89,30 @@ static void draw_panel(figure_drawing *d, const map_panel *panel)
 
 void draw_modulus_map(figure_drawing *d)
 {
-    static const char *const columns[] = {"x", "y", "modulus", NULL};
-    static const row_filter accepted = {{"verdict", NULL}, {"accepted", NULL}, false};
-    static const row_filter rejected = {{"verdict", NULL}, {"accepted", NULL}, true};
-    const char *groups[DRAWING_GROUPS];
-    size_t n_groups = drawing_groups(wt_result_find(d->result, "modulus_groups"), "group", groups),
-           n = 0;
+    static const unsigned columns[] = {INDENTATION_X, INDENTATION_Y, INDENTATION_MODULUS};
+    static const row_filter accepted = {{INDENTATION_VERDICT}, {"accepted"}, false},
+                            rejected = {{INDENTATION_VERDICT}, {"accepted"}, true};
     map_panel panels[DRAWING_GROUPS];
+    size_t n = 0;
     value_span colour = SPAN_EMPTY;
 
-    for (size_t i = 0; i < n_groups && d->status == WT_OK; i++) {
-        char name[128];
-        (void)snprintf(name, sizeof name, "indentation/%s", groups[i]);
-        const wt_table *table = wt_result_find(d->result, name);
-        if (table == NULL || !is_map(table))
+    for (size_t i = 0; i < d->n_groups && d->status == WT_OK; i++) {
+        map_panel panel = {.group = d->groups[i],
+                           .table = bound_indentation(d->tables, d->groups[i])};
+        if (!is_map(&panel))
             continue;
-        map_panel panel = {.group = groups[i],
-                           .table = table,
-                           .step_x = grid_step(table, "x"),
-                           .step_y = grid_step(table, "y")};
-        panel.accepted = drawing_section(d, table, groups[i], &accepted, columns, 3, false);
-        panel.rejected = drawing_section(d, table, "rejected", &rejected, columns, 2, false);
-        span_add_section(&colour, d, panel.accepted, "modulus", true);
+        panel.accepted = drawing_section(d, panel.table, panel.group, &accepted, columns, 3, 3);
+        panel.rejected = drawing_section(d, panel.table, "rejected", &rejected, columns, 3, 2);
+        span_add_section(&colour, d, panel.accepted, 2, true);
         if (panel.accepted >= 0)
             panels[n++] = panel;
     }
     if (n == 0 || span_empty(&colour) || d->status != WT_OK)
         return;
     d->width = 0.95 * (double)n;
-    axis_log(d, "cb", "Modulus", "Pa", colour);
+    axis_log(d, "cb", "Modulus", &indentation_schema.columns[INDENTATION_MODULUS], colour);
     text_format(&d->script, "set size ratio -1\nset border 15\nset multiplot layout 1,%zu\n", n);
     for (size_t i = 0; i < n; i++)
         draw_panel(d, &panels[i]);
     text_add(&d->script, "unset multiplot\n");
-    text_add(&d->caption, "Modulus of the accepted curves at their positions; crosses: rejected "
-                          "curves. One scale of colour for all maps.");
 }

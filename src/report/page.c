@@ -4,9 +4,8 @@
  */
 #include "report/page.h"
 
-#include "report/cells.h"
+#include "report/files.h"
 #include "report/folder.h"
-#include "report/report_files.h"
 #include "report/svg.h"
 
 #include <string.h>
@@ -22,7 +21,7 @@ static void page_head(const page_writer *page, growing_text *out, const char *ti
                   "/>\n<title>");
     text_html(out, title);
     text_add(out, "</title>\n<style>\n");
-    text_add(out, report_file("page.css"));
+    text_add(out, file_of_library("page.css"));
     text_add(out, "</style>\n</head>\n<body>\n<main>\n<header>\n<h1>");
     text_html(out, title);
     text_add(out, "</h1>\n<nav aria-label=\"Contents\">\n<ul>\n");
@@ -33,15 +32,15 @@ static void page_head(const page_writer *page, growing_text *out, const char *ti
 /* Several answers to one question stand under it together. */
 static void page_answer(page_writer *page)
 {
-    const wt_table *table = wt_result_find(page->result, "answer");
-    if (table == NULL || wt_table_n_rows(table) == 0)
+    const table_view *table = &page->tables->answer;
+    if (table->n_rows == 0)
         return;
     page_heading(page, "answer", "Answer");
     const char *question = NULL;
-    for (size_t row = 0; row < wt_table_n_rows(table); row++) {
-        const char *next = cell_text(table, row, "question");
+    for (size_t row = 0; row < table->n_rows; row++) {
+        const char *next = answer_text(table, row, ANSWER_QUESTION);
         if (question == NULL || strcmp(question, next) != 0) {
-            bool caveat = strcmp(cell_text(table, row, "kind"), "caveat") == 0;
+            bool caveat = strcmp(answer_text(table, row, ANSWER_KIND), "caveat") == 0;
             text_format(&page->out, "%s<section class=\"%s\">\n<h3>",
                         question == NULL ? "" : "</section>\n",
                         caveat ? "answer caveat" : "answer");
@@ -50,7 +49,7 @@ static void page_answer(page_writer *page)
             question = next;
         }
         text_add(&page->out, "<p>");
-        text_html(&page->out, cell_text(table, row, "answer"));
+        text_html(&page->out, answer_text(table, row, ANSWER_ANSWER));
         text_add(&page->out, "</p>\n");
     }
     text_add(&page->out, "</section>\n");
@@ -74,22 +73,23 @@ static wt_status page_figures(page_writer *page, wt_error *err)
         if (figure->omitted != NULL)
             continue;
         text_format(&page->out, "<figure id=\"figure-%s\" class=\"%s\">\n<div class=\"card\">",
-                    figure->info->name, width_class(figure->width));
-        if (!svg_inline(&page->out, figure->svg, figure->svg_length, figure->info->name,
-                        figure->info->title)) {
-            wt_status status =
-                wt_fail(err, WT_E_TOOL, "the picture of figure %s is not SVG", figure->info->name);
+                    figure->figure->name, width_class(figure->width));
+        if (!svg_inline(&page->out, figure->svg, figure->svg_length, figure->figure->name,
+                        figure->figure->title)) {
+            wt_status status = wt_fail(err, WT_E_TOOL, "the picture of figure %s is not SVG",
+                                       figure->figure->name);
             wt_error_advice(err, "a plot style must use `set terminal svg`");
             return status;
         }
         text_format(&page->out, "</div>\n<figcaption><strong>Figure %zu. ", ++number);
-        text_html(&page->out, figure->info->title);
+        text_html(&page->out, figure->figure->title);
         text_add(&page->out, ".</strong> ");
         text_html(&page->out, figure->caption);
         text_format(&page->out,
                     " <span class=\"source\">Data and script: <a href=\"plots/%s.tsv\">%s.tsv"
                     "</a>, <a href=\"plots/%s.gp\">%s.gp</a>.</span></figcaption>\n</figure>\n",
-                    figure->info->name, figure->info->name, figure->info->name, figure->info->name);
+                    figure->figure->name, figure->figure->name, figure->figure->name,
+                    figure->figure->name);
     }
     text_add(&page->out, "</div>\n");
     for (size_t i = 0; i < page->n_figures; i++) {
@@ -97,7 +97,7 @@ static wt_status page_figures(page_writer *page, wt_error *err)
         if (figure->omitted == NULL || figure->omitted[0] == '\0')
             continue;
         text_add(&page->out, "<p class=\"omitted\">Not drawn: ");
-        text_html(&page->out, figure->info->title);
+        text_html(&page->out, figure->figure->title);
         text_add(&page->out, " – ");
         text_html(&page->out, figure->omitted);
         text_add(&page->out, ".</p>\n");
@@ -106,10 +106,9 @@ static wt_status page_figures(page_writer *page, wt_error *err)
 }
 
 /* The title of the case, if the result has one. */
-static const char *page_title(const wt_result *result)
+static const char *page_title(const page_writer *page)
 {
-    const wt_table *answer = wt_result_find(result, "answer");
-    const char *title = answer != NULL ? wt_table_key(answer, "case_title") : NULL;
+    const char *title = answer_words(&page->tables->answer, ANSWER_KEY_CASE_TITLE);
     return title != NULL && title[0] != '\0' ? title : "Wear track against bulk";
 }
 
@@ -129,7 +128,7 @@ wt_status page_write(page_writer *page, wt_error *err)
     page_record(page);
     body = page->out;
     page->out = (growing_text){.failed = body.failed || page->contents.failed};
-    page_head(page, &page->out, page_title(page->result));
+    page_head(page, &page->out, page_title(page));
     text_bytes(&page->out, text_string(&body), body.length);
     text_add(&page->out, "</main>\n</body>\n</html>\n");
     if (page->out.failed)

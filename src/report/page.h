@@ -5,13 +5,14 @@
 #ifndef WT_REPORT_PAGE_H
 #define WT_REPORT_PAGE_H
 
+#include "report/bound.h"
+#include "report/figure.h"
 #include "report/text.h"
 #include "report/units.h"
-#include "weartrack/report.h"
 
 /* A figure that was drawn, or one that could not be. */
 typedef struct page_figure {
-    const wt_figure_info *info;
+    const figure_description *figure;
     const char *caption; /* plain text */
     const char *omitted; /* why it is not there ("" = not worth a word), NULL if it is */
     const char *svg;
@@ -23,6 +24,7 @@ typedef struct page_writer {
     growing_text out;
     growing_text contents; /* list of the headings so far */
     const wt_result *result;
+    const bound_tables *tables;
     bool with_provenance;
     const page_figure *figures;
     size_t n_figures;
@@ -41,31 +43,32 @@ void page_record(page_writer *page); /* case file, provenance */
 
 /* ---- what the parts share -------------------------------------------------------------------- */
 
+/* A column on the page; its heading is the label of the schema. */
 typedef struct page_column {
-    const char *name;    /* of the column in the table */
-    const char *heading; /* NULL = its long name */
-    const char *like;    /* takes the unit of this column, NULL = its own */
+    unsigned column;
+    unsigned like;       /* takes the unit of this column, 0 = its own */
     const char *missing; /* shown for NaN, NULL = a dash */
-    bool yes_no;         /* 1 and 0 */
+    int digits;          /* significant ones, 0 = as usual */
+    int decimals;        /* so many instead, 0 = by digits */
 } page_column;
 
 /* A section heading with an anchor; it is listed in the contents. */
 void page_heading(page_writer *page, const char *id, const char *words);
-/* An HTML table of some columns (those the table has) and rows (rows NULL = all n of the table);
- * numbers in lab units. `caption` is plain text. */
-void page_table(page_writer *page, const wt_table *table, const char *caption,
+/* An HTML table of some columns and rows; numbers in lab units. Without columns it has all that
+ * have a label, without rows all of the table. `caption` is plain text. */
+void page_table(page_writer *page, const table_view *table, const char *caption,
                 const page_column *columns, size_t n_columns, const size_t *rows, size_t n_rows);
+/* The same with the whole table, nothing if it has no row. */
+void page_whole_table(page_writer *page, const table_view *table, const char *caption,
+                      const page_column *columns, size_t n_columns);
 /* The keys of a table as name, value, statistical and numerical error; nothing if it has none. */
-void page_keys(page_writer *page, const wt_table *table, const char *caption);
+void page_keys(page_writer *page, const table_view *table, const char *caption);
 
 /* One line of such a table. The statistical error is `interval` (plain text) if that is not NULL.
  */
 void page_estimates_begin(page_writer *page, const char *caption, bool remarks);
 void page_estimate(page_writer *page, const char *words, const wt_estimate *estimate,
-                   const char *quantity, const char *interval, const char *remark);
+                   wt_quantity quantity, const char *interval, const char *remark);
 void page_estimates_end(page_writer *page);
-/* "low to high unit" in the lab unit of `value`. */
-void page_interval(growing_text *text, double low, double high, double value, const char *unit,
-                   const char *quantity);
 
 #endif

@@ -4,154 +4,138 @@
  */
 #include "report/page.h"
 
-#include "report/cells.h"
-
 #include <math.h>
-#include <string.h>
 
-/* An interval as statistical error: "0.59 to 0.69 (95 %)". */
-static void interval_row(page_writer *page, const char *name, double value, double low, double high,
-                         const char *unit, const char *remark)
+/* An interval as statistical error: "0.59 to 0.69 MPa (95 % interval)". */
+static void interval_row(page_writer *page, const char *name, wt_quantity quantity, double value,
+                         double low, double high, const char *remark)
 {
     growing_text interval = {0};
-    const wt_estimate estimate = {value, (high - low) / 4, 0, unit};
+    const wt_estimate estimate = {value, (high - low) / 4, 0, wt_quantity_unit(quantity)};
     if (isfinite(low) && isfinite(high)) {
-        page_interval(&interval, low, high, value, unit, "");
-        text_add(&interval, " (95 % interval)");
+        lab_unit lab = lab_unit_for(quantity, NULL, value);
+        text_number(&interval, lab_value(&lab, low), 3);
+        text_add(&interval, " to ");
+        text_number(&interval, lab_value(&lab, high), 3);
+        text_format(&interval, "%s%s (95 %% interval)", lab.label[0] != '\0' ? " " : "", lab.label);
     } else
         text_add(&interval, "not known");
-    page_estimate(page, name, &estimate, "", text_string(&interval), remark);
-    page->out.failed = page->out.failed || interval.failed;
-    text_free(&interval);
+    page_estimate(page, name, &estimate, quantity, text_string(&interval), remark);
+    text_done(&interval, &page->out);
 }
 
+/* The row over all rates has no limits of the rate. */
 static void ratio_row(page_writer *page)
 {
-    const wt_table *table = wt_result_find(page->result, "comparison");
-    for (size_t row = 0; table != NULL && row < wt_table_n_rows(table); row++) {
-        if (!isnan(cell_number(table, row, "rate_low")) ||
-            !isfinite(cell_number(table, row, "ratio")))
-            continue; // the row over all rates has no limits of the rate
+    const table_view *table = &page->tables->comparison;
+    const char *unit = comparison_words(table, COMPARISON_KEY_UNIT_OF_ANALYSIS);
+    for (size_t row = 0; row < table->n_rows; row++) {
+        double ratio = comparison_get(table, row, COMPARISON_RATIO);
+        if (!isnan(comparison_get(table, row, COMPARISON_RATE_LOW)) || !isfinite(ratio))
+            continue;
         growing_text remark = {0};
-        const char *unit = wt_table_key(table, "unit_of_analysis");
         text_add(&remark, "geometric means; n = ");
-        text_fixed(&remark, cell_number(table, row, "n_track"), 0);
+        text_fixed(&remark, comparison_get(table, row, COMPARISON_N_TRACK), 0);
         text_add(&remark, " in the track, ");
-        text_fixed(&remark, cell_number(table, row, "n_bulk"), 0);
+        text_fixed(&remark, comparison_get(table, row, COMPARISON_N_BULK), 0);
         text_add(&remark, " in the bulk");
         if (unit != NULL)
             text_format(&remark, ", unit of analysis: %s", unit);
-        interval_row(page, "Modulus, track over bulk", cell_number(table, row, "ratio"),
-                     cell_number(table, row, "ratio_low"), cell_number(table, row, "ratio_high"),
-                     "1", text_string(&remark));
-        page->out.failed = page->out.failed || remark.failed;
-        text_free(&remark);
+        interval_row(page, "Modulus, track over bulk", WT_Q_NONE, ratio,
+                     comparison_get(table, row, COMPARISON_RATIO_LOW),
+                     comparison_get(table, row, COMPARISON_RATIO_HIGH), text_string(&remark));
+        text_done(&remark, &page->out);
         return;
     }
 }
 
 static void group_rows(page_writer *page)
 {
-    const wt_table *table = wt_result_find(page->result, "modulus_groups");
-    for (size_t row = 0; table != NULL && row < wt_table_n_rows(table); row++) {
+    const table_view *table = &page->tables->modulus_groups;
+    for (size_t row = 0; row < table->n_rows; row++) {
+        double mean = modulus_groups_get(table, row, MODULUS_GROUPS_GEOMETRIC_MEAN);
+        if (!isfinite(mean))
+            continue;
         growing_text name = {0}, remark = {0};
-        text_format(&name, "Modulus, %s", cell_text(table, row, "group"));
+        text_format(&name, "Modulus, %s", modulus_groups_text(table, row, MODULUS_GROUPS_GROUP));
         text_format(&remark, "geometric mean; n = %.0f, rejected %.0f",
-                    cell_number(table, row, "n"), cell_number(table, row, "n_rejected"));
-        if (isfinite(cell_number(table, row, "geometric_mean")))
-            interval_row(page, text_string(&name), cell_number(table, row, "geometric_mean"),
-                         cell_number(table, row, "low"), cell_number(table, row, "high"), "Pa",
-                         text_string(&remark));
-        page->out.failed = page->out.failed || name.failed || remark.failed;
-        text_free(&name);
-        text_free(&remark);
+                    modulus_groups_get(table, row, MODULUS_GROUPS_N),
+                    modulus_groups_get(table, row, MODULUS_GROUPS_N_REJECTED));
+        interval_row(page, text_string(&name), WT_Q_MODULUS, mean,
+                     modulus_groups_get(table, row, MODULUS_GROUPS_LOW),
+                     modulus_groups_get(table, row, MODULUS_GROUPS_HIGH), text_string(&remark));
+        text_done(&name, &page->out);
+        text_done(&remark, &page->out);
     }
 }
 
-static void key_row(page_writer *page, const char *table_name, const char *key, const char *name,
-                    const char *remark)
+enum { EVERY_KEY = SCHEMA_MOST };
+
+/* The keys of a table that are headlines; the remark belongs to one of them or to every one. */
+static void headline_rows(page_writer *page, const table_view *table, unsigned remarked,
+                          const char *remark)
 {
-    const wt_table *table = wt_result_find(page->result, table_name);
-    wt_estimate estimate;
-    if (table != NULL && wt_table_estimate(table, key, &estimate) && !isnan(estimate.value))
-        page_estimate(page, name, &estimate, key, NULL, remark);
+    for (unsigned i = 0; i < table->schema->n_keys; i++) {
+        const schema_key *key = &table->schema->keys[i];
+        const wt_estimate estimate = view_key(table, table->schema, i);
+        if (key->headline != NULL && !isnan(estimate.value))
+            page_estimate(page, key->headline, &estimate, key->quantity, NULL,
+                          remarked == EVERY_KEY || remarked == i ? remark : "");
+    }
 }
 
 static void add_velocity(growing_text *text, double velocity)
 {
-    lab_unit lab = lab_unit_for("m/s", "velocity", velocity);
+    lab_unit lab = lab_unit_for(WT_Q_VELOCITY, NULL, velocity);
     text_short(text, lab_value(&lab, velocity), 3);
     text_format(text, " %s", lab.label);
 }
 
 /* At the velocity that the answer is given for. */
-static void reference_rows(page_writer *page, const wt_table *table)
+static void reference_rows(page_writer *page)
 {
-    wt_estimate velocity;
-    if (!wt_table_estimate(table, "reference_velocity", &velocity))
-        return;
+    const table_view *table = &page->tables->friction;
     growing_text remark = {0};
     text_add(&remark, "at the reference velocity, ");
-    add_velocity(&remark, velocity.value);
-    key_row(page, "friction", "friction_at_reference", "Friction coefficient",
-            text_string(&remark));
-    key_row(page, "friction", "hysteresis_at_reference", "Friction coefficient, hysteresis part",
-            text_string(&remark));
-    key_row(page, "friction", "area_ratio_at_reference", "Real over nominal contact area",
-            text_string(&remark));
-    key_row(page, "friction", "friction_with_layer_at_reference", "Friction coefficient with layer",
-            text_string(&remark));
-    key_row(page, "friction", "friction_change_at_reference", "Change of friction by the layer",
-            text_string(&remark));
-    page->out.failed = page->out.failed || remark.failed;
-    text_free(&remark);
+    add_velocity(&remark, friction_value(table, FRICTION_KEY_REFERENCE_VELOCITY).value);
+    headline_rows(page, table, EVERY_KEY, text_string(&remark));
+    text_done(&remark, &page->out);
 }
 
-static void friction_row(page_writer *page, const wt_table *table, const char *column,
-                         const char *name)
+static void largest_row(page_writer *page)
 {
-    char standard[96], numerical[96];
-    (void)snprintf(standard, sizeof standard, "%s_standard_error", column);
-    (void)snprintf(numerical, sizeof numerical, "%s_numerical_error", column);
-    size_t best = SIZE_MAX;
-    for (size_t row = 0; row < wt_table_n_rows(table); row++)
-        if (isfinite(cell_number(table, row, column)) &&
-            (best == SIZE_MAX ||
-             cell_number(table, row, column) > cell_number(table, best, column)))
+    const table_view *table = &page->tables->friction;
+    size_t best = table->n_rows;
+    for (size_t row = 0; row < table->n_rows; row++) {
+        double friction = friction_get(table, row, FRICTION_TOTAL);
+        if (isfinite(friction) &&
+            (best == table->n_rows || friction > friction_get(table, best, FRICTION_TOTAL)))
             best = row;
-    if (best == SIZE_MAX)
+    }
+    if (best == table->n_rows)
         return;
     growing_text remark = {0};
-    double velocity = cell_number(table, best, "velocity"),
-           share = cell_number(table, best, "extrapolated_share");
+    double share = friction_get(table, best, FRICTION_EXTRAPOLATED_SHARE);
     text_add(&remark, "at ");
-    add_velocity(&remark, velocity);
+    add_velocity(&remark, friction_get(table, best, FRICTION_VELOCITY));
     if (share >= 1e-3) {
         text_add(&remark, "; ");
         text_number(&remark, 100 * share, 2);
         text_add(&remark, " % from frequencies outside the measured ones");
     }
-    const wt_estimate estimate = {cell_number(table, best, column),
-                                  cell_number(table, best, standard),
-                                  cell_number(table, best, numerical), "1"};
-    page_estimate(page, name, &estimate, column, NULL, text_string(&remark));
-    page->out.failed = page->out.failed || remark.failed;
-    text_free(&remark);
-}
-
-static bool has_any(const wt_result *result)
-{
-    static const char *const tables[] = {"comparison", "modulus_groups", "shift_factors",
-                                         "friction", "layer"};
-    for (size_t i = 0; i < sizeof tables / sizeof tables[0]; i++)
-        if (wt_result_find(result, tables[i]) != NULL)
-            return true;
-    return false;
+    const wt_estimate estimate = {friction_get(table, best, FRICTION_TOTAL),
+                                  friction_get(table, best, FRICTION_TOTAL_STANDARD_ERROR),
+                                  friction_get(table, best, FRICTION_TOTAL_NUMERICAL_ERROR), "1"};
+    page_estimate(page, "Friction coefficient, largest", &estimate, WT_Q_NONE, NULL,
+                  text_string(&remark));
+    text_done(&remark, &page->out);
 }
 
 void page_numbers(page_writer *page)
 {
-    if (!has_any(page->result))
+    const bound_tables *t = page->tables;
+    if (t->comparison.table == NULL && t->modulus_groups.table == NULL &&
+        t->shift_factors.table == NULL && t->friction.table == NULL && t->layer.table == NULL)
         return;
     page_heading(page, "numbers", "Numbers");
     page_estimates_begin(page,
@@ -160,16 +144,10 @@ void page_numbers(page_writer *page)
                          true);
     ratio_row(page);
     group_rows(page);
-    key_row(page, "shift_factors", "wlf_c1", "WLF constant C₁",
-            "correlated with C₂, see the table of constants");
-    key_row(page, "shift_factors", "wlf_c2", "WLF constant C₂", "");
-    key_row(page, "shift_factors", "reference_temperature", "Reference temperature", "");
-    const wt_table *friction = wt_result_find(page->result, "friction");
-    if (friction != NULL) {
-        reference_rows(page, friction);
-        friction_row(page, friction, "friction", "Friction coefficient, largest");
-    }
-    key_row(page, "layer", "balance_thickness", "Layer thickness at balance",
-            "where formation and wear are equally fast");
+    headline_rows(page, &t->shift_factors, SHIFT_FACTORS_KEY_WLF_C1,
+                  "correlated with C₂, see the table of constants");
+    reference_rows(page);
+    largest_row(page);
+    headline_rows(page, &t->layer, EVERY_KEY, "where formation and wear are equally fast");
     page_estimates_end(page);
 }

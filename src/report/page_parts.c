@@ -48,10 +48,10 @@ static void heading_cell(page_writer *page, const char *words, const char *unit,
 /* ---- tables ---------------------------------------------------------------------------------- */
 
 typedef struct shown_column {
-    long source; /* -1: not in the table */
+    page_column as;
+    const schema_column *column;
     bool text, whole;
     lab_unit lab;
-    int digits, decimals; /* decimals < 0: so many digits */
 } shown_column;
 
 static int compare_numbers(const void *a, const void *b)
@@ -60,20 +60,21 @@ static int compare_numbers(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-static bool is_error(const char *name)
+/* Row i of those shown. */
+static size_t row_at(const size_t *rows, size_t i)
 {
-    return strstr(name, "_error") != NULL || strstr(name, "_spread") != NULL;
+    return rows != NULL ? rows[i] : i;
 }
 
 /* The median of the absolute values decides the unit; numbers over many decades stay in SI, and
  * moduli in MPa. */
-static double typical_size(const wt_table *table, size_t column, const size_t *rows, size_t n_rows,
-                           const char *unit)
+static double typical_size(const table_view *table, unsigned column, const size_t *rows,
+                           size_t n_rows)
 {
     double *sizes = calloc(n_rows > 0 ? n_rows : 1, sizeof *sizes), median = 0;
     size_t n = 0;
     for (size_t i = 0; sizes != NULL && i < n_rows; i++) {
-        double size = fabs(wt_table_number(table, rows != NULL ? rows[i] : i, column));
+        double size = fabs(view_number(table, table->schema, row_at(rows, i), column));
         if (isfinite(size) && size > 0)
             sizes[n++] = size;
     }
@@ -81,7 +82,7 @@ static double typical_size(const wt_table *table, size_t column, const size_t *r
         qsort(sizes, n, sizeof *sizes, compare_numbers);
         double range = sizes[n - 1] / sizes[0];
         median = sizes[n / 2];
-        if (strcmp(unit, "Pa") == 0 && range > 100)
+        if (range > 100 && strcmp(schema_column_unit(&table->schema->columns[column]), "Pa") == 0)
             median = 1e6;
         else if (range > 1e4)
             median = 1;
@@ -90,96 +91,105 @@ static double typical_size(const wt_table *table, size_t column, const size_t *r
     return median;
 }
 
-static void choose_column(shown_column *shown, const wt_table *table, const page_column *column,
+/* Whether it is the error of another column. */
+static bool is_error(const table_schema *schema, unsigned column)
+{
+    for (size_t i = 0; i < schema->n_columns; i++)
+        if (column != 0 && (schema->columns[i].standard_error == column ||
+                            schema->columns[i].numerical_error == column))
+            return true;
+    return false;
+}
+
+/* False for a column that the table does not have or that says nothing. */
+static bool choose_column(shown_column *shown, const table_view *table, const page_column *as,
                           const size_t *rows, size_t n_rows)
 {
-    shown->source = wt_table_find(table, column->name);
-    if (shown->source < 0)
-        return;
-    size_t source = (size_t)shown->source;
-    shown->text = wt_table_column_kind(table, source) == WT_COLUMN_TEXT;
+    const table_schema *schema = table->schema;
+    const schema_column *column = &schema->columns[as->column];
+    *shown = (shown_column){.as = *as, .column = column, .text = column->kind == SCHEMA_TEXT};
+    if (table->column[as->column] < 0)
+        return false;
     if (shown->text)
-        return;
-    long like = column->like != NULL ? wt_table_find(table, column->like) : -1;
-    if (like >= 0 && wt_table_column_kind(table, (size_t)like) == WT_COLUMN_TEXT)
-        like = -1;
-    size_t unit_of = like >= 0 ? (size_t)like : source;
-    const char *unit = wt_table_column_unit(table, source);
-    shown->lab = lab_unit_for(unit, column->name, typical_size(table, unit_of, rows, n_rows, unit));
-    shown->digits = is_error(column->name) || strstr(column->name, "_p") != NULL ? 2 : 3;
-    shown->decimals = -1;
-    if (strncmp(column->name, "log_", 4) == 0 || strstr(column->name, "_log_") != NULL)
-        shown->decimals = 3;
-    else if (strcmp(column->name, "temperature") == 0)
-        shown->decimals = 1;
+        return true;
+    if (as->digits == 0)
+        shown->as.digits = is_error(schema, as->column) ? 2 : 3;
+    shown->lab =
+        lab_unit_for(column->quantity, schema_column_unit(column),
+                     typical_size(table, as->like != 0 ? as->like : as->column, rows, n_rows));
     shown->whole = true;
-    bool any = column->missing != NULL;
+    bool any = as->missing != NULL;
     for (size_t i = 0; i < n_rows; i++) {
         double value =
-            lab_value(&shown->lab, wt_table_number(table, rows != NULL ? rows[i] : i, source));
+            lab_value(&shown->lab, view_number(table, schema, row_at(rows, i), as->column));
         any = any || !isnan(value);
         shown->whole =
             shown->whole && (!isfinite(value) || (value == floor(value) && fabs(value) < 1e15));
     }
-    if (!any) // nothing is known: no column for it
-        shown->source = -1;
+    return any;
 }
 
-static void number_cell(page_writer *page, const shown_column *shown, double value,
-                        const page_column *column)
+static void number_cell(page_writer *page, const shown_column *shown, double value)
 {
+    double lab = lab_value(&shown->lab, value);
     text_add(&page->out, "<td class=\"n\">");
     if (isnan(value))
-        text_html(&page->out, column->missing != NULL ? column->missing : "–");
-    else if (column->yes_no)
+        text_html(&page->out, shown->as.missing != NULL ? shown->as.missing : "–");
+    else if (shown->column->yes_no)
         text_add(&page->out, value != 0 ? "yes" : "no");
-    else if (shown->decimals >= 0)
-        text_fixed(&page->out, lab_value(&shown->lab, value), shown->decimals);
-    else if (shown->whole)
-        text_fixed(&page->out, lab_value(&shown->lab, value), 0);
+    else if (shown->as.decimals > 0 || shown->whole)
+        text_fixed(&page->out, lab, shown->as.decimals);
     else
-        text_number(&page->out, lab_value(&shown->lab, value), shown->digits);
+        text_number(&page->out, lab, shown->as.digits);
     text_add(&page->out, "</td>");
 }
 
-void page_table(page_writer *page, const wt_table *table, const char *caption,
+/* The first cell of a row names it if it is text. */
+static void text_cell(page_writer *page, const char *text, bool first)
+{
+    text_add(&page->out, first ? "<th scope=\"row\">" : "<td>");
+    text_html(&page->out, text);
+    text_add(&page->out, first ? "</th>" : "</td>");
+}
+
+void page_table(page_writer *page, const table_view *table, const char *caption,
                 const page_column *columns, size_t n_columns, const size_t *rows, size_t n_rows)
 {
-    enum { MAX_COLUMNS = 20 };
-    shown_column shown[MAX_COLUMNS] = {{0}};
-    if (n_columns > MAX_COLUMNS)
-        n_columns = MAX_COLUMNS;
+    const table_schema *schema = table->schema;
+    page_column labelled[SCHEMA_MOST] = {{0}};
+    shown_column shown[SCHEMA_MOST];
+    size_t n = 0;
+    for (unsigned i = 0; columns == NULL && i < schema->n_columns; i++)
+        if (schema->columns[i].label != NULL)
+            labelled[n_columns++].column = i;
     begin_table(page, caption);
-    for (size_t c = 0; c < n_columns; c++) {
-        choose_column(&shown[c], table, &columns[c], rows, n_rows);
-        if (shown[c].source < 0)
-            continue;
-        const char *heading = columns[c].heading != NULL
-                                  ? columns[c].heading
-                                  : wt_table_column_long_name(table, (size_t)shown[c].source);
-        heading_cell(page, heading, shown[c].lab.label, !shown[c].text);
-    }
+    for (size_t i = 0; i < n_columns && n < SCHEMA_MOST; i++)
+        if (choose_column(&shown[n], table, columns != NULL ? &columns[i] : &labelled[i], rows,
+                          n_rows)) {
+            const schema_column *column = shown[n].column;
+            heading_cell(page, column->label != NULL ? column->label : column->long_name,
+                         shown[n].lab.label, !shown[n].text);
+            n++;
+        }
     text_add(&page->out, "</tr></thead>\n<tbody>\n");
     for (size_t i = 0; i < n_rows; i++) {
-        size_t row = rows != NULL ? rows[i] : i;
-        bool first = true;
+        size_t row = row_at(rows, i);
         text_add(&page->out, "<tr>");
-        for (size_t c = 0; c < n_columns; c++) {
-            if (shown[c].source < 0)
-                continue;
-            size_t source = (size_t)shown[c].source;
-            if (!shown[c].text)
-                number_cell(page, &shown[c], wt_table_number(table, row, source), &columns[c]);
-            else { // the first text of a row names it
-                text_add(&page->out, first ? "<th scope=\"row\">" : "<td>");
-                text_html(&page->out, wt_table_text(table, row, source));
-                text_add(&page->out, first ? "</th>" : "</td>");
-            }
-            first = false;
-        }
+        for (size_t c = 0; c < n; c++)
+            if (shown[c].text)
+                text_cell(page, view_text(table, schema, row, shown[c].as.column), c == 0);
+            else
+                number_cell(page, &shown[c], view_number(table, schema, row, shown[c].as.column));
         text_add(&page->out, "</tr>\n");
     }
     end_table(page);
+}
+
+void page_whole_table(page_writer *page, const table_view *table, const char *caption,
+                      const page_column *columns, size_t n_columns)
+{
+    if (table->n_rows > 0)
+        page_table(page, table, caption, columns, n_columns, NULL, table->n_rows);
 }
 
 /* ---- values with both errors ----------------------------------------------------------------- */
@@ -240,21 +250,10 @@ static void add_error(growing_text *text, double error, const lab_unit *lab)
     }
 }
 
-void page_interval(growing_text *text, double low, double high, double value, const char *unit,
-                   const char *quantity)
-{
-    lab_unit lab = lab_unit_for(unit, quantity, value);
-    text_number(text, lab_value(&lab, low), 3);
-    text_add(text, " to ");
-    text_number(text, lab_value(&lab, high), 3);
-    if (lab.label[0] != '\0')
-        text_format(text, " %s", lab.label);
-}
-
 void page_estimate(page_writer *page, const char *words, const wt_estimate *estimate,
-                   const char *quantity, const char *interval, const char *remark)
+                   wt_quantity quantity, const char *interval, const char *remark)
 {
-    lab_unit lab = lab_unit_for(estimate->unit, quantity, estimate->value);
+    lab_unit lab = lab_unit_for(quantity, estimate->unit, estimate->value);
     text_add(&page->out, "<tr><th scope=\"row\">");
     text_html(&page->out, words);
     text_add(&page->out, "</th><td class=\"n\">");
@@ -279,70 +278,49 @@ void page_estimate(page_writer *page, const char *words, const wt_estimate *esti
 
 /* ---- keys ------------------------------------------------------------------------------------ */
 
-static const char *const key_words[][2] = {
-    {"wlf_c1", "WLF constant C₁"},
-    {"wlf_c2", "WLF constant C₂"},
-    {"wlf_correlation", "Correlation of C₁ and C₂"},
-    {"wlf_rms", "Residual of the WLF law, rms (decades)"},
-    {"wlf_floor", "Systematic error of each shift that the errors of C1 and C2 include [decade]"},
-    {"wlf_straight", "Shift factors on a straight line"},
-    {"frequency_min", "Lowest angular frequency measured"},
-    {"frequency_max", "Highest angular frequency measured"},
-    {"hurst", "Hurst exponent"},
-    {"roll_off", "Roll-off wavenumber"},
-    {"pole", "Pole of the WLF law"},
-    {"rms_storage", "Residual of the storage modulus, rms"},
-    {"rms_loss", "Residual of the loss modulus, rms"},
-    {"formation_wear_ratio", "Formation rate over wear rate, R"},
-    {"n_accepted", "Curves accepted"},
-    {"n_rejected", "Curves rejected"},
-    {"rms_height", "Root-mean-square height"},
-    {"rms_slope", "Root-mean-square slope"},
-    {"c0", "C₀"},
-    {"relative_change_at_reference", "Relative change at reference"},
-    {"relative_change_low", "Relative change, lowest of all velocities"},
-    {"relative_change_high", "Relative change, highest of all velocities"},
-    {"vertical", "Vertical shift"},
-    {"standard_error_includes", "Standard errors include"},
-    {"standard_error_lacks", "No error stated for"},
-    {"time_to_90_percent", "Time to 90 % of the balance thickness"},
-    {"wear_sensitivity", "Relative change of the thickness per relative change of the wear rate"},
-    {"shear_stress", "Shear stress of the real contact"},
-};
-
-static void key_label(const char *key, char *label, size_t size)
+/* A key that no schema knows has its name in words. */
+static void key_label(const char *name, const schema_key *key, char *label, size_t size)
 {
-    for (size_t i = 0; i < sizeof key_words / sizeof key_words[0]; i++)
-        if (strcmp(key_words[i][0], key) == 0) {
-            (void)snprintf(label, size, "%s", key_words[i][1]);
-            return;
-        }
-    (void)snprintf(label, size, "%s", key);
-    for (char *s = label; *s != '\0'; s++)
-        if (*s == '_')
-            *s = ' ';
-    if (label[0] >= 'a' && label[0] <= 'z')
+    bool known = key != NULL && key->label != NULL;
+    (void)snprintf(label, size, "%s", known ? key->label : name);
+    for (char *s = label; *s != '\0' && !known; s++)
+        *s = *s == '_' ? ' ' : *s;
+    if (!known && label[0] >= 'a' && label[0] <= 'z')
         label[0] = (char)(label[0] - 'a' + 'A');
 }
 
-void page_keys(page_writer *page, const wt_table *table, const char *caption)
+static const schema_key *find_key(const table_view *table, const char *name)
 {
-    if (wt_table_n_keys(table) == 0)
+    char full[SCHEMA_NAME_SIZE];
+    for (size_t i = 0; i < table->schema->n_keys; i++) {
+        schema_name(table->schema->keys[i].name, table->suffix, full);
+        if (strcmp(full, name) == 0)
+            return &table->schema->keys[i];
+    }
+    return NULL;
+}
+
+void page_keys(page_writer *page, const table_view *table, const char *caption)
+{
+    const size_t n = table->table != NULL ? wt_table_n_keys(table->table) : 0;
+    if (n == 0)
         return;
     page_estimates_begin(page, caption, false);
-    for (size_t i = 0; i < wt_table_n_keys(table); i++) {
-        const char *key = wt_table_key_name(table, i), *text = wt_table_key(table, key);
+    for (size_t i = 0; i < n; i++) {
+        const char *name = wt_table_key_name(table->table, i);
+        const schema_key *key = find_key(table, name);
         char label[128];
         wt_estimate estimate;
-        key_label(key, label, sizeof label);
-        if (wt_table_estimate(table, key, &estimate)) {
-            page_estimate(page, label, &estimate, key, NULL, NULL);
+        key_label(name, key, label, sizeof label);
+        if (wt_table_estimate(table->table, name, &estimate)) {
+            page_estimate(page, label, &estimate, key != NULL ? key->quantity : WT_Q_NONE, NULL,
+                          NULL);
             continue;
         }
         text_add(&page->out, "<tr><th scope=\"row\">");
         text_html(&page->out, label);
         text_add(&page->out, "</th><td colspan=\"3\">");
-        text_html(&page->out, text != NULL ? text : "");
+        text_html(&page->out, wt_table_key(table->table, name));
         text_add(&page->out, "</td></tr>\n");
     }
     end_table(page);

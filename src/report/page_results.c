@@ -4,116 +4,76 @@
  */
 #include "report/page.h"
 
-#include "report/cells.h"
-
 #include <math.h>
 #include <string.h>
 
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
-
-static void whole_table(page_writer *page, const char *name, const char *caption,
-                        const page_column *columns, size_t n)
-{
-    const wt_table *table = wt_result_find(page->result, name);
-    if (table != NULL && wt_table_n_rows(table) > 0)
-        page_table(page, table, caption, columns, n, NULL, wt_table_n_rows(table));
-}
-
-static void keys_of(page_writer *page, const char *name, const char *caption)
-{
-    const wt_table *table = wt_result_find(page->result, name);
-    if (table != NULL)
-        page_keys(page, table, caption);
-}
-
+/* Columns, in another order than that of the table or not shown as usual. */
 static const page_column group_columns[] = {
-    {"group", "Group", NULL, NULL, false},
-    {"n", "Curves n", NULL, NULL, false},
-    {"n_rejected", "Rejected", NULL, NULL, false},
-    {"n_spots", "Spots", NULL, NULL, false},
-    {"geometric_mean", "Geometric mean", "geometric_mean", NULL, false},
-    {"low", "95 % interval from", "geometric_mean", NULL, false},
-    {"high", "to", "geometric_mean", NULL, false},
-    {"median", "Median", "geometric_mean", NULL, false},
-    {"mean", "Mean", "geometric_mean", NULL, false},
-    {"standard_deviation", "Standard deviation", "geometric_mean", NULL, false},
+    {.column = MODULUS_GROUPS_GROUP},
+    {.column = MODULUS_GROUPS_N},
+    {.column = MODULUS_GROUPS_N_REJECTED},
+    {.column = MODULUS_GROUPS_N_SPOTS},
+    {.column = MODULUS_GROUPS_GEOMETRIC_MEAN},
+    {.column = MODULUS_GROUPS_LOW, .like = MODULUS_GROUPS_GEOMETRIC_MEAN},
+    {.column = MODULUS_GROUPS_HIGH, .like = MODULUS_GROUPS_GEOMETRIC_MEAN},
+    {.column = MODULUS_GROUPS_MEDIAN, .like = MODULUS_GROUPS_GEOMETRIC_MEAN},
+    {.column = MODULUS_GROUPS_MEAN, .like = MODULUS_GROUPS_GEOMETRIC_MEAN},
+    {.column = MODULUS_GROUPS_STANDARD_DEVIATION, .like = MODULUS_GROUPS_GEOMETRIC_MEAN},
 };
 
 static const page_column comparison_columns[] = {
-    {"rate_low", "Indentation rate from", "rate_high", "all", false},
-    {"rate_high", "to", NULL, "all", false},
-    {"n_bulk", "n bulk", NULL, NULL, false},
-    {"n_track", "n track", NULL, NULL, false},
-    {"ratio", "Track / bulk", NULL, NULL, false},
-    {"ratio_low", "95 % interval from", NULL, NULL, false},
-    {"ratio_high", "to", NULL, NULL, false},
-    {"difference", "Difference", NULL, NULL, false},
-    {"welch_t", "Welch t", NULL, NULL, false},
-    {"welch_df", "Degrees of freedom", NULL, NULL, false},
-    {"welch_p", "p (Welch)", NULL, NULL, false},
-    {"holm_p", "p (Holm)", NULL, NULL, false},
-    {"mann_whitney_p", "p (Mann-Whitney)", NULL, NULL, false},
-    {"effect_size", "Effect size", NULL, NULL, false},
+    {.column = COMPARISON_RATE_LOW, .like = COMPARISON_RATE_HIGH, .missing = "all"},
+    {.column = COMPARISON_RATE_HIGH, .missing = "all"},
+    {.column = COMPARISON_N_BULK},
+    {.column = COMPARISON_N_TRACK},
+    {.column = COMPARISON_RATIO},
+    {.column = COMPARISON_RATIO_LOW},
+    {.column = COMPARISON_RATIO_HIGH},
+    {.column = COMPARISON_DIFFERENCE},
+    {.column = COMPARISON_WELCH_T},
+    {.column = COMPARISON_WELCH_DF},
+    {.column = COMPARISON_WELCH_P, .digits = 2},
+    {.column = COMPARISON_HOLM_P, .digits = 2},
+    {.column = COMPARISON_MANN_WHITNEY_P, .digits = 2},
+    {.column = COMPARISON_EFFECT_SIZE},
 };
 
 static const page_column dma_columns[] = {
-    {"group", "Group", NULL, NULL, false},
-    {"equivalent_frequency", "Equivalent frequency", NULL, NULL, false},
-    {"indentation_modulus", "Indentation", NULL, NULL, false},
-    {"low", "95 % interval from", "indentation_modulus", NULL, false},
-    {"high", "to", "indentation_modulus", NULL, false},
-    {"dma_storage_modulus", "DMA E′", "indentation_modulus", NULL, false},
-    {"dma_complex_modulus", "DMA |E*|", "indentation_modulus", NULL, false},
-    {"ratio", "Indentation / DMA", NULL, NULL, false},
-    {"extrapolated", "Outside measured frequencies", NULL, NULL, true},
+    {.column = DMA_COMPARISON_GROUP},
+    {.column = DMA_COMPARISON_EQUIVALENT_FREQUENCY},
+    {.column = DMA_COMPARISON_MODULUS},
+    {.column = DMA_COMPARISON_LOW, .like = DMA_COMPARISON_MODULUS},
+    {.column = DMA_COMPARISON_HIGH, .like = DMA_COMPARISON_MODULUS},
+    {.column = DMA_COMPARISON_STORAGE_MODULUS, .like = DMA_COMPARISON_MODULUS},
+    {.column = DMA_COMPARISON_COMPLEX_MODULUS, .like = DMA_COMPARISON_MODULUS},
+    {.column = DMA_COMPARISON_RATIO},
+    {.column = DMA_COMPARISON_EXTRAPOLATED},
 };
 
 static const page_column shift_columns[] = {
-    {"temperature", "Temperature", NULL, NULL, false},
-    {"log_a", "log₁₀ a", NULL, NULL, false},
-    {"log_a_standard_error", "Standard error", NULL, NULL, false},
-    {"wlf_log_a", "WLF log₁₀ a", NULL, NULL, false},
-    {"log_b", "log₁₀ b", NULL, NULL, false},
-    {"log_b_standard_error", "Standard error", NULL, NULL, false},
-    {"log_b_physical", "log₁₀ b, rubber elasticity", NULL, NULL, false},
-    {"overlap", "Overlap (decades)", NULL, NULL, false},
-    {"determined", "Determined by overlap", NULL, NULL, true},
-    {"note", "Note", NULL, NULL, false},
-};
-
-static const page_column prony_columns[] = {
-    {"relaxation_time", "Relaxation time", NULL, NULL, false},
-    {"modulus", "Modulus", NULL, NULL, false},
-};
-
-static const page_column friction_columns[] = {
-    {"velocity", "Velocity", NULL, NULL, false},
-    {"friction", "Total μ", NULL, NULL, false},
-    {"friction_standard_error", "± stat.", NULL, NULL, false},
-    {"friction_numerical_error", "± num.", NULL, NULL, false},
-    {"hysteresis", "Hysteresis", NULL, NULL, false},
-    {"hysteresis_standard_error", "± stat.", NULL, NULL, false},
-    {"hysteresis_numerical_error", "± num.", NULL, NULL, false},
-    {"adhesion", "Shearing", NULL, NULL, false},
-    {"area_ratio", "A/A₀", NULL, NULL, false},
-    {"area_ratio_standard_error", "± stat.", NULL, NULL, false},
-    {"area_ratio_numerical_error", "± num.", NULL, NULL, false},
-    {"friction_with_layer", "With layer", NULL, NULL, false},
-    {"friction_with_layer_standard_error", "± stat.", NULL, NULL, false},
-    {"extrapolated_share", "Outside measured frequencies, share", NULL, NULL, false},
+    {.column = SHIFT_FACTORS_TEMPERATURE, .decimals = 1},
+    {.column = SHIFT_FACTORS_LOG_A, .decimals = 3},
+    {.column = SHIFT_FACTORS_LOG_A_STANDARD_ERROR, .decimals = 3},
+    {.column = SHIFT_FACTORS_WLF_LOG_A, .decimals = 3},
+    {.column = SHIFT_FACTORS_LOG_B, .decimals = 3},
+    {.column = SHIFT_FACTORS_LOG_B_STANDARD_ERROR, .decimals = 3},
+    {.column = SHIFT_FACTORS_LOG_B_PHYSICAL, .decimals = 3},
+    {.column = SHIFT_FACTORS_OVERLAP},
+    {.column = SHIFT_FACTORS_DETERMINED},
+    {.column = SHIFT_FACTORS_NOTE},
 };
 
 enum { HALF = 20, DECADES = 2 * HALF }; /* 1e-20 to 1e20 m/s, rounded */
 
 /* Rows nearest to whole decades of the velocity, and the first and last one; *n of them. */
-static void decade_rows(const wt_table *table, size_t rows[DECADES + 3], size_t *n)
+static void decade_rows(const table_view *table, size_t rows[DECADES + 3], size_t *n)
 {
-    size_t n_rows = wt_table_n_rows(table), best[DECADES + 1];
+    size_t n_rows = table->n_rows, best[DECADES + 1];
     double distance[DECADES + 1];
     for (int i = 0; i <= DECADES; i++)
         distance[i] = (double)INFINITY;
     for (size_t row = 0; row < n_rows; row++) {
-        double x = log10(cell_number(table, row, "velocity")), decade = round(x);
+        double x = log10(friction_get(table, row, FRICTION_VELOCITY)), decade = round(x);
         if (!(fabs(decade) <= HALF))
             continue;
         int i = (int)decade + HALF;
@@ -133,73 +93,67 @@ static void decade_rows(const wt_table *table, size_t rows[DECADES + 3], size_t 
 
 static void friction_table(page_writer *page)
 {
-    const wt_table *table = wt_result_find(page->result, "friction");
-    if (table == NULL || wt_table_n_rows(table) == 0)
+    const table_view *table = &page->tables->friction;
+    if (table->n_rows == 0)
         return;
     size_t rows[DECADES + 3], n = 0;
     decade_rows(table, rows, &n);
     page_table(page, table,
-               n < wt_table_n_rows(table)
+               n < table->n_rows
                    ? "Friction at the computed velocities next to whole decades (± stat.: one "
                      "standard error, ± num.: numerical error); the result file holds all"
                    : "Friction at the computed velocities (± stat.: one standard error, "
                      "± num.: numerical error)",
-               friction_columns, COUNT(friction_columns), rows, n);
+               NULL, 0, rows, n);
 }
+
+#define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
 void page_results(page_writer *page)
 {
-    static const char *const tables[] = {"modulus_groups", "comparison", "dma_comparison",
-                                         "shift_factors",  "prony",      "roughness",
-                                         "friction",       "layer"};
+    const bound_tables *t = page->tables;
+    const table_view *const shown[] = {&t->modulus_groups, &t->comparison, &t->dma_comparison,
+                                       &t->shift_factors,  &t->prony,      &t->roughness,
+                                       &t->friction,       &t->layer};
     bool any = false;
-    for (size_t i = 0; i < COUNT(tables) && !any; i++)
-        any = wt_result_find(page->result, tables[i]) != NULL;
+    for (size_t i = 0; i < COUNT(shown) && !any; i++)
+        any = shown[i]->table != NULL;
     if (!any)
         return;
     page_heading(page, "tables", "Tables");
-    whole_table(page, "modulus_groups", "Modulus by group", group_columns, COUNT(group_columns));
-    whole_table(page, "comparison",
-                "Wear track against bulk: ratio of geometric means, by indentation rate",
-                comparison_columns, COUNT(comparison_columns));
-    whole_table(page, "dma_comparison", "Indentation against DMA at the equivalent frequency",
-                dma_columns, COUNT(dma_columns));
-    whole_table(page, "shift_factors", "Shift factors", shift_columns, COUNT(shift_columns));
-    keys_of(page, "shift_factors", "Shifting and WLF constants");
-    whole_table(page, "prony", "Prony series at the reference temperature", prony_columns,
-                COUNT(prony_columns));
-    keys_of(page, "prony", "Prony series: constants");
-    keys_of(page, "roughness", "Counter surface");
+    page_whole_table(page, &t->modulus_groups, "Modulus by group", group_columns,
+                     COUNT(group_columns));
+    page_whole_table(page, &t->comparison,
+                     "Wear track against bulk: ratio of geometric means, by indentation rate",
+                     comparison_columns, COUNT(comparison_columns));
+    page_whole_table(page, &t->dma_comparison,
+                     "Indentation against DMA at the equivalent frequency", dma_columns,
+                     COUNT(dma_columns));
+    page_whole_table(page, &t->shift_factors, "Shift factors", shift_columns, COUNT(shift_columns));
+    page_keys(page, &t->shift_factors, "Shifting and WLF constants");
+    page_whole_table(page, &t->prony, "Prony series at the reference temperature", NULL, 0);
+    page_keys(page, &t->prony, "Prony series: constants");
+    page_keys(page, &t->roughness, "Counter surface");
     friction_table(page);
-    keys_of(page, "friction", "Conditions of the friction");
-    keys_of(page, "layer", "Balance of the modified layer");
+    page_keys(page, &t->friction, "Conditions of the friction");
+    page_keys(page, &t->layer, "Balance of the modified layer");
 }
 
 /* ---- curves without a modulus ---------------------------------------------------------------- */
 
-static const page_column rejected_columns[] = {
-    {"file", "File", NULL, NULL, false},
-    {"curve", "Curve", NULL, NULL, false},
-    {"spot", "Spot", NULL, NULL, false},
-    {"reason", "Reason", NULL, NULL, false},
-};
-
-static void rejected_of(page_writer *page, const wt_table *table, const char *group)
+static void rejected_of(page_writer *page, const table_view *table)
 {
     enum { SHOWN = 200 };
     size_t rows[SHOWN], n = 0, rejected = 0;
-    if (text_column(table, "verdict") < 0)
-        return;
-    for (size_t row = 0; row < wt_table_n_rows(table); row++) {
-        if (strcmp(cell_text(table, row, "verdict"), "accepted") == 0)
+    for (size_t row = 0; row < table->n_rows; row++) {
+        if (strcmp(indentation_text(table, row, INDENTATION_VERDICT), "accepted") == 0)
             continue;
         if (n < SHOWN)
             rows[n++] = row;
         rejected++;
     }
     growing_text caption = {0};
-    text_format(&caption, "%s: %zu of %zu curves rejected", group, rejected,
-                wt_table_n_rows(table));
+    text_format(&caption, "%s: %zu of %zu curves rejected", table->suffix, rejected, table->n_rows);
     if (rejected > n)
         text_format(&caption, ", the first %zu; the result file holds all", n);
     if (n == 0) {
@@ -207,29 +161,20 @@ static void rejected_of(page_writer *page, const wt_table *table, const char *gr
         text_html(&page->out, text_string(&caption));
         text_add(&page->out, ".</p>\n");
     } else
-        page_table(page, table, text_string(&caption), rejected_columns, COUNT(rejected_columns),
-                   rows, n);
-    page->out.failed = page->out.failed || caption.failed;
-    text_free(&caption);
+        page_table(page, table, text_string(&caption), NULL, 0, rows, n);
+    text_done(&caption, &page->out);
 }
 
 void page_indentation(page_writer *page)
 {
-    static const char prefix[] = "indentation/";
-    bool first = true;
-    for (size_t i = 0; i < wt_result_n_tables(page->result); i++) {
-        const wt_table *table = wt_result_table(page->result, i);
-        const char *name = wt_table_name(table);
-        if (strncmp(name, prefix, sizeof prefix - 1) != 0)
-            continue;
-        if (first)
-            page_heading(page, "indentation", "Indentation record");
-        first = false;
-        rejected_of(page, table, name + sizeof prefix - 1);
+    for (size_t i = 0; i < page->tables->n_indentation; i++) {
+        const table_view *table = &page->tables->indentation[i];
         growing_text caption = {0};
-        text_format(&caption, "%s: how it was indented", name + sizeof prefix - 1);
+        if (i == 0)
+            page_heading(page, "indentation", "Indentation record");
+        rejected_of(page, table);
+        text_format(&caption, "%s: how it was indented", table->suffix);
         page_keys(page, table, text_string(&caption));
-        page->out.failed = page->out.failed || caption.failed;
-        text_free(&caption);
+        text_done(&caption, &page->out);
     }
 }

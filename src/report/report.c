@@ -5,14 +5,12 @@
 #include "weartrack/report.h"
 
 #include "base/param.h"
-#include "report/figures.h"
+#include "report/drawing.h"
+#include "report/files.h"
 #include "report/folder.h"
 #include "report/gnuplot.h"
 #include "report/page.h"
-#include "report/report_embedded.h"
-#include "report/report_files.h"
 
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -29,82 +27,6 @@ static const wt_param rows[] = {
 };
 PARAM_TABLE(wt_report_params, wt_report_options, rows, wt_report_defaults, NO_PARTS)
 
-const char *report_file(const char *name)
-{
-    for (const embedded_text *file = report_embedded; file->name != NULL; file++)
-        if (strcmp(file->name, name) == 0)
-            return file->text;
-    return NULL;
-}
-
-/* Names of the plot styles, "paper, screen"; at most `size` bytes. */
-static void style_names(char *names, size_t size)
-{
-    size_t n = 0;
-    names[0] = '\0';
-    for (const embedded_text *file = report_embedded; file->name != NULL; file++) {
-        const char *end = strstr(file->name, ".gp");
-        if (end == NULL || n >= size)
-            continue;
-        int more = snprintf(names + n, size - n, "%s%.*s", n == 0 ? "" : ", ",
-                            (int)(end - file->name), file->name);
-        n += more > 0 ? (size_t)more : 0;
-    }
-}
-
-/* Reads a whole file of at most `limit` bytes into a text. */
-static wt_status read_file(const char *path, size_t limit, growing_text *text, wt_error *err)
-{
-    wt_status status = WT_OK;
-    char chunk[8192];
-    FILE *file = fopen(path, "rb");
-    if (file == NULL) {
-        status = wt_fail(err, errno == ENOENT ? WT_E_NOT_FOUND : WT_E_IO, "cannot be opened: %s",
-                         strerror(errno));
-        wt_error_file(err, path);
-        return status;
-    }
-    for (size_t got; (got = fread(chunk, 1, sizeof chunk, file)) > 0;) {
-        text_bytes(text, chunk, got);
-        if (text->length > limit) {
-            status = wt_fail(err, WT_E_RANGE, "larger than %zu bytes", limit);
-            wt_error_file(err, path);
-            goto done;
-        }
-    }
-    if (ferror(file)) {
-        status = wt_fail(err, WT_E_IO, "cannot be read: %s", strerror(errno));
-        wt_error_file(err, path);
-    } else if (text->failed)
-        status = wt_fail(err, WT_E_MEMORY, "out of memory");
-done:
-    fclose(file);
-    return status;
-}
-
-/* A built-in style by name; anything with a slash or ending in .gp is a file. */
-static wt_status find_style(const char *name, growing_text *text, wt_error *err)
-{
-    enum { STYLE_LIMIT = 1 << 20 };
-    size_t length = strlen(name);
-    if (strchr(name, '/') != NULL || (length > 3 && strcmp(name + length - 3, ".gp") == 0))
-        return read_file(name, STYLE_LIMIT, text, err);
-    growing_text file = {0};
-    text_format(&file, "%s.gp", name);
-    const char *built_in = report_file(text_string(&file));
-    text_free(&file);
-    if (built_in != NULL) {
-        text_add(text, built_in);
-        return text->failed ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
-    }
-    char names[128];
-    style_names(names, sizeof names);
-    wt_status status = wt_fail(err, WT_E_NOT_FOUND, "no plot style of that name");
-    wt_error_expected(err, "%s, or a file name that ends in .gp", names);
-    wt_error_found(err, "\"%s\"", name);
-    return status;
-}
-
 /* ---- figures --------------------------------------------------------------------------------- */
 
 /* What becomes of one figure. */
@@ -115,25 +37,15 @@ typedef struct drawn_figure {
 
 /* One report while it is written. */
 typedef struct report {
-    const wt_result *result;
+    bound_tables tables;
     const char *gnuplot;
     const wt_progress *progress;
     growing_text style;
     report_folder *folder;
     drawn_figure *figures; /* one for each that this library knows */
-    page_figure *pages;    /* those whose tables are there */
+    page_figure *pages;    /* those whose table is there */
     size_t n_pages, n_pictures;
 } report;
-
-static bool has_tables(const wt_result *result, const wt_figure_info *info)
-{
-    for (size_t i = 0; info->needs[i] != NULL; i++) {
-        const wt_table *table = wt_result_find(result, info->needs[i]);
-        if (table == NULL || wt_table_n_rows(table) == 0)
-            return false;
-    }
-    return true;
-}
 
 static wt_status write_data(const report_folder *folder, const figure_drawing *d, wt_error *err)
 {
@@ -150,34 +62,34 @@ static wt_status write_data(const report_folder *folder, const figure_drawing *d
     }
     if (fclose(stream) != 0 && status == WT_OK)
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
-    (void)snprintf(name, sizeof name, "plots/%s.tsv", d->name);
+    (void)snprintf(name, sizeof name, "plots/%s.tsv", d->figure->name);
     if (status == WT_OK)
         status = folder_write(folder, name, bytes, length, err);
     free(bytes);
     return status;
 }
 
-static wt_status write_script(const report_folder *folder, const figure_drawing *d,
-                              const wt_figure_info *info, wt_error *err)
+static wt_status write_script(const report_folder *folder, const figure_drawing *d, wt_error *err)
 {
+    const char *const figure = d->figure->name;
     growing_text script = {0};
     char name[128];
-    text_format(&script, "# %s. To draw it again: gnuplot %s.gp\n", info->title, info->name);
+    text_format(&script, "# %s. To draw it again: gnuplot %s.gp\n", d->figure->title, figure);
     text_format(&script,
                 "# Data: %s.tsv, in SI units; x_unit and so on turn them into those of "
                 "the axes.\n",
-                info->name);
+                figure);
     text_comment(&script, text_string(&d->caption));
     text_add(&script, "reset\nfigure_width = ");
-    text_literal(&script, d->width > 0 ? d->width : 1);
+    text_literal(&script, d->width);
     text_add(&script, "; figure_height = ");
-    text_literal(&script, d->height > 0 ? d->height : 1);
+    text_literal(&script, d->height);
     text_format(&script, "\nload 'style.gp'\nset datafile separator \"\\t\"\nset output '%s.svg'\n",
-                info->name);
+                figure);
     text_add(&script, text_string(&d->script));
     text_add(&script, "set output\n");
-    (void)snprintf(name, sizeof name, "plots/%s.gp", info->name);
-    wt_status status = script.failed || d->script.failed || d->caption.failed
+    (void)snprintf(name, sizeof name, "plots/%s.gp", figure);
+    wt_status status = script.failed
                            ? wt_fail(err, WT_E_MEMORY, "out of memory")
                            : folder_write(folder, name, text_string(&script), script.length, err);
     text_free(&script);
@@ -185,14 +97,14 @@ static wt_status write_script(const report_folder *folder, const figure_drawing 
 }
 
 /* The picture of one figure, from its script. */
-static wt_status draw_picture(report *r, drawn_figure *figure, const wt_figure_info *info,
-                              wt_error *err)
+static wt_status draw_picture(report *r, drawn_figure *figure, wt_error *err)
 {
     enum { PICTURE_LIMIT = 64 << 20 };
+    const char *const name = figure->drawing.figure->name;
     char script[96], picture[96];
     wt_status status = WT_OK;
-    (void)snprintf(script, sizeof script, "%s.gp", info->name);
-    (void)snprintf(picture, sizeof picture, "%s.svg", info->name);
+    (void)snprintf(script, sizeof script, "%s.gp", name);
+    (void)snprintf(picture, sizeof picture, "%s.svg", name);
     if (r->n_pictures++ == 0)
         status =
             folder_write(r->folder, "plots/style.gp", text_string(&r->style), r->style.length, err);
@@ -203,30 +115,29 @@ static wt_status draw_picture(report *r, drawn_figure *figure, const wt_figure_i
     char *path = wt_path_join(folder_plots(r->folder), picture);
     if (path == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    status = read_file(path, PICTURE_LIMIT, &figure->svg, err);
+    status = file_read(path, PICTURE_LIMIT, &figure->svg, err);
     free(path);
     return status;
 }
 
 static wt_status make_figure(report *r, size_t i, wt_error *err)
 {
-    const wt_figure_info *info = wt_figure_get(i);
     drawn_figure *figure = &r->figures[i];
     figure_drawing *d = &figure->drawing;
-    wt_status status = WT_OK;
-    *d = (figure_drawing){.result = r->result, .name = info->name, .err = err};
-    figure_draw(i)(d);
-    if (d->status != WT_OK)
-        return d->status;
+    wt_status status = drawing_make(d, figure_find(i), &r->tables, err);
+    if (status != WT_OK)
+        return status;
+    if (d->script.failed || d->caption.failed || d->omitted.failed)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
     page_figure *page = &r->pages[r->n_pages++];
-    *page = (page_figure){.info = info, .width = d->width};
+    *page = (page_figure){.figure = d->figure, .width = d->width};
     if (d->script.length == 0) {
         page->omitted = text_string(&d->omitted);
         return WT_OK;
     }
     if ((status = write_data(r->folder, d, err)) != WT_OK ||
-        (status = write_script(r->folder, d, info, err)) != WT_OK ||
-        (status = draw_picture(r, figure, info, err)) != WT_OK)
+        (status = write_script(r->folder, d, err)) != WT_OK ||
+        (status = draw_picture(r, figure, err)) != WT_OK)
         return status;
     page->caption = text_string(&d->caption);
     page->svg = text_string(&figure->svg);
@@ -243,9 +154,11 @@ static wt_status tell(const report *r, const char *what, size_t done, wt_error *
     return wt_fail(err, WT_E_CANCELLED, "the report was cancelled");
 }
 
-static wt_status make_page(const report *r, bool with_provenance, wt_error *err)
+static wt_status make_page(const report *r, const wt_result *result, bool with_provenance,
+                           wt_error *err)
 {
-    page_writer page = {.result = r->result,
+    page_writer page = {.result = result,
+                        .tables = &r->tables,
                         .with_provenance = with_provenance,
                         .figures = r->pages,
                         .n_figures = r->n_pages};
@@ -263,7 +176,7 @@ wt_status wt_report_check(const char *folder, const wt_report_options *options, 
     report_folder *made = NULL;
     wt_status status = param_check(wt_report_params(), &chosen, err);
     if (status == WT_OK)
-        status = find_style(chosen.style, &style, err);
+        status = file_style(chosen.style, &style, err);
     if (status == WT_OK)
         status = folder_open(folder, &made, err);
     folder_discard(made);
@@ -280,8 +193,7 @@ wt_status wt_report_write(const wt_result *result, const char *folder,
     if (status != WT_OK)
         return status;
     size_t n = wt_figure_count();
-    report r = {.result = result,
-                .gnuplot = chosen.gnuplot,
+    report r = {.gnuplot = chosen.gnuplot,
                 .progress = progress,
                 .figures = calloc(n, sizeof *r.figures),
                 .pages = calloc(n, sizeof *r.pages)};
@@ -290,19 +202,20 @@ wt_status wt_report_write(const wt_result *result, const char *folder,
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
         goto done;
     }
-    if ((status = find_style(chosen.style, &r.style, err)) != WT_OK ||
+    if ((status = bound_make(result, &r.tables, err)) != WT_OK ||
+        (status = file_style(chosen.style, &r.style, err)) != WT_OK ||
         (status = folder_open(folder, &r.folder, err)) != WT_OK)
         goto done;
     for (size_t i = 0; i < n; i++) {
-        const wt_figure_info *info = wt_figure_get(i);
-        if (!has_tables(result, info))
+        const figure_description *figure = figure_find(i);
+        if (bound_find(&r.tables, figure->table)->n_rows == 0)
             continue;
-        if ((status = tell(&r, info->name, i, err)) != WT_OK ||
+        if ((status = tell(&r, figure->name, i, err)) != WT_OK ||
             (status = make_figure(&r, i, err)) != WT_OK)
             goto done;
     }
     if ((status = tell(&r, "page", n, err)) != WT_OK ||
-        (status = make_page(&r, chosen.with_provenance, err)) != WT_OK)
+        (status = make_page(&r, result, chosen.with_provenance, err)) != WT_OK)
         goto done;
     status = folder_commit(r.folder, err);
     r.folder = NULL;
@@ -317,5 +230,6 @@ done:
     free(r.figures);
     free(r.pages);
     text_free(&r.style);
+    bound_clear(&r.tables);
     return status;
 }

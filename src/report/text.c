@@ -17,6 +17,12 @@ void text_free(growing_text *text)
     *text = (growing_text){0};
 }
 
+void text_done(growing_text *part, growing_text *whole)
+{
+    whole->failed = whole->failed || part->failed;
+    text_free(part);
+}
+
 const char *text_string(const growing_text *text)
 {
     return text->bytes != NULL ? text->bytes : "";

@@ -17,6 +17,8 @@ typedef struct growing_text {
 
 void text_free(growing_text *text);                /* empty again */
 const char *text_string(const growing_text *text); /* "" while empty; borrowed */
+/* Frees a text that was written into `whole`, which has failed if that has. */
+void text_done(growing_text *part, growing_text *whole);
 void text_bytes(growing_text *text, const char *bytes, size_t length);
 void text_add(growing_text *text, const char *string);
 void text_format(growing_text *text, const char *format, ...) WT_PRINTF(2, 3);

@@ -80,16 +80,12 @@ static void pretty(const char *unit, char *label, size_t size)
     label[n] = '\0';
 }
 
-static bool is_temperature(const char *name)
+lab_unit lab_unit_for(wt_quantity quantity, const char *unit, double magnitude)
 {
-    return strstr(name, "temperature") != NULL && strstr(name, "error") == NULL &&
-           strstr(name, "spread") == NULL && strstr(name, "difference") == NULL;
-}
-
-lab_unit lab_unit_for(const char *unit, const char *name, double magnitude)
-{
+    if (unit == NULL)
+        unit = wt_quantity_unit(quantity);
     lab_unit lab = {.factor = 1, .offset = 0, .label = ""};
-    if (strcmp(unit, "K") == 0 && is_temperature(name)) {
+    if (quantity == WT_Q_TEMPERATURE && strcmp(unit, "K") == 0) {
         lab.offset = -WT_ZERO_CELSIUS;
         (void)strcpy(lab.label, "°C");
         return lab;

@@ -13,10 +13,10 @@ typedef struct lab_unit {
     char label[40]; /* "MPa", "" for a number */
 } lab_unit;
 
-/* The unit in which a value of that size [SI] reads best; a magnitude that is 0 or not finite gives
- * the smallest usual one. `name` of the column or key tells a temperature (°C) from a difference of
- * temperatures (K). */
-lab_unit lab_unit_for(const char *unit, const char *name, double magnitude);
+/* The unit in which a value of that size [`unit`, SI; NULL = that of the quantity] reads best; a
+ * magnitude that is 0 or not finite gives the smallest usual one. A temperature is in °C, a
+ * difference of temperatures in K. */
+lab_unit lab_unit_for(wt_quantity quantity, const char *unit, double magnitude);
 double lab_value(const lab_unit *lab, double value);
 
 #endif

@@ -9,7 +9,6 @@ cmake_minimum_required(VERSION 3.25)
 set(known
   "data/table.c > data/table_key.c"
   "flow/answer/answer.c > flow/answer/caveats.c"
-  "report/page.c > report/report.c"
 )
 
 # A node is a file; ties_FILE are the files it needs, by_FILE_OTHER what ties them.

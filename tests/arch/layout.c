@@ -114,4 +114,4 @@ ROOM(wt_run_options, no_timing, 56, 128)
 
 /* report.h */
 ROOM(wt_report_options, with_provenance, 16, 88)
-FIXED(wt_figure_info, needs, 16, 24)
+FIXED(wt_figure_info, table, 16, 24)

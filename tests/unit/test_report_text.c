@@ -114,29 +114,30 @@ static void test_lab_units(void **state)
 {
     (void)state;
     static const struct {
-        const char *unit, *name;
+        wt_quantity quantity;
+        const char *unit;
         double value;
         const char *label;
         double shown;
     } cases[] = {
-        {"m", "indentation", 1.3e-7, "nm", 130},
-        {"m", "height", 2.28e-6, "µm", 2.28},
-        {"N", "force", 5.36e-8, "nN", 53.6},
-        {"Pa", "modulus", 2.005e7, "MPa", 20.05},
-        {"K", "temperature", 293.15, "°C", 20},
-        {"K", "wlf_c2", 96.3, "K", 96.3},
-        {"K", "temperature_spread", 0.4, "K", 0.4},
-        {"m/s", "velocity", 5e-3, "mm/s", 5},
-        {"m^2/N", "k", 1e-13, "mm³/(N·m)", 1e-4},
-        {"W/m^3", "w", 3e9, "GW/m³", 3},
-        {"m^4", "density", 2e-16, "m⁴", 2e-16},
-        {"m.Hz^-0.5", "noise", 2, "m·Hz^-0·5", 2},
-        {"1", "ratio", 0.6, "", 0.6},
-        {"m", "zero", 0, "nm", 0},
+        {WT_Q_INDENTATION, NULL, 1.3e-7, "nm", 130},
+        {WT_Q_HEIGHT, NULL, 2.28e-6, "µm", 2.28},
+        {WT_Q_FORCE, NULL, 5.36e-8, "nN", 53.6},
+        {WT_Q_MODULUS, NULL, 2.005e7, "MPa", 20.05},
+        {WT_Q_TEMPERATURE, "K", 293.15, "°C", 20},
+        {WT_Q_TEMPERATURE_DIFFERENCE, NULL, 96.3, "K", 96.3},
+        {WT_Q_NONE, "K", 0.4, "K", 0.4},
+        {WT_Q_VELOCITY, NULL, 5e-3, "mm/s", 5},
+        {WT_Q_WEAR_RATE, NULL, 1e-13, "mm³/(N·m)", 1e-4},
+        {WT_Q_POWER_DENSITY, NULL, 3e9, "GW/m³", 3},
+        {WT_Q_POWER_SPECTRUM_2D, NULL, 2e-16, "m⁴", 2e-16},
+        {WT_Q_SPECTRAL_DENSITY, NULL, 2, "m·Hz^-0·5", 2},
+        {WT_Q_NONE, NULL, 0.6, "", 0.6},
+        {WT_Q_LENGTH, "m", 0, "nm", 0},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        lab_unit lab = lab_unit_for(cases[i].unit, cases[i].name, cases[i].value);
-        if (strcmp(cases[i].unit, "m.Hz^-0.5") != 0)
+        lab_unit lab = lab_unit_for(cases[i].quantity, cases[i].unit, cases[i].value);
+        if (cases[i].quantity != WT_Q_SPECTRAL_DENSITY)
             assert_string_equal(lab.label, cases[i].label);
         assert_near_abs(lab_value(&lab, cases[i].value), cases[i].shown,
                         1e-12 * fabs(cases[i].shown) + 1e-12);
@@ -164,19 +165,22 @@ static void test_svg_is_made_fit_for_a_page(void **state)
 static void test_logarithmic_tics_are_at_whole_decades(void **state)
 {
     (void)state;
-    figure_drawing d = {.name = "x"};
-    (void)axis_log(&d, "x", "q", "rad/m", (value_span){1e3, 3e7});
+    static const schema_column wavenumber = {.quantity = WT_Q_WAVENUMBER},
+                               modulus = {.quantity = WT_Q_MODULUS}, number = {.unit = NULL},
+                               temperature = {.quantity = WT_Q_TEMPERATURE};
+    figure_drawing d = {.status = WT_OK};
+    axis_log(&d, "x", "q", &wavenumber, (value_span){1e3, 3e7});
     // gnuplot would count decades from the end of the axis if the first tic were not given.
     assert_non_null(strstr(text_string(&d.script), "set xtics 1e3,1e1\n"));
     text_free(&d.script);
-    (void)axis_log(&d, "y", "E", "Pa", (value_span){11e6, 24e6});
+    axis_log(&d, "y", "E", &modulus, (value_span){11e6, 24e6});
     assert_non_null(strstr(text_string(&d.script), "set ylabel 'E (MPa)'\n"));
     assert_non_null(strstr(text_string(&d.script), "set ytics (15.0, 20.0)\n"));
     text_free(&d.script);
-    (void)axis_log(&d, "y", "E", "Pa", (value_span){20.1e6, 20.3e6});
+    axis_log(&d, "y", "E", &modulus, (value_span){20.1e6, 20.3e6});
     assert_non_null(strstr(text_string(&d.script), "set ytics (19.5, 20.0, 20.5, 21.0)\n"));
     text_free(&d.script);
-    (void)axis_linear(&d, "x", "T", "K", "temperature", (value_span){293.15, 293.15});
+    axis_linear(&d, "x", "T", &temperature, (value_span){293.15, 293.15});
     assert_non_null(strstr(text_string(&d.script), "x_offset = -273.15"));
     text_free(&d.script);
     // Numbers that no axis can show do not make one.
@@ -188,10 +192,10 @@ static void test_logarithmic_tics_are_at_whole_decades(void **state)
     assert_true(span_empty(&span));
     span_add(&span, 1e-99, true);
     span_add(&span, 1e99, true);
-    (void)axis_log(&d, "x", "q", "1", span);
+    axis_log(&d, "x", "q", &number, span);
     assert_non_null(strstr(text_string(&d.script), ",1e29\n"));
     text_free(&d.script);
-    (void)axis_linear(&d, "x", "q", "1", "", (value_span){5e-324, 1e-323});
+    axis_linear(&d, "x", "q", &number, (value_span){5e-324, 1e-323});
     assert_non_null(strstr(text_string(&d.script), "set xtics 0.5\n"));
     drawing_clear(&d);
 }

@@ -213,11 +213,8 @@ wt_status case_read_report(wt_case *c, const xmlNode *section, wt_error *err)
 {
     wt_status status = case_read_params(c, section, wt_report_params(), &c->report, err);
     size_t n = 0;
-    for (const xmlNode *node = section->children; node != NULL; node = node->next) {
-        if (node->type != XML_ELEMENT_NODE)
-            continue;
-        n += strcmp((const char *)node->name, "figure") == 0 ? FLOW_MOST_TABLES : 1;
-    }
+    for (const xmlNode *node = section->children; node != NULL; node = node->next)
+        n += node->type == XML_ELEMENT_NODE;
     c->asked = pool_alloc(&c->memory, n, sizeof *c->asked);
     if (status == WT_OK && c->asked == NULL)
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
@@ -229,18 +226,14 @@ wt_status case_read_report(wt_case *c, const xmlNode *section, wt_error *err)
         status = case_node_text(c, node, &name, err);
         if (status != WT_OK)
             break;
-        if (strcmp((const char *)node->name, "figure") == 0) {
-            const char *tables[FLOW_MOST_TABLES];
-            size_t count = flow_figure_tables(name, tables);
-            if (count == 0)
-                status = unknown_name(node, name, "figure", err);
-            for (size_t i = 0; i < count; i++)
-                c->asked[c->n_asked++] = tables[i];
-        } else if (!flow_table_is_known(name)) {
-            status = unknown_name(node, name, "result", err);
-        } else {
-            c->asked[c->n_asked++] = name;
-        }
+        const bool is_figure = strcmp((const char *)node->name, "figure") == 0;
+        const char *table = is_figure                   ? flow_figure_table(name)
+                            : flow_table_is_known(name) ? name
+                                                        : NULL;
+        if (table == NULL)
+            status = unknown_name(node, name, is_figure ? "figure" : "result", err);
+        else
+            c->asked[c->n_asked++] = table;
     }
     return status;
 }

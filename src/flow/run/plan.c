@@ -77,20 +77,12 @@ bool flow_table_is_known(const char *table)
     return things_of_table(table) != 0;
 }
 
-size_t flow_figure_tables(const char *figure, const char *tables[FLOW_MOST_TABLES])
+const char *flow_figure_table(const char *figure)
 {
-    for (size_t i = 0; i < wt_figure_count(); i++) {
-        const wt_figure_info *info = wt_figure_get(i);
-        if (strcmp(info->name, figure) != 0)
-            continue;
-        size_t n = 0;
-        while (n < FLOW_MOST_TABLES && info->needs[n] != NULL) {
-            tables[n] = info->needs[n];
-            n++;
-        }
-        return n;
-    }
-    return 0;
+    for (size_t i = 0; i < wt_figure_count(); i++)
+        if (strcmp(wt_figure_get(i).name, figure) == 0)
+            return wt_figure_get(i).table;
+    return NULL;
 }
 
 /* ---- what is there, what is wanted ------------------------------------------------------------

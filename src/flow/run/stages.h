@@ -73,9 +73,8 @@ void flow_plan_make(const wt_case *c, flow_plan *plan);
 /* Names of the things in words, "a, b and c". */
 void flow_things_list(flow_things things, char *text, size_t size);
 
-/* Table names of a figure of the report room; 0 if there is no such figure. */
-#define FLOW_MOST_TABLES 16
-size_t flow_figure_tables(const char *figure, const char *tables[FLOW_MOST_TABLES]);
+/* Name of the table that a figure of the report is drawn from; NULL if there is no such figure. */
+const char *flow_figure_table(const char *figure);
 bool flow_table_is_known(const char *table);
 
 #endif

@@ -1,0 +1,47 @@
+/* The tables of a result that a report reads, bound to their schemas once: a result may come from
+ * a file, so any of them may be absent, and one that is there may lack what it must have.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#ifndef WT_REPORT_BOUND_H
+#define WT_REPORT_BOUND_H
+
+#include "data/tables/tables.h"
+
+#define BOUND_TABLES(X)                                                                            \
+    X(answer)                                                                                      \
+    X(inputs)                                                                                      \
+    X(notes)                                                                                       \
+    X(failures)                                                                                    \
+    X(cost)                                                                                        \
+    X(force_displacement)                                                                          \
+    X(force_indentation)                                                                           \
+    X(modulus_groups)                                                                              \
+    X(modulus_rate)                                                                                \
+    X(comparison)                                                                                  \
+    X(dma_comparison)                                                                              \
+    X(shift_factors)                                                                               \
+    X(master_curve)                                                                                \
+    X(prony)                                                                                       \
+    X(roughness)                                                                                   \
+    X(friction)                                                                                    \
+    X(contact_area)                                                                                \
+    X(layer)                                                                                       \
+    X(energy_density)
+
+typedef struct bound_tables {
+#define BOUND_MEMBER(table) table_view table;
+    BOUND_TABLES(BOUND_MEMBER)
+    table_view *indentation; /* [n_indentation], one for each group, which is the suffix; owned */
+    size_t n_indentation;
+} bound_tables;
+
+/* The views borrow from the result. bound_clear also after a failure. */
+wt_status bound_make(const wt_result *result, bound_tables *tables, wt_error *err) WT_NODISCARD;
+void bound_clear(bound_tables *tables);
+/* The view of a schema in the list above, NULL for any other. */
+const table_view *bound_find(const bound_tables *tables, const table_schema *schema);
+/* The indentation of a group, NULL if there is none. */
+const table_view *bound_indentation(const bound_tables *tables, const char *group);
+
+#endif

@@ -1,0 +1,73 @@
+/* A figure, described once: what it is drawn from, its axes, its curves, the words below it. What
+ * no description can say (marks, maps, panels) is a function.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#ifndef WT_REPORT_FIGURE_H
+#define WT_REPORT_FIGURE_H
+
+#include "data/schema.h"
+
+struct figure_drawing;
+
+typedef enum axis_scale {
+    AXIS_NONE,
+    AXIS_LINEAR,
+    AXIS_LOG,
+    AXIS_NUMBER /* linear, of numbers that need no lab unit */
+} axis_scale;
+
+/* The unit is that of the column. */
+typedef struct figure_axis {
+    unsigned column;
+    axis_scale scale;
+    const char *label;
+} figure_axis;
+
+typedef enum curve_form {
+    CURVE_NONE,
+    CURVE_LINE,
+    CURVE_POINTS,
+    CURVE_BARS,        /* points with an interval */
+    CURVE_JOINED_BARS, /* the same, joined by a line */
+    CURVE_FIT,         /* a fitted law over the data: does not widen the axis */
+    CURVE_OWN,         /* the function of the figure draws it */
+    CURVE_DATA         /* in the data of the figure only */
+} curve_form;
+
+/* A column against that of the x axis. One without a number is not drawn. */
+typedef struct figure_curve {
+    unsigned column;
+    curve_form form;
+    int style;          /* line of the style file; of a figure by groups, what is added to theirs */
+    const char *title;  /* in the key; of a figure by groups, theirs; NULL = none */
+    int band;           /* style of a band of one standard error, 0 = none */
+    bool with_error;    /* the standard error is in the data without a band, too */
+    unsigned low, high; /* columns of the interval, 0 = none */
+    bool above_zero;    /* not drawn where it is not above zero */
+    size_t points;      /* draw every n-th only, so that about so many are left; 0 = all */
+    size_t panel;       /* whose y axis it has */
+} figure_curve;
+
+enum { FIGURE_PANELS = 2, FIGURE_CURVES = 6, FIGURE_COLUMNS = 12 };
+
+typedef struct figure_description {
+    const char *name, *title;
+    const table_schema *table; /* drawn if this has a row */
+    const char *data_title;    /* of its data; NULL = its name in words; of groups, theirs */
+    bool by_group;             /* a curve for each text in the column `group` */
+    unsigned group;
+    figure_axis x, y[FIGURE_PANELS], colour;
+    figure_curve curves[FIGURE_CURVES]; /* ends with CURVE_NONE */
+    const char *nothing; /* said where nothing can be drawn; NULL = not worth a word */
+    const char *words;   /* the caption */
+    void (*draw)(struct figure_drawing *d);    /* NULL: as described */
+    void (*caption)(struct figure_drawing *d); /* goes on with the caption; NULL: no more of it */
+} figure_description;
+
+/* In the order of the page; each ends with a row without a name. */
+extern const figure_description figures_indentation[], figures_dma[], figures_friction[],
+    figures_layer[];
+const figure_description *figure_find(size_t i); /* NULL past the last one */
+
+#endif

@@ -1,0 +1,18 @@
+/* Files that a report reads: those of the library by name, a style or a picture by path.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#ifndef WT_REPORT_FILES_H
+#define WT_REPORT_FILES_H
+
+#include "report/text.h"
+
+/* Text of "page.css", "paper.gp", ...; NULL if the library has none of that name. Static. */
+const char *file_of_library(const char *name);
+/* Appends a whole file of at most `limit` bytes. */
+wt_status file_read(const char *path, size_t limit, growing_text *text, wt_error *err) WT_NODISCARD;
+/* Appends a plot style: a built-in one by name, NULL = "paper"; anything with a slash or ending in
+ * .gp is a file. */
+wt_status file_style(const char *style, growing_text *text, wt_error *err) WT_NODISCARD;
+
+#endif

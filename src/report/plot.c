@@ -1,0 +1,70 @@
+/* The plot command of gnuplot.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "report/drawing.h"
+
+#include <stdarg.h>
+#include <string.h>
+
+void plot_begin(figure_drawing *d)
+{
+    d->n_items = 0;
+}
+
+static void next_item(figure_drawing *d)
+{
+    text_add(&d->script, d->n_items++ == 0 ? "plot \\\n  " : ", \\\n  ");
+}
+
+WT_PRINTF(2, 0)
+static void add_formatted(figure_drawing *d, const char *format, va_list arguments)
+{
+    char line[512];
+    int length = vsnprintf(line, sizeof line, format, arguments);
+    if (length < 0 || (size_t)length >= sizeof line)
+        d->script.failed = true;
+    else
+        text_add(&d->script, line);
+}
+
+void plot_item(figure_drawing *d, int section, const char *format, ...)
+{
+    if (section < 0)
+        return;
+    next_item(d);
+    text_format(&d->script, "'%s.tsv' index %d using ", d->figure->name, section);
+    va_list arguments;
+    va_start(arguments, format);
+    add_formatted(d, format, arguments);
+    va_end(arguments);
+}
+
+void plot_other(figure_drawing *d, const char *format, ...)
+{
+    next_item(d);
+    va_list arguments;
+    va_start(arguments, format);
+    add_formatted(d, format, arguments);
+    va_end(arguments);
+}
+
+void plot_title(figure_drawing *d, const char *title)
+{
+    text_add(&d->script, " title ");
+    text_quoted(&d->script, title);
+    text_add(&d->script, " noenhanced");
+}
+
+void plot_end(figure_drawing *d)
+{
+    text_add(&d->script, "\n");
+    d->n_items = 0;
+}
+
+void plot_heading(figure_drawing *d, const char *title)
+{
+    text_add(&d->script, "set title ");
+    text_quoted(&d->script, title);
+    text_add(&d->script, " noenhanced\n");
+}

@@ -1,0 +1,472 @@
+/* The figures of a report: what is drawn from which column, what the captions say, what a result
+ * must hold.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "report/drawing.h"
+#include "report_fixture.h"
+#include "report_place.h"
+
+#include <ctype.h>
+
+/* One report of everything for the tests that only look at it. */
+static char place[] = "/tmp/weartrack-figures-XXXXXX";
+static bool drawn;
+
+static int draw_everything(void **state)
+{
+    (void)state;
+    if (mkdtemp(place) == NULL || chdir(place) != 0)
+        return -1;
+    drawn = have_gnuplot();
+    wt_result *result = fixture_result();
+    if (drawn)
+        write_report(result, "out", NULL);
+    wt_result_free(result);
+    return 0;
+}
+
+static int remove_everything(void **state)
+{
+    (void)state;
+    int status = chdir("/");
+    remove_all(place);
+    return status;
+}
+
+#define NEED_REPORT()                                                                              \
+    do {                                                                                           \
+        if (!drawn)                                                                                \
+            skip();                                                                                \
+        assert_int_equal(chdir(place), 0);                                                         \
+    } while (0)
+
+static char *read_plot(const char *folder, const char *figure, const char *ending)
+{
+    char path[160];
+    size_t length = 0;
+    (void)snprintf(path, sizeof path, "%s/plots/%s.%s", folder, figure, ending);
+    return read_all(path, &length);
+}
+
+/* ---- data -------------------------------------------------------------------------------------
+ */
+
+enum { MOST = 64 };
+
+/* The sections of a figure's data, which are tables of the text stream. */
+static size_t read_sections(const char *folder, const char *figure, wt_table *sections[MOST])
+{
+    char path[160];
+    size_t n = 0;
+    (void)snprintf(path, sizeof path, "%s/plots/%s.tsv", folder, figure);
+    FILE *file = fopen(path, "rb");
+    if (file == NULL)
+        fail_msg("%s is not there", path);
+    wt_status status = WT_OK;
+    while (n < MOST && (status = wt_stream_read(file, path, &sections[n], NULL)) == WT_OK)
+        assert_true(wt_table_n_rows(sections[n++]) > 0);
+    assert_int_equal(status, WT_END);
+    (void)fclose(file);
+    return n;
+}
+
+static void free_sections(wt_table *sections[MOST], size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        wt_table_free(sections[i]);
+}
+
+static bool has_columns(const wt_table *section, const table_schema *schema,
+                        const unsigned *columns, size_t n)
+{
+    if (wt_table_n_columns(section) != n)
+        return false;
+    for (size_t i = 0; i < n; i++)
+        if (strcmp(wt_table_column_name(section, i), schema->columns[columns[i]].name) != 0 ||
+            strcmp(wt_table_column_unit(section, i),
+                   schema_column_unit(&schema->columns[columns[i]])) != 0)
+            return false;
+    return true;
+}
+
+static void test_data_have_the_described_columns(void **state)
+{
+    (void)state;
+    NEED_REPORT();
+    for (size_t i = 0; i < wt_figure_count(); i++) {
+        const figure_description *figure = figure_find(i);
+        unsigned columns[FIGURE_COLUMNS];
+        const size_t n = drawing_columns(figure, columns);
+        wt_table *sections[MOST];
+        const size_t n_sections = read_sections("out", figure->name, sections);
+        size_t found = 0;
+        for (size_t k = 0; k < n_sections; k++)
+            found += has_columns(sections[k], figure->table, columns, n);
+        if (n_sections == 0 || (n > 0 && found == 0))
+            fail_msg("%s.tsv lacks what is described", figure->name);
+        free_sections(sections, n_sections);
+    }
+}
+
+/* A description names columns of its own table, each of the right kind. */
+static void test_descriptions_fit_their_tables(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < wt_figure_count(); i++) {
+        const figure_description *figure = figure_find(i);
+        unsigned columns[FIGURE_COLUMNS];
+        const size_t n = drawing_columns(figure, columns);
+        assert_true(n < FIGURE_COLUMNS);
+        for (size_t k = 0; k < n; k++) {
+            assert_true(columns[k] < figure->table->n_columns);
+            assert_int_equal(figure->table->columns[columns[k]].kind, SCHEMA_NUMBER);
+        }
+        if (figure->by_group)
+            assert_int_equal(figure->table->columns[figure->group].kind, SCHEMA_TEXT);
+        for (const figure_curve *curve = figure->curves; curve->form != CURVE_NONE; curve++)
+            if (curve->band != 0 || curve->with_error)
+                assert_true(figure->table->columns[curve->column].standard_error > 0);
+        assert_true(figure->words != NULL && strlen(figure->title) > 5);
+    }
+}
+
+/* ---- curves -----------------------------------------------------------------------------------
+ */
+
+/* The columns that an item of a plot command uses, in their order, each once: "time thickness". */
+static void columns_of_item(const char *item, wt_table *const *sections, size_t n, char *words,
+                            size_t size)
+{
+    const char *index = strstr(item, "' index "), *with = strstr(item, " with ");
+    assert_true(index != NULL && with != NULL);
+    const size_t section = strtoul(index + strlen("' index "), NULL, 10);
+    assert_true(section < n);
+    words[0] = '\0';
+    bool inside = false; // of a bracket, where a plain number is a number
+    for (const char *s = strstr(index, "using ") + strlen("using "); s < with; s++) {
+        inside = (inside || *s == '(') && !(*s == ')' && (s[1] == ':' || s[1] == ' '));
+        bool column = *s == '$' || (!inside && isdigit((unsigned char)*s));
+        if (!column)
+            continue;
+        char *end = NULL;
+        const size_t place_in = strtoul(s + (*s == '$'), &end, 10);
+        s = end - 1;
+        if (place_in == 0) // $0 is the number of the row
+            continue;
+        assert_true(place_in <= wt_table_n_columns(sections[section]));
+        const char *name = wt_table_column_name(sections[section], place_in - 1);
+        const char *seen = strstr(words, name);
+        const size_t length = strlen(name);
+        while (seen != NULL && ((seen != words && seen[-1] != ' ') ||
+                                (seen[length] != ' ' && seen[length] != '\0')))
+            seen = strstr(seen + 1, name);
+        if (seen == NULL)
+            (void)snprintf(words + strlen(words), size - strlen(words), "%s%s",
+                           words[0] == '\0' ? "" : " ", name);
+    }
+}
+
+/* What stands behind `with`, and what must be drawn so. */
+static void test_curves_are_drawn_from_their_columns(void **state)
+{
+    (void)state;
+    NEED_REPORT();
+    static const struct {
+        const char *figure, *with, *columns;
+    } curves[] = {
+        {"force_displacement", "title 'approach'", "displacement force"},
+        {"force_displacement", "title 'retract'", "displacement force"},
+        {"force_displacement", "title 'contact'",
+         "contact_point contact_force contact_point_standard_error"},
+        {"force_indentation", "points ls 41 title 'bulk'", "indentation force"},
+        {"force_indentation", "title 'fit'", "indentation fitted_force"},
+        {"modulus_groups", "points ls 41", "modulus"},
+        {"modulus_groups", "yerrorbars ls 13", "geometric_mean low high"},
+        {"modulus_map", "boxxyerror", "x y modulus"},
+        {"modulus_map", "points ls 14", "x y"},
+        {"modulus_rate", "title 'track'", "indentation_rate geometric_mean low high"},
+        {"dma_comparison", "title 'DMA |E*|'", "equivalent_frequency dma_complex_modulus"},
+        {"dma_comparison", "title 'DMA E′'", "equivalent_frequency dma_storage_modulus"},
+        {"dma_comparison", "title 'bulk'", "equivalent_frequency indentation_modulus low high"},
+        {"master_curve", "points ls 51", "angular_frequency storage_modulus temperature"},
+        {"master_curve", "points ls 52", "angular_frequency loss_modulus temperature"},
+        {"master_curve", "title 'Prony series'", "angular_frequency fitted_storage"},
+        {"master_curve", "lines ls 11 notitle", "angular_frequency fitted_loss"},
+        {"shift_factors", "title 'from overlap'",
+         "temperature determined log_a log_a_standard_error"},
+        {"shift_factors", "title 'too little overlap'", "temperature determined log_a"},
+        {"power_spectrum", "lines ls 21", "wavenumber density"},
+        {"friction", "ls 71 notitle", "velocity friction friction_standard_error"},
+        {"friction", "ls 72 notitle", "velocity hysteresis hysteresis_standard_error"},
+        {"friction", "ls 74 notitle",
+         "velocity friction_with_layer friction_with_layer_standard_error"},
+        {"friction", "title 'total'", "velocity friction"},
+        {"friction", "title 'hysteresis'", "velocity hysteresis"},
+        {"friction", "title 'shearing'", "velocity adhesion"},
+        {"friction", "title 'total with layer'", "velocity friction_with_layer"},
+        {"contact_area", "lines lw 1.8", "magnification area_ratio velocity"},
+        {"friction_scales", "lines lw 1.8", "magnification hysteresis velocity"},
+        {"energy_density", "lines ls 21", "depth energy_density"},
+        {"layer", "ls 71 notitle", "time thickness thickness_standard_error"},
+        {"layer", "title 'thickness'", "time thickness"},
+        {"layer", "title 'formation'", "time formation_rate"},
+        {"layer", "title 'wear'", "time wear_rate"},
+    };
+    for (size_t i = 0; i < wt_figure_count(); i++) {
+        const char *figure = wt_figure_get(i).name;
+        wt_table *sections[MOST];
+        const size_t n = read_sections("out", figure, sections);
+        size_t checked = 0;
+        for (size_t k = 0; k < sizeof curves / sizeof *curves; k++) {
+            if (strcmp(curves[k].figure, figure) != 0)
+                continue;
+            char *script = read_plot("out", figure, "gp"), *rest = NULL, words[256] = "";
+            for (char *line = strtok_r(script, "\n", &rest); line != NULL && words[0] == '\0';
+                 line = strtok_r(NULL, "\n", &rest)) {
+                const char *with = strstr(line, curves[k].with);
+                if (with != NULL && strstr(line, "' index ") != NULL)
+                    columns_of_item(line, sections, n, words, sizeof words);
+            }
+            if (strcmp(words, curves[k].columns) != 0)
+                fail_msg("%s, %s: drawn from \"%s\", not from \"%s\"", figure, curves[k].with,
+                         words, curves[k].columns);
+            checked++;
+            free(script);
+        }
+        if (checked == 0)
+            fail_msg("no curve of %s is checked", figure);
+        free_sections(sections, n);
+    }
+}
+
+/* A described curve without a number has no entry in the key. */
+static void stop_wear(wt_table *layer, size_t row)
+{
+    (void)row;
+    fixture_put(layer, "wear_rate", 0);
+}
+
+static void forget_adhesion(wt_table *friction, size_t row)
+{
+    (void)row;
+    fixture_put(friction, "adhesion", (double)NAN);
+}
+
+static void test_the_key_lists_what_is_drawn(void **state)
+{
+    (void)state;
+    NEED_REPORT();
+    static const fixture_change changes[] = {{"layer", .edit = stop_wear},
+                                             {"friction", .edit = forget_adhesion}};
+    wt_result *result = fixture_changed(fixture_produced(), changes, 2);
+    write_report(result, "key", NULL);
+    char *layer = read_plot("key", "layer", "gp"), *friction = read_plot("key", "friction", "gp");
+    assert_non_null(strstr(layer, "'formation'"));
+    assert_null(strstr(layer, "'wear'"));
+    assert_non_null(strstr(friction, "'hysteresis'"));
+    assert_null(strstr(friction, "'shearing'"));
+    free(layer);
+    free(friction);
+    wt_result_free(result);
+}
+
+/* A model without incubation still states its time; the curve then shows none, nor may a mark. */
+static void grow_at_once(wt_table *layer, size_t row)
+{
+    fixture_put(layer, "thickness", 1e-8 * (double)(row + 1));
+}
+
+static void test_incubation_is_marked_where_the_curve_shows_it(void **state)
+{
+    (void)state;
+    NEED_REPORT();
+    char *script = read_plot("out", "layer", "gp");
+    assert_non_null(strstr(script, "set label 'incubation' at 1.2101"));
+    free(script);
+    const fixture_change change = {"layer", .edit = grow_at_once};
+    wt_result *result = fixture_with(&change);
+    write_report(result, "grows", NULL);
+    script = read_plot("grows", "layer", "gp");
+    assert_null(strstr(script, "ncubation"));
+    free(script);
+    wt_result_free(result);
+}
+
+/* ---- captions ---------------------------------------------------------------------------------
+ */
+
+static void check_caption(const char *folder, const char *figure, const char *words)
+{
+    char *script = read_plot(folder, figure, "gp"), *end = strstr(script, "\nreset\n");
+    assert_non_null(end);
+    *end = '\0';
+    if (strstr(script, words) == NULL)
+        fail_msg("the caption of %s lacks \"%s\":\n%s", figure, words, script);
+    free(script);
+}
+
+/* Numbers of the case as its tables hold them (and of truth.txt, within their errors), or as the
+ * fixture sets them. */
+static void test_numbers_of_captions(void **state)
+{
+    (void)state;
+    NEED_REPORT();
+    static const char *const captions[][2] = {
+        {"force_displacement", " bulk: bulk-1.jpk-force-map curve 5, standard error of the contact "
+                               "point 0.0545 nm. "},
+        {"force_displacement", "$(rm -r x)  curve 7, standard error of the contact point 0.071 "
+                               "nm. The vertical line"},
+        {"force_indentation", " Lines: contact model with the fitted modulus."},
+        {"modulus_groups", " Unit of analysis of the interval: spot. bulk: n = 48, rejected 0. "
+                           "track: n = 48, rejected 0."},
+        {"modulus_rate", ": bulk n = 16, 16, 16; track n = 16, 16, 16."},
+        {"dma_comparison", " 1 of 6 points lie outside"},
+        {"master_curve", " of 20 °C; 192 points of 12 isotherms, "},
+        {"master_curve", " Prony series with 24 terms "},
+        {"shift_factors", " C₁ = 6.512 ± 0.070 and C₂ = 110.18 ± 0.82 K at 20 °C;"},
+        {"shift_factors", " Not determined by overlap: 1 of 12 isotherms."},
+        {"power_spectrum", " height 44.8 ± 1.1 µm. Root-mean-square slope 0.945 ± 0.024."},
+        {"friction", " (from material (isotherms resampled), shift law, roughness, shear stress, "
+                     "thickness and modulus ratio of the layer)."},
+        {"friction", ", thickness 3.15 ± 0.78 µm. Conditions: nominal pressure 400 kPa, "
+                     "temperature 30 °C, shear stress of the real contact 5 MPa. "},
+        {"friction", " numerical error of the hysteresis part: 0.0020 %, not in the bands."},
+        {"friction", " Up to 4.0 % of the hysteresis part comes"},
+        {"layer", " Balance thickness 3.15 ± 0.78 µm. Incubation time 1.21 s. Relaxation time "
+                  "46.4 s."},
+    };
+    for (size_t i = 0; i < sizeof captions / sizeof *captions; i++)
+        check_caption("out", captions[i][0], captions[i][1]);
+}
+
+static void extrapolate_little(wt_table *friction, size_t row)
+{
+    fixture_put(friction, "extrapolated_share", row == 0 ? 9e-4 : 0);
+}
+
+static void repeat_curves(wt_table *curves)
+{
+    const size_t n = wt_table_n_rows(curves), columns = wt_table_n_columns(curves);
+    for (size_t i = 0; i < 100 * n; i++) {
+        fixture_check(wt_table_add_row(curves, NULL));
+        for (size_t c = 0; c < columns; c++)
+            if (wt_table_column_kind(curves, c) == WT_COLUMN_NUMBER)
+                wt_table_put(curves, c, wt_table_number(curves, i % n, c));
+            else
+                fixture_check(wt_table_put_text(curves, c, wt_table_text(curves, i % n, c), NULL));
+    }
+}
+
+/* Every n-th point is drawn, and the caption says so. */
+static void test_crowds_are_thinned(void **state)
+{
+    (void)state;
+    NEED_REPORT();
+    static const fixture_change changes[] = {{"friction", .edit = extrapolate_little},
+                                             {"force_displacement", .finish = repeat_curves},
+                                             {"force_indentation", .finish = repeat_curves},
+                                             {"indentation/bulk", .finish = repeat_curves},
+                                             {"indentation/track", .finish = repeat_curves}};
+    wt_result *result = fixture_changed(fixture_produced(), changes, 5);
+    write_report(result, "crowd", NULL);
+    check_caption("crowd", "friction", " Less than 0.1 % of the hysteresis part comes");
+    static const struct {
+        const char *figure, *words;
+        size_t left;
+    } crowds[] = {{"force_displacement", "One sample of", 1200},
+                  {"force_indentation", "One sample of up to", 220},
+                  {"modulus_groups", "One curve of up to", 3000}};
+    for (size_t i = 0; i < 3; i++) {
+        wt_table *sections[MOST];
+        char words[64];
+        const size_t n = read_sections("crowd", crowds[i].figure, sections);
+        size_t most = 0;
+        for (size_t k = 0; k < n; k++)
+            most = wt_table_n_rows(sections[k]) > most ? wt_table_n_rows(sections[k]) : most;
+        assert_true(most > crowds[i].left);
+        (void)snprintf(words, sizeof words, " %s %zu is drawn.", crowds[i].words,
+                       (most + crowds[i].left - 1) / crowds[i].left);
+        check_caption("crowd", crowds[i].figure, words);
+        free_sections(sections, n);
+    }
+    wt_result_free(result);
+}
+
+/* ---- what a result must hold ------------------------------------------------------------------
+ */
+
+static void check_refused(const char *table, const char *column, const fixture_change *change,
+                          wt_status expected)
+{
+    wt_result *result = fixture_with(change);
+    wt_error err = WT_ERROR_INIT;
+    wt_status status = wt_report_write(result, "refused", NULL, NULL, &err);
+    if (status != expected || strstr(err.message, table) == NULL ||
+        strstr(err.message, column) == NULL || exists("refused"))
+        fail_msg("column %s of table %s: status %d, %s", column, table, (int)status, err.message);
+    wt_result_free(result);
+}
+
+/* A column or key that must be there and is not, and one of the wrong kind, are errors that name
+ * table and column; nothing is written. */
+static void test_what_is_missing_is_an_error(void **state)
+{
+    (void)state;
+    size_t checked = 0;
+    assert_int_equal(chdir(place), 0);
+    for (size_t t = 0; t < table_n_schemas; t++) {
+        const table_schema *schema = table_schemas[t];
+        char name[SCHEMA_NAME_SIZE];
+        schema_name(schema->name, "bulk", name);
+        if (wt_result_find(fixture_produced(), name) == NULL || schema == &spectrum_schema)
+            continue;
+        for (size_t c = 0; c < schema->n_columns; c++) {
+            const char *column = schema->columns[c].name;
+            const fixture_change without = {name, .without = column},
+                                 swapped = {name, .swapped = column};
+            if (!schema->columns[c].optional)
+                check_refused(name, column, &without, WT_E_MISSING);
+            check_refused(name, column, &swapped, WT_E_UNIT);
+            checked++;
+        }
+        for (size_t k = 0; k < schema->n_keys; k++) {
+            const fixture_change without = {name, .without = schema->keys[k].name};
+            if (!schema->keys[k].optional)
+                check_refused(name, schema->keys[k].name, &without, WT_E_MISSING);
+        }
+    }
+    assert_true(checked > 100);
+}
+
+/* What an optional column would say is left out. */
+static void test_what_may_be_missing(void **state)
+{
+    (void)state;
+    NEED_REPORT();
+    for (size_t c = 0; c < indentation_schema.n_columns; c++) {
+        if (!indentation_schema.columns[c].optional)
+            continue;
+        const fixture_change change = {"indentation/bulk",
+                                       .without = indentation_schema.columns[c].name};
+        const char *const tables[] = {"indentation/bulk"};
+        wt_result *result = fixture_only(tables, 1, &change);
+        write_report(result, "less", NULL);
+        wt_result_free(result);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_descriptions_fit_their_tables),
+        cmocka_unit_test(test_data_have_the_described_columns),
+        cmocka_unit_test(test_curves_are_drawn_from_their_columns),
+        cmocka_unit_test(test_the_key_lists_what_is_drawn),
+        cmocka_unit_test(test_incubation_is_marked_where_the_curve_shows_it),
+        cmocka_unit_test(test_numbers_of_captions),
+        cmocka_unit_test(test_crowds_are_thinned),
+        cmocka_unit_test(test_what_is_missing_is_an_error),
+        cmocka_unit_test(test_what_may_be_missing),
+    };
+    return cmocka_run_group_tests(tests, draw_everything, remove_everything);
+}
