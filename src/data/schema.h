@@ -22,9 +22,14 @@ typedef struct schema_column {
     const char *label;       /* heading on the page; NULL = the long name */
     unsigned standard_error; /* columns with the errors of this one, 0 = none */
     unsigned numerical_error;
-    bool yes_no;   /* 1 or 0 */
-    bool sparse;   /* a row may leave it empty */
-    bool optional; /* a table may be without it */
+    unsigned low, high;  /* columns with the ends of its interval, 0 = none */
+    bool yes_no;         /* 1 or 0 */
+    bool sparse;         /* a row may leave it empty */
+    bool optional;       /* a table may be without it */
+    unsigned like;       /* on the page in the unit of this column, 0 = of its own */
+    const char *missing; /* on the page for NaN; NULL = a dash */
+    int digits;          /* on the page: significant ones, 0 = as usual */
+    int decimals;        /* so many instead, 0 = by digits */
 } schema_column;
 
 typedef struct schema_key {

@@ -47,35 +47,24 @@ static void write_label(figure_drawing *d, const char *axis, const char *label, 
     text_format(&d->script, "set %slabel ", axis);
     text_quoted(&d->script, text_string(&words));
     text_add(&d->script, "\n");
-    if (words.failed)
-        d->script.failed = true;
-    text_free(&words);
+    text_done(&words, &d->script);
 }
 
 static void write_unit(figure_drawing *d, const char *axis, const char *unit, const lab_unit *lab)
 {
     growing_text words = {0};
-    text_format(&d->script, "%s_unit = ", axis);
-    text_literal(&d->script, lab->factor);
-    if (lab->offset != 0) {
-        text_format(&d->script, "; %s_offset = ", axis);
-        text_literal(&d->script, lab->offset);
-    }
+    text_format(&d->script, "%s_unit = %s", axis, LITERAL(lab->factor));
+    if (lab->offset != 0)
+        text_format(&d->script, "; %s_offset = %s", axis, LITERAL(lab->offset));
     text_format(&words, "from %s to %s", unit, lab->label[0] != '\0' ? lab->label : "1");
     text_add(&d->script, "  ");
     text_comment(&d->script, text_string(&words));
-    if (words.failed)
-        d->script.failed = true;
-    text_free(&words);
+    text_done(&words, &d->script);
 }
 
 static void write_range(figure_drawing *d, const char *axis, double low, double high)
 {
-    text_format(&d->script, "set %srange [", axis);
-    text_literal(&d->script, low);
-    text_add(&d->script, ":");
-    text_literal(&d->script, high);
-    text_add(&d->script, "]\n");
+    text_format(&d->script, "set %srange [%s:%s]\n", axis, LITERAL(low), LITERAL(high));
 }
 
 /* 1, 2, 2.5 or 5 times a power of ten that divides `width` into about five parts. */
@@ -105,9 +94,7 @@ void axis_linear(figure_drawing *d, const char *axis, const char *label,
     write_label(d, axis, label, &lab);
     text_format(&d->script, "unset logscale %s\n", axis);
     write_range(d, axis, low, high);
-    text_format(&d->script, "set %stics ", axis);
-    text_literal(&d->script, step);
-    text_format(&d->script, "\nset format %s '%%g'\n", axis);
+    text_format(&d->script, "set %stics %s\nset format %s '%%g'\n", axis, LITERAL(step), axis);
 }
 
 /* Little more than two decades at most: 1-2-5 tics with plain numbers. */
@@ -119,14 +106,14 @@ static void short_log(figure_drawing *d, const char *axis, double low, double hi
     static const double few[] = {1, 2, 5}, many[] = {1, 1.5, 2, 3, 4, 5, 6, 8};
     const double *digits = width < 0.7 ? many : few;
     size_t n = width < 0.7 ? sizeof many / sizeof many[0] : sizeof few / sizeof few[0];
-    size_t written = 0;
+    const char *comma = "";
     write_range(d, axis, low, high);
     text_format(&d->script, "unset m%stics\nset %stics (", axis, axis);
     if (width < 0.15) { // less than a factor of 1.4: as on a linear axis
         double step = tidy_step(high - low);
         for (int i = (int)ceil(low / step); i <= (int)floor(high / step); i++) {
-            text_add(&d->script, written++ == 0 ? "" : ", ");
-            text_literal(&d->script, i * step);
+            text_format(&d->script, "%s%s", comma, LITERAL(i * step));
+            comma = ", ";
         }
     } else
         for (int decade = (int)floor(log10(low)); decade <= (int)floor(log10(high)); decade++)
@@ -134,8 +121,8 @@ static void short_log(figure_drawing *d, const char *axis, double low, double hi
                 double tic = digits[i] * pow(10, decade);
                 if (tic < low || tic > high)
                     continue;
-                text_add(&d->script, written++ == 0 ? "" : ", ");
-                text_literal(&d->script, tic);
+                text_format(&d->script, "%s%s", comma, LITERAL(tic));
+                comma = ", ";
             }
     text_format(&d->script, ")\nset format %s '%%g'\n", axis);
 }

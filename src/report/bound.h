@@ -8,26 +8,12 @@
 
 #include "data/tables/tables.h"
 
+/* clang-format off */
 #define BOUND_TABLES(X)                                                                            \
-    X(answer)                                                                                      \
-    X(inputs)                                                                                      \
-    X(notes)                                                                                       \
-    X(failures)                                                                                    \
-    X(cost)                                                                                        \
-    X(force_displacement)                                                                          \
-    X(force_indentation)                                                                           \
-    X(modulus_groups)                                                                              \
-    X(modulus_rate)                                                                                \
-    X(comparison)                                                                                  \
-    X(dma_comparison)                                                                              \
-    X(shift_factors)                                                                               \
-    X(master_curve)                                                                                \
-    X(prony)                                                                                       \
-    X(roughness)                                                                                   \
-    X(friction)                                                                                    \
-    X(contact_area)                                                                                \
-    X(layer)                                                                                       \
-    X(energy_density)
+    X(answer) X(inputs) X(notes) X(failures) X(cost) X(force_displacement) X(force_indentation)    \
+    X(modulus_groups) X(modulus_rate) X(comparison) X(dma_comparison) X(shift_factors)             \
+    X(master_curve) X(prony) X(roughness) X(friction) X(contact_area) X(layer) X(energy_density)
+/* clang-format on */
 
 typedef struct bound_tables {
 #define BOUND_MEMBER(table) table_view table;

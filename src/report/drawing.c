@@ -1,4 +1,4 @@
-/* One figure while it is made: its data and its caption.
+/* One figure while it is made: its data.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -41,28 +41,17 @@ static wt_table *section_new(figure_drawing *d, const char *title)
     return table;
 }
 
-static int section_take(figure_drawing *d, wt_table *table)
+/* Keeps a section that holds something. */
+static int section_take(figure_drawing *d, wt_table *section, bool any)
 {
-    if (d->n_sections == DRAWING_SECTIONS) {
-        wt_table_free(table);
+    if (d->status == WT_OK && any && d->n_sections == DRAWING_SECTIONS)
         d->status = wt_fail(d->err, WT_E_INTERNAL, "figure %s has too many parts", d->figure->name);
-        return NO_SECTION;
+    if (d->status == WT_OK && any) {
+        d->sections[d->n_sections] = section;
+        return (int)d->n_sections++;
     }
-    d->sections[d->n_sections] = table;
-    return (int)d->n_sections++;
-}
-
-/* A section without rows. */
-static wt_table *section_of(figure_drawing *d, const table_schema *schema, const char *title,
-                            const unsigned *columns, size_t n_columns)
-{
-    wt_table *section = section_new(d, title);
-    for (size_t i = 0; i < n_columns && section != NULL && d->status == WT_OK; i++) {
-        const schema_column *column = &schema->columns[columns[i]];
-        d->status = wt_table_add_column(section, column->name, schema_column_unit(column),
-                                        column->long_name, d->err);
-    }
-    return section;
+    wt_table_free(section);
+    return NO_SECTION;
 }
 
 int drawing_section(figure_drawing *d, const table_view *table, const char *title,
@@ -73,7 +62,12 @@ int drawing_section(figure_drawing *d, const table_view *table, const char *titl
     bool any = false, first = true;
     if (d->status != WT_OK)
         return NO_SECTION;
-    wt_table *section = section_of(d, table->schema, title, columns, n_columns);
+    wt_table *section = section_new(d, title);
+    for (size_t i = 0; i < n_columns && d->status == WT_OK; i++) {
+        const schema_column *column = &table->schema->columns[columns[i]];
+        d->status = wt_table_add_column(section, column->name, schema_column_unit(column),
+                                        column->long_name, d->err);
+    }
     for (size_t row = 0; row < table->n_rows && d->status == WT_OK; row++) {
         if (!row_matches(table, row, rows))
             continue;
@@ -95,32 +89,22 @@ int drawing_section(figure_drawing *d, const table_view *table, const char *titl
         }
         any = any || complete;
     }
-    if (any && d->status == WT_OK)
-        return section_take(d, section);
-    wt_table_free(section);
-    return NO_SECTION;
+    return section_take(d, section, any);
 }
 
 int drawing_point(figure_drawing *d, const char *title, const char *const *columns,
                   const char *const *units, const double *values)
 {
-    wt_table *point = NULL;
-    if (d->status != WT_OK || (point = section_new(d, title)) == NULL)
-        return NO_SECTION;
-    for (size_t i = 0; columns[i] != NULL; i++) {
-        d->status = wt_table_add_column(point, columns[i], units[i], columns[i], d->err);
-        if (d->status != WT_OK)
-            goto fail;
-    }
-    d->status = wt_table_add_row(point, d->err);
     if (d->status != WT_OK)
-        goto fail;
-    for (size_t i = 0; columns[i] != NULL; i++)
+        return NO_SECTION;
+    wt_table *point = section_new(d, title);
+    for (size_t i = 0; d->status == WT_OK && columns[i] != NULL; i++)
+        d->status = wt_table_add_column(point, columns[i], units[i], columns[i], d->err);
+    if (d->status == WT_OK)
+        d->status = wt_table_add_row(point, d->err);
+    for (size_t i = 0; d->status == WT_OK && columns[i] != NULL; i++)
         wt_table_put(point, i, values[i]);
-    return section_take(d, point);
-fail:
-    wt_table_free(point);
-    return NO_SECTION;
+    return section_take(d, point, true);
 }
 
 size_t drawing_rows(const figure_drawing *d, int section)
@@ -142,32 +126,4 @@ size_t drawing_thinning(const figure_drawing *d, size_t limit)
         most = every > most ? every : most;
     }
     return most;
-}
-
-/* ---- caption --------------------------------------------------------------------------------- */
-
-void caption_value(figure_drawing *d, wt_quantity quantity, const char *unit, double value)
-{
-    lab_unit lab = lab_unit_for(quantity, unit, value);
-    text_short(&d->caption, lab_value(&lab, value), 3);
-    if (isfinite(value) && lab.label[0] != '\0')
-        text_format(&d->caption, " %s", lab.label);
-}
-
-void caption_estimate(figure_drawing *d, const wt_estimate *estimate)
-{
-    double error = fabs(estimate->standard_error);
-    if (!(error > 0) || !isfinite(estimate->value)) {
-        caption_value(d, WT_Q_NONE, estimate->unit, estimate->value);
-        return;
-    }
-    lab_unit lab = lab_unit_for(WT_Q_NONE, estimate->unit, estimate->value);
-    double scaled = error * lab.factor;
-    int decimals = 1 - (int)floor(log10(scaled));
-    decimals = decimals < 0 ? 0 : decimals > 9 ? 9 : decimals;
-    text_fixed(&d->caption, lab_value(&lab, estimate->value), decimals);
-    text_add(&d->caption, " ± ");
-    text_fixed(&d->caption, scaled, decimals);
-    if (lab.label[0] != '\0')
-        text_format(&d->caption, " %s", lab.label);
 }

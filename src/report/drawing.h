@@ -8,6 +8,7 @@
 
 #include "report/bound.h"
 #include "report/figure.h"
+#include "report/numbers.h"
 #include "report/text.h"
 #include "report/units.h"
 
@@ -17,7 +18,11 @@ enum { DRAWING_SECTIONS = 64, DRAWING_GROUPS = 6, NO_SECTION = -1 };
 typedef struct value_span {
     double low, high;
 } value_span;
-#define SPAN_EMPTY ((value_span){1, 0})
+#define SPAN_EMPTY                                                                                 \
+    (value_span)                                                                                   \
+    {                                                                                              \
+        1, 0                                                                                       \
+    }
 
 /* The first failure stays in `status`; later calls do nothing. */
 typedef struct figure_drawing {
@@ -26,6 +31,8 @@ typedef struct figure_drawing {
     const table_view *table;            /* that of the figure */
     const char *groups[DRAWING_GROUPS]; /* of a figure by groups: their names, borrowed; else "" */
     size_t n_groups;
+    unsigned columns[FIGURE_COLUMNS]; /* of the data as described */
+    size_t n_columns;
     wt_error *err;
     wt_status status;
     double width, height;                 /* of the picture, in sizes of one panel of the style */
@@ -36,12 +43,11 @@ typedef struct figure_drawing {
     bool titled[FIGURE_CURVES];             /* the curve is in the key */
     growing_text script;                    /* what follows the loading of the style */
     growing_text caption;                   /* plain text */
-    growing_text omitted; /* why nothing can be drawn; plain text, empty where that is usual */
-    size_t n_items;       /* of the plot command that is being written */
+    size_t n_items;                         /* of the plot command that is being written */
 } figure_drawing;
 
-/* Fills sections, script and caption. Without anything to draw it leaves no script and says why in
- * `omitted`. drawing_clear also after a failure. */
+/* Fills sections, script and caption; without anything to draw it leaves no script. drawing_clear
+ * also after a failure. */
 wt_status drawing_make(figure_drawing *d, const figure_description *figure,
                        const bound_tables *tables, wt_error *err) WT_NODISCARD;
 void drawing_clear(figure_drawing *d);
@@ -52,11 +58,11 @@ void drawing_clear(figure_drawing *d);
 size_t drawing_columns(const figure_description *figure, unsigned columns[FIGURE_COLUMNS]);
 /* Makes the sections of all groups and finds what they span; false if there is nothing to draw. */
 bool drawing_data(figure_drawing *d);
-void drawing_nothing(figure_drawing *d); /* says that there is nothing to draw */
-size_t drawing_place(const figure_drawing *d, unsigned column); /* in a section, from 0 */
 /* Axis "x", "y" or "cb"; `label` NULL = the one described. */
 void drawing_axis(figure_drawing *d, const char *letter, const figure_axis *axis, const char *label,
                   value_span span);
+/* x, y of the first panel and, if it says something, the scale of colour beside the picture. */
+void drawing_axes(figure_drawing *d, const char *x_label, const char *y_label);
 /* All that is described of one panel, in a plot command: the bands, then the curves. */
 void drawing_bands(figure_drawing *d, size_t panel);
 void drawing_curves(figure_drawing *d, size_t panel);
@@ -107,7 +113,6 @@ void axis_log(figure_drawing *d, const char *axis, const char *label, const sche
 
 /* ---- plot command --------------------------------------------------------------------------- */
 
-void plot_begin(figure_drawing *d);
 /* One more thing to plot: "'NAME.tsv' index SECTION using " and what the format says. Nothing is
  * written for NO_SECTION. */
 void plot_item(figure_drawing *d, int section, const char *format, ...) WT_PRINTF(3, 4);
@@ -118,12 +123,5 @@ void plot_title(figure_drawing *d, const char *title);
 void plot_end(figure_drawing *d);
 /* Title of a panel. */
 void plot_heading(figure_drawing *d, const char *title);
-
-/* ---- caption -------------------------------------------------------------------------------- */
-
-/* A value [`unit`, NULL = that of the quantity] for a caption, up to 3 digits: "1.15 µm". */
-void caption_value(figure_drawing *d, wt_quantity quantity, const char *unit, double value);
-/* "12.3 ± 0.4 MPa" with the standard error, the value alone without one. */
-void caption_estimate(figure_drawing *d, const wt_estimate *estimate);
 
 #endif

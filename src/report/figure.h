@@ -13,8 +13,9 @@ struct figure_drawing;
 typedef enum axis_scale {
     AXIS_NONE,
     AXIS_LINEAR,
-    AXIS_LOG,
-    AXIS_NUMBER /* linear, of numbers that need no lab unit */
+    AXIS_FROM_ZERO, /* linear with its zero */
+    AXIS_NUMBER,    /* linear, of numbers that need no lab unit */
+    AXIS_LOG
 } axis_scale;
 
 /* The unit is that of the column. */
@@ -39,22 +40,26 @@ typedef enum curve_form {
 typedef struct figure_curve {
     unsigned column;
     curve_form form;
-    int style;          /* line of the style file; of a figure by groups, what is added to theirs */
-    const char *title;  /* in the key; of a figure by groups, theirs; NULL = none */
-    int band;           /* style of a band of one standard error, 0 = none */
-    bool with_error;    /* the standard error is in the data without a band, too */
-    unsigned low, high; /* columns of the interval, 0 = none */
-    bool above_zero;    /* not drawn where it is not above zero */
-    size_t points;      /* draw every n-th only, so that about so many are left; 0 = all */
-    size_t panel;       /* whose y axis it has */
+    int style;         /* line of the style file; of a figure by groups, what is added to theirs */
+    const char *title; /* in the key; of a figure by groups, theirs; NULL = none */
+    bool with_errors;  /* the data have its standard error and interval, too */
+    int band;          /* style of a band of one standard error, 0 = none */
+    bool above_zero;   /* not drawn where it is not above zero */
+    size_t points;     /* draw every n-th only, so that about so many are left; 0 = all */
+    size_t panel;      /* whose y axis it has */
 } figure_curve;
+/* CURVE(LAYER_WEAR_RATE, LINE, .style = 23): column, form, what else there is to say. */
+#define CURVE(which, ...)                                                                          \
+    {                                                                                              \
+        .column = which, .form = CURVE_##__VA_ARGS__                                               \
+    }
 
 enum { FIGURE_PANELS = 2, FIGURE_CURVES = 6, FIGURE_COLUMNS = 12 };
 
 typedef struct figure_description {
     const char *name, *title;
     const table_schema *table; /* drawn if this has a row */
-    const char *data_title;    /* of its data; NULL = its name in words; of groups, theirs */
+    const char *data_title;    /* of its data; of groups, theirs */
     bool by_group;             /* a curve for each text in the column `group` */
     unsigned group;
     figure_axis x, y[FIGURE_PANELS], colour;
@@ -69,5 +74,8 @@ typedef struct figure_description {
 extern const figure_description figures_indentation[], figures_dma[], figures_friction[],
     figures_layer[];
 const figure_description *figure_find(size_t i); /* NULL past the last one */
+
+/* Of each group whose curves lie on a grid. */
+void draw_modulus_map(struct figure_drawing *d);
 
 #endif

@@ -20,9 +20,7 @@ static void draw_dma_comparison(figure_drawing *d)
         return;
     span_add_section(&d->y[0], d, section, 1, true);
     span_add_section(&d->y[0], d, section, 2, true);
-    drawing_axis(d, "x", &d->figure->x, NULL, d->x);
-    drawing_axis(d, "y", &d->figure->y[0], NULL, d->y[0]);
-    plot_begin(d);
+    drawing_axes(d, NULL, NULL);
     plot_item(d, section,
               "($1*x_unit):($3*y_unit) smooth unique with lines ls 11 title 'DMA |E*|'");
     plot_item(d, section, "($1*x_unit):($2*y_unit) smooth unique with lines ls 15 title 'DMA E′'");
@@ -43,25 +41,13 @@ static void caption_dma_comparison(figure_drawing *d)
 
 /* ---- master curve ---------------------------------------------------------------------------- */
 
-/* 'E' or 'G', as any of the DMA tables says. */
-static char modulus_letter(const bound_tables *tables)
-{
-    const char *const said[] = {
-        prony_words(&tables->prony, PRONY_KEY_DEFORMATION),
-        shift_factors_words(&tables->shift_factors, SHIFT_FACTORS_KEY_DEFORMATION),
-        master_curve_words(&tables->master_curve, MASTER_CURVE_KEY_DEFORMATION)};
-    for (size_t i = 0; i < sizeof said / sizeof *said; i++)
-        if (said[i] != NULL)
-            return strcmp(said[i], "shear") == 0 ? 'G' : 'E';
-    return 'E';
-}
-
 /* Points are coloured by the temperature of the measurement. */
 static void draw_master_curve(figure_drawing *d)
 {
     if (!drawing_data(d))
         return;
-    char letter = modulus_letter(d->tables), label[64];
+    const char *deformation = master_curve_words(d->table, MASTER_CURVE_KEY_DEFORMATION);
+    char letter = strcmp(deformation, "shear") == 0 ? 'G' : 'E', label[64];
     (void)snprintf(label, sizeof label, "%c′, %c″", letter, letter);
     d->width = 1.15;
     drawing_axis(d, "x", &d->figure->x, NULL, d->x);
@@ -71,7 +57,6 @@ static void draw_master_curve(figure_drawing *d)
         drawing_axis(d, "cb", &d->figure->colour, NULL, d->colour);
     const char *tint = coloured ? "lc palette" : "lc rgb 'black'";
     const char *column = coloured ? ":($4+cb_offset)" : "";
-    plot_begin(d);
     plot_item(d, d->data[0], "($1*x_unit):($2*y_unit)%s with points ls 51 %s notitle", column,
               tint);
     plot_item(d, d->data[0], "($1*x_unit):($3*y_unit)%s with points ls 52 %s notitle", column,
@@ -84,20 +69,13 @@ static void draw_master_curve(figure_drawing *d)
 
 static void caption_master_curve(figure_drawing *d)
 {
-    const double references[] = {
-        shift_factors_value(&d->tables->shift_factors, SHIFT_FACTORS_KEY_REFERENCE_TEMPERATURE)
-            .value,
-        prony_value(&d->tables->prony, PRONY_KEY_REFERENCE_TEMPERATURE).value,
-        master_curve_value(d->table, MASTER_CURVE_KEY_REFERENCE_TEMPERATURE).value};
+    const double reference =
+        master_curve_value(d->table, MASTER_CURVE_KEY_REFERENCE_TEMPERATURE).value;
     const size_t n = d->table->n_rows, terms = d->tables->prony.n_rows;
     value_span fit = SPAN_EMPTY;
 
-    for (size_t i = 0; i < sizeof references / sizeof *references; i++)
-        if (isfinite(references[i])) {
-            text_add(&d->caption, " of ");
-            caption_value(d, WT_Q_TEMPERATURE, NULL, references[i]);
-            break;
-        }
+    if (isfinite(reference))
+        text_format(&d->caption, " of %s", VALUE(WT_Q_TEMPERATURE, NULL, reference));
     text_format(&d->caption,
                 "; %zu points of %zu isotherms, coloured by the temperature of the measurement.", n,
                 wt_table_block(d->table->table, n - 1) + 1);
@@ -126,18 +104,14 @@ static bool find_law(const table_view *shift_factors, wlf_law *law)
 /* The law is drawn over the measured range only, and the pole is never in it. */
 static void define_law(figure_drawing *d, const wlf_law *law)
 {
-    text_add(&d->script, "c1 = ");
-    text_literal(&d->script, law->c1.value);
-    text_add(&d->script, "; c2 = ");
-    text_literal(&d->script, law->c2.value);
-    text_add(&d->script, "; t_ref = ");
-    text_literal(&d->script, law->reference - WT_ZERO_CELSIUS);
-    text_add(&d->script, "  # K and degrees Celsius\nt_low = ");
-    text_literal(&d->script, d->x.low - WT_ZERO_CELSIUS);
-    text_add(&d->script, "; t_high = ");
-    text_literal(&d->script, d->x.high - WT_ZERO_CELSIUS);
-    text_add(&d->script, "\nwlf(t) = t < t_low || t > t_high || c2 + t - t_ref <= 0 ? NaN : "
-                         "-c1*(t - t_ref)/(c2 + t - t_ref)\nset samples 400\n");
+    text_format(&d->script,
+                "c1 = %s; c2 = %s; t_ref = %s  # K and degrees Celsius\n"
+                "t_low = %s; t_high = %s\n"
+                "wlf(t) = t < t_low || t > t_high || c2 + t - t_ref <= 0 ? NaN : "
+                "-c1*(t - t_ref)/(c2 + t - t_ref)\nset samples 400\n",
+                LITERAL(law->c1.value), LITERAL(law->c2.value),
+                LITERAL(law->reference - WT_ZERO_CELSIUS), LITERAL(d->x.low - WT_ZERO_CELSIUS),
+                LITERAL(d->x.high - WT_ZERO_CELSIUS));
 }
 
 static size_t count_undetermined(const table_view *shift_factors)
@@ -154,12 +128,10 @@ static void draw_shift_factors(figure_drawing *d)
     bool has_law = find_law(d->table, &law);
     if (!drawing_data(d))
         return;
-    drawing_axis(d, "x", &d->figure->x, NULL, d->x);
-    drawing_axis(d, "y", &d->figure->y[0], NULL, d->y[0]);
+    drawing_axes(d, NULL, NULL);
     text_add(&d->script, "set ylabel 'Shift factor, log_{10} a_T' enhanced\n");
     if (has_law)
         define_law(d, &law);
-    plot_begin(d);
     if (has_law)
         plot_other(d, "wlf(x) with lines ls 11 title 'WLF law'");
     plot_item(d, d->data[0],
@@ -175,15 +147,12 @@ static void caption_shift_factors(figure_drawing *d)
 {
     size_t undetermined = count_undetermined(d->table);
     wlf_law law;
-    if (find_law(d->table, &law)) {
-        text_add(&d->caption, " Line: WLF law with C₁ = ");
-        caption_estimate(d, &law.c1);
-        text_add(&d->caption, " and C₂ = ");
-        caption_estimate(d, &law.c2);
-        text_add(&d->caption, " at ");
-        caption_value(d, WT_Q_TEMPERATURE, NULL, law.reference);
-        text_add(&d->caption, "; the two constants are correlated, see the table.");
-    }
+    if (find_law(d->table, &law))
+        text_format(&d->caption,
+                    " Line: WLF law with C₁ = %s and C₂ = %s at %s; the two constants are "
+                    "correlated, see the table.",
+                    ESTIMATE(&law.c1), ESTIMATE(&law.c2),
+                    VALUE(WT_Q_TEMPERATURE, NULL, law.reference));
     if (undetermined > 0)
         text_format(&d->caption, " Not determined by overlap: %zu of %zu isotherms.", undetermined,
                     d->table->n_rows);
@@ -199,11 +168,8 @@ const figure_description figures_dma[] = {
      .group = DMA_COMPARISON_GROUP,
      .x = {DMA_COMPARISON_EQUIVALENT_FREQUENCY, AXIS_LOG, "Equivalent angular frequency"},
      .y = {{DMA_COMPARISON_MODULUS, AXIS_LOG, "Young's modulus"}},
-     .curves = {{.column = DMA_COMPARISON_MODULUS,
-                 .form = CURVE_BARS,
-                 .low = DMA_COMPARISON_LOW,
-                 .high = DMA_COMPARISON_HIGH},
-                {.column = DMA_COMPARISON_EXTRAPOLATED, .form = CURVE_DATA}},
+     .curves = {CURVE(DMA_COMPARISON_MODULUS, BARS, .with_errors = true),
+                CURVE(DMA_COMPARISON_EXTRAPOLATED, DATA)},
      .nothing = "no indentation modulus with a known equivalent frequency",
      .words = "Indentation modulus (geometric mean, bars: 95 % confidence interval) against the "
               "angular frequency equivalent to the time of loading, with the modulus of the DMA "
@@ -214,17 +180,14 @@ const figure_description figures_dma[] = {
     {.name = "master_curve",
      .title = "Master curve",
      .table = &master_curve_schema,
+     .data_title = "master curve",
      .x = {MASTER_CURVE_ANGULAR_FREQUENCY, AXIS_LOG, "Reduced angular frequency"},
      .y = {{MASTER_CURVE_STORAGE_MODULUS, AXIS_LOG, "Storage and loss modulus"}},
      .colour = {MASTER_CURVE_TEMPERATURE, AXIS_LINEAR, "Temperature"},
-     .curves = {{.column = MASTER_CURVE_STORAGE_MODULUS, .form = CURVE_OWN},
-                {.column = MASTER_CURVE_LOSS_MODULUS, .form = CURVE_OWN},
-                {.column = MASTER_CURVE_TEMPERATURE, .form = CURVE_DATA},
-                {.column = MASTER_CURVE_FITTED_STORAGE,
-                 .form = CURVE_FIT,
-                 .style = 11,
-                 .title = "Prony series"},
-                {.column = MASTER_CURVE_FITTED_LOSS, .form = CURVE_FIT, .style = 11}},
+     .curves = {CURVE(MASTER_CURVE_STORAGE_MODULUS, OWN), CURVE(MASTER_CURVE_LOSS_MODULUS, OWN),
+                CURVE(MASTER_CURVE_TEMPERATURE, DATA),
+                CURVE(MASTER_CURVE_FITTED_STORAGE, FIT, .style = 11, .title = "Prony series"),
+                CURVE(MASTER_CURVE_FITTED_LOSS, FIT, .style = 11)},
      .nothing = "no point of the master curve has numbers above zero",
      .words = "Storage and loss modulus shifted to the reference temperature",
      .draw = draw_master_curve,
@@ -232,11 +195,11 @@ const figure_description figures_dma[] = {
     {.name = "shift_factors",
      .title = "Shift factors",
      .table = &shift_factors_schema,
+     .data_title = "shift factors",
      .x = {SHIFT_FACTORS_TEMPERATURE, AXIS_LINEAR, "Temperature"},
      .y = {{SHIFT_FACTORS_LOG_A, AXIS_NUMBER, "Shift factor, log₁₀ a_T"}},
-     .curves = {{.column = SHIFT_FACTORS_LOG_A, .form = CURVE_OWN, .with_error = true},
-                {.column = SHIFT_FACTORS_DETERMINED, .form = CURVE_DATA},
-                {.column = SHIFT_FACTORS_WLF_LOG_A, .form = CURVE_OWN}},
+     .curves = {CURVE(SHIFT_FACTORS_LOG_A, OWN, .with_errors = true),
+                CURVE(SHIFT_FACTORS_DETERMINED, DATA), CURVE(SHIFT_FACTORS_WLF_LOG_A, OWN)},
      .nothing = "no shift factor is known",
      .words = "Horizontal shift factors with one standard error (bars; smaller than the symbol "
               "where not seen).",

@@ -6,21 +6,12 @@
 
 #include <math.h>
 
-static void caption_of_estimate(figure_drawing *d, const char *words, wt_estimate estimate)
-{
-    if (isnan(estimate.value))
-        return;
-    text_format(&d->caption, " %s ", words);
-    caption_estimate(d, &estimate);
-    text_add(&d->caption, ".");
-}
-
 static void caption_spectrum(figure_drawing *d)
 {
-    caption_of_estimate(d, "Root-mean-square height",
-                        roughness_value(d->table, ROUGHNESS_KEY_RMS_HEIGHT));
-    caption_of_estimate(d, "Root-mean-square slope",
-                        roughness_value(d->table, ROUGHNESS_KEY_RMS_SLOPE));
+    const wt_estimate height = roughness_value(d->table, ROUGHNESS_KEY_RMS_HEIGHT),
+                      slope = roughness_value(d->table, ROUGHNESS_KEY_RMS_SLOPE);
+    text_format(&d->caption, " Root-mean-square height %s. Root-mean-square slope %s.",
+                ESTIMATE(&height), ESTIMATE(&slope));
 }
 
 /* ---- friction against velocity --------------------------------------------------------------- */
@@ -33,35 +24,10 @@ static void draw_friction(figure_drawing *d)
     span_add(&d->y[0], 0, false);
     span_add(&d->y[0], 1.1 * d->y[0].high, false); // room for the bands
     span_add_column(&total, d->table, FRICTION_TOTAL, false);
-    drawing_axis(d, "x", &d->figure->x, NULL, d->x);
-    drawing_axis(d, "y", &d->figure->y[0],
-                 span_empty(&total) ? "Hysteresis friction coefficient" : NULL, d->y[0]);
-    plot_begin(d);
+    drawing_axes(d, NULL, span_empty(&total) ? "Hysteresis friction coefficient" : NULL);
     drawing_bands(d, 0);
     drawing_curves(d, 0);
     plot_end(d);
-}
-
-/* "Conditions: nominal pressure 400 kPa, temperature 20 °C." as far as they are known. */
-static void caption_conditions(figure_drawing *d)
-{
-    static const struct {
-        friction_key key;
-        const char *words;
-    } conditions[] = {{FRICTION_KEY_PRESSURE, "nominal pressure"},
-                      {FRICTION_KEY_TEMPERATURE, "temperature"},
-                      {FRICTION_KEY_SHEAR_STRESS, "shear stress of the real contact"}};
-    size_t written = 0;
-    for (size_t i = 0; i < sizeof conditions / sizeof *conditions; i++) {
-        wt_estimate value = friction_value(d->table, conditions[i].key);
-        if (!isfinite(value.value))
-            continue;
-        text_format(&d->caption, "%s%s ", written++ == 0 ? " Conditions: " : ", ",
-                    conditions[i].words);
-        caption_value(d, friction_schema.keys[conditions[i].key].quantity, value.unit, value.value);
-    }
-    if (written > 0)
-        text_add(&d->caption, ".");
 }
 
 /* The largest numerical error relative to its value; NaN if none is known. */
@@ -87,50 +53,30 @@ static void caption_friction(figure_drawing *d)
     text_add(&d->caption, ".");
     if (!span_empty(&layer)) {
         wt_estimate thickness = friction_value(d->table, FRICTION_KEY_LAYER_THICKNESS);
-        text_add(&d->caption, " Dashed: with the modified layer on the surface");
-        if (!isnan(thickness.value)) {
-            text_add(&d->caption, ", thickness ");
-            caption_estimate(d, &thickness);
-        }
-        text_add(&d->caption, ".");
+        text_format(&d->caption, " Dashed: with the modified layer on the surface%s%s.",
+                    isnan(thickness.value) ? "" : ", thickness ",
+                    isnan(thickness.value) ? "" : ESTIMATE(&thickness));
     }
-    caption_conditions(d);
+    text_format(
+        &d->caption, " Conditions: nominal pressure %s, temperature %s",
+        VALUE(WT_Q_PRESSURE, NULL, friction_value(d->table, FRICTION_KEY_PRESSURE).value),
+        VALUE(WT_Q_TEMPERATURE, NULL, friction_value(d->table, FRICTION_KEY_TEMPERATURE).value));
+    double shear = friction_value(d->table, FRICTION_KEY_SHEAR_STRESS).value;
+    if (isfinite(shear))
+        text_format(&d->caption, ", shear stress of the real contact %s",
+                    VALUE(WT_Q_PRESSURE, NULL, shear));
+    text_add(&d->caption, ".");
     double numerical = largest_error(d->table);
-    if (isfinite(numerical)) {
-        text_add(&d->caption, " Largest numerical error of the hysteresis part: ");
-        text_number(&d->caption, 100 * numerical, 2);
-        text_add(&d->caption, " %, not in the bands.");
-    }
-    if (!span_empty(&share) && share.high > 0) {
-        text_add(&d->caption, share.high < 1e-3 ? " Less than 0.1" : " Up to ");
-        if (share.high >= 1e-3)
-            text_number(&d->caption, 100 * share.high, 2);
-        text_add(&d->caption, " % of the hysteresis part comes from frequencies outside the "
-                              "measured ones.");
-    }
-}
-
-/* ---- against magnification ------------------------------------------------------------------- */
-
-/* One line for each velocity, coloured by it. */
-static void draw_scales(figure_drawing *d)
-{
-    const figure_axis *y = &d->figure->y[0];
-    if (!drawing_data(d))
-        return;
-    bool coloured = !span_empty(&d->colour) && d->colour.high > d->colour.low;
-    d->width = coloured ? 1.15 : 1;
-    if (y->scale == AXIS_LINEAR)
-        span_add(&d->y[0], 0, false);
-    drawing_axis(d, "x", &d->figure->x, NULL, d->x);
-    drawing_axis(d, "y", y, NULL, d->y[0]);
-    if (coloured)
-        drawing_axis(d, "cb", &d->figure->colour, NULL, d->colour);
-    text_add(&d->script, "unset key\n");
-    plot_begin(d);
-    plot_item(d, d->data[0], "($1*x_unit):($2*y_unit)%s",
-              coloured ? ":($3*cb_unit) with lines lw 1.8 lc palette" : " with lines ls 21");
-    plot_end(d);
+    if (isfinite(numerical))
+        text_format(&d->caption,
+                    " Largest numerical error of the hysteresis part: %s %%, not in the bands.",
+                    NUMBER(100 * numerical, 2));
+    if (!span_empty(&share) && share.high > 0)
+        text_format(&d->caption,
+                    " %s %s %% of the hysteresis part comes from frequencies outside the measured "
+                    "ones.",
+                    share.high < 1e-3 ? "Less than" : "Up to",
+                    share.high < 1e-3 ? "0.1" : NUMBER(100 * share.high, 2));
 }
 
 /* ---- descriptions ---------------------------------------------------------------------------- */
@@ -139,59 +85,56 @@ const figure_description figures_friction[] = {
     {.name = "power_spectrum",
      .title = "Power spectrum of the counter surface",
      .table = &roughness_schema,
+     .data_title = "power spectrum",
      .x = {ROUGHNESS_WAVENUMBER, AXIS_LOG, "Wavenumber q"},
      .y = {{ROUGHNESS_DENSITY, AXIS_LOG, "Power spectrum C(q)"}},
-     .curves = {{.column = ROUGHNESS_DENSITY, .form = CURVE_LINE, .style = 21}},
+     .curves = {CURVE(ROUGHNESS_DENSITY, LINE, .style = 21)},
      .nothing = "no density above zero",
      .words = "Power spectrum of the counter surface over the wavenumbers that enter the friction.",
      .caption = caption_spectrum},
     {.name = "friction",
      .title = "Friction against sliding velocity",
      .table = &friction_schema,
+     .data_title = "friction",
      .x = {FRICTION_VELOCITY, AXIS_LOG, "Sliding velocity"},
      .y = {{FRICTION_TOTAL, AXIS_NUMBER, "Friction coefficient μ"}},
-     .curves =
-         {{.column = FRICTION_TOTAL, .form = CURVE_LINE, .style = 21, .title = "total", .band = 71},
-          {.column = FRICTION_HYSTERESIS,
-           .form = CURVE_LINE,
-           .style = 22,
-           .title = "hysteresis",
-           .band = 72},
-          {.column = FRICTION_ADHESION, .form = CURVE_LINE, .style = 23, .title = "shearing"},
-          {.column = FRICTION_WITH_LAYER,
-           .form = CURVE_LINE,
-           .style = 24,
-           .title = "total with layer",
-           .band = 74}},
+     .curves = {CURVE(FRICTION_TOTAL, LINE, .style = 21, .title = "total", .band = 71),
+                CURVE(FRICTION_HYSTERESIS, LINE, .style = 22, .title = "hysteresis", .band = 72),
+                CURVE(FRICTION_ADHESION, LINE, .style = 23, .title = "shearing"),
+                CURVE(FRICTION_WITH_LAYER, LINE, .style = 24, .title = "total with layer",
+                      .band = 74)},
      .nothing = "no friction coefficient is a number",
      .words = "Friction coefficient and its parts against sliding velocity. Bands: one standard "
               "error",
      .draw = draw_friction,
      .caption = caption_friction},
-    {.name = "contact_area",
-     .title = "Real contact area against magnification",
-     .table = &contact_area_schema,
-     .data_title = "area_ratio",
-     .x = {CONTACT_AREA_MAGNIFICATION, AXIS_LOG, "Magnification ζ = q/q₀"},
-     .y = {{CONTACT_AREA_AREA_RATIO, AXIS_LOG, "Real over nominal contact area A/A₀"}},
-     .colour = {CONTACT_AREA_VELOCITY, AXIS_LOG, "Sliding velocity"},
-     .curves = {{.column = CONTACT_AREA_AREA_RATIO, .form = CURVE_OWN}},
-     .nothing = "no number to draw",
-     .words = "Share of the nominal contact area that is in contact when roughness up to the "
-              "magnification is seen; one line for each sliding velocity.",
-     .draw = draw_scales},
-    {.name = "friction_scales",
-     .title = "Which length scales make the friction",
-     .table = &contact_area_schema,
-     .data_title = "hysteresis",
-     .x = {CONTACT_AREA_MAGNIFICATION, AXIS_LOG, "Magnification ζ = q/q₀"},
-     .y = {{CONTACT_AREA_HYSTERESIS, AXIS_LINEAR, "Hysteresis friction up to ζ"}},
-     .colour = {CONTACT_AREA_VELOCITY, AXIS_LOG, "Sliding velocity"},
-     .curves = {{.column = CONTACT_AREA_HYSTERESIS, .form = CURVE_OWN}},
-     .nothing = "no number to draw",
-     .words = "Hysteresis part of the friction coefficient from roughness up to the magnification: "
-              "where a line rises, those length scales make the friction. A line that still rises "
-              "at its right end depends on the upper cut-off of the spectrum.",
-     .draw = draw_scales},
+    {
+        .name = "contact_area",
+        .title = "Real contact area against magnification",
+        .table = &contact_area_schema,
+        .data_title = "area_ratio",
+        .x = {CONTACT_AREA_MAGNIFICATION, AXIS_LOG, "Magnification ζ = q/q₀"},
+        .y = {{CONTACT_AREA_AREA_RATIO, AXIS_LOG, "Real over nominal contact area A/A₀"}},
+        .colour = {CONTACT_AREA_VELOCITY, AXIS_LOG, "Sliding velocity"},
+        .curves = {CURVE(CONTACT_AREA_AREA_RATIO, LINE, .style = 21)},
+        .nothing = "no number to draw",
+        .words = "Share of the nominal contact area that is in contact when roughness up to the "
+                 "magnification is seen; one line for each sliding velocity.",
+    },
+    {
+        .name = "friction_scales",
+        .title = "Which length scales make the friction",
+        .table = &contact_area_schema,
+        .data_title = "hysteresis",
+        .x = {CONTACT_AREA_MAGNIFICATION, AXIS_LOG, "Magnification ζ = q/q₀"},
+        .y = {{CONTACT_AREA_HYSTERESIS, AXIS_FROM_ZERO, "Hysteresis friction up to ζ"}},
+        .colour = {CONTACT_AREA_VELOCITY, AXIS_LOG, "Sliding velocity"},
+        .curves = {CURVE(CONTACT_AREA_HYSTERESIS, LINE, .style = 21)},
+        .nothing = "no number to draw",
+        .words =
+            "Hysteresis part of the friction coefficient from roughness up to the magnification: "
+            "where a line rises, those length scales make the friction. A line that still rises "
+            "at its right end depends on the upper cut-off of the spectrum.",
+    },
     {.name = NULL},
 };

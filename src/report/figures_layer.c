@@ -31,18 +31,12 @@ static void mark_time(figure_drawing *d, double time, const char *label, double 
 {
     if (!(time >= d->x.low && time <= d->x.high))
         return;
-    text_add(&d->script, "set arrow from ");
-    text_literal(&d->script, time);
-    text_add(&d->script, "*x_unit, graph 0 to ");
-    text_literal(&d->script, time);
-    text_add(&d->script, "*x_unit, graph 1 nohead ls 12 back\n");
-    if (label == NULL)
-        return;
-    text_format(&d->script, "set label '%s' at ", label);
-    text_literal(&d->script, time);
-    text_add(&d->script, "*x_unit, graph ");
-    text_literal(&d->script, place);
-    text_add(&d->script, " offset 0.6,0 left front\n");
+    text_format(&d->script,
+                "set arrow from %s*x_unit, graph 0 to %s*x_unit, graph 1 nohead ls 12 back\n",
+                LITERAL(time), LITERAL(time));
+    if (label != NULL)
+        text_format(&d->script, "set label '%s' at %s*x_unit, graph %s offset 0.6,0 left front\n",
+                    label, LITERAL(time), LITERAL(place));
 }
 
 static void draw_thickness(figure_drawing *d)
@@ -52,12 +46,8 @@ static void draw_thickness(figure_drawing *d)
     drawing_axis(d, "y", &d->figure->y[0], NULL, d->y[0]);
     mark_time(d, shown_incubation(d), "incubation", 0.75);
     mark_time(d, positive_value(d, LAYER_KEY_RELAXATION_TIME), "relaxation", 0.1);
-    if (isfinite(balance)) {
-        text_add(&d->script, "balance = ");
-        text_literal(&d->script, balance);
-        text_add(&d->script, "  # m\n");
-    }
-    plot_begin(d);
+    if (isfinite(balance))
+        text_format(&d->script, "balance = %s  # m\n", LITERAL(balance));
     drawing_bands(d, 0);
     if (isfinite(balance))
         plot_other(d, "balance*y_unit with lines ls 15 title 'balance'");
@@ -71,7 +61,6 @@ static void draw_rates(figure_drawing *d)
     drawing_axis(d, "y", &d->figure->y[1], NULL, d->y[1]);
     mark_time(d, shown_incubation(d), NULL, 0);
     mark_time(d, positive_value(d, LAYER_KEY_RELAXATION_TIME), NULL, 0);
-    plot_begin(d);
     drawing_curves(d, 1);
     plot_end(d);
 }
@@ -94,25 +83,17 @@ static void draw_layer(figure_drawing *d)
         text_add(&d->script, "unset multiplot\n");
 }
 
-static void caption_time(figure_drawing *d, const char *words, double time)
-{
-    if (!isfinite(time))
-        return;
-    text_format(&d->caption, " %s ", words);
-    caption_value(d, WT_Q_TIME, NULL, time);
-    text_add(&d->caption, ".");
-}
-
 static void caption_layer(figure_drawing *d)
 {
-    wt_estimate balance = layer_value(d->table, LAYER_KEY_BALANCE_THICKNESS);
-    if (isfinite(positive_value(d, LAYER_KEY_BALANCE_THICKNESS))) {
-        text_add(&d->caption, " Balance thickness ");
-        caption_estimate(d, &balance);
-        text_add(&d->caption, ".");
-    }
-    caption_time(d, "Incubation time", shown_incubation(d));
-    caption_time(d, "Relaxation time", positive_value(d, LAYER_KEY_RELAXATION_TIME));
+    const wt_estimate balance = layer_value(d->table, LAYER_KEY_BALANCE_THICKNESS);
+    const double incubation = shown_incubation(d),
+                 relaxation = positive_value(d, LAYER_KEY_RELAXATION_TIME);
+    if (isfinite(positive_value(d, LAYER_KEY_BALANCE_THICKNESS)))
+        text_format(&d->caption, " Balance thickness %s.", ESTIMATE(&balance));
+    if (isfinite(incubation))
+        text_format(&d->caption, " Incubation time %s.", VALUE(WT_Q_TIME, NULL, incubation));
+    if (isfinite(relaxation))
+        text_format(&d->caption, " Relaxation time %s.", VALUE(WT_Q_TIME, NULL, relaxation));
 }
 
 /* ---- descriptions ---------------------------------------------------------------------------- */
@@ -121,35 +102,25 @@ const figure_description figures_layer[] = {
     {.name = "energy_density",
      .title = "Dissipated energy with depth",
      .table = &energy_density_schema,
+     .data_title = "energy density",
      .x = {ENERGY_DENSITY_DEPTH, AXIS_LOG, "Depth below the surface"},
      .y = {{ENERGY_DENSITY_POWER, AXIS_LOG, "Dissipated power per volume"}},
-     .curves = {{.column = ENERGY_DENSITY_POWER, .form = CURVE_LINE, .style = 21}},
+     .curves = {CURVE(ENERGY_DENSITY_POWER, LINE, .style = 21)},
      .nothing = "no energy density above zero",
      .words = "Power per volume that sliding dissipates in the rubber, with depth."},
     {.name = "layer",
      .title = "Thickness of the modified layer",
      .table = &layer_schema,
+     .data_title = "layer",
      .x = {LAYER_TIME, AXIS_LOG, "Sliding time in contact"},
      .y = {{LAYER_THICKNESS, AXIS_LOG, "Layer thickness"},
            {LAYER_FORMATION_RATE, AXIS_LOG, "Rate"}},
-     .curves = {{.column = LAYER_THICKNESS,
-                 .form = CURVE_LINE,
-                 .style = 21,
-                 .title = "thickness",
-                 .band = 71,
-                 .above_zero = true},
-                {.column = LAYER_FORMATION_RATE,
-                 .form = CURVE_LINE,
-                 .style = 22,
-                 .title = "formation",
-                 .above_zero = true,
-                 .panel = 1},
-                {.column = LAYER_WEAR_RATE,
-                 .form = CURVE_LINE,
-                 .style = 23,
-                 .title = "wear",
-                 .above_zero = true,
-                 .panel = 1}},
+     .curves = {CURVE(LAYER_THICKNESS, LINE, .style = 21, .title = "thickness", .band = 71,
+                      .above_zero = true),
+                CURVE(LAYER_FORMATION_RATE, LINE, .style = 22, .title = "formation",
+                      .above_zero = true, .panel = 1),
+                CURVE(LAYER_WEAR_RATE, LINE, .style = 23, .title = "wear", .above_zero = true,
+                      .panel = 1)},
      .nothing = "no layer forms: no thickness above zero to draw on a logarithmic axis",
      .words = "Thickness of the modified layer in time (band: one standard error) and the rates of "
               "formation and wear that make it; balance is where the two rates meet.",

@@ -2,7 +2,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "report/figures_map.h"
+#include "report/drawing.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -73,13 +73,9 @@ static void draw_panel(figure_drawing *d, const map_panel *panel)
 {
     map_axis(d, "x", panel, INDENTATION_X, panel->step_x);
     map_axis(d, "y", panel, INDENTATION_Y, panel->step_y);
-    text_add(&d->script, "half_x = ");
-    text_literal(&d->script, panel->step_x / 2);
-    text_add(&d->script, "; half_y = ");
-    text_literal(&d->script, panel->step_y / 2);
-    text_add(&d->script, "  # m\n");
+    text_format(&d->script, "half_x = %s; half_y = %s  # m\n", LITERAL(panel->step_x / 2),
+                LITERAL(panel->step_y / 2));
     plot_heading(d, panel->group);
-    plot_begin(d);
     plot_item(d, panel->accepted,
               "($1*x_unit):($2*y_unit):(half_x*x_unit):(half_y*y_unit):($3*cb_unit) with "
               "boxxyerror fc palette notitle");

@@ -44,26 +44,14 @@ static bool ours_in_plots(const char *name)
     return has_ending(name, ".tsv") || has_ending(name, ".gp") || has_ending(name, ".svg");
 }
 
-/* Whether every name in a folder is one of ours; the first that is not goes to `stranger`. -1 if
- * the folder cannot be read. *n counts the names. */
-static int only_ours(const char *path, bool (*ours)(const char *), char stranger[256], size_t *n)
+/* The next entry that is neither the folder itself nor the one above; NULL at the end. */
+static const struct dirent *next_entry(DIR *folder)
 {
-    DIR *folder = opendir(path);
-    if (folder == NULL)
-        return -1;
-    int good = 1;
-    *n = 0;
-    for (const struct dirent *entry; good == 1 && (entry = readdir(folder)) != NULL;) {
-        if (strcmp(entry->d_name, ".") == 0 || strcmp(entry->d_name, "..") == 0)
-            continue;
-        ++*n;
-        if (!ours(entry->d_name)) {
-            (void)snprintf(stranger, 256, "%s", entry->d_name);
-            good = 0;
-        }
-    }
-    closedir(folder);
-    return good;
+    const struct dirent *entry = NULL;
+    do
+        entry = readdir(folder);
+    while (entry != NULL && (strcmp(entry->d_name, ".") == 0 || strcmp(entry->d_name, "..") == 0));
+    return entry;
 }
 
 static bool has_mark(const char *folder)
@@ -91,43 +79,48 @@ static wt_status refuse(wt_error *err, const char *path, const char *found)
     return status;
 }
 
+/* Refuses `place` if a name in a folder is not one of ours; *n counts the names. */
+static wt_status check_names(const char *path, bool (*ours)(const char *), const char *place,
+                             size_t *n, wt_error *err)
+{
+    wt_status status = WT_OK;
+    char found[300];
+    DIR *folder = opendir(path);
+    *n = 0;
+    if (folder == NULL)
+        return io_error(err, "cannot be read", path);
+    for (const struct dirent *entry; status == WT_OK && (entry = next_entry(folder)) != NULL;) {
+        ++*n;
+        (void)snprintf(found, sizeof found, "other files in it: %s", entry->d_name);
+        if (!ours(entry->d_name))
+            status = refuse(err, place, found);
+    }
+    closedir(folder);
+    return status;
+}
+
 /* A folder may be replaced if it is empty or holds an older report and nothing else: what a user
  * put there is never removed. */
 static wt_status check_replaceable(const char *path, wt_error *err)
 {
     struct stat info;
+    size_t n = 0;
     if (lstat(path, &info) != 0)
         return errno == ENOENT ? WT_OK : io_error(err, "cannot be looked at", path);
     if (!S_ISDIR(info.st_mode))
         return refuse(err, path, "a file of that name");
-    char stranger[256] = "", found[300];
-    size_t n = 0;
-    int good = only_ours(path, ours_in_report, stranger, &n);
-    if (good < 0)
-        return io_error(err, "cannot be read", path);
-    if (n == 0)
-        return WT_OK;
-    if (good == 1 && !has_mark(path))
+    wt_status status = check_names(path, ours_in_report, path, &n, err);
+    if (status != WT_OK || n == 0)
+        return status;
+    if (!has_mark(path))
         return refuse(err, path, "an index.html that weartrack did not write");
-    if (good == 1) {
-        char *plots = wt_path_join(path, "plots");
-        if (plots == NULL)
-            return wt_fail(err, WT_E_MEMORY, "out of memory");
-        good = only_ours(plots, ours_in_plots, stranger, &n);
-        bool absent = good < 0 && errno == ENOENT;
-        if (good < 0 && !absent) {
-            wt_status status = io_error(err, "cannot be read", plots);
-            free(plots);
-            return status;
-        }
-        free(plots);
-        if (absent)
-            return WT_OK;
-    }
-    if (good == 1)
-        return WT_OK;
-    (void)snprintf(found, sizeof found, "other files in it: %s", stranger);
-    return refuse(err, path, found);
+    char *plots = wt_path_join(path, "plots");
+    if (plots == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    if (lstat(plots, &info) == 0 || errno != ENOENT)
+        status = check_names(plots, ours_in_plots, path, &n, err);
+    free(plots);
+    return status;
 }
 
 /* ---- removing -------------------------------------------------------------------------------- */
@@ -140,9 +133,8 @@ static void remove_folder(const char *path, bool plots)
     if (folder == NULL)
         return;
     int fd = dirfd(folder);
-    for (const struct dirent *entry; (entry = readdir(folder)) != NULL;)
-        if (strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0)
-            (void)unlinkat(fd, entry->d_name, 0);
+    for (const struct dirent *entry; (entry = next_entry(folder)) != NULL;)
+        (void)unlinkat(fd, entry->d_name, 0);
     closedir(folder);
     char *inner = plots ? wt_path_join(path, "plots") : NULL;
     if (inner != NULL)

@@ -16,15 +16,16 @@ static void page_head(const page_writer *page, growing_text *out, const char *ti
                   "xml:lang=\"en\">\n<head>\n<meta charset=\"utf-8\" />\n" REPORT_MARK);
     if (page->with_provenance)
         text_format(out, " %s", wt_version());
-    text_add(out, "\" />\n<meta name=\"viewport\" content=\"width=device-width, "
-                  "initial-scale=1\" />\n<meta name=\"color-scheme\" content=\"light dark\" "
-                  "/>\n<title>");
-    text_html(out, title);
-    text_add(out, "</title>\n<style>\n");
+    text_html(out,
+              "\" />\n<meta name=\"viewport\" content=\"width=device-width, "
+              "initial-scale=1\" />\n<meta name=\"color-scheme\" content=\"light dark\" "
+              "/>\n<title>%s</title>\n<style>\n",
+              title);
     text_add(out, file_of_library("page.css"));
-    text_add(out, "</style>\n</head>\n<body>\n<main>\n<header>\n<h1>");
-    text_html(out, title);
-    text_add(out, "</h1>\n<nav aria-label=\"Contents\">\n<ul>\n");
+    text_html(out,
+              "</style>\n</head>\n<body>\n<main>\n<header>\n<h1>%s</h1>\n"
+              "<nav aria-label=\"Contents\">\n<ul>\n",
+              title);
     text_add(out, text_string(&page->contents));
     text_add(out, "</ul>\n</nav>\n</header>\n");
 }
@@ -41,16 +42,12 @@ static void page_answer(page_writer *page)
         const char *next = answer_text(table, row, ANSWER_QUESTION);
         if (question == NULL || strcmp(question, next) != 0) {
             bool caveat = strcmp(answer_text(table, row, ANSWER_KIND), "caveat") == 0;
-            text_format(&page->out, "%s<section class=\"%s\">\n<h3>",
-                        question == NULL ? "" : "</section>\n",
-                        caveat ? "answer caveat" : "answer");
-            text_html(&page->out, next);
-            text_add(&page->out, "</h3>\n");
+            text_add(&page->out, question == NULL ? "" : "</section>\n");
+            text_html(&page->out, "<section class=\"%s\">\n<h3>%s</h3>\n",
+                      caveat ? "answer caveat" : "answer", next);
             question = next;
         }
-        text_add(&page->out, "<p>");
-        text_html(&page->out, answer_text(table, row, ANSWER_ANSWER));
-        text_add(&page->out, "</p>\n");
+        text_html(&page->out, "<p>%s</p>\n", answer_text(table, row, ANSWER_ANSWER));
     }
     text_add(&page->out, "</section>\n");
 }
@@ -61,48 +58,49 @@ static const char *width_class(double width)
     return width > 1.2 ? "wide" : width > 0 && width < 0.9 ? "narrow" : "single";
 }
 
+static wt_status add_figure(page_writer *page, const drawn_figure *drawn, size_t number,
+                            wt_error *err)
+{
+    const figure_description *figure = drawn->drawing.figure;
+    text_html(&page->out, "<figure id=\"figure-%s\" class=\"%s\">\n<div class=\"card\">",
+              figure->name, width_class(drawn->drawing.width));
+    if (!svg_inline(&page->out, text_string(&drawn->svg), drawn->svg.length, figure->name,
+                    figure->title)) {
+        wt_status status =
+            wt_fail(err, WT_E_TOOL, "the picture of figure %s is not SVG", figure->name);
+        wt_error_advice(err, "a plot style must use `set terminal svg`");
+        return status;
+    }
+    text_format(&page->out, "</div>\n<figcaption><strong>Figure %zu. ", number);
+    text_html(&page->out,
+              "%s.</strong> %s <span class=\"source\">Data and script: <a href=\"plots/%s.tsv\">"
+              "%s.tsv</a>, <a href=\"plots/%s.gp\">%s.gp</a>.</span></figcaption>\n</figure>\n",
+              figure->title, text_string(&drawn->drawing.caption), figure->name, figure->name,
+              figure->name, figure->name);
+    return WT_OK;
+}
+
 static wt_status page_figures(page_writer *page, wt_error *err)
 {
-    if (page->n_figures == 0)
+    wt_status status = WT_OK;
+    size_t number = 0, n = 0;
+    for (size_t i = 0; i < page->n_figures; i++)
+        n += page->figures[i].drawing.figure != NULL;
+    if (n == 0)
         return WT_OK;
-    size_t number = 0;
     page_heading(page, "figures", "Figures");
     text_add(&page->out, "<div class=\"figures\">\n");
-    for (size_t i = 0; i < page->n_figures; i++) {
-        const page_figure *figure = &page->figures[i];
-        if (figure->omitted != NULL)
-            continue;
-        text_format(&page->out, "<figure id=\"figure-%s\" class=\"%s\">\n<div class=\"card\">",
-                    figure->figure->name, width_class(figure->width));
-        if (!svg_inline(&page->out, figure->svg, figure->svg_length, figure->figure->name,
-                        figure->figure->title)) {
-            wt_status status = wt_fail(err, WT_E_TOOL, "the picture of figure %s is not SVG",
-                                       figure->figure->name);
-            wt_error_advice(err, "a plot style must use `set terminal svg`");
-            return status;
-        }
-        text_format(&page->out, "</div>\n<figcaption><strong>Figure %zu. ", ++number);
-        text_html(&page->out, figure->figure->title);
-        text_add(&page->out, ".</strong> ");
-        text_html(&page->out, figure->caption);
-        text_format(&page->out,
-                    " <span class=\"source\">Data and script: <a href=\"plots/%s.tsv\">%s.tsv"
-                    "</a>, <a href=\"plots/%s.gp\">%s.gp</a>.</span></figcaption>\n</figure>\n",
-                    figure->figure->name, figure->figure->name, figure->figure->name,
-                    figure->figure->name);
-    }
+    for (size_t i = 0; i < page->n_figures && status == WT_OK; i++)
+        if (page->figures[i].svg.length > 0)
+            status = add_figure(page, &page->figures[i], ++number, err);
     text_add(&page->out, "</div>\n");
     for (size_t i = 0; i < page->n_figures; i++) {
-        const page_figure *figure = &page->figures[i];
-        if (figure->omitted == NULL || figure->omitted[0] == '\0')
-            continue;
-        text_add(&page->out, "<p class=\"omitted\">Not drawn: ");
-        text_html(&page->out, figure->figure->title);
-        text_add(&page->out, " – ");
-        text_html(&page->out, figure->omitted);
-        text_add(&page->out, ".</p>\n");
+        const figure_description *figure = page->figures[i].drawing.figure;
+        if (figure != NULL && page->figures[i].svg.length == 0 && figure->nothing != NULL)
+            text_html(&page->out, "<p class=\"omitted\">Not drawn: %s – %s.</p>\n", figure->title,
+                      figure->nothing);
     }
-    return WT_OK;
+    return status;
 }
 
 /* The title of the case, if the result has one. */

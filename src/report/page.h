@@ -5,20 +5,13 @@
 #ifndef WT_REPORT_PAGE_H
 #define WT_REPORT_PAGE_H
 
-#include "report/bound.h"
-#include "report/figure.h"
-#include "report/text.h"
-#include "report/units.h"
+#include "report/drawing.h"
 
-/* A figure that was drawn, or one that could not be. */
-typedef struct page_figure {
-    const figure_description *figure;
-    const char *caption; /* plain text */
-    const char *omitted; /* why it is not there ("" = not worth a word), NULL if it is */
-    const char *svg;
-    size_t svg_length;
-    double width; /* in panels */
-} page_figure;
+/* A figure that this library knows, drawn or not. */
+typedef struct drawn_figure {
+    figure_drawing drawing; /* zeroed if the result does not have its table */
+    growing_text svg;       /* empty if there was nothing to draw */
+} drawn_figure;
 
 typedef struct page_writer {
     growing_text out;
@@ -26,7 +19,7 @@ typedef struct page_writer {
     const wt_result *result;
     const bound_tables *tables;
     bool with_provenance;
-    const page_figure *figures;
+    const drawn_figure *figures;
     size_t n_figures;
 } page_writer;
 
@@ -43,24 +36,15 @@ void page_record(page_writer *page); /* case file, provenance */
 
 /* ---- what the parts share -------------------------------------------------------------------- */
 
-/* A column on the page; its heading is the label of the schema. */
-typedef struct page_column {
-    unsigned column;
-    unsigned like;       /* takes the unit of this column, 0 = its own */
-    const char *missing; /* shown for NaN, NULL = a dash */
-    int digits;          /* significant ones, 0 = as usual */
-    int decimals;        /* so many instead, 0 = by digits */
-} page_column;
-
 /* A section heading with an anchor; it is listed in the contents. */
 void page_heading(page_writer *page, const char *id, const char *words);
-/* An HTML table of some columns and rows; numbers in lab units. Without columns it has all that
- * have a label, without rows all of the table. `caption` is plain text. */
+/* An HTML table of some columns and rows; headings and units as the schema says. Without columns it
+ * has all that have a label, without rows all of the table. `caption` is plain text. */
 void page_table(page_writer *page, const table_view *table, const char *caption,
-                const page_column *columns, size_t n_columns, const size_t *rows, size_t n_rows);
-/* The same with the whole table, nothing if it has no row. */
+                const unsigned *columns, size_t n_columns, const size_t *rows, size_t n_rows);
+/* The same with all rows, nothing if there is none. */
 void page_whole_table(page_writer *page, const table_view *table, const char *caption,
-                      const page_column *columns, size_t n_columns);
+                      const unsigned *columns, size_t n_columns);
 /* The keys of a table as name, value, statistical and numerical error; nothing if it has none. */
 void page_keys(page_writer *page, const table_view *table, const char *caption);
 

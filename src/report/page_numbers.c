@@ -14,10 +14,8 @@ static void interval_row(page_writer *page, const char *name, wt_quantity quanti
     const wt_estimate estimate = {value, (high - low) / 4, 0, wt_quantity_unit(quantity)};
     if (isfinite(low) && isfinite(high)) {
         lab_unit lab = lab_unit_for(quantity, NULL, value);
-        text_number(&interval, lab_value(&lab, low), 3);
-        text_add(&interval, " to ");
-        text_number(&interval, lab_value(&lab, high), 3);
-        text_format(&interval, "%s%s (95 %% interval)", lab.label[0] != '\0' ? " " : "", lab.label);
+        text_format(&interval, "%s to %s%s%s (95 %% interval)", NUMBER(lab_value(&lab, low), 3),
+                    NUMBER(lab_value(&lab, high), 3), lab.label[0] != '\0' ? " " : "", lab.label);
     } else
         text_add(&interval, "not known");
     page_estimate(page, name, &estimate, quantity, text_string(&interval), remark);
@@ -34,11 +32,9 @@ static void ratio_row(page_writer *page)
         if (!isnan(comparison_get(table, row, COMPARISON_RATE_LOW)) || !isfinite(ratio))
             continue;
         growing_text remark = {0};
-        text_add(&remark, "geometric means; n = ");
-        text_fixed(&remark, comparison_get(table, row, COMPARISON_N_TRACK), 0);
-        text_add(&remark, " in the track, ");
-        text_fixed(&remark, comparison_get(table, row, COMPARISON_N_BULK), 0);
-        text_add(&remark, " in the bulk");
+        text_format(&remark, "geometric means; n = %s in the track, %s in the bulk",
+                    FIXED(comparison_get(table, row, COMPARISON_N_TRACK), 0),
+                    FIXED(comparison_get(table, row, COMPARISON_N_BULK), 0));
         if (unit != NULL)
             text_format(&remark, ", unit of analysis: %s", unit);
         interval_row(page, "Modulus, track over bulk", WT_Q_NONE, ratio,
@@ -84,20 +80,14 @@ static void headline_rows(page_writer *page, const table_view *table, unsigned r
     }
 }
 
-static void add_velocity(growing_text *text, double velocity)
-{
-    lab_unit lab = lab_unit_for(WT_Q_VELOCITY, NULL, velocity);
-    text_short(text, lab_value(&lab, velocity), 3);
-    text_format(text, " %s", lab.label);
-}
-
 /* At the velocity that the answer is given for. */
 static void reference_rows(page_writer *page)
 {
     const table_view *table = &page->tables->friction;
     growing_text remark = {0};
-    text_add(&remark, "at the reference velocity, ");
-    add_velocity(&remark, friction_value(table, FRICTION_KEY_REFERENCE_VELOCITY).value);
+    text_format(
+        &remark, "at the reference velocity, %s",
+        VALUE(WT_Q_VELOCITY, NULL, friction_value(table, FRICTION_KEY_REFERENCE_VELOCITY).value));
     headline_rows(page, table, EVERY_KEY, text_string(&remark));
     text_done(&remark, &page->out);
 }
@@ -116,13 +106,11 @@ static void largest_row(page_writer *page)
         return;
     growing_text remark = {0};
     double share = friction_get(table, best, FRICTION_EXTRAPOLATED_SHARE);
-    text_add(&remark, "at ");
-    add_velocity(&remark, friction_get(table, best, FRICTION_VELOCITY));
-    if (share >= 1e-3) {
-        text_add(&remark, "; ");
-        text_number(&remark, 100 * share, 2);
-        text_add(&remark, " % from frequencies outside the measured ones");
-    }
+    text_format(&remark, "at %s",
+                VALUE(WT_Q_VELOCITY, NULL, friction_get(table, best, FRICTION_VELOCITY)));
+    if (share >= 1e-3)
+        text_format(&remark, "; %s %% from frequencies outside the measured ones",
+                    NUMBER(100 * share, 2));
     const wt_estimate estimate = {friction_get(table, best, FRICTION_TOTAL),
                                   friction_get(table, best, FRICTION_TOTAL_STANDARD_ERROR),
                                   friction_get(table, best, FRICTION_TOTAL_NUMERICAL_ERROR), "1"};

@@ -10,22 +10,17 @@
 
 void page_heading(page_writer *page, const char *id, const char *words)
 {
-    text_format(&page->out, "<h2 id=\"%s\">", id);
-    text_html(&page->out, words);
-    text_add(&page->out, "</h2>\n");
-    text_format(&page->contents, "<li><a href=\"#%s\">", id);
-    text_html(&page->contents, words);
-    text_add(&page->contents, "</a></li>\n");
+    text_html(&page->out, "<h2 id=\"%s\">%s</h2>\n", id, words);
+    text_html(&page->contents, "<li><a href=\"#%s\">%s</a></li>\n", id, words);
 }
 
 static void begin_table(page_writer *page, const char *caption)
 {
     // The wrapper scrolls on a narrow screen, also with the keyboard.
-    text_add(&page->out, "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"");
-    text_html(&page->out, caption);
-    text_add(&page->out, "\">\n<table>\n<caption>");
-    text_html(&page->out, caption);
-    text_add(&page->out, "</caption>\n<thead><tr>");
+    text_html(&page->out,
+              "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"%s\">\n"
+              "<table>\n<caption>%s</caption>\n<thead><tr>",
+              caption, caption);
 }
 
 static void end_table(page_writer *page)
@@ -35,22 +30,18 @@ static void end_table(page_writer *page)
 
 static void heading_cell(page_writer *page, const char *words, const char *unit, bool number)
 {
-    text_format(&page->out, "<th scope=\"col\"%s>", number ? " class=\"n\"" : "");
-    text_html(&page->out, words);
-    if (unit[0] != '\0') {
-        text_add(&page->out, " <span class=\"unit\">(");
-        text_html(&page->out, unit);
-        text_add(&page->out, ")</span>");
-    }
-    text_add(&page->out, "</th>");
+    text_add(&page->out, number ? "<th scope=\"col\" class=\"n\">" : "<th scope=\"col\">");
+    text_html(&page->out, unit[0] != '\0' ? "%s <span class=\"unit\">(%s)</span></th>" : "%s</th>",
+              words, unit);
 }
 
 /* ---- tables ---------------------------------------------------------------------------------- */
 
 typedef struct shown_column {
-    page_column as;
+    unsigned place;
     const schema_column *column;
     bool text, whole;
+    int digits;
     lab_unit lab;
 } shown_column;
 
@@ -102,26 +93,28 @@ static bool is_error(const table_schema *schema, unsigned column)
 }
 
 /* False for a column that the table does not have or that says nothing. */
-static bool choose_column(shown_column *shown, const table_view *table, const page_column *as,
+static bool choose_column(shown_column *shown, const table_view *table, unsigned place,
                           const size_t *rows, size_t n_rows)
 {
     const table_schema *schema = table->schema;
-    const schema_column *column = &schema->columns[as->column];
-    *shown = (shown_column){.as = *as, .column = column, .text = column->kind == SCHEMA_TEXT};
-    if (table->column[as->column] < 0)
+    const schema_column *column = &schema->columns[place];
+    *shown = (shown_column){.place = place,
+                            .column = column,
+                            .text = column->kind == SCHEMA_TEXT,
+                            .whole = true,
+                            .digits = column->digits};
+    if (table->column[place] < 0)
         return false;
     if (shown->text)
         return true;
-    if (as->digits == 0)
-        shown->as.digits = is_error(schema, as->column) ? 2 : 3;
+    if (column->digits == 0)
+        shown->digits = is_error(schema, place) ? 2 : 3;
     shown->lab =
         lab_unit_for(column->quantity, schema_column_unit(column),
-                     typical_size(table, as->like != 0 ? as->like : as->column, rows, n_rows));
-    shown->whole = true;
-    bool any = as->missing != NULL;
+                     typical_size(table, column->like != 0 ? column->like : place, rows, n_rows));
+    bool any = column->missing != NULL;
     for (size_t i = 0; i < n_rows; i++) {
-        double value =
-            lab_value(&shown->lab, view_number(table, schema, row_at(rows, i), as->column));
+        double value = lab_value(&shown->lab, view_number(table, schema, row_at(rows, i), place));
         any = any || !isnan(value);
         shown->whole =
             shown->whole && (!isfinite(value) || (value == floor(value) && fabs(value) < 1e15));
@@ -131,40 +124,33 @@ static bool choose_column(shown_column *shown, const table_view *table, const pa
 
 static void number_cell(page_writer *page, const shown_column *shown, double value)
 {
+    const schema_column *column = shown->column;
     double lab = lab_value(&shown->lab, value);
     text_add(&page->out, "<td class=\"n\">");
     if (isnan(value))
-        text_html(&page->out, shown->as.missing != NULL ? shown->as.missing : "–");
-    else if (shown->column->yes_no)
+        text_html(&page->out, "%s", column->missing != NULL ? column->missing : "–");
+    else if (column->yes_no)
         text_add(&page->out, value != 0 ? "yes" : "no");
-    else if (shown->as.decimals > 0 || shown->whole)
-        text_fixed(&page->out, lab, shown->as.decimals);
+    else if (column->decimals > 0 || shown->whole)
+        text_add(&page->out, FIXED(lab, column->decimals));
     else
-        text_number(&page->out, lab, shown->as.digits);
+        text_add(&page->out, NUMBER(lab, shown->digits));
     text_add(&page->out, "</td>");
 }
 
-/* The first cell of a row names it if it is text. */
-static void text_cell(page_writer *page, const char *text, bool first)
-{
-    text_add(&page->out, first ? "<th scope=\"row\">" : "<td>");
-    text_html(&page->out, text);
-    text_add(&page->out, first ? "</th>" : "</td>");
-}
-
 void page_table(page_writer *page, const table_view *table, const char *caption,
-                const page_column *columns, size_t n_columns, const size_t *rows, size_t n_rows)
+                const unsigned *columns, size_t n_columns, const size_t *rows, size_t n_rows)
 {
     const table_schema *schema = table->schema;
-    page_column labelled[SCHEMA_MOST] = {{0}};
+    unsigned labelled[SCHEMA_MOST];
     shown_column shown[SCHEMA_MOST];
     size_t n = 0;
     for (unsigned i = 0; columns == NULL && i < schema->n_columns; i++)
         if (schema->columns[i].label != NULL)
-            labelled[n_columns++].column = i;
+            labelled[n_columns++] = i;
     begin_table(page, caption);
-    for (size_t i = 0; i < n_columns && n < SCHEMA_MOST; i++)
-        if (choose_column(&shown[n], table, columns != NULL ? &columns[i] : &labelled[i], rows,
+    for (size_t i = 0; i < n_columns; i++)
+        if (choose_column(&shown[n], table, columns != NULL ? columns[i] : labelled[i], rows,
                           n_rows)) {
             const schema_column *column = shown[n].column;
             heading_cell(page, column->label != NULL ? column->label : column->long_name,
@@ -176,17 +162,18 @@ void page_table(page_writer *page, const table_view *table, const char *caption,
         size_t row = row_at(rows, i);
         text_add(&page->out, "<tr>");
         for (size_t c = 0; c < n; c++)
-            if (shown[c].text)
-                text_cell(page, view_text(table, schema, row, shown[c].as.column), c == 0);
+            if (shown[c].text) // the first cell of a row names it
+                text_html(&page->out, c == 0 ? "<th scope=\"row\">%s</th>" : "<td>%s</td>",
+                          view_text(table, schema, row, shown[c].place));
             else
-                number_cell(page, &shown[c], view_number(table, schema, row, shown[c].as.column));
+                number_cell(page, &shown[c], view_number(table, schema, row, shown[c].place));
         text_add(&page->out, "</tr>\n");
     }
     end_table(page);
 }
 
 void page_whole_table(page_writer *page, const table_view *table, const char *caption,
-                      const page_column *columns, size_t n_columns)
+                      const unsigned *columns, size_t n_columns)
 {
     if (table->n_rows > 0)
         page_table(page, table, caption, columns, n_columns, NULL, table->n_rows);
@@ -213,10 +200,8 @@ void page_estimates_end(page_writer *page)
 
 static void add_unit(growing_text *text, const char *label)
 {
-    if (label[0] == '\0')
-        return;
-    text_add(text, " ");
-    text_html(text, label);
+    if (label[0] != '\0')
+        text_html(text, " %s", label);
 }
 
 /* As many decimals as the larger error has meaning, and no more than six digits in all. */
@@ -229,11 +214,11 @@ static void add_value(growing_text *text, const wt_estimate *e, const lab_unit *
         error = fmax(error, fabs(e->numerical_error) * lab->factor);
     int leading = value != 0 && isfinite(value) ? (int)floor(log10(fabs(value))) : 0;
     if (!(error > 0) || !isfinite(value) || leading > 5 || leading < -4)
-        text_short(text, value, 4);
+        text_add(text, SHORT_NUMBER(value, 4));
     else {
         int decimals = 1 - (int)floor(log10(error));
         decimals = decimals > 5 - leading ? 5 - leading : decimals;
-        text_fixed(text, value, decimals < 0 ? 0 : decimals);
+        text_add(text, FIXED(value, decimals));
     }
 }
 
@@ -244,8 +229,7 @@ static void add_error(growing_text *text, double error, const lab_unit *lab)
     else if (error == 0)
         text_add(text, "–");
     else {
-        text_add(text, "± ");
-        text_number(text, fabs(error) * lab->factor, 2);
+        text_format(text, "± %s", NUMBER(fabs(error) * lab->factor, 2));
         add_unit(text, strcmp(lab->label, "°C") == 0 ? "K" : lab->label);
     }
 }
@@ -254,25 +238,20 @@ void page_estimate(page_writer *page, const char *words, const wt_estimate *esti
                    wt_quantity quantity, const char *interval, const char *remark)
 {
     lab_unit lab = lab_unit_for(quantity, estimate->unit, estimate->value);
-    text_add(&page->out, "<tr><th scope=\"row\">");
-    text_html(&page->out, words);
-    text_add(&page->out, "</th><td class=\"n\">");
+    text_html(&page->out, "<tr><th scope=\"row\">%s</th><td class=\"n\">", words);
     add_value(&page->out, estimate, &lab);
     if (isfinite(estimate->value))
         add_unit(&page->out, lab.label);
     text_add(&page->out, "</td><td class=\"n\">");
     if (interval != NULL)
-        text_html(&page->out, interval);
+        text_html(&page->out, "%s", interval);
     else
         add_error(&page->out, estimate->standard_error, &lab);
     text_add(&page->out, "</td><td class=\"n\">");
     add_error(&page->out, estimate->numerical_error, &lab);
     text_add(&page->out, "</td>");
-    if (remark != NULL) {
-        text_add(&page->out, "<td>");
-        text_html(&page->out, remark);
-        text_add(&page->out, "</td>");
-    }
+    if (remark != NULL)
+        text_html(&page->out, "<td>%s</td>", remark);
     text_add(&page->out, "</tr>\n");
 }
 
@@ -312,16 +291,12 @@ void page_keys(page_writer *page, const table_view *table, const char *caption)
         char label[128];
         wt_estimate estimate;
         key_label(name, key, label, sizeof label);
-        if (wt_table_estimate(table->table, name, &estimate)) {
+        if (wt_table_estimate(table->table, name, &estimate))
             page_estimate(page, label, &estimate, key != NULL ? key->quantity : WT_Q_NONE, NULL,
                           NULL);
-            continue;
-        }
-        text_add(&page->out, "<tr><th scope=\"row\">");
-        text_html(&page->out, label);
-        text_add(&page->out, "</th><td colspan=\"3\">");
-        text_html(&page->out, wt_table_key(table->table, name));
-        text_add(&page->out, "</td></tr>\n");
+        else
+            text_html(&page->out, "<tr><th scope=\"row\">%s</th><td colspan=\"3\">%s</td></tr>\n",
+                      label, wt_table_key(table->table, name));
     }
     end_table(page);
 }

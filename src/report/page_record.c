@@ -24,14 +24,10 @@ void page_cost(page_writer *page)
 {
     // Columns of times come last: without provenance they are left out, as they never repeat.
     enum { N_TIMES = 2, STAGES = 64 };
-    static const page_column ran[] = {{.column = COST_STAGE},
-                                      {.column = COST_ITEMS},
-                                      {.column = COST_TOLERANCE_ASKED},
-                                      {.column = COST_ERROR_ESTIMATED},
-                                      {.column = COST_BECAUSE},
-                                      {.column = COST_WALL_TIME},
-                                      {.column = COST_CPU_TIME, .like = COST_WALL_TIME}};
-    static const page_column left_out[] = {{.column = COST_STAGE}, {.column = COST_BECAUSE}};
+    static const unsigned ran[] = {COST_STAGE,           COST_ITEMS,   COST_TOLERANCE_ASKED,
+                                   COST_ERROR_ESTIMATED, COST_BECAUSE, COST_WALL_TIME,
+                                   COST_CPU_TIME},
+                          left_out[] = {COST_STAGE, COST_BECAUSE};
     const table_view *table = &page->tables->cost;
     size_t rows[2][STAGES], n[2] = {0, 0};
     if (table->n_rows == 0)
@@ -49,38 +45,24 @@ void page_cost(page_writer *page)
         page_table(page, table, "Stages left out", left_out, COUNT(left_out), rows[1], n[1]);
 }
 
-static void definition(page_writer *page, const char *term, const char *text)
-{
-    text_add(&page->out, "<dt>");
-    text_html(&page->out, term);
-    text_add(&page->out, "</dt><dd>");
-    text_html(&page->out, text);
-    text_add(&page->out, "</dd>\n");
-}
-
 void page_record(page_writer *page)
 {
     size_t length = 0;
     const char *xml = wt_result_case(page->result, &length);
     if (xml != NULL && length > 0) {
-        page_heading(page, "case", "Case file");
-        text_add(&page->out, "<pre tabindex=\"0\"><code>");
         growing_text copy = {0}; // it need not end in zero
         text_bytes(&copy, xml, length);
-        text_html(&page->out, text_string(&copy));
+        page_heading(page, "case", "Case file");
+        text_html(&page->out, "<pre tabindex=\"0\"><code>%s</code></pre>\n", text_string(&copy));
         text_done(&copy, &page->out);
-        text_add(&page->out, "</code></pre>\n");
     }
     const wt_provenance *provenance = wt_result_provenance_const(page->result);
     if (!page->with_provenance || provenance == NULL)
         return;
+    const char *command = wt_provenance_command(provenance);
     page_heading(page, "provenance", "Provenance");
-    text_add(&page->out, "<dl>\n");
-    growing_text version = {0};
-    text_format(&version, "weartrack %s", wt_version());
-    definition(page, "Page written by", text_string(&version));
-    text_done(&version, &page->out);
-    if (wt_provenance_command(provenance)[0] != '\0')
-        definition(page, "Command", wt_provenance_command(provenance));
+    text_html(&page->out, "<dl>\n<dt>Page written by</dt><dd>weartrack %s</dd>\n", wt_version());
+    if (command[0] != '\0')
+        text_html(&page->out, "<dt>Command</dt><dd>%s</dd>\n", command);
     text_add(&page->out, "</dl>\n");
 }

@@ -7,88 +7,57 @@
 #include <math.h>
 #include <string.h>
 
-/* Columns, in another order than that of the table or not shown as usual. */
-static const page_column group_columns[] = {
-    {.column = MODULUS_GROUPS_GROUP},
-    {.column = MODULUS_GROUPS_N},
-    {.column = MODULUS_GROUPS_N_REJECTED},
-    {.column = MODULUS_GROUPS_N_SPOTS},
-    {.column = MODULUS_GROUPS_GEOMETRIC_MEAN},
-    {.column = MODULUS_GROUPS_LOW, .like = MODULUS_GROUPS_GEOMETRIC_MEAN},
-    {.column = MODULUS_GROUPS_HIGH, .like = MODULUS_GROUPS_GEOMETRIC_MEAN},
-    {.column = MODULUS_GROUPS_MEDIAN, .like = MODULUS_GROUPS_GEOMETRIC_MEAN},
-    {.column = MODULUS_GROUPS_MEAN, .like = MODULUS_GROUPS_GEOMETRIC_MEAN},
-    {.column = MODULUS_GROUPS_STANDARD_DEVIATION, .like = MODULUS_GROUPS_GEOMETRIC_MEAN},
-};
+#define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
-static const page_column comparison_columns[] = {
-    {.column = COMPARISON_RATE_LOW, .like = COMPARISON_RATE_HIGH, .missing = "all"},
-    {.column = COMPARISON_RATE_HIGH, .missing = "all"},
-    {.column = COMPARISON_N_BULK},
-    {.column = COMPARISON_N_TRACK},
-    {.column = COMPARISON_RATIO},
-    {.column = COMPARISON_RATIO_LOW},
-    {.column = COMPARISON_RATIO_HIGH},
-    {.column = COMPARISON_DIFFERENCE},
-    {.column = COMPARISON_WELCH_T},
-    {.column = COMPARISON_WELCH_DF},
-    {.column = COMPARISON_WELCH_P, .digits = 2},
-    {.column = COMPARISON_HOLM_P, .digits = 2},
-    {.column = COMPARISON_MANN_WHITNEY_P, .digits = 2},
-    {.column = COMPARISON_EFFECT_SIZE},
-};
+/* Columns in another order than that of the table. */
+static const unsigned group_columns[] = {
+    MODULUS_GROUPS_GROUP,          MODULUS_GROUPS_N,
+    MODULUS_GROUPS_N_REJECTED,     MODULUS_GROUPS_N_SPOTS,
+    MODULUS_GROUPS_GEOMETRIC_MEAN, MODULUS_GROUPS_LOW,
+    MODULUS_GROUPS_HIGH,           MODULUS_GROUPS_MEDIAN,
+    MODULUS_GROUPS_MEAN,           MODULUS_GROUPS_STANDARD_DEVIATION};
+static const unsigned shift_columns[] = {SHIFT_FACTORS_TEMPERATURE,
+                                         SHIFT_FACTORS_LOG_A,
+                                         SHIFT_FACTORS_LOG_A_STANDARD_ERROR,
+                                         SHIFT_FACTORS_WLF_LOG_A,
+                                         SHIFT_FACTORS_LOG_B,
+                                         SHIFT_FACTORS_LOG_B_STANDARD_ERROR,
+                                         SHIFT_FACTORS_LOG_B_PHYSICAL,
+                                         SHIFT_FACTORS_OVERLAP,
+                                         SHIFT_FACTORS_DETERMINED,
+                                         SHIFT_FACTORS_NOTE};
 
-static const page_column dma_columns[] = {
-    {.column = DMA_COMPARISON_GROUP},
-    {.column = DMA_COMPARISON_EQUIVALENT_FREQUENCY},
-    {.column = DMA_COMPARISON_MODULUS},
-    {.column = DMA_COMPARISON_LOW, .like = DMA_COMPARISON_MODULUS},
-    {.column = DMA_COMPARISON_HIGH, .like = DMA_COMPARISON_MODULUS},
-    {.column = DMA_COMPARISON_STORAGE_MODULUS, .like = DMA_COMPARISON_MODULUS},
-    {.column = DMA_COMPARISON_COMPLEX_MODULUS, .like = DMA_COMPARISON_MODULUS},
-    {.column = DMA_COMPARISON_RATIO},
-    {.column = DMA_COMPARISON_EXTRAPOLATED},
-};
+enum { HALF = 20, DECADES = 2 * HALF + 1 }; /* 1e-20 to 1e20 m/s, rounded */
 
-static const page_column shift_columns[] = {
-    {.column = SHIFT_FACTORS_TEMPERATURE, .decimals = 1},
-    {.column = SHIFT_FACTORS_LOG_A, .decimals = 3},
-    {.column = SHIFT_FACTORS_LOG_A_STANDARD_ERROR, .decimals = 3},
-    {.column = SHIFT_FACTORS_WLF_LOG_A, .decimals = 3},
-    {.column = SHIFT_FACTORS_LOG_B, .decimals = 3},
-    {.column = SHIFT_FACTORS_LOG_B_STANDARD_ERROR, .decimals = 3},
-    {.column = SHIFT_FACTORS_LOG_B_PHYSICAL, .decimals = 3},
-    {.column = SHIFT_FACTORS_OVERLAP},
-    {.column = SHIFT_FACTORS_DETERMINED},
-    {.column = SHIFT_FACTORS_NOTE},
-};
-
-enum { HALF = 20, DECADES = 2 * HALF }; /* 1e-20 to 1e20 m/s, rounded */
-
-/* Rows nearest to whole decades of the velocity, and the first and last one; *n of them. */
-static void decade_rows(const table_view *table, size_t rows[DECADES + 3], size_t *n)
+/* Number of the decade nearest to a velocity, -1 beyond those above. */
+static int nearest_decade(double velocity, double *distance)
 {
-    size_t n_rows = table->n_rows, best[DECADES + 1];
-    double distance[DECADES + 1];
-    for (int i = 0; i <= DECADES; i++)
-        distance[i] = (double)INFINITY;
-    for (size_t row = 0; row < n_rows; row++) {
-        double x = log10(friction_get(table, row, FRICTION_VELOCITY)), decade = round(x);
-        if (!(fabs(decade) <= HALF))
-            continue;
-        int i = (int)decade + HALF;
-        if (fabs(x - decade) < distance[i]) {
-            distance[i] = fabs(x - decade);
-            best[i] = row;
-        }
+    double x = log10(velocity), decade = round(x);
+    *distance = fabs(x - decade);
+    return fabs(decade) <= HALF ? (int)decade + HALF : -1;
+}
+
+/* The first and the last row, and the nearest one to each whole decade of the velocity. */
+static size_t decade_rows(const table_view *table, size_t rows[DECADES + 2])
+{
+    double nearest[DECADES], distance = 0;
+    size_t n = 0;
+    for (int i = 0; i < DECADES; i++)
+        nearest[i] = (double)INFINITY;
+    for (size_t row = 0; row < table->n_rows; row++) {
+        int i = nearest_decade(friction_get(table, row, FRICTION_VELOCITY), &distance);
+        if (i >= 0)
+            nearest[i] = fmin(nearest[i], distance);
     }
-    *n = 0;
-    rows[(*n)++] = 0;
-    for (int i = 0; i <= DECADES; i++)
-        if (isfinite(distance[i]) && best[i] != 0 && best[i] + 1 != n_rows)
-            rows[(*n)++] = best[i];
-    if (n_rows > 1)
-        rows[(*n)++] = n_rows - 1;
+    for (size_t row = 0; row < table->n_rows; row++) {
+        int i = nearest_decade(friction_get(table, row, FRICTION_VELOCITY), &distance);
+        bool is_nearest = i >= 0 && distance <= nearest[i];
+        if (is_nearest)
+            nearest[i] = -1; // the first of several
+        if (is_nearest || row == 0 || row + 1 == table->n_rows)
+            rows[n++] = row;
+    }
+    return n;
 }
 
 static void friction_table(page_writer *page)
@@ -96,8 +65,8 @@ static void friction_table(page_writer *page)
     const table_view *table = &page->tables->friction;
     if (table->n_rows == 0)
         return;
-    size_t rows[DECADES + 3], n = 0;
-    decade_rows(table, rows, &n);
+    size_t rows[DECADES + 2];
+    const size_t n = decade_rows(table, rows);
     page_table(page, table,
                n < table->n_rows
                    ? "Friction at the computed velocities next to whole decades (± stat.: one "
@@ -106,8 +75,6 @@ static void friction_table(page_writer *page)
                      "± num.: numerical error)",
                NULL, 0, rows, n);
 }
-
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
 void page_results(page_writer *page)
 {
@@ -124,11 +91,10 @@ void page_results(page_writer *page)
     page_whole_table(page, &t->modulus_groups, "Modulus by group", group_columns,
                      COUNT(group_columns));
     page_whole_table(page, &t->comparison,
-                     "Wear track against bulk: ratio of geometric means, by indentation rate",
-                     comparison_columns, COUNT(comparison_columns));
+                     "Wear track against bulk: ratio of geometric means, by indentation rate", NULL,
+                     0);
     page_whole_table(page, &t->dma_comparison,
-                     "Indentation against DMA at the equivalent frequency", dma_columns,
-                     COUNT(dma_columns));
+                     "Indentation against DMA at the equivalent frequency", NULL, 0);
     page_whole_table(page, &t->shift_factors, "Shift factors", shift_columns, COUNT(shift_columns));
     page_keys(page, &t->shift_factors, "Shifting and WLF constants");
     page_whole_table(page, &t->prony, "Prony series at the reference temperature", NULL, 0);
@@ -156,11 +122,9 @@ static void rejected_of(page_writer *page, const table_view *table)
     text_format(&caption, "%s: %zu of %zu curves rejected", table->suffix, rejected, table->n_rows);
     if (rejected > n)
         text_format(&caption, ", the first %zu; the result file holds all", n);
-    if (n == 0) {
-        text_add(&page->out, "<p>");
-        text_html(&page->out, text_string(&caption));
-        text_add(&page->out, ".</p>\n");
-    } else
+    if (n == 0)
+        text_html(&page->out, "<p>%s.</p>\n", text_string(&caption));
+    else
         page_table(page, table, text_string(&caption), NULL, 0, rows, n);
     text_done(&caption, &page->out);
 }

@@ -7,11 +7,6 @@
 #include <stdarg.h>
 #include <string.h>
 
-void plot_begin(figure_drawing *d)
-{
-    d->n_items = 0;
-}
-
 static void next_item(figure_drawing *d)
 {
     text_add(&d->script, d->n_items++ == 0 ? "plot \\\n  " : ", \\\n  ");

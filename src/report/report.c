@@ -5,7 +5,6 @@
 #include "weartrack/report.h"
 
 #include "base/param.h"
-#include "report/drawing.h"
 #include "report/files.h"
 #include "report/folder.h"
 #include "report/gnuplot.h"
@@ -29,12 +28,6 @@ PARAM_TABLE(wt_report_params, wt_report_options, rows, wt_report_defaults, NO_PA
 
 /* ---- figures --------------------------------------------------------------------------------- */
 
-/* What becomes of one figure. */
-typedef struct drawn_figure {
-    figure_drawing drawing;
-    growing_text svg;
-} drawn_figure;
-
 /* One report while it is written. */
 typedef struct report {
     bound_tables tables;
@@ -43,8 +36,7 @@ typedef struct report {
     growing_text style;
     report_folder *folder;
     drawn_figure *figures; /* one for each that this library knows */
-    page_figure *pages;    /* those whose table is there */
-    size_t n_pages, n_pictures;
+    size_t n_pictures;
 } report;
 
 static wt_status write_data(const report_folder *folder, const figure_drawing *d, wt_error *err)
@@ -80,12 +72,10 @@ static wt_status write_script(const report_folder *folder, const figure_drawing 
                 "the axes.\n",
                 figure);
     text_comment(&script, text_string(&d->caption));
-    text_add(&script, "reset\nfigure_width = ");
-    text_literal(&script, d->width);
-    text_add(&script, "; figure_height = ");
-    text_literal(&script, d->height);
-    text_format(&script, "\nload 'style.gp'\nset datafile separator \"\\t\"\nset output '%s.svg'\n",
-                figure);
+    text_format(&script,
+                "reset\nfigure_width = %s; figure_height = %s\nload 'style.gp'\n"
+                "set datafile separator \"\\t\"\nset output '%s.svg'\n",
+                LITERAL(d->width), LITERAL(d->height), figure);
     text_add(&script, text_string(&d->script));
     text_add(&script, "set output\n");
     (void)snprintf(name, sizeof name, "plots/%s.gp", figure);
@@ -127,22 +117,14 @@ static wt_status make_figure(report *r, size_t i, wt_error *err)
     wt_status status = drawing_make(d, figure_find(i), &r->tables, err);
     if (status != WT_OK)
         return status;
-    if (d->script.failed || d->caption.failed || d->omitted.failed)
+    if (d->script.failed || d->caption.failed)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    page_figure *page = &r->pages[r->n_pages++];
-    *page = (page_figure){.figure = d->figure, .width = d->width};
-    if (d->script.length == 0) {
-        page->omitted = text_string(&d->omitted);
+    if (d->script.length == 0)
         return WT_OK;
-    }
     if ((status = write_data(r->folder, d, err)) != WT_OK ||
-        (status = write_script(r->folder, d, err)) != WT_OK ||
-        (status = draw_picture(r, figure, err)) != WT_OK)
+        (status = write_script(r->folder, d, err)) != WT_OK)
         return status;
-    page->caption = text_string(&d->caption);
-    page->svg = text_string(&figure->svg);
-    page->svg_length = figure->svg.length;
-    return WT_OK;
+    return draw_picture(r, figure, err);
 }
 
 /* The page is the last step. */
@@ -160,8 +142,8 @@ static wt_status make_page(const report *r, const wt_result *result, bool with_p
     page_writer page = {.result = result,
                         .tables = &r->tables,
                         .with_provenance = with_provenance,
-                        .figures = r->pages,
-                        .n_figures = r->n_pages};
+                        .figures = r->figures,
+                        .n_figures = wt_figure_count()};
     wt_status status = page_write(&page, err);
     if (status == WT_OK)
         status = folder_write(r->folder, "index.html", page.out.bytes, page.out.length, err);
@@ -195,10 +177,9 @@ wt_status wt_report_write(const wt_result *result, const char *folder,
     size_t n = wt_figure_count();
     report r = {.gnuplot = chosen.gnuplot,
                 .progress = progress,
-                .figures = calloc(n, sizeof *r.figures),
-                .pages = calloc(n, sizeof *r.pages)};
+                .figures = calloc(n, sizeof *r.figures)};
 
-    if (r.figures == NULL || r.pages == NULL) {
+    if (r.figures == NULL) {
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
         goto done;
     }
@@ -228,7 +209,6 @@ done:
         text_free(&r.figures[i].svg);
     }
     free(r.figures);
-    free(r.pages);
     text_free(&r.style);
     bound_clear(&r.tables);
     return status;

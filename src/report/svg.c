@@ -29,9 +29,7 @@ bool svg_inline(growing_text *page, const char *svg, size_t length, const char *
     if (begin == NULL)
         return false;
     size_t left = length - (size_t)(begin - svg);
-    text_add(page, "<svg role=\"img\" aria-label=\"");
-    text_html(page, label);
-    text_add(page, "\"");
+    text_html(page, "<svg role=\"img\" aria-label=\"%s\"", label);
     const char *s = begin + 4;
     left -= 4;
     while (left > 0) {

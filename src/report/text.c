@@ -6,7 +6,6 @@
 
 #include "base/utf8.h"
 
-#include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
@@ -94,42 +93,55 @@ static size_t character_length(const char *s, size_t left)
     return length;
 }
 
-void text_html(growing_text *text, const char *string)
+/* What stands for a character in markup, NULL for itself. */
+static const char *entity_of(char c)
+{
+    switch (c) {
+    case '&':
+        return "&amp;";
+    case '<':
+        return "&lt;";
+    case '>':
+        return "&gt;";
+    case '"':
+        return "&quot;";
+    case '\'':
+        return "&#39;";
+    case '\r': // a literal one would be read back as a line feed
+        return "&#13;";
+    default:
+        return NULL;
+    }
+}
+
+static void add_escaped(growing_text *text, const char *string)
 {
     size_t left = strlen(string);
     for (const char *s = string; left > 0;) {
-        size_t length = character_length(s, left);
-        if (length == 0) {
-            text_add(text, "\xef\xbf\xbd");
-            s++;
-            left--;
-            continue;
-        }
-        switch (*s) {
-        case '&':
-            text_add(text, "&amp;");
-            break;
-        case '<':
-            text_add(text, "&lt;");
-            break;
-        case '>':
-            text_add(text, "&gt;");
-            break;
-        case '"':
-            text_add(text, "&quot;");
-            break;
-        case '\'':
-            text_add(text, "&#39;");
-            break;
-        case '\r': // a literal one would be read back as a line feed
-            text_add(text, "&#13;");
-            break;
-        default:
+        size_t length = character_length(s, left), step = length > 0 ? length : 1;
+        const char *entity = length == 0 ? "\xef\xbf\xbd" : entity_of(*s);
+        if (entity != NULL)
+            text_add(text, entity);
+        else
             text_bytes(text, s, length);
-        }
-        s += length;
-        left -= length;
+        s += step;
+        left -= step;
     }
+}
+
+void text_html(growing_text *text, const char *markup, ...)
+{
+    va_list arguments;
+    va_start(arguments, markup);
+    for (const char *mark = strchr(markup, '%'); mark != NULL; mark = strchr(markup, '%')) {
+        text_bytes(text, markup, (size_t)(mark - markup));
+        text->failed = text->failed || mark[1] != 's';
+        if (!text->failed)
+            add_escaped(text, va_arg(arguments, const char *));
+        markup = mark + strlen("%s");
+    }
+    text_add(text, markup);
+    va_end(arguments);
 }
 
 void text_quoted(growing_text *text, const char *string)
@@ -161,147 +173,4 @@ void text_comment(growing_text *text, const char *string)
             text_bytes(text, s, 1);
     }
     text_add(text, "\n");
-}
-
-/* A whole number as exponent: "⁻⁷". */
-static void superscript(growing_text *text, long value)
-{
-    static const char *const digit[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
-    char plain[32];
-    (void)snprintf(plain, sizeof plain, "%ld", value);
-    for (const char *s = plain; *s != '\0'; s++)
-        text_add(text, *s == '-' ? "⁻" : digit[*s - '0']);
-}
-
-enum { MAX_DIGITS = 17 };
-
-/* |value| rounded to `count` significant digits; *exponent is that of the first one. The C library
- * writes the decimal mark of the locale, so only its digits are used. */
-static void decimal_digits(double value, int count, char digits[MAX_DIGITS + 1], int *exponent)
-{
-    char plain[64];
-    (void)snprintf(plain, sizeof plain, "%.*e", count - 1, fabs(value));
-    int n = 0;
-    const char *s = plain;
-    for (; *s != '\0' && *s != 'e'; s++)
-        if (*s >= '0' && *s <= '9' && n < count)
-            digits[n++] = *s;
-    digits[n] = '\0';
-    *exponent = *s == 'e' ? (int)strtol(s + 1, NULL, 10) : 0;
-}
-
-static bool not_finite(growing_text *text, double value)
-{
-    if (isnan(value))
-        text_add(text, "not known");
-    else if (isinf(value))
-        text_add(text, value < 0 ? "−∞" : "∞");
-    else
-        return false;
-    return true;
-}
-
-/* Digits with the decimal point after the one of weight 10^0. */
-static void add_plain(growing_text *text, const char *digits, int exponent)
-{
-    int count = (int)strlen(digits);
-    if (exponent < 0) {
-        text_add(text, "0.");
-        for (int i = -1; i > exponent; i--)
-            text_add(text, "0");
-        text_add(text, digits);
-        return;
-    }
-    for (int i = 0; i < count || i <= exponent; i++) {
-        if (i == exponent + 1)
-            text_add(text, ".");
-        if (i < count)
-            text_bytes(text, digits + i, 1);
-        else
-            text_add(text, "0");
-    }
-}
-
-static void add_number(growing_text *text, double value, int significant, bool trim)
-{
-    if (not_finite(text, value))
-        return;
-    if (value == 0) {
-        text_add(text, "0");
-        return;
-    }
-    char digits[MAX_DIGITS + 1];
-    int exponent = 0;
-    int count = significant < 1 ? 1 : significant > MAX_DIGITS ? MAX_DIGITS : significant;
-    int whole = 0; // exponent before rounding
-    decimal_digits(value, MAX_DIGITS, digits, &whole);
-    decimal_digits(value, count, digits, &exponent);
-    bool plain = exponent >= -3 && whole <= 4;
-    if (plain && whole + 1 > count)
-        decimal_digits(value, whole + 1, digits, &exponent);
-    for (size_t n = strlen(digits); trim && n > 1 && digits[n - 1] == '0'; n--)
-        digits[n - 1] = '\0';
-    if (value < 0)
-        text_add(text, "−");
-    add_plain(text, digits, plain ? exponent : 0);
-    if (plain)
-        return;
-    text_add(text, "×10");
-    superscript(text, exponent);
-}
-
-void text_number(growing_text *text, double value, int significant)
-{
-    add_number(text, value, significant, false);
-}
-
-void text_short(growing_text *text, double value, int significant)
-{
-    add_number(text, value, significant, true);
-}
-
-void text_fixed(growing_text *text, double value, int decimals)
-{
-    if (not_finite(text, value))
-        return;
-    enum { MAX_DECIMALS = 15 };
-    char plain[400]; // 309 digits before the decimal mark at most
-    int after = decimals < 0 ? 0 : decimals > MAX_DECIMALS ? MAX_DECIMALS : decimals;
-    (void)snprintf(plain, sizeof plain, "%.*f", after, fabs(value));
-    size_t length = strlen(plain), before = strspn(plain, "0123456789");
-    if (value < 0 && strpbrk(plain, "123456789") != NULL)
-        text_add(text, "−");
-    text_bytes(text, plain, before);
-    if (after > 0) { // the mark between is that of the locale
-        text_add(text, ".");
-        text_add(text, plain + length - (size_t)after);
-    }
-}
-
-void text_literal(growing_text *text, double value)
-{
-    if (isnan(value)) {
-        text_add(text, "NaN");
-        return;
-    }
-    if (value == 0 || isinf(value)) {
-        text_add(text, value == 0 ? "0" : value < 0 ? "-1e308" : "1e308");
-        return;
-    }
-    char digits[MAX_DIGITS + 1];
-    int exponent = 0;
-    decimal_digits(value, 10, digits, &exponent);
-    size_t n = strlen(digits);
-    while (n > 1 && digits[n - 1] == '0')
-        digits[--n] = '\0';
-    text_add(text, value < 0 ? "-" : "");
-    if (exponent >= -3 && exponent <= 5)
-        add_plain(text, digits, exponent);
-    else {
-        add_plain(text, digits, 0);
-        text_format(text, "e%d", exponent);
-    }
-    // 1/3 of whole numbers would be 0 in gnuplot.
-    if (exponent >= 0 && exponent <= 5 && n <= (size_t)exponent + 1)
-        text_add(text, ".0");
 }

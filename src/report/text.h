@@ -1,4 +1,4 @@
-/* A text that grows, and the ways of writing into it: HTML, gnuplot scripts, numbers for reading.
+/* A text that grows, and the ways of writing into it: HTML, gnuplot scripts.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -23,23 +23,12 @@ void text_bytes(growing_text *text, const char *bytes, size_t length);
 void text_add(growing_text *text, const char *string);
 void text_format(growing_text *text, const char *format, ...) WT_PRINTF(2, 3);
 
-/* Escaped for HTML element content and quoted attributes. What is not UTF-8 or not allowed in XML
- * becomes U+FFFD. */
-void text_html(growing_text *text, const char *string);
+/* Markup; the arguments, all of them %s, are escaped for HTML element content and quoted
+ * attributes. What is not UTF-8 or not allowed in XML becomes U+FFFD. */
+void text_html(growing_text *text, const char *markup, ...) WT_PRINTF(2, 3);
 /* A gnuplot string in single quotes: no substitution happens inside; line breaks become blanks. */
 void text_quoted(growing_text *text, const char *string);
 /* A comment of one line for a gnuplot script, "# " and line break included. */
 void text_comment(growing_text *text, const char *string);
-
-/* A number for reading, independent of the locale, in plain UTF-8: rounded to `significant` digits
- * (but never left of the decimal point): "12.3", "−0.0046", 1.2e-7 as "1.2×10⁻⁷". "not known" for
- * NaN, "∞". */
-void text_number(growing_text *text, double value, int significant);
-/* The same without zeros at the end of its decimals: "20", "0.5". */
-void text_short(growing_text *text, double value, int significant);
-/* With a fixed number of decimals. */
-void text_fixed(growing_text *text, double value, int decimals);
-/* A number as gnuplot reads it, to 10 digits. */
-void text_literal(growing_text *text, double value);
 
 #endif

@@ -4,81 +4,35 @@
  */
 #include "report/units.h"
 
+#include "report/numbers.h"
+
 #include <math.h>
 #include <string.h>
 
 typedef struct lab_choice {
     const char *unit; /* SI */
-    double factor;
-    const char *label;
+    int power;        /* of ten, of the first label; that of the next is less by three, and so on */
+    const char *labels[5];
 } lab_choice;
 
-/* Smallest first for each SI unit. */
+/* Smallest first. */
 static const lab_choice choices[] = {
-    {"m", 1e9, "nm"},
-    {"m", 1e6, "µm"},
-    {"m", 1e3, "mm"},
-    {"m", 1, "m"},
-    {"N", 1e12, "pN"},
-    {"N", 1e9, "nN"},
-    {"N", 1e6, "µN"},
-    {"N", 1e3, "mN"},
-    {"N", 1, "N"},
-    {"Pa", 1, "Pa"},
-    {"Pa", 1e-3, "kPa"},
-    {"Pa", 1e-6, "MPa"},
-    {"Pa", 1e-9, "GPa"},
-    {"s", 1e9, "ns"},
-    {"s", 1e6, "µs"},
-    {"s", 1e3, "ms"},
-    {"s", 1, "s"},
-    {"m/s", 1e9, "nm/s"},
-    {"m/s", 1e6, "µm/s"},
-    {"m/s", 1e3, "mm/s"},
-    {"m/s", 1, "m/s"},
-    {"m/V", 1e9, "nm/V"},
-    {"m/V", 1e6, "µm/V"},
-    {"W/m^2", 1, "W/m²"},
-    {"W/m^2", 1e-3, "kW/m²"},
-    {"W/m^2", 1e-6, "MW/m²"},
-    {"W/m^3", 1, "W/m³"},
-    {"W/m^3", 1e-3, "kW/m³"},
-    {"W/m^3", 1e-6, "MW/m³"},
-    {"W/m^3", 1e-9, "GW/m³"},
-    {"J/m^3", 1, "J/m³"},
-    {"J/m^3", 1e-3, "kJ/m³"},
-    {"J/m^3", 1e-6, "MJ/m³"},
-    {"J/m^3", 1e-9, "GJ/m³"},
-    {"J/mol", 1, "J/mol"},
-    {"J/mol", 1e-3, "kJ/mol"},
-    {"m^2/N", 1e9, "mm³/(N·m)"},
-    {"byte", 1, "byte"},
-    {"1", 1, ""},
-    {"", 1, ""},
+    {"m", 9, {"nm", "µm", "mm", "m"}},
+    {"N", 12, {"pN", "nN", "µN", "mN", "N"}},
+    {"Pa", 0, {"Pa", "kPa", "MPa", "GPa"}},
+    {"s", 9, {"ns", "µs", "ms", "s"}},
+    {"m/s", 9, {"nm/s", "µm/s", "mm/s", "m/s"}},
+    {"m/V", 9, {"nm/V", "µm/V"}},
+    {"W/m^2", 0, {"W/m²", "kW/m²", "MW/m²"}},
+    {"W/m^3", 0, {"W/m³", "kW/m³", "MW/m³", "GW/m³"}},
+    {"J/m^3", 0, {"J/m³", "kJ/m³", "MJ/m³", "GJ/m³"}},
+    {"J/mol", 0, {"J/mol", "kJ/mol"}},
+    {"m^2/N", 9, {"mm³/(N·m)"}},
+    {"m^4", 0, {"m⁴"}},
+    {"byte", 0, {"byte"}},
+    {"1", 0, {""}},
+    {"", 0, {""}},
 };
-
-/* "m^4" as "m⁴", "m.Hz^-0.5" as it is but for whole exponents. */
-static void pretty(const char *unit, char *label, size_t size)
-{
-    static const char *const digit[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
-    size_t n = 0;
-    for (const char *s = unit; *s != '\0'; s++) {
-        char one[2] = {*s, '\0'};
-        const char *part = one;
-        if (s[0] == '^' && s[1] >= '0' && s[1] <= '9' && !(s[2] >= '0' && s[2] <= '9') &&
-            s[2] != '.') {
-            part = digit[s[1] - '0'];
-            s++;
-        } else if (s[0] == '.')
-            part = "·";
-        size_t length = strlen(part);
-        if (n + length + 1 > size)
-            break;
-        memcpy(label + n, part, length);
-        n += length;
-    }
-    label[n] = '\0';
-}
 
 lab_unit lab_unit_for(wt_quantity quantity, const char *unit, double magnitude)
 {
@@ -90,24 +44,48 @@ lab_unit lab_unit_for(wt_quantity quantity, const char *unit, double magnitude)
         (void)strcpy(lab.label, "°C");
         return lab;
     }
-    const lab_choice *best = NULL;
-    for (size_t i = 0; i < sizeof choices / sizeof choices[0]; i++) {
-        if (strcmp(choices[i].unit, unit) != 0)
-            continue;
+    const lab_choice *choice = choices, *end = choices + sizeof choices / sizeof *choices;
+    while (choice < end && strcmp(choice->unit, unit) != 0)
+        choice++;
+    if (choice == end)
+        (void)snprintf(lab.label, sizeof lab.label, "%s", unit);
+    for (int i = 0; choice < end && i < 5 && choice->labels[i] != NULL; i++) {
+        double factor = pow(10, choice->power - 3 * i);
         // A thousandth of slack: 1 µm that rounding made 0.99999 µm is still 1 µm.
-        if (best == NULL || (isfinite(magnitude) && fabs(magnitude) * choices[i].factor >= 0.999))
-            best = &choices[i];
+        if (i > 0 && !(isfinite(magnitude) && fabs(magnitude) * factor >= 0.999))
+            continue;
+        lab.factor = factor;
+        (void)snprintf(lab.label, sizeof lab.label, "%s", choice->labels[i]);
     }
-    if (best == NULL) {
-        pretty(unit, lab.label, sizeof lab.label);
-        return lab;
-    }
-    lab.factor = best->factor;
-    (void)snprintf(lab.label, sizeof lab.label, "%s", best->label);
     return lab;
 }
 
 double lab_value(const lab_unit *lab, double value)
 {
     return value * lab->factor + lab->offset;
+}
+
+value_words value_in_words(wt_quantity quantity, const char *unit, double value)
+{
+    lab_unit lab = lab_unit_for(quantity, unit, value);
+    bool bare = !isfinite(value) || lab.label[0] == '\0';
+    value_words text;
+    (void)snprintf(text.words, sizeof text.words, "%s%s%s", SHORT_NUMBER(lab_value(&lab, value), 3),
+                   bare ? "" : " ", bare ? "" : lab.label);
+    return text;
+}
+
+value_words estimate_in_words(const wt_estimate *estimate)
+{
+    lab_unit lab = lab_unit_for(WT_Q_NONE, estimate->unit, estimate->value);
+    double error = fabs(estimate->standard_error) * lab.factor;
+    if (!(error > 0) || !isfinite(estimate->value))
+        return value_in_words(WT_Q_NONE, estimate->unit, estimate->value);
+    int decimals = 1 - (int)floor(log10(error));
+    decimals = decimals < 0 ? 0 : decimals > 9 ? 9 : decimals;
+    value_words text;
+    (void)snprintf(text.words, sizeof text.words, "%s ± %s%s%s",
+                   FIXED(lab_value(&lab, estimate->value), decimals), FIXED(error, decimals),
+                   lab.label[0] != '\0' ? " " : "", lab.label);
+    return text;
 }

@@ -19,4 +19,15 @@ typedef struct lab_unit {
 lab_unit lab_unit_for(wt_quantity quantity, const char *unit, double magnitude);
 double lab_value(const lab_unit *lab, double value);
 
+/* A value [`unit`, NULL = that of the quantity] with its lab unit, up to 3 digits: "1.15 µm". */
+typedef struct value_words {
+    char words[800];
+} value_words;
+value_words value_in_words(wt_quantity quantity, const char *unit, double value);
+/* "12.3 ± 0.4 MPa" with the standard error, the value alone without one. */
+value_words estimate_in_words(const wt_estimate *estimate);
+
+#define VALUE(quantity, unit, value) value_in_words(quantity, unit, value).words
+#define ESTIMATE(estimate) estimate_in_words(estimate).words
+
 #endif

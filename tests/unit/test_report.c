@@ -24,15 +24,19 @@ static void test_every_figure_is_listed_once(void **state)
     assert_null(wt_figure_get(n).name);
 }
 
-static void test_the_man_page_names_every_figure(void **state)
+static void test_the_man_pages_name_every_figure(void **state)
 {
     (void)state;
-    size_t length = 0;
-    char *page = read_all(WT_SOURCE_DIR "/man/weartrack-report.1", &length);
-    for (size_t i = 0; i < wt_figure_count(); i++)
-        if (strstr(page, wt_figure_get(i).name) == NULL)
-            fail_msg("figure %s is not in the man page", wt_figure_get(i).name);
-    free(page);
+    static const char *const pages[] = {WT_SOURCE_DIR "/man/weartrack-report.1",
+                                        WT_SOURCE_DIR "/man/weartrack-case.5"};
+    for (size_t k = 0; k < sizeof pages / sizeof *pages; k++) {
+        size_t length = 0;
+        char *page = read_all(pages[k], &length);
+        for (size_t i = 0; i < wt_figure_count(); i++)
+            if (strstr(page, wt_figure_get(i).name) == NULL)
+                fail_msg("figure %s is not in %s", wt_figure_get(i).name, pages[k]);
+        free(page);
+    }
 }
 
 static void test_everything(void **state)
@@ -291,7 +295,8 @@ static void test_nothing_to_draw(void **state)
         changes[i] =
             (fixture_change){wt_table_name(wt_result_table(produced, i)), .edit = forget_numbers};
     wt_result *result = fixture_changed(produced, changes, n);
-    const wt_report_options options = {.style = "paper", .gnuplot = "/nonexistent"};
+    wt_report_options options = wt_report_defaults();
+    options.gnuplot = "/nonexistent";
     write_report(result, "out", &options);
     check_page("out/index.html", 0, 0);
     size_t length = 0;
@@ -442,7 +447,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_every_figure_is_listed_once),
-        cmocka_unit_test(test_the_man_page_names_every_figure),
+        cmocka_unit_test(test_the_man_pages_name_every_figure),
         cmocka_unit_test_setup_teardown(test_everything, make_workplace, remove_workplace),
         cmocka_unit_test_setup_teardown(test_page, make_workplace, remove_workplace),
         cmocka_unit_test_setup_teardown(test_nothing_from_a_file_is_run, make_workplace,

@@ -123,9 +123,12 @@ static void test_descriptions_fit_their_tables(void **state)
         }
         if (figure->by_group)
             assert_int_equal(figure->table->columns[figure->group].kind, SCHEMA_TEXT);
-        for (const figure_curve *curve = figure->curves; curve->form != CURVE_NONE; curve++)
-            if (curve->band != 0 || curve->with_error)
-                assert_true(figure->table->columns[curve->column].standard_error > 0);
+        for (const figure_curve *curve = figure->curves; curve->form != CURVE_NONE; curve++) {
+            const schema_column *column = &figure->table->columns[curve->column];
+            assert_true(curve->band == 0 || column->standard_error > 0);
+            assert_true(!curve->with_errors || column->standard_error > 0 || column->high > 0);
+            assert_true(curve->panel < FIGURE_PANELS);
+        }
         assert_true(figure->words != NULL && strlen(figure->title) > 5);
     }
 }

@@ -10,25 +10,25 @@
     X(MODULUS_GROUPS_N_REJECTED, "n_rejected", "rejected curves", NUMBER, LABEL("Rejected"))       \
     X(MODULUS_GROUPS_N_SPOTS, "n_spots", "places on the sample", NUMBER, LABEL("Spots"))           \
     X(MODULUS_GROUPS_MEAN, "mean", "mean modulus of the curves", SI(MODULUS), LABEL("Mean"),       \
-      SPARSE)                                                                                      \
+      LIKE(MODULUS_GROUPS_GEOMETRIC_MEAN), SPARSE)                                                 \
     X(MODULUS_GROUPS_STANDARD_DEVIATION, "standard_deviation", "standard deviation of the curves", \
-      SI(MODULUS), LABEL("Standard deviation"), SPARSE)                                            \
+      SI(MODULUS), LABEL("Standard deviation"), LIKE(MODULUS_GROUPS_GEOMETRIC_MEAN), SPARSE)       \
     X(MODULUS_GROUPS_MEDIAN, "median", "median modulus of the curves", SI(MODULUS),                \
-      LABEL("Median"), SPARSE)                                                                     \
+      LABEL("Median"), LIKE(MODULUS_GROUPS_GEOMETRIC_MEAN), SPARSE)                                \
     X(MODULUS_GROUPS_GEOMETRIC_MEAN, "geometric_mean", "geometric mean of the spots", SI(MODULUS), \
-      LABEL("Geometric mean"), SPARSE)                                                             \
+      LABEL("Geometric mean"), INTERVAL(MODULUS_GROUPS_LOW, MODULUS_GROUPS_HIGH), SPARSE)          \
     X(MODULUS_GROUPS_LOW, "low", "lower end of its 95 % interval", SI(MODULUS),                    \
-      LABEL("95 % interval from"), SPARSE)                                                         \
+      LABEL("95 % interval from"), LIKE(MODULUS_GROUPS_GEOMETRIC_MEAN), SPARSE)                    \
     X(MODULUS_GROUPS_HIGH, "high", "upper end of its 95 % interval", SI(MODULUS), LABEL("to"),     \
-      SPARSE)
+      LIKE(MODULUS_GROUPS_GEOMETRIC_MEAN), SPARSE)
 #define MODULUS_GROUPS_KEYS(X)
 
 /* A row of too few curves has its numbers of curves alone. */
 #define COMPARISON_COLUMNS(X)                                                                      \
     X(COMPARISON_RATE_LOW, "rate_low", "smallest indentation rate of the row; nan = all rates",    \
-      SI(VELOCITY), LABEL("Indentation rate from"))                                                \
+      SI(VELOCITY), LABEL("Indentation rate from"), LIKE(COMPARISON_RATE_HIGH), MISSING("all"))    \
     X(COMPARISON_RATE_HIGH, "rate_high", "largest indentation rate of the row; nan = all rates",   \
-      SI(VELOCITY), LABEL("to"))                                                                   \
+      SI(VELOCITY), LABEL("to"), MISSING("all"))                                                   \
     X(COMPARISON_N_BULK, "n_bulk", "accepted bulk curves", NUMBER, LABEL("n bulk"))                \
     X(COMPARISON_N_TRACK, "n_track", "accepted wear-track curves", NUMBER, LABEL("n track"))       \
     X(COMPARISON_RATIO, "ratio", "modulus of the track over that of the bulk", NUMBER,             \
@@ -42,11 +42,12 @@
     X(COMPARISON_WELCH_T, "welch_t", "Welch's t of the means", NUMBER, LABEL("Welch t"), SPARSE)   \
     X(COMPARISON_WELCH_DF, "welch_df", "its degrees of freedom", NUMBER,                           \
       LABEL("Degrees of freedom"), SPARSE)                                                         \
-    X(COMPARISON_WELCH_P, "welch_p", "its two-sided p", NUMBER, LABEL("p (Welch)"), SPARSE)        \
+    X(COMPARISON_WELCH_P, "welch_p", "its two-sided p", NUMBER, LABEL("p (Welch)"), DIGITS(2),     \
+      SPARSE)                                                                                      \
     X(COMPARISON_HOLM_P, "holm_p", "p after Holm's correction for the number of rates", NUMBER,    \
-      LABEL("p (Holm)"), SPARSE)                                                                   \
+      LABEL("p (Holm)"), DIGITS(2), SPARSE)                                                        \
     X(COMPARISON_MANN_WHITNEY_P, "mann_whitney_p", "two-sided p of the Mann-Whitney test", NUMBER, \
-      LABEL("p (Mann-Whitney)"), SPARSE)                                                           \
+      LABEL("p (Mann-Whitney)"), DIGITS(2), SPARSE)                                                \
     X(COMPARISON_EFFECT_SIZE, "effect_size", "Hedges' g of ln E", NUMBER, LABEL("Effect size"),    \
       SPARSE)
 
@@ -61,7 +62,8 @@
     X(MODULUS_RATE_EQUIVALENT_FREQUENCY, "equivalent_frequency",                                   \
       "angular frequency of equal loading", SI(ANGULAR_FREQUENCY))                                 \
     X(MODULUS_RATE_N, "n", "accepted curves", NUMBER)                                              \
-    X(MODULUS_RATE_GEOMETRIC_MEAN, "geometric_mean", "geometric mean of the modulus", SI(MODULUS)) \
+    X(MODULUS_RATE_GEOMETRIC_MEAN, "geometric_mean", "geometric mean of the modulus", SI(MODULUS), \
+      INTERVAL(MODULUS_RATE_LOW, MODULUS_RATE_HIGH))                                               \
     X(MODULUS_RATE_LOW, "low", "lower end of its 95 % interval", SI(MODULUS))                      \
     X(MODULUS_RATE_HIGH, "high", "upper end of its 95 % interval", SI(MODULUS))
 #define MODULUS_RATE_KEYS(X)
@@ -72,14 +74,15 @@
     X(DMA_COMPARISON_EQUIVALENT_FREQUENCY, "equivalent_frequency",                                 \
       "angular frequency of equal loading", SI(ANGULAR_FREQUENCY), LABEL("Equivalent frequency"))  \
     X(DMA_COMPARISON_MODULUS, "indentation_modulus", "geometric mean of the modulus", SI(MODULUS), \
-      LABEL("Indentation"))                                                                        \
+      LABEL("Indentation"), INTERVAL(DMA_COMPARISON_LOW, DMA_COMPARISON_HIGH))                     \
     X(DMA_COMPARISON_LOW, "low", "lower end of its 95 % interval", SI(MODULUS),                    \
-      LABEL("95 % interval from"))                                                                 \
-    X(DMA_COMPARISON_HIGH, "high", "upper end of its 95 % interval", SI(MODULUS), LABEL("to"))     \
+      LABEL("95 % interval from"), LIKE(DMA_COMPARISON_MODULUS))                                   \
+    X(DMA_COMPARISON_HIGH, "high", "upper end of its 95 % interval", SI(MODULUS), LABEL("to"),     \
+      LIKE(DMA_COMPARISON_MODULUS))                                                                \
     X(DMA_COMPARISON_STORAGE_MODULUS, "dma_storage_modulus", "E' of the DMA at this frequency",    \
-      SI(STORAGE_MODULUS), LABEL("DMA E′"), SPARSE)                                                \
+      SI(STORAGE_MODULUS), LABEL("DMA E′"), LIKE(DMA_COMPARISON_MODULUS), SPARSE)                  \
     X(DMA_COMPARISON_COMPLEX_MODULUS, "dma_complex_modulus", "|E*| of the DMA at this frequency",  \
-      SI(COMPLEX_MODULUS), LABEL("DMA |E*|"), SPARSE)                                              \
+      SI(COMPLEX_MODULUS), LABEL("DMA |E*|"), LIKE(DMA_COMPARISON_MODULUS), SPARSE)                \
     X(DMA_COMPARISON_RATIO, "ratio", "indentation modulus over |E*|", NUMBER,                      \
       LABEL("Indentation / DMA"), SPARSE)                                                          \
     X(DMA_COMPARISON_EXTRAPOLATED, "extrapolated", "1: outside the frequencies measured by DMA",   \

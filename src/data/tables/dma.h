@@ -5,18 +5,18 @@
 
 #define SHIFT_FACTORS_COLUMNS(X)                                                                   \
     X(SHIFT_FACTORS_TEMPERATURE, "temperature", "temperature of the isotherm", SI(TEMPERATURE),    \
-      LABEL("Temperature"))                                                                        \
+      LABEL("Temperature"), DECIMALS(1))                                                           \
     X(SHIFT_FACTORS_LOG_A, "log_a", "log10 of the horizontal shift factor", NUMBER,                \
-      LABEL("log₁₀ a"), STANDARD_ERROR(SHIFT_FACTORS_LOG_A))                                       \
+      LABEL("log₁₀ a"), STANDARD_ERROR(SHIFT_FACTORS_LOG_A), DECIMALS(3))                          \
     X(SHIFT_FACTORS_LOG_A_STANDARD_ERROR, "log_a_standard_error", "its standard error [decade]",   \
-      NUMBER, LABEL("Standard error"))                                                             \
+      NUMBER, LABEL("Standard error"), DECIMALS(3))                                                \
     X(SHIFT_FACTORS_LOG_B, "log_b", "log10 of the vertical shift factor", NUMBER,                  \
-      LABEL("log₁₀ b"), STANDARD_ERROR(SHIFT_FACTORS_LOG_B))                                       \
+      LABEL("log₁₀ b"), STANDARD_ERROR(SHIFT_FACTORS_LOG_B), DECIMALS(3))                          \
     X(SHIFT_FACTORS_LOG_B_STANDARD_ERROR, "log_b_standard_error", "its standard error [decade]",   \
-      NUMBER, LABEL("Standard error"))                                                             \
+      NUMBER, LABEL("Standard error"), DECIMALS(3))                                                \
     X(SHIFT_FACTORS_LOG_B_PHYSICAL, "log_b_physical",                                              \
       "log10 b that density and temperature would give", NUMBER,                                   \
-      LABEL("log₁₀ b, rubber elasticity"))                                                         \
+      LABEL("log₁₀ b, rubber elasticity"), DECIMALS(3))                                            \
     X(SHIFT_FACTORS_CORRELATION, "correlation", "correlation of log a and log b", NUMBER)          \
     X(SHIFT_FACTORS_OVERLAP, "overlap",                                                            \
       "smaller of the ordinate overlaps with the neighbour [decade]", NUMBER,                      \
@@ -25,7 +25,7 @@
       LABEL("Determined by overlap"))                                                              \
     X(SHIFT_FACTORS_NOTE, "note", "what is odd", TEXT, LABEL("Note"))                              \
     X(SHIFT_FACTORS_WLF_LOG_A, "wlf_log_a", "log10 a of the fitted WLF law", NUMBER,               \
-      LABEL("WLF log₁₀ a"), SPARSE)
+      LABEL("WLF log₁₀ a"), DECIMALS(3), SPARSE)
 
 /* Those of the WLF law only where one fits. */
 #define SHIFT_FACTORS_KEYS(X)                                                                      \

@@ -36,7 +36,8 @@
     X(COST_RUNS, "runs", "1: ran, 0: left out", YES_NO)                                            \
     X(COST_BECAUSE, "because", "why", TEXT, LABEL("Because"))                                      \
     X(COST_WALL_TIME, "wall_time", "elapsed time", SI(TIME), LABEL("Wall time"))                   \
-    X(COST_CPU_TIME, "cpu_time", "processor time", SI(TIME), LABEL("Processor time"))              \
+    X(COST_CPU_TIME, "cpu_time", "processor time", SI(TIME), LABEL("Processor time"),              \
+      LIKE(COST_WALL_TIME))                                                                        \
     X(COST_ITEMS, "items", "curves, isotherms, points", NUMBER, LABEL("Items"))                    \
     X(COST_TOLERANCE_ASKED, "tolerance_asked", "relative numerical error asked for", NUMBER,       \
       LABEL("Tolerance asked"))                                                                    \

@@ -12,6 +12,11 @@
 #define HEADLINE(words) .headline = words
 #define STANDARD_ERROR(id) .standard_error = id##_STANDARD_ERROR
 #define BOTH_ERRORS(id) STANDARD_ERROR(id), .numerical_error = id##_NUMERICAL_ERROR
+#define INTERVAL(low_end, high_end) .low = low_end, .high = high_end
+#define LIKE(column) .like = column
+#define MISSING(words) .missing = words
+#define DIGITS(n) .digits = n
+#define DECIMALS(n) .decimals = n
 #define SPARSE .sparse = true
 #define OPTIONAL .optional = true
 
