@@ -81,10 +81,21 @@ static void change_signs(list *l, size_t i)
 /* ---- numbers, keys, statuses ------------------------------------------------------------------
  */
 
+/* sizeof x[0], sizeof(x[0]): any element will do. */
+static bool in_sizeof(const list *l, size_t i)
+{
+    for (size_t back = 3; back <= 4 && i >= l->f->first + back; back++)
+        if (token_is(at(l, i - back), "sizeof"))
+            return true;
+    return false;
+}
+
 static void change_number(list *l, size_t i)
 {
     const token *t = at(l, i);
     char text[64], put[96];
+    if (in_sizeof(l, i))
+        return;
     snprintf(text, sizeof text, "%.*s", (int)t->length, t->text);
     if (strpbrk(text, ".eEpP") != NULL && strncmp(text, "0x", 2) != 0) {
         snprintf(put, sizeof put, strtod(text, NULL) > 0 ? "(2 * %s)" : "(1 + %s)", text);

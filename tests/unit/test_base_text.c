@@ -121,6 +121,7 @@ static void parse_log(void **state)
     wt_parselog_free(NULL);
     wt_parselog_add(NULL, WT_NOTE, NULL, NULL, "nobody listens");
     assert_int_equal(wt_parselog_count(NULL), 0);
+    assert_int_equal(wt_parselog_lost(NULL), 0);
 }
 
 static void check_number(const char *text, char decimal, bool good, double expected)

@@ -5,7 +5,7 @@
  */
 #include "near.h"
 
-#include "fit/curve.h"
+#include "fit/curve_model.h"
 #include "synthetic_curve.h"
 
 #include <stdlib.h>
@@ -250,6 +250,33 @@ static void sensitivity_budget(void **state)
     }
 }
 
+/* The cost of a baseline that enters by its sums is that of its samples, also where the contact
+ * point moves into it. */
+static void sums_stand_for_the_baseline(void **state)
+{
+    (void)state;
+    curve_truth t = curve_standard();
+    wt_contact_table *table = table_of(&t);
+    curve_make(&t, 1, &data);
+    assert_int_equal(curve_reserve(workspace, t.n, NULL), WT_OK);
+    curve_samples samples = {t.n, data.height, data.force, t.spring_constant};
+    curve_law m = {.table = table, .samples = &samples, .workspace = workspace};
+    double p[CURVE_N_PARAMETERS];
+    p[CURVE_E] = t.modulus / 0.75;
+    p[CURVE_C] = true_contact(&t);
+    p[CURVE_F0] = t.offset;
+    p[CURVE_T] = t.tilt;
+    curve_model_start(&m, p);
+    static const double moves[] = {0, 20e-9, -10e-9, -100e-9, -300e-9, 50e-9};
+    for (size_t i = 0; i < sizeof moves / sizeof *moves; i++) {
+        p[CURVE_C] = true_contact(&t) + moves[i];
+        double cost = curve_model_cost(&m, p);
+        curve_law one_by_one = m;
+        assert_near(cost, curve_model_complete(&one_by_one, p), 1e-6);
+    }
+    wt_contact_table_free(table);
+}
+
 /* The largest force is that of any sample, the first one too. */
 static void largest_force(void **state)
 {
@@ -482,6 +509,7 @@ int main(void)
         cmocka_unit_test(intervals_cover_the_truth),
         cmocka_unit_test(plain_least_squares_is_biased_with_a_soft_lever),
         cmocka_unit_test(sensitivity_budget),
+        cmocka_unit_test(sums_stand_for_the_baseline),
         cmocka_unit_test(largest_force),
         cmocka_unit_test(range_of_the_fit),
         cmocka_unit_test(nothing_hidden_decides),

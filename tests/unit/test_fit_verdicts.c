@@ -180,6 +180,10 @@ static void wrong_way(void **state)
     for (size_t i = 0; i < t.n; i++)
         data.force[i] = -data.force[i];
     expect(&t, WT_CURVE_NEGATIVE, "sign of the deflection");
+    /* the means of the first and last tenth of a ramp are nine tenths of it apart */
+    for (size_t i = 0; i < t.n; i++)
+        data.force[i] = -1e-9 * (double)i / (double)t.n;
+    expect(&t, WT_CURVE_NEGATIVE, "falls by 900 pN");
     curve_make(&t, 1, &data);
     for (size_t i = t.n / 2; i < t.n; i++)
         data.height[i] = data.height[t.n - 1 - i] + 1e-12;

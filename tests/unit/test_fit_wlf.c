@@ -318,9 +318,40 @@ static void twenty_isotherms_take_little_time(void **state)
     wt_sweep_clear(&sweep);
 }
 
+/* Shifts that scatter far more than their errors say: the error of the activation energy is that of
+ * a straight line through them, with n - 2 degrees of freedom. */
+static void the_error_follows_the_scatter(void **state)
+{
+    (void)state;
+    const double energy = 100e3, reference = 263.15, per = 1.0 / (8.314462618 * log(10.0));
+    double x[N], y[N], sigma[N], mean_x = 0.0, mean_y = 0.0, xx = 0.0, xy = 0.0, rest = 0.0;
+    for (size_t i = 0; i < N; i++) {
+        sigma[i] = 0.01;
+        x[i] = (1.0 / temperatures[i] - 1.0 / reference) * per;
+        y[i] = energy * x[i] + (i % 2 == 0 ? 0.2 : -0.2);
+        mean_x += x[i] / N;
+        mean_y += y[i] / N;
+    }
+    for (size_t i = 0; i < N; i++) {
+        xx += (x[i] - mean_x) * (x[i] - mean_x);
+        xy += (x[i] - mean_x) * (y[i] - mean_y);
+    }
+    for (size_t i = 0; i < N; i++) {
+        double away = y[i] - mean_y - xy / xx * (x[i] - mean_x);
+        rest += away * away;
+    }
+    wt_master_curve master = shifts_only(temperatures, y, sigma, N, reference);
+    wt_wlf_fit fit;
+    assert_int_equal(wt_wlf_fit_shifts(&master, 0.02, &fit, NULL), WT_OK);
+    assert_near(fit.activation_energy, xy / xx, 1e-6);
+    assert_near(fit.activation_energy_error, sqrt(rest / (N - 2) / xx), 1e-6);
+    wt_master_curve_clear(&master);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_error_follows_the_scatter),
         cmocka_unit_test(exact_shifts_give_the_constants_back),
         cmocka_unit_test(the_reference_isotherm_has_no_privilege),
         cmocka_unit_test(intervals_hold_the_truth_as_often_as_they_say),

@@ -310,6 +310,20 @@ static void restart_changes_nothing(void **state)
     rig_free(&r);
 }
 
+/* What is left of an old layer is known no better than rounding allows. */
+static void old_layer_has_an_error(void **state)
+{
+    (void)state;
+    rig r = rig_several();
+    r.parameters.incubation = true;
+    r.parameters.start_thickness = 1e-3;
+    const wt_layer_point p = point_at(&r, 1e-9);
+    assert_near(p.thickness.value, 1e-3, 1e-9);
+    assert_true(p.thickness.numerical_error >= 1e-3 * 0x1p-53);
+    assert_true(p.thickness.numerical_error <= 1e-3 * 1e-12);
+    rig_free(&r);
+}
+
 /* Thickness never falls on the way up from 0, never rises on the way down, and both ends meet. */
 static void monotone_and_same_end(void **state)
 {
@@ -507,6 +521,7 @@ int main(void)
         cmocka_unit_test(buried_band),
         cmocka_unit_test(three_ways_agree),
         cmocka_unit_test(restart_changes_nothing),
+        cmocka_unit_test(old_layer_has_an_error),
         cmocka_unit_test(monotone_and_same_end),
         cmocka_unit_test(what_moves_the_balance),
         cmocka_unit_test(regimes),

@@ -222,10 +222,14 @@ static void bad_input(void **state)
     refused(wt_material_table(omega, falling, storage, 2, 0.5, WT_EXTRAPOLATE_SLOPE, &m, &err),
             &err, WT_E_RANGE, "slope");
 
+    assert_int_equal(wt_material_fractional_zener(0, 0.5, 1, 0.5, 0.5, &m, &err), WT_OK);
+    wt_material_free(m);
+    m = NULL;
     const double zener[][4] = {{-1, 1e9, 1, 0.5}, {2e9, 1e9, 1, 0.5}, {1e6, 1e9, 0, 0.5},
-                               {1e6, 1e9, 1, 0},  {1e6, 1e9, 1, 1.1}, {1e6, nan, 1, 0.5}};
-    const char *word[] = {"e0", "eg", "tau", "alpha", "alpha", "eg"};
-    for (size_t i = 0; i < 6; i++)
+                               {1e6, 1e9, 1, 0},  {1e6, 1e9, 1, 1.1}, {1e6, nan, 1, 0.5},
+                               {0, 0, 1, 0.5}};
+    const char *word[] = {"e0", "eg", "tau", "alpha", "alpha", "eg", "eg"};
+    for (size_t i = 0; i < 7; i++)
         refused(wt_material_fractional_zener(zener[i][0], zener[i][1], zener[i][2], zener[i][3],
                                              0.5, &m, &err),
                 &err, WT_E_RANGE, word[i]);

@@ -108,8 +108,10 @@ static void described_with_all_numbers(void **state)
     const struct {
         const char *text, *words[4];
     } cases[] = {
-        {"pyramid:half-angle=35deg,radius=20nm", {"4 sides", "35 deg", "20.00 nm", "16.38 nm"}},
-        {"cone:half-angle=20deg,radius=10nm", {"cone", "20 deg", "10.00 nm", "9.397 nm"}},
+        {"pyramid:half-angle=35deg,radius=20nm",
+         {"pyramid, 4 sides", "half-angle 35 deg", "cap radius 20.00 nm", "radius b 16.38 nm"}},
+        {"cone:half-angle=20deg,radius=10nm",
+         {"blunted cone", "half-angle 20 deg", "cap radius 10.00 nm", "radius b 9.397 nm"}},
         {"cone:half-angle=20deg", {"cone", "20 deg", "", ""}},
         {"sphere:radius=5um", {"sphere", "5.000 ", "", ""}},
     };
