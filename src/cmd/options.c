@@ -119,7 +119,7 @@ static void print_option(const option_row *row)
 {
     enum { HELP_COLUMN = 30 };
     const wt_param *p = row->param;
-    char text[TEXT_SIZE], set[TEXT_SIZE] = "";
+    char text[TEXT_SIZE], set[128] = "";
     int used = p->letter != 0 ? printf("  -%c, --%s", p->letter, row->name)
                               : printf("      --%s", row->name);
     if (p->value != NULL)
