@@ -165,12 +165,12 @@ static void names(void **state)
     char name[NAME_MAX];
     (void)state;
     for (size_t i = 0; i < sizeof same / sizeof *same; i++) {
-        name_normalise(same[i][0], strlen(same[i][0]), name);
+        name_normalise((text_span){same[i][0], strlen(same[i][0])}, name);
         assert_string_equal(name, same[i][1]);
     }
     char lengthy[500];
     memset(lengthy, 'x', sizeof lengthy);
-    name_normalise(lengthy, sizeof lengthy, name);
+    name_normalise((text_span){lengthy, sizeof lengthy}, name);
     assert_int_equal(strlen(name), NAME_MAX - 1);
 }
 
@@ -194,14 +194,13 @@ static void units_in_names(void **state)
     };
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        size_t length = strlen(cases[i].name);
-        text_cell unit = {NULL, 0};
-        const bool has = name_unit(cases[i].name, &length, &unit);
+        text_span name = {cases[i].name, strlen(cases[i].name)}, unit = {NULL, 0};
+        const bool has = name_unit(&name, &unit);
         assert_int_equal(has, cases[i].bare != NULL);
         if (!has)
             continue;
-        assert_int_equal(length, strlen(cases[i].bare));
-        assert_memory_equal(cases[i].name, cases[i].bare, length);
+        assert_int_equal(name.length, strlen(cases[i].bare));
+        assert_memory_equal(name.text, cases[i].bare, name.length);
         assert_int_equal(unit.length, strlen(cases[i].unit));
         assert_memory_equal(unit.text, cases[i].unit, unit.length);
     }

@@ -47,21 +47,25 @@ header_value header_of(wt_quantity quantity)
     return value;
 }
 
-bool pattern_match(const line_pattern *pattern, const char *line, size_t length, regmatch_t *groups,
-                   size_t n)
+bool pattern_match(const line_pattern *pattern, text_span line, regmatch_t *groups, size_t n)
 {
-    if (length > PATTERN_LINE_MAX || (pattern->first != '\0' && line[0] != pattern->first))
+    if (line.length > PATTERN_LINE_MAX ||
+        (pattern->first != '\0' && line.text[0] != pattern->first))
         return false;
-    return regexec(&pattern->regex, line, n, groups, 0) == 0;
+    return regexec(&pattern->regex, line.text, n, groups, 0) == 0;
 }
 
-bool pattern_part(const line_pattern *pattern, const char **line, size_t *length)
+text_span pattern_group(text_span line, regmatch_t group)
+{
+    return (text_span){line.text + group.rm_so, (size_t)(group.rm_eo - group.rm_so)};
+}
+
+bool pattern_part(const line_pattern *pattern, text_span *line)
 {
     regmatch_t groups[2] = {{-1, -1}, {-1, -1}};
-    if (!pattern_match(pattern, *line, *length, groups, 2) || groups[1].rm_so < 0)
+    if (!pattern_match(pattern, *line, groups, 2) || groups[1].rm_so < 0)
         return false;
-    *line += groups[1].rm_so;
-    *length = (size_t)(groups[1].rm_eo - groups[1].rm_so);
+    *line = pattern_group(*line, groups[1]);
     return true;
 }
 

@@ -14,6 +14,12 @@
 #define PATTERN_LINE_MAX ((size_t)16384)
 #define NAME_MAX ((size_t)128) /* bytes of a normalised name, with its end */
 
+/* Part of a text; borrowed. */
+typedef struct text_span {
+    const char *text;
+    size_t length;
+} text_span;
+
 typedef enum text_encoding {
     ENCODING_AUTO,
     ENCODING_UTF_8,
@@ -46,11 +52,12 @@ typedef struct line_pattern {
     struct line_pattern *next; /* of the compiled ones of a description */
 } line_pattern;
 
-/* 0 groups: does it match? Else groups[0..n) get what matched; rm_so is -1 for an empty group. */
-bool pattern_match(const line_pattern *pattern, const char *line, size_t length, regmatch_t *groups,
-                   size_t n);
+/* 0 groups: does it match? Else groups[0..n) get what matched; rm_so is -1 for an empty group. A
+ * zero byte ends the line. */
+bool pattern_match(const line_pattern *pattern, text_span line, regmatch_t *groups, size_t n);
 /* Shortens the line to what group 1 matches; false if there is no match, or nothing in it. */
-bool pattern_part(const line_pattern *pattern, const char **line, size_t *length);
+bool pattern_part(const line_pattern *pattern, text_span *line);
+text_span pattern_group(text_span line, regmatch_t group);
 
 typedef enum probe_kind { PROBE_REQUIRE, PROBE_HINT, PROBE_FORBID, PROBE_NAMES } probe_kind;
 
@@ -197,9 +204,9 @@ bool description_find_name(const text_description *description, const char *name
 
 /* Lower case, no blanks, primes and Greek letters spelled one way: "E \"" and "E″" are "e''",
  * "tan(δ)" is "tan(delta)". Cut at NAME_MAX. */
-void name_normalise(const char *text, size_t length, char name[NAME_MAX]);
+void name_normalise(text_span text, char name[NAME_MAX]);
 /* Is the text, normalised, that name? */
-bool name_is(const char *text, size_t length, const char *name);
+bool name_is(text_span text, const char *name);
 
 /* Do the quantities make a force curve, sweep or spectrum, whichever are among `kinds`? */
 bool quantities_suffice(wt_quantity_set set, unsigned kinds);

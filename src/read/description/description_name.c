@@ -51,13 +51,13 @@ static const char *spelling(const char *text, size_t length, size_t *taken)
     return NULL;
 }
 
-void name_normalise(const char *text, size_t length, char name[NAME_MAX])
+void name_normalise(text_span text, char name[NAME_MAX])
 {
     size_t out = 0;
-    for (size_t i = 0, taken; i < length; i += taken) {
-        const char *piece = spelling(text + i, length - i, &taken);
+    for (size_t i = 0, taken; i < text.length; i += taken) {
+        const char *piece = spelling(text.text + i, text.length - i, &taken);
         const size_t written = piece != NULL ? strlen(piece) : 1;
-        char c = text[i];
+        char c = text.text[i];
         if (piece == NULL) {
             taken = 1;
             if (c == ' ' || (c >= '\t' && c <= '\r'))
@@ -73,9 +73,9 @@ void name_normalise(const char *text, size_t length, char name[NAME_MAX])
     name[out] = '\0';
 }
 
-bool name_is(const char *text, size_t length, const char *name)
+bool name_is(text_span text, const char *name)
 {
     char own[NAME_MAX];
-    name_normalise(text, length, own);
+    name_normalise(text, own);
     return strcmp(own, name) == 0;
 }

@@ -68,7 +68,7 @@ char *parse_normalised(description_parser *p, const char *text)
     char name[NAME_MAX];
     if (text == NULL)
         return NULL;
-    name_normalise(text, strlen(text), name);
+    name_normalise((text_span){text, strlen(text)}, name);
     return parse_text(p, name, strlen(name));
 }
 

@@ -11,15 +11,10 @@
 
 /* ---- lines -------------------------------------------------------------------------------- */
 
-typedef struct text_line {
-    size_t start; /* offset in the text; a zero byte stands where the line ends */
-    size_t length;
-} text_line;
-
 /* A file as UTF-8 lines. */
 typedef struct text_lines {
     char *text;
-    text_line *lines;
+    text_span *lines; /* a zero byte stands where each ends */
     size_t n;
     const char *encoding; /* words: "UTF-16LE with byte order mark" */
     size_t n_replaced;    /* byte sequences that are no characters, now U+FFFD */
@@ -31,36 +26,31 @@ wt_status lines_decode(const unsigned char *bytes, size_t length, text_encoding 
 /* The words for the encoding that the bytes will be decoded from. */
 const char *lines_encoding(const unsigned char *bytes, size_t length, text_encoding encoding);
 void lines_free(text_lines *lines);
-const char *lines_get(const text_lines *lines, size_t i, size_t *length); /* zero-terminated */
 /* Takes the comment mark off the beginning; false if there is none. */
-bool line_uncomment(const text_description *description, const char **line, size_t *length);
+bool line_uncomment(const text_description *description, text_span *line);
 
 /* ---- cells -------------------------------------------------------------------------------- */
 
-typedef struct text_cell {
-    const char *text; /* borrowed from the line; without blanks and quotes around it */
-    size_t length;
-} text_cell;
-
+/* Of a line; without blanks and quotes around each. */
 typedef struct text_cells {
-    text_cell *cells;
+    text_span *cells;
     size_t n, capacity;
 } text_cells;
 
 const char *separator_name(cell_separator separator); /* "tab"; static */
 /* Splits a line; SEPARATOR_AUTO is not allowed here. False when out of memory. */
-bool cells_split(text_cells *cells, const char *line, size_t length, cell_separator separator,
+bool cells_split(text_cells *cells, text_span line, cell_separator separator,
                  const text_description *description);
 bool cells_blank(const text_cells *cells);
-bool cell_is(text_cell cell, const char *text);
+bool cell_is(text_span cell, const char *text);
 
 typedef enum cell_kind { CELL_NUMBER, CELL_MISSING, CELL_TEXT } cell_kind;
 /* A number, an empty cell (also "--", "nan", 1e99 and what the description lists; *value is NaN) or
  * something else. */
-cell_kind cell_read(text_cell cell, char decimal, const text_description *description,
+cell_kind cell_read(text_span cell, char decimal, const text_description *description,
                     double *value);
 /* Copies text for messages and tables: without control characters, cut at a whole character. */
-void text_copy(char *to, size_t size, const char *text, size_t length);
+void text_copy(char *to, size_t size, text_span text);
 /* Counts cells with a decimal comma and with a point. */
 void cells_count_marks(const text_cells *cells, size_t *commas, size_t *points);
 
@@ -142,7 +132,7 @@ wt_status text_scan(const text_description *description, wt_input *input, unsign
                     wt_error *err);
 void text_file_free(text_file *file);
 /* Adds a copy of a text, unless the list has `most` already. */
-wt_status text_list_add(text_file *file, text_list *list, size_t most, text_cell text,
+wt_status text_list_add(text_file *file, text_list *list, size_t most, text_span text,
                         wt_error *err);
 /* "line 12", for messages. */
 typedef struct text_place {
@@ -178,22 +168,26 @@ typedef struct names_row {
     bool no_memory;
 } names_row;
 
-/* Is the name of a cell one of the description? *unit is what stands in the name. */
-bool names_known(const text_description *description, text_cell cell, size_t *first, size_t *n,
-                 text_cell *unit);
+/* What a name may be: entries of the description's `names`. */
+typedef struct known_name {
+    size_t first, n;
+    text_span unit; /* that stands in the name, or empty */
+} known_name;
+/* Is the name of a cell one of the description? */
+bool names_known(const text_description *description, text_span cell, known_name *known);
 
 /* The part of a line where names would stand; false if it cannot be a names row. */
-bool names_part(const text_description *description, const char **line, size_t *length);
+bool names_part(const text_description *description, text_span *line);
 /* Splits `line` and tells whether its cells name enough columns for one of `kinds`. With an auto
  * separator the one that names most columns is taken. False also when `no_memory`. */
-bool names_match(names_row *names, const text_description *description, const char *line,
-                 size_t length, cell_separator separator, unsigned kinds);
+bool names_match(names_row *names, const text_description *description, text_span line,
+                 cell_separator separator, unsigned kinds);
 /* Fills columns, quantities and problems of the table; what is not understood goes to
  * file->unknown. */
 wt_status names_resolve(const names_row *names, text_file *file, text_table *table,
                         const wt_read_options *options, wt_error *err);
-/* Does a name carry its unit ("f (Hz)", "E' / MPa", "q[1/m]")? Shortens *length to the name. */
-bool name_unit(const char *name, size_t *length, text_cell *unit);
+/* Does a name carry its unit ("f (Hz)", "E' / MPa", "q[1/m]")? Shortens it to the name. */
+bool name_unit(text_span *name, text_span *unit);
 void names_free(names_row *names);
 
 /* ---- results ------------------------------------------------------------------------------ */

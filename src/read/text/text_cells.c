@@ -27,7 +27,7 @@ static bool is_blank(char c)
     return c == ' ' || (c >= '\t' && c <= '\r') || c == '\0';
 }
 
-static void trim(text_cell *cell)
+static void trim(text_span *cell)
 {
     while (cell->length > 0 && is_blank(cell->text[0])) {
         cell->text++;
@@ -43,13 +43,13 @@ static bool append(text_cells *cells, const char *text, size_t length)
         size_t capacity = cells->capacity > 0 ? 2 * cells->capacity : 32;
         if (capacity > SIZE_MAX / sizeof *cells->cells)
             return false;
-        text_cell *grown = realloc(cells->cells, capacity * sizeof *grown);
+        text_span *grown = realloc(cells->cells, capacity * sizeof *grown);
         if (grown == NULL)
             return false;
         cells->cells = grown;
         cells->capacity = capacity;
     }
-    text_cell cell = {text, length};
+    text_span cell = {text, length};
     trim(&cell);
     if (cell.length >= 2 && cell.text[0] == '"' && cell.text[cell.length - 1] == '"') {
         cell.text++;
@@ -127,21 +127,22 @@ static bool split_fixed(text_cells *cells, const char *line, size_t length,
     return true;
 }
 
-bool cells_split(text_cells *cells, const char *line, size_t length, cell_separator separator,
+bool cells_split(text_cells *cells, text_span line, cell_separator separator,
                  const text_description *description)
 {
+    const size_t length = line.length;
     cells->n = 0;
     switch (separator) {
     case SEPARATOR_TAB:
-        return split_at(cells, line, length, '\t');
+        return split_at(cells, line.text, length, '\t');
     case SEPARATOR_SEMICOLON:
-        return split_at(cells, line, length, ';');
+        return split_at(cells, line.text, length, ';');
     case SEPARATOR_COMMA:
-        return split_at(cells, line, length, ',');
+        return split_at(cells, line.text, length, ',');
     case SEPARATOR_FIXED:
-        return split_fixed(cells, line, length, description);
+        return split_fixed(cells, line.text, length, description);
     default:
-        return split_whitespace(cells, line, length);
+        return split_whitespace(cells, line.text, length);
     }
 }
 
@@ -153,12 +154,12 @@ bool cells_blank(const text_cells *cells)
     return true;
 }
 
-bool cell_is(text_cell cell, const char *text)
+bool cell_is(text_span cell, const char *text)
 {
     return strlen(text) == cell.length && memcmp(text, cell.text, cell.length) == 0;
 }
 
-static bool is_missing(text_cell cell, const text_description *d)
+static bool is_missing(text_span cell, const text_description *d)
 {
     static const char *const usual[] = {"-",       "--",     "---",    "nan",  "n/a",
                                         "na",      "inf",    "-inf",   "+inf", "#n/a",
@@ -174,7 +175,7 @@ static bool is_missing(text_cell cell, const text_description *d)
     return false;
 }
 
-cell_kind cell_read(text_cell cell, char decimal, const text_description *description,
+cell_kind cell_read(text_span cell, char decimal, const text_description *description,
                     double *value)
 {
     *value = (double)NAN;
@@ -189,10 +190,10 @@ cell_kind cell_read(text_cell cell, char decimal, const text_description *descri
     return is_missing(cell, description) ? CELL_MISSING : CELL_TEXT;
 }
 
-void text_copy(char *to, size_t size, const char *text, size_t length)
+void text_copy(char *to, size_t size, text_span text)
 {
-    const size_t n = utf8_cut(text, length, size - 1);
-    memcpy(to, text, n);
+    const size_t n = utf8_cut(text.text, text.length, size - 1);
+    memcpy(to, text.text, n);
     to[n] = '\0';
     utf8_tidy(to);
 }
@@ -200,7 +201,7 @@ void text_copy(char *to, size_t size, const char *text, size_t length)
 void cells_count_marks(const text_cells *cells, size_t *commas, size_t *points)
 {
     for (size_t i = 0; i < cells->n; i++) {
-        const text_cell cell = cells->cells[i];
+        const text_span cell = cells->cells[i];
         const char *comma = memchr(cell.text, ',', cell.length);
         const char *point = memchr(cell.text, '.', cell.length);
         if (comma != NULL && point == NULL)

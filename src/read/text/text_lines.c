@@ -142,14 +142,14 @@ static bool find_lines(text_lines *lines, size_t length)
         if (c != '\n' && c != '\r')
             continue;
         lines->text[i] = '\0';
-        lines->lines[lines->n++] = (text_line){start, i - start};
+        lines->lines[lines->n++] = (text_span){lines->text + start, i - start};
         if (c == '\r' && i + 1 < length && lines->text[i + 1] == '\n')
             i++;
         start = i + 1;
     }
     lines->text[length] = '\0';
     if (start < length)
-        lines->lines[lines->n++] = (text_line){start, length - start};
+        lines->lines[lines->n++] = (text_span){lines->text + start, length - start};
     return true;
 }
 
@@ -182,18 +182,11 @@ void lines_free(text_lines *lines)
     *lines = (text_lines){0};
 }
 
-const char *lines_get(const text_lines *lines, size_t i, size_t *length)
-{
-    *length = lines->lines[i].length;
-    return lines->text + lines->lines[i].start;
-}
-
-bool line_uncomment(const text_description *d, const char **line, size_t *length)
+bool line_uncomment(const text_description *d, text_span *line)
 {
     const size_t n = d->comment != NULL ? strlen(d->comment) : 0;
-    if (n == 0 || *length < n || memcmp(*line, d->comment, n) != 0)
+    if (n == 0 || line->length < n || memcmp(line->text, d->comment, n) != 0)
         return false;
-    *line += n;
-    *length -= n;
+    *line = (text_span){line->text + n, line->length - n};
     return true;
 }

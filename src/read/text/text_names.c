@@ -12,63 +12,59 @@
 #define COLUMNS_MAX ((size_t)1024)
 #define UNKNOWN_MAX ((size_t)256)
 
-bool name_unit(const char *name, size_t *length, text_cell *unit)
+bool name_unit(text_span *name, text_span *unit)
 {
-    const size_t n = *length;
-    size_t open = n;
+    const char *const text = name->text;
+    const size_t n = name->length;
     if (n == 0)
         return false;
-    const char last = name[n - 1];
+    const char last = text[n - 1];
     if (last == ')' || last == ']') {
         /* The bracket that belongs to the last one: units like N/(m s) have their own. */
         const char begin = last == ')' ? '(' : '[';
-        size_t depth = 0;
-        for (size_t i = n; i-- > 0;) {
-            depth += name[i] == last;
-            if (name[i] == begin && --depth == 0) {
-                open = i;
+        size_t depth = 0, open = n;
+        while (open-- > 0) {
+            depth += text[open] == last;
+            if (text[open] == begin && --depth == 0)
                 break;
-            }
         }
-        if (open == n || open == 0)
+        if (open == SIZE_MAX || open == 0)
             return false;
-        *unit = (text_cell){name + open + 1, n - open - 2};
-        *length = open;
+        *unit = (text_span){text + open + 1, n - open - 2};
+        name->length = open;
         return true;
     }
     for (size_t i = n; i-- > 2;)
-        if (name[i] == ' ' && name[i - 1] == '/' && name[i - 2] == ' ') {
-            *unit = (text_cell){name + i + 1, n - i - 1};
-            *length = i - 2;
-            return *length > 0;
+        if (text[i] == ' ' && text[i - 1] == '/' && text[i - 2] == ' ') {
+            *unit = (text_span){text + i + 1, n - i - 1};
+            name->length = i - 2;
+            return name->length > 0;
         }
     return false;
 }
 
-bool names_part(const text_description *d, const char **line, size_t *length)
+bool names_part(const text_description *d, text_span *line)
 {
     if (d->has_names_line)
-        return pattern_part(&d->names_line, line, length);
-    (void)line_uncomment(d, line, length);
+        return pattern_part(&d->names_line, line);
+    (void)line_uncomment(d, line);
     return true;
 }
 
-bool names_known(const text_description *d, text_cell cell, size_t *first, size_t *n,
-                 text_cell *unit)
+bool names_known(const text_description *d, text_span cell, known_name *known)
 {
     char name[NAME_MAX];
-    size_t length = cell.length;
-    *unit = (text_cell){"", 0};
-    if (length == 0 || length >= NAME_MAX)
+    known->unit = (text_span){"", 0};
+    if (cell.length == 0 || cell.length >= NAME_MAX)
         return false;
-    name_normalise(cell.text, length, name);
-    if (description_find_name(d, name, first, n))
+    name_normalise(cell, name);
+    if (description_find_name(d, name, &known->first, &known->n))
         return true;
     if ((d->units != UNITS_NAME && d->units != UNITS_NAME_OR_ROW) ||
-        !name_unit(cell.text, &length, unit))
+        !name_unit(&cell, &known->unit))
         return false;
-    name_normalise(cell.text, length, name);
-    return description_find_name(d, name, first, n);
+    name_normalise(cell, name);
+    return description_find_name(d, name, &known->first, &known->n);
 }
 
 /* Number of known names and what they may measure. */
@@ -77,22 +73,21 @@ static size_t count_known(const text_description *d, const text_cells *cells, wt
     size_t known = 0;
     *set = 0;
     for (size_t i = 0; i < cells->n; i++) {
-        size_t first, n;
-        text_cell unit;
-        if (!names_known(d, cells->cells[i], &first, &n, &unit))
+        known_name name;
+        if (!names_known(d, cells->cells[i], &name))
             continue;
         known++;
-        for (size_t k = first; k < first + n; k++)
+        for (size_t k = name.first; k < name.first + name.n; k++)
             *set |= WT_Q_BIT(d->rules[d->names[k].rule].quantity);
     }
     return known;
 }
 
-static size_t try_separator(names_row *names, const text_description *d, const char *line,
-                            size_t length, cell_separator separator, unsigned kinds)
+static size_t try_separator(names_row *names, const text_description *d, text_span line,
+                            cell_separator separator, unsigned kinds)
 {
     wt_quantity_set set;
-    if (!cells_split(&names->names, line, length, separator, d)) {
+    if (!cells_split(&names->names, line, separator, d)) {
         names->no_memory = true;
         return 0;
     }
@@ -102,28 +97,28 @@ static size_t try_separator(names_row *names, const text_description *d, const c
     return quantities_suffice(set, kinds) ? known : 0;
 }
 
-bool names_match(names_row *names, const text_description *d, const char *line, size_t length,
+bool names_match(names_row *names, const text_description *d, text_span line,
                  cell_separator separator, unsigned kinds)
 {
     static const cell_separator all[] = {SEPARATOR_TAB, SEPARATOR_SEMICOLON, SEPARATOR_COMMA,
                                          SEPARATOR_WHITESPACE};
     size_t best = 0;
     names->units.n = 0;
-    if (length > PATTERN_LINE_MAX)
+    if (line.length > PATTERN_LINE_MAX)
         return false;
     if (separator != SEPARATOR_AUTO) {
         names->separator = separator;
-        return try_separator(names, d, line, length, separator, kinds) > 0;
+        return try_separator(names, d, line, separator, kinds) > 0;
     }
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
-        size_t known = try_separator(names, d, line, length, all[i], kinds);
+        size_t known = try_separator(names, d, line, all[i], kinds);
         if (known > best) {
             best = known;
             names->separator = all[i];
         }
     }
     return best > 0 && !names->no_memory &&
-           try_separator(names, d, line, length, names->separator, kinds) > 0;
+           try_separator(names, d, line, names->separator, kinds) > 0;
 }
 
 void names_free(names_row *names)
@@ -136,7 +131,7 @@ void names_free(names_row *names)
 /* ---- units -------------------------------------------------------------------------------- */
 
 /* Without brackets around it; "-" says that there is none. */
-static text_cell bare_unit(text_cell unit)
+static text_span bare_unit(text_span unit)
 {
     while (unit.length >= 2 && ((unit.text[0] == '[' && unit.text[unit.length - 1] == ']') ||
                                 (unit.text[0] == '(' && unit.text[unit.length - 1] == ')'))) {
@@ -162,7 +157,7 @@ static const char *given_unit(const wt_read_options *options, const char *normal
         const char *equal = strrchr(options->units[i], '=');
         if (equal == NULL)
             continue;
-        name_normalise(options->units[i], (size_t)(equal - options->units[i]), name);
+        name_normalise((text_span){options->units[i], (size_t)(equal - options->units[i])}, name);
         if (strcmp(name, normalised) == 0)
             return equal + 1;
     }
@@ -210,28 +205,25 @@ static bool is_taken(const text_table *table, const column_rule *rule)
 }
 
 /* The first rule of that name whose condition holds and whose quantity has that unit. */
-static text_column resolve_column(const resolver *r, size_t cell, size_t first, size_t n,
-                                  text_cell in_name)
+static text_column resolve_column(const resolver *r, size_t cell, const known_name *known)
 {
-    const text_cell full = r->names->names.cells[cell];
+    text_span name = r->names->names.cells[cell];
     text_column column = {.cell = cell, .problem = COLUMN_UNCLEAR, .factor = 1};
-    text_cell unit = in_name;
+    text_span unit = known->unit, ignored;
     if (unit.length == 0 && cell < r->names->units.n)
         unit = r->names->units.cells[cell];
     unit = bare_unit(unit);
-    size_t length = full.length;
-    text_cell ignored;
-    if (in_name.length > 0)
-        (void)name_unit(full.text, &length, &ignored);
-    while (length > 0 && full.text[length - 1] == ' ')
-        length--;
-    text_copy(column.name, sizeof column.name, full.text, length);
+    if (known->unit.length > 0)
+        (void)name_unit(&name, &ignored);
+    while (name.length > 0 && name.text[name.length - 1] == ' ')
+        name.length--;
+    text_copy(column.name, sizeof column.name, name);
     const char *given = given_unit(r->options, r->normalised[cell]);
     if (given != NULL)
         snprintf(column.unit, sizeof column.unit, "%s", given);
     else
-        text_copy(column.unit, sizeof column.unit, unit.text, unit.length);
-    for (size_t k = first; k < first + n; k++) {
+        text_copy(column.unit, sizeof column.unit, unit);
+    for (size_t k = known->first; k < known->first + known->n; k++) {
         const column_rule *rule = &r->d->rules[r->d->names[k].rule];
         double factor = 1, offset = 0;
         bool good;
@@ -263,7 +255,7 @@ static text_column resolve_column(const resolver *r, size_t cell, size_t first, 
     return column;
 }
 
-static wt_status add_unknown(text_file *file, text_cell cell, wt_error *err)
+static wt_status add_unknown(text_file *file, text_span cell, wt_error *err)
 {
     for (size_t i = 0; i < file->unknown.n; i++)
         if (cell_is(cell, file->unknown.items[i]))
@@ -304,29 +296,27 @@ wt_status names_resolve(const names_row *names, text_file *file, text_table *tab
         return wt_fail(err, WT_E_MEMORY, "no memory for the columns of a table");
     }
     for (size_t i = 0; i < n_cells; i++) {
-        text_cell cell = names->names.cells[i];
-        size_t first, n;
-        text_cell unit;
+        text_span cell = names->names.cells[i];
+        known_name known;
         /* A name with its unit inside is compared without it. */
-        if (names_known(d, cell, &first, &n, &unit) ? unit.length > 0 : d->units != UNITS_ROW)
-            (void)name_unit(cell.text, &cell.length, &unit);
-        name_normalise(cell.text, cell.length, r.normalised[i]);
+        if (names_known(d, cell, &known) ? known.unit.length > 0 : d->units != UNITS_ROW)
+            (void)name_unit(&cell, &known.unit);
+        name_normalise(cell, r.normalised[i]);
     }
     table->n_names = n_cells;
     table->group_cell = find_cell(&r, d->group);
     table->segment_cell = find_cell(&r, d->segment_column);
     table->curve_cell = find_cell(&r, d->curve_column);
     for (size_t i = 0; i < n_cells && status == WT_OK; i++) {
-        const text_cell cell = names->names.cells[i];
-        size_t first, n;
-        text_cell unit;
-        if (!names_known(d, cell, &first, &n, &unit)) {
+        const text_span cell = names->names.cells[i];
+        known_name known;
+        if (!names_known(d, cell, &known)) {
             if (cell.length > 0 && i != table->group_cell && i != table->segment_cell &&
                 i != table->curve_cell && !(i == 0 && d->row_prefix != NULL))
                 status = add_unknown(file, cell, err);
             continue;
         }
-        text_column column = resolve_column(&r, i, first, n, unit);
+        text_column column = resolve_column(&r, i, &known);
         if (column.problem != COLUMN_GOOD) {
             table->problems[table->n_problems++] = column;
         } else if (is_taken(table, column.rule)) {

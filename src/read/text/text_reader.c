@@ -39,15 +39,14 @@ static probe_result look_for(const text_description *d, const text_probe *probe,
     names_row names = {.separator = SEPARATOR_AUTO};
     bool found = false;
     for (size_t i = 0; i < complete && i < probe->within && !found; i++) {
-        size_t length;
-        const char *line = lines_get(lines, i, &length);
+        text_span line = lines->lines[i];
         if (probe->kind == PROBE_NAMES)
-            found = names_part(d, &line, &length) &&
-                    names_match(&names, d, line, length, d->names_separator, d->kinds);
+            found =
+                names_part(d, &line) && names_match(&names, d, line, d->names_separator, d->kinds);
         else if (probe->text != NULL)
-            found = strstr(line, probe->text) != NULL;
+            found = strstr(line.text, probe->text) != NULL;
         else
-            found = pattern_match(&probe->pattern, line, length, NULL, 0);
+            found = pattern_match(&probe->pattern, line, NULL, 0);
     }
     const bool no_memory = names.no_memory;
     names_free(&names);

@@ -8,29 +8,32 @@
 #include <stdlib.h>
 #include <string.h>
 
-wt_status scan_grow(text_scanner *s)
+static bool grow(text_table *t)
 {
-    text_table *t = s->table;
     if (t->n_rows < t->capacity)
-        return WT_OK;
+        return true;
     size_t capacity = t->capacity > 0 ? 2 * t->capacity : 64;
     const size_t width = t->n_columns > 0 ? t->n_columns : 1;
     if (capacity > SIZE_MAX / sizeof(double) / width)
-        return scan_no_memory(s);
+        return false;
     double *values = realloc(t->values, capacity * width * sizeof *values);
-    if (values == NULL)
-        return scan_no_memory(s);
-    t->values = values;
+    t->values = values != NULL ? values : t->values;
     size_t *blocks = realloc(t->blocks, capacity * sizeof *blocks);
-    if (blocks == NULL)
-        return scan_no_memory(s);
-    t->blocks = blocks;
+    t->blocks = blocks != NULL ? blocks : t->blocks;
     unsigned char *kinds = realloc(t->kinds, capacity);
-    if (kinds == NULL)
-        return scan_no_memory(s);
-    t->kinds = kinds;
+    t->kinds = kinds != NULL ? kinds : t->kinds;
+    if (values == NULL || blocks == NULL || kinds == NULL)
+        return false;
     t->capacity = capacity;
-    return WT_OK;
+    return true;
+}
+
+bool scan_split_row(text_scanner *s)
+{
+    if (cells_split(&s->row, s->line, s->table->separator, s->d) && grow(s->table))
+        return true;
+    scan_no_memory(s);
+    return false;
 }
 
 static size_t hash_cell(const text_cells *cells, size_t i, size_t hash)
@@ -61,7 +64,7 @@ static unsigned char segment_kind(const text_scanner *s)
     const size_t i = s->table->segment_cell;
     if (i == SIZE_MAX || i >= s->row.n)
         return s->kind;
-    const text_cell cell = s->row.cells[i];
+    const text_span cell = s->row.cells[i];
     for (size_t v = 0; v < s->d->n_values; v++)
         if (cell_is(cell, s->d->values[v].text))
             return (unsigned char)s->d->values[v].kind;
@@ -97,35 +100,33 @@ row_quality scan_read_row(text_scanner *s, size_t *bad)
     return numbers > 0 || s->row.n >= t->n_names ? ROW_GOOD : ROW_TEXT;
 }
 
-wt_status scan_bad_row(text_scanner *s, size_t line_number, size_t bad)
+void scan_bad_row(text_scanner *s, size_t bad)
 {
     char found[64];
     const text_table *t = s->table;
-    wt_fail(s->err, WT_E_CORRUPT, "a cell of the table is not a number");
+    s->status = wt_fail(s->err, WT_E_CORRUPT, "a cell of the table is not a number");
     if (bad < t->n_columns && t->columns[bad].cell < s->row.n) {
         const text_column *column = &t->columns[bad];
-        const text_cell cell = s->row.cells[column->cell];
-        wt_error_place(s->err, "line %zu, column %zu (%s)", line_number, column->cell + 1,
+        wt_error_place(s->err, "line %zu, column %zu (%s)", s->i + 1, column->cell + 1,
                        column->name);
-        text_copy(found, sizeof found, cell.text, cell.length);
+        text_copy(found, sizeof found, s->row.cells[column->cell]);
         wt_error_found(s->err, "\"%s\"", found);
     } else {
-        wt_error_place(s->err, "line %zu", line_number);
+        wt_error_place(s->err, "line %zu", s->i + 1);
         wt_error_found(s->err, "a line of %zu cells", s->row.n);
     }
     wt_error_expected(s->err, "numbers with decimal %s, separated by %s",
                       t->decimal == ',' ? "comma" : "point", separator_name(t->separator));
-    return WT_E_CORRUPT;
 }
 
-wt_status scan_add_row(text_scanner *s, size_t line_number)
+void scan_add_row(text_scanner *s)
 {
     text_table *t = s->table;
     size_t last = 0;
     for (size_t c = 0; c < t->n_columns; c++)
         last = t->columns[c].cell > last ? t->columns[c].cell : last;
     if (s->row.n <= last)
-        wt_parselog_add(s->log, WT_NOTE, s->file->name, line_place(line_number).words,
+        wt_parselog_add(s->log, WT_NOTE, s->file->name, line_place(s->i + 1).words,
                         "row with fewer cells than columns; the missing ones are empty");
     follow_groups(s);
     if (!s->snapshot) {
@@ -136,5 +137,4 @@ wt_status scan_add_row(text_scanner *s, size_t line_number)
     t->kinds[t->n_rows] = segment_kind(s);
     t->n_rows++;
     s->blank = false;
-    return WT_OK;
 }

@@ -12,47 +12,56 @@
 
 /* ---- beginning of a table ----------------------------------------------------------------- */
 
-static wt_status new_table(text_scanner *s, size_t line_number)
+static void new_table(text_scanner *s)
 {
     text_file *file = s->file;
-    if (file->n_tables >= TABLES_MAX)
-        return wt_fail(s->err, WT_E_RANGE, "more than %zu tables in one file", TABLES_MAX);
+    if (file->n_tables >= TABLES_MAX) {
+        s->status = wt_fail(s->err, WT_E_RANGE, "more than %zu tables in one file", TABLES_MAX);
+        return;
+    }
     if (file->n_tables == file->capacity) {
         size_t capacity = file->capacity > 0 ? 2 * file->capacity : 8;
         text_table *grown = realloc(file->tables, capacity * sizeof *grown);
-        if (grown == NULL)
-            return scan_no_memory(s);
+        if (grown == NULL) {
+            scan_no_memory(s);
+            return;
+        }
         file->tables = grown;
         file->capacity = capacity;
     }
-    s->table = &file->tables[file->n_tables];
-    *s->table = (text_table){.names_line = line_number,
+    s->table = &file->tables[file->n_tables++];
+    *s->table = (text_table){.names_line = s->i + 1,
                              .step_line = s->step_line,
                              .separator = s->names.separator,
                              .decimal = '.'};
     memcpy(s->table->title, s->title, sizeof s->title);
-    file->n_tables++;
     s->step_has_table = true;
     s->has_group = false;
     s->snapshot = false;
     s->blank = false;
-    return WT_OK;
+}
+
+static bool split(text_scanner *s, text_cells *cells, text_span line, cell_separator separator)
+{
+    if (cells_split(cells, line, separator, s->d))
+        return true;
+    scan_no_memory(s);
+    return false;
 }
 
 /* Could the row be units? Not if a known column holds a number. */
 static bool units_row(text_scanner *s, const text_cells *cells)
 {
     const text_description *d = s->d;
-    if (d->row_prefix != NULL && cells->n > 0 &&
-        name_is(cells->cells[0].text, cells->cells[0].length, d->row_prefix))
+    if (d->row_prefix != NULL && cells->n > 0 && name_is(cells->cells[0], d->row_prefix))
         return false;
     for (size_t i = 0; i < cells->n && i < s->names.names.n; i++) {
-        size_t first, n;
-        text_cell unit;
+        const text_span cell = cells->cells[i];
+        known_name known;
         double value;
-        if (names_known(d, s->names.names.cells[i], &first, &n, &unit) &&
-            (wt_number_parse(cells->cells[i].text, cells->cells[i].length, '.', &value) ||
-             wt_number_parse(cells->cells[i].text, cells->cells[i].length, ',', &value)))
+        if (names_known(d, s->names.names.cells[i], &known) &&
+            (wt_number_parse(cell.text, cell.length, '.', &value) ||
+             wt_number_parse(cell.text, cell.length, ',', &value)))
             return false;
     }
     return true;
@@ -61,37 +70,34 @@ static bool units_row(text_scanner *s, const text_cells *cells)
 static bool names_have_units(const text_scanner *s)
 {
     for (size_t i = 0; i < s->names.names.n; i++) {
-        size_t first, n;
-        text_cell unit;
-        if (names_known(s->d, s->names.names.cells[i], &first, &n, &unit) && unit.length > 0)
+        known_name known;
+        if (names_known(s->d, s->names.names.cells[i], &known) && known.unit.length > 0)
             return true;
     }
     return false;
 }
 
-/* Looks for the units row after the names row; *last is the last line that belongs to the two. */
-static wt_status find_units(text_scanner *s, size_t *last)
+/* Looks for the units row after the names row, and moves there if there is one. */
+static void find_units(text_scanner *s)
 {
     const text_lines *lines = &s->file->lines;
     if (s->d->units == UNITS_NAME_OR_ROW && names_have_units(s))
-        return WT_OK;
-    for (size_t i = *last + 1; i < lines->n && i <= *last + 4; i++) {
-        size_t length;
-        const char *line = lines_get(lines, i, &length);
+        return;
+    for (size_t i = s->i + 1; i < lines->n && i <= s->i + 4; i++) {
+        text_span line = lines->lines[i];
         if (s->comment_names)
-            (void)line_uncomment(s->d, &line, &length);
-        if (!cells_split(&s->names.units, line, length, s->names.separator, s->d))
-            return scan_no_memory(s);
+            (void)line_uncomment(s->d, &line);
+        if (!split(s, &s->names.units, line, s->names.separator))
+            return;
         if (cells_blank(&s->names.units))
             continue;
         if (units_row(s, &s->names.units)) {
-            *last = i;
-            return WT_OK;
+            s->i = i;
+            return;
         }
         break;
     }
     s->names.units.n = 0;
-    return WT_OK;
 }
 
 static cell_separator row_separator(const text_scanner *s)
@@ -103,186 +109,151 @@ static cell_separator row_separator(const text_scanner *s)
     return s->names.separator;
 }
 
-static wt_status choose_decimal(text_scanner *s, size_t from, char *decimal)
+static char choose_decimal(text_scanner *s)
 {
     const text_lines *lines = &s->file->lines;
+    const size_t end = s->i + 101 < lines->n ? s->i + 101 : lines->n;
     size_t commas = 0, points = 0;
-    if (s->decimal != '\0' || s->d->decimal != '\0') {
-        *decimal = s->decimal != '\0' ? s->decimal : s->d->decimal;
-        return WT_OK;
-    }
-    *decimal = '.';
+    if (s->decimal != '\0' || s->d->decimal != '\0')
+        return s->decimal != '\0' ? s->decimal : s->d->decimal;
     if (s->table->separator == SEPARATOR_COMMA)
-        return WT_OK;
-    for (size_t i = from; i < lines->n && i < from + 100 && commas + points < 64; i++) {
-        size_t length;
-        const char *line = lines_get(lines, i, &length);
-        if (!cells_split(&s->row, line, length, s->table->separator, s->d))
-            return scan_no_memory(s);
+        return '.';
+    for (size_t i = s->i + 1; i < end && commas + points < 64; i++) {
+        if (!split(s, &s->row, lines->lines[i], s->table->separator))
+            return '.';
         cells_count_marks(&s->row, &commas, &points);
     }
-    if (commas > points)
-        *decimal = ',';
-    return WT_OK;
+    return commas > points ? ',' : '.';
 }
 
-/* Names and units are known: the rows begin after line `last` (counted from 0). */
-static wt_status begin_rows(text_scanner *s, size_t last)
+/* Names and units are known: the rows begin after this line. */
+static void begin_rows(text_scanner *s)
 {
-    wt_status status = names_resolve(&s->names, s->file, s->table, s->options, s->err);
-    if (status != WT_OK)
-        return status;
+    s->status = names_resolve(&s->names, s->file, s->table, s->options, s->err);
+    if (s->status != WT_OK)
+        return;
     s->table->separator = row_separator(s);
     s->state = SCAN_ROWS;
-    return choose_decimal(s, last + 1, &s->table->decimal);
+    s->table->decimal = choose_decimal(s);
 }
 
-/* Is the line a names row? Then opens a table; *i moves to the last line of names and units. */
-static wt_status match_names(text_scanner *s, size_t *i, const char *line, size_t length,
-                             bool comment, bool *is)
+/* Is the line a names row? Then opens a table and moves to the last line of names and units. */
+static bool match_names(text_scanner *s)
 {
     const text_description *d = s->d;
-    wt_status status;
-    cell_separator separator = d->names_separator;
-    *is = false;
-    if (separator == SEPARATOR_AUTO)
-        separator = s->separator;
-    if (!names_part(d, &line, &length))
-        return WT_OK;
-    if (!names_match(&s->names, d, line, length, separator, s->kinds))
-        return s->names.no_memory ? scan_no_memory(s) : WT_OK;
-    *is = true;
-    s->comment_names = comment && !d->has_names_line;
-    status = new_table(s, *i + 1);
-    if (status != WT_OK)
-        return status;
-    if (d->units == UNITS_LINE) {
-        s->state = SCAN_UNITS;
-        return WT_OK;
+    text_span line = s->line;
+    const cell_separator separator =
+        d->names_separator != SEPARATOR_AUTO ? d->names_separator : s->separator;
+    if (!names_part(d, &line) || !names_match(&s->names, d, line, separator, s->kinds)) {
+        if (s->names.no_memory)
+            scan_no_memory(s);
+        return false;
     }
-    if (d->units == UNITS_ROW || d->units == UNITS_NAME_OR_ROW)
-        status = find_units(s, i);
-    return status == WT_OK ? begin_rows(s, *i) : status;
+    s->comment_names = s->comment && !d->has_names_line;
+    new_table(s);
+    if (s->status == WT_OK && (d->units == UNITS_ROW || d->units == UNITS_NAME_OR_ROW))
+        find_units(s);
+    if (s->status == WT_OK && d->units == UNITS_LINE)
+        s->state = SCAN_UNITS;
+    else if (s->status == WT_OK)
+        begin_rows(s);
+    return true;
 }
 
 /* ---- the walk ----------------------------------------------------------------------------- */
 
-static wt_status header_line(text_scanner *s, size_t *i, const char *line, size_t length,
-                             bool comment)
+static void header_line(text_scanner *s)
 {
-    bool is = false;
-    if (s->title_next && !comment) {
-        text_copy(s->title, sizeof s->title, line, length);
+    if (s->title_next && !s->comment) {
+        text_copy(s->title, sizeof s->title, s->line);
         s->title_next = false;
-        return WT_OK;
+        return;
     }
-    wt_status status = scan_marks(s, *i + 1, line, length, &is);
-    scan_fields(s, *i + 1, line, length);
-    if (status == WT_OK && !is)
-        status = match_names(s, i, line, length, comment, &is);
-    return status;
+    const bool mark = scan_marks(s);
+    scan_fields(s);
+    if (s->status == WT_OK && !mark)
+        (void)match_names(s);
 }
 
 /* Rows that come back after the table seemed to end would be lost without a word. */
-static wt_status watch_orphan(text_scanner *s, size_t line_number, const char *line, size_t length)
+static void watch_orphan(text_scanner *s)
 {
     size_t bad = 0;
     text_table *t = s->table;
     if (t == NULL || t->n_columns == 0 || t->n_rows == 0 || s->d->row_prefix != NULL ||
         s->step_line != t->step_line)
-        return WT_OK;
-    wt_status status = scan_grow(s);
-    if (status != WT_OK)
-        return status;
-    if (!cells_split(&s->row, line, length, t->separator, s->d))
-        return scan_no_memory(s);
-    if (s->row.n < t->n_names || scan_read_row(s, &bad) != ROW_GOOD)
-        return WT_OK;
-    wt_parselog_add(s->log, WT_WARNING, s->file->name, line_place(line_number).words,
-                    "row of numbers after the end of its table, not read");
-    return WT_OK;
+        return;
+    if (scan_split_row(s) && s->row.n >= t->n_names && scan_read_row(s, &bad) == ROW_GOOD)
+        wt_parselog_add(s->log, WT_WARNING, s->file->name, line_place(s->i + 1).words,
+                        "row of numbers after the end of its table, not read");
 }
 
-static wt_status table_line(text_scanner *s, size_t *i, const char *line, size_t length)
+static void table_line(text_scanner *s)
 {
     const text_description *d = s->d;
-    text_table *t = s->table;
-    bool is = false;
+    const text_table *t = s->table;
     size_t bad = SIZE_MAX;
-    if (!cells_split(&s->row, line, length, t->separator, d))
-        return scan_no_memory(s);
+    if (!scan_split_row(s))
+        return;
     if (cells_blank(&s->row)) {
         s->block += d->blank_is_block && t->n_rows > 0 && !s->blank;
         s->blank = true;
-        return WT_OK;
+        return;
     }
-    if (d->row_prefix != NULL &&
-        !name_is(s->row.cells[0].text, s->row.cells[0].length, d->row_prefix))
-        return header_line(s, i, line, length, false);
-    wt_status status = d->row_prefix == NULL ? scan_marks(s, *i + 1, line, length, &is) : WT_OK;
-    if (status != WT_OK)
-        return status;
-    if (is) {
-        scan_fields(s, *i + 1, line, length);
-        return WT_OK;
+    if (d->row_prefix != NULL && !name_is(s->row.cells[0], d->row_prefix)) {
+        header_line(s);
+        return;
     }
-    status = scan_grow(s);
-    if (status != WT_OK)
-        return status;
-    row_quality row = scan_read_row(s, &bad);
-    if (row == ROW_GOOD)
-        return scan_add_row(s, *i + 1);
-    status = match_names(s, i, line, length, false, &is);
-    if (status != WT_OK || is)
-        return status;
-    if (!s->blank || (row == ROW_BROKEN && s->row.n == t->n_names) || d->row_prefix != NULL)
-        return scan_bad_row(s, *i + 1, bad);
-    scan_close(s);
-    return header_line(s, i, line, length, false);
-}
-
-static wt_status units_line(text_scanner *s, size_t *i, const char *line, size_t length,
-                            bool comment)
-{
-    const char *units = line;
-    size_t n = length;
-    if (pattern_part(&s->d->units_line, &units, &n)) {
-        if (!cells_split(&s->names.units, units, n, s->names.separator, s->d))
-            return scan_no_memory(s);
-        return begin_rows(s, *i);
+    if (d->row_prefix == NULL && scan_marks(s)) {
+        scan_fields(s);
+        return;
     }
-    if (comment)
-        return header_line(s, i, line, length, true);
-    if (length == 0)
-        return WT_OK;
-    wt_status status = begin_rows(s, *i);
-    return status == WT_OK ? table_line(s, i, line, length) : status;
-}
-
-static wt_status walk(text_scanner *s)
-{
-    const text_lines *lines = &s->file->lines;
-    wt_status status = WT_OK;
-    for (size_t i = 0; i < lines->n && status == WT_OK; i++) {
-        size_t length;
-        const char *line = lines_get(lines, i, &length);
-        const char *rest = line;
-        size_t rest_length = length;
-        const bool comment = line_uncomment(s->d, &rest, &rest_length);
-        if (s->state == SCAN_UNITS) {
-            status = units_line(s, &i, line, length, comment);
-        } else if (comment) {
-            status = header_line(s, &i, line, length, true);
-        } else if (s->state == SCAN_ROWS) {
-            status = table_line(s, &i, line, length);
+    const row_quality row = scan_read_row(s, &bad);
+    if (row == ROW_GOOD) {
+        scan_add_row(s);
+    } else if (!match_names(s) && s->status == WT_OK) {
+        if (!s->blank || (row == ROW_BROKEN && s->row.n == t->n_names) || d->row_prefix != NULL) {
+            scan_bad_row(s, bad);
         } else {
-            const size_t before = i;
-            status = header_line(s, &i, line, length, false);
-            if (status == WT_OK && s->state == SCAN_HEADER)
-                status = watch_orphan(s, before + 1, line, length);
+            s->state = SCAN_HEADER;
+            header_line(s);
         }
     }
-    return status == WT_OK ? scan_finish_step(s) : status;
+}
+
+static void units_line(text_scanner *s)
+{
+    text_span units = s->line;
+    if (pattern_part(&s->d->units_line, &units)) {
+        if (split(s, &s->names.units, units, s->names.separator))
+            begin_rows(s);
+    } else if (s->comment) {
+        header_line(s);
+    } else if (s->line.length > 0) {
+        begin_rows(s);
+        if (s->status == WT_OK)
+            table_line(s);
+    }
+}
+
+static void walk(text_scanner *s)
+{
+    const text_lines *lines = &s->file->lines;
+    for (s->i = 0; s->i < lines->n && s->status == WT_OK; s->i++) {
+        text_span rest = s->line = lines->lines[s->i];
+        s->comment = line_uncomment(s->d, &rest);
+        if (s->state == SCAN_UNITS) {
+            units_line(s);
+        } else if (s->state == SCAN_ROWS && !s->comment) {
+            table_line(s);
+        } else {
+            header_line(s);
+            if (s->state == SCAN_HEADER && s->status == WT_OK && !s->comment)
+                watch_orphan(s);
+        }
+    }
+    if (s->status == WT_OK)
+        scan_finish_step(s);
 }
 
 static void free_table(text_table *t)
@@ -320,7 +291,7 @@ static void log_text(const text_file *file, wt_parselog *log)
 static bool has_column(const text_column *columns, size_t n, const char *name)
 {
     for (size_t i = 0; i < n; i++)
-        if (name_is(columns[i].name, strlen(columns[i].name), name))
+        if (name_is((text_span){columns[i].name, strlen(columns[i].name)}, name))
             return true;
     return false;
 }
@@ -339,7 +310,7 @@ static wt_status check_given_units(const text_file *file, const wt_read_options 
             wt_error_advice(err, "for example --units \"E'=MPa\"");
             return WT_E_ARG;
         }
-        name_normalise(options->units[u], (size_t)(equal - options->units[u]), name);
+        name_normalise((text_span){options->units[u], (size_t)(equal - options->units[u])}, name);
         for (size_t i = 0; i < file->n_tables && !found; i++)
             found = has_column(file->tables[i].columns, file->tables[i].n_columns, name) ||
                     has_column(file->tables[i].problems, file->tables[i].n_problems, name);
@@ -372,7 +343,11 @@ wt_status text_scan(const text_description *description, wt_input *input, unsign
         status = lines_decode(bytes, length, description->encoding, &made.lines, err);
     if (status == WT_OK) {
         made.values = pool_alloc(&made.memory, description->n_fields, sizeof *made.values);
-        status = made.values != NULL ? walk(&s) : scan_no_memory(&s);
+        if (made.values != NULL)
+            walk(&s);
+        else
+            scan_no_memory(&s);
+        status = s.status;
     }
     if (status == WT_OK)
         status = check_given_units(&made, options, log, err);

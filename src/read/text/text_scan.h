@@ -19,7 +19,11 @@ typedef struct text_scanner {
     const wt_read_options *options;
     wt_parselog *log;
     wt_error *err;
+    wt_status status; /* the first failure, which ends the walk */
     unsigned kinds;
+    size_t i; /* the line that is read, counted from 0 */
+    text_span line;
+    bool comment; /* it is one */
     scan_state state;
     names_row names;
     text_cells row;
@@ -46,31 +50,29 @@ typedef enum row_quality {
     ROW_TEXT    /* no number where numbers belong */
 } row_quality;
 
-static inline wt_status scan_no_memory(text_scanner *s)
+static inline void scan_no_memory(text_scanner *s)
 {
-    return wt_fail(s->err, WT_E_MEMORY, "no memory for the tables of the file");
+    s->status = wt_fail(s->err, WT_E_MEMORY, "no memory for the tables of the file");
 }
 
 /* ---- text_header.c ------------------------------------------------------------------------ */
 
-/* Header values on a line. */
-void scan_fields(text_scanner *s, size_t line_number, const char *line, size_t length);
-/* Step, end and segment markers. *is says whether the line is one. */
-wt_status scan_marks(text_scanner *s, size_t line_number, const char *line, size_t length,
-                     bool *is);
+/* Header values on the line. */
+void scan_fields(text_scanner *s);
+/* Is the line a marker of a step, an end or a segment? */
+bool scan_marks(text_scanner *s);
 /* A step that never showed a names row is remembered by its title. */
-wt_status scan_finish_step(text_scanner *s);
-void scan_close(text_scanner *s);
+void scan_finish_step(text_scanner *s);
 
 /* ---- text_rows.c -------------------------------------------------------------------------- */
 
-/* Room for one more row. */
-wt_status scan_grow(text_scanner *s);
+/* Splits the line into s->row and makes room for it in the table; false on failure. */
+bool scan_split_row(text_scanner *s);
 /* Reads the cells of s->row into the next row of the table; *bad is the first cell at fault. */
 row_quality scan_read_row(text_scanner *s, size_t *bad);
 /* Keeps the row that was read. */
-wt_status scan_add_row(text_scanner *s, size_t line_number);
-/* The error for a row that cannot be read. */
-wt_status scan_bad_row(text_scanner *s, size_t line_number, size_t bad);
+void scan_add_row(text_scanner *s);
+/* Fails for a row that cannot be read. */
+void scan_bad_row(text_scanner *s, size_t bad);
 
 #endif

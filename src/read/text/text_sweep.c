@@ -132,7 +132,7 @@ static void set_source(const builder *b, wt_isotherm *isotherm)
     else
         snprintf(end, sizeof end, ", line %zu", t->names_line);
     const size_t length = strlen(end);
-    text_copy(isotherm->source, sizeof isotherm->source - length, name, strlen(name));
+    text_copy(isotherm->source, sizeof isotherm->source - length, (text_span){name, strlen(name)});
     memcpy(isotherm->source + strlen(isotherm->source), end, length + 1);
 }
 

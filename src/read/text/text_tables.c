@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-wt_status text_list_add(text_file *file, text_list *list, size_t most, text_cell text,
+wt_status text_list_add(text_file *file, text_list *list, size_t most, text_span text,
                         wt_error *err)
 {
     if (list->n >= most)
