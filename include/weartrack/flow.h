@@ -99,7 +99,7 @@ WT_API void wt_indent_tables_clear(wt_indent_tables *tables);
 /* Fits every curve of every file. Files are streamed and fitted in parallel in batches, so memory
  * is bounded; rows come in the order of the files and curves for any number of threads. WT_E_EMPTY
  * if no file gives a curve. */
-WT_API wt_status wt_indent_group(const wt_indent_job *job, const wt_job *common,
+WT_API wt_status wt_indent_group(const wt_indent_job *job, const wt_job *work,
                                  wt_indent_tables *tables, wt_error *err) WT_NODISCARD;
 
 /* The accepted moduli of an indentation table as a group of the fit room; modulus and spot are
@@ -161,7 +161,7 @@ WT_API void wt_master_tables_clear(wt_master_tables *tables);
 
 /* Reads the sweeps, shifts them, fits WLF and Prony. `rubber` gets all that friction needs.
  * One isotherm is allowed: no shift, no WLF. Either output may be NULL. */
-WT_API wt_status wt_master_make(const wt_master_job *job, const wt_job *common,
+WT_API wt_status wt_master_make(const wt_master_job *job, const wt_job *work,
                                 wt_master_tables *tables, wt_rubber *rubber,
                                 wt_error *err) WT_NODISCARD;
 /* From the tables that wt_master_make gave (as read from a stream); shift_factors may be NULL (no
@@ -169,10 +169,12 @@ WT_API wt_status wt_master_make(const wt_master_job *job, const wt_job *common,
 WT_API wt_status wt_rubber_from_tables(const wt_table *prony, const wt_table *shift_factors,
                                        double poisson_ratio, wt_rubber *rubber,
                                        wt_error *err) WT_NODISCARD;
+#define WT_NO_REPLICATE                                                                            \
+    SIZE_MAX /* in the place of the number of a replicate: the values as fitted */
 /* The material at a temperature [K] (NaN = reference): relaxation times times a_T, moduli divided
  * by b_T. `statement` (may be NULL) gets what must be said: outside the isotherms, b held.
  * WT_E_MISSING more than 1 K away without a WLF law; WT_E_RANGE at or below its pole. replicate:
- * SIZE_MAX = the fit itself, else that replicate of it. */
+ * a number, or WT_NO_REPLICATE. */
 WT_API wt_status wt_rubber_at(const wt_rubber *rubber, double temperature, uint64_t seed,
                               size_t replicate, wt_material **material, char statement[256],
                               wt_error *err) WT_NODISCARD;
@@ -199,7 +201,7 @@ typedef struct wt_compare_tables {
 WT_API void wt_compare_tables_clear(wt_compare_tables *tables);
 /* Also with bulk or track NULL: then without "comparison". WT_E_EMPTY if a comparison is asked for
  * with fewer than two accepted curves in a group. */
-WT_API wt_status wt_compare_groups(const wt_compare_job *job, const wt_job *common,
+WT_API wt_status wt_compare_groups(const wt_compare_job *job, const wt_job *work,
                                    wt_compare_tables *tables, wt_error *err) WT_NODISCARD;
 
 /* ---- roughness ------------------------------------------------------------------------------- */
@@ -215,9 +217,8 @@ typedef struct wt_surface {
 WT_API void wt_surface_clear(wt_surface *surface);
 /* "self-affine:q0=1e3rad/m,qr=5e3rad/m,q1=1e7rad/m,hurst=0.8,c0=1e-17m^4+-10%" or the path of a
  * spectrum. read NULL = defaults. */
-WT_API wt_status wt_surface_open(const char *text, const wt_read_options *read,
-                                 const wt_job *common, wt_surface *surface,
-                                 wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_surface_open(const char *text, const wt_read_options *read, const wt_job *work,
+                                 wt_surface *surface, wt_error *err) WT_NODISCARD;
 /* The law with all densities multiplied by `factor` > 0. It borrows nothing. */
 WT_API wt_status wt_surface_roughness(const wt_surface *surface, double factor,
                                       wt_roughness **roughness, wt_error *err) WT_NODISCARD;
@@ -265,7 +266,7 @@ WT_API void wt_friction_tables_clear(wt_friction_tables *tables);
  * stress and C0 drawn from their stated errors; the key `standard_error_includes` says which. With
  * a layer (NULL = none): the same with a bonded layer and tau_s = tau_bulk x modulus ratio. */
 WT_API wt_status wt_friction_make(const wt_sliding *sliding, const wt_layer_known *layer,
-                                  const wt_job *common, wt_friction_tables *tables,
+                                  const wt_job *work, wt_friction_tables *tables,
                                   wt_error *err) WT_NODISCARD;
 
 /* ---- modified layer ---------------------------------------------------------------------------
@@ -302,7 +303,7 @@ WT_API void wt_layer_tables_clear(wt_layer_tables *tables);
 /* Thickness of the layer at the reference velocity. Standard errors from the replicates of the
  * friction and the stated errors of k and U_c (or of the observed thickness). */
 WT_API wt_status wt_layer_make(const wt_sliding *sliding, const wt_layer_job *job,
-                               const wt_job *common, wt_layer_tables *tables,
+                               const wt_job *work, wt_layer_tables *tables,
                                wt_error *err) WT_NODISCARD;
 
 /* ---- case -------------------------------------------------------------------------------------

@@ -7,6 +7,7 @@
 
 /* A set of columns or keys is a 64-bit number. */
 enum { SCHEMA_MOST = 64 };
+#define SCHEMA_BIT(i) ((uint64_t)1 << (i))
 
 typedef enum schema_kind {
     SCHEMA_NUMBER, /* of a key: with its errors; a text in its place says why it is not known */
@@ -45,6 +46,7 @@ typedef struct schema_key {
 typedef struct table_schema {
     const char *name; /* ends in '/' where a name follows that tells several tables apart */
     const char *title;
+    const char *made_by; /* the subcommand that writes it, the first of them */
     const schema_column *columns;
     size_t n_columns;
     const schema_key *keys;

@@ -5,18 +5,22 @@
 #include <math.h>
 #include <string.h>
 
-static const char advice[] = "give a table as this version of weartrack writes it";
+static void advise(const table_schema *schema, wt_error *err)
+{
+    wt_error_advice(err, "give the output of `weartrack %s`", schema->made_by);
+}
 
-static wt_status missing(const wt_table *table, const char *what, const char *name, wt_error *err)
+static wt_status missing(const wt_table *table, const table_schema *schema, const char *what,
+                         const char *name, wt_error *err)
 {
     (void)wt_fail(err, WT_E_MISSING, "table \"%s\" has no %s \"%s\"", wt_table_name(table), what,
                   name);
-    wt_error_advice(err, "%s", advice);
+    advise(schema, err);
     return WT_E_MISSING;
 }
 
-static wt_status check_column(const wt_table *table, size_t place, const schema_column *c,
-                              wt_error *err)
+static wt_status check_column(const wt_table *table, const table_schema *schema, size_t place,
+                              const schema_column *c, wt_error *err)
 {
     const char *const unit = wt_table_column_unit(table, place), *const si = schema_column_unit(c);
     const bool is_text = wt_table_column_kind(table, place) == WT_COLUMN_TEXT;
@@ -25,7 +29,7 @@ static wt_status check_column(const wt_table *table, size_t place, const schema_
     (void)wt_fail(err, WT_E_UNIT, "column \"%s\" of table \"%s\"", c->name, wt_table_name(table));
     wt_error_expected(err, "%s%s", c->kind == SCHEMA_TEXT ? "text" : "numbers in ", si);
     wt_error_found(err, "%s%s", is_text ? "text" : "numbers in ", unit);
-    wt_error_advice(err, "%s", advice);
+    advise(schema, err);
     return WT_E_UNIT;
 }
 
@@ -39,15 +43,15 @@ wt_status table_bind(const wt_table *table, const table_schema *schema, const ch
         wt_status status = WT_OK;
         view->column[i] = wt_table_find(table, c->name);
         if (view->column[i] >= 0)
-            status = check_column(table, (size_t)view->column[i], c, err);
+            status = check_column(table, schema, (size_t)view->column[i], c, err);
         else if (!c->optional)
-            status = missing(table, "column", c->name, err);
+            status = missing(table, schema, "column", c->name, err);
         if (status != WT_OK)
             return status;
     }
     for (size_t i = 0; i < schema->n_keys; i++)
         if (!schema->keys[i].optional && wt_table_key(table, schema->keys[i].name) == NULL)
-            return missing(table, "key", schema->keys[i].name, err);
+            return missing(table, schema, "key", schema->keys[i].name, err);
     return WT_OK;
 }
 
@@ -68,6 +72,11 @@ static long place_of(const table_view *view, const table_schema *of, unsigned co
 {
     assert(view->schema == of && column < of->n_columns);
     return view->schema == of ? view->column[column] : -1;
+}
+
+bool view_has(const table_view *view, const table_schema *of, unsigned column)
+{
+    return place_of(view, of, column) >= 0;
 }
 
 double view_number(const table_view *view, const table_schema *of, size_t row, unsigned column)

@@ -24,6 +24,7 @@ wt_status table_bind_of(const wt_result *result, const table_schema *schema, con
 /* ---- behind data/tables/tables.h --------------------------------------------------------------
  */
 
+bool view_has(const table_view *view, const table_schema *of, unsigned column);
 /* NaN or "" where an optional column is not there. */
 double view_number(const table_view *view, const table_schema *of, size_t row, unsigned column);
 const char *view_text(const table_view *view, const table_schema *of, size_t row, unsigned column);

@@ -3,13 +3,11 @@
 
 #include "base/clocale.h"
 
-#define BIT(i) ((uint64_t)1 << (i))
-
-static void add_columns(table_writer *w)
+static void add_columns(table_writer *w, const schema_column *columns)
 {
     for (size_t i = 0, n = 0; w->status == WT_OK && i < w->schema->n_columns; i++) {
-        const schema_column *const c = &w->schema->columns[i];
-        if (w->left_out & BIT(i))
+        const schema_column *const c = &columns[i];
+        if (w->left_out & SCHEMA_BIT(i))
             continue;
         w->column[i] = n++;
         w->status = c->kind == SCHEMA_TEXT
@@ -19,32 +17,35 @@ static void add_columns(table_writer *w)
     }
 }
 
-table_writer table_begin_without(const table_schema *schema, const char *suffix, uint64_t left_out,
-                                 wt_error *err)
+table_writer table_begin_variant(const table_schema *schema, table_variant own, wt_error *err)
 {
     char name[SCHEMA_NAME_SIZE];
-    schema_name(schema->name, suffix, name);
-    table_writer w = {.table = wt_table_new(name, schema->title),
+    schema_name(schema->name, own.suffix, name);
+    table_writer w = {.table = wt_table_new(name, own.title),
                       .schema = schema,
-                      .suffix = suffix,
+                      .suffix = own.suffix,
                       .err = err,
-                      .left_out = left_out};
+                      .left_out = own.left_out};
     if (w.table == NULL)
         w.status = wt_fail(err, WT_E_MEMORY, "out of memory");
-    add_columns(&w);
+    add_columns(&w, own.columns != NULL ? own.columns : schema->columns);
     return w;
 }
 
-table_writer table_begin(const table_schema *schema, const char *suffix, wt_error *err)
+table_writer table_begin(const table_schema *schema, wt_error *err)
 {
-    return table_begin_without(schema, suffix, 0, err);
+    return table_begin_variant(schema, (table_variant){"", schema->title, 0, NULL}, err);
 }
 
 table_writer table_continue(wt_table *table, const table_schema *schema, const char *suffix,
                             wt_error *err)
 {
-    table_writer w = {
-        .table = table, .schema = schema, .suffix = suffix, .continued = true, .err = err};
+    table_writer w = {.table = table,
+                      .schema = schema,
+                      .suffix = suffix,
+                      .continued = true,
+                      .err = err,
+                      .row = ~(uint64_t)0};
     for (size_t i = 0; w.status == WT_OK && i < schema->n_columns; i++) {
         const long found = wt_table_find(table, schema->columns[i].name);
         w.column[i] = (size_t)found;
@@ -67,7 +68,7 @@ static void check_row(table_writer *w)
     if (w->status != WT_OK || wt_table_n_rows(w->table) == 0)
         return;
     for (size_t i = 0; w->status == WT_OK && i < w->schema->n_columns; i++)
-        if (!((w->row | w->left_out) & BIT(i)) && !w->schema->columns[i].sparse)
+        if (!((w->row | w->left_out) & SCHEMA_BIT(i)) && !w->schema->columns[i].sparse)
             fail(w, w->schema->columns[i].name, "was not put in a row");
 }
 
@@ -89,7 +90,7 @@ wt_status table_end(table_writer *w, wt_table **table)
 {
     check_row(w);
     for (size_t i = 0; !w->continued && w->status == WT_OK && i < w->schema->n_keys; i++)
-        if (!(w->keys & BIT(i)) && !w->schema->keys[i].optional)
+        if (!(w->keys & SCHEMA_BIT(i)) && !w->schema->keys[i].optional)
             fail(w, w->schema->keys[i].name, "was not set");
     if (!w->continued && w->status != WT_OK) {
         wt_table_free(w->table);
@@ -103,17 +104,17 @@ wt_status table_end(table_writer *w, wt_table **table)
 /* ---- cells and keys ---------------------------------------------------------------------------
  */
 
-/* Whether a cell of this column can be put; a schema made from the declared one has its columns. */
+/* Whether a cell of this column can be put. */
 static bool takes(table_writer *w, const table_schema *of, unsigned column, bool text)
 {
     if (w->status != WT_OK)
         return false;
-    if (w->schema->name != of->name || column >= w->schema->n_columns ||
-        (w->left_out & BIT(column)) || (w->schema->columns[column].kind == SCHEMA_TEXT) != text) {
+    if (w->schema != of || column >= w->schema->n_columns || (w->left_out & SCHEMA_BIT(column)) ||
+        (w->schema->columns[column].kind == SCHEMA_TEXT) != text) {
         fail(w, of->name, "has no such column");
         return false;
     }
-    w->row |= BIT(column);
+    w->row |= SCHEMA_BIT(column);
     return true;
 }
 
@@ -134,11 +135,11 @@ static bool takes_key(table_writer *w, const table_schema *of, unsigned key,
 {
     if (w->status != WT_OK)
         return false;
-    if (w->schema->name != of->name || key >= w->schema->n_keys) {
+    if (w->schema != of || key >= w->schema->n_keys) {
         fail(w, of->name, "has no such key");
         return false;
     }
-    w->keys |= BIT(key);
+    w->keys |= SCHEMA_BIT(key);
     schema_name(w->schema->keys[key].name, w->suffix, name);
     return true;
 }

@@ -12,19 +12,25 @@
 typedef struct table_writer {
     wt_table *table;
     const table_schema *schema; /* borrowed until table_end */
-    const char *suffix;         /* of names that end in '/' or '_'; borrowed */
-    bool continued;             /* a table of the caller */
+    const char *suffix;
+    bool continued; /* a table of the caller */
     wt_status status;
     wt_error *err;
-    uint64_t left_out;          /* columns that this table is without */
-    uint64_t row, keys;         /* what was put: columns of the last row, keys */
-    size_t column[SCHEMA_MOST]; /* places of the columns in the table */
+    uint64_t left_out, row, keys; /* columns not there, columns put in the last row, keys set */
+    size_t column[SCHEMA_MOST];   /* places of the columns in the table */
 } table_writer;
 
-/* A new table without the columns `left_out` (bits). */
-table_writer table_begin_without(const table_schema *schema, const char *suffix, uint64_t left_out,
-                                 wt_error *err);
-table_writer table_begin(const table_schema *schema, const char *suffix, wt_error *err);
+/* What one table of a schema has of its own. */
+typedef struct table_variant {
+    const char *suffix; /* of names that end in '/' or '_'; borrowed */
+    const char *title;
+    uint64_t left_out;            /* columns that it is without, a bit for each */
+    const schema_column *columns; /* those of the schema with other units or words */
+} table_variant;
+
+/* A new table. */
+table_writer table_begin(const table_schema *schema, wt_error *err);
+table_writer table_begin_variant(const table_schema *schema, table_variant own, wt_error *err);
 /* More rows and keys for a table made with this schema. */
 table_writer table_continue(wt_table *table, const table_schema *schema, const char *suffix,
                             wt_error *err);

@@ -102,7 +102,7 @@ wt_status wt_description_check(const char *xml_path, wt_input *sample,
     description_xsd *xsd = NULL;
     text_description *d = NULL;
     wt_table *table = NULL;
-    table_writer writer = table_begin(&description_schema, NULL, err);
+    table_writer writer = table_begin(&description_schema, err);
     wt_status status = description_xsd_new(&xsd, err);
     if (status == WT_OK)
         status = description_parse_file(xsd, xml_path, &d, err);

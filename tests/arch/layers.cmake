@@ -29,9 +29,10 @@ set(within_read/description read/reader.h read/embedded_formats.h read/bytes)
 set(within_read/text read/reader.h read/facts.h read/bytes read/description)
 set(within_read/stored read/reader.h read/facts.h read/bytes read/description read/text)
 set(within_flow/job "")
-set(within_flow/case flow/case_schema.h flow/job flow/run)
-set(within_flow/answer flow/job flow/case flow/run)
-set(within_flow/run flow/job flow/case flow/answer)
+set(within_flow/case flow/case_schema.h flow/job)
+set(within_flow/plan flow/case)
+set(within_flow/answer flow/case flow/plan)
+set(within_flow/run flow/job flow/case flow/plan flow/answer)
 # The sub-rooms whose headers other rooms may include.
 set(shown data/tables)
 

@@ -1,9 +1,8 @@
 /* The bundled case gives back the truth behind its data, inside the intervals it states.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
 
+#include "cells.h"
 #include "flow/case/case.h"
-#include "flow/job/tables.h"
 #include "weartrack/flow.h"
 
 #include <string.h>
@@ -78,8 +77,7 @@ static void test_nothing_failed(void **state)
     const wt_table *failures = wt_result_find(result, "failures");
     assert_non_null(failures);
     for (size_t i = 0; i < wt_table_n_rows(failures); i++)
-        print_error("%s: %s\n", flow_table_get_text(failures, i, "file"),
-                    flow_table_get_text(failures, i, "message"));
+        print_error("%s: %s\n", text_cell(failures, i, "file"), text_cell(failures, i, "message"));
     assert_int_equal(n_failed, 0);
 }
 
@@ -90,14 +88,14 @@ static void test_ratio(void **state)
     double expected = truth("modulus_ratio");
     assert_non_null(c);
     assert_string_equal(wt_table_key(c, "unit_of_analysis"), "spot");
-    assert_true(flow_table_get(c, 0, "ratio_low") < expected);
-    assert_true(flow_table_get(c, 0, "ratio_high") > expected);
-    assert_true(flow_table_get(c, 0, "ratio_high") < 1);
-    assert_true(flow_table_get(c, 0, "welch_p") < 0.01);
+    assert_true(number_cell(c, 0, "ratio_low") < expected);
+    assert_true(number_cell(c, 0, "ratio_high") > expected);
+    assert_true(number_cell(c, 0, "ratio_high") < 1);
+    assert_true(number_cell(c, 0, "welch_p") < 0.01);
     assert_int_equal(wt_table_n_rows(c), 4); /* all, and three rates */
     for (size_t i = 1; i < 4; i++) {
-        assert_true(flow_table_get(c, i, "ratio_low") < expected);
-        assert_true(flow_table_get(c, i, "ratio_high") > expected);
+        assert_true(number_cell(c, i, "ratio_low") < expected);
+        assert_true(number_cell(c, i, "ratio_high") > expected);
     }
 }
 
@@ -119,11 +117,11 @@ static void test_against_dma(void **state)
     size_t n_bulk = 0;
     assert_non_null(dma);
     for (size_t i = 0; i < wt_table_n_rows(dma); i++) {
-        bool bulk = strcmp(flow_table_get_text(dma, i, "group"), "bulk") == 0;
+        bool bulk = strcmp(text_cell(dma, i, "group"), "bulk") == 0;
         double modulus =
-            flow_table_get(dma, i, "dma_complex_modulus") * (bulk ? 1 : truth("modulus_ratio"));
-        assert_near(flow_table_get(dma, i, "indentation_modulus"), modulus, 0.1);
-        assert_near(flow_table_get(dma, i, "extrapolated"), 0, 0);
+            number_cell(dma, i, "dma_complex_modulus") * (bulk ? 1 : truth("modulus_ratio"));
+        assert_near(number_cell(dma, i, "indentation_modulus"), modulus, 0.1);
+        assert_near(number_cell(dma, i, "extrapolated"), 0, 0);
         n_bulk += bulk ? 1 : 0;
     }
     assert_int_equal(n_bulk, 3);
@@ -165,8 +163,8 @@ static void test_answer(void **state)
     assert_true(wt_table_n_rows(answer) >= 8);
     bool dma = false, lever = false;
     for (size_t i = 0; i < wt_table_n_rows(answer); i++) {
-        const char *text = flow_table_get_text(answer, i, "answer");
-        print_message("%-10s %s\n", flow_table_get_text(answer, i, "kind"), text);
+        const char *text = text_cell(answer, i, "answer");
+        print_message("%-10s %s\n", text_cell(answer, i, "kind"), text);
         assert_null(strstr(text, "Not a"));
         assert_null(strstr(text, "nan"));
         assert_null(strstr(text, "not known"));
@@ -190,7 +188,7 @@ static bool answer_holds(double wear, size_t spots, const char *words)
     const wt_table *answer = wt_result_find(other, "answer");
     assert_non_null(answer);
     for (size_t i = 0; i < wt_table_n_rows(answer); i++)
-        found = found || strstr(flow_table_get_text(answer, i, "answer"), words) != NULL;
+        found = found || strstr(text_cell(answer, i, "answer"), words) != NULL;
     wt_result_free(other);
     wt_case_free(c);
     return found;

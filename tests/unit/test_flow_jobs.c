@@ -1,9 +1,10 @@
 /* The jobs one by one: batches of curves, spots, groups, the rubber at a temperature, surfaces, the
  * layer. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
 
+#include "cells.h"
+
+#include "base/array.h"
 #include "flow/job/draws.h"
-#include "flow/job/tables.h"
 #include "weartrack/flow.h"
 
 #include <stdlib.h>
@@ -89,9 +90,9 @@ static void test_bad_files(void **state)
     assert_string_equal(wt_provenance_get_input(common.provenance, 1)->path,
                         "bulk-2.jpk-force-map");
     for (size_t i = 0; i < 24; i++) {
-        assert_string_equal(flow_table_get_text(tables.indentation, i, "file"),
+        assert_string_equal(text_cell(tables.indentation, i, "file"),
                             i < 12 ? "bulk-1.jpk-force-map" : "bulk-2.jpk-force-map");
-        assert_near(flow_table_get(tables.indentation, i, "curve"), (double)(i % 12), 0);
+        assert_near(number_cell(tables.indentation, i, "curve"), (double)(i % 12), 0);
     }
     wt_provenance_free(common.provenance);
     wt_parselog_free(common.log);
@@ -130,10 +131,10 @@ static void test_threads_and_rates(void **state)
             assert_memory_equal(wt_table_numbers(one, c), wt_table_numbers(three, c),
                                 wt_table_n_rows(one) * sizeof(double));
     for (size_t i = 0; i < wt_table_n_rows(one); i++) {
-        assert_true(flow_table_get(one, i, "equivalent_frequency") > 0);
-        assert_near(flow_table_get(without, i, "modulus"), flow_table_get(one, i, "modulus"), 0);
-        assert_near(flow_table_get(without, i, "piezo_rate"), (double)NAN, 0);
-        assert_near(flow_table_get(without, i, "load_time"), (double)NAN, 0);
+        assert_true(number_cell(one, i, "equivalent_frequency") > 0);
+        assert_near(number_cell(without, i, "modulus"), number_cell(one, i, "modulus"), 0);
+        assert_near(number_cell(without, i, "piezo_rate"), (double)NAN, 0);
+        assert_near(number_cell(without, i, "load_time"), (double)NAN, 0);
     }
     wt_table_free(one);
     wt_table_free(three);
@@ -146,8 +147,8 @@ static void check_spots(const wt_file_set *sets, size_t n, const char *key, size
     const wt_table *const listed[] = {table};
     assert_int_equal(strncmp(wt_table_key(table, "spots"), key, strlen(key)), 0);
     assert_int_equal(wt_modulus_groups(listed, 1, &groups, NULL), WT_OK);
-    assert_near(flow_table_get(groups, 0, "n_spots"), (double)expected, 0);
-    assert_string_equal(flow_table_get_text(groups, 0, "group"), "bulk");
+    assert_near(number_cell(groups, 0, "n_spots"), (double)expected, 0);
+    assert_string_equal(text_cell(groups, 0, "group"), "bulk");
     wt_table_free(groups);
     wt_table_free(table);
 }
@@ -182,9 +183,9 @@ static void test_one_spot(void **state)
     assert_int_equal(wt_compare_groups(&job, &common, &tables, NULL), WT_OK);
     const char *unit = wt_table_key(tables.comparison, "unit_of_analysis");
     assert_non_null(strstr(unit, "curve: fewer than two spots"));
-    assert_true(flow_table_get(tables.comparison, 0, "ratio_high") < 1);
+    assert_true(number_cell(tables.comparison, 0, "ratio_high") < 1);
     /* the groups are named by their place, whatever the tables are called */
-    assert_string_equal(flow_table_get_text(tables.modulus_groups, 1, "group"), "track");
+    assert_string_equal(text_cell(tables.modulus_groups, 1, "group"), "track");
     assert_int_equal(wt_table_n_rows(tables.modulus_rate), 6);
     assert_null(tables.dma_comparison);
     wt_compare_tables_clear(&tables);
@@ -263,8 +264,8 @@ static void test_rubber_at_reference(void **state)
     } cases[] = {{300, 0}, {(double)NAN, 0}, {295, 0.015}, {290, 0.03}, {285, 0.04}, {305, 0}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         wt_material *material = NULL;
-        assert_int_equal(wt_rubber_at(&rubber, cases[i].at, 1, SIZE_MAX, &material, NULL, NULL),
-                         WT_OK);
+        assert_int_equal(
+            wt_rubber_at(&rubber, cases[i].at, 1, WT_NO_REPLICATE, &material, NULL, NULL), WT_OK);
         material->law->modulus(material, &omega, 1, &storage, &loss);
         assert_near(storage, 2e6 / pow(10, cases[i].log_b), 1e-9);
         wt_material_free(material);
@@ -284,7 +285,8 @@ static void test_rubber_at(void **state)
     size_t n = 0;
     bool here = false;
     assert_non_null(in);
-    assert_int_equal(wt_rubber_at(&rubber, 333.15, 1, SIZE_MAX, &material, statement, NULL), WT_OK);
+    assert_int_equal(wt_rubber_at(&rubber, 333.15, 1, WT_NO_REPLICATE, &material, statement, NULL),
+                     WT_OK);
     assert_string_equal(statement, "");
     while (fgets(line, sizeof line, in) != NULL) {
         double t, omega, f, torque, storage, loss, e1, e2;
@@ -304,7 +306,8 @@ static void test_rubber_at(void **state)
     /* the same from the tables */
     assert_int_equal(
         wt_rubber_from_tables(tables.prony, tables.shift_factors, 0.5, &read_back, NULL), WT_OK);
-    assert_int_equal(wt_rubber_at(&read_back, 333.15, 1, SIZE_MAX, &again, NULL, NULL), WT_OK);
+    assert_int_equal(wt_rubber_at(&read_back, 333.15, 1, WT_NO_REPLICATE, &again, NULL, NULL),
+                     WT_OK);
     const double omega = 2.385;
     double a[2], b[2];
     material->law->modulus(material, &omega, 1, &a[0], &a[1]);
@@ -316,11 +319,13 @@ static void test_rubber_at(void **state)
     wt_material_free(material);
 
     /* outside the isotherms it says so; below the pole there is nothing */
-    assert_int_equal(wt_rubber_at(&rubber, 383.15, 1, SIZE_MAX, &material, statement, NULL), WT_OK);
+    assert_int_equal(wt_rubber_at(&rubber, 383.15, 1, WT_NO_REPLICATE, &material, statement, NULL),
+                     WT_OK);
     assert_non_null(strstr(statement, "outside the isotherms"));
     assert_non_null(strstr(statement, "vertical shift held"));
     wt_material_free(material);
-    assert_int_equal(wt_rubber_at(&rubber, 170, 1, SIZE_MAX, &material, NULL, NULL), WT_E_RANGE);
+    assert_int_equal(wt_rubber_at(&rubber, 170, 1, WT_NO_REPLICATE, &material, NULL, NULL),
+                     WT_E_RANGE);
 
     /* replicates differ, and repeat */
     double e[3], loss;
@@ -351,9 +356,10 @@ static void test_rubber_at(void **state)
 
     /* without a law only the reference is known */
     rubber.has_wlf = false;
-    assert_int_equal(wt_rubber_at(&rubber, 293.65, 1, SIZE_MAX, &material, NULL, NULL), WT_OK);
+    assert_int_equal(wt_rubber_at(&rubber, 293.65, 1, WT_NO_REPLICATE, &material, NULL, NULL),
+                     WT_OK);
     wt_material_free(material);
-    assert_int_equal(wt_rubber_at(&rubber, 298.15, 1, SIZE_MAX, &material, NULL, NULL),
+    assert_int_equal(wt_rubber_at(&rubber, 298.15, 1, WT_NO_REPLICATE, &material, NULL, NULL),
                      WT_E_MISSING);
     wt_rubber_clear(&read_back);
     wt_rubber_clear(&rubber);
@@ -389,7 +395,7 @@ static void test_surface_text(void **state)
         CASE "/no-such-file",
         CASE "/dma.txt",
     };
-    for (size_t i = 0; i < FLOW_COUNT(wrong); i++) {
+    for (size_t i = 0; i < COUNT_OF(wrong); i++) {
         wt_error err = WT_ERROR_INIT;
         assert_int_not_equal(wt_surface_open(wrong[i], NULL, &common, &surface, &err), WT_OK);
         assert_true(err.message[0] != '\0');
@@ -532,7 +538,7 @@ static void test_layer_numbers(void **state)
     job.time = &settled.value;
     job.n_time = 1;
     assert_int_equal(wt_layer_make(&sliding, &job, &common, &other, NULL), WT_OK);
-    assert_near(flow_table_get(other.layer, 0, "thickness"), 0.9 * tables.thickness.value, 0.01);
+    assert_near(number_cell(other.layer, 0, "thickness"), 0.9 * tables.thickness.value, 0.01);
     wt_layer_tables_clear(&other);
     wt_layer_tables_clear(&tables);
     wt_master_tables_clear(&master);
@@ -553,7 +559,7 @@ static void test_draws(void **state)
     assert_near_abs(sum / N, 0, 4 / sqrt(N));
     assert_near_abs(product / N, 0, 4 / sqrt(N));
     assert_near_abs(flow_spread(x, N, 1), 1, 4 / sqrt(2.0 * N));
-    assert_near(flow_draw_normal(7, FLOW_CENTRE, FLOW_DRAW_WEAR), 0, 0);
+    assert_near(flow_draw_normal(7, WT_NO_REPLICATE, FLOW_DRAW_WEAR), 0, 0);
     const double odd[] = {1, (double)NAN, 3, (double)NAN};
     assert_near(flow_spread(odd, 4, 1), sqrt(2), 1e-15);
     assert_near(flow_spread(odd, 2, 1), (double)NAN, 0);

@@ -1,9 +1,10 @@
 /* A whole case from measured files of other people, where the shared reference data are present:
  * two JPK maps in the place of bulk and wear track, an isotherm set of a soft polymer.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
 
-#include "flow/job/tables.h"
+#include "cells.h"
+
+#include "base/array.h"
 #include "weartrack/flow.h"
 
 #include <stdlib.h>
@@ -74,10 +75,10 @@ static void test_measured(void **state)
     size_t n_failed = 99;
     wt_result *result = run_case(text, &n_failed);
     assert_int_equal(n_failed, 0);
-    for (size_t i = 0; i < FLOW_COUNT(tables); i++)
+    for (size_t i = 0; i < COUNT_OF(tables); i++)
         if (wt_result_find(result, tables[i]) == NULL)
             fail_msg("no table %s", tables[i]);
-    assert_int_equal(wt_result_n_tables(result), FLOW_COUNT(tables));
+    assert_int_equal(wt_result_n_tables(result), COUNT_OF(tables));
     assert_int_equal(wt_table_n_rows(wt_result_find(result, "indentation/bulk")), 16);
     assert_int_equal(wt_table_n_rows(wt_result_find(result, "indentation/track")), 3);
     assert_int_equal(wt_table_n_rows(wt_result_find(result, "shift_factors")), 20);
@@ -87,19 +88,19 @@ static void test_measured(void **state)
     const wt_table *friction = wt_result_find(result, "friction");
     assert_int_equal(wt_table_n_rows(friction), 11);
     for (size_t i = 0; i < 11; i++) {
-        double mu = flow_table_get(friction, i, "friction");
-        double area = flow_table_get(friction, i, "area_ratio");
+        double mu = number_cell(friction, i, "friction");
+        double area = number_cell(friction, i, "area_ratio");
         assert_true(mu > 0 && mu < 15 && area > 0 && area <= 1);
-        assert_true(flow_table_get(friction, i, "friction_standard_error") > 0);
-        assert_true(flow_table_get(friction, i, "hysteresis_numerical_error") <=
-                    1e-9 * flow_table_get(friction, i, "hysteresis"));
-        assert_true(flow_table_get(friction, i, "friction_with_layer") > 0);
+        assert_true(number_cell(friction, i, "friction_standard_error") > 0);
+        assert_true(number_cell(friction, i, "hysteresis_numerical_error") <=
+                    1e-9 * number_cell(friction, i, "hysteresis"));
+        assert_true(number_cell(friction, i, "friction_with_layer") > 0);
     }
     /* the two samples are not one material: the answer says what it rests on */
     const wt_table *answer = wt_result_find(result, "answer");
     bool spots = false, strain = false, lever = false, lacks = false;
     for (size_t i = 0; i < wt_table_n_rows(answer); i++) {
-        const char *sentence = flow_table_get_text(answer, i, "answer");
+        const char *sentence = text_cell(answer, i, "answer");
         spots = spots || strstr(sentence, "each curve is a spot") != NULL;
         strain = strain || strstr(sentence, "strain amplitudes") != NULL;
         lever = lever || strstr(sentence, "(bulk 191 mN/m, track 11.0 mN/m)") != NULL;
@@ -147,10 +148,10 @@ static void test_no_track(void **state)
     assert_null(wt_result_find(result, "comparison"));
     assert_non_null(groups);
     assert_int_equal(wt_table_n_rows(groups), 2);
-    assert_true(flow_table_get(groups, 0, "n") > 5);
-    assert_near(flow_table_get(groups, 1, "n"), 0, 0);
+    assert_true(number_cell(groups, 0, "n") > 5);
+    assert_near(number_cell(groups, 1, "n"), 0, 0);
     assert_non_null(
-        strstr(flow_table_get_text(wt_result_find(result, "answer"), 0, "answer"), "Not answered"));
+        strstr(text_cell(wt_result_find(result, "answer"), 0, "answer"), "Not answered"));
     wt_result_free(result);
 }
 

@@ -1,9 +1,9 @@
 /* The plan: what runs, what is left out, and why. No data file exists in any of these cases.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
 
-#include "flow/job/tables.h"
-#include "flow/run/stages.h"
+#include "cells.h"
+#include "flow/plan/stages.h"
+#include "weartrack/flow.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -46,7 +46,7 @@ static wt_table *plan_of(const char *text)
 static size_t row_of(const wt_table *plan, const char *stage)
 {
     for (size_t i = 0; i < wt_table_n_rows(plan); i++)
-        if (strcmp(flow_table_get_text(plan, i, "stage"), stage) == 0)
+        if (strcmp(text_cell(plan, i, "stage"), stage) == 0)
             return i;
     fail_msg("no stage %s", stage);
     return 0;
@@ -57,14 +57,14 @@ static void check_plan(const char *text, const char *runs)
 {
     wt_table *plan = plan_of(text);
     char found[512] = "";
-    assert_int_equal(wt_table_n_rows(plan), flow_n_stages);
+    assert_int_equal(wt_table_n_rows(plan), FLOW_N_STAGES);
     for (size_t i = 0; i < wt_table_n_rows(plan); i++) {
-        bool chosen = flow_table_get(plan, i, "runs") > 0;
-        const char *because = flow_table_get_text(plan, i, "because");
+        bool chosen = number_cell(plan, i, "runs") > 0;
+        const char *because = text_cell(plan, i, "because");
         assert_int_equal(
             strncmp(because, chosen ? "runs because " : "left out because ", chosen ? 13 : 17), 0);
         if (chosen) {
-            strcat(found, flow_table_get_text(plan, i, "stage"));
+            strcat(found, text_cell(plan, i, "stage"));
             strcat(found, " ");
         }
     }
@@ -75,7 +75,7 @@ static void check_plan(const char *text, const char *runs)
 static void check_because(const char *text, const char *stage, const char *part)
 {
     wt_table *plan = plan_of(text);
-    const char *because = flow_table_get_text(plan, row_of(plan, stage), "because");
+    const char *because = text_cell(plan, row_of(plan, stage), "because");
     if (strstr(because, part) == NULL)
         fail_msg("%s: %s", stage, because);
     wt_table_free(plan);
@@ -141,22 +141,41 @@ static void test_reasons(void **state)
 static void test_table_of_stages(void **state)
 {
     (void)state;
-    flow_things given = FLOW_BIT(FLOW_INDENTATION_BULK) - 1;
-    for (size_t i = 0; i < flow_n_stages; i++) {
+    flow_things given = FLOW_SOURCES;
+    for (size_t i = 0; i < FLOW_N_STAGES; i++) {
         assert_int_equal(flow_stages[i].needs & ~given, 0);
-        assert_non_null(flow_stages[i].run);
+        assert_int_equal(flow_stages[i].gives & FLOW_SOURCES, 0);
+        assert_true(flow_stages[i].gives != 0);
         given |= flow_stages[i].gives;
     }
     assert_true(given == FLOW_BIT(FLOW_N_THINGS) - 1);
 }
 
+/* Sources say what is missing without them; a table is called as its schema says, and can be asked
+ * for by that name. */
+static void test_table_of_things(void **state)
+{
+    (void)state;
+    for (unsigned i = 0; i < FLOW_N_THINGS; i++) {
+        const flow_thing_row *thing = &flow_thing_rows[i];
+        char name[SCHEMA_NAME_SIZE];
+        flow_things things = 0;
+        assert_non_null(thing->words);
+        assert_int_equal(thing->missing != NULL, i < FLOW_FIRST_TABLE);
+        if (thing->schema == NULL)
+            continue;
+        schema_name(thing->schema->name, thing->suffix, name);
+        assert_string_equal(thing->words, name);
+        assert_true(flow_things_of_table(name, &things) && things == FLOW_BIT(i));
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_what_runs),
-        cmocka_unit_test(test_what_is_asked),
-        cmocka_unit_test(test_reasons),
-        cmocka_unit_test(test_table_of_stages),
+        cmocka_unit_test(test_what_runs),       cmocka_unit_test(test_what_is_asked),
+        cmocka_unit_test(test_reasons),         cmocka_unit_test(test_table_of_stages),
+        cmocka_unit_test(test_table_of_things),
     };
     return cmocka_run_group_tests_name("flow plan", tests, NULL, NULL);
 }

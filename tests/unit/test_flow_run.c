@@ -1,8 +1,7 @@
 /* Running cases: friction of a given material, and what a run says of what it could not do.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
 
-#include "flow/job/tables.h"
+#include "cells.h"
 #include "weartrack/flow.h"
 
 #include <stdlib.h>
@@ -65,19 +64,18 @@ static void check_answer(const ran *r, const char *kind, const char *part)
 {
     const wt_table *answer = table_of(r, "answer");
     for (size_t i = 0; i < wt_table_n_rows(answer); i++)
-        if (strcmp(flow_table_get_text(answer, i, "kind"), kind) == 0 &&
-            strstr(flow_table_get_text(answer, i, "answer"), part) != NULL)
+        if (strcmp(text_cell(answer, i, "kind"), kind) == 0 &&
+            strstr(text_cell(answer, i, "answer"), part) != NULL)
             return;
     for (size_t i = 0; i < wt_table_n_rows(answer); i++)
-        print_error("%s: %s\n", flow_table_get_text(answer, i, "kind"),
-                    flow_table_get_text(answer, i, "answer"));
+        print_error("%s: %s\n", text_cell(answer, i, "kind"), text_cell(answer, i, "answer"));
     fail_msg("no answer of kind %s says \"%s\"", kind, part);
 }
 
 static size_t stage_row(const wt_table *cost, const char *stage)
 {
     for (size_t i = 0; i < wt_table_n_rows(cost); i++)
-        if (strcmp(flow_table_get_text(cost, i, "stage"), stage) == 0)
+        if (strcmp(text_cell(cost, i, "stage"), stage) == 0)
             return i;
     fail_msg("no stage %s", stage);
     return 0;
@@ -114,14 +112,14 @@ static void test_friction_only(void **state)
     assert_int_equal(wt_friction_compute(workspace, 0.4e6, velocity, 4, points, NULL), WT_OK);
     for (size_t i = 0; i < 4; i++) {
         double adhesion = 5e6 * points[i].area_ratio.value / 0.4e6;
-        assert_near(flow_table_get(friction, i, "velocity"), velocity[i], 1e-14);
-        assert_near(flow_table_get(friction, i, "hysteresis"), points[i].hysteresis.value, 1e-9);
-        assert_near(flow_table_get(friction, i, "area_ratio"), points[i].area_ratio.value, 1e-9);
-        assert_near(flow_table_get(friction, i, "adhesion"), adhesion, 1e-9);
-        assert_near(flow_table_get(friction, i, "friction"), points[i].hysteresis.value + adhesion,
+        assert_near(number_cell(friction, i, "velocity"), velocity[i], 1e-14);
+        assert_near(number_cell(friction, i, "hysteresis"), points[i].hysteresis.value, 1e-9);
+        assert_near(number_cell(friction, i, "area_ratio"), points[i].area_ratio.value, 1e-9);
+        assert_near(number_cell(friction, i, "adhesion"), adhesion, 1e-9);
+        assert_near(number_cell(friction, i, "friction"), points[i].hysteresis.value + adhesion,
                     1e-9);
-        assert_true(flow_table_get(friction, i, "friction_standard_error") > 0);
-        assert_true(isnan(flow_table_get(friction, i, "friction_with_layer")));
+        assert_true(number_cell(friction, i, "friction_standard_error") > 0);
+        assert_true(isnan(number_cell(friction, i, "friction_with_layer")));
     }
     wt_friction_workspace_free(workspace);
     wt_roughness_free(road);
@@ -133,9 +131,9 @@ static void test_friction_only(void **state)
     check_answer(&r, "friction", "hysteresis");
     check_answer(&r, "caveat", "do not include the model");
     const wt_table *cost = table_of(&r, "cost");
-    assert_near(flow_table_get(cost, stage_row(cost, "friction"), "runs"), 1, 0);
-    assert_true(flow_table_get(cost, stage_row(cost, "friction"), "error_estimated") <= 1e-10);
-    assert_near(flow_table_get(cost, stage_row(cost, "layer"), "runs"), 0, 0);
+    assert_near(number_cell(cost, stage_row(cost, "friction"), "runs"), 1, 0);
+    assert_true(number_cell(cost, stage_row(cost, "friction"), "error_estimated") <= 1e-10);
+    assert_near(number_cell(cost, stage_row(cost, "layer"), "runs"), 0, 0);
     assert_int_equal(wt_table_n_rows(table_of(&r, "inputs")), 1); /* the case itself */
     assert_null(wt_result_find(r.result, "layer"));
     wt_result_free(r.result);
@@ -159,7 +157,7 @@ static void test_layer(void **state)
     assert_true(wt_table_estimate(friction, "relative_change_at_reference", &e));
     assert_true(e.value > -0.6 && e.value < 0.5 && e.standard_error > 0);
     /* the layer is softer, so more is in contact, and what is in contact shears more easily */
-    assert_true(flow_table_get(friction, 0, "friction_with_layer") > 0);
+    assert_true(number_cell(friction, 0, "friction_with_layer") > 0);
     check_answer(&r, "friction", "With the layer");
     wt_result_free(r.result);
 }
@@ -176,9 +174,9 @@ static void test_stand_in(void **state)
         1);
     const wt_table *cost = table_of(&r, "cost");
     assert_int_equal(r.n_failed, 1);
-    assert_string_equal(flow_table_get_text(table_of(&r, "failures"), 0, "file"),
+    assert_string_equal(text_cell(table_of(&r, "failures"), 0, "file"),
                         "stage friction_with_layer");
-    assert_near(flow_table_get(cost, stage_row(cost, "friction"), "runs"), 1, 0);
+    assert_near(number_cell(cost, stage_row(cost, "friction"), "runs"), 1, 0);
     assert_int_equal(wt_table_n_rows(table_of(&r, "friction")), 4);
     check_answer(&r, "thickness", "grows without end");
     check_answer(&r, "friction", "no shear stress is given");
@@ -218,7 +216,7 @@ static void test_spectrum(void **state)
     assert_near(height.standard_error, 0.1 * height.value, 1e-12);
     assert_non_null(strstr(wt_table_key(friction, "standard_error_includes"), "roughness"));
     for (size_t i = 0; i < 4; i++)
-        assert_true(flow_table_get(friction, i, "hysteresis") > 0);
+        assert_true(number_cell(friction, i, "hysteresis") > 0);
     wt_result_free(r.result);
 }
 
@@ -233,7 +231,7 @@ static void test_one_isotherm(void **state)
     assert_int_equal(r.n_failed, 0);
     assert_int_equal(wt_table_n_rows(table_of(&r, "shift_factors")), 1);
     assert_null(wt_table_key(table_of(&r, "shift_factors"), "wlf_c1"));
-    assert_true(flow_table_get(table_of(&r, "friction"), 0, "hysteresis") > 0);
+    assert_true(number_cell(table_of(&r, "friction"), 0, "hysteresis") > 0);
     check_answer(&r, "caveat", "does not say the temperature of sliding");
     wt_result_free(r.result);
     r = run_text(HEAD STARE ROAD SLIDE("<temperature>90degC</temperature>") "</case>", 1);

@@ -1,8 +1,8 @@
 /* Estimates and lists as text. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "near.h"
 
-#include "flow/answer/answer.h"
-#include "flow/job/tables.h"
+#include "data/tables/tables.h"
+#include "flow/answer/words.h"
 #include "weartrack/flow.h"
 
 #include <locale.h>
@@ -101,16 +101,16 @@ static void test_list_errors(void **state)
 static void check_words(void)
 {
     const wt_tip tip = {.shape = WT_TIP_CONE, .half_angle = 0.3};
-    wt_table *table = wt_table_new("words", "");
+    table_writer t = table_begin(&layer_schema, NULL);
     char text[64];
-    assert_non_null(table);
-    assert_int_equal(flow_table_key(table, NULL, "half", "%g", 0.5), WT_OK);
-    assert_string_equal(wt_table_key(table, "half"), "0.5");
-    wt_table_free(table);
-    assert_string_equal(flow_say(0.25, "1").text, "0.25");
-    assert_string_equal(flow_say_estimate((wt_estimate){0.25, 0.125, 0, "1"}).text,
+    layer_set_print(&t, LAYER_KEY_DUTY, "%g", 0.5);
+    assert_int_equal(t.status, WT_OK);
+    assert_string_equal(wt_table_key(t.table, "duty"), "0.5");
+    wt_table_free(t.table);
+    assert_string_equal(words_of(0.25, "1").text, "0.25");
+    assert_string_equal(words_of_estimate((wt_estimate){0.25, 0.125, 0, "1"}).text,
                         "0.25 \xc2\xb1 0.12");
-    assert_string_equal(flow_say_celsius(WT_ZERO_CELSIUS + 20.5).text, "20.5 \xc2\xb0"
+    assert_string_equal(words_of_celsius(WT_ZERO_CELSIUS + 20.5).text, "20.5 \xc2\xb0"
                                                                        "C");
     (void)wt_tip_describe(&tip, text, sizeof text);
     assert_string_equal(text, "cone, half-angle 17.19 degrees");
@@ -133,17 +133,19 @@ static void test_spots(void **state)
     static const char *const spots[] = {"b", "a", "b", "c", "a", "b"};
     static const long expected[] = {0, 1, 0, 2, 1, 0};
     enum { N = sizeof spots / sizeof spots[0] };
-    static const flow_column columns[] = {
-        {"spot", NULL, ""}, {"verdict", NULL, ""}, {"modulus", "Pa", ""}};
+    const uint64_t put = SCHEMA_BIT(INDENTATION_SPOT) | SCHEMA_BIT(INDENTATION_VERDICT) |
+                         SCHEMA_BIT(INDENTATION_MODULUS);
     wt_table *table = NULL;
     wt_group_data data;
-    assert_int_equal(flow_table_new("indentation/bulk", "", columns, 3, &table, NULL), WT_OK);
+    table_writer t =
+        table_begin_variant(&indentation_schema, (table_variant){"bulk", "", ~put, NULL}, NULL);
     for (size_t i = 0; i < N; i++) {
-        assert_int_equal(wt_table_add_row(table, NULL), WT_OK);
-        assert_int_equal(wt_table_put_text(table, 0, spots[i], NULL), WT_OK);
-        assert_int_equal(wt_table_put_text(table, 1, "accepted", NULL), WT_OK);
-        wt_table_put(table, 2, 1e6);
+        table_row(&t);
+        indentation_put_text(&t, INDENTATION_SPOT, spots[i]);
+        indentation_put_text(&t, INDENTATION_VERDICT, "accepted");
+        indentation_put(&t, INDENTATION_MODULUS, 1e6);
     }
+    assert_int_equal(table_end(&t, &table), WT_OK);
     assert_int_equal(wt_group_from_table(table, &data, NULL), WT_OK);
     assert_int_equal(data.group.n, N);
     for (size_t i = 0; i < N; i++)

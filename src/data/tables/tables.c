@@ -23,12 +23,13 @@
 #define ROW(id, ...) {__VA_ARGS__},
 
 /* The row behind the last one stands for none. */
-#define SCHEMA(table, TABLE, table_name, words)                                                    \
+#define SCHEMA(table, TABLE, table_name, words, subcommand)                                        \
     static const schema_column table##_columns[] = {TABLE##_COLUMNS(ROW){.name = NULL}};           \
     static const schema_key table##_keys[] = {TABLE##_KEYS(ROW){.name = NULL}};                    \
     const table_schema table##_schema = {                                                          \
         .name = table_name,                                                                        \
         .title = words,                                                                            \
+        .made_by = subcommand,                                                                     \
         .columns = table##_columns,                                                                \
         .n_columns = TABLE##_N_COLUMNS,                                                            \
         .keys = table##_keys,                                                                      \

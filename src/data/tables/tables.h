@@ -18,40 +18,43 @@
 #include "data/tables/run.h"
 #include "data/tables/sliding.h"
 
-/* name in C, name of its lists, name of the table, title. Two tables share a name: the counter
- * surface as computed and a spectrum as measured. */
+/* name in C, name of its lists, name of the table, title, the subcommand that makes it. Two tables
+ * share a name: the counter surface as computed and a spectrum as measured. */
 #define TABLES(X)                                                                                  \
-    X(answer, ANSWER, "answer", "The answer")                                                      \
-    X(inputs, INPUTS, "inputs", "Files that were read")                                            \
-    X(notes, NOTES, "notes", "Notes and warnings")                                                 \
-    X(failures, FAILURES, "failures", "What could not be used")                                    \
-    X(cost, COST, "cost", "Stages, their time and their numerical error")                          \
-    X(plan, PLAN, "plan", "Stages of this case")                                                   \
-    X(indentation, INDENTATION, "indentation/", "Indentation of every curve")                      \
+    X(answer, ANSWER, "answer", "The answer", "run")                                               \
+    X(inputs, INPUTS, "inputs", "Files that were read", "run")                                     \
+    X(notes, NOTES, "notes", "Notes and warnings", "run")                                          \
+    X(failures, FAILURES, "failures", "What could not be used", "run")                             \
+    X(cost, COST, "cost", "Stages, their time and their numerical error", "run")                   \
+    X(plan, PLAN, "plan", "Stages of this case", "run")                                            \
+    X(indentation, INDENTATION, "indentation/", "Indentation of every curve", "indent")            \
     X(force_displacement, FORCE_DISPLACEMENT, "force_displacement",                                \
-      "Force against piezo displacement")                                                          \
-    X(force_indentation, FORCE_INDENTATION, "force_indentation", "Force against indentation")      \
-    X(modulus_groups, MODULUS_GROUPS, "modulus_groups", "Modulus of the groups")                   \
-    X(modulus_rate, MODULUS_RATE, "modulus_rate", "Modulus against indentation rate")              \
-    X(comparison, COMPARISON, "comparison", "Wear track against bulk")                             \
-    X(dma_comparison, DMA_COMPARISON, "dma_comparison", "Indentation against DMA")                 \
-    X(shift_factors, SHIFT_FACTORS, "shift_factors", "Shift factors")                              \
-    X(master_curve, MASTER_CURVE, "master_curve", "Master curve")                                  \
-    X(prony, PRONY, "prony", "Prony series")                                                       \
-    X(roughness, ROUGHNESS, "roughness", "Power spectrum of the counter surface")                  \
-    X(friction, FRICTION, "friction", "Friction against velocity")                                 \
-    X(contact_area, CONTACT_AREA, "contact_area", "Contact area against magnification")            \
-    X(layer, LAYER, "layer", "Thickness of the modified layer")                                    \
-    X(energy_density, ENERGY_DENSITY, "energy_density", "Energy density with depth")               \
-    X(force_curve, FORCE_CURVE, "force_curve/", "force curve")                                     \
-    X(sweep, SWEEP, "sweep", "DMA frequency sweeps")                                               \
-    X(spectrum, SPECTRUM, "roughness", "power spectrum")                                           \
-    X(image, IMAGE, "image/", "name of the image")                                                 \
-    X(facts, FACTS, "facts", "What the file is")                                                   \
-    X(description, DESCRIPTION, "description", "Columns that the description understands")
+      "Force against piezo displacement", "indent")                                                \
+    X(force_indentation, FORCE_INDENTATION, "force_indentation", "Force against indentation",      \
+      "indent")                                                                                    \
+    X(modulus_groups, MODULUS_GROUPS, "modulus_groups", "Modulus of the groups", "compare")        \
+    X(modulus_rate, MODULUS_RATE, "modulus_rate", "Modulus against indentation rate", "compare")   \
+    X(comparison, COMPARISON, "comparison", "Wear track against bulk", "compare")                  \
+    X(dma_comparison, DMA_COMPARISON, "dma_comparison", "Indentation against DMA", "compare")      \
+    X(shift_factors, SHIFT_FACTORS, "shift_factors", "Shift factors", "master")                    \
+    X(master_curve, MASTER_CURVE, "master_curve", "Master curve", "master")                        \
+    X(prony, PRONY, "prony", "Prony series", "master")                                             \
+    X(roughness, ROUGHNESS, "roughness", "Power spectrum of the counter surface", "run")           \
+    X(friction, FRICTION, "friction", "Friction against velocity", "friction")                     \
+    X(contact_area, CONTACT_AREA, "contact_area", "Contact area against magnification",            \
+      "friction")                                                                                  \
+    X(layer, LAYER, "layer", "Thickness of the modified layer", "layer")                           \
+    X(energy_density, ENERGY_DENSITY, "energy_density", "Energy density with depth", "layer")      \
+    X(force_curve, FORCE_CURVE, "force_curve/", "force curve", "convert")                          \
+    X(sweep, SWEEP, "sweep", "DMA frequency sweeps", "convert")                                    \
+    X(spectrum, SPECTRUM, "roughness", "power spectrum", "convert")                                \
+    X(image, IMAGE, "image/", "name of the image", "convert")                                      \
+    X(facts, FACTS, "facts", "What the file is", "info")                                           \
+    X(description, DESCRIPTION, "description", "Columns that the description understands",         \
+      "formats")
 
 #define TABLE_ID(id, ...) id,
-#define TABLE_TYPES(table, TABLE, name, title)                                                     \
+#define TABLE_TYPES(table, TABLE, ...)                                                             \
     typedef enum table##_column{TABLE##_COLUMNS(TABLE_ID) TABLE##_N_COLUMNS} table##_column;       \
     typedef enum table##_key{TABLE##_KEYS(TABLE_ID) TABLE##_N_KEYS} table##_key;                   \
     extern const table_schema table##_schema;                                                      \
@@ -88,6 +91,10 @@
         va_end(list);                                                                              \
     }                                                                                              \
     /* reading what is bound */                                                                    \
+    static inline bool table##_has(const table_view *v, table##_column c)                          \
+    {                                                                                              \
+        return view_has(v, &table##_schema, (unsigned)c);                                          \
+    }                                                                                              \
     static inline double table##_get(const table_view *v, size_t row, table##_column c)            \
     {                                                                                              \
         return view_number(v, &table##_schema, row, (unsigned)c);                                  \

@@ -1,34 +1,42 @@
 /* What must be said with the answer: what the numbers rest on and what they leave out.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "flow/answer/answer.h"
-#include "flow/job/tables.h"
+#include "flow/answer/caveats.h"
 
+#include "base/array.h"
 #include "base/clocale.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-static const char question[] = "What must be kept in mind?";
+#define CAVEAT(story, ...) answer_say(story, "What must be kept in mind?", "caveat", __VA_ARGS__)
+
+static const char *const group_words[2] = {"bulk", "wear-track"};
 
 /* An indentation feels what is below a layer when it goes deeper than this share of it (Bueckle's
  * rule for films). */
 #define DEEP_SHARE 0.1
 
-/* Median of a column over the accepted curves; NaN if there are none. */
-static double median_accepted(const wt_table *table, const char *column)
+static bool is_accepted(const table_view *indentation, size_t row)
 {
-    size_t rows = wt_table_n_rows(table), n = 0;
-    double *values = malloc((rows + 1) * sizeof *values), median = (double)NAN;
+    return strcmp(indentation_text(indentation, row, INDENTATION_VERDICT),
+                  wt_curve_verdict_id(WT_CURVE_ACCEPTED)) == 0;
+}
+
+/* Median of a column over the accepted curves; NaN if there are none. */
+static double median_accepted(const table_view *indentation, indentation_column column)
+{
+    size_t n = 0;
+    double *values = malloc((indentation->n_rows + 1) * sizeof *values), median = (double)NAN;
     if (values == NULL)
         return (double)NAN;
-    for (size_t i = 0; i < rows; i++) {
-        double value = flow_table_get(table, i, column);
-        if (!isnan(value) && strcmp(flow_table_get_text(table, i, "verdict"), "accepted") == 0)
+    for (size_t i = 0; i < indentation->n_rows; i++) {
+        double value = indentation_get(indentation, i, column);
+        if (!isnan(value) && is_accepted(indentation, i))
             values[n++] = value;
     }
     if (n > 0) {
-        flow_sort(values, n);
+        numbers_sort(values, n);
         median = (values[(n - 1) / 2] + values[n / 2]) / 2;
     }
     free(values);
@@ -36,12 +44,12 @@ static double median_accepted(const wt_table *table, const char *column)
 }
 
 /* "3 poor_fit, 1 saturated" of the rejected curves. */
-static size_t list_rejected(const wt_table *table, char *text, size_t size)
+static size_t list_rejected(const table_view *indentation, char *text, size_t size)
 {
     size_t counts[WT_CURVE_UNREADABLE + 1] = {0}, total = 0, used = 0;
     text[0] = '\0';
-    for (size_t i = 0; i < wt_table_n_rows(table); i++) {
-        const char *verdict = flow_table_get_text(table, i, "verdict");
+    for (size_t i = 0; i < indentation->n_rows; i++) {
+        const char *verdict = indentation_text(indentation, i, INDENTATION_VERDICT);
         for (int v = WT_CURVE_ACCEPTED + 1; v <= WT_CURVE_UNREADABLE; v++)
             if (strcmp(verdict, wt_curve_verdict_id((wt_curve_verdict)v)) == 0)
                 counts[v]++;
@@ -55,303 +63,241 @@ static size_t list_rejected(const wt_table *table, char *text, size_t size)
     return total;
 }
 
-static wt_status indentation_caveats(const flow_story *story, wt_table *table, wt_error *err)
+static void indentation_caveats(const answer_story *story)
 {
-    static const char *const names[2] = {"indentation/bulk", "indentation/track"};
-    static const char *const words[2] = {"bulk", "wear-track"};
-    wt_status status = WT_OK;
-    for (int g = 0; status == WT_OK && g < 2; g++) {
-        const wt_table *t = wt_result_find(story->result, names[g]);
-        if (t == NULL)
-            continue;
+    for (int g = 0; g < 2; g++) {
+        const table_view *t = &story->indentation[g];
         char reasons[512];
         size_t rejected = list_rejected(t, reasons, sizeof reasons);
-        const char *spots = wt_table_key(t, "spots");
+        const char *spots = indentation_words(t, INDENTATION_KEY_SPOTS);
         if (rejected > 0)
-            status = flow_answer_add(table, err, question, "caveat",
-                                     "%zu of %zu %s curves were rejected: %s.", rejected,
-                                     wt_table_n_rows(t), words[g], reasons);
-        if (status == WT_OK && spots != NULL && strcmp(spots, "named") != 0)
-            status = flow_answer_add(table, err, question, "caveat",
-                                     "Spots of the %s curves (%s): if some are of one place, they "
-                                     "are not independent and the intervals are too narrow.",
-                                     words[g], spots);
+            CAVEAT(story, "%zu of %zu %s curves were rejected: %s.", rejected, t->n_rows,
+                   group_words[g], reasons);
+        if (spots != NULL && strcmp(spots, "named") != 0)
+            CAVEAT(story,
+                   "Spots of the %s curves (%s): if some are of one place, they are not "
+                   "independent and the intervals are too narrow.",
+                   group_words[g], spots);
     }
-    return status;
-}
-
-/* Relative stated error of the spring constant; 0 if none is stated. */
-static double lever_error(const wt_table *indentation)
-{
-    wt_estimate k = flow_key(indentation, "spring_constant");
-    double error = k.standard_error / k.value;
-    return error > 0 ? error : 0;
 }
 
 /* What an error of calibration does: to a modulus by its gain, to the ratio only if the cantilevers
  * were calibrated separately, or as far as the gains differ. */
-static wt_status calibration_caveats(const flow_story *story, wt_table *table, wt_error *err)
+static void calibration_caveats(const answer_story *story)
 {
-    const wt_table *bulk = wt_result_find(story->result, "indentation/bulk");
-    const wt_table *track = wt_result_find(story->result, "indentation/track");
-    const wt_table *const both[2] = {bulk, track};
-    static const char *const words[2] = {"bulk", "wear-track"};
-    double gain[2] = {(double)NAN, (double)NAN};
-    wt_status status = WT_OK;
-    for (int g = 0; status == WT_OK && g < 2; g++) {
-        if (both[g] == NULL || isnan(gain[g] = median_accepted(both[g], "sensitivity_gain")))
+    double gain[2];
+    wt_estimate k[2];
+    for (int g = 0; g < 2; g++) {
+        const table_view *t = &story->indentation[g];
+        gain[g] = median_accepted(t, INDENTATION_SENSITIVITY_GAIN);
+        k[g] = indentation_value(t, INDENTATION_KEY_SPRING_CONSTANT);
+        if (isnan(gain[g]))
             continue;
-        double k = lever_error(both[g]);
         char lever[96] = "No error of the spring constant is stated";
-        if (k > 0)
+        if (k[g].standard_error / k[g].value > 0)
             clocale_print(lever, sizeof lever, "The stated error of the spring constant is %.2g %%",
-                          100 * k);
-        status = flow_answer_add(table, err, question, "caveat",
-                                 "An error of 1 %% in the deflection sensitivity changes the %s "
-                                 "modulus by %.3g %%, one of the spring constant by about as much "
-                                 "as itself. %s. The interval of the modulus does not include "
-                                 "errors of sensitivity, spring constant and tip.",
-                                 words[g], gain[g], lever);
+                          100 * k[g].standard_error / k[g].value);
+        CAVEAT(story,
+               "An error of 1 %% in the deflection sensitivity changes the %s modulus by %.3g %%, "
+               "one of the spring constant by about as much as itself. %s. The interval of the "
+               "modulus does not include errors of sensitivity, spring constant and tip.",
+               group_words[g], gain[g], lever);
     }
-    if (status != WT_OK || isnan(gain[0]) || isnan(gain[1]))
-        return status;
-    double k[2] = {flow_key(bulk, "spring_constant").value,
-                   flow_key(track, "spring_constant").value};
-    if (fabs(k[0] - k[1]) <= 1e-9 * k[0])
-        return flow_answer_add(table, err, question, "caveat",
-                               "Track and bulk have the same spring constant: if it is one "
-                               "cantilever, its error cancels in the ratio, and 1 %% of "
-                               "sensitivity changes the ratio by %.2g %% only.",
-                               fabs(gain[1] - gain[0]));
+    if (isnan(gain[0]) || isnan(gain[1]))
+        return;
+    if (fabs(k[0].value - k[1].value) <= 1e-9 * k[0].value) {
+        CAVEAT(story,
+               "Track and bulk have the same spring constant: if it is one cantilever, its error "
+               "cancels in the ratio, and 1 %% of sensitivity changes the ratio by %.2g %% only.",
+               fabs(gain[1] - gain[0]));
+        return;
+    }
     char which[256] = "";
-    if (!isnan(k[0]) && !isnan(k[1]))
-        snprintf(which, sizeof which, " (bulk %s, track %s)", flow_say(k[0], "N/m").text,
-                 flow_say(k[1], "N/m").text);
-    return flow_answer_add(table, err, question, "caveat",
-                           "The spring constants of the curves differ%s: they were calibrated "
-                           "separately, so errors of spring constant and sensitivity do not cancel "
-                           "in the ratio, and its interval does not include them.",
-                           which);
+    if (!isnan(k[0].value) && !isnan(k[1].value))
+        snprintf(which, sizeof which, " (bulk %s, track %s)", words_of_value(k[0]).text,
+                 words_of_value(k[1]).text);
+    CAVEAT(story,
+           "The spring constants of the curves differ%s: they were calibrated separately, so "
+           "errors of spring constant and sensitivity do not cancel in the ratio, and its interval "
+           "does not include them.",
+           which);
 }
 
 /* A temperature that the case does not say is taken from the material. */
-static wt_status temperature_caveats(const flow_story *story, wt_table *table, wt_error *err)
+static void temperature_caveats(const answer_story *story)
 {
-    const wt_table *friction = wt_result_find(story->result, "friction");
-    const wt_table *dma = wt_result_find(story->result, "dma_comparison");
-    wt_status status = WT_OK;
-    if (friction != NULL && isnan(story->c->sliding.temperature.value))
-        status =
-            isnan(flow_key(friction, "temperature").value)
-                ? flow_answer_add(table, err, question, "caveat",
-                                  "Neither the case nor its material says a temperature: friction "
-                                  "is that at the temperature the material was given for.")
-                : flow_answer_add(table, err, question, "caveat",
-                                  "The case does not say the temperature of sliding: friction is "
-                                  "that at the reference temperature of the material, %s.",
-                                  flow_say_celsius(flow_key(friction, "temperature").value).text);
-    if (status == WT_OK && dma != NULL && isnan(story->c->compare.temperature))
-        status = flow_answer_add(table, err, question, "caveat",
-                                 "The case does not say the temperature of indentation: it is "
-                                 "compared with DMA at the reference temperature, %s.",
-                                 flow_say_celsius(flow_key(dma, "temperature").value).text);
-    return status;
+    const double sliding = friction_value(&story->friction, FRICTION_KEY_TEMPERATURE).value;
+    if (story->friction.table != NULL && isnan(story->c->sliding.temperature.value)) {
+        if (isnan(sliding))
+            CAVEAT(story, "Neither the case nor its material says a temperature: friction is that "
+                          "at the temperature the material was given for.");
+        else
+            CAVEAT(story,
+                   "The case does not say the temperature of sliding: friction is that at the "
+                   "reference temperature of the material, %s.",
+                   words_of_celsius(sliding).text);
+    }
+    if (story->dma_comparison.table != NULL && isnan(story->c->compare.temperature))
+        CAVEAT(
+            story,
+            "The case does not say the temperature of indentation: it is compared with DMA at "
+            "the reference temperature, %s.",
+            words_of_celsius(
+                dma_comparison_value(&story->dma_comparison, DMA_COMPARISON_KEY_TEMPERATURE).value)
+                .text);
 }
 
 /* "The standard errors of the friction include: ...; they do not include the model." */
-static wt_status say_includes(const wt_table *of, const char *what, wt_table *table, wt_error *err)
+static void say_includes(const answer_story *story, const char *what, const char *includes,
+                         const char *lacks)
 {
-    const char *includes = wt_table_key(of, "standard_error_includes");
-    const char *lacks = wt_table_key(of, "standard_error_lacks");
-    if (includes == NULL)
-        return WT_OK;
-    return flow_answer_add(table, err, question, "caveat",
-                           "The standard errors of the %s include: %s. They do not include the "
-                           "model%s%s.",
-                           what, includes,
-                           lacks != NULL ? ", nor, because no error is stated: " : "",
-                           lacks != NULL ? lacks : "");
+    CAVEAT(story, "The standard errors of the %s include: %s. They do not include the model%s%s.",
+           what, includes, lacks != NULL ? ", nor, because no error is stated: " : "",
+           lacks != NULL ? lacks : "");
 }
 
 /* The first warnings in full, the others by number. */
-static wt_status warnings(const flow_story *story, wt_table *table, wt_error *err)
+static void warnings(const answer_story *story)
 {
     enum { SHOWN = 5 };
     size_t n = 0;
-    wt_status status = WT_OK;
-    for (size_t i = 0; status == WT_OK && i < wt_parselog_count(story->log); i++) {
+    for (size_t i = 0; i < wt_parselog_count(story->log); i++) {
         wt_log_entry entry = wt_parselog_get(story->log, i);
-        if (entry.severity != WT_WARNING || ++n > SHOWN)
-            continue;
-        status = flow_answer_add(table, err, question, "caveat", "Warning%s%s: %s.",
-                                 entry.file[0] != '\0' ? " of " : "", wt_path_base(entry.file),
-                                 entry.text);
+        if (entry.severity == WT_WARNING && ++n <= SHOWN)
+            CAVEAT(story, "Warning%s%s: %s.", entry.file[0] != '\0' ? " of " : "",
+                   wt_path_base(entry.file), entry.text);
     }
-    if (status == WT_OK && n > SHOWN)
-        status = flow_answer_add(table, err, question, "caveat",
-                                 "%zu more warnings are in the table notes.", n - SHOWN);
-    return status;
+    if (n > SHOWN)
+        CAVEAT(story, "%zu more warnings are in the table notes.", n - SHOWN);
 }
 
-static wt_status comparison_caveats(const flow_story *story, wt_table *table, wt_error *err)
+static void comparison_caveats(const answer_story *story)
 {
-    const wt_table *comparison = wt_result_find(story->result, "comparison");
-    const wt_table *dma = wt_result_find(story->result, "dma_comparison");
-    const char *unit = comparison == NULL ? NULL : wt_table_key(comparison, "unit_of_analysis");
-    wt_status status = WT_OK;
+    const table_view *dma = &story->dma_comparison;
+    const char *unit = comparison_words(&story->comparison, COMPARISON_KEY_UNIT_OF_ANALYSIS);
+    const char *statement = dma_comparison_words(dma, DMA_COMPARISON_KEY_MATERIAL_STATEMENT);
     if (unit != NULL && strcmp(unit, "spot") != 0)
-        status = flow_answer_add(table, err, question, "caveat",
-                                 "The unit of analysis of the comparison is the %s.", unit);
+        CAVEAT(story, "The unit of analysis of the comparison is the %s.", unit);
     size_t extrapolated = 0;
-    for (size_t i = 0; dma != NULL && i < wt_table_n_rows(dma); i++)
-        extrapolated += flow_table_get(dma, i, "extrapolated") > 0;
-    if (status == WT_OK && extrapolated > 0)
-        status = flow_answer_add(table, err, question, "caveat",
-                                 "%zu of %zu comparisons with DMA lie outside the measured "
-                                 "frequencies.",
-                                 extrapolated, wt_table_n_rows(dma));
-    const char *statement = dma == NULL ? NULL : wt_table_key(dma, "material_statement");
-    if (status == WT_OK && statement != NULL)
-        status =
-            flow_answer_add(table, err, question, "caveat", "Comparison with DMA: %s.", statement);
-    return status;
+    for (size_t i = 0; i < dma->n_rows; i++)
+        extrapolated += dma_comparison_get(dma, i, DMA_COMPARISON_EXTRAPOLATED) > 0;
+    if (extrapolated > 0)
+        CAVEAT(story, "%zu of %zu comparisons with DMA lie outside the measured frequencies.",
+               extrapolated, dma->n_rows);
+    if (statement != NULL)
+        CAVEAT(story, "Comparison with DMA: %s.", statement);
 }
 
-static wt_status material_caveats(const flow_story *story, wt_table *table, wt_error *err)
+static void material_caveats(const answer_story *story)
 {
-    const wt_table *shifts = wt_result_find(story->result, "shift_factors");
-    wt_status status = WT_OK;
-    if (shifts == NULL)
-        return WT_OK;
-    const char *superposition = wt_table_key(shifts, "superposition");
-    const char *straight = wt_table_key(shifts, "wlf_straight");
-    size_t undetermined = 0, rows = wt_table_n_rows(shifts);
-    for (size_t i = 0; i < rows; i++)
-        undetermined += !(flow_table_get(shifts, i, "determined") > 0);
-    if (superposition != NULL && strncmp(superposition, "failed", 6) == 0)
-        status = flow_answer_add(table, err, question, "caveat",
-                                 "Time-temperature superposition %s. What rests on the master "
-                                 "curve is doubtful.",
-                                 superposition);
-    if (status == WT_OK && superposition != NULL && strncmp(superposition, "not", 3) == 0)
-        status = flow_answer_add(table, err, question, "caveat",
-                                 "The material is known from one isotherm: no time-temperature "
-                                 "superposition widens its frequencies.");
-    if (status == WT_OK && undetermined > 0)
-        status = flow_answer_add(table, err, question, "caveat",
-                                 "The shift of %zu of %zu isotherms is not determined by the data; "
-                                 "they are not in the master curve.",
-                                 undetermined, rows);
-    if (status == WT_OK && straight != NULL && strncmp(straight, "yes", 3) == 0)
-        status = flow_answer_add(table, err, question, "caveat",
-                                 "The shift factors determine only the slope c1/c2 of the WLF law, "
-                                 "not c1 and c2: use it inside the measured temperatures.");
-    return status;
+    const table_view *shifts = &story->shift_factors;
+    if (shifts->table == NULL)
+        return;
+    const char *superposition = shift_factors_words(shifts, SHIFT_FACTORS_KEY_SUPERPOSITION);
+    const char *straight = shift_factors_words(shifts, SHIFT_FACTORS_KEY_WLF_STRAIGHT);
+    size_t undetermined = 0;
+    for (size_t i = 0; i < shifts->n_rows; i++)
+        undetermined += !(shift_factors_get(shifts, i, SHIFT_FACTORS_DETERMINED) > 0);
+    if (strncmp(superposition, "failed", 6) == 0)
+        CAVEAT(story,
+               "Time-temperature superposition %s. What rests on the master curve is doubtful.",
+               superposition);
+    if (strncmp(superposition, "not", 3) == 0)
+        CAVEAT(story, "The material is known from one isotherm: no time-temperature superposition "
+                      "widens its frequencies.");
+    if (undetermined > 0)
+        CAVEAT(story,
+               "The shift of %zu of %zu isotherms is not determined by the data; they are not in "
+               "the master curve.",
+               undetermined, shifts->n_rows);
+    if (straight != NULL && strncmp(straight, "yes", 3) == 0)
+        CAVEAT(story, "The shift factors determine only the slope c1/c2 of the WLF law, not c1 and "
+                      "c2: use it inside the measured temperatures.");
 }
 
-static wt_status friction_caveats(const flow_story *story, wt_table *table, wt_error *err)
+static void friction_caveats(const answer_story *story)
 {
-    const wt_table *friction = wt_result_find(story->result, "friction");
-    if (friction == NULL)
-        return WT_OK;
+    const table_view *friction = &story->friction;
+    if (friction->table == NULL)
+        return;
     double share = 0;
-    for (size_t i = 0; i < wt_table_n_rows(friction); i++)
-        share = fmax(share, flow_table_get(friction, i, "extrapolated_share"));
-    const char *statement = wt_table_key(friction, "material_statement");
-    wt_status status = WT_OK;
+    for (size_t i = 0; i < friction->n_rows; i++)
+        share = fmax(share, friction_get(friction, i, FRICTION_EXTRAPOLATED_SHARE));
+    const char *statement = friction_words(friction, FRICTION_KEY_MATERIAL_STATEMENT);
     if (share > 0) {
         char percent[32] = "Less than 0.1";
         if (share >= 0.001)
             clocale_print(percent, sizeof percent, share >= 0.1 ? "Up to %.0f" : "Up to %.2g",
                           100 * share);
-        status = flow_answer_add(table, err, question, "caveat",
-                                 "%s %% of the hysteresis friction comes from frequencies outside "
-                                 "the measured range of the material.",
-                                 percent);
+        CAVEAT(story,
+               "%s %% of the hysteresis friction comes from frequencies outside the measured range "
+               "of the material.",
+               percent);
     }
-    if (status == WT_OK && statement != NULL)
-        status = flow_answer_add(table, err, question, "caveat", "Friction: %s.", statement);
-    if (status == WT_OK)
-        status = say_includes(friction, "friction", table, err);
-    if (status == WT_OK)
-        status = flow_answer_add(table, err, question, "caveat",
-                                 "Friction is that of Persson's theory for small strain at one "
-                                 "temperature: no flash heating, no strain softening, dry "
-                                 "contact.");
-    if (status == WT_OK && wt_table_key(friction, "layer_thickness") != NULL)
-        status = flow_answer_add(table, err, question, "caveat",
-                                 "With the layer, its modulus is the bulk's times one ratio at all "
-                                 "frequencies, and the shear stress is scaled by the same ratio; "
-                                 "neither is measured at the frequencies of sliding.");
-    return status;
+    if (statement != NULL)
+        CAVEAT(story, "Friction: %s.", statement);
+    say_includes(story, "friction", friction_words(friction, FRICTION_KEY_ERROR_INCLUDES),
+                 friction_words(friction, FRICTION_KEY_ERROR_LACKS));
+    CAVEAT(story, "Friction is that of Persson's theory for small strain at one temperature: no "
+                  "flash heating, no strain softening, dry contact.");
+    if (friction_words(friction, FRICTION_KEY_LAYER_THICKNESS) != NULL)
+        CAVEAT(story, "With the layer, its modulus is the bulk's times one ratio at all "
+                      "frequencies, and the shear stress is scaled by the same ratio; neither is "
+                      "measured at the frequencies of sliding.");
 }
 
-static wt_status layer_caveats(const flow_story *story, wt_table *table, wt_error *err)
+static void layer_caveats(const answer_story *story)
 {
-    const wt_table *layer = wt_result_find(story->result, "layer");
-    if (layer == NULL)
-        return WT_OK;
-    const char *from = wt_table_key(layer, "critical_energy_from");
-    bool calibrated = from != NULL && strncmp(from, "calibrated", 10) == 0;
-    wt_estimate energy = flow_key(layer, "critical_energy");
-    wt_status status = flow_answer_add(
-        table, err, question, "caveat",
-        calibrated ? "The critical energy U_c = %s is calibrated so that the observed thickness is "
-                     "the balance: the thickness is put in, not predicted."
-                   : "The critical energy U_c = %s is given: nothing in this case measures it.",
-        flow_say_estimate(energy).text);
-    if (status == WT_OK)
-        status = say_includes(layer, "thickness", table, err);
-    if (status == WT_OK)
-        status = flow_answer_add(table, err, question, "caveat",
-                                 "The layer model (energy closure, wear by Archard's law) is not "
-                                 "validated against measured thicknesses. Its energy is the "
-                                 "hysteresis of the bulk alone: the layer does not act back on it, "
-                                 "and shearing of the surface is not counted.");
-    double thickness = flow_key(layer, "balance_thickness").value;
-    const wt_table *roughness = wt_result_find(story->result, "roughness");
-    double longest =
-        roughness == NULL ? (double)NAN : 1 / flow_table_get(roughness, 0, "wavenumber");
-    if (status == WT_OK && isfinite(thickness) && thickness > longest)
-        status = flow_answer_add(table, err, question, "caveat",
-                                 "The layer is thicker than the longest wave of the roughness "
-                                 "reaches (1/q0 = %s): the layer model is outside its range.",
-                                 flow_say(longest, "m").text);
-    const wt_table *track = wt_result_find(story->result, "indentation/track");
-    double depth = track == NULL ? (double)NAN : median_accepted(track, "max_indentation");
-    if (status == WT_OK && isfinite(thickness) && thickness > 0 && depth > DEEP_SHARE * thickness)
-        status = flow_answer_add(table, err, question, "caveat",
-                                 "Indentations in the track go %s deep, %.2g times the thickness "
-                                 "of the layer: the bulk below it is felt, so the layer differs "
-                                 "more than the ratio says.",
-                                 flow_say(depth, "m").text, depth / thickness);
-    return status;
+    const table_view *layer = &story->layer;
+    if (layer->table == NULL)
+        return;
+    const char *from = layer_words(layer, LAYER_KEY_CRITICAL_ENERGY_FROM);
+    const number_words energy = words_of_estimate(layer_value(layer, LAYER_KEY_CRITICAL_ENERGY));
+    if (strncmp(from, "calibrated", 10) == 0)
+        CAVEAT(story,
+               "The critical energy U_c = %s is calibrated so that the observed thickness is the "
+               "balance: the thickness is put in, not predicted.",
+               energy.text);
+    else
+        CAVEAT(story, "The critical energy U_c = %s is given: nothing in this case measures it.",
+               energy.text);
+    say_includes(story, "thickness", layer_words(layer, LAYER_KEY_ERROR_INCLUDES),
+                 layer_words(layer, LAYER_KEY_ERROR_LACKS));
+    CAVEAT(story, "The layer model (energy closure, wear by Archard's law) is not validated "
+                  "against measured thicknesses. Its energy is the hysteresis of the bulk alone: "
+                  "the layer does not act back on it, and shearing of the surface is not counted.");
+    const double thickness = layer_value(layer, LAYER_KEY_BALANCE_THICKNESS).value;
+    if (!isfinite(thickness))
+        return;
+    if (story->roughness.n_rows > 0) {
+        const double longest = 1 / roughness_get(&story->roughness, 0, ROUGHNESS_WAVENUMBER);
+        if (thickness > longest)
+            CAVEAT(story,
+                   "The layer is thicker than the longest wave of the roughness reaches (1/q0 = "
+                   "%s): the layer model is outside its range.",
+                   words_of(longest, "m").text);
+    }
+    const double depth = median_accepted(&story->indentation[1], INDENTATION_MAX_INDENTATION);
+    if (thickness > 0 && depth > DEEP_SHARE * thickness)
+        CAVEAT(story,
+               "Indentations in the track go %s deep, %.2g times the thickness of the layer: the "
+               "bulk below it is felt, so the layer differs more than the ratio says.",
+               words_of(depth, "m").text, depth / thickness);
 }
 
-wt_status flow_caveats(const flow_story *story, wt_table *table, wt_error *err)
+void answer_caveats(const answer_story *story)
 {
-    wt_status status = WT_OK;
-    const size_t n_failures = wt_table_n_rows(story->failures);
-    if (n_failures > 0)
-        status = flow_answer_add(table, err, question, "caveat",
-                                 "%zu files or stages failed and are not in these results; the "
-                                 "table failures lists them.",
-                                 n_failures);
-    if (status == WT_OK)
-        status = indentation_caveats(story, table, err);
-    if (status == WT_OK)
-        status = calibration_caveats(story, table, err);
-    if (status == WT_OK)
-        status = comparison_caveats(story, table, err);
-    if (status == WT_OK)
-        status = material_caveats(story, table, err);
-    if (status == WT_OK)
-        status = friction_caveats(story, table, err);
-    if (status == WT_OK)
-        status = layer_caveats(story, table, err);
-    if (status == WT_OK)
-        status = temperature_caveats(story, table, err);
-    if (status == WT_OK)
-        status = warnings(story, table, err);
-    return status;
+    if (story->failures.n_rows > 0)
+        CAVEAT(story,
+               "%zu files or stages failed and are not in these results; the table failures lists "
+               "them.",
+               story->failures.n_rows);
+    indentation_caveats(story);
+    calibration_caveats(story);
+    comparison_caveats(story);
+    material_caveats(story);
+    friction_caveats(story);
+    layer_caveats(story);
+    temperature_caveats(story);
+    warnings(story);
 }

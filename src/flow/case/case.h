@@ -4,6 +4,7 @@
 #define WEARTRACK_FLOW_CASE_H
 
 #include "base/pool.h"
+#include "flow/case/things.h"
 #include "weartrack/flow.h"
 #include "weartrack/report.h"
 
@@ -62,8 +63,8 @@ struct wt_case {
     bool compare_groups, compare_rates, compare_dma;
 
     wt_report_options report;
-    const char **asked; /* [n_asked] tables asked for by name or through a figure */
-    size_t n_asked;
+    bool has_asked; /* else all tables are wanted */
+    flow_things asked;
 };
 
 /* A case in which nothing is given; NULL when out of memory. */

@@ -3,7 +3,6 @@
 #include "flow/case/case_sections.h"
 
 #include "flow/job/inputs.h"
-#include "flow/run/stages.h"
 
 #include <math.h>
 #include <string.h>
@@ -212,28 +211,22 @@ static wt_status unknown_name(const xmlNode *node, const char *name, const char 
 wt_status case_read_report(wt_case *c, const xmlNode *section, wt_error *err)
 {
     wt_status status = case_read_params(c, section, wt_report_params(), &c->report, err);
-    size_t n = 0;
-    for (const xmlNode *node = section->children; node != NULL; node = node->next)
-        n += node->type == XML_ELEMENT_NODE;
-    c->asked = pool_alloc(&c->memory, n, sizeof *c->asked);
-    if (status == WT_OK && c->asked == NULL)
-        status = wt_fail(err, WT_E_MEMORY, "out of memory");
     for (const xmlNode *node = section->children; status == WT_OK && node != NULL;
          node = node->next) {
         const char *name = NULL;
+        flow_things things = 0;
         if (node->type != XML_ELEMENT_NODE)
             continue;
         status = case_node_text(c, node, &name, err);
         if (status != WT_OK)
             break;
-        const bool is_figure = strcmp((const char *)node->name, "figure") == 0;
-        const char *table = is_figure                   ? flow_figure_table(name)
-                            : flow_table_is_known(name) ? name
-                                                        : NULL;
-        if (table == NULL)
-            status = unknown_name(node, name, is_figure ? "figure" : "result", err);
-        else
-            c->asked[c->n_asked++] = table;
+        const bool figure = strcmp((const char *)node->name, "figure") == 0;
+        const bool known =
+            figure ? flow_things_of_figure(name, &things) : flow_things_of_table(name, &things);
+        if (!known)
+            status = unknown_name(node, name, figure ? "figure" : "result", err);
+        c->has_asked = true;
+        c->asked |= things;
     }
     return status;
 }

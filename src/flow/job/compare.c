@@ -1,9 +1,11 @@
 /* The comparison job: wear track against bulk, all rates together and rate by rate; both against
  * the DMA modulus at the equivalent frequency.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/job/draws.h"
+
+#include "base/array.h"
 #include "base/param.h"
-#include "flow/job/tables.h"
-#include "weartrack/flow.h"
+#include "data/tables/tables.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -15,14 +17,26 @@
 
 static const char *const group_name[2] = {"bulk", "track"};
 
+/* In the place of a bin: a curve whose rate is not known; the curves of all bins. */
+#define NO_BIN SIZE_MAX
+#define ALL_BINS SIZE_MAX
+
+/* Geometric means over the curves of one bin of one group. */
+typedef struct rate_point {
+    size_t n;
+    double rate, frequency;
+    wt_group_summary summary;
+} rate_point;
+
 /* The two groups with the bin of every curve. */
 typedef struct pair {
     wt_group_data data[2];
     bool present[2];
-    size_t *bin[2]; /* [n]; SIZE_MAX = rate unknown */
+    size_t *bin[2]; /* [n]; NO_BIN = rate unknown */
     size_t n_bins;
-    double *low, *high; /* [n_bins] smallest and largest rate */
-    double *modulus;    /* scratch for a part of a group, one after the other */
+    double *low, *high;   /* [n_bins] smallest and largest rate */
+    rate_point *point[2]; /* [n_bins] */
+    double *modulus;      /* scratch for a part of a group, one after the other */
     long *spot;
 } pair;
 
@@ -31,6 +45,7 @@ static void pair_clear(pair *p)
     for (int g = 0; g < 2; g++) {
         wt_group_data_clear(&p->data[g]);
         free(p->bin[g]);
+        free(p->point[g]);
     }
     free(p->low);
     free(p->high);
@@ -59,7 +74,7 @@ static wt_status make_bins(pair *p, wt_error *err)
         for (size_t i = 0; i < p->data[g].group.n; i++)
             if (p->data[g].indentation_rate[i] > 0)
                 rates[n++] = p->data[g].indentation_rate[i];
-    flow_sort(rates, n);
+    numbers_sort(rates, n);
     for (size_t i = 0; i < n; i++) {
         if (p->n_bins == 0 || log10(rates[i] / p->low[p->n_bins - 1]) > BIN_DECADES)
             p->low[p->n_bins++] = rates[i];
@@ -68,7 +83,7 @@ static wt_status make_bins(pair *p, wt_error *err)
     for (int g = 0; g < 2; g++) {
         for (size_t i = 0; i < p->data[g].group.n; i++) {
             double rate = p->data[g].indentation_rate[i];
-            p->bin[g][i] = SIZE_MAX;
+            p->bin[g][i] = NO_BIN;
             for (size_t b = 0; rate > 0 && b < p->n_bins; b++)
                 if (rate >= p->low[b] && rate <= p->high[b])
                     p->bin[g][i] = b;
@@ -78,15 +93,15 @@ static wt_status make_bins(pair *p, wt_error *err)
     return WT_OK;
 }
 
-/* The part of a group that lies in a bin, copied to scratch from `offset` on; SIZE_MAX = all. */
+/* The part of a group that lies in a bin, copied to scratch from `offset` on. */
 static wt_group part_of(const pair *p, int g, size_t bin, size_t offset)
 {
     const wt_group_data *data = &p->data[g];
     wt_group part = {.modulus = p->modulus + offset,
                      .spot = data->group.spot == NULL ? NULL : p->spot + offset,
-                     .n_rejected = bin == SIZE_MAX ? data->group.n_rejected : 0};
+                     .n_rejected = bin == ALL_BINS ? data->group.n_rejected : 0};
     for (size_t i = 0; i < data->group.n; i++) {
-        if (bin != SIZE_MAX && p->bin[g][i] != bin)
+        if (bin != ALL_BINS && p->bin[g][i] != bin)
             continue;
         p->modulus[offset + part.n] = data->modulus[i];
         p->spot[offset + part.n] = data->spot[i];
@@ -98,68 +113,32 @@ static wt_group part_of(const pair *p, int g, size_t bin, size_t offset)
 /* ---- groups -----------------------------------------------------------------------------------
  */
 
-static wt_status group_row(wt_table *table, const char *name, const wt_group *group, wt_error *err)
+static void group_row(table_writer *t, const char *name, const wt_group *group)
 {
-    enum { GROUP, N, N_REJECTED, N_SPOTS, MEAN, SD, MEDIAN, GEOMETRIC, LOW, HIGH };
-    wt_status status = wt_table_add_row(table, err);
-    if (status == WT_OK)
-        status = wt_table_put_text(table, GROUP, name, err);
-    if (status != WT_OK)
-        return status;
-    wt_table_put(table, N, (double)group->n);
-    wt_table_put(table, N_REJECTED, (double)group->n_rejected);
-    wt_table_put(table, N_SPOTS, 0);
+    wt_group_summary s = {0};
+    if (group->n > 0 && t->status == WT_OK)
+        t->status = wt_group_summarise(group, &s, t->err);
+    table_row(t);
+    modulus_groups_put_text(t, MODULUS_GROUPS_GROUP, name);
+    modulus_groups_put(t, MODULUS_GROUPS_N, (double)group->n);
+    modulus_groups_put(t, MODULUS_GROUPS_N_REJECTED, (double)group->n_rejected);
+    modulus_groups_put(t, MODULUS_GROUPS_N_SPOTS, (double)s.n_spots);
     if (group->n == 0)
-        return WT_OK;
-    wt_group_summary s;
-    status = wt_group_summarise(group, &s, err);
-    if (status != WT_OK)
-        return status;
-    wt_table_put(table, N_SPOTS, (double)s.n_spots);
-    wt_table_put(table, MEAN, s.mean);
-    wt_table_put(table, SD, s.standard_deviation);
-    wt_table_put(table, MEDIAN, s.median);
-    wt_table_put(table, GEOMETRIC, s.geometric_mean);
-    wt_table_put(table, LOW, s.low);
-    wt_table_put(table, HIGH, s.high);
-    return WT_OK;
+        return;
+    modulus_groups_put(t, MODULUS_GROUPS_MEAN, s.mean);
+    modulus_groups_put(t, MODULUS_GROUPS_STANDARD_DEVIATION, s.standard_deviation);
+    modulus_groups_put(t, MODULUS_GROUPS_MEDIAN, s.median);
+    modulus_groups_put(t, MODULUS_GROUPS_GEOMETRIC_MEAN, s.geometric_mean);
+    modulus_groups_put(t, MODULUS_GROUPS_LOW, s.low);
+    modulus_groups_put(t, MODULUS_GROUPS_HIGH, s.high);
 }
 
-/* names NULL: those of the tables. */
-static wt_status groups_table(const wt_table *const *indentation, const char *const *names,
-                              size_t n, wt_table **result, wt_error *err)
+/* The name of the group of an indentation table. */
+static const char *group_of(const wt_table *indentation)
 {
-    static const flow_column columns[] = {
-        {"group", NULL, "group of curves"},
-        {"n", "1", "accepted curves"},
-        {"n_rejected", "1", "rejected curves"},
-        {"n_spots", "1", "places on the sample"},
-        {"mean", "Pa", "mean modulus of the curves"},
-        {"standard_deviation", "Pa", "standard deviation of the curves"},
-        {"median", "Pa", "median modulus of the curves"},
-        {"geometric_mean", "Pa", "geometric mean of the spots"},
-        {"low", "Pa", "lower end of its 95 % interval"},
-        {"high", "Pa", "upper end of its 95 % interval"},
-    };
-    wt_table *table = NULL;
-    wt_status status = flow_table_new("modulus_groups", "Modulus of the groups", columns,
-                                      FLOW_COUNT(columns), &table, err);
-    for (size_t i = 0; status == WT_OK && i < n; i++) {
-        wt_group_data data = {0};
-        status = wt_group_from_table(indentation[i], &data, err);
-        if (status == WT_OK) {
-            const char *name = names != NULL ? names[i] : wt_table_name(indentation[i]);
-            name = strncmp(name, "indentation/", 12) == 0 ? name + 12 : name;
-            status = group_row(table, name, &data.group, err);
-        }
-        wt_group_data_clear(&data);
-    }
-    if (status != WT_OK) {
-        wt_table_free(table);
-        return status;
-    }
-    *result = table;
-    return WT_OK;
+    const char *name = wt_table_name(indentation);
+    const size_t prefix = strlen(indentation_schema.name);
+    return strncmp(name, indentation_schema.name, prefix) == 0 ? name + prefix : name;
 }
 
 wt_status wt_modulus_groups(const wt_table *const *indentation, size_t n, wt_table **result,
@@ -167,7 +146,25 @@ wt_status wt_modulus_groups(const wt_table *const *indentation, size_t n, wt_tab
 {
     if (result == NULL || (n > 0 && indentation == NULL))
         return wt_fail(err, WT_E_ARG, "no indentation tables");
-    return groups_table(indentation, NULL, n, result, err);
+    table_writer t = table_begin(&modulus_groups_schema, err);
+    for (size_t i = 0; i < n; i++) {
+        wt_group_data data = {0};
+        if (t.status == WT_OK)
+            t.status = wt_group_from_table(indentation[i], &data, err);
+        group_row(&t, group_of(indentation[i]), &data.group);
+        wt_group_data_clear(&data);
+    }
+    return table_end(&t, result);
+}
+
+/* Called bulk and track whatever their tables are called. */
+static wt_status make_groups(const pair *p, wt_table **table, wt_error *err)
+{
+    table_writer t = table_begin(&modulus_groups_schema, err);
+    for (int g = 0; g < 2; g++)
+        if (p->present[g])
+            group_row(&t, group_name[g], &p->data[g].group);
+    return table_end(&t, table);
 }
 
 /* ---- comparison -------------------------------------------------------------------------------
@@ -191,42 +188,42 @@ static wt_status compare_part(pair *p, size_t bin, bool by_curve, row *r, wt_err
         bulk.spot = track.spot = NULL;
     r->n[0] = bulk.n;
     r->n[1] = track.n;
-    r->low = bin == SIZE_MAX ? (double)NAN : p->low[bin];
-    r->high = bin == SIZE_MAX ? (double)NAN : p->high[bin];
+    r->low = bin == ALL_BINS ? (double)NAN : p->low[bin];
+    r->high = bin == ALL_BINS ? (double)NAN : p->high[bin];
     r->holm = (double)NAN;
     wt_error ignored = WT_ERROR_INIT;
     wt_status status = wt_compare(&bulk, &track, &r->c, &ignored);
     r->valid = status == WT_OK;
     /* without enough units, or at one rate without scatter, the row stays without numbers */
-    if (status == WT_OK || status == WT_E_EMPTY || (status == WT_E_RANGE && bin != SIZE_MAX))
+    if (status == WT_OK || status == WT_E_EMPTY || (status == WT_E_RANGE && bin != ALL_BINS))
         return WT_OK;
     if (err != NULL)
         *err = ignored;
     return status;
 }
 
-static wt_status add_rows(wt_table *table, const row *rows, size_t n, wt_error *err)
+static void add_rows(table_writer *t, const row *rows, size_t n)
 {
-    wt_status status = WT_OK;
-    for (size_t i = 0; status == WT_OK && i < n; i++) {
-        status = wt_table_add_row(table, err);
-        if (status != WT_OK)
-            break;
-        size_t column = 0;
-        wt_table_put(table, column++, rows[i].low);
-        wt_table_put(table, column++, rows[i].high);
-        wt_table_put(table, column++, (double)rows[i].n[0]);
-        wt_table_put(table, column++, (double)rows[i].n[1]);
+    for (size_t i = 0; i < n; i++) {
+        const wt_comparison *c = &rows[i].c;
+        table_row(t);
+        comparison_put(t, COMPARISON_RATE_LOW, rows[i].low);
+        comparison_put(t, COMPARISON_RATE_HIGH, rows[i].high);
+        comparison_put(t, COMPARISON_N_BULK, (double)rows[i].n[0]);
+        comparison_put(t, COMPARISON_N_TRACK, (double)rows[i].n[1]);
         if (!rows[i].valid)
             continue;
-        const wt_comparison *c = &rows[i].c;
-        const double values[] = {
-            c->ratio,    c->ratio_low, c->ratio_high, c->difference.value, c->welch_t,
-            c->welch_df, c->welch_p,   rows[i].holm,  c->mann_whitney_p,   c->effect_size};
-        for (size_t k = 0; k < FLOW_COUNT(values); k++)
-            wt_table_put(table, column++, values[k]);
+        comparison_put(t, COMPARISON_RATIO, c->ratio);
+        comparison_put(t, COMPARISON_RATIO_LOW, c->ratio_low);
+        comparison_put(t, COMPARISON_RATIO_HIGH, c->ratio_high);
+        comparison_put(t, COMPARISON_DIFFERENCE, c->difference.value);
+        comparison_put(t, COMPARISON_WELCH_T, c->welch_t);
+        comparison_put(t, COMPARISON_WELCH_DF, c->welch_df);
+        comparison_put(t, COMPARISON_WELCH_P, c->welch_p);
+        comparison_put(t, COMPARISON_HOLM_P, rows[i].holm);
+        comparison_put(t, COMPARISON_MANN_WHITNEY_P, c->mann_whitney_p);
+        comparison_put(t, COMPARISON_EFFECT_SIZE, c->effect_size);
     }
-    return status;
 }
 
 static wt_status holm_rows(row *rows, size_t n, wt_error *err)
@@ -247,8 +244,7 @@ static wt_status holm_rows(row *rows, size_t n, wt_error *err)
     return WT_OK;
 }
 
-static wt_status comparison_keys(wt_table *table, const pair *p, const row *all, bool by_curve,
-                                 wt_error *err)
+static void set_comparison_keys(table_writer *t, const pair *p, const row *all, bool by_curve)
 {
     const char *unit = "curve: no spots in the tables";
     if (by_curve)
@@ -258,45 +254,21 @@ static wt_status comparison_keys(wt_table *table, const pair *p, const row *all,
         unit = p->data[0].spots_given && p->data[1].spots_given
                    ? "spot"
                    : "spot, as taken from files or positions because none were named";
-    wt_status status = wt_table_set_key(table, "unit_of_analysis", unit, err);
-    if (status == WT_OK && all->valid)
-        status = flow_table_value(table, "modulus_ratio", all->c.ratio,
-                                  all->c.ratio * all->c.log_ratio.standard_error, 0, "1", err);
-    return status;
+    comparison_set_text(t, COMPARISON_KEY_UNIT_OF_ANALYSIS, unit);
+    if (all->valid)
+        comparison_set_value(t, COMPARISON_KEY_MODULUS_RATIO, all->c.ratio,
+                             all->c.ratio * all->c.log_ratio.standard_error, 0);
 }
 
-static wt_status make_comparison(pair *p, bool rates, const wt_job *common, wt_table **result,
-                                 wt_error *err)
+/* All rates together in the first row, then rate by rate. */
+static wt_status compare_rows(pair *p, row *rows, size_t n_bins, bool *by_curve, wt_error *err)
 {
-    static const flow_column columns[] = {
-        {"rate_low", "m/s", "smallest indentation rate of the row; nan = all rates"},
-        {"rate_high", "m/s", "largest indentation rate of the row; nan = all rates"},
-        {"n_bulk", "1", "accepted bulk curves"},
-        {"n_track", "1", "accepted wear-track curves"},
-        {"ratio", "1", "modulus of the track over that of the bulk"},
-        {"ratio_low", "1", "lower end of its 95 % interval"},
-        {"ratio_high", "1", "upper end of its 95 % interval"},
-        {"difference", "Pa", "difference of the mean moduli, track minus bulk"},
-        {"welch_t", "1", "Welch's t of the means"},
-        {"welch_df", "1", "its degrees of freedom"},
-        {"welch_p", "1", "its two-sided p"},
-        {"holm_p", "1", "p after Holm's correction for the number of rates"},
-        {"mann_whitney_p", "1", "two-sided p of the Mann-Whitney test"},
-        {"effect_size", "1", "Hedges' g of ln E"},
-    };
-    size_t n_bins = rates ? p->n_bins : 0;
-    wt_table *table = NULL;
-    bool by_curve = false;
-    row *rows = calloc(n_bins + 1, sizeof *rows);
-    if (rows == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    wt_status status = compare_part(p, SIZE_MAX, false, &rows[0], err);
-    if (status == WT_OK && !rows[0].valid) {
-        by_curve = true;
-        status = compare_part(p, SIZE_MAX, true, &rows[0], err);
-    }
+    wt_status status = compare_part(p, ALL_BINS, false, &rows[0], err);
+    *by_curve = status == WT_OK && !rows[0].valid;
+    if (*by_curve)
+        status = compare_part(p, ALL_BINS, true, &rows[0], err);
     for (size_t b = 0; status == WT_OK && b < n_bins; b++)
-        status = compare_part(p, b, by_curve, &rows[b + 1], err);
+        status = compare_part(p, b, *by_curve, &rows[b + 1], err);
     if (status == WT_OK)
         status = holm_rows(rows + 1, n_bins, err);
     if (status == WT_OK && !rows[0].valid) {
@@ -306,43 +278,42 @@ static wt_status make_comparison(pair *p, bool rates, const wt_job *common, wt_t
         wt_error_advice(err, "the column reason of the indentation tables says why curves were "
                              "rejected");
     }
+    return status;
+}
+
+static wt_status make_comparison(pair *p, bool rates, const wt_job *work, wt_table **table,
+                                 wt_error *err)
+{
+    size_t n_bins = rates ? p->n_bins : 0;
+    bool by_curve = false;
+    row *rows = calloc(n_bins + 1, sizeof *rows);
+    if (rows == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    wt_status status = compare_rows(p, rows, n_bins, &by_curve, err);
     for (size_t b = 1; status == WT_OK && b <= n_bins; b++)
         if ((rows[b].n[0] == 0) != (rows[b].n[1] == 0))
-            wt_parselog_add(common->log, WT_WARNING, NULL, NULL,
+            wt_parselog_add(work->log, WT_WARNING, NULL, NULL,
                             "curves at %.3g to %.3g m/s are in one group only (bulk %zu, track "
                             "%zu); the comparison over all rates includes them",
                             rows[b].low, rows[b].high, rows[b].n[0], rows[b].n[1]);
-    if (status == WT_OK)
-        status = flow_table_new("comparison", "Wear track against bulk", columns,
-                                FLOW_COUNT(columns), &table, err);
-    if (status == WT_OK)
-        status = add_rows(table, rows, n_bins + 1, err);
-    if (status == WT_OK)
-        status = comparison_keys(table, p, &rows[0], by_curve, err);
-    free(rows);
-    if (status != WT_OK) {
-        wt_table_free(table);
-        return status;
+    if (status == WT_OK) {
+        table_writer t = table_begin(&comparison_schema, err);
+        add_rows(&t, rows, n_bins + 1);
+        set_comparison_keys(&t, p, &rows[0], by_curve);
+        status = table_end(&t, table);
     }
-    *result = table;
-    return WT_OK;
+    free(rows);
+    return status;
 }
 
 /* ---- against rate and against DMA -------------------------------------------------------------
  */
 
-/* Geometric means over the curves of one bin of one group. */
-typedef struct rate_point {
-    size_t n;
-    double rate, frequency;
-    wt_group_summary summary;
-} rate_point;
-
-static wt_status rate_point_of(pair *p, int g, size_t bin, rate_point *point, wt_error *err)
+static wt_status point_of(pair *p, int g, size_t bin, rate_point *point, wt_error *err)
 {
     wt_group part = part_of(p, g, bin, 0);
     double log_rate = 0, log_frequency = 0;
-    *point = (rate_point){.n = part.n};
+    point->n = part.n;
     if (part.n == 0)
         return WT_OK;
     for (size_t i = 0; i < p->data[g].group.n; i++) {
@@ -356,106 +327,88 @@ static wt_status rate_point_of(pair *p, int g, size_t bin, rate_point *point, wt
     return wt_group_summarise(&part, &point->summary, err);
 }
 
-static wt_status rate_row(wt_table *table, int g, const rate_point *point, wt_error *err)
+static wt_status make_points(pair *p, wt_error *err)
 {
-    enum { GROUP, RATE, FREQUENCY, N, MEAN, LOW, HIGH };
-    wt_status status = wt_table_add_row(table, err);
-    if (status == WT_OK)
-        status = wt_table_put_text(table, GROUP, group_name[g], err);
-    if (status != WT_OK)
-        return status;
-    wt_table_put(table, RATE, point->rate);
-    wt_table_put(table, FREQUENCY, point->frequency);
-    wt_table_put(table, N, (double)point->n);
-    wt_table_put(table, MEAN, point->summary.geometric_mean);
-    wt_table_put(table, LOW, point->summary.low);
-    wt_table_put(table, HIGH, point->summary.high);
-    return WT_OK;
-}
-
-static wt_status dma_row(wt_table *table, int g, const rate_point *point,
-                         const wt_material *material, wt_error *err)
-{
-    enum { GROUP, FREQUENCY, MODULUS, LOW, HIGH, STORAGE, COMPLEX, RATIO, EXTRAPOLATED };
-    double storage = (double)NAN, loss = (double)NAN;
-    wt_status status = wt_table_add_row(table, err);
-    if (status == WT_OK)
-        status = wt_table_put_text(table, GROUP, group_name[g], err);
-    if (status != WT_OK)
-        return status;
-    wt_table_put(table, FREQUENCY, point->frequency);
-    wt_table_put(table, MODULUS, point->summary.geometric_mean);
-    wt_table_put(table, LOW, point->summary.low);
-    wt_table_put(table, HIGH, point->summary.high);
-    if (!(point->frequency > 0))
-        return WT_OK;
-    material->law->modulus(material, &point->frequency, 1, &storage, &loss);
-    bool outside =
-        point->frequency < material->frequency_min || point->frequency > material->frequency_max;
-    wt_table_put(table, STORAGE, storage);
-    wt_table_put(table, COMPLEX, hypot(storage, loss));
-    wt_table_put(table, RATIO, point->summary.geometric_mean / hypot(storage, loss));
-    wt_table_put(table, EXTRAPOLATED, outside);
-    return WT_OK;
-}
-
-static wt_status make_rate_tables(pair *p, const wt_material *material, wt_table **rate_table,
-                                  wt_table **dma_table, wt_error *err)
-{
-    static const flow_column rate_columns[] = {
-        {"group", NULL, "bulk or track"},
-        {"indentation_rate", "m/s", "geometric mean of the indentation rate"},
-        {"equivalent_frequency", "rad/s", "angular frequency of equal loading"},
-        {"n", "1", "accepted curves"},
-        {"geometric_mean", "Pa", "geometric mean of the modulus"},
-        {"low", "Pa", "lower end of its 95 % interval"},
-        {"high", "Pa", "upper end of its 95 % interval"},
-    };
-    static const flow_column dma_columns[] = {
-        {"group", NULL, "bulk or track"},
-        {"equivalent_frequency", "rad/s", "angular frequency of equal loading"},
-        {"indentation_modulus", "Pa", "geometric mean of the modulus"},
-        {"low", "Pa", "lower end of its 95 % interval"},
-        {"high", "Pa", "upper end of its 95 % interval"},
-        {"dma_storage_modulus", "Pa", "E' of the DMA at this frequency"},
-        {"dma_complex_modulus", "Pa", "|E*| of the DMA at this frequency"},
-        {"ratio", "1", "indentation modulus over |E*|"},
-        {"extrapolated", "1", "1: outside the frequencies measured by DMA"},
-    };
-    wt_status status = flow_table_new("modulus_rate", "Modulus against indentation rate",
-                                      rate_columns, FLOW_COUNT(rate_columns), rate_table, err);
-    if (status == WT_OK && material != NULL)
-        status = flow_table_new("dma_comparison", "Indentation against DMA", dma_columns,
-                                FLOW_COUNT(dma_columns), dma_table, err);
+    wt_status status = WT_OK;
     for (int g = 0; status == WT_OK && g < 2; g++) {
-        if (!p->present[g])
-            continue;
-        if (wt_table_n_rows(*rate_table) > 0)
-            status = wt_table_new_block(*rate_table, err);
-        for (size_t b = 0; status == WT_OK && b < p->n_bins; b++) {
-            rate_point point;
-            status = rate_point_of(p, g, b, &point, err);
-            if (status == WT_OK && point.n > 0)
-                status = rate_row(*rate_table, g, &point, err);
-            if (status == WT_OK && point.n > 0 && material != NULL)
-                status = dma_row(*dma_table, g, &point, material, err);
-        }
+        p->point[g] = calloc(p->n_bins, sizeof *p->point[g]);
+        if (p->point[g] == NULL)
+            return wt_fail(err, WT_E_MEMORY, "out of memory");
+        for (size_t b = 0; status == WT_OK && b < p->n_bins; b++)
+            status = point_of(p, g, b, &p->point[g][b], err);
     }
     return status;
 }
 
-static wt_status dma_keys(wt_table *table, const wt_compare_job *job, const char *statement,
-                          wt_error *err)
+static void rate_row(table_writer *t, int g, const rate_point *point)
 {
-    double temperature =
+    table_row(t);
+    modulus_rate_put_text(t, MODULUS_RATE_GROUP, group_name[g]);
+    modulus_rate_put(t, MODULUS_RATE_RATE, point->rate);
+    modulus_rate_put(t, MODULUS_RATE_EQUIVALENT_FREQUENCY, point->frequency);
+    modulus_rate_put(t, MODULUS_RATE_N, (double)point->n);
+    modulus_rate_put(t, MODULUS_RATE_GEOMETRIC_MEAN, point->summary.geometric_mean);
+    modulus_rate_put(t, MODULUS_RATE_LOW, point->summary.low);
+    modulus_rate_put(t, MODULUS_RATE_HIGH, point->summary.high);
+}
+
+static void dma_row(table_writer *t, int g, const rate_point *point, const wt_material *material)
+{
+    double storage = (double)NAN, loss = (double)NAN;
+    table_row(t);
+    dma_comparison_put_text(t, DMA_COMPARISON_GROUP, group_name[g]);
+    dma_comparison_put(t, DMA_COMPARISON_EQUIVALENT_FREQUENCY, point->frequency);
+    dma_comparison_put(t, DMA_COMPARISON_MODULUS, point->summary.geometric_mean);
+    dma_comparison_put(t, DMA_COMPARISON_LOW, point->summary.low);
+    dma_comparison_put(t, DMA_COMPARISON_HIGH, point->summary.high);
+    if (!(point->frequency > 0))
+        return;
+    material->law->modulus(material, &point->frequency, 1, &storage, &loss);
+    bool outside =
+        point->frequency < material->frequency_min || point->frequency > material->frequency_max;
+    dma_comparison_put(t, DMA_COMPARISON_STORAGE_MODULUS, storage);
+    dma_comparison_put(t, DMA_COMPARISON_COMPLEX_MODULUS, hypot(storage, loss));
+    dma_comparison_put(t, DMA_COMPARISON_RATIO,
+                       point->summary.geometric_mean / hypot(storage, loss));
+    dma_comparison_put(t, DMA_COMPARISON_EXTRAPOLATED, outside);
+}
+
+/* A block for each group. */
+static wt_status make_rate_table(const pair *p, wt_table **table, wt_error *err)
+{
+    table_writer t = table_begin(&modulus_rate_schema, err);
+    for (int g = 0; g < 2; g++) {
+        table_block(&t);
+        for (size_t b = 0; b < p->n_bins; b++)
+            if (p->point[g][b].n > 0)
+                rate_row(&t, g, &p->point[g][b]);
+    }
+    return table_end(&t, table);
+}
+
+static wt_status make_dma_table(const pair *p, const wt_compare_job *job, const wt_job *work,
+                                wt_table **table, wt_error *err)
+{
+    wt_material *material = NULL;
+    char statement[256] = "";
+    const double temperature =
         isnan(job->temperature) ? job->rubber->prony.reference_temperature : job->temperature;
-    wt_status status = flow_table_value(table, "temperature", temperature, 0, 0, "K", err);
-    if (status == WT_OK)
-        status =
-            wt_table_set_key(table, "ratio_of", "indentation modulus over |E*| of the DMA", err);
-    if (status == WT_OK && statement[0] != '\0')
-        status = wt_table_set_key(table, "material_statement", statement, err);
-    return status;
+    wt_status status = wt_rubber_at(job->rubber, job->temperature, work->seed, WT_NO_REPLICATE,
+                                    &material, statement, err);
+    if (status != WT_OK)
+        return status;
+    table_writer t = table_begin(&dma_comparison_schema, err);
+    for (int g = 0; g < 2; g++)
+        for (size_t b = 0; b < p->n_bins; b++)
+            if (p->point[g][b].n > 0)
+                dma_row(&t, g, &p->point[g][b], material);
+    dma_comparison_set_value(&t, DMA_COMPARISON_KEY_TEMPERATURE, temperature, 0, 0);
+    dma_comparison_set_text(&t, DMA_COMPARISON_KEY_RATIO_OF,
+                            "indentation modulus over |E*| of the DMA");
+    if (statement[0] != '\0')
+        dma_comparison_set_text(&t, DMA_COMPARISON_KEY_MATERIAL_STATEMENT, statement);
+    wt_material_free(material);
+    return table_end(&t, table);
 }
 
 wt_compare_job wt_compare_job_defaults(void)
@@ -470,49 +423,38 @@ static const wt_param rows[] = {
 };
 PARAM_TABLE(wt_compare_job_params, wt_compare_job, rows, wt_compare_job_defaults, NO_PARTS)
 
-wt_status wt_compare_groups(const wt_compare_job *job, const wt_job *common,
+wt_status wt_compare_groups(const wt_compare_job *job, const wt_job *work,
                             wt_compare_tables *tables, wt_error *err)
 {
-    if (job == NULL || common == NULL || tables == NULL ||
-        (job->bulk == NULL && job->track == NULL))
+    if (job == NULL || work == NULL || tables == NULL || (job->bulk == NULL && job->track == NULL))
         return wt_fail(err, WT_E_ARG, "nothing to compare");
     const wt_table *given[2] = {job->bulk, job->track};
-    const wt_table *listed[2];
-    const char *names[2]; /* by their place, whatever the tables are called */
-    size_t n = 0;
     pair p = {0};
     wt_compare_tables t = {0};
-    wt_material *material = NULL;
-    char statement[256] = "";
     wt_status status = WT_OK;
     for (int g = 0; status == WT_OK && g < 2; g++) {
-        if (given[g] == NULL)
-            continue;
-        names[n] = group_name[g];
-        listed[n++] = given[g];
-        p.present[g] = true;
-        status = wt_group_from_table(given[g], &p.data[g], err);
+        p.present[g] = given[g] != NULL;
+        if (p.present[g])
+            status = wt_group_from_table(given[g], &p.data[g], err);
     }
     if (status == WT_OK)
-        status = groups_table(listed, names, n, &t.modulus_groups, err);
+        status = make_groups(&p, &t.modulus_groups, err);
     if (status == WT_OK)
         status = make_bins(&p, err);
-    if (status == WT_OK && n == 2 && !job->groups_only)
-        status = make_comparison(&p, job->rates, common, &t.comparison, err);
-    if (status == WT_OK && job->rates && p.n_bins > 0) {
-        if (job->rubber != NULL)
-            status = wt_rubber_at(job->rubber, job->temperature, common->seed, SIZE_MAX, &material,
-                                  statement, err);
+    if (status == WT_OK && p.present[0] && p.present[1] && !job->groups_only)
+        status = make_comparison(&p, job->rates, work, &t.comparison, err);
+    if (job->rates && p.n_bins > 0) {
         if (status == WT_OK)
-            status = make_rate_tables(&p, material, &t.modulus_rate, &t.dma_comparison, err);
-        if (status == WT_OK && material != NULL)
-            status = dma_keys(t.dma_comparison, job, statement, err);
+            status = make_points(&p, err);
+        if (status == WT_OK)
+            status = make_rate_table(&p, &t.modulus_rate, err);
+        if (status == WT_OK && job->rubber != NULL)
+            status = make_dma_table(&p, job, work, &t.dma_comparison, err);
     }
     if (status == WT_OK) {
         *tables = t;
         t = (wt_compare_tables){0};
     }
-    wt_material_free(material);
     wt_compare_tables_clear(&t);
     pair_clear(&p);
     return status;

@@ -2,10 +2,16 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/job/conditions.h"
 #include "flow/job/draws.h"
-#include "flow/job/tables.h"
 #include "kernel/params.h"
 
 #include <math.h>
+#include <string.h>
+
+void flow_add_words(char *words, size_t size, const char *what)
+{
+    size_t used = strlen(words);
+    snprintf(words + used, size - used, "%s%s", used > 0 ? ", " : "", what);
+}
 
 wt_sliding wt_sliding_defaults(void)
 {
@@ -38,12 +44,12 @@ static const wt_param rows[] = {
 };
 PARAM_TABLE(wt_sliding_params, wt_sliding, rows, wt_sliding_defaults, NO_PARTS)
 
-wt_status flow_sliding_check(const wt_sliding *sliding, const wt_job *common, wt_error *err)
+wt_status flow_sliding_check(const wt_sliding *sliding, const wt_job *work, wt_error *err)
 {
     if (sliding == NULL || sliding->rubber == NULL || sliding->surface == NULL)
         return wt_fail(err, WT_E_ARG, "sliding needs a rubber and a surface");
     wt_status status = param_check(wt_sliding_params(), sliding, err);
-    return status == WT_OK ? param_check(wt_job_params(), common, err) : status;
+    return status == WT_OK ? param_check(wt_job_params(), work, err) : status;
 }
 
 double flow_reference_velocity(const wt_sliding *sliding)
@@ -103,10 +109,10 @@ void flow_conditions_lack(const wt_sliding *sliding, char *words, size_t size)
         flow_add_words(words, size, "roughness");
 }
 
-bool flow_conditions_vary(const wt_sliding *sliding, const wt_job *common, char *words, size_t size)
+bool flow_conditions_vary(const wt_sliding *sliding, const wt_job *work, char *words, size_t size)
 {
     words[0] = '\0';
-    if (common->replicates < 2)
+    if (work->replicates < 2)
         return false;
     if (sliding->rubber->has_master)
         flow_add_words(words, size, "material (isotherms resampled)");

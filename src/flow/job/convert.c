@@ -2,6 +2,9 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/job/inputs.h"
 
+#include "base/array.h"
+#include "data/tables/tables.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,10 +23,8 @@ wt_convert_job wt_convert_job_defaults(void)
     return (wt_convert_job){.read = wt_read_defaults()};
 }
 
-enum { MAX_COLUMNS = 64 };
-
-/* The channels of all segments, each quantity once: the columns of the table. */
-static size_t curve_columns(const wt_force_curve *curve, const wt_channel **columns)
+/* The channels of all segments, each quantity once: the further columns of the table. */
+static size_t curve_columns(const wt_force_curve *curve, const wt_channel *columns[WT_Q_COUNT])
 {
     size_t n = 0;
     for (size_t s = 0; s < curve->n_segments; s++)
@@ -32,63 +33,49 @@ static size_t curve_columns(const wt_force_curve *curve, const wt_channel **colu
             size_t k = 0;
             while (k < n && columns[k]->quantity != channel->quantity)
                 k++;
-            if (k == n && n < MAX_COLUMNS)
+            if (k == n)
                 columns[n++] = channel;
         }
     return n;
 }
 
-static wt_status curve_table(const wt_force_curve *curve, wt_table **out, wt_error *err)
+static void set_curve_key(table_writer *t, force_curve_key key, double value)
 {
-    char name[64], text[64];
-    snprintf(name, sizeof name, "force_curve/%zu", curve->index);
-    wt_table *t = wt_table_new(name, "force curve");
-    const wt_channel *columns[MAX_COLUMNS];
+    if (!isnan(value))
+        force_curve_set_value(t, key, value, 0, 0);
+}
+
+static wt_status curve_table(const wt_force_curve *curve, wt_table **table, wt_error *err)
+{
+    const wt_channel *columns[WT_Q_COUNT], *of_segment[WT_Q_COUNT];
     const size_t n = curve_columns(curve, columns);
-    wt_status status = t != NULL ? WT_OK : wt_fail(err, WT_E_MEMORY, "out of memory");
-    const struct {
-        const char *key;
-        double value;
-        const char *unit;
-    } keys[] = {{"position_x", curve->x, "m"},
-                {"position_y", curve->y, "m"},
-                {"spring_constant", curve->cantilever.spring_constant, "N/m"},
-                {"sensitivity", curve->cantilever.sensitivity, "m/V"}};
-    for (size_t i = 0; i < sizeof keys / sizeof keys[0] && status == WT_OK; i++)
-        if (!isnan(keys[i].value))
-            status = wt_table_set_estimate(t, keys[i].key,
-                                           (wt_estimate){keys[i].value, 0, 0, keys[i].unit}, err);
-    if (status == WT_OK) {
-        snprintf(text, sizeof text, "%zu", curve->index);
-        status = wt_table_set_key(t, "curve", text, err);
-    }
-    if (status == WT_OK)
-        status = wt_table_add_text_column(t, "segment", "kind of segment", err);
-    for (size_t k = 0; k < n && status == WT_OK; k++)
-        status = wt_table_add_column(t, wt_quantity_id(columns[k]->quantity),
-                                     wt_quantity_unit(columns[k]->quantity), columns[k]->name, err);
-    for (size_t s = 0; s < curve->n_segments && status == WT_OK; s++) {
+    char number[32];
+    snprintf(number, sizeof number, "%zu", curve->index);
+    table_writer t = table_begin_variant(
+        &force_curve_schema, (table_variant){number, force_curve_schema.title, 0, NULL}, err);
+    set_curve_key(&t, FORCE_CURVE_KEY_POSITION_X, curve->x);
+    set_curve_key(&t, FORCE_CURVE_KEY_POSITION_Y, curve->y);
+    set_curve_key(&t, FORCE_CURVE_KEY_SPRING_CONSTANT, curve->cantilever.spring_constant);
+    set_curve_key(&t, FORCE_CURVE_KEY_SENSITIVITY, curve->cantilever.sensitivity);
+    force_curve_set_text(&t, FORCE_CURVE_KEY_CURVE, number);
+    for (size_t k = 0; k < n && t.status == WT_OK; k++)
+        t.status =
+            wt_table_add_column(t.table, wt_quantity_id(columns[k]->quantity),
+                                wt_quantity_unit(columns[k]->quantity), columns[k]->name, err);
+    for (size_t s = 0; s < curve->n_segments; s++) {
         const wt_segment *segment = &curve->segments[s];
-        if (s > 0)
-            status = wt_table_new_block(t, err);
-        const wt_channel *of_segment[MAX_COLUMNS];
+        table_block(&t);
         for (size_t k = 0; k < n; k++)
             of_segment[k] = wt_segment_channel(segment, columns[k]->quantity);
-        for (size_t i = 0; i < segment->n_points && status == WT_OK; i++) {
-            status = wt_table_add_row(t, err);
-            if (status == WT_OK)
-                status = wt_table_put_text(t, 0, wt_segment_kind_name(segment->kind), err);
-            for (size_t k = 0; k < n && status == WT_OK; k++)
+        for (size_t i = 0; i < segment->n_points; i++) {
+            table_row(&t);
+            force_curve_put_text(&t, FORCE_CURVE_SEGMENT, wt_segment_kind_name(segment->kind));
+            for (size_t k = 0; k < n && t.status == WT_OK; k++)
                 if (of_segment[k] != NULL)
-                    wt_table_put(t, k + 1, of_segment[k]->values[i]);
+                    wt_table_put(t.table, FORCE_CURVE_N_COLUMNS + k, of_segment[k]->values[i]);
         }
     }
-    if (status != WT_OK) {
-        wt_table_free(t);
-        return status;
-    }
-    *out = t;
-    return WT_OK;
+    return table_end(&t, table);
 }
 
 /* A curve that cannot be read is recorded and the others go on. */
@@ -129,87 +116,72 @@ static wt_status convert_force(const conversion *c, wt_error *err)
     return status;
 }
 
+static wt_status sweep_table(const wt_sweep *sweep, wt_table **table, wt_error *err)
+{
+    const bool shear = sweep->deformation == WT_SHEAR;
+    const sweep_column storage = shear ? SWEEP_SHEAR_STORAGE_MODULUS : SWEEP_STORAGE_MODULUS;
+    const sweep_column loss = shear ? SWEEP_SHEAR_LOSS_MODULUS : SWEEP_LOSS_MODULUS;
+    const sweep_column without[] = {shear ? SWEEP_STORAGE_MODULUS : SWEEP_SHEAR_STORAGE_MODULUS,
+                                    shear ? SWEEP_LOSS_MODULUS : SWEEP_SHEAR_LOSS_MODULUS};
+    const uint64_t left_out = SCHEMA_BIT(without[0]) | SCHEMA_BIT(without[1]);
+    table_writer t = table_begin_variant(
+        &sweep_schema, (table_variant){"", sweep_schema.title, left_out, NULL}, err);
+    for (size_t k = 0; k < sweep->n_isotherms; k++) {
+        const wt_isotherm *iso = &sweep->isotherms[k];
+        table_block(&t);
+        for (size_t i = 0; i < iso->n; i++) {
+            table_row(&t);
+            sweep_put(&t, SWEEP_TEMPERATURE, iso->temperature);
+            sweep_put(&t, SWEEP_ANGULAR_FREQUENCY, iso->angular_frequency[i]);
+            sweep_put(&t, storage, iso->storage_modulus[i]);
+            sweep_put(&t, loss, iso->loss_modulus[i]);
+        }
+    }
+    return table_end(&t, table);
+}
+
 static wt_status convert_sweep(const conversion *c, wt_error *err)
 {
     wt_sweep sweep = {0};
-    wt_table *t = NULL;
+    wt_table *table = NULL;
     wt_status status =
         wt_sweep_read(c->work->formats, c->input, &c->file.read, c->work->log, &sweep, err);
-    if (status != WT_OK)
-        goto done;
-    wt_sweep_sort(&sweep);
-    const bool shear = sweep.deformation == WT_SHEAR;
-    t = wt_table_new("sweep", "DMA frequency sweeps");
-    if (t == NULL) {
-        status = wt_fail(err, WT_E_MEMORY, "out of memory");
-        goto done;
-    }
-    const wt_quantity storage = shear ? WT_Q_SHEAR_STORAGE_MODULUS : WT_Q_STORAGE_MODULUS;
-    const wt_quantity loss = shear ? WT_Q_SHEAR_LOSS_MODULUS : WT_Q_LOSS_MODULUS;
-    const wt_quantity quantities[] = {WT_Q_TEMPERATURE, WT_Q_ANGULAR_FREQUENCY, storage, loss};
-    for (size_t i = 0; i < 4 && status == WT_OK; i++)
-        status =
-            wt_table_add_column(t, wt_quantity_id(quantities[i]), wt_quantity_unit(quantities[i]),
-                                wt_quantity_title(quantities[i]), err);
-    for (size_t k = 0; k < sweep.n_isotherms && status == WT_OK; k++) {
-        const wt_isotherm *iso = &sweep.isotherms[k];
-        if (k > 0)
-            status = wt_table_new_block(t, err);
-        for (size_t i = 0; i < iso->n && status == WT_OK; i++) {
-            status = wt_table_add_row(t, err);
-            if (status != WT_OK)
-                break;
-            wt_table_put(t, 0, iso->temperature);
-            wt_table_put(t, 1, iso->angular_frequency[i]);
-            wt_table_put(t, 2, iso->storage_modulus[i]);
-            wt_table_put(t, 3, iso->loss_modulus[i]);
-        }
-    }
     if (status == WT_OK) {
-        status = c->sink(c->user, t, err);
-        t = NULL;
+        wt_sweep_sort(&sweep);
+        status = sweep_table(&sweep, &table, err);
     }
-done:
-    wt_table_free(t);
+    if (status == WT_OK)
+        status = c->sink(c->user, table, err);
     wt_sweep_clear(&sweep);
     return status;
 }
 
-static wt_status image_table(const wt_image *image, size_t number, wt_table **out, wt_error *err)
+static wt_status image_table(const wt_image *image, size_t number, wt_table **table, wt_error *err)
 {
-    char name[64];
-    snprintf(name, sizeof name, "image/%zu", number);
-    wt_table *t = wt_table_new(name, image->name);
-    wt_status status = t != NULL ? WT_OK : wt_fail(err, WT_E_MEMORY, "out of memory");
     const bool flat = image->n_rows < 2;
-    if (status == WT_OK)
-        status = wt_table_add_column(t, "x", image->x_unit, "first axis", err);
-    if (status == WT_OK && !flat)
-        status = wt_table_add_column(t, "y", "m", "second axis", err);
-    if (status == WT_OK)
-        status = wt_table_add_column(t, "value", image->unit, image->name, err);
     const double steps_x = image->n_columns > 1 ? (double)(image->n_columns - 1) : 1;
     const double steps_y = image->n_rows > 1 ? (double)(image->n_rows - 1) : 1;
-    for (size_t row = 0; row < image->n_rows && status == WT_OK; row++) {
-        if (row > 0)
-            status = wt_table_new_block(t, err);
-        for (size_t column = 0; column < image->n_columns && status == WT_OK; column++) {
-            status = wt_table_add_row(t, err);
-            if (status != WT_OK)
-                break;
-            size_t k = 0;
-            wt_table_put(t, k++, image->x_min + image->width * (double)column / steps_x);
+    schema_column columns[IMAGE_N_COLUMNS];
+    char suffix[32];
+    snprintf(suffix, sizeof suffix, "%zu", number);
+    memcpy(columns, image_schema.columns, sizeof columns);
+    columns[IMAGE_X].unit = image->x_unit;
+    columns[IMAGE_VALUE].unit = image->unit;
+    columns[IMAGE_VALUE].long_name = image->name;
+    table_writer t = table_begin_variant(
+        &image_schema,
+        (table_variant){suffix, image->name, flat ? SCHEMA_BIT(IMAGE_Y) : 0, columns}, err);
+    for (size_t row = 0; row < image->n_rows; row++) {
+        table_block(&t);
+        for (size_t column = 0; column < image->n_columns; column++) {
+            table_row(&t);
+            image_put(&t, IMAGE_X, image->x_min + image->width * (double)column / steps_x);
             if (!flat)
-                wt_table_put(t, k++, image->y_min + image->height * (double)row / steps_y);
-            wt_table_put(t, k, image->values[row * image->n_columns + column]);
+                image_put(&t, IMAGE_Y, image->y_min + image->height * (double)row / steps_y);
+            image_put(&t, IMAGE_VALUE, image->values[row * image->n_columns + column]);
         }
     }
-    if (status != WT_OK) {
-        wt_table_free(t);
-        return status;
-    }
-    *out = t;
-    return WT_OK;
+    return table_end(&t, table);
 }
 
 static wt_status convert_images(const conversion *c, wt_error *err)
@@ -230,36 +202,32 @@ static wt_status convert_images(const conversion *c, wt_error *err)
     return status;
 }
 
+static wt_status spectrum_table(const wt_power_spectrum *s, wt_table **table, wt_error *err)
+{
+    const bool surface = s->kind == WT_SPECTRUM_2D;
+    const spectrum_column density = surface ? SPECTRUM_DENSITY_2D : SPECTRUM_DENSITY_1D;
+    const spectrum_column other = surface ? SPECTRUM_DENSITY_1D : SPECTRUM_DENSITY_2D;
+    table_writer t = table_begin_variant(
+        &spectrum_schema, (table_variant){"", spectrum_schema.title, SCHEMA_BIT(other), NULL}, err);
+    for (size_t i = 0; i < s->n; i++) {
+        table_row(&t);
+        spectrum_put(&t, SPECTRUM_WAVENUMBER, s->wavenumber[i]);
+        spectrum_put(&t, density, s->density[i]);
+    }
+    return table_end(&t, table);
+}
+
 static wt_status convert_spectrum(const conversion *c, wt_error *err)
 {
     wt_power_spectrum spectrum = {0};
-    wt_table *t = NULL;
+    wt_table *table = NULL;
     wt_status status = wt_power_spectrum_read(c->work->formats, c->input, &c->file.read,
                                               c->work->log, &spectrum, err);
-    if (status != WT_OK)
-        return status;
-    const wt_quantity density =
-        spectrum.kind == WT_SPECTRUM_2D ? WT_Q_POWER_SPECTRUM_2D : WT_Q_POWER_SPECTRUM_1D;
-    t = wt_table_new("roughness", "power spectrum");
-    if (t == NULL)
-        status = wt_fail(err, WT_E_MEMORY, "out of memory");
     if (status == WT_OK)
-        status = wt_table_add_column(t, "wavenumber", wt_quantity_unit(WT_Q_WAVENUMBER),
-                                     "wavenumber", err);
+        status = spectrum_table(&spectrum, &table, err);
     if (status == WT_OK)
-        status = wt_table_add_column(t, wt_quantity_id(density), wt_quantity_unit(density),
-                                     wt_quantity_title(density), err);
-    for (size_t i = 0; i < spectrum.n && status == WT_OK; i++) {
-        status = wt_table_add_row(t, err);
-        if (status != WT_OK)
-            break;
-        wt_table_put(t, 0, spectrum.wavenumber[i]);
-        wt_table_put(t, 1, spectrum.density[i]);
-    }
+        status = c->sink(c->user, table, err);
     wt_power_spectrum_clear(&spectrum);
-    if (status == WT_OK)
-        return c->sink(c->user, t, err);
-    wt_table_free(t);
     return status;
 }
 
@@ -307,7 +275,7 @@ wt_status wt_convert_file(const wt_convert_job *job, const char *path, const wt_
         return status;
     /* An .nid file may hold images and curves: the first kind that has data counts. */
     status = WT_E_EMPTY;
-    for (size_t k = 0; k < sizeof kinds / sizeof kinds[0] && status == WT_E_EMPTY; k++) {
+    for (size_t k = 0; k < COUNT_OF(kinds) && status == WT_E_EMPTY; k++) {
         if ((c.file.format->kinds & kinds[k].kind) == 0 ||
             (job->kind != 0 && job->kind != kinds[k].kind))
             continue;

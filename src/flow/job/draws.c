@@ -14,7 +14,7 @@ static double uniform(uint64_t bits)
 
 double flow_draw_normal(uint64_t seed, size_t replicate, flow_draw what)
 {
-    if (replicate == FLOW_CENTRE)
+    if (replicate == WT_NO_REPLICATE)
         return 0;
     uint64_t state = mix64(mix64(mix64(seed) ^ (uint64_t)replicate) ^ (uint64_t)what);
     double radius = sqrt(-2 * log(uniform(state)));

@@ -5,7 +5,7 @@
 #ifndef WEARTRACK_FLOW_DRAWS_H
 #define WEARTRACK_FLOW_DRAWS_H
 
-#include "weartrack/base.h"
+#include "weartrack/flow.h"
 
 /* What a draw is for. */
 typedef enum flow_draw {
@@ -21,10 +21,7 @@ typedef enum flow_draw {
     FLOW_DRAW_RATIO
 } flow_draw;
 
-/* The replicate number that stands for "no replicate: the values themselves". */
-#define FLOW_CENTRE SIZE_MAX
-
-/* Standard normal; 0 for FLOW_CENTRE. */
+/* Standard normal; 0 for WT_NO_REPLICATE. */
 double flow_draw_normal(uint64_t seed, size_t replicate, flow_draw what);
 /* value + error z, for quantities of either sign. */
 double flow_draw_value(wt_estimate e, uint64_t seed, size_t replicate, flow_draw what);

@@ -3,7 +3,6 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/job/conditions.h"
 #include "flow/job/draws.h"
-#include "flow/job/tables.h"
 #include "kernel/params.h"
 
 #include "data/tables/tables.h"
@@ -15,10 +14,10 @@
 /* What one replicate gives at the velocities (the reference one is the last). */
 enum { HYSTERESIS, AREA, TOTAL, LAYERED, CHANGE, RELATIVE, N_KINDS };
 
-typedef struct work {
+typedef struct friction_task {
     const wt_sliding *sliding;
     const wt_layer_known *layer; /* NULL = none */
-    const wt_job *common;
+    const wt_job *work;
     size_t n;                 /* velocities + 1 */
     double *velocity;         /* [n] */
     double *centre;           /* [N_KINDS * n] */
@@ -29,7 +28,7 @@ typedef struct work {
     char words[256], lacks[256];
     size_t n_replicates;
     wt_friction_point *points; /* [n] at the values themselves, without a layer */
-} work;
+} friction_task;
 
 static double *slot(double *values, size_t n, int kind)
 {
@@ -37,64 +36,65 @@ static double *slot(double *values, size_t n, int kind)
 }
 
 /* Total friction of the layer has its own shear stress: tau_s = tau_bulk x modulus ratio (L3). */
-static wt_layer_state layer_of(const work *w, size_t replicate)
+static wt_layer_state layer_of(const friction_task *task, size_t replicate)
 {
     wt_layer_state state = {.modulus_ratio = 1};
-    if (w->layer == NULL)
+    if (task->layer == NULL)
         return state;
-    uint64_t seed = w->common->seed;
-    double thickness = flow_draw_value(w->layer->thickness, seed, replicate, FLOW_DRAW_THICKNESS);
+    uint64_t seed = task->work->seed;
+    double thickness =
+        flow_draw_value(task->layer->thickness, seed, replicate, FLOW_DRAW_THICKNESS);
     state.thickness = thickness > 0 ? thickness : 0;
-    state.modulus_ratio = state.thickness > 0 ? flow_draw_positive(w->layer->modulus_ratio, seed,
+    state.modulus_ratio = state.thickness > 0 ? flow_draw_positive(task->layer->modulus_ratio, seed,
                                                                    replicate, FLOW_DRAW_RATIO)
                                               : 1;
     return state;
 }
 
-static wt_status compute(const work *w, size_t replicate, double tolerance, unsigned threads,
-                         wt_friction_point *points, double *out, wt_error *err)
+static wt_status compute(const friction_task *task, size_t replicate, double tolerance,
+                         unsigned threads, wt_friction_point *points, double *out, wt_error *err)
 {
     const wt_layer_state none = {.modulus_ratio = 1};
     flow_conditions c = {0};
-    wt_status status = flow_conditions_make(w->sliding, w->common->seed, replicate, tolerance,
+    wt_status status = flow_conditions_make(task->sliding, task->work->seed, replicate, tolerance,
                                             threads, none, &c, err);
     if (status == WT_OK)
-        status = wt_friction_compute(c.workspace, c.pressure, w->velocity, w->n, points, err);
+        status = wt_friction_compute(c.workspace, c.pressure, task->velocity, task->n, points, err);
     if (status != WT_OK)
         goto done;
-    for (size_t i = 0; i < w->n; i++) {
-        slot(out, w->n, HYSTERESIS)[i] = points[i].hysteresis.value;
-        slot(out, w->n, AREA)[i] = points[i].area_ratio.value;
-        slot(out, w->n, TOTAL)[i] =
+    for (size_t i = 0; i < task->n; i++) {
+        slot(out, task->n, HYSTERESIS)[i] = points[i].hysteresis.value;
+        slot(out, task->n, AREA)[i] = points[i].area_ratio.value;
+        slot(out, task->n, TOTAL)[i] =
             points[i].hysteresis.value + c.shear_stress * points[i].area_ratio.value / c.pressure;
-        slot(out, w->n, LAYERED)[i] = (double)NAN;
-        slot(out, w->n, CHANGE)[i] = (double)NAN;
-        slot(out, w->n, RELATIVE)[i] = (double)NAN;
+        slot(out, task->n, LAYERED)[i] = (double)NAN;
+        slot(out, task->n, CHANGE)[i] = (double)NAN;
+        slot(out, task->n, RELATIVE)[i] = (double)NAN;
     }
 done:
     flow_conditions_clear(&c);
     return status;
 }
 
-static wt_status compute_layered(const work *w, size_t replicate, double tolerance,
+static wt_status compute_layered(const friction_task *task, size_t replicate, double tolerance,
                                  unsigned threads, wt_friction_point *points, double *out,
                                  wt_error *err)
 {
-    wt_layer_state layer = layer_of(w, replicate);
+    wt_layer_state layer = layer_of(task, replicate);
     flow_conditions c = {0};
-    wt_status status = flow_conditions_make(w->sliding, w->common->seed, replicate, tolerance,
+    wt_status status = flow_conditions_make(task->sliding, task->work->seed, replicate, tolerance,
                                             threads, layer, &c, err);
     if (status == WT_OK)
-        status = wt_friction_compute(c.workspace, c.pressure, w->velocity, w->n, points, err);
+        status = wt_friction_compute(c.workspace, c.pressure, task->velocity, task->n, points, err);
     if (status != WT_OK)
         goto done;
-    for (size_t i = 0; i < w->n; i++) {
+    for (size_t i = 0; i < task->n; i++) {
         double with = points[i].hysteresis.value + layer.modulus_ratio * c.shear_stress *
                                                        points[i].area_ratio.value / c.pressure;
-        double without = slot(out, w->n, TOTAL)[i];
-        slot(out, w->n, LAYERED)[i] = with;
-        slot(out, w->n, CHANGE)[i] = with - without;
-        slot(out, w->n, RELATIVE)[i] = with / without - 1;
+        double without = slot(out, task->n, TOTAL)[i];
+        slot(out, task->n, LAYERED)[i] = with;
+        slot(out, task->n, CHANGE)[i] = with - without;
+        slot(out, task->n, RELATIVE)[i] = with / without - 1;
     }
 done:
     flow_conditions_clear(&c);
@@ -107,112 +107,113 @@ done:
 static wt_status one_replicate(void *user, size_t i, unsigned worker)
 {
     (void)worker;
-    work *w = user;
-    double *out = w->replicate + i * N_KINDS * w->n;
-    wt_friction_point *points = malloc(w->n * sizeof *points);
+    friction_task *task = user;
+    double *out = task->replicate + i * N_KINDS * task->n;
+    wt_friction_point *points = malloc(task->n * sizeof *points);
     if (points == NULL)
         return WT_E_MEMORY;
     wt_error ignored = WT_ERROR_INIT;
-    wt_status status = compute(w, i, FLOW_REPLICATE_TOLERANCE, 1, points, out, &ignored);
-    if (status == WT_OK && w->layer != NULL)
-        status = compute_layered(w, i, FLOW_REPLICATE_TOLERANCE, 1, points, out, &ignored);
+    wt_status status = compute(task, i, FLOW_REPLICATE_TOLERANCE, 1, points, out, &ignored);
+    if (status == WT_OK && task->layer != NULL)
+        status = compute_layered(task, i, FLOW_REPLICATE_TOLERANCE, 1, points, out, &ignored);
     free(points);
     if (status == WT_OK || status == WT_E_MEMORY)
         return status;
-    for (size_t k = 0; k < N_KINDS * w->n; k++)
+    for (size_t k = 0; k < N_KINDS * task->n; k++)
         out[k] = (double)NAN; /* a draw that has no solution is left out and counted */
     return WT_OK;
 }
 
-static wt_status replicate_all(work *w, wt_error *err)
+static wt_status replicate_all(friction_task *task, wt_error *err)
 {
-    size_t stride = N_KINDS * w->n;
+    size_t stride = N_KINDS * task->n;
     for (size_t k = 0; k < stride; k++)
-        w->error[k] = (double)NAN;
-    if (!w->varies)
+        task->error[k] = (double)NAN;
+    if (!task->varies)
         return WT_OK;
-    wt_status status = wt_parallel_for(w->n_replicates, w->common->threads, one_replicate, w,
-                                       &w->common->progress, "friction replicates");
+    wt_status status = wt_parallel_for(task->n_replicates, task->work->threads, one_replicate, task,
+                                       &task->work->progress, "friction replicates");
     if (status != WT_OK)
         return wt_fail(err, status, "the replicates of the friction failed");
     size_t lost = 0;
-    for (size_t i = 0; i < w->n_replicates; i++)
-        lost += isnan(w->replicate[i * stride]) != 0;
+    for (size_t i = 0; i < task->n_replicates; i++)
+        lost += isnan(task->replicate[i * stride]) != 0;
     if (lost > 0)
-        wt_parselog_add(w->common->log, WT_WARNING, NULL, NULL,
+        wt_parselog_add(task->work->log, WT_WARNING, NULL, NULL,
                         "%zu of %zu replicates of the friction have no solution and are left out "
                         "of the standard errors",
-                        lost, w->n_replicates);
+                        lost, task->n_replicates);
     for (size_t k = 0; k < stride; k++)
-        w->error[k] = flow_spread(w->replicate + k, w->n_replicates, stride);
-    for (size_t i = 0; !w->bulk_varies && i < w->n; i++)
-        slot(w->error, w->n, HYSTERESIS)[i] = slot(w->error, w->n, AREA)[i] =
-            slot(w->error, w->n, TOTAL)[i] = (double)NAN;
+        task->error[k] = flow_spread(task->replicate + k, task->n_replicates, stride);
+    for (size_t i = 0; !task->bulk_varies && i < task->n; i++)
+        slot(task->error, task->n, HYSTERESIS)[i] = slot(task->error, task->n, AREA)[i] =
+            slot(task->error, task->n, TOTAL)[i] = (double)NAN;
     return WT_OK;
 }
 
 /* ---- tables -----------------------------------------------------------------------------------
  */
 
-static void add_rows(work *w, table_writer *t)
+static void add_rows(friction_task *task, table_writer *t)
 {
-    const wt_sliding *s = w->sliding;
+    const wt_sliding *s = task->sliding;
     const wt_estimate shear = {s->shear_stress.value, 0, 0, "Pa"};
-    for (size_t i = 0; i + 1 < w->n; i++) {
-        const wt_friction_point *p = &w->points[i];
+    for (size_t i = 0; i + 1 < task->n; i++) {
+        const wt_friction_point *p = &task->points[i];
         wt_estimate hysteresis = {p->hysteresis.value, 0, p->hysteresis.numerical_error, "1"};
         wt_estimate area = {p->area_ratio.value, 0, p->area_ratio.numerical_error, "1"};
         wt_estimate total = wt_friction_total(hysteresis, area, shear, s->pressure.value);
         table_row(t);
         friction_put(t, FRICTION_VELOCITY, p->velocity);
         friction_put(t, FRICTION_TOTAL, total.value);
-        friction_put(t, FRICTION_TOTAL_STANDARD_ERROR, slot(w->error, w->n, TOTAL)[i]);
+        friction_put(t, FRICTION_TOTAL_STANDARD_ERROR, slot(task->error, task->n, TOTAL)[i]);
         friction_put(t, FRICTION_TOTAL_NUMERICAL_ERROR, total.numerical_error);
         friction_put(t, FRICTION_HYSTERESIS, hysteresis.value);
-        friction_put(t, FRICTION_HYSTERESIS_STANDARD_ERROR, slot(w->error, w->n, HYSTERESIS)[i]);
+        friction_put(t, FRICTION_HYSTERESIS_STANDARD_ERROR,
+                     slot(task->error, task->n, HYSTERESIS)[i]);
         friction_put(t, FRICTION_HYSTERESIS_NUMERICAL_ERROR, hysteresis.numerical_error);
         friction_put(t, FRICTION_ADHESION, total.value - hysteresis.value);
         friction_put(t, FRICTION_AREA_RATIO, area.value);
-        friction_put(t, FRICTION_AREA_RATIO_STANDARD_ERROR, slot(w->error, w->n, AREA)[i]);
+        friction_put(t, FRICTION_AREA_RATIO_STANDARD_ERROR, slot(task->error, task->n, AREA)[i]);
         friction_put(t, FRICTION_AREA_RATIO_NUMERICAL_ERROR, area.numerical_error);
-        friction_put(t, FRICTION_WITH_LAYER, slot(w->centre, w->n, LAYERED)[i]);
-        friction_put(t, FRICTION_WITH_LAYER_STANDARD_ERROR, slot(w->error, w->n, LAYERED)[i]);
+        friction_put(t, FRICTION_WITH_LAYER, slot(task->centre, task->n, LAYERED)[i]);
+        friction_put(t, FRICTION_WITH_LAYER_STANDARD_ERROR, slot(task->error, task->n, LAYERED)[i]);
         friction_put(t, FRICTION_EXTRAPOLATED_SHARE, p->extrapolated_share);
     }
 }
 
 /* A number of the reference velocity, the last one. */
-static void set_at_reference(work *w, table_writer *t, friction_key key, int kind,
+static void set_at_reference(friction_task *task, table_writer *t, friction_key key, int kind,
                              double numerical_error)
 {
-    const size_t last = w->n - 1;
-    friction_set_value(t, key, slot(w->centre, w->n, kind)[last], slot(w->error, w->n, kind)[last],
-                       numerical_error);
+    const size_t last = task->n - 1;
+    friction_set_value(t, key, slot(task->centre, task->n, kind)[last],
+                       slot(task->error, task->n, kind)[last], numerical_error);
 }
 
-static void set_layer_keys(work *w, table_writer *t)
+static void set_layer_keys(friction_task *task, table_writer *t)
 {
-    const size_t last = w->n - 1;
-    const double *relative = slot(w->centre, w->n, RELATIVE);
-    double low = relative[0], high = relative[0], both = w->numerical[0] + w->numerical[1];
+    const size_t last = task->n - 1;
+    const double *relative = slot(task->centre, task->n, RELATIVE);
+    double low = relative[0], high = relative[0], both = task->numerical[0] + task->numerical[1];
     for (size_t i = 1; i < last; i++) {
         low = fmin(low, relative[i]);
         high = fmax(high, relative[i]);
     }
-    friction_set(t, FRICTION_KEY_LAYER_THICKNESS, w->layer->thickness);
-    friction_set(t, FRICTION_KEY_LAYER_MODULUS_RATIO, w->layer->modulus_ratio);
-    set_at_reference(w, t, FRICTION_KEY_WITH_LAYER, LAYERED, w->numerical[1]);
-    set_at_reference(w, t, FRICTION_KEY_CHANGE, CHANGE, both);
-    set_at_reference(w, t, FRICTION_KEY_RELATIVE_CHANGE, RELATIVE,
-                     both / slot(w->centre, w->n, TOTAL)[last]);
+    friction_set(t, FRICTION_KEY_LAYER_THICKNESS, task->layer->thickness);
+    friction_set(t, FRICTION_KEY_LAYER_MODULUS_RATIO, task->layer->modulus_ratio);
+    set_at_reference(task, t, FRICTION_KEY_WITH_LAYER, LAYERED, task->numerical[1]);
+    set_at_reference(task, t, FRICTION_KEY_CHANGE, CHANGE, both);
+    set_at_reference(task, t, FRICTION_KEY_RELATIVE_CHANGE, RELATIVE,
+                     both / slot(task->centre, task->n, TOTAL)[last]);
     friction_set_value(t, FRICTION_KEY_RELATIVE_CHANGE_LOW, low, (double)NAN, 0);
     friction_set_value(t, FRICTION_KEY_RELATIVE_CHANGE_HIGH, high, (double)NAN, 0);
 }
 
-static void set_keys(work *w, table_writer *t, const char *statement)
+static void set_keys(friction_task *task, table_writer *t, const char *statement)
 {
-    const wt_sliding *s = w->sliding;
-    const wt_friction_point *reference = &w->points[w->n - 1];
+    const wt_sliding *s = task->sliding;
+    const wt_friction_point *reference = &task->points[task->n - 1];
     wt_estimate temperature = s->temperature;
     if (isnan(temperature.value))
         temperature.value = s->rubber->prony.reference_temperature;
@@ -224,27 +225,28 @@ static void set_keys(work *w, table_writer *t, const char *statement)
     else
         friction_set(t, FRICTION_KEY_SHEAR_STRESS, s->shear_stress);
     friction_set_print(t, FRICTION_KEY_GAMMA, "%g", s->gamma);
-    friction_set_value(t, FRICTION_KEY_REFERENCE_VELOCITY, w->velocity[w->n - 1], 0, 0);
-    set_at_reference(w, t, FRICTION_KEY_FRICTION, TOTAL, w->numerical[0]);
-    set_at_reference(w, t, FRICTION_KEY_HYSTERESIS, HYSTERESIS,
+    friction_set_value(t, FRICTION_KEY_REFERENCE_VELOCITY, task->velocity[task->n - 1], 0, 0);
+    set_at_reference(task, t, FRICTION_KEY_FRICTION, TOTAL, task->numerical[0]);
+    set_at_reference(task, t, FRICTION_KEY_HYSTERESIS, HYSTERESIS,
                      reference->hysteresis.numerical_error);
-    set_at_reference(w, t, FRICTION_KEY_AREA_RATIO, AREA, reference->area_ratio.numerical_error);
+    set_at_reference(task, t, FRICTION_KEY_AREA_RATIO, AREA, reference->area_ratio.numerical_error);
     friction_set_text(t, FRICTION_KEY_ERROR_INCLUDES,
-                      w->varies ? w->words : "nothing, for no error was measured or stated");
-    if (w->lacks[0] != '\0')
-        friction_set_text(t, FRICTION_KEY_ERROR_LACKS, w->lacks);
-    friction_set_print(t, FRICTION_KEY_REPLICATES, "%zu", w->varies ? w->n_replicates : 0);
+                      task->varies ? task->words : "nothing, for no error was measured or stated");
+    if (task->lacks[0] != '\0')
+        friction_set_text(t, FRICTION_KEY_ERROR_LACKS, task->lacks);
+    friction_set_print(t, FRICTION_KEY_REPLICATES, "%zu", task->varies ? task->n_replicates : 0);
     if (statement[0] != '\0')
         friction_set_text(t, FRICTION_KEY_MATERIAL_STATEMENT, statement);
-    if (w->layer != NULL)
-        set_layer_keys(w, t);
+    if (task->layer != NULL)
+        set_layer_keys(task, t);
 }
 
-static wt_status friction_table(work *w, const char *statement, wt_table **out, wt_error *err)
+static wt_status friction_table(friction_task *task, const char *statement, wt_table **out,
+                                wt_error *err)
 {
-    table_writer t = table_begin(&friction_schema, "", err);
-    add_rows(w, &t);
-    set_keys(w, &t, statement);
+    table_writer t = table_begin(&friction_schema, err);
+    add_rows(task, &t);
+    set_keys(task, &t, statement);
     return table_end(&t, out);
 }
 
@@ -267,14 +269,16 @@ static void add_area_block(const flow_conditions *c, double velocity, const doub
 }
 
 /* Contact area against magnification at the slowest, the reference and the fastest velocity. */
-static wt_status area_table(work *w, const flow_conditions *c, wt_table **out, wt_error *err)
+static wt_status area_table(friction_task *task, const flow_conditions *c, wt_table **out,
+                            wt_error *err)
 {
-    double first = w->velocity[0], last = w->velocity[w->n - 2], middle = w->velocity[w->n - 1];
+    double first = task->velocity[0], last = task->velocity[task->n - 2],
+           middle = task->velocity[task->n - 1];
     double decades = log10(c->roughness->q1 / c->roughness->q0);
     size_t n = 2 + (size_t)ceil(decades * POINTS_PER_DECADE);
     double *q = malloc(n * sizeof *q);
     wt_friction_node *nodes = malloc(n * sizeof *nodes);
-    table_writer t = table_begin(&contact_area_schema, "", err);
+    table_writer t = table_begin(&contact_area_schema, err);
     if (q == NULL || nodes == NULL) {
         t.status = wt_fail(err, WT_E_MEMORY, "out of memory");
         goto done;
@@ -296,29 +300,30 @@ done:
 /* ---- the job ----------------------------------------------------------------------------------
  */
 
-static wt_status allocate(work *w, wt_error *err)
+static wt_status allocate(friction_task *task, wt_error *err)
 {
-    size_t stride = N_KINDS * w->n;
-    w->velocity = malloc(w->n * sizeof *w->velocity);
-    w->centre = malloc(stride * sizeof *w->centre);
-    w->error = malloc(stride * sizeof *w->error);
-    w->points = malloc(w->n * sizeof *w->points);
-    w->replicate = calloc(w->varies ? w->n_replicates : 1, stride * sizeof *w->replicate);
-    if (w->velocity == NULL || w->centre == NULL || w->error == NULL || w->points == NULL ||
-        w->replicate == NULL)
+    size_t stride = N_KINDS * task->n;
+    task->velocity = malloc(task->n * sizeof *task->velocity);
+    task->centre = malloc(stride * sizeof *task->centre);
+    task->error = malloc(stride * sizeof *task->error);
+    task->points = malloc(task->n * sizeof *task->points);
+    task->replicate =
+        calloc(task->varies ? task->n_replicates : 1, stride * sizeof *task->replicate);
+    if (task->velocity == NULL || task->centre == NULL || task->error == NULL ||
+        task->points == NULL || task->replicate == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    memcpy(w->velocity, w->sliding->velocity, (w->n - 1) * sizeof *w->velocity);
-    w->velocity[w->n - 1] = flow_reference_velocity(w->sliding);
+    memcpy(task->velocity, task->sliding->velocity, (task->n - 1) * sizeof *task->velocity);
+    task->velocity[task->n - 1] = flow_reference_velocity(task->sliding);
     return WT_OK;
 }
 
-static void release(work *w)
+static void release(friction_task *task)
 {
-    free(w->velocity);
-    free(w->centre);
-    free(w->error);
-    free(w->points);
-    free(w->replicate);
+    free(task->velocity);
+    free(task->centre);
+    free(task->error);
+    free(task->points);
+    free(task->replicate);
 }
 
 static wt_layer_known no_layer(void)
@@ -349,86 +354,87 @@ static double total_error(const wt_friction_point *point, double shear)
     return point->hysteresis.numerical_error + shear * point->area_ratio.numerical_error;
 }
 
-static void summarise(const work *w, wt_friction_tables *t)
+static void summarise(const friction_task *task, wt_friction_tables *t)
 {
-    for (size_t i = 0; i < w->n; i++) {
-        const wt_friction_point *p = &w->points[i];
+    for (size_t i = 0; i < task->n; i++) {
+        const wt_friction_point *p = &task->points[i];
         double relative = p->hysteresis.numerical_error / fabs(p->hysteresis.value);
         if (relative > t->error_reached)
             t->error_reached = relative;
         if (p->extrapolated_share > t->extrapolated_share)
             t->extrapolated_share = p->extrapolated_share;
     }
-    t->n_points = w->n * (1 + (w->varies ? w->n_replicates : 0)) * (w->layer != NULL ? 2 : 1);
+    t->n_points =
+        task->n * (1 + (task->varies ? task->n_replicates : 0)) * (task->layer != NULL ? 2 : 1);
 }
 
 wt_status wt_friction_make(const wt_sliding *sliding, const wt_layer_known *layer,
-                           const wt_job *common, wt_friction_tables *tables, wt_error *err)
+                           const wt_job *work, wt_friction_tables *tables, wt_error *err)
 {
-    if (common == NULL || tables == NULL)
+    if (work == NULL || tables == NULL)
         return wt_fail(err, WT_E_ARG, "no friction job");
     wt_friction_tables t = {0};
     flow_conditions c = {0};
     wt_friction_point *layered = NULL;
-    work w = {.sliding = sliding, .layer = layer, .common = common};
-    wt_status status = flow_sliding_check(sliding, common, err);
+    friction_task task = {.sliding = sliding, .layer = layer, .work = work};
+    wt_status status = flow_sliding_check(sliding, work, err);
     if (status == WT_OK)
         status = check_layer(layer, err);
     if (status != WT_OK)
         return status;
-    w.n = sliding->n_velocity + 1;
-    w.n_replicates = common->replicates;
-    w.bulk_varies = flow_conditions_vary(sliding, common, w.words, sizeof w.words);
-    if (common->replicates > 1 && sliding->shear_stress.standard_error > 0) {
-        flow_add_words(w.words, sizeof w.words, "shear stress");
-        w.bulk_varies = true;
+    task.n = sliding->n_velocity + 1;
+    task.n_replicates = work->replicates;
+    task.bulk_varies = flow_conditions_vary(sliding, work, task.words, sizeof task.words);
+    if (work->replicates > 1 && sliding->shear_stress.standard_error > 0) {
+        flow_add_words(task.words, sizeof task.words, "shear stress");
+        task.bulk_varies = true;
     }
-    w.varies = w.bulk_varies;
-    flow_conditions_lack(sliding, w.lacks, sizeof w.lacks);
+    task.varies = task.bulk_varies;
+    flow_conditions_lack(sliding, task.lacks, sizeof task.lacks);
     if (!isnan(sliding->shear_stress.value) && !(sliding->shear_stress.standard_error > 0))
-        flow_add_words(w.lacks, sizeof w.lacks, "shear stress");
-    if (layer != NULL && common->replicates > 1 &&
+        flow_add_words(task.lacks, sizeof task.lacks, "shear stress");
+    if (layer != NULL && work->replicates > 1 &&
         (layer->thickness.standard_error > 0 || layer->modulus_ratio.standard_error > 0)) {
-        flow_add_words(w.words, sizeof w.words, "thickness and modulus ratio of the layer");
-        w.varies = true;
+        flow_add_words(task.words, sizeof task.words, "thickness and modulus ratio of the layer");
+        task.varies = true;
     }
-    t.tolerance_asked = common->tolerance;
-    status = allocate(&w, err);
+    t.tolerance_asked = work->tolerance;
+    status = allocate(&task, err);
     if (status == WT_OK)
-        status =
-            compute(&w, FLOW_CENTRE, common->tolerance, common->threads, w.points, w.centre, err);
+        status = compute(&task, WT_NO_REPLICATE, work->tolerance, work->threads, task.points,
+                         task.centre, err);
     if (status == WT_OK && layer != NULL) {
-        layered = malloc(w.n * sizeof *layered);
+        layered = malloc(task.n * sizeof *layered);
         status = layered == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory")
-                                 : compute_layered(&w, FLOW_CENTRE, common->tolerance,
-                                                   common->threads, layered, w.centre, err);
+                                 : compute_layered(&task, WT_NO_REPLICATE, work->tolerance,
+                                                   work->threads, layered, task.centre, err);
     }
     if (status == WT_OK) {
         double shear = sliding->shear_stress.value / sliding->pressure.value;
-        w.numerical[0] = total_error(&w.points[w.n - 1], shear);
+        task.numerical[0] = total_error(&task.points[task.n - 1], shear);
         if (layered != NULL)
-            w.numerical[1] =
-                total_error(&layered[w.n - 1], shear * layer_of(&w, FLOW_CENTRE).modulus_ratio);
-        status = replicate_all(&w, err);
+            task.numerical[1] = total_error(&layered[task.n - 1],
+                                            shear * layer_of(&task, WT_NO_REPLICATE).modulus_ratio);
+        status = replicate_all(&task, err);
     }
     if (status == WT_OK) {
         const wt_layer_state none = {.modulus_ratio = 1};
-        status = flow_conditions_make(sliding, common->seed, FLOW_CENTRE, common->tolerance,
-                                      common->threads, none, &c, err);
+        status = flow_conditions_make(sliding, work->seed, WT_NO_REPLICATE, work->tolerance,
+                                      work->threads, none, &c, err);
     }
     if (status == WT_OK)
-        status = friction_table(&w, c.statement, &t.friction, err);
+        status = friction_table(&task, c.statement, &t.friction, err);
     if (status == WT_OK)
-        status = area_table(&w, &c, &t.contact_area, err);
+        status = area_table(&task, &c, &t.contact_area, err);
     if (status == WT_OK) {
-        summarise(&w, &t);
+        summarise(&task, &t);
         *tables = t;
         t = (wt_friction_tables){0};
     }
     free(layered);
     flow_conditions_clear(&c);
     wt_friction_tables_clear(&t);
-    release(&w);
+    release(&task);
     return status;
 }
 

@@ -2,9 +2,11 @@
  * batches, written in order.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/param.h"
-#include "flow/job/indentation.h"
+#include "flow/job/curve_tables.h"
 #include "flow/job/inputs.h"
-#include "flow/job/tables.h"
+
+#include "data/tables/tables.h"
+#include "fit/curve.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -28,12 +30,13 @@ typedef struct item {
 
 typedef struct accepted {
     double modulus;
-    size_t row;
+    const flow_file *file;
+    size_t curve, order;
 } accepted;
 
-typedef struct work {
+typedef struct indent_task {
     const wt_indent_job *job;
-    const wt_job *common;
+    const wt_job *work;
     flow_file *file;
     const char *spot; /* of the set or the file; NULL = by position */
     wt_contact_table *contact;
@@ -41,16 +44,16 @@ typedef struct work {
     unsigned n_workers;
     item *items; /* [BATCH_CURVES] */
     size_t n_items;
-    wt_table *table;
+    table_writer rows;
     size_t n_curves, n_accepted, n_failed;
     /* equal failures of one file make one row */
     wt_error failure;
     size_t n_equal, first_equal;
-    /* accepted moduli with the row they are in, for the representative curve */
+    /* accepted moduli with the curve they are of, for the representative curve */
     accepted *moduli;
     size_t n_moduli, capacity;
     double k_low, k_high; /* spring constants of the accepted curves [N/m] */
-} work;
+} indent_task;
 
 wt_indent_job wt_indent_job_defaults(void)
 {
@@ -104,30 +107,31 @@ static wt_quantity_set wanted_channels(bool rates)
 /* ---- failures of curves -----------------------------------------------------------------------
  */
 
-static wt_status flush_failures(work *w, wt_error *err)
+static wt_status flush_failures(indent_task *task, wt_error *err)
 {
-    if (w->n_equal == 0)
+    if (task->n_equal == 0)
         return WT_OK;
-    wt_error failure = w->failure;
-    if (w->n_equal > 1)
-        wt_error_place(&failure, "curve %zu and %zu more", w->first_equal, w->n_equal - 1);
+    wt_error failure = task->failure;
+    if (task->n_equal > 1)
+        wt_error_place(&failure, "curve %zu and %zu more", task->first_equal, task->n_equal - 1);
     else
-        wt_error_place(&failure, "curve %zu", w->first_equal);
-    w->n_equal = 0;
-    w->n_failed++;
-    return flow_failed(w->common, w->file->name, &failure, err);
+        wt_error_place(&failure, "curve %zu", task->first_equal);
+    task->n_equal = 0;
+    task->n_failed++;
+    return flow_failed(task->work, task->file->name, &failure, err);
 }
 
-static wt_status note_failure(work *w, size_t curve, const wt_error *failure, wt_error *err)
+static wt_status note_failure(indent_task *task, size_t curve, const wt_error *failure,
+                              wt_error *err)
 {
-    if (w->n_equal > 0 && strcmp(failure->message, w->failure.message) == 0) {
-        w->n_equal++;
+    if (task->n_equal > 0 && strcmp(failure->message, task->failure.message) == 0) {
+        task->n_equal++;
         return WT_OK;
     }
-    wt_status status = flush_failures(w, err);
-    w->failure = *failure;
-    w->first_equal = curve;
-    w->n_equal = 1;
+    wt_status status = flush_failures(task, err);
+    task->failure = *failure;
+    task->first_equal = curve;
+    task->n_equal = 1;
     return status;
 }
 
@@ -136,54 +140,34 @@ static wt_status note_failure(work *w, size_t curve, const wt_error *failure, wt
 
 static wt_status fit_item(void *user, size_t i, unsigned worker)
 {
-    work *w = user;
-    item *it = &w->items[i];
+    indent_task *task = user;
+    item *it = &task->items[i];
     if (it->status == WT_OK)
-        it->status = wt_indent_force_curve(w->contact, &w->job->options, &it->curve,
-                                           w->scratch[worker], &it->fit, &it->error);
+        it->status = wt_indent_force_curve(task->contact, &task->job->options, &it->curve,
+                                           task->scratch[worker], &it->fit, &it->error);
     return WT_OK; /* a curve that fails does not stop the others */
 }
 
-static wt_indent_fit unreadable(const wt_error *error)
+static void mark_unreadable(wt_indent_fit *fit, const wt_error *error)
 {
-    wt_estimate none_pa = {(double)NAN, (double)NAN, (double)NAN, "Pa"},
-                none_m = {(double)NAN, (double)NAN, (double)NAN, "m"},
-                none_n = {(double)NAN, (double)NAN, (double)NAN, "N"},
-                none_tilt = {(double)NAN, (double)NAN, (double)NAN, "N/m"};
-    wt_indent_fit fit = {
-        .verdict = WT_CURVE_UNREADABLE,
-        .modulus = none_pa,
-        .contact_point = none_m,
-        .baseline_offset = none_n,
-        .baseline_tilt = none_tilt,
-        .noise = (double)NAN,
-        .correlation_length = (double)NAN,
-        .r_squared = (double)NAN,
-        .max_force = (double)NAN,
-        .max_indentation = (double)NAN,
-        .adhesion_force = (double)NAN,
-        .piezo_rate = (double)NAN,
-        .indentation_rate = (double)NAN,
-        .load_time = (double)NAN,
-        .second_minimum_ratio = (double)NAN,
-        .second_contact_point = (double)NAN,
-        .sensitivity_gain = (double)NAN,
-    };
-    snprintf(fit.reason, sizeof fit.reason, "%.159s", error->message);
-    return fit;
+    curve_fit_empty(fit);
+    fit->verdict = WT_CURVE_UNREADABLE;
+    snprintf(fit->reason, sizeof fit->reason, "%.159s", error->message);
 }
 
-static wt_status keep_modulus(work *w, double modulus, wt_error *err)
+static wt_status keep_modulus(indent_task *task, const item *it, wt_error *err)
 {
-    if (w->n_moduli == w->capacity) {
-        size_t grown = w->capacity == 0 ? 256 : w->capacity * 2;
-        accepted *moduli = realloc(w->moduli, grown * sizeof *moduli);
+    if (task->n_moduli == task->capacity) {
+        size_t grown = task->capacity == 0 ? 256 : task->capacity * 2;
+        accepted *moduli = realloc(task->moduli, grown * sizeof *moduli);
         if (moduli == NULL)
             return wt_fail(err, WT_E_MEMORY, "out of memory");
-        w->moduli = moduli;
-        w->capacity = grown;
+        task->moduli = moduli;
+        task->capacity = grown;
     }
-    w->moduli[w->n_moduli++] = (accepted){modulus, wt_table_n_rows(w->table) - 1};
+    task->moduli[task->n_moduli] =
+        (accepted){it->fit.modulus.value, task->file, it->curve.index, task->n_moduli};
+    task->n_moduli++;
     return WT_OK;
 }
 
@@ -197,64 +181,83 @@ static double equivalent_frequency(const wt_tip *tip, const wt_indent_fit *fit)
     return wt_equivalent_frequency(fit->load_time, fit->max_indentation * slope / g);
 }
 
-static wt_status write_item(work *w, item *it, wt_error *err)
+static void put_item(indent_task *task, const item *it)
 {
-    char spot[64];
+    const wt_indent_fit *fit = &it->fit;
+    const bool rates = task->job->rates;
+    const double unknown = (double)NAN;
+    const double frequency = rates ? equivalent_frequency(&task->job->tip, fit) : unknown;
+    table_writer *t = &task->rows;
+    char place[64];
+    if (it->curve.grid_x >= 0 && it->curve.grid_y >= 0)
+        snprintf(place, sizeof place, "%ld,%ld", it->curve.grid_x, it->curve.grid_y);
+    else
+        snprintf(place, sizeof place, "curve %zu", it->curve.index);
+    table_row(t);
+    indentation_put_text(t, INDENTATION_FILE, task->file->name);
+    indentation_put(t, INDENTATION_CURVE, (double)it->curve.index);
+    indentation_put_text(t, INDENTATION_SPOT, task->spot != NULL ? task->spot : place);
+    indentation_put(t, INDENTATION_X, it->curve.x);
+    indentation_put(t, INDENTATION_Y, it->curve.y);
+    indentation_put_text(t, INDENTATION_VERDICT, wt_curve_verdict_id(fit->verdict));
+    indentation_put_text(t, INDENTATION_REASON, fit->reason);
+    indentation_put(t, INDENTATION_MODULUS, fit->modulus.value);
+    indentation_put(t, INDENTATION_MODULUS_STANDARD_ERROR, fit->modulus.standard_error);
+    indentation_put(t, INDENTATION_CONTACT_POINT, fit->contact_point.value);
+    indentation_put(t, INDENTATION_CONTACT_POINT_STANDARD_ERROR, fit->contact_point.standard_error);
+    indentation_put(t, INDENTATION_BASELINE_OFFSET, fit->baseline_offset.value);
+    indentation_put(t, INDENTATION_BASELINE_TILT, fit->baseline_tilt.value);
+    indentation_put(t, INDENTATION_NOISE, fit->noise);
+    indentation_put(t, INDENTATION_R_SQUARED, fit->r_squared);
+    indentation_put(t, INDENTATION_MAX_FORCE, fit->max_force);
+    indentation_put(t, INDENTATION_MAX_INDENTATION, fit->max_indentation);
+    indentation_put(t, INDENTATION_ADHESION_FORCE, fit->adhesion_force);
+    indentation_put(t, INDENTATION_PIEZO_RATE, rates ? fit->piezo_rate : unknown);
+    indentation_put(t, INDENTATION_RATE, rates ? fit->indentation_rate : unknown);
+    indentation_put(t, INDENTATION_LOAD_TIME, rates ? fit->load_time : unknown);
+    indentation_put(t, INDENTATION_SECOND_MINIMUM_RATIO, fit->second_minimum_ratio);
+    indentation_put(t, INDENTATION_SENSITIVITY_GAIN, fit->sensitivity_gain);
+    indentation_put(t, INDENTATION_EQUIVALENT_FREQUENCY, frequency);
+}
+
+static wt_status write_item(indent_task *task, item *it, wt_error *err)
+{
     wt_status status = WT_OK;
     if (it->status != WT_OK) {
-        if (!flow_goes_on(w->common, it->status)) {
-            wt_error_file(&it->error, w->file->name);
+        if (!flow_goes_on(task->work, it->status)) {
+            wt_error_file(&it->error, task->file->name);
             if (err != NULL)
                 *err = it->error;
             return it->status;
         }
-        it->fit = unreadable(&it->error);
-        status = note_failure(w, it->curve.index, &it->error, err);
+        mark_unreadable(&it->fit, &it->error);
+        status = note_failure(task, it->curve.index, &it->error, err);
     }
-    if (w->spot == NULL) {
-        if (it->curve.grid_x >= 0 && it->curve.grid_y >= 0)
-            snprintf(spot, sizeof spot, "%ld,%ld", it->curve.grid_x, it->curve.grid_y);
-        else
-            snprintf(spot, sizeof spot, "curve %zu", it->curve.index);
-    }
-    flow_indentation row = {
-        .curve = it->curve.index,
-        .x = it->curve.x,
-        .y = it->curve.y,
-        .file = w->file->name,
-        .spot = w->spot != NULL ? w->spot : spot,
-        .equivalent_frequency = equivalent_frequency(&w->job->tip, &it->fit),
-        .fit = it->fit,
-    };
-    if (!w->job->rates) {
-        row.fit.piezo_rate = row.fit.indentation_rate = row.fit.load_time = (double)NAN;
-        row.equivalent_frequency = (double)NAN;
-    }
-    if (status == WT_OK)
-        status = flow_indentation_add(w->table, &row, err);
     if (status != WT_OK)
         return status;
-    w->n_curves++;
-    if (it->fit.verdict != WT_CURVE_ACCEPTED)
-        return WT_OK;
-    w->n_accepted++;
-    w->k_low = fmin(w->k_low, it->curve.cantilever.spring_constant);
-    w->k_high = fmax(w->k_high, it->curve.cantilever.spring_constant);
-    return keep_modulus(w, it->fit.modulus.value, err);
+    task->rows.err = err;
+    put_item(task, it);
+    task->n_curves++;
+    if (task->rows.status != WT_OK || it->fit.verdict != WT_CURVE_ACCEPTED)
+        return task->rows.status;
+    task->n_accepted++;
+    task->k_low = fmin(task->k_low, it->curve.cantilever.spring_constant);
+    task->k_high = fmax(task->k_high, it->curve.cantilever.spring_constant);
+    return keep_modulus(task, it, err);
 }
 
-static wt_status run_batch(work *w, wt_error *err)
+static wt_status run_batch(indent_task *task, wt_error *err)
 {
     wt_status status =
-        wt_parallel_for(w->n_items, w->common->threads, fit_item, w, NULL, "fitting curves");
+        wt_parallel_for(task->n_items, task->work->threads, fit_item, task, NULL, "fitting curves");
     if (status != WT_OK)
         return wt_fail(err, status, "fitting in parallel failed");
-    for (size_t i = 0; status == WT_OK && i < w->n_items; i++)
-        status = write_item(w, &w->items[i], err);
-    w->n_items = 0;
-    const wt_progress *progress = &w->common->progress;
+    for (size_t i = 0; status == WT_OK && i < task->n_items; i++)
+        status = write_item(task, &task->items[i], err);
+    task->n_items = 0;
+    const wt_progress *progress = &task->work->progress;
     if (status == WT_OK && progress->report != NULL &&
-        !progress->report(progress->user, "indentation", w->n_curves, 0))
+        !progress->report(progress->user, "indentation", task->n_curves, 0))
         status = wt_fail(err, WT_E_CANCELLED, "cancelled");
     return status;
 }
@@ -270,60 +273,61 @@ static size_t samples_of(const wt_force_curve *curve)
 /* ---- one file ---------------------------------------------------------------------------------
  */
 
-static wt_status read_file(work *w, wt_error *err)
+static wt_status read_file(indent_task *task, wt_error *err)
 {
     wt_input *input = NULL;
     wt_force_source *source = NULL;
     size_t samples = 0;
-    wt_status status = flow_open(w->common, w->file, w->job->group, WT_KIND_FORCE, &input, err);
-    wt_read_options options = w->file->read;
-    options.want &= wanted_channels(w->job->rates);
+    wt_status status =
+        flow_open(task->work, task->file, task->job->group, WT_KIND_FORCE, &input, err);
+    wt_read_options options = task->file->read;
+    options.want &= wanted_channels(task->job->rates);
     options.segments &= WT_SEGMENT_BIT(WT_SEGMENT_APPROACH);
     if (status == WT_OK)
-        status = wt_force_open(w->common->formats, input, &options, w->common->log, &source, err);
+        status = wt_force_open(task->work->formats, input, &options, task->work->log, &source, err);
     if (status != WT_OK)
         goto done;
     for (;;) {
-        item *it = &w->items[w->n_items];
+        item *it = &task->items[task->n_items];
         it->error = (wt_error)WT_ERROR_INIT;
         it->status = wt_force_next(source, &it->curve, &it->error);
         if (it->status == WT_END)
             break;
         samples += it->status == WT_OK ? samples_of(&it->curve) : 0;
-        w->n_items++;
-        if (w->n_items == BATCH_CURVES || samples >= BATCH_SAMPLES) {
-            status = run_batch(w, err);
+        task->n_items++;
+        if (task->n_items == BATCH_CURVES || samples >= BATCH_SAMPLES) {
+            status = run_batch(task, err);
             samples = 0;
             if (status != WT_OK)
                 goto done;
         }
     }
-    status = run_batch(w, err);
+    status = run_batch(task, err);
     if (status == WT_OK)
-        status = flush_failures(w, err);
+        status = flush_failures(task, err);
 done:
     wt_force_close(source);
     wt_input_close(input);
     return status;
 }
 
-static wt_status read_files(work *w, const flow_files *files, wt_error *err)
+static wt_status read_files(indent_task *task, const flow_files *files, wt_error *err)
 {
     wt_status status = WT_OK;
     for (size_t i = 0; status == WT_OK && i < files->n; i++) {
         wt_error failure = WT_ERROR_INIT;
-        w->file = &files->file[i];
-        w->spot = w->file->set->spot;
-        if (w->spot == NULL && files->n > 1)
-            w->spot = w->file->name;
-        w->n_items = 0;
-        status = read_file(w, &failure);
-        if (status != WT_OK && flow_goes_on(w->common, status)) {
-            w->n_failed++;
-            status = flow_failed(w->common, w->file->name, &failure, err);
+        task->file = &files->file[i];
+        task->spot = task->file->set->spot;
+        if (task->spot == NULL && files->n > 1)
+            task->spot = task->file->name;
+        task->n_items = 0;
+        status = read_file(task, &failure);
+        if (status != WT_OK && flow_goes_on(task->work, status)) {
+            task->n_failed++;
+            status = flow_failed(task->work, task->file->name, &failure, err);
         } else if (status != WT_OK && err != NULL) {
             *err = failure;
-            wt_error_file(err, w->file->name);
+            wt_error_file(err, task->file->name);
         }
     }
     return status;
@@ -337,38 +341,27 @@ static int by_modulus(const void *a, const void *b)
     const accepted *x = a, *y = b;
     if (x->modulus < y->modulus || x->modulus > y->modulus)
         return x->modulus < y->modulus ? -1 : 1;
-    return x->row < y->row ? -1 : x->row > y->row;
+    return x->order < y->order ? -1 : x->order > y->order;
 }
 
-/* Row of the curve with the (lower) median modulus; the first one of equal moduli. */
-static size_t median_row(work *w)
+/* Reads the curve with the (lower) median modulus, the first one of equal moduli, again, now with
+ * its retract segment. */
+static wt_status add_representative(indent_task *task, wt_indent_tables *tables, wt_error *err)
 {
-    qsort(w->moduli, w->n_moduli, sizeof *w->moduli, by_modulus);
-    return w->moduli[(w->n_moduli - 1) / 2].row;
-}
-
-/* Reads that one curve again, now with its retract segment. */
-static wt_status add_representative(work *w, const flow_files *files, wt_indent_tables *tables,
-                                    wt_error *err)
-{
-    size_t row = median_row(w);
-    const char *name = flow_table_get_text(w->table, row, "file");
-    size_t number = (size_t)flow_table_get(w->table, row, "curve");
-    const flow_file *file = NULL;
-    for (size_t i = 0; i < files->n && file == NULL; i++)
-        if (strcmp(files->file[i].name, name) == 0)
-            file = &files->file[i];
-    if (file == NULL || strcmp(file->path, "-") == 0)
+    qsort(task->moduli, task->n_moduli, sizeof *task->moduli, by_modulus);
+    const accepted *median = &task->moduli[(task->n_moduli - 1) / 2];
+    const flow_file *file = median->file;
+    if (strcmp(file->path, "-") == 0)
         return WT_OK; /* a pipe cannot be read twice */
     wt_input *input = NULL;
     wt_force_source *source = NULL;
-    wt_force_curve *curve = &w->items[0].curve;
+    wt_force_curve *curve = &task->items[0].curve;
     wt_read_options options = file->read;
     options.want &= wanted_channels(false);
     options.segments &= WT_SEGMENT_BIT(WT_SEGMENT_APPROACH) | WT_SEGMENT_BIT(WT_SEGMENT_RETRACT);
     wt_status status = wt_input_open(file->path, &input, err);
     if (status == WT_OK)
-        status = wt_force_open(w->common->formats, input, &options, NULL, &source, err);
+        status = wt_force_open(task->work->formats, input, &options, NULL, &source, err);
     while (status == WT_OK) {
         wt_error ignored = WT_ERROR_INIT;
         wt_status next = wt_force_next(source, curve, &ignored);
@@ -376,14 +369,14 @@ static wt_status add_representative(work *w, const flow_files *files, wt_indent_
             break;
         if (next == WT_E_MEMORY)
             status = wt_fail(err, next, "no memory for the representative curve");
-        if (next != WT_OK || curve->index != number)
+        if (next != WT_OK || curve->index != median->curve)
             continue;
         wt_indent_fit fit;
-        status =
-            wt_indent_force_curve(w->contact, &w->job->options, curve, w->scratch[0], &fit, err);
+        status = wt_indent_force_curve(task->contact, &task->job->options, curve, task->scratch[0],
+                                       &fit, err);
         if (status == WT_OK)
-            status = flow_curve_tables_add(tables, w->job->group, file->name, curve, &fit,
-                                           w->contact, w->job->options.poisson_ratio, err);
+            status = flow_curve_tables_add(tables, task->job->group, file->name, curve, &fit,
+                                           task->contact, task->job->options.poisson_ratio, err);
         break;
     }
     wt_force_close(source);
@@ -394,10 +387,11 @@ static wt_status add_representative(work *w, const flow_files *files, wt_indent_
 /* ---- the group --------------------------------------------------------------------------------
  */
 
-static wt_status set_keys(const work *w, const flow_files *files, wt_error *err)
+static void set_keys(indent_task *task, const flow_files *files)
 {
-    const wt_indent_job *job = w->job;
-    char text[256];
+    const wt_indent_job *job = task->job;
+    table_writer *t = &task->rows;
+    char tip[256];
     size_t named = 0;
     for (size_t i = 0; i < files->n; i++)
         named += files->file[i].set->spot != NULL;
@@ -407,100 +401,110 @@ static wt_status set_keys(const work *w, const flow_files *files, wt_error *err)
     else if (named == 0)
         spots = files->n > 1 ? "file: each file is a spot, none were named"
                              : "position: each curve is a spot, none were named";
-    wt_tip_describe(&job->tip, text, sizeof text);
-    wt_status status = wt_table_set_key(w->table, "tip", text, err);
-    if (status == WT_OK)
-        status = flow_table_key(w->table, err, "poisson_ratio", "%g", job->options.poisson_ratio);
+    wt_tip_describe(&job->tip, tip, sizeof tip);
+    indentation_set_text(t, INDENTATION_KEY_TIP, tip);
+    indentation_set_print(t, INDENTATION_KEY_POISSON_RATIO, "%g", job->options.poisson_ratio);
     /* that of the user; else that of the files, whose error they do not say */
     wt_estimate k = job->spring_constant;
-    if (isnan(k.value) && w->k_low >= w->k_high)
-        k = (wt_estimate){w->k_low, (double)NAN, 0, "N/m"};
-    if (status == WT_OK && !isnan(k.value))
-        status = wt_table_set_estimate(w->table, "spring_constant", k, err);
-    if (status == WT_OK && w->k_low < w->k_high)
-        status = flow_table_key(w->table, err, "spring_constants", "%.4g to %.4g N/m", w->k_low,
-                                w->k_high);
-    if (status == WT_OK)
-        status = wt_table_set_key(w->table, "spots", spots, err);
-    if (status == WT_OK)
-        status = flow_table_key(w->table, err, "n_accepted", "%zu", w->n_accepted);
-    if (status == WT_OK)
-        status = flow_table_key(w->table, err, "n_rejected", "%zu", w->n_curves - w->n_accepted);
-    return status;
+    if (isnan(k.value) && task->k_low >= task->k_high)
+        k = (wt_estimate){task->k_low, (double)NAN, 0, "N/m"};
+    if (!isnan(k.value))
+        indentation_set(t, INDENTATION_KEY_SPRING_CONSTANT, k);
+    if (task->k_low < task->k_high)
+        indentation_set_print(t, INDENTATION_KEY_SPRING_CONSTANTS, "%.4g to %.4g N/m", task->k_low,
+                              task->k_high);
+    indentation_set_text(t, INDENTATION_KEY_SPOTS, spots);
+    indentation_set_print(t, INDENTATION_KEY_N_ACCEPTED, "%zu", task->n_accepted);
+    indentation_set_print(t, INDENTATION_KEY_N_REJECTED, "%zu", task->n_curves - task->n_accepted);
 }
 
-static wt_status prepare(work *w, wt_error *err)
+static wt_status prepare(indent_task *task, wt_error *err)
 {
-    wt_status status = param_check(wt_indent_job_params(), w->job, err);
+    wt_status status = param_check(wt_indent_job_params(), task->job, err);
     if (status == WT_OK)
-        status = param_check(wt_job_params(), w->common, err);
+        status = param_check(wt_job_params(), task->work, err);
     if (status == WT_OK)
-        status = wt_contact_table_new(&w->job->tip, DEPTH_MIN, DEPTH_MAX, &w->contact, err);
-    if (status == WT_OK)
-        status = flow_indentation_table(w->job->group, &w->table, err);
+        status = wt_contact_table_new(&task->job->tip, DEPTH_MIN, DEPTH_MAX, &task->contact, err);
     if (status != WT_OK)
         return status;
-    w->n_workers = wt_thread_count(w->common->threads);
-    if (w->n_workers > BATCH_CURVES)
-        w->n_workers = BATCH_CURVES;
-    w->scratch = calloc(w->n_workers, sizeof(wt_indent_workspace *));
-    w->items = calloc(BATCH_CURVES, sizeof *w->items);
-    if (w->scratch == NULL || w->items == NULL)
+    char title[96];
+    snprintf(title, sizeof title, "%s, %s", indentation_schema.title, task->job->group);
+    task->rows = table_begin_variant(
+        &indentation_schema, (table_variant){.suffix = task->job->group, .title = title}, err);
+    if (task->rows.status != WT_OK)
+        return task->rows.status;
+    task->n_workers = wt_thread_count(task->work->threads);
+    if (task->n_workers > BATCH_CURVES)
+        task->n_workers = BATCH_CURVES;
+    task->scratch = calloc(task->n_workers, sizeof(wt_indent_workspace *));
+    task->items = calloc(BATCH_CURVES, sizeof *task->items);
+    if (task->scratch == NULL || task->items == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    for (unsigned i = 0; i < w->n_workers; i++)
-        if ((w->scratch[i] = wt_indent_workspace_new()) == NULL)
+    for (unsigned i = 0; i < task->n_workers; i++)
+        if ((task->scratch[i] = wt_indent_workspace_new()) == NULL)
             return wt_fail(err, WT_E_MEMORY, "out of memory");
     return WT_OK;
 }
 
-static void release(work *w)
+static void release(indent_task *task)
 {
-    for (unsigned i = 0; w->scratch != NULL && i < w->n_workers; i++)
-        wt_indent_workspace_free(w->scratch[i]);
-    for (size_t i = 0; w->items != NULL && i < BATCH_CURVES; i++)
-        wt_force_curve_clear(&w->items[i].curve);
-    free(w->scratch);
-    free(w->items);
-    free(w->moduli);
-    wt_contact_table_free(w->contact);
-    wt_table_free(w->table);
+    for (unsigned i = 0; task->scratch != NULL && i < task->n_workers; i++)
+        wt_indent_workspace_free(task->scratch[i]);
+    for (size_t i = 0; task->items != NULL && i < BATCH_CURVES; i++)
+        wt_force_curve_clear(&task->items[i].curve);
+    free(task->scratch);
+    free(task->items);
+    free(task->moduli);
+    wt_contact_table_free(task->contact);
+    wt_table_free(task->rows.table);
 }
 
-wt_status wt_indent_group(const wt_indent_job *job, const wt_job *common, wt_indent_tables *tables,
+wt_status wt_indent_group(const wt_indent_job *job, const wt_job *work, wt_indent_tables *tables,
                           wt_error *err)
 {
-    if (job == NULL || common == NULL || tables == NULL || job->group == NULL)
+    if (job == NULL || work == NULL || tables == NULL || job->group == NULL)
         return wt_fail(err, WT_E_ARG, "no indentation job");
     if (tables->indentation != NULL)
         return wt_fail(err, WT_E_ARG, "the indentation table of the group before is still there");
-    work w = {.job = job, .common = common, .k_low = (double)NAN, .k_high = (double)NAN};
+    indent_task task = {.job = job, .work = work, .k_low = (double)NAN, .k_high = (double)NAN};
     flow_files files = {NULL, 0};
-    wt_status status = flow_files_list(job->sets, job->n_sets, common, &files, err);
+    wt_status status = flow_files_list(job->sets, job->n_sets, work, &files, err);
     if (status == WT_OK)
-        status = prepare(&w, err);
+        status = prepare(&task, err);
     if (status == WT_OK)
-        status = read_files(&w, &files, err);
+        status = read_files(&task, &files, err);
     if (status != WT_OK)
         goto done;
-    if (w.n_curves == 0) {
+    if (task.n_curves == 0) {
         status = wt_fail(err, WT_E_EMPTY, "no force curve could be read for \"%s\"", job->group);
-        wt_error_found(err, "files: %zu, failed: %zu", files.n, w.n_failed);
+        wt_error_found(err, "files: %zu, failed: %zu", files.n, task.n_failed);
         wt_error_advice(err, "`weartrack info FILE` shows what a file holds");
         goto done;
     }
-    status = set_keys(&w, &files, err);
-    if (status == WT_OK && job->curves && w.n_moduli > 0)
-        status = add_representative(&w, &files, tables, err);
+    set_keys(&task, &files);
+    if (job->curves && task.n_moduli > 0)
+        status = add_representative(&task, tables, err);
     if (status != WT_OK)
         goto done;
-    tables->indentation = w.table;
-    w.table = NULL;
+    task.rows.err = err;
+    status = table_end(&task.rows, &tables->indentation);
+    task.rows.table = NULL;
     tables->n_files = files.n;
-    tables->n_curves = w.n_curves;
-    tables->n_accepted = w.n_accepted;
-    tables->n_failed = w.n_failed;
+    tables->n_curves = task.n_curves;
+    tables->n_accepted = task.n_accepted;
+    tables->n_failed = task.n_failed;
 done:
-    release(&w);
+    release(&task);
     flow_files_clear(&files);
     return status;
+}
+
+void wt_indent_tables_clear(wt_indent_tables *tables)
+{
+    if (tables == NULL)
+        return;
+    wt_table_free(tables->indentation);
+    wt_table_free(tables->force_displacement);
+    wt_table_free(tables->force_indentation);
+    *tables = (wt_indent_tables){0};
 }

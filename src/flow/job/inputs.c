@@ -1,7 +1,8 @@
 /* The files of a job: listing, opening with provenance, recording what failed.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/job/inputs.h"
-#include "flow/job/tables.h"
+
+#include "data/tables/tables.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -28,15 +29,9 @@ PARAM_TABLE(wt_file_set_params, wt_file_set, set_rows, no_files,
 
 wt_table *wt_failures_new(void)
 {
-    static const flow_column columns[] = {
-        {"file", NULL, "file or stage that failed"},
-        {"message", NULL, "what went wrong, where, and what to do"},
-    };
     wt_table *table = NULL;
-    return flow_table_new("failures", "What could not be used", columns, FLOW_COUNT(columns),
-                          &table, NULL) == WT_OK
-               ? table
-               : NULL;
+    table_writer t = table_begin(&failures_schema, NULL);
+    return table_end(&t, &table) == WT_OK ? table : NULL;
 }
 
 /* `path` without `folder` in front of it. */
@@ -48,63 +43,45 @@ static const char *below(const char *folder, const char *path)
     return path + length + strspn(path + length, "/");
 }
 
-wt_status flow_notes_table(const wt_parselog *log, const char *folder, wt_table **result,
+wt_status flow_notes_table(const wt_parselog *log, const char *folder, wt_table **table,
                            wt_error *err)
 {
-    enum { SEVERITY, FILE_NAME, PLACE, TEXT, COUNT };
-    static const flow_column columns[] = {
-        {"severity", NULL, "note or warning"},
-        {"file", NULL, "file it is about"},
-        {"place", NULL, "first place in the file"},
-        {"text", NULL, "what was noticed"},
-        {"count", "1", "how often"},
-    };
-    wt_table *table = NULL;
-    wt_status status =
-        flow_table_new("notes", "Notes and warnings", columns, FLOW_COUNT(columns), &table, err);
-    for (size_t i = 0; status == WT_OK && i < wt_parselog_count(log); i++) {
+    table_writer t = table_begin(&notes_schema, err);
+    for (size_t i = 0; i < wt_parselog_count(log); i++) {
         wt_log_entry entry = wt_parselog_get(log, i);
-        status = wt_table_add_row(table, err);
-        if (status == WT_OK)
-            status = wt_table_put_text(table, SEVERITY,
-                                       entry.severity == WT_WARNING ? "warning" : "note", err);
-        if (status == WT_OK)
-            status = wt_table_put_text(table, FILE_NAME, below(folder, entry.file), err);
-        if (status == WT_OK)
-            status = wt_table_put_text(table, PLACE, entry.place, err);
-        if (status == WT_OK)
-            status = wt_table_put_text(table, TEXT, entry.text, err);
-        if (status == WT_OK)
-            wt_table_put(table, COUNT, (double)entry.count);
+        table_row(&t);
+        notes_put_text(&t, NOTES_SEVERITY, entry.severity == WT_WARNING ? "warning" : "note");
+        notes_put_text(&t, NOTES_FILE, below(folder, entry.file));
+        notes_put_text(&t, NOTES_PLACE, entry.place);
+        notes_put_text(&t, NOTES_TEXT, entry.text);
+        notes_put(&t, NOTES_COUNT, (double)entry.count);
     }
-    if (status != WT_OK) {
-        wt_table_free(table);
-        return status;
-    }
-    *result = table;
-    return WT_OK;
+    return table_end(&t, table);
 }
 
-bool flow_goes_on(const wt_job *common, wt_status status)
+bool flow_goes_on(const wt_job *work, wt_status status)
 {
-    return common->failures != NULL && status != WT_E_MEMORY && status != WT_E_CANCELLED &&
+    return work->failures != NULL && status != WT_E_MEMORY && status != WT_E_CANCELLED &&
            status != WT_E_INTERNAL;
 }
 
-wt_status flow_failed(const wt_job *common, const char *file, const wt_error *failure,
-                      wt_error *err)
+wt_status flow_add_failure(const wt_job *work, const char *what, const wt_error *failure,
+                           wt_error *err)
 {
-    enum { FILE_NAME, MESSAGE };
+    char message[2048];
+    wt_error_format(failure, message, sizeof message);
+    table_writer t = table_continue(work->failures, &failures_schema, "", err);
+    table_row(&t);
+    failures_put_text(&t, FAILURES_FILE, what);
+    failures_put_text(&t, FAILURES_MESSAGE, message);
+    return table_end(&t, NULL);
+}
+
+wt_status flow_failed(const wt_job *work, const char *file, const wt_error *failure, wt_error *err)
+{
     wt_error shown = *failure;
     shown.file[0] = '\0'; /* it has its own column */
-    char message[2048];
-    wt_error_format(&shown, message, sizeof message);
-    wt_status status = wt_table_add_row(common->failures, err);
-    if (status == WT_OK)
-        status = wt_table_put_text(common->failures, FILE_NAME, file, err);
-    if (status == WT_OK)
-        status = wt_table_put_text(common->failures, MESSAGE, message, err);
-    return status;
+    return flow_add_failure(work, file, &shown, err);
 }
 
 /* ---- listing ----------------------------------------------------------------------------------
@@ -136,7 +113,7 @@ static bool is_listed(const flow_files *files, const char *path)
     return false;
 }
 
-static wt_status list_pattern(const wt_file_set *set, const char *pattern, const wt_job *common,
+static wt_status list_pattern(const wt_file_set *set, const char *pattern, const wt_job *work,
                               flow_files *files, size_t *capacity, wt_error *err)
 {
     char **paths = NULL;
@@ -150,13 +127,13 @@ static wt_status list_pattern(const wt_file_set *set, const char *pattern, const
     }
     status = wt_glob(set->folder, pattern, &paths, &n, &failure);
     if (status != WT_OK) {
-        if (err != NULL && !flow_goes_on(common, status))
+        if (err != NULL && !flow_goes_on(work, status))
             *err = failure;
-        return flow_goes_on(common, status) ? flow_failed(common, pattern, &failure, err) : status;
+        return flow_goes_on(work, status) ? flow_failed(work, pattern, &failure, err) : status;
     }
     for (size_t i = 0; status == WT_OK && i < n; i++) {
         if (is_listed(files, paths[i])) {
-            wt_parselog_add(common->log, WT_WARNING, paths[i], NULL,
+            wt_parselog_add(work->log, WT_WARNING, paths[i], NULL,
                             "named more than once; its curves are taken once");
             continue;
         }
@@ -167,7 +144,7 @@ static wt_status list_pattern(const wt_file_set *set, const char *pattern, const
     return status;
 }
 
-wt_status flow_files_list(const wt_file_set *sets, size_t n_sets, const wt_job *common,
+wt_status flow_files_list(const wt_file_set *sets, size_t n_sets, const wt_job *work,
                           flow_files *files, wt_error *err)
 {
     wt_status status = WT_OK;
@@ -175,7 +152,7 @@ wt_status flow_files_list(const wt_file_set *sets, size_t n_sets, const wt_job *
     *files = (flow_files){NULL, 0};
     for (size_t i = 0; status == WT_OK && i < n_sets; i++)
         for (size_t j = 0; status == WT_OK && j < sets[i].n_patterns; j++)
-            status = list_pattern(&sets[i], sets[i].patterns[j], common, files, &capacity, err);
+            status = list_pattern(&sets[i], sets[i].patterns[j], work, files, &capacity, err);
     if (status != WT_OK)
         flow_files_clear(files);
     return status;
@@ -192,7 +169,7 @@ void flow_files_clear(flow_files *files)
 /* ---- opening ----------------------------------------------------------------------------------
  */
 
-static wt_status add_provenance(const wt_job *common, wt_input *input, const flow_file *file,
+static wt_status add_provenance(const wt_job *work, wt_input *input, const flow_file *file,
                                 const char *role, wt_error *err)
 {
     const unsigned char *bytes = NULL;
@@ -206,29 +183,29 @@ static wt_status add_provenance(const wt_job *common, wt_input *input, const flo
     wt_provenance_input record = {
         .path = file->name, .role = role, .format = format, .bytes = length};
     wt_digest(bytes, length, record.sha256);
-    status = wt_provenance_add_input(common->provenance, &record);
+    status = wt_provenance_add_input(work->provenance, &record);
     return status == WT_OK ? WT_OK : wt_fail(err, status, "cannot keep the list of inputs");
 }
 
-wt_status flow_open(const wt_job *common, flow_file *file, const char *role, unsigned kinds,
+wt_status flow_open(const wt_job *work, flow_file *file, const char *role, unsigned kinds,
                     wt_input **result, wt_error *err)
 {
-    if (common->formats == NULL)
+    if (work->formats == NULL)
         return wt_fail(err, WT_E_ARG, "no formats given to a job that reads files");
     wt_input *input = NULL;
     wt_status status = wt_input_open(file->path, &input, err);
     file->read = file->set->read;
     if (status == WT_OK && file->read.format != NULL) {
-        file->format = wt_formats_find(common->formats, file->read.format);
+        file->format = wt_formats_find(work->formats, file->read.format);
         if (file->format == NULL) {
             status = wt_fail(err, WT_E_NOT_FOUND, "no format is called \"%s\"", file->read.format);
             wt_error_advice(err, "`weartrack formats list` shows the formats");
         }
     } else if (status == WT_OK) {
-        status = wt_detect(common->formats, input, kinds, &file->format, err);
+        status = wt_detect(work->formats, input, kinds, &file->format, err);
     }
-    if (status == WT_OK && common->provenance != NULL)
-        status = add_provenance(common, input, file, role, err);
+    if (status == WT_OK && work->provenance != NULL)
+        status = add_provenance(work, input, file, role, err);
     if (status != WT_OK) {
         wt_error_file(err, file->name);
         wt_input_close(input);

@@ -32,12 +32,12 @@ typedef struct flow_files {
 
 /* All files of the sets in their order. A file that is named twice is taken once, with a warning. A
  * pattern without a match is recorded as a failure (or ends the job, see wt_job.failures). */
-wt_status flow_files_list(const wt_file_set *sets, size_t n_sets, const wt_job *common,
+wt_status flow_files_list(const wt_file_set *sets, size_t n_sets, const wt_job *work,
                           flow_files *files, wt_error *err) WT_NODISCARD;
 void flow_files_clear(flow_files *files);
 
 /* Opens a file, finds its format among `kinds` and adds it to the provenance under `role`. */
-wt_status flow_open(const wt_job *common, flow_file *file, const char *role, unsigned kinds,
+wt_status flow_open(const wt_job *work, flow_file *file, const char *role, unsigned kinds,
                     wt_input **input, wt_error *err) WT_NODISCARD;
 
 wt_surface flow_surface_defaults(void); /* nothing is given */
@@ -47,7 +47,7 @@ const wt_params *flow_spectrum_params(void);
 /* Whether they make a law; a roll-off that is not given is q0. */
 wt_status flow_surface_check(wt_surface *surface, wt_error *err) WT_NODISCARD;
 /* A measured spectrum as a surface, uncut; the densities are not checked. */
-wt_status flow_surface_read(flow_file *file, const wt_job *common, wt_surface *surface,
+wt_status flow_surface_read(flow_file *file, const wt_job *work, wt_surface *surface,
                             wt_error *err) WT_NODISCARD;
 
 /* Table "notes" of a log, with the names of files below `folder` shown without it; NULL = as they
@@ -57,9 +57,12 @@ wt_status flow_notes_table(const wt_parselog *log, const char *folder, wt_table 
 
 /* Whether a failure of one file leaves the others alone: false for lack of memory, cancelling,
  * internal errors, and when the job keeps no failures. */
-bool flow_goes_on(const wt_job *common, wt_status status);
-/* Adds a row to the failures. */
-wt_status flow_failed(const wt_job *common, const char *file, const wt_error *failure,
+bool flow_goes_on(const wt_job *work, wt_status status);
+/* Adds a row to the failures: of a file, which the message then does not name again; of anything.
+ */
+wt_status flow_add_failure(const wt_job *work, const char *what, const wt_error *failure,
+                           wt_error *err) WT_NODISCARD;
+wt_status flow_failed(const wt_job *work, const char *file, const wt_error *failure,
                       wt_error *err) WT_NODISCARD;
 
 #endif

@@ -3,9 +3,9 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/job/conditions.h"
 #include "flow/job/draws.h"
-#include "flow/job/tables.h"
 #include "kernel/params.h"
 
+#include "base/array.h"
 #include "data/tables/tables.h"
 
 #include <math.h>
@@ -26,10 +26,10 @@ enum {
     N_NUMBERS
 };
 
-typedef struct work {
+typedef struct layer_task {
     const wt_sliding *sliding;
     const wt_layer_job *job;
-    const wt_job *common;
+    const wt_job *work;
     double velocity;
     double *time; /* [n] */
     size_t n, stride, n_replicates;
@@ -37,7 +37,7 @@ typedef struct work {
     double *error;     /* [stride] */
     bool varies;
     char words[256], lacks[256];
-} work;
+} layer_task;
 
 /* The centre, kept for the tables. */
 typedef struct centre {
@@ -125,19 +125,20 @@ static double calibrate(const wt_energy_source *source, const wt_layer_parameter
            (p->damage * p->specific_wear_rate * p->pressure * p->velocity);
 }
 
-static wt_status source_and_parameters(const work *w, size_t replicate, wt_energy_source *source,
-                                       wt_layer_parameters *parameters, char statement[256],
-                                       wt_error *err)
+static wt_status source_and_parameters(const layer_task *task, size_t replicate,
+                                       wt_energy_source *source, wt_layer_parameters *parameters,
+                                       char statement[256], wt_error *err)
 {
     const wt_layer_state none = {.modulus_ratio = 1};
-    const wt_layer_job *job = w->job;
-    uint64_t seed = w->common->seed;
+    const wt_layer_job *job = task->job;
+    uint64_t seed = task->work->seed;
     flow_conditions c = {0};
-    double tolerance = replicate == FLOW_CENTRE ? w->common->tolerance : FLOW_REPLICATE_TOLERANCE;
+    double tolerance =
+        replicate == WT_NO_REPLICATE ? task->work->tolerance : FLOW_REPLICATE_TOLERANCE;
     wt_status status =
-        flow_conditions_make(w->sliding, seed, replicate, tolerance, 1, none, &c, err);
+        flow_conditions_make(task->sliding, seed, replicate, tolerance, 1, none, &c, err);
     if (status == WT_OK)
-        status = wt_energy_source_friction(c.workspace, c.pressure, w->velocity, source, err);
+        status = wt_energy_source_friction(c.workspace, c.pressure, task->velocity, source, err);
     if (status != WT_OK)
         goto done;
     source->profile = job->profile;
@@ -148,7 +149,7 @@ static wt_status source_and_parameters(const work *w, size_t replicate, wt_energ
     parameters->start_thickness = job->start_thickness;
     parameters->incubation = job->incubation;
     parameters->pressure = c.pressure;
-    parameters->velocity = w->velocity;
+    parameters->velocity = task->velocity;
     parameters->specific_wear_rate =
         flow_draw_positive(job->specific_wear_rate, seed, replicate, FLOW_DRAW_WEAR);
     parameters->critical_energy =
@@ -199,14 +200,14 @@ static double time_to_share(const wt_layer_point *points, size_t n, double thick
 #define TIMES 61
 
 /* From well before the first change to well after the last one. */
-static wt_status choose_times(work *w, const wt_layer_balance *b, wt_error *err)
+static wt_status choose_times(layer_task *task, const wt_layer_balance *b, wt_error *err)
 {
-    w->n = w->job->time != NULL ? w->job->n_time : TIMES;
-    w->time = malloc((w->n > 0 ? w->n : 1) * sizeof *w->time);
-    if (w->time == NULL)
+    task->n = task->job->time != NULL ? task->job->n_time : TIMES;
+    task->time = malloc((task->n > 0 ? task->n : 1) * sizeof *task->time);
+    if (task->time == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    if (w->job->time != NULL) {
-        memcpy(w->time, w->job->time, w->n * sizeof *w->time);
+    if (task->job->time != NULL) {
+        memcpy(task->time, task->job->time, task->n * sizeof *task->time);
         return WT_OK;
     }
     double first = b->incubation_time, last = b->relaxation_time;
@@ -216,8 +217,8 @@ static wt_status choose_times(work *w, const wt_layer_balance *b, wt_error *err)
         last = 1e6 * first;
     first /= 2;
     last = fmax(100 * last, 100 * first);
-    for (size_t i = 0; i < w->n; i++)
-        w->time[i] = first * pow(last / first, (double)i / (double)(w->n - 1));
+    for (size_t i = 0; i < task->n; i++)
+        task->time[i] = first * pow(last / first, (double)i / (double)(task->n - 1));
     return WT_OK;
 }
 
@@ -227,27 +228,27 @@ static wt_status choose_times(work *w, const wt_layer_balance *b, wt_error *err)
 static wt_status one_replicate(void *user, size_t i, unsigned worker)
 {
     (void)worker;
-    work *w = user;
-    double *out = w->replicate + i * w->stride;
+    layer_task *task = user;
+    double *out = task->replicate + i * task->stride;
     wt_energy_source source = {0};
     wt_layer_parameters parameters;
     wt_layer_balance balance;
     wt_error ignored = WT_ERROR_INIT;
-    wt_layer_point *points = malloc((w->n > 0 ? w->n : 1) * sizeof *points);
+    wt_layer_point *points = malloc((task->n > 0 ? task->n : 1) * sizeof *points);
     if (points == NULL)
         return WT_E_MEMORY;
-    wt_status status = source_and_parameters(w, i, &source, &parameters, NULL, &ignored);
+    wt_status status = source_and_parameters(task, i, &source, &parameters, NULL, &ignored);
     if (status == WT_OK)
         status = wt_layer_balance_compute(&source, &parameters, &balance, &ignored);
     if (status == WT_OK)
-        status = wt_layer_history(&source, &parameters, w->time, w->n, points, &ignored);
+        status = wt_layer_history(&source, &parameters, task->time, task->n, points, &ignored);
     if (status == WT_OK) {
         put_numbers(&balance, &parameters, out);
-        out[NINETY] = time_to_share(points, w->n, 0.9 * balance.thickness.value);
-        for (size_t k = 0; k < w->n; k++)
+        out[NINETY] = time_to_share(points, task->n, 0.9 * balance.thickness.value);
+        for (size_t k = 0; k < task->n; k++)
             out[N_NUMBERS + k] = points[k].thickness.value;
     } else {
-        for (size_t k = 0; k < w->stride; k++)
+        for (size_t k = 0; k < task->stride; k++)
             out[k] = (double)NAN;
     }
     wt_energy_source_clear(&source);
@@ -255,34 +256,34 @@ static wt_status one_replicate(void *user, size_t i, unsigned worker)
     return status == WT_E_MEMORY ? status : WT_OK;
 }
 
-static wt_status replicate_all(work *w, wt_error *err)
+static wt_status replicate_all(layer_task *task, wt_error *err)
 {
-    for (size_t k = 0; k < w->stride; k++)
-        w->error[k] = (double)NAN;
-    if (!w->varies)
+    for (size_t k = 0; k < task->stride; k++)
+        task->error[k] = (double)NAN;
+    if (!task->varies)
         return WT_OK;
-    wt_status status = wt_parallel_for(w->n_replicates, w->common->threads, one_replicate, w,
-                                       &w->common->progress, "layer replicates");
+    wt_status status = wt_parallel_for(task->n_replicates, task->work->threads, one_replicate, task,
+                                       &task->work->progress, "layer replicates");
     if (status != WT_OK)
         return wt_fail(err, status, "the replicates of the layer failed");
     size_t without = 0, lost = 0;
-    for (size_t i = 0; i < w->n_replicates; i++) {
-        double thickness = w->replicate[i * w->stride + THICKNESS];
+    for (size_t i = 0; i < task->n_replicates; i++) {
+        double thickness = task->replicate[i * task->stride + THICKNESS];
         lost += isnan(thickness) != 0;
         without += thickness <= 0;
     }
     if (lost > 0)
-        wt_parselog_add(w->common->log, WT_WARNING, NULL, NULL,
+        wt_parselog_add(task->work->log, WT_WARNING, NULL, NULL,
                         "%zu of %zu replicates of the layer have no solution and are left out of "
                         "the standard errors",
-                        lost, w->n_replicates);
-    if (without > 0 && without + lost < w->n_replicates)
-        wt_parselog_add(w->common->log, WT_WARNING, NULL, NULL,
+                        lost, task->n_replicates);
+    if (without > 0 && without + lost < task->n_replicates)
+        wt_parselog_add(task->work->log, WT_WARNING, NULL, NULL,
                         "within the stated errors the layer may be there or not: %zu of %zu "
                         "replicates have none",
-                        without, w->n_replicates - lost);
-    for (size_t k = 0; k < w->stride; k++)
-        w->error[k] = flow_spread(w->replicate + k, w->n_replicates, w->stride);
+                        without, task->n_replicates - lost);
+    for (size_t k = 0; k < task->stride; k++)
+        task->error[k] = flow_spread(task->replicate + k, task->n_replicates, task->stride);
     return WT_OK;
 }
 
@@ -295,7 +296,7 @@ static const char *regime_name(wt_layer_regime regime)
     return names[regime];
 }
 
-static void set_numbers(const work *w, const centre *c, table_writer *t)
+static void set_numbers(const layer_task *task, const centre *c, table_writer *t)
 {
     static const struct {
         int index;
@@ -308,26 +309,26 @@ static void set_numbers(const work *w, const centre *c, table_writer *t)
     };
     double value[N_NUMBERS];
     put_numbers(&c->balance, &c->parameters, value);
-    value[NINETY] = time_to_share(c->points, w->n, 0.9 * c->balance.thickness.value);
-    layer_set_value(t, LAYER_KEY_BALANCE_THICKNESS, value[THICKNESS], w->error[THICKNESS],
+    value[NINETY] = time_to_share(c->points, task->n, 0.9 * c->balance.thickness.value);
+    layer_set_value(t, LAYER_KEY_BALANCE_THICKNESS, value[THICKNESS], task->error[THICKNESS],
                     c->balance.thickness.numerical_error);
     /* d ln thickness / d ln k = -Qw / (thickness |dQf/dz|): the balance is where Qf(z) = Qw */
     double sensitivity =
         -c->balance.wear_rate * c->balance.relaxation_time / c->balance.thickness.value;
     if (isfinite(sensitivity))
         layer_set_value(t, LAYER_KEY_WEAR_SENSITIVITY, sensitivity, (double)NAN, 0);
-    for (size_t i = 0; i < FLOW_COUNT(keys); i++)
-        layer_set_value(t, keys[i].key, value[keys[i].index], w->error[keys[i].index], 0);
+    for (size_t i = 0; i < COUNT_OF(keys); i++)
+        layer_set_value(t, keys[i].key, value[keys[i].index], task->error[keys[i].index], 0);
 }
 
-static void set_keys(const work *w, const centre *c, table_writer *t)
+static void set_keys(const layer_task *task, const centre *c, table_writer *t)
 {
-    const wt_layer_job *job = w->job;
+    const wt_layer_job *job = task->job;
     const bool calibrated = isnan(job->critical_energy.value);
-    set_numbers(w, c, t);
+    set_numbers(task, c, t);
     layer_set_text(t, LAYER_KEY_REGIME, regime_name(c->balance.regime));
-    layer_set_value(t, LAYER_KEY_VELOCITY, w->velocity, 0, 0);
-    layer_set(t, LAYER_KEY_PRESSURE, w->sliding->pressure);
+    layer_set_value(t, LAYER_KEY_VELOCITY, task->velocity, 0, 0);
+    layer_set(t, LAYER_KEY_PRESSURE, task->sliding->pressure);
     layer_set(t, LAYER_KEY_WEAR_RATE, job->specific_wear_rate);
     if (calibrated)
         layer_set(t, LAYER_KEY_OBSERVED_THICKNESS, job->observed_thickness);
@@ -336,34 +337,34 @@ static void set_keys(const work *w, const centre *c, table_writer *t)
     layer_set_print(t, LAYER_KEY_DAMAGE, "%g", job->damage);
     layer_set_print(t, LAYER_KEY_DUTY, "%g", job->duty);
     layer_set_text(t, LAYER_KEY_ERROR_INCLUDES,
-                   w->varies ? w->words : "nothing, for no error was measured or stated");
-    if (w->lacks[0] != '\0')
-        layer_set_text(t, LAYER_KEY_ERROR_LACKS, w->lacks);
+                   task->varies ? task->words : "nothing, for no error was measured or stated");
+    if (task->lacks[0] != '\0')
+        layer_set_text(t, LAYER_KEY_ERROR_LACKS, task->lacks);
     if (c->statement[0] != '\0')
         layer_set_text(t, LAYER_KEY_MATERIAL_STATEMENT, c->statement);
 }
 
-static wt_status layer_table(const work *w, const centre *c, wt_table **out, wt_error *err)
+static wt_status layer_table(const layer_task *task, const centre *c, wt_table **out, wt_error *err)
 {
-    table_writer t = table_begin(&layer_schema, "", err);
-    for (size_t i = 0; i < w->n; i++) {
+    table_writer t = table_begin(&layer_schema, err);
+    for (size_t i = 0; i < task->n; i++) {
         const wt_layer_point *p = &c->points[i];
         table_row(&t);
         layer_put(&t, LAYER_TIME, p->time);
         layer_put(&t, LAYER_THICKNESS, p->thickness.value);
-        layer_put(&t, LAYER_THICKNESS_STANDARD_ERROR, w->error[N_NUMBERS + i]);
+        layer_put(&t, LAYER_THICKNESS_STANDARD_ERROR, task->error[N_NUMBERS + i]);
         layer_put(&t, LAYER_THICKNESS_NUMERICAL_ERROR, p->thickness.numerical_error);
         layer_put(&t, LAYER_FORMATION_RATE, p->formation_rate);
         layer_put(&t, LAYER_WEAR_RATE, p->wear_rate);
     }
-    set_keys(w, c, &t);
+    set_keys(task, c, &t);
     return table_end(&t, out);
 }
 
 #define DEPTHS 121
 
-static wt_status energy_table(const work *w, const wt_energy_source *source, wt_table **out,
-                              wt_error *err)
+static wt_status energy_table(const layer_task *task, const wt_energy_source *source,
+                              wt_table **out, wt_error *err)
 {
     double q_min = source->wavenumber[0], q_max = source->wavenumber[0];
     for (size_t i = 1; i < source->n; i++) {
@@ -372,24 +373,24 @@ static wt_status energy_table(const work *w, const wt_energy_source *source, wt_
     }
     /* from a tenth of the shortest wave to where the longest one has died out */
     double first = 0.1 / q_max, last = 3 / q_min;
-    table_writer t = table_begin(&energy_density_schema, "", err);
+    table_writer t = table_begin(&energy_density_schema, err);
     for (size_t i = 0; i < DEPTHS; i++) {
         double depth = first * pow(last / first, (double)i / (DEPTHS - 1));
         table_row(&t);
         energy_density_put(&t, ENERGY_DENSITY_DEPTH, depth);
         energy_density_put(&t, ENERGY_DENSITY_POWER, wt_energy_density(source, depth));
     }
-    energy_density_set_value(&t, ENERGY_DENSITY_KEY_VELOCITY, w->velocity, 0, 0);
+    energy_density_set_value(&t, ENERGY_DENSITY_KEY_VELOCITY, task->velocity, 0, 0);
     return table_end(&t, out);
 }
 
 /* ---- the job ----------------------------------------------------------------------------------
  */
 
-static void find_words(work *w)
+static void find_words(layer_task *task)
 {
-    const wt_layer_job *job = w->job;
-    w->varies = flow_conditions_vary(w->sliding, w->common, w->words, sizeof w->words);
+    const wt_layer_job *job = task->job;
+    task->varies = flow_conditions_vary(task->sliding, task->work, task->words, sizeof task->words);
     const struct {
         double error;
         const char *what;
@@ -400,69 +401,72 @@ static void find_words(work *w)
         {isnan(job->observed_thickness.value) ? 0 : job->observed_thickness.standard_error,
          "observed thickness"},
     };
-    for (size_t i = 0; w->common->replicates > 1 && i < FLOW_COUNT(stated); i++) {
+    for (size_t i = 0; task->work->replicates > 1 && i < COUNT_OF(stated); i++) {
         if (!(stated[i].error > 0))
             continue;
-        flow_add_words(w->words, sizeof w->words, stated[i].what);
-        w->varies = true;
+        flow_add_words(task->words, sizeof task->words, stated[i].what);
+        task->varies = true;
     }
-    flow_conditions_lack(w->sliding, w->lacks, sizeof w->lacks);
+    flow_conditions_lack(task->sliding, task->lacks, sizeof task->lacks);
     if (!(job->specific_wear_rate.standard_error > 0))
-        flow_add_words(w->lacks, sizeof w->lacks, "specific wear rate");
+        flow_add_words(task->lacks, sizeof task->lacks, "specific wear rate");
     if (!isnan(job->critical_energy.value) && !(job->critical_energy.standard_error > 0))
-        flow_add_words(w->lacks, sizeof w->lacks, "critical energy");
+        flow_add_words(task->lacks, sizeof task->lacks, "critical energy");
     if (!isnan(job->observed_thickness.value) && !(job->observed_thickness.standard_error > 0))
-        flow_add_words(w->lacks, sizeof w->lacks, "observed thickness");
+        flow_add_words(task->lacks, sizeof task->lacks, "observed thickness");
 }
 
-static wt_status allocate(work *w, centre *c, wt_error *err)
+static wt_status allocate(layer_task *task, centre *c, wt_error *err)
 {
-    w->stride = N_NUMBERS + w->n;
-    w->error = malloc(w->stride * sizeof *w->error);
-    w->replicate = calloc(w->varies ? w->n_replicates : 1, w->stride * sizeof *w->replicate);
-    c->points = malloc((w->n > 0 ? w->n : 1) * sizeof *c->points);
-    if (w->error == NULL || w->replicate == NULL || c->points == NULL)
+    task->stride = N_NUMBERS + task->n;
+    task->error = malloc(task->stride * sizeof *task->error);
+    task->replicate =
+        calloc(task->varies ? task->n_replicates : 1, task->stride * sizeof *task->replicate);
+    c->points = malloc((task->n > 0 ? task->n : 1) * sizeof *c->points);
+    if (task->error == NULL || task->replicate == NULL || c->points == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     return WT_OK;
 }
 
-wt_status wt_layer_make(const wt_sliding *sliding, const wt_layer_job *job, const wt_job *common,
+wt_status wt_layer_make(const wt_sliding *sliding, const wt_layer_job *job, const wt_job *work,
                         wt_layer_tables *tables, wt_error *err)
 {
-    if (job == NULL || common == NULL || tables == NULL)
+    if (job == NULL || work == NULL || tables == NULL)
         return wt_fail(err, WT_E_ARG, "no layer job");
-    wt_status status = flow_sliding_check(sliding, common, err);
+    wt_status status = flow_sliding_check(sliding, work, err);
     if (status == WT_OK)
         status = wt_layer_job_check(job, err);
     if (status != WT_OK)
         return status;
-    work w = {.sliding = sliding,
-              .job = job,
-              .common = common,
-              .velocity = isnan(job->velocity) ? flow_reference_velocity(sliding) : job->velocity,
-              .n_replicates = common->replicates};
+    layer_task task = {.sliding = sliding,
+                       .job = job,
+                       .work = work,
+                       .velocity =
+                           isnan(job->velocity) ? flow_reference_velocity(sliding) : job->velocity,
+                       .n_replicates = work->replicates};
     centre c = {0};
     wt_layer_tables t = {0};
-    find_words(&w);
-    status = source_and_parameters(&w, FLOW_CENTRE, &c.source, &c.parameters, c.statement, err);
+    find_words(&task);
+    status =
+        source_and_parameters(&task, WT_NO_REPLICATE, &c.source, &c.parameters, c.statement, err);
     if (status == WT_OK)
         status = wt_layer_balance_compute(&c.source, &c.parameters, &c.balance, err);
     if (status == WT_OK)
-        status = choose_times(&w, &c.balance, err);
+        status = choose_times(&task, &c.balance, err);
     if (status == WT_OK)
-        status = allocate(&w, &c, err);
+        status = allocate(&task, &c, err);
     if (status == WT_OK)
-        status = wt_layer_history(&c.source, &c.parameters, w.time, w.n, c.points, err);
+        status = wt_layer_history(&c.source, &c.parameters, task.time, task.n, c.points, err);
     if (status == WT_OK)
-        status = replicate_all(&w, err);
+        status = replicate_all(&task, err);
     if (status == WT_OK)
-        status = layer_table(&w, &c, &t.layer, err);
+        status = layer_table(&task, &c, &t.layer, err);
     if (status == WT_OK)
-        status = energy_table(&w, &c.source, &t.energy_density, err);
+        status = energy_table(&task, &c.source, &t.energy_density, err);
     if (status == WT_OK) {
         t.balance = c.balance;
         t.thickness = c.balance.thickness;
-        t.thickness.standard_error = w.error[THICKNESS];
+        t.thickness.standard_error = task.error[THICKNESS];
         t.balance.thickness = t.thickness;
         *tables = t;
         t = (wt_layer_tables){0};
@@ -470,8 +474,8 @@ wt_status wt_layer_make(const wt_sliding *sliding, const wt_layer_job *job, cons
     wt_energy_source_clear(&c.source);
     wt_layer_tables_clear(&t);
     free(c.points);
-    free(w.time);
-    free(w.error);
-    free(w.replicate);
+    free(task.time);
+    free(task.error);
+    free(task.replicate);
     return status;
 }

@@ -2,7 +2,8 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/job/inputs.h"
 #include "flow/job/single_isotherm.h"
-#include "flow/job/tables.h"
+
+#include "data/tables/tables.h"
 #include "model/material.h"
 
 #include <math.h>
@@ -44,24 +45,24 @@ static const char *deformation_name(wt_deformation deformation)
 /* ---- reading ----------------------------------------------------------------------------------
  */
 
-static wt_status read_sweeps(const wt_master_job *job, const wt_job *common, wt_sweep *sweep,
+static wt_status read_sweeps(const wt_master_job *job, const wt_job *work, wt_sweep *sweep,
                              wt_error *err)
 {
     flow_files files = {NULL, 0};
-    wt_status status = flow_files_list(job->sets, job->n_sets, common, &files, err);
+    wt_status status = flow_files_list(job->sets, job->n_sets, work, &files, err);
     for (size_t i = 0; status == WT_OK && i < files.n; i++) {
         wt_input *input = NULL;
         wt_error failure = WT_ERROR_INIT;
-        status = flow_open(common, &files.file[i], "dma", WT_KIND_SWEEP, &input, &failure);
+        status = flow_open(work, &files.file[i], "dma", WT_KIND_SWEEP, &input, &failure);
         if (status == WT_OK)
-            status = wt_sweep_read(common->formats, input, &files.file[i].read, common->log, sweep,
+            status = wt_sweep_read(work->formats, input, &files.file[i].read, work->log, sweep,
                                    &failure);
         wt_input_close(input);
         if (status == WT_OK)
             continue;
         wt_error_file(&failure, files.file[i].name);
-        if (flow_goes_on(common, status))
-            status = flow_failed(common, files.file[i].name, &failure, err);
+        if (flow_goes_on(work, status))
+            status = flow_failed(work, files.file[i].name, &failure, err);
         else if (err != NULL)
             *err = failure;
     }
@@ -79,100 +80,58 @@ static wt_status read_sweeps(const wt_master_job *job, const wt_job *common, wt_
 /* ---- tables -----------------------------------------------------------------------------------
  */
 
-static wt_status shift_table(const wt_master_curve *master, const wt_wlf_fit *wlf, double floor,
-                             wt_table **out, wt_error *err)
+static void put_shift(table_writer *t, const wt_shift *s, const wt_wlf_fit *wlf)
 {
-    static const flow_column columns[] = {
-        {"temperature", "K", "temperature of the isotherm"},
-        {"log_a", "1", "log10 of the horizontal shift factor"},
-        {"log_a_standard_error", "1", "its standard error [decade]"},
-        {"log_b", "1", "log10 of the vertical shift factor"},
-        {"log_b_standard_error", "1", "its standard error [decade]"},
-        {"log_b_physical", "1", "log10 b that density and temperature would give"},
-        {"correlation", "1", "correlation of log a and log b"},
-        {"overlap", "1", "smaller of the ordinate overlaps with the neighbour [decade]"},
-        {"determined", "1", "1: the data decide the shift"},
-        {"note", NULL, "what is odd"},
-        {"wlf_log_a", "1", "log10 a of the fitted WLF law"},
-    };
-    enum {
-        TEMPERATURE,
-        LOG_A,
-        LOG_A_ERROR,
-        LOG_B,
-        LOG_B_ERROR,
-        PHYSICAL,
-        CORRELATION,
-        OVERLAP,
-        DETERMINED,
-        NOTE,
-        WLF
-    };
-    wt_table *table = NULL;
-    wt_status status =
-        flow_table_new("shift_factors", "Shift factors", columns, FLOW_COUNT(columns), &table, err);
-    for (size_t i = 0; status == WT_OK && i < master->n_shifts; i++) {
-        const wt_shift *s = &master->shifts[i];
-        status = wt_table_add_row(table, err);
-        if (status == WT_OK)
-            status = wt_table_put_text(table, NOTE, s->note, err);
-        if (status != WT_OK)
-            break;
-        wt_table_put(table, TEMPERATURE, s->temperature);
-        wt_table_put(table, LOG_A, s->log_a.value);
-        wt_table_put(table, LOG_A_ERROR, s->log_a.standard_error);
-        wt_table_put(table, LOG_B, s->log_b.value);
-        wt_table_put(table, LOG_B_ERROR, s->log_b.standard_error);
-        wt_table_put(table, PHYSICAL, s->log_b_physical);
-        wt_table_put(table, CORRELATION, s->correlation);
-        wt_table_put(table, OVERLAP, fmin(s->overlap_storage, s->overlap_loss));
-        wt_table_put(table, DETERMINED, s->determined);
-        if (wlf != NULL)
-            wt_table_put(table, WLF, wt_wlf_log_shift(&wlf->wlf, s->temperature));
-    }
-    if (status == WT_OK && wlf != NULL) {
-        status = flow_table_value(table, "wlf_c1", wlf->wlf.c1, wlf->c1_error, 0, "1", err);
-        if (status == WT_OK)
-            status = flow_table_value(table, "wlf_c2", wlf->wlf.c2, wlf->c2_error, 0, "K", err);
-        if (status == WT_OK)
-            status =
-                flow_table_value(table, "wlf_slope", wlf->slope, wlf->slope_error, 0, "1/K", err);
-        if (status == WT_OK)
-            status = flow_table_key(table, err, "wlf_correlation", "%.6g", wlf->correlation);
-        if (status == WT_OK)
-            status = flow_table_value(table, "pole", wlf->pole, wlf->pole_error, 0, "K", err);
-        /* what the errors of c1 and c2 take every shift to be wrong by, on top of its own */
-        if (status == WT_OK)
-            status = flow_table_value(table, "wlf_floor", floor, 0, 0, "1", err);
-        if (status == WT_OK)
-            status = flow_table_value(table, "wlf_rms", wlf->rms, 0, 0, "1", err);
-        if (status == WT_OK)
-            status = wt_table_set_key(
-                table, "wlf_straight",
-                wlf->straight ? "yes: only the slope c1/c2 is determined" : "no", err);
-        if (status == WT_OK)
-            status = flow_table_value(table, "activation_energy", wlf->activation_energy,
-                                      wlf->activation_energy_error, 0, "J/mol", err);
-    }
-    if (status == WT_OK)
-        status = flow_table_value(table, "reference_temperature", master->reference_temperature, 0,
-                                  0, "K", err);
-    if (status == WT_OK)
-        status = wt_table_set_key(table, "vertical", vertical_name(master->vertical), err);
-    if (status == WT_OK)
-        status = wt_table_set_key(table, "deformation", deformation_name(master->deformation), err);
-    if (status == WT_OK)
-        status = flow_table_key(table, err, "superposition", "%s%s%s",
-                                master->n_shifts < 2           ? "not tested"
-                                : master->superposition_failed ? "failed"
-                                                               : "holds",
-                                master->note[0] != '\0' ? ": " : "", master->note);
-    if (status != WT_OK) {
-        wt_table_free(table);
-        return status;
-    }
-    *out = table;
-    return WT_OK;
+    table_row(t);
+    shift_factors_put(t, SHIFT_FACTORS_TEMPERATURE, s->temperature);
+    shift_factors_put(t, SHIFT_FACTORS_LOG_A, s->log_a.value);
+    shift_factors_put(t, SHIFT_FACTORS_LOG_A_STANDARD_ERROR, s->log_a.standard_error);
+    shift_factors_put(t, SHIFT_FACTORS_LOG_B, s->log_b.value);
+    shift_factors_put(t, SHIFT_FACTORS_LOG_B_STANDARD_ERROR, s->log_b.standard_error);
+    shift_factors_put(t, SHIFT_FACTORS_LOG_B_PHYSICAL, s->log_b_physical);
+    shift_factors_put(t, SHIFT_FACTORS_CORRELATION, s->correlation);
+    shift_factors_put(t, SHIFT_FACTORS_OVERLAP, fmin(s->overlap_storage, s->overlap_loss));
+    shift_factors_put(t, SHIFT_FACTORS_DETERMINED, s->determined);
+    shift_factors_put_text(t, SHIFT_FACTORS_NOTE, s->note);
+    if (wlf != NULL)
+        shift_factors_put(t, SHIFT_FACTORS_WLF_LOG_A, wt_wlf_log_shift(&wlf->wlf, s->temperature));
+}
+
+static void set_law(table_writer *t, const wt_wlf_fit *f, double floor)
+{
+    shift_factors_set_value(t, SHIFT_FACTORS_KEY_WLF_C1, f->wlf.c1, f->c1_error, 0);
+    shift_factors_set_value(t, SHIFT_FACTORS_KEY_WLF_C2, f->wlf.c2, f->c2_error, 0);
+    shift_factors_set_value(t, SHIFT_FACTORS_KEY_WLF_SLOPE, f->slope, f->slope_error, 0);
+    shift_factors_set_print(t, SHIFT_FACTORS_KEY_WLF_CORRELATION, "%.6g", f->correlation);
+    shift_factors_set_value(t, SHIFT_FACTORS_KEY_POLE, f->pole, f->pole_error, 0);
+    /* what the errors of c1 and c2 take every shift to be wrong by, on top of its own */
+    shift_factors_set_value(t, SHIFT_FACTORS_KEY_WLF_FLOOR, floor, 0, 0);
+    shift_factors_set_value(t, SHIFT_FACTORS_KEY_WLF_RMS, f->rms, 0, 0);
+    shift_factors_set_text(t, SHIFT_FACTORS_KEY_WLF_STRAIGHT,
+                           f->straight ? "yes: only the slope c1/c2 is determined" : "no");
+    shift_factors_set_value(t, SHIFT_FACTORS_KEY_ACTIVATION_ENERGY, f->activation_energy,
+                            f->activation_energy_error, 0);
+}
+
+static wt_status shift_table(const wt_master_curve *master, const wt_wlf_fit *wlf, double floor,
+                             wt_table **table, wt_error *err)
+{
+    table_writer t = table_begin(&shift_factors_schema, err);
+    for (size_t i = 0; i < master->n_shifts; i++)
+        put_shift(&t, &master->shifts[i], wlf);
+    if (wlf != NULL)
+        set_law(&t, wlf, floor);
+    shift_factors_set_value(&t, SHIFT_FACTORS_KEY_REFERENCE_TEMPERATURE,
+                            master->reference_temperature, 0, 0);
+    shift_factors_set_text(&t, SHIFT_FACTORS_KEY_VERTICAL, vertical_name(master->vertical));
+    shift_factors_set_text(&t, SHIFT_FACTORS_KEY_DEFORMATION,
+                           deformation_name(master->deformation));
+    const char *superposition = master->superposition_failed ? "failed" : "holds";
+    if (master->n_shifts < 2)
+        superposition = "not tested";
+    shift_factors_set_print(&t, SHIFT_FACTORS_KEY_SUPERPOSITION, "%s%s%s", superposition,
+                            master->note[0] != '\0' ? ": " : "", master->note);
+    return table_end(&t, table);
 }
 
 /* E' and E'' of a series as given, in tension or shear, at one frequency. */
@@ -189,105 +148,53 @@ static void prony_modulus(const wt_prony *prony, double omega, double *storage, 
 }
 
 static wt_status master_table(const wt_master_curve *master, const wt_prony_fit *fit,
-                              wt_table **out, wt_error *err)
+                              wt_table **table, wt_error *err)
 {
-    static const flow_column columns[] = {
-        {"angular_frequency", "rad/s", "reduced angular frequency"},
-        {"storage_modulus", "Pa", "storage modulus, shifted"},
-        {"loss_modulus", "Pa", "loss modulus, shifted"},
-        {"temperature", "K", "temperature it was measured at"},
-        {"fitted_storage", "Pa", "storage modulus of the Prony series"},
-        {"fitted_loss", "Pa", "loss modulus of the Prony series"},
-    };
-    wt_table *table = NULL;
-    wt_status status =
-        flow_table_new("master_curve", "Master curve", columns, FLOW_COUNT(columns), &table, err);
-    for (size_t k = 0; status == WT_OK && k < master->n_shifts; k++) {
-        bool first = true;
-        for (size_t i = 0; status == WT_OK && i < master->n; i++) {
+    table_writer t = table_begin(&master_curve_schema, err);
+    for (size_t k = 0; k < master->n_shifts; k++) {
+        table_block(&t);
+        for (size_t i = 0; i < master->n; i++) {
             if (master->isotherm[i] != k)
                 continue;
-            if (first && wt_table_n_rows(table) > 0)
-                status = wt_table_new_block(table, err);
-            first = false;
-            if (status == WT_OK)
-                status = wt_table_add_row(table, err);
-            if (status != WT_OK)
-                break;
             double omega = pow(10, master->log_frequency[i]), storage, loss;
             prony_modulus(&fit->prony, omega, &storage, &loss);
-            const double row[] = {omega,
-                                  pow(10, master->log_storage[i]),
-                                  pow(10, master->log_loss[i]),
-                                  master->shifts[k].temperature,
-                                  storage,
-                                  loss};
-            for (size_t c = 0; c < FLOW_COUNT(row); c++)
-                wt_table_put(table, c, row[c]);
+            table_row(&t);
+            master_curve_put(&t, MASTER_CURVE_ANGULAR_FREQUENCY, omega);
+            master_curve_put(&t, MASTER_CURVE_STORAGE_MODULUS, pow(10, master->log_storage[i]));
+            master_curve_put(&t, MASTER_CURVE_LOSS_MODULUS, pow(10, master->log_loss[i]));
+            master_curve_put(&t, MASTER_CURVE_TEMPERATURE, master->shifts[k].temperature);
+            master_curve_put(&t, MASTER_CURVE_FITTED_STORAGE, storage);
+            master_curve_put(&t, MASTER_CURVE_FITTED_LOSS, loss);
         }
     }
-    if (status == WT_OK)
-        status = flow_table_key(table, err, "rms_storage", "%.6g", fit->rms_storage);
-    if (status == WT_OK)
-        status = flow_table_key(table, err, "rms_loss", "%.6g", fit->rms_loss);
-    if (status == WT_OK)
-        status = flow_table_key(table, err, "overlap_rms_storage", "%.6g", master->rms_storage);
-    if (status == WT_OK)
-        status = flow_table_key(table, err, "overlap_rms_loss", "%.6g", master->rms_loss);
-    if (status == WT_OK)
-        status = flow_table_key(table, err, "kramers_kronig", "%.6g", master->kramers_kronig);
-    if (status == WT_OK)
-        status = flow_table_value(table, "reference_temperature", master->reference_temperature, 0,
-                                  0, "K", err);
-    if (status == WT_OK)
-        status = wt_table_set_key(table, "deformation", deformation_name(master->deformation), err);
-    if (status != WT_OK) {
-        wt_table_free(table);
-        return status;
-    }
-    *out = table;
-    return WT_OK;
+    master_curve_set_print(&t, MASTER_CURVE_KEY_RMS_STORAGE, "%.6g", fit->rms_storage);
+    master_curve_set_print(&t, MASTER_CURVE_KEY_RMS_LOSS, "%.6g", fit->rms_loss);
+    master_curve_set_print(&t, MASTER_CURVE_KEY_OVERLAP_RMS_STORAGE, "%.6g", master->rms_storage);
+    master_curve_set_print(&t, MASTER_CURVE_KEY_OVERLAP_RMS_LOSS, "%.6g", master->rms_loss);
+    master_curve_set_print(&t, MASTER_CURVE_KEY_KRAMERS_KRONIG, "%.6g", master->kramers_kronig);
+    master_curve_set_value(&t, MASTER_CURVE_KEY_REFERENCE_TEMPERATURE,
+                           master->reference_temperature, 0, 0);
+    master_curve_set_text(&t, MASTER_CURVE_KEY_DEFORMATION, deformation_name(master->deformation));
+    return table_end(&t, table);
 }
 
-static wt_status prony_table(const wt_prony_fit *fit, wt_table **out, wt_error *err)
+static wt_status prony_table(const wt_prony_fit *fit, wt_table **table, wt_error *err)
 {
-    static const flow_column columns[] = {
-        {"relaxation_time", "s", "relaxation time"},
-        {"modulus", "Pa", "modulus of the term"},
-    };
-    const wt_prony *prony = &fit->prony;
-    wt_table *table = NULL;
-    wt_status status =
-        flow_table_new("prony", "Prony series", columns, FLOW_COUNT(columns), &table, err);
-    for (size_t i = 0; status == WT_OK && i < prony->n; i++) {
-        status = wt_table_add_row(table, err);
-        if (status != WT_OK)
-            break;
-        wt_table_put(table, 0, prony->relaxation_time[i]);
-        wt_table_put(table, 1, prony->modulus[i]);
+    const wt_prony *p = &fit->prony;
+    table_writer t = table_begin(&prony_schema, err);
+    for (size_t i = 0; i < p->n; i++) {
+        table_row(&t);
+        prony_put(&t, PRONY_RELAXATION_TIME, p->relaxation_time[i]);
+        prony_put(&t, PRONY_MODULUS, p->modulus[i]);
     }
-    if (status == WT_OK)
-        status = flow_table_value(table, "equilibrium_modulus", prony->equilibrium_modulus, 0, 0,
-                                  "Pa", err);
-    if (status == WT_OK)
-        status = flow_table_value(table, "reference_temperature", prony->reference_temperature, 0,
-                                  0, "K", err);
-    if (status == WT_OK)
-        status = flow_table_value(table, "frequency_min", prony->frequency_min, 0, 0, "rad/s", err);
-    if (status == WT_OK)
-        status = flow_table_value(table, "frequency_max", prony->frequency_max, 0, 0, "rad/s", err);
-    if (status == WT_OK)
-        status = wt_table_set_key(table, "deformation", deformation_name(prony->deformation), err);
-    if (status == WT_OK)
-        status = flow_table_key(table, err, "rms_storage", "%.6g", fit->rms_storage);
-    if (status == WT_OK)
-        status = flow_table_key(table, err, "rms_loss", "%.6g", fit->rms_loss);
-    if (status != WT_OK) {
-        wt_table_free(table);
-        return status;
-    }
-    *out = table;
-    return WT_OK;
+    prony_set_value(&t, PRONY_KEY_EQUILIBRIUM_MODULUS, p->equilibrium_modulus, 0, 0);
+    prony_set_value(&t, PRONY_KEY_REFERENCE_TEMPERATURE, p->reference_temperature, 0, 0);
+    prony_set_value(&t, PRONY_KEY_FREQUENCY_MIN, p->frequency_min, 0, 0);
+    prony_set_value(&t, PRONY_KEY_FREQUENCY_MAX, p->frequency_max, 0, 0);
+    prony_set_text(&t, PRONY_KEY_DEFORMATION, deformation_name(p->deformation));
+    prony_set_print(&t, PRONY_KEY_RMS_STORAGE, "%.6g", fit->rms_storage);
+    prony_set_print(&t, PRONY_KEY_RMS_LOSS, "%.6g", fit->rms_loss);
+    return table_end(&t, table);
 }
 
 /* ---- the job ----------------------------------------------------------------------------------
@@ -296,7 +203,7 @@ static wt_status prony_table(const wt_prony_fit *fit, wt_table **out, wt_error *
 /* Fits the shift law; a law that cannot be fitted is a warning: the reference temperature remains.
  */
 static wt_status fit_law(const wt_master_curve *master, const wt_shift_options *options,
-                         const wt_job *common, wt_wlf_fit *wlf, bool *has_wlf, wt_error *err)
+                         const wt_job *work, wt_wlf_fit *wlf, bool *has_wlf, wt_error *err)
 {
     wt_error failure = WT_ERROR_INIT;
     *has_wlf = false;
@@ -312,7 +219,7 @@ static wt_status fit_law(const wt_master_curve *master, const wt_shift_options *
             *err = failure;
         return status;
     }
-    wt_parselog_add(common->log, WT_WARNING, NULL, NULL, "no WLF law fits the shift factors: %s",
+    wt_parselog_add(work->log, WT_WARNING, NULL, NULL, "no WLF law fits the shift factors: %s",
                     failure.message);
     return WT_OK;
 }
@@ -342,10 +249,10 @@ static wt_shift_options with_reference(const wt_master_job *job, const wt_sweep 
     return options;
 }
 
-wt_status wt_master_make(const wt_master_job *job, const wt_job *common, wt_master_tables *tables,
+wt_status wt_master_make(const wt_master_job *job, const wt_job *work, wt_master_tables *tables,
                          wt_rubber *rubber, wt_error *err)
 {
-    if (job == NULL || common == NULL)
+    if (job == NULL || work == NULL)
         return wt_fail(err, WT_E_ARG, "no DMA job");
     wt_status status = param_check(wt_master_job_params(), job, err);
     if (status != WT_OK)
@@ -360,16 +267,15 @@ wt_status wt_master_make(const wt_master_job *job, const wt_job *common, wt_mast
                    .prony_options = job->prony,
                    .temperature_min = (double)NAN,
                    .temperature_max = (double)NAN};
-    status = read_sweeps(job, common, &sweep, err);
+    status = read_sweeps(job, work, &sweep, err);
     if (status != WT_OK)
         goto done;
     wt_shift_options shift = with_reference(job, &sweep);
     t.n_isotherms = sweep.n_isotherms;
-    status = sweep.n_isotherms == 1
-                 ? flow_single_isotherm(&sweep, &shift, common->log, &master, err)
-                 : wt_shift_fit(&sweep, &shift, common->log, &master, err);
+    status = sweep.n_isotherms == 1 ? flow_single_isotherm(&sweep, &shift, work->log, &master, err)
+                                    : wt_shift_fit(&sweep, &shift, work->log, &master, err);
     if (status == WT_OK)
-        status = fit_law(&master, &shift, common, &wlf, &has_wlf, err);
+        status = fit_law(&master, &shift, work, &wlf, &has_wlf, err);
     if (status == WT_OK)
         status = wt_prony_fit_master(&master, &job->prony, &prony, err);
     if (status != WT_OK) {

@@ -1,10 +1,9 @@
 /* The rubber as the stages after the DMA know it, and its material law at a temperature.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/job/draws.h"
-#include "flow/job/tables.h"
-#include "weartrack/flow.h"
 
 #include "base/clocale.h"
+#include "data/tables/tables.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -146,7 +145,7 @@ wt_status wt_rubber_at(const wt_rubber *rubber, double temperature, uint64_t see
     log_b = vertical_shift(rubber, rubber->vertical_log_b, temperature, &held);
     log_a += log_a_error * flow_draw_normal(seed, replicate, FLOW_DRAW_SHIFT_LAW);
 
-    if (replicate != FLOW_CENTRE && rubber->has_master) {
+    if (replicate != WT_NO_REPLICATE && rubber->has_master) {
         double change = 0;
         status = material_replicate(rubber, temperature, seed, replicate, &prony, &change, err);
         log_b += change;
@@ -182,26 +181,19 @@ done:
 /* ---- from tables ------------------------------------------------------------------------------
  */
 
-static double key_value(const wt_table *table, const char *key, double *standard_error)
+static wt_status read_shifts(const table_view *shifts, wt_rubber *rubber, wt_error *err)
 {
-    wt_estimate e;
-    if (table == NULL || !wt_table_estimate(table, key, &e))
-        return (double)NAN;
-    if (standard_error != NULL)
-        *standard_error = e.standard_error;
-    return e.value;
-}
-
-static wt_status read_shifts(const wt_table *shifts, wt_rubber *rubber, wt_error *err)
-{
-    size_t rows = wt_table_n_rows(shifts);
-    const char *vertical = wt_table_key(shifts, "vertical");
-    const char *correlation = wt_table_key(shifts, "wlf_correlation");
-    rubber->wlf.c1 = key_value(shifts, "wlf_c1", &rubber->c1_error);
-    rubber->wlf.c2 = key_value(shifts, "wlf_c2", &rubber->c2_error);
-    rubber->wlf.reference_temperature = rubber->prony.reference_temperature;
-    key_value(shifts, "wlf_slope", &rubber->slope_error);
-    rubber->has_wlf = isfinite(rubber->wlf.c1) && isfinite(rubber->wlf.c2);
+    const char *vertical = shift_factors_words(shifts, SHIFT_FACTORS_KEY_VERTICAL);
+    const char *correlation = shift_factors_words(shifts, SHIFT_FACTORS_KEY_WLF_CORRELATION);
+    const wt_estimate c1 = shift_factors_value(shifts, SHIFT_FACTORS_KEY_WLF_C1),
+                      c2 = shift_factors_value(shifts, SHIFT_FACTORS_KEY_WLF_C2),
+                      slope = shift_factors_value(shifts, SHIFT_FACTORS_KEY_WLF_SLOPE);
+    const size_t rows = shifts->n_rows;
+    rubber->wlf = (wt_wlf){rubber->prony.reference_temperature, c1.value, c2.value};
+    rubber->has_wlf = isfinite(c1.value) && isfinite(c2.value);
+    rubber->c1_error = c1.standard_error;
+    rubber->c2_error = c2.standard_error;
+    rubber->slope_error = isnan(slope.value) ? 0 : slope.standard_error;
     if (correlation != NULL &&
         !wt_number_parse(correlation, strlen(correlation), '.', &rubber->c_correlation))
         rubber->c_correlation = 0;
@@ -210,18 +202,47 @@ static wt_status read_shifts(const wt_table *shifts, wt_rubber *rubber, wt_error
     if (rubber->vertical_temperature == NULL || rubber->vertical_log_b == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t i = 0; i < rows; i++) {
-        double t = flow_table_get(shifts, i, "temperature");
-        double b = flow_table_get(shifts, i, "log_b");
+        double t = shift_factors_get(shifts, i, SHIFT_FACTORS_TEMPERATURE);
+        double b = shift_factors_get(shifts, i, SHIFT_FACTORS_LOG_B);
         if (i == 0 || t < rubber->temperature_min)
             rubber->temperature_min = t;
         if (i == 0 || t > rubber->temperature_max)
             rubber->temperature_max = t;
-        bool undetermined = flow_table_get(shifts, i, "determined") <= 0;
-        if (isnan(t) || isnan(b) || undetermined ||
-            (vertical != NULL && strcmp(vertical, "none") == 0))
+        bool undetermined = shift_factors_get(shifts, i, SHIFT_FACTORS_DETERMINED) <= 0;
+        if (isnan(t) || isnan(b) || undetermined || strcmp(vertical, "none") == 0)
             continue;
         rubber->vertical_temperature[rubber->n_vertical] = t;
         rubber->vertical_log_b[rubber->n_vertical++] = b;
+    }
+    return WT_OK;
+}
+
+static wt_status read_prony(const table_view *table, wt_prony *prony, wt_error *err)
+{
+    const char *deformation = prony_words(table, PRONY_KEY_DEFORMATION);
+    wt_status status = wt_prony_alloc(prony, table->n_rows, err);
+    if (status != WT_OK)
+        return status;
+    prony->frequency_min = prony_value(table, PRONY_KEY_FREQUENCY_MIN).value;
+    prony->frequency_max = prony_value(table, PRONY_KEY_FREQUENCY_MAX).value;
+    prony->reference_temperature = prony_value(table, PRONY_KEY_REFERENCE_TEMPERATURE).value;
+    prony->equilibrium_modulus = prony_value(table, PRONY_KEY_EQUILIBRIUM_MODULUS).value;
+    prony->deformation = strcmp(deformation, "shear") == 0 ? WT_SHEAR : WT_TENSION;
+    if (isnan(prony->equilibrium_modulus) ||
+        (prony->deformation == WT_TENSION && strcmp(deformation, "tension") != 0)) {
+        wt_fail(err, WT_E_MISSING, "the table is not a Prony series");
+        wt_error_expected(err, "keys equilibrium_modulus and deformation (tension or shear)");
+        wt_error_advice(err, "give the prony table of `weartrack master`");
+        return WT_E_MISSING;
+    }
+    for (size_t i = 0; i < prony->n; i++) {
+        prony->relaxation_time[i] = prony_get(table, i, PRONY_RELAXATION_TIME);
+        prony->modulus[i] = prony_get(table, i, PRONY_MODULUS);
+        if (!(prony->relaxation_time[i] > 0) || !(prony->modulus[i] >= 0)) {
+            wt_fail(err, WT_E_RANGE, "a Prony term is not positive");
+            wt_error_place(err, "row %zu", i + 1);
+            return WT_E_RANGE;
+        }
     }
     return WT_OK;
 }
@@ -234,39 +255,17 @@ wt_status wt_rubber_from_tables(const wt_table *prony, const wt_table *shift_fac
     wt_rubber rubber = {.poisson_ratio = poisson_ratio,
                         .temperature_min = (double)NAN,
                         .temperature_max = (double)NAN};
-    size_t n = wt_table_n_rows(prony);
-    const char *deformation = wt_table_key(prony, "deformation");
-    wt_status status = wt_prony_alloc(&rubber.prony, n, err);
-    if (status != WT_OK)
-        return status;
-    rubber.prony.frequency_min = key_value(prony, "frequency_min", NULL);
-    rubber.prony.frequency_max = key_value(prony, "frequency_max", NULL);
-    rubber.prony.reference_temperature = key_value(prony, "reference_temperature", NULL);
-    rubber.prony.equilibrium_modulus = key_value(prony, "equilibrium_modulus", NULL);
-    if (deformation == NULL || isnan(rubber.prony.equilibrium_modulus) ||
-        (strcmp(deformation, "tension") != 0 && strcmp(deformation, "shear") != 0)) {
-        status = wt_fail(err, WT_E_MISSING, "the table is not a Prony series");
-        wt_error_expected(err, "keys equilibrium_modulus and deformation (tension or shear)");
-        wt_error_advice(err, "give the prony table of `weartrack master`");
-        goto fail;
-    }
-    rubber.prony.deformation = strcmp(deformation, "shear") == 0 ? WT_SHEAR : WT_TENSION;
-    for (size_t i = 0; i < n; i++) {
-        rubber.prony.relaxation_time[i] = flow_table_get(prony, i, "relaxation_time");
-        rubber.prony.modulus[i] = flow_table_get(prony, i, "modulus");
-        if (!(rubber.prony.relaxation_time[i] > 0) || !(rubber.prony.modulus[i] >= 0)) {
-            status = wt_fail(err, WT_E_RANGE, "a Prony term is not positive");
-            wt_error_place(err, "row %zu", i + 1);
-            goto fail;
-        }
-    }
-    if (shift_factors != NULL)
-        status = read_shifts(shift_factors, &rubber, err);
-    if (status != WT_OK)
-        goto fail;
-    *result = rubber;
-    return WT_OK;
-fail:
-    wt_rubber_clear(&rubber);
+    table_view view;
+    wt_status status = table_bind(prony, &prony_schema, "", &view, err);
+    if (status == WT_OK)
+        status = read_prony(&view, &rubber.prony, err);
+    if (status == WT_OK && shift_factors != NULL)
+        status = table_bind(shift_factors, &shift_factors_schema, "", &view, err);
+    if (status == WT_OK && shift_factors != NULL)
+        status = read_shifts(&view, &rubber, err);
+    if (status == WT_OK)
+        *result = rubber;
+    else
+        wt_rubber_clear(&rubber);
     return status;
 }

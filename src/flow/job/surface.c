@@ -1,7 +1,9 @@
 /* The counter surface: a self-affine law or a measured spectrum, with its stated error.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/job/inputs.h"
-#include "flow/job/tables.h"
+
+#include "base/array.h"
+#include "data/tables/tables.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -104,13 +106,12 @@ static wt_status parse_self_affine(const char *text, wt_surface *surface, wt_err
     return status;
 }
 
-wt_status flow_surface_read(flow_file *file, const wt_job *common, wt_surface *surface,
-                            wt_error *err)
+wt_status flow_surface_read(flow_file *file, const wt_job *work, wt_surface *surface, wt_error *err)
 {
     wt_input *input = NULL;
-    wt_status status = flow_open(common, file, "roughness", WT_KIND_SPECTRUM, &input, err);
+    wt_status status = flow_open(work, file, "roughness", WT_KIND_SPECTRUM, &input, err);
     if (status == WT_OK)
-        status = wt_power_spectrum_read(common->formats, input, &file->read, common->log,
+        status = wt_power_spectrum_read(work->formats, input, &file->read, work->log,
                                         &surface->spectrum, err);
     wt_input_close(input);
     if (status == WT_OK && surface->spectrum.kind != WT_SPECTRUM_2D) {
@@ -123,7 +124,7 @@ wt_status flow_surface_read(flow_file *file, const wt_job *common, wt_surface *s
     return status;
 }
 
-static wt_status read_spectrum(const char *path, const wt_read_options *read, const wt_job *common,
+static wt_status read_spectrum(const char *path, const wt_read_options *read, const wt_job *work,
                                wt_surface *surface, wt_error *err)
 {
     char *own = strdup(path);
@@ -131,20 +132,20 @@ static wt_status read_spectrum(const char *path, const wt_read_options *read, co
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     const wt_file_set set = {.read = read != NULL ? *read : wt_read_defaults()};
     flow_file file = {.path = own, .name = own, .set = &set};
-    wt_status status = flow_surface_read(&file, common, surface, err);
+    wt_status status = flow_surface_read(&file, work, surface, err);
     free(own);
     return status;
 }
 
-wt_status wt_surface_open(const char *text, const wt_read_options *read, const wt_job *common,
+wt_status wt_surface_open(const char *text, const wt_read_options *read, const wt_job *work,
                           wt_surface *surface, wt_error *err)
 {
-    if (text == NULL || surface == NULL || common == NULL)
+    if (text == NULL || surface == NULL || work == NULL)
         return wt_fail(err, WT_E_ARG, "no roughness");
     wt_surface s = {0};
     wt_status status = strncmp(text, PREFIX, strlen(PREFIX)) == 0
                            ? parse_self_affine(text + strlen(PREFIX), &s, err)
-                           : read_spectrum(text, read, common, &s, err);
+                           : read_spectrum(text, read, work, &s, err);
     if (status == WT_OK)
         status = flow_surface_check(&s, err);
     if (status != WT_OK) {
@@ -215,58 +216,34 @@ wt_status wt_surface_roughness(const wt_surface *surface, double factor, wt_roug
 
 #define POINTS_PER_DECADE 20
 
-static wt_status add_point(wt_table *table, const wt_roughness *roughness, double q, wt_error *err)
+wt_status wt_surface_table(const wt_surface *surface, wt_table **table, wt_error *err)
 {
-    double density = (double)NAN;
-    wt_status status = wt_table_add_row(table, err);
+    wt_roughness *roughness = NULL;
+    wt_status status = wt_surface_roughness(surface, 1, &roughness, err);
     if (status != WT_OK)
         return status;
-    roughness->law->density(roughness, &q, 1, &density);
-    wt_table_put(table, 0, q);
-    wt_table_put(table, 1, density);
-    return WT_OK;
-}
-
-wt_status wt_surface_table(const wt_surface *surface, wt_table **result, wt_error *err)
-{
-    static const flow_column columns[] = {
-        {"wavenumber", "rad/m", "wavenumber"},
-        {"density", "m^4", "two-dimensional power spectrum C(q)"},
-    };
-    wt_roughness *roughness = NULL;
-    wt_table *table = NULL;
-    wt_status status = wt_surface_roughness(surface, 1, &roughness, err);
-    if (status == WT_OK)
-        status = flow_table_new("roughness", "Power spectrum of the counter surface", columns,
-                                FLOW_COUNT(columns), &table, err);
-    if (status != WT_OK)
-        goto done;
+    table_writer t = table_begin(&roughness_schema, err);
     double decades = log10(roughness->q1 / roughness->q0);
     size_t n = 2 + (size_t)ceil(decades * POINTS_PER_DECADE);
-    for (size_t i = 0; status == WT_OK && i < n; i++) {
+    for (size_t i = 0; i < n; i++) {
+        double density = (double)NAN;
         double q = i + 1 == n ? roughness->q1
                               : roughness->q0 * pow(10, decades * (double)i / (double)(n - 1));
-        status = add_point(table, roughness, q, err);
+        roughness->law->density(roughness, &q, 1, &density);
+        table_row(&t);
+        roughness_put(&t, ROUGHNESS_WAVENUMBER, q);
+        roughness_put(&t, ROUGHNESS_DENSITY, density);
     }
     /* rms height goes with the square root of C, so its relative error is half */
     double share = surface->c0.standard_error / surface->c0.value / 2;
     double height = wt_roughness_rms_height(roughness), slope = wt_roughness_rms_slope(roughness);
-    if (status == WT_OK)
-        status = flow_table_value(table, "rms_height", height, share * height, 0, "m", err);
-    if (status == WT_OK)
-        status = flow_table_value(table, "rms_slope", slope, share * slope, 0, "1", err);
-    if (status == WT_OK && surface->self_affine)
-        status = flow_table_key(table, err, "hurst", "%g", surface->hurst);
-    if (status == WT_OK && surface->self_affine)
-        status = wt_table_set_estimate(table, "c0", surface->c0, err);
-    if (status == WT_OK && surface->self_affine)
-        status = flow_table_value(table, "roll_off", surface->qr, 0, 0, "rad/m", err);
-done:
-    wt_roughness_free(roughness);
-    if (status != WT_OK) {
-        wt_table_free(table);
-        return status;
+    roughness_set_value(&t, ROUGHNESS_KEY_RMS_HEIGHT, height, share * height, 0);
+    roughness_set_value(&t, ROUGHNESS_KEY_RMS_SLOPE, slope, share * slope, 0);
+    if (surface->self_affine) {
+        roughness_set_print(&t, ROUGHNESS_KEY_HURST, "%g", surface->hurst);
+        roughness_set(&t, ROUGHNESS_KEY_C0, surface->c0);
+        roughness_set_value(&t, ROUGHNESS_KEY_ROLL_OFF, surface->qr, 0, 0);
     }
-    *result = table;
-    return WT_OK;
+    wt_roughness_free(roughness);
+    return table_end(&t, table);
 }

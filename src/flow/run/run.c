@@ -2,7 +2,9 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/answer/answer.h"
 #include "flow/job/inputs.h"
-#include "flow/job/tables.h"
+#include "flow/run/steps.h"
+
+#include "data/tables/tables.h"
 
 #include <math.h>
 #include <string.h>
@@ -21,16 +23,20 @@ PARAM_TABLE(wt_run_params, wt_run_options, rows, wt_run_defaults, NO_PARTS)
 typedef struct conduct {
     flow_run run;
     bool no_timing;
-    flow_outcome outcome[FLOW_MAX_STAGES];
     flow_things have;
     wt_formats *formats;
     wt_parselog *own_log;
     wt_result *result;
-    wt_table *failures, *cost;
+    wt_table *failures;
+    table_writer cost;
 } conduct;
 
 /* ---- one stage --------------------------------------------------------------------------------
  */
+
+#define STEP(id, name, title, needs, gives, step) step,
+static wt_status (*const steps[FLOW_N_STAGES])(flow_run *, flow_cost *,
+                                               wt_error *) = {STAGES(STEP)};
 
 /* Whether a stage that was not chosen must stand in for a fuller one that did not succeed. */
 static bool stands_in(const conduct *d, size_t i)
@@ -40,30 +46,26 @@ static bool stands_in(const conduct *d, size_t i)
     if (plan->chosen[i] || lacking == 0 || (flow_stages[i].needs & ~d->have) != 0)
         return false;
     for (size_t k = 0; k < i; k++)
-        if ((d->outcome[k] == FLOW_FAILED || d->outcome[k] == FLOW_BLOCKED) &&
+        if ((plan->outcome[k] == FLOW_FAILED || plan->outcome[k] == FLOW_BLOCKED) &&
             (flow_stages[k].gives & lacking) != 0)
             return true;
     return false;
 }
 
 static wt_status cost_row(conduct *d, size_t i, bool runs, const char *because, double wall,
-                          double cpu, const flow_cost *cost, wt_error *err)
+                          double cpu, const flow_cost *cost)
 {
-    enum { STAGE, RUNS, BECAUSE, WALL, CPU, ITEMS, TOLERANCE, ERROR };
-    wt_status status = wt_table_add_row(d->cost, err);
-    if (status == WT_OK)
-        status = wt_table_put_text(d->cost, STAGE, flow_stages[i].id, err);
-    if (status == WT_OK)
-        status = wt_table_put_text(d->cost, BECAUSE, because, err);
-    if (status != WT_OK)
-        return status;
-    wt_table_put(d->cost, RUNS, runs);
-    wt_table_put(d->cost, WALL, d->no_timing ? (double)NAN : wall);
-    wt_table_put(d->cost, CPU, d->no_timing ? (double)NAN : cpu);
-    wt_table_put(d->cost, ITEMS, cost->items);
-    wt_table_put(d->cost, TOLERANCE, cost->tolerance_asked);
-    wt_table_put(d->cost, ERROR, cost->error_estimated);
-    return WT_OK;
+    table_writer *t = &d->cost;
+    table_row(t);
+    cost_put_text(t, COST_STAGE, flow_stages[i].id);
+    cost_put(t, COST_RUNS, runs);
+    cost_put_text(t, COST_BECAUSE, because);
+    cost_put(t, COST_WALL_TIME, d->no_timing ? (double)NAN : wall);
+    cost_put(t, COST_CPU_TIME, d->no_timing ? (double)NAN : cpu);
+    cost_put(t, COST_ITEMS, cost->items);
+    cost_put(t, COST_TOLERANCE_ASKED, cost->tolerance_asked);
+    cost_put(t, COST_ERROR_ESTIMATED, cost->error_estimated);
+    return t->status;
 }
 
 static wt_status report_progress(const conduct *d, const char *what, wt_error *err)
@@ -82,48 +84,43 @@ static wt_status run_stage(conduct *d, size_t i, const char *because, wt_error *
     if (status != WT_OK)
         return status;
     double wall = wt_time_wall(), cpu = wt_time_cpu();
-    status = flow_stages[i].run(&d->run, &cost, &failure);
+    status = steps[i](&d->run, &cost, &failure);
     wall = wt_time_wall() - wall;
     cpu = wt_time_cpu() - cpu;
-    if (status == WT_E_MEMORY || status == WT_E_CANCELLED || status == WT_E_INTERNAL) {
+    if (status == WT_OK) {
+        d->run.plan.outcome[i] = FLOW_DONE;
+        d->have |= flow_stages[i].gives;
+        return cost_row(d, i, true, because, wall, cpu, &cost);
+    }
+    if (!flow_goes_on(&d->run.job, status)) {
         if (err != NULL)
             *err = failure;
         return status;
     }
-    if (status == WT_OK) {
-        d->outcome[i] = FLOW_DONE;
-        d->have |= flow_stages[i].gives;
-        return cost_row(d, i, true, because, wall, cpu, &cost, err);
-    }
-    char text[256], stage[96], message[2048];
-    d->outcome[i] = FLOW_FAILED;
-    wt_error_format(&failure, message, sizeof message);
+    char stage[64], text[256];
+    d->run.plan.outcome[i] = FLOW_FAILED;
     snprintf(stage, sizeof stage, "stage %s", flow_stages[i].id);
     snprintf(text, sizeof text, "%s, and failed", because);
-    status = wt_table_add_row(d->failures, err);
-    if (status == WT_OK)
-        status = wt_table_put_text(d->failures, 0, stage, err);
-    if (status == WT_OK)
-        status = wt_table_put_text(d->failures, 1, message, err);
-    return status == WT_OK ? cost_row(d, i, true, text, wall, cpu, &cost, err) : status;
+    status = flow_add_failure(&d->run.job, stage, &failure, err);
+    return status == WT_OK ? cost_row(d, i, true, text, wall, cpu, &cost) : status;
 }
 
 static wt_status consider_stage(conduct *d, size_t i, wt_error *err)
 {
-    const flow_plan *plan = &d->run.plan;
+    flow_plan *plan = &d->run.plan;
     const flow_cost none = {0, (double)NAN, (double)NAN};
     char missing[160], because[256];
     if (stands_in(d, i))
         return run_stage(d, i, "runs because the stage that gives more did not succeed", err);
     if (!plan->chosen[i])
-        return cost_row(d, i, false, plan->because[i], 0, 0, &none, err);
+        return cost_row(d, i, false, plan->because[i], 0, 0, &none);
     if ((flow_stages[i].needs & ~d->have) == 0)
         return run_stage(d, i, plan->because[i], err);
-    d->outcome[i] = FLOW_BLOCKED;
+    plan->outcome[i] = FLOW_BLOCKED;
     flow_things_list(flow_stages[i].needs & ~d->have, missing, sizeof missing);
     snprintf(because, sizeof because, "left out because a stage before failed to give its %s",
              missing);
-    return cost_row(d, i, false, because, 0, 0, &none, err);
+    return cost_row(d, i, false, because, 0, 0, &none);
 }
 
 /* ---- tables -----------------------------------------------------------------------------------
@@ -139,36 +136,23 @@ static wt_status publish(conduct *d, wt_table **table, wt_error *err)
     return wt_result_add(d->result, taken, err);
 }
 
-/* The tables of the stages; what nobody asked for stays out. */
+/* The tables of the stages in the order of their declaration; what nobody asked for stays out. */
 static wt_status publish_stages(conduct *d, wt_error *err)
 {
     flow_run *r = &d->run;
-    flow_things curves = FLOW_BIT(FLOW_CURVE_BULK) | FLOW_BIT(FLOW_CURVE_TRACK);
-    const struct {
-        wt_table **table;
-        flow_things thing;
-    } tables[] = {
-        {&r->indentation[0], FLOW_BIT(FLOW_INDENTATION_BULK)},
-        {&r->indentation[1], FLOW_BIT(FLOW_INDENTATION_TRACK)},
-        {&r->curves.force_displacement, curves},
-        {&r->curves.force_indentation, curves},
-        {&r->compare.modulus_groups, FLOW_BIT(FLOW_MODULUS_GROUPS)},
-        {&r->compare.modulus_rate, FLOW_BIT(FLOW_MODULUS_RATE)},
-        {&r->compare.comparison, FLOW_BIT(FLOW_COMPARISON)},
-        {&r->dma_comparison, FLOW_BIT(FLOW_DMA_COMPARISON)},
-        {&r->master.shift_factors, FLOW_BIT(FLOW_SHIFT_FACTORS)},
-        {&r->master.master_curve, FLOW_BIT(FLOW_MASTER_CURVE)},
-        {&r->master.prony, FLOW_BIT(FLOW_PRONY)},
-        {&r->roughness, FLOW_BIT(FLOW_ROUGHNESS)},
-        {&r->friction.friction, FLOW_BIT(FLOW_FRICTION)},
-        {&r->friction.contact_area, FLOW_BIT(FLOW_CONTACT_AREA)},
-        {&r->layer.layer, FLOW_BIT(FLOW_LAYER)},
-        {&r->layer.energy_density, FLOW_BIT(FLOW_ENERGY_DENSITY)},
-    };
+    const flow_things curves = FLOW_BIT(FLOW_CURVE_BULK) | FLOW_BIT(FLOW_CURVE_TRACK);
     wt_status status = WT_OK;
-    for (size_t i = 0; status == WT_OK && i < FLOW_COUNT(tables); i++)
-        if ((tables[i].thing & r->plan.required) != 0)
-            status = publish(d, tables[i].table, err);
+    for (size_t i = 0; i < table_n_schemas; i++) {
+        for (unsigned k = FLOW_FIRST_TABLE; status == WT_OK && k < FLOW_FIRST_INNER; k++)
+            if (flow_thing_rows[k].schema == table_schemas[i] && (r->plan.required & FLOW_BIT(k)))
+                status = publish(d, &r->table[k], err);
+        if ((r->plan.required & curves) == 0)
+            continue;
+        if (status == WT_OK && table_schemas[i] == &force_displacement_schema)
+            status = publish(d, &r->curves.force_displacement, err);
+        if (status == WT_OK && table_schemas[i] == &force_indentation_schema)
+            status = publish(d, &r->curves.force_indentation, err);
+    }
     return status;
 }
 
@@ -190,19 +174,12 @@ static void warn_of_copies(const conduct *d)
 
 static wt_status finish(conduct *d, wt_error *err)
 {
-    wt_table *answer = NULL, *inputs = NULL, *notes = NULL;
+    wt_table *answer = NULL, *inputs = NULL, *notes = NULL, *cost = NULL;
     warn_of_copies(d);
     wt_status status = publish_stages(d, err);
-    if (status == WT_OK) {
-        const flow_story story = {d->run.c,  &d->run.plan,   d->outcome,
-                                  d->result, d->run.job.log, d->failures};
-        status = flow_answer(&story, &answer, err);
-    }
-    if (status == WT_OK && wt_case_title(d->run.c)[0] != '\0') { /* the title of the page */
-        status = wt_table_set_key(answer, "case_title", wt_case_title(d->run.c), err);
-        if (status != WT_OK)
-            wt_table_free(answer);
-    }
+    if (status == WT_OK)
+        status = flow_answer(d->run.c, &d->run.plan, d->result, d->run.job.log, d->failures,
+                             &answer, err);
     if (status == WT_OK)
         status = publish(d, &answer, err);
     if (status == WT_OK)
@@ -216,8 +193,9 @@ static wt_status finish(conduct *d, wt_error *err)
     if (status == WT_OK)
         status = publish(d, &d->failures, err);
     if (status == WT_OK)
-        status = publish(d, &d->cost, err);
-    return status;
+        status = table_end(&d->cost, &cost);
+    d->cost.table = NULL;
+    return status == WT_OK ? publish(d, &cost, err) : status;
 }
 
 /* ---- the run ----------------------------------------------------------------------------------
@@ -238,16 +216,6 @@ static wt_status add_case(conduct *d, wt_error *err)
 
 static wt_status prepare(conduct *d, const wt_run_options *options, wt_parselog *log, wt_error *err)
 {
-    static const flow_column columns[] = {
-        {"stage", NULL, "stage"},
-        {"runs", "1", "1: ran, 0: left out"},
-        {"because", NULL, "why"},
-        {"wall_time", "s", "elapsed time"},
-        {"cpu_time", "s", "processor time"},
-        {"items", "1", "curves, isotherms, points"},
-        {"tolerance_asked", "1", "relative numerical error asked for"},
-        {"error_estimated", "1", "largest relative numerical error estimated"},
-    };
     if (log == NULL)
         log = d->own_log = wt_parselog_new();
     d->no_timing = options->no_timing;
@@ -255,8 +223,8 @@ static wt_status prepare(conduct *d, const wt_run_options *options, wt_parselog 
     d->failures = wt_failures_new();
     if (log == NULL || d->result == NULL || d->failures == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    wt_status status = flow_table_new("cost", "Stages, their time and their numerical error",
-                                      columns, FLOW_COUNT(columns), &d->cost, err);
+    d->cost = table_begin(&cost_schema, err);
+    wt_status status = d->cost.status;
     if (status == WT_OK)
         status = wt_formats_new(options->formats, &d->formats, log, err);
     d->run.job = (wt_job){
@@ -289,7 +257,7 @@ wt_status wt_run(const wt_case *c, const wt_run_options *options, wt_parselog *l
         goto done;
     flow_plan_make(c, &d.run.plan);
     d.have = d.run.plan.sources;
-    for (size_t i = 0; status == WT_OK && i < flow_n_stages; i++)
+    for (size_t i = 0; status == WT_OK && i < FLOW_N_STAGES; i++)
         status = consider_stage(&d, i, err);
     if (status != WT_OK)
         goto done;
@@ -306,7 +274,7 @@ done:
     wt_formats_free(d.formats);
     wt_result_free(d.result);
     wt_table_free(d.failures);
-    wt_table_free(d.cost);
+    wt_table_free(d.cost.table);
     wt_parselog_free(d.own_log);
     return status;
 }

@@ -2,7 +2,8 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/run/steps.h"
 #include "flow/job/inputs.h"
-#include "flow/job/tables.h"
+
+#include "data/tables/tables.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -10,18 +11,20 @@
 
 void flow_run_clear(flow_run *run)
 {
-    wt_table_free(run->indentation[0]);
-    wt_table_free(run->indentation[1]);
+    for (size_t i = 0; i < FLOW_N_THINGS; i++)
+        wt_table_free(run->table[i]);
     wt_indent_tables_clear(&run->curves);
-    wt_compare_tables_clear(&run->compare);
-    wt_table_free(run->dma_comparison);
-    wt_master_tables_clear(&run->master);
     wt_rubber_clear(&run->rubber);
     wt_surface_clear(&run->surface);
-    wt_table_free(run->roughness);
-    wt_layer_tables_clear(&run->layer);
-    wt_friction_tables_clear(&run->friction);
     *run = (flow_run){0};
+}
+
+/* Moves a table into the run; one that a stage left there before goes. */
+static void keep(flow_run *run, flow_thing thing, wt_table **table)
+{
+    wt_table_free(run->table[thing]);
+    run->table[thing] = *table;
+    *table = NULL;
 }
 
 /* ---- from the case ----------------------------------------------------------------------------
@@ -60,7 +63,7 @@ wt_status flow_case_rubber(const wt_case *c, wt_rubber *result, wt_error *err)
     return WT_OK;
 }
 
-wt_status flow_case_surface(const wt_case *c, const wt_job *common, wt_surface *surface,
+wt_status flow_case_surface(const wt_case *c, const wt_job *work, wt_surface *surface,
                             wt_error *err)
 {
     if (c->has_self_affine) {
@@ -73,7 +76,7 @@ wt_status flow_case_surface(const wt_case *c, const wt_job *common, wt_surface *
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     wt_surface opened = {0};
     flow_file file = {.path = path, .name = set->patterns[0], .set = set};
-    wt_status status = flow_surface_read(&file, common, &opened, err);
+    wt_status status = flow_surface_read(&file, work, &opened, err);
     if (status == WT_OK) {
         opened.q0 = c->surface.q0;
         opened.q1 = c->surface.q1;
@@ -116,8 +119,7 @@ static wt_status indent(flow_run *run, int g, flow_cost *cost, wt_error *err)
         (run->plan.required & (FLOW_BIT(FLOW_MODULUS_RATE) | FLOW_BIT(FLOW_DMA_COMPARISON))) != 0;
     job.curves = (run->plan.wanted & FLOW_BIT(curve[g])) != 0;
     wt_status status = wt_indent_group(&job, &run->job, &run->curves, err);
-    run->indentation[g] = run->curves.indentation;
-    run->curves.indentation = NULL;
+    keep(run, g == 0 ? FLOW_INDENTATION_BULK : FLOW_INDENTATION_TRACK, &run->curves.indentation);
     cost->items = (double)run->curves.n_curves;
     return status;
 }
@@ -137,27 +139,34 @@ wt_status flow_step_track(flow_run *run, flow_cost *cost, wt_error *err)
 
 static wt_status compare(flow_run *run, bool groups_only, flow_cost *cost, wt_error *err)
 {
+    wt_compare_tables tables = {0};
     wt_compare_job job = run->c->compare;
-    job.bulk = run->indentation[0];
-    job.track = run->indentation[1];
+    job.bulk = run->table[FLOW_INDENTATION_BULK];
+    job.track = run->table[FLOW_INDENTATION_TRACK];
     job.rates = (run->plan.required & FLOW_BIT(FLOW_MODULUS_RATE)) != 0;
     job.groups_only = groups_only;
-    wt_compare_tables_clear(&run->compare);
-    wt_status status = wt_compare_groups(&job, &run->job, &run->compare, err);
+    wt_status status = wt_compare_groups(&job, &run->job, &tables, err);
     if (status == WT_OK)
-        cost->items = (double)wt_table_n_rows(run->compare.modulus_groups);
+        cost->items = (double)wt_table_n_rows(tables.modulus_groups);
+    keep(run, FLOW_MODULUS_GROUPS, &tables.modulus_groups);
+    keep(run, FLOW_COMPARISON, &tables.comparison);
+    keep(run, FLOW_MODULUS_RATE, &tables.modulus_rate);
     return status;
 }
 
 wt_status flow_step_compare(flow_run *run, flow_cost *cost, wt_error *err)
 {
+    table_view comparison;
     wt_status status = compare(run, false, cost, err);
+    if (status == WT_OK)
+        status = table_bind(run->table[FLOW_COMPARISON], &comparison_schema, "", &comparison, err);
     if (status != WT_OK)
         return status;
-    if (!wt_table_estimate(run->compare.comparison, "modulus_ratio", &run->modulus_ratio))
-        return wt_fail(err, WT_E_INTERNAL, "the comparison gave no modulus ratio");
-    run->modulus_ratio.unit = "1";
-    return WT_OK;
+    run->modulus_ratio = comparison_value(&comparison, COMPARISON_KEY_MODULUS_RATIO);
+    run->modulus_ratio.unit = "1"; /* not that of the table */
+    return isnan(run->modulus_ratio.value)
+               ? wt_fail(err, WT_E_INTERNAL, "the comparison gave no modulus ratio")
+               : WT_OK;
 }
 
 /* Of the groups there are. */
@@ -170,8 +179,8 @@ wt_status flow_step_dma_comparison(flow_run *run, flow_cost *cost, wt_error *err
 {
     wt_compare_tables tables = {0};
     wt_compare_job job = run->c->compare;
-    job.bulk = run->indentation[0];
-    job.track = run->indentation[1];
+    job.bulk = run->table[FLOW_INDENTATION_BULK];
+    job.track = run->table[FLOW_INDENTATION_TRACK];
     job.rubber = &run->rubber;
     job.groups_only = true;
     /* the warnings of the comparison itself have been given by its own stage */
@@ -183,9 +192,8 @@ wt_status flow_step_dma_comparison(flow_run *run, flow_cost *cost, wt_error *err
             wt_fail(err, WT_E_MISSING,
                     "the curves tell no indentation rate, so no frequency corresponds to them");
     if (status == WT_OK) {
-        run->dma_comparison = tables.dma_comparison;
-        tables.dma_comparison = NULL;
-        cost->items = (double)wt_table_n_rows(run->dma_comparison);
+        cost->items = (double)wt_table_n_rows(tables.dma_comparison);
+        keep(run, FLOW_DMA_COMPARISON, &tables.dma_comparison);
     }
     wt_compare_tables_clear(&tables);
     return status;
@@ -204,9 +212,13 @@ wt_status flow_step_given_ratio(flow_run *run, flow_cost *cost, wt_error *err)
 
 wt_status flow_step_master(flow_run *run, flow_cost *cost, wt_error *err)
 {
+    wt_master_tables tables = {0};
     wt_master_job job = flow_case_master(run->c);
-    wt_status status = wt_master_make(&job, &run->job, &run->master, &run->rubber, err);
-    cost->items = (double)run->master.n_isotherms;
+    wt_status status = wt_master_make(&job, &run->job, &tables, &run->rubber, err);
+    cost->items = (double)tables.n_isotherms;
+    keep(run, FLOW_SHIFT_FACTORS, &tables.shift_factors);
+    keep(run, FLOW_MASTER_CURVE, &tables.master_curve);
+    keep(run, FLOW_PRONY, &tables.prony);
     return status;
 }
 
@@ -223,9 +235,9 @@ wt_status flow_step_roughness(flow_run *run, flow_cost *cost, wt_error *err)
 {
     wt_status status = flow_case_surface(run->c, &run->job, &run->surface, err);
     if (status == WT_OK)
-        status = wt_surface_table(&run->surface, &run->roughness, err);
+        status = wt_surface_table(&run->surface, &run->table[FLOW_ROUGHNESS], err);
     if (status == WT_OK)
-        cost->items = (double)wt_table_n_rows(run->roughness);
+        cost->items = (double)wt_table_n_rows(run->table[FLOW_ROUGHNESS]);
     return status;
 }
 
@@ -235,13 +247,17 @@ wt_status flow_step_roughness(flow_run *run, flow_cost *cost, wt_error *err)
 wt_status flow_step_layer(flow_run *run, flow_cost *cost, wt_error *err)
 {
     wt_sliding sliding = flow_case_conditions(run->c, &run->rubber, &run->surface);
-    wt_status status = wt_layer_make(&sliding, &run->c->layer, &run->job, &run->layer, err);
+    wt_layer_tables tables = {0};
+    wt_status status = wt_layer_make(&sliding, &run->c->layer, &run->job, &tables, err);
     if (status != WT_OK)
         return status;
-    cost->items = (double)wt_table_n_rows(run->layer.layer);
+    run->thickness = tables.thickness;
+    cost->items = (double)wt_table_n_rows(tables.layer);
     cost->tolerance_asked = run->job.tolerance;
-    if (run->layer.thickness.value > 0)
-        cost->error_estimated = run->layer.thickness.numerical_error / run->layer.thickness.value;
+    if (run->thickness.value > 0)
+        cost->error_estimated = run->thickness.numerical_error / run->thickness.value;
+    keep(run, FLOW_LAYER, &tables.layer);
+    keep(run, FLOW_ENERGY_DENSITY, &tables.energy_density);
     return WT_OK;
 }
 
@@ -249,18 +265,21 @@ static wt_status friction(flow_run *run, const wt_layer_known *layer, flow_cost 
                           wt_error *err)
 {
     wt_sliding sliding = flow_case_conditions(run->c, &run->rubber, &run->surface);
-    wt_status status = wt_friction_make(&sliding, layer, &run->job, &run->friction, err);
+    wt_friction_tables tables = {0};
+    wt_status status = wt_friction_make(&sliding, layer, &run->job, &tables, err);
     if (status != WT_OK)
         return status;
-    cost->items = (double)run->friction.n_points;
-    cost->tolerance_asked = run->friction.tolerance_asked;
-    cost->error_estimated = run->friction.error_reached;
+    cost->items = (double)tables.n_points;
+    cost->tolerance_asked = tables.tolerance_asked;
+    cost->error_estimated = tables.error_reached;
+    keep(run, FLOW_FRICTION, &tables.friction);
+    keep(run, FLOW_CONTACT_AREA, &tables.contact_area);
     return WT_OK;
 }
 
 wt_status flow_step_friction_with_layer(flow_run *run, flow_cost *cost, wt_error *err)
 {
-    wt_layer_known layer = {.thickness = run->layer.thickness, .modulus_ratio = run->modulus_ratio};
+    wt_layer_known layer = {.thickness = run->thickness, .modulus_ratio = run->modulus_ratio};
     return friction(run, &layer, cost, err);
 }
 

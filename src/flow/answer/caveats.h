@@ -1,0 +1,10 @@
+/* What must be said with the answer. Internal to flow. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WEARTRACK_FLOW_CAVEATS_H
+#define WEARTRACK_FLOW_CAVEATS_H
+
+#include "flow/answer/story.h"
+
+/* Rows of kind "caveat". */
+void answer_caveats(const answer_story *story);
+
+#endif

@@ -1,0 +1,54 @@
+/* Numbers in the sentences of an answer. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/answer/words.h"
+
+#include "base/clocale.h"
+
+#include <math.h>
+#include <string.h>
+
+number_words words_of(double value, const char *unit)
+{
+    number_words words = {""};
+    if (isnan(value))
+        snprintf(words.text, sizeof words.text, "not known");
+    else if (isinf(value))
+        snprintf(words.text, sizeof words.text, "without limit");
+    else if (strcmp(unit, "1") == 0)
+        clocale_print(words.text, sizeof words.text, "%.3g", value);
+    else
+        wt_format_si(value, unit, 3, words.text, sizeof words.text);
+    return words;
+}
+
+number_words words_of_value(wt_estimate e)
+{
+    return words_of(e.value, e.unit);
+}
+
+/* The error in the scale of the value: "3.16 ± 0.96 um". */
+number_words words_of_estimate(wt_estimate e)
+{
+    number_words value = words_of(e.value, e.unit), words = value;
+    if (!isfinite(e.value) || !(e.standard_error > 0) || !isfinite(e.standard_error))
+        return words;
+    const char *suffix = strchr(value.text, ' ');
+    size_t length = suffix == NULL ? strlen(value.text) : (size_t)(suffix - value.text);
+    double shown = (double)NAN;
+    if (!wt_number_parse(value.text, length, '.', &shown) || !(fabs(shown) > 0))
+        return words;
+    double error = e.standard_error * fabs(shown / e.value);
+    clocale_print(words.text, sizeof words.text,
+                  error >= 10 ? "%.*s \xc2\xb1 %.0f%.40s" : "%.*s \xc2\xb1 %.2g%.40s", (int)length,
+                  value.text, error, suffix == NULL ? "" : suffix);
+    return words;
+}
+
+number_words words_of_celsius(double kelvin)
+{
+    number_words words;
+    clocale_print(words.text, sizeof words.text,
+                  "%.1f \xc2\xb0"
+                  "C",
+                  kelvin - WT_ZERO_CELSIUS);
+    return words;
+}

@@ -1,0 +1,19 @@
+/* Numbers in the sentences of an answer. Internal to flow. SPDX-License-Identifier:
+ * GPL-3.0-or-later
+ */
+#ifndef WEARTRACK_FLOW_WORDS_H
+#define WEARTRACK_FLOW_WORDS_H
+
+#include "weartrack/base.h"
+
+/* "1.15 um" in a buffer of its own, for use in a format. */
+typedef struct number_words {
+    char text[96];
+} number_words;
+
+number_words words_of(double value, const char *unit);
+number_words words_of_value(wt_estimate estimate);    /* without its errors */
+number_words words_of_estimate(wt_estimate estimate); /* +- the standard error where it is known */
+number_words words_of_celsius(double kelvin);
+
+#endif

@@ -1,0 +1,70 @@
+/* What a case may hold, what it may ask for, and what stages hand on: the things that the plan
+ * reasons about. A new one is a row. Internal to flow. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WEARTRACK_FLOW_THINGS_H
+#define WEARTRACK_FLOW_THINGS_H
+
+#include "data/schema.h"
+
+/* Sources: id, words, what a case without it lacks. */
+#define SOURCES(X)                                                                                 \
+    X(BULK_CURVES, "bulk curves", "no bulk curves (<bulk> in <indentation>)")                      \
+    X(TRACK_CURVES, "wear-track curves", "no wear-track curves (<track> in <indentation>)")        \
+    X(DMA_FILES, "DMA files", "no DMA files (<files> in <dma>)")                                   \
+    X(GIVEN_MATERIAL, "given material", "no material (<prony> in <dma>)")                          \
+    X(COUNTER_SURFACE, "counter surface", "no counter surface (<roughness>)")                      \
+    X(CONDITIONS, "sliding conditions", "no sliding conditions (<sliding>)")                       \
+    X(LAYER_PARAMETERS, "layer parameters", "no layer parameters (<layer>)")                       \
+    X(GIVEN_RATIO, "given modulus ratio", "no modulus ratio (<modulus-ratio> in <layer>)")
+
+/* Tables: id, name, schema and what completes its name. The curve of a group is a block of two
+ * tables, which the groups share. */
+#define TABLE_THINGS(X)                                                                            \
+    X(INDENTATION_BULK, "indentation/bulk", &indentation_schema, "bulk")                           \
+    X(INDENTATION_TRACK, "indentation/track", &indentation_schema, "track")                        \
+    X(CURVE_BULK, "bulk curve", NULL, "")                                                          \
+    X(CURVE_TRACK, "wear-track curve", NULL, "")                                                   \
+    X(COMPARISON, "comparison", &comparison_schema, "")                                            \
+    X(MODULUS_GROUPS, "modulus_groups", &modulus_groups_schema, "")                                \
+    X(MODULUS_RATE, "modulus_rate", &modulus_rate_schema, "")                                      \
+    X(DMA_COMPARISON, "dma_comparison", &dma_comparison_schema, "")                                \
+    X(SHIFT_FACTORS, "shift_factors", &shift_factors_schema, "")                                   \
+    X(MASTER_CURVE, "master_curve", &master_curve_schema, "")                                      \
+    X(PRONY, "prony", &prony_schema, "")                                                           \
+    X(ROUGHNESS, "roughness", &roughness_schema, "")                                               \
+    X(LAYER, "layer", &layer_schema, "")                                                           \
+    X(ENERGY_DENSITY, "energy_density", &energy_density_schema, "")                                \
+    X(FRICTION, "friction", &friction_schema, "")                                                  \
+    X(CONTACT_AREA, "contact_area", &contact_area_schema, "")
+
+/* Handed from stage to stage only: id, words. */
+#define INNER_THINGS(X)                                                                            \
+    X(RUBBER, "material")                                                                          \
+    X(SURFACE, "roughness law")                                                                    \
+    X(MODULUS_RATIO, "modulus ratio")
+
+#define THING_ID(id, ...) FLOW_##id,
+typedef enum flow_thing {
+    SOURCES(THING_ID) TABLE_THINGS(THING_ID) INNER_THINGS(THING_ID) FLOW_N_THINGS
+} flow_thing;
+enum { FLOW_FIRST_TABLE = FLOW_INDENTATION_BULK, FLOW_FIRST_INNER = FLOW_RUBBER };
+
+typedef uint64_t flow_things; /* bit i = thing i */
+#define FLOW_BIT(thing) ((flow_things)1 << (unsigned)(thing))
+#define FLOW_SOURCES (FLOW_BIT(FLOW_FIRST_TABLE) - 1)
+#define FLOW_TABLES (FLOW_BIT(FLOW_FIRST_INNER) - 1 - FLOW_SOURCES)
+
+typedef struct flow_thing_row {
+    const char *words, *missing;
+    const table_schema *schema; /* of a table of its own, else NULL */
+    const char *suffix;
+} flow_thing_row;
+extern const flow_thing_row flow_thing_rows[FLOW_N_THINGS];
+
+/* Words of the things, parted by commas. */
+void flow_things_list(flow_things things, char *text, size_t size);
+/* Things behind a table or a figure of a result, none for what every result has; false if there is
+ * no such table or figure. */
+bool flow_things_of_table(const char *table, flow_things *things);
+bool flow_things_of_figure(const char *figure, flow_things *things);
+
+#endif

@@ -1,0 +1,15 @@
+/* The representative curves of the groups. Internal to flow.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WEARTRACK_FLOW_CURVE_TABLES_H
+#define WEARTRACK_FLOW_CURVE_TABLES_H
+
+#include "weartrack/flow.h"
+
+/* Appends the whole curve (approach and retract) and its indentation branch with the fit to the
+ * curve tables of `tables`, which are made if they are NULL. */
+wt_status flow_curve_tables_add(wt_indent_tables *tables, const char *group, const char *file,
+                                const wt_force_curve *curve, const wt_indent_fit *fit,
+                                const wt_contact_table *contact, double poisson_ratio,
+                                wt_error *err) WT_NODISCARD;
+
+#endif

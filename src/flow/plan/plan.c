@@ -1,0 +1,195 @@
+/* The plan: which stages this case needs, and why the others are left out.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/plan/plan.h"
+
+#include "base/array.h"
+#include "data/tables/tables.h"
+
+#include <math.h>
+#include <string.h>
+
+/* ---- what is there, what is wanted ------------------------------------------------------------
+ */
+
+static flow_things sources_of(const wt_case *c)
+{
+    const struct {
+        bool there;
+        flow_thing thing;
+    } all[] = {
+        {c->bulk.n > 0, FLOW_BULK_CURVES},
+        {c->track.n > 0, FLOW_TRACK_CURVES},
+        {c->dma.n > 0, FLOW_DMA_FILES},
+        {c->has_prony, FLOW_GIVEN_MATERIAL},
+        {c->has_self_affine || c->has_spectrum, FLOW_COUNTER_SURFACE},
+        {c->has_sliding, FLOW_CONDITIONS},
+        {c->has_layer, FLOW_LAYER_PARAMETERS},
+        {c->has_modulus_ratio, FLOW_GIVEN_RATIO},
+    };
+    flow_things set = 0;
+    for (size_t i = 0; i < COUNT_OF(all); i++)
+        if (all[i].there)
+            set |= FLOW_BIT(all[i].thing);
+    return set;
+}
+
+static flow_things wanted_by(const wt_case *c)
+{
+    flow_things wanted = c->has_asked ? c->asked : FLOW_TABLES;
+    if (c->has_compare && !c->compare_groups)
+        wanted &= ~FLOW_BIT(FLOW_COMPARISON);
+    if (c->has_compare && !c->compare_rates)
+        wanted &= ~FLOW_BIT(FLOW_MODULUS_RATE);
+    if (c->has_compare && !c->compare_dma)
+        wanted &= ~FLOW_BIT(FLOW_DMA_COMPARISON);
+    return wanted;
+}
+
+/* ---- choosing ---------------------------------------------------------------------------------
+ */
+
+static int count_bits(flow_things set)
+{
+    int n = 0;
+    for (; set != 0; set &= set - 1)
+        n++;
+    return n;
+}
+
+/* Stages whose needs can all be met; one pass suffices since the table is in order. */
+static void find_able(flow_things sources, bool able[FLOW_N_STAGES])
+{
+    flow_things reachable = sources;
+    for (size_t i = 0; i < FLOW_N_STAGES; i++) {
+        able[i] = (flow_stages[i].needs & ~reachable) == 0;
+        if (able[i])
+            reachable |= flow_stages[i].gives;
+    }
+}
+
+/* Whether stage a is to be preferred to b for what they both give: the one that takes more into
+ * account, or else the one that does less that nobody asked for. */
+static bool is_better(const flow_plan *plan, size_t a, size_t b)
+{
+    int more = count_bits(flow_stages[a].needs) - count_bits(flow_stages[b].needs);
+    if (more != 0)
+        return more > 0;
+    return count_bits(flow_stages[a].gives & ~plan->required) <
+           count_bits(flow_stages[b].gives & ~plan->required);
+}
+
+/* Chooses the best stage that gives a thing, then what it needs. */
+static void choose(flow_plan *plan, const bool able[FLOW_N_STAGES], flow_thing thing,
+                   const char *because)
+{
+    size_t best = FLOW_N_STAGES;
+    for (size_t i = 0; i < FLOW_N_STAGES; i++) {
+        if (!able[i] || !(flow_stages[i].gives & FLOW_BIT(thing)))
+            continue;
+        if (plan->chosen[i])
+            return;
+        if (best == FLOW_N_STAGES || is_better(plan, i, best))
+            best = i;
+    }
+    if (best == FLOW_N_STAGES)
+        return;
+    plan->chosen[best] = true;
+    snprintf(plan->because[best], sizeof plan->because[best], "runs because %s", because);
+    for (unsigned t = FLOW_FIRST_TABLE; t < FLOW_N_THINGS; t++) {
+        if (!(flow_stages[best].needs & FLOW_BIT(t)))
+            continue;
+        char reason[128];
+        plan->required |= FLOW_BIT(t);
+        snprintf(reason, sizeof reason, "%s needs its %s", flow_stages[best].id,
+                 flow_thing_rows[t].words);
+        choose(plan, able, (flow_thing)t, reason);
+    }
+}
+
+/* Sources whose absence keeps a stage from running: of the first need that cannot be met, one for
+ * each way of meeting it. Empty if the stage is able. */
+static flow_things missing_sources(flow_things sources, const flow_stage *stage)
+{
+    for (unsigned t = 0; t < FLOW_N_THINGS; t++) {
+        if (!(stage->needs & FLOW_BIT(t)) || (sources & FLOW_BIT(t)))
+            continue;
+        if (t < FLOW_FIRST_TABLE)
+            return FLOW_BIT(t);
+        flow_things missing = 0;
+        bool possible = false;
+        for (size_t i = 0; i < FLOW_N_STAGES && !possible; i++) {
+            if (!(flow_stages[i].gives & FLOW_BIT(t)))
+                continue;
+            flow_things here = missing_sources(sources, &flow_stages[i]);
+            possible = here == 0;
+            missing |= here;
+        }
+        if (!possible)
+            return missing;
+    }
+    return 0;
+}
+
+static void say_why_not(flow_plan *plan, size_t i, bool able)
+{
+    char *because = plan->because[i];
+    const size_t size = sizeof plan->because[i];
+    if (!able) {
+        flow_things missing = missing_sources(plan->sources, &flow_stages[i]);
+        size_t used = (size_t)snprintf(because, size, "left out because the case has ");
+        for (unsigned t = 0; t < FLOW_FIRST_TABLE && used < size; t++, missing >>= 1)
+            if (missing & 1)
+                used += (size_t)snprintf(because + used, size - used, "%s%s",
+                                         flow_thing_rows[t].missing, missing > 1 ? " and " : "");
+        return;
+    }
+    flow_things useful = flow_stages[i].gives & plan->required;
+    for (size_t k = 0; useful != 0 && k < FLOW_N_STAGES; k++) {
+        if (plan->chosen[k] && (useful & ~flow_stages[k].gives) == 0) {
+            snprintf(because, size, "left out because %s gives its results and more",
+                     flow_stages[k].id);
+            return;
+        }
+    }
+    snprintf(because, size, "left out because nothing that is asked for needs it");
+}
+
+void flow_plan_make(const wt_case *c, flow_plan *plan)
+{
+    bool able[FLOW_N_STAGES] = {false};
+    *plan = (flow_plan){.sources = sources_of(c), .wanted = wanted_by(c)};
+    plan->required = plan->wanted;
+    find_able(plan->sources, able);
+    for (unsigned t = FLOW_FIRST_TABLE; t < FLOW_FIRST_INNER; t++) {
+        if (!(plan->wanted & FLOW_BIT(t)))
+            continue;
+        char reason[128];
+        snprintf(reason, sizeof reason, "%s is asked for", flow_thing_rows[t].words);
+        choose(plan, able, (flow_thing)t, reason);
+    }
+    for (size_t i = 0; i < FLOW_N_STAGES; i++)
+        if (!plan->chosen[i])
+            say_why_not(plan, i, able[i]);
+}
+
+wt_status wt_plan(const wt_case *c, wt_table **result, wt_error *err)
+{
+    if (c == NULL || result == NULL)
+        return wt_fail(err, WT_E_ARG, "no case");
+    flow_plan plan;
+    flow_plan_make(c, &plan);
+    table_writer t = table_begin(&plan_schema, err);
+    for (size_t i = 0; i < FLOW_N_STAGES; i++) {
+        char needs[256], gives[256];
+        flow_things_list(flow_stages[i].needs, needs, sizeof needs);
+        flow_things_list(flow_stages[i].gives, gives, sizeof gives);
+        table_row(&t);
+        plan_put_text(&t, PLAN_STAGE, flow_stages[i].id);
+        plan_put_text(&t, PLAN_TITLE, flow_stages[i].title);
+        plan_put(&t, PLAN_RUNS, plan.chosen[i]);
+        plan_put_text(&t, PLAN_BECAUSE, plan.because[i]);
+        plan_put_text(&t, PLAN_NEEDS, needs);
+        plan_put_text(&t, PLAN_GIVES, gives);
+    }
+    return table_end(&t, result);
+}

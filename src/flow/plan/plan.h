@@ -1,0 +1,23 @@
+/* The plan: which stages a case needs, why the others are left out, and what became of them.
+ * Internal to flow. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WEARTRACK_FLOW_PLAN_H
+#define WEARTRACK_FLOW_PLAN_H
+
+#include "flow/case/case.h"
+#include "flow/plan/stages.h"
+
+/* What became of a stage; of one that did not run yet: left out. */
+typedef enum flow_outcome { FLOW_LEFT_OUT, FLOW_DONE, FLOW_FAILED, FLOW_BLOCKED } flow_outcome;
+
+typedef struct flow_plan {
+    flow_things sources;  /* what the case holds */
+    flow_things wanted;   /* what is asked for */
+    flow_things required; /* that and what the chosen stages need */
+    bool chosen[FLOW_N_STAGES];
+    char because[FLOW_N_STAGES][192];
+    flow_outcome outcome[FLOW_N_STAGES];
+} flow_plan;
+
+void flow_plan_make(const wt_case *c, flow_plan *plan);
+
+#endif

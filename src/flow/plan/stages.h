@@ -1,0 +1,58 @@
+/* The stages of a run: a stage is a row here and a function in run/steps.c. Internal
+ * to flow. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WEARTRACK_FLOW_STAGES_H
+#define WEARTRACK_FLOW_STAGES_H
+
+#include "flow/case/things.h"
+
+/* id, name, title, what it needs, what it gives, its function. In an order in which every stage
+ * comes after those it needs, and the fuller of two that give the same before the plainer one,
+ * which then stands in if the fuller one fails. */
+#define STAGES(X)                                                                                  \
+    X(INDENTATION_BULK, indentation_bulk, "Contact point and modulus of every bulk curve",         \
+      B(BULK_CURVES), B(INDENTATION_BULK) | B(CURVE_BULK), flow_step_bulk)                         \
+    X(INDENTATION_TRACK, indentation_track, "Contact point and modulus of every wear-track curve", \
+      B(TRACK_CURVES), B(INDENTATION_TRACK) | B(CURVE_TRACK), flow_step_track)                     \
+    X(COMPARISON, comparison, "Wear track against bulk",                                           \
+      B(INDENTATION_BULK) | B(INDENTATION_TRACK),                                                  \
+      B(MODULUS_GROUPS) | B(COMPARISON) | B(MODULUS_RATE) | B(MODULUS_RATIO), flow_step_compare)   \
+    X(GROUPS, groups, "Modulus of bulk and wear track",                                            \
+      B(INDENTATION_BULK) | B(INDENTATION_TRACK), B(MODULUS_GROUPS) | B(MODULUS_RATE),             \
+      flow_step_groups)                                                                            \
+    X(BULK_ALONE, bulk_alone, "Modulus of the bulk", B(INDENTATION_BULK),                          \
+      B(MODULUS_GROUPS) | B(MODULUS_RATE), flow_step_groups)                                       \
+    X(TRACK_ALONE, track_alone, "Modulus of the wear track", B(INDENTATION_TRACK),                 \
+      B(MODULUS_GROUPS) | B(MODULUS_RATE), flow_step_groups)                                       \
+    X(MASTER_CURVE, master_curve, "Shift factors, WLF law, master curve, Prony series",            \
+      B(DMA_FILES), B(SHIFT_FACTORS) | B(MASTER_CURVE) | B(PRONY) | B(RUBBER), flow_step_master)   \
+    X(GIVEN_MATERIAL, given_material, "Material as given in the case", B(GIVEN_MATERIAL),          \
+      B(RUBBER), flow_step_given_material)                                                         \
+    X(DMA_COMPARISON, dma_comparison, "Indentation of bulk and wear track against DMA",            \
+      B(INDENTATION_BULK) | B(INDENTATION_TRACK) | B(RUBBER), B(DMA_COMPARISON),                   \
+      flow_step_dma_comparison)                                                                    \
+    X(DMA_COMPARISON_BULK, dma_comparison_bulk, "Indentation of the bulk against DMA",             \
+      B(INDENTATION_BULK) | B(RUBBER), B(DMA_COMPARISON), flow_step_dma_comparison)                \
+    X(ROUGHNESS, roughness, "Power spectrum of the counter surface", B(COUNTER_SURFACE),           \
+      B(ROUGHNESS) | B(SURFACE), flow_step_roughness)                                              \
+    X(GIVEN_RATIO, given_ratio, "Modulus ratio as given in the case", B(GIVEN_RATIO),              \
+      B(MODULUS_RATIO), flow_step_given_ratio)                                                     \
+    X(LAYER, layer, "Formation, wear and thickness of the modified layer",                         \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(LAYER_PARAMETERS), B(LAYER) | B(ENERGY_DENSITY),  \
+      flow_step_layer)                                                                             \
+    X(FRICTION_WITH_LAYER, friction_with_layer,                                                    \
+      "Contact area and friction, with and without the layer",                                     \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(LAYER) | B(MODULUS_RATIO),                        \
+      B(FRICTION) | B(CONTACT_AREA), flow_step_friction_with_layer)                                \
+    X(FRICTION, friction, "Contact area and friction", B(RUBBER) | B(SURFACE) | B(CONDITIONS),     \
+      B(FRICTION) | B(CONTACT_AREA), flow_step_friction)
+
+#define STAGE_ID(id, ...) FLOW_STAGE_##id,
+typedef enum flow_stage_id { STAGES(STAGE_ID) FLOW_N_STAGES } flow_stage_id;
+
+typedef struct flow_stage {
+    const char *id, *title;
+    flow_things needs, gives;
+} flow_stage;
+extern const flow_stage flow_stages[FLOW_N_STAGES];
+
+#endif

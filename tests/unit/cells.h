@@ -1,0 +1,28 @@
+/* Cells of a table by the name of their column, which must be there.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WT_TESTS_CELLS_H
+#define WT_TESTS_CELLS_H
+
+#include "near.h"
+
+#include "weartrack/data.h"
+
+static inline size_t cell_column(const wt_table *table, const char *name)
+{
+    const long column = wt_table_find(table, name);
+    if (column < 0)
+        fail_msg("table %s has no column %s", wt_table_name(table), name);
+    return (size_t)column;
+}
+
+static inline double number_cell(const wt_table *table, size_t row, const char *name)
+{
+    return wt_table_number(table, row, cell_column(table, name));
+}
+
+static inline const char *text_cell(const wt_table *table, size_t row, const char *name)
+{
+    return wt_table_text(table, row, cell_column(table, name));
+}
+
+#endif
