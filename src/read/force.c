@@ -16,25 +16,3 @@ wt_status wt_force_open(const wt_formats *formats, wt_input *input, const wt_rea
         wt_error_file(err, wt_input_name(input));
     return status;
 }
-
-wt_status wt_force_next(wt_force_source *source, wt_force_curve *curve, wt_error *err)
-{
-    return source->next(source, curve, err);
-}
-
-void wt_force_close(wt_force_source *source)
-{
-    if (source != NULL)
-        source->close(source);
-}
-
-size_t wt_force_count(const wt_force_source *source)
-{
-    return source->n_curves;
-}
-
-void wt_force_grid(const wt_force_source *source, long *columns, long *rows)
-{
-    *columns = source->grid_columns;
-    *rows = source->grid_rows;
-}

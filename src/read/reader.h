@@ -59,14 +59,6 @@ typedef struct file_reader {
                           wt_error *err);
 } file_reader;
 
-/* A force source: the first member of each reader's own struct. */
-struct wt_force_source {
-    wt_status (*next)(wt_force_source *source, wt_force_curve *curve, wt_error *err);
-    void (*close)(wt_force_source *source);
-    size_t n_curves;              /* SIZE_MAX if not known before reading */
-    long grid_columns, grid_rows; /* 0 if there is no grid */
-};
-
 /* A reader that knows its files by their words is asked only where no signature answered. */
 static inline bool reader_is_text(const file_reader *reader)
 {

@@ -60,9 +60,9 @@ static wt_status try_kinds(const file_reader *reader, const text_file *file, wt_
         wt_force_curve curve = {.n_segments = 0};
         status = reader->open_force(reader, sample, options, log, &source, err);
         if (status == WT_OK) {
-            status = source->next(source, &curve, err);
+            status = wt_force_next(source, &curve, err);
             wt_force_curve_clear(&curve);
-            source->close(source);
+            wt_force_close(source);
         }
         status = status == WT_END ? WT_OK : status;
     }

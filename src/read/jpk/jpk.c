@@ -85,27 +85,12 @@ static wt_status add_curves(const jpk_file *file, wt_table *facts, wt_error *err
     return status;
 }
 
-/* What a channel is read as; the deflection is as much as its calibration allows. */
-static wt_quantity quantity_of(const jpk_segment *segment, const jpk_channel *channel,
-                               const wt_read_options *options)
-{
-    static const wt_quantity shown[] = {WT_Q_FORCE, WT_Q_HEIGHT, WT_Q_MEASURED_HEIGHT,
-                                        WT_Q_LATERAL_DEFLECTION};
-    wt_quantity quantity = WT_Q_NONE;
-    for (size_t i = 0; i < sizeof shown / sizeof *shown && quantity == WT_Q_NONE; i++)
-        if (jpk_segment_source(segment, shown[i]) == channel)
-            quantity = shown[i];
-    if (quantity != WT_Q_FORCE || !channel->understood)
-        return quantity;
-    jpk_calibration c;
-    jpk_calibrate(&channel->lcd, options, &c);
-    return c.has_force ? WT_Q_FORCE : c.has_deflection ? WT_Q_DEFLECTION : WT_Q_DEFLECTION_VOLTAGE;
-}
-
 static wt_status add_channels(const jpk_segment *segment, size_t number,
                               const wt_read_options *options, wt_table *facts, wt_error *err)
 {
     char item[160], value[512];
+    force_facts read;
+    jpk_segment_facts(segment, &read);
     snprintf(item, sizeof item, "segment %zu", number);
     snprintf(value, sizeof value, "%s (%s), %zu points", wt_segment_kind_name(segment->kind),
              segment->style[0] != '\0' ? segment->style : "no style", segment->n_points);
@@ -125,7 +110,7 @@ static wt_status add_channels(const jpk_segment *segment, size_t number,
     }
     for (size_t i = 0; i < segment->n_channels && status == WT_OK; i++) {
         const jpk_channel *c = &segment->channels[i];
-        wt_quantity quantity = quantity_of(segment, c, options);
+        wt_quantity quantity = force_read_as(&read, options, c);
         const jpk_slot *slot = c->understood ? jpk_lcd_slot(&c->lcd, c->lcd.preferred) : NULL;
         const char *unit = !c->understood ? "" : slot != NULL ? slot->unit : c->lcd.base_unit;
         snprintf(item, sizeof item, "segment %zu channel %s", number, c->name);
@@ -143,21 +128,12 @@ static wt_status add_calibration(const jpk_segment *segment, const wt_read_optio
     const jpk_channel *deflection = jpk_segment_channel(segment, "vDeflection");
     if (deflection == NULL || !deflection->understood)
         return facts_add(facts, "missing", "no channel vDeflection", "", "", err);
-    jpk_calibration c;
-    jpk_calibrate(&deflection->lcd, options, &c);
-    const wt_cantilever *lever = &c.cantilever;
-    wt_status status = facts_number(
-        facts, "spring constant", lever->spring_constant, "N/m",
-        lever->spring_constant_given ? "given by the user" : "conversion to force", err);
+    force_facts read;
+    jpk_segment_facts(segment, &read);
+    wt_status status = force_describe_calibration(&read.cantilever, options, "conversion to force",
+                                                  "conversion to distance", facts, err);
     if (status == WT_OK)
-        status = facts_number(
-            facts, "deflection sensitivity", lever->sensitivity, "m/V",
-            lever->sensitivity_given ? "given by the user" : "conversion to distance", err);
-    if (status == WT_OK && !c.has_force) {
-        wt_error missing = WT_ERROR_INIT;
-        jpk_uncalibrated(&c, &missing);
-        status = facts_add(facts, "missing", missing.message, "", missing.advice, err);
-    }
+        status = force_describe_missing(&read, options, facts, err);
     return status;
 }
 

@@ -11,6 +11,7 @@
 #define WT_READ_JPK_H
 
 #include "read/bytes/archive.h"
+#include "read/force_source.h"
 #include "read/jpk/properties.h"
 #include "read/reader.h"
 
@@ -34,23 +35,18 @@ typedef enum jpk_encoding {
 
 size_t jpk_encoding_width(jpk_encoding encoding); /* bytes per sample, 0 for a raster */
 
-/* y = multiplier x + offset */
-typedef struct jpk_linear {
-    double multiplier, offset;
-} jpk_linear;
-
 /* A calibration slot: how its values follow from those of the slot named `base`. */
 typedef struct jpk_slot {
     char name[JPK_NAME];
     char base[JPK_NAME];
     char unit[16];
-    jpk_linear scaling;
+    force_linear scaling;
 } jpk_slot;
 
 /* Encoding and calibration of a channel ("lcd-info"). */
 typedef struct jpk_lcd {
     jpk_encoding encoding;
-    jpk_linear encoder;       /* raw number -> value of the base slot */
+    force_linear encoder;     /* raw number -> value of the base slot */
     char base[JPK_NAME];      /* "volts", "absolute" */
     char base_unit[16];       /* "V", "m" */
     char preferred[JPK_NAME]; /* the slot that the instrument shows */
@@ -64,10 +60,10 @@ wt_status jpk_lcd_read(const property_list *properties, const char *prefix, jpk_
 const jpk_slot *jpk_lcd_slot(const jpk_lcd *lcd, const char *name); /* NULL: none or not defined */
 /* Base value -> value of the slot, walking the slots down to the base; false if they do not lead
  * there. */
-bool jpk_lcd_chain(const jpk_lcd *lcd, const char *slot, jpk_linear *chain);
+bool jpk_lcd_chain(const jpk_lcd *lcd, const char *slot, force_linear *chain);
 /* values[n] = scaling of the raw numbers; raw holds n samples of the encoding (not for a raster).
  * Returns how many samples are not finite; they become NaN. */
-size_t jpk_decode(jpk_encoding encoding, jpk_linear scaling, const unsigned char *raw, size_t n,
+size_t jpk_decode(jpk_encoding encoding, force_linear scaling, const unsigned char *raw, size_t n,
                   double *values);
 
 /* ---- the file: jpk_file.c ----------------------------------------------------------------- */
@@ -113,11 +109,11 @@ void jpk_file_position(jpk_file *file, size_t ref, wt_force_curve *curve);
 typedef struct jpk_channel {
     char name[JPK_NAME];
     size_t n_points;
-    size_t entry;      /* of its data file, if `has_file` */
-    bool has_file;     /* false: a raster, or missing from the archive */
-    bool understood;   /* `lcd` is filled */
-    char problem[192]; /* why it is not */
-    jpk_linear raster; /* value of the base slot = multiplier i + offset */
+    size_t entry;        /* of its data file, if `has_file` */
+    bool has_file;       /* false: a raster, or missing from the archive */
+    bool understood;     /* `lcd` is filled */
+    char problem[192];   /* why it is not */
+    force_linear raster; /* value of the base slot = multiplier i + offset */
     jpk_lcd lcd;
 } jpk_channel;
 
@@ -142,20 +138,9 @@ const jpk_channel *jpk_segment_source(const jpk_segment *segment, wt_quantity qu
 
 /* ---- calibration: jpk_calibration.c ------------------------------------------------------- */
 
-/* What the deflection channel and the user say together. */
-typedef struct jpk_calibration {
-    wt_cantilever cantilever;
-    bool has_deflection, has_force;
-    jpk_linear deflection, force; /* of the base value (volts) */
-} jpk_calibration;
-
-void jpk_calibrate(const jpk_lcd *deflection, const wt_read_options *options,
-                   jpk_calibration *calibration);
-/* Base value -> SI value of the quantity of this channel; false if the file does not say how. */
-bool jpk_quantity_chain(const jpk_lcd *lcd, wt_quantity quantity,
-                        const jpk_calibration *calibration, jpk_linear *chain, const char **unit);
-/* WT_E_MISSING with the options that would help. */
-wt_status jpk_uncalibrated(const jpk_calibration *calibration, wt_error *err);
+/* What the segment says of its channels; number, place and beginning are for the caller. The facts
+ * borrow the segment. */
+void jpk_segment_facts(const jpk_segment *segment, force_facts *facts);
 
 /* ---- curves: jpk_force.c ------------------------------------------------------------------ */
 

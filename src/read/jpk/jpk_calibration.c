@@ -1,4 +1,5 @@
-/* JPK calibration: from volts of the detector to deflection and force, by the file or by the user.
+/* What a JPK segment says of its channels: from the numbers of a channel to voltage, deflection,
+ * force and height, as its calibration slots tell.
  *
  * Signs are those of the file: force is positive when the sample pushes the tip away, the height
  * falls while the tip approaches.
@@ -10,98 +11,94 @@
 #include <math.h>
 #include <string.h>
 
-static jpk_linear times(double factor, jpk_linear chain)
-{
-    return (jpk_linear){factor * chain.multiplier, factor * chain.offset};
-}
+/* In the order of the columns. */
+static const wt_quantity quantities[] = {
+    WT_Q_TIME,
+    WT_Q_HEIGHT,
+    WT_Q_FORCE,
+    WT_Q_DEFLECTION,
+    WT_Q_DEFLECTION_VOLTAGE,
+    WT_Q_MEASURED_HEIGHT,
+    WT_Q_LATERAL_DEFLECTION,
+};
 
-/* A chain to `slot` in the SI unit of `quantity`. */
-static bool chain_si(const jpk_lcd *lcd, const char *slot, wt_quantity quantity, jpk_linear *chain,
-                     const char **unit)
-{
-    const jpk_slot *s = jpk_lcd_slot(lcd, slot);
-    const char *text = s != NULL ? s->unit : lcd->base_unit;
-    double factor = 1, offset = 0;
-    if (!jpk_lcd_chain(lcd, slot, chain))
-        return false;
-    if (strcmp(text, wt_quantity_unit(quantity)) != 0 &&
-        wt_unit_to_si(text, quantity, &factor, &offset, NULL) != WT_OK)
-        return false;
-    *chain = times(factor, *chain);
-    chain->offset += offset;
-    *unit = text;
-    return isfinite(chain->multiplier) && isfinite(chain->offset);
-}
-
-void jpk_calibrate(const jpk_lcd *lcd, const wt_read_options *options, jpk_calibration *calibration)
-{
-    jpk_calibration c = {
-        .cantilever = {.spring_constant = (double)NAN, .sensitivity = (double)NAN}};
-    const char *unit = NULL;
-    jpk_linear volts;
-    c.has_deflection = chain_si(lcd, "distance", WT_Q_DEFLECTION, &c.deflection, &unit);
-    c.has_force = chain_si(lcd, "force", WT_Q_FORCE, &c.force, &unit);
-    if (c.has_deflection)
-        c.cantilever.sensitivity = c.deflection.multiplier;
-    if (c.has_force && c.has_deflection) {
-        const jpk_slot *force = jpk_lcd_slot(lcd, "force");
-        bool direct = strcmp(force->base, "distance") == 0 && strcmp(force->unit, "N") == 0;
-        c.cantilever.spring_constant =
-            direct ? force->scaling.multiplier : c.force.multiplier / c.deflection.multiplier;
-    }
-    bool given = false;
-    if (!isnan(options->sensitivity) &&
-        chain_si(lcd, lcd->base, WT_Q_DEFLECTION_VOLTAGE, &volts, &unit)) {
-        c.deflection = times(options->sensitivity, volts);
-        c.has_deflection = true;
-        c.cantilever.sensitivity = options->sensitivity;
-        c.cantilever.sensitivity_given = true;
-        given = true;
-    }
-    if (!isnan(options->spring_constant)) {
-        c.cantilever.spring_constant = options->spring_constant;
-        c.cantilever.spring_constant_given = true;
-        given = true;
-    }
-    /* What the user gives replaces a link of the chain, so the force is computed anew. */
-    if (given) {
-        c.has_force = c.has_deflection && !isnan(c.cantilever.spring_constant);
-        if (c.has_force)
-            c.force = times(c.cantilever.spring_constant, c.deflection);
-    }
-    *calibration = c;
-}
-
-bool jpk_quantity_chain(const jpk_lcd *lcd, wt_quantity quantity,
-                        const jpk_calibration *calibration, jpk_linear *chain, const char **unit)
+static const char *slot_of(const jpk_lcd *lcd, wt_quantity quantity)
 {
     switch (quantity) {
     case WT_Q_FORCE:
-        *chain = calibration->force;
-        *unit = "N";
-        return calibration->has_force;
+        return "force";
     case WT_Q_DEFLECTION:
-        *chain = calibration->deflection;
-        *unit = "m";
-        return calibration->has_deflection;
+        return "distance";
     case WT_Q_DEFLECTION_VOLTAGE:
     case WT_Q_LATERAL_DEFLECTION:
-        return chain_si(lcd, lcd->base, quantity, chain, unit);
+        return lcd->base;
     default:
-        return chain_si(lcd, lcd->preferred, quantity, chain, unit);
+        return lcd->preferred;
     }
 }
 
-wt_status jpk_uncalibrated(const jpk_calibration *calibration, wt_error *err)
+/* The chain to the slot of a quantity, in SI; false if the file does not say how. */
+static bool chain_si(const jpk_lcd *lcd, force_signal *signal)
 {
-    bool no_constant = isnan(calibration->cantilever.spring_constant);
-    bool no_sensitivity = !calibration->has_deflection;
-    const char *what = no_constant && no_sensitivity ? "spring constant and deflection sensitivity"
-                       : no_constant                 ? "spring constant"
-                                                     : "deflection sensitivity";
-    wt_fail(err, WT_E_MISSING, "the file does not say the %s", what);
-    wt_error_advice(err, "give %s%s%s", no_constant ? "--spring-constant 0.1N/m" : "",
-                    no_constant && no_sensitivity ? " and " : "",
-                    no_sensitivity ? "--sensitivity 120nm/V" : "");
-    return WT_E_MISSING;
+    const char *name = slot_of(lcd, signal->quantity);
+    const jpk_slot *slot = jpk_lcd_slot(lcd, name);
+    force_linear *chain = &signal->to_si;
+    double factor = 1, offset = 0;
+    signal->unit = slot != NULL ? slot->unit : lcd->base_unit;
+    if (!jpk_lcd_chain(lcd, name, chain))
+        return false;
+    if (strcmp(signal->unit, wt_quantity_unit(signal->quantity)) != 0 &&
+        wt_unit_to_si(signal->unit, signal->quantity, &factor, &offset, NULL) != WT_OK)
+        return false;
+    *chain = (force_linear){factor * chain->multiplier, factor * chain->offset + offset};
+    return isfinite(chain->multiplier) && isfinite(chain->offset);
+}
+
+/* Sensitivity and spring constant are what the slots multiply by. */
+static void add_calibration(const jpk_lcd *lcd, double volts, double deflection, double force,
+                            wt_cantilever *cantilever)
+{
+    const jpk_slot *slot = jpk_lcd_slot(lcd, "force");
+    const bool direct =
+        slot != NULL && strcmp(slot->base, "distance") == 0 && strcmp(slot->unit, "N") == 0;
+    cantilever->sensitivity = deflection / volts;
+    cantilever->spring_constant = force / deflection;
+    if (direct && !isnan(cantilever->spring_constant))
+        cantilever->spring_constant = slot->scaling.multiplier;
+}
+
+void jpk_segment_facts(const jpk_segment *segment, force_facts *facts)
+{
+    double multiplier[WT_Q_COUNT];
+    *facts =
+        (force_facts){.kind = segment->kind,
+                      .n_points = segment->n_points,
+                      .duration = segment->duration,
+                      .velocity = segment->velocity,
+                      .setpoint = segment->setpoint_voltage,
+                      .setpoint_quantity = WT_Q_DEFLECTION_VOLTAGE,
+                      .n_offers = sizeof quantities / sizeof *quantities,
+                      .cantilever = {.spring_constant = (double)NAN, .sensitivity = (double)NAN}};
+    memcpy(facts->offers, quantities, sizeof quantities);
+    for (size_t i = 0; i < facts->n_offers; i++) {
+        const wt_quantity q = quantities[i];
+        const jpk_channel *c = jpk_segment_source(segment, q);
+        multiplier[q] = (double)NAN;
+        if (c == NULL)
+            continue;
+        force_signal signal = {
+            .quantity = q, .channel = c, .name = c->name, .unit = "", .problem = c->problem};
+        if (c->understood) {
+            const bool known = chain_si(&c->lcd, &signal);
+            if (!known && (q == WT_Q_FORCE || q == WT_Q_DEFLECTION))
+                continue;
+            signal.problem = known ? NULL : "it has no calibration";
+            multiplier[q] = known ? signal.to_si.multiplier : (double)NAN;
+        }
+        force_add_signal(facts, signal);
+    }
+    const jpk_channel *deflection = jpk_segment_source(segment, WT_Q_FORCE);
+    if (deflection != NULL && deflection->understood)
+        add_calibration(&deflection->lcd, multiplier[WT_Q_DEFLECTION_VOLTAGE],
+                        multiplier[WT_Q_DEFLECTION], multiplier[WT_Q_FORCE], &facts->cantilever);
 }

@@ -94,7 +94,7 @@ static bool copy_name(char *to, size_t size, const char *from)
 
 /* "….scaling." keys: y = multiplier x + offset. */
 static wt_status read_scaling(const property_list *properties, const char *prefix,
-                              jpk_linear *scaling, wt_error *err)
+                              force_linear *scaling, wt_error *err)
 {
     const char *style = properties_find(properties, prefix, "scaling.style");
     if (style != NULL && strcmp(style, "offsetmultiplier") != 0)
@@ -114,7 +114,7 @@ static wt_status read_encoder(const property_list *properties, const char *prefi
 {
     static const char *const places[] = {"encoder.", "data.encoder."};
     char key[192];
-    lcd->encoder = (jpk_linear){1, 0};
+    lcd->encoder = (force_linear){1, 0};
     const char *unit = properties_find(properties, prefix, "unit.unit");
     for (size_t i = 0; i < 2; i++) {
         snprintf(key, sizeof key, "%s%s", prefix, places[i]);
@@ -195,9 +195,9 @@ const jpk_slot *jpk_lcd_slot(const jpk_lcd *lcd, const char *name)
     return NULL;
 }
 
-bool jpk_lcd_chain(const jpk_lcd *lcd, const char *slot, jpk_linear *chain)
+bool jpk_lcd_chain(const jpk_lcd *lcd, const char *slot, force_linear *chain)
 {
-    jpk_linear total = {1, 0};
+    force_linear total = {1, 0};
     /* From the wanted slot down to the base; more steps than slots is a circle. */
     for (size_t step = 0; step <= lcd->n_slots; step++) {
         if (strcmp(slot, lcd->base) == 0) {
@@ -222,7 +222,7 @@ bool jpk_lcd_chain(const jpk_lcd *lcd, const char *slot, jpk_linear *chain)
     }                                                                                              \
     break
 
-size_t jpk_decode(jpk_encoding encoding, jpk_linear scaling, const unsigned char *raw, size_t n,
+size_t jpk_decode(jpk_encoding encoding, force_linear scaling, const unsigned char *raw, size_t n,
                   double *values)
 {
     const double m = scaling.multiplier, o = scaling.offset;

@@ -186,30 +186,11 @@ void jpk_file_close(jpk_file *file)
     *file = (jpk_file){0};
 }
 
-/* The place in the grid follows from the number of the position, which is not the number of the
- * curve in a file that was cut out of a larger one. */
-static void find_place(const jpk_file *file, size_t number, wt_force_curve *curve)
-{
-    if (file->columns == 0)
-        return;
-    size_t row = number / (size_t)file->columns;
-    long column = (long)(number % (size_t)file->columns);
-    if (row >= (size_t)file->rows)
-        return;
-    bool back = file->back_and_forth && row % 2 == 1;
-    curve->grid_x = back ? file->columns - 1 - column : column;
-    curve->grid_y = (long)row;
-}
-
 void jpk_file_position(jpk_file *file, size_t ref, wt_force_curve *curve)
 {
     size_t number = file->refs[ref].curve;
     const property_list *header = &file->header;
     char key[192];
-    curve->x = (double)NAN;
-    curve->y = (double)NAN;
-    curve->grid_x = -1;
-    curve->grid_y = -1;
     if (file->map) {
         snprintf(key, sizeof key, "index/%zu/header.properties", number);
         header = &file->position;
@@ -221,9 +202,10 @@ void jpk_file_position(jpk_file *file, size_t ref, wt_force_curve *curve)
     if (root_key(header, "header.", key, sizeof key)) {
         curve->x = properties_number(header, key, "position.x");
         curve->y = properties_number(header, key, "position.y");
+        /* It is not the number of the curve in a file that was cut out of a larger one. */
         double place = properties_number(header, key, "position-index");
         if (place >= 0 && place < 1e9)
             number = (size_t)place;
     }
-    find_place(file, number, curve);
+    (void)force_place(file->columns, file->rows, file->back_and_forth, number, curve);
 }

@@ -147,7 +147,7 @@ static wt_status find_data(const jpk_file *file, const jpk_segment *segment, con
         double start = properties_number(&segment->header, prefix, "data.start");
         double step = properties_number(&segment->header, prefix, "data.step");
         channel->n_points = n;
-        channel->raster = (jpk_linear){step, start};
+        channel->raster = (force_linear){step, start};
         if (isnan(start) || isnan(step)) {
             channel->understood = false;
             snprintf(channel->problem, sizeof channel->problem,

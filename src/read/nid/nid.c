@@ -4,6 +4,7 @@
  */
 #include "read/nid/nid.h"
 #include "read/facts.h"
+#include "read/force_source.h"
 
 #include <math.h>
 #include <string.h>
@@ -73,23 +74,6 @@ static wt_status add_channels(const nid_file *file, wt_table *facts, wt_error *e
     return status;
 }
 
-static wt_status add_calibration(const nid_spectroscopy *s, const wt_read_options *options,
-                                 wt_table *facts, wt_error *err)
-{
-    bool k_given = !isnan(options->spring_constant), s_given = !isnan(options->sensitivity);
-    wt_status status =
-        facts_number(facts, "spring constant",
-                     k_given ? options->spring_constant : s->file_cantilever.spring_constant, "N/m",
-                     k_given ? "given by the user" : "Calibration\\Cantilever, Prop0", err);
-    if (status == WT_OK)
-        status = facts_number(
-            facts, "deflection sensitivity",
-            s_given ? options->sensitivity : s->file_cantilever.sensitivity, "m/V",
-            s_given ? "given by the user" : "Calibration\\Scanhead, TipSignalDC / TipSignalDC1",
-            err);
-    return status;
-}
-
 static wt_status add_curves(const nid_spectroscopy *s, const wt_read_options *options,
                             wt_table *facts, wt_error *err)
 {
@@ -118,7 +102,9 @@ static wt_status add_curves(const nid_spectroscopy *s, const wt_read_options *op
                                phase->group, err);
     }
     if (status == WT_OK)
-        status = add_calibration(s, options, facts, err);
+        status = force_describe_calibration(
+            &s->file_cantilever, options, "Calibration\\Cantilever, Prop0",
+            "Calibration\\Scanhead, TipSignalDC / TipSignalDC1", facts, err);
     if (status == WT_OK)
         status = facts_add(facts, "odd",
                            "force curves of this format were not verified on a genuine file", "",

@@ -7,6 +7,8 @@
  */
 #include "read/nid/nid.h"
 
+#include "read/force_source.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -129,71 +131,14 @@ wt_status nid_spectroscopy_find(const nid_file *file, nid_spectroscopy *s, wt_er
     return WT_OK;
 }
 
-/* ---- calibration -------------------------------------------------------------------------- */
-
-/* Factors from the exported deflection signal to the three quantities; NaN = not possible. What the
- * user gives replaces what the instrument has already applied. */
-typedef struct nid_factors {
-    double voltage, deflection, force;
-} nid_factors;
-
-static nid_factors calibrate(const nid_channel *c, const wt_cantilever *file,
-                             const wt_read_options *options, wt_cantilever *used)
-{
-    bool k_given = !isnan(options->spring_constant), s_given = !isnan(options->sensitivity);
-    *used = (wt_cantilever){.spring_constant =
-                                k_given ? options->spring_constant : file->spring_constant,
-                            .sensitivity = s_given ? options->sensitivity : file->sensitivity,
-                            .spring_constant_given = k_given,
-                            .sensitivity_given = s_given};
-    double s_ratio = s_given ? used->sensitivity / file->sensitivity : 1;
-    /* A force without a spring constant in the file: the instrument knew one, the user says which.
-     */
-    bool k_replaces = k_given && !isnan(file->spring_constant);
-    double k_ratio = k_replaces ? used->spring_constant / file->spring_constant : 1;
-    if (has_unit(c, WT_Q_DEFLECTION_VOLTAGE))
-        return (nid_factors){1, used->sensitivity, used->spring_constant * used->sensitivity};
-    if (has_unit(c, WT_Q_DEFLECTION))
-        return (nid_factors){1 / file->sensitivity, s_ratio, used->spring_constant * s_ratio};
-    double force = k_ratio * s_ratio;
-    return (nid_factors){1 / (file->spring_constant * file->sensitivity),
-                         force / used->spring_constant, force};
-}
-
-static wt_status uncalibrated(const nid_channel *c, const wt_cantilever *file,
-                              const wt_read_options *options, wt_error *err)
-{
-    bool no_k = isnan(file->spring_constant) && isnan(options->spring_constant);
-    bool no_s = isnan(file->sensitivity) && isnan(options->sensitivity) &&
-                has_unit(c, WT_Q_DEFLECTION_VOLTAGE);
-    wt_fail(err, WT_E_MISSING, "the file does not say how %s (%s) becomes a force", c->name,
-            c->unit);
-    if (no_k || no_s)
-        wt_error_advice(err, "give %s%s%s", no_k ? "--spring-constant 0.1N/m" : "",
-                        no_k && no_s ? " and " : "", no_s ? "--sensitivity 120nm/V" : "");
-    else
-        wt_error_advice(err, "the file's own %s is missing, so it cannot be replaced",
-                        isnan(file->sensitivity) ? "deflection sensitivity" : "spring constant");
-    return WT_E_MISSING;
-}
-
 /* ---- curves ------------------------------------------------------------------------------- */
 
 typedef struct nid_source {
     wt_force_source base;
     nid_file file;
     nid_spectroscopy spectroscopy;
-    wt_read_options options;
-    wt_parselog *log;
-    size_t next;
+    size_t line; /* of the curve that is read, or comes next */
 } nid_source;
-
-typedef struct output {
-    const nid_channel *channel; /* NULL for the time */
-    wt_quantity quantity;
-    double factor; /* on top of the SI value of what was exported */
-} output;
-#define MAX_OUTPUTS 6
 
 static wt_status line_length(const nid_file *file, const nid_channel *c, size_t line, size_t *n,
                              wt_error *err)
@@ -216,8 +161,8 @@ static wt_status line_length(const nid_file *file, const nid_channel *c, size_t 
 }
 
 /* Samples that all channels of a phase have; they are recorded together. */
-static wt_status phase_length(const nid_source *source, const nid_phase *phase, size_t line,
-                              size_t *n, wt_error *err)
+static wt_status phase_length(const nid_source *source, const nid_phase *phase, size_t *n,
+                              wt_error *err)
 {
     const nid_channel *const channels[] = {phase->z, phase->sensor, phase->bending};
     *n = SIZE_MAX;
@@ -225,11 +170,11 @@ static wt_status phase_length(const nid_source *source, const nid_phase *phase, 
         size_t own = 0;
         if (channels[i] == NULL)
             continue;
-        wt_status status = line_length(&source->file, channels[i], line, &own, err);
+        wt_status status = line_length(&source->file, channels[i], source->line, &own, err);
         if (status != WT_OK)
             return status;
         if (*n != SIZE_MAX && own != *n)
-            wt_parselog_add(source->log, WT_WARNING, source->file.name, channels[i]->section,
+            wt_parselog_add(source->base.log, WT_WARNING, source->file.name, channels[i]->section,
                             "channels are of different length; cut to the shortest");
         *n = own < *n ? own : *n;
     }
@@ -238,125 +183,70 @@ static wt_status phase_length(const nid_source *source, const nid_phase *phase, 
     return WT_OK;
 }
 
-static void add_output(const nid_source *source, output outputs[MAX_OUTPUTS], size_t *n, output o)
+static wt_status decode(wt_force_source *base, const force_signal *signal, force_linear scaling,
+                        size_t n, double *values, wt_error *err)
 {
-    if ((source->options.want & WT_Q_BIT(o.quantity)) != 0)
-        outputs[(*n)++] = o;
-}
-
-static wt_status plan(const nid_source *source, const nid_phase *phase, bool timed,
-                      wt_force_curve *curve, output outputs[MAX_OUTPUTS], size_t *n, wt_error *err)
-{
-    *n = 0;
-    if (timed)
-        add_output(source, outputs, n, (output){NULL, WT_Q_TIME, 1});
-    if (phase->z != NULL)
-        add_output(source, outputs, n, (output){phase->z, WT_Q_HEIGHT, 1});
-    if (phase->sensor != NULL)
-        add_output(source, outputs, n, (output){phase->sensor, WT_Q_MEASURED_HEIGHT, 1});
-    if (phase->bending == NULL)
-        return WT_OK;
-    const wt_cantilever *file = &source->spectroscopy.file_cantilever;
-    nid_factors f = calibrate(phase->bending, file, &source->options, &curve->cantilever);
-    const output calibrated[] = {{phase->bending, WT_Q_FORCE, f.force},
-                                 {phase->bending, WT_Q_DEFLECTION, f.deflection},
-                                 {phase->bending, WT_Q_DEFLECTION_VOLTAGE, f.voltage}};
-    for (size_t i = 0; i < 3; i++) {
-        if (!isnan(calibrated[i].factor)) {
-            add_output(source, outputs, n, calibrated[i]);
-            continue;
-        }
-        if ((source->options.want & WT_Q_BIT(calibrated[i].quantity)) == 0)
-            continue;
-        if (calibrated[i].quantity == WT_Q_DEFLECTION_VOLTAGE) {
-            wt_parselog_add(source->log, WT_NOTE, source->file.name, phase->bending->section,
-                            "no deflection_voltage: the file's own calibration is not known");
-            continue;
-        }
-        wt_error missing = WT_ERROR_INIT;
-        uncalibrated(phase->bending, file, &source->options, &missing);
-        /* Asked for by name it is an error, asked for with everything else it is left out. */
-        if (source->options.want != WT_Q_ALL) {
-            if (err != NULL)
-                *err = missing;
-            return WT_E_MISSING;
-        }
-        wt_parselog_add(source->log, WT_WARNING, source->file.name, phase->bending->section,
-                        "no %s: %s; %s", wt_quantity_id(calibrated[i].quantity), missing.message,
-                        missing.advice);
-    }
+    const nid_source *source = (const nid_source *)base;
+    (void)err;
+    nid_decode(&source->file, signal->channel, source->line, n, scaling.multiplier, scaling.offset,
+               values);
     return WT_OK;
 }
 
-static void fill(const nid_source *source, const output *o, size_t line, size_t n, double start,
-                 double interval, wt_channel *column)
+static void add_signal(force_facts *facts, const nid_channel *c, wt_quantity quantity)
 {
-    double factor = 1, offset = 0;
-    column->quantity = o->quantity;
-    snprintf(column->name, sizeof column->name, "%s", o->channel ? o->channel->name : "time");
-    snprintf(column->unit, sizeof column->unit, "%s", o->channel ? o->channel->unit : "s");
-    if (o->channel == NULL) {
-        for (size_t i = 0; i < n; i++)
-            column->values[i] = start + (double)i * interval;
+    force_signal s = {.quantity = quantity, .channel = c};
+    if (c == NULL ||
+        wt_unit_to_si(c->unit, quantity, &s.to_si.multiplier, &s.to_si.offset, NULL) != WT_OK)
         return;
-    }
-    nid_si_unit(o->channel->unit, &factor, &offset);
-    nid_decode(&source->file, o->channel, line, n, factor * o->factor, offset * o->factor,
-               column->values);
+    s.name = c->name;
+    s.unit = c->unit;
+    force_add_signal(facts, s);
 }
 
 /* Adds a phase of the curve; *start moves to its end, NaN once a duration is not known. */
-static wt_status add_phase(const nid_source *source, size_t p, size_t line, double *start,
-                           wt_force_curve *curve, wt_error *err)
+static wt_status add_phase(nid_source *source, size_t p, double *start, wt_force_curve *curve,
+                           wt_error *err)
 {
     const nid_phase *phase = &source->spectroscopy.phases[p];
-    output outputs[MAX_OUTPUTS];
-    size_t n = 0, columns = 0;
-    wt_status status = phase_length(source, phase, line, &n, err);
-    if (status != WT_OK || n == 0)
-        return status;
-    double begin = *start;
-    *start += (double)n * phase->interval;
-    if ((source->options.segments & WT_SEGMENT_BIT(phase->kind)) == 0)
-        return WT_OK;
-    bool timed = isfinite(*start);
-    if (!timed && (source->options.want & WT_Q_BIT(WT_Q_TIME)) != 0)
-        wt_parselog_add(source->log, WT_WARNING, source->file.name, SPECTROSCOPY,
-                        "no duration: the time is left out");
-    status = plan(source, phase, timed, curve, outputs, &columns, err);
+    force_facts facts = {.kind = phase->kind,
+                         .index = p,
+                         .place = phase->bending != NULL ? phase->bending->section : SPECTROSCOPY,
+                         .start = *start,
+                         .velocity = phase->velocity,
+                         .setpoint = (double)NAN,
+                         .cantilever = source->spectroscopy.file_cantilever,
+                         .offers = {WT_Q_TIME, WT_Q_HEIGHT, WT_Q_MEASURED_HEIGHT, WT_Q_FORCE,
+                                    WT_Q_DEFLECTION, WT_Q_DEFLECTION_VOLTAGE},
+                         .n_offers = 6};
+    wt_status status = phase_length(source, phase, &facts.n_points, err);
     if (status != WT_OK)
         return status;
-    wt_segment *segment = wt_force_curve_add_segment(curve, phase->kind, n, columns);
-    if (segment == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for a segment of %zu samples", n);
-    segment->index = p;
-    segment->duration = (double)n * phase->interval;
-    segment->velocity = phase->velocity;
-    segment->setpoint = (double)NAN;
-    for (size_t i = 0; i < columns; i++)
-        fill(source, &outputs[i], line, n, begin, phase->interval, &segment->channels[i]);
-    return WT_OK;
+    facts.duration = (double)facts.n_points * phase->interval;
+    *start += facts.duration;
+    if (!force_wants_segment(&source->base, phase->kind))
+        return WT_OK;
+    add_signal(&facts, phase->z, WT_Q_HEIGHT);
+    add_signal(&facts, phase->sensor, WT_Q_MEASURED_HEIGHT);
+    /* In the one of these that has its unit. */
+    add_signal(&facts, phase->bending, WT_Q_FORCE);
+    add_signal(&facts, phase->bending, WT_Q_DEFLECTION);
+    add_signal(&facts, phase->bending, WT_Q_DEFLECTION_VOLTAGE);
+    return force_add_segment(&source->base, &facts, curve, err);
 }
 
 static wt_status next_curve(wt_force_source *base, wt_force_curve *curve, wt_error *err)
 {
     nid_source *source = (nid_source *)base;
-    size_t line = source->next;
     double start = 0;
     wt_status status = WT_OK;
-    if (line == source->spectroscopy.n_curves)
+    if (source->line == source->spectroscopy.n_curves)
         return WT_END;
-    source->next++;
-    wt_force_curve_reset(curve);
-    curve->index = line;
-    curve->cantilever = source->spectroscopy.file_cantilever;
-    nid_position(&source->file.header, line, source->file.name, source->log, curve);
+    curve->index = source->line;
+    nid_position(&source->file.header, source->line, base->name, base->log, curve);
     for (size_t p = 0; p < NID_PHASES && status == WT_OK; p++)
-        status = add_phase(source, p, line, &start, curve, err);
-    if (status != WT_OK) {
-        wt_force_curve_reset(curve);
-        wt_error_file(err, source->file.name);
-    }
+        status = add_phase(source, p, &start, curve, err);
+    source->line++;
     return status;
 }
 
@@ -386,12 +276,14 @@ wt_status nid_open_force(const file_reader *self, wt_input *input, const wt_read
                     "force curves of this format were not verified on a genuine file: compare one "
                     "with the instrument's own software");
     s->base = (wt_force_source){.next = next_curve,
+                                .decode = decode,
                                 .close = close_source,
+                                .name = s->file.name,
+                                .options = *options,
+                                .log = log,
                                 .n_curves = s->spectroscopy.n_curves,
                                 .grid_columns = s->spectroscopy.columns,
                                 .grid_rows = s->spectroscopy.rows};
-    s->options = *options;
-    s->log = log;
     *source = &s->base;
     return WT_OK;
 }

@@ -5,6 +5,8 @@
  */
 #include "read/nid/nid.h"
 
+#include "read/force_source.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -64,15 +66,11 @@ static double between(double first, double last, long i, long n)
 static void from_map(const nid_map *map, size_t i, const char *name, wt_parselog *log,
                      wt_force_curve *curve)
 {
-    if (i / (size_t)map->columns >= (size_t)map->rows) {
+    if (!force_place(map->columns, map->rows, true, i, curve)) {
         wt_parselog_add(log, WT_WARNING, name, MAP_SECTION,
                         "more curves than places in the map: place unknown");
         return;
     }
-    long row = (long)(i / (size_t)map->columns), column = (long)(i % (size_t)map->columns);
-    /* Every other row is measured on the way back. */
-    curve->grid_x = row % 2 == 1 ? map->columns - 1 - column : column;
-    curve->grid_y = row;
     if (map->rotation != 0) {
         wt_parselog_add(log, WT_WARNING, name, MAP_SECTION,
                         "the map is rotated, its unit is not known: positions left out");
@@ -123,10 +121,6 @@ void nid_position(const nid_header *header, size_t i, const char *name, wt_parse
                   wt_force_curve *curve)
 {
     nid_map map;
-    curve->x = (double)NAN;
-    curve->y = (double)NAN;
-    curve->grid_x = -1;
-    curve->grid_y = -1;
     if (read_map(header, &map))
         from_map(&map, i, name, log, curve);
     else if (nid_get(header, POSITION_SECTION, "Count") != NULL)

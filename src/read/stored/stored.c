@@ -4,6 +4,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "read/facts.h"
+#include "read/force_source.h"
 #include "read/text/text.h"
 
 #include <stdlib.h>
@@ -92,14 +93,13 @@ typedef struct stored_source {
 
 static wt_status next(wt_force_source *source, wt_force_curve *curve, wt_error *err)
 {
-    wt_force_source *inner = ((stored_source *)source)->inner;
-    return inner->next(inner, curve, err);
+    return wt_force_next(((stored_source *)source)->inner, curve, err);
 }
 
 static void close_source(wt_force_source *source)
 {
     stored_source *s = (stored_source *)source;
-    s->inner->close(s->inner);
+    wt_force_close(s->inner);
     stored_text_clear(&s->text);
     free(s);
 }

@@ -135,9 +135,9 @@ static wt_status add_curves(const file_reader *self, wt_input *input,
     bare.want &= ~WT_Q_BIT(WT_Q_FORCE);
     if (text_open_force(self, input, &bare, NULL, &source, &problem) != WT_OK)
         return add_problem(facts, &problem, err);
-    wt_status status = facts_count(facts, "curves", source->n_curves, "", err);
+    wt_status status = facts_count(facts, "curves", wt_force_count(source), "", err);
     for (size_t i = 0; i < TABLES_SHOWN && status == WT_OK; i++) {
-        const wt_status got = source->next(source, &curve, &problem);
+        const wt_status got = wt_force_next(source, &curve, &problem);
         if (got == WT_END)
             break;
         if (got != WT_OK) {
@@ -153,7 +153,7 @@ static wt_status add_curves(const file_reader *self, wt_input *input,
                 facts_number(facts, "sensitivity", curve.cantilever.sensitivity, "m/V", "", err);
     }
     wt_force_curve_clear(&curve);
-    source->close(source);
+    wt_force_close(source);
     return status;
 }
 
@@ -168,10 +168,10 @@ static wt_status add_force(const file_reader *self, wt_input *input, const wt_re
     wt_status status = add_curves(self, input, options, facts, err);
     if (status == WT_OK &&
         text_open_force(self, input, &force_only, NULL, &source, &problem) == WT_OK) {
-        if (source->next(source, &curve, &problem) == WT_E_MISSING)
+        if (wt_force_next(source, &curve, &problem) == WT_E_MISSING)
             status = add_problem(facts, &problem, err);
         wt_force_curve_clear(&curve);
-        source->close(source);
+        wt_force_close(source);
     }
     return status;
 }

@@ -1,0 +1,316 @@
+/* Force curves from what a reader finds: one place for all formats.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "read/force_source.h"
+
+#include "data/force_curve.h"
+#include "read/facts.h"
+
+#include <math.h>
+
+wt_status wt_force_next(wt_force_source *source, wt_force_curve *curve, wt_error *err)
+{
+    wt_force_curve_reset(curve);
+    wt_status status = source->next(source, curve, err);
+    if (status != WT_OK && status != WT_END) {
+        wt_force_curve_reset(curve);
+        wt_error_file(err, source->name);
+    }
+    return status;
+}
+
+void wt_force_close(wt_force_source *source)
+{
+    if (source != NULL)
+        source->close(source);
+}
+
+size_t wt_force_count(const wt_force_source *source)
+{
+    return source->n_curves;
+}
+
+void wt_force_grid(const wt_force_source *source, long *columns, long *rows)
+{
+    *columns = source->grid_columns;
+    *rows = source->grid_rows;
+}
+
+bool force_wants_segment(const wt_force_source *source, wt_segment_kind kind)
+{
+    return (source->options.segments & WT_SEGMENT_BIT(kind)) != 0;
+}
+
+void force_add_signal(force_facts *facts, force_signal signal)
+{
+    if (facts->n_signals < FORCE_SIGNALS)
+        facts->signals[facts->n_signals++] = signal;
+}
+
+/* ---- what a quantity is made of ----------------------------------------------------------- */
+
+static const force_signal *find(const force_facts *facts, wt_quantity quantity)
+{
+    for (size_t i = 0; i < facts->n_signals; i++)
+        if (facts->signals[i].quantity == quantity)
+            return &facts->signals[i];
+    return NULL;
+}
+
+static bool is_bending(wt_quantity quantity)
+{
+    return quantity == WT_Q_FORCE || quantity == WT_Q_DEFLECTION ||
+           quantity == WT_Q_DEFLECTION_VOLTAGE;
+}
+
+/* May `signal` stand for `own`, of which it is what comes before a value that the user replaces?
+ * Only where both are one channel: columns that were exported apart need not be of one measurement.
+ */
+static bool replaces(const force_signal *signal, const force_signal *own, double given)
+{
+    return signal != NULL && !isnan(given) && (own == NULL || own->channel == signal->channel);
+}
+
+/* The signal itself, else the nearest. But what the user gives replaces a link of the chain, so
+ * that what comes behind it is made anew from what comes before it. */
+static const force_signal *origin(const force_facts *facts, const wt_read_options *options,
+                                  wt_quantity wanted)
+{
+    const force_signal *own = find(facts, wanted);
+    if (!is_bending(wanted))
+        return own;
+    const force_signal *volts = find(facts, WT_Q_DEFLECTION_VOLTAGE);
+    const force_signal *deflection = find(facts, WT_Q_DEFLECTION);
+    if (wanted != WT_Q_DEFLECTION_VOLTAGE && replaces(volts, own, options->sensitivity))
+        return volts;
+    if (wanted == WT_Q_FORCE && replaces(deflection, own, options->spring_constant))
+        return deflection;
+    if (own != NULL)
+        return own;
+    if (wanted == WT_Q_DEFLECTION)
+        return volts != NULL ? volts : find(facts, WT_Q_FORCE);
+    if (deflection != NULL)
+        return deflection;
+    return wanted == WT_Q_FORCE ? volts : find(facts, WT_Q_FORCE);
+}
+
+static wt_cantilever cantilever_used(const wt_cantilever *file, const wt_read_options *options)
+{
+    wt_cantilever used = {.spring_constant = options->spring_constant,
+                          .sensitivity = options->sensitivity,
+                          .spring_constant_given = !isnan(options->spring_constant),
+                          .sensitivity_given = !isnan(options->sensitivity)};
+    if (!used.spring_constant_given)
+        used.spring_constant = file->spring_constant;
+    if (!used.sensitivity_given)
+        used.sensitivity = file->sensitivity;
+    return used;
+}
+
+/* Fails with the options that would help. */
+static wt_status uncalibrated(const force_signal *signal, const wt_cantilever *used,
+                              const char *place, wt_error *err)
+{
+    const bool no_constant = isnan(used->spring_constant);
+    const bool no_sensitivity =
+        isnan(used->sensitivity) && signal->quantity == WT_Q_DEFLECTION_VOLTAGE;
+    const bool both = no_constant && no_sensitivity;
+    wt_fail(err, WT_E_MISSING, "the file does not say the %s",
+            both          ? "spring constant and deflection sensitivity"
+            : no_constant ? "spring constant"
+                          : "deflection sensitivity");
+    wt_error_place(err, "%s", place != NULL ? place : "");
+    wt_error_advice(err, "give %s%s%s", no_constant ? "--spring-constant 0.1N/m" : "",
+                    both ? " and " : "", no_sensitivity ? "--sensitivity 120nm/V" : "");
+    return WT_E_MISSING;
+}
+
+/* ---- columns ------------------------------------------------------------------------------ */
+
+/* The columns that a segment gets. */
+typedef struct force_plan {
+    struct {
+        wt_quantity quantity;
+        const force_signal *signal; /* NULL: the time, from the duration */
+        force_linear scaling;       /* from the numbers of the channel to the quantity */
+    } columns[FORCE_SIGNALS];
+    size_t n;
+} force_plan;
+
+static wt_status cannot_make(const wt_force_source *source, const force_facts *facts,
+                             wt_quantity wanted, const force_signal *signal,
+                             const wt_cantilever *used, wt_error *err)
+{
+    if (wanted == WT_Q_DEFLECTION_VOLTAGE) {
+        wt_parselog_add(source->log, WT_NOTE, source->name, facts->place,
+                        "no %s: the file's own calibration is not known", wt_quantity_id(wanted));
+        return WT_OK;
+    }
+    wt_error missing = WT_ERROR_INIT;
+    wt_status status = uncalibrated(signal, used, facts->place, &missing);
+    if (source->options.want == WT_Q_ALL) {
+        wt_parselog_add(source->log, WT_WARNING, source->name, facts->place, "no %s: %s; %s",
+                        wt_quantity_id(wanted), missing.message, missing.advice);
+        return WT_OK;
+    }
+    if (err != NULL)
+        *err = missing;
+    return status;
+}
+
+/* A given value that finds nothing to replace must not pass in silence. */
+static void note_kept(const wt_force_source *source, const force_facts *facts,
+                      const force_signal *signal)
+{
+    const wt_read_options *o = &source->options;
+    const bool force = signal->quantity == WT_Q_FORCE;
+    const char *column = wt_quantity_id(signal->quantity);
+    if (signal->quantity == WT_Q_DEFLECTION_VOLTAGE)
+        return;
+    if (!isnan(o->sensitivity) && !(facts->cantilever.sensitivity > 0))
+        wt_parselog_add(source->log, WT_WARNING, source->name, NULL,
+                        "the file does not say its sensitivity, so the given one cannot replace "
+                        "it in a column of %s",
+                        column);
+    if (force && !isnan(o->spring_constant) && !(facts->cantilever.spring_constant > 0))
+        wt_parselog_add(source->log, WT_WARNING, source->name, NULL,
+                        "the file does not say its spring constant, so the given one cannot "
+                        "replace it in a column of %s",
+                        column);
+}
+
+/* Adds the column of a quantity, if there is anything that it can be made of. */
+static wt_status plan_column(const wt_force_source *source, const force_facts *facts,
+                             wt_quantity wanted, force_plan *plan, wt_error *err)
+{
+    const force_signal *signal = origin(facts, &source->options, wanted);
+    if (signal == NULL && (wanted != WT_Q_TIME || !isfinite(facts->start + facts->duration))) {
+        if (wanted == WT_Q_TIME)
+            wt_parselog_add(source->log, WT_WARNING, source->name, facts->place,
+                            "no duration: the time is left out");
+        return WT_OK;
+    }
+    if (signal != NULL && signal->problem != NULL) {
+        wt_parselog_add(source->log, WT_WARNING, source->name, facts->place,
+                        "channel %s left out: %s", signal->name, signal->problem);
+        return WT_OK;
+    }
+    force_linear scaling = signal != NULL ? signal->to_si : (force_linear){1, 0};
+    if (is_bending(wanted)) {
+        const wt_cantilever used = cantilever_used(&facts->cantilever, &source->options);
+        const double factor =
+            deflection_factor(signal->quantity, wanted, &facts->cantilever, &used);
+        if (isnan(factor))
+            return cannot_make(source, facts, wanted, signal, &used, err);
+        if (wanted != WT_Q_DEFLECTION_VOLTAGE)
+            note_kept(source, facts, signal);
+        scaling = (force_linear){factor * scaling.multiplier, factor * scaling.offset};
+    }
+    plan->columns[plan->n].quantity = wanted;
+    plan->columns[plan->n].signal = signal;
+    plan->columns[plan->n++].scaling = scaling;
+    return WT_OK;
+}
+
+wt_status force_add_segment(wt_force_source *source, const force_facts *facts,
+                            wt_force_curve *curve, wt_error *err)
+{
+    const wt_cantilever used = cantilever_used(&facts->cantilever, &source->options);
+    const size_t n = facts->n_points;
+    force_plan plan = {.n = 0};
+    wt_status status = WT_OK;
+    /* A segment that says nothing of it leaves what those before it said. */
+    if (!isnan(used.spring_constant) || !isnan(used.sensitivity))
+        curve->cantilever = used;
+    if (n == 0)
+        return WT_OK;
+    for (size_t i = 0; i < facts->n_offers && status == WT_OK; i++)
+        if ((source->options.want & WT_Q_BIT(facts->offers[i])) != 0)
+            status = plan_column(source, facts, facts->offers[i], &plan, err);
+    if (status != WT_OK)
+        return status;
+    wt_segment *segment = wt_force_curve_add_segment(curve, facts->kind, n, plan.n);
+    if (segment == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for a segment of %zu samples", n);
+    segment->index = facts->index;
+    segment->duration = facts->duration;
+    segment->velocity = facts->velocity;
+    segment->setpoint = facts->setpoint * deflection_factor(facts->setpoint_quantity, WT_Q_FORCE,
+                                                            &facts->cantilever, &used);
+    for (size_t i = 0; i < plan.n && status == WT_OK; i++) {
+        const force_signal *signal = plan.columns[i].signal;
+        wt_channel *channel = &segment->channels[i];
+        channel->quantity = plan.columns[i].quantity;
+        snprintf(channel->name, sizeof channel->name, "%s", signal != NULL ? signal->name : "time");
+        snprintf(channel->unit, sizeof channel->unit, "%s", signal != NULL ? signal->unit : "s");
+        if (signal == NULL)
+            sample_times(facts->start, facts->duration, n, channel->values);
+        else
+            status =
+                source->decode(source, signal, plan.columns[i].scaling, n, channel->values, err);
+    }
+    return status;
+}
+
+bool force_place(long columns, long rows, bool back_and_forth, size_t number, wt_force_curve *curve)
+{
+    if (columns == 0 || number / (size_t)columns >= (size_t)rows)
+        return false;
+    const long row = (long)(number / (size_t)columns), column = (long)(number % (size_t)columns);
+    curve->grid_x = back_and_forth && row % 2 == 1 ? columns - 1 - column : column;
+    curve->grid_y = row;
+    return true;
+}
+
+/* ---- for info ----------------------------------------------------------------------------- */
+
+/* The signal that the quantity is made of, NULL if it cannot be made. */
+static const force_signal *makes(const force_facts *facts, const wt_read_options *options,
+                                 wt_quantity quantity)
+{
+    const wt_cantilever used = cantilever_used(&facts->cantilever, options);
+    const force_signal *signal = origin(facts, options, quantity);
+    if (signal == NULL || !is_bending(quantity))
+        return signal;
+    return isnan(deflection_factor(signal->quantity, quantity, &facts->cantilever, &used)) ? NULL
+                                                                                           : signal;
+}
+
+wt_quantity force_read_as(const force_facts *facts, const wt_read_options *options,
+                          const void *channel)
+{
+    for (size_t i = 0; i < facts->n_offers; i++) {
+        const force_signal *signal = makes(facts, options, facts->offers[i]);
+        if (signal != NULL && signal->channel == channel)
+            return facts->offers[i];
+    }
+    return WT_Q_NONE;
+}
+
+wt_status force_describe_calibration(const wt_cantilever *file, const wt_read_options *options,
+                                     const char *spring_constant_source,
+                                     const char *sensitivity_source, wt_table *rows, wt_error *err)
+{
+    static const char given[] = "given by the user";
+    const wt_cantilever used = cantilever_used(file, options);
+    wt_status status =
+        facts_number(rows, "spring constant", used.spring_constant, "N/m",
+                     used.spring_constant_given ? given : spring_constant_source, err);
+    if (status == WT_OK)
+        status = facts_number(rows, "deflection sensitivity", used.sensitivity, "m/V",
+                              used.sensitivity_given ? given : sensitivity_source, err);
+    return status;
+}
+
+wt_status force_describe_missing(const force_facts *facts, const wt_read_options *options,
+                                 wt_table *rows, wt_error *err)
+{
+    const wt_cantilever used = cantilever_used(&facts->cantilever, options);
+    const force_signal *signal = origin(facts, options, WT_Q_FORCE);
+    wt_error missing = WT_ERROR_INIT;
+    if (signal == NULL || makes(facts, options, WT_Q_FORCE) != NULL)
+        return WT_OK;
+    uncalibrated(signal, &used, NULL, &missing);
+    return facts_add(rows, "missing", missing.message, "", missing.advice, err);
+}
