@@ -6,27 +6,21 @@
 #include "read/formats.h"
 
 static wt_status add_common(const file_reader *reader, wt_input *input, bool chosen,
-                            wt_table *facts, wt_error *err)
+                            fact_list *facts)
 {
     const unsigned char *bytes = NULL;
     size_t length = 0;
-    char text[32];
-    wt_status status = wt_input_bytes(input, &bytes, &length, err);
+    wt_status status = wt_input_bytes(input, &bytes, &length, facts->err);
     if (status != WT_OK)
         return status;
-    snprintf(text, sizeof text, "%zu", length);
-    status = facts_add(facts, "file", wt_input_name(input), "", "", err);
-    if (status == WT_OK)
-        status = facts_add(facts, "size", text, "byte", "", err);
-    if (status == WT_OK)
-        status = facts_add(facts, "format", reader->info.id, "",
-                           chosen ? "chosen with --format" : "recognised by its content", err);
-    if (status == WT_OK)
-        status = facts_add(facts, "format title", reader->info.title, "", "", err);
-    if (status == WT_OK)
-        status = facts_add(facts, "format verified", reader->info.verified ? "yes" : "no", "",
-                           reader->info.evidence, err);
-    return status;
+    facts_add(facts, "file", "", "", "%s", wt_input_name(input));
+    facts_add(facts, "size", "byte", "", "%zu", length);
+    facts_add(facts, "format", "", chosen ? "chosen with --format" : "recognised by its content",
+              "%s", reader->info.id);
+    facts_add(facts, "format title", "", "", "%s", reader->info.title);
+    facts_add(facts, "format verified", "", reader->info.evidence, "%s",
+              reader->info.verified ? "yes" : "no");
+    return facts->status;
 }
 
 wt_status wt_describe(const wt_formats *formats, wt_input *input, const wt_read_options *options,
@@ -34,20 +28,22 @@ wt_status wt_describe(const wt_formats *formats, wt_input *input, const wt_read_
 {
     wt_read_options o;
     const file_reader *reader = NULL;
-    wt_table *table = NULL;
+    fact_list list;
     wt_status status = read_start(formats, input, options, 0, &o, &reader, err);
+    if (status == WT_OK)
+        status = facts_new(&list, err);
     if (status != WT_OK)
         return status;
-    status = facts_new(&table, err);
+    status = add_common(reader, input, o.format != NULL, &list);
     if (status == WT_OK)
-        status = add_common(reader, input, o.format != NULL, table, err);
+        status = reader->describe(reader, input, &o, log, &list);
     if (status == WT_OK)
-        status = reader->describe(reader, input, &o, log, table, err);
+        status = list.status;
     if (status != WT_OK) {
         wt_error_file(err, wt_input_name(input));
-        wt_table_free(table);
+        wt_table_free(list.table);
         return status;
     }
-    *facts = table;
+    *facts = list.table;
     return WT_OK;
 }

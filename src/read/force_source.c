@@ -288,29 +288,20 @@ wt_quantity force_read_as(const force_facts *facts, const wt_read_options *optio
     return WT_Q_NONE;
 }
 
-wt_status force_describe_calibration(const wt_cantilever *file, const wt_read_options *options,
-                                     const char *spring_constant_source,
-                                     const char *sensitivity_source, wt_table *rows, wt_error *err)
+void force_describe_calibration(const force_facts *facts, const wt_read_options *options,
+                                const char *spring_constant_source, const char *sensitivity_source,
+                                fact_list *list)
 {
     static const char given[] = "given by the user";
-    const wt_cantilever used = cantilever_used(file, options);
-    wt_status status =
-        facts_number(rows, "spring constant", used.spring_constant, "N/m",
-                     used.spring_constant_given ? given : spring_constant_source, err);
-    if (status == WT_OK)
-        status = facts_number(rows, "deflection sensitivity", used.sensitivity, "m/V",
-                              used.sensitivity_given ? given : sensitivity_source, err);
-    return status;
-}
-
-wt_status force_describe_missing(const force_facts *facts, const wt_read_options *options,
-                                 wt_table *rows, wt_error *err)
-{
     const wt_cantilever used = cantilever_used(&facts->cantilever, options);
     const force_signal *signal = origin(facts, options, WT_Q_FORCE);
     wt_error missing = WT_ERROR_INIT;
-    if (signal == NULL || makes(facts, options, WT_Q_FORCE) != NULL)
-        return WT_OK;
-    uncalibrated(signal, &used, NULL, &missing);
-    return facts_add(rows, "missing", missing.message, "", missing.advice, err);
+    facts_number(list, "spring constant", used.spring_constant, "N/m",
+                 used.spring_constant_given ? given : spring_constant_source);
+    facts_number(list, "deflection sensitivity", used.sensitivity, "m/V",
+                 used.sensitivity_given ? given : sensitivity_source);
+    if (signal != NULL && makes(facts, options, WT_Q_FORCE) == NULL) {
+        uncalibrated(signal, &used, NULL, &missing);
+        facts_add(list, "missing", "", missing.advice, "%s", missing.message);
+    }
 }

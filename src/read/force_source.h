@@ -7,6 +7,7 @@
 #ifndef WT_READ_FORCE_SOURCE_H
 #define WT_READ_FORCE_SOURCE_H
 
+#include "read/facts.h"
 #include "weartrack/read.h"
 
 /* y = multiplier x + offset */
@@ -78,12 +79,10 @@ bool force_place(long columns, long rows, bool back_and_forth, size_t number,
 /* The first quantity offered that is made of this channel, or WT_Q_NONE. */
 wt_quantity force_read_as(const force_facts *facts, const wt_read_options *options,
                           const void *channel);
-/* Rows of the calibration that is used, and where the file's own values come from. */
-wt_status force_describe_calibration(const wt_cantilever *file, const wt_read_options *options,
-                                     const char *spring_constant_source,
-                                     const char *sensitivity_source, wt_table *rows, wt_error *err);
-/* A row that says so, if no force can be made. */
-wt_status force_describe_missing(const force_facts *facts, const wt_read_options *options,
-                                 wt_table *rows, wt_error *err);
+/* Rows of the calibration that is used, where the file's own values come from, and what is missing
+ * for a force. */
+void force_describe_calibration(const force_facts *facts, const wt_read_options *options,
+                                const char *spring_constant_source, const char *sensitivity_source,
+                                fact_list *list);
 
 #endif

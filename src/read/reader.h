@@ -6,6 +6,7 @@
 #ifndef WT_READ_READER_H
 #define WT_READ_READER_H
 
+#include "read/facts.h"
 #include "weartrack/read.h"
 
 /* The honest answers of a detector. */
@@ -53,10 +54,10 @@ typedef struct file_reader {
     wt_status (*read_spectrum)(const struct file_reader *self, wt_input *input,
                                const wt_read_options *options, wt_parselog *log,
                                wt_power_spectrum *spectrum, wt_error *err);
-    /* Adds what `info` shows: segments, channels, calibration, what is missing or odd. */
+    /* Adds what `info` shows: segments, channels, calibration, what is missing or odd. Fails with
+     * what hinders reading. */
     wt_status (*describe)(const struct file_reader *self, wt_input *input,
-                          const wt_read_options *options, wt_parselog *log, wt_table *facts,
-                          wt_error *err);
+                          const wt_read_options *options, wt_parselog *log, fact_list *facts);
 } file_reader;
 
 /* A reader that knows its files by their words is asked only where no signature answered. */

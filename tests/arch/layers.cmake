@@ -21,10 +21,10 @@ set(knows_cmd base data read model fit kernel report flow)
 # Which folders and single headers of its room a sub-room may include, beside its own. The files of
 # the room itself may include all of it, but for those that have a row of their own.
 set(within_data/tables data)
-set(within_read/reader.h read/readers.def)
+set(within_read/reader.h read/facts.h read/readers.def)
 set(within_read/facts.h "")
 set(within_read/facts.c read/facts.h)
-set(within_read/force_source.h "")
+set(within_read/force_source.h read/facts.h)
 set(within_read/force_source.c read/facts.h read/force_source.h)
 set(within_read/bytes "")
 set(within_read/description read/reader.h read/embedded_formats.h read/bytes)

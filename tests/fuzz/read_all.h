@@ -52,12 +52,12 @@ static inline void describe(const file_reader *reader, const uint8_t *data, size
                             const wt_read_options *options)
 {
     wt_input *input = NULL;
-    wt_table *facts = NULL;
+    fact_list facts;
     if (facts_new(&facts, NULL) != WT_OK ||
         wt_input_open_memory(data, size, "fuzz", &input, NULL) != WT_OK)
         abort();
-    wt_status status = reader->describe(reader, input, options, NULL, facts, NULL);
-    wt_table_free(facts);
+    wt_status status = reader->describe(reader, input, options, NULL, &facts);
+    wt_table_free(facts.table);
     wt_input_close(input);
     (void)status;
 }

@@ -48,7 +48,7 @@ static const char *described(const jpk_file *file, const char *name)
     return properties_find(&file->header, key, name);
 }
 
-static wt_status add_identity(const jpk_file *file, wt_table *facts, wt_error *err)
+static void add_identity(const jpk_file *file, fact_list *facts)
 {
     static const struct {
         const char *item, *name;
@@ -57,115 +57,98 @@ static wt_status add_identity(const jpk_file *file, wt_table *facts, wt_error *e
                  {"sample", "name"},
                  {"probe", "probe"},
                  {"comment", "comment"}};
-    wt_status status = WT_OK;
     const char *version = properties_get(&file->header, "file-format-version");
-    status = facts_add(facts, "format version", version != NULL ? version : "not stated", "",
-                       "file-format-version", err);
-    for (size_t i = 0; i < sizeof known / sizeof *known && status == WT_OK; i++) {
+    facts_add(facts, "format version", "", "file-format-version", "%s",
+              version != NULL ? version : "not stated");
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
         const char *text = described(file, known[i].name);
         if (text != NULL && *text != '\0')
-            status = facts_add(facts, known[i].item, text, "", known[i].name, err);
+            facts_add(facts, known[i].item, "", known[i].name, "%s", text);
     }
-    return status;
 }
 
-static wt_status add_curves(const jpk_file *file, wt_table *facts, wt_error *err)
+static void add_curves(const jpk_file *file, fact_list *facts)
 {
-    char text[64];
-    wt_status status = facts_count(facts, "curves", file->n_curves, "entries", err);
-    if (status == WT_OK && file->n_expected > 0)
-        status = facts_count(facts, "curves planned", file->n_expected, "indexes", err);
-    if (status == WT_OK && file->columns > 0) {
-        snprintf(text, sizeof text, "%ld x %ld%s", file->columns, file->rows,
-                 file->back_and_forth ? ", back and forth" : "");
-        status = facts_add(facts, "grid", text, "", "position-pattern.grid", err);
-    }
-    if (status == WT_OK && archive_truncated(file->archive))
-        status = facts_add(facts, "odd", "the end of the archive is missing", "", "", err);
-    return status;
+    facts_count(facts, "curves", file->n_curves, "entries");
+    if (file->n_expected > 0)
+        facts_count(facts, "curves planned", file->n_expected, "indexes");
+    if (file->columns > 0)
+        facts_add(facts, "grid", "", "position-pattern.grid", "%ld x %ld%s", file->columns,
+                  file->rows, file->back_and_forth ? ", back and forth" : "");
+    if (archive_truncated(file->archive))
+        facts_add(facts, "odd", "", "", "the end of the archive is missing");
 }
 
-static wt_status add_channels(const jpk_segment *segment, size_t number,
-                              const wt_read_options *options, wt_table *facts, wt_error *err)
+static void add_segment(const jpk_segment *segment, size_t number, const wt_read_options *options,
+                        fact_list *facts)
 {
-    char item[160], value[512];
+    char item[160];
     force_facts read;
     jpk_segment_facts(segment, &read);
     snprintf(item, sizeof item, "segment %zu", number);
-    snprintf(value, sizeof value, "%s (%s), %zu points", wt_segment_kind_name(segment->kind),
-             segment->style[0] != '\0' ? segment->style : "no style", segment->n_points);
-    wt_status status = facts_add(facts, item, value, "", "segment-header.properties", err);
-    if (status == WT_OK && !isnan(segment->duration)) {
-        snprintf(item, sizeof item, "segment %zu duration", number);
-        status = facts_number(facts, item, segment->duration, "s", "duration", err);
-    }
-    if (status == WT_OK && !isnan(segment->velocity)) {
-        snprintf(item, sizeof item, "segment %zu velocity", number);
-        status =
-            facts_number(facts, item, segment->velocity, "m/s", "z-start, z-end, duration", err);
-    }
-    if (status == WT_OK && segment->incomplete) {
-        snprintf(item, sizeof item, "segment %zu odd", number);
-        status = facts_add(facts, item, "data are missing or short", "", "", err);
-    }
-    for (size_t i = 0; i < segment->n_channels && status == WT_OK; i++) {
+    facts_add(facts, item, "", "segment-header.properties", "%s (%s), %zu points",
+              wt_segment_kind_name(segment->kind),
+              segment->style[0] != '\0' ? segment->style : "no style", segment->n_points);
+    snprintf(item, sizeof item, "segment %zu duration", number);
+    if (!isnan(segment->duration))
+        facts_number(facts, item, segment->duration, "s", "duration");
+    snprintf(item, sizeof item, "segment %zu velocity", number);
+    if (!isnan(segment->velocity))
+        facts_number(facts, item, segment->velocity, "m/s", "z-start, z-end, duration");
+    snprintf(item, sizeof item, "segment %zu odd", number);
+    if (segment->incomplete)
+        facts_add(facts, item, "", "", "data are missing or short");
+    for (size_t i = 0; i < segment->n_channels; i++) {
         const jpk_channel *c = &segment->channels[i];
-        wt_quantity quantity = force_read_as(&read, options, c);
+        const wt_quantity quantity = force_read_as(&read, options, c);
+        const char *words = quantity == WT_Q_NONE ? "not read" : wt_quantity_id(quantity);
         const jpk_slot *slot = c->understood ? jpk_lcd_slot(&c->lcd, c->lcd.preferred) : NULL;
-        const char *unit = !c->understood ? "" : slot != NULL ? slot->unit : c->lcd.base_unit;
         snprintf(item, sizeof item, "segment %zu channel %s", number, c->name);
-        snprintf(value, sizeof value, "%s%s%s",
-                 quantity == WT_Q_NONE ? "not read" : wt_quantity_id(quantity),
-                 c->understood ? "" : ": ", c->understood ? "" : c->problem);
-        status = facts_add(facts, item, value, unit, c->understood ? c->lcd.preferred : "", err);
+        if (c->understood)
+            facts_add(facts, item, slot != NULL ? slot->unit : c->lcd.base_unit, c->lcd.preferred,
+                      "%s", words);
+        else
+            facts_add(facts, item, "", "", "%s: %s", words, c->problem);
     }
-    return status;
 }
 
-static wt_status add_calibration(const jpk_segment *segment, const wt_read_options *options,
-                                 wt_table *facts, wt_error *err)
+static void add_calibration(const jpk_segment *segment, const wt_read_options *options,
+                            fact_list *facts)
 {
     const jpk_channel *deflection = jpk_segment_channel(segment, "vDeflection");
-    if (deflection == NULL || !deflection->understood)
-        return facts_add(facts, "missing", "no channel vDeflection", "", "", err);
     force_facts read;
     jpk_segment_facts(segment, &read);
-    wt_status status = force_describe_calibration(&read.cantilever, options, "conversion to force",
-                                                  "conversion to distance", facts, err);
-    if (status == WT_OK)
-        status = force_describe_missing(&read, options, facts, err);
-    return status;
+    if (deflection == NULL || !deflection->understood)
+        facts_add(facts, "missing", "", "", "no channel vDeflection");
+    else
+        force_describe_calibration(&read, options, "conversion to force", "conversion to distance",
+                                   facts);
 }
 
 /* The segments of the first curve stand for all: a map has the same ones at each place. */
 static wt_status describe(const file_reader *self, wt_input *input, const wt_read_options *options,
-                          wt_parselog *log, wt_table *facts, wt_error *err)
+                          wt_parselog *log, fact_list *facts)
 {
     (void)self;
     jpk_file file = {0};
-    jpk_segment *segment = NULL;
-    wt_status status = jpk_file_open(input, log, &file, err);
+    wt_status status = jpk_file_open(input, log, &file, facts->err);
     if (status != WT_OK)
         return status;
-    segment = calloc(1, sizeof *segment);
-    if (segment == NULL) {
-        status = wt_fail(err, WT_E_MEMORY, "no memory to describe the file");
-        goto done;
-    }
+    jpk_segment *segment = calloc(1, sizeof *segment);
+    if (segment == NULL)
+        status = wt_fail(facts->err, WT_E_MEMORY, "no memory to describe the file");
     for (size_t i = 0; i < file.n_refs && file.refs[i].curve == file.refs[0].curve; i++) {
-        status = jpk_segment_read(&file, &file.refs[i], segment, err);
-        if (status == WT_OK && i == 0)
-            status = add_identity(&file, facts, err);
-        if (status == WT_OK && i == 0)
-            status = add_curves(&file, facts, err);
-        if (status == WT_OK && i == 0)
-            status = add_calibration(segment, options, facts, err);
         if (status == WT_OK)
-            status = add_channels(segment, file.refs[i].segment, options, facts, err);
+            status = jpk_segment_read(&file, &file.refs[i], segment, facts->err);
         if (status != WT_OK)
-            goto done;
+            break;
+        if (i == 0) {
+            add_identity(&file, facts);
+            add_curves(&file, facts);
+            add_calibration(segment, options, facts);
+        }
+        add_segment(segment, file.refs[i].segment, options, facts);
     }
-done:
     if (segment != NULL)
         properties_clear(&segment->header);
     free(segment);

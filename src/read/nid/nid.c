@@ -32,16 +32,7 @@ static recognition detect(const file_reader *self, file_peek *peek)
     return match;
 }
 
-static wt_status add_text(const nid_header *header, const char *item, const char *section,
-                          const char *key, wt_table *facts, wt_error *err)
-{
-    const char *text = nid_get(header, section, key);
-    if (text == NULL || *text == '\0')
-        return WT_OK;
-    return facts_add(facts, item, text, "", key, err);
-}
-
-static wt_status add_identity(const nid_file *file, wt_table *facts, wt_error *err)
+static void add_identity(const nid_file *file, fact_list *facts)
 {
     static const struct {
         const char *item, *section, *key;
@@ -53,82 +44,74 @@ static wt_status add_identity(const nid_file *file, wt_table *facts, wt_error *e
                  {"cantilever", "DataSet-Info", "Cantilever type"},
                  {"date (day-month-year)", "DataSet-Info", "Date"},
                  {"time", "DataSet-Info", "Time"}};
-    wt_status status = facts_add(facts, "text encoding", file->header.latin1 ? "Latin-1" : "UTF-8",
-                                 "", "the bytes of the header", err);
-    for (size_t i = 0; i < sizeof known / sizeof *known && status == WT_OK; i++)
-        status = add_text(&file->header, known[i].item, known[i].section, known[i].key, facts, err);
-    return status;
+    facts_add(facts, "text encoding", "", "the bytes of the header", "%s",
+              file->header.latin1 ? "Latin-1" : "UTF-8");
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
+        const char *text = nid_get(&file->header, known[i].section, known[i].key);
+        if (text != NULL && *text != '\0')
+            facts_add(facts, known[i].item, "", known[i].key, "%s", text);
+    }
 }
 
-static wt_status add_channels(const nid_file *file, wt_table *facts, wt_error *err)
+static void add_channels(const nid_file *file, fact_list *facts)
 {
-    char item[128], value[128];
-    wt_status status = WT_OK;
-    for (size_t i = 0; i < file->n && status == WT_OK; i++) {
+    char item[128];
+    for (size_t i = 0; i < file->n; i++) {
         const nid_channel *c = &file->channels[i];
         snprintf(item, sizeof item, "%s: %s", c->group_name, c->name);
-        snprintf(value, sizeof value, "%zu x %zu %s, %u bits", c->points, c->lines,
-                 nid_is_spectroscopy(c) ? "samples x curves" : "points x lines", c->bits);
-        status = facts_add(facts, item, value, c->unit, c->section, err);
+        facts_add(facts, item, c->unit, c->section, "%zu x %zu %s, %u bits", c->points, c->lines,
+                  nid_is_spectroscopy(c) ? "samples x curves" : "points x lines", c->bits);
     }
-    return status;
 }
 
-static wt_status add_curves(const nid_spectroscopy *s, const wt_read_options *options,
-                            wt_table *facts, wt_error *err)
+static void add_phase(const nid_phase *phase, size_t number, fact_list *facts)
 {
-    char item[64], value[128];
-    wt_status status = facts_count(facts, "curves", s->n_curves, "Lines", err);
-    if (status == WT_OK && s->columns > 0) {
-        snprintf(value, sizeof value, "%ld x %ld, back and forth", s->columns, s->rows);
-        status = facts_add(facts, "grid", value, "", "SpecMapTable", err);
-    }
-    for (size_t p = 0; p < NID_PHASES && status == WT_OK; p++) {
-        const nid_phase *phase = &s->phases[p];
-        if (phase->z == NULL && phase->sensor == NULL && phase->bending == NULL)
-            continue;
-        snprintf(item, sizeof item, "segment %zu", p);
-        snprintf(value, sizeof value, "%s (%s), up to %zu points",
-                 wt_segment_kind_name(phase->kind), phase->group,
-                 phase->bending != NULL  ? phase->bending->points
-                 : phase->sensor != NULL ? phase->sensor->points
-                                         : phase->z->points);
-        status = facts_add(facts, item, value, "", "", err);
-        if (status == WT_OK && phase->bending == NULL)
-            status = facts_add(facts, "missing", "no channel Deflection in m, N or V", "",
-                               phase->group, err);
-        if (status == WT_OK && phase->z == NULL && phase->sensor == NULL)
-            status = facts_add(facts, "missing", "no channel Z-Axis or Z-Axis Sensor in m", "",
-                               phase->group, err);
-    }
-    if (status == WT_OK)
-        status = force_describe_calibration(
-            &s->file_cantilever, options, "Calibration\\Cantilever, Prop0",
-            "Calibration\\Scanhead, TipSignalDC / TipSignalDC1", facts, err);
-    if (status == WT_OK)
-        status = facts_add(facts, "odd",
-                           "force curves of this format were not verified on a genuine file", "",
-                           "", err);
-    return status;
+    const nid_channel *any = phase->bending != NULL  ? phase->bending
+                             : phase->sensor != NULL ? phase->sensor
+                                                     : phase->z;
+    char item[64];
+    if (any == NULL)
+        return;
+    snprintf(item, sizeof item, "segment %zu", number);
+    facts_add(facts, item, "", "", "%s (%s), up to %zu points", wt_segment_kind_name(phase->kind),
+              phase->group, any->points);
+    if (phase->bending == NULL)
+        facts_add(facts, "missing", "", phase->group, "no channel Deflection in m, N or V");
+    if (phase->z == NULL && phase->sensor == NULL)
+        facts_add(facts, "missing", "", phase->group, "no channel Z-Axis or Z-Axis Sensor in m");
+}
+
+static void add_curves(const nid_spectroscopy *s, const wt_read_options *options, fact_list *facts)
+{
+    const force_facts read = {.cantilever = s->file_cantilever};
+    facts_count(facts, "curves", s->n_curves, "Lines");
+    if (s->columns > 0)
+        facts_add(facts, "grid", "", "SpecMapTable", "%ld x %ld, back and forth", s->columns,
+                  s->rows);
+    for (size_t p = 0; p < NID_PHASES; p++)
+        add_phase(&s->phases[p], p, facts);
+    force_describe_calibration(&read, options, "Calibration\\Cantilever, Prop0",
+                               "Calibration\\Scanhead, TipSignalDC / TipSignalDC1", facts);
+    facts_add(facts, "odd", "", "",
+              "force curves of this format were not verified on a genuine file");
 }
 
 static wt_status describe(const file_reader *self, wt_input *input, const wt_read_options *options,
-                          wt_parselog *log, wt_table *facts, wt_error *err)
+                          wt_parselog *log, fact_list *facts)
 {
     (void)self;
     (void)log;
     nid_file file = {0};
     nid_spectroscopy spectroscopy;
-    wt_status status = nid_file_open(input, &file, err);
+    wt_status status = nid_file_open(input, &file, facts->err);
     if (status != WT_OK)
         return status;
-    status = add_identity(&file, facts, err);
-    if (status == WT_OK)
-        status = add_channels(&file, facts, err);
-    if (status == WT_OK && nid_spectroscopy_find(&file, &spectroscopy, NULL) == WT_OK)
-        status = add_curves(&spectroscopy, options, facts, err);
+    add_identity(&file, facts);
+    add_channels(&file, facts);
+    if (nid_spectroscopy_find(&file, &spectroscopy, NULL) == WT_OK)
+        add_curves(&spectroscopy, options, facts);
     nid_file_close(&file);
-    return status;
+    return WT_OK;
 }
 
 const file_reader reader_nid = {

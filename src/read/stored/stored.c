@@ -151,24 +151,25 @@ static wt_status read_spectrum(const file_reader *self, wt_input *input,
 }
 
 static wt_status describe(const file_reader *self, wt_input *input, const wt_read_options *options,
-                          wt_parselog *log, wt_table *facts, wt_error *err)
+                          wt_parselog *log, fact_list *facts)
 {
     wt_result *result = NULL;
     stored_text text = {0};
     bool measured = false;
-    wt_status status = wt_store_read(wt_input_name(input), &result, err);
-    for (size_t i = 0; status == WT_OK && i < wt_result_n_tables(result); i++) {
+    wt_status status = wt_store_read(wt_input_name(input), &result, facts->err);
+    if (status != WT_OK)
+        return status;
+    for (size_t i = 0; i < wt_result_n_tables(result); i++) {
         const wt_table *table = wt_result_table(result, i);
-        char item[128], rows[64];
+        char item[128];
         snprintf(item, sizeof item, "table %s", wt_table_name(table));
-        snprintf(rows, sizeof rows, "%zu rows", wt_table_n_rows(table));
-        status = facts_add(facts, item, rows, "", "", err);
+        facts_add(facts, item, "", "", "%zu rows", wt_table_n_rows(table));
         measured = measured || is_measured(wt_table_name(table));
     }
-    if (status == WT_OK && measured)
-        status = open_text(input, &text, err);
-    if (status == WT_OK && measured)
-        status = text_describe(self, text.input, options, log, facts, err);
+    if (measured)
+        status = open_text(input, &text, facts->err);
+    if (measured && status == WT_OK)
+        status = text_describe(self, text.input, options, log, facts);
     stored_text_clear(&text);
     wt_result_free(result);
     return status;
