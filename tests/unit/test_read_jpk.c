@@ -256,6 +256,31 @@ static void only_what_is_wanted(void **state)
     unlink(path);
 }
 
+/* Where the force does not follow from the distance, two slots tell the spring constant. */
+static void indirect_spring_constant(void **state)
+{
+    (void)state;
+    static const char path[] = "test_read_jpk_indirect.jpk-force-map";
+    jpk_writer_file f = make_file(path);
+    wt_read_options o = wt_read_defaults();
+    f.force_from_volts = true;
+    assert_int_equal(jpk_write(&f), 0);
+    for (int given = 0; given < 2; given++) {
+        reading r;
+        assert_int_equal(open_path(&r, path, &o), WT_OK);
+        assert_int_equal(wt_force_next(r.source, &r.curve, &r.err), WT_OK);
+        const double factor = given ? 0.2 / f.spring_constant : 1;
+        const wt_channel *force = wt_segment_channel(&r.curve.segments[0], WT_Q_FORCE);
+        assert_near(r.curve.cantilever.spring_constant, factor * f.spring_constant, 1e-15);
+        for (size_t i = 0; i < samples[0].segments[0].n; i++)
+            assert_near_abs(force->values[i], factor * samples[0].force[0][i],
+                            factor * jpk_writer_force_step(&f) + 1e-22);
+        close_all(&r);
+        o.spring_constant = 0.2;
+    }
+    unlink(path);
+}
+
 static void user_calibration(void **state)
 {
     (void)state;
@@ -407,6 +432,7 @@ int main(void)
         cmocka_unit_test(single_curve),
         cmocka_unit_test(missing_indices),
         cmocka_unit_test(only_what_is_wanted),
+        cmocka_unit_test(indirect_spring_constant),
         cmocka_unit_test(user_calibration),
         cmocka_unit_test(missing_calibration),
         cmocka_unit_test(cut_off),

@@ -184,6 +184,28 @@ static void units_versions_encodings(void **state)
     unlink(path);
 }
 
+/* A phase that is not in the file takes no time, even if the header does not tell how much. */
+static void without_pause(void **state)
+{
+    (void)state;
+    nid_writer_file f = make_file("N", false, false);
+    reading r;
+    groups[1] = groups[2];
+    f.n_groups = 2;
+    f.forward_pause = 0;
+    f.forward_pause_points = 0;
+    assert_int_equal(nid_write(&f), 0);
+    assert_int_equal(open_force(&r, path, NULL), WT_OK);
+    assert_int_equal(wt_force_next(r.source, &r.curve, &r.err), WT_OK);
+    assert_int_equal(r.curve.n_segments, 2);
+    const wt_channel *time = wt_segment_channel(&r.curve.segments[1], WT_Q_TIME);
+    assert_non_null(time);
+    assert_near(time->values[0], 0.5, 0);
+    assert_near(time->values[POINTS - 1], 0.5 + (POINTS - 1.0) / POINTS, 1e-15);
+    close_all(&r);
+    unlink(path);
+}
+
 /* What the user gives replaces what the instrument has applied, whatever the exported unit. */
 static void user_calibration(void **state)
 {
@@ -502,6 +524,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(units_versions_encodings),
+        cmocka_unit_test(without_pause),
         cmocka_unit_test(user_calibration),
         cmocka_unit_test(missing_calibration),
         cmocka_unit_test(force_without_spring_constant),

@@ -344,6 +344,23 @@ static void splits(void **state)
     description_free(block);
 }
 
+/* The temperature is the mean of the points, its spread their standard deviation. */
+static void temperature_of_points(void **state)
+{
+    text_description *d = describe_as("separator=\"tab\"", "", "", "", "");
+    wt_sweep sweep = {.n_isotherms = 0};
+    (void)state;
+    assert_int_equal(read_rows(d, "1\t2\t3\t20\n2\t2\t3\t21\n4\t2\t3\t25\n", &sweep, NULL, NULL),
+                     WT_OK);
+    assert_near(sweep.isotherms[0].temperature, 273.15 + 22, 1e-14);
+    assert_near(sweep.isotherms[0].temperature_spread, sqrt(7), 1e-12);
+    wt_sweep_clear(&sweep);
+    assert_int_equal(read_rows(d, "1\t2\t3\t20\n2\t2\t3\t\n", &sweep, NULL, NULL), WT_OK);
+    assert_near(sweep.isotherms[0].temperature_spread, (double)NAN, 0);
+    wt_sweep_clear(&sweep);
+    description_free(d);
+}
+
 static void tension_and_shear(void **state)
 {
     text_description *d = describe_as("separator=\"tab\"", "", "", "", "");
@@ -591,6 +608,7 @@ int main(void)
         cmocka_unit_test(missing_values),
         cmocka_unit_test(odd_moduli_are_handed_on),
         cmocka_unit_test(splits),
+        cmocka_unit_test(temperature_of_points),
         cmocka_unit_test(tension_and_shear),
         cmocka_unit_test(nothing_is_guessed),
         cmocka_unit_test(given_units),

@@ -250,8 +250,12 @@ static void put_channel(const writer *w, FILE *out, const char *prefix, enum cha
         bool calibrated = !isnan(file->sensitivity) && !isnan(file->spring_constant);
         put_slots(out, prefix, "distance force", calibrated ? "force" : "volts", "volts");
         put_slot(out, prefix, "distance", "volts", 0, file->sensitivity, "m");
-        put_slot(out, prefix, "force", "distance", 0,
-                 isnan(file->sensitivity) ? (double)NAN : file->spring_constant, "N");
+        if (file->force_from_volts)
+            put_slot(out, prefix, "force", "volts", 0, file->spring_constant * file->sensitivity,
+                     "N");
+        else
+            put_slot(out, prefix, "force", "distance", 0,
+                     isnan(file->sensitivity) ? (double)NAN : file->spring_constant, "N");
     } else {
         put_slots(out, prefix, "nominal", "nominal", "absolute");
         put_slot(out, prefix, "nominal", "absolute", SENSOR_OFFSET, 1, "m");

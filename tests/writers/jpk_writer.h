@@ -43,6 +43,7 @@ typedef struct jpk_writer_file {
     double spring_constant; /* [N/m]; NaN: the file says none */
     double sensitivity;     /* [m/V]; NaN: none, then `force` holds volts of the detector */
     double setpoint;        /* [N]; NaN = none */
+    bool force_from_volts;  /* the slot of the force leads to the volts, not to the distance */
     jpk_writer_encoding encoding;
     bool inline_headers; /* no shared-data: every key stands in the segment header */
     bool folders;        /* with entries for the folders */

@@ -220,7 +220,7 @@ static wt_status add_phase(nid_source *source, size_t p, double *start, wt_force
                                     WT_Q_DEFLECTION, WT_Q_DEFLECTION_VOLTAGE},
                          .n_offers = 6};
     wt_status status = phase_length(source, phase, &facts.n_points, err);
-    if (status != WT_OK)
+    if (status != WT_OK || facts.n_points == 0) /* a phase that is not in the file takes no time */
         return status;
     facts.duration = (double)facts.n_points * phase->interval;
     *start += facts.duration;
