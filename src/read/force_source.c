@@ -58,41 +58,42 @@ static const force_signal *find(const force_facts *facts, wt_quantity quantity)
     return NULL;
 }
 
-static bool is_bending(wt_quantity quantity)
+/* From the detector to the force: the sensitivity leads from the first to the second, the spring
+ * constant from there to the last. */
+static const wt_quantity chain[] = {WT_Q_DEFLECTION_VOLTAGE, WT_Q_DEFLECTION, WT_Q_FORCE};
+enum { CHAIN = sizeof chain / sizeof *chain };
+
+/* Place in the chain, CHAIN if it has none. */
+static size_t chain_place(wt_quantity quantity)
 {
-    return quantity == WT_Q_FORCE || quantity == WT_Q_DEFLECTION ||
-           quantity == WT_Q_DEFLECTION_VOLTAGE;
+    size_t i = 0;
+    while (i < CHAIN && chain[i] != quantity)
+        i++;
+    return i;
 }
 
-/* May `signal` stand for `own`, of which it is what comes before a value that the user replaces?
- * Only where both are one channel: columns that were exported apart need not be of one measurement.
- */
-static bool replaces(const force_signal *signal, const force_signal *own, double given)
-{
-    return signal != NULL && !isnan(given) && (own == NULL || own->channel == signal->channel);
-}
-
-/* The signal itself, else the nearest. But what the user gives replaces a link of the chain, so
- * that what comes behind it is made anew from what comes before it. */
+/* The signal itself, else the nearest of the chain. But what the user gives replaces a link, so
+ * that what comes behind it is made anew from what comes before; unless that is another channel,
+ * which need not be of one measurement. */
 static const force_signal *origin(const force_facts *facts, const wt_read_options *options,
                                   wt_quantity wanted)
 {
-    const force_signal *own = find(facts, wanted);
-    if (!is_bending(wanted))
+    const double given[] = {options->sensitivity, options->spring_constant};
+    const force_signal *own = find(facts, wanted), *found = NULL;
+    const size_t place = chain_place(wanted);
+    if (place == CHAIN)
         return own;
-    const force_signal *volts = find(facts, WT_Q_DEFLECTION_VOLTAGE);
-    const force_signal *deflection = find(facts, WT_Q_DEFLECTION);
-    if (wanted != WT_Q_DEFLECTION_VOLTAGE && replaces(volts, own, options->sensitivity))
-        return volts;
-    if (wanted == WT_Q_FORCE && replaces(deflection, own, options->spring_constant))
-        return deflection;
-    if (own != NULL)
-        return own;
-    if (wanted == WT_Q_DEFLECTION)
-        return volts != NULL ? volts : find(facts, WT_Q_FORCE);
-    if (deflection != NULL)
-        return deflection;
-    return wanted == WT_Q_FORCE ? volts : find(facts, WT_Q_FORCE);
+    for (size_t i = 0; i < place && found == NULL; i++)
+        if (!isnan(given[i]))
+            found = find(facts, chain[i]);
+    if (found != NULL && (own == NULL || own->channel == found->channel))
+        return found;
+    found = own;
+    for (size_t i = place; i-- > 0 && found == NULL;)
+        found = find(facts, chain[i]);
+    for (size_t i = place + 1; i < CHAIN && found == NULL; i++)
+        found = find(facts, chain[i]);
+    return found;
 }
 
 static wt_cantilever cantilever_used(const wt_cantilever *file, const wt_read_options *options)
@@ -197,7 +198,7 @@ static wt_status plan_column(const wt_force_source *source, const force_facts *f
         return WT_OK;
     }
     force_linear scaling = signal != NULL ? signal->to_si : (force_linear){1, 0};
-    if (is_bending(wanted)) {
+    if (chain_place(wanted) < CHAIN) {
         const wt_cantilever used = cantilever_used(&facts->cantilever, &source->options);
         const double factor =
             deflection_factor(signal->quantity, wanted, &facts->cantilever, &used);
@@ -271,7 +272,7 @@ static const force_signal *makes(const force_facts *facts, const wt_read_options
 {
     const wt_cantilever used = cantilever_used(&facts->cantilever, options);
     const force_signal *signal = origin(facts, options, quantity);
-    if (signal == NULL || !is_bending(quantity))
+    if (signal == NULL || chain_place(quantity) == CHAIN)
         return signal;
     return isnan(deflection_factor(signal->quantity, quantity, &facts->cantilever, &used)) ? NULL
                                                                                            : signal;

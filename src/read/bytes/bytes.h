@@ -19,6 +19,11 @@ static inline uint32_t le32(const unsigned char *b)
     return (uint32_t)b[0] | (uint32_t)b[1] << 8 | (uint32_t)b[2] << 16 | (uint32_t)b[3] << 24;
 }
 
+static inline uint64_t le64(const unsigned char *b)
+{
+    return (uint64_t)le32(b) | (uint64_t)le32(b + 4) << 32;
+}
+
 static inline uint16_t be16(const unsigned char *b)
 {
     return (uint16_t)(b[0] << 8 | b[1]);

@@ -11,6 +11,7 @@
 #define WT_READ_JPK_H
 
 #include "read/bytes/archive.h"
+#include "read/bytes/samples.h"
 #include "read/force_source.h"
 #include "read/jpk/properties.h"
 #include "read/reader.h"
@@ -23,18 +24,6 @@
 
 /* ---- channels: jpk_channel.c -------------------------------------------------------------- */
 
-typedef enum jpk_encoding {
-    JPK_INT16,
-    JPK_UINT16,
-    JPK_INT32,
-    JPK_UINT32,
-    JPK_FLOAT32,
-    JPK_FLOAT64,
-    JPK_RASTER /* start + i step, no data file */
-} jpk_encoding;
-
-size_t jpk_encoding_width(jpk_encoding encoding); /* bytes per sample, 0 for a raster */
-
 /* A calibration slot: how its values follow from those of the slot named `base`. */
 typedef struct jpk_slot {
     char name[JPK_NAME];
@@ -45,7 +34,8 @@ typedef struct jpk_slot {
 
 /* Encoding and calibration of a channel ("lcd-info"). */
 typedef struct jpk_lcd {
-    jpk_encoding encoding;
+    sample_type encoding;     /* of the data file, high byte first */
+    bool raster;              /* start + i step, no data file */
     force_linear encoder;     /* raw number -> value of the base slot */
     char base[JPK_NAME];      /* "volts", "absolute" */
     char base_unit[16];       /* "V", "m" */
@@ -61,10 +51,6 @@ const jpk_slot *jpk_lcd_slot(const jpk_lcd *lcd, const char *name); /* NULL: non
 /* Base value -> value of the slot, walking the slots down to the base; false if they do not lead
  * there. */
 bool jpk_lcd_chain(const jpk_lcd *lcd, const char *slot, force_linear *chain);
-/* values[n] = scaling of the raw numbers; raw holds n samples of the encoding (not for a raster).
- * Returns how many samples are not finite; they become NaN. */
-size_t jpk_decode(jpk_encoding encoding, force_linear scaling, const unsigned char *raw, size_t n,
-                  double *values);
 
 /* ---- the file: jpk_file.c ----------------------------------------------------------------- */
 

@@ -2,41 +2,10 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "read/bytes/bytes.h"
 #include "read/jpk/jpk.h"
 
 #include <math.h>
 #include <string.h>
-
-size_t jpk_encoding_width(jpk_encoding encoding)
-{
-    switch (encoding) {
-    case JPK_INT16:
-    case JPK_UINT16:
-        return 2;
-    case JPK_INT32:
-    case JPK_UINT32:
-    case JPK_FLOAT32:
-        return 4;
-    case JPK_FLOAT64:
-        return 8;
-    case JPK_RASTER:
-        break;
-    }
-    return 0;
-}
-
-static bool one_of(const char *text, const char *const names[], size_t n)
-{
-    for (size_t i = 0; i < n; i++)
-        if (strcmp(text, names[i]) == 0)
-            return true;
-    return false;
-}
-
-#define ONE_OF(text, ...)                                                                          \
-    one_of((text), (const char *const[]){__VA_ARGS__},                                             \
-           sizeof((const char *const[]){__VA_ARGS__}) / sizeof(char *))
 
 /* Files of version 0 keep type and encoder below "data.". */
 static const char *either(const property_list *properties, const char *prefix, const char *key)
@@ -54,30 +23,45 @@ static wt_status unsupported(wt_error *err, const char *what, const char *found)
     return WT_E_UNSUPPORTED;
 }
 
+typedef struct encoding_name {
+    const char *name;
+    sample_type type;
+} encoding_name;
+
+static bool find_encoding(const encoding_name names[], size_t n, const char *name,
+                          sample_type *encoding)
+{
+    for (size_t i = 0; i < n; i++) {
+        if (strcmp(names[i].name, name) != 0)
+            continue;
+        *encoding = names[i].type;
+        return true;
+    }
+    return false;
+}
+
 static wt_status read_encoding(const property_list *properties, const char *prefix, jpk_lcd *lcd,
                                wt_error *err)
 {
+    static const encoding_name types[] = {
+        {"float-data", SAMPLE_FLOAT32}, {"memory-float-data", SAMPLE_FLOAT32},
+        {"float", SAMPLE_FLOAT32},      {"double-data", SAMPLE_FLOAT64},
+        {"double", SAMPLE_FLOAT64},     {"memory-double-data", SAMPLE_FLOAT64}};
+    static const encoding_name encoders[] = {
+        {"signedshort", SAMPLE_INT16},      {"signedshort-limited", SAMPLE_INT16},
+        {"unsignedshort", SAMPLE_UINT16},   {"unsignedshort-limited", SAMPLE_UINT16},
+        {"signedinteger", SAMPLE_INT32},    {"signedinteger-limited", SAMPLE_INT32},
+        {"unsignedinteger", SAMPLE_UINT32}, {"unsignedinteger-limited", SAMPLE_UINT32}};
     const char *type = either(properties, prefix, "type");
     const char *encoder = either(properties, prefix, "encoder.type");
     if (type == NULL)
         return unsupported(err, "channel without a data type", type);
-    if (ONE_OF(type, "float-data", "memory-float-data", "float"))
-        lcd->encoding = JPK_FLOAT32;
-    else if (ONE_OF(type, "double-data", "memory-double-data", "double"))
-        lcd->encoding = JPK_FLOAT64;
-    else if (strcmp(type, "raster-data") == 0)
-        lcd->encoding = JPK_RASTER;
-    else if (encoder == NULL)
+    lcd->raster = strcmp(type, "raster-data") == 0;
+    if (lcd->raster || find_encoding(types, sizeof types / sizeof *types, type, &lcd->encoding))
+        return WT_OK;
+    if (encoder == NULL)
         return unsupported(err, "channel data type without encoder", type);
-    else if (ONE_OF(encoder, "signedshort", "signedshort-limited"))
-        lcd->encoding = JPK_INT16;
-    else if (ONE_OF(encoder, "unsignedshort", "unsignedshort-limited"))
-        lcd->encoding = JPK_UINT16;
-    else if (ONE_OF(encoder, "signedinteger", "signedinteger-limited"))
-        lcd->encoding = JPK_INT32;
-    else if (ONE_OF(encoder, "unsignedinteger", "unsignedinteger-limited"))
-        lcd->encoding = JPK_UINT32;
-    else
+    if (!find_encoding(encoders, sizeof encoders / sizeof *encoders, encoder, &lcd->encoding))
         return unsupported(err, "channel encoder", encoder);
     return WT_OK;
 }
@@ -212,44 +196,4 @@ bool jpk_lcd_chain(const jpk_lcd *lcd, const char *slot, force_linear *chain)
         slot = s->base;
     }
     return false;
-}
-
-/* One loop per encoding: the choice is made once, not per sample. */
-#define DECODE(width, number)                                                                      \
-    for (size_t i = 0; i < n; i++) {                                                               \
-        const unsigned char *b = raw + (width)*i;                                                  \
-        values[i] = m * (double)(number) + o;                                                      \
-    }                                                                                              \
-    break
-
-size_t jpk_decode(jpk_encoding encoding, force_linear scaling, const unsigned char *raw, size_t n,
-                  double *values)
-{
-    const double m = scaling.multiplier, o = scaling.offset;
-    switch (encoding) {
-    case JPK_INT16:
-        DECODE(2, signed16(be16(b)));
-    case JPK_UINT16:
-        DECODE(2, be16(b));
-    case JPK_INT32:
-        DECODE(4, signed32(be32(b)));
-    case JPK_UINT32:
-        DECODE(4, be32(b));
-    case JPK_FLOAT32:
-        DECODE(4, float32(be32(b)));
-    case JPK_FLOAT64:
-        DECODE(8, float64(be64(b)));
-    case JPK_RASTER:
-        for (size_t i = 0; i < n; i++)
-            values[i] = m * (double)i + o;
-        break;
-    }
-    size_t missing = 0;
-    for (size_t i = 0; i < n; i++) {
-        if (isfinite(values[i]))
-            continue;
-        values[i] = (double)NAN;
-        missing++;
-    }
-    return missing;
 }

@@ -40,16 +40,21 @@ static wt_status decode(wt_force_source *base, const force_signal *signal, force
     jpk_file *file = &source->file;
     const jpk_channel *channel = signal->channel;
     const jpk_lcd *lcd = &channel->lcd;
-    const bool raster = lcd->encoding == JPK_RASTER;
-    const force_linear inner = raster ? channel->raster : lcd->encoder;
-    const force_linear total = {scaling.multiplier * inner.multiplier,
-                                scaling.multiplier * inner.offset + scaling.offset};
-    if (!raster && source->loaded != channel) {
-        wt_status status = load(source, channel, err);
+    const force_linear inner = lcd->raster ? channel->raster : lcd->encoder;
+    const double multiplier = scaling.multiplier * inner.multiplier;
+    const double offset = scaling.multiplier * inner.offset + scaling.offset;
+    size_t missing = 0;
+    if (lcd->raster) {
+        for (size_t i = 0; i < n; i++)
+            values[i] = multiplier * (double)i + offset;
+        missing = samples_mend(values, n);
+    } else {
+        wt_status status = source->loaded != channel ? load(source, channel, err) : WT_OK;
         if (status != WT_OK)
             return status;
+        missing =
+            samples_decode(lcd->encoding, true, file->buffer.data, n, multiplier, offset, values);
     }
-    size_t missing = jpk_decode(lcd->encoding, total, file->buffer.data, n, values);
     if (missing > 0)
         wt_parselog_add(file->log, WT_WARNING, file->name,
                         archive_name(file->archive, source->ref->entry),

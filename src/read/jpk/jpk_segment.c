@@ -143,7 +143,7 @@ static wt_status find_data(const jpk_file *file, const jpk_segment *segment, con
     char name[512];
     double announced = properties_number(&segment->header, prefix, "data.num-points");
     size_t n = announced >= 0 && announced < 4e9 ? (size_t)announced : 0;
-    if (channel->lcd.encoding == JPK_RASTER) {
+    if (channel->lcd.raster) {
         double start = properties_number(&segment->header, prefix, "data.start");
         double step = properties_number(&segment->header, prefix, "data.step");
         channel->n_points = n;
@@ -164,7 +164,7 @@ static wt_status find_data(const jpk_file *file, const jpk_segment *segment, con
     wt_status status = archive_size(file->archive, channel->entry, &size, err);
     if (status != WT_OK)
         return status;
-    size_t held = size / jpk_encoding_width(channel->lcd.encoding);
+    size_t held = size / sample_width(channel->lcd.encoding);
     channel->has_file = true;
     channel->n_points = isnan(announced) || held < n ? held : n;
     return WT_OK;
@@ -221,7 +221,7 @@ static void common_length(const jpk_file *file, jpk_segment *segment, const char
     segment->incomplete = false;
     for (size_t i = 0; i < segment->n_channels; i++) {
         const jpk_channel *c = &segment->channels[i];
-        if (!c->understood || c->lcd.encoding == JPK_RASTER)
+        if (!c->understood || c->lcd.raster)
             continue;
         if (!c->has_file) {
             segment->incomplete = true;
@@ -234,7 +234,7 @@ static void common_length(const jpk_file *file, jpk_segment *segment, const char
         shortest = 0;
     for (size_t i = 0; i < segment->n_channels; i++) {
         const jpk_channel *c = &segment->channels[i];
-        if (c->understood && c->lcd.encoding == JPK_RASTER && c->n_points < shortest)
+        if (c->understood && c->lcd.raster && c->n_points < shortest)
             shortest = c->n_points;
     }
     segment->n_points = shortest;

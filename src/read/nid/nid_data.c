@@ -5,7 +5,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "read/bytes/bytes.h"
+#include "read/bytes/samples.h"
 #include "read/nid/nid.h"
 
 #include <math.h>
@@ -162,15 +162,14 @@ bool nid_is_spectroscopy(const nid_channel *channel)
 void nid_decode(const nid_file *file, const nid_channel *c, size_t line, size_t n, double factor,
                 double offset, double *values)
 {
-    size_t width = c->bits / 8;
-    const unsigned char *b = file->bytes + c->offset + line * c->points * width;
-    double half = ldexp(1.0, (int)c->bits - 1), whole = ldexp(1.0, (int)c->bits);
-    for (size_t i = 0; i < n; i++, b += width) {
-        double raw = width == 2 ? (double)signed16(le16(b)) : (double)signed32(le32(b));
-        double value = factor * (c->minimum + c->range * ((raw + half) / whole)) + offset;
-        /* Only a range beyond all sense overflows: then nothing is known. */
-        values[i] = isfinite(value) ? value : (double)NAN;
-    }
+    const sample_type type = c->bits == 16 ? SAMPLE_INT16 : SAMPLE_INT32;
+    const unsigned char *bytes = file->bytes + c->offset + line * c->points * sample_width(type);
+    const double half = ldexp(1.0, (int)c->bits - 1), whole = ldexp(1.0, (int)c->bits);
+    (void)samples_decode(type, false, bytes, n, 1, half, values);
+    for (size_t i = 0; i < n; i++)
+        values[i] = factor * (c->minimum + c->range * (values[i] / whole)) + offset;
+    /* Only a range beyond all sense overflows: then nothing is known. */
+    (void)samples_mend(values, n);
 }
 
 const char *nid_si_unit(const char *unit, double *factor, double *offset)
