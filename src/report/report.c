@@ -175,9 +175,8 @@ wt_status wt_report_write(const wt_result *result, const char *folder,
     if (status != WT_OK)
         return status;
     size_t n = wt_figure_count();
-    report r = {.gnuplot = chosen.gnuplot,
-                .progress = progress,
-                .figures = calloc(n, sizeof *r.figures)};
+    report r = {
+        .gnuplot = chosen.gnuplot, .progress = progress, .figures = calloc(n, sizeof *r.figures)};
 
     if (r.figures == NULL) {
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
