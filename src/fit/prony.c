@@ -168,9 +168,10 @@ done:
 static wt_status check(const wt_master_curve *master, const wt_prony_options *options,
                        wt_error *err)
 {
-    if (master->n < 2)
-        return wt_fail(err, WT_E_MISSING, "the master curve has no points");
-    return param_check(wt_prony_params(), options, err);
+    wt_status status = param_check(wt_prony_params(), options, err);
+    if (status == WT_OK && master->n < 2)
+        status = wt_fail(err, WT_E_MISSING, "the master curve has no points");
+    return status;
 }
 
 wt_status wt_prony_fit_master(const wt_master_curve *master, const wt_prony_options *options,

@@ -6,27 +6,12 @@
  * <!-- choices --> is for the types of those that are words.
  * After SECTION, "= NAME..." takes these alone and "but NAME..." all others.
  * Usage: docs_records PROGRAM FILE. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "base/param.h"
-#include "flow/case/case_sections.h"
-#include "flow/job/inputs.h"
+#include "params/sections.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 enum { LINE = 1024, SET = 256, TEXT = 2048 };
-
-static const struct {
-    const char *section;
-    const wt_params *(*params[2])(void);
-} sections[] = {
-    {"indentation", {wt_indent_job_params, wt_compare_job_params}},
-    {"dma", {wt_master_job_params, NULL}},
-    {"wlf", {case_wlf_params, NULL}},
-    {"self-affine", {flow_self_affine_params, NULL}},
-    {"spectrum", {flow_spectrum_params, NULL}},
-    {"sliding", {wt_sliding_params, NULL}},
-    {"layer", {wt_layer_job_params, wt_layer_known_params}},
-};
 
 /* ---- troff ------------------------------------------------------------------------------------
  */
@@ -190,11 +175,11 @@ static bool put_section(const char *what, const char *indent)
     sscanf(what, "%63s %n", section, &n);
     const char *names = what + n;
     const bool only = strncmp(names, "= ", 2) == 0, but = strncmp(names, "but ", 4) == 0;
-    for (size_t s = 0; s < sizeof sections / sizeof sections[0]; s++) {
-        if (strcmp(sections[s].section, section) != 0)
+    for (size_t s = 0; s < N_CASE_SECTIONS; s++) {
+        if (strcmp(case_sections[s].name, section) != 0)
             continue;
-        for (size_t t = 0; t < 2 && sections[s].params[t] != NULL; t++) {
-            const wt_params *params = sections[s].params[t]();
+        for (size_t t = 0; t < SECTION_TABLES && case_sections[s].params[t] != NULL; t++) {
+            const wt_params *params = case_sections[s].params[t]();
             for (size_t i = 0; i < wt_params_count(params); i++) {
                 const wt_param *param = wt_params_get(params, i);
                 const char *name = case_param_name(section, param->name);
@@ -214,14 +199,14 @@ static bool put_section(const char *what, const char *indent)
 /* The types of the parameters that are one of several words. */
 static void put_choices(const char *indent)
 {
-    for (size_t s = 0; s < sizeof sections / sizeof sections[0]; s++)
-        for (size_t t = 0; t < 2 && sections[s].params[t] != NULL; t++)
-            for (size_t i = 0; i < wt_params_count(sections[s].params[t]()); i++) {
-                const wt_param *param = wt_params_get(sections[s].params[t](), i);
+    for (size_t s = 0; s < N_CASE_SECTIONS; s++)
+        for (size_t t = 0; t < SECTION_TABLES && case_sections[s].params[t] != NULL; t++)
+            for (size_t i = 0; i < wt_params_count(case_sections[s].params[t]()); i++) {
+                const wt_param *param = wt_params_get(case_sections[s].params[t](), i);
                 if (param->kind != PARAM_CHOICE || (param->flags & PARAM_NO_CASE) != 0)
                     continue;
                 printf("%s<xs:simpleType name=\"%s\">\n", indent,
-                       case_param_name(sections[s].section, param->name));
+                       case_param_name(case_sections[s].name, param->name));
                 printf("%s  <xs:restriction base=\"xs:token\">\n", indent);
                 for (const char *p = param->value; *p != '\0'; p += strspn(p, "|")) {
                     const int n = (int)strcspn(p, "|");

@@ -431,7 +431,7 @@ wt_status wt_compare_groups(const wt_compare_job *job, const wt_job *work,
     const wt_table *given[2] = {job->bulk, job->track};
     pair p = {0};
     wt_compare_tables t = {0};
-    wt_status status = WT_OK;
+    wt_status status = param_check(wt_compare_job_params(), job, err);
     for (int g = 0; status == WT_OK && g < 2; g++) {
         p.present[g] = given[g] != NULL;
         if (p.present[g])

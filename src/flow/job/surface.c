@@ -38,25 +38,27 @@ wt_surface flow_surface_defaults(void)
 }
 
 static const wt_param law_rows[] = {
-    {PARAM("q0", wt_surface, q0, WT_Q_WAVENUMBER, ABOVE(0)), .flags = PARAM_REQUIRED,
-     .help = "smallest wavenumber"},
-    {PARAM("qr", wt_surface, qr, WT_Q_WAVENUMBER, ABOVE(0)), .unset = "q0", .help = "roll-off"},
-    {PARAM("q1", wt_surface, q1, WT_Q_WAVENUMBER, ABOVE(0)), .flags = PARAM_REQUIRED,
-     .help = "largest wavenumber"},
-    {PARAM("hurst", wt_surface, hurst, WT_Q_NONE, ABOVE_TO(-1, 3)), .flags = PARAM_REQUIRED,
-     .help = "Hurst exponent"},
-    {PARAM("c0", wt_surface, c0, WT_Q_POWER_SPECTRUM_2D, ABOVE(0)), .flags = PARAM_REQUIRED,
+    {PARAM("q0", wt_surface, q0, WT_Q_WAVENUMBER, ABOVE(0)),
+     .flags = PARAM_REQUIRED | PARAM_NO_OPTION, .help = "smallest wavenumber"},
+    {PARAM("qr", wt_surface, qr, WT_Q_WAVENUMBER, ABOVE(0)), .unset = "q0",
+     .flags = PARAM_NO_OPTION, .help = "roll-off"},
+    {PARAM("q1", wt_surface, q1, WT_Q_WAVENUMBER, ABOVE(0)),
+     .flags = PARAM_REQUIRED | PARAM_NO_OPTION, .help = "largest wavenumber"},
+    {PARAM("hurst", wt_surface, hurst, WT_Q_NONE, ABOVE_TO(-1, 3)),
+     .flags = PARAM_REQUIRED | PARAM_NO_OPTION, .help = "Hurst exponent"},
+    {PARAM("c0", wt_surface, c0, WT_Q_POWER_SPECTRUM_2D, ABOVE(0)),
+     .flags = PARAM_REQUIRED | PARAM_NO_OPTION,
      .help = "two-dimensional power spectrum from q0 to qr, with h_rms^2 = 2 pi int q C dq"},
 };
 PARAM_TABLE(flow_self_affine_params, wt_surface, law_rows, flow_surface_defaults, NO_PARTS)
 
 static const wt_param spectrum_rows[] = {
     {PARAM("q0", wt_surface, q0, WT_Q_WAVENUMBER, ABOVE(0)), .unset = "that of the file",
-     .help = "cut-off at small wavenumbers"},
+     .flags = PARAM_NO_OPTION, .help = "cut-off at small wavenumbers"},
     {PARAM("q1", wt_surface, q1, WT_Q_WAVENUMBER, ABOVE(0)), .unset = "that of the file",
-     .help = "cut-off at large wavenumbers"},
+     .flags = PARAM_NO_OPTION, .help = "cut-off at large wavenumbers"},
     {PARAM("error", wt_surface, c0.standard_error, WT_Q_NONE, AT_LEAST(0)),
-     .help = "relative error of the densities"},
+     .flags = PARAM_NO_OPTION, .help = "relative error of the densities"},
 };
 PARAM_TABLE(flow_spectrum_params, wt_surface, spectrum_rows, flow_surface_defaults, NO_PARTS)
 

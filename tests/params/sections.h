@@ -1,0 +1,26 @@
+/* Which tables of parameters the sections of a case have, for what is checked and written from
+ * them. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef TESTS_PARAMS_SECTIONS_H
+#define TESTS_PARAMS_SECTIONS_H
+
+#include "base/param.h"
+#include "flow/case/case_sections.h"
+#include "flow/job/inputs.h"
+
+enum { SECTION_TABLES = 2 };
+
+static const struct {
+    const char *name;
+    const wt_params *(*params[SECTION_TABLES])(void);
+} case_sections[] = {
+    {"indentation", {wt_indent_job_params, wt_compare_job_params}},
+    {"dma", {wt_master_job_params, NULL}},
+    {"wlf", {case_wlf_params, NULL}},
+    {"self-affine", {flow_self_affine_params, NULL}},
+    {"spectrum", {flow_spectrum_params, NULL}},
+    {"sliding", {wt_sliding_params, NULL}},
+    {"layer", {wt_layer_job_params, wt_layer_known_params}},
+};
+enum { N_CASE_SECTIONS = sizeof case_sections / sizeof case_sections[0] };
+
+#endif
