@@ -1,0 +1,482 @@
+/* No parameter is ignored: each one, moved off its default, changes what a subcommand or a case
+ * gives. What cannot be moved by rule has its value here; what changes no result has its reason.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "near.h"
+#include "params/sections.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#define CASE WT_FIXTURES "/case/"
+
+enum { TEXT = 8192 };
+
+/* ---- how far a parameter is moved -------------------------------------------------------------
+ */
+
+static const struct {
+    const char *name, *text;
+    const char *with;    /* further options it needs, or elements of its section */
+    const char *without; /* the base is given without this one */
+} moved[] = {
+    {"reference-temperature", "35degC", NULL, NULL},
+    {"expansion", "7e-4", "vertical-shift physical", NULL},
+    {"smoothing", "0.5", NULL, NULL},
+    {"fit-depth", "30nm", NULL, NULL},
+    {"fit-force-fraction", "0.5", NULL, NULL},
+    {"minimum-r-squared", "0.99999", NULL, NULL},
+    {"fixed-contact-point", "1um", NULL, NULL},
+    {"tip", "sphere:radius=5um", NULL, NULL},
+    {"kind", "sweep", NULL, NULL}, /* which that file does not hold */
+    {"group", "track", NULL, NULL},
+    {"spot", "s1", NULL, NULL},
+    {"spring-constant", "0.5N/m", NULL, NULL},
+    {"sensitivity", "70nm/V", NULL, NULL},
+    {"indentation-temperature", "40degC", NULL, NULL},
+    {"roughness", "self-affine:q0=2e3rad/m,q1=1e6rad/m,hurst=0.8,c0=2e-17m^4+-5%", NULL, NULL},
+    {"pressure", "0.5MPa", NULL, NULL},
+    {"velocity", "0.2m/s", NULL, NULL},
+    {"sliding-temperature", "40degC", NULL, NULL},
+    {"shear-stress", "6MPa", NULL, NULL},
+    {"reference-velocity", "0.2m/s", NULL, NULL},
+    {"tolerance", "0.1", NULL, NULL},
+    {"replicates", "5", NULL, NULL},
+    {"seed", "2", NULL, NULL},
+    {"layer-thickness", "2um", NULL, NULL},
+    {"modulus-ratio", "0.7", NULL, NULL},
+    {"critical-energy", "3e10J/m^3", NULL, NULL},
+    {"observed-thickness", "3um", NULL, "critical-energy"},
+    {"specific-wear-rate", "2e-12m^2/N", NULL, NULL},
+    {"start-thickness", "1um", NULL, NULL},
+    {"local-friction", "0.3", "profile incompressible", NULL},
+    {"times", "1:1e4s:log:7", NULL, NULL},
+    {"layer-velocity", "0.2m/s", NULL, NULL},
+    {"q0", "3e3rad/m", NULL, NULL},
+    {"qr", "5e3rad/m", NULL, NULL},
+    {"q1", "1e6rad/m", NULL, NULL},
+    {"c0", "3e-17m^4", NULL, NULL},
+    {"hurst", "0.7", NULL, NULL},
+    {"error", "0.2", NULL, NULL},
+    {"c1", "9", NULL, NULL},
+    {"c2", "110K", NULL, NULL},
+};
+
+static const struct {
+    const char *subcommand, *name, *because; /* NULL: any */
+} dead[] = {
+    {NULL, "threads", "changes no result: test_flow_run"},
+    {NULL, "quiet", "words on standard error: tests/cli"},
+    {NULL, "help", "tests/docs"},
+    {NULL, "output", "where the result goes, not what it is"},
+    {NULL, "formats", "further descriptions: tests/formats"},
+    {NULL, "format", "overrules what is found: tests/cli"},
+    {NULL, "units", "for files without units: tests/formats"},
+    {NULL, "temperature", "for files without a temperature: tests/formats"},
+    {NULL, "material", "the base has the same from --dma: tests/cli/round_trip.txt"},
+    {NULL, "dma", "the base has it"},
+    {NULL, "master", "the base has it"},
+    {NULL, "report", "where the report goes, not what it is"},
+    {NULL, "no-report", "the base has it"},
+    {NULL, "style", "of the pictures: test_report"},
+    {NULL, "provenance", "tests/cli/round_trip.txt"},
+    {"layer", "shear-stress",
+     "one list of conditions for friction and layer; energy has none of it"},
+};
+
+static bool is_dead(const char *subcommand, const char *name)
+{
+    for (size_t i = 0; i < sizeof dead / sizeof dead[0]; i++)
+        if (strcmp(dead[i].name, name) == 0 &&
+            (dead[i].subcommand == NULL || strcmp(dead[i].subcommand, subcommand) == 0))
+            return true;
+    return false;
+}
+
+static bool is_listed(const char *name, char *text, size_t size, const char **with,
+                      const char **without)
+{
+    for (size_t k = 0; k < sizeof moved / sizeof moved[0]; k++)
+        if (strcmp(moved[k].name, name) == 0) {
+            snprintf(text, size, "%s", moved[k].text);
+            *with = moved[k].with != NULL ? moved[k].with : "";
+            *without = moved[k].without != NULL ? moved[k].without : "";
+            return true;
+        }
+    return false;
+}
+
+/* Text of a value other than the default. */
+static bool move(const wt_params *params, size_t i, char *text, size_t size, const char **with,
+                 const char **without)
+{
+    const wt_param *p = wt_params_get(params, i);
+    char set[256], *end = set;
+    *with = *without = "";
+    if (is_listed(p->name, text, size, with, without))
+        return true;
+    wt_params_default(params, i, set, sizeof set);
+    if (p->kind == PARAM_FLAG) {
+        snprintf(text, size, "%s", strcmp(set, "yes") == 0 ? "no" : "yes");
+        return true;
+    }
+    if (p->kind == PARAM_CHOICE) { /* the first word that is not the default */
+        const size_t n = strlen(set);
+        const bool first = strncmp(p->value, set, n) == 0 && p->value[n] == '|';
+        const char *word = first ? p->value + n + 1 : p->value;
+        snprintf(text, size, "%.*s", (int)strcspn(word, "|"), word);
+        return true;
+    }
+    const double value = strtod(set, &end);
+    if (p->kind != PARAM_NUMBER || end == set || value <= 0)
+        return false;
+    snprintf(text, size, "%g%s", 0.9 * value, end);
+    return true;
+}
+
+/* ---- subcommands ------------------------------------------------------------------------------
+ */
+
+static char folder[] = "/tmp/weartrack-alive-XXXXXX";
+
+static const struct {
+    const char *name;
+    const char *base; /* NAME VALUE pairs, parted by '|'; what stands alone ends them */
+    const char *files;
+} subcommands[] = {
+    {"indent", "tip pyramid:half-angle=20deg,radius=20nm", CASE "bulk-1.jpk-force-map"},
+    {"convert", "", CASE "bulk-1.jpk-force-map"},
+    {"compare", "master master.tsv", "bulk.tsv track.tsv"},
+    {"master", "", CASE "dma.txt"},
+    {"friction",
+     "dma " CASE "dma.txt|roughness self-affine:q0=2e3rad/m,qr=4e3rad/m,q1=2e6rad/m,hurst=0.8,"
+     "c0=2e-17m^4+-5%|pressure 0.4MPa|velocity 0.3m/s|shear-stress 5MPa+-10%|replicates 4|"
+     "layer-thickness 1um|modulus-ratio 0.6|sliding-temperature 30degC",
+     ""},
+    {"layer",
+     "dma " CASE "dma.txt|roughness self-affine:q0=2e3rad/m,qr=4e3rad/m,q1=2e6rad/m,hurst=0.8,"
+     "c0=2e-17m^4+-5%|pressure 0.4MPa|velocity 0.3m/s|shear-stress 5MPa|replicates 4|"
+     "specific-wear-rate 1e-12m^2/N|critical-energy 2e10J/m^3|sliding-temperature 30degC",
+     ""},
+    {"run", "replicates 4|no-report", "run.xml"},
+};
+enum { N_SUBCOMMANDS = sizeof subcommands / sizeof subcommands[0] };
+
+/* The parameters of the options, by the names that --help lists. */
+static const wt_params *(*const tables[])(void) = {
+    wt_convert_job_params, wt_file_set_params,    wt_indent_job_params, wt_compare_job_params,
+    wt_master_job_params,  wt_layer_known_params, wt_sliding_params,    wt_layer_job_params,
+    wt_job_params,         wt_report_params,      wt_read_params,
+};
+
+static char *read_file(const char *name, size_t *length)
+{
+    FILE *in = fopen(name, "rb");
+    if (in == NULL)
+        return NULL;
+    char *bytes = NULL;
+    FILE *copy = open_memstream(&bytes, length);
+    for (int c; (c = getc(in)) != EOF;)
+        putc(c, copy);
+    fclose(in);
+    fclose(copy);
+    return bytes;
+}
+
+/* The bytes that the call gives: result, words on standard output, exit status. */
+static char *give(const char *subcommand, const char *options, const char *files, size_t *length)
+{
+    char command[TEXT];
+    const char *out = strcmp(subcommand, "run") == 0 ? "out.h5" : "out.tsv";
+    unlink(out);
+    snprintf(command, sizeof command,
+             "%s %s --no-provenance -o %s %s %s >stdout.txt 2>/dev/null; echo $? >>stdout.txt",
+             WT_PROGRAM, subcommand, out, options, files);
+    assert_int_equal(system(command), 0);
+    size_t n[2] = {0, 0};
+    char *parts[2] = {read_file(out, &n[0]), read_file("stdout.txt", &n[1])};
+    char *all = malloc(n[0] + n[1] + 1);
+    assert_non_null(all);
+    for (size_t i = 0, used = 0; i < 2; used += n[i++])
+        memcpy(all + used, parts[i] != NULL ? parts[i] : "", n[i]);
+    free(parts[0]);
+    free(parts[1]);
+    *length = n[0] + n[1];
+    return all;
+}
+
+/* The base as options, without one of them. */
+static void base_options(const char *base, const char *without, char *options, size_t size)
+{
+    size_t used = 0;
+    options[0] = '\0';
+    for (const char *p = base; *p != '\0'; p += strspn(p, "|")) {
+        const int length = (int)strcspn(p, "|"), name = (int)strcspn(p, " |");
+        if (strlen(without) != (size_t)name || strncmp(p, without, (size_t)name) != 0)
+            used += name < length
+                        ? (size_t)snprintf(options + used, size - used, " --%.*s '%.*s'", name, p,
+                                           length - name - 1, p + name + 1)
+                        : (size_t)snprintf(options + used, size - used, " --%.*s", name, p);
+        p += length;
+    }
+}
+
+static size_t try_option(size_t s, const char *option, const char *text, const char *with,
+                         const char *without)
+{
+    char base[TEXT], options[TEXT], further[256];
+    size_t n[2];
+    base_options(with, "", further, sizeof further);
+    base_options(subcommands[s].base, without, base, sizeof base);
+    strncat(base, further, sizeof base - strlen(base) - 1);
+    snprintf(options, sizeof options, "%s --%s %s%s%s", base, option, text != NULL ? "'" : "",
+             text != NULL ? text : "", text != NULL ? "'" : "");
+    char *before = give(subcommands[s].name, base, subcommands[s].files, &n[0]);
+    char *after = give(subcommands[s].name, options, subcommands[s].files, &n[1]);
+    const bool wrong_call = n[1] >= 2 && after[n[1] - 2] == '2' && n[1] < 4;
+    const bool alive = !wrong_call && (n[0] != n[1] || memcmp(before, after, n[0]) != 0);
+    if (!alive)
+        print_error("weartrack %s%s: --%s changes nothing\n", subcommands[s].name, options, option);
+    free(before);
+    free(after);
+    return !alive;
+}
+
+/* Every option in the help of a subcommand. */
+static void test_options(void **state)
+{
+    (void)state;
+    size_t n_dead = 0, n_tried = 0;
+    for (size_t s = 0; s < N_SUBCOMMANDS; s++) {
+        char command[512], line[512];
+        snprintf(command, sizeof command, "%s %s --help", WT_PROGRAM, subcommands[s].name);
+        FILE *help = popen(command, "r");
+        assert_non_null(help);
+        while (fgets(line, sizeof line, help) != NULL) {
+            char option[64], text[256];
+            if (strncmp(line + 6, "--", 2) != 0 || sscanf(line + 8, "%63[a-z-]", option) != 1)
+                continue;
+            const char *name = strncmp(option, "no-", 3) == 0 ? option + 3 : option;
+            if (is_dead(subcommands[s].name, name) || is_dead(subcommands[s].name, option))
+                continue;
+            const char *with = "", *without = "", *value = NULL;
+            bool found = is_listed(name, text, sizeof text, &with, &without);
+            if (found)
+                value = text;
+            for (size_t t = 0; t < sizeof tables / sizeof tables[0] && !found; t++)
+                for (size_t i = 0; i < wt_params_count(tables[t]()) && !found; i++) {
+                    const wt_param *p = wt_params_get(tables[t](), i);
+                    found = strcmp(p->name, name) == 0 &&
+                            move(tables[t](), i, text, sizeof text, &with, &without);
+                    if (found && p->kind != PARAM_FLAG)
+                        value = text;
+                }
+            if (!found && line[8 + strlen(option)] == ' ' && line[9 + strlen(option)] != ' ')
+                fail_msg("weartrack %s --%s: say here how to move it", subcommands[s].name, option);
+            n_tried++;
+            n_dead += try_option(s, option, value, with, without);
+        }
+        assert_int_equal(pclose(help), 0);
+    }
+    assert_int_equal(n_dead, 0);
+    assert_true(n_tried > 60);
+    /* and what changes nothing is seen */
+    assert_int_equal(try_option(N_SUBCOMMANDS - 1, "threads", "2", "", ""), 1);
+}
+
+/* ---- cases ------------------------------------------------------------------------------------
+ */
+
+static const struct {
+    const char *section;
+    const char *base; /* elements that the case has */
+    const char *before, *after;
+} frames[] = {
+    {"indentation", "<tip>pyramid:half-angle=20deg,radius=20nm</tip>", "<indentation>",
+     "<bulk><files>bulk-1.jpk-force-map</files><files>bulk-2.jpk-force-map</files></bulk>"
+     "<track><files>track-1.jpk-force-map</files><files>track-2.jpk-force-map</files></track>"
+     "</indentation><dma><files>dma.txt</files></dma>"},
+    {"dma", "", "<dma>", "<files>dma.txt</files></dma>"},
+    {"wlf", "<c1>8</c1><c2>100K</c2>",
+     "<dma><reference-temperature>20degC</reference-temperature><prony deformation='tension'>"
+     "<equilibrium>1MPa</equilibrium><term time='1e-3s' modulus='10MPa'/>"
+     "<term time='1e-6s' modulus='100MPa'/></prony><wlf>",
+     "</wlf></dma>"},
+    {"self-affine", "<q0>2e3rad/m</q0><q1>2e6rad/m</q1><hurst>0.8</hurst><c0>2e-17m^4</c0>",
+     "<roughness><self-affine>", "</self-affine></roughness>"},
+    {"spectrum", "", "<roughness><spectrum><file>../formats/table-spectrum/surface.txt</file>",
+     "</spectrum></roughness>"},
+    {"sliding",
+     "<pressure>0.4MPa</pressure><velocity>0.1m/s,0.3m/s,1m/s</velocity>"
+     "<temperature>30degC</temperature><shear-stress>5MPa</shear-stress>",
+     "<sliding>", "</sliding>"},
+    {"layer",
+     "<specific-wear-rate>1e-12m^2/N</specific-wear-rate>"
+     "<critical-energy>2e10J/m^3</critical-energy><modulus-ratio>0.6</modulus-ratio>",
+     "<layer>", "</layer>"},
+};
+enum { N_FRAMES = sizeof frames / sizeof frames[0] };
+
+/* Adds the elements of `elements` but those called `without`. */
+static void add_elements(char *xml, size_t size, const char *elements, const char *without)
+{
+    for (const char *p = elements; *p == '<';) {
+        char name[64], end[72];
+        assert_int_equal(sscanf(p, "<%63[^>]>", name), 1);
+        snprintf(end, sizeof end, "</%s>", name);
+        const char *next = strstr(p, end) + strlen(end);
+        if (strcmp(name, without) != 0)
+            strncat(xml, p, (size_t)(next - p) < size - strlen(xml) ? (size_t)(next - p) : 0);
+        p = next;
+    }
+}
+
+/* The case that shows what section `s` does, with the moved element in it. */
+static void make_case(size_t s, const char *name, const char *text, const char *with,
+                      const char *without, char *xml, size_t size)
+{
+    const char *section = case_sections[s].name;
+    const bool indents = strcmp(section, "indentation") == 0;
+    snprintf(xml, size, "<case version='1'>");
+    for (size_t f = 0; f < N_FRAMES; f++) {
+        const bool own = strcmp(frames[f].section, section) == 0;
+        const bool other =
+            (strcmp(frames[f].section, "dma") == 0 && strcmp(section, "wlf") != 0) ||
+            (strcmp(frames[f].section, "self-affine") == 0 && strcmp(section, "spectrum") != 0) ||
+            strcmp(frames[f].section, "sliding") == 0 || strcmp(frames[f].section, "layer") == 0;
+        if (!own && (indents || !other))
+            continue;
+        strncat(xml, frames[f].before, size - strlen(xml) - 1);
+        char moved_element[512] = "";
+        if (own && text != NULL)
+            snprintf(moved_element, sizeof moved_element, "<%s>%s</%s>", name, text, name);
+        /* a section in a fixed order has nothing else before it */
+        add_elements(xml, size, own ? with : "", "");
+        add_elements(xml, size, moved_element, "");
+        char rest[TEXT] = "";
+        add_elements(rest, sizeof rest, frames[f].base, own && text != NULL ? name : "");
+        add_elements(xml, size, rest, own ? without : "");
+        strncat(xml, frames[f].after, size - strlen(xml) - 1);
+    }
+    strncat(xml, "</case>", size - strlen(xml) - 1);
+}
+
+/* All tables of a run but the notes of the run itself. */
+static char *run_case(const char *xml, size_t *length)
+{
+    wt_case *c = NULL;
+    wt_result *result = NULL;
+    wt_error err = WT_ERROR_INIT;
+    size_t n_failed = 0;
+    wt_run_options options = wt_run_defaults();
+    options.replicates = 2;
+    options.no_timing = true;
+    char *bytes = NULL;
+    FILE *out = open_memstream(&bytes, length);
+    assert_non_null(out);
+    if (case_from_bytes(xml, strlen(xml), CASE "alive.xml", &c, &err) != WT_OK ||
+        wt_run(c, &options, NULL, &result, &n_failed, &err) != WT_OK)
+        fail_msg("%s: %s: %s", xml, err.place, err.message);
+    for (size_t i = 0; i < wt_result_n_tables(result); i++)
+        if (strcmp(wt_table_name(wt_result_table(result, i)), "inputs") != 0)
+            assert_int_equal(wt_stream_write(out, wt_result_table(result, i), NULL, &err), WT_OK);
+    fclose(out);
+    wt_result_free(result);
+    wt_case_free(c);
+    return bytes;
+}
+
+static void test_cases(void **state)
+{
+    (void)state;
+    size_t n_dead = 0, n_tried = 0;
+    for (size_t s = 0; s < N_CASE_SECTIONS; s++)
+        for (size_t t = 0; t < SECTION_TABLES && case_sections[s].params[t] != NULL; t++) {
+            const wt_params *params = case_sections[s].params[t]();
+            for (size_t i = 0; i < wt_params_count(params); i++) {
+                const wt_param *p = wt_params_get(params, i);
+                const char *with = "", *without = "";
+                char text[256], further[256] = "", xml[2][TEXT];
+                if ((p->flags & PARAM_NO_CASE) != 0)
+                    continue;
+                if (!move(params, i, text, sizeof text, &with, &without))
+                    fail_msg("<%s>: say here how to move it", p->name);
+                const char *name = case_param_name(case_sections[s].name, p->name);
+                char word[64], value[64];
+                if (sscanf(with, "%63s %63s", word, value) == 2)
+                    snprintf(further, sizeof further, "<%s>%s</%s>", word, value, word);
+                make_case(s, name, NULL, further, without, xml[0], sizeof xml[0]);
+                make_case(s, name, text, further, without, xml[1], sizeof xml[1]);
+                if (*without != '\0') /* the base cannot stand without either */
+                    make_case(s, name, NULL, further, "", xml[0], sizeof xml[0]);
+                size_t n[2];
+                char *before = run_case(xml[0], &n[0]), *after = run_case(xml[1], &n[1]);
+                if (n[0] == n[1] && memcmp(before, after, n[0]) == 0) {
+                    print_error("<%s> in <%s> changes nothing: %s\n", name, case_sections[s].name,
+                                xml[1]);
+                    n_dead++;
+                }
+                n_tried++;
+                free(before);
+                free(after);
+            }
+        }
+    assert_int_equal(n_dead, 0);
+    assert_true(n_tried > 35);
+    /* and what changes nothing is seen */
+    size_t n[2];
+    char xml[2][TEXT + 32];
+    make_case(1, "", NULL, "", "", xml[0], TEXT);
+    snprintf(xml[1], sizeof xml[1], "<!-- the same -->%.*s", TEXT, xml[0]);
+    char *before = run_case(xml[0], &n[0]), *after = run_case(xml[1], &n[1]);
+    assert_true(n[0] == n[1] && memcmp(before, after, n[0]) == 0);
+    free(before);
+    free(after);
+}
+
+/* ---- what the subcommands read ----------------------------------------------------------------
+ */
+
+static int make_inputs(void **state)
+{
+    (void)state;
+    char command[TEXT];
+    if (mkdtemp(folder) == NULL || chdir(folder) != 0)
+        return -1;
+    snprintf(command, sizeof command,
+             "W='%s -q'; W=%s; T=pyramid:half-angle=20deg,radius=20nm;"
+             " $W indent -q --tip $T %sbulk-1* %sbulk-2* -o bulk.tsv &&"
+             " $W indent -q --group track --tip $T %strack-1* %strack-2* -o track.tsv &&"
+             " $W master -q %sdma.txt -o master.tsv",
+             WT_PROGRAM, WT_PROGRAM, CASE, CASE, CASE, CASE, CASE);
+    FILE *run = fopen("run.xml", "w");
+    if (run == NULL)
+        return -1;
+    fprintf(run,
+            "<case version='1'><dma><files>%sdma.txt</files></dma><roughness><self-affine>"
+            "<q0>2e3rad/m</q0><q1>2e6rad/m</q1><hurst>0.8</hurst><c0>2e-17m^4 +- 5%%</c0>"
+            "</self-affine></roughness><sliding><pressure>0.4MPa +- 5%%</pressure>"
+            "<velocity>0.3m/s</velocity></sliding></case>",
+            CASE);
+    fclose(run);
+    return system(command);
+}
+
+static int remove_inputs(void **state)
+{
+    (void)state;
+    char command[128];
+    snprintf(command, sizeof command, "rm -r %s", folder);
+    return chdir("/") != 0 || system(command) != 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_options),
+        cmocka_unit_test(test_cases),
+    };
+    return cmocka_run_group_tests_name("no parameter is ignored", tests, make_inputs,
+                                       remove_inputs);
+}
