@@ -256,7 +256,7 @@ wt_status wt_master_make(const wt_master_job *job, const wt_job *work, wt_master
         return wt_fail(err, WT_E_ARG, "no DMA job");
     wt_status status = param_check(wt_master_job_params(), job, err);
     if (status == WT_OK)
-        status = param_check(wt_job_params(), common, err);
+        status = param_check(wt_job_params(), work, err);
     if (status != WT_OK)
         return status;
     wt_sweep sweep = {0};
