@@ -1,11 +1,15 @@
-/* Puts the records of the parameters into a page or a schema: prints FILE with what stands between
- * two markers made anew. In a page of a subcommand that is the list of its options, as --help shows
- * them; in weartrack-case(5) and weartrack-case.xsd the elements of a section.
+/* Puts the records of the parameters and of the tables into a page or a schema: prints FILE with
+ * what stands between two markers made anew. In a page of a subcommand that is the list of its
+ * options, as --help shows them; in weartrack-case(5) and weartrack-case.xsd the elements of a
+ * section.
  *     .\" options            .\" parameters SECTION     <!-- parameters SECTION -->
  *     .\" end                .\" end                    <!-- end -->
+ * .\" table NAME is for the columns and keys of a table, called as in data/tables/tables.h; a page
+ * with one has all of them.
  * <!-- choices --> is for the types of those that are words.
  * After SECTION, "= NAME..." takes these alone and "but NAME..." all others.
  * Usage: docs_records PROGRAM FILE. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "data/tables/tables.h"
 #include "params/sections.h"
 
 #include <stdlib.h>
@@ -217,6 +221,84 @@ static void put_choices(const char *indent)
             }
 }
 
+/* ---- tables -----------------------------------------------------------------------------------
+ */
+
+#define TABLE_NAME(name, ...) #name,
+static const char *const table_names[] = {TABLES(TABLE_NAME)};
+enum { N_TABLES = sizeof table_names / sizeof table_names[0] };
+static bool table_put[N_TABLES];
+
+static void put_name(const char *name, const char *unit)
+{
+    printf("\\fB");
+    put_troff(name);
+    printf("\\fR");
+    if (unit[0] != '\0' && strcmp(unit, "1") != 0)
+        printf(" [%s]", unit);
+}
+
+static void put_columns(const table_schema *schema)
+{
+    puts(".PD 0");
+    for (size_t i = 0; i < schema->n_columns; i++) {
+        const schema_column *c = &schema->columns[i];
+        puts(".TP 38");
+        put_name(c->name, schema_column_unit(c));
+        puts(c->kind == SCHEMA_TEXT ? " (text)" : "");
+        put_sentence(c->long_name);
+    }
+    puts(".PD");
+}
+
+static void put_keys(const table_schema *schema)
+{
+    if (schema->n_keys > 0)
+        puts(".PP\nKeys:");
+    for (size_t i = 0; i < schema->n_keys; i++) {
+        const schema_key *k = &schema->keys[i];
+        char name[SCHEMA_NAME_SIZE];
+        schema_name(k->name, "GROUP", name);
+        if (k->optional)
+            putchar('(');
+        put_name(name, schema_key_unit(k));
+        printf("%s%s%s\n", k->kind == SCHEMA_NUMBER ? " E" : "", k->optional ? ")" : "",
+               i + 1 < schema->n_keys ? "," : ".");
+    }
+}
+
+static bool put_table(const char *name)
+{
+    for (size_t i = 0; i < N_TABLES; i++) {
+        if (strcmp(table_names[i], name) != 0)
+            continue;
+        char called[SCHEMA_NAME_SIZE];
+        schema_name(table_schemas[i]->name,
+                    table_schemas[i] == &indentation_schema ? "GROUP" : "NUMBER", called);
+        table_put[i] = true;
+        printf(".SS %s\n", called);
+        put_sentence(table_schemas[i]->title);
+        put_columns(table_schemas[i]);
+        put_keys(table_schemas[i]);
+        return true;
+    }
+    return false;
+}
+
+/* Whether a page that has tables has all of them. */
+static bool has_all_tables(const char *path)
+{
+    bool any = false, all = true;
+    for (size_t i = 0; i < N_TABLES; i++)
+        any = any || table_put[i];
+    for (size_t i = 0; any && i < N_TABLES; i++) {
+        if (!table_put[i])
+            fprintf(stderr, "%s: nothing says %s\n", path, table_names[i]);
+        all = all && table_put[i];
+    }
+    return all;
+}
+
 /* ---- the file ---------------------------------------------------------------------------------
  */
 
@@ -231,6 +313,8 @@ static bool put_block(const char *line, const char *program, const char *path)
     }
     if (sscanf(line, ".\\\" parameters %1023[^\n]", what) == 1)
         return put_section(what, NULL);
+    if (sscanf(line, ".\\\" table %1023s", what) == 1)
+        return put_table(what);
     char indent[64] = "";
     snprintf(indent, sizeof indent, "%.*s", (int)strspn(line, " "), line);
     if (sscanf(line, " <!-- parameters %1023[^>]", what) == 1 && strstr(what, " --") != NULL) {
@@ -261,7 +345,8 @@ int main(int argc, char **argv)
             continue;
         fputs(line, stdout);
         if (strncmp(word, ".\\\" options", 11) == 0 || strncmp(word, ".\\\" parameters", 14) == 0 ||
-            strncmp(word, "<!-- parameters", 15) == 0 || strncmp(word, "<!-- choices", 12) == 0) {
+            strncmp(word, ".\\\" table ", 10) == 0 || strncmp(word, "<!-- parameters", 15) == 0 ||
+            strncmp(word, "<!-- choices", 12) == 0) {
             inside = true;
             fflush(stdout);
             if (!put_block(line, argv[1], argv[2])) {
@@ -273,5 +358,5 @@ int main(int argc, char **argv)
     fclose(in);
     if (inside)
         fprintf(stderr, "%s: a marker without its end\n", argv[2]);
-    return inside ? 1 : 0;
+    return inside || !has_all_tables(argv[2]) ? 1 : 0;
 }

@@ -1,4 +1,4 @@
-# The pages and the schema hold what the records of the parameters say; with -DWRITE=ON it is written
+# The pages and the schema hold what the records of the parameters and tables say; with -DWRITE=ON it is written
 # into them. Run: cmake -DTOOL=.. -DPROGRAM=.. -DSOURCE=<project folder> [-DWRITE=ON] -P records.cmake
 # SPDX-License-Identifier: GPL-3.0-or-later
 cmake_minimum_required(VERSION 3.25)
@@ -7,7 +7,7 @@ set(n 0)
 file(GLOB files "${SOURCE}/man/*.[15]" "${SOURCE}/formats/weartrack-case.xsd")
 foreach(file IN LISTS files)
   file(READ ${file} old)
-  if(NOT old MATCHES "(\\.[\\]\"|<!--) (options|parameters|choices)")
+  if(NOT old MATCHES "(\\.[\\]\"|<!--) (options|parameters|choices|table)")
     continue()
   endif()
   math(EXPR n "${n} + 1")
@@ -19,7 +19,7 @@ foreach(file IN LISTS files)
     file(WRITE ${file} "${new}")
     message(STATUS "written: ${file}")
   elseif(NOT new STREQUAL old)
-    message(SEND_ERROR "${file} is not what the parameters say: build the target docs_write")
+    message(SEND_ERROR "${file} is not what the records say: build the target docs_write")
   endif()
 endforeach()
 if(n LESS 11)

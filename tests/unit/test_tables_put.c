@@ -1,0 +1,286 @@
+/* Every column and key that is declared is put by some run, job or conversion, and none is put that
+ * is not declared. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "near.h"
+
+#include "base/array.h"
+#include "data/tables/tables.h"
+#include "flow/case/case.h"
+#include "writers/nid_writer.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define CASE WT_SOURCE_DIR "/fixtures/case/"
+#define FORMATS WT_SOURCE_DIR "/fixtures/formats/"
+
+/* What was seen of each schema. */
+typedef struct seen {
+    bool table;
+    uint64_t columns, cells, keys; /* columns, those with a number or text, keys */
+} seen;
+
+enum { MOST = 64 };
+static seen found[MOST];
+static wt_formats *formats;
+
+static bool is_called(const wt_table *table, const table_schema *schema)
+{
+    const size_t length = strlen(schema->name);
+    const char *name = wt_table_name(table);
+    return schema->name[length - 1] == '/' ? strncmp(name, schema->name, length) == 0
+                                           : strcmp(name, schema->name) == 0;
+}
+
+static bool has_all(const wt_table *table, const table_schema *schema)
+{
+    for (size_t i = 0; i < schema->n_columns; i++)
+        if (!schema->columns[i].optional && wt_table_find(table, schema->columns[i].name) < 0)
+            return false;
+    return true;
+}
+
+static bool is_filled(const wt_table *table, size_t column)
+{
+    for (size_t row = 0; row < wt_table_n_rows(table); row++)
+        if (wt_table_column_kind(table, column) == WT_COLUMN_TEXT
+                ? wt_table_text(table, row, column)[0] != '\0'
+                : !isnan(wt_table_number(table, row, column)))
+            return true;
+    return false;
+}
+
+/* Key of a schema that a key of a table is. */
+static size_t key_of(const table_schema *schema, const char *name)
+{
+    for (size_t i = 0; i < schema->n_keys; i++) {
+        const char *declared = schema->keys[i].name;
+        const size_t length = strlen(declared);
+        if (declared[length - 1] == '_' ? strncmp(name, declared, length) == 0
+                                        : strcmp(name, declared) == 0)
+            return i;
+    }
+    return SIZE_MAX;
+}
+
+static void see(const wt_table *table)
+{
+    size_t at = 0;
+    while (at < table_n_schemas &&
+           !(is_called(table, table_schemas[at]) && has_all(table, table_schemas[at])))
+        at++;
+    if (at == table_n_schemas)
+        fail_msg("table %s is not declared", wt_table_name(table));
+    const table_schema *schema = table_schemas[at];
+    found[at].table = true;
+    for (size_t i = 0; i < wt_table_n_columns(table); i++) {
+        size_t k = 0;
+        wt_quantity quantity;
+        while (k < schema->n_columns &&
+               strcmp(schema->columns[k].name, wt_table_column_name(table, i)) != 0)
+            k++;
+        if (k < schema->n_columns) {
+            found[at].columns |= SCHEMA_BIT(k);
+            found[at].cells |= is_filled(table, i) ? SCHEMA_BIT(k) : 0;
+        } else if (schema != &force_curve_schema ||
+                   !wt_quantity_find(wt_table_column_name(table, i), &quantity)) {
+            fail_msg("%s: column %s is not declared", wt_table_name(table),
+                     wt_table_column_name(table, i));
+        }
+    }
+    for (size_t i = 0; i < wt_table_n_keys(table); i++) {
+        const size_t k = key_of(schema, wt_table_key_name(table, i));
+        if (k == SIZE_MAX)
+            fail_msg("%s: key %s is not declared", wt_table_name(table),
+                     wt_table_key_name(table, i));
+        found[at].keys |= SCHEMA_BIT(k);
+    }
+}
+
+static wt_status see_and_free(void *user, wt_table *table, wt_error *err)
+{
+    (void)user;
+    (void)err;
+    see(table);
+    wt_table_free(table);
+    return WT_OK;
+}
+
+/* ---- where tables come from -------------------------------------------------------------------
+ */
+
+/* The bundled case with one text in the place of another. */
+static void run_case(const char *text, const char *instead)
+{
+    FILE *in = fopen(CASE "case.xml", "rb");
+    char xml[8192], changed[9000];
+    assert_non_null(in);
+    xml[fread(xml, 1, sizeof xml - 1, in)] = '\0';
+    fclose(in);
+    const char *at = strstr(xml, text);
+    assert_non_null(at);
+    (void)snprintf(changed, sizeof changed, "%.*s%s%s", (int)(at - xml), xml, instead,
+                   at + strlen(text));
+    wt_case *c = NULL;
+    wt_result *result = NULL;
+    wt_table *plan = NULL;
+    wt_parselog *log = wt_parselog_new();
+    wt_run_options options = wt_run_defaults();
+    options.replicates = 3;
+    wt_parselog_add(log, WT_WARNING, "file", "line 1", "a warning");
+    wt_error err = WT_ERROR_INIT;
+    if (case_from_bytes(changed, strlen(changed), CASE "case.xml", &c, &err) != WT_OK ||
+        wt_run(c, &options, log, &result, NULL, &err) != WT_OK)
+        fail_msg("%s: %s", err.place, err.message);
+    assert_int_equal(wt_plan(c, &plan, NULL), WT_OK);
+    see(plan);
+    for (size_t i = 0; i < wt_result_n_tables(result); i++)
+        see(wt_result_table(result, i));
+    wt_table_free(plan);
+    wt_result_free(result);
+    wt_parselog_free(log);
+    wt_case_free(c);
+}
+
+static void test_cases(void **state)
+{
+    (void)state;
+    run_case("", "");
+    run_case("<temperature>23degC", "<temperature>90degC");
+    run_case("<temperature>30degC", "<temperature>90degC");
+    run_case("<critical-energy>2e10J/m^3 +- 10%</critical-energy>",
+             "<observed-thickness>3um</observed-thickness>");
+    run_case("<files>dma.txt", "<files>absent.txt</files><files>dma.txt");
+}
+
+/* Groups whose cantilevers differ. */
+static void test_spring_constants(void **state)
+{
+    (void)state;
+    static const char *const files[] = {CASE "bulk-1.jpk-force-map", CASE "bulk-2.jpk-force-map"};
+    wt_file_set sets[2] = {{&files[0], 1, NULL, wt_read_defaults(), NULL, {0}},
+                           {&files[1], 1, NULL, wt_read_defaults(), NULL, {0}}};
+    sets[1].read.spring_constant = 0.2;
+    wt_indent_job job = wt_indent_job_defaults();
+    wt_job work = wt_job_defaults();
+    wt_indent_tables tables = {0};
+    wt_error err = WT_ERROR_INIT;
+    work.formats = formats;
+    job.sets = sets;
+    job.n_sets = 2;
+    job.tip = (wt_tip){.shape = WT_TIP_CONE, .half_angle = 0.35};
+    if (wt_indent_group(&job, &work, &tables, &err) != WT_OK)
+        fail_msg("%s", err.message);
+    see(tables.indentation);
+    wt_indent_tables_clear(&tables);
+}
+
+static void convert(const char *path, unsigned kind)
+{
+    wt_convert_job job = wt_convert_job_defaults();
+    wt_job work = wt_job_defaults();
+    wt_error err = WT_ERROR_INIT;
+    work.formats = formats;
+    job.kind = kind;
+    if (wt_convert_file(&job, path, &work, see_and_free, NULL, &err) != WT_OK)
+        fail_msg("%s: %s", path, err.message);
+}
+
+static void test_conversions(void **state)
+{
+    (void)state;
+    static const char path[] = "test_tables_put.nid";
+    const double values[4] = {0, 1, 0, 1};
+    const nid_writer_channel channel = {0, "Z-Axis", "m", 0, 2, 16, values};
+    const nid_writer_group group = {.name = "Scan forward",
+                                    .points = 2,
+                                    .lines = 2,
+                                    .x_name = "X",
+                                    .x_unit = "m",
+                                    .y_name = "Y",
+                                    .y_unit = "m",
+                                    .x_range = 1,
+                                    .y_range = 1,
+                                    .n_channels = 1,
+                                    .channels = &channel};
+    nid_writer_file file = nid_writer_defaults();
+    file.path = path;
+    file.groups = &group;
+    file.n_groups = 1;
+    assert_int_equal(nid_write(&file), 0);
+    convert(path, WT_KIND_IMAGE);
+    (void)remove(path);
+    convert(CASE "bulk-1.jpk-force-map", WT_KIND_FORCE);
+    convert(CASE "dma.txt", WT_KIND_SWEEP);
+    convert(FORMATS "stare/isotherm.txt", WT_KIND_SWEEP);
+    convert(FORMATS "table-spectrum/surface.txt", WT_KIND_SPECTRUM);
+    convert(FORMATS "table-spectrum/line.csv", WT_KIND_SPECTRUM);
+}
+
+static void test_files(void **state)
+{
+    (void)state;
+    wt_input *input = NULL;
+    wt_table *table = NULL;
+    assert_int_equal(wt_input_open(FORMATS "tidy/two-runs.csv", &input, NULL), WT_OK);
+    assert_int_equal(wt_describe(formats, input, NULL, NULL, &table, NULL), WT_OK);
+    see(table);
+    wt_table_free(table);
+    assert_int_equal(
+        wt_description_check(WT_SOURCE_DIR "/formats/tidy.xml", input, NULL, NULL, &table, NULL),
+        WT_OK);
+    see(table);
+    wt_table_free(table);
+    wt_input_close(input);
+}
+
+/* ---- what was not put -------------------------------------------------------------------------
+ */
+
+static void test_all_put(void **state)
+{
+    (void)state;
+    bool good = true;
+    for (size_t i = 0; i < table_n_schemas; i++) {
+        const table_schema *s = table_schemas[i];
+        if (!found[i].table)
+            print_error("%s: never made\n", s->name);
+        good = good && found[i].table;
+        for (size_t k = 0; found[i].table && k < s->n_columns; k++) {
+            const bool put =
+                (s->columns[k].sparse ? found[i].cells : found[i].columns) & SCHEMA_BIT(k);
+            if (!put)
+                print_error("%s: column %s is never put\n", s->name, s->columns[k].name);
+            good = good && put;
+        }
+        for (size_t k = 0; found[i].table && k < s->n_keys; k++) {
+            const bool put = found[i].keys & SCHEMA_BIT(k);
+            if (!put)
+                print_error("%s: key %s is never put\n", s->name, s->keys[k].name);
+            good = good && put;
+        }
+    }
+    assert_true(good);
+}
+
+static int open_formats(void **state)
+{
+    (void)state;
+    return wt_formats_new(NULL, &formats, NULL, NULL) == WT_OK && table_n_schemas <= MOST ? 0 : -1;
+}
+
+static int free_formats(void **state)
+{
+    (void)state;
+    wt_formats_free(formats);
+    return 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_cases),       cmocka_unit_test(test_spring_constants),
+        cmocka_unit_test(test_conversions), cmocka_unit_test(test_files),
+        cmocka_unit_test(test_all_put),
+    };
+    return cmocka_run_group_tests_name("tables put", tests, open_formats, free_formats);
+}
