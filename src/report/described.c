@@ -99,10 +99,10 @@ static bool is_coloured(const figure_drawing *d)
     return !span_empty(&d->colour) && d->colour.high > d->colour.low;
 }
 
-void drawing_axes(figure_drawing *d, const char *x_label, const char *y_label)
+void drawing_axes(figure_drawing *d)
 {
-    drawing_axis(d, "x", &d->figure->x, x_label, d->x);
-    drawing_axis(d, "y", &d->figure->y[0], y_label, d->y[0]);
+    drawing_axis(d, "x", &d->figure->x, NULL, d->x);
+    drawing_axis(d, "y", &d->figure->y[0], d->y_label, d->y[0]);
     if (!is_coloured(d))
         return;
     d->width = 1.15;
@@ -222,7 +222,9 @@ static void draw_as_described(figure_drawing *d)
 {
     if (!drawing_data(d))
         return;
-    drawing_axes(d, NULL, NULL);
+    if (d->figure->prepare != NULL)
+        d->figure->prepare(d);
+    drawing_axes(d);
     if (!has_key(d->figure))
         text_add(&d->script, "unset key\n");
     drawing_bands(d, 0);

@@ -40,6 +40,7 @@ typedef struct figure_drawing {
     size_t n_sections;
     int data[DRAWING_GROUPS]; /* the section of each group as the figure describes it, */
     value_span x, y[FIGURE_PANELS], colour; /* and what they span */
+    const char *y_label;                    /* in the place of the one described, or NULL */
     bool titled[FIGURE_CURVES];             /* the curve is in the key */
     growing_text script;                    /* what follows the loading of the style */
     growing_text caption;                   /* plain text */
@@ -62,7 +63,7 @@ bool drawing_data(figure_drawing *d);
 void drawing_axis(figure_drawing *d, const char *letter, const figure_axis *axis, const char *label,
                   value_span span);
 /* x, y of the first panel and, if it says something, the scale of colour beside the picture. */
-void drawing_axes(figure_drawing *d, const char *x_label, const char *y_label);
+void drawing_axes(figure_drawing *d);
 /* All that is described of one panel, in a plot command: the bands, then the curves. */
 void drawing_bands(figure_drawing *d, size_t panel);
 void drawing_curves(figure_drawing *d, size_t panel);

@@ -66,6 +66,7 @@ typedef struct figure_description {
     figure_curve curves[FIGURE_CURVES]; /* ends with CURVE_NONE */
     const char *nothing; /* said where nothing can be drawn; NULL = not worth a word */
     const char *words;   /* the caption */
+    void (*prepare)(struct figure_drawing *d); /* changes what is spanned, a label; NULL: nothing */
     void (*draw)(struct figure_drawing *d);    /* NULL: as described */
     void (*caption)(struct figure_drawing *d); /* goes on with the caption; NULL: no more of it */
 } figure_description;

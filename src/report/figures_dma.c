@@ -20,7 +20,7 @@ static void draw_dma_comparison(figure_drawing *d)
         return;
     span_add_section(&d->y[0], d, section, 1, true);
     span_add_section(&d->y[0], d, section, 2, true);
-    drawing_axes(d, NULL, NULL);
+    drawing_axes(d);
     plot_item(d, section,
               "($1*x_unit):($3*y_unit) smooth unique with lines ls 11 title 'DMA |E*|'");
     plot_item(d, section, "($1*x_unit):($2*y_unit) smooth unique with lines ls 15 title 'DMA E′'");
@@ -128,7 +128,7 @@ static void draw_shift_factors(figure_drawing *d)
     bool has_law = find_law(d->table, &law);
     if (!drawing_data(d))
         return;
-    drawing_axes(d, NULL, NULL);
+    drawing_axes(d);
     text_add(&d->script, "set ylabel 'Shift factor, log_{10} a_T' enhanced\n");
     if (has_law)
         define_law(d, &law);

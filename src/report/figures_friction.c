@@ -16,18 +16,14 @@ static void caption_spectrum(figure_drawing *d)
 
 /* ---- friction against velocity --------------------------------------------------------------- */
 
-static void draw_friction(figure_drawing *d)
+static void prepare_friction(figure_drawing *d)
 {
     value_span total = SPAN_EMPTY;
-    if (!drawing_data(d))
-        return;
+    span_add_column(&total, d->table, FRICTION_TOTAL, false);
+    if (span_empty(&total))
+        d->y_label = "Hysteresis friction coefficient";
     span_add(&d->y[0], 0, false);
     span_add(&d->y[0], 1.1 * d->y[0].high, false); // room for the bands
-    span_add_column(&total, d->table, FRICTION_TOTAL, false);
-    drawing_axes(d, NULL, span_empty(&total) ? "Hysteresis friction coefficient" : NULL);
-    drawing_bands(d, 0);
-    drawing_curves(d, 0);
-    plot_end(d);
 }
 
 /* The largest numerical error relative to its value; NaN if none is known. */
@@ -106,7 +102,7 @@ const figure_description figures_friction[] = {
      .nothing = "no friction coefficient is a number",
      .words = "Friction coefficient and its parts against sliding velocity. Bands: one standard "
               "error",
-     .draw = draw_friction,
+     .prepare = prepare_friction,
      .caption = caption_friction},
     {
         .name = "contact_area",

@@ -69,7 +69,7 @@ static void draw_force_displacement(figure_drawing *d)
         return;
     d->width = n == 1 ? 1 : 0.85 * (double)n;
     d->height = 0.9;
-    drawing_axes(d, NULL, NULL);
+    drawing_axes(d);
     text_format(&d->script, "set multiplot layout 1,%zu\n", n);
     for (size_t i = 0; i < d->n_groups; i++) {
         int style = drawing_group_style(d, i);

@@ -264,7 +264,7 @@ static void key_label(const char *name, const schema_key *key, char *label, size
     (void)snprintf(label, size, "%s", known ? key->label : name);
     for (char *s = label; *s != '\0' && !known; s++)
         *s = *s == '_' ? ' ' : *s;
-    if (!known && label[0] >= 'a' && label[0] <= 'z')
+    if (!known && label[0] >= 'a')
         label[0] = (char)(label[0] - 'a' + 'A');
 }
 

@@ -165,6 +165,124 @@ static void test_page(void **state)
     wt_result_free(result);
 }
 
+static size_t count_words(const char *page, const char *words)
+{
+    size_t n = 0;
+    for (const char *s = strstr(page, words); s != NULL; s = strstr(s + 1, words))
+        n++;
+    return n;
+}
+
+/* Cells of a row as text, "bulk|48|0|". */
+static void read_row(const char *row, char *words, size_t size)
+{
+    size_t n = 0;
+    const char *end = strstr(row, "</tr>");
+    for (const char *s = row; s < end && n + 2 < size; s++) {
+        if (strncmp(s, "</t", 3) == 0)
+            words[n++] = '|';
+        if (*s == '<')
+            s = strchr(s, '>');
+        else
+            words[n++] = *s;
+    }
+    words[n] = '\0';
+}
+
+/* Zero with an error. */
+static void set_floor(wt_table *table)
+{
+    if (strcmp(wt_table_name(table), "shift_factors") == 0)
+        fixture_key(table, "wlf_floor", 0, 1e-7, "1");
+}
+
+/* Order, units and digits of the columns, and the headline numbers. */
+static void test_tables_on_the_page(void **state)
+{
+    (void)state;
+    const fixture_change change = {.finish = set_floor};
+    static const char *const tables[] = {"modulus_groups", "comparison", "shift_factors",
+                                         "dma_comparison", "friction"};
+    static const char *const rows[] = {
+        "Group|Curves n|Rejected|Spots|Geometric mean (MPa)|95 % interval from (MPa)|to (MPa)|"
+        "Median (MPa)|Mean (MPa)|Standard deviation (MPa)|",
+        "bulk|48|0|4|8.24|7.68|8.83|8.38|8.28|0.791|",
+        "Indentation rate from (nm/s)|to (nm/s)|n bulk|n track|Track / bulk|95 % interval from|to|"
+        "Difference (MPa)|Welch t|Degrees of freedom|p (Welch)|p (Holm)|p (Mann-Whitney)|"
+        "Effect size|",
+        "all|all|48|48|0.666|0.617|0.720|−2.76|−12.5|5.37|3.5×10⁻⁵|–|0.029|−7.94|",
+        "75.0|102|16|16|0.658|0.614|0.705|−2.52|−14.5|5.38|1.6×10⁻⁵|4.8×10⁻⁵|0.029|−9.12|",
+        "Temperature (°C)|log₁₀ a|Standard error|WLF log₁₀ a|log₁₀ b|Standard error|log₁₀ b, "
+        "rubber elasticity|Overlap (decades)|Determined by overlap|Note|",
+        "−30.0|5.413|0.006|5.412|0.079|0.002|0.081|0.189|yes||",
+        "Systematic error of each shift that the errors of C1 and C2 include [decade]|0.00000|"
+        "± 1.0×10⁻⁷|–|",
+        "WLF constant C₁|6.512|± 0.070|–|correlated with C₂, see the table of constants|",
+        "WLF constant C₂|110.18 K|± 0.82 K|–||",
+        "Reference temperature|20 °C|–|–||",
+        "Friction coefficient|0.690|± 0.067|± ",
+        "Friction coefficient with layer|0.567|± 0.056|± ",
+        "Group|Equivalent frequency (rad/s)|Indentation (MPa)|95 % interval from (MPa)|to (MPa)|"
+        "DMA E′ (MPa)|DMA |E*| (MPa)|Indentation / DMA|Outside measured frequencies|",
+    };
+    NEED_GNUPLOT();
+    wt_result *result = fixture_only(tables, 5, &change);
+    write_all("gnuplot", "not the program: it is looked up in PATH only\n");
+    write_report(result, "out", NULL);
+    size_t length = 0;
+    char *page = read_all("out/index.html", &length);
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        bool found = false;
+        for (const char *row = strstr(page, "<tr>"); row != NULL && !found;
+             row = strstr(row + 1, "<tr>")) {
+            char words[512];
+            read_row(row, words, sizeof words);
+            found = strncmp(words, rows[i], strlen(rows[i])) == 0;
+        }
+        if (!found)
+            fail_msg("no row of the page reads %s", rows[i]);
+    }
+    assert_int_equal(count_words(page, ">at the reference velocity, 300 mm/s</td>"), 5);
+    // Friction next to the decades of 1e-4 to 10 m/s.
+    const char *friction = strstr(page, "<caption>Friction at the computed velocities next to");
+    assert_non_null(friction);
+    char *end = strstr(friction, "</table>");
+    assert_non_null(end);
+    *end = '\0';
+    assert_int_equal(count_words(friction, "<tr>"), 1 + 6);
+    free(page);
+    wt_result_free(result);
+}
+
+static bool ran(const wt_table *cost, size_t row)
+{
+    return wt_table_number(cost, row, (size_t)wt_table_find(cost, "runs")) > 0;
+}
+
+/* Milliseconds, in the middle of the table two of some seconds. */
+static void set_times(wt_table *cost, size_t row)
+{
+    fixture_put(cost, "wall_time", row == 3 || row == 4 ? 2 : 1e-3 * (double)(2 + row));
+    fixture_put(cost, "cpu_time", 5);
+}
+
+/* Not the first value, the middle one or the mean, but the median decides. */
+static void test_the_median_decides_the_unit(void **state)
+{
+    (void)state;
+    const char *const cost = "cost";
+    const fixture_change change = {cost, .keep = ran, .edit = set_times};
+    wt_result *result = fixture_only(&cost, 1, &change);
+    assert_int_equal(wt_table_n_rows(wt_result_find(result, cost)), 8);
+    write_report(result, "out", NULL);
+    size_t length = 0;
+    char *page = read_all("out/index.html", &length);
+    assert_non_null(strstr(page, "Wall time <span class=\"unit\">(ms)</span>"));
+    assert_non_null(strstr(page, "Processor time <span class=\"unit\">(ms)</span>"));
+    free(page);
+    wt_result_free(result);
+}
+
 static void name_evil_group(wt_table *groups, size_t row)
 {
     fixture_text(groups, "group", row == 0 ? FIXTURE_EVIL : "track");
@@ -409,6 +527,7 @@ static void test_only_reports_are_replaced(void **state)
     write_all("file", "x");
     assert_int_equal(try_report(result, "file", NULL, &err), WT_E_IO);
     assert_int_equal(try_report(result, ".", NULL, &err), WT_E_ARG);
+    assert_int_equal(try_report(result, "/", NULL, &err), WT_E_ARG);
     assert_int_equal(try_report(result, "a/b/..", NULL, &err), WT_E_ARG);
     assert_int_equal(try_report(result, "no/such/place", NULL, &err), WT_E_IO);
     assert_int_equal(count_files("."), 3);
@@ -426,6 +545,7 @@ static bool cancel_at(void *user, const char *what, size_t done, size_t total)
 {
     assert_non_null(what);
     assert_true(done <= total);
+    assert_int_equal(total, wt_figure_count() + 1); // the page is the last step
     return done < *(const size_t *)user;
 }
 
@@ -450,6 +570,9 @@ int main(void)
         cmocka_unit_test(test_the_man_pages_name_every_figure),
         cmocka_unit_test_setup_teardown(test_everything, make_workplace, remove_workplace),
         cmocka_unit_test_setup_teardown(test_page, make_workplace, remove_workplace),
+        cmocka_unit_test_setup_teardown(test_tables_on_the_page, make_workplace, remove_workplace),
+        cmocka_unit_test_setup_teardown(test_the_median_decides_the_unit, make_workplace,
+                                        remove_workplace),
         cmocka_unit_test_setup_teardown(test_nothing_from_a_file_is_run, make_workplace,
                                         remove_workplace),
         cmocka_unit_test_setup_teardown(test_the_same_bytes_twice, make_workplace,

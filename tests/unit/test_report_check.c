@@ -41,6 +41,19 @@ static void test_nothing_is_left(void **state)
     assert_int_not_equal(wt_report_check("no/such/folder", NULL, &err), WT_OK);
     assert_int_equal(count_entries(), 0);
 
+    /* the largest style, and one byte more */
+    enum { LIMIT = 1 << 20 };
+    options.style = "./large.gp";
+    for (int more = 0; more < 2; more++) {
+        FILE *style = fopen(options.style, "w");
+        assert_non_null(style);
+        for (int i = 0; i < LIMIT + more; i++)
+            assert_int_equal(fputc('#', style), '#');
+        assert_int_equal(fclose(style), 0);
+        assert_int_equal(wt_report_check("out", &options, &err), more ? WT_E_RANGE : WT_OK);
+    }
+    assert_int_equal(remove(options.style), 0);
+
     /* somebody's own folder is not replaced */
     assert_int_equal(mkdir("mine", 0777), 0);
     FILE *own = fopen("mine/own.txt", "w");

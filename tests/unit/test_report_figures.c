@@ -177,8 +177,8 @@ static void test_curves_are_drawn_from_their_columns(void **state)
     static const struct {
         const char *figure, *with, *columns;
     } curves[] = {
-        {"force_displacement", "title 'approach'", "displacement force"},
-        {"force_displacement", "title 'retract'", "displacement force"},
+        {"force_displacement", "ls 1 title 'approach'", "displacement force"},
+        {"force_displacement", "ls 31 title 'retract'", "displacement force"},
         {"force_displacement", "title 'contact'",
          "contact_point contact_force contact_point_standard_error"},
         {"force_indentation", "points ls 41 title 'bulk'", "indentation force"},

@@ -157,11 +157,13 @@ static void test_logarithmic_tics_are_at_whole_decades(void **state)
     (void)state;
     static const schema_column wavenumber = {.quantity = WT_Q_WAVENUMBER},
                                modulus = {.quantity = WT_Q_MODULUS}, number = {.unit = NULL},
-                               temperature = {.quantity = WT_Q_TEMPERATURE};
+                               temperature = {.quantity = WT_Q_TEMPERATURE},
+                               time = {.quantity = WT_Q_TIME};
     figure_drawing d = {.status = WT_OK};
     axis_log(&d, "x", "q", &wavenumber, (value_span){1e3, 3e7});
     // gnuplot would count decades from the end of the axis if the first tic were not given.
     assert_non_null(strstr(text_string(&d.script), "set xtics 1e3,1e1\n"));
+    assert_non_null(strstr(text_string(&d.script), "\nset xrange [733.9"));
     text_free(&d.script);
     axis_log(&d, "y", "E", &modulus, (value_span){11e6, 24e6});
     assert_non_null(strstr(text_string(&d.script), "set ylabel 'E (MPa)'\n"));
@@ -169,6 +171,16 @@ static void test_logarithmic_tics_are_at_whole_decades(void **state)
     text_free(&d.script);
     axis_log(&d, "y", "E", &modulus, (value_span){20.1e6, 20.3e6});
     assert_non_null(strstr(text_string(&d.script), "set ytics (19.5, 20.0, 20.5, 21.0)\n"));
+    text_free(&d.script);
+    // Over many decades moduli are in MPa, times and velocities in SI.
+    axis_log(&d, "y", "E", &modulus, (value_span){1e6, 1e12});
+    assert_non_null(strstr(text_string(&d.script), "set ylabel 'E (MPa)'\n"));
+    text_free(&d.script);
+    axis_log(&d, "x", "t", &time, (value_span){1e-9, 1e-3});
+    assert_non_null(strstr(text_string(&d.script), "set xlabel 't (s)'\n"));
+    text_free(&d.script);
+    axis_log(&d, "x", "t", &time, (value_span){1e-7, 1e-6});
+    assert_non_null(strstr(text_string(&d.script), "set xlabel 't (ns)'\n"));
     text_free(&d.script);
     axis_linear(&d, "x", "T", &temperature, (value_span){293.15, 293.15});
     assert_non_null(strstr(text_string(&d.script), "x_offset = -273.15"));
