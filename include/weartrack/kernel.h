@@ -166,10 +166,6 @@ WT_API wt_status wt_layer_history(const wt_energy_source *source,
  * or infinite argument. */
 WT_API double wt_layer_exponential(double start_thickness, double kappa, double formation_rate_zero,
                                    double wear_rate, double time);
-/* U_c that makes an observed thickness the balance (single exponential): (mu/k) exp(-kappa
- * d)/Lambda. */
-WT_API double wt_layer_calibrate(double hysteresis, double specific_wear_rate, double kappa,
-                                 double observed_thickness, double damage);
 
 #ifdef __cplusplus
 }

@@ -55,7 +55,6 @@ typedef struct wt_contact_table wt_contact_table;
 WT_API wt_status wt_contact_table_new(const wt_tip *tip, double delta_min, double delta_max,
                                       wt_contact_table **table, wt_error *err) WT_NODISCARD;
 WT_API void wt_contact_table_free(wt_contact_table *table);
-WT_API const wt_tip *wt_contact_table_tip(const wt_contact_table *table);
 WT_API void wt_contact_table_eval(const wt_contact_table *table, const double *delta, size_t n,
                                   double *g, double *slope); /* slope may be NULL */
 

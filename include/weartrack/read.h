@@ -101,8 +101,6 @@ WT_API wt_status wt_force_next(wt_force_source *source, wt_force_curve *curve,
                                wt_error *err) WT_NODISCARD;
 WT_API void wt_force_close(wt_force_source *source);
 WT_API size_t wt_force_count(const wt_force_source *source); /* SIZE_MAX if not known */
-WT_API void wt_force_grid(const wt_force_source *source, long *columns,
-                          long *rows); /* 0, 0: none */
 
 /* Appends the isotherms of one file to `sweep` (zero-initialised for the first file). Mixing
  * tension and shear is WT_E_UNIT. */

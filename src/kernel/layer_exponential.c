@@ -35,9 +35,3 @@ double wt_layer_exponential(double start_thickness, double kappa, double formati
     const double grown = log(kappa) + log(formation_rate_zero) + log(time * phi);
     return fmax(0, log_add(grown, kappa * start_thickness - s) / kappa);
 }
-
-double wt_layer_calibrate(double hysteresis, double specific_wear_rate, double kappa,
-                          double observed_thickness, double damage)
-{
-    return hysteresis / specific_wear_rate * exp(-kappa * observed_thickness) / damage;
-}

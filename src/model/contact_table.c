@@ -123,11 +123,6 @@ void wt_contact_table_free(wt_contact_table *table)
     free(table);
 }
 
-const wt_tip *wt_contact_table_tip(const wt_contact_table *table)
-{
-    return &table->tip;
-}
-
 void wt_contact_table_eval(const wt_contact_table *table, const double *delta, size_t n, double *g,
                            double *slope)
 {

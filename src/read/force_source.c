@@ -31,12 +31,6 @@ size_t wt_force_count(const wt_force_source *source)
     return source->n_curves;
 }
 
-void wt_force_grid(const wt_force_source *source, long *columns, long *rows)
-{
-    *columns = source->grid_columns;
-    *rows = source->grid_rows;
-}
-
 bool force_wants_segment(const wt_force_source *source, wt_segment_kind kind)
 {
     return (source->options.segments & WT_SEGMENT_BIT(kind)) != 0;

@@ -5,11 +5,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 cmake_minimum_required(VERSION 3.25)
 
-# Ties that are still to be cut, each "FILE > FILE".
-set(known
-  "data/table.c > data/table_key.c"
-)
-
 # A node is a file; ties_FILE are the files it needs, by_FILE_OTHER what ties them.
 set(files "")
 function(tie from to by)
@@ -63,14 +58,6 @@ if(n LESS 100)
   message(FATAL_ERROR "only ${n} files seen: wrong folder?")
 endif()
 
-foreach(cut IN LISTS known)
-  string(REPLACE " > " ";" pair "${cut}")
-  list(JOIN pair "_" pair)
-  if(NOT DEFINED by_${pair})
-    message(SEND_ERROR "\"${cut}\" is cut: take it off the list")
-  endif()
-endforeach()
-
 # Takes away what needs nothing that is left, again and again; sets `left` to the rest.
 function(unwind)
   set(left ${files})
@@ -80,7 +67,7 @@ function(unwind)
     foreach(file IN LISTS left)
       set(free TRUE)
       foreach(other IN LISTS ties_${file})
-        if(other IN_LIST left AND NOT "${file} > ${other}" IN_LIST known)
+        if(other IN_LIST left)
           set(free FALSE)
           break()
         endif()
@@ -102,7 +89,7 @@ if(left)
   while(NOT file IN_LIST way)
     list(APPEND way ${file})
     foreach(other IN LISTS ties_${file})
-      if(other IN_LIST left AND NOT "${file} > ${other}" IN_LIST known)
+      if(other IN_LIST left)
         set(file ${other})
         break()
       endif()

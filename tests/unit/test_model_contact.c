@@ -214,7 +214,6 @@ static void table_agrees_with_function(void **state)
                            {.shape = WT_TIP_CONE, .half_angle = 20 * degree}};
     for (size_t i = 0; i < sizeof tips / sizeof tips[0]; i++) {
         wt_contact_table *table = table_of(&tips[i], 1e-12, 1e-5);
-        assert_memory_equal(wt_contact_table_tip(table), &tips[i], sizeof tips[i]);
         double worst = 0.0, worst_slope = 0.0;
         for (double delta = 1e-13; delta < 1e-4; delta *= 1.000713) {
             double g, slope, g2, slope2;

@@ -4,6 +4,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "near.h"
+#include "read/force_source.h"
 
 #include "weartrack/read.h"
 #include "writers/nid_writer.h"
@@ -294,13 +295,11 @@ static void serpentine_map(void **state)
     static const long grid[LINES][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 2}, {1, 2}};
     nid_writer_file f = make_file("N", true, false);
     reading r;
-    long columns = 0, rows = 0;
     f.map = "-1e-06;3e-06;2e-06;6e-06;2;3;0;1";
     assert_int_equal(nid_write(&f), 0);
     assert_int_equal(open_force(&r, path, NULL), WT_OK);
-    wt_force_grid(r.source, &columns, &rows);
-    assert_int_equal(columns, 2);
-    assert_int_equal(rows, 3);
+    assert_int_equal(r.source->grid_columns, 2);
+    assert_int_equal(r.source->grid_rows, 3);
     for (size_t i = 0; i < LINES; i++) {
         assert_int_equal(wt_force_next(r.source, &r.curve, &r.err), WT_OK);
         assert_int_equal(r.curve.grid_x, grid[i][0]);
