@@ -44,7 +44,7 @@ void force_add_signal(force_facts *facts, force_signal signal)
 
 /* ---- what a quantity is made of ----------------------------------------------------------- */
 
-static const force_signal *find(const force_facts *facts, wt_quantity quantity)
+const force_signal *force_find_signal(const force_facts *facts, wt_quantity quantity)
 {
     for (size_t i = 0; i < facts->n_signals; i++)
         if (facts->signals[i].quantity == quantity)
@@ -73,20 +73,20 @@ static const force_signal *origin(const force_facts *facts, const wt_read_option
                                   wt_quantity wanted)
 {
     const double given[] = {options->sensitivity, options->spring_constant};
-    const force_signal *own = find(facts, wanted), *found = NULL;
+    const force_signal *own = force_find_signal(facts, wanted), *found = NULL;
     const size_t place = chain_place(wanted);
     if (place == CHAIN)
         return own;
     for (size_t i = 0; i < place && found == NULL; i++)
         if (!isnan(given[i]))
-            found = find(facts, chain[i]);
+            found = force_find_signal(facts, chain[i]);
     if (found != NULL && (own == NULL || own->channel == found->channel))
         return found;
     found = own;
     for (size_t i = place; i-- > 0 && found == NULL;)
-        found = find(facts, chain[i]);
+        found = force_find_signal(facts, chain[i]);
     for (size_t i = place + 1; i < CHAIN && found == NULL; i++)
-        found = find(facts, chain[i]);
+        found = force_find_signal(facts, chain[i]);
     return found;
 }
 

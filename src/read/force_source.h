@@ -64,6 +64,8 @@ struct wt_force_source {
 bool force_wants_segment(const wt_force_source *source, wt_segment_kind kind);
 
 void force_add_signal(force_facts *facts, force_signal signal);
+/* The first of a quantity, or NULL. */
+const force_signal *force_find_signal(const force_facts *facts, wt_quantity quantity);
 /* Adds a segment, if it has samples, with what was asked for. What cannot be made is WT_E_MISSING
  * if it was asked for by name, a warning if simply everything was. */
 wt_status force_add_segment(wt_force_source *source, const force_facts *facts,

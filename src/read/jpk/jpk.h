@@ -118,9 +118,8 @@ typedef struct jpk_segment {
 
 wt_status jpk_segment_read(jpk_file *file, const jpk_segment_ref *ref, jpk_segment *segment,
                            wt_error *err);
+/* NULL if there is none. */
 const jpk_channel *jpk_segment_channel(const jpk_segment *segment, const char *name);
-/* The channel of a quantity: "vDeflection", "height", the best of the sensors; NULL if none. */
-const jpk_channel *jpk_segment_source(const jpk_segment *segment, wt_quantity quantity);
 
 /* ---- calibration: jpk_calibration.c ------------------------------------------------------- */
 

@@ -11,36 +11,30 @@
 #include <math.h>
 #include <string.h>
 
-/* In the order of the columns. */
-static const wt_quantity quantities[] = {
-    WT_Q_TIME,
-    WT_Q_HEIGHT,
-    WT_Q_FORCE,
-    WT_Q_DEFLECTION,
-    WT_Q_DEFLECTION_VOLTAGE,
-    WT_Q_MEASURED_HEIGHT,
-    WT_Q_LATERAL_DEFLECTION,
+/* Slots that each channel names itself. */
+#define BASE_SLOT NULL
+#define PREFERRED_SLOT ""
+
+/* What is made of which channel at which calibration slot, in the order of the columns. Of several
+ * sensors the first is taken that is understood: the one that the instrument itself works with. */
+static const struct {
+    wt_quantity quantity;
+    const char *channel, *slot;
+} sources[] = {
+    {WT_Q_HEIGHT, "height", PREFERRED_SLOT},
+    {WT_Q_FORCE, "vDeflection", "force"},
+    {WT_Q_DEFLECTION, "vDeflection", "distance"},
+    {WT_Q_DEFLECTION_VOLTAGE, "vDeflection", BASE_SLOT},
+    {WT_Q_MEASURED_HEIGHT, "measuredHeight", PREFERRED_SLOT},
+    {WT_Q_MEASURED_HEIGHT, "capacitiveSensorHeight", PREFERRED_SLOT},
+    {WT_Q_MEASURED_HEIGHT, "strainGaugeHeight", PREFERRED_SLOT},
+    {WT_Q_MEASURED_HEIGHT, "smoothedMeasuredHeight", PREFERRED_SLOT},
+    {WT_Q_LATERAL_DEFLECTION, "hDeflection", BASE_SLOT},
 };
 
-static const char *slot_of(const jpk_lcd *lcd, wt_quantity quantity)
+/* The chain to a slot in the SI unit of the quantity; false if the file does not say how. */
+static bool chain_si(const jpk_lcd *lcd, const char *name, force_signal *signal)
 {
-    switch (quantity) {
-    case WT_Q_FORCE:
-        return "force";
-    case WT_Q_DEFLECTION:
-        return "distance";
-    case WT_Q_DEFLECTION_VOLTAGE:
-    case WT_Q_LATERAL_DEFLECTION:
-        return lcd->base;
-    default:
-        return lcd->preferred;
-    }
-}
-
-/* The chain to the slot of a quantity, in SI; false if the file does not say how. */
-static bool chain_si(const jpk_lcd *lcd, force_signal *signal)
-{
-    const char *name = slot_of(lcd, signal->quantity);
     const jpk_slot *slot = jpk_lcd_slot(lcd, name);
     force_linear *chain = &signal->to_si;
     double factor = 1, offset = 0;
@@ -54,22 +48,44 @@ static bool chain_si(const jpk_lcd *lcd, force_signal *signal)
     return isfinite(chain->multiplier) && isfinite(chain->offset);
 }
 
+static void add_signal(const jpk_channel *c, wt_quantity quantity, const char *slot,
+                       force_facts *facts)
+{
+    force_signal signal = {
+        .quantity = quantity, .channel = c, .name = c->name, .unit = "", .problem = c->problem};
+    if (c->understood) {
+        const bool own = slot != BASE_SLOT && *slot != '\0';
+        const char *name = slot == BASE_SLOT ? c->lcd.base : own ? slot : c->lcd.preferred;
+        const bool known = chain_si(&c->lcd, name, &signal);
+        if (!known && own)
+            return;
+        signal.problem = known ? NULL : "it has no calibration";
+    }
+    force_add_signal(facts, signal);
+}
+
+static double multiplier(const force_facts *facts, wt_quantity quantity)
+{
+    const force_signal *signal = force_find_signal(facts, quantity);
+    return signal != NULL && signal->problem == NULL ? signal->to_si.multiplier : (double)NAN;
+}
+
 /* Sensitivity and spring constant are what the slots multiply by. */
-static void add_calibration(const jpk_lcd *lcd, double volts, double deflection, double force,
-                            wt_cantilever *cantilever)
+static void add_calibration(const jpk_lcd *lcd, force_facts *facts)
 {
     const jpk_slot *slot = jpk_lcd_slot(lcd, "force");
     const bool direct =
         slot != NULL && strcmp(slot->base, "distance") == 0 && strcmp(slot->unit, "N") == 0;
-    cantilever->sensitivity = deflection / volts;
-    cantilever->spring_constant = force / deflection;
-    if (direct && !isnan(cantilever->spring_constant))
-        cantilever->spring_constant = slot->scaling.multiplier;
+    const double deflection = multiplier(facts, WT_Q_DEFLECTION);
+    const double force = multiplier(facts, WT_Q_FORCE);
+    facts->cantilever.sensitivity = deflection / multiplier(facts, WT_Q_DEFLECTION_VOLTAGE);
+    facts->cantilever.spring_constant = force / deflection;
+    if (direct && !isnan(facts->cantilever.spring_constant))
+        facts->cantilever.spring_constant = slot->scaling.multiplier;
 }
 
 void jpk_segment_facts(const jpk_segment *segment, force_facts *facts)
 {
-    double multiplier[WT_Q_COUNT];
     *facts =
         (force_facts){.kind = segment->kind,
                       .n_points = segment->n_points,
@@ -77,28 +93,19 @@ void jpk_segment_facts(const jpk_segment *segment, force_facts *facts)
                       .velocity = segment->velocity,
                       .setpoint = segment->setpoint_voltage,
                       .setpoint_quantity = WT_Q_DEFLECTION_VOLTAGE,
-                      .n_offers = sizeof quantities / sizeof *quantities,
+                      .offers = {WT_Q_TIME},
+                      .n_offers = 1,
                       .cantilever = {.spring_constant = (double)NAN, .sensitivity = (double)NAN}};
-    memcpy(facts->offers, quantities, sizeof quantities);
-    for (size_t i = 0; i < facts->n_offers; i++) {
-        const wt_quantity q = quantities[i];
-        const jpk_channel *c = jpk_segment_source(segment, q);
-        multiplier[q] = (double)NAN;
-        if (c == NULL)
-            continue;
-        force_signal signal = {
-            .quantity = q, .channel = c, .name = c->name, .unit = "", .problem = c->problem};
-        if (c->understood) {
-            const bool known = chain_si(&c->lcd, &signal);
-            if (!known && (q == WT_Q_FORCE || q == WT_Q_DEFLECTION))
-                continue;
-            signal.problem = known ? NULL : "it has no calibration";
-            multiplier[q] = known ? signal.to_si.multiplier : (double)NAN;
-        }
-        force_add_signal(facts, signal);
+    for (size_t i = 0; i < sizeof sources / sizeof *sources; i++) {
+        const wt_quantity q = sources[i].quantity;
+        const jpk_channel *c = jpk_segment_channel(segment, sources[i].channel);
+        const bool other = q == WT_Q_MEASURED_HEIGHT;
+        if (facts->offers[facts->n_offers - 1] != q)
+            facts->offers[facts->n_offers++] = q;
+        if (c != NULL && (c->understood || !other) && force_find_signal(facts, q) == NULL)
+            add_signal(c, q, sources[i].slot, facts);
     }
-    const jpk_channel *deflection = jpk_segment_source(segment, WT_Q_FORCE);
+    const jpk_channel *deflection = jpk_segment_channel(segment, "vDeflection");
     if (deflection != NULL && deflection->understood)
-        add_calibration(&deflection->lcd, multiplier[WT_Q_DEFLECTION_VOLTAGE],
-                        multiplier[WT_Q_DEFLECTION], multiplier[WT_Q_FORCE], &facts->cantilever);
+        add_calibration(&deflection->lcd, facts);
 }

@@ -156,19 +156,10 @@ wt_status jpk_lcd_read(const property_list *properties, const char *prefix, jpk_
         !copy_name(lcd->preferred, sizeof lcd->preferred, preferred != NULL ? preferred : base))
         return unsupported(err, "calibration slot", base);
     const char *list = properties_find(properties, prefix, "conversion-set.conversions.list");
-    while (list != NULL && *list != '\0') {
-        char name[JPK_NAME];
-        size_t n = strcspn(list, " ");
-        if (n > 0 && n < sizeof name) {
-            memcpy(name, list, n);
-            name[n] = '\0';
-            status = read_slot(properties, prefix, name, lcd, err);
-            if (status != WT_OK)
-                return status;
-        }
-        list += n + strspn(list + n, " ");
-    }
-    return WT_OK;
+    char name[JPK_NAME];
+    while (status == WT_OK && property_word(&list, name, sizeof name))
+        status = read_slot(properties, prefix, name, lcd, err);
+    return status;
 }
 
 const jpk_slot *jpk_lcd_slot(const jpk_lcd *lcd, const char *name)

@@ -36,57 +36,43 @@ static const char *segment_key(const jpk_file *file, const jpk_segment *segment,
     return properties_find(&file->shared, prefix, key);
 }
 
-static double segment_number(const jpk_file *file, const jpk_segment *segment, const char *key)
-{
-    const char *text = segment_key(file, segment, key);
-    double value = (double)NAN;
-    if (text == NULL || !wt_number_parse(text, strlen(text), '.', &value))
-        return (double)NAN;
-    return value;
-}
-
-/* Newer files keep what the user set below "settings.segment-settings.". */
-static double setting(const jpk_file *file, const jpk_segment *segment, const char *name)
+/* What the user set; newer files keep it below "settings.segment-settings.". */
+static const char *setting(const jpk_file *file, const jpk_segment *segment, const char *name)
 {
     char key[96];
     snprintf(key, sizeof key, "settings.segment-settings.%s", name);
-    double value = segment_number(file, segment, key);
-    if (!isnan(value))
-        return value;
+    const char *text = segment_key(file, segment, key);
     snprintf(key, sizeof key, "settings.%s", name);
-    return segment_number(file, segment, key);
+    return text != NULL ? text : segment_key(file, segment, key);
+}
+
+static wt_segment_kind kind_of(const char *style, const char *type)
+{
+    if (strcmp(style, "extend") == 0)
+        return WT_SEGMENT_APPROACH;
+    if (strcmp(style, "retract") == 0)
+        return WT_SEGMENT_RETRACT;
+    if (strstr(style, "modulation") != NULL || (type != NULL && strstr(type, "modulation") != NULL))
+        return WT_SEGMENT_MODULATION;
+    return strcmp(style, "pause") == 0 ? WT_SEGMENT_DWELL : WT_SEGMENT_OTHER;
 }
 
 static void read_settings(const jpk_file *file, jpk_segment *segment)
 {
-    const char *style = segment_key(file, segment, "settings.segment-settings.style");
-    if (style == NULL)
-        style = segment_key(file, segment, "settings.style");
-    const char *type = segment_key(file, segment, "settings.segment-settings.type");
+    const char *style = setting(file, segment, "style");
+    const double duration = property_value(segment_key(file, segment, "duration"));
+    const double start = property_value(setting(file, segment, "z-start"));
+    const double end = property_value(setting(file, segment, "z-end"));
+    const double time = property_value(setting(file, segment, "duration"));
     snprintf(segment->style, sizeof segment->style, "%s", style != NULL ? style : "");
-    segment->kind = WT_SEGMENT_OTHER;
-    if (strcmp(segment->style, "extend") == 0)
-        segment->kind = WT_SEGMENT_APPROACH;
-    else if (strcmp(segment->style, "retract") == 0)
-        segment->kind = WT_SEGMENT_RETRACT;
-    else if (strstr(segment->style, "modulation") != NULL ||
-             (type != NULL && strstr(type, "modulation") != NULL))
-        segment->kind = WT_SEGMENT_MODULATION;
-    else if (strcmp(segment->style, "pause") == 0)
-        segment->kind = WT_SEGMENT_DWELL;
-
-    double duration = segment_number(file, segment, "duration");
+    segment->kind =
+        kind_of(segment->style, segment_key(file, segment, "settings.segment-settings.type"));
+    const bool approach = segment->kind == WT_SEGMENT_APPROACH;
+    const bool moves = approach || segment->kind == WT_SEGMENT_RETRACT;
     segment->duration = duration >= 0 ? duration : (double)NAN;
-    segment->setpoint_voltage = (double)NAN;
-    segment->velocity = (double)NAN;
-    if (segment->kind == WT_SEGMENT_APPROACH)
-        segment->setpoint_voltage = setting(file, segment, "setpoint");
-    if (segment->kind == WT_SEGMENT_APPROACH || segment->kind == WT_SEGMENT_RETRACT) {
-        double range = setting(file, segment, "z-start") - setting(file, segment, "z-end");
-        double time = setting(file, segment, "duration");
-        if (time > 0)
-            segment->velocity = fabs(range) / time;
-    }
+    segment->velocity = moves && time > 0 ? fabs(start - end) / time : (double)NAN;
+    segment->setpoint_voltage =
+        approach ? property_value(setting(file, segment, "setpoint")) : (double)NAN;
 }
 
 static wt_status shared_lcd(jpk_file *file, long id, const jpk_lcd **lcd, wt_error *err)
@@ -191,52 +177,46 @@ static wt_status read_channels(jpk_file *file, jpk_segment *segment, const char 
                                wt_error *err)
 {
     const char *list = properties_get(&segment->header, "channels.list");
+    wt_status status = WT_OK;
     segment->n_channels = 0;
-    while (list != NULL && *list != '\0') {
-        size_t n = strcspn(list, " ");
-        if (n >= JPK_NAME || segment->n_channels == JPK_CHANNELS)
-            return wt_fail(err, WT_E_UNSUPPORTED, "list of channels too long");
-        if (n > 0) {
-            jpk_channel *channel = &segment->channels[segment->n_channels++];
-            /* The calibration is large and filled by read_channel. */
-            memcpy(channel->name, list, n);
-            channel->name[n] = '\0';
-            channel->has_file = false;
-            channel->n_points = 0;
-            channel->problem[0] = '\0';
-            wt_status status = read_channel(file, segment, folder, channel, err);
-            if (status != WT_OK)
-                return status;
-        }
-        list += n + strspn(list + n, " ");
+    while (status == WT_OK && segment->n_channels < JPK_CHANNELS) {
+        jpk_channel *channel = &segment->channels[segment->n_channels];
+        if (!property_word(&list, channel->name, sizeof channel->name))
+            break;
+        segment->n_channels++;
+        /* The calibration is large and filled by read_channel. */
+        channel->has_file = false;
+        channel->n_points = 0;
+        channel->problem[0] = '\0';
+        status = read_channel(file, segment, folder, channel, err);
     }
-    return WT_OK;
+    if (status == WT_OK && *list != '\0')
+        status = wt_fail(err, WT_E_UNSUPPORTED, "list of channels too long");
+    return status;
 }
 
 /* All channels of a segment are cut to the shortest. Only those with a data file can say how long
  * it is at most: a raster costs nothing and may announce anything. */
 static void common_length(const jpk_file *file, jpk_segment *segment, const char *folder)
 {
-    size_t shortest = SIZE_MAX, longest = 0;
+    size_t shortest = SIZE_MAX, longest = 0, raster = SIZE_MAX;
     segment->incomplete = false;
     for (size_t i = 0; i < segment->n_channels; i++) {
         const jpk_channel *c = &segment->channels[i];
-        if (!c->understood || c->lcd.raster)
+        if (!c->understood)
             continue;
-        if (!c->has_file) {
+        if (c->lcd.raster) {
+            raster = c->n_points < raster ? c->n_points : raster;
+        } else if (c->has_file) {
+            shortest = c->n_points < shortest ? c->n_points : shortest;
+            longest = c->n_points > longest ? c->n_points : longest;
+        } else {
             segment->incomplete = true;
-            continue;
         }
-        shortest = c->n_points < shortest ? c->n_points : shortest;
-        longest = c->n_points > longest ? c->n_points : longest;
     }
     if (shortest == SIZE_MAX)
         shortest = 0;
-    for (size_t i = 0; i < segment->n_channels; i++) {
-        const jpk_channel *c = &segment->channels[i];
-        if (c->understood && c->lcd.raster && c->n_points < shortest)
-            shortest = c->n_points;
-    }
+    shortest = raster < shortest ? raster : shortest;
     segment->n_points = shortest;
     double announced = properties_number(&segment->header, "force-segment-header.", "num-points");
     bool cut = announced > (double)shortest || longest > shortest;
@@ -274,35 +254,4 @@ const jpk_channel *jpk_segment_channel(const jpk_segment *segment, const char *n
         if (strcmp(segment->channels[i].name, name) == 0)
             return &segment->channels[i];
     return NULL;
-}
-
-const jpk_channel *jpk_segment_source(const jpk_segment *segment, wt_quantity quantity)
-{
-    /* Of several sensors the one that the instrument itself works with. */
-    static const char *const sensors[] = {"measuredHeight", "capacitiveSensorHeight",
-                                          "strainGaugeHeight", "smoothedMeasuredHeight"};
-    const char *name = NULL;
-    switch (quantity) {
-    case WT_Q_FORCE:
-    case WT_Q_DEFLECTION:
-    case WT_Q_DEFLECTION_VOLTAGE:
-        name = "vDeflection";
-        break;
-    case WT_Q_LATERAL_DEFLECTION:
-        name = "hDeflection";
-        break;
-    case WT_Q_HEIGHT:
-        name = "height";
-        break;
-    case WT_Q_MEASURED_HEIGHT:
-        for (size_t i = 0; i < sizeof sensors / sizeof *sensors; i++) {
-            const jpk_channel *c = jpk_segment_channel(segment, sensors[i]);
-            if (c != NULL && c->understood)
-                return c;
-        }
-        return NULL;
-    default:
-        return NULL;
-    }
-    return jpk_segment_channel(segment, name);
 }

@@ -286,11 +286,26 @@ const char *properties_find(const property_list *properties, const char *prefix,
     return n < 0 || (size_t)n >= sizeof key ? NULL : properties_get(properties, key);
 }
 
+double property_value(const char *text)
+{
+    double value = (double)NAN;
+    return text != NULL && wt_number_parse(text, strlen(text), '.', &value) ? value : (double)NAN;
+}
+
 double properties_number(const property_list *properties, const char *prefix, const char *suffix)
 {
-    const char *text = properties_find(properties, prefix, suffix);
-    double value = (double)NAN;
-    if (text == NULL || !wt_number_parse(text, strlen(text), '.', &value))
-        return (double)NAN;
-    return value;
+    return property_value(properties_find(properties, prefix, suffix));
+}
+
+bool property_word(const char **list, char *word, size_t size)
+{
+    const char *start = *list != NULL ? *list + strspn(*list, " ") : "";
+    const size_t n = strcspn(start, " ");
+    *list = start;
+    if (n == 0 || n >= size)
+        return false;
+    memcpy(word, start, n);
+    word[n] = '\0';
+    *list = start + n;
+    return true;
 }

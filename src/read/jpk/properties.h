@@ -34,7 +34,12 @@ const char *properties_get(const property_list *properties, const char *key);
 /* The key is the texts put together; NULL also if it would be longer than any key here can be. */
 const char *properties_find(const property_list *properties, const char *prefix,
                             const char *suffix);
-/* NaN if there is no such key or it is not one finite number. */
+/* NaN if the text is NULL or not one finite number. */
+double property_value(const char *text);
+/* The next word of a list, and *list behind it; false, and *list at what is left, if there is none
+ * or it finds no room. *list may be NULL. */
+bool property_word(const char **list, char *word, size_t size);
+/* The value of a key. */
 double properties_number(const property_list *properties, const char *prefix, const char *suffix);
 
 #endif

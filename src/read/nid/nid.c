@@ -4,7 +4,6 @@
  */
 #include "read/nid/nid.h"
 #include "read/facts.h"
-#include "read/force_source.h"
 
 #include <math.h>
 #include <string.h>
@@ -64,32 +63,33 @@ static void add_channels(const nid_file *file, fact_list *facts)
     }
 }
 
-static void add_phase(const nid_phase *phase, size_t number, fact_list *facts)
+static void add_phase(const nid_phase *phase, fact_list *facts)
 {
-    const nid_channel *any = phase->bending != NULL  ? phase->bending
-                             : phase->sensor != NULL ? phase->sensor
-                                                     : phase->z;
+    const force_facts *read = &phase->facts;
     char item[64];
-    if (any == NULL)
+    if (read->n_signals == 0)
         return;
-    snprintf(item, sizeof item, "segment %zu", number);
-    facts_add(facts, item, "", "", "%s (%s), up to %zu points", wt_segment_kind_name(phase->kind),
-              phase->group, any->points);
-    if (phase->bending == NULL)
+    snprintf(item, sizeof item, "segment %zu", read->index);
+    facts_add(facts, item, "", "", "%s (%s), up to %zu points", wt_segment_kind_name(read->kind),
+              phase->group, ((const nid_channel *)read->signals[0].channel)->points);
+    if (force_find_signal(read, WT_Q_FORCE) == NULL &&
+        force_find_signal(read, WT_Q_DEFLECTION) == NULL &&
+        force_find_signal(read, WT_Q_DEFLECTION_VOLTAGE) == NULL)
         facts_add(facts, "missing", "", phase->group, "no channel Deflection in m, N or V");
-    if (phase->z == NULL && phase->sensor == NULL)
+    if (force_find_signal(read, WT_Q_HEIGHT) == NULL &&
+        force_find_signal(read, WT_Q_MEASURED_HEIGHT) == NULL)
         facts_add(facts, "missing", "", phase->group, "no channel Z-Axis or Z-Axis Sensor in m");
 }
 
 static void add_curves(const nid_spectroscopy *s, const wt_read_options *options, fact_list *facts)
 {
-    const force_facts read = {.cantilever = s->file_cantilever};
+    const force_facts read = {.cantilever = s->cantilever};
     facts_count(facts, "curves", s->n_curves, "Lines");
     if (s->columns > 0)
         facts_add(facts, "grid", "", "SpecMapTable", "%ld x %ld, back and forth", s->columns,
                   s->rows);
     for (size_t p = 0; p < NID_PHASES; p++)
-        add_phase(&s->phases[p], p, facts);
+        add_phase(&s->phases[p], facts);
     force_describe_calibration(&read, options, "Calibration\\Cantilever, Prop0",
                                "Calibration\\Scanhead, TipSignalDC / TipSignalDC1", facts);
     facts_add(facts, "odd", "", "",

@@ -8,6 +8,7 @@
 #ifndef WT_READ_NID_H
 #define WT_READ_NID_H
 
+#include "read/force_source.h"
 #include "read/reader.h"
 
 /* ---- the header: nid_header.c ------------------------------------------------------------- */
@@ -84,20 +85,16 @@ wt_status nid_read_images(const file_reader *self, wt_input *input, const wt_rea
 /* The groups of a force curve in the order of time. */
 #define NID_PHASES 4
 typedef struct nid_phase {
-    wt_segment_kind kind;
-    const char *group;          /* name of the group in the file */
-    const nid_channel *z;       /* commanded height, or NULL */
-    const nid_channel *sensor;  /* measured height, or NULL */
-    const nid_channel *bending; /* deflection, in m, N or V, or NULL */
-    double interval;            /* between samples [s], NaN if unknown */
-    double velocity;            /* [m/s], NaN if unknown */
+    const char *group; /* name of the group in the file */
+    double interval;   /* between samples [s], NaN if unknown */
+    force_facts facts; /* that all curves share; without signals the phase is not in the file */
 } nid_phase;
 
 typedef struct nid_spectroscopy {
-    nid_phase phases[NID_PHASES]; /* those without channels are not in the file */
+    nid_phase phases[NID_PHASES];
     size_t n_curves;
-    wt_cantilever file_cantilever; /* as the file says */
-    long columns, rows;            /* 0 if there is no grid */
+    wt_cantilever cantilever; /* as the file says */
+    long columns, rows;       /* 0 if there is no grid */
 } nid_spectroscopy;
 
 /* WT_E_EMPTY if there are no curves. */

@@ -22,9 +22,10 @@ static const char *text_or_empty(const char *text)
     return text != NULL ? text : "";
 }
 
-static wt_status bad_key(wt_error *err, const char *section, const char *key, const char *found,
-                         const char *expected)
+static wt_status bad_key(const nid_header *header, const char *section, const char *key,
+                         const char *expected, wt_error *err)
 {
+    const char *found = nid_get(header, section, key);
     wt_fail(err, WT_E_CORRUPT, "%s is missing or not understood", key);
     wt_error_place(err, "[%s]", section);
     wt_error_expected(err, "%s", expected);
@@ -38,7 +39,7 @@ static wt_status expect(const nid_header *header, const char *section, const cha
     const char *found = nid_get(header, section, key);
     if (found != NULL && strcmp(found, value) == 0)
         return WT_OK;
-    return bad_key(err, section, key, found, value);
+    return bad_key(header, section, key, value, err);
 }
 
 static wt_status read_channel(const nid_header *header, nid_channel *c, wt_error *err)
@@ -46,20 +47,18 @@ static wt_status read_channel(const nid_header *header, nid_channel *c, wt_error
     const char *s = c->section;
     size_t bits = 0;
     if (!nid_count(header, s, "Points", MAX_SIDE, &c->points) || c->points == 0)
-        return bad_key(err, s, "Points", nid_get(header, s, "Points"), "a number of samples");
+        return bad_key(header, s, "Points", "a number of samples", err);
     if (!nid_count(header, s, "Lines", MAX_SIDE, &c->lines) || c->lines == 0)
-        return bad_key(err, s, "Lines", nid_get(header, s, "Lines"), "a number of lines");
+        return bad_key(header, s, "Lines", "a number of lines", err);
     if (!nid_count(header, s, "SaveBits", 32, &bits) || (bits != 16 && bits != 32))
-        return bad_key(err, s, "SaveBits", nid_get(header, s, "SaveBits"), "16 or 32");
+        return bad_key(header, s, "SaveBits", "16 or 32", err);
     c->bits = (unsigned)bits;
     c->minimum = nid_number(header, s, "Dim2Min");
     c->range = nid_number(header, s, "Dim2Range");
-    if (isnan(c->minimum))
-        return bad_key(err, s, "Dim2Min", nid_get(header, s, "Dim2Min"), "a number");
-    if (isnan(c->range))
-        return bad_key(err, s, "Dim2Range", nid_get(header, s, "Dim2Range"), "a number");
+    if (isnan(c->minimum) || isnan(c->range))
+        return bad_key(header, s, isnan(c->minimum) ? "Dim2Min" : "Dim2Range", "a number", err);
     if (!nid_count(header, s, "Version", 1000, &c->version))
-        return bad_key(err, s, "Version", nid_get(header, s, "Version"), "a whole number");
+        return bad_key(header, s, "Version", "a whole number", err);
     c->name = text_or_empty(nid_get(header, s, "Dim2Name"));
     c->unit = text_or_empty(nid_get(header, s, "Dim2Unit"));
     wt_status status = expect(header, s, "SaveMode", "Binary", err);
@@ -105,15 +104,13 @@ static wt_status find_channels(nid_file *file, size_t length, wt_error *err)
 {
     size_t groups = 0, at = file->header.data;
     if (!nid_count(&file->header, "DataSet", "GroupCount", MAX_GROUPS, &groups))
-        return bad_key(err, "DataSet", "GroupCount",
-                       nid_get(&file->header, "DataSet", "GroupCount"), "a number up to 256");
+        return bad_key(&file->header, "DataSet", "GroupCount", "a number up to 256", err);
     for (size_t g = 0; g < groups; g++) {
         char key[64];
         size_t slots = 0;
         snprintf(key, sizeof key, "Gr%zu-Count", g);
         if (!nid_count(&file->header, "DataSet", key, MAX_SLOTS, &slots))
-            return bad_key(err, "DataSet", key, nid_get(&file->header, "DataSet", key),
-                           "a number up to 256");
+            return bad_key(&file->header, "DataSet", key, "a number up to 256", err);
         snprintf(key, sizeof key, "Gr%zu-Name", g);
         const char *name = text_or_empty(nid_get(&file->header, "DataSet", key));
         for (size_t c = 0; c < slots; c++) {

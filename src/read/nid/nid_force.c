@@ -7,8 +7,6 @@
  */
 #include "read/nid/nid.h"
 
-#include "read/force_source.h"
-
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -69,51 +67,67 @@ static void read_phase(const nid_header *header, size_t i, nid_phase *phase)
     if (points != NULL && strncmp(points, "L[", 2) == 0 &&
         !wt_number_parse(points + 2, strcspn(points + 2, "]"), '.', &n))
         n = (double)NAN;
-    phase->kind = phase_names[i].kind;
     phase->group = phase_names[i].group;
     phase->interval = positive(time / n);
-    phase->velocity = (double)NAN;
+    phase->facts = (force_facts){.kind = phase_names[i].kind,
+                                 .index = i,
+                                 .place = SPECTROSCOPY,
+                                 .velocity = (double)NAN,
+                                 .setpoint = (double)NAN,
+                                 .offers = {WT_Q_TIME, WT_Q_HEIGHT, WT_Q_MEASURED_HEIGHT,
+                                            WT_Q_FORCE, WT_Q_DEFLECTION, WT_Q_DEFLECTION_VOLTAGE},
+                                 .n_offers = 6};
     if (phase_names[i].range != NULL)
-        phase->velocity = positive(
+        phase->facts.velocity = positive(
             fabs(nid_typed(header, SPECTROSCOPY, phase_names[i].range, WT_Q_LENGTH)) / time);
 }
 
-static bool has_unit(const nid_channel *c, wt_quantity quantity)
+/* The first channel of a quantity counts; a deflection is what its unit says. */
+static void add_channel(const nid_channel *c, force_facts *facts)
 {
-    double factor = 1, offset = 0;
-    return wt_unit_to_si(c->unit, quantity, &factor, &offset, NULL) == WT_OK;
-}
-
-static void sort_channel(const nid_channel *c, nid_phase *phase)
-{
-    bool deflection = has_unit(c, WT_Q_DEFLECTION) || has_unit(c, WT_Q_FORCE) ||
-                      has_unit(c, WT_Q_DEFLECTION_VOLTAGE);
-    if (strcmp(c->name, "Deflection") == 0 && deflection)
-        phase->bending = phase->bending == NULL ? c : phase->bending;
-    else if (strcmp(c->name, "Z-Axis Sensor") == 0 && has_unit(c, WT_Q_LENGTH))
-        phase->sensor = phase->sensor == NULL ? c : phase->sensor;
-    else if (strncmp(c->name, "Z-Axis", 6) == 0 && has_unit(c, WT_Q_LENGTH))
-        phase->z = phase->z == NULL ? c : phase->z;
-}
-
-static void count_lines(const nid_channel *c, size_t *n)
-{
-    if (c != NULL && c->lines > *n)
-        *n = c->lines;
+    static const struct {
+        const char *name;
+        size_t length; /* of the name that must agree */
+        wt_quantity quantity;
+    } known[] = {
+        {"Deflection", 11, WT_Q_FORCE},
+        {"Deflection", 11, WT_Q_DEFLECTION},
+        {"Deflection", 11, WT_Q_DEFLECTION_VOLTAGE},
+        {"Z-Axis Sensor", 14, WT_Q_MEASURED_HEIGHT},
+        {"Z-Axis", 6, WT_Q_HEIGHT},
+    };
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
+        force_signal signal = {
+            .quantity = known[i].quantity, .name = c->name, .unit = c->unit, .channel = c};
+        if (strncmp(c->name, known[i].name, known[i].length) != 0 ||
+            wt_unit_to_si(c->unit, signal.quantity, &signal.to_si.multiplier, &signal.to_si.offset,
+                          NULL) != WT_OK)
+            continue;
+        if (force_find_signal(facts, signal.quantity) == NULL)
+            force_add_signal(facts, signal);
+        return;
+    }
 }
 
 wt_status nid_spectroscopy_find(const nid_file *file, nid_spectroscopy *s, wt_error *err)
 {
-    *s = (nid_spectroscopy){0};
+    *s = (nid_spectroscopy){
+        .cantilever = {.spring_constant = positive(
+                           nid_typed(&file->header, CANTILEVER, "Prop0", WT_Q_SPRING_CONSTANT)),
+                       .sensitivity = positive(
+                           full_scale(&file->header, "TipSignalDC", WT_Q_DEFLECTION) /
+                           full_scale(&file->header, "TipSignalDC1", WT_Q_DEFLECTION_VOLTAGE))}};
     for (size_t p = 0; p < NID_PHASES; p++) {
         nid_phase *phase = &s->phases[p];
         read_phase(&file->header, p, phase);
+        phase->facts.cantilever = s->cantilever;
         for (size_t i = 0; i < file->n; i++)
             if (strcasecmp(file->channels[i].group_name, phase->group) == 0)
-                sort_channel(&file->channels[i], phase);
-        count_lines(phase->z, &s->n_curves);
-        count_lines(phase->sensor, &s->n_curves);
-        count_lines(phase->bending, &s->n_curves);
+                add_channel(&file->channels[i], &phase->facts);
+        for (size_t i = 0; i < phase->facts.n_signals; i++) {
+            const nid_channel *c = phase->facts.signals[i].channel;
+            s->n_curves = c->lines > s->n_curves ? c->lines : s->n_curves;
+        }
     }
     if (s->n_curves == 0) {
         wt_fail(err, WT_E_EMPTY, "the file holds no force curve");
@@ -121,12 +135,6 @@ wt_status nid_spectroscopy_find(const nid_file *file, nid_spectroscopy *s, wt_er
         wt_error_found(err, "group \"%s\"", file->channels[0].group_name);
         return WT_E_EMPTY;
     }
-    s->file_cantilever = (wt_cantilever){
-        .spring_constant =
-            positive(nid_typed(&file->header, CANTILEVER, "Prop0", WT_Q_SPRING_CONSTANT)),
-        .sensitivity =
-            positive(full_scale(&file->header, "TipSignalDC", WT_Q_DEFLECTION) /
-                     full_scale(&file->header, "TipSignalDC1", WT_Q_DEFLECTION_VOLTAGE))};
     nid_grid(&file->header, &s->columns, &s->rows);
     return WT_OK;
 }
@@ -161,20 +169,18 @@ static wt_status line_length(const nid_file *file, const nid_channel *c, size_t 
 }
 
 /* Samples that all channels of a phase have; they are recorded together. */
-static wt_status phase_length(const nid_source *source, const nid_phase *phase, size_t *n,
+static wt_status phase_length(const nid_source *source, const force_facts *facts, size_t *n,
                               wt_error *err)
 {
-    const nid_channel *const channels[] = {phase->z, phase->sensor, phase->bending};
     *n = SIZE_MAX;
-    for (size_t i = 0; i < 3; i++) {
+    for (size_t i = 0; i < facts->n_signals; i++) {
+        const nid_channel *c = facts->signals[i].channel;
         size_t own = 0;
-        if (channels[i] == NULL)
-            continue;
-        wt_status status = line_length(&source->file, channels[i], source->line, &own, err);
+        wt_status status = line_length(&source->file, c, source->line, &own, err);
         if (status != WT_OK)
             return status;
         if (*n != SIZE_MAX && own != *n)
-            wt_parselog_add(source->base.log, WT_WARNING, source->file.name, channels[i]->section,
+            wt_parselog_add(source->base.log, WT_WARNING, source->file.name, c->section,
                             "channels are of different length; cut to the shortest");
         *n = own < *n ? own : *n;
     }
@@ -193,46 +199,20 @@ static wt_status decode(wt_force_source *base, const force_signal *signal, force
     return WT_OK;
 }
 
-static void add_signal(force_facts *facts, const nid_channel *c, wt_quantity quantity)
-{
-    force_signal s = {.quantity = quantity, .channel = c};
-    if (c == NULL ||
-        wt_unit_to_si(c->unit, quantity, &s.to_si.multiplier, &s.to_si.offset, NULL) != WT_OK)
-        return;
-    s.name = c->name;
-    s.unit = c->unit;
-    force_add_signal(facts, s);
-}
-
 /* Adds a phase of the curve; *start moves to its end, NaN once a duration is not known. */
-static wt_status add_phase(nid_source *source, size_t p, double *start, wt_force_curve *curve,
-                           wt_error *err)
+static wt_status add_phase(nid_source *source, const nid_phase *phase, double *start,
+                           wt_force_curve *curve, wt_error *err)
 {
-    const nid_phase *phase = &source->spectroscopy.phases[p];
-    force_facts facts = {.kind = phase->kind,
-                         .index = p,
-                         .place = phase->bending != NULL ? phase->bending->section : SPECTROSCOPY,
-                         .start = *start,
-                         .velocity = phase->velocity,
-                         .setpoint = (double)NAN,
-                         .cantilever = source->spectroscopy.file_cantilever,
-                         .offers = {WT_Q_TIME, WT_Q_HEIGHT, WT_Q_MEASURED_HEIGHT, WT_Q_FORCE,
-                                    WT_Q_DEFLECTION, WT_Q_DEFLECTION_VOLTAGE},
-                         .n_offers = 6};
-    wt_status status = phase_length(source, phase, &facts.n_points, err);
+    force_facts facts = phase->facts;
+    wt_status status = phase_length(source, &facts, &facts.n_points, err);
     if (status != WT_OK || facts.n_points == 0) /* a phase that is not in the file takes no time */
         return status;
+    facts.start = *start;
     facts.duration = (double)facts.n_points * phase->interval;
     *start += facts.duration;
-    if (!force_wants_segment(&source->base, phase->kind))
-        return WT_OK;
-    add_signal(&facts, phase->z, WT_Q_HEIGHT);
-    add_signal(&facts, phase->sensor, WT_Q_MEASURED_HEIGHT);
-    /* In the one of these that has its unit. */
-    add_signal(&facts, phase->bending, WT_Q_FORCE);
-    add_signal(&facts, phase->bending, WT_Q_DEFLECTION);
-    add_signal(&facts, phase->bending, WT_Q_DEFLECTION_VOLTAGE);
-    return force_add_segment(&source->base, &facts, curve, err);
+    return force_wants_segment(&source->base, facts.kind)
+               ? force_add_segment(&source->base, &facts, curve, err)
+               : WT_OK;
 }
 
 static wt_status next_curve(wt_force_source *base, wt_force_curve *curve, wt_error *err)
@@ -245,7 +225,7 @@ static wt_status next_curve(wt_force_source *base, wt_force_curve *curve, wt_err
     curve->index = source->line;
     nid_position(&source->file.header, source->line, base->name, base->log, curve);
     for (size_t p = 0; p < NID_PHASES && status == WT_OK; p++)
-        status = add_phase(source, p, &start, curve, err);
+        status = add_phase(source, &source->spectroscopy.phases[p], &start, curve, err);
     source->line++;
     return status;
 }

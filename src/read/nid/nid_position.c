@@ -5,8 +5,6 @@
  */
 #include "read/nid/nid.h"
 
-#include "read/force_source.h"
-
 #include <math.h>
 #include <string.h>
 
