@@ -1,0 +1,407 @@
+/* Force curves from the facts of a reader: a reader made up here, whose channels hold 1, 2, 3, ...
+ * so that each column shows its scaling.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "near.h"
+
+#include "read/force_source.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#define N 5
+static const char one[] = "one", two[] = "two", three[] = "three";
+
+typedef struct made_up {
+    wt_force_source base;
+    force_facts facts;
+    size_t n_curves;
+    wt_status status; /* of `next` after the segment was added */
+} made_up;
+
+static wt_status next(wt_force_source *base, wt_force_curve *curve, wt_error *err)
+{
+    made_up *m = (made_up *)base;
+    if (m->n_curves == 0)
+        return WT_END;
+    m->n_curves--;
+    curve->index = 7;
+    wt_status status = force_add_segment(base, &m->facts, curve, err);
+    return status != WT_OK ? status : m->status;
+}
+
+static wt_status decode(wt_force_source *base, const force_signal *signal, force_linear scaling,
+                        size_t n, double *values, wt_error *err)
+{
+    (void)base;
+    for (size_t i = 0; i < n; i++)
+        values[i] = scaling.multiplier * (double)(i + 1) + scaling.offset;
+    return signal->channel == three ? wt_fail(err, WT_E_CORRUPT, "three is broken") : WT_OK;
+}
+
+static const wt_cantilever known = {.spring_constant = 0.3, .sensitivity = 50e-9};
+static const wt_cantilever unknown = {.spring_constant = (double)NAN, .sensitivity = (double)NAN};
+
+static made_up make(wt_cantilever cantilever)
+{
+    return (made_up){.base = {.next = next,
+                              .decode = decode,
+                              .name = "made-up",
+                              .options = wt_read_defaults(),
+                              .log = wt_parselog_new()},
+                     .facts = {.kind = WT_SEGMENT_RETRACT,
+                               .index = 3,
+                               .n_points = N,
+                               .place = "there",
+                               .start = 10,
+                               .duration = 2,
+                               .velocity = 1e-6,
+                               .setpoint = 0.5,
+                               .setpoint_quantity = WT_Q_DEFLECTION_VOLTAGE,
+                               .cantilever = cantilever,
+                               .offers = {WT_Q_FORCE, WT_Q_TIME, WT_Q_DEFLECTION,
+                                          WT_Q_DEFLECTION_VOLTAGE, WT_Q_HEIGHT},
+                               .n_offers = 5},
+                     .n_curves = 1};
+}
+
+/* The numbers of a channel are `number` times as large in the unit of the quantity. */
+static void add(made_up *m, wt_quantity quantity, double number, double offset, const char *channel)
+{
+    force_add_signal(&m->facts, (force_signal){.quantity = quantity,
+                                               .name = channel,
+                                               .unit = "unit",
+                                               .to_si = {number, offset},
+                                               .channel = channel});
+}
+
+/* One channel of 0.1 V, which the file's calibration makes a deflection and a force; with offsets
+ * that a calibration by values does not have. */
+static void add_chain(made_up *m)
+{
+    add(m, WT_Q_DEFLECTION_VOLTAGE, 0.1, 0.01, one);
+    add(m, WT_Q_DEFLECTION, 5e-9, 1e-9, one);
+    add(m, WT_Q_FORCE, 1.5e-9, 2e-9, one);
+}
+
+static void assert_column(const wt_force_curve *curve, wt_quantity quantity, double number,
+                          double offset)
+{
+    const wt_channel *channel = wt_segment_channel(&curve->segments[0], quantity);
+    assert_non_null(channel);
+    for (size_t i = 0; i < N; i++)
+        assert_near(channel->values[i], number * (double)(i + 1) + offset, 1e-12);
+}
+
+static bool logged(const made_up *m, const char *words)
+{
+    for (size_t i = 0; i < wt_parselog_count(m->base.log); i++)
+        if (strstr(wt_parselog_get(m->base.log, i).text, words) != NULL)
+            return true;
+    return false;
+}
+
+static wt_status read_curve(made_up *m, wt_force_curve *curve, wt_error *err)
+{
+    m->n_curves = 1;
+    return wt_force_next(&m->base, curve, err);
+}
+
+static void done(made_up *m, wt_force_curve *curve)
+{
+    wt_force_curve_clear(curve);
+    wt_parselog_free(m->base.log);
+}
+
+/* ---- what the file says ------------------------------------------------------------------- */
+
+static void as_the_file_says(void **state)
+{
+    made_up m = make(known);
+    wt_force_curve curve = {0};
+    (void)state;
+    add(&m, WT_Q_HEIGHT, 1e-6, 0, two);
+    add_chain(&m);
+    assert_int_equal(read_curve(&m, &curve, NULL), WT_OK);
+    const wt_segment *s = &curve.segments[0];
+    assert_int_equal(curve.index, 7);
+    assert_int_equal(curve.n_segments, 1);
+    assert_int_equal(s->kind, WT_SEGMENT_RETRACT);
+    assert_int_equal(s->index, 3);
+    assert_near(s->duration, 2, 0);
+    assert_near(s->velocity, 1e-6, 0);
+    assert_near(s->setpoint, 0.5 * 50e-9 * 0.3, 1e-14);
+    /* In the order of the offers. */
+    assert_int_equal(s->n_channels, 5);
+    for (size_t i = 0; i < 5; i++)
+        assert_int_equal(s->channels[i].quantity, m.facts.offers[i]);
+    assert_string_equal(s->channels[0].name, "one");
+    assert_string_equal(s->channels[0].unit, "unit");
+    assert_string_equal(s->channels[1].name, "time");
+    assert_string_equal(s->channels[1].unit, "s");
+    assert_column(&curve, WT_Q_TIME, 0.4, 9.6);
+    assert_column(&curve, WT_Q_HEIGHT, 1e-6, 0);
+    assert_column(&curve, WT_Q_FORCE, 1.5e-9, 2e-9);
+    assert_column(&curve, WT_Q_DEFLECTION, 5e-9, 1e-9);
+    assert_column(&curve, WT_Q_DEFLECTION_VOLTAGE, 0.1, 0.01);
+    assert_int_equal(wt_parselog_count(m.base.log), 0);
+    /* A time of the file goes before one from the duration. */
+    add(&m, WT_Q_TIME, 3, 0, two);
+    assert_int_equal(read_curve(&m, &curve, NULL), WT_OK);
+    assert_column(&curve, WT_Q_TIME, 3, 0);
+    done(&m, &curve);
+}
+
+/* Only what is asked for and offered. */
+static void as_asked_for(void **state)
+{
+    made_up m = make(known);
+    wt_force_curve curve = {0};
+    (void)state;
+    add_chain(&m);
+    add(&m, WT_Q_LATERAL_DEFLECTION, 1, 0, two);
+    m.base.options.want =
+        WT_Q_BIT(WT_Q_FORCE) | WT_Q_BIT(WT_Q_HEIGHT) | WT_Q_BIT(WT_Q_LATERAL_DEFLECTION);
+    m.base.options.segments = WT_SEGMENT_BIT(WT_SEGMENT_RETRACT);
+    assert_int_equal(read_curve(&m, &curve, NULL), WT_OK);
+    assert_int_equal(curve.segments[0].n_channels, 1);
+    assert_column(&curve, WT_Q_FORCE, 1.5e-9, 2e-9);
+    assert_true(force_wants_segment(&m.base, WT_SEGMENT_RETRACT));
+    assert_false(force_wants_segment(&m.base, WT_SEGMENT_APPROACH));
+    /* Nothing to read is no segment, but its calibration counts. */
+    m.facts.n_points = 0;
+    assert_int_equal(read_curve(&m, &curve, NULL), WT_OK);
+    assert_int_equal(curve.n_segments, 0);
+    assert_near(curve.cantilever.spring_constant, 0.3, 0);
+    done(&m, &curve);
+}
+
+/* ---- what the user says ------------------------------------------------------------------- */
+
+/* What is given replaces a link of the chain: what comes behind it is made of what comes before. */
+static void given_to_a_chain(void **state)
+{
+    (void)state;
+    for (int given = 1; given < 4; given++) {
+        made_up m = make(known);
+        wt_force_curve curve = {0};
+        const double k = (given & 1) != 0 ? 0.7 : 0.3;
+        add_chain(&m);
+        if ((given & 1) != 0)
+            m.base.options.spring_constant = 0.7;
+        if ((given & 2) != 0)
+            m.base.options.sensitivity = 80e-9;
+        assert_int_equal(read_curve(&m, &curve, NULL), WT_OK);
+        assert_column(&curve, WT_Q_DEFLECTION_VOLTAGE, 0.1, 0.01);
+        if ((given & 2) != 0) {
+            assert_column(&curve, WT_Q_DEFLECTION, 8e-9, 0.8e-9);
+            assert_column(&curve, WT_Q_FORCE, k * 8e-9, k * 0.8e-9);
+        } else {
+            assert_column(&curve, WT_Q_DEFLECTION, 5e-9, 1e-9);
+            assert_column(&curve, WT_Q_FORCE, k * 5e-9, k * 1e-9);
+        }
+        assert_int_equal(curve.cantilever.spring_constant_given, given & 1);
+        assert_int_equal(curve.cantilever.sensitivity_given, given >> 1);
+        assert_near(curve.cantilever.spring_constant, k, 0);
+        assert_near(curve.segments[0].setpoint, 0.5 * curve.cantilever.sensitivity * k, 1e-14);
+        done(&m, &curve);
+    }
+}
+
+/* Columns that were exported apart are each made anew by what was given over what was. */
+static void given_to_columns(void **state)
+{
+    made_up m = make(known);
+    wt_force_curve curve = {0};
+    (void)state;
+    add(&m, WT_Q_DEFLECTION, 1e-9, 0, one);
+    add(&m, WT_Q_FORCE, 1e-9, 0, two);
+    m.base.options.spring_constant = 0.6;
+    m.base.options.sensitivity = 75e-9;
+    assert_int_equal(read_curve(&m, &curve, NULL), WT_OK);
+    assert_column(&curve, WT_Q_FORCE, 3e-9, 0);
+    assert_column(&curve, WT_Q_DEFLECTION, 1.5e-9, 0);
+    assert_column(&curve, WT_Q_DEFLECTION_VOLTAGE, 1e-9 / 50e-9, 0);
+    assert_int_equal(wt_parselog_count(m.base.log), 0);
+    /* Where the file does not tell its own, it stays and that is said. */
+    m.facts.cantilever = unknown;
+    assert_int_equal(read_curve(&m, &curve, NULL), WT_OK);
+    assert_column(&curve, WT_Q_FORCE, 1e-9, 0);
+    assert_column(&curve, WT_Q_DEFLECTION, 1e-9, 0);
+    assert_null(wt_segment_channel(&curve.segments[0], WT_Q_DEFLECTION_VOLTAGE));
+    assert_true(logged(&m, "its sensitivity, so the given one cannot replace it in a column of "
+                           "deflection"));
+    assert_true(logged(&m, "its spring constant, so the given one cannot replace it in a column of "
+                           "force"));
+    assert_true(logged(&m, "no deflection_voltage"));
+    done(&m, &curve);
+}
+
+/* ---- what is missing ---------------------------------------------------------------------- */
+
+/* Of any one signal, what the calibration allows. */
+static void from_one_signal(void **state)
+{
+    static const wt_quantity chain[] = {WT_Q_DEFLECTION_VOLTAGE, WT_Q_DEFLECTION, WT_Q_FORCE};
+    static const double si[] = {0.1, 5e-9, 1.5e-9};
+    (void)state;
+    for (size_t from = 0; from < 3; from++) {
+        made_up m = make(known);
+        wt_force_curve curve = {0};
+        add(&m, chain[from], si[from], 0, one);
+        assert_int_equal(read_curve(&m, &curve, NULL), WT_OK);
+        for (size_t to = 0; to < 3; to++)
+            assert_column(&curve, chain[to], si[to], 0);
+        done(&m, &curve);
+    }
+}
+
+static void missing_calibration(void **state)
+{
+    static const struct {
+        wt_quantity signal, wanted;
+        double k, s;
+        const char *message, *advice;
+    } cases[] = {
+        {WT_Q_DEFLECTION_VOLTAGE, WT_Q_FORCE, (double)NAN, (double)NAN,
+         "the file does not say the spring constant and deflection sensitivity",
+         "give --spring-constant 0.1N/m and --sensitivity 120nm/V"},
+        {WT_Q_DEFLECTION_VOLTAGE, WT_Q_FORCE, 0.3, (double)NAN,
+         "the file does not say the deflection sensitivity", "give --sensitivity 120nm/V"},
+        {WT_Q_DEFLECTION_VOLTAGE, WT_Q_DEFLECTION, 0.3, (double)NAN,
+         "the file does not say the deflection sensitivity", "give --sensitivity 120nm/V"},
+        {WT_Q_DEFLECTION, WT_Q_FORCE, (double)NAN, (double)NAN,
+         "the file does not say the spring constant", "give --spring-constant 0.1N/m"},
+        {WT_Q_FORCE, WT_Q_DEFLECTION, (double)NAN, 50e-9,
+         "the file does not say the spring constant", "give --spring-constant 0.1N/m"},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        wt_cantilever c = {.spring_constant = cases[i].k, .sensitivity = cases[i].s};
+        made_up m = make(c);
+        wt_force_curve curve = {0};
+        wt_error err = WT_ERROR_INIT;
+        char warning[256];
+        add(&m, cases[i].signal, 1, 0, one);
+        m.base.options.want = WT_Q_BIT(cases[i].wanted);
+        assert_int_equal(read_curve(&m, &curve, &err), WT_E_MISSING);
+        assert_string_equal(err.message, cases[i].message);
+        assert_string_equal(err.advice, cases[i].advice);
+        assert_string_equal(err.file, "made-up");
+        assert_string_equal(err.place, "there");
+        assert_int_equal(curve.n_segments, 0);
+        /* With everything it is left out with a warning of the same words. */
+        m.base.options.want = WT_Q_ALL;
+        assert_int_equal(read_curve(&m, &curve, &err), WT_OK);
+        assert_null(wt_segment_channel(&curve.segments[0], cases[i].wanted));
+        assert_non_null(wt_segment_channel(&curve.segments[0], cases[i].signal));
+        snprintf(warning, sizeof warning, "no %s: %s; %s", wt_quantity_id(cases[i].wanted),
+                 cases[i].message, cases[i].advice);
+        assert_true(logged(&m, warning));
+        done(&m, &curve);
+    }
+}
+
+static void missing_channels(void **state)
+{
+    made_up m = make(known);
+    wt_force_curve curve = {0};
+    wt_error err = WT_ERROR_INIT;
+    (void)state;
+    add(&m, WT_Q_HEIGHT, 1, 0, two);
+    m.facts.signals[0].problem = "it is odd";
+    m.facts.duration = (double)NAN;
+    assert_int_equal(read_curve(&m, &curve, &err), WT_OK);
+    assert_int_equal(curve.segments[0].n_channels, 0);
+    assert_true(logged(&m, "channel two left out: it is odd"));
+    assert_true(logged(&m, "no duration"));
+    /* A curve that cannot be read is left empty. */
+    add(&m, WT_Q_FORCE, 1, 0, three);
+    assert_int_equal(read_curve(&m, &curve, &err), WT_E_CORRUPT);
+    assert_string_equal(err.file, "made-up");
+    assert_int_equal(curve.n_segments, 0);
+    assert_near(curve.cantilever.spring_constant, (double)NAN, 0);
+    assert_int_equal(wt_force_next(&m.base, &curve, &err), WT_END);
+    done(&m, &curve);
+}
+
+/* A segment that says nothing of its calibration does not take away that of those before it. */
+static void calibration_of_the_curve(void **state)
+{
+    made_up m = make(known);
+    wt_force_curve curve = {0};
+    (void)state;
+    assert_int_equal(force_add_segment(&m.base, &m.facts, &curve, NULL), WT_OK);
+    m.facts.cantilever = unknown;
+    assert_int_equal(force_add_segment(&m.base, &m.facts, &curve, NULL), WT_OK);
+    assert_int_equal(curve.n_segments, 2);
+    assert_near(curve.cantilever.spring_constant, 0.3, 0);
+    assert_near(curve.cantilever.sensitivity, 50e-9, 0);
+    done(&m, &curve);
+}
+
+/* ---- places and facts --------------------------------------------------------------------- */
+
+static void places(void **state)
+{
+    wt_force_curve curve = {0};
+    (void)state;
+    for (size_t i = 0; i < 6; i++) {
+        assert_true(force_place(3, 2, true, i, &curve));
+        assert_int_equal(curve.grid_x, i < 3 ? i : 5 - i);
+        assert_int_equal(curve.grid_y, i / 3);
+        assert_true(force_place(3, 2, false, i, &curve));
+        assert_int_equal(curve.grid_x, i % 3);
+    }
+    curve.grid_x = -1;
+    assert_false(force_place(3, 2, true, 6, &curve));
+    assert_false(force_place(0, 0, true, 0, &curve));
+    assert_int_equal(curve.grid_x, -1);
+}
+
+static void described(void **state)
+{
+    made_up m = make(unknown);
+    wt_read_options *o = &m.base.options;
+    fact_list list;
+    (void)state;
+    add(&m, WT_Q_DEFLECTION_VOLTAGE, 1, 0, one);
+    add(&m, WT_Q_HEIGHT, 1, 0, two);
+    assert_int_equal(force_read_as(&m.facts, o, one), WT_Q_DEFLECTION_VOLTAGE);
+    assert_int_equal(force_read_as(&m.facts, o, two), WT_Q_HEIGHT);
+    assert_int_equal(force_read_as(&m.facts, o, three), WT_Q_NONE);
+    assert_int_equal(facts_new(&list, NULL), WT_OK);
+    force_describe_calibration(&m.facts, o, "here", "there", &list);
+    o->sensitivity = 1e-7;
+    assert_int_equal(force_read_as(&m.facts, o, one), WT_Q_DEFLECTION);
+    o->spring_constant = 2;
+    assert_int_equal(force_read_as(&m.facts, o, one), WT_Q_FORCE);
+    force_describe_calibration(&m.facts, o, "here", "there", &list);
+    static const char *const rows[][4] = {
+        {"spring constant", "unknown", "N/m", "here"},
+        {"deflection sensitivity", "unknown", "m/V", "there"},
+        {"missing", "the file does not say the spring constant and deflection sensitivity", "",
+         "give --spring-constant 0.1N/m and --sensitivity 120nm/V"},
+        {"spring constant", "2", "N/m", "given by the user"},
+        {"deflection sensitivity", "1e-7", "m/V", "given by the user"}};
+    assert_int_equal(list.status, WT_OK);
+    assert_int_equal(wt_table_n_rows(list.table), 5);
+    for (size_t r = 0; r < 5; r++)
+        for (size_t c = 0; c < 4; c++)
+            assert_string_equal(wt_table_text(list.table, r, c), rows[r][c]);
+    wt_table_free(list.table);
+    wt_parselog_free(m.base.log);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(as_the_file_says), cmocka_unit_test(as_asked_for),
+        cmocka_unit_test(given_to_a_chain), cmocka_unit_test(given_to_columns),
+        cmocka_unit_test(from_one_signal),  cmocka_unit_test(missing_calibration),
+        cmocka_unit_test(missing_channels), cmocka_unit_test(calibration_of_the_curve),
+        cmocka_unit_test(places),           cmocka_unit_test(described),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
