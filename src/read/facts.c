@@ -1,32 +1,14 @@
-/* The list of facts that a reader fills for `info`.
+/* The table of facts that a reader fills for `info`.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "read/facts.h"
 
 #include "base/clocale.h"
+#include "data/tables/tables.h"
 
 #include <math.h>
 #include <stdlib.h>
-
-wt_status facts_new(fact_list *facts, wt_error *err)
-{
-    static const struct {
-        const char *name, *long_name;
-    } columns[] = {{"item", "what is known"},
-                   {"value", "its value"},
-                   {"unit", "unit of the value"},
-                   {"source", "where in the file it stands, or how it is known"}};
-    *facts = (fact_list){.table = wt_table_new("facts", "What the file is"), .err = err};
-    if (facts->table == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory to describe the file");
-    for (size_t i = 0; i < sizeof columns / sizeof *columns && facts->status == WT_OK; i++)
-        facts->status =
-            wt_table_add_text_column(facts->table, columns[i].name, columns[i].long_name, err);
-    if (facts->status != WT_OK)
-        wt_table_free(facts->table);
-    return facts->status;
-}
 
 static char *print(const char *format, va_list arguments)
 {
@@ -40,7 +22,7 @@ static char *print(const char *format, va_list arguments)
     return text;
 }
 
-void facts_add(fact_list *facts, const char *item, const char *unit, const char *source,
+void facts_add(table_writer *facts, const char *item, const char *unit, const char *source,
                const char *format, ...)
 {
     if (facts->status != WT_OK)
@@ -49,16 +31,17 @@ void facts_add(fact_list *facts, const char *item, const char *unit, const char 
     va_start(arguments, format);
     char *value = print(format, arguments);
     va_end(arguments);
-    const char *const cells[] = {item, value, unit, source};
-    facts->status = value != NULL
-                        ? wt_table_add_row(facts->table, facts->err)
-                        : wt_fail(facts->err, WT_E_MEMORY, "no memory to describe the file");
-    for (size_t i = 0; i < sizeof cells / sizeof *cells && facts->status == WT_OK; i++)
-        facts->status = wt_table_put_text(facts->table, i, cells[i], facts->err);
+    if (value == NULL)
+        facts->status = wt_fail(facts->err, WT_E_MEMORY, "no memory to describe the file");
+    table_row(facts);
+    facts_put_text(facts, FACTS_ITEM, item);
+    facts_put_text(facts, FACTS_VALUE, value);
+    facts_put_text(facts, FACTS_UNIT, unit);
+    facts_put_text(facts, FACTS_SOURCE, source);
     free(value);
 }
 
-void facts_number(fact_list *facts, const char *item, double value, const char *unit,
+void facts_number(table_writer *facts, const char *item, double value, const char *unit,
                   const char *source)
 {
     char text[32];
@@ -66,7 +49,7 @@ void facts_number(fact_list *facts, const char *item, double value, const char *
     facts_add(facts, item, unit, source, "%s", isnan(value) ? "unknown" : text);
 }
 
-void facts_count(fact_list *facts, const char *item, size_t value, const char *source)
+void facts_count(table_writer *facts, const char *item, size_t value, const char *source)
 {
     facts_add(facts, item, "", source, "%zu", value);
 }

@@ -22,8 +22,11 @@ wt_status wt_force_next(wt_force_source *source, wt_force_curve *curve, wt_error
 
 void wt_force_close(wt_force_source *source)
 {
-    if (source != NULL)
-        source->close(source);
+    if (source == NULL)
+        return;
+    wt_input *input = source->input;
+    source->close(source);
+    wt_input_close(input);
 }
 
 size_t wt_force_count(const wt_force_source *source)
@@ -285,7 +288,7 @@ wt_quantity force_read_as(const force_facts *facts, const wt_read_options *optio
 
 void force_describe_calibration(const force_facts *facts, const wt_read_options *options,
                                 const char *spring_constant_source, const char *sensitivity_source,
-                                fact_list *list)
+                                table_writer *list)
 {
     static const char given[] = "given by the user";
     const wt_cantilever used = cantilever_used(&facts->cantilever, options);

@@ -54,6 +54,7 @@ struct wt_force_source {
     wt_status (*decode)(wt_force_source *source, const force_signal *signal, force_linear scaling,
                         size_t n, double *values, wt_error *err);
     void (*close)(wt_force_source *source);
+    wt_input *input;         /* to be closed after it, or NULL */
     const char *name;        /* of the input */
     wt_read_options options; /* what was asked for */
     wt_parselog *log;
@@ -85,6 +86,6 @@ wt_quantity force_read_as(const force_facts *facts, const wt_read_options *optio
  * for a force. */
 void force_describe_calibration(const force_facts *facts, const wt_read_options *options,
                                 const char *spring_constant_source, const char *sensitivity_source,
-                                fact_list *list);
+                                table_writer *list);
 
 #endif

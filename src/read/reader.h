@@ -57,7 +57,7 @@ typedef struct file_reader {
     /* Adds what `info` shows: segments, channels, calibration, what is missing or odd. Fails with
      * what hinders reading. */
     wt_status (*describe)(const struct file_reader *self, wt_input *input,
-                          const wt_read_options *options, wt_parselog *log, fact_list *facts);
+                          const wt_read_options *options, wt_parselog *log, table_writer *facts);
 } file_reader;
 
 /* A reader that knows its files by their words is asked only where no signature answered. */

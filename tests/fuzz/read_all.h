@@ -6,7 +6,7 @@
 #ifndef TESTS_FUZZ_READ_ALL_H
 #define TESTS_FUZZ_READ_ALL_H
 
-#include "read/facts.h"
+#include "data/tables/tables.h"
 #include "read/formats.h"
 
 #include <math.h>
@@ -52,14 +52,15 @@ static inline void describe(const file_reader *reader, const uint8_t *data, size
                             const wt_read_options *options)
 {
     wt_input *input = NULL;
-    fact_list facts;
-    if (facts_new(&facts, NULL) != WT_OK ||
-        wt_input_open_memory(data, size, "fuzz", &input, NULL) != WT_OK)
+    wt_table *table = NULL;
+    table_writer facts = table_begin(&facts_schema, NULL);
+    if (wt_input_open_memory(data, size, "fuzz", &input, NULL) != WT_OK)
         abort();
-    wt_status status = reader->describe(reader, input, options, NULL, &facts);
-    wt_table_free(facts.table);
+    (void)reader->describe(reader, input, options, NULL, &facts);
+    if (table_end(&facts, &table) != WT_OK)
+        abort();
+    wt_table_free(table);
     wt_input_close(input);
-    (void)status;
 }
 
 static inline void detect(const file_reader *reader, const uint8_t *data, size_t size)

@@ -3,7 +3,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "weartrack/read.h"
+#include "read/bytes/input.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -123,6 +123,19 @@ wt_status wt_input_open_memory(const void *bytes, size_t length, const char *nam
     in->bytes = bytes;
     in->length = length;
     in->whole = true;
+    *input = in;
+    return WT_OK;
+}
+
+wt_status input_own(char *bytes, size_t length, const char *name, wt_input **input, wt_error *err)
+{
+    wt_input *in = NULL;
+    wt_status status = wt_input_open_memory(bytes, length, name, &in, err);
+    if (status != WT_OK) {
+        free(bytes);
+        return status;
+    }
+    in->buffer = (unsigned char *)bytes;
     *input = in;
     return WT_OK;
 }

@@ -48,7 +48,7 @@ static const char *described(const jpk_file *file, const char *name)
     return properties_find(&file->header, key, name);
 }
 
-static void add_identity(const jpk_file *file, fact_list *facts)
+static void add_identity(const jpk_file *file, table_writer *facts)
 {
     static const struct {
         const char *item, *name;
@@ -67,7 +67,7 @@ static void add_identity(const jpk_file *file, fact_list *facts)
     }
 }
 
-static void add_curves(const jpk_file *file, fact_list *facts)
+static void add_curves(const jpk_file *file, table_writer *facts)
 {
     facts_count(facts, "curves", file->n_curves, "entries");
     if (file->n_expected > 0)
@@ -80,7 +80,7 @@ static void add_curves(const jpk_file *file, fact_list *facts)
 }
 
 static void add_segment(const jpk_segment *segment, size_t number, const wt_read_options *options,
-                        fact_list *facts)
+                        table_writer *facts)
 {
     char item[160];
     force_facts read;
@@ -113,7 +113,7 @@ static void add_segment(const jpk_segment *segment, size_t number, const wt_read
 }
 
 static void add_calibration(const jpk_segment *segment, const wt_read_options *options,
-                            fact_list *facts)
+                            table_writer *facts)
 {
     const jpk_channel *deflection = jpk_segment_channel(segment, "vDeflection");
     force_facts read;
@@ -127,7 +127,7 @@ static void add_calibration(const jpk_segment *segment, const wt_read_options *o
 
 /* The segments of the first curve stand for all: a map has the same ones at each place. */
 static wt_status describe(const file_reader *self, wt_input *input, const wt_read_options *options,
-                          wt_parselog *log, fact_list *facts)
+                          wt_parselog *log, table_writer *facts)
 {
     (void)self;
     jpk_file file = {0};

@@ -31,7 +31,7 @@ static recognition detect(const file_reader *self, file_peek *peek)
     return match;
 }
 
-static void add_identity(const nid_file *file, fact_list *facts)
+static void add_identity(const nid_file *file, table_writer *facts)
 {
     static const struct {
         const char *item, *section, *key;
@@ -52,7 +52,7 @@ static void add_identity(const nid_file *file, fact_list *facts)
     }
 }
 
-static void add_channels(const nid_file *file, fact_list *facts)
+static void add_channels(const nid_file *file, table_writer *facts)
 {
     char item[128];
     for (size_t i = 0; i < file->n; i++) {
@@ -63,7 +63,7 @@ static void add_channels(const nid_file *file, fact_list *facts)
     }
 }
 
-static void add_phase(const nid_phase *phase, fact_list *facts)
+static void add_phase(const nid_phase *phase, table_writer *facts)
 {
     const force_facts *read = &phase->facts;
     char item[64];
@@ -81,7 +81,8 @@ static void add_phase(const nid_phase *phase, fact_list *facts)
         facts_add(facts, "missing", "", phase->group, "no channel Z-Axis or Z-Axis Sensor in m");
 }
 
-static void add_curves(const nid_spectroscopy *s, const wt_read_options *options, fact_list *facts)
+static void add_curves(const nid_spectroscopy *s, const wt_read_options *options,
+                       table_writer *facts)
 {
     const force_facts read = {.cantilever = s->cantilever};
     facts_count(facts, "curves", s->n_curves, "Lines");
@@ -97,7 +98,7 @@ static void add_curves(const nid_spectroscopy *s, const wt_read_options *options
 }
 
 static wt_status describe(const file_reader *self, wt_input *input, const wt_read_options *options,
-                          wt_parselog *log, fact_list *facts)
+                          wt_parselog *log, table_writer *facts)
 {
     (void)self;
     (void)log;

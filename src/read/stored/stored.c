@@ -3,26 +3,13 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
+#include "read/bytes/input.h"
 #include "read/facts.h"
 #include "read/force_source.h"
 #include "read/text/text.h"
 
 #include <stdlib.h>
 #include <string.h>
-
-/* The file's tables of measurements as a text stream in memory. */
-typedef struct stored_text {
-    char *bytes;
-    size_t length;
-    wt_input *input; /* of the bytes */
-} stored_text;
-
-static void stored_text_clear(stored_text *text)
-{
-    wt_input_close(text->input);
-    free(text->bytes);
-    *text = (stored_text){0};
-}
 
 static recognition detect(const file_reader *self, file_peek *peek)
 {
@@ -49,16 +36,18 @@ static bool is_measured(const char *name)
     return false;
 }
 
-static wt_status open_text(wt_input *input, stored_text *text, wt_error *err)
+/* The tables of measurements of the file, as a text stream in memory. */
+static wt_status open_text(wt_input *input, wt_input **text, wt_error *err)
 {
     const char *name = wt_input_name(input);
     wt_result *result = NULL;
     FILE *stream = NULL;
-    size_t n_measured = 0;
+    char *bytes = NULL;
+    size_t length = 0, n_measured = 0;
     wt_status status = wt_store_read(name, &result, err);
     if (status != WT_OK)
         return status;
-    stream = open_memstream(&text->bytes, &text->length);
+    stream = open_memstream(&bytes, &length);
     if (stream == NULL)
         status = wt_fail(err, WT_E_MEMORY, "no memory for the tables of the file");
     for (size_t i = 0; i < wt_result_n_tables(result) && status == WT_OK; i++) {
@@ -77,64 +66,37 @@ static wt_status open_text(wt_input *input, stored_text *text, wt_error *err)
             wt_error_found(err, "other tables, the first is \"%s\"",
                            wt_table_name(wt_result_table(result, 0)));
     }
-    if (status == WT_OK)
-        status = wt_input_open_memory(text->bytes, text->length, name, &text->input, err);
     wt_result_free(result);
-    if (status != WT_OK)
-        stored_text_clear(text);
+    if (status == WT_OK)
+        return input_own(bytes, length, name, text, err);
+    free(bytes);
     return status;
-}
-
-typedef struct stored_source {
-    wt_force_source base; /* first */
-    wt_force_source *inner;
-    stored_text text;
-} stored_source;
-
-static wt_status next(wt_force_source *source, wt_force_curve *curve, wt_error *err)
-{
-    return wt_force_next(((stored_source *)source)->inner, curve, err);
-}
-
-static void close_source(wt_force_source *source)
-{
-    stored_source *s = (stored_source *)source;
-    wt_force_close(s->inner);
-    stored_text_clear(&s->text);
-    free(s);
 }
 
 static wt_status open_force(const file_reader *self, wt_input *input,
                             const wt_read_options *options, wt_parselog *log,
                             wt_force_source **source, wt_error *err)
 {
-    stored_source *s = calloc(1, sizeof *s);
-    if (s == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the force curves");
-    wt_status status = open_text(input, &s->text, err);
+    wt_input *text = NULL;
+    wt_status status = open_text(input, &text, err);
     if (status == WT_OK)
-        status = text_open_force(self, s->text.input, options, log, &s->inner, err);
-    if (status != WT_OK) {
-        stored_text_clear(&s->text);
-        free(s);
-        return status;
-    }
-    s->base = *s->inner;
-    s->base.next = next;
-    s->base.close = close_source;
-    *source = &s->base;
-    return WT_OK;
+        status = text_open_force(self, text, options, log, source, err);
+    if (status == WT_OK)
+        (*source)->input = text;
+    else
+        wt_input_close(text);
+    return status;
 }
 
 static wt_status read_sweep(const file_reader *self, wt_input *input,
                             const wt_read_options *options, wt_parselog *log, wt_sweep *sweep,
                             wt_error *err)
 {
-    stored_text text = {0};
+    wt_input *text = NULL;
     wt_status status = open_text(input, &text, err);
     if (status == WT_OK)
-        status = text_read_sweep(self, text.input, options, log, sweep, err);
-    stored_text_clear(&text);
+        status = text_read_sweep(self, text, options, log, sweep, err);
+    wt_input_close(text);
     return status;
 }
 
@@ -142,19 +104,19 @@ static wt_status read_spectrum(const file_reader *self, wt_input *input,
                                const wt_read_options *options, wt_parselog *log,
                                wt_power_spectrum *spectrum, wt_error *err)
 {
-    stored_text text = {0};
+    wt_input *text = NULL;
     wt_status status = open_text(input, &text, err);
     if (status == WT_OK)
-        status = text_read_spectrum(self, text.input, options, log, spectrum, err);
-    stored_text_clear(&text);
+        status = text_read_spectrum(self, text, options, log, spectrum, err);
+    wt_input_close(text);
     return status;
 }
 
 static wt_status describe(const file_reader *self, wt_input *input, const wt_read_options *options,
-                          wt_parselog *log, fact_list *facts)
+                          wt_parselog *log, table_writer *facts)
 {
     wt_result *result = NULL;
-    stored_text text = {0};
+    wt_input *text = NULL;
     bool measured = false;
     wt_status status = wt_store_read(wt_input_name(input), &result, facts->err);
     if (status != WT_OK)
@@ -169,8 +131,8 @@ static wt_status describe(const file_reader *self, wt_input *input, const wt_rea
     if (measured)
         status = open_text(input, &text, facts->err);
     if (measured && status == WT_OK)
-        status = text_describe(self, text.input, options, log, facts);
-    stored_text_clear(&text);
+        status = text_describe(self, text, options, log, facts);
+    wt_input_close(text);
     wt_result_free(result);
     return status;
 }

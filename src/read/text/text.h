@@ -204,7 +204,7 @@ wt_status text_read_spectrum(const file_reader *self, wt_input *input,
                              const wt_read_options *options, wt_parselog *log,
                              wt_power_spectrum *spectrum, wt_error *err);
 wt_status text_describe(const file_reader *self, wt_input *input, const wt_read_options *options,
-                        wt_parselog *log, fact_list *facts);
+                        wt_parselog *log, table_writer *facts);
 
 /* The isotherms of a scanned file, appended to `sweep`. */
 wt_status text_sweep(const text_file *file, const wt_read_options *options, wt_parselog *log,

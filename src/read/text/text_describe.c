@@ -18,7 +18,7 @@ static const char *line_source(size_t line, char source[32])
     return source;
 }
 
-static void add_header(const text_file *file, fact_list *facts)
+static void add_header(const text_file *file, table_writer *facts)
 {
     char source[32];
     for (size_t i = 0; i < file->description->n_fields; i++)
@@ -27,7 +27,7 @@ static void add_header(const text_file *file, fact_list *facts)
                       line_source(file->values[i].line, source), "%s", file->values[i].text);
 }
 
-static void add_column(const text_table *t, const text_column *c, fact_list *facts)
+static void add_column(const text_table *t, const text_column *c, table_writer *facts)
 {
     char item[96], source[32];
     const wt_quantity q = c->rule->quantity;
@@ -54,7 +54,7 @@ static void add_column(const text_table *t, const text_column *c, fact_list *fac
     }
 }
 
-static void add_table(const text_file *file, size_t number, fact_list *facts)
+static void add_table(const text_file *file, size_t number, table_writer *facts)
 {
     const text_table *t = &file->tables[number];
     char item[32], source[32];
@@ -72,7 +72,7 @@ static void add_table(const text_file *file, size_t number, fact_list *facts)
         add_column(t, &t->problems[i], facts);
 }
 
-static void add_problem(wt_error *problem, fact_list *facts)
+static void add_problem(wt_error *problem, table_writer *facts)
 {
     char text[1024], place[sizeof problem->place];
     memcpy(place, problem->place, sizeof place);
@@ -82,7 +82,7 @@ static void add_problem(wt_error *problem, fact_list *facts)
 }
 
 static void add_sweep(const text_file *file, const wt_read_options *options, wt_parselog *log,
-                      fact_list *facts)
+                      table_writer *facts)
 {
     wt_sweep sweep = {.n_isotherms = 0};
     wt_error problem = WT_ERROR_INIT;
@@ -102,7 +102,7 @@ static void add_sweep(const text_file *file, const wt_read_options *options, wt_
     wt_sweep_clear(&sweep);
 }
 
-static void add_curve(const wt_force_curve *curve, fact_list *facts)
+static void add_curve(const wt_force_curve *curve, table_writer *facts)
 {
     char item[64];
     for (size_t i = 0; i < curve->n_segments; i++) {
@@ -115,7 +115,7 @@ static void add_curve(const wt_force_curve *curve, fact_list *facts)
 
 /* The curves without their forces, which may need a calibration that is not known. */
 static void add_curves(const file_reader *self, wt_input *input, const wt_read_options *options,
-                       fact_list *facts)
+                       table_writer *facts)
 {
     wt_force_source *source = NULL;
     wt_force_curve curve = {.n_segments = 0};
@@ -144,7 +144,7 @@ static void add_curves(const file_reader *self, wt_input *input, const wt_read_o
 }
 
 static void add_force(const file_reader *self, wt_input *input, const wt_read_options *options,
-                      fact_list *facts)
+                      table_writer *facts)
 {
     wt_force_source *source = NULL;
     wt_force_curve curve = {.n_segments = 0};
@@ -161,7 +161,7 @@ static void add_force(const file_reader *self, wt_input *input, const wt_read_op
 }
 
 static void add_spectrum(const file_reader *self, wt_input *input, const wt_read_options *options,
-                         fact_list *facts)
+                         table_writer *facts)
 {
     wt_power_spectrum spectrum = {.n = 0};
     wt_error problem = WT_ERROR_INIT;
@@ -175,7 +175,7 @@ static void add_spectrum(const file_reader *self, wt_input *input, const wt_read
     wt_power_spectrum_clear(&spectrum);
 }
 
-static void add_layout(const text_file *file, fact_list *facts)
+static void add_layout(const text_file *file, table_writer *facts)
 {
     facts_add(facts, "encoding", "", "", "%s", file->lines.encoding);
     add_header(file, facts);
@@ -193,7 +193,7 @@ static void add_layout(const text_file *file, fact_list *facts)
 }
 
 wt_status text_describe(const file_reader *self, wt_input *input, const wt_read_options *options,
-                        wt_parselog *log, fact_list *facts)
+                        wt_parselog *log, table_writer *facts)
 {
     const text_description *description = self->description;
     text_file file;
