@@ -166,6 +166,10 @@ WT_API wt_status wt_layer_history(const wt_energy_source *source,
  * or infinite argument. */
 WT_API double wt_layer_exponential(double start_thickness, double kappa, double formation_rate_zero,
                                    double wear_rate, double time);
+/* U_c that makes `thickness` the balance of this source, of any profile: Qf(d) = Qw (theory B3).
+ * The critical energy of the parameters does not matter, nor the duty, which cancels. */
+WT_API double wt_layer_calibrate(const wt_energy_source *source,
+                                 const wt_layer_parameters *parameters, double thickness);
 
 #ifdef __cplusplus
 }

@@ -61,3 +61,11 @@ wt_status wt_layer_balance_compute(const wt_energy_source *source,
         *balance = b;
     return status;
 }
+
+double wt_layer_calibrate(const wt_energy_source *source, const wt_layer_parameters *parameters,
+                          double thickness)
+{
+    return wt_energy_tail(source, thickness) /
+           (parameters->damage * parameters->specific_wear_rate * parameters->pressure *
+            parameters->velocity);
+}

@@ -1,12 +1,10 @@
 /* Changes one place of the sources, and draws places to change.
  *   mutate check ROOT LIST           every place of the list is found exactly once
- *   mutate lines LIST                file, function, find, put, equivalent: tabs between, a line
- *                                    for each record
- *   mutate apply ROOT LIST N         makes change N (from 1) in the file under ROOT
- *   mutate draw ROOT SEED N FILE...  prints N drawn changes as a list: a function evenly of all in
- *                                    the files, then a place of it, then a change
- * See the list for the form of a record.
- * SPDX-License-Identifier: GPL-3.0-or-later */
+ *   mutate lines LIST                file, function, find, put, tests, equivalent, slow: tabs
+ * between, a line for each record mutate apply ROOT LIST N         makes change N (from 1) in the
+ * file under ROOT mutate draw ROOT SEED N FILE...  prints N drawn changes as a list: a function
+ * evenly of all in the files, then a place of it, then a change See the list for the form of a
+ * record. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "places.h"
 
 #include <inttypes.h>
@@ -18,7 +16,7 @@
 enum { TEXT = 1024 };
 
 typedef struct record {
-    char file[TEXT], in[TEXT], find[TEXT], put[TEXT], equivalent[TEXT];
+    char file[TEXT], in[TEXT], find[TEXT], put[TEXT], tests[TEXT], equivalent[TEXT], slow[TEXT];
     size_t line;
 } record;
 
@@ -52,16 +50,15 @@ static bool next_record(FILE *in, const char *path, size_t *line, record *r)
         const struct {
             const char *word;
             char *to;
-        } fields[] = {{"file", r->file},
-                      {"in", r->in},
-                      {"find", r->find},
-                      {"put", r->put},
-                      {"equivalent", r->equivalent}};
+        } fields[] = {{"file", r->file}, {"in", r->in},       {"find", r->find},
+                      {"put", r->put},   {"tests", r->tests}, {"equivalent", r->equivalent},
+                      {"slow", r->slow}};
+        enum { N = sizeof fields / sizeof *fields };
         size_t n = strcspn(text, " "), i = 0;
-        while (i < 5 && (strlen(fields[i].word) != n || strncmp(text, fields[i].word, n) != 0))
+        while (i < N && (strlen(fields[i].word) != n || strncmp(text, fields[i].word, n) != 0))
             i++;
-        if (i == 5)
-            fail_at(path, *line, "not one of file, in, find, put, equivalent");
+        if (i == N)
+            fail_at(path, *line, "not one of file, in, find, put, tests, equivalent, slow");
         snprintf(fields[i].to, TEXT, "%s", text + n + (text[n] == ' '));
     }
     if (any && (r->file[0] == '\0' || r->find[0] == '\0'))
@@ -142,7 +139,8 @@ static int lines(const char *list)
     record r;
     size_t line = 0;
     while (next_record(in, list, &line, &r))
-        printf("%s\t%s\t%s\t%s\t%s\n", r.file, r.in, r.find, r.put, r.equivalent);
+        printf("%s\t%s\t%s\t%s\t%s\t%s\t%s\n", r.file, r.in, r.find, r.put, r.tests, r.equivalent,
+               r.slow);
     fclose(in);
     return 0;
 }

@@ -424,6 +424,20 @@ static void regimes(void **state)
     rig_free(&r);
 }
 
+/* The critical energy comes back from the balance it makes. */
+static void calibration(void **state)
+{
+    (void)state;
+    rig r = rig_several();
+    r.parameters.damage = 3;
+    r.parameters.duty = 0.2;
+    const double thickness = balance_of(&r).thickness.value;
+    assert_true(thickness > 0);
+    assert_near(wt_layer_calibrate(&r.source, &r.parameters, thickness),
+                r.parameters.critical_energy, 1e-9);
+    rig_free(&r);
+}
+
 static bool whole(double x)
 {
     return !isnan(x);
@@ -523,6 +537,7 @@ int main(void)
         cmocka_unit_test(monotone_and_same_end),
         cmocka_unit_test(what_moves_the_balance),
         cmocka_unit_test(regimes),
+        cmocka_unit_test(calibration),
         cmocka_unit_test(nothing_happens),
         cmocka_unit_test(bad_input),
     };

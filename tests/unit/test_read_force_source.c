@@ -5,6 +5,7 @@
  */
 #include "near.h"
 
+#include "data/tables/tables.h"
 #include "read/force_source.h"
 
 #include <stdio.h>
@@ -364,14 +365,14 @@ static void described(void **state)
 {
     made_up m = make(unknown);
     wt_read_options *o = &m.base.options;
-    fact_list list;
+    wt_table *table = NULL;
     (void)state;
     add(&m, WT_Q_DEFLECTION_VOLTAGE, 1, 0, one);
     add(&m, WT_Q_HEIGHT, 1, 0, two);
     assert_int_equal(force_read_as(&m.facts, o, one), WT_Q_DEFLECTION_VOLTAGE);
     assert_int_equal(force_read_as(&m.facts, o, two), WT_Q_HEIGHT);
     assert_int_equal(force_read_as(&m.facts, o, three), WT_Q_NONE);
-    assert_int_equal(facts_new(&list, NULL), WT_OK);
+    table_writer list = table_begin(&facts_schema, NULL);
     force_describe_calibration(&m.facts, o, "here", "there", &list);
     o->sensitivity = 1e-7;
     assert_int_equal(force_read_as(&m.facts, o, one), WT_Q_DEFLECTION);
@@ -385,12 +386,12 @@ static void described(void **state)
          "give --spring-constant 0.1N/m and --sensitivity 120nm/V"},
         {"spring constant", "2", "N/m", "given by the user"},
         {"deflection sensitivity", "1e-7", "m/V", "given by the user"}};
-    assert_int_equal(list.status, WT_OK);
-    assert_int_equal(wt_table_n_rows(list.table), 5);
+    assert_int_equal(table_end(&list, &table), WT_OK);
+    assert_int_equal(wt_table_n_rows(table), 5);
     for (size_t r = 0; r < 5; r++)
         for (size_t c = 0; c < 4; c++)
-            assert_string_equal(wt_table_text(list.table, r, c), rows[r][c]);
-    wt_table_free(list.table);
+            assert_string_equal(wt_table_text(table, r, c), rows[r][c]);
+    wt_table_free(table);
     wt_parselog_free(m.base.log);
 }
 

@@ -335,6 +335,7 @@ static void missing_calibration(void **state)
         for (size_t j = 0; j < 3; j++) {
             assert_int_equal(wt_force_next(r.source, &r.curve, &r.err), WT_E_MISSING);
             assert_string_equal(r.err.advice, cases[i].advice);
+            assert_int_equal(r.err.status, WT_E_MISSING);
             assert_string_equal(r.err.file, path);
             assert_int_equal(r.curve.n_segments, 0);
         }
@@ -345,7 +346,10 @@ static void missing_calibration(void **state)
         assert_int_equal(wt_force_next(r.source, &r.curve, &r.err), WT_OK);
         assert_null(wt_segment_channel(&r.curve.segments[0], WT_Q_FORCE));
         assert_non_null(wt_segment_channel(&r.curve.segments[0], WT_Q_DEFLECTION_VOLTAGE));
-        assert_true(logged(&r, "--spring-constant"));
+        char words[160];
+        snprintf(words, sizeof words, "no force: the file does not say the spring constant%s; %s",
+                 i == 0 ? " and deflection sensitivity" : "", cases[i].advice);
+        assert_true(logged(&r, words));
         close_all(&r);
         /* Given by the user. */
         o.spring_constant = 0.2;
@@ -356,6 +360,24 @@ static void missing_calibration(void **state)
         close_all(&r);
         unlink(path);
     }
+}
+
+/* Volts are no height; the rest of the curve is there. */
+static void height_without_conversion(void **state)
+{
+    (void)state;
+    static const char path[] = "test_read_jpk_bare.jpk-force-map";
+    jpk_writer_file f = make_file(path);
+    reading r;
+    f.bare_height = true;
+    assert_int_equal(jpk_write(&f), 0);
+    assert_int_equal(open_path(&r, path, NULL), WT_OK);
+    assert_int_equal(wt_force_next(r.source, &r.curve, &r.err), WT_OK);
+    assert_null(wt_segment_channel(&r.curve.segments[0], WT_Q_HEIGHT));
+    assert_non_null(wt_segment_channel(&r.curve.segments[0], WT_Q_FORCE));
+    assert_true(logged(&r, "left out: it has no calibration"));
+    close_all(&r);
+    unlink(path);
 }
 
 /* Cut at many places: what is complete is read and equals what was written. */
@@ -434,6 +456,7 @@ int main(void)
         cmocka_unit_test(indirect_spring_constant),
         cmocka_unit_test(user_calibration),
         cmocka_unit_test(missing_calibration),
+        cmocka_unit_test(height_without_conversion),
         cmocka_unit_test(cut_off),
         cmocka_unit_test(described),
     };

@@ -243,9 +243,12 @@ static void put_channel(const writer *w, FILE *out, const char *prefix, enum cha
         put_scaling(out, inner, w->encoders[c].offset, w->encoders[c].multiplier, base_unit);
     }
     if (c == HEIGHT) {
-        put_slots(out, prefix, "nominal calibrated", "calibrated", "volts");
-        put_slot(out, prefix, "nominal", "volts", NOMINAL_OFFSET, NOMINAL_MULTIPLIER, "m");
-        put_slot(out, prefix, "calibrated", "nominal", 0, CALIBRATED_MULTIPLIER, "m");
+        const char *from = file->bare_height ? NULL : "volts";
+        put_slots(out, prefix, "nominal calibrated", from != NULL ? "calibrated" : "volts",
+                  "volts");
+        put_slot(out, prefix, "nominal", from, NOMINAL_OFFSET, NOMINAL_MULTIPLIER, "m");
+        put_slot(out, prefix, "calibrated", from != NULL ? "nominal" : NULL, 0,
+                 CALIBRATED_MULTIPLIER, "m");
     } else if (c == DEFLECTION) {
         bool calibrated = !isnan(file->sensitivity) && !isnan(file->spring_constant);
         put_slots(out, prefix, "distance force", calibrated ? "force" : "volts", "volts");

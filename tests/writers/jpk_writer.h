@@ -45,6 +45,7 @@ typedef struct jpk_writer_file {
     double setpoint;        /* [N]; NaN = none */
     bool force_from_volts;  /* the slot of the force leads to the volts, not to the distance */
     jpk_writer_encoding encoding;
+    bool bare_height;    /* the height stays in volts: its conversions are not defined */
     bool inline_headers; /* no shared-data: every key stands in the segment header */
     bool folders;        /* with entries for the folders */
     bool stored;         /* not compressed: the same bytes with any version of zlib */

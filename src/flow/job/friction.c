@@ -1,8 +1,9 @@
 /* The friction job: hysteresis, contact area and total friction at every velocity, with and without
  * the modified layer, with standard errors from replicates.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "flow/job/conditions.h"
 #include "flow/job/draws.h"
+#include "flow/job/replicates.h"
+#include "flow/job/sliding_contact.h"
 #include "kernel/params.h"
 
 #include "data/tables/tables.h"
@@ -18,16 +19,12 @@ typedef struct friction_task {
     const wt_sliding *sliding;
     const wt_layer_known *layer; /* NULL = none */
     const wt_job *work;
-    size_t n;                 /* velocities + 1 */
-    double *velocity;         /* [n] */
-    double *centre;           /* [N_KINDS * n] */
-    double *replicate;        /* [replicates * N_KINDS * n] */
-    double *error;            /* [N_KINDS * n] standard errors */
-    double numerical[2];      /* of the total friction at the reference: without, with the layer */
-    bool varies, bulk_varies; /* with, without the stated errors of the layer */
-    char words[256], lacks[256];
-    size_t n_replicates;
+    size_t n;                  /* velocities + 1 */
+    double *velocity;          /* [n] */
+    double *centre;            /* [N_KINDS * n] */
+    double numerical[2];       /* of the total friction at the reference: without, with the layer */
     wt_friction_point *points; /* [n] at the values themselves, without a layer */
+    replicates replicates;
 } friction_task;
 
 static double *slot(double *values, size_t n, int kind)
@@ -51,44 +48,35 @@ static wt_layer_state layer_of(const friction_task *task, size_t replicate)
     return state;
 }
 
-static wt_status compute(const friction_task *task, size_t replicate, double tolerance,
-                         unsigned threads, wt_friction_point *points, double *out, wt_error *err)
+static wt_status compute(const friction_task *task, size_t replicate, wt_friction_point *points,
+                         double *out, sliding_contact *c, wt_error *err)
 {
     const wt_layer_state none = {.modulus_ratio = 1};
-    flow_conditions c = {0};
-    wt_status status = flow_conditions_make(task->sliding, task->work->seed, replicate, tolerance,
-                                            threads, none, &c, err);
+    wt_status status = sliding_contact_make(task->sliding, task->work, replicate, none, c, err);
     if (status == WT_OK)
-        status = wt_friction_compute(c.workspace, c.pressure, task->velocity, task->n, points, err);
-    if (status != WT_OK)
-        goto done;
-    for (size_t i = 0; i < task->n; i++) {
+        status =
+            wt_friction_compute(c->workspace, c->pressure, task->velocity, task->n, points, err);
+    for (size_t i = 0; status == WT_OK && i < task->n; i++) {
         slot(out, task->n, HYSTERESIS)[i] = points[i].hysteresis.value;
         slot(out, task->n, AREA)[i] = points[i].area_ratio.value;
         slot(out, task->n, TOTAL)[i] =
-            points[i].hysteresis.value + c.shear_stress * points[i].area_ratio.value / c.pressure;
+            points[i].hysteresis.value + c->shear_stress * points[i].area_ratio.value / c->pressure;
         slot(out, task->n, LAYERED)[i] = (double)NAN;
         slot(out, task->n, CHANGE)[i] = (double)NAN;
         slot(out, task->n, RELATIVE)[i] = (double)NAN;
     }
-done:
-    flow_conditions_clear(&c);
     return status;
 }
 
-static wt_status compute_layered(const friction_task *task, size_t replicate, double tolerance,
-                                 unsigned threads, wt_friction_point *points, double *out,
-                                 wt_error *err)
+static wt_status compute_layered(const friction_task *task, size_t replicate,
+                                 wt_friction_point *points, double *out, wt_error *err)
 {
     wt_layer_state layer = layer_of(task, replicate);
-    flow_conditions c = {0};
-    wt_status status = flow_conditions_make(task->sliding, task->work->seed, replicate, tolerance,
-                                            threads, layer, &c, err);
+    sliding_contact c = {0};
+    wt_status status = sliding_contact_make(task->sliding, task->work, replicate, layer, &c, err);
     if (status == WT_OK)
         status = wt_friction_compute(c.workspace, c.pressure, task->velocity, task->n, points, err);
-    if (status != WT_OK)
-        goto done;
-    for (size_t i = 0; i < task->n; i++) {
+    for (size_t i = 0; status == WT_OK && i < task->n; i++) {
         double with = points[i].hysteresis.value + layer.modulus_ratio * c.shear_stress *
                                                        points[i].area_ratio.value / c.pressure;
         double without = slot(out, task->n, TOTAL)[i];
@@ -96,59 +84,23 @@ static wt_status compute_layered(const friction_task *task, size_t replicate, do
         slot(out, task->n, CHANGE)[i] = with - without;
         slot(out, task->n, RELATIVE)[i] = with / without - 1;
     }
-done:
-    flow_conditions_clear(&c);
+    sliding_contact_clear(&c);
     return status;
 }
 
-/* ---- replicates -------------------------------------------------------------------------------
- */
-
-static wt_status one_replicate(void *user, size_t i, unsigned worker)
+static wt_status one_replicate(const void *user, size_t i, double *out, wt_error *err)
 {
-    (void)worker;
-    friction_task *task = user;
-    double *out = task->replicate + i * N_KINDS * task->n;
+    const friction_task *task = user;
+    sliding_contact c = {0};
     wt_friction_point *points = malloc(task->n * sizeof *points);
     if (points == NULL)
         return WT_E_MEMORY;
-    wt_error ignored = WT_ERROR_INIT;
-    wt_status status = compute(task, i, FLOW_REPLICATE_TOLERANCE, 1, points, out, &ignored);
+    wt_status status = compute(task, i, points, out, &c, err);
     if (status == WT_OK && task->layer != NULL)
-        status = compute_layered(task, i, FLOW_REPLICATE_TOLERANCE, 1, points, out, &ignored);
+        status = compute_layered(task, i, points, out, err);
+    sliding_contact_clear(&c);
     free(points);
-    if (status == WT_OK || status == WT_E_MEMORY)
-        return status;
-    for (size_t k = 0; k < N_KINDS * task->n; k++)
-        out[k] = (double)NAN; /* a draw that has no solution is left out and counted */
-    return WT_OK;
-}
-
-static wt_status replicate_all(friction_task *task, wt_error *err)
-{
-    size_t stride = N_KINDS * task->n;
-    for (size_t k = 0; k < stride; k++)
-        task->error[k] = (double)NAN;
-    if (!task->varies)
-        return WT_OK;
-    wt_status status = wt_parallel_for(task->n_replicates, task->work->threads, one_replicate, task,
-                                       &task->work->progress, "friction replicates");
-    if (status != WT_OK)
-        return wt_fail(err, status, "the replicates of the friction failed");
-    size_t lost = 0;
-    for (size_t i = 0; i < task->n_replicates; i++)
-        lost += isnan(task->replicate[i * stride]) != 0;
-    if (lost > 0)
-        wt_parselog_add(task->work->log, WT_WARNING, NULL, NULL,
-                        "%zu of %zu replicates of the friction have no solution and are left out "
-                        "of the standard errors",
-                        lost, task->n_replicates);
-    for (size_t k = 0; k < stride; k++)
-        task->error[k] = flow_spread(task->replicate + k, task->n_replicates, stride);
-    for (size_t i = 0; !task->bulk_varies && i < task->n; i++)
-        slot(task->error, task->n, HYSTERESIS)[i] = slot(task->error, task->n, AREA)[i] =
-            slot(task->error, task->n, TOTAL)[i] = (double)NAN;
-    return WT_OK;
+    return status;
 }
 
 /* ---- tables -----------------------------------------------------------------------------------
@@ -166,18 +118,21 @@ static void add_rows(friction_task *task, table_writer *t)
         table_row(t);
         friction_put(t, FRICTION_VELOCITY, p->velocity);
         friction_put(t, FRICTION_TOTAL, total.value);
-        friction_put(t, FRICTION_TOTAL_STANDARD_ERROR, slot(task->error, task->n, TOTAL)[i]);
+        friction_put(t, FRICTION_TOTAL_STANDARD_ERROR,
+                     slot(task->replicates.error, task->n, TOTAL)[i]);
         friction_put(t, FRICTION_TOTAL_NUMERICAL_ERROR, total.numerical_error);
         friction_put(t, FRICTION_HYSTERESIS, hysteresis.value);
         friction_put(t, FRICTION_HYSTERESIS_STANDARD_ERROR,
-                     slot(task->error, task->n, HYSTERESIS)[i]);
+                     slot(task->replicates.error, task->n, HYSTERESIS)[i]);
         friction_put(t, FRICTION_HYSTERESIS_NUMERICAL_ERROR, hysteresis.numerical_error);
         friction_put(t, FRICTION_ADHESION, total.value - hysteresis.value);
         friction_put(t, FRICTION_AREA_RATIO, area.value);
-        friction_put(t, FRICTION_AREA_RATIO_STANDARD_ERROR, slot(task->error, task->n, AREA)[i]);
+        friction_put(t, FRICTION_AREA_RATIO_STANDARD_ERROR,
+                     slot(task->replicates.error, task->n, AREA)[i]);
         friction_put(t, FRICTION_AREA_RATIO_NUMERICAL_ERROR, area.numerical_error);
         friction_put(t, FRICTION_WITH_LAYER, slot(task->centre, task->n, LAYERED)[i]);
-        friction_put(t, FRICTION_WITH_LAYER_STANDARD_ERROR, slot(task->error, task->n, LAYERED)[i]);
+        friction_put(t, FRICTION_WITH_LAYER_STANDARD_ERROR,
+                     slot(task->replicates.error, task->n, LAYERED)[i]);
         friction_put(t, FRICTION_EXTRAPOLATED_SHARE, p->extrapolated_share);
     }
 }
@@ -188,7 +143,7 @@ static void set_at_reference(friction_task *task, table_writer *t, friction_key 
 {
     const size_t last = task->n - 1;
     friction_set_value(t, key, slot(task->centre, task->n, kind)[last],
-                       slot(task->error, task->n, kind)[last], numerical_error);
+                       slot(task->replicates.error, task->n, kind)[last], numerical_error);
 }
 
 static void set_layer_keys(friction_task *task, table_writer *t)
@@ -230,11 +185,10 @@ static void set_keys(friction_task *task, table_writer *t, const char *statement
     set_at_reference(task, t, FRICTION_KEY_HYSTERESIS, HYSTERESIS,
                      reference->hysteresis.numerical_error);
     set_at_reference(task, t, FRICTION_KEY_AREA_RATIO, AREA, reference->area_ratio.numerical_error);
-    friction_set_text(t, FRICTION_KEY_ERROR_INCLUDES,
-                      task->varies ? task->words : "nothing, for no error was measured or stated");
-    if (task->lacks[0] != '\0')
-        friction_set_text(t, FRICTION_KEY_ERROR_LACKS, task->lacks);
-    friction_set_print(t, FRICTION_KEY_REPLICATES, "%zu", task->varies ? task->n_replicates : 0);
+    friction_set_text(t, FRICTION_KEY_ERROR_INCLUDES, replicates_include(&task->replicates));
+    if (task->replicates.lacks[0] != '\0')
+        friction_set_text(t, FRICTION_KEY_ERROR_LACKS, task->replicates.lacks);
+    friction_set_print(t, FRICTION_KEY_REPLICATES, "%zu", task->replicates.n);
     if (statement[0] != '\0')
         friction_set_text(t, FRICTION_KEY_MATERIAL_STATEMENT, statement);
     if (task->layer != NULL)
@@ -252,7 +206,7 @@ static wt_status friction_table(friction_task *task, const char *statement, wt_t
 
 #define POINTS_PER_DECADE 20
 
-static void add_area_block(const flow_conditions *c, double velocity, const double *q, size_t n,
+static void add_area_block(const sliding_contact *c, double velocity, const double *q, size_t n,
                            wt_friction_node *nodes, table_writer *t)
 {
     if (t->status == WT_OK)
@@ -269,7 +223,7 @@ static void add_area_block(const flow_conditions *c, double velocity, const doub
 }
 
 /* Contact area against magnification at the slowest, the reference and the fastest velocity. */
-static wt_status area_table(friction_task *task, const flow_conditions *c, wt_table **out,
+static wt_status area_table(friction_task *task, const sliding_contact *c, wt_table **out,
                             wt_error *err)
 {
     double first = task->velocity[0], last = task->velocity[task->n - 2],
@@ -302,15 +256,10 @@ done:
 
 static wt_status allocate(friction_task *task, wt_error *err)
 {
-    size_t stride = N_KINDS * task->n;
     task->velocity = malloc(task->n * sizeof *task->velocity);
-    task->centre = malloc(stride * sizeof *task->centre);
-    task->error = malloc(stride * sizeof *task->error);
+    task->centre = malloc(N_KINDS * task->n * sizeof *task->centre);
     task->points = malloc(task->n * sizeof *task->points);
-    task->replicate =
-        calloc(task->varies ? task->n_replicates : 1, stride * sizeof *task->replicate);
-    if (task->velocity == NULL || task->centre == NULL || task->error == NULL ||
-        task->points == NULL || task->replicate == NULL)
+    if (task->velocity == NULL || task->centre == NULL || task->points == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     memcpy(task->velocity, task->sliding->velocity, (task->n - 1) * sizeof *task->velocity);
     task->velocity[task->n - 1] = flow_reference_velocity(task->sliding);
@@ -321,9 +270,8 @@ static void release(friction_task *task)
 {
     free(task->velocity);
     free(task->centre);
-    free(task->error);
     free(task->points);
-    free(task->replicate);
+    replicates_clear(&task->replicates);
 }
 
 static wt_layer_known no_layer(void)
@@ -364,8 +312,47 @@ static void summarise(const friction_task *task, wt_friction_tables *t)
         if (p->extrapolated_share > t->extrapolated_share)
             t->extrapolated_share = p->extrapolated_share;
     }
-    t->n_points =
-        task->n * (1 + (task->varies ? task->n_replicates : 0)) * (task->layer != NULL ? 2 : 1);
+    t->n_points = task->n * (1 + task->replicates.n) * (task->layer != NULL ? 2 : 1);
+}
+
+/* The values themselves; `c` is their contact without a layer. */
+static wt_status compute_centre(friction_task *task, sliding_contact *c, wt_error *err)
+{
+    const double shear = task->sliding->shear_stress.value / task->sliding->pressure.value;
+    const size_t last = task->n - 1;
+    wt_status status = compute(task, WT_NO_REPLICATE, task->points, task->centre, c, err);
+    if (status != WT_OK)
+        return status;
+    task->numerical[0] = total_error(&task->points[last], shear);
+    if (task->layer == NULL)
+        return WT_OK;
+    wt_friction_point *layered = malloc(task->n * sizeof *layered);
+    if (layered == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    status = compute_layered(task, WT_NO_REPLICATE, layered, task->centre, err);
+    if (status == WT_OK)
+        task->numerical[1] =
+            total_error(&layered[last], shear * layer_of(task, WT_NO_REPLICATE).modulus_ratio);
+    free(layered);
+    return status;
+}
+
+/* What varies with the layer alone leaves no error of what is without it. */
+static wt_status draw_replicates(friction_task *task, wt_error *err)
+{
+    replicates *r = &task->replicates;
+    const wt_layer_known *layer = task->layer;
+    if (!isnan(task->sliding->shear_stress.value))
+        replicates_add(r, task->sliding->shear_stress.standard_error, "shear stress");
+    const bool bulk_varies = r->varies;
+    if (layer != NULL &&
+        (layer->thickness.standard_error > 0 || layer->modulus_ratio.standard_error > 0))
+        replicates_add(r, 1, "thickness and modulus ratio of the layer");
+    wt_status status = replicates_draw(r, N_KINDS * task->n, one_replicate, task, err);
+    for (size_t i = 0; status == WT_OK && !bulk_varies && i < task->n; i++)
+        slot(r->error, task->n, HYSTERESIS)[i] = slot(r->error, task->n, AREA)[i] =
+            slot(r->error, task->n, TOTAL)[i] = (double)NAN;
+    return status;
 }
 
 wt_status wt_friction_make(const wt_sliding *sliding, const wt_layer_known *layer,
@@ -373,55 +360,23 @@ wt_status wt_friction_make(const wt_sliding *sliding, const wt_layer_known *laye
 {
     if (work == NULL || tables == NULL)
         return wt_fail(err, WT_E_ARG, "no friction job");
-    wt_friction_tables t = {0};
-    flow_conditions c = {0};
-    wt_friction_point *layered = NULL;
-    friction_task task = {.sliding = sliding, .layer = layer, .work = work};
     wt_status status = flow_sliding_check(sliding, work, err);
     if (status == WT_OK)
         status = check_layer(layer, err);
     if (status != WT_OK)
         return status;
-    task.n = sliding->n_velocity + 1;
-    task.n_replicates = work->replicates;
-    task.bulk_varies = flow_conditions_vary(sliding, work, task.words, sizeof task.words);
-    if (work->replicates > 1 && sliding->shear_stress.standard_error > 0) {
-        flow_add_words(task.words, sizeof task.words, "shear stress");
-        task.bulk_varies = true;
-    }
-    task.varies = task.bulk_varies;
-    flow_conditions_lack(sliding, task.lacks, sizeof task.lacks);
-    if (!isnan(sliding->shear_stress.value) && !(sliding->shear_stress.standard_error > 0))
-        flow_add_words(task.lacks, sizeof task.lacks, "shear stress");
-    if (layer != NULL && work->replicates > 1 &&
-        (layer->thickness.standard_error > 0 || layer->modulus_ratio.standard_error > 0)) {
-        flow_add_words(task.words, sizeof task.words, "thickness and modulus ratio of the layer");
-        task.varies = true;
-    }
-    t.tolerance_asked = work->tolerance;
+    friction_task task = {.sliding = sliding,
+                          .layer = layer,
+                          .work = work,
+                          .n = sliding->n_velocity + 1,
+                          .replicates = replicates_of(sliding, work, "friction")};
+    wt_friction_tables t = {.tolerance_asked = work->tolerance};
+    sliding_contact c = {0};
     status = allocate(&task, err);
     if (status == WT_OK)
-        status = compute(&task, WT_NO_REPLICATE, work->tolerance, work->threads, task.points,
-                         task.centre, err);
-    if (status == WT_OK && layer != NULL) {
-        layered = malloc(task.n * sizeof *layered);
-        status = layered == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory")
-                                 : compute_layered(&task, WT_NO_REPLICATE, work->tolerance,
-                                                   work->threads, layered, task.centre, err);
-    }
-    if (status == WT_OK) {
-        double shear = sliding->shear_stress.value / sliding->pressure.value;
-        task.numerical[0] = total_error(&task.points[task.n - 1], shear);
-        if (layered != NULL)
-            task.numerical[1] = total_error(&layered[task.n - 1],
-                                            shear * layer_of(&task, WT_NO_REPLICATE).modulus_ratio);
-        status = replicate_all(&task, err);
-    }
-    if (status == WT_OK) {
-        const wt_layer_state none = {.modulus_ratio = 1};
-        status = flow_conditions_make(sliding, work->seed, WT_NO_REPLICATE, work->tolerance,
-                                      work->threads, none, &c, err);
-    }
+        status = compute_centre(&task, &c, err);
+    if (status == WT_OK)
+        status = draw_replicates(&task, err);
     if (status == WT_OK)
         status = friction_table(&task, c.statement, &t.friction, err);
     if (status == WT_OK)
@@ -431,8 +386,7 @@ wt_status wt_friction_make(const wt_sliding *sliding, const wt_layer_known *laye
         *tables = t;
         t = (wt_friction_tables){0};
     }
-    free(layered);
-    flow_conditions_clear(&c);
+    sliding_contact_clear(&c);
     wt_friction_tables_clear(&t);
     release(&task);
     return status;

@@ -1,8 +1,9 @@
 /* The layer job: energy density with depth, formation against wear, thickness at balance and in
  * time, with standard errors from replicates.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "flow/job/conditions.h"
 #include "flow/job/draws.h"
+#include "flow/job/replicates.h"
+#include "flow/job/sliding_contact.h"
 #include "kernel/params.h"
 
 #include "base/array.h"
@@ -12,19 +13,28 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Single numbers of one replicate; the thicknesses in time follow them. */
-enum {
-    THICKNESS,
-    RATIO,
-    INCUBATION,
-    RELAXATION,
-    CRITICAL_WEAR,
-    REMOVAL,
-    ENERGY,
-    SURFACE_POWER,
-    NINETY,
-    N_NUMBERS
-};
+/* The balance at one set of values. */
+typedef struct layer_run {
+    wt_energy_source source;
+    wt_layer_parameters parameters;
+    wt_layer_balance balance;
+    wt_layer_point *points; /* [n of the task] */
+    char statement[256];
+} layer_run;
+
+/* Single numbers of a run with their keys; the thicknesses in time follow them. */
+#define NUMBERS(X)                                                                                 \
+    X(BALANCE_THICKNESS, run->balance.thickness.value)                                             \
+    X(FORMATION_WEAR_RATIO, run->balance.ratio)                                                    \
+    X(INCUBATION_TIME, run->balance.incubation_time)                                               \
+    X(RELAXATION_TIME, run->balance.relaxation_time)                                               \
+    X(CRITICAL_WEAR_RATE, run->balance.critical_specific_wear_rate)                                \
+    X(REMOVAL_TIME, run->balance.removal_time)                                                     \
+    X(CRITICAL_ENERGY, run->parameters.critical_energy)                                            \
+    X(SURFACE_POWER, run->balance.surface_power)                                                   \
+    X(TIME_TO_90_PERCENT, time_to_share(run->points, n, 0.9 * run->balance.thickness.value))
+#define NUMBER_ID(key, value) NUMBER_##key,
+enum { NUMBERS(NUMBER_ID) N_NUMBERS };
 
 typedef struct layer_task {
     const wt_sliding *sliding;
@@ -32,21 +42,9 @@ typedef struct layer_task {
     const wt_job *work;
     double velocity;
     double *time; /* [n] */
-    size_t n, stride, n_replicates;
-    double *replicate; /* [n_replicates * stride] */
-    double *error;     /* [stride] */
-    bool varies;
-    char words[256], lacks[256];
+    size_t n;
+    replicates replicates;
 } layer_task;
-
-/* The centre, kept for the tables. */
-typedef struct centre {
-    wt_energy_source source;
-    wt_layer_parameters parameters;
-    wt_layer_balance balance;
-    wt_layer_point *points; /* [n] */
-    char statement[256];
-} centre;
 
 wt_layer_job wt_layer_job_defaults(void)
 {
@@ -116,67 +114,6 @@ wt_status wt_layer_job_check(const wt_layer_job *job, wt_error *err)
     return WT_OK;
 }
 
-/* U_c that makes the observed thickness the balance of this source: Qf(d) = Qw (theory B3), for any
- * depth profile. The duty cancels. */
-static double calibrate(const wt_energy_source *source, const wt_layer_parameters *p,
-                        double thickness)
-{
-    return wt_energy_tail(source, thickness) /
-           (p->damage * p->specific_wear_rate * p->pressure * p->velocity);
-}
-
-static wt_status source_and_parameters(const layer_task *task, size_t replicate,
-                                       wt_energy_source *source, wt_layer_parameters *parameters,
-                                       char statement[256], wt_error *err)
-{
-    const wt_layer_state none = {.modulus_ratio = 1};
-    const wt_layer_job *job = task->job;
-    uint64_t seed = task->work->seed;
-    flow_conditions c = {0};
-    double tolerance =
-        replicate == WT_NO_REPLICATE ? task->work->tolerance : FLOW_REPLICATE_TOLERANCE;
-    wt_status status =
-        flow_conditions_make(task->sliding, seed, replicate, tolerance, 1, none, &c, err);
-    if (status == WT_OK)
-        status = wt_energy_source_friction(c.workspace, c.pressure, task->velocity, source, err);
-    if (status != WT_OK)
-        goto done;
-    source->profile = job->profile;
-    source->local_friction = job->local_friction;
-    *parameters = wt_layer_defaults();
-    parameters->damage = job->damage;
-    parameters->duty = job->duty;
-    parameters->start_thickness = job->start_thickness;
-    parameters->incubation = job->incubation;
-    parameters->pressure = c.pressure;
-    parameters->velocity = task->velocity;
-    parameters->specific_wear_rate =
-        flow_draw_positive(job->specific_wear_rate, seed, replicate, FLOW_DRAW_WEAR);
-    parameters->critical_energy =
-        isnan(job->critical_energy.value)
-            ? calibrate(
-                  source, parameters,
-                  flow_draw_positive(job->observed_thickness, seed, replicate, FLOW_DRAW_OBSERVED))
-            : flow_draw_positive(job->critical_energy, seed, replicate, FLOW_DRAW_CRITICAL_ENERGY);
-    if (statement != NULL)
-        memcpy(statement, c.statement, sizeof c.statement);
-done:
-    flow_conditions_clear(&c);
-    return status;
-}
-
-static void put_numbers(const wt_layer_balance *b, const wt_layer_parameters *p, double *out)
-{
-    out[THICKNESS] = b->thickness.value;
-    out[RATIO] = b->ratio;
-    out[INCUBATION] = b->incubation_time;
-    out[RELAXATION] = b->relaxation_time;
-    out[CRITICAL_WEAR] = b->critical_specific_wear_rate;
-    out[REMOVAL] = b->removal_time;
-    out[ENERGY] = p->critical_energy;
-    out[SURFACE_POWER] = b->surface_power;
-}
-
 /* When a growing layer gets to a thickness, between the times of its history; NaN if outside them.
  * The relaxation time is no such time: the slowest waves of the roughness decide how the layer with
  * its damage beneath settles. */
@@ -194,10 +131,91 @@ static double time_to_share(const wt_layer_point *points, size_t n, double thick
     return (double)NAN;
 }
 
+static void put_numbers(const layer_run *run, size_t n, double *out)
+{
+#define PUT_NUMBER(key, value) out[NUMBER_##key] = value;
+    NUMBERS(PUT_NUMBER)
+}
+
+/* ---- one run ----------------------------------------------------------------------------------
+ */
+
+static wt_status find_balance(const layer_task *task, size_t replicate, layer_run *run,
+                              wt_error *err)
+{
+    const wt_layer_state none = {.modulus_ratio = 1};
+    const wt_layer_job *job = task->job;
+    const uint64_t seed = task->work->seed;
+    sliding_contact c = {0};
+    wt_status status = sliding_contact_make(task->sliding, task->work, replicate, none, &c, err);
+    if (status == WT_OK)
+        status =
+            wt_energy_source_friction(c.workspace, c.pressure, task->velocity, &run->source, err);
+    if (status == WT_OK) {
+        run->source.profile = job->profile;
+        run->source.local_friction = job->local_friction;
+        memcpy(run->statement, c.statement, sizeof c.statement);
+        wt_layer_parameters *p = &run->parameters;
+        *p = wt_layer_defaults();
+        p->damage = job->damage;
+        p->duty = job->duty;
+        p->start_thickness = job->start_thickness;
+        p->incubation = job->incubation;
+        p->pressure = c.pressure;
+        p->velocity = task->velocity;
+        p->specific_wear_rate =
+            flow_draw_positive(job->specific_wear_rate, seed, replicate, FLOW_DRAW_WEAR);
+        p->critical_energy =
+            flow_draw_positive(job->critical_energy, seed, replicate, FLOW_DRAW_CRITICAL_ENERGY);
+        if (isnan(p->critical_energy))
+            p->critical_energy = wt_layer_calibrate(
+                &run->source, p,
+                flow_draw_positive(job->observed_thickness, seed, replicate, FLOW_DRAW_OBSERVED));
+        status = wt_layer_balance_compute(&run->source, p, &run->balance, err);
+    }
+    sliding_contact_clear(&c);
+    return status;
+}
+
+static wt_status follow(const layer_task *task, layer_run *run, wt_error *err)
+{
+    run->points = malloc((task->n + 1) * sizeof *run->points);
+    if (run->points == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    return wt_layer_history(&run->source, &run->parameters, task->time, task->n, run->points, err);
+}
+
+static void run_clear(layer_run *run)
+{
+    wt_energy_source_clear(&run->source);
+    free(run->points);
+}
+
+static wt_status one_replicate(const void *user, size_t i, double *out, wt_error *err)
+{
+    const layer_task *task = user;
+    layer_run run = {.points = NULL};
+    wt_status status = find_balance(task, i, &run, err);
+    if (status == WT_OK)
+        status = follow(task, &run, err);
+    if (status == WT_OK) {
+        put_numbers(&run, task->n, out);
+        for (size_t k = 0; k < task->n; k++)
+            out[N_NUMBERS + k] = run.points[k].thickness.value;
+    }
+    run_clear(&run);
+    return status;
+}
+
 /* ---- times ------------------------------------------------------------------------------------
  */
 
+/* The times that are chosen: so many, from half the first scale to the span of the last. A scale
+ * that is not there is so far from the other one. */
 #define TIMES 61
+#define TIME_SPAN 100
+#define SHORT_OF_LAST 1e-3
+#define PAST_FIRST 1e6
 
 /* From well before the first change to well after the last one. */
 static wt_status choose_times(layer_task *task, const wt_layer_balance *b, wt_error *err)
@@ -212,11 +230,11 @@ static wt_status choose_times(layer_task *task, const wt_layer_balance *b, wt_er
     }
     double first = b->incubation_time, last = b->relaxation_time;
     if (!(first > 0) || !isfinite(first))
-        first = isfinite(last) && last > 0 ? last / 1000 : 1;
+        first = isfinite(last) && last > 0 ? SHORT_OF_LAST * last : 1;
     if (!(last > 0) || !isfinite(last))
-        last = 1e6 * first;
+        last = PAST_FIRST * first;
     first /= 2;
-    last = fmax(100 * last, 100 * first);
+    last = TIME_SPAN * fmax(last, first);
     for (size_t i = 0; i < task->n; i++)
         task->time[i] = first * pow(last / first, (double)i / (double)(task->n - 1));
     return WT_OK;
@@ -225,66 +243,28 @@ static wt_status choose_times(layer_task *task, const wt_layer_balance *b, wt_er
 /* ---- replicates -------------------------------------------------------------------------------
  */
 
-static wt_status one_replicate(void *user, size_t i, unsigned worker)
+static wt_status draw_replicates(layer_task *task, wt_error *err)
 {
-    (void)worker;
-    layer_task *task = user;
-    double *out = task->replicate + i * task->stride;
-    wt_energy_source source = {0};
-    wt_layer_parameters parameters;
-    wt_layer_balance balance;
-    wt_error ignored = WT_ERROR_INIT;
-    wt_layer_point *points = malloc((task->n > 0 ? task->n : 1) * sizeof *points);
-    if (points == NULL)
-        return WT_E_MEMORY;
-    wt_status status = source_and_parameters(task, i, &source, &parameters, NULL, &ignored);
-    if (status == WT_OK)
-        status = wt_layer_balance_compute(&source, &parameters, &balance, &ignored);
-    if (status == WT_OK)
-        status = wt_layer_history(&source, &parameters, task->time, task->n, points, &ignored);
-    if (status == WT_OK) {
-        put_numbers(&balance, &parameters, out);
-        out[NINETY] = time_to_share(points, task->n, 0.9 * balance.thickness.value);
-        for (size_t k = 0; k < task->n; k++)
-            out[N_NUMBERS + k] = points[k].thickness.value;
-    } else {
-        for (size_t k = 0; k < task->stride; k++)
-            out[k] = (double)NAN;
-    }
-    wt_energy_source_clear(&source);
-    free(points);
-    return status == WT_E_MEMORY ? status : WT_OK;
-}
-
-static wt_status replicate_all(layer_task *task, wt_error *err)
-{
-    for (size_t k = 0; k < task->stride; k++)
-        task->error[k] = (double)NAN;
-    if (!task->varies)
-        return WT_OK;
-    wt_status status = wt_parallel_for(task->n_replicates, task->work->threads, one_replicate, task,
-                                       &task->work->progress, "layer replicates");
-    if (status != WT_OK)
-        return wt_fail(err, status, "the replicates of the layer failed");
-    size_t without = 0, lost = 0;
-    for (size_t i = 0; i < task->n_replicates; i++) {
-        double thickness = task->replicate[i * task->stride + THICKNESS];
-        lost += isnan(thickness) != 0;
+    const wt_layer_job *job = task->job;
+    replicates *r = &task->replicates;
+    replicates_add(r, job->specific_wear_rate.standard_error, "specific wear rate");
+    if (isnan(job->critical_energy.value))
+        replicates_add(r, job->observed_thickness.standard_error, "observed thickness");
+    else
+        replicates_add(r, job->critical_energy.standard_error, "critical energy");
+    wt_status status = replicates_draw(r, N_NUMBERS + task->n, one_replicate, task, err);
+    size_t without = 0, solved = 0;
+    for (size_t i = 0; status == WT_OK && i < r->n; i++) {
+        const double thickness = r->value[i * r->stride + NUMBER_BALANCE_THICKNESS];
+        solved += isnan(thickness) == 0;
         without += thickness <= 0;
     }
-    if (lost > 0)
-        wt_parselog_add(task->work->log, WT_WARNING, NULL, NULL,
-                        "%zu of %zu replicates of the layer have no solution and are left out of "
-                        "the standard errors",
-                        lost, task->n_replicates);
-    if (without > 0 && without + lost < task->n_replicates)
+    if (without > 0 && without < solved)
         wt_parselog_add(task->work->log, WT_WARNING, NULL, NULL,
                         "within the stated errors the layer may be there or not: %zu of %zu "
                         "replicates have none",
-                        without, task->n_replicates - lost);
-    for (size_t k = 0; k < task->stride; k++)
-        task->error[k] = flow_spread(task->replicate + k, task->n_replicates, task->stride);
-    return WT_OK;
+                        without, solved);
+    return status;
 }
 
 /* ---- tables -----------------------------------------------------------------------------------
@@ -296,37 +276,30 @@ static const char *regime_name(wt_layer_regime regime)
     return names[regime];
 }
 
-static void set_numbers(const layer_task *task, const centre *c, table_writer *t)
+static void set_numbers(const layer_task *task, const layer_run *run, table_writer *t)
 {
-    static const struct {
-        int index;
-        layer_key key;
-    } keys[] = {
-        {RATIO, LAYER_KEY_FORMATION_WEAR_RATIO},  {INCUBATION, LAYER_KEY_INCUBATION_TIME},
-        {RELAXATION, LAYER_KEY_RELAXATION_TIME},  {CRITICAL_WEAR, LAYER_KEY_CRITICAL_WEAR_RATE},
-        {REMOVAL, LAYER_KEY_REMOVAL_TIME},        {ENERGY, LAYER_KEY_CRITICAL_ENERGY},
-        {SURFACE_POWER, LAYER_KEY_SURFACE_POWER}, {NINETY, LAYER_KEY_TIME_TO_90_PERCENT},
-    };
+#define NUMBER_KEY(key, value) LAYER_KEY_##key,
+    static const layer_key keys[] = {NUMBERS(NUMBER_KEY)};
+    const wt_layer_balance *b = &run->balance;
     double value[N_NUMBERS];
-    put_numbers(&c->balance, &c->parameters, value);
-    value[NINETY] = time_to_share(c->points, task->n, 0.9 * c->balance.thickness.value);
-    layer_set_value(t, LAYER_KEY_BALANCE_THICKNESS, value[THICKNESS], task->error[THICKNESS],
-                    c->balance.thickness.numerical_error);
-    /* d ln thickness / d ln k = -Qw / (thickness |dQf/dz|): the balance is where Qf(z) = Qw */
-    double sensitivity =
-        -c->balance.wear_rate * c->balance.relaxation_time / c->balance.thickness.value;
-    if (isfinite(sensitivity))
-        layer_set_value(t, LAYER_KEY_WEAR_SENSITIVITY, sensitivity, (double)NAN, 0);
-    for (size_t i = 0; i < COUNT_OF(keys); i++)
-        layer_set_value(t, keys[i].key, value[keys[i].index], task->error[keys[i].index], 0);
+    put_numbers(run, task->n, value);
+    for (size_t i = 0; i < N_NUMBERS; i++) {
+        const bool is_thickness = keys[i] == LAYER_KEY_BALANCE_THICKNESS;
+        layer_set_value(t, keys[i], value[i], task->replicates.error[i],
+                        is_thickness ? b->thickness.numerical_error : 0);
+        /* d ln thickness / d ln k = -Qw / (thickness |dQf/dz|): the balance is where Qf(z) = Qw */
+        const double sensitivity = -b->wear_rate * b->relaxation_time / b->thickness.value;
+        if (is_thickness && isfinite(sensitivity))
+            layer_set_value(t, LAYER_KEY_WEAR_SENSITIVITY, sensitivity, (double)NAN, 0);
+    }
 }
 
-static void set_keys(const layer_task *task, const centre *c, table_writer *t)
+static void set_keys(const layer_task *task, const layer_run *run, table_writer *t)
 {
     const wt_layer_job *job = task->job;
     const bool calibrated = isnan(job->critical_energy.value);
-    set_numbers(task, c, t);
-    layer_set_text(t, LAYER_KEY_REGIME, regime_name(c->balance.regime));
+    set_numbers(task, run, t);
+    layer_set_text(t, LAYER_KEY_REGIME, regime_name(run->balance.regime));
     layer_set_value(t, LAYER_KEY_VELOCITY, task->velocity, 0, 0);
     layer_set(t, LAYER_KEY_PRESSURE, task->sliding->pressure);
     layer_set(t, LAYER_KEY_WEAR_RATE, job->specific_wear_rate);
@@ -336,28 +309,28 @@ static void set_keys(const layer_task *task, const centre *c, table_writer *t)
                    calibrated ? "calibrated: makes the observed thickness the balance" : "given");
     layer_set_print(t, LAYER_KEY_DAMAGE, "%g", job->damage);
     layer_set_print(t, LAYER_KEY_DUTY, "%g", job->duty);
-    layer_set_text(t, LAYER_KEY_ERROR_INCLUDES,
-                   task->varies ? task->words : "nothing, for no error was measured or stated");
-    if (task->lacks[0] != '\0')
-        layer_set_text(t, LAYER_KEY_ERROR_LACKS, task->lacks);
-    if (c->statement[0] != '\0')
-        layer_set_text(t, LAYER_KEY_MATERIAL_STATEMENT, c->statement);
+    layer_set_text(t, LAYER_KEY_ERROR_INCLUDES, replicates_include(&task->replicates));
+    if (task->replicates.lacks[0] != '\0')
+        layer_set_text(t, LAYER_KEY_ERROR_LACKS, task->replicates.lacks);
+    if (run->statement[0] != '\0')
+        layer_set_text(t, LAYER_KEY_MATERIAL_STATEMENT, run->statement);
 }
 
-static wt_status layer_table(const layer_task *task, const centre *c, wt_table **out, wt_error *err)
+static wt_status layer_table(const layer_task *task, const layer_run *run, wt_table **out,
+                             wt_error *err)
 {
     table_writer t = table_begin(&layer_schema, err);
     for (size_t i = 0; i < task->n; i++) {
-        const wt_layer_point *p = &c->points[i];
+        const wt_layer_point *p = &run->points[i];
         table_row(&t);
         layer_put(&t, LAYER_TIME, p->time);
         layer_put(&t, LAYER_THICKNESS, p->thickness.value);
-        layer_put(&t, LAYER_THICKNESS_STANDARD_ERROR, task->error[N_NUMBERS + i]);
+        layer_put(&t, LAYER_THICKNESS_STANDARD_ERROR, task->replicates.error[N_NUMBERS + i]);
         layer_put(&t, LAYER_THICKNESS_NUMERICAL_ERROR, p->thickness.numerical_error);
         layer_put(&t, LAYER_FORMATION_RATE, p->formation_rate);
         layer_put(&t, LAYER_WEAR_RATE, p->wear_rate);
     }
-    set_keys(task, c, &t);
+    set_keys(task, run, &t);
     return table_end(&t, out);
 }
 
@@ -387,47 +360,6 @@ static wt_status energy_table(const layer_task *task, const wt_energy_source *so
 /* ---- the job ----------------------------------------------------------------------------------
  */
 
-static void find_words(layer_task *task)
-{
-    const wt_layer_job *job = task->job;
-    task->varies = flow_conditions_vary(task->sliding, task->work, task->words, sizeof task->words);
-    const struct {
-        double error;
-        const char *what;
-    } stated[] = {
-        {job->specific_wear_rate.standard_error, "specific wear rate"},
-        {isnan(job->critical_energy.value) ? 0 : job->critical_energy.standard_error,
-         "critical energy"},
-        {isnan(job->observed_thickness.value) ? 0 : job->observed_thickness.standard_error,
-         "observed thickness"},
-    };
-    for (size_t i = 0; task->work->replicates > 1 && i < COUNT_OF(stated); i++) {
-        if (!(stated[i].error > 0))
-            continue;
-        flow_add_words(task->words, sizeof task->words, stated[i].what);
-        task->varies = true;
-    }
-    flow_conditions_lack(task->sliding, task->lacks, sizeof task->lacks);
-    if (!(job->specific_wear_rate.standard_error > 0))
-        flow_add_words(task->lacks, sizeof task->lacks, "specific wear rate");
-    if (!isnan(job->critical_energy.value) && !(job->critical_energy.standard_error > 0))
-        flow_add_words(task->lacks, sizeof task->lacks, "critical energy");
-    if (!isnan(job->observed_thickness.value) && !(job->observed_thickness.standard_error > 0))
-        flow_add_words(task->lacks, sizeof task->lacks, "observed thickness");
-}
-
-static wt_status allocate(layer_task *task, centre *c, wt_error *err)
-{
-    task->stride = N_NUMBERS + task->n;
-    task->error = malloc(task->stride * sizeof *task->error);
-    task->replicate =
-        calloc(task->varies ? task->n_replicates : 1, task->stride * sizeof *task->replicate);
-    c->points = malloc((task->n > 0 ? task->n : 1) * sizeof *c->points);
-    if (task->error == NULL || task->replicate == NULL || c->points == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    return WT_OK;
-}
-
 wt_status wt_layer_make(const wt_sliding *sliding, const wt_layer_job *job, const wt_job *work,
                         wt_layer_tables *tables, wt_error *err)
 {
@@ -443,39 +375,31 @@ wt_status wt_layer_make(const wt_sliding *sliding, const wt_layer_job *job, cons
                        .work = work,
                        .velocity =
                            isnan(job->velocity) ? flow_reference_velocity(sliding) : job->velocity,
-                       .n_replicates = work->replicates};
-    centre c = {0};
+                       .replicates = replicates_of(sliding, work, "layer")};
+    layer_run centre = {.points = NULL};
     wt_layer_tables t = {0};
-    find_words(&task);
-    status =
-        source_and_parameters(&task, WT_NO_REPLICATE, &c.source, &c.parameters, c.statement, err);
+    status = find_balance(&task, WT_NO_REPLICATE, &centre, err);
     if (status == WT_OK)
-        status = wt_layer_balance_compute(&c.source, &c.parameters, &c.balance, err);
+        status = choose_times(&task, &centre.balance, err);
     if (status == WT_OK)
-        status = choose_times(&task, &c.balance, err);
+        status = follow(&task, &centre, err);
     if (status == WT_OK)
-        status = allocate(&task, &c, err);
+        status = draw_replicates(&task, err);
     if (status == WT_OK)
-        status = wt_layer_history(&c.source, &c.parameters, task.time, task.n, c.points, err);
+        status = layer_table(&task, &centre, &t.layer, err);
     if (status == WT_OK)
-        status = replicate_all(&task, err);
-    if (status == WT_OK)
-        status = layer_table(&task, &c, &t.layer, err);
-    if (status == WT_OK)
-        status = energy_table(&task, &c.source, &t.energy_density, err);
+        status = energy_table(&task, &centre.source, &t.energy_density, err);
     if (status == WT_OK) {
-        t.balance = c.balance;
-        t.thickness = c.balance.thickness;
-        t.thickness.standard_error = task.error[THICKNESS];
+        t.balance = centre.balance;
+        t.thickness = centre.balance.thickness;
+        t.thickness.standard_error = task.replicates.error[NUMBER_BALANCE_THICKNESS];
         t.balance.thickness = t.thickness;
         *tables = t;
         t = (wt_layer_tables){0};
     }
-    wt_energy_source_clear(&c.source);
+    run_clear(&centre);
     wt_layer_tables_clear(&t);
-    free(c.points);
     free(task.time);
-    free(task.error);
-    free(task.replicate);
+    replicates_clear(&task.replicates);
     return status;
 }

@@ -1,17 +1,13 @@
-/* Material, roughness and conditions of one replicate of a sliding contact.
+/* Material, roughness and load of one replicate of a sliding contact.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "flow/job/conditions.h"
+#include "flow/job/sliding_contact.h"
 #include "flow/job/draws.h"
 #include "kernel/params.h"
 
 #include <math.h>
-#include <string.h>
 
-void flow_add_words(char *words, size_t size, const char *what)
-{
-    size_t used = strlen(words);
-    snprintf(words + used, size - used, "%s%s", used > 0 ? ", " : "", what);
-}
+/* Relative numerical error asked of replicates: far below the scatter between them. */
+#define REPLICATE_TOLERANCE 1e-5
 
 wt_sliding wt_sliding_defaults(void)
 {
@@ -58,11 +54,12 @@ double flow_reference_velocity(const wt_sliding *sliding)
                                               : sliding->reference_velocity;
 }
 
-wt_status flow_conditions_make(const wt_sliding *sliding, uint64_t seed, size_t replicate,
-                               double tolerance, unsigned threads, wt_layer_state layer,
-                               flow_conditions *conditions, wt_error *err)
+wt_status sliding_contact_make(const wt_sliding *sliding, const wt_job *work, size_t replicate,
+                               wt_layer_state layer, sliding_contact *contact, wt_error *err)
 {
-    flow_conditions c = {0};
+    sliding_contact c = {0};
+    const uint64_t seed = work->seed;
+    const bool drawn = replicate != WT_NO_REPLICATE;
     double temperature =
         flow_draw_value(sliding->temperature, seed, replicate, FLOW_DRAW_TEMPERATURE);
     wt_estimate density = {1, sliding->surface->c0.standard_error / sliding->surface->c0.value, 0,
@@ -72,9 +69,9 @@ wt_status flow_conditions_make(const wt_sliding *sliding, uint64_t seed, size_t 
     c.shear_stress =
         flow_draw_positive(sliding->shear_stress, seed, replicate, FLOW_DRAW_SHEAR_STRESS);
     wt_friction_options options = wt_friction_defaults();
-    options.tolerance = tolerance;
+    options.tolerance = drawn ? REPLICATE_TOLERANCE : work->tolerance;
     options.gamma = sliding->gamma;
-    options.threads = threads;
+    options.threads = drawn ? 1 : work->threads;
     options.layer = layer;
     wt_status status =
         wt_rubber_at(sliding->rubber, temperature, seed, replicate, &c.material, c.statement, err);
@@ -83,47 +80,17 @@ wt_status flow_conditions_make(const wt_sliding *sliding, uint64_t seed, size_t 
     if (status == WT_OK)
         status = wt_friction_workspace_new(c.material, c.roughness, &options, &c.workspace, err);
     if (status != WT_OK) {
-        flow_conditions_clear(&c);
+        sliding_contact_clear(&c);
         return status;
     }
-    *conditions = c;
+    *contact = c;
     return WT_OK;
 }
 
-void flow_conditions_clear(flow_conditions *conditions)
+void sliding_contact_clear(sliding_contact *contact)
 {
-    wt_friction_workspace_free(conditions->workspace);
-    wt_roughness_free(conditions->roughness);
-    wt_material_free(conditions->material);
-    *conditions = (flow_conditions){0};
-}
-
-void flow_conditions_lack(const wt_sliding *sliding, char *words, size_t size)
-{
-    words[0] = '\0';
-    if (!(sliding->pressure.standard_error > 0))
-        flow_add_words(words, size, "pressure");
-    if (!(sliding->temperature.standard_error > 0))
-        flow_add_words(words, size, "temperature");
-    if (!(sliding->surface->c0.standard_error > 0))
-        flow_add_words(words, size, "roughness");
-}
-
-bool flow_conditions_vary(const wt_sliding *sliding, const wt_job *work, char *words, size_t size)
-{
-    words[0] = '\0';
-    if (work->replicates < 2)
-        return false;
-    if (sliding->rubber->has_master)
-        flow_add_words(words, size, "material (isotherms resampled)");
-    if (sliding->rubber->c1_error > 0 || sliding->rubber->c2_error > 0 ||
-        sliding->rubber->slope_error > 0)
-        flow_add_words(words, size, "shift law");
-    if (sliding->pressure.standard_error > 0)
-        flow_add_words(words, size, "pressure");
-    if (sliding->temperature.standard_error > 0)
-        flow_add_words(words, size, "temperature");
-    if (sliding->surface->c0.standard_error > 0)
-        flow_add_words(words, size, "roughness");
-    return words[0] != '\0';
+    wt_friction_workspace_free(contact->workspace);
+    wt_roughness_free(contact->roughness);
+    wt_material_free(contact->material);
+    *contact = (sliding_contact){0};
 }

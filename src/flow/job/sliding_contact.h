@@ -1,0 +1,28 @@
+/* Material, roughness and load of one replicate of a sliding contact, ready for the kernel.
+ * Internal to flow. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WEARTRACK_FLOW_SLIDING_CONTACT_H
+#define WEARTRACK_FLOW_SLIDING_CONTACT_H
+
+#include "weartrack/flow.h"
+
+typedef struct sliding_contact {
+    double pressure, shear_stress;
+    wt_material *material;
+    wt_roughness *roughness;
+    wt_friction_workspace *workspace;
+    char statement[256]; /* what must be said of the material, "" if nothing */
+} sliding_contact;
+
+/* Checks the numbers of a sliding contact and of the job. */
+wt_status flow_sliding_check(const wt_sliding *sliding, const wt_job *work,
+                             wt_error *err) WT_NODISCARD;
+/* The velocity of the answer: as given, or the middle of the list. */
+double flow_reference_velocity(const wt_sliding *sliding);
+/* Draws replicate `replicate` (WT_NO_REPLICATE = the values themselves) and prepares the kernel. A
+ * replicate takes one thread and asks for a small numerical error, as many are made at a time. */
+wt_status sliding_contact_make(const wt_sliding *sliding, const wt_job *work, size_t replicate,
+                               wt_layer_state layer, sliding_contact *contact,
+                               wt_error *err) WT_NODISCARD;
+void sliding_contact_clear(sliding_contact *contact);
+
+#endif
