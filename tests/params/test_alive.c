@@ -225,7 +225,7 @@ static void base_options(const char *base, const char *without, char *options, s
 static size_t try_option(size_t s, const char *option, const char *text, const char *with,
                          const char *without)
 {
-    char base[TEXT], options[TEXT], further[256];
+    char base[TEXT], options[TEXT + 512], further[256];
     size_t n[2];
     base_options(with, "", further, sizeof further);
     base_options(subcommands[s].base, without, base, sizeof base);
