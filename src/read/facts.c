@@ -10,6 +10,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+static char *print(const char *format, va_list arguments) WT_PRINTF(1, 0);
 static char *print(const char *format, va_list arguments)
 {
     va_list again;
