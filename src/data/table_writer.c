@@ -20,12 +20,12 @@ static void add_columns(table_writer *w, const schema_column *columns)
 table_writer table_begin_variant(const table_schema *schema, table_variant own, wt_error *err)
 {
     char name[SCHEMA_NAME_SIZE];
-    schema_name(schema->name, own.suffix, name);
-    table_writer w = {.table = wt_table_new(name, own.title),
-                      .schema = schema,
-                      .suffix = own.suffix,
+    table_writer w = {.schema = schema,
+                      .suffix = own.suffix != NULL ? own.suffix : "",
                       .err = err,
                       .left_out = own.left_out};
+    schema_name(own.name != NULL ? own.name : schema->name, w.suffix, name);
+    w.table = wt_table_new(name, own.title != NULL ? own.title : schema->title);
     if (w.table == NULL)
         w.status = wt_fail(err, WT_E_MEMORY, "out of memory");
     add_columns(&w, own.columns != NULL ? own.columns : schema->columns);
@@ -34,7 +34,7 @@ table_writer table_begin_variant(const table_schema *schema, table_variant own, 
 
 table_writer table_begin(const table_schema *schema, wt_error *err)
 {
-    return table_begin_variant(schema, (table_variant){"", schema->title, 0, NULL}, err);
+    return table_begin_variant(schema, (table_variant){0}, err);
 }
 
 table_writer table_continue(wt_table *table, const table_schema *schema, const char *suffix,

@@ -20,12 +20,12 @@ typedef struct table_writer {
     size_t column[SCHEMA_MOST];   /* places of the columns in the table */
 } table_writer;
 
-/* What one table of a schema has of its own. */
+/* What one table has instead of what its schema says; 0 and NULL: nothing. */
 typedef struct table_variant {
     const char *suffix; /* of names that end in '/' or '_'; borrowed */
-    const char *title;
+    const char *name, *title;
     uint64_t left_out;            /* columns that it is without, a bit for each */
-    const schema_column *columns; /* those of the schema with other units or words */
+    const schema_column *columns; /* with other units or words */
 } table_variant;
 
 /* A new table. */

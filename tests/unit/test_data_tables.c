@@ -190,7 +190,7 @@ static void check_refused(wrong what, const char *named)
     wt_table *table = make_prony(), *none = table;
     const uint64_t left_out = what == LEFT_OUT ? SCHEMA_BIT(PRONY_MODULUS) : 0;
     table_writer t =
-        table_begin_variant(&prony_schema, (table_variant){"", "", left_out, NULL}, &err);
+        table_begin_variant(&prony_schema, (table_variant){.left_out = left_out}, &err);
     table_row(&t);
     prony_put(&t, PRONY_RELAXATION_TIME, 1);
     if (what != NO_CELL)

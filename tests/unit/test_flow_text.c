@@ -137,8 +137,8 @@ static void test_spots(void **state)
                          SCHEMA_BIT(INDENTATION_MODULUS);
     wt_table *table = NULL;
     wt_group_data data;
-    table_writer t =
-        table_begin_variant(&indentation_schema, (table_variant){"bulk", "", ~put, NULL}, NULL);
+    table_writer t = table_begin_variant(&indentation_schema,
+                                         (table_variant){.suffix = "bulk", .left_out = ~put}, NULL);
     for (size_t i = 0; i < N; i++) {
         table_row(&t);
         indentation_put_text(&t, INDENTATION_SPOT, spots[i]);

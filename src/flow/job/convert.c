@@ -51,8 +51,8 @@ static wt_status curve_table(const wt_force_curve *curve, wt_table **table, wt_e
     const size_t n = curve_columns(curve, columns);
     char number[32];
     snprintf(number, sizeof number, "%zu", curve->index);
-    table_writer t = table_begin_variant(
-        &force_curve_schema, (table_variant){number, force_curve_schema.title, 0, NULL}, err);
+    table_writer t =
+        table_begin_variant(&force_curve_schema, (table_variant){.suffix = number}, err);
     set_curve_key(&t, FORCE_CURVE_KEY_POSITION_X, curve->x);
     set_curve_key(&t, FORCE_CURVE_KEY_POSITION_Y, curve->y);
     set_curve_key(&t, FORCE_CURVE_KEY_SPRING_CONSTANT, curve->cantilever.spring_constant);
@@ -124,8 +124,7 @@ static wt_status sweep_table(const wt_sweep *sweep, wt_table **table, wt_error *
     const sweep_column without[] = {shear ? SWEEP_STORAGE_MODULUS : SWEEP_SHEAR_STORAGE_MODULUS,
                                     shear ? SWEEP_LOSS_MODULUS : SWEEP_SHEAR_LOSS_MODULUS};
     const uint64_t left_out = SCHEMA_BIT(without[0]) | SCHEMA_BIT(without[1]);
-    table_writer t = table_begin_variant(
-        &sweep_schema, (table_variant){"", sweep_schema.title, left_out, NULL}, err);
+    table_writer t = table_begin_variant(&sweep_schema, (table_variant){.left_out = left_out}, err);
     for (size_t k = 0; k < sweep->n_isotherms; k++) {
         const wt_isotherm *iso = &sweep->isotherms[k];
         table_block(&t);
@@ -168,9 +167,12 @@ static wt_status image_table(const wt_image *image, size_t number, wt_table **ta
     columns[IMAGE_X].unit = image->x_unit;
     columns[IMAGE_VALUE].unit = image->unit;
     columns[IMAGE_VALUE].long_name = image->name;
-    table_writer t = table_begin_variant(
-        &image_schema,
-        (table_variant){suffix, image->name, flat ? SCHEMA_BIT(IMAGE_Y) : 0, columns}, err);
+    table_writer t = table_begin_variant(&image_schema,
+                                         (table_variant){.suffix = suffix,
+                                                         .title = image->name,
+                                                         .left_out = flat ? SCHEMA_BIT(IMAGE_Y) : 0,
+                                                         .columns = columns},
+                                         err);
     for (size_t row = 0; row < image->n_rows; row++) {
         table_block(&t);
         for (size_t column = 0; column < image->n_columns; column++) {
@@ -207,8 +209,8 @@ static wt_status spectrum_table(const wt_power_spectrum *s, wt_table **table, wt
     const bool surface = s->kind == WT_SPECTRUM_2D;
     const spectrum_column density = surface ? SPECTRUM_DENSITY_2D : SPECTRUM_DENSITY_1D;
     const spectrum_column other = surface ? SPECTRUM_DENSITY_1D : SPECTRUM_DENSITY_2D;
-    table_writer t = table_begin_variant(
-        &spectrum_schema, (table_variant){"", spectrum_schema.title, SCHEMA_BIT(other), NULL}, err);
+    table_writer t =
+        table_begin_variant(&spectrum_schema, (table_variant){.left_out = SCHEMA_BIT(other)}, err);
     for (size_t i = 0; i < s->n; i++) {
         table_row(&t);
         spectrum_put(&t, SPECTRUM_WAVENUMBER, s->wavenumber[i]);

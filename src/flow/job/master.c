@@ -200,28 +200,75 @@ static wt_status prony_table(const wt_prony_fit *fit, wt_table **table, wt_error
 /* ---- the job ----------------------------------------------------------------------------------
  */
 
+/* What is fitted to the sweeps. */
+typedef struct fits {
+    wt_sweep sweep;
+    wt_shift_options shift;
+    wt_master_curve master;
+    wt_wlf_fit wlf;
+    bool has_wlf;
+    wt_prony_fit prony;
+} fits;
+
+static void fits_clear(fits *f)
+{
+    wt_sweep_clear(&f->sweep);
+    wt_master_curve_clear(&f->master);
+    wt_prony_clear(&f->prony.prony);
+}
+
 /* Fits the shift law; a law that cannot be fitted is a warning: the reference temperature remains.
  */
-static wt_status fit_law(const wt_master_curve *master, const wt_shift_options *options,
-                         const wt_job *work, wt_wlf_fit *wlf, bool *has_wlf, wt_error *err)
+static wt_status fit_law(fits *f, const wt_job *work, wt_error *err)
 {
     wt_error failure = WT_ERROR_INIT;
-    *has_wlf = false;
-    if (master->n_shifts < 2)
+    if (f->master.n_shifts < 2)
         return WT_OK;
-    wt_status status = wt_wlf_fit_shifts(master, options->floor, wlf, &failure);
-    if (status == WT_OK) {
-        *has_wlf = true;
-        return WT_OK;
-    }
+    wt_status status = wt_wlf_fit_shifts(&f->master, f->shift.floor, &f->wlf, &failure);
+    f->has_wlf = status == WT_OK;
     if (status == WT_E_MEMORY || status == WT_E_INTERNAL) {
         if (err != NULL)
             *err = failure;
         return status;
     }
-    wt_parselog_add(work->log, WT_WARNING, NULL, NULL, "no WLF law fits the shift factors: %s",
-                    failure.message);
+    if (status != WT_OK)
+        wt_parselog_add(work->log, WT_WARNING, NULL, NULL, "no WLF law fits the shift factors: %s",
+                        failure.message);
     return WT_OK;
+}
+
+static wt_status fit_all(const wt_master_job *job, const wt_job *work, fits *f, wt_error *err)
+{
+    const size_t n = f->sweep.n_isotherms;
+    f->shift = job->shift;
+    if (isnan(f->shift.reference_temperature))
+        f->shift.reference_temperature = f->sweep.isotherms[n / 2].temperature;
+    wt_status status = n == 1
+                           ? flow_single_isotherm(&f->sweep, &f->shift, work->log, &f->master, err)
+                           : wt_shift_fit(&f->sweep, &f->shift, work->log, &f->master, err);
+    if (status == WT_OK)
+        status = fit_law(f, work, err);
+    if (status == WT_OK)
+        status = wt_prony_fit_master(&f->master, &job->prony, &f->prony, err);
+    if (status == WT_OK)
+        return WT_OK;
+    /* the fit sees isotherms, not files */
+    if (job->n_sets > 0 && job->sets[0].n_patterns > 0)
+        wt_error_file(err, job->sets[0].patterns[0]);
+    if (err != NULL && err->place[0] == '\0')
+        wt_error_place(err, "%zu isotherm%s from %s", n, n == 1 ? "" : "s",
+                       f->sweep.isotherms[0].source);
+    return status;
+}
+
+static wt_status make_tables(const fits *f, wt_master_tables *t, wt_error *err)
+{
+    t->n_isotherms = f->sweep.n_isotherms;
+    wt_status status = shift_table(&f->master, f->has_wlf ? &f->wlf : NULL, f->shift.floor,
+                                   &t->shift_factors, err);
+    if (status == WT_OK)
+        status = master_table(&f->master, &f->prony, &t->master_curve, err);
+    return status == WT_OK ? prony_table(&f->prony, &t->prony, err) : status;
 }
 
 static wt_status keep_vertical(const wt_master_curve *master, wt_rubber *rubber, wt_error *err)
@@ -241,12 +288,31 @@ static wt_status keep_vertical(const wt_master_curve *master, wt_rubber *rubber,
     return WT_OK;
 }
 
-static wt_shift_options with_reference(const wt_master_job *job, const wt_sweep *sweep)
+/* Takes the master curve and the series out of the fits. */
+static wt_status make_rubber(const wt_master_job *job, fits *f, wt_rubber *rubber, wt_error *err)
 {
-    wt_shift_options options = job->shift;
-    if (isnan(options.reference_temperature))
-        options.reference_temperature = sweep->isotherms[sweep->n_isotherms / 2].temperature;
-    return options;
+    wt_rubber r = {.poisson_ratio = job->poisson_ratio,
+                   .prony_options = job->prony,
+                   .has_wlf = f->has_wlf,
+                   .wlf = f->wlf.wlf,
+                   .c1_error = f->wlf.c1_error,
+                   .c2_error = f->wlf.c2_error,
+                   .c_correlation = f->wlf.correlation,
+                   .slope_error = f->wlf.straight ? f->wlf.slope_error : 0,
+                   .temperature_min = f->sweep.isotherms[0].temperature,
+                   .temperature_max = f->sweep.isotherms[f->sweep.n_isotherms - 1].temperature};
+    wt_status status = keep_vertical(&f->master, &r, err);
+    if (status != WT_OK) {
+        wt_rubber_clear(&r);
+        return status;
+    }
+    r.prony = f->prony.prony;
+    f->prony.prony = (wt_prony){0};
+    r.master = f->master;
+    r.has_master = true;
+    f->master = (wt_master_curve){0};
+    *rubber = r;
+    return WT_OK;
 }
 
 wt_status wt_master_make(const wt_master_job *job, const wt_job *work, wt_master_tables *tables,
@@ -254,80 +320,24 @@ wt_status wt_master_make(const wt_master_job *job, const wt_job *work, wt_master
 {
     if (job == NULL || work == NULL)
         return wt_fail(err, WT_E_ARG, "no DMA job");
+    fits f = {0};
+    wt_master_tables t = {0};
     wt_status status = param_check(wt_master_job_params(), job, err);
     if (status == WT_OK)
         status = param_check(wt_job_params(), work, err);
-    if (status != WT_OK)
-        return status;
-    wt_sweep sweep = {0};
-    wt_master_curve master = {0};
-    wt_prony_fit prony = {0};
-    wt_wlf_fit wlf = {0};
-    bool has_wlf = false;
-    wt_master_tables t = {0};
-    wt_rubber r = {.poisson_ratio = job->poisson_ratio,
-                   .prony_options = job->prony,
-                   .temperature_min = (double)NAN,
-                   .temperature_max = (double)NAN};
-    status = read_sweeps(job, work, &sweep, err);
-    if (status != WT_OK)
-        goto done;
-    wt_shift_options shift = with_reference(job, &sweep);
-    t.n_isotherms = sweep.n_isotherms;
-    status = sweep.n_isotherms == 1 ? flow_single_isotherm(&sweep, &shift, work->log, &master, err)
-                                    : wt_shift_fit(&sweep, &shift, work->log, &master, err);
     if (status == WT_OK)
-        status = fit_law(&master, &shift, work, &wlf, &has_wlf, err);
+        status = read_sweeps(job, work, &f.sweep, err);
     if (status == WT_OK)
-        status = wt_prony_fit_master(&master, &job->prony, &prony, err);
-    if (status != WT_OK) {
-        /* the fit sees isotherms, not files */
-        const size_t n = sweep.n_isotherms;
-        if (job->n_sets > 0 && job->sets[0].n_patterns > 0)
-            wt_error_file(err, job->sets[0].patterns[0]);
-        if (err != NULL && err->place[0] == '\0' && n > 0)
-            wt_error_place(err, "%zu isotherm%s from %s", n, n == 1 ? "" : "s",
-                           sweep.isotherms[0].source);
-        goto done;
-    }
-    if (tables != NULL) {
-        status = shift_table(&master, has_wlf ? &wlf : NULL, shift.floor, &t.shift_factors, err);
-        if (status == WT_OK)
-            status = master_table(&master, &prony, &t.master_curve, err);
-        if (status == WT_OK)
-            status = prony_table(&prony, &t.prony, err);
-        if (status != WT_OK)
-            goto done;
-    }
-    if (rubber != NULL) {
-        status = keep_vertical(&master, &r, err);
-        if (status != WT_OK)
-            goto done;
-        r.has_wlf = has_wlf;
-        r.wlf = wlf.wlf;
-        r.c1_error = wlf.c1_error;
-        r.c2_error = wlf.c2_error;
-        r.c_correlation = wlf.correlation;
-        r.slope_error = wlf.straight ? wlf.slope_error : 0;
-        r.temperature_min = sweep.isotherms[0].temperature;
-        r.temperature_max = sweep.isotherms[sweep.n_isotherms - 1].temperature;
-        r.prony = prony.prony;
-        prony.prony = (wt_prony){0};
-        r.master = master;
-        r.has_master = true;
-        master = (wt_master_curve){0};
-        *rubber = r;
-        r = (wt_rubber){0};
-    }
-    if (tables != NULL) {
+        status = fit_all(job, work, &f, err);
+    if (status == WT_OK && tables != NULL)
+        status = make_tables(&f, &t, err);
+    if (status == WT_OK && rubber != NULL)
+        status = make_rubber(job, &f, rubber, err);
+    if (status == WT_OK && tables != NULL) {
         *tables = t;
         t = (wt_master_tables){0};
     }
-done:
-    wt_sweep_clear(&sweep);
-    wt_master_curve_clear(&master);
-    wt_prony_clear(&prony.prony);
-    wt_rubber_clear(&r);
+    fits_clear(&f);
     wt_master_tables_clear(&t);
     return status;
 }
