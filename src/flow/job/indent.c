@@ -481,12 +481,12 @@ wt_status wt_indent_group(const wt_indent_job *job, const wt_job *work, wt_inden
         wt_error_advice(err, "`weartrack info FILE` shows what a file holds");
         goto done;
     }
+    task.rows.err = err; /* that of the last row was the error of its file */
     set_keys(&task, &files);
     if (job->curves && task.n_moduli > 0)
         status = add_representative(&task, tables, err);
     if (status != WT_OK)
         goto done;
-    task.rows.err = err;
     status = table_end(&task.rows, &tables->indentation);
     task.rows.table = NULL;
     tables->n_files = files.n;

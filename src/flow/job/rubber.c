@@ -154,9 +154,10 @@ wt_status wt_rubber_at(const wt_rubber *rubber, double temperature, uint64_t see
         if (status == WT_OK) {
             prony.deformation = rubber->prony.deformation;
             prony.equilibrium_modulus = rubber->prony.equilibrium_modulus;
-            memcpy(prony.relaxation_time, rubber->prony.relaxation_time,
-                   prony.n * sizeof *prony.relaxation_time);
-            memcpy(prony.modulus, rubber->prony.modulus, prony.n * sizeof *prony.modulus);
+            for (size_t k = 0; k < prony.n; k++) {
+                prony.relaxation_time[k] = rubber->prony.relaxation_time[k];
+                prony.modulus[k] = rubber->prony.modulus[k];
+            }
         }
     }
     if (status != WT_OK)

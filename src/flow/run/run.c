@@ -192,9 +192,10 @@ static wt_status finish(conduct *d, wt_error *err)
         status = publish(d, &notes, err);
     if (status == WT_OK)
         status = publish(d, &d->failures, err);
-    if (status == WT_OK)
-        status = table_end(&d->cost, &cost);
-    d->cost.table = NULL;
+    if (status != WT_OK)
+        return status;
+    status = table_end(&d->cost, &cost);
+    d->cost.table = NULL; /* handed over, or freed */
     return status == WT_OK ? publish(d, &cost, err) : status;
 }
 

@@ -180,7 +180,8 @@ static void read_columns(description_parser *p, const xmlNode *table)
         }
         d->n_rules++;
     }
-    qsort(d->names, d->n_names, sizeof *d->names, compare_names);
+    if (d->n_names > 1)
+        qsort(d->names, d->n_names, sizeof *d->names, compare_names);
 }
 
 static void read_table(description_parser *p, const xmlNode *table)
