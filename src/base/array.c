@@ -1,7 +1,20 @@
-/* Lists of numbers. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Growing arrays, lists of numbers. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/array.h"
 
+#include <stdbool.h>
+#include <stdint.h>
 #include <stdlib.h>
+
+/* There is room for a power of two, so that what is full follows from n. */
+void *array_grow(void *array, size_t n, size_t size)
+{
+    enum { FIRST = 8 };
+    const bool full = n == 0 || (n >= FIRST && (n & (n - 1)) == 0);
+    if (!full)
+        return array;
+    const size_t room = n == 0 ? FIRST : 2 * n;
+    return room > SIZE_MAX / size ? NULL : realloc(array, room * size);
+}
 
 static int compare_numbers(const void *a, const void *b)
 {

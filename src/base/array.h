@@ -6,6 +6,10 @@
 
 #define COUNT_OF(array) (sizeof(array) / sizeof((array)[0]))
 
+/* An array of n elements, which were added one by one by this function alone, with room for one
+ * more: `array`, or where it is moved to; NULL when out of memory. */
+void *array_grow(void *array, size_t n, size_t size);
+
 /* Sorts numbers, none of which is NaN, rising. */
 void numbers_sort(double *x, size_t n);
 

@@ -1,19 +1,17 @@
 /* Memory that is freed together. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/pool.h"
 
+#include "base/array.h"
+
 #include <stdlib.h>
 #include <string.h>
 
 void *pool_alloc(pool *memory, size_t n, size_t size)
 {
-    if (memory->n == memory->capacity) {
-        const size_t capacity = memory->capacity > 0 ? 2 * memory->capacity : 64;
-        void **blocks = realloc(memory->blocks, capacity * sizeof *blocks);
-        if (blocks == NULL)
-            return NULL;
-        memory->blocks = blocks;
-        memory->capacity = capacity;
-    }
+    void **blocks = array_grow(memory->blocks, memory->n, sizeof *blocks);
+    if (blocks == NULL)
+        return NULL;
+    memory->blocks = blocks;
     void *block = calloc(n > 0 ? n : 1, size);
     if (block != NULL)
         memory->blocks[memory->n++] = block;

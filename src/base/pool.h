@@ -10,7 +10,7 @@
 /* Zero-initialised is empty. */
 typedef struct pool {
     void **blocks;
-    size_t n, capacity;
+    size_t n;
 } pool;
 
 /* n zeroed items; NULL when out of memory. */

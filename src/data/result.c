@@ -1,12 +1,14 @@
 /* Results: the tables of one run. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "data/table.h"
 
+#include "base/array.h"
+
 #include <stdlib.h>
 #include <string.h>
 
 struct wt_result {
     wt_table **tables;
-    size_t n, capacity;
+    size_t n;
     wt_provenance *provenance;
     char *case_file; /* with a terminating zero that is not counted */
     size_t case_length;
@@ -69,16 +71,12 @@ wt_status wt_result_add(wt_result *result, wt_table *table, wt_error *err)
             goto done;
         }
     }
-    if (result->n == result->capacity) {
-        const size_t capacity = result->capacity > 0 ? 2 * result->capacity : 16;
-        wt_table **const tables = realloc(result->tables, capacity * sizeof *tables);
-        if (tables == NULL) {
-            status = wt_fail(err, WT_E_MEMORY, "out of memory");
-            goto done;
-        }
-        result->tables = tables;
-        result->capacity = capacity;
+    wt_table **const tables = array_grow(result->tables, result->n, sizeof *tables);
+    if (tables == NULL) {
+        status = wt_fail(err, WT_E_MEMORY, "out of memory");
+        goto done;
     }
+    result->tables = tables;
     result->tables[result->n++] = table;
     table = NULL;
 done:

@@ -3,6 +3,7 @@
 #include "data/stream.h"
 #include "data/table.h"
 
+#include "base/array.h"
 #include "base/number.h"
 #include "base/utf8.h"
 
@@ -16,7 +17,7 @@ typedef struct reader {
     size_t size, length;
     size_t number;     /* of the line, from 1, counted from where this table began */
     char **long_names; /* of "## column:" lines: name, words, name, words, ... */
-    size_t n_long_names, long_names_capacity;
+    size_t n_long_names;
     wt_table *table;
     bool named; /* a "## table:" line was there: then the end must be marked */
 } reader;
@@ -116,18 +117,12 @@ static wt_status set_title(reader *r, const char *title, wt_error *err)
 /* Keeps a string, which it takes, until the columns are made. */
 static wt_status keep_long_name(reader *r, char *text, wt_error *err)
 {
-    if (text != NULL && r->n_long_names == r->long_names_capacity) {
-        const size_t capacity = r->long_names_capacity > 0 ? 2 * r->long_names_capacity : 32;
-        char **const long_names = realloc(r->long_names, capacity * sizeof *long_names);
-        if (long_names == NULL) {
-            free(text);
-            return wt_fail(err, WT_E_MEMORY, "out of memory");
-        }
-        r->long_names = long_names;
-        r->long_names_capacity = capacity;
-    }
-    if (text == NULL)
+    char **const kept = array_grow(r->long_names, r->n_long_names, sizeof *kept);
+    r->long_names = kept != NULL ? kept : r->long_names;
+    if (text == NULL || kept == NULL) {
+        free(text);
         return wt_fail(err, WT_E_MEMORY, "out of memory");
+    }
     r->long_names[r->n_long_names++] = text;
     return WT_OK;
 }

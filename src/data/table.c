@@ -1,6 +1,7 @@
 /* Tables: columns, rows and blocks. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "data/table.h"
 
+#include "base/array.h"
 #include "base/utf8.h"
 
 #include <assert.h>
@@ -92,7 +93,7 @@ static wt_status add_column(wt_table *table, wt_column_kind kind, const char *na
         wt_error_found(err, "\"%s\"", unit);
         return WT_E_ARG;
     }
-    table_column *const columns = realloc(table->columns, (table->n_columns + 1) * sizeof *columns);
+    table_column *const columns = array_grow(table->columns, table->n_columns, sizeof *columns);
     if (columns == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     table->columns = columns;
@@ -104,14 +105,6 @@ static wt_status add_column(wt_table *table, wt_column_kind kind, const char *na
         column_free(&column, 0);
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     }
-    /* Rows get their memory together with all columns. */
-    for (size_t i = 0; i < table->n_columns; i++) {
-        free(columns[i].numbers);
-        free(columns[i].texts);
-        columns[i].numbers = NULL;
-        columns[i].texts = NULL;
-    }
-    table->capacity = 0;
     columns[table->n_columns++] = column;
     return WT_OK;
 }
@@ -130,37 +123,27 @@ wt_status wt_table_add_text_column(wt_table *table, const char *name, const char
 
 static bool grow(wt_table *table)
 {
-    if (table->capacity > SIZE_MAX / sizeof(double) / 4)
-        return false;
-    const size_t capacity = table->capacity > 0 ? 2 * table->capacity : 16;
     for (size_t i = 0; i < table->n_columns; i++) {
         table_column *const column = &table->columns[i];
-        if (column->kind == WT_COLUMN_NUMBER) {
-            double *const numbers = realloc(column->numbers, capacity * sizeof *numbers);
-            if (numbers == NULL)
-                return false;
-            column->numbers = numbers;
-        } else {
-            char **const texts = realloc(column->texts, capacity * sizeof *texts);
-            if (texts == NULL)
-                return false;
-            column->texts = texts;
-        }
+        const bool is_number = column->kind == WT_COLUMN_NUMBER;
+        void *const cells = is_number ? array_grow(column->numbers, table->n_rows, sizeof(double))
+                                      : array_grow(column->texts, table->n_rows, sizeof(char *));
+        if (cells == NULL)
+            return false;
+        if (is_number)
+            column->numbers = cells;
+        else
+            column->texts = cells;
     }
-    table->capacity = capacity;
     return true;
 }
 
 static bool begin_block(wt_table *table)
 {
-    if (table->n_blocks == table->blocks_capacity) {
-        const size_t capacity = table->blocks_capacity > 0 ? 2 * table->blocks_capacity : 8;
-        size_t *const blocks = realloc(table->blocks, capacity * sizeof *blocks);
-        if (blocks == NULL)
-            return false;
-        table->blocks = blocks;
-        table->blocks_capacity = capacity;
-    }
+    size_t *const blocks = array_grow(table->blocks, table->n_blocks, sizeof *blocks);
+    if (blocks == NULL)
+        return false;
+    table->blocks = blocks;
     table->blocks[table->n_blocks++] = table->n_rows;
     return true;
 }
@@ -169,8 +152,7 @@ wt_status wt_table_add_row(wt_table *table, wt_error *err)
 {
     if (table->n_columns == 0)
         return wt_fail(err, WT_E_ARG, "table \"%s\" has no columns", table->name);
-    if ((table->n_rows == table->capacity && !grow(table)) ||
-        (table->n_blocks == 0 && !begin_block(table)))
+    if (!grow(table) || (table->n_blocks == 0 && !begin_block(table)))
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t i = 0; i < table->n_columns; i++) {
         if (table->columns[i].kind == WT_COLUMN_NUMBER)

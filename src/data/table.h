@@ -11,8 +11,8 @@ enum { TABLE_COLUMNS_MAX = 2048, TABLE_KEYS_MAX = 2048, RESULT_TABLES_MAX = 2048
 typedef struct table_column {
     wt_column_kind kind;
     char *name, *unit, *long_name;
-    double *numbers; /* [capacity] of a number column */
-    char **texts;    /* [capacity] of a text column; NULL stands for "" */
+    double *numbers; /* [n_rows] of a number column */
+    char **texts;    /* [n_rows] of a text column; NULL stands for "" */
 } table_column;
 
 typedef struct table_key {
@@ -30,11 +30,11 @@ struct wt_table {
     char *name, *title;
     table_column *columns;
     size_t n_columns;
-    size_t n_rows, capacity; /* of every column */
-    size_t *blocks;          /* first row of every block */
-    size_t n_blocks, blocks_capacity;
+    size_t n_rows;  /* of every column */
+    size_t *blocks; /* first row of every block */
+    size_t n_blocks;
     table_key *keys;
-    size_t n_keys, keys_capacity;
+    size_t n_keys;
 };
 
 /* Parts of [a-z0-9_]+ joined by '/'. */

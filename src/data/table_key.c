@@ -2,6 +2,7 @@
  * through a stream as any other key. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "data/table.h"
 
+#include "base/array.h"
 #include "base/number.h"
 
 #include <stdlib.h>
@@ -156,16 +157,12 @@ static wt_status set_key(wt_table *table, const char *name, char *text, wt_error
             status = wt_fail(err, WT_E_ARG, "more than %d keys", (int)TABLE_KEYS_MAX);
             goto done;
         }
-        if (table->n_keys == table->keys_capacity) {
-            const size_t capacity = table->keys_capacity > 0 ? 2 * table->keys_capacity : 8;
-            table_key *const keys = realloc(table->keys, capacity * sizeof *keys);
-            if (keys == NULL) {
-                status = wt_fail(err, WT_E_MEMORY, "out of memory");
-                goto done;
-            }
-            table->keys = keys;
-            table->keys_capacity = capacity;
+        table_key *const keys = array_grow(table->keys, table->n_keys, sizeof *keys);
+        if (keys == NULL) {
+            status = wt_fail(err, WT_E_MEMORY, "out of memory");
+            goto done;
         }
+        table->keys = keys;
         place = &table->keys[table->n_keys++];
         *place = (table_key){0};
     }

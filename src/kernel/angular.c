@@ -4,6 +4,7 @@
  */
 #include "kernel/angular.h"
 
+#include "base/array.h"
 #include "kernel/angular_integral.h"
 
 #include <math.h>
@@ -31,7 +32,7 @@ typedef struct series {
 } series;
 
 typedef struct series_list {
-    size_t n, room;
+    size_t n;
     series *items;
 } series_list;
 
@@ -139,14 +140,10 @@ static void series_make(const angular_law *a, series *s)
 
 static bool series_push(series_list *list, const series *s)
 {
-    if (list->n == list->room) {
-        const size_t room = 2 * list->room + 8;
-        series *items = realloc(list->items, room * sizeof *items);
-        if (items == NULL)
-            return false;
-        list->items = items;
-        list->room = room;
-    }
+    series *items = array_grow(list->items, list->n, sizeof *items);
+    if (items == NULL)
+        return false;
+    list->items = items;
     list->items[list->n++] = *s;
     return true;
 }

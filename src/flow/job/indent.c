@@ -5,6 +5,7 @@
 #include "flow/job/curve_tables.h"
 #include "flow/job/inputs.h"
 
+#include "base/array.h"
 #include "data/tables/tables.h"
 #include "fit/curve.h"
 
@@ -51,7 +52,7 @@ typedef struct indent_task {
     size_t n_equal, first_equal;
     /* accepted moduli with the curve they are of, for the representative curve */
     accepted *moduli;
-    size_t n_moduli, capacity;
+    size_t n_moduli;
     double k_low, k_high; /* spring constants of the accepted curves [N/m] */
 } indent_task;
 
@@ -157,14 +158,10 @@ static void mark_unreadable(wt_indent_fit *fit, const wt_error *error)
 
 static wt_status keep_modulus(indent_task *task, const item *it, wt_error *err)
 {
-    if (task->n_moduli == task->capacity) {
-        size_t grown = task->capacity == 0 ? 256 : task->capacity * 2;
-        accepted *moduli = realloc(task->moduli, grown * sizeof *moduli);
-        if (moduli == NULL)
-            return wt_fail(err, WT_E_MEMORY, "out of memory");
-        task->moduli = moduli;
-        task->capacity = grown;
-    }
+    accepted *moduli = array_grow(task->moduli, task->n_moduli, sizeof *moduli);
+    if (moduli == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    task->moduli = moduli;
     task->moduli[task->n_moduli] =
         (accepted){it->fit.modulus.value, task->file, it->curve.index, task->n_moduli};
     task->n_moduli++;

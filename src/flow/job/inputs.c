@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/job/inputs.h"
 
+#include "base/array.h"
 #include "data/tables/tables.h"
 
 #include <stdlib.h>
@@ -87,18 +88,14 @@ wt_status flow_failed(const wt_job *work, const char *file, const wt_error *fail
 /* ---- listing ----------------------------------------------------------------------------------
  */
 
-static wt_status files_add(flow_files *files, size_t *capacity, char *path, const wt_file_set *set,
-                           wt_error *err)
+/* Takes `path`, also on failure. */
+static wt_status files_add(flow_files *files, char *path, const wt_file_set *set, wt_error *err)
 {
-    if (files->n == *capacity) {
-        size_t grown = *capacity == 0 ? 16 : *capacity * 2;
-        flow_file *array = realloc(files->file, grown * sizeof *array);
-        if (array == NULL) {
-            free(path);
-            return wt_fail(err, WT_E_MEMORY, "out of memory");
-        }
-        files->file = array;
-        *capacity = grown;
+    flow_file *grown = array_grow(files->file, files->n, sizeof *grown);
+    files->file = grown != NULL ? grown : files->file;
+    if (grown == NULL || path == NULL) {
+        free(path);
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
     }
     files->file[files->n++] =
         (flow_file){.path = path, .name = below(set->folder, path), .set = set};
@@ -114,17 +111,14 @@ static bool is_listed(const flow_files *files, const char *path)
 }
 
 static wt_status list_pattern(const wt_file_set *set, const char *pattern, const wt_job *work,
-                              flow_files *files, size_t *capacity, wt_error *err)
+                              flow_files *files, wt_error *err)
 {
     char **paths = NULL;
     size_t n = 0;
     wt_status status = WT_OK;
     wt_error failure = WT_ERROR_INIT;
-    if (strcmp(pattern, "-") == 0) {
-        char *path = strdup("-");
-        return path == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory")
-                            : files_add(files, capacity, path, set, err);
-    }
+    if (strcmp(pattern, "-") == 0)
+        return files_add(files, strdup("-"), set, err);
     status = wt_glob(set->folder, pattern, &paths, &n, &failure);
     if (status != WT_OK) {
         if (err != NULL && !flow_goes_on(work, status))
@@ -137,7 +131,7 @@ static wt_status list_pattern(const wt_file_set *set, const char *pattern, const
                             "named more than once; its curves are taken once");
             continue;
         }
-        status = files_add(files, capacity, paths[i], set, err);
+        status = files_add(files, paths[i], set, err);
         paths[i] = NULL;
     }
     wt_strings_free(paths, n);
@@ -148,11 +142,10 @@ wt_status flow_files_list(const wt_file_set *sets, size_t n_sets, const wt_job *
                           flow_files *files, wt_error *err)
 {
     wt_status status = WT_OK;
-    size_t capacity = 0;
     *files = (flow_files){NULL, 0};
     for (size_t i = 0; status == WT_OK && i < n_sets; i++)
         for (size_t j = 0; status == WT_OK && j < sets[i].n_patterns; j++)
-            status = list_pattern(&sets[i], sets[i].patterns[j], work, files, &capacity, err);
+            status = list_pattern(&sets[i], sets[i].patterns[j], work, files, err);
     if (status != WT_OK)
         flow_files_clear(files);
     return status;
