@@ -16,4 +16,11 @@ typedef struct hdf5_scope {
 void hdf5_enter(hdf5_scope *scope);
 void hdf5_leave(const hdf5_scope *scope);
 
+/* Closes a type, space, attribute, data set, group or list of properties; nothing if negative. */
+static inline void hdf5_close(hid_t id)
+{
+    if (id >= 0)
+        (void)H5Idec_ref(id);
+}
+
 #endif

@@ -15,32 +15,32 @@ typedef struct reader {
     hid_t file;
     hsize_t file_size; /* no array and no text in the file can be larger */
     const char *table; /* for messages, NULL outside of tables */
+    wt_status status;  /* of the first failure; the functions below are false from then on */
     wt_error *err;
 } reader;
 
-static wt_status corrupt(const reader *r, const char *name, const char *message)
+static bool corrupt(reader *r, const char *name, const char *message)
 {
-    (void)wt_fail(r->err, WT_E_CORRUPT, "%s", message);
+    r->status = wt_fail(r->err, WT_E_CORRUPT, "%s", message);
     const bool both = r->table != NULL && name[0] != '\0';
     wt_error_place(r->err, "%s%s%s", r->table != NULL ? r->table : "", both ? "/" : "", name);
     wt_error_advice(r->err, "make the file again");
-    return WT_E_CORRUPT;
+    return false;
 }
 
-static wt_status no_memory(const reader *r)
+static bool no_memory(reader *r)
 {
-    return wt_fail(r->err, WT_E_MEMORY, "out of memory");
+    r->status = wt_fail(r->err, WT_E_MEMORY, "out of memory");
+    return false;
 }
 
 /* A name that the data types refuse is the file's fault, not an argument's. */
-static wt_status refused(const reader *r, wt_status status)
+static bool taken(reader *r, wt_status status)
 {
-    if (status == WT_E_ARG) {
-        status = WT_E_CORRUPT;
-        if (r->err != NULL)
-            r->err->status = status;
-    }
-    return status;
+    r->status = status == WT_E_ARG ? WT_E_CORRUPT : status;
+    if (status == WT_E_ARG && r->err != NULL)
+        r->err->status = WT_E_CORRUPT;
+    return status == WT_OK;
 }
 
 /* Copies n texts, each `width` bytes of `packed` or up to the first zero, NULL for empty ones. */
@@ -59,33 +59,26 @@ static bool unpack(const char *packed, size_t width, size_t n, char **texts)
 }
 
 /* Reads n texts of an attribute or a data set (is_attribute) into new copies. */
-static wt_status read_texts(const reader *r, hid_t source, bool is_attribute, const char *name,
-                            size_t n, char **texts)
+static bool read_texts(reader *r, hid_t source, bool is_attribute, const char *name, size_t n,
+                       char **texts)
 {
-    wt_status status = WT_OK;
+    bool good = false;
     char *packed = NULL;
     const hid_t type = is_attribute ? H5Aget_type(source) : H5Dget_type(source);
     const size_t width = type >= 0 ? H5Tget_size(type) : 0;
     if (width == 0 || H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0 ||
-        n > r->file_size / width) {
-        status = corrupt(r, name, "not text of fixed length");
-        goto done;
-    }
-    packed = malloc(n > 0 ? n * width : 1);
-    if (packed == NULL) {
-        status = no_memory(r);
-        goto done;
-    }
-    if ((is_attribute ? H5Aread(source, type, packed)
-                      : H5Dread(source, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, packed)) < 0)
-        status = corrupt(r, name, "text cannot be read");
-    else if (!unpack(packed, width, n, texts))
-        status = no_memory(r);
-done:
+        n > r->file_size / width)
+        good = corrupt(r, name, "not text of fixed length");
+    else if ((packed = malloc(n > 0 ? n * width : 1)) == NULL)
+        good = no_memory(r);
+    else if ((is_attribute ? H5Aread(source, type, packed)
+                           : H5Dread(source, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, packed)) < 0)
+        good = corrupt(r, name, "text cannot be read");
+    else
+        good = unpack(packed, width, n, texts) || no_memory(r);
     free(packed);
-    if (type >= 0)
-        (void)H5Tclose(type);
-    return status;
+    hdf5_close(type);
+    return good;
 }
 
 /* Opens an attribute and gives its number of elements. */
@@ -94,88 +87,72 @@ static hid_t open_attribute(hid_t object, const char *name, size_t *n)
     const hid_t attribute = H5Aopen(object, name, H5P_DEFAULT);
     const hid_t space = attribute >= 0 ? H5Aget_space(attribute) : -1;
     const hssize_t points = space >= 0 ? H5Sget_simple_extent_npoints(space) : -1;
-    if (space >= 0)
-        (void)H5Sclose(space);
-    if (attribute >= 0 && points < 0) {
-        (void)H5Aclose(attribute);
-        return -1;
-    }
+    hdf5_close(space);
     *n = (size_t)points;
-    return attribute;
+    if (points >= 0)
+        return attribute;
+    hdf5_close(attribute);
+    return -1;
 }
 
-/* One text, new. */
-static wt_status read_text(const reader *r, hid_t object, const char *name, char **text)
+/* One text, new; NULL on failure. */
+static char *read_text(reader *r, hid_t object, const char *name)
 {
     size_t n = 0;
     char *found = NULL;
     const hid_t attribute = open_attribute(object, name, &n);
-    wt_status status = WT_OK;
-    if (attribute < 0 || n != 1)
-        status = corrupt(r, name, "attribute missing or not one text");
-    else
-        status = read_texts(r, attribute, true, name, 1, &found);
-    if (status == WT_OK && found == NULL) {
-        found = strdup("");
-        if (found == NULL)
-            status = no_memory(r);
-    }
-    if (attribute >= 0)
-        (void)H5Aclose(attribute);
-    if (status == WT_OK)
-        *text = found;
-    return status;
+    const bool good = attribute < 0 || n != 1
+                          ? corrupt(r, name, "attribute missing or not one text")
+                          : read_texts(r, attribute, true, name, 1, &found);
+    hdf5_close(attribute);
+    if (good && found == NULL && (found = strdup("")) == NULL)
+        (void)no_memory(r);
+    return found;
 }
 
 /* A list of words, which is left out of the file where it is empty. */
-static wt_status read_words(const reader *r, hid_t object, const char *name, size_t max,
-                            char ***words, size_t *n_words)
+static bool read_words(reader *r, hid_t object, const char *name, size_t max, char ***words,
+                       size_t *n_words)
 {
     size_t n = 0;
     if (H5Aexists(object, name) == 0)
-        return WT_OK;
+        return true;
     const hid_t attribute = open_attribute(object, name, &n);
     char **const found = attribute >= 0 && n <= max ? calloc(n + 1, sizeof *found) : NULL;
-    wt_status status = WT_OK;
-    if (attribute < 0 || n > max)
-        status = corrupt(r, name, "not a list of names");
-    else if (found == NULL)
-        status = no_memory(r);
-    else
-        status = read_texts(r, attribute, true, name, n, found);
-    for (size_t i = 0; status == WT_OK && i < n; i++) {
-        if (found[i] == NULL)
-            status = corrupt(r, name, "an empty name");
-    }
-    if (attribute >= 0)
-        (void)H5Aclose(attribute);
-    if (status == WT_OK) {
+    bool good = attribute < 0 || n > max ? corrupt(r, name, "not a list of names")
+                : found == NULL          ? no_memory(r)
+                                         : read_texts(r, attribute, true, name, n, found);
+    for (size_t i = 0; good && i < n; i++)
+        good = found[i] != NULL || corrupt(r, name, "an empty name");
+    hdf5_close(attribute);
+    if (good) {
         *words = found;
         *n_words = n;
     } else {
         wt_strings_free(found, found != NULL ? n : 0);
     }
-    return status;
+    return good;
 }
 
-/* WT_END if the attribute is not a number. */
-static wt_status read_number(const reader *r, hid_t object, const char *name, double *value)
+/* One value that is a number; *is_text instead if that is not NULL and it is something else. */
+static bool read_number(reader *r, hid_t object, const char *name, double *value, bool *is_text)
 {
     size_t n = 0;
     const hid_t attribute = open_attribute(object, name, &n);
     const hid_t type = attribute >= 0 ? H5Aget_type(attribute) : -1;
-    wt_status status = WT_OK;
+    const bool is_number = type >= 0 && H5Tget_class(type) == H5T_FLOAT;
+    bool good = true;
     if (type < 0 || n != 1)
-        status = corrupt(r, name, "attribute missing or not one value");
-    else if (H5Tget_class(type) != H5T_FLOAT)
-        status = WT_END;
+        good = corrupt(r, name, "attribute missing or not one value");
+    else if (!is_number && is_text != NULL)
+        *is_text = true;
+    else if (!is_number)
+        good = corrupt(r, name, "an error of a value is not a number");
     else if (H5Aread(attribute, H5T_NATIVE_DOUBLE, value) < 0)
-        status = corrupt(r, name, "attribute cannot be read");
-    if (type >= 0)
-        (void)H5Tclose(type);
-    if (attribute >= 0)
-        (void)H5Aclose(attribute);
-    return status;
+        good = corrupt(r, name, "attribute cannot be read");
+    hdf5_close(type);
+    hdf5_close(attribute);
+    return good;
 }
 
 /* Whether `name` in `group` is a link within this file. */
@@ -225,288 +202,246 @@ static hid_t open_dataset(const reader *r, hid_t group, const char *name, int ra
             points >= 0 && size > 0 && stored <= r->file_size && stored / size == (hsize_t)points;
         *n = (hsize_t)points;
     }
-    if (type >= 0)
-        (void)H5Tclose(type);
-    if (space >= 0)
-        (void)H5Sclose(space);
-    if (creation >= 0)
-        (void)H5Pclose(creation);
-    if (!good) {
-        (void)H5Dclose(dataset);
-        return -1;
-    }
-    return dataset;
+    hdf5_close(type);
+    hdf5_close(space);
+    hdf5_close(creation);
+    if (good)
+        return dataset;
+    hdf5_close(dataset);
+    return -1;
 }
 
-static wt_status read_estimate(const reader *r, hid_t group, const char *key, double value,
-                               wt_table *table)
+static bool read_estimate(reader *r, hid_t group, const char *key, double value, wt_table *table)
 {
     char *names[KEY_PARTS] = {NULL};
     char *unit = NULL;
-    wt_estimate estimate = {.value = value};
-    wt_status status = table_key_part_names(key, names) ? WT_OK : no_memory(r);
-    if (status == WT_OK)
-        status = read_number(r, group, names[KEY_STANDARD_ERROR], &estimate.standard_error);
-    if (status == WT_OK)
-        status = read_number(r, group, names[KEY_NUMERICAL_ERROR], &estimate.numerical_error);
-    if (status == WT_OK)
-        status = read_text(r, group, names[KEY_UNITS], &unit);
-    if (status == WT_END)
-        status = corrupt(r, key, "an error of the value is not a number");
-    estimate.unit = unit;
-    if (status == WT_OK)
-        status = refused(r, wt_table_set_estimate(table, key, estimate, r->err));
+    wt_estimate e = {.value = value};
+    bool good = table_key_part_names(key, names) || no_memory(r);
+    good = good && read_number(r, group, names[KEY_STANDARD_ERROR], &e.standard_error, NULL) &&
+           read_number(r, group, names[KEY_NUMERICAL_ERROR], &e.numerical_error, NULL) &&
+           (unit = read_text(r, group, names[KEY_UNITS])) != NULL;
+    e.unit = unit;
+    good = good && taken(r, wt_table_set_estimate(table, key, e, r->err));
     for (size_t i = 0; i < KEY_PARTS; i++)
         free(names[i]);
     free(unit);
-    return status;
+    return good;
 }
 
-static wt_status read_keys(const reader *r, hid_t group, wt_table *table)
+static bool read_keys(reader *r, hid_t group, wt_table *table)
 {
     char **keys = NULL;
     size_t n = 0;
-    wt_status status = read_words(r, group, STORE_KEYS_ATTRIBUTE, TABLE_KEYS_MAX, &keys, &n);
-    for (size_t i = 0; status == WT_OK && i < n; i++) {
+    bool good = read_words(r, group, STORE_KEYS_ATTRIBUTE, TABLE_KEYS_MAX, &keys, &n);
+    for (size_t i = 0; good && i < n; i++) {
         double value;
-        char *text = NULL;
-        status = read_number(r, group, keys[i], &value);
-        if (status == WT_OK) {
-            status = read_estimate(r, group, keys[i], value, table);
-        } else if (status == WT_END) {
-            status = read_text(r, group, keys[i], &text);
-            if (status == WT_OK)
-                status = refused(r, wt_table_set_key(table, keys[i], text, r->err));
+        bool is_text = false;
+        good = read_number(r, group, keys[i], &value, &is_text);
+        if (good && is_text) {
+            char *const text = read_text(r, group, keys[i]);
+            good = text != NULL && taken(r, wt_table_set_key(table, keys[i], text, r->err));
             free(text);
+        } else if (good) {
+            good = read_estimate(r, group, keys[i], value, table);
         }
     }
     wt_strings_free(keys, n);
-    return status;
+    return good;
 }
 
 /* Adds the column without its rows; WT_COLUMN_TEXT or _NUMBER follows from the type. */
-static wt_status read_column(const reader *r, hid_t group, const char *name, hsize_t n_rows,
-                             wt_table *table)
+static bool read_column(reader *r, hid_t group, const char *name, hsize_t n_rows, wt_table *table)
 {
     hsize_t n = 0;
-    char *units = NULL, *long_name = NULL;
-    wt_status status = WT_OK;
     const hid_t dataset = open_dataset(r, group, name, 1, &n);
     if (dataset < 0 || n != n_rows)
         return corrupt(r, name, "column missing, of another length or not stored in one piece");
     const hid_t type = H5Dget_type(dataset);
     const H5T_class_t class = H5Tget_class(type);
-    status = read_text(r, dataset, STORE_UNITS_ATTRIBUTE, &units);
-    if (status == WT_OK)
-        status = read_text(r, dataset, STORE_LONG_NAME_ATTRIBUTE, &long_name);
-    if (status == WT_OK) {
-        if (class == H5T_FLOAT)
-            status = refused(r, wt_table_add_column(table, name, units, long_name, r->err));
-        else if (class == H5T_STRING)
-            status = refused(r, wt_table_add_text_column(table, name, long_name, r->err));
-        else
-            status = corrupt(r, name, "a column that is neither numbers nor text");
-    }
+    char *const units = read_text(r, dataset, STORE_UNITS_ATTRIBUTE);
+    char *const words = units != NULL ? read_text(r, dataset, STORE_LONG_NAME_ATTRIBUTE) : NULL;
+    bool good = words != NULL;
+    if (good && class == H5T_FLOAT)
+        good = taken(r, wt_table_add_column(table, name, units, words, r->err));
+    else if (good && class == H5T_STRING)
+        good = taken(r, wt_table_add_text_column(table, name, words, r->err));
+    else if (good)
+        good = corrupt(r, name, "a column that is neither numbers nor text");
     free(units);
-    free(long_name);
-    (void)H5Tclose(type);
-    (void)H5Dclose(dataset);
-    return status;
+    free(words);
+    hdf5_close(type);
+    hdf5_close(dataset);
+    return good;
 }
 
 /* Adds the rows with their blocks. */
-static wt_status read_blocks(const reader *r, hid_t group, hsize_t n, wt_table *table)
+static bool read_blocks(reader *r, hid_t group, hsize_t n, wt_table *table)
 {
     hsize_t n_again = 0;
     const hid_t dataset = open_dataset(r, group, STORE_BLOCK_DATASET, 1, &n_again);
     uint64_t *const blocks = calloc((size_t)n + 1, sizeof *blocks);
-    wt_status status = blocks != NULL ? WT_OK : no_memory(r);
-    if (status == WT_OK && n > 0 &&
+    bool good = blocks != NULL || no_memory(r);
+    if (good && n > 0 &&
         (dataset < 0 || n_again != n ||
          H5Dread(dataset, H5T_NATIVE_UINT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, blocks) < 0))
-        status = corrupt(r, STORE_BLOCK_DATASET, "blocks cannot be read");
-    for (size_t row = 0; status == WT_OK && row < n; row++) {
+        good = corrupt(r, STORE_BLOCK_DATASET, "blocks cannot be read");
+    for (size_t row = 0; good && row < n; row++) {
         const uint64_t before = row > 0 ? blocks[row - 1] : 0;
         if (blocks[row] != before && blocks[row] != before + (row > 0))
-            status = corrupt(r, STORE_BLOCK_DATASET, "blocks are not numbered in order");
+            good = corrupt(r, STORE_BLOCK_DATASET, "blocks are not numbered in order");
         else if (blocks[row] != before)
-            status = wt_table_new_block(table, r->err);
-        if (status == WT_OK)
-            status = refused(r, wt_table_add_row(table, r->err));
+            good = taken(r, wt_table_new_block(table, r->err));
+        good = good && taken(r, wt_table_add_row(table, r->err));
     }
     free(blocks);
-    if (dataset >= 0)
-        (void)H5Dclose(dataset);
-    return status;
+    hdf5_close(dataset);
+    return good;
 }
 
-static wt_status read_cells(const reader *r, hid_t group, table_column *column, hsize_t n)
+static bool read_cells(reader *r, hid_t group, table_column *column, hsize_t n)
 {
     hsize_t n_again = 0;
     const hid_t dataset = open_dataset(r, group, column->name, 1, &n_again);
-    wt_status status = WT_OK;
-    if (dataset < 0 || n_again != n)
-        status = corrupt(r, column->name, "column cannot be read");
+    bool good = dataset >= 0 && n_again == n;
+    if (good && column->kind == WT_COLUMN_NUMBER)
+        good = H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT,
+                       column->numbers) >= 0;
+    if (!good)
+        (void)corrupt(r, column->name, "column cannot be read");
     else if (column->kind == WT_COLUMN_TEXT)
-        status = read_texts(r, dataset, false, column->name, (size_t)n, column->texts);
-    else if (H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, column->numbers) <
-             0)
-        status = corrupt(r, column->name, "column cannot be read");
-    if (dataset >= 0)
-        (void)H5Dclose(dataset);
-    return status;
+        good = read_texts(r, dataset, false, column->name, (size_t)n, column->texts);
+    hdf5_close(dataset);
+    return good;
 }
 
-static wt_status read_table(reader *r, const char *name, wt_table **table)
+/* The columns, then their rows. */
+static bool read_columns(reader *r, hid_t group, wt_table *table)
 {
-    wt_status status = WT_OK;
     hsize_t n_rows = 0;
-    char *title = NULL, **columns = NULL;
-    size_t n_columns = 0;
-    wt_table *new_table = NULL;
+    char **columns = NULL;
+    size_t n = 0;
+    const hid_t blocks = open_dataset(r, group, STORE_BLOCK_DATASET, 1, &n_rows);
+    if (blocks < 0)
+        return corrupt(r, STORE_BLOCK_DATASET, "blocks missing");
+    hdf5_close(blocks);
+    bool good = read_words(r, group, STORE_COLUMNS_ATTRIBUTE, TABLE_COLUMNS_MAX, &columns, &n);
+    for (size_t i = 0; good && i < n; i++)
+        good = read_column(r, group, columns[i], n_rows, table);
+    good = good && read_blocks(r, group, n_rows, table);
+    for (size_t i = 0; good && n_rows > 0 && i < n; i++)
+        good = read_cells(r, group, &table->columns[i], n_rows);
+    wt_strings_free(columns, n);
+    return good;
+}
+
+/* A table, new; NULL on failure. */
+static wt_table *read_table(reader *r, const char *name)
+{
+    wt_table *table = NULL;
     r->table = name;
     const hid_t group = table_name_is_valid(name) ? open_group(r, name) : -1;
-    if (group < 0) {
-        status = corrupt(r, "", "table missing or misnamed");
-        goto done;
+    char *const title = group >= 0 ? read_text(r, group, STORE_TITLE_ATTRIBUTE) : NULL;
+    if (group < 0)
+        (void)corrupt(r, "", "table missing or misnamed");
+    else if (title != NULL && (table = wt_table_new(name, title)) == NULL)
+        (void)no_memory(r);
+    if (table != NULL && !(read_keys(r, group, table) && read_columns(r, group, table))) {
+        wt_table_free(table);
+        table = NULL;
     }
-    status = read_text(r, group, STORE_TITLE_ATTRIBUTE, &title);
-    if (status != WT_OK)
-        goto done;
-    new_table = wt_table_new(name, title);
-    if (new_table == NULL) {
-        status = no_memory(r);
-        goto done;
-    }
-    const hid_t blocks = open_dataset(r, group, STORE_BLOCK_DATASET, 1, &n_rows);
-    if (blocks < 0) {
-        status = corrupt(r, STORE_BLOCK_DATASET, "blocks missing");
-        goto done;
-    }
-    (void)H5Dclose(blocks);
-    status = read_keys(r, group, new_table);
-    if (status == WT_OK)
-        status =
-            read_words(r, group, STORE_COLUMNS_ATTRIBUTE, TABLE_COLUMNS_MAX, &columns, &n_columns);
-    for (size_t i = 0; status == WT_OK && i < n_columns; i++)
-        status = read_column(r, group, columns[i], n_rows, new_table);
-    if (status == WT_OK)
-        status = read_blocks(r, group, n_rows, new_table);
-    for (size_t i = 0; status == WT_OK && n_rows > 0 && i < n_columns; i++)
-        status = read_cells(r, group, &new_table->columns[i], n_rows);
-    if (status == WT_OK) {
-        *table = new_table;
-        new_table = NULL;
-    }
-done:
-    wt_table_free(new_table);
-    wt_strings_free(columns, n_columns);
     free(title);
-    if (group >= 0)
-        (void)H5Gclose(group);
+    hdf5_close(group);
     r->table = NULL;
-    return status;
+    return table;
 }
 
-static wt_status read_case(const reader *r, wt_result *result)
+static bool read_case(reader *r, wt_result *result)
 {
     hsize_t n = 0;
-    wt_status status = WT_OK;
+    bool good = false;
     char *text = NULL;
     if (H5Lexists(r->file, STORE_CASE_DATASET, H5P_DEFAULT) == 0)
-        return WT_OK;
+        return true;
     const hid_t dataset = open_dataset(r, r->file, STORE_CASE_DATASET, 0, &n);
     const hid_t type = dataset >= 0 ? H5Dget_type(dataset) : -1;
-    if (type < 0 || H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0) {
-        status = corrupt(r, STORE_CASE_DATASET, "not one text of fixed length");
-        goto done;
-    }
-    const size_t length = H5Tget_size(type); /* not more than the file: open_dataset checked */
-    text = malloc(length);
-    if (text == NULL)
-        status = no_memory(r);
+    const bool is_text =
+        type >= 0 && H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0;
+    /* not more than the file: open_dataset checked */
+    const size_t length = is_text ? H5Tget_size(type) : 0;
+    if (!is_text)
+        good = corrupt(r, STORE_CASE_DATASET, "not one text of fixed length");
+    else if ((text = malloc(length)) == NULL)
+        good = no_memory(r);
     else if (H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text) < 0)
-        status = corrupt(r, STORE_CASE_DATASET, "cannot be read");
+        good = corrupt(r, STORE_CASE_DATASET, "cannot be read");
     else
-        status = wt_result_set_case(result, text, length, r->err);
-done:
+        good = taken(r, wt_result_set_case(result, text, length, r->err));
     free(text);
-    if (type >= 0)
-        (void)H5Tclose(type);
-    if (dataset >= 0)
-        (void)H5Dclose(dataset);
-    return status;
+    hdf5_close(type);
+    hdf5_close(dataset);
+    return good;
 }
 
-static wt_status read_origin(reader *r, wt_result *result, wt_table **inputs)
+static bool read_origin(reader *r, wt_result *result, wt_table **inputs)
 {
-    char *command = NULL;
     if (H5Aexists(r->file, STORE_COMMAND_ATTRIBUTE) == 0)
-        return WT_OK;
+        return true;
     wt_provenance *const provenance = wt_result_provenance(result);
-    wt_status status = read_text(r, r->file, STORE_COMMAND_ATTRIBUTE, &command);
-    if (status == WT_OK && provenance_restore_command(provenance, command) != WT_OK)
-        status = no_memory(r);
-    if (status == WT_OK)
-        status = read_table(r, STORE_INPUTS_TABLE, inputs);
-    if (status == WT_OK)
-        status = store_inputs_read(*inputs, provenance, r->err);
+    char *const command = read_text(r, r->file, STORE_COMMAND_ATTRIBUTE);
+    const bool good = command != NULL &&
+                      (provenance_restore_command(provenance, command) == WT_OK || no_memory(r)) &&
+                      (*inputs = read_table(r, STORE_INPUTS_TABLE)) != NULL &&
+                      taken(r, store_inputs_read(*inputs, provenance, r->err));
     free(command);
-    return status;
+    return good;
 }
 
-static wt_status check_format(const reader *r)
+static bool check_format(reader *r)
 {
     int format = 0;
     size_t n = 0;
-    wt_status status = WT_OK;
     const hid_t attribute = open_attribute(r->file, STORE_FORMAT_ATTRIBUTE, &n);
     const hid_t type = attribute >= 0 ? H5Aget_type(attribute) : -1;
     if (type < 0 || n != 1 || H5Tget_class(type) != H5T_INTEGER ||
         H5Aread(attribute, H5T_NATIVE_INT, &format) < 0) {
-        status = wt_fail(r->err, WT_E_FORMAT, "not a result file of weartrack");
+        r->status = wt_fail(r->err, WT_E_FORMAT, "not a result file of weartrack");
         wt_error_expected(r->err, "the attribute \"%s\"", STORE_FORMAT_ATTRIBUTE);
     } else if (format != STORE_FORMAT) {
-        status = wt_fail(r->err, WT_E_UNSUPPORTED, "result file of another version");
+        r->status = wt_fail(r->err, WT_E_UNSUPPORTED, "result file of another version");
         wt_error_expected(r->err, "layout %d", STORE_FORMAT);
         wt_error_found(r->err, "%d", format);
         wt_error_advice(r->err, "use the weartrack that wrote it, or a newer one");
     }
-    if (type >= 0)
-        (void)H5Tclose(type);
-    if (attribute >= 0)
-        (void)H5Aclose(attribute);
-    return status;
+    hdf5_close(type);
+    hdf5_close(attribute);
+    return r->status == WT_OK;
+}
+
+static bool read_tables(reader *r, wt_result *result)
+{
+    char **names = NULL;
+    size_t n = 0;
+    bool good = read_words(r, r->file, STORE_TABLES_ATTRIBUTE, RESULT_TABLES_MAX, &names, &n);
+    for (size_t i = 0; good && i < n; i++) {
+        wt_table *const table = read_table(r, names[i]);
+        good = table != NULL && taken(r, wt_result_add(result, table, r->err));
+    }
+    wt_strings_free(names, n);
+    return good;
 }
 
 static wt_status read_all(reader *r, wt_result *result)
 {
-    char **names = NULL, *digest = NULL, found[65];
-    size_t n = 0;
+    char *digest = NULL, found[65];
     wt_table *inputs = NULL;
-    wt_status status = check_format(r);
-    if (status == WT_OK)
-        status = read_words(r, r->file, STORE_TABLES_ATTRIBUTE, RESULT_TABLES_MAX, &names, &n);
-    for (size_t i = 0; status == WT_OK && i < n; i++) {
-        wt_table *table = NULL;
-        status = read_table(r, names[i], &table);
-        if (status == WT_OK)
-            status = refused(r, wt_result_add(result, table, r->err));
-    }
-    if (status == WT_OK)
-        status = read_case(r, result);
-    if (status == WT_OK)
-        status = read_origin(r, result, &inputs);
-    if (status == WT_OK)
-        status = read_text(r, r->file, STORE_DIGEST_ATTRIBUTE, &digest);
-    if (status == WT_OK)
-        status = refused(r, store_digest(result, inputs, found, r->err));
-    if (status == WT_OK && strcmp(digest, found) != 0)
-        status = corrupt(r, STORE_DIGEST_ATTRIBUTE, "the content does not agree with its digest");
-    wt_strings_free(names, n);
+    if (check_format(r) && read_tables(r, result) && read_case(r, result) &&
+        read_origin(r, result, &inputs) &&
+        (digest = read_text(r, r->file, STORE_DIGEST_ATTRIBUTE)) != NULL &&
+        taken(r, store_digest(result, inputs, found, r->err)) && strcmp(digest, found) != 0)
+        (void)corrupt(r, STORE_DIGEST_ATTRIBUTE, "the content does not agree with its digest");
     wt_table_free(inputs);
     free(digest);
-    return status;
+    return r->status;
 }
 
 /* Opens for reading; -1 if it is not an intact HDF5 file. */
@@ -518,8 +453,7 @@ static hid_t open_file(const char *path)
     if (access >= 0 && H5Pset_fclose_degree(access, H5F_CLOSE_STRONG) >= 0 &&
         H5Pset_file_locking(access, false, true) >= 0)
         file = H5Fopen(path, H5F_ACC_RDONLY, access);
-    if (access >= 0)
-        (void)H5Pclose(access);
+    hdf5_close(access);
     return file;
 }
 
