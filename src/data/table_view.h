@@ -21,8 +21,7 @@ wt_status table_bind(const wt_table *table, const table_schema *schema, const ch
 wt_status table_bind_of(const wt_result *result, const table_schema *schema, const char *suffix,
                         table_view *view, wt_error *err) WT_NODISCARD;
 
-/* ---- behind data/tables/tables.h --------------------------------------------------------------
- */
+/* ---- behind data/tables/tables.h ------------------------------------------------------------- */
 
 bool view_has(const table_view *view, const table_schema *of, unsigned column);
 /* NaN or "" where an optional column is not there. */

@@ -101,8 +101,7 @@ wt_status table_end(table_writer *w, wt_table **table)
     return w->status;
 }
 
-/* ---- cells and keys ---------------------------------------------------------------------------
- */
+/* ---- cells and keys -------------------------------------------------------------------------- */
 
 /* Whether a cell of this column can be put. */
 static bool takes(table_writer *w, const table_schema *of, unsigned column, bool text)

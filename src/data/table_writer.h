@@ -40,8 +40,7 @@ void table_block(table_writer *writer); /* begins a block */
  * NULL. `table` is NULL for a continued one, whose keys are not checked. */
 wt_status table_end(table_writer *writer, wt_table **table) WT_NODISCARD;
 
-/* ---- behind data/tables/tables.h --------------------------------------------------------------
- */
+/* ---- behind data/tables/tables.h ------------------------------------------------------------- */
 
 void writer_number(table_writer *writer, const table_schema *of, unsigned column, double value);
 void writer_text(table_writer *writer, const table_schema *of, unsigned column, const char *text);

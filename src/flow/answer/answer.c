@@ -48,8 +48,7 @@ static void say_missing(const answer_story *story, flow_stage_id stage, const ch
     }
 }
 
-/* ---- layer, difference ------------------------------------------------------------------------
- */
+/* ---- layer, difference ----------------------------------------------------------------------- */
 
 /* The first row of the comparison is that over all rates. */
 static double over_all(const answer_story *story, comparison_column column)
@@ -175,8 +174,7 @@ static void answer_difference(const answer_story *story)
     say_dma(story);
 }
 
-/* ---- thickness --------------------------------------------------------------------------------
- */
+/* ---- thickness ------------------------------------------------------------------------------- */
 
 static void say_times(const answer_story *story)
 {
@@ -245,8 +243,7 @@ static void answer_thickness(const answer_story *story)
     say_disagreement(story, !none);
 }
 
-/* ---- friction ---------------------------------------------------------------------------------
- */
+/* ---- friction -------------------------------------------------------------------------------- */
 
 static wt_estimate friction_at(const answer_story *story, friction_key key)
 {
@@ -333,8 +330,7 @@ static void answer_rubber(const answer_story *story)
                shift_factors_words(shift, SHIFT_FACTORS_KEY_SUPERPOSITION));
 }
 
-/* ---- the story --------------------------------------------------------------------------------
- */
+/* ---- the story ------------------------------------------------------------------------------- */
 
 static wt_status bind_tables(const wt_result *result, answer_story *story, wt_error *err)
 {

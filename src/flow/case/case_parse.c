@@ -10,8 +10,7 @@
 /* A case is written by hand; anything larger is something else. */
 #define MAX_CASE_BYTES ((size_t)4 << 20)
 
-/* ---- schema messages in our form --------------------------------------------------------------
- */
+/* ---- schema messages in our form ------------------------------------------------------------- */
 
 /* The text between `begin` and `end` in a message; "" if they are not there. */
 static void between(const char *message, const char *begin, const char *end, char *out, size_t size)
@@ -96,8 +95,7 @@ done:
     return status;
 }
 
-/* ---- document ---------------------------------------------------------------------------------
- */
+/* ---- document -------------------------------------------------------------------------------- */
 
 static wt_status read_document(const wt_case *c, xmlDoc **out, wt_error *err)
 {

@@ -7,8 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-/* ---- indentation ------------------------------------------------------------------------------
- */
+/* ---- indentation ----------------------------------------------------------------------------- */
 
 static wt_status read_group(wt_case *c, const xmlNode *section, const char *name, case_files *files,
                             wt_error *err)
@@ -41,8 +40,7 @@ wt_status case_read_indentation(wt_case *c, const xmlNode *section, wt_error *er
     return status == WT_OK ? check_disjoint(c, section, err) : status;
 }
 
-/* ---- dma --------------------------------------------------------------------------------------
- */
+/* ---- dma ------------------------------------------------------------------------------------- */
 
 static wt_prony no_prony(void)
 {
@@ -140,8 +138,7 @@ wt_status case_read_dma(wt_case *c, const xmlNode *section, wt_error *err)
     return status;
 }
 
-/* ---- roughness, sliding, layer ----------------------------------------------------------------
- */
+/* ---- roughness, sliding, layer --------------------------------------------------------------- */
 
 wt_status case_read_roughness(wt_case *c, const xmlNode *section, wt_error *err)
 {
@@ -187,8 +184,7 @@ wt_status case_read_layer(wt_case *c, const xmlNode *section, wt_error *err)
     return status;
 }
 
-/* ---- compare, report --------------------------------------------------------------------------
- */
+/* ---- compare, report ------------------------------------------------------------------------- */
 
 wt_status case_read_compare(wt_case *c, const xmlNode *section, wt_error *err)
 {

@@ -110,8 +110,7 @@ static wt_group part_of(const pair *p, int g, size_t bin, size_t offset)
     return part;
 }
 
-/* ---- groups -----------------------------------------------------------------------------------
- */
+/* ---- groups ---------------------------------------------------------------------------------- */
 
 static void group_row(table_writer *t, const char *name, const wt_group *group)
 {
@@ -167,8 +166,7 @@ static wt_status make_groups(const pair *p, wt_table **table, wt_error *err)
     return table_end(&t, table);
 }
 
-/* ---- comparison -------------------------------------------------------------------------------
- */
+/* ---- comparison ------------------------------------------------------------------------------ */
 
 /* One row of "comparison" before Holm's correction is known. */
 typedef struct row {
@@ -306,8 +304,7 @@ static wt_status make_comparison(pair *p, bool rates, const wt_job *work, wt_tab
     return status;
 }
 
-/* ---- against rate and against DMA -------------------------------------------------------------
- */
+/* ---- against rate and against DMA ------------------------------------------------------------ */
 
 static wt_status point_of(pair *p, int g, size_t bin, rate_point *point, wt_error *err)
 {

@@ -103,8 +103,7 @@ static wt_status one_replicate(const void *user, size_t i, double *out, wt_error
     return status;
 }
 
-/* ---- tables -----------------------------------------------------------------------------------
- */
+/* ---- tables ---------------------------------------------------------------------------------- */
 
 static void add_rows(friction_task *task, table_writer *t)
 {
@@ -251,8 +250,7 @@ done:
     return table_end(&t, out);
 }
 
-/* ---- the job ----------------------------------------------------------------------------------
- */
+/* ---- the job --------------------------------------------------------------------------------- */
 
 static wt_status allocate(friction_task *task, wt_error *err)
 {

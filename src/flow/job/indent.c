@@ -105,8 +105,7 @@ static wt_quantity_set wanted_channels(bool rates)
     return rates ? want | WT_Q_BIT(WT_Q_TIME) : want;
 }
 
-/* ---- failures of curves -----------------------------------------------------------------------
- */
+/* ---- failures of curves ---------------------------------------------------------------------- */
 
 static wt_status flush_failures(indent_task *task, wt_error *err)
 {
@@ -136,8 +135,7 @@ static wt_status note_failure(indent_task *task, size_t curve, const wt_error *f
     return status;
 }
 
-/* ---- one batch --------------------------------------------------------------------------------
- */
+/* ---- one batch ------------------------------------------------------------------------------- */
 
 static wt_status fit_item(void *user, size_t i, unsigned worker)
 {
@@ -267,8 +265,7 @@ static size_t samples_of(const wt_force_curve *curve)
     return n;
 }
 
-/* ---- one file ---------------------------------------------------------------------------------
- */
+/* ---- one file -------------------------------------------------------------------------------- */
 
 static wt_status read_file(indent_task *task, wt_error *err)
 {
@@ -330,8 +327,7 @@ static wt_status read_files(indent_task *task, const flow_files *files, wt_error
     return status;
 }
 
-/* ---- the representative curve -----------------------------------------------------------------
- */
+/* ---- the representative curve ---------------------------------------------------------------- */
 
 static int by_modulus(const void *a, const void *b)
 {
@@ -381,8 +377,7 @@ static wt_status add_representative(indent_task *task, wt_indent_tables *tables,
     return status;
 }
 
-/* ---- the group --------------------------------------------------------------------------------
- */
+/* ---- the group ------------------------------------------------------------------------------- */
 
 static void set_keys(indent_task *task, const flow_files *files)
 {

@@ -85,8 +85,7 @@ wt_status flow_failed(const wt_job *work, const char *file, const wt_error *fail
     return flow_add_failure(work, file, &shown, err);
 }
 
-/* ---- listing ----------------------------------------------------------------------------------
- */
+/* ---- listing --------------------------------------------------------------------------------- */
 
 /* Takes `path`, also on failure. */
 static wt_status files_add(flow_files *files, char *path, const wt_file_set *set, wt_error *err)
@@ -159,8 +158,7 @@ void flow_files_clear(flow_files *files)
     *files = (flow_files){NULL, 0};
 }
 
-/* ---- opening ----------------------------------------------------------------------------------
- */
+/* ---- opening --------------------------------------------------------------------------------- */
 
 static wt_status add_provenance(const wt_job *work, wt_input *input, const flow_file *file,
                                 const char *role, wt_error *err)

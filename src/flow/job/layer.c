@@ -137,8 +137,7 @@ static void put_numbers(const layer_run *run, size_t n, double *out)
     NUMBERS(PUT_NUMBER)
 }
 
-/* ---- one run ----------------------------------------------------------------------------------
- */
+/* ---- one run --------------------------------------------------------------------------------- */
 
 static wt_status find_balance(const layer_task *task, size_t replicate, layer_run *run,
                               wt_error *err)
@@ -207,8 +206,7 @@ static wt_status one_replicate(const void *user, size_t i, double *out, wt_error
     return status;
 }
 
-/* ---- times ------------------------------------------------------------------------------------
- */
+/* ---- times ----------------------------------------------------------------------------------- */
 
 /* The times that are chosen: so many, from half the first scale to the span of the last. A scale
  * that is not there is so far from the other one. */
@@ -240,8 +238,7 @@ static wt_status choose_times(layer_task *task, const wt_layer_balance *b, wt_er
     return WT_OK;
 }
 
-/* ---- replicates -------------------------------------------------------------------------------
- */
+/* ---- replicates ------------------------------------------------------------------------------ */
 
 static wt_status draw_replicates(layer_task *task, wt_error *err)
 {
@@ -267,8 +264,7 @@ static wt_status draw_replicates(layer_task *task, wt_error *err)
     return status;
 }
 
-/* ---- tables -----------------------------------------------------------------------------------
- */
+/* ---- tables ---------------------------------------------------------------------------------- */
 
 static const char *regime_name(wt_layer_regime regime)
 {
@@ -357,8 +353,7 @@ static wt_status energy_table(const layer_task *task, const wt_energy_source *so
     return table_end(&t, out);
 }
 
-/* ---- the job ----------------------------------------------------------------------------------
- */
+/* ---- the job --------------------------------------------------------------------------------- */
 
 wt_status wt_layer_make(const wt_sliding *sliding, const wt_layer_job *job, const wt_job *work,
                         wt_layer_tables *tables, wt_error *err)

@@ -42,8 +42,7 @@ static const char *deformation_name(wt_deformation deformation)
     return deformation == WT_SHEAR ? "shear" : "tension";
 }
 
-/* ---- reading ----------------------------------------------------------------------------------
- */
+/* ---- reading --------------------------------------------------------------------------------- */
 
 static wt_status read_sweeps(const wt_master_job *job, const wt_job *work, wt_sweep *sweep,
                              wt_error *err)
@@ -77,8 +76,7 @@ static wt_status read_sweeps(const wt_master_job *job, const wt_job *work, wt_sw
     return status;
 }
 
-/* ---- tables -----------------------------------------------------------------------------------
- */
+/* ---- tables ---------------------------------------------------------------------------------- */
 
 static void put_shift(table_writer *t, const wt_shift *s, const wt_wlf_fit *wlf)
 {
@@ -197,8 +195,7 @@ static wt_status prony_table(const wt_prony_fit *fit, wt_table **table, wt_error
     return table_end(&t, table);
 }
 
-/* ---- the job ----------------------------------------------------------------------------------
- */
+/* ---- the job --------------------------------------------------------------------------------- */
 
 /* What is fitted to the sweeps. */
 typedef struct fits {

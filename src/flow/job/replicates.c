@@ -49,8 +49,7 @@ const char *replicates_include(const replicates *r)
     return r->varies ? r->includes : "nothing, for no error was measured or stated";
 }
 
-/* ---- drawing ----------------------------------------------------------------------------------
- */
+/* ---- drawing --------------------------------------------------------------------------------- */
 
 typedef struct drawing {
     replicates *r;

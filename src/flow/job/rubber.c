@@ -179,8 +179,7 @@ done:
     return status;
 }
 
-/* ---- from tables ------------------------------------------------------------------------------
- */
+/* ---- from tables ----------------------------------------------------------------------------- */
 
 static wt_status read_shifts(const table_view *shifts, wt_rubber *rubber, wt_error *err)
 {

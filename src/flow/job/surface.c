@@ -19,8 +19,7 @@ void wt_surface_clear(wt_surface *surface)
     *surface = (wt_surface){0};
 }
 
-/* ---- from text --------------------------------------------------------------------------------
- */
+/* ---- from text ------------------------------------------------------------------------------- */
 
 static wt_status spelling(wt_error *err)
 {
@@ -158,8 +157,7 @@ wt_status wt_surface_open(const char *text, const wt_read_options *read, const w
     return WT_OK;
 }
 
-/* ---- the law ----------------------------------------------------------------------------------
- */
+/* ---- the law --------------------------------------------------------------------------------- */
 
 /* The measured densities from q0 to q1, the ends interpolated in log-log. */
 static wt_status spectrum_roughness(const wt_surface *surface, double factor,
@@ -213,8 +211,7 @@ wt_status wt_surface_roughness(const wt_surface *surface, double factor, wt_roug
     return spectrum_roughness(surface, factor, roughness, err);
 }
 
-/* ---- the table --------------------------------------------------------------------------------
- */
+/* ---- the table ------------------------------------------------------------------------------- */
 
 #define POINTS_PER_DECADE 20
 

@@ -8,8 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-/* ---- what is there, what is wanted ------------------------------------------------------------
- */
+/* ---- what is there, what is wanted ----------------------------------------------------------- */
 
 static flow_things sources_of(const wt_case *c)
 {
@@ -45,8 +44,7 @@ static flow_things wanted_by(const wt_case *c)
     return wanted;
 }
 
-/* ---- choosing ---------------------------------------------------------------------------------
- */
+/* ---- choosing -------------------------------------------------------------------------------- */
 
 static int count_bits(flow_things set)
 {

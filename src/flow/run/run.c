@@ -31,8 +31,7 @@ typedef struct conduct {
     table_writer cost;
 } conduct;
 
-/* ---- one stage --------------------------------------------------------------------------------
- */
+/* ---- one stage ------------------------------------------------------------------------------- */
 
 #define STEP(id, name, title, needs, gives, step) step,
 static wt_status (*const steps[FLOW_N_STAGES])(flow_run *, flow_cost *,
@@ -123,8 +122,7 @@ static wt_status consider_stage(conduct *d, size_t i, wt_error *err)
     return cost_row(d, i, false, because, 0, 0, &none);
 }
 
-/* ---- tables -----------------------------------------------------------------------------------
- */
+/* ---- tables ---------------------------------------------------------------------------------- */
 
 /* Moves a table into the result. */
 static wt_status publish(conduct *d, wt_table **table, wt_error *err)
@@ -199,8 +197,7 @@ static wt_status finish(conduct *d, wt_error *err)
     return status == WT_OK ? publish(d, &cost, err) : status;
 }
 
-/* ---- the run ----------------------------------------------------------------------------------
- */
+/* ---- the run --------------------------------------------------------------------------------- */
 
 static wt_status add_case(conduct *d, wt_error *err)
 {

@@ -27,8 +27,7 @@ static void keep(flow_run *run, flow_thing thing, wt_table **table)
     *table = NULL;
 }
 
-/* ---- from the case ----------------------------------------------------------------------------
- */
+/* ---- from the case --------------------------------------------------------------------------- */
 
 wt_master_job flow_case_master(const wt_case *c)
 {
@@ -102,8 +101,7 @@ wt_sliding flow_case_conditions(const wt_case *c, const wt_rubber *rubber,
     return sliding;
 }
 
-/* ---- indentation ------------------------------------------------------------------------------
- */
+/* ---- indentation ----------------------------------------------------------------------------- */
 
 static wt_status indent(flow_run *run, int g, flow_cost *cost, wt_error *err)
 {
@@ -134,8 +132,7 @@ wt_status flow_step_track(flow_run *run, flow_cost *cost, wt_error *err)
     return indent(run, 1, cost, err);
 }
 
-/* ---- comparison -------------------------------------------------------------------------------
- */
+/* ---- comparison ------------------------------------------------------------------------------ */
 
 static wt_status compare(flow_run *run, bool groups_only, flow_cost *cost, wt_error *err)
 {
@@ -207,8 +204,7 @@ wt_status flow_step_given_ratio(flow_run *run, flow_cost *cost, wt_error *err)
     return WT_OK;
 }
 
-/* ---- material ---------------------------------------------------------------------------------
- */
+/* ---- material -------------------------------------------------------------------------------- */
 
 wt_status flow_step_master(flow_run *run, flow_cost *cost, wt_error *err)
 {
@@ -228,8 +224,7 @@ wt_status flow_step_given_material(flow_run *run, flow_cost *cost, wt_error *err
     return flow_case_rubber(run->c, &run->rubber, err);
 }
 
-/* ---- counter surface --------------------------------------------------------------------------
- */
+/* ---- counter surface ------------------------------------------------------------------------- */
 
 wt_status flow_step_roughness(flow_run *run, flow_cost *cost, wt_error *err)
 {
@@ -241,8 +236,7 @@ wt_status flow_step_roughness(flow_run *run, flow_cost *cost, wt_error *err)
     return status;
 }
 
-/* ---- friction and layer -----------------------------------------------------------------------
- */
+/* ---- friction and layer ---------------------------------------------------------------------- */
 
 wt_status flow_step_layer(flow_run *run, flow_cost *cost, wt_error *err)
 {
