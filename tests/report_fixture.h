@@ -43,8 +43,7 @@ static inline const wt_result *fixture_produced(void)
     return fixture_case;
 }
 
-/* ---- changes ----------------------------------------------------------------------------------
- */
+/* ---- changes --------------------------------------------------------------------------------- */
 
 /* What is changed in a table of that name. */
 typedef struct fixture_change {
@@ -191,8 +190,7 @@ static inline wt_result *fixture_only(const char *const *names, size_t n,
     return result;
 }
 
-/* ---- everything -------------------------------------------------------------------------------
- */
+/* ---- everything ------------------------------------------------------------------------------ */
 
 /* One file of each group, so that its curves are a map. */
 static inline bool fixture_first_file(const wt_table *table, size_t row)

@@ -12,8 +12,7 @@
 extern "C" {
 #endif
 
-/* ---- one force curve: baseline, contact point, modulus ----------------------------------------
- */
+/* ---- one force curve: baseline, contact point, modulus --------------------------------------- */
 
 /* Why a curve has no modulus. One list: identifier, words. Tested in about this
  * order; the first that applies is given, with its numbers:
@@ -129,8 +128,7 @@ WT_API wt_status wt_indent_force_curve(const wt_contact_table *table,
 WT_API size_t wt_indent_curve(const wt_indent_fit *fit, const double *height, const double *force,
                               size_t n, double spring_constant, double *delta, double *out_force);
 
-/* ---- groups and their comparison --------------------------------------------------------------
- */
+/* ---- groups and their comparison ------------------------------------------------------------- */
 
 /* One group of moduli: accepted curves only; spot[i] numbers the place on the sample (curves on one
  * spot are not independent), NULL = each curve is its own spot and the result says so. */
@@ -178,8 +176,7 @@ WT_API void wt_holm(const double *p, size_t n, double *adjusted);
  * (2.52/t for p = 2, 2.02/t for p = 1.5). NaN for t <= 0. */
 WT_API double wt_equivalent_frequency(double load_time, double force_exponent);
 
-/* ---- shift factors -----------------------------------------------------------------------------
- */
+/* ---- shift factors --------------------------------------------------------------------------- */
 
 typedef enum wt_vertical_shift {
     WT_VERTICAL_NONE,
@@ -275,8 +272,7 @@ WT_API wt_status wt_shift_fit(const wt_sweep *sweep, const wt_shift_options *opt
 WT_API wt_status wt_wlf_fit_shifts(const wt_master_curve *master, double floor, wt_wlf_fit *fit,
                                    wt_error *err) WT_NODISCARD;
 
-/* ---- Prony series ------------------------------------------------------------------------------
- */
+/* ---- Prony series ---------------------------------------------------------------------------- */
 
 typedef struct wt_prony_options {
     double terms_per_decade; /* default 2: with 1 the ripple of the series alone is 4 to 16 % */

@@ -48,8 +48,7 @@ typedef struct wt_file_set {
 } wt_file_set;
 WT_API const wt_params *wt_file_set_params(void);
 
-/* ---- convert ---------------------------------------------------------------------------------
- */
+/* ---- convert --------------------------------------------------------------------------------- */
 
 typedef struct wt_convert_job {
     unsigned kind; /* WT_KIND_* of a file that holds several; 0: the first that has data, in the
@@ -68,8 +67,7 @@ typedef wt_status (*wt_table_sink)(void *user, wt_table *table, wt_error *err);
 WT_API wt_status wt_convert_file(const wt_convert_job *job, const char *path, const wt_job *work,
                                  wt_table_sink sink, void *user, wt_error *err) WT_NODISCARD;
 
-/* ---- indentation ------------------------------------------------------------------------------
- */
+/* ---- indentation ----------------------------------------------------------------------------- */
 
 typedef struct wt_indent_job {
     const char *group; /* "bulk", "track" or another name of [a-z0-9_]+ */
@@ -120,8 +118,7 @@ WT_API void wt_group_data_clear(wt_group_data *data);
 WT_API wt_status wt_modulus_groups(const wt_table *const *indentation, size_t n, wt_table **table,
                                    wt_error *err) WT_NODISCARD;
 
-/* ---- DMA: shift factors, WLF, master curve, Prony ---------------------------------------------
- */
+/* ---- DMA: shift factors, WLF, master curve, Prony -------------------------------------------- */
 
 typedef struct wt_master_job {
     const wt_file_set *sets;
@@ -269,8 +266,7 @@ WT_API wt_status wt_friction_make(const wt_sliding *sliding, const wt_layer_know
                                   const wt_job *work, wt_friction_tables *tables,
                                   wt_error *err) WT_NODISCARD;
 
-/* ---- modified layer ---------------------------------------------------------------------------
- */
+/* ---- modified layer -------------------------------------------------------------------------- */
 
 typedef struct wt_layer_job {
     wt_estimate critical_energy;    /* U_c [J/m^3]; value NaN: calibrated from the next */
@@ -306,8 +302,7 @@ WT_API wt_status wt_layer_make(const wt_sliding *sliding, const wt_layer_job *jo
                                const wt_job *work, wt_layer_tables *tables,
                                wt_error *err) WT_NODISCARD;
 
-/* ---- case -------------------------------------------------------------------------------------
- */
+/* ---- case ------------------------------------------------------------------------------------ */
 
 typedef struct wt_case wt_case;
 /* Reads and checks a case file (schema, then what a schema cannot say). Paths in it are relative to
@@ -318,8 +313,7 @@ WT_API const char *wt_case_schema(void);            /* XSD text; static */
 WT_API const char *wt_case_title(const wt_case *c); /* "" if none; borrowed */
 WT_API const char *wt_case_style(const wt_case *c); /* plot style asked for, NULL if none */
 
-/* ---- plan and run -----------------------------------------------------------------------------
- */
+/* ---- plan and run ---------------------------------------------------------------------------- */
 
 typedef struct wt_run_options {
     const char *formats; /* folder of further descriptions, NULL = none */

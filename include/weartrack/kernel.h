@@ -13,8 +13,7 @@
 extern "C" {
 #endif
 
-/* ---- contact and friction -----------------------------------------------------------------------
- */
+/* ---- contact and friction -------------------------------------------------------------------- */
 
 /* A soft (or stiff) bonded surface layer on the bulk: E_layer = ratio E_bulk at every frequency.
  * Its stiffness at a wavenumber is that of Burmister (1943) for nu = 1/2, whatever the material

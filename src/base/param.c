@@ -8,8 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- the table --------------------------------------------------------------------------------
- */
+/* ---- the table ------------------------------------------------------------------------------- */
 
 size_t wt_params_count(const wt_params *params)
 {
@@ -52,8 +51,7 @@ static size_t find(const wt_params *params, const char *name)
     return i;
 }
 
-/* ---- members ----------------------------------------------------------------------------------
- */
+/* ---- members --------------------------------------------------------------------------------- */
 
 /* A structure with the record of one of its members. */
 typedef struct slot {
@@ -90,8 +88,7 @@ static void put_whole(const slot *s, unsigned long long value)
         memcpy(s->member, &narrow, sizeof narrow);
 }
 
-/* ---- limits -----------------------------------------------------------------------------------
- */
+/* ---- limits ---------------------------------------------------------------------------------- */
 
 /* False for NaN. */
 static bool is_within(const wt_param *param, double value)
@@ -131,8 +128,7 @@ static wt_status out_of_range(const wt_param *param, wt_error *err)
     return WT_E_RANGE;
 }
 
-/* ---- from text --------------------------------------------------------------------------------
- */
+/* ---- from text ------------------------------------------------------------------------------- */
 
 /* A value out of range was read: the text shows it as it was written. */
 static wt_status limit(const wt_param *param, double value, const char *text, wt_error *err)
@@ -354,8 +350,7 @@ void wt_params_clear(const wt_params *params, void *structure, uint64_t *given)
     *given = 0;
 }
 
-/* ---- the value of a member --------------------------------------------------------------------
- */
+/* ---- the value of a member ------------------------------------------------------------------- */
 
 /* Nothing is in the member: NaN, NULL, no item. */
 static bool is_unset(const slot *s)

@@ -159,8 +159,7 @@ wt_status wt_group_summarise(const wt_group *group, wt_group_summary *summary, w
     return status;
 }
 
-/* ---- two groups -------------------------------------------------------------------------------
- */
+/* ---- two groups ------------------------------------------------------------------------------ */
 
 typedef struct welch {
     double difference, standard_error, df;

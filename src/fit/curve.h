@@ -87,8 +87,7 @@ size_t curve_scan(const wt_contact_table *table, const curve_samples *samples, b
 bool curve_scan_at(const wt_contact_table *table, const curve_samples *samples, bool tilt,
                    double contact_point, wt_indent_workspace *workspace, curve_minimum *minimum);
 
-/* ---- refinement and errors: curve_refine.c ----------------------------------------------------
- */
+/* ---- refinement and errors: curve_refine.c --------------------------------------------------- */
 
 enum { CURVE_E, CURVE_C, CURVE_F0, CURVE_T, CURVE_N_PARAMETERS };
 
@@ -115,8 +114,7 @@ void curve_refine(const wt_contact_table *table, const curve_samples *samples,
 double curve_weights(const wt_contact_table *table, const curve_samples *samples,
                      const curve_minimum *minimum, wt_indent_workspace *workspace);
 
-/* ---- noise: curve_noise.c ---------------------------------------------------------------------
- */
+/* ---- noise: curve_noise.c -------------------------------------------------------------------- */
 
 typedef struct noise_level {
     double variance;           /* of one sample */

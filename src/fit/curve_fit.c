@@ -244,8 +244,7 @@ static double baseline_departure(const fitting *f)
     return square > 0.0 ? 2.0 * M_SQRT2 * sqrt(square) : 0.0;
 }
 
-/* ---- verdict ----------------------------------------------------------------------------------
- */
+/* ---- verdict --------------------------------------------------------------------------------- */
 
 static wt_curve_verdict no_contact_verdict(fitting *f, char reason[160])
 {
@@ -393,8 +392,7 @@ static void add_notes(const fitting *f, char reason[160])
         strncat(reason, "; the limit of depth did not settle", 159 - strlen(reason));
 }
 
-/* ---- rates ------------------------------------------------------------------------------------
- */
+/* ---- rates ----------------------------------------------------------------------------------- */
 
 static void find_rates(const fitting *f, const double *height, const double *force,
                        const double *time, size_t n, wt_indent_fit *fit)

@@ -52,8 +52,7 @@ struct joint {
     double effective[MODULI];           /* degrees of freedom of the spline */
 };
 
-/* ---- evaluation for given shifts --------------------------------------------------------------
- */
+/* ---- evaluation for given shifts ------------------------------------------------------------- */
 
 static double shift_a(const struct joint *j, const double *unknown, size_t curve)
 {
@@ -189,8 +188,7 @@ static wt_status normal_equations(struct joint *j, spline_fit spline[MODULI], wt
     return status;
 }
 
-/* ---- Levenberg-Marquardt ----------------------------------------------------------------------
- */
+/* ---- Levenberg-Marquardt --------------------------------------------------------------------- */
 
 /* One damped step from `value` into `trial`; false if the damped matrix is not positive. */
 static bool damped_step(struct joint *j, double damping)
@@ -248,8 +246,7 @@ static wt_status minimise(struct joint *j, spline_fit spline[MODULI], wt_error *
     return status;
 }
 
-/* ---- weights and errors -----------------------------------------------------------------------
- */
+/* ---- weights and errors ---------------------------------------------------------------------- */
 
 /* Robust standard deviation of the residuals of a modulus (scaled median of absolute values). */
 static double robust_spread(struct joint *j, int q)
@@ -385,8 +382,7 @@ done:
     return status;
 }
 
-/* ---- set-up -----------------------------------------------------------------------------------
- */
+/* ---- set-up ---------------------------------------------------------------------------------- */
 
 static void joint_free(struct joint *j)
 {

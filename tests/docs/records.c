@@ -17,8 +17,7 @@
 
 enum { LINE = 1024, SET = 256, TEXT = 2048 };
 
-/* ---- troff ------------------------------------------------------------------------------------
- */
+/* ---- troff ----------------------------------------------------------------------------------- */
 
 /* Text with what troff would take for its own; a long word may be broken after , and :. */
 static void put_troff(const char *text)
@@ -56,8 +55,7 @@ static void put_sentence(const char *text)
     puts(".");
 }
 
-/* ---- options of a subcommand ------------------------------------------------------------------
- */
+/* ---- options of a subcommand ----------------------------------------------------------------- */
 
 typedef struct option {
     char letter, name[64], value[64], text[TEXT];
@@ -117,8 +115,7 @@ static bool put_options(const char *program, const char *subcommand)
     return help != NULL && pclose(help) == 0 && o.name[0] != '\0';
 }
 
-/* ---- elements of a section --------------------------------------------------------------------
- */
+/* ---- elements of a section ------------------------------------------------------------------- */
 
 static const char *schema_type(const wt_param *param, const char *name)
 {
@@ -221,8 +218,7 @@ static void put_choices(const char *indent)
             }
 }
 
-/* ---- tables -----------------------------------------------------------------------------------
- */
+/* ---- tables ---------------------------------------------------------------------------------- */
 
 #define TABLE_NAME(name, ...) #name,
 static const char *const table_names[] = {TABLES(TABLE_NAME)};
@@ -299,8 +295,7 @@ static bool has_all_tables(const char *path)
     return all;
 }
 
-/* ---- the file ---------------------------------------------------------------------------------
- */
+/* ---- the file -------------------------------------------------------------------------------- */
 
 static bool put_block(const char *line, const char *program, const char *path)
 {

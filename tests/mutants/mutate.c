@@ -20,8 +20,7 @@ typedef struct record {
     size_t line;
 } record;
 
-/* ---- the list ---------------------------------------------------------------------------------
- */
+/* ---- the list -------------------------------------------------------------------------------- */
 
 static void fail_at(const char *path, size_t line, const char *what)
 {
@@ -76,8 +75,7 @@ static FILE *open_list(const char *path)
     return in;
 }
 
-/* ---- finding and changing ---------------------------------------------------------------------
- */
+/* ---- finding and changing -------------------------------------------------------------------- */
 
 /* First token of the place, with its length in tokens; says why not. */
 static bool locate(const source *s, const record *r, size_t *first, size_t *n)
@@ -175,8 +173,7 @@ static int apply(const char *root, const char *list, long number)
     return good ? 0 : 2;
 }
 
-/* ---- drawing ----------------------------------------------------------------------------------
- */
+/* ---- drawing --------------------------------------------------------------------------------- */
 
 /* splitmix64: the same places on every machine. */
 static uint64_t random_below(uint64_t *state, uint64_t n)

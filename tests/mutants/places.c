@@ -50,8 +50,7 @@ static bool ends_operand(const token *t)
     return t->kind != TOKEN_NAME || !is_one_of(t, words);
 }
 
-/* ---- signs ------------------------------------------------------------------------------------
- */
+/* ---- signs ----------------------------------------------------------------------------------- */
 
 static void change_signs(list *l, size_t i)
 {
@@ -78,8 +77,7 @@ static void change_signs(list *l, size_t i)
         add(l, i, i + 2, "");
 }
 
-/* ---- numbers, keys, statuses ------------------------------------------------------------------
- */
+/* ---- numbers, keys, statuses ----------------------------------------------------------------- */
 
 /* sizeof x[0], sizeof(x[0]): any element will do. */
 static bool in_sizeof(const list *l, size_t i)
@@ -147,8 +145,7 @@ static void change_name(list *l, size_t i)
         add(l, i, i + 1, token_is(t, "true") ? "false" : "true");
 }
 
-/* ---- arguments --------------------------------------------------------------------------------
- */
+/* ---- arguments ------------------------------------------------------------------------------- */
 
 /* End of an argument that starts at i: the comma or the bracket behind it. *simple: a name, a
  * number, a member or an element, so that two of them may be exchanged. */
@@ -199,8 +196,7 @@ static void change_arguments(list *l, size_t i)
     }
 }
 
-/* ---- statements -------------------------------------------------------------------------------
- */
+/* ---- statements ------------------------------------------------------------------------------ */
 
 static bool only_frees(const token *t)
 {

@@ -40,8 +40,7 @@ static char *read_all(const char *path, size_t *length)
     return text;
 }
 
-/* ---- tokens -----------------------------------------------------------------------------------
- */
+/* ---- tokens ---------------------------------------------------------------------------------- */
 
 static size_t string_length(const char *p)
 {
@@ -119,8 +118,7 @@ bool token_is(const token *t, const char *text)
     return strlen(text) == t->length && memcmp(t->text, text, t->length) == 0;
 }
 
-/* ---- functions --------------------------------------------------------------------------------
- */
+/* ---- functions ------------------------------------------------------------------------------- */
 
 /* The token after the one that closes what token i opens. */
 static size_t after_closing(const source *s, size_t i)

@@ -13,8 +13,7 @@
 
 enum { TEXT = 8192 };
 
-/* ---- how far a parameter is moved -------------------------------------------------------------
- */
+/* ---- how far a parameter is moved ------------------------------------------------------------ */
 
 static const struct {
     const char *name, *text;
@@ -135,8 +134,7 @@ static bool move(const wt_params *params, size_t i, char *text, size_t size, con
     return true;
 }
 
-/* ---- subcommands ------------------------------------------------------------------------------
- */
+/* ---- subcommands ----------------------------------------------------------------------------- */
 
 static char folder[] = "/tmp/weartrack-alive-XXXXXX";
 
@@ -285,8 +283,7 @@ static void test_options(void **state)
     assert_int_equal(try_option(N_SUBCOMMANDS - 1, "threads", "2", "", ""), 1);
 }
 
-/* ---- cases ------------------------------------------------------------------------------------
- */
+/* ---- cases ----------------------------------------------------------------------------------- */
 
 static const struct {
     const char *section;
@@ -435,8 +432,7 @@ static void test_cases(void **state)
     free(after);
 }
 
-/* ---- what the subcommands read ----------------------------------------------------------------
- */
+/* ---- what the subcommands read --------------------------------------------------------------- */
 
 static int make_inputs(void **state)
 {

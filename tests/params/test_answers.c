@@ -41,8 +41,7 @@ static const char *good_text(const char *name, const char *tried)
     return NULL;
 }
 
-/* ---- as an option -----------------------------------------------------------------------------
- */
+/* ---- as an option ---------------------------------------------------------------------------- */
 
 /* Files that do not exist end every call that was understood. */
 static const struct {
@@ -90,8 +89,7 @@ static bool is_refused_option(size_t s, const char *name, const char *text)
     return refused;
 }
 
-/* ---- in a case --------------------------------------------------------------------------------
- */
+/* ---- in a case ------------------------------------------------------------------------------- */
 
 static const struct {
     const char *section, *before, *after;
@@ -138,8 +136,7 @@ static bool is_refused_in_case(size_t s, const wt_param *tried, const char *text
     return status != WT_OK;
 }
 
-/* ---- from C -----------------------------------------------------------------------------------
- */
+/* ---- from C ---------------------------------------------------------------------------------- */
 
 static wt_status call_read(const void *structure, wt_error *err)
 {
@@ -359,8 +356,7 @@ static bool is_refused_call(size_t k, const wt_param *p, double value)
            (status == WT_E_RANGE || status == WT_E_MISSING);
 }
 
-/* ---- the same everywhere ----------------------------------------------------------------------
- */
+/* ---- the same everywhere --------------------------------------------------------------------- */
 
 static bool is_number(const wt_param *p)
 {

@@ -61,8 +61,7 @@ static inline bool dma_read_tidy(const char *path, wt_sweep *sweep)
     return good;
 }
 
-/* ---- synthetic rubber: a broad spectrum, a network, a known WLF law ---------------------------
- */
+/* ---- synthetic rubber: a broad spectrum, a network, a known WLF law -------------------------- */
 
 typedef struct dma_truth {
     wt_wlf wlf;

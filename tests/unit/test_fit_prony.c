@@ -8,8 +8,7 @@
 #include "fit/nnls.h"
 #include "fit/prony.h"
 
-/* ---- non-negative least squares ---------------------------------------------------------------
- */
+/* ---- non-negative least squares -------------------------------------------------------------- */
 
 /* At the solution: x >= 0, gradient <= 0 where x = 0, gradient = 0 where x > 0. */
 static void assert_optimal(const gsl_matrix *a, const gsl_vector *b, const double *x)
@@ -96,8 +95,7 @@ static void nnls_refuses_too_few_rows(void **state)
     gsl_vector_free(b);
 }
 
-/* ---- series -----------------------------------------------------------------------------------
- */
+/* ---- series ---------------------------------------------------------------------------------- */
 
 /* A master curve of n points over [low, high] decades from a function, one "isotherm". */
 static wt_master_curve curve_of(void (*moduli)(double log_w, double *storage, double *loss),
@@ -268,8 +266,7 @@ static void senseless_settings_are_refused(void **state)
     assert_int_equal(wt_prony_fit_master(&master, NULL, &fit, &err), WT_E_MISSING);
 }
 
-/* ---- Kramers-Kronig ---------------------------------------------------------------------------
- */
+/* ---- Kramers-Kronig -------------------------------------------------------------------------- */
 
 static void kramers_kronig_tells_a_causal_material_from_a_miscalibrated_one(void **state)
 {
@@ -291,8 +288,7 @@ static void kramers_kronig_tells_a_causal_material_from_a_miscalibrated_one(void
     wt_master_curve_clear(&master);
 }
 
-/* ---- replicates -------------------------------------------------------------------------------
- */
+/* ---- replicates ------------------------------------------------------------------------------ */
 
 static wt_master_curve shifted_rubber(void)
 {

@@ -55,8 +55,7 @@ static wt_file_set files(const char *const *patterns, size_t n, const char *spot
                          .spot = spot};
 }
 
-/* ---- indentation ------------------------------------------------------------------------------
- */
+/* ---- indentation ----------------------------------------------------------------------------- */
 
 /* A bad file is recorded and the others are fitted; a file named twice counts once. */
 static void test_bad_files(void **state)
@@ -166,8 +165,7 @@ static void test_spots(void **state)
     check_spots(&single, 1, "position", 12);
 }
 
-/* ---- comparison -------------------------------------------------------------------------------
- */
+/* ---- comparison ------------------------------------------------------------------------------ */
 
 static void test_one_spot(void **state)
 {
@@ -220,8 +218,7 @@ static void test_one_spot(void **state)
     wt_table_free(y);
 }
 
-/* ---- rubber -----------------------------------------------------------------------------------
- */
+/* ---- rubber ---------------------------------------------------------------------------------- */
 
 static wt_rubber measured_rubber(wt_master_tables *tables)
 {
@@ -366,8 +363,7 @@ static void test_rubber_at(void **state)
     wt_master_tables_clear(&tables);
 }
 
-/* ---- surface ----------------------------------------------------------------------------------
- */
+/* ---- surface --------------------------------------------------------------------------------- */
 
 static void test_surface_text(void **state)
 {
@@ -435,8 +431,7 @@ static void test_surface_cut(void **state)
     assert_int_equal(wt_surface_roughness(&spectrum, 1, &roughness, NULL), WT_E_RANGE);
 }
 
-/* ---- layer ------------------------------------------------------------------------------------
- */
+/* ---- layer ----------------------------------------------------------------------------------- */
 
 /* The critical energy that an observed thickness gives is the one that gives that thickness. */
 static void test_calibration(void **state)
@@ -498,8 +493,7 @@ static void test_calibration(void **state)
     assert_int_equal(wt_layer_make(&sliding, &job, &common, &tables, NULL), WT_E_MISSING);
 }
 
-/* ---- draws ------------------------------------------------------------------------------------
- */
+/* ---- draws ----------------------------------------------------------------------------------- */
 
 /* The answer says what wear does to the thickness, and when the layer is there: both against the
  * layer computed anew. */

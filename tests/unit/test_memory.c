@@ -14,8 +14,7 @@
 
 enum { MAX_PLACES = 4096, OWN = 3, DEPTH = OWN + 4 };
 
-/* ---- allocations ------------------------------------------------------------------------------
- */
+/* ---- allocations ----------------------------------------------------------------------------- */
 
 void *__real_malloc(size_t size);
 void *__real_calloc(size_t n, size_t size);
@@ -97,8 +96,7 @@ FILE *__wrap_open_memstream(char **text, size_t *size)
     return fails() ? NULL : __real_open_memstream(text, size);
 }
 
-/* ---- a job under failing memory ---------------------------------------------------------------
- */
+/* ---- a job under failing memory -------------------------------------------------------------- */
 
 /* What is said when memory runs out: out of memory, or any failure where HDF5 or the system
  * are in between. */
@@ -157,8 +155,7 @@ static void check_job(const char *name, job *j, says expected)
     assert_int_equal(wrong, 0);
 }
 
-/* ---- jobs -------------------------------------------------------------------------------------
- */
+/* ---- jobs ------------------------------------------------------------------------------------ */
 
 static char folder[] = "/tmp/weartrack-memory-XXXXXX", curves[64], sweeps[64], store[64], text[64],
             report[64], program[64];
@@ -355,8 +352,7 @@ static wt_status write_report(FILE **out, wt_error *err)
     return status;
 }
 
-/* ---- tests ------------------------------------------------------------------------------------
- */
+/* ---- tests ----------------------------------------------------------------------------------- */
 
 static int set_up(void **state)
 {

@@ -8,8 +8,7 @@
 #include <libxml/xpath.h>
 #include <libxml/xpathInternals.h>
 
-/* ---- the whole --------------------------------------------------------------------------------
- */
+/* ---- the whole ------------------------------------------------------------------------------- */
 
 static void test_every_figure_is_listed_once(void **state)
 {
@@ -444,8 +443,7 @@ static void test_an_empty_result_needs_no_gnuplot(void **state)
     wt_result_free(result);
 }
 
-/* ---- failures ---------------------------------------------------------------------------------
- */
+/* ---- failures -------------------------------------------------------------------------------- */
 
 static wt_status try_report(const wt_result *result, const char *folder,
                             const wt_report_options *options, wt_error *err)

@@ -48,8 +48,7 @@ static char *read_plot(const char *folder, const char *figure, const char *endin
     return read_all(path, &length);
 }
 
-/* ---- data -------------------------------------------------------------------------------------
- */
+/* ---- data ------------------------------------------------------------------------------------ */
 
 enum { MOST = 64 };
 
@@ -133,8 +132,7 @@ static void test_descriptions_fit_their_tables(void **state)
     }
 }
 
-/* ---- curves -----------------------------------------------------------------------------------
- */
+/* ---- curves ---------------------------------------------------------------------------------- */
 
 /* The columns that an item of a plot command uses, in their order, each once: "time thickness". */
 static void columns_of_item(const char *item, wt_table *const *sections, size_t n, char *words,
@@ -295,8 +293,7 @@ static void test_incubation_is_marked_where_the_curve_shows_it(void **state)
     wt_result_free(result);
 }
 
-/* ---- captions ---------------------------------------------------------------------------------
- */
+/* ---- captions -------------------------------------------------------------------------------- */
 
 static void check_caption(const char *folder, const char *figure, const char *words)
 {
@@ -395,8 +392,7 @@ static void test_crowds_are_thinned(void **state)
     wt_result_free(result);
 }
 
-/* ---- what a result must hold ------------------------------------------------------------------
- */
+/* ---- what a result must hold ----------------------------------------------------------------- */
 
 static void check_refused(const char *table, const char *column, const fixture_change *change,
                           wt_status expected)

@@ -10,8 +10,7 @@
 #include <locale.h>
 #include <string.h>
 
-/* ---- texts and numbers ------------------------------------------------------------------------
- */
+/* ---- texts and numbers ----------------------------------------------------------------------- */
 
 static void assert_text(growing_text *text, const char *expected)
 {
@@ -149,8 +148,7 @@ static void test_svg_is_made_fit_for_a_page(void **state)
     text_free(&text);
 }
 
-/* ---- axes -------------------------------------------------------------------------------------
- */
+/* ---- axes ------------------------------------------------------------------------------------ */
 
 static void test_logarithmic_tics_are_at_whole_decades(void **state)
 {

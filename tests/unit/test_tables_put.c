@@ -105,8 +105,7 @@ static wt_status see_and_free(void *user, wt_table *table, wt_error *err)
     return WT_OK;
 }
 
-/* ---- where tables come from -------------------------------------------------------------------
- */
+/* ---- where tables come from ------------------------------------------------------------------ */
 
 /* The bundled case with one text in the place of another. */
 static void run_case(const char *text, const char *instead)
@@ -233,8 +232,7 @@ static void test_files(void **state)
     wt_input_close(input);
 }
 
-/* ---- what was not put -------------------------------------------------------------------------
- */
+/* ---- what was not put ------------------------------------------------------------------------ */
 
 static void test_all_put(void **state)
 {

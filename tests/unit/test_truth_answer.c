@@ -20,8 +20,7 @@ static const double with_rate[RATES] = {1.0, 1.2}; /* stiffer where it is faster
 static char folder[] = "/tmp/weartrack-answer-XXXXXX";
 static wt_result *result;
 
-/* ---- cases ------------------------------------------------------------------------------------
- */
+/* ---- cases ----------------------------------------------------------------------------------- */
 
 #define FILES(g)                                                                                   \
     "<files spot=\"1\">" g "0.tsv</files><files spot=\"2\">" g "1.tsv</files>"                     \
@@ -113,8 +112,7 @@ static int clean(void **state)
     return rmdir(folder);
 }
 
-/* ---- reading the sentences --------------------------------------------------------------------
- */
+/* ---- reading the sentences ------------------------------------------------------------------- */
 
 /* What follows the words in the sentences of a kind; fails if no sentence has them. */
 static const char *after(const char *kind, const char *words)
@@ -172,8 +170,7 @@ static void check(const char *kind, const char *words, double expected, double t
         fail_msg("%s%g: expected %g", words, value, expected);
 }
 
-/* ---- tests ------------------------------------------------------------------------------------
- */
+/* ---- tests ----------------------------------------------------------------------------------- */
 
 static void check_verdict(double ratio, double scatter, const char *verdict)
 {

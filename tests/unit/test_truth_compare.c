@@ -82,8 +82,7 @@ static wt_table *indentation(const char *group, double mean)
     return t;
 }
 
-/* ---- statistics, from the textbook ------------------------------------------------------------
- */
+/* ---- statistics, from the textbook ----------------------------------------------------------- */
 
 typedef struct sample {
     double mean, variance;
@@ -132,8 +131,7 @@ static expected welch(double bulk, double track, int r)
     return e;
 }
 
-/* ---- tests ------------------------------------------------------------------------------------
- */
+/* ---- tests ----------------------------------------------------------------------------------- */
 
 static wt_table *bulk_table, *track_table;
 static wt_compare_tables tables;

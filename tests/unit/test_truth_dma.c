@@ -100,8 +100,7 @@ static int clean(void **state)
     return 0;
 }
 
-/* ---- tables -----------------------------------------------------------------------------------
- */
+/* ---- tables ---------------------------------------------------------------------------------- */
 
 static void test_shift_factors(void **state)
 {
@@ -207,8 +206,7 @@ static void test_prony(void **state)
     assert_string_equal(wt_table_key(t, "rms_loss"), wt_table_key(tables.master_curve, "rms_loss"));
 }
 
-/* ---- the rubber -------------------------------------------------------------------------------
- */
+/* ---- the rubber ------------------------------------------------------------------------------ */
 
 /* What the later stages get, and get again from the tables. */
 static void test_rubber(void **state)

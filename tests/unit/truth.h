@@ -53,8 +53,7 @@ static inline double truth_normal(uint64_t *state)
     return sqrt(-2.0 * log(u[0])) * cos(6.283185307179586 * u[1]);
 }
 
-/* ---- force curves of a sphere of 5 um (paraboloid), Poisson's ratio 0.5 -----------------------
- */
+/* ---- force curves of a sphere of 5 um (paraboloid), Poisson's ratio 0.5 ---------------------- */
 
 #define HERTZ_RADIUS 5e-6
 #define HERTZ_TIP "sphere:radius=5um"
