@@ -15,33 +15,28 @@
     X(ROUGHNESS_KEY_C0, "c0", SI(POWER_SPECTRUM_2D), LABEL("C₀"), OPTIONAL)                        \
     X(ROUGHNESS_KEY_ROLL_OFF, "roll_off", SI(WAVENUMBER), LABEL("Roll-off wavenumber"), OPTIONAL)
 
+/* A number with its standard error behind it; with both errors. `heading` is that of the page. */
+#define COLUMN_AND_ERROR(X, ID, name, words, unit, heading)                                        \
+    X(ID, name, words, unit, LABEL(heading), STANDARD_ERROR(ID))                                   \
+    X(ID##_STANDARD_ERROR, name "_standard_error", "its standard error", unit, LABEL("± stat."))
+#define COLUMN_AND_ERRORS(X, ID, name, words, unit, heading)                                       \
+    X(ID, name, words, unit, LABEL(heading), BOTH_ERRORS(ID))                                      \
+    X(ID##_STANDARD_ERROR, name "_standard_error", "its standard error", unit, LABEL("± stat."))   \
+    X(ID##_NUMERICAL_ERROR, name "_numerical_error", "its numerical error", unit, LABEL("± num."))
+
 #define FRICTION_COLUMNS(X)                                                                        \
     X(FRICTION_VELOCITY, "velocity", "sliding velocity", SI(VELOCITY), LABEL("Velocity"))          \
-    X(FRICTION_TOTAL, "friction",                                                                  \
-      "friction coefficient, hysteresis and shearing of the real contact", NUMBER,                 \
-      LABEL("Total μ"), BOTH_ERRORS(FRICTION_TOTAL))                                               \
-    X(FRICTION_TOTAL_STANDARD_ERROR, "friction_standard_error", "its standard error", NUMBER,      \
-      LABEL("± stat."))                                                                            \
-    X(FRICTION_TOTAL_NUMERICAL_ERROR, "friction_numerical_error", "its numerical error", NUMBER,   \
-      LABEL("± num."))                                                                             \
-    X(FRICTION_HYSTERESIS, "hysteresis", "hysteresis friction", NUMBER, LABEL("Hysteresis"),       \
-      BOTH_ERRORS(FRICTION_HYSTERESIS))                                                            \
-    X(FRICTION_HYSTERESIS_STANDARD_ERROR, "hysteresis_standard_error", "its standard error",       \
-      NUMBER, LABEL("± stat."))                                                                    \
-    X(FRICTION_HYSTERESIS_NUMERICAL_ERROR, "hysteresis_numerical_error", "its numerical error",    \
-      NUMBER, LABEL("± num."))                                                                     \
+    COLUMN_AND_ERRORS(X, FRICTION_TOTAL, "friction",                                               \
+                      "friction coefficient, hysteresis and shearing of the real contact", NUMBER, \
+                      "Total μ")                                                                   \
+    COLUMN_AND_ERRORS(X, FRICTION_HYSTERESIS, "hysteresis", "hysteresis friction", NUMBER,         \
+                      "Hysteresis")                                                                \
     X(FRICTION_ADHESION, "adhesion", "friction of shearing the real contact", NUMBER,              \
       LABEL("Shearing"))                                                                           \
-    X(FRICTION_AREA_RATIO, "area_ratio", "real over nominal contact area", NUMBER, LABEL("A/A₀"),  \
-      BOTH_ERRORS(FRICTION_AREA_RATIO))                                                            \
-    X(FRICTION_AREA_RATIO_STANDARD_ERROR, "area_ratio_standard_error", "its standard error",       \
-      NUMBER, LABEL("± stat."))                                                                    \
-    X(FRICTION_AREA_RATIO_NUMERICAL_ERROR, "area_ratio_numerical_error", "its numerical error",    \
-      NUMBER, LABEL("± num."))                                                                     \
-    X(FRICTION_WITH_LAYER, "friction_with_layer", "friction coefficient with the modified layer",  \
-      NUMBER, LABEL("With layer"), STANDARD_ERROR(FRICTION_WITH_LAYER))                            \
-    X(FRICTION_WITH_LAYER_STANDARD_ERROR, "friction_with_layer_standard_error",                    \
-      "its standard error", NUMBER, LABEL("± stat."))                                              \
+    COLUMN_AND_ERRORS(X, FRICTION_AREA_RATIO, "area_ratio", "real over nominal contact area",      \
+                      NUMBER, "A/A₀")                                                              \
+    COLUMN_AND_ERROR(X, FRICTION_WITH_LAYER, "friction_with_layer",                                \
+                     "friction coefficient with the modified layer", NUMBER, "With layer")         \
     X(FRICTION_EXTRAPOLATED_SHARE, "extrapolated_share",                                           \
       "share of the hysteresis from frequencies not measured", NUMBER,                             \
       LABEL("Outside measured frequencies, share"))
@@ -90,12 +85,8 @@
 
 #define LAYER_COLUMNS(X)                                                                           \
     X(LAYER_TIME, "time", "time since the start", SI(TIME))                                        \
-    X(LAYER_THICKNESS, "thickness", "thickness of the modified layer", SI(LENGTH),                 \
-      BOTH_ERRORS(LAYER_THICKNESS))                                                                \
-    X(LAYER_THICKNESS_STANDARD_ERROR, "thickness_standard_error", "its standard error",            \
-      SI(LENGTH))                                                                                  \
-    X(LAYER_THICKNESS_NUMERICAL_ERROR, "thickness_numerical_error", "its numerical error",         \
-      SI(LENGTH))                                                                                  \
+    COLUMN_AND_ERRORS(X, LAYER_THICKNESS, "thickness", "thickness of the modified layer",          \
+                      SI(LENGTH), "Thickness")                                                     \
     X(LAYER_FORMATION_RATE, "formation_rate", "rate of formation at this thickness", SI(VELOCITY)) \
     X(LAYER_WEAR_RATE, "wear_rate", "rate of wear", SI(VELOCITY))
 
