@@ -357,10 +357,10 @@ static void image_with_known_rows(void **state)
                                    .points = 8,
                                    .lines = 4,
                                    .x_name = "X*",
-                                   .x_unit = "m",
+                                   .x_unit = "um",
                                    .y_name = "Y*",
                                    .y_unit = "m",
-                                   .x_range = 8e-6,
+                                   .x_range = 8,
                                    .y_range = 4e-6,
                                    .n_channels = 2,
                                    .channels = two};
@@ -380,7 +380,7 @@ static void image_with_known_rows(void **state)
     assert_string_equal(images[1].unit, "rad");
     assert_int_equal(images[0].n_columns, 8);
     assert_int_equal(images[0].n_rows, 4);
-    assert_near(images[0].width, 8e-6, 0);
+    assert_near(images[0].width, 8e-6, 1e-15);
     assert_near(images[0].height, 4e-6, 0);
     for (size_t i = 0; i < 32; i++) {
         assert_near(images[0].values[i], heights[i], 0);
@@ -414,6 +414,35 @@ static void sizes_must_add_up(void **state)
         assert_int_equal(wt_input_open_memory(bytes, n, "cut", &r.input, NULL), WT_OK);
         wt_status status = wt_force_open(formats, r.input, &o, NULL, &r.source, &r.err);
         assert_int_equal(status, n == whole ? WT_OK : WT_E_CORRUPT);
+        close_all(&r);
+    }
+}
+
+/* A number of samples or lines that cannot be. */
+static void no_samples(void **state)
+{
+    (void)state;
+    static const char *const keys[] = {"\r\nPoints=", "\r\nLines="};
+    static unsigned char bytes[65536];
+    for (size_t k = 0; k < 2; k++) {
+        nid_writer_file f = make_file("N", false, false);
+        wt_read_options o = wt_read_defaults();
+        reading r = {.log = NULL};
+        assert_int_equal(nid_write(&f), 0);
+        FILE *in = fopen(path, "rb");
+        assert_non_null(in);
+        size_t n = fread(bytes, 1, sizeof bytes, in);
+        fclose(in);
+        unlink(path);
+        unsigned char *at = memmem(bytes, n, keys[k], strlen(keys[k]));
+        assert_non_null(at);
+        for (at += strlen(keys[k]); *at >= '0' && *at <= '9'; at++)
+            *at = '0';
+        o.format = "nid";
+        assert_int_equal(wt_input_open_memory(bytes, n, "none", &r.input, NULL), WT_OK);
+        assert_int_equal(wt_force_open(formats, r.input, &o, NULL, &r.source, &r.err),
+                         WT_E_CORRUPT);
+        assert_non_null(strstr(r.err.message, "is missing or not understood"));
         close_all(&r);
     }
 }
@@ -531,6 +560,7 @@ int main(void)
         cmocka_unit_test(listed_positions),
         cmocka_unit_test(image_with_known_rows),
         cmocka_unit_test(sizes_must_add_up),
+        cmocka_unit_test(no_samples),
         cmocka_unit_test(measured_thermal_spectrum),
         cmocka_unit_test(measured_images),
     };

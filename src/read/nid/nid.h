@@ -72,11 +72,11 @@ typedef struct nid_file {
 wt_status nid_file_open(wt_input *input, nid_file *file, wt_error *err);
 void nid_file_close(nid_file *file);
 bool nid_is_spectroscopy(const nid_channel *channel);
-/* values[n] = the first n samples of a line in the SI unit: factor * exported value + offset. */
+/* values[n] = the first n samples of a line: factor * exported value. */
 void nid_decode(const nid_file *file, const nid_channel *channel, size_t line, size_t n,
-                double factor, double offset, double *values);
+                double factor, double *values);
 /* The SI unit for an exported one, "" with factor 1 if it is none of the units known here. */
-const char *nid_si_unit(const char *unit, double *factor, double *offset);
+const char *nid_si_unit(const char *unit, double *factor);
 wt_status nid_read_images(const file_reader *self, wt_input *input, const wt_read_options *options,
                           wt_parselog *log, wt_image **images, size_t *n_images, wt_error *err);
 

@@ -157,34 +157,31 @@ bool nid_is_spectroscopy(const nid_channel *channel)
 }
 
 void nid_decode(const nid_file *file, const nid_channel *c, size_t line, size_t n, double factor,
-                double offset, double *values)
+                double *values)
 {
     const sample_type type = c->bits == 16 ? SAMPLE_INT16 : SAMPLE_INT32;
     const unsigned char *bytes = file->bytes + c->offset + line * c->points * sample_width(type);
     const double half = ldexp(1.0, (int)c->bits - 1), whole = ldexp(1.0, (int)c->bits);
     (void)samples_decode(type, false, bytes, n, 1, half, values);
     for (size_t i = 0; i < n; i++)
-        values[i] = factor * (c->minimum + c->range * (values[i] / whole)) + offset;
+        values[i] = factor * (c->minimum + c->range * (values[i] / whole));
     /* Only a range beyond all sense overflows: then nothing is known. */
     (void)samples_mend(values, n);
 }
 
-const char *nid_si_unit(const char *unit, double *factor, double *offset)
+const char *nid_si_unit(const char *unit, double *factor)
 {
     static const wt_quantity known[] = {WT_Q_LENGTH, WT_Q_DEFLECTION_VOLTAGE, WT_Q_FORCE,
                                         WT_Q_PHASE,  WT_Q_FREQUENCY,          WT_Q_TIME};
+    double offset = 0; /* that none of these has */
     *factor = 1;
-    *offset = 0;
     /* A root has no spelling in UDUNITS. */
     if (strcmp(unit, "m/sqrt(Hz)") == 0)
         return wt_quantity_unit(WT_Q_SPECTRAL_DENSITY);
-    if (unit[0] == '\0')
-        return "";
-    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
-        if (wt_unit_to_si(unit, known[i], factor, offset, NULL) == WT_OK)
+    for (size_t i = 0; unit[0] != '\0' && i < sizeof known / sizeof *known; i++)
+        if (wt_unit_to_si(unit, known[i], factor, &offset, NULL) == WT_OK)
             return wt_quantity_unit(known[i]);
     *factor = 1;
-    *offset = 0;
     return "";
 }
 
@@ -195,13 +192,13 @@ static void read_axis(const nid_header *header, const char *section, int axis, d
                       double *minimum, char *unit, size_t size)
 {
     char key[16];
-    double factor = 1, offset = 0;
+    double factor = 1;
     snprintf(key, sizeof key, "Dim%dUnit", axis);
-    const char *si = nid_si_unit(text_or_empty(nid_get(header, section, key)), &factor, &offset);
+    const char *si = nid_si_unit(text_or_empty(nid_get(header, section, key)), &factor);
     snprintf(key, sizeof key, "Dim%dRange", axis);
     *range = factor * nid_number(header, section, key);
     snprintf(key, sizeof key, "Dim%dMin", axis);
-    *minimum = factor * nid_number(header, section, key) + offset;
+    *minimum = factor * nid_number(header, section, key);
     if (unit != NULL)
         snprintf(unit, size, "%s", si);
 }
@@ -209,8 +206,8 @@ static void read_axis(const nid_header *header, const char *section, int axis, d
 static wt_status read_image(const nid_file *file, const nid_channel *c, wt_parselog *log,
                             wt_image *image, wt_error *err)
 {
-    double factor = 1, offset = 0, current = (double)NAN;
-    const char *unit = nid_si_unit(c->unit, &factor, &offset);
+    double factor = 1, current = (double)NAN;
+    const char *unit = nid_si_unit(c->unit, &factor);
     if (unit[0] == '\0' && c->unit[0] != '\0') {
         unit = c->unit;
         wt_parselog_add(log, WT_NOTE, file->name, c->section, "unit %s is kept as it is", c->unit);
@@ -232,7 +229,7 @@ static wt_status read_image(const nid_file *file, const nid_channel *c, wt_parse
                         "scan was stopped: line %.0f of %zu is the last that was measured",
                         current + 1, c->lines);
     for (size_t line = 0; line < c->lines; line++)
-        nid_decode(file, c, line, c->points, factor, offset, image->values + line * c->points);
+        nid_decode(file, c, line, c->points, factor, image->values + line * c->points);
     return WT_OK;
 }
 

@@ -193,9 +193,8 @@ static wt_status decode(wt_force_source *base, const force_signal *signal, force
                         size_t n, double *values, wt_error *err)
 {
     const nid_source *source = (const nid_source *)base;
-    (void)err;
-    nid_decode(&source->file, signal->channel, source->line, n, scaling.multiplier, scaling.offset,
-               values);
+    (void)err; /* and none of these units has an offset */
+    nid_decode(&source->file, signal->channel, source->line, n, scaling.multiplier, values);
     return WT_OK;
 }
 
