@@ -1,10 +1,12 @@
 /* Changes one place of the sources, and draws places to change.
  *   mutate check ROOT LIST           every place of the list is found exactly once
- *   mutate lines LIST                file, function, find, put, tests, equivalent, slow: tabs
- * between, a line for each record mutate apply ROOT LIST N         makes change N (from 1) in the
- * file under ROOT mutate draw ROOT SEED N FILE...  prints N drawn changes as a list: a function
- * evenly of all in the files, then a place of it, then a change See the list for the form of a
- * record. SPDX-License-Identifier: GPL-3.0-or-later */
+ *   mutate lines LIST                a line for each record: file, function, find, put, tests,
+ *                                    equivalent, slow; tabs between
+ *   mutate apply ROOT LIST N         makes change N (from 1) in the file under ROOT
+ *   mutate draw ROOT SEED N FILE...  prints N drawn changes as a list: a function evenly of all in
+ *                                    the files, then a place of it, then a change
+ * See the list for the form of a record.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "places.h"
 
 #include <inttypes.h>
