@@ -39,12 +39,6 @@ bool force_wants_segment(const wt_force_source *source, wt_segment_kind kind)
     return (source->options.segments & WT_SEGMENT_BIT(kind)) != 0;
 }
 
-void force_add_signal(force_facts *facts, force_signal signal)
-{
-    if (facts->n_signals < FORCE_SIGNALS)
-        facts->signals[facts->n_signals++] = signal;
-}
-
 /* ---- what a quantity is made of ----------------------------------------------------------- */
 
 const force_signal *force_find_signal(const force_facts *facts, wt_quantity quantity)
@@ -53,6 +47,20 @@ const force_signal *force_find_signal(const force_facts *facts, wt_quantity quan
         if (facts->signals[i].quantity == quantity)
             return &facts->signals[i];
     return NULL;
+}
+
+void force_add_signal(force_facts *facts, force_signal signal)
+{
+    if (force_find_signal(facts, signal.quantity) == NULL)
+        facts->signals[facts->n_signals++] = signal;
+}
+
+void force_offer(force_facts *facts, wt_quantity quantity)
+{
+    for (size_t i = 0; i < facts->n_offers; i++)
+        if (facts->offers[i] == quantity)
+            return;
+    facts->offers[facts->n_offers++] = quantity;
 }
 
 /* From the detector to the force: the sensitivity leads from the first to the second, the spring
@@ -132,7 +140,7 @@ typedef struct force_plan {
         wt_quantity quantity;
         const force_signal *signal; /* NULL: the time, from the duration */
         force_linear scaling;       /* from the numbers of the channel to the quantity */
-    } columns[FORCE_SIGNALS];
+    } columns[WT_Q_COUNT];
     size_t n;
 } force_plan;
 

@@ -25,8 +25,6 @@ typedef struct force_signal {
     const char *problem;     /* why it cannot be read, or NULL */
 } force_signal;
 
-enum { FORCE_SIGNALS = WT_Q_COUNT + 2 };
-
 /* What a reader says of a segment. */
 typedef struct force_facts {
     wt_segment_kind kind;
@@ -40,9 +38,9 @@ typedef struct force_facts {
     wt_quantity setpoint_quantity;
     wt_cantilever cantilever; /* that the file's deflections and forces were made with */
     /* What the format has to give, in the order of the columns; a force is made from any signal. */
-    wt_quantity offers[FORCE_SIGNALS];
+    wt_quantity offers[WT_Q_COUNT];
     size_t n_offers;
-    force_signal signals[FORCE_SIGNALS];
+    force_signal signals[WT_Q_COUNT];
     size_t n_signals;
 } force_facts;
 
@@ -64,8 +62,10 @@ struct wt_force_source {
 
 bool force_wants_segment(const wt_force_source *source, wt_segment_kind kind);
 
+/* Each quantity once: what comes first counts. */
 void force_add_signal(force_facts *facts, force_signal signal);
-/* The first of a quantity, or NULL. */
+void force_offer(force_facts *facts, wt_quantity quantity);
+/* NULL if there is none. */
 const force_signal *force_find_signal(const force_facts *facts, wt_quantity quantity);
 /* Adds a segment, if it has samples, with what was asked for. What cannot be made is WT_E_MISSING
  * if it was asked for by name, a warning if simply everything was. */

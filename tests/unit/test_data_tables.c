@@ -215,8 +215,8 @@ static void check_refused(wrong what, const char *named)
 static void test_refused(void **state)
 {
     (void)state;
-    check_refused(NO_CELL, "modulus");
-    check_refused(NO_KEY, "equilibrium_modulus");
+    check_refused(NO_CELL, "\"prony\": \"modulus\"");
+    check_refused(NO_KEY, "\"prony\": \"equilibrium_modulus\"");
     check_refused(OTHER_TABLE, "layer");
     check_refused(TEXT_IN_NUMBER, "prony");
     check_refused(LEFT_OUT, "prony");

@@ -83,6 +83,7 @@ static void test_bad_files(void **state)
     assert_string_equal(wt_table_text(common.failures, 1, 0), "dma.txt");
     assert_int_equal(wt_table_n_rows(tables.indentation), 24);
     assert_int_equal(tables.n_accepted, 24);
+    assert_int_equal(tables.n_failed, 1); /* read and failed; the other one is not there */
     assert_int_equal(wt_parselog_count(common.log), 1);
     assert_non_null(strstr(wt_parselog_get(common.log, 0).text, "taken once"));
     assert_int_equal(wt_provenance_n_inputs(common.provenance), 2);
@@ -161,6 +162,8 @@ static void test_spots(void **state)
     check_spots(&mixed[1], 1, "file", 3);
     check_spots(named, 2, "named", 2);
     check_spots(mixed, 2, "mixed", 3);
+    wt_group_data none = {0};
+    assert_int_equal(wt_group_from_table(NULL, &none, NULL), WT_E_ARG);
     const wt_file_set single = files(one, 1, NULL);
     check_spots(&single, 1, "position", 12);
 }

@@ -65,6 +65,33 @@ static void logarithmic_moment(void **state)
     wt_roughness_free(r);
 }
 
+static void power_of_q(const wt_roughness *roughness, const double *q, size_t n, double *c)
+{
+    (void)roughness;
+    for (size_t i = 0; i < n; i++)
+        c[i] = 3e-15 * pow(q[i] / 100, -3.4);
+}
+
+static const double *no_breaks(const wt_roughness *roughness, size_t *n)
+{
+    (void)roughness;
+    *n = 0;
+    return NULL;
+}
+
+/* A law without a moment in closed form is integrated: the same as the one that has it. */
+static void integrated_moment(void **state)
+{
+    (void)state;
+    static const wt_roughness_law law = {.name = "own", .density = power_of_q, .breaks = no_breaks};
+    const wt_roughness own = {.law = &law, .q0 = 100, .q1 = 1e5};
+    wt_roughness *r = NULL;
+    assert_int_equal(wt_roughness_self_affine(100, 100, 1e5, 0.7, 3e-15, &r, NULL), WT_OK);
+    assert_near(wt_roughness_rms_height(&own), wt_roughness_rms_height(r), 1e-12);
+    assert_near(wt_roughness_rms_slope(&own), wt_roughness_rms_slope(r), 1e-12);
+    wt_roughness_free(r);
+}
+
 static void bad_input(void **state)
 {
     (void)state;
@@ -101,9 +128,8 @@ static void bad_input(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(numeric_cases),
-        cmocka_unit_test(densities),
-        cmocka_unit_test(logarithmic_moment),
+        cmocka_unit_test(numeric_cases),      cmocka_unit_test(densities),
+        cmocka_unit_test(logarithmic_moment), cmocka_unit_test(integrated_moment),
         cmocka_unit_test(bad_input),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

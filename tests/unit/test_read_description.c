@@ -49,6 +49,10 @@ static void accepted(void **state)
     wt_error err = WT_ERROR_INIT;
     (void)state;
     assert_int_equal(parse_with(0, NULL, &err), WT_OK);
+    /* as many repeats as are allowed */
+    static const char detect[] =
+        "<detect><require regex=\"a+b+c+d+e+f+g+h+i+j+k+l+m+n+o+p+q\" score=\"5\"/></detect>";
+    assert_int_equal(parse_with(4, detect, &err), WT_OK);
 }
 
 static void mistakes(void **state)

@@ -147,6 +147,12 @@ static void as_the_file_says(void **state)
     assert_column(&curve, WT_Q_DEFLECTION, 5e-9, 1e-9);
     assert_column(&curve, WT_Q_DEFLECTION_VOLTAGE, 0.1, 0.01);
     assert_int_equal(wt_parselog_count(m.base.log), 0);
+    /* What comes first counts. */
+    add(&m, WT_Q_HEIGHT, 2, 0, three);
+    force_offer(&m.facts, WT_Q_HEIGHT);
+    assert_int_equal(m.facts.n_offers, 5);
+    assert_string_equal(force_find_signal(&m.facts, WT_Q_HEIGHT)->name, "two");
+    assert_int_equal(m.facts.n_signals, 4);
     /* A time of the file goes before one from the duration. */
     add(&m, WT_Q_TIME, 3, 0, two);
     assert_int_equal(read_curve(&m, &curve, NULL), WT_OK);

@@ -381,24 +381,6 @@ static void height_without_conversion(void **state)
 }
 
 /* Cut at many places: what is complete is read and equals what was written. */
-/* Volts are no height; the rest of the curve is there. */
-static void height_without_conversion(void **state)
-{
-    (void)state;
-    static const char path[] = "test_read_jpk_bare.jpk-force-map";
-    jpk_writer_file f = make_file(path);
-    reading r;
-    f.bare_height = true;
-    assert_int_equal(jpk_write(&f), 0);
-    assert_int_equal(open_path(&r, path, NULL), WT_OK);
-    assert_int_equal(wt_force_next(r.source, &r.curve, &r.err), WT_OK);
-    assert_null(wt_segment_channel(&r.curve.segments[0], WT_Q_HEIGHT));
-    assert_non_null(wt_segment_channel(&r.curve.segments[0], WT_Q_FORCE));
-    assert_true(logged(&r, "it has no calibration"));
-    close_all(&r);
-    unlink(path);
-}
-
 static void cut_off(void **state)
 {
     (void)state;

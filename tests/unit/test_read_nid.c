@@ -339,6 +339,45 @@ static void listed_positions(void **state)
     unlink(path);
 }
 
+static void described(void **state)
+{
+    (void)state;
+    static const char *const expected[][4] = {
+        {"text encoding", "UTF-8", "", "the bytes of the header"},
+        {"Spec forward: Deflection", "16 x 6 samples x curves, 32 bits", "V", "DataSet-0:0"},
+        {"curves", "6", "", "Lines"},
+        {"grid", "1 x 6, back and forth", "", "SpecMapTable"},
+        {"segment 0", "approach (Spec forward), up to 16 points", "", ""},
+        {"segment 2", "retract (Spec backward), up to 16 points", "", ""},
+        {"spring constant", "0.5", "N/m", "given by the user"},
+        {"deflection sensitivity", "9.5367431640625e-7", "m/V",
+         "Calibration\\Scanhead, TipSignalDC / TipSignalDC1"}};
+    nid_writer_file f = make_file("V", false, false);
+    wt_read_options o = wt_read_defaults();
+    wt_table *facts = NULL;
+    reading r = {.log = NULL};
+    f.map = "0;0;0;5e-06;1;6;0;1";
+    f.deflection_range_m = 10 * 0x1p-20;
+    o.spring_constant = 0.5;
+    assert_int_equal(nid_write(&f), 0);
+    assert_int_equal(wt_input_open(path, &r.input, NULL), WT_OK);
+    assert_int_equal(wt_describe(formats, r.input, &o, NULL, &facts, &r.err), WT_OK);
+    for (size_t i = 0; i < sizeof expected / sizeof *expected; i++) {
+        size_t row = 0;
+        while (row < wt_table_n_rows(facts) &&
+               strcmp(wt_table_text(facts, row, 0), expected[i][0]) != 0)
+            row++;
+        assert_true(row < wt_table_n_rows(facts));
+        for (size_t c = 1; c < 4; c++)
+            assert_string_equal(wt_table_text(facts, row, c), expected[i][c]);
+    }
+    for (size_t row = 0; row < wt_table_n_rows(facts); row++)
+        assert_string_not_equal(wt_table_text(facts, row, 0), "missing");
+    wt_table_free(facts);
+    close_all(&r);
+    unlink(path);
+}
+
 /* ---- images ------------------------------------------------------------------------------- */
 
 static void image_with_known_rows(void **state)
@@ -558,6 +597,7 @@ int main(void)
         cmocka_unit_test(force_without_spring_constant),
         cmocka_unit_test(serpentine_map),
         cmocka_unit_test(listed_positions),
+        cmocka_unit_test(described),
         cmocka_unit_test(image_with_known_rows),
         cmocka_unit_test(sizes_must_add_up),
         cmocka_unit_test(no_samples),

@@ -295,6 +295,16 @@ static void test_incubation_is_marked_where_the_curve_shows_it(void **state)
 
 /* ---- captions -------------------------------------------------------------------------------- */
 
+/* A subscript needs the enhanced mode that labels are without. */
+static void test_label_with_subscripts(void **state)
+{
+    (void)state;
+    NEED_REPORT();
+    char *script = read_plot("out", "shift_factors", "gp");
+    assert_non_null(strstr(script, "set ylabel 'Shift factor, log_{10} a_T' enhanced\n"));
+    free(script);
+}
+
 static void check_caption(const char *folder, const char *figure, const char *words)
 {
     char *script = read_plot(folder, figure, "gp"), *end = strstr(script, "\nreset\n");
@@ -462,6 +472,7 @@ int main(void)
         cmocka_unit_test(test_curves_are_drawn_from_their_columns),
         cmocka_unit_test(test_the_key_lists_what_is_drawn),
         cmocka_unit_test(test_incubation_is_marked_where_the_curve_shows_it),
+        cmocka_unit_test(test_label_with_subscripts),
         cmocka_unit_test(test_numbers_of_captions),
         cmocka_unit_test(test_crowds_are_thinned),
         cmocka_unit_test(test_what_is_missing_is_an_error),

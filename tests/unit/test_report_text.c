@@ -102,6 +102,12 @@ static void test_escaping(void **state)
 static void test_lab_units(void **state)
 {
     (void)state;
+    /* an error of two digits, of nine decimals at most */
+    const wt_estimate exact = {1, 1.2e-9, 0, "1"}, more = {1, 6e-10, 0, "1"},
+                      fine = {1, 2e-12, 0, "1"};
+    assert_string_equal(ESTIMATE(&exact), "1.000000000 ± 0.000000001");
+    assert_string_equal(ESTIMATE(&more), "1.000000000 ± 0.000000001");
+    assert_string_equal(ESTIMATE(&fine), "1.000000000 ± 0.000000000");
     static const struct {
         wt_quantity quantity;
         const char *unit;

@@ -299,6 +299,9 @@ static void test_sliding(void **state)
     assert_near_abs(number(range + 4), 100 * high, 0.51);
     assert_false(says("caveat", "does not agree"));
     assert_false(says("caveat", "does not show this layer"));
+    /* the temperature of indentation is given, that of sliding is not */
+    assert_false(says("caveat", "temperature of indentation"));
+    assert_true(says("caveat", "temperature of sliding"));
 }
 
 /* What does not fit together is said: a layer without a difference, a difference without a layer.

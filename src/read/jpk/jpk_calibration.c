@@ -99,10 +99,8 @@ void jpk_segment_facts(const jpk_segment *segment, force_facts *facts)
     for (size_t i = 0; i < sizeof sources / sizeof *sources; i++) {
         const wt_quantity q = sources[i].quantity;
         const jpk_channel *c = jpk_segment_channel(segment, sources[i].channel);
-        const bool other = q == WT_Q_MEASURED_HEIGHT;
-        if (facts->offers[facts->n_offers - 1] != q)
-            facts->offers[facts->n_offers++] = q;
-        if (c != NULL && (c->understood || !other) && force_find_signal(facts, q) == NULL)
+        force_offer(facts, q);
+        if (c != NULL && (c->understood || q != WT_Q_MEASURED_HEIGHT))
             add_signal(c, q, sources[i].slot, facts);
     }
     const jpk_channel *deflection = jpk_segment_channel(segment, "vDeflection");

@@ -103,8 +103,7 @@ static void add_channel(const nid_channel *c, force_facts *facts)
             wt_unit_to_si(c->unit, signal.quantity, &signal.to_si.multiplier, &signal.to_si.offset,
                           NULL) != WT_OK)
             continue;
-        if (force_find_signal(facts, signal.quantity) == NULL)
-            force_add_signal(facts, signal);
+        force_add_signal(facts, signal);
         return;
     }
 }

@@ -55,7 +55,7 @@ static void find_signals(const text_source *s, const text_table *t, wt_segment_k
         WT_Q_BIT(WT_Q_FORCE) | WT_Q_BIT(WT_Q_DEFLECTION) | WT_Q_BIT(WT_Q_DEFLECTION_VOLTAGE);
     const wt_quantity_set want = s->base.options.want;
     const wt_quantity_set use = (want & WT_Q_BIT(WT_Q_FORCE)) != 0 ? want | bending : want;
-    facts->offers[facts->n_offers++] = WT_Q_FORCE;
+    force_offer(facts, WT_Q_FORCE);
     for (size_t i = 0; i < t->n_columns; i++) {
         const text_column *c = &t->columns[i];
         const wt_quantity q = c->rule->quantity;
@@ -65,8 +65,7 @@ static void find_signals(const text_source *s, const text_table *t, wt_segment_k
             facts,
             (force_signal){
                 .quantity = q, .name = c->name, .unit = c->unit, .to_si = {1, 0}, .channel = c});
-        if (q != WT_Q_FORCE && facts->n_offers < FORCE_SIGNALS)
-            facts->offers[facts->n_offers++] = q;
+        force_offer(facts, q);
     }
 }
 
