@@ -9,12 +9,12 @@
 void *pool_alloc(pool *memory, size_t n, size_t size)
 {
     void **blocks = array_grow(memory->blocks, memory->n, sizeof *blocks);
-    if (blocks == NULL)
-        return NULL;
-    memory->blocks = blocks;
-    void *block = calloc(n > 0 ? n : 1, size);
+    memory->blocks = blocks != NULL ? blocks : memory->blocks;
+    void *block = blocks != NULL ? calloc(n > 0 ? n : 1, size) : NULL;
     if (block != NULL)
         memory->blocks[memory->n++] = block;
+    else
+        memory->failed = true;
     return block;
 }
 

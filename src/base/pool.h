@@ -5,12 +5,14 @@
 #ifndef WT_BASE_POOL_H
 #define WT_BASE_POOL_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 /* Zero-initialised is empty. */
 typedef struct pool {
     void **blocks;
     size_t n;
+    bool failed; /* an allocation did, so that several need one check */
 } pool;
 
 /* n zeroed items; NULL when out of memory. */

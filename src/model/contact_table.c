@@ -29,7 +29,6 @@ typedef struct piece {
 struct wt_contact_table {
     wt_tip tip;
     double switch_depth;
-    double cap_radius;
     uint64_t first; /* bits >> SHIFT of the first piece */
     size_t n;
     piece pieces[];
@@ -109,7 +108,6 @@ wt_status wt_contact_table_new(const wt_tip *tip, double delta_min, double delta
         return wt_fail(err, WT_E_MEMORY, "no memory for a contact table of %zu pieces", n);
     t->tip = *tip;
     t->switch_depth = at;
-    t->cap_radius = tip->radius;
     t->first = first;
     t->n = n;
     for (size_t i = 0; i < n; i++)
@@ -133,7 +131,7 @@ void wt_contact_table_eval(const wt_contact_table *table, const double *delta, s
         if (d <= 0.0) {
             /* out of contact */
         } else if (d <= at) {
-            double a = sqrt(table->cap_radius * d);
+            double a = sqrt(table->tip.radius * d);
             value = 4.0 / 3.0 * a * d;
             rise = 2.0 * a;
         } else if ((number = piece_number(d - at) - table->first) < table->n) {

@@ -25,18 +25,26 @@ wt_status material_check_value(const char *name, double value, const char *expec
 }
 
 wt_status material_wrap(const wt_material_law *law, void *data, double poisson_ratio,
-                        wt_material **material, wt_error *err)
+                        double frequency_min, double frequency_max, wt_material **material,
+                        wt_error *err)
 {
     wt_material *made = malloc(sizeof *made);
-    if (made == NULL)
+    if (made == NULL) {
+        free(data);
         return wt_fail(err, WT_E_MEMORY, "out of memory for a material");
-    made->law = law;
-    made->poisson_ratio = poisson_ratio;
-    made->frequency_min = (double)NAN;
-    made->frequency_max = (double)NAN;
-    made->data = data;
+    }
+    *made = (wt_material){.law = law,
+                          .poisson_ratio = poisson_ratio,
+                          .frequency_min = frequency_min,
+                          .frequency_max = frequency_max,
+                          .data = data};
     *material = made;
     return WT_OK;
+}
+
+void material_free_data(wt_material *material)
+{
+    free(material->data);
 }
 
 void wt_material_free(wt_material *material)

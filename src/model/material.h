@@ -20,8 +20,12 @@ wt_status material_check_poisson(double poisson_ratio, wt_error *err) WT_NODISCA
 /* WT_E_RANGE naming the parameter unless `good` and the value is finite. */
 wt_status material_check_value(const char *name, double value, const char *expected, bool good,
                                wt_error *err) WT_NODISCARD;
-/* A material of unlimited frequency range around `data`, which it takes only on success. */
+/* A material around `data`, of one block of memory, which it takes, also on failure. NaN: the range
+ * of frequencies is not limited. */
 wt_status material_wrap(const wt_material_law *law, void *data, double poisson_ratio,
-                        wt_material **material, wt_error *err) WT_NODISCARD;
+                        double frequency_min, double frequency_max, wt_material **material,
+                        wt_error *err) WT_NODISCARD;
+/* The `free` of a law whose data are that block. */
+void material_free_data(wt_material *material);
 
 #endif

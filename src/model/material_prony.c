@@ -13,6 +13,7 @@ typedef struct prony_data {
     double *modulus;         /* E_k [Pa] */
     double *relaxation_time; /* tau_k [s] */
     double *weight;          /* 2 E_k V_k, V_k = E_inf + sum_j E_j tau_j / (tau_j + tau_k) */
+    double numbers[];        /* [3 n] all of them */
 } prony_data;
 
 /* Beyond it a = omega tau is indistinguishable from infinity, and a^2 must not overflow. */
@@ -104,27 +105,11 @@ static void prony_angular(const wt_material *material, const double *restrict om
     }
 }
 
-static void prony_data_free(prony_data *d)
-{
-    if (d == NULL)
-        return;
-    free(d->modulus);
-    free(d->relaxation_time);
-    free(d->weight);
-    free(d);
-}
-
-static void prony_free(wt_material *material)
-{
-    prony_data_free(material->data);
-}
-
 static const wt_material_law prony_law = {
     .name = "prony",
     .modulus = prony_modulus,
     .angular = prony_angular,
-    .breaks = NULL,
-    .free = prony_free,
+    .free = material_free_data,
 };
 
 static wt_status prony_check(const wt_prony *prony, wt_error *err)
@@ -155,25 +140,18 @@ wt_status wt_material_prony(const wt_prony *prony, double poisson_ratio, wt_mate
 {
     if (prony == NULL || material == NULL)
         return wt_fail(err, WT_E_ARG, "a Prony material needs a series and a place for the result");
-    prony_data *d = NULL;
     wt_status status = material_check_poisson(poisson_ratio, err);
     if (status == WT_OK)
         status = prony_check(prony, err);
     if (status != WT_OK)
-        goto done;
+        return status;
 
-    const size_t room = prony->n ? prony->n : 1;
-    d = calloc(1, sizeof *d);
-    if (d) {
-        d->modulus = calloc(room, sizeof *d->modulus);
-        d->relaxation_time = calloc(room, sizeof *d->relaxation_time);
-        d->weight = calloc(room, sizeof *d->weight);
-    }
-    if (d == NULL || d->modulus == NULL || d->relaxation_time == NULL || d->weight == NULL) {
-        status =
-            wt_fail(err, WT_E_MEMORY, "out of memory for a Prony series of %zu terms", prony->n);
-        goto done;
-    }
+    prony_data *d = malloc(sizeof *d + 3 * prony->n * sizeof d->numbers[0]);
+    if (d == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory for a Prony series of %zu terms", prony->n);
+    d->modulus = d->numbers;
+    d->relaxation_time = d->modulus + prony->n;
+    d->weight = d->relaxation_time + prony->n;
     const double to_young = prony->deformation == WT_SHEAR ? 2 * (1 + poisson_ratio) : 1;
     d->equilibrium = to_young * prony->equilibrium_modulus;
     d->n = prony->n;
@@ -188,13 +166,6 @@ wt_status wt_material_prony(const wt_prony *prony, double poisson_ratio, wt_mate
             v += d->modulus[j] / (1 + tau / d->relaxation_time[j]);
         d->weight[k] = 2 * d->modulus[k] * v;
     }
-    status = material_wrap(&prony_law, d, poisson_ratio, material, err);
-    if (status != WT_OK)
-        goto done;
-    (*material)->frequency_min = prony->frequency_min;
-    (*material)->frequency_max = prony->frequency_max;
-    d = NULL;
-done:
-    prony_data_free(d);
-    return status;
+    return material_wrap(&prony_law, d, poisson_ratio, prony->frequency_min, prony->frequency_max,
+                         material, err);
 }

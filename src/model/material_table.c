@@ -4,6 +4,7 @@
  */
 #include "model/material.h"
 
+#include <gsl/gsl_interp.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -14,21 +15,8 @@ typedef struct table_data {
     double *log_omega;   /* [n] */
     double *log_storage; /* [n] */
     double *log_loss;    /* [n] */
+    double numbers[];    /* [4 n] all of them */
 } table_data;
-
-/* The segment whose line holds at x: knots i and i + 1. */
-static size_t table_segment(const table_data *d, double x)
-{
-    size_t low = 0, high = d->n - 1;
-    while (high - low > 1) {
-        const size_t middle = low + (high - low) / 2;
-        if (x < d->log_omega[middle])
-            high = middle;
-        else
-            low = middle;
-    }
-    return low;
-}
 
 static void table_modulus(const wt_material *material, const double *omega, size_t n,
                           double *storage, double *loss)
@@ -38,7 +26,7 @@ static void table_modulus(const wt_material *material, const double *omega, size
         double x = log(omega[i]);
         if (d->extrapolation == WT_EXTRAPOLATE_HOLD)
             x = fmin(fmax(x, d->log_omega[0]), d->log_omega[d->n - 1]);
-        const size_t k = table_segment(d, x);
+        const size_t k = gsl_interp_bsearch(d->log_omega, x, 0, d->n - 1);
         const double t = (x - d->log_omega[k]) / (d->log_omega[k + 1] - d->log_omega[k]);
         storage[i] = exp(d->log_storage[k] + t * (d->log_storage[k + 1] - d->log_storage[k]));
         loss[i] = exp(d->log_loss[k] + t * (d->log_loss[k + 1] - d->log_loss[k]));
@@ -52,28 +40,11 @@ static const double *table_breaks(const wt_material *material, size_t *n)
     return d->omega;
 }
 
-static void table_data_free(table_data *d)
-{
-    if (d == NULL)
-        return;
-    free(d->omega);
-    free(d->log_omega);
-    free(d->log_storage);
-    free(d->log_loss);
-    free(d);
-}
-
-static void table_free(wt_material *material)
-{
-    table_data_free(material->data);
-}
-
 static const wt_material_law table_law = {
     .name = "table",
     .modulus = table_modulus,
-    .angular = NULL,
     .breaks = table_breaks,
-    .free = table_free,
+    .free = material_free_data,
 };
 
 static wt_status table_check(const double *omega, const double *storage, const double *loss,
@@ -120,27 +91,21 @@ wt_status wt_material_table(const double *omega, const double *storage, const do
 {
     if (omega == NULL || storage == NULL || loss == NULL || material == NULL || n < 2)
         return wt_fail(err, WT_E_ARG, "a material table needs at least 2 knots; found %zu", n);
-    table_data *d = NULL;
     wt_status status = material_check_poisson(poisson_ratio, err);
     if (status == WT_OK)
         status = table_check(omega, storage, loss, n, err);
     if (status != WT_OK)
-        goto done;
+        return status;
 
-    d = calloc(1, sizeof *d);
-    if (d) {
-        d->omega = calloc(n, sizeof *d->omega);
-        d->log_omega = calloc(n, sizeof *d->log_omega);
-        d->log_storage = calloc(n, sizeof *d->log_storage);
-        d->log_loss = calloc(n, sizeof *d->log_loss);
-    }
-    if (d == NULL || d->omega == NULL || d->log_omega == NULL || d->log_storage == NULL ||
-        d->log_loss == NULL) {
-        status = wt_fail(err, WT_E_MEMORY, "out of memory for a material table of %zu knots", n);
-        goto done;
-    }
+    table_data *d = malloc(sizeof *d + 4 * n * sizeof d->numbers[0]);
+    if (d == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory for a material table of %zu knots", n);
     d->n = n;
     d->extrapolation = extrapolation;
+    d->omega = d->numbers;
+    d->log_omega = d->omega + n;
+    d->log_storage = d->log_omega + n;
+    d->log_loss = d->log_storage + n;
     for (size_t i = 0; i < n; i++) {
         d->omega[i] = omega[i];
         d->log_omega[i] = log(omega[i]);
@@ -155,13 +120,7 @@ wt_status wt_material_table(const double *omega, const double *storage, const do
     if (status == WT_OK)
         status = table_check_slope(d, err);
     if (status == WT_OK)
-        status = material_wrap(&table_law, d, poisson_ratio, material, err);
-    if (status != WT_OK)
-        goto done;
-    (*material)->frequency_min = omega[0];
-    (*material)->frequency_max = omega[n - 1];
-    d = NULL;
-done:
-    table_data_free(d);
+        return material_wrap(&table_law, d, poisson_ratio, omega[0], omega[n - 1], material, err);
+    free(d);
     return status;
 }

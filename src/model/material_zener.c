@@ -29,17 +29,10 @@ static void zener_modulus(const wt_material *material, const double *omega, size
     }
 }
 
-static void zener_free(wt_material *material)
-{
-    free(material->data);
-}
-
 static const wt_material_law zener_law = {
     .name = "fractional_zener",
     .modulus = zener_modulus,
-    .angular = NULL,
-    .breaks = NULL,
-    .free = zener_free,
+    .free = material_free_data,
 };
 
 wt_status wt_material_fractional_zener(double e0, double eg, double tau, double alpha,
@@ -69,8 +62,5 @@ wt_status wt_material_fractional_zener(double e0, double eg, double tau, double 
     d->alpha = alpha;
     d->cosine = alpha < 1 ? cos(alpha * M_PI_2) : 0;
     d->sine = sin(alpha * M_PI_2);
-    status = material_wrap(&zener_law, d, poisson_ratio, material, err);
-    if (status != WT_OK)
-        free(d);
-    return status;
+    return material_wrap(&zener_law, d, poisson_ratio, (double)NAN, (double)NAN, material, err);
 }

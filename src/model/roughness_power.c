@@ -4,35 +4,25 @@
  */
 #include "weartrack/model.h"
 
+#include <gsl/gsl_interp.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* C = density[i] (q / knot[i])^slope[i] for knot[i] <= q <= knot[i + 1]. */
 typedef struct power_data {
-    size_t n;        /* pieces */
-    double *knot;    /* [n + 1] rad/m, rising */
-    double *density; /* [n] m^4 at the left end */
-    double *slope;   /* [n] */
+    size_t n;         /* pieces */
+    double *knot;     /* [n + 1] rad/m, rising */
+    double *density;  /* [n] m^4 at the left end */
+    double *slope;    /* [n] */
+    double numbers[]; /* [3 n + 1] all of them */
 } power_data;
-
-static size_t power_piece(const power_data *d, double q)
-{
-    size_t low = 0, high = d->n;
-    while (high - low > 1) {
-        const size_t middle = low + (high - low) / 2;
-        if (q < d->knot[middle])
-            high = middle;
-        else
-            low = middle;
-    }
-    return low;
-}
 
 static void power_density(const wt_roughness *roughness, const double *q, size_t n, double *c)
 {
     const power_data *d = roughness->data;
     for (size_t i = 0; i < n; i++) {
-        const size_t k = power_piece(d, q[i]);
+        const size_t k = gsl_interp_bsearch(d->knot, q[i], 0, d->n);
         if (!(q[i] >= roughness->q0 && q[i] <= roughness->q1))
             c[i] = 0;
         else if (d->slope[k] == 0)
@@ -64,19 +54,9 @@ static double power_moment(const wt_roughness *roughness, int m, double q)
     return sum;
 }
 
-static void power_data_free(power_data *d)
-{
-    if (d == NULL)
-        return;
-    free(d->knot);
-    free(d->density);
-    free(d->slope);
-    free(d);
-}
-
 static void power_free(wt_roughness *roughness)
 {
-    power_data_free(roughness->data);
+    free(roughness->data);
 }
 
 static const wt_roughness_law self_affine_law = {
@@ -100,24 +80,19 @@ static wt_status power_new(const wt_roughness_law *law, const double *knot, cons
                            wt_error *err)
 {
     wt_roughness *made = malloc(sizeof *made);
-    power_data *d = calloc(1, sizeof *d);
-    if (d) {
-        d->knot = calloc(pieces + 1, sizeof *d->knot);
-        d->density = calloc(pieces, sizeof *d->density);
-        d->slope = calloc(pieces, sizeof *d->slope);
-    }
-    if (made == NULL || d == NULL || d->knot == NULL || d->density == NULL || d->slope == NULL) {
-        power_data_free(d);
+    power_data *d = malloc(sizeof *d + (3 * pieces + 1) * sizeof d->numbers[0]);
+    if (made == NULL || d == NULL) {
+        free(d);
         free(made);
         return wt_fail(err, WT_E_MEMORY, "out of memory for a power spectrum");
     }
     d->n = pieces;
-    for (size_t i = 0; i < pieces; i++) {
-        d->knot[i] = knot[i];
-        d->density[i] = density[i];
-        d->slope[i] = slope[i];
-    }
-    d->knot[pieces] = knot[pieces];
+    d->knot = d->numbers;
+    d->density = d->knot + pieces + 1;
+    d->slope = d->density + pieces;
+    memcpy(d->knot, knot, (pieces + 1) * sizeof *knot);
+    memcpy(d->density, density, pieces * sizeof *density);
+    memcpy(d->slope, slope, pieces * sizeof *slope);
     *made = (wt_roughness){.law = law, .q0 = knot[0], .q1 = knot[pieces], .data = d};
     *roughness = made;
     return WT_OK;
