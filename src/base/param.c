@@ -381,6 +381,14 @@ static wt_status check_values(const wt_param *p, const double *values, size_t n,
     return WT_OK;
 }
 
+wt_status range_error(const char *name, double value, const char *expected, wt_error *err)
+{
+    wt_fail(err, WT_E_RANGE, "%s is outside its range", name);
+    wt_error_expected(err, "%s", expected);
+    wt_error_found(err, "%g", value);
+    return WT_E_RANGE;
+}
+
 wt_status param_check_number(const wt_param *param, double value, wt_error *err)
 {
     wt_status status = check_values(param, &value, 1, err);

@@ -168,13 +168,6 @@ static bool series_add(const angular_law *a, series_list *list, double low, doub
            series_add(a, list, middle, high, anchor, cuts + 1);
 }
 
-static int compare(const void *left, const void *right)
-{
-    const double a = *(const double *)left;
-    const double b = *(const double *)right;
-    return (a > b) - (a < b);
-}
-
 /* The nearest knot at or below x that a piece there must mind, or NaN. */
 static double knot_before(const angular_law *a, double x)
 {
@@ -199,7 +192,7 @@ static bool add_pieces(const angular_law *a, long first, long last, double *boun
         if (x > bounds[0] && x < (double)last * piece_width)
             bounds[n++] = x;
     }
-    qsort(bounds, n, sizeof *bounds, compare);
+    numbers_sort(bounds, n);
     for (size_t i = 1, from = 0; i < n; i++) {
         if (bounds[i] - bounds[from] < same_bound)
             continue;
@@ -315,28 +308,24 @@ double angular_outside(const angular_law *angular, double w, double j1)
     return fmin(fmax(outside, 0), j1);
 }
 
-wt_status angular_new(const wt_material *material, angular_law **angular, wt_error *err)
+wt_status angular_new(const wt_material *material, pool *memory, angular_law **angular,
+                      wt_error *err)
 {
-    angular_law *made = calloc(1, sizeof *made);
+    angular_law *made = pool_alloc(memory, 1, sizeof *made);
     if (made == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory for the angular integrals");
     made->material = material;
-    const wt_status status = angular_quadrature_init(material, &made->quadrature, err);
-    if (status != WT_OK) {
-        free(made);
+    const wt_status status = angular_quadrature_init(material, memory, &made->quadrature, err);
+    if (status != WT_OK)
         return status;
-    }
     outside_make(made, material->frequency_min, &made->below);
     outside_make(made, material->frequency_max, &made->above);
     *angular = made;
     return WT_OK;
 }
 
-void angular_free(angular_law *angular)
+void angular_clear(angular_law *angular)
 {
-    if (angular == NULL)
-        return;
-    angular_quadrature_clear(&angular->quadrature);
-    free(angular->pieces.items);
-    free(angular);
+    if (angular != NULL)
+        free(angular->pieces.items);
 }

@@ -10,14 +10,16 @@
 #ifndef WT_KERNEL_ANGULAR_H
 #define WT_KERNEL_ANGULAR_H
 
+#include "base/pool.h"
 #include "weartrack/model.h"
 
 typedef struct angular_law angular_law;
 
-/* The material is borrowed. */
-wt_status angular_new(const wt_material *material, angular_law **angular,
+/* The material is borrowed. The law lives in the pool, but its series do not: to be cleared before
+ * the pool is freed. */
+wt_status angular_new(const wt_material *material, pool *memory, angular_law **angular,
                       wt_error *err) WT_NODISCARD;
-void angular_free(angular_law *angular);
+void angular_clear(angular_law *angular); /* NULL: nothing */
 
 /* Prepares the series for w from w_min to w_max > 0; nothing to do for a closed form. A series,
  * once made, does not change: results do not depend on the order of the calls. */

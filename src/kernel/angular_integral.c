@@ -106,23 +106,12 @@ void angular_integrate(const angular_quadrature *quadrature, double w, double co
     *j2 = sum.j2;
 }
 
-wt_status angular_quadrature_init(const wt_material *material, angular_quadrature *quadrature,
-                                  wt_error *err)
+wt_status angular_quadrature_init(const wt_material *material, pool *memory,
+                                  angular_quadrature *quadrature, wt_error *err)
 {
     *quadrature = (angular_quadrature){.material = material};
     if (material->law->breaks != NULL)
         quadrature->breaks = material->law->breaks(material, &quadrature->n_breaks);
-    wt_status status = rule_new(SHORT_NODES, &quadrature->short_rule, err);
-    if (status == WT_OK)
-        status = rule_new(LONG_NODES, &quadrature->long_rule, err);
-    if (status != WT_OK)
-        angular_quadrature_clear(quadrature);
-    return status;
-}
-
-void angular_quadrature_clear(angular_quadrature *quadrature)
-{
-    rule_free(quadrature->short_rule);
-    rule_free(quadrature->long_rule);
-    *quadrature = (angular_quadrature){0};
+    const wt_status status = rule_new(SHORT_NODES, memory, &quadrature->short_rule, err);
+    return status == WT_OK ? rule_new(LONG_NODES, memory, &quadrature->long_rule, err) : status;
 }

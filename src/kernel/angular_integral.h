@@ -15,9 +15,8 @@ typedef struct angular_quadrature {
     gauss_rule *short_rule, *long_rule;
 } angular_quadrature;
 
-wt_status angular_quadrature_init(const wt_material *material, angular_quadrature *quadrature,
-                                  wt_error *err) WT_NODISCARD;
-void angular_quadrature_clear(angular_quadrature *quadrature);
+wt_status angular_quadrature_init(const wt_material *material, pool *memory,
+                                  angular_quadrature *quadrature, wt_error *err) WT_NODISCARD;
 
 /* J1 and J2 from the angles where w cos(phi) < w cosine_limit (1 = all). `refine` cuts every panel
  * in `refine` parts: 1 is the working setting, 2 checks it. */

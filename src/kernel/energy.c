@@ -23,14 +23,6 @@ void wt_energy_source_clear(wt_energy_source *source)
     *source = (wt_energy_source){0};
 }
 
-static wt_status out_of_range(const char *name, double value, const char *expected, wt_error *err)
-{
-    wt_fail(err, WT_E_RANGE, "%s of an energy source is outside its range", name);
-    wt_error_expected(err, "%s", expected);
-    wt_error_found(err, "%g", value);
-    return WT_E_RANGE;
-}
-
 wt_status energy_check(const wt_energy_source *source, wt_error *err)
 {
     if (source == NULL || source->n == 0 || source->wavenumber == NULL || source->power == NULL)
@@ -41,9 +33,9 @@ wt_status energy_check(const wt_energy_source *source, wt_error *err)
         const double power = source->power[i];
         wt_status status = WT_OK;
         if (!(q > 0) || !isfinite(q))
-            status = out_of_range("wavenumber", q, "finite and > 0 rad/m", err);
+            status = range_error("wavenumber of an energy source", q, "finite and > 0 rad/m", err);
         else if (!(power >= 0) || !isfinite(power))
-            status = out_of_range("power", power, "finite and >= 0 W/m^2", err);
+            status = range_error("power of an energy source", power, "finite and >= 0 W/m^2", err);
         if (status != WT_OK) {
             wt_error_place(err, "term %zu of %zu", i + 1, source->n);
             return status;
@@ -51,9 +43,10 @@ wt_status energy_check(const wt_energy_source *source, wt_error *err)
         sum += power;
     }
     if (!isfinite(sum))
-        return out_of_range("total power", sum, "finite, in W/m^2", err);
+        return range_error("total power of an energy source", sum, "finite, in W/m^2", err);
     if (!(source->numerical_error >= 0) || !isfinite(source->numerical_error))
-        return out_of_range("numerical_error", source->numerical_error, "finite and >= 0", err);
+        return range_error("numerical_error of an energy source", source->numerical_error,
+                           "finite and >= 0", err);
     static const wt_param local_friction = ENERGY_LOCAL_FRICTION(wt_energy_source);
     return param_check_number(&local_friction, source->local_friction, err);
 }
@@ -83,9 +76,14 @@ bool energy_falls(const wt_energy_source *source)
     return source->profile == WT_PROFILE_PERSSON || source->local_friction == 1;
 }
 
+/* exp(2 q z) times what one wavenumber gives at a depth. */
+typedef double shape_fn(const wt_energy_source *source, double r, double q, double depth,
+                        double length);
+
 /* g(z; q) exp(2 q z) */
-static double shape(const wt_energy_source *source, double r, double q, double depth)
+static double shape(const wt_energy_source *source, double r, double q, double depth, double length)
 {
+    (void)length;
     if (source->profile == WT_PROFILE_PERSSON)
         return 2 * q;
     const double x = q * depth;
@@ -94,8 +92,10 @@ static double shape(const wt_energy_source *source, double r, double q, double d
 }
 
 /* exp(2 q z) int_z^inf g */
-static double tail_shape(const wt_energy_source *source, double r, double q, double depth)
+static double tail_shape(const wt_energy_source *source, double r, double q, double depth,
+                         double length)
 {
+    (void)length;
     if (source->profile == WT_PROFILE_PERSSON)
         return 1;
     const double x = q * depth;
@@ -114,25 +114,10 @@ static double gain_shape(const wt_energy_source *source, double r, double q, dou
     const double here = 1 + 2 * x * (x + r);
     const double grown =
         2 * l * (2 * x + l + r); /* the bracket of the tail at x + l, less `here` */
-    return l < 300 ? gone * here - (1 - gone) * grown : here;
+    return l < 300 ? fmax(0, gone * here - (1 - gone) * grown) : here;
 }
 
-double energy_log_density(const wt_energy_source *source, double depth)
-{
-    double q_min, q_max;
-    if (!energy_range(source, &q_min, &q_max))
-        return -(double)INFINITY;
-    const double r = asymmetry(source->local_friction);
-    double sum = 0;
-    for (size_t i = 0; i < source->n; i++) {
-        const double q = source->wavenumber[i];
-        if (source->power[i] > 0)
-            sum += source->power[i] * shape(source, r, q, depth) * exp(-2 * (q - q_min) * depth);
-    }
-    return log(sum) - 2 * q_min * depth;
-}
-
-double energy_log_tail(const wt_energy_source *source, double depth)
+static double log_sum(const wt_energy_source *source, shape_fn *of, double depth, double length)
 {
     double q_min, q_max;
     if (!energy_range(source, &q_min, &q_max))
@@ -143,25 +128,24 @@ double energy_log_tail(const wt_energy_source *source, double depth)
         const double q = source->wavenumber[i];
         if (source->power[i] > 0)
             sum +=
-                source->power[i] * tail_shape(source, r, q, depth) * exp(-2 * (q - q_min) * depth);
+                source->power[i] * of(source, r, q, depth, length) * exp(-2 * (q - q_min) * depth);
     }
     return log(sum) - 2 * q_min * depth;
 }
 
+double energy_log_density(const wt_energy_source *source, double depth)
+{
+    return log_sum(source, shape, depth, 0);
+}
+
+double energy_log_tail(const wt_energy_source *source, double depth)
+{
+    return log_sum(source, tail_shape, depth, 0);
+}
+
 double energy_log_gain(const wt_energy_source *source, double depth, double length)
 {
-    double q_min, q_max;
-    if (!energy_range(source, &q_min, &q_max) || !(length > 0))
-        return -(double)INFINITY;
-    const double r = asymmetry(source->local_friction);
-    double sum = 0;
-    for (size_t i = 0; i < source->n; i++) {
-        const double q = source->wavenumber[i];
-        if (source->power[i] > 0)
-            sum += source->power[i] * fmax(0, gain_shape(source, r, q, depth, length)) *
-                   exp(-2 * (q - q_min) * depth);
-    }
-    return log(sum) - 2 * q_min * depth;
+    return length > 0 ? log_sum(source, gain_shape, depth, length) : -(double)INFINITY;
 }
 
 double wt_energy_density(const wt_energy_source *source, double depth)

@@ -47,9 +47,10 @@ wt_status wt_energy_source_friction(wt_friction_workspace *workspace, double pre
         return status;
     const friction_conditions at = {.pressure = pressure, .speed = fabs(velocity)};
     const size_t room = (workspace->plan.capacity + workspace->n_knots + 1) * FRICTION_MAX_NODES;
-    friction_scratch scratch = {0};
+    friction_scratch scratch;
+    pool memory = {0};
     wt_energy_source pair[2] = {{0}, {0}};
-    status = friction_scratch_init(&scratch, workspace, 0, err);
+    status = friction_scratch_init(&scratch, workspace, 0, &memory, err);
     for (size_t i = 0; status == WT_OK && i < 2; i++)
         status = source_alloc(&pair[i], room, err);
     if (status != WT_OK)
@@ -73,7 +74,7 @@ wt_status wt_energy_source_friction(wt_friction_workspace *workspace, double pre
         if (r > 0)
             error = compare_sources(s, &pair[1 - now], workspace->roughness) +
                     pass.core_error / (pass.hysteresis > 0 ? pass.hysteresis : 1);
-        s->numerical_error = error + friction_rounding() + 2 * angular_error(workspace->angular);
+        s->numerical_error = error + FRICTION_ROUNDING + 2 * angular_error(workspace->angular);
     }
     status = energy_check(&pair[now], err);
     if (status != WT_OK)
@@ -83,6 +84,6 @@ wt_status wt_energy_source_friction(wt_friction_workspace *workspace, double pre
 done:
     wt_energy_source_clear(&pair[0]);
     wt_energy_source_clear(&pair[1]);
-    friction_scratch_clear(&scratch);
+    pool_free(&memory);
     return status;
 }

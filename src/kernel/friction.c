@@ -5,9 +5,9 @@
 #include "kernel/friction.h"
 #include "kernel/params.h"
 
+#include "base/array.h"
 #include "kernel/contact.h"
 
-#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -29,12 +29,9 @@ static const wt_param rows[] = {
 };
 PARAM_TABLE(wt_friction_params, wt_friction_options, rows, wt_friction_defaults, NO_PARTS)
 
-static wt_status out_of_range(const char *name, double value, const char *expected, wt_error *err)
+static wt_status no_memory(wt_error *err)
 {
-    wt_fail(err, WT_E_RANGE, "%s is outside its range", name);
-    wt_error_expected(err, "%s", expected);
-    wt_error_found(err, "%g", value);
-    return WT_E_RANGE;
+    return wt_fail(err, WT_E_MEMORY, "out of memory for the friction integral");
 }
 
 /* The closed form in the core neglects the change of dmu/dG over it, which is about the length of
@@ -46,83 +43,41 @@ static size_t levels_for(double tolerance)
 }
 
 wt_status friction_scratch_init(friction_scratch *scratch, const wt_friction_workspace *ws,
-                                size_t n_cuts, wt_error *err)
+                                size_t n_cuts, pool *memory, wt_error *err)
 {
     *scratch = (friction_scratch){0};
-    wt_status status =
-        panel_plan_init(&scratch->plan, ws->roughness, ws->plan.levels, ws->n_knots + n_cuts, err);
-    if (status == WT_OK)
-        status = grid_init(&scratch->grid, &scratch->plan, FRICTION_MAX_NODES, err);
-    if (status != WT_OK)
-        goto fail;
+    panel_plan_init(&scratch->plan, ws->roughness, ws->plan.levels, ws->n_knots + n_cuts, memory);
+    grid_init(&scratch->grid, &scratch->plan, FRICTION_MAX_NODES, memory);
     const size_t panels = scratch->plan.capacity;
-    const size_t nodes = panels * FRICTION_MAX_NODES;
-    double **arrays[] = {&scratch->omega, &scratch->j1, &scratch->j2, &scratch->variance};
-    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
-        *arrays[i] = calloc(nodes, sizeof **arrays[i]);
-    scratch->knots = calloc(ws->n_knots + 1, sizeof *scratch->knots);
-    scratch->bounds = calloc(panels + 1, sizeof *scratch->bounds);
-    bool good = scratch->omega && scratch->j1 && scratch->j2 && scratch->variance &&
-                scratch->knots && scratch->bounds;
-    for (size_t i = 0; i < 2; i++) {
-        scratch->panel_mu[i] = calloc(panels + 1, sizeof *scratch->panel_mu[i]);
-        scratch->panel_g[i] = calloc(panels + 1, sizeof *scratch->panel_g[i]);
-        good = good && scratch->panel_mu[i] && scratch->panel_g[i];
-    }
-    friction_trend *trends[] = {&scratch->trend_mu, &scratch->trend_g};
-    for (size_t i = 0; i < 2; i++) {
-        trends[i]->last = calloc(panels + 1, sizeof *trends[i]->last);
-        trends[i]->foretold = calloc(panels + 1, sizeof *trends[i]->foretold);
-        good = good && trends[i]->last && trends[i]->foretold;
-    }
-    if (good)
-        return WT_OK;
-    status = wt_fail(err, WT_E_MEMORY, "out of memory for the friction integral");
-fail:
-    friction_scratch_clear(scratch);
-    return status;
+    double **const by_node[] = {&scratch->omega, &scratch->j1, &scratch->j2};
+    for (size_t i = 0; i < COUNT_OF(by_node); i++)
+        *by_node[i] = pool_alloc(memory, panels * FRICTION_MAX_NODES, sizeof **by_node[i]);
+    scratch->knots = pool_alloc(memory, ws->n_knots + 1, sizeof *scratch->knots);
+    double **const by_panel[] = {&scratch->bounds,
+                                 &scratch->panel_mu[0],
+                                 &scratch->panel_mu[1],
+                                 &scratch->panel_g[0],
+                                 &scratch->panel_g[1],
+                                 &scratch->trend_mu.last,
+                                 &scratch->trend_mu.foretold,
+                                 &scratch->trend_g.last,
+                                 &scratch->trend_g.foretold};
+    for (size_t i = 0; i < COUNT_OF(by_panel); i++)
+        *by_panel[i] = pool_alloc(memory, panels + 1, sizeof **by_panel[i]);
+    return memory->failed ? no_memory(err) : WT_OK;
 }
 
-void friction_scratch_clear(friction_scratch *scratch)
-{
-    panel_plan_clear(&scratch->plan);
-    grid_clear(&scratch->grid);
-    free(scratch->knots);
-    free(scratch->bounds);
-    free(scratch->omega);
-    free(scratch->j1);
-    free(scratch->j2);
-    free(scratch->variance);
-    for (size_t i = 0; i < 2; i++) {
-        free(scratch->panel_mu[i]);
-        free(scratch->panel_g[i]);
-    }
-    free(scratch->trend_mu.last);
-    free(scratch->trend_mu.foretold);
-    free(scratch->trend_g.last);
-    free(scratch->trend_g.foretold);
-    *scratch = (friction_scratch){0};
-}
-
-/* The common plan and its grids. */
+/* The grids of the common plan. */
 static wt_status prepare_grids(wt_friction_workspace *ws, wt_error *err)
 {
-    const size_t levels = levels_for(ws->options.tolerance);
-    wt_status status = panel_plan_init(&ws->plan, ws->roughness, levels, 0, err);
-    double *bounds = NULL;
-    if (status != WT_OK || ws->n_knots)
-        return status;
-    bounds = calloc(ws->plan.capacity + 1, sizeof *bounds);
-    if (bounds == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory for the friction integral");
+    double *bounds = pool_alloc(&ws->memory, ws->plan.capacity + 1, sizeof *bounds);
+    for (size_t r = 0; r < FRICTION_RULES; r++)
+        grid_init(&ws->grids[r], &ws->plan, rule_nodes[r], &ws->memory);
+    if (ws->memory.failed)
+        return no_memory(err);
     panel_plan_lay(&ws->plan, ws->roughness, NULL, 0, NULL, 0, bounds);
-    free(bounds);
-    for (size_t r = 0; r < FRICTION_RULES; r++) {
-        status = grid_init(&ws->grids[r], &ws->plan, rule_nodes[r], err);
-        if (status != WT_OK)
-            return status;
+    for (size_t r = 0; r < FRICTION_RULES; r++)
         grid_fill(&ws->grids[r], &ws->plan, ws->rules[r], ws->roughness, &ws->options.layer);
-    }
     return WT_OK;
 }
 
@@ -138,7 +93,7 @@ wt_status wt_friction_workspace_new(const wt_material *material, const wt_roughn
         return status;
     wt_friction_workspace *ws = calloc(1, sizeof *ws);
     if (ws == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory for the friction integral");
+        return no_memory(err);
     ws->material = material;
     ws->roughness = roughness;
     ws->options = o;
@@ -146,19 +101,19 @@ wt_status wt_friction_workspace_new(const wt_material *material, const wt_roughn
     if (material->law->breaks != NULL && material->law->angular == NULL)
         ws->knots = material->law->breaks(material, &ws->n_knots);
 
-    status = angular_new(material, &ws->angular, err);
+    ws->threads = wt_thread_count(o.threads);
+    ws->scratch = pool_alloc(&ws->memory, ws->threads, sizeof *ws->scratch);
+    panel_plan_init(&ws->plan, roughness, levels_for(o.tolerance), 0, &ws->memory);
+
+    status = angular_new(material, &ws->memory, &ws->angular, err);
     for (size_t r = 0; status == WT_OK && r < FRICTION_RULES; r++)
-        status = rule_new(rule_nodes[r], &ws->rules[r], err);
-    if (status == WT_OK)
+        status = rule_new(rule_nodes[r], &ws->memory, &ws->rules[r], err);
+    if (status == WT_OK && ws->n_knots == 0)
         status = prepare_grids(ws, err);
-    if (status == WT_OK) {
-        ws->threads = wt_thread_count(o.threads);
-        ws->scratch = calloc(ws->threads, sizeof *ws->scratch);
-        if (ws->scratch == NULL)
-            status = wt_fail(err, WT_E_MEMORY, "out of memory for the friction integral");
-    }
+    if (status == WT_OK && ws->memory.failed)
+        status = no_memory(err);
     for (unsigned i = 0; status == WT_OK && i < ws->threads; i++)
-        status = friction_scratch_init(&ws->scratch[i], ws, 0, err);
+        status = friction_scratch_init(&ws->scratch[i], ws, 0, &ws->memory, err);
     if (status != WT_OK) {
         wt_friction_workspace_free(ws);
         return status;
@@ -171,16 +126,8 @@ void wt_friction_workspace_free(wt_friction_workspace *ws)
 {
     if (ws == NULL)
         return;
-    angular_free(ws->angular);
-    for (size_t r = 0; r < FRICTION_RULES; r++) {
-        rule_free(ws->rules[r]);
-        grid_clear(&ws->grids[r]);
-    }
-    panel_plan_clear(&ws->plan);
-    if (ws->scratch)
-        for (unsigned i = 0; i < ws->threads; i++)
-            friction_scratch_clear(&ws->scratch[i]);
-    free(ws->scratch);
+    angular_clear(ws->angular);
+    pool_free(&ws->memory);
     free(ws);
 }
 
@@ -188,12 +135,12 @@ wt_status friction_prepare(wt_friction_workspace *ws, double pressure, const dou
                            size_t n, wt_error *err)
 {
     if (!(pressure > 0) || !isfinite(pressure))
-        return out_of_range("pressure", pressure, "finite and > 0 Pa", err);
+        return range_error("pressure", pressure, "finite and > 0 Pa", err);
     double slowest = (double)INFINITY, fastest = 0;
     for (size_t i = 0; i < n; i++) {
         const double speed = fabs(velocity[i]);
         if (!isfinite(speed))
-            return out_of_range("velocity", velocity[i], "finite, in m/s", err);
+            return range_error("velocity", velocity[i], "finite, in m/s", err);
         slowest = fmin(slowest, speed);
         fastest = fmax(fastest, speed);
     }
@@ -202,8 +149,8 @@ wt_status friction_prepare(wt_friction_workspace *ws, double pressure, const dou
     const double lowest = slowest * ws->roughness->q0;
     const double highest = fastest * ws->roughness->q1;
     if (!(lowest >= DBL_MIN && highest <= DBL_MAX)) {
-        (void)out_of_range("velocity", lowest >= DBL_MIN ? fastest : slowest,
-                           "not 0, and so that q v is a frequency in range", err);
+        (void)range_error("velocity", lowest >= DBL_MIN ? fastest : slowest,
+                          "not 0, and so that q v is a frequency in range", err);
         wt_error_advice(err, "a material of kind %s has no static limit; a Prony series has",
                         ws->material->law->name);
         return WT_E_RANGE;
@@ -276,7 +223,7 @@ static void compute_point(const wt_friction_workspace *ws, friction_scratch *scr
     const double sign = velocity < 0 ? -1 : velocity > 0 ? 1 : 0;
     const double tolerance = ws->options.tolerance;
     const double series_error = angular_error(ws->angular);
-    const double rounding = friction_rounding();
+    const double rounding = FRICTION_ROUNDING;
     const panel_plan *plan = friction_plan(ws, scratch, at.speed, NULL, 0);
     const scale_grid *grid = friction_grid(ws, scratch, plan, 0);
     const size_t level = friction_level(ws, scratch, grid, at);
@@ -341,8 +288,8 @@ wt_status wt_friction_compute(wt_friction_workspace *workspace, double pressure,
     compute_job job = {workspace, pressure, velocity, points};
     status = wt_parallel_for(n, workspace->threads, compute_item, &job, NULL, "friction");
     if (status == WT_E_RANGE) {
-        (void)out_of_range("pressure", pressure,
-                           "so high that the stress variance G stays finite, in Pa", err);
+        (void)range_error("pressure", pressure,
+                          "so high that the stress variance G stays finite, in Pa", err);
         wt_error_advice(err, "check the units of pressure, moduli and power spectrum");
     } else if (status != WT_OK) {
         wt_fail(err, status, "the friction integral could not be run");

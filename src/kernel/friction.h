@@ -8,8 +8,10 @@
 #include "kernel/angular.h"
 #include "kernel/grid.h"
 
+#include <float.h>
+
 /* Rules of rising order; neighbours give a value and its error. */
-enum { FRICTION_RULES = 6, FRICTION_MAX_NODES = 32 };
+enum { FRICTION_RULES = 6, FRICTION_MAX_NODES = RULE_MOST };
 
 /* Differences of the rules, per panel [capacity + 1]: the last ones, and the next ones to come. */
 typedef struct friction_trend {
@@ -18,16 +20,17 @@ typedef struct friction_trend {
 
 /* What one thread needs. */
 typedef struct friction_scratch {
-    panel_plan plan;                    /* of this velocity, where knots move with it */
-    scale_grid grid;                    /* likewise */
-    double *knots;                      /* [n_knots] t */
-    double *bounds;                     /* [capacity + 1] t */
-    double *omega, *j1, *j2, *variance; /* [capacity * max nodes] */
-    double *panel_mu[2], *panel_g[2];   /* [capacity + 1]; of two passes */
+    panel_plan plan;                  /* of this velocity, where knots move with it */
+    scale_grid grid;                  /* likewise */
+    double *knots;                    /* [n_knots] t */
+    double *bounds;                   /* [capacity + 1] t */
+    double *omega, *j1, *j2;          /* [capacity * max nodes] */
+    double *panel_mu[2], *panel_g[2]; /* [capacity + 1]; of two passes */
     friction_trend trend_mu, trend_g;
 } friction_scratch;
 
 struct wt_friction_workspace {
+    pool memory; /* of all that is pointed to below */
     const wt_material *material;
     const wt_roughness *roughness;
     wt_friction_options options;
@@ -65,8 +68,7 @@ typedef struct friction_record {
 
 /* Room for `n_cuts` more cuts than roughness and material make themselves. */
 wt_status friction_scratch_init(friction_scratch *scratch, const wt_friction_workspace *ws,
-                                size_t n_cuts, wt_error *err) WT_NODISCARD;
-void friction_scratch_clear(friction_scratch *scratch);
+                                size_t n_cuts, pool *memory, wt_error *err) WT_NODISCARD;
 
 /* WT_E_RANGE unless pressure > 0 and the velocities are usable; then prepares J1 and J2. */
 wt_status friction_prepare(wt_friction_workspace *ws, double pressure, const double *velocity,
@@ -89,6 +91,6 @@ void friction_evaluate(const wt_friction_workspace *ws, friction_scratch *scratc
 double friction_area_error(double variance, double variance_error);
 double friction_gap_error(double variance, double variance_error);
 /* Relative rounding error of a sum of positive terms that are each good to some ulps. */
-double friction_rounding(void);
+#define FRICTION_ROUNDING (32 * DBL_EPSILON)
 
 #endif

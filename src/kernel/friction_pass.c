@@ -12,13 +12,7 @@
 
 #include "kernel/contact.h"
 
-#include <float.h>
 #include <math.h>
-
-double friction_rounding(void)
-{
-    return 32 * DBL_EPSILON;
-}
 
 double friction_area_error(double variance, double variance_error)
 {

@@ -7,7 +7,6 @@
 #include "kernel/contact.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 static wt_status check_wavenumbers(const wt_roughness *roughness, const double *q, size_t n,
                                    wt_error *err)
@@ -64,15 +63,11 @@ wt_status wt_friction_profile(wt_friction_workspace *workspace, double pressure,
     const friction_conditions at = {.pressure = pressure, .speed = fabs(velocity)};
     const double sign = velocity < 0 ? -1 : velocity > 0 ? 1 : 0;
     friction_scratch scratch;
-    double *cuts = NULL;
-    status = friction_scratch_init(&scratch, workspace, n, err);
+    pool memory = {0};
+    double *cuts = pool_alloc(&memory, n, sizeof *cuts);
+    status = friction_scratch_init(&scratch, workspace, n, &memory, err);
     if (status != WT_OK)
-        return status;
-    cuts = calloc(n, sizeof *cuts);
-    if (cuts == NULL) {
-        status = wt_fail(err, WT_E_MEMORY, "out of memory for a friction profile");
         goto done;
-    }
     for (size_t i = 0; i < n; i++)
         cuts[i] = log1p((wavenumber[i] - roughness->q0) / roughness->q0);
     const panel_plan *plan = friction_plan(workspace, &scratch, at.speed, cuts, n);
@@ -83,7 +78,7 @@ wt_status wt_friction_profile(wt_friction_workspace *workspace, double pressure,
     while (!pair_reached(workspace, &scratch, &pass) && rule + 2 < FRICTION_RULES)
         pass = run_pair(workspace, &scratch, plan, level, at, ++rule);
 
-    const double relative = friction_rounding() + angular_error(workspace->angular);
+    const double relative = FRICTION_ROUNDING + angular_error(workspace->angular);
     const double slack = 1e-13 * fmax(1, log(roughness->q1 / roughness->q0));
     const size_t first = plan->levels - level;
     double variance = 0, difference = 0, hysteresis = 0;
@@ -107,7 +102,6 @@ wt_status wt_friction_profile(wt_friction_workspace *workspace, double pressure,
             .numerical_error = friction_area_error(variance, difference + relative * variance)};
     }
 done:
-    free(cuts);
-    friction_scratch_clear(&scratch);
+    pool_free(&memory);
     return status;
 }

@@ -4,10 +4,10 @@
  */
 #include "kernel/grid.h"
 
+#include "base/array.h"
 #include "kernel/contact.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* In ln q; the Maxwell poles lie pi/2 off the real axis. */
@@ -25,8 +25,8 @@ static double log_ratio(double q, double q0)
     return log1p((q - q0) / q0);
 }
 
-wt_status panel_plan_init(panel_plan *plan, const wt_roughness *roughness, size_t levels,
-                          size_t n_breaks, wt_error *err)
+void panel_plan_init(panel_plan *plan, const wt_roughness *roughness, size_t levels,
+                     size_t n_breaks, pool *memory)
 {
     size_t n_roughness = 0;
     (void)roughness_breaks(roughness, &n_roughness);
@@ -34,27 +34,8 @@ wt_status panel_plan_init(panel_plan *plan, const wt_roughness *roughness, size_
     *plan = (panel_plan){.q0 = roughness->q0, .q1 = roughness->q1, .levels = levels};
     /* from the smallest t up to the width of a panel there are 27 steps of the cell ratio */
     plan->capacity = levels + n_roughness + n_breaks + 32 + (size_t)(length / panel_width);
-    plan->core = calloc(levels + 1, sizeof *plan->core);
-    plan->panels = calloc(plan->capacity, sizeof *plan->panels);
-    if (plan->core == NULL || plan->panels == NULL) {
-        panel_plan_clear(plan);
-        return wt_fail(err, WT_E_MEMORY, "out of memory for the panels of the friction integral");
-    }
-    return WT_OK;
-}
-
-void panel_plan_clear(panel_plan *plan)
-{
-    free(plan->core);
-    free(plan->panels);
-    *plan = (panel_plan){0};
-}
-
-static int compare(const void *left, const void *right)
-{
-    const double a = *(const double *)left;
-    const double b = *(const double *)right;
-    return (a > b) - (a < b);
+    plan->core = pool_alloc(memory, levels + 1, sizeof *plan->core);
+    plan->panels = pool_alloc(memory, plan->capacity, sizeof *plan->panels);
 }
 
 /* Square roots right of a knot that is close enough to spoil a polynomial, logarithms close to
@@ -91,7 +72,7 @@ void panel_plan_lay(panel_plan *plan, const wt_roughness *roughness, const doubl
         if (knots[i] > least && knots[i] < length - least)
             bounds[n++] = knots[i];
     bounds[n++] = length;
-    qsort(bounds, n, sizeof *bounds, compare);
+    numbers_sort(bounds, n);
 
     plan->n_panels = plan->levels;
     double from = 0;
@@ -132,39 +113,19 @@ void panel_plan_lay(panel_plan *plan, const wt_roughness *roughness, const doubl
 
 /* ---- nodes ----------------------------------------------------------------------------------- */
 
-wt_status grid_init(scale_grid *grid, const panel_plan *plan, size_t max_nodes, wt_error *err)
+void grid_init(scale_grid *grid, const panel_plan *plan, size_t max_nodes, pool *memory)
 {
-    *grid = (scale_grid){0};
     const size_t nodes = plan->capacity * max_nodes;
     const size_t core_nodes = (plan->levels + 1) * max_nodes;
-    grid->q = calloc(nodes, sizeof *grid->q);
-    grid->factor1 = calloc(nodes, sizeof *grid->factor1);
-    grid->factor2 = calloc(nodes, sizeof *grid->factor2);
-    grid->half_width = calloc(plan->capacity, sizeof *grid->half_width);
-    grid->core_q = calloc(core_nodes, sizeof *grid->core_q);
-    grid->core_factor1 = calloc(core_nodes, sizeof *grid->core_factor1);
-    grid->core_factor2 = calloc(core_nodes, sizeof *grid->core_factor2);
-    grid->core_half_width = calloc(plan->levels + 1, sizeof *grid->core_half_width);
-    if (grid->q == NULL || grid->factor1 == NULL || grid->factor2 == NULL ||
-        grid->half_width == NULL || grid->core_q == NULL || grid->core_factor1 == NULL ||
-        grid->core_factor2 == NULL || grid->core_half_width == NULL) {
-        grid_clear(grid);
-        return wt_fail(err, WT_E_MEMORY, "out of memory for the nodes of the friction integral");
-    }
-    return WT_OK;
-}
-
-void grid_clear(scale_grid *grid)
-{
-    free(grid->q);
-    free(grid->factor1);
-    free(grid->factor2);
-    free(grid->half_width);
-    free(grid->core_q);
-    free(grid->core_factor1);
-    free(grid->core_factor2);
-    free(grid->core_half_width);
-    *grid = (scale_grid){0};
+    *grid = (scale_grid){.q = pool_alloc(memory, nodes, sizeof *grid->q),
+                         .factor1 = pool_alloc(memory, nodes, sizeof *grid->factor1),
+                         .factor2 = pool_alloc(memory, nodes, sizeof *grid->factor2),
+                         .half_width = pool_alloc(memory, plan->capacity, sizeof *grid->half_width),
+                         .core_q = pool_alloc(memory, core_nodes, sizeof *grid->core_q),
+                         .core_factor1 = pool_alloc(memory, core_nodes, sizeof *grid->core_factor1),
+                         .core_factor2 = pool_alloc(memory, core_nodes, sizeof *grid->core_factor2),
+                         .core_half_width =
+                             pool_alloc(memory, plan->levels + 1, sizeof *grid->core_half_width)};
 }
 
 /* Fills q and dt/ds (into factor1) on one panel; returns the half width in s. */

@@ -35,10 +35,10 @@ typedef struct panel_plan {
     size_t capacity;
 } panel_plan;
 
-/* Room for a plan with up to n_breaks cuts besides those of the roughness. */
-wt_status panel_plan_init(panel_plan *plan, const wt_roughness *roughness, size_t levels,
-                          size_t n_breaks, wt_error *err) WT_NODISCARD;
-void panel_plan_clear(panel_plan *plan);
+/* Room for a plan with up to n_breaks cuts besides those of the roughness. The pool tells whether
+ * there was memory. */
+void panel_plan_init(panel_plan *plan, const wt_roughness *roughness, size_t levels,
+                     size_t n_breaks, pool *memory);
 /* Lays the panels: cut at the breaks of the roughness, at `cuts` (plain, t rising) and at `knots`
  * (of the material: square-root maps to their right; t rising, also outside the range).
  * `bounds` is scratch for capacity + 1 numbers. */
@@ -57,9 +57,8 @@ typedef struct scale_grid {
     double *core_half_width;                      /* [levels + 1] */
 } scale_grid;
 
-wt_status grid_init(scale_grid *grid, const panel_plan *plan, size_t max_nodes,
-                    wt_error *err) WT_NODISCARD;
-void grid_clear(scale_grid *grid);
+/* Likewise. */
+void grid_init(scale_grid *grid, const panel_plan *plan, size_t max_nodes, pool *memory);
 void grid_fill(scale_grid *grid, const panel_plan *plan, const gauss_rule *rule,
                const wt_roughness *roughness, const wt_layer_state *layer);
 

@@ -39,9 +39,14 @@ wt_status layer_incubation(const layer_rates *rates, bool with_wear, double *tim
 /* Time until a layer is worn off where wear exceeds formation. */
 wt_status layer_removal(const layer_rates *rates, double start, double *time,
                         wt_error *err) WT_NODISCARD;
-/* Rate balance: thickness at n rising times. points[i].thickness only. */
-wt_status layer_march(const layer_rates *rates, double start, const double *time, size_t n,
-                      wt_layer_point *const *points, wt_error *err) WT_NODISCARD;
+typedef struct layer_instant {
+    double time;
+    wt_layer_point *point;
+} layer_instant;
+
+/* Rate balance: the thickness of the points at n rising times, and no more of them. */
+wt_status layer_march(const layer_rates *rates, double start, const layer_instant *at, size_t n,
+                      wt_error *err) WT_NODISCARD;
 /* All power at one wavenumber under an exponential profile: kappa, or 0 if not so. */
 double layer_single_kappa(const layer_rates *rates);
 

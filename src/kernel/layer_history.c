@@ -47,41 +47,23 @@ static void history_exponential(const layer_rates *rates, double kappa, double s
     }
 }
 
-typedef struct timed_point {
-    double time;
-    wt_layer_point *point;
-} timed_point;
-
 static int by_time(const void *left, const void *right)
 {
-    const timed_point *a = left;
-    const timed_point *b = right;
+    const layer_instant *a = left, *b = right;
     return (a->time > b->time) - (a->time < b->time);
 }
 
 static wt_status history_march(const layer_rates *rates, double start, const double *time, size_t n,
                                wt_layer_point *points, wt_error *err)
 {
-    timed_point *order = calloc(n, sizeof *order);
-    double *sorted = calloc(n, sizeof *sorted);
-    wt_layer_point **places = calloc(n, sizeof *places);
-    wt_status status = WT_OK;
-    if (order == NULL || sorted == NULL || places == NULL) {
-        status = wt_fail(err, WT_E_MEMORY, "out of memory for the history of a layer");
-        goto done;
-    }
+    layer_instant *order = calloc(n, sizeof *order);
+    if (order == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory for the history of a layer");
     for (size_t i = 0; i < n; i++)
-        order[i] = (timed_point){time[i], &points[i]};
+        order[i] = (layer_instant){time[i], &points[i]};
     qsort(order, n, sizeof *order, by_time);
-    for (size_t i = 0; i < n; i++) {
-        sorted[i] = order[i].time;
-        places[i] = order[i].point;
-    }
-    status = layer_march(rates, start, sorted, n, places, err);
-done:
+    const wt_status status = layer_march(rates, start, order, n, err);
     free(order);
-    free(sorted);
-    free(places);
     return status;
 }
 

@@ -25,6 +25,7 @@ static const double log_negligible = -41.5; /* 1e-18 */
 typedef struct march {
     const layer_rates *rates;
     gauss_rule *low, *high;
+    pool memory;      /* of the rules */
     double target;    /* where the motion ends: the balance, or 0 */
     double direction; /* +1 growing, -1 being worn */
     double thickness, time;
@@ -143,21 +144,15 @@ static wt_status march_begin(march *m, const layer_rates *rates, double start, w
     *m = (march){.rates = rates, .thickness = start};
     wt_status status = layer_fixed_point(rates, 0, target, err);
     if (status == WT_OK)
-        status = rule_new(LOW_NODES, &m->low, err);
+        status = rule_new(LOW_NODES, &m->memory, &m->low, err);
     if (status == WT_OK)
-        status = rule_new(HIGH_NODES, &m->high, err);
+        status = rule_new(HIGH_NODES, &m->memory, &m->high, err);
     m->target = target->value;
     m->direction = net_rate(rates, start) > 0 ? 1 : -1;
     if (status != WT_OK || m->direction > 0)
         return status;
     m->target = fmin(m->target, start);
     return WT_OK;
-}
-
-static void march_end(march *m)
-{
-    rule_free(m->low);
-    rule_free(m->high);
 }
 
 /* Far above the balance only wear counts: down to where formation begins to be felt, the thickness
@@ -177,8 +172,8 @@ static wt_status skip_pure_wear(march *m, double *length, wt_error *err)
     return WT_OK;
 }
 
-wt_status layer_march(const layer_rates *rates, double start, const double *time, size_t n,
-                      wt_layer_point *const *points, wt_error *err)
+wt_status layer_march(const layer_rates *rates, double start, const layer_instant *at, size_t n,
+                      wt_error *err)
 {
     march m;
     wt_estimate target;
@@ -192,19 +187,20 @@ wt_status layer_march(const layer_rates *rates, double start, const double *time
     size_t i = 0;
     if (net_rate(rates, start) == 0) { /* nothing happens, or the balance itself */
         for (; i < n; i++)
-            points[i]->thickness = (wt_estimate){
+            at[i].point->thickness = (wt_estimate){
                 .value = start, .numerical_error = target.numerical_error, .unit = "m"};
         goto done;
     }
     if (linear > 0) {
         const double until = linear / rates->wear;
-        for (; i < n && time[i] < until; i++)
-            points[i]->thickness = estimate_at(&m, start - rates->wear * time[i], time[i], 0, 0);
+        for (; i < n && at[i].time < until; i++)
+            at[i].point->thickness =
+                estimate_at(&m, start - rates->wear * at[i].time, at[i].time, 0, 0);
         m.thickness = start - linear;
         m.time = until;
     }
-    for (; i < n && time[i] == 0; i++)
-        points[i]->thickness = (wt_estimate){.value = start, .unit = "m"};
+    for (; i < n && at[i].time == 0; i++)
+        at[i].point->thickness = (wt_estimate){.value = start, .unit = "m"};
     while (i < n) {
         double length = panel_length(&m);
         if (!(length > 0))
@@ -213,9 +209,9 @@ wt_status layer_march(const layer_rates *rates, double start, const double *time
         const double took = panel_take(&m, &length, &error, &sensitivity);
         const double sum_error = m.time_error + error;
         const double sum_sensitivity = m.sensitivity + sensitivity;
-        for (; i < n && time[i] <= m.time + took; i++)
-            points[i]->thickness = estimate_at(&m, panel_find(&m, length, took, time[i]), time[i],
-                                               sum_error, sum_sensitivity);
+        for (; i < n && at[i].time <= m.time + took; i++)
+            at[i].point->thickness = estimate_at(&m, panel_find(&m, length, took, at[i].time),
+                                                 at[i].time, sum_error, sum_sensitivity);
         m.thickness += m.direction * length;
         m.time += took;
         m.time_error = sum_error;
@@ -224,12 +220,12 @@ wt_status layer_march(const layer_rates *rates, double start, const double *time
             break;
     }
     for (; i < n; i++) { /* arrived */
-        points[i]->thickness = (wt_estimate){.value = m.target, .unit = "m"};
-        points[i]->thickness.numerical_error =
+        at[i].point->thickness = (wt_estimate){.value = m.target, .unit = "m"};
+        at[i].point->thickness.numerical_error =
             target.numerical_error + fabs(m.thickness - m.target);
     }
 done:
-    march_end(&m);
+    pool_free(&m.memory);
     return status;
 }
 
@@ -261,6 +257,6 @@ wt_status layer_removal(const layer_rates *rates, double start, double *time, wt
     }
     *time = m.time;
 done:
-    march_end(&m);
+    pool_free(&m.memory);
     return status;
 }

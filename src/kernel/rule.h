@@ -5,6 +5,7 @@
 #ifndef WT_KERNEL_RULE_H
 #define WT_KERNEL_RULE_H
 
+#include "base/pool.h"
 #include "weartrack/base.h"
 
 /* On [-1, 1]. */
@@ -13,10 +14,11 @@ typedef struct gauss_rule {
     double *node;    /* [n], rising */
     double *weight;  /* [n] */
     double *running; /* [n * n], row i: int from -1 to node[j] of the i-th Lagrange polynomial */
+    double numbers[];
 } gauss_rule;
 
+enum { RULE_MOST = 32 };
 /* n must be one of the sizes that GSL tabulates to full precision: 2 to 20, or 32. */
-wt_status rule_new(size_t n, gauss_rule **rule, wt_error *err) WT_NODISCARD;
-void rule_free(gauss_rule *rule);
+wt_status rule_new(size_t n, pool *memory, gauss_rule **rule, wt_error *err) WT_NODISCARD;
 
 #endif

@@ -16,12 +16,11 @@ wt_status material_check_poisson(double poisson_ratio, wt_error *err)
 wt_status material_check_value(const char *name, double value, const char *expected, bool good,
                                wt_error *err)
 {
+    char full[128];
     if (good && isfinite(value))
         return WT_OK;
-    wt_fail(err, WT_E_RANGE, "%s of a material is outside its range", name);
-    wt_error_expected(err, "%s", expected);
-    wt_error_found(err, "%g", value);
-    return WT_E_RANGE;
+    snprintf(full, sizeof full, "%s of a material", name);
+    return range_error(full, value, expected, err);
 }
 
 wt_status material_wrap(const wt_material_law *law, void *data, double poisson_ratio,

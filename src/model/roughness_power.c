@@ -2,6 +2,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
+#include "base/param.h"
 #include "weartrack/model.h"
 
 #include <gsl/gsl_interp.h>
@@ -98,30 +99,22 @@ static wt_status power_new(const wt_roughness_law *law, const double *knot, cons
     return WT_OK;
 }
 
-static wt_status out_of_range(const char *name, double value, const char *expected, wt_error *err)
-{
-    wt_fail(err, WT_E_RANGE, "%s of a power spectrum is outside its range", name);
-    wt_error_expected(err, "%s", expected);
-    wt_error_found(err, "%g", value);
-    return WT_E_RANGE;
-}
-
 wt_status wt_roughness_self_affine(double q0, double qr, double q1, double hurst, double c0,
                                    wt_roughness **roughness, wt_error *err)
 {
     if (roughness == NULL)
         return wt_fail(err, WT_E_ARG, "a power spectrum needs a place for the result");
     if (!(q0 > 0) || !isfinite(q0))
-        return out_of_range("q0", q0, "finite and > 0 rad/m", err);
+        return range_error("q0 of a power spectrum", q0, "finite and > 0 rad/m", err);
     if (!(q1 > q0) || !isfinite(q1))
-        return out_of_range("q1", q1, "finite and > q0, in rad/m", err);
+        return range_error("q1 of a power spectrum", q1, "finite and > q0, in rad/m", err);
     if (!(qr >= q0 && qr <= q1))
-        return out_of_range("qr", qr, "q0 <= qr <= q1, in rad/m", err);
+        return range_error("qr of a power spectrum", qr, "q0 <= qr <= q1, in rad/m", err);
     if (!(hurst > -1 && hurst <= 3))
-        return out_of_range("hurst", hurst, "-1 < hurst <= 3 (0 to 1 for a self-affine surface)",
-                            err);
+        return range_error("hurst of a power spectrum", hurst,
+                           "-1 < hurst <= 3 (0 to 1 for a self-affine surface)", err);
     if (!(c0 > 0) || !isfinite(c0))
-        return out_of_range("c0", c0, "finite and > 0 m^4", err);
+        return range_error("c0 of a power spectrum", c0, "finite and > 0 m^4", err);
     const double fall = -2 * (1 + hurst);
     if (qr == q0)
         return power_new(&self_affine_law, (double[]){q0, q1}, &c0, &fall, 1, roughness, err);
@@ -140,9 +133,10 @@ wt_status wt_roughness_table(const double *q, const double *c, size_t n, wt_roug
     for (size_t i = 0; i < n; i++) {
         wt_status status = WT_OK;
         if (!(q[i] > (i ? q[i - 1] : 0)) || !isfinite(q[i]))
-            status = out_of_range("wavenumber", q[i], "finite, > 0 rad/m and rising", err);
+            status = range_error("wavenumber of a power spectrum", q[i],
+                                 "finite, > 0 rad/m and rising", err);
         else if (!(c[i] > 0) || !isfinite(c[i]))
-            status = out_of_range("density", c[i], "finite and > 0 m^4", err);
+            status = range_error("density of a power spectrum", c[i], "finite and > 0 m^4", err);
         if (status != WT_OK) {
             wt_error_place(err, "knot %zu of %zu", i + 1, n);
             return status;

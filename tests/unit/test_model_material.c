@@ -62,9 +62,10 @@ static void closed_form_against_quadrature(void **state)
     double modulus[] = {2.385e6, 4.1e7, 7e8}, tau[] = {3.1e-2, 5e-5, 2e-8};
     const wt_prony prony = series(3e6, 3, modulus, tau);
     wt_material *m = NULL;
+    pool memory = {0};
     angular_quadrature quadrature;
     assert_int_equal(wt_material_prony(&prony, 0.5, &m, NULL), WT_OK);
-    assert_int_equal(angular_quadrature_init(m, &quadrature, NULL), WT_OK);
+    assert_int_equal(angular_quadrature_init(m, &memory, &quadrature, NULL), WT_OK);
     for (double w = 1e-3; w < 1e12; w *= 17) {
         double j1, j2, closed_j1[2], closed_j2[2];
         angular_integrate(&quadrature, w, 1, 1, &j1, &j2);
@@ -75,7 +76,7 @@ static void closed_form_against_quadrature(void **state)
         assert_near(j1, closed_j1[0], 0);
         assert_near(j2, closed_j2[0], 0);
     }
-    angular_quadrature_clear(&quadrature);
+    pool_free(&memory);
     wt_material_free(m);
 }
 
