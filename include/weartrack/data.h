@@ -246,6 +246,24 @@ WT_API wt_status wt_stream_write(FILE *out, const wt_table *table, const wt_prov
 WT_API wt_status wt_stream_read(FILE *in, const char *name, wt_table **table,
                                 wt_error *err) WT_NODISCARD;
 
+/* ---- for other programs ------------------------------------------------------------------- */
+
+/* Tab-separated and comma-separated cells under one header line, name[unit]; JSON with keys,
+ * columns and rows; the text stream. Where there are several blocks a column "block" is in front.
+ */
+typedef enum wt_export_form {
+    WT_EXPORT_TSV,
+    WT_EXPORT_CSV,
+    WT_EXPORT_JSON,
+    WT_EXPORT_STREAM
+} wt_export_form;
+WT_API wt_status wt_table_export(FILE *out, const wt_table *table, wt_export_form form,
+                                 wt_error *err) WT_NODISCARD;
+/* Table "contents": a row for each table. Table "keys": a row for each key. */
+WT_API wt_status wt_result_contents(const wt_result *result, wt_table **contents,
+                                    wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_table_keys(const wt_table *table, wt_table **keys, wt_error *err) WT_NODISCARD;
+
 /* ---- store: weartrack-hdf5(5) ------------------------------------------------------------- */
 
 /* Writes the whole result under a temporary name, then renames. with_provenance false leaves out

@@ -29,6 +29,7 @@ int cmd_friction(int argc, char **argv);
 int cmd_layer(int argc, char **argv);
 int cmd_run(int argc, char **argv);
 int cmd_report(int argc, char **argv);
+int cmd_table(int argc, char **argv);
 
 /* ---- options ------------------------------------------------------------------------------ */
 
@@ -102,6 +103,16 @@ void cmd_catch_interruptions(void);
 void cmd_progress_end(cmd_progress *state);
 
 /* ---- output ------------------------------------------------------------------------------- */
+
+/* Where text goes: the file after -o, which appears when it is complete, or standard output. */
+typedef struct cmd_sink {
+    wt_outfile *file;
+    FILE *stream;
+    const char *name; /* for errors */
+} cmd_sink;
+wt_status cmd_sink_open(const char *output, cmd_sink *sink, wt_error *err);
+/* Ends it, after a failure without a file; returns the first failure. */
+wt_status cmd_sink_close(cmd_sink *sink, wt_status written, wt_error *err);
 
 /* Writes the tables to -o: a name that ends in .h5 or .hdf5 is the HDF5 store, anything else
  * the text stream; without -o or with "-" the stream on standard output. `result` is not freed. */

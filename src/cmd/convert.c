@@ -1,7 +1,5 @@
 /* weartrack convert: an instrument file to an open one. SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include <string.h>
-
 #include "cmd/cmd.h"
 
 /* Where the tables go: written as they come to a text stream, so that a map needs no more memory
@@ -9,51 +7,33 @@
 typedef struct destination {
     const cmd_common *common;
     wt_result *result;
-    wt_outfile *file; /* NULL: standard output */
-    FILE *stream;
-    const char *name;
+    cmd_sink sink;
     bool begun;
 } destination;
-
-static wt_status open_destination(destination *d, wt_error *err)
-{
-    const char *output = d->common->output;
-    const bool to_file = output != NULL && strcmp(output, "-") != 0;
-    d->name = to_file ? output : "standard output";
-    d->stream = stdout;
-    wt_status status = to_file ? wt_outfile_open(output, &d->file, err) : WT_OK;
-    if (d->file != NULL)
-        d->stream = wt_outfile_stream(d->file);
-    return status;
-}
 
 static wt_status take(void *user, wt_table *table, wt_error *err)
 {
     destination *d = user;
     if (cmd_is_store(d->common->output))
         return wt_result_add(d->result, table, err);
-    wt_status status = d->begun ? WT_OK : open_destination(d, err);
-    if (status != WT_OK)
-        goto done;
+    wt_status status = d->begun ? WT_OK : cmd_sink_open(d->common->output, &d->sink, err);
     const bool with_provenance = !d->begun && d->common->provenance;
-    status = wt_stream_write(d->stream, table,
-                             with_provenance ? wt_result_provenance_const(d->result) : NULL, err);
-    wt_error_file(status != WT_OK ? err : NULL, d->name);
+    if (status == WT_OK)
+        status =
+            wt_stream_write(d->sink.stream, table,
+                            with_provenance ? wt_result_provenance_const(d->result) : NULL, err);
+    wt_error_file(status != WT_OK ? err : NULL, d->sink.name);
     d->begun = true;
-done:
     wt_table_free(table);
     return status;
 }
 
-static wt_status close_destination(destination *d, wt_error *err)
+static wt_status close_destination(destination *d, wt_status made, wt_error *err)
 {
-    if (cmd_is_store(d->common->output))
-        return cmd_write(d->common, d->result, err);
-    wt_outfile *file = d->file;
-    d->file = NULL;
-    wt_status status = file != NULL ? wt_outfile_commit(file, err) : WT_OK;
-    wt_error_file(status != WT_OK ? err : NULL, d->name);
-    return status;
+    if (d->begun)
+        return cmd_sink_close(&d->sink, made, err);
+    const bool store = made == WT_OK && cmd_is_store(d->common->output);
+    return store ? cmd_write(d->common, d->result, err) : made;
 }
 
 int cmd_convert(int argc, char **argv)
@@ -83,11 +63,9 @@ int cmd_convert(int argc, char **argv)
     wt_status made = cmd_provenance(s.result, cmd_full_argc, cmd_full_argv, &err);
     if (made == WT_OK)
         made = wt_convert_file(&job, argv[first], &s.work, take, &d, &err);
-    if (made == WT_OK)
-        made = close_destination(&d, &err);
+    made = close_destination(&d, made, &err);
     status = cmd_end(&s, made, &err);
 done:
-    wt_outfile_discard(d.file);
     cmd_session_free(&s);
     cmd_parts_clear(&part, 1);
     return status;

@@ -25,6 +25,7 @@ const cmd_command cmd_commands[] = {
     {"Everything", NULL, NULL},
     {"run", cmd_run, "a whole case from one case file; --plan shows what it would do"},
     {"report", cmd_report, "plots and one page from a result file"},
+    {"table", cmd_table, "a table of a result as TSV, CSV or JSON"},
     {NULL, NULL, NULL}};
 
 static void print_help(FILE *out)

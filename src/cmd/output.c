@@ -40,6 +40,28 @@ static wt_status write_stream(FILE *out, const wt_result *result, bool with_prov
     return WT_OK;
 }
 
+wt_status cmd_sink_open(const char *output, cmd_sink *sink, wt_error *err)
+{
+    const bool to_file = output != NULL && strcmp(output, "-") != 0;
+    *sink = (cmd_sink){NULL, stdout, to_file ? output : "standard output"};
+    wt_status status = to_file ? wt_outfile_open(output, &sink->file, err) : WT_OK;
+    if (sink->file != NULL)
+        sink->stream = wt_outfile_stream(sink->file);
+    return status;
+}
+
+wt_status cmd_sink_close(cmd_sink *sink, wt_status written, wt_error *err)
+{
+    wt_outfile *file = sink->file;
+    sink->file = NULL;
+    if (written != WT_OK)
+        wt_outfile_discard(file);
+    else if (file != NULL)
+        written = wt_outfile_commit(file, err);
+    wt_error_file(written != WT_OK ? err : NULL, sink->name);
+    return written;
+}
+
 wt_status cmd_collect(wt_result *result, wt_table **const tables[], size_t n, wt_error *err)
 {
     wt_status status = WT_OK;
@@ -68,23 +90,11 @@ wt_status cmd_write(const cmd_common *common, wt_result *result, wt_error *err)
     status = cmd_check_output(common->output, result, err);
     if (status != WT_OK)
         return status;
-    const bool with_provenance = common->provenance;
-    if (common->output == NULL || strcmp(common->output, "-") == 0) {
-        status = write_stream(stdout, result, with_provenance, err);
-        wt_error_file(err, "standard output");
-        return status;
-    }
     if (cmd_is_store(common->output))
-        return wt_store_write(common->output, result, with_provenance, err);
-    wt_outfile *file = NULL;
-    status = wt_outfile_open(common->output, &file, err);
-    if (status != WT_OK)
-        return status;
-    status = write_stream(wt_outfile_stream(file), result, with_provenance, err);
-    if (status != WT_OK) {
-        wt_error_file(err, common->output);
-        wt_outfile_discard(file);
-        return status;
-    }
-    return wt_outfile_commit(file, err);
+        return wt_store_write(common->output, result, common->provenance, err);
+    cmd_sink sink;
+    status = cmd_sink_open(common->output, &sink, err);
+    if (status == WT_OK)
+        status = write_stream(sink.stream, result, common->provenance, err);
+    return cmd_sink_close(&sink, status, err);
 }

@@ -1,6 +1,6 @@
 /* weartrack report: plots and one page from a result file.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cmd/cmd.h"
+#include "cmd/tables.h"
 
 static const wt_param rows[] = {
     {PARAM_TEXT_OF("output", cmd_common, output), .value = "FOLDER", .letter = 'o',
@@ -11,9 +11,10 @@ PARAM_LOCAL_TABLE(own_params, cmd_common, rows, cmd_common_defaults, NO_PARTS)
 int cmd_report(int argc, char **argv)
 {
     static const cmd_usage usage = {
-        "report", "RESULT.h5 -o FOLDER [OPTION]...",
+        "report", "RESULT -o FOLDER [OPTION]...",
         "Writes a folder with one page, index.html, and for each figure its data, script and\n"
-        "picture; the figures can be drawn again without weartrack.",
+        "picture; the figures can be drawn again without weartrack. RESULT is HDF5 or a text\n"
+        "stream, - is standard input.",
         "provenance", NULL};
     cmd_common common = cmd_common_defaults();
     wt_report_options report_options = wt_report_defaults();
@@ -33,7 +34,7 @@ int cmd_report(int argc, char **argv)
     cmd_progress state;
     const wt_progress progress = cmd_progress_start(&state, common.quiet);
     cmd_catch_interruptions();
-    wt_status made = wt_store_read(argv[first], &result, &err);
+    wt_status made = cmd_tables_read(argv[first], &result, &err);
     if (made == WT_OK)
         made = wt_report_write(result, common.output, &report_options, &progress, &err);
     cmd_progress_end(&state);

@@ -204,13 +204,18 @@ int cmd_run(int argc, char **argv)
                    &status))
         return status;
     const char *output = r.common.output;
+    const char *dot = output != NULL ? strrchr(wt_path_base(output), '.') : NULL;
+    const int stem = dot != NULL ? (int)(dot - output) : output != NULL ? (int)strlen(output) : 0;
     if (argc - first != 1)
         return cmd_usage_error("run", "one case file is needed; %d given", argc - first);
     if (output != NULL && strcmp(output, "-") == 0)
-        return cmd_usage_error("run", "the result is an HDF5 file and cannot go to a pipe");
+        return cmd_usage_error("run", "-o -: the result is an HDF5 file; type -o case.h5 and then "
+                                      "weartrack table case.h5 NAME");
     if (output != NULL && !cmd_is_store(output))
-        return cmd_usage_error("run", "-o %s: the result is an HDF5 file; its name must end in .h5",
-                               output);
+        return cmd_usage_error("run",
+                               "-o %s: the result is an HDF5 file; type -o %.*s.h5 and then "
+                               "weartrack table %.*s.h5 NAME -o %s",
+                               output, stem, output, stem, output, output);
     r.path = argv[first];
     status = run_case(&r, cmd_given(&parts[2], "style"));
     free(r.result_name);

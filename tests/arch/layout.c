@@ -50,6 +50,7 @@ LAST(wt_segment_kind, WT_SEGMENT_OTHER, 4)
 LAST(wt_deformation, WT_SHEAR, 1)
 LAST(wt_spectrum_kind, WT_SPECTRUM_1D, 1)
 LAST(wt_column_kind, WT_COLUMN_TEXT, 1)
+LAST(wt_export_form, WT_EXPORT_STREAM, 3)
 
 /* read.h */
 FIXED(wt_format_info, version, 32, 40)

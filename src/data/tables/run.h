@@ -54,6 +54,23 @@
     X(PLAN_GIVES, "gives", "what it gives", TEXT)
 #define PLAN_KEYS(X)
 
+#define CONTENTS_COLUMNS(X)                                                                        \
+    X(CONTENTS_TABLE, "table", "name of the table", TEXT)                                          \
+    X(CONTENTS_TITLE, "title", "what it is", TEXT)                                                 \
+    X(CONTENTS_ROWS_OF, "rows", "its rows", NUMBER)                                                \
+    X(CONTENTS_COLUMNS_OF, "columns", "its columns", NUMBER)                                       \
+    X(CONTENTS_KEYS_OF, "keys", "values that belong to all of it", NUMBER)
+#define CONTENTS_KEYS(X)
+
+#define KEYS_COLUMNS(X)                                                                            \
+    X(KEYS_KEY, "key", "name of the value", TEXT)                                                  \
+    X(KEYS_VALUE, "value", "the value", NUMBER, SPARSE)                                            \
+    X(KEYS_STANDARD_ERROR, "standard_error", "its standard error", NUMBER, SPARSE)                 \
+    X(KEYS_NUMERICAL_ERROR, "numerical_error", "its numerical error", NUMBER, SPARSE)              \
+    X(KEYS_UNIT, "unit", "unit of all three", TEXT, SPARSE)                                        \
+    X(KEYS_WORDS, "words", "what is no number", TEXT, SPARSE)
+#define KEYS_KEYS(X)
+
 #define FACTS_COLUMNS(X)                                                                           \
     X(FACTS_ITEM, "item", "what is known", TEXT)                                                   \
     X(FACTS_VALUE, "value", "its value", TEXT)                                                     \

@@ -49,6 +49,8 @@
     X(sweep, SWEEP, "sweep", "DMA frequency sweeps", "convert")                                    \
     X(spectrum, SPECTRUM, "roughness", "power spectrum", "convert")                                \
     X(image, IMAGE, "image/", "name of the image", "convert")                                      \
+    X(contents, CONTENTS, "contents", "Tables of a result", "table")                               \
+    X(keys, KEYS, "keys", "Values of a table", "table")                                            \
     X(facts, FACTS, "facts", "What the file is", "info")                                           \
     X(description, DESCRIPTION, "description", "Columns that the description understands",         \
       "formats")

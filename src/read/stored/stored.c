@@ -36,8 +36,29 @@ static bool is_measured(const char *name)
     return false;
 }
 
+/* What is not read is not lost in silence. */
+static void warn_of_others(wt_parselog *log, const char *name, const wt_result *result)
+{
+    char names[160] = "";
+    size_t n = 0, used = 0;
+    for (size_t i = 0; i < wt_result_n_tables(result); i++) {
+        const char *table = wt_table_name(wt_result_table(result, i));
+        if (is_measured(table))
+            continue;
+        n++;
+        if (used < sizeof names)
+            used += (size_t)snprintf(names + used, sizeof names - used, "%s%s", n > 1 ? ", " : "",
+                                     table);
+    }
+    if (n > 0)
+        wt_parselog_add(log, WT_WARNING, name, NULL,
+                        "tables that are no measurements are left out, %zu (%s%s); `weartrack "
+                        "table` writes them",
+                        n, names, used < sizeof names ? "" : "...");
+}
+
 /* The tables of measurements of the file, as a text stream in memory. */
-static wt_status open_text(wt_input *input, wt_input **text, wt_error *err)
+static wt_status open_text(wt_input *input, wt_parselog *log, wt_input **text, wt_error *err)
 {
     const char *name = wt_input_name(input);
     wt_result *result = NULL;
@@ -66,6 +87,8 @@ static wt_status open_text(wt_input *input, wt_input **text, wt_error *err)
             wt_error_found(err, "other tables, the first is \"%s\"",
                            wt_table_name(wt_result_table(result, 0)));
     }
+    if (status == WT_OK)
+        warn_of_others(log, name, result);
     wt_result_free(result);
     if (status == WT_OK)
         return input_own(bytes, length, name, text, err);
@@ -78,7 +101,7 @@ static wt_status open_force(const file_reader *self, wt_input *input,
                             wt_force_source **source, wt_error *err)
 {
     wt_input *text = NULL;
-    wt_status status = open_text(input, &text, err);
+    wt_status status = open_text(input, log, &text, err);
     if (status == WT_OK)
         status = text_open_force(self, text, options, log, source, err);
     if (status == WT_OK)
@@ -93,7 +116,7 @@ static wt_status read_sweep(const file_reader *self, wt_input *input,
                             wt_error *err)
 {
     wt_input *text = NULL;
-    wt_status status = open_text(input, &text, err);
+    wt_status status = open_text(input, log, &text, err);
     if (status == WT_OK)
         status = text_read_sweep(self, text, options, log, sweep, err);
     wt_input_close(text);
@@ -105,7 +128,7 @@ static wt_status read_spectrum(const file_reader *self, wt_input *input,
                                wt_power_spectrum *spectrum, wt_error *err)
 {
     wt_input *text = NULL;
-    wt_status status = open_text(input, &text, err);
+    wt_status status = open_text(input, log, &text, err);
     if (status == WT_OK)
         status = text_read_spectrum(self, text, options, log, spectrum, err);
     wt_input_close(text);
@@ -129,7 +152,7 @@ static wt_status describe(const file_reader *self, wt_input *input, const wt_rea
         measured = measured || is_measured(wt_table_name(table));
     }
     if (measured)
-        status = open_text(input, &text, facts->err);
+        status = open_text(input, NULL, &text, facts->err);
     if (measured && status == WT_OK)
         status = text_describe(self, text, options, log, facts);
     wt_input_close(text);

@@ -1,0 +1,36 @@
+/* Tables for other programs, in the form asked for. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cmd/export.h"
+
+#include <string.h>
+
+static export_options no_options(void)
+{
+    return (export_options){WT_EXPORT_TSV};
+}
+
+static const wt_param rows[] = {
+    {PARAM_CHOICE_OF("as", export_options, form, "tsv|csv|json|stream"),
+     .help = "how it is written; without this a name after -o that ends in .csv or .json says so"},
+};
+PARAM_TABLE(export_params, export_options, rows, no_options, NO_PARTS)
+
+static wt_export_form form_of(const char *output, const cmd_part *part)
+{
+    const export_options *options = part->structure;
+    const char *dot = output != NULL ? strrchr(output, '.') : NULL;
+    if (cmd_given(part, "as") || dot == NULL)
+        return options->form;
+    return strcmp(dot, ".csv") == 0    ? WT_EXPORT_CSV
+           : strcmp(dot, ".json") == 0 ? WT_EXPORT_JSON
+                                       : options->form;
+}
+
+wt_status export_table(const cmd_common *common, const cmd_part *part, const wt_table *table,
+                       wt_error *err)
+{
+    cmd_sink sink;
+    wt_status status = cmd_sink_open(common->output, &sink, err);
+    if (status == WT_OK)
+        status = wt_table_export(sink.stream, table, form_of(common->output, part), err);
+    return cmd_sink_close(&sink, status, err);
+}

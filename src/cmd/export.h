@@ -1,0 +1,19 @@
+/* Tables for other programs, in the form asked for.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WT_CMD_EXPORT_H
+#define WT_CMD_EXPORT_H
+
+#include "cmd/cmd.h"
+
+/* Options of a subcommand that exports. */
+typedef struct export_options {
+    wt_export_form form;
+} export_options;
+const wt_params *export_params(void);
+
+/* Writes the table to -o or standard output. Unless --as is among the options given, the end of the
+ * name after -o decides. */
+wt_status export_table(const cmd_common *common, const cmd_part *part, const wt_table *table,
+                       wt_error *err);
+
+#endif

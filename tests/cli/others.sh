@@ -1,0 +1,69 @@
+#!/bin/sh
+# Programs of others read what weartrack writes. Usage: others.sh WEARTRACK FIXTURES WORK
+# SPDX-License-Identifier: GPL-3.0-or-later
+set -eu
+weartrack=$1 fixtures=$2 work=$3
+rm -rf "$work"; mkdir -p "$work"; cd "$work"
+fail() { echo "$*"; exit 1; }
+expect() { [ "$2" = "$3" ] || fail "$1: '$2' instead of '$3'"; }
+
+"$weartrack" master -q "$fixtures/case/dma.txt" -o m.h5
+"$weartrack" friction -q -m m.h5 --roughness self-affine:q0=500rad/m,q1=1e6rad/m,hurst=0.8,c0=6e-16m^4 \
+  -p 0.4MPa -v 1e-3:1m/s:log:4 --shear-stress 5MPa -o stream.tsv
+"$weartrack" friction -q -m m.h5 --roughness self-affine:q0=500rad/m,q1=1e6rad/m,hurst=0.8,c0=6e-16m^4 \
+  -p 0.4MPa -v 1e-3:1m/s:log:4 --shear-stress 5MPa -o result.h5
+"$weartrack" table stream.tsv friction -o t.tsv
+"$weartrack" table stream.tsv friction -o t.csv
+"$weartrack" table stream.tsv friction -o t.json
+"$weartrack" table stream.tsv contact_area -o blocks.tsv
+
+# the stream as it is, as weartrack-stream(5) shows
+largest=$(awk -F'\t' '/^##$/ {exit} !/^#/ && NF && $2 > m {m = $2} END {printf "%.6g", m}' stream.tsv)
+expect "awk, table" "$(awk -F'\t' 'NR > 1 && $2 > m {m = $2} END {printf "%.6g", m}' t.tsv)" "$largest"
+expect "awk, one number of fields" "$(awk -F'\t' '{print NF}' t.tsv | sort -u | wc -l)" 1
+expect "awk, no comments" "$(grep -c '#' t.tsv || true)" 0
+for t in $("$weartrack" table --list stream.tsv | awk 'NR > 1 {print $1}'); do
+  "$weartrack" table stream.tsv "$t" --as stream
+done > again.tsv
+grep -v '^## \(weartrack\|command\|input\): ' stream.tsv | cmp - again.tsv || fail "split and joined it differs"
+
+if command -v gnuplot >/dev/null; then
+  gnuplot -e 'set datafile separator "\t"; stats "t.tsv" using (column("friction")) nooutput; print sprintf("%.6g", STATS_max)' 2> g.txt
+  expect "gnuplot, table" "$(cat g.txt)" "$largest"
+  gnuplot -e 'set datafile separator "\t"; stats "< awk \"/^##\$/ {exit} 1\" stream.tsv" using 2 nooutput; print sprintf("%.6g", STATS_max)' 2> g.txt
+  expect "gnuplot, stream" "$(cat g.txt)" "$largest"
+else
+  echo "no gnuplot: not tried"
+fi
+
+if command -v python3 >/dev/null; then
+  LARGEST=$largest python3 - <<'EOF'
+import csv, json, os
+largest = os.environ["LARGEST"]
+tsv = list(csv.DictReader(open("t.tsv"), delimiter="\t"))
+comma = list(csv.DictReader(open("t.csv")))
+assert tsv == comma and len(tsv) == 4, (tsv, comma)
+assert "%.6g" % max(float(r["friction"]) for r in tsv) == largest
+assert [float(r["velocity[m/s]"]) for r in tsv] == [0.001, 0.01, 0.1, 1]
+assert all(r["friction_with_layer"] == "" for r in tsv)
+d = json.load(open("t.json"))
+assert d["keys"]["pressure"] == {"value": 400000, "standard_error": 0, "numerical_error": 0, "unit": "Pa"}
+assert {c["name"]: c.get("unit") for c in d["columns"]}["velocity"] == "m/s"
+assert [r["friction"] for r in d["rows"]] == [float(r["friction"]) for r in tsv]
+assert d["rows"][0]["friction_with_layer"] is None
+blocks = list(csv.DictReader(open("blocks.tsv"), delimiter="\t"))
+assert {r["block"] for r in blocks} == {"0", "1", "2"}
+try:
+    import h5py
+except ImportError:
+    print("no h5py: not tried")
+else:
+    with h5py.File("result.h5") as f:
+        g = f["friction"]
+        assert list(g["friction"][:]) == [float(r["friction"]) for r in tsv]
+        units = g["velocity"].attrs["units"]
+        assert (units.decode() if isinstance(units, bytes) else units) == "m/s"
+EOF
+else
+  echo "no python3: not tried"
+fi
