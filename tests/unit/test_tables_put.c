@@ -135,6 +135,12 @@ static void run_case(const char *text, const char *instead)
     for (size_t i = 0; i < wt_result_n_tables(result); i++)
         see(wt_result_table(result, i));
     wt_table_free(plan);
+    assert_int_equal(wt_result_contents(result, &plan, NULL), WT_OK);
+    see(plan);
+    wt_table_free(plan);
+    assert_int_equal(wt_table_keys(wt_result_find(result, "prony"), &plan, NULL), WT_OK);
+    see(plan);
+    wt_table_free(plan);
     wt_result_free(result);
     wt_parselog_free(log);
     wt_case_free(c);
