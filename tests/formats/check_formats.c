@@ -82,23 +82,42 @@ static void take_options(reading *r)
     }
 }
 
+static void with_blanks(const char *from, char *to, size_t size)
+{
+    snprintf(to, size, "%s", from);
+    for (char *c = to; *c != '\0'; c++)
+        *c = *c == '_' ? ' ' : *c;
+}
+
 /* True if the reading is to be looked at further. */
 static bool has_status(reading *r, wt_status status, const wt_error *err)
 {
     const char *expected = item(r, "status");
     const char *advice = item(r, "advice");
-    char text[1024], wanted[128] = "";
+    char text[1024], wanted[128];
     wt_error_format(err, text, sizeof text);
     is_word(r, status == WT_OK ? "status" : text, status_name(status),
             expected != NULL ? expected : "WT_OK");
     if (advice != NULL) {
-        snprintf(wanted, sizeof wanted, "%s", advice);
-        for (char *c = wanted; *c != '\0'; c++)
-            *c = *c == '_' ? ' ' : *c;
+        with_blanks(advice, wanted, sizeof wanted);
         if (strstr(err->advice, wanted) == NULL)
             fail(r, "advice is \"%s\", expected \"%s\" in it", err->advice, wanted);
     }
     return status == WT_OK;
+}
+
+/* The first warning holds the text expected, or there is none. */
+static void check_warning(reading *r, const wt_parselog *log)
+{
+    const char *expected = item(r, "warning"), *found = NULL;
+    char wanted[128] = "";
+    if (expected != NULL)
+        with_blanks(expected, wanted, sizeof wanted);
+    for (size_t i = 0; i < wt_parselog_count(log) && found == NULL; i++)
+        if (wt_parselog_get(log, i).severity == WT_WARNING)
+            found = wt_parselog_get(log, i).text;
+    if (expected == NULL ? found != NULL : found == NULL || strstr(found, wanted) == NULL)
+        fail(r, "warning is \"%s\", expected \"%s\" in it", found != NULL ? found : "", wanted);
 }
 
 static void check_sweep(reading *r, const wt_formats *formats, wt_input *input)
@@ -106,7 +125,11 @@ static void check_sweep(reading *r, const wt_formats *formats, wt_input *input)
     wt_sweep sweep = {.n_isotherms = 0};
     wt_error err = WT_ERROR_INIT;
     const wt_isotherm *s = NULL;
-    wt_status status = wt_sweep_read(formats, input, &r->options, NULL, &sweep, &err);
+    wt_parselog *log = wt_parselog_new();
+    wt_status status = wt_sweep_read(formats, input, &r->options, log, &sweep, &err);
+    if (status == WT_OK)
+        check_warning(r, log);
+    wt_parselog_free(log);
     if (!has_status(r, status, &err))
         return;
     for (size_t i = 0; i < r->n; i++) {

@@ -116,6 +116,7 @@ typedef struct column_rule {
     bool has_segment;
     wt_segment_kind segment; /* if has_segment */
     bool negate;
+    char *assumed; /* what the name leaves open and is taken for granted, or NULL */
 } column_rule;
 
 /* A name that a column may have. */

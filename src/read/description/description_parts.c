@@ -171,6 +171,7 @@ static void read_columns(description_parser *p, const xmlNode *table)
         rule->has_segment = kind < N_KINDS;
         rule->segment = kind < N_KINDS ? (wt_segment_kind)kind : WT_SEGMENT_OTHER;
         rule->negate = parse_true(p, c, "negate");
+        rule->assumed = parse_attribute(p, c, "assumed");
         check_unit(p, c, rule->unit, rule->quantity);
         for (const xmlNode *name = NULL; (name = parse_next(p, c, name, "name")) != NULL;) {
             d->names[d->n_names].rule = d->n_rules;

@@ -154,8 +154,8 @@ wt_status text_table_problem(const text_file *file, const text_table *table,
                              wt_quantity_set quantities, wt_error *err);
 /* The names of unknown columns, with commas; cut with "..." if there is no room. */
 void text_unknown(const text_file *file, char *names, size_t size);
-/* Notes which columns were left out. */
-void text_log_unknown(const text_file *file, wt_parselog *log);
+/* Notes which columns were left out, warns of what the names of others leave open. */
+void text_log_columns(const text_file *file, wt_parselog *log);
 /* "no frequency sweep in it" and which steps are there instead: WT_E_EMPTY. */
 wt_status text_nothing(const text_file *file, const char *what, wt_error *err);
 

@@ -240,7 +240,7 @@ wt_status text_open_force(const file_reader *self, wt_input *input, const wt_rea
         text_close(&s->base);
         return status;
     }
-    text_log_unknown(&s->file, log);
+    text_log_columns(&s->file, log);
     s->base = (wt_force_source){.next = text_next,
                                 .decode = decode,
                                 .close = text_close,

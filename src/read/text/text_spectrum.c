@@ -66,7 +66,7 @@ wt_status text_read_spectrum(const file_reader *self, wt_input *input,
         text_scan(self->description, input, WT_KIND_SPECTRUM, options, log, &file, err);
     if (status != WT_OK)
         return status;
-    text_log_unknown(&file, log);
+    text_log_columns(&file, log);
     for (size_t i = 0; i < file.n_tables; i++)
         rows += file.tables[i].n_rows;
     points = malloc((rows + 1) * sizeof *points);

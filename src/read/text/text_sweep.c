@@ -290,7 +290,7 @@ wt_status text_read_sweep(const file_reader *self, wt_input *input, const wt_rea
     wt_status status = text_scan(self->description, input, WT_KIND_SWEEP, options, log, &file, err);
     if (status != WT_OK)
         return status;
-    text_log_unknown(&file, log);
+    text_log_columns(&file, log);
     status = text_sweep(&file, options, log, sweep, err);
     if (status != WT_OK)
         wt_error_file(err, file.name);

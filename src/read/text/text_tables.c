@@ -147,12 +147,23 @@ void text_unknown(const text_file *file, char *names, size_t size)
     }
 }
 
-void text_log_unknown(const text_file *file, wt_parselog *log)
+static void log_assumed(const text_file *file, const text_table *table, wt_parselog *log)
+{
+    for (size_t i = 0; i < table->n_columns; i++) {
+        const text_column *column = &table->columns[i];
+        if (column->rule->assumed != NULL)
+            wt_parselog_add(log, WT_WARNING, file->name, NULL, "%s", column->rule->assumed);
+    }
+}
+
+void text_log_columns(const text_file *file, wt_parselog *log)
 {
     char names[256];
     text_unknown(file, names, sizeof names);
     if (file->unknown.n > 0)
         wt_parselog_add(log, WT_NOTE, file->name, NULL, "columns not used: %s", names);
+    for (size_t i = 0; i < file->n_tables; i++)
+        log_assumed(file, &file->tables[i], log);
 }
 
 wt_status text_nothing(const text_file *file, const char *what, wt_error *err)
