@@ -1,0 +1,32 @@
+# The study of the intervals shares nothing with what it judges: it includes its own headers and those
+# of the system alone, and no symbol of the library is in its programs.
+# Run: cmake -DFOLDER=<tests/study> -DPROGRAMS=<a;b> -DNM=<nm> -P study.cmake
+# SPDX-License-Identifier: GPL-3.0-or-later
+cmake_minimum_required(VERSION 3.25)
+
+file(GLOB sources ${FOLDER}/*.c ${FOLDER}/*.h)
+if(NOT sources)
+  message(FATAL_ERROR "no sources in ${FOLDER}")
+endif()
+foreach(source IN LISTS sources)
+  file(STRINGS ${source} includes REGEX "^[ \t]*#[ \t]*include")
+  foreach(include IN LISTS includes)
+    string(REGEX REPLACE ".*[<\"]([^>\"]*)[>\"].*" "\\1" header "${include}")
+    get_filename_component(name ${source} NAME)
+    if(include MATCHES "\"" AND NOT header MATCHES "^[a-z_]+\\.h$")
+      message(SEND_ERROR "${name} includes ${header}, which is not of the study")
+    elseif(include MATCHES "\"" AND NOT EXISTS ${FOLDER}/${header})
+      message(SEND_ERROR "${name} includes ${header}, which is not in its folder")
+    elseif(header MATCHES "weartrack|gsl|hdf5")
+      message(SEND_ERROR "${name} includes ${header}: that is what the command computes with")
+    endif()
+  endforeach()
+endforeach()
+foreach(program IN LISTS PROGRAMS)
+  execute_process(COMMAND ${NM} ${program} OUTPUT_VARIABLE symbols COMMAND_ERROR_IS_FATAL ANY)
+  if(NOT symbols MATCHES " rubber_make")
+    message(SEND_ERROR "${program} has no symbols to look at")
+  elseif(symbols MATCHES " (wt_|gsl_)[a-z0-9_]*")
+    message(SEND_ERROR "${program} has${CMAKE_MATCH_0}: the study is linked with what it judges")
+  endif()
+endforeach()

@@ -1,0 +1,117 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "contact.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* What the integrals over the wavenumber need at one of them. */
+typedef struct wave {
+    double weight; /* of Simpson's rule in ln q, and q itself */
+    double q, variance_density, loss_angle;
+    double power; /* j(q) */
+} wave;
+
+static double density(const contact *c, double q)
+{
+    return q <= c->qr ? c->c0 : c->c0 * pow(q / c->qr, -2 * (1 + c->hurst));
+}
+
+/* J1 and J2 of the angle: with cos(phi) = 1/cosh(u) what is integrated is smooth and falls off at
+ * both ends, so that equal steps are exact to rounding. */
+static void angular(const contact *c, const rubber_state *state, double omega, double *j1,
+                    double *j2)
+{
+    const double step = 0.25, kappa = 1 / (1 - c->poisson * c->poisson);
+    *j1 = *j2 = 0;
+    for (int k = 0; k <= 150; k++) {
+        const double u = step * k, cosine = 1 / cosh(u), weight = k == 0 ? step / 2 : step;
+        double storage, loss;
+        state_moduli(state, omega * cosine, &storage, &loss);
+        *j1 += 4 * weight * cosine * cosine * kappa * loss;
+        *j2 += 4 * weight * cosine * kappa * kappa * (storage * storage + loss * loss);
+    }
+}
+
+/* Waves of one piece, in steps of half an interval; returns how many. */
+static int add_piece(const contact *c, const rubber_state *state, double velocity, double from,
+                     double to, int steps, wave *waves)
+{
+    const double half = log(to / from) / (2 * steps);
+    for (int k = 0; k <= 2 * steps; k++) {
+        const double q = from * exp(half * k);
+        /* the density at the end of a piece is that of this piece */
+        const double cq = q * q * q * density(c, fmin(q, to));
+        double j1, j2;
+        angular(c, state, q * velocity, &j1, &j2);
+        const double simpson = k == 0 || k == 2 * steps ? 1 : k % 2 == 1 ? 4 : 2;
+        waves[k] = (wave){.weight = q * simpson * half / 3,
+                          .q = q,
+                          .variance_density = q * cq * j2 / (8 * c->pressure * c->pressure),
+                          .loss_angle = cq * j1};
+    }
+    return 2 * steps + 1;
+}
+
+/* Running integral of the variance over a piece, and with it the contact area and j(q). */
+static double run_piece(double variance, double velocity, double half, int n, wave *waves,
+                        double *area)
+{
+    for (int k = 0; k < n; k++) {
+        double g = variance;
+        if (k % 2 == 1) { /* the parabola through three points, to its middle */
+            const double *a = &waves[k - 1].variance_density, *b = &waves[k].variance_density,
+                         *c = &waves[k + 1].variance_density;
+            g = variance + half / 12 * (5 * *a + 8 * *b - *c);
+            variance += half / 3 * (*a + 4 * *b + *c);
+        }
+        *area = g > 0 ? erf(1 / (2 * sqrt(g))) : 1;
+        waves[k].power = velocity / 2 * waves[k].loss_angle * *area;
+    }
+    *area = variance > 0 ? erf(1 / (2 * sqrt(variance))) : 1;
+    return variance;
+}
+
+/* Power per area that is lost below a depth. */
+static double power_below(const wave *waves, int n, double depth)
+{
+    double sum = 0;
+    for (int k = 0; k < n; k++)
+        sum += waves[k].weight * waves[k].power * exp(-2 * waves[k].q * depth);
+    return sum;
+}
+
+/* Where formation and wear balance. */
+static double thickness(const contact *c, double velocity, const wave *waves, int n)
+{
+    const double needed = c->critical_energy * c->wear_rate * c->pressure * velocity;
+    double low = log(1e-12), high = log(1.0);
+    if (power_below(waves, n, 0) <= needed)
+        return 0;
+    for (int k = 0; k < 200; k++) {
+        const double middle = (low + high) / 2;
+        *(power_below(waves, n, exp(middle)) > needed ? &low : &high) = middle;
+    }
+    return exp(low);
+}
+
+contact_truth contact_solve(const contact *c, const rubber_state *state, int steps)
+{
+    contact_truth truth = {.thickness = (double)NAN};
+    wave *waves = calloc(4 * (size_t)steps + 2, sizeof *waves);
+    if (waves == NULL)
+        abort();
+    for (int i = 0; i < c->velocities; i++) {
+        const double v = c->velocity[i];
+        const int n = add_piece(c, state, v, c->q0, c->qr, steps, waves);
+        const int m = add_piece(c, state, v, c->qr, c->q1, steps, waves + n);
+        const double variance =
+            run_piece(0, v, log(c->qr / c->q0) / (2 * steps), n, waves, &truth.area[i]);
+        run_piece(variance, v, log(c->q1 / c->qr) / (2 * steps), m, waves + n, &truth.area[i]);
+        truth.hysteresis[i] = power_below(waves, n + m, 0) / (c->pressure * v);
+        truth.friction[i] = truth.hysteresis[i] + c->shear_stress * truth.area[i] / c->pressure;
+        if (i == c->layer_at)
+            truth.thickness = thickness(c, v, waves, n + m);
+    }
+    free(waves);
+    return truth;
+}

@@ -1,0 +1,28 @@
+/* Friction and layer by an own quadrature of the integrals of Persson.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef STUDY_CONTACT_H
+#define STUDY_CONTACT_H
+
+#include "material.h"
+
+#define VELOCITIES_MAX 4
+
+/* C = c0 from q0 to qr, c0 (q/qr)^(-2(1+hurst)) up to q1; SI units, temperature in degC. */
+typedef struct contact {
+    double q0, qr, q1, hurst, c0;
+    double pressure, shear_stress, poisson, temperature;
+    int velocities;
+    double velocity[VELOCITIES_MAX];
+    int layer_at; /* which of the velocities wears the layer */
+    double wear_rate, critical_energy;
+} contact;
+
+typedef struct contact_truth {
+    double area[VELOCITIES_MAX], hysteresis[VELOCITIES_MAX], friction[VELOCITIES_MAX];
+    double thickness;
+} contact_truth;
+
+/* `steps` intervals for each piece of the spectrum; 100 are good to 1e-6. */
+contact_truth contact_solve(const contact *c, const rubber_state *state, int steps);
+
+#endif

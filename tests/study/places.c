@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "places.h"
+
+#include <math.h>
+#include <stddef.h>
+
+static const char shifts[] = "shift_factors", curve[] = "master_curve", friction[] = "friction";
+
+const place place_shift = {shifts, "log_a", "log_a_standard_error", NULL, NULL};
+const place place_law = {shifts, "wlf_log_a", "wlf_log_a_standard_error", NULL, NULL};
+const place place_c1 = {shifts, "wlf_c1", "standard_error", NULL, NULL};
+const place place_c2 = {shifts, "wlf_c2", "standard_error", NULL, NULL};
+const place place_storage = {curve, "fitted_storage", "fitted_storage_standard_error", NULL, NULL};
+const place place_loss = {curve, "fitted_loss", "fitted_loss_standard_error", NULL, NULL};
+const place place_equilibrium = {PLACE_PRONY, "equilibrium_modulus", "standard_error", NULL, NULL};
+const place place_hysteresis = {friction, "hysteresis", "hysteresis_standard_error", NULL, NULL};
+const place place_area = {friction, "area_ratio", "area_ratio_standard_error", NULL, NULL};
+const place place_friction = {friction, "friction", "friction_standard_error", NULL, NULL};
+const place place_thickness = {"layer", "balance_thickness", "standard_error", NULL, NULL};
+
+static const double normal95 = 1.959963984540054;
+
+/* Low and high where they stand, else the standard error to both sides. */
+static estimate stated(double value, double error, double low, double high)
+{
+    if (isnan(low) && isnan(high) && !isnan(error)) {
+        low = value - normal95 * error;
+        high = value + normal95 * error;
+    }
+    /* an upper limit alone is an interval too */
+    if (isnan(low) && !isnan(high))
+        low = -(double)INFINITY;
+    return (estimate){value, low, high};
+}
+
+static double cell(const stream *s, const place *p, const char *column, int row)
+{
+    return column != NULL ? stream_cell(s, p->table, column, row) : (double)NAN;
+}
+
+estimate place_row(const stream *s, const place *p, int row)
+{
+    return stated(cell(s, p, p->value, row), cell(s, p, p->error, row), cell(s, p, p->low, row),
+                  cell(s, p, p->high, row));
+}
+
+static double attribute(const stream *s, const place *p, const char *name)
+{
+    return name != NULL ? stream_number(s, p->table, p->value, name) : (double)NAN;
+}
+
+estimate place_key(const stream *s, const place *p)
+{
+    return stated(stream_number(s, p->table, p->value, NULL), attribute(s, p, p->error),
+                  attribute(s, p, p->low), attribute(s, p, p->high));
+}

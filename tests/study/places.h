@@ -1,0 +1,43 @@
+/* Where the command's tables say what: the one place that names tables, columns and keys.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef STUDY_PLACES_H
+#define STUDY_PLACES_H
+
+#include "stream.h"
+
+/* A number with its standard error, or with the ends of its interval where that is what stands
+ * there: `error`, `low` and `high` are columns, or attributes of the key; NULL if there are none.
+ */
+typedef struct place {
+    const char *table;
+    const char *value, *error, *low, *high;
+} place;
+
+extern const place place_shift, place_law, place_storage, place_loss;
+extern const place place_hysteresis, place_area, place_friction;
+extern const place place_c1, place_c2, place_equilibrium, place_thickness;
+
+#define PLACE_TEMPERATURE "temperature"     /* [K], beside shift and law */
+#define PLACE_FREQUENCY "angular_frequency" /* [rad/s], beside the moduli */
+#define PLACE_VELOCITY "velocity"
+#define PLACE_PRONY "prony"
+#define PLACE_PRONY_TIME "relaxation_time"
+#define PLACE_PRONY_MODULUS "modulus"
+
+/* In `place_shift.table`. */
+#define PLACE_CORRELATION "wlf_correlation"
+#define PLACE_VERDICT "superposition"
+#define PLACE_FAILS "fail" /* how the verdict begins */
+#define PLACE_HOLDS "holds"
+#define PLACE_CANNOT_SAY "cannot say"
+#define PLACE_UNTESTED "not tested"
+
+/* An estimate as it is stated; low and high are nan where no interval is. */
+typedef struct estimate {
+    double value, low, high;
+} estimate;
+
+estimate place_row(const stream *s, const place *p, int row);
+estimate place_key(const stream *s, const place *p);
+
+#endif

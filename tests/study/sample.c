@@ -1,0 +1,103 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "sample.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static double sign(random_source *random)
+{
+    return random_uniform(random) < 0.5 ? -1 : 1;
+}
+
+static void draw_frequencies(const scene *s, random_source *random, isotherm *to)
+{
+    double first = s->lg_first, last = s->lg_last;
+    int n = s->frequencies;
+    if (s->ragged) {
+        first += 0.7 * random_uniform(random);
+        last -= 0.7 * random_uniform(random);
+        n = 7 + (int)(10 * random_uniform(random));
+    }
+    to->n = 0;
+    for (int k = 0; k < n; k++)
+        if (!(random_uniform(random) < s->missing) || k == 0 || k == n - 1)
+            to->frequency[to->n++] = pow(10, first + (last - first) * k / (n - 1));
+}
+
+/* How much louder this point is than the scene's noise. */
+static double loudness(const scene *s, const isotherm *at, int k)
+{
+    const double u = at->n > 1 ? 2.0 * k / (at->n - 1) - 1 : 0;
+    return s->bathtub > 0 ? 1 + (s->bathtub - 1) * u * u : 1;
+}
+
+static void crystallise(isotherm *at, int k)
+{
+    const double below = fmax(0, 10 - at->temperature);
+    at->storage[k] *= pow(10, 0.02 * below);
+    at->loss[k] *= pow(10, 0.008 * below);
+}
+
+static void draw_isotherm(const scene *s, const rubber *r, random_source *random, int number,
+                          isotherm *to)
+{
+    const bool loud = s->loud > 0 && (number == 3 || number == 8);
+    const double noise[2] = {loud ? s->loud : s->noise_storage, loud ? s->loud : s->noise_loss};
+    to->true_temperature = to->temperature + s->temperature_error * random_normal(random);
+    const double geometry = exp(s->geometry_error * random_normal(random));
+    rubber_state state = scene_state(s, r, to->true_temperature);
+    state.factor = pow(10, -scene_vertical(s, to->temperature)) / geometry;
+    draw_frequencies(s, random, to);
+    double before[2] = {random_normal(random), random_normal(random)};
+    for (int k = 0; k < to->n; k++) {
+        double *to_modulus[2] = {&to->storage[k], &to->loss[k]};
+        state_moduli(&state, 2 * M_PI * to->frequency[k], &to->storage[k], &to->loss[k]);
+        if (s->crystallises)
+            crystallise(to, k);
+        for (int q = 0; q < 2; q++) {
+            double e = random_normal(random);
+            if (s->correlation > 0)
+                e = s->correlation * before[q] + sqrt(1 - s->correlation * s->correlation) * e;
+            before[q] = e;
+            if (random_uniform(random) < s->outliers)
+                e += s->outlier_size / noise[q] * sign(random);
+            *to_modulus[q] *= exp(noise[q] * loudness(s, to, k) * e);
+        }
+        if (s->exchanged) {
+            const double kept = to->storage[k];
+            to->storage[k] = to->loss[k];
+            to->loss[k] = kept;
+        }
+    }
+}
+
+void sample_draw(const scene *s, const rubber *r, random_source *random, sample *to)
+{
+    to->n = 0;
+    for (int i = 0; i < ISOTHERMS_MAX && s->first + s->step * i <= s->last + 1e-9; i++) {
+        to->isotherms[i].temperature = s->first + s->step * i;
+        draw_isotherm(s, r, random, i + 1, &to->isotherms[i]);
+        to->n++;
+    }
+}
+
+int sample_write(const scene *s, const sample *from, const char *path)
+{
+    FILE *file = fopen(path, "w");
+    if (file == NULL)
+        return -1;
+    if (s->other_layout)
+        fputs("T\tf\tE'\tE''\ndegC\tHz\tMPa\tMPa\n", file);
+    else
+        fputs("T_C,f_Hz,E_storage_Pa,E_loss_Pa\n", file);
+    for (int i = 0; i < from->n; i++) {
+        const isotherm *at = &from->isotherms[i];
+        for (int k = 0; k < at->n; k++)
+            fprintf(file, s->other_layout ? "%.2f\t%.6g\t%.6g\t%.6g\n" : "%g,%.7g,%.6g,%.6g\n",
+                    at->temperature, at->frequency[k],
+                    at->storage[k] * (s->other_layout ? 1e-6 : 1),
+                    at->loss[k] * (s->other_layout ? 1e-6 : 1));
+    }
+    const int bad = ferror(file);
+    return fclose(file) != 0 || bad ? -1 : 0;
+}

@@ -1,0 +1,23 @@
+/* One draw of a scene: what the instrument measured. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef STUDY_SAMPLE_H
+#define STUDY_SAMPLE_H
+
+#include "random.h"
+#include "scene.h"
+
+typedef struct isotherm {
+    double temperature, true_temperature; /* degC */
+    int n;
+    double frequency[POINTS_MAX], storage[POINTS_MAX], loss[POINTS_MAX]; /* Hz, Pa */
+} isotherm;
+
+typedef struct sample {
+    int n;
+    isotherm isotherms[ISOTHERMS_MAX];
+} sample;
+
+void sample_draw(const scene *s, const rubber *r, random_source *random, sample *to);
+/* The table that an instrument would export; 0 or -1. */
+int sample_write(const scene *s, const sample *from, const char *path);
+
+#endif
