@@ -216,7 +216,7 @@ static void delete_statement(list *l, size_t i)
     static const char *const words[] = {
         "return",        "if",       "for",    "while", "do",     "else",    "goto",
         "break",         "continue", "switch", "case",  "sizeof", "default", "_Static_assert",
-        "static_assert", NULL};
+        "static_assert", "assert",   NULL};
     static const char *const behind[] = {"(", "=", "+=", "-=", "*=", "/=", "->", ".", "[", NULL};
     const token *t = at(l, i);
     if (t->kind != TOKEN_NAME || is_one_of(t, words) || i + 1 >= l->f->end)
@@ -247,7 +247,8 @@ size_t places_of(const source *s, const function *f, place **changes)
         const token *t = &s->tokens[i];
         if (t->directive)
             continue;
-        if (token_is(t, "static_assert") || token_is(t, "_Static_assert")) {
+        if (token_is(t, "static_assert") || token_is(t, "_Static_assert") ||
+            token_is(t, "assert")) {
             while (i < f->end && !token_is(&s->tokens[i], ";"))
                 i++;
             continue;

@@ -5,6 +5,7 @@
  */
 #include "near.h"
 #include "read/force_source.h"
+#include "read/jpk/jpk.h"
 
 #include "weartrack/read.h"
 #include "writers/jpk_writer.h"
@@ -380,6 +381,27 @@ static void height_without_conversion(void **state)
     unlink(path);
 }
 
+/* As many channels as there is room for; one more is refused in words. */
+static void many_channels(void **state)
+{
+    (void)state;
+    static const char path[] = "test_read_jpk_many.jpk-force-map";
+    jpk_writer_file f = make_file(path);
+    for (unsigned i = 0; i < 2; i++) {
+        reading r;
+        f.n_more = JPK_CHANNELS - 3 + i;
+        assert_int_equal(jpk_write(&f), 0);
+        wt_status status = open_path(&r, path, NULL);
+        if (status == WT_OK)
+            status = wt_force_next(r.source, &r.curve, &r.err);
+        if (status)
+            print_message("%s %s %s\n", r.err.message, r.err.expected, r.err.found);
+        assert_int_equal(status, i == 0 ? WT_OK : WT_E_UNSUPPORTED);
+        close_all(&r);
+        unlink(path);
+    }
+}
+
 /* Cut at many places: what is complete is read and equals what was written. */
 static void cut_off(void **state)
 {
@@ -457,6 +479,7 @@ int main(void)
         cmocka_unit_test(user_calibration),
         cmocka_unit_test(missing_calibration),
         cmocka_unit_test(height_without_conversion),
+        cmocka_unit_test(many_channels),
         cmocka_unit_test(cut_off),
         cmocka_unit_test(described),
     };

@@ -238,6 +238,31 @@ static void damaged_rows(void **state)
     description_free(d);
 }
 
+/* The line tells the isotherms of a file apart, so a long name gives way. */
+static void source_of_a_long_name(void **state)
+{
+    static const char text[] = "f\tE'\tE''\tT\nHz\tMPa\tMPa\tdegC\n1\t2\t3\t20\n10\t2\t3\t20\n";
+    const wt_read_options options = wt_read_defaults();
+    char name[200];
+    wt_sweep sweep = {.n_isotherms = 0};
+    wt_input *input = NULL;
+    (void)state;
+    text_description *d = describe_as("separator=\"tab\"", "", "", "", "");
+    const file_reader reader = text_reader(d);
+    memset(name, 'n', sizeof name);
+    name[sizeof name - 1] = '\0';
+    assert_int_equal(wt_input_open_memory(text, sizeof text - 1, name, &input, NULL), WT_OK);
+    assert_int_equal(text_read_sweep(&reader, input, &options, NULL, &sweep, NULL), WT_OK);
+    const char *source = sweep.isotherms[0].source;
+    const size_t named = strspn(source, "n");
+    assert_string_equal(source + named, ", line 1");
+    assert_true(named > sizeof sweep.isotherms[0].source - 24);
+    assert_true(strlen(source) < sizeof sweep.isotherms[0].source);
+    wt_input_close(input);
+    wt_sweep_clear(&sweep);
+    description_free(d);
+}
+
 static void text_after_the_table(void **state)
 {
     text_description *d = describe_as("separator=\"tab\"", "", "", "", "");
@@ -614,6 +639,7 @@ int main(void)
         cmocka_unit_test(given_units),
         cmocka_unit_test(unknown_columns_are_named),
         cmocka_unit_test(detection),
+        cmocka_unit_test(source_of_a_long_name),
         cmocka_unit_test(own_stream),
         cmocka_unit_test(long_files),
     };

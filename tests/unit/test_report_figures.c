@@ -295,6 +295,40 @@ static void test_incubation_is_marked_where_the_curve_shows_it(void **state)
 
 /* ---- captions -------------------------------------------------------------------------------- */
 
+static double number_behind(const char *text, const char *words)
+{
+    const char *at = strstr(text, words);
+    if (at == NULL)
+        fail_msg("no \"%s\" in the script", words);
+    return strtod(at + strlen(words), NULL);
+}
+
+/* The axes of a map end half a step beyond the outermost curves, and a margin. */
+static void test_range_of_a_map(void **state)
+{
+    (void)state;
+    NEED_REPORT();
+    wt_table *sections[MOST];
+    const size_t n = read_sections("out", "modulus_map", sections);
+    char *script = read_plot("out", "modulus_map", "gp");
+    double low = (double)INFINITY, high = -(double)INFINITY;
+    for (size_t i = 0; i < n; i++) {
+        const long x = wt_table_find(sections[i], "x");
+        for (size_t row = 0; x >= 0 && row < wt_table_n_rows(sections[i]); row++) {
+            low = fmin(low, wt_table_number(sections[i], row, (size_t)x));
+            high = fmax(high, wt_table_number(sections[i], row, (size_t)x));
+        }
+    }
+    const double half = number_behind(script, "half_x = "),
+                 unit = number_behind(script, "x_unit = ");
+    const double width = high - low + 2 * half;
+    assert_true(half > 0 && width > 2 * half);
+    const double range = number_behind(script, "set xrange [");
+    assert_near(range, (low - half - 0.04 * width) * unit, 1e-9);
+    free(script);
+    free_sections(sections, n);
+}
+
 /* A subscript needs the enhanced mode that labels are without. */
 static void test_label_with_subscripts(void **state)
 {
@@ -473,6 +507,7 @@ int main(void)
         cmocka_unit_test(test_the_key_lists_what_is_drawn),
         cmocka_unit_test(test_incubation_is_marked_where_the_curve_shows_it),
         cmocka_unit_test(test_label_with_subscripts),
+        cmocka_unit_test(test_range_of_a_map),
         cmocka_unit_test(test_numbers_of_captions),
         cmocka_unit_test(test_crowds_are_thinned),
         cmocka_unit_test(test_what_is_missing_is_an_error),

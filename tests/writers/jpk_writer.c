@@ -368,8 +368,11 @@ static int add_segment_header(const writer *w, const jpk_writer_segment *s, cons
                 "%ssettings.segment-settings.z-start=%.17g\n"
                 "%ssettings.segment-settings.z-end=%.17g\n",
                 own, s->height[0], own, s->height[s->n - 1]);
-    fprintf(t.out, "channels.list=height vDeflection%s\n",
+    fprintf(t.out, "channels.list=height vDeflection%s",
             s->measured_height != NULL ? " measuredHeight" : "");
+    for (unsigned i = 0; i < w->file->n_more; i++)
+        fprintf(t.out, " more%u", i);
+    fputc('\n', t.out);
     for (size_t c = 0; c < N_CHANNELS; c++) {
         if (channel_values(s, (enum channel)c) == NULL)
             continue;

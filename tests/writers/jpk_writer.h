@@ -45,6 +45,7 @@ typedef struct jpk_writer_file {
     double setpoint;        /* [N]; NaN = none */
     bool force_from_volts;  /* the slot of the force leads to the volts, not to the distance */
     jpk_writer_encoding encoding;
+    unsigned n_more;     /* channels that are listed beside those there are */
     bool bare_height;    /* the height stays in volts: its conversions are not defined */
     bool inline_headers; /* no shared-data: every key stands in the segment header */
     bool folders;        /* with entries for the folders */
