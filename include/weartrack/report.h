@@ -12,10 +12,12 @@ extern "C" {
 #endif
 
 typedef struct wt_report_options {
-    const char *style;    /* name of a built-in plot style or path of one; default "paper" */
-    const char *gnuplot;  /* program; default "gnuplot" */
+    const char *style;   /* name of a built-in plot style, or path of one, a gnuplot script that can
+                            run any command; default "paper" */
+    const char *gnuplot; /* program; default "gnuplot" */
     bool with_provenance; /* version, command line and times on the page; default true */
-    uint64_t reserved[8];
+    double gnuplot_time;  /* the longest that one figure may take to draw [s]; default 120 */
+    uint64_t reserved[7];
 } wt_report_options;
 WT_API wt_report_options wt_report_defaults(void);
 WT_API const wt_params *wt_report_params(void);
@@ -28,7 +30,8 @@ WT_API wt_status wt_report_check(const char *folder, const wt_report_options *op
 /* Writes FOLDER/index.html (self-contained), FOLDER/plots/NAME.tsv, NAME.gp, NAME.svg and the style
  * file, for every figure whose tables are in the result. The folder appears whole or not at all:
  * built beside it under a temporary name, then renamed; an older report of that name is replaced.
- * WT_E_TOOL if gnuplot is missing or fails (the message carries its words). */
+ * WT_E_TOOL if gnuplot is missing, fails or takes too long (the message carries its words).
+ * `progress` is asked while gnuplot runs, too. */
 WT_API wt_status wt_report_write(const wt_result *result, const char *folder,
                                  const wt_report_options *options, const wt_progress *progress,
                                  wt_error *err) WT_NODISCARD;

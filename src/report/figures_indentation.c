@@ -152,7 +152,7 @@ static void draw_modulus_groups(figure_drawing *d)
         growing_text label = {0};
         text_format(&label, "%s (n = %zu)", d->groups[i], drawing_rows(d, d->data[i]));
         text_add(&d->script, i == 0 ? "" : ", ");
-        text_quoted(&d->script, text_string(&label));
+        text_tic(&d->script, text_string(&label));
         text_format(&d->script, " %zu", i + 1);
         text_free(&label);
     }

@@ -53,25 +53,33 @@ static void add_style_names(growing_text *names)
     }
 }
 
+wt_status style_find(const char *name, const char **text, wt_error *err)
+{
+    growing_text file = {0}, names = {0};
+    text_format(&file, "%s.gp", name);
+    *text = file_of_library(text_string(&file));
+    text_free(&file);
+    if (*text != NULL)
+        return WT_OK;
+    add_style_names(&names);
+    wt_status status = wt_fail(err, WT_E_NOT_FOUND, "no plot style of that name");
+    wt_error_expected(err, "%s", text_string(&names));
+    wt_error_found(err, "\"%s\"", name);
+    wt_error_advice(err, "a style of your own is a file that ends in .gp, given with --style");
+    text_free(&names);
+    return status;
+}
+
 wt_status file_style(const char *style, growing_text *text, wt_error *err)
 {
     enum { STYLE_LIMIT = 1 << 20 };
-    const char *name = style != NULL ? style : "paper";
+    const char *name = style != NULL ? style : "paper", *built_in = NULL;
     size_t length = strlen(name);
     if (strchr(name, '/') != NULL || (length > 3 && strcmp(name + length - 3, ".gp") == 0))
         return file_read(name, STYLE_LIMIT, text, err);
-    growing_text file = {0}, names = {0};
-    text_format(&file, "%s.gp", name);
-    const char *built_in = file_of_library(text_string(&file));
-    text_free(&file);
-    if (built_in != NULL) {
-        text_add(text, built_in);
-        return text->failed ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
-    }
-    add_style_names(&names);
-    wt_status status = wt_fail(err, WT_E_NOT_FOUND, "no plot style of that name");
-    wt_error_expected(err, "%s, or a file name that ends in .gp", text_string(&names));
-    wt_error_found(err, "\"%s\"", name);
-    text_free(&names);
-    return status;
+    wt_status status = style_find(name, &built_in, err);
+    if (status != WT_OK)
+        return status;
+    text_add(text, built_in);
+    return text->failed ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
 }

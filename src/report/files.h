@@ -11,6 +11,8 @@
 const char *file_of_library(const char *name);
 /* Appends a whole file of at most `limit` bytes. */
 wt_status file_read(const char *path, size_t limit, growing_text *text, wt_error *err) WT_NODISCARD;
+/* A built-in plot style by name: all that a case may ask for, as a style can run any command. */
+wt_status style_find(const char *name, const char **text, wt_error *err) WT_NODISCARD;
 /* Appends a plot style: a built-in one by name, NULL = "paper"; anything with a slash or ending in
  * .gp is a file. */
 wt_status file_style(const char *style, growing_text *text, wt_error *err) WT_NODISCARD;

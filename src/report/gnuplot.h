@@ -7,11 +7,23 @@
 
 #include "weartrack/base.h"
 
-/* Runs `program` (a name looked up in PATH, or a path) in `folder` on a script (a name in that
- * folder), without a shell, without standard input, without the user's gnuplot settings, in the C
- * locale. WT_E_TOOL if it cannot be started or fails; the error carries its words. One process for
- * each script: what one leaves behind would change the bytes of the next picture. */
-wt_status gnuplot_run(const char *program, const char *folder, const char *script,
-                      wt_error *err) WT_NODISCARD;
+/* No file that gnuplot writes gets larger. */
+#define GNUPLOT_PICTURE_LIMIT ((size_t)64 << 20)
+
+typedef struct gnuplot_call {
+    const char *program;       /* a name looked up in PATH, or a path */
+    const char *folder;        /* where it runs */
+    const char *script;        /* a name in that folder */
+    double limit;              /* seconds it may take */
+    bool (*go_on)(void *user); /* asked all the while; false ends it at once */
+    void *user;
+} gnuplot_call;
+
+/* Runs gnuplot without a shell, without standard input, without the user's settings, in the C
+ * locale. It ends with this process, and what it has started ends with it, unless that has left its
+ * process group. WT_E_TOOL if it cannot be started, fails or takes too long; the error carries its
+ * words. One process for each script: what one leaves behind would change the bytes of the next
+ * picture. */
+wt_status gnuplot_run(const gnuplot_call *call, wt_error *err) WT_NODISCARD;
 
 #endif

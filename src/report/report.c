@@ -15,14 +15,17 @@
 
 wt_report_options wt_report_defaults(void)
 {
-    return (wt_report_options){.style = "paper", .gnuplot = "gnuplot", .with_provenance = true};
+    return (wt_report_options){
+        .style = "paper", .gnuplot = "gnuplot", .with_provenance = true, .gnuplot_time = 120};
 }
 
 static const wt_param rows[] = {
     {PARAM_TEXT_OF("style", wt_report_options, style), .value = "STYLE",
-     .help = "plot style: paper, screen or a file"},
+     .help = "plot style: paper, screen or a file of yours, a script that gnuplot runs"},
     {PARAM_TEXT_OF("gnuplot", wt_report_options, gnuplot), .value = "PROGRAM",
      .flags = PARAM_NO_CASE, .help = "the gnuplot to use"},
+    {PARAM("gnuplot-time", wt_report_options, gnuplot_time, WT_Q_TIME, ABOVE(0)), .value = "TIME",
+     .flags = PARAM_NO_CASE, .help = "the longest that one figure may take to draw"},
 };
 PARAM_TABLE(wt_report_params, wt_report_options, rows, wt_report_defaults, NO_PARTS)
 
@@ -31,13 +34,28 @@ PARAM_TABLE(wt_report_params, wt_report_options, rows, wt_report_defaults, NO_PA
 /* One report while it is written. */
 typedef struct report {
     bound_tables tables;
-    const char *gnuplot;
+    gnuplot_call gnuplot;
     const wt_progress *progress;
+    size_t step; /* the figure that is being made */
     growing_text style;
     report_folder *folder;
     drawn_figure *figures; /* one for each that this library knows */
     size_t n_pictures;
 } report;
+
+/* Tells that the figure of this step is next, or the page, the last one; false to stop. */
+static bool tell(const report *r, size_t step)
+{
+    const char *what = step < wt_figure_count() ? figure_find(step)->name : "page";
+    return r->progress == NULL || r->progress->report == NULL ||
+           r->progress->report(r->progress->user, what, step, wt_figure_count() + 1);
+}
+
+static bool go_on(void *user)
+{
+    const report *r = user;
+    return tell(r, r->step);
+}
 
 static wt_status write_data(const report_folder *folder, const figure_drawing *d, wt_error *err)
 {
@@ -89,7 +107,6 @@ static wt_status write_script(const report_folder *folder, const figure_drawing 
 /* The picture of one figure, from its script. */
 static wt_status draw_picture(report *r, drawn_figure *figure, wt_error *err)
 {
-    enum { PICTURE_LIMIT = 64 << 20 };
     const char *const name = figure->drawing.figure->name;
     char script[96], picture[96];
     wt_status status = WT_OK;
@@ -98,14 +115,17 @@ static wt_status draw_picture(report *r, drawn_figure *figure, wt_error *err)
     if (r->n_pictures++ == 0)
         status =
             folder_write(r->folder, "plots/style.gp", text_string(&r->style), r->style.length, err);
-    if (status == WT_OK)
-        status = gnuplot_run(r->gnuplot, folder_plots(r->folder), script, err);
+    if (status == WT_OK) {
+        r->gnuplot.folder = folder_plots(r->folder);
+        r->gnuplot.script = script;
+        status = gnuplot_run(&r->gnuplot, err);
+    }
     if (status != WT_OK)
         return status;
     char *path = wt_path_join(folder_plots(r->folder), picture);
     if (path == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    status = file_read(path, PICTURE_LIMIT, &figure->svg, err);
+    status = file_read(path, GNUPLOT_PICTURE_LIMIT, &figure->svg, err);
     free(path);
     return status;
 }
@@ -125,15 +145,6 @@ static wt_status make_figure(report *r, size_t i, wt_error *err)
         (status = write_script(r->folder, d, err)) != WT_OK)
         return status;
     return draw_picture(r, figure, err);
-}
-
-/* The page is the last step. */
-static wt_status tell(const report *r, const char *what, size_t done, wt_error *err)
-{
-    if (r->progress == NULL || r->progress->report == NULL ||
-        r->progress->report(r->progress->user, what, done, wt_figure_count() + 1))
-        return WT_OK;
-    return wt_fail(err, WT_E_CANCELLED, "the report was cancelled");
 }
 
 static wt_status make_page(const report *r, const wt_result *result, bool with_provenance,
@@ -175,9 +186,12 @@ wt_status wt_report_write(const wt_result *result, const char *folder,
     if (status != WT_OK)
         return status;
     size_t n = wt_figure_count();
-    report r = {
-        .gnuplot = chosen.gnuplot, .progress = progress, .figures = calloc(n, sizeof *r.figures)};
-
+    report r = {.gnuplot = {.program = chosen.gnuplot,
+                            .limit = chosen.gnuplot_time,
+                            .go_on = go_on,
+                            .user = &r},
+                .progress = progress,
+                .figures = calloc(n, sizeof *r.figures)};
     if (r.figures == NULL) {
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
         goto done;
@@ -186,21 +200,22 @@ wt_status wt_report_write(const wt_result *result, const char *folder,
         (status = file_style(chosen.style, &r.style, err)) != WT_OK ||
         (status = folder_open(folder, &r.folder, err)) != WT_OK)
         goto done;
-    for (size_t i = 0; i < n; i++) {
-        const figure_description *figure = figure_find(i);
-        if (bound_find(&r.tables, figure->table)->n_rows == 0)
+    for (r.step = 0; r.step <= n && status == WT_OK; r.step++) {
+        if (r.step < n && bound_find(&r.tables, figure_find(r.step)->table)->n_rows == 0)
             continue;
-        if ((status = tell(&r, figure->name, i, err)) != WT_OK ||
-            (status = make_figure(&r, i, err)) != WT_OK)
-            goto done;
+        if (!tell(&r, r.step))
+            status = wt_fail(err, WT_E_CANCELLED, "the report was cancelled");
+        else if (r.step < n)
+            status = make_figure(&r, r.step, err);
+        else
+            status = make_page(&r, result, chosen.with_provenance, err);
     }
-    if ((status = tell(&r, "page", n, err)) != WT_OK ||
-        (status = make_page(&r, result, chosen.with_provenance, err)) != WT_OK)
+    if (status != WT_OK)
         goto done;
     status = folder_commit(r.folder, err);
     r.folder = NULL;
     if (status == WT_OK)
-        (void)tell(&r, "page", n + 1, NULL); // it is there: too late to cancel
+        (void)tell(&r, n + 1); // it is there: too late to cancel
 done:
     folder_discard(r.folder);
     for (size_t i = 0; r.figures != NULL && i < n; i++) {

@@ -31,6 +31,7 @@ bool svg_inline(growing_text *page, const char *svg, size_t length, const char *
     size_t left = length - (size_t)(begin - svg);
     text_html(page, "<svg role=\"img\" aria-label=\"%s\"", label);
     const char *s = begin + 4;
+    bool in_tag = true;
     left -= 4;
     while (left > 0) {
         size_t skip = 0;
@@ -44,7 +45,8 @@ bool svg_inline(growing_text *page, const char *svg, size_t length, const char *
             continue;
         }
         size_t word = 0;
-        for (size_t i = 0; i < sizeof references / sizeof references[0] && word == 0; i++)
+        in_tag = *s == '<' || (in_tag && *s != '>'); // what stands between tags is for the reader
+        for (size_t i = 0; in_tag && i < sizeof references / sizeof references[0] && word == 0; i++)
             word = starts(s, left, references[i]);
         if (word == 0) {
             text_bytes(page, s, 1);

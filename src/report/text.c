@@ -81,6 +81,8 @@ void text_format(growing_text *text, const char *format, ...)
     va_end(arguments);
 }
 
+#define REPLACEMENT "\xef\xbf\xbd" /* U+FFFD */
+
 /* Length of the character at s, 0 if it is not UTF-8 or not allowed in XML 1.0. */
 static size_t character_length(const char *s, size_t left)
 {
@@ -119,7 +121,7 @@ static void add_escaped(growing_text *text, const char *string)
     size_t left = strlen(string);
     for (const char *s = string; left > 0;) {
         size_t length = character_length(s, left), step = length > 0 ? length : 1;
-        const char *entity = length == 0 ? "\xef\xbf\xbd" : entity_of(*s);
+        const char *entity = length == 0 ? REPLACEMENT : entity_of(*s);
         if (entity != NULL)
             text_add(text, entity);
         else
@@ -144,21 +146,43 @@ void text_html(growing_text *text, const char *markup, ...)
     va_end(arguments);
 }
 
+/* What gnuplot may take for more than itself: quotes, escapes, commands, macros. Two single quotes
+ * in a row are no way to write one: gnuplot 5.4 fails on them at either end of a string. */
+#define SPECIAL "'\"\\`@"
+
 void text_quoted(growing_text *text, const char *string)
 {
-    text_add(text, "'");
-    for (const char *s = string; *s != '\0'; s++) {
-        unsigned char c = (unsigned char)*s;
-        if (c == '\'')
-            text_add(text, "''");
-        else if (c < 0x20 || c == 0x7f)
+    const char *quote = strpbrk(string, SPECIAL) == NULL ? "'" : "\"";
+    size_t left = strlen(string);
+    text_add(text, quote);
+    for (const char *s = string; left > 0;) {
+        const size_t length = character_length(s, left), step = length > 0 ? length : 1;
+        const unsigned char c = (unsigned char)*s;
+        if (c < 0x20 || c == 0x7f)
             text_add(text, " ");
-        else if (c == '\\' && s[1] == '\0') // the last one would join this line to the next
-            text_add(text, "\\ ");
+        else if (length == 0)
+            text_add(text, REPLACEMENT);
+        else if (c == '"' || c == '\\')
+            text_format(text, "\\%c", c);
+        else if (c == '`' || c == '@')
+            text_format(text, "\\%o", c);
+        else if (c == '>' && s - string >= 2 && s[-1] == ']' && s[-2] == ']')
+            text_add(text, " >"); // gnuplot leaves it as it is, and XML has no place for it
         else
-            text_bytes(text, s, 1);
+            text_bytes(text, s, length);
+        s += step;
+        left -= step;
     }
-    text_add(text, "'");
+    text_add(text, quote);
+}
+
+void text_tic(growing_text *text, const char *string)
+{
+    growing_text format = {0};
+    for (const char *s = string; *s != '\0'; s++)
+        text_bytes(&format, *s == '%' ? "%%" : s, *s == '%' ? 2 : 1);
+    text_quoted(text, text_string(&format));
+    text_done(&format, text);
 }
 
 void text_comment(growing_text *text, const char *string)

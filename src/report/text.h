@@ -26,8 +26,11 @@ void text_format(growing_text *text, const char *format, ...) WT_PRINTF(2, 3);
 /* Markup; the arguments, all of them %s, are escaped for HTML element content and quoted
  * attributes. What is not UTF-8 or not allowed in XML becomes U+FFFD. */
 void text_html(growing_text *text, const char *markup, ...) WT_PRINTF(2, 3);
-/* A gnuplot string in single quotes: no substitution happens inside; line breaks become blanks. */
+/* A gnuplot string that means this text, whatever it holds; control characters become blanks, what
+ * is not UTF-8 or not allowed in XML becomes U+FFFD. */
 void text_quoted(growing_text *text, const char *string);
+/* The same as the label of a tic, which gnuplot takes for a format. */
+void text_tic(growing_text *text, const char *string);
 /* A comment of one line for a gnuplot script, "# " and line break included. */
 void text_comment(growing_text *text, const char *string);
 

@@ -93,8 +93,13 @@ static void test_escaping(void **state)
     text_html(&text, "%s<b>%s</b>", "<a href=\"x\">'&'</a>\x01\xff\xc3\x28 µ\r", "100 %s");
     assert_text(&text, "&lt;a href=&quot;x&quot;&gt;&#39;&amp;&#39;&lt;/a&gt;"
                        "\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd( µ&#13;<b>100 %s</b>");
-    text_quoted(&text, "it's `rm`\nset output\\");
-    assert_text(&text, "'it''s `rm` set output\\ '");
+    text_quoted(&text, "E (MPa) 5 %s {x}_2 \xc2\xb5");
+    assert_text(&text, "'E (MPa) 5 %s {x}_2 \xc2\xb5'");
+    text_quoted(&text, "'it's `rm`\nset \"@x\" $1 #\xff\xc3\xef\xbf\xbe\\");
+    assert_text(&text, "\"'it's \\140rm\\140 set \\\"\\100x\\\" $1 #"
+                       "\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd\\\\\"");
+    text_tic(&text, "100 %s'%");
+    assert_text(&text, "\"100 %%s'%%\"");
     text_comment(&text, "a\nb `c` \\");
     assert_text(&text, "# a b  c   \n");
 }
@@ -145,11 +150,12 @@ static void test_svg_is_made_fit_for_a_page(void **state)
     static const char svg[] =
         "<?xml version=\"1.0\"?>\n<svg viewBox=\"0 0 1 1\">\n<title>Gnuplot</title>"
         "<desc>Produced</desc><g id=\"a\"><title>x</title><use xlink:href='#a' "
-        "clip-path='url(#c)'/></g></svg>";
+        "clip-path='url(#c)'/><text> id='a' url(#c)</text></g></svg>";
     growing_text text = {0};
     assert_true(svg_inline(&text, svg, sizeof svg - 1, "mu", "a < b"));
     assert_text(&text, "<svg role=\"img\" aria-label=\"a &lt; b\" viewBox=\"0 0 1 1\">\n"
-                       "<g id=\"mu-a\"><use xlink:href='#mu-a' clip-path='url(#mu-c)'/></g></svg>");
+                       "<g id=\"mu-a\"><use xlink:href='#mu-a' clip-path='url(#mu-c)'/>"
+                       "<text> id='a' url(#c)</text></g></svg>");
     assert_false(svg_inline(&text, "%PDF-1.4", 8, "mu", ""));
     text_free(&text);
 }

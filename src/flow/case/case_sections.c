@@ -3,6 +3,7 @@
 #include "flow/case/case_sections.h"
 
 #include "flow/job/inputs.h"
+#include "report/files.h"
 
 #include <math.h>
 #include <string.h>
@@ -206,7 +207,10 @@ static wt_status unknown_name(const xmlNode *node, const char *name, const char 
 
 wt_status case_read_report(wt_case *c, const xmlNode *section, wt_error *err)
 {
+    const char *style = NULL;
     wt_status status = case_read_params(c, section, wt_report_params(), &c->report, err);
+    if (status == WT_OK && style_find(c->report.style, &style, err) != WT_OK)
+        status = case_at(section, WT_E_NOT_FOUND, err);
     for (const xmlNode *node = section->children; status == WT_OK && node != NULL;
          node = node->next) {
         const char *name = NULL;
