@@ -2,8 +2,8 @@
  * STATISTICS holds data sets that were drawn elsewhere by the same formulas; what needs them is
  * skipped where it is not there. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "check.h"
+#include "dma_sample.h"
 #include "random.h"
-#include "sample.h"
 #include "tally.h"
 
 #include <math.h>
@@ -30,11 +30,11 @@ void check_true(const char *what, int is_true)
     failures++;
 }
 
-static const scene *find_scene(const char *name)
+static const dma_scene *find_scene(const char *name)
 {
-    for (int i = 0; i < n_scenes; i++)
-        if (strcmp(scenes[i].name, name) == 0)
-            return &scenes[i];
+    for (int i = 0; i < n_dma_scenes; i++)
+        if (strcmp(dma_scenes[i].facts.name, name) == 0)
+            return &dma_scenes[i];
     fprintf(stderr, "no scene %s\n", name);
     exit(1);
 }
@@ -64,9 +64,9 @@ static void check_material(void)
     static const double lg_loss[] = {5.0531, 5.9215, 6.9747, 7.8391, 8.3976};
     static const double shift[] = {6.8182, 4.6753,  3.0682,  1.8182,  0.8182,
                                    0,      -0.6818, -1.2587, -1.7532, -2.1818};
-    const scene *s = find_scene("D1");
+    const dma_scene *s = find_scene("D1");
     const rubber r = rubber_make(s->rubber);
-    const rubber_state state = scene_state(s, &r, s->reference);
+    const rubber_state state = dma_state(s, &r, s->reference);
     for (int k = 0; k < 5; k++) {
         double storage, loss;
         state_moduli(&state, pow(10, 2 * k - 1), &storage, &loss);
@@ -94,8 +94,8 @@ static void check_set(const char *folder, const char *name, const char *scene_na
     char path[1024], line[256];
     double sum = 0, number[5];
     int n = 0;
-    const scene *s = find_scene(scene_name);
-    scene first = *s;
+    const dma_scene *s = find_scene(scene_name);
+    dma_scene first = *s;
     if (strcmp(name, "dma_two_processes") == 0) {
         first.law.b = 700;
         first.law.t_inf = -80;
@@ -107,7 +107,7 @@ static void check_set(const char *folder, const char *name, const char *scene_na
     while (file != NULL && fgets(line, sizeof line, file) != NULL) {
         if (sscanf(line, "%lf,%lf,%lf,%lf", number, number + 1, number + 2, number + 3) != 4)
             continue;
-        const rubber_state state = scene_state(&first, &r, number[3]);
+        const rubber_state state = dma_state(&first, &r, number[3]);
         double storage, loss;
         state_moduli(&state, 2 * M_PI * number[0], &storage, &loss);
         sum += pow(log(number[1] / storage), 2) + pow(log(number[2] / loss), 2);
@@ -122,18 +122,18 @@ static void check_set(const char *folder, const char *name, const char *scene_na
 /* A draw without errors is the truth; with them its scatter is what the scene says. */
 static void check_sample(void)
 {
-    const scene *s = find_scene("D12");
+    const dma_scene *s = find_scene("D12");
     const rubber r = rubber_make(s->rubber);
     static sample drawn;
     double square[2] = {0, 0};
     int n = 0;
     for (uint64_t number = 0; number < 10; number++) {
-        random_source random = random_for(7, s->name, number);
+        random_source random = random_for(7, s->facts.name, number);
         sample_draw(s, &r, &random, &drawn);
         for (int i = 0; i < drawn.n; i++)
             for (int k = 0; k < drawn.isotherms[i].n; k++, n++) {
                 const isotherm *at = &drawn.isotherms[i];
-                const rubber_state state = scene_state(s, &r, at->temperature);
+                const rubber_state state = dma_state(s, &r, at->temperature);
                 double storage, loss;
                 state_moduli(&state, 2 * M_PI * at->frequency[k], &storage, &loss);
                 square[0] += pow(log(at->storage[k] / storage), 2);
@@ -174,7 +174,7 @@ static void check_stream(void)
 /* Draws that state an error `honesty` times the true one. */
 static int complaints_of(double honesty, int draws, tally *found)
 {
-    scene s = *find_scene("D1");
+    facts s = find_scene("D1")->facts;
     s.intervals_promised = true;
     draw *all = calloc((size_t)draws, sizeof *all);
     random_source random = random_for(3, "tally", 0);
@@ -204,14 +204,14 @@ static void check_tally(void)
 
 static void check_verdicts(void)
 {
-    scene s = *find_scene("V6");
+    facts s = find_scene("V6")->facts;
     static draw draws[20];
     s.verdict_promised = true;
     for (int i = 0; i < 20; i++)
         draws[i].verdict = CANNOT_SAY;
     check_true("the right verdict passes", tally_complaints(&s, draws, 20, NULL) == 0);
     for (int i = 0; i < 20; i++)
-        draws[i].verdict = HOLDS;
+        draws[i].verdict = YES;
     check_true("a wrong one is seen twice", tally_complaints(&s, draws, 20, NULL) == 2);
 }
 

@@ -18,6 +18,8 @@ const place place_area = {friction, "area_ratio", "area_ratio_standard_error", N
 const place place_friction = {friction, "friction", "friction_standard_error", NULL, NULL};
 const place place_thickness = {"layer", "balance_thickness", "standard_error", NULL, NULL};
 
+const place place_ratio = {"comparison", "ratio", NULL, "ratio_low", "ratio_high"};
+
 static const double normal95 = 1.959963984540054;
 
 /* Low and high where they stand, else the standard error to both sides. */

@@ -16,6 +16,7 @@ typedef struct place {
 extern const place place_shift, place_law, place_storage, place_loss;
 extern const place place_hysteresis, place_area, place_friction;
 extern const place place_c1, place_c2, place_equilibrium, place_thickness;
+extern const place place_ratio; /* over all rates, the first row */
 
 #define PLACE_TEMPERATURE "temperature"     /* [K], beside shift and law */
 #define PLACE_FREQUENCY "angular_frequency" /* [rad/s], beside the moduli */

@@ -3,7 +3,9 @@
  * [--seed S] [--scenes REGEX] [--threads N] [--keep FOLDER] Tables on standard output; the exit
  * status is 1 if a promised scene fails or the command breaks. SPDX-License-Identifier:
  * GPL-3.0-or-later */
+#include "dma_observe.h"
 #include "tally.h"
+#include "track_observe.h"
 
 #include <math.h>
 #include <pthread.h>
@@ -14,7 +16,6 @@
 #include <string.h>
 #include <unistd.h>
 
-#define CONTACT_STEPS 100
 #define THREADS_MAX 64
 
 typedef struct options {
@@ -25,9 +26,10 @@ typedef struct options {
 
 /* A scene that was chosen, and its draws. */
 typedef struct job {
-    const scene *scene;
-    rubber rubber;
-    contact_truth truth;
+    const family *family;
+    int scene;
+    const facts *facts;
+    void *prepared;
     draw *draws;
 } job;
 
@@ -44,8 +46,8 @@ static void *labour(void *argument)
     const int draws = w->options->draws;
     for (int k; (k = atomic_fetch_add(&w->next, 1)) < w->n_jobs * draws;) {
         job *j = &w->jobs[k / draws];
-        observe(&w->options->stage, j->scene, &j->rubber, &j->truth, k % draws,
-                &j->draws[k % draws]);
+        trial_make(j->family, j->scene, j->prepared, &w->options->stage, k % draws,
+                   &j->draws[k % draws]);
     }
     return NULL;
 }
@@ -61,17 +63,31 @@ static void labour_together(work *w)
         pthread_join(threads[i], NULL);
 }
 
-static void make_job(const scene *s, int draws, job *to)
+static void make_job(const family *f, int scene, int draws, job *to)
 {
-    to->scene = s;
-    to->rubber = rubber_make(s->rubber);
-    to->draws = calloc((size_t)draws, sizeof *to->draws);
+    *to = (job){.family = f,
+                .scene = scene,
+                .facts = f->facts(scene),
+                .prepared = f->prepare(scene),
+                .draws = calloc((size_t)draws, sizeof *to->draws)};
     if (to->draws == NULL)
         abort();
-    if (s->contact != NULL) {
-        const rubber_state state = scene_state(s, &to->rubber, s->contact->temperature);
-        to->truth = contact_solve(s->contact, &state, CONTACT_STEPS);
-    }
+}
+
+/* The jobs of all scenes that were asked for; the number of them. */
+static int make_jobs(const options *o, const family *families, int n_families, job **to)
+{
+    int n = 0, all = 0;
+    for (int f = 0; f < n_families; f++)
+        all += families[f].n;
+    *to = calloc((size_t)all, sizeof **to);
+    if (*to == NULL)
+        abort();
+    for (int f = 0; f < n_families; f++)
+        for (int i = 0; i < families[f].n; i++)
+            if (regexec(&o->scenes, families[f].facts(i)->name, 0, NULL, 0) == 0)
+                make_job(&families[f], i, o->draws, &(*to)[n++]);
+    return n;
 }
 
 static void print_number(double x)
@@ -89,9 +105,9 @@ static void print_tally(const job *j, quantity q, int draws)
     if (t.draws == 0)
         return;
     for (int i = 0; i < GIVEN_MAX; i++)
-        if (j->scene->given[i].coverage > 0 && j->scene->given[i].quantity == q)
-            g = j->scene->given[i];
-    printf("%s\t%s\t%d\t%.3g", j->scene->name, quantities[q].name, t.draws, t.stated);
+        if (j->facts->given[i].coverage > 0 && j->facts->given[i].quantity == q)
+            g = j->facts->given[i];
+    printf("%s\t%s\t%d\t%.3g", j->facts->name, quantities[q].name, t.draws, t.stated);
     print_number(100 * t.coverage);
     print_number(100 * t.error);
     print_number(t.half_width);
@@ -99,23 +115,23 @@ static void print_tally(const job *j, quantity q, int draws)
     print_number(t.half_width / (1.96 * t.rms));
     print_number(g.coverage);
     print_number(g.half_width);
-    printf("\t%s\n", j->scene->intervals_promised ? "yes" : "no");
+    printf("\t%s\n", j->facts->intervals_promised ? "yes" : "no");
 }
 
 static void print_verdicts(const job *j, int draws)
 {
-    const verdict_tally t = tally_verdicts(j->scene, j->draws, draws);
+    const verdict_tally t = tally_verdicts(j->facts, j->draws, draws);
     const int wrong = t.draws - t.right -
-                      (j->scene->right & RIGHT(CANNOT_SAY) ? 0 : t.said[CANNOT_SAY]) -
+                      (j->facts->right & RIGHT(CANNOT_SAY) ? 0 : t.said[CANNOT_SAY]) -
                       t.said[NO_VERDICT];
     const char *words = "";
     for (int i = draws - 1; i >= 0; i--)
         if (j->draws[i].words[0] != '\0')
             words = j->draws[i].words;
-    printf("%s\t%s\t%d\t%d\t%d\t%d\t%d\t%d\t%d\t%d\t%d\t%.2g\t%s\t%s\n", j->scene->name,
-           j->scene->about, t.draws, t.right, wrong, t.said[HOLDS], t.said[FAILS],
-           t.said[CANNOT_SAY], t.outcomes[OUTCOME_REFUSED], t.outcomes[OUTCOME_BROKEN],
-           t.wrong_holds, t.seconds, j->scene->verdict_promised ? "yes" : "no", words);
+    printf("%s\t%s\t%d\t%d\t%d\t%d\t%d\t%d\t%d\t%d\t%d\t%.2g\t%s\t%s\n", j->facts->name,
+           j->facts->about, t.draws, t.right, wrong, t.said[YES], t.said[NO], t.said[CANNOT_SAY],
+           t.outcomes[OUTCOME_REFUSED], t.outcomes[OUTCOME_BROKEN], t.wrong_yes, t.seconds,
+           j->facts->verdict_promised ? "yes" : "no", words);
 }
 
 static int print(const work *w)
@@ -128,17 +144,17 @@ static int print(const work *w)
     for (int i = 0; i < w->n_jobs; i++)
         for (quantity q = 0; q < Q_COUNT; q++)
             print_tally(&w->jobs[i], q, draws);
-    printf("\nscene\tabout\tdraws\tright\twrong\tholds\tfails\tcannot_say\trefused\tbroken\t"
-           "wrong_holds\tseconds\tpromised\tfirst_error\n");
+    printf("\nscene\tabout\tdraws\tright\twrong\tyes\tno\tcannot_say\trefused\tbroken\t"
+           "wrong_yes\tseconds\tpromised\tfirst_error\n");
     for (int i = 0; i < w->n_jobs; i++)
         print_verdicts(&w->jobs[i], draws);
     for (int i = 0; i < w->n_jobs; i++) {
         const job *j = &w->jobs[i];
-        const verdict_tally t = tally_verdicts(j->scene, j->draws, draws);
-        complaints += tally_complaints(j->scene, j->draws, draws, stderr);
-        tally_add(j->scene, j->draws, draws, &together);
+        const verdict_tally t = tally_verdicts(j->facts, j->draws, draws);
+        complaints += tally_complaints(j->facts, j->draws, draws, stderr);
+        tally_add(j->facts, j->draws, draws, &together);
         if (t.outcomes[OUTCOME_BROKEN] > 0) {
-            fprintf(stderr, "%s: the command broke in %d of %d draws\n", j->scene->name,
+            fprintf(stderr, "%s: the command broke in %d of %d draws\n", j->facts->name,
                     t.outcomes[OUTCOME_BROKEN], draws);
             complaints++;
         }
@@ -203,17 +219,16 @@ int main(int argc, char **argv)
         return bad;
     if (!o.stage.keep && (o.stage.folder = mkdtemp(made)) == NULL)
         return usage("no folder to work in");
-    job *jobs = calloc((size_t)n_scenes, sizeof *jobs);
-    if (jobs == NULL)
-        abort();
-    work w = {.options = &o, .jobs = jobs};
-    for (int i = 0; i < n_scenes; i++)
-        if (regexec(&o.scenes, scenes[i].name, 0, NULL, 0) == 0)
-            make_job(&scenes[i], o.draws, &jobs[w.n_jobs++]);
+    const family families[] = {dma_family(), track_family()};
+    job *jobs = NULL;
+    const int n = make_jobs(&o, families, sizeof families / sizeof families[0], &jobs);
+    work w = {.options = &o, .jobs = jobs, .n_jobs = n};
     labour_together(&w);
     const int complaints = w.n_jobs > 0 ? print(&w) : usage("no scene has such a name");
-    for (int i = 0; i < w.n_jobs; i++)
+    for (int i = 0; i < w.n_jobs; i++) {
         free(jobs[i].draws);
+        free(jobs[i].prepared);
+    }
     free(jobs);
     regfree(&o.scenes);
     if (!o.stage.keep)

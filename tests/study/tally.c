@@ -7,7 +7,7 @@
 
 /* A complaint has to be as improbable as this. */
 static const double by_chance = 1e-4;
-static const double covered_right = 0.95, verdicts_right = 0.9, holds_wrong = 0.05;
+static const double covered_right = 0.95, verdicts_right = 0.9, yes_wrong = 0.05;
 
 static int ascending(const void *a, const void *b)
 {
@@ -88,7 +88,7 @@ double tally_at_most(int k, int n, double p)
     return fmin(sum, 1);
 }
 
-verdict_tally tally_verdicts(const scene *s, const draw *draws, int n)
+verdict_tally tally_verdicts(const facts *s, const draw *draws, int n)
 {
     verdict_tally t = {.draws = n};
     for (int i = 0; i < n; i++) {
@@ -96,7 +96,7 @@ verdict_tally tally_verdicts(const scene *s, const draw *draws, int n)
         t.said[d->verdict]++;
         t.outcomes[d->outcome]++;
         t.right += (s->right & RIGHT(d->verdict)) != 0;
-        t.wrong_holds += d->verdict == HOLDS && (s->right & RIGHT(HOLDS)) == 0;
+        t.wrong_yes += d->verdict == YES && (s->right & RIGHT(YES)) == 0;
         t.seconds += d->seconds / n;
     }
     return t;
@@ -116,7 +116,7 @@ static int draws_covered(const tally *t)
     return t->draws_stated > 0 ? (int)floor(t->coverage * t->draws_stated + 0.5) : 0;
 }
 
-static int interval_complaints(const scene *s, const draw *draws, int n, FILE *words)
+static int interval_complaints(const facts *s, const draw *draws, int n, FILE *words)
 {
     int complaints = 0;
     for (quantity q = 0; q < Q_COUNT; q++) {
@@ -133,7 +133,7 @@ static int interval_complaints(const scene *s, const draw *draws, int n, FILE *w
     return complaints;
 }
 
-int tally_complaints(const scene *s, const draw *draws, int n, FILE *words)
+int tally_complaints(const facts *s, const draw *draws, int n, FILE *words)
 {
     const verdict_tally v = tally_verdicts(s, draws, n);
     int complaints = 0;
@@ -143,13 +143,13 @@ int tally_complaints(const scene *s, const draw *draws, int n, FILE *words)
         return complaints;
     if (tally_at_most(v.right, n, verdicts_right) < by_chance)
         complaints += complain(words, s->name, "verdict", "right too rarely, draws", v.right);
-    if (v.wrong_holds > 0 && 1 - tally_at_most(v.wrong_holds - 1, n, holds_wrong) < by_chance)
-        complaints += complain(words, s->name, "verdict", "\"holds\" where it does not, draws",
-                               v.wrong_holds);
+    if (v.wrong_yes > 0 && 1 - tally_at_most(v.wrong_yes - 1, n, yes_wrong) < by_chance)
+        complaints +=
+            complain(words, s->name, "verdict", "yes where it is not so, draws", v.wrong_yes);
     return complaints;
 }
 
-void tally_add(const scene *s, const draw *draws, int n, pool *to)
+void tally_add(const facts *s, const draw *draws, int n, pool *to)
 {
     for (quantity q = 0; q < Q_COUNT && s->intervals_promised; q++) {
         const tally t = tally_make(draws, n, q);

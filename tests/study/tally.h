@@ -2,7 +2,7 @@
 #ifndef STUDY_TALLY_H
 #define STUDY_TALLY_H
 
-#include "observe.h"
+#include "trial.h"
 
 #include <stdio.h>
 
@@ -23,22 +23,22 @@ double tally_at_most(int k, int n, double p);
 
 typedef struct verdict_tally {
     int draws, said[VERDICT_COUNT], outcomes[OUTCOME_COUNT];
-    int right, wrong_holds;
+    int right, wrong_yes;
     double seconds; /* mean of a draw */
 } verdict_tally;
 
-verdict_tally tally_verdicts(const scene *s, const draw *draws, int n);
+verdict_tally tally_verdicts(const facts *s, const draw *draws, int n);
 
 /* Intervals and verdicts of all promised scenes together, so that few draws of each are enough. */
 typedef struct pool {
     int draws[Q_COUNT], covered[Q_COUNT];
     int verdicts, right;
 } pool;
-void tally_add(const scene *s, const draw *draws, int n, pool *to);
+void tally_add(const facts *s, const draw *draws, int n, pool *to);
 
 /* What chance cannot explain, in a promised scene or in all of them together: how many things, and
  * said in words, if there is where. */
-int tally_complaints(const scene *s, const draw *draws, int n, FILE *words);
+int tally_complaints(const facts *s, const draw *draws, int n, FILE *words);
 int tally_pool_complaints(const pool *p, FILE *words);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "sample.h"
+#include "dma_sample.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -9,7 +9,7 @@ static double sign(random_source *random)
     return random_uniform(random) < 0.5 ? -1 : 1;
 }
 
-static void draw_frequencies(const scene *s, random_source *random, isotherm *to)
+static void draw_frequencies(const dma_scene *s, random_source *random, isotherm *to)
 {
     double first = s->lg_first, last = s->lg_last;
     int n = s->frequencies;
@@ -25,7 +25,7 @@ static void draw_frequencies(const scene *s, random_source *random, isotherm *to
 }
 
 /* How much louder this point is than the scene's noise. */
-static double loudness(const scene *s, const isotherm *at, int k)
+static double loudness(const dma_scene *s, const isotherm *at, int k)
 {
     const double u = at->n > 1 ? 2.0 * k / (at->n - 1) - 1 : 0;
     return s->bathtub > 0 ? 1 + (s->bathtub - 1) * u * u : 1;
@@ -38,15 +38,15 @@ static void crystallise(isotherm *at, int k)
     at->loss[k] *= pow(10, 0.008 * below);
 }
 
-static void draw_isotherm(const scene *s, const rubber *r, random_source *random, int number,
+static void draw_isotherm(const dma_scene *s, const rubber *r, random_source *random, int number,
                           isotherm *to)
 {
     const bool loud = s->loud > 0 && (number == 3 || number == 8);
     const double noise[2] = {loud ? s->loud : s->noise_storage, loud ? s->loud : s->noise_loss};
     to->true_temperature = to->temperature + s->temperature_error * random_normal(random);
     const double geometry = exp(s->geometry_error * random_normal(random));
-    rubber_state state = scene_state(s, r, to->true_temperature);
-    state.factor = pow(10, -scene_vertical(s, to->temperature)) / geometry;
+    rubber_state state = dma_state(s, r, to->true_temperature);
+    state.factor = pow(10, -dma_vertical(s, to->temperature)) / geometry;
     draw_frequencies(s, random, to);
     double before[2] = {random_normal(random), random_normal(random)};
     for (int k = 0; k < to->n; k++) {
@@ -71,7 +71,7 @@ static void draw_isotherm(const scene *s, const rubber *r, random_source *random
     }
 }
 
-void sample_draw(const scene *s, const rubber *r, random_source *random, sample *to)
+void sample_draw(const dma_scene *s, const rubber *r, random_source *random, sample *to)
 {
     to->n = 0;
     for (int i = 0; i < ISOTHERMS_MAX && s->first + s->step * i <= s->last + 1e-9; i++) {
@@ -81,7 +81,7 @@ void sample_draw(const scene *s, const rubber *r, random_source *random, sample 
     }
 }
 
-int sample_write(const scene *s, const sample *from, const char *path)
+int sample_write(const dma_scene *s, const sample *from, const char *path)
 {
     FILE *file = fopen(path, "w");
     if (file == NULL)

@@ -1,9 +1,9 @@
 /* One draw of a scene: what the instrument measured. SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef STUDY_SAMPLE_H
-#define STUDY_SAMPLE_H
+#ifndef STUDY_DMA_SAMPLE_H
+#define STUDY_DMA_SAMPLE_H
 
+#include "dma_scene.h"
 #include "random.h"
-#include "scene.h"
 
 typedef struct isotherm {
     double temperature, true_temperature; /* degC */
@@ -16,8 +16,8 @@ typedef struct sample {
     isotherm isotherms[ISOTHERMS_MAX];
 } sample;
 
-void sample_draw(const scene *s, const rubber *r, random_source *random, sample *to);
+void sample_draw(const dma_scene *s, const rubber *r, random_source *random, sample *to);
 /* The table that an instrument would export; 0 or -1. */
-int sample_write(const scene *s, const sample *from, const char *path);
+int sample_write(const dma_scene *s, const sample *from, const char *path);
 
 #endif

@@ -1,0 +1,339 @@
+/* Isotherms through master, friction and layer. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dma_observe.h"
+#include "dma_sample.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* How many places along a curve are compared. */
+#define ALONG 9
+
+/* The law at a temperature as a reader of C1, C2, their errors and their correlation works it out.
+ */
+static estimate law_of_constants(const stream *t, const dma_scene *s, double temperature)
+{
+    const estimate c1 = place_key(t, &place_c1), c2 = place_key(t, &place_c2);
+    const double e1 = (c1.high - c1.low) / 2, e2 = (c2.high - c2.low) / 2;
+    const double together = stream_number(t, place_shift.table, PLACE_CORRELATION, NULL) * e1 * e2;
+    const double d = temperature - s->reference, below = c2.value + d;
+    const double value = -c1.value * d / below;
+    const double g1 = -d / below, g2 = c1.value * d / (below * below);
+    const double half = sqrt(g1 * g1 * e1 * e1 + g2 * g2 * e2 * e2 + 2 * g1 * g2 * together);
+    if (!(below > 0)) /* beyond the pole there is no law */
+        return (estimate){(double)NAN, (double)NAN, (double)NAN};
+    return (estimate){value, value - half, value + half};
+}
+
+/* The shift of an isotherm is relative to the isotherm of the reference, both at the temperatures
+ * that they really had. */
+static void compare_shifts(const stream *t, const dma_scene *s, const sample *measured, trial *to)
+{
+    double zero = 0;
+    for (int i = 0; i < measured->n; i++)
+        if (fabs(measured->isotherms[i].temperature - s->reference) < 0.01)
+            zero = law_shift(&s->law, s->reference, measured->isotherms[i].true_temperature);
+    for (int row = 0; row < stream_rows(t, place_shift.table); row++) {
+        const double at = stream_cell(t, place_shift.table, PLACE_TEMPERATURE, row) - 273.15;
+        for (int i = 0; i < measured->n; i++) {
+            const isotherm *m = &measured->isotherms[i];
+            if (fabs(m->temperature - at) > 0.01 || fabs(at - s->reference) < 0.01)
+                continue;
+            trial_add(to, Q_SHIFT, law_shift(&s->law, s->reference, m->true_temperature) - zero,
+                      place_row(t, &place_shift, row));
+            const estimate law = place_row(t, &place_law, row);
+            trial_add(to, Q_LAW, law_shift(&s->law, s->reference, at),
+                      isnan(law.low) ? law_of_constants(t, s, at) : law);
+        }
+    }
+}
+
+static void compare_constants(const stream *t, const dma_scene *s, trial *to)
+{
+    const double reach = s->reference - s->law.t_inf;
+    trial_add(to, Q_C1, s->law.b / reach, place_key(t, &place_c1));
+    trial_add(to, Q_C2, reach, place_key(t, &place_c2));
+    const double outside[] = {s->first - 10, s->last + 10};
+    for (int i = 0; i < 2; i++)
+        trial_add(to, Q_LAW_OUTSIDE, law_shift(&s->law, s->reference, outside[i]),
+                  law_of_constants(t, s, outside[i]));
+}
+
+static int ascending(const void *a, const void *b)
+{
+    const double *x = a, *y = b;
+    return (*x > *y) - (*x < *y);
+}
+
+/* The stated interval of the row whose frequency is nearest. */
+static void compare_row(const stream *t, const dma_scene *s, const rubber *r, double omega,
+                        trial *to)
+{
+    const rubber_state state = dma_state(s, r, s->reference);
+    int nearest = 0;
+    double distance = (double)INFINITY, storage, loss;
+    for (int row = 0; row < stream_rows(t, place_storage.table); row++) {
+        const double w = stream_cell(t, place_storage.table, PLACE_FREQUENCY, row);
+        if (fabs(log(w / omega)) < distance) {
+            distance = fabs(log(w / omega));
+            nearest = row;
+        }
+    }
+    state_moduli(&state, stream_cell(t, place_storage.table, PLACE_FREQUENCY, nearest), &storage,
+                 &loss);
+    trial_add(to, Q_STORAGE, storage, place_row(t, &place_storage, nearest));
+    trial_add(to, Q_LOSS, loss, place_row(t, &place_loss, nearest));
+}
+
+/* The sum of the terms; its error is that of the curve beside it, if one is stated. */
+static void compare_prony(const stream *t, const dma_scene *s, const rubber *r, double omega,
+                          trial *to)
+{
+    const rubber_state state = dma_state(s, r, s->reference);
+    double storage, loss, sum_storage = place_key(t, &place_equilibrium).value, sum_loss = 0;
+    for (int row = 0; row < stream_rows(t, PLACE_PRONY); row++) {
+        const double z = omega * stream_cell(t, PLACE_PRONY, PLACE_PRONY_TIME, row);
+        const double term = stream_cell(t, PLACE_PRONY, PLACE_PRONY_MODULUS, row) * z / (1 + z * z);
+        sum_storage += term * z;
+        sum_loss += term;
+    }
+    state_moduli(&state, omega, &storage, &loss);
+    const observation *curve = &to->draw->observations[to->draw->n - 2]; /* of compare_row */
+    const estimate es = curve[0].found, el = curve[1].found;
+    const double ds = (es.high - es.low) / 2 * sum_storage / es.value;
+    const double dl = (el.high - el.low) / 2 * sum_loss / el.value;
+    trial_add(to, Q_PRONY_STORAGE, storage,
+              (estimate){sum_storage, sum_storage - ds, sum_storage + ds});
+    trial_add(to, Q_PRONY_LOSS, loss, (estimate){sum_loss, sum_loss - dl, sum_loss + dl});
+}
+
+/* At frequencies spread evenly over the logarithms of those of the master curve, the ends too. */
+static void compare_curve(const stream *t, const dma_scene *s, const rubber *r, trial *to)
+{
+    const int n = stream_rows(t, place_storage.table);
+    double *omega = malloc((size_t)(n + 1) * sizeof *omega);
+    if (omega == NULL)
+        abort();
+    int m = 0;
+    for (int row = 0; row < n; row++) {
+        const double w = stream_cell(t, place_storage.table, PLACE_FREQUENCY, row);
+        if (w > 0)
+            omega[m++] = w;
+    }
+    qsort(omega, (size_t)m, sizeof *omega, ascending);
+    for (int k = 0; k < ALONG && m > 1; k++) {
+        const double w = omega[0] * pow(omega[m - 1] / omega[0], k / (ALONG - 1.0));
+        compare_row(t, s, r, w, to);
+        compare_prony(t, s, r, w, to);
+    }
+    trial_add(to, Q_EQUILIBRIUM, dma_state(s, r, s->reference).factor * r->equilibrium,
+              place_key(t, &place_equilibrium));
+    free(omega);
+}
+
+static bool begins(const char *text, const char *with)
+{
+    return strncmp(text, with, strlen(with)) == 0;
+}
+
+static verdict read_verdict(const stream *t)
+{
+    const char *text = stream_key(t, place_shift.table, PLACE_VERDICT);
+    if (text == NULL)
+        return NO_VERDICT;
+    if (begins(text, PLACE_HOLDS))
+        return YES;
+    if (begins(text, PLACE_FAILS))
+        return NO;
+    return begins(text, PLACE_CANNOT_SAY) || begins(text, PLACE_UNTESTED) ? CANNOT_SAY : NO_VERDICT;
+}
+
+static void compare_master(const char *path, const dma_scene *s, const rubber *r,
+                           const sample *measured, trial *to)
+{
+    stream *t = stream_read(path);
+    if (t == NULL || stream_rows(t, place_shift.table) == 0) {
+        trial_broke(to, "no shift factors in what was written");
+    } else {
+        to->draw->verdict = read_verdict(t);
+        compare_shifts(t, s, measured, to);
+        compare_constants(t, s, to);
+        compare_curve(t, s, r, to);
+    }
+    stream_free(t);
+}
+
+static void compare_friction(const char *path, const contact *c, const contact_truth *truth,
+                             bool kept, trial *to)
+{
+    stream *t = stream_read(path);
+    if (t == NULL) {
+        trial_broke(to, "no friction in what was written");
+        return;
+    }
+    for (int i = 0; i < c->velocities; i++)
+        for (int row = 0; row < stream_rows(t, place_hysteresis.table); row++) {
+            const double v = stream_cell(t, place_hysteresis.table, PLACE_VELOCITY, row);
+            if (fabs(v / c->velocity[i] - 1) > 1e-6)
+                continue;
+            trial_add(to, kept ? Q_HYSTERESIS_KEPT : Q_HYSTERESIS, truth->hysteresis[i],
+                      place_row(t, &place_hysteresis, row));
+            trial_add(to, kept ? Q_AREA_KEPT : Q_AREA, truth->area[i],
+                      place_row(t, &place_area, row));
+            if (!kept)
+                trial_add(to, Q_FRICTION, truth->friction[i], place_row(t, &place_friction, row));
+        }
+    stream_free(t);
+}
+
+static void compare_layer(const char *path, const contact_truth *truth, trial *to)
+{
+    stream *t = stream_read(path);
+    if (t == NULL)
+        trial_broke(to, "no layer in what was written");
+    else
+        trial_add(to, Q_THICKNESS, truth->thickness, place_key(t, &place_thickness));
+    stream_free(t);
+}
+
+/* A command line in the making. */
+typedef struct line {
+    const char *words[50];
+    int n;
+    char numbers[20][200];
+    int n_numbers;
+} line;
+
+static void say(line *l, const char *option, const char *value)
+{
+    if (value == NULL)
+        return;
+    l->words[l->n++] = option;
+    l->words[l->n++] = value;
+}
+
+static void say_number(line *l, const char *option, double value, const char *unit)
+{
+    char *text = l->numbers[l->n_numbers++];
+    snprintf(text, sizeof l->numbers[0], "%.15g%s", value, unit);
+    say(l, option, text);
+}
+
+static void say_contact(line *l, const contact *c)
+{
+    char *roughness = l->numbers[l->n_numbers++];
+    snprintf(roughness, sizeof l->numbers[0],
+             "self-affine:q0=%.15grad/m,qr=%.15grad/m,q1=%.15grad/m,hurst=%.15g,c0=%.15gm^4", c->q0,
+             c->qr, c->q1, c->hurst, c->c0);
+    say(l, "--roughness", roughness);
+    say_number(l, "--pressure", c->pressure, "Pa");
+    say_number(l, "--shear-stress", c->shear_stress, "Pa");
+    say_number(l, "--sliding-temperature", c->temperature, "degC");
+    say(l, "--threads", "1");
+}
+
+static void say_velocities(line *l, const contact *c)
+{
+    char *text = l->numbers[l->n_numbers++];
+    size_t used = 0;
+    for (int i = 0; i < c->velocities && used < sizeof l->numbers[0]; i++)
+        used += (size_t)snprintf(text + used, sizeof l->numbers[0] - used, "%s%.15gm/s",
+                                 i > 0 ? "," : "", c->velocity[i]);
+    say(l, "--velocity", text);
+}
+
+static void say_isotherms(line *l, const dma_scene *s, const char *sweep)
+{
+    say(l, "--dma", sweep);
+    say_number(l, "--reference-temperature", s->reference, "degC");
+    say(l, "--vertical-shift", s->vertical);
+}
+
+static bool run(line *l, const char *output, trial *t)
+{
+    say(l, "-o", output);
+    l->words[l->n++] = "--no-provenance";
+    l->words[l->n] = NULL;
+    return trial_run(t, l->words);
+}
+
+/* Friction from the isotherms and from the stored master curve, and the layer. */
+static void observe_contact(const dma_scene *s, const contact_truth *truth, const char *sweep,
+                            const char *master, trial *t)
+{
+    const contact *c = s->contact;
+    const char *friction = trial_file(t, "friction.tsv"), *kept = trial_file(t, "kept.tsv");
+    const char *layer = trial_file(t, "layer.tsv");
+    line from_sweep = {.words = {"friction"}, .n = 1}, from_master = from_sweep;
+    say_contact(&from_sweep, c);
+    say_velocities(&from_sweep, c);
+    say_isotherms(&from_sweep, s, sweep);
+    if (run(&from_sweep, friction, t))
+        compare_friction(friction, c, truth, false, t);
+    say_contact(&from_master, c);
+    say_velocities(&from_master, c);
+    say(&from_master, "--material", master);
+    if (run(&from_master, kept, t))
+        compare_friction(kept, c, truth, true, t);
+    line wear = {.words = {"layer"}, .n = 1};
+    say_contact(&wear, c);
+    say_isotherms(&wear, s, sweep);
+    say_number(&wear, "--velocity", c->velocity[c->layer_at], "m/s");
+    say_number(&wear, "--specific-wear-rate", c->wear_rate, "m^2/N");
+    say_number(&wear, "--critical-energy", c->critical_energy, "J/m^3");
+    if (run(&wear, layer, t))
+        compare_layer(layer, truth, t);
+}
+
+typedef struct prepared {
+    rubber rubber;
+    contact_truth truth;
+} prepared;
+
+static const facts *scene_facts(int scene)
+{
+    return &dma_scenes[scene].facts;
+}
+
+static void *prepare(int scene)
+{
+    const dma_scene *s = &dma_scenes[scene];
+    prepared *p = calloc(1, sizeof *p);
+    if (p == NULL)
+        abort();
+    p->rubber = rubber_make(s->rubber);
+    if (s->contact != NULL) {
+        const rubber_state state = dma_state(s, &p->rubber, s->contact->temperature);
+        p->truth = contact_solve(s->contact, &state, 100);
+    }
+    return p;
+}
+
+static void observe(int scene, const void *what, random_source *random, trial *t)
+{
+    const dma_scene *s = &dma_scenes[scene];
+    const prepared *p = what;
+    const char *sweep = trial_file(t, "sweep.csv"), *master = trial_file(t, "master.tsv");
+    sample *measured = calloc(1, sizeof *measured);
+    line l = {.words = {"master", sweep}, .n = 2};
+    if (measured == NULL)
+        abort();
+    sample_draw(s, &p->rubber, random, measured);
+    say_number(&l, "--reference-temperature", s->reference, "degC");
+    say(&l, "--vertical-shift", s->vertical);
+    if (sample_write(s, measured, sweep) != 0) {
+        trial_broke(t, "the isotherms cannot be written");
+    } else if (run(&l, master, t)) {
+        compare_master(master, s, &p->rubber, measured, t);
+        if (s->contact != NULL)
+            observe_contact(s, &p->truth, sweep, master, t);
+    }
+    free(measured);
+}
+
+family dma_family(void)
+{
+    return (family){
+        .n = n_dma_scenes, .facts = scene_facts, .prepare = prepare, .observe = observe};
+}

@@ -1,0 +1,50 @@
+/* A rubber, and how its isotherms are measured.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef STUDY_DMA_SCENE_H
+#define STUDY_DMA_SCENE_H
+
+#include "contact.h"
+#include "facts.h"
+#include "material.h"
+
+#define ISOTHERMS_MAX 40
+#define POINTS_MAX 64
+
+typedef struct dma_scene {
+    facts facts;
+
+    rubber_kind rubber;
+    shift_law law;
+    double reference; /* degC */
+
+    double first, last, step; /* of the temperatures */
+    double lg_first, lg_last; /* of the frequencies in Hz */
+    int frequencies;
+
+    double noise_storage, noise_loss; /* relative */
+    double temperature_error;         /* K, of each isotherm */
+    double geometry_error;            /* relative, of each isotherm */
+    double departure;                 /* decade: of b, times sin((T - 20)/25) */
+    double correlation;               /* AR(1) of neighbouring points of one isotherm */
+    double loud;                      /* noise of the third and the eighth isotherm */
+    double outliers, outlier_size;    /* share of the points, and of ln E */
+    double missing;                   /* share of the points */
+    double bathtub;                   /* noise at the ends of an isotherm over that in the middle */
+    bool ragged;                      /* each isotherm has its own frequencies */
+    bool exchanged;                   /* E' in the column of E'' */
+    bool crystallises;                /* below 10 degC */
+
+    const char *vertical; /* of --vertical-shift; NULL: the default */
+    const contact *contact;
+    bool other_layout; /* of the file */
+} dma_scene;
+
+extern const dma_scene dma_scenes[];
+extern const int n_dma_scenes;
+
+/* lg b that the material has at a temperature, the error of the geometry left out. */
+double dma_vertical(const dma_scene *s, double temperature);
+/* The material at a temperature, its shift relative to the reference of the scene. */
+rubber_state dma_state(const dma_scene *s, const rubber *r, double temperature);
+
+#endif

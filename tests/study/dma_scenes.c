@@ -1,0 +1,189 @@
+/* Isotherms. Those with a letter and a number are of the theory text; the widths and coverages
+ * beside them are what its right method reaches. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dma_scene.h"
+
+#include <math.h>
+
+#define NONE ((double)NAN)
+
+static const contact contact_d1 = {.q0 = 1e3,
+                                   .qr = 1e4,
+                                   .q1 = 1e6,
+                                   .hurst = 0.8,
+                                   .c0 = 1e-18,
+                                   .pressure = 0.4e6,
+                                   .shear_stress = 5e6,
+                                   .poisson = 0.5,
+                                   .temperature = 20,
+                                   .velocities = 3,
+                                   .velocity = {1e-3, 0.03, 1},
+                                   .layer_at = 1,
+                                   .wear_rate = 1e-12,
+                                   .critical_energy = 2e10};
+
+static const contact contact_d6 = {.q0 = 1e3,
+                                   .qr = 5e3,
+                                   .q1 = 1e6,
+                                   .hurst = 0.85,
+                                   .c0 = 2e-18,
+                                   .pressure = 0.3e6,
+                                   .shear_stress = 4e6,
+                                   .poisson = 0.5,
+                                   .temperature = 30,
+                                   .velocities = 3,
+                                   .velocity = {1e-3, 0.03, 1},
+                                   .layer_at = 1,
+                                   .wear_rate = 1e-12,
+                                   .critical_energy = 1e10};
+
+/* What most scenes have, so that a row says what is its own. */
+#define BASE_LAW .law = {900, -90, 0, NONE, 1}, .reference = 20
+#define TWO_LAW .law = {700, -80, 0, NONE, 1}, .reference = 20
+#define NOISE(share) .noise_storage = (share), .noise_loss = (share)
+#define FREQUENCIES10 .lg_first = -1, .lg_last = 2, .frequencies = 13
+#define G10 .first = -30, .last = 60, .step = 10, FREQUENCIES10
+#define G13 .first = -40, .last = 80, .step = 10, .lg_first = -1, .lg_last = 2, .frequencies = 16
+#define GOOD .facts.right = RIGHT(YES)
+#define BAD .facts.right = RIGHT(NO)
+#define OPEN .facts.right = RIGHT(CANNOT_SAY)
+#define FREE .vertical = "free"
+#define D13_GRID                                                                                   \
+    .first = -30, .last = 60, .step = 10, .lg_first = -1, .lg_last = 2, .frequencies = 25
+
+const dma_scene dma_scenes[] = {
+    /* intervals; the vertical shift of the default, or free */
+    {NAMED("D1", "broad, 1 %"), .rubber = RUBBER_BROAD, BASE_LAW, G10, NOISE(.01), GOOD,
+     .contact = &contact_d1,
+     .facts.given =
+         {{Q_SHIFT, 99, .011}, {Q_LAW, 98, NONE}, {Q_STORAGE, 98, NONE}, {Q_LOSS, 97, NONE}}},
+    {NAMED("D2", "broad, 5 %"), .rubber = RUBBER_BROAD, BASE_LAW, G10, NOISE(.05),
+     .facts.right = RIGHT(YES) | RIGHT(CANNOT_SAY), .facts.given = {{Q_SHIFT, 98, .056}}},
+    {NAMED("D3", "broad, 0.1 %, 0.05 K"), .rubber = RUBBER_BROAD, BASE_LAW, G10, NOISE(.001),
+     .temperature_error = .05, GOOD,
+     .facts.given = {{Q_LAW, 96, .005}, {Q_STORAGE, 99, NONE}, {Q_LOSS, 98, NONE}}},
+    {NAMED("D4", "sharp, 1 %, free b"), .rubber = RUBBER_SHARP, BASE_LAW, G10, NOISE(.01), FREE,
+     GOOD, .facts.given = {{Q_SHIFT, 96, .014}, {Q_STORAGE, 96, NONE}, {Q_LOSS, 96, NONE}}},
+    {NAMED("D5", "terminal, 1 %, 0.1 K"), .rubber = RUBBER_TERMINAL, BASE_LAW, G10, NOISE(.01),
+     .temperature_error = .1, GOOD,
+     .facts.given = {{Q_LAW, 100, .015}, {Q_STORAGE, 98, NONE}, {Q_LOSS, 98, NONE}}},
+    {NAMED("D5b", "terminal, 1 %, free b"), .rubber = RUBBER_TERMINAL, BASE_LAW, G10, NOISE(.01),
+     FREE, GOOD, .facts.given = {{Q_SHIFT, 94, NONE}}},
+    {NAMED("D6", "two, 1.5 %, 0.1 K"), .rubber = RUBBER_TWO, TWO_LAW, G13, NOISE(.015),
+     .temperature_error = .1, GOOD, .contact = &contact_d6,
+     .facts.given = {{Q_LAW, 92, .016}, {Q_STORAGE, 97, NONE}, {Q_LOSS, 96, NONE}}},
+    {NAMED("D7", "broad, one decade in steps of 4 K, free b"), .rubber = RUBBER_BROAD,
+     .law = {900, -90, 0, NONE, 1}, .reference = 0, .first = -28, .last = 32, .step = 4,
+     .lg_first = 0, .lg_last = 1, .frequencies = 11, NOISE(.01), FREE,
+     .facts.right = RIGHT(YES) | RIGHT(CANNOT_SAY),
+     .facts.given = {{Q_SHIFT, 96, .025}, {Q_STORAGE, 97, NONE}, {Q_LOSS, 97, NONE}}},
+    {NAMED("D8", "broad, 1 %, 0.3 K"), .rubber = RUBBER_BROAD, BASE_LAW, G10, NOISE(.01),
+     .temperature_error = .3, GOOD,
+     .facts
+         .given = {{Q_LAW, 95, .025}, {Q_STORAGE, 97, NONE}, {Q_LOSS, 96, NONE}, {Q_C2, 97, 3.3}}},
+    {NAMED("D9", "broad, 1 %, geometry 2 %"), .rubber = RUBBER_BROAD, BASE_LAW, G10, NOISE(.01),
+     .geometry_error = .02, GOOD,
+     .facts.given = {{Q_SHIFT, 95, .015}, {Q_STORAGE, 94, NONE}, {Q_LOSS, 95, NONE}}},
+    {NAMED("D10", "broad, 1 %, b departs from the physical"), .rubber = RUBBER_BROAD, BASE_LAW, G10,
+     NOISE(.01), .departure = .05, GOOD,
+     .facts.given = {{Q_SHIFT, 96, .014}, {Q_STORAGE, 99, NONE}, {Q_LOSS, 99, NONE}}},
+    {NAMED("D11", "broad, five isotherms, 1 %, 0.3 K"), .rubber = RUBBER_BROAD, BASE_LAW,
+     .first = -20, .last = 60, .step = 20, FREQUENCIES10, NOISE(.01), .temperature_error = .3, GOOD,
+     .facts
+         .given = {{Q_LAW, 94, .042}, {Q_STORAGE, 96, NONE}, {Q_LOSS, 94, NONE}, {Q_C2, 95, 6.3}}},
+    {NAMED("D12", "broad, E' 0.5 %, E'' 3 %, free b"), .rubber = RUBBER_BROAD, BASE_LAW, G10,
+     .noise_storage = .005, .noise_loss = .03, FREE, GOOD,
+     .facts.given = {{Q_SHIFT, 95, .024}, {Q_STORAGE, 95, NONE}, {Q_LOSS, 95, NONE}}},
+    {NAMED("D13", "broad, 1 %, correlated along f"), .rubber = RUBBER_BROAD, BASE_LAW, D13_GRID,
+     NOISE(.01), .correlation = .7, .facts.right = RIGHT(YES) | RIGHT(CANNOT_SAY),
+     .facts.given = {{Q_SHIFT, 96, .026}}},
+    {NAMED("D14", "broad, 1 %, two isotherms 5 %"), .rubber = RUBBER_BROAD, BASE_LAW, D13_GRID,
+     NOISE(.01), .loud = .05, GOOD, .facts.given = {{Q_SHIFT, 96, .019}}},
+
+    /* verdicts; free vertical shift */
+    {NAMED("V1.D1", "broad, 1 %"), .rubber = RUBBER_BROAD, BASE_LAW, G10, NOISE(.01), FREE, GOOD},
+    {NAMED("V1.D9", "broad, 1 %, geometry 2 %"), .rubber = RUBBER_BROAD, BASE_LAW, G10, NOISE(.01),
+     .geometry_error = .02, FREE, GOOD},
+    {NAMED("V1.D10", "broad, 1 %, b departs"), .rubber = RUBBER_BROAD, BASE_LAW, G10, NOISE(.01),
+     .departure = .05, FREE, GOOD},
+    {NAMED("V1.plateau", "plateau, 2 %"), .rubber = RUBBER_PLATEAU, BASE_LAW, G10, NOISE(.02), FREE,
+     GOOD},
+    {NAMED("V1.two", "two, one law, 1.5 %"), .rubber = RUBBER_TWO, BASE_LAW, G13, NOISE(.015), FREE,
+     GOOD},
+    {NAMED("V2", "two laws, 1.5 %"), .rubber = RUBBER_TWO, .law = {900, -90, 300, NONE, 1},
+     .reference = 20, G13, NOISE(.015), FREE, BAD},
+    {NAMED("V3", "two laws, 5 %"), .rubber = RUBBER_TWO, .law = {900, -90, 300, NONE, 1},
+     .reference = 20, G13, NOISE(.05), FREE, .facts.right = RIGHT(NO) | RIGHT(CANNOT_SAY)},
+    {NAMED("V4", "E' and E'' exchanged"), .rubber = RUBBER_BROAD, BASE_LAW, G10, NOISE(.01),
+     .exchanged = true, FREE, BAD},
+    {NAMED("V5", "crystallising below 10 degC"), .rubber = RUBBER_BROAD, BASE_LAW, G10, NOISE(.01),
+     .crystallises = true, FREE, BAD},
+    {NAMED("V6", "steps of 30 K without overlap"), .rubber = RUBBER_BROAD, BASE_LAW, .first = -40,
+     .last = 80, .step = 30, FREQUENCIES10, NOISE(.01), FREE, OPEN},
+    {NAMED("V7", "one decade in steps of 10 K"), .rubber = RUBBER_BROAD, BASE_LAW, .first = -30,
+     .last = 60, .step = 10, .lg_first = 0, .lg_last = 1, .frequencies = 11, NOISE(.01), FREE,
+     OPEN},
+
+    /* further ones, with the vertical shift of the default */
+    {NAMED("exchanged", "V4 by the default"), .rubber = RUBBER_BROAD, BASE_LAW, G10, NOISE(.01),
+     .exchanged = true, BAD},
+    {NAMED("crystallises", "V5 by the default"), .rubber = RUBBER_BROAD, BASE_LAW, G10, NOISE(.01),
+     .crystallises = true, BAD},
+    {NAMED("two_laws", "V2 by the default"), .rubber = RUBBER_TWO, .law = {900, -90, 300, NONE, 1},
+     .reference = 20, G13, NOISE(.015), BAD},
+    {NAMED("narrow", "V7 by the default"), .rubber = RUBBER_BROAD, BASE_LAW, .first = -30,
+     .last = 60, .step = 10, .lg_first = 0, .lg_last = 1, .frequencies = 11, NOISE(.01), OPEN},
+    {NAMED("half_decade", "half a decade in steps of 3 K"), .rubber = RUBBER_BROAD, BASE_LAW,
+     .first = -28, .last = 50, .step = 3, .lg_first = 0, .lg_last = .5, .frequencies = 8,
+     NOISE(.01), .facts.right = RIGHT(YES) | RIGHT(CANNOT_SAY)},
+    {NAMED("outliers", "3 % of the points 25 % off"), .rubber = RUBBER_BROAD, BASE_LAW, G10,
+     NOISE(.01), .outliers = .03, .outlier_size = .25, GOOD},
+    {NAMED("outliers_large", "2 % of the points a factor of 3 off"), .rubber = RUBBER_BROAD,
+     BASE_LAW, G10, NOISE(.01), .outliers = .02, .outlier_size = 1.1, GOOD},
+    {NAMED("far", "forty decades of shift, in steps of up to three"), .rubber = RUBBER_WIDE,
+     .law = {2500, -105, 0, NONE, 1}, .reference = 20, .first = -65, .last = 60, .step = 5,
+     .lg_first = -1.5, .lg_last = 2, .frequencies = 15, NOISE(.01), GOOD},
+    {NAMED("far_steps", "steps of up to twenty decades, nothing overlaps"), .rubber = RUBBER_WIDE,
+     .law = {2500, -105, 0, NONE, 1}, .reference = 20, .first = -70, .last = 50, .step = 30,
+     FREQUENCIES10, NOISE(.01), OPEN},
+    {NAMED("glass", "Arrhenius below -5 degC"), .rubber = RUBBER_BROAD,
+     .law = {900, -90, 0, -5, .35}, .reference = 20, .first = -40, .last = 60, .step = 5,
+     FREQUENCIES10, NOISE(.01), GOOD},
+    {NAMED("temperature_geometry", "0.2 K and 2 %"), .rubber = RUBBER_BROAD, BASE_LAW, G10,
+     NOISE(.01), .temperature_error = .2, .geometry_error = .02, GOOD},
+    {NAMED("temperature_departs", "0.2 K, b departs"), .rubber = RUBBER_SHARP, BASE_LAW, G10,
+     NOISE(.01), .temperature_error = .2, .departure = .05, GOOD},
+    {NAMED("correlated_strong", "rho 0.9, 2 %"), .rubber = RUBBER_BROAD, BASE_LAW, D13_GRID,
+     NOISE(.02), .correlation = .9, .facts.right = RIGHT(YES) | RIGHT(CANNOT_SAY)},
+    {NAMED("havriliak_negami", "two of them, 1 %"), .rubber = RUBBER_HAVRILIAK_NEGAMI, BASE_LAW,
+     G10, NOISE(.01), GOOD, .contact = &contact_d1},
+    {NAMED("fractional_zener", "1 %, 0.1 K"), .rubber = RUBBER_FRACTIONAL_ZENER, BASE_LAW, G10,
+     NOISE(.01), .temperature_error = .1, GOOD, .other_layout = true},
+    {NAMED("heteroscedastic", "0.5 % in the middle of an isotherm, 3 % at its ends"),
+     .rubber = RUBBER_BROAD, BASE_LAW, G10, NOISE(.005), .bathtub = 6, GOOD},
+    {NAMED("ragged", "another grid of frequencies for each isotherm"), .rubber = RUBBER_SHARP,
+     BASE_LAW, G10, NOISE(.01), .ragged = true, GOOD, .other_layout = true},
+    {NAMED("missing", "a quarter of the points missing"), .rubber = RUBBER_TWO, TWO_LAW, G13,
+     NOISE(.015), .missing = .25, GOOD},
+    {NAMED("ripple", "a damped wave on the spectrum"), .rubber = RUBBER_RIPPLE, BASE_LAW, G10,
+     NOISE(.01), GOOD},
+    {NAMED("reference_between", "a reference temperature between two isotherms"),
+     .rubber = RUBBER_BROAD, .law = {900, -90, 0, NONE, 1}, .reference = 25, G10, NOISE(.01),
+     .temperature_error = .1, GOOD},
+};
+const int n_dma_scenes = sizeof dma_scenes / sizeof dma_scenes[0];
+
+double dma_vertical(const dma_scene *s, double temperature)
+{
+    return log10(293.15 / (temperature + 273.15)) + s->departure * sin((temperature - 20) / 25);
+}
+
+rubber_state dma_state(const dma_scene *s, const rubber *r, double temperature)
+{
+    shift_law second = s->law;
+    if (second.b_second > 0)
+        second.b = second.b_second;
+    return (rubber_state){.rubber = r,
+                          .a = {pow(10, law_shift(&s->law, s->reference, temperature)),
+                                pow(10, law_shift(&second, s->reference, temperature))},
+                          .factor = pow(10, -dma_vertical(s, temperature))};
+}

@@ -1,0 +1,59 @@
+/* What every scene has: what can be stated of it, what is right, what is promised.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef STUDY_FACTS_H
+#define STUDY_FACTS_H
+
+#include <stdbool.h>
+
+#define GIVEN_MAX 5
+
+/* Whatever an interval can be stated of. */
+typedef enum quantity {
+    Q_SHIFT,       /* lg aT of an isotherm, as it was measured */
+    Q_LAW,         /* lg aT of the law between the isotherms */
+    Q_LAW_OUTSIDE, /* and 10 K beyond them */
+    Q_C1,
+    Q_C2,
+    Q_STORAGE, /* of the material at the reference temperature, along the master curve */
+    Q_LOSS,
+    Q_EQUILIBRIUM,
+    Q_PRONY_STORAGE, /* of the series */
+    Q_PRONY_LOSS,
+    Q_HYSTERESIS,
+    Q_AREA,
+    Q_FRICTION,
+    Q_THICKNESS,
+    Q_HYSTERESIS_KEPT, /* from the stored master curve instead of the isotherms */
+    Q_AREA_KEPT,
+    Q_RATIO, /* modulus of the track over that of the bulk */
+    Q_COUNT
+} quantity;
+
+typedef struct quantity_facts {
+    const char *name;
+    bool relative; /* errors are compared as parts of the truth */
+} quantity_facts;
+extern const quantity_facts quantities[Q_COUNT];
+
+/* Yes: superposition holds; the track is another rubber than the bulk. */
+typedef enum verdict { CANNOT_SAY, YES, NO, NO_VERDICT, VERDICT_COUNT } verdict;
+#define RIGHT(v) (1u << (v))
+
+/* What statistics-scenes gives: coverage in percent, median half width; nan where it gives none. */
+typedef struct given {
+    quantity quantity;
+    double coverage, half_width;
+} given;
+
+typedef struct facts {
+    const char *name, *about;
+    unsigned right; /* which verdicts are */
+    /* The author of the method switches these on: the short run then fails when chance cannot
+     * explain what it finds. */
+    bool intervals_promised, verdict_promised;
+    given given[GIVEN_MAX];
+} facts;
+/* How the row of a scene begins. */
+#define NAMED(scene, words) .facts.name = (scene), .facts.about = (words)
+
+#endif

@@ -1,0 +1,9 @@
+/* Tables of indented curves through compare. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef STUDY_TRACK_OBSERVE_H
+#define STUDY_TRACK_OBSERVE_H
+
+#include "trial.h"
+
+family track_family(void);
+
+#endif

@@ -1,0 +1,79 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "trial.h"
+#include "program.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+void trial_make(const family *f, int scene, const void *prepared, const stage *st, int number,
+                draw *to)
+{
+    const char *name = f->facts(scene)->name;
+    trial t = {.stage = st, .scene = name, .number = number, .draw = to};
+    random_source random = random_for(st->seed, name, (uint64_t)number);
+    *to = (draw){.verdict = NO_VERDICT};
+    f->observe(scene, prepared, &random, &t);
+    for (int i = 0; i < t.n_files && !st->keep; i++)
+        unlink(t.files[i]);
+}
+
+const char *trial_file(trial *t, const char *name)
+{
+    if (t->n_files == TRIAL_FILES_MAX)
+        abort();
+    char *path = t->files[t->n_files++];
+    snprintf(path, sizeof t->files[0], "%s/%s-%d-%s", t->stage->folder, t->scene, t->number, name);
+    return path;
+}
+
+void trial_broke(trial *t, const char *words)
+{
+    t->draw->outcome = OUTCOME_BROKEN;
+    if (t->draw->words[0] == '\0')
+        snprintf(t->draw->words, sizeof t->draw->words, "%s", words);
+}
+
+/* 1 is an error of data that is explained; others are misuse of the command, or a crash. */
+static void note_failure(trial *t, int status, const char *errors)
+{
+    char line[sizeof t->draw->words];
+    FILE *words = fopen(errors, "r");
+    if (status != 1)
+        t->draw->outcome = OUTCOME_BROKEN;
+    else if (t->draw->outcome == OUTCOME_GOOD)
+        t->draw->outcome = OUTCOME_REFUSED;
+    while (words != NULL && t->draw->words[0] == '\0' && fgets(line, sizeof line, words) != NULL) {
+        for (char *c = line; *c != '\0'; c++)
+            *c = *c == '\n' ? '\0' : *c == '\t' ? ' ' : *c;
+        if (strstr(line, ": warning: ") == NULL)
+            snprintf(t->draw->words, sizeof t->draw->words, "%s", line);
+    }
+    if (words != NULL)
+        fclose(words);
+}
+
+bool trial_run(trial *t, const char *const *arguments)
+{
+    struct timespec before, after;
+    const char *errors = trial_file(t, "errors.txt");
+    clock_gettime(CLOCK_MONOTONIC, &before);
+    const int status = program_run(t->stage->program, arguments, errors);
+    clock_gettime(CLOCK_MONOTONIC, &after);
+    t->draw->seconds +=
+        (double)(after.tv_sec - before.tv_sec) + 1e-9 * (double)(after.tv_nsec - before.tv_nsec);
+    if (status != 0)
+        note_failure(t, status, errors);
+    unlink(errors);
+    t->n_files--;
+    return status == 0;
+}
+
+void trial_add(trial *t, quantity q, double truth, estimate found)
+{
+    if (t->draw->n == OBSERVATIONS_MAX)
+        abort();
+    t->draw->observations[t->draw->n++] = (observation){q, truth, found};
+}
