@@ -66,11 +66,19 @@ static int ascending(const void *a, const void *b)
     return (*x > *y) - (*x < *y);
 }
 
+/* What moduli are stated of: at the reference temperature, E or G. */
+static rubber_state stated_state(const dma_scene *s, const rubber *r)
+{
+    rubber_state state = dma_state(s, r, s->reference);
+    state.factor *= dma_part_of_e(s);
+    return state;
+}
+
 /* The stated interval of the row whose frequency is nearest. */
 static void compare_row(const stream *t, const dma_scene *s, const rubber *r, double omega,
                         trial *to)
 {
-    const rubber_state state = dma_state(s, r, s->reference);
+    const rubber_state state = stated_state(s, r);
     int nearest = 0;
     double distance = (double)INFINITY, storage, loss;
     for (int row = 0; row < stream_rows(t, place_storage.table); row++) {
@@ -90,7 +98,7 @@ static void compare_row(const stream *t, const dma_scene *s, const rubber *r, do
 static void compare_prony(const stream *t, const dma_scene *s, const rubber *r, double omega,
                           trial *to)
 {
-    const rubber_state state = dma_state(s, r, s->reference);
+    const rubber_state state = stated_state(s, r);
     double storage, loss, sum_storage = place_key(t, &place_equilibrium).value, sum_loss = 0;
     for (int row = 0; row < stream_rows(t, PLACE_PRONY); row++) {
         const double z = omega * stream_cell(t, PLACE_PRONY, PLACE_PRONY_TIME, row);
@@ -127,7 +135,7 @@ static void compare_curve(const stream *t, const dma_scene *s, const rubber *r, 
         compare_row(t, s, r, w, to);
         compare_prony(t, s, r, w, to);
     }
-    trial_add(to, Q_EQUILIBRIUM, dma_state(s, r, s->reference).factor * r->equilibrium,
+    trial_add(to, Q_EQUILIBRIUM, stated_state(s, r).factor * r->equilibrium,
               place_key(t, &place_equilibrium));
     free(omega);
 }

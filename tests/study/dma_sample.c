@@ -84,19 +84,19 @@ void sample_draw(const dma_scene *s, const rubber *r, random_source *random, sam
 int sample_write(const dma_scene *s, const sample *from, const char *path)
 {
     FILE *file = fopen(path, "w");
+    const double unit = (s->other_layout ? 1e-6 : 1) * dma_part_of_e(s);
     if (file == NULL)
         return -1;
     if (s->other_layout)
         fputs("T\tf\tE'\tE''\ndegC\tHz\tMPa\tMPa\n", file);
     else
-        fputs("T_C,f_Hz,E_storage_Pa,E_loss_Pa\n", file);
+        fputs(s->shear ? "T_C,f_Hz,G_storage_Pa,G_loss_Pa\n" : "T_C,f_Hz,E_storage_Pa,E_loss_Pa\n",
+              file);
     for (int i = 0; i < from->n; i++) {
         const isotherm *at = &from->isotherms[i];
         for (int k = 0; k < at->n; k++)
             fprintf(file, s->other_layout ? "%.2f\t%.6g\t%.6g\t%.6g\n" : "%g,%.7g,%.6g,%.6g\n",
-                    at->temperature, at->frequency[k],
-                    at->storage[k] * (s->other_layout ? 1e-6 : 1),
-                    at->loss[k] * (s->other_layout ? 1e-6 : 1));
+                    at->temperature, at->frequency[k], unit * at->storage[k], unit * at->loss[k]);
     }
     const int bad = ferror(file);
     return fclose(file) != 0 || bad ? -1 : 0;

@@ -37,11 +37,14 @@ typedef struct dma_scene {
     const char *vertical; /* of --vertical-shift; NULL: the default */
     const contact *contact;
     bool other_layout; /* of the file */
+    bool shear;        /* G = E/3 is measured, and what is stated is of G */
 } dma_scene;
 
 extern const dma_scene dma_scenes[];
 extern const int n_dma_scenes;
 
+/* What is measured as a part of E. */
+double dma_part_of_e(const dma_scene *s);
 /* lg b that the material has at a temperature, the error of the geometry left out. */
 double dma_vertical(const dma_scene *s, double temperature);
 /* The material at a temperature, its shift relative to the reference of the scene. */

@@ -169,8 +169,18 @@ const dma_scene dma_scenes[] = {
     {NAMED("reference_between", "a reference temperature between two isotherms"),
      .rubber = RUBBER_BROAD, .law = {900, -90, 0, NONE, 1}, .reference = 25, G10, NOISE(.01),
      .temperature_error = .1, GOOD},
+    {NAMED("shear", "D6 measured in shear"), .rubber = RUBBER_TWO, TWO_LAW, G13, NOISE(.015),
+     .temperature_error = .1, .shear = true, GOOD, .contact = &contact_d6},
+    {NAMED("exact", "next to no errors: are estimates and truth the same thing?"),
+     .rubber = RUBBER_TWO, TWO_LAW, G13, NOISE(.0002), .vertical = "physical", GOOD,
+     .contact = &contact_d6},
 };
 const int n_dma_scenes = sizeof dma_scenes / sizeof dma_scenes[0];
+
+double dma_part_of_e(const dma_scene *s)
+{
+    return s->shear ? 1.0 / 3 : 1;
+}
 
 double dma_vertical(const dma_scene *s, double temperature)
 {
