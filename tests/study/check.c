@@ -198,6 +198,7 @@ static void check_tally(void)
     check_true("honest intervals pass", complaints_of(1, 1000, &t) == 0);
     check_near("their coverage", t.coverage, 0.95, 0.03);
     check_near("their half width over 1.96 rms", t.half_width / (1.96 * t.rms), 1, 0.1);
+    check_near("their error over the stated one", t.rms_stated, 1, 0.1);
     check_true("intervals half as wide do not", complaints_of(0.5, 50, &t) == 1);
     check_true("nor those that are not stated", complaints_of((double)NAN, 50, &t) == 1);
 }

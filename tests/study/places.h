@@ -26,6 +26,7 @@ extern const place place_ratio; /* over all rates, the first row */
 #define PLACE_PRONY_MODULUS "modulus"
 
 /* In `place_shift.table`. */
+#define PLACE_REFERENCE "reference_temperature" /* [K] */
 #define PLACE_CORRELATION "wlf_correlation"
 #define PLACE_VERDICT "superposition"
 #define PLACE_FAILS "fail" /* how the verdict begins */

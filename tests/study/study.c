@@ -113,6 +113,7 @@ static void print_tally(const job *j, quantity q, int draws)
     print_number(t.half_width);
     print_number(t.rms);
     print_number(t.half_width / (1.96 * t.rms));
+    print_number(t.rms_stated);
     print_number(g.coverage);
     print_number(g.half_width);
     printf("\t%s\n", j->facts->intervals_promised ? "yes" : "no");
@@ -140,7 +141,7 @@ static int print(const work *w)
     int complaints = 0;
     pool together = {.verdicts = 0};
     printf("scene\tquantity\tdraws\tstated\tcoverage\tbinomial_error\thalf_width\ttrue_rms\t"
-           "half_over_1.96_rms\tgiven_coverage\tgiven_half_width\tpromised\n");
+           "half_over_1.96_rms\trms_over_stated\tgiven_coverage\tgiven_half_width\tpromised\n");
     for (int i = 0; i < w->n_jobs; i++)
         for (quantity q = 0; q < Q_COUNT; q++)
             print_tally(&w->jobs[i], q, draws);

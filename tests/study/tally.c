@@ -26,7 +26,7 @@ static double median(double *values, size_t n)
 /* What is summed over the estimates. */
 typedef struct sums {
     int all, stated, covered, finite;
-    double square;
+    double square, square_stated;
     double *half_widths;
     size_t n_half_widths;
 } sums;
@@ -46,8 +46,10 @@ static void take(const observation *o, sums *to)
     to->stated++;
     to->covered += e->low <= o->truth && o->truth <= e->high;
     const double half = (e->high - e->low) / 2 / (relative ? fabs(e->value) : 1);
-    if (isfinite(half))
+    if (isfinite(half)) {
         to->half_widths[to->n_half_widths++] = half;
+        to->square_stated += pow(1.96 * (e->value - o->truth) / ((e->high - e->low) / 2), 2);
+    }
 }
 
 tally tally_make(const draw *draws, int n, quantity q)
@@ -66,6 +68,8 @@ tally tally_make(const draw *draws, int n, quantity q)
     }
     t.stated = s.all > 0 ? (double)s.stated / s.all : 0;
     t.rms = s.finite > 0 ? sqrt(s.square / s.finite) : (double)NAN;
+    t.rms_stated =
+        s.n_half_widths > 0 ? sqrt(s.square_stated / (double)s.n_half_widths) : (double)NAN;
     t.half_width = median(s.half_widths, s.n_half_widths);
     if (s.stated > 0) {
         /* the estimates of one draw are not independent; one draw more of each kind, so that an

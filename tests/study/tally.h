@@ -15,6 +15,7 @@ typedef struct tally {
     double error;      /* binomial one of the coverage, a draw counted once */
     double half_width; /* median; in parts of the estimate where errors are relative */
     double rms;        /* true error of the estimates, in the same unit */
+    double rms_stated; /* error over the stated one (half width over 1.96): 1 if that is right */
 } tally;
 
 tally tally_make(const draw *draws, int n, quantity q);
