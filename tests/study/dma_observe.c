@@ -238,6 +238,7 @@ static void say_contact(line *l, const contact *c)
     say_number(l, "--pressure", c->pressure, "Pa");
     say_number(l, "--shear-stress", c->shear_stress, "Pa");
     say_number(l, "--sliding-temperature", c->temperature, "degC");
+    say_number(l, "--poisson-ratio", c->poisson, "");
     say(l, "--threads", "1");
 }
 

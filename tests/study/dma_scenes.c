@@ -36,6 +36,22 @@ static const contact contact_d6 = {.q0 = 1e3,
                                    .wear_rate = 1e-12,
                                    .critical_energy = 1e10};
 
+/* At another temperature than the reference: the error of the law goes into friction. */
+static const contact contact_warm = {.q0 = 2e3,
+                                     .qr = 4e3,
+                                     .q1 = 2e6,
+                                     .hurst = 0.8,
+                                     .c0 = 4e-18,
+                                     .pressure = 0.2e6,
+                                     .shear_stress = 3e6,
+                                     .poisson = 0.49,
+                                     .temperature = 45,
+                                     .velocities = 2,
+                                     .velocity = {0.01, 0.3},
+                                     .layer_at = 0,
+                                     .wear_rate = 5e-13,
+                                     .critical_energy = 1e10};
+
 /* What most scenes have, so that a row says what is its own. */
 #define BASE_LAW .law = {900, -90, 0, NONE, 1}, .reference = 20
 #define TWO_LAW .law = {700, -80, 0, NONE, 1}, .reference = 20
@@ -169,6 +185,8 @@ const dma_scene dma_scenes[] = {
     {NAMED("reference_between", "a reference temperature between two isotherms"),
      .rubber = RUBBER_BROAD, .law = {900, -90, 0, NONE, 1}, .reference = 25, G10, NOISE(.01),
      .temperature_error = .1, GOOD},
+    {NAMED("warm", "D8 and friction at 45 degC"), .rubber = RUBBER_BROAD, BASE_LAW, G10, NOISE(.01),
+     .temperature_error = .3, GOOD, .contact = &contact_warm},
     {NAMED("shear", "D6 measured in shear"), .rubber = RUBBER_TWO, TWO_LAW, G13, NOISE(.015),
      .temperature_error = .1, .shear = true, GOOD, .contact = &contact_d6},
     {NAMED("exact", "next to no errors: are estimates and truth the same thing?"),
