@@ -136,6 +136,7 @@ void page_numbers(page_writer *page)
                   "correlated with C₂, see the table of constants");
     reference_rows(page);
     largest_row(page);
-    headline_rows(page, &t->layer, EVERY_KEY, "where formation and wear are equally fast");
+    headline_rows(page, &t->layer, LAYER_KEY_BALANCE_THICKNESS,
+                  "where formation and wear are equally fast");
     page_estimates_end(page);
 }

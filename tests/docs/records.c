@@ -5,12 +5,14 @@
  *     .\" options            .\" parameters SECTION     <!-- parameters SECTION -->
  *     .\" end                .\" end                    <!-- end -->
  * .\" table NAME is for the columns and keys of a table, called as in data/tables/tables.h; a page
- * with one has all of them.
+ * with one has all of them. .\" subcommands, .\" results and .\" figures are for their lists.
  * <!-- choices --> is for the types of those that are words.
  * After SECTION, "= NAME..." takes these alone and "but NAME..." all others.
  * Usage: docs_records PROGRAM FILE. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "data/tables/tables.h"
+#include "flow/case/things.h"
 #include "params/sections.h"
+#include "weartrack/report.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -289,13 +291,85 @@ static bool has_all_tables(const char *path)
         any = any || table_put[i];
     for (size_t i = 0; any && i < N_TABLES; i++) {
         if (!table_put[i])
-            fprintf(stderr, "%s: nothing says %s\n", path, table_names[i]);
+            fprintf(stderr, "%s: lacks the lines .\\\" table %s and .\\\" end\n", path,
+                    table_names[i]);
         all = all && table_put[i];
     }
     return all;
 }
 
+/* ---- lists of names -------------------------------------------------------------------------- */
+
+/* Reads them out of the help. */
+static bool put_subcommands(const char *program)
+{
+    char command[LINE], line[LINE], name[64];
+    size_t put = 0;
+    snprintf(command, sizeof command, "\"%s\" --help", program);
+    FILE *help = popen(command, "r");
+    while (help != NULL && fgets(line, sizeof line, help) != NULL) {
+        int n = 0;
+        line[strcspn(line, "\n")] = '\0';
+        if (line[0] != ' ' || sscanf(line, " %63[a-z] %n", name, &n) != 1 ||
+            strcmp(name, "help") == 0)
+            continue;
+        printf(".TP\n.BR weartrack-%s (1)\n", name);
+        put_troff(line + n);
+        putchar('\n');
+        put++;
+    }
+    return help != NULL && pclose(help) == 0 && put > 0;
+}
+
+static void put_names(const char *const *names, size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        printf(".IR %s %s\n", names[i], i + 1 < n ? "," : ".");
+}
+
+/* The tables that a case may ask for. */
+static void put_results(void)
+{
+    static const char *const groups[] = {"bulk", "track"};
+    static char called[2 * N_TABLES][SCHEMA_NAME_SIZE];
+    const char *names[2 * N_TABLES];
+    size_t n = 0;
+    for (size_t i = 0; i < table_n_schemas; i++)
+        for (size_t g = 0; g < 2; g++) {
+            flow_things things = 0;
+            bool is_new = true;
+            schema_name(table_schemas[i]->name, groups[g], called[n]);
+            for (size_t k = 0; k < n; k++)
+                is_new = is_new && strcmp(called[k], called[n]) != 0;
+            if (is_new && flow_things_of_table(called[n], &things) && things != 0) {
+                names[n] = called[n];
+                n++;
+            }
+        }
+    put_names(names, n);
+}
+
+static void put_figures(void)
+{
+    const char *names[SET];
+    size_t n = 0;
+    for (; n < wt_figure_count() && n < SET; n++)
+        names[n] = wt_figure_get(n).name;
+    put_names(names, n);
+}
+
 /* ---- the file -------------------------------------------------------------------------------- */
+
+static bool is_marker(const char *word)
+{
+    static const char *const starts[] = {".\\\" options",     ".\\\" parameters", ".\\\" table ",
+                                         ".\\\" subcommands", ".\\\" results",    ".\\\" figures",
+                                         "<!-- parameters",   "<!-- choices"};
+    for (size_t i = 0; i < sizeof starts / sizeof starts[0]; i++)
+        if (strncmp(word, starts[i], strlen(starts[i])) == 0)
+            return true;
+    return false;
+}
 
 static bool put_block(const char *line, const char *program, const char *path)
 {
@@ -305,6 +379,16 @@ static bool put_block(const char *line, const char *program, const char *path)
         if (name != NULL)
             sscanf(name, "weartrack-%63[a-z]", subcommand);
         return put_options(program, subcommand);
+    }
+    if (strcmp(line, ".\\\" subcommands\n") == 0)
+        return put_subcommands(program);
+    if (strcmp(line, ".\\\" results\n") == 0) {
+        put_results();
+        return true;
+    }
+    if (strcmp(line, ".\\\" figures\n") == 0) {
+        put_figures();
+        return true;
     }
     if (sscanf(line, ".\\\" parameters %1023[^\n]", what) == 1)
         return put_section(what, NULL);
@@ -339,9 +423,7 @@ int main(int argc, char **argv)
         if (inside)
             continue;
         fputs(line, stdout);
-        if (strncmp(word, ".\\\" options", 11) == 0 || strncmp(word, ".\\\" parameters", 14) == 0 ||
-            strncmp(word, ".\\\" table ", 10) == 0 || strncmp(word, "<!-- parameters", 15) == 0 ||
-            strncmp(word, "<!-- choices", 12) == 0) {
+        if (is_marker(word)) {
             inside = true;
             fflush(stdout);
             if (!put_block(line, argv[1], argv[2])) {
