@@ -21,18 +21,19 @@ double tip_facet_factor(unsigned sides)
     return sides == 0 ? 1.0 : sides / M_PI * sin(M_PI / sides);
 }
 
-static bool is_sharp(const wt_tip *tip)
-{
-    return tip->shape == WT_TIP_CONE || tip->transition_radius == 0.0;
-}
-
 double contact_switch_depth(const wt_tip *tip)
 {
-    if (tip->shape == WT_TIP_PARABOLOID)
+    switch (tip->shape) {
+    case WT_TIP_PARABOLOID:
         return (double)INFINITY;
-    if (is_sharp(tip))
+    case WT_TIP_CONE:
         return 0.0;
-    return tip->transition_radius * tip->transition_radius / tip->radius;
+    case WT_TIP_BLUNTED_PYRAMID:
+        break;
+    }
+    return tip->transition_radius == 0.0
+               ? 0.0
+               : tip->transition_radius * tip->transition_radius / tip->radius;
 }
 
 static contact_point_values paraboloid(double radius, double delta)
@@ -75,9 +76,15 @@ static contact_point_values faces(const wt_tip *tip, double delta)
 
 contact_point_values contact_values(const wt_tip *tip, double delta)
 {
-    if (tip->shape == WT_TIP_PARABOLOID)
+    switch (tip->shape) {
+    case WT_TIP_PARABOLOID:
         return paraboloid(tip->radius, delta);
-    if (is_sharp(tip))
+    case WT_TIP_CONE:
+        return sharp(tip, delta);
+    case WT_TIP_BLUNTED_PYRAMID:
+        break;
+    }
+    if (tip->transition_radius == 0.0)
         return sharp(tip, delta);
     if (delta < contact_switch_depth(tip))
         return paraboloid(tip->radius, delta);

@@ -33,13 +33,22 @@ static const struct {
 };
 enum { PYRAMID, CONE, SPHERE, N_SHAPES };
 
+enum { LIST = 256 };
+
+/* "a, b or c": adds one more word, of which `after` follow. */
+static void add_word(char list[LIST], const char *word, size_t after)
+{
+    const size_t used = strlen(list);
+    snprintf(list + used, LIST - used, "%s%s", used == 0 ? "" : after == 0 ? " or " : ", ", word);
+}
+
 static void advise(wt_error *err, size_t shape)
 {
-    if (shape < N_SHAPES)
-        wt_error_advice(err, "write it like %s", shapes[shape].example);
-    else
-        wt_error_advice(err, "write it like %s, %s or %s", shapes[PYRAMID].example,
-                        shapes[CONE].example, shapes[SPHERE].example);
+    char examples[LIST] = "";
+    for (size_t i = 0; i < N_SHAPES; i++)
+        if (shape == N_SHAPES || shape == i)
+            add_word(examples, shapes[i].example, N_SHAPES - 1 - i);
+    wt_error_advice(err, "write it like %s", examples);
 }
 
 static wt_status tip_syntax(wt_error *err, size_t shape, const char *text, const char *expected,
@@ -62,12 +71,13 @@ static wt_status parse_item(const char *text, size_t shape, const char *item, si
     while (key < N_KEYS && (strlen(keys[key].name) != name_length ||
                             strncmp(keys[key].name, item, name_length) != 0))
         key++;
-    if (key == N_KEYS || !(shapes[shape].allowed & 1u << key))
-        return tip_syntax(err, shape, text,
-                          shape == PYRAMID ? "half-angle, radius, sides or transition"
-                          : shape == CONE  ? "half-angle, radius or transition"
-                                           : "radius",
-                          item, name_length);
+    if (key == N_KEYS || !(shapes[shape].allowed & 1u << key)) {
+        char names[LIST] = "";
+        for (size_t i = 0; i < N_KEYS; i++)
+            if (shapes[shape].allowed & 1u << i)
+                add_word(names, keys[i].name, shapes[shape].allowed >> (i + 1));
+        return tip_syntax(err, shape, text, names, item, name_length);
+    }
     if (*seen & 1u << key)
         return tip_syntax(err, shape, text, "every name once", item, length);
     *seen |= 1u << key;
@@ -84,22 +94,31 @@ static wt_status parse_item(const char *text, size_t shape, const char *item, si
     return status;
 }
 
+static wt_status find_shape(const char *text, size_t length, size_t *shape, wt_error *err)
+{
+    char names[LIST] = "";
+    for (*shape = 0; *shape < N_SHAPES; ++*shape) {
+        if (strlen(shapes[*shape].name) == length &&
+            strncmp(shapes[*shape].name, text, length) == 0)
+            return WT_OK;
+        add_word(names, shapes[*shape].name, N_SHAPES - 1 - *shape);
+    }
+    return tip_syntax(err, N_SHAPES, text, names, text, length);
+}
+
 wt_status wt_tip_parse(const char *text, wt_tip *tip, wt_error *err)
 {
     const char *colon = strchr(text, ':');
     size_t name_length = colon != NULL ? (size_t)(colon - text) : strlen(text);
     size_t shape = 0;
-    while (shape < N_SHAPES && (strlen(shapes[shape].name) != name_length ||
-                                strncmp(shapes[shape].name, text, name_length) != 0))
-        shape++;
-    if (shape == N_SHAPES)
-        return tip_syntax(err, shape, text, "pyramid, cone or sphere", text, name_length);
-
+    wt_status status = find_shape(text, name_length, &shape, err);
+    if (status != WT_OK)
+        return status;
     double values[N_KEYS] = {0.0};
     unsigned seen = 0;
     for (const char *item = colon != NULL ? colon + 1 : ""; *item != '\0';) {
         size_t length = strcspn(item, ",");
-        wt_status status = parse_item(text, shape, item, length, values, &seen, err);
+        status = parse_item(text, shape, item, length, values, &seen, err);
         if (status != WT_OK)
             return status;
         item += length;
@@ -111,15 +130,14 @@ wt_status wt_tip_parse(const char *text, wt_tip *tip, wt_error *err)
         missing |= 1u << RADIUS; /* a transition without a cap */
     for (size_t key = 0; key < N_KEYS; key++) {
         if (missing & 1u << key) {
-            wt_status status =
-                wt_fail(err, WT_E_ARG, "tip \"%s\" lacks its %s", text, keys[key].name);
+            status = wt_fail(err, WT_E_ARG, "tip \"%s\" lacks its %s", text, keys[key].name);
             advise(err, shape);
             return status;
         }
     }
     if ((seen & 1u << SIDES) &&
         !(values[SIDES] >= 3.0 && values[SIDES] <= 1e6 && floor(values[SIDES]) == values[SIDES])) {
-        wt_status status = wt_fail(err, WT_E_RANGE, "tip \"%s\": sides is not usable", text);
+        status = wt_fail(err, WT_E_RANGE, "tip \"%s\": sides is not usable", text);
         wt_error_expected(err, "a whole number of 3 or more");
         wt_error_found(err, "%g", values[SIDES]);
         return status;
@@ -138,7 +156,7 @@ wt_status wt_tip_parse(const char *text, wt_tip *tip, wt_error *err)
                                      ? values[TRANSITION]
                                      : wt_tip_tangent_transition(made.radius, made.half_angle);
     }
-    wt_status status = wt_tip_check(&made, err);
+    status = wt_tip_check(&made, err);
     if (status != WT_OK) {
         wt_error_place(err, "tip \"%s\"", text);
         return status;
@@ -154,21 +172,27 @@ size_t wt_tip_describe(const wt_tip *tip, char *buffer, size_t size)
     wt_format_si(tip->transition_radius, "m", 4, transition, sizeof transition);
     double angle = tip->half_angle * 180.0 / M_PI;
     int length = 0;
-    if (tip->shape == WT_TIP_PARABOLOID)
+    switch (tip->shape) {
+    case WT_TIP_PARABOLOID:
         length = snprintf(buffer, size, "sphere (paraboloid), radius %s", radius);
-    else if (tip->shape == WT_TIP_CONE)
+        break;
+    case WT_TIP_CONE:
         length = clocale_print(buffer, size, "cone, half-angle %.4g degrees", angle);
-    else if (tip->sides == 0)
-        length =
-            clocale_print(buffer, size,
-                          "blunted cone, half-angle %.4g degrees, cap radius %s, transition radius "
-                          "b %s",
-                          angle, radius, transition);
-    else
-        length =
-            clocale_print(buffer, size,
-                          "blunted pyramid, %u sides, half-angle %.4g degrees from the axis to a "
-                          "face, cap radius %s, transition radius b %s",
-                          tip->sides, angle, radius, transition);
+        break;
+    case WT_TIP_BLUNTED_PYRAMID:
+        if (tip->sides == 0)
+            length =
+                clocale_print(buffer, size,
+                              "blunted cone, half-angle %.4g degrees, cap radius %s, transition "
+                              "radius b %s",
+                              angle, radius, transition);
+        else
+            length = clocale_print(
+                buffer, size,
+                "blunted pyramid, %u sides, half-angle %.4g degrees from the axis to a face, cap "
+                "radius %s, transition radius b %s",
+                tip->sides, angle, radius, transition);
+        break;
+    }
     return length > 0 ? (size_t)length : 0;
 }
