@@ -292,13 +292,20 @@ WT_API wt_status wt_glob(const char *folder, const char *pattern, char ***paths,
 WT_API void wt_strings_free(char **strings, size_t n);
 
 /* A file that appears under its name only when it is complete: written beside it under a temporary
- * name, then renamed. A symbolic link is followed; a device or a pipe is written in place. */
+ * name, then renamed. It keeps the mode of the one it replaces. A symbolic link is followed, also
+ * to a file that is not there yet; a device or a pipe is written in place. */
 typedef struct wt_outfile wt_outfile;
 WT_API wt_status wt_outfile_open(const char *path, wt_outfile **file, wt_error *err) WT_NODISCARD;
 WT_API FILE *wt_outfile_stream(wt_outfile *file); /* borrowed */
 /* Flushes, checks, renames and frees; on failure the temporary file is gone and `file` freed. */
 WT_API wt_status wt_outfile_commit(wt_outfile *file, wt_error *err) WT_NODISCARD;
 WT_API void wt_outfile_discard(wt_outfile *file); /* removes the temporary file, frees; NULL ok */
+
+/* After wt_guard_start no file that this process has read, standard input among them, is written
+ * over: what the library opens is remembered, and its outputs refuse it with WT_E_ARG. */
+WT_API void wt_guard_start(void);
+WT_API wt_status wt_guard_read(const char *path, wt_error *err) WT_NODISCARD;  /* one more; "-" */
+WT_API wt_status wt_guard_write(const char *path, wt_error *err) WT_NODISCARD; /* may it be? */
 
 /* SHA-256 as 64 hexadecimal digits and a terminating zero. */
 WT_API void wt_digest(const void *bytes, size_t length, char hex[65]);

@@ -28,8 +28,8 @@ WT_API wt_status wt_report_check(const char *folder, const wt_report_options *op
                                  wt_error *err) WT_NODISCARD;
 
 /* Writes FOLDER/index.html (self-contained), FOLDER/plots/NAME.tsv, NAME.gp, NAME.svg and the style
- * file, for every figure whose tables are in the result. The folder appears whole or not at all:
- * built beside it under a temporary name, then renamed; an older report of that name is replaced.
+ * file, for every figure whose tables are in the result. A new folder appears whole or not at all;
+ * the files of an older report are replaced one by one when all is drawn, and others in it stay.
  * WT_E_TOOL if gnuplot is missing, fails or takes too long (the message carries its words).
  * `progress` is asked while gnuplot runs, too. */
 WT_API wt_status wt_report_write(const wt_result *result, const char *folder,

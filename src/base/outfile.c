@@ -1,20 +1,20 @@
 /* Output files that appear only when they are complete. SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "weartrack/base.h"
+#include "base/temporary.h"
 
 #include <errno.h>
 #include <fcntl.h>
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/random.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 struct wt_outfile {
     char *final;     /* where it goes */
     char *temporary; /* where it is written; equal text if the target is a device or a pipe */
-    bool direct;     /* the target is not a regular file and is written in place */
-    bool unnamed;    /* `temporary` is no name in a folder: nothing is left if this program dies */
+    bool direct;  /* there is nothing to rename: it is no regular file, or has its name already */
+    bool unnamed; /* `temporary` is no name in a folder: nothing is left if this program dies */
     FILE *stream;
 };
 
@@ -27,24 +27,14 @@ static void outfile_free(wt_outfile *file)
     free(file);
 }
 
-enum { ATTEMPTS = 16 }; /* to find a name that is not taken */
-
-/* A new name in `folder`; it begins with a dot, so that no pattern picks it up. */
-static char *random_name(const char *folder)
-{
-    uint64_t random = 0;
-    char base[48];
-    if (getrandom(&random, sizeof random, 0) != (ssize_t)sizeof random)
-        return NULL;
-    (void)snprintf(base, sizeof base, ".weartrack-%016llx", (unsigned long long)random);
-    return wt_path_join(folder, base);
-}
+enum { ATTEMPTS = 16, LINKS = 40 }; /* to find a name that is not taken; in a row */
 
 /* Mode as for any new file: the umask decides. */
 static int create_beside(const char *folder, char **name)
 {
+    temporary_sweep(folder);
     for (int attempt = 0; attempt < ATTEMPTS; attempt++) {
-        char *const path = random_name(folder);
+        char *const path = temporary_name(folder);
         if (path == NULL)
             return -1;
         const int descriptor = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
@@ -77,17 +67,40 @@ static int create_unnamed(const char *folder, char **name)
     return -1;
 }
 
-/* Gives an unnamed file a temporary name in the folder of its final one. */
+/* The name is safe on disk only when its folder is; not every file system can do that, and the file
+ * is complete either way. */
+static void sync_folder(const char *path)
+{
+    char *const folder = wt_path_folder(path);
+    const int descriptor = folder != NULL ? open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
+    if (descriptor >= 0) {
+        (void)fsync(descriptor);
+        (void)close(descriptor);
+    }
+    free(folder);
+}
+
+/* Gives an unnamed file its name, or a temporary one in the same folder if that is taken. */
 static bool name_unnamed(wt_outfile *file)
 {
+    const char *const from = file->temporary;
+    if (linkat(AT_FDCWD, from, AT_FDCWD, file->final, AT_SYMLINK_FOLLOW) == 0) {
+        file->direct = true;
+        sync_folder(file->final);
+        return true;
+    }
+    if (errno != EEXIST)
+        return false;
     char *const folder = wt_path_folder(file->final);
     bool named = false;
     errno = ENOMEM;
+    if (folder != NULL)
+        temporary_sweep(folder);
     for (int attempt = 0; folder != NULL && attempt < ATTEMPTS && !named; attempt++) {
-        char *const path = random_name(folder);
+        char *const path = temporary_name(folder);
         if (path == NULL)
             break;
-        named = linkat(AT_FDCWD, file->temporary, AT_FDCWD, path, AT_SYMLINK_FOLLOW) == 0;
+        named = linkat(AT_FDCWD, from, AT_FDCWD, path, AT_SYMLINK_FOLLOW) == 0;
         if (named) {
             free(file->temporary);
             file->temporary = path;
@@ -113,6 +126,24 @@ static void remove_temporary(const wt_outfile *file)
         (void)unlink(file->temporary);
 }
 
+/* The file that is meant: behind symbolic links, whether it is there or not. */
+static char *behind_links(const char *path)
+{
+    char target[PATH_MAX];
+    char *name = strdup(path);
+    for (int i = 0; name != NULL && i < LINKS; i++) {
+        const ssize_t length = readlink(name, target, sizeof target - 1);
+        if (length < 0)
+            break;
+        target[length] = '\0';
+        char *const folder = wt_path_folder(name);
+        free(name);
+        name = folder != NULL ? wt_path_join(folder, target) : NULL;
+        free(folder);
+    }
+    return name;
+}
+
 wt_status wt_outfile_open(const char *path, wt_outfile **file, wt_error *err)
 {
     wt_status status = WT_OK;
@@ -125,20 +156,21 @@ wt_status wt_outfile_open(const char *path, wt_outfile **file, wt_error *err)
         goto done;
     }
     const bool exists = stat(path, &info) == 0;
-    /* Through a symbolic link the file behind it is replaced, not the link. */
-    new_file->final = exists ? realpath(path, NULL) : strdup(path);
+    new_file->direct = exists && !S_ISREG(info.st_mode);
+    new_file->final = new_file->direct ? strdup(path) : behind_links(path);
     folder = new_file->final != NULL ? wt_path_folder(new_file->final) : NULL;
     if (folder == NULL) {
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
         goto done;
     }
+    if ((status = wt_guard_write(path, err)) != WT_OK)
+        goto done;
     if (exists && S_ISDIR(info.st_mode)) {
         status = wt_fail(err, WT_E_IO, "cannot write: it is a folder");
         wt_error_expected(err, "the name of a file");
         goto done;
     }
-    if (exists && !S_ISREG(info.st_mode)) {
-        new_file->direct = true;
+    if (new_file->direct) {
         new_file->temporary = strdup(new_file->final);
         if (new_file->temporary != NULL)
             descriptor = open(new_file->final, O_WRONLY | O_CLOEXEC);
@@ -148,7 +180,11 @@ wt_status wt_outfile_open(const char *path, wt_outfile **file, wt_error *err)
         if (descriptor < 0)
             descriptor = create_beside(folder, &new_file->temporary);
     }
-    if (descriptor >= 0)
+    if (descriptor >= 0 && !new_file->direct)
+        temporary_hold(descriptor);
+    /* Before there is anything in it that others might not read. */
+    const bool moded = !exists || new_file->direct || fchmod(descriptor, info.st_mode & 0777) == 0;
+    if (descriptor >= 0 && moded)
         new_file->stream = fdopen(descriptor, "w");
     if (new_file->stream == NULL) {
         status = wt_fail(err, WT_E_IO, "cannot create the file: %s", strerror(errno));
@@ -171,19 +207,6 @@ done:
 FILE *wt_outfile_stream(wt_outfile *file)
 {
     return file->stream;
-}
-
-/* The name is safe on disk only when its folder is; not every file system can do that, and the file
- * is complete either way. */
-static void sync_folder(const char *path)
-{
-    char *const folder = wt_path_folder(path);
-    const int descriptor = folder != NULL ? open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
-    if (descriptor >= 0) {
-        (void)fsync(descriptor);
-        (void)close(descriptor);
-    }
-    free(folder);
 }
 
 wt_status wt_outfile_commit(wt_outfile *file, wt_error *err)

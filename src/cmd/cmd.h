@@ -66,8 +66,6 @@ bool cmd_parse(const cmd_usage *usage, cmd_part *parts, size_t n_parts, cmd_comm
                int argc, char **argv, int *first, int *status);
 /* Whether an option of a part was given. */
 bool cmd_given(const cmd_part *part, const char *name);
-/* The two names are those of one regular file. */
-bool cmd_same_file(const char *a, const char *b);
 /* A usage error if --format (may be NULL) names no format. */
 int cmd_check_format(const char *name, const char *format, const wt_formats *formats);
 /* Says what is wrong with the call on stderr, and where help is; returns CMD_USAGE. */
@@ -122,8 +120,6 @@ wt_status cmd_write(const cmd_common *common, wt_result *result, wt_error *err);
 wt_status cmd_collect(wt_result *result, wt_table **const tables[], size_t n, wt_error *err);
 /* Whether the name after -o asks for the HDF5 store. */
 bool cmd_is_store(const char *path);
-/* Refuses an output that is one of the files read: the input would be lost. */
-wt_status cmd_check_output(const char *output, const wt_result *result, wt_error *err);
 /* Records the call in the result's provenance. */
 wt_status cmd_provenance(wt_result *result, int argc, char **argv, wt_error *err);
 

@@ -74,6 +74,7 @@ int main(int argc, char **argv)
     cmd_full_argv = argv;
     /* `weartrack ... | head` shall end quietly, also where a parent ignores the signal. */
     signal(SIGPIPE, SIG_DFL);
+    wt_guard_start();
 
     if (argc < 2) {
         print_help(stderr);

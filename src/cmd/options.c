@@ -3,7 +3,6 @@
 #include <getopt.h>
 #include <stdarg.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "cmd/cmd.h"
 
@@ -186,22 +185,18 @@ static int bad_option(const char *name, const struct option *longs, int code, co
     return cmd_usage_error(name, "%s option '%s'", n_like > 1 ? "ambiguous" : "unknown", word);
 }
 
-bool cmd_same_file(const char *a, const char *b)
-{
-    struct stat one, other;
-    return stat(a, &one) == 0 && S_ISREG(one.st_mode) && stat(b, &other) == 0 &&
-           one.st_dev == other.st_dev && one.st_ino == other.st_ino;
-}
-
 /* A usage error if one of the inputs is empty, is the file of -o, which would be lost, or is
  * standard input a second time. */
 static int check_files(const char *name, const cmd_common *common, const char *const *inputs,
                        size_t n, size_t *n_pipes)
 {
+    wt_error err = WT_ERROR_INIT;
     for (size_t i = 0; i < n; i++) {
         if (*inputs[i] == '\0')
             return cmd_usage_error(name, "a file name is empty");
-        if (common->output != NULL && cmd_same_file(common->output, inputs[i]))
+        if (wt_guard_read(inputs[i], &err) != WT_OK)
+            return cmd_fail(name, &err);
+        if (common->output != NULL && wt_guard_write(common->output, &err) != WT_OK)
             return cmd_usage_error(name, "-o %s is also an input; give another name",
                                    common->output);
         *n_pipes += strcmp(inputs[i], "-") == 0;

@@ -14,19 +14,6 @@ bool cmd_is_store(const char *path)
     return path != NULL && (ends_with(path, ".h5") || ends_with(path, ".hdf5"));
 }
 
-wt_status cmd_check_output(const char *output, const wt_result *result, wt_error *err)
-{
-    const wt_provenance *provenance = wt_result_provenance_const(result);
-    for (size_t i = 0; output != NULL && i < wt_provenance_n_inputs(provenance); i++)
-        if (cmd_same_file(output, wt_provenance_get_input(provenance, i)->path)) {
-            wt_fail(err, WT_E_ARG, "this file was read and would be lost: nothing is written");
-            wt_error_file(err, output);
-            wt_error_advice(err, "give another name after -o");
-            return WT_E_ARG;
-        }
-    return WT_OK;
-}
-
 static wt_status write_stream(FILE *out, const wt_result *result, bool with_provenance,
                               wt_error *err)
 {
@@ -85,9 +72,6 @@ wt_status cmd_provenance(wt_result *result, int argc, char **argv, wt_error *err
 wt_status cmd_write(const cmd_common *common, wt_result *result, wt_error *err)
 {
     wt_status status = cmd_provenance(result, cmd_full_argc, cmd_full_argv, err);
-    if (status != WT_OK)
-        return status;
-    status = cmd_check_output(common->output, result, err);
     if (status != WT_OK)
         return status;
     if (cmd_is_store(common->output))

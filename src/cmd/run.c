@@ -107,7 +107,9 @@ static wt_status prepare(run_call *r, wt_error *err)
     r->log = wt_parselog_new();
     if (r->result_name == NULL || r->folder_name == NULL || r->log == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    wt_status status = wt_plan(r->the_case, &r->plan, err);
+    wt_status status = wt_guard_write(r->result_name, err);
+    if (status == WT_OK)
+        status = wt_plan(r->the_case, &r->plan, err);
     if (status != WT_OK)
         return status;
     if (!any_stage(r->plan)) {
@@ -133,8 +135,6 @@ static wt_status compute(run_call *r, size_t *n_failed, wt_error *err)
         cmd_print_failures("run", wt_result_find(r->result, "failures"));
     if (status == WT_OK)
         status = cmd_provenance(r->result, cmd_full_argc, cmd_full_argv, err);
-    if (status == WT_OK)
-        status = cmd_check_output(r->result_name, r->result, err);
     if (status == WT_OK)
         status = wt_store_write(r->result_name, r->result, r->common.provenance, err);
     return status;

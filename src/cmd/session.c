@@ -27,7 +27,8 @@ int cmd_begin(cmd_session *s, const char *name, const cmd_common *common, const 
         wt_fail(&err, WT_E_MEMORY, "out of memory");
         return cmd_fail(name, &err);
     }
-    if (wt_formats_new(common->formats, &s->formats, s->log, &err) != WT_OK)
+    if (wt_formats_new(common->formats, &s->formats, s->log, &err) != WT_OK ||
+        (common->output != NULL && wt_guard_write(common->output, &err) != WT_OK))
         return cmd_fail(name, &err);
     const int status = cmd_check_format(name, format, s->formats);
     if (status != CMD_OK)

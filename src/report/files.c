@@ -75,8 +75,10 @@ wt_status file_style(const char *style, growing_text *text, wt_error *err)
     enum { STYLE_LIMIT = 1 << 20 };
     const char *name = style != NULL ? style : "paper", *built_in = NULL;
     size_t length = strlen(name);
-    if (strchr(name, '/') != NULL || (length > 3 && strcmp(name + length - 3, ".gp") == 0))
-        return file_read(name, STYLE_LIMIT, text, err);
+    if (strchr(name, '/') != NULL || (length > 3 && strcmp(name + length - 3, ".gp") == 0)) {
+        wt_status read = wt_guard_read(name, err);
+        return read != WT_OK ? read : file_read(name, STYLE_LIMIT, text, err);
+    }
     wt_status status = style_find(name, &built_in, err);
     if (status != WT_OK)
         return status;

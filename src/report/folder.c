@@ -4,17 +4,24 @@
  */
 #include "report/folder.h"
 
+#include "base/temporary.h"
+#include "weartrack/report.h"
+
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+enum { REPORT_NAME = 128 };
 
 struct report_folder {
     char *place; /* where it goes */
     char *made;  /* the temporary one */
+    int in_use;  /* keeps that from being swept away; -1 before it is made */
     char *plots;
 };
 
@@ -28,30 +35,18 @@ static wt_status io_error(wt_error *err, const char *what, const char *path)
 
 /* ---- what may be replaced -------------------------------------------------------------------- */
 
-static bool has_ending(const char *name, const char *ending)
+/* Name of the i-th file that a report can have, with the folder "plots"; NULL past the last one. */
+static const char *file_of_report(size_t i, char name[REPORT_NAME])
 {
-    size_t n = strlen(name), m = strlen(ending);
-    return n > m && strcmp(name + n - m, ending) == 0;
-}
-
-static bool ours_in_report(const char *name)
-{
-    return strcmp(name, "index.html") == 0 || strcmp(name, "plots") == 0;
-}
-
-static bool ours_in_plots(const char *name)
-{
-    return has_ending(name, ".tsv") || has_ending(name, ".gp") || has_ending(name, ".svg");
-}
-
-/* The next entry that is neither the folder itself nor the one above; NULL at the end. */
-static const struct dirent *next_entry(DIR *folder)
-{
-    const struct dirent *entry = NULL;
-    do
-        entry = readdir(folder);
-    while (entry != NULL && (strcmp(entry->d_name, ".") == 0 || strcmp(entry->d_name, "..") == 0));
-    return entry;
+    static const char *const endings[] = {"tsv", "gp", "svg"};
+    const size_t figure = i < 2 ? 0 : (i - 2) / 3;
+    if (i >= 2 && figure >= wt_figure_count())
+        return NULL;
+    if (i < 2)
+        return i == 0 ? "index.html" : "plots/style.gp";
+    (void)snprintf(name, REPORT_NAME, "plots/%s.%s", wt_figure_get(figure).name,
+                   endings[(i - 2) % 3]);
+    return name;
 }
 
 static bool has_mark(const char *folder)
@@ -79,74 +74,63 @@ static wt_status refuse(wt_error *err, const char *path, const char *found)
     return status;
 }
 
-/* Refuses `place` if a name in a folder is not one of ours; *n counts the names. */
-static wt_status check_names(const char *path, bool (*ours)(const char *), const char *place,
-                             size_t *n, wt_error *err)
+/* What a file manager leaves in any folder, and what a killed run has left in this one. */
+static bool is_litter(const char *name)
+{
+    return name[0] == '.' || strcmp(name, "Thumbs.db") == 0 || strcmp(name, "desktop.ini") == 0;
+}
+
+/* Refuses a folder that is no report and holds something. */
+static wt_status check_empty(const char *path, wt_error *err)
 {
     wt_status status = WT_OK;
     char found[300];
     DIR *folder = opendir(path);
-    *n = 0;
     if (folder == NULL)
         return io_error(err, "cannot be read", path);
-    for (const struct dirent *entry; status == WT_OK && (entry = next_entry(folder)) != NULL;) {
-        ++*n;
+    for (const struct dirent *entry; status == WT_OK && (entry = readdir(folder)) != NULL;) {
         (void)snprintf(found, sizeof found, "other files in it: %s", entry->d_name);
-        if (!ours(entry->d_name))
-            status = refuse(err, place, found);
+        if (!is_litter(entry->d_name))
+            status = refuse(err, path, found);
     }
     closedir(folder);
     return status;
 }
 
-/* A folder may be replaced if it is empty or holds an older report and nothing else: what a user
- * put there is never removed. */
+/* A folder may be used if nothing is in it or an older report, whose files may be replaced unless
+ * they were read; what else is in a report stays. */
 static wt_status check_replaceable(const char *path, wt_error *err)
 {
     struct stat info;
-    size_t n = 0;
     if (lstat(path, &info) != 0)
         return errno == ENOENT ? WT_OK : io_error(err, "cannot be looked at", path);
     if (!S_ISDIR(info.st_mode))
         return refuse(err, path, "a file of that name");
-    wt_status status = check_names(path, ours_in_report, path, &n, err);
-    if (status != WT_OK || n == 0)
-        return status;
     if (!has_mark(path))
-        return refuse(err, path, "an index.html that weartrack did not write");
+        return check_empty(path, err);
+    wt_status status = WT_OK;
+    char name[REPORT_NAME];
     char *plots = wt_path_join(path, "plots");
     if (plots == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    if (lstat(plots, &info) == 0 || errno != ENOENT)
-        status = check_names(plots, ours_in_plots, path, &n, err);
+    if (lstat(plots, &info) == 0 && !S_ISDIR(info.st_mode))
+        status = refuse(err, path, "plots, which is no folder");
     free(plots);
+    for (size_t i = 0; status == WT_OK && file_of_report(i, name) != NULL; i++) {
+        char *file = wt_path_join(path, file_of_report(i, name));
+        status =
+            file == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory") : wt_guard_write(file, err);
+        free(file);
+    }
     return status;
-}
-
-/* ---- removing -------------------------------------------------------------------------------- */
-
-/* Removes the files of a folder and, if `plots`, those of the folder "plots" in it, then the
- * folder. Deeper folders stay, and so does what holds them. */
-static void remove_folder(const char *path, bool plots)
-{
-    DIR *folder = opendir(path);
-    if (folder == NULL)
-        return;
-    int fd = dirfd(folder);
-    for (const struct dirent *entry; (entry = next_entry(folder)) != NULL;)
-        (void)unlinkat(fd, entry->d_name, 0);
-    closedir(folder);
-    char *inner = plots ? wt_path_join(path, "plots") : NULL;
-    if (inner != NULL)
-        remove_folder(inner, false);
-    free(inner);
-    (void)rmdir(path);
 }
 
 /* ---- making ---------------------------------------------------------------------------------- */
 
 static void folder_free(report_folder *folder)
 {
+    if (folder->in_use >= 0)
+        close(folder->in_use);
     free(folder->place);
     free(folder->made);
     free(folder->plots);
@@ -179,34 +163,23 @@ static wt_status find_place(const char *path, char **place, wt_error *err)
     return WT_OK;
 }
 
-/* A folder of a name that is not taken, beside the place: the same file system, so that it can be
- * renamed. NULL with errno set. */
-static char *make_beside(const char *place, const char *kind, bool make)
+/* The temporary folder lies in the place if that is there, else beside it: on the same file system,
+ * so that all can be renamed. */
+static wt_status make_temporary(report_folder *folder, wt_error *err)
 {
-    char *parent = wt_path_folder(place);
-    const char *base = wt_path_base(place);
-    char *made = NULL;
-    size_t size = strlen(base) + 64;
-    char *name = malloc(size);
-    if (parent == NULL || name == NULL)
-        errno = ENOMEM;
-    for (unsigned attempt = 0; parent != NULL && name != NULL && attempt < 1000; attempt++) {
-        (void)snprintf(name, size, ".%s.%s-%ld-%u", base, kind, (long)getpid(), attempt);
-        made = wt_path_join(parent, name);
-        struct stat info;
-        if (made == NULL || (make && mkdir(made, 0777) == 0) ||
-            (!make && lstat(made, &info) != 0 && errno == ENOENT))
-            break;
-        int code = make ? errno : EEXIST;
-        free(made);
-        made = NULL;
-        errno = code;
-        if (code != EEXIST)
-            break;
-    }
+    struct stat info;
+    char *parent =
+        stat(folder->place, &info) == 0 ? strdup(folder->place) : wt_path_folder(folder->place);
+    if (parent == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    temporary_sweep(parent);
+    folder->made = temporary_folder(parent, &folder->in_use);
     free(parent);
-    free(name);
-    return made;
+    if (folder->made != NULL)
+        return WT_OK;
+    wt_status status = io_error(err, "cannot be made", folder->place);
+    wt_error_advice(err, "the folder it goes into must exist and be writable");
+    return status;
 }
 
 wt_status folder_open(const char *path, report_folder **out, wt_error *err)
@@ -215,15 +188,11 @@ wt_status folder_open(const char *path, report_folder **out, wt_error *err)
     report_folder *folder = calloc(1, sizeof *folder);
     if (folder == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
+    folder->in_use = -1;
     if ((status = find_place(path, &folder->place, err)) != WT_OK ||
-        (status = check_replaceable(folder->place, err)) != WT_OK)
+        (status = check_replaceable(folder->place, err)) != WT_OK ||
+        (status = make_temporary(folder, err)) != WT_OK)
         goto fail;
-    folder->made = make_beside(folder->place, "new", true);
-    if (folder->made == NULL) {
-        status = io_error(err, "cannot be made", path);
-        wt_error_advice(err, "the folder it goes into must exist and be writable");
-        goto fail;
-    }
     folder->plots = wt_path_join(folder->made, "plots");
     if (folder->plots == NULL) {
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
@@ -267,35 +236,59 @@ wt_status folder_write(const report_folder *folder, const char *name, const char
     return status;
 }
 
-wt_status folder_commit(report_folder *folder, wt_error *err)
+/* Moves one file of the report; the one it replaces gives its mode. One that this report has not is
+ * removed. */
+static wt_status move_file(const report_folder *folder, const char *name, wt_error *err)
 {
     wt_status status = WT_OK;
-    char *old = NULL;
     struct stat info;
-    // Again: something may have come there while the figures were drawn.
-    if ((status = check_replaceable(folder->place, err)) != WT_OK)
-        goto done;
-    if (lstat(folder->place, &info) == 0) {
-        old = make_beside(folder->place, "old", false);
-        if (old == NULL || rename(folder->place, old) != 0) {
-            status = io_error(err, "cannot be moved out of the way", folder->place);
-            free(old);
-            old = NULL;
-            goto done;
-        }
-    }
-    if (rename(folder->made, folder->place) != 0) {
-        status = io_error(err, "cannot be put into its place", folder->place);
-        if (old != NULL)
-            (void)rename(old, folder->place);
-        goto done;
-    }
-    free(folder->made);
-    folder->made = NULL;
-    if (old != NULL)
-        remove_folder(old, true);
-done:
-    free(old);
+    char *from = wt_path_join(folder->made, name), *to = wt_path_join(folder->place, name);
+    if (from == NULL || to == NULL)
+        status = wt_fail(err, WT_E_MEMORY, "out of memory");
+    else if (lstat(from, &info) != 0)
+        (void)unlink(to);
+    else if ((lstat(to, &info) == 0 && S_ISREG(info.st_mode) &&
+              chmod(from, info.st_mode & 0777) != 0) ||
+             rename(from, to) != 0)
+        status = io_error(err, "cannot be replaced", to);
+    free(from);
+    free(to);
+    return status;
+}
+
+/* File by file into a folder that is there, the page first: it needs no other file, and says whose
+ * folder it is. One run at a time. */
+static wt_status move_files(const report_folder *folder, wt_error *err)
+{
+    char name[REPORT_NAME];
+    const int lock = open(folder->place, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (lock >= 0)
+        (void)flock(lock, LOCK_EX);
+    wt_status status = check_replaceable(folder->place, err); // again: time has passed
+    char *plots = wt_path_join(folder->place, "plots");
+    if (status == WT_OK && plots == NULL)
+        status = wt_fail(err, WT_E_MEMORY, "out of memory");
+    if (status == WT_OK)
+        status = move_file(folder, file_of_report(0, name), err);
+    if (status == WT_OK && mkdir(plots, 0777) != 0 && errno != EEXIST)
+        status = io_error(err, "cannot be made", plots);
+    for (size_t i = 1; status == WT_OK && file_of_report(i, name) != NULL; i++)
+        status = move_file(folder, file_of_report(i, name), err);
+    if (lock >= 0)
+        close(lock);
+    free(plots);
+    return status;
+}
+
+wt_status folder_commit(report_folder *folder, wt_error *err)
+{
+    struct stat info;
+    wt_status status = WT_OK;
+    if (lstat(folder->place, &info) != 0 && rename(folder->made, folder->place) == 0) {
+        free(folder->made);
+        folder->made = NULL;
+    } else
+        status = move_files(folder, err);
     folder_discard(folder);
     return status;
 }
@@ -305,6 +298,6 @@ void folder_discard(report_folder *folder)
     if (folder == NULL)
         return;
     if (folder->made != NULL)
-        remove_folder(folder->made, true);
+        temporary_remove(folder->made);
     folder_free(folder);
 }

@@ -1,8 +1,9 @@
 /* Patterns, output files, digests, provenance. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/temporary.h"
 #include "near.h"
-#include "weartrack/base.h"
 
 #include <dirent.h>
+#include <fcntl.h>
 #include <locale.h>
 #include <signal.h>
 #include <stdio.h>
@@ -10,6 +11,7 @@
 #include <string.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 static char folder[] = "/tmp/weartrack-files-XXXXXX";
@@ -152,6 +154,124 @@ static void complete_or_not_at_all(void **state)
     assert_int_equal(unlink(path), 0);
 }
 
+static void write_over(const char *path, const char *text)
+{
+    wt_outfile *file = NULL;
+    assert_int_equal(wt_outfile_open(path, &file, NULL), WT_OK);
+    (void)fputs(text, wt_outfile_stream(file));
+    assert_int_equal(wt_outfile_commit(file, NULL), WT_OK);
+}
+
+static void modes_and_links(void **state)
+{
+    (void)state;
+    static const mode_t modes[] = {0600, 0644, 0660, 0444, 0755};
+    char path[256], link_path[256];
+    struct stat info;
+    path_of("mode.txt", path);
+    for (size_t i = 0; i < sizeof modes / sizeof *modes; i++) {
+        write_over(path, "old");
+        assert_int_equal(chmod(path, modes[i]), 0);
+        write_over(path, "new");
+        assert_content("mode.txt", "new");
+        assert_int_equal(stat(path, &info), 0);
+        assert_int_equal(info.st_mode & 0777, modes[i]);
+    }
+    assert_int_equal(unlink(path), 0);
+    /* A link to a link to nothing yet: the file appears where they point. */
+    path_of("link.txt", link_path);
+    assert_int_equal(symlink("second.txt", link_path), 0);
+    path_of("second.txt", link_path);
+    assert_int_equal(symlink(path, link_path), 0);
+    path_of("link.txt", link_path);
+    for (int i = 0; i < 2; i++) {
+        write_over(link_path, i == 0 ? "first" : "again");
+        assert_content("mode.txt", i == 0 ? "first" : "again");
+        assert_int_equal(lstat(path, &info), 0);
+        assert_true(S_ISREG(info.st_mode));
+        assert_int_equal(lstat(link_path, &info), 0);
+        assert_true(S_ISLNK(info.st_mode));
+    }
+    assert_int_equal(count_files(), 3);
+    assert_int_equal(unlink(path) + unlink(link_path), 0);
+    path_of("second.txt", path);
+    assert_int_equal(unlink(path), 0);
+}
+
+static void leftovers(void **state)
+{
+    (void)state;
+    /* A process that has just ended, and its number with other names. */
+    const pid_t dead = fork();
+    if (dead == 0)
+        _exit(0);
+    assert_int_equal(waitpid(dead, NULL, 0), dead);
+    static const char *const kept[][2] = {{".weartrack-", "-0123456789abcdef.txt"},
+                                          {".weartrack-", "-"},
+                                          {"weartrack-", "-0123456789abcdef"},
+                                          {".weartrack-", "x-01"}};
+    char name[96], path[256], inner[256];
+    (void)snprintf(name, sizeof name, ".weartrack-%ld-0123456789abcdef", (long)dead);
+    write_file(name, "left");
+    (void)snprintf(name, sizeof name, ".weartrack-%ld-0123456789abcdee", (long)dead);
+    path_of(name, path);
+    assert_int_equal(mkdir(path, 0700), 0);
+    (void)snprintf(inner, sizeof inner, "%.200s/plots", path);
+    assert_int_equal(mkdir(inner, 0700), 0);
+    (void)snprintf(name + strlen(name), 16, "/plots/a.svg");
+    write_file(name, "left");
+    for (size_t i = 0; i < 4; i++) {
+        (void)snprintf(name, sizeof name, "%s%ld%s", kept[i][0], (long)dead, kept[i][1]);
+        write_file(name, "kept");
+    }
+    (void)snprintf(name, sizeof name, ".weartrack-%ld-0123456789abcdef", (long)getpid());
+    write_file(name, "alive");
+    path_of(name, inner);
+    /* held by a process that cannot be seen */
+    (void)snprintf(name, sizeof name, ".weartrack-%ld-0123456789abcdea", (long)dead);
+    write_file(name, "held");
+    path_of(name, path);
+    const int held = open(path, O_RDONLY | O_CLOEXEC);
+    temporary_hold(held);
+    assert_int_equal(count_files(), 2 + 4 + 1 + 1);
+    temporary_sweep(folder);
+    assert_int_equal(count_files(), 4 + 1 + 1);
+    (void)close(held);
+    temporary_sweep(folder);
+    assert_int_equal(count_files(), 4 + 1);
+    assert_int_equal(unlink(inner), 0);
+    for (size_t i = 0; i < 4; i++) {
+        (void)snprintf(name, sizeof name, "%s%ld%s", kept[i][0], (long)dead, kept[i][1]);
+        path_of(name, path);
+        assert_int_equal(unlink(path), 0);
+    }
+}
+
+static void guarded(void **state)
+{
+    (void)state;
+    char path[256], other[256];
+    wt_error err = WT_ERROR_INIT;
+    wt_outfile *file = NULL;
+    path_of("read.txt", path);
+    path_of("hard.txt", other);
+    write_file("read.txt", "mine");
+    assert_int_equal(wt_guard_read(path, &err), WT_OK);
+    assert_int_equal(wt_guard_write(path, &err), WT_OK); /* not yet started */
+    wt_guard_start();
+    assert_int_equal(wt_guard_read(path, &err), WT_OK);
+    assert_int_equal(link(path, other), 0);
+    assert_int_equal(wt_outfile_open(path, &file, &err), WT_E_ARG);
+    assert_string_equal(err.file, path);
+    assert_int_equal(wt_outfile_open(other, &file, &err), WT_E_ARG);
+    assert_int_equal(unlink(path) + unlink(other), 0);
+    for (int i = 0; i < 300; i++) /* many */
+        assert_int_equal(wt_guard_read("/proc/self/exe", &err), WT_OK);
+    assert_int_equal(wt_guard_write("/proc/self/exe", &err), WT_E_ARG);
+    assert_int_equal(wt_guard_read(folder, &err), WT_OK);
+    assert_int_equal(wt_guard_write(folder, &err), WT_OK);
+}
+
 static void outfile_failures(void **state)
 {
     (void)state;
@@ -262,11 +382,10 @@ static int remove_folder(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(globs),
-        cmocka_unit_test(complete_or_not_at_all),
-        cmocka_unit_test(outfile_failures),
-        cmocka_unit_test(digests),
-        cmocka_unit_test(provenance),
+        cmocka_unit_test(globs),           cmocka_unit_test(complete_or_not_at_all),
+        cmocka_unit_test(modes_and_links), cmocka_unit_test(leftovers),
+        cmocka_unit_test(guarded),         cmocka_unit_test(outfile_failures),
+        cmocka_unit_test(digests),         cmocka_unit_test(provenance),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -7,6 +7,8 @@
 #include <libxml/parser.h>
 #include <libxml/xpath.h>
 #include <libxml/xpathInternals.h>
+#include <signal.h>
+#include <sys/wait.h>
 
 /* ---- the whole ------------------------------------------------------------------------------- */
 
@@ -503,18 +505,45 @@ static void test_only_reports_are_replaced(void **state)
     // An empty folder may be taken; an older report may be replaced.
     assert_int_equal(mkdir("out", 0777), 0);
     write_report(result, "out/", NULL);
-    write_all("out/plots/old.svg", "<svg/>");
+    // What is not of a report stays, and stops nothing; a picture that is not drawn any more goes.
+    static const char *const strays[] = {"out/notes.txt",      "out/.DS_Store",
+                                         "out/Thumbs.db",      "out/plots/figure.pdf",
+                                         "out/plots/mine.svg", "out/plots/.DS_Store",
+                                         "out/mine/sub/a.txt", "out/plots/friction.gp.orig"};
+    assert_int_equal(mkdir("out/mine", 0777), 0);
+    assert_int_equal(mkdir("out/mine/sub", 0777), 0);
+    for (size_t i = 0; i < sizeof strays / sizeof *strays; i++)
+        write_all(strays[i], strays[i]);
+    write_all("out/plots/friction.svg", "<svg/>");
     write_report(result, "out", NULL);
-    assert_int_equal(count_files("out/plots"), 0);
-    // A file of the user's stays, and the report is refused.
-    write_all("out/notes.txt", "mine");
+    for (size_t i = 0; i < sizeof strays / sizeof *strays; i++) {
+        size_t length = 0;
+        char *text = read_all(strays[i], &length);
+        assert_string_equal(text, strays[i]);
+        free(text);
+    }
+    assert_false(exists("out/plots/friction.svg"));
+    assert_int_equal(count_files("out"), 2 + 4);
+    // An empty folder that a file manager has looked at.
+    assert_int_equal(mkdir("seen", 0777), 0);
+    write_all("seen/.DS_Store", "x");
+    write_all("seen/Thumbs.db", "x");
+    write_report(result, "seen", NULL);
+    assert_true(exists("seen/index.html") && exists("seen/.DS_Store") && exists("seen/Thumbs.db"));
+    remove_all("seen");
+    // "plots" of the user's, who points elsewhere: nothing there is touched.
+    remove_all("out/plots");
+    assert_int_equal(symlink("mine", "out/plots"), 0);
     assert_int_equal(try_report(result, "out", NULL, &err), WT_E_IO);
+    assert_true(exists("out/mine/sub/a.txt") && exists("out/plots"));
+    assert_int_equal(unlink("out/plots"), 0);
+    // Somebody's own folder.
+    assert_int_equal(mkdir("own", 0777), 0);
+    write_all("own/notes.txt", "mine");
+    assert_int_equal(try_report(result, "own", NULL, &err), WT_E_IO);
     assert_non_null(strstr(err.found, "notes.txt"));
-    assert_true(exists("out/notes.txt") && exists("out/index.html"));
-    assert_int_equal(unlink("out/notes.txt"), 0);
-    write_all("out/plots/figure.pdf", "mine");
-    assert_int_equal(try_report(result, "out", NULL, &err), WT_E_IO);
-    assert_true(exists("out/plots/figure.pdf"));
+    assert_int_equal(count_files("own"), 1);
+    remove_all("own");
     // A page that is not ours.
     assert_int_equal(mkdir("site", 0777), 0);
     write_all("site/index.html", "<html><meta name=\"generator\" content=\"other\"></html>");
@@ -536,6 +565,86 @@ static void test_only_reports_are_replaced(void **state)
     assert_true(exists("real/index.html"));
     char target[16];
     assert_true(readlink("link", target, sizeof target) == 4);
+    wt_result_free(result);
+}
+
+/* Permissions, of the folder too, are those of the older report. */
+static void test_modes_stay(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *path;
+        mode_t new_mode, set;
+    } files[] = {{"out", 0750, 0700}, {"out/plots", 0750, 0700}, {"out/index.html", 0640, 0604}};
+    wt_result *result = wt_result_new();
+    struct stat info;
+    const mode_t before = umask(027);
+    write_report(result, "out", NULL);
+    for (size_t i = 0; i < 3; i++) {
+        assert_int_equal(stat(files[i].path, &info), 0);
+        assert_int_equal(info.st_mode & 0777, files[i].new_mode);
+    }
+    for (size_t i = 0; i < 3; i++)
+        assert_int_equal(chmod(files[i].path, files[i].set), 0);
+    write_report(result, "out", NULL);
+    (void)umask(before);
+    for (size_t i = 0; i < 3; i++) {
+        assert_int_equal(stat(files[i].path, &info), 0);
+        assert_int_equal(info.st_mode & 0777, files[i].set);
+    }
+    wt_result_free(result);
+}
+
+/* Writes a report in another process, and holds still while it draws. */
+static pid_t draw_slowly(const wt_result *result, const char *folder, const char *gnuplot)
+{
+    const pid_t writer = fork();
+    if (writer == 0) {
+        wt_report_options options = wt_report_defaults();
+        options.gnuplot = gnuplot;
+        _exit(wt_report_write(result, folder, &options, NULL, NULL) == WT_OK ? 0 : 1);
+    }
+    assert_true(writer > 0);
+    return writer;
+}
+
+static void wait_for(const char *path)
+{
+    for (int i = 0; i < 1000 && !exists(path); i++)
+        (void)usleep(10000);
+    assert_true(exists(path));
+    assert_int_equal(unlink(path), 0);
+}
+
+/* What a killed run has left is swept away by the next one, in a new place and over an older
+ * report; what a run that lives is working on is not. */
+static void test_leftovers(void **state)
+{
+    (void)state;
+    NEED_GNUPLOT();
+    const char *const table = "friction";
+    wt_result *result = fixture_only(&table, 1, &(fixture_change){NULL});
+    write_all("slow", "#!/bin/sh\ntouch ../../../begun ../../begun\nexec sleep 100\n");
+    write_all("later",
+              "#!/bin/sh\ntouch ../../begun ../../../begun\nsleep 1\nexec gnuplot \"$@\"\n");
+    assert_int_equal(chmod("slow", 0755) + chmod("later", 0755), 0);
+    for (int again = 0; again < 2; again++) {
+        const pid_t killed = draw_slowly(result, "out", "./slow");
+        wait_for("begun");
+        assert_int_equal(kill(killed, SIGKILL), 0);
+        assert_int_equal(waitpid(killed, NULL, 0), killed);
+        const pid_t alive = draw_slowly(result, "out", "./later");
+        wait_for("begun");
+        write_report(result, "out", NULL); // into the same folder, while the other one draws
+        write_report(result, "other", NULL);
+        int end = -1;
+        assert_int_equal(waitpid(alive, &end, 0), alive);
+        assert_int_equal(end, 0);
+        (void)unlink("out/begun");
+        assert_int_equal(count_files("out"), 2);
+        assert_int_equal(count_files("out/plots"), 4);
+        assert_int_equal(count_files("."), 4); // out, other, and the two programs
+    }
     wt_result_free(result);
 }
 
@@ -585,6 +694,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_words_of_gnuplot, make_workplace, remove_workplace),
         cmocka_unit_test_setup_teardown(test_only_reports_are_replaced, make_workplace,
                                         remove_workplace),
+        cmocka_unit_test_setup_teardown(test_modes_stay, make_workplace, remove_workplace),
+        cmocka_unit_test_setup_teardown(test_leftovers, make_workplace, remove_workplace),
         cmocka_unit_test_setup_teardown(test_cancelled, make_workplace, remove_workplace),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -89,6 +89,8 @@ wt_status wt_input_open(const char *path, wt_input **input, wt_error *err)
         status = fail_io(in, err, errno, "cannot be examined");
         goto fail;
     }
+    if ((status = wt_guard_read(path, err)) != WT_OK)
+        goto fail;
     if (S_ISDIR(st.st_mode)) {
         status = wt_fail(err, WT_E_ARG, "is a folder");
         wt_error_file(err, path);
