@@ -124,7 +124,10 @@ WT_API size_t wt_error_format(const wt_error *err, char *buffer, size_t size);
 
 /* ---- parse log ---------------------------------------------------------------------------- */
 
-typedef enum wt_severity { WT_NOTE, WT_WARNING } wt_severity;
+/* A note is for whoever asks; a warning is a remark that a person should see; a loss is data that
+ * the file should hold and that cannot be had. */
+typedef enum wt_severity { WT_NOTE, WT_WARNING, WT_LOSS } wt_severity;
+WT_API const char *wt_severity_name(wt_severity severity); /* "note", "warning", "loss"; static */
 
 typedef struct wt_log_entry {
     wt_severity severity;

@@ -263,6 +263,12 @@ WT_API wt_status wt_table_export(FILE *out, const wt_table *table, wt_export_for
 WT_API wt_status wt_result_contents(const wt_result *result, wt_table **contents,
                                     wt_error *err) WT_NODISCARD;
 WT_API wt_status wt_table_keys(const wt_table *table, wt_table **keys, wt_error *err) WT_NODISCARD;
+/* The main numbers and verdicts of a result, as a table "keys". */
+WT_API wt_status wt_result_headlines(const wt_result *result, wt_table **headlines,
+                                     wt_error *err) WT_NODISCARD;
+/* Table "summary" of n of them: a row for each, a column for what one of them has. */
+WT_API wt_status wt_summary(const char *const *files, const wt_table *const *headlines, size_t n,
+                            wt_table **summary, wt_error *err) WT_NODISCARD;
 
 /* ---- store: weartrack-hdf5(5) ------------------------------------------------------------- */
 

@@ -35,6 +35,16 @@ typedef struct wt_job {
 WT_API wt_job wt_job_defaults(void);
 WT_API const wt_params *wt_job_params(void);
 WT_API wt_table *wt_failures_new(void); /* table "failures"; NULL when out of memory */
+/* Table "notes" of a log, with the names of files below `folder` shown without it; NULL = as they
+ * are. */
+WT_API wt_status wt_notes_table(const wt_parselog *log, const char *folder, wt_table **table,
+                                wt_error *err) WT_NODISCARD;
+/* Adds to the log what a person should know of the tables of a result: a tolerance that is not
+ * reached, what is extrapolated. */
+WT_API void wt_result_remarks(const wt_result *result, double tolerance, wt_parselog *log);
+/* The main numbers of a result in one sentence, "" if it has none. Returns the length as snprintf
+ * does. */
+WT_API size_t wt_result_sentence(const wt_result *result, char *buffer, size_t size);
 
 /* Files that are read with the same options. Begin with {.read = wt_read_defaults()}. */
 typedef struct wt_file_set {

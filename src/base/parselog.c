@@ -46,6 +46,11 @@ static void keep(void *node)
     (void)node; /* the entries belong to the list */
 }
 
+const char *wt_severity_name(wt_severity severity)
+{
+    return severity == WT_NOTE ? "note" : severity == WT_WARNING ? "warning" : "loss";
+}
+
 wt_parselog *wt_parselog_new(void)
 {
     return calloc(1, sizeof(wt_parselog));

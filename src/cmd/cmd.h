@@ -30,6 +30,7 @@ int cmd_layer(int argc, char **argv);
 int cmd_run(int argc, char **argv);
 int cmd_report(int argc, char **argv);
 int cmd_table(int argc, char **argv);
+int cmd_summary(int argc, char **argv);
 
 /* ---- options ------------------------------------------------------------------------------ */
 
@@ -45,10 +46,15 @@ void cmd_parts_clear(cmd_part *parts, size_t n);
 
 /* Options that mean the same everywhere. A subcommand shows those it names. */
 typedef struct cmd_common {
-    const char *output;  /* -o, NULL = standard output */
-    const char *formats; /* folder of further descriptions */
+    const char *output;     /* -o, NULL = standard output */
+    const char *formats;    /* folder of further descriptions */
+    const char *files_from; /* file with names of files, NULL = none */
     bool provenance;
-    bool quiet, help;
+    bool quiet, strict, help;
+    /* set by cmd_parse: the arguments that are no options, and the names of files_from; they live
+     * as long as the program */
+    const char **files;
+    size_t n_files;
 } cmd_common;
 cmd_common cmd_common_defaults(void);
 
@@ -56,8 +62,8 @@ typedef struct cmd_usage {
     const char *name;      /* of the subcommand */
     const char *arguments; /* "[OPTION]... FILE..." */
     const char *what;      /* what it does, a few lines */
-    const char *common;    /* as `only` of the common options; quiet and help are everywhere */
-    const char *notes;     /* after the options; NULL if none */
+    const char *common; /* as `only` of the common options; quiet, strict and help are everywhere */
+    const char *notes;  /* after the options; NULL if none */
 } cmd_usage;
 
 /* Parses argv. Returns true to go on, with *first the index of the first argument that is no
@@ -83,8 +89,10 @@ void cmd_wrap(FILE *out, size_t column, size_t indent, const char *text);
 
 /* Prints the error on stderr as one line and returns the exit status that fits. */
 int cmd_fail(const char *name, const wt_error *err);
-/* Prints the warnings of the log on stderr, notes too if `notes`; nothing if quiet. */
-void cmd_print_log(const char *name, const wt_parselog *log, bool notes, bool quiet);
+/* Prints the remarks of the log on stderr, equal words once, and their number; notes too if
+ * `notes`; of a quiet call the losses alone. Returns CMD_FAILED where something was lost and, with
+ * --strict, where there is a remark at all. */
+int cmd_say_log(const char *name, const cmd_common *common, const wt_parselog *log, bool notes);
 
 /* Lists the files that failed (table "failures") on stderr; returns how many there are. */
 size_t cmd_print_failures(const char *name, const wt_table *failures);
@@ -134,6 +142,7 @@ typedef struct cmd_session {
     wt_result *result;
     wt_job work; /* for the job: what failed is listed, inputs go to the result's provenance */
     cmd_progress progress;
+    size_t n_failed; /* files that were said to have failed */
 } cmd_session;
 
 /* Nothing but the defaults of the job, for its options; may be freed. */
@@ -144,7 +153,11 @@ int cmd_begin(cmd_session *s, const char *name, const cmd_common *common, const 
 /* Says what failed, the warnings and, unless `made` is WT_OK, the error; returns the exit status.
  */
 int cmd_end(cmd_session *s, wt_status made, const wt_error *err);
-/* The same after writing the tables (see cmd_collect) if they were made. */
+/* Says what failed and gives the tables "failures" and "notes" of what was done; NULL where they
+ * would be empty. */
+wt_status cmd_record(cmd_session *s, wt_table **failures, wt_table **notes, wt_error *err);
+/* The same after writing the tables (see cmd_collect) if they were made, and the record behind
+ * them. */
 int cmd_finish(cmd_session *s, wt_status made, wt_table **const tables[], size_t n, wt_error *err);
 void cmd_session_free(cmd_session *s);
 

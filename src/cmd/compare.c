@@ -16,6 +16,14 @@ static const wt_param rows[] = {
 };
 PARAM_LOCAL_TABLE(own_params, own_options, rows, no_options, NO_PARTS)
 
+static wt_status read_group(const char *path, wt_result **tables, const wt_table **group,
+                            wt_error *err)
+{
+    wt_status status = cmd_tables_read(path, tables, err);
+    return status == WT_OK ? cmd_tables_find(*tables, path, "indentation/", "indent", group, err)
+                           : status;
+}
+
 int cmd_compare(int argc, char **argv)
 {
     static const cmd_usage usage = {
@@ -34,11 +42,10 @@ int cmd_compare(int argc, char **argv)
                         {wt_master_job_params(), &material, "poisson-ratio", 0}};
     int first = 0, status = CMD_OK;
     wt_error err = WT_ERROR_INIT;
-    wt_result *bulk = NULL, *track = NULL, *dma = NULL, *result = NULL;
-    wt_parselog *log = NULL;
+    wt_result *bulk = NULL, *track = NULL, *dma = NULL;
+    cmd_session s = cmd_session_defaults();
     wt_rubber rubber = {0};
     wt_compare_tables tables = {0};
-    wt_job work = wt_job_defaults();
 
     if (!cmd_parse(&usage, parts, sizeof parts / sizeof parts[0], &common, argc, argv, &first,
                    &status))
@@ -48,46 +55,27 @@ int cmd_compare(int argc, char **argv)
                                  argc - first);
         goto done;
     }
-    if (cmd_tables_read(argv[first], &bulk, &err) != WT_OK ||
-        cmd_tables_find(bulk, argv[first], "indentation/", "indent", &job.bulk, &err) != WT_OK ||
-        cmd_tables_read(argv[first + 1], &track, &err) != WT_OK ||
-        cmd_tables_find(track, argv[first + 1], "indentation/", "indent", &job.track, &err) !=
-            WT_OK)
-        goto fail;
-    if (own.master != NULL) {
-        const wt_table *prony = NULL;
-        if (cmd_tables_read(own.master, &dma, &err) != WT_OK ||
-            cmd_tables_find(dma, own.master, "prony", "master", &prony, &err) != WT_OK ||
-            wt_rubber_from_tables(prony, wt_result_find(dma, "shift_factors"),
-                                  material.poisson_ratio, &rubber, &err) != WT_OK)
-            goto fail;
+    status = cmd_begin(&s, "compare", &common, NULL);
+    if (status != CMD_OK)
+        goto done;
+    wt_status made = read_group(argv[first], &bulk, &job.bulk, &err);
+    if (made == WT_OK)
+        made = read_group(argv[first + 1], &track, &job.track, &err);
+    if (made == WT_OK && own.master != NULL) {
+        made = cmd_tables_rubber(own.master, material.poisson_ratio, &dma, &rubber, &err);
         job.rubber = &rubber;
     }
-    result = wt_result_new();
-    work.log = log = wt_parselog_new();
-    if (result == NULL || log == NULL) {
-        wt_fail(&err, WT_E_MEMORY, "out of memory");
-        goto fail;
-    }
-    if (wt_compare_groups(&job, &work, &tables, &err) != WT_OK)
-        goto fail;
-    wt_table **const made[] = {&tables.comparison, &tables.modulus_groups, &tables.modulus_rate,
-                               &tables.dma_comparison};
-    if (cmd_collect(result, made, sizeof made / sizeof made[0], &err) != WT_OK ||
-        cmd_write(&common, result, &err) != WT_OK)
-        goto fail;
-    cmd_print_log("compare", log, false, common.quiet);
-    goto done;
-fail:
-    cmd_print_log("compare", log, false, common.quiet);
-    status = cmd_fail("compare", &err);
+    if (made == WT_OK)
+        made = wt_compare_groups(&job, &s.work, &tables, &err);
+    wt_table **const made_tables[] = {&tables.comparison, &tables.modulus_groups,
+                                      &tables.modulus_rate, &tables.dma_comparison};
+    status = cmd_finish(&s, made, made_tables, sizeof made_tables / sizeof made_tables[0], &err);
 done:
-    wt_parselog_free(log);
+    cmd_session_free(&s);
     wt_compare_tables_clear(&tables);
     wt_rubber_clear(&rubber);
     wt_result_free(bulk);
     wt_result_free(track);
     wt_result_free(dma);
-    wt_result_free(result);
     return status;
 }

@@ -50,6 +50,7 @@ int cmd_convert(int argc, char **argv)
     wt_error err = WT_ERROR_INIT;
     cmd_session s = cmd_session_defaults();
     destination d = {.common = &common};
+    wt_table *record[2] = {NULL, NULL};
     if (!cmd_parse(&usage, &part, 1, &common, argc, argv, &first, &status))
         goto done;
     if (argc - first != 1) {
@@ -63,6 +64,11 @@ int cmd_convert(int argc, char **argv)
     wt_status made = cmd_provenance(s.result, cmd_full_argc, cmd_full_argv, &err);
     if (made == WT_OK)
         made = wt_convert_file(&job, argv[first], &s.work, take, &d, &err);
+    if (made == WT_OK)
+        made = cmd_record(&s, &record[0], &record[1], &err);
+    for (size_t i = 0; i < 2 && made == WT_OK; i++)
+        if (record[i] != NULL)
+            made = take(&d, record[i], &err);
     made = close_destination(&d, made, &err);
     status = cmd_end(&s, made, &err);
 done:

@@ -70,12 +70,12 @@ static int check_description(const char *xml, const char *sample, const wt_read_
         goto fail;
     if (wt_description_check(xml, input, options, log, &report, &err) != WT_OK)
         goto fail;
-    cmd_print_log("formats", log, true, common->quiet);
+    status = cmd_say_log("formats", common, log, true);
     if (wt_result_add(result, report, &err) != WT_OK || cmd_write(common, result, &err) != WT_OK)
         goto fail;
     goto done;
 fail:
-    cmd_print_log("formats", log, true, common->quiet);
+    cmd_say_log("formats", common, log, true);
     status = cmd_fail("formats", &err);
 done:
     wt_result_free(result);
@@ -118,8 +118,9 @@ int cmd_formats(int argc, char **argv)
         status = cmd_fail("formats", &err);
         goto done;
     }
-    cmd_print_log("formats", log, true, common.quiet);
+    const int said = cmd_say_log("formats", &common, log, true);
     status = list ? list_formats(formats) : show_format(formats, argv[first + 1]);
+    status = status == CMD_OK ? said : status;
 done:
     wt_parselog_free(log);
     wt_formats_free(formats);

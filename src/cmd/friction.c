@@ -9,7 +9,7 @@ int cmd_friction(int argc, char **argv)
         "Persson's hysteresis friction, contact area and, with --shear-stress, total friction at\n"
         "each velocity, each with its numerical and its standard error; with a modified layer on\n"
         "top if its thickness and modulus ratio are given.",
-        "output formats provenance", NULL};
+        "output formats files-from provenance", NULL};
     wt_layer_known layer = {0};
     cmd_sliding s;
     cmd_sliding_init(&s, (cmd_part){wt_layer_known_params(), &layer, NULL, 0});

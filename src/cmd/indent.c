@@ -9,7 +9,7 @@ int cmd_indent(int argc, char **argv)
         "Fits baseline, contact point and modulus of every approach curve of the files (folders "
         "and\n"
         "patterns are allowed). One row per curve; a curve without a modulus says why.",
-        "output formats provenance",
+        "output formats files-from provenance",
         "Exit status 1 if a file could not be read; the others are answered all the same."};
     cmd_common common = cmd_common_defaults();
     wt_indent_job job = wt_indent_job_defaults();
@@ -27,12 +27,12 @@ int cmd_indent(int argc, char **argv)
 
     if (!cmd_parse(&usage, parts, N_PARTS, &common, argc, argv, &first, &status))
         goto done;
-    if (first == argc) {
+    if (common.n_files == 0) {
         status = cmd_usage_error("indent", "no file given");
         goto done;
     }
-    set.patterns = (const char *const *)(argv + first);
-    set.n_patterns = (size_t)(argc - first);
+    set.patterns = common.files;
+    set.n_patterns = common.n_files;
     job.sets = &set;
     job.n_sets = 1;
     status = cmd_begin(&s, "indent", &common, set.read.format);
@@ -42,9 +42,8 @@ int cmd_indent(int argc, char **argv)
     const wt_table *const indentation[] = {tables.indentation};
     if (made == WT_OK)
         made = wt_modulus_groups(indentation, 1, &groups, &err);
-    wt_table *failures = wt_table_n_rows(s.work.failures) > 0 ? s.work.failures : NULL;
     wt_table **const made_tables[] = {&tables.indentation, &groups, &tables.force_displacement,
-                                      &tables.force_indentation, &failures};
+                                      &tables.force_indentation};
     status = cmd_finish(&s, made, made_tables, sizeof made_tables / sizeof made_tables[0], &err);
 done:
     wt_table_free(groups);

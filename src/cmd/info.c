@@ -57,24 +57,25 @@ static void print_facts(const char *name, const wt_table *facts)
     }
 }
 
-static wt_status info_one(const wt_formats *formats, const char *path,
-                          const wt_read_options *options, bool quiet, wt_error *err)
+static int info_one(const wt_formats *formats, const char *path, const wt_read_options *options,
+                    const cmd_common *common)
 {
+    wt_error err = WT_ERROR_INIT;
     wt_input *input = NULL;
     wt_table *facts = NULL;
     wt_parselog *log = wt_parselog_new();
-    wt_status status = wt_input_open(path, &input, err);
+    wt_status status = wt_input_open(path, &input, &err);
     if (status == WT_OK)
-        status = wt_describe(formats, input, options, log, &facts, err);
+        status = wt_describe(formats, input, options, log, &facts, &err);
     if (status == WT_OK)
         print_facts(path, facts);
-    wt_error_file(err, path);
+    wt_error_file(&err, path);
     /* Somebody who asks what a file is wants to see everything that is odd about it. */
-    cmd_print_log("info", log, true, quiet);
+    const int said = cmd_say_log("info", common, log, true);
     wt_table_free(facts);
     wt_input_close(input);
     wt_parselog_free(log);
-    return status;
+    return status != WT_OK ? cmd_fail("info", &err) : said;
 }
 
 int cmd_info(int argc, char **argv)
@@ -83,7 +84,7 @@ int cmd_info(int argc, char **argv)
                                     "Says what each file is and who recognised it, its segments, "
                                     "channels and calibration, and\n"
                                     "what is missing or odd. - is standard input.",
-                                    "formats", NULL};
+                                    "formats files-from", NULL};
     cmd_common common = cmd_common_defaults();
     wt_read_options read = wt_read_defaults();
     cmd_part part = {wt_read_params(), &read, NULL, 0};
@@ -91,7 +92,7 @@ int cmd_info(int argc, char **argv)
     wt_formats *formats = NULL;
     if (!cmd_parse(&usage, &part, 1, &common, argc, argv, &first, &status))
         goto done;
-    if (first == argc) {
+    if (common.n_files == 0) {
         status = cmd_usage_error("info", "no file given");
         goto done;
     }
@@ -103,12 +104,11 @@ int cmd_info(int argc, char **argv)
     status = cmd_check_format("info", read.format, formats);
     if (status != CMD_OK)
         goto done;
-    for (int i = first; i < argc; i++) {
-        err = (wt_error)WT_ERROR_INIT;
-        if (i > first)
+    for (size_t i = 0; i < common.n_files; i++) {
+        if (i > 0)
             putchar('\n');
-        if (info_one(formats, argv[i], &read, common.quiet, &err) != WT_OK)
-            status = cmd_fail("info", &err);
+        if (info_one(formats, common.files[i], &read, &common) != CMD_OK)
+            status = CMD_FAILED;
     }
 done:
     wt_formats_free(formats);

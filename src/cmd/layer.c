@@ -13,7 +13,7 @@ int cmd_layer(int argc, char **argv)
         "modified layer, for the energy closure at constant load, at the velocity given (the "
         "middle\n"
         "one of a list).",
-        "output formats provenance", NULL};
+        "output formats files-from provenance", NULL};
     wt_layer_job job = wt_layer_job_defaults();
     cmd_sliding s;
     cmd_sliding_init(&s, (cmd_part){wt_layer_job_params(), &job, NULL, 0});

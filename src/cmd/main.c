@@ -26,6 +26,7 @@ const cmd_command cmd_commands[] = {
     {"run", cmd_run, "a whole case from one case file; --plan shows what it would do"},
     {"report", cmd_report, "plots and one page from a result file"},
     {"table", cmd_table, "a table of a result as TSV, CSV or JSON"},
+    {"summary", cmd_summary, "one row for each of many results"},
     {NULL, NULL, NULL}};
 
 static void print_help(FILE *out)

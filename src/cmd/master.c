@@ -10,7 +10,7 @@ int cmd_master(int argc, char **argv)
         "loss modulus together; fits WLF (with Arrhenius beside it) and a Prony series. Folders "
         "and\n"
         "patterns are allowed.",
-        "output formats provenance",
+        "output formats files-from provenance",
         "The tables prony, shift_factors and master_curve follow one another; weartrack friction "
         "and\n"
         "weartrack compare read them as they are."};
@@ -29,12 +29,12 @@ int cmd_master(int argc, char **argv)
 
     if (!cmd_parse(&usage, parts, N_PARTS, &common, argc, argv, &first, &status))
         goto done;
-    if (first == argc) {
+    if (common.n_files == 0) {
         status = cmd_usage_error("master", "no file given");
         goto done;
     }
-    set.patterns = (const char *const *)(argv + first);
-    set.n_patterns = (size_t)(argc - first);
+    set.patterns = common.files;
+    set.n_patterns = common.n_files;
     job.sets = &set;
     job.n_sets = 1;
     status = cmd_begin(&s, "master", &common, set.read.format);

@@ -13,24 +13,85 @@ int cmd_fail(const char *name, const wt_error *err)
     return CMD_FAILED;
 }
 
-void cmd_print_log(const char *name, const wt_parselog *log, bool notes, bool quiet)
+/* Entries of the log with the same words, about several files. */
+typedef struct fold {
+    wt_log_entry entry; /* the first of them */
+    size_t first, n_files, n;
+} fold;
+
+static int by_words(const void *a, const void *b)
 {
-    if (quiet)
-        return;
-    for (size_t i = 0; i < wt_parselog_count(log); i++) {
-        const wt_log_entry e = wt_parselog_get(log, i);
-        if (e.severity == WT_NOTE && !notes)
-            continue;
-        fprintf(stderr, "weartrack %s: %s: %s%s%s%s%s", name,
-                e.severity == WT_NOTE ? "note" : "warning", e.file, *e.file ? ": " : "", e.place,
-                *e.place ? ": " : "", e.text);
-        if (e.count > 1)
-            fprintf(stderr, " (%zu times)", e.count);
-        fputc('\n', stderr);
+    const fold *p = a, *q = b;
+    if (p->entry.severity != q->entry.severity)
+        return p->entry.severity < q->entry.severity ? -1 : 1;
+    const int order = strcmp(p->entry.text, q->entry.text);
+    return order != 0 ? order : p->first < q->first ? -1 : 1;
+}
+
+static int by_first(const void *a, const void *b)
+{
+    return ((const fold *)a)->first < ((const fold *)b)->first ? -1 : 1;
+}
+
+/* Folds n entries, in the order of the first of each; returns how many there are then. */
+static size_t fold_equal(fold *folds, size_t n)
+{
+    size_t kept = 0;
+    qsort(folds, n, sizeof *folds, by_words);
+    for (size_t i = 0; i < n; i++) {
+        const fold *last = &folds[kept > 0 ? kept - 1 : 0];
+        if (kept > 0 && last->entry.severity == folds[i].entry.severity &&
+            strcmp(last->entry.text, folds[i].entry.text) == 0) {
+            folds[kept - 1].n_files++;
+            folds[kept - 1].n += folds[i].n;
+        } else {
+            folds[kept++] = folds[i];
+        }
     }
-    if (wt_parselog_lost(log) > 0)
+    qsort(folds, kept, sizeof *folds, by_first);
+    return kept;
+}
+
+static void print_fold(const char *name, const fold *f)
+{
+    const wt_log_entry *e = &f->entry;
+    fprintf(stderr, "weartrack %s: %s: %s", name, wt_severity_name(e->severity), e->file);
+    if (f->n_files > 1)
+        fprintf(stderr, " and %zu more", f->n_files - 1);
+    fprintf(stderr, "%s%s%s%s", *e->file ? ": " : "", f->n_files > 1 ? "" : e->place,
+            *e->place && f->n_files == 1 ? ": " : "", e->text);
+    if (f->n > f->n_files)
+        fprintf(stderr, " (%zu times)", f->n);
+    fputc('\n', stderr);
+}
+
+int cmd_say_log(const char *name, const cmd_common *common, const wt_parselog *log, bool notes)
+{
+    const size_t n = wt_parselog_count(log), n_unkept = wt_parselog_lost(log);
+    size_t n_folds = 0, n_remarks = n_unkept, n_losses = 0;
+    fold *folds = calloc(n + 1, sizeof *folds);
+    if (folds == NULL) {
+        fprintf(stderr, "weartrack %s: out of memory\n", name);
+        return CMD_FAILED;
+    }
+    for (size_t i = 0; i < n; i++) {
+        const wt_log_entry e = wt_parselog_get(log, i);
+        n_remarks += e.severity != WT_NOTE;
+        n_losses += e.severity == WT_LOSS;
+        if (e.severity == WT_LOSS || (!common->quiet && (e.severity == WT_WARNING || notes)))
+            folds[n_folds++] = (fold){e, i, 1, e.count};
+    }
+    n_folds = fold_equal(folds, n_folds);
+    for (size_t i = 0; i < n_folds; i++)
+        print_fold(name, &folds[i]);
+    free(folds);
+    if (n_unkept > 0 && !common->quiet)
         fprintf(stderr, "weartrack %s: warning: %zu notes were lost for lack of memory\n", name,
-                wt_parselog_lost(log));
+                n_unkept);
+    if (n_remarks > 0 && (common->strict || !common->quiet))
+        fprintf(stderr, "weartrack %s: %zu remark%s%s\n", name, n_remarks,
+                n_remarks == 1 ? "" : "s", common->strict ? ": exit status 1 (--strict)" : "");
+    return n_losses > 0 || (common->strict && n_remarks > 0) ? CMD_FAILED : CMD_OK;
 }
 
 size_t cmd_print_failures(const char *name, const wt_table *failures)

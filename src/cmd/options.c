@@ -21,10 +21,16 @@ static const wt_param common_rows[] = {
      .help =
          "use the format descriptions (*.xml) of this folder too; one with the id of a built-in "
          "description takes its place"},
+    {PARAM_TEXT_OF("files-from", cmd_common, files_from), .value = "FILE", .unset = "",
+     .help =
+         "files to read, besides those named in the call: their names, a line each or parted by "
+         "zero bytes; - is standard input"},
     {PARAM_FLAG_OF("provenance", cmd_common, provenance),
      .help = "version, command line and times in what is written"},
     {PARAM_FLAG_OF("quiet", cmd_common, quiet), .letter = 'q',
      .help = "no progress and no warnings on standard error; errors are printed all the same"},
+    {PARAM_FLAG_OF("strict", cmd_common, strict),
+     .help = "exit status 1 if there is a remark (warning), too"},
     {PARAM_FLAG_OF("help", cmd_common, help), .letter = 'h', .help = "print this"},
 };
 PARAM_LOCAL_TABLE(common_params, cmd_common, common_rows, cmd_common_defaults, NO_PARTS)
@@ -206,6 +212,61 @@ static int check_files(const char *name, const cmd_common *common, const char *c
     return CMD_OK;
 }
 
+/* The names in the text, parted by its zero bytes or else by its lines; or their number alone. */
+static size_t split_names(char *text, size_t length, const char **names)
+{
+    const char end = memchr(text, '\0', length) != NULL ? '\0' : '\n';
+    size_t n = 0;
+    for (char *p = text; p < text + length;) {
+        char *stop = memchr(p, end, (size_t)(text + length - p));
+        stop = stop != NULL ? stop : text + length;
+        const bool is_line = end == '\n' && stop > p && stop[-1] == '\r';
+        if (stop - is_line > p && names != NULL) {
+            stop[-is_line] = '\0';
+            names[n] = p;
+        }
+        n += stop - is_line > p;
+        p = stop + 1;
+    }
+    return n;
+}
+
+/* The files of the call: its arguments and what --files-from names. */
+static int list_files(const char *name, cmd_common *common, int n, char **arguments)
+{
+    wt_error err = WT_ERROR_INIT;
+    wt_input *input = NULL;
+    const unsigned char *bytes = NULL;
+    static char *text; /* lives as long as the program, as the arguments do */
+    size_t length = 0, n_names = 0;
+    wt_status status = WT_OK;
+    if (common->files_from != NULL) {
+        status = wt_input_open(common->files_from, &input, &err);
+        if (status == WT_OK)
+            status = wt_input_bytes(input, &bytes, &length, &err);
+        wt_error_file(&err, common->files_from);
+    }
+    text = status == WT_OK ? malloc(length + 1) : NULL;
+    if (text != NULL) {
+        if (length > 0)
+            memcpy(text, bytes, length);
+        text[length] = '\0';
+        n_names = split_names(text, length, NULL);
+        common->files = malloc(((size_t)n + n_names + 1) * sizeof *common->files);
+    }
+    wt_input_close(input);
+    if (status == WT_OK && common->files == NULL)
+        status = wt_fail(&err, WT_E_MEMORY, "out of memory");
+    if (status != WT_OK)
+        return cmd_fail(name, &err);
+    for (int i = 0; i < n; i++)
+        common->files[i] = arguments[i];
+    common->n_files = (size_t)n + split_names(text, length, common->files + n);
+    if (common->files_from != NULL && n_names == 0)
+        return cmd_usage_error(name, "--files-from %s: it names no file", common->files_from);
+    return CMD_OK;
+}
+
 /* The options as getopt wants them. */
 static void list_for_getopt(const option_list *list, struct option *longs, char *letters)
 {
@@ -262,7 +323,7 @@ bool cmd_parse(const cmd_usage *usage, cmd_part *parts, size_t n_parts, cmd_comm
     char names[TEXT_SIZE];
     size_t n_inputs = 0, n_pipes = 0;
     const char **inputs = calloc((size_t)argc + 1, sizeof *inputs);
-    snprintf(names, sizeof names, "%s quiet help", usage->common);
+    snprintf(names, sizeof names, "%s quiet strict help", usage->common);
     cmd_part last = {common_params(), common, names, 0};
     for (size_t i = 0; i < n_parts; i++)
         add_part(&list, &parts[i]);
@@ -277,16 +338,18 @@ bool cmd_parse(const cmd_usage *usage, cmd_part *parts, size_t n_parts, cmd_comm
         return false;
     }
     *first = optind;
+    if (*status == CMD_OK)
+        *status = list_files(usage->name, common, argc - optind, argv + optind);
     for (size_t i = 0; i < list.n && *status == CMD_OK; i++) {
         const option_row *row = &list.rows[i];
         if ((row->param->flags & PARAM_REQUIRED) != 0 &&
             (row->part->given & UINT64_C(1) << row->number) == 0)
             *status = cmd_usage_error(usage->name, "--%s is missing", row->name);
     }
-    for (int i = optind; *status == CMD_OK && i < argc; i++)
-        inputs[n_inputs++] = argv[i];
     if (*status == CMD_OK)
         *status = check_files(usage->name, common, inputs, n_inputs, &n_pipes);
+    if (*status == CMD_OK)
+        *status = check_files(usage->name, common, common->files, common->n_files, &n_pipes);
     free(inputs);
     return *status == CMD_OK;
 }

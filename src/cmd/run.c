@@ -95,6 +95,7 @@ typedef struct run_call {
     wt_parselog *log;
     wt_result *result;
     char *result_name, *folder_name;
+    int said; /* what the remarks make of the exit status */
 } run_call;
 
 /* Everything that can be refused is refused before the work begins. */
@@ -130,7 +131,7 @@ static wt_status compute(run_call *r, size_t *n_failed, wt_error *err)
     r->run.formats = r->common.formats;
     wt_status status = wt_run(r->the_case, &r->run, r->log, &r->result, n_failed, err);
     cmd_progress_end(&progress);
-    cmd_print_log("run", r->log, false, r->common.quiet);
+    r->said = cmd_say_log("run", &r->common, r->log, false);
     if (r->result != NULL && *n_failed > 0)
         cmd_print_failures("run", wt_result_find(r->result, "failures"));
     if (status == WT_OK)
@@ -179,7 +180,7 @@ static int run_case(run_call *r, bool style_given)
         fprintf(stderr, "result: %s\n", r->result_name);
     if (!r->own.no_report && draw(r, &err) != WT_OK)
         return cmd_fail("run", &err);
-    return n_failed > 0 ? CMD_FAILED : CMD_OK;
+    return n_failed > 0 ? CMD_FAILED : r->said;
 }
 
 int cmd_run(int argc, char **argv)

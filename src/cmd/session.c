@@ -40,21 +40,43 @@ int cmd_begin(cmd_session *s, const char *name, const cmd_common *common, const 
     return CMD_OK;
 }
 
+wt_status cmd_record(cmd_session *s, wt_table **failures, wt_table **notes, wt_error *err)
+{
+    *failures = *notes = NULL;
+    s->n_failed = cmd_print_failures(s->name, s->work.failures);
+    if (s->n_failed > 0) {
+        *failures = s->work.failures;
+        s->work.failures = NULL;
+    }
+    return wt_parselog_count(s->log) > 0 ? wt_notes_table(s->log, NULL, notes, err) : WT_OK;
+}
+
 int cmd_end(cmd_session *s, wt_status made, const wt_error *err)
 {
+    char sentence[1024];
     cmd_progress_end(&s->progress);
-    const size_t n_failed = cmd_print_failures(s->name, s->work.failures);
-    cmd_print_log(s->name, s->log, false, s->common->quiet);
+    s->n_failed += cmd_print_failures(s->name, s->work.failures);
+    const int said = cmd_say_log(s->name, s->common, s->log, false);
     if (made != WT_OK)
         return cmd_fail(s->name, err);
-    return n_failed > 0 ? CMD_FAILED : CMD_OK;
+    if (!s->common->quiet && wt_result_sentence(s->result, sentence, sizeof sentence) > 0)
+        fprintf(stderr, "weartrack %s: %s\n", s->name, sentence);
+    return s->n_failed > 0 ? CMD_FAILED : said;
 }
 
 int cmd_finish(cmd_session *s, wt_status made, wt_table **const tables[], size_t n, wt_error *err)
 {
+    wt_table *failures = NULL, *notes = NULL;
+    wt_table **const record[] = {&failures, &notes};
     cmd_progress_end(&s->progress);
     if (made == WT_OK)
         made = cmd_collect(s->result, tables, n, err);
+    if (made == WT_OK) {
+        wt_result_remarks(s->result, s->work.tolerance, s->log);
+        made = cmd_record(s, &failures, &notes, err);
+    }
+    if (made == WT_OK)
+        made = cmd_collect(s->result, record, sizeof record / sizeof *record, err);
     if (made == WT_OK)
         made = cmd_write(s->common, s->result, err);
     return cmd_end(s, made, err);
@@ -62,8 +84,7 @@ int cmd_finish(cmd_session *s, wt_status made, wt_table **const tables[], size_t
 
 void cmd_session_free(cmd_session *s)
 {
-    if (s->result == NULL || wt_result_find(s->result, "failures") != s->work.failures)
-        wt_table_free(s->work.failures); /* else the result has taken it */
+    wt_table_free(s->work.failures);
     wt_result_free(s->result);
     wt_parselog_free(s->log);
     wt_formats_free(s->formats);

@@ -57,8 +57,9 @@ bool cmd_sliding_parse(cmd_sliding *s, const cmd_usage *usage, int argc, char **
     if (first != argc)
         *status = cmd_usage_error(name, "there is an argument too many; files go with --material "
                                         "or --dma");
-    else if ((s->contact.material == NULL) == (s->contact.n_dma == 0))
-        *status = cmd_usage_error(name, "give either --material FILE or --dma FILE");
+    else if ((s->contact.material != NULL) + (s->contact.n_dma > 0) + (s->common.n_files > 0) != 1)
+        *status = cmd_usage_error(name, "give either --material FILE or --dma FILE (or the names "
+                                        "of DMA files with --files-from)");
     else if (s->contact.material != NULL && cmd_given(&s->parts[CMD_READ], "temperature"))
         *status = cmd_usage_error(name, "--temperature is that of --dma files; the rubber's while "
                                         "it slides is --sliding-temperature");
@@ -69,22 +70,15 @@ static wt_status read_material(cmd_sliding *s, wt_error *err)
 {
     const char *material = s->contact.material;
     if (material == NULL) {
-        s->set.patterns = s->contact.dma_files;
-        s->set.n_patterns = s->contact.n_dma;
+        const bool listed = s->common.n_files > 0;
+        s->set.patterns = listed ? s->common.files : s->contact.dma_files;
+        s->set.n_patterns = listed ? s->common.n_files : s->contact.n_dma;
         s->master.sets = &s->set;
         s->master.n_sets = 1;
         return wt_master_make(&s->master, &s->session.work, NULL, &s->rubber, err);
     }
-    const wt_table *prony = NULL;
-    wt_status status = cmd_tables_read(material, &s->material_tables, err);
-    if (status == WT_OK)
-        status = cmd_tables_find(s->material_tables, material, "prony", "master", &prony, err);
-    if (status == WT_OK)
-        status = wt_rubber_from_tables(prony, wt_result_find(s->material_tables, "shift_factors"),
-                                       s->master.poisson_ratio, &s->rubber, err);
-    if (status != WT_OK)
-        wt_error_file(err, material);
-    return status;
+    return cmd_tables_rubber(material, s->master.poisson_ratio, &s->material_tables, &s->rubber,
+                             err);
 }
 
 int cmd_sliding_open(cmd_sliding *s, const char *name)

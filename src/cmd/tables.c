@@ -81,3 +81,17 @@ wt_status cmd_tables_find(const wt_result *tables, const char *path, const char 
     wt_error_advice(err, "give the output of weartrack %s", made_by);
     return WT_E_NOT_FOUND;
 }
+
+wt_status cmd_tables_rubber(const char *path, double poisson_ratio, wt_result **tables,
+                            wt_rubber *rubber, wt_error *err)
+{
+    const wt_table *prony = NULL;
+    wt_status status = cmd_tables_read(path, tables, err);
+    if (status == WT_OK)
+        status = cmd_tables_find(*tables, path, "prony", "master", &prony, err);
+    if (status == WT_OK)
+        status = wt_rubber_from_tables(prony, wt_result_find(*tables, "shift_factors"),
+                                       poisson_ratio, rubber, err);
+    wt_error_file(status != WT_OK ? err : NULL, path);
+    return status;
+}

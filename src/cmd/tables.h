@@ -12,4 +12,8 @@ wt_status cmd_tables_read(const char *path, wt_result **tables, wt_error *err);
 wt_status cmd_tables_find(const wt_result *tables, const char *path, const char *prefix,
                           const char *made_by, const wt_table **table, wt_error *err);
 
+/* The rubber that weartrack master wrote; it borrows from the tables. */
+wt_status cmd_tables_rubber(const char *path, double poisson_ratio, wt_result **tables,
+                            wt_rubber *rubber, wt_error *err);
+
 #endif

@@ -33,7 +33,7 @@ FIXED(wt_estimate, unit, 24, 32)
 ROOM(wt_provenance_input, sha256, 32, 168)
 FIXED(wt_progress, user, 8, 16)
 LAST(wt_status, WT_E_INTERNAL, 19)
-LAST(wt_severity, WT_WARNING, 1)
+LAST(wt_severity, WT_LOSS, 2)
 LAST(wt_quantity, WT_Q_DATA_SIZE, 40)
 
 /* data.h */

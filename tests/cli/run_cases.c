@@ -5,6 +5,7 @@
  *   case NAME                     begins a case
  *   needs PATH                    the case is skipped where PATH is absent
  *   copy FROM TO                  a file is copied before the run
+ *   cut N FROM TO                 its first N bytes are
  *   write TO TEXT                 a file with this text (\n, \t, \\ and \xHH are understood)
  *   run ARGUMENT ...              one call of the program; "..." holds blanks together
  *   pipe ARGUMENT ...             a further call that reads what the one before it printed
@@ -254,6 +255,11 @@ static int run_case(cli_case *c)
         } else if (starts(c->lines[i], "copy", &rest)) {
             char command[2 * LINE];
             snprintf(command, sizeof command, "cp -r %s", rest);
+            if (system(command) != 0)
+                good = false;
+        } else if (starts(c->lines[i], "cut", &rest)) {
+            char command[2 * LINE];
+            snprintf(command, sizeof command, "set -- %s; head -c $1 \"$2\" > \"$3\"", rest);
             if (system(command) != 0)
                 good = false;
         } else if (starts(c->lines[i], "write", &rest)) {

@@ -49,7 +49,8 @@
       HEADLINE("Reference temperature"))                                                           \
     X(SHIFT_FACTORS_KEY_VERTICAL, "vertical", TEXT, LABEL("Vertical shift"))                       \
     X(SHIFT_FACTORS_KEY_DEFORMATION, "deformation", TEXT)                                          \
-    X(SHIFT_FACTORS_KEY_SUPERPOSITION, "superposition", TEXT)
+    X(SHIFT_FACTORS_KEY_SUPERPOSITION, "superposition", TEXT,                                      \
+      HEADLINE("Time-temperature superposition"))
 
 #define MASTER_CURVE_COLUMNS(X)                                                                    \
     X(MASTER_CURVE_ANGULAR_FREQUENCY, "angular_frequency", "reduced angular frequency",            \

@@ -18,7 +18,7 @@
 #define INPUTS_KEYS(X)
 
 #define NOTES_COLUMNS(X)                                                                           \
-    X(NOTES_SEVERITY, "severity", "note or warning", TEXT, LABEL("Severity"))                      \
+    X(NOTES_SEVERITY, "severity", "note, warning or loss", TEXT, LABEL("Severity"))                \
     X(NOTES_FILE, "file", "file it is about", TEXT, LABEL("File"))                                 \
     X(NOTES_PLACE, "place", "first place in the file", TEXT, LABEL("Place"))                       \
     X(NOTES_TEXT, "text", "what was noticed", TEXT, LABEL("Note"))                                 \
@@ -68,7 +68,7 @@
     X(KEYS_STANDARD_ERROR, "standard_error", "its standard error", NUMBER, SPARSE)                 \
     X(KEYS_NUMERICAL_ERROR, "numerical_error", "its numerical error", NUMBER, SPARSE)              \
     X(KEYS_UNIT, "unit", "unit of all three", TEXT, SPARSE)                                        \
-    X(KEYS_WORDS, "words", "what is no number", TEXT, SPARSE)
+    X(KEYS_WORDS, "words", "a text, or what a headline is", TEXT, SPARSE)
 #define KEYS_KEYS(X)
 
 #define FACTS_COLUMNS(X)                                                                           \

@@ -105,7 +105,7 @@
     X(LAYER_KEY_SURFACE_POWER, "surface_power", UNIT("W/m^2"))                                     \
     X(LAYER_KEY_TIME_TO_90_PERCENT, "time_to_90_percent", SI(TIME),                                \
       LABEL("Time to 90 % of the balance thickness"))                                              \
-    X(LAYER_KEY_REGIME, "regime", TEXT)                                                            \
+    X(LAYER_KEY_REGIME, "regime", TEXT, HEADLINE("Regime of the layer"))                           \
     X(LAYER_KEY_VELOCITY, "velocity", SI(VELOCITY))                                                \
     X(LAYER_KEY_PRESSURE, "pressure", SI(PRESSURE))                                                \
     X(LAYER_KEY_WEAR_RATE, "specific_wear_rate", SI(WEAR_RATE))                                    \

@@ -163,9 +163,9 @@ static void warnings(const answer_story *story)
     size_t n = 0;
     for (size_t i = 0; i < wt_parselog_count(story->log); i++) {
         wt_log_entry entry = wt_parselog_get(story->log, i);
-        if (entry.severity == WT_WARNING && ++n <= SHOWN)
-            CAVEAT(story, "Warning%s%s: %s.", entry.file[0] != '\0' ? " of " : "",
-                   wt_path_base(entry.file), entry.text);
+        if (entry.severity != WT_NOTE && ++n <= SHOWN)
+            CAVEAT(story, "%s%s%s: %s.", entry.severity == WT_LOSS ? "Lost" : "Warning",
+                   entry.file[0] != '\0' ? " of " : "", wt_path_base(entry.file), entry.text);
     }
     if (n > SHOWN)
         CAVEAT(story, "%zu more warnings are in the table notes.", n - SHOWN);

@@ -44,14 +44,14 @@ static const char *below(const char *folder, const char *path)
     return path + length + strspn(path + length, "/");
 }
 
-wt_status flow_notes_table(const wt_parselog *log, const char *folder, wt_table **table,
+wt_status wt_notes_table(const wt_parselog *log, const char *folder, wt_table **table,
                            wt_error *err)
 {
     table_writer t = table_begin(&notes_schema, err);
     for (size_t i = 0; i < wt_parselog_count(log); i++) {
         wt_log_entry entry = wt_parselog_get(log, i);
         table_row(&t);
-        notes_put_text(&t, NOTES_SEVERITY, entry.severity == WT_WARNING ? "warning" : "note");
+        notes_put_text(&t, NOTES_SEVERITY, wt_severity_name(entry.severity));
         notes_put_text(&t, NOTES_FILE, below(folder, entry.file));
         notes_put_text(&t, NOTES_PLACE, entry.place);
         notes_put_text(&t, NOTES_TEXT, entry.text);

@@ -50,11 +50,6 @@ wt_status flow_surface_check(wt_surface *surface, wt_error *err) WT_NODISCARD;
 wt_status flow_surface_read(flow_file *file, const wt_job *work, wt_surface *surface,
                             wt_error *err) WT_NODISCARD;
 
-/* Table "notes" of a log, with the names of files below `folder` shown without it; NULL = as they
- * are. */
-wt_status flow_notes_table(const wt_parselog *log, const char *folder, wt_table **table,
-                           wt_error *err) WT_NODISCARD;
-
 /* Whether a failure of one file leaves the others alone: false for lack of memory, cancelling,
  * internal errors, and when the job keeps no failures. */
 bool flow_goes_on(const wt_job *work, wt_status status);

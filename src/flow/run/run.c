@@ -179,13 +179,15 @@ static wt_status finish(conduct *d, wt_error *err)
         status = flow_answer(d->run.c, &d->run.plan, d->result, d->run.job.log, d->failures,
                              &answer, err);
     if (status == WT_OK)
+        wt_result_remarks(d->result, d->run.job.tolerance, d->run.job.log);
+    if (status == WT_OK)
         status = publish(d, &answer, err);
     if (status == WT_OK)
         status = wt_provenance_table(wt_result_provenance_const(d->result), "inputs", &inputs, err);
     if (status == WT_OK)
         status = publish(d, &inputs, err);
     if (status == WT_OK)
-        status = flow_notes_table(d->run.job.log, d->run.c->folder, &notes, err);
+        status = wt_notes_table(d->run.job.log, d->run.c->folder, &notes, err);
     if (status == WT_OK)
         status = publish(d, &notes, err);
     if (status == WT_OK)

@@ -144,14 +144,15 @@ static void read_grid(jpk_file *file)
 static void note_oddities(const jpk_file *file)
 {
     if (archive_truncated(file->archive))
-        wt_parselog_add(file->log, WT_WARNING, file->name, NULL,
+        wt_parselog_add(file->log, WT_LOSS, file->name, NULL,
                         "the end of the archive is missing; read as far as it goes");
     if (file->header.n == 0)
         wt_parselog_add(file->log, WT_WARNING, file->name, "header.properties",
                         "header is missing: no grid, no instrument");
     if (file->n_expected > file->n_curves)
-        wt_parselog_add(file->log, WT_NOTE, file->name, NULL, "holds %zu of the %zu curves planned",
-                        file->n_curves, file->n_expected);
+        wt_parselog_add(file->log, archive_truncated(file->archive) ? WT_LOSS : WT_WARNING,
+                        file->name, NULL, "holds %zu of the %zu curves planned", file->n_curves,
+                        file->n_expected);
 }
 
 wt_status jpk_file_open(wt_input *input, wt_parselog *log, jpk_file *file, wt_error *err)

@@ -222,7 +222,7 @@ static void common_length(const jpk_file *file, jpk_segment *segment, const char
     bool cut = announced > (double)shortest || longest > shortest;
     segment->incomplete = segment->incomplete || cut;
     if (shortest > 0 && cut)
-        wt_parselog_add(file->log, WT_WARNING, file->name, folder,
+        wt_parselog_add(file->log, WT_LOSS, file->name, folder,
                         "channels are of different length; cut to the shortest");
 }
 

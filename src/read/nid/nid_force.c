@@ -179,7 +179,7 @@ static wt_status phase_length(const nid_source *source, const force_facts *facts
         if (status != WT_OK)
             return status;
         if (*n != SIZE_MAX && own != *n)
-            wt_parselog_add(source->base.log, WT_WARNING, source->file.name, c->section,
+            wt_parselog_add(source->base.log, WT_LOSS, source->file.name, c->section,
                             "channels are of different length; cut to the shortest");
         *n = own < *n ? own : *n;
     }

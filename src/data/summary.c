@@ -1,0 +1,250 @@
+/* The headlines of results, and one row for each result. SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "base/array.h"
+#include "data/tables/tables.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- headlines of one result ----------------------------------------------------------------- */
+
+/* A row of the table "keys"; the words are those of a text, or what the number is. */
+static void put(table_writer *t, const char *name, wt_estimate e, const char *words)
+{
+    table_row(t);
+    keys_put_text(t, KEYS_KEY, name);
+    keys_put(t, KEYS_VALUE, e.value);
+    keys_put(t, KEYS_STANDARD_ERROR, e.standard_error);
+    keys_put(t, KEYS_NUMERICAL_ERROR, e.numerical_error);
+    keys_put_text(t, KEYS_UNIT, e.unit);
+    keys_put_text(t, KEYS_WORDS, words);
+}
+
+static void put_number(table_writer *t, const char *stem, const char *suffix, double value,
+                       const char *unit)
+{
+    char name[2 * SCHEMA_NAME_SIZE];
+    (void)snprintf(name, sizeof name, "%s%s", stem, suffix);
+    put(t, name, (wt_estimate){value, (double)NAN, (double)NAN, unit}, NULL);
+}
+
+static void put_text(table_writer *t, const char *name, const char *words)
+{
+    put(t, name, (wt_estimate){(double)NAN, (double)NAN, (double)NAN, NULL}, words);
+}
+
+/* The keys that are declared as headlines. */
+static void put_keys(table_writer *t, const table_view *view)
+{
+    const table_schema *schema = view->schema;
+    for (unsigned i = 0; view->table != NULL && i < schema->n_keys; i++) {
+        const schema_key *key = &schema->keys[i];
+        if (key->headline == NULL || view_key_text(view, schema, i) == NULL)
+            continue;
+        if (key->kind == SCHEMA_TEXT)
+            put_text(t, key->name, view_key_text(view, schema, i));
+        else
+            put(t, key->name, view_key(view, schema, i), key->headline);
+    }
+}
+
+static void put_groups(table_writer *t, const table_view *groups)
+{
+    for (size_t row = 0; row < groups->n_rows; row++) {
+        char stem[SCHEMA_NAME_SIZE];
+        const char *group = modulus_groups_text(groups, row, MODULUS_GROUPS_GROUP);
+        (void)snprintf(stem, sizeof stem, "modulus_%s", group);
+        put_number(t, stem, "", modulus_groups_get(groups, row, MODULUS_GROUPS_GEOMETRIC_MEAN),
+                   "Pa");
+        put_number(t, stem, "_low", modulus_groups_get(groups, row, MODULUS_GROUPS_LOW), "Pa");
+        put_number(t, stem, "_high", modulus_groups_get(groups, row, MODULUS_GROUPS_HIGH), "Pa");
+        put_number(t, "accepted_", group, modulus_groups_get(groups, row, MODULUS_GROUPS_N), "1");
+        put_number(t, "rejected_", group,
+                   modulus_groups_get(groups, row, MODULUS_GROUPS_N_REJECTED), "1");
+    }
+}
+
+/* The row over all rates has no limits of the rate. */
+static void put_ratio(table_writer *t, const table_view *view)
+{
+    for (size_t row = 0; row < view->n_rows; row++) {
+        if (!isnan(comparison_get(view, row, COMPARISON_RATE_LOW)))
+            continue;
+        put_number(t, "modulus_ratio", "", comparison_get(view, row, COMPARISON_RATIO), "1");
+        put_number(t, "modulus_ratio", "_low", comparison_get(view, row, COMPARISON_RATIO_LOW),
+                   "1");
+        put_number(t, "modulus_ratio", "_high", comparison_get(view, row, COMPARISON_RATIO_HIGH),
+                   "1");
+        put_number(t, "welch_p", "", comparison_get(view, row, COMPARISON_WELCH_P), "1");
+        return;
+    }
+}
+
+/* The first sentence of the answer to the first question. */
+static void put_verdict(table_writer *t, const table_view *view)
+{
+    if (view->table == NULL)
+        return;
+    if (answer_words(view, ANSWER_KEY_CASE_TITLE) != NULL)
+        put_text(t, "case_title", answer_words(view, ANSWER_KEY_CASE_TITLE));
+    for (size_t row = 0; row < view->n_rows; row++) {
+        const char *words = answer_text(view, row, ANSWER_ANSWER), *end = strstr(words, ". ");
+        char sentence[512];
+        if (strcmp(answer_text(view, row, ANSWER_KIND), "layer") != 0)
+            continue;
+        (void)snprintf(sentence, sizeof sentence, "%.*s",
+                       end != NULL ? (int)(end - words) : (int)strlen(words), words);
+        put_text(t, "verdict", sentence);
+        return;
+    }
+}
+
+wt_status wt_result_headlines(const wt_result *result, wt_table **headlines, wt_error *err)
+{
+    const table_schema *const with_keys[] = {&shift_factors_schema, &friction_schema,
+                                             &layer_schema};
+    enum { N_WITH_KEYS = sizeof with_keys / sizeof *with_keys };
+    table_view answer, groups, comparison, keys[N_WITH_KEYS], notes, failures;
+    wt_status status = table_bind_of(result, &answer_schema, "", &answer, err);
+    if (status == WT_OK)
+        status = table_bind_of(result, &modulus_groups_schema, "", &groups, err);
+    if (status == WT_OK)
+        status = table_bind_of(result, &comparison_schema, "", &comparison, err);
+    for (size_t i = 0; status == WT_OK && i < N_WITH_KEYS; i++)
+        status = table_bind_of(result, with_keys[i], "", &keys[i], err);
+    if (status == WT_OK)
+        status = table_bind_of(result, &notes_schema, "", &notes, err);
+    if (status == WT_OK)
+        status = table_bind_of(result, &failures_schema, "", &failures, err);
+    if (status != WT_OK)
+        return status;
+    double n_remarks = 0;
+    for (size_t row = 0; row < notes.n_rows; row++)
+        n_remarks += strcmp(notes_text(&notes, row, NOTES_SEVERITY), "note") != 0;
+    table_writer t = table_begin(&keys_schema, err);
+    put_verdict(&t, &answer);
+    put_ratio(&t, &comparison);
+    put_groups(&t, &groups);
+    for (size_t i = 0; i < N_WITH_KEYS; i++)
+        put_keys(&t, &keys[i]);
+    put_number(&t, "remarks", "", n_remarks, "1");
+    put_number(&t, "failures", "", (double)failures.n_rows, "1");
+    return table_end(&t, headlines);
+}
+
+/* ---- a row for each result ------------------------------------------------------------------- */
+
+/* A headline that some of the results have. */
+typedef struct column {
+    const char *name, *unit; /* unit "": a text */
+    const char *words;
+    bool has_error[2]; /* standard and numerical */
+} column;
+static const keys_column error_of[2] = {KEYS_STANDARD_ERROR, KEYS_NUMERICAL_ERROR};
+static const char *const error_suffix[2] = {"_standard_error", "_numerical_error"};
+static const char *const error_words[2] = {"its standard error", "its numerical error"};
+
+typedef struct columns {
+    column *column;
+    size_t n;
+} columns;
+
+/* Puts the headlines of a result into the list, a new one behind that which it follows there. */
+static wt_status merge(columns *list, const table_view *headlines, wt_error *err)
+{
+    size_t place = 0;
+    for (size_t row = 0; row < headlines->n_rows; row++) {
+        const char *name = keys_text(headlines, row, KEYS_KEY);
+        size_t i = 0;
+        while (i < list->n && strcmp(list->column[i].name, name) != 0)
+            i++;
+        if (i == list->n) {
+            column *grown = array_grow(list->column, list->n, sizeof *grown);
+            if (grown == NULL)
+                return wt_fail(err, WT_E_MEMORY, "out of memory");
+            list->column = grown;
+            memmove(grown + place + 1, grown + place, (list->n - place) * sizeof *grown);
+            grown[place] = (column){name,
+                                    keys_text(headlines, row, KEYS_UNIT),
+                                    keys_text(headlines, row, KEYS_WORDS),
+                                    {false, false}};
+            list->n++;
+            i = place;
+        }
+        for (int e = 0; e < 2; e++)
+            list->column[i].has_error[e] |= keys_get(headlines, row, error_of[e]) > 0;
+        place = i + 1;
+    }
+    return WT_OK;
+}
+
+static wt_status add_columns(wt_table *table, const columns *list, wt_error *err)
+{
+    wt_status status = wt_table_add_text_column(table, "file", "file of the result", err);
+    for (size_t i = 0; status == WT_OK && i < list->n; i++) {
+        const column *c = &list->column[i];
+        status = c->unit[0] == '\0' ? wt_table_add_text_column(table, c->name, "", err)
+                                    : wt_table_add_column(table, c->name, c->unit, c->words, err);
+        for (int e = 0; status == WT_OK && e < 2; e++) {
+            char name[SCHEMA_NAME_SIZE + 24];
+            (void)snprintf(name, sizeof name, "%s%s", c->name, error_suffix[e]);
+            if (c->has_error[e])
+                status = wt_table_add_column(table, name, c->unit, error_words[e], err);
+        }
+    }
+    return status;
+}
+
+static wt_status add_row(wt_table *table, const columns *list, const char *file,
+                         const table_view *headlines, wt_error *err)
+{
+    wt_status status = wt_table_add_row(table, err);
+    if (status == WT_OK)
+        status = wt_table_put_text(table, 0, file, err);
+    for (size_t i = 0, place = 1; status == WT_OK && i < list->n; i++) {
+        const column *c = &list->column[i];
+        size_t row = 0;
+        while (row < headlines->n_rows && strcmp(keys_text(headlines, row, KEYS_KEY), c->name) != 0)
+            row++;
+        const bool found = row < headlines->n_rows;
+        if (found && c->unit[0] == '\0')
+            status = wt_table_put_text(table, place, keys_text(headlines, row, KEYS_WORDS), err);
+        else if (found)
+            wt_table_put(table, place, keys_get(headlines, row, KEYS_VALUE));
+        place++;
+        for (int e = 0; e < 2; e++)
+            if (c->has_error[e] && found)
+                wt_table_put(table, place++, keys_get(headlines, row, error_of[e]));
+            else
+                place += c->has_error[e];
+    }
+    return status;
+}
+
+wt_status wt_summary(const char *const *files, const wt_table *const *headlines, size_t n,
+                     wt_table **summary, wt_error *err)
+{
+    columns list = {NULL, 0};
+    wt_status status = WT_OK;
+    table_view *views = calloc(n + 1, sizeof *views);
+    wt_table *table = wt_table_new("summary", "Headlines of the results");
+    if (views == NULL || table == NULL)
+        status = wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t i = 0; status == WT_OK && i < n; i++) {
+        status = table_bind(headlines[i], &keys_schema, "", &views[i], err);
+        if (status == WT_OK)
+            status = merge(&list, &views[i], err);
+    }
+    if (status == WT_OK)
+        status = add_columns(table, &list, err);
+    for (size_t i = 0; status == WT_OK && i < n; i++)
+        status = add_row(table, &list, files[i], &views[i], err);
+    free(list.column);
+    free(views);
+    if (status == WT_OK)
+        *summary = table;
+    else
+        wt_table_free(table);
+    return status;
+}

@@ -1,0 +1,61 @@
+/* What a person should know of a result, from its tables. SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "data/tables/tables.h"
+#include "weartrack/flow.h"
+
+#include <math.h>
+
+/* A share of the friction below this is not worth a remark. */
+static const double odd_share = 0.01;
+
+static void of_friction(const table_view *v, double tolerance, wt_parselog *log)
+{
+    double share = 0, error = 0;
+    const char *statement = friction_words(v, FRICTION_KEY_MATERIAL_STATEMENT);
+    for (size_t i = 0; i < v->n_rows; i++) {
+        share = fmax(share, friction_get(v, i, FRICTION_EXTRAPOLATED_SHARE));
+        error = fmax(error, friction_get(v, i, FRICTION_HYSTERESIS_NUMERICAL_ERROR) /
+                                friction_get(v, i, FRICTION_HYSTERESIS));
+        error = fmax(error, friction_get(v, i, FRICTION_AREA_RATIO_NUMERICAL_ERROR) /
+                                friction_get(v, i, FRICTION_AREA_RATIO));
+    }
+    if (error > tolerance)
+        wt_parselog_add(log, WT_WARNING, NULL, NULL,
+                        "friction: the tolerance %.2g is not reached, the numerical error is up to "
+                        "%.2g",
+                        tolerance, error);
+    if (share >= odd_share)
+        wt_parselog_add(log, WT_WARNING, NULL, NULL,
+                        "friction: up to %.0f %% of the hysteresis comes from frequencies outside "
+                        "the measured ones",
+                        100 * share);
+    if (statement != NULL)
+        wt_parselog_add(log, WT_WARNING, NULL, NULL, "friction: %s", statement);
+}
+
+static void of_comparison(const table_view *v, wt_parselog *log)
+{
+    size_t n = 0;
+    const char *statement = dma_comparison_words(v, DMA_COMPARISON_KEY_MATERIAL_STATEMENT);
+    for (size_t i = 0; i < v->n_rows; i++)
+        n += dma_comparison_get(v, i, DMA_COMPARISON_EXTRAPOLATED) > 0;
+    if (n > 0)
+        wt_parselog_add(log, WT_WARNING, NULL, NULL,
+                        "%zu of %zu comparisons with DMA lie outside the measured frequencies", n,
+                        v->n_rows);
+    if (statement != NULL)
+        wt_parselog_add(log, WT_WARNING, NULL, NULL, "comparison with DMA: %s", statement);
+}
+
+void wt_result_remarks(const wt_result *result, double tolerance, wt_parselog *log)
+{
+    table_view view;
+    if (table_bind_of(result, &friction_schema, "", &view, NULL) == WT_OK)
+        of_friction(&view, tolerance, log);
+    if (table_bind_of(result, &dma_comparison_schema, "", &view, NULL) == WT_OK)
+        of_comparison(&view, log);
+    if (table_bind_of(result, &layer_schema, "", &view, NULL) == WT_OK &&
+        layer_words(&view, LAYER_KEY_MATERIAL_STATEMENT) != NULL)
+        wt_parselog_add(log, WT_WARNING, NULL, NULL, "layer: %s",
+                        layer_words(&view, LAYER_KEY_MATERIAL_STATEMENT));
+}

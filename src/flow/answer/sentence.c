@@ -1,0 +1,129 @@
+/* One sentence for the person who typed the command. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/answer/words.h"
+
+#include "base/clocale.h"
+#include "data/tables/tables.h"
+#include "weartrack/flow.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <string.h>
+
+typedef struct sentence {
+    char *text;
+    size_t size, used;
+} sentence;
+
+static void say(sentence *s, const char *format, ...) WT_PRINTF(2, 3);
+static void say(sentence *s, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    const int n =
+        s->used < s->size ? vsnprintf(s->text + s->used, s->size - s->used, format, arguments) : 0;
+    va_end(arguments);
+    s->used += n > 0 ? (size_t)n : 0;
+}
+
+static void next(sentence *s)
+{
+    say(s, "%s", s->used > 0 ? "; " : "");
+}
+
+static void say_groups(sentence *s, const table_view *v)
+{
+    for (size_t i = 0; i < v->n_rows; i++) {
+        const double n = modulus_groups_get(v, i, MODULUS_GROUPS_N);
+        const double mean = modulus_groups_get(v, i, MODULUS_GROUPS_GEOMETRIC_MEAN);
+        next(s);
+        say(s, "%s: %.0f of %.0f curves accepted", modulus_groups_text(v, i, MODULUS_GROUPS_GROUP),
+            n, n + modulus_groups_get(v, i, MODULUS_GROUPS_N_REJECTED));
+        if (isnan(mean))
+            continue;
+        say(s, ", E = %s", words_of(mean, "Pa").text);
+        if (!isnan(modulus_groups_get(v, i, MODULUS_GROUPS_LOW)))
+            say(s, " (95 %% interval %s to %s)",
+                words_of(modulus_groups_get(v, i, MODULUS_GROUPS_LOW), "Pa").text,
+                words_of(modulus_groups_get(v, i, MODULUS_GROUPS_HIGH), "Pa").text);
+    }
+}
+
+static void say_ratio(sentence *s, const table_view *v)
+{
+    if (v->n_rows == 0 || isnan(comparison_get(v, 0, COMPARISON_RATIO)))
+        return;
+    next(s);
+    say(s, "E_track/E_bulk = %s (95 %% interval %s to %s)",
+        words_of(comparison_get(v, 0, COMPARISON_RATIO), "1").text,
+        words_of(comparison_get(v, 0, COMPARISON_RATIO_LOW), "1").text,
+        words_of(comparison_get(v, 0, COMPARISON_RATIO_HIGH), "1").text);
+}
+
+static void say_material(sentence *s, const table_view *v)
+{
+    if (v->table == NULL)
+        return;
+    const wt_estimate c1 = shift_factors_value(v, SHIFT_FACTORS_KEY_WLF_C1);
+    next(s);
+    say(s, "%zu isotherm%s at the reference temperature %s", v->n_rows, v->n_rows == 1 ? "" : "s",
+        words_of_celsius(shift_factors_value(v, SHIFT_FACTORS_KEY_REFERENCE_TEMPERATURE).value)
+            .text);
+    if (!isnan(c1.value))
+        say(s, ", WLF C1 = %s, C2 = %s", words_of_estimate(c1).text,
+            words_of_estimate(shift_factors_value(v, SHIFT_FACTORS_KEY_WLF_C2)).text);
+    say(s, ", superposition: %s", shift_factors_words(v, SHIFT_FACTORS_KEY_SUPERPOSITION));
+}
+
+static void say_friction(sentence *s, const table_view *v)
+{
+    if (v->table == NULL)
+        return;
+    const wt_estimate total = friction_value(v, FRICTION_KEY_FRICTION);
+    const wt_estimate with_layer = friction_value(v, FRICTION_KEY_WITH_LAYER);
+    next(s);
+    say(s, "at %s ", words_of_value(friction_value(v, FRICTION_KEY_REFERENCE_VELOCITY)).text);
+    if (!isnan(total.value))
+        say(s, "mu = %s, ", words_of_estimate(total).text);
+    if (!isnan(with_layer.value))
+        say(s, "with layer %s, ", words_of_estimate(with_layer).text);
+    say(s, "hysteresis %s, contact area %s of the nominal one",
+        words_of_estimate(friction_value(v, FRICTION_KEY_HYSTERESIS)).text,
+        words_of_estimate(friction_value(v, FRICTION_KEY_AREA_RATIO)).text);
+}
+
+static void say_layer(sentence *s, const table_view *v)
+{
+    if (v->table == NULL)
+        return;
+    const wt_estimate thickness = layer_value(v, LAYER_KEY_BALANCE_THICKNESS);
+    next(s);
+    if (!(thickness.value > 0))
+        say(s, "no layer where formation balances wear");
+    else
+        say(s, "layer of %s where formation balances wear, 90 %% of it after %s",
+            words_of_estimate(thickness).text,
+            words_of_estimate(layer_value(v, LAYER_KEY_TIME_TO_90_PERCENT)).text);
+}
+
+size_t wt_result_sentence(const wt_result *result, char *buffer, size_t size)
+{
+    static const struct {
+        const table_schema *schema;
+        void (*say)(sentence *s, const table_view *view);
+    } parts[] = {{&modulus_groups_schema, say_groups},
+                 {&comparison_schema, say_ratio},
+                 {&shift_factors_schema, say_material},
+                 {&friction_schema, say_friction},
+                 {&layer_schema, say_layer}};
+    sentence s = {buffer, size, 0};
+    const locale_t previous = clocale_enter();
+    if (size > 0)
+        buffer[0] = '\0';
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
+        table_view view;
+        if (table_bind_of(result, parts[i].schema, "", &view, NULL) == WT_OK)
+            parts[i].say(&s, &view);
+    }
+    clocale_leave(previous);
+    return s.used;
+}
