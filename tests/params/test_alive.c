@@ -67,6 +67,8 @@ static const struct {
 } dead[] = {
     {NULL, "threads", "changes no result: test_flow_run"},
     {NULL, "quiet", "words on standard error: tests/cli"},
+    {NULL, "strict", "changes the exit status where there is a remark: tests/cli/remarks.txt"},
+    {NULL, "files-from", "files as in the call: tests/cli/remarks.txt"},
     {NULL, "help", "tests/docs"},
     {NULL, "output", "where the result goes, not what it is"},
     {NULL, "formats", "further descriptions: tests/formats"},
