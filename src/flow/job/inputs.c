@@ -45,7 +45,7 @@ static const char *below(const char *folder, const char *path)
 }
 
 wt_status wt_notes_table(const wt_parselog *log, const char *folder, wt_table **table,
-                           wt_error *err)
+                         wt_error *err)
 {
     table_writer t = table_begin(&notes_schema, err);
     for (size_t i = 0; i < wt_parselog_count(log); i++) {
