@@ -27,6 +27,7 @@ int cmd_compare(int argc, char **argv);
 int cmd_master(int argc, char **argv);
 int cmd_friction(int argc, char **argv);
 int cmd_layer(int argc, char **argv);
+int cmd_new_case(int argc, char **argv);
 int cmd_run(int argc, char **argv);
 int cmd_report(int argc, char **argv);
 int cmd_table(int argc, char **argv);

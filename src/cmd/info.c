@@ -1,34 +1,7 @@
 /* weartrack info: what a file is. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
-#include "cmd/cmd.h"
-
-/* Numbers as people read them: few digits, the unit with its prefix. Anything else as it is. */
-static void format_value(const char *value, const char *unit, char *out, size_t size)
-{
-    enum { DIGITS = 6 };
-    static const char *const si[] = {"m", "m/s", "m/V", "N", "N/m", "Pa", "s", "V", "rad/s"};
-    double number = 0;
-    const bool is_number = wt_number_parse(value, strlen(value), '.', &number);
-    const bool has_unit = *unit != '\0' && strcmp(unit, "1") != 0;
-    for (size_t i = 0; is_number && i < sizeof si / sizeof si[0]; i++)
-        if (strcmp(unit, si[i]) == 0) {
-            char digits[128];
-            wt_format_si(number, unit, DIGITS, digits, sizeof digits);
-            /* without the zeros at the end: 61.0000 mN/m is 61 mN/m */
-            const size_t n = strcspn(digits, " e");
-            size_t kept = n;
-            while (memchr(digits, '.', n) != NULL && kept > 0 && digits[kept - 1] == '0')
-                kept--;
-            kept -= kept > 0 && digits[kept - 1] == '.';
-            snprintf(out, size, "%.*s%s", (int)kept, digits, digits + n);
-            return;
-        }
-    if (is_number && has_unit)
-        snprintf(out, size, "%s %s", value, strcmp(unit, "byte") == 0 ? "bytes" : unit);
-    else
-        snprintf(out, size, "%s", value);
-}
+#include "cmd/found.h"
 
 static void print_facts(const char *name, const wt_table *facts)
 {
@@ -49,7 +22,7 @@ static void print_facts(const char *name, const wt_table *facts)
         if (strcmp(label, "file") == 0 && strcmp(v, name) == 0)
             continue; /* the heading says it */
         char shown[1024], line[2048];
-        format_value(v, wt_table_text(facts, row, (size_t)unit), shown, sizeof shown);
+        found_value(v, wt_table_text(facts, row, (size_t)unit), shown, sizeof shown);
         snprintf(line, sizeof line, *s != '\0' ? "%s  (%s)" : "%s%s", shown, s);
         const size_t w = cmd_text_width(label, strlen(label));
         printf("  %s%*s  ", label, w < width ? (int)(width - w) : 0, "");
@@ -58,17 +31,20 @@ static void print_facts(const char *name, const wt_table *facts)
 }
 
 static int info_one(const wt_formats *formats, const char *path, const wt_read_options *options,
-                    const cmd_common *common)
+                    const cmd_common *common, found_file *found)
 {
     wt_error err = WT_ERROR_INIT;
     wt_input *input = NULL;
     wt_table *facts = NULL;
     wt_parselog *log = wt_parselog_new();
+    *found = (found_file){0};
     wt_status status = wt_input_open(path, &input, &err);
     if (status == WT_OK)
         status = wt_describe(formats, input, options, log, &facts, &err);
-    if (status == WT_OK)
+    if (status == WT_OK) {
         print_facts(path, facts);
+        found_read(formats, facts, found);
+    }
     wt_error_file(&err, path);
     /* Somebody who asks what a file is wants to see everything that is odd about it. */
     const int said = cmd_say_log("info", common, log, true);
@@ -76,6 +52,65 @@ static int info_one(const wt_formats *formats, const char *path, const wt_read_o
     wt_input_close(input);
     wt_parselog_free(log);
     return status != WT_OK ? cmd_fail("info", &err) : said;
+}
+
+/* As a shell takes it for one word. */
+static void print_word(const char *word)
+{
+    static const char plain[] =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+./=,:@";
+    const bool quoted = word[strspn(word, plain)] != '\0';
+    putchar(' ');
+    if (!quoted) {
+        fputs(word, stdout);
+        return;
+    }
+    putchar('\'');
+    for (const char *p = word; *p != '\0'; p++)
+        if (*p == '\'')
+            fputs("'\\''", stdout);
+        else
+            putchar((unsigned char)*p < ' ' ? '?' : *p);
+    putchar('\'');
+}
+
+/* "dir/bulk.jpk-force" -> " -o bulk.h5" */
+static void print_output(const char *path)
+{
+    const char *base = wt_path_base(path);
+    const char *dot = strrchr(base, '.');
+    char name[256];
+    snprintf(name, sizeof name, "%.*s.h5",
+             dot != NULL && dot != base ? (int)(dot - base) : (int)strlen(base), base);
+    fputs(" -o", stdout);
+    print_word(name);
+}
+
+/* The command to type next for the only file, or for all of them. */
+static void print_next(const char *const *files, size_t n, const found_file *found)
+{
+    if (n > 1) {
+        fputs("\nnext: weartrack new-case", stdout);
+        for (size_t i = 0; i < n; i++)
+            print_word(files[i]);
+        fputs(" -o case.xml\n", stdout);
+        return;
+    }
+    if (found->is_result)
+        fputs("\nnext: weartrack table --list", stdout);
+    else if (found->kind == WT_KIND_FORCE)
+        fputs("\nnext: weartrack indent --tip pyramid:half-angle=35deg,radius=20nm", stdout);
+    else if (found->kind == WT_KIND_SWEEP)
+        fputs("\nnext: weartrack master", stdout);
+    else
+        fputs("\nnext: weartrack convert", stdout);
+    for (size_t k = 0; k < FOUND_N_MISSING; k++)
+        if (found->missing[k])
+            printf(" --%s %s", found_missing_rows[k].name, found_missing_rows[k].example);
+    print_word(files[0]);
+    if (!found->is_result)
+        print_output(files[0]);
+    putchar('\n');
 }
 
 int cmd_info(int argc, char **argv)
@@ -90,6 +125,8 @@ int cmd_info(int argc, char **argv)
     cmd_part part = {wt_read_params(), &read, NULL, 0};
     int first = 0, status = CMD_OK;
     wt_formats *formats = NULL;
+    size_t n_found = 0;
+    found_file found;
     if (!cmd_parse(&usage, &part, 1, &common, argc, argv, &first, &status))
         goto done;
     if (common.n_files == 0) {
@@ -107,9 +144,12 @@ int cmd_info(int argc, char **argv)
     for (size_t i = 0; i < common.n_files; i++) {
         if (i > 0)
             putchar('\n');
-        if (info_one(formats, common.files[i], &read, &common) != CMD_OK)
+        if (info_one(formats, common.files[i], &read, &common, &found) != CMD_OK)
             status = CMD_FAILED;
+        n_found += found.words[0] != '\0';
     }
+    if (n_found == common.n_files)
+        print_next(common.files, common.n_files, &found);
 done:
     wt_formats_free(formats);
     cmd_parts_clear(&part, 1);

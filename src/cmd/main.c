@@ -23,6 +23,7 @@ const cmd_command cmd_commands[] = {
     {"friction", cmd_friction, "hysteresis friction and contact area against velocity"},
     {"layer", cmd_layer, "formation, wear, balance and thickness of the modified layer"},
     {"Everything", NULL, NULL},
+    {"new-case", cmd_new_case, "a commented case file from the files that there are"},
     {"run", cmd_run, "a whole case from one case file; --plan shows what it would do"},
     {"report", cmd_report, "plots and one page from a result file"},
     {"table", cmd_table, "a table of a result as TSV, CSV or JSON"},

@@ -243,9 +243,12 @@ static void note_whole(const shift_work *work, wt_master_curve *master, wt_parse
                         "%zu of %zu isotherms have no determined shift and are left out",
                         work->set.n - work->n_good, work->set.n);
     }
-    if (work->extrapolated)
+    if (work->extrapolated) {
         append(master->note, sizeof master->note,
                "reference temperature outside the isotherms: extrapolated by WLF");
+        wt_parselog_add(log, WT_WARNING, NULL, NULL,
+                        "the reference temperature is outside the isotherms: extrapolated by WLF");
+    }
     if (master->kramers_kronig > odd_kramers_kronig)
         append(master->note, sizeof master->note,
                "E'' is %.0f %% off what E' implies (Kramers-Kronig)",

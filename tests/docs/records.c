@@ -377,7 +377,7 @@ static bool put_block(const char *line, const char *program, const char *path)
     const char *name = strstr(path, "weartrack-");
     if (strcmp(line, ".\\\" options\n") == 0) {
         if (name != NULL)
-            sscanf(name, "weartrack-%63[a-z]", subcommand);
+            sscanf(name, "weartrack-%63[a-z-]", subcommand);
         return put_options(program, subcommand);
     }
     if (strcmp(line, ".\\\" subcommands\n") == 0)

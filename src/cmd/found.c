@@ -1,0 +1,92 @@
+/* What a file turned out to be. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+
+#include "cmd/found.h"
+
+const found_missing found_missing_rows[FOUND_N_MISSING] = {
+    [FOUND_SPRING_CONSTANT] = {"spring-constant", "0.1N/m"},
+    [FOUND_SENSITIVITY] = {"sensitivity", "60nm/V"},
+    [FOUND_TEMPERATURE] = {"temperature", "20degC"},
+    [FOUND_UNITS] = {"units", "\"E'=MPa\""}};
+
+void found_value(const char *value, const char *unit, char *out, size_t size)
+{
+    enum { DIGITS = 6 };
+    static const char *const si[] = {"m", "m/s", "m/V", "N", "N/m", "Pa", "s", "V", "rad/s"};
+    double number = 0;
+    const bool is_number = wt_number_parse(value, strlen(value), '.', &number);
+    const bool has_unit = *unit != '\0' && strcmp(unit, "1") != 0;
+    for (size_t i = 0; is_number && i < sizeof si / sizeof si[0]; i++)
+        if (strcmp(unit, si[i]) == 0) {
+            char digits[128];
+            wt_format_si(number, unit, DIGITS, digits, sizeof digits);
+            /* without the zeros at the end: 61.0000 mN/m is 61 mN/m */
+            const size_t n = strcspn(digits, " e");
+            size_t kept = n;
+            while (memchr(digits, '.', n) != NULL && kept > 0 && digits[kept - 1] == '0')
+                kept--;
+            kept -= kept > 0 && digits[kept - 1] == '.';
+            snprintf(out, size, "%.*s%s", (int)kept, digits, digits + n);
+            return;
+        }
+    if (is_number && has_unit)
+        snprintf(out, size, "%s %s", value, strcmp(unit, "byte") == 0 ? "bytes" : unit);
+    else
+        snprintf(out, size, "%s", value);
+}
+
+/* Items by which a file shows what it holds, or which a case tells about it. */
+static const struct {
+    const char *item;
+    unsigned kind; /* that a file with this item has; 0: any */
+} telling[] = {
+    {"curves", WT_KIND_FORCE},    {"spring constant", 0}, {"deflection sensitivity", 0},
+    {"isotherms", WT_KIND_SWEEP}, {"deformation", 0},     {"power spectrum", WT_KIND_SPECTRUM}};
+
+static void read_fact(const char *item, const char *value, const char *unit, found_file *found)
+{
+    const size_t used = strlen(found->words);
+    for (size_t i = 0; i < sizeof telling / sizeof telling[0]; i++) {
+        char shown[160];
+        if (strcmp(item, telling[i].item) != 0 || strcmp(value, "0") == 0)
+            continue;
+        if (found->kind == 0)
+            found->kind = telling[i].kind;
+        found_value(value, unit, shown, sizeof shown);
+        snprintf(found->words + used, sizeof found->words - used, "%s%s %s",
+                 strchr(found->words, ',') != NULL || strchr(found->words, ' ') != NULL ? ", "
+                                                                                        : ": ",
+                 item, shown);
+    }
+    for (size_t i = 0; i < FOUND_N_MISSING && strcmp(item, "not readable as it is") == 0; i++) {
+        char option[32];
+        snprintf(option, sizeof option, "--%s", found_missing_rows[i].name);
+        found->missing[i] = found->missing[i] || strstr(value, option) != NULL;
+    }
+}
+
+void found_read(const wt_formats *formats, const wt_table *facts, found_file *found)
+{
+    const long item = wt_table_find(facts, "item"), value = wt_table_find(facts, "value");
+    const long unit = wt_table_find(facts, "unit");
+    const wt_format_info *format = NULL;
+    *found = (found_file){0};
+    for (size_t row = 0; row < wt_table_n_rows(facts); row++) {
+        const char *what = wt_table_text(facts, row, (size_t)item);
+        const char *said = wt_table_text(facts, row, (size_t)value);
+        if (format == NULL && strcmp(what, "format") == 0) {
+            format = wt_formats_find(formats, said);
+            snprintf(found->words, sizeof found->words, "%s", said);
+        }
+        found->is_result = found->is_result || strncmp(what, "table ", 6) == 0;
+        read_fact(what, said, wt_table_text(facts, row, (size_t)unit), found);
+    }
+    found->is_result =
+        found->is_result && format != NULL && strncmp(format->id, "weartrack-", 10) == 0;
+    /* what is not readable as it is does not show its kind */
+    if (found->kind == 0 && format != NULL && !found->is_result)
+        found->kind = format->kinds & (~format->kinds + 1);
+    if (format != NULL && found->kind == WT_KIND_FORCE && (format->kinds & WT_KIND_IMAGE) != 0 &&
+        strstr(found->words, "curves") == NULL)
+        found->kind = WT_KIND_IMAGE;
+}

@@ -1,0 +1,28 @@
+/* What a file turned out to be, for the command to type next and for a new case.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WT_CMD_FOUND_H
+#define WT_CMD_FOUND_H
+
+#include "cmd/cmd.h"
+
+/* What a file does not say and the user must. */
+enum { FOUND_SPRING_CONSTANT, FOUND_SENSITIVITY, FOUND_TEMPERATURE, FOUND_UNITS, FOUND_N_MISSING };
+/* The name of the option and of the attribute in a case; a value as an example. */
+typedef struct found_missing {
+    const char *name, *example;
+} found_missing;
+extern const found_missing found_missing_rows[FOUND_N_MISSING];
+
+typedef struct found_file {
+    unsigned kind;                 /* WT_KIND_*, 0 = no measurement */
+    bool is_result;                /* tables of this program */
+    bool missing[FOUND_N_MISSING]; /* see above */
+    char words[512];               /* "jpk: curves 12, spring constant 300 mN/m" */
+} found_file;
+
+/* From the table of wt_describe. */
+void found_read(const wt_formats *formats, const wt_table *facts, found_file *found);
+/* A number as people read it, few digits, the unit with its prefix; anything else as it is. */
+void found_value(const char *value, const char *unit, char *out, size_t size);
+
+#endif
