@@ -310,7 +310,7 @@ static bool put_subcommands(const char *program)
     while (help != NULL && fgets(line, sizeof line, help) != NULL) {
         int n = 0;
         line[strcspn(line, "\n")] = '\0';
-        if (line[0] != ' ' || sscanf(line, " %63[a-z] %n", name, &n) != 1 ||
+        if (line[0] != ' ' || sscanf(line, " %63[a-z-] %n", name, &n) != 1 ||
             strcmp(name, "help") == 0)
             continue;
         printf(".TP\n.BR weartrack-%s (1)\n", name);
