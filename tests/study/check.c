@@ -3,6 +3,7 @@
  * skipped where it is not there. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "check.h"
 #include "dma_sample.h"
+#include "program.h"
 #include "random.h"
 #include "tally.h"
 
@@ -203,6 +204,40 @@ static void check_tally(void)
     check_true("nor those that are not stated", complaints_of((double)NAN, 50, &t) == 1);
 }
 
+/* Two draws each prove nothing; of all scenes together they do. */
+static void check_pool(void)
+{
+    facts s = find_scene("D1")->facts;
+    pool honest = {.verdicts = 0}, proud = {.verdicts = 0};
+    random_source random = random_for(5, "pool", 0);
+    s.intervals_promised = s.verdict_promised = true;
+    for (int i = 0; i < 100; i++) {
+        draw draws[2] = {{.n = 1, .verdict = YES}, {.n = 1, .verdict = YES}};
+        for (int k = 0; k < 2; k++) {
+            const double x = random_normal(&random);
+            draws[k].observations[0] = (observation){Q_C1, 0, {x, x - 1.96, x + 1.96}};
+        }
+        tally_add(&s, draws, 2, &honest);
+        draws[0].observations[0].found = draws[1].observations[0].found = (estimate){1, 0.4, 1.6};
+        draws[0].verdict = CANNOT_SAY;
+        tally_add(&s, draws, 2, &proud);
+    }
+    check_near("draws together", honest.draws[Q_C1], 200, 0);
+    check_true("honest intervals pass together", tally_pool_complaints(&honest, NULL) == 0);
+    check_true("others do not, nor do their verdicts", tally_pool_complaints(&proud, NULL) == 2);
+}
+
+static void check_program(void)
+{
+    static const char errors[] = "/dev/null";
+    const char *const good[] = {"-c", "exit 0", NULL}, *const bad[] = {"-c", "exit 3", NULL};
+    const char *const killed[] = {"-c", "kill -9 $$", NULL};
+    check_near("exit status", program_run("/bin/sh", good, errors), 0, 0);
+    check_near("another", program_run("/bin/sh", bad, errors), 3, 0);
+    check_near("the signal that ended it", program_run("/bin/sh", killed, errors), 128 + 9, 0);
+    check_near("no such program", program_run("/nowhere/weartrack", good, errors), 127, 0);
+}
+
 static void check_verdicts(void)
 {
     facts s = find_scene("V6")->facts;
@@ -229,6 +264,8 @@ int main(int argc, char **argv)
     check_stream();
     check_tally();
     check_verdicts();
+    check_pool();
+    check_program();
     if (access(argv[2], R_OK) == 0) {
         check_set(argv[2], "dma_noise5", "D2", 0.05);
         check_set(argv[2], "dma_two_processes", "V2", 0.015);
