@@ -15,6 +15,7 @@ typedef struct contact {
     double velocity[VELOCITIES_MAX];
     int layer_at; /* which of the velocities wears the layer */
     double wear_rate, critical_energy;
+    double error; /* relative and stated, of c0, pressure, shear stress, wear rate and energy */
 } contact;
 
 typedef struct contact_truth {

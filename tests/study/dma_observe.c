@@ -228,15 +228,35 @@ static void say_number(line *l, const char *option, double value, const char *un
     say(l, option, text);
 }
 
+/* " +- 7%" after a unit, or nothing. */
+typedef struct share {
+    char words[32];
+} share;
+
+static share stated_error(double error)
+{
+    share s = {""};
+    if (error > 0)
+        snprintf(s.words, sizeof s.words, " +- %.15g%%", 100 * error);
+    return s;
+}
+
+static void say_uncertain(line *l, const char *option, double value, const char *unit, double error)
+{
+    char words[48];
+    snprintf(words, sizeof words, "%s%s", unit, stated_error(error).words);
+    say_number(l, option, value, words);
+}
+
 static void say_contact(line *l, const contact *c)
 {
     char *roughness = l->numbers[l->n_numbers++];
     snprintf(roughness, sizeof l->numbers[0],
-             "self-affine:q0=%.15grad/m,qr=%.15grad/m,q1=%.15grad/m,hurst=%.15g,c0=%.15gm^4", c->q0,
-             c->qr, c->q1, c->hurst, c->c0);
+             "self-affine:q0=%.15grad/m,qr=%.15grad/m,q1=%.15grad/m,hurst=%.15g,c0=%.15gm^4%s",
+             c->q0, c->qr, c->q1, c->hurst, c->c0, stated_error(c->error).words);
     say(l, "--roughness", roughness);
-    say_number(l, "--pressure", c->pressure, "Pa");
-    say_number(l, "--shear-stress", c->shear_stress, "Pa");
+    say_uncertain(l, "--pressure", c->pressure, "Pa", c->error);
+    say_uncertain(l, "--shear-stress", c->shear_stress, "Pa", c->error);
     say_number(l, "--sliding-temperature", c->temperature, "degC");
     say_number(l, "--poisson-ratio", c->poisson, "");
     say(l, "--threads", "1");
@@ -289,10 +309,22 @@ static void observe_contact(const dma_scene *s, const contact_truth *truth, cons
     say_contact(&wear, c);
     say_isotherms(&wear, s, sweep);
     say_number(&wear, "--velocity", c->velocity[c->layer_at], "m/s");
-    say_number(&wear, "--specific-wear-rate", c->wear_rate, "m^2/N");
-    say_number(&wear, "--critical-energy", c->critical_energy, "J/m^3");
+    say_uncertain(&wear, "--specific-wear-rate", c->wear_rate, "m^2/N", c->error);
+    say_uncertain(&wear, "--critical-energy", c->critical_energy, "J/m^3", c->error);
     if (run(&wear, layer, t))
         compare_layer(layer, truth, t);
+}
+
+/* What the contact really is where it is known with errors. */
+static contact_truth draw_contact(const dma_scene *s, const rubber *r, random_source *random)
+{
+    contact c = *s->contact;
+    double *const uncertain[] = {&c.c0, &c.pressure, &c.shear_stress, &c.wear_rate,
+                                 &c.critical_energy};
+    for (size_t i = 0; i < sizeof uncertain / sizeof uncertain[0]; i++)
+        *uncertain[i] *= exp(c.error * random_normal(random));
+    const rubber_state state = dma_state(s, r, c.temperature);
+    return contact_solve(&c, &state, 50);
 }
 
 typedef struct prepared {
@@ -335,8 +367,11 @@ static void observe(int scene, const void *what, random_source *random, trial *t
         trial_broke(t, "the isotherms cannot be written");
     } else if (run(&l, master, t)) {
         compare_master(master, s, &p->rubber, measured, t);
+        contact_truth truth = p->truth;
+        if (s->contact != NULL && s->contact->error > 0)
+            truth = draw_contact(s, &p->rubber, random);
         if (s->contact != NULL)
-            observe_contact(s, &p->truth, sweep, master, t);
+            observe_contact(s, &truth, sweep, master, t);
     }
     free(measured);
 }

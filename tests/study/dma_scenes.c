@@ -36,6 +36,22 @@ static const contact contact_d6 = {.q0 = 1e3,
                                    .wear_rate = 1e-12,
                                    .critical_energy = 1e10};
 
+/* What is put in has errors too, and they are stated. */
+static const contact contact_inputs = {.q0 = 1e3,
+                                       .qr = 1e4,
+                                       .q1 = 1e6,
+                                       .hurst = 0.8,
+                                       .c0 = 1e-18,
+                                       .pressure = 0.4e6,
+                                       .shear_stress = 5e6,
+                                       .poisson = 0.5,
+                                       .temperature = 20,
+                                       .velocities = 1,
+                                       .velocity = {0.03},
+                                       .wear_rate = 1e-12,
+                                       .critical_energy = 2e10,
+                                       .error = 0.07};
+
 /* At another temperature than the reference: the error of the law goes into friction. */
 static const contact contact_warm = {.q0 = 2e3,
                                      .qr = 4e3,
@@ -186,6 +202,8 @@ const dma_scene dma_scenes[] = {
     {NAMED("reference_between", "a reference temperature between two isotherms"),
      .rubber = RUBBER_BROAD, .law = {900, -90, 0, NONE, 1}, .reference = 25, G10, NOISE(.01),
      .temperature_error = .1, GOOD},
+    {NAMED("inputs", "D1, contact and layer known to 7 %"), .rubber = RUBBER_BROAD, BASE_LAW, G10,
+     NOISE(.01), GOOD, .contact = &contact_inputs},
     {NAMED("warm", "D8 and friction at 45 degC"), .rubber = RUBBER_BROAD, BASE_LAW, G10, NOISE(.01),
      .temperature_error = .3, GOOD, .contact = &contact_warm},
     {NAMED("shear", "D6 measured in shear"), .rubber = RUBBER_TWO, TWO_LAW, G13, NOISE(.015),
