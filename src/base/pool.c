@@ -18,6 +18,11 @@ void *pool_alloc(pool *memory, size_t n, size_t size)
     return block;
 }
 
+double *pool_numbers(pool *memory, size_t n)
+{
+    return pool_alloc(memory, n, sizeof(double));
+}
+
 char *pool_text(pool *memory, const char *text, size_t length)
 {
     char *copy = pool_alloc(memory, length + 1, 1);

@@ -17,6 +17,7 @@ typedef struct pool {
 
 /* n zeroed items; NULL when out of memory. */
 void *pool_alloc(pool *memory, size_t n, size_t size);
+double *pool_numbers(pool *memory, size_t n);
 /* A copy with a terminating zero. */
 char *pool_text(pool *memory, const char *text, size_t length);
 void pool_free(pool *memory);

@@ -9,6 +9,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
+#include "base/array.h"
 #include "base/gsl_quiet.h"
 #include "model/special.h"
 #include "weartrack/fit.h"
@@ -43,12 +44,6 @@ static int by_spot(const void *a, const void *b)
     if (x->spot != y->spot)
         return x->spot < y->spot ? -1 : 1;
     return (x->modulus > y->modulus) - (x->modulus < y->modulus);
-}
-
-static int by_modulus(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
 }
 
 static wt_status check_group(const wt_group *group, wt_error *err)
@@ -125,7 +120,7 @@ static wt_status summarise(const wt_group *group, const units *u, wt_group_summa
     if (sorted == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for a group of %zu moduli", group->n);
     memcpy(sorted, group->modulus, group->n * sizeof *sorted);
-    qsort(sorted, group->n, sizeof *sorted, by_modulus);
+    numbers_sort(sorted, group->n);
     moments curves = moments_of(sorted, group->n), logs = moments_of(u->log_modulus, u->n);
     size_t half = group->n / 2;
     *summary = (wt_group_summary){

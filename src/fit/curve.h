@@ -79,10 +79,10 @@ typedef struct curve_minimum {
 } curve_minimum;
 
 /* Fills `minima`, best first; returns how many (0: no contact point gives a positive modulus).
- * weighted: with the weights of the workspace. *cost_without: the cost of the baseline alone. */
+ * weighted: with the weights of the workspace. */
 size_t curve_scan(const wt_contact_table *table, const curve_samples *samples, bool tilt,
                   bool weighted, wt_indent_workspace *workspace,
-                  curve_minimum minima[CURVE_MAX_MINIMA], double *cost_without);
+                  curve_minimum minima[CURVE_MAX_MINIMA]);
 /* The same for one given contact point (a position of the samples). */
 bool curve_scan_at(const wt_contact_table *table, const curve_samples *samples, bool tilt,
                    double contact_point, wt_indent_workspace *workspace, curve_minimum *minimum);

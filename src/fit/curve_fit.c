@@ -119,9 +119,8 @@ static double baseline_at(const curve_solution *s, double position)
 
 static bool scan(fitting *f, bool weighted)
 {
-    double unused = 0.0;
     f->n_minima = curve_scan(f->table, &f->input.samples, f->options->fit_tilt, weighted,
-                             f->workspace, f->minima, &unused);
+                             f->workspace, f->minima);
     return f->n_minima > 0;
 }
 
@@ -246,19 +245,25 @@ static double baseline_departure(const fitting *f)
 
 /* ---- verdict --------------------------------------------------------------------------------- */
 
-static wt_curve_verdict no_contact_verdict(fitting *f, char reason[160])
+/* How far the mean force falls from the first tenth of the samples to the last. */
+static double force_fall(const curve_samples *s)
 {
-    curve_samples *s = &f->input.samples;
     size_t tenth = s->n / 10;
     double first = 0.0, last = 0.0;
     for (size_t i = 0; i < tenth; i++) {
         first += s->force[i] / (double)tenth;
         last += s->force[s->n - 1 - i] / (double)tenth;
     }
+    return first - last;
+}
+
+static wt_curve_verdict no_contact_verdict(fitting *f, char reason[160])
+{
+    const double fall = force_fall(&f->input.samples);
     char a[24], b[24];
-    curve_si(fabs(last - first), "N", a);
+    curve_si(fabs(fall), "N", a);
     curve_si(f->input.step_noise, "N", b);
-    if (first - last > contact_noise * f->input.step_noise) {
+    if (fall > contact_noise * f->input.step_noise) {
         curve_say(reason,
                   "the force falls by %s towards the sample (noise %s): sign of the deflection?", a,
                   b);
@@ -272,25 +277,20 @@ static wt_curve_verdict no_contact_verdict(fitting *f, char reason[160])
 static bool leaves_the_sample(fitting *f, char reason[160])
 {
     curve_samples *s = &f->input.samples;
-    size_t tenth = s->n / 10;
-    double first = 0.0, last = 0.0, unused = 0.0;
-    for (size_t i = 0; i < tenth; i++) {
-        first += s->force[i] / (double)tenth;
-        last += s->force[s->n - 1 - i] / (double)tenth;
-    }
-    if (!(first - last > contact_noise * f->input.step_noise))
+    const double fall = force_fall(s);
+    if (!(fall > contact_noise * f->input.step_noise))
         return false;
     curve_minimum minima[CURVE_MAX_MINIMA];
     double cost = (double)INFINITY;
-    size_t n = curve_scan(f->table, s, true, false, f->workspace, minima, &unused);
+    size_t n = curve_scan(f->table, s, true, false, f->workspace, minima);
     if (n > 0 && minima[0].contact_point > s->position[0])
         cost = minima[0].cost;
     curve_reverse(s);
-    n = curve_scan(f->table, s, true, false, f->workspace, minima, &unused);
+    n = curve_scan(f->table, s, true, false, f->workspace, minima);
     if (n > 0 && minima[0].contact_point > s->position[0] &&
         minima[0].cost < reverse_ratio * cost) {
         char a[24];
-        curve_si(first - last, "N", a);
+        curve_si(fall, "N", a);
         curve_say(reason, "the force falls by %s along the segment: it leaves the sample", a);
         return true;
     }

@@ -7,6 +7,7 @@
 
 #include "base/clocale.h"
 
+#include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -49,39 +50,6 @@ static double mean(const double *x, size_t n)
     return sum / (double)n;
 }
 
-/* The k-th smallest of x (Hoare's selection). Destroys the order of x. */
-static double select_kth(double *x, size_t n, size_t k)
-{
-    size_t lo = 0, hi = n - 1;
-    while (lo < hi) {
-        double pivot = x[lo + (hi - lo) / 2];
-        size_t i = lo, j = hi;
-        for (;;) {
-            while (x[i] < pivot)
-                i++;
-            while (pivot < x[j])
-                j--;
-            if (i <= j) {
-                double t = x[i];
-                x[i++] = x[j];
-                x[j] = t;
-                if (j == 0)
-                    break;
-                j--;
-            }
-            if (i > j)
-                break;
-        }
-        if (k <= j)
-            hi = j;
-        else if (k >= i)
-            lo = i;
-        else
-            break;
-    }
-    return x[k];
-}
-
 /* Standard deviation of white noise from the median of |successive differences|, and the smallest
  * step that occurs (the resolution of the converter where there is one). */
 static double difference_noise(const curve_samples *s, double *scratch, double *resolution)
@@ -94,7 +62,7 @@ static double difference_noise(const curve_samples *s, double *scratch, double *
     }
     if (!isfinite(*resolution))
         *resolution = 0.0;
-    return select_kth(scratch, s->n - 1, (s->n - 1) / 2) / (0.6744897501960817 * M_SQRT2);
+    return gsl_stats_select(scratch, 1, s->n - 1, (s->n - 1) / 2) / (0.6744897501960817 * M_SQRT2);
 }
 
 /* Force that the travel of the samples from `first` on had gained just before it. */

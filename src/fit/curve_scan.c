@@ -259,13 +259,11 @@ static void keep_best(curve_minimum *minima, size_t *n, curve_minimum candidate)
 }
 
 size_t curve_scan(const wt_contact_table *table, const curve_samples *samples, bool tilt,
-                  bool weighted, wt_indent_workspace *w, curve_minimum minima[CURVE_MAX_MINIMA],
-                  double *cost_without)
+                  bool weighted, wt_indent_workspace *w, curve_minimum minima[CURVE_MAX_MINIMA])
 {
     const double k = samples->spring_constant;
     projection full = make_full(table, samples, tilt, weighted, w);
     projection bins = make_bins(&full, k, w);
-    *cost_without = cost_without_contact(&full);
 
     const double deepest = bins.running_max[bins.n - 1];
     const double reach = deepest - bins.tip[0];

@@ -3,15 +3,16 @@
 #include "fit/nnls.h"
 
 #include "base/gsl_quiet.h"
+#include "fit/pool_gsl.h"
 
 #include <float.h>
 #include <gsl/gsl_blas.h>
 #include <gsl/gsl_linalg.h>
 #include <math.h>
-#include <stdlib.h>
 
 /* The reduced problem: R (columns x columns, upper triangle of A = QR) and c = Q'b. */
 struct active_set {
+    pool memory;
     size_t n;
     gsl_matrix *r;
     gsl_vector *c;
@@ -25,35 +26,19 @@ struct active_set {
     double *trial;
 };
 
-static void active_set_free(struct active_set *s)
-{
-    gsl_matrix_free(s->r);
-    gsl_vector_free(s->c);
-    gsl_matrix_free(s->sub);
-    gsl_vector_free(s->tau);
-    gsl_vector_free(s->rhs);
-    gsl_vector_free(s->work);
-    gsl_vector_free(s->descent);
-    free(s->member);
-    free(s->passive);
-    free(s->trial);
-}
-
-static bool active_set_alloc(struct active_set *s, size_t n)
+static void active_set_alloc(struct active_set *s, size_t n)
 {
     s->n = n;
-    s->r = gsl_matrix_calloc(n, n);
-    s->c = gsl_vector_calloc(n);
-    s->sub = gsl_matrix_alloc(n, n);
-    s->tau = gsl_vector_alloc(n);
-    s->rhs = gsl_vector_alloc(n);
-    s->work = gsl_vector_alloc(n);
-    s->descent = gsl_vector_alloc(n);
-    s->member = calloc(n, sizeof *s->member);
-    s->passive = calloc(n, sizeof *s->passive);
-    s->trial = calloc(n, sizeof *s->trial);
-    return s->r && s->c && s->sub && s->tau && s->rhs && s->work && s->descent && s->member &&
-           s->passive && s->trial;
+    s->r = pool_matrix(&s->memory, n, n);
+    s->c = pool_vector(&s->memory, n);
+    s->sub = pool_matrix(&s->memory, n, n);
+    s->tau = pool_vector(&s->memory, n);
+    s->rhs = pool_vector(&s->memory, n);
+    s->work = pool_vector(&s->memory, n);
+    s->descent = pool_vector(&s->memory, n);
+    s->member = pool_alloc(&s->memory, n, sizeof *s->member);
+    s->passive = pool_alloc(&s->memory, n, sizeof *s->passive);
+    s->trial = pool_numbers(&s->memory, n);
 }
 
 /* Unconstrained least squares over the passive columns into `trial` (0 elsewhere); false if they
@@ -162,16 +147,14 @@ wt_status nnls(gsl_matrix *a, gsl_vector *b, double *x, wt_error *err)
 {
     const size_t n = a->size2;
     struct active_set s = {0};
-    double *norm = NULL;
-    gsl_vector *tau = NULL;
     wt_status status = WT_OK;
 
     gsl_quiet();
     if (n == 0 || a->size1 < n || b->size != a->size1)
         return wt_fail(err, WT_E_ARG, "non-negative least squares needs rows >= columns > 0");
-    norm = calloc(n, sizeof *norm);
-    tau = gsl_vector_alloc(n);
-    if (norm == NULL || tau == NULL || !active_set_alloc(&s, n)) {
+    active_set_alloc(&s, n);
+    double *norm = pool_numbers(&s.memory, n);
+    if (s.memory.failed) {
         status = wt_fail(err, WT_E_MEMORY, "no memory for non-negative least squares");
         goto done;
     }
@@ -187,8 +170,8 @@ wt_status nnls(gsl_matrix *a, gsl_vector *b, double *x, wt_error *err)
         x[j] = 0.0;
     }
     /* All that follows happens in columns x columns numbers instead of rows x columns. */
-    if (gsl_linalg_QR_decomp(a, tau) != GSL_SUCCESS ||
-        gsl_linalg_QR_QTvec(a, tau, b) != GSL_SUCCESS) {
+    if (gsl_linalg_QR_decomp(a, s.tau) != GSL_SUCCESS ||
+        gsl_linalg_QR_QTvec(a, s.tau, b) != GSL_SUCCESS) {
         status = wt_fail(err, WT_E_INTERNAL, "QR decomposition failed");
         goto done;
     }
@@ -201,8 +184,6 @@ wt_status nnls(gsl_matrix *a, gsl_vector *b, double *x, wt_error *err)
     for (size_t j = 0; j < n; j++)
         x[j] = norm[j] > 0.0 ? x[j] / norm[j] : 0.0;
 done:
-    active_set_free(&s);
-    gsl_vector_free(tau);
-    free(norm);
+    pool_free(&s.memory);
     return status;
 }

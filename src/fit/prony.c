@@ -5,6 +5,7 @@
 #include "base/gsl_quiet.h"
 #include "base/param.h"
 #include "fit/nnls.h"
+#include "fit/pool_gsl.h"
 
 #include <gsl/gsl_blas.h>
 #include <math.h>
@@ -50,6 +51,13 @@ void prony_log_moduli(const wt_prony *prony, double log_frequency, double *log_s
     }
     *log_storage = log10(storage);
     *log_loss = log10(loss);
+}
+
+prony_points prony_points_of(const wt_master_curve *master)
+{
+    return (prony_points){
+        master->n,        master->log_frequency,    master->log_storage,
+        master->log_loss, master->log_frequency[0], master->log_frequency[master->n - 1]};
 }
 
 /* The terms, spread evenly over the range and its margins. */
@@ -108,8 +116,7 @@ wt_status prony_fit_points(const prony_points *points, const wt_prony_options *o
 {
     const size_t n_data = points->n * (points->log_loss != NULL ? 2 : 1);
     size_t n_terms = 0;
-    gsl_matrix *a = NULL;
-    gsl_vector *b = NULL, *x = NULL, *log_tau = NULL;
+    pool memory = {0};
     wt_prony made = {0};
     wt_status status = number_of_terms(points, options, &n_terms, err);
 
@@ -125,32 +132,28 @@ wt_status prony_fit_points(const prony_points *points, const wt_prony_options *o
         wt_error_advice(err, "choose fewer terms per decade");
         return status;
     }
-    a = gsl_matrix_calloc(n_data + n_smooth, n_columns);
-    b = gsl_vector_calloc(n_data + n_smooth);
-    x = gsl_vector_calloc(n_columns);
-    log_tau = gsl_vector_alloc(n_terms);
-    if (a == NULL || b == NULL || x == NULL || log_tau == NULL) {
-        status = wt_fail(err, WT_E_MEMORY, "no memory for a Prony series of %zu terms", n_terms);
-        goto done;
-    }
-    status = wt_prony_alloc(&made, n_terms, err);
+    gsl_matrix *a = pool_matrix(&memory, n_data + n_smooth, n_columns);
+    gsl_vector *b = pool_vector(&memory, n_data + n_smooth);
+    double *x = pool_numbers(&memory, n_columns), *log_tau = pool_numbers(&memory, n_terms);
+    status = memory.failed ? wt_fail(err, WT_E_MEMORY, "no memory for %zu Prony terms", n_terms)
+                           : wt_prony_alloc(&made, n_terms, err);
     if (status != WT_OK)
         goto done;
     const double longest = margin - points->log_min, shortest = -margin - points->log_max;
     for (size_t k = 0; k < n_terms; k++) {
         const double share = (double)k / (double)(n_terms - 1);
-        gsl_vector_set(log_tau, k, longest + share * (shortest - longest));
-        made.relaxation_time[k] = pow(10.0, gsl_vector_get(log_tau, k));
+        log_tau[k] = longest + share * (shortest - longest);
+        made.relaxation_time[k] = pow(10.0, log_tau[k]);
     }
-    fill_data_rows(points, gsl_vector_const_ptr(log_tau, 0), n_terms, a, b);
+    fill_data_rows(points, log_tau, n_terms, a, b);
     if (n_smooth > 0)
         fill_smoothing_rows(options->smoothing, n_data, n_terms, a);
-    status = nnls(a, b, gsl_vector_ptr(x, 0), err);
+    status = nnls(a, b, x, err);
     if (status != WT_OK)
         goto done;
     for (size_t k = 0; k < n_terms; k++)
-        made.modulus[k] = gsl_vector_get(x, k);
-    made.equilibrium_modulus = options->liquid ? 0.0 : gsl_vector_get(x, n_terms);
+        made.modulus[k] = x[k];
+    made.equilibrium_modulus = options->liquid ? 0.0 : x[n_terms];
     made.reference_temperature = (double)NAN;
     made.frequency_min = pow(10.0, points->log_min);
     made.frequency_max = pow(10.0, points->log_max);
@@ -158,10 +161,7 @@ wt_status prony_fit_points(const prony_points *points, const wt_prony_options *o
     made = (wt_prony){0};
 done:
     wt_prony_clear(&made);
-    gsl_matrix_free(a);
-    gsl_vector_free(b);
-    gsl_vector_free(x);
-    gsl_vector_free(log_tau);
+    pool_free(&memory);
     return status;
 }
 
@@ -186,9 +186,7 @@ wt_status wt_prony_fit_master(const wt_master_curve *master, const wt_prony_opti
     wt_status status = check(master, options, err);
     if (status != WT_OK)
         return status;
-    const prony_points points = {
-        master->n,        master->log_frequency,    master->log_storage,
-        master->log_loss, master->log_frequency[0], master->log_frequency[master->n - 1]};
+    const prony_points points = prony_points_of(master);
     status = prony_fit_points(&points, options, &made.prony, err);
     if (status != WT_OK)
         return status;

@@ -13,6 +13,8 @@ typedef struct prony_points {
     double log_min, log_max; /* range of frequencies that sets the relaxation times */
 } prony_points;
 
+/* All points of a master curve, which has some. */
+prony_points prony_points_of(const wt_master_curve *master);
 /* Fits; allocates the series (moduli, times, range; not temperature and deformation). */
 wt_status prony_fit_points(const prony_points *points, const wt_prony_options *options,
                            wt_prony *prony, wt_error *err) WT_NODISCARD;

@@ -2,13 +2,13 @@
  * covariance, residuals of whole isotherms resampled. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/gsl_quiet.h"
 #include "base/mix.h"
+#include "base/pool.h"
 #include "fit/prony.h"
 
 #include <float.h>
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* Replaces a symmetric, positive semi-definite n x n matrix by its lower Cholesky factor; a pivot
@@ -34,6 +34,7 @@ static void cholesky_semidefinite(double *matrix, size_t n)
 }
 
 struct replicate {
+    pool memory;
     double *covariance;                 /* [(2 n_shifts)^2], becomes its Cholesky factor */
     double *normal;                     /* [2 n_shifts] */
     double *da, *db;                    /* [n_shifts] each, one after the other */
@@ -43,18 +44,16 @@ struct replicate {
     size_t *order;                      /* [n] point numbers, isotherm by isotherm */
     size_t *used;                       /* [n_shifts] isotherms that have points */
     size_t n_used;
-    double *numbers;
-    size_t *indices;
 };
 
 static wt_status replicate_alloc(struct replicate *r, const wt_master_curve *master, wt_error *err)
 {
     const size_t m = master->n_shifts, n = master->n;
-    r->numbers = calloc(4 * m * m + 4 * m + 5 * n, sizeof *r->numbers);
-    r->indices = calloc(3 * m + n, sizeof *r->indices);
-    if (r->numbers == NULL || r->indices == NULL)
+    double *numbers = pool_numbers(&r->memory, 4 * m * m + 4 * m + 5 * n);
+    size_t *indices = pool_alloc(&r->memory, 3 * m + n, sizeof *indices);
+    if (r->memory.failed)
         return wt_fail(err, WT_E_MEMORY, "no memory for a replicate of %zu points", n);
-    r->covariance = r->numbers;
+    r->covariance = numbers;
     r->normal = r->covariance + 4 * m * m;
     r->da = r->normal + 2 * m;
     r->db = r->da + m;
@@ -63,7 +62,7 @@ static wt_status replicate_alloc(struct replicate *r, const wt_master_curve *mas
     r->loss = r->storage + n;
     r->storage_fit = r->loss + n;
     r->loss_fit = r->storage_fit + n;
-    r->first = r->indices;
+    r->first = indices;
     r->count = r->first + m;
     r->used = r->count + m;
     r->order = r->used + m;
@@ -157,12 +156,10 @@ wt_status wt_prony_replicate(const wt_master_curve *master, const wt_prony_optio
     draw_residuals(&r, master, rng);
     /* The relaxation times stay those of the base series: replicates can be averaged term by
      * term. */
-    const prony_points points = {master->n,
-                                 r.frequency,
-                                 r.storage,
-                                 r.loss,
-                                 master->log_frequency[0],
-                                 master->log_frequency[master->n - 1]};
+    prony_points points = prony_points_of(master);
+    points.log_frequency = r.frequency;
+    points.log_storage = r.storage;
+    points.log_loss = r.loss;
     status = prony_fit_points(&points, options, &made, err);
     if (status != WT_OK)
         goto done;
@@ -173,8 +170,7 @@ wt_status wt_prony_replicate(const wt_master_curve *master, const wt_prony_optio
     *prony = made;
 done:
     gsl_rng_free(rng);
-    free(r.numbers);
-    free(r.indices);
+    pool_free(&r.memory);
     wt_prony_clear(&base.prony);
     return status;
 }

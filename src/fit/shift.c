@@ -8,7 +8,6 @@
 #include "fit/wlf_fit.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 /* An isotherm this close to the reference temperature is the reference [K]: what thermometers and
  * chambers agree to. */
@@ -341,13 +340,13 @@ static wt_status move_reference(shift_work *work, wt_error *err)
 {
     const size_t n = work->set.n;
     double offset = (double)NAN, law_variance = 0.0, offset_b = 0.0, variance = 0.0;
-    double *weight = calloc(4 * n, sizeof *weight);
+    double *weight = pool_numbers(&work->memory, 4 * n);
     if (weight == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for the reference temperature");
     double *shared = weight + n; /* covariance of a curve with the offset */
     wt_status status = offset_of_reference(work, &offset, weight, &law_variance, err);
     if (status != WT_OK)
-        goto done;
+        return status;
     for (size_t i = 0; i < n; i++)
         for (size_t k = 0; k < n; k++)
             shared[i] += weight[k] * work->covariance[i * n + k];
@@ -374,45 +373,32 @@ static wt_status move_reference(shift_work *work, wt_error *err)
     }
     for (size_t i = 0; i < n; i++)
         work->b[i] -= offset_b;
-done:
-    free(weight);
-    return status;
+    return WT_OK;
 }
 
 static wt_status work_alloc(shift_work *work, wt_error *err)
 {
     const size_t n = work->set.n;
-    work->numbers = calloc(11 * n + 6 * n * n, sizeof *work->numbers);
-    work->placed = calloc(n, sizeof *work->placed);
-    work->verdict = calloc(n, sizeof *work->verdict);
-    work->n_outliers = calloc(n, sizeof *work->n_outliers);
-    work->flat = calloc(n, sizeof *work->flat);
-    if (work->numbers == NULL || work->placed == NULL || work->verdict == NULL ||
-        work->n_outliers == NULL || work->flat == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for %zu isotherms", n);
-    work->a = work->numbers;
-    work->b = work->a + n;
-    work->sigma_b = work->b + n;
-    work->correlation = work->sigma_b + n;
-    work->physical = work->correlation + n;
-    for (int q = 0; q < MODULI; q++)
-        work->overlap[q] = work->physical + (size_t)(q + 1) * n;
-    work->tied = work->physical + 3 * n;
-    work->slope_noise = work->tied + n;
-    work->covariance = work->slope_noise + n;
-    work->scratch = work->covariance + n * n;
-    work->covariance_ab = work->scratch + n * n + 2 * n;
-    return WT_OK;
-}
-
-static void work_free(shift_work *work)
-{
-    shift_set_free(&work->set);
-    free(work->numbers);
-    free(work->placed);
-    free(work->verdict);
-    free(work->n_outliers);
-    free(work->flat);
+    pool *memory = &work->memory;
+    double **const by_isotherm[] = {&work->a,
+                                    &work->b,
+                                    &work->sigma_b,
+                                    &work->correlation,
+                                    &work->physical,
+                                    &work->tied,
+                                    &work->slope_noise,
+                                    &work->overlap[STORAGE],
+                                    &work->overlap[LOSS]};
+    for (size_t i = 0; i < sizeof by_isotherm / sizeof *by_isotherm; i++)
+        *by_isotherm[i] = pool_numbers(memory, n);
+    work->covariance = pool_numbers(memory, n * n);
+    work->scratch = pool_numbers(memory, n * n + 2 * n);
+    work->covariance_ab = pool_numbers(memory, 4 * n * n);
+    work->placed = pool_alloc(memory, n, sizeof *work->placed);
+    work->verdict = pool_alloc(memory, n, sizeof *work->verdict);
+    work->n_outliers = pool_alloc(memory, n, sizeof *work->n_outliers);
+    work->flat = pool_alloc(memory, n, sizeof *work->flat);
+    return memory->failed ? wt_fail(err, WT_E_MEMORY, "no memory for %zu isotherms", n) : WT_OK;
 }
 
 wt_status wt_shift_fit(const wt_sweep *sweep, const wt_shift_options *options, wt_parselog *log,
@@ -422,7 +408,7 @@ wt_status wt_shift_fit(const wt_sweep *sweep, const wt_shift_options *options, w
     wt_status status = param_check(wt_shift_params(), &work.options, err);
 
     if (status == WT_OK)
-        status = shift_set_new(sweep, log, &work.set, err);
+        status = shift_set_new(sweep, log, &work.memory, &work.set, err);
     if (status == WT_OK)
         status = work_alloc(&work, err);
     if (status == WT_OK)
@@ -441,6 +427,6 @@ wt_status wt_shift_fit(const wt_sweep *sweep, const wt_shift_options *options, w
     if (status == WT_OK)
         status = shift_master_new(sweep, &work, log, master, err);
 done:
-    work_free(&work);
+    pool_free(&work.memory);
     return status;
 }

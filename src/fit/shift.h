@@ -4,6 +4,7 @@
 #ifndef WT_FIT_SHIFT_H
 #define WT_FIT_SHIFT_H
 
+#include "base/pool.h"
 #include "weartrack/fit.h"
 
 enum { STORAGE, LOSS, MODULI };
@@ -25,19 +26,17 @@ typedef struct shift_curve {
     size_t sweep_index; /* isotherm in the sweep */
 } shift_curve;
 
-/* All isotherms in the order of rising temperature; owns one block of numbers. */
+/* All isotherms in the order of rising temperature. */
 typedef struct shift_set {
     size_t n;
     shift_curve *curves;
-    double *numbers;
     size_t n_points; /* of all curves */
 } shift_set;
 
 /* Takes logarithms, sorts, leaves out points without one. WT_E_RANGE names an isotherm that has too
  * few positive points left, or temperatures that are not kelvin. */
-wt_status shift_set_new(const wt_sweep *sweep, wt_parselog *log, shift_set *set,
+wt_status shift_set_new(const wt_sweep *sweep, wt_parselog *log, pool *memory, shift_set *set,
                         wt_error *err) WT_NODISCARD;
-void shift_set_free(shift_set *set);
 
 /* Where curve s goes relative to curve p (as measured). */
 typedef struct shift_pair {

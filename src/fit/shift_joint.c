@@ -3,6 +3,7 @@
  * in the form of Kaufman, BIT 15 (1975) 49; P-splines: Eilers and Marx, Statist. Sci. 11 (1996)
  * 89). SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/gsl_quiet.h"
+#include "fit/pool_gsl.h"
 #include "fit/pspline.h"
 #include "fit/shift.h"
 
@@ -12,7 +13,6 @@
 #include <gsl/gsl_sort.h>
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* Standard deviation of the prior that holds an undetermined shift near its start [decade]; far
@@ -32,10 +32,10 @@ struct point {
 };
 
 struct joint {
+    pool memory;
     shift_joint *task;
     size_t n_points, n_unknowns;
     struct point *points;        /* [n_points] curve by curve */
-    double *numbers;             /* one block for the arrays of doubles below */
     double *y[MODULI];           /* [n_points] measured ordinates */
     double *weight[MODULI];      /* [n_points] */
     double *residual[MODULI];    /* [n_points] */
@@ -314,23 +314,20 @@ static wt_status covariance(struct joint *j, spline_fit spline[MODULI], wt_error
 {
     shift_joint *task = j->task;
     const size_t n = task->set->n, m = j->n_unknowns;
-    gsl_matrix *middle = gsl_matrix_calloc(m, m);
-    gsl_matrix *left = gsl_matrix_alloc(m, m);
-    wt_status status = WT_OK;
+    gsl_matrix *middle = pool_matrix(&j->memory, m, m);
+    gsl_matrix *left = pool_matrix(&j->memory, m, m);
     double largest = 0.0;
 
-    if (middle == NULL || left == NULL) {
-        status = wt_fail(err, WT_E_MEMORY, "no memory for the covariance of the shifts");
-        goto done;
-    }
+    if (j->memory.failed)
+        return wt_fail(err, WT_E_MEMORY, "no memory for the covariance of the shifts");
     for (int q = 0; q < MODULI; q++) {
         task->rms[q] = (double)NAN;
         if (!task->use[q])
             continue;
         gsl_matrix *inverse = NULL;
-        status = pspline_inverse(&spline[q], &inverse, err);
+        wt_status status = pspline_inverse(&spline[q], &inverse, err);
         if (status != WT_OK)
-            goto done;
+            return status;
         j->effective[q] = pspline_freedom(&spline[q], inverse);
         const struct noise noise = residual_noise(j, q);
         task->rms[q] = noise.spread;
@@ -345,10 +342,8 @@ static wt_status covariance(struct joint *j, spline_fit spline[MODULI], wt_error
         *gsl_matrix_ptr(middle, u, u) += largest * j->prior;
     gsl_matrix_memcpy(j->factor, j->matrix);
     if (gsl_linalg_cholesky_decomp1(j->factor) != GSL_SUCCESS ||
-        gsl_linalg_cholesky_invert(j->factor) != GSL_SUCCESS) {
-        status = wt_fail(err, WT_E_CONVERGENCE, "the normal equations of the shifts are singular");
-        goto done;
-    }
+        gsl_linalg_cholesky_invert(j->factor) != GSL_SUCCESS)
+        return wt_fail(err, WT_E_CONVERGENCE, "the normal equations of the shifts are singular");
     gsl_blas_dgemm(CblasNoTrans, CblasNoTrans, 1.0, j->factor, middle, 0.0, left);
     gsl_blas_dgemm(CblasNoTrans, CblasNoTrans, 1.0, left, j->factor, 0.0, middle);
     for (size_t i = 0; i < 2 * n && task->covariance_ab != NULL; i++) {
@@ -376,42 +371,18 @@ static wt_status covariance(struct joint *j, spline_fit spline[MODULI], wt_error
         }
         task->slope_noise[i] = j->slope_noise[i] / j->slope_square[i];
     }
-done:
-    gsl_matrix_free(middle);
-    gsl_matrix_free(left);
-    return status;
+    return WT_OK;
 }
 
 /* ---- set-up ---------------------------------------------------------------------------------- */
-
-static void joint_free(struct joint *j)
-{
-    free(j->points);
-    free(j->numbers);
-    free(j->column_a);
-    free(j->column_b);
-    for (int q = 0; q < MODULI; q++)
-        gsl_matrix_free(j->normal[q]);
-    gsl_matrix_free(j->matrix);
-    gsl_matrix_free(j->factor);
-    gsl_vector_free(j->gradient);
-    gsl_vector_free(j->step);
-}
-
-static double *take(double **next, size_t n)
-{
-    double *block = *next;
-    *next += n;
-    return block;
-}
 
 /* Counts unknowns and points, numbers the unknowns. */
 static bool number_unknowns(struct joint *j)
 {
     const shift_joint *task = j->task;
-    j->column_a = calloc(task->set->n, sizeof *j->column_a);
-    j->column_b = calloc(task->set->n, sizeof *j->column_b);
-    if (j->column_a == NULL || j->column_b == NULL)
+    j->column_a = pool_alloc(&j->memory, task->set->n, sizeof *j->column_a);
+    j->column_b = pool_alloc(&j->memory, task->set->n, sizeof *j->column_b);
+    if (j->memory.failed)
         return false;
     for (size_t i = 0; i < task->set->n; i++) {
         const bool moves = task->placed[i] && i != task->anchor;
@@ -428,31 +399,27 @@ static wt_status joint_alloc(struct joint *j, wt_error *err)
     if (!number_unknowns(j))
         return wt_fail(err, WT_E_MEMORY, "no memory for the joint fit");
     const size_t m = j->n_unknowns, n = j->n_points;
-    j->points = calloc(n, sizeof *j->points);
-    j->numbers = calloc((4 * MODULI + 1) * n + 3 * m + 2 * task->set->n, sizeof *j->numbers);
-    for (int q = 0; q < MODULI; q++)
-        j->normal[q] = gsl_matrix_calloc(m, m);
-    j->matrix = gsl_matrix_alloc(m, m);
-    j->factor = gsl_matrix_alloc(m, m);
-    j->gradient = gsl_vector_alloc(m);
-    j->step = gsl_vector_alloc(m);
-    if (j->points == NULL || j->numbers == NULL || j->normal[STORAGE] == NULL ||
-        j->normal[LOSS] == NULL || j->matrix == NULL || j->factor == NULL || j->gradient == NULL ||
-        j->step == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the joint fit of %zu points", n);
-    double *next = j->numbers;
+    pool *memory = &j->memory;
+    j->points = pool_alloc(memory, n, sizeof *j->points);
     for (int q = 0; q < MODULI; q++) {
-        j->y[q] = take(&next, n);
-        j->weight[q] = take(&next, n);
-        j->residual[q] = take(&next, n);
-        j->slope[q] = take(&next, n);
+        j->normal[q] = pool_matrix(memory, m, m);
+        j->y[q] = pool_numbers(memory, n);
+        j->weight[q] = pool_numbers(memory, n);
+        j->residual[q] = pool_numbers(memory, n);
+        j->slope[q] = pool_numbers(memory, n);
     }
-    j->scratch = take(&next, n);
-    j->start = take(&next, m);
-    j->value = take(&next, m);
-    j->trial = take(&next, m);
-    j->slope_square = take(&next, task->set->n);
-    j->slope_noise = take(&next, task->set->n);
+    j->matrix = pool_matrix(memory, m, m);
+    j->factor = pool_matrix(memory, m, m);
+    j->gradient = pool_vector(memory, m);
+    j->step = pool_vector(memory, m);
+    j->scratch = pool_numbers(memory, n);
+    j->start = pool_numbers(memory, m);
+    j->value = pool_numbers(memory, m);
+    j->trial = pool_numbers(memory, m);
+    j->slope_square = pool_numbers(memory, task->set->n);
+    j->slope_noise = pool_numbers(memory, task->set->n);
+    if (memory->failed)
+        return wt_fail(err, WT_E_MEMORY, "no memory for the joint fit of %zu points", n);
     size_t k = 0;
     for (size_t i = 0; i < task->set->n; i++) {
         const shift_curve *curve = &task->set->curves[i];
@@ -522,6 +489,6 @@ wt_status shift_joint_fit(shift_joint *task, wt_error *err)
 done:
     for (int q = 0; q < MODULI; q++)
         pspline_free(&spline[q]);
-    joint_free(&j);
+    pool_free(&j.memory);
     return status;
 }

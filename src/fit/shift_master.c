@@ -269,9 +269,7 @@ wt_status shift_master_new(const wt_sweep *sweep, const shift_work *work, wt_par
     if (status == WT_OK)
         status = fill_points(work, &made, err);
     if (status == WT_OK) {
-        const prony_points points = {
-            made.n,        made.log_frequency,    made.log_storage,
-            made.log_loss, made.log_frequency[0], made.log_frequency[made.n - 1]};
+        const prony_points points = prony_points_of(&made);
         status = prony_kramers_kronig(&points, &made.kramers_kronig, err);
     }
     if (status == WT_OK) {

@@ -16,6 +16,7 @@ typedef enum shift_verdict {
 
 typedef struct shift_work {
     wt_shift_options options;
+    pool memory;
     shift_set set;
     double reference_temperature; /* [K] */
     bool measured_reference;      /* the anchor is the reference */
@@ -25,7 +26,6 @@ typedef struct shift_work {
     bool *placed;            /* [n] */
     shift_verdict *verdict;  /* [n] */
     size_t *n_outliers;      /* [n] */
-    double *numbers;         /* one block for the arrays below */
     double *a, *b;           /* [n] */
     double *sigma_b;         /* [n] */
     double *correlation;     /* [n] */

@@ -94,13 +94,11 @@ static wt_status fill_curve(const wt_isotherm *isotherm, struct point *scratch, 
     return WT_OK;
 }
 
-wt_status shift_set_new(const wt_sweep *sweep, wt_parselog *log, shift_set *set, wt_error *err)
+wt_status shift_set_new(const wt_sweep *sweep, wt_parselog *log, pool *memory, shift_set *set,
+                        wt_error *err)
 {
     const size_t n = sweep->n_isotherms;
     size_t n_points = 0, n_longest = 1;
-    struct order *order = NULL;
-    struct point *scratch = NULL;
-    shift_set made = {0};
     wt_status status = check_temperatures(sweep, err);
 
     if (status != WT_OK)
@@ -115,22 +113,18 @@ wt_status shift_set_new(const wt_sweep *sweep, wt_parselog *log, shift_set *set,
         wt_error_advice(err, "give all temperatures of the sweep together");
         return status;
     }
-    order = calloc(n, sizeof *order);
-    scratch = calloc(n_longest, sizeof *scratch);
-    made.curves = calloc(n, sizeof *made.curves);
-    made.numbers = calloc(n_points, (1 + MODULI) * sizeof *made.numbers);
-    if (order == NULL || scratch == NULL || made.curves == NULL || made.numbers == NULL) {
-        status = wt_fail(err, WT_E_MEMORY, "no memory for %zu isotherms", n);
-        goto done;
-    }
-    made.n = n;
+    struct order *order = pool_alloc(memory, n, sizeof *order);
+    struct point *scratch = pool_alloc(memory, n_longest, sizeof *scratch);
+    double *next = pool_numbers(memory, (1 + MODULI) * n_points);
+    *set = (shift_set){.n = n, .curves = pool_alloc(memory, n, sizeof *set->curves)};
+    if (memory->failed)
+        return wt_fail(err, WT_E_MEMORY, "no memory for %zu isotherms", n);
     for (size_t i = 0; i < n; i++)
         order[i] = (struct order){sweep->isotherms[i].temperature, i};
     qsort(order, n, sizeof *order, by_temperature);
-    double *next = made.numbers;
-    for (size_t i = 0; i < n; i++) {
+    for (size_t i = 0; i < n && status == WT_OK; i++) {
         const wt_isotherm *isotherm = &sweep->isotherms[order[i].index];
-        shift_curve *curve = &made.curves[i];
+        shift_curve *curve = &set->curves[i];
         curve->temperature = isotherm->temperature;
         curve->sweep_index = order[i].index;
         curve->x = next;
@@ -138,24 +132,7 @@ wt_status shift_set_new(const wt_sweep *sweep, wt_parselog *log, shift_set *set,
         curve->y[LOSS] = next + 2 * isotherm->n;
         next += 3 * isotherm->n;
         status = fill_curve(isotherm, scratch, curve, log, err);
-        if (status != WT_OK)
-            goto done;
-        made.n_points += curve->n;
+        set->n_points += curve->n;
     }
-    *set = made;
-    made = (shift_set){0};
-done:
-    shift_set_free(&made);
-    free(scratch);
-    free(order);
     return status;
-}
-
-void shift_set_free(shift_set *set)
-{
-    if (set == NULL)
-        return;
-    free(set->curves);
-    free(set->numbers);
-    *set = (shift_set){0};
 }

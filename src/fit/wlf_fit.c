@@ -3,6 +3,7 @@
 #include "fit/wlf_fit.h"
 
 #include "base/gsl_quiet.h"
+#include "fit/pool_gsl.h"
 
 #include <gsl/gsl_blas.h>
 #include <gsl/gsl_errno.h>
@@ -10,7 +11,6 @@
 #include <gsl/gsl_multifit.h>
 #include <gsl/gsl_multifit_nlinear.h>
 #include <math.h>
-#include <stdlib.h>
 
 /* Unknowns: c1 = exp(q), c2 = lead + farthest/(1 + exp(-p)), offset. `lead` is the distance from
  * the coldest isotherm to the reference, so the pole stays below all data whatever p is. */
@@ -27,6 +27,7 @@ static double above_pole_of(double p)
 }
 
 struct problem {
+    pool memory;
     size_t n;
     const double *temperature, *log_a;
     double reference, lead;
@@ -35,14 +36,6 @@ struct problem {
     gsl_matrix *linear; /* n x 2 whitened design of the linear laws */
     gsl_vector *white;  /* [n] whitened log_a */
 };
-
-static void problem_free(struct problem *problem)
-{
-    gsl_matrix_free(problem->root);
-    gsl_vector_free(problem->column);
-    gsl_matrix_free(problem->linear);
-    gsl_vector_free(problem->white);
-}
 
 static void whiten(const struct problem *problem, gsl_vector *v)
 {
@@ -53,12 +46,11 @@ static wt_status problem_init(struct problem *problem, const double *covariance,
                               wt_error *err)
 {
     const size_t n = problem->n;
-    problem->root = gsl_matrix_alloc(n, n);
-    problem->column = gsl_vector_alloc(n);
-    problem->linear = gsl_matrix_alloc(n, 2);
-    problem->white = gsl_vector_alloc(n);
-    if (problem->root == NULL || problem->column == NULL || problem->linear == NULL ||
-        problem->white == NULL)
+    problem->root = pool_matrix(&problem->memory, n, n);
+    problem->column = pool_vector(&problem->memory, n);
+    problem->linear = pool_matrix(&problem->memory, n, 2);
+    problem->white = pool_vector(&problem->memory, n);
+    if (problem->memory.failed)
         return wt_fail(err, WT_E_MEMORY, "no memory for %zu shift factors", n);
     for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j < n; j++)
@@ -256,14 +248,14 @@ struct workspace {
     gsl_matrix *linear_cov, *cov;
 };
 
-static wt_status workspace_init(struct workspace *w, size_t n, wt_error *err)
+static wt_status workspace_init(struct workspace *w, size_t n, pool *memory, wt_error *err)
 {
     const gsl_multifit_nlinear_parameters settings = gsl_multifit_nlinear_default_parameters();
     w->linear = gsl_multifit_linear_alloc(n, 2);
     w->nonlinear = gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &settings, n, N_WLF);
-    w->linear_cov = gsl_matrix_alloc(2, 2);
-    w->cov = gsl_matrix_alloc(N_WLF, N_WLF);
-    if (w->linear == NULL || w->nonlinear == NULL || w->linear_cov == NULL || w->cov == NULL)
+    w->linear_cov = pool_matrix(memory, 2, 2);
+    w->cov = pool_matrix(memory, N_WLF, N_WLF);
+    if (w->linear == NULL || w->nonlinear == NULL || memory->failed)
         return wt_fail(err, WT_E_MEMORY, "no memory for the WLF fit");
     return WT_OK;
 }
@@ -273,8 +265,6 @@ static void workspace_free(struct workspace *w)
     gsl_multifit_linear_free(w->linear);
     if (w->nonlinear != NULL)
         gsl_multifit_nlinear_free(w->nonlinear);
-    gsl_matrix_free(w->linear_cov);
-    gsl_matrix_free(w->cov);
 }
 
 /* A law with one factor, offset + factor * regressor (in problem->column), with its error. */
@@ -357,7 +347,7 @@ wt_status wlf_fit_arrays(const double *temperature, const double *log_a, const d
     problem.lead = reference_temperature - coldest;
     wt_status status = problem_init(&problem, covariance, floor, err);
     if (status == WT_OK)
-        status = workspace_init(&w, n, err);
+        status = workspace_init(&w, n, &problem.memory, err);
     if (status == WT_OK)
         status = fit_lines(&problem, &w, &slope, &slope_error, &made, err);
     if (status == WT_OK)
@@ -370,7 +360,7 @@ wt_status wlf_fit_arrays(const double *temperature, const double *log_a, const d
         made.rms = weighted_rms(&problem, covariance, floor, &made);
         *fit = made;
     }
-    problem_free(&problem);
+    pool_free(&problem.memory);
     workspace_free(&w);
     return status;
 }
@@ -380,17 +370,14 @@ wt_status wt_wlf_fit_shifts(const wt_master_curve *master, double floor, wt_wlf_
 {
     const size_t n_all = master->n_shifts;
     size_t n = 0;
-    double *temperature = calloc(n_all + 1, sizeof *temperature);
-    double *log_a = calloc(n_all + 1, sizeof *log_a);
-    double *covariance = calloc(n_all * n_all + 1, sizeof *covariance);
-    size_t *index = calloc(n_all + 1, sizeof *index);
-    wt_status status;
-
-    if (temperature == NULL || log_a == NULL || covariance == NULL || index == NULL) {
+    pool memory = {0};
+    double *temperature = pool_numbers(&memory, n_all), *log_a = pool_numbers(&memory, n_all);
+    double *covariance = pool_numbers(&memory, n_all * n_all);
+    size_t *index = pool_alloc(&memory, n_all, sizeof *index);
+    wt_status status = WT_OK;
+    if (memory.failed)
         status = wt_fail(err, WT_E_MEMORY, "no memory for %zu shift factors", n_all);
-        goto done;
-    }
-    for (size_t i = 0; i < n_all; i++)
+    for (size_t i = 0; i < n_all && status == WT_OK; i++)
         if (master->shifts[i].determined) {
             temperature[n] = master->shifts[i].temperature;
             log_a[n] = master->shifts[i].log_a.value;
@@ -399,12 +386,9 @@ wt_status wt_wlf_fit_shifts(const wt_master_curve *master, double floor, wt_wlf_
     for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j < n; j++)
             covariance[i * n + j] = master->covariance[index[i] * n_all + index[j]];
-    status = wlf_fit_arrays(temperature, log_a, covariance, n, master->reference_temperature, floor,
-                            fit, err);
-done:
-    free(temperature);
-    free(log_a);
-    free(covariance);
-    free(index);
+    if (status == WT_OK)
+        status = wlf_fit_arrays(temperature, log_a, covariance, n, master->reference_temperature,
+                                floor, fit, err);
+    pool_free(&memory);
     return status;
 }

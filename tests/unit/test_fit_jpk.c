@@ -115,14 +115,13 @@ static void compare(const char *file, const wt_force_curve *curve)
     curve_minimum minima[CURVE_MAX_MINIMA];
     curve_solution solution;
     char reason[160];
-    double cost_without;
     assert_int_equal(curve_reserve(workspace, approach->n_points, NULL), WT_OK);
     wt_curve_verdict verdict =
         curve_prepare(height->values, force->values, approach->n_points,
                       curve->cantilever.spring_constant, 1.0, workspace, &input, reason);
     if (verdict != WT_CURVE_ACCEPTED)
         fail_msg("%s %zu: %s", file, curve->index, reason);
-    size_t n = curve_scan(table, &input.samples, false, false, workspace, minima, &cost_without);
+    size_t n = curve_scan(table, &input.samples, false, false, workspace, minima);
     assert_true(n > 0);
     curve_refine(table, &input.samples, &minima[0], false, false, true, workspace, &solution);
     double modulus = 0.75 * solution.p[CURVE_E], cost = solution.cost;
