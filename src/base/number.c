@@ -75,6 +75,12 @@ bool wt_number_parse(const char *text, size_t length, char decimal, double *valu
     return true;
 }
 
+double number_of(const char *text)
+{
+    double value = (double)NAN;
+    return text != NULL && wt_number_parse(text, strlen(text), '.', &value) ? value : (double)NAN;
+}
+
 bool number_read(const char *text, size_t length, double *value)
 {
     static const struct {

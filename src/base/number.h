@@ -8,6 +8,8 @@
 /* Length of the longest number at the start of `text`, 0 if there is none. An "e" that no digit
  * follows belongs to what comes after ("5eV"). */
 size_t number_prefix(const char *text, size_t length, char decimal);
+/* A text that is one finite number, with a decimal point; NaN if it is not, or NULL. */
+double number_of(const char *text);
 /* Reads what wt_number_format writes: also "nan", "inf" and "-inf". */
 bool number_read(const char *text, size_t length, double *value);
 

@@ -49,8 +49,3 @@ void facts_number(table_writer *facts, const char *item, double value, const cha
     wt_number_format(value, text);
     facts_add(facts, item, unit, source, "%s", isnan(value) ? "unknown" : text);
 }
-
-void facts_count(table_writer *facts, const char *item, size_t value, const char *source)
-{
-    facts_add(facts, item, "", source, "%zu", value);
-}

@@ -13,6 +13,5 @@ void facts_add(table_writer *facts, const char *item, const char *unit, const ch
 /* NaN is "unknown". */
 void facts_number(table_writer *facts, const char *item, double value, const char *unit,
                   const char *source);
-void facts_count(table_writer *facts, const char *item, size_t value, const char *source);
 
 #endif

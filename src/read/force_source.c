@@ -22,11 +22,8 @@ wt_status wt_force_next(wt_force_source *source, wt_force_curve *curve, wt_error
 
 void wt_force_close(wt_force_source *source)
 {
-    if (source == NULL)
-        return;
-    wt_input *input = source->input;
-    source->close(source);
-    wt_input_close(input);
+    if (source != NULL)
+        source->close(source);
 }
 
 size_t wt_force_count(const wt_force_source *source)

@@ -52,7 +52,6 @@ struct wt_force_source {
     wt_status (*decode)(wt_force_source *source, const force_signal *signal, force_linear scaling,
                         size_t n, double *values, wt_error *err);
     void (*close)(wt_force_source *source);
-    wt_input *input;         /* to be closed after it, or NULL */
     const char *name;        /* of the input */
     wt_read_options options; /* what was asked for */
     wt_parselog *log;

@@ -4,6 +4,7 @@
  */
 #include "read/formats.h"
 
+#include "base/array.h"
 #include "read/embedded_formats.h"
 #include "read/text/text.h"
 
@@ -25,7 +26,7 @@ static const file_reader *const binary[] = {
 
 static wt_status add(wt_formats *f, const file_reader *reader, wt_error *err)
 {
-    file_reader *grown = realloc(f->readers, (f->n + 1) * sizeof *grown);
+    file_reader *grown = array_grow(f->readers, f->n, sizeof *grown);
     if (grown == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for the formats");
     f->readers = grown;
@@ -68,7 +69,7 @@ static wt_status add_text(wt_formats *f, text_description *d, wt_parselog *log, 
     return status;
 }
 
-static wt_status add_built_in(wt_formats *f, const description_xsd *schema, wt_error *err)
+static wt_status add_built_in(wt_formats *f, description_xsd *schema, wt_error *err)
 {
     wt_status status = WT_OK;
     for (const embedded_text *e = embedded_formats; e->name != NULL && status == WT_OK; e++) {
@@ -83,7 +84,7 @@ static wt_status add_built_in(wt_formats *f, const description_xsd *schema, wt_e
     return status;
 }
 
-static wt_status add_folder(wt_formats *f, const description_xsd *schema, const char *folder,
+static wt_status add_folder(wt_formats *f, description_xsd *schema, const char *folder,
                             wt_parselog *log, wt_error *err)
 {
     char **paths = NULL;

@@ -39,6 +39,8 @@ typedef struct file_reader {
     wt_format_info info; /* id, title, kind, how it was verified: read.h */
     const char *runs;    /* id of the description that a binary reader runs, or NULL */
     struct text_description *description; /* that it runs, or NULL */
+    /* The text that the description reads, to be closed; NULL: the input itself. */
+    wt_status (*as_text)(wt_input *input, wt_parselog *log, wt_input **text, wt_error *err);
     /* `self` is the reader itself. */
     recognition (*detect)(const struct file_reader *self, file_peek *peek);
     /* Kinds that it cannot deliver are NULL. The source borrows the input until it is closed. */

@@ -82,7 +82,7 @@ static wt_status try_sample(const file_reader *reader, wt_input *sample,
         wt_parselog_add(log, WT_WARNING, peek.name, NULL,
                         "the detect element does not recognise this file");
     text_peek_free(peek.text);
-    status = text_scan(reader->description, sample, reader->info.kinds, options, log, &file, err);
+    status = text_scan(reader, sample, reader->info.kinds, options, log, &file, err);
     if (status != WT_OK)
         return status;
     if (file.n_tables == 0)

@@ -32,7 +32,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         text_file file;
         (void)reader.detect(&reader, &peek);
         text_peek_free(peek.text);
-        if (text_scan(description, input, description->kinds, &options, NULL, &file, &err) ==
+        if (text_scan(&reader, input, description->kinds, &options, NULL, &file, &err) ==
             WT_OK) {
             wt_sweep sweep = {.n_isotherms = 0};
             if ((description->kinds & WT_KIND_SWEEP) != 0)

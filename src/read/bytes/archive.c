@@ -13,13 +13,6 @@
 #define MAX_RATIO 1032u
 #define RATIO_SLACK 64u
 
-struct zip_archive {
-    zip_t *zip;
-    size_t n;
-    bool truncated;
-    unsigned char *directory; /* rebuilt, or NULL; lives as long as `zip` */
-};
-
 static wt_status open_source(zip_source_t *source, zip_t **zip, zip_error_t *error)
 {
     if (source == NULL)
@@ -93,16 +86,6 @@ void archive_close(zip_archive *archive)
         zip_discard(archive->zip);
     free(archive->directory);
     free(archive);
-}
-
-bool archive_truncated(const zip_archive *archive)
-{
-    return archive->truncated;
-}
-
-size_t archive_count(const zip_archive *archive)
-{
-    return archive->n;
 }
 
 const char *archive_name(const zip_archive *archive, size_t i)

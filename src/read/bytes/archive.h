@@ -7,7 +7,12 @@
 
 #include "weartrack/read.h"
 
-typedef struct zip_archive zip_archive;
+typedef struct zip_archive {
+    struct zip *zip;
+    size_t n;                 /* entries */
+    bool truncated;           /* the end is missing */
+    unsigned char *directory; /* rebuilt, or NULL; lives as long as `zip` */
+} zip_archive;
 
 /* A buffer that grows and is used again; zero-initialised is empty; free with free(data). */
 typedef struct byte_buffer {
@@ -20,8 +25,6 @@ typedef struct byte_buffer {
  * file is missing) is opened with the entries that are complete. WT_E_CORRUPT if there is none. */
 wt_status archive_open(wt_input *input, zip_archive **archive, wt_error *err) WT_NODISCARD;
 void archive_close(zip_archive *archive);
-bool archive_truncated(const zip_archive *archive); /* the end is missing */
-size_t archive_count(const zip_archive *archive);
 /* Borrowed until closed; "" for an entry without a usable name. */
 const char *archive_name(const zip_archive *archive, size_t i);
 bool archive_find(const zip_archive *archive, const char *name, size_t *i);

@@ -184,14 +184,14 @@ typedef struct text_description {
 } text_description;
 
 /* The schema, compiled once for a set of descriptions. */
-typedef struct description_xsd description_xsd;
+typedef struct _xmlSchema description_xsd;
 wt_status description_xsd_new(description_xsd **schema, wt_error *err);
 void description_xsd_free(description_xsd *schema);
 
 /* Reads and checks one description. `name` is used in errors. */
-wt_status description_parse(const description_xsd *schema, const char *xml, size_t length,
+wt_status description_parse(description_xsd *schema, const char *xml, size_t length,
                             const char *name, text_description **description, wt_error *err);
-wt_status description_parse_file(const description_xsd *schema, const char *path,
+wt_status description_parse_file(description_xsd *schema, const char *path,
                                  text_description **description, wt_error *err);
 void description_free(text_description *description);
 

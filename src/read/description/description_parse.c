@@ -13,10 +13,6 @@
 
 /* ---- schema ------------------------------------------------------------------------------- */
 
-struct description_xsd {
-    xmlSchemaPtr schema;
-};
-
 static const embedded_text *embedded_schema(void)
 {
     const embedded_text *e = embedded_formats;
@@ -39,31 +35,20 @@ static void keep_quiet(void *user, xmlErrorPtr error)
 wt_status description_xsd_new(description_xsd **schema, wt_error *err)
 {
     const embedded_text *text = embedded_schema();
-    wt_status status = WT_E_INTERNAL;
-    description_xsd *made = calloc(1, sizeof *made);
-    xmlSchemaParserCtxtPtr context = NULL;
-    if (made == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the schema of descriptions");
-    context = xmlSchemaNewMemParserCtxt(text->text, (int)text->length);
+    xmlSchemaParserCtxtPtr context = xmlSchemaNewMemParserCtxt(text->text, (int)text->length);
     if (context != NULL) {
         xmlSchemaSetParserStructuredErrors(context, keep_quiet, NULL);
-        made->schema = xmlSchemaParse(context);
+        *schema = xmlSchemaParse(context);
         xmlSchemaFreeParserCtxt(context);
+        if (*schema != NULL)
+            return WT_OK;
     }
-    if (made->schema != NULL) {
-        *schema = made;
-        return WT_OK;
-    }
-    free(made);
-    return wt_fail(err, status, "the schema of descriptions cannot be compiled");
+    return wt_fail(err, WT_E_INTERNAL, "the schema of descriptions cannot be compiled");
 }
 
 void description_xsd_free(description_xsd *schema)
 {
-    if (schema == NULL)
-        return;
-    xmlSchemaFree(schema->schema);
-    free(schema);
+    xmlSchemaFree(schema);
 }
 
 /* ---- document ----------------------------------------------------------------------------- */
@@ -88,9 +73,9 @@ static void first_complaint(void *user, xmlErrorPtr error)
     explain(user, error, "not valid");
 }
 
-static void validate(description_parser *p, const description_xsd *schema, xmlDocPtr document)
+static void validate(description_parser *p, description_xsd *schema, xmlDocPtr document)
 {
-    xmlSchemaValidCtxtPtr context = xmlSchemaNewValidCtxt(schema->schema);
+    xmlSchemaValidCtxtPtr context = xmlSchemaNewValidCtxt(schema);
     if (context == NULL) {
         parse_no_memory(p);
         return;
@@ -101,7 +86,7 @@ static void validate(description_parser *p, const description_xsd *schema, xmlDo
     xmlSchemaFreeValidCtxt(context);
 }
 
-wt_status description_parse(const description_xsd *schema, const char *xml, size_t length,
+wt_status description_parse(description_xsd *schema, const char *xml, size_t length,
                             const char *name, text_description **description, wt_error *err)
 {
     const size_t most = (size_t)1 << 20;
@@ -154,7 +139,7 @@ done:
     return p.status;
 }
 
-wt_status description_parse_file(const description_xsd *schema, const char *path,
+wt_status description_parse_file(description_xsd *schema, const char *path,
                                  text_description **description, wt_error *err)
 {
     wt_input *input = NULL;

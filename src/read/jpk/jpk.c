@@ -69,13 +69,13 @@ static void add_identity(const jpk_file *file, table_writer *facts)
 
 static void add_curves(const jpk_file *file, table_writer *facts)
 {
-    facts_count(facts, "curves", file->n_curves, "entries");
+    facts_add(facts, "curves", "", "entries", "%zu", file->n_curves);
     if (file->n_expected > 0)
-        facts_count(facts, "curves planned", file->n_expected, "indexes");
+        facts_add(facts, "curves planned", "", "indexes", "%zu", file->n_expected);
     if (file->columns > 0)
         facts_add(facts, "grid", "", "position-pattern.grid", "%ld x %ld%s", file->columns,
                   file->rows, file->back_and_forth ? ", back and forth" : "");
-    if (archive_truncated(file->archive))
+    if (file->archive->truncated)
         facts_add(facts, "odd", "", "", "the end of the archive is missing");
 }
 

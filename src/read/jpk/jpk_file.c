@@ -4,6 +4,8 @@
  */
 #include "read/jpk/jpk.h"
 
+#include "base/array.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -57,20 +59,16 @@ static int by_place(const void *a, const void *b)
 
 static wt_status find_segments(jpk_file *file, wt_error *err)
 {
-    size_t count = archive_count(file->archive);
-    size_t capacity = 0;
+    size_t count = file->archive->n;
     for (size_t i = 0; i < count; i++) {
         jpk_segment_ref ref = {.entry = i};
         bool map = false;
         if (!parse_name(archive_name(file->archive, i), &ref, &map))
             continue;
-        if (file->n_refs == capacity) {
-            capacity = capacity == 0 ? 16 : 2 * capacity;
-            jpk_segment_ref *grown = realloc(file->refs, capacity * sizeof *grown);
-            if (grown == NULL)
-                return wt_fail(err, WT_E_MEMORY, "no memory for the list of segments");
-            file->refs = grown;
-        }
+        jpk_segment_ref *refs = array_grow(file->refs, file->n_refs, sizeof *refs);
+        if (refs == NULL)
+            return wt_fail(err, WT_E_MEMORY, "no memory for the list of segments");
+        file->refs = refs;
         file->map = file->map || map;
         file->refs[file->n_refs++] = ref;
     }
@@ -143,7 +141,7 @@ static void read_grid(jpk_file *file)
 
 static void note_oddities(const jpk_file *file)
 {
-    if (archive_truncated(file->archive))
+    if (file->archive->truncated)
         wt_parselog_add(file->log, WT_LOSS, file->name, NULL,
                         "the end of the archive is missing; read as far as it goes");
     if (file->header.n == 0)

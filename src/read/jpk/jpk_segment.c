@@ -4,6 +4,8 @@
  */
 #include "read/jpk/jpk.h"
 
+#include "base/number.h"
+
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
@@ -60,10 +62,10 @@ static wt_segment_kind kind_of(const char *style, const char *type)
 static void read_settings(const jpk_file *file, jpk_segment *segment)
 {
     const char *style = setting(file, segment, "style");
-    const double duration = property_value(segment_key(file, segment, "duration"));
-    const double start = property_value(setting(file, segment, "z-start"));
-    const double end = property_value(setting(file, segment, "z-end"));
-    const double time = property_value(setting(file, segment, "duration"));
+    const double duration = number_of(segment_key(file, segment, "duration"));
+    const double start = number_of(setting(file, segment, "z-start"));
+    const double end = number_of(setting(file, segment, "z-end"));
+    const double time = number_of(setting(file, segment, "duration"));
     snprintf(segment->style, sizeof segment->style, "%s", style != NULL ? style : "");
     segment->kind =
         kind_of(segment->style, segment_key(file, segment, "settings.segment-settings.type"));
@@ -72,7 +74,7 @@ static void read_settings(const jpk_file *file, jpk_segment *segment)
     segment->duration = duration >= 0 ? duration : (double)NAN;
     segment->velocity = moves && time > 0 ? fabs(start - end) / time : (double)NAN;
     segment->setpoint_voltage =
-        approach ? property_value(setting(file, segment, "setpoint")) : (double)NAN;
+        approach ? number_of(setting(file, segment, "setpoint")) : (double)NAN;
 }
 
 static wt_status shared_lcd(jpk_file *file, long id, const jpk_lcd **lcd, wt_error *err)

@@ -4,6 +4,8 @@
  */
 #include "read/jpk/properties.h"
 
+#include "base/number.h"
+
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -68,21 +70,16 @@ static void skip_break(parser *p)
 
 static bool hex4(const parser *p, const unsigned char *at, uint32_t *value)
 {
+    static const char digits[] = "0123456789abcdef";
     if (p->end - at < 4)
         return false;
     uint32_t v = 0;
     for (int i = 0; i < 4; i++) {
         unsigned char c = at[i];
-        uint32_t digit;
-        if (c >= '0' && c <= '9')
-            digit = (uint32_t)(c - '0');
-        else if (c >= 'a' && c <= 'f')
-            digit = (uint32_t)(c - 'a' + 10);
-        else if (c >= 'A' && c <= 'F')
-            digit = (uint32_t)(c - 'A' + 10);
-        else
+        const char *digit = memchr(digits, c >= 'A' && c <= 'F' ? c - 'A' + 'a' : c, 16);
+        if (digit == NULL)
             return false;
-        v = v << 4 | digit;
+        v = v << 4 | (uint32_t)(digit - digits);
     }
     *value = v;
     return true;
@@ -113,6 +110,7 @@ static bool unicode(parser *p)
 /* After a backslash. */
 static bool escape(parser *p)
 {
+    static const char letters[] = "tnrf", means[] = "\t\n\r\f";
     if (p->at == p->end)
         return true;
     unsigned char c = *p->at;
@@ -122,27 +120,13 @@ static bool escape(parser *p)
         return true;
     }
     p->at++;
-    switch (c) {
-    case 'u':
+    if (c == 'u')
         return unicode(p);
-    case 't':
-        put(p, '\t');
-        return true;
-    case 'n':
-        put(p, '\n');
-        return true;
-    case 'r':
-        put(p, '\r');
-        return true;
-    case 'f':
-        put(p, '\f');
-        return true;
-    case '\0':
+    if (c == '\0')
         return false;
-    default:
-        put(p, c);
-        return true;
-    }
+    const char *letter = strchr(letters, c);
+    put(p, letter != NULL ? (unsigned char)means[letter - letters] : c);
+    return true;
 }
 
 /* Copies up to the end of the line, or of the key if `key`. */
@@ -178,23 +162,17 @@ static wt_status reserve(property_list *p, size_t length, wt_error *err)
 {
     if (length > SIZE_MAX / 64)
         return wt_fail(err, WT_E_RANGE, "header too large");
-    size_t text = 2 * length + 2;
     /* A property is at least one byte and a line break; the last one needs no break. */
-    size_t items = length / 2 + 1;
-    if (text > p->text_capacity) {
-        char *grown = realloc(p->text, text);
-        if (grown == NULL)
-            return wt_fail(err, WT_E_MEMORY, "no memory for a header");
-        p->text = grown;
-        p->text_capacity = text;
-    }
-    if (items > p->capacity) {
-        property_entry *grown = realloc(p->items, items * sizeof *grown);
+    const size_t items = length / 2 + 1;
+    const size_t size = items * sizeof *p->items + 2 * length + 2;
+    if (size > p->capacity) {
+        property_entry *grown = realloc(p->items, size);
         if (grown == NULL)
             return wt_fail(err, WT_E_MEMORY, "no memory for a header");
         p->items = grown;
-        p->capacity = items;
+        p->capacity = size;
     }
+    p->text = (char *)(p->items + items);
     return WT_OK;
 }
 
@@ -261,7 +239,6 @@ wt_status properties_parse(property_list *properties, const unsigned char *bytes
 void properties_clear(property_list *properties)
 {
     free(properties->items);
-    free(properties->text);
     *properties = (property_list){0};
 }
 
@@ -286,15 +263,9 @@ const char *properties_find(const property_list *properties, const char *prefix,
     return n < 0 || (size_t)n >= sizeof key ? NULL : properties_get(properties, key);
 }
 
-double property_value(const char *text)
-{
-    double value = (double)NAN;
-    return text != NULL && wt_number_parse(text, strlen(text), '.', &value) ? value : (double)NAN;
-}
-
 double properties_number(const property_list *properties, const char *prefix, const char *suffix)
 {
-    return property_value(properties_find(properties, prefix, suffix));
+    return number_of(properties_find(properties, prefix, suffix));
 }
 
 bool property_word(const char **list, char *word, size_t size)

@@ -17,9 +17,8 @@ typedef struct property_entry {
 typedef struct property_list {
     property_entry *items; /* [n] by rising key; of equal keys the last one of the file is kept */
     size_t n;
-    size_t capacity;
-    char *text; /* keys and values, UTF-8 */
-    size_t text_capacity;
+    size_t capacity; /* of the block of items and text [byte] */
+    char *text;      /* keys and values, UTF-8 */
 } property_list;
 
 /* Latin-1 bytes with `#` and `!` comments, `=`, `:` or blank between key and value, the escapes
@@ -34,8 +33,6 @@ const char *properties_get(const property_list *properties, const char *key);
 /* The key is the texts put together; NULL also if it would be longer than any key here can be. */
 const char *properties_find(const property_list *properties, const char *prefix,
                             const char *suffix);
-/* NaN if the text is NULL or not one finite number. */
-double property_value(const char *text);
 /* The next word of a list, and *list behind it; false, and *list at what is left, if there is none
  * or it finds no room. *list may be NULL. */
 bool property_word(const char **list, char *word, size_t size);

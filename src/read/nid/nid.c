@@ -85,7 +85,7 @@ static void add_curves(const nid_spectroscopy *s, const wt_read_options *options
                        table_writer *facts)
 {
     const force_facts read = {.cantilever = s->cantilever};
-    facts_count(facts, "curves", s->n_curves, "Lines");
+    facts_add(facts, "curves", "", "Lines", "%zu", s->n_curves);
     if (s->columns > 0)
         facts_add(facts, "grid", "", "SpecMapTable", "%ld x %ld, back and forth", s->columns,
                   s->rows);

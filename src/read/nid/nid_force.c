@@ -7,6 +7,8 @@
  */
 #include "read/nid/nid.h"
 
+#include "base/number.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -37,7 +39,7 @@ static double full_scale(const nid_header *header, const char *name, wt_quantity
     if (!nid_count(header, SCANHEAD, "InCount", 1000, &n))
         return (double)NAN;
     for (size_t i = 0; i < n; i++) {
-        double value = (double)NAN, factor = 1, offset = 0;
+        double factor = 1, offset = 0;
         snprintf(key, sizeof key, "In%zu", i);
         const char *list = nid_get(header, SCANHEAD, key);
         if (list == NULL || !nid_list_item(list, ',', 1, item, sizeof item) ||
@@ -45,9 +47,8 @@ static double full_scale(const nid_header *header, const char *name, wt_quantity
             continue;
         if (nid_list_item(list, ',', 3, unit, sizeof unit) &&
             nid_list_item(list, ',', 4, item, sizeof item) &&
-            wt_number_parse(item, strlen(item), '.', &value) &&
             wt_unit_to_si(unit, quantity, &factor, &offset, NULL) == WT_OK)
-            return factor * value;
+            return factor * number_of(item);
         return (double)NAN;
     }
     return (double)NAN;

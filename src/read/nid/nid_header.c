@@ -4,6 +4,7 @@
  */
 #include "read/nid/nid.h"
 
+#include "base/number.h"
 #include "base/utf8.h"
 
 #include <math.h>
@@ -131,11 +132,7 @@ const char *nid_get(const nid_header *header, const char *section, const char *k
 
 double nid_number(const nid_header *header, const char *section, const char *key)
 {
-    const char *text = nid_get(header, section, key);
-    double value = (double)NAN;
-    if (text == NULL || !wt_number_parse(text, strlen(text), '.', &value))
-        return (double)NAN;
-    return value;
+    return number_of(nid_get(header, section, key));
 }
 
 bool nid_count(const nid_header *header, const char *section, const char *key, size_t most,

@@ -5,6 +5,8 @@
  */
 #include "read/nid/nid.h"
 
+#include "base/number.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -20,11 +22,7 @@ typedef struct nid_map {
 static double list_number(const char *list, size_t i)
 {
     char item[NID_TEXT];
-    double value = (double)NAN;
-    if (!nid_list_item(list, ';', i, item, sizeof item) ||
-        !wt_number_parse(item, strlen(item), '.', &value))
-        return (double)NAN;
-    return value;
+    return nid_list_item(list, ';', i, item, sizeof item) ? number_of(item) : (double)NAN;
 }
 
 static bool read_map(const nid_header *header, nid_map *map)
@@ -47,13 +45,10 @@ static bool read_map(const nid_header *header, nid_map *map)
 
 void nid_grid(const nid_header *header, long *columns, long *rows)
 {
-    nid_map map;
-    *columns = 0;
-    *rows = 0;
-    if (read_map(header, &map)) {
-        *columns = map.columns;
-        *rows = map.rows;
-    }
+    nid_map map = {.columns = 0};
+    (void)read_map(header, &map);
+    *columns = map.columns;
+    *rows = map.rows;
 }
 
 static double between(double first, double last, long i, long n)

@@ -5,7 +5,6 @@
  */
 #include "read/bytes/input.h"
 #include "read/facts.h"
-#include "read/force_source.h"
 #include "read/text/text.h"
 
 #include <stdlib.h>
@@ -58,7 +57,7 @@ static void warn_of_others(wt_parselog *log, const char *name, const wt_result *
 }
 
 /* The tables of measurements of the file, as a text stream in memory. */
-static wt_status open_text(wt_input *input, wt_parselog *log, wt_input **text, wt_error *err)
+static wt_status as_text(wt_input *input, wt_parselog *log, wt_input **text, wt_error *err)
 {
     const char *name = wt_input_name(input);
     wt_result *result = NULL;
@@ -96,51 +95,14 @@ static wt_status open_text(wt_input *input, wt_parselog *log, wt_input **text, w
     return status;
 }
 
-static wt_status open_force(const file_reader *self, wt_input *input,
-                            const wt_read_options *options, wt_parselog *log,
-                            wt_force_source **source, wt_error *err)
-{
-    wt_input *text = NULL;
-    wt_status status = open_text(input, log, &text, err);
-    if (status == WT_OK)
-        status = text_open_force(self, text, options, log, source, err);
-    if (status == WT_OK)
-        (*source)->input = text;
-    else
-        wt_input_close(text);
-    return status;
-}
-
-static wt_status read_sweep(const file_reader *self, wt_input *input,
-                            const wt_read_options *options, wt_parselog *log, wt_sweep *sweep,
-                            wt_error *err)
-{
-    wt_input *text = NULL;
-    wt_status status = open_text(input, log, &text, err);
-    if (status == WT_OK)
-        status = text_read_sweep(self, text, options, log, sweep, err);
-    wt_input_close(text);
-    return status;
-}
-
-static wt_status read_spectrum(const file_reader *self, wt_input *input,
-                               const wt_read_options *options, wt_parselog *log,
-                               wt_power_spectrum *spectrum, wt_error *err)
-{
-    wt_input *text = NULL;
-    wt_status status = open_text(input, log, &text, err);
-    if (status == WT_OK)
-        status = text_read_spectrum(self, text, options, log, spectrum, err);
-    wt_input_close(text);
-    return status;
-}
-
 static wt_status describe(const file_reader *self, wt_input *input, const wt_read_options *options,
                           wt_parselog *log, table_writer *facts)
 {
     wt_result *result = NULL;
     wt_input *text = NULL;
+    file_reader of_text = *self;
     bool measured = false;
+    of_text.as_text = NULL;
     wt_status status = wt_store_read(wt_input_name(input), &result, facts->err);
     if (status != WT_OK)
         return status;
@@ -152,9 +114,9 @@ static wt_status describe(const file_reader *self, wt_input *input, const wt_rea
         measured = measured || is_measured(wt_table_name(table));
     }
     if (measured)
-        status = open_text(input, NULL, &text, facts->err);
+        status = as_text(input, NULL, &text, facts->err);
     if (measured && status == WT_OK)
-        status = text_describe(self, text, options, log, facts);
+        status = text_describe(&of_text, text, options, log, facts);
     wt_input_close(text);
     wt_result_free(result);
     return status;
@@ -169,8 +131,9 @@ const file_reader reader_stored = {
              .version = "1"},
     .runs = "weartrack-stream",
     .detect = detect,
-    .open_force = open_force,
-    .read_sweep = read_sweep,
-    .read_spectrum = read_spectrum,
+    .as_text = as_text,
+    .open_force = text_open_force,
+    .read_sweep = text_read_sweep,
+    .read_spectrum = text_read_spectrum,
     .describe = describe,
 };

@@ -95,7 +95,7 @@ typedef struct text_table {
     double *values;                              /* [n_rows][n_columns], NaN for an empty cell */
     size_t *blocks;       /* [n_rows] number that changes where a block begins */
     unsigned char *kinds; /* [n_rows] wt_segment_kind, or ROW_KIND_NONE */
-    size_t n_rows, capacity;
+    size_t n_rows;
     text_header header;
 } text_table;
 #define ROW_KIND_NONE 255u
@@ -118,16 +118,16 @@ typedef struct text_file {
     const char *name;
     text_lines lines;
     text_table *tables;
-    size_t n_tables, capacity;
+    size_t n_tables;
     field_value *values; /* [n_fields] of the description, as last seen */
     text_list unknown;   /* names of columns that no rule knows, each once */
     text_list steps;     /* titles of steps without a table */
     pool memory;         /* of the lists, the values and the columns of the tables */
 } text_file;
 
-/* Runs the description over the input. `kinds`: the names row of a table must suffice for one of
- * them. */
-wt_status text_scan(const text_description *description, wt_input *input, unsigned kinds,
+/* Runs the description of the reader over the input. `kinds`: the names row of a table must suffice
+ * for one of them. */
+wt_status text_scan(const file_reader *reader, wt_input *input, unsigned kinds,
                     const wt_read_options *options, wt_parselog *log, text_file *file,
                     wt_error *err);
 void text_file_free(text_file *file);

@@ -12,28 +12,22 @@
 /* Tables beyond this many repeat what the first ones say. */
 #define TABLES_SHOWN ((size_t)4)
 
-static const char *line_source(size_t line, char source[32])
-{
-    snprintf(source, 32, "line %zu", line);
-    return source;
-}
-
 static void add_header(const text_file *file, table_writer *facts)
 {
-    char source[32];
     for (size_t i = 0; i < file->description->n_fields; i++)
         if (file->values[i].line > 0)
             facts_add(facts, file->description->fields[i].name, file->values[i].unit,
-                      line_source(file->values[i].line, source), "%s", file->values[i].text);
+                      line_place(file->values[i].line).words, "%s", file->values[i].text);
 }
 
 static void add_column(const text_table *t, const text_column *c, table_writer *facts)
 {
-    char item[96], source[32];
+    char item[96];
+    const text_place place = line_place(t->names_line);
+    const char *source = place.words;
     const wt_quantity q = c->rule->quantity;
     const char *id = wt_quantity_id(q);
     snprintf(item, sizeof item, "column \"%s\"", c->name);
-    line_source(t->names_line, source);
     switch (c->problem) {
     case COLUMN_GOOD:
         facts_add(facts, item, c->unit, source, "%s, %s -> %s%s%s", id,
@@ -57,9 +51,9 @@ static void add_column(const text_table *t, const text_column *c, table_writer *
 static void add_table(const text_file *file, size_t number, table_writer *facts)
 {
     const text_table *t = &file->tables[number];
-    char item[32], source[32];
+    char item[32];
     snprintf(item, sizeof item, "table %zu", number + 1);
-    facts_add(facts, item, "", line_source(t->names_line, source),
+    facts_add(facts, item, "", line_place(t->names_line).words,
               "%s%s%zu rows, separator %s, decimal %s", t->title, t->title[0] != '\0' ? ": " : "",
               t->n_rows, separator_name(t->separator), t->decimal == ',' ? "comma" : "point");
     /* Tables of one file mostly have the columns of the first. */
@@ -92,7 +86,7 @@ static void add_sweep(const text_file *file, const wt_read_options *options, wt_
     }
     facts_add(facts, "deformation", "", "", "%s",
               sweep.deformation == WT_TENSION ? "tension (E)" : "shear (G)");
-    facts_count(facts, "isotherms", sweep.n_isotherms, "");
+    facts_add(facts, "isotherms", "", "", "%zu", sweep.n_isotherms);
     for (size_t i = 0; i < sweep.n_isotherms; i++) {
         const wt_isotherm *s = &sweep.isotherms[i];
         facts_add(facts, "isotherm", "", s->source, "%.2f degC, %zu points, %.4g to %.4g rad/s",
@@ -126,7 +120,7 @@ static void add_curves(const file_reader *self, wt_input *input, const wt_read_o
         add_problem(&problem, facts);
         return;
     }
-    facts_count(facts, "curves", wt_force_count(source), "");
+    facts_add(facts, "curves", "", "", "%zu", wt_force_count(source));
     for (size_t i = 0; i < TABLES_SHOWN; i++) {
         const wt_status got = wt_force_next(source, &curve, &problem);
         if (got != WT_OK && got != WT_END)
@@ -179,7 +173,7 @@ static void add_layout(const text_file *file, table_writer *facts)
 {
     facts_add(facts, "encoding", "", "", "%s", file->lines.encoding);
     add_header(file, facts);
-    facts_count(facts, "tables", file->n_tables, "");
+    facts_add(facts, "tables", "", "", "%zu", file->n_tables);
     for (size_t i = 0; i < file->n_tables && i < TABLES_SHOWN; i++)
         add_table(file, i, facts);
     for (size_t i = 0; i < file->steps.n; i++)
@@ -199,7 +193,7 @@ wt_status text_describe(const file_reader *self, wt_input *input, const wt_read_
     text_file file;
     wt_error problem = WT_ERROR_INIT;
     facts_add(facts, "description version", "", "", "%s", description->version);
-    if (text_scan(description, input, description->kinds, options, log, &file, &problem) != WT_OK) {
+    if (text_scan(self, input, description->kinds, options, log, &file, &problem) != WT_OK) {
         add_problem(&problem, facts);
         return WT_OK;
     }

@@ -229,8 +229,7 @@ wt_status text_open_force(const file_reader *self, wt_input *input, const wt_rea
     text_source *s = calloc(1, sizeof *s);
     if (s == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for the force curves");
-    wt_status status =
-        text_scan(self->description, input, WT_KIND_FORCE, options, log, &s->file, err);
+    wt_status status = text_scan(self, input, WT_KIND_FORCE, options, log, &s->file, err);
     if (status != WT_OK) {
         free(s);
         return status;

@@ -4,28 +4,22 @@
  */
 #include "read/text/text_scan.h"
 
+#include "base/array.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 static bool grow(text_table *t)
 {
-    if (t->n_rows < t->capacity)
-        return true;
-    size_t capacity = t->capacity > 0 ? 2 * t->capacity : 64;
     const size_t width = t->n_columns > 0 ? t->n_columns : 1;
-    if (capacity > SIZE_MAX / sizeof(double) / width)
-        return false;
-    double *values = realloc(t->values, capacity * width * sizeof *values);
+    double *values = array_grow(t->values, t->n_rows, width * sizeof *values);
     t->values = values != NULL ? values : t->values;
-    size_t *blocks = realloc(t->blocks, capacity * sizeof *blocks);
+    size_t *blocks = array_grow(t->blocks, t->n_rows, sizeof *blocks);
     t->blocks = blocks != NULL ? blocks : t->blocks;
-    unsigned char *kinds = realloc(t->kinds, capacity);
+    unsigned char *kinds = array_grow(t->kinds, t->n_rows, sizeof *kinds);
     t->kinds = kinds != NULL ? kinds : t->kinds;
-    if (values == NULL || blocks == NULL || kinds == NULL)
-        return false;
-    t->capacity = capacity;
-    return true;
+    return values != NULL && blocks != NULL && kinds != NULL;
 }
 
 bool scan_split_row(text_scanner *s)

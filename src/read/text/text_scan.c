@@ -4,6 +4,8 @@
  */
 #include "read/text/text_scan.h"
 
+#include "base/array.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -19,16 +21,12 @@ static void new_table(text_scanner *s)
         s->status = wt_fail(s->err, WT_E_RANGE, "more than %zu tables in one file", TABLES_MAX);
         return;
     }
-    if (file->n_tables == file->capacity) {
-        size_t capacity = file->capacity > 0 ? 2 * file->capacity : 8;
-        text_table *grown = realloc(file->tables, capacity * sizeof *grown);
-        if (grown == NULL) {
-            scan_no_memory(s);
-            return;
-        }
-        file->tables = grown;
-        file->capacity = capacity;
+    text_table *tables = array_grow(file->tables, file->n_tables, sizeof *tables);
+    if (tables == NULL) {
+        scan_no_memory(s);
+        return;
     }
+    file->tables = tables;
     s->table = &file->tables[file->n_tables++];
     *s->table = (text_table){.names_line = s->i + 1,
                              .step_line = s->step_line,
@@ -322,12 +320,17 @@ static wt_status check_given_units(const text_file *file, const wt_read_options 
     return WT_OK;
 }
 
-wt_status text_scan(const text_description *description, wt_input *input, unsigned kinds,
+wt_status text_scan(const file_reader *reader, wt_input *input, unsigned kinds,
                     const wt_read_options *options, wt_parselog *log, text_file *file,
                     wt_error *err)
 {
+    const text_description *description = reader->description;
     const unsigned char *bytes = NULL;
     size_t length = 0;
+    wt_input *text = NULL;
+    wt_status status = reader->as_text != NULL ? reader->as_text(input, log, &text, err) : WT_OK;
+    if (status != WT_OK)
+        return status;
     text_file made = {.description = description, .name = wt_input_name(input)};
     text_scanner s = {.file = &made,
                       .d = description,
@@ -338,9 +341,10 @@ wt_status text_scan(const text_description *description, wt_input *input, unsign
                       .kind = ROW_KIND_NONE};
     for (size_t i = 0; i < HEADER_COUNT; i++)
         s.header.value[i] = (double)NAN;
-    wt_status status = wt_input_bytes(input, &bytes, &length, err);
+    status = wt_input_bytes(text != NULL ? text : input, &bytes, &length, err);
     if (status == WT_OK)
         status = lines_decode(bytes, length, description->encoding, &made.lines, err);
+    wt_input_close(text);
     if (status == WT_OK) {
         made.values = pool_alloc(&made.memory, description->n_fields, sizeof *made.values);
         if (made.values != NULL)

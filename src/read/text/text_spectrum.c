@@ -62,8 +62,7 @@ wt_status text_read_spectrum(const file_reader *self, wt_input *input,
     wt_power_spectrum made = {.n = 0};
     point *points = NULL;
     size_t rows = 0, n = 0;
-    wt_status status =
-        text_scan(self->description, input, WT_KIND_SPECTRUM, options, log, &file, err);
+    wt_status status = text_scan(self, input, WT_KIND_SPECTRUM, options, log, &file, err);
     if (status != WT_OK)
         return status;
     text_log_columns(&file, log);

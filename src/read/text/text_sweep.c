@@ -287,7 +287,7 @@ wt_status text_read_sweep(const file_reader *self, wt_input *input, const wt_rea
                           wt_parselog *log, wt_sweep *sweep, wt_error *err)
 {
     text_file file;
-    wt_status status = text_scan(self->description, input, WT_KIND_SWEEP, options, log, &file, err);
+    wt_status status = text_scan(self, input, WT_KIND_SWEEP, options, log, &file, err);
     if (status != WT_OK)
         return status;
     text_log_columns(&file, log);
