@@ -68,11 +68,8 @@ static double difference_noise(const curve_samples *s, double *scratch, double *
 /* Force that the travel of the samples from `first` on had gained just before it. */
 static bool flat_top(const curve_samples *s, double noise, double resolution, size_t *first)
 {
-    double max = s->force[0], min = s->force[0];
-    for (size_t i = 1; i < s->n; i++) {
-        max = fmax(max, s->force[i]);
-        min = fmin(min, s->force[i]);
-    }
+    double max, min;
+    gsl_stats_minmax(&min, &max, s->force, 1, s->n);
     double band = fmax(fmax(8.0 * noise, 1.5 * resolution), 1e-6 * (max - min));
     size_t i = s->n;
     while (i > 0 && s->force[i - 1] >= max - band)
@@ -92,9 +89,7 @@ static bool flat_top(const curve_samples *s, double noise, double resolution, si
 static double advance_per_bending(const curve_samples *s, double noise)
 {
     size_t n_start = s->n / 10;
-    double start = mean(s->force, n_start), max = start;
-    for (size_t i = 0; i < s->n; i++)
-        max = fmax(max, s->force[i]);
+    double start = mean(s->force, n_start), max = gsl_stats_max(s->force, 1, s->n);
     if (!(max - start > 40.0 * noise))
         return (double)NAN;
     double n = 0.0, sz = 0.0, sf = 0.0, sff = 0.0, szf = 0.0;
@@ -136,9 +131,7 @@ static size_t clean(const double *height, const double *force, size_t n, curve_i
  * above and the last below. */
 static size_t limit_force(const curve_samples *s, double fraction)
 {
-    double start = mean(s->force, s->n / 10), max = start;
-    for (size_t i = 0; i < s->n; i++)
-        max = fmax(max, s->force[i]);
+    double start = mean(s->force, s->n / 10), max = gsl_stats_max(s->force, 1, s->n);
     double limit = start + fraction * (max - start);
     size_t first_above = s->n, last_below = 0;
     for (size_t i = 0; i < s->n; i++) {
@@ -182,11 +175,8 @@ wt_curve_verdict curve_prepare(const double *height, const double *force, size_t
     }
 
     size_t end = s->n / 20 + 1;
-    double min = s->position[0], max = s->position[0];
-    for (size_t i = 1; i < s->n; i++) {
-        min = fmin(min, s->position[i]);
-        max = fmax(max, s->position[i]);
-    }
+    double min, max;
+    gsl_stats_minmax(&min, &max, s->position, 1, s->n);
     double travel = mean(s->position + s->n - end, end) - mean(s->position, end);
     if (!(fabs(travel) > travel_share * (max - min))) {
         curve_si(travel, "m", a);

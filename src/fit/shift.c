@@ -8,6 +8,7 @@
 #include "fit/wlf_fit.h"
 
 #include <math.h>
+#include <string.h>
 
 /* An isotherm this close to the reference temperature is the reference [K]: what thermometers and
  * chambers agree to. */
@@ -176,7 +177,6 @@ static wt_status fit_together(shift_work *work, wt_error *err)
                          .free_b = work->options.vertical == WT_VERTICAL_FREE,
                          .a = work->a,
                          .b = work->b,
-                         .covariance_a = work->covariance,
                          .covariance_ab = work->covariance_ab,
                          .sigma_b = work->sigma_b,
                          .correlation = work->correlation,
@@ -190,6 +190,9 @@ static wt_status fit_together(shift_work *work, wt_error *err)
     } while (status == WT_OK && take_out_flat(work));
     if (status == WT_OK)
         status = shift_superposition(&joint, work->options.floor, &work->superposition, err);
+    for (size_t i = 0; i < work->set.n; i++)
+        memcpy(work->covariance + i * work->set.n, work->covariance_ab + i * 2 * work->set.n,
+               work->set.n * sizeof *work->covariance);
     for (int q = 0; q < MODULI; q++)
         work->rms[q] = joint.rms[q];
     work->last_step = joint.last_step;

@@ -61,8 +61,7 @@ typedef struct shift_joint {
     bool use[MODULI];      /* moduli that take part */
     bool free_b;           /* vertical shifts are unknown, else they stay as they are */
     double *a, *b;         /* [set->n] start in, result out */
-    double *covariance_a;  /* [n * n] out; 0 for the anchor and curves not placed */
-    double *covariance_ab; /* [2n * 2n] of all a, then all b, out; or NULL */
+    double *covariance_ab; /* [2n * 2n] of all a, then all b, out; 0 where they stay as they are */
     double *sigma_b;       /* [n] out */
     double *correlation;   /* [n] of a and b, out */
     double *slope_noise;   /* [n] share of noise in the squared slopes a curve is shifted by, out */

@@ -11,7 +11,7 @@
 static const double many_errors = 2.5;
 static const double large_difference = 0.2;
 
-/* Shifts of one modulus alone; a, covariance: [n], [n * n] out. */
+/* Shifts of one modulus alone; a, covariance: [n], [2n * 2n] out. */
 static wt_status fit_alone(const shift_joint *joint, int q, double *a, double *b,
                            double *covariance, double *scratch, wt_error *err)
 {
@@ -21,8 +21,7 @@ static wt_status fit_alone(const shift_joint *joint, int q, double *a, double *b
     memcpy(b, joint->b, n * sizeof *b);
     alone.a = a;
     alone.b = b;
-    alone.covariance_a = covariance;
-    alone.covariance_ab = NULL;
+    alone.covariance_ab = covariance;
     alone.sigma_b = scratch;
     alone.correlation = scratch + n;
     alone.slope_noise = scratch + 2 * n;
@@ -37,7 +36,7 @@ wt_status shift_superposition(const shift_joint *joint, double floor, superposit
                               wt_error *err)
 {
     const size_t n = joint->set->n;
-    double *numbers = calloc(6 * n + 2 * n * n, sizeof *numbers);
+    double *numbers = calloc(6 * n + 8 * n * n, sizeof *numbers);
     superposition_check made = {0};
     wt_status status = WT_OK;
 
@@ -45,7 +44,7 @@ wt_status shift_superposition(const shift_joint *joint, double floor, superposit
         return wt_fail(err, WT_E_MEMORY, "no memory for the superposition check");
     double *a[MODULI] = {numbers, numbers + n};
     double *b = numbers + 2 * n, *scratch = b + n;
-    double *covariance[MODULI] = {scratch + 3 * n, scratch + 3 * n + n * n};
+    double *covariance[MODULI] = {scratch + 3 * n, scratch + 3 * n + 4 * n * n};
     for (int q = 0; q < MODULI && status == WT_OK; q++)
         status = fit_alone(joint, q, a[q], b, covariance[q], scratch, err);
     double square = 0.0;
@@ -53,7 +52,8 @@ wt_status shift_superposition(const shift_joint *joint, double floor, superposit
         if (!joint->placed[i] || i == joint->anchor)
             continue;
         const double difference = a[STORAGE][i] - a[LOSS][i];
-        const double variance = covariance[STORAGE][i * n + i] + covariance[LOSS][i * n + i];
+        const size_t ii = i * 2 * n + i;
+        const double variance = covariance[STORAGE][ii] + covariance[LOSS][ii];
         made.largest = fmax(made.largest, fabs(difference));
         square += difference * difference / (variance + 2.0 * floor * floor);
         made.n++;

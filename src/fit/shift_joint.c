@@ -346,7 +346,7 @@ static wt_status covariance(struct joint *j, spline_fit spline[MODULI], wt_error
         return wt_fail(err, WT_E_CONVERGENCE, "the normal equations of the shifts are singular");
     gsl_blas_dgemm(CblasNoTrans, CblasNoTrans, 1.0, j->factor, middle, 0.0, left);
     gsl_blas_dgemm(CblasNoTrans, CblasNoTrans, 1.0, left, j->factor, 0.0, middle);
-    for (size_t i = 0; i < 2 * n && task->covariance_ab != NULL; i++) {
+    for (size_t i = 0; i < 2 * n; i++) {
         const long row = i < n ? j->column_a[i] : j->column_b[i - n];
         for (size_t k = 0; k < 2 * n; k++) {
             const long column = k < n ? j->column_a[k] : j->column_b[k - n];
@@ -355,11 +355,6 @@ static wt_status covariance(struct joint *j, spline_fit spline[MODULI], wt_error
         }
     }
     for (size_t i = 0; i < n; i++) {
-        for (size_t k = 0; k < n; k++)
-            task->covariance_a[i * n + k] =
-                j->column_a[i] < 0 || j->column_a[k] < 0
-                    ? 0.0
-                    : gsl_matrix_get(middle, (size_t)j->column_a[i], (size_t)j->column_a[k]);
         task->sigma_b[i] = 0.0;
         task->correlation[i] = 0.0;
         if (j->column_b[i] >= 0) {

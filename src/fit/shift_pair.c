@@ -6,6 +6,7 @@
 
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_min.h>
+#include <gsl/gsl_statistics_double.h>
 #include <math.h>
 
 /* Shared range of ordinates below which two curves do not overlap [decade]. */
@@ -116,13 +117,8 @@ static bool ordinates_overlap(const shift_curve *p, const shift_curve *s, int q,
 {
     double low[2], high[2];
     const shift_curve *curve[2] = {p, s};
-    for (int c = 0; c < 2; c++) {
-        low[c] = high[c] = curve[c]->y[q][0];
-        for (size_t k = 1; k < curve[c]->n; k++) {
-            low[c] = fmin(low[c], curve[c]->y[q][k]);
-            high[c] = fmax(high[c], curve[c]->y[q][k]);
-        }
-    }
+    for (int c = 0; c < 2; c++)
+        gsl_stats_minmax(&low[c], &high[c], curve[c]->y[q], 1, curve[c]->n);
     *shared = fmax(fmin(high[0], high[1]) - fmax(low[0], low[1]), 0.0);
     const double flatter = fmin(high[0] - low[0], high[1] - low[1]);
     return *shared >= fmin(least_overlap, 0.25 * flatter) && *shared > 0.0;

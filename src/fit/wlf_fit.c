@@ -35,7 +35,18 @@ struct problem {
     gsl_vector *column; /* [n] scratch */
     gsl_matrix *linear; /* n x 2 whitened design of the linear laws */
     gsl_vector *white;  /* [n] whitened log_a */
+    gsl_multifit_linear_workspace *line;
+    gsl_multifit_nlinear_workspace *law;
+    gsl_matrix *line_cov, *law_cov; /* of the fit that was the last */
 };
+
+static void problem_free(struct problem *problem)
+{
+    gsl_multifit_linear_free(problem->line);
+    if (problem->law != NULL)
+        gsl_multifit_nlinear_free(problem->law);
+    pool_free(&problem->memory);
+}
 
 static void whiten(const struct problem *problem, gsl_vector *v)
 {
@@ -45,12 +56,17 @@ static void whiten(const struct problem *problem, gsl_vector *v)
 static wt_status problem_init(struct problem *problem, const double *covariance, double floor,
                               wt_error *err)
 {
+    const gsl_multifit_nlinear_parameters settings = gsl_multifit_nlinear_default_parameters();
     const size_t n = problem->n;
     problem->root = pool_matrix(&problem->memory, n, n);
     problem->column = pool_vector(&problem->memory, n);
     problem->linear = pool_matrix(&problem->memory, n, 2);
     problem->white = pool_vector(&problem->memory, n);
-    if (problem->memory.failed)
+    problem->line_cov = pool_matrix(&problem->memory, 2, 2);
+    problem->law_cov = pool_matrix(&problem->memory, N_WLF, N_WLF);
+    problem->line = gsl_multifit_linear_alloc(n, 2);
+    problem->law = gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &settings, n, N_WLF);
+    if (problem->memory.failed || problem->line == NULL || problem->law == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for %zu shift factors", n);
     for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j < n; j++)
@@ -105,26 +121,23 @@ static int jacobian(const gsl_vector *unknown, void *parameters, gsl_matrix *der
 }
 
 /* Generalised least squares of log_a = offset + factor * regressor (in problem->column).
- * cov: of (offset, factor) for the variances as given. */
-static wt_status fit_linear(struct problem *problem, gsl_multifit_linear_workspace *workspace,
-                            double result[2], gsl_matrix *cov, double *chi_square, wt_error *err)
+ * line_cov: of (offset, factor) for the variances as given. */
+static wt_status fit_linear(struct problem *problem, double result[2], double *chi_square,
+                            wt_error *err)
 {
-    double found[2];
-    gsl_vector_view view = gsl_vector_view_array(found, 2);
+    gsl_vector_view view = gsl_vector_view_array(result, 2);
     gsl_vector_view one = gsl_matrix_column(problem->linear, 0);
     gsl_vector_view regressor = gsl_matrix_column(problem->linear, 1);
     gsl_vector_set_all(&one.vector, 1.0);
     gsl_vector_memcpy(&regressor.vector, problem->column);
     whiten(problem, &one.vector);
     whiten(problem, &regressor.vector);
-    if (gsl_multifit_linear(problem->linear, problem->white, &view.vector, cov, chi_square,
-                            workspace) != GSL_SUCCESS)
+    if (gsl_multifit_linear(problem->linear, problem->white, &view.vector, problem->line_cov,
+                            chi_square, problem->line) != GSL_SUCCESS)
         return wt_fail(err, WT_E_CONVERGENCE, "the straight line through the shifts is singular");
     /* gsl scales by chi^2/(n - 2); the covariance of the shifts is known here. */
     if (*chi_square > 0.0)
-        gsl_matrix_scale(cov, (double)(problem->n - 2) / *chi_square);
-    result[0] = found[0];
-    result[1] = found[1];
+        gsl_matrix_scale(problem->line_cov, (double)(problem->n - 2) / *chi_square);
     return WT_OK;
 }
 
@@ -145,17 +158,16 @@ static double scatter_factor(double chi_square, size_t n, size_t n_parameters)
 }
 
 /* Levenberg-Marquardt from c2 = start_c2, with the best c1 and offset for it. */
-static wt_status fit_from(struct problem *problem, double above_pole,
-                          gsl_multifit_linear_workspace *linear, gsl_matrix *linear_cov,
-                          gsl_multifit_nlinear_workspace *workspace, double unknown[N_WLF],
-                          double *chi_square, gsl_matrix *cov, wt_error *err)
+static wt_status fit_from(struct problem *problem, double above_pole, double unknown[N_WLF],
+                          double *chi_square, wt_error *err)
 {
+    gsl_multifit_nlinear_workspace *workspace = problem->law;
     double line[2], ignored;
     for (size_t i = 0; i < problem->n; i++) {
         const double rise = problem->temperature[i] - problem->reference;
         gsl_vector_set(problem->column, i, -rise / (problem->lead + above_pole + rise));
     }
-    wt_status status = fit_linear(problem, linear, line, linear_cov, &ignored, err);
+    wt_status status = fit_linear(problem, line, &ignored, err);
     if (status != WT_OK)
         return status;
     unknown[Q] = log(line[1] > 0.0 ? line[1] : 1.0);
@@ -176,17 +188,18 @@ static wt_status fit_from(struct problem *problem, double above_pole,
         unknown[k] = gsl_vector_get(gsl_multifit_nlinear_position(workspace), k);
     gsl_blas_ddot(gsl_multifit_nlinear_residual(workspace),
                   gsl_multifit_nlinear_residual(workspace), chi_square);
-    if (!isfinite(*chi_square) ||
-        gsl_multifit_nlinear_covar(gsl_multifit_nlinear_jac(workspace), 0.0, cov) != GSL_SUCCESS)
+    if (!isfinite(*chi_square) || gsl_multifit_nlinear_covar(gsl_multifit_nlinear_jac(workspace),
+                                                             0.0, problem->law_cov) != GSL_SUCCESS)
         return wt_fail(err, WT_E_CONVERGENCE, "the WLF fit failed");
     return WT_OK;
 }
 
 /* Carries the covariance of (q, p, offset) over to what is reported. A straight line has a slope
  * and no more: its errors of c1, c2 and what follows from them are not known. */
-static void fill_wlf(const struct problem *problem, const double unknown[N_WLF],
-                     const gsl_matrix *cov, double chi_square, wt_wlf_fit *fit)
+static void fill_wlf(const struct problem *problem, const double unknown[N_WLF], double chi_square,
+                     wt_wlf_fit *fit)
 {
+    const gsl_matrix *cov = problem->law_cov;
     const double factor = scatter_factor(chi_square, problem->n, N_WLF);
     const double c1 = exp(unknown[Q]), above = above_pole_of(unknown[P]);
     const double c2 = problem->lead + above;
@@ -241,68 +254,42 @@ static wt_status check_falls(double slope, wt_error *err)
     return status;
 }
 
-/* What the fits of one set of shifts share. */
-struct workspace {
-    gsl_multifit_linear_workspace *linear;
-    gsl_multifit_nlinear_workspace *nonlinear;
-    gsl_matrix *linear_cov, *cov;
-};
-
-static wt_status workspace_init(struct workspace *w, size_t n, pool *memory, wt_error *err)
-{
-    const gsl_multifit_nlinear_parameters settings = gsl_multifit_nlinear_default_parameters();
-    w->linear = gsl_multifit_linear_alloc(n, 2);
-    w->nonlinear = gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &settings, n, N_WLF);
-    w->linear_cov = pool_matrix(memory, 2, 2);
-    w->cov = pool_matrix(memory, N_WLF, N_WLF);
-    if (w->linear == NULL || w->nonlinear == NULL || memory->failed)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the WLF fit");
-    return WT_OK;
-}
-
-static void workspace_free(struct workspace *w)
-{
-    gsl_multifit_linear_free(w->linear);
-    if (w->nonlinear != NULL)
-        gsl_multifit_nlinear_free(w->nonlinear);
-}
-
 /* A law with one factor, offset + factor * regressor (in problem->column), with its error. */
-static wt_status fit_factor(struct problem *problem, struct workspace *w, double *factor,
-                            double *error, double *criterion, wt_error *err)
+static wt_status fit_factor(struct problem *problem, double *factor, double *error,
+                            double *criterion, wt_error *err)
 {
     double line[2], chi_square;
-    wt_status status = fit_linear(problem, w->linear, line, w->linear_cov, &chi_square, err);
+    wt_status status = fit_linear(problem, line, &chi_square, err);
     if (status != WT_OK)
         return status;
     *factor = line[1];
-    *error = sqrt(gsl_matrix_get(w->linear_cov, 1, 1)) * scatter_factor(chi_square, problem->n, 2);
+    *error =
+        sqrt(gsl_matrix_get(problem->line_cov, 1, 1)) * scatter_factor(chi_square, problem->n, 2);
     *criterion = aicc(chi_square, problem->n, 2);
     return WT_OK;
 }
 
 /* The straight line, by which shifts that do not fall are refused, and Arrhenius' law. */
-static wt_status fit_lines(struct problem *problem, struct workspace *w, double *slope,
-                           double *slope_error, wt_wlf_fit *fit, wt_error *err)
+static wt_status fit_lines(struct problem *problem, double *slope, double *slope_error,
+                           wt_wlf_fit *fit, wt_error *err)
 {
     double ignored;
     for (size_t i = 0; i < problem->n; i++)
         gsl_vector_set(problem->column, i, problem->temperature[i] - problem->reference);
-    wt_status status = fit_factor(problem, w, slope, slope_error, &ignored, err);
+    wt_status status = fit_factor(problem, slope, slope_error, &ignored, err);
     if (status == WT_OK)
         status = check_falls(*slope, err);
     for (size_t i = 0; i < problem->n; i++)
         gsl_vector_set(problem->column, i,
                        wt_arrhenius_log_shift(1.0, problem->reference, problem->temperature[i]));
     if (status == WT_OK)
-        status = fit_factor(problem, w, &fit->activation_energy, &fit->activation_energy_error,
+        status = fit_factor(problem, &fit->activation_energy, &fit->activation_energy_error,
                             &fit->aicc_arrhenius, err);
     return status;
 }
 
 /* The best of fits from several starts: the cost has side minima. */
-static wt_status fit_law(struct problem *problem, struct workspace *w, wt_wlf_fit *fit,
-                         wt_error *err)
+static wt_status fit_law(struct problem *problem, wt_wlf_fit *fit, wt_error *err)
 {
     /* Distance of the pole below the coldest isotherm to start from [K]. */
     static const double starts[] = {10.0, 40.0, 150.0, 600.0};
@@ -310,11 +297,10 @@ static wt_status fit_law(struct problem *problem, struct workspace *w, wt_wlf_fi
     wt_status status = WT_OK;
     for (size_t k = 0; k < sizeof starts / sizeof *starts; k++) {
         double unknown[N_WLF];
-        status = fit_from(problem, starts[k], w->linear, w->linear_cov, w->nonlinear, unknown,
-                          &chi_square, w->cov, err);
+        status = fit_from(problem, starts[k], unknown, &chi_square, err);
         if (status == WT_OK && chi_square < best) {
             best = chi_square;
-            fill_wlf(problem, unknown, w->cov, chi_square, fit);
+            fill_wlf(problem, unknown, chi_square, fit);
         }
     }
     return best < HUGE_VAL ? WT_OK : status; /* the last failure */
@@ -326,7 +312,6 @@ wt_status wlf_fit_arrays(const double *temperature, const double *log_a, const d
 {
     struct problem problem = {
         .n = n, .temperature = temperature, .log_a = log_a, .reference = reference_temperature};
-    struct workspace w = {0};
     wt_wlf_fit made = {.n = n};
     double slope, slope_error;
 
@@ -347,11 +332,9 @@ wt_status wlf_fit_arrays(const double *temperature, const double *log_a, const d
     problem.lead = reference_temperature - coldest;
     wt_status status = problem_init(&problem, covariance, floor, err);
     if (status == WT_OK)
-        status = workspace_init(&w, n, &problem.memory, err);
+        status = fit_lines(&problem, &slope, &slope_error, &made, err);
     if (status == WT_OK)
-        status = fit_lines(&problem, &w, &slope, &slope_error, &made, err);
-    if (status == WT_OK)
-        status = fit_law(&problem, &w, &made, err);
+        status = fit_law(&problem, &made, err);
     if (status == WT_OK) {
         if (made.straight) {
             made.slope = slope;
@@ -360,8 +343,7 @@ wt_status wlf_fit_arrays(const double *temperature, const double *log_a, const d
         made.rms = weighted_rms(&problem, covariance, floor, &made);
         *fit = made;
     }
-    pool_free(&problem.memory);
-    workspace_free(&w);
+    problem_free(&problem);
     return status;
 }
 

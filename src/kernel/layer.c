@@ -95,19 +95,12 @@ static double balance_function(double depth, void *user)
     return energy_log_tail(b->rates->source, depth) - b->rates->log_power - b->level;
 }
 
-/* How far the root moves when the logarithm of Qf moves by `error`: found by going there. */
+/* How far the root moves when the logarithm of Qf moves by `error`. */
 static double root_error(balance_root *b, double root, double error)
 {
     const double kappa = layer_decay(b->rates, root);
-    double reach = fmax(kappa > 0 ? error / kappa : 0, 2 * DBL_EPSILON * root);
-    for (int i = 0; i < 200; i++) {
-        const bool above = balance_function(root + reach, b) < -error;
-        const bool below = root - reach <= 0 || balance_function(root - reach, b) > error;
-        if (above && below)
-            break;
-        reach = fmax(2 * reach, DBL_MIN);
-    }
-    return reach;
+    const double reach = fmax(kappa > 0 ? error / kappa : 0, 2 * DBL_EPSILON * root);
+    return root_reach(balance_function, b, root, error, reach, DBL_MIN);
 }
 
 wt_status layer_fixed_point(const layer_rates *rates, double log_scale, wt_estimate *thickness,

@@ -76,15 +76,7 @@ static double depth_error(damage *d, double root)
 {
     const double error =
         d->rates->source->numerical_error + 16 * DBL_EPSILON * (1 + fabs(d->rates->threshold));
-    double reach = 2 * DBL_EPSILON * root;
-    for (int i = 0; i < 1100; i++) {
-        const bool above = damage_at(root + reach, d) < -error;
-        const bool below = root - reach <= 0 || damage_at(root - reach, d) > error;
-        if (above && below)
-            break;
-        reach = fmax(2 * reach, error / d->rates->q_max);
-    }
-    return reach;
+    return root_reach(damage_at, d, root, error, 2 * DBL_EPSILON * root, error / d->rates->q_max);
 }
 
 wt_status layer_damage_depth(const layer_rates *rates, double time, wt_estimate *thickness,

@@ -138,23 +138,6 @@ static wt_estimate estimate_at(const march *m, double thickness, double time, do
     return (wt_estimate){.value = fmax(thickness, 0), .numerical_error = error, .unit = "m"};
 }
 
-static wt_status march_begin(march *m, const layer_rates *rates, double start, wt_estimate *target,
-                             wt_error *err)
-{
-    *m = (march){.rates = rates, .thickness = start};
-    wt_status status = layer_fixed_point(rates, 0, target, err);
-    if (status == WT_OK)
-        status = rule_new(LOW_NODES, &m->memory, &m->low, err);
-    if (status == WT_OK)
-        status = rule_new(HIGH_NODES, &m->memory, &m->high, err);
-    m->target = target->value;
-    m->direction = net_rate(rates, start) > 0 ? 1 : -1;
-    if (status != WT_OK || m->direction > 0)
-        return status;
-    m->target = fmin(m->target, start);
-    return WT_OK;
-}
-
 /* Far above the balance only wear counts: down to where formation begins to be felt, the thickness
  * is linear in time. */
 static wt_status skip_pure_wear(march *m, double *length, wt_error *err)
@@ -172,15 +155,30 @@ static wt_status skip_pure_wear(march *m, double *length, wt_error *err)
     return WT_OK;
 }
 
+/* *linear: how far wear alone counts. */
+static wt_status march_begin(march *m, const layer_rates *rates, double start, wt_estimate *target,
+                             double *linear, wt_error *err)
+{
+    *m = (march){.rates = rates, .thickness = start};
+    wt_status status = layer_fixed_point(rates, 0, target, err);
+    if (status == WT_OK)
+        status = rule_new(LOW_NODES, &m->memory, &m->low, err);
+    if (status == WT_OK)
+        status = rule_new(HIGH_NODES, &m->memory, &m->high, err);
+    m->target = target->value;
+    m->direction = net_rate(rates, start) > 0 ? 1 : -1;
+    if (m->direction < 0)
+        m->target = fmin(m->target, start);
+    return status == WT_OK ? skip_pure_wear(m, linear, err) : status;
+}
+
 wt_status layer_march(const layer_rates *rates, double start, const layer_instant *at, size_t n,
                       wt_error *err)
 {
     march m;
     wt_estimate target;
     double linear = 0;
-    wt_status status = march_begin(&m, rates, start, &target, err);
-    if (status == WT_OK)
-        status = skip_pure_wear(&m, &linear, err);
+    wt_status status = march_begin(&m, rates, start, &target, &linear, err);
     if (status != WT_OK)
         goto done;
 
@@ -240,9 +238,7 @@ wt_status layer_removal(const layer_rates *rates, double start, double *time, wt
     march m;
     wt_estimate target;
     double linear = 0;
-    wt_status status = march_begin(&m, rates, start, &target, err);
-    if (status == WT_OK)
-        status = skip_pure_wear(&m, &linear, err);
+    wt_status status = march_begin(&m, rates, start, &target, &linear, err);
     if (status != WT_OK)
         goto done;
     m.thickness -= linear;

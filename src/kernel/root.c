@@ -11,6 +11,18 @@
 #include <gsl/gsl_roots.h>
 #include <math.h>
 
+double root_reach(root_fn f, void *user, double root, double error, double reach, double least)
+{
+    for (int i = 0; i < 1100; i++) {
+        const bool above = f(root + reach, user) < -error;
+        const bool below = root - reach <= 0 || f(root - reach, user) > error;
+        if (above && below)
+            break;
+        reach = fmax(2 * reach, least);
+    }
+    return reach;
+}
+
 wt_status root_find(root_fn f, void *user, double low, double high, double *root, wt_error *err)
 {
     const double at_low = f(low, user);

@@ -13,4 +13,8 @@ typedef double (*root_fn)(double x, void *user);
 wt_status root_find(root_fn f, void *user, double low, double high, double *root,
                     wt_error *err) WT_NODISCARD;
 
+/* How far the root moves when f, which falls there, moves by `error`: found by going there, from
+ * `reach` on and by `least` at least. */
+double root_reach(root_fn f, void *user, double root, double error, double reach, double least);
+
 #endif

@@ -10,30 +10,21 @@
 #include <math.h>
 #include <stdlib.h>
 
-static char *print(const char *format, va_list arguments) WT_PRINTF(1, 0);
-static char *print(const char *format, va_list arguments)
-{
-    va_list again;
-    va_copy(again, arguments);
-    const int n = clocale_vprint(NULL, 0, format, arguments);
-    char *text = n < 0 ? NULL : malloc((size_t)n + 1);
-    if (text != NULL)
-        (void)clocale_vprint(text, (size_t)n + 1, format, again);
-    va_end(again);
-    return text;
-}
-
 void facts_add(table_writer *facts, const char *item, const char *unit, const char *source,
                const char *format, ...)
 {
     if (facts->status != WT_OK)
         return;
+    char *value = NULL;
     va_list arguments;
     va_start(arguments, format);
-    char *value = print(format, arguments);
-    va_end(arguments);
-    if (value == NULL)
+    const locale_t previous = clocale_enter();
+    if (vasprintf(&value, format, arguments) < 0) {
+        value = NULL;
         facts->status = wt_fail(facts->err, WT_E_MEMORY, "no memory to describe the file");
+    }
+    clocale_leave(previous);
+    va_end(arguments);
     table_row(facts);
     facts_put_text(facts, FACTS_ITEM, item);
     facts_put_text(facts, FACTS_VALUE, value);

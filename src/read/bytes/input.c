@@ -201,12 +201,8 @@ static wt_status fill(wt_input *in, size_t want, wt_error *err)
 wt_status wt_input_bytes(wt_input *input, const unsigned char **bytes, size_t *length,
                          wt_error *err)
 {
-    wt_status status = fill(input, SIZE_MAX, err);
-    if (status != WT_OK)
-        return status;
-    *bytes = input->bytes;
-    *length = input->length;
-    return WT_OK;
+    bool whole;
+    return wt_input_peek(input, SIZE_MAX, bytes, length, &whole, err);
 }
 
 wt_status wt_input_peek(wt_input *input, size_t want, const unsigned char **bytes, size_t *length,
