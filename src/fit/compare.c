@@ -11,6 +11,7 @@
  */
 #include "base/array.h"
 #include "base/gsl_quiet.h"
+#include "base/pool.h"
 #include "model/special.h"
 #include "weartrack/fit.h"
 
@@ -30,7 +31,7 @@ typedef struct curve {
 
 /* The observations: curves, or means over spots. */
 typedef struct units {
-    double *modulus, *log_modulus; /* [n]; one block, owned by `modulus` */
+    double *modulus, *log_modulus; /* [n] */
     size_t n;
 } units;
 
@@ -63,20 +64,17 @@ static wt_status check_group(const wt_group *group, wt_error *err)
 }
 
 /* In an order that does not depend on that of the curves, so that sums have the same bits. */
-static wt_status make_units(const wt_group *group, bool use_spots, units *u, wt_error *err)
+static wt_status make_units(const wt_group *group, bool use_spots, pool *memory, units *u,
+                            wt_error *err)
 {
     wt_status status = check_group(group, err);
     if (status != WT_OK)
         return status;
     gsl_quiet();
-    curve *curves = malloc(group->n * sizeof *curves);
-    u->modulus = malloc(2 * group->n * sizeof *u->modulus);
-    if (curves == NULL || u->modulus == NULL) {
-        free(curves);
+    curve *curves = pool_alloc(memory, group->n, sizeof *curves);
+    *u = (units){pool_numbers(memory, group->n), pool_numbers(memory, group->n), 0};
+    if (memory->failed)
         return wt_fail(err, WT_E_MEMORY, "no memory for a group of %zu moduli", group->n);
-    }
-    u->log_modulus = u->modulus + group->n;
-    u->n = 0;
     for (size_t i = 0; i < group->n; i++)
         curves[i] = (curve){use_spots ? group->spot[i] : 0, group->modulus[i]};
     qsort(curves, group->n, sizeof *curves, by_spot);
@@ -92,7 +90,6 @@ static wt_status make_units(const wt_group *group, bool use_spots, units *u, wt_
         u->modulus[u->n] = sum / m;
         u->log_modulus[u->n++] = log_sum / m;
     }
-    free(curves);
     return WT_OK;
 }
 
@@ -113,10 +110,10 @@ static double quantile_t(double df)
     return gsl_cdf_tdist_Pinv(0.5 + 0.5 * confidence, df);
 }
 
-static wt_status summarise(const wt_group *group, const units *u, wt_group_summary *summary,
-                           wt_error *err)
+static wt_status summarise(const wt_group *group, const units *u, pool *memory,
+                           wt_group_summary *summary, wt_error *err)
 {
-    double *sorted = malloc(group->n * sizeof *sorted);
+    double *sorted = pool_numbers(memory, group->n);
     if (sorted == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for a group of %zu moduli", group->n);
     memcpy(sorted, group->modulus, group->n * sizeof *sorted);
@@ -140,17 +137,17 @@ static wt_status summarise(const wt_group *group, const units *u, wt_group_summa
         summary->low = exp(logs.mean - reach);
         summary->high = exp(logs.mean + reach);
     }
-    free(sorted);
     return WT_OK;
 }
 
 wt_status wt_group_summarise(const wt_group *group, wt_group_summary *summary, wt_error *err)
 {
-    units u = {NULL, NULL, 0};
-    wt_status status = make_units(group, group->spot != NULL, &u, err);
+    units u;
+    pool memory = {0};
+    wt_status status = make_units(group, group->spot != NULL, &memory, &u, err);
     if (status == WT_OK)
-        status = summarise(group, &u, summary, err);
-    free(u.modulus);
+        status = summarise(group, &u, &memory, summary, err);
+    pool_free(&memory);
     return status;
 }
 
@@ -196,11 +193,11 @@ static int by_value(const void *a, const void *b)
 
 /* U of the track by the sum of its ranks, equal values sharing the mean of theirs; *ties is the sum
  * of t^3 - t over groups of t equal values. Exact: all are whole numbers or halves. */
-static wt_status rank_units(const units *bulk, const units *track, double *u, double *ties,
-                            wt_error *err)
+static wt_status rank_units(const units *bulk, const units *track, pool *memory, double *u,
+                            double *ties, wt_error *err)
 {
     const size_t m = track->n, n = m + bulk->n;
-    ranked *all = malloc(n * sizeof *all);
+    ranked *all = pool_alloc(memory, n, sizeof *all);
     if (all == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for the comparison of two groups");
     for (size_t i = 0; i < n; i++)
@@ -218,17 +215,16 @@ static wt_status rank_units(const units *bulk, const units *track, double *u, do
         ranks += of_track * 0.5 * (double)(first + 1 + end);
         *ties += t * t * t - t;
     }
-    free(all);
     *u = ranks - 0.5 * (double)m * (double)(m + 1);
     return WT_OK;
 }
 
-static wt_status mann_whitney(const units *bulk, const units *track, wt_comparison *result,
-                              wt_error *err)
+static wt_status mann_whitney(const units *bulk, const units *track, pool *memory,
+                              wt_comparison *result, wt_error *err)
 {
     const size_t m = track->n, n = bulk->n;
     double u = 0.0, ties = 0.0;
-    wt_status status = rank_units(bulk, track, &u, &ties, err);
+    wt_status status = rank_units(bulk, track, memory, &u, &ties, err);
     if (status != WT_OK)
         return status;
     const double pairs = (double)m * (double)n, all = (double)(m + n);
@@ -242,7 +238,7 @@ static wt_status mann_whitney(const units *bulk, const units *track, wt_comparis
             variance > 0.0 ? fmin(1.0, 2.0 * gsl_cdf_ugaussian_Q(distance / sqrt(variance))) : 1.0;
         return WT_OK;
     }
-    double *counts = malloc((m * n + 1) * sizeof *counts);
+    double *counts = pool_numbers(memory, m * n + 1);
     if (counts == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for the comparison of two groups");
     count_rankings(m, n, counts);
@@ -253,7 +249,6 @@ static wt_status mann_whitney(const units *bulk, const units *track, wt_comparis
             tail += counts[i];
     }
     result->mann_whitney_p = fmin(1.0, 2.0 * tail / total);
-    free(counts);
     return WT_OK;
 }
 
@@ -271,18 +266,19 @@ wt_status wt_compare(const wt_group *bulk, const wt_group *track, wt_comparison 
                      wt_error *err)
 {
     wt_comparison c = {.by_spot = bulk->spot != NULL && track->spot != NULL};
-    units a = {NULL, NULL, 0}, b = {NULL, NULL, 0};
-    wt_status status = make_units(bulk, c.by_spot, &a, err);
+    units a, b;
+    pool memory = {0};
+    wt_status status = make_units(bulk, c.by_spot, &memory, &a, err);
     if (status == WT_OK)
-        status = make_units(track, c.by_spot, &b, err);
+        status = make_units(track, c.by_spot, &memory, &b, err);
     if (status != WT_OK)
         goto done;
     if (a.n < 2 || b.n < 2) {
         status = too_few(a.n < 2 ? "bulk" : "track", a.n < 2 ? &a : &b, c.by_spot, err);
         goto done;
     }
-    if ((status = summarise(bulk, &a, &c.bulk, err)) != WT_OK ||
-        (status = summarise(track, &b, &c.track, err)) != WT_OK)
+    if ((status = summarise(bulk, &a, &memory, &c.bulk, err)) != WT_OK ||
+        (status = summarise(track, &b, &memory, &c.track, err)) != WT_OK)
         goto done;
 
     moments log_a = moments_of(a.log_modulus, a.n), log_b = moments_of(b.log_modulus, b.n);
@@ -306,10 +302,9 @@ wt_status wt_compare(const wt_group *bulk, const wt_group *track, wt_comparison 
     double df = log_a.n + log_b.n - 2.0;
     double pooled = ((log_a.n - 1.0) * log_a.variance + (log_b.n - 1.0) * log_b.variance) / df;
     c.effect_size = of_logs.difference / sqrt(pooled) * (1.0 - 3.0 / (4.0 * df - 1.0));
-    status = mann_whitney(&a, &b, &c, err);
+    status = mann_whitney(&a, &b, &memory, &c, err);
 done:
-    free(a.modulus);
-    free(b.modulus);
+    pool_free(&memory);
     if (status == WT_OK)
         *result = c;
     return status;

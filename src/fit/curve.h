@@ -45,9 +45,13 @@ void curve_fit_empty(wt_indent_fit *fit);
 /* WT_E_MEMORY when n samples find no room. */
 wt_status curve_reserve(wt_indent_workspace *workspace, size_t n, wt_error *err);
 
-/* The reason of a verdict; a value as short text with its unit. */
+/* The reason of a verdict. */
 void curve_say(char reason[160], const char *format, ...) WT_PRINTF(2, 3);
-void curve_si(double value, const char *unit, char text[24]);
+/* A value as short text with its unit. */
+typedef struct si_text {
+    char words[24];
+} si_text;
+si_text curve_si(double value, const char *unit);
 
 /* ---- preparation: curve_prepare.c ------------------------------------------------------------ */
 

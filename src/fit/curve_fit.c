@@ -260,16 +260,15 @@ static double force_fall(const curve_samples *s)
 static wt_curve_verdict no_contact_verdict(fitting *f, char reason[160])
 {
     const double fall = force_fall(&f->input.samples);
-    char a[24], b[24];
-    curve_si(fabs(fall), "N", a);
-    curve_si(f->input.step_noise, "N", b);
+    const si_text change = curve_si(fabs(fall), "N"), noise = curve_si(f->input.step_noise, "N");
     if (fall > contact_noise * f->input.step_noise) {
         curve_say(reason,
-                  "the force falls by %s towards the sample (noise %s): sign of the deflection?", a,
-                  b);
+                  "the force falls by %s towards the sample (noise %s): sign of the deflection?",
+                  change.words, noise.words);
         return WT_CURVE_NEGATIVE;
     }
-    curve_say(reason, "the force changes by %s from start to end (noise %s)", a, b);
+    curve_say(reason, "the force changes by %s from start to end (noise %s)", change.words,
+              noise.words);
     return WT_CURVE_NO_CONTACT;
 }
 
@@ -289,9 +288,8 @@ static bool leaves_the_sample(fitting *f, char reason[160])
     n = curve_scan(f->table, s, true, false, f->workspace, minima);
     if (n > 0 && minima[0].contact_point > s->position[0] &&
         minima[0].cost < reverse_ratio * cost) {
-        char a[24];
-        curve_si(fall, "N", a);
-        curve_say(reason, "the force falls by %s along the segment: it leaves the sample", a);
+        curve_say(reason, "the force falls by %s along the segment: it leaves the sample",
+                  curve_si(fall, "N").words);
         return true;
     }
     curve_reverse(s);
@@ -302,26 +300,24 @@ static wt_curve_verdict judge(fitting *f, double max_force, wt_indent_fit *fit)
 {
     const curve_solution *s = &f->solution;
     const curve_samples *samples = &f->input.samples;
-    char a[24], b[24], c[24], *reason = fit->reason;
+    char *reason = fit->reason;
 
     double length = s->p[CURVE_C] - samples->position[0];
     if (length <= 0.0) {
-        curve_si(-length, "m", a);
-        curve_say(reason, "contact is found %s before the first sample", a);
+        curve_say(reason, "contact is found %s before the first sample",
+                  curve_si(-length, "m").words);
         return WT_CURVE_NO_BASELINE;
     }
     if (!(max_force > contact_noise * s->noise)) {
-        curve_si(max_force, "N", a);
-        curve_si(s->noise, "N", b);
-        curve_say(reason, "largest force %s is %.1f times the noise of %s, %g needed", a,
-                  max_force / s->noise, b, contact_noise);
+        curve_say(reason, "largest force %s is %.1f times the noise of %s, %g needed",
+                  curve_si(max_force, "N").words, max_force / s->noise,
+                  curve_si(s->noise, "N").words, contact_noise);
         return WT_CURVE_NO_CONTACT;
     }
     if (s->first_contact < baseline_samples || length < baseline_length * s->max_indentation) {
-        curve_si(length, "m", a);
-        curve_si(baseline_length * s->max_indentation, "m", b);
         curve_say(reason, "baseline of %zu samples and %s; %zu samples and %s needed",
-                  s->first_contact, a, baseline_samples, b);
+                  s->first_contact, curve_si(length, "m").words, baseline_samples,
+                  curve_si(baseline_length * s->max_indentation, "m").words);
         return WT_CURVE_NO_BASELINE;
     }
     if (samples->n - s->first_contact < contact_samples) {
@@ -341,21 +337,20 @@ static wt_curve_verdict judge(fitting *f, double max_force, wt_indent_fit *fit)
         double ratio = second->cost / f->minima[0].cost;
         double moduli = log(second->reduced_modulus / s->p[CURVE_E]);
         if (s->effective_n * log(ratio) < ambiguous_chi2 && fabs(moduli) > ambiguous_ratio) {
-            curve_si(fabs(second->contact_point - s->p[CURVE_C]), "m", a);
-            curve_si(second->reduced_modulus * fit->modulus.value / s->p[CURVE_E], "Pa", b);
-            curve_si(fit->modulus.value, "Pa", c);
+            const double away = fabs(second->contact_point - s->p[CURVE_C]);
+            const double other = second->reduced_modulus * fit->modulus.value / s->p[CURVE_E];
             curve_say(reason,
-                      "a contact point %s away gives %s instead of %s at %.3f times the cost", a, b,
-                      c, ratio);
+                      "a contact point %s away gives %s instead of %s at %.3f times the cost",
+                      curve_si(away, "m").words, curve_si(other, "Pa").words,
+                      curve_si(fit->modulus.value, "Pa").words, ratio);
             return WT_CURVE_AMBIGUOUS;
         }
     }
     double departure = baseline_departure(f);
     if (departure > baseline_bend * max_force) {
-        curve_si(departure, "N", a);
-        curve_si(max_force, "N", b);
-        curve_say(reason, "baseline departs from a line by %s, %.0f %% of %s; %g %% allowed", a,
-                  100.0 * departure / max_force, b, 100.0 * baseline_bend);
+        curve_say(reason, "baseline departs from a line by %s, %.0f %% of %s; %g %% allowed",
+                  curve_si(departure, "N").words, 100.0 * departure / max_force,
+                  curve_si(max_force, "N").words, 100.0 * baseline_bend);
         return WT_CURVE_DRIFT;
     }
     if (!s->converged || isnan(s->standard_error[CURVE_E])) {
@@ -374,10 +369,10 @@ static wt_curve_verdict judge(fitting *f, double max_force, wt_indent_fit *fit)
 /* Appends what is odd about an accepted curve. */
 static void add_notes(const fitting *f, char reason[160])
 {
-    char text[64], a[24];
+    char text[96];
     if (f->n_snap > 0) {
-        curve_si(f->adhesion, "N", a);
-        snprintf(text, sizeof text, "; snap-on of %s left out (%zu samples)", a, f->n_snap);
+        snprintf(text, sizeof text, "; snap-on of %s left out (%zu samples)",
+                 curve_si(f->adhesion, "N").words, f->n_snap);
         strncat(reason, text, 159 - strlen(reason));
     }
     if (f->input.n_missing > 0) {

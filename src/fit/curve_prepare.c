@@ -151,16 +151,17 @@ void curve_say(char reason[160], const char *format, ...)
     va_end(arguments);
 }
 
-void curve_si(double value, const char *unit, char text[24])
+si_text curve_si(double value, const char *unit)
 {
-    wt_format_si(value, unit, 3, text, 24);
+    si_text text;
+    wt_format_si(value, unit, 3, text.words, sizeof text.words);
+    return text;
 }
 
 wt_curve_verdict curve_prepare(const double *height, const double *force, size_t n,
                                double spring_constant, double force_fraction,
                                wt_indent_workspace *w, curve_input *input, char reason[160])
 {
-    char a[24], b[24];
     *input = (curve_input){.samples = {0, w->position, w->force, spring_constant}};
     curve_samples *s = &input->samples;
     s->n = clean(height, force, n, input);
@@ -179,10 +180,8 @@ wt_curve_verdict curve_prepare(const double *height, const double *force, size_t
     gsl_stats_minmax(&min, &max, s->position, 1, s->n);
     double travel = mean(s->position + s->n - end, end) - mean(s->position, end);
     if (!(fabs(travel) > travel_share * (max - min))) {
-        curve_si(travel, "m", a);
-        curve_si(max - min, "m", b);
         curve_say(reason, "the height does not go one way: from start to end %s in a range of %s",
-                  a, b);
+                  curve_si(travel, "m").words, curve_si(max - min, "m").words);
         return WT_CURVE_NO_APPROACH;
     }
     input->direction = travel > 0.0 ? 1.0 : -1.0;
@@ -208,14 +207,13 @@ wt_curve_verdict curve_prepare(const double *height, const double *force, size_t
     input->step_noise = difference_noise(s, w->scratch, &resolution);
     size_t top = 0;
     if (flat_top(s, input->step_noise, resolution, &top)) {
-        curve_si(s->position[s->n - 1] - s->position[top], "m", a);
-        double level = s->force[top] - mean(s->force, s->n / 10);
-        curve_si(level, "N", b);
+        const double level = s->force[top] - mean(s->force, s->n / 10);
+        const double travelled = s->position[s->n - 1] - s->position[top];
         curve_say(
             reason,
             "force stands still at %s above its start over the last %zu samples (%s of travel); "
             "a force limit below it makes the rest usable",
-            b, s->n - top, a);
+            curve_si(level, "N").words, s->n - top, curve_si(travelled, "m").words);
         return WT_CURVE_SATURATED;
     }
     double advance = advance_per_bending(s, input->step_noise) - 1.0;

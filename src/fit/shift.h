@@ -20,10 +20,9 @@ enum { STORAGE, LOSS, MODULI };
 typedef struct shift_curve {
     double temperature; /* [K] */
     size_t n;
-    double *x;          /* [n] */
-    double *y[MODULI];  /* [n] */
-    size_t n_left_out;  /* points with a modulus <= 0 */
-    size_t sweep_index; /* isotherm in the sweep */
+    double *x;         /* [n] */
+    double *y[MODULI]; /* [n] */
+    size_t n_left_out; /* points with a modulus <= 0 */
 } shift_curve;
 
 /* All isotherms in the order of rising temperature. */

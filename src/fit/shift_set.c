@@ -126,7 +126,6 @@ wt_status shift_set_new(const wt_sweep *sweep, wt_parselog *log, pool *memory, s
         const wt_isotherm *isotherm = &sweep->isotherms[order[i].index];
         shift_curve *curve = &set->curves[i];
         curve->temperature = isotherm->temperature;
-        curve->sweep_index = order[i].index;
         curve->x = next;
         curve->y[STORAGE] = next + isotherm->n;
         curve->y[LOSS] = next + 2 * isotherm->n;

@@ -75,13 +75,6 @@ double layer_decay(const layer_rates *rates, double thickness)
                energy_log_tail(rates->source, thickness));
 }
 
-double layer_single_kappa(const layer_rates *rates)
-{
-    const bool single = rates->source->profile == WT_PROFILE_PERSSON && rates->q_min > 0 &&
-                        rates->q_min == rates->q_max;
-    return single ? 2 * rates->q_min : 0;
-}
-
 /* ---- fixed point ----------------------------------------------------------------------------- */
 
 typedef struct balance_root {

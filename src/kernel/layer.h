@@ -47,7 +47,5 @@ typedef struct layer_instant {
 /* Rate balance: the thickness of the points at n rising times, and no more of them. */
 wt_status layer_march(const layer_rates *rates, double start, const layer_instant *at, size_t n,
                       wt_error *err) WT_NODISCARD;
-/* All power at one wavenumber under an exponential profile: kappa, or 0 if not so. */
-double layer_single_kappa(const layer_rates *rates);
 
 #endif

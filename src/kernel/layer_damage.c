@@ -123,22 +123,19 @@ static double peak_at(double log_time, void *user)
 wt_status layer_incubation(const layer_rates *rates, bool with_wear, double *time, wt_error *err)
 {
     *time = (double)NAN;
-    layer_rates r = *rates;
-    if (!with_wear)
-        r.wear = 0;
-    if (r.formation == 0 || (r.wear > 0 && !(r.log_ratio > 0)))
+    const bool worn = with_wear && rates->wear > 0;
+    if (rates->formation == 0 || (worn && !(rates->log_ratio > 0)))
         return WT_OK;
-    damage d = {.rates = &r, .time = 1};
-    layer_rates unworn = r;
+    layer_rates unworn = *rates;
     unworn.wear = 0;
-    d.rates = &unworn;
+    damage d = {.rates = &unworn, .time = 1};
     double depth;
     const double first = -damage_peak(&d, &depth); /* ln of the time without wear */
-    if (r.wear == 0) {
+    if (!worn) {
         *time = exp(first);
         return WT_OK;
     }
-    d.rates = &r;
+    d.rates = rates;
     double high = first;
     for (int i = 0; i < 200 && peak_at(high, &d) < 0; i++)
         high += 0.5;

@@ -27,6 +27,14 @@ static wt_status history_damage(const layer_rates *rates, double start, const do
     return WT_OK;
 }
 
+/* All power at one wavenumber under an exponential profile: kappa, or 0 if not so. */
+static double single_kappa(const layer_rates *rates)
+{
+    const bool single = rates->source->profile == WT_PROFILE_PERSSON && rates->q_min > 0 &&
+                        rates->q_min == rates->q_max;
+    return single ? 2 * rates->q_min : 0;
+}
+
 /* The closed form; its error is how far rounding and the error of Qf(0) move it. */
 static void history_exponential(const layer_rates *rates, double kappa, double start,
                                 const double *time, size_t n, wt_layer_point *points)
@@ -84,7 +92,7 @@ wt_status wt_layer_history(const wt_energy_source *source, const wt_layer_parame
             return WT_E_RANGE;
         }
     const double start = parameters->start_thickness;
-    const double kappa = layer_single_kappa(&rates);
+    const double kappa = single_kappa(&rates);
     if (parameters->incubation)
         status = history_damage(&rates, start, time, n, points, err);
     else if (kappa > 0)

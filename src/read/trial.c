@@ -109,6 +109,8 @@ wt_status wt_description_check(const char *xml_path, wt_input *sample,
     if (status == WT_OK && sample != NULL) {
         const file_reader reader = text_reader(d);
         status = try_sample(&reader, sample, &o, log, &writer, err);
+        if (status != WT_OK)
+            wt_error_file(err, wt_input_name(sample));
     }
     const wt_status written = table_end(&writer, &table);
     status = status == WT_OK ? written : status;

@@ -42,6 +42,7 @@ typedef struct jpk_lcd {
     char preferred[JPK_NAME]; /* the slot that the instrument shows */
     jpk_slot slots[JPK_SLOTS];
     size_t n_slots;
+    long id; /* in the shared header, of those that stand there */
 } jpk_lcd;
 
 /* Reads it from keys that start with `prefix`, e.g. "lcd-info.1.". */
@@ -60,11 +61,6 @@ typedef struct jpk_segment_ref {
     size_t entry;   /* its segment-header.properties */
 } jpk_segment_ref;
 
-typedef struct jpk_cached_lcd {
-    long id;
-    jpk_lcd lcd;
-} jpk_cached_lcd;
-
 typedef struct jpk_file {
     zip_archive *archive;
     const char *name;       /* of the input */
@@ -77,7 +73,7 @@ typedef struct jpk_file {
     jpk_segment_ref *refs;  /* [n_refs] by curve, then segment */
     size_t n_refs;
     size_t n_curves;
-    jpk_cached_lcd *lcds; /* those of `shared` that were needed */
+    jpk_lcd *lcds; /* those of `shared` that were needed */
     size_t n_lcds;
     long columns, rows; /* grid; 0 if there is none */
     bool back_and_forth;

@@ -81,7 +81,7 @@ static wt_status shared_lcd(jpk_file *file, long id, const jpk_lcd **lcd, wt_err
 {
     for (size_t i = 0; i < file->n_lcds; i++) {
         if (file->lcds[i].id == id) {
-            *lcd = &file->lcds[i].lcd;
+            *lcd = &file->lcds[i];
             return WT_OK;
         }
     }
@@ -96,12 +96,13 @@ static wt_status shared_lcd(jpk_file *file, long id, const jpk_lcd **lcd, wt_err
     wt_status status = jpk_lcd_read(&file->shared, prefix, &found, err);
     if (status != WT_OK)
         return status;
-    jpk_cached_lcd *grown = realloc(file->lcds, (file->n_lcds + 1) * sizeof *grown);
+    jpk_lcd *grown = realloc(file->lcds, (file->n_lcds + 1) * sizeof *grown);
     if (grown == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for the calibration of a channel");
     file->lcds = grown;
-    file->lcds[file->n_lcds] = (jpk_cached_lcd){id, found};
-    *lcd = &file->lcds[file->n_lcds++].lcd;
+    found.id = id;
+    file->lcds[file->n_lcds] = found;
+    *lcd = &file->lcds[file->n_lcds++];
     return WT_OK;
 }
 

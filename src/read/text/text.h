@@ -147,11 +147,9 @@ const text_column *text_table_column(const text_table *table, wt_quantity quanti
 double text_table_value(const text_table *table, size_t row, const text_column *column);
 /* Fails unless the quantities of the table suffice for `kind`, and says which column is to blame:
  * WT_E_UNIT where only a unit is not known. */
-wt_status text_table_require(const text_file *file, const text_table *table, unsigned kind,
-                             wt_error *err);
+wt_status text_table_require(const text_table *table, unsigned kind, wt_error *err);
 /* Fails with what is wrong with the column of `quantity`, if there is one with a problem. */
-wt_status text_table_problem(const text_file *file, const text_table *table,
-                             wt_quantity_set quantities, wt_error *err);
+wt_status text_table_problem(const text_table *table, wt_quantity_set quantities, wt_error *err);
 /* The names of unknown columns, with commas; cut with "..." if there is no room. */
 void text_unknown(const text_file *file, char *names, size_t size);
 /* Notes which columns were left out, warns of what the names of others leave open. */

@@ -195,7 +195,7 @@ static wt_status text_next(wt_force_source *source, wt_force_curve *curve, wt_er
             if (t->blocks[rows.end] != block || t->kinds[rows.end] != t->kinds[rows.first])
                 break;
         if (status == WT_OK)
-            status = text_table_require(file, t, WT_KIND_FORCE, err);
+            status = text_table_require(t, WT_KIND_FORCE, err);
         if (status == WT_OK)
             status = add_rows(s, curve, rows, err);
         s->next.first = rows.end;

@@ -24,7 +24,7 @@ static wt_status collect(const text_file *file, point *points, size_t *n, wt_spe
     size_t dropped = 0;
     for (size_t i = 0; i < file->n_tables; i++) {
         const text_table *t = &file->tables[i];
-        wt_status status = text_table_require(file, t, WT_KIND_SPECTRUM, err);
+        wt_status status = text_table_require(t, WT_KIND_SPECTRUM, err);
         if (status != WT_OK)
             return status;
         const text_column *q = text_table_column(t, WT_Q_WAVENUMBER, -1);
@@ -101,8 +101,6 @@ wt_status text_read_spectrum(const file_reader *self, wt_input *input,
     *spectrum = made;
     made = (wt_power_spectrum){.n = 0};
 done:
-    if (status != WT_OK)
-        wt_error_file(err, file.name);
     wt_power_spectrum_clear(&made);
     free(points);
     text_file_free(&file);

@@ -102,8 +102,7 @@ static wt_status set_temperature(const builder *b, wt_isotherm *isotherm)
     } else if (!isnan(b->options->temperature)) {
         isotherm->temperature = b->options->temperature;
     } else {
-        wt_status status =
-            text_table_problem(b->file, b->table, WT_Q_BIT(WT_Q_TEMPERATURE), b->err);
+        wt_status status = text_table_problem(b->table, WT_Q_BIT(WT_Q_TEMPERATURE), b->err);
         if (status != WT_OK)
             return status;
         wt_fail(b->err, WT_E_MISSING, "no temperature");
@@ -211,7 +210,7 @@ static wt_status split_table(builder *b)
 
 static wt_status read_table(builder *b)
 {
-    wt_status status = text_table_require(b->file, b->table, WT_KIND_SWEEP, b->err);
+    wt_status status = text_table_require(b->table, WT_KIND_SWEEP, b->err);
     if (status != WT_OK)
         return status;
     b->c = find_columns(b->table);
@@ -292,8 +291,6 @@ wt_status text_read_sweep(const file_reader *self, wt_input *input, const wt_rea
         return status;
     text_log_columns(&file, log);
     status = text_sweep(&file, options, log, sweep, err);
-    if (status != WT_OK)
-        wt_error_file(err, file.name);
     text_file_free(&file);
     return status;
 }

@@ -75,8 +75,7 @@ static const char *usual_unit(wt_quantity quantity)
     }
 }
 
-wt_status text_table_problem(const text_file *file, const text_table *table,
-                             wt_quantity_set quantities, wt_error *err)
+wt_status text_table_problem(const text_table *table, wt_quantity_set quantities, wt_error *err)
 {
     for (size_t i = 0; i < table->n_problems; i++) {
         const text_column *c = &table->problems[i];
@@ -108,24 +107,21 @@ wt_status text_table_problem(const text_file *file, const text_table *table,
             wt_error_advice(err, "export that column too");
             break;
         }
-        wt_error_file(err, file->name);
         wt_error_place(err, "line %zu, column %zu", table->names_line, c->cell + 1);
         return status;
     }
     return WT_OK;
 }
 
-wt_status text_table_require(const text_file *file, const text_table *table, unsigned kind,
-                             wt_error *err)
+wt_status text_table_require(const text_table *table, unsigned kind, wt_error *err)
 {
     if (quantities_suffice(table->quantities, kind))
         return WT_OK;
     wt_status status =
-        text_table_problem(file, table, quantities_of(kind) & ~WT_Q_BIT(WT_Q_LOSS_FACTOR), err);
+        text_table_problem(table, quantities_of(kind) & ~WT_Q_BIT(WT_Q_LOSS_FACTOR), err);
     if (status != WT_OK)
         return status;
     wt_fail(err, WT_E_MISSING, "columns are missing");
-    wt_error_file(err, file->name);
     wt_error_place(err, "line %zu", table->names_line);
     wt_error_expected(err, "%s", quantities_needed(kind));
     return WT_E_MISSING;
@@ -176,7 +172,6 @@ wt_status text_nothing(const text_file *file, const char *what, wt_error *err)
         used += n > 0 ? (size_t)n : 0;
     }
     wt_fail(err, WT_E_EMPTY, "no %s in it", what);
-    wt_error_file(err, file->name);
     if (file->steps.n > 0)
         wt_error_found(err, "%s", steps);
     return WT_E_EMPTY;
