@@ -32,8 +32,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         text_file file;
         (void)reader.detect(&reader, &peek);
         text_peek_free(peek.text);
-        if (text_scan(&reader, input, description->kinds, &options, NULL, &file, &err) ==
-            WT_OK) {
+        if (text_scan(&reader, input, description->kinds, &options, NULL, &file, &err) == WT_OK) {
             wt_sweep sweep = {.n_isotherms = 0};
             if ((description->kinds & WT_KIND_SWEEP) != 0)
                 (void)text_sweep(&file, &options, NULL, &sweep, &err);

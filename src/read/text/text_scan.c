@@ -358,6 +358,7 @@ wt_status text_scan(const file_reader *reader, wt_input *input, unsigned kinds,
     names_free(&s.names);
     free(s.row.cells);
     if (status != WT_OK) {
+        wt_error_file(err, made.name);
         text_file_free(&made);
         return status;
     }
