@@ -207,9 +207,8 @@ typedef uint64_t wt_quantity_set; /* bit i = quantity i; the list has fewer than
 #define WT_Q_BIT(q) ((wt_quantity_set)1 << (unsigned)(q))
 #define WT_Q_ALL (~(wt_quantity_set)0)
 
-WT_API const char *wt_quantity_id(wt_quantity quantity);    /* "force"; static */
-WT_API const char *wt_quantity_unit(wt_quantity quantity);  /* "N"; static */
-WT_API const char *wt_quantity_title(wt_quantity quantity); /* static */
+WT_API const char *wt_quantity_id(wt_quantity quantity);   /* "force"; static */
+WT_API const char *wt_quantity_unit(wt_quantity quantity); /* "N"; static */
 /* Finds a quantity by its identifier; false if there is none. */
 WT_API bool wt_quantity_find(const char *id, wt_quantity *quantity);
 

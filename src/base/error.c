@@ -56,14 +56,10 @@ void wt_error_file(wt_error *err, const char *file)
 {
     if (err == NULL || file == NULL || err->file[0] != '\0')
         return;
-    const size_t length = strlen(file);
-    if (length < sizeof err->file) {
-        memcpy(err->file, file, length + 1);
-    } else {
-        memcpy(err->file, file, sizeof err->file - 1);
-        err->file[sizeof err->file - 1] = '\0';
+    err->file[sizeof err->file - 1] = '\0';
+    strncpy(err->file, file, sizeof err->file - 1);
+    if (strlen(file) >= sizeof err->file)
         mark_cut(err->file, sizeof err->file);
-    }
 }
 
 #define DEFINE_PART(part)                                                                          \

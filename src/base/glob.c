@@ -1,4 +1,5 @@
 /* Shell patterns to sorted lists of files. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/array.h"
 #include "weartrack/base.h"
 
 #include <dirent.h>
@@ -10,24 +11,18 @@
 
 typedef struct list {
     char **paths;
-    size_t n, capacity;
+    size_t n;
 } list;
 
 /* Takes `path`, also on failure. */
 static bool list_take(list *l, char *path)
 {
-    if (path == NULL)
+    char **const paths = path != NULL ? array_grow(l->paths, l->n, sizeof *paths) : NULL;
+    if (paths == NULL) {
+        free(path);
         return false;
-    if (l->n == l->capacity) {
-        const size_t capacity = l->capacity > 0 ? 2 * l->capacity : 64;
-        char **const paths = realloc(l->paths, capacity * sizeof *paths);
-        if (paths == NULL) {
-            free(path);
-            return false;
-        }
-        l->paths = paths;
-        l->capacity = capacity;
     }
+    l->paths = paths;
     l->paths[l->n++] = path;
     return true;
 }
@@ -92,7 +87,7 @@ static char *quote(const char *text)
 wt_status wt_glob(const char *folder, const char *pattern, char ***paths, size_t *n, wt_error *err)
 {
     wt_status status = WT_OK;
-    list l = {NULL, 0, 0};
+    list l = {NULL, 0};
     glob_t found = {0};
     struct stat info;
     char *quoted = quote(folder != NULL ? folder : "");
@@ -126,7 +121,7 @@ wt_status wt_glob(const char *folder, const char *pattern, char ***paths, size_t
         qsort(l.paths, l.n, sizeof *l.paths, compare);
         *paths = l.paths;
         *n = l.n;
-        l = (list){NULL, 0, 0};
+        l = (list){NULL, 0};
     }
 done:
     wt_strings_free(l.paths, l.n);

@@ -3,7 +3,6 @@
 
 #include <gsl/gsl_errno.h>
 #include <pthread.h>
-#include <stddef.h>
 
 static void switch_off(void)
 {

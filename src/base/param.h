@@ -33,30 +33,16 @@ typedef struct param_limits {
     double low, high;
     bool with_low, with_high;
 } param_limits;
-#define ANY_NUMBER                                                                                 \
+#define BRACED(...)                                                                                \
     {                                                                                              \
-        -(double)INFINITY, (double)INFINITY, false, false                                          \
+        __VA_ARGS__                                                                                \
     }
-#define ABOVE(bound)                                                                               \
-    {                                                                                              \
-        bound, (double)INFINITY, false, false                                                      \
-    }
-#define AT_LEAST(bound)                                                                            \
-    {                                                                                              \
-        bound, (double)INFINITY, true, false                                                       \
-    }
-#define ABOVE_TO(bound, last)                                                                      \
-    {                                                                                              \
-        bound, last, false, true                                                                   \
-    }
-#define FROM_TO(first, last)                                                                       \
-    {                                                                                              \
-        first, last, true, true                                                                    \
-    }
-#define FROM_BELOW(first, bound)                                                                   \
-    {                                                                                              \
-        first, bound, true, false                                                                  \
-    }
+#define ANY_NUMBER BRACED(-(double)INFINITY, (double)INFINITY, false, false)
+#define ABOVE(bound) BRACED(bound, (double)INFINITY, false, false)
+#define AT_LEAST(bound) BRACED(bound, (double)INFINITY, true, false)
+#define ABOVE_TO(bound, last) BRACED(bound, last, false, true)
+#define FROM_TO(first, last) BRACED(first, last, true, true)
+#define FROM_BELOW(first, bound) BRACED(first, bound, true, false)
 
 /* Where it may stand. Without either it stands in both. */
 #define PARAM_REQUIRED 1u
@@ -133,14 +119,8 @@ struct wt_params {
 
 /* Defines a function that gives the table of a structure; the last arguments are the structures
  * that lie in it. */
-#define NO_PARTS                                                                                   \
-    {                                                                                              \
-        NULL, 0                                                                                    \
-    }
-#define PARAM_PART(table, type, member)                                                            \
-    {                                                                                              \
-        table, offsetof(type, member)                                                              \
-    }
+#define NO_PARTS BRACED(NULL, 0)
+#define PARAM_PART(table, type, member) BRACED(table, offsetof(type, member))
 #define PARAM_TABLE(name, type, rows, function, ...)                                               \
     static void name##_fill(void *structure)                                                       \
     {                                                                                              \

@@ -1,5 +1,6 @@
 /* The parse log: notes and warnings, each text once per file with a count.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/array.h"
 #include "base/clocale.h"
 #include "base/utf8.h"
 #include "weartrack/base.h"
@@ -17,7 +18,7 @@ typedef struct log_entry {
 
 struct wt_parselog {
     log_entry **entries; /* in the order they came */
-    size_t n, capacity;
+    size_t n;
     void *tree; /* the same entries for tsearch */
     size_t lost;
 };
@@ -67,9 +68,9 @@ void wt_parselog_free(wt_parselog *log)
     free(log);
 }
 
-/* Adds `count` times the text, which it copies. */
+/* Adds a text, which it copies. */
 static bool add(wt_parselog *log, wt_severity severity, const char *file, const char *place,
-                const char *text, size_t count)
+                const char *text)
 {
     bool good = false;
     log_entry *new_entry = calloc(1, sizeof *new_entry);
@@ -79,17 +80,13 @@ static bool add(wt_parselog *log, wt_severity severity, const char *file, const 
     new_entry->file = strdup(file != NULL ? file : "");
     new_entry->place = strdup(place != NULL ? place : "");
     new_entry->text = strdup(text);
-    new_entry->count = count;
+    new_entry->count = 1;
     if (new_entry->file == NULL || new_entry->place == NULL || new_entry->text == NULL)
         goto done;
-    if (log->n == log->capacity) {
-        const size_t capacity = log->capacity > 0 ? 2 * log->capacity : 16;
-        log_entry **const entries = realloc(log->entries, capacity * sizeof *entries);
-        if (entries == NULL)
-            goto done;
-        log->entries = entries;
-        log->capacity = capacity;
-    }
+    log_entry **const entries = array_grow(log->entries, log->n, sizeof *entries);
+    if (entries == NULL)
+        goto done;
+    log->entries = entries;
     log_entry *const *const found = tsearch(new_entry, &log->tree, compare);
     if (found == NULL)
         goto done;
@@ -97,7 +94,7 @@ static bool add(wt_parselog *log, wt_severity severity, const char *file, const 
         log->entries[log->n++] = new_entry;
         new_entry = NULL;
     } else {
-        (*found)->count += count;
+        (*found)->count++;
     }
     good = true;
 done:
@@ -122,7 +119,7 @@ void wt_parselog_add(wt_parselog *log, wt_severity severity, const char *file, c
         return;
     }
     utf8_tidy(text);
-    if (!add(log, severity, file, place, text, 1))
+    if (!add(log, severity, file, place, text))
         log->lost++;
     free(text);
 }

@@ -2,13 +2,15 @@
  */
 #include "base/provenance.h"
 
+#include "base/array.h"
+
 #include <stdlib.h>
 #include <string.h>
 
 struct wt_provenance {
     char *command;
     wt_provenance_input *inputs;
-    size_t n, capacity;
+    size_t n;
 };
 
 wt_provenance *wt_provenance_new(void)
@@ -91,14 +93,10 @@ wt_status provenance_restore_command(wt_provenance *p, const char *command)
 
 wt_status wt_provenance_add_input(wt_provenance *p, const wt_provenance_input *input)
 {
-    if (p->n == p->capacity) {
-        const size_t capacity = p->capacity > 0 ? 2 * p->capacity : 16;
-        wt_provenance_input *const inputs = realloc(p->inputs, capacity * sizeof *inputs);
-        if (inputs == NULL)
-            return WT_E_MEMORY;
-        p->inputs = inputs;
-        p->capacity = capacity;
-    }
+    wt_provenance_input *const inputs = array_grow(p->inputs, p->n, sizeof *inputs);
+    if (inputs == NULL)
+        return WT_E_MEMORY;
+    p->inputs = inputs;
     wt_provenance_input copy = *input;
     copy.path = strdup(input->path != NULL ? input->path : "");
     copy.role = strdup(input->role != NULL ? input->role : "");

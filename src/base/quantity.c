@@ -6,9 +6,9 @@
 _Static_assert(WT_Q_COUNT < 64, "wt_quantity_set has one bit per quantity");
 
 static const struct {
-    const char *id, *unit, *title;
+    const char *id, *unit;
 } quantities[] = {
-#define QUANTITY_ROW(name, id, unit, text) {id, unit, text},
+#define QUANTITY_ROW(name, id, unit, text) {id, unit},
     WT_QUANTITY_LIST(QUANTITY_ROW)
 #undef QUANTITY_ROW
 };
@@ -26,11 +26,6 @@ const char *wt_quantity_id(wt_quantity quantity)
 const char *wt_quantity_unit(wt_quantity quantity)
 {
     return quantities[row(quantity)].unit;
-}
-
-const char *wt_quantity_title(wt_quantity quantity)
-{
-    return quantities[row(quantity)].title;
 }
 
 bool wt_quantity_find(const char *id, wt_quantity *quantity)

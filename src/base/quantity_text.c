@@ -112,35 +112,22 @@ static wt_status list_error(const char *text, const char *what, wt_error *err)
     return WT_E_RANGE;
 }
 
-static wt_status parse_commas(const char *text, wt_quantity quantity, values *out, wt_error *err)
+static wt_status parse_items(char *const *item, size_t n, wt_quantity quantity, values *out,
+                             wt_error *err)
 {
-    size_t n = 1;
-    for (const char *p = text; *p != '\0'; p++)
-        n += *p == ',';
-    if (n > MAX_LIST)
-        return list_error(text, "the list is too long", err);
     out->v = malloc(n * sizeof *out->v);
     if (out->v == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    const char *begin = text;
-    for (size_t i = 0; i < n; i++) {
-        const char *end = begin + strcspn(begin, ",");
-        char *item = copy_trimmed(begin, end);
-        if (item == NULL)
-            return wt_fail(err, WT_E_MEMORY, "out of memory");
-        wt_status status = wt_quantity_parse(item, quantity, &out->v[i], err);
-        free(item);
-        if (status != WT_OK)
-            return status;
-        begin = end + 1;
-    }
+    wt_status status = WT_OK;
+    for (size_t i = 0; status == WT_OK && i < n; i++)
+        status = wt_quantity_parse(item[i], quantity, &out->v[i], err);
     out->n = n;
-    return WT_OK;
+    return status;
 }
 
 /* FIRST:LAST UNIT:log|lin:COUNT; `part` are the four pieces. */
-static wt_status parse_range(const char *text, char *const part[4], wt_quantity quantity,
-                             values *out, wt_error *err)
+static wt_status parse_range(const char *text, char *const *part, wt_quantity quantity, values *out,
+                             wt_error *err)
 {
     const char *unit = part[1];
     unit += strspn(unit, "0123456789.");
@@ -185,6 +172,23 @@ static wt_status parse_range(const char *text, char *const part[4], wt_quantity 
     return WT_OK;
 }
 
+/* The n pieces of a text that a mark parts, without blanks around them; NULL when out of memory. */
+static char **split(const char *text, char mark, size_t n)
+{
+    char **pieces = calloc(n, sizeof *pieces);
+    const char *begin = text;
+    for (size_t i = 0; pieces != NULL && i < n; i++) {
+        const char *end = strchrnul(begin, mark);
+        pieces[i] = copy_trimmed(begin, end);
+        begin = end + 1;
+        if (pieces[i] == NULL) {
+            wt_strings_free(pieces, n);
+            return NULL;
+        }
+    }
+    return pieces;
+}
+
 wt_status wt_list_parse(const char *text, wt_quantity quantity, double **result, size_t *n,
                         wt_error *err)
 {
@@ -192,46 +196,30 @@ wt_status wt_list_parse(const char *text, wt_quantity quantity, double **result,
         return wt_fail(err, WT_E_ARG, "no text to parse");
     wt_status status = WT_OK;
     values list = {NULL, 0};
-    char *part[4] = {NULL, NULL, NULL, NULL};
-    size_t n_parts = 0;
-
-    if (strchr(text, ':') == NULL) {
-        status = parse_commas(text, quantity, &list, err);
-    } else {
-        const char *begin = text;
-        for (;;) {
-            const char *end = begin + strcspn(begin, ":");
-            if (n_parts == 4) {
-                status = list_error(text, "too many parts", err);
-                goto done;
-            }
-            part[n_parts] = copy_trimmed(begin, end);
-            if (part[n_parts] == NULL) {
-                status = wt_fail(err, WT_E_MEMORY, "out of memory");
-                goto done;
-            }
-            n_parts++;
-            if (*end == '\0')
-                break;
-            begin = end + 1;
-        }
-        status = n_parts == 4 ? parse_range(text, part, quantity, &list, err)
-                              : list_error(text, "a range has four parts", err);
-    }
-    if (status != WT_OK)
-        goto done;
-    for (size_t i = 1; i < list.n; i++) {
-        if (!(list.v[i] > list.v[i - 1])) {
+    const bool range = strchr(text, ':') != NULL;
+    size_t n_parts = 1;
+    for (const char *p = text; *p != '\0'; p++)
+        n_parts += *p == (range ? ':' : ',');
+    if (n_parts > (range ? 4 : MAX_LIST))
+        return list_error(text, range ? "too many parts" : "the list is too long", err);
+    char **parts = split(text, range ? ':' : ',', n_parts);
+    if (parts == NULL)
+        status = wt_fail(err, WT_E_MEMORY, "out of memory");
+    else if (!range)
+        status = parse_items(parts, n_parts, quantity, &list, err);
+    else if (n_parts == 4)
+        status = parse_range(text, parts, quantity, &list, err);
+    else
+        status = list_error(text, "a range has four parts", err);
+    for (size_t i = 1; status == WT_OK && i < list.n; i++)
+        if (!(list.v[i] > list.v[i - 1]))
             status = list_error(text, "the values do not rise", err);
-            goto done;
-        }
+    if (status == WT_OK) {
+        *result = list.v;
+        *n = list.n;
+        list.v = NULL;
     }
-    *result = list.v;
-    *n = list.n;
-    list.v = NULL;
-done:
     free(list.v);
-    for (size_t i = 0; i < n_parts; i++)
-        free(part[i]);
+    wt_strings_free(parts, n_parts);
     return status;
 }

@@ -147,24 +147,26 @@ static bool strip_root_hertz(char *unit)
     return false;
 }
 
+/* What is left of a text without blanks around it. */
+static const char *without_blanks(const char *text, size_t *length)
+{
+    static const char blanks[] = " \t\r\n\v\f";
+    while (*length > 0 && strchr(blanks, text[*length - 1]) != NULL)
+        (*length)--;
+    for (; *length > 0 && strchr(blanks, text[0]) != NULL; text++)
+        (*length)--;
+    return text;
+}
+
 /* Copies without blanks and one pair of square brackets around it. False if it does not fit or is
  * not UTF-8. */
 static bool trim(const char *unit, char copy[UNIT_MAX])
 {
-    static const char blanks[] = " \t\r\n\v\f";
-    unit += strspn(unit, blanks);
     size_t length = strlen(unit);
-    while (length > 0 && strchr(blanks, unit[length - 1]) != NULL)
-        length--;
+    unit = without_blanks(unit, &length);
     if (length >= 2 && unit[0] == '[' && unit[length - 1] == ']') {
-        unit++;
         length -= 2;
-        while (length > 0 && strchr(blanks, unit[0]) != NULL) {
-            unit++;
-            length--;
-        }
-        while (length > 0 && strchr(blanks, unit[length - 1]) != NULL)
-            length--;
+        unit = without_blanks(unit + 1, &length);
     }
     if (length >= UNIT_MAX || utf8_check(unit, length) != length)
         return false;

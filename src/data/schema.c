@@ -3,18 +3,11 @@
 
 #include <string.h>
 
-const char *schema_column_unit(const schema_column *column)
+const char *schema_unit(const schema_field *field)
 {
-    if (column->kind == SCHEMA_TEXT)
+    if (field->kind == SCHEMA_TEXT)
         return "";
-    return column->unit != NULL ? column->unit : wt_quantity_unit(column->quantity);
-}
-
-const char *schema_key_unit(const schema_key *key)
-{
-    if (key->kind == SCHEMA_TEXT)
-        return "";
-    return key->unit != NULL ? key->unit : wt_quantity_unit(key->quantity);
+    return field->unit != NULL ? field->unit : wt_quantity_unit(field->quantity);
 }
 
 void schema_name(const char *name, const char *suffix, char full[SCHEMA_NAME_SIZE])

@@ -15,46 +15,39 @@ typedef enum schema_kind {
     SCHEMA_PLAIN /* a key that is a number without errors, as text */
 } schema_kind;
 
-typedef struct schema_column {
-    const char *name, *long_name;
+/* A column or a key. */
+typedef struct schema_field {
+    const char *name;      /* of a key: ends in '_' where the group follows */
+    const char *long_name; /* of a column */
     schema_kind kind;
     wt_quantity quantity;
-    const char *unit;        /* SI; NULL = that of the quantity */
-    const char *label;       /* heading on the page; NULL = the long name */
+    const char *unit;     /* SI; NULL = that of the quantity */
+    const char *label;    /* on the page; NULL = the long name, of a key the name in words */
+    const char *headline; /* of a key: among the main results; NULL = not one of them */
+    bool optional;        /* a table may be without it */
+    /* of a column: */
     unsigned standard_error; /* columns with the errors of this one, 0 = none */
     unsigned numerical_error;
     unsigned low, high;  /* columns with the ends of its interval, 0 = none */
     bool yes_no;         /* 1 or 0 */
     bool sparse;         /* a row may leave it empty */
-    bool optional;       /* a table may be without it */
     unsigned like;       /* on the page in the unit of this column, 0 = of its own */
     const char *missing; /* on the page for NaN; NULL = a dash */
     int digits;          /* on the page: significant ones, 0 = as usual */
     int decimals;        /* so many instead, 0 = by digits */
-} schema_column;
-
-typedef struct schema_key {
-    const char *name; /* ends in '_' where the group follows */
-    schema_kind kind;
-    wt_quantity quantity;
-    const char *unit;     /* SI; NULL = that of the quantity */
-    const char *label;    /* on the page; NULL = the name in words */
-    const char *headline; /* among the main results; NULL = not one of them */
-    bool optional;        /* a table may be without it */
-} schema_key;
+} schema_field;
 
 typedef struct table_schema {
     const char *name; /* ends in '/' where a name follows that tells several tables apart */
     const char *title;
     const char *made_by; /* the subcommand that writes it, the first of them */
-    const schema_column *columns;
+    const schema_field *columns;
     size_t n_columns;
-    const schema_key *keys;
+    const schema_field *keys;
     size_t n_keys;
 } table_schema;
 
-const char *schema_column_unit(const schema_column *column); /* "" for text */
-const char *schema_key_unit(const schema_key *key);
+const char *schema_unit(const schema_field *field); /* "" for text */
 
 /* The name of a table or key: `suffix` is used where it ends in '/' or '_'. */
 enum { SCHEMA_NAME_SIZE = 128 };

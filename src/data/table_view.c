@@ -20,9 +20,9 @@ static wt_status missing(const wt_table *table, const table_schema *schema, cons
 }
 
 static wt_status check_column(const wt_table *table, const table_schema *schema, size_t place,
-                              const schema_column *c, wt_error *err)
+                              const schema_field *c, wt_error *err)
 {
-    const char *const unit = wt_table_column_unit(table, place), *const si = schema_column_unit(c);
+    const char *const unit = wt_table_column_unit(table, place), *const si = schema_unit(c);
     const bool is_text = wt_table_column_kind(table, place) == WT_COLUMN_TEXT;
     if (is_text == (c->kind == SCHEMA_TEXT) && strcmp(unit, si) == 0)
         return WT_OK;
@@ -39,7 +39,7 @@ wt_status table_bind(const wt_table *table, const table_schema *schema, const ch
     *view = (table_view){
         .table = table, .schema = schema, .suffix = suffix, .n_rows = wt_table_n_rows(table)};
     for (size_t i = 0; i < schema->n_columns; i++) {
-        const schema_column *const c = &schema->columns[i];
+        const schema_field *const c = &schema->columns[i];
         wt_status status = WT_OK;
         view->column[i] = wt_table_find(table, c->name);
         if (view->column[i] >= 0)
@@ -98,8 +98,7 @@ wt_estimate view_key(const table_view *view, const table_schema *of, unsigned ke
     assert(view->schema == of && key < of->n_keys);
     schema_name(of->keys[key].name, view->suffix, name);
     if (view->table == NULL || !wt_table_estimate(view->table, name, &e))
-        return (wt_estimate){(double)NAN, (double)NAN, (double)NAN,
-                             schema_key_unit(&of->keys[key])};
+        return (wt_estimate){(double)NAN, (double)NAN, (double)NAN, schema_unit(&of->keys[key])};
     return e;
 }
 

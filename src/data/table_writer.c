@@ -3,17 +3,17 @@
 
 #include "base/clocale.h"
 
-static void add_columns(table_writer *w, const schema_column *columns)
+static void add_columns(table_writer *w, const schema_field *columns)
 {
     for (size_t i = 0, n = 0; w->status == WT_OK && i < w->schema->n_columns; i++) {
-        const schema_column *const c = &columns[i];
+        const schema_field *const c = &columns[i];
         if (w->left_out & SCHEMA_BIT(i))
             continue;
         w->column[i] = n++;
-        w->status = c->kind == SCHEMA_TEXT
-                        ? wt_table_add_text_column(w->table, c->name, c->long_name, w->err)
-                        : wt_table_add_column(w->table, c->name, schema_column_unit(c),
-                                              c->long_name, w->err);
+        w->status =
+            c->kind == SCHEMA_TEXT
+                ? wt_table_add_text_column(w->table, c->name, c->long_name, w->err)
+                : wt_table_add_column(w->table, c->name, schema_unit(c), c->long_name, w->err);
     }
 }
 
@@ -148,7 +148,7 @@ void writer_key(table_writer *w, const table_schema *of, unsigned key, wt_estima
     char name[SCHEMA_NAME_SIZE];
     if (!takes_key(w, of, key, name))
         return;
-    estimate.unit = schema_key_unit(&of->keys[key]);
+    estimate.unit = schema_unit(&of->keys[key]);
     w->status = wt_table_set_estimate(w->table, name, estimate, w->err);
 }
 

@@ -24,8 +24,8 @@ typedef struct table_writer {
 typedef struct table_variant {
     const char *suffix; /* of names that end in '/' or '_'; borrowed */
     const char *name, *title;
-    uint64_t left_out;            /* columns that it is without, a bit for each */
-    const schema_column *columns; /* with other units or words */
+    uint64_t left_out;           /* columns that it is without, a bit for each */
+    const schema_field *columns; /* with other units or words */
 } table_variant;
 
 /* A new table. */

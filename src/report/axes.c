@@ -74,10 +74,10 @@ static double tidy_step(double width)
     return (part < 1.5 ? 1 : part < 2.25 ? 2 : part < 3.5 ? 2.5 : part < 7.5 ? 5 : 10) * power;
 }
 
-void axis_linear(figure_drawing *d, const char *axis, const char *label,
-                 const schema_column *column, value_span span)
+void axis_linear(figure_drawing *d, const char *axis, const char *label, const schema_field *column,
+                 value_span span)
 {
-    const char *unit = schema_column_unit(column);
+    const char *unit = schema_unit(column);
     lab_unit lab = lab_unit_for(column->quantity, unit, fmax(fabs(span.low), fabs(span.high)) / 2);
     double low = lab_value(&lab, span.low), high = lab_value(&lab, span.high);
     double size = fmax(fabs(high), fabs(low));
@@ -127,10 +127,10 @@ static void short_log(figure_drawing *d, const char *axis, double low, double hi
     text_format(&d->script, ")\nset format %s '%%g'\n", axis);
 }
 
-void axis_log(figure_drawing *d, const char *axis, const char *label, const schema_column *column,
+void axis_log(figure_drawing *d, const char *axis, const char *label, const schema_field *column,
               value_span span)
 {
-    const char *unit = schema_column_unit(column);
+    const char *unit = schema_unit(column);
     double decades = log10(span.high / span.low);
     // The unit that suits three times the geometric middle, as decades go both ways from it; over
     // many decades, times and velocities are better known in SI, moduli in MPa.

@@ -22,7 +22,7 @@ size_t drawing_columns(const figure_description *figure, unsigned columns[FIGURE
     size_t n = 0;
     add_column(columns, &n, figure->x.scale != AXIS_NONE, figure->x.column);
     for (const figure_curve *curve = figure->curves; curve->form != CURVE_NONE; curve++) {
-        const schema_column *column = &figure->table->columns[curve->column];
+        const schema_field *column = &figure->table->columns[curve->column];
         const bool errors = curve->with_errors || curve->band != 0;
         add_column(columns, &n, true, curve->column);
         add_column(columns, &n, errors && column->standard_error != 0, column->standard_error);
@@ -52,7 +52,7 @@ static void span_described(value_span *span, const figure_drawing *d, size_t gro
 
 static void span_curve(figure_drawing *d, size_t group, const figure_curve *curve)
 {
-    const schema_column *column = &d->figure->table->columns[curve->column];
+    const schema_field *column = &d->figure->table->columns[curve->column];
     const figure_axis *axis = &d->figure->y[curve->panel];
     if (curve->form == CURVE_FIT || curve->form == CURVE_DATA)
         return;
@@ -84,7 +84,7 @@ bool drawing_data(figure_drawing *d)
 void drawing_axis(figure_drawing *d, const char *letter, const figure_axis *axis, const char *label,
                   value_span span)
 {
-    const schema_column *column = &d->figure->table->columns[axis->column];
+    const schema_field *column = &d->figure->table->columns[axis->column];
     if (axis->scale == AXIS_FROM_ZERO)
         span_add(&span, 0, false);
     if (axis->scale == AXIS_LOG)
@@ -170,7 +170,7 @@ static void plot_curve(figure_drawing *d, size_t group, const figure_curve *curv
                                        [CURVE_JOINED_BARS] = "yerrorlines",
                                        [CURVE_FIT] = "lines"};
     const figure_axis *axis = &d->figure->y[curve->panel];
-    const schema_column *column = &d->figure->table->columns[curve->column];
+    const schema_field *column = &d->figure->table->columns[curve->column];
     growing_text item = {0};
 
     add_place(&item, d, "x", &d->figure->x, d->figure->x.column, false);

@@ -64,8 +64,8 @@ int drawing_section(figure_drawing *d, const table_view *table, const char *titl
         return NO_SECTION;
     wt_table *section = section_new(d, title);
     for (size_t i = 0; i < n_columns && d->status == WT_OK; i++) {
-        const schema_column *column = &table->schema->columns[columns[i]];
-        d->status = wt_table_add_column(section, column->name, schema_column_unit(column),
+        const schema_field *column = &table->schema->columns[columns[i]];
+        d->status = wt_table_add_column(section, column->name, schema_unit(column),
                                         column->long_name, d->err);
     }
     for (size_t row = 0; row < table->n_rows && d->status == WT_OK; row++) {

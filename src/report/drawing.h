@@ -107,9 +107,9 @@ void span_add_section(value_span *span, const figure_drawing *d, int section, si
 /* Write label, range and tics of axis "x", "y" or "cb" and define its factor, e.g. x_unit = 1e9
  * (and x_offset for temperatures). The span is in the SI unit of the column and not empty; `label`
  * is shown with the unit behind it. */
-void axis_linear(figure_drawing *d, const char *axis, const char *label,
-                 const schema_column *column, value_span span);
-void axis_log(figure_drawing *d, const char *axis, const char *label, const schema_column *column,
+void axis_linear(figure_drawing *d, const char *axis, const char *label, const schema_field *column,
+                 value_span span);
+void axis_log(figure_drawing *d, const char *axis, const char *label, const schema_field *column,
               value_span span);
 
 /* ---- plot command --------------------------------------------------------------------------- */

@@ -4,17 +4,13 @@
  */
 #include "report/drawing.h"
 
+#include "base/array.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum { MAP_POINTS = 9, MAP_LIMIT = 70000 }; /* fewer are no map, more no picture for a page */
-
-static int compare_numbers(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
 
 /* Smallest distance of two positions that differ, 0 if there are none. What is closer than a
  * thousandth of the whole is the same position. */
@@ -26,7 +22,7 @@ static double grid_step(const table_view *table, indentation_column column)
         return 0;
     for (size_t row = 0; row < n; row++)
         x[row] = indentation_get(table, row, column);
-    qsort(x, n, sizeof *x, compare_numbers);
+    numbers_sort(x, n);
     for (size_t i = 1; i < n; i++) {
         double gap = x[i] - x[i - 1];
         if (gap > 1e-3 * (x[n - 1] - x[0]) && (step == 0 || gap < step))

@@ -72,7 +72,7 @@ static void headline_rows(page_writer *page, const table_view *table, unsigned r
                           const char *remark)
 {
     for (unsigned i = 0; i < table->schema->n_keys; i++) {
-        const schema_key *key = &table->schema->keys[i];
+        const schema_field *key = &table->schema->keys[i];
         const wt_estimate estimate = view_key(table, table->schema, i);
         if (key->headline != NULL && !isnan(estimate.value))
             page_estimate(page, key->headline, &estimate, key->quantity, NULL,

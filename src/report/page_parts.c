@@ -4,6 +4,8 @@
  */
 #include "report/page.h"
 
+#include "base/array.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -39,17 +41,11 @@ static void heading_cell(page_writer *page, const char *words, const char *unit,
 
 typedef struct shown_column {
     unsigned place;
-    const schema_column *column;
+    const schema_field *column;
     bool text, whole;
     int digits;
     lab_unit lab;
 } shown_column;
-
-static int compare_numbers(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
 
 /* Row i of those shown. */
 static size_t row_at(const size_t *rows, size_t i)
@@ -70,10 +66,10 @@ static double typical_size(const table_view *table, unsigned column, const size_
             sizes[n++] = size;
     }
     if (n > 0) {
-        qsort(sizes, n, sizeof *sizes, compare_numbers);
+        numbers_sort(sizes, n);
         double range = sizes[n - 1] / sizes[0];
         median = sizes[n / 2];
-        if (range > 100 && strcmp(schema_column_unit(&table->schema->columns[column]), "Pa") == 0)
+        if (range > 100 && strcmp(schema_unit(&table->schema->columns[column]), "Pa") == 0)
             median = 1e6;
         else if (range > 1e4)
             median = 1;
@@ -97,7 +93,7 @@ static bool choose_column(shown_column *shown, const table_view *table, unsigned
                           const size_t *rows, size_t n_rows)
 {
     const table_schema *schema = table->schema;
-    const schema_column *column = &schema->columns[place];
+    const schema_field *column = &schema->columns[place];
     *shown = (shown_column){.place = place,
                             .column = column,
                             .text = column->kind == SCHEMA_TEXT,
@@ -110,7 +106,7 @@ static bool choose_column(shown_column *shown, const table_view *table, unsigned
     if (column->digits == 0)
         shown->digits = is_error(schema, place) ? 2 : 3;
     shown->lab =
-        lab_unit_for(column->quantity, schema_column_unit(column),
+        lab_unit_for(column->quantity, schema_unit(column),
                      typical_size(table, column->like != 0 ? column->like : place, rows, n_rows));
     bool any = column->missing != NULL;
     for (size_t i = 0; i < n_rows; i++) {
@@ -124,7 +120,7 @@ static bool choose_column(shown_column *shown, const table_view *table, unsigned
 
 static void number_cell(page_writer *page, const shown_column *shown, double value)
 {
-    const schema_column *column = shown->column;
+    const schema_field *column = shown->column;
     double lab = lab_value(&shown->lab, value);
     text_add(&page->out, "<td class=\"n\">");
     if (isnan(value))
@@ -152,7 +148,7 @@ void page_table(page_writer *page, const table_view *table, const char *caption,
     for (size_t i = 0; i < n_columns; i++)
         if (choose_column(&shown[n], table, columns != NULL ? columns[i] : labelled[i], rows,
                           n_rows)) {
-            const schema_column *column = shown[n].column;
+            const schema_field *column = shown[n].column;
             heading_cell(page, column->label != NULL ? column->label : column->long_name,
                          shown[n].lab.label, !shown[n].text);
             n++;
@@ -258,7 +254,7 @@ void page_estimate(page_writer *page, const char *words, const wt_estimate *esti
 /* ---- keys ------------------------------------------------------------------------------------ */
 
 /* A key that no schema knows has its name in words. */
-static void key_label(const char *name, const schema_key *key, char *label, size_t size)
+static void key_label(const char *name, const schema_field *key, char *label, size_t size)
 {
     bool known = key != NULL && key->label != NULL;
     (void)snprintf(label, size, "%s", known ? key->label : name);
@@ -268,7 +264,7 @@ static void key_label(const char *name, const schema_key *key, char *label, size
         label[0] = (char)(label[0] - 'a' + 'A');
 }
 
-static const schema_key *find_key(const table_view *table, const char *name)
+static const schema_field *find_key(const table_view *table, const char *name)
 {
     char full[SCHEMA_NAME_SIZE];
     for (size_t i = 0; i < table->schema->n_keys; i++) {
@@ -287,7 +283,7 @@ void page_keys(page_writer *page, const table_view *table, const char *caption)
     page_estimates_begin(page, caption, false);
     for (size_t i = 0; i < n; i++) {
         const char *name = wt_table_key_name(table->table, i);
-        const schema_key *key = find_key(table, name);
+        const schema_field *key = find_key(table, name);
         char label[128];
         wt_estimate estimate;
         key_label(name, key, label, sizeof label);

@@ -4,7 +4,7 @@
  */
 #include "report/page.h"
 
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
+#include "base/array.h"
 
 void page_inputs(page_writer *page)
 {
@@ -40,9 +40,9 @@ void page_cost(page_writer *page)
     page_heading(page, "cost", "Cost and error by stage");
     if (n[0] > 0)
         page_table(page, table, "Stages that ran", ran,
-                   COUNT(ran) - (page->with_provenance ? 0 : N_TIMES), rows[0], n[0]);
+                   COUNT_OF(ran) - (page->with_provenance ? 0 : N_TIMES), rows[0], n[0]);
     if (n[1] > 0)
-        page_table(page, table, "Stages left out", left_out, COUNT(left_out), rows[1], n[1]);
+        page_table(page, table, "Stages left out", left_out, COUNT_OF(left_out), rows[1], n[1]);
 }
 
 void page_record(page_writer *page)

@@ -4,10 +4,10 @@
  */
 #include "report/page.h"
 
+#include "base/array.h"
+
 #include <math.h>
 #include <string.h>
-
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
 /* Columns in another order than that of the table. */
 static const unsigned group_columns[] = {
@@ -83,19 +83,20 @@ void page_results(page_writer *page)
                                        &t->shift_factors,  &t->prony,      &t->roughness,
                                        &t->friction,       &t->layer};
     bool any = false;
-    for (size_t i = 0; i < COUNT(shown) && !any; i++)
+    for (size_t i = 0; i < COUNT_OF(shown) && !any; i++)
         any = shown[i]->table != NULL;
     if (!any)
         return;
     page_heading(page, "tables", "Tables");
     page_whole_table(page, &t->modulus_groups, "Modulus by group", group_columns,
-                     COUNT(group_columns));
+                     COUNT_OF(group_columns));
     page_whole_table(page, &t->comparison,
                      "Wear track against bulk: ratio of geometric means, by indentation rate", NULL,
                      0);
     page_whole_table(page, &t->dma_comparison,
                      "Indentation against DMA at the equivalent frequency", NULL, 0);
-    page_whole_table(page, &t->shift_factors, "Shift factors", shift_columns, COUNT(shift_columns));
+    page_whole_table(page, &t->shift_factors, "Shift factors", shift_columns,
+                     COUNT_OF(shift_columns));
     page_keys(page, &t->shift_factors, "Shifting and WLF constants");
     page_whole_table(page, &t->prony, "Prony series at the reference temperature", NULL, 0);
     page_keys(page, &t->prony, "Prony series: constants");

@@ -5,7 +5,6 @@
 #include "report/drawing.h"
 
 #include <stdarg.h>
-#include <string.h>
 
 static void next_item(figure_drawing *d)
 {

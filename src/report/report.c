@@ -11,7 +11,6 @@
 #include "report/page.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 wt_report_options wt_report_defaults(void)
 {

@@ -240,9 +240,9 @@ static void put_columns(const table_schema *schema)
 {
     puts(".PD 0");
     for (size_t i = 0; i < schema->n_columns; i++) {
-        const schema_column *c = &schema->columns[i];
+        const schema_field *c = &schema->columns[i];
         puts(".TP 38");
-        put_name(c->name, schema_column_unit(c));
+        put_name(c->name, schema_unit(c));
         puts(c->kind == SCHEMA_TEXT ? " (text)" : "");
         put_sentence(c->long_name);
     }
@@ -254,12 +254,12 @@ static void put_keys(const table_schema *schema)
     if (schema->n_keys > 0)
         puts(".PP\nKeys:");
     for (size_t i = 0; i < schema->n_keys; i++) {
-        const schema_key *k = &schema->keys[i];
+        const schema_field *k = &schema->keys[i];
         char name[SCHEMA_NAME_SIZE];
         schema_name(k->name, "GROUP", name);
         if (k->optional)
             putchar('(');
-        put_name(name, schema_key_unit(k));
+        put_name(name, schema_unit(k));
         printf("%s%s%s\n", k->kind == SCHEMA_NUMBER ? " E" : "", k->optional ? ")" : "",
                i + 1 < schema->n_keys ? "," : ".");
     }

@@ -80,7 +80,7 @@ static int write_truth(const wt_rubber *rubber, const char *folder, const char *
         status = flow_case_surface(c, &job, &surface, &err);
     if (status != WT_OK)
         goto done;
-    wt_sliding sliding = flow_case_conditions(c, rubber, &surface);
+    wt_sliding sliding = flow_case_sliding(c, rubber, &surface);
     status = wt_layer_make(&sliding, &c->layer, &job, &layer, &err);
     if (status != WT_OK)
         goto done;

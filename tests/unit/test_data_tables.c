@@ -30,7 +30,7 @@ static void check_unit(const char *unit, const char *own, wt_quantity quantity)
 }
 
 /* A column of errors is called after its value and has its unit. */
-static void check_errors(const table_schema *s, const schema_column *c)
+static void check_errors(const table_schema *s, const schema_field *c)
 {
     const struct {
         unsigned column;
@@ -42,8 +42,7 @@ static void check_errors(const table_schema *s, const schema_column *c)
         for (unsigned k = 0; k < s->n_columns; k++)
             assert_int_equal(strcmp(s->columns[k].name, name) == 0, k == errors[i].column && k > 0);
         if (errors[i].column > 0)
-            assert_string_equal(schema_column_unit(&s->columns[errors[i].column]),
-                                schema_column_unit(c));
+            assert_string_equal(schema_unit(&s->columns[errors[i].column]), schema_unit(c));
     }
 }
 
@@ -51,11 +50,11 @@ static void check_columns(const table_schema *s)
 {
     assert_true(s->n_columns > 0);
     for (size_t i = 0; i < s->n_columns; i++) {
-        const schema_column *c = &s->columns[i];
+        const schema_field *c = &s->columns[i];
         assert_true(table_word_is_valid(c->name) && c->long_name[0] != '\0');
         assert_int_not_equal(c->kind, SCHEMA_PLAIN);
         if (c->kind == SCHEMA_NUMBER) {
-            check_unit(schema_column_unit(c), c->unit, c->quantity);
+            check_unit(schema_unit(c), c->unit, c->quantity);
             check_errors(s, c);
         }
         for (size_t k = 0; k < i; k++)
@@ -68,13 +67,13 @@ static void check_keys(const table_schema *s)
 {
     wt_table *table = wt_table_new("keys", "");
     for (size_t i = 0; i < s->n_keys; i++) {
-        const schema_key *k = &s->keys[i];
+        const schema_field *k = &s->keys[i];
         char name[SCHEMA_NAME_SIZE];
         schema_name(k->name, "bulk", name);
         assert_null(wt_table_key(table, name));
         if (k->kind == SCHEMA_NUMBER)
-            check_unit(schema_key_unit(k), k->unit, k->quantity);
-        const wt_estimate e = {1, 0, 0, schema_key_unit(k)};
+            check_unit(schema_unit(k), k->unit, k->quantity);
+        const wt_estimate e = {1, 0, 0, schema_unit(k)};
         assert_int_equal(k->kind == SCHEMA_NUMBER ? wt_table_set_estimate(table, name, e, NULL)
                                                   : wt_table_set_key(table, name, "x", NULL),
                          WT_OK);
@@ -119,9 +118,8 @@ static void test_example(void **state)
             while (k < s->n_columns && strcmp(s->columns[k].name, name) != 0)
                 k++;
             assert_true(k < s->n_columns);
-            assert_string_equal(unit, s->columns[k].kind == SCHEMA_TEXT
-                                          ? "text"
-                                          : schema_column_unit(&s->columns[k]));
+            assert_string_equal(
+                unit, s->columns[k].kind == SCHEMA_TEXT ? "text" : schema_unit(&s->columns[k]));
             n_columns++;
             cell = strstr(cell, "<TAB>");
             cell = cell != NULL ? cell + 5 : NULL;

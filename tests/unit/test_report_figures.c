@@ -82,8 +82,8 @@ static bool has_columns(const wt_table *section, const table_schema *schema,
         return false;
     for (size_t i = 0; i < n; i++)
         if (strcmp(wt_table_column_name(section, i), schema->columns[columns[i]].name) != 0 ||
-            strcmp(wt_table_column_unit(section, i),
-                   schema_column_unit(&schema->columns[columns[i]])) != 0)
+            strcmp(wt_table_column_unit(section, i), schema_unit(&schema->columns[columns[i]])) !=
+                0)
             return false;
     return true;
 }
@@ -123,7 +123,7 @@ static void test_descriptions_fit_their_tables(void **state)
         if (figure->by_group)
             assert_int_equal(figure->table->columns[figure->group].kind, SCHEMA_TEXT);
         for (const figure_curve *curve = figure->curves; curve->form != CURVE_NONE; curve++) {
-            const schema_column *column = &figure->table->columns[curve->column];
+            const schema_field *column = &figure->table->columns[curve->column];
             assert_true(curve->band == 0 || column->standard_error > 0);
             assert_true(!curve->with_errors || column->standard_error > 0 || column->high > 0);
             assert_true(curve->panel < FIGURE_PANELS);

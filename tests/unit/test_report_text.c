@@ -165,10 +165,10 @@ static void test_svg_is_made_fit_for_a_page(void **state)
 static void test_logarithmic_tics_are_at_whole_decades(void **state)
 {
     (void)state;
-    static const schema_column wavenumber = {.quantity = WT_Q_WAVENUMBER},
-                               modulus = {.quantity = WT_Q_MODULUS}, number = {.unit = NULL},
-                               temperature = {.quantity = WT_Q_TEMPERATURE},
-                               time = {.quantity = WT_Q_TIME};
+    static const schema_field wavenumber = {.quantity = WT_Q_WAVENUMBER},
+                              modulus = {.quantity = WT_Q_MODULUS}, number = {.unit = NULL},
+                              temperature = {.quantity = WT_Q_TEMPERATURE},
+                              time = {.quantity = WT_Q_TIME};
     figure_drawing d = {.status = WT_OK};
     axis_log(&d, "x", "q", &wavenumber, (value_span){1e3, 3e7});
     // gnuplot would count decades from the end of the axis if the first tic were not given.

@@ -17,10 +17,8 @@
       LABEL("Median"), LIKE(MODULUS_GROUPS_GEOMETRIC_MEAN), SPARSE)                                \
     X(MODULUS_GROUPS_GEOMETRIC_MEAN, "geometric_mean", "geometric mean of the spots", SI(MODULUS), \
       LABEL("Geometric mean"), INTERVAL(MODULUS_GROUPS_LOW, MODULUS_GROUPS_HIGH), SPARSE)          \
-    X(MODULUS_GROUPS_LOW, "low", "lower end of its 95 % interval", SI(MODULUS),                    \
-      LABEL("95 % interval from"), LIKE(MODULUS_GROUPS_GEOMETRIC_MEAN), SPARSE)                    \
-    X(MODULUS_GROUPS_HIGH, "high", "upper end of its 95 % interval", SI(MODULUS), LABEL("to"),     \
-      LIKE(MODULUS_GROUPS_GEOMETRIC_MEAN), SPARSE)
+    INTERVAL_COLUMNS(X, MODULUS_GROUPS, "", SI(MODULUS), LIKE(MODULUS_GROUPS_GEOMETRIC_MEAN),      \
+                     SPARSE)
 #define MODULUS_GROUPS_KEYS(X)
 
 /* A row of too few curves has its numbers of curves alone. */
@@ -33,10 +31,7 @@
     X(COMPARISON_N_TRACK, "n_track", "accepted wear-track curves", NUMBER, LABEL("n track"))       \
     X(COMPARISON_RATIO, "ratio", "modulus of the track over that of the bulk", NUMBER,             \
       LABEL("Track / bulk"), SPARSE)                                                               \
-    X(COMPARISON_RATIO_LOW, "ratio_low", "lower end of its 95 % interval", NUMBER,                 \
-      LABEL("95 % interval from"), SPARSE)                                                         \
-    X(COMPARISON_RATIO_HIGH, "ratio_high", "upper end of its 95 % interval", NUMBER, LABEL("to"),  \
-      SPARSE)                                                                                      \
+    INTERVAL_COLUMNS(X, COMPARISON_RATIO, "ratio_", NUMBER, SPARSE)                                \
     X(COMPARISON_DIFFERENCE, "difference", "difference of the mean moduli, track minus bulk",      \
       SI(MODULUS), LABEL("Difference"), SPARSE)                                                    \
     X(COMPARISON_WELCH_T, "welch_t", "Welch's t of the means", NUMBER, LABEL("Welch t"), SPARSE)   \
@@ -64,8 +59,7 @@
     X(MODULUS_RATE_N, "n", "accepted curves", NUMBER)                                              \
     X(MODULUS_RATE_GEOMETRIC_MEAN, "geometric_mean", "geometric mean of the modulus", SI(MODULUS), \
       INTERVAL(MODULUS_RATE_LOW, MODULUS_RATE_HIGH))                                               \
-    X(MODULUS_RATE_LOW, "low", "lower end of its 95 % interval", SI(MODULUS))                      \
-    X(MODULUS_RATE_HIGH, "high", "upper end of its 95 % interval", SI(MODULUS))
+    INTERVAL_COLUMNS(X, MODULUS_RATE, "", SI(MODULUS))
 #define MODULUS_RATE_KEYS(X)
 
 /* Without a frequency there is no DMA modulus to compare with. */
@@ -75,10 +69,7 @@
       "angular frequency of equal loading", SI(ANGULAR_FREQUENCY), LABEL("Equivalent frequency"))  \
     X(DMA_COMPARISON_MODULUS, "indentation_modulus", "geometric mean of the modulus", SI(MODULUS), \
       LABEL("Indentation"), INTERVAL(DMA_COMPARISON_LOW, DMA_COMPARISON_HIGH))                     \
-    X(DMA_COMPARISON_LOW, "low", "lower end of its 95 % interval", SI(MODULUS),                    \
-      LABEL("95 % interval from"), LIKE(DMA_COMPARISON_MODULUS))                                   \
-    X(DMA_COMPARISON_HIGH, "high", "upper end of its 95 % interval", SI(MODULUS), LABEL("to"),     \
-      LIKE(DMA_COMPARISON_MODULUS))                                                                \
+    INTERVAL_COLUMNS(X, DMA_COMPARISON, "", SI(MODULUS), LIKE(DMA_COMPARISON_MODULUS))             \
     X(DMA_COMPARISON_STORAGE_MODULUS, "dma_storage_modulus", "E' of the DMA at this frequency",    \
       SI(STORAGE_MODULUS), LABEL("DMA E′"), LIKE(DMA_COMPARISON_MODULUS), SPARSE)                  \
     X(DMA_COMPARISON_COMPLEX_MODULUS, "dma_complex_modulus", "|E*| of the DMA at this frequency",  \

@@ -15,15 +15,6 @@
     X(ROUGHNESS_KEY_C0, "c0", SI(POWER_SPECTRUM_2D), LABEL("C₀"), OPTIONAL)                        \
     X(ROUGHNESS_KEY_ROLL_OFF, "roll_off", SI(WAVENUMBER), LABEL("Roll-off wavenumber"), OPTIONAL)
 
-/* A number with its standard error behind it; with both errors. `heading` is that of the page. */
-#define COLUMN_AND_ERROR(X, ID, name, words, unit, heading)                                        \
-    X(ID, name, words, unit, LABEL(heading), STANDARD_ERROR(ID))                                   \
-    X(ID##_STANDARD_ERROR, name "_standard_error", "its standard error", unit, LABEL("± stat."))
-#define COLUMN_AND_ERRORS(X, ID, name, words, unit, heading)                                       \
-    X(ID, name, words, unit, LABEL(heading), BOTH_ERRORS(ID))                                      \
-    X(ID##_STANDARD_ERROR, name "_standard_error", "its standard error", unit, LABEL("± stat."))   \
-    X(ID##_NUMERICAL_ERROR, name "_numerical_error", "its numerical error", unit, LABEL("± num."))
-
 #define FRICTION_COLUMNS(X)                                                                        \
     X(FRICTION_VELOCITY, "velocity", "sliding velocity", SI(VELOCITY), LABEL("Velocity"))          \
     COLUMN_AND_ERRORS(X, FRICTION_TOTAL, "friction",                                               \

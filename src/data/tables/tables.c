@@ -20,12 +20,13 @@
 #define SPARSE .sparse = true
 #define OPTIONAL .optional = true
 
-#define ROW(id, ...) {__VA_ARGS__},
+#define COLUMN(id, ...) {__VA_ARGS__},
+#define KEY(id, key_name, ...) {.name = key_name, __VA_ARGS__},
 
 /* The row behind the last one stands for none. */
 #define SCHEMA(table, TABLE, table_name, words, subcommand)                                        \
-    static const schema_column table##_columns[] = {TABLE##_COLUMNS(ROW){.name = NULL}};           \
-    static const schema_key table##_keys[] = {TABLE##_KEYS(ROW){.name = NULL}};                    \
+    static const schema_field table##_columns[] = {TABLE##_COLUMNS(COLUMN){.name = NULL}};         \
+    static const schema_field table##_keys[] = {TABLE##_KEYS(KEY){.name = NULL}};                  \
     const table_schema table##_schema = {                                                          \
         .name = table_name,                                                                        \
         .title = words,                                                                            \

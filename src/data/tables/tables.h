@@ -18,6 +18,20 @@
 #include "data/tables/run.h"
 #include "data/tables/sliding.h"
 
+/* Columns that come together: a number with its standard error behind it; with both errors; the
+ * ends of an interval. `heading` is that of the page. */
+#define COLUMN_AND_ERROR(X, ID, name, words, unit, heading)                                        \
+    X(ID, name, words, unit, LABEL(heading), STANDARD_ERROR(ID))                                   \
+    X(ID##_STANDARD_ERROR, name "_standard_error", "its standard error", unit, LABEL("± stat."))
+#define COLUMN_AND_ERRORS(X, ID, name, words, unit, heading)                                       \
+    X(ID, name, words, unit, LABEL(heading), BOTH_ERRORS(ID))                                      \
+    X(ID##_STANDARD_ERROR, name "_standard_error", "its standard error", unit, LABEL("± stat."))   \
+    X(ID##_NUMERICAL_ERROR, name "_numerical_error", "its numerical error", unit, LABEL("± num."))
+#define INTERVAL_COLUMNS(X, ID, prefix, ...)                                                       \
+    X(ID##_LOW, prefix "low", "lower end of its 95 % interval", LABEL("95 % interval from"),       \
+      __VA_ARGS__)                                                                                 \
+    X(ID##_HIGH, prefix "high", "upper end of its 95 % interval", LABEL("to"), __VA_ARGS__)
+
 /* name in C, name of its lists, name of the table, title, the subcommand that makes it. Two tables
  * share a name: the counter surface as computed and a spectrum as measured. */
 #define TABLES(X)                                                                                  \

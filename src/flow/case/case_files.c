@@ -6,23 +6,19 @@
 
 #include <math.h>
 
-typedef struct group {
-    wt_estimate spring_constant;
-} group;
-
-static group no_group(void)
+static case_files no_files(void)
 {
-    return (group){.spring_constant = {(double)NAN, 0, 0, "N/m"}};
+    return (case_files){.spring_constant = {(double)NAN, 0, 0, "N/m"}};
 }
 
-static const wt_param rows[] = {SPRING_CONSTANT(group, PARAM_NO_OPTION)};
-PARAM_TABLE(case_group_params, group, rows, no_group, NO_PARTS)
+static const wt_param rows[] = {SPRING_CONSTANT(case_files, PARAM_NO_OPTION)};
+PARAM_TABLE(case_group_params, case_files, rows, no_files, NO_PARTS)
 
 /* What the attributes of a node say on top of what is there. */
 static wt_status read_attributes(wt_case *c, const xmlNode *node, wt_file_set *set,
                                  wt_estimate *spring_constant, wt_error *err)
 {
-    group *stated = pool_alloc(&c->memory, 1, sizeof *stated);
+    case_files *stated = pool_alloc(&c->memory, 1, sizeof *stated);
     if (stated == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     stated->spring_constant = *spring_constant;
@@ -51,7 +47,7 @@ wt_status case_read_files(wt_case *c, const xmlNode *parent, const char *name, c
     if (common == NULL || patterns == NULL || files->sets == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     *common = (wt_file_set){.folder = c->folder, .read = wt_read_defaults()};
-    wt_estimate group_constant = no_group().spring_constant;
+    wt_estimate group_constant = no_files().spring_constant;
     wt_status status = read_attributes(c, parent, common, &group_constant, err);
     files->n = n;
     const xmlNode *node = case_child(parent, name);

@@ -8,7 +8,7 @@
 
 #include <string.h>
 
-#define SOURCE_ROW(id, text, lack) [FLOW_##id] = {.words = text, .missing = lack},
+#define SOURCE_ROW(id, text, lack, there) [FLOW_##id] = {.words = text, .missing = lack},
 #define TABLE_ROW(id, text, of, group) [FLOW_##id] = {.words = text, .schema = of, .suffix = group},
 #define INNER_ROW(id, text) [FLOW_##id] = {.words = text},
 const flow_thing_row flow_thing_rows[FLOW_N_THINGS] = {SOURCES(SOURCE_ROW) TABLE_THINGS(TABLE_ROW)

@@ -5,16 +5,19 @@
 
 #include "data/schema.h"
 
-/* Sources: id, words, what a case without it lacks. */
+/* Sources: id, words, what a case without it lacks, whether the case `c` has it. */
 #define SOURCES(X)                                                                                 \
-    X(BULK_CURVES, "bulk curves", "no bulk curves (<bulk> in <indentation>)")                      \
-    X(TRACK_CURVES, "wear-track curves", "no wear-track curves (<track> in <indentation>)")        \
-    X(DMA_FILES, "DMA files", "no DMA files (<files> in <dma>)")                                   \
-    X(GIVEN_MATERIAL, "given material", "no material (<prony> in <dma>)")                          \
-    X(COUNTER_SURFACE, "counter surface", "no counter surface (<roughness>)")                      \
-    X(CONDITIONS, "sliding conditions", "no sliding conditions (<sliding>)")                       \
-    X(LAYER_PARAMETERS, "layer parameters", "no layer parameters (<layer>)")                       \
-    X(GIVEN_RATIO, "given modulus ratio", "no modulus ratio (<modulus-ratio> in <layer>)")
+    X(BULK_CURVES, "bulk curves", "no bulk curves (<bulk> in <indentation>)", c->bulk.n > 0)       \
+    X(TRACK_CURVES, "wear-track curves", "no wear-track curves (<track> in <indentation>)",        \
+      c->track.n > 0)                                                                              \
+    X(DMA_FILES, "DMA files", "no DMA files (<files> in <dma>)", c->dma.n > 0)                     \
+    X(GIVEN_MATERIAL, "given material", "no material (<prony> in <dma>)", c->has_prony)            \
+    X(COUNTER_SURFACE, "counter surface", "no counter surface (<roughness>)",                      \
+      c->has_self_affine || c->has_spectrum)                                                       \
+    X(CONDITIONS, "sliding conditions", "no sliding conditions (<sliding>)", c->has_sliding)       \
+    X(LAYER_PARAMETERS, "layer parameters", "no layer parameters (<layer>)", c->has_layer)         \
+    X(GIVEN_RATIO, "given modulus ratio", "no modulus ratio (<modulus-ratio> in <layer>)",         \
+      c->has_modulus_ratio)
 
 /* Tables: id, name, schema and what completes its name. The curve of a group is a block of two
  * tables, which the groups share. */

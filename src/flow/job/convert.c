@@ -10,7 +10,6 @@
 #include <string.h>
 
 typedef struct conversion {
-    const wt_convert_job *job;
     const wt_job *work;
     flow_file file;
     wt_input *input;
@@ -45,7 +44,15 @@ static void set_curve_key(table_writer *t, force_curve_key key, double value)
         force_curve_set_value(t, key, value, 0, 0);
 }
 
-static wt_status curve_table(const wt_force_curve *curve, wt_table **table, wt_error *err)
+/* Ends a table and hands it on. */
+static wt_status send(const conversion *c, table_writer *t, wt_error *err)
+{
+    wt_table *table = NULL;
+    wt_status status = table_end(t, &table);
+    return status == WT_OK ? c->sink(c->user, table, err) : status;
+}
+
+static wt_status send_curve(const conversion *c, const wt_force_curve *curve, wt_error *err)
 {
     const wt_channel *columns[WT_Q_COUNT], *of_segment[WT_Q_COUNT];
     const size_t n = curve_columns(curve, columns);
@@ -75,7 +82,7 @@ static wt_status curve_table(const wt_force_curve *curve, wt_table **table, wt_e
                     wt_table_put(t.table, FORCE_CURVE_N_COLUMNS + k, of_segment[k]->values[i]);
         }
     }
-    return table_end(&t, table);
+    return send(c, &t, err);
 }
 
 /* A curve that cannot be read is recorded and the others go on. */
@@ -92,21 +99,11 @@ static wt_status convert_force(const conversion *c, wt_error *err)
         if (got == WT_END)
             break;
         if (got != WT_OK) {
-            wt_error_file(&failure, wt_input_name(c->input));
-            if (!flow_goes_on(c->work, got)) {
-                if (err != NULL)
-                    *err = failure;
-                status = got;
-                break;
-            }
             n_failed++;
-            status = flow_failed(c->work, wt_input_name(c->input), &failure, err);
+            status = flow_failed(c->work, wt_input_name(c->input), got, &failure, err);
             continue;
         }
-        wt_table *table = NULL;
-        status = curve_table(&curve, &table, err);
-        if (status == WT_OK)
-            status = c->sink(c->user, table, err);
+        status = send_curve(c, &curve, err);
         n++;
     }
     if (status == WT_OK && n == 0)
@@ -116,7 +113,7 @@ static wt_status convert_force(const conversion *c, wt_error *err)
     return status;
 }
 
-static wt_status sweep_table(const wt_sweep *sweep, wt_table **table, wt_error *err)
+static wt_status send_sweep(const conversion *c, const wt_sweep *sweep, wt_error *err)
 {
     const bool shear = sweep->deformation == WT_SHEAR;
     const sweep_column storage = shear ? SWEEP_SHEAR_STORAGE_MODULUS : SWEEP_STORAGE_MODULUS;
@@ -136,31 +133,29 @@ static wt_status sweep_table(const wt_sweep *sweep, wt_table **table, wt_error *
             sweep_put(&t, loss, iso->loss_modulus[i]);
         }
     }
-    return table_end(&t, table);
+    return send(c, &t, err);
 }
 
 static wt_status convert_sweep(const conversion *c, wt_error *err)
 {
     wt_sweep sweep = {0};
-    wt_table *table = NULL;
     wt_status status =
         wt_sweep_read(c->work->formats, c->input, &c->file.read, c->work->log, &sweep, err);
     if (status == WT_OK) {
         wt_sweep_sort(&sweep);
-        status = sweep_table(&sweep, &table, err);
+        status = send_sweep(c, &sweep, err);
     }
-    if (status == WT_OK)
-        status = c->sink(c->user, table, err);
     wt_sweep_clear(&sweep);
     return status;
 }
 
-static wt_status image_table(const wt_image *image, size_t number, wt_table **table, wt_error *err)
+static wt_status send_image(const conversion *c, const wt_image *image, size_t number,
+                            wt_error *err)
 {
     const bool flat = image->n_rows < 2;
     const double steps_x = image->n_columns > 1 ? (double)(image->n_columns - 1) : 1;
     const double steps_y = image->n_rows > 1 ? (double)(image->n_rows - 1) : 1;
-    schema_column columns[IMAGE_N_COLUMNS];
+    schema_field columns[IMAGE_N_COLUMNS];
     char suffix[32];
     snprintf(suffix, sizeof suffix, "%zu", number);
     memcpy(columns, image_schema.columns, sizeof columns);
@@ -183,7 +178,7 @@ static wt_status image_table(const wt_image *image, size_t number, wt_table **ta
             image_put(&t, IMAGE_VALUE, image->values[row * image->n_columns + column]);
         }
     }
-    return table_end(&t, table);
+    return send(c, &t, err);
 }
 
 static wt_status convert_images(const conversion *c, wt_error *err)
@@ -192,19 +187,15 @@ static wt_status convert_images(const conversion *c, wt_error *err)
     size_t n = 0;
     wt_status status =
         wt_images_read(c->work->formats, c->input, &c->file.read, c->work->log, &images, &n, err);
-    for (size_t i = 0; i < n && status == WT_OK; i++) {
-        wt_table *t = NULL;
-        status = image_table(&images[i], i, &t, err);
-        if (status == WT_OK)
-            status = c->sink(c->user, t, err);
-    }
+    for (size_t i = 0; i < n && status == WT_OK; i++)
+        status = send_image(c, &images[i], i, err);
     for (size_t i = 0; i < n; i++)
         wt_image_clear(&images[i]);
     free(images);
     return status;
 }
 
-static wt_status spectrum_table(const wt_power_spectrum *s, wt_table **table, wt_error *err)
+static wt_status send_spectrum(const conversion *c, const wt_power_spectrum *s, wt_error *err)
 {
     const bool surface = s->kind == WT_SPECTRUM_2D;
     const spectrum_column density = surface ? SPECTRUM_DENSITY_2D : SPECTRUM_DENSITY_1D;
@@ -216,19 +207,16 @@ static wt_status spectrum_table(const wt_power_spectrum *s, wt_table **table, wt
         spectrum_put(&t, SPECTRUM_WAVENUMBER, s->wavenumber[i]);
         spectrum_put(&t, density, s->density[i]);
     }
-    return table_end(&t, table);
+    return send(c, &t, err);
 }
 
 static wt_status convert_spectrum(const conversion *c, wt_error *err)
 {
     wt_power_spectrum spectrum = {0};
-    wt_table *table = NULL;
     wt_status status = wt_power_spectrum_read(c->work->formats, c->input, &c->file.read,
                                               c->work->log, &spectrum, err);
     if (status == WT_OK)
-        status = spectrum_table(&spectrum, &table, err);
-    if (status == WT_OK)
-        status = c->sink(c->user, table, err);
+        status = send_spectrum(c, &spectrum, err);
     wt_power_spectrum_clear(&spectrum);
     return status;
 }
@@ -266,8 +254,7 @@ wt_status wt_convert_file(const wt_convert_job *job, const char *path, const wt_
                           wt_table_sink sink, void *user, wt_error *err)
 {
     const wt_file_set set = {.read = job->read};
-    conversion c = {.job = job,
-                    .work = work,
+    conversion c = {.work = work,
                     .file = {.path = path, .name = path, .set = &set},
                     .sink = sink,
                     .user = user};

@@ -118,7 +118,7 @@ static wt_status flush_failures(indent_task *task, wt_error *err)
         wt_error_place(&failure, "curve %zu", task->first_equal);
     task->n_equal = 0;
     task->n_failed++;
-    return flow_failed(task->work, task->file->name, &failure, err);
+    return flow_failed(task->work, task->file->name, failure.status, &failure, err);
 }
 
 static wt_status note_failure(indent_task *task, size_t curve, const wt_error *failure,
@@ -219,12 +219,8 @@ static wt_status write_item(indent_task *task, item *it, wt_error *err)
 {
     wt_status status = WT_OK;
     if (it->status != WT_OK) {
-        if (!flow_goes_on(task->work, it->status)) {
-            wt_error_file(&it->error, task->file->name);
-            if (err != NULL)
-                *err = it->error;
-            return it->status;
-        }
+        if (!flow_goes_on(task->work, it->status))
+            return flow_failed(task->work, task->file->name, it->status, &it->error, err);
         mark_unreadable(&it->fit, &it->error);
         status = note_failure(task, it->curve.index, &it->error, err);
     }
@@ -316,12 +312,9 @@ static wt_status read_files(indent_task *task, const flow_files *files, wt_error
             task->spot = task->file->name;
         task->n_items = 0;
         status = read_file(task, &failure);
-        if (status != WT_OK && flow_goes_on(task->work, status)) {
+        if (status != WT_OK) {
             task->n_failed++;
-            status = flow_failed(task->work, task->file->name, &failure, err);
-        } else if (status != WT_OK && err != NULL) {
-            *err = failure;
-            wt_error_file(err, task->file->name);
+            status = flow_failed(task->work, task->file->name, status, &failure, err);
         }
     }
     return status;

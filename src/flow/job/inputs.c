@@ -78,11 +78,17 @@ wt_status flow_add_failure(const wt_job *work, const char *what, const wt_error 
     return table_end(&t, NULL);
 }
 
-wt_status flow_failed(const wt_job *work, const char *file, const wt_error *failure, wt_error *err)
+wt_status flow_failed(const wt_job *work, const char *file, wt_status status, wt_error *failure,
+                      wt_error *err)
 {
-    wt_error shown = *failure;
-    shown.file[0] = '\0'; /* it has its own column */
-    return flow_add_failure(work, file, &shown, err);
+    if (flow_goes_on(work, status)) {
+        failure->file[0] = '\0'; /* it has its own column */
+        return flow_add_failure(work, file, failure, err);
+    }
+    wt_error_file(failure, file);
+    if (err != NULL)
+        *err = *failure;
+    return status;
 }
 
 /* ---- listing --------------------------------------------------------------------------------- */
@@ -119,11 +125,8 @@ static wt_status list_pattern(const wt_file_set *set, const char *pattern, const
     if (strcmp(pattern, "-") == 0)
         return files_add(files, strdup("-"), set, err);
     status = wt_glob(set->folder, pattern, &paths, &n, &failure);
-    if (status != WT_OK) {
-        if (err != NULL && !flow_goes_on(work, status))
-            *err = failure;
-        return flow_goes_on(work, status) ? flow_failed(work, pattern, &failure, err) : status;
-    }
+    if (status != WT_OK)
+        return flow_failed(work, pattern, status, &failure, err);
     for (size_t i = 0; status == WT_OK && i < n; i++) {
         if (is_listed(files, paths[i])) {
             wt_parselog_add(work->log, WT_WARNING, paths[i], NULL,

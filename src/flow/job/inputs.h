@@ -53,11 +53,12 @@ wt_status flow_surface_read(flow_file *file, const wt_job *work, wt_surface *sur
 /* Whether a failure of one file leaves the others alone: false for lack of memory, cancelling,
  * internal errors, and when the job keeps no failures. */
 bool flow_goes_on(const wt_job *work, wt_status status);
-/* Adds a row to the failures: of a file, which the message then does not name again; of anything.
- */
+/* Adds a row to the failures. */
 wt_status flow_add_failure(const wt_job *work, const char *what, const wt_error *failure,
                            wt_error *err) WT_NODISCARD;
-wt_status flow_failed(const wt_job *work, const char *file, const wt_error *failure,
+/* What the failure of a file comes to: such a row, whose message does not name the file again, or
+ * the error of the job and `status` if it cannot go on. */
+wt_status flow_failed(const wt_job *work, const char *file, wt_status status, wt_error *failure,
                       wt_error *err) WT_NODISCARD;
 
 #endif

@@ -6,7 +6,6 @@
 #include "flow/job/sliding_contact.h"
 #include "kernel/params.h"
 
-#include "base/array.h"
 #include "data/tables/tables.h"
 
 #include <math.h>

@@ -8,7 +8,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 wt_master_job wt_master_job_defaults(void)
 {
@@ -57,13 +56,8 @@ static wt_status read_sweeps(const wt_master_job *job, const wt_job *work, wt_sw
             status = wt_sweep_read(work->formats, input, &files.file[i].read, work->log, sweep,
                                    &failure);
         wt_input_close(input);
-        if (status == WT_OK)
-            continue;
-        wt_error_file(&failure, files.file[i].name);
-        if (flow_goes_on(work, status))
-            status = flow_failed(work, files.file[i].name, &failure, err);
-        else if (err != NULL)
-            *err = failure;
+        if (status != WT_OK)
+            status = flow_failed(work, files.file[i].name, status, &failure, err);
     }
     if (status == WT_OK && sweep->n_isotherms == 0) {
         status = wt_fail(err, WT_E_EMPTY, "no DMA isotherm could be read");

@@ -2,7 +2,6 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/job/inputs.h"
 
-#include "base/array.h"
 #include "data/tables/tables.h"
 
 #include <math.h>
@@ -128,14 +127,9 @@ wt_status flow_surface_read(flow_file *file, const wt_job *work, wt_surface *sur
 static wt_status read_spectrum(const char *path, const wt_read_options *read, const wt_job *work,
                                wt_surface *surface, wt_error *err)
 {
-    char *own = strdup(path);
-    if (own == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
     const wt_file_set set = {.read = read != NULL ? *read : wt_read_defaults()};
-    flow_file file = {.path = own, .name = own, .set = &set};
-    wt_status status = flow_surface_read(&file, work, surface, err);
-    free(own);
-    return status;
+    flow_file file = {.path = path, .name = path, .set = &set};
+    return flow_surface_read(&file, work, surface, err);
 }
 
 wt_status wt_surface_open(const char *text, const wt_read_options *read, const wt_job *work,

@@ -2,34 +2,14 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/plan/plan.h"
 
-#include "base/array.h"
 #include "data/tables/tables.h"
-
-#include <math.h>
-#include <string.h>
 
 /* ---- what is there, what is wanted ----------------------------------------------------------- */
 
 static flow_things sources_of(const wt_case *c)
 {
-    const struct {
-        bool there;
-        flow_thing thing;
-    } all[] = {
-        {c->bulk.n > 0, FLOW_BULK_CURVES},
-        {c->track.n > 0, FLOW_TRACK_CURVES},
-        {c->dma.n > 0, FLOW_DMA_FILES},
-        {c->has_prony, FLOW_GIVEN_MATERIAL},
-        {c->has_self_affine || c->has_spectrum, FLOW_COUNTER_SURFACE},
-        {c->has_sliding, FLOW_CONDITIONS},
-        {c->has_layer, FLOW_LAYER_PARAMETERS},
-        {c->has_modulus_ratio, FLOW_GIVEN_RATIO},
-    };
-    flow_things set = 0;
-    for (size_t i = 0; i < COUNT_OF(all); i++)
-        if (all[i].there)
-            set |= FLOW_BIT(all[i].thing);
-    return set;
+#define SOURCE_BIT(id, words, missing, there) ((there) ? FLOW_BIT(FLOW_##id) : 0) |
+    return SOURCES(SOURCE_BIT) 0;
 }
 
 static flow_things wanted_by(const wt_case *c)
@@ -46,14 +26,6 @@ static flow_things wanted_by(const wt_case *c)
 
 /* ---- choosing -------------------------------------------------------------------------------- */
 
-static int count_bits(flow_things set)
-{
-    int n = 0;
-    for (; set != 0; set &= set - 1)
-        n++;
-    return n;
-}
-
 /* Stages whose needs can all be met; one pass suffices since the table is in order. */
 static void find_able(flow_things sources, bool able[FLOW_N_STAGES])
 {
@@ -69,11 +41,12 @@ static void find_able(flow_things sources, bool able[FLOW_N_STAGES])
  * account, or else the one that does less that nobody asked for. */
 static bool is_better(const flow_plan *plan, size_t a, size_t b)
 {
-    int more = count_bits(flow_stages[a].needs) - count_bits(flow_stages[b].needs);
+    int more =
+        __builtin_popcountll(flow_stages[a].needs) - __builtin_popcountll(flow_stages[b].needs);
     if (more != 0)
         return more > 0;
-    return count_bits(flow_stages[a].gives & ~plan->required) <
-           count_bits(flow_stages[b].gives & ~plan->required);
+    return __builtin_popcountll(flow_stages[a].gives & ~plan->required) <
+           __builtin_popcountll(flow_stages[b].gives & ~plan->required);
 }
 
 /* Chooses the best stage that gives a thing, then what it needs. */

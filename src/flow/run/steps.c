@@ -29,15 +29,8 @@ static void keep(flow_run *run, flow_thing thing, wt_table **table)
 
 /* ---- from the case --------------------------------------------------------------------------- */
 
-wt_master_job flow_case_master(const wt_case *c)
-{
-    wt_master_job job = c->master;
-    job.sets = c->dma.sets;
-    job.n_sets = c->dma.n;
-    return job;
-}
-
-wt_status flow_case_rubber(const wt_case *c, wt_rubber *result, wt_error *err)
+/* As given in the case. */
+static wt_status make_rubber(const wt_case *c, wt_rubber *result, wt_error *err)
 {
     wt_rubber rubber = {
         .poisson_ratio = c->master.poisson_ratio,
@@ -90,8 +83,7 @@ wt_status flow_case_surface(const wt_case *c, const wt_job *work, wt_surface *su
     return status;
 }
 
-wt_sliding flow_case_conditions(const wt_case *c, const wt_rubber *rubber,
-                                const wt_surface *surface)
+wt_sliding flow_case_sliding(const wt_case *c, const wt_rubber *rubber, const wt_surface *surface)
 {
     wt_sliding sliding = c->sliding;
     sliding.rubber = rubber;
@@ -209,7 +201,9 @@ wt_status flow_step_given_ratio(flow_run *run, flow_cost *cost, wt_error *err)
 wt_status flow_step_master(flow_run *run, flow_cost *cost, wt_error *err)
 {
     wt_master_tables tables = {0};
-    wt_master_job job = flow_case_master(run->c);
+    wt_master_job job = run->c->master;
+    job.sets = run->c->dma.sets;
+    job.n_sets = run->c->dma.n;
     wt_status status = wt_master_make(&job, &run->job, &tables, &run->rubber, err);
     cost->items = (double)tables.n_isotherms;
     keep(run, FLOW_SHIFT_FACTORS, &tables.shift_factors);
@@ -221,7 +215,7 @@ wt_status flow_step_master(flow_run *run, flow_cost *cost, wt_error *err)
 wt_status flow_step_given_material(flow_run *run, flow_cost *cost, wt_error *err)
 {
     cost->items = (double)run->c->prony.n;
-    return flow_case_rubber(run->c, &run->rubber, err);
+    return make_rubber(run->c, &run->rubber, err);
 }
 
 /* ---- counter surface ------------------------------------------------------------------------- */
@@ -240,7 +234,7 @@ wt_status flow_step_roughness(flow_run *run, flow_cost *cost, wt_error *err)
 
 wt_status flow_step_layer(flow_run *run, flow_cost *cost, wt_error *err)
 {
-    wt_sliding sliding = flow_case_conditions(run->c, &run->rubber, &run->surface);
+    wt_sliding sliding = flow_case_sliding(run->c, &run->rubber, &run->surface);
     wt_layer_tables tables = {0};
     wt_status status = wt_layer_make(&sliding, &run->c->layer, &run->job, &tables, err);
     if (status != WT_OK)
@@ -258,7 +252,7 @@ wt_status flow_step_layer(flow_run *run, flow_cost *cost, wt_error *err)
 static wt_status friction(flow_run *run, const wt_layer_known *layer, flow_cost *cost,
                           wt_error *err)
 {
-    wt_sliding sliding = flow_case_conditions(run->c, &run->rubber, &run->surface);
+    wt_sliding sliding = flow_case_sliding(run->c, &run->rubber, &run->surface);
     wt_friction_tables tables = {0};
     wt_status status = wt_friction_make(&sliding, layer, &run->job, &tables, err);
     if (status != WT_OK)

@@ -24,13 +24,10 @@ typedef struct flow_run {
 } flow_run;
 
 void flow_run_clear(flow_run *run);
-/* Rubber as given in the case; conditions of the case with rubber and surface set. */
-wt_status flow_case_rubber(const wt_case *c, wt_rubber *rubber, wt_error *err) WT_NODISCARD;
+/* The counter surface of the case; its sliding contact with rubber and surface set. */
 wt_status flow_case_surface(const wt_case *c, const wt_job *work, wt_surface *surface,
                             wt_error *err) WT_NODISCARD;
-wt_master_job flow_case_master(const wt_case *c);
-wt_sliding flow_case_conditions(const wt_case *c, const wt_rubber *rubber,
-                                const wt_surface *surface);
+wt_sliding flow_case_sliding(const wt_case *c, const wt_rubber *rubber, const wt_surface *surface);
 
 #define STEP_PROTOTYPE(id, name, title, needs, gives, step)                                        \
     wt_status step(flow_run *run, flow_cost *cost, wt_error *err);
