@@ -140,8 +140,8 @@ static wt_status limit(const wt_param *param, double value, const char *text, wt
     return WT_E_RANGE;
 }
 
-wt_status param_read_estimate(const wt_param *param, const char *text, wt_estimate *estimate,
-                              wt_error *err)
+static wt_status read_estimate(const wt_param *param, const char *text, wt_estimate *estimate,
+                               wt_error *err)
 {
     wt_estimate read = {0};
     wt_status status = wt_estimate_parse(text, param->quantity, &read, err);
@@ -156,7 +156,7 @@ wt_status param_read_estimate(const wt_param *param, const char *text, wt_estima
 static wt_status read_number(const wt_param *param, const char *text, double *value, wt_error *err)
 {
     wt_estimate read = {0};
-    wt_status status = param_read_estimate(param, text, &read, err);
+    wt_status status = read_estimate(param, text, &read, err);
     if (status == WT_OK && read.standard_error > 0) {
         status = wt_fail(err, WT_E_ARG, "an error stated here would not be used");
         wt_error_found(err, "%s", text);
@@ -283,7 +283,7 @@ static wt_status read_member(const slot *s, const char *text, wt_error *err)
     case PARAM_NUMBER:
         return read_number(s->param, text, s->member, err);
     case PARAM_ESTIMATE:
-        return param_read_estimate(s->param, text, s->member, err);
+        return read_estimate(s->param, text, s->member, err);
     case PARAM_LIST:
         return read_list(s, text, err);
     case PARAM_COUNT:

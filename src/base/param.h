@@ -146,9 +146,6 @@ wt_status param_check(const wt_params *params, const void *structure, wt_error *
 wt_status param_check_number(const wt_param *param, double value, wt_error *err) WT_NODISCARD;
 /* The error of a number that is not a parameter: WT_E_RANGE. */
 wt_status range_error(const char *name, double value, const char *expected, wt_error *err);
-/* One number with its standard error, checked. */
-wt_status param_read_estimate(const wt_param *param, const char *text, wt_estimate *estimate,
-                              wt_error *err) WT_NODISCARD;
 /* Name of the first required parameter that is not given; NULL if there is none. */
 const char *param_missing(const wt_params *params, uint64_t given);
 

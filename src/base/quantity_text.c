@@ -21,13 +21,11 @@ static char *copy_trimmed(const char *begin, const char *end)
     return strndup(begin, (size_t)(end - begin));
 }
 
-/* The place of "+-" or "±" in the text and its length; NULL if there is none. */
-static const char *find_plus_minus(const char *text, size_t *length)
+/* The place of "+-" or "±" in the text; NULL if there is none. Both take two bytes. */
+static const char *find_plus_minus(const char *text)
 {
     const char *ascii = strstr(text, "+-");
-    const char *sign = strstr(text, "\xc2\xb1");
-    *length = 2;
-    return ascii != NULL ? ascii : sign;
+    return ascii != NULL ? ascii : strstr(text, "\xc2\xb1");
 }
 
 /* The stated error: "5%" of the value, or a quantity of the same dimension. */
@@ -73,12 +71,11 @@ wt_status wt_estimate_parse(const char *text, wt_quantity quantity, wt_estimate 
     wt_status status;
     wt_estimate parsed = {(double)NAN, 0, 0, wt_quantity_unit(quantity)};
     char *head = NULL, *tail = NULL;
-    size_t length = 0;
-    const char *sign = find_plus_minus(text, &length);
+    const char *sign = find_plus_minus(text);
 
     head = copy_trimmed(text, sign != NULL ? sign : text + strlen(text));
     if (sign != NULL)
-        tail = copy_trimmed(sign + length, text + strlen(text));
+        tail = copy_trimmed(sign + 2, text + strlen(text));
     if (head == NULL || (sign != NULL && tail == NULL)) {
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
         goto done;

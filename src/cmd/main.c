@@ -83,22 +83,16 @@ int main(int argc, char **argv)
         return CMD_USAGE;
     }
     const char *word = argv[1];
-    if (strcmp(word, "--version") == 0 || strcmp(word, "-V") == 0) {
+    const bool help = strcmp(word, "help") == 0;
+    char help_option[] = "--help";
+    int status = CMD_OK;
+    if (strcmp(word, "--version") == 0 || strcmp(word, "-V") == 0)
         printf("weartrack %s\nLicence GPL-3.0-or-later. There is no warranty.\n", wt_version());
-        return close_stdout(CMD_OK);
-    }
-    if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0) {
+    else if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0 || (help && argc == 2))
         print_help(stdout);
-        return close_stdout(CMD_OK);
-    }
-    if (strcmp(word, "help") == 0) {
-        if (argc == 2) {
-            print_help(stdout);
-            return close_stdout(CMD_OK);
-        }
-        char help_option[] = "--help";
-        char *help_argv[] = {argv[2], help_option, NULL};
-        return close_stdout(dispatch(2, help_argv));
-    }
-    return close_stdout(dispatch(argc - 1, argv + 1));
+    else if (help)
+        status = dispatch(2, (char *[]){argv[2], help_option, NULL});
+    else
+        status = dispatch(argc - 1, argv + 1);
+    return close_stdout(status);
 }

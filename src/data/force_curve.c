@@ -2,25 +2,20 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "data/force_curve.h"
 
+#include "base/array.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 const char *wt_segment_kind_name(wt_segment_kind kind)
 {
-    switch (kind) {
-    case WT_SEGMENT_APPROACH:
-        return "approach";
-    case WT_SEGMENT_RETRACT:
-        return "retract";
-    case WT_SEGMENT_DWELL:
-        return "dwell";
-    case WT_SEGMENT_MODULATION:
-        return "modulation";
-    case WT_SEGMENT_OTHER:
-        break;
-    }
-    return "other";
+    static const char *const names[] = {[WT_SEGMENT_APPROACH] = "approach",
+                                        [WT_SEGMENT_RETRACT] = "retract",
+                                        [WT_SEGMENT_DWELL] = "dwell",
+                                        [WT_SEGMENT_MODULATION] = "modulation",
+                                        [WT_SEGMENT_OTHER] = "other"};
+    return names[(size_t)kind < COUNT_OF(names) ? kind : WT_SEGMENT_OTHER];
 }
 
 static void free_channels(wt_segment *segment, size_t from)
@@ -157,7 +152,7 @@ const double *segment_force(const wt_segment *segment, const wt_cantilever *cant
 {
     static const wt_quantity sources[] = {WT_Q_FORCE, WT_Q_DEFLECTION, WT_Q_DEFLECTION_VOLTAGE};
     const wt_channel *channel = NULL;
-    for (size_t i = 0; i < sizeof sources / sizeof *sources && channel == NULL; i++)
+    for (size_t i = 0; i < COUNT_OF(sources) && channel == NULL; i++)
         channel = wt_segment_channel(segment, sources[i]);
     if (channel == NULL || channel->quantity == WT_Q_FORCE)
         return channel != NULL ? channel->values : NULL;

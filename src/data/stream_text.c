@@ -5,6 +5,11 @@
 
 #include <string.h>
 
+/* What stands in the text, and the letter that stands for it behind a backslash; the last two are
+ * escaped only where a text begins. */
+static const char raw[] = "\t\n\r\\#-", letters[] = "tnr\\#-";
+enum { ALWAYS_ESCAPED = 4 };
+
 void stream_put_text(FILE *out, const char *text)
 {
     const size_t length = strlen(text);
@@ -19,16 +24,11 @@ void stream_put_text(FILE *out, const char *text)
     while (i < length) {
         const size_t n = utf8_character(text + i, length - i);
         const unsigned char c = (unsigned char)text[i];
+        const char *const escaped = memchr(raw, c, ALWAYS_ESCAPED);
         if (n > 1)
             (void)fwrite(text + i, 1, n, out);
-        else if (c == '\t')
-            (void)fputs("\\t", out);
-        else if (c == '\n')
-            (void)fputs("\\n", out);
-        else if (c == '\r')
-            (void)fputs("\\r", out);
-        else if (c == '\\')
-            (void)fputs("\\\\", out);
+        else if (escaped != NULL)
+            (void)fprintf(out, "\\%c", letters[escaped - raw]);
         else if (n == 0 || c < ' ' || c == 0x7F)
             (void)fprintf(out, "\\x%02X", c);
         else
@@ -54,14 +54,9 @@ bool stream_unescape(char *text, size_t length)
         if (c == '\\') {
             from++;
             const char escape = from < length ? text[from] : '\0';
-            if (escape == 't') {
-                c = '\t';
-            } else if (escape == 'n') {
-                c = '\n';
-            } else if (escape == 'r') {
-                c = '\r';
-            } else if (escape == '\\' || escape == '#' || escape == '-') {
-                c = escape;
+            const char *const letter = memchr(letters, escape, sizeof letters - 1);
+            if (letter != NULL) {
+                c = raw[letter - letters];
             } else if (escape == 'x' && length - from > 2) {
                 const int high = hex_digit(text[from + 1]), low = hex_digit(text[from + 2]);
                 if (high < 0 || low < 0 || (high == 0 && low == 0))

@@ -53,6 +53,6 @@ void page_keys(page_writer *page, const table_view *table, const char *caption);
 void page_estimates_begin(page_writer *page, const char *caption, bool remarks);
 void page_estimate(page_writer *page, const char *words, const wt_estimate *estimate,
                    wt_quantity quantity, const char *interval, const char *remark);
-void page_estimates_end(page_writer *page);
+void page_table_end(page_writer *page);
 
 #endif

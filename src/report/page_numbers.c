@@ -138,5 +138,5 @@ void page_numbers(page_writer *page)
     largest_row(page);
     headline_rows(page, &t->layer, LAYER_KEY_BALANCE_THICKNESS,
                   "where formation and wear are equally fast");
-    page_estimates_end(page);
+    page_table_end(page);
 }

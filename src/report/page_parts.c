@@ -25,7 +25,7 @@ static void begin_table(page_writer *page, const char *caption)
               caption, caption);
 }
 
-static void end_table(page_writer *page)
+void page_table_end(page_writer *page)
 {
     text_add(&page->out, "</tbody>\n</table>\n</div>\n");
 }
@@ -165,7 +165,7 @@ void page_table(page_writer *page, const table_view *table, const char *caption,
                 number_cell(page, &shown[c], view_number(table, schema, row, shown[c].place));
         text_add(&page->out, "</tr>\n");
     }
-    end_table(page);
+    page_table_end(page);
 }
 
 void page_whole_table(page_writer *page, const table_view *table, const char *caption,
@@ -187,11 +187,6 @@ void page_estimates_begin(page_writer *page, const char *caption, bool remarks)
     if (remarks)
         heading_cell(page, "Remark", "", false);
     text_add(&page->out, "</tr></thead>\n<tbody>\n");
-}
-
-void page_estimates_end(page_writer *page)
-{
-    end_table(page);
 }
 
 static void add_unit(growing_text *text, const char *label)
@@ -294,5 +289,5 @@ void page_keys(page_writer *page, const table_view *table, const char *caption)
             text_html(&page->out, "<tr><th scope=\"row\">%s</th><td colspan=\"3\">%s</td></tr>\n",
                       label, wt_table_key(table->table, name));
     }
-    end_table(page);
+    page_table_end(page);
 }

@@ -4,22 +4,9 @@
  */
 #include "report/drawing.h"
 
-#include <stdarg.h>
-
 static void next_item(figure_drawing *d)
 {
     text_add(&d->script, d->n_items++ == 0 ? "plot \\\n  " : ", \\\n  ");
-}
-
-WT_PRINTF(2, 0)
-static void add_formatted(figure_drawing *d, const char *format, va_list arguments)
-{
-    char line[512];
-    int length = vsnprintf(line, sizeof line, format, arguments);
-    if (length < 0 || (size_t)length >= sizeof line)
-        d->script.failed = true;
-    else
-        text_add(&d->script, line);
 }
 
 void plot_item(figure_drawing *d, int section, const char *format, ...)
@@ -30,7 +17,7 @@ void plot_item(figure_drawing *d, int section, const char *format, ...)
     text_format(&d->script, "'%s.tsv' index %d using ", d->figure->name, section);
     va_list arguments;
     va_start(arguments, format);
-    add_formatted(d, format, arguments);
+    text_vformat(&d->script, format, arguments);
     va_end(arguments);
 }
 
@@ -39,7 +26,7 @@ void plot_other(figure_drawing *d, const char *format, ...)
     next_item(d);
     va_list arguments;
     va_start(arguments, format);
-    add_formatted(d, format, arguments);
+    text_vformat(&d->script, format, arguments);
     va_end(arguments);
 }
 

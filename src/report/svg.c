@@ -4,6 +4,8 @@
  */
 #include "report/svg.h"
 
+#include "base/array.h"
+
 #include <string.h>
 
 /* Length of the beginning of s (n bytes left) if it is `word`, else 0. */
@@ -28,36 +30,26 @@ bool svg_inline(growing_text *page, const char *svg, size_t length, const char *
     const char *begin = memmem(svg, length, "<svg", 4);
     if (begin == NULL)
         return false;
-    size_t left = length - (size_t)(begin - svg);
     text_html(page, "<svg role=\"img\" aria-label=\"%s\"", label);
-    const char *s = begin + 4;
+    const char *const end = svg + length;
     bool in_tag = true;
-    left -= 4;
-    while (left > 0) {
-        size_t skip = 0;
-        if (starts(s, left, "<title>"))
-            skip = up_to(s, left, "</title>");
-        else if (starts(s, left, "<desc>"))
-            skip = up_to(s, left, "</desc>");
-        if (skip > 0) {
-            s += skip;
-            left -= skip;
-            continue;
+    for (const char *s = begin + 4; s < end;) {
+        const size_t left = (size_t)(end - s);
+        if (starts(s, left, "<title>")) {
+            s += up_to(s, left, "</title>");
+        } else if (starts(s, left, "<desc>")) {
+            s += up_to(s, left, "</desc>");
+        } else {
+            size_t word = 0;
+            in_tag =
+                *s == '<' || (in_tag && *s != '>'); // what stands between tags is for the reader
+            for (size_t i = 0; in_tag && i < COUNT_OF(references) && word == 0; i++)
+                word = starts(s, left, references[i]);
+            text_bytes(page, s, word > 0 ? word : 1);
+            if (word > 0)
+                text_format(page, "%s-", name);
+            s += word > 0 ? word : 1;
         }
-        size_t word = 0;
-        in_tag = *s == '<' || (in_tag && *s != '>'); // what stands between tags is for the reader
-        for (size_t i = 0; in_tag && i < sizeof references / sizeof references[0] && word == 0; i++)
-            word = starts(s, left, references[i]);
-        if (word == 0) {
-            text_bytes(page, s, 1);
-            s++;
-            left--;
-            continue;
-        }
-        text_bytes(page, s, word);
-        text_format(page, "%s-", name);
-        s += word;
-        left -= word;
     }
     return true;
 }

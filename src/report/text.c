@@ -6,7 +6,6 @@
 
 #include "base/utf8.h"
 
-#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -65,10 +64,9 @@ void text_add(growing_text *text, const char *string)
     text_bytes(text, string, strlen(string));
 }
 
-void text_format(growing_text *text, const char *format, ...)
+void text_vformat(growing_text *text, const char *format, va_list arguments)
 {
-    va_list arguments, again;
-    va_start(arguments, format);
+    va_list again;
     va_copy(again, arguments);
     int length = vsnprintf(NULL, 0, format, arguments);
     if (length < 0)
@@ -78,6 +76,13 @@ void text_format(growing_text *text, const char *format, ...)
         text->length += (size_t)length;
     }
     va_end(again);
+}
+
+void text_format(growing_text *text, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    text_vformat(text, format, arguments);
     va_end(arguments);
 }
 
@@ -95,25 +100,14 @@ static size_t character_length(const char *s, size_t left)
     return length;
 }
 
-/* What stands for a character in markup, NULL for itself. */
+/* What stands for a character in markup, NULL for itself. A literal carriage return would be read
+ * back as a line feed. */
 static const char *entity_of(char c)
 {
-    switch (c) {
-    case '&':
-        return "&amp;";
-    case '<':
-        return "&lt;";
-    case '>':
-        return "&gt;";
-    case '"':
-        return "&quot;";
-    case '\'':
-        return "&#39;";
-    case '\r': // a literal one would be read back as a line feed
-        return "&#13;";
-    default:
-        return NULL;
-    }
+    static const char marks[] = "&<>\"'\r";
+    static const char *const entities[] = {"&amp;", "&lt;", "&gt;", "&quot;", "&#39;", "&#13;"};
+    const char *const mark = memchr(marks, c, sizeof marks - 1);
+    return mark != NULL ? entities[mark - marks] : NULL;
 }
 
 static void add_escaped(growing_text *text, const char *string)

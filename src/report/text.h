@@ -7,6 +7,8 @@
 
 #include "weartrack/base.h"
 
+#include <stdarg.h>
+
 /* Zero-initialised it is empty. A write that finds no memory sets `failed` and later writes do
  * nothing, so that one check at the end is enough. */
 typedef struct growing_text {
@@ -22,6 +24,7 @@ void text_done(growing_text *part, growing_text *whole);
 void text_bytes(growing_text *text, const char *bytes, size_t length);
 void text_add(growing_text *text, const char *string);
 void text_format(growing_text *text, const char *format, ...) WT_PRINTF(2, 3);
+void text_vformat(growing_text *text, const char *format, va_list arguments) WT_PRINTF(2, 0);
 
 /* Markup; the arguments, all of them %s, are escaped for HTML element content and quoted
  * attributes. What is not UTF-8 or not allowed in XML becomes U+FFFD. */

@@ -4,6 +4,7 @@
 #include "flow/job/inputs.h"
 #include "flow/run/steps.h"
 
+#include "base/array.h"
 #include "data/tables/tables.h"
 
 #include <math.h>
@@ -173,6 +174,8 @@ static void warn_of_copies(const conduct *d)
 static wt_status finish(conduct *d, wt_error *err)
 {
     wt_table *answer = NULL, *inputs = NULL, *notes = NULL, *cost = NULL;
+    wt_table **const last[] = {&answer, &inputs, &notes, &d->failures, &cost};
+    const wt_provenance *provenance = wt_result_provenance_const(d->result);
     warn_of_copies(d);
     wt_status status = publish_stages(d, err);
     if (status == WT_OK)
@@ -181,22 +184,20 @@ static wt_status finish(conduct *d, wt_error *err)
     if (status == WT_OK)
         wt_result_remarks(d->result, d->run.job.tolerance, d->run.job.log);
     if (status == WT_OK)
-        status = publish(d, &answer, err);
-    if (status == WT_OK)
-        status = wt_provenance_table(wt_result_provenance_const(d->result), "inputs", &inputs, err);
-    if (status == WT_OK)
-        status = publish(d, &inputs, err);
+        status = wt_provenance_table(provenance, "inputs", &inputs, err);
     if (status == WT_OK)
         status = wt_notes_table(d->run.job.log, d->run.c->folder, &notes, err);
-    if (status == WT_OK)
-        status = publish(d, &notes, err);
-    if (status == WT_OK)
-        status = publish(d, &d->failures, err);
-    if (status != WT_OK)
-        return status;
-    status = table_end(&d->cost, &cost);
-    d->cost.table = NULL; /* handed over, or freed */
-    return status == WT_OK ? publish(d, &cost, err) : status;
+    if (status == WT_OK) {
+        status = table_end(&d->cost, &cost);
+        d->cost.table = NULL; /* handed over, or freed */
+    }
+    for (size_t i = 0; status == WT_OK && i < COUNT_OF(last); i++)
+        status = publish(d, last[i], err);
+    for (size_t i = 0; i < COUNT_OF(last); i++) {
+        wt_table_free(*last[i]);
+        *last[i] = NULL;
+    }
+    return status;
 }
 
 /* ---- the run --------------------------------------------------------------------------------- */
