@@ -39,7 +39,7 @@ static void put_keys(table_writer *t, const table_view *view)
 {
     const table_schema *schema = view->schema;
     for (unsigned i = 0; view->table != NULL && i < schema->n_keys; i++) {
-        const schema_key *key = &schema->keys[i];
+        const schema_field *key = &schema->keys[i];
         if (key->headline == NULL || view_key_text(view, schema, i) == NULL)
             continue;
         if (key->kind == SCHEMA_TEXT)

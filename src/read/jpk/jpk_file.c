@@ -148,8 +148,8 @@ static void note_oddities(const jpk_file *file)
         wt_parselog_add(file->log, WT_WARNING, file->name, "header.properties",
                         "header is missing: no grid, no instrument");
     if (file->n_expected > file->n_curves)
-        wt_parselog_add(file->log, archive_truncated(file->archive) ? WT_LOSS : WT_WARNING,
-                        file->name, NULL, "holds %zu of the %zu curves planned", file->n_curves,
+        wt_parselog_add(file->log, file->archive->truncated ? WT_LOSS : WT_WARNING, file->name,
+                        NULL, "holds %zu of the %zu curves planned", file->n_curves,
                         file->n_expected);
 }
 
