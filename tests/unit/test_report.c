@@ -623,7 +623,7 @@ static void test_leftovers(void **state)
     (void)state;
     NEED_GNUPLOT();
     const char *const table = "friction";
-    wt_result *result = fixture_only(&table, 1, &(fixture_change){NULL});
+    wt_result *result = fixture_only(&table, 1, &(fixture_change){.table = NULL});
     write_all("slow", "#!/bin/sh\ntouch ../../../begun ../../begun\nexec sleep 100\n");
     write_all("later",
               "#!/bin/sh\ntouch ../../begun ../../../begun\nsleep 1\nexec gnuplot \"$@\"\n");

@@ -96,7 +96,7 @@ static void test_settings_of_the_user(void **state)
     NEED_GNUPLOT();
     static const char *const variables[] = {"HOME", "GNUPLOT_LIB", "XDG_CONFIG_HOME"};
     const char *const table = "friction";
-    wt_result *result = fixture_only(&table, 1, &(fixture_change){NULL});
+    wt_result *result = fixture_only(&table, 1, &(fixture_change){.table = NULL});
     char *home = getcwd(NULL, 0), *before[3];
     size_t length[2] = {0, 0};
     write_report(result, "one", NULL);
@@ -178,7 +178,7 @@ static bool ends(pid_t process)
 static wt_result *one_figure(void)
 {
     const char *const table = "friction";
-    return fixture_only(&table, 1, &(fixture_change){NULL});
+    return fixture_only(&table, 1, &(fixture_change){.table = NULL});
 }
 
 static void test_programs_that_hang_flood_and_die(void **state)
