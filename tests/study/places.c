@@ -46,9 +46,13 @@ estimate place_row(const stream *s, const place *p, int row)
                   cell(s, p, p->high, row));
 }
 
+/* An attribute of the key, or a key of its own. */
 static double attribute(const stream *s, const place *p, const char *name)
 {
-    return name != NULL ? stream_number(s, p->table, p->value, name) : (double)NAN;
+    if (name == NULL)
+        return (double)NAN;
+    const double found = stream_number(s, p->table, p->value, name);
+    return isnan(found) ? stream_number(s, p->table, name, NULL) : found;
 }
 
 estimate place_key(const stream *s, const place *p)

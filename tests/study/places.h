@@ -6,8 +6,8 @@
 #include "stream.h"
 
 /* A number with its standard error, or with the ends of its interval where that is what stands
- * there: `error`, `low` and `high` are columns, or attributes of the key; NULL if there are none.
- */
+ * there. `error`, `low` and `high` are columns, or attributes of the key or keys of their own; NULL
+ * if there are none. */
 typedef struct place {
     const char *table;
     const char *value, *error, *low, *high;
@@ -28,6 +28,9 @@ extern const place place_ratio; /* over all rates, the first row */
 /* In `place_shift.table`. */
 #define PLACE_REFERENCE "reference_temperature" /* [K] */
 #define PLACE_CORRELATION "wlf_correlation"
+#define PLACE_LAW "law" /* which one it is; WLF if nothing says so */
+#define PLACE_LAW_WLF "WLF"
+#define PLACE_JOINT "joint" /* [K] below which it is another one */
 #define PLACE_VERDICT "superposition"
 #define PLACE_FAILS "fail" /* how the verdict begins */
 #define PLACE_HOLDS "holds"
