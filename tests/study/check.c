@@ -148,9 +148,10 @@ static void check_sample(void)
 
 static void check_stream(void)
 {
-    static const char text[] = "## table: a\n## title: A\n## key: 2.5 standard_error=0.5 unit=K\n"
-                               "## column: x\tx\n# x[1]\tlong_x[m]\n1\t10\n\n2\tnan\n##\n"
-                               "## table: b\n# x[1]\n7\n";
+    static const char text[] =
+        "## table: a\n## title: A\n## key: 2.5 standard_error=0.5 unit=K\n## limit: 9\n"
+        "## column: x\tx\n# x[1]\tlong_x[m]\n1\t10\n\n2\tnan\n##\n"
+        "## table: b\n# x[1]\n7\n";
     char path[] = "/tmp/study-check-XXXXXX";
     const int file = mkstemp(path);
     check_true("a file", file >= 0 && write(file, text, sizeof text - 1) == sizeof text - 1);
@@ -164,6 +165,13 @@ static void check_stream(void)
     check_near("rows of b", stream_rows(s, "b"), 1, 0);
     check_near("key", stream_number(s, "a", "key", NULL), 2.5, 0);
     check_near("its error", stream_number(s, "a", "key", "standard_error"), 0.5, 0);
+    const place limited = {"a", "key", "no_error", NULL, "limit"};
+    const place plain = {"a", "key", "standard_error", NULL, "no_limit"};
+    estimate e = place_key(s, &limited);
+    check_true("an upper limit of its own", e.value == 2.5 && isinf(e.low) && e.high == 9);
+    e = place_key(s, &plain);
+    check_near("upper end by the standard error", e.high, 2.5 + 1.96 * 0.5, 1e-4);
+    check_near("lower end", e.low, 2.5 - 1.96 * 0.5, 1e-4);
     check_true("no such attribute", isnan(stream_number(s, "a", "key", "error")));
     check_near("cell", stream_cell(s, "a", "x", 1), 2, 0);
     check_near("cell of the second column", stream_cell(s, "a", "long_x", 0), 10, 0);
