@@ -237,7 +237,8 @@ static int list_files(const char *name, cmd_common *common, int n, char **argume
     wt_error err = WT_ERROR_INIT;
     wt_input *input = NULL;
     const unsigned char *bytes = NULL;
-    static char *text; /* lives as long as the program, as the arguments do */
+    static char *text; /* both live as long as the program, as the arguments do */
+    static const char **files;
     size_t length = 0, n_names = 0;
     wt_status status = WT_OK;
     if (common->files_from != NULL) {
@@ -252,7 +253,7 @@ static int list_files(const char *name, cmd_common *common, int n, char **argume
             memcpy(text, bytes, length);
         text[length] = '\0';
         n_names = split_names(text, length, NULL);
-        common->files = malloc(((size_t)n + n_names + 1) * sizeof *common->files);
+        common->files = files = malloc(((size_t)n + n_names + 1) * sizeof *files);
     }
     wt_input_close(input);
     if (status == WT_OK && common->files == NULL)

@@ -40,9 +40,9 @@ int cmd_report(int argc, char **argv)
     cmd_progress_end(&state);
     if ((made == WT_E_MISSING || made == WT_E_UNIT) && err.file[0] == '\0')
         wt_error_file(&err, argv[first]); // what a table of it lacks
-    if (made != WT_OK)
-        status = cmd_fail("report", &err);
-    else if (!common.quiet)
+    status = made != WT_OK ? cmd_fail("report", &err)
+                           : cmd_tables_remarks("report", &common, argv[first], result);
+    if (made == WT_OK && !common.quiet)
         fprintf(stderr, "report page: %s/index.html\n", common.output);
 done:
     wt_result_free(result);

@@ -3,21 +3,23 @@
 #include "cmd/tables.h"
 
 /* The headlines of the files that can be read, which are then the first of `files`. */
-static int read_all(const char **files, size_t n, wt_table **headlines, size_t *n_read)
+static int read_all(const cmd_common *common, wt_table **headlines, size_t *n_read)
 {
+    const char **files = common->files;
     int status = CMD_OK;
-    for (size_t i = 0; i < n; i++) {
+    for (size_t i = 0; i < common->n_files; i++) {
         wt_error err = WT_ERROR_INIT;
         wt_result *result = NULL;
         wt_status read = cmd_tables_read(files[i], &result, &err);
         if (read == WT_OK)
             read = wt_result_headlines(result, &headlines[*n_read], &err);
-        wt_result_free(result);
         wt_error_file(&err, files[i]);
+        const int good = read != WT_OK ? cmd_fail("summary", &err)
+                                       : cmd_tables_remarks("summary", common, files[i], result);
         if (read == WT_OK)
             files[(*n_read)++] = files[i];
-        else
-            status = cmd_fail("summary", &err);
+        status = good != CMD_OK ? good : status;
+        wt_result_free(result);
     }
     return status;
 }
@@ -45,7 +47,7 @@ int cmd_summary(int argc, char **argv)
         wt_fail(&err, WT_E_MEMORY, "out of memory");
         return cmd_fail("summary", &err);
     }
-    status = read_all(common.files, common.n_files, headlines, &n_read);
+    status = read_all(&common, headlines, &n_read);
     if (n_read > 0 && (wt_summary(common.files, (const wt_table *const *)headlines, n_read,
                                   &summary, &err) != WT_OK ||
                        export_table(&common, &part, summary, &err) != WT_OK))

@@ -71,8 +71,8 @@ int cmd_table(int argc, char **argv)
         read = wt_table_keys(table, &made, &err);
     if (read == WT_OK)
         read = export_table(&common, &parts[1], made != NULL ? made : table, &err);
-    if (read != WT_OK)
-        status = cmd_fail("table", &err);
+    status = read != WT_OK ? cmd_fail("table", &err)
+                           : cmd_tables_remarks("table", &common, argv[first], result);
     wt_table_free(made);
     wt_result_free(result);
     return status;

@@ -64,6 +64,24 @@ wt_status cmd_tables_read(const char *path, wt_result **tables, wt_error *err)
     return WT_OK;
 }
 
+int cmd_tables_remarks(const char *name, const cmd_common *common, const char *path,
+                       const wt_result *tables)
+{
+    const wt_table *notes = wt_result_find(tables, "notes");
+    const long severity = notes != NULL ? wt_table_find(notes, "severity") : -1;
+    size_t n = 0;
+    if (severity < 0 || !common->strict ||
+        wt_table_column_kind(notes, (size_t)severity) != WT_COLUMN_TEXT)
+        return CMD_OK;
+    for (size_t row = 0; row < wt_table_n_rows(notes); row++)
+        n += strcmp(wt_table_text(notes, row, (size_t)severity), wt_severity_name(WT_NOTE)) != 0;
+    if (n == 0)
+        return CMD_OK;
+    fprintf(stderr, "weartrack %s: %s: %zu remark%s: exit status 1 (--strict)\n", name, path, n,
+            n == 1 ? "" : "s");
+    return CMD_FAILED;
+}
+
 wt_status cmd_tables_find(const wt_result *tables, const char *path, const char *prefix,
                           const char *made_by, const wt_table **table, wt_error *err)
 {

@@ -7,6 +7,9 @@
 
 /* All tables of a text stream ("-" is standard input) or of an HDF5 result. */
 wt_status cmd_tables_read(const char *path, wt_result **tables, wt_error *err);
+/* With --strict CMD_FAILED, after saying so, where the result that was read holds remarks. */
+int cmd_tables_remarks(const char *name, const cmd_common *common, const char *path,
+                       const wt_result *tables);
 /* The first table whose name begins with `prefix`; WT_E_NOT_FOUND names `path` and says what it
  * should be. */
 wt_status cmd_tables_find(const wt_result *tables, const char *path, const char *prefix,
