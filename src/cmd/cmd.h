@@ -53,7 +53,7 @@ typedef struct cmd_common {
     bool provenance;
     bool quiet, strict, help;
     /* set by cmd_parse: the arguments that are no options, and the names of files_from; they live
-     * as long as the program */
+     * until the next call of it */
     const char **files;
     size_t n_files;
 } cmd_common;

@@ -237,7 +237,7 @@ static int list_files(const char *name, cmd_common *common, int n, char **argume
     wt_error err = WT_ERROR_INIT;
     wt_input *input = NULL;
     const unsigned char *bytes = NULL;
-    static char *text; /* both live as long as the program, as the arguments do */
+    static char *text; /* both live until the next call, as the arguments do */
     static const char **files;
     size_t length = 0, n_names = 0;
     wt_status status = WT_OK;
@@ -247,6 +247,9 @@ static int list_files(const char *name, cmd_common *common, int n, char **argume
             status = wt_input_bytes(input, &bytes, &length, &err);
         wt_error_file(&err, common->files_from);
     }
+    free(text);
+    free(files);
+    files = NULL;
     text = status == WT_OK ? malloc(length + 1) : NULL;
     if (text != NULL) {
         if (length > 0)
