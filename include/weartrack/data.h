@@ -276,7 +276,12 @@ WT_API wt_status wt_summary(const char *const *files, const wt_table *const *hea
  * version, command and times, for byte-stable tests. */
 WT_API wt_status wt_store_write(const char *path, const wt_result *result, bool with_provenance,
                                 wt_error *err) WT_NODISCARD;
+/* A process of its own reads the file, which may be damaged or made to do harm: weartrack-hdf5(5).
+ */
 WT_API wt_status wt_store_read(const char *path, wt_result **result, wt_error *err) WT_NODISCARD;
+/* `name` is used in errors. */
+WT_API wt_status wt_store_read_memory(const void *bytes, size_t length, const char *name,
+                                      wt_result **result, wt_error *err) WT_NODISCARD;
 
 #ifdef __cplusplus
 }

@@ -1,5 +1,4 @@
 /* Tables from files. SPDX-License-Identifier: GPL-3.0-or-later */
-#include <errno.h>
 #include <string.h>
 
 #include "cmd/tables.h"
@@ -18,50 +17,47 @@ static wt_status read_stream(FILE *in, const char *name, wt_result *tables, wt_e
     }
 }
 
+/* The tables of a text stream, in memory. */
+static wt_status read_text(const unsigned char *bytes, size_t length, const char *path,
+                           wt_result **tables, wt_error *err)
+{
+    wt_result *const read = wt_result_new();
+    FILE *const in = fmemopen((void *)(uintptr_t)bytes, length, "r");
+    wt_status status = read == NULL || in == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory")
+                                                  : read_stream(in, path, read, err);
+    if (in != NULL)
+        (void)fclose(in);
+    if (status == WT_OK && wt_result_n_tables(read) == 0) {
+        status = wt_fail(err, WT_E_EMPTY, "no table");
+        wt_error_expected(err, "a weartrack text stream or HDF5 result");
+    }
+    wt_error_file(err, path);
+    if ((status == WT_E_FORMAT || status == WT_E_CORRUPT || status == WT_E_EMPTY) &&
+        err->advice[0] == '\0')
+        wt_error_advice(err, "give what weartrack indent or weartrack master wrote");
+    if (status == WT_OK)
+        *tables = read;
+    else
+        wt_result_free(read);
+    return status;
+}
+
 wt_status cmd_tables_read(const char *path, wt_result **tables, wt_error *err)
 {
     static const unsigned char hdf5_signature[8] = {0x89, 'H', 'D', 'F', '\r', '\n', 0x1a, '\n'};
-    const bool is_pipe = strcmp(path, "-") == 0;
-    wt_result *read = NULL;
-    wt_status status = WT_OK;
-    FILE *in = is_pipe ? stdin : fopen(path, "rb");
-    if (in == NULL) {
-        status = wt_fail(err, errno == ENOENT ? WT_E_NOT_FOUND : WT_E_IO, "%s", strerror(errno));
-        wt_error_file(err, path);
-        return status;
-    }
-    if (!is_pipe) {
-        unsigned char head[sizeof hdf5_signature];
-        const bool is_hdf5 = fread(head, 1, sizeof head, in) == sizeof head &&
-                             memcmp(head, hdf5_signature, sizeof head) == 0;
-        if (is_hdf5) {
-            fclose(in);
-            return wt_store_read(path, tables, err);
-        }
-        rewind(in);
-    }
-    read = wt_result_new();
-    if (read == NULL)
-        status = wt_fail(err, WT_E_MEMORY, "out of memory");
-    else
-        status = read_stream(in, path, read, err);
-    wt_error_file(err, path);
-    if ((status == WT_E_FORMAT || status == WT_E_CORRUPT) && err->advice[0] == '\0')
-        wt_error_advice(err, "give what weartrack indent or weartrack master wrote");
-    if (!is_pipe)
-        fclose(in);
-    if (status == WT_OK && wt_result_n_tables(read) == 0) {
-        status = wt_fail(err, WT_E_EMPTY, "no table");
-        wt_error_file(err, path);
-        wt_error_expected(err, "a weartrack text stream or HDF5 result");
-        wt_error_advice(err, "give what weartrack indent or weartrack master wrote");
-    }
-    if (status != WT_OK) {
-        wt_result_free(read);
-        return status;
-    }
-    *tables = read;
-    return WT_OK;
+    const unsigned char *bytes = NULL;
+    size_t length = 0;
+    wt_input *input = NULL;
+    wt_status status = wt_input_open(path, &input, err);
+    if (status == WT_OK)
+        status = wt_input_bytes(input, &bytes, &length, err);
+    if (status == WT_OK && length >= sizeof hdf5_signature &&
+        memcmp(bytes, hdf5_signature, sizeof hdf5_signature) == 0)
+        status = wt_store_read_memory(bytes, length, path, tables, err);
+    else if (status == WT_OK)
+        status = read_text(bytes, length, path, tables, err);
+    wt_input_close(input);
+    return status;
 }
 
 int cmd_tables_remarks(const char *name, const cmd_common *common, const char *path,

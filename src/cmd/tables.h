@@ -5,7 +5,7 @@
 
 #include "cmd/cmd.h"
 
-/* All tables of a text stream ("-" is standard input) or of an HDF5 result. */
+/* All tables of a text stream or of an HDF5 result; "-" is standard input. */
 wt_status cmd_tables_read(const char *path, wt_result **tables, wt_error *err);
 /* With --strict CMD_FAILED, after saying so, where the result that was read holds remarks. */
 int cmd_tables_remarks(const char *name, const cmd_common *common, const char *path,

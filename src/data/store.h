@@ -3,6 +3,7 @@
 #ifndef WT_DATA_STORE_H
 #define WT_DATA_STORE_H
 
+#include "data/hdf5_door.h"
 #include "data/table.h"
 
 /* Version of the layout, in the root attribute "weartrack_format". */
@@ -28,6 +29,17 @@ enum { STORE_FORMAT = 1 };
  * the values, so a flipped bit would otherwise be a wrong number. */
 wt_status store_digest(const wt_result *result, const wt_table *inputs, char hex[65],
                        wt_error *err);
+
+/* What comes through the door: the bytes that the digest is of, the command, and at the end this.
+ */
+typedef struct store_tail {
+    char digest[65];    /* that the file says */
+    uint8_t has_origin; /* the last table is the list of inputs, and there is a command */
+    uint64_t case_length, command_length;
+} store_tail;
+wt_status store_pass(hid_t file, size_t size, FILE *out, wt_error *err); /* a hdf5_reading */
+/* Makes a result of that; not a byte of it is trusted. */
+wt_status store_take(const char *bytes, size_t length, wt_result *result, wt_error *err);
 
 /* A table of wt_provenance_table back to the inputs of a provenance. */
 wt_status store_inputs_read(const wt_table *table, wt_provenance *provenance, wt_error *err);

@@ -1,501 +1,131 @@
-/* The HDF5 store to results. The file may be damaged or made to do harm: types, ranks and lengths
- * are checked before memory is taken, no link leads out of the file, and the content must agree
- * with its digest. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "data/hdf5_scope.h"
+/* The HDF5 store to results: what comes through the door must be whole and agree with its digest.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "data/store.h"
 
 #include "base/provenance.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
-typedef struct reader {
-    hid_t file;
-    hsize_t file_size; /* no array and no text in the file can be larger */
-    const char *table; /* for messages, NULL outside of tables */
-    wt_status status;  /* of the first failure; the functions below are false from then on */
-    wt_error *err;
-} reader;
-
-static bool corrupt(reader *r, const char *name, const char *message)
+static wt_status corrupt(wt_error *err, const char *place, const char *message)
 {
-    r->status = wt_fail(r->err, WT_E_CORRUPT, "%s", message);
-    const bool both = r->table != NULL && name[0] != '\0';
-    wt_error_place(r->err, "%s%s%s", r->table != NULL ? r->table : "", both ? "/" : "", name);
-    wt_error_advice(r->err, "make the file again");
-    return false;
+    (void)wt_fail(err, WT_E_CORRUPT, "%s", message);
+    wt_error_place(err, "%s", place);
+    wt_error_advice(err, "make the file again");
+    return WT_E_CORRUPT;
 }
 
-static bool no_memory(reader *r)
+static wt_status take_command(const char *text, size_t length, wt_provenance *provenance)
 {
-    r->status = wt_fail(r->err, WT_E_MEMORY, "out of memory");
-    return false;
-}
-
-/* A name that the data types refuse is the file's fault, not an argument's. */
-static bool taken(reader *r, wt_status status)
-{
-    r->status = status == WT_E_ARG ? WT_E_CORRUPT : status;
-    if (status == WT_E_ARG && r->err != NULL)
-        r->err->status = WT_E_CORRUPT;
-    return status == WT_OK;
-}
-
-/* Copies n texts, each `width` bytes of `packed` or up to the first zero, NULL for empty ones. */
-static bool unpack(const char *packed, size_t width, size_t n, char **texts)
-{
-    for (size_t i = 0; i < n; i++) {
-        const char *const text = packed + i * width;
-        const size_t length = strnlen(text, width);
-        if (length > 0) {
-            texts[i] = strndup(text, length);
-            if (texts[i] == NULL)
-                return false;
-        }
-    }
-    return true;
-}
-
-/* Reads n texts of an attribute or a data set (is_attribute) into new copies. */
-static bool read_texts(reader *r, hid_t source, bool is_attribute, const char *name, size_t n,
-                       char **texts)
-{
-    bool good = false;
-    char *packed = NULL;
-    const hid_t type = is_attribute ? H5Aget_type(source) : H5Dget_type(source);
-    const size_t width = type >= 0 ? H5Tget_size(type) : 0;
-    if (width == 0 || H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0 ||
-        n > r->file_size / width)
-        good = corrupt(r, name, "not text of fixed length");
-    else if ((packed = malloc(n > 0 ? n * width : 1)) == NULL)
-        good = no_memory(r);
-    else if ((is_attribute ? H5Aread(source, type, packed)
-                           : H5Dread(source, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, packed)) < 0)
-        good = corrupt(r, name, "text cannot be read");
-    else
-        good = unpack(packed, width, n, texts) || no_memory(r);
-    free(packed);
-    hdf5_close(type);
-    return good;
-}
-
-/* Opens an attribute and gives its number of elements. */
-static hid_t open_attribute(hid_t object, const char *name, size_t *n)
-{
-    const hid_t attribute = H5Aopen(object, name, H5P_DEFAULT);
-    const hid_t space = attribute >= 0 ? H5Aget_space(attribute) : -1;
-    const hssize_t points = space >= 0 ? H5Sget_simple_extent_npoints(space) : -1;
-    hdf5_close(space);
-    *n = (size_t)points;
-    if (points >= 0)
-        return attribute;
-    hdf5_close(attribute);
-    return -1;
-}
-
-/* One text, new; NULL on failure. */
-static char *read_text(reader *r, hid_t object, const char *name)
-{
-    size_t n = 0;
-    char *found = NULL;
-    const hid_t attribute = open_attribute(object, name, &n);
-    const bool good = attribute < 0 || n != 1
-                          ? corrupt(r, name, "attribute missing or not one text")
-                          : read_texts(r, attribute, true, name, 1, &found);
-    hdf5_close(attribute);
-    if (good && found == NULL && (found = strdup("")) == NULL)
-        (void)no_memory(r);
-    return found;
-}
-
-/* A list of words, which is left out of the file where it is empty. */
-static bool read_words(reader *r, hid_t object, const char *name, size_t max, char ***words,
-                       size_t *n_words)
-{
-    size_t n = 0;
-    if (H5Aexists(object, name) == 0)
-        return true;
-    const hid_t attribute = open_attribute(object, name, &n);
-    char **const found = attribute >= 0 && n <= max ? calloc(n + 1, sizeof *found) : NULL;
-    bool good = attribute < 0 || n > max ? corrupt(r, name, "not a list of names")
-                : found == NULL          ? no_memory(r)
-                                         : read_texts(r, attribute, true, name, n, found);
-    for (size_t i = 0; good && i < n; i++)
-        good = found[i] != NULL || corrupt(r, name, "an empty name");
-    hdf5_close(attribute);
-    if (good) {
-        *words = found;
-        *n_words = n;
-    } else {
-        wt_strings_free(found, found != NULL ? n : 0);
-    }
-    return good;
-}
-
-/* One value that is a number; *is_text instead if that is not NULL and it is something else. */
-static bool read_number(reader *r, hid_t object, const char *name, double *value, bool *is_text)
-{
-    size_t n = 0;
-    const hid_t attribute = open_attribute(object, name, &n);
-    const hid_t type = attribute >= 0 ? H5Aget_type(attribute) : -1;
-    const bool is_number = type >= 0 && H5Tget_class(type) == H5T_FLOAT;
-    bool good = true;
-    if (type < 0 || n != 1)
-        good = corrupt(r, name, "attribute missing or not one value");
-    else if (!is_number && is_text != NULL)
-        *is_text = true;
-    else if (!is_number)
-        good = corrupt(r, name, "an error of a value is not a number");
-    else if (H5Aread(attribute, H5T_NATIVE_DOUBLE, value) < 0)
-        good = corrupt(r, name, "attribute cannot be read");
-    hdf5_close(type);
-    hdf5_close(attribute);
-    return good;
-}
-
-/* Whether `name` in `group` is a link within this file. */
-static bool is_inside(hid_t group, const char *name)
-{
-    H5L_info_t info;
-    return H5Lexists(group, name, H5P_DEFAULT) > 0 &&
-           H5Lget_info(group, name, &info, H5P_DEFAULT) >= 0 && info.type == H5L_TYPE_HARD;
-}
-
-/* Opens a group by its path, step by step; -1 if a step is missing or leads out of the file. */
-static hid_t open_group(const reader *r, const char *path)
-{
-    char *const steps = strdup(path);
-    hid_t group = steps != NULL ? H5Gopen2(r->file, "/", H5P_DEFAULT) : -1;
-    for (char *step = steps; group >= 0 && step != NULL;) {
-        char *const slash = strchr(step, '/');
-        if (slash != NULL)
-            *slash = '\0';
-        const hid_t inner = is_inside(group, step) ? H5Gopen2(group, step, H5P_DEFAULT) : -1;
-        (void)H5Gclose(group);
-        group = inner;
-        step = slash != NULL ? slash + 1 : NULL;
-    }
-    free(steps);
-    return group;
-}
-
-/* Opens a data set whose values all stand in one piece in this file. */
-static hid_t open_dataset(const reader *r, hid_t group, const char *name, int rank, hsize_t *n)
-{
-    bool good = false;
-    if (!is_inside(group, name))
-        return -1;
-    const hid_t dataset = H5Dopen2(group, name, H5P_DEFAULT);
-    if (dataset < 0)
-        return -1;
-    const hid_t creation = H5Dget_create_plist(dataset);
-    const hid_t space = H5Dget_space(dataset);
-    const hid_t type = H5Dget_type(dataset);
-    if (creation >= 0 && space >= 0 && type >= 0 && H5Sget_simple_extent_ndims(space) == rank &&
-        H5Pget_layout(creation) == H5D_CONTIGUOUS && H5Pget_external_count(creation) == 0) {
-        const hssize_t points = H5Sget_simple_extent_npoints(space);
-        const hsize_t size = H5Tget_size(type);
-        const hsize_t stored = H5Dget_storage_size(dataset);
-        good =
-            points >= 0 && size > 0 && stored <= r->file_size && stored / size == (hsize_t)points;
-        *n = (hsize_t)points;
-    }
-    hdf5_close(type);
-    hdf5_close(space);
-    hdf5_close(creation);
-    if (good)
-        return dataset;
-    hdf5_close(dataset);
-    return -1;
-}
-
-static bool read_estimate(reader *r, hid_t group, const char *key, double value, wt_table *table)
-{
-    char *names[KEY_PARTS] = {NULL};
-    char *unit = NULL;
-    wt_estimate e = {.value = value};
-    bool good = table_key_part_names(key, names) || no_memory(r);
-    good = good && read_number(r, group, names[KEY_STANDARD_ERROR], &e.standard_error, NULL) &&
-           read_number(r, group, names[KEY_NUMERICAL_ERROR], &e.numerical_error, NULL) &&
-           (unit = read_text(r, group, names[KEY_UNITS])) != NULL;
-    e.unit = unit;
-    good = good && taken(r, wt_table_set_estimate(table, key, e, r->err));
-    for (size_t i = 0; i < KEY_PARTS; i++)
-        free(names[i]);
-    free(unit);
-    return good;
-}
-
-static bool read_keys(reader *r, hid_t group, wt_table *table)
-{
-    char **keys = NULL;
-    size_t n = 0;
-    bool good = read_words(r, group, STORE_KEYS_ATTRIBUTE, TABLE_KEYS_MAX, &keys, &n);
-    for (size_t i = 0; good && i < n; i++) {
-        double value;
-        bool is_text = false;
-        good = read_number(r, group, keys[i], &value, &is_text);
-        if (good && is_text) {
-            char *const text = read_text(r, group, keys[i]);
-            good = text != NULL && taken(r, wt_table_set_key(table, keys[i], text, r->err));
-            free(text);
-        } else if (good) {
-            good = read_estimate(r, group, keys[i], value, table);
-        }
-    }
-    wt_strings_free(keys, n);
-    return good;
-}
-
-/* Adds the column without its rows; WT_COLUMN_TEXT or _NUMBER follows from the type. */
-static bool read_column(reader *r, hid_t group, const char *name, hsize_t n_rows, wt_table *table)
-{
-    hsize_t n = 0;
-    const hid_t dataset = open_dataset(r, group, name, 1, &n);
-    if (dataset < 0 || n != n_rows)
-        return corrupt(r, name, "column missing, of another length or not stored in one piece");
-    const hid_t type = H5Dget_type(dataset);
-    const H5T_class_t class = H5Tget_class(type);
-    char *const units = read_text(r, dataset, STORE_UNITS_ATTRIBUTE);
-    char *const words = units != NULL ? read_text(r, dataset, STORE_LONG_NAME_ATTRIBUTE) : NULL;
-    bool good = words != NULL;
-    if (good && class == H5T_FLOAT)
-        good = taken(r, wt_table_add_column(table, name, units, words, r->err));
-    else if (good && class == H5T_STRING)
-        good = taken(r, wt_table_add_text_column(table, name, words, r->err));
-    else if (good)
-        good = corrupt(r, name, "a column that is neither numbers nor text");
-    free(units);
-    free(words);
-    hdf5_close(type);
-    hdf5_close(dataset);
-    return good;
-}
-
-/* Adds the rows with their blocks. */
-static bool read_blocks(reader *r, hid_t group, hsize_t n, wt_table *table)
-{
-    hsize_t n_again = 0;
-    const hid_t dataset = open_dataset(r, group, STORE_BLOCK_DATASET, 1, &n_again);
-    uint64_t *const blocks = calloc((size_t)n + 1, sizeof *blocks);
-    bool good = blocks != NULL || no_memory(r);
-    if (good && n > 0 &&
-        (dataset < 0 || n_again != n ||
-         H5Dread(dataset, H5T_NATIVE_UINT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, blocks) < 0))
-        good = corrupt(r, STORE_BLOCK_DATASET, "blocks cannot be read");
-    for (size_t row = 0; good && row < n; row++) {
-        const uint64_t before = row > 0 ? blocks[row - 1] : 0;
-        if (blocks[row] != before && blocks[row] != before + (row > 0))
-            good = corrupt(r, STORE_BLOCK_DATASET, "blocks are not numbered in order");
-        else if (blocks[row] != before)
-            good = taken(r, wt_table_new_block(table, r->err));
-        good = good && taken(r, wt_table_add_row(table, r->err));
-    }
-    free(blocks);
-    hdf5_close(dataset);
-    return good;
-}
-
-static bool read_cells(reader *r, hid_t group, table_column *column, hsize_t n)
-{
-    hsize_t n_again = 0;
-    const hid_t dataset = open_dataset(r, group, column->name, 1, &n_again);
-    bool good = dataset >= 0 && n_again == n;
-    if (good && column->kind == WT_COLUMN_NUMBER)
-        good = H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT,
-                       column->numbers) >= 0;
-    if (!good)
-        (void)corrupt(r, column->name, "column cannot be read");
-    else if (column->kind == WT_COLUMN_TEXT)
-        good = read_texts(r, dataset, false, column->name, (size_t)n, column->texts);
-    hdf5_close(dataset);
-    return good;
-}
-
-/* The columns, then their rows. */
-static bool read_columns(reader *r, hid_t group, wt_table *table)
-{
-    hsize_t n_rows = 0;
-    char **columns = NULL;
-    size_t n = 0;
-    const hid_t blocks = open_dataset(r, group, STORE_BLOCK_DATASET, 1, &n_rows);
-    if (blocks < 0)
-        return corrupt(r, STORE_BLOCK_DATASET, "blocks missing");
-    hdf5_close(blocks);
-    bool good = read_words(r, group, STORE_COLUMNS_ATTRIBUTE, TABLE_COLUMNS_MAX, &columns, &n);
-    for (size_t i = 0; good && i < n; i++)
-        good = read_column(r, group, columns[i], n_rows, table);
-    good = good && read_blocks(r, group, n_rows, table);
-    for (size_t i = 0; good && n_rows > 0 && i < n; i++)
-        good = read_cells(r, group, &table->columns[i], n_rows);
-    wt_strings_free(columns, n);
-    return good;
-}
-
-/* A table, new; NULL on failure. */
-static wt_table *read_table(reader *r, const char *name)
-{
-    wt_table *table = NULL;
-    r->table = name;
-    const hid_t group = table_name_is_valid(name) ? open_group(r, name) : -1;
-    char *const title = group >= 0 ? read_text(r, group, STORE_TITLE_ATTRIBUTE) : NULL;
-    if (group < 0)
-        (void)corrupt(r, "", "table missing or misnamed");
-    else if (title != NULL && (table = wt_table_new(name, title)) == NULL)
-        (void)no_memory(r);
-    if (table != NULL && !(read_keys(r, group, table) && read_columns(r, group, table))) {
-        wt_table_free(table);
-        table = NULL;
-    }
-    free(title);
-    hdf5_close(group);
-    r->table = NULL;
-    return table;
-}
-
-static bool read_case(reader *r, wt_result *result)
-{
-    hsize_t n = 0;
-    bool good = false;
-    char *text = NULL;
-    if (H5Lexists(r->file, STORE_CASE_DATASET, H5P_DEFAULT) == 0)
-        return true;
-    const hid_t dataset = open_dataset(r, r->file, STORE_CASE_DATASET, 0, &n);
-    const hid_t type = dataset >= 0 ? H5Dget_type(dataset) : -1;
-    const bool is_text =
-        type >= 0 && H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0;
-    /* not more than the file: open_dataset checked */
-    const size_t length = is_text ? H5Tget_size(type) : 0;
-    if (!is_text)
-        good = corrupt(r, STORE_CASE_DATASET, "not one text of fixed length");
-    else if ((text = malloc(length)) == NULL)
-        good = no_memory(r);
-    else if (H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text) < 0)
-        good = corrupt(r, STORE_CASE_DATASET, "cannot be read");
-    else
-        good = taken(r, wt_result_set_case(result, text, length, r->err));
-    free(text);
-    hdf5_close(type);
-    hdf5_close(dataset);
-    return good;
-}
-
-static bool read_origin(reader *r, wt_result *result, wt_table **inputs)
-{
-    if (H5Aexists(r->file, STORE_COMMAND_ATTRIBUTE) == 0)
-        return true;
-    wt_provenance *const provenance = wt_result_provenance(result);
-    char *const command = read_text(r, r->file, STORE_COMMAND_ATTRIBUTE);
-    const bool good = command != NULL &&
-                      (provenance_restore_command(provenance, command) == WT_OK || no_memory(r)) &&
-                      (*inputs = read_table(r, STORE_INPUTS_TABLE)) != NULL &&
-                      taken(r, store_inputs_read(*inputs, provenance, r->err));
+    char *const command = strndup(text, length);
+    const wt_status status =
+        command != NULL ? provenance_restore_command(provenance, command) : WT_E_MEMORY;
     free(command);
-    return good;
+    return status;
 }
 
-static bool check_format(reader *r)
-{
-    int format = 0;
-    size_t n = 0;
-    const hid_t attribute = open_attribute(r->file, STORE_FORMAT_ATTRIBUTE, &n);
-    const hid_t type = attribute >= 0 ? H5Aget_type(attribute) : -1;
-    if (type < 0 || n != 1 || H5Tget_class(type) != H5T_INTEGER ||
-        H5Aread(attribute, H5T_NATIVE_INT, &format) < 0) {
-        r->status = wt_fail(r->err, WT_E_FORMAT, "not a result file of weartrack");
-        wt_error_expected(r->err, "the attribute \"%s\"", STORE_FORMAT_ATTRIBUTE);
-    } else if (format != STORE_FORMAT) {
-        r->status = wt_fail(r->err, WT_E_UNSUPPORTED, "result file of another version");
-        wt_error_expected(r->err, "layout %d", STORE_FORMAT);
-        wt_error_found(r->err, "%d", format);
-        wt_error_advice(r->err, "use the weartrack that wrote it, or a newer one");
-    }
-    hdf5_close(type);
-    hdf5_close(attribute);
-    return r->status == WT_OK;
-}
-
-static bool read_tables(reader *r, wt_result *result)
-{
-    char **names = NULL;
-    size_t n = 0;
-    bool good = read_words(r, r->file, STORE_TABLES_ATTRIBUTE, RESULT_TABLES_MAX, &names, &n);
-    for (size_t i = 0; good && i < n; i++) {
-        wt_table *const table = read_table(r, names[i]);
-        good = table != NULL && taken(r, wt_result_add(result, table, r->err));
-    }
-    wt_strings_free(names, n);
-    return good;
-}
-
-static wt_status read_all(reader *r, wt_result *result)
-{
-    char *digest = NULL, found[65];
-    wt_table *inputs = NULL;
-    if (check_format(r) && read_tables(r, result) && read_case(r, result) &&
-        read_origin(r, result, &inputs) &&
-        (digest = read_text(r, r->file, STORE_DIGEST_ATTRIBUTE)) != NULL &&
-        taken(r, store_digest(result, inputs, found, r->err)) && strcmp(digest, found) != 0)
-        (void)corrupt(r, STORE_DIGEST_ATTRIBUTE, "the content does not agree with its digest");
-    wt_table_free(inputs);
-    free(digest);
-    return r->status;
-}
-
-/* Opens for reading; -1 if it is not an intact HDF5 file. */
-static hid_t open_file(const char *path)
-{
-    hid_t file = -1;
-    const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
-    /* A result file never changes once it has its name, so nobody needs to be kept from it. */
-    if (access >= 0 && H5Pset_fclose_degree(access, H5F_CLOSE_STRONG) >= 0 &&
-        H5Pset_file_locking(access, false, true) >= 0)
-        file = H5Fopen(path, H5F_ACC_RDONLY, access);
-    hdf5_close(access);
-    return file;
-}
-
-wt_status wt_store_read(const char *path, wt_result **result, wt_error *err)
+/* The tables of the stream; the list of inputs belongs to the provenance. */
+static wt_status take_tables(const char *text, size_t length, bool has_origin, wt_result *result,
+                             wt_error *err)
 {
     wt_status status = WT_OK;
-    struct stat info;
-    wt_result *new_result = NULL;
-    if (stat(path, &info) != 0) {
-        status = wt_fail(err, errno == ENOENT ? WT_E_NOT_FOUND : WT_E_IO, "%s", strerror(errno));
-        goto done;
+    FILE *const in = fmemopen((void *)(uintptr_t)text, length, "r");
+    if (in == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    while (status == WT_OK) {
+        wt_table *table = NULL;
+        status = wt_stream_read(in, "", &table, err);
+        if (status == WT_OK && has_origin && strcmp(table->name, STORE_INPUTS_TABLE) == 0) {
+            status = store_inputs_read(table, wt_result_provenance(result), err);
+            wt_table_free(table);
+        } else if (status == WT_OK) {
+            status = wt_result_add(result, table, err);
+        }
     }
-    if (!S_ISREG(info.st_mode)) {
+    (void)fclose(in);
+    if (status == WT_E_ARG)
+        status = corrupt(err, STORE_TABLES_ATTRIBUTE, "not names of tables");
+    return status == WT_END ? WT_OK : status;
+}
+
+wt_status store_take(const char *bytes, size_t length, wt_result *result, wt_error *err)
+{
+    store_tail tail;
+    char digest[65];
+    if (length < sizeof tail)
+        return corrupt(err, "", "the content is not whole");
+    length -= sizeof tail;
+    memcpy(&tail, bytes + length, sizeof tail);
+    if (tail.command_length > length || tail.case_length > length - tail.command_length)
+        return corrupt(err, "", "the content is not whole");
+    length -= tail.command_length;
+    wt_digest(bytes, length, digest);
+    if (memcmp(digest, tail.digest, sizeof digest) != 0)
+        return corrupt(err, STORE_DIGEST_ATTRIBUTE, "the content does not agree with its digest");
+    wt_status status = tail.has_origin ? take_command(bytes + length, tail.command_length,
+                                                      wt_result_provenance(result))
+                                       : WT_OK;
+    length -= tail.case_length;
+    if (status == WT_OK)
+        status = wt_result_set_case(result, bytes + length, tail.case_length, err);
+    if (status == WT_OK)
+        status = take_tables(bytes, length, tail.has_origin, result, err);
+    return status == WT_E_MEMORY ? wt_fail(err, WT_E_MEMORY, "out of memory") : status;
+}
+
+wt_status wt_store_read_memory(const void *bytes, size_t length, const char *name,
+                               wt_result **result, wt_error *err)
+{
+    const hdf5_limits limits = hdf5_limits_of(length);
+    size_t n = 0;
+    char *answer = NULL;
+    wt_result *const read = wt_result_new();
+    wt_status status = read != NULL ? WT_OK : wt_fail(err, WT_E_MEMORY, "out of memory");
+    if (status == WT_OK)
+        status = hdf5_door_read(bytes, length, &limits, store_pass, &answer, &n, err);
+    if (status == WT_OK)
+        status = store_take(answer, n, read, err);
+    free(answer);
+    if (status == WT_OK) {
+        *result = read;
+    } else {
+        wt_error_file(err, name);
+        wt_result_free(read);
+    }
+    return status;
+}
+
+/* The file is mapped and touched behind the door alone: where another program shortens it
+ * meanwhile, that is an error like any other. */
+wt_status wt_store_read(const char *path, wt_result **result, wt_error *err)
+{
+    struct stat info;
+    void *mapped = MAP_FAILED;
+    wt_status status = WT_OK;
+    /* Opening a pipe would wait for somebody who writes. */
+    const int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    const bool opened = file >= 0 && fstat(file, &info) == 0;
+    if (opened && S_ISREG(info.st_mode) && info.st_size > 0)
+        mapped = mmap(NULL, (size_t)info.st_size, PROT_READ, MAP_PRIVATE, file, 0);
+    if (mapped != MAP_FAILED) {
+        status = wt_store_read_memory(mapped, (size_t)info.st_size, path, result, err);
+        (void)munmap(mapped, (size_t)info.st_size);
+    } else if (opened && !S_ISREG(info.st_mode)) {
         status = wt_fail(err, WT_E_IO, "not a regular file");
         wt_error_expected(err, "an HDF5 file, which cannot come through a pipe");
-        goto done;
-    }
-    new_result = wt_result_new();
-    if (new_result == NULL) {
-        status = wt_fail(err, WT_E_MEMORY, "out of memory");
-        goto done;
-    }
-    hdf5_scope scope;
-    hdf5_enter(&scope);
-    reader r = {.file = open_file(path), .file_size = (hsize_t)info.st_size, .err = err};
-    if (r.file >= 0) {
-        status = read_all(&r, new_result);
-        (void)H5Fclose(r.file);
-    } else if (H5Fis_hdf5(path) > 0) {
-        status = wt_fail(err, WT_E_CORRUPT, "the HDF5 file is damaged or cut off");
-        wt_error_advice(err, "make the file again");
+    } else if (opened && info.st_size == 0) {
+        status = wt_fail(err, WT_E_FORMAT, "an empty file");
     } else {
-        status = wt_fail(err, WT_E_FORMAT, "not an HDF5 file, or its first bytes are damaged");
+        status = wt_fail(err, errno == ENOENT ? WT_E_NOT_FOUND : WT_E_IO, "%s", strerror(errno));
     }
-    hdf5_leave(&scope);
-    if (status == WT_OK) {
-        *result = new_result;
-        new_result = NULL;
-    }
-done:
     if (status != WT_OK)
         wt_error_file(err, path);
-    wt_result_free(new_result);
+    if (file >= 0)
+        (void)close(file);
     return status;
 }

@@ -51,7 +51,7 @@ set(third_party
   "^gsl/gsl_(sf_|math|const|poly|interp)" model+fit+kernel
   "^gsl/" fit+kernel
   "^fftw3" fit
-  "^(spawn\\.h|sys/wait\\.h)" report
+  "^(spawn\\.h|sys/wait\\.h)" data+report
   "^getopt\\.h" cmd)
 
 if(NOT SOURCE)
@@ -138,6 +138,14 @@ function(check_quiet file source)
   endforeach()
 endfunction()
 
+# HDF5 comes in through one door (hdf5_door.h).
+function(check_door file source)
+  file(STRINGS "${source}" lines REGEX "(^|[^a-zA-Z_])(H5Fopen|H5Fis_[a-z0-9]+|H5LT[a-z_]+)[ \t]*\\(")
+  if(lines AND NOT file STREQUAL "src/data/hdf5_door.c")
+    violation("${file}" "only src/data/hdf5_door.c may do this: ${lines}")
+  endif()
+endfunction()
+
 foreach(room IN LISTS rooms)
   file(GLOB_RECURSE sources "${SOURCE}/src/${room}/*.c" "${SOURCE}/src/${room}/*.h")
   foreach(source IN LISTS sources ITEMS "${SOURCE}/include/weartrack/${room}.h")
@@ -174,6 +182,7 @@ foreach(room IN LISTS rooms)
     if(NOT room STREQUAL "cmd" AND short MATCHES "\\.c$")
       check_quiet("${short}" "${source}")
     endif()
+    check_door("${short}" "${source}")
   endforeach()
 endforeach()
 

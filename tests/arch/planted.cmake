@@ -32,6 +32,7 @@ set(plants
   "fit/planted.c|int f(void) { return printf(\"words\")@ }"
   "data/planted.c|void g(void) { exit(1)@ }"
   "kernel/planted.c|#include \"planted.h\""
+  "data/planted.c|long f(void) { return H5Fopen(\"a\", 0, 0)@ }"
   "read/text/planted.c|#include \"weartrack/fit.h\""
   "read/text/planted.c|int f(void) { return printf(\"words\")@ }"
   "read/bytes/planted.c|#include \"read/text/text.h\""

@@ -56,15 +56,23 @@ static void warn_of_others(wt_parselog *log, const char *name, const wt_result *
                         n, names, used < sizeof names ? "" : "...");
 }
 
+static wt_status read_result(wt_input *input, wt_result **result, wt_error *err)
+{
+    const unsigned char *bytes = NULL;
+    size_t length = 0;
+    const wt_status status = wt_input_bytes(input, &bytes, &length, err);
+    return status == WT_OK ? wt_store_read_memory(bytes, length, wt_input_name(input), result, err)
+                           : status;
+}
+
 /* The tables of measurements of the file, as a text stream in memory. */
 static wt_status as_text(wt_input *input, wt_parselog *log, wt_input **text, wt_error *err)
 {
-    const char *name = wt_input_name(input);
     wt_result *result = NULL;
     FILE *stream = NULL;
     char *bytes = NULL;
     size_t length = 0, n_measured = 0;
-    wt_status status = wt_store_read(name, &result, err);
+    wt_status status = read_result(input, &result, err);
     if (status != WT_OK)
         return status;
     stream = open_memstream(&bytes, &length);
@@ -87,10 +95,10 @@ static wt_status as_text(wt_input *input, wt_parselog *log, wt_input **text, wt_
                            wt_table_name(wt_result_table(result, 0)));
     }
     if (status == WT_OK)
-        warn_of_others(log, name, result);
+        warn_of_others(log, wt_input_name(input), result);
     wt_result_free(result);
     if (status == WT_OK)
-        return input_own(bytes, length, name, text, err);
+        return input_own(bytes, length, wt_input_name(input), text, err);
     free(bytes);
     return status;
 }
@@ -103,7 +111,7 @@ static wt_status describe(const file_reader *self, wt_input *input, const wt_rea
     file_reader of_text = *self;
     bool measured = false;
     of_text.as_text = NULL;
-    wt_status status = wt_store_read(wt_input_name(input), &result, facts->err);
+    wt_status status = read_result(input, &result, facts->err);
     if (status != WT_OK)
         return status;
     for (size_t i = 0; i < wt_result_n_tables(result); i++) {
