@@ -2,9 +2,11 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/clocale.h"
 #include "base/number.h"
+#include "base/shortage.h"
 #include "base/utf8.h"
 #include "weartrack/base.h"
 
+#include <errno.h>
 #include <math.h>
 #include <pthread.h>
 #include <string.h>
@@ -15,9 +17,41 @@ enum { UNIT_MAX = 128 };
 
 /* UDUNITS-2 is not thread-safe and its database takes long to read, so there is one unit system for
  * the process, made when first needed and used under a lock. */
-static pthread_once_t once = PTHREAD_ONCE_INIT;
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static ut_system *units = NULL;
+
+/* Memory ran out inside UDUNITS since it was entered. It then takes a unit that it knows for an
+ * unknown one, or reads half of its database, and goes on: no answer of it counts. */
+static bool starved;
+
+static int note_message(const char *format, va_list list)
+{
+    (void)format;
+    (void)list;
+    if (errno == ENOMEM || ut_get_status() == UT_OS)
+        starved = true;
+    return 0;
+}
+
+typedef struct visit {
+    locale_t locale;
+    ut_error_message_handler handler;
+} visit;
+
+static visit enter(void)
+{
+    starved = false;
+    errno = 0;
+    return (visit){clocale_enter(), ut_set_error_message_handler(note_message)};
+}
+
+static void leave(visit before)
+{
+    if (errno == ENOMEM)
+        starved = true;
+    (void)ut_set_error_message_handler(before.handler);
+    clocale_leave(before.locale);
+}
 
 /* A spelling of instruments that the database lacks. */
 static void add_spelling(const char *spelling, const char *name)
@@ -29,8 +63,7 @@ static void add_spelling(const char *spelling, const char *name)
 
 static void make_units(void)
 {
-    const locale_t previous_locale = clocale_enter();
-    const ut_error_message_handler previous = ut_set_error_message_handler(ut_ignore);
+    const visit before = enter();
     units = ut_read_xml(NULL);
     if (units != NULL) {
         add_spelling("deg", "degree");
@@ -41,8 +74,11 @@ static void make_units(void)
         (void)ut_map_name_to_unit("byte", UT_ASCII, byte);
         ut_free(byte);
     }
-    (void)ut_set_error_message_handler(previous);
-    clocale_leave(previous_locale);
+    leave(before);
+    if (starved) {
+        ut_free_system(units);
+        units = NULL;
+    }
 }
 
 /* What a unit is a multiple of: a product of base units, among which UDUNITS counts the radian. */
@@ -186,6 +222,12 @@ static void quantity_words(wt_quantity quantity, char *buffer, size_t size)
     }
 }
 
+static wt_status out_of_memory(wt_error *err)
+{
+    shortage_note();
+    return wt_fail(err, WT_E_MEMORY, "out of memory");
+}
+
 wt_status wt_unit_to_si(const char *unit, wt_quantity quantity, double *factor, double *offset,
                         wt_error *err)
 {
@@ -212,15 +254,19 @@ wt_status wt_unit_to_si(const char *unit, wt_quantity quantity, double *factor, 
     double f = 0.0, o = 0.0;
     bool good = false;
     bool angular = false; /* the radian is what stands in the way */
-    (void)pthread_once(&once, make_units);
+    (void)pthread_mutex_lock(&lock);
+    if (units == NULL)
+        make_units();
     if (units == NULL) {
+        const bool memory = !starved;
+        (void)pthread_mutex_unlock(&lock);
+        if (!memory)
+            return out_of_memory(err);
         (void)wt_fail(err, WT_E_INTERNAL, "the units database of UDUNITS-2 cannot be read");
         wt_error_advice(err, "install it, or name it in the variable UDUNITS2_XML_PATH");
         return WT_E_INTERNAL;
     }
-    (void)pthread_mutex_lock(&lock);
-    const locale_t previous_locale = clocale_enter();
-    const ut_error_message_handler previous = ut_set_error_message_handler(ut_ignore);
+    const visit before = enter();
     if (quantity == WT_Q_SPECTRAL_DENSITY) {
         char length[UNIT_MAX];
         memcpy(length, text, sizeof length);
@@ -235,9 +281,11 @@ wt_status wt_unit_to_si(const char *unit, wt_quantity quantity, double *factor, 
         if (!good && quantity == WT_Q_FREQUENCY)
             angular = convert(text, "rad/s", &f, &o);
     }
-    (void)ut_set_error_message_handler(previous);
-    clocale_leave(previous_locale);
+    leave(before);
+    const bool failed = starved;
     (void)pthread_mutex_unlock(&lock);
+    if (failed)
+        return out_of_memory(err);
 
     /* An offset makes sense for a temperature; a difference of temperatures has the same unit
      * without it, and nothing else has one. */
@@ -311,7 +359,7 @@ wt_status wt_quantity_parse(const char *text, wt_quantity quantity, double *valu
     }
     if (status == WT_OK) {
         *value = result;
-    } else if (status != WT_E_INTERNAL) {
+    } else if (status != WT_E_INTERNAL && status != WT_E_MEMORY) {
         char words[64];
         quantity_words(quantity, words, sizeof words);
         wt_error_expected(err, "%s%s, such as %s", words, bare ? "" : " with its unit",

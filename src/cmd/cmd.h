@@ -33,6 +33,9 @@ int cmd_report(int argc, char **argv);
 int cmd_table(int argc, char **argv);
 int cmd_summary(int argc, char **argv);
 
+/* From now on this process ends where memory runs out (memory.c). */
+void cmd_end_without_memory(void);
+
 /* ---- options ------------------------------------------------------------------------------ */
 
 /* A structure whose parameters are options of a subcommand. */

@@ -77,6 +77,7 @@ int main(int argc, char **argv)
     /* `weartrack ... | head` shall end quietly, also where a parent ignores the signal. */
     signal(SIGPIPE, SIG_DFL);
     wt_guard_start();
+    cmd_end_without_memory();
 
     if (argc < 2) {
         print_help(stderr);

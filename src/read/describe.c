@@ -2,6 +2,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
+#include "base/shortage.h"
 #include "data/tables/tables.h"
 #include "read/facts.h"
 #include "read/formats.h"
@@ -30,7 +31,7 @@ wt_status wt_describe(const wt_formats *formats, wt_input *input, const wt_read_
               reader->info.verified ? "yes" : "no");
     status = reader->describe(reader, input, &o, log, &w);
     const wt_status written = table_end(&w, &table);
-    status = status == WT_OK ? written : status;
+    status = shortage_end(status == WT_OK ? written : status, err);
     if (status != WT_OK) {
         wt_error_file(err, wt_input_name(input));
         wt_table_free(table);

@@ -4,6 +4,7 @@
  */
 #include "read/force_source.h"
 
+#include "base/shortage.h"
 #include "data/force_curve.h"
 #include "read/facts.h"
 
@@ -12,7 +13,8 @@
 wt_status wt_force_next(wt_force_source *source, wt_force_curve *curve, wt_error *err)
 {
     wt_force_curve_reset(curve);
-    wt_status status = source->next(source, curve, err);
+    shortage_forget();
+    wt_status status = shortage_end(source->next(source, curve, err), err);
     if (status != WT_OK && status != WT_END) {
         wt_force_curve_reset(curve);
         wt_error_file(err, source->name);

@@ -2,6 +2,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
+#include "base/shortage.h"
 #include "read/formats.h"
 
 wt_status wt_images_read(const wt_formats *formats, wt_input *input, const wt_read_options *options,

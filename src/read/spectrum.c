@@ -2,6 +2,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
+#include "base/shortage.h"
 #include "read/formats.h"
 
 wt_status wt_power_spectrum_read(const wt_formats *formats, wt_input *input,
@@ -13,6 +14,10 @@ wt_status wt_power_spectrum_read(const wt_formats *formats, wt_input *input,
     wt_status status = read_start(formats, input, options, WT_KIND_SPECTRUM, &o, &reader, err);
     if (status == WT_OK)
         status = reader->read_spectrum(reader, input, &o, log, spectrum, err);
+    const wt_status end = shortage_end(status, err);
+    if (status == WT_OK && end != WT_OK)
+        wt_power_spectrum_clear(spectrum);
+    status = end;
     if (status != WT_OK)
         wt_error_file(err, wt_input_name(input));
     return status;

@@ -2,6 +2,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
+#include "base/shortage.h"
 #include "read/formats.h"
 #include "read/params.h"
 
@@ -38,6 +39,7 @@ wt_status read_start(const wt_formats *formats, wt_input *input, const wt_read_o
                      unsigned kind, wt_read_options *options, const file_reader **reader,
                      wt_error *err)
 {
+    shortage_forget();
     *options = given != NULL ? *given : wt_read_defaults();
     wt_status status = param_check(wt_read_params(), options, err);
     if (status != WT_OK)

@@ -2,6 +2,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
+#include "base/shortage.h"
 #include "read/formats.h"
 
 wt_status wt_sweep_read(const wt_formats *formats, wt_input *input, const wt_read_options *options,
@@ -12,6 +13,7 @@ wt_status wt_sweep_read(const wt_formats *formats, wt_input *input, const wt_rea
     wt_status status = read_start(formats, input, options, WT_KIND_SWEEP, &o, &reader, err);
     if (status == WT_OK)
         status = reader->read_sweep(reader, input, &o, log, sweep, err);
+    status = shortage_end(status, err);
     if (status != WT_OK)
         wt_error_file(err, wt_input_name(input));
     return status;

@@ -79,7 +79,7 @@ static wt_status validate(xmlDoc *doc, wt_error *err)
     xmlSchema *schema = parser == NULL ? NULL : xmlSchemaParse(parser);
     xmlSchemaValidCtxt *valid = schema == NULL ? NULL : xmlSchemaNewValidCtxt(schema);
     if (valid == NULL) {
-        status = wt_fail(err, WT_E_INTERNAL, "the schema of case files cannot be used");
+        status = wt_fail(err, WT_E_MEMORY, "no memory for the schema of case files");
         goto done;
     }
     xmlSchemaSetValidStructuredErrors(valid, complain, &c);

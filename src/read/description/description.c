@@ -4,6 +4,8 @@
  */
 #include "read/description/description.h"
 
+#include "base/shortage.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -52,7 +54,10 @@ bool pattern_match(const line_pattern *pattern, text_span line, regmatch_t *grou
     if (line.length > PATTERN_LINE_MAX ||
         (pattern->first != '\0' && line.text[0] != pattern->first))
         return false;
-    return regexec(&pattern->regex, line.text, n, groups, 0) == 0;
+    const int code = regexec(&pattern->regex, line.text, n, groups, 0);
+    if (code == REG_ESPACE)
+        shortage_note();
+    return code == 0;
 }
 
 text_span pattern_group(text_span line, regmatch_t group)

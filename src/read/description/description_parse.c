@@ -2,6 +2,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
+#include "base/shortage.h"
 #include "read/description/description_xml.h"
 #include "read/embedded_formats.h"
 
@@ -29,7 +30,9 @@ const char *wt_formats_schema(void)
 static void keep_quiet(void *user, xmlErrorPtr error)
 {
     (void)user;
-    (void)error;
+    /* What it calls internal is memory too. */
+    if (error != NULL && (error->code == XML_ERR_NO_MEMORY || error->code == XML_SCHEMAV_INTERNAL))
+        shortage_note();
 }
 
 wt_status description_xsd_new(description_xsd **schema, wt_error *err)
@@ -43,7 +46,8 @@ wt_status description_xsd_new(description_xsd **schema, wt_error *err)
         if (*schema != NULL)
             return WT_OK;
     }
-    return wt_fail(err, WT_E_INTERNAL, "the schema of descriptions cannot be compiled");
+    /* It is a part of this library and in order. */
+    return wt_fail(err, WT_E_MEMORY, "no memory for the schema of descriptions");
 }
 
 void description_xsd_free(description_xsd *schema)
@@ -70,6 +74,7 @@ static void explain(description_parser *p, const xmlError *error, const char *ot
 
 static void first_complaint(void *user, xmlErrorPtr error)
 {
+    keep_quiet(NULL, error);
     explain(user, error, "not valid");
 }
 
@@ -102,6 +107,7 @@ wt_status description_parse(description_xsd *schema, const char *xml, size_t len
         wt_error_expected(err, "at most 1 MiB");
         return WT_E_SCHEMA;
     }
+    shortage_forget();
     p.d = calloc(1, sizeof *p.d);
     context = xmlNewParserCtxt();
     if (p.d == NULL || context == NULL) {
@@ -132,6 +138,7 @@ done:
     xmlFreeDoc(document);
     if (context != NULL)
         xmlFreeParserCtxt(context);
+    p.status = shortage_end(p.status, p.err);
     if (p.status == WT_OK)
         *description = p.d;
     else

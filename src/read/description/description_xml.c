@@ -44,10 +44,13 @@ char *parse_text(description_parser *p, const char *text, size_t length)
     return copy;
 }
 
+/* Of something that is there: it is NULL only without memory. */
 static char *copy_xml(description_parser *p, xmlChar *text)
 {
-    if (text == NULL)
+    if (text == NULL) {
+        parse_no_memory(p);
         return NULL;
+    }
     char *copy = parse_text(p, (const char *)text, strlen((const char *)text));
     xmlFree(text);
     return copy;
@@ -55,7 +58,10 @@ static char *copy_xml(description_parser *p, xmlChar *text)
 
 char *parse_attribute(description_parser *p, const xmlNode *node, const char *name)
 {
-    return copy_xml(p, xmlGetNoNsProp(node, (const xmlChar *)name));
+    const xmlChar *attribute = (const xmlChar *)name;
+    return xmlHasNsProp(node, attribute, NULL) != NULL
+               ? copy_xml(p, xmlGetNoNsProp(node, attribute))
+               : NULL;
 }
 
 char *parse_content(description_parser *p, const xmlNode *node)
@@ -210,6 +216,10 @@ void parse_pattern(description_parser *p, const xmlNode *node, const char *name,
     }
     tabulators(source);
     int code = regcomp(&pattern->regex, source, REG_EXTENDED | (groups == 0 ? REG_NOSUB : 0));
+    if (code == REG_ESPACE) {
+        parse_no_memory(p);
+        return;
+    }
     if (code != 0) {
         regerror(code, &pattern->regex, message, sizeof message);
         parse_complain(p, node, message, "an extended POSIX regular expression", source);
