@@ -103,10 +103,13 @@ __attribute__((format(printf, 1, 2))) static char *print(const char *format, ...
 /* ---- one run --------------------------------------------------------------------------------- */
 
 /* The calls that change something outside. */
-static const int calls[] = {SYS_write,     SYS_pwrite64,  SYS_writev, SYS_fsync,    SYS_fdatasync,
-                            SYS_ftruncate, SYS_linkat,    SYS_unlink, SYS_unlinkat, SYS_rename,
-                            SYS_renameat,  SYS_renameat2, SYS_mkdir,  SYS_mkdirat,  SYS_fork,
-                            SYS_vfork,     SYS_pipe2};
+static const int calls[] = {
+    SYS_write,    SYS_pwrite64, SYS_writev,    SYS_fsync,   SYS_fdatasync, SYS_ftruncate,
+    SYS_linkat,   SYS_unlinkat, SYS_renameat2, SYS_mkdirat, SYS_pipe2,
+#ifdef SYS_rename /* newer systems have those with "at" only */
+    SYS_renameat, SYS_rename,   SYS_unlink,    SYS_mkdir,
+#endif
+};
 enum { N_CALLS = sizeof calls / sizeof *calls };
 
 /* From now on these calls of this process and its children wait for an answer through the
