@@ -85,7 +85,7 @@ static int run(job *j, size_t number, size_t *n)
     return WIFSIGNALED(state) ? -WTERMSIG(state) : WEXITSTATUS(state);
 }
 
-static void check_job(const char *name, job *j, size_t every)
+static void check_job(const char *name, job *j, size_t every, int worst)
 {
     size_t n = 0, done = 0, said = 0, crashed = 0, wrong = 0;
     assert_int_equal(run(j, 0, &n), SAME);
@@ -93,7 +93,7 @@ static void check_job(const char *name, job *j, size_t every)
         const int end = run(j, i, NULL);
         said += end == SAID;
         crashed += end < SAME; /* UDUNITS also calls exit() */
-        if (end > SAID) {
+        if (end > worst) {
             print_error("%s: allocation %zu fails: %s\n", name, i,
                         end == OTHER_ERROR ? "another error" : "another result");
             wrong++;
@@ -153,15 +153,17 @@ static wt_status description(bool *right, wt_error *err)
 static void test_units(void **state)
 {
     (void)state;
-    check_job("units", first_unit, 53);
+    check_job("units", first_unit, 53, SAID);
 }
 
 static void test_sweep(void **state)
 {
     (void)state;
     assert_int_equal(wt_formats_new(NULL, &formats, NULL, NULL), WT_OK);
-    check_job("sweep", sweep, 1);
-    check_job("descriptions", description, 211);
+    check_job("sweep", sweep, 1, SAID);
+    /* libxml2 may leave a value out of the schema without a word, which the document then breaks.
+     */
+    check_job("descriptions", description, 211, OTHER_ERROR);
     wt_formats_free(formats);
 }
 
