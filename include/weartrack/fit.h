@@ -1,5 +1,5 @@
 /* weartrack - fit room: from force curves to moduli and their comparison; from DMA sweeps to shift
- * factors, WLF, master curve and Prony series.
+ * factors, their law, master curve and Prony series.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -176,135 +176,120 @@ WT_API void wt_holm(const double *p, size_t n, double *adjusted);
  * (2.52/t for p = 2, 2.02/t for p = 1.5). NaN for t <= 0. */
 WT_API double wt_equivalent_frequency(double load_time, double force_exponent);
 
-/* ---- shift factors --------------------------------------------------------------------------- */
+/* ---- master curve: one spectrum behind all isotherms ----------------------------------------- */
 
 typedef enum wt_vertical_shift {
     WT_VERTICAL_NONE,
     WT_VERTICAL_PHYSICAL, /* b = rho0 T0 / (rho T) */
-    WT_VERTICAL_FREE
+    WT_VERTICAL_FREE,
+    WT_VERTICAL_TIED /* physical within the scatter of clamping and what departs smoothly with
+                        temperature; how far is averaged over */
 } wt_vertical_shift;
 
-typedef struct wt_shift_options {
+/* With its 95 % interval; standard_error is half its width over 1.96. */
+typedef struct wt_interval {
+    double value, standard_error, low, high;
+} wt_interval;
+
+typedef struct wt_master_options {
     double reference_temperature; /* [K]; need not be a measured isotherm; NaN (default): the
                                      isotherm in the middle */
-    wt_vertical_shift vertical;   /* default FREE: E' and E'' together make it identifiable */
-    double expansion;             /* volumetric thermal expansion for PHYSICAL [1/K], default 0 */
-    double floor; /* model error of a shift for the WLF fit [decade], > 0, default 0.02 */
+    wt_vertical_shift vertical;   /* default TIED */
+    double expansion;             /* volumetric thermal expansion of rho T [1/K], default 0 */
+    double terms_per_decade;      /* of the spectrum, default 3: more changes nothing */
+    bool liquid;                  /* equilibrium modulus 0 */
     uint64_t reserved[8];
-} wt_shift_options;
-WT_API wt_shift_options wt_shift_defaults(void);
-WT_API const wt_params *wt_shift_params(void);
+} wt_master_options;
+WT_API wt_master_options wt_master_options_defaults(void);
+WT_API const wt_params *wt_master_options_params(void);
 
-/* One isotherm's shift: x_r = log10 w + log_a, y_r = log10 M + log_b, b multiplies what was
- * measured. Standard errors are those of the joint fit with the master curve projected out, raised
- * for residuals that go together along an isotherm; failing superposition is not in them. */
-typedef struct wt_shift {
+/* One isotherm: x_r = log10 w + log_a, y_r = log10 M + log_b, b multiplies what was measured. */
+typedef struct wt_master_shift {
     double temperature;       /* [K] */
-    wt_estimate log_a, log_b; /* decades; 0 with error 0 at the reference isotherm */
-    double correlation;       /* of log_a and log_b */
-    bool determined; /* false: no overlap, no slope that stands out of the scatter, an error
-                        above 0.2 decade, or tied to log_b so that 0.02 decade of it is
-                        more than 0.2 of log_a; log_a and log_b are then NaN */
-    double overlap_storage, overlap_loss; /* shared ordinate range with the neighbour [decade] */
-    double log_b_physical;                /* what rho T would give */
-    char note[128];                       /* "" or what is odd */
-} wt_shift;
+    bool determined;          /* false: log_a and log_b are NaN and it is not in the curve */
+    wt_interval log_a, log_b; /* as measured, decades; log_a 0 at the reference isotherm */
+    double log_b_physical;    /* what rho T would give */
+    double log_b_material;    /* at this temperature without the scatter of clamping */
+    wt_interval law;          /* log10 aT of the law at this temperature; NaN without one */
+    double overlap;           /* frequencies shared with another one [decade] */
+    double noise_factor;      /* of this isotherm against the others */
+    size_t n_outliers;        /* values left out */
+    char note[128];           /* "" or what is odd */
+} wt_master_shift;
 
-typedef struct wt_wlf_fit {
-    wt_wlf wlf;
-    double c1_error, c2_error, correlation; /* standard errors and correlation of c1 and c2 */
-    double b, b_error;                      /* c1 c2 [K] */
-    double pole, pole_error;                /* Tref - c2 [K] */
-    double slope, slope_error;              /* d log10 aT / dT at Tref, -c1/c2 [decade/K] */
-    double offset, offset_error;            /* of the reference isotherm [decade], free */
-    double rms;                             /* weighted rms residual [decade] */
-    bool straight; /* C2 is not determined (above 1000 K, or its error above itself): only the
-                      slope means anything; c1 and c2 draw the line, their errors are NaN */
-    double activation_energy,
-        activation_energy_error;     /* Arrhenius fit of the same shifts [J/mol] */
-    double aicc_wlf, aicc_arrhenius; /* the smaller one describes better; NaN below 6 shifts */
-    size_t n;
-} wt_wlf_fit;
+typedef enum wt_superposition {
+    WT_SUPERPOSITION_HOLDS,
+    WT_SUPERPOSITION_FAILS,
+    WT_SUPERPOSITION_CANNOT_SAY
+} wt_superposition;
 
-/* A master curve: every measured point at the reference temperature, and what shifted it. */
-typedef struct wt_master_curve {
+typedef struct wt_posterior wt_posterior;
+
+/* One relaxation spectrum, shifts and law that describe all isotherms, with the errors of
+ * everything together. */
+typedef struct wt_master {
     wt_deformation deformation;
     double reference_temperature; /* [K] */
     wt_vertical_shift vertical;
     size_t n_shifts;
-    wt_shift *shifts;   /* [n_shifts], rising temperature */
-    double *covariance; /* [n_shifts * n_shifts] of log_a; NaN where not determined */
-    double
-        *covariance_ab; /* [(2 n_shifts)^2] of all log_a, then all log_b; 0 where not determined */
-    size_t n;
-    double *log_frequency;        /* [n] log10 of the reduced angular frequency [rad/s], rising */
-    double *log_storage;          /* [n] log10 of E' or G' [Pa], vertical shift applied */
-    double *log_loss;             /* [n] */
-    size_t *isotherm;             /* [n] which of `shifts` */
-    double rms_storage, rms_loss; /* residual about one smooth curve [decade] */
-    double kramers_kronig;        /* rms relative misfit of E'' predicted from E' alone, where tan
-                                     delta > 0.1 and half a decade inside the ends; NaN if nowhere */
-    bool superposition_failed;    /* E' alone and E'' alone ask for shifts 2.5 standard errors apart
-                                     (rms) and somewhere more than 0.2 decade */
-    char note[256];
-} wt_master_curve;
-WT_API void wt_master_curve_clear(wt_master_curve *master);
+    wt_master_shift *shifts; /* [n_shifts], rising temperature */
 
-/* Shifts all isotherms of a sweep onto the reference. Neighbours are matched pairwise in E' and E''
- * and both directions, outwards from the reference; then all together by least squares with one
- * penalised spline for log E' and one for log E'' projected out (single far points lose weight).
- * Isotherms and points may come in any order. A reference temperature between isotherms gets its
- * shift from the WLF law plus the neighbours' residuals, one outside from the law alone with its
- * error (WT_E_RANGE above 0.2 decade). options NULL = wt_shift_defaults(); log may be NULL.
+    size_t n;              /* measured points of the determined isotherms, by reduced frequency */
+    double *log_frequency; /* [n] log10 of the reduced angular frequency [rad/s] */
+    double *log_storage, *log_loss; /* [n] log10 of E' or G' [Pa], vertical shift applied */
+    wt_interval *fitted_storage, *fitted_loss; /* [n] log10 of the moduli of the spectrum there */
+    size_t *isotherm;                          /* [n] which of `shifts` */
+    bool *left_out;                            /* [n] an outlier in a modulus */
+    double noise_storage, noise_loss;          /* relative standard deviation */
+    double correlation;                        /* of the noise of neighbouring points */
+    size_t n_outliers;
+
+    wt_shift_law law;                      /* kind NONE: no law, `no_law` says why */
+    wt_interval offset;                    /* of the reference isotherm from the law [decade] */
+    wt_interval c1, c2, activation_energy; /* NaN: the law has none */
+    double c_correlation;                  /* of c1 and c2 */
+    wt_interval slope;                     /* d log10 aT/dT at the reference [decade/K] */
+    wt_interval pole;                      /* [K] */
+    double temperature_spread; /* standard deviation of the temperature of an isotherm [K] */
+    double law_rms;            /* of the shifts about the law [decade] */
+    char no_law[256];
+
+    wt_prony prony;          /* the spectrum at the reference temperature */
+    wt_interval equilibrium; /* [Pa] */
+    bool equilibrium_limit;  /* only `high` is known, a one-sided limit of 95 % */
+
+    wt_superposition superposition;
+    double lack_of_fit_p, misfit_low, misfit_high;           /* misfit: relative, 95 % */
+    double kramers_kronig_p, loss_factor, loss_factor_error; /* ln of a factor on all E'' */
+    char because[256]; /* of the verdict, and what would settle it */
+    wt_posterior *posterior;
+} wt_master;
+WT_API void wt_master_clear(wt_master *master);
+
+/* Fits one relaxation spectrum with shifts of all isotherms to ln E' and ln E'' together. Smoothing
+ * and noise by restricted likelihood, a factor on the noise for each isotherm, correlation along
+ * it, single points far off left out. Isotherms and points may come in any order; one isotherm is
+ * allowed. options NULL = defaults; log may be NULL.
  *
  * Points with a modulus <= 0 are left out with a warning in the log, and are an error (WT_E_RANGE)
- * naming the isotherm if fewer than four others remain. Isotherms that overlap nothing or have no
- * slope are not clamped: undetermined, with a note, not in the master curve. WT_E_NO_OVERLAP if no
- * isotherm can be shifted, WT_E_MISSING for fewer than two isotherms, WT_E_RANGE for temperatures
- * that are not kelvin. master: cleared by the caller with wt_master_curve_clear. */
-WT_API wt_status wt_shift_fit(const wt_sweep *sweep, const wt_shift_options *options,
-                              wt_parselog *log, wt_master_curve *master,
-                              wt_error *err) WT_NODISCARD;
-/* Generalised least squares of the determined shifts (at least four, else WT_E_MISSING) with their
- * full covariance plus floor^2 (as in wt_shift_options), c1 > 0 and the pole below all isotherms;
- * errors grow with the scatter about the law. WT_E_RANGE if the shifts do not fall with
- * temperature. */
-WT_API wt_status wt_wlf_fit_shifts(const wt_master_curve *master, double floor, wt_wlf_fit *fit,
-                                   wt_error *err) WT_NODISCARD;
-
-/* ---- Prony series ---------------------------------------------------------------------------- */
-
-typedef struct wt_prony_options {
-    double terms_per_decade; /* default 2: with 1 the ripple of the series alone is 4 to 16 % */
-    double smoothing;        /* Tikhonov lambda on second differences of the terms, each measured by
-                                what it gives to the data; 0 = none (default), 0.01 to 1 useful */
-    bool liquid;             /* equilibrium modulus forced to 0 */
-    uint64_t reserved[8];
-} wt_prony_options;
-WT_API wt_prony_options wt_prony_defaults(void);
-WT_API const wt_params *wt_prony_params(void);
-
-typedef struct wt_prony_fit {
-    wt_prony prony;
-    double rms_storage, rms_loss; /* relative */
-} wt_prony_fit;
-
-/* Relative-weight non-negative least squares (Lawson-Hanson) of E' and E'' together; relaxation
- * times evenly in log tau over the measured range and half a decade beyond. With one term per
- * decade a few percent of the misfit are ripple. options NULL = wt_prony_defaults(). WT_E_MISSING
- * with fewer values than terms. */
-WT_API wt_status wt_prony_fit_master(const wt_master_curve *master, const wt_prony_options *options,
-                                     wt_prony_fit *fit, wt_error *err) WT_NODISCARD;
-/* Replicate `index` of the same fit, for carrying the uncertainty of the material on to friction:
- * shifts drawn from their joint covariance, residuals of whole isotherms exchanged with random
- * sign. change_b: [n_shifts] out, what the draw added to log_b (0 where not determined), for the
- * material at the temperature of an isotherm; or NULL. The same seed and index give the same
- * series, whatever ran before; relaxation times are those of the fit. Covers the statistical error
- * of shifts, noise and the misfit of the series; not failing superposition, wrong temperatures, or
- * strain amplitude. Costs two fits, below a millisecond for 300 points and 10 terms. */
-WT_API wt_status wt_prony_replicate(const wt_master_curve *master, const wt_prony_options *options,
-                                    uint64_t seed, size_t index, wt_prony *prony, double *change_b,
-                                    wt_error *err) WT_NODISCARD;
+ * naming the isotherm if fewer than four others remain. Isotherms that share less than 0.3 decade
+ * of frequencies with the others are not clamped: undetermined, with a note, not in the master
+ * curve. WT_E_NO_OVERLAP if no isotherm can be shifted, WT_E_RANGE for temperatures that are not
+ * kelvin or a reference that the law does not reach within 0.2 decade. master: cleared by the
+ * caller. */
+WT_API wt_status wt_master_fit(const wt_sweep *sweep, const wt_master_options *options,
+                               wt_parselog *log, wt_master *master, wt_error *err) WT_NODISCARD;
+/* log10 aT of the law at a temperature; NaN without a law. */
+WT_API wt_interval wt_master_law(const wt_master *master, double temperature);
+/* log10 E', log10 E'' [Pa] at the reference temperature. */
+WT_API void wt_master_moduli(const wt_master *master, double angular_frequency,
+                             wt_interval *log_storage, wt_interval *log_loss);
+/* One draw of all that is not known: series at the reference temperature, law, log10 b of the
+ * material at the isotherms (log_b: [n_shifts], NaN where not determined; or NULL). The same seed
+ * and index give the same, whatever ran before. */
+WT_API wt_status wt_master_draw(const wt_master *master, uint64_t seed, size_t index,
+                                wt_prony *prony, wt_shift_law *law, double *log_b,
+                                wt_error *err) WT_NODISCARD;
 
 #ifdef __cplusplus
 }

@@ -133,9 +133,8 @@ WT_API wt_status wt_modulus_groups(const wt_table *const *indentation, size_t n,
 typedef struct wt_master_job {
     const wt_file_set *sets;
     size_t n_sets;
-    wt_shift_options shift; /* reference_temperature NaN: the isotherm in the middle */
-    wt_prony_options prony;
-    double poisson_ratio; /* of the rubber; default 0.5 */
+    wt_master_options fit; /* reference_temperature NaN: the isotherm in the middle */
+    double poisson_ratio;  /* of the rubber; default 0.5 */
     uint64_t reserved[7];
 } wt_master_job;
 WT_API wt_master_job wt_master_job_defaults(void);
@@ -146,17 +145,13 @@ WT_API const wt_params *wt_master_job_params(void);
 typedef struct wt_rubber {
     wt_prony prony; /* E or G as measured, vertical shift applied, at the reference temperature */
     double poisson_ratio;
-    bool has_wlf;
-    wt_wlf wlf;
-    double c1_error, c2_error, c_correlation; /* of the WLF constants; 0 if given without; NaN if
-                                                 only the slope c1/c2 is determined */
-    double slope_error;                       /* of c1/c2 [decade/K], used where they are NaN */
+    wt_shift_law law;                         /* kind NONE: no other temperature */
+    double c1_error, c2_error, c_correlation; /* of a law that came without isotherms; 0 unknown */
     double temperature_min, temperature_max;  /* of the isotherms [K]; NaN = not known */
     size_t n_vertical;                        /* log_b against temperature; 0 = no vertical shift */
     double *vertical_temperature, *vertical_log_b;
-    bool has_master; /* measured: replicates are possible */
-    wt_master_curve master;
-    wt_prony_options prony_options;
+    bool has_master; /* measured: replicates are drawn from what the isotherms say */
+    wt_master master;
 } wt_rubber;
 WT_API void wt_rubber_clear(wt_rubber *rubber);
 
@@ -166,8 +161,8 @@ typedef struct wt_master_tables {
 } wt_master_tables;
 WT_API void wt_master_tables_clear(wt_master_tables *tables);
 
-/* Reads the sweeps, shifts them, fits WLF and Prony. `rubber` gets all that friction needs.
- * One isotherm is allowed: no shift, no WLF. Either output may be NULL. */
+/* Reads the sweeps and fits them. `rubber` gets all that friction needs. One isotherm is allowed:
+ * no shift, no law. Either output may be NULL. */
 WT_API wt_status wt_master_make(const wt_master_job *job, const wt_job *work,
                                 wt_master_tables *tables, wt_rubber *rubber,
                                 wt_error *err) WT_NODISCARD;
@@ -269,9 +264,10 @@ typedef struct wt_friction_tables {
 WT_API void wt_friction_tables_clear(wt_friction_tables *tables);
 
 /* Hysteresis friction, contact area and total friction at every velocity. Standard errors come from
- * replicates: the Prony series refitted to resampled isotherms, and pressure, temperature, shear
- * stress and C0 drawn from their stated errors; the key `standard_error_includes` says which. With
- * a layer (NULL = none): the same with a bonded layer and tau_s = tau_bulk x modulus ratio. */
+ * replicates: spectrum, shifts and law drawn together from what the isotherms say, and pressure,
+ * temperature, shear stress and C0 drawn from their stated errors; the key
+ * `standard_error_includes` says which. With a layer (NULL = none): the same with a bonded layer
+ * and tau_s = tau_bulk x modulus ratio. */
 WT_API wt_status wt_friction_make(const wt_sliding *sliding, const wt_layer_known *layer,
                                   const wt_job *work, wt_friction_tables *tables,
                                   wt_error *err) WT_NODISCARD;

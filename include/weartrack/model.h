@@ -72,6 +72,23 @@ WT_API double wt_wlf_log_shift(const wt_wlf *wlf, double temperature);
 WT_API double wt_arrhenius_log_shift(double activation_energy, double reference_temperature,
                                      double temperature);
 
+typedef enum wt_law_kind {
+    WT_LAW_NONE,
+    WT_LAW_WLF,
+    WT_LAW_ARRHENIUS,
+    WT_LAW_JOINED /* WLF, and Arrhenius below a temperature (the glass) */
+} wt_law_kind;
+
+typedef struct wt_shift_law {
+    wt_law_kind kind;
+    wt_wlf wlf;               /* its reference temperature is that of the law, of every kind */
+    double activation_energy; /* [J/mol] */
+    double joint;             /* Arrhenius below it [K] */
+    uint64_t reserved[4];
+} wt_shift_law;
+/* log10 aT, 0 at the reference temperature. NaN where the law has no value. */
+WT_API double wt_shift_law_log_a(const wt_shift_law *law, double temperature);
+
 /* ---- materials ------------------------------------------------------------------------------- */
 
 /* A viscoelastic material: E(w) = E' + i E'' of the isotropic solid, E(-w) = conj E(w). The kernel

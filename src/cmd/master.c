@@ -6,9 +6,9 @@ int cmd_master(int argc, char **argv)
 {
     static const cmd_usage usage = {
         "master", "[OPTION]... FILE...",
-        "Shifts the isotherms of DMA frequency sweeps onto one reference temperature, storage and\n"
-        "loss modulus together; fits WLF (with Arrhenius beside it) and a Prony series. Folders "
-        "and\n"
+        "Fits one relaxation spectrum to all isotherms of DMA frequency sweeps, with their shifts, "
+        "the\n"
+        "law of these and the errors of everything; says whether superposition holds. Folders and\n"
         "patterns are allowed.",
         "output formats files-from provenance",
         "The tables prony, shift_factors and master_curve follow one another; weartrack friction "
@@ -17,10 +17,10 @@ int cmd_master(int argc, char **argv)
     cmd_common common = cmd_common_defaults();
     wt_master_job job = wt_master_job_defaults();
     wt_file_set set = {.read = wt_read_defaults()};
-    cmd_part parts[] = {
-        {wt_master_job_params(), &job,
-         "reference-temperature vertical-shift expansion terms-per-decade smoothing liquid", 0},
-        {wt_read_params(), &set.read, "temperature units format", 0}};
+    cmd_part parts[] = {{wt_master_job_params(), &job,
+                         "reference-temperature vertical-shift expansion terms-per-decade liquid",
+                         0},
+                        {wt_read_params(), &set.read, "temperature units format", 0}};
     enum { N_PARTS = sizeof parts / sizeof parts[0] };
     int first = 0, status = CMD_OK;
     wt_error err = WT_ERROR_INIT;

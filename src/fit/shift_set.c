@@ -107,7 +107,7 @@ wt_status shift_set_new(const wt_sweep *sweep, wt_parselog *log, pool *memory, s
         n_points += sweep->isotherms[i].n;
         n_longest = sweep->isotherms[i].n > n_longest ? sweep->isotherms[i].n : n_longest;
     }
-    if (n < 2 || n_points == 0) {
+    if (n < 1 || n_points == 0) {
         status = wt_fail(err, WT_E_MISSING, "a master curve needs at least two isotherms");
         wt_error_found(err, "%zu", n);
         wt_error_advice(err, "give all temperatures of the sweep together");

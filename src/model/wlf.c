@@ -25,3 +25,22 @@ double wt_arrhenius_log_shift(double activation_energy, double reference_tempera
     return activation_energy / (gas_constant * M_LN10) *
            ((reference_temperature - temperature) / (temperature * reference_temperature));
 }
+
+double wt_shift_law_log_a(const wt_shift_law *law, double temperature)
+{
+    const double reference = law->wlf.reference_temperature;
+    switch (law->kind) {
+    case WT_LAW_WLF:
+        return wt_wlf_log_shift(&law->wlf, temperature);
+    case WT_LAW_ARRHENIUS:
+        return wt_arrhenius_log_shift(law->activation_energy, reference, temperature);
+    case WT_LAW_JOINED:
+        return wt_wlf_log_shift(&law->wlf, fmax(temperature, law->joint)) -
+               wt_wlf_log_shift(&law->wlf, fmax(reference, law->joint)) +
+               wt_arrhenius_log_shift(law->activation_energy, fmin(reference, law->joint),
+                                      fmin(temperature, law->joint));
+    case WT_LAW_NONE:
+        break;
+    }
+    return (double)NAN;
+}

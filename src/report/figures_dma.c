@@ -81,37 +81,44 @@ static void caption_master_curve(figure_drawing *d)
                 wt_table_block(d->table->table, n - 1) + 1);
     span_add_column(&fit, d->table, MASTER_CURVE_FITTED_STORAGE, true);
     if (!span_empty(&fit) && terms > 0)
-        text_format(&d->caption, " Lines: Prony series with %zu terms fitted to both moduli.",
+        text_format(&d->caption, " Lines: one relaxation spectrum of %zu terms behind both moduli.",
                     terms);
 }
 
 /* ---- shift factors --------------------------------------------------------------------------- */
 
-typedef struct wlf_law {
-    wt_estimate c1, c2;
-    double reference; /* [K] */
-} wlf_law;
-
-static bool find_law(const table_view *shift_factors, wlf_law *law)
+/* The law as it was fitted, with the offset of the reference isotherm, over the measured range
+ * only; the pole is never in it. */
+static bool define_law(figure_drawing *d)
 {
-    law->c1 = shift_factors_value(shift_factors, SHIFT_FACTORS_KEY_WLF_C1);
-    law->c2 = shift_factors_value(shift_factors, SHIFT_FACTORS_KEY_WLF_C2);
-    law->reference =
-        shift_factors_value(shift_factors, SHIFT_FACTORS_KEY_REFERENCE_TEMPERATURE).value;
-    return isfinite(law->c1.value) && isfinite(law->c2.value) && isfinite(law->reference);
-}
-
-/* The law is drawn over the measured range only, and the pole is never in it. */
-static void define_law(figure_drawing *d, const wlf_law *law)
-{
-    text_format(&d->script,
-                "c1 = %s; c2 = %s; t_ref = %s  # K and degrees Celsius\n"
-                "t_low = %s; t_high = %s\n"
-                "wlf(t) = t < t_low || t > t_high || c2 + t - t_ref <= 0 ? NaN : "
-                "-c1*(t - t_ref)/(c2 + t - t_ref)\nset samples 400\n",
-                LITERAL(law->c1.value), LITERAL(law->c2.value),
-                LITERAL(law->reference - WT_ZERO_CELSIUS), LITERAL(d->x.low - WT_ZERO_CELSIUS),
-                LITERAL(d->x.high - WT_ZERO_CELSIUS));
+    const table_view *shifts = d->table;
+    const double c1 = shift_factors_value(shifts, SHIFT_FACTORS_KEY_WLF_C1).value,
+                 c2 = shift_factors_value(shifts, SHIFT_FACTORS_KEY_WLF_C2).value,
+                 energy = shift_factors_value(shifts, SHIFT_FACTORS_KEY_ACTIVATION_ENERGY).value,
+                 joint = shift_factors_value(shifts, SHIFT_FACTORS_KEY_JOINT).value,
+                 offset = shift_factors_value(shifts, SHIFT_FACTORS_KEY_OFFSET).value,
+                 reference =
+                     shift_factors_value(shifts, SHIFT_FACTORS_KEY_REFERENCE_TEMPERATURE).value;
+    const bool has_wlf = isfinite(c1) && isfinite(c2), has_energy = isfinite(energy);
+    if ((!has_wlf && !has_energy) || !isfinite(reference) || !isfinite(offset))
+        return false;
+    /* K and degrees Celsius; WLF above the joint, Arrhenius below it */
+    const double at = isfinite(joint) ? joint - WT_ZERO_CELSIUS : has_wlf ? -300 : 1e6;
+    text_format(&d->script, "c1 = %s; c2 = %s; t_ref = %s; offset = %s\n",
+                LITERAL(has_wlf ? c1 : 0), LITERAL(has_wlf ? c2 : 1),
+                LITERAL(reference - WT_ZERO_CELSIUS), LITERAL(offset));
+    text_format(&d->script, "slope = %s; joint = %s; t_low = %s; t_high = %s\n",
+                LITERAL(has_energy ? energy / (8.31446261815324 * M_LN10) : 0), LITERAL(at),
+                LITERAL(d->x.low - WT_ZERO_CELSIUS), LITERAL(d->x.high - WT_ZERO_CELSIUS));
+    text_add(&d->script,
+             "upper(t) = t > joint ? t : joint\nlower(t) = t < joint ? t : joint\n"
+             "wlf(t) = -c1*(t - t_ref)/(c2 + t - t_ref)\n"
+             "arrhenius(t) = slope/(t + 273.15)\n"
+             "warm(t) = c1 == 0 ? 0 : wlf(upper(t)) - wlf(upper(t_ref))\n"
+             "cold(t) = slope == 0 ? 0 : arrhenius(lower(t)) - arrhenius(lower(t_ref))\n"
+             "law(t) = t < t_low || t > t_high ? NaN : offset + warm(t) + cold(t)\n"
+             "set samples 400\n");
+    return true;
 }
 
 static size_t count_undetermined(const table_view *shift_factors)
@@ -124,16 +131,15 @@ static size_t count_undetermined(const table_view *shift_factors)
 
 static void draw_shift_factors(figure_drawing *d)
 {
-    wlf_law law;
-    bool has_law = find_law(d->table, &law);
     if (!drawing_data(d))
         return;
     drawing_axes(d);
     text_add(&d->script, "set ylabel 'Shift factor, log_{10} a_T' enhanced\n");
-    if (has_law)
-        define_law(d, &law);
-    if (has_law)
-        plot_other(d, "wlf(x) with lines ls 11 title 'WLF law'");
+    if (define_law(d)) {
+        plot_item(d, d->data[0],
+                  "($1+x_offset):($6+offset):($7+offset) with filledcurves ls 61 notitle");
+        plot_other(d, "law(x) with lines ls 11 title 'fitted law'");
+    }
     plot_item(d, d->data[0],
               "($1+x_offset):($4 == 0 ? NaN : $2):3 with yerrorbars ls 1 title 'from overlap'");
     if (count_undetermined(d->table) > 0)
@@ -146,13 +152,19 @@ static void draw_shift_factors(figure_drawing *d)
 static void caption_shift_factors(figure_drawing *d)
 {
     size_t undetermined = count_undetermined(d->table);
-    wlf_law law;
-    if (find_law(d->table, &law))
+    const wt_estimate c1 = shift_factors_value(d->table, SHIFT_FACTORS_KEY_WLF_C1),
+                      c2 = shift_factors_value(d->table, SHIFT_FACTORS_KEY_WLF_C2),
+                      energy = shift_factors_value(d->table, SHIFT_FACTORS_KEY_ACTIVATION_ENERGY);
+    const char *verdict = shift_factors_words(d->table, SHIFT_FACTORS_KEY_SUPERPOSITION);
+    if (isfinite(c1.value))
         text_format(&d->caption,
-                    " Line: WLF law with C₁ = %s and C₂ = %s at %s; the two constants are "
-                    "correlated, see the table.",
-                    ESTIMATE(&law.c1), ESTIMATE(&law.c2),
-                    VALUE(WT_Q_TEMPERATURE, NULL, law.reference));
+                    " Line: WLF law with C₁ = %s and C₂ = %s, with the offset of the reference "
+                    "isotherm that was fitted; band: its 95 %% interval.",
+                    ESTIMATE(&c1), ESTIMATE(&c2));
+    if (isfinite(energy.value))
+        text_format(&d->caption, " Arrhenius%s with %s J/mol.",
+                    isfinite(c1.value) ? " in the cold" : "", ESTIMATE(&energy));
+    text_format(&d->caption, " Time-temperature superposition %s.", verdict);
     if (undetermined > 0)
         text_format(&d->caption, " Not determined by overlap: %zu of %zu isotherms.", undetermined,
                     d->table->n_rows);
@@ -186,7 +198,7 @@ const figure_description figures_dma[] = {
      .colour = {MASTER_CURVE_TEMPERATURE, AXIS_LINEAR, "Temperature"},
      .curves = {CURVE(MASTER_CURVE_STORAGE_MODULUS, OWN), CURVE(MASTER_CURVE_LOSS_MODULUS, OWN),
                 CURVE(MASTER_CURVE_TEMPERATURE, DATA),
-                CURVE(MASTER_CURVE_FITTED_STORAGE, FIT, .style = 11, .title = "Prony series"),
+                CURVE(MASTER_CURVE_FITTED_STORAGE, FIT, .style = 11, .title = "one spectrum"),
                 CURVE(MASTER_CURVE_FITTED_LOSS, FIT, .style = 11)},
      .nothing = "no point of the master curve has numbers above zero",
      .words = "Storage and loss modulus shifted to the reference temperature",
@@ -199,7 +211,9 @@ const figure_description figures_dma[] = {
      .x = {SHIFT_FACTORS_TEMPERATURE, AXIS_LINEAR, "Temperature"},
      .y = {{SHIFT_FACTORS_LOG_A, AXIS_NUMBER, "Shift factor, log₁₀ a_T"}},
      .curves = {CURVE(SHIFT_FACTORS_LOG_A, OWN, .with_errors = true),
-                CURVE(SHIFT_FACTORS_DETERMINED, DATA), CURVE(SHIFT_FACTORS_WLF_LOG_A, OWN)},
+                CURVE(SHIFT_FACTORS_DETERMINED, DATA), CURVE(SHIFT_FACTORS_LAW_LOG_A, OWN),
+                CURVE(SHIFT_FACTORS_LAW_LOG_A_LOW, DATA),
+                CURVE(SHIFT_FACTORS_LAW_LOG_A_HIGH, DATA)},
      .nothing = "no shift factor is known",
      .words = "Horizontal shift factors with one standard error (bars; smaller than the symbol "
               "where not seen).",

@@ -119,6 +119,19 @@ static void largest_row(page_writer *page)
     text_done(&remark, &page->out);
 }
 
+/* The constants of the material, and whether they mean anything. */
+static void law_rows(page_writer *page)
+{
+    const table_view *table = &page->tables->shift_factors;
+    if (table->table == NULL)
+        return;
+    growing_text remark = {0};
+    text_format(&remark, "correlated with C₂, see the table of constants; superposition %s",
+                shift_factors_words(table, SHIFT_FACTORS_KEY_SUPERPOSITION));
+    headline_rows(page, table, SHIFT_FACTORS_KEY_WLF_C1, text_string(&remark));
+    text_done(&remark, &page->out);
+}
+
 void page_numbers(page_writer *page)
 {
     const bound_tables *t = page->tables;
@@ -132,8 +145,7 @@ void page_numbers(page_writer *page)
                          true);
     ratio_row(page);
     group_rows(page);
-    headline_rows(page, &t->shift_factors, SHIFT_FACTORS_KEY_WLF_C1,
-                  "correlated with C₂, see the table of constants");
+    law_rows(page);
     reference_rows(page);
     largest_row(page);
     headline_rows(page, &t->layer, LAYER_KEY_BALANCE_THICKNESS,

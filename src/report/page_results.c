@@ -19,7 +19,7 @@ static const unsigned group_columns[] = {
 static const unsigned shift_columns[] = {SHIFT_FACTORS_TEMPERATURE,
                                          SHIFT_FACTORS_LOG_A,
                                          SHIFT_FACTORS_LOG_A_STANDARD_ERROR,
-                                         SHIFT_FACTORS_WLF_LOG_A,
+                                         SHIFT_FACTORS_LAW_LOG_A,
                                          SHIFT_FACTORS_LOG_B,
                                          SHIFT_FACTORS_LOG_B_STANDARD_ERROR,
                                          SHIFT_FACTORS_LOG_B_PHYSICAL,
@@ -97,7 +97,7 @@ void page_results(page_writer *page)
                      "Indentation against DMA at the equivalent frequency", NULL, 0);
     page_whole_table(page, &t->shift_factors, "Shift factors", shift_columns,
                      COUNT_OF(shift_columns));
-    page_keys(page, &t->shift_factors, "Shifting and WLF constants");
+    page_keys(page, &t->shift_factors, "Shifting, law and superposition");
     page_whole_table(page, &t->prony, "Prony series at the reference temperature", NULL, 0);
     page_keys(page, &t->prony, "Prony series: constants");
     page_keys(page, &t->roughness, "Counter surface");

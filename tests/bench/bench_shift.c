@@ -47,14 +47,14 @@ static void shift_weartrack(void *data)
 {
     shift_case *c = data;
     wt_error err = WT_ERROR_INIT;
-    wt_shift_options options = wt_shift_defaults();
-    wt_master_curve master = {0};
+    wt_master_options options = wt_master_options_defaults();
+    wt_master master = {0};
     options.reference_temperature = 293.15;
     options.vertical = WT_VERTICAL_NONE;
-    bench_check(wt_shift_fit(&c->sweep, &options, NULL, &master, &err), &err);
+    bench_check(wt_master_fit(&c->sweep, &options, NULL, &master, &err), &err);
     for (size_t i = 0; i < master.n_shifts && i < ISOTHERMS; i++)
         c->ours[i] = master.shifts[i].log_a.value;
-    wt_master_curve_clear(&master);
+    wt_master_clear(&master);
 }
 
 /* log10 E' of an isotherm at log10 omega x by linear interpolation; false outside. */

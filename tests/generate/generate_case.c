@@ -49,8 +49,7 @@ wt_rubber truth_rubber(double relaxation_time[TRUTH_TERMS], double modulus[TRUTH
                   .frequency_min = (double)NAN,
                   .frequency_max = (double)NAN},
         .poisson_ratio = 0.5,
-        .has_wlf = true,
-        .wlf = {TRUTH_REFERENCE, TRUTH_C1, TRUTH_C2},
+        .law = {.kind = WT_LAW_WLF, .wlf = {TRUTH_REFERENCE, TRUTH_C1, TRUTH_C2}},
         .temperature_min = (double)NAN,
         .temperature_max = (double)NAN,
     };

@@ -13,7 +13,7 @@
 static void modulus(const wt_rubber *rubber, double omega, double temperature, double *storage,
                     double *loss)
 {
-    double z = omega * pow(10, wt_wlf_log_shift(&rubber->wlf, temperature));
+    double z = omega * pow(10, wt_wlf_log_shift(&rubber->law.wlf, temperature));
     double b = truth_vertical(temperature);
     *storage = rubber->prony.equilibrium_modulus;
     *loss = 0;

@@ -22,7 +22,6 @@ static const struct {
 } moved[] = {
     {"reference-temperature", "35degC", NULL, NULL},
     {"expansion", "7e-4", "vertical-shift physical", NULL},
-    {"smoothing", "0.5", NULL, NULL},
     {"fit-depth", "30nm", NULL, NULL},
     {"fit-force-fraction", "0.5", NULL, NULL},
     {"minimum-r-squared", "0.99999", NULL, NULL},

@@ -52,7 +52,7 @@ static const struct {
     {"convert", "absent", {wt_convert_job_params}},
     {"indent", "absent", {wt_indent_job_params}},
     {"compare", "--master absent absent absent", {wt_compare_job_params}},
-    {"master", "absent", {wt_shift_params, wt_prony_params}},
+    {"master", "absent", {wt_master_options_params}},
     {"friction",
      "--material absent --roughness absent",
      {wt_sliding_params, wt_layer_known_params, wt_job_params, wt_master_job_params}},
@@ -170,15 +170,8 @@ static wt_status call_indent_options(const void *structure, wt_error *err)
 static wt_status call_shift(const void *structure, wt_error *err)
 {
     const wt_sweep sweep = {.n_isotherms = 0};
-    wt_master_curve master = {.n = 0};
-    return wt_shift_fit(&sweep, structure, NULL, &master, err);
-}
-
-static wt_status call_prony(const void *structure, wt_error *err)
-{
-    const wt_master_curve master = {.n = 0};
-    wt_prony_fit fit;
-    return wt_prony_fit_master(&master, structure, &fit, err);
+    wt_master master = {.n = 0};
+    return wt_master_fit(&sweep, structure, NULL, &master, err);
 }
 
 static wt_status call_friction_options(const void *structure, wt_error *err)
@@ -303,8 +296,7 @@ static const struct {
 } calls[] = {
     {wt_read_params, call_read},
     {wt_indent_params, call_indent_options},
-    {wt_shift_params, call_shift},
-    {wt_prony_params, call_prony},
+    {wt_master_options_params, call_shift},
     {wt_friction_params, call_friction_options},
     {wt_layer_params, call_layer_parameters},
     {wt_job_params, call_job},

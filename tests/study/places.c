@@ -6,12 +6,13 @@
 
 static const char shifts[] = "shift_factors", curve[] = "master_curve", friction[] = "friction";
 
-const place place_shift = {shifts, "log_a", "log_a_standard_error", NULL, NULL};
-const place place_law = {shifts, "wlf_log_a", "wlf_log_a_standard_error", NULL, NULL};
+const place place_shift = {shifts, "log_a", NULL, "log_a_low", "log_a_high"};
+const place place_law = {shifts, "law_log_a", NULL, "law_log_a_low", "law_log_a_high"};
 const place place_c1 = {shifts, "wlf_c1", "standard_error", NULL, NULL};
 const place place_c2 = {shifts, "wlf_c2", "standard_error", NULL, NULL};
-const place place_storage = {curve, "fitted_storage", "fitted_storage_standard_error", NULL, NULL};
-const place place_loss = {curve, "fitted_loss", "fitted_loss_standard_error", NULL, NULL};
+const place place_storage = {curve, "fitted_storage", NULL, "fitted_storage_low",
+                             "fitted_storage_high"};
+const place place_loss = {curve, "fitted_loss", NULL, "fitted_loss_low", "fitted_loss_high"};
 const place place_equilibrium = {PLACE_PRONY, "equilibrium_modulus", "standard_error", NULL, NULL};
 const place place_hysteresis = {friction, "hysteresis", "hysteresis_standard_error", NULL, NULL};
 const place place_area = {friction, "area_ratio", "area_ratio_standard_error", NULL, NULL};

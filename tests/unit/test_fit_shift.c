@@ -6,12 +6,11 @@
 
 #include "dma_data.h"
 
-static wt_master_curve fit_good(const wt_sweep *sweep, const wt_shift_options *options,
-                                wt_parselog *log)
+static wt_master fit_good(const wt_sweep *sweep, const wt_master_options *options, wt_parselog *log)
 {
-    wt_master_curve master = {0};
+    wt_master master = {0};
     wt_error err = WT_ERROR_INIT;
-    if (wt_shift_fit(sweep, options, log, &master, &err) != WT_OK) {
+    if (wt_master_fit(sweep, options, log, &master, &err) != WT_OK) {
         char text[1024];
         wt_error_format(&err, text, sizeof text);
         fail_msg("%s", text);
@@ -19,9 +18,9 @@ static wt_master_curve fit_good(const wt_sweep *sweep, const wt_shift_options *o
     return master;
 }
 
-static wt_shift_options at_reference(double kelvin, wt_vertical_shift vertical)
+static wt_master_options at_reference(double kelvin, wt_vertical_shift vertical)
 {
-    wt_shift_options options = wt_shift_defaults();
+    wt_master_options options = wt_master_options_defaults();
     options.reference_temperature = kelvin;
     options.vertical = vertical;
     return options;
@@ -40,13 +39,13 @@ static void known_truth_for_every_vertical_option(void **state)
     for (size_t v = 0; v < 3; v++) {
         wt_sweep sweep = {0};
         dma_usual(&sweep, options[v] != WT_VERTICAL_NONE, 0.01, 17);
-        const wt_shift_options at = at_reference(293.15, options[v]);
-        wt_master_curve master = fit_good(&sweep, &at, NULL);
+        const wt_master_options at = at_reference(293.15, options[v]);
+        wt_master master = fit_good(&sweep, &at, NULL);
         assert_int_equal(master.n_shifts, 11);
         assert_int_equal(master.n, 11 * 16);
-        assert_false(master.superposition_failed);
+        assert_int_equal(master.superposition, WT_SUPERPOSITION_HOLDS);
         for (size_t i = 0; i < master.n_shifts; i++) {
-            const wt_shift *shift = &master.shifts[i];
+            const wt_master_shift *shift = &master.shifts[i];
             assert_true(shift->determined);
             assert_near_abs(shift->log_a.value, truth_at(shift->temperature),
                             4.0 * shift->log_a.standard_error + 1e-12);
@@ -65,11 +64,10 @@ static void known_truth_for_every_vertical_option(void **state)
         assert_near(master.shifts[4].log_a.standard_error, 0.0, 0.0);
         for (size_t k = 1; k < master.n; k++)
             assert_true(master.log_frequency[k] >= master.log_frequency[k - 1]);
-        /* 1 % is 0.0043 decade */
-        assert_near(master.rms_storage, 0.0043, 0.15);
-        assert_near(master.rms_loss, 0.0043, 0.15);
-        assert_true(master.kramers_kronig < 0.05);
-        wt_master_curve_clear(&master);
+        assert_near(master.noise_storage, 0.01, 0.15);
+        assert_near(master.noise_loss, 0.01, 0.15);
+        assert_near_abs(master.loss_factor, 0.0, 4.0 * master.loss_factor_error);
+        wt_master_clear(&master);
         wt_sweep_clear(&sweep);
     }
 }
@@ -83,10 +81,10 @@ static void standard_errors_match_the_scatter(void **state)
     for (uint64_t seed = 1; seed <= 40; seed++) {
         wt_sweep sweep = {0};
         dma_usual(&sweep, true, 0.01, 1000 * seed);
-        const wt_shift_options at = at_reference(293.15, WT_VERTICAL_FREE);
-        wt_master_curve master = fit_good(&sweep, &at, NULL);
+        const wt_master_options at = at_reference(293.15, WT_VERTICAL_FREE);
+        wt_master master = fit_good(&sweep, &at, NULL);
         for (size_t i = 0; i < master.n_shifts; i++) {
-            const wt_shift *shift = &master.shifts[i];
+            const wt_master_shift *shift = &master.shifts[i];
             if (!(shift->log_a.standard_error > 0.0))
                 continue;
             const double za =
@@ -97,32 +95,12 @@ static void standard_errors_match_the_scatter(void **state)
             square_b += zb * zb;
             n++;
         }
-        wt_master_curve_clear(&master);
+        wt_master_clear(&master);
         wt_sweep_clear(&sweep);
     }
     assert_int_equal(n, 400);
     assert_near(sqrt(square_a / (double)n), 1.0, 0.3);
     assert_near(sqrt(square_b / (double)n), 1.0, 0.3);
-}
-
-static void covariance_is_that_of_the_shifts(void **state)
-{
-    (void)state;
-    wt_sweep sweep = {0};
-    dma_usual(&sweep, true, 0.01, 5);
-    const wt_shift_options at = at_reference(293.15, WT_VERTICAL_FREE);
-    wt_master_curve master = fit_good(&sweep, &at, NULL);
-    const size_t n = master.n_shifts;
-    for (size_t i = 0; i < n; i++) {
-        assert_near(sqrt(master.covariance[i * n + i]), master.shifts[i].log_a.standard_error,
-                    1e-12);
-        for (size_t k = 0; k < n; k++)
-            assert_near(master.covariance[i * n + k], master.covariance[k * n + i], 1e-9);
-    }
-    /* Shifts on one side of the reference share its steps, so they go together. */
-    assert_true(master.covariance[9 * n + 10] > 0.5 * master.covariance[10 * n + 10]);
-    wt_master_curve_clear(&master);
-    wt_sweep_clear(&sweep);
 }
 
 /* Descending frequencies and temperatures (the instrument cools down) change nothing. */
@@ -141,15 +119,15 @@ static void order_of_the_data_does_not_matter(void **state)
             to->loss_modulus[k] = from->loss_modulus[from->n - 1 - k];
         }
     }
-    const wt_shift_options at = at_reference(293.15, WT_VERTICAL_FREE);
-    wt_master_curve a = fit_good(&sweep, &at, NULL), b = fit_good(&reversed, &at, NULL);
+    const wt_master_options at = at_reference(293.15, WT_VERTICAL_FREE);
+    wt_master a = fit_good(&sweep, &at, NULL), b = fit_good(&reversed, &at, NULL);
     for (size_t i = 0; i < a.n_shifts; i++) {
         assert_near(b.shifts[i].temperature, a.shifts[i].temperature, 0.0);
         assert_near(b.shifts[i].log_a.value, a.shifts[i].log_a.value, 0.0);
         assert_near(b.shifts[i].log_b.value, a.shifts[i].log_b.value, 0.0);
     }
-    wt_master_curve_clear(&a);
-    wt_master_curve_clear(&b);
+    wt_master_clear(&a);
+    wt_master_clear(&b);
     wt_sweep_clear(&sweep);
     wt_sweep_clear(&reversed);
 }
@@ -160,19 +138,18 @@ static void an_isotherm_without_overlap_has_no_shift(void **state)
     wt_sweep sweep = {0};
     uint64_t noise = 3;
     for (int i = 0; i <= 3; i++)
-        (void)dma_add(&sweep, &dma_rubber, 283.15 + 10.0 * i, 1.0, 10.0, 12, true, 0.005, &noise);
-    (void)dma_add(&sweep, &dma_rubber, 243.15, 1.0, 10.0, 12, true, 0.005, &noise);
+        (void)dma_add(&sweep, &dma_rubber, 283.15 + 10.0 * i, 1.0, 30.0, 12, true, 0.005, &noise);
+    (void)dma_add(&sweep, &dma_rubber, 243.15, 1.0, 30.0, 12, true, 0.005, &noise);
     wt_sweep_sort(&sweep);
-    const wt_shift_options at = at_reference(293.15, WT_VERTICAL_FREE);
+    const wt_master_options at = at_reference(293.15, WT_VERTICAL_FREE);
     wt_parselog *log = wt_parselog_new();
-    wt_master_curve master = fit_good(&sweep, &at, log);
+    wt_master master = fit_good(&sweep, &at, log);
     assert_false(master.shifts[0].determined);
     assert_near(master.shifts[0].log_a.value, (double)NAN, 0.0);
     assert_near(master.shifts[0].log_a.standard_error, (double)NAN, 0.0);
     assert_near(master.shifts[0].log_b.value, (double)NAN, 0.0);
     assert_non_null(strstr(master.shifts[0].note, "no overlap"));
-    assert_near(master.shifts[0].overlap_storage, 0.0, 0.0);
-    assert_non_null(strstr(master.note, "1 of 5 shifts not determined"));
+    assert_near(master.shifts[0].overlap, 0.0, 0.0);
     assert_true(wt_parselog_count(log) > 0);
     for (size_t i = 1; i < 5; i++)
         assert_true(master.shifts[i].determined);
@@ -180,7 +157,7 @@ static void an_isotherm_without_overlap_has_no_shift(void **state)
     for (size_t k = 0; k < master.n; k++)
         assert_int_not_equal(master.isotherm[k], 0);
     wt_parselog_free(log);
-    wt_master_curve_clear(&master);
+    wt_master_clear(&master);
     wt_sweep_clear(&sweep);
 }
 
@@ -191,16 +168,16 @@ static void no_overlap_at_all_is_an_error(void **state)
     uint64_t noise = 3;
     (void)dma_add(&sweep, &dma_rubber, 253.15, 1.0, 10.0, 12, true, 0.005, &noise);
     (void)dma_add(&sweep, &dma_rubber, 293.15, 1.0, 10.0, 12, true, 0.005, &noise);
-    const wt_shift_options at = at_reference(293.15, WT_VERTICAL_FREE);
-    wt_master_curve master = {0};
+    const wt_master_options at = at_reference(293.15, WT_VERTICAL_FREE);
+    wt_master master = {0};
     wt_error err = WT_ERROR_INIT;
-    assert_int_equal(wt_shift_fit(&sweep, &at, NULL, &master, &err), WT_E_NO_OVERLAP);
+    assert_int_equal(wt_master_fit(&sweep, &at, NULL, &master, &err), WT_E_NO_OVERLAP);
     assert_non_null(strstr(err.message, "20.00 °C"));
     assert_null(master.shifts);
     wt_sweep_clear(&sweep);
 }
 
-/* A network far above its transition: no slope, nothing to shift by. */
+/* A network far above its transition: a shift is no more than the scatter of clamping. */
 static void a_plateau_without_slope_decides_nothing(void **state)
 {
     (void)state;
@@ -210,51 +187,18 @@ static void a_plateau_without_slope_decides_nothing(void **state)
         wt_isotherm *isotherm = wt_sweep_add(&sweep, 15, false);
         isotherm->temperature = 330.0 + 10.0 * i;
         for (size_t k = 0; k < isotherm->n; k++) {
-            isotherm->angular_frequency[k] = pow(10.0, 0.2 * (double)k - 1.0);
-            isotherm->storage_modulus[k] = 1e6 * exp(0.003 * dma_normal(&noise));
-            isotherm->loss_modulus[k] = 3e4 * exp(0.003 * dma_normal(&noise));
-        }
-    }
-    const wt_shift_options at = at_reference(330.0, WT_VERTICAL_NONE);
-    wt_master_curve master = {0};
-    wt_error err = WT_ERROR_INIT;
-    assert_int_equal(wt_shift_fit(&sweep, &at, NULL, &master, &err), WT_E_NO_OVERLAP);
-    assert_non_null(strstr(err.message, "flat"));
-
-    wt_sweep_clear(&sweep);
-}
-
-/* From the transition far into the plateau, with a loss of its own that does not relax: the warm
- * isotherms are named and left out, the cold ones keep their shifts. */
-static void isotherms_beyond_the_last_slope_are_left_out(void **state)
-{
-    (void)state;
-    wt_sweep sweep = {0};
-    uint64_t noise = 67;
-    for (int i = 0; i <= 20; i++) {
-        wt_isotherm *isotherm =
-            dma_add(&sweep, &dma_rubber, 293.15 + 20.0 * i, 0.1, 100.0, 16, false, 0.0, &noise);
-        for (size_t k = 0; k < isotherm->n; k++) {
+            const double w = pow(10.0, 0.2 * (double)k - 1.0), rise = pow(w, 0.003);
+            isotherm->angular_frequency[k] = w;
+            isotherm->storage_modulus[k] = 1e6 * rise * exp(0.003 * dma_normal(&noise));
             isotherm->loss_modulus[k] =
-                (isotherm->loss_modulus[k] + 3e5) * exp(0.005 * dma_normal(&noise));
-            isotherm->storage_modulus[k] *= exp(0.005 * dma_normal(&noise));
+                1e6 * tan(0.003 * M_PI / 2) * rise * exp(0.003 * dma_normal(&noise));
         }
     }
-    const wt_shift_options at = at_reference(293.15, WT_VERTICAL_NONE);
-    wt_master_curve master = fit_good(&sweep, &at, NULL);
-    for (size_t i = 0; i < master.n_shifts; i++) {
-        const wt_shift *shift = &master.shifts[i];
-        assert_true(shift->determined || i >= 10);
-        assert_true(!shift->determined || i <= 16);
-        if (shift->determined) {
-            assert_near_abs(shift->log_a.value, truth_at(shift->temperature),
-                            4.0 * shift->log_a.standard_error + 1e-12);
-        } else {
-            assert_near(shift->log_a.value, (double)NAN, 0.0);
-            assert_non_null(strstr(shift->note, "no slope decides"));
-        }
-    }
-    wt_master_curve_clear(&master);
+    const wt_master_options at = at_reference(330.0, WT_VERTICAL_TIED);
+    wt_master master = {0};
+    wt_error err = WT_ERROR_INIT;
+    assert_int_equal(wt_master_fit(&sweep, &at, NULL, &master, &err), WT_E_NO_OVERLAP);
+    assert_non_null(strstr(err.message, "flat"));
     wt_sweep_clear(&sweep);
 }
 
@@ -278,13 +222,13 @@ static void on_the_plateau_of_storage_the_loss_decides(void **state)
                                         exp(0.003 * dma_normal(&noise));
         }
     }
-    const wt_shift_options at = at_reference(330.0, WT_VERTICAL_FREE);
-    wt_master_curve master = fit_good(&sweep, &at, NULL);
+    const wt_master_options at = at_reference(330.0, WT_VERTICAL_FREE);
+    wt_master master = fit_good(&sweep, &at, NULL);
     for (size_t i = 0; i < 4; i++) {
         assert_true(master.shifts[i].determined);
         assert_near_abs(master.shifts[i].log_a.value, -step * (double)i, 0.05);
     }
-    wt_master_curve_clear(&master);
+    wt_master_clear(&master);
     wt_sweep_clear(&sweep);
 }
 
@@ -302,19 +246,14 @@ static void on_a_power_law_both_shifts_are_one(void **state)
             isotherm->angular_frequency[k] = pow(10.0, x);
             isotherm->storage_modulus[k] =
                 5e6 * pow(10.0, 0.05 * (x - 0.5 * i)) * exp(0.0005 * dma_normal(&noise));
-            isotherm->loss_modulus[k] =
-                4e5 * pow(10.0, 0.05 * (x - 0.5 * i)) * exp(0.0005 * dma_normal(&noise));
+            isotherm->loss_modulus[k] = 5e6 * tan(0.05 * M_PI / 2) *
+                                        pow(10.0, 0.05 * (x - 0.5 * i)) *
+                                        exp(0.0005 * dma_normal(&noise));
         }
     }
-    wt_shift_options at = at_reference(300.0, WT_VERTICAL_FREE);
-    wt_master_curve master = fit_good(&sweep, &at, NULL);
-    for (size_t i = 1; i < 4; i++) {
-        assert_false(master.shifts[i].determined);
-        assert_near(master.shifts[i].log_a.value, (double)NAN, 0.0);
-        assert_true(strstr(master.shifts[i].note, "not separable") != NULL ||
-                    strstr(master.shifts[i].note, "no slope") != NULL);
-    }
-    wt_master_curve_clear(&master);
+    wt_master_options at = at_reference(300.0, WT_VERTICAL_FREE);
+    wt_master master = {0};
+    assert_int_equal(wt_master_fit(&sweep, &at, NULL, &master, NULL), WT_E_NO_OVERLAP);
     /* With the vertical shift known there is nothing to confuse it with. */
     at.vertical = WT_VERTICAL_NONE;
     master = fit_good(&sweep, &at, NULL);
@@ -322,7 +261,7 @@ static void on_a_power_law_both_shifts_are_one(void **state)
         assert_true(master.shifts[i].determined);
         assert_near_abs(master.shifts[i].log_a.value, -0.5 * (double)i, 0.05);
     }
-    wt_master_curve_clear(&master);
+    wt_master_clear(&master);
     wt_sweep_clear(&sweep);
 }
 
@@ -334,23 +273,23 @@ static void points_without_positive_modulus_are_left_out_and_named(void **state)
     sweep.isotherms[0].loss_modulus[15] = -1.2e6; /* compliance of the machine */
     sweep.isotherms[0].loss_modulus[14] = 0.0;
     sweep.isotherms[3].storage_modulus[2] = (double)NAN;
-    const wt_shift_options at = at_reference(293.15, WT_VERTICAL_PHYSICAL);
+    const wt_master_options at = at_reference(293.15, WT_VERTICAL_PHYSICAL);
     wt_parselog *log = wt_parselog_new();
-    wt_master_curve master = fit_good(&sweep, &at, log);
+    wt_master master = fit_good(&sweep, &at, log);
     assert_int_equal(master.n, 11 * 16 - 3);
-    assert_int_equal(wt_parselog_count(log), 2);
+    assert_true(wt_parselog_count(log) >= 2);
     assert_non_null(strstr(wt_parselog_get(log, 0).text, "2 of 16 points left out"));
     assert_non_null(strstr(wt_parselog_get(log, 0).text, "loss 0 Pa"));
     assert_non_null(strstr(wt_parselog_get(log, 1).text, "storage nan Pa"));
     assert_non_null(strstr(master.shifts[0].note, "2 points"));
     for (size_t i = 0; i < master.n_shifts; i++)
         assert_near_abs(master.shifts[i].log_a.value, truth_at(master.shifts[i].temperature), 0.05);
-    wt_master_curve_clear(&master);
+    wt_master_clear(&master);
 
     for (size_t k = 0; k < 14; k++)
         sweep.isotherms[5].loss_modulus[k] = -1.0;
     wt_error err = WT_ERROR_INIT;
-    assert_int_equal(wt_shift_fit(&sweep, &at, log, &master, &err), WT_E_RANGE);
+    assert_int_equal(wt_master_fit(&sweep, &at, log, &master, &err), WT_E_RANGE);
     assert_non_null(strstr(err.message, "30.00 °C"));
     assert_non_null(strstr(err.place, "synthetic 303.15 K"));
     assert_null(master.shifts);
@@ -368,12 +307,12 @@ static void single_bad_points_have_little_weight(void **state)
         sweep.isotherms[i].loss_modulus[0] *= 1.25;
     sweep.isotherms[6].storage_modulus[9] *= 1.6;
     sweep.isotherms[6].loss_modulus[9] *= 3.0;
-    const wt_shift_options at = at_reference(293.15, WT_VERTICAL_PHYSICAL);
-    wt_master_curve master = fit_good(&sweep, &at, NULL);
+    const wt_master_options at = at_reference(293.15, WT_VERTICAL_PHYSICAL);
+    wt_master master = fit_good(&sweep, &at, NULL);
     for (size_t i = 0; i < master.n_shifts; i++)
         assert_near_abs(master.shifts[i].log_a.value, truth_at(master.shifts[i].temperature), 0.05);
     assert_non_null(strstr(master.shifts[6].note, "off the curve"));
-    wt_master_curve_clear(&master);
+    wt_master_clear(&master);
     wt_sweep_clear(&sweep);
 }
 
@@ -386,12 +325,12 @@ static void repeated_temperatures_get_one_shift(void **state)
     wt_isotherm *again = dma_add(&sweep, &dma_rubber, 303.15, 0.05, 80.0, 20, true, 0.01, &noise);
     snprintf(again->source, sizeof again->source, "second run");
     wt_sweep_sort(&sweep);
-    const wt_shift_options at = at_reference(293.15, WT_VERTICAL_PHYSICAL);
-    wt_master_curve master = fit_good(&sweep, &at, NULL);
+    const wt_master_options at = at_reference(293.15, WT_VERTICAL_PHYSICAL);
+    wt_master master = fit_good(&sweep, &at, NULL);
     assert_int_equal(master.n_shifts, 12);
     assert_near_abs(master.shifts[6].log_a.value, master.shifts[5].log_a.value, 0.01);
     assert_string_equal(master.shifts[6].note, "");
-    wt_master_curve_clear(&master);
+    wt_master_clear(&master);
 
     /* The second run was 5 K off: said, not averaged. */
     for (size_t i = 0; i < sweep.n_isotherms; i++)
@@ -400,7 +339,7 @@ static void repeated_temperatures_get_one_shift(void **state)
                 sweep.isotherms[i].angular_frequency[k] *= pow(10.0, 0.3);
     master = fit_good(&sweep, &at, NULL);
     assert_non_null(strstr(master.shifts[6].note, "from the other run at this temperature"));
-    wt_master_curve_clear(&master);
+    wt_master_clear(&master);
     wt_sweep_clear(&sweep);
 }
 
@@ -412,31 +351,30 @@ static void the_reference_temperature_need_not_be_measured(void **state)
     static const double asked[] = {297.3, 290.0, 256.4, 351.0, 251.0};
     for (size_t r = 0; r < sizeof asked / sizeof *asked; r++) {
         for (int v = WT_VERTICAL_PHYSICAL; v <= WT_VERTICAL_FREE; v++) {
-            const wt_shift_options at = at_reference(asked[r], (wt_vertical_shift)v);
-            wt_master_curve master = fit_good(&sweep, &at, NULL);
+            const wt_master_options at = at_reference(asked[r], (wt_vertical_shift)v);
+            wt_master master = fit_good(&sweep, &at, NULL);
             const wt_wlf law = dma_moved(dma_rubber.wlf, asked[r]);
             assert_near(master.reference_temperature, asked[r], 0.0);
             for (size_t i = 0; i < master.n_shifts; i++) {
-                const wt_shift *shift = &master.shifts[i];
+                const wt_master_shift *shift = &master.shifts[i];
                 assert_near_abs(shift->log_a.value, wt_wlf_log_shift(&law, shift->temperature),
                                 0.07);
                 assert_near_abs(shift->log_b.value, log10(asked[r] / shift->temperature), 0.025);
                 assert_true(shift->log_a.standard_error > 0.0);
             }
-            assert_int_equal(strstr(master.note, "extrapolated") != NULL, asked[r] < 253.0);
-            wt_master_curve_clear(&master);
+            wt_master_clear(&master);
         }
     }
-    wt_shift_options far = at_reference(180.0, WT_VERTICAL_PHYSICAL);
-    wt_master_curve master = {0};
+    wt_master_options far = at_reference(180.0, WT_VERTICAL_PHYSICAL);
+    wt_master master = {0};
     wt_error err = WT_ERROR_INIT;
-    assert_int_equal(wt_shift_fit(&sweep, &far, NULL, &master, &err), WT_E_RANGE);
+    assert_int_equal(wt_master_fit(&sweep, &far, NULL, &master, &err), WT_E_RANGE);
     assert_non_null(strstr(err.message, "-93.15 °C"));
     /* None asked for: the isotherm in the middle. */
-    far = wt_shift_defaults();
+    far = wt_master_options_defaults();
     master = fit_good(&sweep, &far, NULL);
     assert_near(master.reference_temperature, 303.15, 0.0);
-    wt_master_curve_clear(&master);
+    wt_master_clear(&master);
     wt_sweep_clear(&sweep);
 }
 
@@ -445,13 +383,13 @@ static void thermal_expansion_enters_the_physical_shift(void **state)
     (void)state;
     wt_sweep sweep = {0};
     dma_usual(&sweep, true, 0.01, 41);
-    wt_shift_options at = at_reference(293.15, WT_VERTICAL_PHYSICAL);
+    wt_master_options at = at_reference(293.15, WT_VERTICAL_PHYSICAL);
     at.expansion = 6e-4;
-    wt_master_curve master = fit_good(&sweep, &at, NULL);
+    wt_master master = fit_good(&sweep, &at, NULL);
     const double t = master.shifts[10].temperature;
     assert_near(master.shifts[10].log_b.value, log10(293.15 / t) + 6e-4 * (t - 293.15) / log(10.0),
                 1e-12);
-    wt_master_curve_clear(&master);
+    wt_master_clear(&master);
     wt_sweep_clear(&sweep);
 }
 
@@ -471,14 +409,13 @@ static void failing_superposition_is_said(void **state)
         memcpy(sweep.isotherms[i].loss_modulus, wrong->loss_modulus,
                16 * sizeof *wrong->loss_modulus);
     }
-    const wt_shift_options at = at_reference(293.15, WT_VERTICAL_PHYSICAL);
+    const wt_master_options at = at_reference(293.15, WT_VERTICAL_PHYSICAL);
     wt_parselog *log = wt_parselog_new();
-    wt_master_curve master = fit_good(&sweep, &at, log);
-    assert_true(master.superposition_failed);
-    assert_non_null(strstr(master.note, "superposition fails"));
+    wt_master master = fit_good(&sweep, &at, log);
+    assert_int_equal(master.superposition, WT_SUPERPOSITION_FAILS);
     assert_true(wt_parselog_count(log) > 0);
     wt_parselog_free(log);
-    wt_master_curve_clear(&master);
+    wt_master_clear(&master);
     wt_sweep_clear(&sweep);
     wt_sweep_clear(&other);
 }
@@ -493,19 +430,24 @@ static void mixed_strain_amplitudes_are_said(void **state)
         for (size_t k = 0; k < sweep.isotherms[i].n; k++)
             sweep.isotherms[i].strain[k] = i < 3 ? 7e-5 : 5e-2;
     }
-    const wt_shift_options at = at_reference(293.15, WT_VERTICAL_PHYSICAL);
-    wt_master_curve master = fit_good(&sweep, &at, NULL);
-    assert_non_null(strstr(master.note, "strain amplitudes from 7e-05 to 0.05"));
-    wt_master_curve_clear(&master);
+    const wt_master_options at = at_reference(293.15, WT_VERTICAL_PHYSICAL);
+    wt_parselog *log = wt_parselog_new();
+    wt_master master = fit_good(&sweep, &at, log);
+    bool said = false;
+    for (size_t i = 0; i < wt_parselog_count(log); i++)
+        said = said || strstr(wt_parselog_get(log, i).text, "amplitudes from 7e-05 to 0.05");
+    assert_true(said);
+    wt_parselog_free(log);
+    wt_master_clear(&master);
     wt_sweep_clear(&sweep);
 }
 
-static void expect_failure(const wt_sweep *sweep, const wt_shift_options *options,
+static void expect_failure(const wt_sweep *sweep, const wt_master_options *options,
                            wt_status expected)
 {
-    wt_master_curve master = {0};
+    wt_master master = {0};
     wt_error err = WT_ERROR_INIT;
-    assert_int_equal(wt_shift_fit(sweep, options, NULL, &master, &err), expected);
+    assert_int_equal(wt_master_fit(sweep, options, NULL, &master, &err), expected);
     assert_int_equal(err.status, expected);
     assert_true(err.message[0] != '\0');
     assert_null(master.shifts);
@@ -516,15 +458,17 @@ static void impossible_input_is_refused(void **state)
     (void)state;
     wt_sweep sweep = {0};
     uint64_t noise = 59;
-    wt_shift_options at = at_reference(293.15, WT_VERTICAL_FREE);
+    wt_master_options at = at_reference(293.15, WT_VERTICAL_FREE);
     expect_failure(&sweep, &at, WT_E_MISSING);
     (void)dma_add(&sweep, &dma_rubber, 293.15, 0.1, 100.0, 16, true, 0.01, &noise);
-    expect_failure(&sweep, &at, WT_E_MISSING); /* one isotherm is no master curve */
+    at.reference_temperature = 310.0; /* no law takes one isotherm there */
+    expect_failure(&sweep, &at, WT_E_RANGE);
+    at.reference_temperature = 293.15;
     (void)dma_add(&sweep, &dma_rubber, 303.15, 0.1, 100.0, 16, true, 0.01, &noise);
     at.reference_temperature = -30.0; /* degrees Celsius */
     expect_failure(&sweep, &at, WT_E_RANGE);
     at = at_reference(293.15, WT_VERTICAL_FREE);
-    at.floor = 0.0;
+    at.terms_per_decade = 0.0;
     expect_failure(&sweep, &at, WT_E_RANGE);
     at = at_reference(293.15, WT_VERTICAL_FREE);
     sweep.isotherms[1].temperature = -10.0;
@@ -532,7 +476,7 @@ static void impossible_input_is_refused(void **state)
     sweep.isotherms[1].temperature = (double)NAN;
     expect_failure(&sweep, &at, WT_E_RANGE);
     wt_sweep_clear(&sweep);
-    wt_master_curve_clear(NULL);
+    wt_master_clear(NULL);
 }
 
 static void isotherms_of_few_points_are_left_out(void **state)
@@ -544,8 +488,8 @@ static void isotherms_of_few_points_are_left_out(void **state)
     (void)dma_add(&sweep, &dma_rubber, 298.15, 0.1, 100.0, 3, true, 0.01, &noise);
     (void)dma_add(&sweep, &dma_rubber, 308.15, 0.1, 100.0, 0, true, 0.01, &noise);
     wt_sweep_sort(&sweep);
-    const wt_shift_options at = at_reference(293.15, WT_VERTICAL_PHYSICAL);
-    wt_master_curve master = fit_good(&sweep, &at, NULL);
+    const wt_master_options at = at_reference(293.15, WT_VERTICAL_PHYSICAL);
+    wt_master master = fit_good(&sweep, &at, NULL);
     assert_int_equal(master.n_shifts, 13);
     for (size_t i = 0; i < master.n_shifts; i++) {
         const bool whole = fmod(master.shifts[i].temperature - 253.15 + 0.5, 10.0) < 1.0;
@@ -553,7 +497,7 @@ static void isotherms_of_few_points_are_left_out(void **state)
         if (!whole)
             assert_non_null(strstr(master.shifts[i].note, "points"));
     }
-    wt_master_curve_clear(&master);
+    wt_master_clear(&master);
     wt_sweep_clear(&sweep);
 }
 
@@ -562,12 +506,10 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(known_truth_for_every_vertical_option),
         cmocka_unit_test(standard_errors_match_the_scatter),
-        cmocka_unit_test(covariance_is_that_of_the_shifts),
         cmocka_unit_test(order_of_the_data_does_not_matter),
         cmocka_unit_test(an_isotherm_without_overlap_has_no_shift),
         cmocka_unit_test(no_overlap_at_all_is_an_error),
         cmocka_unit_test(a_plateau_without_slope_decides_nothing),
-        cmocka_unit_test(isotherms_beyond_the_last_slope_are_left_out),
         cmocka_unit_test(on_the_plateau_of_storage_the_loss_decides),
         cmocka_unit_test(on_a_power_law_both_shifts_are_one),
         cmocka_unit_test(points_without_positive_modulus_are_left_out_and_named),

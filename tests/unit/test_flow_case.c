@@ -39,7 +39,7 @@ static const char full[] = HEAD
     "</indentation>\n"
     "<dma>\n"
     "  <poisson-ratio>0.5</poisson-ratio><reference-temperature>20degC</reference-temperature>\n"
-    "  <vertical-shift>none</vertical-shift><terms-per-decade>2</terms-per-decade>\n"
+    "  <vertical-shift>none</vertical-shift><terms-per-decade>4</terms-per-decade>\n"
     "  <files>dma/*.txt</files>\n"
     "</dma>\n"
     "<roughness><self-affine><q0>1e3rad/m</q0><qr>5e3rad/m</qr><q1>1e7rad/m</q1>\n"
@@ -78,9 +78,9 @@ static void test_full(void **state)
     assert_int_equal(c->track.sets[0].read.n_units, 2);
     assert_string_equal(c->track.sets[0].read.units[1], "Height=um");
     assert_int_equal(c->dma.n, 1);
-    assert_int_equal(c->master.shift.vertical, WT_VERTICAL_NONE);
-    assert_near(c->master.prony.terms_per_decade, 2, 0);
-    assert_near(c->master.shift.reference_temperature, 293.15, 1e-14);
+    assert_int_equal(c->master.fit.vertical, WT_VERTICAL_NONE);
+    assert_near(c->master.fit.terms_per_decade, 4, 0);
+    assert_near(c->master.fit.reference_temperature, 293.15, 1e-14);
     assert_near(c->surface.c0.standard_error, 1e-18, 1e-13);
     assert_near(c->sliding.pressure.standard_error, 2e4, 1e-13);
     assert_int_equal(c->sliding.n_velocity, 6);

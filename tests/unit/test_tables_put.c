@@ -1,10 +1,11 @@
 /* Every column and key that is declared is put by some run, job or conversion, and none is put that
  * is not declared. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
+#include "truth.h"
 
 #include "base/array.h"
 #include "data/tables/tables.h"
 #include "flow/case/case.h"
+#include "weartrack/flow.h"
 #include "writers/nid_writer.h"
 
 #include <stdlib.h>
@@ -157,6 +158,55 @@ static void test_cases(void **state)
     run_case("<files>dma.txt", "<files>absent.txt</files><files>dma.txt");
 }
 
+/* A melt whose shifts go over to Arrhenius in the cold: no equilibrium modulus, two laws. */
+static void test_joined_law(void **state)
+{
+    (void)state;
+    static char path[] = "/tmp/weartrack-put-XXXXXX";
+    const wt_shift_law law = {.kind = WT_LAW_JOINED,
+                              .wlf = {293.15, 9, 110},
+                              .activation_energy = 1.2e5,
+                              .joint = 253.15};
+    const char *const patterns[] = {path};
+    const wt_file_set set = {.patterns = patterns, .n_patterns = 1, .read = wt_read_defaults()};
+    wt_master_job job = wt_master_job_defaults();
+    wt_job work = wt_job_defaults();
+    wt_master_tables tables = {0};
+    wt_error err = WT_ERROR_INIT;
+    uint64_t seed = 3;
+    FILE *out = truth_file(path);
+    fputs("## table: sweep\n# angular_frequency[rad/s]\tstorage_modulus[Pa]\tloss_modulus[Pa]\t"
+          "temperature[K]\n",
+          out);
+    for (double t = 213.15; t < 340; t += 10) {
+        const double log_a = wt_shift_law_log_a(&law, t);
+        for (double x = -1; x < 2.1; x += 0.2) {
+            double storage = 0, loss = 0;
+            for (double l = -9; l <= 0; l += 0.25) {
+                const double z = pow(10, x + log_a + l);
+                storage += 1e6 * pow(10, -0.3 * l) * z * z / (1 + z * z);
+                loss += 1e6 * pow(10, -0.3 * l) * z / (1 + z * z);
+            }
+            fprintf(out, "%.17g\t%.17g\t%.17g\t%.17g\n", pow(10, x),
+                    storage * exp(0.005 * truth_normal(&seed)),
+                    loss * exp(0.005 * truth_normal(&seed)), t);
+        }
+        fputs("\n", out);
+    }
+    fclose(out);
+    work.formats = formats;
+    job.sets = &set;
+    job.n_sets = 1;
+    job.fit.reference_temperature = 293.15;
+    if (wt_master_make(&job, &work, &tables, NULL, &err) != WT_OK)
+        fail_msg("%s %s", err.message, err.found);
+    assert_string_equal(wt_table_key(tables.shift_factors, "law"), "joined");
+    see(tables.shift_factors);
+    see(tables.prony);
+    wt_master_tables_clear(&tables);
+    unlink(path);
+}
+
 /* Groups whose cantilevers differ. */
 static void test_spring_constants(void **state)
 {
@@ -282,8 +332,11 @@ static int free_formats(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_cases),       cmocka_unit_test(test_spring_constants),
-        cmocka_unit_test(test_conversions), cmocka_unit_test(test_files),
+        cmocka_unit_test(test_cases),
+        cmocka_unit_test(test_joined_law),
+        cmocka_unit_test(test_spring_constants),
+        cmocka_unit_test(test_conversions),
+        cmocka_unit_test(test_files),
         cmocka_unit_test(test_all_put),
     };
     return cmocka_run_group_tests_name("tables put", tests, open_formats, free_formats);

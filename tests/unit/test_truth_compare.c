@@ -147,8 +147,7 @@ static wt_rubber rubber_of(double *tau, double *term)
                                  .frequency_min = 10,
                                  .frequency_max = 5000},
                        .poisson_ratio = 0.5,
-                       .has_wlf = true,
-                       .wlf = {293.15, 6.5, 110},
+                       .law = {.kind = WT_LAW_WLF, .wlf = {293.15, 6.5, 110}},
                        .temperature_min = 273.15,
                        .temperature_max = 333.15};
 }

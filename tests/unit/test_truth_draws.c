@@ -32,8 +32,7 @@ static void set_up(void)
                                    .frequency_min = 1e-2,
                                    .frequency_max = 1e8},
                          .poisson_ratio = 0.5,
-                         .has_wlf = true,
-                         .wlf = {293.15, 6.5, 110},
+                         .law = {.kind = WT_LAW_WLF, .wlf = {293.15, 6.5, 110}},
                          .temperature_min = 273.15,
                          .temperature_max = 333.15};
     surface = (wt_surface){.self_affine = true, .q0 = 2e3, .qr = 4e3, .q1 = 2e4, .hurst = 0.8};
@@ -122,7 +121,7 @@ static void test_friction_draws(void **state)
         {"shear stress", &sliding.shear_stress.value, &sliding.shear_stress.standard_error},
         {"temperature", &sliding.temperature.value, &sliding.temperature.standard_error},
         {"density", &surface.c0.value, &surface.c0.standard_error},
-        {"shift law", &rubber.wlf.c1, &rubber.c1_error},
+        {"shift law", &rubber.law.wlf.c1, &rubber.c1_error},
         {"thickness", &layer.thickness.value, &layer.thickness.standard_error},
         {"ratio", &layer.modulus_ratio.value, &layer.modulus_ratio.standard_error},
     };

@@ -6,51 +6,72 @@
 #define SHIFT_FACTORS_COLUMNS(X)                                                                   \
     X(SHIFT_FACTORS_TEMPERATURE, "temperature", "temperature of the isotherm", SI(TEMPERATURE),    \
       LABEL("Temperature"), DECIMALS(1))                                                           \
-    X(SHIFT_FACTORS_LOG_A, "log_a", "log10 of the horizontal shift factor", NUMBER,                \
+    X(SHIFT_FACTORS_LOG_A, "log_a", "log10 of the horizontal shift factor, as measured", NUMBER,   \
       LABEL("log₁₀ a"), STANDARD_ERROR(SHIFT_FACTORS_LOG_A), DECIMALS(3))                          \
     X(SHIFT_FACTORS_LOG_A_STANDARD_ERROR, "log_a_standard_error", "its standard error [decade]",   \
       NUMBER, LABEL("Standard error"), DECIMALS(3))                                                \
-    X(SHIFT_FACTORS_LOG_B, "log_b", "log10 of the vertical shift factor", NUMBER,                  \
+    X(SHIFT_FACTORS_LOG_A_LOW, "log_a_low", "lower end of its 95 % interval", NUMBER, DECIMALS(3)) \
+    X(SHIFT_FACTORS_LOG_A_HIGH, "log_a_high", "upper end of its 95 % interval", NUMBER,            \
+      DECIMALS(3))                                                                                 \
+    X(SHIFT_FACTORS_LOG_B, "log_b", "log10 of the vertical shift factor, as measured", NUMBER,     \
       LABEL("log₁₀ b"), STANDARD_ERROR(SHIFT_FACTORS_LOG_B), DECIMALS(3))                          \
     X(SHIFT_FACTORS_LOG_B_STANDARD_ERROR, "log_b_standard_error", "its standard error [decade]",   \
       NUMBER, LABEL("Standard error"), DECIMALS(3))                                                \
     X(SHIFT_FACTORS_LOG_B_PHYSICAL, "log_b_physical",                                              \
       "log10 b that density and temperature would give", NUMBER,                                   \
       LABEL("log₁₀ b, rubber elasticity"), DECIMALS(3))                                            \
-    X(SHIFT_FACTORS_CORRELATION, "correlation", "correlation of log a and log b", NUMBER)          \
+    X(SHIFT_FACTORS_LOG_B_MATERIAL, "log_b_material",                                              \
+      "log10 b of the material: what is smooth with temperature in log_b", NUMBER, DECIMALS(3))    \
     X(SHIFT_FACTORS_OVERLAP, "overlap",                                                            \
-      "smaller of the ordinate overlaps with the neighbour [decade]", NUMBER,                      \
+      "least range of frequencies shared on the way to the reference [decade]", NUMBER,            \
       LABEL("Overlap (decades)"))                                                                  \
+    X(SHIFT_FACTORS_NOISE_FACTOR, "noise_factor", "noise of the isotherm against that of all",     \
+      NUMBER, LABEL("Noise factor"))                                                               \
+    X(SHIFT_FACTORS_OUTLIERS, "outliers", "values far off that were left out", NUMBER)             \
     X(SHIFT_FACTORS_DETERMINED, "determined", "1: the data decide the shift", YES_NO,              \
       LABEL("Determined by overlap"))                                                              \
     X(SHIFT_FACTORS_NOTE, "note", "what is odd", TEXT, LABEL("Note"))                              \
-    X(SHIFT_FACTORS_WLF_LOG_A, "wlf_log_a", "log10 a of the fitted WLF law", NUMBER,               \
-      LABEL("WLF log₁₀ a"), DECIMALS(3), SPARSE)
+    X(SHIFT_FACTORS_LAW_LOG_A, "law_log_a", "log10 a of the law, without the offset", NUMBER,      \
+      LABEL("log₁₀ a of the law"),                                                                 \
+      INTERVAL(SHIFT_FACTORS_LAW_LOG_A_LOW, SHIFT_FACTORS_LAW_LOG_A_HIGH), DECIMALS(3), SPARSE)    \
+    X(SHIFT_FACTORS_LAW_LOG_A_LOW, "law_log_a_low", "lower end of its 95 % interval", NUMBER,      \
+      DECIMALS(3), SPARSE)                                                                         \
+    X(SHIFT_FACTORS_LAW_LOG_A_HIGH, "law_log_a_high", "upper end of its 95 % interval", NUMBER,    \
+      DECIMALS(3), SPARSE)
 
-/* Those of the WLF law only where one fits. */
+/* Those of the law only where there is one. */
 #define SHIFT_FACTORS_KEYS(X)                                                                      \
+    X(SHIFT_FACTORS_KEY_LAW, "law", TEXT, LABEL("Law of the shift factors"))                       \
     X(SHIFT_FACTORS_KEY_WLF_C1, "wlf_c1", NUMBER, LABEL("WLF constant C₁"),                        \
       HEADLINE("WLF constant C₁"), OPTIONAL)                                                       \
     X(SHIFT_FACTORS_KEY_WLF_C2, "wlf_c2", SI(TEMPERATURE_DIFFERENCE), LABEL("WLF constant C₂"),    \
       HEADLINE("WLF constant C₂"), OPTIONAL)                                                       \
-    X(SHIFT_FACTORS_KEY_WLF_SLOPE, "wlf_slope", UNIT("1/K"), OPTIONAL)                             \
     X(SHIFT_FACTORS_KEY_WLF_CORRELATION, "wlf_correlation", PLAIN,                                 \
       LABEL("Correlation of C₁ and C₂"), OPTIONAL)                                                 \
-    X(SHIFT_FACTORS_KEY_POLE, "pole", UNIT("K"), LABEL("Pole of the WLF law"), OPTIONAL)           \
-    X(SHIFT_FACTORS_KEY_WLF_FLOOR, "wlf_floor", NUMBER,                                            \
-      LABEL("Systematic error of each shift that the errors of C1 and C2 include [decade]"),       \
+    X(SHIFT_FACTORS_KEY_ACTIVATION_ENERGY, "activation_energy", UNIT("J/mol"),                     \
+      LABEL("Activation energy"), HEADLINE("Activation energy"), OPTIONAL)                         \
+    X(SHIFT_FACTORS_KEY_JOINT, "joint", SI(TEMPERATURE), LABEL("Arrhenius below, WLF above"),      \
       OPTIONAL)                                                                                    \
-    X(SHIFT_FACTORS_KEY_WLF_RMS, "wlf_rms", NUMBER,                                                \
-      LABEL("Residual of the WLF law, rms (decades)"), OPTIONAL)                                   \
-    X(SHIFT_FACTORS_KEY_WLF_STRAIGHT, "wlf_straight", TEXT,                                        \
-      LABEL("Shift factors on a straight line"), OPTIONAL)                                         \
-    X(SHIFT_FACTORS_KEY_ACTIVATION_ENERGY, "activation_energy", UNIT("J/mol"), OPTIONAL)           \
+    X(SHIFT_FACTORS_KEY_LAW_SLOPE, "law_slope", UNIT("1/K"), OPTIONAL)                             \
+    X(SHIFT_FACTORS_KEY_POLE, "pole", UNIT("K"), LABEL("Pole of the WLF law"), OPTIONAL)           \
+    X(SHIFT_FACTORS_KEY_OFFSET, "offset", NUMBER,                                                  \
+      LABEL("Reference isotherm off the law (decades)"), OPTIONAL)                                 \
+    X(SHIFT_FACTORS_KEY_LAW_RMS, "law_rms", NUMBER, LABEL("Residual of the law, rms (decades)"),   \
+      OPTIONAL)                                                                                    \
+    X(SHIFT_FACTORS_KEY_TEMPERATURE_SPREAD, "temperature_spread", SI(TEMPERATURE_DIFFERENCE),      \
+      LABEL("Error of the temperature of an isotherm"), OPTIONAL)                                  \
     X(SHIFT_FACTORS_KEY_REFERENCE_TEMPERATURE, "reference_temperature", SI(TEMPERATURE),           \
       HEADLINE("Reference temperature"))                                                           \
     X(SHIFT_FACTORS_KEY_VERTICAL, "vertical", TEXT, LABEL("Vertical shift"))                       \
     X(SHIFT_FACTORS_KEY_DEFORMATION, "deformation", TEXT)                                          \
     X(SHIFT_FACTORS_KEY_SUPERPOSITION, "superposition", TEXT,                                      \
-      HEADLINE("Time-temperature superposition"))
+      HEADLINE("Time-temperature superposition"))                                                     \
+    X(SHIFT_FACTORS_KEY_LACK_OF_FIT_P, "lack_of_fit_p", PLAIN, OPTIONAL)                           \
+    X(SHIFT_FACTORS_KEY_MISFIT_LOW, "misfit_low", PLAIN, OPTIONAL)                                 \
+    X(SHIFT_FACTORS_KEY_MISFIT_HIGH, "misfit_high", PLAIN, OPTIONAL)                               \
+    X(SHIFT_FACTORS_KEY_LOSS_FACTOR, "loss_factor", NUMBER,                                        \
+      LABEL("E″ against what E′ demands (Kramers-Kronig)"), OPTIONAL)                              \
+    X(SHIFT_FACTORS_KEY_KRAMERS_KRONIG_P, "kramers_kronig_p", PLAIN, OPTIONAL)
 
 #define MASTER_CURVE_COLUMNS(X)                                                                    \
     X(MASTER_CURVE_ANGULAR_FREQUENCY, "angular_frequency", "reduced angular frequency",            \
@@ -59,17 +80,28 @@
       SI(STORAGE_MODULUS))                                                                         \
     X(MASTER_CURVE_LOSS_MODULUS, "loss_modulus", "loss modulus, shifted", SI(LOSS_MODULUS))        \
     X(MASTER_CURVE_TEMPERATURE, "temperature", "temperature it was measured at", SI(TEMPERATURE))  \
-    X(MASTER_CURVE_FITTED_STORAGE, "fitted_storage", "storage modulus of the Prony series",        \
+    X(MASTER_CURVE_FITTED_STORAGE, "fitted_storage", "storage modulus of the spectrum",            \
+      SI(STORAGE_MODULUS),                                                                         \
+      INTERVAL(MASTER_CURVE_FITTED_STORAGE_LOW, MASTER_CURVE_FITTED_STORAGE_HIGH))                 \
+    X(MASTER_CURVE_FITTED_STORAGE_LOW, "fitted_storage_low", "lower end of its 95 % interval",     \
       SI(STORAGE_MODULUS))                                                                         \
-    X(MASTER_CURVE_FITTED_LOSS, "fitted_loss", "loss modulus of the Prony series", SI(LOSS_MODULUS))
+    X(MASTER_CURVE_FITTED_STORAGE_HIGH, "fitted_storage_high", "upper end of its 95 % interval",   \
+      SI(STORAGE_MODULUS))                                                                         \
+    X(MASTER_CURVE_FITTED_LOSS, "fitted_loss", "loss modulus of the spectrum", SI(LOSS_MODULUS),   \
+      INTERVAL(MASTER_CURVE_FITTED_LOSS_LOW, MASTER_CURVE_FITTED_LOSS_HIGH))                       \
+    X(MASTER_CURVE_FITTED_LOSS_LOW, "fitted_loss_low", "lower end of its 95 % interval",           \
+      SI(LOSS_MODULUS))                                                                            \
+    X(MASTER_CURVE_FITTED_LOSS_HIGH, "fitted_loss_high", "upper end of its 95 % interval",         \
+      SI(LOSS_MODULUS))                                                                            \
+    X(MASTER_CURVE_LEFT_OUT, "left_out", "1: one of the moduli is far off and was left out", YES_NO)
 
 #define MASTER_CURVE_KEYS(X)                                                                       \
-    X(MASTER_CURVE_KEY_RMS_STORAGE, "rms_storage", PLAIN,                                          \
-      LABEL("Residual of the storage modulus, rms"))                                               \
-    X(MASTER_CURVE_KEY_RMS_LOSS, "rms_loss", PLAIN, LABEL("Residual of the loss modulus, rms"))    \
-    X(MASTER_CURVE_KEY_OVERLAP_RMS_STORAGE, "overlap_rms_storage", PLAIN)                          \
-    X(MASTER_CURVE_KEY_OVERLAP_RMS_LOSS, "overlap_rms_loss", PLAIN)                                \
-    X(MASTER_CURVE_KEY_KRAMERS_KRONIG, "kramers_kronig", PLAIN)                                    \
+    X(MASTER_CURVE_KEY_NOISE_STORAGE, "noise_storage", PLAIN,                                      \
+      LABEL("Noise of the storage modulus, relative"))                                             \
+    X(MASTER_CURVE_KEY_NOISE_LOSS, "noise_loss", PLAIN,                                            \
+      LABEL("Noise of the loss modulus, relative"))                                                \
+    X(MASTER_CURVE_KEY_NOISE_CORRELATION, "noise_correlation", PLAIN,                              \
+      LABEL("Correlation of the noise of neighbouring points"))                                    \
     X(MASTER_CURVE_KEY_REFERENCE_TEMPERATURE, "reference_temperature", SI(TEMPERATURE))            \
     X(MASTER_CURVE_KEY_DEFORMATION, "deformation", TEXT)
 
@@ -79,15 +111,18 @@
     X(PRONY_MODULUS, "modulus", "modulus of the term", SI(MODULUS), LABEL("Modulus"))
 
 #define PRONY_KEYS(X)                                                                              \
-    X(PRONY_KEY_EQUILIBRIUM_MODULUS, "equilibrium_modulus", SI(MODULUS))                           \
+    X(PRONY_KEY_EQUILIBRIUM_MODULUS, "equilibrium_modulus", SI(MODULUS),                           \
+      LABEL("Equilibrium modulus"))                                                                \
+    X(PRONY_KEY_EQUILIBRIUM_LIMIT, "equilibrium_modulus_limit", SI(MODULUS),                       \
+      LABEL("Equilibrium modulus at most (95 %)"), OPTIONAL)                                       \
     X(PRONY_KEY_REFERENCE_TEMPERATURE, "reference_temperature", SI(TEMPERATURE), OPTIONAL)         \
     X(PRONY_KEY_FREQUENCY_MIN, "frequency_min", SI(ANGULAR_FREQUENCY),                             \
       LABEL("Lowest angular frequency measured"), OPTIONAL)                                        \
     X(PRONY_KEY_FREQUENCY_MAX, "frequency_max", SI(ANGULAR_FREQUENCY),                             \
       LABEL("Highest angular frequency measured"), OPTIONAL)                                       \
     X(PRONY_KEY_DEFORMATION, "deformation", TEXT)                                                  \
-    X(PRONY_KEY_RMS_STORAGE, "rms_storage", PLAIN, LABEL("Residual of the storage modulus, rms"),  \
-      OPTIONAL)                                                                                    \
-    X(PRONY_KEY_RMS_LOSS, "rms_loss", PLAIN, LABEL("Residual of the loss modulus, rms"), OPTIONAL)
+    X(PRONY_KEY_RMS_STORAGE, "rms_storage", PLAIN,                                                 \
+      LABEL("Noise of the storage modulus, relative"), OPTIONAL)                                   \
+    X(PRONY_KEY_RMS_LOSS, "rms_loss", PLAIN, LABEL("Noise of the loss modulus, relative"), OPTIONAL)
 
 #endif

@@ -309,6 +309,29 @@ static void answer_friction(const answer_story *story)
         say_change(story);
 }
 
+struct law_text {
+    char text[256];
+};
+
+/* The law of the shift factors with its constants. */
+static struct law_text law_words(const table_view *shift)
+{
+    struct law_text words;
+    const wt_estimate c1 = shift_factors_value(shift, SHIFT_FACTORS_KEY_WLF_C1),
+                      energy = shift_factors_value(shift, SHIFT_FACTORS_KEY_ACTIVATION_ENERGY);
+    if (isnan(c1.value) && isnan(energy.value))
+        snprintf(words.text, sizeof words.text, "no law of the shift factors");
+    else if (isnan(c1.value))
+        snprintf(words.text, sizeof words.text, "Arrhenius with %s",
+                 words_of_estimate(energy).text);
+    else
+        snprintf(words.text, sizeof words.text, "WLF C1 = %s, C2 = %s%s",
+                 words_of_estimate(c1).text,
+                 words_of_estimate(shift_factors_value(shift, SHIFT_FACTORS_KEY_WLF_C2)).text,
+                 isnan(energy.value) ? "" : ", Arrhenius in the cold");
+    return words;
+}
+
 /* Only where no later stage uses the material: there it is an answer, else a step. */
 static void answer_rubber(const answer_story *story)
 {
@@ -318,14 +341,14 @@ static void answer_rubber(const answer_story *story)
         return;
     const double reference =
         shift_factors_value(shift, SHIFT_FACTORS_KEY_REFERENCE_TEMPERATURE).value;
+    const wt_estimate equilibrium = prony_value(prony, PRONY_KEY_EQUILIBRIUM_MODULUS),
+                      limit = prony_value(prony, PRONY_KEY_EQUILIBRIUM_LIMIT);
     answer_say(story, what_rubber, "material",
-               "At %s: WLF C1 = %s, C2 = %s, from %zu isotherms; equilibrium modulus %s (%s). "
-               "Time-temperature superposition: %s.",
-               words_of_celsius(reference).text,
-               words_of_estimate(shift_factors_value(shift, SHIFT_FACTORS_KEY_WLF_C1)).text,
-               words_of_estimate(shift_factors_value(shift, SHIFT_FACTORS_KEY_WLF_C2)).text,
-               shift->n_rows,
-               words_of_estimate(prony_value(prony, PRONY_KEY_EQUILIBRIUM_MODULUS)).text,
+               "At %s, from %zu isotherms: %s; equilibrium modulus %s%s (%s). "
+               "Time-temperature superposition %s.",
+               words_of_celsius(reference).text, shift->n_rows, law_words(shift).text,
+               isnan(limit.value) ? "" : "at most ",
+               words_of_estimate(isnan(limit.value) ? equilibrium : limit).text,
                prony_words(prony, PRONY_KEY_DEFORMATION),
                shift_factors_words(shift, SHIFT_FACTORS_KEY_SUPERPOSITION));
 }

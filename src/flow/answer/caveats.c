@@ -194,25 +194,23 @@ static void material_caveats(const answer_story *story)
     if (shifts->table == NULL)
         return;
     const char *superposition = shift_factors_words(shifts, SHIFT_FACTORS_KEY_SUPERPOSITION);
-    const char *straight = shift_factors_words(shifts, SHIFT_FACTORS_KEY_WLF_STRAIGHT);
     size_t undetermined = 0;
     for (size_t i = 0; i < shifts->n_rows; i++)
         undetermined += !(shift_factors_get(shifts, i, SHIFT_FACTORS_DETERMINED) > 0);
-    if (strncmp(superposition, "failed", 6) == 0)
+    if (strncmp(superposition, "fails", 5) == 0)
         CAVEAT(story,
                "Time-temperature superposition %s. What rests on the master curve is doubtful.",
                superposition);
-    if (strncmp(superposition, "not", 3) == 0)
+    else if (shifts->n_rows < 2)
         CAVEAT(story, "The material is known from one isotherm: no time-temperature superposition "
                       "widens its frequencies.");
+    else if (strncmp(superposition, "cannot say", 10) == 0)
+        CAVEAT(story, "Whether time-temperature superposition holds the data %s.", superposition);
     if (undetermined > 0)
         CAVEAT(story,
                "The shift of %zu of %zu isotherms is not determined by the data; they are not in "
                "the master curve.",
                undetermined, shifts->n_rows);
-    if (straight != NULL && strncmp(straight, "yes", 3) == 0)
-        CAVEAT(story, "The shift factors determine only the slope c1/c2 of the WLF law, not c1 and "
-                      "c2: use it inside the measured temperatures.");
 }
 
 static void friction_caveats(const answer_story *story)

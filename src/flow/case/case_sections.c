@@ -117,7 +117,7 @@ static wt_status read_terms(wt_case *c, const xmlNode *node, wt_error *err)
 static wt_status read_wlf(wt_case *c, const xmlNode *node, wt_error *err)
 {
     wt_status status = case_read_params(c, node, case_wlf_params(), &c->wlf, err);
-    if (status == WT_OK && isnan(c->master.shift.reference_temperature)) {
+    if (status == WT_OK && isnan(c->master.fit.reference_temperature)) {
         wt_fail(err, WT_E_MISSING, "WLF constants mean nothing without their temperature");
         wt_error_expected(err, "<reference-temperature> in <dma>");
         return case_at(node, WT_E_MISSING, err);

@@ -3,6 +3,7 @@
 #include "flow/job/draws.h"
 
 #include "base/clocale.h"
+#include "data/prony.h"
 #include "data/tables/tables.h"
 
 #include <math.h>
@@ -21,7 +22,7 @@ void wt_rubber_clear(wt_rubber *rubber)
     free(rubber->vertical_temperature);
     free(rubber->vertical_log_b);
     if (rubber->has_master)
-        wt_master_curve_clear(&rubber->master);
+        wt_master_clear(&rubber->master);
     *rubber = (wt_rubber){0};
 }
 
@@ -51,43 +52,47 @@ static double vertical_shift(const wt_rubber *rubber, const double *b, double te
     return b[i - 1] + (b[i] - b[i - 1]) * (temperature - t[i - 1]) / (t[i] - t[i - 1]);
 }
 
-/* log10 a_T of the WLF law and its standard error by propagation. */
-static wt_status horizontal_shift(const wt_rubber *rubber, double temperature, double *log_a,
-                                  double *log_a_error, wt_error *err)
+/* log10 a_T of a law. */
+static wt_status horizontal_shift(const wt_shift_law *law, double reference, double temperature,
+                                  double *log_a, wt_error *err)
 {
-    double from = temperature - rubber->prony.reference_temperature;
-    *log_a = *log_a_error = 0;
+    const double from = temperature - reference;
+    *log_a = 0;
     if (isnan(from))
         return wt_fail(err, WT_E_MISSING, "the reference temperature of the material is not known");
-    if (!rubber->has_wlf) {
+    if (law->kind == WT_LAW_NONE) {
         if (fabs(from) <= SAME_TEMPERATURE)
             return WT_OK;
         wt_fail(err, WT_E_MISSING, "no shift law takes the material to another temperature");
         wt_error_expected(err, "a temperature within 1 K of %.2f degC",
-                          rubber->prony.reference_temperature - WT_ZERO_CELSIUS);
+                          reference - WT_ZERO_CELSIUS);
         wt_error_found(err, "%.2f degC", temperature - WT_ZERO_CELSIUS);
         wt_error_advice(err, "give WLF constants, or DMA isotherms at several temperatures");
         return WT_E_MISSING;
     }
-    *log_a = wt_wlf_log_shift(&rubber->wlf, temperature);
+    *log_a = wt_shift_law_log_a(law, temperature);
     if (isnan(*log_a)) {
         wt_fail(err, WT_E_RANGE, "the temperature is at or below the pole of the WLF law");
         wt_error_expected(err, "more than %.2f degC",
-                          rubber->wlf.reference_temperature - rubber->wlf.c2 - WT_ZERO_CELSIUS);
+                          law->wlf.reference_temperature - law->wlf.c2 - WT_ZERO_CELSIUS);
         wt_error_found(err, "%.2f degC", temperature - WT_ZERO_CELSIUS);
         return WT_E_RANGE;
     }
-    double step = temperature - rubber->wlf.reference_temperature;
-    double sum = rubber->wlf.c2 + step;
-    if (isnan(rubber->c1_error) || isnan(rubber->c2_error)) {
-        *log_a_error = fabs(step) * rubber->slope_error;
-        return WT_OK;
-    }
-    double by_c1 = -step / sum * rubber->c1_error;
-    double by_c2 = rubber->wlf.c1 * step / (sum * sum) * rubber->c2_error;
-    double variance = by_c1 * by_c1 + by_c2 * by_c2 + 2 * rubber->c_correlation * by_c1 * by_c2;
-    *log_a_error = variance > 0 ? sqrt(variance) : 0;
     return WT_OK;
+}
+
+/* Standard error of log10 a_T by those of the constants of a law that came with them. */
+static double law_error(const wt_rubber *rubber, double temperature)
+{
+    const wt_wlf *wlf = &rubber->law.wlf;
+    if (rubber->law.kind != WT_LAW_WLF)
+        return 0;
+    const double step = temperature - wlf->reference_temperature, sum = wlf->c2 + step;
+    const double by_c1 = -step / sum * rubber->c1_error;
+    const double by_c2 = wlf->c1 * step / (sum * sum) * rubber->c2_error;
+    const double variance =
+        by_c1 * by_c1 + by_c2 * by_c2 + 2 * rubber->c_correlation * by_c1 * by_c2;
+    return variance > 0 ? sqrt(variance) : 0;
 }
 
 static void make_statement(const wt_rubber *rubber, double temperature, bool held,
@@ -96,34 +101,28 @@ static void make_statement(const wt_rubber *rubber, double temperature, bool hel
     statement[0] = '\0';
     if (temperature < rubber->temperature_min || temperature > rubber->temperature_max)
         clocale_print(statement, 256,
-                      "%.1f degC is outside the isotherms (%.1f to %.1f degC): the WLF law is "
+                      "%.1f degC is outside the isotherms (%.1f to %.1f degC): the shift law is "
                       "extrapolated%s",
                       temperature - WT_ZERO_CELSIUS, rubber->temperature_min - WT_ZERO_CELSIUS,
                       rubber->temperature_max - WT_ZERO_CELSIUS,
                       held ? " and the vertical shift held" : "");
 }
 
-/* Replicate of the series at the reference temperature, and what the same draw changes log10 b_T by
- * at another temperature. */
-static wt_status material_replicate(const wt_rubber *rubber, double temperature, uint64_t seed,
-                                    size_t replicate, wt_prony *prony, double *change,
-                                    wt_error *err)
+/* Series, law and log10 b at the isotherms that have one: of a replicate, or as fitted. */
+static wt_status material_of(const wt_rubber *rubber, uint64_t seed, size_t replicate,
+                             wt_prony *prony, wt_shift_law *law, double *log_b, wt_error *err)
 {
-    const wt_master_curve *master = &rubber->master;
-    double *change_b = malloc((master->n_shifts + 1) * sizeof *change_b);
-    bool held;
-    if (change_b == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    wt_status status =
-        wt_prony_replicate(master, &rubber->prony_options, seed, replicate, prony, change_b, err);
-    if (status == WT_OK) {
-        size_t n = 0; /* the rubber has the determined shifts only */
-        for (size_t i = 0; i < master->n_shifts; i++)
-            if (master->shifts[i].determined)
-                change_b[n++] = change_b[i];
-        *change = vertical_shift(rubber, change_b, temperature, &held);
-    }
-    free(change_b);
+    const wt_master *master = &rubber->master;
+    *law = rubber->law;
+    for (size_t i = 0; i < rubber->n_vertical; i++)
+        log_b[i] = rubber->vertical_log_b[i];
+    if (replicate == WT_NO_REPLICATE || !rubber->has_master)
+        return prony_copy(&rubber->prony, prony, err);
+    wt_status status = wt_master_draw(master, seed, replicate, prony, law, log_b, err);
+    size_t n = 0;
+    for (size_t i = 0; status == WT_OK && i < master->n_shifts; i++)
+        if (master->shifts[i].determined)
+            log_b[n++] = log_b[i];
     return status;
 }
 
@@ -132,40 +131,29 @@ wt_status wt_rubber_at(const wt_rubber *rubber, double temperature, uint64_t see
 {
     if (rubber == NULL || material == NULL)
         return wt_fail(err, WT_E_ARG, "no rubber");
+    const double reference = rubber->prony.reference_temperature;
     wt_prony prony = {0};
-    double log_a = 0, log_a_error = 0, log_b = 0;
+    wt_shift_law law;
+    double log_a = 0;
     bool held = false;
-    wt_status status = WT_OK;
-    if (isnan(temperature))
-        temperature = rubber->prony.reference_temperature;
-    else
-        status = horizontal_shift(rubber, temperature, &log_a, &log_a_error, err);
-    if (status != WT_OK)
-        return status;
-    log_b = vertical_shift(rubber, rubber->vertical_log_b, temperature, &held);
-    log_a += log_a_error * flow_draw_normal(seed, replicate, FLOW_DRAW_SHIFT_LAW);
-
-    if (replicate != WT_NO_REPLICATE && rubber->has_master) {
-        double change = 0;
-        status = material_replicate(rubber, temperature, seed, replicate, &prony, &change, err);
-        log_b += change;
-    } else {
-        status = wt_prony_alloc(&prony, rubber->prony.n, err);
-        if (status == WT_OK) {
-            prony.deformation = rubber->prony.deformation;
-            prony.equilibrium_modulus = rubber->prony.equilibrium_modulus;
-            for (size_t k = 0; k < prony.n; k++) {
-                prony.relaxation_time[k] = rubber->prony.relaxation_time[k];
-                prony.modulus[k] = rubber->prony.modulus[k];
-            }
-        }
-    }
+    const size_t n_b = rubber->has_master ? rubber->master.n_shifts : rubber->n_vertical;
+    double *log_b = malloc((n_b + 1) * sizeof *log_b);
+    if (log_b == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    wt_status status = material_of(rubber, seed, replicate, &prony, &law, log_b, err);
+    if (status == WT_OK && isnan(temperature))
+        temperature = reference;
+    else if (status == WT_OK)
+        status = horizontal_shift(&law, reference, temperature, &log_a, err);
     if (status != WT_OK)
         goto done;
-    double a = pow(10, log_a), b = pow(10, log_b);
+    if (!rubber->has_master && temperature != reference)
+        log_a +=
+            law_error(rubber, temperature) * flow_draw_normal(seed, replicate, FLOW_DRAW_SHIFT_LAW);
+    const double a = pow(10, log_a), b = pow(10, vertical_shift(rubber, log_b, temperature, &held));
     prony.reference_temperature = temperature;
-    prony.frequency_min = rubber->prony.frequency_min / a;
-    prony.frequency_max = rubber->prony.frequency_max / a;
+    prony.frequency_min /= a;
+    prony.frequency_max /= a;
     prony.equilibrium_modulus /= b;
     for (size_t i = 0; i < prony.n; i++) {
         prony.relaxation_time[i] *= a;
@@ -175,25 +163,36 @@ wt_status wt_rubber_at(const wt_rubber *rubber, double temperature, uint64_t see
     if (status == WT_OK && statement != NULL)
         make_statement(rubber, temperature, held, statement);
 done:
+    free(log_b);
     wt_prony_clear(&prony);
     return status;
 }
 
 /* ---- from tables ----------------------------------------------------------------------------- */
 
+static wt_law_kind law_kind(const char *words)
+{
+    return strcmp(words, "WLF") == 0         ? WT_LAW_WLF
+           : strcmp(words, "Arrhenius") == 0 ? WT_LAW_ARRHENIUS
+           : strcmp(words, "joined") == 0    ? WT_LAW_JOINED
+                                             : WT_LAW_NONE;
+}
+
 static wt_status read_shifts(const table_view *shifts, wt_rubber *rubber, wt_error *err)
 {
     const char *vertical = shift_factors_words(shifts, SHIFT_FACTORS_KEY_VERTICAL);
     const char *correlation = shift_factors_words(shifts, SHIFT_FACTORS_KEY_WLF_CORRELATION);
+    const char *kind = shift_factors_words(shifts, SHIFT_FACTORS_KEY_LAW);
     const wt_estimate c1 = shift_factors_value(shifts, SHIFT_FACTORS_KEY_WLF_C1),
-                      c2 = shift_factors_value(shifts, SHIFT_FACTORS_KEY_WLF_C2),
-                      slope = shift_factors_value(shifts, SHIFT_FACTORS_KEY_WLF_SLOPE);
+                      c2 = shift_factors_value(shifts, SHIFT_FACTORS_KEY_WLF_C2);
     const size_t rows = shifts->n_rows;
-    rubber->wlf = (wt_wlf){rubber->prony.reference_temperature, c1.value, c2.value};
-    rubber->has_wlf = isfinite(c1.value) && isfinite(c2.value);
+    rubber->law = (wt_shift_law){
+        .kind = law_kind(kind),
+        .wlf = {rubber->prony.reference_temperature, c1.value, c2.value},
+        .activation_energy = shift_factors_value(shifts, SHIFT_FACTORS_KEY_ACTIVATION_ENERGY).value,
+        .joint = shift_factors_value(shifts, SHIFT_FACTORS_KEY_JOINT).value};
     rubber->c1_error = c1.standard_error;
     rubber->c2_error = c2.standard_error;
-    rubber->slope_error = isnan(slope.value) ? 0 : slope.standard_error;
     if (correlation != NULL &&
         !wt_number_parse(correlation, strlen(correlation), '.', &rubber->c_correlation))
         rubber->c_correlation = 0;
@@ -203,7 +202,7 @@ static wt_status read_shifts(const table_view *shifts, wt_rubber *rubber, wt_err
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t i = 0; i < rows; i++) {
         double t = shift_factors_get(shifts, i, SHIFT_FACTORS_TEMPERATURE);
-        double b = shift_factors_get(shifts, i, SHIFT_FACTORS_LOG_B);
+        double b = shift_factors_get(shifts, i, SHIFT_FACTORS_LOG_B_MATERIAL);
         if (i == 0 || t < rubber->temperature_min)
             rubber->temperature_min = t;
         if (i == 0 || t > rubber->temperature_max)

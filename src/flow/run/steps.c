@@ -34,8 +34,8 @@ static wt_status make_rubber(const wt_case *c, wt_rubber *result, wt_error *err)
 {
     wt_rubber rubber = {
         .poisson_ratio = c->master.poisson_ratio,
-        .has_wlf = c->has_wlf,
-        .wlf = {c->master.shift.reference_temperature, c->wlf.c1.value, c->wlf.c2.value},
+        .law = {.kind = c->has_wlf ? WT_LAW_WLF : WT_LAW_NONE,
+                .wlf = {c->master.fit.reference_temperature, c->wlf.c1.value, c->wlf.c2.value}},
         .c1_error = c->wlf.c1.standard_error,
         .c2_error = c->wlf.c2.standard_error,
         .temperature_min = (double)NAN,
@@ -45,7 +45,7 @@ static wt_status make_rubber(const wt_case *c, wt_rubber *result, wt_error *err)
     if (status != WT_OK)
         return status;
     rubber.prony.deformation = c->prony.deformation;
-    rubber.prony.reference_temperature = c->master.shift.reference_temperature;
+    rubber.prony.reference_temperature = c->master.fit.reference_temperature;
     rubber.prony.equilibrium_modulus = c->prony.equilibrium_modulus;
     rubber.prony.frequency_min = c->prony.frequency_min;
     rubber.prony.frequency_max = c->prony.frequency_max;

@@ -1,0 +1,42 @@
+/* The fit of a sweep from start to verdict, and what is made of it (internal to the fit room).
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WT_FIT_MASTER_H
+#define WT_FIT_MASTER_H
+
+#include "fit/posterior.h"
+#include "fit/superposition.h"
+
+typedef struct master_work {
+    pool memory;
+    wt_master_options options;
+    shift_set set;
+    double reference; /* [K] */
+    size_t anchor;
+    bool measured_reference; /* the anchor is the reference */
+    bool *placed;            /* [set.n] */
+    double *a, *b;           /* [set.n] decades */
+    double *physical;        /* [set.n] decades */
+    double *overlap;         /* [set.n] decades */
+    double *kappa;           /* [set.n] */
+    size_t *curve;           /* [set.n] in the spectrum; of the posterior */
+    wt_posterior *posterior;
+    spectrum *s; /* that of the posterior */
+    vertical vertical;
+    spectrum_prior prior;
+    lack_of_fit lack;
+} master_work;
+
+/* Fills `master` (without the posterior, which it takes over). */
+wt_status master_report(master_work *work, const wt_sweep *sweep, wt_parselog *log,
+                        wt_master *master, wt_error *err) WT_NODISCARD;
+/* Adds a remark to the note of a shift, parted by "; ". */
+void master_note(wt_master_shift *shift, const char *format, ...) WT_PRINTF(2, 3);
+/* What is odd about the isotherms, into their notes and the log. */
+void master_notes(const master_work *work, const wt_sweep *sweep, wt_master *m, wt_parselog *log);
+/* The verdict on superposition; shifts and test are in `master`. */
+void master_judge(const master_work *work, wt_master *master);
+/* One-sided limit of 95 % of the equilibrium modulus [ln], if the data give no more; the spectrum
+ * is moved. */
+wt_status master_equilibrium_limit(master_work *work, double *limit, wt_error *err) WT_NODISCARD;
+
+#endif

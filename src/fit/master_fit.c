@@ -1,0 +1,294 @@
+/* The master curve of a sweep: start, outliers, which isotherms hang together, noise, the fits over
+ * the widths of the vertical shift, the law, the verdict. SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "fit/master.h"
+
+#include "base/param.h"
+#include "fit/pool_gsl.h"
+#include "fit/spectrum_start.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Widths of the prior of the vertical shift [decade]: clamping, departure of the material. */
+static const double geometry_widths[] = {0.001, 0.007, 0.03};
+static const double geometry_cells[] = {0.004, 0.012, 0.04};
+static const double departure_widths[] = {0.0, 0.02, 0.1};
+static const double departure_cells[] = {0.02, 0.04, 0.12};
+static const double geometry_believed = 0.01, departure_believed = 0.05;
+enum { WIDTHS = 3, MOST_ROUNDS = 4 };
+
+/* An isotherm this close to the reference temperature is the reference [K]: what thermometers and
+ * chambers agree to. */
+static const double same_temperature = 0.1;
+/* A fit is started anew when a shift has moved so far from its start that the relaxation times no
+ * longer reach well beyond the isotherms [decade]. */
+static const double far = 0.5;
+/* Change of the noise of an isotherm, relative, that is worth another round. */
+static const double least_kappa_change = 0.05;
+
+wt_master_options wt_master_options_defaults(void)
+{
+    return (wt_master_options){.reference_temperature = (double)NAN,
+                               .vertical = WT_VERTICAL_TIED,
+                               .terms_per_decade = 3.0};
+}
+
+static const wt_param rows[] = {
+    {PARAM("reference-temperature", wt_master_options, reference_temperature, WT_Q_TEMPERATURE,
+           ABOVE(0)),
+     .value = "T", .unset = "the isotherm in the middle",
+     .help = "reference temperature, such as 20degC; it need not be one of the isotherms"},
+    {PARAM_CHOICE_OF("vertical-shift", wt_master_options, vertical, "none|physical|free|tied"),
+     .help = "vertical shift: none, as rubber elasticity says (Tref/T, with the thermal expansion "
+             "of the density), fitted, or tied to that of rubber elasticity as closely as the data "
+             "ask for"},
+    {PARAM("expansion", wt_master_options, expansion, WT_Q_NONE, FROM_TO(0, 0.01)), .value = "X",
+     .help =
+         "volumetric thermal expansion in 1/K for the vertical shift of rubber elasticity; that "
+         "of rubber is about 7e-4"},
+    {PARAM("terms-per-decade", wt_master_options, terms_per_decade, WT_Q_NONE, FROM_TO(2, 10)),
+     .value = "X", .help = "of the relaxation spectrum"},
+    {PARAM_FLAG_OF("liquid", wt_master_options, liquid), .help = "no equilibrium modulus"},
+};
+PARAM_TABLE(wt_master_options_params, wt_master_options, rows, wt_master_options_defaults, NO_PARTS)
+
+/* ---- start ----------------------------------------------------------------------------------- */
+
+/* The isotherm to start from: nearest to the reference temperature, or the one in the middle. */
+static wt_status choose_anchor(master_work *work, wt_error *err)
+{
+    const shift_set *set = &work->set;
+    const double asked = work->options.reference_temperature;
+    double nearest = HUGE_VAL;
+    work->anchor = set->n;
+    for (size_t i = 0; i < set->n; i++) {
+        const double away = isnan(asked) ? fabs((double)i - 0.5 * (double)(set->n - 1))
+                                         : fabs(set->curves[i].temperature - asked);
+        if (set->curves[i].n >= SHIFT_MIN_POINTS && away < nearest) {
+            nearest = away;
+            work->anchor = i;
+        }
+    }
+    if (work->anchor == set->n) {
+        wt_fail(err, WT_E_MISSING, "no isotherm has enough points");
+        wt_error_expected(err, "at least %d points each", SHIFT_MIN_POINTS);
+        return WT_E_MISSING;
+    }
+    const double at = set->curves[work->anchor].temperature;
+    work->reference = isnan(asked) ? at : asked;
+    work->measured_reference = fabs(at - work->reference) <= same_temperature;
+    work->vertical.reference_temperature = work->reference;
+    work->vertical.expansion = work->options.expansion;
+    for (size_t i = 0; i < set->n; i++)
+        work->physical[i] = vertical_physical(&work->vertical, set->curves[i].temperature) / M_LN10;
+    return WT_OK;
+}
+
+static wt_status work_alloc(master_work *work, wt_error *err)
+{
+    const size_t n = work->set.n;
+    pool *m = &work->memory;
+    work->placed = pool_alloc(m, n, sizeof *work->placed);
+    work->a = pool_numbers(m, n);
+    work->b = pool_numbers(m, n);
+    work->physical = pool_numbers(m, n);
+    work->overlap = pool_numbers(m, n);
+    work->kappa = pool_numbers(m, n);
+    work->vertical.precision = pool_matrix(m, n, n);
+    work->posterior = posterior_new();
+    if (work->posterior != NULL) {
+        work->posterior->curve = pool_alloc(&work->posterior->memory, n, sizeof(size_t));
+        work->curve = work->posterior->curve;
+        work->s = &work->posterior->frame;
+    }
+    return m->failed || work->curve == NULL
+               ? wt_fail(err, WT_E_MEMORY, "no memory for %zu isotherms", n)
+               : WT_OK;
+}
+
+static wt_status set_widths(master_work *work, wt_vertical_shift kind, double geometry,
+                            double departure, wt_error *err)
+{
+    work->vertical.geometry = geometry;
+    work->vertical.departure = departure;
+    wt_status status = vertical_prior(&work->vertical, kind, work->posterior->temperature,
+                                      work->s->n_curves, &work->prior, err);
+    if (status == WT_OK)
+        spectrum_set_prior(work->s, &work->prior);
+    return status;
+}
+
+/* A spectrum for the placed curves, and what the posterior keeps of each. */
+static wt_status make_spectrum(master_work *work, wt_error *err)
+{
+    wt_posterior *p = work->posterior;
+    spectrum_free(work->s);
+    wt_status status =
+        spectrum_new(&work->set, work->placed, work->anchor, work->a, work->b,
+                     work->options.terms_per_decade, work->options.liquid, work->s, err);
+    if (status != WT_OK)
+        return status;
+    const size_t n = work->s->n_curves;
+    pool *m = &work->s->memory; /* these go with the spectrum */
+    p->temperature = pool_numbers(m, n);
+    p->mean_b = pool_numbers(m, n);
+    p->slope = pool_numbers(m, n);
+    p->scratch = pool_numbers(m, n + 3 * work->s->n_linear);
+    if (m->failed)
+        return wt_fail(err, WT_E_MEMORY, "no memory for %zu isotherms", n);
+    work->vertical.mean = p->mean_b;
+    size_t curve = 0;
+    for (size_t i = 0; i < work->set.n; i++)
+        if (work->placed[i]) {
+            p->temperature[curve] = work->set.curves[i].temperature;
+            work->curve[i] = curve++;
+        }
+    return set_widths(work, work->options.vertical, geometry_widths[1], departure_widths[1], err);
+}
+
+/* First with heavy tails, then without the points that are far off. */
+static wt_status fit_robust(master_work *work, wt_error *err)
+{
+    wt_status status = spectrum_fit(work->s, SPECTRUM_ROBUST, err);
+    for (int round = 0; status == WT_OK && round < MOST_ROUNDS; round++) {
+        const size_t changed = spectrum_outliers(work->s);
+        if (round > 0 && changed == 0)
+            break;
+        status = spectrum_fit(work->s, SPECTRUM_NOISE, err);
+    }
+    return status;
+}
+
+/* Takes the shifts over; how far one has moved. */
+static double take_shifts(master_work *work)
+{
+    double most = 0.0;
+    for (size_t i = 0; i < work->set.n; i++) {
+        if (!work->placed[i])
+            continue;
+        const double a = spectrum_a(work->s, work->curve[i]) / M_LN10;
+        most = fmax(most, fabs(a - work->a[i]));
+        work->a[i] = a;
+        work->b[i] = spectrum_b(work->s, work->curve[i]) / M_LN10;
+    }
+    return most;
+}
+
+static wt_status place_all(master_work *work, wt_error *err)
+{
+    wt_status status = spectrum_start(&work->set, work->anchor, work->options.vertical,
+                                      work->physical, work->placed, work->a, work->b, err);
+    for (int round = 0; status == WT_OK && round < MOST_ROUNDS; round++) {
+        const size_t before = work->s->n_curves;
+        const double moved = round > 0 ? take_shifts(work) : 0.0;
+        const size_t n =
+            spectrum_connected(&work->set, work->anchor, work->a, work->placed, work->overlap);
+        if (round > 0 && n == before && moved < far)
+            break;
+        status = make_spectrum(work, err);
+        if (status == WT_OK)
+            status = fit_robust(work, err);
+    }
+    if (status == WT_OK && work->s->n_curves < 2 && work->set.n > 1) {
+        status = wt_fail(err, WT_E_NO_OVERLAP, "no isotherm overlaps the one of %.2f °C",
+                         work->set.curves[work->anchor].temperature - WT_ZERO_CELSIUS);
+        wt_error_expected(err, "neighbouring isotherms that share a range of storage modulus");
+        wt_error_advice(err, "measure at smaller steps of temperature or over more frequencies");
+    }
+    return status;
+}
+
+/* ---- the fits -------------------------------------------------------------------------------- */
+
+static wt_status find_noise(master_work *work, wt_error *err)
+{
+    wt_status status = WT_OK;
+    for (int round = 0; status == WT_OK && round < MOST_ROUNDS; round++) {
+        const double change = spectrum_kappa_update(work->s);
+        status = spectrum_fit(work->s, SPECTRUM_NOISE, err);
+        if (change < least_kappa_change)
+            break;
+    }
+    return status == WT_OK ? spectrum_choose_rho(work->s, err) : status;
+}
+
+static double log_prior_of(double width, double believed, double cell)
+{
+    return log(cell / (1.0 + width * width / (believed * believed)));
+}
+
+static wt_status fit_widths(master_work *work, wt_error *err)
+{
+    wt_status status = WT_OK;
+    if (work->options.vertical != WT_VERTICAL_TIED) {
+        status = spectrum_fit(work->s, SPECTRUM_NOISE, err);
+        return status == WT_OK ? posterior_keep(work->posterior, NULL, 0.0, err) : status;
+    }
+    for (int g = WIDTHS - 1; g >= 0; g--)
+        for (int d = WIDTHS - 1; status == WT_OK && d >= 0; d--) {
+            status =
+                set_widths(work, WT_VERTICAL_TIED, geometry_widths[g], departure_widths[d], err);
+            if (status == WT_OK)
+                status = spectrum_fit(work->s, SPECTRUM_NOISE, err);
+            if (status != WT_OK)
+                return status;
+            const double prior =
+                log_prior_of(geometry_widths[g], geometry_believed, geometry_cells[g]) +
+                log_prior_of(departure_widths[d], departure_believed, departure_cells[d]);
+            status = posterior_keep(work->posterior, &work->vertical, prior, err);
+        }
+    return status;
+}
+
+/* With free vertical shifts, so that those are no part of the verdict. */
+static wt_status test_superposition(master_work *work, wt_error *err)
+{
+    if (work->s->n_curves < 2)
+        return WT_OK;
+    spectrum *s = work->s;
+    const double rho = s->rho, noise[MODULI] = {s->noise[STORAGE], s->noise[LOSS]};
+    memcpy(work->kappa, s->kappa, s->n_curves * sizeof *s->kappa);
+    wt_status status = set_widths(work, WT_VERTICAL_FREE, 0.0, 0.0, err);
+    if (status == WT_OK)
+        status = spectrum_noise_within(s, err);
+    if (status == WT_OK)
+        status = spectrum_fit(s, SPECTRUM_NOISE, err);
+    if (status == WT_OK)
+        status = superposition_test(s, &work->lack, err);
+    memcpy(s->kappa, work->kappa, s->n_curves * sizeof *s->kappa);
+    memcpy(s->noise, noise, sizeof noise);
+    s->rho = rho;
+    if (status == WT_OK) /* the columns as the cells have them */
+        status =
+            set_widths(work, work->options.vertical, geometry_widths[0], departure_widths[0], err);
+    return status;
+}
+
+wt_status wt_master_fit(const wt_sweep *sweep, const wt_master_options *options, wt_parselog *log,
+                        wt_master *master, wt_error *err)
+{
+    master_work work = {.options = options != NULL ? *options : wt_master_options_defaults()};
+    wt_status status = param_check(wt_master_options_params(), &work.options, err);
+    if (status == WT_OK)
+        status = shift_set_new(sweep, log, &work.memory, &work.set, err);
+    if (status == WT_OK)
+        status = work_alloc(&work, err);
+    if (status == WT_OK)
+        status = choose_anchor(&work, err);
+    if (status == WT_OK)
+        status = place_all(&work, err);
+    if (status == WT_OK)
+        status = find_noise(&work, err);
+    if (status == WT_OK)
+        status = test_superposition(&work, err);
+    if (status == WT_OK)
+        status = fit_widths(&work, err);
+    if (status == WT_OK)
+        status = posterior_close(work.posterior, work.reference, err);
+    if (status == WT_OK)
+        status = master_report(&work, sweep, log, master, err);
+    posterior_free(work.posterior);
+    pool_free(&work.memory);
+    return status;
+}

@@ -1,0 +1,501 @@
+/* A fitted sweep as it is handed out: shifts with notes, curve, law, series, verdict; and what can
+ * be asked of it later. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "fit/master.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A shift with a larger error is not determined [decade]. */
+static const double largest_sigma = 0.2;
+/* Nor is one that hangs by fewer shared frequencies [decade]: what it is worth for the law rests on
+ * the smoothness of the spectrum. */
+static const double least_overlap = 0.3;
+/* What a vertical shift that nothing ties is off by through geometry and clamping [decade], 5 %. */
+static const double clamping = 0.02;
+/* An equilibrium modulus below this share of the lowest storage modulus is a limit only: how the
+ * spectrum goes on beyond the measured frequencies decides it. */
+static const double known_equilibrium = 0.5;
+/* Quantile for a one-sided limit of 95 %, squared. */
+static const double one_sided = 2.705543454095404;
+
+void wt_master_clear(wt_master *master)
+{
+    if (master == NULL)
+        return;
+    free(master->shifts);
+    free(master->log_frequency);
+    free(master->isotherm);
+    free(master->left_out);
+    free(master->fitted_storage);
+    wt_prony_clear(&master->prony);
+    posterior_free(master->posterior);
+    *master = (wt_master){0};
+}
+
+static const wt_interval unknown_interval = {NAN, NAN, NAN, NAN};
+
+static wt_interval transform(wt_interval x, double (*f)(double))
+{
+    wt_interval y = {f(x.value), 0.0, f(x.low), f(x.high)};
+    y.standard_error = 0.5 * (y.high - y.low) / 1.959963984540054;
+    return y;
+}
+
+static wt_interval scaled(wt_interval x, double factor)
+{
+    return (wt_interval){x.value * factor, x.standard_error * factor, x.low * factor,
+                         x.high * factor};
+}
+
+static wt_interval moved(wt_interval x, double by)
+{
+    x.value += by;
+    x.low += by;
+    x.high += by;
+    return x;
+}
+
+static wt_interval between(wt_interval a, wt_interval b, double share)
+{
+    return (wt_interval){a.value + share * (b.value - a.value),
+                         a.standard_error + share * (b.standard_error - a.standard_error),
+                         a.low + share * (b.low - a.low), a.high + share * (b.high - a.high)};
+}
+
+/* ---- shifts ---------------------------------------------------------------------------------- */
+
+static size_t count_outliers(const spectrum *s, size_t curve)
+{
+    size_t n = 0;
+    for (size_t k = s->first[curve]; k < s->first[curve + 1]; k++)
+        for (int q = 0; q < MODULI; q++)
+            n += s->weight[q][k] == 0.0 ? 1 : 0;
+    return n;
+}
+
+/* Why it is not determined, else nothing. */
+static bool undetermined(const master_work *work, size_t i, const wt_interval *a,
+                         wt_master_shift *shift)
+{
+    if (work->set.curves[i].n < SHIFT_MIN_POINTS)
+        master_note(shift, "not determined: only %zu points", work->set.curves[i].n);
+    else if (!work->placed[i])
+        master_note(shift, "not determined: no overlap with the others");
+    else if (!(work->overlap[i] >= least_overlap))
+        master_note(shift, "not determined: shares %.2f decade of frequencies", work->overlap[i]);
+    else if (!(a->standard_error <= largest_sigma))
+        master_note(shift, "not determined: no slope decides, error of log aT %.2g decade",
+                    a->standard_error);
+    else if (work->options.vertical == WT_VERTICAL_FREE &&
+             fabs(posterior_tie(work->posterior, work->curve[i])) * clamping > largest_sigma)
+        master_note(shift,
+                    "not determined: no slope decides, %.2g decade of log bT is %.2g of log "
+                    "aT",
+                    clamping, largest_sigma);
+    return shift->note[0] != '\0';
+}
+
+static void fill_shift(const master_work *work, size_t i, const double *log_b_material,
+                       wt_master_shift *shift)
+{
+    const size_t curve = work->curve[i];
+    *shift = (wt_master_shift){.temperature = work->set.curves[i].temperature,
+                               .log_a = unknown_interval,
+                               .log_b = unknown_interval,
+                               .log_b_physical = work->physical[i],
+                               .log_b_material = (double)NAN,
+                               .law = unknown_interval,
+                               .overlap = work->overlap[i],
+                               .noise_factor = (double)NAN};
+    wt_interval a = unknown_interval;
+    if (work->placed[i]) {
+        shift->noise_factor = work->s->kappa[curve];
+        shift->n_outliers = count_outliers(work->s, curve);
+        a = posterior_a(work->posterior, curve);
+    }
+    if (undetermined(work, i, &a, shift))
+        return;
+    shift->determined = true;
+    shift->log_a = work->measured_reference ? a : posterior_a_to_reference(work->posterior, curve);
+    shift->log_b = posterior_b(work->posterior, curve);
+    shift->log_b_material = log_b_material[curve];
+}
+
+/* ---- law ------------------------------------------------------------------------------------- */
+
+static wt_interval of_pole(const wt_posterior *p, double sign)
+{
+    const double lead = p->shape.reference - p->shape.coldest;
+    const wt_interval c2 =
+        moved(transform(posterior_constant(p, law_pole_index(&p->shape)), exp), lead);
+    if (sign > 0.0)
+        return c2;
+    return (wt_interval){p->shape.reference - c2.value, c2.standard_error,
+                         p->shape.reference - c2.high, p->shape.reference - c2.low};
+}
+
+/* Of C1 and C2 over the mixture, C2 by its derivative. */
+static double correlation_of_constants(const wt_posterior *p)
+{
+    const size_t pole = law_pole_index(&p->shape);
+    double mean[LAW_MOST], sum[3] = {0.0, 0.0, 0.0};
+    posterior_mean_law(p, mean);
+    for (size_t i = 0; i < p->n_parts; i++) {
+        const law_fit *f = &p->parts[i].law;
+        const double d1 = f->unknown[1] - mean[1], d2 = f->unknown[pole] - mean[pole];
+        sum[0] += p->parts[i].weight * (f->covariance[1][1] + d1 * d1);
+        sum[1] += p->parts[i].weight * (f->covariance[1][pole] + d1 * d2);
+        sum[2] += p->parts[i].weight * (f->covariance[pole][pole] + d2 * d2);
+    }
+    return sum[1] / sqrt(sum[0] * sum[2]);
+}
+
+static void fill_law(const wt_posterior *p, wt_master *m)
+{
+    double mean[LAW_MOST];
+    m->offset = (wt_interval){0};
+    m->c1 = m->c2 = m->activation_energy = m->slope = m->pole = unknown_interval;
+    m->law = (wt_shift_law){.kind = WT_LAW_NONE,
+                            .wlf = {m->reference_temperature, (double)NAN, (double)NAN}};
+    m->law_rms = m->temperature_spread = m->c_correlation = (double)NAN;
+    if (p->shape.kind == WT_LAW_NONE) {
+        snprintf(m->no_law, sizeof m->no_law, "%s", p->no_law);
+        return;
+    }
+    posterior_mean_law(p, mean);
+    m->law = law_constants(&p->shape, mean);
+    m->offset = posterior_constant(p, 0);
+    if (p->shape.kind != WT_LAW_ARRHENIUS) {
+        m->c1 = posterior_constant(p, 1);
+        m->c2 = of_pole(p, 1.0);
+        m->pole = of_pole(p, -1.0);
+    }
+    if (p->shape.kind != WT_LAW_ARRHENIUS)
+        m->c_correlation = correlation_of_constants(p);
+    for (size_t i = 0; i < m->n_shifts; i++)
+        if (!isnan(wt_shift_law_log_a(&m->law, m->shifts[i].temperature)))
+            m->shifts[i].law = posterior_law(p, m->shifts[i].temperature);
+    if (p->shape.kind != WT_LAW_WLF)
+        m->activation_energy = posterior_constant(p, p->shape.kind == WT_LAW_JOINED ? 2 : 1);
+    m->slope = posterior_slope(p, m->reference_temperature);
+    m->temperature_spread = 0.0;
+    for (size_t i = 0; i < p->n_parts; i++)
+        m->temperature_spread += p->parts[i].weight * p->parts[i].spread;
+}
+
+static void set_rms(wt_master *m)
+{
+    double sum = 0.0;
+    size_t n = 0;
+    for (size_t i = 0; i < m->n_shifts; i++) {
+        const double off = m->shifts[i].log_a.value - m->offset.value -
+                           wt_shift_law_log_a(&m->law, m->shifts[i].temperature);
+        if (!m->shifts[i].determined || !isfinite(off))
+            continue;
+        sum += off * off;
+        n++;
+    }
+    m->law_rms = n > 0 ? sqrt(sum / (double)n) : (double)NAN;
+}
+
+/* ---- curve ----------------------------------------------------------------------------------- */
+
+struct order {
+    double x;
+    size_t point;
+};
+
+static int by_x(const void *left, const void *right)
+{
+    const struct order *a = left, *b = right;
+    if (a->x != b->x)
+        return a->x > b->x ? 1 : -1;
+    return (a->point > b->point) - (a->point < b->point);
+}
+
+/* The moduli of the spectrum at the points: on a grid, and between its points by lines, for nothing
+ * turns within a tenth of a decade. */
+static void fill_fitted(const wt_posterior *p, wt_master *m)
+{
+    const double step = 0.1;
+    wt_interval low[MODULI], high[MODULI];
+    double at = -HUGE_VAL;
+    for (size_t j = 0; j < m->n; j++) {
+        const double x = m->log_frequency[j], from = step * floor(x / step);
+        if (from > at) {
+            at = from;
+            posterior_moduli(p, from * M_LN10, low);
+            posterior_moduli(p, (from + step) * M_LN10, high);
+        }
+        const double share = (x - from) / step;
+        m->fitted_storage[j] = scaled(between(low[STORAGE], high[STORAGE], share), 1.0 / M_LN10);
+        m->fitted_loss[j] = scaled(between(low[LOSS], high[LOSS], share), 1.0 / M_LN10);
+    }
+}
+
+/* Points of the determined isotherms, by reduced frequency. */
+static wt_status fill_curve(const master_work *work, wt_master *m, wt_error *err)
+{
+    const spectrum *s = work->s;
+    struct order *order = malloc((s->n + 1) * sizeof *order);
+    m->log_frequency = malloc(3 * (s->n + 1) * sizeof *m->log_frequency);
+    m->isotherm = malloc((s->n + 1) * sizeof *m->isotherm);
+    m->left_out = malloc((s->n + 1) * sizeof *m->left_out);
+    m->fitted_storage = malloc(2 * (s->n + 1) * sizeof *m->fitted_storage);
+    if (order == NULL || m->log_frequency == NULL || m->isotherm == NULL || m->left_out == NULL ||
+        m->fitted_storage == NULL) {
+        free(order);
+        return wt_fail(err, WT_E_MEMORY, "no memory for the master curve");
+    }
+    m->log_storage = m->log_frequency + s->n;
+    m->log_loss = m->log_storage + s->n;
+    m->fitted_loss = m->fitted_storage + s->n;
+    for (size_t i = 0; i < m->n_shifts; i++) {
+        const double a = m->shifts[i].log_a.value - m->offset.value;
+        for (size_t k = s->first[work->curve[i]];
+             m->shifts[i].determined && k < s->first[work->curve[i] + 1]; k++)
+            order[m->n++] = (struct order){s->x[k] / M_LN10 + a, k};
+    }
+    qsort(order, m->n, sizeof *order, by_x);
+    for (size_t j = 0; j < m->n; j++) {
+        const size_t k = order[j].point;
+        size_t i = 0;
+        while (!m->shifts[i].determined || k < s->first[work->curve[i]] ||
+               k >= s->first[work->curve[i] + 1])
+            i++;
+        m->isotherm[j] = i;
+        m->log_frequency[j] = order[j].x;
+        m->log_storage[j] = s->y[STORAGE][k] / M_LN10 + m->shifts[i].log_b.value;
+        m->log_loss[j] = s->y[LOSS][k] / M_LN10 + m->shifts[i].log_b.value;
+        m->left_out[j] = s->weight[STORAGE][k] == 0.0 || s->weight[LOSS][k] == 0.0;
+    }
+    fill_fitted(work->posterior, m);
+    free(order);
+    return WT_OK;
+}
+
+/* The series of unknowns of the spectrum, at the reference temperature. */
+static wt_status series(const wt_posterior *p, const double *value, double offset, wt_prony *prony,
+                        wt_error *err)
+{
+    const spectrum *s = &p->frame;
+    wt_status status = wt_prony_alloc(prony, s->n_terms, err);
+    if (status != WT_OK)
+        return status;
+    for (size_t j = 0; j < s->n_terms; j++) {
+        prony->relaxation_time[j] = exp(s->log_tau + (double)j * s->step + offset * M_LN10);
+        prony->modulus[j] = exp(value[j]);
+    }
+    prony->equilibrium_modulus = s->liquid ? 0.0 : exp(value[s->n_terms]);
+    return WT_OK;
+}
+
+static wt_status fill_series(master_work *work, wt_master *m, wt_error *err)
+{
+    const wt_posterior *p = work->posterior;
+    double *value = malloc(p->frame.n_unknowns * sizeof *value);
+    if (value == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for the series");
+    double unknown[LAW_MOST];
+    posterior_mean(p, value);
+    posterior_mean_law(p, unknown);
+    wt_status status = series(p, value, unknown[0], &m->prony, err);
+    free(value);
+    if (status != WT_OK)
+        return status;
+    m->prony.deformation = m->deformation;
+    m->prony.reference_temperature = m->reference_temperature;
+    if (m->n > 0) {
+        m->prony.frequency_min = pow(10.0, m->log_frequency[0]);
+        m->prony.frequency_max = pow(10.0, m->log_frequency[m->n - 1]);
+    }
+    m->equilibrium = (wt_interval){0};
+    if (p->frame.liquid)
+        return WT_OK;
+    const wt_interval e = posterior_equilibrium(p);
+    m->equilibrium = transform(e, exp);
+    double lowest = HUGE_VAL;
+    for (size_t i = 0; i < m->n; i++)
+        lowest = fmin(lowest, m->log_storage[i]);
+    m->equilibrium_limit = !(e.low >= log(known_equilibrium) + lowest * M_LN10);
+    if (!m->equilibrium_limit)
+        return WT_OK;
+    double limit;
+    status = master_equilibrium_limit(work, &limit, err);
+    m->equilibrium.low = 0.0;
+    m->equilibrium.high = exp(limit);
+    m->equilibrium.standard_error = (double)NAN;
+    return status;
+}
+
+/* By the rise of the objective above what it is without an equilibrium modulus to speak of. */
+wt_status master_equilibrium_limit(master_work *work, double *limit, wt_error *err)
+{
+    spectrum *s = work->s;
+    const double narrow = 1e-3, mean = s->equilibrium_mean, spread = s->equilibrium_spread;
+    double low = s->value[s->n_terms], high = mean + 1.5;
+    wt_status status = WT_OK;
+    s->equilibrium_spread = narrow;
+    s->equilibrium_mean = low;
+    status = spectrum_fit(s, SPECTRUM_HELD, err);
+    const double least = s->objective;
+    while (status == WT_OK && high - low > 0.02) {
+        s->equilibrium_mean = 0.5 * (low + high);
+        s->value[s->n_terms] = s->equilibrium_mean;
+        status = spectrum_fit(s, SPECTRUM_HELD, err);
+        if (s->objective - least < one_sided)
+            low = s->equilibrium_mean;
+        else
+            high = s->equilibrium_mean;
+    }
+    s->equilibrium_mean = mean;
+    s->equilibrium_spread = spread;
+    *limit = high;
+    return status;
+}
+
+/* ---- the whole ------------------------------------------------------------------------------- */
+
+/* An isotherm is shifted onto the reference, or there is nothing to hand out. */
+static wt_status check_shifts(const wt_master *m, wt_error *err)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < m->n_shifts; i++)
+        n += m->shifts[i].determined;
+    if (n > 1 || m->n_shifts == 1)
+        return WT_OK;
+    wt_fail(err, WT_E_NO_OVERLAP,
+            "no shift is determined: the isotherms are flat, or share too few frequencies");
+    wt_error_expected(err, "moduli that change with frequency by more than their scatter, and 0.3 "
+                           "decade shared by neighbours once shifted");
+    wt_error_advice(err, "measure into the transition, at smaller steps of temperature or over "
+                         "more frequencies");
+    return WT_E_NO_OVERLAP;
+}
+
+static wt_status check_reference(const master_work *work, const wt_master *m, wt_error *err)
+{
+    const double coldest = m->shifts[0].temperature,
+                 warmest = m->shifts[m->n_shifts - 1].temperature;
+    const bool inside = m->reference_temperature > coldest && m->reference_temperature < warmest;
+    if (work->measured_reference || (inside && m->law.kind != WT_LAW_NONE) ||
+        (m->law.kind != WT_LAW_NONE && m->offset.standard_error <= largest_sigma))
+        return WT_OK;
+    wt_fail(err, WT_E_RANGE, "no shift can be given for the reference temperature %.2f °C",
+            m->reference_temperature - WT_ZERO_CELSIUS);
+    wt_error_expected(err, "a temperature that the law of the shifts reaches within %.1f decade",
+                      largest_sigma);
+    wt_error_advice(err, "choose one of the measured temperatures");
+    return WT_E_RANGE;
+}
+
+static wt_status fill_shifts(const master_work *work, wt_master *m, wt_error *err)
+{
+    const wt_posterior *p = work->posterior;
+    const size_t n = work->s->n_curves;
+    double *log_b = calloc(2 * n, sizeof *log_b);
+    m->shifts = calloc(work->set.n, sizeof *m->shifts);
+    if (log_b == NULL || m->shifts == NULL) {
+        free(log_b);
+        return wt_fail(err, WT_E_MEMORY, "no memory for the shifts");
+    }
+    double *one = log_b + n;
+    for (size_t c = 0; c < p->n_parts; c++) {
+        posterior_smooth_b(p, p->parts[c].cell, p->parts[c].cell->value, one);
+        for (size_t i = 0; i < n; i++)
+            log_b[i] += p->parts[c].weight * one[i];
+    }
+    for (size_t i = 0; i < work->set.n; i++)
+        fill_shift(work, i, log_b, &m->shifts[i]);
+    m->n_shifts = work->set.n;
+    for (size_t i = 0; i < m->n_shifts; i++)
+        m->n_outliers += m->shifts[i].n_outliers;
+    free(log_b);
+    return WT_OK;
+}
+
+wt_status master_report(master_work *work, const wt_sweep *sweep, wt_parselog *log,
+                        wt_master *master, wt_error *err)
+{
+    wt_master m = {.deformation = sweep->deformation,
+                   .reference_temperature = work->reference,
+                   .vertical = work->options.vertical,
+                   .noise_storage = work->s->noise[STORAGE],
+                   .noise_loss = work->s->noise[LOSS],
+                   .correlation = work->s->rho};
+    wt_status status = fill_shifts(work, &m, err);
+    if (status == WT_OK) {
+        fill_law(work->posterior, &m);
+        status = check_reference(work, &m, err);
+    }
+    if (status == WT_OK)
+        status = check_shifts(&m, err);
+    if (status == WT_OK) {
+        if (!work->measured_reference) /* the shifts are to the reference itself */
+            m.offset = (wt_interval){0};
+        set_rms(&m);
+        master_notes(work, sweep, &m, log);
+    }
+    if (status == WT_OK)
+        status = fill_curve(work, &m, err);
+    if (status == WT_OK)
+        status = fill_series(work, &m, err);
+    if (status != WT_OK) {
+        wt_master_clear(&m);
+        return status;
+    }
+    master_judge(work, &m);
+    work->s->prior = NULL; /* of the work */
+    m.posterior = work->posterior;
+    work->posterior = NULL;
+    *master = m;
+    return WT_OK;
+}
+
+/* ---- asked later ----------------------------------------------------------------------------- */
+
+wt_interval wt_master_law(const wt_master *master, double temperature)
+{
+    if (master->law.kind == WT_LAW_NONE || isnan(wt_shift_law_log_a(&master->law, temperature)))
+        return unknown_interval;
+    return posterior_law(master->posterior, temperature);
+}
+
+void wt_master_moduli(const wt_master *master, double angular_frequency, wt_interval *log_storage,
+                      wt_interval *log_loss)
+{
+    wt_interval modulus[MODULI];
+    posterior_moduli(master->posterior, log(angular_frequency), modulus);
+    *log_storage = scaled(modulus[STORAGE], 1.0 / M_LN10);
+    *log_loss = scaled(modulus[LOSS], 1.0 / M_LN10);
+}
+
+wt_status wt_master_draw(const wt_master *master, uint64_t seed, size_t index, wt_prony *prony,
+                         wt_shift_law *law, double *log_b, wt_error *err)
+{
+    const wt_posterior *p = master->posterior;
+    const size_t n = p->frame.n_curves;
+    double unknown[LAW_MOST];
+    double *value = malloc((p->frame.n_unknowns + n) * sizeof *value);
+    if (value == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for a draw");
+    double *b = value + p->frame.n_unknowns;
+    wt_status status = posterior_draw(p, seed, index, value, unknown, b, err);
+    if (status == WT_OK)
+        status = series(p, value, unknown[0], prony, err);
+    if (status == WT_OK) {
+        prony->deformation = master->deformation;
+        prony->reference_temperature = master->reference_temperature;
+        prony->frequency_min = master->prony.frequency_min;
+        prony->frequency_max = master->prony.frequency_max;
+        *law = master->law;
+        if (master->law.kind != WT_LAW_NONE)
+            *law = law_constants(&p->shape, unknown);
+        for (size_t i = 0; log_b != NULL && i < master->n_shifts; i++)
+            log_b[i] = master->shifts[i].determined ? b[p->curve[i]] : (double)NAN;
+    }
+    free(value);
+    return status;
+}

@@ -1,0 +1,89 @@
+/* The verdict on superposition, and what would settle it.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "fit/master.h"
+
+#include "base/clocale.h"
+
+#include <math.h>
+
+/* Lack of fit is real below this probability. */
+static const double significant = 0.01;
+/* A misfit certainly above the first fails; possibly above the second leaves it open (relative). */
+static const double matters = 0.005, may_matter = 0.01;
+/* Narrower windows hide a second process [decade]. */
+static const double least_window = 1.5;
+/* E'' that a spectrum makes of E' and that which was measured differ by at least so much. */
+static const double loss_matters = 0.01, loss_significant = 0.001;
+enum { LEAST_ISOTHERMS = 3 };
+
+static double widest_of_half(const master_work *work)
+{
+    double widest = 0.0; /* the widest window: one that is wide shows a second process */
+    for (size_t i = 0; i < work->set.n; i++) {
+        const shift_curve *c = &work->set.curves[i];
+        if (work->placed[i])
+            widest = fmax(widest, c->x[c->n - 1] - c->x[0]);
+    }
+    return widest;
+}
+
+void master_judge(const master_work *work, wt_master *m)
+{
+    size_t determined = 0;
+    for (size_t i = 0; i < m->n_shifts; i++)
+        determined += m->shifts[i].determined;
+    const size_t undetermined = m->n_shifts - determined;
+    const lack_of_fit *lack = &work->lack;
+    const double window = widest_of_half(work);
+    const bool tested = work->s->n_curves > 1;
+    m->lack_of_fit_p = tested ? lack->p : (double)NAN;
+    m->misfit_low = tested ? lack->misfit_low : (double)NAN;
+    m->misfit_high = tested ? lack->misfit_high : (double)NAN;
+    m->kramers_kronig_p = tested ? lack->kk : (double)NAN;
+    m->loss_factor = tested ? lack->factor : (double)NAN;
+    m->loss_factor_error = tested ? lack->factor_error : (double)NAN;
+    m->superposition = WT_SUPERPOSITION_CANNOT_SAY;
+    if (determined >= 2 && lack->p < significant && lack->misfit_low > matters) {
+        m->superposition = WT_SUPERPOSITION_FAILS;
+        clocale_print(
+            m->because, sizeof m->because,
+            "one spectrum misses the isotherms by %.1f to %.1f %% (p = %.1g): a second process "
+            "or a change of the material; treat the temperatures apart",
+            100.0 * lack->misfit_low, 100.0 * lack->misfit_high, lack->p);
+    } else if (determined >= 2 && lack->kk < loss_significant &&
+               fabs(lack->factor) - 2.0 * lack->factor_error > loss_matters) {
+        m->superposition = WT_SUPERPOSITION_FAILS;
+        clocale_print(m->because, sizeof m->because,
+                      "E'' is %+.1f %% off what E' demands (Kramers-Kronig, p = %.1g): check the "
+                      "instrument, or the columns",
+                      100.0 * expm1(-lack->factor), lack->kk);
+    } else if (determined < LEAST_ISOTHERMS) {
+        clocale_print(m->because, sizeof m->because,
+                      "%zu isotherms that overlap; three or more would tell", determined);
+    } else if (3 * undetermined > m->n_shifts) {
+        clocale_print(
+            m->because, sizeof m->because,
+            "%zu of %zu shifts not determined; smaller steps of temperature or a wider range of "
+            "frequencies would tell",
+            undetermined, m->n_shifts);
+    } else if (lack->misfit_high > may_matter) {
+        clocale_print(
+            m->because, sizeof m->because,
+            "a misfit of up to %.1f %% would not be seen; less noise than %.1f %%, or more "
+            "points, would tell",
+            100.0 * lack->misfit_high, 100.0 * fmax(m->noise_storage, m->noise_loss));
+    } else if (lack->p < significant) {
+        clocale_print(m->because, sizeof m->because,
+                      "a misfit is likely (p = %.1g) but below %.1f %%", lack->p,
+                      100.0 * lack->misfit_high);
+    } else if (window < least_window) {
+        clocale_print(
+            m->because, sizeof m->because,
+            "windows of %.1f decades hide a second process; 1.5 decades or more would tell",
+            window);
+    } else {
+        m->superposition = WT_SUPERPOSITION_HOLDS;
+        clocale_print(m->because, sizeof m->because, "misfit below %.1f %% (lack of fit p = %.2g)",
+                      100.0 * lack->misfit_high, lack->p);
+    }
+}

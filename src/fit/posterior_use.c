@@ -1,0 +1,382 @@
+/* What a mixture says: intervals and draws. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "fit/posterior.h"
+
+#include "base/mix.h"
+#include "fit/pool_gsl.h"
+
+#include <gsl/gsl_blas.h>
+#include <gsl/gsl_cdf.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- intervals ------------------------------------------------------------------------------- */
+
+struct normal {
+    double weight, mean, deviation;
+};
+
+static double below(const struct normal *part, size_t n, double x)
+{
+    double sum = 0.0;
+    for (size_t i = 0; i < n; i++)
+        sum += part[i].weight * (part[i].deviation > 0.0
+                                     ? gsl_cdf_ugaussian_P((x - part[i].mean) / part[i].deviation)
+                                     : (x >= part[i].mean ? 1.0 : 0.0));
+    return sum;
+}
+
+static double quantile(const struct normal *part, size_t n, double probability)
+{
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (size_t i = 0; i < n; i++) {
+        low = fmin(low, part[i].mean - 9.0 * part[i].deviation);
+        high = fmax(high, part[i].mean + 9.0 * part[i].deviation);
+    }
+    while (high - low > 1e-12 * fmax(fabs(low), fabs(high))) {
+        const double middle = 0.5 * (low + high);
+        if (middle <= low || middle >= high)
+            break;
+        if (below(part, n, middle) < probability)
+            low = middle;
+        else
+            high = middle;
+    }
+    return 0.5 * (low + high);
+}
+
+static wt_interval interval_of(const struct normal *part, size_t n)
+{
+    wt_interval interval = {0};
+    for (size_t i = 0; i < n; i++)
+        interval.value += part[i].weight * part[i].mean;
+    interval.low = quantile(part, n, 0.025);
+    interval.high = quantile(part, n, 0.975);
+    interval.standard_error = (interval.high - interval.low) / (2.0 * 1.959963984540054);
+    return interval;
+}
+
+enum { MOST_PARTS = POSTERIOR_CELLS * LAW_SPREADS };
+
+static wt_interval of_column(const wt_posterior *p, long column, double held)
+{
+    struct normal part[MOST_PARTS];
+    if (column < 0)
+        return (wt_interval){held, 0.0, held, held};
+    const size_t c = (size_t)column;
+    for (size_t i = 0; i < p->n_cells; i++)
+        part[i] = (struct normal){p->cells[i].weight, p->cells[i].value[c] / M_LN10,
+                                  sqrt(gsl_matrix_get(p->cells[i].covariance, c, c)) / M_LN10};
+    return interval_of(part, p->n_cells);
+}
+
+wt_interval posterior_a(const wt_posterior *p, size_t curve)
+{
+    return of_column(p, p->frame.column_a[curve], 0.0);
+}
+
+wt_interval posterior_b(const wt_posterior *p, size_t curve)
+{
+    return of_column(p, p->frame.column_b[curve], p->mean_b[curve] / M_LN10);
+}
+
+double posterior_tie(const wt_posterior *p, size_t curve)
+{
+    const long a = p->frame.column_a[curve], b = p->frame.column_b[curve];
+    const gsl_matrix *v = p->cells[0].covariance;
+    return a < 0 || b < 0
+               ? 0.0
+               : gsl_matrix_get(v, (size_t)a, (size_t)b) / gsl_matrix_get(v, (size_t)b, (size_t)b);
+}
+
+/* By the unknowns of the law alone. */
+static wt_interval of_law(const wt_posterior *p, const double *gradient, const double *mean)
+{
+    struct normal part[MOST_PARTS];
+    for (size_t i = 0; i < p->n_parts; i++) {
+        double variance = 0.0;
+        for (size_t u = 0; u < p->parts[i].law.n_unknowns; u++)
+            for (size_t v = 0; v < p->parts[i].law.n_unknowns; v++)
+                variance += gradient[i * LAW_MOST + u] * gradient[i * LAW_MOST + v] *
+                            p->parts[i].law.covariance[u][v];
+        part[i] = (struct normal){p->parts[i].weight, mean[i], sqrt(fmax(variance, 0.0))};
+    }
+    return interval_of(part, p->n_parts);
+}
+
+wt_interval posterior_law(const wt_posterior *p, double temperature)
+{
+    double gradient[MOST_PARTS * LAW_MOST], mean[MOST_PARTS];
+    for (size_t i = 0; i < p->n_parts; i++)
+        mean[i] = law_at(&p->shape, p->parts[i].law.unknown, temperature, gradient + i * LAW_MOST);
+    return of_law(p, gradient, mean);
+}
+
+wt_interval posterior_slope(const wt_posterior *p, double temperature)
+{
+    const double step = 0.01; /* K */
+    double gradient[MOST_PARTS * LAW_MOST], mean[MOST_PARTS], below_it[LAW_MOST];
+    for (size_t i = 0; i < p->n_parts; i++) {
+        const double *unknown = p->parts[i].law.unknown;
+        double *above = gradient + i * LAW_MOST;
+        mean[i] = (law_at(&p->shape, unknown, temperature + step, above) -
+                   law_at(&p->shape, unknown, temperature - step, below_it)) /
+                  (2.0 * step);
+        for (size_t u = 0; u < LAW_MOST; u++)
+            above[u] = (above[u] - below_it[u]) / (2.0 * step);
+    }
+    return of_law(p, gradient, mean);
+}
+
+wt_interval posterior_constant(const wt_posterior *p, size_t unknown)
+{
+    double gradient[MOST_PARTS * LAW_MOST] = {0}, mean[MOST_PARTS];
+    for (size_t i = 0; i < p->n_parts; i++) {
+        gradient[i * LAW_MOST + unknown] = 1.0;
+        mean[i] = p->parts[i].law.unknown[unknown];
+    }
+    return of_law(p, gradient, mean);
+}
+
+/* Mean and variance of gradient . (unknowns of the spectrum) + by_offset * offset [decade], where
+ * `value` is its value at the unknowns of the cell. */
+struct combination {
+    const double *gradient; /* [n_linear]: terms only */
+    double by_offset;
+};
+
+static struct normal of_part(const wt_posterior *p, const posterior_part *part,
+                             const struct combination *g, double value)
+{
+    const size_t m = p->frame.n_linear, n = p->frame.n_curves;
+    const gsl_matrix *v = part->cell->covariance;
+    double variance = 0.0, mean = value;
+    double *with = p->scratch; /* covariance with log a */
+    for (size_t i = 0; i < m; i++) {
+        const double *c = gsl_matrix_const_ptr(v, i, 0);
+        double half = 0.0;
+        for (size_t j = 0; j < i; j++)
+            half += c[j] * g->gradient[j];
+        variance += g->gradient[i] * (2.0 * half + c[i] * g->gradient[i]);
+    }
+    for (size_t k = 0; k < n; k++) {
+        size_t column;
+        with[k] = 0.0;
+        if (!posterior_column(p, k, &column))
+            continue;
+        const double *c = gsl_matrix_const_ptr(v, column, 0);
+        for (size_t j = 0; j < m; j++)
+            with[k] += c[j] * g->gradient[j] / M_LN10;
+    }
+    for (size_t k = 0; k < n; k++) {
+        const double *c = gsl_matrix_const_ptr(part->inner, k, 0);
+        mean += with[k] * gsl_vector_get(part->pull, k);
+        variance += 2.0 * with[k] * gsl_matrix_get(part->outer, k, 0) * g->by_offset;
+        for (size_t j = 0; j < n; j++)
+            variance -= with[k] * c[j] * with[j];
+    }
+    variance += g->by_offset * g->by_offset * part->law.covariance[0][0];
+    mean += g->by_offset * part->law.unknown[0];
+    return (struct normal){part->weight, mean, sqrt(fmax(variance, 0.0))};
+}
+
+void posterior_moduli(const wt_posterior *p, double x, wt_interval modulus[MODULI])
+{
+    const size_t m = p->frame.n_linear;
+    struct normal part[MODULI][MOST_PARTS];
+    double *term = p->scratch + p->frame.n_curves, *const gradient[MODULI] = {term + m,
+                                                                              term + 2 * m};
+    const posterior_cell *last = NULL;
+    double value[MODULI], slope[MODULI];
+    double mean[LAW_MOST];
+    posterior_mean_law(p, mean);
+    const double offset = mean[0] * M_LN10;
+    for (size_t i = 0; i < p->n_parts; i++) {
+        if (p->parts[i].cell != last) {
+            last = p->parts[i].cell;
+            spectrum_terms(&p->frame, last->value, term);
+            spectrum_at(&p->frame, term, x + offset, value, slope, gradient);
+        }
+        for (int q = 0; q < MODULI; q++) {
+            const struct combination g = {gradient[q], slope[q] * M_LN10};
+            part[q][i] = of_part(p, &p->parts[i], &g, value[q] - slope[q] * offset);
+        }
+    }
+    for (int q = 0; q < MODULI; q++)
+        modulus[q] = interval_of(part[q], p->n_parts);
+}
+
+/* The shift of a curve to the reference temperature itself, which only the law knows. */
+wt_interval posterior_a_to_reference(const wt_posterior *p, size_t curve)
+{
+    struct normal part[MOST_PARTS];
+    const size_t n = p->frame.n_curves;
+    size_t at, column;
+    const bool moves = posterior_column(p, curve, &at);
+    for (size_t i = 0; i < p->n_parts; i++) {
+        const posterior_part *q = &p->parts[i];
+        const gsl_matrix *v = q->cell->covariance;
+        const double square = 1.0 / (M_LN10 * M_LN10);
+        double mean = -q->law.unknown[0], variance = q->law.covariance[0][0];
+        if (moves) {
+            mean += q->cell->value[at] / M_LN10;
+            variance += gsl_matrix_get(v, at, at) * square;
+        }
+        for (size_t k = 0; k < n; k++)
+            p->scratch[k] = moves && posterior_column(p, k, &column)
+                                ? gsl_matrix_get(v, at, column) * square
+                                : 0.0;
+        for (size_t k = 0; k < n; k++) {
+            mean += p->scratch[k] * gsl_vector_get(q->pull, k);
+            variance -= 2.0 * p->scratch[k] * gsl_matrix_get(q->outer, k, 0);
+            for (size_t j = 0; j < n; j++)
+                variance -= p->scratch[k] * gsl_matrix_get(q->inner, k, j) * p->scratch[j];
+        }
+        part[i] = (struct normal){q->weight, mean, sqrt(fmax(variance, 0.0))};
+    }
+    return interval_of(part, p->n_parts);
+}
+
+wt_interval posterior_equilibrium(const wt_posterior *p)
+{
+    struct normal part[MOST_PARTS];
+    double *gradient = p->scratch + p->frame.n_curves;
+    for (size_t j = 0; j < p->frame.n_linear; j++)
+        gradient[j] = j == p->frame.n_terms ? 1.0 : 0.0;
+    const struct combination g = {gradient, 0.0};
+    for (size_t i = 0; i < p->n_parts; i++)
+        part[i] = of_part(p, &p->parts[i], &g, p->parts[i].cell->value[p->frame.n_terms]);
+    return interval_of(part, p->n_parts);
+}
+
+/* ---- means and draws ------------------------------------------------------------------------- */
+
+/* Adds to all unknowns what a gap between law and shifts (times S^-1) pulls them by. */
+static void add_pull(const wt_posterior *p, const posterior_part *part, const gsl_vector *pull,
+                     double scale, double *value)
+{
+    for (size_t k = 0; k < p->frame.n_curves; k++) {
+        size_t column;
+        if (!posterior_column(p, k, &column))
+            continue;
+        const double *c = gsl_matrix_const_ptr(part->cell->covariance, column, 0);
+        const double by = scale * gsl_vector_get(pull, k) / M_LN10;
+        for (size_t u = 0; u < p->frame.n_unknowns; u++)
+            value[u] += by * c[u];
+    }
+}
+
+void posterior_mean(const wt_posterior *p, double *value)
+{
+    memset(value, 0, p->frame.n_unknowns * sizeof *value);
+    for (size_t i = 0; i < p->n_parts; i++) {
+        for (size_t u = 0; u < p->frame.n_unknowns; u++)
+            value[u] += p->parts[i].weight * p->parts[i].cell->value[u];
+        add_pull(p, &p->parts[i], p->parts[i].pull, p->parts[i].weight, value);
+    }
+}
+
+void posterior_mean_law(const wt_posterior *p, double unknown[LAW_MOST])
+{
+    memset(unknown, 0, LAW_MOST * sizeof *unknown);
+    for (size_t i = 0; i < p->n_parts; i++)
+        for (size_t u = 0; u < LAW_MOST; u++)
+            unknown[u] += p->parts[i].weight * p->parts[i].law.unknown[u];
+}
+
+void posterior_smooth_b(const wt_posterior *p, const posterior_cell *cell, const double *value,
+                        double *log_b)
+{
+    const size_t n = p->frame.n_curves;
+    for (size_t i = 0; i < n; i++) {
+        double sum = p->mean_b[i];
+        if (cell->smooth == NULL && p->frame.column_b[i] >= 0)
+            sum = value[p->frame.column_b[i]];
+        for (size_t k = 0; cell->smooth != NULL && k < n; k++)
+            sum += cell->smooth[i * n + k] * (value[p->frame.column_b[k]] - p->mean_b[k]);
+        log_b[i] = sum / M_LN10;
+    }
+}
+
+struct stream {
+    uint64_t state;
+};
+
+static double uniform(struct stream *s)
+{
+    s->state = mix64(s->state);
+    return ((double)(s->state >> 11) + 0.5) * 0x1p-53;
+}
+
+static double normal(struct stream *s)
+{
+    const double radius = sqrt(-2.0 * log(uniform(s)));
+    return radius * cos(2.0 * M_PI * uniform(s));
+}
+
+/* Neighbouring draws go through the mixture evenly: steps of the golden section. */
+static const posterior_part *part_of_draw(const wt_posterior *p, uint64_t seed, size_t index)
+{
+    struct stream start = {mix64(seed)};
+    double at = fmod(uniform(&start) + (double)index * 0.6180339887498949, 1.0);
+    for (size_t i = 0; i + 1 < p->n_parts; i++) {
+        if (at < p->parts[i].weight)
+            return &p->parts[i];
+        at -= p->parts[i].weight;
+    }
+    return &p->parts[p->n_parts - 1];
+}
+
+/* Unknowns of the law from their distribution. */
+static void draw_law(const posterior_part *part, struct stream *s, double unknown[LAW_MOST])
+{
+    double root[LAW_MOST][LAW_MOST] = {{0}}, e[LAW_MOST];
+    for (size_t u = 0; u < part->law.n_unknowns; u++) {
+        e[u] = normal(s);
+        unknown[u] = part->law.unknown[u];
+        for (size_t v = 0; v <= u; v++) {
+            double sum = part->law.covariance[u][v];
+            for (size_t w = 0; w < v; w++)
+                sum -= root[u][w] * root[v][w];
+            root[u][v] = u == v ? sqrt(fmax(sum, 0.0)) : root[v][v] > 0.0 ? sum / root[v][v] : 0.0;
+            unknown[u] += root[u][v] * e[v];
+        }
+    }
+}
+
+/* Spectrum and shifts drawn without the law, then pulled to what the drawn law foretells. */
+wt_status posterior_draw(const wt_posterior *p, uint64_t seed, size_t index, double *value,
+                         double unknown[LAW_MOST], double *log_b, wt_error *err)
+{
+    const size_t n = p->frame.n_unknowns, n_curves = p->frame.n_curves;
+    const posterior_part *part = part_of_draw(p, seed, index);
+    struct stream s = {mix64(mix64(seed) ^ (uint64_t)index)};
+    pool memory = {0};
+    gsl_vector *e = pool_vector(&memory, n), *gap = pool_vector(&memory, n_curves),
+               *pull = pool_vector(&memory, n_curves);
+    if (memory.failed) {
+        pool_free(&memory);
+        return wt_fail(err, WT_E_MEMORY, "no memory for a draw");
+    }
+    for (size_t u = 0; u < n; u++)
+        gsl_vector_set(e, u, normal(&s));
+    gsl_blas_dtrsv(CblasLower, CblasTrans, CblasNonUnit, part->cell->root, e);
+    for (size_t u = 0; u < n; u++)
+        value[u] = part->cell->value[u] + gsl_vector_get(e, u);
+    memset(unknown, 0, LAW_MOST * sizeof *unknown);
+    if (part->law.n_unknowns > 0) {
+        draw_law(part, &s, unknown);
+        for (size_t k = 0; k < n_curves; k++) {
+            size_t column;
+            double law = law_of_isotherm(&p->data, &p->shape, unknown, k);
+            if (posterior_column(p, k, &column))
+                law -= value[column] / M_LN10;
+            gsl_vector_set(gap, k, law - part->spread * p->slope[k] * normal(&s));
+        }
+        gsl_blas_dgemv(CblasNoTrans, 1.0, part->inverse, gap, 0.0, pull);
+        add_pull(p, part, pull, 1.0, value);
+    }
+    posterior_smooth_b(p, part->cell, value, log_b);
+    pool_free(&memory);
+    return WT_OK;
+}

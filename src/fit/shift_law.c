@@ -1,0 +1,434 @@
+/* Laws of the shift factors: generalised least squares with the full covariance of the shifts and
+ * an error of temperature for every isotherm, which is averaged over; which law by a criterion.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "fit/shift_law.h"
+
+#include "base/gsl_quiet.h"
+
+#include <gsl/gsl_blas.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_linalg.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double gas_constant = 8.31446261815324; /* J/(mol K) */
+/* The pole of WLF lies so far below the coldest isotherm [K]: closer, no rubber is measured;
+ * farther, the law is a straight line. */
+static const double pole_nearest = 2.0, pole_farthest = 1e4;
+/* Temperatures are believed to so many kelvin (half width of a Cauchy prior). */
+static const double believed = 0.3;
+/* The isotherm whose own shift gains more than this of -2 ln likelihood is odd. */
+static const double odd_gain = 20.0;
+enum { POLE_GRID = 40, LEAST_WLF = 4, LEAST_CORRECTED = 7, LEAST_JOINED = 8, LEAST_ODD = 6 };
+
+double law_spread(size_t i)
+{
+    return ldexp(0.004, (int)i);
+}
+
+/* ---- the laws -------------------------------------------------------------------------------- */
+
+static bool has_wlf(const law_shape *shape)
+{
+    return shape->kind != WT_LAW_ARRHENIUS;
+}
+
+size_t law_unknowns(const law_shape *shape)
+{
+    static const size_t count[] = {[WT_LAW_WLF] = 3, [WT_LAW_ARRHENIUS] = 2, [WT_LAW_JOINED] = 4};
+    return count[shape->kind] + (shape->odd >= 0 ? 1 : 0);
+}
+
+size_t law_odd_index(const law_shape *shape)
+{
+    if (shape->odd < 0)
+        return LAW_MOST;
+    return shape->kind == WT_LAW_JOINED ? 3 : 2;
+}
+
+size_t law_pole_index(const law_shape *shape)
+{
+    return has_wlf(shape) ? law_unknowns(shape) - 1 : LAW_MOST;
+}
+
+/* -(T - Tref)/(C2 + T - Tref) and its derivative by ln of the distance of the pole. */
+static double wlf_part(const law_shape *shape, double distance, double temperature, double *by_pole)
+{
+    const double rise = temperature - shape->reference;
+    const double sum = distance + temperature - shape->coldest;
+    *by_pole = rise / sum * (distance / sum);
+    return -rise / sum;
+}
+
+static double arrhenius_part(double reference, double temperature)
+{
+    return (reference - temperature) / (reference * temperature) / (gas_constant * M_LN10);
+}
+
+/* Main part, part below the joint, and derivative of the main part by the pole. */
+static void parts(const law_shape *shape, double distance, double temperature, double *main_part,
+                  double *below, double *by_pole)
+{
+    const double r = shape->reference;
+    const bool joined = shape->kind == WT_LAW_JOINED;
+    *below = *by_pole = 0.0;
+    if (!has_wlf(shape)) {
+        *main_part = arrhenius_part(r, temperature);
+        return;
+    }
+    double at_reference = 0.0, of_reference = 0.0;
+    *main_part =
+        wlf_part(shape, distance, joined ? fmax(temperature, shape->joint) : temperature, by_pole);
+    if (!joined)
+        return;
+    at_reference = wlf_part(shape, distance, fmax(r, shape->joint), &of_reference);
+    *main_part -= at_reference;
+    *by_pole -= of_reference;
+    *below = arrhenius_part(fmin(r, shape->joint), fmin(temperature, shape->joint));
+}
+
+static double pole_distance(const law_shape *shape, const double *unknown)
+{
+    return has_wlf(shape) ? exp(unknown[law_pole_index(shape)]) : 1.0;
+}
+
+double law_at(const law_shape *shape, const double *unknown, double temperature, double *gradient)
+{
+    double main_part, below, by_pole;
+    parts(shape, pole_distance(shape, unknown), temperature, &main_part, &below, &by_pole);
+    const bool joined = shape->kind == WT_LAW_JOINED;
+    if (gradient != NULL) {
+        for (size_t u = 0; u < LAW_MOST; u++)
+            gradient[u] = 0.0;
+        gradient[1] = main_part;
+        if (joined)
+            gradient[2] = below;
+        if (has_wlf(shape))
+            gradient[law_pole_index(shape)] = unknown[1] * by_pole;
+    }
+    return unknown[1] * main_part + (joined ? unknown[2] * below : 0.0);
+}
+
+double law_of_isotherm(const law_data *data, const law_shape *shape, const double *unknown,
+                       size_t i)
+{
+    return unknown[0] + law_at(shape, unknown, data->temperature[i], NULL) +
+           ((long)i == shape->odd ? unknown[law_odd_index(shape)] : 0.0);
+}
+
+wt_shift_law law_constants(const law_shape *shape, const double *unknown)
+{
+    wt_shift_law law = {.kind = shape->kind,
+                        .wlf = {shape->reference, (double)NAN, (double)NAN},
+                        .activation_energy = (double)NAN,
+                        .joint = shape->kind == WT_LAW_JOINED ? shape->joint : (double)NAN};
+    if (has_wlf(shape)) {
+        law.wlf.c1 = unknown[1];
+        law.wlf.c2 = shape->reference - shape->coldest + pole_distance(shape, unknown);
+    }
+    if (shape->kind == WT_LAW_ARRHENIUS)
+        law.activation_energy = unknown[1];
+    if (shape->kind == WT_LAW_JOINED)
+        law.activation_energy = unknown[2];
+    return law;
+}
+
+/* ---- generalised least squares --------------------------------------------------------------- */
+
+struct gls {
+    const law_data *data;
+    const law_shape *shape;
+    const gsl_matrix *root; /* Cholesky factor of the covariance of the shifts and temperatures */
+};
+
+wt_status law_gls_covariance(const law_data *data, double spread, gsl_matrix *covariance,
+                             wt_error *err)
+{
+    for (size_t i = 0; i < data->n; i++)
+        for (size_t k = 0; k < data->n; k++)
+            gsl_matrix_set(covariance, i, k, gsl_matrix_get(data->covariance, i, k));
+    for (size_t i = 0; i < data->n; i++)
+        *gsl_matrix_ptr(covariance, i, i) += spread * spread * data->slope[i] * data->slope[i];
+    if (gsl_linalg_cholesky_decomp1(covariance) != GSL_SUCCESS)
+        return wt_fail(err, WT_E_CONVERGENCE, "the covariance of the shifts is not positive");
+    return WT_OK;
+}
+
+/* Offset, parts that are linear, odd isotherm, derivative by the pole. */
+static void design(const law_data *data, const law_shape *shape, double distance,
+                   double main_factor, gsl_matrix *x)
+{
+    const size_t odd = law_odd_index(shape), pole = law_pole_index(shape);
+    for (size_t i = 0; i < data->n; i++) {
+        double main_part, below, by_pole;
+        parts(shape, distance, data->temperature[i], &main_part, &below, &by_pole);
+        gsl_matrix_set(x, i, 0, 1.0);
+        gsl_matrix_set(x, i, 1, main_part);
+        if (shape->kind == WT_LAW_JOINED)
+            gsl_matrix_set(x, i, 2, below);
+        if (odd < LAW_MOST)
+            gsl_matrix_set(x, i, odd, (long)i == shape->odd ? 1.0 : 0.0);
+        if (pole < LAW_MOST)
+            gsl_matrix_set(x, i, pole, main_factor * by_pole);
+    }
+}
+
+void law_design(const law_data *data, const law_shape *shape, const double *unknown, gsl_matrix *x)
+{
+    design(data, shape, pole_distance(shape, unknown), unknown[1], x);
+}
+
+/* Least squares for a given distance of the pole, with `used` columns; false if they are
+ * dependent. */
+static bool solve(const struct gls *g, double distance, double main_factor, size_t used,
+                  law_fit *fit)
+{
+    const size_t n = g->data->n, k = law_unknowns(g->shape);
+    double cross_block[LAW_MOST * LAW_MOST];
+    gsl_vector_view y = gsl_vector_view_array(g->data->scratch, n);
+    gsl_matrix_view whole = gsl_matrix_view_array(g->data->scratch + n, n, k);
+    gsl_matrix_view cross = gsl_matrix_view_array(cross_block, used, used);
+    gsl_vector_view right = gsl_vector_view_array(fit->unknown, used);
+    for (size_t i = 0; i < n; i++)
+        gsl_vector_set(&y.vector, i, g->data->log_a[i]);
+    design(g->data, g->shape, distance, main_factor, &whole.matrix);
+    gsl_matrix_view x = gsl_matrix_submatrix(&whole.matrix, 0, 0, n, used);
+    gsl_blas_dtrsv(CblasLower, CblasNoTrans, CblasNonUnit, g->root, &y.vector);
+    gsl_blas_dtrsm(CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, 1.0, g->root, &x.matrix);
+    gsl_blas_dsyrk(CblasLower, CblasTrans, 1.0, &x.matrix, 0.0, &cross.matrix);
+    gsl_blas_dgemv(CblasTrans, 1.0, &x.matrix, &y.vector, 0.0, &right.vector);
+    if (gsl_linalg_cholesky_decomp1(&cross.matrix) != GSL_SUCCESS)
+        return false;
+    gsl_linalg_cholesky_svx(&cross.matrix, &right.vector);
+    fit->log_det_design = 0.0;
+    for (size_t u = 0; u < used; u++)
+        fit->log_det_design += 2.0 * log(gsl_matrix_get(&cross.matrix, u, u));
+    gsl_linalg_cholesky_invert(&cross.matrix);
+    for (size_t u = 0; u < used; u++)
+        for (size_t v = 0; v < used; v++)
+            fit->covariance[u][v] = gsl_matrix_get(&cross.matrix, u, v);
+    gsl_blas_dgemv(CblasNoTrans, -1.0, &x.matrix, &right.vector, 1.0, &y.vector);
+    gsl_blas_ddot(&y.vector, &y.vector, &fit->chi_square);
+    return true;
+}
+
+static double chi_square_at(const struct gls *g, double log_distance, law_fit *fit)
+{
+    const bool good = solve(g, exp(log_distance), 1.0, law_unknowns(g->shape) - 1, fit);
+    /* a law that rises with temperature is none */
+    return good && fit->unknown[1] > 0.0 ? fit->chi_square : HUGE_VAL;
+}
+
+/* ln of the distance of the pole that fits best: scanned, then by golden sections. */
+static double best_pole(const struct gls *g, law_fit *fit)
+{
+    const double golden = 0.5 * (sqrt(5.0) - 1.0);
+    const double step = log(pole_farthest / pole_nearest) / POLE_GRID;
+    double best = HUGE_VAL, at = log(pole_farthest);
+    for (int i = 0; i <= POLE_GRID; i++) {
+        const double p = log(pole_nearest) + i * step, chi = chi_square_at(g, p, fit);
+        if (chi < best) {
+            best = chi;
+            at = p;
+        }
+    }
+    double low = fmax(at - step, log(pole_nearest)), high = fmin(at + step, log(pole_farthest));
+    double left = high - golden * (high - low), right = low + golden * (high - low);
+    double of_left = chi_square_at(g, left, fit), of_right = chi_square_at(g, right, fit);
+    while (high - low > 1e-5) {
+        if (of_left <= of_right) {
+            high = right;
+            right = left;
+            of_right = of_left;
+            left = high - golden * (high - low);
+            of_left = chi_square_at(g, left, fit);
+        } else {
+            low = left;
+            left = right;
+            of_left = of_right;
+            right = low + golden * (high - low);
+            of_right = chi_square_at(g, right, fit);
+        }
+    }
+    return 0.5 * (low + high);
+}
+
+wt_status law_fit_with(const law_data *data, const law_shape *shape, gsl_matrix *root, law_fit *fit,
+                       wt_error *err)
+{
+    const struct gls g = {data, shape, root};
+    const size_t k = law_unknowns(shape), pole = law_pole_index(shape);
+    *fit = (law_fit){.n_unknowns = k};
+    bool good;
+    if (pole == LAW_MOST) {
+        good = solve(&g, 1.0, 1.0, k, fit);
+    } else {
+        const double p = best_pole(&g, fit);
+        good = chi_square_at(&g, p, fit) < HUGE_VAL;
+        double linear[LAW_MOST];
+        const double chi_square = fit->chi_square;
+        memcpy(linear, fit->unknown, sizeof linear);
+        if (good)
+            good = solve(&g, exp(p), linear[1], k, fit);
+        memcpy(fit->unknown, linear, sizeof linear);
+        fit->unknown[pole] = p;
+        fit->chi_square = chi_square;
+    }
+    if (!good || !(fit->unknown[1] > 0.0)) {
+        wt_fail(err, WT_E_RANGE, "the shift factors do not fall with temperature");
+        wt_error_advice(err, "are the temperatures those of the isotherms?");
+        return WT_E_RANGE;
+    }
+    for (size_t i = 0; i < data->n; i++)
+        fit->log_det += 2.0 * log(gsl_matrix_get(root, i, i));
+    return WT_OK;
+}
+
+double law_reml(const law_fit *fit)
+{
+    return fit->chi_square + fit->log_det + fit->log_det_design;
+}
+
+double law_spread_prior(double spread)
+{
+    return spread / (1.0 + spread * spread / (believed * believed));
+}
+
+/* ---- which law ------------------------------------------------------------------------------- */
+
+/* -2 ln of the largest likelihood over the spread of temperatures, and of the mean one. */
+static wt_status likelihoods(const law_data *data, const law_shape *shape, gsl_matrix *root,
+                             double *largest, double *mean, wt_error *err)
+{
+    double value[LAW_SPREADS], sum = 0.0, weights = 0.0;
+    *largest = HUGE_VAL;
+    for (size_t i = 0; i < LAW_SPREADS; i++) {
+        law_fit fit;
+        wt_status status = law_gls_covariance(data, law_spread(i), root, err);
+        if (status == WT_OK)
+            status = law_fit_with(data, shape, root, &fit, err);
+        if (status != WT_OK)
+            return status;
+        value[i] = fit.chi_square + fit.log_det;
+        *largest = fmin(*largest, value[i]);
+    }
+    for (size_t i = 0; i < LAW_SPREADS; i++) {
+        sum += law_spread_prior(law_spread(i)) * exp(-0.5 * (value[i] - *largest));
+        weights += law_spread_prior(law_spread(i));
+    }
+    *mean = *largest - 2.0 * log(sum / weights);
+    return WT_OK;
+}
+
+static double score(const law_data *data, const law_shape *shape, double largest, double mean)
+{
+    /* offset, constants and spread; the odd isotherm counts for every law alike */
+    const double n = (double)data->n,
+                 k = (double)law_unknowns(shape) + 1.0 + (shape->kind == WT_LAW_JOINED ? 1.0 : 0.0);
+    if (data->n < LEAST_CORRECTED)
+        return mean + 2.0 * k;
+    return n > k + 1.0 ? largest + 2.0 * k + 2.0 * k * (k + 1.0) / (n - k - 1.0) : HUGE_VAL;
+}
+
+struct search {
+    law_data *data;
+    gsl_matrix *root;
+    double best;    /* score */
+    double largest; /* likelihood that goes with it */
+    law_shape chosen;
+};
+
+static wt_status consider(struct search *search, law_shape shape, wt_error *err)
+{
+    double largest, mean;
+    wt_error failure = WT_ERROR_INIT;
+    wt_status status = likelihoods(search->data, &shape, search->root, &largest, &mean, &failure);
+    if (status == WT_E_MEMORY || status == WT_E_INTERNAL) {
+        if (err != NULL)
+            *err = failure;
+        return status;
+    }
+    if (status != WT_OK)
+        return WT_OK;
+    const double s = score(search->data, &shape, largest, mean);
+    if (s < search->best) {
+        search->best = s;
+        search->largest = largest;
+        search->chosen = shape;
+    }
+    return WT_OK;
+}
+
+static wt_status consider_all(struct search *search, const law_shape *start, wt_error *err)
+{
+    const law_data *data = search->data;
+    law_shape shape = *start;
+    shape.kind = WT_LAW_ARRHENIUS;
+    wt_status status = consider(search, shape, err);
+    shape.kind = WT_LAW_WLF;
+    if (status == WT_OK && data->n >= LEAST_WLF)
+        status = consider(search, shape, err);
+    shape.kind = WT_LAW_JOINED;
+    for (size_t i = 2; status == WT_OK && data->n >= LEAST_JOINED && i + 3 < data->n; i++) {
+        shape.joint = data->temperature[i];
+        shape.coldest = fmin(shape.joint, shape.reference);
+        if (data->temperature[i] > data->temperature[0])
+            status = consider(search, shape, err);
+    }
+    return status;
+}
+
+/* Slopes of the law at the isotherms, by which an error of temperature moves a shift. */
+static void set_slopes(law_data *data, const law_shape *shape, const double *unknown)
+{
+    const double step = 0.01; /* K */
+    for (size_t i = 0; i < data->n; i++)
+        data->slope[i] = (law_at(shape, unknown, data->temperature[i] + step, NULL) -
+                          law_at(shape, unknown, data->temperature[i] - step, NULL)) /
+                         (2.0 * step);
+}
+
+wt_status law_choose(law_data *data, double reference, gsl_matrix *root, law_shape *chosen,
+                     wt_error *err)
+{
+    const double coldest = fmin(data->temperature[0], reference);
+    struct search search = {data, root, HUGE_VAL, HUGE_VAL, {0}};
+    law_shape start = {.kind = data->n >= LEAST_WLF ? WT_LAW_WLF : WT_LAW_ARRHENIUS,
+                       .reference = reference,
+                       .odd = -1,
+                       .coldest = coldest};
+    wt_status status = WT_OK;
+    gsl_quiet();
+    for (size_t i = 0; i < data->n; i++)
+        data->slope[i] = 0.1;
+    for (int round = 0; status == WT_OK && round < 3; round++) {
+        law_fit fit;
+        const law_shape *shape = round == 2 ? &search.chosen : &start;
+        status = law_gls_covariance(data, believed, root, err);
+        if (status == WT_OK)
+            status = law_fit_with(data, shape, root, &fit, err);
+        if (status != WT_OK)
+            break;
+        set_slopes(data, shape, fit.unknown);
+        if (round == 1)
+            status = consider_all(&search, &start, err);
+    }
+    if (status == WT_OK && !(search.best < HUGE_VAL))
+        status = wt_fail(err, WT_E_RANGE, "no law describes the shift factors");
+    if (status != WT_OK)
+        return status;
+    const struct search plain = search;
+    for (size_t i = 0; status == WT_OK && data->n >= LEAST_ODD && i < data->n; i++) {
+        double largest, mean;
+        law_shape shape = plain.chosen;
+        shape.odd = (long)i;
+        status = likelihoods(data, &shape, root, &largest, &mean, err);
+        if (status == WT_OK && largest < search.largest && largest < plain.largest - odd_gain) {
+            search.largest = largest;
+            search.chosen = shape;
+        }
+    }
+    *chosen = search.chosen;
+    return status;
+}

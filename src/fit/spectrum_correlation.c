@@ -1,0 +1,122 @@
+/* How noise goes together along an isotherm: a first-order autoregression, by the criterion of the
+ * fit, or within the isotherms alone. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "fit/spectrum.h"
+
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_linalg.h>
+#include <math.h>
+#include <stdlib.h>
+
+static const double rhos[] = {0.0, 0.2, 0.4, 0.6, 0.75, 0.88};
+enum { RHOS = sizeof rhos / sizeof *rhos };
+
+wt_status spectrum_choose_rho(spectrum *s, wt_error *err)
+{
+    double best = s->criterion, chosen = s->rho;
+    wt_status status = WT_OK;
+    for (size_t i = 1; status == WT_OK && i < RHOS; i++) {
+        s->rho = rhos[i];
+        status = spectrum_fit(s, SPECTRUM_NOISE, err);
+        if (status != WT_OK || s->criterion >= best)
+            break; /* it has one minimum */
+        best = s->criterion;
+        chosen = rhos[i];
+    }
+    s->rho = chosen;
+    return status == WT_OK ? spectrum_fit(s, SPECTRUM_NOISE, err) : status;
+}
+
+/* ---- within the isotherms -------------------------------------------------------------------- */
+
+/* A parabola of its own through the residuals of an isotherm in a modulus. */
+enum { COEFFICIENTS = 3, WIDTH = COEFFICIENTS + 1, LEAST_POINTS = COEFFICIENTS + 3 };
+
+struct within {
+    double squares, freedom, log_det;
+};
+
+/* v: [n * WIDTH] scratch; residuals are not whitened. */
+static struct within residual_within(const spectrum *s, size_t curve, int q, double *v)
+{
+    const size_t from = s->first[curve], to = s->first[curve + 1];
+    const double middle = 0.5 * (s->x[from] + s->x[to - 1]);
+    const double half = 0.5 * (s->x[to - 1] - s->x[from]);
+    double cross_block[WIDTH * WIDTH] = {0};
+    struct within w = {0.0, -(double)COEFFICIENTS, 0.0};
+    for (size_t k = from; k < to; k++) {
+        const double used = s->weight[q][k] > 0.0 ? 1.0 : 0.0, u = (s->x[k] - middle) / half;
+        v[k * WIDTH] = used;
+        v[k * WIDTH + 1] = used * u;
+        v[k * WIDTH + 2] = used * u * u;
+        v[k * WIDTH + 3] = used * s->residual[q][k];
+        w.freedom += used;
+    }
+    if (w.freedom < (double)(LEAST_POINTS - COEFFICIENTS) || !(half > 0.0))
+        return (struct within){0.0, 0.0, 0.0};
+    spectrum_whiten(s, curve, q, v, WIDTH);
+    for (size_t k = from; k < to; k++)
+        for (size_t i = 0; i < WIDTH; i++)
+            for (size_t j = 0; j < WIDTH; j++)
+                cross_block[i * WIDTH + j] += v[k * WIDTH + i] * v[k * WIDTH + j];
+    /* the last pivot of the Cholesky factor is what the parabola leaves */
+    gsl_matrix_view cross = gsl_matrix_view_array(cross_block, WIDTH, WIDTH);
+    if (gsl_linalg_cholesky_decomp1(&cross.matrix) != GSL_SUCCESS)
+        return (struct within){0.0, 0.0, 0.0};
+    w.squares = cross_block[WIDTH * WIDTH - 1] * cross_block[WIDTH * WIDTH - 1];
+    for (size_t i = 0; i < COEFFICIENTS; i++)
+        w.log_det += 2.0 * log(cross_block[i * WIDTH + i]);
+    return w;
+}
+
+/* -2 ln restricted likelihood of the parabolas, and the variance of each modulus. */
+static double within_all(const spectrum *s, double *v, double variance[MODULI])
+{
+    double criterion = spectrum_log_det_correlation(s);
+    for (int q = 0; q < MODULI; q++) {
+        struct within sum = {0};
+        for (size_t i = 0; i < s->n_curves; i++) {
+            const struct within w = residual_within(s, i, q, v);
+            sum.squares += w.squares;
+            sum.freedom += w.freedom;
+            sum.log_det += w.log_det;
+        }
+        variance[q] = sum.freedom > 0.0 ? sum.squares / sum.freedom : 0.0;
+        criterion += sum.log_det + (sum.freedom > 0.0 ? sum.freedom * log(variance[q]) : 0.0);
+    }
+    return criterion;
+}
+
+wt_status spectrum_noise_within(spectrum *s, wt_error *err)
+{
+    double *v = calloc(s->n * WIDTH, sizeof *v);
+    double best = HUGE_VAL, chosen = 0.0, variance[MODULI];
+    if (v == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for the noise");
+    s->rho = 0.0;
+    for (size_t i = 0; i < s->n_curves; i++)
+        s->kappa[i] = 1.0;
+    spectrum_evaluate(s, s->value, false);
+    for (size_t i = 0; i < RHOS; i++) {
+        s->rho = rhos[i];
+        const double criterion = within_all(s, v, variance);
+        if (criterion < best) {
+            best = criterion;
+            chosen = rhos[i];
+        }
+    }
+    s->rho = chosen;
+    (void)within_all(s, v, variance);
+    for (size_t i = 0; i < s->n_curves; i++) {
+        double squares = SPECTRUM_KAPPA_BELIEF, freedom = SPECTRUM_KAPPA_BELIEF;
+        for (int q = 0; q < MODULI; q++) {
+            const struct within w = residual_within(s, i, q, v);
+            if (variance[q] > 0.0) {
+                squares += w.squares / variance[q];
+                freedom += w.freedom;
+            }
+        }
+        s->kappa[i] = sqrt(squares / freedom);
+    }
+    free(v);
+    return WT_OK;
+}

@@ -1,0 +1,117 @@
+/* The fit of one spectrum to all isotherms: Levenberg-Marquardt over terms and shifts, noise and
+ * smoothness after each step by Fellner-Schall (Wood and Fasiolo, Biometrics 73 (2017) 1071), which
+ * is restricted maximum likelihood. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "fit/spectrum.h"
+
+#include "base/gsl_quiet.h"
+
+#include <gsl/gsl_blas.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_linalg.h>
+#include <math.h>
+#include <string.h>
+
+enum { MAX_STEPS = 80, MAX_DAMPINGS = 12 };
+/* Done when a step gains less than this of -2 ln likelihood (a standard error is 1), and noise and
+ * smoothness change by less than this share. */
+static const double least_gain = 1e-3, least_change = 2e-3;
+
+static gsl_matrix_view part(gsl_matrix *m, size_t n)
+{
+    return gsl_matrix_submatrix(m, 0, 0, n, n);
+}
+
+/* Factor of precision + damping * its diagonal. */
+static bool factorise(spectrum *s, double damping)
+{
+    const size_t n = s->n_unknowns;
+    gsl_matrix_view factor = part(s->factor, n), precision = part(s->precision, n);
+    gsl_matrix_memcpy(&factor.matrix, &precision.matrix);
+    for (size_t i = 0; i < n; i++)
+        *gsl_matrix_ptr(s->factor, i, i) *= 1.0 + damping;
+    return gsl_linalg_cholesky_decomp1(&factor.matrix) == GSL_SUCCESS;
+}
+
+static wt_status invert(spectrum *s, wt_error *err)
+{
+    const size_t n = s->n_unknowns;
+    gsl_matrix_view factor = part(s->factor, n), covariance = part(s->covariance, n);
+    if (!factorise(s, 0.0))
+        return wt_fail(err, WT_E_CONVERGENCE, "the isotherms do not determine a spectrum");
+    s->log_det = 0.0;
+    for (size_t i = 0; i < n; i++)
+        s->log_det += 2.0 * log(gsl_matrix_get(s->factor, i, i));
+    gsl_matrix_memcpy(&covariance.matrix, &factor.matrix);
+    if (gsl_linalg_cholesky_invert(&covariance.matrix) != GSL_SUCCESS)
+        return wt_fail(err, WT_E_INTERNAL, "a matrix could not be inverted");
+    return WT_OK;
+}
+
+/* A step that does not raise the objective; what it gained. */
+static wt_status step(spectrum *s, double *damping, double *gain, wt_error *err)
+{
+    const size_t n = s->n_unknowns;
+    *gain = 0.0;
+    for (int i = 0; i < MAX_DAMPINGS; i++) {
+        gsl_matrix_view factor = part(s->factor, n);
+        gsl_vector_view move = gsl_vector_subvector(s->direction, 0, n);
+        gsl_vector_view gradient = gsl_vector_subvector(s->gradient, 0, n);
+        if (!factorise(s, *damping)) {
+            *damping = fmax(10.0 * *damping, 1e-6);
+            continue;
+        }
+        gsl_linalg_cholesky_solve(&factor.matrix, &gradient.vector, &move.vector);
+        for (size_t u = 0; u < n; u++)
+            s->trial[u] = s->value[u] + gsl_vector_get(s->direction, u);
+        spectrum_evaluate(s, s->trial, false);
+        const double next = spectrum_objective(s, s->trial);
+        if (next <= s->objective) { /* also false for NaN */
+            memcpy(s->value, s->trial, n * sizeof *s->value);
+            *gain = s->objective - next;
+            *damping = *damping > 1e-6 ? *damping / 10.0 : 0.0;
+            return WT_OK;
+        }
+        *damping = fmax(10.0 * *damping, 1e-3);
+    }
+    return isfinite(s->objective)
+               ? WT_OK
+               : wt_fail(err, WT_E_CONVERGENCE, "no spectrum describes the isotherms");
+}
+
+static void prepare(spectrum *s)
+{
+    spectrum_evaluate(s, s->value, true);
+    spectrum_normal(s);
+    spectrum_assemble(s);
+    s->objective = spectrum_objective(s, s->value);
+}
+
+wt_status spectrum_fit(spectrum *s, spectrum_mode mode, wt_error *err)
+{
+    wt_status status = WT_OK;
+    double damping = 0.0, gain = HUGE_VAL, change = HUGE_VAL;
+    gsl_quiet();
+    s->smooth_move = 0.0;
+    for (int i = 0; status == WT_OK && i < MAX_STEPS; i++) {
+        if (mode == SPECTRUM_ROBUST && i > 0)
+            spectrum_student_weights(s);
+        prepare(s);
+        if (mode == SPECTRUM_ROBUST ? gain < 1.0 && change < 0.05
+                                    : gain < least_gain && change < least_change)
+            break;
+        status = step(s, &damping, &gain, err);
+        if (status != WT_OK)
+            break;
+        prepare(s);
+        status = invert(s, err);
+        if (status == WT_OK)
+            change = mode == SPECTRUM_HELD ? 0.0 : spectrum_noise_update(s);
+    }
+    if (status == WT_OK) {
+        prepare(s);
+        status = invert(s, err);
+    }
+    if (status == WT_OK)
+        spectrum_criterion(s);
+    return status;
+}

@@ -1,0 +1,445 @@
+/* The model of all isotherms by one relaxation spectrum: rows of residuals and derivatives, normal
+ * equations, priors. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "fit/spectrum.h"
+
+#include "fit/pool_gsl.h"
+
+#include <math.h>
+
+/* Standard deviation of the prior of ln E_inf about a third of the lowest storage modulus: it holds
+ * what the data leave open, and is nothing beside what they say. */
+static const double equilibrium_spread = 3.0;
+/* How far the relaxation times go beyond the measured range [decade]: those that are longer than
+ * the second are no different from an equilibrium modulus. */
+static const double fast_margin = 1.5, slow_margin = 3.0;
+/* Slope of the terms to start from beyond the slowest measured point. */
+static const double start_fall = 0.5;
+
+/* ---- making ---------------------------------------------------------------------------------- */
+
+static wt_status allocate(spectrum *s, wt_error *err)
+{
+    pool *m = &s->memory;
+    const size_t most = s->n_linear + 2 * s->n_curves;
+    s->first = pool_alloc(m, s->n_curves + 1, sizeof *s->first);
+    s->column_a = pool_alloc(m, s->n_curves, sizeof *s->column_a);
+    s->column_b = pool_alloc(m, s->n_curves, sizeof *s->column_b);
+    s->x = pool_numbers(m, s->n);
+    s->copy = pool_numbers(m, s->n);
+    for (int q = 0; q < MODULI; q++) {
+        s->y[q] = pool_numbers(m, s->n);
+        s->weight[q] = pool_numbers(m, s->n);
+        s->was[q] = pool_numbers(m, s->n);
+        s->residual[q] = pool_numbers(m, s->n);
+        s->row[q] = pool_numbers(m, s->n * (s->n_linear + 2));
+        s->normal[q] = pool_matrix(m, most, most);
+    }
+    s->kappa = pool_numbers(m, s->n_curves);
+    s->term = pool_numbers(m, s->n_linear);
+    s->value = pool_numbers(m, most);
+    s->trial = pool_numbers(m, most);
+    s->precision = pool_matrix(m, most, most);
+    s->covariance = pool_matrix(m, most, most);
+    s->factor = pool_matrix(m, most, most);
+    s->gradient = pool_vector(m, most);
+    s->direction = pool_vector(m, most);
+    return m->failed
+               ? wt_fail(err, WT_E_MEMORY, "no memory for a spectrum of %zu terms", s->n_terms)
+               : WT_OK;
+}
+
+void spectrum_free(spectrum *s)
+{
+    pool_free(&s->memory);
+    *s = (spectrum){0};
+}
+
+/* Terms to start from: E'' at the frequency of a term, of the nearest points once shifted. */
+static void start_terms(spectrum *s, const double *a, const double *b)
+{
+    double lowest = HUGE_VAL, slowest = HUGE_VAL;
+    for (size_t i = 0; i < s->n_curves; i++)
+        slowest = fmin(slowest, s->x[s->first[i]] + a[i]);
+    for (size_t j = 0; j < s->n_terms; j++) {
+        const double at = -(s->log_tau + (double)j * s->step);
+        double sum = 0.0, weights = 0.0;
+        for (size_t i = 0; i < s->n_curves; i++)
+            for (size_t k = s->first[i]; k < s->first[i + 1]; k++) {
+                const double away = (s->x[k] + a[i] - at) / s->step;
+                const double w = 1.0 / (1e-2 + away * away * away * away);
+                sum += w * (s->y[LOSS][k] + b[i]);
+                weights += w;
+                lowest = fmin(lowest, s->y[STORAGE][k] + b[i]);
+            }
+        /* beyond the measured range falling: what is slow is left to the equilibrium modulus */
+        s->value[j] =
+            sum / weights + log(s->step * 2.0 / M_PI) - start_fall * fmax(slowest - at, 0);
+    }
+    s->equilibrium_mean = lowest - 1.0;
+    s->equilibrium_spread = equilibrium_spread;
+    if (!s->liquid)
+        s->value[s->n_terms] = lowest - 0.5;
+}
+
+wt_status spectrum_new(const shift_set *set, const bool *use, size_t anchor, const double *a,
+                       const double *b, double terms_per_decade, bool liquid, spectrum *s,
+                       wt_error *err)
+{
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    *s = (spectrum){.liquid = liquid, .step = M_LN10 / terms_per_decade};
+    for (size_t i = 0; i < set->n; i++) {
+        const shift_curve *c = &set->curves[i];
+        if (!use[i])
+            continue;
+        if (i == anchor)
+            s->anchor = s->n_curves;
+        s->n_curves++;
+        s->n += c->n;
+        low = fmin(low, c->x[0] + a[i]);
+        high = fmax(high, c->x[c->n - 1] + a[i]);
+    }
+    s->n_terms = 1 + (size_t)ceil((high - low + fast_margin + slow_margin) * terms_per_decade);
+    s->n_linear = s->n_terms + (liquid ? 0 : 1);
+    s->log_tau = -(high + fast_margin) * M_LN10;
+    wt_status status = allocate(s, err);
+    if (status != WT_OK) {
+        spectrum_free(s);
+        return status;
+    }
+    double *start = s->trial; /* a, then b */
+    size_t curve = 0, k = 0;
+    for (size_t i = 0; i < set->n; i++) {
+        const shift_curve *c = &set->curves[i];
+        if (!use[i])
+            continue;
+        s->first[curve] = k;
+        for (size_t p = 0; p < c->n; p++, k++) {
+            s->x[k] = c->x[p] * M_LN10;
+            for (int q = 0; q < MODULI; q++) {
+                s->y[q][k] = c->y[q][p] * M_LN10;
+                s->weight[q][k] = 1.0;
+            }
+        }
+        start[curve] = a[i] * M_LN10;
+        start[s->n_curves + curve] = b[i] * M_LN10;
+        s->kappa[curve++] = 1.0;
+    }
+    s->first[curve] = k;
+    start_terms(s, start, start + s->n_curves);
+    s->smooth = 0.3;
+    for (int q = 0; q < MODULI; q++)
+        s->noise[q] = 0.05;
+    /* until a prior is set: shifts lie behind the terms, the anchor's among them */
+    s->n_unknowns = s->n_linear;
+    for (size_t i = 0; i < s->n_curves; i++) {
+        s->column_a[i] = (long)s->n_unknowns;
+        s->value[s->n_unknowns++] = start[i] - start[s->anchor];
+        s->column_b[i] = (long)s->n_unknowns;
+        s->value[s->n_unknowns++] = start[s->n_curves + i];
+    }
+    return WT_OK;
+}
+
+double spectrum_a(const spectrum *s, size_t curve)
+{
+    return s->column_a[curve] < 0 ? 0.0 : s->value[s->column_a[curve]];
+}
+
+double spectrum_b(const spectrum *s, size_t curve)
+{
+    return s->column_b[curve] < 0 ? s->prior->mean[curve] : s->value[s->column_b[curve]];
+}
+
+void spectrum_terms(const spectrum *s, const double *value, double *term)
+{
+    for (size_t j = 0; j < s->n_linear; j++)
+        term[j] = exp(value[j]);
+}
+
+void spectrum_set_prior(spectrum *s, const spectrum_prior *prior)
+{
+    double *shift = s->trial; /* a, b of all curves */
+    for (size_t i = 0; i < s->n_curves; i++) {
+        shift[2 * i] = spectrum_a(s, i);
+        shift[2 * i + 1] = spectrum_b(s, i);
+    }
+    s->prior = prior;
+    s->n_unknowns = s->n_linear;
+    for (size_t i = 0; i < s->n_curves; i++) {
+        s->column_a[i] = s->column_b[i] = -1;
+        if (i != s->anchor) {
+            s->column_a[i] = (long)s->n_unknowns;
+            s->value[s->n_unknowns++] = shift[2 * i];
+        }
+    }
+    for (size_t i = 0; i < s->n_curves; i++)
+        if (!prior->held && (prior->precision != NULL || i != s->anchor)) {
+            s->column_b[i] = (long)s->n_unknowns;
+            s->value[s->n_unknowns++] = shift[2 * i + 1];
+        }
+}
+
+/* ---- the moduli ------------------------------------------------------------------------------ */
+
+void spectrum_at(const spectrum *s, const double *term, double x, double log_modulus[MODULI],
+                 double slope[MODULI], double *const gradient[MODULI])
+{
+    const double ratio = exp(s->step);
+    double modulus[MODULI] = {s->liquid ? 0.0 : term[s->n_terms], 0.0};
+    double rise[MODULI] = {0.0, 0.0};
+    double z = exp(x + s->log_tau);
+    double *by[MODULI] = {gradient != NULL ? gradient[STORAGE] : NULL,
+                          gradient != NULL ? gradient[LOSS] : NULL};
+    const double equilibrium = modulus[STORAGE];
+    for (size_t j = 0; j < s->n_terms; j++, z *= ratio) {
+        const double share = z / (1.0 + z * z);
+        const double loss = term[j] * share, storage = loss * z;
+        modulus[STORAGE] += storage;
+        modulus[LOSS] += loss;
+        rise[STORAGE] += 2.0 * storage * share / z;
+        rise[LOSS] += loss * (1.0 - 2.0 * z * share);
+        if (gradient != NULL) {
+            by[STORAGE][j] = storage;
+            by[LOSS][j] = loss;
+        }
+    }
+    for (int q = 0; q < MODULI; q++) {
+        log_modulus[q] = log(modulus[q]);
+        slope[q] = rise[q] / modulus[q];
+        for (size_t j = 0; gradient != NULL && j < s->n_terms; j++)
+            by[q][j] /= modulus[q];
+    }
+    if (gradient != NULL && !s->liquid) {
+        by[STORAGE][s->n_terms] = equilibrium / modulus[STORAGE];
+        by[LOSS][s->n_terms] = 0.0;
+    }
+}
+
+/* ---- rows ------------------------------------------------------------------------------------ */
+
+/* The point that counts before point k of a curve; false if there is none. */
+static bool point_before(const spectrum *s, size_t curve, int q, size_t k, size_t *before)
+{
+    while (k > s->first[curve] && s->weight[q][k - 1] == 0.0)
+        k--;
+    *before = k > 0 ? k - 1 : 0;
+    return k > s->first[curve];
+}
+
+void spectrum_whiten(const spectrum *s, size_t curve, int q, double *v, size_t width)
+{
+    size_t at, before;
+    if (!(s->rho > 0.0) || !point_before(s, curve, q, s->first[curve + 1], &at))
+        return;
+    for (; point_before(s, curve, q, at, &before); at = before) {
+        const double rho = pow(s->rho, (double)(at - before));
+        const double scale = 1.0 / sqrt(1.0 - rho * rho);
+        for (size_t j = 0; j < width; j++)
+            v[at * width + j] = (v[at * width + j] - rho * v[before * width + j]) * scale;
+    }
+}
+
+double spectrum_log_det_correlation(const spectrum *s)
+{
+    double sum = 0.0;
+    for (size_t i = 0; i < s->n_curves && s->rho > 0.0; i++)
+        for (int q = 0; q < MODULI; q++) {
+            size_t at, before;
+            if (!point_before(s, i, q, s->first[i + 1], &at))
+                continue;
+            for (; point_before(s, i, q, at, &before); at = before)
+                sum += log(1.0 - pow(s->rho, 2.0 * (double)(at - before)));
+        }
+    return sum;
+}
+
+void spectrum_evaluate(spectrum *s, const double *value, bool with_rows)
+{
+    const size_t width = s->n_linear + 2;
+    spectrum_terms(s, value, s->term);
+    for (size_t i = 0; i < s->n_curves; i++) {
+        const double a = s->column_a[i] < 0 ? 0.0 : value[s->column_a[i]];
+        const double b = s->column_b[i] < 0 ? s->prior->mean[i] : value[s->column_b[i]];
+        for (size_t k = s->first[i]; k < s->first[i + 1]; k++) {
+            double *const row[MODULI] = {s->row[STORAGE] + k * width, s->row[LOSS] + k * width};
+            double modulus[MODULI], slope[MODULI];
+            spectrum_at(s, s->term, s->x[k] + a, modulus, slope, with_rows ? row : NULL);
+            for (int q = 0; q < MODULI; q++) {
+                const double w = sqrt(s->weight[q][k]) / s->kappa[i];
+                s->residual[q][k] = w * (s->y[q][k] - modulus[q] + b);
+                for (size_t j = 0; with_rows && j < s->n_linear; j++)
+                    row[q][j] *= w;
+                row[q][s->n_linear] = w * slope[q];
+                row[q][s->n_linear + 1] = -w;
+            }
+        }
+        for (int q = 0; q < MODULI; q++) {
+            spectrum_whiten(s, i, q, s->residual[q], 1);
+            if (with_rows)
+                spectrum_whiten(s, i, q, s->row[q], width);
+        }
+    }
+}
+
+/* ---- normal equations ------------------------------------------------------------------------ */
+
+/* Adds the rows of a curve: the block of the terms, upper triangle, and what its shifts have with
+ * the terms and each other. */
+static void add_curve(spectrum *s, size_t curve, int q)
+{
+    const size_t m = s->n_linear, width = m + 2;
+    gsl_matrix *normal = s->normal[q];
+    const long column[2] = {s->column_a[curve], s->column_b[curve]};
+    for (size_t k = s->first[curve]; k < s->first[curve + 1]; k++) {
+        const double *row = s->row[q] + k * width;
+        if (s->weight[q][k] == 0.0)
+            continue;
+        for (size_t i = 0; i < m; i++) {
+            double *into = gsl_matrix_ptr(normal, i, 0);
+            const double r = row[i];
+            for (size_t j = i; j < m; j++)
+                into[j] += r * row[j];
+        }
+        for (int c = 0; c < 2; c++) {
+            if (column[c] < 0)
+                continue;
+            double *into = gsl_matrix_ptr(normal, (size_t)column[c], 0);
+            const double r = row[m + (size_t)c];
+            for (size_t j = 0; j < m; j++)
+                into[j] += r * row[j];
+            for (int d = 0; d <= c; d++)
+                if (column[d] >= 0)
+                    into[column[d]] += r * row[m + (size_t)d];
+        }
+    }
+}
+
+void spectrum_normal(spectrum *s)
+{
+    for (int q = 0; q < MODULI; q++) {
+        gsl_matrix *normal = s->normal[q];
+        gsl_matrix_set_zero(normal);
+        for (size_t i = 0; i < s->n_curves; i++)
+            add_curve(s, i, q);
+        for (size_t i = 0; i < s->n_unknowns; i++) /* the other triangle */
+            for (size_t j = 0; j < i; j++)
+                if (i < s->n_linear)
+                    gsl_matrix_set(normal, i, j, gsl_matrix_get(normal, j, i));
+                else
+                    gsl_matrix_set(normal, j, i, gsl_matrix_get(normal, i, j));
+    }
+}
+
+/* ---- priors ---------------------------------------------------------------------------------- */
+
+static double b_departure(const spectrum *s, const double *value, size_t curve)
+{
+    return value[s->column_b[curve]] - s->prior->mean[curve];
+}
+
+double spectrum_objective(const spectrum *s, const double *value)
+{
+    double sum = spectrum_roughness(s, value) / (s->smooth * s->smooth);
+    for (int q = 0; q < MODULI; q++)
+        sum += spectrum_squares(s, q) / (s->noise[q] * s->noise[q]);
+    if (!s->liquid) {
+        const double off = (value[s->n_terms] - s->equilibrium_mean) / s->equilibrium_spread;
+        sum += off * off;
+    }
+    for (size_t i = 0; s->prior->precision != NULL && i < s->n_curves; i++)
+        for (size_t k = 0; k < s->n_curves; k++)
+            sum += gsl_matrix_get(s->prior->precision, i, k) * b_departure(s, value, i) *
+                   b_departure(s, value, k);
+    return sum;
+}
+
+double spectrum_squares(const spectrum *s, int q)
+{
+    double sum = 0.0;
+    for (size_t k = 0; k < s->n; k++)
+        sum += s->residual[q][k] * s->residual[q][k];
+    return sum;
+}
+
+double spectrum_roughness(const spectrum *s, const double *value)
+{
+    double sum = 0.0;
+    for (size_t j = 1; j + 1 < s->n_terms; j++) {
+        const double bend = value[j - 1] - 2.0 * value[j] + value[j + 1];
+        sum += bend * bend;
+    }
+    return sum;
+}
+
+double spectrum_roughness_trace(const spectrum *s)
+{
+    static const double weight[3] = {1.0, -2.0, 1.0};
+    double sum = 0.0;
+    for (size_t j = 0; j + 2 < s->n_terms; j++)
+        for (size_t i = 0; i < 3; i++)
+            for (size_t k = 0; k < 3; k++)
+                sum += weight[i] * weight[k] * gsl_matrix_get(s->covariance, j + i, j + k);
+    return sum;
+}
+
+static void add_priors(spectrum *s)
+{
+    static const double weight[3] = {1.0, -2.0, 1.0};
+    const double rough = 1.0 / (s->smooth * s->smooth);
+    for (size_t j = 0; j + 2 < s->n_terms; j++) {
+        const double bend = s->value[j] - 2.0 * s->value[j + 1] + s->value[j + 2];
+        for (size_t i = 0; i < 3; i++) {
+            *gsl_vector_ptr(s->gradient, j + i) -= rough * weight[i] * bend;
+            for (size_t k = 0; k < 3; k++)
+                *gsl_matrix_ptr(s->precision, j + i, j + k) += rough * weight[i] * weight[k];
+        }
+    }
+    if (!s->liquid) {
+        const double w = 1.0 / (s->equilibrium_spread * s->equilibrium_spread);
+        *gsl_matrix_ptr(s->precision, s->n_terms, s->n_terms) += w;
+        *gsl_vector_ptr(s->gradient, s->n_terms) -=
+            w * (s->value[s->n_terms] - s->equilibrium_mean);
+    }
+    for (size_t i = 0; s->prior->precision != NULL && i < s->n_curves; i++)
+        for (size_t k = 0; k < s->n_curves; k++) {
+            const double w = gsl_matrix_get(s->prior->precision, i, k);
+            *gsl_matrix_ptr(s->precision, (size_t)s->column_b[i], (size_t)s->column_b[k]) += w;
+            *gsl_vector_ptr(s->gradient, (size_t)s->column_b[i]) -= w * b_departure(s, s->value, k);
+        }
+}
+
+/* Adds J'r of a modulus times `scale`. */
+static void add_gradient(spectrum *s, int q, double scale)
+{
+    const size_t m = s->n_linear, width = m + 2;
+    double *gradient = gsl_vector_ptr(s->gradient, 0);
+    for (size_t i = 0; i < s->n_curves; i++)
+        for (size_t k = s->first[i]; k < s->first[i + 1]; k++) {
+            const double *row = s->row[q] + k * width, r = scale * s->residual[q][k];
+            for (size_t j = 0; j < m; j++)
+                gradient[j] += r * row[j];
+            if (s->column_a[i] >= 0)
+                gradient[s->column_a[i]] += r * row[m];
+            if (s->column_b[i] >= 0)
+                gradient[s->column_b[i]] += r * row[m + 1];
+        }
+}
+
+void spectrum_assemble(spectrum *s)
+{
+    gsl_vector_set_zero(s->gradient);
+    gsl_matrix_set_zero(s->precision);
+    for (int q = 0; q < MODULI; q++) {
+        const double scale = 1.0 / (s->noise[q] * s->noise[q]);
+        for (size_t i = 0; i < s->n_unknowns; i++)
+            for (size_t k = 0; k < s->n_unknowns; k++)
+                *gsl_matrix_ptr(s->precision, i, k) += scale * gsl_matrix_get(s->normal[q], i, k);
+        add_gradient(s, q, scale);
+    }
+    add_priors(s);
+}
+
+double spectrum_prior_log_det(const spectrum *s)
+{
+    return 2.0 * (double)(s->n_terms - 2) * log(s->smooth) + s->prior->log_det;
+}

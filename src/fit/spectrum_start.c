@@ -1,0 +1,87 @@
+/* The start of the fit: isotherm by isotherm from the anchor outwards.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "fit/spectrum_start.h"
+
+#include <math.h>
+
+enum { NEIGHBOURS = 3 };
+
+/* Places curve i on one of the placed curves towards the anchor: the next one, or one behind it if
+ * that is not to be had. */
+static wt_status place(const shift_set *set, size_t anchor, wt_vertical_shift kind, size_t i,
+                       bool *placed, double *a, double *b, wt_error *err)
+{
+    const bool free_b = kind == WT_VERTICAL_FREE || kind == WT_VERTICAL_TIED;
+    const long inwards = i > anchor ? -1 : 1;
+    int tried = 0;
+    for (long p = (long)i + inwards; tried < NEIGHBOURS; p += inwards) {
+        if (placed[p]) {
+            shift_pair pair;
+            wt_status status =
+                shift_pair_fit(&set->curves[p], &set->curves[i], free_b, b[i] - b[p], &pair, err);
+            if (status != WT_OK)
+                return status;
+            tried++;
+            if (pair.found) {
+                a[i] = a[p] + pair.a;
+                if (free_b)
+                    b[i] = b[p] + pair.b;
+                placed[i] = true;
+                return WT_OK;
+            }
+        }
+        if ((size_t)p == anchor)
+            break;
+    }
+    return WT_OK;
+}
+
+wt_status spectrum_start(const shift_set *set, size_t anchor, wt_vertical_shift kind,
+                         const double *physical, bool *placed, double *a, double *b, wt_error *err)
+{
+    wt_status status = WT_OK;
+    for (size_t i = 0; i < set->n; i++) {
+        placed[i] = i == anchor;
+        a[i] = 0.0;
+        b[i] = kind == WT_VERTICAL_NONE ? 0.0 : physical[i];
+    }
+    for (size_t i = anchor + 1; i < set->n && status == WT_OK; i++)
+        status = place(set, anchor, kind, i, placed, a, b, err);
+    for (size_t i = anchor; i-- > 0 && status == WT_OK;)
+        status = place(set, anchor, kind, i, placed, a, b, err);
+    return status;
+}
+
+static double shared(const shift_curve *p, double a_p, const shift_curve *s, double a_s)
+{
+    return fmin(p->x[p->n - 1] + a_p, s->x[s->n - 1] + a_s) - fmax(p->x[0] + a_p, s->x[0] + a_s);
+}
+
+size_t spectrum_connected(const shift_set *set, size_t anchor, const double *a, bool *placed,
+                          double *overlap)
+{
+    size_t count = 1;
+    for (size_t i = 0; i < set->n; i++)
+        overlap[i] = i == anchor ? HUGE_VAL : 0.0;
+    /* an isotherm hangs by its largest overlap, or by that of the one it hangs on if that is less
+     */
+    for (bool grown = true; grown;) {
+        grown = false;
+        for (size_t i = 0; i < set->n; i++)
+            for (size_t p = 0; placed[i] && p < set->n; p++) {
+                if (p == i || !placed[p])
+                    continue;
+                const double both =
+                    fmin(shared(&set->curves[p], a[p], &set->curves[i], a[i]), overlap[p]);
+                if (both > overlap[i]) {
+                    overlap[i] = both;
+                    grown = true;
+                }
+            }
+    }
+    for (size_t i = 0; i < set->n; i++) {
+        placed[i] = placed[i] && overlap[i] > 0.0;
+        count += placed[i] && i != anchor;
+    }
+    return count;
+}

@@ -1,0 +1,25 @@
+/* The prior of the vertical shifts (internal to the fit room).
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WT_FIT_SPECTRUM_VERTICAL_H
+#define WT_FIT_SPECTRUM_VERTICAL_H
+
+#include "fit/spectrum.h"
+
+typedef struct vertical {
+    double reference_temperature, expansion; /* [K], [1/K] */
+    double geometry, departure;              /* standard deviations [decade] */
+    double *mean;                            /* [n] owned by the caller */
+    gsl_matrix *precision;                   /* [n * n] or larger */
+} vertical;
+
+/* ln b of rubber elasticity. */
+double vertical_physical(const vertical *v, double temperature);
+/* Fills mean and precision; the prior borrows them. */
+wt_status vertical_prior(vertical *v, wt_vertical_shift kind, const double *temperature, size_t n,
+                         spectrum_prior *prior, wt_error *err) WT_NODISCARD;
+/* ln b of the material at a temperature is vertical_physical plus the sum of weight[i] times (b_i -
+ * mean_i): what is smooth in them. */
+void vertical_smooth_part(const vertical *v, const spectrum_prior *prior, const double *temperature,
+                          size_t n, double at, double *weight);
+
+#endif

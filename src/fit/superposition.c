@@ -1,0 +1,217 @@
+/* Lack of fit of one spectrum: what a line and a parabola of every isotherm of its own would still
+ * explain. A spectrum ties E' and E'' (Kramers-Kronig); a common factor on E'' tests that alone.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "fit/superposition.h"
+
+#include "fit/pool_gsl.h"
+
+#include <gsl/gsl_blas.h>
+#include <gsl/gsl_cdf.h>
+#include <math.h>
+
+/* Columns of an isotherm: powers of its frequency from the first one on, in each modulus. A factor
+ * on both moduli is the vertical shift. */
+static const int first_power[MODULI] = {1, 0};
+/* From so many points on a parabola too. */
+enum { LEAST_PARABOLA = 6, POWERS = 3 };
+/* What is left of a column, of its square, below which the model has it. */
+static const double least_left = 1e-6;
+
+struct extra {
+    const spectrum *s;
+    pool memory;
+    size_t n;           /* columns */
+    gsl_matrix *column; /* [n * 2N]: whitened, E' then E'' */
+    gsl_matrix *matrix; /* [n * n] what the model leaves of them */
+    gsl_vector *right;  /* [n] with the residuals */
+};
+
+/* Whitened and divided by the noise. */
+static void add_column(struct extra *x, size_t curve, int q, int power)
+{
+    const spectrum *s = x->s;
+    double *v = gsl_matrix_ptr(x->column, x->n++, 0) + (q == LOSS ? s->n : 0);
+    const size_t from = s->first[curve], to = s->first[curve + 1];
+    const double middle = 0.5 * (s->x[from] + s->x[to - 1]);
+    const double half = fmax(0.5 * (s->x[to - 1] - s->x[from]), 1e-300);
+    for (size_t k = from; k < to; k++)
+        v[k] += sqrt(s->weight[q][k]) / s->kappa[curve] / s->noise[q] *
+                pow((s->x[k] - middle) / half, power);
+    spectrum_whiten(s, curve, q, v, 1);
+}
+
+static void add_columns(struct extra *x)
+{
+    for (size_t i = 0; i < x->s->n_curves; i++) {
+        const size_t points = x->s->first[i + 1] - x->s->first[i];
+        for (int q = 0; q < MODULI; q++)
+            for (int p = first_power[q]; p < (points < LEAST_PARABOLA ? 2 : POWERS); p++)
+                add_column(x, i, q, p);
+    }
+}
+
+/* Adds J'z of one column, J the rows divided by the noise. */
+static void add_product(const spectrum *s, const double *z, double *product)
+{
+    const size_t m = s->n_linear, width = m + 2;
+    for (int q = 0; q < MODULI; q++)
+        for (size_t i = 0; i < s->n_curves; i++)
+            for (size_t k = s->first[i]; k < s->first[i + 1]; k++) {
+                const double w = z[(q == LOSS ? s->n : 0) + k] / s->noise[q];
+                const double *row = s->row[q] + k * width;
+                if (w == 0.0)
+                    continue;
+                for (size_t j = 0; j < m; j++)
+                    product[j] += w * row[j];
+                if (s->column_a[i] >= 0)
+                    product[s->column_a[i]] += w * row[m];
+                if (s->column_b[i] >= 0)
+                    product[s->column_b[i]] += w * row[m + 1];
+            }
+}
+
+/* Columns and residuals with the model taken out, each column of length 1 before. */
+static wt_status project(struct extra *x, wt_error *err)
+{
+    const spectrum *s = x->s;
+    const size_t n = x->n, m = s->n_unknowns;
+    gsl_matrix *by = pool_matrix(&x->memory, n, m), *solved = pool_matrix(&x->memory, n, m);
+    if (x->memory.failed)
+        return wt_fail(err, WT_E_MEMORY, "no memory for the test of superposition");
+    gsl_matrix_view columns = gsl_matrix_submatrix(x->column, 0, 0, n, 2 * s->n);
+    gsl_matrix_view matrix = gsl_matrix_submatrix(x->matrix, 0, 0, n, n);
+    gsl_matrix_const_view v = gsl_matrix_const_submatrix(s->covariance, 0, 0, m, m);
+    for (size_t c = 0; c < n; c++) {
+        gsl_vector_view column = gsl_matrix_row(&columns.matrix, c);
+        const double length = gsl_blas_dnrm2(&column.vector);
+        if (length > 0.0)
+            gsl_vector_scale(&column.vector, 1.0 / length);
+        add_product(s, column.vector.data, gsl_matrix_ptr(by, c, 0));
+        double sum = 0.0;
+        for (int q = 0; q < MODULI; q++)
+            for (size_t k = 0; k < s->n; k++)
+                sum += gsl_vector_get(&column.vector, (q == LOSS ? s->n : 0) + k) *
+                       s->residual[q][k] / s->noise[q];
+        gsl_vector_set(x->right, c, sum);
+    }
+    gsl_blas_dgemm(CblasNoTrans, CblasTrans, 1.0, &columns.matrix, &columns.matrix, 0.0,
+                   &matrix.matrix);
+    gsl_blas_dsymm(CblasRight, CblasLower, 1.0, &v.matrix, by, 0.0, solved);
+    gsl_blas_dgemm(CblasNoTrans, CblasTrans, -1.0, by, solved, 1.0, &matrix.matrix);
+    return WT_OK;
+}
+
+/* right' matrix^- right and the rank, by Cholesky with the largest pivot left. */
+static double quadratic(struct extra *x, size_t *rank)
+{
+    double sum = 0.0;
+    for (*rank = 0; *rank < x->n; (*rank)++) {
+        size_t pivot = *rank;
+        for (size_t i = *rank; i < x->n; i++)
+            if (gsl_matrix_get(x->matrix, i, i) > gsl_matrix_get(x->matrix, pivot, pivot))
+                pivot = i;
+        gsl_matrix_view part = gsl_matrix_submatrix(x->matrix, 0, 0, x->n, x->n);
+        gsl_matrix_swap_rows(&part.matrix, *rank, pivot);
+        gsl_matrix_swap_columns(&part.matrix, *rank, pivot);
+        gsl_vector_swap_elements(x->right, *rank, pivot);
+        const double d = gsl_matrix_get(x->matrix, *rank, *rank);
+        if (!(d > least_left))
+            break;
+        const double r = gsl_vector_get(x->right, *rank);
+        sum += r * r / d;
+        for (size_t i = *rank + 1; i < x->n; i++) {
+            const double f = gsl_matrix_get(x->matrix, i, *rank) / d;
+            *gsl_vector_ptr(x->right, i) -= f * r;
+            for (size_t j = *rank + 1; j < x->n; j++)
+                *gsl_matrix_ptr(x->matrix, i, j) -= f * gsl_matrix_get(x->matrix, *rank, j);
+        }
+    }
+    return sum;
+}
+
+/* Distribution of noncentral chi-square: a Poisson mixture of central ones. */
+static double noncentral_below(double x, double freedom, double lambda)
+{
+    const double mean = 0.5 * lambda, width = 10.0 * sqrt(mean) + 20.0;
+    double sum = 0.0;
+    for (double j = floor(fmax(mean - width, 0.0)); j < mean + width; j += 1.0) {
+        const double log_weight = (mean > 0.0 ? j * log(mean)
+                                   : j > 0.0  ? -HUGE_VAL
+                                              : 0.0) -
+                                  mean - lgamma(j + 1.0);
+        sum += exp(log_weight) * gsl_cdf_chisq_P(x, freedom + 2.0 * j);
+    }
+    return sum;
+}
+
+/* Lambda with which x has this probability to be exceeded from below. */
+static double noncentrality(double x, double freedom, double probability)
+{
+    double low = 0.0, high = 4.0 * x + 100.0;
+    if (noncentral_below(x, freedom, 0.0) <= probability)
+        return 0.0;
+    while (high - low > 1e-4 * high)
+        if (noncentral_below(x, freedom, 0.5 * (low + high)) > probability)
+            low = 0.5 * (low + high);
+        else
+            high = 0.5 * (low + high);
+    return 0.5 * (low + high);
+}
+
+wt_status superposition_test(const spectrum *s, lack_of_fit *result, wt_error *err)
+{
+    const size_t most = s->n_curves * (MODULI * POWERS - 1);
+    struct extra x = {.s = s};
+    x.column = pool_matrix(&x.memory, most, 2 * s->n);
+    x.matrix = pool_matrix(&x.memory, most, most);
+    x.right = pool_vector(&x.memory, most);
+    wt_status status = WT_OK;
+    if (x.memory.failed) {
+        status = wt_fail(err, WT_E_MEMORY, "no memory for the test of superposition");
+        goto done;
+    }
+    double squares = 0.0, points = 0.0, freedom = 0.0;
+    for (int q = 0; q < MODULI; q++) {
+        squares += spectrum_squares(s, q) / (s->noise[q] * s->noise[q]);
+        freedom += s->freedom[q];
+        for (size_t k = 0; k < s->n; k++)
+            points += s->weight[q][k] > 0.0;
+    }
+    size_t rank;
+    add_columns(&x);
+    status = project(&x, err);
+    if (status != WT_OK)
+        goto done;
+    const double q = quadratic(&x, &rank);
+    const double k = (double)rank, left = fmax(points - freedom - k, 1.0);
+    const double variance = (squares - q) / left;
+    const double to_misfit = s->noise[STORAGE] * s->noise[LOSS] * variance / points;
+    result->f = q / (k * variance);
+    result->p = gsl_cdf_fdist_Q(result->f, k, left);
+    result->misfit_low = sqrt(noncentrality(k * result->f, k, 0.975) * to_misfit);
+    result->misfit_high = sqrt(noncentrality(k * result->f, k, 0.025) * to_misfit);
+
+    x.n = 0; /* one column: a factor on E'' */
+    gsl_matrix_set_zero(x.column);
+    double *v = gsl_matrix_ptr(x.column, 0, s->n);
+    for (size_t i = 0; i < s->n_curves; i++) {
+        for (size_t p = s->first[i]; p < s->first[i + 1]; p++)
+            v[p] = sqrt(s->weight[LOSS][p]) / s->kappa[i] / s->noise[LOSS];
+        spectrum_whiten(s, i, LOSS, v, 1);
+    }
+    x.n = 1;
+    gsl_vector_const_view length = gsl_vector_const_view_array(v, s->n);
+    const double scale = gsl_blas_dnrm2(&length.vector);
+    status = project(&x, err);
+    if (status != WT_OK)
+        goto done;
+    const double d = gsl_matrix_get(x.matrix, 0, 0), r = gsl_vector_get(x.right, 0);
+    const double spread = fmax((squares - r * r / d) / fmax(points - freedom - 1.0, 1.0), 1e-300);
+    result->factor = r / d / scale;
+    result->factor_error = sqrt(spread / d) / scale;
+    result->kk =
+        2.0 * gsl_cdf_tdist_Q(fabs(r) / sqrt(spread * d), fmax(points - freedom - 1.0, 1.0));
+done:
+    pool_free(&x.memory);
+    return status;
+}

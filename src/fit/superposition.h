@@ -1,0 +1,17 @@
+/* Does one spectrum with shifts describe the isotherms? (internal to the fit room).
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WT_FIT_SUPERPOSITION_H
+#define WT_FIT_SUPERPOSITION_H
+
+#include "fit/spectrum.h"
+
+typedef struct lack_of_fit {
+    double f, p;                     /* of the extra columns of all isotherms */
+    double misfit_low, misfit_high;  /* relative, 95 % */
+    double factor, factor_error, kk; /* ln of a common factor on E'' and p of it */
+} lack_of_fit;
+
+/* From a fit with free vertical shifts. */
+wt_status superposition_test(const spectrum *s, lack_of_fit *result, wt_error *err) WT_NODISCARD;
+
+#endif
