@@ -63,7 +63,7 @@ static wt_status choose_anchor(master_work *work, wt_error *err)
     double nearest = HUGE_VAL;
     work->anchor = set->n;
     for (size_t i = 0; i < set->n; i++) {
-        const double away = isnan(asked) ? fabs((double)i - 0.5 * (double)(set->n - 1))
+        const double away = isnan(asked) ? fabs((double)i - (double)(set->n / 2))
                                          : fabs(set->curves[i].temperature - asked);
         if (set->curves[i].n >= SHIFT_MIN_POINTS && away < nearest) {
             nearest = away;

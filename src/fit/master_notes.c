@@ -105,8 +105,18 @@ void master_notes(const master_work *work, const wt_sweep *sweep, wt_master *m, 
     note_strain(sweep, log);
     for (size_t i = 0; i < m->n_shifts; i++)
         if (m->shifts[i].note[0] != '\0')
-            wt_parselog_add(log, WT_WARNING, NULL, NULL, "isotherm of %.2f °C: %s",
-                            m->shifts[i].temperature - WT_ZERO_CELSIUS, m->shifts[i].note);
+            wt_parselog_add(log, m->shifts[i].determined ? WT_NOTE : WT_WARNING, NULL, NULL,
+                            "isotherm of %.2f °C: %s", m->shifts[i].temperature - WT_ZERO_CELSIUS,
+                            m->shifts[i].note);
+    if (m->n_shifts > 1 && (m->reference_temperature < m->shifts[0].temperature ||
+                            m->reference_temperature > m->shifts[m->n_shifts - 1].temperature))
+        wt_parselog_add(log, WT_WARNING, NULL, NULL,
+                        "the reference temperature is outside the isotherms: the law is "
+                        "extrapolated");
+    if (m->n_shifts > 1 && m->superposition != WT_SUPERPOSITION_HOLDS)
+        wt_parselog_add(log, WT_WARNING, NULL, NULL, "time-temperature superposition %s: %s",
+                        m->superposition == WT_SUPERPOSITION_FAILS ? "fails" : "cannot be judged",
+                        m->because);
     if (m->law.kind == WT_LAW_NONE && m->n_shifts > 1)
         wt_parselog_add(log, WT_WARNING, NULL, NULL, "no law of the shift factors: %s", m->no_law);
 }

@@ -436,7 +436,6 @@ wt_status master_report(master_work *work, const wt_sweep *sweep, wt_parselog *l
         if (!work->measured_reference) /* the shifts are to the reference itself */
             m.offset = (wt_interval){0};
         set_rms(&m);
-        master_notes(work, sweep, &m, log);
     }
     if (status == WT_OK)
         status = fill_curve(work, &m, err);
@@ -447,6 +446,7 @@ wt_status master_report(master_work *work, const wt_sweep *sweep, wt_parselog *l
         return status;
     }
     master_judge(work, &m);
+    master_notes(work, sweep, &m, log);
     work->s->prior = NULL; /* of the work */
     m.posterior = work->posterior;
     work->posterior = NULL;

@@ -14,7 +14,7 @@ static const double least_smooth = 1e-3;
 static const double student = 4.0;
 /* A point is left out beyond so many standard deviations, and taken back below the second. Of a
  * thousand points with normal noise one in a hundred sweeps is lost. */
-static const double outlier = 4.5, no_outlier = 4.0;
+static const double outlier = 5.0, no_outlier = 4.5;
 
 static double count_used(const spectrum *s, int q, size_t curve)
 {
