@@ -65,7 +65,7 @@
     X(SHIFT_FACTORS_KEY_VERTICAL, "vertical", TEXT, LABEL("Vertical shift"))                       \
     X(SHIFT_FACTORS_KEY_DEFORMATION, "deformation", TEXT)                                          \
     X(SHIFT_FACTORS_KEY_SUPERPOSITION, "superposition", TEXT,                                      \
-      HEADLINE("Time-temperature superposition"))                                                     \
+      HEADLINE("Time-temperature superposition"))                                                  \
     X(SHIFT_FACTORS_KEY_LACK_OF_FIT_P, "lack_of_fit_p", PLAIN, OPTIONAL)                           \
     X(SHIFT_FACTORS_KEY_MISFIT_LOW, "misfit_low", PLAIN, OPTIONAL)                                 \
     X(SHIFT_FACTORS_KEY_MISFIT_HIGH, "misfit_high", PLAIN, OPTIONAL)                               \
