@@ -3,6 +3,7 @@
 #include "base/param.h"
 
 #include "base/clocale.h"
+#include "base/quantity.h"
 
 #include <stdalign.h>
 #include <stdlib.h>
@@ -95,7 +96,8 @@ static bool is_within(const wt_param *param, double value)
 {
     const param_limits *l = &param->limits;
     return (l->with_low ? value >= l->low : value > l->low) &&
-           (l->with_high ? value <= l->high : value < l->high);
+           (l->with_high ? value <= l->high : value < l->high) &&
+           quantity_is_possible(param->quantity, value);
 }
 
 /* "above 0 Pa, up to 1 Pa". */
@@ -119,12 +121,16 @@ static void limits_text(const wt_param *param, char *buffer, size_t size)
                       l->high, gap, unit);
 }
 
-static wt_status out_of_range(const wt_param *param, wt_error *err)
+static wt_status out_of_range(const wt_param *param, double value, const char *found, wt_error *err)
 {
     char text[128];
+    const param_limits *l = &param->limits;
+    if (value > l->low && value < l->high && isfinite(value))
+        return quantity_impossible(param->quantity, found, err);
     limits_text(param, text, sizeof text);
     wt_fail(err, WT_E_RANGE, "out of range");
     wt_error_expected(err, "%s", text);
+    wt_error_found(err, "%s", found);
     return WT_E_RANGE;
 }
 
@@ -135,9 +141,7 @@ static wt_status limit(const wt_param *param, double value, const char *text, wt
 {
     if (is_within(param, value))
         return WT_OK;
-    out_of_range(param, err);
-    wt_error_found(err, "%s", text);
-    return WT_E_RANGE;
+    return out_of_range(param, value, text, err);
 }
 
 static wt_status read_estimate(const wt_param *param, const char *text, wt_estimate *estimate,
@@ -374,9 +378,9 @@ static wt_status check_values(const wt_param *p, const double *values, size_t n,
 {
     for (size_t i = 0; i < n; i++)
         if (!is_within(p, values[i])) {
-            out_of_range(p, err);
-            wt_error_found(err, "%g", values[i]);
-            return WT_E_RANGE;
+            char found[32];
+            clocale_print(found, sizeof found, "%g", values[i]);
+            return out_of_range(p, values[i], found, err);
         }
     return WT_OK;
 }

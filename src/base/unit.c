@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/clocale.h"
 #include "base/number.h"
+#include "base/quantity.h"
 #include "base/shortage.h"
 #include "base/utf8.h"
 #include "weartrack/base.h"
@@ -306,30 +307,6 @@ wt_status wt_unit_to_si(const char *unit, wt_quantity quantity, double *factor, 
     return WT_OK;
 }
 
-static const char *example(wt_quantity quantity)
-{
-    static const struct {
-        const char *unit, *text;
-    } examples[] = {{"1", "0.5"},          {"s", "10s"},
-                    {"m", "250nm"},        {"V", "1.5V"},
-                    {"N", "20nN"},         {"rad", "35deg"},
-                    {"Hz", "10Hz"},        {"rad/s", "63rad/s"},
-                    {"Pa", "0.4MPa"},      {"rad/m", "1e6rad/m"},
-                    {"m^4", "1e-30m^4"},   {"m^3", "1e-24m^3"},
-                    {"m/s", "1mm/s"},      {"N/m", "0.3N/m"},
-                    {"m/V", "50nm/V"},     {"m^2/N", "1e-4mm^3/(N m)"},
-                    {"J/m^3", "1e5J/m^3"}, {"W/m^3", "1e9W/m^3"},
-                    {"1/s", "0.1s^-1"},    {"byte", "1000byte"},
-                    {"K", "20degC"},       {"m.Hz^-0.5", "1e-12m/sqrt(Hz)"}};
-    if (quantity == WT_Q_TEMPERATURE_DIFFERENCE)
-        return "5K";
-    for (size_t i = 0; i < sizeof examples / sizeof *examples; i++) {
-        if (strcmp(examples[i].unit, wt_quantity_unit(quantity)) == 0)
-            return examples[i].text;
-    }
-    return "";
-}
-
 wt_status wt_quantity_parse(const char *text, wt_quantity quantity, double *value, wt_error *err)
 {
     wt_status status = WT_OK;
@@ -356,6 +333,8 @@ wt_status wt_quantity_parse(const char *text, wt_quantity quantity, double *valu
             status = wt_fail(err, WT_E_RANGE, "the value is too large");
         else if (status == WT_OK && quantity == WT_Q_TEMPERATURE && result < 0.0)
             status = wt_fail(err, WT_E_RANGE, "the temperature is below absolute zero");
+        else if (status == WT_OK && !quantity_is_possible(quantity, result))
+            return quantity_impossible(quantity, text, err);
     }
     if (status == WT_OK) {
         *value = result;
@@ -363,7 +342,7 @@ wt_status wt_quantity_parse(const char *text, wt_quantity quantity, double *valu
         char words[64];
         quantity_words(quantity, words, sizeof words);
         wt_error_expected(err, "%s%s, such as %s", words, bare ? "" : " with its unit",
-                          example(quantity));
+                          quantity_example(quantity));
         wt_error_found(err, "\"%s\"", text);
         if (reason != NULL)
             wt_error_advice(err, "%s", reason);

@@ -4,6 +4,8 @@
  */
 #include "model/tip.h"
 
+#include "base/quantity.h"
+
 #include <float.h>
 #include <math.h>
 
@@ -16,10 +18,10 @@ double wt_tip_tangent_transition(double radius, double half_angle)
 
 static wt_status check_positive(double value, const char *what, wt_error *err)
 {
-    if (value > 0.0 && isfinite(value))
+    if (value > 0.0 && quantity_is_possible(WT_Q_LENGTH, value))
         return WT_OK;
     wt_status status = wt_fail(err, WT_E_RANGE, "%s of the tip is not usable", what);
-    wt_error_expected(err, "a length above 0");
+    wt_error_expected(err, "a length above 0, at most %g m", quantity_most(WT_Q_LENGTH));
     wt_error_found(err, "%g m", value);
     return status;
 }

@@ -19,15 +19,23 @@ typedef struct jpk_source {
     size_t next;                /* refs[next] is the first segment of the next curve */
 } jpk_source;
 
+/* What an entry may unpack to: many times what its points take, and never all of the memory. */
+static size_t most_bytes(const jpk_channel *channel)
+{
+    const size_t most = (size_t)256 << 20, slack = (size_t)1 << 20, times = 16;
+    const size_t width = sample_width(channel->lcd.encoding);
+    return channel->n_points < (most - slack) / times / width
+               ? times * width * channel->n_points + slack
+               : most;
+}
+
 static wt_status load(jpk_source *source, const jpk_channel *channel, wt_error *err)
 {
     jpk_file *file = &source->file;
-    size_t size = 0;
     if (!channel->has_file)
         return wt_fail(err, WT_E_CORRUPT, "data of channel %s are missing", channel->name);
-    wt_status status = archive_size(file->archive, channel->entry, &size, err);
-    if (status == WT_OK)
-        status = archive_read(file->archive, channel->entry, size, &file->buffer, err);
+    wt_status status = archive_read(file->archive, channel->entry, most_bytes(channel),
+                                    &file->buffer, err);
     if (status == WT_OK)
         source->loaded = channel;
     return status;

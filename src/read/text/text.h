@@ -44,9 +44,9 @@ bool cells_split(text_cells *cells, text_span line, cell_separator separator,
 bool cells_blank(const text_cells *cells);
 bool cell_is(text_span cell, const char *text);
 
-typedef enum cell_kind { CELL_NUMBER, CELL_MISSING, CELL_TEXT } cell_kind;
-/* A number, an empty cell (also "--", "nan", 1e99 and what the description lists; *value is NaN) or
- * something else. */
+typedef enum cell_kind { CELL_NUMBER, CELL_MISSING, CELL_NOT_FINITE, CELL_TEXT } cell_kind;
+/* A number, an empty cell (also "--", 1e99 and what the description lists), "nan" or "inf" that it
+ * does not list (*value is NaN for both) or something else. */
 cell_kind cell_read(text_span cell, char decimal, const text_description *description,
                     double *value);
 /* Copies text for messages and tables: without control characters, cut at a whole character. */

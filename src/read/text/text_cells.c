@@ -4,6 +4,7 @@
  */
 #include "read/text/text.h"
 
+#include "base/array.h"
 #include "base/number.h"
 #include "base/utf8.h"
 
@@ -159,16 +160,16 @@ bool cell_is(text_span cell, const char *text)
     return strlen(text) == cell.length && memcmp(text, cell.text, cell.length) == 0;
 }
 
-static bool is_missing(text_span cell, const text_description *d)
+static bool is_word(text_span cell, const char *const words[], size_t n)
 {
-    static const char *const usual[] = {"-",       "--",     "---",    "nan",  "n/a",
-                                        "na",      "inf",    "-inf",   "+inf", "#n/a",
-                                        "1.#qnan", "1.#inf", "-1.#ind"};
-    if (cell.length == 0)
-        return true;
-    for (size_t i = 0; i < sizeof usual / sizeof *usual; i++)
-        if (strlen(usual[i]) == cell.length && strncasecmp(usual[i], cell.text, cell.length) == 0)
+    for (size_t i = 0; i < n; i++)
+        if (strlen(words[i]) == cell.length && strncasecmp(words[i], cell.text, cell.length) == 0)
             return true;
+    return false;
+}
+
+static bool is_declared_missing(text_span cell, const text_description *d)
+{
     for (size_t i = 0; i < d->n_missing; i++)
         if (cell_is(cell, d->missing[i]))
             return true;
@@ -182,12 +183,18 @@ cell_kind cell_read(text_span cell, char decimal, const text_description *descri
     if (cell.length > 0 && wt_number_parse(cell.text, cell.length, decimal, value)) {
         if (!(fabs(*value) < no_value))
             *value = (double)NAN;
-        else if (description->n_missing == 0 || !is_missing(cell, description))
+        else if (!is_declared_missing(cell, description))
             return CELL_NUMBER;
         *value = (double)NAN;
         return CELL_MISSING;
     }
-    return is_missing(cell, description) ? CELL_MISSING : CELL_TEXT;
+    static const char *const none[] = {"-", "--", "---", "n/a", "na", "#n/a"};
+    static const char *const not_finite[] = {"nan",  "inf",     "-inf",   "+inf",
+                                             "-nan", "1.#qnan", "1.#inf", "-1.#ind"};
+    if (cell.length == 0 || is_word(cell, none, COUNT_OF(none)) ||
+        is_declared_missing(cell, description))
+        return CELL_MISSING;
+    return is_word(cell, not_finite, COUNT_OF(not_finite)) ? CELL_NOT_FINITE : CELL_TEXT;
 }
 
 void text_copy(char *to, size_t size, text_span text)

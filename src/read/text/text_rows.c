@@ -65,6 +65,15 @@ static unsigned char segment_kind(const text_scanner *s)
     return WT_SEGMENT_OTHER;
 }
 
+static void warn_of_cell(text_scanner *s, const text_column *column)
+{
+    char found[16];
+    text_copy(found, sizeof found, s->row.cells[column->cell]);
+    wt_parselog_add(s->log, WT_WARNING, s->file->name, line_place(s->i + 1).words,
+                    "\"%s\" in column %zu (%s) is no value and is left out", found,
+                    column->cell + 1, column->name);
+}
+
 row_quality scan_read_row(text_scanner *s, size_t *bad)
 {
     text_table *t = s->table;
@@ -82,6 +91,9 @@ row_quality scan_read_row(text_scanner *s, size_t *bad)
             numbers++;
             break;
         case CELL_MISSING:
+            break;
+        case CELL_NOT_FINITE:
+            warn_of_cell(s, column);
             break;
         case CELL_TEXT:
             if (texts++ == 0)
