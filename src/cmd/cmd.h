@@ -92,6 +92,9 @@ void cmd_wrap(FILE *out, size_t column, size_t indent, const char *text);
 /* ---- messages ----------------------------------------------------------------------------- */
 
 /* Prints the error on stderr as one line and returns the exit status that fits. */
+/* To standard error. What a terminal would obey, in the name of a file say, is shown as \x1b; only
+ * the format itself may end a line. */
+void cmd_say(const char *format, ...) WT_PRINTF(1, 2);
 int cmd_fail(const char *name, const wt_error *err);
 /* Prints the remarks of the log on stderr, equal words once, and their number; notes too if
  * `notes`; of a quiet call the losses alone. Returns CMD_FAILED where something was lost and, with

@@ -49,7 +49,7 @@ static int show_format(const wt_formats *formats, const char *id)
                f->title);
         return CMD_OK;
     }
-    fprintf(stderr, "weartrack formats: there is no format '%s'; see weartrack formats list\n", id);
+    cmd_say("weartrack formats: there is no format '%s'; see weartrack formats list\n", id);
     return CMD_FAILED;
 }
 

@@ -54,7 +54,7 @@ static int close_stdout(int status)
 {
     if (fflush(stdout) != 0 || ferror(stdout) || fclose(stdout) != 0) {
         if (errno != EPIPE)
-            fprintf(stderr, "weartrack: standard output: %s\n", strerror(errno));
+            cmd_say("weartrack: standard output: %s\n", strerror(errno));
         return status == CMD_OK ? CMD_FAILED : status;
     }
     return status;
@@ -66,7 +66,7 @@ static int dispatch(int argc, char **argv)
     for (const cmd_command *c = cmd_commands; c->name != NULL; c++)
         if (c->run != NULL && strcmp(c->name, name) == 0)
             return c->run(argc, argv);
-    fprintf(stderr, "weartrack: there is no subcommand '%s'; see weartrack --help\n", name);
+    cmd_say("weartrack: there is no subcommand '%s'; see weartrack --help\n", name);
     return CMD_USAGE;
 }
 

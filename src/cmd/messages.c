@@ -1,15 +1,50 @@
 /* Words on standard error: errors, warnings, progress. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <signal.h>
+#include <stdarg.h>
 #include <string.h>
 #include <unistd.h>
 
+#include "base/utf8.h"
 #include "cmd/cmd.h"
+
+/* A character that a terminal might obey. */
+static bool is_control(const char *text)
+{
+    const unsigned char c = (unsigned char)text[0];
+    return (c < 0x20 && c != '\t') || c == 0x7f || (c == 0xc2 && (unsigned char)text[1] < 0xa0);
+}
+
+void cmd_say(const char *format, ...)
+{
+    char *text = NULL;
+    va_list arguments;
+    va_start(arguments, format);
+    const int written = vasprintf(&text, format, arguments);
+    va_end(arguments);
+    if (written < 0)
+        return;
+    size_t length = (size_t)written;
+    const bool line = *format != '\0' && format[strlen(format) - 1] == '\n';
+    length -= line;
+    for (size_t i = 0, n; i < length; i += n) {
+        n = utf8_character(text + i, length - i);
+        if (n > 0 && !is_control(text + i)) {
+            fwrite(text + i, 1, n, stderr);
+        } else {
+            n = 1;
+            fprintf(stderr, "\\x%02x", (unsigned char)text[i]);
+        }
+    }
+    if (line)
+        fputc('\n', stderr);
+    free(text);
+}
 
 int cmd_fail(const char *name, const wt_error *err)
 {
     char line[2048];
     wt_error_format(err, line, sizeof line);
-    fprintf(stderr, "weartrack %s: %s\n", name, line);
+    cmd_say("weartrack %s: %s\n", name, line);
     return CMD_FAILED;
 }
 
@@ -55,14 +90,14 @@ static size_t fold_equal(fold *folds, size_t n)
 static void print_fold(const char *name, const fold *f)
 {
     const wt_log_entry *e = &f->entry;
-    fprintf(stderr, "weartrack %s: %s: %s", name, wt_severity_name(e->severity), e->file);
+    cmd_say("weartrack %s: %s: %s", name, wt_severity_name(e->severity), e->file);
     if (f->n_files > 1)
-        fprintf(stderr, " and %zu more", f->n_files - 1);
-    fprintf(stderr, "%s%s%s%s", *e->file ? ": " : "", f->n_files > 1 ? "" : e->place,
+        cmd_say(" and %zu more", f->n_files - 1);
+    cmd_say("%s%s%s%s", *e->file ? ": " : "", f->n_files > 1 ? "" : e->place,
             *e->place && f->n_files == 1 ? ": " : "", e->text);
     if (f->n > f->n_files)
-        fprintf(stderr, " (%zu times)", f->n);
-    fputc('\n', stderr);
+        cmd_say(" (%zu times)", f->n);
+    cmd_say("\n");
 }
 
 int cmd_say_log(const char *name, const cmd_common *common, const wt_parselog *log, bool notes)
@@ -71,7 +106,7 @@ int cmd_say_log(const char *name, const cmd_common *common, const wt_parselog *l
     size_t n_folds = 0, n_remarks = n_unkept, n_losses = 0;
     fold *folds = calloc(n + 1, sizeof *folds);
     if (folds == NULL) {
-        fprintf(stderr, "weartrack %s: out of memory\n", name);
+        cmd_say("weartrack %s: out of memory\n", name);
         return CMD_FAILED;
     }
     for (size_t i = 0; i < n; i++) {
@@ -86,11 +121,10 @@ int cmd_say_log(const char *name, const cmd_common *common, const wt_parselog *l
         print_fold(name, &folds[i]);
     free(folds);
     if (n_unkept > 0 && !common->quiet)
-        fprintf(stderr, "weartrack %s: warning: %zu notes were lost for lack of memory\n", name,
-                n_unkept);
+        cmd_say("weartrack %s: warning: %zu notes were lost for lack of memory\n", name, n_unkept);
     if (n_remarks > 0 && (common->strict || !common->quiet))
-        fprintf(stderr, "weartrack %s: %zu remark%s%s\n", name, n_remarks,
-                n_remarks == 1 ? "" : "s", common->strict ? ": exit status 1 (--strict)" : "");
+        cmd_say("weartrack %s: %zu remark%s%s\n", name, n_remarks, n_remarks == 1 ? "" : "s",
+                common->strict ? ": exit status 1 (--strict)" : "");
     return n_losses > 0 || (common->strict && n_remarks > 0) ? CMD_FAILED : CMD_OK;
 }
 
@@ -100,15 +134,15 @@ size_t cmd_print_failures(const char *name, const wt_table *failures)
         return 0;
     const size_t n = wt_table_n_rows(failures);
     const long file = wt_table_find(failures, "file"), message = wt_table_find(failures, "message");
-    fprintf(stderr, "weartrack %s: %zu failed:\n", name, n);
+    cmd_say("weartrack %s: %zu failed:\n", name, n);
     for (size_t i = 0; i < n; i++) {
         const char *where = wt_table_text(failures, i, (size_t)file);
         const char *what = wt_table_text(failures, i, (size_t)message);
         /* most messages begin with the file they are about */
         if (strncmp(what, where, strlen(where)) == 0)
-            fprintf(stderr, "  %s\n", what);
+            cmd_say("  %s\n", what);
         else
-            fprintf(stderr, "  %s: %s\n", where, what);
+            cmd_say("  %s: %s\n", where, what);
     }
     return n;
 }

@@ -329,7 +329,7 @@ int cmd_new_case(int argc, char **argv)
                        : wt_fail(&err, WT_E_EMPTY, "no file: no case is written");
     status = made != WT_OK ? cmd_fail("new-case", &err) : c.failed ? CMD_FAILED : CMD_OK;
     if (made == WT_OK && common.output != NULL && !common.quiet)
-        fprintf(stderr, "next: fill in what is missing, then weartrack run %s\n", common.output);
+        cmd_say("next: fill in what is missing, then weartrack run %s\n", common.output);
     for (size_t i = 0; i < c.n; i++)
         free(c.entries[i].path);
     free(c.entries);

@@ -67,10 +67,12 @@ int cmd_usage_error(const char *name, const char *format, ...)
 {
     va_list args;
     va_start(args, format);
-    fprintf(stderr, "weartrack %s: ", name);
-    vfprintf(stderr, format, args);
-    fprintf(stderr, "; see weartrack %s --help\n", name);
+    char *text = NULL;
+    const int written = vasprintf(&text, format, args);
     va_end(args);
+    cmd_say("weartrack %s: %s; see weartrack %s --help\n", name, written < 0 ? "" : text, name);
+    if (written >= 0)
+        free(text);
     return CMD_USAGE;
 }
 
@@ -333,7 +335,7 @@ bool cmd_parse(const cmd_usage *usage, cmd_part *parts, size_t n_parts, cmd_comm
         add_part(&list, &parts[i]);
     add_part(&list, &last);
     if (inputs == NULL)
-        fprintf(stderr, "weartrack %s: out of memory\n", usage->name);
+        cmd_say("weartrack %s: out of memory\n", usage->name);
     *status =
         inputs == NULL ? CMD_FAILED : parse_options(usage, &list, argc, argv, inputs, &n_inputs);
     if (*status == CMD_OK && common->help) {

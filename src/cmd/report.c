@@ -43,7 +43,7 @@ int cmd_report(int argc, char **argv)
     status = made != WT_OK ? cmd_fail("report", &err)
                            : cmd_tables_remarks("report", &common, argv[first], result);
     if (made == WT_OK && !common.quiet)
-        fprintf(stderr, "report page: %s/index.html\n", common.output);
+        cmd_say("report page: %s/index.html\n", common.output);
 done:
     wt_result_free(result);
     return status;

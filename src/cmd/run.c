@@ -150,7 +150,7 @@ static wt_status draw(run_call *r, wt_error *err)
         wt_report_write(r->result, r->folder_name, &r->report, &r->run.progress, err);
     cmd_progress_end(&progress);
     if (status == WT_OK && !r->common.quiet)
-        fprintf(stderr, "report page: %s/index.html\n", r->folder_name);
+        cmd_say("report page: %s/index.html\n", r->folder_name);
     return status;
 }
 
@@ -177,7 +177,7 @@ static int run_case(run_call *r, bool style_given)
     print_answer(r->result);
     fflush(stdout); /* it stands, whatever becomes of the pictures */
     if (!r->common.quiet)
-        fprintf(stderr, "result: %s\n", r->result_name);
+        cmd_say("result: %s\n", r->result_name);
     if (!r->own.no_report && draw(r, &err) != WT_OK)
         return cmd_fail("run", &err);
     return n_failed > 0 ? CMD_FAILED : r->said;

@@ -60,7 +60,7 @@ int cmd_end(cmd_session *s, wt_status made, const wt_error *err)
     if (made != WT_OK)
         return cmd_fail(s->name, err);
     if (!s->common->quiet && wt_result_sentence(s->result, sentence, sizeof sentence) > 0)
-        fprintf(stderr, "weartrack %s: %s\n", s->name, sentence);
+        cmd_say("weartrack %s: %s\n", s->name, sentence);
     return s->n_failed > 0 ? CMD_FAILED : said;
 }
 

@@ -73,7 +73,7 @@ int cmd_tables_remarks(const char *name, const cmd_common *common, const char *p
         n += strcmp(wt_table_text(notes, row, (size_t)severity), wt_severity_name(WT_NOTE)) != 0;
     if (n == 0)
         return CMD_OK;
-    fprintf(stderr, "weartrack %s: %s: %zu remark%s: exit status 1 (--strict)\n", name, path, n,
+    cmd_say("weartrack %s: %s: %zu remark%s: exit status 1 (--strict)\n", name, path, n,
             n == 1 ? "" : "s");
     return CMD_FAILED;
 }

@@ -5,6 +5,7 @@
 #include "base/array.h"
 #include "data/tables/tables.h"
 
+#include <search.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -107,12 +108,14 @@ static wt_status files_add(flow_files *files, char *path, const wt_file_set *set
     return WT_OK;
 }
 
-static bool is_listed(const flow_files *files, const char *path)
+static int by_path(const void *a, const void *b)
 {
-    for (size_t i = 0; i < files->n; i++)
-        if (strcmp(files->file[i].path, path) == 0)
-            return true;
-    return false;
+    return strcmp(a, b);
+}
+
+static void keep(void *path)
+{
+    (void)path; /* it belongs to the list */
 }
 
 static wt_status list_pattern(const wt_file_set *set, const char *pattern, const wt_job *work,
@@ -128,7 +131,12 @@ static wt_status list_pattern(const wt_file_set *set, const char *pattern, const
     if (status != WT_OK)
         return flow_failed(work, pattern, status, &failure, err);
     for (size_t i = 0; status == WT_OK && i < n; i++) {
-        if (is_listed(files, paths[i])) {
+        char *const *const found = tsearch(paths[i], &files->paths, by_path);
+        if (found == NULL) {
+            status = wt_fail(err, WT_E_MEMORY, "out of memory");
+            break;
+        }
+        if (*found != paths[i]) {
             wt_parselog_add(work->log, WT_WARNING, paths[i], NULL,
                             "named more than once; its curves are taken once");
             continue;
@@ -144,7 +152,7 @@ wt_status flow_files_list(const wt_file_set *sets, size_t n_sets, const wt_job *
                           flow_files *files, wt_error *err)
 {
     wt_status status = WT_OK;
-    *files = (flow_files){NULL, 0};
+    *files = (flow_files){NULL, 0, NULL};
     for (size_t i = 0; status == WT_OK && i < n_sets; i++)
         for (size_t j = 0; status == WT_OK && j < sets[i].n_patterns; j++)
             status = list_pattern(&sets[i], sets[i].patterns[j], work, files, err);
@@ -158,7 +166,8 @@ void flow_files_clear(flow_files *files)
     for (size_t i = 0; i < files->n; i++)
         free((void *)files->file[i].path);
     free(files->file);
-    *files = (flow_files){NULL, 0};
+    tdestroy(files->paths, keep);
+    *files = (flow_files){NULL, 0, NULL};
 }
 
 /* ---- opening --------------------------------------------------------------------------------- */

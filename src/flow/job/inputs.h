@@ -28,6 +28,7 @@ typedef struct flow_file {
 typedef struct flow_files {
     flow_file *file;
     size_t n;
+    void *paths; /* the same for tsearch */
 } flow_files;
 
 /* All files of the sets in their order. A file that is named twice is taken once, with a warning. A

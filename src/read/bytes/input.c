@@ -1,5 +1,6 @@
-/* Input: the bytes of a file or a pipe (read as far as they were asked for), of a file too large
- * for that (mapped) or of memory (borrowed), all behind the same two functions.
+/* Input: the bytes of a file or a pipe (read as far as they were asked for) or of memory
+ * (borrowed), behind the same two functions. A file is never mapped: one that another program
+ * shortens meanwhile would end this one with a signal.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -7,23 +8,20 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <linux/magic.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/mman.h>
 #include <sys/stat.h>
+#include <sys/vfs.h>
 #include <unistd.h>
 
 #define FIRST_READ ((size_t)64 * 1024)
-/* A file that another program shortens while it is mapped ends this one with a signal, so only what
- * is too large to be copied is mapped. */
-#define MAPPED_FROM ((size_t)1 << 30)
 
 struct wt_input {
     char *name;
     const unsigned char *bytes;
     size_t length;
     bool whole;            /* bytes..length is all there is */
-    void *mapping;         /* of `length` bytes, or NULL */
     unsigned char *buffer; /* what was read */
     size_t capacity;
     size_t expected; /* size of a file, 0 of a pipe */
@@ -55,18 +53,35 @@ static wt_status fail_io(const wt_input *in, wt_error *err, int number, const ch
     return status;
 }
 
-static wt_status map_file(wt_input *in, size_t size, wt_error *err)
+/* Opened without waiting for somebody who writes: a pipe with a name may have nobody for ever. One
+ * without a name, such as a shell makes for <(...), has. */
+static wt_status open_file(wt_input *in, const char *path, struct stat *info, wt_error *err)
 {
-    void *mapping = mmap(NULL, size, PROT_READ, MAP_PRIVATE, in->fd, 0);
-    if (mapping == MAP_FAILED)
-        return fail_io(in, err, errno, "cannot be mapped");
-    in->mapping = mapping;
-    in->bytes = mapping;
-    in->length = size;
-    in->whole = true;
-    close(in->fd);
-    in->fd = -1;
+    struct statfs system;
+    in->fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    if (in->fd < 0)
+        return fail_io(in, err, errno, "cannot be opened");
+    if (fstat(in->fd, info) != 0 || fstatfs(in->fd, &system) != 0)
+        return fail_io(in, err, errno, "cannot be examined");
+    if (S_ISFIFO(info->st_mode) && system.f_type != PIPEFS_MAGIC) {
+        wt_fail(err, WT_E_ARG, "is a named pipe");
+        wt_error_file(err, path);
+        wt_error_expected(err, "a file");
+        wt_error_advice(err, "give it as standard input: weartrack ... - < PIPE");
+        return WT_E_ARG;
+    }
+    if (fcntl(in->fd, F_SETFL, O_RDONLY) != 0)
+        return fail_io(in, err, errno, "cannot be examined");
     return WT_OK;
+}
+
+static wt_status open_standard(wt_input *in, struct stat *info, wt_error *err)
+{
+    /* The number is duplicated, so that closing the input leaves it open. */
+    in->fd = fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 0);
+    if (in->fd < 0)
+        return fail_io(in, err, errno, "cannot be opened");
+    return fstat(in->fd, info) == 0 ? WT_OK : fail_io(in, err, errno, "cannot be examined");
 }
 
 wt_status wt_input_open(const char *path, wt_input **input, wt_error *err)
@@ -77,18 +92,11 @@ wt_status wt_input_open(const char *path, wt_input **input, wt_error *err)
     wt_status status = input_new(path, &in, err);
     if (status != WT_OK)
         return status;
-    bool standard = strcmp(path, "-") == 0;
-    /* The number of standard input is duplicated, so that closing the input leaves it open. */
-    in->fd = standard ? fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 0) : open(path, O_RDONLY | O_CLOEXEC);
-    if (in->fd < 0) {
-        status = fail_io(in, err, errno, "cannot be opened");
-        goto fail;
-    }
+    const bool standard = strcmp(path, "-") == 0;
     struct stat st;
-    if (fstat(in->fd, &st) != 0) {
-        status = fail_io(in, err, errno, "cannot be examined");
+    status = standard ? open_standard(in, &st, err) : open_file(in, path, &st, err);
+    if (status != WT_OK)
         goto fail;
-    }
     if ((status = wt_guard_read(path, err)) != WT_OK)
         goto fail;
     if (S_ISDIR(st.st_mode)) {
@@ -99,13 +107,8 @@ wt_status wt_input_open(const char *path, wt_input **input, wt_error *err)
     }
     /* Standard input that was redirected from a file may stand anywhere in it: read it as a pipe.
      */
-    if (S_ISREG(st.st_mode) && !standard) {
+    if (S_ISREG(st.st_mode) && !standard)
         in->expected = (size_t)st.st_size;
-        if (in->expected >= MAPPED_FROM)
-            status = map_file(in, in->expected, err);
-        if (status != WT_OK)
-            goto fail;
-    }
     *input = in;
     return WT_OK;
 fail:
@@ -146,8 +149,6 @@ void wt_input_close(wt_input *input)
 {
     if (input == NULL)
         return;
-    if (input->mapping != NULL)
-        munmap(input->mapping, input->length);
     if (input->fd >= 0)
         close(input->fd);
     free(input->buffer);

@@ -34,8 +34,8 @@ static wt_status load(jpk_source *source, const jpk_channel *channel, wt_error *
     jpk_file *file = &source->file;
     if (!channel->has_file)
         return wt_fail(err, WT_E_CORRUPT, "data of channel %s are missing", channel->name);
-    wt_status status = archive_read(file->archive, channel->entry, most_bytes(channel),
-                                    &file->buffer, err);
+    wt_status status =
+        archive_read(file->archive, channel->entry, most_bytes(channel), &file->buffer, err);
     if (status == WT_OK)
         source->loaded = channel;
     return status;
