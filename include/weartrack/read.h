@@ -14,10 +14,9 @@ extern "C" {
 
 /* ---- input -------------------------------------------------------------------------------- */
 
-/* Bytes with peek. A file below 1 GiB is read into memory, a pipe is buffered. A larger file is
- * mapped: the system ends the program if another one shortens it meanwhile. */
+/* Bytes with peek. A file is read into memory, a pipe is buffered. */
 typedef struct wt_input wt_input;
-/* path "-" is standard input. */
+/* path "-" is standard input. A named pipe is refused: nobody may ever write to it. */
 WT_API wt_status wt_input_open(const char *path, wt_input **input, wt_error *err) WT_NODISCARD;
 /* Borrows the bytes until closed. */
 WT_API wt_status wt_input_open_memory(const void *bytes, size_t length, const char *name,

@@ -84,7 +84,8 @@ wt_status quantity_impossible(wt_quantity quantity, const char *found, wt_error 
 {
     const unit_words *w = words(quantity);
     (void)wt_fail(err, WT_E_RANGE, "beyond anything that there is");
-    wt_error_expected(err, "at most %g %s", w->most, strcmp(w->unit, "1") == 0 ? "" : w->unit);
+    const bool bare = strcmp(w->unit, "1") == 0;
+    wt_error_expected(err, "at most %g%s%s", w->most, bare ? "" : " ", bare ? "" : w->unit);
     wt_error_found(err, "%s", found);
     return WT_E_RANGE;
 }

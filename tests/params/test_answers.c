@@ -2,6 +2,7 @@
  * unit or empty, is taken or refused alike as an option, in a case and in a call from C. The values
  * follow from the records, so a new parameter needs no line here.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/quantity.h"
 #include "near.h"
 #include "params/sections.h"
 
@@ -416,6 +417,10 @@ static void try_param(const wt_param *p)
     if (isfinite(l->high)) {
         try_number(p, l->high, !l->with_high);
         try_number(p, l->high + (whole ? 1 : 1e-6 * fabs(l->high)), true);
+    } else if (!whole) { /* what there can be of the quantity */
+        try_number(p, quantity_most(p->quantity), false);
+        try_number(p, 1.000001 * quantity_most(p->quantity), true);
+        try_number(p, 1e300, true);
     }
     try_value(p, "nan", true, (double)NAN, whole ? -1 : p->unset == NULL || p->kind == PARAM_LIST);
     try_value(p, "inf", true, (double)INFINITY, whole ? -1 : 1);

@@ -14,6 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+#include <zip.h>
 
 #define MAX_POINTS 64
 
@@ -466,6 +467,36 @@ static void described(void **state)
     unlink(path);
 }
 
+/* An entry that unpacks to many times what its points take is refused before it is unpacked: it
+ * would fill the memory. */
+static void swollen_entry(void **state)
+{
+    (void)state;
+    static const char path[] = "swollen.jpk-force";
+    enum { SWOLLEN = 8 << 20 };
+    jpk_writer_file f = make_file(path);
+    reading r = {.log = NULL};
+    f.map = false;
+    f.n_curves = 1;
+    f.n_planned = 0;
+    f.columns = f.rows = 0;
+    assert_int_equal(jpk_write(&f), 0);
+    void *zeros = calloc(1, SWOLLEN);
+    assert_non_null(zeros);
+    zip_t *zip = zip_open(path, 0, NULL);
+    assert_non_null(zip);
+    const zip_int64_t i = zip_name_locate(zip, "segments/0/channels/height.dat", 0);
+    assert_true(i >= 0);
+    assert_int_equal(
+        zip_file_replace(zip, (zip_uint64_t)i, zip_source_buffer(zip, zeros, SWOLLEN, 1), 0), 0);
+    assert_int_equal(zip_close(zip), 0);
+    assert_int_equal(open_path(&r, path, NULL), WT_OK);
+    assert_int_equal(wt_force_next(r.source, &r.curve, &r.err), WT_E_CORRUPT);
+    assert_non_null(strstr(r.err.message, "too large for what it is"));
+    close_all(&r);
+    unlink(path);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -480,6 +511,7 @@ int main(void)
         cmocka_unit_test(many_channels),
         cmocka_unit_test(cut_off),
         cmocka_unit_test(described),
+        cmocka_unit_test(swollen_entry),
     };
     return cmocka_run_group_tests(tests, make_formats, free_formats);
 }
