@@ -1,5 +1,5 @@
-/* Any bytes as a text export: every description is asked whether it is its file; those that say so,
- * and another one, read it as force curves, sweep, spectrum and facts.
+/* Any bytes as a text export of one description, READER_ID: whether it is its file, force curves,
+ * sweep, spectrum and facts.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -7,6 +7,9 @@
 #include "read_all.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+#define TEXT_OF(id) #id
+#define TEXT(id) TEXT_OF(id)
 
 static const char *const units[] = {"f=Hz", "E'=MPa", "E''=MPa"};
 
@@ -62,21 +65,15 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         options.sensitivity = 5e-8;
         options.spring_constant = 0.1;
     }
+    const file_reader *reader = formats_find_reader(formats, TEXT(READER_ID));
+    if (reader == NULL)
+        abort();
     file_peek peek = {.bytes = data, .length = size, .whole = size % 3 > 0, .name = "fuzz"};
-    for (size_t i = 0; i < wt_formats_count(formats); i++) {
-        const file_reader *reader = formats_reader(formats, i);
-        if (!reader_is_text(reader))
-            continue;
-        /* All descriptions for each input would be slow: those that want it, and one that may not.
-         */
-        if (reader->detect(reader, &peek).answer != ANSWER_YES &&
-            i != size % wt_formats_count(formats))
-            continue;
-        read_as(reader, input, &options);
-        if (reader->open_force != NULL)
-            read_curves(reader, data, size, &options);
-        describe(reader, data, size, &options);
-    }
+    (void)reader->detect(reader, &peek);
+    read_as(reader, input, &options);
+    if (reader->open_force != NULL)
+        read_curves(reader, data, size, &options);
+    describe(reader, data, size, &options);
     text_peek_free(peek.text);
     wt_input_close(input);
     return 0;

@@ -17,7 +17,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 #define MAX_SEED ((size_t)1 << 20)
 #define TRUNCATIONS 64
 #define CHANGES 400
-#define SECONDS_PER_PROGRAM 6.0
 
 typedef struct run {
     const char *last; /* where the last input is kept, NULL = nowhere */
