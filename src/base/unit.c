@@ -207,6 +207,10 @@ static bool trim(const char *unit, char copy[UNIT_MAX])
     }
     if (length >= UNIT_MAX || utf8_check(unit, length) != length)
         return false;
+    for (size_t i = 0; i < length; i++)
+        if ((unsigned char)unit[i] < 0x20 &&
+            unit[i] != '\t') /* the scanner of UDUNITS prints a line end */
+            return false;
     memcpy(copy, unit, length);
     copy[length] = '\0';
     return true;

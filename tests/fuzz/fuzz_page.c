@@ -1,5 +1,5 @@
-/* Any text stream as a result: its tables are bound, every figure is drawn as a script, and the page
- * is written, all but gnuplot. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Any text stream as a result: its tables are bound, every figure is drawn as a script, and the
+ * page is written, all but gnuplot. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/page.h"
 #include "weartrack/report.h"
 
@@ -37,8 +37,11 @@ static void draw(const wt_result *result, const bound_tables *tables)
             drawing_make(&figures[i].drawing, figure_find(i), tables, &err) != WT_OK &&
             err.message[0] == '\0')
             abort();
-    page_writer page = {
-        .result = result, .tables = tables, .with_provenance = true, .figures = figures, .n_figures = n};
+    page_writer page = {.result = result,
+                        .tables = tables,
+                        .with_provenance = true,
+                        .figures = figures,
+                        .n_figures = n};
     if (page_write(&page, &err) == WT_OK && strstr(text_string(&page.out), "</html>") == NULL)
         abort();
     text_free(&page.out);

@@ -20,7 +20,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (wt_tip_parse(text, &tip, &err) == WT_OK) {
         if (wt_tip_check(&tip, &err) != WT_OK || wt_tip_describe(&tip, words, sizeof words) == 0)
             abort();
-        if (wt_contact_table_new(&tip, 1e-10, 1e-6, &table, &err) != WT_OK && err.message[0] == '\0')
+        if (wt_contact_table_new(&tip, 1e-10, 1e-6, &table, &err) != WT_OK &&
+            err.message[0] == '\0')
             abort();
     } else if (err.message[0] == '\0') {
         abort();

@@ -418,7 +418,8 @@ static void try_param(const wt_param *p)
         try_number(p, l->high, !l->with_high);
         try_number(p, l->high + (whole ? 1 : 1e-6 * fabs(l->high)), true);
     } else if (!whole) { /* what there can be of the quantity */
-        try_number(p, quantity_most(p->quantity), false);
+        if (strcmp(p->name, "q0") != 0 && strcmp(p->name, "qr") != 0) /* below q1 */
+            try_number(p, quantity_most(p->quantity), false);
         try_number(p, 1.000001 * quantity_most(p->quantity), true);
         try_number(p, 1e300, true);
     }

@@ -452,7 +452,7 @@ wt_status wt_indent_group(const wt_indent_job *job, const wt_job *work, wt_inden
     if (tables->indentation != NULL)
         return wt_fail(err, WT_E_ARG, "the indentation table of the group before is still there");
     indent_task task = {.job = job, .work = work, .k_low = (double)NAN, .k_high = (double)NAN};
-    flow_files files = {NULL, 0};
+    flow_files files = {NULL, 0, NULL};
     wt_status status = prepare(&task, err);
     if (status == WT_OK)
         status = flow_files_list(job->sets, job->n_sets, work, &files, err);

@@ -44,7 +44,7 @@ static const char *deformation_name(wt_deformation deformation)
 static wt_status read_sweeps(const wt_master_job *job, const wt_job *work, wt_sweep *sweep,
                              wt_error *err)
 {
-    flow_files files = {NULL, 0};
+    flow_files files = {NULL, 0, NULL};
     wt_status status = flow_files_list(job->sets, job->n_sets, work, &files, err);
     for (size_t i = 0; status == WT_OK && i < files.n; i++) {
         wt_input *input = NULL;
