@@ -43,20 +43,20 @@ void master_judge(const master_work *work, wt_master *m)
     m->loss_factor = tested ? lack->factor : (double)NAN;
     m->loss_factor_error = tested ? lack->factor_error : (double)NAN;
     m->superposition = WT_SUPERPOSITION_CANNOT_SAY;
-    if (determined >= 2 && lack->p < significant && lack->misfit_low > matters) {
+    if (determined >= 2 && lack->kk < loss_significant &&
+        fabs(lack->factor) - 2.0 * lack->factor_error > loss_matters) {
+        m->superposition = WT_SUPERPOSITION_FAILS;
+        clocale_print(m->because, sizeof m->because,
+                      "E'' is %+.1f %% off what E' demands (Kramers-Kronig, p = %.1g): check the "
+                      "instrument, or the columns",
+                      100.0 * expm1(-lack->factor), lack->kk);
+    } else if (determined >= 2 && lack->p < significant && lack->misfit_low > matters) {
         m->superposition = WT_SUPERPOSITION_FAILS;
         clocale_print(
             m->because, sizeof m->because,
             "one spectrum misses the isotherms by %.1f to %.1f %% (p = %.1g): a second process "
             "or a change of the material; treat the temperatures apart",
             100.0 * lack->misfit_low, 100.0 * lack->misfit_high, lack->p);
-    } else if (determined >= 2 && lack->kk < loss_significant &&
-               fabs(lack->factor) - 2.0 * lack->factor_error > loss_matters) {
-        m->superposition = WT_SUPERPOSITION_FAILS;
-        clocale_print(m->because, sizeof m->because,
-                      "E'' is %+.1f %% off what E' demands (Kramers-Kronig, p = %.1g): check the "
-                      "instrument, or the columns",
-                      100.0 * expm1(-lack->factor), lack->kk);
     } else if (determined < LEAST_ISOTHERMS) {
         clocale_print(m->because, sizeof m->because,
                       "%zu isotherms that overlap; three or more would tell", determined);

@@ -1,0 +1,391 @@
+/* One spectrum behind all isotherms: intervals that hold the truth, far starts, outliers, which
+ * law, verdicts, draws. The material is not that of the fit: a sum of two Cole-Cole processes.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "near.h"
+#include "weartrack/fit.h"
+
+#include "dma_data.h"
+
+#include <complex.h>
+
+typedef struct process {
+    double strength, log_tau, alpha;
+} process;
+
+typedef struct material {
+    process processes[2];
+    double equilibrium; /* [Pa] */
+    wt_shift_law law[2];
+} material;
+
+/* A transition, and a broad slow process that the plateau has. */
+static material usual(void)
+{
+    const wt_shift_law law = {.kind = WT_LAW_WLF, .wlf = {293.15, 8.2, 110}};
+    return (material){{{1.5e9, -5, 0.6}, {4e6, -1, 0.4}}, 2e6, {law, law}};
+}
+
+static void moduli(const material *m, double log_w, double temperature, double *storage,
+                   double *loss)
+{
+    *storage = m->equilibrium;
+    *loss = 0;
+    for (int i = 0; i < 2; i++) {
+        const process *p = &m->processes[i];
+        const double log_a = wt_shift_law_log_a(&m->law[i], temperature);
+        const double complex z = cpow(I * pow(10, log_w + log_a + p->log_tau), p->alpha);
+        const double complex e = p->strength * z / (1 + z);
+        *storage += creal(e);
+        *loss += cimag(e);
+    }
+}
+
+typedef struct scene {
+    material material;
+    double first, last, step; /* [K] */
+    double noise, temperature_error;
+    uint64_t seed;
+} scene;
+
+/* 13 points over three decades; b follows rho T with reference 293.15 K. */
+static void measure(const scene *s, wt_sweep *sweep)
+{
+    uint64_t state = s->seed;
+    for (double t = s->first; t < s->last + 1; t += s->step) {
+        wt_isotherm *isotherm = wt_sweep_add(sweep, 13, false);
+        const double real = t + s->temperature_error * dma_normal(&state);
+        isotherm->temperature = t;
+        snprintf(isotherm->source, sizeof isotherm->source, "%.2f K", t);
+        for (size_t k = 0; k < isotherm->n; k++) {
+            const double log_w = -0.2 + 0.25 * (double)k;
+            double storage, loss;
+            moduli(&s->material, log_w, real, &storage, &loss);
+            isotherm->angular_frequency[k] = pow(10, log_w);
+            isotherm->storage_modulus[k] =
+                storage * t / 293.15 * exp(s->noise * dma_normal(&state));
+            isotherm->loss_modulus[k] = loss * t / 293.15 * exp(s->noise * dma_normal(&state));
+        }
+    }
+    wt_sweep_sort(sweep);
+}
+
+static wt_master fit(const wt_sweep *sweep)
+{
+    wt_master master = {0};
+    wt_error err = WT_ERROR_INIT;
+    wt_master_options options = wt_master_options_defaults();
+    options.reference_temperature = 293.15;
+    if (wt_master_fit(sweep, &options, NULL, &master, &err) != WT_OK)
+        fail_msg("%s; %s", err.message, err.found);
+    return master;
+}
+
+static wt_master fit_scene(const scene *s)
+{
+    wt_sweep sweep = {0};
+    measure(s, &sweep);
+    wt_master master = fit(&sweep);
+    wt_sweep_clear(&sweep);
+    return master;
+}
+
+/* ---- intervals ------------------------------------------------------------------------------- */
+
+typedef struct tally {
+    size_t inside, n;
+} tally;
+
+static void count(tally *t, wt_interval interval, double truth)
+{
+    assert_true(interval.low <= interval.value && interval.value <= interval.high);
+    t->inside += truth >= interval.low && truth <= interval.high;
+    t->n++;
+}
+
+/* Of 95 %: the bounds are for correlated numbers of few draws. */
+static void check(const tally *t, const char *what)
+{
+    const double share = (double)t->inside / (double)t->n;
+    print_message("%s: %.1f %% of %zu\n", what, 100 * share, t->n);
+    assert_true(share > 0.88);
+}
+
+static void intervals_hold_the_truth(void **state)
+{
+    (void)state;
+    tally shift = {0}, law = {0}, constants = {0}, curve = {0}, equilibrium = {0};
+    double width = 0, widths = 0;
+    for (uint64_t seed = 1; seed <= 24; seed++) {
+        const scene s = {usual(), 243.15, 333.15, 10, 0.01, 0.2, 100 * seed};
+        wt_master m = fit_scene(&s);
+        count(&constants, m.c1, 8.2);
+        count(&constants, m.c2, 110);
+        count(&equilibrium, m.equilibrium, 2e6);
+        assert_false(m.equilibrium_limit);
+        for (size_t i = 0; i < m.n_shifts; i++) {
+            const double t = m.shifts[i].temperature;
+            if (fabs(t - 293.15) > 1)
+                count(&law, m.shifts[i].law, wt_shift_law_log_a(&s.material.law[0], t));
+            width += m.shifts[i].log_a.standard_error;
+            widths++;
+        }
+        for (double x = m.log_frequency[0]; x < m.log_frequency[m.n - 1]; x += 0.7) {
+            wt_interval e[2];
+            double truth[2];
+            moduli(&s.material, x, 293.15, &truth[0], &truth[1]);
+            wt_master_moduli(&m, pow(10, x), &e[0], &e[1]);
+            for (int q = 0; q < 2; q++)
+                count(&curve, e[q], log10(truth[q]));
+        }
+        wt_master_clear(&m);
+    }
+    for (uint64_t seed = 1; seed <= 12; seed++) { /* with the temperatures known */
+        const scene s = {usual(), 243.15, 333.15, 10, 0.01, 0, seed};
+        wt_master m = fit_scene(&s);
+        for (size_t i = 0; i < m.n_shifts; i++)
+            if (m.shifts[i].log_a.standard_error > 0)
+                count(&shift, m.shifts[i].log_a,
+                      wt_shift_law_log_a(&s.material.law[0], m.shifts[i].temperature));
+        assert_true(m.temperature_spread < 0.1);
+        wt_master_clear(&m);
+    }
+    check(&shift, "shifts");
+    check(&law, "law");
+    check(&constants, "C1, C2");
+    check(&curve, "E', E''");
+    check(&equilibrium, "E_inf");
+    assert_true(width / widths < 0.02);
+}
+
+/* A melt: how its spectrum goes on is not measured, so only a limit is. */
+static void a_liquid_has_an_upper_limit(void **state)
+{
+    (void)state;
+    scene s = {usual(), 243.15, 333.15, 10, 0.01, 0, 7};
+    s.material.equilibrium = 0;
+    s.material.processes[1] = (process){4e6, -1, 0.9};
+    wt_master m = fit_scene(&s);
+    assert_true(m.equilibrium_limit);
+    assert_true(m.equilibrium.low == 0 && isnan(m.equilibrium.standard_error));
+    assert_true(m.equilibrium.high > 0 && m.equilibrium.high < 1e5);
+    wt_master_clear(&m);
+}
+
+/* ---- starts, outliers ------------------------------------------------------------------------ */
+
+/* Shifts of more than 30 decades in all. */
+static void far_shifts_are_found(void **state)
+{
+    (void)state;
+    const wt_shift_law steep = {.kind = WT_LAW_WLF, .wlf = {293.15, 40, 150}};
+    scene s = {usual(), 253.15, 353.15, 4, 0.01, 0, 11};
+    s.material.processes[0] = (process){2e9, 0, 0.12};
+    s.material.processes[1] = (process){5e8, 4, 0.2};
+    s.material.law[0] = s.material.law[1] = steep;
+    wt_master m = fit_scene(&s);
+    double most = 0, least = 0;
+    for (size_t i = 0; i < m.n_shifts; i++) {
+        const double truth = wt_shift_law_log_a(&steep, m.shifts[i].temperature);
+        assert_true(m.shifts[i].determined);
+        assert_near_abs(m.shifts[i].log_a.value, truth, 0.6);
+        most = fmax(most, truth);
+        least = fmin(least, truth);
+    }
+    assert_true(most - least > 25);
+    wt_master_clear(&m);
+}
+
+static void single_bad_values_are_left_out_and_counted(void **state)
+{
+    (void)state;
+    const scene s = {usual(), 243.15, 333.15, 10, 0.01, 0, 13};
+    wt_sweep sweep = {0};
+    measure(&s, &sweep);
+    wt_master clean = fit(&sweep);
+    for (size_t i = 0; i < sweep.n_isotherms; i++) {
+        sweep.isotherms[i].storage_modulus[(5 * i + 3) % 13] *= i % 2 ? 1.6 : 0.6;
+        sweep.isotherms[i].loss_modulus[(3 * i + 1) % 13] *= i % 3 ? 0.5 : 2;
+    }
+    wt_master m = fit(&sweep);
+    assert_int_equal(clean.n_outliers, 0);
+    assert_int_equal(m.n_outliers, 2 * sweep.n_isotherms);
+    for (size_t i = 0; i < m.n_shifts; i++) {
+        assert_non_null(strstr(m.shifts[i].note, "2 values off the curve left out"));
+        assert_near_abs(m.shifts[i].log_a.value, clean.shifts[i].log_a.value, 0.03);
+    }
+    assert_int_equal(m.superposition, WT_SUPERPOSITION_HOLDS);
+    assert_near_abs(m.c2.value, 110, 3);
+    wt_master_clear(&clean);
+    wt_master_clear(&m);
+    wt_sweep_clear(&sweep);
+}
+
+static void an_isotherm_of_another_temperature_is_named(void **state)
+{
+    (void)state;
+    const scene s = {usual(), 243.15, 333.15, 10, 0.01, 0, 17};
+    wt_sweep sweep = {0};
+    measure(&s, &sweep);
+    sweep.isotherms[7].temperature += 6; /* it was 6 K colder than it says */
+    wt_master m = fit(&sweep);
+    assert_non_null(strstr(m.shifts[7].note, "off the law"));
+    assert_non_null(strstr(m.shifts[7].note, "as if -"));
+    assert_near_abs(m.c1.value, 8.2, 3 * m.c1.standard_error);
+    assert_true(m.c2.standard_error < 2);
+    assert_true(m.temperature_spread < 1);
+    wt_master_clear(&m);
+    wt_sweep_clear(&sweep);
+}
+
+static void an_isotherm_with_more_noise_weighs_less(void **state)
+{
+    (void)state;
+    const scene s = {usual(), 243.15, 333.15, 10, 0.005, 0, 19};
+    wt_sweep sweep = {0};
+    uint64_t state_of_noise = 23;
+    measure(&s, &sweep);
+    for (size_t k = 0; k < 13; k++) {
+        sweep.isotherms[3].storage_modulus[k] *= exp(0.04 * dma_normal(&state_of_noise));
+        sweep.isotherms[3].loss_modulus[k] *= exp(0.04 * dma_normal(&state_of_noise));
+    }
+    wt_master m = fit(&sweep);
+    assert_true(m.shifts[3].noise_factor > 3);
+    assert_non_null(strstr(m.shifts[3].note, "times the noise of the others"));
+    assert_true(m.noise_storage < 0.01);
+    assert_true(m.shifts[3].log_a.standard_error > 2 * m.shifts[6].log_a.standard_error);
+    wt_master_clear(&m);
+    wt_sweep_clear(&sweep);
+}
+
+/* ---- laws ------------------------------------------------------------------------------------ */
+
+static void the_law_is_that_of_the_shifts(void **state)
+{
+    (void)state;
+    const wt_shift_law laws[] = {
+        {.kind = WT_LAW_WLF, .wlf = {293.15, 8.2, 110}},
+        {.kind = WT_LAW_ARRHENIUS, .wlf = {293.15, 0, 0}, .activation_energy = 1.5e5},
+        {.kind = WT_LAW_JOINED,
+         .wlf = {293.15, 8.2, 110},
+         .activation_energy = 1.6e5,
+         .joint = 263.15}};
+    for (size_t l = 0; l < 3; l++) {
+        scene s = {usual(), 223.15, 343.15, 10, 0.005, 0.05, 29};
+        s.material.law[0] = s.material.law[1] = laws[l];
+        wt_master m = fit_scene(&s);
+        assert_int_equal(m.law.kind, laws[l].kind);
+        for (double t = 228.15; t < 345; t += 10) {
+            const wt_interval at = wt_master_law(&m, t);
+            assert_near_abs(at.value, wt_shift_law_log_a(&laws[l], t), 0.15);
+            assert_near(at.value, wt_shift_law_log_a(&m.law, t), 1e-2);
+        }
+        assert_int_equal(isnan(m.activation_energy.value) != 0, laws[l].kind == WT_LAW_WLF);
+        assert_int_equal(isnan(m.c1.value) != 0, laws[l].kind == WT_LAW_ARRHENIUS);
+        wt_master_clear(&m);
+    }
+}
+
+/* ---- verdicts -------------------------------------------------------------------------------- */
+
+static void superposition_is_judged(void **state)
+{
+    (void)state;
+    scene s = {usual(), 233.15, 353.15, 10, 0.01, 0, 31};
+    wt_master m = fit_scene(&s);
+    assert_int_equal(m.superposition, WT_SUPERPOSITION_HOLDS);
+    assert_true(m.lack_of_fit_p > 1e-3 && m.misfit_high < 0.01);
+    assert_near_abs(m.loss_factor, 0, 4 * m.loss_factor_error);
+    wt_master_clear(&m);
+
+    s.material.law[1].wlf.c1 = 2.5; /* a second process goes another way */
+    s.material.processes[1].strength = 2e7;
+    m = fit_scene(&s);
+    assert_int_equal(m.superposition, WT_SUPERPOSITION_FAILS);
+    wt_master_clear(&m);
+
+    s.material = usual();
+    wt_sweep sweep = {0};
+    measure(&s, &sweep);
+    for (size_t i = 0; i < sweep.n_isotherms; i++)
+        for (size_t k = 0; k < 13; k++) /* a loss factor read 10 % too high */
+            sweep.isotherms[i].loss_modulus[k] *= 1.1;
+    m = fit(&sweep);
+    assert_int_equal(m.superposition, WT_SUPERPOSITION_FAILS);
+    assert_non_null(strstr(m.because, "Kramers-Kronig"));
+    wt_master_clear(&m);
+    wt_sweep_clear(&sweep);
+
+    s.first = 233.15;
+    s.step = 30; /* too far apart */
+    m = fit_scene(&s);
+    assert_int_equal(m.superposition, WT_SUPERPOSITION_CANNOT_SAY);
+    wt_master_clear(&m);
+}
+
+/* ---- draws ----------------------------------------------------------------------------------- */
+
+static void draws_scatter_as_the_intervals_say(void **state)
+{
+    (void)state;
+    enum { DRAWS = 300 };
+    const scene s = {usual(), 243.15, 333.15, 10, 0.01, 0.2, 37};
+    wt_master m = fit_scene(&s);
+    wt_interval storage, loss;
+    const double omega = 100, t = 313.15;
+    wt_master_moduli(&m, omega, &storage, &loss);
+    const wt_interval law = wt_master_law(&m, t);
+    double sum[2] = {0, 0}, square[2] = {0, 0}, first = 0;
+    for (size_t i = 0; i < DRAWS; i++) {
+        wt_prony p = {0};
+        wt_shift_law drawn;
+        double log_b[64];
+        assert_int_equal(wt_master_draw(&m, 5, i, &p, &drawn, log_b, NULL), WT_OK);
+        double e = p.equilibrium_modulus;
+        for (size_t k = 0; k < p.n; k++) {
+            const double z = omega * p.relaxation_time[k];
+            e += p.modulus[k] * z * z / (1 + z * z);
+        }
+        const double x[2] = {log10(e), wt_shift_law_log_a(&drawn, t)};
+        for (int q = 0; q < 2; q++) {
+            sum[q] += x[q] / DRAWS;
+            square[q] += x[q] * x[q] / DRAWS;
+        }
+        assert_near_abs(log_b[9], m.shifts[9].log_b_material, 0.05);
+        if (i == 0)
+            first = e;
+        wt_prony_clear(&p);
+    }
+    const double spread[2] = {sqrt(square[0] - sum[0] * sum[0]), sqrt(square[1] - sum[1] * sum[1])};
+    assert_near_abs(sum[0], storage.value, 4 * storage.standard_error / sqrt(DRAWS));
+    assert_near(spread[0], storage.standard_error, 0.2);
+    assert_near_abs(sum[1], law.value, 4 * law.standard_error / sqrt(DRAWS));
+    assert_near(spread[1], law.standard_error, 0.2);
+    /* the same again */
+    wt_prony p = {0};
+    wt_shift_law drawn;
+    assert_int_equal(wt_master_draw(&m, 5, 0, &p, &drawn, NULL, NULL), WT_OK);
+    double e = p.equilibrium_modulus;
+    for (size_t k = 0; k < p.n; k++) {
+        const double z = omega * p.relaxation_time[k];
+        e += p.modulus[k] * z * z / (1 + z * z);
+    }
+    assert_near(e, first, 0);
+    wt_prony_clear(&p);
+    wt_master_clear(&m);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(intervals_hold_the_truth),
+        cmocka_unit_test(a_liquid_has_an_upper_limit),
+        cmocka_unit_test(far_shifts_are_found),
+        cmocka_unit_test(single_bad_values_are_left_out_and_counted),
+        cmocka_unit_test(an_isotherm_of_another_temperature_is_named),
+        cmocka_unit_test(an_isotherm_with_more_noise_weighs_less),
+        cmocka_unit_test(the_law_is_that_of_the_shifts),
+        cmocka_unit_test(superposition_is_judged),
+        cmocka_unit_test(draws_scatter_as_the_intervals_say),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
