@@ -9,9 +9,6 @@
 
 /* A shift with a larger error is not determined [decade]. */
 static const double largest_sigma = 0.2;
-/* Nor is one that hangs by fewer shared frequencies [decade]: what it is worth for the law rests on
- * the smoothness of the spectrum. */
-static const double least_overlap = 0.3;
 /* What a vertical shift that nothing ties is off by through geometry and clamping [decade], 5 %. */
 static const double clamping = 0.02;
 /* An equilibrium modulus below this share of the lowest storage modulus is a limit only: how the
@@ -83,8 +80,6 @@ static bool undetermined(const master_work *work, size_t i, const wt_interval *a
         master_note(shift, "not determined: only %zu points", work->set.curves[i].n);
     else if (!work->placed[i])
         master_note(shift, "not determined: no overlap with the others");
-    else if (!(work->overlap[i] >= least_overlap))
-        master_note(shift, "not determined: shares %.2f decade of frequencies", work->overlap[i]);
     else if (!(a->standard_error <= largest_sigma))
         master_note(shift, "not determined: no slope decides, error of log aT %.2g decade",
                     a->standard_error);

@@ -14,6 +14,9 @@ static const double matters = 0.005, may_matter = 0.01;
 static const double least_window = 1.5;
 /* E'' that a spectrum makes of E' and that which was measured differ by at least so much. */
 static const double loss_matters = 0.01, loss_significant = 0.001;
+/* By fewer shared frequencies an isotherm tests nothing: the smoothness of the spectrum alone
+ * places it [decade]. */
+static const double least_overlap = 0.3;
 enum { LEAST_ISOTHERMS = 3 };
 
 static double widest_of_half(const master_work *work)
@@ -31,7 +34,7 @@ void master_judge(const master_work *work, wt_master *m)
 {
     size_t determined = 0;
     for (size_t i = 0; i < m->n_shifts; i++)
-        determined += m->shifts[i].determined;
+        determined += m->shifts[i].determined && work->overlap[i] >= least_overlap;
     const size_t undetermined = m->n_shifts - determined;
     const lack_of_fit *lack = &work->lack;
     const double window = widest_of_half(work);

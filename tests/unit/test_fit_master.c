@@ -33,7 +33,9 @@ static void moduli(const material *m, double log_w, double temperature, double *
     for (int i = 0; i < 2; i++) {
         const process *p = &m->processes[i];
         const double log_a = wt_shift_law_log_a(&m->law[i], temperature);
-        const double complex z = cpow(I * pow(10, log_w + log_a + p->log_tau), p->alpha);
+        const double radius = pow(10, p->alpha * (log_w + log_a + p->log_tau));
+        const double complex z = CMPLX(radius * cos(p->alpha * M_PI / 2), /* (i w tau)^alpha */
+                                       radius * sin(p->alpha * M_PI / 2));
         const double complex e = p->strength * z / (1 + z);
         *storage += creal(e);
         *loss += cimag(e);
