@@ -6,8 +6,6 @@
 
 #include "dma_data.h"
 
-#include <complex.h>
-
 typedef struct process {
     double strength, log_tau, alpha;
 } process;
@@ -33,12 +31,12 @@ static void moduli(const material *m, double log_w, double temperature, double *
     for (int i = 0; i < 2; i++) {
         const process *p = &m->processes[i];
         const double log_a = wt_shift_law_log_a(&m->law[i], temperature);
-        const double radius = pow(10, p->alpha * (log_w + log_a + p->log_tau));
-        const double complex z = CMPLX(radius * cos(p->alpha * M_PI / 2), /* (i w tau)^alpha */
-                                       radius * sin(p->alpha * M_PI / 2));
-        const double complex e = p->strength * z / (1 + z);
-        *storage += creal(e);
-        *loss += cimag(e);
+        /* strength z/(1 + z), z = (i w tau)^alpha */
+        const double r = pow(10, p->alpha * (log_w + log_a + p->log_tau));
+        const double c = r * cos(p->alpha * M_PI / 2), s = r * sin(p->alpha * M_PI / 2);
+        const double below = (1 + c) * (1 + c) + s * s;
+        *storage += p->strength * (c + r * r) / below;
+        *loss += p->strength * s / below;
     }
 }
 
