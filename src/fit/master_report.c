@@ -31,7 +31,7 @@ void wt_master_clear(wt_master *master)
     *master = (wt_master){0};
 }
 
-static const wt_interval unknown_interval = {NAN, NAN, NAN, NAN};
+static const wt_interval unknown_interval = {(double)NAN, (double)NAN, (double)NAN, (double)NAN};
 
 static wt_interval transform(wt_interval x, double (*f)(double))
 {
