@@ -5,6 +5,7 @@
 
 #include <stdlib.h>
 
+#include "base/array.h"
 #include "base/param.h"
 #include "weartrack/weartrack.h"
 
@@ -45,8 +46,14 @@ typedef struct cmd_part {
     const char *only; /* names of those that are options here, parted by blanks; NULL: all */
     uint64_t given;
 } cmd_part;
-/* Frees the lists of the options. */
-void cmd_parts_clear(cmd_part *parts, size_t n);
+
+/* Defines the table of options none of which is set by default. */
+#define CMD_OPTIONS(name, type, rows)                                                              \
+    static type name##_unset(void)                                                                 \
+    {                                                                                              \
+        return (type){0};                                                                          \
+    }                                                                                              \
+    PARAM_LOCAL_TABLE(name, type, rows, name##_unset, NO_PARTS)
 
 /* Options that mean the same everywhere. A subcommand shows those it names. */
 typedef struct cmd_common {
@@ -55,10 +62,6 @@ typedef struct cmd_common {
     const char *files_from; /* file with names of files, NULL = none */
     bool provenance;
     bool quiet, strict, help;
-    /* set by cmd_parse: the arguments that are no options, and the names of files_from; they live
-     * until the next call of it */
-    const char **files;
-    size_t n_files;
 } cmd_common;
 cmd_common cmd_common_defaults(void);
 
@@ -68,20 +71,64 @@ typedef struct cmd_usage {
     const char *what;      /* what it does, a few lines */
     const char *common; /* as `only` of the common options; quiet, strict and help are everywhere */
     const char *notes;  /* after the options; NULL if none */
+    int n_files;        /* how many must be given; CMD_SOME: one or more; 0: any number */
+    const char *files;  /* said of another number: "two files are needed" */
 } cmd_usage;
+enum { CMD_SOME = -1 };
 
-/* Parses argv. Returns true to go on, with *first the index of the first argument that is no
- * option; false with the exit status in *status (help was printed, or the words were wrong). */
-bool cmd_parse(const cmd_usage *usage, cmd_part *parts, size_t n_parts, cmd_common *common,
-               int argc, char **argv, int *first, int *status);
+/* ---- a call --------------------------------------------------------------------------------- */
+
+/* Shows progress on stderr if it is a terminal, after a second. */
+typedef struct cmd_progress {
+    double start, shown;
+    bool active, printed;
+} cmd_progress;
+
+/* One call of a subcommand: its words, and what it has beside its job. */
+typedef struct cmd_session {
+    const char *name;
+    cmd_common common;
+    cmd_part *parts; /* [n_parts] */
+    size_t n_parts;
+    const char **files;          /* [n_files] the arguments that are no options and, behind */
+    size_t n_arguments, n_files; /* these, the names of files_from */
+    char *names;                 /* text of files_from */
+    int status;                  /* to exit with */
+    wt_error err;
+    wt_formats *formats;
+    wt_parselog *log;
+    wt_result *result;
+    wt_job work; /* for the job: what failed is listed, inputs go to the result's provenance */
+    cmd_progress progress;
+} cmd_session;
+
+/* Nothing but the defaults of the job, for its options; may be freed. */
+cmd_session cmd_session_defaults(void);
+/* Parses argv. False when there is nothing left to do: help was printed, or the words were wrong.
+ */
+bool cmd_parse(cmd_session *s, const cmd_usage *usage, cmd_part *parts, size_t n_parts, int argc,
+               char **argv);
+/* Makes log, result and all that the job is given. False if it cannot. */
+bool cmd_begin(cmd_session *s);
+/* The same with the formats; --format (may be NULL) must name one of them. */
+bool cmd_begin_reading(cmd_session *s, const char *format);
+/* Says what failed and gives the tables "failures" and "notes" of what was done, unless they would
+ * be empty. */
+wt_status cmd_record(cmd_session *s, wt_table_sink sink, void *user);
+/* Says what failed, the remarks and, unless `made` is WT_OK, the error. */
+void cmd_end(cmd_session *s, wt_status made);
+/* The same after writing the tables, in this order, and the record behind them, if they were made;
+ * those that are NULL are left out. Takes those that it writes. */
+void cmd_finish(cmd_session *s, wt_status made, wt_table **const tables[], size_t n);
+/* Returns the exit status. */
+int cmd_session_free(cmd_session *s);
+
 /* Whether an option of a part was given. */
 bool cmd_given(const cmd_part *part, const char *name);
-/* A usage error if --format (may be NULL) names no format. */
-int cmd_check_format(const char *name, const char *format, const wt_formats *formats);
-/* Says what is wrong with the call on stderr, and where help is; returns CMD_USAGE. */
-int cmd_usage_error(const char *name, const char *format, ...) WT_PRINTF(2, 3);
+/* Says what is wrong with the call on stderr, and where help is; returns false. */
+bool cmd_usage_error(cmd_session *s, const char *format, ...) WT_PRINTF(2, 3);
 /* The same for an error of the library about a parameter, whose name is its place. */
-int cmd_param_error(const char *name, wt_error *err);
+bool cmd_param_error(cmd_session *s);
 
 /* Characters, not bytes: labels hold degree and micro signs. */
 size_t cmd_text_width(const char *text, size_t n);
@@ -91,29 +138,24 @@ void cmd_wrap(FILE *out, size_t column, size_t indent, const char *text);
 
 /* ---- messages ----------------------------------------------------------------------------- */
 
-/* Prints the error on stderr as one line and returns the exit status that fits. */
 /* To standard error. What a terminal would obey, in the name of a file say, is shown as \x1b; only
  * the format itself may end a line. */
 void cmd_say(const char *format, ...) WT_PRINTF(1, 2);
-int cmd_fail(const char *name, const wt_error *err);
-/* Prints the remarks of the log on stderr, equal words once, and their number; notes too if
- * `notes`; of a quiet call the losses alone. Returns CMD_FAILED where something was lost and, with
+/* Prints the error on stderr as one line; returns false. */
+bool cmd_fail(cmd_session *s);
+/* Prints the remarks of a log on stderr, equal words once, and their number; notes too if `notes`;
+ * of a quiet call the losses alone. The call has failed where something was lost and, with
  * --strict, where there is a remark at all. */
-int cmd_say_log(const char *name, const cmd_common *common, const wt_parselog *log, bool notes);
+void cmd_say_log(cmd_session *s, const wt_parselog *log, bool notes);
+/* Lists the files that failed (table "failures", may be NULL) on stderr; false if there are none.
+ */
+bool cmd_say_failures(cmd_session *s, const wt_table *failures);
 
-/* Lists the files that failed (table "failures") on stderr; returns how many there are. */
-size_t cmd_print_failures(const char *name, const wt_table *failures);
-
-/* Shows progress on stderr if it is a terminal, after a second. */
-typedef struct cmd_progress {
-    double start, shown;
-    bool active, printed;
-} cmd_progress;
-wt_progress cmd_progress_start(cmd_progress *state, bool quiet);
+wt_progress cmd_progress_start(cmd_session *s);
 /* From here to cmd_progress_end, an interruption (Ctrl-C) ends the work at its next step, so that
  * it removes what it had begun. */
 void cmd_catch_interruptions(void);
-void cmd_progress_end(cmd_progress *state);
+void cmd_progress_end(cmd_session *s);
 
 /* ---- output ------------------------------------------------------------------------------- */
 
@@ -127,46 +169,15 @@ wt_status cmd_sink_open(const char *output, cmd_sink *sink, wt_error *err);
 /* Ends it, after a failure without a file; returns the first failure. */
 wt_status cmd_sink_close(cmd_sink *sink, wt_status written, wt_error *err);
 
-/* Writes the tables to -o: a name that ends in .h5 or .hdf5 is the HDF5 store, anything else
- * the text stream; without -o or with "-" the stream on standard output. `result` is not freed. */
-wt_status cmd_write(const cmd_common *common, wt_result *result, wt_error *err);
-/* Moves n tables into the result, in this order; those that are NULL are left out. Takes them all,
- * also on failure. */
-wt_status cmd_collect(wt_result *result, wt_table **const tables[], size_t n, wt_error *err);
+/* Writes the result to -o: a name that ends in .h5 or .hdf5 is the HDF5 store, anything else the
+ * text stream; without -o or with "-" the stream on standard output. */
+wt_status cmd_write(cmd_session *s);
 /* Whether the name after -o asks for the HDF5 store. */
 bool cmd_is_store(const char *path);
+/* "case/road.xml" -> "road" + ending, in the current folder; NULL when out of memory. */
+char *cmd_default_name(const char *path, const char *ending);
 /* Records the call in the result's provenance. */
-wt_status cmd_provenance(wt_result *result, int argc, char **argv, wt_error *err);
-
-/* ---- around a job --------------------------------------------------------------------------- */
-
-/* What a subcommand that calls a job has beside it. */
-typedef struct cmd_session {
-    const char *name;
-    const cmd_common *common;
-    wt_formats *formats;
-    wt_parselog *log;
-    wt_result *result;
-    wt_job work; /* for the job: what failed is listed, inputs go to the result's provenance */
-    cmd_progress progress;
-    size_t n_failed; /* files that were said to have failed */
-} cmd_session;
-
-/* Nothing but the defaults of the job, for its options; may be freed. */
-cmd_session cmd_session_defaults(void);
-/* Makes all of it from the common options and --format; an exit status other than CMD_OK ends the
- * call. */
-int cmd_begin(cmd_session *s, const char *name, const cmd_common *common, const char *format);
-/* Says what failed, the warnings and, unless `made` is WT_OK, the error; returns the exit status.
- */
-int cmd_end(cmd_session *s, wt_status made, const wt_error *err);
-/* Says what failed and gives the tables "failures" and "notes" of what was done; NULL where they
- * would be empty. */
-wt_status cmd_record(cmd_session *s, wt_table **failures, wt_table **notes, wt_error *err);
-/* The same after writing the tables (see cmd_collect) if they were made, and the record behind
- * them. */
-int cmd_finish(cmd_session *s, wt_status made, wt_table **const tables[], size_t n, wt_error *err);
-void cmd_session_free(cmd_session *s);
+wt_status cmd_provenance(wt_result *result, wt_error *err);
 
 /* The call as the user typed it, set by main. */
 extern int cmd_full_argc;

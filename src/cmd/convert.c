@@ -5,74 +5,52 @@
 /* Where the tables go: written as they come to a text stream, so that a map needs no more memory
  * than a curve, or collected for the HDF5 store. */
 typedef struct destination {
-    const cmd_common *common;
-    wt_result *result;
-    cmd_sink sink;
-    bool begun;
+    cmd_session *session;
+    cmd_sink sink; /* its stream: NULL before the first table */
 } destination;
 
 static wt_status take(void *user, wt_table *table, wt_error *err)
 {
     destination *d = user;
-    if (cmd_is_store(d->common->output))
-        return wt_result_add(d->result, table, err);
-    wt_status status = d->begun ? WT_OK : cmd_sink_open(d->common->output, &d->sink, err);
-    const bool with_provenance = !d->begun && d->common->provenance;
+    const cmd_common *common = &d->session->common;
+    if (cmd_is_store(common->output))
+        return wt_result_add(d->session->result, table, err);
+    const wt_provenance *provenance = wt_result_provenance_const(d->session->result);
+    const bool is_first = d->sink.stream == NULL;
+    wt_status status = is_first ? cmd_sink_open(common->output, &d->sink, err) : WT_OK;
     if (status == WT_OK)
-        status =
-            wt_stream_write(d->sink.stream, table,
-                            with_provenance ? wt_result_provenance_const(d->result) : NULL, err);
+        status = wt_stream_write(d->sink.stream, table,
+                                 is_first && common->provenance ? provenance : NULL, err);
     wt_error_file(status != WT_OK ? err : NULL, d->sink.name);
-    d->begun = true;
     wt_table_free(table);
     return status;
-}
-
-static wt_status close_destination(destination *d, wt_status made, wt_error *err)
-{
-    if (d->begun)
-        return cmd_sink_close(&d->sink, made, err);
-    const bool store = made == WT_OK && cmd_is_store(d->common->output);
-    return store ? cmd_write(d->common, d->result, err) : made;
 }
 
 int cmd_convert(int argc, char **argv)
 {
     static const cmd_usage usage = {
-        "convert", "[OPTION]... FILE",
-        "Writes an instrument file as a text stream (weartrack-stream(5)), or as HDF5 if the name\n"
-        "after -o ends in .h5 or .hdf5, in SI units. - is standard input.",
-        "output formats provenance", NULL};
-    cmd_common common = cmd_common_defaults();
+        .name = "convert",
+        .arguments = "[OPTION]... FILE",
+        .what = "Writes an instrument file as a text stream (weartrack-stream(5)), or as HDF5 if "
+                "the name after -o ends in .h5 or .hdf5, in SI units. - is standard input.",
+        .common = "output formats provenance",
+        .n_files = 1,
+        .files = "one file is needed"};
     wt_convert_job job = wt_convert_job_defaults();
     cmd_part part = {wt_convert_job_params(), &job, NULL, 0};
-    int first = 0, status = CMD_OK;
-    wt_error err = WT_ERROR_INIT;
     cmd_session s = cmd_session_defaults();
-    destination d = {.common = &common};
-    wt_table *record[2] = {NULL, NULL};
-    if (!cmd_parse(&usage, &part, 1, &common, argc, argv, &first, &status))
-        goto done;
-    if (argc - first != 1) {
-        status = cmd_usage_error("convert", "one file is needed; %d given", argc - first);
-        goto done;
+    destination d = {.session = &s};
+    if (cmd_parse(&s, &usage, &part, 1, argc, argv) && cmd_begin_reading(&s, job.read.format)) {
+        wt_status made = cmd_provenance(s.result, &s.err);
+        if (made == WT_OK)
+            made = wt_convert_file(&job, s.files[0], &s.work, take, &d, &s.err);
+        if (made == WT_OK)
+            made = cmd_record(&s, take, &d);
+        if (d.sink.stream != NULL)
+            made = cmd_sink_close(&d.sink, made, &s.err);
+        else if (made == WT_OK && cmd_is_store(s.common.output))
+            made = cmd_write(&s);
+        cmd_end(&s, made);
     }
-    status = cmd_begin(&s, "convert", &common, job.read.format);
-    if (status != CMD_OK)
-        goto done;
-    d.result = s.result;
-    wt_status made = cmd_provenance(s.result, cmd_full_argc, cmd_full_argv, &err);
-    if (made == WT_OK)
-        made = wt_convert_file(&job, argv[first], &s.work, take, &d, &err);
-    if (made == WT_OK)
-        made = cmd_record(&s, &record[0], &record[1], &err);
-    for (size_t i = 0; i < 2 && made == WT_OK; i++)
-        if (record[i] != NULL)
-            made = take(&d, record[i], &err);
-    made = close_destination(&d, made, &err);
-    status = cmd_end(&s, made, &err);
-done:
-    cmd_session_free(&s);
-    cmd_parts_clear(&part, 1);
-    return status;
+    return cmd_session_free(&s);
 }

@@ -25,12 +25,11 @@ static wt_export_form form_of(const char *output, const cmd_part *part)
                                        : options->form;
 }
 
-wt_status export_table(const cmd_common *common, const cmd_part *part, const wt_table *table,
-                       wt_error *err)
+wt_status export_table(cmd_session *s, const cmd_part *part, const wt_table *table)
 {
     cmd_sink sink;
-    wt_status status = cmd_sink_open(common->output, &sink, err);
+    wt_status status = cmd_sink_open(s->common.output, &sink, &s->err);
     if (status == WT_OK)
-        status = wt_table_export(sink.stream, table, form_of(common->output, part), err);
-    return cmd_sink_close(&sink, status, err);
+        status = wt_table_export(sink.stream, table, form_of(s->common.output, part), &s->err);
+    return cmd_sink_close(&sink, status, &s->err);
 }

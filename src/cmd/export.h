@@ -13,7 +13,6 @@ const wt_params *export_params(void);
 
 /* Writes the table to -o or standard output. Unless --as is among the options given, the end of the
  * name after -o decides. */
-wt_status export_table(const cmd_common *common, const cmd_part *part, const wt_table *table,
-                       wt_error *err);
+wt_status export_table(cmd_session *s, const cmd_part *part, const wt_table *table);
 
 #endif

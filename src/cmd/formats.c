@@ -3,7 +3,7 @@
 
 #include "cmd/cmd.h"
 
-static int list_formats(const wt_formats *formats)
+static void list_formats(const wt_formats *formats)
 {
     for (size_t i = 0; i < wt_formats_count(formats); i++) {
         const wt_format_info *f = wt_formats_get(formats, i);
@@ -16,7 +16,7 @@ static int list_formats(const wt_formats *formats)
                      {WT_KIND_SPECTRUM, "spectra"}};
         char holds[80] = "";
         size_t used = 0;
-        for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++)
+        for (size_t k = 0; k < COUNT_OF(kinds); k++)
             if (f->kinds & kinds[k].bit)
                 used += (size_t)snprintf(holds + used, sizeof holds - used, "%s%s",
                                          used > 0 ? ", " : "", kinds[k].word);
@@ -29,101 +29,69 @@ static int list_formats(const wt_formats *formats)
             cmd_wrap(stdout, INDENT, INDENT, f->evidence);
         }
     }
-    return CMD_OK;
 }
 
-static int show_format(const wt_formats *formats, const char *id)
+static bool show_format(const wt_formats *formats, const char *id)
 {
-    if (strcmp(id, "schema") == 0) {
-        fputs(wt_formats_schema(), stdout);
-        return CMD_OK;
-    }
-    const char *xml = wt_formats_xml(formats, id);
-    if (xml != NULL) {
-        fputs(xml, stdout);
-        return CMD_OK;
-    }
     const wt_format_info *f = wt_formats_find(formats, id);
-    if (f != NULL) {
+    const char *xml = strcmp(id, "schema") == 0 ? wt_formats_schema() : wt_formats_xml(formats, id);
+    if (xml != NULL)
+        fputs(xml, stdout);
+    else if (f != NULL)
         printf("%s: %s\nread by the program itself; there is no description to show\n", f->id,
                f->title);
-        return CMD_OK;
-    }
-    cmd_say("weartrack formats: there is no format '%s'; see weartrack formats list\n", id);
-    return CMD_FAILED;
+    else
+        cmd_say("weartrack formats: there is no format '%s'; see weartrack formats list\n", id);
+    return xml != NULL || f != NULL;
 }
 
-static int check_description(const char *xml, const char *sample, const wt_read_options *options,
-                             const cmd_common *common)
+/* A description and, if there is a second file, a sample. */
+static void check_description(cmd_session *s, const wt_read_options *options)
 {
-    wt_error err = WT_ERROR_INIT;
     wt_input *input = NULL;
-    wt_parselog *log = wt_parselog_new();
-    wt_result *result = wt_result_new();
     wt_table *report = NULL;
-    int status = CMD_OK;
-    if (log == NULL || result == NULL) {
-        wt_fail(&err, WT_E_MEMORY, "out of memory");
-        goto fail;
-    }
-    if (sample != NULL && wt_input_open(sample, &input, &err) != WT_OK)
-        goto fail;
-    if (wt_description_check(xml, input, options, log, &report, &err) != WT_OK)
-        goto fail;
-    status = cmd_say_log("formats", common, log, true);
-    if (wt_result_add(result, report, &err) != WT_OK || cmd_write(common, result, &err) != WT_OK)
-        goto fail;
-    goto done;
-fail:
-    cmd_say_log("formats", common, log, true);
-    status = cmd_fail("formats", &err);
-done:
-    wt_result_free(result);
+    wt_status status = s->n_files > 2 ? wt_input_open(s->files[2], &input, &s->err) : WT_OK;
+    if (status == WT_OK)
+        status = wt_description_check(s->files[1], input, options, s->log, &report, &s->err);
+    cmd_say_log(s, s->log, true);
+    if (status == WT_OK)
+        status = wt_result_add(s->result, report, &s->err);
+    if (status == WT_OK)
+        status = cmd_write(s);
+    if (status != WT_OK)
+        cmd_fail(s);
     wt_input_close(input);
-    wt_parselog_free(log);
-    return status;
 }
 
 int cmd_formats(int argc, char **argv)
 {
     static const cmd_usage usage = {
-        "formats", "list | show ID | check DESCRIPTION.xml [SAMPLE]",
-        "list: the formats that are understood, and whether each was checked on a genuine file.\n"
-        "show: the description of one of them; `show schema` prints the schema of descriptions.\n"
-        "check: checks a description, and with a sample shows what is understood of it.",
-        "output formats provenance", NULL};
-    cmd_common common = cmd_common_defaults();
+        .name = "formats",
+        .arguments = "list | show ID | check DESCRIPTION.xml [SAMPLE]",
+        .what = "list: the formats that are understood, and whether each was checked on a genuine "
+                "file.\nshow: the description of one of them; `show schema` prints the schema of "
+                "descriptions.\ncheck: checks a description, and with a sample shows what is "
+                "understood of it.",
+        .common = "output formats provenance"};
     wt_read_options read = wt_read_defaults();
     cmd_part part = {wt_read_params(), &read, "spring-constant sensitivity temperature units", 0};
-    int first = 0, status = CMD_OK;
-    wt_formats *formats = NULL;
-    wt_parselog *log = NULL;
-    wt_error err = WT_ERROR_INIT;
-    if (!cmd_parse(&usage, &part, 1, &common, argc, argv, &first, &status))
-        goto done;
-    const char *verb = first < argc ? argv[first] : "";
-    const int rest = argc - first - 1;
-    if (strcmp(verb, "check") == 0 && (rest == 1 || rest == 2)) {
-        status =
-            check_description(argv[first + 1], rest == 2 ? argv[first + 2] : NULL, &read, &common);
-        goto done;
+    cmd_session s = cmd_session_defaults();
+    if (!cmd_parse(&s, &usage, &part, 1, argc, argv))
+        return cmd_session_free(&s);
+    const char *verb = s.n_files > 0 ? s.files[0] : "";
+    const bool list = strcmp(verb, "list") == 0 && s.n_files == 1;
+    const bool show = strcmp(verb, "show") == 0 && s.n_files == 2;
+    const bool check = strcmp(verb, "check") == 0 && (s.n_files == 2 || s.n_files == 3);
+    if (check && cmd_begin(&s))
+        check_description(&s, &read);
+    else if (!check && !list && !show)
+        cmd_usage_error(&s, "say list, show ID or check DESCRIPTION.xml [SAMPLE]");
+    else if (!check && cmd_begin_reading(&s, NULL)) {
+        cmd_say_log(&s, s.log, true);
+        if (list)
+            list_formats(s.formats);
+        else if (!show_format(s.formats, s.files[1]))
+            s.status = CMD_FAILED;
     }
-    const bool list = strcmp(verb, "list") == 0 && rest == 0;
-    if (!list && !(strcmp(verb, "show") == 0 && rest == 1)) {
-        status = cmd_usage_error("formats", "say list, show ID or check DESCRIPTION.xml [SAMPLE]");
-        goto done;
-    }
-    log = wt_parselog_new();
-    if (wt_formats_new(common.formats, &formats, log, &err) != WT_OK) {
-        status = cmd_fail("formats", &err);
-        goto done;
-    }
-    const int said = cmd_say_log("formats", &common, log, true);
-    status = list ? list_formats(formats) : show_format(formats, argv[first + 1]);
-    status = status == CMD_OK ? said : status;
-done:
-    wt_parselog_free(log);
-    wt_formats_free(formats);
-    cmd_parts_clear(&part, 1);
-    return status;
+    return cmd_session_free(&s);
 }

@@ -2,12 +2,14 @@
 #include <string.h>
 
 #include "cmd/found.h"
+#include "data/tables/tables.h"
 
 const found_missing found_missing_rows[FOUND_N_MISSING] = {
-    [FOUND_SPRING_CONSTANT] = {"spring-constant", "0.1N/m"},
-    [FOUND_SENSITIVITY] = {"sensitivity", "60nm/V"},
-    [FOUND_TEMPERATURE] = {"temperature", "20degC"},
-    [FOUND_UNITS] = {"units", "\"E'=MPa\""}};
+    {"spring-constant", "0.1N/m"},
+    {"sensitivity", "60nm/V"},
+    {"temperature", "20degC"},
+    {"units", "\"E'=MPa\""},
+};
 
 void found_value(const char *value, const char *unit, char *out, size_t size)
 {
@@ -16,7 +18,7 @@ void found_value(const char *value, const char *unit, char *out, size_t size)
     double number = 0;
     const bool is_number = wt_number_parse(value, strlen(value), '.', &number);
     const bool has_unit = *unit != '\0' && strcmp(unit, "1") != 0;
-    for (size_t i = 0; is_number && i < sizeof si / sizeof si[0]; i++)
+    for (size_t i = 0; is_number && i < COUNT_OF(si); i++)
         if (strcmp(unit, si[i]) == 0) {
             char digits[128];
             wt_format_si(number, unit, DIGITS, digits, sizeof digits);
@@ -46,7 +48,7 @@ static const struct {
 static void read_fact(const char *item, const char *value, const char *unit, found_file *found)
 {
     const size_t used = strlen(found->words);
-    for (size_t i = 0; i < sizeof telling / sizeof telling[0]; i++) {
+    for (size_t i = 0; i < COUNT_OF(telling); i++) {
         char shown[160];
         if (strcmp(item, telling[i].item) != 0 || strcmp(value, "0") == 0)
             continue;
@@ -65,21 +67,18 @@ static void read_fact(const char *item, const char *value, const char *unit, fou
     }
 }
 
-void found_read(const wt_formats *formats, const wt_table *facts, found_file *found)
+static void read_facts(const wt_formats *formats, const wt_table *facts, found_file *found)
 {
-    const long item = wt_table_find(facts, "item"), value = wt_table_find(facts, "value");
-    const long unit = wt_table_find(facts, "unit");
     const wt_format_info *format = NULL;
-    *found = (found_file){0};
     for (size_t row = 0; row < wt_table_n_rows(facts); row++) {
-        const char *what = wt_table_text(facts, row, (size_t)item);
-        const char *said = wt_table_text(facts, row, (size_t)value);
-        if (format == NULL && strcmp(what, "format") == 0) {
-            format = wt_formats_find(formats, said);
-            snprintf(found->words, sizeof found->words, "%s", said);
+        const char *item = wt_table_text(facts, row, FACTS_ITEM);
+        const char *value = wt_table_text(facts, row, FACTS_VALUE);
+        if (format == NULL && strcmp(item, "format") == 0) {
+            format = wt_formats_find(formats, value);
+            snprintf(found->words, sizeof found->words, "%s", value);
         }
-        found->is_result = found->is_result || strncmp(what, "table ", 6) == 0;
-        read_fact(what, said, wt_table_text(facts, row, (size_t)unit), found);
+        found->is_result = found->is_result || strncmp(item, "table ", 6) == 0;
+        read_fact(item, value, wt_table_text(facts, row, FACTS_UNIT), found);
     }
     found->is_result =
         found->is_result && format != NULL && strncmp(format->id, "weartrack-", 10) == 0;
@@ -89,4 +88,20 @@ void found_read(const wt_formats *formats, const wt_table *facts, found_file *fo
     if (format != NULL && found->kind == WT_KIND_FORCE && (format->kinds & WT_KIND_IMAGE) != 0 &&
         strstr(found->words, "curves") == NULL)
         found->kind = WT_KIND_IMAGE;
+}
+
+wt_status found_look(cmd_session *s, const char *path, const wt_read_options *options,
+                     wt_parselog *log, wt_table **facts, found_file *found)
+{
+    wt_input *input = NULL;
+    *found = (found_file){0};
+    wt_status status = wt_input_open(path, &input, &s->err);
+    if (status == WT_OK)
+        status = wt_describe(s->formats, input, options, log, facts, &s->err);
+    if (status == WT_OK)
+        read_facts(s->formats, *facts, found);
+    else
+        wt_error_file(&s->err, path);
+    wt_input_close(input);
+    return status;
 }

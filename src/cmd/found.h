@@ -6,7 +6,7 @@
 #include "cmd/cmd.h"
 
 /* What a file does not say and the user must. */
-enum { FOUND_SPRING_CONSTANT, FOUND_SENSITIVITY, FOUND_TEMPERATURE, FOUND_UNITS, FOUND_N_MISSING };
+enum { FOUND_N_MISSING = 4 };
 /* The name of the option and of the attribute in a case; a value as an example. */
 typedef struct found_missing {
     const char *name, *example;
@@ -20,8 +20,9 @@ typedef struct found_file {
     char words[512];               /* "jpk: curves 12, spring constant 300 mN/m" */
 } found_file;
 
-/* From the table of wt_describe. */
-void found_read(const wt_formats *formats, const wt_table *facts, found_file *found);
+/* Reads a file; its facts are the table of wt_describe. */
+wt_status found_look(cmd_session *s, const char *path, const wt_read_options *options,
+                     wt_parselog *log, wt_table **facts, found_file *found);
 /* A number as people read it, few digits, the unit with its prefix; anything else as it is. */
 void found_value(const char *value, const char *unit, char *out, size_t size);
 

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "cmd/cmd.h"
+#include "data/tables/tables.h"
 
 /* Bytes of the UTF-8 character at `text`, which ends in a zero byte; 0 if there is none. */
 static size_t character(const char *text)
@@ -50,12 +51,13 @@ void cmd_say(const char *format, ...)
     free(text);
 }
 
-int cmd_fail(const char *name, const wt_error *err)
+bool cmd_fail(cmd_session *s)
 {
     char line[2048];
-    wt_error_format(err, line, sizeof line);
-    cmd_say("weartrack %s: %s\n", name, line);
-    return CMD_FAILED;
+    wt_error_format(&s->err, line, sizeof line);
+    cmd_say("weartrack %s: %s\n", s->name, line);
+    s->status = CMD_FAILED;
+    return false;
 }
 
 /* Entries of the log with the same words, about several files. */
@@ -110,55 +112,59 @@ static void print_fold(const char *name, const fold *f)
     cmd_say("\n");
 }
 
-int cmd_say_log(const char *name, const cmd_common *common, const wt_parselog *log, bool notes)
+void cmd_say_log(cmd_session *s, const wt_parselog *log, bool notes)
 {
+    const bool quiet = s->common.quiet, strict = s->common.strict;
     const size_t n = wt_parselog_count(log), n_unkept = wt_parselog_lost(log);
     size_t n_folds = 0, n_remarks = n_unkept, n_losses = 0;
     fold *folds = calloc(n + 1, sizeof *folds);
     if (folds == NULL) {
-        cmd_say("weartrack %s: out of memory\n", name);
-        return CMD_FAILED;
+        cmd_say("weartrack %s: out of memory\n", s->name);
+        s->status = CMD_FAILED;
+        return;
     }
     for (size_t i = 0; i < n; i++) {
         const wt_log_entry e = wt_parselog_get(log, i);
         n_remarks += e.severity != WT_NOTE;
         n_losses += e.severity == WT_LOSS;
-        if (e.severity == WT_LOSS || (!common->quiet && (e.severity == WT_WARNING || notes)))
+        if (e.severity == WT_LOSS || (!quiet && (e.severity == WT_WARNING || notes)))
             folds[n_folds++] = (fold){e, i, 1, e.count};
     }
     n_folds = fold_equal(folds, n_folds);
     for (size_t i = 0; i < n_folds; i++)
-        print_fold(name, &folds[i]);
+        print_fold(s->name, &folds[i]);
     free(folds);
-    if (n_unkept > 0 && !common->quiet)
-        cmd_say("weartrack %s: warning: %zu notes were lost for lack of memory\n", name, n_unkept);
-    if (n_remarks > 0 && (common->strict || !common->quiet))
-        cmd_say("weartrack %s: %zu remark%s%s\n", name, n_remarks, n_remarks == 1 ? "" : "s",
-                common->strict ? ": exit status 1 (--strict)" : "");
-    return n_losses > 0 || (common->strict && n_remarks > 0) ? CMD_FAILED : CMD_OK;
+    if (n_unkept > 0 && !quiet)
+        cmd_say("weartrack %s: warning: %zu notes were lost for lack of memory\n", s->name,
+                n_unkept);
+    if (n_remarks > 0 && (strict || !quiet))
+        cmd_say("weartrack %s: %zu remark%s%s\n", s->name, n_remarks, n_remarks == 1 ? "" : "s",
+                strict ? ": exit status 1 (--strict)" : "");
+    if (n_losses > 0 || (strict && n_remarks > 0))
+        s->status = CMD_FAILED;
 }
 
-size_t cmd_print_failures(const char *name, const wt_table *failures)
+bool cmd_say_failures(cmd_session *s, const wt_table *failures)
 {
-    if (failures == NULL || wt_table_n_rows(failures) == 0)
-        return 0;
-    const size_t n = wt_table_n_rows(failures);
-    const long file = wt_table_find(failures, "file"), message = wt_table_find(failures, "message");
-    cmd_say("weartrack %s: %zu failed:\n", name, n);
+    const size_t n = failures != NULL ? wt_table_n_rows(failures) : 0;
+    if (n == 0)
+        return false;
+    cmd_say("weartrack %s: %zu failed:\n", s->name, n);
     for (size_t i = 0; i < n; i++) {
-        const char *where = wt_table_text(failures, i, (size_t)file);
-        const char *what = wt_table_text(failures, i, (size_t)message);
+        const char *where = wt_table_text(failures, i, FAILURES_FILE);
+        const char *what = wt_table_text(failures, i, FAILURES_MESSAGE);
         /* most messages begin with the file they are about */
         if (strncmp(what, where, strlen(where)) == 0)
             cmd_say("  %s\n", what);
         else
             cmd_say("  %s: %s\n", where, what);
     }
-    return n;
+    s->status = CMD_FAILED;
+    return true;
 }
 
 static const int interruptions[] = {SIGINT, SIGTERM, SIGHUP};
-enum { N_INTERRUPTIONS = sizeof interruptions / sizeof interruptions[0] };
+enum { N_INTERRUPTIONS = COUNT_OF(interruptions) };
 static volatile sig_atomic_t interrupted; /* number of the signal; all that a handler may write */
 
 static void note_interruption(int number)
@@ -208,17 +214,17 @@ static bool report_progress(void *user, const char *what, size_t done, size_t to
     return true;
 }
 
-wt_progress cmd_progress_start(cmd_progress *state, bool quiet)
+wt_progress cmd_progress_start(cmd_session *s)
 {
     const double now = wt_time_wall();
-    *state = (cmd_progress){now, now, !quiet && isatty(STDERR_FILENO), false};
-    return (wt_progress){report_progress, state};
+    s->progress = (cmd_progress){now, now, !s->common.quiet && isatty(STDERR_FILENO), false};
+    return (wt_progress){report_progress, &s->progress};
 }
 
-void cmd_progress_end(cmd_progress *state)
+void cmd_progress_end(cmd_session *s)
 {
-    if (state->printed)
+    if (s->progress.printed)
         fputs("\r\033[K", stderr);
-    state->active = false;
+    s->progress.active = false;
     release_interruptions();
 }

@@ -49,12 +49,6 @@ typedef struct option_list {
     size_t n;
 } option_list;
 
-void cmd_parts_clear(cmd_part *parts, size_t n)
-{
-    for (size_t i = 0; i < n; i++)
-        wt_params_clear(parts[i].params, parts[i].structure, &parts[i].given);
-}
-
 bool cmd_given(const cmd_part *part, const char *name)
 {
     for (size_t i = 0; i < wt_params_count(part->params); i++)
@@ -63,35 +57,34 @@ bool cmd_given(const cmd_part *part, const char *name)
     return false;
 }
 
-int cmd_usage_error(const char *name, const char *format, ...)
+bool cmd_usage_error(cmd_session *s, const char *format, ...)
 {
     va_list args;
     va_start(args, format);
     char *text = NULL;
     const int written = vasprintf(&text, format, args);
-    va_end(args);
-    cmd_say("weartrack %s: %s; see weartrack %s --help\n", name, written < 0 ? "" : text, name);
+    cmd_say("weartrack %s: %s; see weartrack %s --help\n", s->name, written < 0 ? "" : text,
+            s->name);
     if (written >= 0)
         free(text);
-    return CMD_USAGE;
+    va_end(args);
+    s->status = CMD_USAGE;
+    return false;
 }
 
-static int option_error(const char *name, const char *option, const wt_error *err)
+static bool option_error(cmd_session *s, const char *option)
 {
     char line[1024];
-    wt_error_format(err, line, sizeof line);
-    return cmd_usage_error(name, "--%s: %s", option, line);
+    wt_error_format(&s->err, line, sizeof line);
+    return cmd_usage_error(s, *option != '\0' ? "--%s: %s" : "%s%s", option, line);
 }
 
-int cmd_param_error(const char *name, wt_error *err)
+bool cmd_param_error(cmd_session *s)
 {
-    char line[1024], option[sizeof err->place];
-    snprintf(option, sizeof option, "%s", err->place);
-    err->place[0] = '\0';
-    if (option[0] != '\0')
-        return option_error(name, option, err);
-    wt_error_format(err, line, sizeof line);
-    return cmd_usage_error(name, "%s", line);
+    char option[sizeof s->err.place];
+    snprintf(option, sizeof option, "%s", s->err.place);
+    s->err.place[0] = '\0';
+    return option_error(s, option);
 }
 
 /* Whether `names`, parted by blanks, has this one. */
@@ -149,72 +142,83 @@ static void print_option(const option_row *row)
 
 static void print_help(const cmd_usage *usage, const option_list *list)
 {
-    printf("usage: weartrack %s %s\n\n%s\n\noptions:\n", usage->name, usage->arguments,
-           usage->what);
+    const size_t used = (size_t)printf("usage: weartrack %s ", usage->name);
+    cmd_wrap(stdout, used, used, usage->arguments);
+    putchar('\n');
+    cmd_wrap(stdout, 0, 0, usage->what);
+    puts("\noptions:");
     for (size_t i = 0; i < list->n; i++)
         print_option(&list->rows[i]);
-    if (usage->notes != NULL)
-        printf("\n%s\n", usage->notes);
+    if (usage->notes != NULL) {
+        putchar('\n');
+        cmd_wrap(stdout, 0, 0, usage->notes);
+    }
     printf("\nMore in weartrack-%s(1).\n", usage->name);
 }
 
 /* ---- parsing ------------------------------------------------------------------------------ */
 
-/* Stores one value; an exit status other than CMD_OK when it is wrong. */
-static int set_option(const char *name, const option_row *row, const char *text)
+/* Stores one value; false when it is wrong. */
+static bool set_option(cmd_session *s, const option_row *row, const char *text)
 {
-    wt_error err = WT_ERROR_INIT;
     cmd_part *part = row->part;
     if (row->param->kind == PARAM_FLAG)
         text = row->negated ? "no" : "yes";
-    if (wt_params_set(part->params, row->param->name, part->structure, text, &part->given, &err) ==
-        WT_OK)
-        return CMD_OK;
-    return err.status == WT_E_MEMORY ? cmd_fail(name, &err) : option_error(name, row->name, &err);
+    if (wt_params_set(part->params, row->param->name, part->structure, text, &part->given,
+                      &s->err) == WT_OK)
+        return true;
+    return s->err.status == WT_E_MEMORY ? cmd_fail(s) : option_error(s, row->name);
 }
 
 /* What getopt did not like, in words. `word` is the argument it stopped at. */
-static int bad_option(const char *name, const struct option *longs, int code, const char *word)
+static bool bad_option(cmd_session *s, const struct option *longs, int code, const char *word)
 {
     if (code == ':')
-        return cmd_usage_error(name, "%s needs a value", word);
+        return cmd_usage_error(s, "%s needs a value", word);
     const size_t length = strcspn(word, "=");
     size_t n_like = 0;
     const struct option *like = NULL;
     for (const struct option *o = longs; o->name != NULL && strncmp(word, "--", 2) == 0; o++)
         if (length > 2 && strncmp(o->name, word + 2, length - 2) == 0) {
             if (strlen(o->name) == length - 2)
-                return cmd_usage_error(name, "--%s takes no value", o->name);
+                return cmd_usage_error(s, "--%s takes no value", o->name);
             like = o;
             n_like++;
         }
     if (n_like == 1)
-        return cmd_usage_error(name, "--%s takes no value", like->name);
-    return cmd_usage_error(name, "%s option '%s'", n_like > 1 ? "ambiguous" : "unknown", word);
+        return cmd_usage_error(s, "--%s takes no value", like->name);
+    return cmd_usage_error(s, "%s option '%s'", n_like > 1 ? "ambiguous" : "unknown", word);
 }
 
 /* A usage error if one of the inputs is empty, is the file of -o, which would be lost, or is
  * standard input a second time. */
-static int check_files(const char *name, const cmd_common *common, const char *const *inputs,
-                       size_t n, size_t *n_pipes)
+static bool check_inputs(cmd_session *s, const char *const *inputs, size_t n, size_t *n_pipes)
 {
-    wt_error err = WT_ERROR_INIT;
+    const char *output = s->common.output;
     for (size_t i = 0; i < n; i++) {
         if (*inputs[i] == '\0')
-            return cmd_usage_error(name, "a file name is empty");
-        if (wt_guard_read(inputs[i], &err) != WT_OK)
-            return cmd_fail(name, &err);
-        if (common->output != NULL && wt_guard_write(common->output, &err) != WT_OK)
-            return cmd_usage_error(name, "-o %s is also an input; give another name",
-                                   common->output);
+            return cmd_usage_error(s, "a file name is empty");
+        if (wt_guard_read(inputs[i], &s->err) != WT_OK)
+            return cmd_fail(s);
+        if (output != NULL && wt_guard_write(output, &s->err) != WT_OK)
+            return cmd_usage_error(s, "-o %s is also an input; give another name", output);
         *n_pipes += strcmp(inputs[i], "-") == 0;
         if (*n_pipes > 1)
-            return cmd_usage_error(name, "- can stand for one input only");
+            return cmd_usage_error(s, "- can stand for one input only");
     }
-    return CMD_OK;
+    return true;
 }
 
-/* The names in the text, parted by its zero bytes or else by its lines; or their number alone. */
+static bool check_number(cmd_session *s, const cmd_usage *usage)
+{
+    if (usage->n_files == CMD_SOME && s->n_files == 0)
+        return cmd_usage_error(s, "%s", usage->files != NULL ? usage->files : "no file given");
+    if (usage->n_files > 0 && s->n_files != (size_t)usage->n_files)
+        return cmd_usage_error(s, "%s; %zu given", usage->files, s->n_files);
+    return true;
+}
+
+/* The names in the text, parted by its zero bytes or else by its lines; returns their number. */
 static size_t split_names(char *text, size_t length, const char **names)
 {
     const char end = memchr(text, '\0', length) != NULL ? '\0' : '\n';
@@ -223,54 +227,45 @@ static size_t split_names(char *text, size_t length, const char **names)
         char *stop = memchr(p, end, (size_t)(text + length - p));
         stop = stop != NULL ? stop : text + length;
         const bool is_line = end == '\n' && stop > p && stop[-1] == '\r';
-        if (stop - is_line > p && names != NULL) {
-            stop[-is_line] = '\0';
-            names[n] = p;
-        }
-        n += stop - is_line > p;
+        stop[-is_line] = '\0';
+        if (stop - is_line > p)
+            names[n++] = p;
         p = stop + 1;
     }
     return n;
 }
 
 /* The files of the call: its arguments and what --files-from names. */
-static int list_files(const char *name, cmd_common *common, int n, char **arguments)
+static bool list_files(cmd_session *s, size_t n, char **arguments)
 {
-    wt_error err = WT_ERROR_INIT;
+    const char *from = s->common.files_from;
     wt_input *input = NULL;
     const unsigned char *bytes = NULL;
-    static char *text; /* both live until the next call, as the arguments do */
-    static const char **files;
-    size_t length = 0, n_names = 0;
-    wt_status status = WT_OK;
-    if (common->files_from != NULL) {
-        status = wt_input_open(common->files_from, &input, &err);
-        if (status == WT_OK)
-            status = wt_input_bytes(input, &bytes, &length, &err);
-        wt_error_file(&err, common->files_from);
+    size_t length = 0;
+    wt_status status = from != NULL ? wt_input_open(from, &input, &s->err) : WT_OK;
+    if (status == WT_OK && from != NULL)
+        status = wt_input_bytes(input, &bytes, &length, &s->err);
+    if (status == WT_OK) {
+        s->names = calloc(length + 1, 1);
+        s->files = malloc((n + length / 2 + 1) * sizeof *s->files); /* a name and its end: 2 */
+        if (s->names == NULL || s->files == NULL)
+            status = wt_fail(&s->err, WT_E_MEMORY, "out of memory");
     }
-    free(text);
-    free(files);
-    files = NULL;
-    text = status == WT_OK ? malloc(length + 1) : NULL;
-    if (text != NULL) {
+    if (status == WT_OK) {
+        for (size_t i = 0; i < n; i++)
+            s->files[i] = arguments[i];
         if (length > 0)
-            memcpy(text, bytes, length);
-        text[length] = '\0';
-        n_names = split_names(text, length, NULL);
-        common->files = files = malloc(((size_t)n + n_names + 1) * sizeof *files);
+            memcpy(s->names, bytes, length);
+        s->n_arguments = n;
+        s->n_files = n + split_names(s->names, length, s->files + n);
     }
     wt_input_close(input);
-    if (status == WT_OK && common->files == NULL)
-        status = wt_fail(&err, WT_E_MEMORY, "out of memory");
+    wt_error_file(status != WT_OK ? &s->err : NULL, from);
     if (status != WT_OK)
-        return cmd_fail(name, &err);
-    for (int i = 0; i < n; i++)
-        common->files[i] = arguments[i];
-    common->n_files = (size_t)n + split_names(text, length, common->files + n);
-    if (common->files_from != NULL && n_names == 0)
-        return cmd_usage_error(name, "--files-from %s: it names no file", common->files_from);
-    return CMD_OK;
+        return cmd_fail(s);
+    if (from != NULL && s->n_files == n)
+        return cmd_usage_error(s, "--files-from %s: it names no file", from);
+    return true;
 }
 
 /* The options as getopt wants them. */
@@ -293,69 +288,74 @@ static void list_for_getopt(const option_list *list, struct option *longs, char 
 }
 
 /* Sets all options; `inputs` [argc] gets the files among their values. */
-static int parse_options(const cmd_usage *usage, const option_list *list, int argc, char **argv,
-                         const char **inputs, size_t *n_inputs)
+static bool parse_options(cmd_session *s, const option_list *list, int argc, char **argv,
+                          const char **inputs, size_t *n_inputs)
 {
     struct option longs[MAX_OPTIONS + 1];
     char letters[2 * MAX_OPTIONS + 3];
     list_for_getopt(list, longs, letters);
     optind = 1;
     opterr = 0;
-    int code, status = CMD_OK;
-    while (status == CMD_OK && (code = getopt_long(argc, argv, letters, longs, NULL)) != -1) {
+    int code;
+    while ((code = getopt_long(argc, argv, letters, longs, NULL)) != -1) {
         if (code == '?' || code == ':') {
             const char letter[] = {'-', (char)optopt, '\0'};
             const bool is_letter = optopt > 0 && optopt < FIRST_CODE;
-            return bad_option(usage->name, longs, code, is_letter ? letter : argv[optind - 1]);
+            return bad_option(s, longs, code, is_letter ? letter : argv[optind - 1]);
         }
         const option_row *row = NULL;
         for (size_t i = 0; i < list->n && row == NULL; i++)
             if (code == FIRST_CODE + (int)i ||
                 (code < FIRST_CODE && code == list->rows[i].param->letter))
                 row = &list->rows[i];
-        status = set_option(usage->name, row, optarg);
+        if (!set_option(s, row, optarg))
+            return false;
         const char *value = row->param->value;
         if (value != NULL && (strcmp(value, "FILE") == 0 || strcmp(value, "R") == 0) &&
             strcmp(row->name, "output") != 0)
             inputs[(*n_inputs)++] = optarg;
     }
-    return status;
+    return true;
 }
 
-bool cmd_parse(const cmd_usage *usage, cmd_part *parts, size_t n_parts, cmd_common *common,
-               int argc, char **argv, int *first, int *status)
+static bool check_required(cmd_session *s, const option_list *list)
+{
+    for (size_t i = 0; i < list->n; i++) {
+        const option_row *row = &list->rows[i];
+        if ((row->param->flags & PARAM_REQUIRED) != 0 &&
+            (row->part->given & UINT64_C(1) << row->number) == 0)
+            return cmd_usage_error(s, "--%s is missing", row->name);
+    }
+    return true;
+}
+
+bool cmd_parse(cmd_session *s, const cmd_usage *usage, cmd_part *parts, size_t n_parts, int argc,
+               char **argv)
 {
     option_list list = {.n = 0};
     char names[TEXT_SIZE];
     size_t n_inputs = 0, n_pipes = 0;
     const char **inputs = calloc((size_t)argc + 1, sizeof *inputs);
     snprintf(names, sizeof names, "%s quiet strict help", usage->common);
-    cmd_part last = {common_params(), common, names, 0};
+    cmd_part last = {common_params(), &s->common, names, 0};
+    s->name = usage->name;
+    s->parts = parts;
+    s->n_parts = n_parts;
     for (size_t i = 0; i < n_parts; i++)
         add_part(&list, &parts[i]);
     add_part(&list, &last);
-    if (inputs == NULL)
-        cmd_say("weartrack %s: out of memory\n", usage->name);
-    *status =
-        inputs == NULL ? CMD_FAILED : parse_options(usage, &list, argc, argv, inputs, &n_inputs);
-    if (*status == CMD_OK && common->help) {
+    if (inputs == NULL) {
+        wt_fail(&s->err, WT_E_MEMORY, "out of memory");
+        return cmd_fail(s);
+    }
+    bool good = parse_options(s, &list, argc, argv, inputs, &n_inputs);
+    if (good && s->common.help) {
         print_help(usage, &list);
-        free(inputs);
-        return false;
+        good = false;
     }
-    *first = optind;
-    if (*status == CMD_OK)
-        *status = list_files(usage->name, common, argc - optind, argv + optind);
-    for (size_t i = 0; i < list.n && *status == CMD_OK; i++) {
-        const option_row *row = &list.rows[i];
-        if ((row->param->flags & PARAM_REQUIRED) != 0 &&
-            (row->part->given & UINT64_C(1) << row->number) == 0)
-            *status = cmd_usage_error(usage->name, "--%s is missing", row->name);
-    }
-    if (*status == CMD_OK)
-        *status = check_files(usage->name, common, inputs, n_inputs, &n_pipes);
-    if (*status == CMD_OK)
-        *status = check_files(usage->name, common, common->files, common->n_files, &n_pipes);
+    good = good && list_files(s, (size_t)(argc - optind), argv + optind) &&
+           check_required(s, &list) && check_inputs(s, inputs, n_inputs, &n_pipes) &&
+           check_inputs(s, s->files, s->n_files, &n_pipes) && check_number(s, usage);
     free(inputs);
-    return *status == CMD_OK;
+    return good;
 }

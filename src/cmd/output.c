@@ -14,17 +14,23 @@ bool cmd_is_store(const char *path)
     return path != NULL && (ends_with(path, ".h5") || ends_with(path, ".hdf5"));
 }
 
+char *cmd_default_name(const char *path, const char *ending)
+{
+    const char *base = wt_path_base(path);
+    const char *dot = strrchr(base, '.');
+    const int stem = (int)(dot != NULL && dot != base ? (size_t)(dot - base) : strlen(base));
+    char *name = NULL;
+    return asprintf(&name, "%.*s%s", stem, base, ending) < 0 ? NULL : name;
+}
+
 static wt_status write_stream(FILE *out, const wt_result *result, bool with_provenance,
                               wt_error *err)
 {
     const wt_provenance *provenance = with_provenance ? wt_result_provenance_const(result) : NULL;
-    for (size_t i = 0; i < wt_result_n_tables(result); i++) {
-        wt_status status =
-            wt_stream_write(out, wt_result_table(result, i), i == 0 ? provenance : NULL, err);
-        if (status != WT_OK)
-            return status;
-    }
-    return WT_OK;
+    wt_status status = WT_OK;
+    for (size_t i = 0; status == WT_OK && i < wt_result_n_tables(result); i++)
+        status = wt_stream_write(out, wt_result_table(result, i), i == 0 ? provenance : NULL, err);
+    return status;
 }
 
 wt_status cmd_sink_open(const char *output, cmd_sink *sink, wt_error *err)
@@ -49,36 +55,24 @@ wt_status cmd_sink_close(cmd_sink *sink, wt_status written, wt_error *err)
     return written;
 }
 
-wt_status cmd_collect(wt_result *result, wt_table **const tables[], size_t n, wt_error *err)
+wt_status cmd_provenance(wt_result *result, wt_error *err)
 {
-    wt_status status = WT_OK;
-    for (size_t i = 0; i < n; i++) {
-        wt_table *table = *tables[i];
-        *tables[i] = NULL;
-        if (status != WT_OK)
-            wt_table_free(table);
-        else if (table != NULL)
-            status = wt_result_add(result, table, err);
-    }
-    return status;
-}
-
-wt_status cmd_provenance(wt_result *result, int argc, char **argv, wt_error *err)
-{
-    wt_status status = wt_provenance_set_command(wt_result_provenance(result), argc, argv);
+    wt_status status =
+        wt_provenance_set_command(wt_result_provenance(result), cmd_full_argc, cmd_full_argv);
     return status == WT_OK ? WT_OK : wt_fail(err, status, "out of memory");
 }
 
-wt_status cmd_write(const cmd_common *common, wt_result *result, wt_error *err)
+wt_status cmd_write(cmd_session *s)
 {
-    wt_status status = cmd_provenance(result, cmd_full_argc, cmd_full_argv, err);
+    const char *output = s->common.output;
+    wt_status status = cmd_provenance(s->result, &s->err);
     if (status != WT_OK)
         return status;
-    if (cmd_is_store(common->output))
-        return wt_store_write(common->output, result, common->provenance, err);
+    if (cmd_is_store(output))
+        return wt_store_write(output, s->result, s->common.provenance, &s->err);
     cmd_sink sink;
-    status = cmd_sink_open(common->output, &sink, err);
+    status = cmd_sink_open(output, &sink, &s->err);
     if (status == WT_OK)
-        status = write_stream(sink.stream, result, common->provenance, err);
-    return cmd_sink_close(&sink, status, err);
+        status = write_stream(sink.stream, s->result, s->common.provenance, &s->err);
+    return cmd_sink_close(&sink, status, &s->err);
 }

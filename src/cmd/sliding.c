@@ -1,15 +1,9 @@
 /* Options about rubber, counter surface and conditions. SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include <math.h>
 #include <string.h>
 
 #include "cmd/sliding.h"
 #include "cmd/tables.h"
-
-static cmd_contact no_contact(void)
-{
-    return (cmd_contact){NULL, NULL, 0, NULL};
-}
 
 static const wt_param contact_rows[] = {
     {PARAM_TEXT_OF("material", cmd_contact, material), .value = "FILE", .letter = 'm', .unset = "",
@@ -21,12 +15,11 @@ static const wt_param contact_rows[] = {
      .help = "counter surface: self-affine:q0=..rad/m,qr=..rad/m,q1=..rad/m,hurst=..,c0=..m^4 or a "
              "spectrum file"},
 };
-PARAM_LOCAL_TABLE(contact_params, cmd_contact, contact_rows, no_contact, NO_PARTS)
+CMD_OPTIONS(contact_params, cmd_contact, contact_rows)
 
 void cmd_sliding_init(cmd_sliding *s, cmd_part own)
 {
     memset(s, 0, sizeof *s);
-    s->common = cmd_common_defaults();
     s->conditions = wt_sliding_defaults();
     s->master = wt_master_job_defaults();
     s->set.read = wt_read_defaults();
@@ -39,68 +32,64 @@ void cmd_sliding_init(cmd_sliding *s, cmd_part own)
     s->parts[CMD_OWN] = own;
 }
 
-void cmd_sliding_free(cmd_sliding *s)
+int cmd_sliding_free(cmd_sliding *s)
 {
-    cmd_parts_clear(s->parts, CMD_SLIDING_PARTS);
     wt_rubber_clear(&s->rubber);
     wt_surface_clear(&s->surface);
     wt_result_free(s->material_tables);
-    cmd_session_free(&s->session);
+    return cmd_session_free(&s->session);
 }
 
-bool cmd_sliding_parse(cmd_sliding *s, const cmd_usage *usage, int argc, char **argv, int *status)
+bool cmd_sliding_parse(cmd_sliding *s, const cmd_usage *usage, int argc, char **argv)
 {
-    const char *name = usage->name;
-    int first = 0;
-    if (!cmd_parse(usage, s->parts, CMD_SLIDING_PARTS, &s->common, argc, argv, &first, status))
+    cmd_session *session = &s->session;
+    if (!cmd_parse(session, usage, s->parts, CMD_SLIDING_PARTS, argc, argv))
         return false;
-    if (first != argc)
-        *status = cmd_usage_error(name, "there is an argument too many; files go with --material "
+    if (session->n_arguments > 0)
+        return cmd_usage_error(session, "there is an argument too many; files go with --material "
                                         "or --dma");
-    else if ((s->contact.material != NULL) + (s->contact.n_dma > 0) + (s->common.n_files > 0) != 1)
-        *status = cmd_usage_error(name, "give either --material FILE or --dma FILE (or the names "
+    if ((s->contact.material != NULL) + (s->contact.n_dma > 0) + (session->n_files > 0) != 1)
+        return cmd_usage_error(session, "give either --material FILE or --dma FILE (or the names "
                                         "of DMA files with --files-from)");
-    else if (s->contact.material != NULL && cmd_given(&s->parts[CMD_READ], "temperature"))
-        *status = cmd_usage_error(name, "--temperature is that of --dma files; the rubber's while "
+    if (s->contact.material != NULL && cmd_given(&s->parts[CMD_READ], "temperature"))
+        return cmd_usage_error(session, "--temperature is that of --dma files; the rubber's while "
                                         "it slides is --sliding-temperature");
-    return *status == CMD_OK;
+    return true;
 }
 
 static wt_status read_material(cmd_sliding *s, wt_error *err)
 {
     const char *material = s->contact.material;
     if (material == NULL) {
-        const bool listed = s->common.n_files > 0;
-        s->set.patterns = listed ? s->common.files : s->contact.dma_files;
-        s->set.n_patterns = listed ? s->common.n_files : s->contact.n_dma;
+        const bool listed = s->session.n_files > 0;
+        s->set.patterns = listed ? s->session.files : s->contact.dma_files;
+        s->set.n_patterns = listed ? s->session.n_files : s->contact.n_dma;
         s->master.sets = &s->set;
         s->master.n_sets = 1;
         return wt_master_make(&s->master, &s->session.work, NULL, &s->rubber, err);
     }
-    return cmd_tables_rubber(material, s->master.poisson_ratio, &s->material_tables, &s->rubber,
-                             err);
+    return cmd_rubber_read(material, s->master.poisson_ratio, &s->material_tables, &s->rubber, err);
 }
 
-int cmd_sliding_open(cmd_sliding *s, const char *name)
+bool cmd_sliding_open(cmd_sliding *s)
 {
-    wt_error err = WT_ERROR_INIT;
+    wt_error *err = &s->session.err;
     wt_job *work = &s->session.work;
-    const int begun = cmd_begin(&s->session, name, &s->common, s->set.read.format);
-    if (begun != CMD_OK)
-        return begun;
+    if (!cmd_begin_reading(&s->session, s->set.read.format))
+        return false;
     /* without all that was asked for there is no friction */
     wt_table_free(work->failures);
     work->failures = NULL;
-    wt_status status = read_material(s, &err);
+    wt_status status = read_material(s, err);
     if (status == WT_OK) {
-        status = wt_surface_open(s->contact.roughness, &s->set.read, work, &s->surface, &err);
+        status = wt_surface_open(s->contact.roughness, &s->set.read, work, &s->surface, err);
         if (status == WT_E_NOT_FOUND)
-            wt_error_advice(&err, "--roughness takes a spectrum file or "
-                                  "self-affine:q0=..,qr=..,q1=..,hurst=..,c0=..");
+            wt_error_advice(err, "--roughness takes a spectrum file or "
+                                 "self-affine:q0=..,qr=..,q1=..,hurst=..,c0=..");
     }
-    if (status != WT_OK)
-        return cmd_end(&s->session, status, &err);
     s->conditions.rubber = &s->rubber;
     s->conditions.surface = &s->surface;
-    return CMD_OK;
+    if (status != WT_OK)
+        cmd_end(&s->session, status);
+    return status == WT_OK;
 }

@@ -17,7 +17,6 @@ typedef struct cmd_contact {
 enum { CMD_CONTACT, CMD_CONDITIONS, CMD_OWN, CMD_WORK, CMD_MASTER, CMD_READ, CMD_SLIDING_PARTS };
 
 typedef struct cmd_sliding {
-    cmd_common common;
     cmd_contact contact;
     wt_sliding conditions;
     wt_master_job master;
@@ -32,11 +31,11 @@ typedef struct cmd_sliding {
 
 /* `own` are the options of the subcommand itself. */
 void cmd_sliding_init(cmd_sliding *s, cmd_part own);
-void cmd_sliding_free(cmd_sliding *s);
-/* Parses the call; as cmd_parse. */
-bool cmd_sliding_parse(cmd_sliding *s, const cmd_usage *usage, int argc, char **argv, int *status);
-/* Begins the session, reads material and roughness and fills `conditions`. Returns an exit status;
- * what was wrong has been said. */
-int cmd_sliding_open(cmd_sliding *s, const char *name);
+int cmd_sliding_free(cmd_sliding *s); /* as cmd_session_free */
+/* As cmd_parse. */
+bool cmd_sliding_parse(cmd_sliding *s, const cmd_usage *usage, int argc, char **argv);
+/* Begins the session, reads material and roughness and fills `conditions`. False if it cannot; what
+ * was wrong has been said. */
+bool cmd_sliding_open(cmd_sliding *s);
 
 #endif

@@ -2,59 +2,57 @@
 #include "cmd/export.h"
 #include "cmd/tables.h"
 
-/* The headlines of the files that can be read, which are then the first of `files`. */
-static int read_all(const cmd_common *common, wt_table **headlines, size_t *n_read)
+/* The headlines of the files that can be read, which are then the first of the files. */
+static size_t read_all(cmd_session *s, wt_table **headlines)
 {
-    const char **files = common->files;
-    int status = CMD_OK;
-    for (size_t i = 0; i < common->n_files; i++) {
-        wt_error err = WT_ERROR_INIT;
+    size_t n_read = 0;
+    for (size_t i = 0; i < s->n_files; i++) {
+        const char *path = s->files[i];
         wt_result *result = NULL;
-        wt_status read = cmd_tables_read(files[i], &result, &err);
+        wt_status read = cmd_tables_read(path, &result, &s->err);
         if (read == WT_OK)
-            read = wt_result_headlines(result, &headlines[*n_read], &err);
-        wt_error_file(&err, files[i]);
-        const int good = read != WT_OK ? cmd_fail("summary", &err)
-                                       : cmd_tables_remarks("summary", common, files[i], result);
-        if (read == WT_OK)
-            files[(*n_read)++] = files[i];
-        status = good != CMD_OK ? good : status;
+            read = wt_result_headlines(result, &headlines[n_read], &s->err);
+        if (read == WT_OK) {
+            s->files[n_read++] = path;
+            cmd_tables_remarks(s, path, result);
+        } else {
+            wt_error_file(&s->err, path);
+            cmd_fail(s);
+        }
         wt_result_free(result);
     }
-    return status;
+    return n_read;
 }
 
 int cmd_summary(int argc, char **argv)
 {
     static const cmd_usage usage = {
-        "summary", "[OPTION]... RESULT...",
-        "One row for each result (HDF5 or text stream) with its main numbers, their errors or\n"
-        "intervals, and verdicts. A column is there if one of the results has it.",
-        "output files-from", "Exit status 1 if a file could not be read; it has no row."};
-    cmd_common common = cmd_common_defaults();
+        .name = "summary",
+        .arguments = "[OPTION]... RESULT...",
+        .what = "One row for each result (HDF5 or text stream) with its main numbers, their errors "
+                "or intervals, and verdicts. A column is there if one of the results has it.",
+        .common = "output files-from",
+        .notes = "Exit status 1 if a file could not be read; it has no row.",
+        .n_files = CMD_SOME,
+        .files = "no result given"};
     export_options form = {WT_EXPORT_TSV};
     cmd_part part = {export_params(), &form, NULL, 0};
-    int first = 0, status = CMD_OK;
-    wt_error err = WT_ERROR_INIT;
+    cmd_session s = cmd_session_defaults();
     wt_table *summary = NULL;
-    size_t n_read = 0;
-    if (!cmd_parse(&usage, &part, 1, &common, argc, argv, &first, &status))
-        return status;
-    if (common.n_files == 0)
-        return cmd_usage_error("summary", "no result given");
-    wt_table **headlines = calloc(common.n_files, sizeof *headlines);
-    if (headlines == NULL) {
-        wt_fail(&err, WT_E_MEMORY, "out of memory");
-        return cmd_fail("summary", &err);
-    }
-    status = read_all(&common, headlines, &n_read);
-    if (n_read > 0 && (wt_summary(common.files, (const wt_table *const *)headlines, n_read,
-                                  &summary, &err) != WT_OK ||
-                       export_table(&common, &part, summary, &err) != WT_OK))
-        status = cmd_fail("summary", &err);
+    if (!cmd_parse(&s, &usage, &part, 1, argc, argv))
+        return cmd_session_free(&s);
+    wt_table **headlines = calloc(s.n_files, sizeof *headlines);
+    const size_t n_read = headlines != NULL ? read_all(&s, headlines) : 0;
+    wt_status made = headlines != NULL ? WT_OK : wt_fail(&s.err, WT_E_MEMORY, "out of memory");
+    if (n_read > 0)
+        made = wt_summary(s.files, (const wt_table *const *)headlines, n_read, &summary, &s.err);
+    if (n_read > 0 && made == WT_OK)
+        made = export_table(&s, &part, summary);
+    if (made != WT_OK)
+        cmd_fail(&s);
     for (size_t i = 0; i < n_read; i++)
         wt_table_free(headlines[i]);
     free(headlines);
     wt_table_free(summary);
-    return status;
+    return cmd_session_free(&s);
 }

@@ -7,11 +7,6 @@ typedef struct own_options {
     bool list, keys;
 } own_options;
 
-static own_options no_options(void)
-{
-    return (own_options){false, false};
-}
-
 static const wt_param rows[] = {
     {PARAM_FLAG_OF("list", own_options, list),
      .help = "the tables that there are, with their rows, columns and words"},
@@ -19,7 +14,7 @@ static const wt_param rows[] = {
      .help = "the values that belong to the whole table, with their errors and units, in place of "
              "its rows"},
 };
-PARAM_LOCAL_TABLE(own_params, own_options, rows, no_options, NO_PARTS)
+CMD_OPTIONS(own_params, own_options, rows)
 
 /* The table of that name; without a name the only one. */
 static wt_status choose(const wt_result *result, const char *path, const char *name,
@@ -43,37 +38,39 @@ static wt_status choose(const wt_result *result, const char *path, const char *n
 int cmd_table(int argc, char **argv)
 {
     static const cmd_usage usage = {
-        "table", "[OPTION]... RESULT [NAME]",
-        "Writes the table NAME of a result (HDF5 or text stream; - is standard input) for other\n"
-        "programs: rows of cells parted by tabs or commas under one header line, or JSON. In SI\n"
-        "units, which stand in the header: modulus[Pa].",
-        "output", "NAME may be left out if there is one table only."};
-    cmd_common common = cmd_common_defaults();
-    own_options own = no_options();
+        .name = "table",
+        .arguments = "[OPTION]... RESULT [NAME]",
+        .what = "Writes the table NAME of a result (HDF5 or text stream; - is standard input) for "
+                "other programs: rows of cells parted by tabs or commas under one header line, or "
+                "JSON. In SI units, which stand in the header: modulus[Pa].",
+        .common = "output",
+        .notes = "NAME may be left out if there is one table only."};
+    own_options own = {0};
     export_options form = {WT_EXPORT_TSV};
     cmd_part parts[] = {{own_params(), &own, NULL, 0}, {export_params(), &form, NULL, 0}};
-    int first = 0, status = CMD_OK;
-    wt_error err = WT_ERROR_INIT;
-    wt_result *result = NULL;
+    cmd_session s = cmd_session_defaults();
     wt_table *made = NULL;
     const wt_table *table = NULL;
-    if (!cmd_parse(&usage, parts, sizeof parts / sizeof parts[0], &common, argc, argv, &first,
-                   &status))
-        return status;
-    if (argc - first < 1 || argc - first > (own.list ? 1 : 2))
-        return cmd_usage_error("table", "a result and the name of a table are needed");
-    wt_status read = cmd_tables_read(argv[first], &result, &err);
+    if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv))
+        goto done;
+    if (s.n_files < 1 || s.n_files > (own.list ? 1 : 2)) {
+        cmd_usage_error(&s, "a result and the name of a table are needed");
+        goto done;
+    }
+    wt_status read = cmd_tables_read(s.files[0], &s.result, &s.err);
     if (read == WT_OK && !own.list)
-        read = choose(result, argv[first], argv[first + 1], &table, &err);
+        read = choose(s.result, s.files[0], s.n_files > 1 ? s.files[1] : NULL, &table, &s.err);
     if (read == WT_OK && own.list)
-        read = wt_result_contents(result, &made, &err);
+        read = wt_result_contents(s.result, &made, &s.err);
     else if (read == WT_OK && own.keys)
-        read = wt_table_keys(table, &made, &err);
+        read = wt_table_keys(table, &made, &s.err);
     if (read == WT_OK)
-        read = export_table(&common, &parts[1], made != NULL ? made : table, &err);
-    status = read != WT_OK ? cmd_fail("table", &err)
-                           : cmd_tables_remarks("table", &common, argv[first], result);
+        read = export_table(&s, &parts[1], made != NULL ? made : table);
+    if (read == WT_OK)
+        cmd_tables_remarks(&s, s.files[0], s.result);
+    else
+        cmd_fail(&s);
+done:
     wt_table_free(made);
-    wt_result_free(result);
-    return status;
+    return cmd_session_free(&s);
 }

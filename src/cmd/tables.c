@@ -60,49 +60,47 @@ wt_status cmd_tables_read(const char *path, wt_result **tables, wt_error *err)
     return status;
 }
 
-int cmd_tables_remarks(const char *name, const cmd_common *common, const char *path,
-                       const wt_result *tables)
+void cmd_tables_remarks(cmd_session *s, const char *path, const wt_result *tables)
 {
     const wt_table *notes = wt_result_find(tables, "notes");
     const long severity = notes != NULL ? wt_table_find(notes, "severity") : -1;
     size_t n = 0;
-    if (severity < 0 || !common->strict ||
+    if (severity < 0 || !s->common.strict ||
         wt_table_column_kind(notes, (size_t)severity) != WT_COLUMN_TEXT)
-        return CMD_OK;
+        return;
     for (size_t row = 0; row < wt_table_n_rows(notes); row++)
         n += strcmp(wt_table_text(notes, row, (size_t)severity), wt_severity_name(WT_NOTE)) != 0;
     if (n == 0)
-        return CMD_OK;
-    cmd_say("weartrack %s: %s: %zu remark%s: exit status 1 (--strict)\n", name, path, n,
+        return;
+    cmd_say("weartrack %s: %s: %zu remark%s: exit status 1 (--strict)\n", s->name, path, n,
             n == 1 ? "" : "s");
-    return CMD_FAILED;
+    s->status = CMD_FAILED;
 }
 
-wt_status cmd_tables_find(const wt_result *tables, const char *path, const char *prefix,
-                          const char *made_by, const wt_table **table, wt_error *err)
+wt_status cmd_table_read(const char *path, const char *prefix, const char *made_by,
+                         wt_result **tables, const wt_table **table, wt_error *err)
 {
-    for (size_t i = 0; i < wt_result_n_tables(tables); i++) {
-        const wt_table *t = wt_result_table(tables, i);
-        if (strncmp(wt_table_name(t), prefix, strlen(prefix)) == 0) {
-            *table = t;
+    wt_status status = cmd_tables_read(path, tables, err);
+    if (status != WT_OK)
+        return status;
+    for (size_t i = 0; i < wt_result_n_tables(*tables); i++) {
+        *table = wt_result_table(*tables, i);
+        if (strncmp(wt_table_name(*table), prefix, strlen(prefix)) == 0)
             return WT_OK;
-        }
     }
     wt_fail(err, WT_E_NOT_FOUND, "a table is missing");
     wt_error_file(err, path);
     wt_error_expected(err, "a table '%s'", prefix);
-    wt_error_found(err, "'%s'", wt_table_name(wt_result_table(tables, 0)));
+    wt_error_found(err, "'%s'", wt_table_name(wt_result_table(*tables, 0)));
     wt_error_advice(err, "give the output of weartrack %s", made_by);
     return WT_E_NOT_FOUND;
 }
 
-wt_status cmd_tables_rubber(const char *path, double poisson_ratio, wt_result **tables,
-                            wt_rubber *rubber, wt_error *err)
+wt_status cmd_rubber_read(const char *path, double poisson_ratio, wt_result **tables,
+                          wt_rubber *rubber, wt_error *err)
 {
     const wt_table *prony = NULL;
-    wt_status status = cmd_tables_read(path, tables, err);
-    if (status == WT_OK)
-        status = cmd_tables_find(*tables, path, "prony", "master", &prony, err);
+    wt_status status = cmd_table_read(path, "prony", "master", tables, &prony, err);
     if (status == WT_OK)
         status = wt_rubber_from_tables(prony, wt_result_find(*tables, "shift_factors"),
                                        poisson_ratio, rubber, err);
