@@ -73,6 +73,12 @@ static void test_bad_files(void **state)
     wt_status status = wt_indent_group(&job, &common, &tables, &err);
     assert_int_equal(status, WT_E_NOT_FOUND);
     assert_null(tables.indentation);
+    assert_string_equal(wt_path_base(err.file), "no-such-*");
+    const wt_file_set sweep = files(&patterns[1], 1, NULL);
+    const wt_indent_job other = bulk_job(&sweep, 1);
+    assert_int_not_equal(wt_indent_group(&other, &common, &tables, &err), WT_OK);
+    assert_string_equal(wt_path_base(err.file), "dma.txt");
+    err = (wt_error)WT_ERROR_INIT;
 
     common.failures = wt_failures_new();
     common.log = wt_parselog_new();

@@ -308,6 +308,12 @@ static void serpentine_map(void **state)
         assert_near(r.curve.y, 2e-6 + 2e-6 * (double)grid[i][1], 1e-15);
     }
     close_all(&r);
+    f.map = "1e-06;3e-06;2e-06;7e-06;1;6;0;1"; /* a line has no width */
+    assert_int_equal(nid_write(&f), 0);
+    assert_int_equal(open_force(&r, path, NULL), WT_OK);
+    assert_int_equal(wt_force_next(r.source, &r.curve, &r.err), WT_OK);
+    assert_near(r.curve.x, 1e-6, 1e-15);
+    close_all(&r);
     f.map = "-1e-06;3e-06;2e-06;6e-06;2;3;0.3;1";
     assert_int_equal(nid_write(&f), 0);
     assert_int_equal(open_force(&r, path, NULL), WT_OK);

@@ -520,6 +520,10 @@ static void detection(void **state)
     assert_int_equal(detect_text("", 0, 0, &id, &err), WT_E_FORMAT);
     assert_int_equal(detect_text(head, sizeof head - 1, 0, &id, &err), WT_OK);
     assert_string_equal(id, "table-units");
+    /* the last line counts without its end */
+    static const char last[] = "proceduresegments\tFrequency sweep\n[step]";
+    assert_int_equal(detect_text(last, sizeof last - 1, 0, &id, &err), WT_OK);
+    assert_string_equal(id, "trios-text");
     assert_int_equal(detect_text(head, sizeof head - 1, WT_KIND_FORCE, &id, &err),
                      WT_E_UNSUPPORTED);
     /* A marker far down: the detector asks for more of the file. */

@@ -246,6 +246,9 @@ static void test_tables_on_the_page(void **state)
     }
     assert_int_equal(count_words(page, ">at the reference velocity, 300 mm/s</td>"), 5);
     // Friction next to the decades of 1e-4 to 10 m/s.
+    /* an error that does not apply is no number */
+    assert_non_null(strstr(page, "<th scope=\"row\">Reference temperature</th><td class=\"n\">20 °C"
+                                 "</td><td class=\"n\">–</td>"));
     const char *friction = strstr(page, "<caption>Friction at the computed velocities next to");
     assert_non_null(friction);
     char *end = strstr(friction, "</table>");
