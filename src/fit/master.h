@@ -17,12 +17,12 @@ typedef struct master_work {
     double *a, *b;           /* [set.n] decades */
     double *physical;        /* [set.n] decades */
     double *overlap;         /* [set.n] decades */
-    double *kappa;           /* [set.n] */
     size_t *curve;           /* [set.n] in the spectrum; of the posterior */
     wt_posterior *posterior;
     spectrum *s; /* that of the posterior */
     vertical vertical;
     spectrum_prior prior;
+    double rho_within; /* correlation of the noise within the isotherms */
     lack_of_fit lack;
 } master_work;
 

@@ -24,8 +24,6 @@ static const double same_temperature = 0.1;
 /* A fit is started anew when a shift has moved so far from its start that the relaxation times no
  * longer reach well beyond the isotherms [decade]. */
 static const double far = 0.5;
-/* Change of the noise of an isotherm, relative, that is worth another round. */
-static const double least_kappa_change = 0.05;
 
 wt_master_options wt_master_options_defaults(void)
 {
@@ -94,7 +92,6 @@ static wt_status work_alloc(master_work *work, wt_error *err)
     work->b = pool_numbers(m, n);
     work->physical = pool_numbers(m, n);
     work->overlap = pool_numbers(m, n);
-    work->kappa = pool_numbers(m, n);
     work->vertical.precision = pool_matrix(m, n, n);
     work->posterior = posterior_new();
     if (work->posterior != NULL) {
@@ -134,7 +131,7 @@ static wt_status make_spectrum(master_work *work, wt_error *err)
     p->temperature = pool_numbers(m, n);
     p->mean_b = pool_numbers(m, n);
     p->slope = pool_numbers(m, n);
-    p->scratch = pool_numbers(m, n + 3 * work->s->n_linear);
+    p->scratch = pool_numbers(m, 5 * n + 3 * work->s->n_linear);
     if (m->failed)
         return wt_fail(err, WT_E_MEMORY, "no memory for %zu isotherms", n);
     work->vertical.mean = p->mean_b;
@@ -201,15 +198,13 @@ static wt_status place_all(master_work *work, wt_error *err)
 
 /* ---- the fits -------------------------------------------------------------------------------- */
 
+/* Noise factors by what is within the isotherms; correlation by the fit, so that what a spectrum
+ * misses a little counts as noise. */
 static wt_status find_noise(master_work *work, wt_error *err)
 {
-    wt_status status = WT_OK;
-    for (int round = 0; status == WT_OK && round < MOST_ROUNDS; round++) {
-        const double change = spectrum_kappa_update(work->s);
+    wt_status status = spectrum_noise_within(work->s, &work->rho_within, err);
+    if (status == WT_OK)
         status = spectrum_fit(work->s, SPECTRUM_NOISE, err);
-        if (change < least_kappa_change)
-            break;
-    }
     return status == WT_OK ? spectrum_choose_rho(work->s, err) : status;
 }
 
@@ -247,17 +242,13 @@ static wt_status test_superposition(master_work *work, wt_error *err)
     if (work->s->n_curves < 2)
         return WT_OK;
     spectrum *s = work->s;
-    const double rho = s->rho, noise[MODULI] = {s->noise[STORAGE], s->noise[LOSS]};
-    memcpy(work->kappa, s->kappa, s->n_curves * sizeof *s->kappa);
+    const double rho = s->rho;
     wt_status status = set_widths(work, WT_VERTICAL_FREE, 0.0, 0.0, err);
-    if (status == WT_OK)
-        status = spectrum_noise_within(s, err);
+    s->rho = work->rho_within;
     if (status == WT_OK)
         status = spectrum_fit(s, SPECTRUM_NOISE, err);
     if (status == WT_OK)
         status = superposition_test(s, &work->lack, err);
-    memcpy(s->kappa, work->kappa, s->n_curves * sizeof *s->kappa);
-    memcpy(s->noise, noise, sizeof noise);
     s->rho = rho;
     if (status == WT_OK) /* the columns as the cells have them */
         status =

@@ -89,164 +89,143 @@ double posterior_tie(const wt_posterior *p, size_t curve)
                : gsl_matrix_get(v, (size_t)a, (size_t)b) / gsl_matrix_get(v, (size_t)b, (size_t)b);
 }
 
-/* By the unknowns of the law alone. */
-static wt_interval of_law(const wt_posterior *p, const double *gradient, const double *mean)
-{
-    struct normal part[MOST_PARTS];
-    for (size_t i = 0; i < p->n_parts; i++) {
-        double variance = 0.0;
-        for (size_t u = 0; u < p->parts[i].law.n_unknowns; u++)
-            for (size_t v = 0; v < p->parts[i].law.n_unknowns; v++)
-                variance += gradient[i * LAW_MOST + u] * gradient[i * LAW_MOST + v] *
-                            p->parts[i].law.covariance[u][v];
-        part[i] = (struct normal){p->parts[i].weight, mean[i], sqrt(fmax(variance, 0.0))};
-    }
-    return interval_of(part, p->n_parts);
-}
-
-wt_interval posterior_law(const wt_posterior *p, double temperature)
-{
-    double gradient[MOST_PARTS * LAW_MOST], mean[MOST_PARTS];
-    for (size_t i = 0; i < p->n_parts; i++)
-        mean[i] = law_at(&p->shape, p->parts[i].law.unknown, temperature, gradient + i * LAW_MOST);
-    return of_law(p, gradient, mean);
-}
-
-wt_interval posterior_slope(const wt_posterior *p, double temperature)
-{
-    const double step = 0.01; /* K */
-    double gradient[MOST_PARTS * LAW_MOST], mean[MOST_PARTS], below_it[LAW_MOST];
-    for (size_t i = 0; i < p->n_parts; i++) {
-        const double *unknown = p->parts[i].law.unknown;
-        double *above = gradient + i * LAW_MOST;
-        mean[i] = (law_at(&p->shape, unknown, temperature + step, above) -
-                   law_at(&p->shape, unknown, temperature - step, below_it)) /
-                  (2.0 * step);
-        for (size_t u = 0; u < LAW_MOST; u++)
-            above[u] = (above[u] - below_it[u]) / (2.0 * step);
-    }
-    return of_law(p, gradient, mean);
-}
-
-wt_interval posterior_constant(const wt_posterior *p, size_t unknown)
-{
-    double gradient[MOST_PARTS * LAW_MOST] = {0}, mean[MOST_PARTS];
-    for (size_t i = 0; i < p->n_parts; i++) {
-        gradient[i * LAW_MOST + unknown] = 1.0;
-        mean[i] = p->parts[i].law.unknown[unknown];
-    }
-    return of_law(p, gradient, mean);
-}
-
-/* Mean and variance of gradient . (unknowns of the spectrum) + by_offset * offset [decade], where
- * `value` is its value at the unknowns of the cell. */
-struct combination {
-    const double *gradient; /* [n_linear]: terms only */
-    double by_offset;
+/* Something that hangs on the unknowns of spectrum and law: its value at those of a part before the
+ * law has pulled, and its derivatives. */
+struct quantity {
+    double value;
+    const double *by_unknown; /* [n_unknowns], or NULL: on the law alone */
+    double by_law[LAW_MOST];
 };
 
+/* Mean and variance of a quantity in a part; with: [n_curves] its covariance with log a. */
 static struct normal of_part(const wt_posterior *p, const posterior_part *part,
-                             const struct combination *g, double value)
+                             const struct quantity *x, double *with)
 {
-    const size_t m = p->frame.n_linear, n = p->frame.n_curves;
+    const size_t n = p->frame.n_unknowns, n_curves = p->frame.n_curves;
     const gsl_matrix *v = part->cell->covariance;
-    double variance = 0.0, mean = value;
-    double *with = p->scratch; /* covariance with log a */
-    for (size_t i = 0; i < m; i++) {
-        const double *c = gsl_matrix_const_ptr(v, i, 0);
+    double variance = 0.0, mean = x->value;
+    for (size_t i = 0; x->by_unknown != NULL && i < n; i++) {
+        const double *c = gsl_matrix_const_ptr(v, i, 0), g = x->by_unknown[i];
         double half = 0.0;
-        for (size_t j = 0; j < i; j++)
-            half += c[j] * g->gradient[j];
-        variance += g->gradient[i] * (2.0 * half + c[i] * g->gradient[i]);
+        for (size_t j = 0; g != 0.0 && j < i; j++)
+            half += c[j] * x->by_unknown[j];
+        variance += g * (2.0 * half + c[i] * g);
     }
-    for (size_t k = 0; k < n; k++) {
+    for (size_t k = 0; x->by_unknown != NULL && k < n_curves; k++) {
         size_t column;
         with[k] = 0.0;
         if (!posterior_column(p, k, &column))
             continue;
         const double *c = gsl_matrix_const_ptr(v, column, 0);
-        for (size_t j = 0; j < m; j++)
-            with[k] += c[j] * g->gradient[j] / M_LN10;
-    }
-    for (size_t k = 0; k < n; k++) {
-        const double *c = gsl_matrix_const_ptr(part->inner, k, 0);
-        mean += with[k] * gsl_vector_get(part->pull, k);
-        variance += 2.0 * with[k] * gsl_matrix_get(part->outer, k, 0) * g->by_offset;
         for (size_t j = 0; j < n; j++)
-            variance -= with[k] * c[j] * with[j];
+            with[k] += c[j] * x->by_unknown[j] / M_LN10;
     }
-    variance += g->by_offset * g->by_offset * part->law.covariance[0][0];
-    mean += g->by_offset * part->law.unknown[0];
+    for (size_t k = 0; x->by_unknown != NULL && k < n_curves; k++) {
+        const double *inner = gsl_matrix_const_ptr(part->inner, k, 0);
+        mean += with[k] * gsl_vector_get(part->pull, k);
+        for (size_t u = 0; u < part->law.n_unknowns; u++)
+            variance += 2.0 * with[k] * gsl_matrix_get(part->outer, k, u) * x->by_law[u];
+        for (size_t j = 0; j < n_curves; j++)
+            variance -= with[k] * inner[j] * with[j];
+    }
+    for (size_t u = 0; u < part->law.n_unknowns; u++)
+        for (size_t w = 0; w < part->law.n_unknowns; w++)
+            variance += x->by_law[u] * x->by_law[w] * part->law.covariance[u][w];
     return (struct normal){part->weight, mean, sqrt(fmax(variance, 0.0))};
 }
 
+wt_interval posterior_law(const wt_posterior *p, double temperature)
+{
+    struct normal part[MOST_PARTS];
+    for (size_t i = 0; i < p->n_parts; i++) {
+        struct quantity x = {0};
+        x.value = law_at(&p->shape, p->parts[i].law.unknown, temperature, x.by_law);
+        part[i] = of_part(p, &p->parts[i], &x, NULL);
+    }
+    return interval_of(part, p->n_parts);
+}
+
+wt_interval posterior_slope(const wt_posterior *p, double temperature)
+{
+    const double step = 0.01; /* K */
+    struct normal part[MOST_PARTS];
+    for (size_t i = 0; i < p->n_parts; i++) {
+        const double *unknown = p->parts[i].law.unknown;
+        struct quantity x = {0}, before = {0};
+        x.value = law_at(&p->shape, unknown, temperature + step, x.by_law);
+        before.value = law_at(&p->shape, unknown, temperature - step, before.by_law);
+        x.value = (x.value - before.value) / (2.0 * step);
+        for (size_t u = 0; u < LAW_MOST; u++)
+            x.by_law[u] = (x.by_law[u] - before.by_law[u]) / (2.0 * step);
+        part[i] = of_part(p, &p->parts[i], &x, NULL);
+    }
+    return interval_of(part, p->n_parts);
+}
+
+wt_interval posterior_constant(const wt_posterior *p, size_t unknown)
+{
+    struct normal part[MOST_PARTS];
+    for (size_t i = 0; i < p->n_parts; i++) {
+        struct quantity x = {.value = p->parts[i].law.unknown[unknown]};
+        x.by_law[unknown] = 1.0;
+        part[i] = of_part(p, &p->parts[i], &x, NULL);
+    }
+    return interval_of(part, p->n_parts);
+}
+
+/* scratch: with log a, terms, and by the unknowns for both moduli. */
 void posterior_moduli(const wt_posterior *p, double x, wt_interval modulus[MODULI])
 {
-    const size_t m = p->frame.n_linear;
+    const size_t n = p->frame.n_unknowns;
     struct normal part[MODULI][MOST_PARTS];
-    double *term = p->scratch + p->frame.n_curves, *const gradient[MODULI] = {term + m,
-                                                                              term + 2 * m};
+    double *term = p->scratch + p->frame.n_curves, *const by_storage = term + p->frame.n_linear;
+    double *const gradient[MODULI] = {by_storage, by_storage + n};
+    double value[MODULI], slope[MODULI], mean[LAW_MOST];
     const posterior_cell *last = NULL;
-    double value[MODULI], slope[MODULI];
-    double mean[LAW_MOST];
     posterior_mean_law(p, mean);
-    const double offset = mean[0] * M_LN10;
+    memset(by_storage, 0, 2 * n * sizeof *by_storage);
     for (size_t i = 0; i < p->n_parts; i++) {
         if (p->parts[i].cell != last) {
             last = p->parts[i].cell;
             spectrum_terms(&p->frame, last->value, term);
-            spectrum_at(&p->frame, term, x + offset, value, slope, gradient);
+            spectrum_at(&p->frame, term, x + mean[0] * M_LN10, value, slope, gradient);
         }
         for (int q = 0; q < MODULI; q++) {
-            const struct combination g = {gradient[q], slope[q] * M_LN10};
-            part[q][i] = of_part(p, &p->parts[i], &g, value[q] - slope[q] * offset);
+            const double off = p->parts[i].law.unknown[0] - mean[0];
+            const struct quantity e = {
+                value[q] + slope[q] * M_LN10 * off, gradient[q], {slope[q] * M_LN10}};
+            part[q][i] = of_part(p, &p->parts[i], &e, p->scratch);
         }
     }
     for (int q = 0; q < MODULI; q++)
         modulus[q] = interval_of(part[q], p->n_parts);
 }
 
-/* The shift of a curve to the reference temperature itself, which only the law knows. */
-wt_interval posterior_a_to_reference(const wt_posterior *p, size_t curve)
+/* One unknown of the spectrum times `scale`, less the offset of the law times `offset`. */
+static wt_interval of_unknown(const wt_posterior *p, long column, double scale, double offset)
 {
     struct normal part[MOST_PARTS];
-    const size_t n = p->frame.n_curves;
-    size_t at, column;
-    const bool moves = posterior_column(p, curve, &at);
+    double *by_unknown = p->scratch + p->frame.n_curves;
+    memset(by_unknown, 0, p->frame.n_unknowns * sizeof *by_unknown);
+    if (column >= 0)
+        by_unknown[column] = scale;
     for (size_t i = 0; i < p->n_parts; i++) {
-        const posterior_part *q = &p->parts[i];
-        const gsl_matrix *v = q->cell->covariance;
-        const double square = 1.0 / (M_LN10 * M_LN10);
-        double mean = -q->law.unknown[0], variance = q->law.covariance[0][0];
-        if (moves) {
-            mean += q->cell->value[at] / M_LN10;
-            variance += gsl_matrix_get(v, at, at) * square;
-        }
-        for (size_t k = 0; k < n; k++)
-            p->scratch[k] = moves && posterior_column(p, k, &column)
-                                ? gsl_matrix_get(v, at, column) * square
-                                : 0.0;
-        for (size_t k = 0; k < n; k++) {
-            mean += p->scratch[k] * gsl_vector_get(q->pull, k);
-            variance -= 2.0 * p->scratch[k] * gsl_matrix_get(q->outer, k, 0);
-            for (size_t j = 0; j < n; j++)
-                variance -= p->scratch[k] * gsl_matrix_get(q->inner, k, j) * p->scratch[j];
-        }
-        part[i] = (struct normal){q->weight, mean, sqrt(fmax(variance, 0.0))};
+        struct quantity x = {-offset * p->parts[i].law.unknown[0], by_unknown, {-offset}};
+        if (column >= 0)
+            x.value += scale * p->parts[i].cell->value[column];
+        part[i] = of_part(p, &p->parts[i], &x, p->scratch);
     }
     return interval_of(part, p->n_parts);
 }
 
+wt_interval posterior_a_to_reference(const wt_posterior *p, size_t curve)
+{
+    return of_unknown(p, p->frame.column_a[curve], 1.0 / M_LN10, 1.0);
+}
+
 wt_interval posterior_equilibrium(const wt_posterior *p)
 {
-    struct normal part[MOST_PARTS];
-    double *gradient = p->scratch + p->frame.n_curves;
-    for (size_t j = 0; j < p->frame.n_linear; j++)
-        gradient[j] = j == p->frame.n_terms ? 1.0 : 0.0;
-    const struct combination g = {gradient, 0.0};
-    for (size_t i = 0; i < p->n_parts; i++)
-        part[i] = of_part(p, &p->parts[i], &g, p->parts[i].cell->value[p->frame.n_terms]);
-    return interval_of(part, p->n_parts);
+    return of_unknown(p, (long)p->frame.n_terms, 1.0, 0.0);
 }
 
 /* ---- means and draws ------------------------------------------------------------------------- */

@@ -105,9 +105,8 @@ typedef enum spectrum_mode {
 wt_status spectrum_fit(spectrum *s, spectrum_mode mode, wt_error *err) WT_NODISCARD;
 
 /* ---- spectrum_noise.c */
-/* Of both moduli and the smoothness; both return the largest relative change. */
+/* Of both moduli and the smoothness; the largest relative change. */
 double spectrum_noise_update(spectrum *s);
-double spectrum_kappa_update(spectrum *s);
 void spectrum_criterion(spectrum *s);
 void spectrum_student_weights(spectrum *s);
 /* Leaves out single points far off and takes back those that are not; how many changed. */
@@ -120,8 +119,8 @@ size_t spectrum_outliers(spectrum *s);
 /* ---- spectrum_correlation.c */
 /* Correlation along the isotherms by the criterion. */
 wt_status spectrum_choose_rho(spectrum *s, wt_error *err) WT_NODISCARD;
-/* Correlation and noise factors by what is left of each isotherm about a parabola of its own: a
+/* Noise factors and correlation by what is left of each isotherm about a parabola of its own: a
  * spectrum that does not fit is no noise. */
-wt_status spectrum_noise_within(spectrum *s, wt_error *err) WT_NODISCARD;
+wt_status spectrum_noise_within(spectrum *s, double *rho, wt_error *err) WT_NODISCARD;
 
 #endif

@@ -86,10 +86,10 @@ static double within_all(const spectrum *s, double *v, double variance[MODULI])
     return criterion;
 }
 
-wt_status spectrum_noise_within(spectrum *s, wt_error *err)
+wt_status spectrum_noise_within(spectrum *s, double *rho, wt_error *err)
 {
     double *v = calloc(s->n * WIDTH, sizeof *v);
-    double best = HUGE_VAL, chosen = 0.0, variance[MODULI];
+    double best = HUGE_VAL, variance[MODULI];
     if (v == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for the noise");
     s->rho = 0.0;
@@ -101,11 +101,12 @@ wt_status spectrum_noise_within(spectrum *s, wt_error *err)
         const double criterion = within_all(s, v, variance);
         if (criterion < best) {
             best = criterion;
-            chosen = rhos[i];
+            *rho = rhos[i];
         }
     }
-    s->rho = chosen;
+    s->rho = *rho;
     (void)within_all(s, v, variance);
+    double mean = 0.0;
     for (size_t i = 0; i < s->n_curves; i++) {
         double squares = SPECTRUM_KAPPA_BELIEF, freedom = SPECTRUM_KAPPA_BELIEF;
         for (int q = 0; q < MODULI; q++) {
@@ -116,7 +117,11 @@ wt_status spectrum_noise_within(spectrum *s, wt_error *err)
             }
         }
         s->kappa[i] = sqrt(squares / freedom);
+        mean += log(s->kappa[i]) / (double)s->n_curves;
     }
+    for (size_t i = 0; i < s->n_curves; i++)
+        s->kappa[i] *= exp(-mean);
+    s->rho = 0.0;
     free(v);
     return WT_OK;
 }

@@ -78,60 +78,6 @@ void spectrum_criterion(spectrum *s)
             s->criterion += 2.0 * count_used(s, q, i) * log(s->noise[q] * s->kappa[i]);
 }
 
-/* Share of its variance that the fit takes from a row. */
-static double leverage(const spectrum *s, size_t curve, int q, size_t k)
-{
-    const size_t m = s->n_linear;
-    const double *row = s->row[q] + k * (m + 2);
-    const long column[2] = {s->column_a[curve], s->column_b[curve]};
-    double sum = 0.0;
-    for (size_t i = 0; i < m; i++) {
-        const double *c = gsl_matrix_const_ptr(s->covariance, i, 0);
-        double half = 0.0;
-        for (size_t j = 0; j < i; j++)
-            half += c[j] * row[j];
-        sum += row[i] * (2.0 * half + c[i] * row[i]);
-    }
-    for (size_t u = 0; u < 2; u++) {
-        if (column[u] < 0)
-            continue;
-        const double *c = gsl_matrix_const_ptr(s->covariance, (size_t)column[u], 0);
-        double by = 0.0;
-        for (size_t j = 0; j < m; j++)
-            by += c[j] * row[j];
-        sum += 2.0 * by * row[m + u];
-        for (size_t v = 0; v < 2; v++)
-            if (column[v] >= 0)
-                sum += c[column[v]] * row[m + u] * row[m + v];
-    }
-    return sum / (s->noise[q] * s->noise[q]);
-}
-
-double spectrum_kappa_update(spectrum *s)
-{
-    double mean = 0.0, change = 0.0;
-    for (size_t i = 0; i < s->n_curves; i++) {
-        double squares = SPECTRUM_KAPPA_BELIEF, left = SPECTRUM_KAPPA_BELIEF;
-        for (int q = 0; q < MODULI; q++)
-            for (size_t k = s->first[i]; k < s->first[i + 1]; k++) {
-                if (s->weight[q][k] == 0.0)
-                    continue;
-                const double r = s->residual[q][k] * s->kappa[i] / s->noise[q];
-                squares += r * r;
-                left += fmax(1.0 - leverage(s, i, q, k), 0.0);
-            }
-        const double next = sqrt(squares / left);
-        change = fmax(change, fabs(log(next / s->kappa[i])));
-        s->kappa[i] = next;
-        mean += log(next) / (double)s->n_curves;
-    }
-    for (size_t i = 0; i < s->n_curves; i++)
-        s->kappa[i] *= exp(-mean);
-    for (int q = 0; q < MODULI; q++)
-        s->noise[q] *= exp(mean);
-    return change;
-}
-
 /* ---- outliers -------------------------------------------------------------------------------- */
 
 void spectrum_student_weights(spectrum *s)
