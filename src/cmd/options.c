@@ -63,11 +63,11 @@ bool cmd_usage_error(cmd_session *s, const char *format, ...)
     va_start(args, format);
     char *text = NULL;
     const int written = vasprintf(&text, format, args);
+    va_end(args);
     cmd_say("weartrack %s: %s; see weartrack %s --help\n", s->name, written < 0 ? "" : text,
             s->name);
     if (written >= 0)
         free(text);
-    va_end(args);
     s->status = CMD_USAGE;
     return false;
 }

@@ -248,9 +248,10 @@ static wt_status fill_curve(const master_work *work, wt_master *m, wt_error *err
     m->log_loss = m->log_storage + s->n;
     m->fitted_loss = m->fitted_storage + s->n;
     for (size_t i = 0; i < m->n_shifts; i++) {
+        if (!m->shifts[i].determined)
+            continue; /* may not be among the curves of the spectrum */
         const double a = m->shifts[i].log_a.value - m->offset.value;
-        for (size_t k = s->first[work->curve[i]];
-             m->shifts[i].determined && k < s->first[work->curve[i] + 1]; k++)
+        for (size_t k = s->first[work->curve[i]]; k < s->first[work->curve[i] + 1]; k++)
             order[m->n++] = (struct order){s->x[k] / M_LN10 + a, k};
     }
     qsort(order, m->n, sizeof *order, by_x);
