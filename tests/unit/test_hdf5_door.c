@@ -3,6 +3,7 @@
 #include "near.h"
 
 #include "data/hdf5_door.h"
+#include "watched.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -12,14 +13,6 @@
 #include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-#if defined(__SANITIZE_ADDRESS__)
-#define WATCHED true
-#elif defined(__has_feature)
-#define WATCHED __has_feature(address_sanitizer)
-#else
-#define WATCHED false
-#endif
 
 static char path[] = "/tmp/weartrack-door-XXXXXX";
 static unsigned char *bytes;
