@@ -23,6 +23,7 @@ void *__libc_realloc(void *old, size_t size);
 
 static size_t count, failing; /* 0 = none */
 
+#if !WATCHED
 static bool fails(void)
 {
     if (++count != failing)
@@ -31,7 +32,6 @@ static bool fails(void)
     return true;
 }
 
-#if !WATCHED
 void *malloc(size_t size)
 {
     return fails() ? NULL : __libc_malloc(size);
