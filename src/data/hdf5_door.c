@@ -85,7 +85,7 @@ static hid_t open_image(size_t size)
 }
 
 /* Never more than there was. */
-static bool limit(int resource, size_t most)
+static bool limit(unsigned resource, size_t most)
 {
     struct rlimit both;
     if (getrlimit(resource, &both) != 0)
