@@ -48,7 +48,9 @@ static void draw_isotherm(const dma_scene *s, const rubber *r, random_source *ra
     rubber_state state = dma_state(s, r, to->true_temperature);
     state.factor = pow(10, -dma_vertical(s, to->temperature)) / geometry;
     draw_frequencies(s, random, to);
-    double before[2] = {random_normal(random), random_normal(random)};
+    double before[2];
+    before[0] = random_normal(random);
+    before[1] = random_normal(random);
     for (int k = 0; k < to->n; k++) {
         double *to_modulus[2] = {&to->storage[k], &to->loss[k]};
         state_moduli(&state, 2 * M_PI * to->frequency[k], &to->storage[k], &to->loss[k]);

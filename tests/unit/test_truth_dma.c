@@ -59,9 +59,9 @@ static int make(void **state)
         for (int k = 0; k < POINTS; k++) {
             double omega = pow(10, -1 + 3.0 * k / (POINTS - 1)), storage, loss;
             dma_moduli(&dma_rubber, omega * pow(10, true_log_a(t)), &storage, &loss);
-            fprintf(out, "%.17g\t%.17g\t%.17g\t%.17g\n", omega,
-                    storage * t / REFERENCE * exp(NOISE * truth_normal(&seed)),
-                    loss * t / REFERENCE * exp(NOISE * truth_normal(&seed)), t);
+            storage *= t / REFERENCE * exp(NOISE * truth_normal(&seed));
+            loss *= t / REFERENCE * exp(NOISE * truth_normal(&seed));
+            fprintf(out, "%.17g\t%.17g\t%.17g\t%.17g\n", omega, storage, loss, t);
         }
         fputs(i + 1 < ISOTHERMS ? "\n" : "##\n", out);
     }
@@ -143,7 +143,9 @@ static void test_law(void **state)
     assert_near(key_estimate(t, "reference_temperature").value, REFERENCE, 0);
     assert_string_equal(wt_table_key(t, "vertical"), "tied");
     assert_string_equal(wt_table_key(t, "deformation"), "tension");
-    assert_int_equal(strncmp(wt_table_key(t, "superposition"), "holds", 5), 0);
+    /* A lack of fit is found by chance in one draw of a hundred: then "cannot say". */
+    assert_int_not_equal(strncmp(wt_table_key(t, "superposition"), "fails", 5), 0);
+    assert_true(atof(wt_table_key(t, "misfit_high")) < 0.002);
 }
 
 /* The loss is far from the storage modulus, so that neither passes for the other. */
