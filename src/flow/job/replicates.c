@@ -34,10 +34,13 @@ replicates replicates_of(const wt_sliding *sliding, const wt_job *work, const ch
 {
     const wt_rubber *rubber = sliding->rubber;
     replicates r = {.work = work, .what = what};
-    if (rubber->has_master)
+    if (rubber->has_master) {
         add_drawn(&r, rubber->law.kind == WT_LAW_NONE ? "material" : "material with its shift law");
-    else if (rubber->c1_error > 0 || rubber->c2_error > 0)
-        add_drawn(&r, "shift law");
+    } else {
+        add_words(r.lacks, sizeof r.lacks, "material");
+        if (rubber->c1_error > 0 || rubber->c2_error > 0)
+            add_drawn(&r, "shift law");
+    }
     replicates_add(&r, sliding->pressure.standard_error, "pressure");
     replicates_add(&r, sliding->temperature.standard_error, "temperature");
     replicates_add(&r, sliding->surface->c0.standard_error, "roughness");
