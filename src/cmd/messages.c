@@ -4,19 +4,9 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/utf8.h"
 #include "cmd/cmd.h"
 #include "data/tables/tables.h"
-
-/* Bytes of the UTF-8 character at `text`, which ends in a zero byte; 0 if there is none. */
-static size_t character(const char *text)
-{
-    const unsigned char c = (unsigned char)text[0];
-    const size_t n = c < 0x80 ? 1 : c < 0xc2 ? 0 : c < 0xe0 ? 2 : c < 0xf0 ? 3 : c < 0xf5 ? 4 : 0;
-    for (size_t i = 1; i < n; i++)
-        if (((unsigned char)text[i] & 0xc0) != 0x80)
-            return 0;
-    return n;
-}
 
 /* A character that a terminal might obey. */
 static bool is_control(const char *text)
@@ -38,7 +28,7 @@ void cmd_say(const char *format, ...)
     const bool line = *format != '\0' && format[strlen(format) - 1] == '\n';
     length -= line;
     for (size_t i = 0, n; i < length; i += n) {
-        n = character(text + i);
+        n = utf8_character(text + i, length - i);
         if (n > 0 && !is_control(text + i)) {
             fwrite(text + i, 1, n, stderr);
         } else {

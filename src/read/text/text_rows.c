@@ -2,7 +2,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "read/text/text_scan.h"
+#include "read/text/text_rows.h"
 
 #include "base/array.h"
 

@@ -1,9 +1,9 @@
-/* The walk over a text, shared by the files that read header lines, names and rows.
+/* Where the walk over a text stands, for the files that read header lines, names and rows.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#ifndef WT_READ_TEXT_SCAN_H
-#define WT_READ_TEXT_SCAN_H
+#ifndef WT_READ_TEXT_SCANNER_H
+#define WT_READ_TEXT_SCANNER_H
 
 #include "read/text/text.h"
 
@@ -44,35 +44,9 @@ typedef struct text_scanner {
     bool has_group;
 } text_scanner;
 
-typedef enum row_quality {
-    ROW_GOOD,
-    ROW_BROKEN, /* some cells are numbers, one is not */
-    ROW_TEXT    /* no number where numbers belong */
-} row_quality;
-
 static inline void scan_no_memory(text_scanner *s)
 {
     s->status = wt_fail(s->err, WT_E_MEMORY, "no memory for the tables of the file");
 }
-
-/* ---- text_header.c ------------------------------------------------------------------------ */
-
-/* Header values on the line. */
-void scan_fields(text_scanner *s);
-/* Is the line a marker of a step, an end or a segment? */
-bool scan_marks(text_scanner *s);
-/* A step that never showed a names row is remembered by its title. */
-void scan_finish_step(text_scanner *s);
-
-/* ---- text_rows.c -------------------------------------------------------------------------- */
-
-/* Splits the line into s->row and makes room for it in the table; false on failure. */
-bool scan_split_row(text_scanner *s);
-/* Reads the cells of s->row into the next row of the table; *bad is the first cell at fault. */
-row_quality scan_read_row(text_scanner *s, size_t *bad);
-/* Keeps the row that was read. */
-void scan_add_row(text_scanner *s);
-/* Fails for a row that cannot be read. */
-void scan_bad_row(text_scanner *s, size_t bad);
 
 #endif
