@@ -229,15 +229,30 @@ static void test_spring_constants(void **state)
     wt_indent_tables_clear(&tables);
 }
 
-static void convert(const char *path, unsigned kind)
+static void convert_with(const char *path, unsigned kind, wt_table_sink sink)
 {
     wt_convert_job job = wt_convert_job_defaults();
     wt_job work = wt_job_defaults();
     wt_error err = WT_ERROR_INIT;
     work.formats = formats;
     job.kind = kind;
-    if (wt_convert_file(&job, path, &work, see_and_free, NULL, &err) != WT_OK)
+    if (wt_convert_file(&job, path, &work, sink, NULL, &err) != WT_OK)
         fail_msg("%s: %s", path, err.message);
+}
+
+static void convert(const char *path, unsigned kind)
+{
+    convert_with(path, kind, see_and_free);
+}
+
+/* A column has no width to be divided by. */
+static wt_status one_column(void *user, wt_table *table, wt_error *err)
+{
+    const long x = wt_table_find(table, "x");
+    assert_true(x >= 0);
+    for (size_t row = 0; row < wt_table_n_rows(table); row++)
+        assert_true(isfinite(wt_table_number(table, row, (size_t)x)));
+    return see_and_free(user, table, err);
 }
 
 static void test_conversions(void **state)
@@ -246,23 +261,27 @@ static void test_conversions(void **state)
     static const char path[] = "test_tables_put.nid";
     const double values[4] = {0, 1, 0, 1};
     const nid_writer_channel channel = {0, "Z-Axis", "m", 0, 2, 16, values};
-    const nid_writer_group group = {.name = "Scan forward",
-                                    .points = 2,
-                                    .lines = 2,
-                                    .x_name = "X",
-                                    .x_unit = "m",
-                                    .y_name = "Y",
-                                    .y_unit = "m",
-                                    .x_range = 1,
-                                    .y_range = 1,
-                                    .n_channels = 1,
-                                    .channels = &channel};
+    nid_writer_group group = {.name = "Scan forward",
+                              .points = 2,
+                              .lines = 2,
+                              .x_name = "X",
+                              .x_unit = "m",
+                              .y_name = "Y",
+                              .y_unit = "m",
+                              .x_range = 1,
+                              .y_range = 1,
+                              .n_channels = 1,
+                              .channels = &channel};
     nid_writer_file file = nid_writer_defaults();
     file.path = path;
     file.groups = &group;
     file.n_groups = 1;
     assert_int_equal(nid_write(&file), 0);
     convert(path, WT_KIND_IMAGE);
+    group.points = 1;
+    group.lines = 4;
+    assert_int_equal(nid_write(&file), 0);
+    convert_with(path, WT_KIND_IMAGE, one_column);
     (void)remove(path);
     convert(CASE "bulk-1.jpk-force-map", WT_KIND_FORCE);
     convert(CASE "dma.txt", WT_KIND_SWEEP);
