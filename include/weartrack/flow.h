@@ -140,6 +140,13 @@ typedef struct wt_master_job {
 WT_API wt_master_job wt_master_job_defaults(void);
 WT_API const wt_params *wt_master_job_params(void);
 
+/* One draw of all that is not known of a rubber together. */
+typedef struct wt_rubber_draw {
+    wt_prony prony; /* at the reference temperature */
+    wt_shift_law law;
+    double *log_b; /* [n_vertical] */
+} wt_rubber_draw;
+
 /* The rubber as the later stages know it: moduli at one reference temperature and how to go to
  * another one. */
 typedef struct wt_rubber {
@@ -150,13 +157,13 @@ typedef struct wt_rubber {
     double temperature_min, temperature_max;  /* of the isotherms [K]; NaN = not known */
     size_t n_vertical;                        /* log_b against temperature; 0 = no vertical shift */
     double *vertical_temperature, *vertical_log_b;
-    bool has_master; /* measured: replicates are drawn from what the isotherms say */
-    wt_master master;
+    size_t n_draws; /* of what the isotherms say, which the replicates go through; 0 = unknown */
+    wt_rubber_draw *draws;
 } wt_rubber;
 WT_API void wt_rubber_clear(wt_rubber *rubber);
 
 typedef struct wt_master_tables {
-    wt_table *shift_factors, *master_curve, *prony;
+    wt_table *shift_factors, *master_curve, *prony, *material_draws, *series_draws;
     size_t n_isotherms;
 } wt_master_tables;
 WT_API void wt_master_tables_clear(wt_master_tables *tables);
@@ -166,11 +173,15 @@ WT_API void wt_master_tables_clear(wt_master_tables *tables);
 WT_API wt_status wt_master_make(const wt_master_job *job, const wt_job *work,
                                 wt_master_tables *tables, wt_rubber *rubber,
                                 wt_error *err) WT_NODISCARD;
-/* From the tables that wt_master_make gave (as read from a stream); shift_factors may be NULL (no
- * other temperature then). Without the measured points there are no replicates. */
-WT_API wt_status wt_rubber_from_tables(const wt_table *prony, const wt_table *shift_factors,
-                                       double poisson_ratio, wt_rubber *rubber,
-                                       wt_error *err) WT_NODISCARD;
+/* The tables that wt_master_make gave, as read from a file; borrowed. */
+typedef struct wt_rubber_tables {
+    const wt_table *prony;
+    const wt_table *shift_factors;                 /* NULL: no other temperature */
+    const wt_table *material_draws, *series_draws; /* NULL: the errors are not known */
+    uint64_t reserved[4];
+} wt_rubber_tables;
+WT_API wt_status wt_rubber_from_tables(const wt_rubber_tables *tables, double poisson_ratio,
+                                       wt_rubber *rubber, wt_error *err) WT_NODISCARD;
 #define WT_NO_REPLICATE                                                                            \
     SIZE_MAX /* in the place of the number of a replicate: the values as fitted */
 /* The material at a temperature [K] (NaN = reference): relaxation times times a_T, moduli divided
@@ -325,8 +336,8 @@ typedef struct wt_run_options {
     const char *formats; /* folder of further descriptions, NULL = none */
     double tolerance;    /* relative numerical error asked for; default 1e-10 */
     unsigned threads;    /* 0 = one per processor */
-    uint64_t seed;       /* of the resampling */
-    size_t replicates;   /* of the resampling; default 64 */
+    uint64_t seed;       /* of the draws */
+    size_t replicates;   /* of the draws; default 64 */
     wt_progress progress;
     bool no_timing; /* leave the times of "cost" NaN: two runs then give the same result */
     uint64_t reserved[8];

@@ -11,8 +11,9 @@ int cmd_master(int argc, char **argv)
                 "shifts, the law of these and the errors of everything; says whether superposition "
                 "holds. Folders and patterns are allowed.",
         .common = "output formats files-from provenance",
-        .notes = "The tables prony, shift_factors and master_curve follow one another; weartrack "
-                 "friction and weartrack compare read them as they are.",
+        .notes = "The tables prony, shift_factors and master_curve follow one another, then draws "
+                 "of all that is not known of the material, material_draws and series_draws; "
+                 "weartrack friction, layer and compare read them as they are.",
         .n_files = CMD_SOME};
     wt_master_job job = wt_master_job_defaults();
     wt_file_set set = {.read = wt_read_defaults()};
@@ -30,7 +31,8 @@ int cmd_master(int argc, char **argv)
     job.sets = &set;
     job.n_sets = 1;
     const wt_status made = wt_master_make(&job, &s.work, &tables, NULL, &s.err);
-    wt_table **const made_tables[] = {&tables.prony, &tables.shift_factors, &tables.master_curve};
+    wt_table **const made_tables[] = {&tables.prony, &tables.shift_factors, &tables.master_curve,
+                                      &tables.material_draws, &tables.series_draws};
     cmd_finish(&s, made, made_tables, COUNT_OF(made_tables));
 done:
     wt_master_tables_clear(&tables);

@@ -9,8 +9,7 @@ static const wt_param contact_rows[] = {
     {PARAM_TEXT_OF("material", cmd_contact, material), .value = "FILE", .letter = 'm', .unset = "",
      .help = "output of weartrack master (text stream or .h5); - is standard input"},
     {PARAM_TEXTS_OF("dma", cmd_contact, dma_files, n_dma), .value = "FILE", .unset = "",
-     .help = "DMA file, folder or pattern instead of --material; repeatable. The standard errors "
-             "then include those of the shift and of the series"},
+     .help = "DMA file, folder or pattern instead of --material; repeatable"},
     {PARAM_TEXT_OF("roughness", cmd_contact, roughness), .value = "R", .flags = PARAM_REQUIRED,
      .help = "counter surface: self-affine:q0=..rad/m,qr=..rad/m,q1=..rad/m,hurst=..,c0=..m^4 or a "
              "spectrum file"},

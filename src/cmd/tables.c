@@ -99,11 +99,14 @@ wt_status cmd_table_read(const char *path, const char *prefix, const char *made_
 wt_status cmd_rubber_read(const char *path, double poisson_ratio, wt_result **tables,
                           wt_rubber *rubber, wt_error *err)
 {
-    const wt_table *prony = NULL;
-    wt_status status = cmd_table_read(path, "prony", "master", tables, &prony, err);
-    if (status == WT_OK)
-        status = wt_rubber_from_tables(prony, wt_result_find(*tables, "shift_factors"),
-                                       poisson_ratio, rubber, err);
+    wt_rubber_tables of = {.prony = NULL};
+    wt_status status = cmd_table_read(path, "prony", "master", tables, &of.prony, err);
+    if (status == WT_OK) {
+        of.shift_factors = wt_result_find(*tables, "shift_factors");
+        of.material_draws = wt_result_find(*tables, "material_draws");
+        of.series_draws = wt_result_find(*tables, "series_draws");
+        status = wt_rubber_from_tables(&of, poisson_ratio, rubber, err);
+    }
     wt_error_file(status != WT_OK ? err : NULL, path);
     return status;
 }

@@ -309,8 +309,8 @@ static void test_rubber_at(void **state)
     assert_int_equal(n, 16);
 
     /* the same from the tables */
-    assert_int_equal(
-        wt_rubber_from_tables(tables.prony, tables.shift_factors, 0.5, &read_back, NULL), WT_OK);
+    const wt_rubber_tables stored = {.prony = tables.prony, .shift_factors = tables.shift_factors};
+    assert_int_equal(wt_rubber_from_tables(&stored, 0.5, &read_back, NULL), WT_OK);
     assert_int_equal(wt_rubber_at(&read_back, 333.15, 1, WT_NO_REPLICATE, &again, NULL, NULL),
                      WT_OK);
     const double omega = 2.385;

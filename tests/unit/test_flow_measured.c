@@ -60,6 +60,8 @@ static void test_measured(void **state)
                                          "shift_factors",
                                          "master_curve",
                                          "prony",
+                                         "material_draws",
+                                         "series_draws",
                                          "roughness",
                                          "friction",
                                          "contact_area",

@@ -203,6 +203,7 @@ static void test_joined_law(void **state)
     assert_string_equal(wt_table_key(tables.shift_factors, "law"), "joined");
     see(tables.shift_factors);
     see(tables.prony);
+    see(tables.material_draws);
     wt_master_tables_clear(&tables);
     unlink(path);
 }

@@ -125,4 +125,26 @@
       LABEL("Noise of the storage modulus, relative"), OPTIONAL)                                   \
     X(PRONY_KEY_RMS_LOSS, "rms_loss", PLAIN, LABEL("Noise of the loss modulus, relative"), OPTIONAL)
 
+#define MATERIAL_DRAWS_COLUMNS(X)                                                                  \
+    X(MATERIAL_DRAWS_DRAW, "draw", "number of the draw, from 1", NUMBER)                           \
+    X(MATERIAL_DRAWS_TEMPERATURE, "temperature", "temperature of an isotherm", SI(TEMPERATURE),    \
+      SPARSE)                                                                                      \
+    X(MATERIAL_DRAWS_LOG_B, "log_b_material", "log10 b of the material at this temperature",       \
+      NUMBER, SPARSE)                                                                              \
+    X(MATERIAL_DRAWS_EQUILIBRIUM_MODULUS, "equilibrium_modulus", "equilibrium modulus",            \
+      SI(MODULUS), SPARSE)                                                                         \
+    X(MATERIAL_DRAWS_WLF_C1, "wlf_c1", "constant C1 of the WLF law", NUMBER, SPARSE)               \
+    X(MATERIAL_DRAWS_WLF_C2, "wlf_c2", "constant C2 of the WLF law", SI(TEMPERATURE_DIFFERENCE),   \
+      SPARSE)                                                                                      \
+    X(MATERIAL_DRAWS_ACTIVATION_ENERGY, "activation_energy", "activation energy", UNIT("J/mol"),   \
+      SPARSE)
+#define MATERIAL_DRAWS_KEYS(X)                                                                     \
+    X(MATERIAL_DRAWS_KEY_REFERENCE_TEMPERATURE, "reference_temperature", SI(TEMPERATURE))
+
+#define SERIES_DRAWS_COLUMNS(X)                                                                    \
+    X(SERIES_DRAWS_DRAW, "draw", "number of the draw, from 1", NUMBER)                             \
+    X(SERIES_DRAWS_RELAXATION_TIME, "relaxation_time", "relaxation time", SI(TIME))                \
+    X(SERIES_DRAWS_MODULUS, "modulus", "modulus of the term", SI(MODULUS))
+#define SERIES_DRAWS_KEYS(X)
+
 #endif

@@ -53,6 +53,9 @@
     X(shift_factors, SHIFT_FACTORS, "shift_factors", "Shift factors", "master")                    \
     X(master_curve, MASTER_CURVE, "master_curve", "Master curve", "master")                        \
     X(prony, PRONY, "prony", "Prony series", "master")                                             \
+    X(material_draws, MATERIAL_DRAWS, "material_draws", "Draws of the material, law and vertical", \
+      "master")                                                                                    \
+    X(series_draws, SERIES_DRAWS, "series_draws", "Draws of the Prony series", "master")           \
     X(roughness, ROUGHNESS, "roughness", "Power spectrum of the counter surface", "run")           \
     X(friction, FRICTION, "friction", "Friction against velocity", "friction")                     \
     X(contact_area, CONTACT_AREA, "contact_area", "Contact area against magnification",            \

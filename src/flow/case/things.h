@@ -33,6 +33,8 @@
     X(SHIFT_FACTORS, "shift_factors", &shift_factors_schema, "")                                   \
     X(MASTER_CURVE, "master_curve", &master_curve_schema, "")                                      \
     X(PRONY, "prony", &prony_schema, "")                                                           \
+    X(MATERIAL_DRAWS, "material_draws", &material_draws_schema, "")                                \
+    X(SERIES_DRAWS, "series_draws", &series_draws_schema, "")                                      \
     X(ROUGHNESS, "roughness", &roughness_schema, "")                                               \
     X(LAYER, "layer", &layer_schema, "")                                                           \
     X(ENERGY_DENSITY, "energy_density", &energy_density_schema, "")                                \

@@ -10,9 +10,9 @@
 #define JOB_ROWS(type)                                                                             \
     FRICTION_TOLERANCE(type),                                                                      \
         {PARAM("replicates", type, replicates, WT_Q_NONE, FROM_TO(0, 100000)), .value = "N",       \
-         .flags = PARAM_NO_CASE, .help = "refits behind the standard errors; 0 for none"},         \
+         .flags = PARAM_NO_CASE, .help = "draws behind the standard errors; 0 for none"},          \
         {PARAM("seed", type, seed, WT_Q_NONE, AT_LEAST(0)), .value = "N", .flags = PARAM_NO_CASE,  \
-         .help = "seed of the resampling behind the standard errors"},                             \
+         .help = "seed of the draws behind the standard errors"},                                  \
         FRICTION_THREADS(type)
 
 /* One file of the sets of a job. */

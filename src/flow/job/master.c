@@ -2,7 +2,6 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/job/inputs.h"
 
-#include "data/prony.h"
 #include "data/tables/tables.h"
 #include "model/material.h"
 
@@ -25,6 +24,8 @@ void wt_master_tables_clear(wt_master_tables *tables)
     wt_table_free(tables->shift_factors);
     wt_table_free(tables->master_curve);
     wt_table_free(tables->prony);
+    wt_table_free(tables->material_draws);
+    wt_table_free(tables->series_draws);
     *tables = (wt_master_tables){0};
 }
 
@@ -211,6 +212,86 @@ static wt_status prony_table(const wt_master *m, wt_table **table, wt_error *err
     return table_end(&t, table);
 }
 
+/* ---- draws ----------------------------------------------------------------------------------- */
+
+/* So many that a standard error from them is known to 5 %. Their seed is not that of a job, so that
+ * what is stored is what a job has that goes from the isotherms on. */
+enum { DRAWS = 200, DRAWS_SEED = 1 };
+
+/* To seven digits, far below the scatter of the draws: short where it is written. */
+static double rounded(double x)
+{
+    if (!(fabs(x) > 0) || !isfinite(x))
+        return x;
+    const double scale = pow(10, 6 - floor(log10(fabs(x))));
+    return scale > 1 ? round(x * scale) / scale : round(x * scale) * (1 / scale);
+}
+
+/* A row for each isotherm with a vertical shift, or one row; the first has the rest of the draw. */
+static void put_material(table_writer *t, const wt_master *m, size_t draw, const wt_prony *prony,
+                         const wt_shift_law *law, const double *log_b)
+{
+    const bool vertical = m->vertical != WT_VERTICAL_NONE && m->n_shifts > 1;
+    bool first = true;
+    table_block(t);
+    for (size_t i = 0; vertical ? i < m->n_shifts : first; i++) {
+        if (vertical && !m->shifts[i].determined)
+            continue;
+        table_row(t);
+        material_draws_put(t, MATERIAL_DRAWS_DRAW, (double)draw + 1);
+        if (first) {
+            material_draws_put(t, MATERIAL_DRAWS_EQUILIBRIUM_MODULUS,
+                               rounded(prony->equilibrium_modulus));
+            material_draws_put(t, MATERIAL_DRAWS_WLF_C1, rounded(law->wlf.c1));
+            material_draws_put(t, MATERIAL_DRAWS_WLF_C2, rounded(law->wlf.c2));
+            material_draws_put(t, MATERIAL_DRAWS_ACTIVATION_ENERGY,
+                               rounded(law->activation_energy));
+        }
+        if (vertical) {
+            material_draws_put(t, MATERIAL_DRAWS_TEMPERATURE, m->shifts[i].temperature);
+            material_draws_put(t, MATERIAL_DRAWS_LOG_B, rounded(log_b[i]));
+        }
+        first = false;
+    }
+}
+
+static void put_series(table_writer *t, size_t draw, const wt_prony *prony)
+{
+    table_block(t);
+    for (size_t k = 0; k < prony->n; k++) {
+        table_row(t);
+        series_draws_put(t, SERIES_DRAWS_DRAW, (double)draw + 1);
+        series_draws_put(t, SERIES_DRAWS_RELAXATION_TIME, rounded(prony->relaxation_time[k]));
+        series_draws_put(t, SERIES_DRAWS_MODULUS, rounded(prony->modulus[k]));
+    }
+}
+
+static wt_status draw_tables(const wt_master *m, wt_master_tables *tables, wt_error *err)
+{
+    double *log_b = malloc((m->n_shifts + 1) * sizeof *log_b);
+    if (log_b == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    table_writer material = table_begin(&material_draws_schema, err),
+                 series = table_begin(&series_draws_schema, err);
+    wt_status status = WT_OK;
+    for (size_t i = 0; status == WT_OK && i < DRAWS; i++) {
+        wt_prony prony = {0};
+        wt_shift_law law;
+        status = wt_master_draw(m, DRAWS_SEED, i, &prony, &law, log_b, err);
+        if (status == WT_OK) {
+            put_material(&material, m, i, &prony, &law, log_b);
+            put_series(&series, i, &prony);
+        }
+        wt_prony_clear(&prony);
+    }
+    material_draws_set_value(&material, MATERIAL_DRAWS_KEY_REFERENCE_TEMPERATURE,
+                             m->reference_temperature, 0, 0);
+    const wt_status first = table_end(&material, &tables->material_draws),
+                    second = table_end(&series, &tables->series_draws);
+    free(log_b);
+    return status != WT_OK ? status : first != WT_OK ? first : second;
+}
+
 /* ---- the job --------------------------------------------------------------------------------- */
 
 static wt_status fit(const wt_master_job *job, const wt_job *work, const wt_sweep *sweep,
@@ -235,47 +316,9 @@ static wt_status make_tables(const wt_master *m, wt_master_tables *t, wt_error *
     wt_status status = shift_table(m, &t->shift_factors, err);
     if (status == WT_OK)
         status = master_table(m, &t->master_curve, err);
-    return status == WT_OK ? prony_table(m, &t->prony, err) : status;
-}
-
-/* The vertical shift of the material at the temperatures of the isotherms. */
-static wt_status keep_vertical(const wt_master *m, wt_rubber *rubber, wt_error *err)
-{
-    if (m->vertical == WT_VERTICAL_NONE || m->n_shifts < 2)
-        return WT_OK;
-    rubber->vertical_temperature = malloc(m->n_shifts * sizeof(double));
-    rubber->vertical_log_b = malloc(m->n_shifts * sizeof(double));
-    if (rubber->vertical_temperature == NULL || rubber->vertical_log_b == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    for (size_t i = 0; i < m->n_shifts; i++) {
-        if (!m->shifts[i].determined)
-            continue;
-        rubber->vertical_temperature[rubber->n_vertical] = m->shifts[i].temperature;
-        rubber->vertical_log_b[rubber->n_vertical++] = m->shifts[i].log_b_material;
-    }
-    return WT_OK;
-}
-
-/* Takes what was fitted over. */
-static wt_status make_rubber(const wt_master_job *job, wt_master *m, wt_rubber *rubber,
-                             wt_error *err)
-{
-    wt_rubber r = {.poisson_ratio = job->poisson_ratio,
-                   .law = m->law,
-                   .temperature_min = m->shifts[0].temperature,
-                   .temperature_max = m->shifts[m->n_shifts - 1].temperature};
-    wt_status status = prony_copy(&m->prony, &r.prony, err);
     if (status == WT_OK)
-        status = keep_vertical(m, &r, err);
-    if (status != WT_OK) {
-        wt_rubber_clear(&r);
-        return status;
-    }
-    r.master = *m;
-    r.has_master = true;
-    *m = (wt_master){0};
-    *rubber = r;
-    return WT_OK;
+        status = prony_table(m, &t->prony, err);
+    return status == WT_OK ? draw_tables(m, t, err) : status;
 }
 
 wt_status wt_master_make(const wt_master_job *job, const wt_job *work, wt_master_tables *tables,
@@ -293,10 +336,15 @@ wt_status wt_master_make(const wt_master_job *job, const wt_job *work, wt_master
         status = read_sweeps(job, work, &sweep, err);
     if (status == WT_OK)
         status = fit(job, work, &sweep, &master, err);
-    if (status == WT_OK && tables != NULL)
+    if (status == WT_OK)
         status = make_tables(&master, &t, err);
-    if (status == WT_OK && rubber != NULL)
-        status = make_rubber(job, &master, rubber, err);
+    if (status == WT_OK && rubber != NULL) {
+        const wt_rubber_tables of = {.prony = t.prony,
+                                     .shift_factors = t.shift_factors,
+                                     .material_draws = t.material_draws,
+                                     .series_draws = t.series_draws};
+        status = wt_rubber_from_tables(&of, job->poisson_ratio, rubber, err);
+    }
     if (status == WT_OK && tables != NULL) {
         *tables = t;
         t = (wt_master_tables){0};

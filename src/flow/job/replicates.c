@@ -34,7 +34,7 @@ replicates replicates_of(const wt_sliding *sliding, const wt_job *work, const ch
 {
     const wt_rubber *rubber = sliding->rubber;
     replicates r = {.work = work, .what = what};
-    if (rubber->has_master) {
+    if (rubber->n_draws > 0) {
         add_drawn(&r, rubber->law.kind == WT_LAW_NONE ? "material" : "material with its shift law");
     } else {
         add_words(r.lacks, sizeof r.lacks, "material");

@@ -24,7 +24,10 @@
     X(TRACK_ALONE, track_alone, "Modulus of the wear track", B(INDENTATION_TRACK),                 \
       B(MODULUS_GROUPS) | B(MODULUS_RATE), flow_step_groups)                                       \
     X(MASTER_CURVE, master_curve, "Shift factors, WLF law, master curve, Prony series",            \
-      B(DMA_FILES), B(SHIFT_FACTORS) | B(MASTER_CURVE) | B(PRONY) | B(RUBBER), flow_step_master)   \
+      B(DMA_FILES),                                                                                \
+      B(SHIFT_FACTORS) | B(MASTER_CURVE) | B(PRONY) | B(MATERIAL_DRAWS) | B(SERIES_DRAWS) |        \
+          B(RUBBER),                                                                               \
+      flow_step_master)                                                                            \
     X(GIVEN_MATERIAL, given_material, "Material as given in the case", B(GIVEN_MATERIAL),          \
       B(RUBBER), flow_step_given_material)                                                         \
     X(DMA_COMPARISON, dma_comparison, "Indentation of bulk and wear track against DMA",            \

@@ -209,6 +209,8 @@ wt_status flow_step_master(flow_run *run, flow_cost *cost, wt_error *err)
     keep(run, FLOW_SHIFT_FACTORS, &tables.shift_factors);
     keep(run, FLOW_MASTER_CURVE, &tables.master_curve);
     keep(run, FLOW_PRONY, &tables.prony);
+    keep(run, FLOW_MATERIAL_DRAWS, &tables.material_draws);
+    keep(run, FLOW_SERIES_DRAWS, &tables.series_draws);
     return status;
 }
 
