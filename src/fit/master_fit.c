@@ -18,6 +18,9 @@ static const double departure_cells[] = {0.02, 0.04, 0.12};
 static const double geometry_believed = 0.01, departure_believed = 0.05;
 enum { WIDTHS = 3, MOST_ROUNDS = 4 };
 
+/* Cells with less of the logarithm of the largest weight count for nothing, whatever the law says. */
+static const double hopeless = 20.0;
+
 /* An isotherm this close to the reference temperature is the reference [K]: what thermometers and
  * chambers agree to. */
 static const double same_temperature = 0.1;
@@ -152,7 +155,7 @@ static wt_status fit_robust(master_work *work, wt_error *err)
         const size_t changed = spectrum_outliers(work->s);
         if (round > 0 && changed == 0)
             break;
-        status = spectrum_fit(work->s, SPECTRUM_NOISE, err);
+        status = spectrum_fit(work->s, SPECTRUM_ROUGH, err);
     }
     return status;
 }
@@ -204,7 +207,7 @@ static wt_status find_noise(master_work *work, wt_error *err)
 {
     wt_status status = spectrum_noise_within(work->s, &work->rho_within, err);
     if (status == WT_OK)
-        status = spectrum_fit(work->s, SPECTRUM_NOISE, err);
+        status = spectrum_fit(work->s, SPECTRUM_ROUGH, err);
     return status == WT_OK ? spectrum_choose_rho(work->s, err) : status;
 }
 
@@ -213,26 +216,54 @@ static double log_prior_of(double width, double believed, double cell)
     return log(cell / (1.0 + width * width / (believed * believed)));
 }
 
+/* A cell of the grid of widths. */
+static wt_status fit_cell(master_work *work, int g, int d, wt_error *err)
+{
+    wt_status status =
+        set_widths(work, WT_VERTICAL_TIED, geometry_widths[g], departure_widths[d], err);
+    if (status == WT_OK)
+        status = spectrum_fit(work->s, SPECTRUM_NOISE, err);
+    return status == WT_OK
+               ? posterior_keep(
+                     work->posterior, &work->vertical,
+                     log_prior_of(geometry_widths[g], geometry_believed, geometry_cells[g]) +
+                         log_prior_of(departure_widths[d], departure_believed, departure_cells[d]),
+                     err)
+               : status;
+}
+
+/* From the widest down, for as long as it is not hopeless to be narrower. The spectrum is left at
+ * the best of them. */
 static wt_status fit_widths(master_work *work, wt_error *err)
 {
+    wt_posterior *p = work->posterior;
     wt_status status = WT_OK;
+    double best = -HUGE_VAL, row = HUGE_VAL;
+    int best_g = 0, best_d = 0;
     if (work->options.vertical != WT_VERTICAL_TIED) {
         status = spectrum_fit(work->s, SPECTRUM_NOISE, err);
-        return status == WT_OK ? posterior_keep(work->posterior, NULL, 0.0, err) : status;
+        return status == WT_OK ? posterior_keep(p, NULL, 0.0, err) : status;
     }
-    for (int g = WIDTHS - 1; g >= 0; g--)
-        for (int d = WIDTHS - 1; status == WT_OK && d >= 0; d--) {
-            status =
-                set_widths(work, WT_VERTICAL_TIED, geometry_widths[g], departure_widths[d], err);
-            if (status == WT_OK)
-                status = spectrum_fit(work->s, SPECTRUM_NOISE, err);
+    for (int g = WIDTHS - 1; g >= 0 && row > best - hopeless; g--) {
+        double weight = row = -HUGE_VAL;
+        for (int d = WIDTHS - 1; weight >= row - hopeless && d >= 0; d--) {
+            status = fit_cell(work, g, d, err);
             if (status != WT_OK)
                 return status;
-            const double prior =
-                log_prior_of(geometry_widths[g], geometry_believed, geometry_cells[g]) +
-                log_prior_of(departure_widths[d], departure_believed, departure_cells[d]);
-            status = posterior_keep(work->posterior, &work->vertical, prior, err);
+            weight = p->cells[p->n_cells - 1].log_weight;
+            row = fmax(row, weight);
+            if (weight > best) {
+                best = weight;
+                best_g = g;
+                best_d = d;
+            }
         }
+    }
+    status =
+        set_widths(work, WT_VERTICAL_TIED, geometry_widths[best_g], departure_widths[best_d], err);
+    for (size_t c = 0; c < p->n_cells; c++)
+        if (p->cells[c].log_weight == best)
+            posterior_restore(p, &p->cells[c]);
     return status;
 }
 

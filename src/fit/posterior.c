@@ -38,6 +38,8 @@ wt_status posterior_keep(wt_posterior *p, const vertical *v, double log_prior, w
     *c = (posterior_cell){.value = pool_numbers(&p->memory, n),
                           .covariance = pool_matrix(&p->memory, n, n),
                           .root = pool_matrix(&p->memory, n, n),
+                          .noise = {s->noise[STORAGE], s->noise[LOSS]},
+                          .smoothness = s->smooth,
                           .log_weight = log_prior - 0.5 * s->criterion};
     if (v != NULL)
         c->smooth = pool_numbers(&p->memory, n_curves * n_curves);
@@ -52,6 +54,15 @@ wt_status posterior_keep(wt_posterior *p, const vertical *v, double log_prior, w
         vertical_smooth_part(v, s->prior, p->temperature, n_curves, p->temperature[i],
                              c->smooth + i * n_curves);
     return WT_OK;
+}
+
+void posterior_restore(wt_posterior *p, const posterior_cell *cell)
+{
+    spectrum *s = &p->frame;
+    memcpy(s->value, cell->value, s->n_unknowns * sizeof *cell->value);
+    for (int q = 0; q < MODULI; q++)
+        s->noise[q] = cell->noise[q];
+    s->smooth = cell->smoothness;
 }
 
 static void weigh_cells(wt_posterior *p)

@@ -15,6 +15,7 @@ typedef struct posterior_cell {
     gsl_matrix *covariance;    /* [n_unknowns^2] */
     gsl_matrix *root;          /* Cholesky factor of its inverse */
     double *smooth;            /* [n_curves^2] smooth part of b at the isotherms; NULL: b itself */
+    double noise[MODULI], smoothness;
     double log_weight, weight; /* without the law */
 } posterior_cell;
 
@@ -50,6 +51,8 @@ void posterior_free(wt_posterior *p);
 /* Keeps what the frame has been fitted to; v: of a tied vertical shift, else NULL. */
 wt_status posterior_keep(wt_posterior *p, const vertical *v, double log_prior,
                          wt_error *err) WT_NODISCARD;
+/* Puts the frame back to what was kept. */
+void posterior_restore(wt_posterior *p, const posterior_cell *cell);
 /* Weighs the cells, chooses the law and weighs its parts; without one no_law says why. */
 wt_status posterior_close(wt_posterior *p, double reference, wt_error *err) WT_NODISCARD;
 /* Column of the unknown a of a curve; false for the anchor. */

@@ -99,6 +99,7 @@ double spectrum_prior_log_det(const spectrum *s);
 /* ---- spectrum_fit.c: Levenberg-Marquardt with noise and smoothness by Fellner-Schall */
 typedef enum spectrum_mode {
     SPECTRUM_NOISE,  /* noise and smoothness are estimated */
+    SPECTRUM_ROUGH,  /* the same, good enough to look for outliers */
     SPECTRUM_ROBUST, /* the same, with the weights of a Student distribution */
     SPECTRUM_HELD    /* noise and smoothness are held */
 } spectrum_mode;

@@ -16,7 +16,7 @@ wt_status spectrum_choose_rho(spectrum *s, wt_error *err)
     wt_status status = WT_OK;
     for (size_t i = 1; status == WT_OK && i < RHOS; i++) {
         s->rho = rhos[i];
-        status = spectrum_fit(s, SPECTRUM_NOISE, err);
+        status = spectrum_fit(s, SPECTRUM_ROUGH, err);
         if (status != WT_OK || s->criterion >= best)
             break; /* it has one minimum */
         best = s->criterion;

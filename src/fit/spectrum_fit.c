@@ -15,6 +15,8 @@ enum { MAX_STEPS = 80, MAX_DAMPINGS = 12 };
 /* Done when a step gains less than this of -2 ln likelihood (a standard error is 1), and noise and
  * smoothness change by less than this share. */
 static const double least_gain = 1e-3, least_change = 2e-3;
+/* The same where that is good enough, and where only the objective is wanted. */
+static const double rough_gain = 1.0, rough_change = 0.05, held_gain = 0.02;
 
 static gsl_matrix_view part(gsl_matrix *m, size_t n)
 {
@@ -78,39 +80,53 @@ static wt_status step(spectrum *s, double *damping, double *gain, wt_error *err)
                : wt_fail(err, WT_E_CONVERGENCE, "no spectrum describes the isotherms");
 }
 
-static void prepare(spectrum *s)
+/* Noise and smoothness have changed. */
+static void weigh(spectrum *s)
 {
-    spectrum_evaluate(s, s->value, true);
-    spectrum_normal(s);
     spectrum_assemble(s);
     s->objective = spectrum_objective(s, s->value);
 }
 
+static void prepare(spectrum *s)
+{
+    spectrum_evaluate(s, s->value, true);
+    spectrum_normal(s);
+    weigh(s);
+}
+
 wt_status spectrum_fit(spectrum *s, spectrum_mode mode, wt_error *err)
 {
+    const bool rough = mode == SPECTRUM_ROBUST || mode == SPECTRUM_ROUGH;
+    const double enough_gain = rough                   ? rough_gain
+                               : mode == SPECTRUM_HELD ? held_gain
+                                                       : least_gain;
     wt_status status = WT_OK;
-    double damping = 0.0, gain = HUGE_VAL, change = HUGE_VAL;
+    double damping = 0.0, gain = HUGE_VAL, change = 0.0;
+    bool done = false;
     gsl_quiet();
     s->smooth_move = 0.0;
-    for (int i = 0; status == WT_OK && i < MAX_STEPS; i++) {
-        if (mode == SPECTRUM_ROBUST && i > 0)
-            spectrum_student_weights(s);
-        prepare(s);
-        if (mode == SPECTRUM_ROBUST ? gain < 1.0 && change < 0.05
-                                    : gain < least_gain && change < least_change)
-            break;
+    prepare(s);
+    for (int i = 0; status == WT_OK && !done && i < MAX_STEPS; i++) {
         status = step(s, &damping, &gain, err);
         if (status != WT_OK)
             break;
         prepare(s);
-        status = invert(s, err);
-        if (status == WT_OK)
-            change = mode == SPECTRUM_HELD ? 0.0 : spectrum_noise_update(s);
+        if (mode != SPECTRUM_HELD) {
+            status = invert(s, err);
+            if (status != WT_OK)
+                break;
+            change = spectrum_noise_update(s);
+        }
+        if (mode == SPECTRUM_ROBUST) {
+            spectrum_student_weights(s);
+            prepare(s);
+        } else {
+            weigh(s);
+        }
+        done = gain < enough_gain && change < (rough ? rough_change : least_change);
     }
-    if (status == WT_OK) {
-        prepare(s);
+    if (status == WT_OK)
         status = invert(s, err);
-    }
     if (status == WT_OK)
         spectrum_criterion(s);
     return status;

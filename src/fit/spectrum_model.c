@@ -14,6 +14,8 @@ static const double equilibrium_spread = 3.0;
 static const double fast_margin = 1.5, slow_margin = 3.0;
 /* Slope of the terms to start from beyond the slowest measured point. */
 static const double start_fall = 0.5;
+/* Rows that go into the normal equations together. */
+enum { ROWS = 4 };
 
 /* ---- making ---------------------------------------------------------------------------------- */
 
@@ -31,7 +33,7 @@ static wt_status allocate(spectrum *s, wt_error *err)
         s->weight[q] = pool_numbers(m, s->n);
         s->was[q] = pool_numbers(m, s->n);
         s->residual[q] = pool_numbers(m, s->n);
-        s->row[q] = pool_numbers(m, s->n * (s->n_linear + 2));
+        s->row[q] = pool_numbers(m, (s->n + ROWS - 1) * (s->n_linear + 2));
         s->normal[q] = pool_matrix(m, most, most);
     }
     s->kappa = pool_numbers(m, s->n_curves);
@@ -196,7 +198,7 @@ void spectrum_at(const spectrum *s, const double *term, double x, double log_mod
         const double loss = term[j] * share, storage = loss * z;
         modulus[STORAGE] += storage;
         modulus[LOSS] += loss;
-        rise[STORAGE] += 2.0 * storage * share / z;
+        rise[STORAGE] += 2.0 * loss * share;
         rise[LOSS] += loss * (1.0 - 2.0 * z * share);
         if (gradient != NULL) {
             by[STORAGE][j] = storage;
@@ -283,27 +285,30 @@ void spectrum_evaluate(spectrum *s, const double *value, bool with_rows)
 
 /* ---- normal equations ------------------------------------------------------------------------ */
 
-/* Adds the rows of a curve: the block of the terms, upper triangle, and what its shifts have with
- * the terms and each other. */
-static void add_curve(spectrum *s, size_t curve, int q)
+/* Adds the products of ROWS rows to the block of the terms, upper triangle: so many at a time keep
+ * it out of the way to memory, which is what this costs. */
+static void add_rows(gsl_matrix *normal, size_t m, const double *row, size_t width)
+{
+    const double *r0 = row, *r1 = r0 + width, *r2 = r1 + width, *r3 = r2 + width;
+    for (size_t i = 0; i < m; i++) {
+        double *restrict into = gsl_matrix_ptr(normal, i, 0);
+        const double c0 = r0[i], c1 = r1[i], c2 = r2[i], c3 = r3[i];
+        for (size_t j = i; j < m; j++)
+            into[j] += (c0 * r0[j] + c1 * r1[j]) + (c2 * r2[j] + c3 * r3[j]);
+    }
+}
+
+/* Adds what the shifts of a curve have with the terms and each other. */
+static void add_shifts(spectrum *s, size_t curve, int q)
 {
     const size_t m = s->n_linear, width = m + 2;
-    gsl_matrix *normal = s->normal[q];
     const long column[2] = {s->column_a[curve], s->column_b[curve]};
-    for (size_t k = s->first[curve]; k < s->first[curve + 1]; k++) {
-        const double *row = s->row[q] + k * width;
-        if (s->weight[q][k] == 0.0)
+    for (int c = 0; c < 2; c++) {
+        if (column[c] < 0)
             continue;
-        for (size_t i = 0; i < m; i++) {
-            double *into = gsl_matrix_ptr(normal, i, 0);
-            const double r = row[i];
-            for (size_t j = i; j < m; j++)
-                into[j] += r * row[j];
-        }
-        for (int c = 0; c < 2; c++) {
-            if (column[c] < 0)
-                continue;
-            double *into = gsl_matrix_ptr(normal, (size_t)column[c], 0);
+        double *restrict into = gsl_matrix_ptr(s->normal[q], (size_t)column[c], 0);
+        for (size_t k = s->first[curve]; k < s->first[curve + 1]; k++) {
+            const double *row = s->row[q] + k * width;
             const double r = row[m + (size_t)c];
             for (size_t j = 0; j < m; j++)
                 into[j] += r * row[j];
@@ -316,14 +321,17 @@ static void add_curve(spectrum *s, size_t curve, int q)
 
 void spectrum_normal(spectrum *s)
 {
+    const size_t m = s->n_linear, width = m + 2;
     for (int q = 0; q < MODULI; q++) {
         gsl_matrix *normal = s->normal[q];
         gsl_matrix_set_zero(normal);
+        for (size_t k = 0; k < s->n; k += ROWS) /* the last block ends in rows of zeros */
+            add_rows(normal, m, s->row[q] + k * width, width);
         for (size_t i = 0; i < s->n_curves; i++)
-            add_curve(s, i, q);
+            add_shifts(s, i, q);
         for (size_t i = 0; i < s->n_unknowns; i++) /* the other triangle */
             for (size_t j = 0; j < i; j++)
-                if (i < s->n_linear)
+                if (i < m)
                     gsl_matrix_set(normal, i, j, gsl_matrix_get(normal, j, i));
                 else
                     gsl_matrix_set(normal, j, i, gsl_matrix_get(normal, i, j));
