@@ -11,14 +11,15 @@
 #include <string.h>
 
 /* Widths of the prior of the vertical shift [decade]: clamping, departure of the material. */
-static const double geometry_widths[] = {0.001, 0.007, 0.03};
-static const double geometry_cells[] = {0.004, 0.012, 0.04};
+static const double geometry_widths[] = {0.001, 0.003, 0.01, 0.03};
+static const double geometry_cells[] = {0.002, 0.0045, 0.0135, 0.04};
 static const double departure_widths[] = {0.0, 0.02, 0.1};
 static const double departure_cells[] = {0.02, 0.04, 0.12};
 static const double geometry_believed = 0.01, departure_believed = 0.05;
-enum { WIDTHS = 3, MOST_ROUNDS = 4 };
+enum { GEOMETRIES = 4, DEPARTURES = 3, MOST_ROUNDS = 4 };
 
-/* Cells with less of the logarithm of the largest weight count for nothing, whatever the law says. */
+/* Cells with less of the logarithm of the largest weight count for nothing, whatever the law says.
+ */
 static const double hopeless = 20.0;
 
 /* An isotherm this close to the reference temperature is the reference [K]: what thermometers and
@@ -244,9 +245,9 @@ static wt_status fit_widths(master_work *work, wt_error *err)
         status = spectrum_fit(work->s, SPECTRUM_NOISE, err);
         return status == WT_OK ? posterior_keep(p, NULL, 0.0, err) : status;
     }
-    for (int g = WIDTHS - 1; g >= 0 && row > best - hopeless; g--) {
+    for (int g = GEOMETRIES - 1; g >= 0 && row > best - hopeless; g--) {
         double weight = row = -HUGE_VAL;
-        for (int d = WIDTHS - 1; weight >= row - hopeless && d >= 0; d--) {
+        for (int d = DEPARTURES - 1; weight >= row - hopeless && d >= 0; d--) {
             status = fit_cell(work, g, d, err);
             if (status != WT_OK)
                 return status;

@@ -7,14 +7,14 @@
 #include "fit/shift_law.h"
 #include "fit/spectrum_vertical.h"
 
-enum { POSTERIOR_CELLS = 9 };
+enum { POSTERIOR_CELLS = 12 };
 
 /* One fit of the spectrum, for one width of the vertical shift. */
 typedef struct posterior_cell {
-    double *value;             /* [n_unknowns] */
-    gsl_matrix *covariance;    /* [n_unknowns^2] */
-    gsl_matrix *root;          /* Cholesky factor of its inverse */
-    double *smooth;            /* [n_curves^2] smooth part of b at the isotherms; NULL: b itself */
+    double *value;          /* [n_unknowns] */
+    gsl_matrix *covariance; /* [n_unknowns^2] */
+    gsl_matrix *root;       /* Cholesky factor of its inverse */
+    double *smooth;         /* [n_curves^2] smooth part of b at the isotherms; NULL: b itself */
     double noise[MODULI], smoothness;
     double log_weight, weight; /* without the law */
 } posterior_cell;

@@ -31,6 +31,7 @@ typedef struct spectrum {
 
     /* unknowns: ln of the terms, ln of the equilibrium modulus, a, b */
     size_t n_terms, n_linear; /* terms; with the equilibrium modulus */
+    size_t n_measured;        /* terms before the slow end of the measured range */
     double log_tau, step;     /* ln of the first relaxation time and between them */
     bool liquid;              /* no equilibrium modulus */
     size_t n_unknowns;

@@ -97,9 +97,7 @@ static void prepare(spectrum *s)
 wt_status spectrum_fit(spectrum *s, spectrum_mode mode, wt_error *err)
 {
     const bool rough = mode == SPECTRUM_ROBUST || mode == SPECTRUM_ROUGH;
-    const double enough_gain = rough                   ? rough_gain
-                               : mode == SPECTRUM_HELD ? held_gain
-                                                       : least_gain;
+    const double enough_gain = rough ? rough_gain : mode == SPECTRUM_HELD ? held_gain : least_gain;
     wt_status status = WT_OK;
     double damping = 0.0, gain = HUGE_VAL, change = 0.0;
     bool done = false;

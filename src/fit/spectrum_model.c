@@ -12,6 +12,10 @@ static const double equilibrium_spread = 3.0;
 /* How far the relaxation times go beyond the measured range [decade]: those that are longer than
  * the second are no different from an equilibrium modulus. */
 static const double fast_margin = 1.5, slow_margin = 3.0;
+/* Weight of the second differences of terms slower than the measured range: beyond it a spectrum
+ * rather goes on as it did, but does not have to. Larger ones narrow the equilibrium modulus and
+ * miss it where a slower process begins there (tests/study: D3). */
+static const double slow_stiffness = 2.0;
 /* Slope of the terms to start from beyond the slowest measured point. */
 static const double start_fall = 0.5;
 /* Rows that go into the normal equations together. */
@@ -103,6 +107,7 @@ wt_status spectrum_new(const shift_set *set, const bool *use, size_t anchor, con
     s->n_terms = 1 + (size_t)ceil((high - low + fast_margin + slow_margin) * terms_per_decade);
     s->n_linear = s->n_terms + (liquid ? 0 : 1);
     s->log_tau = -(high + fast_margin) * M_LN10;
+    s->n_measured = (size_t)ceil((high + fast_margin - low) * terms_per_decade);
     wt_status status = allocate(s, err);
     if (status != WT_OK) {
         spectrum_free(s);
@@ -340,6 +345,12 @@ void spectrum_normal(spectrum *s)
 
 /* ---- priors ---------------------------------------------------------------------------------- */
 
+/* Weight of a second difference, of terms j to j + 2. */
+static double stiffness(const spectrum *s, size_t j)
+{
+    return j + 1 < s->n_measured ? 1.0 : slow_stiffness;
+}
+
 static double b_departure(const spectrum *s, const double *value, size_t curve)
 {
     return value[s->column_b[curve]] - s->prior->mean[curve];
@@ -374,7 +385,7 @@ double spectrum_roughness(const spectrum *s, const double *value)
     double sum = 0.0;
     for (size_t j = 1; j + 1 < s->n_terms; j++) {
         const double bend = value[j - 1] - 2.0 * value[j] + value[j + 1];
-        sum += bend * bend;
+        sum += stiffness(s, j - 1) * bend * bend;
     }
     return sum;
 }
@@ -386,15 +397,16 @@ double spectrum_roughness_trace(const spectrum *s)
     for (size_t j = 0; j + 2 < s->n_terms; j++)
         for (size_t i = 0; i < 3; i++)
             for (size_t k = 0; k < 3; k++)
-                sum += weight[i] * weight[k] * gsl_matrix_get(s->covariance, j + i, j + k);
+                sum += stiffness(s, j) * weight[i] * weight[k] *
+                       gsl_matrix_get(s->covariance, j + i, j + k);
     return sum;
 }
 
 static void add_priors(spectrum *s)
 {
     static const double weight[3] = {1.0, -2.0, 1.0};
-    const double rough = 1.0 / (s->smooth * s->smooth);
     for (size_t j = 0; j + 2 < s->n_terms; j++) {
+        const double rough = stiffness(s, j) / (s->smooth * s->smooth);
         const double bend = s->value[j] - 2.0 * s->value[j + 1] + s->value[j + 2];
         for (size_t i = 0; i < 3; i++) {
             *gsl_vector_ptr(s->gradient, j + i) -= rough * weight[i] * bend;
