@@ -211,6 +211,28 @@ const dma_scene dma_scenes[] = {
     {NAMED("exact", "next to no errors: are estimates and truth the same thing?"),
      .rubber = RUBBER_TWO, TWO_LAW, G13, NOISE(.0002), .vertical = "physical", GOOD,
      .contact = &contact_d6},
+
+    /* held out: not looked at while the methods were chosen */
+    {NAMED("held_two", "two, another law and grid, 2 %, 0.15 K"), .rubber = RUBBER_TWO,
+     .law = {1100, -70, 0, NONE, 1}, .reference = 34, .first = -10, .last = 100, .step = 11,
+     .lg_first = -1.5, .lg_last = 1.5, .frequencies = 10, NOISE(.02), .temperature_error = .15,
+     GOOD},
+    {NAMED("held_plateau", "plateau, E' 0.8 %, E'' 2 %, geometry 1 %"), .rubber = RUBBER_PLATEAU,
+     .law = {600, -60, 0, NONE, 1}, .reference = 30, .first = 0, .last = 75, .step = 7.5,
+     .lg_first = -1.5, .lg_last = 1.5, .frequencies = 11, .noise_storage = .008, .noise_loss = .02,
+     .geometry_error = .01, GOOD},
+    {NAMED("held_zener", "fractional Zener, eight isotherms, 3 %, correlated, b departs"),
+     .rubber = RUBBER_FRACTIONAL_ZENER, .law = {800, -110, 0, NONE, 1}, .reference = 0,
+     .first = -45, .last = 60, .step = 15, .lg_first = -1, .lg_last = 2, .frequencies = 19,
+     NOISE(.03), .correlation = .4, .departure = .03,
+     .facts.right = RIGHT(YES) | RIGHT(CANNOT_SAY)},
+    {NAMED("held_ripple", "wave on the spectrum, ragged, points missing, 0.7 %, free b"),
+     .rubber = RUBBER_RIPPLE, .law = {1000, -85, 0, NONE, 1}, .reference = 20, .first = -25,
+     .last = 65, .step = 9, .lg_first = -1, .lg_last = 1.8, .frequencies = 12, NOISE(.007),
+     .missing = .15, .ragged = true, FREE, GOOD},
+    {NAMED("held_two_laws", "two laws less far apart, 1 %"), .rubber = RUBBER_TWO,
+     .law = {900, -90, 500, NONE, 1}, .reference = 20, .first = -40, .last = 70, .step = 10,
+     .lg_first = -1, .lg_last = 2, .frequencies = 13, NOISE(.01), BAD},
 };
 const int n_dma_scenes = sizeof dma_scenes / sizeof dma_scenes[0];
 

@@ -13,7 +13,8 @@ const place place_c2 = {shifts, "wlf_c2", "standard_error", NULL, NULL};
 const place place_storage = {curve, "fitted_storage", NULL, "fitted_storage_low",
                              "fitted_storage_high"};
 const place place_loss = {curve, "fitted_loss", NULL, "fitted_loss_low", "fitted_loss_high"};
-const place place_equilibrium = {PLACE_PRONY, "equilibrium_modulus", "standard_error", NULL, NULL};
+const place place_equilibrium = {PLACE_PRONY, "equilibrium_modulus", "standard_error", NULL,
+                                 "equilibrium_modulus_limit"};
 const place place_hysteresis = {friction, "hysteresis", "hysteresis_standard_error", NULL, NULL};
 const place place_area = {friction, "area_ratio", "area_ratio_standard_error", NULL, NULL};
 const place place_friction = {friction, "friction", "friction_standard_error", NULL, NULL};
