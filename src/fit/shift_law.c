@@ -404,6 +404,8 @@ wt_status law_choose(law_data *data, double reference, gsl_matrix *root, law_sha
         data->slope[i] = 0.1;
     for (int round = 0; status == WT_OK && round < 3; round++) {
         law_fit fit;
+        if (round == 2 && !(search.best < HUGE_VAL))
+            break; /* with the spread of the temperatures no law falls */
         const law_shape *shape = round == 2 ? &search.chosen : &start;
         status = law_gls_covariance(data, believed, root, err);
         if (status == WT_OK)

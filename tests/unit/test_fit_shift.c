@@ -182,16 +182,16 @@ static void a_plateau_without_slope_decides_nothing(void **state)
 {
     (void)state;
     wt_sweep sweep = {0};
-    uint64_t noise = 11;
+    uint64_t noise = 12;
     for (int i = 0; i < 3; i++) {
         wt_isotherm *isotherm = wt_sweep_add(&sweep, 15, false);
         isotherm->temperature = 330.0 + 10.0 * i;
         for (size_t k = 0; k < isotherm->n; k++) {
-            const double w = pow(10.0, 0.2 * (double)k - 1.0), rise = pow(w, 0.003);
+            const double w = pow(10.0, 0.2 * (double)k - 1.0), rise = pow(w, 0.002);
             isotherm->angular_frequency[k] = w;
             isotherm->storage_modulus[k] = 1e6 * rise * exp(0.003 * dma_normal(&noise));
             isotherm->loss_modulus[k] =
-                1e6 * tan(0.003 * M_PI / 2) * rise * exp(0.003 * dma_normal(&noise));
+                1e6 * tan(0.002 * M_PI / 2) * rise * exp(0.003 * dma_normal(&noise));
         }
     }
     const wt_master_options at = at_reference(330.0, WT_VERTICAL_TIED);
