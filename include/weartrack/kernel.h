@@ -43,7 +43,7 @@ typedef struct wt_friction_point {
     wt_estimate one_minus_area;  /* 1 - P without cancellation */
     wt_estimate hysteresis;      /* mu_hys */
     double extrapolated_share; /* share of mu_hys from frequencies outside the material's range: the
-                                  angle is cut where q v cos(phi) leaves it; good to 3 digits */
+                                  angle is cut where q v cos(phi) leaves it; good to 1e-5 */
     size_t nodes;              /* q nodes of the last rule */
     bool reached;              /* G, P and mu_hys meet the tolerance, relative to each */
 } wt_friction_point;
@@ -136,11 +136,11 @@ typedef struct wt_layer_balance {
     double critical_specific_wear_rate; /* k* [m^2/N] */
     wt_estimate thickness;              /* delta_total [m]; infinity without wear */
     double eigenvalue;                  /* of the balance [1/s]; 0 if there is none or no wear */
-    double relaxation_time; /* 1/(kappa Qw) [s], kappa = w / int w there; infinity without wear */
-    double incubation_time; /* until any depth is modified, with wear if `incubation`, else as if
-                               there were none [s]; NaN if never */
-    double removal_time;    /* of the start thickness where there is no layer [s]; NaN where there
-                               is one, infinity if never (R = 1) */
+    wt_estimate relaxation_time; /* 1/(kappa Qw), kappa = w / int w there; infinity without wear */
+    wt_estimate incubation_time; /* until any depth is modified, with wear if `incubation`, else as
+                                    if there were none; NaN if never */
+    wt_estimate removal_time; /* of the start thickness where there is no layer; NaN where there is
+                                 one, infinity if never (R = 1) */
     wt_layer_regime regime;
 } wt_layer_balance;
 
@@ -161,6 +161,11 @@ typedef struct wt_layer_point {
 WT_API wt_status wt_layer_history(const wt_energy_source *source,
                                   const wt_layer_parameters *parameters, const double *time,
                                   size_t n, wt_layer_point *points, wt_error *err) WT_NODISCARD;
+/* When a growing layer gets to a thickness; NaN if it never does, or is not thinner before. The
+ * numerical error of the thickness is carried on. */
+WT_API wt_status wt_layer_time(const wt_energy_source *source,
+                               const wt_layer_parameters *parameters, wt_estimate thickness,
+                               wt_estimate *time, wt_error *err) WT_NODISCARD;
 /* Single exponential in closed form (theory T3): thickness after t from delta0; NaN for a negative
  * or infinite argument. */
 WT_API double wt_layer_exponential(double start_thickness, double kappa, double formation_rate_zero,

@@ -7,6 +7,7 @@
 #include "base/array.h"
 #include "kernel/angular_integral.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -46,6 +47,7 @@ typedef struct outside_part {
 struct angular_law {
     const wt_material *material;
     angular_quadrature quadrature;
+    double slope, rounding;
     series_list pieces; /* rising, without gaps */
     outside_part below, above;
 };
@@ -264,7 +266,40 @@ double angular_error(const angular_law *angular)
     double error = 0;
     for (size_t i = 0; i < angular->pieces.n; i++)
         error = fmax(error, angular->pieces.items[i].error);
-    return error;
+    return error + angular->rounding;
+}
+
+double angular_slope(const angular_law *angular)
+{
+    return angular->slope;
+}
+
+/* A modulus is the exponential of a logarithm interpolated at a logarithm: what these lose by
+ * rounding is multiplied by its slope. The frequencies may lie outside the knots. */
+static void rounding_make(angular_law *a)
+{
+    double steepest = 1, farthest = 50, largest = 0, last[3];
+    if (a->material->law->angular) {
+        a->slope = 1;
+        return;
+    }
+    for (size_t i = 0; i < a->quadrature.n_breaks; i++) {
+        const double omega = a->quadrature.breaks[i];
+        double e[2];
+        a->material->law->modulus(a->material, &omega, 1, &e[0], &e[1]);
+        const double now[] = {log(omega), log(e[0]), log(e[1])};
+        farthest = fmax(farthest, fabs(now[0]));
+        for (size_t k = 1; k < 3; k++) {
+            largest = fmax(largest, fabs(now[k]));
+            if (i > 0)
+                steepest = fmax(steepest, fabs((now[k] - last[k]) / (now[0] - last[0])));
+            last[k] = now[k];
+        }
+        last[0] = now[0];
+    }
+    a->slope = steepest;
+    /* twice, for |E|^2 */
+    a->rounding = 2 * DBL_EPSILON * (4 + largest + 2 * steepest * farthest);
 }
 
 /* ---- the share of extrapolated frequencies --------------------------------------------------- */
@@ -318,6 +353,7 @@ wt_status angular_new(const wt_material *material, pool *memory, angular_law **a
     const wt_status status = angular_quadrature_init(material, memory, &made->quadrature, err);
     if (status != WT_OK)
         return status;
+    rounding_make(made);
     outside_make(made, material->frequency_min, &made->below);
     outside_make(made, material->frequency_max, &made->above);
     *angular = made;

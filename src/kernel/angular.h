@@ -27,10 +27,12 @@ wt_status angular_cover(angular_law *angular, double w_min, double w_max,
                         wt_error *err) WT_NODISCARD;
 /* J1 and J2 at n values of w inside the covered range, best in rising order. */
 void angular_eval(const angular_law *angular, const double *w, size_t n, double *j1, double *j2);
-/* Largest relative error of J1 and of J2 in the series; 0 for a closed form. */
+/* Largest relative error of J1 and of J2 from the series and from rounding; 0 for a closed form. */
 double angular_error(const angular_law *angular);
+/* Steepest d ln E / d ln omega. */
+double angular_slope(const angular_law *angular);
 /* The part of J1(w) that comes from frequencies outside the range backed by data; j1 = J1(w).
- * Relative error about 1e-8. */
+ * Error about 1e-8 of J1, 1e-5 where the law has knots close to the limit. */
 double angular_outside(const angular_law *angular, double w, double j1);
 /* Whether the range of the material is limited at all. */
 bool angular_limited(const angular_law *angular);

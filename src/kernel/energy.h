@@ -18,5 +18,16 @@ double energy_log_gain(const wt_energy_source *source, double depth, double leng
 bool energy_range(const wt_energy_source *source, double *q_min, double *q_max);
 /* w falls from the surface on, for any set of wavenumbers. */
 bool energy_falls(const wt_energy_source *source);
+/* A depth below which w falls, whatever the powers. */
+double energy_falling(const wt_energy_source *source);
+
+/* int_z^(z+length) w, or w itself for length 0, at a depth, with its slope there and a bound of its
+ * second derivative from there to `reach` deeper; all to be multiplied by exp(log_scale). */
+typedef struct energy_course {
+    double log_scale;
+    double value, slope, curvature;
+} energy_course;
+energy_course energy_course_at(const wt_energy_source *source, double depth, double length,
+                               double reach);
 
 #endif

@@ -5,23 +5,34 @@
 #include "kernel/energy.h"
 #include "kernel/friction.h"
 
+#include "base/array.h"
+
 #include <math.h>
 #include <stdlib.h>
 
-/* Depths at which two sources are compared, from 0.1 / q1 to 10 / q0. */
-enum { DEPTHS = 24 };
+/* Depths at which two sources are compared, from 0.1 / q1 to where nothing is left that a number
+ * could hold: exp(-2 q z) is 0 for q z = 710 as soon as it is multiplied with anything. */
+enum { DEPTHS = 32 };
+static const double last_depth = 710;
+/* Cells towards q0 with which the waves there, which alone count at the last depth, are resolved.
+ */
+static const size_t least_level = 6;
 
-static double compare_sources(const wt_energy_source *a, const wt_energy_source *b,
-                              const wt_roughness *roughness)
+/* Largest relative difference of w and of int w, for both profiles. */
+static double compare_sources(wt_energy_source a, wt_energy_source b, const wt_roughness *roughness)
 {
+    static const wt_depth_profile profiles[] = {WT_PROFILE_PERSSON, WT_PROFILE_INCOMPRESSIBLE};
     double worst = 0;
     const double from = 0.1 / roughness->q1;
-    const double to = 10 / roughness->q0;
+    const double to = last_depth / roughness->q0;
     for (size_t i = 0; i <= DEPTHS; i++) {
         const double depth = i ? from * pow(to / from, (double)(i - 1) / (DEPTHS - 1)) : 0;
-        const double difference = energy_log_tail(a, depth) - energy_log_tail(b, depth);
-        if (!isnan(difference)) /* both without power */
-            worst = fmax(worst, fabs(difference));
+        for (size_t k = 0; k < COUNT_OF(profiles); k++) {
+            a.profile = b.profile = profiles[k];
+            const double tail = energy_log_tail(&a, depth) - energy_log_tail(&b, depth);
+            const double density = energy_log_density(&a, depth) - energy_log_density(&b, depth);
+            worst = fmax(worst, fmax(fabs(tail), fabs(density))); /* NaN: both without power */
+        }
     }
     return worst;
 }
@@ -45,7 +56,7 @@ wt_status wt_energy_source_friction(wt_friction_workspace *workspace, double pre
     wt_status status = friction_prepare(workspace, pressure, &velocity, 1, err);
     if (status != WT_OK)
         return status;
-    const friction_conditions at = {.pressure = pressure, .speed = fabs(velocity)};
+    const friction_load at = {.pressure = pressure, .speed = fabs(velocity)};
     const size_t room = (workspace->plan.capacity + workspace->n_knots + 1) * FRICTION_MAX_NODES;
     friction_scratch scratch;
     pool memory = {0};
@@ -57,8 +68,10 @@ wt_status wt_energy_source_friction(wt_friction_workspace *workspace, double pre
         goto done;
 
     const panel_plan *plan = friction_plan(workspace, &scratch, at.speed, NULL, 0);
-    const size_t level =
+    size_t level =
         friction_level(workspace, &scratch, friction_grid(workspace, &scratch, plan, 0), at);
+    if (level < least_level)
+        level = least_level < plan->levels ? least_level : plan->levels;
     size_t now = 0;
     double error = (double)INFINITY;
     for (size_t r = 0; r < FRICTION_RULES && error > workspace->options.tolerance; r++) {
@@ -72,9 +85,9 @@ wt_status wt_energy_source_friction(wt_friction_workspace *workspace, double pre
         for (size_t i = 0; i < s->n; i++)
             s->power[i] *= pressure * at.speed;
         if (r > 0)
-            error = compare_sources(s, &pair[1 - now], workspace->roughness) +
+            error = compare_sources(*s, pair[1 - now], workspace->roughness) +
                     pass.core_error / (pass.hysteresis > 0 ? pass.hysteresis : 1);
-        s->numerical_error = error + FRICTION_ROUNDING + 2 * angular_error(workspace->angular);
+        s->numerical_error = error + workspace->rounding + 2 * angular_error(workspace->angular);
     }
     status = energy_check(&pair[now], err);
     if (status != WT_OK)

@@ -67,6 +67,28 @@ wt_status friction_scratch_init(friction_scratch *scratch, const wt_friction_wor
     return memory->failed ? no_memory(err) : WT_OK;
 }
 
+/* A node is a rounded ln(q / q0), and an integrand that is steep there turns that into an error of
+ * its own. */
+static double rounding_of(const wt_friction_workspace *ws)
+{
+    const wt_roughness *roughness = ws->roughness;
+    size_t n = 0;
+    const double *breaks =
+        roughness->law->breaks != NULL ? roughness->law->breaks(roughness, &n) : NULL;
+    double steepest = 0, q = roughness->q0, density;
+    roughness->law->density(roughness, &q, 1, &density);
+    for (size_t i = 0; i <= n; i++) {
+        const double next = i < n ? breaks[i] : roughness->q1;
+        double there;
+        roughness->law->density(roughness, &next, 1, &there);
+        steepest = fmax(steepest, fabs(log(there / density)) / log1p((next - q) / q));
+        q = next;
+        density = there;
+    }
+    const double slope = 4 + steepest + 2 * angular_slope(ws->angular) + 1;
+    return FRICTION_ROUNDING + DBL_EPSILON * slope * log1p((q - roughness->q0) / roughness->q0);
+}
+
 /* The grids of the common plan. */
 static wt_status prepare_grids(wt_friction_workspace *ws, wt_error *err)
 {
@@ -106,6 +128,8 @@ wt_status wt_friction_workspace_new(const wt_material *material, const wt_roughn
     panel_plan_init(&ws->plan, roughness, levels_for(o.tolerance), 0, &ws->memory);
 
     status = angular_new(material, &ws->memory, &ws->angular, err);
+    if (status == WT_OK)
+        ws->rounding = rounding_of(ws);
     for (size_t r = 0; status == WT_OK && r < FRICTION_RULES; r++)
         status = rule_new(rule_nodes[r], &ws->memory, &ws->rules[r], err);
     if (status == WT_OK && ws->n_knots == 0)
@@ -202,7 +226,7 @@ static double converged(double *lower, const double *higher, friction_trend *tre
     for (size_t p = 0; p < parts; p++) {
         lower[p] = fabs(higher[p] - lower[p]);
         if (step > 1 && trend->foretold[p] > lower[p])
-            lower[p] = sqrt(lower[p] * trend->foretold[p]);
+            lower[p] = sqrt(lower[p]) * sqrt(trend->foretold[p]);
         sum += lower[p];
         most = fmax(most, lower[p]);
     }
@@ -219,20 +243,18 @@ static double converged(double *lower, const double *higher, friction_trend *tre
 static void compute_point(const wt_friction_workspace *ws, friction_scratch *scratch,
                           double pressure, double velocity, wt_friction_point *point)
 {
-    const friction_conditions at = {.pressure = pressure, .speed = fabs(velocity)};
+    const friction_load at = {.pressure = pressure, .speed = fabs(velocity)};
     const double sign = velocity < 0 ? -1 : velocity > 0 ? 1 : 0;
     const double tolerance = ws->options.tolerance;
     const double series_error = angular_error(ws->angular);
-    const double rounding = FRICTION_ROUNDING;
+    const double rounding = ws->rounding;
     const panel_plan *plan = friction_plan(ws, scratch, at.speed, NULL, 0);
     const scale_grid *grid = friction_grid(ws, scratch, plan, 0);
     const size_t level = friction_level(ws, scratch, grid, at);
 
     friction_pass pass;
     unsigned slot = 0;
-    friction_evaluate(ws, scratch, grid, level, at, slot, angular_limited(ws->angular), NULL,
-                      &pass);
-    point->extrapolated_share = pass.hysteresis > 0 ? fmin(pass.outside / pass.hysteresis, 1) : 0;
+    friction_evaluate(ws, scratch, grid, level, at, slot, false, NULL, &pass);
     for (size_t r = 1; r < FRICTION_RULES; r++) {
         slot = 1 - slot;
         grid = friction_grid(ws, scratch, plan, r);
@@ -257,6 +279,9 @@ static void compute_point(const wt_friction_workspace *ws, friction_scratch *scr
         if (point->reached)
             break;
     }
+    if (angular_limited(ws->angular))
+        friction_evaluate(ws, scratch, grid, level, at, slot, true, NULL, &pass);
+    point->extrapolated_share = pass.hysteresis > 0 ? fmin(pass.outside / pass.hysteresis, 1) : 0;
 }
 
 typedef struct compute_job {

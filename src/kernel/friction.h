@@ -36,6 +36,7 @@ struct wt_friction_workspace {
     wt_friction_options options;
     angular_law *angular;
     double stiffness; /* 1 / (1 - nu^2) */
+    double rounding;  /* relative error of the integrals from rounding */
     const double *knots;
     size_t n_knots; /* of the material, rad/s */
     gauss_rule *rules[FRICTION_RULES];
@@ -46,10 +47,10 @@ struct wt_friction_workspace {
     friction_scratch *scratch; /* [threads] */
 };
 
-/* The sliding conditions of a pass. */
-typedef struct friction_conditions {
+/* How hard and how fast. */
+typedef struct friction_load {
     double pressure, speed; /* speed >= 0 */
-} friction_conditions;
+} friction_load;
 
 /* One pass over a grid. Parts: 0 is the core, then the panels from the innermost cell used. */
 typedef struct friction_pass {
@@ -81,16 +82,17 @@ const panel_plan *friction_plan(const wt_friction_workspace *ws, friction_scratc
                                 double speed, const double *cuts, size_t n_cuts);
 /* How deep the first panel must be graded. */
 size_t friction_level(const wt_friction_workspace *ws, friction_scratch *scratch,
-                      const scale_grid *grid, friction_conditions at);
+                      const scale_grid *grid, friction_load at);
 /* slot: which of the two panel arrays receives the parts. record may be NULL. */
 void friction_evaluate(const wt_friction_workspace *ws, friction_scratch *scratch,
-                       const scale_grid *grid, size_t level, friction_conditions at, unsigned slot,
+                       const scale_grid *grid, size_t level, friction_load at, unsigned slot,
                        bool with_outside, friction_record *record, friction_pass *pass);
 
 /* Half the change of P when G moves by its error, and the same of 1 - P. */
 double friction_area_error(double variance, double variance_error);
 double friction_gap_error(double variance, double variance_error);
-/* Relative rounding error of a sum of positive terms that are each good to some ulps. */
+/* Relative rounding error of a sum of positive terms that are each good to some ulps; what steep
+ * integrands add stands in the workspace. */
 #define FRICTION_ROUNDING (32 * DBL_EPSILON)
 
 #endif

@@ -41,7 +41,7 @@ static void angular_at(const wt_friction_workspace *ws, friction_scratch *scratc
 
 /* G over one core. */
 static double core_variance(const wt_friction_workspace *ws, friction_scratch *scratch,
-                            const scale_grid *grid, size_t level, friction_conditions at)
+                            const scale_grid *grid, size_t level, friction_load at)
 {
     const size_t n = grid->rule->n;
     const double ratio = ws->stiffness / at.pressure;
@@ -54,7 +54,7 @@ static double core_variance(const wt_friction_workspace *ws, friction_scratch *s
 }
 
 size_t friction_level(const wt_friction_workspace *ws, friction_scratch *scratch,
-                      const scale_grid *grid, friction_conditions at)
+                      const scale_grid *grid, friction_load at)
 {
     const double target = 0.5 * CONTACT_FULL;
     size_t level = 0;
@@ -72,8 +72,8 @@ size_t friction_level(const wt_friction_workspace *ws, friction_scratch *scratch
 /* P is 1 in the core, or the core is so short that dmu/dG hardly changes in it:
  * mu = (dmu/dG) int S P dG in closed form. */
 static double core_pass(const wt_friction_workspace *ws, friction_scratch *scratch,
-                        const scale_grid *grid, size_t level, friction_conditions at,
-                        double mu_scale, friction_record *record, friction_pass *pass)
+                        const scale_grid *grid, size_t level, friction_load at, double mu_scale,
+                        friction_record *record, friction_pass *pass)
 {
     const size_t n = grid->rule->n;
     const double ratio = ws->stiffness / at.pressure;
@@ -108,7 +108,7 @@ static double core_pass(const wt_friction_workspace *ws, friction_scratch *scrat
 }
 
 void friction_evaluate(const wt_friction_workspace *ws, friction_scratch *scratch,
-                       const scale_grid *grid, size_t level, friction_conditions at, unsigned slot,
+                       const scale_grid *grid, size_t level, friction_load at, unsigned slot,
                        bool with_outside, friction_record *record, friction_pass *pass)
 {
     const gauss_rule *rule = grid->rule;

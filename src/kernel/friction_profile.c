@@ -25,8 +25,7 @@ static wt_status check_wavenumbers(const wt_roughness *roughness, const double *
 
 /* Runs the two rules of a profile and leaves their parts in the slots 0 (lower) and 1. */
 static friction_pass run_pair(const wt_friction_workspace *ws, friction_scratch *scratch,
-                              const panel_plan *plan, size_t level, friction_conditions at,
-                              size_t rule)
+                              const panel_plan *plan, size_t level, friction_load at, size_t rule)
 {
     friction_pass pass;
     for (unsigned slot = 0; slot < 2; slot++)
@@ -60,7 +59,7 @@ wt_status wt_friction_profile(wt_friction_workspace *workspace, double pressure,
     if (status != WT_OK || n == 0)
         return status;
 
-    const friction_conditions at = {.pressure = pressure, .speed = fabs(velocity)};
+    const friction_load at = {.pressure = pressure, .speed = fabs(velocity)};
     const double sign = velocity < 0 ? -1 : velocity > 0 ? 1 : 0;
     friction_scratch scratch;
     pool memory = {0};
@@ -78,7 +77,7 @@ wt_status wt_friction_profile(wt_friction_workspace *workspace, double pressure,
     while (!pair_reached(workspace, &scratch, &pass) && rule + 2 < FRICTION_RULES)
         pass = run_pair(workspace, &scratch, plan, level, at, ++rule);
 
-    const double relative = FRICTION_ROUNDING + angular_error(workspace->angular);
+    const double relative = workspace->rounding + angular_error(workspace->angular);
     const double slack = 1e-13 * fmax(1, log(roughness->q1 / roughness->q0));
     const size_t first = plan->levels - level;
     double variance = 0, difference = 0, hysteresis = 0;

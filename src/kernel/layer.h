@@ -33,12 +33,9 @@ wt_status layer_fixed_point(const layer_rates *rates, double log_scale, wt_estim
  */
 wt_status layer_damage_depth(const layer_rates *rates, double time, wt_estimate *thickness,
                              wt_error *err) WT_NODISCARD;
-/* First time at which any place is modified; NaN if never. */
-wt_status layer_incubation(const layer_rates *rates, bool with_wear, double *time,
-                           wt_error *err) WT_NODISCARD;
-/* Time until a layer is worn off where wear exceeds formation. */
-wt_status layer_removal(const layer_rates *rates, double start, double *time,
-                        wt_error *err) WT_NODISCARD;
+/* First time at which any place at this depth or below is modified; NaN if never. */
+wt_status layer_damage_time(const layer_rates *rates, bool with_wear, wt_estimate depth,
+                            wt_estimate *time, wt_error *err) WT_NODISCARD;
 typedef struct layer_instant {
     double time;
     wt_layer_point *point;
@@ -47,5 +44,9 @@ typedef struct layer_instant {
 /* Rate balance: the thickness of the points at n rising times, and no more of them. */
 wt_status layer_march(const layer_rates *rates, double start, const layer_instant *at, size_t n,
                       wt_error *err) WT_NODISCARD;
+/* Rate balance: time from one thickness to another on the way to the balance, or to the bare
+ * surface; infinite if it is not on the way. */
+wt_status layer_march_time(const layer_rates *rates, double start, wt_estimate goal,
+                           wt_estimate *time, wt_error *err) WT_NODISCARD;
 
 #endif

@@ -5,6 +5,7 @@
  */
 #include "kernel/layer.h"
 
+#include <float.h>
 #include <math.h>
 
 static wt_layer_regime regime_of(double log_ratio)
@@ -14,12 +15,32 @@ static wt_layer_regime regime_of(double log_ratio)
     return log_ratio < 1 ? WT_LAYER_THIN : WT_LAYER_THICK;
 }
 
+static wt_estimate seconds(double value, double error)
+{
+    return (wt_estimate){.value = value, .numerical_error = error, .unit = "s"};
+}
+
 /* With damage transport nothing regrows where R <= 1: the old layer is worn off from the top. */
-static double removal_of_old_layer(const layer_rates *rates, double start)
+static wt_estimate removal_of_old_layer(const layer_rates *rates, double start)
 {
     if (start == 0)
-        return 0;
-    return rates->wear > 0 ? start / rates->wear : HUGE_VAL;
+        return seconds(0, 0);
+    const double time = rates->wear > 0 ? start / rates->wear : HUGE_VAL;
+    return seconds(time, 4 * DBL_EPSILON * time);
+}
+
+/* 1/(kappa Qw) at the balance; its error is how far that of the thickness and of kappa moves it. */
+static wt_estimate relaxation_of(const layer_rates *rates, wt_estimate thickness)
+{
+    const double rate = rates->wear > 0 ? rates->wear * layer_decay(rates, thickness.value) : 0;
+    if (!(rate > 0))
+        return seconds(HUGE_VAL, 0);
+    const double time = 1 / rate;
+    const double above = layer_decay(rates, thickness.value + thickness.numerical_error);
+    const double below = layer_decay(rates, fmax(0, thickness.value - thickness.numerical_error));
+    const double moved =
+        fmax(fabs(1 / (rates->wear * above) - time), fabs(1 / (rates->wear * below) - time));
+    return seconds(time, moved + time * (2 * rates->source->numerical_error + 64 * DBL_EPSILON));
 }
 
 wt_status wt_layer_balance_compute(const wt_energy_source *source,
@@ -34,7 +55,8 @@ wt_status wt_layer_balance_compute(const wt_energy_source *source,
     if (status == WT_OK)
         status = layer_fixed_point(&r, 0, &b.thickness, err);
     if (status == WT_OK)
-        status = layer_incubation(&r, parameters->incubation, &b.incubation_time, err);
+        status = layer_damage_time(&r, parameters->incubation, (wt_estimate){.unit = "m"},
+                                   &b.incubation_time, err);
     if (status != WT_OK)
         return status;
 
@@ -47,18 +69,39 @@ wt_status wt_layer_balance_compute(const wt_energy_source *source,
             ? 0
             : exp(r.log_power - r.threshold) / (parameters->pressure * parameters->velocity);
     b.regime = regime_of(r.log_ratio);
-    const double rate = r.wear > 0 ? r.wear * layer_decay(&r, b.thickness.value) : 0;
-    b.eigenvalue = b.regime == WT_LAYER_NONE ? 0 : -rate;
-    b.relaxation_time = rate > 0 ? 1 / rate : HUGE_VAL;
-    b.removal_time = (double)NAN;
+    b.relaxation_time = relaxation_of(&r, b.thickness);
+    b.eigenvalue = b.regime == WT_LAYER_NONE ? 0 : -1 / b.relaxation_time.value;
+    b.removal_time = seconds((double)NAN, (double)NAN);
     if (b.regime == WT_LAYER_NONE) {
         if (parameters->incubation)
             b.removal_time = removal_of_old_layer(&r, parameters->start_thickness);
         else
-            status = layer_removal(&r, parameters->start_thickness, &b.removal_time, err);
+            status = layer_march_time(&r, parameters->start_thickness, (wt_estimate){.unit = "m"},
+                                      &b.removal_time, err);
     }
     if (status == WT_OK)
         *balance = b;
+    return status;
+}
+
+wt_status wt_layer_time(const wt_energy_source *source, const wt_layer_parameters *parameters,
+                        wt_estimate thickness, wt_estimate *time, wt_error *err)
+{
+    if (time == NULL)
+        return wt_fail(err, WT_E_ARG, "the time of a thickness needs a place for it");
+    layer_rates r;
+    *time = seconds((double)NAN, (double)NAN);
+    wt_status status = layer_rates_make(source, parameters, &r, err);
+    if (status != WT_OK || !(thickness.value > 0))
+        return status;
+    const double start = parameters->start_thickness;
+    if (parameters->incubation)
+        status = layer_damage_time(&r, true, thickness, time, err);
+    else if (start < thickness.value)
+        status = layer_march_time(&r, start, thickness, time, err);
+    /* never, or the old layer has not become as thin by then */
+    if (isinf(time->value) || start - r.wear * time->value >= thickness.value)
+        *time = seconds((double)NAN, (double)NAN);
     return status;
 }
 

@@ -227,32 +227,50 @@ done:
     return status;
 }
 
-wt_status layer_removal(const layer_rates *rates, double start, double *time, wt_error *err)
+/* Time from `start` to `goal`, which is on the way of the march. */
+static double march_to(march *m, double goal, double linear)
 {
-    *time = 0;
-    if (start == 0)
+    const double first = fmin(linear, m->thickness - goal);
+    if (linear > 0) {
+        m->thickness -= first;
+        m->time = first / m->rates->wear;
+    }
+    while (m->direction * (goal - m->thickness) > 0) {
+        double error, sensitivity;
+        const double left = m->direction * (goal - m->thickness);
+        double length = fmin(panel_length(m), left);
+        if (!(length > 0))
+            break;
+        m->time += panel_take(m, &length, &error, &sensitivity);
+        m->time_error += error;
+        m->sensitivity += sensitivity;
+        m->thickness = length >= left ? goal : m->thickness + m->direction * length;
+    }
+    return m->time;
+}
+
+wt_status layer_march_time(const layer_rates *rates, double start, wt_estimate goal,
+                           wt_estimate *time, wt_error *err)
+{
+    *time = (wt_estimate){.unit = "s"};
+    if (start == goal.value)
         return WT_OK;
-    *time = (double)INFINITY;
-    if (rates->wear == 0 || rates->log_ratio >= 0)
+    *time = (wt_estimate){.value = HUGE_VAL, .unit = "s"};
+    const double rate = net_rate(rates, start), there = net_rate(rates, goal.value);
+    const bool grows = goal.value > start;
+    if (!isfinite(goal.value) || (grows ? !(rate > 0 && there > 0) : !(rate < 0 && there < 0)))
         return WT_OK;
     march m;
     wt_estimate target;
     double linear = 0;
-    wt_status status = march_begin(&m, rates, start, &target, &linear, err);
-    if (status != WT_OK)
-        goto done;
-    m.thickness -= linear;
-    m.time = linear / rates->wear;
-    while (m.thickness > 0) {
-        double error, sensitivity;
-        double length = panel_length(&m);
-        if (!(length > 0))
-            break;
-        m.time += panel_take(&m, &length, &error, &sensitivity);
-        m.thickness = length >= m.thickness ? 0 : m.thickness - length;
+    const wt_status status = march_begin(&m, rates, start, &target, &linear, err);
+    if (status == WT_OK) {
+        const double relative = rounding(rates, fmax(start, goal.value));
+        time->value = march_to(&m, goal.value, linear);
+        time->numerical_error = m.time_error + relative * time->value +
+                                (rates->source->numerical_error + relative) * m.sensitivity +
+                                (goal.numerical_error + 4 * DBL_EPSILON * start) / fabs(there);
     }
-    *time = m.time;
-done:
     pool_free(&m.memory);
     return status;
 }

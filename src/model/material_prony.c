@@ -16,8 +16,8 @@ typedef struct prony_data {
     double numbers[];        /* [3 n] all of them */
 } prony_data;
 
-/* Beyond it a = omega tau is indistinguishable from infinity, and a^2 must not overflow. */
-static const double a_limit = 1e150;
+/* Beyond it 1 + a^2 is a^2 for a = omega tau, which is not made, for it would overflow. */
+static const double square_limit = 1e150;
 
 static void prony_modulus(const wt_material *material, const double *omega, size_t n,
                           double *storage, double *loss)
@@ -31,10 +31,10 @@ static void prony_modulus(const wt_material *material, const double *omega, size
         const double e = d->modulus[k];
         const double tau = d->relaxation_time[k];
         for (size_t i = 0; i < n; i++) {
-            double a = omega[i] * tau;
-            a = a < a_limit ? a : a_limit;
-            const double b = e * (a / (1 + a * a));
-            storage[i] += b * a;
+            const double a = omega[i] * tau;
+            const bool square = a < square_limit;
+            const double b = e * (square ? a / (1 + a * a) : 1 / omega[i] / tau);
+            storage[i] += square ? b * a : e;
             loss[i] += b;
         }
     }
@@ -50,7 +50,7 @@ static void prony_modulus(const wt_material *material, const double *omega, size
 #endif
 
 /* One term of the series added to J1 and J2: the loop in which friction spends its time. Without
- * the cap it has no branch and vectorises. */
+ * the limit it has no branch and vectorises. */
 WIDE_REGISTERS
 static void add_term(const double *restrict omega, size_t n, double modulus, double tau,
                      double weight, double *restrict j1, double *restrict j2)
@@ -64,16 +64,16 @@ static void add_term(const double *restrict omega, size_t n, double modulus, dou
     }
 }
 
-static void add_term_capped(const double *omega, size_t n, double modulus, double tau,
+static void add_term_beyond(const double *omega, size_t n, double modulus, double tau,
                             double weight, double *j1, double *j2)
 {
-    for (size_t i = 0; i < n; i++) {
-        const double a = fmin(omega[i] * tau, a_limit);
-        const double square = 1 + a * a;
-        const double s = a / (square + sqrt(square));
-        j1[i] += modulus * s;
-        j2[i] += weight * (a * s);
-    }
+    for (size_t i = 0; i < n; i++)
+        if (omega[i] * tau < square_limit) {
+            add_term(&omega[i], 1, modulus, tau, weight, &j1[i], &j2[i]);
+        } else {
+            j1[i] += modulus / omega[i] / tau;
+            j2[i] += weight;
+        }
 }
 
 /* With a = w tau, R = sqrt(1 + a^2), s = a / (R (1 + R)):
@@ -93,10 +93,10 @@ static void prony_angular(const wt_material *material, const double *restrict om
     }
     for (size_t k = 0; k < d->n; k++) {
         const double tau = d->relaxation_time[k];
-        if (highest * tau < a_limit)
+        if (highest * tau < square_limit)
             add_term(omega, n, d->modulus[k], tau, d->weight[k], j1, j2);
         else
-            add_term_capped(omega, n, d->modulus[k], tau, d->weight[k], j1, j2);
+            add_term_beyond(omega, n, d->modulus[k], tau, d->weight[k], j1, j2);
     }
     const double two_pi = 2 * M_PI;
     for (size_t i = 0; i < n; i++) {
@@ -130,8 +130,8 @@ static wt_status prony_check(const wt_prony *prony, wt_error *err)
             sum += prony->modulus[k];
     }
     if (status == WT_OK)
-        status = material_check_value("glass modulus (the sum of all moduli)", sum,
-                                      "finite and > 0 Pa", sum > 0, err);
+        status = material_check_value("glass modulus (the sum of all moduli)", sum, MODULUS_RANGE,
+                                      sum >= MODULUS_LEAST && sum <= MODULUS_MOST, err);
     return status;
 }
 

@@ -55,11 +55,12 @@ static wt_status table_check(const double *omega, const double *storage, const d
             material_check_value("angular frequency", omega[i], "finite, > 0 rad/s and rising",
                                  omega[i] > (i ? omega[i - 1] : 0), err);
         if (status == WT_OK)
-            status = material_check_value("storage modulus", storage[i], "finite and > 0 Pa",
-                                          storage[i] > 0, err);
-        if (status == WT_OK)
-            status = material_check_value("loss modulus", loss[i], "finite and > 0 Pa", loss[i] > 0,
+            status = material_check_value("storage modulus", storage[i], MODULUS_RANGE,
+                                          storage[i] >= MODULUS_LEAST && storage[i] <= MODULUS_MOST,
                                           err);
+        if (status == WT_OK)
+            status = material_check_value("loss modulus", loss[i], MODULUS_RANGE,
+                                          loss[i] >= MODULUS_LEAST && loss[i] <= MODULUS_MOST, err);
         if (status != WT_OK) {
             wt_error_place(err, "knot %zu of %zu", i + 1, n);
             return status;

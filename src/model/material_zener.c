@@ -44,8 +44,8 @@ wt_status wt_material_fractional_zener(double e0, double eg, double tau, double 
     if (status == WT_OK)
         status = material_check_value("e0", e0, "finite and >= 0 Pa", e0 >= 0, err);
     if (status == WT_OK)
-        status =
-            material_check_value("eg", eg, "finite, > 0 Pa and >= e0", eg > 0 && eg >= e0, err);
+        status = material_check_value("eg", eg, MODULUS_RANGE " and >= e0",
+                                      eg >= MODULUS_LEAST && eg <= MODULUS_MOST && eg >= e0, err);
     if (status == WT_OK)
         status = material_check_value("tau", tau, "finite and > 0 s", tau > 0, err);
     if (status == WT_OK)

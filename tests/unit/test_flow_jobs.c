@@ -501,7 +501,7 @@ static void test_layer_numbers(void **state)
     wt_job common = common_job();
     wt_layer_job job = wt_layer_job_defaults();
     wt_layer_tables tables = {0}, other = {0};
-    wt_estimate sensitivity, settled;
+    wt_estimate sensitivity, settled, again;
     common.replicates = 0;
     sliding.rubber = &rubber;
     sliding.surface = &surface;
@@ -524,7 +524,11 @@ static void test_layer_numbers(void **state)
     job.time = &settled.value;
     job.n_time = 1;
     assert_int_equal(wt_layer_make(&sliding, &job, &common, &other, NULL), WT_OK);
-    assert_near(number_cell(other.layer, 0, "thickness"), 0.9 * tables.thickness.value, 0.01);
+    assert_near(number_cell(other.layer, 0, "thickness"), 0.9 * tables.thickness.value, 1e-9);
+    /* the times at which the thickness is told do not matter */
+    assert_true(wt_table_estimate(other.layer, "time_to_90_percent", &again));
+    assert_near(again.value, settled.value, 0);
+    assert_true(settled.numerical_error > 0 && settled.numerical_error < 1e-6 * settled.value);
     wt_layer_tables_clear(&other);
     wt_layer_tables_clear(&tables);
     wt_master_tables_clear(&master);

@@ -90,6 +90,55 @@ static void source_of_friction(void **state)
     wt_roughness_free(roughness);
 }
 
+/* Far below the surface only the longest waves are left: ln w against an integral of j(q) g by
+ * short panels, where P is 1 and the material elastic but for one slow process, so that q j ~ q^4
+ * C. */
+static void deep_tail(void **state)
+{
+    (void)state;
+    double modulus[] = {1e6}, tau[] = {1e-12};
+    const wt_prony prony = {.equilibrium_modulus = 1e6,
+                            .n = 1,
+                            .relaxation_time = tau,
+                            .modulus = modulus,
+                            .frequency_min = (double)NAN,
+                            .frequency_max = (double)NAN};
+    const double q0 = 900, q1 = 4e4, pressure = 1e12, velocity = 5e-3;
+    wt_material *material = NULL;
+    wt_roughness *roughness = NULL;
+    assert_int_equal(wt_material_prony(&prony, 0.5, &material, NULL), WT_OK);
+    assert_int_equal(wt_roughness_self_affine(q0, q1, q1, 0.8, 4e-16, &roughness, NULL), WT_OK);
+    for (double tolerance = 1e-12; tolerance < 1e-1; tolerance *= 100) {
+        wt_friction_options options = wt_friction_defaults();
+        options.tolerance = tolerance;
+        wt_friction_workspace *ws = NULL;
+        wt_energy_source source = {0};
+        assert_int_equal(wt_friction_workspace_new(material, roughness, &options, &ws, NULL),
+                         WT_OK);
+        assert_int_equal(wt_energy_source_friction(ws, pressure, velocity, &source, NULL), WT_OK);
+        for (double x = 0.1; x < 700; x *= 1.7) {
+            /* int k^4 exp(-2 k z) dk: q^3 C J1 with J1 ~ q, in closed form by its derivatives */
+            const double z = x / q0, a = 2 * z;
+            double term = 1 / a, sum = 0, at_end = 0;
+            for (int k = 0; k <= 4; k++) {
+                sum += term * pow(q0, 4 - k);
+                at_end += term * pow(q1, 4 - k);
+                term *= (4 - k) / a;
+            }
+            const double power = log(sum - at_end * exp(-a * (q1 - q0))) - a * q0;
+            const double whole = log((pow(q1, 5) - pow(q0, 5)) / 5);
+            const double tail = energy_log_tail(&source, z) - energy_log_tail(&source, 0);
+            assert_near_abs(tail, power - whole,
+                            2 * source.numerical_error + 1e-11 + 1e-14 * fabs(power));
+        }
+        assert_true(source.numerical_error <= tolerance + 1e-12);
+        wt_energy_source_clear(&source);
+        wt_friction_workspace_free(ws);
+    }
+    wt_material_free(material);
+    wt_roughness_free(roughness);
+}
+
 /* ---- a layer on a half-space ----------------------------------------------------------------- */
 
 static void layered_limits(void **state)
@@ -115,6 +164,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(density_tail_gain),
         cmocka_unit_test(source_of_friction),
+        cmocka_unit_test(deep_tail),
         cmocka_unit_test(layered_limits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -346,8 +346,35 @@ static void extrapolated_share(void **state)
         wt_material_free(r.material);
     }
     assert_true(share > 0.1 && share < 0.9);
-    assert_near(share, 1 - mu[1] / mu[0], 1e-3);
+    assert_near(share, 1 - mu[1] / mu[0], 2e-6);
     wt_roughness_free(r.roughness);
+}
+
+/* G = (E* h' / sigma0)^2 / 8 and P = 1 / sqrt(pi G), up to where G is no number. */
+static void largest_variance(void **state)
+{
+    (void)state;
+    rig r = rig_named("normal_prony_v1e-2");
+    const double height = 1e-16;
+    wt_roughness_free(r.roughness);
+    for (double c0 = 1e100; c0 < 1e280; c0 *= 1e30) {
+        double mu[2], variance[2];
+        for (int k = 0; k < 2; k++) { /* four times as rough, half as much contact */
+            assert_int_equal(wt_roughness_self_affine(1e3, 5e3, 1e7, 0.8, (k ? 4 : 1) * c0 * height,
+                                                      &r.roughness, NULL),
+                             WT_OK);
+            const wt_friction_point p = solve(&r, 1e-10);
+            assert_true(p.reached);
+            assert_near(p.area_ratio.value, 1 / sqrt(M_PI * p.stress_variance.value), 1e-14);
+            mu[k] = p.hysteresis.value;
+            variance[k] = p.stress_variance.value;
+            wt_roughness_free(r.roughness);
+        }
+        assert_near(variance[1], 4 * variance[0], 1e-13);
+        assert_near(mu[1], 2 * mu[0], 1e-9);
+    }
+    r.roughness = NULL;
+    rig_free(&r);
 }
 
 /* The numbers of the text file are those of the shared reference data, where present. */
@@ -486,6 +513,7 @@ int main(void)
         cmocka_unit_test(elastic_area),
         cmocka_unit_test(same_bits_for_any_threads),
         cmocka_unit_test(extrapolated_share),
+        cmocka_unit_test(largest_variance),
         cmocka_unit_test(same_as_shared_reference),
         cmocka_unit_test(bad_input),
         cmocka_unit_test(layer_limits),

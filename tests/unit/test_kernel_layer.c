@@ -126,17 +126,17 @@ static void check_balance(const numeric_case *c, const rig *r, const case_line *
     else if (strcmp(line->key, "ratio") == 0)
         assert_near(b.ratio, expected, 1e-14);
     else if (strcmp(line->key, "relaxation_time") == 0)
-        assert_near(b.relaxation_time, expected, 1e-12);
+        assert_near(b.relaxation_time.value, expected, 1e-12);
     else if (strcmp(line->key, "critical_specific_wear_rate") == 0)
         assert_near(b.critical_specific_wear_rate, expected, 1e-12);
     else if (strcmp(line->key, "eigenvalue") == 0)
         assert_near(b.eigenvalue, expected, 1e-12);
     else if (strcmp(line->key, "incubation_time") == 0)
-        assert_near(b.incubation_time, expected, 1e-12);
+        assert_near(b.incubation_time.value, expected, 1e-12);
     else if (strcmp(line->key, "incubation_time_with_wear") == 0)
-        assert_near(balance_of(&worn).incubation_time, expected, 1e-12);
+        assert_near(balance_of(&worn).incubation_time.value, expected, 1e-12);
     else if (strcmp(line->key, "removal_time") == 0)
-        assert_near(b.removal_time, expected, 1e-9);
+        assert_near(b.removal_time.value, expected, 1e-9);
     else
         fail_msg("%s: no quantity %s", c->name, line->key);
 }
@@ -240,7 +240,7 @@ static void step_in_severity(void **state)
     r.parameters.velocity = 0.3;
     r.parameters.specific_wear_rate = 2e-11;
     r.parameters.start_thickness = end;
-    assert_near(balance_of(&r).removal_time, case_number(c, true, "removal_time", 0), 1e-9);
+    assert_near(balance_of(&r).removal_time.value, case_number(c, true, "removal_time", 0), 1e-9);
     for (size_t i = 0; i < c->n; i++)
         if (strcmp(c->lines[i].key, "history") == 0)
             assert_near(point_at(&r, c->lines[i].value[0]).thickness.value, c->lines[i].value[1],
@@ -257,14 +257,134 @@ static void buried_band(void **state)
     r.source.profile = WT_PROFILE_INCOMPRESSIBLE;
     r.parameters.specific_wear_rate = 0;
     const double onset = exp(2) * 2e10 / (4 * 1e6 * 400);
-    assert_near(balance_of(&r).incubation_time, onset, 1e-12);
+    assert_near(balance_of(&r).incubation_time.value, onset, 1e-12);
     r.parameters.incubation = true;
     assert_near(point_at(&r, onset * (1 - 1e-9)).thickness.value, 0, 0);
     const wt_estimate first = point_at(&r, onset * (1 + 1e-9)).thickness;
     assert_near(first.value, 1e-6, 1e-3);
     r.parameters.specific_wear_rate = 1e-12; /* wear carries the band up: it starts later */
-    assert_true(balance_of(&r).incubation_time > onset);
+    assert_true(balance_of(&r).incubation_time.value > onset);
     rig_free(&r);
+}
+
+/* Two waves far apart, no wear. The long one alone decides on the deep band, x = q z near 1: there
+ * 2 ln x - 2 x + 2 is minus the logarithm of the time over its onset. */
+static void deep_band_from_its_onset(void **state)
+{
+    (void)state;
+    const double far_apart[] = {1.3e7, 1e8};
+    for (size_t i = 0; i < 2; i++)
+        for (double late = 0.1; late > 1e-12; late *= 0.37) {
+            rig r = rig_make((double[]){1e4, far_apart[i]}, (double[]){3, 400}, 2);
+            r.source.profile = WT_PROFILE_INCOMPRESSIBLE;
+            r.parameters.incubation = true;
+            r.parameters.specific_wear_rate = 0;
+            const double onset = exp(2) * 2e10 / (4 * 1e4 * 3);
+            const wt_estimate before = point_at(&r, onset * (1 - late)).thickness;
+            assert_true(before.value < 2e-6);
+            const wt_estimate deep = point_at(&r, onset * (1 + late)).thickness;
+            const double x = 1e4 * deep.value;
+            assert_true(x > 1 && x < 1.5);
+            /* at the onset x goes as the square root of the time */
+            const double slope = 2 - 2 / x;
+            assert_near_abs(2 * log1p(x - 1) - 2 * (x - 1), -log1p(late),
+                            1e4 * slope * deep.numerical_error + 1e-15);
+            assert_true(deep.numerical_error < 1e-4 * 1e-6 / sqrt(late));
+            rig_free(&r);
+        }
+}
+
+/* Within rounding of the onset the band may be there or not: the error says so. */
+static void error_at_the_onset(void **state)
+{
+    (void)state;
+    rig r = rig_make((double[]){1e4, 1e8}, (double[]){3, 400}, 2);
+    r.source.profile = WT_PROFILE_INCOMPRESSIBLE;
+    r.parameters.incubation = true;
+    r.parameters.specific_wear_rate = 0;
+    r.source.numerical_error = 1e-6;
+    const double onset = exp(2) * 2e10 / (4 * 1e4 * 3);
+    for (int late = -1; late <= 1; late += 2) {
+        const wt_estimate near = point_at(&r, onset * (1 + 5e-7 * late)).thickness;
+        assert_true(fabs(near.value - 1e-4) <= near.numerical_error);
+        assert_true(near.value - near.numerical_error <= 1e-6);
+    }
+    rig_free(&r);
+}
+
+/* Every band of three waves with wear, against a scan of D in long double that is finer than any of
+ * them. */
+static long double gain_of(const rig *r, long double z, long double way)
+{
+    long double sum = 0;
+    for (size_t i = 0; i < r->source.n; i++) {
+        const long double q = r->source.wavenumber[i];
+        const long double a = q * z, b = q * (z + way);
+        sum += r->source.power[i] *
+               (expl(-2 * a) * (1 + 2 * a + 2 * a * a) - expl(-2 * b) * (1 + 2 * b + 2 * b * b));
+    }
+    return sum;
+}
+
+static void bands_with_wear(void **state)
+{
+    (void)state;
+    rig r = rig_make((double[]){1e4, 2e5, 1.1e7}, (double[]){3, 8, 400}, 3);
+    r.source.profile = WT_PROFILE_INCOMPRESSIBLE;
+    r.parameters.incubation = true;
+    r.parameters.specific_wear_rate = 1e-14;
+    const long double wear = 1e-14L * 4e5L * 5e-3L, level = 2e10L * wear;
+    double last = 0;
+    for (double time = 10; time < 1e7; time *= 1.21) {
+        const wt_estimate p = point_at(&r, time).thickness;
+        const long double way = wear * time;
+        assert_true(p.value >= last);
+        last = p.value;
+        if (p.value > 0)
+            assert_true(fabsl(gain_of(&r, p.value, way) / level - 1) < 1e-9L);
+        for (long double z = 1.0001L * p.value + 1e-10L; z < 4e-3L; z *= 1.0003L)
+            assert_true(gain_of(&r, z, way) < level);
+    }
+    assert_true(last > 1e-4);
+    rig_free(&r);
+}
+
+/* Time to a share of the balance: closed forms of one wave, and the way back by the history. */
+static void time_to_a_thickness(void **state)
+{
+    (void)state;
+    const double share = 0.9;
+    rig one = rig_mild(), several = rig_several();
+    const wt_layer_balance b = balance_of(&one);
+    const double settle = 1 / (2e6 * b.wear_rate), power = pow(b.ratio, share - 1);
+    for (int incubation = 0; incubation < 2; incubation++) {
+        one.parameters.incubation = several.parameters.incubation = incubation;
+        wt_estimate goal = b.thickness, time;
+        goal.value *= share;
+        assert_int_equal(wt_layer_time(&one.source, &one.parameters, goal, &time, NULL), WT_OK);
+        const double exact =
+            incubation ? -settle * log1p(-power) : settle * (log1p(-1 / b.ratio) - log1p(-power));
+        assert_near(time.value, exact, 1e-12);
+        assert_near_abs(time.value, exact, time.numerical_error);
+        assert_true(time.numerical_error < 1e-11 * time.value);
+        for (int profile = 0; profile < 2; profile++) {
+            several.source.profile = profile ? WT_PROFILE_INCOMPRESSIBLE : WT_PROFILE_PERSSON;
+            goal = balance_of(&several).thickness;
+            goal.value *= share;
+            assert_int_equal(wt_layer_time(&several.source, &several.parameters, goal, &time, NULL),
+                             WT_OK);
+            assert_near(point_at(&several, time.value).thickness.value, goal.value, 1e-9);
+            goal.numerical_error = 0.01 * goal.value; /* what is not known of it is carried on */
+            assert_int_equal(wt_layer_time(&several.source, &several.parameters, goal, &time, NULL),
+                             WT_OK);
+            assert_true(time.numerical_error > 0.01 * time.value);
+        }
+        goal.value = 2 * b.thickness.value;
+        assert_int_equal(wt_layer_time(&one.source, &one.parameters, goal, &time, NULL), WT_OK);
+        assert_true(isnan(time.value));
+    }
+    rig_free(&one);
+    rig_free(&several);
 }
 
 /* ---- laws ------------------------------------------------------------------------------------ */
@@ -289,7 +409,7 @@ static void three_ways_agree(void **state)
     one.parameters.start_thickness = 0;
     rig late = one;
     late.parameters.incubation = true;
-    const double incubation = balance_of(&late).incubation_time;
+    const double incubation = balance_of(&late).incubation_time.value;
     for (double time = 1; time < 1e5; time *= 4.7)
         assert_near(point_at(&late, incubation + time).thickness.value,
                     point_at(&one, time).thickness.value, 1e-9);
@@ -417,7 +537,7 @@ static void regimes(void **state)
         const wt_layer_balance b = balance_of(&r);
         assert_int_equal(b.regime, table[i].regime);
         assert_int_equal(b.thickness.value > 0, table[i].regime != WT_LAYER_NONE);
-        assert_int_equal(isnan(b.removal_time), table[i].regime != WT_LAYER_NONE);
+        assert_int_equal(isnan(b.removal_time.value), table[i].regime != WT_LAYER_NONE);
     }
     assert_true(isinf(balance_of(&r).thickness.value));
     assert_true(isinf(balance_of(&r).ratio));
@@ -466,7 +586,7 @@ static void nothing_happens(void **state)
         assert_true(whole(b.surface_power) && whole(b.formation_rate_zero) && whole(b.wear_rate));
         assert_true(whole(b.ratio) && whole(b.critical_specific_wear_rate));
         assert_true(whole(b.thickness.value) && whole(b.thickness.numerical_error));
-        assert_true(whole(b.eigenvalue) && whole(b.relaxation_time));
+        assert_true(whole(b.eigenvalue) && whole(b.relaxation_time.value));
         const double times[] = {0, 1e-9, 1, 1e9};
         wt_layer_point p[4];
         assert_int_equal(wt_layer_history(&r.source, &r.parameters, times, 4, p, NULL), WT_OK);
@@ -531,6 +651,10 @@ int main(void)
         cmocka_unit_test(numeric_cases),
         cmocka_unit_test(step_in_severity),
         cmocka_unit_test(buried_band),
+        cmocka_unit_test(deep_band_from_its_onset),
+        cmocka_unit_test(error_at_the_onset),
+        cmocka_unit_test(bands_with_wear),
+        cmocka_unit_test(time_to_a_thickness),
         cmocka_unit_test(three_ways_agree),
         cmocka_unit_test(restart_changes_nothing),
         cmocka_unit_test(old_layer_has_an_error),

@@ -17,21 +17,22 @@ typedef struct layer_run {
     wt_energy_source source;
     wt_layer_parameters parameters;
     wt_layer_balance balance;
+    wt_estimate critical_energy, time_to_90_percent;
     wt_layer_point *points; /* [n of the task] */
     char statement[256];
 } layer_run;
 
 /* Single numbers of a run with their keys; the thicknesses in time follow them. */
 #define NUMBERS(X)                                                                                 \
-    X(BALANCE_THICKNESS, run->balance.thickness.value)                                             \
-    X(FORMATION_WEAR_RATIO, run->balance.ratio)                                                    \
+    X(BALANCE_THICKNESS, run->balance.thickness)                                                   \
+    X(FORMATION_WEAR_RATIO, of_power(run, run->balance.ratio))                                     \
     X(INCUBATION_TIME, run->balance.incubation_time)                                               \
     X(RELAXATION_TIME, run->balance.relaxation_time)                                               \
-    X(CRITICAL_WEAR_RATE, run->balance.critical_specific_wear_rate)                                \
+    X(CRITICAL_WEAR_RATE, of_power(run, run->balance.critical_specific_wear_rate))                 \
     X(REMOVAL_TIME, run->balance.removal_time)                                                     \
-    X(CRITICAL_ENERGY, run->parameters.critical_energy)                                            \
-    X(SURFACE_POWER, run->balance.surface_power)                                                   \
-    X(TIME_TO_90_PERCENT, time_to_share(run->points, n, 0.9 * run->balance.thickness.value))
+    X(CRITICAL_ENERGY, run->critical_energy)                                                       \
+    X(SURFACE_POWER, of_power(run, run->balance.surface_power))                                    \
+    X(TIME_TO_90_PERCENT, run->time_to_90_percent)
 #define NUMBER_ID(key, value) NUMBER_##key,
 enum { NUMBERS(NUMBER_ID) N_NUMBERS };
 
@@ -113,26 +114,16 @@ wt_status wt_layer_job_check(const wt_layer_job *job, wt_error *err)
     return WT_OK;
 }
 
-/* When a growing layer gets to a thickness, between the times of its history; NaN if outside them.
- * The relaxation time is no such time: the slowest waves of the roughness decide how the layer with
- * its damage beneath settles. */
-static double time_to_share(const wt_layer_point *points, size_t n, double thickness)
+/* What goes with the power of all wavenumbers has its relative numerical error. */
+static wt_estimate of_power(const layer_run *run, double value)
 {
-    if (!(thickness > 0) || !isfinite(thickness))
-        return (double)NAN;
-    for (size_t i = 1; i < n; i++) {
-        double before = points[i - 1].thickness.value, after = points[i].thickness.value;
-        if (!(points[i - 1].time > 0) || !(before < thickness) || !(after >= thickness))
-            continue;
-        double share = (thickness - before) / (after - before);
-        return points[i - 1].time * pow(points[i].time / points[i - 1].time, share);
-    }
-    return (double)NAN;
+    return (wt_estimate){.value = value,
+                         .numerical_error = fabs(value) * run->source.numerical_error};
 }
 
-static void put_numbers(const layer_run *run, size_t n, double *out)
+static void put_numbers(const layer_run *run, wt_estimate *out)
 {
-#define PUT_NUMBER(key, value) out[NUMBER_##key] = value;
+#define PUT_NUMBER(key, number) out[NUMBER_##key] = number;
     NUMBERS(PUT_NUMBER)
 }
 
@@ -165,12 +156,20 @@ static wt_status find_balance(const layer_task *task, size_t replicate, layer_ru
             flow_draw_positive(job->specific_wear_rate, seed, replicate, FLOW_DRAW_WEAR);
         p->critical_energy =
             flow_draw_positive(job->critical_energy, seed, replicate, FLOW_DRAW_CRITICAL_ENERGY);
-        if (isnan(p->critical_energy))
+        const bool calibrated = isnan(p->critical_energy);
+        if (calibrated)
             p->critical_energy = wt_layer_calibrate(
                 &run->source, p,
                 flow_draw_positive(job->observed_thickness, seed, replicate, FLOW_DRAW_OBSERVED));
+        run->critical_energy = calibrated ? of_power(run, p->critical_energy)
+                                          : (wt_estimate){.value = p->critical_energy};
         status = wt_layer_balance_compute(&run->source, p, &run->balance, err);
     }
+    wt_estimate most = run->balance.thickness;
+    most.value *= 0.9;
+    most.numerical_error *= 0.9;
+    if (status == WT_OK)
+        status = wt_layer_time(&run->source, &run->parameters, most, &run->time_to_90_percent, err);
     sliding_contact_clear(&c);
     return status;
 }
@@ -197,7 +196,10 @@ static wt_status one_replicate(const void *user, size_t i, double *out, wt_error
     if (status == WT_OK)
         status = follow(task, &run, err);
     if (status == WT_OK) {
-        put_numbers(&run, task->n, out);
+        wt_estimate number[N_NUMBERS];
+        put_numbers(&run, number);
+        for (size_t k = 0; k < N_NUMBERS; k++)
+            out[k] = number[k].value;
         for (size_t k = 0; k < task->n; k++)
             out[N_NUMBERS + k] = run.points[k].thickness.value;
     }
@@ -225,7 +227,7 @@ static wt_status choose_times(layer_task *task, const wt_layer_balance *b, wt_er
         memcpy(task->time, task->job->time, task->n * sizeof *task->time);
         return WT_OK;
     }
-    double first = b->incubation_time, last = b->relaxation_time;
+    double first = b->incubation_time.value, last = b->relaxation_time.value;
     if (!(first > 0) || !isfinite(first))
         first = isfinite(last) && last > 0 ? SHORT_OF_LAST * last : 1;
     if (!(last > 0) || !isfinite(last))
@@ -276,15 +278,14 @@ static void set_numbers(const layer_task *task, const layer_run *run, table_writ
 #define NUMBER_KEY(key, value) LAYER_KEY_##key,
     static const layer_key keys[] = {NUMBERS(NUMBER_KEY)};
     const wt_layer_balance *b = &run->balance;
-    double value[N_NUMBERS];
-    put_numbers(run, task->n, value);
+    wt_estimate number[N_NUMBERS];
+    put_numbers(run, number);
     for (size_t i = 0; i < N_NUMBERS; i++) {
-        const bool is_thickness = keys[i] == LAYER_KEY_BALANCE_THICKNESS;
-        layer_set_value(t, keys[i], value[i], task->replicates.error[i],
-                        is_thickness ? b->thickness.numerical_error : 0);
+        layer_set_value(t, keys[i], number[i].value, task->replicates.error[i],
+                        number[i].numerical_error);
         /* d ln thickness / d ln k = -Qw / (thickness |dQf/dz|): the balance is where Qf(z) = Qw */
-        const double sensitivity = -b->wear_rate * b->relaxation_time / b->thickness.value;
-        if (is_thickness && isfinite(sensitivity))
+        const double sensitivity = -b->wear_rate * b->relaxation_time.value / b->thickness.value;
+        if (keys[i] == LAYER_KEY_BALANCE_THICKNESS && isfinite(sensitivity))
             layer_set_value(t, LAYER_KEY_WEAR_SENSITIVITY, sensitivity, (double)NAN, 0);
     }
 }

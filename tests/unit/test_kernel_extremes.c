@@ -1,0 +1,314 @@
+/* Extreme materials, surfaces, velocities and pressures, drawn at random: the true error of
+ * friction lies within the stated one. The truth is an own quadrature in long double: double sums
+ * instead of the closed forms, short panels in ln q, and for tables tanh-sinh over the angle.
+ *
+ * With an argument that many other materials are drawn: test_kernel_extremes CASES [SEED]. */
+#include "near.h"
+
+#include "weartrack/kernel.h"
+
+#include <float.h>
+#include <stdlib.h>
+
+typedef long double real;
+
+enum { MOST_TERMS = 6, NODES = 12, ANGLES = 45 };
+
+static uint64_t state;
+
+static double uniform(double low, double high)
+{
+    state += 0x9e3779b97f4a7c15u;
+    uint64_t z = (state ^ (state >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return low + (high - low) * (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
+}
+
+static double decades(double low, double high)
+{
+    return pow(10, uniform(low, high));
+}
+
+typedef struct scene {
+    bool table;
+    size_t n; /* terms or knots */
+    double e0, e[MOST_TERMS], tau[MOST_TERMS], loss[MOST_TERMS];
+    double nu, pressure, velocity, q0, qr, q1, hurst, c0, gamma, tolerance;
+    double least, most; /* frequencies backed by data */
+} scene;
+
+static scene draw_scene(bool table)
+{
+    scene s = {.table = table, .n = 1 + (size_t)uniform(0, MOST_TERMS)};
+    if (table && s.n < 2)
+        s.n = 2;
+    double omega = decades(-8, 4);
+    s.e0 = uniform(0, 1) < 0.2 ? 0 : decades(3, 9);
+    for (size_t k = 0; k < s.n; k++) {
+        s.e[k] = decades(2, 11);
+        s.loss[k] = decades(2, 11);
+        s.tau[k] = table ? (omega *= decades(0.05, 3)) : decades(-14, 10);
+    }
+    s.nu = uniform(0, 1) < 0.2 ? 0.5 : uniform(0, 0.5);
+    s.pressure = decades(0, 12);
+    s.velocity = decades(-12, 6);
+    s.q0 = decades(1, 5);
+    s.q1 = s.q0 * (1 + decades(-4, 6));
+    s.qr = uniform(0, 1) < 0.3 ? s.q0 : s.q0 * pow(s.q1 / s.q0, uniform(0, 1));
+    s.hurst = uniform(-0.9, 2.5);
+    s.c0 = decades(-30, -8) / pow(s.q0 / 1e3, 4);
+    s.gamma = uniform(0, 1) < 0.5 ? 1 : uniform(0, 1);
+    s.tolerance = decades(-12, -2);
+    s.least = decades(-6, 2);
+    s.most = s.least * decades(0.1, 10);
+    return s;
+}
+
+/* ---- the truth ------------------------------------------------------------------------------- */
+
+/* Gauss-Legendre on [0, 1]; running[i][k]: int of the k-th Lagrange polynomial up to node i. */
+static real node[NODES], weight[NODES], running[NODES][NODES];
+
+static void make_rule(void)
+{
+    for (int i = 0; i < NODES; i++) {
+        real x = cosl(M_PIl * (i + 0.75L) / (NODES + 0.5L)), slope = 0;
+        for (int k = 0; k < 60; k++) {
+            real p = 1, last = 0;
+            for (int j = 0; j < NODES; j++) {
+                const real next = ((2 * j + 1) * x * p - j * last) / (j + 1);
+                last = p;
+                p = next;
+            }
+            slope = NODES * (x * p - last) / (x * x - 1);
+            x -= p / slope;
+        }
+        node[i] = (1 + x) / 2;
+        weight[i] = 1 / ((1 - x * x) * slope * slope);
+    }
+    for (int i = 0; i < NODES; i++)
+        for (int k = 0; k < NODES; k++)
+            for (int j = 0; j < NODES; j++) {
+                const real u = node[i] * node[j];
+                real polynomial = 1;
+                for (int m = 0; m < NODES; m++)
+                    polynomial *= m == k ? 1 : (u - node[m]) / (node[k] - node[m]);
+                running[i][k] += weight[j] * node[i] * polynomial;
+            }
+}
+
+static void table_modulus(const scene *s, real omega, real *storage, real *loss)
+{
+    const size_t last = s->n - 1;
+    size_t k = 0;
+    const real x = fminl(fmaxl(omega, s->tau[0]), s->tau[last]);
+    while (k + 2 < s->n && x > s->tau[k + 1])
+        k++;
+    const real t = logl(x / s->tau[k]) / logl((real)s->tau[k + 1] / s->tau[k]);
+    *storage = s->e[k] * powl((real)s->e[k + 1] / s->e[k], t);
+    *loss = s->loss[k] * powl((real)s->loss[k + 1] / s->loss[k], t);
+}
+
+/* J1 and J2 over the angles with low < cos(phi) < high, in which the moduli are smooth, by
+ * tanh-sinh in phi. */
+static void angle_piece(const scene *s, real w, real low, real high, real *j1, real *j2)
+{
+    const real from = acosl(fminl(1, high)), to = low > 0 ? acosl(low) : M_PIl / 2;
+    for (int i = -ANGLES; i <= ANGLES; i++) {
+        const real u = 3.6L * i / ANGLES, a = M_PIl / 2 * sinhl(u);
+        const real left = 1 / (1 + expl(-2 * a)); /* share of the way */
+        const real d = 3.6L / ANGLES * M_PIl / 4 * coshl(u) / (coshl(a) * coshl(a));
+        const real phi = from + (to - from) * left;
+        const real c =
+            fmaxl(to == M_PIl / 2 ? sinl((to - from) / (1 + expl(2 * a))) : cosl(phi), 0);
+        real storage, loss;
+        table_modulus(s, w * fminl(fmaxl(c, low), high), &storage, &loss);
+        *j1 += 4 * (to - from) * d * c * loss;
+        *j2 += 4 * (to - from) * d * (storage * storage + loss * loss);
+    }
+}
+
+static void angular(const scene *s, real w, real *j1, real *j2)
+{
+    *j1 = *j2 = 0;
+    if (s->table) {
+        real low = 0;
+        for (size_t k = 0; k < s->n && s->tau[k] < w; k++) {
+            angle_piece(s, w, low, s->tau[k] / w, j1, j2);
+            low = s->tau[k] / w;
+        }
+        angle_piece(s, w, low, 1, j1, j2);
+        return;
+    }
+    real sum = (real)s->e0 * s->e0;
+    for (size_t k = 0; k < s->n; k++) {
+        const real a = w * s->tau[k], r = sqrtl(1 + a * a);
+        *j1 += s->e[k] * a / (r * (1 + r));
+        sum += 2 * (real)s->e0 * s->e[k] * a * a / (r * (1 + r));
+        for (size_t m = 0; m < s->n; m++) {
+            /* int Re[i a c / (1 + i a c) conj(i b c / (1 + i b c))] over the circle / 2 pi */
+            const real b = w * s->tau[m], t = sqrtl(1 + b * b);
+            const real mine = a * a / (r * (1 + r)), other = b * b / (t * (1 + t));
+            sum += (real)s->e[k] * s->e[m] * (mine * b + other * a) / (a + b);
+        }
+    }
+    *j1 *= 2 * M_PIl;
+    *j2 = 2 * M_PIl * sum;
+}
+
+typedef struct truth {
+    real variance, hysteresis;
+} truth;
+
+/* d G / dt and, without S P, d mu / dt at q = q0 exp(t). */
+static void integrand(const scene *s, real t, real *g, real *mu)
+{
+    real j1, j2;
+    const real q = s->q0 * expl(t), stiff = 1 / (1 - (real)s->nu * s->nu) / s->pressure;
+    const real fall = q > s->qr ? powl(q / s->qr, -2 * (1 + (real)s->hurst)) : 1;
+    angular(s, q * s->velocity, &j1, &j2);
+    *g = q * q * q * q * s->c0 * fall * j2 * stiff * stiff / 8;
+    *mu = q * q * q * q * s->c0 * fall * j1 * stiff / 2;
+}
+
+static real area(real variance)
+{
+    return variance > 0 ? erfl(1 / (2 * sqrtl(variance))) : 1;
+}
+
+/* t = from + (to - from) u^2: smooth right of a knot. */
+static void panel(const scene *s, real from, real to, truth *sum)
+{
+    real g[NODES], mu[NODES];
+    for (int i = 0; i < NODES; i++) {
+        integrand(s, from + (to - from) * node[i] * node[i], &g[i], &mu[i]);
+        g[i] *= 2 * node[i] * (to - from);
+        mu[i] *= 2 * node[i] * (to - from);
+    }
+    const real start = sum->variance;
+    for (int i = 0; i < NODES; i++) {
+        real here = start;
+        for (int k = 0; k < NODES; k++)
+            here += running[i][k] * g[k];
+        const real p = area(here);
+        sum->hysteresis += weight[i] * mu[i] * p * (s->gamma + (1 - (real)s->gamma) * p * p);
+        sum->variance += weight[i] * g[i];
+    }
+}
+
+static int rising(const void *a, const void *b)
+{
+    const real x = *(const real *)a, y = *(const real *)b;
+    return (x > y) - (x < y);
+}
+
+static truth truth_of(const scene *s)
+{
+    const real length = logl((real)s->q1 / s->q0);
+    real cut[MOST_TERMS + 3];
+    size_t n = 0;
+    cut[n++] = length;
+    if (s->qr > s->q0 && s->qr < s->q1)
+        cut[n++] = logl((real)s->qr / s->q0);
+    for (size_t k = 0; s->table && k < s->n; k++) {
+        const real t = logl(s->tau[k] / ((real)s->velocity * s->q0));
+        if (t > 0 && t < length)
+            cut[n++] = t;
+    }
+    qsort(cut, n, sizeof *cut, rising);
+    truth sum = {0, 0};
+    const real widest = s->table ? 0.6L : 0.3L;
+    real from = 0;
+    for (size_t i = 0; i < n; i++)
+        while (from < cut[i]) {
+            /* from a panel so thin that G is 0 in it, growing */
+            real to = fminl(cut[i], from == 0 ? 1e-34L * cut[0] : from * 1.7L);
+            to = fminl(to, from + widest);
+            panel(s, from, to, &sum);
+            from = to;
+        }
+    return sum;
+}
+
+/* ---- the comparison -------------------------------------------------------------------------- */
+
+static wt_material *material_of(const scene *s)
+{
+    wt_material *material = NULL;
+    const wt_prony prony = {.deformation = WT_TENSION,
+                            .equilibrium_modulus = s->e0,
+                            .n = s->n,
+                            .relaxation_time = (double *)s->tau,
+                            .modulus = (double *)s->e,
+                            .frequency_min = (double)NAN,
+                            .frequency_max = (double)NAN};
+    const wt_status status = s->table ? wt_material_table(s->tau, s->e, s->loss, s->n, s->nu,
+                                                          WT_EXTRAPOLATE_HOLD, &material, NULL)
+                                      : wt_material_prony(&prony, s->nu, &material, NULL);
+    assert_int_equal(status, WT_OK);
+    return material;
+}
+
+static void check(const scene *s, size_t number, const char *what, wt_estimate actual, real exact)
+{
+    const real error = fabsl(actual.value - exact);
+    if (!(error <= actual.numerical_error + 1e-17L * fabsl(exact) + DBL_MIN))
+        fail_msg(
+            "case %zu (%s, %zu, tolerance %.2g, v %.2g, p %.2g): %s %.17g is %.3Lg from %.20Lg, "
+            "but %.3g is stated",
+            number, s->table ? "table" : "prony", s->n, s->tolerance, s->velocity, s->pressure,
+            what, actual.value, error, exact, actual.numerical_error);
+    if (!(actual.numerical_error <= 0.1 * fabs(actual.value) + DBL_MIN))
+        fail_msg("case %zu: %s %g +- %g", number, what, actual.value, actual.numerical_error);
+}
+
+static size_t reached;
+
+static void compare(const scene *s, size_t number)
+{
+    wt_material *material = material_of(s);
+    wt_roughness *roughness = NULL;
+    wt_friction_workspace *ws = NULL;
+    wt_friction_options options = wt_friction_defaults();
+    wt_friction_point p;
+    wt_error err = WT_ERROR_INIT;
+    options.tolerance = s->tolerance;
+    options.gamma = s->gamma;
+    assert_int_equal(
+        wt_roughness_self_affine(s->q0, s->qr, s->q1, s->hurst, s->c0, &roughness, NULL), WT_OK);
+    assert_int_equal(wt_friction_workspace_new(material, roughness, &options, &ws, NULL), WT_OK);
+    if (wt_friction_compute(ws, s->pressure, &s->velocity, 1, &p, &err) != WT_OK)
+        fail_msg("case %zu: %s", number, err.message);
+    const truth exact = truth_of(s);
+    check(s, number, "G", p.stress_variance, exact.variance);
+    check(s, number, "P", p.area_ratio, area(exact.variance));
+    check(s, number, "mu", p.hysteresis, exact.hysteresis);
+    reached += p.reached;
+    wt_friction_workspace_free(ws);
+    wt_roughness_free(roughness);
+    wt_material_free(material);
+}
+
+static size_t n_cases = 24;
+
+static void extreme_friction(void **ignored)
+{
+    (void)ignored;
+    make_rule();
+    for (size_t i = 0; i < n_cases; i++) {
+        const scene s = draw_scene(i % 8 == 7);
+        compare(&s, i);
+    }
+    assert_true(10 * reached >= 9 * n_cases);
+}
+
+int main(int argc, char **argv)
+{
+    if (argc > 1)
+        n_cases = strtoul(argv[1], NULL, 10);
+    state = argc > 2 ? strtoul(argv[2], NULL, 10) : 7;
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(extreme_friction),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
