@@ -12,7 +12,7 @@
 
 typedef long double real;
 
-enum { MOST_TERMS = 6, NODES = 12, ANGLES = 45 };
+enum { MOST_TERMS = 6, NODES = 12, ANGLES = 90 };
 
 static uint64_t state;
 
@@ -110,21 +110,18 @@ static void table_modulus(const scene *s, real omega, real *storage, real *loss)
 }
 
 /* J1 and J2 over the angles with low < cos(phi) < high, in which the moduli are smooth, by
- * tanh-sinh in phi. */
+ * tanh-sinh in pi/2 - phi. */
 static void angle_piece(const scene *s, real w, real low, real high, real *j1, real *j2)
 {
-    const real from = acosl(fminl(1, high)), to = low > 0 ? acosl(low) : M_PIl / 2;
+    const real from = asinl(low), width = asinl(fminl(1, high)) - from;
     for (int i = -ANGLES; i <= ANGLES; i++) {
         const real u = 3.6L * i / ANGLES, a = M_PIl / 2 * sinhl(u);
-        const real left = 1 / (1 + expl(-2 * a)); /* share of the way */
         const real d = 3.6L / ANGLES * M_PIl / 4 * coshl(u) / (coshl(a) * coshl(a));
-        const real phi = from + (to - from) * left;
-        const real c =
-            fmaxl(to == M_PIl / 2 ? sinl((to - from) / (1 + expl(2 * a))) : cosl(phi), 0);
+        const real c = sinl(from + width / (1 + expl(-2 * a)));
         real storage, loss;
         table_modulus(s, w * fminl(fmaxl(c, low), high), &storage, &loss);
-        *j1 += 4 * (to - from) * d * c * loss;
-        *j2 += 4 * (to - from) * d * (storage * storage + loss * loss);
+        *j1 += 4 * width * d * c * loss;
+        *j2 += 4 * width * d * (storage * storage + loss * loss);
     }
 }
 
