@@ -15,6 +15,8 @@ int cmd_layer(int argc, char **argv)
     wt_layer_job job = wt_layer_job_defaults();
     cmd_sliding s;
     cmd_sliding_init(&s, (cmd_part){wt_layer_job_params(), &job, NULL, 0});
+    /* the energy knows nothing of the shear stress */
+    s.parts[CMD_CONDITIONS].only = "pressure velocity sliding-temperature gamma";
     wt_layer_tables tables = {0};
     if (!cmd_sliding_parse(&s, &usage, argc, argv))
         goto done;

@@ -81,8 +81,6 @@ static const struct {
     {NULL, "no-report", "the base has it"},
     {NULL, "style", "of the pictures: test_report"},
     {NULL, "provenance", "tests/cli/round_trip.txt"},
-    {"layer", "shear-stress",
-     "one list of conditions for friction and layer; energy has none of it"},
 };
 
 static bool is_dead(const char *subcommand, const char *name)
@@ -155,7 +153,7 @@ static const struct {
      ""},
     {"layer",
      "dma " CASE "dma.txt|roughness self-affine:q0=2e3rad/m,qr=4e3rad/m,q1=2e6rad/m,hurst=0.8,"
-     "c0=2e-17m^4+-5%|pressure 0.4MPa|velocity 0.3m/s|shear-stress 5MPa|replicates 4|"
+     "c0=2e-17m^4+-5%|pressure 0.4MPa|velocity 0.3m/s|replicates 4|"
      "specific-wear-rate 1e-12m^2/N|critical-energy 2e10J/m^3|sliding-temperature 30degC",
      ""},
     {"run", "replicates 4|no-report", "run.xml"},

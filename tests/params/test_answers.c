@@ -63,6 +63,13 @@ static const struct {
     {"run", "absent", {wt_run_params}},
 };
 
+/* What the energy of a layer knows nothing of is an option of friction alone. */
+static bool is_option(size_t s, const wt_param *p)
+{
+    return (p->flags & PARAM_NO_OPTION) == 0 &&
+           !(strcmp(subcommands[s].name, "layer") == 0 && strcmp(p->name, "shear-stress") == 0);
+}
+
 static bool is_refused_option(size_t s, const char *name, const char *text)
 {
     char command[TEXT], words[TEXT] = "", option[80];
@@ -73,7 +80,7 @@ static bool is_refused_option(size_t s, const char *name, const char *text)
         for (size_t i = 0; i < wt_params_count(params); i++) {
             const wt_param *p = wt_params_get(params, i);
             const char *value = good_text(p->name, name);
-            if (value != NULL && (p->flags & PARAM_NO_OPTION) == 0)
+            if (value != NULL && is_option(s, p))
                 used += (size_t)snprintf(command + used, sizeof command - used, " --%s '%s'",
                                          p->name, value);
         }
@@ -377,8 +384,7 @@ static void try_value(const wt_param *p, const char *text, bool refused, double 
     for (size_t s = 0; s < sizeof subcommands / sizeof subcommands[0]; s++)
         for (size_t t = 0; subcommands[s].params[t] != NULL; t++)
             for (size_t i = 0; i < wt_params_count(subcommands[s].params[t]()); i++)
-                if (wt_params_get(subcommands[s].params[t](), i) == p &&
-                    (p->flags & PARAM_NO_OPTION) == 0 &&
+                if (wt_params_get(subcommands[s].params[t](), i) == p && is_option(s, p) &&
                     is_refused_option(s, p->name, text) != refused)
                     complain("weartrack %s --%s '%s' is %s", subcommands[s].name, p->name, text,
                              refused ? "taken" : "refused");

@@ -214,7 +214,7 @@ static truth truth_of(const scene *s)
     }
     qsort(cut, n, sizeof *cut, rising);
     truth sum = {0, 0};
-    const real widest = s->table ? 0.6L : 0.3L;
+    const real widest = s->table ? 0.15L : 0.3L;
     real from = 0;
     for (size_t i = 0; i < n; i++)
         while (from < cut[i]) {

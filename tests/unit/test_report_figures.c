@@ -107,6 +107,18 @@ static void test_data_have_the_described_columns(void **state)
     }
 }
 
+/* A figure's table is one of those that a report binds (BOUND_TABLES). */
+static void test_tables_are_bound(void **state)
+{
+    (void)state;
+    bound_tables tables = {.n_indentation = 0};
+    for (size_t i = 0; i < wt_figure_count(); i++) {
+        const figure_description *figure = figure_find(i);
+        if (bound_find(&tables, figure->table) == NULL)
+            fail_msg("%s: its table %s is not in BOUND_TABLES", figure->name, figure->table->name);
+    }
+}
+
 /* A description names columns of its own table, each of the right kind. */
 static void test_descriptions_fit_their_tables(void **state)
 {
@@ -501,6 +513,7 @@ static void test_what_may_be_missing(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_tables_are_bound),
         cmocka_unit_test(test_descriptions_fit_their_tables),
         cmocka_unit_test(test_data_have_the_described_columns),
         cmocka_unit_test(test_curves_are_drawn_from_their_columns),

@@ -95,6 +95,7 @@ typedef struct text_table {
     double *values;                              /* [n_rows][n_columns], NaN for an empty cell */
     size_t *blocks;       /* [n_rows] number that changes where a block begins */
     unsigned char *kinds; /* [n_rows] wt_segment_kind, or ROW_KIND_NONE */
+    size_t *row_lines;    /* [n_rows] counted from 1 */
     size_t n_rows;
     text_header header;
 } text_table;

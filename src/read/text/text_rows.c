@@ -19,7 +19,9 @@ static bool grow(text_table *t)
     t->blocks = blocks != NULL ? blocks : t->blocks;
     unsigned char *kinds = array_grow(t->kinds, t->n_rows, sizeof *kinds);
     t->kinds = kinds != NULL ? kinds : t->kinds;
-    return values != NULL && blocks != NULL && kinds != NULL;
+    size_t *lines = array_grow(t->row_lines, t->n_rows, sizeof *lines);
+    t->row_lines = lines != NULL ? lines : t->row_lines;
+    return values != NULL && blocks != NULL && kinds != NULL && lines != NULL;
 }
 
 bool scan_split_row(text_scanner *s)
@@ -141,6 +143,7 @@ void scan_add_row(text_scanner *s)
     }
     t->blocks[t->n_rows] = s->block;
     t->kinds[t->n_rows] = segment_kind(s);
+    t->row_lines[t->n_rows] = s->i + 1;
     t->n_rows++;
     s->blank = false;
 }

@@ -260,6 +260,7 @@ static void free_table(text_table *t)
     free(t->values);
     free(t->blocks);
     free(t->kinds);
+    free(t->row_lines);
 }
 
 /* Tables without a row carry nothing. */

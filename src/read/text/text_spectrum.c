@@ -18,10 +18,32 @@ static int by_wavenumber(const void *a, const void *b)
     return (x->wavenumber > y->wavenumber) - (x->wavenumber < y->wavenumber);
 }
 
+/* What a row says of the spectrum. Wavenumber 0 of an averaged spectrum is the mean height, no
+ * wave; anything else that is no point would leave a hole that nobody sees. */
+typedef enum row_use { ROW_POINT, ROW_EMPTY, ROW_MEAN, ROW_BAD } row_use;
+
+static row_use use_of(point p)
+{
+    if (isnan(p.wavenumber) && isnan(p.density))
+        return ROW_EMPTY;
+    if (p.wavenumber == 0)
+        return ROW_MEAN;
+    return p.wavenumber > 0 && !isnan(p.density) ? ROW_POINT : ROW_BAD;
+}
+
+static wt_status bad_row(const text_table *t, size_t row, point p, wt_error *err)
+{
+    wt_fail(err, WT_E_CORRUPT, "a row of the spectrum is no point of it");
+    wt_error_place(err, "line %zu", t->row_lines[row]);
+    wt_error_expected(err, "a wavenumber above 0 (of 0: the mean, left out) and a density");
+    wt_error_found(err, "wavenumber %g rad/m, density %g (nan: no value)", p.wavenumber, p.density);
+    wt_error_advice(err, "take the row out if the spectrum is to be interpolated there");
+    return WT_E_CORRUPT;
+}
+
 static wt_status collect(const text_file *file, point *points, size_t *n, wt_spectrum_kind *kind,
                          wt_parselog *log, wt_error *err)
 {
-    size_t dropped = 0;
     for (size_t i = 0; i < file->n_tables; i++) {
         const text_table *t = &file->tables[i];
         wt_status status = text_table_require(t, WT_KIND_SPECTRUM, err);
@@ -41,16 +63,22 @@ static wt_status collect(const text_file *file, point *points, size_t *n, wt_spe
         *kind = this_kind;
         for (size_t r = 0; r < t->n_rows; r++) {
             point p = {text_table_value(t, r, q), text_table_value(t, r, c)};
-            if (p.wavenumber > 0 && !isnan(p.density))
+            switch (use_of(p)) {
+            case ROW_POINT:
                 points[(*n)++] = p;
-            else
-                dropped++;
+                break;
+            case ROW_EMPTY:
+                break;
+            case ROW_MEAN:
+                wt_parselog_add(log, WT_WARNING, file->name, line_place(t->row_lines[r]).words,
+                                "wavenumber 0 is the mean of the surface, no wave; its density is "
+                                "left out");
+                break;
+            case ROW_BAD:
+                return bad_row(t, r, p, err);
+            }
         }
     }
-    if (dropped > 0)
-        wt_parselog_add(log, WT_NOTE, file->name, NULL,
-                        "%zu rows without a positive wavenumber or without a density left out",
-                        dropped);
     return WT_OK;
 }
 
