@@ -268,7 +268,6 @@ static void say_contact(line *l, const contact *c)
              c->q0, c->qr, c->q1, c->hurst, c->c0, stated_error(c->error).words);
     say(l, "--roughness", roughness);
     say_uncertain(l, "--pressure", c->pressure, "Pa", c->error);
-    say_uncertain(l, "--shear-stress", c->shear_stress, "Pa", c->error);
     say_number(l, "--sliding-temperature", c->temperature, "degC");
     say_number(l, "--poisson-ratio", c->poisson, "");
     say(l, "--threads", "1");
@@ -308,11 +307,13 @@ static void observe_contact(const dma_scene *s, const contact_truth *truth, cons
     const char *layer = trial_file(t, "layer.tsv");
     line from_sweep = {.words = {"friction"}, .n = 1}, from_master = from_sweep;
     say_contact(&from_sweep, c);
+    say_uncertain(&from_sweep, "--shear-stress", c->shear_stress, "Pa", c->error);
     say_velocities(&from_sweep, c);
     say_isotherms(&from_sweep, s, sweep);
     if (run(&from_sweep, friction, t))
         compare_friction(friction, c, truth, false, t);
     say_contact(&from_master, c);
+    say_uncertain(&from_master, "--shear-stress", c->shear_stress, "Pa", c->error);
     say_velocities(&from_master, c);
     say(&from_master, "--material", master);
     if (run(&from_master, kept, t))
