@@ -41,7 +41,7 @@ WT_API wt_status wt_notes_table(const wt_parselog *log, const char *folder, wt_t
                                 wt_error *err) WT_NODISCARD;
 /* Adds to the log what a person should know of the tables of a result: a tolerance that is not
  * reached, what is extrapolated. */
-WT_API void wt_result_remarks(const wt_result *result, double tolerance, wt_parselog *log);
+WT_API void wt_result_remarks(const wt_result *result, wt_parselog *log);
 /* The main numbers of a result in one sentence, "" if it has none. Returns the length as snprintf
  * does. */
 WT_API size_t wt_result_sentence(const wt_result *result, char *buffer, size_t size);

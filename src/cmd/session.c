@@ -81,7 +81,7 @@ void cmd_finish(cmd_session *s, wt_status made, wt_table **const tables[], size_
         made = wt_result_add(s->result, table, &s->err);
     }
     if (made == WT_OK) {
-        wt_result_remarks(s->result, s->work.tolerance, s->log);
+        wt_result_remarks(s->result, s->log);
         made = cmd_record(s, add_table, s->result);
     }
     if (made == WT_OK)

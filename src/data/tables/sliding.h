@@ -51,6 +51,7 @@
       OPTIONAL)                                                                                    \
     X(FRICTION_KEY_REPLICATES, "replicates", PLAIN)                                                \
     X(FRICTION_KEY_MATERIAL_STATEMENT, "material_statement", TEXT, OPTIONAL)                       \
+    X(FRICTION_KEY_NUMERICAL_STATEMENT, "numerical_statement", TEXT, OPTIONAL)                     \
     X(FRICTION_KEY_LAYER_THICKNESS, "layer_thickness", SI(LENGTH), OPTIONAL)                       \
     X(FRICTION_KEY_LAYER_MODULUS_RATIO, "layer_modulus_ratio", NUMBER, OPTIONAL)                   \
     X(FRICTION_KEY_WITH_LAYER, "friction_with_layer_at_reference", NUMBER,                         \
@@ -106,7 +107,8 @@
     X(LAYER_KEY_DUTY, "duty", PLAIN)                                                               \
     X(LAYER_KEY_ERROR_INCLUDES, "standard_error_includes", TEXT, LABEL("Standard errors include")) \
     X(LAYER_KEY_ERROR_LACKS, "standard_error_lacks", TEXT, LABEL("No error stated for"), OPTIONAL) \
-    X(LAYER_KEY_MATERIAL_STATEMENT, "material_statement", TEXT, OPTIONAL)
+    X(LAYER_KEY_MATERIAL_STATEMENT, "material_statement", TEXT, OPTIONAL)                          \
+    X(LAYER_KEY_NUMERICAL_STATEMENT, "numerical_statement", TEXT, OPTIONAL)
 
 #define ENERGY_DENSITY_COLUMNS(X)                                                                  \
     X(ENERGY_DENSITY_DEPTH, "depth", "depth below the surface", SI(LENGTH))                        \

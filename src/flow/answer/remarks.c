@@ -1,5 +1,6 @@
 /* What a person should know of a result, from its tables. SPDX-License-Identifier: GPL-3.0-or-later
  */
+#include "base/array.h"
 #include "data/tables/tables.h"
 #include "weartrack/flow.h"
 
@@ -8,22 +9,15 @@
 /* A share of the friction below this is not worth a remark. */
 static const double odd_share = 0.01;
 
-static void of_friction(const table_view *v, double tolerance, wt_parselog *log)
+static void of_friction(const table_view *v, wt_parselog *log)
 {
-    double share = 0, error = 0;
+    double share = 0;
     const char *statement = friction_words(v, FRICTION_KEY_MATERIAL_STATEMENT);
-    for (size_t i = 0; i < v->n_rows; i++) {
+    const char *numerical = friction_words(v, FRICTION_KEY_NUMERICAL_STATEMENT);
+    for (size_t i = 0; i < v->n_rows; i++)
         share = fmax(share, friction_get(v, i, FRICTION_EXTRAPOLATED_SHARE));
-        error = fmax(error, friction_get(v, i, FRICTION_HYSTERESIS_NUMERICAL_ERROR) /
-                                friction_get(v, i, FRICTION_HYSTERESIS));
-        error = fmax(error, friction_get(v, i, FRICTION_AREA_RATIO_NUMERICAL_ERROR) /
-                                friction_get(v, i, FRICTION_AREA_RATIO));
-    }
-    if (error > tolerance)
-        wt_parselog_add(log, WT_WARNING, NULL, NULL,
-                        "friction: the tolerance %.2g is not reached, the numerical error is up to "
-                        "%.2g",
-                        tolerance, error);
+    if (numerical != NULL)
+        wt_parselog_add(log, WT_WARNING, NULL, NULL, "friction: %s", numerical);
     if (share >= odd_share)
         wt_parselog_add(log, WT_WARNING, NULL, NULL,
                         "friction: up to %.0f %% of the hysteresis comes from frequencies outside "
@@ -47,15 +41,24 @@ static void of_comparison(const table_view *v, wt_parselog *log)
         wt_parselog_add(log, WT_WARNING, NULL, NULL, "comparison with DMA: %s", statement);
 }
 
-void wt_result_remarks(const wt_result *result, double tolerance, wt_parselog *log)
+static void of_layer(const table_view *v, wt_parselog *log)
+{
+    static const layer_key statements[] = {LAYER_KEY_MATERIAL_STATEMENT,
+                                           LAYER_KEY_NUMERICAL_STATEMENT};
+    for (size_t i = 0; i < COUNT_OF(statements); i++) {
+        const char *words = layer_words(v, statements[i]);
+        if (words != NULL)
+            wt_parselog_add(log, WT_WARNING, NULL, NULL, "layer: %s", words);
+    }
+}
+
+void wt_result_remarks(const wt_result *result, wt_parselog *log)
 {
     table_view view;
     if (table_bind_of(result, &friction_schema, "", &view, NULL) == WT_OK)
-        of_friction(&view, tolerance, log);
+        of_friction(&view, log);
     if (table_bind_of(result, &dma_comparison_schema, "", &view, NULL) == WT_OK)
         of_comparison(&view, log);
-    if (table_bind_of(result, &layer_schema, "", &view, NULL) == WT_OK &&
-        layer_words(&view, LAYER_KEY_MATERIAL_STATEMENT) != NULL)
-        wt_parselog_add(log, WT_WARNING, NULL, NULL, "layer: %s",
-                        layer_words(&view, LAYER_KEY_MATERIAL_STATEMENT));
+    if (table_bind_of(result, &layer_schema, "", &view, NULL) == WT_OK)
+        of_layer(&view, log);
 }

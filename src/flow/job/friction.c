@@ -22,6 +22,7 @@ typedef struct friction_task {
     size_t n;                  /* velocities + 1 */
     double *velocity;          /* [n] */
     double *centre;            /* [N_KINDS * n] */
+    double worst;              /* relative numerical error where the tolerance is not reached */
     double numerical[2];       /* of the total friction at the reference: without, with the layer */
     wt_friction_point *points; /* [n] at the values themselves, without a layer */
     replicates replicates;
@@ -190,6 +191,9 @@ static void set_keys(friction_task *task, table_writer *t, const char *statement
     friction_set_print(t, FRICTION_KEY_REPLICATES, "%zu", task->replicates.n);
     if (statement[0] != '\0')
         friction_set_text(t, FRICTION_KEY_MATERIAL_STATEMENT, statement);
+    if (task->worst > 0)
+        friction_set_print(t, FRICTION_KEY_NUMERICAL_STATEMENT, TOLERANCE_STATEMENT,
+                           task->work->tolerance, task->worst);
     if (task->layer != NULL)
         set_layer_keys(task, t);
 }
@@ -313,6 +317,23 @@ static void summarise(const friction_task *task, wt_friction_tables *t)
     t->n_points = task->n * (1 + task->replicates.n) * (task->layer != NULL ? 2 : 1);
 }
 
+static double relative_error(wt_estimate e)
+{
+    return e.numerical_error > 0 ? e.numerical_error / fabs(e.value) : 0;
+}
+
+static void note_not_reached(friction_task *task, const wt_friction_point *points)
+{
+    for (size_t i = 0; i < task->n; i++) {
+        const wt_friction_point *p = &points[i];
+        if (!p->reached)
+            task->worst =
+                fmax(task->worst,
+                     fmax(relative_error(p->hysteresis),
+                          fmax(relative_error(p->area_ratio), relative_error(p->stress_variance))));
+    }
+}
+
 /* The values themselves; `c` is their contact without a layer. */
 static wt_status compute_centre(friction_task *task, sliding_contact *c, wt_error *err)
 {
@@ -322,15 +343,18 @@ static wt_status compute_centre(friction_task *task, sliding_contact *c, wt_erro
     if (status != WT_OK)
         return status;
     task->numerical[0] = total_error(&task->points[last], shear);
+    note_not_reached(task, task->points);
     if (task->layer == NULL)
         return WT_OK;
     wt_friction_point *layered = malloc(task->n * sizeof *layered);
     if (layered == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     status = compute_layered(task, WT_NO_REPLICATE, layered, task->centre, err);
-    if (status == WT_OK)
+    if (status == WT_OK) {
         task->numerical[1] =
             total_error(&layered[last], shear * layer_of(task, WT_NO_REPLICATE).modulus_ratio);
+        note_not_reached(task, layered);
+    }
     free(layered);
     return status;
 }

@@ -310,6 +310,9 @@ static void set_keys(const layer_task *task, const layer_run *run, table_writer 
         layer_set_text(t, LAYER_KEY_ERROR_LACKS, task->replicates.lacks);
     if (run->statement[0] != '\0')
         layer_set_text(t, LAYER_KEY_MATERIAL_STATEMENT, run->statement);
+    if (run->source.numerical_error > task->work->tolerance)
+        layer_set_print(t, LAYER_KEY_NUMERICAL_STATEMENT, TOLERANCE_STATEMENT,
+                        task->work->tolerance, run->source.numerical_error);
 }
 
 static wt_status layer_table(const layer_task *task, const layer_run *run, wt_table **out,

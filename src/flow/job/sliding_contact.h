@@ -23,6 +23,8 @@ double flow_reference_velocity(const wt_sliding *sliding);
 wt_status sliding_contact_make(const wt_sliding *sliding, const wt_job *work, size_t replicate,
                                wt_layer_state layer, sliding_contact *contact,
                                wt_error *err) WT_NODISCARD;
+/* What must be said of numbers whose relative error is not below the tolerance. */
+#define TOLERANCE_STATEMENT "the tolerance %.2g is not reached, the numerical error is up to %.2g"
 void sliding_contact_clear(sliding_contact *contact);
 
 #endif

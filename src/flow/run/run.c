@@ -182,7 +182,7 @@ static wt_status finish(conduct *d, wt_error *err)
         status = flow_answer(d->run.c, &d->run.plan, d->result, d->run.job.log, d->failures,
                              &answer, err);
     if (status == WT_OK)
-        wt_result_remarks(d->result, d->run.job.tolerance, d->run.job.log);
+        wt_result_remarks(d->result, d->run.job.log);
     if (status == WT_OK)
         status = wt_provenance_table(provenance, "inputs", &inputs, err);
     if (status == WT_OK)
