@@ -192,6 +192,16 @@ static inline wt_result *fixture_only(const char *const *names, size_t n,
 
 /* ---- everything ------------------------------------------------------------------------------ */
 
+/* The material of a result. */
+static inline wt_status fixture_rubber(const wt_result *result, wt_rubber *rubber, wt_error *err)
+{
+    const wt_rubber_tables tables = {.prony = wt_result_find(result, "prony"),
+                                     .shift_factors = wt_result_find(result, "shift_factors"),
+                                     .material_draws = wt_result_find(result, "material_draws"),
+                                     .series_draws = wt_result_find(result, "series_draws")};
+    return wt_rubber_from_tables(&tables, 0.5, rubber, err);
+}
+
 /* One file of each group, so that its curves are a map. */
 static inline bool fixture_first_file(const wt_table *table, size_t row)
 {

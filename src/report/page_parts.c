@@ -216,7 +216,7 @@ static void add_value(growing_text *text, const wt_estimate *e, const lab_unit *
 static void add_error(growing_text *text, double error, const lab_unit *lab)
 {
     if (isnan(error))
-        text_add(text, "not known");
+        text_add(text, "error not known");
     else if (error == 0)
         text_add(text, "–");
     else {

@@ -79,8 +79,13 @@ value_words estimate_in_words(const wt_estimate *estimate)
 {
     lab_unit lab = lab_unit_for(WT_Q_NONE, estimate->unit, estimate->value);
     double error = fabs(estimate->standard_error) * lab.factor;
-    if (!(error > 0) || !isfinite(estimate->value))
-        return value_in_words(WT_Q_NONE, estimate->unit, estimate->value);
+    if (!(error > 0) || !isfinite(estimate->value)) {
+        value_words value = value_in_words(WT_Q_NONE, estimate->unit, estimate->value), text;
+        if (!isnan(error) || !isfinite(estimate->value))
+            return value;
+        (void)snprintf(text.words, sizeof text.words, "%.700s (error not known)", value.words);
+        return text;
+    }
     int decimals = 1 - (int)floor(log10(error));
     decimals = decimals < 0 ? 0 : decimals > 9 ? 9 : decimals;
     value_words text;

@@ -47,7 +47,7 @@ assert "%.6g" % max(float(r["friction"]) for r in tsv) == largest
 assert [float(r["velocity[m/s]"]) for r in tsv] == [0.001, 0.01, 0.1, 1]
 assert all(r["friction_with_layer"] == "" for r in tsv)
 d = json.load(open("t.json"))
-assert d["keys"]["pressure"] == {"value": 400000, "standard_error": 0, "numerical_error": 0, "unit": "Pa"}
+assert d["keys"]["pressure"] == {"value": 400000, "standard_error": None, "numerical_error": 0, "unit": "Pa"}
 assert {c["name"]: c.get("unit") for c in d["columns"]}["velocity"] == "m/s"
 assert [r["friction"] for r in d["rows"]] == [float(r["friction"]) for r in tsv]
 assert d["rows"][0]["friction_with_layer"] is None

@@ -5,15 +5,6 @@
 
 static double velocity[2] = {1e-3, 0.1};
 
-static wt_status rubber_of(const wt_result *result, wt_rubber *rubber, wt_error *err)
-{
-    const wt_rubber_tables tables = {.prony = wt_result_find(result, "prony"),
-                                     .shift_factors = wt_result_find(result, "shift_factors"),
-                                     .material_draws = wt_result_find(result, "material_draws"),
-                                     .series_draws = wt_result_find(result, "series_draws")};
-    return wt_rubber_from_tables(&tables, 0.5, rubber, err);
-}
-
 static wt_table *friction_of(const wt_rubber *rubber, wt_estimate pressure)
 {
     const wt_surface surface = {.self_affine = true,
@@ -90,7 +81,7 @@ static void test_same(void **state)
     assert_int_equal(wt_store_write(path, fixture_produced(), false, NULL), WT_OK);
     assert_int_equal(wt_store_read(path, &stored, NULL), WT_OK);
     unlink(path);
-    if (rubber_of(stored, &again, &err) != WT_OK)
+    if (fixture_rubber(stored, &again, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.place);
     assert_int_equal(again.n_draws, 200);
     wt_table *a = friction_of(&rubber, exact_pressure), *b = friction_of(&again, exact_pressure);
@@ -113,7 +104,7 @@ static void test_without_draws(void **state)
                                              {"series_draws", .leave_out = true}};
     wt_result *old = fixture_changed(fixture_produced(), changes, 2);
     wt_rubber rubber = {0};
-    assert_int_equal(rubber_of(old, &rubber, NULL), WT_OK);
+    assert_int_equal(fixture_rubber(old, &rubber, NULL), WT_OK);
     rubber.c1_error = rubber.c2_error = 0;
     wt_table *exact = friction_of(&rubber, exact_pressure),
              *drawn = friction_of(&rubber, (wt_estimate){0.8e6, 0.1e6, 0, "Pa"});
@@ -231,7 +222,7 @@ static void test_refused(void **state)
         wt_result *result = fixture_with(&bad[i].change);
         wt_rubber rubber = {0};
         wt_error err = WT_ERROR_INIT;
-        const wt_status status = rubber_of(result, &rubber, &err);
+        const wt_status status = fixture_rubber(result, &rubber, &err);
         if (status != bad[i].expected || strstr(err.place, bad[i].place) == NULL)
             fail_msg("%zu: status %d, %s: %s", i, (int)status, err.message, err.place);
         wt_result_free(result);

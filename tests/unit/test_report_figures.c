@@ -383,7 +383,7 @@ static void test_numbers_of_captions(void **state)
         {"shift_factors", " Not determined by overlap: 1 of 12 isotherms."},
         {"power_spectrum", " height 44.8 ± 1.1 µm. Root-mean-square slope 0.945 ± 0.024."},
         {"friction", " (from material with its shift law, roughness, shear stress, "
-                     "thickness and modulus ratio of the layer)."},
+                     "thickness of the layer, modulus ratio of the layer)."},
         {"friction", ", thickness 3.16 ± 0.78 µm. Conditions: nominal pressure 400 kPa, "
                      "temperature 30 °C, shear stress of the real contact 5 MPa. "},
         {"friction", " numerical error of the hysteresis part: 0.0020 %, not in the bands."},

@@ -47,7 +47,7 @@
       HEADLINE("Real over nominal contact area"))                                                  \
     X(FRICTION_KEY_ERROR_INCLUDES, "standard_error_includes", TEXT,                                \
       LABEL("Standard errors include"))                                                            \
-    X(FRICTION_KEY_ERROR_LACKS, "standard_error_lacks", TEXT, LABEL("No error stated for"),        \
+    X(FRICTION_KEY_ERROR_LACKS, "standard_error_lacks", TEXT, LABEL("No error known of"),          \
       OPTIONAL)                                                                                    \
     X(FRICTION_KEY_REPLICATES, "replicates", PLAIN)                                                \
     X(FRICTION_KEY_MATERIAL_STATEMENT, "material_statement", TEXT, OPTIONAL)                       \
@@ -106,7 +106,7 @@
     X(LAYER_KEY_DAMAGE, "damage", PLAIN)                                                           \
     X(LAYER_KEY_DUTY, "duty", PLAIN)                                                               \
     X(LAYER_KEY_ERROR_INCLUDES, "standard_error_includes", TEXT, LABEL("Standard errors include")) \
-    X(LAYER_KEY_ERROR_LACKS, "standard_error_lacks", TEXT, LABEL("No error stated for"), OPTIONAL) \
+    X(LAYER_KEY_ERROR_LACKS, "standard_error_lacks", TEXT, LABEL("No error known of"), OPTIONAL)   \
     X(LAYER_KEY_MATERIAL_STATEMENT, "material_statement", TEXT, OPTIONAL)                          \
     X(LAYER_KEY_NUMERICAL_STATEMENT, "numerical_statement", TEXT, OPTIONAL)
 

@@ -152,7 +152,7 @@ static void say_includes(const answer_story *story, const char *what, const char
                          const char *lacks)
 {
     CAVEAT(story, "The standard errors of the %s include: %s. They do not include the model%s%s.",
-           what, includes, lacks != NULL ? ", nor, because no error is stated: " : "",
+           what, includes, lacks != NULL ? ", nor, because no error is known: " : "",
            lacks != NULL ? lacks : "");
 }
 
@@ -222,6 +222,9 @@ static void friction_caveats(const answer_story *story)
     for (size_t i = 0; i < friction->n_rows; i++)
         share = fmax(share, friction_get(friction, i, FRICTION_EXTRAPOLATED_SHARE));
     const char *statement = friction_words(friction, FRICTION_KEY_MATERIAL_STATEMENT);
+    if (friction->n_rows > 0 && isnan(friction_get(friction, 0, FRICTION_EXTRAPOLATED_SHARE)))
+        CAVEAT(story, "How much of the hysteresis friction comes from frequencies that were not "
+                      "measured is not known: the material does not say which were.");
     if (share > 0) {
         char percent[32] = "Less than 0.1";
         if (share >= 0.001)

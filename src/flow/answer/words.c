@@ -25,10 +25,12 @@ number_words words_of_value(wt_estimate e)
     return words_of(e.value, e.unit);
 }
 
-/* The error in the scale of the value: "3.16 ± 0.96 um". */
+/* The error in the scale of the value: "3.16 ± 0.96 um"; "3.16 um (error not known)". */
 number_words words_of_estimate(wt_estimate e)
 {
     number_words value = words_of(e.value, e.unit), words = value;
+    if (isfinite(e.value) && isnan(e.standard_error))
+        snprintf(words.text, sizeof words.text, "%.60s (error not known)", value.text);
     if (!isfinite(e.value) || !(e.standard_error > 0) || !isfinite(e.standard_error))
         return words;
     const char *suffix = strchr(value.text, ' ');

@@ -35,6 +35,13 @@ double flow_draw_positive(wt_estimate e, uint64_t seed, size_t replicate, flow_d
     return e.value * exp(e.standard_error / e.value * flow_draw_normal(seed, replicate, what));
 }
 
+wt_estimate flow_as_stated(wt_estimate input)
+{
+    if (!(input.standard_error > 0))
+        input.standard_error = (double)NAN;
+    return input;
+}
+
 double flow_spread(const double *x, size_t n, size_t stride)
 {
     double mean = 0, sum = 0;

@@ -28,6 +28,10 @@ double flow_draw_value(wt_estimate e, uint64_t seed, size_t replicate, flow_draw
 /* value exp(z error/value), for quantities > 0: stays positive. */
 double flow_draw_positive(wt_estimate e, uint64_t seed, size_t replicate, flow_draw what);
 
+/* An input as it stands in a table: 0 says that no error was stated, and what is not stated is not
+ * known. */
+wt_estimate flow_as_stated(wt_estimate input);
+
 /* Standard deviation (n - 1) of the finite ones of x[0], x[stride], ...; NaN with fewer than two.
  */
 double flow_spread(const double *x, size_t n, size_t stride);

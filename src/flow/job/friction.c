@@ -106,6 +106,14 @@ static wt_status one_replicate(const void *user, size_t i, double *out, wt_error
 
 /* ---- tables ---------------------------------------------------------------------------------- */
 
+/* Not known where the measured range is not. */
+static double extrapolated_share(const wt_rubber *rubber, const wt_friction_point *p)
+{
+    const wt_prony *prony = &rubber->prony;
+    return isnan(prony->frequency_min) || isnan(prony->frequency_max) ? (double)NAN
+                                                                      : p->extrapolated_share;
+}
+
 static void add_rows(friction_task *task, table_writer *t)
 {
     const wt_sliding *s = task->sliding;
@@ -133,7 +141,7 @@ static void add_rows(friction_task *task, table_writer *t)
         friction_put(t, FRICTION_WITH_LAYER, slot(task->centre, task->n, LAYERED)[i]);
         friction_put(t, FRICTION_WITH_LAYER_STANDARD_ERROR,
                      slot(task->replicates.error, task->n, LAYERED)[i]);
-        friction_put(t, FRICTION_EXTRAPOLATED_SHARE, p->extrapolated_share);
+        friction_put(t, FRICTION_EXTRAPOLATED_SHARE, extrapolated_share(s->rubber, p));
     }
 }
 
@@ -155,14 +163,14 @@ static void set_layer_keys(friction_task *task, table_writer *t)
         low = fmin(low, relative[i]);
         high = fmax(high, relative[i]);
     }
-    friction_set(t, FRICTION_KEY_LAYER_THICKNESS, task->layer->thickness);
-    friction_set(t, FRICTION_KEY_LAYER_MODULUS_RATIO, task->layer->modulus_ratio);
+    friction_set(t, FRICTION_KEY_LAYER_THICKNESS, flow_as_stated(task->layer->thickness));
+    friction_set(t, FRICTION_KEY_LAYER_MODULUS_RATIO, flow_as_stated(task->layer->modulus_ratio));
     set_at_reference(task, t, FRICTION_KEY_WITH_LAYER, LAYERED, task->numerical[1]);
     set_at_reference(task, t, FRICTION_KEY_CHANGE, CHANGE, both);
     set_at_reference(task, t, FRICTION_KEY_RELATIVE_CHANGE, RELATIVE,
                      both / slot(task->centre, task->n, TOTAL)[last]);
-    friction_set_value(t, FRICTION_KEY_RELATIVE_CHANGE_LOW, low, (double)NAN, 0);
-    friction_set_value(t, FRICTION_KEY_RELATIVE_CHANGE_HIGH, high, (double)NAN, 0);
+    friction_set_value(t, FRICTION_KEY_RELATIVE_CHANGE_LOW, low, (double)NAN, (double)NAN);
+    friction_set_value(t, FRICTION_KEY_RELATIVE_CHANGE_HIGH, high, (double)NAN, (double)NAN);
 }
 
 static void set_keys(friction_task *task, table_writer *t, const char *statement)
@@ -172,13 +180,13 @@ static void set_keys(friction_task *task, table_writer *t, const char *statement
     wt_estimate temperature = s->temperature;
     if (isnan(temperature.value))
         temperature.value = s->rubber->prony.reference_temperature;
-    friction_set(t, FRICTION_KEY_PRESSURE, s->pressure);
-    friction_set(t, FRICTION_KEY_TEMPERATURE, temperature);
+    friction_set(t, FRICTION_KEY_PRESSURE, flow_as_stated(s->pressure));
+    friction_set(t, FRICTION_KEY_TEMPERATURE, flow_as_stated(temperature));
     if (isnan(s->shear_stress.value))
         friction_set_text(t, FRICTION_KEY_SHEAR_STRESS,
                           "not given: only the hysteresis part is known");
     else
-        friction_set(t, FRICTION_KEY_SHEAR_STRESS, s->shear_stress);
+        friction_set(t, FRICTION_KEY_SHEAR_STRESS, flow_as_stated(s->shear_stress));
     friction_set_print(t, FRICTION_KEY_GAMMA, "%g", s->gamma);
     friction_set_value(t, FRICTION_KEY_REFERENCE_VELOCITY, task->velocity[task->n - 1], 0, 0);
     set_at_reference(task, t, FRICTION_KEY_FRICTION, TOTAL, task->numerical[0]);
@@ -367,9 +375,10 @@ static wt_status draw_replicates(friction_task *task, wt_error *err)
     if (!isnan(task->sliding->shear_stress.value))
         replicates_add(r, task->sliding->shear_stress.standard_error, "shear stress");
     const bool bulk_varies = r->varies;
-    if (layer != NULL &&
-        (layer->thickness.standard_error > 0 || layer->modulus_ratio.standard_error > 0))
-        replicates_add(r, 1, "thickness and modulus ratio of the layer");
+    if (layer != NULL) {
+        replicates_add(r, layer->thickness.standard_error, "thickness of the layer");
+        replicates_add(r, layer->modulus_ratio.standard_error, "modulus ratio of the layer");
+    }
     wt_status status = replicates_draw(r, N_KINDS * task->n, one_replicate, task, err);
     for (size_t i = 0; status == WT_OK && !bulk_varies && i < task->n; i++)
         slot(r->error, task->n, HYSTERESIS)[i] = slot(r->error, task->n, AREA)[i] =

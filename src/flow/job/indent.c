@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/param.h"
 #include "flow/job/curve_tables.h"
+#include "flow/job/draws.h"
 #include "flow/job/inputs.h"
 
 #include "base/array.h"
@@ -394,7 +395,7 @@ static void set_keys(indent_task *task, const flow_files *files)
     if (isnan(k.value) && task->k_low >= task->k_high)
         k = (wt_estimate){task->k_low, (double)NAN, 0, "N/m"};
     if (!isnan(k.value))
-        indentation_set(t, INDENTATION_KEY_SPRING_CONSTANT, k);
+        indentation_set(t, INDENTATION_KEY_SPRING_CONSTANT, flow_as_stated(k));
     if (task->k_low < task->k_high)
         indentation_set_print(t, INDENTATION_KEY_SPRING_CONSTANTS, "%.4g to %.4g N/m", task->k_low,
                               task->k_high);

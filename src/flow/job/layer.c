@@ -246,11 +246,13 @@ static wt_status draw_replicates(layer_task *task, wt_error *err)
     const wt_layer_job *job = task->job;
     replicates *r = &task->replicates;
     replicates_add(r, job->specific_wear_rate.standard_error, "specific wear rate");
-    if (isnan(job->critical_energy.value))
-        replicates_add(r, job->observed_thickness.standard_error, "observed thickness");
-    else
-        replicates_add(r, job->critical_energy.standard_error, "critical energy");
+    const bool calibrated = isnan(job->critical_energy.value);
+    const double given =
+        (calibrated ? job->observed_thickness : job->critical_energy).standard_error;
+    replicates_add(r, given, calibrated ? "observed thickness" : "critical energy");
     wt_status status = replicates_draw(r, N_NUMBERS + task->n, one_replicate, task, err);
+    if (status == WT_OK && !(given > 0)) /* what is given does not scatter */
+        r->error[calibrated ? NUMBER_BALANCE_THICKNESS : NUMBER_CRITICAL_ENERGY] = (double)NAN;
     size_t without = 0, solved = 0;
     for (size_t i = 0; status == WT_OK && i < r->n; i++) {
         const double thickness = r->value[i * r->stride + NUMBER_BALANCE_THICKNESS];
@@ -297,10 +299,10 @@ static void set_keys(const layer_task *task, const layer_run *run, table_writer 
     set_numbers(task, run, t);
     layer_set_text(t, LAYER_KEY_REGIME, regime_name(run->balance.regime));
     layer_set_value(t, LAYER_KEY_VELOCITY, task->velocity, 0, 0);
-    layer_set(t, LAYER_KEY_PRESSURE, task->sliding->pressure);
-    layer_set(t, LAYER_KEY_WEAR_RATE, job->specific_wear_rate);
+    layer_set(t, LAYER_KEY_PRESSURE, flow_as_stated(task->sliding->pressure));
+    layer_set(t, LAYER_KEY_WEAR_RATE, flow_as_stated(job->specific_wear_rate));
     if (calibrated)
-        layer_set(t, LAYER_KEY_OBSERVED_THICKNESS, job->observed_thickness);
+        layer_set(t, LAYER_KEY_OBSERVED_THICKNESS, flow_as_stated(job->observed_thickness));
     layer_set_text(t, LAYER_KEY_CRITICAL_ENERGY_FROM,
                    calibrated ? "calibrated: makes the observed thickness the balance" : "given");
     layer_set_print(t, LAYER_KEY_DAMAGE, "%g", job->damage);

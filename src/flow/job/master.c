@@ -118,11 +118,12 @@ static void set_law(table_writer *t, const wt_master *m)
     if (m->law.kind != WT_LAW_WLF)
         set_interval(t, SHIFT_FACTORS_KEY_ACTIVATION_ENERGY, m->activation_energy);
     if (m->law.kind == WT_LAW_JOINED)
-        shift_factors_set_value(t, SHIFT_FACTORS_KEY_JOINT, m->law.joint, 0, 0);
+        shift_factors_set_value(t, SHIFT_FACTORS_KEY_JOINT, m->law.joint, (double)NAN, 0);
     set_interval(t, SHIFT_FACTORS_KEY_LAW_SLOPE, m->slope);
     set_interval(t, SHIFT_FACTORS_KEY_OFFSET, m->offset);
     shift_factors_set_value(t, SHIFT_FACTORS_KEY_LAW_RMS, m->law_rms, 0, 0);
-    shift_factors_set_value(t, SHIFT_FACTORS_KEY_TEMPERATURE_SPREAD, m->temperature_spread, 0, 0);
+    shift_factors_set_value(t, SHIFT_FACTORS_KEY_TEMPERATURE_SPREAD, m->temperature_spread,
+                            (double)NAN, 0);
 }
 
 static void set_verdict(table_writer *t, const wt_master *m)

@@ -15,8 +15,10 @@ static void add_words(char *list, size_t size, const char *words)
 
 static void add_drawn(replicates *r, const char *words)
 {
-    if (r->work->replicates < 2)
+    if (r->work->replicates < 2) {
+        add_words(r->lacks, sizeof r->lacks, words);
         return;
+    }
     r->varies = true;
     r->n = r->work->replicates;
     add_words(r->includes, sizeof r->includes, words);
@@ -49,7 +51,9 @@ replicates replicates_of(const wt_sliding *sliding, const wt_job *work, const ch
 
 const char *replicates_include(const replicates *r)
 {
-    return r->varies ? r->includes : "nothing, for no error was measured or stated";
+    return r->varies                 ? r->includes
+           : r->work->replicates < 2 ? "nothing, for no replicates were asked for"
+                                     : "nothing, for no error was measured or stated";
 }
 
 /* ---- drawing --------------------------------------------------------------------------------- */

@@ -3,7 +3,6 @@
 #include "flow/job/draws.h"
 
 #include "base/clocale.h"
-#include "base/mix.h"
 #include "data/prony.h"
 
 #include <math.h>
@@ -110,13 +109,14 @@ static void make_statement(const wt_rubber *rubber, double temperature, bool hel
                       held ? " and the vertical shift held" : "");
 }
 
-/* The draw behind a replicate: they are gone through in turn, from where the seed says. NULL: the
- * values as fitted. */
+/* The draw behind a replicate: they are gone through in turn, by the default seed from the first
+ * one on, by the others from further on. NULL: the values as fitted. */
 static const wt_rubber_draw *draw_of(const wt_rubber *rubber, uint64_t seed, size_t replicate)
 {
     if (replicate == WT_NO_REPLICATE || rubber->n_draws == 0)
         return NULL;
-    return &rubber->draws[(mix64(seed) % rubber->n_draws + replicate) % rubber->n_draws];
+    const size_t first = (size_t)((seed - 1) * 64 % rubber->n_draws);
+    return &rubber->draws[(first + replicate) % rubber->n_draws];
 }
 
 wt_status wt_rubber_at(const wt_rubber *rubber, double temperature, uint64_t seed, size_t replicate,

@@ -1,5 +1,6 @@
 /* The counter surface: a self-affine law or a measured spectrum, with its stated error.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/job/draws.h"
 #include "flow/job/inputs.h"
 
 #include "data/tables/tables.h"
@@ -228,13 +229,14 @@ wt_status wt_surface_table(const wt_surface *surface, wt_table **table, wt_error
         roughness_put(&t, ROUGHNESS_DENSITY, density);
     }
     /* rms height goes with the square root of C, so its relative error is half */
-    double share = surface->c0.standard_error / surface->c0.value / 2;
+    const wt_estimate c0 = flow_as_stated(surface->c0);
+    double share = c0.standard_error / c0.value / 2;
     double height = wt_roughness_rms_height(roughness), slope = wt_roughness_rms_slope(roughness);
     roughness_set_value(&t, ROUGHNESS_KEY_RMS_HEIGHT, height, share * height, 0);
     roughness_set_value(&t, ROUGHNESS_KEY_RMS_SLOPE, slope, share * slope, 0);
     if (surface->self_affine) {
         roughness_set_print(&t, ROUGHNESS_KEY_HURST, "%g", surface->hurst);
-        roughness_set(&t, ROUGHNESS_KEY_C0, surface->c0);
+        roughness_set(&t, ROUGHNESS_KEY_C0, c0);
         roughness_set_value(&t, ROUGHNESS_KEY_ROLL_OFF, surface->qr, 0, 0);
     }
     wt_roughness_free(roughness);
