@@ -159,6 +159,8 @@ typedef struct wt_rubber {
     double *vertical_temperature, *vertical_log_b;
     size_t n_draws; /* of what the isotherms say, which the replicates go through; 0 = unknown */
     wt_rubber_draw *draws;
+    wt_sweep sweep; /* the isotherms and how they were fitted, for wt_rubber_refit */
+    wt_master_options fit;
 } wt_rubber;
 WT_API void wt_rubber_clear(wt_rubber *rubber);
 
@@ -182,6 +184,9 @@ typedef struct wt_rubber_tables {
 } wt_rubber_tables;
 WT_API wt_status wt_rubber_from_tables(const wt_rubber_tables *tables, double poisson_ratio,
                                        wt_rubber *rubber, wt_error *err) WT_NODISCARD;
+/* The same isotherms with another vertical shift, without draws. WT_E_MISSING without isotherms. */
+WT_API wt_status wt_rubber_refit(const wt_rubber *rubber, wt_vertical_shift vertical,
+                                 wt_rubber *refitted, wt_error *err) WT_NODISCARD;
 #define WT_NO_REPLICATE                                                                            \
     SIZE_MAX /* in the place of the number of a replicate: the values as fitted */
 /* The material at a temperature [K] (NaN = reference): relaxation times times a_T, moduli divided
@@ -261,7 +266,8 @@ WT_API const wt_params *wt_sliding_params(void);
 typedef struct wt_layer_known {
     wt_estimate thickness;     /* [m] */
     wt_estimate modulus_ratio; /* E_track / E_bulk */
-    uint64_t reserved[8];
+    bool bulk_shear;           /* tau_s = tau_bulk, not times the modulus ratio; default false */
+    uint64_t reserved[7];
 } wt_layer_known;
 WT_API const wt_params *wt_layer_known_params(void);
 
@@ -318,6 +324,17 @@ WT_API void wt_layer_tables_clear(wt_layer_tables *tables);
 WT_API wt_status wt_layer_make(const wt_sliding *sliding, const wt_layer_job *job,
                                const wt_job *work, wt_layer_tables *tables,
                                wt_error *err) WT_NODISCARD;
+
+/* ---- what if ----------------------------------------------------------------------------------
+ */
+
+/* Table "what_if": friction and layer at the reference velocity, then the same with one choice of
+ * the model moved in each row, and what that changes. Choices that do not apply have no row; a row
+ * that cannot be computed says why. `layer` NULL: no thickness of the layer; `known` NULL: no
+ * friction with a layer. With both, the thickness is that which `layer` gives. */
+WT_API wt_status wt_what_if_make(const wt_sliding *sliding, const wt_layer_job *layer,
+                                 const wt_layer_known *known, const wt_job *work, wt_table **table,
+                                 wt_error *err) WT_NODISCARD;
 
 /* ---- case ------------------------------------------------------------------------------------ */
 

@@ -16,18 +16,24 @@ int cmd_friction(int argc, char **argv)
     cmd_sliding_init(&s, (cmd_part){wt_layer_known_params(), &layer, NULL, 0});
     const cmd_part *own = &s.parts[CMD_OWN];
     wt_friction_tables tables = {0};
+    wt_table *what_if = NULL;
     if (!cmd_sliding_parse(&s, &usage, argc, argv))
         goto done;
     const bool has_layer = cmd_given(own, "layer-thickness");
     if (has_layer != cmd_given(own, "modulus-ratio"))
         cmd_usage_error(&s.session, "--layer-thickness and --modulus-ratio go together");
     else if (cmd_sliding_open(&s)) {
-        const wt_status made = wt_friction_make(&s.conditions, has_layer ? &layer : NULL,
-                                                &s.session.work, &tables, &s.session.err);
-        wt_table **const parts[] = {&tables.friction, &tables.contact_area};
+        const wt_layer_known *known = has_layer ? &layer : NULL;
+        wt_status made =
+            wt_friction_make(&s.conditions, known, &s.session.work, &tables, &s.session.err);
+        if (made == WT_OK)
+            made = wt_what_if_make(&s.conditions, NULL, known, &s.session.work, &what_if,
+                                   &s.session.err);
+        wt_table **const parts[] = {&tables.friction, &tables.contact_area, &what_if};
         cmd_finish(&s.session, made, parts, COUNT_OF(parts));
     }
 done:
     wt_friction_tables_clear(&tables);
+    wt_table_free(what_if);
     return cmd_sliding_free(&s);
 }

@@ -18,17 +18,22 @@ int cmd_layer(int argc, char **argv)
     /* the energy knows nothing of the shear stress */
     s.parts[CMD_CONDITIONS].only = "pressure velocity sliding-temperature gamma";
     wt_layer_tables tables = {0};
+    wt_table *what_if = NULL;
     if (!cmd_sliding_parse(&s, &usage, argc, argv))
         goto done;
     if (wt_layer_job_check(&job, &s.session.err) != WT_OK)
         cmd_param_error(&s.session);
     else if (cmd_sliding_open(&s)) {
-        const wt_status made =
+        wt_status made =
             wt_layer_make(&s.conditions, &job, &s.session.work, &tables, &s.session.err);
-        wt_table **const parts[] = {&tables.layer, &tables.energy_density};
+        if (made == WT_OK)
+            made = wt_what_if_make(&s.conditions, &job, NULL, &s.session.work, &what_if,
+                                   &s.session.err);
+        wt_table **const parts[] = {&tables.layer, &tables.energy_density, &what_if};
         cmd_finish(&s.session, made, parts, COUNT_OF(parts));
     }
 done:
     wt_layer_tables_clear(&tables);
+    wt_table_free(what_if);
     return cmd_sliding_free(&s);
 }

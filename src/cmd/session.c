@@ -55,7 +55,7 @@ wt_status cmd_record(cmd_session *s, wt_table_sink sink, void *user)
 
 void cmd_end(cmd_session *s, wt_status made)
 {
-    char sentence[1024];
+    char sentence[2048];
     cmd_progress_end(s);
     cmd_say_failures(s, s->work.failures);
     cmd_say_log(s, s->log, false);

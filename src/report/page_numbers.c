@@ -67,6 +67,25 @@ static void group_rows(page_writer *page)
 
 enum { EVERY_KEY = SCHEMA_MOST };
 
+/* How far a headline moves with the model, behind its remark. */
+static void model_remark(page_writer *page, const schema_field *key, growing_text *remark)
+{
+    static const struct {
+        const table_schema *table;
+        unsigned headline;
+        what_if_key range;
+    } ranges[] = {{&friction_schema, FRICTION_KEY_FRICTION, WHAT_IF_KEY_FRICTION},
+                  {&friction_schema, FRICTION_KEY_HYSTERESIS, WHAT_IF_KEY_HYSTERESIS},
+                  {&friction_schema, FRICTION_KEY_AREA_RATIO, WHAT_IF_KEY_AREA_RATIO},
+                  {&friction_schema, FRICTION_KEY_WITH_LAYER, WHAT_IF_KEY_WITH_LAYER},
+                  {&layer_schema, LAYER_KEY_BALANCE_THICKNESS, WHAT_IF_KEY_THICKNESS}};
+    for (size_t i = 0; i < sizeof ranges / sizeof *ranges; i++) {
+        const char *words = what_if_words(&page->tables->what_if, ranges[i].range);
+        if (key == &ranges[i].table->keys[ranges[i].headline] && words != NULL)
+            text_format(remark, "%s%s", remark->length > 0 ? "; " : "", words);
+    }
+}
+
 /* The keys of a table that are headlines; the remark belongs to one of them or to every one. */
 static void headline_rows(page_writer *page, const table_view *table, unsigned remarked,
                           const char *remark)
@@ -74,9 +93,13 @@ static void headline_rows(page_writer *page, const table_view *table, unsigned r
     for (unsigned i = 0; i < table->schema->n_keys; i++) {
         const schema_field *key = &table->schema->keys[i];
         const wt_estimate estimate = view_key(table, table->schema, i);
-        if (key->headline != NULL && !isnan(estimate.value))
-            page_estimate(page, key->headline, &estimate, key->quantity, NULL,
-                          remarked == EVERY_KEY || remarked == i ? remark : "");
+        if (key->headline == NULL || isnan(estimate.value))
+            continue;
+        growing_text words = {0};
+        text_add(&words, remarked == EVERY_KEY || remarked == i ? remark : "");
+        model_remark(page, key, &words);
+        page_estimate(page, key->headline, &estimate, key->quantity, NULL, text_string(&words));
+        text_done(&words, &page->out);
     }
 }
 

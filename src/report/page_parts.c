@@ -101,14 +101,16 @@ static bool choose_column(shown_column *shown, const table_view *table, unsigned
                             .digits = column->digits};
     if (table->column[place] < 0)
         return false;
+    bool any = column->missing != NULL;
+    for (size_t i = 0; shown->text && i < n_rows; i++)
+        any = any || view_text(table, schema, row_at(rows, i), place)[0] != '\0';
     if (shown->text)
-        return true;
+        return any;
     if (column->digits == 0)
         shown->digits = is_error(schema, place) ? 2 : 3;
     shown->lab =
         lab_unit_for(column->quantity, schema_unit(column),
                      typical_size(table, column->like != 0 ? column->like : place, rows, n_rows));
-    bool any = column->missing != NULL;
     for (size_t i = 0; i < n_rows; i++) {
         double value = lab_value(&shown->lab, view_number(table, schema, row_at(rows, i), place));
         any = any || !isnan(value);

@@ -81,7 +81,7 @@ void page_results(page_writer *page)
     const bound_tables *t = page->tables;
     const table_view *const shown[] = {&t->modulus_groups, &t->comparison, &t->dma_comparison,
                                        &t->shift_factors,  &t->prony,      &t->roughness,
-                                       &t->friction,       &t->layer};
+                                       &t->friction,       &t->layer,      &t->what_if};
     bool any = false;
     for (size_t i = 0; i < COUNT_OF(shown) && !any; i++)
         any = shown[i]->table != NULL;
@@ -104,6 +104,11 @@ void page_results(page_writer *page)
     friction_table(page);
     page_keys(page, &t->friction, "Conditions of the friction");
     page_keys(page, &t->layer, "Balance of the modified layer");
+    page_whole_table(page, &t->what_if,
+                     "What if: one choice of the model moved in each row, and the relative changes "
+                     "by it, at the reference velocity",
+                     NULL, 0);
+    page_keys(page, &t->what_if, "What if: the choice that moves a number most");
 }
 
 /* ---- curves without a modulus ---------------------------------------------------------------- */

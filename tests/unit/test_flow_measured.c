@@ -67,6 +67,7 @@ static void test_measured(void **state)
                                          "contact_area",
                                          "layer",
                                          "energy_density",
+                                         "what_if",
                                          "answer",
                                          "inputs",
                                          "notes",

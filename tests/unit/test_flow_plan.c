@@ -92,13 +92,14 @@ static void test_what_runs(void **state)
     check_plan(HEAD "<indentation>" TIP BULK TRACK "</indentation><compare/></case>",
                "indentation_bulk indentation_track groups ");
     check_plan(HEAD DMA "</case>", "master_curve ");
-    check_plan(HEAD PRONY ROAD SLIDE "</case>", "given_material roughness friction ");
-    check_plan(HEAD PRONY ROAD SLIDE LAYER "</case>", "given_material roughness layer friction ");
+    check_plan(HEAD PRONY ROAD SLIDE "</case>", "given_material roughness friction what_if ");
+    check_plan(HEAD PRONY ROAD SLIDE LAYER "</case>",
+               "given_material roughness layer friction what_if_layer ");
     check_plan(HEAD "<indentation>" TIP BULK "</indentation>" DMA "</case>",
                "indentation_bulk bulk_alone master_curve dma_comparison_bulk ");
     check_plan(HEAD "<indentation>" TIP BULK TRACK "</indentation>" DMA ROAD SLIDE LAYER "</case>",
                "indentation_bulk indentation_track comparison master_curve dma_comparison "
-               "roughness layer friction_with_layer ");
+               "roughness layer friction_with_layer what_if_with_layer ");
 }
 
 /* What is asked for decides: nothing else runs, and nothing else is read. */
@@ -116,7 +117,13 @@ static void test_what_is_asked(void **state)
     check_plan(ALL "<report><figure>power_spectrum</figure></report></case>", "roughness ");
     check_plan(ALL "<compare><track-to-bulk/></compare></case>",
                "indentation_bulk indentation_track comparison master_curve roughness layer "
+               "friction_with_layer what_if_with_layer ");
+    check_plan(ALL "<report><result>friction</result></report></case>",
+               "indentation_bulk indentation_track comparison master_curve roughness layer "
                "friction_with_layer ");
+    check_plan(ALL "<report><figure>what_if</figure></report></case>",
+               "indentation_bulk indentation_track comparison master_curve roughness layer "
+               "friction_with_layer what_if_with_layer ");
 }
 
 static void test_reasons(void **state)

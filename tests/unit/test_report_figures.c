@@ -224,6 +224,8 @@ static void test_curves_are_drawn_from_their_columns(void **state)
         {"layer", "title 'thickness'", "time thickness"},
         {"layer", "title 'formation'", "time formation_rate"},
         {"layer", "title 'wear'", "time wear_rate"},
+        {"what_if", "boxxyerror ls 1", "used low high"},
+        {"what_if", "xerrorbars ls 13", "used low high"},
     };
     for (size_t i = 0; i < wt_figure_count(); i++) {
         const char *figure = wt_figure_get(i).name;

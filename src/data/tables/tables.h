@@ -17,6 +17,7 @@
 #include "data/tables/measured.h"
 #include "data/tables/run.h"
 #include "data/tables/sliding.h"
+#include "data/tables/what_if.h"
 
 /* Columns that come together: a number with its standard error behind it; with both errors; the
  * ends of an interval. `heading` is that of the page. */
@@ -62,6 +63,7 @@
       "friction")                                                                                  \
     X(layer, LAYER, "layer", "Thickness of the modified layer", "layer")                           \
     X(energy_density, ENERGY_DENSITY, "energy_density", "Energy density with depth", "layer")      \
+    X(what_if, WHAT_IF, "what_if", "What if a choice of the model were another", "friction")       \
     X(force_curve, FORCE_CURVE, "force_curve/", "force curve", "convert")                          \
     X(sweep, SWEEP, "sweep", "DMA frequency sweeps", "convert")                                    \
     X(spectrum, SPECTRUM, "roughness", "power spectrum", "convert")                                \

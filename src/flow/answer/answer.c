@@ -174,6 +174,20 @@ static void answer_difference(const answer_story *story)
     say_dma(story);
 }
 
+/* Of a number, how far it moves with the model: " (2.60 um to 11.0 um if ...)". */
+typedef struct range_text {
+    char text[256];
+} range_text;
+
+static range_text range_of(const answer_story *story, what_if_key key)
+{
+    const char *range = what_if_words(&story->what_if, key);
+    range_text words = {""};
+    if (range != NULL)
+        snprintf(words.text, sizeof words.text, " (%s)", range);
+    return words;
+}
+
 /* ---- thickness ------------------------------------------------------------------------------- */
 
 static void say_times(const answer_story *story)
@@ -223,10 +237,10 @@ static void answer_thickness(const answer_story *story)
     if (none)
         answer_say(
             story, how_thick, "thickness",
-            "There is none at %s and %s: wear removes the rubber faster than it is modified "
+            "There is none at %s and %s%s: wear removes the rubber faster than it is modified "
             "(formation over wear R = %s, not above 1). The specific wear rate would have to be "
             "below %.3g mm^3/(N m).",
-            velocity.text, pressure.text, ratio.text,
+            velocity.text, pressure.text, range_of(story, WHAT_IF_KEY_THICKNESS).text, ratio.text,
             MM3_PER_N_M * layer_value(layer, LAYER_KEY_CRITICAL_WEAR_RATE).value);
     else if (isinf(thickness.value))
         answer_say(story, how_thick, "thickness",
@@ -234,9 +248,10 @@ static void answer_thickness(const answer_story *story)
                    "thickness in time.");
     else
         answer_say(story, how_thick, "thickness",
-                   "%s where formation balances wear, at %s and %s (formation over wear R = %s). "
+                   "%s%s where formation balances wear, at %s and %s (formation over wear R = %s). "
                    "With 1 %% more wear it is %.2g %% thinner.",
-                   words_of_estimate(thickness).text, velocity.text, pressure.text, ratio.text,
+                   words_of_estimate(thickness).text, range_of(story, WHAT_IF_KEY_THICKNESS).text,
+                   velocity.text, pressure.text, ratio.text,
                    -layer_value(layer, LAYER_KEY_WEAR_SENSITIVITY).value);
     if (!none)
         say_times(story);
@@ -259,15 +274,18 @@ static void say_friction(const answer_story *story)
     const number_words area = words_of_estimate(friction_at(story, FRICTION_KEY_AREA_RATIO));
     if (isnan(total.value))
         answer_say(story, what_friction, "friction",
-                   "Without a layer, at %s, the hysteresis part is %s with a real contact of %s "
+                   "Without a layer, at %s, the hysteresis part is %s%s with a real contact of %s "
                    "of the nominal area; the total is not known because no shear stress is given.",
-                   velocity.text, words_of_estimate(hysteresis).text, area.text);
+                   velocity.text, words_of_estimate(hysteresis).text,
+                   range_of(story, WHAT_IF_KEY_HYSTERESIS).text, area.text);
     else
         answer_say(story, what_friction, "friction",
-                   "Without a layer, at %s, mu = %s: hysteresis %s, shearing of the real contact "
-                   "%.3g (contact area %s of the nominal one).",
-                   velocity.text, words_of_estimate(total).text, words_of_estimate(hysteresis).text,
-                   total.value - hysteresis.value, area.text);
+                   "Without a layer, at %s, mu = %s%s: hysteresis %s%s, shearing of the real "
+                   "contact %.3g (contact area %s of the nominal one).",
+                   velocity.text, words_of_estimate(total).text,
+                   range_of(story, WHAT_IF_KEY_FRICTION).text, words_of_estimate(hysteresis).text,
+                   range_of(story, WHAT_IF_KEY_HYSTERESIS).text, total.value - hysteresis.value,
+                   area.text);
 }
 
 static void say_change(const answer_story *story)
@@ -281,12 +299,13 @@ static void say_change(const answer_story *story)
                  100 * friction_at(story, FRICTION_KEY_RELATIVE_CHANGE_LOW).value,
                  100 * friction_at(story, FRICTION_KEY_RELATIVE_CHANGE_HIGH).value);
     answer_say(story, what_friction, "friction",
-               "With the layer (%s thick, modulus ratio %s), at %s, mu = %s: a change of %s "
+               "With the layer (%s thick, modulus ratio %s), at %s, mu = %s%s: a change of %s "
                "(%+.0f %%).%s",
                words_of_estimate(friction_at(story, FRICTION_KEY_LAYER_THICKNESS)).text,
                words_of_estimate(friction_at(story, FRICTION_KEY_LAYER_MODULUS_RATIO)).text,
                words_of_value(friction_at(story, FRICTION_KEY_REFERENCE_VELOCITY)).text,
                words_of_estimate(friction_at(story, FRICTION_KEY_WITH_LAYER)).text,
+               range_of(story, WHAT_IF_KEY_WITH_LAYER).text,
                words_of_estimate(friction_at(story, FRICTION_KEY_CHANGE)).text,
                100 * friction_at(story, FRICTION_KEY_RELATIVE_CHANGE).value, range);
 }
@@ -372,6 +391,7 @@ static wt_status bind_tables(const wt_result *result, answer_story *story, wt_er
         {&roughness_schema, "", &story->roughness},
         {&friction_schema, "", &story->friction},
         {&layer_schema, "", &story->layer},
+        {&what_if_schema, "", &story->what_if},
     };
     wt_status status = WT_OK;
     for (size_t i = 0; status == WT_OK && i < COUNT_OF(tables); i++)

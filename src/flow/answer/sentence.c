@@ -12,6 +12,7 @@
 typedef struct sentence {
     char *text;
     size_t size, used;
+    table_view what_if;
 } sentence;
 
 static void say(sentence *s, const char *format, ...) WT_PRINTF(2, 3);
@@ -28,6 +29,14 @@ static void say(sentence *s, const char *format, ...)
 static void next(sentence *s)
 {
     say(s, "%s", s->used > 0 ? "; " : "");
+}
+
+/* How far the number before moves with the model. */
+static void say_range(sentence *s, what_if_key key)
+{
+    const char *range = what_if_words(&s->what_if, key);
+    if (range != NULL)
+        say(s, " (%s)", range);
 }
 
 static void say_groups(sentence *s, const table_view *v)
@@ -82,12 +91,19 @@ static void say_friction(sentence *s, const table_view *v)
     const wt_estimate with_layer = friction_value(v, FRICTION_KEY_WITH_LAYER);
     next(s);
     say(s, "at %s ", words_of_value(friction_value(v, FRICTION_KEY_REFERENCE_VELOCITY)).text);
-    if (!isnan(total.value))
-        say(s, "mu = %s, ", words_of_estimate(total).text);
-    if (!isnan(with_layer.value))
-        say(s, "with layer %s, ", words_of_estimate(with_layer).text);
-    say(s, "hysteresis %s, contact area %s of the nominal one",
-        words_of_estimate(friction_value(v, FRICTION_KEY_HYSTERESIS)).text,
+    if (!isnan(total.value)) {
+        say(s, "mu = %s", words_of_estimate(total).text);
+        say_range(s, WHAT_IF_KEY_FRICTION);
+        say(s, ", ");
+    }
+    if (!isnan(with_layer.value)) {
+        say(s, "with layer %s", words_of_estimate(with_layer).text);
+        say_range(s, WHAT_IF_KEY_WITH_LAYER);
+        say(s, ", ");
+    }
+    say(s, "hysteresis %s", words_of_estimate(friction_value(v, FRICTION_KEY_HYSTERESIS)).text);
+    say_range(s, WHAT_IF_KEY_HYSTERESIS);
+    say(s, ", contact area %s of the nominal one",
         words_of_estimate(friction_value(v, FRICTION_KEY_AREA_RATIO)).text);
 }
 
@@ -100,8 +116,10 @@ static void say_layer(sentence *s, const table_view *v)
     if (!(thickness.value > 0))
         say(s, "no layer where formation balances wear");
     else
-        say(s, "layer of %s where formation balances wear, 90 %% of it after %s",
-            words_of_estimate(thickness).text,
+        say(s, "layer of %s where formation balances wear", words_of_estimate(thickness).text);
+    say_range(s, WHAT_IF_KEY_THICKNESS);
+    if (thickness.value > 0)
+        say(s, ", 90 %% of it after %s",
             words_of_estimate(layer_value(v, LAYER_KEY_TIME_TO_90_PERCENT)).text);
 }
 
@@ -115,10 +133,12 @@ size_t wt_result_sentence(const wt_result *result, char *buffer, size_t size)
                  {&shift_factors_schema, say_material},
                  {&friction_schema, say_friction},
                  {&layer_schema, say_layer}};
-    sentence s = {buffer, size, 0};
+    sentence s = {.text = buffer, .size = size};
     const locale_t previous = clocale_enter();
     if (size > 0)
         buffer[0] = '\0';
+    if (table_bind_of(result, &what_if_schema, "", &s.what_if, NULL) != WT_OK)
+        s.what_if = (table_view){.schema = &what_if_schema};
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
         table_view view;
         if (table_bind_of(result, parts[i].schema, "", &view, NULL) == WT_OK)

@@ -15,7 +15,7 @@ typedef struct answer_story {
     table_view failures;
     table_view indentation[2]; /* bulk, track */
     table_view modulus_groups, comparison, dma_comparison, shift_factors, prony, roughness;
-    table_view friction, layer;
+    table_view friction, layer, what_if;
     table_writer *answer;
 } answer_story;
 

@@ -39,7 +39,8 @@
     X(LAYER, "layer", &layer_schema, "")                                                           \
     X(ENERGY_DENSITY, "energy_density", &energy_density_schema, "")                                \
     X(FRICTION, "friction", &friction_schema, "")                                                  \
-    X(CONTACT_AREA, "contact_area", &contact_area_schema, "")
+    X(CONTACT_AREA, "contact_area", &contact_area_schema, "")                                      \
+    X(WHAT_IF, "what_if", &what_if_schema, "")
 
 /* Handed from stage to stage only: id, words. */
 #define INNER_THINGS(X)                                                                            \

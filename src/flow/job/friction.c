@@ -33,7 +33,6 @@ static double *slot(double *values, size_t n, int kind)
     return values + (size_t)kind * n;
 }
 
-/* Total friction of the layer has its own shear stress: tau_s = tau_bulk x modulus ratio (L3). */
 static wt_layer_state layer_of(const friction_task *task, size_t replicate)
 {
     wt_layer_state state = {.modulus_ratio = 1};
@@ -47,6 +46,12 @@ static wt_layer_state layer_of(const friction_task *task, size_t replicate)
                                                                    replicate, FLOW_DRAW_RATIO)
                                               : 1;
     return state;
+}
+
+/* Total friction of the layer has its own shear stress: tau_s = tau_bulk x modulus ratio (L3). */
+static double shear_factor(const friction_task *task, wt_layer_state layer)
+{
+    return task->layer->bulk_shear ? 1 : layer.modulus_ratio;
 }
 
 static wt_status compute(const friction_task *task, size_t replicate, wt_friction_point *points,
@@ -78,7 +83,7 @@ static wt_status compute_layered(const friction_task *task, size_t replicate,
     if (status == WT_OK)
         status = wt_friction_compute(c.workspace, c.pressure, task->velocity, task->n, points, err);
     for (size_t i = 0; status == WT_OK && i < task->n; i++) {
-        double with = points[i].hysteresis.value + layer.modulus_ratio * c.shear_stress *
+        double with = points[i].hysteresis.value + shear_factor(task, layer) * c.shear_stress *
                                                        points[i].area_ratio.value / c.pressure;
         double without = slot(out, task->n, TOTAL)[i];
         slot(out, task->n, LAYERED)[i] = with;
@@ -289,7 +294,11 @@ static wt_layer_known no_layer(void)
     return (wt_layer_known){.thickness = {0, 0, 0, "m"}, .modulus_ratio = {1, 0, 0, "1"}};
 }
 
-static const wt_param rows[] = {LAYER_STATE_ROWS(wt_layer_known, )};
+static const wt_param rows[] = {
+    LAYER_STATE_ROWS(wt_layer_known, ),
+    {PARAM_FLAG_OF("bulk-shear", wt_layer_known, bulk_shear),
+     .help = "shear stress of the bulk for the layer, too, not times the modulus ratio"},
+};
 PARAM_TABLE(wt_layer_known_params, wt_layer_known, rows, no_layer, NO_PARTS)
 
 static wt_status check_layer(const wt_layer_known *layer, wt_error *err)
@@ -359,8 +368,8 @@ static wt_status compute_centre(friction_task *task, sliding_contact *c, wt_erro
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     status = compute_layered(task, WT_NO_REPLICATE, layered, task->centre, err);
     if (status == WT_OK) {
-        task->numerical[1] =
-            total_error(&layered[last], shear * layer_of(task, WT_NO_REPLICATE).modulus_ratio);
+        task->numerical[1] = total_error(
+            &layered[last], shear * shear_factor(task, layer_of(task, WT_NO_REPLICATE)));
         note_not_reached(task, layered);
     }
     free(layered);

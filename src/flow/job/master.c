@@ -322,6 +322,30 @@ static wt_status make_tables(const wt_master *m, wt_master_tables *t, wt_error *
     return status == WT_OK ? draw_tables(m, t, err) : status;
 }
 
+wt_status wt_rubber_refit(const wt_rubber *rubber, wt_vertical_shift vertical, wt_rubber *refitted,
+                          wt_error *err)
+{
+    if (rubber == NULL || refitted == NULL)
+        return wt_fail(err, WT_E_ARG, "no rubber");
+    if (rubber->sweep.n_isotherms == 0)
+        return wt_fail(err, WT_E_MISSING, "there are no isotherms to be fitted again");
+    wt_master_options options = rubber->fit;
+    wt_master master = {0};
+    wt_master_tables t = {0};
+    options.vertical = vertical;
+    wt_status status = wt_master_fit(&rubber->sweep, &options, NULL, &master, err);
+    if (status == WT_OK)
+        status = shift_table(&master, &t.shift_factors, err);
+    if (status == WT_OK)
+        status = prony_table(&master, &t.prony, err);
+    const wt_rubber_tables of = {.prony = t.prony, .shift_factors = t.shift_factors};
+    if (status == WT_OK)
+        status = wt_rubber_from_tables(&of, rubber->poisson_ratio, refitted, err);
+    wt_master_tables_clear(&t);
+    wt_master_clear(&master);
+    return status;
+}
+
 wt_status wt_master_make(const wt_master_job *job, const wt_job *work, wt_master_tables *tables,
                          wt_rubber *rubber, wt_error *err)
 {
@@ -345,6 +369,11 @@ wt_status wt_master_make(const wt_master_job *job, const wt_job *work, wt_master
                                      .material_draws = t.material_draws,
                                      .series_draws = t.series_draws};
         status = wt_rubber_from_tables(&of, job->poisson_ratio, rubber, err);
+    }
+    if (status == WT_OK && rubber != NULL) {
+        rubber->sweep = sweep;
+        rubber->fit = job->fit;
+        sweep = (wt_sweep){0};
     }
     if (status == WT_OK && tables != NULL) {
         *tables = t;

@@ -24,6 +24,7 @@ void wt_rubber_clear(wt_rubber *rubber)
         free(rubber->draws[i].log_b);
     }
     free(rubber->draws);
+    wt_sweep_clear(&rubber->sweep);
     *rubber = (wt_rubber){0};
 }
 

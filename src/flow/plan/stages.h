@@ -47,7 +47,17 @@
       B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(LAYER) | B(MODULUS_RATIO),                        \
       B(FRICTION) | B(CONTACT_AREA), flow_step_friction_with_layer)                                \
     X(FRICTION, friction, "Contact area and friction", B(RUBBER) | B(SURFACE) | B(CONDITIONS),     \
-      B(FRICTION) | B(CONTACT_AREA), flow_step_friction)
+      B(FRICTION) | B(CONTACT_AREA), flow_step_friction)                                           \
+    X(WHAT_IF_WITH_LAYER, what_if_with_layer,                                                      \
+      "What if a choice of the model were another, friction with layer",                           \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(FRICTION) | B(LAYER) | B(MODULUS_RATIO),          \
+      B(WHAT_IF), flow_step_what_if_with_layer)                                                    \
+    X(WHAT_IF_LAYER, what_if_layer,                                                                \
+      "What if a choice of the model were another, friction and layer",                            \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(FRICTION) | B(LAYER), B(WHAT_IF),                 \
+      flow_step_what_if_layer)                                                                     \
+    X(WHAT_IF, what_if, "What if a choice of the model were another, friction",                    \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(FRICTION), B(WHAT_IF), flow_step_what_if)
 
 #define STAGE_ID(id, ...) FLOW_STAGE_##id,
 typedef enum flow_stage_id { STAGES(STAGE_ID) FLOW_N_STAGES } flow_stage_id;

@@ -251,6 +251,14 @@ wt_status flow_step_layer(flow_run *run, flow_cost *cost, wt_error *err)
     return WT_OK;
 }
 
+static wt_layer_known known_layer(const flow_run *run)
+{
+    wt_layer_known known = run->c->known;
+    known.thickness = run->thickness;
+    known.modulus_ratio = run->modulus_ratio;
+    return known;
+}
+
 static wt_status friction(flow_run *run, const wt_layer_known *layer, flow_cost *cost,
                           wt_error *err)
 {
@@ -269,11 +277,40 @@ static wt_status friction(flow_run *run, const wt_layer_known *layer, flow_cost 
 
 wt_status flow_step_friction_with_layer(flow_run *run, flow_cost *cost, wt_error *err)
 {
-    wt_layer_known layer = {.thickness = run->thickness, .modulus_ratio = run->modulus_ratio};
+    const wt_layer_known layer = known_layer(run);
     return friction(run, &layer, cost, err);
 }
 
 wt_status flow_step_friction(flow_run *run, flow_cost *cost, wt_error *err)
 {
     return friction(run, NULL, cost, err);
+}
+
+/* ---- what if --------------------------------------------------------------------------------- */
+
+static wt_status what_if(flow_run *run, const wt_layer_job *layer, const wt_layer_known *known,
+                         flow_cost *cost, wt_error *err)
+{
+    wt_sliding sliding = flow_case_sliding(run->c, &run->rubber, &run->surface);
+    const wt_status status =
+        wt_what_if_make(&sliding, layer, known, &run->job, &run->table[FLOW_WHAT_IF], err);
+    if (status == WT_OK)
+        cost->items = (double)wt_table_n_rows(run->table[FLOW_WHAT_IF]);
+    return status;
+}
+
+wt_status flow_step_what_if_with_layer(flow_run *run, flow_cost *cost, wt_error *err)
+{
+    const wt_layer_known known = known_layer(run);
+    return what_if(run, &run->c->layer, &known, cost, err);
+}
+
+wt_status flow_step_what_if_layer(flow_run *run, flow_cost *cost, wt_error *err)
+{
+    return what_if(run, &run->c->layer, NULL, cost, err);
+}
+
+wt_status flow_step_what_if(flow_run *run, flow_cost *cost, wt_error *err)
+{
+    return what_if(run, NULL, NULL, cost, err);
 }

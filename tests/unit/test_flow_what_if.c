@@ -1,0 +1,260 @@
+/* What if: every row is what a single run with that choice moved gives, to the last bit.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cells.h"
+#include "truth.h"
+
+#include "weartrack/flow.h"
+
+static double tau[] = {1e-6, 1e-4, 1e-2}, term[] = {300e6, 10e6, 3e6}, velocity[] = {1e-3, 0.1, 10};
+static wt_rubber rubber;
+static wt_surface surface;
+static wt_sliding sliding;
+static wt_layer_known known;
+static wt_layer_job layer;
+static wt_job work;
+
+static void set_up(void)
+{
+    rubber = (wt_rubber){.prony = {.deformation = WT_TENSION,
+                                   .reference_temperature = 293.15,
+                                   .equilibrium_modulus = 3e6,
+                                   .n = 3,
+                                   .relaxation_time = tau,
+                                   .modulus = term,
+                                   .frequency_min = 1e-2,
+                                   .frequency_max = 1e8},
+                         .poisson_ratio = 0.5};
+    surface = (wt_surface){.self_affine = true, .q0 = 2e3, .qr = 4e3, .q1 = 2e6, .hurst = 0.8};
+    surface.c0 = (wt_estimate){2e-17, 0, 0, "m^4"};
+    sliding = wt_sliding_defaults();
+    sliding.rubber = &rubber;
+    sliding.surface = &surface;
+    sliding.pressure.value = 0.4e6;
+    sliding.shear_stress.value = 5e6;
+    sliding.velocity = velocity;
+    sliding.n_velocity = 3;
+    known = (wt_layer_known){.thickness = {1e-6, 0, 0, "m"}, .modulus_ratio = {0.6, 0, 0, "1"}};
+    layer = wt_layer_job_defaults();
+    layer.specific_wear_rate.value = 1e-12;
+    layer.critical_energy.value = 2e10;
+    work = wt_job_defaults();
+    work.threads = 1;
+    work.replicates = 0;
+}
+
+static wt_table *what_if(bool with_layer, bool with_known)
+{
+    wt_table *table = NULL;
+    wt_error err = WT_ERROR_INIT;
+    if (wt_what_if_make(&sliding, with_layer ? &layer : NULL, with_known ? &known : NULL, &work,
+                        &table, &err) != WT_OK)
+        fail_msg("%s %s", err.message, err.found);
+    return table;
+}
+
+/* The row in which a choice is so; the table must have it if it is asked for. */
+static size_t find_row(const wt_table *table, const char *choice, const char *tried)
+{
+    for (size_t i = 0; i < wt_table_n_rows(table); i++)
+        if (strcmp(text_cell(table, i, "choice"), choice) == 0 &&
+            (tried == NULL || strcmp(text_cell(table, i, "tried"), tried) == 0))
+            return i;
+    if (tried != NULL)
+        fail_msg("no row %s, %s", choice, tried);
+    return SIZE_MAX;
+}
+
+static void check_cell(const wt_table *table, size_t row, const char *column, double value)
+{
+    char change[64];
+    const double used = number_cell(table, 0, column), cell = number_cell(table, row, column);
+    if (cell < value || cell > value || isnan(cell))
+        fail_msg("row %zu (%s %s), %s: %.17g, a single run gives %.17g", row,
+                 text_cell(table, row, "choice"), text_cell(table, row, "tried"), column, cell,
+                 value);
+    snprintf(change, sizeof change, "%s_change", column);
+    assert_near(number_cell(table, row, change), value / used - 1, 1e-12);
+}
+
+/* What the settings as they are now give in single runs. */
+static void check_row(const wt_table *table, const char *choice, const char *tried)
+{
+    const size_t row = find_row(table, choice, tried);
+    wt_layer_tables l = {0};
+    wt_friction_tables f = {0};
+    wt_layer_known on_top = known;
+    assert_int_equal(wt_layer_make(&sliding, &layer, &work, &l, NULL), WT_OK);
+    on_top.thickness = l.thickness;
+    assert_int_equal(wt_friction_make(&sliding, &on_top, &work, &f, NULL), WT_OK);
+    check_cell(table, row, "thickness", l.thickness.value);
+    check_cell(table, row, "hysteresis", key_estimate(f.friction, "hysteresis_at_reference").value);
+    check_cell(table, row, "area_ratio", key_estimate(f.friction, "area_ratio_at_reference").value);
+    check_cell(table, row, "friction", key_estimate(f.friction, "friction_at_reference").value);
+    check_cell(table, row, "friction_with_layer",
+               key_estimate(f.friction, "friction_with_layer_at_reference").value);
+    wt_layer_tables_clear(&l);
+    wt_friction_tables_clear(&f);
+    set_up();
+}
+
+static void test_single_runs(void **state)
+{
+    (void)state;
+    set_up();
+    wt_table *table = what_if(true, true);
+    check_row(table, "as used", "");
+    surface.q1 = 0.1 * 2e6;
+    check_row(table, "largest wavenumber q1", "2e5 rad/m");
+    surface.q1 = 10 * 2e6;
+    check_row(table, "largest wavenumber q1", "2e7 rad/m");
+    surface.q0 = 1e3;
+    check_row(table, "smallest wavenumber q0", "1e3 rad/m");
+    surface.q0 = 4e3;
+    check_row(table, "smallest wavenumber q0", "4e3 rad/m");
+    sliding.gamma = 0.5;
+    check_row(table, "factor gamma of partial contact", "0.5");
+    rubber.poisson_ratio = 0.4;
+    check_row(table, "Poisson ratio", "0.4");
+    layer.profile = WT_PROFILE_INCOMPRESSIBLE;
+    check_row(table, "depth profile", "incompressible, m = 0");
+    layer.profile = WT_PROFILE_INCOMPRESSIBLE;
+    layer.local_friction = 1;
+    check_row(table, "depth profile", "incompressible, m = 1");
+    known.bulk_shear = true;
+    check_row(table, "shear stress of the layer", "that of the bulk");
+    assert_int_equal(wt_table_n_rows(table), 12);
+    wt_table_free(table);
+}
+
+/* Each choice from its other side. */
+static void test_what_is_used_is_not_tried(void **state)
+{
+    (void)state;
+    set_up();
+    sliding.gamma = 0.5;
+    known.bulk_shear = true;
+    layer.profile = WT_PROFILE_INCOMPRESSIBLE;
+    wt_table *table = what_if(true, true);
+    sliding.gamma = 1;
+    find_row(table, "factor gamma of partial contact", "1");
+    find_row(table, "shear stress of the layer", "scaled by the ratio");
+    find_row(table, "depth profile", "exponential");
+    for (size_t i = 1; i < wt_table_n_rows(table); i++)
+        assert_string_not_equal(text_cell(table, i, "used"), text_cell(table, i, "tried"));
+    wt_table_free(table);
+}
+
+/* What does not apply has no row, and is named. */
+static void test_what_does_not_apply(void **state)
+{
+    (void)state;
+    set_up();
+    surface.qr = surface.q0;
+    wt_table *table = what_if(false, false);
+    assert_true(find_row(table, "depth profile", NULL) == SIZE_MAX);
+    assert_true(find_row(table, "shear stress of the layer", NULL) == SIZE_MAX);
+    assert_true(find_row(table, "vertical shift", NULL) == SIZE_MAX);
+    assert_true(find_row(table, "smallest wavenumber q0", NULL) == SIZE_MAX);
+    assert_true(isnan(number_cell(table, 0, "thickness")));
+    assert_null(wt_table_key(table, "thickness_what_if"));
+    const char *left_out = wt_table_key(table, "left_out");
+    assert_non_null(left_out);
+    assert_non_null(strstr(left_out, "vertical shift (no isotherms"));
+    assert_non_null(strstr(left_out, "smallest wavenumber q0 (the roughness has no roll-off)"));
+    wt_table_free(table);
+    set_up();
+    layer.critical_energy.value = (double)NAN; /* then the thickness is put in */
+    layer.observed_thickness.value = 3e-6;
+    table = what_if(true, false);
+    assert_true(find_row(table, "depth profile", NULL) == SIZE_MAX);
+    wt_table_free(table);
+}
+
+/* The densities of a measured spectrum are known between its ends only. */
+static void test_limits(void **state)
+{
+    (void)state;
+    double q[] = {1e3, 1e4, 1e6, 4e6}, c[] = {1e-16, 1e-17, 1e-24, 1e-26};
+    set_up();
+    surface = (wt_surface){.q0 = 1e3, .q1 = 1e6, .c0 = {1, 0, 0, "1"}};
+    surface.spectrum = (wt_power_spectrum){.n = 4, .wavenumber = q, .density = c};
+    wt_table *table = what_if(false, false);
+    find_row(table, "largest wavenumber q1", "4e6 rad/m");
+    find_row(table, "smallest wavenumber q0", "2e3 rad/m");
+    for (size_t i = 0; i < wt_table_n_rows(table); i++) {
+        assert_string_not_equal(text_cell(table, i, "tried"), "1e7 rad/m");
+        assert_string_not_equal(text_cell(table, i, "tried"), "500 rad/m");
+        assert_true(number_cell(table, i, "hysteresis") > 0);
+    }
+    wt_table_free(table);
+}
+
+/* The range is that of the choice that moves the number most. */
+static void test_sentence(void **state)
+{
+    (void)state;
+    set_up();
+    wt_table *table = what_if(true, true);
+    double low = number_cell(table, 0, "hysteresis"), high = low;
+    for (size_t i = 0; i < wt_table_n_rows(table); i++)
+        if (strcmp(text_cell(table, i, "choice"), "largest wavenumber q1") == 0) {
+            low = fmin(low, number_cell(table, i, "hysteresis"));
+            high = fmax(high, number_cell(table, i, "hysteresis"));
+        }
+    char expected[160];
+    snprintf(expected, sizeof expected,
+             "%.3g to %.3g if the largest wavenumber q1 lies between 2e5 and 2e7 rad/m", low, high);
+    assert_string_equal(wt_table_key(table, "hysteresis_what_if"), expected);
+    assert_non_null(strstr(wt_table_key(table, "thickness_what_if"), " µm if the "));
+    wt_table_free(table);
+}
+
+/* A row that cannot be computed says why, and the others stand: here the roughness of one row is
+ * beyond every number. */
+static void test_what_cannot_be_computed(void **state)
+{
+    (void)state;
+    set_up();
+    surface.c0.value = 1e280;
+    wt_table *table = what_if(false, false);
+    const size_t row = find_row(table, "smallest wavenumber q0", "4e3 rad/m");
+    for (size_t i = 0; i < wt_table_n_rows(table); i++) {
+        assert_int_equal(isnan(number_cell(table, i, "area_ratio")) != 0, i == row);
+        assert_int_equal(text_cell(table, i, "note")[0] != '\0', i == row);
+    }
+    assert_non_null(strstr(text_cell(table, row, "note"), "variance G stays finite"));
+    surface.c0.value = 1e290; /* not even as used: an error, no table of blanks */
+    wt_table *none = NULL;
+    assert_int_equal(wt_what_if_make(&sliding, NULL, NULL, &work, &none, NULL), WT_E_RANGE);
+    assert_null(none);
+    wt_table_free(table);
+}
+
+static void test_threads(void **state)
+{
+    (void)state;
+    set_up();
+    wt_table *one = what_if(true, true);
+    work.threads = 3;
+    wt_table *three = what_if(true, true);
+    for (size_t c = 0; c < wt_table_n_columns(one); c++)
+        if (wt_table_column_kind(one, c) == WT_COLUMN_NUMBER)
+            assert_memory_equal(wt_table_numbers(one, c), wt_table_numbers(three, c),
+                                wt_table_n_rows(one) * sizeof(double));
+    wt_table_free(one);
+    wt_table_free(three);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_single_runs),
+        cmocka_unit_test(test_what_is_used_is_not_tried),
+        cmocka_unit_test(test_what_does_not_apply),
+        cmocka_unit_test(test_limits),
+        cmocka_unit_test(test_sentence),
+        cmocka_unit_test(test_what_cannot_be_computed),
+        cmocka_unit_test(test_threads),
+    };
+    return cmocka_run_group_tests_name("what if", tests, NULL, NULL);
+}
