@@ -109,7 +109,7 @@ static wt_status see_and_free(void *user, wt_table *table, wt_error *err)
 /* ---- where tables come from ------------------------------------------------------------------ */
 
 /* The bundled case with one text in the place of another. */
-static void run_case(const char *text, const char *instead)
+static void run_case_at(double tolerance, const char *text, const char *instead)
 {
     FILE *in = fopen(CASE "case.xml", "rb");
     char xml[8192], changed[9000];
@@ -126,6 +126,7 @@ static void run_case(const char *text, const char *instead)
     wt_parselog *log = wt_parselog_new();
     wt_run_options options = wt_run_defaults();
     options.replicates = 3;
+    options.tolerance = tolerance;
     wt_parselog_add(log, WT_WARNING, "file", "line 1", "a warning");
     wt_error err = WT_ERROR_INIT;
     if (case_from_bytes(changed, strlen(changed), CASE "case.xml", &c, &err) != WT_OK ||
@@ -147,10 +148,16 @@ static void run_case(const char *text, const char *instead)
     wt_case_free(c);
 }
 
+static void run_case(const char *text, const char *instead)
+{
+    run_case_at(wt_run_defaults().tolerance, text, instead);
+}
+
 static void test_cases(void **state)
 {
     (void)state;
     run_case("", "");
+    run_case_at(1e-16, "", ""); /* which nothing reaches */
     run_case("<temperature>23degC", "<temperature>90degC");
     run_case("<temperature>30degC", "<temperature>90degC");
     run_case("<critical-energy>2e10J/m^3 +- 10%</critical-energy>",
