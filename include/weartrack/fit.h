@@ -279,7 +279,8 @@ WT_API void wt_master_clear(wt_master *master);
  * caller. */
 WT_API wt_status wt_master_fit(const wt_sweep *sweep, const wt_master_options *options,
                                wt_parselog *log, wt_master *master, wt_error *err) WT_NODISCARD;
-/* log10 aT of the law at a temperature; NaN without a law. */
+/* log10 aT of the law at a temperature; NaN without a law, and beyond the isotherms where fewer
+ * than four tell it. */
 WT_API wt_interval wt_master_law(const wt_master *master, double temperature);
 /* log10 E', log10 E'' [Pa] at the reference temperature. */
 WT_API void wt_master_moduli(const wt_master *master, double angular_frequency,

@@ -147,6 +147,14 @@ static double correlation_of_constants(const wt_posterior *p)
     return sum[1] / sqrt(sum[0] * sum[2]);
 }
 
+/* Few isotherms do not tell one law from another: between them any goes, beyond them none. */
+static wt_interval law_of(const wt_posterior *p, double temperature)
+{
+    const size_t n = p->frame.n_curves;
+    const bool inside = temperature >= p->temperature[0] && temperature <= p->temperature[n - 1];
+    return n >= LAW_LEAST_TOLD || inside ? posterior_law(p, temperature) : unknown_interval;
+}
+
 static void fill_law(const wt_posterior *p, wt_master *m)
 {
     double mean[LAW_MOST];
@@ -171,7 +179,7 @@ static void fill_law(const wt_posterior *p, wt_master *m)
         m->c_correlation = correlation_of_constants(p);
     for (size_t i = 0; i < m->n_shifts; i++)
         if (!isnan(wt_shift_law_log_a(&m->law, m->shifts[i].temperature)))
-            m->shifts[i].law = posterior_law(p, m->shifts[i].temperature);
+            m->shifts[i].law = law_of(p, m->shifts[i].temperature);
     if (p->shape.kind != WT_LAW_WLF)
         m->activation_energy = posterior_constant(p, p->shape.kind == WT_LAW_JOINED ? 2 : 1);
     m->slope = posterior_slope(p, m->reference_temperature);
@@ -456,7 +464,7 @@ wt_interval wt_master_law(const wt_master *master, double temperature)
 {
     if (master->law.kind == WT_LAW_NONE || isnan(wt_shift_law_log_a(&master->law, temperature)))
         return unknown_interval;
-    return posterior_law(master->posterior, temperature);
+    return law_of(master->posterior, temperature);
 }
 
 void wt_master_moduli(const wt_master *master, double angular_frequency, wt_interval *log_storage,

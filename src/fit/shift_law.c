@@ -20,7 +20,7 @@ static const double pole_nearest = 2.0, pole_farthest = 1e4;
 static const double believed = 0.3;
 /* The isotherm whose own shift gains more than this of -2 ln likelihood is odd. */
 static const double odd_gain = 20.0;
-enum { POLE_GRID = 40, LEAST_WLF = 4, LEAST_CORRECTED = 7, LEAST_JOINED = 8, LEAST_ODD = 6 };
+enum { POLE_GRID = 40, LEAST_CORRECTED = 7, LEAST_JOINED = 8, LEAST_ODD = 6 };
 
 double law_spread(size_t i)
 {
@@ -367,7 +367,7 @@ static wt_status consider_all(struct search *search, const law_shape *start, wt_
     shape.kind = WT_LAW_ARRHENIUS;
     wt_status status = consider(search, shape, err);
     shape.kind = WT_LAW_WLF;
-    if (status == WT_OK && data->n >= LEAST_WLF)
+    if (status == WT_OK && data->n >= LAW_LEAST_TOLD)
         status = consider(search, shape, err);
     shape.kind = WT_LAW_JOINED;
     for (size_t i = 2; status == WT_OK && data->n >= LEAST_JOINED && i + 3 < data->n; i++) {
@@ -394,7 +394,7 @@ wt_status law_choose(law_data *data, double reference, gsl_matrix *root, law_sha
 {
     const double coldest = fmin(data->temperature[0], reference);
     struct search search = {data, root, HUGE_VAL, HUGE_VAL, {0}};
-    law_shape start = {.kind = data->n >= LEAST_WLF ? WT_LAW_WLF : WT_LAW_ARRHENIUS,
+    law_shape start = {.kind = data->n >= LAW_LEAST_TOLD ? WT_LAW_WLF : WT_LAW_ARRHENIUS,
                        .reference = reference,
                        .odd = -1,
                        .coldest = coldest};

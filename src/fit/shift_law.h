@@ -11,6 +11,8 @@
  * energy), the activation energy below the joint, the shift of an odd isotherm, ln of the distance
  * of the pole below the coldest isotherm. Not every law has all. */
 enum { LAW_MOST = 5 };
+/* With fewer isotherms a law is Arrhenius because more cannot be asked. */
+enum { LAW_LEAST_TOLD = 4 };
 
 /* Standard deviations of the temperature of an isotherm that are averaged over [K]. */
 enum { LAW_SPREADS = 11 };

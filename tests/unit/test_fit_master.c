@@ -286,6 +286,18 @@ static void the_law_is_that_of_the_shifts(void **state)
     }
 }
 
+static void three_isotherms_tell_no_law_beyond_them(void **state)
+{
+    (void)state;
+    const scene s = {usual(), 283.15, 303.15, 10, 0.005, 0, 41};
+    wt_master m = fit_scene(&s);
+    assert_int_equal(m.n_shifts, 3);
+    assert_true(isfinite(wt_master_law(&m, 298.15).low) != 0);
+    assert_true(isnan(wt_master_law(&m, 333.15).low));
+    assert_true(isnan(wt_master_law(&m, 253.15).low));
+    wt_master_clear(&m);
+}
+
 /* Two isotherms known so well that they alone decide, and they rise with temperature; only if
  * temperatures are not believed does a law fall. It made the search go on with no law at all. */
 static void shifts_that_rise_have_no_law(void **state)
@@ -405,6 +417,7 @@ int main(void)
         cmocka_unit_test(an_isotherm_of_another_temperature_is_named),
         cmocka_unit_test(an_isotherm_with_more_noise_weighs_less),
         cmocka_unit_test(the_law_is_that_of_the_shifts),
+        cmocka_unit_test(three_isotherms_tell_no_law_beyond_them),
         cmocka_unit_test(shifts_that_rise_have_no_law),
         cmocka_unit_test(superposition_is_judged),
         cmocka_unit_test(draws_scatter_as_the_intervals_say),
