@@ -55,7 +55,8 @@ void master_judge(const master_work *work, wt_master *m)
                       "E'' is %+.1f %% off what E' demands (Kramers-Kronig, p = %.1g): check the "
                       "instrument, or the columns",
                       100.0 * expm1(-lack->factor), lack->kk);
-    } else if (determined >= 2 && lack->p < significant && lack->misfit_low > matters) {
+    } else if (determined >= LEAST_ISOTHERMS && lack->p < significant &&
+               lack->misfit_low > matters) {
         m->superposition = WT_SUPERPOSITION_FAILS;
         clocale_print(
             m->because, sizeof m->because,

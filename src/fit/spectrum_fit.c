@@ -16,7 +16,7 @@ enum { MAX_STEPS = 80, MAX_DAMPINGS = 12 };
  * smoothness change by less than this share. */
 static const double least_gain = 1e-3, least_change = 2e-3;
 /* The same where that is good enough, and where only the objective is wanted. */
-static const double rough_gain = 1.0, rough_change = 0.05, held_gain = 0.02;
+static const double rough_gain = 0.1, rough_change = 0.02, held_gain = 0.02;
 
 static gsl_matrix_view part(gsl_matrix *m, size_t n)
 {
