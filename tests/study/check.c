@@ -185,6 +185,7 @@ static int complaints_of(double honesty, int draws, tally *found)
 {
     facts s = find_scene("D1")->facts;
     s.intervals_promised = true;
+    s.verdict_promised = false;
     draw *all = calloc((size_t)draws, sizeof *all);
     random_source random = random_for(3, "tally", 0);
     for (int i = 0; i < draws; i++) {
