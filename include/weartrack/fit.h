@@ -133,11 +133,13 @@ WT_API size_t wt_indent_curve(const wt_indent_fit *fit, const double *height, co
 /* One group of moduli: accepted curves only; spot[i] numbers the place on the sample (curves on one
  * spot are not independent), NULL = each curve is its own spot and the result says so. */
 typedef struct wt_group {
-    const double *modulus; /* [n] Pa, > 0 */
-    const long *spot;      /* [n] or NULL */
+    const double *modulus;  /* [n] Pa, > 0 */
+    const long *spot;       /* [n] or NULL */
+    const double *rate;     /* [n] of the indentation [m/s]; NULL = all curves count as one rate */
+    const long *rate_class; /* [n], with `rate`: what of both groups is the same nominal rate */
     size_t n;
     size_t n_rejected;
-    uint64_t reserved[8];
+    uint64_t reserved[6];
 } wt_group;
 
 typedef struct wt_group_summary {
@@ -149,27 +151,56 @@ typedef struct wt_group_summary {
     double median;                   /* of the curves [Pa] */
 } wt_group_summary;
 
+/* How the rates of the two groups were made comparable. */
+typedef enum wt_rates_by {
+    WT_RATES_COMMON,  /* the rates that both groups have, or no rates */
+    WT_RATES_WITHIN,  /* a slope of ln E against ln rate within the spots */
+    WT_RATES_BETWEEN, /* such a slope between the spots, for each has one rate */
+} wt_rates_by;
+
+/* Why there is no interval. */
+typedef enum wt_unsettled {
+    WT_SETTLED,
+    WT_ONE_SPOT,    /* in a group: how the spots scatter is not known there */
+    WT_RATES_APART, /* no rate in common and no slope */
+    WT_RATES_TWIST  /* no rate in common, and the slopes of the groups differ */
+} wt_unsettled;
+
 typedef struct wt_comparison {
-    wt_group_summary bulk, track;
-    bool by_spot;                        /* the unit of analysis is the spot */
+    wt_group_summary bulk, track;     /* of all curves */
+    bool by_spot;                     /* the unit of analysis is the spot */
+    size_t n_bulk, n_track;           /* units that were compared */
+    size_t curves_bulk, curves_track; /* of these rates */
+    wt_rates_by rates_by;
+    wt_unsettled unsettled;
     wt_estimate log_ratio;               /* ln(E_track / E_bulk) */
-    double ratio, ratio_low, ratio_high; /* with 95 % interval (Welch on ln E) */
-    wt_estimate difference;              /* E_track - E_bulk [Pa], of the means */
-    double welch_t, welch_df, welch_p;   /* of `difference`: the same sign */
+    double df;                           /* degrees of freedom of its standard error */
+    double ratio, ratio_low, ratio_high; /* with 95 % interval; NaN if unsettled */
+    double t, p;                         /* two-sided, of ln(E_track / E_bulk) */
+    double effect_size;                  /* Hedges g of ln E, track minus bulk */
+    double scatter;                      /* standard deviation of ln E between the units */
+    double known_share;                  /* of the variance that is that of `offset` */
     double mann_whitney_u;               /* pairs in which the track is stiffer; ties count half */
     double mann_whitney_p;               /* two-sided */
+    double mann_whitney_smallest_p;      /* that these numbers of units allow */
     bool mann_whitney_exact; /* small and without ties; else normal, corrected for ties */
-    double effect_size;      /* Hedges g of ln E, track minus bulk */
+    wt_estimate rate_slope;  /* d ln E / d ln rate within the spots; NaN if not known */
+    double interaction_p;    /* of the slopes of the two groups being one; NaN if not known */
 } wt_comparison;
 
 /* WT_E_EMPTY for n = 0, WT_E_RANGE for a modulus that is not positive. With one unit its interval
  * is NaN. */
 WT_API wt_status wt_group_summarise(const wt_group *group, wt_group_summary *summary,
                                     wt_error *err) WT_NODISCARD;
-/* The units are spots if both groups name them, else curves. WT_E_EMPTY with fewer than two units
- * in a group, WT_E_RANGE for a modulus that is not positive or groups without any scatter. */
-WT_API wt_status wt_compare(const wt_group *bulk, const wt_group *track, wt_comparison *result,
-                            wt_error *err) WT_NODISCARD;
+/* The units are spots if both groups name them, else curves. `offset` is what ln(E_track / E_bulk)
+ * is known to hold beside the difference, such as a temperature or separate levers, with its
+ * standard error; NULL = nothing. WT_E_EMPTY for a group without curves, WT_E_RANGE for a modulus
+ * that is not positive or groups without any scatter. */
+WT_API wt_status wt_compare(const wt_group *bulk, const wt_group *track, const wt_estimate *offset,
+                            wt_comparison *result, wt_error *err) WT_NODISCARD;
+/* The smallest number of spots in each group at which a difference `log_ratio` of ln E is seen in
+ * four of five trials when spots scatter by `scatter`; 0 if 1000 are not enough. */
+WT_API size_t wt_spots_needed(double log_ratio, double scatter);
 /* Holm's correction of n p-values for n rates; adjusted[n]. A NaN stays and is not counted. */
 WT_API void wt_holm(const double *p, size_t n, double *adjusted);
 /* Equivalent angular frequency [rad/s] of a loading of time t [s] with F ~ delta^p: exp(psi(p+1))/t

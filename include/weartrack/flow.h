@@ -110,18 +110,32 @@ WT_API void wt_indent_tables_clear(wt_indent_tables *tables);
 WT_API wt_status wt_indent_group(const wt_indent_job *job, const wt_job *work,
                                  wt_indent_tables *tables, wt_error *err) WT_NODISCARD;
 
-/* The accepted moduli of an indentation table as a group of the fit room; modulus and spot are
- * allocated, to be released with wt_group_data_clear. */
+/* What was measured on a curve as one number; 0 = too little for that. */
+typedef struct wt_curve_digest {
+    uint64_t digest;
+    size_t item;
+} wt_curve_digest;
+
+/* The accepted moduli of an indentation table as a group of the fit room; the arrays are allocated,
+ * to be released with wt_group_data_clear. A curve that is in the table twice is taken once. */
 typedef struct wt_group_data {
     wt_group group; /* borrows the arrays below */
     double *modulus;
     long *spot;
     double *indentation_rate;     /* [n] m/s, NaN if unknown */
     double *equivalent_frequency; /* [n] rad/s, NaN if unknown */
+    wt_curve_digest *digest;      /* [n_digests] of the curves, rising */
+    size_t n_digests, n_copies;   /* how many were left out as copies */
+    const char *copy_of[2];       /* files of the first copy; borrowed from the table */
+    wt_estimate spring_constant;  /* of the table; NaN if it has none */
+    double sensitivity_gain;      /* mean of the curves, NaN if unknown */
+    bool several_levers;          /* the curves have several spring constants */
     bool spots_given;             /* the user named the spots */
+    bool one_map;                 /* curves of one file without named spots */
 } wt_group_data;
-WT_API wt_status wt_group_from_table(const wt_table *indentation, wt_group_data *data,
-                                     wt_error *err) WT_NODISCARD;
+/* The curves of one map without named spots are one spot, or `each_place` one of its own. */
+WT_API wt_status wt_group_from_table(const wt_table *indentation, bool each_place,
+                                     wt_group_data *data, wt_error *err) WT_NODISCARD;
 WT_API void wt_group_data_clear(wt_group_data *data);
 /* Table "modulus_groups", one row per indentation table. A group without an accepted curve has a
  * row with n = 0. */
@@ -199,12 +213,27 @@ WT_API wt_status wt_rubber_at(const wt_rubber *rubber, double temperature, uint6
 
 /* ---- comparison ------------------------------------------------------------------------------ */
 
+/* Whether bulk and track were indented with one cantilever, whose errors cancel in the ratio. */
+typedef enum wt_levers {
+    WT_LEVERS_AUTO, /* one if the spring constants are equal */
+    WT_LEVERS_ONE,
+    WT_LEVERS_TWO
+} wt_levers;
+
 typedef struct wt_compare_job {
-    const wt_table *bulk, *track; /* indentation tables */
-    const wt_rubber *rubber;      /* for the DMA comparison; NULL = none (default) */
-    double temperature;           /* of the indentation [K]; NaN = the rubber's reference */
-    bool rates;       /* default true: modulus against rate, and the comparison rate by rate */
-    bool groups_only; /* no comparison of the two groups */
+    const wt_table *bulk, *track;  /* indentation tables */
+    const wt_rubber *rubber;       /* for the DMA comparison; NULL = none (default) */
+    wt_estimate temperature;       /* of the indentation [K]; NaN = the rubber's reference */
+    wt_estimate track_temperature; /* NaN = the same in the track */
+    wt_estimate temperature_slope; /* d ln E/dT [1/K]; NaN = that of the rubber */
+    wt_levers levers;
+    double lever_error;       /* of a spring constant whose table states none; default 0 = none */
+    double sensitivity_error; /* relative standard error; default 0 = none stated */
+    double tip_error;         /* of the modulus by the tip, relative; default 0 = none stated */
+    bool map_spots;           /* each place of a map is a spot; default false: a map is one */
+    double margin;            /* relative difference that does not matter; default 0.2 */
+    bool rates;               /* default true: table of the modulus against rate */
+    bool groups_only;         /* no comparison of the two groups */
     uint64_t reserved[8];
 } wt_compare_job;
 WT_API wt_compare_job wt_compare_job_defaults(void);
@@ -218,7 +247,7 @@ typedef struct wt_compare_tables {
 } wt_compare_tables;
 WT_API void wt_compare_tables_clear(wt_compare_tables *tables);
 /* Also with bulk or track NULL: then without "comparison". WT_E_EMPTY if a comparison is asked for
- * with fewer than two accepted curves in a group. */
+ * and a group has no accepted curve, WT_E_RANGE if a curve is in both groups. */
 WT_API wt_status wt_compare_groups(const wt_compare_job *job, const wt_job *work,
                                    wt_compare_tables *tables, wt_error *err) WT_NODISCARD;
 
@@ -266,8 +295,9 @@ WT_API const wt_params *wt_sliding_params(void);
 typedef struct wt_layer_known {
     wt_estimate thickness;     /* [m] */
     wt_estimate modulus_ratio; /* E_track / E_bulk */
+    double modulus_ratio_df;   /* degrees of freedom of its error (Student's t); 0 = normal */
     bool bulk_shear;           /* tau_s = tau_bulk, not times the modulus ratio; default false */
-    uint64_t reserved[7];
+    uint64_t reserved[6];
 } wt_layer_known;
 WT_API const wt_params *wt_layer_known_params(void);
 

@@ -1,6 +1,8 @@
 /* weartrack compare: wear track against bulk. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cmd/tables.h"
 
+#include <string.h>
+
 typedef struct own_options {
     const char *master;
 } own_options;
@@ -11,15 +13,46 @@ static const wt_param rows[] = {
 };
 CMD_OPTIONS(own_params, own_options, rows)
 
+static const char *const names[2] = {"indentation/bulk", "indentation/track"};
+
+static bool is_called(const wt_table *table, const char *name)
+{
+    return strcmp(wt_table_name(table), name) == 0;
+}
+
+/* The table of the group, or the first of another name; what is called the track is no bulk. */
+static wt_status read_group(const char **files, int g, wt_result **tables, const wt_table **table,
+                            wt_error *err)
+{
+    wt_status status = cmd_table_read(files[g], "indentation/", "indent", tables, table, err);
+    if (status != WT_OK)
+        return status;
+    for (size_t i = 0; i < wt_result_n_tables(*tables); i++)
+        if (is_called(wt_result_table(*tables, i), names[g]))
+            *table = wt_result_table(*tables, i);
+    const bool same = strcmp(files[0], files[1]) == 0;
+    if (!same && (g > 0 || !is_called(*table, names[1])))
+        return WT_OK;
+    wt_fail(err, WT_E_ARG, same ? "BULK and TRACK are one file" : "the first file is the track");
+    wt_error_file(err, files[g]);
+    if (!same) {
+        wt_error_expected(err, "the table of the bulk");
+        wt_error_found(err, "'%s'", wt_table_name(*table));
+    }
+    wt_error_advice(err, "give the bulk first, then the track: compare BULK TRACK");
+    return WT_E_ARG;
+}
+
 int cmd_compare(int argc, char **argv)
 {
     static const cmd_usage usage = {
         .name = "compare",
         .arguments = "[OPTION]... BULK TRACK",
         .what =
-            "Compares the moduli of the wear track with those of the bulk: ratio with 95 % "
-            "interval, difference, Welch's and the Mann-Whitney test, effect size, and the same "
-            "rate by rate. BULK and TRACK are outputs of weartrack indent; - is standard input.",
+            "Compares the moduli of the wear track with those of the bulk: does it differ (yes, no "
+            "or cannot say), the ratio with its 95 % interval, Welch's and the Mann-Whitney test, "
+            "effect size, and the same rate by rate. BULK and TRACK are outputs of weartrack "
+            "indent; - is standard input.",
         .common = "output provenance",
         .n_files = 2,
         .files = "two files are needed, BULK and TRACK"};
@@ -35,9 +68,9 @@ int cmd_compare(int argc, char **argv)
     wt_compare_tables tables = {0};
     if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv) || !cmd_begin(&s))
         goto done;
-    wt_status made = cmd_table_read(s.files[0], "indentation/", "indent", &bulk, &job.bulk, &s.err);
+    wt_status made = read_group(s.files, 0, &bulk, &job.bulk, &s.err);
     if (made == WT_OK)
-        made = cmd_table_read(s.files[1], "indentation/", "indent", &track, &job.track, &s.err);
+        made = read_group(s.files, 1, &track, &job.track, &s.err);
     if (made == WT_OK && own.master != NULL) {
         made = cmd_rubber_read(own.master, material.poisson_ratio, &dma, &rubber, &s.err);
         job.rubber = &rubber;

@@ -1,28 +1,20 @@
-/* Groups of moduli and their comparison: geometric means, Welch, Mann and Whitney, Hedges, Holm.
+/* Groups of moduli and their comparison.
  *
- * Moduli scatter by factors, so intervals and the ratio are made of ln E. Curves on one spot share
- * the place and are not independent: where spots are known, the spot is the unit and its mean the
- * observation.
- *
- * Welch, Biometrika 34 (1947) 28; Mann and Whitney, Ann. Math. Stat. 18 (1947) 50; Hedges, J. Educ.
- * Stat. 6 (1981) 107; Holm, Scand. J. Stat. 6 (1979) 65.
+ * Moduli scatter by factors, so everything is made of ln E: ratio, interval, p and effect size
+ * (Hedges, J. Educ. Stat. 6 (1981) 107). Curves on one spot share the place and are not
+ * independent: where spots are known, the spot is the unit and its mean the observation.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
+#include "fit/compare.h"
 #include "base/array.h"
 #include "base/gsl_quiet.h"
-#include "base/pool.h"
 #include "model/special.h"
-#include "weartrack/fit.h"
 
 #include <gsl/gsl_cdf.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* Up to this many units together the counts of the exact distribution are exact in a double. */
-enum { EXACT_UNITS = 50 };
-static const double confidence = 0.95;
 
 typedef struct curve {
     long spot;
@@ -31,13 +23,9 @@ typedef struct curve {
 
 /* The observations: curves, or means over spots. */
 typedef struct units {
-    double *modulus, *log_modulus; /* [n] */
+    double *log_modulus; /* [n] */
     size_t n;
 } units;
-
-typedef struct moments {
-    double n, mean, variance; /* ddof 1; NaN for n < 2 */
-} moments;
 
 static int by_spot(const void *a, const void *b)
 {
@@ -72,7 +60,7 @@ static wt_status make_units(const wt_group *group, bool use_spots, pool *memory,
         return status;
     gsl_quiet();
     curve *curves = pool_alloc(memory, group->n, sizeof *curves);
-    *u = (units){pool_numbers(memory, group->n), pool_numbers(memory, group->n), 0};
+    *u = (units){pool_numbers(memory, group->n), 0};
     if (memory->failed)
         return wt_fail(err, WT_E_MEMORY, "no memory for a group of %zu moduli", group->n);
     for (size_t i = 0; i < group->n; i++)
@@ -80,34 +68,15 @@ static wt_status make_units(const wt_group *group, bool use_spots, pool *memory,
     qsort(curves, group->n, sizeof *curves, by_spot);
     for (size_t i = 0; i < group->n;) {
         long spot = curves[i].spot;
-        double sum = 0.0, log_sum = 0.0, m = 0.0;
+        double log_sum = 0.0, m = 0.0;
         do {
-            sum += curves[i].modulus;
             log_sum += log(curves[i].modulus);
             m += 1.0;
             i++;
         } while (use_spots && i < group->n && curves[i].spot == spot);
-        u->modulus[u->n] = sum / m;
         u->log_modulus[u->n++] = log_sum / m;
     }
     return WT_OK;
-}
-
-static moments moments_of(const double *x, size_t n)
-{
-    moments m = {(double)n, 0.0, 0.0};
-    for (size_t i = 0; i < n; i++)
-        m.mean += x[i];
-    m.mean /= m.n;
-    for (size_t i = 0; i < n; i++)
-        m.variance += (x[i] - m.mean) * (x[i] - m.mean);
-    m.variance = n > 1 ? m.variance / (m.n - 1.0) : (double)NAN;
-    return m;
-}
-
-static double quantile_t(double df)
-{
-    return gsl_cdf_tdist_Pinv(0.5 + 0.5 * confidence, df);
 }
 
 static wt_status summarise(const wt_group *group, const units *u, pool *memory,
@@ -118,7 +87,8 @@ static wt_status summarise(const wt_group *group, const units *u, pool *memory,
         return wt_fail(err, WT_E_MEMORY, "no memory for a group of %zu moduli", group->n);
     memcpy(sorted, group->modulus, group->n * sizeof *sorted);
     numbers_sort(sorted, group->n);
-    moments curves = moments_of(sorted, group->n), logs = moments_of(u->log_modulus, u->n);
+    moments curves = compare_moments(sorted, group->n),
+            logs = compare_moments(u->log_modulus, u->n);
     size_t half = group->n / 2;
     *summary = (wt_group_summary){
         .n = group->n,
@@ -133,7 +103,7 @@ static wt_status summarise(const wt_group *group, const units *u, pool *memory,
         .median = group->n % 2 == 1 ? sorted[half] : 0.5 * (sorted[half - 1] + sorted[half]),
     };
     if (u->n > 1) {
-        double reach = quantile_t(logs.n - 1.0) * summary->log_standard_error;
+        double reach = compare_quantile(logs.n - 1.0) * summary->log_standard_error;
         summary->low = exp(logs.mean - reach);
         summary->high = exp(logs.mean + reach);
     }
@@ -153,178 +123,120 @@ wt_status wt_group_summarise(const wt_group *group, wt_group_summary *summary, w
 
 /* ---- two groups ------------------------------------------------------------------------------ */
 
-typedef struct welch {
-    double difference, standard_error, df;
-} welch;
-
-/* Of b minus a. */
-static welch welch_of(moments a, moments b)
+/* Bulk and track; the units are spots if both name them. */
+static wt_status summarise_both(const wt_group *const groups[2], pool *memory, wt_comparison *c,
+                                wt_error *err)
 {
-    double va = a.variance / a.n, vb = b.variance / b.n, v = va + vb;
-    return (welch){b.mean - a.mean, sqrt(v),
-                   v * v / (va * va / (a.n - 1.0) + vb * vb / (b.n - 1.0))};
-}
-
-/* Number of ways in which m + n units without ties give each U = 0..m n: the coefficients of the
- * Gaussian binomial. counts: [m n + 1]. */
-static void count_rankings(size_t m, size_t n, double *counts)
-{
-    size_t top = m * n;
-    memset(counts, 0, (top + 1) * sizeof *counts);
-    counts[0] = 1.0;
-    for (size_t j = 1; j <= m; j++) {
-        for (size_t u = top; u >= n + j; u--) /* times 1 - x^(n+j) */
-            counts[u] -= counts[u - n - j];
-        for (size_t u = j; u <= top; u++) /* over 1 - x^j */
-            counts[u] += counts[u - j];
+    wt_group_summary *const summaries[2] = {&c->bulk, &c->track};
+    wt_status status = WT_OK;
+    c->by_spot = groups[0]->spot != NULL && groups[1]->spot != NULL;
+    for (int g = 0; status == WT_OK && g < 2; g++) {
+        units u;
+        status = make_units(groups[g], c->by_spot, memory, &u, err);
+        if (status == WT_OK)
+            status = summarise(groups[g], &u, memory, summaries[g], err);
     }
-}
-
-typedef struct ranked {
-    double value;
-    bool track;
-} ranked;
-
-static int by_value(const void *a, const void *b)
-{
-    const ranked *x = a, *y = b;
-    return (x->value > y->value) - (x->value < y->value);
-}
-
-/* U of the track by the sum of its ranks, equal values sharing the mean of theirs; *ties is the sum
- * of t^3 - t over groups of t equal values. Exact: all are whole numbers or halves. */
-static wt_status rank_units(const units *bulk, const units *track, pool *memory, double *u,
-                            double *ties, wt_error *err)
-{
-    const size_t m = track->n, n = m + bulk->n;
-    ranked *all = pool_alloc(memory, n, sizeof *all);
-    if (all == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the comparison of two groups");
-    for (size_t i = 0; i < n; i++)
-        all[i] = i < m ? (ranked){track->log_modulus[i], true}
-                       : (ranked){bulk->log_modulus[i - m], false};
-    qsort(all, n, sizeof *all, by_value);
-    double ranks = 0.0;
-    *ties = 0.0;
-    for (size_t first = 0, end = 0; first < n; first = end) {
-        double of_track = 0.0;
-        do
-            of_track += all[end].track ? 1.0 : 0.0;
-        while (++end < n && all[end].value == all[first].value);
-        const double t = (double)(end - first);
-        ranks += of_track * 0.5 * (double)(first + 1 + end);
-        *ties += t * t * t - t;
-    }
-    *u = ranks - 0.5 * (double)m * (double)(m + 1);
-    return WT_OK;
-}
-
-static wt_status mann_whitney(const units *bulk, const units *track, pool *memory,
-                              wt_comparison *result, wt_error *err)
-{
-    const size_t m = track->n, n = bulk->n;
-    double u = 0.0, ties = 0.0;
-    wt_status status = rank_units(bulk, track, memory, &u, &ties, err);
-    if (status != WT_OK)
-        return status;
-    const double pairs = (double)m * (double)n, all = (double)(m + n);
-    const double lower = fmin(u, pairs - u);
-    result->mann_whitney_u = u;
-    result->mann_whitney_exact = ties == 0.0 && m + n <= EXACT_UNITS;
-    if (!result->mann_whitney_exact) {
-        double variance = pairs / 12.0 * (all + 1.0 - ties / (all * (all - 1.0)));
-        double distance = fmax(0.0, 0.5 * pairs - lower - 0.5); /* continuity */
-        result->mann_whitney_p =
-            variance > 0.0 ? fmin(1.0, 2.0 * gsl_cdf_ugaussian_Q(distance / sqrt(variance))) : 1.0;
-        return WT_OK;
-    }
-    double *counts = pool_numbers(memory, m * n + 1);
-    if (counts == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the comparison of two groups");
-    count_rankings(m, n, counts);
-    double tail = 0.0, total = 0.0;
-    for (size_t i = 0; i <= m * n; i++) {
-        total += counts[i];
-        if ((double)i <= lower)
-            tail += counts[i];
-    }
-    result->mann_whitney_p = fmin(1.0, 2.0 * tail / total);
-    return WT_OK;
-}
-
-static wt_status too_few(const char *which, const units *u, bool spots, wt_error *err)
-{
-    wt_status status = wt_fail(err, WT_E_EMPTY, "the %s cannot be compared", which);
-    wt_error_expected(err, "at least 2 %s", spots ? "spots" : "curves");
-    wt_error_found(err, "%zu", u->n);
-    wt_error_advice(err, spots ? "measure on more spots; curves on one spot are not independent"
-                               : "measure more curves, or see why they were rejected");
     return status;
 }
 
-wt_status wt_compare(const wt_group *bulk, const wt_group *track, wt_comparison *result,
-                     wt_error *err)
+static wt_unsettled why_unsettled(const compare_units *u)
 {
-    wt_comparison c = {.by_spot = bulk->spot != NULL && track->spot != NULL};
-    units a, b;
-    pool memory = {0};
-    wt_status status = make_units(bulk, c.by_spot, &memory, &a, err);
-    if (status == WT_OK)
-        status = make_units(track, c.by_spot, &memory, &b, err);
-    if (status != WT_OK)
-        goto done;
-    if (a.n < 2 || b.n < 2) {
-        status = too_few(a.n < 2 ? "bulk" : "track", a.n < 2 ? &a : &b, c.by_spot, err);
-        goto done;
-    }
-    if ((status = summarise(bulk, &a, &memory, &c.bulk, err)) != WT_OK ||
-        (status = summarise(track, &b, &memory, &c.track, err)) != WT_OK)
-        goto done;
+    if (u->n[0] < 2 || u->n[1] < 2)
+        return WT_ONE_SPOT;
+    if (!u->known)
+        return WT_RATES_APART;
+    return u->apart && u->interaction_p < 0.05 ? WT_RATES_TWIST : WT_SETTLED;
+}
 
-    moments log_a = moments_of(a.log_modulus, a.n), log_b = moments_of(b.log_modulus, b.n);
-    moments mean_a = moments_of(a.modulus, a.n);
-    moments mean_b = moments_of(b.modulus, b.n);
-    if (!(log_a.variance + log_b.variance > 0.0)) {
-        status = wt_fail(err, WT_E_RANGE, "all moduli of each group are equal: no scatter");
+/* Hedges' g of the pooled scatter, and that scatter. */
+static void put_effect(moments a, moments b, wt_comparison *c)
+{
+    const double df = a.n + b.n - 2.0;
+    double sum = a.n > 1 ? (a.n - 1.0) * a.variance : 0.0;
+    sum += b.n > 1 ? (b.n - 1.0) * b.variance : 0.0;
+    c->scatter = df > 0.0 ? sqrt(sum / df) : (double)NAN;
+    c->effect_size = c->unsettled == WT_SETTLED
+                         ? c->log_ratio.value / c->scatter * (1.0 - 3.0 / (4.0 * df - 1.0))
+                         : (double)NAN;
+}
+
+static void put_interval(const compare_units *u, moments a, moments b, double known,
+                         wt_comparison *c)
+{
+    const t_error shift = {sqrt(u->shift_variance), u->slope_df};
+    t_error e = compare_welch(a, b, shift, known);
+    if (c->rates_by == WT_RATES_BETWEEN)
+        e = compare_sum((t_error){u->between_error, u->between_df}, known);
+    const double reach = compare_quantile(e.df) * e.error;
+    c->log_ratio.standard_error = e.error;
+    c->df = e.df;
+    c->ratio_low = exp(c->log_ratio.value - reach);
+    c->ratio_high = exp(c->log_ratio.value + reach);
+    c->t = c->log_ratio.value / e.error;
+    c->p = 2.0 * gsl_cdf_tdist_Q(fabs(c->t), e.df);
+    c->known_share = known / (e.error * e.error);
+}
+
+static wt_status compare_values(const compare_units *u, const wt_estimate *offset, pool *memory,
+                                wt_comparison *c, wt_error *err)
+{
+    const moments a = compare_moments(u->value[0], u->n[0]);
+    const moments b = compare_moments(u->value[1], u->n[1]);
+    const double known = offset != NULL ? offset->standard_error * offset->standard_error : 0.0;
+    c->unsettled = why_unsettled(u);
+    if (c->unsettled == WT_SETTLED && !(a.variance + b.variance > 0.0)) {
+        wt_status status =
+            wt_fail(err, WT_E_RANGE, "all moduli of each group are equal: no scatter");
         wt_error_advice(err, "measured moduli scatter; are these values copies of one curve?");
-        goto done;
+        return status;
     }
-    welch of_logs = welch_of(log_a, log_b), of_means = welch_of(mean_a, mean_b);
-    double reach = quantile_t(of_logs.df) * of_logs.standard_error;
-    c.log_ratio = (wt_estimate){of_logs.difference, of_logs.standard_error, 0.0, "1"};
-    c.ratio = exp(of_logs.difference);
-    c.ratio_low = exp(of_logs.difference - reach);
-    c.ratio_high = exp(of_logs.difference + reach);
-    c.difference = (wt_estimate){of_means.difference, of_means.standard_error, 0.0, "Pa"};
-    c.welch_t = of_means.difference / of_means.standard_error;
-    c.welch_df = of_means.df;
-    c.welch_p = 2.0 * gsl_cdf_tdist_Q(fabs(c.welch_t), c.welch_df);
-    double df = log_a.n + log_b.n - 2.0;
-    double pooled = ((log_a.n - 1.0) * log_a.variance + (log_b.n - 1.0) * log_b.variance) / df;
-    c.effect_size = of_logs.difference / sqrt(pooled) * (1.0 - 3.0 / (4.0 * df - 1.0));
-    status = mann_whitney(&a, &b, &memory, &c, err);
-done:
+    if (u->known) {
+        c->log_ratio.value = b.mean - a.mean - (offset != NULL ? offset->value : 0.0);
+        c->ratio = exp(c->log_ratio.value);
+    }
+    put_effect(a, b, c);
+    if (c->unsettled != WT_SETTLED)
+        return WT_OK;
+    put_interval(u, a, b, known, c);
+    return compare_ranks(u, memory, c, err);
+}
+
+wt_status wt_compare(const wt_group *bulk, const wt_group *track, const wt_estimate *offset,
+                     wt_comparison *result, wt_error *err)
+{
+    const double none = (double)NAN;
+    const wt_group *const groups[2] = {bulk, track};
+    wt_comparison c = {.log_ratio = {none, none, 0.0, "1"},
+                       .df = none,
+                       .ratio = none,
+                       .ratio_low = none,
+                       .ratio_high = none,
+                       .t = none,
+                       .p = none,
+                       .effect_size = none,
+                       .known_share = none,
+                       .mann_whitney_u = none,
+                       .mann_whitney_p = none,
+                       .mann_whitney_smallest_p = none};
+    pool memory = {0};
+    compare_units u;
+    wt_status status = summarise_both(groups, &memory, &c, err);
+    if (status == WT_OK)
+        status = compare_units_make(groups, c.by_spot, &memory, &u, err);
+    if (status == WT_OK) {
+        c.n_bulk = u.n[0];
+        c.n_track = u.n[1];
+        c.curves_bulk = u.curves[0];
+        c.curves_track = u.curves[1];
+        c.rates_by = u.rates_by;
+        c.rate_slope = (wt_estimate){u.slope, u.slope_error, 0.0, "1"};
+        c.interaction_p = u.interaction_p;
+        status = compare_values(&u, offset, &memory, &c, err);
+    }
     pool_free(&memory);
     if (status == WT_OK)
         *result = c;
     return status;
-}
-
-void wt_holm(const double *p, size_t n, double *adjusted)
-{
-    size_t left = 0;
-    for (size_t i = 0; i < n; i++) {
-        left += isnan(p[i]) ? 0 : 1;
-        adjusted[i] = isnan(p[i]) ? (double)NAN : -1.0; /* -1: not yet done */
-    }
-    for (double highest = 0.0; left > 0; left--) {
-        size_t smallest = n;
-        for (size_t i = 0; i < n; i++)
-            if (adjusted[i] == -1.0 && (smallest == n || p[i] < p[smallest]))
-                smallest = i;
-        highest = fmax(highest, fmin(1.0, (double)left * p[smallest]));
-        adjusted[smallest] = highest;
-    }
 }
 
 double wt_equivalent_frequency(double load_time, double force_exponent)

@@ -33,8 +33,8 @@ static void ratio_row(page_writer *page)
             continue;
         growing_text remark = {0};
         text_format(&remark, "geometric means; n = %s in the track, %s in the bulk",
-                    FIXED(comparison_get(table, row, COMPARISON_N_TRACK), 0),
-                    FIXED(comparison_get(table, row, COMPARISON_N_BULK), 0));
+                    FIXED(comparison_get(table, row, COMPARISON_SPOTS_TRACK), 0),
+                    FIXED(comparison_get(table, row, COMPARISON_SPOTS_BULK), 0));
         if (unit != NULL)
             text_format(&remark, ", unit of analysis: %s", unit);
         interval_row(page, "Modulus, track over bulk", WT_Q_NONE, ratio,

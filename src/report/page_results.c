@@ -93,6 +93,7 @@ void page_results(page_writer *page)
     page_whole_table(page, &t->comparison,
                      "Wear track against bulk: ratio of geometric means, by indentation rate", NULL,
                      0);
+    page_keys(page, &t->comparison, "Wear track against bulk: what was compared");
     page_whole_table(page, &t->dma_comparison,
                      "Indentation against DMA at the equivalent frequency", NULL, 0);
     page_whole_table(page, &t->shift_factors, "Shift factors", shift_columns,

@@ -33,6 +33,13 @@ static const struct {
     {"spring-constant", "0.5N/m", NULL, NULL},
     {"sensitivity", "70nm/V", NULL, NULL},
     {"indentation-temperature", "40degC", NULL, NULL},
+    {"track-temperature", "30degC", NULL, NULL},
+    {"temperature-slope", "-0.02", "track-temperature 30degC", NULL},
+    {"cantilevers", "two", NULL, NULL},
+    {"spring-constant-error", "0.2", "cantilevers two", NULL},
+    {"sensitivity-error", "0.1", NULL, NULL},
+    {"tip-error", "0.1", "cantilevers two", NULL},
+    {"modulus-ratio-df", "4", NULL, NULL},
     {"roughness", "self-affine:q0=2e3rad/m,q1=1e6rad/m,hurst=0.8,c0=2e-17m^4+-5%", NULL, NULL},
     {"pressure", "0.5MPa", NULL, NULL},
     {"velocity", "0.2m/s", NULL, NULL},
@@ -144,12 +151,12 @@ static const struct {
 } subcommands[] = {
     {"indent", "tip pyramid:half-angle=20deg,radius=20nm", CASE "bulk-1.jpk-force-map"},
     {"convert", "", CASE "bulk-1.jpk-force-map"},
-    {"compare", "master master.tsv", "bulk.tsv track.tsv"},
+    {"compare", "master master.tsv|spring-constant-error 0.1", "bulk.tsv track.tsv"},
     {"master", "", CASE "dma.txt"},
     {"friction",
      "dma " CASE "dma.txt|roughness self-affine:q0=2e3rad/m,qr=4e3rad/m,q1=2e6rad/m,hurst=0.8,"
      "c0=2e-17m^4+-5%|pressure 0.4MPa|velocity 0.3m/s|shear-stress 5MPa+-10%|replicates 4|"
-     "layer-thickness 1um|modulus-ratio 0.6|sliding-temperature 30degC",
+     "layer-thickness 1um|modulus-ratio 0.6+-0.05|sliding-temperature 30degC",
      ""},
     {"layer",
      "dma " CASE "dma.txt|roughness self-affine:q0=2e3rad/m,qr=4e3rad/m,q1=2e6rad/m,hurst=0.8,"
@@ -289,9 +296,14 @@ static const struct {
     const char *base; /* elements that the case has */
     const char *before, *after;
 } frames[] = {
-    {"indentation", "<tip>pyramid:half-angle=20deg,radius=20nm</tip>", "<indentation>",
-     "<bulk><files>bulk-1.jpk-force-map</files><files>bulk-2.jpk-force-map</files></bulk>"
-     "<track><files>track-1.jpk-force-map</files><files>track-2.jpk-force-map</files></track>"
+    {"indentation",
+     "<tip>pyramid:half-angle=20deg,radius=20nm</tip>"
+     "<spring-constant-error>0.1</spring-constant-error>",
+     "<indentation>",
+     "<bulk><files>bulk-1.jpk-force-map</files><files>bulk-2.jpk-force-map</"
+     "files></bulk>"
+     "<track><files>track-1.jpk-force-map</"
+     "files><files>track-2.jpk-force-map</files></track>"
      "</indentation><dma><files>dma.txt</files></dma>"},
     {"dma", "", "<dma>", "<files>dma.txt</files></dma>"},
     {"wlf", "<c1>8</c1><c2>100K</c2>",
@@ -309,7 +321,7 @@ static const struct {
      "<sliding>", "</sliding>"},
     {"layer",
      "<specific-wear-rate>1e-12m^2/N</specific-wear-rate>"
-     "<critical-energy>2e10J/m^3</critical-energy><modulus-ratio>0.6</modulus-ratio>",
+     "<critical-energy>2e10J/m^3</critical-energy><modulus-ratio>0.6+-0.05</modulus-ratio>",
      "<layer>", "</layer>"},
 };
 enum { N_FRAMES = sizeof frames / sizeof frames[0] };
@@ -442,7 +454,8 @@ static int make_inputs(void **state)
     snprintf(command, sizeof command,
              "W='%s -q'; W=%s; T=pyramid:half-angle=20deg,radius=20nm;"
              " $W indent -q --tip $T %sbulk-1* %sbulk-2* -o bulk.tsv &&"
-             " $W indent -q --group track --tip $T %strack-1* %strack-2* -o track.tsv &&"
+             " $W indent -q --group track --tip $T %strack-1* %strack-2* -o "
+             "track.tsv &&"
              " $W master -q %sdma.txt -o master.tsv",
              WT_PROGRAM, WT_PROGRAM, CASE, CASE, CASE, CASE, CASE);
     FILE *run = fopen("run.xml", "w");

@@ -19,4 +19,5 @@ const quantity_facts quantities[Q_COUNT] = {
     [Q_HYSTERESIS_KEPT] = {"hysteresis_kept", true},
     [Q_AREA_KEPT] = {"area_kept", true},
     [Q_RATIO] = {"ratio", true},
+    [Q_LAYERED_FRICTION] = {"layered_friction", true},
 };

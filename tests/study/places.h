@@ -16,7 +16,8 @@ typedef struct place {
 extern const place place_shift, place_law, place_storage, place_loss;
 extern const place place_hysteresis, place_area, place_friction;
 extern const place place_c1, place_c2, place_equilibrium, place_thickness;
-extern const place place_ratio; /* over all rates, the first row */
+extern const place place_ratio;            /* over all rates, the first row */
+extern const place place_layered_friction; /* at the reference velocity */
 
 #define PLACE_TEMPERATURE "temperature"     /* [K], beside shift and law */
 #define PLACE_FREQUENCY "angular_frequency" /* [rad/s], beside the moduli */
@@ -36,6 +37,13 @@ extern const place place_ratio; /* over all rates, the first row */
 #define PLACE_HOLDS "holds"
 #define PLACE_CANNOT_SAY "cannot say"
 #define PLACE_UNTESTED "not tested"
+
+/* In `place_ratio.table`. */
+#define PLACE_DIFFERS "differs" /* the verdict, which begins so: */
+#define PLACE_YES "yes"
+#define PLACE_NO "no"
+#define PLACE_MODULUS_RATIO "modulus_ratio" /* with its standard error, as friction takes it */
+#define PLACE_MODULUS_RATIO_DF "modulus_ratio_df"
 
 /* An estimate as it is stated; low and high are nan where no interval is. */
 typedef struct estimate {

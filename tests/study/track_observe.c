@@ -1,61 +1,260 @@
-/* Tables of indented curves through compare. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Tables of indented curves through compare, and what it says on to friction.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "track_observe.h"
 #include "track_scene.h"
 
 #include <math.h>
 #include <stddef.h>
 #include <stdio.h>
+#include <string.h>
 
+enum { CURVES_MAX = 128, CURVES = 4 /* in a cell */ };
 static const double curve_scatter = 0.04, bulk_modulus = 8e6, middle_rate = 0.6;
+static const double warmer = 10, warmer_error = 1, warm_slope = -.012, warm_slope_error = .002;
+static const double lever[2] = {.3, .36}; /* [N/m] of separate levers, as they were calibrated */
+static const double sensitivity_gain[2] = {1.3, 1.2};
 static const char *const zones[2] = {"bulk", "track"};
 
-/* The rows of one spot. */
-static void write_spot(FILE *file, const track_scene *s, int zone, int spot, double ln_lever,
-                       random_source *random)
+typedef struct curve {
+    int spot;
+    double rate, y, contact_point, noise; /* um/s, ln(E/bulk_modulus), m, N */
+} curve;
+
+typedef struct sample {
+    curve curves[2][CURVES_MAX];
+    int n[2];
+    double offset[2]; /* of ln E, by what the curves of a zone share */
+} sample;
+
+/* ---- drawing --------------------------------------------------------------------------------- */
+
+/* Of unit variance; that of Student's t with 3 degrees of freedom is 3. */
+static double scatter(const track_scene *s, random_source *random)
 {
-    const double here = s->spot_scatter[zone] * random_normal(random);
+    const double z = random_normal(random);
+    if (!s->heavy_tails)
+        return z;
+    double square = 0;
+    for (int i = 0; i < 3; i++)
+        square += pow(random_normal(random), 2) / 3;
+    return z / sqrt(3 * square);
+}
+
+static void draw_offsets(const track_scene *s, random_source *random, double *offset)
+{
+    double sensitivity[2], spring[2];
+    for (int zone = 0; zone < 2; zone++) {
+        const int from = s->levers_separate ? zone : 0;
+        sensitivity[zone] = s->sensitivity_error * random_normal(random);
+        spring[zone] = s->lever_error[zone] * random_normal(random);
+        offset[zone] = spring[from] + sensitivity_gain[zone] * sensitivity[from];
+    }
+    if (s->warmth != NOT_WARMER)
+        offset[1] += (warmer + warmer_error * random_normal(random)) *
+                     (warm_slope + warm_slope_error * random_normal(random));
+}
+
+static void draw_spot(const track_scene *s, int zone, int spot, random_source *random, sample *to)
+{
+    const double here = s->spot_scatter[zone] * scatter(s, random);
     for (int rate = 0; rate < 2; rate++) {
-        const int curves = s->cells_missing ? (int)(4 * random_uniform(random)) : 4;
-        for (int curve = 0; curve < curves; curve++) {
-            const double v = s->rates[zone][rate];
-            const double y = zone * log(s->ratio) + s->rate_slope * log(v / middle_rate) + here +
-                             ln_lever + curve_scatter * random_normal(random);
-            fprintf(file, "%s-%d.jpk\t%d\t%s-%d\taccepted\taccepted\t%.9g\t%.9g\t%.9g\t%.9g\n",
-                    zones[zone], spot, 4 * rate + curve, zones[zone], spot, bulk_modulus * exp(y),
-                    1e-6 * v, 1e-6 * v, 60 / (v / 0.1));
+        if (s->one_rate_a_spot && rate != spot % 2)
+            continue;
+        const int curves = s->cells_missing ? (int)(CURVES * random_uniform(random)) : CURVES;
+        const double v = s->rates[zone][rate], x = log(v / middle_rate);
+        for (int i = 0; i < curves; i++) {
+            curve *c = &to->curves[zone][to->n[zone]++];
+            c->spot = spot;
+            c->rate = v;
+            c->y = zone * (log(s->ratio) + s->ratio_slope * x) + s->rate_slope * x + here +
+                   to->offset[zone] + curve_scatter * scatter(s, random);
+            c->contact_point = 1e-7 * random_normal(random);
+            c->noise = 1e-11 * (1 + random_uniform(random));
         }
     }
 }
 
+/* The curves of a spot again, as those of another one. */
+static void copy_spot(sample *of, int zone, int spot, int to_zone, int as)
+{
+    for (int i = 0, n = of->n[zone]; i < n; i++)
+        if (of->curves[zone][i].spot == spot) {
+            curve *c = &of->curves[to_zone][of->n[to_zone]++];
+            *c = of->curves[zone][i];
+            c->spot = as;
+        }
+}
+
+static void draw_sample(const track_scene *s, random_source *random, sample *to)
+{
+    to->n[0] = to->n[1] = 0;
+    draw_offsets(s, random, to->offset);
+    for (int zone = 0; zone < 2; zone++)
+        for (int spot = 1; spot <= s->spots[zone]; spot++)
+            draw_spot(s, zone, spot, random, to);
+    for (int i = 1; i <= s->copies; i++)
+        copy_spot(to, 1, i, 1, s->spots[1] + i);
+    if (s->copy_across)
+        copy_spot(to, 0, 1, 1, s->spots[1] + 1);
+}
+
+/* ---- as the command is told ------------------------------------------------------------------ */
+
+static const char *spots_words(const track_scene *s, int zone)
+{
+    if (!s->maps)
+        return "named";
+    return s->spots[zone] > 1 ? "file: each file is a spot, none were named"
+                              : "position: each curve is a spot, none were named";
+}
+
 /* What weartrack indent would have written. */
-static int write_zone(const track_scene *s, int zone, double ln_lever, random_source *random,
-                      const char *path)
+static int write_zone(const track_scene *s, const sample *drawn, int zone, const char *path)
 {
     FILE *file = fopen(path, "w");
     if (file == NULL)
         return -1;
+    const double k = lever[s->levers_separate ? zone : 0];
     fprintf(file, "## table: indentation/%s\n## title: Indentation of every curve, %s\n",
             zones[zone], zones[zone]);
     fprintf(file,
-            "## spring_constant: 0.3 standard_error=%.9g numerical_error=0 unit=N/m\n"
-            "## spots: named\n",
-            0.3 * s->lever_error);
+            "## spring_constant: %.9g standard_error=%.9g numerical_error=0 unit=N/m\n"
+            "## spots: %s\n",
+            k, k * s->lever_error[zone], spots_words(s, zone));
     fputs("# file[text]\tcurve[1]\tspot[text]\tverdict[text]\treason[text]\tmodulus[Pa]\t"
-          "piezo_rate[m/s]\tindentation_rate[m/s]\tload_time[s]\n",
+          "contact_point[m]\tnoise[N]\tpiezo_rate[m/s]\tindentation_rate[m/s]\tload_time[s]\t"
+          "sensitivity_gain[1]\n",
           file);
-    for (int spot = 1; spot <= s->spots[zone]; spot++)
-        write_spot(file, s, zone, spot, ln_lever, random);
+    for (int i = 0; i < drawn->n[zone]; i++) {
+        const curve *c = &drawn->curves[zone][i];
+        char where[32];
+        if (s->maps && s->spots[zone] == 1)
+            snprintf(where, sizeof where, "%d,%d", i % 4, i / 4);
+        else
+            snprintf(where, sizeof where, s->maps ? "%s-%d.jpk" : "%s-%d", zones[zone], c->spot);
+        fprintf(file,
+                "%s-%d.jpk\t%d\t%s\taccepted\taccepted\t%.9g\t%.9g\t%.9g\t%.9g\t%.9g\t%.9g\t%.9g\n",
+                zones[zone], c->spot, i, where, bulk_modulus * exp(c->y), c->contact_point,
+                c->noise, 1e-6 * c->rate, 1e-6 * c->rate, 60 / (c->rate / 0.1),
+                sensitivity_gain[zone]);
+    }
     fputs("##\n", file);
     const int bad = ferror(file);
     return fclose(file) != 0 || bad ? -1 : 0;
 }
 
-/* A difference is claimed where the interval leaves 1 out. */
-static verdict claimed(const estimate *ratio)
+typedef struct words {
+    const char *word[32];
+    int n;
+} words;
+
+static void say(words *w, const char *option, const char *value)
 {
-    if (isnan(ratio->low) || isnan(ratio->high))
+    w->word[w->n++] = option;
+    if (value != NULL)
+        w->word[w->n++] = value;
+}
+
+static bool run(words *w, const char *output, trial *t)
+{
+    say(w, "-o", output);
+    say(w, "--no-provenance", NULL);
+    w->word[w->n] = NULL;
+    return trial_run(t, w->word);
+}
+
+static bool run_compare(const track_scene *s, const char *const *files, const char *made, trial *t)
+{
+    words w = {.word = {"compare", files[0], files[1]}, .n = 3};
+    char sensitivity[32];
+    snprintf(sensitivity, sizeof sensitivity, "%g", s->sensitivity_error);
+    if (s->sensitivity_error > 0)
+        say(&w, "--sensitivity-error", sensitivity);
+    if (s->warmth != NOT_WARMER) {
+        say(&w, "--indentation-temperature", "20degC");
+        say(&w, "--track-temperature", "30degC +- 1K");
+    }
+    if (s->warmth == WARMER_SLOPE_KNOWN)
+        say(&w, "--temperature-slope", "-0.012 +- 0.002");
+    return run(&w, made, t);
+}
+
+/* ---- on to friction -------------------------------------------------------------------------- */
+
+/* A rubber without errors, so that those of the ratio are all there are. */
+static int write_material(const char *path)
+{
+    FILE *file = fopen(path, "w");
+    if (file == NULL)
+        return -1;
+    fputs("## table: prony\n## title: Prony series\n"
+          "## equilibrium_modulus: 2e6 standard_error=0 numerical_error=0 unit=Pa\n"
+          "## reference_temperature: 293.15 standard_error=0 numerical_error=0 unit=K\n"
+          "## frequency_min: 0.001 standard_error=0 numerical_error=0 unit=rad/s\n"
+          "## frequency_max: 1e9 standard_error=0 numerical_error=0 unit=rad/s\n"
+          "## deformation: tension\n"
+          "# relaxation_time[s]\tmodulus[Pa]\n",
+          file);
+    for (int i = -8; i <= 0; i++)
+        fprintf(file, "1e%d\t%.9g\n", i, 2e6 * pow(10, -0.25 * i));
+    fputs("##\n", file);
+    const int bad = ferror(file);
+    return fclose(file) != 0 || bad ? -1 : 0;
+}
+
+/* With a layer of this modulus ratio; nan if there is none in what was written. */
+static estimate layered_friction(const char *material, const char *ratio, const char *degrees,
+                                 trial *t)
+{
+    const char *made = trial_file(t, degrees != NULL ? "friction.tsv" : "truth.tsv");
+    words w = {.word = {"friction", "--material", material, "--pressure", "0.3MPa", "--velocity",
+                        "1cm/s", "--shear-stress", "2MPa", "--layer-thickness", "2um",
+                        "--replicates", "200", "--threads", "1", "--roughness",
+                        "self-affine:q0=1e3rad/m,qr=5e3rad/m,q1=1e6rad/m,hurst=0.8,c0=1e-17m^4"},
+               .n = 17};
+    say(&w, "--modulus-ratio", ratio);
+    if (degrees != NULL)
+        say(&w, "--modulus-ratio-df", degrees);
+    estimate found = {(double)NAN, (double)NAN, (double)NAN};
+    if (!run(&w, made, t))
+        return found;
+    stream *read = stream_read(made);
+    if (read != NULL)
+        found = place_key(read, &place_layered_friction);
+    stream_free(read);
+    return found;
+}
+
+static void compare_friction(const track_scene *s, const stream *comparison, trial *t)
+{
+    const char *material = trial_file(t, "material.tsv");
+    const double ratio = stream_number(comparison, place_ratio.table, PLACE_MODULUS_RATIO, NULL);
+    const double error =
+        stream_number(comparison, place_ratio.table, PLACE_MODULUS_RATIO, "standard_error");
+    const double degrees =
+        stream_number(comparison, place_ratio.table, PLACE_MODULUS_RATIO_DF, NULL);
+    char truth[32], measured[64], df[32];
+    snprintf(truth, sizeof truth, "%.15g", s->ratio);
+    snprintf(measured, sizeof measured, "%.15g +- %.15g", ratio, error);
+    snprintf(df, sizeof df, "%.15g", degrees);
+    if (write_material(material) != 0)
+        trial_broke(t, "the material cannot be written");
+    const estimate is = layered_friction(material, truth, NULL, t);
+    trial_add(t, Q_LAYERED_FRICTION, is.value, layered_friction(material, measured, df, t));
+}
+
+/* ---- what it says ---------------------------------------------------------------------------- */
+
+static verdict read_verdict(const stream *found)
+{
+    const char *said = stream_key(found, place_ratio.table, PLACE_DIFFERS);
+    if (said == NULL)
+        return NO_VERDICT;
+    if (strncmp(said, PLACE_YES, strlen(PLACE_YES)) == 0)
+        return YES;
+    if (strncmp(said, PLACE_CANNOT_SAY, strlen(PLACE_CANNOT_SAY)) == 0)
         return CANNOT_SAY;
-    return ratio->low > 1 || ratio->high < 1 ? YES : NO;
+    return strncmp(said, PLACE_NO, strlen(PLACE_NO)) == 0 ? NO : NO_VERDICT;
 }
 
 static void compare_ratio(const char *path, const track_scene *s, trial *t)
@@ -64,9 +263,12 @@ static void compare_ratio(const char *path, const track_scene *s, trial *t)
     if (found == NULL || stream_rows(found, place_ratio.table) == 0) {
         trial_broke(t, "no comparison in what was written");
     } else {
-        const estimate ratio = place_row(found, &place_ratio, 0);
-        t->draw->verdict = claimed(&ratio);
-        trial_add(t, Q_RATIO, s->ratio, ratio);
+        t->draw->verdict = read_verdict(found);
+        /* with a ratio for each rate, that of all is none */
+        if (s->ratio_slope == 0)
+            trial_add(t, Q_RATIO, s->ratio, place_row(found, &place_ratio, 0));
+        if (s->through_friction)
+            compare_friction(s, found, t);
     }
     stream_free(found);
 }
@@ -86,19 +288,20 @@ static void observe(int scene, const void *prepared, random_source *random, tria
 {
     const track_scene *s = &track_scenes[scene];
     const char *made = trial_file(t, "comparison.tsv"), *files[2];
-    double ln_lever = 0;
+    sample drawn;
     (void)prepared;
+    draw_sample(s, random, &drawn);
     for (int zone = 0; zone < 2; zone++) {
         files[zone] = trial_file(t, zone == 0 ? "bulk.tsv" : "track.tsv");
-        if (zone == 0 || s->levers_separate)
-            ln_lever = s->lever_error * random_normal(random);
-        if (write_zone(s, zone, ln_lever, random, files[zone]) != 0)
+        if (write_zone(s, &drawn, zone, files[zone]) != 0)
             trial_broke(t, "the curves cannot be written");
     }
-    const char *const arguments[] = {"compare", files[0],          files[1], "-o",
-                                     made,      "--no-provenance", NULL};
-    if (t->draw->outcome == OUTCOME_GOOD && trial_run(t, arguments))
+    if (t->draw->outcome != OUTCOME_GOOD)
+        return;
+    if (run_compare(s, files, made, t))
         compare_ratio(made, s, t);
+    else if (s->copy_across && t->draw->outcome == OUTCOME_REFUSED)
+        t->draw->verdict = CANNOT_SAY;
 }
 
 family track_family(void)

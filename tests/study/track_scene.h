@@ -4,16 +4,30 @@
 
 #include "facts.h"
 
-/* ln E = zone ln(ratio) + rate_slope ln(rate/0.6 um/s) + spot + curve. */
+/* What the command is told of it: nothing, the slope of ln E against temperature, or the DMA. */
+typedef enum warmth { NOT_WARMER, WARMER, WARMER_SLOPE_KNOWN } warmth;
+
+/* ln E = zone (ln(ratio) + ratio_slope ln(rate/0.6 um/s)) + rate_slope ln(rate/0.6 um/s) + spot
+ *        + curve + levers. */
 typedef struct track_scene {
     facts facts;
     double ratio;
+    double ratio_slope;             /* the ratio depends on the rate; 0.6 um/s has `ratio` */
     int spots[2];                   /* bulk, track */
     double spot_scatter[2];         /* standard deviation of ln E */
+    bool heavy_tails;               /* spots and curves scatter as Student's t with 3 degrees */
     double rate_slope, rates[2][2]; /* um/s */
+    bool one_rate_a_spot;           /* spots of odd number have the first rate alone, the others
+                                       the second */
     bool cells_missing;             /* none to three curves in a cell instead of four */
-    double lever_error;             /* relative, of the spring constant */
+    bool maps;                      /* each spot is a file of curves at places of their own */
+    int copies;                     /* of these spots the track has the file again */
+    bool copy_across;               /* the first spot of the bulk is in the track, too */
+    double lever_error[2];          /* relative, of the spring constants */
+    double sensitivity_error;       /* relative; stated */
     bool levers_separate;
+    warmth warmth; /* the track 10 +- 1 K warmer, d ln E/dT -.012 +- .002 */
+    bool through_friction;
 } track_scene;
 
 extern const track_scene track_scenes[];

@@ -1,40 +1,99 @@
-/* Track against bulk; coverages and widths of ln(ratio) as the theory text gives them.
+/* Track against bulk; coverages and widths of ln(ratio) as the theory text gives them, and scenes
+ * of our own where it gives none. Each of them with a layer and without one.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "track_scene.h"
 
+#include <math.h>
+
 #define COMMON_RATES .rates = {{.2, 2}, {.2, 2}}
-#define DIFFERS .facts.right = RIGHT(YES), .ratio = .64
-#define PERHAPS .facts.right = RIGHT(YES) | RIGHT(NO) | RIGHT(CANNOT_SAY), .ratio = .64
-#define SAME .facts.right = RIGHT(NO) | RIGHT(CANNOT_SAY), .ratio = 1
+#define PARTLY .rates = {{.2, 2}, {2, 20}}
+#define DISJOINT .rates = {{2, 20}, {.02, .2}}
 #define GIVEN(coverage, half) .facts.given = {{Q_RATIO, coverage, half}}
-#define FOUR .spots = {4, 4}, .spot_scatter = {.06, .06}, .rate_slope = .06
+#define NOT_GIVEN .facts.given = {{0}}
+#define SPOTS(bulk, track, bulk_scatter, track_scatter)                                            \
+    .spots = {bulk, track}, .spot_scatter = {bulk_scatter, track_scatter}
+#define FOUR SPOTS(4, 4, .06, .06), .rate_slope = .06
+
+/* What is right where the layer is there, and where it is not. */
+#define SEEN RIGHT(YES)
+#define PERHAPS RIGHT(YES) | RIGHT(CANNOT_SAY)
+#define UNKNOWN RIGHT(CANNOT_SAY)
+#define NOT_YES RIGHT(NO) | RIGHT(CANNOT_SAY)
+
+/* Where the right answer is that nothing can be said, there is no interval. */
+#define SILENT .facts.verdict_promised = true, NOT_GIVEN
+#define STATED .facts.verdict_promised = true, .facts.intervals_promised = true
+#define PAIR(name, words, there, absent, ...)                                                      \
+    {NAMED(name, words), .facts.right = there, .ratio = .64, __VA_ARGS__},                         \
+    {                                                                                              \
+        NAMED(name ".same", words ", no layer"), .facts.right = absent, .ratio = 1, __VA_ARGS__    \
+    }
 
 const track_scene track_scenes[] = {
-    {NAMED("T1", "4 + 4 spots, 6 %"), FOUR, COMMON_RATES, DIFFERS, GIVEN(96, .106)},
-    {NAMED("T2", "2 + 2 spots, 6 %"), .spots = {2, 2}, .spot_scatter = {.06, .06},
-     .rate_slope = .06, COMMON_RATES, PERHAPS, GIVEN(97, .36)},
-    {NAMED("T3", "4 + 4 spots, 5 and 25 %"), .spots = {4, 4}, .spot_scatter = {.05, .25},
-     .rate_slope = .06, COMMON_RATES, PERHAPS, GIVEN(94, .34)},
-    {NAMED("T4", "2 + 6 spots, 6 %"), .spots = {2, 6}, .spot_scatter = {.06, .06},
-     .rate_slope = .06, COMMON_RATES, DIFFERS, GIVEN(92, .147)},
-    {NAMED("T5", "none to three curves in a cell, rate slope 0.2"), .spots = {4, 4},
-     .spot_scatter = {.06, .06}, .rate_slope = .2, COMMON_RATES, .cells_missing = true, DIFFERS,
-     GIVEN(96, .118)},
-    {NAMED("T6", "one rate in common, rate slope 0.15"), .spots = {4, 4},
-     .spot_scatter = {.06, .06}, .rate_slope = .15, .rates = {{.2, 2}, {2, 20}}, DIFFERS,
-     GIVEN(95, .108)},
-    {NAMED("T7", "no rate in common, rate slope 0.15"), .spots = {4, 4}, .spot_scatter = {.06, .06},
-     .rate_slope = .15, .rates = {{2, 20}, {.02, .2}}, DIFFERS, GIVEN(95, .106)},
-    {NAMED("T8", "separate levers with 10 % each"), FOUR, COMMON_RATES, .lever_error = .1,
-     .levers_separate = true, DIFFERS, GIVEN(96, .289)},
-    {NAMED("T9", "one lever with 10 %"), FOUR, COMMON_RATES, .lever_error = .1, DIFFERS,
-     GIVEN(96, .105)},
-    {NAMED("T10", "one spot in the track"), .spots = {4, 1}, .spot_scatter = {.06, .06},
-     .rate_slope = .06, COMMON_RATES, .facts.right = RIGHT(CANNOT_SAY), .ratio = .64},
-    {NAMED("T1.same", "T1 without a layer"), FOUR, COMMON_RATES, SAME},
-    {NAMED("T3.same", "T3 without a layer"), .spots = {4, 4}, .spot_scatter = {.05, .25},
-     .rate_slope = .06, COMMON_RATES, SAME},
-    {NAMED("T7.same", "T7 without a layer"), .spots = {4, 4}, .spot_scatter = {.06, .06},
-     .rate_slope = .15, .rates = {{2, 20}, {.02, .2}}, SAME},
+    PAIR("T1", "4 + 4 spots, 6 %", SEEN, NOT_YES, FOUR, COMMON_RATES, STATED, GIVEN(96, .106)),
+    PAIR("T2", "2 + 2 spots, 6 %", PERHAPS, NOT_YES, SPOTS(2, 2, .06, .06), .rate_slope = .06,
+         COMMON_RATES, STATED, GIVEN(97, .36)),
+    PAIR("T3", "4 + 4 spots, 5 and 25 %", PERHAPS, NOT_YES, SPOTS(4, 4, .05, .25),
+         .rate_slope = .06, COMMON_RATES, STATED, GIVEN(94, .34)),
+    PAIR("T4", "2 + 6 spots, 6 %", PERHAPS, NOT_YES, SPOTS(2, 6, .06, .06), .rate_slope = .06,
+         COMMON_RATES, STATED, GIVEN(92, .147)),
+    PAIR("T5", "none to three curves in a cell, rate slope 0.2", SEEN, NOT_YES,
+         SPOTS(4, 4, .06, .06), .rate_slope = .2, COMMON_RATES, .cells_missing = true, STATED,
+         GIVEN(96, .118)),
+    PAIR("T6", "one rate in common, rate slope 0.15", SEEN, NOT_YES, SPOTS(4, 4, .06, .06),
+         .rate_slope = .15, PARTLY, STATED, GIVEN(95, .108)),
+    PAIR("T7", "no rate in common, rate slope 0.15", SEEN, NOT_YES, SPOTS(4, 4, .06, .06),
+         .rate_slope = .15, DISJOINT, STATED, GIVEN(95, .106)),
+    PAIR("T8", "separate levers with 10 % each", PERHAPS, NOT_YES, FOUR, COMMON_RATES,
+         .lever_error = {.1, .1}, .levers_separate = true, STATED, GIVEN(96, .289)),
+    PAIR("T9", "one lever with 10 %", SEEN, NOT_YES, FOUR, COMMON_RATES, .lever_error = {.1, .1},
+         STATED, GIVEN(96, .105)),
+    PAIR("T10", "one spot in the track", UNKNOWN, UNKNOWN, SPOTS(4, 1, .06, .06), .rate_slope = .06,
+         COMMON_RATES, SILENT),
+    PAIR("T11", "track 10 +- 1 K warmer, slope known", SEEN, NOT_YES, FOUR, COMMON_RATES,
+         .warmth = WARMER_SLOPE_KNOWN, STATED, GIVEN(95, NAN)),
+
+    /* of our own */
+    PAIR("T1.friction", "T1, on to the friction with the layer", SEEN, NOT_YES, FOUR, COMMON_RATES,
+         .through_friction = true, STATED, GIVEN(96, .106)),
+    PAIR("T2.three", "3 + 3 spots, 6 %", PERHAPS, NOT_YES, SPOTS(3, 3, .06, .06), .rate_slope = .06,
+         COMMON_RATES, STATED, NOT_GIVEN),
+    PAIR("T4.wide", "2 + 6 spots, the two scatter 25 %, the others 5 %", PERHAPS, NOT_YES,
+         SPOTS(2, 6, .25, .05), .rate_slope = .06, COMMON_RATES, STATED, NOT_GIVEN),
+    PAIR("T4.narrow", "2 + 6 spots, the two scatter 5 %, the others 25 %", PERHAPS, NOT_YES,
+         SPOTS(2, 6, .05, .25), .rate_slope = .06, COMMON_RATES, STATED, NOT_GIVEN),
+    PAIR("T4.three", "3 + 2 spots, 6 %", PERHAPS, NOT_YES, SPOTS(3, 2, .06, .06), .rate_slope = .06,
+         COMMON_RATES, STATED, NOT_GIVEN),
+    PAIR("T7.alone", "one rate for each zone, no slope", UNKNOWN, UNKNOWN, SPOTS(4, 4, .06, .06),
+         .rate_slope = .15, .rates = {{20, 20}, {.05, .05}}, SILENT),
+    PAIR("T7.between", "no rate in common, one rate for each spot", PERHAPS, NOT_YES,
+         SPOTS(6, 6, .06, .06), .rate_slope = .15, DISJOINT, .one_rate_a_spot = true, STATED,
+         NOT_GIVEN),
+    PAIR("T7.bent", "no rate in common, the ratio depends on the rate", PERHAPS, PERHAPS,
+         SPOTS(4, 4, .06, .06), .rate_slope = .15, .ratio_slope = .1, DISJOINT,
+         .facts.verdict_promised = true, NOT_GIVEN),
+    PAIR("T1.bent", "the ratio depends on the rate", SEEN, PERHAPS, FOUR, COMMON_RATES,
+         .ratio_slope = .1, .facts.verdict_promised = true, NOT_GIVEN),
+    PAIR("T8.unequal", "separate levers with 3 and 20 %", PERHAPS, NOT_YES, FOUR, COMMON_RATES,
+         .lever_error = {.03, .2}, .levers_separate = true, STATED, NOT_GIVEN),
+    PAIR("T8.sensitivity", "separate levers with 10 %, sensitivities with 5 %", PERHAPS, NOT_YES,
+         FOUR, COMMON_RATES, .lever_error = {.1, .1}, .sensitivity_error = .05,
+         .levers_separate = true, STATED, NOT_GIVEN),
+    PAIR("T9.sensitivity", "one lever, its sensitivity with 5 %", SEEN, NOT_YES, FOUR, COMMON_RATES,
+         .lever_error = {.1, .1}, .sensitivity_error = .05, STATED, NOT_GIVEN),
+    PAIR("T11.unknown", "track 10 K warmer, slope not known", UNKNOWN, UNKNOWN, FOUR, COMMON_RATES,
+         .warmth = WARMER, SILENT),
+    PAIR("T12", "4 + 4 spots, heavy tails", PERHAPS, NOT_YES, FOUR, COMMON_RATES,
+         .heavy_tails = true, STATED, NOT_GIVEN),
+    PAIR("T13", "one map in each zone", UNKNOWN, UNKNOWN, SPOTS(1, 1, .06, .06), .rate_slope = .06,
+         COMMON_RATES, .maps = true, SILENT),
+    PAIR("T13.many", "4 + 4 maps", SEEN, NOT_YES, FOUR, COMMON_RATES, .maps = true, STATED,
+         NOT_GIVEN),
+    PAIR("T14", "2 + 2 spots, those of the track given twice", PERHAPS, NOT_YES,
+         SPOTS(2, 2, .06, .06), .rate_slope = .06, COMMON_RATES, .copies = 2, STATED, NOT_GIVEN),
+    PAIR("T14.one", "4 spots, and one in the track given twice", UNKNOWN, UNKNOWN,
+         SPOTS(4, 1, .06, .06), .rate_slope = .06, COMMON_RATES, .copies = 1, SILENT),
+    PAIR("T14.across", "a file of the bulk in the track, too", UNKNOWN, UNKNOWN, FOUR, COMMON_RATES,
+         .copy_across = true, SILENT),
 };
 const int n_track_scenes = sizeof track_scenes / sizeof track_scenes[0];

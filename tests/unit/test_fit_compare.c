@@ -62,10 +62,9 @@ static double field(const wt_comparison *c, const char *name)
         {"ratio", c->ratio},
         {"ratio_low", c->ratio_low},
         {"ratio_high", c->ratio_high},
-        {"difference", c->difference.value},
-        {"welch_t", c->welch_t},
-        {"welch_df", c->welch_df},
-        {"welch_p", c->welch_p},
+        {"welch_t", c->t},
+        {"welch_df", c->df},
+        {"welch_p", c->p},
         {"mann_whitney_u", c->mann_whitney_u},
         {"mann_whitney_p", c->mann_whitney_p},
         {"mann_whitney_exact", c->mann_whitney_exact},
@@ -97,7 +96,7 @@ static void numeric_cases(void **state)
         } else if (sscanf(line, "expect %63s %lf %lf", name, &value, &tolerance) == 3) {
             wt_group a = group_of(&bulk), b = group_of(&track);
             wt_comparison c;
-            assert_int_equal(wt_compare(&a, &b, &c, NULL), WT_OK);
+            assert_int_equal(wt_compare(&a, &b, NULL, &c, NULL), WT_OK);
             double got = field(&c, name);
             if (!(fabs(got - value) <= tolerance * fabs(value)))
                 fail_msg("%s: %s is %.17g, expected %.17g", case_name, name, got, value);
@@ -120,16 +119,16 @@ static void order_does_not_matter(void **state)
     wt_group bulk2 = {.modulus = a2, .n = 5, .n_rejected = 2},
              track2 = {.modulus = b2, .n = 4, .n_rejected = 1};
     wt_comparison c, d;
-    assert_int_equal(wt_compare(&bulk, &track, &c, NULL), WT_OK);
-    assert_int_equal(wt_compare(&bulk2, &track2, &d, NULL), WT_OK);
-    assert_true(c.log_ratio.value == d.log_ratio.value && c.welch_p == d.welch_p &&
+    assert_int_equal(wt_compare(&bulk, &track, NULL, &c, NULL), WT_OK);
+    assert_int_equal(wt_compare(&bulk2, &track2, NULL, &d, NULL), WT_OK);
+    assert_true(c.log_ratio.value == d.log_ratio.value && c.p == d.p &&
                 c.bulk.mean == d.bulk.mean && c.mann_whitney_p == d.mann_whitney_p);
     assert_int_equal(c.bulk.n_rejected, 2);
     /* Exchanged groups: the reciprocal ratio, the same p. */
-    assert_int_equal(wt_compare(&track, &bulk, &d, NULL), WT_OK);
+    assert_int_equal(wt_compare(&track, &bulk, NULL, &d, NULL), WT_OK);
     assert_near(c.ratio * d.ratio, 1.0, 1e-14);
     assert_near(c.ratio_low * d.ratio_high, 1.0, 1e-13);
-    assert_near(c.welch_t, -d.welch_t, 1e-14);
+    assert_near(c.t, -d.t, 1e-14);
     assert_near(c.mann_whitney_p, d.mann_whitney_p, 1e-14);
     assert_near(c.mann_whitney_u + d.mann_whitney_u, 20.0, 1e-14);
     assert_near(c.effect_size, -d.effect_size, 1e-14);
@@ -140,10 +139,10 @@ static void order_does_not_matter(void **state)
     for (int i = 0; i < 4; i++)
         b3[i] = 1e-3 * b[i];
     wt_group bulk3 = {.modulus = a3, .n = 5}, track3 = {.modulus = b3, .n = 4};
-    assert_int_equal(wt_compare(&bulk3, &track3, &d, NULL), WT_OK);
+    assert_int_equal(wt_compare(&bulk3, &track3, NULL, &d, NULL), WT_OK);
     assert_near(d.ratio, c.ratio, 1e-13);
     assert_near(d.ratio_high, c.ratio_high, 1e-12);
-    assert_near(d.welch_p, c.welch_p, 1e-10);
+    assert_near(d.p, c.p, 1e-10);
     assert_near(d.mann_whitney_p, c.mann_whitney_p, 1e-14);
 }
 
@@ -169,7 +168,7 @@ static void mann_whitney_agrees_with_enumeration(void **state)
     const double track[M] = {2.0, 3.5, 4.5, 1.0, 8.5}, bulk[N] = {3.0, 4.0, 5.0, 6.0, 7.0, 8.0};
     wt_group a = {.modulus = bulk, .n = N}, b = {.modulus = track, .n = M};
     wt_comparison c;
-    assert_int_equal(wt_compare(&a, &b, &c, NULL), WT_OK);
+    assert_int_equal(wt_compare(&a, &b, NULL, &c, NULL), WT_OK);
     double tail = 0.0;
     assert_near(c.mann_whitney_u, 9.0, 0.0);
     for (int u = 0; u <= 9; u++)
@@ -184,13 +183,13 @@ static void mann_whitney_agrees_with_enumeration(void **state)
         y[i] = 14.3 + i + 0.01 * (i * 11 % 26);
     }
     wt_group p = {.modulus = x, .n = 25}, q = {.modulus = y, .n = 25};
-    assert_int_equal(wt_compare(&p, &q, &c, NULL), WT_OK);
+    assert_int_equal(wt_compare(&p, &q, NULL, &c, NULL), WT_OK);
     assert_true(c.mann_whitney_exact);
     double exact = c.mann_whitney_p;
     double mean = 312.5, sd = sqrt(25.0 * 25.0 * 51.0 / 12.0);
     assert_near(exact, erfc((c.mann_whitney_u - mean - 0.5) / sd / M_SQRT2), 0.05);
     p.n = q.n = 26;
-    assert_int_equal(wt_compare(&p, &q, &c, NULL), WT_OK);
+    assert_int_equal(wt_compare(&p, &q, NULL, &c, NULL), WT_OK);
     assert_false(c.mann_whitney_exact);
     assert_near(c.mann_whitney_p,
                 erfc((c.mann_whitney_u - 338.0 - 0.5) / sqrt(26.0 * 26.0 * 53.0 / 12.0) / M_SQRT2),
@@ -243,19 +242,210 @@ static void no_answer(void **state)
     wt_group spot = {.modulus = good, .spot = one_spot, .n = 3},
              three = {.modulus = good, .spot = spots, .n = 3};
     assert_int_equal(wt_group_summarise(&empty, &s, NULL), WT_E_EMPTY);
-    assert_int_equal(wt_compare(&a, &empty, &c, NULL), WT_E_EMPTY);
-    assert_int_equal(wt_compare(&a, &single, &c, &err), WT_E_EMPTY);
-    assert_non_null(strstr(err.message, "track"));
-    assert_int_equal(wt_compare(&spot, &three, &c, &err), WT_E_EMPTY);
-    assert_non_null(strstr(err.message, "bulk"));
-    assert_non_null(strstr(err.expected, "spots"));
-    assert_int_equal(wt_compare(&negative, &a, &c, &err), WT_E_RANGE);
+    assert_int_equal(wt_compare(&a, &empty, NULL, &c, NULL), WT_E_EMPTY);
+    /* One unit in a group: a ratio, but no interval. */
+    const wt_group *const alone[][2] = {{&a, &single}, {&spot, &three}};
+    for (int i = 0; i < 2; i++) {
+        assert_int_equal(wt_compare(alone[i][0], alone[i][1], NULL, &c, NULL), WT_OK);
+        assert_int_equal(c.unsettled, WT_ONE_SPOT);
+        assert_true(isfinite(c.ratio) && isnan(c.ratio_low) && isnan(c.ratio_high) && isnan(c.p));
+    }
+    assert_int_equal(wt_compare(&negative, &a, NULL, &c, &err), WT_E_RANGE);
     assert_non_null(strstr(err.place, "2 of 2"));
-    assert_int_equal(wt_compare(&missing, &a, &c, NULL), WT_E_RANGE);
-    assert_int_equal(wt_compare(&same, &same, &c, NULL), WT_E_RANGE);
+    assert_int_equal(wt_compare(&missing, &a, NULL, &c, NULL), WT_E_RANGE);
+    assert_int_equal(wt_compare(&same, &same, NULL, &c, NULL), WT_E_RANGE);
     /* Spots of one group only: curves are compared, and the result says so. */
-    assert_int_equal(wt_compare(&spot, &a, &c, NULL), WT_OK);
+    assert_int_equal(wt_compare(&spot, &a, NULL, &c, NULL), WT_OK);
     assert_false(c.by_spot);
+}
+
+/* ---- rates ----------------------------------------------------------------------------------- */
+
+enum { SPOTS = 4 };
+
+/* Two rates a spot in each group; ln E = level + slope ln rate + spot + a small part of the cell.
+ */
+typedef struct two_rates {
+    double modulus[2 * SPOTS], rate[2 * SPOTS];
+    long spot[2 * SPOTS], rate_class[2 * SPOTS];
+    wt_group group;
+} two_rates;
+
+static const double at[] = {1e-7, 1e-6, 1e-5, 1e-4};
+static const double place[SPOTS] = {-0.05, 0.02, 0.06, -0.03}; /* their mean is 0 */
+static const double own[SPOTS] = {0.004, -0.003, 0.001, -0.002};
+
+static void make_rates(two_rates *g, double level, double slope, int first)
+{
+    for (int i = 0; i < 2 * SPOTS; i++) {
+        const int spot = i / 2, r = first + i % 2;
+        g->spot[i] = spot;
+        g->rate_class[i] = r;
+        g->rate[i] = at[r];
+        g->modulus[i] = 1e6 * exp(level + slope * log(at[r] / 1e-6) + place[spot] +
+                                  (i % 2 == 0 ? own[spot] : -own[spot]));
+    }
+    g->group = (wt_group){.modulus = g->modulus,
+                          .spot = g->spot,
+                          .rate = g->rate,
+                          .rate_class = g->rate_class,
+                          .n = 2 * SPOTS};
+}
+
+/* A rate in one group only is left out; the slope drops out of what both have. */
+static void rates_in_common(void **state)
+{
+    (void)state;
+    two_rates a, b;
+    wt_comparison c;
+    make_rates(&a, 0, 0.3, 0);
+    make_rates(&b, log(0.5), 0.3, 1);
+    assert_int_equal(wt_compare(&a.group, &b.group, NULL, &c, NULL), WT_OK);
+    assert_int_equal(c.rates_by, WT_RATES_COMMON);
+    assert_int_equal(c.curves_bulk, SPOTS);
+    assert_int_equal(c.curves_track, SPOTS);
+    assert_near(c.ratio, 0.5, 1e-12);
+    /* without the rates the ratio is that of a decade of them, too */
+    a.group.rate = b.group.rate = NULL;
+    assert_int_equal(wt_compare(&a.group, &b.group, NULL, &c, NULL), WT_OK);
+    assert_near(c.ratio, 0.5 * exp(0.3 * log(10)), 1e-12);
+}
+
+/* No rate in common: through the slope within the spots, whose error enters with the square of the
+ * distance of the rates. */
+static void rates_by_slope(void **state)
+{
+    (void)state;
+    two_rates a, b;
+    wt_comparison c;
+    make_rates(&a, 0, 0.15, 0);
+    make_rates(&b, log(0.7), 0.15, 2);
+    assert_int_equal(wt_compare(&a.group, &b.group, NULL, &c, NULL), WT_OK);
+    assert_int_equal(c.unsettled, WT_SETTLED);
+    assert_int_equal(c.rates_by, WT_RATES_WITHIN);
+    assert_near(c.rate_slope.value, 0.15, 1e-9);
+    assert_near(c.ratio, 0.7, 1e-9);
+    double rest = 0, spots = 0;
+    for (int i = 0; i < SPOTS; i++) {
+        rest += 2 * 2 * own[i] * own[i]; /* two cells in each of two groups */
+        spots += place[i] * place[i] / (SPOTS - 1);
+    }
+    const double step = log(10), df = 2 * SPOTS - 1;
+    const double slope_error = sqrt(rest / df / (2 * SPOTS * step * step / 2));
+    assert_near(c.rate_slope.standard_error, slope_error, 1e-9);
+    assert_near(c.log_ratio.standard_error,
+                sqrt(2 * spots / SPOTS + pow(2 * step * slope_error, 2)), 1e-9);
+}
+
+static void rates_that_say_nothing(void **state)
+{
+    (void)state;
+    two_rates a, b;
+    wt_comparison c;
+    /* slopes that differ, and no rate in common */
+    make_rates(&a, 0, 0.15, 0);
+    make_rates(&b, log(0.7), 0.25, 2);
+    assert_int_equal(wt_compare(&a.group, &b.group, NULL, &c, NULL), WT_OK);
+    assert_int_equal(c.unsettled, WT_RATES_TWIST);
+    assert_true(c.interaction_p < 1e-4 && isnan(c.ratio_low));
+    /* the same with common rates is told beside the ratio */
+    make_rates(&b, log(0.7), 0.25, 0);
+    assert_int_equal(wt_compare(&a.group, &b.group, NULL, &c, NULL), WT_OK);
+    assert_int_equal(c.unsettled, WT_SETTLED);
+    assert_true(c.interaction_p < 1e-4);
+    make_rates(&b, log(0.7), 0.15, 0);
+    assert_int_equal(wt_compare(&a.group, &b.group, NULL, &c, NULL), WT_OK);
+    assert_true(c.interaction_p > 0.5);
+    /* one rate in each group: nothing says what it does */
+    make_rates(&b, log(0.7), 0.15, 2);
+    for (int i = 0; i < 2 * SPOTS; i++) {
+        a.rate_class[i] = 0;
+        b.rate_class[i] = 3;
+    }
+    assert_int_equal(wt_compare(&a.group, &b.group, NULL, &c, NULL), WT_OK);
+    assert_int_equal(c.unsettled, WT_RATES_APART);
+    assert_true(isnan(c.ratio) && isnan(c.p));
+}
+
+/* Each spot has one rate: a line through the spots of each group, one slope for both. */
+static void rates_between_spots(void **state)
+{
+    (void)state;
+    enum { N = 6 };
+    static const double y[2][N] = {{0.01, -0.02, 0.01, 0.31, 0.28, 0.31},
+                                   {0.61, 0.58, 0.61, 0.91, 0.88, 0.91}};
+    double modulus[2][N], rate[2][N];
+    long spot[2][N], rate_class[2][N];
+    wt_group g[2];
+    for (int k = 0; k < 2; k++) {
+        for (int i = 0; i < N; i++) {
+            spot[k][i] = i;
+            rate_class[k][i] = 2 * k + i / 3;
+            rate[k][i] = exp((double)rate_class[k][i] * 2);
+            modulus[k][i] = exp(y[k][i]);
+        }
+        g[k] = (wt_group){.modulus = modulus[k],
+                          .spot = spot[k],
+                          .rate = rate[k],
+                          .rate_class = rate_class[k],
+                          .n = N};
+    }
+    wt_comparison c;
+    assert_int_equal(wt_compare(&g[0], &g[1], NULL, &c, NULL), WT_OK);
+    assert_int_equal(c.rates_by, WT_RATES_BETWEEN);
+    /* slope 0.3/2 and 4 between the groups: nothing is left of the 0.6 */
+    assert_near(c.log_ratio.value + 1, 1, 1e-12);
+    assert_near(c.df, 2 * N - 3, 1e-12);
+    const double variance = 4 * 6e-4 / (2 * N - 3), xx = 2 * N;
+    assert_near(c.log_ratio.standard_error, sqrt(variance * (2.0 / N + 16 / xx)), 1e-9);
+}
+
+/* What is known beside the difference is taken from it, and its error is a normal one. */
+static void known_offset(void **state)
+{
+    (void)state;
+    two_rates a, b;
+    wt_comparison c, d;
+    make_rates(&a, 0, 0.1, 0);
+    make_rates(&b, log(0.8), 0.1, 0);
+    const wt_estimate offset = {log(0.9), 0.2, 0, "1"};
+    assert_int_equal(wt_compare(&a.group, &b.group, NULL, &c, NULL), WT_OK);
+    assert_int_equal(wt_compare(&a.group, &b.group, &offset, &d, NULL), WT_OK);
+    assert_near(d.ratio, c.ratio / 0.9, 1e-12);
+    assert_near(d.log_ratio.standard_error, hypot(c.log_ratio.standard_error, 0.2), 1e-12);
+    assert_near(d.df, c.df * pow(d.log_ratio.standard_error / c.log_ratio.standard_error, 4), 1e-9);
+    assert_near(d.known_share, pow(0.2 / d.log_ratio.standard_error, 2), 1e-12);
+}
+
+/* Two units close together by chance do not make the interval narrow. */
+static void two_units_and_more(void **state)
+{
+    (void)state;
+    const double two[] = {1.0e6, 1.0001e6}, more[] = {0.9e6, 1.0e6, 1.1e6, 0.95e6, 1.05e6, 1.0e6};
+    wt_group a = {.modulus = two, .n = 2}, b = {.modulus = more, .n = 6};
+    wt_comparison c;
+    assert_int_equal(wt_compare(&a, &b, NULL, &c, NULL), WT_OK);
+    double mean = 0, sum = 0;
+    for (int i = 0; i < 6; i++)
+        mean += log(more[i]) / 6;
+    for (int i = 0; i < 6; i++)
+        sum += pow(log(more[i]) - mean, 2);
+    sum += pow(log(1.0001), 2) / 2;
+    assert_near(c.log_ratio.standard_error, sqrt(sum / 6 * (1.0 / 2 + 1.0 / 6)), 1e-9);
+    assert_near(c.df, 6, 1e-9);
+    /* 2 of the 28 rankings of 2 among 8 are as far as can be */
+    assert_near(c.mann_whitney_smallest_p, 2.0 / 28, 1e-12);
+}
+
+/* As the theory text has it: 6 % scatter, ratio 0.8: 3 spots; 15 %: 8 or 9; and none if they are
+ * as good as equal. */
+static void spots_needed(void **state)
+{
+    (void)state;
+    assert_int_equal(wt_spots_needed(log(0.8), 0.06), 3);
+    assert_in_range(wt_spots_needed(log(0.8), 0.15), 8, 9);
+    assert_int_equal(wt_spots_needed(-log(0.8), 0.15), wt_spots_needed(log(0.8), 0.15));
+    assert_int_equal(wt_spots_needed(1e-3, 0.15), 0);
 }
 
 static void holm(void **state)
@@ -297,6 +487,13 @@ int main(void)
         cmocka_unit_test(mann_whitney_agrees_with_enumeration),
         cmocka_unit_test(summary_of_one_group),
         cmocka_unit_test(no_answer),
+        cmocka_unit_test(rates_in_common),
+        cmocka_unit_test(rates_by_slope),
+        cmocka_unit_test(rates_that_say_nothing),
+        cmocka_unit_test(rates_between_spots),
+        cmocka_unit_test(known_offset),
+        cmocka_unit_test(two_units_and_more),
+        cmocka_unit_test(spots_needed),
         cmocka_unit_test(holm),
         cmocka_unit_test(equivalent_frequency),
     };

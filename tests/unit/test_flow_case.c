@@ -66,7 +66,7 @@ static void test_full(void **state)
     assert_near(c->indent.options.poisson_ratio, 0.49, 0);
     assert_near(c->indent.options.fit_depth, 70e-9, 1e-14);
     assert_false(c->indent.options.fit_tilt);
-    assert_near(c->compare.temperature, 296.15, 1e-14);
+    assert_near(c->compare.temperature.value, 296.15, 1e-14);
     assert_int_equal(c->bulk.n, 2);
     assert_string_equal(c->bulk.sets[0].spot, "b1");
     assert_string_equal(c->bulk.sets[0].read.format, "jpk");

@@ -146,7 +146,7 @@ static void test_spots(void **state)
         indentation_put(&t, INDENTATION_MODULUS, 1e6);
     }
     assert_int_equal(table_end(&t, &table), WT_OK);
-    assert_int_equal(wt_group_from_table(table, &data, NULL), WT_OK);
+    assert_int_equal(wt_group_from_table(table, false, &data, NULL), WT_OK);
     assert_int_equal(data.group.n, N);
     for (size_t i = 0; i < N; i++)
         assert_int_equal(data.spot[i], expected[i]);

@@ -159,6 +159,10 @@ static void test_cases(void **state)
     run_case("", "");
     run_case_at(1e-16, "", ""); /* which nothing reaches */
     run_case("<temperature>23degC", "<temperature>90degC");
+    run_case("<temperature>23degC", "<track-temperature>24degC</track-temperature>"
+                                    "<cantilevers>two</cantilevers>"
+                                    "<sensitivity-error>0.3</sensitivity-error>"
+                                    "<temperature>23degC");
     run_case("<temperature>30degC", "<temperature>90degC");
     run_case("<critical-energy>2e10J/m^3 +- 10%</critical-energy>",
              "<observed-thickness>3um</observed-thickness>");

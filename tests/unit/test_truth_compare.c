@@ -112,20 +112,21 @@ static double p_of_t(double t, double df)
 }
 
 typedef struct expected {
-    double difference, t, df, p;
+    double t, df, p;
 } expected;
 
 /* Welch's test of the means of the units of two groups; r < 0: units are spots over all rates. */
+/* Welch's test of ln E of the units of two groups; r < 0: units are spots over all rates. */
 static expected welch(double bulk, double track, int r)
 {
     double x[2][SPOTS], mean[2] = {bulk, track};
     for (int g = 0; g < 2; g++)
         for (int s = 0; s < SPOTS; s++)
-            x[g][s] = r >= 0 ? modulus(mean[g], r, s)
-                             : (modulus(mean[g], 0, s) + modulus(mean[g], 1, s)) / RATES;
+            x[g][s] = r >= 0 ? log(modulus(mean[g], r, s))
+                             : (log(modulus(mean[g], 0, s)) + log(modulus(mean[g], 1, s))) / RATES;
     sample a = sample_of(x[0], SPOTS), b = sample_of(x[1], SPOTS);
     double va = a.variance / SPOTS, vb = b.variance / SPOTS;
-    expected e = {b.mean - a.mean, (b.mean - a.mean) / sqrt(va + vb), 0, 0};
+    expected e = {(b.mean - a.mean) / sqrt(va + vb), 0, 0};
     e.df = (va + vb) * (va + vb) / ((va * va + vb * vb) / (SPOTS - 1));
     e.p = p_of_t(e.t, e.df);
     return e;
@@ -163,11 +164,11 @@ static void compare(double ratio, double temperature)
     wt_compare_tables_clear(&tables);
     bulk_table = indentation("bulk", BULK);
     track_table = indentation("track", ratio * BULK);
-    wt_compare_job job = {.bulk = bulk_table,
-                          .track = track_table,
-                          .rubber = &rubber,
-                          .temperature = temperature,
-                          .rates = true};
+    wt_compare_job job = wt_compare_job_defaults();
+    job.bulk = bulk_table;
+    job.track = track_table;
+    job.rubber = &rubber;
+    job.temperature.value = temperature;
     if (wt_compare_groups(&job, &common, &tables, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
 }
@@ -190,12 +191,14 @@ static void check_row(size_t row, int r, double ratio)
     assert_near(cell(c, row, "ratio"), ratio, 1e-12);
     assert_near(cell(c, row, "ratio_low"), ratio * exp(-reach), 1e-9);
     assert_near(cell(c, row, "ratio_high"), ratio * exp(reach), 1e-9);
-    assert_near(cell(c, row, "difference"), e.difference, 1e-9);
     assert_near(cell(c, row, "welch_t"), e.t, 1e-9);
     assert_near(cell(c, row, "welch_df"), e.df, 1e-9);
     assert_near(cell(c, row, "welch_p"), e.p, 1e-6);
     /* all of one group below all of the other: 2 of the 20 rankings are as far */
     assert_near(cell(c, row, "mann_whitney_p"), 0.1, 1e-12);
+    assert_near(cell(c, row, "mann_whitney_smallest_p"), 0.1, 1e-12);
+    assert_near(cell(c, row, "spots_bulk"), SPOTS, 0);
+    assert_near(cell(c, row, "spots_track"), SPOTS, 0);
     /* Hedges' g = J d, J(4) = gamma(2) / (sqrt(2) gamma(3/2)); its usual approximation is 0.8 */
     assert_near(cell(c, row, "effect_size"), 0.79788 * log(ratio) / scatter, 0.005);
 }
@@ -232,6 +235,40 @@ static void test_comparison(void **state)
         assert_near(e.value, ratios[k], 1e-12);
         assert_near(e.standard_error, ratios[k] * scatter * sqrt(2.0 / SPOTS), 1e-9);
     }
+}
+
+static const char *verdict(double ratio, double margin)
+{
+    wt_job common = wt_job_defaults();
+    wt_table_free(bulk_table);
+    wt_table_free(track_table);
+    wt_compare_tables_clear(&tables);
+    bulk_table = indentation("bulk", BULK);
+    track_table = indentation("track", ratio * BULK);
+    wt_compare_job job = wt_compare_job_defaults();
+    job.bulk = bulk_table;
+    job.track = track_table;
+    job.margin = margin;
+    assert_int_equal(wt_compare_groups(&job, &common, &tables, NULL), WT_OK);
+    return wt_table_key(tables.comparison, "differs");
+}
+
+/* Half of the interval is 0.085 in ln. */
+static void test_verdict(void **state)
+{
+    (void)state;
+    assert_string_equal(verdict(0.85, 0.2), "yes: the wear track is softer than the bulk");
+    assert_string_equal(verdict(1.15, 0.2), "yes: the wear track is stiffer than the bulk");
+    assert_string_equal(verdict(0.91, 0.25),
+                        "yes: the wear track is softer than the bulk, by less than the margin");
+    assert_string_equal(verdict(1.02, 0.2), "no: the wear track differs from the bulk by less than "
+                                            "20 %, the margin set");
+    assert_null(wt_table_key(tables.comparison, "settled_by"));
+    assert_string_equal(verdict(1.02, 0.05),
+                        "cannot say: the interval of the ratio has room for no "
+                        "difference and for one above 5 %");
+    assert_non_null(strstr(wt_table_key(tables.comparison, "settled_by"),
+                           "spots in each group would show a difference of 5 %"));
 }
 
 static void test_groups(void **state)
@@ -317,9 +354,8 @@ static void test_dma(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_comparison),
-        cmocka_unit_test(test_groups),
-        cmocka_unit_test(test_rates),
+        cmocka_unit_test(test_comparison), cmocka_unit_test(test_verdict),
+        cmocka_unit_test(test_groups),     cmocka_unit_test(test_rates),
         cmocka_unit_test(test_dma),
     };
     return cmocka_run_group_tests_name("comparison of known truth", tests, NULL, clean);

@@ -21,20 +21,22 @@
                      SPARSE)
 #define MODULUS_GROUPS_KEYS(X)
 
-/* A row of too few curves has its numbers of curves alone. */
+/* A row that cannot be compared has its numbers of curves and spots alone. */
 #define COMPARISON_COLUMNS(X)                                                                      \
     X(COMPARISON_RATE_LOW, "rate_low", "smallest indentation rate of the row; nan = all rates",    \
       SI(VELOCITY), LABEL("Indentation rate from"), LIKE(COMPARISON_RATE_HIGH), MISSING("all"))    \
     X(COMPARISON_RATE_HIGH, "rate_high", "largest indentation rate of the row; nan = all rates",   \
       SI(VELOCITY), LABEL("to"), MISSING("all"))                                                   \
-    X(COMPARISON_N_BULK, "n_bulk", "accepted bulk curves", NUMBER, LABEL("n bulk"))                \
-    X(COMPARISON_N_TRACK, "n_track", "accepted wear-track curves", NUMBER, LABEL("n track"))       \
+    X(COMPARISON_N_BULK, "n_bulk", "bulk curves compared", NUMBER, LABEL("n bulk"))                \
+    X(COMPARISON_N_TRACK, "n_track", "wear-track curves compared", NUMBER, LABEL("n track"))       \
+    X(COMPARISON_SPOTS_BULK, "spots_bulk", "bulk spots compared: the units of the tests", NUMBER,  \
+      LABEL("Spots bulk"))                                                                         \
+    X(COMPARISON_SPOTS_TRACK, "spots_track", "wear-track spots compared", NUMBER,                  \
+      LABEL("Spots track"))                                                                        \
     X(COMPARISON_RATIO, "ratio", "modulus of the track over that of the bulk", NUMBER,             \
       LABEL("Track / bulk"), SPARSE)                                                               \
     INTERVAL_COLUMNS(X, COMPARISON_RATIO, "ratio_", NUMBER, SPARSE)                                \
-    X(COMPARISON_DIFFERENCE, "difference", "difference of the mean moduli, track minus bulk",      \
-      SI(MODULUS), LABEL("Difference"), SPARSE)                                                    \
-    X(COMPARISON_WELCH_T, "welch_t", "Welch's t of the means", NUMBER, LABEL("Welch t"), SPARSE)   \
+    X(COMPARISON_WELCH_T, "welch_t", "Welch's t of ln E", NUMBER, LABEL("Welch t"), SPARSE)        \
     X(COMPARISON_WELCH_DF, "welch_df", "its degrees of freedom", NUMBER,                           \
       LABEL("Degrees of freedom"), SPARSE)                                                         \
     X(COMPARISON_WELCH_P, "welch_p", "its two-sided p", NUMBER, LABEL("p (Welch)"), DIGITS(2),     \
@@ -43,12 +45,29 @@
       LABEL("p (Holm)"), DIGITS(2), SPARSE)                                                        \
     X(COMPARISON_MANN_WHITNEY_P, "mann_whitney_p", "two-sided p of the Mann-Whitney test", NUMBER, \
       LABEL("p (Mann-Whitney)"), DIGITS(2), SPARSE)                                                \
+    X(COMPARISON_MANN_WHITNEY_SMALLEST_P, "mann_whitney_smallest_p",                               \
+      "smallest p of that test with so few spots", NUMBER, LABEL("its smallest p"), DIGITS(2),     \
+      SPARSE)                                                                                      \
     X(COMPARISON_EFFECT_SIZE, "effect_size", "Hedges' g of ln E", NUMBER, LABEL("Effect size"),    \
       SPARSE)
 
+/* What the ratio of all rates is has a key too, if there is one; the degrees of freedom of its
+ * error are missing where it is normal. */
 #define COMPARISON_KEYS(X)                                                                         \
+    X(COMPARISON_KEY_DIFFERS, "differs", TEXT, LABEL("Does the wear track differ"))                \
+    X(COMPARISON_KEY_SETTLED_BY, "settled_by", TEXT, LABEL("What would settle it"), OPTIONAL)      \
     X(COMPARISON_KEY_UNIT_OF_ANALYSIS, "unit_of_analysis", TEXT)                                   \
-    X(COMPARISON_KEY_MODULUS_RATIO, "modulus_ratio", NUMBER, OPTIONAL)
+    X(COMPARISON_KEY_RATES, "rates_compared", TEXT, LABEL("Rates compared"))                       \
+    X(COMPARISON_KEY_INCLUDES, "interval_includes", TEXT, LABEL("The interval includes"),          \
+      OPTIONAL)                                                                                    \
+    X(COMPARISON_KEY_CANTILEVERS, "cantilevers", TEXT, LABEL("Cantilevers"))                       \
+    X(COMPARISON_KEY_MARGIN, "equivalence_margin", PLAIN)                                          \
+    X(COMPARISON_KEY_RATE_SLOPE, "rate_slope", NUMBER, LABEL("Slope of ln E against ln rate"),     \
+      OPTIONAL)                                                                                    \
+    X(COMPARISON_KEY_INTERACTION_P, "interaction_p", NUMBER,                                       \
+      LABEL("p of one slope in both groups"), OPTIONAL)                                            \
+    X(COMPARISON_KEY_MODULUS_RATIO, "modulus_ratio", NUMBER, OPTIONAL)                             \
+    X(COMPARISON_KEY_MODULUS_RATIO_DF, "modulus_ratio_df", NUMBER, OPTIONAL)
 
 #define MODULUS_RATE_COLUMNS(X)                                                                    \
     X(MODULUS_RATE_GROUP, "group", "bulk or track", TEXT)                                          \
@@ -81,6 +100,7 @@
 
 #define DMA_COMPARISON_KEYS(X)                                                                     \
     X(DMA_COMPARISON_KEY_TEMPERATURE, "temperature", SI(TEMPERATURE))                              \
+    X(DMA_COMPARISON_KEY_TRACK_TEMPERATURE, "track_temperature", SI(TEMPERATURE), OPTIONAL)        \
     X(DMA_COMPARISON_KEY_RATIO_OF, "ratio_of", TEXT)                                               \
     X(DMA_COMPARISON_KEY_MATERIAL_STATEMENT, "material_statement", TEXT, OPTIONAL)
 

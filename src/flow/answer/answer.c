@@ -7,6 +7,7 @@
 #include "base/array.h"
 #include "base/clocale.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <string.h>
 
@@ -56,31 +57,49 @@ static double over_all(const answer_story *story, comparison_column column)
     return comparison_get(&story->comparison, 0, column);
 }
 
+static bool said(const answer_story *story, const char *verdict)
+{
+    const char *differs = comparison_words(&story->comparison, COMPARISON_KEY_DIFFERS);
+    return differs != NULL && strncmp(differs, verdict, strlen(verdict)) == 0;
+}
+
+/* "4 spots in the bulk and 5 in the track; p 0.01 by Welch, 0.03 by Mann and Whitney ..." */
+static void list_evidence(const answer_story *story, char *text, size_t size)
+{
+    const char *unit = comparison_words(&story->comparison, COMPARISON_KEY_UNIT_OF_ANALYSIS);
+    const double smallest = over_all(story, COMPARISON_MANN_WHITNEY_SMALLEST_P);
+    char least[96] = "";
+    if (smallest > 0.05)
+        clocale_print(least, sizeof least, ", which cannot be below %.2g with so few", smallest);
+    clocale_print(text, size,
+                  "%.0f %s in the bulk and %.0f in the track; p %.2g by Welch, %.2g by "
+                  "Mann and Whitney%s",
+                  over_all(story, COMPARISON_SPOTS_BULK),
+                  strncmp(unit, "curve", 5) == 0 ? "curves" : "spots",
+                  over_all(story, COMPARISON_SPOTS_TRACK), over_all(story, COMPARISON_WELCH_P),
+                  over_all(story, COMPARISON_MANN_WHITNEY_P), least);
+}
+
 static void answer_layer(const answer_story *story)
 {
     if (story->comparison.table == NULL) {
         say_missing(story, FLOW_STAGE_COMPARISON, is_there, "layer");
         return;
     }
-    double low = over_all(story, COMPARISON_RATIO_LOW);
-    double high = over_all(story, COMPARISON_RATIO_HIGH);
-    const char *verdict = "Not shown: the modulus of the wear track does not differ from that of "
-                          "the bulk at the 95 % level";
-    if (high < 1)
-        verdict = "Yes: the wear track is softer than the bulk";
-    else if (low > 1)
-        verdict = "Yes: the wear track is stiffer than the bulk";
-    const char *unit = comparison_words(&story->comparison, COMPARISON_KEY_UNIT_OF_ANALYSIS);
-    const char *limit = "";
-    if (strncmp(unit, "curve", 5) == 0)
-        limit = ", where it was measured; whether it is so elsewhere cannot be said without two "
-                "spots or more in each group";
-    answer_say(story, is_there, "layer",
-               "%s%s. E_track/E_bulk = %.3g, 95 %% interval %.3g to %.3g (Welch p of the "
-               "difference %.2g, Mann-Whitney p %.2g; %.0f bulk and %.0f track curves).",
-               verdict, limit, over_all(story, COMPARISON_RATIO), low, high,
-               over_all(story, COMPARISON_WELCH_P), over_all(story, COMPARISON_MANN_WHITNEY_P),
-               over_all(story, COMPARISON_N_BULK), over_all(story, COMPARISON_N_TRACK));
+    const char *differs = comparison_words(&story->comparison, COMPARISON_KEY_DIFFERS);
+    const char *settled = comparison_words(&story->comparison, COMPARISON_KEY_SETTLED_BY);
+    const double low = over_all(story, COMPARISON_RATIO_LOW);
+    char evidence[320] = "";
+    if (!isnan(low)) {
+        char found[256];
+        list_evidence(story, found, sizeof found);
+        clocale_print(
+            evidence, sizeof evidence, " E_track/E_bulk = %.3g, 95 %% interval %.3g to %.3g (%s).",
+            over_all(story, COMPARISON_RATIO), low, over_all(story, COMPARISON_RATIO_HIGH), found);
+    }
+    answer_say(story, is_there, "layer", "%c%s.%s%s%s%s", toupper((unsigned char)differs[0]),
+               differs + 1, evidence, settled != NULL ? " What would settle it: " : "",
+               settled != NULL ? settled : "", settled != NULL ? "." : "");
 }
 
 static void say_group(const answer_story *story, const char *name, const char *words)
@@ -140,33 +159,41 @@ static void say_dma(const answer_story *story)
         high = fmax(high, ratio);
         n++;
     }
-    if (n == 0)
+    if (isnan(low))
         return;
+    const bool alarm = low < 1 / ANSWER_DMA_FACTOR || high > ANSWER_DMA_FACTOR;
     char range[64], lever[128] = "";
     clocale_print(range, sizeof range, n > 1 ? "%.3g to %.3g" : "%.3g", low, high);
     wt_estimate k = indentation_value(&story->indentation[0], INDENTATION_KEY_SPRING_CONSTANT);
     if (k.standard_error > 0)
         clocale_print(lever, sizeof lever,
-                      "; the stated error of the spring constant is one of %.2g %% in this",
+                      ", of which the spring constant leaves %.2g %% uncertain",
                       100 * k.standard_error / k.value);
     answer_say(story, how_different, "difference",
-               "At equal frequency the indentation modulus of the bulk is %s times |E*| of the "
-               "DMA%s.",
-               range, lever);
+               "%sAt equal frequency the indentation modulus of the bulk is %s times |E*| of the "
+               "DMA%s.%s",
+               alarm ? "Alarm: indentation and DMA do not describe one rubber. " : "", range, lever,
+               alarm ? " Units, spring constant, sensitivity, tip, temperature and the files "
+                       "themselves are to be checked before anything else is believed."
+                     : "");
 }
 
 static void answer_difference(const answer_story *story)
 {
     if (story->comparison.table == NULL) {
         say_missing(story, FLOW_STAGE_COMPARISON, how_different, "difference");
-    } else {
-        double ratio = over_all(story, COMPARISON_RATIO);
+    } else if (isnan(over_all(story, COMPARISON_RATIO))) {
         answer_say(story, how_different, "difference",
-                   "The modulus of the wear track is %.3g times that of the bulk (%+.0f %%); the "
-                   "means differ by %s; effect size (Hedges' g) %.2g.",
-                   ratio, 100 * (ratio - 1),
-                   words_of(over_all(story, COMPARISON_DIFFERENCE), "Pa").text,
-                   over_all(story, COMPARISON_EFFECT_SIZE));
+                   "The ratio of the moduli cannot be told, for the reason above.");
+    } else {
+        const double ratio = over_all(story, COMPARISON_RATIO);
+        const double effect = over_all(story, COMPARISON_EFFECT_SIZE);
+        char size[96] = "; an interval cannot be told, for the reason above";
+        if (!isnan(effect))
+            clocale_print(size, sizeof size, "; effect size (Hedges' g of ln E) %.2g", effect);
+        answer_say(story, how_different, "difference",
+                   "The modulus of the wear track is %.3g times that of the bulk (%+.0f %%)%s.",
+                   ratio, 100 * (ratio - 1), size);
     }
     say_group(story, "bulk", "Bulk");
     say_group(story, "track", "Wear track");
@@ -209,16 +236,15 @@ static void say_disagreement(const answer_story *story, bool modelled)
 {
     if (story->comparison.table == NULL)
         return;
-    const bool measured =
-        over_all(story, COMPARISON_RATIO_HIGH) < 1 || over_all(story, COMPARISON_RATIO_LOW) > 1;
-    if (measured && !modelled)
+    if (said(story, "yes") && !modelled)
         answer_say(story, how_thick, "caveat",
                    "This does not agree with the indentation, which shows a modified track: the "
                    "specific wear rate, the critical energy or the model does not fit it.");
-    if (!measured && modelled)
+    if (!said(story, "yes") && modelled)
         answer_say(story, how_thick, "caveat",
-                   "The indentation does not show this layer: it is what the model makes of the "
-                   "specific wear rate and the critical energy given.");
+                   "The indentation %s this layer: it is what the model makes of the specific wear "
+                   "rate and the critical energy given.",
+                   said(story, "no") ? "does not show" : "cannot say whether there is");
 }
 
 static void answer_thickness(const answer_story *story)

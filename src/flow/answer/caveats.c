@@ -63,22 +63,52 @@ static size_t list_rejected(const table_view *indentation, char *text, size_t si
     return total;
 }
 
+/* How the spots of a group were found, as a sentence of "the ... curves". */
+static const char *spots_caveat(const answer_story *story, const char *spots)
+{
+    if (spots == NULL || strncmp(spots, "named", 5) == 0)
+        return NULL;
+    if (strncmp(spots, "position", 8) != 0)
+        return "curves without a named spot count as one spot for each file: if some files are of "
+               "one place, they are not independent and the intervals are too narrow";
+    return story->c->compare.map_spots
+               ? "curves of one file count as a spot each, as the case says: if their places are "
+                 "near to each other, the intervals are too narrow"
+               : "curves of one file count as one spot, for none is named";
+}
+
+/* What is true of both groups is said once. */
 static void indentation_caveats(const answer_story *story)
 {
+    char reasons[2][512];
+    size_t rejected[2];
+    const char *spots[2];
     for (int g = 0; g < 2; g++) {
         const table_view *t = &story->indentation[g];
-        char reasons[512];
-        size_t rejected = list_rejected(t, reasons, sizeof reasons);
-        const char *spots = indentation_words(t, INDENTATION_KEY_SPOTS);
-        if (rejected > 0)
-            CAVEAT(story, "%zu of %zu %s curves were rejected: %s.", rejected, t->n_rows,
-                   group_words[g], reasons);
-        if (spots != NULL && strcmp(spots, "named") != 0)
-            CAVEAT(story,
-                   "Spots of the %s curves (%s): if some are of one place, they are not "
-                   "independent and the intervals are too narrow.",
-                   group_words[g], spots);
+        rejected[g] = list_rejected(t, reasons[g], sizeof reasons[g]);
+        spots[g] = spots_caveat(story, indentation_words(t, INDENTATION_KEY_SPOTS));
     }
+    for (int g = 0; g < 2; g++)
+        if (rejected[g] > 0)
+            CAVEAT(story, "%zu of %zu %s curves were rejected: %s.", rejected[g],
+                   story->indentation[g].n_rows, group_words[g], reasons[g]);
+    const bool both = spots[0] != NULL && spots[1] == spots[0];
+    for (int g = 0; g < (both ? 1 : 2); g++)
+        if (spots[g] != NULL)
+            CAVEAT(story, "The %s %s.", both ? "bulk and wear-track" : group_words[g], spots[g]);
+}
+
+/* "1.3 % and 1.2 %", or one of them, by group. */
+static void list_gains(const double gain[2], char *text, size_t size)
+{
+    if (isnan(gain[0]) || isnan(gain[1]))
+        clocale_print(text, size, "%s modulus by %.2g %%", group_words[isnan(gain[0]) ? 1 : 0],
+                      isnan(gain[0]) ? gain[1] : gain[0]);
+    else if (fabs(gain[0] - gain[1]) < 0.005 * fabs(gain[0]))
+        clocale_print(text, size, "moduli by %.2g %%", gain[0]);
+    else
+        clocale_print(text, size, "bulk modulus by %.3g %% and that of the wear track by %.3g %%",
+                      gain[0], gain[1]);
 }
 
 /* What an error of calibration does: to a modulus by its gain, to the ratio only if the cantilevers
@@ -88,39 +118,45 @@ static void calibration_caveats(const answer_story *story)
     double gain[2];
     wt_estimate k[2];
     for (int g = 0; g < 2; g++) {
-        const table_view *t = &story->indentation[g];
-        gain[g] = median_accepted(t, INDENTATION_SENSITIVITY_GAIN);
-        k[g] = indentation_value(t, INDENTATION_KEY_SPRING_CONSTANT);
-        if (isnan(gain[g]))
-            continue;
-        char lever[96] = "No error of the spring constant is stated";
-        if (k[g].standard_error / k[g].value > 0)
-            clocale_print(lever, sizeof lever, "The stated error of the spring constant is %.2g %%",
-                          100 * k[g].standard_error / k[g].value);
-        CAVEAT(story,
-               "An error of 1 %% in the deflection sensitivity changes the %s modulus by %.3g %%, "
-               "one of the spring constant by about as much as itself. %s. The interval of the "
-               "modulus does not include errors of sensitivity, spring constant and tip.",
-               group_words[g], gain[g], lever);
+        gain[g] = median_accepted(&story->indentation[g], INDENTATION_SENSITIVITY_GAIN);
+        k[g] = indentation_value(&story->indentation[g], INDENTATION_KEY_SPRING_CONSTANT);
     }
-    if (isnan(gain[0]) || isnan(gain[1]))
+    if (isnan(gain[0]) && isnan(gain[1]))
         return;
-    if (fabs(k[0].value - k[1].value) <= 1e-9 * k[0].value) {
-        CAVEAT(story,
-               "Track and bulk have the same spring constant: if it is one cantilever, its error "
-               "cancels in the ratio, and 1 %% of sensitivity changes the ratio by %.2g %% only.",
-               fabs(gain[1] - gain[0]));
-        return;
-    }
-    char which[256] = "";
-    if (!isnan(k[0].value) && !isnan(k[1].value))
-        snprintf(which, sizeof which, " (bulk %s, track %s)", words_of_value(k[0]).text,
-                 words_of_value(k[1]).text);
+    char gains[160], lever[128] = "No error of the spring constant is stated";
+    const double error[2] = {100 * k[0].standard_error / k[0].value,
+                             100 * k[1].standard_error / k[1].value};
+    list_gains(gain, gains, sizeof gains);
+    if (error[0] > 0 && error[1] > 0 && fabs(error[0] - error[1]) > 1e-9 * error[0])
+        clocale_print(lever, sizeof lever,
+                      "The stated errors of the spring constants are %.2g %% and %.2g %%", error[0],
+                      error[1]);
+    else if (error[0] > 0 || error[1] > 0)
+        clocale_print(lever, sizeof lever, "The stated error of the spring constant is %.2g %%",
+                      error[0] > 0 ? error[0] : error[1]);
     CAVEAT(story,
-           "The spring constants of the curves differ%s: they were calibrated separately, so "
-           "errors of spring constant and sensitivity do not cancel in the ratio, and its interval "
-           "does not include them.",
-           which);
+           "An error of 1 %% in the deflection sensitivity changes the %s, one of the spring "
+           "constant by about as much as itself. %s. The intervals of the moduli do not include "
+           "errors of sensitivity, spring constant and tip.",
+           gains, lever);
+    const char *cantilevers = comparison_words(&story->comparison, COMPARISON_KEY_CANTILEVERS);
+    const char *includes = comparison_words(&story->comparison, COMPARISON_KEY_INCLUDES);
+    if (cantilevers == NULL)
+        return;
+    if (strcmp(cantilevers, "one") == 0)
+        CAVEAT(story,
+               "Track and bulk are taken to be indented with one cantilever, %s: its errors cancel "
+               "in the ratio, but for %.2g %% in each 1 %% of sensitivity.",
+               story->c->compare.levers == WT_LEVERS_ONE ? "as the case says"
+                                                         : "for no spring constants differ",
+               fabs(gain[1] - gain[0]));
+    else
+        CAVEAT(story,
+               "Track and bulk were indented with different cantilevers (bulk %s, track %s), whose "
+               "errors do not cancel in the ratio%s%s.",
+               words_of_value(k[0]).text, words_of_value(k[1]).text,
+               includes != NULL ? "; its interval includes: " : "",
+               includes != NULL ? includes : "");
 }
 
 /* A temperature that the case does not say is taken from the material. */
@@ -137,7 +173,7 @@ static void temperature_caveats(const answer_story *story)
                    "reference temperature of the material, %s.",
                    words_of_celsius(sliding).text);
     }
-    if (story->dma_comparison.table != NULL && isnan(story->c->compare.temperature))
+    if (story->dma_comparison.table != NULL && isnan(story->c->compare.temperature.value))
         CAVEAT(
             story,
             "The case does not say the temperature of indentation: it is compared with DMA at "
@@ -145,6 +181,9 @@ static void temperature_caveats(const answer_story *story)
             words_of_celsius(
                 dma_comparison_value(&story->dma_comparison, DMA_COMPARISON_KEY_TEMPERATURE).value)
                 .text);
+    if (story->comparison.table != NULL && isnan(story->c->compare.track_temperature.value))
+        CAVEAT(story, "The case does not say that the track was indented at another temperature "
+                      "than the bulk: they are taken to be as warm as each other.");
 }
 
 /* "The standard errors of the friction include: ...; they do not include the model." */
@@ -176,8 +215,9 @@ static void comparison_caveats(const answer_story *story)
     const table_view *dma = &story->dma_comparison;
     const char *unit = comparison_words(&story->comparison, COMPARISON_KEY_UNIT_OF_ANALYSIS);
     const char *statement = dma_comparison_words(dma, DMA_COMPARISON_KEY_MATERIAL_STATEMENT);
-    if (unit != NULL && strcmp(unit, "spot") != 0)
-        CAVEAT(story, "The unit of analysis of the comparison is the %s.", unit);
+    if (unit != NULL && strncmp(unit, "curve", 5) == 0)
+        CAVEAT(story, "The tables name no spots: each curve counts as one in the comparison, which "
+                      "makes its interval too narrow if some are of one place.");
     size_t extrapolated = 0;
     for (size_t i = 0; i < dma->n_rows; i++)
         extrapolated += dma_comparison_get(dma, i, DMA_COMPARISON_EXTRAPOLATED) > 0;
@@ -225,6 +265,10 @@ static void friction_caveats(const answer_story *story)
     if (friction->n_rows > 0 && isnan(friction_get(friction, 0, FRICTION_EXTRAPOLATED_SHARE)))
         CAVEAT(story, "How much of the hysteresis friction comes from frequencies that were not "
                       "measured is not known: the material does not say which were.");
+    if (isnan(story->c->sliding.reference_velocity) && friction->n_rows > 1)
+        CAVEAT(story,
+               "The case does not say at which velocity the answer is wanted: %s is a default.",
+               words_of_value(friction_value(friction, FRICTION_KEY_REFERENCE_VELOCITY)).text);
     if (share > 0) {
         char percent[32] = "Less than 0.1";
         if (share >= 0.001)
@@ -293,6 +337,7 @@ void answer_caveats(const answer_story *story)
                "%zu files or stages failed and are not in these results; the table failures lists "
                "them.",
                story->failures.n_rows);
+    warnings(story);
     indentation_caveats(story);
     calibration_caveats(story);
     comparison_caveats(story);
@@ -300,5 +345,7 @@ void answer_caveats(const answer_story *story)
     friction_caveats(story);
     layer_caveats(story);
     temperature_caveats(story);
-    warnings(story);
+    CAVEAT(story,
+           "\xc2\xb1 is one standard error in these sentences; an interval of 95 %% is about "
+           "twice as wide to each side, and wider where few spots stand behind it.");
 }

@@ -2,6 +2,7 @@
  */
 #include "base/array.h"
 #include "data/tables/tables.h"
+#include "flow/answer/words.h"
 #include "weartrack/flow.h"
 
 #include <math.h>
@@ -30,9 +31,21 @@ static void of_friction(const table_view *v, wt_parselog *log)
 static void of_comparison(const table_view *v, wt_parselog *log)
 {
     size_t n = 0;
+    double factor = 1;
     const char *statement = dma_comparison_words(v, DMA_COMPARISON_KEY_MATERIAL_STATEMENT);
     for (size_t i = 0; i < v->n_rows; i++)
         n += dma_comparison_get(v, i, DMA_COMPARISON_EXTRAPOLATED) > 0;
+    for (size_t i = 0; i < v->n_rows; i++) {
+        const double ratio = dma_comparison_get(v, i, DMA_COMPARISON_RATIO);
+        if (fabs(log10(ratio)) > fabs(log10(factor)))
+            factor = ratio;
+    }
+    if (fabs(log10(factor)) > log10(ANSWER_DMA_FACTOR))
+        wt_parselog_add(log, WT_WARNING, NULL, NULL,
+                        "indentation and DMA do not describe one rubber: at equal frequency the "
+                        "indentation modulus is %.3g times |E*|; units, spring constant, "
+                        "sensitivity, tip, temperature and the files are to be checked",
+                        factor);
     if (n > 0)
         wt_parselog_add(log, WT_WARNING, NULL, NULL,
                         "%zu of %zu comparisons with DMA lie outside the measured frequencies", n,

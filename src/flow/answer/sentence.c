@@ -59,7 +59,11 @@ static void say_groups(sentence *s, const table_view *v)
 
 static void say_ratio(sentence *s, const table_view *v)
 {
-    if (v->n_rows == 0 || isnan(comparison_get(v, 0, COMPARISON_RATIO)))
+    if (v->n_rows == 0)
+        return;
+    next(s);
+    say(s, "%s", comparison_words(v, COMPARISON_KEY_DIFFERS));
+    if (isnan(comparison_get(v, 0, COMPARISON_RATIO_LOW)))
         return;
     next(s);
     say(s, "E_track/E_bulk = %s (95 %% interval %s to %s)",

@@ -25,7 +25,8 @@ number_words words_of_value(wt_estimate e)
     return words_of(e.value, e.unit);
 }
 
-/* The error in the scale of the value: "3.16 ± 0.96 um"; "3.16 um (error not known)". */
+/* Both in the scale of the value, to the second digit of the error: "3.16 ± 0.96 um"; "3.16 um
+ * (error not known)". */
 number_words words_of_estimate(wt_estimate e)
 {
     number_words value = words_of(e.value, e.unit), words = value;
@@ -38,10 +39,14 @@ number_words words_of_estimate(wt_estimate e)
     double shown = (double)NAN;
     if (!wt_number_parse(value.text, length, '.', &shown) || !(fabs(shown) > 0))
         return words;
-    double error = e.standard_error * fabs(shown / e.value);
-    clocale_print(words.text, sizeof words.text,
-                  error >= 10 ? "%.*s \xc2\xb1 %.0f%.40s" : "%.*s \xc2\xb1 %.2g%.40s", (int)length,
-                  value.text, error, suffix == NULL ? "" : suffix);
+    const double scale = pow(10, round(log10(shown / e.value)));
+    const double error = e.standard_error * scale;
+    const int decimals = 1 - (int)floor(log10(error) + 1e-9);
+    if (decimals > 9 || !(error < 1e6))
+        return words;
+    const int places = decimals > 0 ? decimals : 0;
+    clocale_print(words.text, sizeof words.text, "%.*f \xc2\xb1 %.*f%.40s", places, e.value * scale,
+                  places, error, suffix == NULL ? "" : suffix);
     return words;
 }
 

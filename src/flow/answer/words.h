@@ -6,6 +6,10 @@
 
 #include "weartrack/base.h"
 
+/* Indentation and DMA further apart than this factor do not describe one rubber: strain and the
+ * equivalent frequency do not explain it. */
+#define ANSWER_DMA_FACTOR 3.0
+
 /* "1.15 um" in a buffer of its own, for use in a format. */
 typedef struct number_words {
     char text[96];

@@ -3,6 +3,7 @@
 #include "flow/job/draws.h"
 
 #include "base/mix.h"
+#include "fit/compare.h"
 
 #include <math.h>
 
@@ -40,6 +41,15 @@ wt_estimate flow_as_stated(wt_estimate input)
     if (!(input.standard_error > 0))
         input.standard_error = (double)NAN;
     return input;
+}
+
+double flow_draw_positive_t(wt_estimate e, double df, uint64_t seed, size_t replicate,
+                            flow_draw what)
+{
+    const double z = flow_draw_normal(seed, replicate, what);
+    if (!(df > 0) || !(e.standard_error > 0) || !(e.value > 0))
+        return flow_draw_positive(e, seed, replicate, what);
+    return e.value * exp(e.standard_error / e.value * compare_t_of_normal(z, df));
 }
 
 double flow_spread(const double *x, size_t n, size_t stride)

@@ -27,6 +27,9 @@ double flow_draw_normal(uint64_t seed, size_t replicate, flow_draw what);
 double flow_draw_value(wt_estimate e, uint64_t seed, size_t replicate, flow_draw what);
 /* value exp(z error/value), for quantities > 0: stays positive. */
 double flow_draw_positive(wt_estimate e, uint64_t seed, size_t replicate, flow_draw what);
+/* The same with an error that has degrees of freedom, by Student's t; 0 = normal. */
+double flow_draw_positive_t(wt_estimate e, double df, uint64_t seed, size_t replicate,
+                            flow_draw what);
 
 /* An input as it stands in a table: 0 says that no error was stated, and what is not stated is not
  * known. */

@@ -42,9 +42,10 @@ static wt_layer_state layer_of(const friction_task *task, size_t replicate)
     double thickness =
         flow_draw_value(task->layer->thickness, seed, replicate, FLOW_DRAW_THICKNESS);
     state.thickness = thickness > 0 ? thickness : 0;
-    state.modulus_ratio = state.thickness > 0 ? flow_draw_positive(task->layer->modulus_ratio, seed,
-                                                                   replicate, FLOW_DRAW_RATIO)
-                                              : 1;
+    if (state.thickness > 0)
+        state.modulus_ratio =
+            flow_draw_positive_t(task->layer->modulus_ratio, task->layer->modulus_ratio_df, seed,
+                                 replicate, FLOW_DRAW_RATIO);
     return state;
 }
 
@@ -296,6 +297,10 @@ static wt_layer_known no_layer(void)
 
 static const wt_param rows[] = {
     LAYER_STATE_ROWS(wt_layer_known, ),
+    {PARAM("modulus-ratio-df", wt_layer_known, modulus_ratio_df, WT_Q_NONE, AT_LEAST(0)),
+     .value = "N",
+     .help = "degrees of freedom of the error of the modulus ratio, as weartrack compare gives "
+             "them; 0: a normal error"},
     {PARAM_FLAG_OF("bulk-shear", wt_layer_known, bulk_shear),
      .help = "shear stress of the bulk for the layer, too, not times the modulus ratio"},
 };

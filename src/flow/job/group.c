@@ -2,6 +2,8 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "weartrack/flow.h"
 
+#include "base/array.h"
+#include "base/mix.h"
 #include "data/tables/tables.h"
 
 #include <math.h>
@@ -10,13 +12,27 @@
 
 typedef struct named {
     const char *spot;
+    double x, y; /* the place, where that is a spot of its own; else 0 */
     size_t item;
 } named;
+
+static int by_number(double a, double b)
+{
+    return (a > b) - (a < b);
+}
+
+static int by_spot(const named *x, const named *y)
+{
+    const int order = strcmp(x->spot, y->spot);
+    if (order != 0)
+        return order;
+    return x->x != y->x ? by_number(x->x, y->x) : by_number(x->y, y->y);
+}
 
 static int by_name(const void *a, const void *b)
 {
     const named *x = a, *y = b;
-    int order = strcmp(x->spot, y->spot);
+    int order = by_spot(x, y);
     return order != 0 ? order : (x->item > y->item) - (x->item < y->item);
 }
 
@@ -27,7 +43,7 @@ static void number_spots(named *names, size_t n, long *spot)
     long next = 0;
     qsort(names, n, sizeof *names, by_name);
     for (size_t i = 0, first = 0; i < n; i++) {
-        if (strcmp(names[i].spot, names[first].spot) != 0)
+        if (by_spot(&names[i], &names[first]) != 0)
             first = i;
         spot[names[i].item] = (long)names[first].item;
     }
@@ -36,7 +52,116 @@ static void number_spots(named *names, size_t n, long *spot)
         spot[i] = spot[i] == (long)i ? next++ : spot[spot[i]];
 }
 
-wt_status wt_group_from_table(const wt_table *table, wt_group_data *data, wt_error *err)
+/* ---- copies ---------------------------------------------------------------------------------- */
+
+/* A digest of what was measured on a curve; 0 if that is the modulus alone, which two curves may
+ * share. */
+static uint64_t digest_of(const table_view *t, size_t row)
+{
+    static const indentation_column columns[] = {
+        INDENTATION_MODULUS,   INDENTATION_MODULUS_STANDARD_ERROR, INDENTATION_CONTACT_POINT,
+        INDENTATION_NOISE,     INDENTATION_BASELINE_TILT,          INDENTATION_MAX_FORCE,
+        INDENTATION_R_SQUARED, INDENTATION_MAX_INDENTATION};
+    uint64_t digest = 1;
+    size_t known = 0;
+    for (size_t i = 0; i < COUNT_OF(columns); i++) {
+        const double value = indentation_get(t, row, columns[i]);
+        uint64_t bits = i;
+        if (!isnan(value)) {
+            known++;
+            memcpy(&bits, &value, sizeof bits);
+        }
+        digest = mix64(digest ^ mix64(bits + i));
+    }
+    return known >= 3 ? digest : 0;
+}
+
+static int by_digest(const void *a, const void *b)
+{
+    const wt_curve_digest *x = a, *y = b;
+    if (x->digest != y->digest)
+        return x->digest < y->digest ? -1 : 1;
+    return (x->item > y->item) - (x->item < y->item);
+}
+
+/* Curves that are in the group twice are taken once. `row_of` of the curves taken is their row. */
+static void drop_copies(const table_view *t, wt_group_data *d, size_t *row_of)
+{
+    wt_curve_digest *const all = d->digest;
+    const size_t n = d->n_digests;
+    qsort(all, n, sizeof *all, by_digest);
+    size_t kept = 0;
+    for (size_t i = 0, first = 0; i < n; i++) {
+        const bool copy = i > 0 && all[i].digest != 0 && all[i].digest == all[first].digest;
+        if (!copy) {
+            first = i;
+            all[kept++] = all[i];
+            continue;
+        }
+        if (d->n_copies++ == 0) {
+            d->copy_of[0] = indentation_text(t, row_of[all[first].item], INDENTATION_FILE);
+            d->copy_of[1] = indentation_text(t, row_of[all[i].item], INDENTATION_FILE);
+        }
+        row_of[all[i].item] = SIZE_MAX;
+    }
+    d->n_digests = kept;
+}
+
+/* ---- a table --------------------------------------------------------------------------------- */
+
+/* The rows of the accepted curves, each one once. */
+static wt_status find_rows(const table_view *t, wt_group_data *d, size_t *row_of, wt_error *err)
+{
+    size_t n = 0;
+    for (size_t row = 0; row < t->n_rows; row++) {
+        const double modulus = indentation_get(t, row, INDENTATION_MODULUS);
+        if (strcmp(indentation_text(t, row, INDENTATION_VERDICT), "accepted") != 0) {
+            d->group.n_rejected++;
+            continue;
+        }
+        if (!(modulus > 0) || !isfinite(modulus)) {
+            wt_fail(err, WT_E_RANGE, "an accepted curve has no positive modulus");
+            wt_error_place(err, "table %s, row %zu", wt_table_name(t->table), row + 1);
+            wt_error_found(err, "%g Pa", modulus);
+            return WT_E_RANGE;
+        }
+        d->digest[n] = (wt_curve_digest){digest_of(t, row), n};
+        row_of[n++] = row;
+    }
+    d->n_digests = n;
+    drop_copies(t, d, row_of);
+    for (size_t i = 0; i < n; i++)
+        if (row_of[i] != SIZE_MAX)
+            row_of[d->group.n++] = row_of[i];
+    return WT_OK;
+}
+
+/* How its spots were found: the words of the table. */
+static void note_spots(const table_view *t, wt_group_data *d)
+{
+    const char *spots = indentation_words(t, INDENTATION_KEY_SPOTS);
+    d->spots_given = spots != NULL && strncmp(spots, "named", 5) == 0;
+    d->one_map = spots != NULL && strncmp(spots, "position", 8) == 0;
+}
+
+/* The spot of an accepted curve. The curves of one map are one, or `each_place` its own, unless the
+ * user named the spots. */
+static named name_of(const table_view *t, size_t row, size_t item, bool each_place,
+                     const wt_group_data *d)
+{
+    const bool whole = d->one_map && !each_place;
+    named n = {whole ? "" : indentation_text(t, row, INDENTATION_SPOT), 0, 0, item};
+    const double x = indentation_get(t, row, INDENTATION_X),
+                 y = indentation_get(t, row, INDENTATION_Y);
+    if (each_place && !d->spots_given && isfinite(x) && isfinite(y)) {
+        n.x = x;
+        n.y = y;
+    }
+    return n;
+}
+
+wt_status wt_group_from_table(const wt_table *table, bool each_place, wt_group_data *data,
+                              wt_error *err)
 {
     if (table == NULL || data == NULL)
         return wt_fail(err, WT_E_ARG, "no indentation table");
@@ -47,42 +172,40 @@ wt_status wt_group_from_table(const wt_table *table, wt_group_data *data, wt_err
     size_t allocated = t.n_rows > 0 ? t.n_rows : 1;
     wt_group_data d = {0};
     named *names = malloc(allocated * sizeof *names);
+    size_t *row_of = malloc(allocated * sizeof *row_of);
     d.modulus = malloc(allocated * sizeof *d.modulus);
     d.spot = malloc(allocated * sizeof *d.spot);
     d.indentation_rate = malloc(allocated * sizeof *d.indentation_rate);
     d.equivalent_frequency = malloc(allocated * sizeof *d.equivalent_frequency);
-    if (names == NULL || d.modulus == NULL || d.spot == NULL || d.indentation_rate == NULL ||
-        d.equivalent_frequency == NULL) {
+    d.digest = malloc(allocated * sizeof *d.digest);
+    if (names == NULL || row_of == NULL || d.modulus == NULL || d.spot == NULL ||
+        d.indentation_rate == NULL || d.equivalent_frequency == NULL || d.digest == NULL)
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
-        goto done;
+    else
+        status = find_rows(&t, &d, row_of, err);
+    if (status == WT_OK)
+        note_spots(&t, &d);
+    double gain = 0;
+    for (size_t i = 0; status == WT_OK && i < d.group.n; i++) {
+        d.modulus[i] = indentation_get(&t, row_of[i], INDENTATION_MODULUS);
+        names[i] = name_of(&t, row_of[i], i, each_place, &d);
+        d.indentation_rate[i] = indentation_get(&t, row_of[i], INDENTATION_RATE);
+        d.equivalent_frequency[i] =
+            indentation_get(&t, row_of[i], INDENTATION_EQUIVALENT_FREQUENCY);
+        gain += indentation_get(&t, row_of[i], INDENTATION_SENSITIVITY_GAIN);
     }
-    for (size_t row = 0; row < t.n_rows; row++) {
-        double modulus = indentation_get(&t, row, INDENTATION_MODULUS);
-        if (strcmp(indentation_text(&t, row, INDENTATION_VERDICT), "accepted") != 0) {
-            d.group.n_rejected++;
-            continue;
-        }
-        if (!(modulus > 0) || !isfinite(modulus)) {
-            status = wt_fail(err, WT_E_RANGE, "an accepted curve has no positive modulus");
-            wt_error_place(err, "table %s, row %zu", wt_table_name(table), row + 1);
-            wt_error_found(err, "%g Pa", modulus);
-            goto done;
-        }
-        size_t i = d.group.n++;
-        d.modulus[i] = modulus;
-        names[i] = (named){indentation_text(&t, row, INDENTATION_SPOT), i};
-        d.indentation_rate[i] = indentation_get(&t, row, INDENTATION_RATE);
-        d.equivalent_frequency[i] = indentation_get(&t, row, INDENTATION_EQUIVALENT_FREQUENCY);
+    if (status == WT_OK) {
+        number_spots(names, d.group.n, d.spot);
+        d.group.modulus = d.modulus;
+        d.group.spot = indentation_has(&t, INDENTATION_SPOT) ? d.spot : NULL;
+        d.spring_constant = indentation_value(&t, INDENTATION_KEY_SPRING_CONSTANT);
+        d.sensitivity_gain = gain / (double)d.group.n;
+        d.several_levers = indentation_words(&t, INDENTATION_KEY_SPRING_CONSTANTS) != NULL;
+        *data = d;
+        d = (wt_group_data){0};
     }
-    number_spots(names, d.group.n, d.spot);
-    const char *spots = indentation_words(&t, INDENTATION_KEY_SPOTS);
-    d.spots_given = spots != NULL && strncmp(spots, "named", 5) == 0;
-    d.group.modulus = d.modulus;
-    d.group.spot = indentation_has(&t, INDENTATION_SPOT) ? d.spot : NULL;
-    *data = d;
-    d = (wt_group_data){0};
-done:
     free(names);
+    free(row_of);
     wt_group_data_clear(&d);
     return status;
 }
@@ -95,5 +218,6 @@ void wt_group_data_clear(wt_group_data *data)
     free(data->spot);
     free(data->indentation_rate);
     free(data->equivalent_frequency);
+    free(data->digest);
     *data = (wt_group_data){0};
 }

@@ -13,6 +13,17 @@
       B(BULK_CURVES), B(INDENTATION_BULK) | B(CURVE_BULK), flow_step_bulk)                         \
     X(INDENTATION_TRACK, indentation_track, "Contact point and modulus of every wear-track curve", \
       B(TRACK_CURVES), B(INDENTATION_TRACK) | B(CURVE_TRACK), flow_step_track)                     \
+    X(MASTER_CURVE, master_curve, "Shift factors, WLF law, master curve, Prony series",            \
+      B(DMA_FILES),                                                                                \
+      B(SHIFT_FACTORS) | B(MASTER_CURVE) | B(PRONY) | B(MATERIAL_DRAWS) | B(SERIES_DRAWS) |        \
+          B(RUBBER),                                                                               \
+      flow_step_master)                                                                            \
+    X(GIVEN_MATERIAL, given_material, "Material as given in the case", B(GIVEN_MATERIAL),          \
+      B(RUBBER), flow_step_given_material)                                                         \
+    X(COMPARISON_WITH_MATERIAL, comparison_with_material,                                          \
+      "Wear track against bulk, at one rate and temperature by the material",                      \
+      B(INDENTATION_BULK) | B(INDENTATION_TRACK) | B(RUBBER),                                      \
+      B(MODULUS_GROUPS) | B(COMPARISON) | B(MODULUS_RATE) | B(MODULUS_RATIO), flow_step_compare)   \
     X(COMPARISON, comparison, "Wear track against bulk",                                           \
       B(INDENTATION_BULK) | B(INDENTATION_TRACK),                                                  \
       B(MODULUS_GROUPS) | B(COMPARISON) | B(MODULUS_RATE) | B(MODULUS_RATIO), flow_step_compare)   \
@@ -23,13 +34,6 @@
       B(MODULUS_GROUPS) | B(MODULUS_RATE), flow_step_groups)                                       \
     X(TRACK_ALONE, track_alone, "Modulus of the wear track", B(INDENTATION_TRACK),                 \
       B(MODULUS_GROUPS) | B(MODULUS_RATE), flow_step_groups)                                       \
-    X(MASTER_CURVE, master_curve, "Shift factors, WLF law, master curve, Prony series",            \
-      B(DMA_FILES),                                                                                \
-      B(SHIFT_FACTORS) | B(MASTER_CURVE) | B(PRONY) | B(MATERIAL_DRAWS) | B(SERIES_DRAWS) |        \
-          B(RUBBER),                                                                               \
-      flow_step_master)                                                                            \
-    X(GIVEN_MATERIAL, given_material, "Material as given in the case", B(GIVEN_MATERIAL),          \
-      B(RUBBER), flow_step_given_material)                                                         \
     X(DMA_COMPARISON, dma_comparison, "Indentation of bulk and wear track against DMA",            \
       B(INDENTATION_BULK) | B(INDENTATION_TRACK) | B(RUBBER), B(DMA_COMPARISON),                   \
       flow_step_dma_comparison)                                                                    \

@@ -134,12 +134,16 @@ static wt_status compare(flow_run *run, bool groups_only, flow_cost *cost, wt_er
     job.track = run->table[FLOW_INDENTATION_TRACK];
     job.rates = (run->plan.required & FLOW_BIT(FLOW_MODULUS_RATE)) != 0;
     job.groups_only = groups_only;
+    if (!groups_only && (run->plan.required & FLOW_BIT(FLOW_RUBBER)) != 0 &&
+        run->rubber.prony.n > 0)
+        job.rubber = &run->rubber;
     wt_status status = wt_compare_groups(&job, &run->job, &tables, err);
     if (status == WT_OK)
         cost->items = (double)wt_table_n_rows(tables.modulus_groups);
     keep(run, FLOW_MODULUS_GROUPS, &tables.modulus_groups);
     keep(run, FLOW_COMPARISON, &tables.comparison);
     keep(run, FLOW_MODULUS_RATE, &tables.modulus_rate);
+    wt_compare_tables_clear(&tables); /* the stage of the DMA makes its own */
     return status;
 }
 
@@ -153,9 +157,9 @@ wt_status flow_step_compare(flow_run *run, flow_cost *cost, wt_error *err)
         return status;
     run->modulus_ratio = comparison_value(&comparison, COMPARISON_KEY_MODULUS_RATIO);
     run->modulus_ratio.unit = "1"; /* not that of the table */
-    return isnan(run->modulus_ratio.value)
-               ? wt_fail(err, WT_E_INTERNAL, "the comparison gave no modulus ratio")
-               : WT_OK;
+    const double df = comparison_value(&comparison, COMPARISON_KEY_MODULUS_RATIO_DF).value;
+    run->modulus_ratio_df = isnan(df) ? 0 : df;
+    return WT_OK;
 }
 
 /* Of the groups there are. */
@@ -192,6 +196,7 @@ wt_status flow_step_given_ratio(flow_run *run, flow_cost *cost, wt_error *err)
 {
     (void)err;
     run->modulus_ratio = run->c->known.modulus_ratio;
+    run->modulus_ratio_df = run->c->known.modulus_ratio_df;
     cost->items = 1;
     return WT_OK;
 }
@@ -251,12 +256,19 @@ wt_status flow_step_layer(flow_run *run, flow_cost *cost, wt_error *err)
     return WT_OK;
 }
 
-static wt_layer_known known_layer(const flow_run *run)
+/* A comparison that cannot say leaves no ratio. */
+static wt_status known_layer(const flow_run *run, wt_layer_known *known, wt_error *err)
 {
-    wt_layer_known known = run->c->known;
-    known.thickness = run->thickness;
-    known.modulus_ratio = run->modulus_ratio;
-    return known;
+    *known = run->c->known;
+    known->thickness = run->thickness;
+    known->modulus_ratio = run->modulus_ratio;
+    known->modulus_ratio_df = run->modulus_ratio_df;
+    if (!isnan(known->modulus_ratio.value))
+        return WT_OK;
+    wt_fail(err, WT_E_MISSING, "the modulus ratio of track and bulk is not known");
+    wt_error_advice(err, "the table comparison says why, and what would settle it; or give the "
+                         "ratio as modulus-ratio of the layer");
+    return WT_E_MISSING;
 }
 
 static wt_status friction(flow_run *run, const wt_layer_known *layer, flow_cost *cost,
@@ -277,8 +289,9 @@ static wt_status friction(flow_run *run, const wt_layer_known *layer, flow_cost 
 
 wt_status flow_step_friction_with_layer(flow_run *run, flow_cost *cost, wt_error *err)
 {
-    const wt_layer_known layer = known_layer(run);
-    return friction(run, &layer, cost, err);
+    wt_layer_known layer;
+    const wt_status status = known_layer(run, &layer, err);
+    return status == WT_OK ? friction(run, &layer, cost, err) : status;
 }
 
 wt_status flow_step_friction(flow_run *run, flow_cost *cost, wt_error *err)
@@ -301,8 +314,9 @@ static wt_status what_if(flow_run *run, const wt_layer_job *layer, const wt_laye
 
 wt_status flow_step_what_if_with_layer(flow_run *run, flow_cost *cost, wt_error *err)
 {
-    const wt_layer_known known = known_layer(run);
-    return what_if(run, &run->c->layer, &known, cost, err);
+    wt_layer_known known;
+    const wt_status status = known_layer(run, &known, err);
+    return status == WT_OK ? what_if(run, &run->c->layer, &known, cost, err) : status;
 }
 
 wt_status flow_step_what_if_layer(flow_run *run, flow_cost *cost, wt_error *err)

@@ -21,6 +21,7 @@ typedef struct flow_run {
     wt_rubber rubber;
     wt_surface surface;
     wt_estimate modulus_ratio, thickness;
+    double modulus_ratio_df; /* 0 = its error is normal */
 } flow_run;
 
 void flow_run_clear(flow_run *run);

@@ -1,0 +1,176 @@
+/* What the ratio of track and bulk holds beside their difference: levers, tip and temperature. What
+ * both groups share cancels in it; what each has of its own enters its error.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/job/compare.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Draws of the material behind the error of its change with temperature and rate. */
+enum { DRAWS = 64 };
+
+static double square(double x)
+{
+    return x * x;
+}
+
+static void include(compare_known *k, const char *words)
+{
+    const size_t used = strlen(k->includes);
+    snprintf(k->includes + used, sizeof k->includes - used, ", %s", words);
+}
+
+/* Adds a variance to that of the offset. */
+static void add_error(compare_known *k, double error, const char *words)
+{
+    if (!(error > 0))
+        return;
+    k->offset.standard_error = hypot(k->offset.standard_error, error);
+    include(k, words);
+}
+
+static bool are_two(const compare_pair *p, wt_levers levers)
+{
+    const double bulk = p->data[0].spring_constant.value, track = p->data[1].spring_constant.value;
+    if (levers != WT_LEVERS_AUTO)
+        return levers == WT_LEVERS_TWO;
+    return p->data[0].several_levers || p->data[1].several_levers ||
+           fabs(track - bulk) > 1e-9 * fabs(bulk);
+}
+
+static void add_calibration(const compare_pair *p, const wt_compare_job *job, compare_known *k)
+{
+    double lever[2];
+    for (int g = 0; g < 2; g++) {
+        const wt_estimate constant = p->data[g].spring_constant;
+        lever[g] = constant.standard_error / constant.value;
+        if (!(lever[g] > 0))
+            lever[g] = job->lever_error;
+    }
+    const double gain[2] = {p->data[0].sensitivity_gain, p->data[1].sensitivity_gain};
+    k->two_levers = are_two(p, job->levers);
+    const double by_sensitivity = k->two_levers ? hypot(gain[0], gain[1]) : fabs(gain[1] - gain[0]);
+    add_error(k, job->sensitivity_error * by_sensitivity, "deflection sensitivity");
+    if (!k->two_levers)
+        return;
+    k->lever_not_stated = !(lever[0] > 0) || !(lever[1] > 0);
+    add_error(k, hypot(lever[0], lever[1]), "spring constants");
+    add_error(k, job->tip_error * M_SQRT2, "tips");
+}
+
+/* ---- temperature and rate -------------------------------------------------------------------- */
+
+/* Geometric mean of the equivalent frequencies; NaN if they are not known. */
+static double mean_frequency(const wt_group_data *d)
+{
+    double sum = 0;
+    for (size_t i = 0; i < d->group.n; i++)
+        sum += log(d->equivalent_frequency[i]);
+    return exp(sum / (double)d->group.n);
+}
+
+typedef struct condition {
+    double temperature, frequency;
+} condition;
+
+static wt_status log_modulus(const wt_rubber *rubber, condition at, uint64_t seed, size_t replicate,
+                             double *value, wt_error *err)
+{
+    wt_material *material = NULL;
+    double storage, loss;
+    wt_status status = wt_rubber_at(rubber, at.temperature, seed, replicate, &material, NULL, err);
+    if (status != WT_OK)
+        return status;
+    material->law->modulus(material, &at.frequency, 1, &storage, &loss);
+    *value = log(hypot(storage, loss));
+    wt_material_free(material);
+    return WT_OK;
+}
+
+/* ln |E*| of the track's condition over that of the bulk's, with its error by draws. */
+static wt_status change_of(const wt_rubber *rubber, const condition at[2], const wt_job *work,
+                           wt_estimate *change, wt_error *err)
+{
+    double sum = 0;
+    size_t n = 0;
+    for (size_t i = 0; i <= DRAWS; i++) {
+        const size_t replicate = i == 0 ? WT_NO_REPLICATE : i - 1;
+        double y[2];
+        wt_status status = WT_OK;
+        for (int g = 0; status == WT_OK && g < 2; g++)
+            status = log_modulus(rubber, at[g], work->seed, replicate, &y[g], i == 0 ? err : NULL);
+        if (status != WT_OK && (i == 0 || status == WT_E_MEMORY))
+            return status;
+        if (i == 0) {
+            change->value = y[1] - y[0];
+        } else if (status == WT_OK && isfinite(y[1] - y[0])) {
+            sum += square(y[1] - y[0] - change->value);
+            n++;
+        }
+    }
+    change->standard_error = n > 0 ? sqrt(sum / (double)n) : 0;
+    return WT_OK;
+}
+
+/* By the DMA: from the condition of the bulk to that of the track. */
+static wt_status add_dma(const compare_pair *p, const wt_compare_job *job, const wt_job *work,
+                         bool by_temperature, double step_error, compare_known *k, wt_error *err)
+{
+    condition at[2];
+    for (int g = 0; g < 2; g++) {
+        at[g].temperature = k->temperature[by_temperature ? g : 0];
+        at[g].frequency = mean_frequency(&p->data[k->rates_by_dma ? g : 0]);
+    }
+    wt_estimate change = {0};
+    wt_status status = change_of(job->rubber, at, work, &change, err);
+    k->offset.value += change.value;
+    add_error(k, change.standard_error, "material");
+    if (status != WT_OK || !by_temperature || !(step_error > 0))
+        return status;
+    condition near[2] = {at[1], at[1]};
+    near[0].temperature -= 1;
+    near[1].temperature += 1;
+    status = change_of(job->rubber, near, work, &change, err);
+    add_error(k, fabs(change.value / 2) * step_error, "temperatures");
+    return status;
+}
+
+static wt_status add_conditions(const compare_pair *p, const wt_compare_job *job,
+                                const wt_job *work, compare_known *k, wt_error *err)
+{
+    const wt_estimate slope = job->temperature_slope;
+    wt_estimate bulk = job->temperature;
+    if (isnan(bulk.value) && job->rubber != NULL)
+        bulk.value = job->rubber->prony.reference_temperature;
+    const bool apart = !isnan(job->track_temperature.value);
+    const wt_estimate track = apart ? job->track_temperature : bulk;
+    const double step = track.value - bulk.value;
+    const double step_error = apart ? hypot(bulk.standard_error, track.standard_error) : 0;
+    const bool has_dma = job->rubber != NULL && isfinite(mean_frequency(&p->data[0])) &&
+                         isfinite(mean_frequency(&p->data[1]));
+    const bool warmer = apart && (step != 0 || step_error > 0);
+    k->temperature[0] = bulk.value;
+    k->temperature[1] = track.value;
+    if (apart && isnan(bulk.value)) {
+        k->temperature_not_known = true;
+    } else if (warmer && !isnan(slope.value)) {
+        k->offset.value += slope.value * step;
+        add_error(k, hypot(slope.value * step_error, slope.standard_error * step), "temperatures");
+    } else if (warmer && !has_dma) {
+        k->temperature_not_known = step != 0;
+    }
+    const bool by_dma = warmer && isnan(slope.value) && !k->temperature_not_known && has_dma;
+    k->rates_by_dma = k->rates_by_dma && has_dma;
+    if (by_dma || k->rates_by_dma)
+        return add_dma(p, job, work, by_dma, step_error, k, err);
+    return WT_OK;
+}
+
+wt_status compare_find_known(const compare_pair *p, const wt_compare_job *job, const wt_job *work,
+                             bool rates_by_dma, compare_known *known, wt_error *err)
+{
+    *known = (compare_known){.offset = {0, 0, 0, "1"}, .rates_by_dma = rates_by_dma};
+    snprintf(known->includes, sizeof known->includes, "scatter of the units");
+    add_calibration(p, job, known);
+    return add_conditions(p, job, work, known, err);
+}
