@@ -115,7 +115,6 @@ typedef struct expected {
     double t, df, p;
 } expected;
 
-/* Welch's test of the means of the units of two groups; r < 0: units are spots over all rates. */
 /* Welch's test of ln E of the units of two groups; r < 0: units are spots over all rates. */
 static expected welch(double bulk, double track, int r)
 {
@@ -351,12 +350,69 @@ static void test_dma(void **state)
     }
 }
 
+static double complex_modulus(double step)
+{
+    const double z = sqrt(frequency[0] * frequency[1]) * 1e-3 * pow(10, -6.5 * step / (110 + step));
+    return hypot(2e6 + 6e6 * z * z / (1 + z * z), 6e6 * z / (1 + z * z));
+}
+
+/* The track as soft as 10 K make it, times `ratio`. */
+static const char *warmer(double ratio, bool temperature_known, const wt_rubber *rubber,
+                          double step_error)
+{
+    const double change = complex_modulus(10) / complex_modulus(0);
+    wt_job common = wt_job_defaults();
+    wt_table_free(bulk_table);
+    wt_table_free(track_table);
+    wt_compare_tables_clear(&tables);
+    bulk_table = indentation("bulk", BULK);
+    track_table = indentation("track", ratio * change * BULK);
+    wt_compare_job job = wt_compare_job_defaults();
+    job.bulk = bulk_table;
+    job.track = track_table;
+    job.rubber = rubber;
+    job.temperature = (wt_estimate){293.15, 0, 0, "K"};
+    if (temperature_known)
+        job.track_temperature = (wt_estimate){303.15, step_error, 0, "K"};
+    assert_int_equal(wt_compare_groups(&job, &common, &tables, NULL), WT_OK);
+    return wt_table_key(tables.comparison, "differs");
+}
+
+/* On a rubber with much loss 10 K look like a layer, unless the material takes them out. */
+static void test_warmer(void **state)
+{
+    (void)state;
+    static double tau = 1e-3, term = 6e6;
+    const wt_rubber rubber = rubber_of(&tau, &term);
+    const double scatter = SCATTER * (spread[0] + spread[1]) / 2 * sqrt(2.0 / SPOTS);
+    assert_string_equal(warmer(1, false, &rubber, 0),
+                        "yes: the wear track is softer than the bulk");
+    assert_near(key_estimate(tables.comparison, "modulus_ratio").value,
+                complex_modulus(10) / complex_modulus(0), 1e-9);
+    assert_non_null(strstr(warmer(1, true, NULL, 0), "cannot say: bulk and track were indented at "
+                                                     "different temperatures"));
+    assert_null(wt_table_key(tables.comparison, "modulus_ratio"));
+    assert_non_null(strstr(warmer(1, true, &rubber, 0), "no: the wear track differs"));
+    assert_near(key_estimate(tables.comparison, "modulus_ratio").value, 1, 1e-9);
+    assert_string_equal(warmer(RATIO, true, &rubber, 0),
+                        "yes: the wear track is softer than the bulk");
+    assert_near(key_estimate(tables.comparison, "modulus_ratio").value, RATIO, 1e-9);
+    assert_near(key_estimate(tables.comparison, "modulus_ratio").standard_error, RATIO * scatter,
+                1e-9);
+    /* and what is not known of the step, by the slope of ln |E*| there */
+    warmer(RATIO, true, &rubber, 0.5);
+    const double slope = log(complex_modulus(11) / complex_modulus(9)) / 2;
+    assert_near(key_estimate(tables.comparison, "modulus_ratio").standard_error,
+                RATIO * hypot(scatter, 0.5 * slope), 1e-9);
+    assert_non_null(strstr(wt_table_key(tables.comparison, "interval_includes"), "temperatures"));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_comparison), cmocka_unit_test(test_verdict),
         cmocka_unit_test(test_groups),     cmocka_unit_test(test_rates),
-        cmocka_unit_test(test_dma),
+        cmocka_unit_test(test_dma),        cmocka_unit_test(test_warmer),
     };
     return cmocka_run_group_tests_name("comparison of known truth", tests, NULL, clean);
 }

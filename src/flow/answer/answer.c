@@ -150,20 +150,21 @@ static void say_dma(const answer_story *story)
 {
     const table_view *dma = &story->dma_comparison;
     double low = (double)NAN, high = (double)NAN;
-    size_t n = 0;
     for (size_t i = 0; i < dma->n_rows; i++) {
         if (strcmp(dma_comparison_text(dma, i, DMA_COMPARISON_GROUP), "bulk") != 0)
             continue;
         double ratio = dma_comparison_get(dma, i, DMA_COMPARISON_RATIO);
         low = fmin(low, ratio);
         high = fmax(high, ratio);
-        n++;
     }
     if (isnan(low))
         return;
     const bool alarm = low < 1 / ANSWER_DMA_FACTOR || high > ANSWER_DMA_FACTOR;
-    char range[64], lever[128] = "";
-    clocale_print(range, sizeof range, n > 1 ? "%.3g to %.3g" : "%.3g", low, high);
+    char range[64], end[32], lever[128] = "";
+    clocale_print(range, sizeof range, "%.3g", low);
+    clocale_print(end, sizeof end, "%.3g", high);
+    if (strcmp(range, end) != 0)
+        clocale_print(range, sizeof range, "%.3g to %s", low, end);
     wt_estimate k = indentation_value(&story->indentation[0], INDENTATION_KEY_SPRING_CONSTANT);
     if (k.standard_error > 0)
         clocale_print(lever, sizeof lever,

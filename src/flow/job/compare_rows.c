@@ -196,12 +196,12 @@ static double spread_of_rates(const compare_row *rates, size_t n)
     return high > low ? (high - low) / 2 : 0;
 }
 
-/* With `interval`, the error that goes on to friction: in ln, as Student's t. */
+/* The error that goes on to friction: in ln, as Student's t; not known without an interval. */
 static void set_ratio(table_writer *t, const comparison_task *task, const compare_verdict *v,
                       bool interval)
 {
     const wt_comparison *c = &task->rows[0].c;
-    double error = interval ? c->log_ratio.standard_error : 0;
+    double error = interval ? c->log_ratio.standard_error : (double)NAN;
     if (v->twisted)
         error = hypot(error, spread_of_rates(task->rows + 1, task->p->n_bins));
     if (v->silent)
