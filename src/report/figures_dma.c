@@ -10,7 +10,7 @@
 
 /* ---- comparison with the indentation --------------------------------------------------------- */
 
-/* The DMA at the frequencies of all groups is one line. */
+/* The DMA at the frequencies of all groups is one line, or one for each temperature. */
 static void draw_dma_comparison(figure_drawing *d)
 {
     static const unsigned dma[] = {DMA_COMPARISON_EQUIVALENT_FREQUENCY,
@@ -37,6 +37,8 @@ static void caption_dma_comparison(figure_drawing *d)
         text_format(&d->caption,
                     " %zu of %zu points lie outside the measured frequencies of the master curve.",
                     extrapolated, n);
+    if (n > 0 && wt_table_block(d->table->table, n - 1) > 0)
+        text_add(&d->caption, " The DMA is that at the temperature of each group.");
 }
 
 /* ---- master curve ---------------------------------------------------------------------------- */

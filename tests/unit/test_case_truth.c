@@ -176,7 +176,7 @@ static void test_answer(void **state)
 }
 
 /* The case with one thing changed; says whether an answer holds the words. */
-static bool answer_holds(double wear, size_t spots, const char *words)
+static bool answer_holds(double wear, size_t spots, double track_temperature, const char *words)
 {
     wt_case *c = NULL;
     wt_result *other = NULL;
@@ -185,6 +185,7 @@ static bool answer_holds(double wear, size_t spots, const char *words)
     assert_int_equal(wt_case_read(CASE "/case.xml", &c, NULL), WT_OK);
     c->layer.specific_wear_rate.value *= wear;
     c->bulk.n = c->track.n = spots;
+    c->compare.track_temperature.value = track_temperature;
     assert_int_equal(wt_run(c, NULL, NULL, &other, &failed, NULL), WT_OK);
     const wt_table *answer = wt_result_find(other, "answer");
     assert_non_null(answer);
@@ -199,10 +200,14 @@ static bool answer_holds(double wear, size_t spots, const char *words)
 static void test_answer_of_other_cases(void **state)
 {
     (void)state;
-    assert_true(answer_holds(100, 4, "Where wear leaves no layer"));
-    assert_false(answer_holds(100, 4, "times the thickness of the layer"));
-    assert_true(answer_holds(1, 1, "each measured on one spot only"));
-    assert_false(answer_holds(1, 4, "measured on one spot only"));
+    assert_true(answer_holds(100, 4, (double)NAN, "Where wear leaves no layer"));
+    assert_false(answer_holds(100, 4, (double)NAN, "times the thickness of the layer"));
+    assert_true(answer_holds(1, 1, (double)NAN, "each measured on one spot only"));
+    assert_false(answer_holds(1, 4, (double)NAN, "measured on one spot only"));
+    assert_true(answer_holds(1, 4, 306.15,
+                             "The track was indented at 33.0 °C: the ratio is brought "
+                             "to the temperature of the bulk by the DMA"));
+    assert_false(answer_holds(1, 4, 296.15, "ratio is brought to the temperature"));
 }
 
 int main(void)

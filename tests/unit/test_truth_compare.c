@@ -347,6 +347,7 @@ static void test_dma(void **state)
                         frequency[r] * a < 10 || frequency[r] * a > 5000 ? 1 : 0, 0);
         }
         assert_near(key_estimate(t, "temperature").value, 293.15 + step, 1e-12);
+        assert_int_equal(wt_table_block(t, RATES), 0);
     }
 }
 
@@ -399,6 +400,9 @@ static void test_warmer(void **state)
     assert_near(key_estimate(tables.comparison, "modulus_ratio").value, RATIO, 1e-9);
     assert_near(key_estimate(tables.comparison, "modulus_ratio").standard_error, RATIO * scatter,
                 1e-9);
+    /* one line of the DMA for each temperature */
+    assert_int_equal(wt_table_block(tables.dma_comparison, RATES - 1), 0);
+    assert_int_equal(wt_table_block(tables.dma_comparison, RATES), 1);
     /* and what is not known of the step, by the slope of ln |E*| there */
     warmer(RATIO, true, &rubber, 0.5);
     const double slope = log(complex_modulus(11) / complex_modulus(9)) / 2;

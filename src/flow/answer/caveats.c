@@ -181,9 +181,31 @@ static void temperature_caveats(const answer_story *story)
             words_of_celsius(
                 dma_comparison_value(&story->dma_comparison, DMA_COMPARISON_KEY_TEMPERATURE).value)
                 .text);
-    if (story->comparison.table != NULL && isnan(story->c->compare.track_temperature.value))
+}
+
+/* What was done to the track before the ratio was taken. */
+static void ratio_caveats(const answer_story *story)
+{
+    const table_view *comparison = &story->comparison;
+    const wt_compare_job *job = &story->c->compare;
+    const double track = job->track_temperature.value;
+    if (comparison->table == NULL)
+        return;
+    if (isnan(track))
         CAVEAT(story, "The case does not say that the track was indented at another temperature "
                       "than the bulk: they are taken to be as warm as each other.");
+    if (isnan(comparison_value(comparison, COMPARISON_KEY_MODULUS_RATIO).value))
+        return;
+    if (!isnan(track) && track != job->temperature.value)
+        CAVEAT(story,
+               "The track was indented at %s: the ratio is brought to the temperature of the bulk "
+               "by %s; the moduli of bulk and track are as measured.",
+               words_of_celsius(track).text,
+               isnan(job->temperature_slope.value) ? "the DMA" : "the temperature slope given");
+    const char *rates = comparison_words(comparison, COMPARISON_KEY_RATES);
+    if (strncmp(rates, "brought", 7) == 0)
+        CAVEAT(story, "Bulk and track have no indentation rate in common: the rates are %s.",
+               rates);
 }
 
 /* "The standard errors of the friction include: ...; they do not include the model." */
@@ -345,6 +367,7 @@ void answer_caveats(const answer_story *story)
     friction_caveats(story);
     layer_caveats(story);
     temperature_caveats(story);
+    ratio_caveats(story);
     CAVEAT(story,
            "\xc2\xb1 is one standard error in these sentences; an interval of 95 %% is about "
            "twice as wide to each side, and wider where few spots stand behind it.");

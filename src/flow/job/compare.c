@@ -145,6 +145,7 @@ static wt_status make_rate_table(const compare_pair *p, wt_table **table, wt_err
     return table_end(&t, table);
 }
 
+/* A block for each group that has a temperature of its own. */
 static wt_status make_dma_table(const compare_pair *p, const wt_compare_job *job,
                                 const wt_job *work, wt_table **table, wt_error *err)
 {
@@ -153,9 +154,12 @@ static wt_status make_dma_table(const compare_pair *p, const wt_compare_job *job
                                                          ? job->temperature.value
                                                          : job->track_temperature.value};
     const double reference = job->rubber->prony.reference_temperature;
+    const bool apart = !isnan(given[1]) && given[1] != (isnan(given[0]) ? reference : given[0]);
     table_writer t = table_begin(&dma_comparison_schema, err);
     for (int g = 0; t.status == WT_OK && g < 2; g++) {
         wt_material *material = NULL;
+        if (apart)
+            table_block(&t);
         t.status = wt_rubber_at(job->rubber, given[g], work->seed, WT_NO_REPLICATE, &material,
                                 statement, err);
         for (size_t b = 0; t.status == WT_OK && b < p->n_bins; b++)
