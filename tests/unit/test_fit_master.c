@@ -111,6 +111,15 @@ static void check(const tally *t, const char *what)
     assert_true(share > 0.88);
 }
 
+/* The slope of a WLF law at its reference is -C1/C2, and its error that of the two together. */
+static void check_slope(const wt_master *m)
+{
+    const double a = m->c1.standard_error / m->c1.value, b = m->c2.standard_error / m->c2.value;
+    const double share = sqrt(a * a + b * b - 2 * m->c_correlation * a * b);
+    assert_near(m->slope.value, -m->c1.value / m->c2.value, 0.01);
+    assert_near(m->slope.standard_error, share * m->c1.value / m->c2.value, 0.1);
+}
+
 static void intervals_hold_the_truth(void **state)
 {
     (void)state;
@@ -123,6 +132,7 @@ static void intervals_hold_the_truth(void **state)
         count(&constants, m.c2, 110);
         count(&equilibrium, m.equilibrium, 2e6);
         assert_false(m.equilibrium_limit);
+        check_slope(&m);
         for (size_t i = 0; i < m.n_shifts; i++) {
             const double t = m.shifts[i].temperature;
             if (fabs(t - 293.15) > 1)

@@ -39,18 +39,22 @@ static void test_estimate_errors(void **state)
         const char *text;
         wt_quantity quantity;
         wt_status status;
+        const char *found;
     } cases[] = {
-        {"0.4", WT_Q_PRESSURE, WT_E_UNIT},
-        {"0.4MPa +- 0.02", WT_Q_PRESSURE, WT_E_UNIT},
-        {"0.4MPa +- -0.02MPa", WT_Q_PRESSURE, WT_E_RANGE},
-        {"0.4MPa +- -5%", WT_Q_PRESSURE, WT_E_RANGE},
-        {"20degC +- 5%", WT_Q_TEMPERATURE, WT_E_UNIT},
+        {"0.4", WT_Q_PRESSURE, WT_E_UNIT, NULL},
+        {"0.4MPa +- 0.02", WT_Q_PRESSURE, WT_E_UNIT, NULL},
+        {"0.4MPa +- -0.02MPa", WT_Q_PRESSURE, WT_E_RANGE, "\"-0.02MPa\""},
+        {"0.4MPa +- -5%", WT_Q_PRESSURE, WT_E_RANGE, "\"-5%\""},
+        {"20degC +- 5%", WT_Q_TEMPERATURE, WT_E_UNIT, NULL},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         wt_estimate e = {7, 7, 7, "kept"};
-        assert_int_equal(wt_estimate_parse(cases[i].text, cases[i].quantity, &e, NULL),
+        wt_error err = WT_ERROR_INIT;
+        assert_int_equal(wt_estimate_parse(cases[i].text, cases[i].quantity, &e, &err),
                          cases[i].status);
         assert_string_equal(e.unit, "kept");
+        if (cases[i].found != NULL)
+            assert_string_equal(err.found, cases[i].found);
     }
 }
 
