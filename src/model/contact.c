@@ -49,6 +49,15 @@ static contact_point_values sharp(const wt_tip *tip, double delta)
     return (contact_point_values){c * delta * delta, 2.0 * c * delta, 2.0 * c};
 }
 
+/* G beyond the transition radius. */
+static double faces_force(const wt_tip *tip, double s)
+{
+    const double b = tip->transition_radius, h = hypot(1.0, s), hs = h + s, a = b * h;
+    const double mcot = tip_facet_factor(tip->sides) / tan(tip->half_angle);
+    return 2.0 * (b * b / tip->radius * b * (2.0 * h + s) / (3.0 * hs * hs) +
+                  0.5 * mcot * (a * a * atan(s) + b * (b * s)));
+}
+
 static contact_point_values faces(const wt_tip *tip, double delta)
 {
     const double b = tip->transition_radius;
@@ -68,10 +77,25 @@ static contact_point_values faces(const wt_tip *tip, double delta)
             break;
         s = next;
     }
-    double a = b * h;
-    return (contact_point_values){2.0 * (cap * b * (2.0 * h + s) / (3.0 * hs * hs) +
-                                         0.5 * mcot * (a * a * atan(s) + b * (b * s))),
-                                  2.0 * a, 2.0 * b * s / rise};
+    const double a = b * h;
+    return (contact_point_values){faces_force(tip, s), 2.0 * a, 2.0 * b * s / rise};
+}
+
+contact_radius_values contact_at_radius(const wt_tip *tip, double a)
+{
+    const bool cone = tip->shape == WT_TIP_CONE;
+    const double b = cone ? 0.0 : tip->transition_radius;
+    if (tip->shape == WT_TIP_PARABOLOID || a <= b)
+        return (contact_radius_values){a * a / tip->radius, 4.0 / 3.0 * a * a * a / tip->radius,
+                                       2.0 * a / tip->radius};
+    const double mcot = tip_facet_factor(cone ? 0 : tip->sides) / tan(tip->half_angle);
+    if (b == 0.0)
+        return (contact_radius_values){0.5 * M_PI * mcot * a, 0.5 * M_PI * mcot * a * a,
+                                       0.5 * M_PI * mcot};
+    const double cap = b * b / tip->radius, h = a / b, s = sqrt((h - 1.0) * (h + 1.0)), hs = h + s;
+    const double rise = mcot * b * (1.0 + s * atan(s)) - cap / (hs * hs);
+    return (contact_radius_values){cap * h / hs + mcot * b * h * atan(s), faces_force(tip, s),
+                                   rise / (b * s)};
 }
 
 contact_point_values contact_values(const wt_tip *tip, double delta)

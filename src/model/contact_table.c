@@ -116,6 +116,11 @@ wt_status wt_contact_table_new(const wt_tip *tip, double delta_min, double delta
     return WT_OK;
 }
 
+const wt_tip *contact_table_tip(const wt_contact_table *table)
+{
+    return &table->tip;
+}
+
 void wt_contact_table_free(wt_contact_table *table)
 {
     free(table);

@@ -262,8 +262,8 @@ static void check_verdicts(void)
 
 int main(int argc, char **argv)
 {
-    if (argc != 3) {
-        fputs("usage: study_check NUMERIC STATISTICS\n", stderr);
+    if (argc != 4) {
+        fputs("usage: study_check NUMERIC STATISTICS INDENTATION\n", stderr);
         return 2;
     }
     check_random();
@@ -279,5 +279,6 @@ int main(int argc, char **argv)
         check_set(argv[2], "dma_noise5", "D2", 0.05);
         check_set(argv[2], "dma_two_processes", "V2", 0.015);
     }
+    check_afm(argv[3]);
     return failures > 0;
 }

@@ -8,5 +8,7 @@ void check_true(const char *what, int is_true);
 
 /* FOLDER/friction.txt: values in 20 digits. */
 void check_contact(const char *folder);
+/* FOLDER/jkr.json, viscoelastic.json, layer.csv, where they are. */
+void check_afm(const char *folder);
 
 #endif

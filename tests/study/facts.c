@@ -18,6 +18,7 @@ const quantity_facts quantities[Q_COUNT] = {
     [Q_THICKNESS] = {"thickness", true},
     [Q_HYSTERESIS_KEPT] = {"hysteresis_kept", true},
     [Q_AREA_KEPT] = {"area_kept", true},
+    [Q_MODULUS] = {"modulus", true},
     [Q_RATIO] = {"ratio", true},
     [Q_LAYERED_FRICTION] = {"layered_friction", true},
 };

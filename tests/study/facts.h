@@ -25,6 +25,7 @@ typedef enum quantity {
     Q_THICKNESS,
     Q_HYSTERESIS_KEPT, /* from the stored master curve instead of the isotherms */
     Q_AREA_KEPT,
+    Q_MODULUS, /* of one force curve */
     Q_RATIO, /* modulus of the track over that of the bulk */
     Q_LAYERED_FRICTION,
     Q_COUNT
@@ -36,7 +37,8 @@ typedef struct quantity_facts {
 } quantity_facts;
 extern const quantity_facts quantities[Q_COUNT];
 
-/* Yes: superposition holds; the track is another rubber than the bulk. */
+/* Yes: superposition holds; the track is another rubber than the bulk; the
+ * contact law describes the curves. */
 typedef enum verdict { CANNOT_SAY, YES, NO, NO_VERDICT, VERDICT_COUNT } verdict;
 #define RIGHT(v) (1u << (v))
 

@@ -16,11 +16,13 @@ typedef struct place {
 extern const place place_shift, place_law, place_storage, place_loss;
 extern const place place_hysteresis, place_area, place_friction;
 extern const place place_c1, place_c2, place_equilibrium, place_thickness;
+extern const place place_modulus;          /* of curves */
 extern const place place_ratio;            /* over all rates, the first row */
 extern const place place_layered_friction; /* at the reference velocity */
 
-#define PLACE_TEMPERATURE "temperature"     /* [K], beside shift and law */
-#define PLACE_FREQUENCY "angular_frequency" /* [rad/s], beside the moduli */
+#define PLACE_POOLED_CHANCE "pooled_misfit_chance" /* in `place_modulus.table` */
+#define PLACE_TEMPERATURE "temperature"            /* [K], beside shift and law */
+#define PLACE_FREQUENCY "angular_frequency"        /* [rad/s], beside the moduli */
 #define PLACE_VELOCITY "velocity"
 #define PLACE_PRONY "prony"
 #define PLACE_PRONY_TIME "relaxation_time"

@@ -1,0 +1,127 @@
+/* The general construction behind Johnson, Kendall and Roberts, Proc. R. Soc. Lond. A 324 (1971)
+ * 301: with the contact radius a, depth delta0 and force F0 of the contact without adhesion and
+ * s = sqrt(2 pi w / E*),
+ *
+ *   delta = delta0 - s sqrt(a),   F = F0 - 2 E* s a^(3/2),
+ *
+ * is the least energy for any convex tip. The pyramid's a is that of the circle with its mean
+ * distances; its edge is longer, and the work of adhesion carries that error.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "model/adhesion.h"
+#include "model/tip.h"
+
+#include <float.h>
+#include <math.h>
+
+/* Range of atomic forces, and the steps in which the end of the branch is looked for. */
+static const double force_range = 0.3e-9;
+static const double radius_step = 0.97;
+enum { MAX_STEPS = 3000, MAX_ROUNDS = 200 };
+
+adhesive_contact adhesion_at(const adhesion *law, double a)
+{
+    const contact_radius_values v = contact_at_radius(law->tip, a);
+    const double e = law->reduced, s = sqrt(2.0 * M_PI * law->work / e), root = sqrt(a);
+    const double pull = s * a * root, q = s / (2.0 * root);
+    adhesive_contact c = {.depth = v.depth - s * root, .force = e * (v.g - 2.0 * pull)};
+    c.stiffness = 2.0 * e * a * (isinf(v.slope) ? 1.0 : (v.slope - 3.0 * q) / (v.slope - q));
+    c.by_modulus = v.g - pull - c.stiffness * s * root / (2.0 * e);
+    c.by_work = (0.5 * c.stiffness * s * root - e * pull) / law->work;
+    return c;
+}
+
+/* Rises where the branch is stable against the lever: dF/da + k ddelta/da, over k if k > 1. */
+static double restoring(const adhesion *law, double k, double a)
+{
+    const double slope = contact_at_radius(law->tip, a).slope;
+    const double q = sqrt(2.0 * M_PI * law->work / law->reduced) / (2.0 * sqrt(a));
+    const double sample = 2.0 * law->reduced * a * (slope - 3.0 * q), lever = slope - q;
+    return isinf(k) ? lever : sample + k * lever;
+}
+
+double adhesion_release(const adhesion *law, double k)
+{
+    if (!(law->work > 0.0))
+        return 0.0;
+    /* From where adhesion no longer matters, past the corner, which is stable for a stretch. */
+    const double far = 100.0 * sqrt(2.0 * M_PI * law->work / law->reduced);
+    double a = 1e-9;
+    if (law->tip->shape == WT_TIP_BLUNTED_PYRAMID)
+        a = fmax(a, 2.0 * law->tip->transition_radius);
+    while (contact_at_radius(law->tip, a).slope * sqrt(a) < far)
+        a *= 2.0;
+    double high = a;
+    for (int i = 0; i < MAX_STEPS && restoring(law, k, a) > 0.0; i++) {
+        high = a;
+        a *= radius_step;
+    }
+    double low = a;
+    /* The sign changes in a root, or by a jump at the corner of the tip. */
+    const double corner = law->tip->shape == WT_TIP_CONE ? 0.0 : law->tip->transition_radius;
+    if (corner >= low && corner < high && !(restoring(law, k, corner) > 0.0) &&
+        restoring(law, k, corner * (1.0 + 1e-12)) > 0.0)
+        return corner;
+    for (int i = 0; i < MAX_ROUNDS && high - low > 2.0 * DBL_EPSILON * high; i++) {
+        a = 0.5 * (low + high);
+        if (restoring(law, k, a) > 0.0)
+            high = a;
+        else
+            low = a;
+    }
+    return 0.5 * (low + high);
+}
+
+double adhesion_radius(const adhesion *law, double k, double position, double release, double start)
+{
+    double low = release, high = fmax(start, fmax(2.0 * low, 1e-12));
+    if (release > 0.0) {
+        const adhesive_contact end = adhesion_at(law, release);
+        if (position <= end.depth + end.force / k)
+            return release;
+    }
+    for (;; high *= 2.0) {
+        const adhesive_contact c = adhesion_at(law, high);
+        if (!(c.depth + c.force / k < position))
+            break;
+        low = high;
+    }
+    double a = start > low && start < high ? start : high;
+    for (int i = 0; i < MAX_ROUNDS; i++) {
+        const adhesive_contact c = adhesion_at(law, a);
+        const double excess = c.depth + c.force / k - position;
+        if (excess > 0.0)
+            high = a;
+        else
+            low = a;
+        double next = a - excess * (isinf(k) ? 1.0 : k) / restoring(law, k, a);
+        if (!(next > low && next < high))
+            next = 0.5 * (low + high);
+        if (fabs(next - a) <= 4.0 * DBL_EPSILON * a || !(high - low > 2.0 * DBL_EPSILON * high))
+            return next;
+        a = next;
+    }
+    return a;
+}
+
+double adhesion_work(const wt_tip *tip, double reduced, double k, double pull_off)
+{
+    double low = 1e-9, high = 1e3;
+    for (int i = 0; i < MAX_ROUNDS && high > low * (1.0 + 1e-12); i++) {
+        const adhesion law = {tip, reduced, sqrt(low * high)};
+        if (-adhesion_at(&law, adhesion_release(&law, k)).force > pull_off)
+            high = law.work;
+        else
+            low = law.work;
+    }
+    return sqrt(low * high);
+}
+
+double adhesion_tabor(const adhesion *law)
+{
+    if (law->tip->shape == WT_TIP_CONE || !(law->tip->radius > 0.0))
+        return (double)NAN;
+    const double x = law->work / law->reduced;
+    return cbrt(law->tip->radius * x * x / (force_range * force_range * force_range));
+}

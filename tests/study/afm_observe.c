@@ -1,0 +1,78 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "afm_observe.h"
+#include "afm_sample.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+enum { CURVES = 30 };
+static const double level = 0.01, share_needed = 0.9;
+
+static int write_curves(const afm_sample *sample, const afm_scene *s, random_source *random,
+                        const char *path)
+{
+    FILE *file = fopen(path, "w");
+    if (file == NULL)
+        return -1;
+    for (int curve = 0; curve < CURVES; curve++)
+        afm_sample_write(sample, s, random, curve, file);
+    const int bad = ferror(file);
+    return fclose(file) != 0 || bad ? -1 : 0;
+}
+
+/* Described: most curves are accepted, and all of them together show no misfit. */
+static void read_curves(const char *path, const afm_sample *sample, trial *t)
+{
+    stream *found = stream_read(path);
+    if (found == NULL || stream_rows(found, place_modulus.table) != CURVES) {
+        trial_broke(t, "not as many curves as there were");
+    } else {
+        int accepted = 0;
+        for (int i = 0; i < CURVES; i++) {
+            const estimate e = place_row(found, &place_modulus, i);
+            accepted += !isnan(e.value);
+            trial_add(t, Q_MODULUS, sample->modulus, e);
+        }
+        const double chance = stream_number(found, place_modulus.table, PLACE_POOLED_CHANCE, NULL);
+        t->draw->verdict = accepted < share_needed * CURVES || chance < level ? NO
+                           : isnan(chance)                                    ? CANNOT_SAY
+                                                                              : YES;
+    }
+    stream_free(found);
+}
+
+static const facts *scene_facts(int scene)
+{
+    return &afm_scenes[scene].facts;
+}
+
+static void *prepare(int scene)
+{
+    return afm_sample_make(&afm_scenes[scene]);
+}
+
+static void observe(int scene, const void *prepared, random_source *random, trial *t)
+{
+    const afm_scene *s = &afm_scenes[scene];
+    const afm_sample *sample = prepared;
+    const char *measured = trial_file(t, "curves.tsv"), *made = trial_file(t, "indentation.tsv");
+    char tip[80];
+    if (sample == NULL || write_curves(sample, s, random, measured) != 0) {
+        trial_broke(t, "the curves cannot be written");
+        return;
+    }
+    snprintf(tip, sizeof tip,
+             s->sphere ? "sphere:radius=%gnm" : "pyramid:half-angle=35deg,radius=%gnm",
+             sample->radius * 1e9);
+    const char *const arguments[] = {"indent", measured, "--tip",           tip, "--group", "bulk",
+                                     "-o",     made,     "--no-provenance", NULL};
+    if (trial_run(t, arguments))
+        read_curves(made, sample, t);
+}
+
+family afm_family(void)
+{
+    return (family){
+        .n = n_afm_scenes, .facts = scene_facts, .prepare = prepare, .observe = observe};
+}

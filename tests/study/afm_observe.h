@@ -1,0 +1,9 @@
+/* Force curves through indent. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef STUDY_AFM_OBSERVE_H
+#define STUDY_AFM_OBSERVE_H
+
+#include "trial.h"
+
+family afm_family(void);
+
+#endif

@@ -1,0 +1,173 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "afm_sample.h"
+#include "afm_physics.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static const double modulus = 5e6, poisson = 0.5, reduced = 5e6 / 0.75;
+enum { FREE = 2 * AFM_BRANCH / 3, FINE = 4 };
+
+static afm_tip true_tip(const afm_scene *s)
+{
+    const double factor = s->radius_factor > 0 ? s->radius_factor : 1;
+    if (s->sphere)
+        return (afm_tip){.radius = 100e-9 * factor, .angle = 1, .b = (double)INFINITY};
+    return afm_pyramid(20e-9 * factor, 35, 4);
+}
+
+static double layer_reduced(const afm_scene *s, double a)
+{
+    return s->layer_thickness > 0 ? reduced * layer_apparent(s->layer_ratio, a / s->layer_thickness)
+                                  : reduced;
+}
+
+/* Force without loss at a base position; on the way out contact lasts longer. */
+static double elastic_force(const afm_scene *s, const afm_tip *tip, double k, double base, int out)
+{
+    const double w = out ? s->work_out : s->work;
+    if (w > 0 && !s->dmt) {
+        const jkr law = {tip, reduced, w};
+        const double a = out || base > 0 ? jkr_radius(&law, k, base) : 0;
+        return a > 0 ? jkr_force(&law, a) : 0;
+    }
+    const double pull = 2 * M_PI * w * tip->radius;
+    double low = 0, high = 1e-9;
+    if (base + pull / k <= 0 || (!out && base <= 0))
+        return 0;
+#define BASE(a) (tip_depth(tip, a) + (layer_reduced(s, a) * tip_force(tip, a) - pull) / k)
+    while (BASE(high) < base)
+        high *= 2;
+    for (int i = 0; i < 100; i++) {
+        const double middle = 0.5 * (low + high);
+        *(BASE(middle) > base ? &high : &low) = middle;
+    }
+#undef BASE
+    return layer_reduced(s, low) * tip_force(tip, low) - pull;
+}
+
+static void add_elastic(const afm_scene *s, const afm_tip *tip, afm_sample *to)
+{
+    for (int i = 0; i < AFM_SAMPLES; i++)
+        to->force[i] = elastic_force(s, tip, to->spring_constant, to->base[i], i >= AFM_BRANCH);
+}
+
+/* In steps finer than the samples, from the first sample in contact on. */
+static int add_lossy(const afm_scene *s, const afm_tip *tip, afm_sample *to)
+{
+    const int first = FREE, n = (AFM_SAMPLES - first) * FINE;
+    double *base = calloc((size_t)n, sizeof *base), *force = calloc((size_t)n, sizeof *force);
+    relaxation r = s->loss == LOSS_POWER ? relaxation_power(0.25, s->tan_delta)
+                                         : relaxation_cole_cole(0.6, s->tan_delta);
+    double found;
+    const double scale = modulus / relaxation_modulus(&r, 1, &found);
+    r.rest *= scale;
+    for (size_t i = 0; i < r.n; i++)
+        r.e[i] *= scale;
+    int bad = base == NULL || force == NULL;
+    for (int i = 0; !bad && i < n; i++) {
+        const int at = first - 1 + i / FINE;
+        const double part = (double)(i % FINE + 1) / FINE;
+        base[i] = fmax(0, to->base[at] + part * (to->base[at + 1] - to->base[at]));
+    }
+    bad = bad || lossy_forces(tip, &r, poisson, to->spring_constant, base, (size_t)n,
+                              (to->time[1] - to->time[0]) / FINE, force, NULL) != 0;
+    for (int i = first; !bad && i < AFM_SAMPLES; i++)
+        to->force[i] = force[(i - first) * FINE + FINE - 1];
+    free(base);
+    free(force);
+    return bad ? -1 : 0;
+}
+
+/* What piezo, lever and detector do to the force, and the truth at the largest depth. */
+static void disturb(const afm_scene *s, afm_sample *to)
+{
+    for (int i = 0; i < AFM_SAMPLES; i++) {
+        const double part = (double)i / AFM_BRANCH;
+        to->force[i] += 4 * s->bow * to->spring_constant * part * (1 - part) +
+                        s->drift * to->largest * sqrt(part);
+        if (s->saturation > 0)
+            to->force[i] -= 0.1 * s->saturation * to->largest * pow(to->force[i] / to->largest, 3);
+    }
+}
+
+afm_sample *afm_sample_make(const afm_scene *s)
+{
+    afm_sample *to = calloc(1, sizeof *to);
+    const afm_tip tip = true_tip(s);
+    if (to == NULL)
+        return NULL;
+    to->spring_constant = s->spring_constant > 0 ? s->spring_constant : 0.5;
+    to->radius = s->sphere ? 100e-9 : 20e-9;
+    const double depth = s->depth > 0 ? s->depth : s->sphere ? 50e-9 : 70e-9;
+    const double a = tip_contact_radius(&tip, depth),
+                 top = layer_reduced(s, a) * tip_force(&tip, a);
+    const double most = depth + top / to->spring_constant;
+    const double step = most / (AFM_BRANCH - FREE);
+    to->largest = top;
+    to->modulus = layer_reduced(s, a) * (1 - poisson * poisson);
+    for (int i = 0; i < AFM_SAMPLES;
+         i++) { /* contact 0.3 of a step after a sample; 1 s to the top */
+        to->base[i] =
+            (i < AFM_BRANCH ? i + 1 - FREE - 0.3 : 2 * AFM_BRANCH - 1 - i - FREE - 0.3) * step;
+        to->time[i] = (double)i / (AFM_BRANCH - FREE - 0.3);
+    }
+    if (s->loss == LOSS_NONE) {
+        add_elastic(s, &tip, to);
+    } else if (add_lossy(s, &tip, to) != 0) {
+        free(to);
+        return NULL;
+    }
+    disturb(s, to);
+    return to;
+}
+
+/* ---- noise ----------------------------------------------------------------------------------- */
+
+enum { OCTAVES = 12 };
+typedef struct noise_state {
+    double slow, octave[OCTAVES];
+} noise_state;
+
+static double next_noise(afm_noise kind, int i, noise_state *state, random_source *random)
+{
+    const double white = random_normal(random);
+    double sum = 0;
+    if (kind == NOISE_WHITE)
+        return white;
+    if (kind == NOISE_CORRELATED) {
+        state->slow = i == 0 ? random_normal(random)
+                             : 0.95 * state->slow + sqrt(1 - 0.95 * 0.95) * random_normal(random);
+        return sqrt(0.7) * state->slow + sqrt(0.3) * white;
+    }
+    for (int k = 0; k < OCTAVES; k++) { /* one process for each octave: 1/f between them */
+        const double rho = exp(-ldexp(1, -k));
+        state->octave[k] =
+            i == 0 ? random_normal(random)
+                   : rho * state->octave[k] + sqrt(1 - rho * rho) * random_normal(random);
+        sum += state->octave[k] / sqrt(OCTAVES);
+    }
+    return sqrt(0.7) * sum + sqrt(0.3) * white;
+}
+
+void afm_sample_write(const afm_sample *sample, const afm_scene *s, random_source *random,
+                      int curve, FILE *file)
+{
+    const double sd = s->noise * sample->largest;
+    noise_state state = {0};
+    fprintf(file,
+            "## table: force_curve/%d\n"
+            "## spring_constant: %.9g standard_error=0 numerical_error=0 unit=N/m\n"
+            "## curve: %d\n# segment[text]\theight[m]\tforce[N]\ttime[s]\n",
+            curve, sample->spring_constant, curve);
+    for (int i = 0; i < AFM_SAMPLES; i++) {
+        double force = sample->force[i] + sd * next_noise(s->kind, i, &state, random);
+        if (s->spikes > 0 && random_uniform(random) < s->spikes)
+            force += sd * (20 + 20 * random_uniform(random));
+        if (i == AFM_BRANCH)
+            fputs("\n", file);
+        fprintf(file, "%s\t%.9g\t%.9g\t%.6g\n", i < AFM_BRANCH ? "approach" : "retract",
+                5e-6 - sample->base[i], force, sample->time[i]);
+    }
+    fputs("##\n", file);
+}

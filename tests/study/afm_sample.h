@@ -1,0 +1,25 @@
+/* The curve of a scene, and what an instrument makes of it.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef STUDY_AFM_SAMPLE_H
+#define STUDY_AFM_SAMPLE_H
+
+#include "afm_scene.h"
+#include "random.h"
+
+#include <stdio.h>
+
+/* Way in and way out; contact in the middle of the way in. */
+enum { AFM_BRANCH = 900, AFM_SAMPLES = 2 * AFM_BRANCH };
+typedef struct afm_sample {
+    double spring_constant, radius, largest; /* radius: as the user states it */
+    double base[AFM_SAMPLES], time[AFM_SAMPLES], force[AFM_SAMPLES];
+    double modulus; /* the truth: of the rubber, |E*(1/t_c)|, or that at the largest depth */
+} afm_sample;
+
+/* Without noise. NULL if memory runs out. */
+afm_sample *afm_sample_make(const afm_scene *s);
+/* One curve of it as a table of a text stream. */
+void afm_sample_write(const afm_sample *sample, const afm_scene *s, random_source *random,
+                      int curve, FILE *file);
+
+#endif

@@ -1,0 +1,39 @@
+/* Force curves on rubbers of known modulus. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef STUDY_AFM_SCENE_H
+#define STUDY_AFM_SCENE_H
+
+#include "facts.h"
+
+typedef enum afm_noise {
+    NOISE_WHITE,
+    NOISE_CORRELATED, /* 70 % of the variance first-order with 0.95, the rest white */
+    NOISE_FLICKER,    /* 70 % 1/f, the rest white */
+} afm_noise;
+
+typedef enum afm_loss { LOSS_NONE, LOSS_COLE_COLE, LOSS_POWER } afm_loss;
+
+/* A four-sided pyramid of 35 degrees and 20 nm, pressed 70 nm into rubber of 5 MPa by a lever of
+ * 0.5 N/m, unless a member says otherwise. */
+typedef struct afm_scene {
+    facts facts;
+    double noise; /* of the largest force */
+    afm_noise kind;
+    double work, work_out; /* of adhesion on the way in and out [J/m^2] */
+    bool dmt;              /* a pull of 2 pi w R without long contact, else JKR */
+    afm_loss loss;
+    double tan_delta;                    /* at 1/t_c */
+    double spring_constant;              /* 0: 0.5 N/m */
+    double layer_ratio, layer_thickness; /* E1/E2; [m] */
+    double radius_factor;                /* the tip's over the stated one; 0: 1 */
+    bool sphere;                         /* of 100 nm */
+    double depth;                        /* [m], 0: 70 nm */
+    double bow;                          /* of the deflection over the way in [m] */
+    double drift;                        /* of the force by the end, as the square root of time */
+    double saturation; /* force at which the detector has lost 10 %, of the largest */
+    double spikes;     /* share of samples 20 to 40 noises off */
+} afm_scene;
+
+extern const afm_scene afm_scenes[];
+extern const int n_afm_scenes;
+
+#endif

@@ -1,0 +1,165 @@
+/* The own contact laws against 12 digits. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "afm_physics.h"
+#include "check.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static char *read_all(const char *folder, const char *name)
+{
+    char path[1024];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    FILE *file = fopen(path, "r");
+    char *text = file != NULL ? calloc(1, 1 << 20) : NULL;
+    if (text != NULL)
+        check_true(name, fread(text, 1, (1 << 20) - 1, file) > 100);
+    if (file != NULL)
+        fclose(file);
+    return text;
+}
+
+/* The number behind the next "KEY":, of those before `end`; nan if there is none. */
+static double number(const char **at, const char *key, const char *end)
+{
+    char quoted[64];
+    snprintf(quoted, sizeof quoted, "\"%s\":", key);
+    const char *found = strstr(*at, quoted);
+    if (found == NULL || (end != NULL && found > end))
+        return (double)NAN;
+    *at = found + strlen(quoted);
+    return strtod(*at + strspn(*at, " \n["), NULL);
+}
+
+static double number_in(const char *at, const char *key, const char *end)
+{
+    return number(&at, key, end);
+}
+
+static size_t list(const char *at, const char *key, double *to)
+{
+    size_t n = 0;
+    if (isnan(number(&at, key, NULL)))
+        return 0;
+    at += strspn(at, " \n[");
+    for (char *end; n < RELAXATIONS; at = end + strspn(end, ", \n")) {
+        to[n] = strtod(at, &end);
+        if (end == at)
+            break;
+        n++;
+    }
+    return n;
+}
+
+static afm_tip read_tip(const char *at, const char *end)
+{
+    afm_tip tip = {.radius = number_in(at, "R", end),
+                   .angle = number_in(at, "deg", end) * M_PI / 180,
+                   .b = number_in(at, "b", end),
+                   .sides = (unsigned)fmax(0, number_in(at, "n", end))};
+    if (isnan(tip.angle))
+        tip.b = (double)INFINITY;
+    else if (isnan(tip.b))
+        tip.b = 0;
+    return tip;
+}
+
+static void check_jkr(const char *text)
+{
+    int points = 0;
+    for (const char *at = text; (at = strstr(at, "\"id\":")) != NULL;) {
+        const char *next = strstr(at + 5, "\"id\":"), *p = at;
+        const afm_tip tip = read_tip(at, strstr(at, "Estar"));
+        const double k = number_in(at, "lever_N_per_m", next);
+        const jkr law = {&tip, number_in(at, "Estar_Pa", next), number_in(at, "w_J_per_m2", next)};
+        const char *released = strstr(at, "\"pull_off_lever\"");
+        if (released != NULL && (next == NULL || released < next)) {
+            const double a = jkr_release(&law, k);
+            check_near("pull-off of a lever", jkr_force(&law, a), number_in(released, "F_N", next),
+                       1e-7); /* where the base position has its minimum it is flat */
+        }
+        p = strstr(at, "\"points\"");
+        for (double depth; !isnan(depth = number(&p, "delta_m", next)); points++) {
+            const double a = number(&p, "a_m", next);
+            check_near("adhesive depth", jkr_depth(&law, a) + 1e-8, depth + 1e-8, 1e-10);
+            check_near("adhesive force", jkr_force(&law, a), number(&p, "F_N", next), 1e-10);
+        }
+        at += 5;
+    }
+    check_true("adhesive points", points > 20);
+}
+
+/* Base positions of the motion: pieces of lines, or a squared sine. */
+static double motion(const char *at, const char *end, double t)
+{
+    double times[RELAXATIONS], depths[RELAXATIONS];
+    const double most = number_in(at, "delta_max_m", end);
+    if (!isnan(most)) {
+        const double s = sin(M_PI * t / (2 * number_in(at, "t_max_s", end)));
+        return most * s * s;
+    }
+    const size_t n = list(at, "t_s", times);
+    list(at, "delta_m", depths);
+    for (size_t i = 1; i < n; i++)
+        if (t <= times[i] || i + 1 == n)
+            return depths[i - 1] +
+                   (depths[i] - depths[i - 1]) * (t - times[i - 1]) / (times[i] - times[i - 1]);
+    return 0;
+}
+
+static void check_lossy_case(const char *at, const char *next)
+{
+    enum { STEPS = 2000 };
+    static double base[STEPS], force[STEPS];
+    const char *p = strstr(at, "\"points\"");
+    const afm_tip tip = read_tip(at, strstr(at, "prony"));
+    relaxation r = {.rest = number_in(at, "Einf_Pa", next)};
+    r.n = list(at, "E_Pa", r.e);
+    list(at, "tau_s", r.tau);
+    for (double t; !isnan(t = number(&p, "t_s", next));) {
+        const double expected = number_in(p, "F_N", next);
+        for (int i = 0; i < STEPS; i++)
+            base[i] = motion(strstr(at, "\"motion\""), p, t * (i + 1) / STEPS);
+        check_true("memory", lossy_forces(&tip, &r, number_in(at, "nu", next), (double)INFINITY,
+                                          base, STEPS, t / STEPS, force, NULL) == 0);
+        check_near("lossy force", force[STEPS - 1] + 1e-11, expected + 1e-11, 1e-4);
+    }
+}
+
+static void check_layer_file(char *text)
+{
+    int rows = 0;
+    for (char *line = strtok(text, "\n"); line != NULL; line = strtok(NULL, "\n")) {
+        double ratio, x[7];
+        char tip[16];
+        if (sscanf(line, "%lf %15s %lf %lf %lf %lf %lf %lf %lf", &ratio, tip, x, x + 1, x + 2,
+                   x + 3, x + 4, x + 5, x + 6) == 9 &&
+            ratio >= 0.3 && ratio <= 3 && x[6] < 6) {
+            check_near("layer", layer_apparent(ratio, x[6]), x[4], 0.021);
+            rows++;
+        }
+    }
+    check_true("rows of layers", rows > 30);
+}
+
+void check_afm(const char *folder)
+{
+    char *adhesive = read_all(folder, "jkr.json"), *lossy = read_all(folder, "viscoelastic.json");
+    char *layer = read_all(folder, "layer.csv");
+    double found;
+    const relaxation r = relaxation_cole_cole(0.6, 0.3), p = relaxation_power(0.25, 0.3);
+    relaxation_modulus(&r, 1, &found);
+    check_near("tan delta", found, 0.3, 1e-6);
+    relaxation_modulus(&p, 1, &found);
+    check_near("tan delta of powers", found, 0.3, 1e-6);
+    if (adhesive != NULL)
+        check_jkr(adhesive);
+    for (const char *at = lossy; at != NULL && (at = strstr(at, "\"id\":")) != NULL; at += 5)
+        check_lossy_case(at, strstr(at + 5, "\"id\":"));
+    if (layer != NULL)
+        check_layer_file(layer);
+    free(adhesive);
+    free(lossy);
+    free(layer);
+}

@@ -1,0 +1,147 @@
+/* Adhesive contact: values in 12 digits, limits, derivatives.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "near.h"
+
+#include "model/adhesion.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static char text[1 << 16];
+
+/* The number behind the next "key": before `end`; NaN if there is none. */
+static double number(const char **at, const char *key, const char *end)
+{
+    char quoted[64];
+    snprintf(quoted, sizeof quoted, "\"%s\":", key);
+    const char *found = strstr(*at, quoted);
+    if (found == NULL || (end != NULL && found > end))
+        return (double)NAN;
+    *at = found + strlen(quoted);
+    return strtod(*at, NULL);
+}
+
+static double number_in(const char *at, const char *key, const char *end)
+{
+    return number(&at, key, end);
+}
+
+static wt_tip read_tip(const char *at, const char *end)
+{
+    const double degrees = number_in(at, "deg", end);
+    wt_tip tip = {.shape = WT_TIP_PARABOLOID, .radius = number_in(at, "R", end)};
+    if (isnan(degrees))
+        return tip;
+    tip.half_angle = degrees * M_PI / 180.0;
+    tip.shape = WT_TIP_CONE;
+    if (isnan(tip.radius))
+        return tip;
+    tip.shape = WT_TIP_BLUNTED_PYRAMID;
+    tip.sides = (unsigned)number_in(at, "n", end);
+    tip.transition_radius = number_in(at, "b", end);
+    return tip;
+}
+
+static void check_release(const adhesion *law, double k, const char *at, const char *end)
+{
+    if (at == NULL || (end != NULL && at > end))
+        return;
+    const adhesive_contact c = adhesion_at(law, adhesion_release(law, k));
+    assert_near(c.force, number_in(at, "F_N", end), 1e-10);
+    if (isinf(k) || k == 0.0)
+        return;
+    assert_near(adhesion_work(law->tip, law->reduced, k, -c.force), law->work, 1e-9);
+}
+
+static void check_case(const char *at, const char *next)
+{
+    const wt_tip tip = read_tip(at, strstr(at, "Estar_Pa"));
+    const adhesion law = {&tip, number_in(at, "Estar_Pa", next), number_in(at, "w_J_per_m2", next)};
+    const double k = number_in(at, "lever_N_per_m", next);
+    const double fixed = adhesion_release(&law, (double)INFINITY);
+    if (law.work > 0) {
+        check_release(&law, 0.0, strstr(at, "\"pull_off_load_control\""), next);
+        check_release(&law, (double)INFINITY, strstr(at, "\"pull_off_fixed_grip\""), next);
+        check_release(&law, k, strstr(at, "\"pull_off_lever\""), next);
+        const char *jump = strstr(at, "\"jump_in_lever_base_at_zero\"");
+        const double landed = adhesion_radius(&law, k, 0.0, adhesion_release(&law, k), 0.0);
+        assert_near(landed, number_in(jump, "a_m", next), 1e-10);
+    }
+    const char *p = strstr(at, "\"points\"");
+    for (double depth; !isnan(depth = number(&p, "delta_m", next));) {
+        const double a = adhesion_radius(&law, (double)INFINITY, depth, fixed, 0.0);
+        const adhesive_contact c = adhesion_at(&law, a);
+        assert_near(a, number_in(p, "a_m", next), 1e-10);
+        assert_near(c.force, number_in(p, "F_N", next), 1e-10);
+        assert_near(c.stiffness, number_in(p, "dF_ddelta_N_per_m", next), 1e-9);
+    }
+}
+
+static void reference_cases(void **state)
+{
+    (void)state;
+    FILE *file = fopen(WT_SHARED_DIR "/reference/indentation/jkr.json", "r");
+    if (file == NULL)
+        skip();
+    assert_true(fread(text, 1, sizeof text - 1, file) > 1000);
+    fclose(file);
+    int n = 0;
+    for (const char *at = text; (at = strstr(at, "\"id\":")) != NULL; at += 5, n++)
+        check_case(at, strstr(at + 5, "\"id\":"));
+    assert_int_equal(n, 6);
+}
+
+static double force_at(adhesion law, double depth)
+{
+    const double end = adhesion_release(&law, (double)INFINITY);
+    return adhesion_at(&law, adhesion_radius(&law, (double)INFINITY, depth, end, 0.0)).force;
+}
+
+static void derivatives(void **state)
+{
+    (void)state;
+    const wt_tip tip = {.sides = 4, .half_angle = 0.6, .radius = 20e-9, .transition_radius = 16e-9};
+    const adhesion law = {&tip, 6e6, 0.02};
+    for (double a = 12e-9; a < 100e-9; a *= 1.3) {
+        const adhesive_contact c = adhesion_at(&law, a);
+        const double e = 1e-4;
+        adhesion more = law, less = law;
+        more.reduced *= 1 + e;
+        less.reduced *= 1 - e;
+        assert_near(c.by_modulus,
+                    (force_at(more, c.depth) - force_at(less, c.depth)) / (2 * e * law.reduced),
+                    1e-5);
+        more = less = law;
+        more.work *= 1 + e;
+        less.work *= 1 - e;
+        assert_near(c.by_work,
+                    (force_at(more, c.depth) - force_at(less, c.depth)) / (2 * e * law.work), 1e-5);
+    }
+}
+
+/* A soft lever and a sphere: the textbook's 3/2 pi w R, whatever the modulus; Tabor's number. */
+static void textbook(void **state)
+{
+    (void)state;
+    const wt_tip tip = {.shape = WT_TIP_PARABOLOID, .radius = 20e-9};
+    const adhesion law = {&tip, 20e6 / 0.75, 0.05};
+    assert_near(adhesion_work(&tip, 1e7, 0.0, 1.5 * M_PI * 0.01 * 20e-9), 0.01, 1e-9);
+    assert_near(adhesion_tabor(&law),
+                cbrt(20e-9 * 0.05 * 0.05 / (law.reduced * law.reduced * 2.7e-29)), 1e-12);
+    const wt_tip cone = {.shape = WT_TIP_CONE, .half_angle = 0.4};
+    const adhesion sharp = {&cone, 1e7, 0.01};
+    assert_true(isnan(adhesion_tabor(&sharp)));
+    const double c = 1 / tan(0.4);
+    assert_near(-adhesion_at(&sharp, adhesion_release(&sharp, 0.0)).force,
+                54 * 0.01 * 0.01 / (M_PI * 1e7 * c * c * c), 1e-9);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(reference_cases),
+                                       cmocka_unit_test(derivatives), cmocka_unit_test(textbook)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
