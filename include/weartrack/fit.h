@@ -29,7 +29,10 @@ extern "C" {
  *   ambiguous_contact  a second contact point is as likely (2 ln likelihood ratio < 4, with the
  *                      effective number of samples) and gives a modulus that differs by 10 %
  *   disturbed_baseline a wave on it of more than 10 % of the largest force, peak to peak
- *   poor_fit           R^2 of force against indentation in contact, or no convergence */
+ *   too_deep           deeper than one radius of a sphere
+ *   poor_fit           the noise of the baseline does not explain the residual (least_chance), or
+ * no convergence adhesive           the same, of a curve with a snap-on or a pull-off imprecise a
+ * standard error of more than largest_error of the modulus */
 #define WT_CURVE_VERDICT_LIST(X)                                                                   \
     X(WT_CURVE_ACCEPTED, "accepted", "accepted")                                                   \
     X(WT_CURVE_NO_APPROACH, "no_approach", "the curve has no approach segment")                    \
@@ -43,6 +46,9 @@ extern "C" {
     X(WT_CURVE_NEGATIVE, "negative_modulus", "the modulus is not positive")                        \
     X(WT_CURVE_DRIFT, "disturbed_baseline", "the baseline is bent or oscillates")                  \
     X(WT_CURVE_RIGID, "rigid", "stiffer than the cantilever can tell: no indentation")             \
+    X(WT_CURVE_ADHESIVE, "adhesive", "adhesion that the contact law does not describe")            \
+    X(WT_CURVE_TOO_DEEP, "too_deep", "deeper than the shape of the tip is known")                  \
+    X(WT_CURVE_IMPRECISE, "imprecise", "the modulus is too uncertain")                             \
     X(WT_CURVE_UNREADABLE, "unreadable", "the curve could not be read")
 
 typedef enum wt_curve_verdict {
@@ -53,19 +59,23 @@ typedef enum wt_curve_verdict {
 WT_API const char *wt_curve_verdict_id(wt_curve_verdict verdict);   /* static */
 WT_API const char *wt_curve_verdict_text(wt_curve_verdict verdict); /* static */
 
+enum { WT_CURVE_WAVES = 6 };
+
 typedef struct wt_indent_options {
-    double poisson_ratio;       /* default 0.5 */
-    double fit_depth;           /* only indentations up to this [m]; 0 = all (default) */
-    double fit_force_fraction;  /* only forces up to this share of the largest; default 1 */
-    bool fit_tilt;              /* baseline tilt is fitted, else offset only; default true */
-    double minimum_r_squared;   /* of the contact part, below it POOR_FIT; default 0.9 */
+    double poisson_ratio;      /* default 0.5 */
+    double fit_depth;          /* only indentations up to this [m]; 0 = all (default) */
+    double fit_force_fraction; /* only forces up to this share of the largest; default 1 */
+    bool fit_tilt;             /* baseline tilt is fitted, else offset only; default true */
+    double least_chance;  /* that noise like that of the baseline leaves a larger residual; below it
+                             POOR_FIT; default 0.01 */
+    double largest_error; /* standard error over modulus, above it IMPRECISE; default 0.3 */
     double fixed_contact_point; /* [m] tip position, NaN = fitted (default) */
     /* Default false: the force is compared with that of lever and sample together at the height of
      * the sample, which is where the noise of the force belongs. true: with the force at the
      * measured indentation, as most programs do, for comparison with them; biased where the contact
      * is much stiffer than the lever. */
     bool plain_least_squares;
-    uint64_t reserved[8];
+    uint64_t reserved[7];
 } wt_indent_options;
 WT_API wt_indent_options wt_indent_defaults(void);
 WT_API const wt_params *wt_indent_params(void);
@@ -78,7 +88,7 @@ WT_API const wt_params *wt_indent_params(void);
  * nu^2) G(indentation). */
 typedef struct wt_indent_fit {
     wt_curve_verdict verdict;
-    char reason[160];            /* verdict with its numbers: "R^2 0.71 below 0.90"; of an accepted
+    char reason[160];            /* verdict with its numbers; of an accepted
                                     curve what is odd: snap-on left out, missing samples */
     wt_estimate modulus;         /* E [Pa]; standard error includes baseline and contact point and
                                     correlated residuals; NaN unless accepted */
@@ -87,10 +97,20 @@ typedef struct wt_indent_fit {
     wt_estimate baseline_tilt;   /* [N/m] */
     double noise;                /* standard deviation of the baseline residual [N] */
     double correlation_length;   /* of the residuals [samples] */
-    double r_squared;            /* of the contact part */
-    double max_force;            /* [N] above the baseline */
-    double max_indentation;      /* [m] */
-    double adhesion_force;       /* pull of the snap-on [N], 0 if none stands out of the baseline */
+    double lack_of_fit;          /* slow part of the residual in contact, over the variance that the
+                                    noise of the baseline gives it: 1 if the law is right; NaN where
+                                    the baseline is too short to say */
+    double lack_of_fit_chance;   /* of more by noise alone */
+    double baseline_chance;      /* that a straight baseline departs as much from a line */
+    double misfit[WT_CURVE_WAVES]; /* cosines of the residual over the contact, of max_force */
+    double max_force;              /* [N] above the baseline */
+    double max_indentation;        /* [m] */
+    double adhesion_force; /* pull of the snap-on [N], 0 if none stands out of the baseline */
+    wt_estimate work_of_adhesion; /* of the approach [J/m^2]; NaN: fitted without adhesion */
+    double pull_off_force;        /* of the retract [N], 0 if none stands out; NaN: no retract */
+    double pull_off_work;         /* the work of adhesion that it takes [J/m^2], an upper bound */
+    double tabor_number;          /* of the larger work */
+    double loss; /* work not given back by the retract, of that of the approach; NaN: no retract */
     double piezo_rate;           /* [m/s], NaN if no time */
     double indentation_rate;     /* mean of the contact part [m/s], NaN if no time */
     double load_time;            /* contact to end of approach [s], NaN if no time */
@@ -127,6 +147,16 @@ WT_API wt_status wt_indent_force_curve(const wt_contact_table *table,
  * delta, force: [n]; returns how many. */
 WT_API size_t wt_indent_curve(const wt_indent_fit *fit, const double *height, const double *force,
                               size_t n, double spring_constant, double *delta, double *out_force);
+
+/* The mean residual of curves of one tip and depth against the scatter between them: what one noisy
+ * curve hides. */
+typedef struct wt_curve_pool {
+    size_t n;
+    double misfit; /* root mean square over the contact, of the largest force */
+    double chance; /* that scatter alone makes more of it; NaN with fewer than 12 curves */
+} wt_curve_pool;
+/* misfit: that of each fit. */
+WT_API wt_curve_pool wt_curve_pool_make(const double (*misfit)[WT_CURVE_WAVES], size_t n);
 
 /* ---- groups and their comparison ------------------------------------------------------------- */
 

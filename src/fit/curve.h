@@ -32,12 +32,26 @@ struct wt_indent_workspace {
     size_t capacity;
     double *block; /* what the arrays below are parts of */
     double *position, *force, *tip, *running_max, *delta, *g, *slope, *residual, *scratch, *weight;
+    double *by_modulus, *by_work;     /* of an adhesive contact, at one depth */
     double *given_force, *given_time; /* of wt_indent_force_curve */
+    double *retract_position, *retract_force;
     double bin_position[CURVE_MAX_BINS], bin_force[CURVE_MAX_BINS], bin_tip[CURVE_MAX_BINS],
         bin_running_max[CURVE_MAX_BINS], bin_delta[CURVE_MAX_BINS], bin_g[CURVE_MAX_BINS],
         bin_weight[CURVE_MAX_BINS];
     gsl_min_fminimizer *minimizer;
 };
+
+/* A way in or out, as measured; time NULL: not known. */
+typedef struct curve_branch {
+    const double *height, *force, *time;
+    size_t n;
+} curve_branch;
+
+/* wt_indent_fit_curve with the way out, of which n may be 0. */
+wt_status curve_fit_branches(const wt_contact_table *table, const wt_indent_options *options,
+                             const curve_branch *approach, const curve_branch *retract,
+                             double spring_constant, wt_indent_workspace *workspace,
+                             wt_indent_fit *fit, wt_error *err);
 
 /* A fit without numbers. */
 void curve_fit_empty(wt_indent_fit *fit);
@@ -60,7 +74,7 @@ typedef struct curve_input {
     size_t n_all;          /* samples.n may be less: a limit of the force */
     double position_origin, force_origin;
     double direction; /* +1 or -1: position = direction * height */
-    size_t n_missing, n_repeated;
+    size_t n_missing, n_repeated, n_spikes;
     double step_noise; /* noise from successive differences [N] */
 } curve_input;
 
@@ -93,10 +107,21 @@ bool curve_scan_at(const wt_contact_table *table, const curve_samples *samples, 
 
 /* ---- refinement and errors: curve_refine.c --------------------------------------------------- */
 
-enum { CURVE_E, CURVE_C, CURVE_F0, CURVE_T, CURVE_N_PARAMETERS };
+/* The last one, the square root of the work of adhesion, has a value in adhesive contact only. */
+enum { CURVE_E, CURVE_C, CURVE_F0, CURVE_T, CURVE_W, CURVE_N_PARAMETERS };
+
+/* The residual against the noise of the same curve: curve_lack.c. NaN where the baseline is too
+ * short to say. */
+enum { CURVE_WAVES = WT_CURVE_WAVES };
+typedef struct curve_lack {
+    double statistic, chance; /* of the contact part, and of more than that by noise alone */
+    double baseline_chance;   /* that a straight baseline departs as much from a line */
+    double wave[CURVE_WAVES]; /* cosines over the contact [N] */
+    double long_run; /* variance per sample of a mean over many, of the baseline; 0: not known */
+} curve_lack;
 
 typedef struct curve_solution {
-    double p[CURVE_N_PARAMETERS]; /* reduced modulus, contact point, offset, tilt */
+    double p[CURVE_N_PARAMETERS]; /* reduced modulus, contact point, offset, tilt, root of work */
     double standard_error[CURVE_N_PARAMETERS];
     double cost;
     double sensitivity_gain;
@@ -104,15 +129,23 @@ typedef struct curve_solution {
     double max_indentation;
     double noise, correlation_length;
     double effective_n; /* samples over correlation length, baseline and contact part together */
-    double r_squared;
+    curve_lack lack;
     bool converged;
 } curve_solution;
 
-/* Least squares in all free parameters at once, starting from a minimum of the scan; then the
- * covariance with correlated residuals. plain: force against measured indentation. */
-void curve_refine(const wt_contact_table *table, const curve_samples *samples,
-                  const curve_minimum *start, bool tilt, bool contact_fixed, bool plain,
-                  wt_indent_workspace *workspace, curve_solution *solution);
+typedef struct curve_kind {
+    bool tilt, contact_fixed;
+    bool plain; /* force against measured indentation */
+    bool adhesive;
+    bool lossy;  /* the retract shows loss: the residual may have its shape */
+    size_t jump; /* of adhesive contact: the first sample in it; 0: where the tip touches */
+} curve_kind;
+
+/* Least squares in all free parameters at once, starting from p; then the covariance with
+ * correlated residuals. */
+void curve_refine(const wt_contact_table *table, const curve_samples *samples, curve_kind kind,
+                  const double p[CURVE_N_PARAMETERS], wt_indent_workspace *workspace,
+                  curve_solution *solution);
 /* Weights 1/h^2, h = 1 + S/k, of all samples for a scan, from a minimum of another. Returns the
  * largest h. */
 double curve_weights(const wt_contact_table *table, const curve_samples *samples,

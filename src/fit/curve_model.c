@@ -12,6 +12,9 @@
  */
 #include "fit/curve_model.h"
 
+#include "model/adhesion.h"
+#include "model/tip.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -46,6 +49,8 @@ static void sum_baseline(curve_law *m, size_t n)
 static size_t count_baseline(const curve_law *m, double c)
 {
     const curve_samples *s = m->samples;
+    if (m->jump > 0)
+        return m->jump;
     const double limit = c - margin * fabs(s->position[s->n - 1] - c);
     size_t n = 0;
     while (!m->plain && n < s->n && s->position[n] < limit)
@@ -100,6 +105,35 @@ static void balance(const curve_law *m, const double p[N], size_t first)
     }
 }
 
+/* The same for adhesive contact: lever and sample in balance on the branch of large radii, which a
+ * sample is on from its jump on, or from where the tip touches. */
+static void balance_adhesive(const curve_law *m, const double p[N], size_t first)
+{
+    const curve_samples *s = m->samples;
+    wt_indent_workspace *w = m->workspace;
+    const double k = s->spring_constant, e = p[CURVE_E], root = p[CURVE_W];
+    const adhesion law = {contact_table_tip(m->table), e, root * root};
+    const double release = adhesion_release(&law, k);
+    double radius = 0.0;
+    for (size_t i = first; i < s->n; i++) {
+        const double z = s->position[i] - p[CURVE_C];
+        w->delta[i] = w->g[i] = w->slope[i] = w->by_modulus[i] = w->by_work[i] = 0.0;
+        if (m->jump > 0 ? i < m->jump : !(z > 0.0))
+            continue;
+        radius = adhesion_radius(&law, k, z, release, radius);
+        if (!(radius > 0.0))
+            continue;
+        const adhesive_contact c = adhesion_at(&law, radius);
+        w->delta[i] = c.depth;
+        w->g[i] = c.force / e;
+        if (!(radius > release * (1.0 + 1e-9))) /* beyond its reach: held there */
+            continue;
+        w->slope[i] = c.stiffness / e;
+        w->by_modulus[i] = c.by_modulus;
+        w->by_work[i] = root > 0.0 ? 2.0 * root * c.by_work : 0.0;
+    }
+}
+
 static double evaluate(curve_law *m, const double p[N], size_t first)
 {
     const curve_samples *s = m->samples;
@@ -108,6 +142,8 @@ static double evaluate(curve_law *m, const double p[N], size_t first)
         measure(m, p, first);
         wt_contact_table_eval(m->table, w->delta + first, s->n - first, w->g + first,
                               w->slope + first);
+    } else if (m->adhesive) {
+        balance_adhesive(m, p, first);
     } else {
         balance(m, p, first);
     }
@@ -129,7 +165,7 @@ void curve_model_start(curve_law *m, const double p[N])
 
 double curve_model_cost(curve_law *m, const double p[N])
 {
-    if (m->n_baseline > 0 && p[CURVE_C] < m->baseline_end) {
+    if (m->jump == 0 && m->n_baseline > 0 && p[CURVE_C] < m->baseline_end) {
         sum_baseline(m, count_baseline(m, p[CURVE_C]));
         measure(m, p, 0);
     }
@@ -157,11 +193,22 @@ double curve_model_row(const curve_law *m, const double p[N], size_t i, double r
     const wt_indent_workspace *w = m->workspace;
     double h = curve_model_factor(m, p, i), stiffness = p[CURVE_E] * w->slope[i];
     double plain = m->plain ? h : 1.0, balanced = m->plain ? 1.0 : 1.0 / h;
-    row[CURVE_E] = w->g[i] * balanced;
+    row[CURVE_E] = (m->adhesive ? w->by_modulus[i] : w->g[i]) * balanced;
     row[CURVE_C] = m->free[CURVE_C] ? -p[CURVE_T] * plain - stiffness * balanced : 0.0;
     row[CURVE_F0] = plain;
     row[CURVE_T] = m->free[CURVE_T] ? (m->samples->position[i] - p[CURVE_C]) * plain : 0.0;
+    row[CURVE_W] = m->adhesive ? w->by_work[i] * balanced : 0.0;
     return plain;
+}
+
+/* Of the first n parameters. */
+static inline void add_row(normal_equations *e, const double row[N], double r, size_t n)
+{
+    for (size_t a = 0; a < n; a++) {
+        for (size_t b = a; b < n; b++)
+            e->jj[a][b] += row[a] * row[b];
+        e->jr[a] += row[a] * r;
+    }
 }
 
 void curve_model_normal(const curve_law *m, const double p[N], normal_equations *e)
@@ -190,10 +237,11 @@ void curve_model_normal(const curve_law *m, const double p[N], normal_equations 
     for (size_t i = m->n_baseline; i < m->samples->n; i++) {
         double row[N], r = m->workspace->residual[i];
         curve_model_row(m, p, i, row);
-        for (size_t a = 0; a < N; a++) {
-            for (size_t b = a; b < N; b++)
-                e->jj[a][b] += row[a] * row[b];
-            e->jr[a] += row[a] * r;
+        add_row(e, row, r, CURVE_W);
+        if (m->adhesive) {
+            for (size_t a = 0; a < N; a++)
+                e->jj[a][CURVE_W] += row[a] * row[CURVE_W];
+            e->jr[CURVE_W] += row[CURVE_W] * r;
         }
     }
     for (size_t a = 0; a < N; a++) {

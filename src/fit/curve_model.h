@@ -13,7 +13,8 @@ typedef struct curve_law {
     const curve_samples *samples;
     wt_indent_workspace *workspace; /* delta, g, slope, residual: of the latest evaluation */
     bool free[CURVE_N_PARAMETERS];
-    bool plain;
+    bool plain, adhesive, lossy;
+    size_t jump; /* of adhesive contact: its first sample; 0: where the tip touches */
     /* The first samples, far from contact for any step of the fit, enter by their sums alone. */
     size_t n_baseline;
     double baseline_end; /* largest position among them */
@@ -38,6 +39,9 @@ double curve_model_complete(curve_law *model, const double p[CURVE_N_PARAMETERS]
  * residual makes of a noise of 1. */
 double curve_model_row(const curve_law *model, const double p[CURVE_N_PARAMETERS], size_t i,
                        double row[CURVE_N_PARAMETERS]);
+/* Of the residuals e, those of the noise, at the parameters of the latest evaluation. */
+curve_lack curve_lack_of_fit(const curve_law *model, const double p[CURVE_N_PARAMETERS],
+                             const double *e);
 /* h = 1 + S/k of sample i. */
 double curve_model_factor(const curve_law *model, const double p[CURVE_N_PARAMETERS], size_t i);
 

@@ -19,10 +19,14 @@ static const double travel_share = 0.5;  /* of the range of the height that must
 static const double rigid_share = 0.02;  /* least advance of the tip per bending of the lever */
 static const double plateau_ratio = 5.0; /* force gained before a flat top against in it */
 static const size_t plateau_samples = 5;
+static const double spike_noise = 8.0; /* a spike beyond its neighbours, in noise */
+static const double spike_step = 3.0;  /* of one below, and in the step between its two sides */
+static const double spike_share = 0.2; /* of the samples: with more it is no spike */
+enum { SPIKE_SIDE = 7 };               /* neighbours on each side */
 
 wt_status curve_reserve(wt_indent_workspace *w, size_t n, wt_error *err)
 {
-    enum { N_ARRAYS = 12 };
+    enum { N_ARRAYS = 16 };
     if (n <= w->capacity)
         return WT_OK;
     size_t capacity = n + n / 4;
@@ -34,9 +38,12 @@ wt_status curve_reserve(wt_indent_workspace *w, size_t n, wt_error *err)
     free(w->block);
     w->block = block;
     w->capacity = capacity;
-    double **const arrays[N_ARRAYS] = {&w->position, &w->force,  &w->tip,         &w->running_max,
-                                       &w->delta,    &w->g,      &w->slope,       &w->residual,
-                                       &w->scratch,  &w->weight, &w->given_force, &w->given_time};
+    double **const arrays[N_ARRAYS] = {&w->position,     &w->force,       &w->tip,
+                                       &w->running_max,  &w->delta,       &w->g,
+                                       &w->slope,        &w->residual,    &w->scratch,
+                                       &w->weight,       &w->given_force, &w->given_time,
+                                       &w->by_work,      &w->by_modulus,  &w->retract_position,
+                                       &w->retract_force};
     for (size_t i = 0; i < N_ARRAYS; i++)
         *arrays[i] = block + i * capacity;
     return WT_OK;
@@ -127,6 +134,50 @@ static size_t clean(const double *height, const double *force, size_t n, curve_i
     return kept;
 }
 
+static double median_of(const double *x, size_t n)
+{
+    double sorted[SPIKE_SIDE];
+    for (size_t i = 0; i < n; i++) { /* by insertion: they are few */
+        size_t j = i;
+        for (; j > 0 && sorted[j - 1] > x[i]; j--)
+            sorted[j] = sorted[j - 1];
+        sorted[j] = x[i];
+    }
+    return n % 2 == 1 ? sorted[n / 2] : 0.5 * (sorted[n / 2 - 1] + sorted[n / 2]);
+}
+
+/* Leaves out samples far outside what lies before and behind them; a step has one side to agree
+ * with, a snap-on a step or a neighbour beside it. */
+static void leave_out_spikes(curve_input *input, double noise)
+{
+    curve_samples *s = &input->samples;
+    const double far = spike_noise * noise;
+    size_t kept = SPIKE_SIDE, spikes = 0;
+    bool after_spike = false;
+    if (!(far > 0.0))
+        return;
+    for (size_t i = SPIKE_SIDE; i < s->n; i++) {
+        const double x = s->force[i];
+        bool spike = false;
+        if (i + SPIKE_SIDE < s->n && (after_spike || fabs(x - s->force[kept - 1]) > 0.5 * far)) {
+            const double left = median_of(s->force + kept - SPIKE_SIDE, SPIKE_SIDE);
+            const double right = median_of(s->force + i + 1, SPIKE_SIDE);
+            const double above = x - fmax(left, right), below = fmin(left, right) - x;
+            const double beside = fmin(s->force[kept - 1], s->force[i + 1]) - x;
+            spike =
+                above > far || (beside > far && below > fmax(far, spike_step * fabs(left - right)));
+        }
+        after_spike = spike;
+        spikes += spike;
+        if (spike)
+            continue;
+        s->position[kept] = s->position[i];
+        s->force[kept++] = x;
+    }
+    input->n_spikes = spikes;
+    s->n = kept;
+}
+
 /* Samples up to where the force passes a share of its largest value: halfway between the first
  * above and the last below. */
 static size_t limit_force(const curve_samples *s, double fraction)
@@ -175,6 +226,15 @@ wt_curve_verdict curve_prepare(const double *height, const double *force, size_t
         return WT_CURVE_TOO_SHORT;
     }
 
+    double resolution = 0.0;
+    input->step_noise = difference_noise(s, w->scratch, &resolution);
+    leave_out_spikes(input, fmax(input->step_noise, resolution));
+    if ((double)input->n_spikes > spike_share * (double)n) {
+        curve_say(reason, "%zu of %zu samples are spikes, %g %% allowed", input->n_spikes, n,
+                  100.0 * spike_share);
+        return WT_CURVE_NOT_FINITE;
+    }
+
     size_t end = s->n / 20 + 1;
     double min, max;
     gsl_stats_minmax(&min, &max, s->position, 1, s->n);
@@ -203,8 +263,6 @@ wt_curve_verdict curve_prepare(const double *height, const double *force, size_t
         return WT_CURVE_TOO_SHORT;
     }
 
-    double resolution = 0.0;
-    input->step_noise = difference_noise(s, w->scratch, &resolution);
     size_t top = 0;
     if (flat_top(s, input->step_noise, resolution, &top)) {
         const double level = s->force[top] - mean(s->force, s->n / 10);

@@ -16,7 +16,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { N = CURVE_N_PARAMETERS, MAX_ITERATIONS = 60 };
+enum { N = CURVE_N_PARAMETERS, MAX_ITERATIONS = 60, MAX_ADHESIVE = 25 };
 
 /* Solves (J'J + damping diag) x = y for several y, columns scaled to 1. */
 static bool solve(const normal_equations *e, double damping, double (*y)[N], size_t n_y)
@@ -63,7 +63,8 @@ static bool minimise(curve_law *m, double p[N], double *cost)
     const double small = 1e-10 / (double)s->n, rounding = 1e-28 * scale;
     curve_model_start(m, p);
     *cost = curve_model_cost(m, p);
-    for (int iteration = 0; iteration < MAX_ITERATIONS; iteration++) {
+    for (int iteration = 0; iteration < (m->adhesive ? MAX_ADHESIVE : MAX_ITERATIONS);
+         iteration++) {
         normal_equations e;
         curve_model_normal(m, p, &e);
         bool moved = false;
@@ -78,7 +79,7 @@ static bool minimise(curve_law *m, double p[N], double *cost)
             }
             for (size_t a = 0; a < N; a++)
                 trial[a] = p[a] + step[0][a];
-            if (solved && trial[CURVE_E] > 0.0) {
+            if (solved && trial[CURVE_E] > 0.0 && trial[CURVE_W] >= 0.0) {
                 double trial_cost = curve_model_cost(m, trial);
                 /* Near the minimum the decrease drowns in the rounding of the cost. */
                 if (trial_cost < *cost || (damping == 0.0 && expected < 1e-9 * *cost)) {
@@ -110,7 +111,7 @@ static void statistics(const curve_law *m, curve_solution *s)
     const size_t n = samples->n;
 
     size_t first = 0;
-    while (first < n && samples->position[first] < p[CURVE_C])
+    while (first < n && (m->jump > 0 ? first < m->jump : samples->position[first] < p[CURVE_C]))
         first++;
     s->first_contact = first;
 
@@ -120,11 +121,13 @@ static void statistics(const curve_law *m, curve_solution *s)
         w->scratch[i] = w->residual[i] / curve_model_row(m, p, i, row); /* e */
         s->max_indentation = fmax(s->max_indentation, w->delta[i]);
     }
+    s->lack = curve_lack_of_fit(m, p, w->scratch);
 
     noise_level before = noise_estimate(w->scratch, first);
     noise_level contact = noise_estimate(w->scratch + first, n - first);
     double v_before = long_run_variance(before, first, 1.0 + (m->free[CURVE_T] ? 1.0 : 0.0));
     double v_contact = long_run_variance(contact, n - first, 1.0 + (m->free[CURVE_C] ? 1.0 : 0.0));
+    v_before = fmax(v_before, s->lack.long_run);
     v_contact = fmax(v_contact, v_before);
     s->noise = sqrt(before.variance);
     s->effective_n =
@@ -160,39 +163,22 @@ static void statistics(const curve_law *m, curve_solution *s)
     s->sensitivity_gain = solved ? inverse[N][CURVE_E] / p[CURVE_E] : (double)NAN;
 }
 
-/* Of the force against the measured indentation in contact, as a plot of them shows it. */
-static double r_squared(const curve_law *m, const curve_solution *s)
-{
-    curve_law plain = *m;
-    plain.plain = true;
-    curve_model_complete(&plain, s->p);
-    const wt_indent_workspace *w = m->workspace;
-    double total = 0.0, sum = 0.0, sum2 = 0.0;
-    for (size_t i = s->first_contact; i < m->samples->n; i++) {
-        double f = s->p[CURVE_E] * w->g[i] + w->residual[i];
-        total += w->residual[i] * w->residual[i];
-        sum += f;
-        sum2 += f * f;
-    }
-    double scatter = sum2 - sum * sum / (double)(m->samples->n - s->first_contact);
-    return scatter > 0.0 ? 1.0 - total / scatter : (double)NAN;
-}
-
-void curve_refine(const wt_contact_table *table, const curve_samples *samples,
-                  const curve_minimum *start, bool tilt, bool contact_fixed, bool plain,
-                  wt_indent_workspace *workspace, curve_solution *solution)
+void curve_refine(const wt_contact_table *table, const curve_samples *samples, curve_kind kind,
+                  const double p[N], wt_indent_workspace *workspace, curve_solution *solution)
 {
     curve_law m = {.table = table,
                    .samples = samples,
                    .workspace = workspace,
-                   .free = {true, !contact_fixed, true, tilt},
-                   .plain = plain};
-    curve_solution s = {
-        .p = {start->reduced_modulus, start->contact_point, start->offset, tilt ? start->tilt : 0}};
+                   .free = {true, !kind.contact_fixed, true, kind.tilt, kind.adhesive},
+                   .plain = kind.plain,
+                   .adhesive = kind.adhesive,
+                   .lossy = kind.lossy,
+                   .jump = kind.jump};
+    curve_solution s = {.p = {p[CURVE_E], p[CURVE_C], p[CURVE_F0], kind.tilt ? p[CURVE_T] : 0.0,
+                              kind.adhesive ? p[CURVE_W] : 0.0}};
     s.converged = minimise(&m, s.p, &s.cost);
     s.cost = curve_model_complete(&m, s.p);
     statistics(&m, &s);
-    s.r_squared = r_squared(&m, &s);
     *solution = s;
 }
 
@@ -201,7 +187,7 @@ double curve_weights(const wt_contact_table *table, const curve_samples *samples
 {
     curve_law m = {.table = table, .samples = samples, .workspace = workspace};
     const double p[N] = {minimum->reduced_modulus, minimum->contact_point, minimum->offset,
-                         minimum->tilt};
+                         minimum->tilt, 0.0};
     double largest = 1.0;
     curve_model_complete(&m, p);
     for (size_t i = 0; i < samples->n; i++) {

@@ -55,6 +55,16 @@ static const double *time_of(const wt_segment *segment, double *scratch)
     return scratch;
 }
 
+/* Empty where height or force are not there. */
+static curve_branch way_out(const wt_segment *retract, const wt_cantilever *cantilever,
+                            wt_indent_workspace *workspace)
+{
+    const double *height = retract != NULL ? segment_height(retract) : NULL;
+    const double *force =
+        height != NULL ? segment_force(retract, cantilever, workspace->retract_force) : NULL;
+    return (curve_branch){height, force, NULL, force != NULL ? retract->n_points : 0};
+}
+
 wt_status wt_indent_force_curve(const wt_contact_table *table, const wt_indent_options *options,
                                 const wt_force_curve *curve, wt_indent_workspace *workspace,
                                 wt_indent_fit *fit, wt_error *err)
@@ -72,17 +82,20 @@ wt_status wt_indent_force_curve(const wt_contact_table *table, const wt_indent_o
     if (height == NULL)
         return missing(err, approach, "the height", "a channel of height or measured height",
                        "see what the file holds with: weartrack info FILE");
-    wt_status status = curve_reserve(workspace, approach->n_points, err);
+    const wt_segment *retract = wt_force_curve_segment(curve, WT_SEGMENT_RETRACT);
+    const size_t n_out = retract != NULL ? retract->n_points : 0;
+    wt_status status =
+        curve_reserve(workspace, n_out > approach->n_points ? n_out : approach->n_points, err);
     if (status != WT_OK)
         return status;
     const double *force = segment_force(approach, &curve->cantilever, workspace->given_force);
     if (force == NULL)
         return no_force(err, approach);
-    status =
-        wt_indent_fit_curve(table, options, height, force, time_of(approach, workspace->given_time),
-                            approach->n_points, k, workspace, fit, err);
+    const curve_branch in = {height, force, time_of(approach, workspace->given_time),
+                             approach->n_points};
+    const curve_branch out = way_out(retract, &curve->cantilever, workspace);
+    status = curve_fit_branches(table, options, &in, &out, k, workspace, fit, err);
     if (status == WT_OK && fit->verdict == WT_CURVE_ACCEPTED) {
-        const wt_segment *retract = wt_force_curve_segment(curve, WT_SEGMENT_RETRACT);
         if (retract != NULL && retract < approach)
             strncat(fit->reason, "; the retract comes first in the file",
                     sizeof fit->reason - 1 - strlen(fit->reason));

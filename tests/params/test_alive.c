@@ -24,7 +24,8 @@ static const struct {
     {"expansion", "7e-4", "vertical-shift physical", NULL},
     {"fit-depth", "30nm", NULL, NULL},
     {"fit-force-fraction", "0.5", NULL, NULL},
-    {"minimum-r-squared", "0.99999", NULL, NULL},
+    {"least-chance", "0.99", NULL, NULL},
+    {"largest-error", "0.00001", NULL, NULL},
     {"fixed-contact-point", "1um", NULL, NULL},
     {"tip", "sphere:radius=5um", NULL, NULL},
     {"kind", "sweep", NULL, NULL}, /* which that file does not hold */

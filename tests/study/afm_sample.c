@@ -5,8 +5,13 @@
 #include <math.h>
 #include <stdlib.h>
 
-static const double modulus = 5e6, poisson = 0.5, reduced = 5e6 / 0.75;
+static const double poisson = 0.5;
 enum { FREE = 2 * AFM_BRANCH / 3, FINE = 4 };
+
+static double modulus_of(const afm_scene *s)
+{
+    return s->modulus > 0 ? s->modulus : 5e6;
+}
 
 static afm_tip true_tip(const afm_scene *s)
 {
@@ -18,6 +23,7 @@ static afm_tip true_tip(const afm_scene *s)
 
 static double layer_reduced(const afm_scene *s, double a)
 {
+    const double reduced = modulus_of(s) / (1 - poisson * poisson);
     return s->layer_thickness > 0 ? reduced * layer_apparent(s->layer_ratio, a / s->layer_thickness)
                                   : reduced;
 }
@@ -27,7 +33,7 @@ static double elastic_force(const afm_scene *s, const afm_tip *tip, double k, do
 {
     const double w = out ? s->work_out : s->work;
     if (w > 0 && !s->dmt) {
-        const jkr law = {tip, reduced, w};
+        const jkr law = {tip, layer_reduced(s, 0), w};
         const double a = out || base > 0 ? jkr_radius(&law, k, base) : 0;
         return a > 0 ? jkr_force(&law, a) : 0;
     }
@@ -60,7 +66,7 @@ static int add_lossy(const afm_scene *s, const afm_tip *tip, afm_sample *to)
     relaxation r = s->loss == LOSS_POWER ? relaxation_power(0.25, s->tan_delta)
                                          : relaxation_cole_cole(0.6, s->tan_delta);
     double found;
-    const double scale = modulus / relaxation_modulus(&r, 1, &found);
+    const double scale = modulus_of(s) / relaxation_modulus(&r, 1, &found);
     r.rest *= scale;
     for (size_t i = 0; i < r.n; i++)
         r.e[i] *= scale;

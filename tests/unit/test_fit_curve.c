@@ -33,9 +33,17 @@ static wt_indent_fit fit_with(const curve_truth *t, const wt_indent_options *opt
     return fit;
 }
 
-static wt_indent_fit fit_default(const curve_truth *t)
+/* Curves without noise, and all of many: nothing is said here of the residual. */
+static wt_indent_options every_curve(void)
 {
     wt_indent_options options = wt_indent_defaults();
+    options.least_chance = 0;
+    return options;
+}
+
+static wt_indent_fit fit_default(const curve_truth *t)
+{
+    wt_indent_options options = every_curve();
     return fit_with(t, &options);
 }
 
@@ -56,7 +64,7 @@ static void exact_curves_give_the_truth(void **state)
     for (int variant = 0; variant < 6; variant++) {
         curve_truth t = curve_standard();
         t.noise = 0.0;
-        wt_indent_options options = wt_indent_defaults();
+        wt_indent_options options = every_curve();
         if (variant == 1)
             t.direction = -1.0; /* the height falls towards the sample */
         if (variant == 2) {     /* a lever much softer than the contact */
@@ -90,7 +98,6 @@ static void exact_curves_give_the_truth(void **state)
         assert_near_abs(fit.contact_point.value, true_contact(&t), 1e-7 * t.travel);
         assert_near(fit.baseline_offset.value, t.offset + t.tilt * t.contact_point, 1e-8);
         assert_near_abs(fit.baseline_tilt.value, t.tilt, 1e-9);
-        assert_near_abs(fit.r_squared, 1.0, 1e-9);
         assert_near(fit.direction, t.direction, 0.0);
         assert_int_equal(fit.n_fitted, t.n);
         double z = t.travel - t.contact_point, force = curve_contact_force(&t, z);
@@ -139,7 +146,7 @@ static void intervals_cover_the_truth(void **state)
         static curve_data truth;
         truth = data;
         wt_contact_table *table = table_of(&t);
-        wt_indent_options options = wt_indent_defaults();
+        wt_indent_options options = every_curve();
         int covered[4] = {0};
         double sum = 0.0, sum2 = 0.0, errors = 0.0, lengths = 0.0, noise = 0.0;
         for (uint64_t seed = 1; seed <= CURVES; seed++) {
@@ -198,7 +205,7 @@ static void plain_least_squares_is_biased_with_a_soft_lever(void **state)
     t.contact_point = 296.37e-9;
     t.tilt = 1e-4;
     t.n = 600;
-    wt_indent_options plain = wt_indent_defaults();
+    wt_indent_options plain = every_curve();
     plain.plain_least_squares = true;
     double bias = 0.0, bias_plain = 0.0;
     for (uint64_t seed = 1; seed <= 20; seed++) {
@@ -294,7 +301,7 @@ static void range_of_the_fit(void **state)
     curve_truth t = curve_standard();
     t.noise = 0.0;
     curve_make(&t, 0, &data);
-    wt_indent_options options = wt_indent_defaults();
+    wt_indent_options options = every_curve();
     options.fit_depth = 30e-9;
     wt_indent_fit fit = fit_with(&t, &options);
     assert_accepted(&fit);
@@ -302,7 +309,7 @@ static void range_of_the_fit(void **state)
     assert_true(fit.max_indentation <= 30e-9 && fit.max_indentation > 29.5e-9);
     assert_true(fit.n_fitted < t.n);
     assert_near(fit.max_force, curve_contact_force(&t, t.travel - t.contact_point), 1e-6);
-    options = wt_indent_defaults();
+    options = every_curve();
     options.fit_force_fraction = 0.5;
     fit = fit_with(&t, &options);
     assert_accepted(&fit);
@@ -317,7 +324,7 @@ static void range_of_the_fit(void **state)
         if (z > 60e-9)
             data.force[i] += 0.2 * (z - 60e-9);
     }
-    options = wt_indent_defaults();
+    options = every_curve();
     options.fit_depth = 25e-9;
     fit = fit_with(&t, &options);
     assert_accepted(&fit);
@@ -326,7 +333,7 @@ static void range_of_the_fit(void **state)
 
     /* A contact point that is given is not moved and has no error. */
     curve_make(&t, 0, &data);
-    options = wt_indent_defaults();
+    options = every_curve();
     options.fixed_contact_point = true_contact(&t);
     fit = fit_with(&t, &options);
     assert_accepted(&fit);
@@ -409,7 +416,7 @@ static void force_curve_as_read(void **state)
     (void)state;
     curve_truth t = curve_standard();
     wt_contact_table *table = table_of(&t);
-    wt_indent_options options = wt_indent_defaults();
+    wt_indent_options options = every_curve();
     curve_make(&t, 3, &data);
     wt_indent_fit expected = fit_default(&t), fit;
     const struct {
@@ -463,7 +470,7 @@ static void arguments(void **state)
     (void)state;
     curve_truth t = curve_standard();
     wt_contact_table *table = table_of(&t);
-    wt_indent_options options = wt_indent_defaults();
+    wt_indent_options options = every_curve();
     wt_indent_fit fit;
     curve_make(&t, 1, &data);
     const double bad[] = {0.0, -1.0, (double)NAN, (double)INFINITY};
@@ -478,7 +485,7 @@ static void arguments(void **state)
     assert_int_equal(wt_indent_fit_curve(table, &options, data.height, data.force, NULL, t.n, 1.0,
                                          workspace, &fit, NULL),
                      WT_E_RANGE);
-    options = wt_indent_defaults();
+    options = every_curve();
     options.fit_force_fraction = 0.0;
     assert_int_equal(wt_indent_fit_curve(table, &options, data.height, data.force, NULL, t.n, 1.0,
                                          workspace, &fit, NULL),

@@ -4,6 +4,7 @@
  */
 #include "near.h"
 
+#include "model/adhesion.h"
 #include "synthetic_curve.h"
 #include "weartrack/fit.h"
 
@@ -235,10 +236,10 @@ static void not_this_tip(void **state)
         if (z > 50e-9)
             data.force[i] -= 0.85 * curve_contact_force(&t, z);
     }
-    wt_indent_fit fit = expect(&t, WT_CURVE_POOR_FIT, "R^2");
-    assert_true(fit.r_squared < 0.9);
+    wt_indent_fit fit = expect(&t, WT_CURVE_POOR_FIT, "what the noise of the baseline explains");
+    assert_true(fit.lack_of_fit > 100 && fit.lack_of_fit_chance < 1e-6);
     wt_indent_options options = wt_indent_defaults();
-    options.minimum_r_squared = 0.0;
+    options.least_chance = 0.0;
     fit = fit_with(&t, &options);
     assert_int_not_equal(fit.verdict, WT_CURVE_POOR_FIT);
 }
@@ -257,7 +258,7 @@ static void several_contact_points(void **state)
     for (uint64_t seed = 1; seed <= 30; seed++) {
         curve_make(&t, seed, &data);
         wt_indent_options options = wt_indent_defaults();
-        options.minimum_r_squared = 0.0;
+        options.least_chance = 0.0;
         wt_indent_fit fit = fit_with(&t, &options);
         if (!isnan(fit.second_minimum_ratio)) {
             second++;
@@ -299,7 +300,7 @@ static void nonsense_has_a_verdict_too(void **state)
                 data.force[k] = k % 2 == 0 ? (double)NAN : -DBL_MAX;
         }
         wt_indent_options options = wt_indent_defaults();
-        options.minimum_r_squared = 0.0;
+        options.least_chance = 0.0;
         options.fit_tilt = i % 2 == 1;
         options.fit_depth = i % 6 == 0 ? 1e-8 : 0.0;
         options.plain_least_squares = i % 8 == 0;
@@ -309,6 +310,118 @@ static void nonsense_has_a_verdict_too(void **state)
                         ? isfinite(fit.modulus.value) && fit.modulus.value > 0.0
                         : isnan(fit.modulus.value));
     }
+}
+
+/* Spikes are left out, and then nothing else is said of the curve. */
+static void spikes(void **state)
+{
+    (void)state;
+    curve_truth t = curve_standard();
+    curve_make(&t, 1, &data);
+    const double modulus = expect(&t, WT_CURVE_ACCEPTED, "accepted").modulus.value;
+    data.force[300] += 60e-9;
+    for (size_t i = 40; i < t.n; i += 97)
+        data.force[i] += 3e-9;
+    wt_indent_fit fit = expect(&t, WT_CURVE_ACCEPTED, "22 spikes left out");
+    assert_near(fit.modulus.value, modulus, 2e-3);
+    uint64_t random = 3;
+    for (size_t i = 0; i < t.n; i++)
+        data.force[i] += curve_uniform(&random) < 0.3 ? 3e-9 : 0.0;
+    assert_int_not_equal(fit_with(&t, NULL).verdict, WT_CURVE_ACCEPTED);
+}
+
+static void deeper_than_the_sphere(void **state)
+{
+    (void)state;
+    curve_truth t = curve_standard();
+    t.tip = (wt_tip){.shape = WT_TIP_PARABOLOID, .radius = 60e-9};
+    t.modulus = 5e6;
+    curve_make(&t, 1, &data);
+    expect(&t, WT_CURVE_TOO_DEEP, "radii of the sphere");
+    t.tip.radius = 300e-9;
+    curve_make(&t, 1, &data);
+    expect(&t, WT_CURVE_ACCEPTED, "accepted");
+}
+
+static void too_uncertain(void **state)
+{
+    (void)state;
+    curve_truth t = curve_standard();
+    curve_make(&t, 1, &data);
+    wt_indent_options options = wt_indent_defaults();
+    options.largest_error = 1e-4;
+    assert_int_equal(fit_with(&t, &options).verdict, WT_CURVE_IMPRECISE);
+}
+
+/* Another tip, a bent baseline: what R squared lets pass at 0.999 and more. */
+static void not_by_the_noise(void **state)
+{
+    (void)state;
+    curve_truth t = curve_standard();
+    curve_make(&t, 1, &data);
+    t.tip.radius = 40e-9;
+    t.tip.transition_radius = wt_tip_tangent_transition(t.tip.radius, t.tip.half_angle);
+    expect(&t, WT_CURVE_POOR_FIT, "another tip");
+    t = curve_standard();
+    curve_make(&t, 1, &data);
+    for (size_t i = 0; i < t.n; i++) {
+        const double x = (double)i / (double)t.n;
+        data.force[i] += 2e-9 * x * (1 - x);
+    }
+    assert_true(fit_with(&t, NULL).baseline_chance < 0.01);
+}
+
+/* One noisy curve hides what thirty together show. */
+static void curves_together(void **state)
+{
+    (void)state;
+    for (int wrong = 0; wrong < 2; wrong++) {
+        double misfit[30][WT_CURVE_WAVES];
+        curve_truth t = curve_standard();
+        t.noise = 1e-9;
+        for (size_t i = 0; i < 30; i++) {
+            curve_truth stated = t;
+            curve_make(&t, i + 1, &data);
+            stated.tip.radius *= wrong ? 2.5 : 1.0;
+            stated.tip.transition_radius =
+                wt_tip_tangent_transition(stated.tip.radius, t.tip.half_angle);
+            const wt_indent_fit fit = fit_with(&stated, NULL);
+            for (size_t j = 0; j < WT_CURVE_WAVES; j++)
+                misfit[i][j] = fit.misfit[j];
+        }
+        const wt_curve_pool pool = wt_curve_pool_make((const double(*)[WT_CURVE_WAVES])misfit, 30);
+        assert_true(wrong ? pool.chance < 1e-3 : pool.chance > 0.01);
+        assert_true(isnan(wt_curve_pool_make((const double(*)[WT_CURVE_WAVES])misfit, 11).chance));
+    }
+}
+
+/* Lever and adhesive contact in balance: the modulus and the work come back, where without adhesion
+ * the modulus is a third too large. */
+static void adhesive_contact_is_fitted(void **state)
+{
+    (void)state;
+    curve_truth t = curve_standard();
+    t.modulus = 5e6;
+    t.spring_constant = 0.5;
+    t.tip.half_angle = 35 * M_PI / 180;
+    t.tip.radius = 20e-9;
+    t.tip.transition_radius = wt_tip_tangent_transition(t.tip.radius, t.tip.half_angle);
+    t.contact_point = 450e-9;
+    const adhesion law = {&t.tip, t.modulus / 0.75, 0.05};
+    const double release = adhesion_release(&law, t.spring_constant);
+    curve_make(&t, 1, &data);
+    for (size_t i = 0; i < t.n; i++) {
+        const double z = data.height[i] - t.height0 - t.contact_point;
+        if (z > 0.0)
+            data.force[i] +=
+                adhesion_at(&law, adhesion_radius(&law, t.spring_constant, z, release, 0.0)).force -
+                curve_contact_force(&t, z);
+    }
+    const wt_indent_fit fit = expect(&t, WT_CURVE_ACCEPTED, "with adhesion of");
+    assert_near(fit.modulus.value, t.modulus, 4 * fit.modulus.standard_error / t.modulus);
+    assert_true(fit.modulus.standard_error < 0.03 * t.modulus);
+    assert_near_abs(fit.work_of_adhesion.value, 0.05, 4 * fit.work_of_adhesion.standard_error);
+    assert_true(fit.work_of_adhesion.standard_error < 0.003 && fit.tabor_number > 5);
 }
 
 static void names_of_verdicts(void **state)
@@ -341,6 +454,12 @@ int main(void)
         cmocka_unit_test(saturated_detector),
         cmocka_unit_test(missing_and_repeated_samples),
         cmocka_unit_test(disturbed_baseline),
+        cmocka_unit_test(spikes),
+        cmocka_unit_test(deeper_than_the_sphere),
+        cmocka_unit_test(too_uncertain),
+        cmocka_unit_test(not_by_the_noise),
+        cmocka_unit_test(curves_together),
+        cmocka_unit_test(adhesive_contact_is_fitted),
         cmocka_unit_test(wrong_way),
         cmocka_unit_test(too_stiff_for_the_lever),
         cmocka_unit_test(snap_on_is_left_out),

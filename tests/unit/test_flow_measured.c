@@ -16,6 +16,7 @@
 
 static const char text[] =
     "<case version=\"1\"><indentation><tip>pyramid:half-angle=17.5deg,radius=20nm</tip>"
+    "<least-chance>0</least-chance>"
     "<bulk><files>" JPK "map-data-2022.10.29-12.27.34.564.jpk-force-map</files></bulk>"
     "<track><files>" JPK "fmt-jpk-fd_map-data-reference-points.jpk-force-map</files></track>"
     "</indentation><dma><files>" SWEEPS "</files></dma>"

@@ -245,12 +245,12 @@ static void test_sliding(void **state)
     (void)state;
     run(0.6, 0.03,
         INDENTATION(FILES("b"), FILES("t")) SLIDING LAYER("1e-3mm^3/(N m)", "1e10J/m^3"));
-    /* the bulk over |E*| of the series at exp(psi(5/2)) / (time in contact) */
-    double ratio[RATES], psi = 8.0 / 3.0 - 0.57721566490153286 - log(4);
+    /* the bulk over |E*| of the series at 1/(time in contact) */
+    double ratio[RATES];
     for (int r = 0; r < RATES; r++) {
         hertz h = hertz_standard();
         h.modulus = BULK * with_rate[r];
-        double omega = exp(psi) * rate[r] / hertz_travel(&h), z = omega * 0.1, fast = omega * 1e-6;
+        double omega = rate[r] / hertz_travel(&h), z = omega * 0.1, fast = omega * 1e-6;
         double storage = 2e6 + 3e6 * z * z / (1 + z * z);
         double loss = 3e6 * z / (1 + z * z) + 300e6 * fast;
         ratio[r] = h.modulus / hypot(storage, loss);

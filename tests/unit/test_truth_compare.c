@@ -45,7 +45,6 @@ static wt_table *indentation(const char *group, double mean)
                    {"baseline_offset", "N"},
                    {"baseline_tilt", "N/m"},
                    {"noise", "N"},
-                   {"r_squared", "1"},
                    {"max_force", "N"},
                    {"max_indentation", "m"},
                    {"adhesion_force", "N"},
@@ -55,7 +54,7 @@ static wt_table *indentation(const char *group, double mean)
                    {"second_minimum_ratio", "1"},
                    {"sensitivity_gain", "1"},
                    {"equivalent_frequency", "rad/s"}};
-    enum { SPOT = 2, VERDICT = 5, MODULUS = 7, RATE = 19, FREQUENCY = 23 };
+    enum { SPOT = 2, VERDICT = 5, MODULUS = 7, RATE = 18, FREQUENCY = 22 };
     char name[64], spot[8];
     snprintf(name, sizeof name, "indentation/%s", group);
     wt_table *t = wt_table_new(name, group);

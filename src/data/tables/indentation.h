@@ -28,12 +28,28 @@
     X(INDENTATION_BASELINE_TILT, "baseline_tilt", "slope of the baseline", UNIT("N/m"), OPTIONAL)  \
     X(INDENTATION_NOISE, "noise", "standard deviation of the baseline residual", SI(FORCE),        \
       OPTIONAL)                                                                                    \
-    X(INDENTATION_R_SQUARED, "r_squared", "coefficient of determination of the contact part",      \
+    X(INDENTATION_LACK_OF_FIT, "lack_of_fit",                                                      \
+      "slow residual in contact over what the noise of the baseline explains", NUMBER, OPTIONAL)   \
+    X(INDENTATION_LACK_OF_FIT_CHANCE, "lack_of_fit_chance", "chance of more by noise alone",       \
       NUMBER, OPTIONAL)                                                                            \
+    X(INDENTATION_BASELINE_CHANCE, "baseline_chance",                                              \
+      "chance that a straight baseline departs as much from a line", NUMBER, OPTIONAL)             \
     X(INDENTATION_MAX_FORCE, "max_force", "largest force above the baseline", SI(FORCE), OPTIONAL) \
     X(INDENTATION_MAX_INDENTATION, "max_indentation", "largest indentation", SI(INDENTATION),      \
       OPTIONAL)                                                                                    \
     X(INDENTATION_ADHESION_FORCE, "adhesion_force", "largest pull before contact", SI(FORCE),      \
+      OPTIONAL)                                                                                    \
+    X(INDENTATION_WORK_OF_ADHESION, "work_of_adhesion", "work of adhesion of the approach",        \
+      UNIT("J/m^2"), STANDARD_ERROR(INDENTATION_WORK_OF_ADHESION), OPTIONAL)                       \
+    X(INDENTATION_WORK_OF_ADHESION_STANDARD_ERROR, "work_of_adhesion_standard_error",              \
+      "standard error of the work of adhesion", UNIT("J/m^2"), OPTIONAL)                           \
+    X(INDENTATION_PULL_OFF_FORCE, "pull_off_force", "largest pull of the retract", SI(FORCE),      \
+      OPTIONAL)                                                                                    \
+    X(INDENTATION_PULL_OFF_WORK, "pull_off_work",                                                  \
+      "work of adhesion of the retract, an upper bound", UNIT("J/m^2"), OPTIONAL)                  \
+    X(INDENTATION_TABOR_NUMBER, "tabor_number",                                                    \
+      "Tabor number: above 5 the adhesion is that of the fit", NUMBER, OPTIONAL)                   \
+    X(INDENTATION_LOSS, "loss", "share of the work that the retract does not give back", NUMBER,   \
       OPTIONAL)                                                                                    \
     X(INDENTATION_PIEZO_RATE, "piezo_rate", "rate of the piezo", SI(VELOCITY), OPTIONAL)           \
     X(INDENTATION_RATE, "indentation_rate", "mean rate of indentation", SI(VELOCITY), OPTIONAL)    \
@@ -53,6 +69,10 @@
     X(INDENTATION_KEY_SPRING_CONSTANT, "spring_constant", SI(SPRING_CONSTANT), OPTIONAL)           \
     X(INDENTATION_KEY_SPRING_CONSTANTS, "spring_constants", TEXT, OPTIONAL)                        \
     X(INDENTATION_KEY_SPOTS, "spots", TEXT, OPTIONAL)                                              \
+    X(INDENTATION_KEY_POOLED_MISFIT, "pooled_misfit", PLAIN,                                       \
+      LABEL("Mean residual of all curves, of the largest force"), OPTIONAL)                        \
+    X(INDENTATION_KEY_POOLED_MISFIT_CHANCE, "pooled_misfit_chance", PLAIN,                         \
+      LABEL("Chance of more by scatter alone"), OPTIONAL)                                          \
     X(INDENTATION_KEY_N_ACCEPTED, "n_accepted", PLAIN, LABEL("Curves accepted"), OPTIONAL)         \
     X(INDENTATION_KEY_N_REJECTED, "n_rejected", PLAIN, LABEL("Curves rejected"), OPTIONAL)
 

@@ -59,9 +59,9 @@ static void number_spots(named *names, size_t n, long *spot)
 static uint64_t digest_of(const table_view *t, size_t row)
 {
     static const indentation_column columns[] = {
-        INDENTATION_MODULUS,   INDENTATION_MODULUS_STANDARD_ERROR, INDENTATION_CONTACT_POINT,
-        INDENTATION_NOISE,     INDENTATION_BASELINE_TILT,          INDENTATION_MAX_FORCE,
-        INDENTATION_R_SQUARED, INDENTATION_MAX_INDENTATION};
+        INDENTATION_MODULUS,     INDENTATION_MODULUS_STANDARD_ERROR, INDENTATION_CONTACT_POINT,
+        INDENTATION_NOISE,       INDENTATION_BASELINE_TILT,          INDENTATION_MAX_FORCE,
+        INDENTATION_LACK_OF_FIT, INDENTATION_MAX_INDENTATION};
     uint64_t digest = 1;
     size_t known = 0;
     for (size_t i = 0; i < COUNT_OF(columns); i++) {

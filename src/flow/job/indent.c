@@ -34,6 +34,7 @@ typedef struct accepted {
     double modulus;
     const flow_file *file;
     size_t curve, order;
+    double misfit[WT_CURVE_WAVES];
 } accepted;
 
 typedef struct indent_task {
@@ -162,17 +163,22 @@ static wt_status keep_modulus(indent_task *task, const item *it, wt_error *err)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     task->moduli = moduli;
     task->moduli[task->n_moduli] =
-        (accepted){it->fit.modulus.value, task->file, it->curve.index, task->n_moduli};
+        (accepted){it->fit.modulus.value, task->file, it->curve.index, task->n_moduli, {0}};
+    memcpy(task->moduli[task->n_moduli].misfit, it->fit.misfit, sizeof it->fit.misfit);
     task->n_moduli++;
     return WT_OK;
 }
 
-/* Local exponent p of F ~ delta^p at the deepest point, for the equivalent frequency. */
-static double equivalent_frequency(const wt_tip *tip, const wt_indent_fit *fit)
+/* What an elastic fit of rubber with loss returns is |E*| at 1/(loading time) where the contact
+ * point is fitted, too. Where it is given: local exponent p of F ~ delta^p at the deepest point. */
+static double equivalent_frequency(const wt_indent_job *job, const wt_indent_fit *fit)
 {
+    const wt_tip *tip = &job->tip;
     double g = (double)NAN, slope = (double)NAN;
     if (!(fit->load_time > 0) || !(fit->max_indentation > 0))
         return (double)NAN;
+    if (isnan(job->options.fixed_contact_point))
+        return 1.0 / fit->load_time;
     wt_contact_function(tip, fit->max_indentation, &g, &slope);
     return wt_equivalent_frequency(fit->load_time, fit->max_indentation * slope / g);
 }
@@ -182,7 +188,7 @@ static void put_item(indent_task *task, const item *it)
     const wt_indent_fit *fit = &it->fit;
     const bool rates = task->job->rates;
     const double unknown = (double)NAN;
-    const double frequency = rates ? equivalent_frequency(&task->job->tip, fit) : unknown;
+    const double frequency = rates ? equivalent_frequency(task->job, fit) : unknown;
     table_writer *t = &task->rows;
     char place[64];
     if (it->curve.grid_x >= 0 && it->curve.grid_y >= 0)
@@ -204,10 +210,19 @@ static void put_item(indent_task *task, const item *it)
     indentation_put(t, INDENTATION_BASELINE_OFFSET, fit->baseline_offset.value);
     indentation_put(t, INDENTATION_BASELINE_TILT, fit->baseline_tilt.value);
     indentation_put(t, INDENTATION_NOISE, fit->noise);
-    indentation_put(t, INDENTATION_R_SQUARED, fit->r_squared);
+    indentation_put(t, INDENTATION_LACK_OF_FIT, fit->lack_of_fit);
+    indentation_put(t, INDENTATION_LACK_OF_FIT_CHANCE, fit->lack_of_fit_chance);
+    indentation_put(t, INDENTATION_BASELINE_CHANCE, fit->baseline_chance);
     indentation_put(t, INDENTATION_MAX_FORCE, fit->max_force);
     indentation_put(t, INDENTATION_MAX_INDENTATION, fit->max_indentation);
     indentation_put(t, INDENTATION_ADHESION_FORCE, fit->adhesion_force);
+    indentation_put(t, INDENTATION_WORK_OF_ADHESION, fit->work_of_adhesion.value);
+    indentation_put(t, INDENTATION_WORK_OF_ADHESION_STANDARD_ERROR,
+                    fit->work_of_adhesion.standard_error);
+    indentation_put(t, INDENTATION_PULL_OFF_FORCE, fit->pull_off_force);
+    indentation_put(t, INDENTATION_PULL_OFF_WORK, fit->pull_off_work);
+    indentation_put(t, INDENTATION_TABOR_NUMBER, fit->tabor_number);
+    indentation_put(t, INDENTATION_LOSS, fit->loss);
     indentation_put(t, INDENTATION_PIEZO_RATE, rates ? fit->piezo_rate : unknown);
     indentation_put(t, INDENTATION_RATE, rates ? fit->indentation_rate : unknown);
     indentation_put(t, INDENTATION_LOAD_TIME, rates ? fit->load_time : unknown);
@@ -273,7 +288,7 @@ static wt_status read_file(indent_task *task, wt_error *err)
         flow_open(task->work, task->file, task->job->group, WT_KIND_FORCE, &input, err);
     wt_read_options options = task->file->read;
     options.want &= wanted_channels(task->job->rates);
-    options.segments &= WT_SEGMENT_BIT(WT_SEGMENT_APPROACH);
+    options.segments &= WT_SEGMENT_BIT(WT_SEGMENT_APPROACH) | WT_SEGMENT_BIT(WT_SEGMENT_RETRACT);
     if (status == WT_OK)
         status = wt_force_open(task->work->formats, input, &options, task->work->log, &source, err);
     if (status != WT_OK)
@@ -369,6 +384,33 @@ static wt_status add_representative(indent_task *task, wt_indent_tables *tables,
     wt_force_close(source);
     wt_input_close(input);
     return status;
+}
+
+/* ---- all curves together --------------------------------------------------------------------- */
+
+/* Tests the mean residual of the accepted curves. */
+static wt_status pool_curves(indent_task *task, wt_error *err)
+{
+    double(*misfit)[WT_CURVE_WAVES] = malloc((task->n_moduli + 1) * sizeof *misfit);
+    size_t n = 0;
+    if (misfit == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t i = 0; i < task->n_moduli; i++)
+        if (!isnan(task->moduli[i].misfit[0]))
+            memcpy(misfit[n++], task->moduli[i].misfit, sizeof *misfit);
+    const wt_curve_pool pool = wt_curve_pool_make((const double(*)[WT_CURVE_WAVES])misfit, n);
+    free(misfit);
+    if (isnan(pool.chance))
+        return WT_OK;
+    indentation_set_print(&task->rows, INDENTATION_KEY_POOLED_MISFIT, "%.3g", pool.misfit);
+    indentation_set_print(&task->rows, INDENTATION_KEY_POOLED_MISFIT_CHANCE, "%.3g", pool.chance);
+    if (pool.chance < task->job->options.least_chance)
+        wt_parselog_add(task->work->log, WT_WARNING, NULL, NULL,
+                        "%s: the mean residual of %zu accepted curves is %.2g %% of the largest "
+                        "force, which scatter does not explain (chance %.1g): another tip, a "
+                        "layer, loss, adhesion or an uneven piezo; the moduli may be further off",
+                        task->job->group, n, 100 * pool.misfit, pool.chance);
+    return WT_OK;
 }
 
 /* ---- the group ------------------------------------------------------------------------------- */
@@ -469,7 +511,8 @@ wt_status wt_indent_group(const wt_indent_job *job, const wt_job *work, wt_inden
     }
     task.rows.err = err; /* that of the last row was the error of its file */
     set_keys(&task, &files);
-    if (job->curves && task.n_moduli > 0)
+    status = pool_curves(&task, err);
+    if (status == WT_OK && job->curves && task.n_moduli > 0)
         status = add_representative(&task, tables, err);
     if (status != WT_OK)
         goto done;

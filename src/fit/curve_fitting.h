@@ -1,0 +1,58 @@
+/* Inside the fit room: one curve on its way from samples to a verdict.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#ifndef WT_FIT_CURVE_FITTING_H
+#define WT_FIT_CURVE_FITTING_H
+
+#include "fit/curve.h"
+
+typedef struct curve_fitting {
+    const wt_contact_table *table;
+    const wt_indent_options *options;
+    wt_indent_workspace *workspace;
+    curve_input input;
+    curve_kind kind;
+    curve_solution solution;
+    curve_minimum minima[CURVE_MAX_MINIMA];
+    size_t n_minima;
+    double snap_on;  /* pull before contact [N]; 0: none stands out */
+    double pull_off; /* of the retract; 0: none stands out, NaN: no retract that tells */
+    double loss;     /* work that is lost on the way out, of that on the way in; NaN: no retract */
+    size_t n_snap;   /* samples left out because of a snap-on */
+    bool depth_settled;
+} curve_fitting;
+
+/* The fitted baseline at a position. */
+static inline double curve_baseline(const curve_solution *s, double position)
+{
+    return s->p[CURVE_F0] + s->p[CURVE_T] * (position - s->p[CURVE_C]);
+}
+
+/* Scan and refinement on the samples as they are now; false if nothing but a baseline is found. */
+bool curve_scan_and_refine(curve_fitting *f);
+/* Does noise alone explain the residual? True where there is too little baseline to say. */
+bool curve_fits(const curve_fitting *f);
+
+/* ---- adhesion: curve_adhesion.c -------------------------------------------------------------- */
+
+/* pull_off and loss of a retract that comes free of the sample. height, force: as measured. */
+void curve_read_retract(curve_fitting *f, const double *height, const double *force, size_t n);
+/* From a fit without adhesion: finds a snap-on, and where it or the retract says that there is
+ * adhesion, fits adhesive contact; if that does not describe the curve, the pull is left out. False
+ * if nothing but a baseline is found then. */
+bool curve_fit_adhesion(curve_fitting *f);
+/* Where the residual is more than noise and the retract shows loss, tries the residual again with
+ * the shape of loss allowed for. */
+void curve_allow_loss(curve_fitting *f);
+
+/* ---- verdict: curve_judge.c ------------------------------------------------------------------ */
+
+/* A curve of which nothing but a baseline was found. */
+wt_curve_verdict curve_no_contact(curve_fitting *f, char reason[160]);
+/* Does the curve look more like a contact when it is run backwards? Destroys the samples then. */
+bool curve_leaves_the_sample(curve_fitting *f, char reason[160]);
+/* The verdict on a fit, with its reason. */
+wt_curve_verdict curve_judge(curve_fitting *f, wt_indent_fit *fit);
+
+#endif

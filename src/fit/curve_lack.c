@@ -1,0 +1,262 @@
+/* Does the contact law describe the curve? Its residual against the noise of the same curve.
+ *
+ * From a fifth of the contact before it to the end the residual is averaged in blocks, and so is
+ * the baseline before; an autoregression of the baseline says what the noise of one block owes to
+ * those before it. What it leaves of the blocks is white if the law is right. It is compared with
+ * the first cosines over the contact, less what the parameters of the fit can imitate: the share of
+ * each cosine is then of the size of the innovations. The baseline itself is tried against a
+ * parabola and a cubic. The degrees of freedom, a tenth of the blocks of the baseline, are those
+ * that simulated noise of several colours asks for.
+ *
+ * A curve that passes may still be of a wrong tip, or of a layer: these change the modulus far more
+ * than the residual.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "fit/curve_model.h"
+
+#include <gsl/gsl_cdf.h>
+#include <math.h>
+#include <string.h>
+
+enum {
+    N = CURVE_N_PARAMETERS,
+    WINDOW = 48,   /* blocks */
+    BEFORE = 400,  /* most of the baseline */
+    LEAST = 16,    /* blocks of the baseline, to say anything */
+    MAX_ORDER = 6, /* of the autoregression */
+    COSINES = 8,
+    LOSS = 4, /* powers of the logarithm of time */
+    MAX_COLUMNS = N + LOSS + COSINES,
+};
+static const double before_contact = 0.2; /* of the contact: a snap-on hides there */
+static const double per_freedom = 10.0;   /* blocks */
+static const double nothing = 2e-5;       /* of the force: a residual that does not matter */
+static const double same = 1e-9;          /* of a column: it lies in those before it */
+
+typedef struct blocks {
+    size_t n_before, n; /* blocks of the baseline and of the window behind it */
+    double r[BEFORE + WINDOW];
+    double column[MAX_COLUMNS][BEFORE + WINDOW];
+    size_t n_columns;
+    size_t length; /* samples in one */
+    size_t order;
+    double a[MAX_ORDER + 1]; /* x_i = sum a_k x_(i-k) + innovation, k from 1 */
+    double innovation;       /* its variance */
+} blocks;
+
+/* Block means of residual and Jacobian. False if there is too little baseline. */
+static bool average(const curve_law *m, const double p[N], const double *e, blocks *b)
+{
+    const curve_samples *s = m->samples;
+    const double end = s->position[s->n - 1];
+    size_t first = 0;
+    while (first < s->n && s->position[first] < p[CURVE_C] - before_contact * (end - p[CURVE_C]))
+        first++;
+    b->n = s->n - first < WINDOW ? s->n - first : WINDOW;
+    if (b->n <= MAX_COLUMNS)
+        return false;
+    const size_t length = (s->n - first) / b->n;
+    first = s->n - length * b->n;
+    b->length = length;
+    b->n_before = first / length < BEFORE ? first / length : BEFORE;
+    if (b->n_before < LEAST)
+        return false;
+    b->n_columns = 0;
+    for (size_t a = 0; a < N; a++)
+        b->n_columns += m->free[a];
+    b->n_columns += m->lossy ? LOSS : 0;
+    memset(b->column, 0, sizeof b->column);
+    for (size_t i = 0; i < b->n_before + b->n; i++) {
+        const size_t from = first + i * length - b->n_before * length;
+        b->r[i] = 0.0;
+        for (size_t j = from; j < from + length; j++) {
+            double row[N];
+            const double factor = curve_model_row(m, p, j, row);
+            b->r[i] += e[j] / (double)length;
+            size_t c = 0;
+            for (size_t a = 0; a < N; a++)
+                if (m->free[a])
+                    b->column[c++][i] += row[a] / factor / (double)length;
+            const double part = (s->position[j] - p[CURVE_C]) / (end - p[CURVE_C]);
+            if (m->lossy && part > 0.0) { /* the modulus falls with the time since contact */
+                double share = row[CURVE_E] / factor / (double)length;
+                for (size_t power = 0; power < LOSS; power++)
+                    b->column[c + power][i] += share *= log(part);
+            }
+        }
+    }
+    return true;
+}
+
+/* x less the part of it along the unit vector q. */
+static double remove_along(const double *q, double *x, size_t n)
+{
+    double along = 0.0;
+    for (size_t i = 0; i < n; i++)
+        along += q[i] * x[i];
+    for (size_t i = 0; i < n; i++)
+        x[i] -= along * q[i];
+    return along;
+}
+
+/* Makes columns orthonormal one by one and takes them out of r; returns the sum of squares that
+ * those from `count` on take, and how many they are. Destroys columns and r. */
+static double project_out(double *r, double *const *columns, size_t n_columns, size_t count,
+                          size_t n, size_t *n_counted)
+{
+    double taken = 0.0;
+    *n_counted = 0;
+    for (size_t c = 0; c < n_columns; c++) {
+        double before = 0.0, norm = 0.0;
+        for (size_t i = 0; i < n; i++)
+            before += columns[c][i] * columns[c][i];
+        for (int twice = 0; twice < 2; twice++)
+            for (size_t d = 0; d < c; d++)
+                remove_along(columns[d], columns[c], n);
+        for (size_t i = 0; i < n; i++)
+            norm += columns[c][i] * columns[c][i];
+        const bool new = norm > same *same *before;
+        for (size_t i = 0; i < n; i++)
+            columns[c][i] = new ? columns[c][i] / sqrt(norm) : 0.0;
+        const double along = remove_along(columns[c], r, n);
+        if (c >= count && new) {
+            taken += along * along;
+            ++*n_counted;
+        }
+    }
+    return taken;
+}
+
+/* 1, x, x^2, x^3 over n samples. */
+static void powers(size_t n, double column[4][BEFORE])
+{
+    for (size_t i = 0; i < n; i++) {
+        const double x = 2.0 * (double)i / (double)(n - 1) - 1.0;
+        column[0][i] = 1.0;
+        for (int k = 1; k < 4; k++)
+            column[k][i] = column[k - 1][i] * x;
+    }
+}
+
+/* Autoregression of the baseline less a cubic (Burg), its order by the corrected criterion of
+ * Akaike. */
+static void find_noise(blocks *b)
+{
+    const size_t n = b->n_before;
+    double x[BEFORE], back[BEFORE], a[MAX_ORDER + 1] = {0.0}, power[4][BEFORE];
+    double *const columns[4] = {power[0], power[1], power[2], power[3]};
+    size_t ignored;
+    memcpy(x, b->r, n * sizeof *x);
+    powers(n, power);
+    project_out(x, columns, 4, 4, n, &ignored);
+    memcpy(back, x, n * sizeof *x);
+    double variance = 0.0, best = (double)INFINITY;
+    for (size_t i = 0; i < n; i++)
+        variance += x[i] * x[i] / (double)n;
+    b->innovation = 0.0;
+    for (size_t order = 0; order <= MAX_ORDER && variance > 0.0; order++) {
+        if (order > 0) {
+            double above = 0.0, below = 0.0, old[MAX_ORDER + 1];
+            for (size_t i = order; i < n; i++) {
+                above += x[i] * back[i - 1];
+                below += x[i] * x[i] + back[i - 1] * back[i - 1];
+            }
+            const double k = below > 0.0 ? 2.0 * above / below : 0.0;
+            memcpy(old, a, sizeof old);
+            a[order] = k;
+            for (size_t j = 1; j < order; j++)
+                a[j] = old[j] - k * old[order - j];
+            for (size_t i = n - 1; i >= order; i--) {
+                const double forward = x[i];
+                x[i] = forward - k * back[i - 1];
+                back[i] = back[i - 1] - k * forward;
+            }
+            variance *= 1.0 - k * k;
+        }
+        const double p = (double)order + 1.0, all = (double)n;
+        const double criterion = all * log(variance) + 2.0 * p * all / (all - p - 1.0);
+        if (criterion < best) {
+            best = criterion;
+            b->order = order;
+            memcpy(b->a, a, sizeof a);
+            b->innovation = variance * all / (all - p - 3.0);
+        }
+    }
+}
+
+/* Innovations of x[from..], n of them. */
+static void whiten(const blocks *b, const double *x, size_t from, size_t n, double *out)
+{
+    for (size_t i = 0; i < n; i++) {
+        out[i] = x[from + i];
+        for (size_t k = 1; k <= b->order && k <= from + i; k++)
+            out[i] -= b->a[k] * x[from + i - k];
+    }
+}
+
+static double judge_contact(const blocks *b, double *statistic)
+{
+    double store[MAX_COLUMNS][WINDOW], r[WINDOW], *columns[MAX_COLUMNS];
+    double wave[BEFORE + WINDOW] = {0.0};
+    size_t n = 0, counted;
+    whiten(b, b->r, b->n_before, b->n, r);
+    for (; n < b->n_columns; n++)
+        whiten(b, b->column[n], b->n_before, b->n, store[n]);
+    for (int j = 1; j <= COSINES; j++, n++) {
+        for (size_t i = 0; i < b->n; i++)
+            wave[b->n_before + i] = cos(M_PI * j * ((double)i + 0.5) / (double)b->n);
+        whiten(b, wave, b->n_before, b->n, store[n]);
+    }
+    for (size_t c = 0; c < n; c++)
+        columns[c] = store[c];
+    const double taken = project_out(r, columns, n, b->n_columns, b->n, &counted);
+    *statistic = counted > 0 ? taken / (double)counted / b->innovation : 0.0;
+    return gsl_cdf_fdist_Q(*statistic, (double)counted, (double)b->n_before / per_freedom);
+}
+
+static double judge_baseline(const blocks *b)
+{
+    double power[4][BEFORE], store[4][BEFORE], r[BEFORE];
+    double *const columns[4] = {store[0], store[1], store[2], store[3]};
+    const size_t skip = b->order, n = b->n_before - skip;
+    size_t counted;
+    powers(b->n_before, power);
+    for (int c = 0; c < 4; c++)
+        whiten(b, power[c], skip, n, store[c]);
+    whiten(b, b->r, skip, n, r);
+    const double taken = project_out(r, columns, 4, 2, n, &counted);
+    if (counted == 0)
+        return 1.0;
+    return gsl_cdf_fdist_Q(taken / (double)counted / b->innovation, (double)counted,
+                           (double)b->n_before / per_freedom);
+}
+
+curve_lack curve_lack_of_fit(const curve_law *m, const double p[N], const double *e)
+{
+    blocks b;
+    const double unknown = (double)NAN;
+    curve_lack lack = {.statistic = unknown, .chance = unknown, .baseline_chance = unknown};
+    for (int j = 0; j < CURVE_WAVES; j++)
+        lack.wave[j] = unknown;
+    if (!average(m, p, e, &b))
+        return lack;
+    find_noise(&b);
+    const double top = nothing * p[CURVE_E] * m->workspace->g[m->samples->n - 1];
+    b.innovation = fmax(b.innovation, top * top);
+    if (!(b.innovation > 0.0) || !isfinite(b.innovation))
+        return lack;
+    double sum = 1.0;
+    for (size_t k = 1; k <= b.order; k++)
+        sum -= b.a[k];
+    lack.long_run = b.innovation * (double)b.length / (sum * sum);
+    lack.baseline_chance = judge_baseline(&b);
+    lack.chance = judge_contact(&b, &lack.statistic);
+    for (int j = 0; j < CURVE_WAVES; j++) {
+        lack.wave[j] = 0.0;
+        for (size_t i = 0; i < b.n; i++)
+            lack.wave[j] += 2.0 / (double)b.n * b.r[b.n_before + i] *
+                            cos(M_PI * (j + 1) * ((double)i + 0.5) / (double)b.n);
+    }
+    return lack;
+}
