@@ -161,6 +161,8 @@ static wt_status fit_parts(wt_posterior *p, posterior_part *part, size_t *n, gsl
             most = fmax(most, one->weight);
         }
     }
+    if (!(most > -HUGE_VAL))
+        return wt_fail(err, WT_E_RANGE, "the pole of the law is not determined");
     for (size_t i = 0; i < *n; i++)
         sum += part[i].weight = exp(part[i].weight - most);
     for (size_t i = 0; i < *n; i++)

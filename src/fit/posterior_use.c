@@ -323,6 +323,18 @@ static void draw_law(const posterior_part *part, struct stream *s, double unknow
     }
 }
 
+/* What is normal is the response of the moduli, and that is linear in ln g about the best fit.
+ * Where nothing measures a term its ln spreads over tens, and e to that would be a term that the
+ * isotherms deny: above one the draw goes on along the tangent. */
+static void keep_linear(const wt_posterior *p, const posterior_part *part, double *value)
+{
+    for (size_t j = 0; j < p->frame.n_linear; j++) {
+        const double rise = value[j] - part->cell->value[j];
+        if (rise > 1.0)
+            value[j] = part->cell->value[j] + 1.0 + log(rise);
+    }
+}
+
 /* Spectrum and shifts drawn without the law, then pulled to what the drawn law foretells. */
 wt_status posterior_draw(const wt_posterior *p, uint64_t seed, size_t index, double *value,
                          double unknown[LAW_MOST], double *log_b, wt_error *err)
@@ -355,6 +367,7 @@ wt_status posterior_draw(const wt_posterior *p, uint64_t seed, size_t index, dou
         gsl_blas_dgemv(CblasNoTrans, 1.0, part->inverse, gap, 0.0, pull);
         add_pull(p, part, pull, 1.0, value);
     }
+    keep_linear(p, part, value);
     posterior_smooth_b(p, part->cell, value, log_b);
     pool_free(&memory);
     return WT_OK;

@@ -16,6 +16,9 @@ static const double gas_constant = 8.31446261815324; /* J/(mol K) */
 /* The pole of WLF lies so far below the coldest isotherm [K]: closer, no rubber is measured;
  * farther, the law is a straight line. */
 static const double pole_nearest = 2.0, pole_farthest = 1e4;
+/* A pole whose distance is known to less than this (error of its ln) bends nothing that is seen:
+ * constants and draws of such a law would mean nothing, and it counts as impossible. */
+static const double pole_error = 2.0;
 /* Temperatures are believed to so many kelvin (half width of a Cauchy prior). */
 static const double believed = 0.3;
 /* The isotherm whose own shift gains more than this of -2 ln likelihood is odd. */
@@ -273,7 +276,8 @@ wt_status law_fit_with(const law_data *data, const law_shape *shape, gsl_matrix 
             good = solve(&g, exp(p), linear[1], k, fit);
         memcpy(fit->unknown, linear, sizeof linear);
         fit->unknown[pole] = p;
-        fit->chi_square = chi_square;
+        fit->chi_square =
+            fit->covariance[pole][pole] < pole_error * pole_error ? chi_square : HUGE_VAL;
     }
     if (!good || !(fit->unknown[1] > 0.0)) {
         wt_fail(err, WT_E_RANGE, "the shift factors do not fall with temperature");
@@ -313,6 +317,8 @@ static wt_status likelihoods(const law_data *data, const law_shape *shape, gsl_m
         value[i] = fit.chi_square + fit.log_det;
         *largest = fmin(*largest, value[i]);
     }
+    if (!(*largest < HUGE_VAL))
+        return wt_fail(err, WT_E_RANGE, "the pole of the law is not determined");
     for (size_t i = 0; i < LAW_SPREADS; i++) {
         sum += law_spread_prior(law_spread(i)) * exp(-0.5 * (value[i] - *largest));
         weights += law_spread_prior(law_spread(i));
@@ -426,6 +432,10 @@ wt_status law_choose(law_data *data, double reference, gsl_matrix *root, law_sha
         law_shape shape = plain.chosen;
         shape.odd = (long)i;
         status = likelihoods(data, &shape, root, &largest, &mean, err);
+        if (status == WT_E_RANGE) {
+            status = WT_OK; /* without this isotherm there is no such law */
+            continue;
+        }
         if (status == WT_OK && largest < search.largest && largest < plain.largest - odd_gain) {
             search.largest = largest;
             search.chosen = shape;

@@ -140,6 +140,33 @@ static void auhl_2008_series(void **state)
     wt_sweep_clear(&sweep);
 }
 
+/* A melt has no slow terms, and none of the draws has: what is not known of them is less than what
+ * the isotherms would see. */
+static void auhl_2008_draws(void **state)
+{
+    (void)state;
+    wt_sweep sweep = {0};
+    load("PI_94.9k", &sweep);
+    wt_master_options options = at(-10.0, WT_VERTICAL_TIED);
+    wt_master master = fit_good(&sweep, &options, NULL);
+    wt_interval storage, loss;
+    wt_master_moduli(&master, 1.0, &storage, &loss);
+    for (size_t i = 0; i < 200; i++) {
+        wt_prony p = {0};
+        wt_shift_law law;
+        assert_int_equal(wt_master_draw(&master, 1, i, &p, &law, NULL, NULL), WT_OK);
+        double at_one = p.equilibrium_modulus;
+        for (size_t j = 0; j < p.n; j++) {
+            const double z = p.relaxation_time[j];
+            at_one += p.modulus[j] * z * z / (1.0 + z * z);
+        }
+        assert_near_abs(log10(at_one), storage.value, 6.0 * storage.standard_error);
+        wt_prony_clear(&p);
+    }
+    wt_master_clear(&master);
+    wt_sweep_clear(&sweep);
+}
+
 /* ARES-G2, 150..-40 degC: at -30 and -40 degC the machine is softer than the sample. */
 static void soft_polymer_with_compliance_limit(void **state)
 {
@@ -213,6 +240,7 @@ int main(void)
         cmocka_unit_test(auhl_2008_polyisoprene),
         cmocka_unit_test(auhl_2008_between_isotherms),
         cmocka_unit_test(auhl_2008_series),
+        cmocka_unit_test(auhl_2008_draws),
         cmocka_unit_test(soft_polymer_with_compliance_limit),
         cmocka_unit_test(filled_rubber_departs_from_rubber_elasticity),
         cmocka_unit_test(thermoplastics_do_not_superpose),

@@ -308,24 +308,48 @@ static void three_isotherms_tell_no_law_beyond_them(void **state)
     wt_master_clear(&m);
 }
 
+/* Shifts of N isotherms with their variances to the law that is chosen. */
+enum { FEW = 8 };
+static wt_status choose(size_t n, const double *temperature, const double *variance, double *log_a,
+                        law_shape *chosen)
+{
+    double slope[FEW], scratch[FEW * (LAW_MOST + 1)], covariance[FEW * FEW] = {0}, root[FEW * FEW];
+    gsl_matrix_view c = gsl_matrix_view_array(covariance, n, n);
+    gsl_matrix_view r = gsl_matrix_view_array(root, n, n);
+    law_data data = {n, temperature, log_a, &c.matrix, slope, scratch};
+    wt_error err = WT_ERROR_INIT;
+    for (size_t i = 0; i < n; i++)
+        covariance[i * n + i] = variance[i];
+    return law_choose(&data, 293.15, &r.matrix, chosen, &err);
+}
+
 /* Two isotherms known so well that they alone decide, and they rise with temperature; only if
  * temperatures are not believed does a law fall. It made the search go on with no law at all. */
 static void shifts_that_rise_have_no_law(void **state)
 {
     (void)state;
-    enum { N = 5 };
-    const double temperature[N] = {273.15, 293.15, 294.15, 313.15, 333.15};
-    const double variance[N] = {1, 1e-12, 1e-12, 1, 1};
-    double log_a[N] = {2, 0, 0.01, -2, -4}, slope[N], scratch[N * (LAW_MOST + 1)];
-    double covariance[N * N] = {0}, root[N * N];
-    gsl_matrix_view c = gsl_matrix_view_array(covariance, N, N);
-    gsl_matrix_view r = gsl_matrix_view_array(root, N, N);
-    law_data data = {N, temperature, log_a, &c.matrix, slope, scratch};
+    const double temperature[] = {273.15, 293.15, 294.15, 313.15, 333.15};
+    const double variance[] = {1, 1e-12, 1e-12, 1, 1};
+    double log_a[] = {2, 0, 0.01, -2, -4};
     law_shape chosen;
-    wt_error err = WT_ERROR_INIT;
-    for (size_t i = 0; i < N; i++)
-        covariance[i * N + i] = variance[i];
-    assert_int_equal(law_choose(&data, 293.15, &r.matrix, &chosen, &err), WT_E_RANGE);
+    assert_int_equal(choose(5, temperature, variance, log_a, &chosen), WT_E_RANGE);
+}
+
+/* Shifts that bend the other way than WLF: its pole would be at the end of the world, known to many
+ * powers of ten, and its draws nowhere. */
+static void shifts_without_a_pole_are_not_wlf(void **state)
+{
+    (void)state;
+    double temperature[FEW], variance[FEW], log_a[FEW];
+    for (int i = 0; i < FEW; i++) {
+        const double rise = 10 * (i - 2);
+        temperature[i] = 293.15 + rise;
+        variance[i] = 1e-4;
+        log_a[i] = -0.06 * rise - 0.0004 * rise * rise;
+    }
+    law_shape chosen;
+    assert_int_equal(choose(FEW, temperature, variance, log_a, &chosen), WT_OK);
+    assert_int_equal(chosen.kind, WT_LAW_ARRHENIUS);
 }
 
 /* ---- verdicts -------------------------------------------------------------------------------- */
@@ -429,6 +453,7 @@ int main(void)
         cmocka_unit_test(the_law_is_that_of_the_shifts),
         cmocka_unit_test(three_isotherms_tell_no_law_beyond_them),
         cmocka_unit_test(shifts_that_rise_have_no_law),
+        cmocka_unit_test(shifts_without_a_pole_are_not_wlf),
         cmocka_unit_test(superposition_is_judged),
         cmocka_unit_test(draws_scatter_as_the_intervals_say),
     };
