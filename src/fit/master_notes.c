@@ -36,10 +36,11 @@ static void note_shift(const master_work *work, size_t i, wt_master_shift *shift
 {
     const wt_posterior *p = work->posterior;
     if (work->set.curves[i].n_left_out > 0)
-        master_note(shift, "%zu points without positive modulus left out",
-                    work->set.curves[i].n_left_out);
+        master_note(shift, "%zu point%s without positive modulus left out",
+                    work->set.curves[i].n_left_out, work->set.curves[i].n_left_out > 1 ? "s" : "");
     if (shift->n_outliers > 0)
-        master_note(shift, "%zu values off the curve left out", shift->n_outliers);
+        master_note(shift, "%zu value%s off the curve left out", shift->n_outliers,
+                    shift->n_outliers > 1 ? "s" : "");
     if (shift->noise_factor > noisy)
         master_note(shift, "%.1f times the noise of the others", shift->noise_factor);
     if (!shift->determined)

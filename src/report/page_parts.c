@@ -253,8 +253,9 @@ void page_estimate(page_writer *page, const char *words, const wt_estimate *esti
 /* A key that no schema knows has its name in words. */
 static void key_label(const char *name, const schema_field *key, char *label, size_t size)
 {
-    bool known = key != NULL && key->label != NULL;
-    (void)snprintf(label, size, "%s", known ? key->label : name);
+    const char *words = key == NULL ? NULL : key->label != NULL ? key->label : key->headline;
+    const bool known = words != NULL;
+    (void)snprintf(label, size, "%s", known ? words : name);
     for (char *s = label; *s != '\0' && !known; s++)
         *s = *s == '_' ? ' ' : *s;
     if (!known && label[0] >= 'a')

@@ -38,7 +38,7 @@ static const struct {
     {&layer_schema, "incubation_time", "kkkn"},
     {&layer_schema, "relaxation_time", "kkkn"},
     {&layer_schema, "critical_specific_wear_rate", "kkkn"},
-    {&layer_schema, "removal_time", "nnnn"}, /* there is a layer */
+    {&layer_schema, "removal_time", "...."}, /* there is a layer */
     {&layer_schema, "critical_energy", "knnn"},
     {&layer_schema, "surface_power", "kkkn"},
     {&layer_schema, "time_to_90_percent", "kkkn"},

@@ -114,6 +114,17 @@ static void check_words(void)
     assert_string_equal(words_of(0.25, "1").text, "0.25");
     assert_string_equal(words_of_estimate((wt_estimate){0.25, 0.125, 0, "1"}).text,
                         "0.25 \xc2\xb1 0.12");
+    static const struct {
+        wt_estimate e;
+        const char *words;
+    } decimals[] = {{{0.10498, 0.0029, 0, "1"}, "0.1050 \xc2\xb1 0.0029"},
+                    {{1230.8, 226.6, 0, "s"}, "1231 \xc2\xb1 227 s"},
+                    {{100853, 53, 0, "s"}, "100853 \xc2\xb1 53 s"},
+                    {{3.157e-6, 7.76e-7, 0, "m"}, "3.16 \xc2\xb1 0.78 \xc2\xb5m"},
+                    {{0.5, 1e-12, 0, "1"}, "0.500000 \xc2\xb1 1e-12"},
+                    {{2e-7, 1e-8, 0, "1"}, "2e-07 \xc2\xb1 1e-08"}};
+    for (size_t i = 0; i < sizeof decimals / sizeof *decimals; i++)
+        assert_string_equal(words_of_estimate(decimals[i].e).text, decimals[i].words);
     assert_string_equal(words_of_celsius(WT_ZERO_CELSIUS + 20.5).text, "20.5 \xc2\xb0"
                                                                        "C");
     (void)wt_tip_describe(&tip, text, sizeof text);

@@ -166,6 +166,8 @@ static void test_cases(void **state)
     run_case("<temperature>30degC", "<temperature>90degC");
     run_case("<critical-energy>2e10J/m^3 +- 10%</critical-energy>",
              "<observed-thickness>3um</observed-thickness>");
+    run_case("<critical-energy>2e10J/m^3 +- 10%</critical-energy>", /* wear takes what was there */
+             "<critical-energy>1e14J/m^3</critical-energy><start-thickness>1um</start-thickness>");
     run_case("<files>dma.txt", "<files>absent.txt</files><files>dma.txt");
 }
 

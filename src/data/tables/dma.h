@@ -52,7 +52,8 @@
       LABEL("Activation energy"), HEADLINE("Activation energy"), OPTIONAL)                         \
     X(SHIFT_FACTORS_KEY_JOINT, "joint", SI(TEMPERATURE), LABEL("Arrhenius below, WLF above"),      \
       OPTIONAL)                                                                                    \
-    X(SHIFT_FACTORS_KEY_LAW_SLOPE, "law_slope", UNIT("1/K"), OPTIONAL)                             \
+    X(SHIFT_FACTORS_KEY_LAW_SLOPE, "law_slope", UNIT("1/K"),                                       \
+      LABEL("Slope of the law (decades per kelvin)"), OPTIONAL)                                    \
     X(SHIFT_FACTORS_KEY_POLE, "pole", UNIT("K"), LABEL("Pole of the WLF law"), OPTIONAL)           \
     X(SHIFT_FACTORS_KEY_OFFSET, "offset", NUMBER,                                                  \
       LABEL("Reference isotherm off the law (decades)"), OPTIONAL)                                 \
@@ -66,12 +67,15 @@
     X(SHIFT_FACTORS_KEY_DEFORMATION, "deformation", TEXT)                                          \
     X(SHIFT_FACTORS_KEY_SUPERPOSITION, "superposition", TEXT,                                      \
       HEADLINE("Time-temperature superposition"))                                                  \
-    X(SHIFT_FACTORS_KEY_LACK_OF_FIT_P, "lack_of_fit_p", PLAIN, OPTIONAL)                           \
-    X(SHIFT_FACTORS_KEY_MISFIT_LOW, "misfit_low", PLAIN, OPTIONAL)                                 \
-    X(SHIFT_FACTORS_KEY_MISFIT_HIGH, "misfit_high", PLAIN, OPTIONAL)                               \
+    X(SHIFT_FACTORS_KEY_LACK_OF_FIT_P, "lack_of_fit_p", PLAIN, LABEL("Lack of fit, p"), OPTIONAL)  \
+    X(SHIFT_FACTORS_KEY_MISFIT_LOW, "misfit_low", PLAIN,                                           \
+      LABEL("Relative misfit of one spectrum, lower end of its 95 % interval"), OPTIONAL)          \
+    X(SHIFT_FACTORS_KEY_MISFIT_HIGH, "misfit_high", PLAIN,                                         \
+      LABEL("Relative misfit of one spectrum, upper end"), OPTIONAL)                               \
     X(SHIFT_FACTORS_KEY_LOSS_FACTOR, "loss_factor", NUMBER,                                        \
       LABEL("E″ against what E′ demands (Kramers-Kronig)"), OPTIONAL)                              \
-    X(SHIFT_FACTORS_KEY_KRAMERS_KRONIG_P, "kramers_kronig_p", PLAIN, OPTIONAL)
+    X(SHIFT_FACTORS_KEY_KRAMERS_KRONIG_P, "kramers_kronig_p", PLAIN, LABEL("Kramers-Kronig, p"),   \
+      OPTIONAL)
 
 #define MASTER_CURVE_COLUMNS(X)                                                                    \
     X(MASTER_CURVE_ANGULAR_FREQUENCY, "angular_frequency", "reduced angular frequency",            \

@@ -38,7 +38,7 @@
     X(FRICTION_KEY_TEMPERATURE, "temperature", SI(TEMPERATURE))                                    \
     X(FRICTION_KEY_SHEAR_STRESS, "shear_stress", SI(PRESSURE),                                     \
       LABEL("Shear stress of the real contact"))                                                   \
-    X(FRICTION_KEY_GAMMA, "gamma", PLAIN)                                                          \
+    X(FRICTION_KEY_GAMMA, "gamma", PLAIN, LABEL("Factor gamma of partial contact"))                \
     X(FRICTION_KEY_REFERENCE_VELOCITY, "reference_velocity", SI(VELOCITY))                         \
     X(FRICTION_KEY_FRICTION, "friction_at_reference", NUMBER, HEADLINE("Friction coefficient"))    \
     X(FRICTION_KEY_HYSTERESIS, "hysteresis_at_reference", NUMBER,                                  \
@@ -92,7 +92,8 @@
     X(LAYER_KEY_INCUBATION_TIME, "incubation_time", SI(TIME))                                      \
     X(LAYER_KEY_RELAXATION_TIME, "relaxation_time", SI(TIME))                                      \
     X(LAYER_KEY_CRITICAL_WEAR_RATE, "critical_specific_wear_rate", SI(WEAR_RATE))                  \
-    X(LAYER_KEY_REMOVAL_TIME, "removal_time", SI(TIME))                                            \
+    X(LAYER_KEY_REMOVAL_TIME, "removal_time", SI(TIME),                                            \
+      LABEL("Time until wear has removed the layer at the start"), OPTIONAL)                       \
     X(LAYER_KEY_CRITICAL_ENERGY, "critical_energy", SI(ENERGY_DENSITY))                            \
     X(LAYER_KEY_SURFACE_POWER, "surface_power", UNIT("W/m^2"))                                     \
     X(LAYER_KEY_TIME_TO_90_PERCENT, "time_to_90_percent", SI(TIME),                                \

@@ -117,6 +117,10 @@ static void say_layer(sentence *s, const table_view *v)
         return;
     const wt_estimate thickness = layer_value(v, LAYER_KEY_BALANCE_THICKNESS);
     next(s);
+    if (isinf(thickness.value)) {
+        say(s, "without wear the layer grows without end");
+        return;
+    }
     if (!(thickness.value > 0))
         say(s, "no layer where formation balances wear");
     else

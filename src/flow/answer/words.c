@@ -25,8 +25,8 @@ number_words words_of_value(wt_estimate e)
     return words_of(e.value, e.unit);
 }
 
-/* Both in the scale of the value, to the second digit of the error: "3.16 ± 0.96 um"; "3.16 um
- * (error not known)". */
+/* Value and error in one scale and with the same decimals, two digits of the error: "3.16 ± 0.96
+ * um", "0.1050 ± 0.0029"; "3.16 um (error not known)". As on the page, six digits at most. */
 number_words words_of_estimate(wt_estimate e)
 {
     number_words value = words_of(e.value, e.unit), words = value;
@@ -39,14 +39,20 @@ number_words words_of_estimate(wt_estimate e)
     double shown = (double)NAN;
     if (!wt_number_parse(value.text, length, '.', &shown) || !(fabs(shown) > 0))
         return words;
-    const double scale = pow(10, round(log10(shown / e.value)));
+    const double scale = pow(10.0, round(log10(fabs(shown / e.value))));
     const double error = e.standard_error * scale;
-    const int decimals = 1 - (int)floor(log10(error) + 1e-9);
-    if (decimals > 9 || !(error < 1e6))
-        return words;
-    const int places = decimals > 0 ? decimals : 0;
-    clocale_print(words.text, sizeof words.text, "%.*f \xc2\xb1 %.*f%.40s", places, e.value * scale,
-                  places, error, suffix == NULL ? "" : suffix);
+    const int most = 5 - (int)floor(log10(fabs(shown))),
+              needed = 1 - (int)floor(log10(error) + 1e-9);
+    if (most < 0 || most > 9 || error >= 1e6) /* with a power of ten, or no number any more */
+        clocale_print(words.text, sizeof words.text, "%.*s \xc2\xb1 %.2g%.40s", (int)length,
+                      value.text, error, suffix == NULL ? "" : suffix);
+    else {
+        const int decimals = needed < 0 ? 0 : needed < most ? needed : most;
+        clocale_print(words.text, sizeof words.text,
+                      needed <= most ? "%.*f \xc2\xb1 %.*f%.40s" : "%.*f \xc2\xb1 %.*g%.40s",
+                      decimals, e.value * scale, needed <= most ? decimals : 2, error,
+                      suffix == NULL ? "" : suffix);
+    }
     return words;
 }
 

@@ -283,6 +283,8 @@ static void set_numbers(const layer_task *task, const layer_run *run, table_writ
     wt_estimate number[N_NUMBERS];
     put_numbers(run, number);
     for (size_t i = 0; i < N_NUMBERS; i++) {
+        if (keys[i] == LAYER_KEY_REMOVAL_TIME && isnan(number[i].value))
+            continue; /* nothing is removed */
         layer_set_value(t, keys[i], number[i].value, task->replicates.error[i],
                         number[i].numerical_error);
         /* d ln thickness / d ln k = -Qw / (thickness |dQf/dz|): the balance is where Qf(z) = Qw */

@@ -495,6 +495,8 @@ static void set_range(const what_if *w, size_t k, table_writer *t)
     const bool is_number = most->unit != NULL;
     number_words(widest.low->number[k], numbers[k].unit, low);
     number_words(widest.high->number[k], numbers[k].unit, high);
+    if (strcmp(low, high) == 0)
+        return; /* such as a thickness that was observed */
     say(most, is_number ? &widest.first->setting : &widest.low->setting, first);
     say(most, is_number ? &widest.last->setting : &widest.high->setting, last);
     if (is_number)
