@@ -121,7 +121,7 @@ size_t spectrum_outliers(spectrum *s);
 /* ---- spectrum_correlation.c */
 /* Correlation along the isotherms by the criterion. */
 wt_status spectrum_choose_rho(spectrum *s, wt_error *err) WT_NODISCARD;
-/* Noise factors and correlation by what is left of each isotherm about a parabola of its own: a
+/* Noise factors and correlation by what is left of each isotherm about a curve of its own: a
  * spectrum that does not fit is no noise. */
 wt_status spectrum_noise_within(spectrum *s, double *rho, wt_error *err) WT_NODISCARD;
 

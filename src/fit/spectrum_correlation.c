@@ -28,47 +28,55 @@ wt_status spectrum_choose_rho(spectrum *s, wt_error *err)
 
 /* ---- within the isotherms -------------------------------------------------------------------- */
 
-/* A parabola of its own through the residuals of an isotherm in a modulus. */
-enum { COEFFICIENTS = 3, WIDTH = COEFFICIENTS + 1, LEAST_POINTS = COEFFICIENTS + 3 };
+/* A polynomial of its own through the residuals of an isotherm in a modulus, of as many
+ * coefficients as its points allow: what a second process leaves bends more than a parabola, and
+ * would be taken for noise that goes together over decades. */
+enum { LEAST_COEFFICIENTS = 3, MOST_COEFFICIENTS = 5, MOST_WIDTH = MOST_COEFFICIENTS + 1 };
+/* Points beyond the coefficients below which an isotherm says nothing. */
+enum { LEAST_LEFT = 3 };
 
 struct within {
     double squares, freedom, log_det;
 };
 
-/* v: [n * WIDTH] scratch; residuals are not whitened. */
+/* v: [n * MOST_WIDTH] scratch; residuals are not whitened. */
 static struct within residual_within(const spectrum *s, size_t curve, int q, double *v)
 {
     const size_t from = s->first[curve], to = s->first[curve + 1];
     const double middle = 0.5 * (s->x[from] + s->x[to - 1]);
     const double half = 0.5 * (s->x[to - 1] - s->x[from]);
-    double cross_block[WIDTH * WIDTH] = {0};
-    struct within w = {0.0, -(double)COEFFICIENTS, 0.0};
+    size_t n = LEAST_COEFFICIENTS;
+    while (n < MOST_COEFFICIENTS && 2 * (n + 2) <= to - from)
+        n++;
+    const size_t width = n + 1;
+    double cross_block[MOST_WIDTH * MOST_WIDTH] = {0};
+    struct within w = {0.0, -(double)n, 0.0};
     for (size_t k = from; k < to; k++) {
-        const double used = s->weight[q][k] > 0.0 ? 1.0 : 0.0, u = (s->x[k] - middle) / half;
-        v[k * WIDTH] = used;
-        v[k * WIDTH + 1] = used * u;
-        v[k * WIDTH + 2] = used * u * u;
-        v[k * WIDTH + 3] = used * s->residual[q][k];
-        w.freedom += used;
+        double power = s->weight[q][k] > 0.0 ? 1.0 : 0.0;
+        w.freedom += power;
+        v[k * width + n] = power * s->residual[q][k];
+        for (size_t i = 0; i < n; i++, power *= (s->x[k] - middle) / half)
+            v[k * width + i] = power;
     }
-    if (w.freedom < (double)(LEAST_POINTS - COEFFICIENTS) || !(half > 0.0))
+    if (w.freedom < (double)LEAST_LEFT || !(half > 0.0))
         return (struct within){0.0, 0.0, 0.0};
-    spectrum_whiten(s, curve, q, v, WIDTH);
+    spectrum_whiten(s, curve, q, v, width);
     for (size_t k = from; k < to; k++)
-        for (size_t i = 0; i < WIDTH; i++)
-            for (size_t j = 0; j < WIDTH; j++)
-                cross_block[i * WIDTH + j] += v[k * WIDTH + i] * v[k * WIDTH + j];
-    /* the last pivot of the Cholesky factor is what the parabola leaves */
-    gsl_matrix_view cross = gsl_matrix_view_array(cross_block, WIDTH, WIDTH);
+        for (size_t i = 0; i < width; i++)
+            for (size_t j = 0; j < width; j++)
+                cross_block[i * width + j] += v[k * width + i] * v[k * width + j];
+    /* the last pivot of the Cholesky factor is what the polynomial leaves */
+    gsl_matrix_view cross = gsl_matrix_view_array(cross_block, width, width);
     if (gsl_linalg_cholesky_decomp1(&cross.matrix) != GSL_SUCCESS)
         return (struct within){0.0, 0.0, 0.0};
-    w.squares = cross_block[WIDTH * WIDTH - 1] * cross_block[WIDTH * WIDTH - 1];
-    for (size_t i = 0; i < COEFFICIENTS; i++)
-        w.log_det += 2.0 * log(cross_block[i * WIDTH + i]);
+    const double last = gsl_matrix_get(&cross.matrix, n, n);
+    w.squares = last * last;
+    for (size_t i = 0; i < n; i++)
+        w.log_det += 2.0 * log(gsl_matrix_get(&cross.matrix, i, i));
     return w;
 }
 
-/* -2 ln restricted likelihood of the parabolas, and the variance of each modulus. */
+/* -2 ln restricted likelihood of the polynomials, and the variance of each modulus. */
 static double within_all(const spectrum *s, double *v, double variance[MODULI])
 {
     double criterion = spectrum_log_det_correlation(s);
@@ -88,7 +96,7 @@ static double within_all(const spectrum *s, double *v, double variance[MODULI])
 
 wt_status spectrum_noise_within(spectrum *s, double *rho, wt_error *err)
 {
-    double *v = calloc(s->n * WIDTH, sizeof *v);
+    double *v = calloc(s->n * MOST_WIDTH, sizeof *v);
     double best = HUGE_VAL, variance[MODULI];
     if (v == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for the noise");

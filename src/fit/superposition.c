@@ -1,5 +1,6 @@
 /* Lack of fit of one spectrum: what a line and a parabola of every isotherm of its own would still
- * explain. A spectrum ties E' and E'' (Kramers-Kronig); a common factor on E'' tests that alone.
+ * explain, and what slow times would that shift more than fast ones. A spectrum ties E' and E''
+ * (Kramers-Kronig); a common factor on E'' tests that alone.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "fit/superposition.h"
 
@@ -14,6 +15,11 @@
 static const int first_power[MODULI] = {1, 0};
 /* From so many points on a parabola too. */
 enum { LEAST_PARABOLA = 6, POWERS = 3 };
+/* Places in the spectrum where slow times may part from fast ones: few, so that they see what grows
+ * with the shift and is small in each isotherm. */
+enum { PARTINGS = 3 };
+/* The smaller p of so many counts, times their number. */
+static const double tests = 2.0;
 /* What is left of a column, of its square, below which the model has it. */
 static const double least_left = 1e-6;
 
@@ -24,6 +30,7 @@ struct extra {
     gsl_matrix *column; /* [n * 2N]: whitened, E' then E'' */
     gsl_matrix *matrix; /* [n * n] what the model leaves of them */
     gsl_vector *right;  /* [n] with the residuals */
+    double squares, points, freedom;
 };
 
 /* Whitened and divided by the noise. */
@@ -48,6 +55,64 @@ static void add_columns(struct extra *x)
             for (int p = first_power[q]; p < (points < LEAST_PARABOLA ? 2 : POWERS); p++)
                 add_column(x, i, q, p);
     }
+}
+
+/* How much the terms follow each parting: rising from -1 to 1 across it [PARTINGS * n_terms]. */
+static void partings(const spectrum *s, double *share)
+{
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (size_t i = 0; i < s->n_curves; i++) {
+        low = fmin(low, s->x[s->first[i]] + spectrum_a(s, i));
+        high = fmax(high, s->x[s->first[i + 1] - 1] + spectrum_a(s, i));
+    }
+    for (size_t p = 0; p < PARTINGS; p++)
+        for (size_t j = 0; j < s->n_terms; j++) {
+            const double at = -(s->log_tau + (double)j * s->step);
+            const double u = (PARTINGS + 1.0) * (at - low) / (high - low);
+            share[p * s->n_terms + j] = tanh(2.0 * (u - (double)(p + 1)));
+        }
+}
+
+/* What the moduli of a point change by when each term moves by its share of the isotherm's shift.
+ */
+static void add_parted(struct extra *x, size_t curve, size_t k, const double *share,
+                       double *const part[MODULI])
+{
+    const spectrum *s = x->s;
+    const double a = spectrum_a(s, curve);
+    double modulus[MODULI], slope[MODULI];
+    spectrum_at(s, s->term, s->x[k] + a, modulus, slope, part);
+    for (size_t j = 0; j < s->n_terms; j++) {
+        const double z = exp(s->x[k] + a + s->log_tau + (double)j * s->step);
+        const double rise[MODULI] = {2.0 / (1.0 + z * z), 2.0 / (1.0 + z * z) - 1.0};
+        for (int q = 0; q < MODULI; q++)
+            for (size_t p = 0; p < PARTINGS; p++)
+                *gsl_matrix_ptr(x->column, p, (q == LOSS ? s->n : 0) + k) +=
+                    a * sqrt(s->weight[q][k]) / s->kappa[curve] / s->noise[q] *
+                    share[p * s->n_terms + j] * part[q][j] * rise[q];
+    }
+}
+
+/* A second process has a law of its own: slow and fast times part in proportion to the shift. */
+static wt_status part_columns(struct extra *x, wt_error *err)
+{
+    const spectrum *s = x->s;
+    double *share = pool_numbers(&x->memory, PARTINGS * s->n_terms);
+    double *const part[MODULI] = {pool_numbers(&x->memory, s->n_linear),
+                                  pool_numbers(&x->memory, s->n_linear)};
+    if (x->memory.failed)
+        return wt_fail(err, WT_E_MEMORY, "no memory for the test of superposition");
+    gsl_matrix_set_zero(x->column);
+    x->n = PARTINGS;
+    partings(s, share);
+    for (size_t i = 0; i < s->n_curves; i++) {
+        for (size_t k = s->first[i]; k < s->first[i + 1]; k++)
+            add_parted(x, i, k, share, part);
+        for (size_t p = 0; p < PARTINGS; p++)
+            for (int q = 0; q < MODULI; q++)
+                spectrum_whiten(s, i, q, gsl_matrix_ptr(x->column, p, q == LOSS ? s->n : 0), 1);
+    }
+    return WT_OK;
 }
 
 /* Adds J'z of one column, J the rows divided by the noise. */
@@ -158,60 +223,80 @@ static double noncentrality(double x, double freedom, double probability)
     return 0.5 * (low + high);
 }
 
-wt_status superposition_test(const spectrum *s, lack_of_fit *result, wt_error *err)
+/* Probability and misfit of what the columns explain, if that is less likely than what is in
+ * `result`; the misfit is the larger one. */
+static wt_status test_columns(struct extra *x, lack_of_fit *result, wt_error *err)
 {
-    const size_t most = s->n_curves * (MODULI * POWERS - 1);
-    struct extra x = {.s = s};
-    x.column = pool_matrix(&x.memory, most, 2 * s->n);
-    x.matrix = pool_matrix(&x.memory, most, most);
-    x.right = pool_vector(&x.memory, most);
-    wt_status status = WT_OK;
-    if (x.memory.failed) {
-        status = wt_fail(err, WT_E_MEMORY, "no memory for the test of superposition");
-        goto done;
-    }
-    double squares = 0.0, points = 0.0, freedom = 0.0;
-    for (int q = 0; q < MODULI; q++) {
-        squares += spectrum_squares(s, q) / (s->noise[q] * s->noise[q]);
-        freedom += s->freedom[q];
-        for (size_t k = 0; k < s->n; k++)
-            points += s->weight[q][k] > 0.0;
-    }
+    const spectrum *s = x->s;
     size_t rank;
-    add_columns(&x);
-    status = project(&x, err);
+    wt_status status = project(x, err);
     if (status != WT_OK)
-        goto done;
-    const double q = quadratic(&x, &rank);
-    const double k = (double)rank, left = fmax(points - freedom - k, 1.0);
-    const double variance = (squares - q) / left;
-    const double to_misfit = s->noise[STORAGE] * s->noise[LOSS] * variance / points;
-    result->f = q / (k * variance);
-    result->p = gsl_cdf_fdist_Q(result->f, k, left);
-    result->misfit_low = sqrt(noncentrality(k * result->f, k, 0.975) * to_misfit);
-    result->misfit_high = sqrt(noncentrality(k * result->f, k, 0.025) * to_misfit);
+        return status;
+    const double q = quadratic(x, &rank), k = (double)rank;
+    if (rank == 0)
+        return WT_OK;
+    const double left = fmax(x->points - x->freedom - k, 1.0), variance = (x->squares - q) / left;
+    const double to_misfit = s->noise[STORAGE] * s->noise[LOSS] * variance / x->points;
+    const double above = q / variance;
+    result->p = fmin(result->p, tests * gsl_cdf_fdist_Q(above / k, k, left));
+    result->misfit_low = fmax(result->misfit_low, sqrt(noncentrality(above, k, 0.975) * to_misfit));
+    result->misfit_high =
+        fmax(result->misfit_high, sqrt(noncentrality(above, k, 0.025) * to_misfit));
+    return WT_OK;
+}
 
-    x.n = 0; /* one column: a factor on E'' */
-    gsl_matrix_set_zero(x.column);
-    double *v = gsl_matrix_ptr(x.column, 0, s->n);
+static wt_status test_factor(struct extra *x, lack_of_fit *result, wt_error *err)
+{
+    const spectrum *s = x->s;
+    gsl_matrix_set_zero(x->column);
+    double *v = gsl_matrix_ptr(x->column, 0, s->n);
     for (size_t i = 0; i < s->n_curves; i++) {
         for (size_t p = s->first[i]; p < s->first[i + 1]; p++)
             v[p] = sqrt(s->weight[LOSS][p]) / s->kappa[i] / s->noise[LOSS];
         spectrum_whiten(s, i, LOSS, v, 1);
     }
-    x.n = 1;
+    x->n = 1;
     gsl_vector_const_view length = gsl_vector_const_view_array(v, s->n);
     const double scale = gsl_blas_dnrm2(&length.vector);
-    status = project(&x, err);
+    wt_status status = project(x, err);
     if (status != WT_OK)
-        goto done;
-    const double d = gsl_matrix_get(x.matrix, 0, 0), r = gsl_vector_get(x.right, 0);
-    const double spread = fmax((squares - r * r / d) / fmax(points - freedom - 1.0, 1.0), 1e-300);
+        return status;
+    const double d = gsl_matrix_get(x->matrix, 0, 0), r = gsl_vector_get(x->right, 0);
+    const double left = fmax(x->points - x->freedom - 1.0, 1.0);
+    const double spread = fmax((x->squares - r * r / d) / left, 1e-300);
     result->factor = r / d / scale;
     result->factor_error = sqrt(spread / d) / scale;
-    result->kk =
-        2.0 * gsl_cdf_tdist_Q(fabs(r) / sqrt(spread * d), fmax(points - freedom - 1.0, 1.0));
-done:
+    result->kk = 2.0 * gsl_cdf_tdist_Q(fabs(r) / sqrt(spread * d), left);
+    return WT_OK;
+}
+
+wt_status superposition_test(const spectrum *s, lack_of_fit *result, wt_error *err)
+{
+    const size_t most = s->n_curves * (MODULI * POWERS - 1) + PARTINGS;
+    struct extra x = {.s = s};
+    x.column = pool_matrix(&x.memory, most, 2 * s->n);
+    x.matrix = pool_matrix(&x.memory, most, most);
+    x.right = pool_vector(&x.memory, most);
+    wt_status status = x.memory.failed
+                           ? wt_fail(err, WT_E_MEMORY, "no memory for the test of superposition")
+                           : WT_OK;
+    for (int q = 0; q < MODULI; q++) {
+        x.squares += spectrum_squares(s, q) / (s->noise[q] * s->noise[q]);
+        x.freedom += s->freedom[q];
+        for (size_t k = 0; k < s->n; k++)
+            x.points += s->weight[q][k] > 0.0;
+    }
+    *result = (lack_of_fit){.p = 1.0};
+    if (status == WT_OK) {
+        add_columns(&x);
+        status = test_columns(&x, result, err);
+    }
+    if (status == WT_OK)
+        status = part_columns(&x, err);
+    if (status == WT_OK)
+        status = test_columns(&x, result, err);
+    if (status == WT_OK)
+        status = test_factor(&x, result, err);
     pool_free(&x.memory);
     return status;
 }

@@ -6,8 +6,8 @@
 #include "fit/spectrum.h"
 
 typedef struct lack_of_fit {
-    double f, p;                     /* of the extra columns of all isotherms */
-    double misfit_low, misfit_high;  /* relative, 95 % */
+    double p;                        /* that one spectrum misses nothing, of both tests */
+    double misfit_low, misfit_high;  /* relative, 95 %: the larger of the two */
     double factor, factor_error, kk; /* ln of a common factor on E'' and p of it */
 } lack_of_fit;
 

@@ -31,9 +31,9 @@ static double loudness(const dma_scene *s, const isotherm *at, int k)
     return s->bathtub > 0 ? 1 + (s->bathtub - 1) * u * u : 1;
 }
 
-static void crystallise(isotherm *at, int k)
+static void crystallise(isotherm *at, int k, double strength)
 {
-    const double below = fmax(0, 10 - at->temperature);
+    const double below = strength * fmax(0, 10 - at->temperature);
     at->storage[k] *= pow(10, 0.02 * below);
     at->loss[k] *= pow(10, 0.008 * below);
 }
@@ -54,8 +54,7 @@ static void draw_isotherm(const dma_scene *s, const rubber *r, random_source *ra
     for (int k = 0; k < to->n; k++) {
         double *to_modulus[2] = {&to->storage[k], &to->loss[k]};
         state_moduli(&state, 2 * M_PI * to->frequency[k], &to->storage[k], &to->loss[k]);
-        if (s->crystallises)
-            crystallise(to, k);
+        crystallise(to, k, s->crystallises);
         for (int q = 0; q < 2; q++) {
             double e = random_normal(random);
             if (s->correlation > 0)

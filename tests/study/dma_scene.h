@@ -32,7 +32,7 @@ typedef struct dma_scene {
     double bathtub;                   /* noise at the ends of an isotherm over that in the middle */
     bool ragged;                      /* each isotherm has its own frequencies */
     bool exchanged;                   /* E' in the column of E'' */
-    bool crystallises;                /* below 10 degC */
+    double crystallises;              /* below 10 degC; 1 is strong */
 
     const char *vertical; /* of --vertical-shift; NULL: the default */
     const contact *contact;

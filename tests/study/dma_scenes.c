@@ -82,6 +82,10 @@ static const contact contact_warm = {.q0 = 2e3,
 #define VERDICT_PROMISED .facts.verdict_promised = true
 #define PROMISED .facts.intervals_promised = true, VERDICT_PROMISED
 #define FREE .vertical = "free"
+#define SECOND(...)                                                                                \
+    VERDICT_PROMISED, .rubber = RUBBER_TWO, .law = {__VA_ARGS__}, .reference = 20, .first = -40,   \
+                      .last = 70, .step = 10, FREQUENCIES10,                                       \
+                      .facts.right = RIGHT(NO) | RIGHT(CANNOT_SAY)
 #define D13_GRID                                                                                   \
     .first = -30, .last = 60, .step = 10, .lg_first = -1, .lg_last = 2, .frequencies = 25
 
@@ -153,7 +157,7 @@ const dma_scene dma_scenes[] = {
     {NAMED("V4", "E' and E'' exchanged"), VERDICT_PROMISED, .rubber = RUBBER_BROAD, BASE_LAW, G10,
      NOISE(.01), .exchanged = true, FREE, BAD},
     {NAMED("V5", "crystallising below 10 degC"), VERDICT_PROMISED, .rubber = RUBBER_BROAD, BASE_LAW,
-     G10, NOISE(.01), .crystallises = true, FREE, BAD},
+     G10, NOISE(.01), .crystallises = 1, FREE, BAD},
     {NAMED("V6", "steps of 30 K without overlap"), VERDICT_PROMISED, .rubber = RUBBER_BROAD,
      BASE_LAW, .first = -40, .last = 80, .step = 30, FREQUENCIES10, NOISE(.01), FREE, OPEN},
     {NAMED("V7", "one decade in steps of 10 K"), VERDICT_PROMISED, .rubber = RUBBER_BROAD, BASE_LAW,
@@ -164,7 +168,7 @@ const dma_scene dma_scenes[] = {
     {NAMED("exchanged", "V4 by the default"), .rubber = RUBBER_BROAD, BASE_LAW, G10, NOISE(.01),
      .exchanged = true, BAD},
     {NAMED("crystallises", "V5 by the default"), .rubber = RUBBER_BROAD, BASE_LAW, G10, NOISE(.01),
-     .crystallises = true, BAD},
+     .crystallises = 1, BAD},
     {NAMED("two_laws", "V2 by the default"), .rubber = RUBBER_TWO, .law = {900, -90, 300, NONE, 1},
      .reference = 20, G13, NOISE(.015), BAD},
     {NAMED("narrow", "V7 by the default"), .rubber = RUBBER_BROAD, BASE_LAW, .first = -30,
@@ -217,6 +221,21 @@ const dma_scene dma_scenes[] = {
      .rubber = RUBBER_TWO, TWO_LAW, G13, NOISE(.0002), .vertical = "physical", GOOD,
      .contact = &contact_d6},
 
+    /* a second process with a law less and less its own: what is missed grows with the shift */
+    {NAMED("second_400", "B 900 and 400 K, 2 %"), SECOND(900, -90, 400, NONE, 1), NOISE(.02)},
+    {NAMED("second_500", "B 900 and 500 K, 2 %"), SECOND(900, -90, 500, NONE, 1), NOISE(.02)},
+    {NAMED("second_600", "B 900 and 600 K, 1 %"), SECOND(900, -90, 600, NONE, 1), NOISE(.01)},
+    {NAMED("second_700", "B 900 and 700 K, 0.5 %"), SECOND(900, -90, 700, NONE, 1), NOISE(.005)},
+    {NAMED("second_700_loud", "B 900 and 700 K, 1 %"), SECOND(900, -90, 700, NONE, 1), NOISE(.01)},
+    {NAMED("second_800", "B 900 and 800 K, 0.5 %"), SECOND(900, -90, 800, NONE, 1), NOISE(.005)},
+    {NAMED("second_850", "B 900 and 850 K, 1 %"), SECOND(900, -90, 850, NONE, 1), NOISE(.01)},
+    {NAMED("second_cold", "Tinf -90 and -100 degC, 1 %"), SECOND(900, -90, 0, NONE, 1, -100),
+     NOISE(.01)},
+    {NAMED("second_colder", "Tinf -90 and -110 degC, 1 %"), SECOND(900, -90, 0, NONE, 1, -110),
+     NOISE(.01)},
+    {NAMED("crystallises_little", "a quarter of V5, 1 %"), VERDICT_PROMISED, .rubber = RUBBER_BROAD,
+     BASE_LAW, G10, NOISE(.01), .crystallises = .25, BAD},
+
     /* held out: not looked at while the methods were chosen */
     {NAMED("held_two", "two, another law and grid, 2 %, 0.15 K"), PROMISED, .rubber = RUBBER_TWO,
      .law = {1100, -70, 0, NONE, 1}, .reference = 34, .first = -10, .last = 100, .step = 11,
@@ -235,7 +254,7 @@ const dma_scene dma_scenes[] = {
      .rubber = RUBBER_RIPPLE, .law = {1000, -85, 0, NONE, 1}, .reference = 20, .first = -25,
      .last = 65, .step = 9, .lg_first = -1, .lg_last = 1.8, .frequencies = 12, NOISE(.007),
      .missing = .15, .ragged = true, FREE, GOOD},
-    {NAMED("held_two_laws", "two laws less far apart, 1 %"), .rubber = RUBBER_TWO,
+    {NAMED("held_two_laws", "two laws less far apart, 1 %"), VERDICT_PROMISED, .rubber = RUBBER_TWO,
      .law = {900, -90, 500, NONE, 1}, .reference = 20, .first = -40, .last = 70, .step = 10,
      .lg_first = -1, .lg_last = 2, .frequencies = 13, NOISE(.01), BAD},
 };
@@ -256,6 +275,8 @@ rubber_state dma_state(const dma_scene *s, const rubber *r, double temperature)
     shift_law second = s->law;
     if (second.b_second > 0)
         second.b = second.b_second;
+    if (second.t_inf_second < 0)
+        second.t_inf = second.t_inf_second;
     return (rubber_state){.rubber = r,
                           .a = {pow(10, law_shift(&s->law, s->reference, temperature)),
                                 pow(10, law_shift(&second, s->reference, temperature))},

@@ -23,6 +23,7 @@ typedef struct shift_law {
     double b, t_inf;
     double b_second; /* of the second process; 0: the same */
     double glass, slope_below;
+    double t_inf_second; /* of the second process; 0: the same */
 } shift_law;
 
 double law_shift(const shift_law *law, double reference, double temperature);

@@ -391,6 +391,30 @@ static void superposition_is_judged(void **state)
 
 /* ---- draws ----------------------------------------------------------------------------------- */
 
+static size_t verdicts(double second_c1, wt_superposition verdict)
+{
+    size_t n = 0;
+    for (uint64_t seed = 1; seed <= 5; seed++) {
+        scene s = {usual(), 233.15, 353.15, 10, 0.01, 0, seed};
+        s.material.law[1].wlf.c1 = second_c1;
+        s.material.processes[1].strength = 2e7;
+        wt_master m = fit_scene(&s);
+        n += m.superposition == verdict;
+        wt_master_clear(&m);
+    }
+    return n;
+}
+
+/* What a second process bends an isotherm by is no correlated noise; one with nearly the same law
+ * is little in each isotherm, and seen where slow times part from fast ones. */
+static void a_second_process_is_seen(void **state)
+{
+    (void)state;
+    assert_int_equal(verdicts(5, WT_SUPERPOSITION_FAILS), 5);
+    assert_int_equal(verdicts(7.8, WT_SUPERPOSITION_HOLDS), 0);
+    assert_true(verdicts(8.2, WT_SUPERPOSITION_HOLDS) >= 4);
+}
+
 static void draws_scatter_as_the_intervals_say(void **state)
 {
     (void)state;
@@ -455,6 +479,7 @@ int main(void)
         cmocka_unit_test(shifts_that_rise_have_no_law),
         cmocka_unit_test(shifts_without_a_pole_are_not_wlf),
         cmocka_unit_test(superposition_is_judged),
+        cmocka_unit_test(a_second_process_is_seen),
         cmocka_unit_test(draws_scatter_as_the_intervals_say),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
