@@ -22,6 +22,9 @@ enum { PARTINGS = 3 };
 static const double tests = 2.0;
 /* What is left of a column, of its square, below which the model has it. */
 static const double least_left = 1e-6;
+/* Of the squares the columns leave at least so much: where the fit is far from its minimum, as with
+ * exchanged moduli, they seem to explain more than there is. */
+static const double least_squares = 0.01;
 
 struct extra {
     const spectrum *s;
@@ -235,7 +238,8 @@ static wt_status test_columns(struct extra *x, lack_of_fit *result, wt_error *er
     const double q = quadratic(x, &rank), k = (double)rank;
     if (rank == 0)
         return WT_OK;
-    const double left = fmax(x->points - x->freedom - k, 1.0), variance = (x->squares - q) / left;
+    const double left = fmax(x->points - x->freedom - k, 1.0);
+    const double variance = fmax(x->squares - q, least_squares * x->squares) / left;
     const double to_misfit = s->noise[STORAGE] * s->noise[LOSS] * variance / x->points;
     const double above = q / variance;
     result->p = fmin(result->p, tests * gsl_cdf_fdist_Q(above / k, k, left));
