@@ -51,7 +51,7 @@ const track_scene track_scenes[] = {
     PAIR("T10", "one spot in the track", UNKNOWN, UNKNOWN, SPOTS(4, 1, .06, .06), .rate_slope = .06,
          COMMON_RATES, SILENT),
     PAIR("T11", "track 10 +- 1 K warmer, slope known", SEEN, NOT_YES, FOUR, COMMON_RATES,
-         .warmth = WARMER_SLOPE_KNOWN, STATED, GIVEN(95, NAN)),
+         .warmth = WARMER_SLOPE_KNOWN, STATED, GIVEN(95, (double)NAN)),
 
     /* of our own */
     PAIR("T1.friction", "T1, on to the friction with the layer", SEEN, NOT_YES, FOUR, COMMON_RATES,
