@@ -473,6 +473,8 @@ static void impossible_input_is_refused(void **state)
     at = at_reference(293.15, WT_VERTICAL_FREE);
     sweep.isotherms[1].temperature = -10.0;
     expect_failure(&sweep, &at, WT_E_RANGE);
+    sweep.isotherms[1].temperature = 0.0;
+    expect_failure(&sweep, &at, WT_E_RANGE);
     sweep.isotherms[1].temperature = (double)NAN;
     expect_failure(&sweep, &at, WT_E_RANGE);
     wt_sweep_clear(&sweep);
