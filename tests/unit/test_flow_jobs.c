@@ -552,6 +552,7 @@ static void test_draws(void **state)
     assert_near_abs(product / N, 0, 4 / sqrt(N));
     assert_near_abs(flow_spread(x, N, 1), 1, 4 / sqrt(2.0 * N));
     assert_near(flow_draw_normal(7, WT_NO_REPLICATE, FLOW_DRAW_WEAR), 0, 0);
+    assert_true(fabs(flow_draw_normal(8, 0, FLOW_DRAW_WEAR) - x[0]) > 0); /* the seed counts */
     const double odd[] = {1, (double)NAN, 3, (double)NAN};
     assert_near(flow_spread(odd, 4, 1), sqrt(2), 1e-15);
     assert_near(flow_spread(odd, 2, 1), (double)NAN, 0);

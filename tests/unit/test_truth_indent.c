@@ -99,6 +99,28 @@ static void test_columns(void **state)
     assert_true(isnan(second) || second > 1);
 }
 
+/* With the contact given, a sphere's force goes with the power 1.5 of the depth. */
+static void test_known_contact(void **state)
+{
+    (void)state;
+    const char *const patterns[] = {path};
+    wt_file_set set = {.patterns = patterns, .n_patterns = 1, .read = wt_read_defaults()};
+    wt_indent_job job = wt_indent_job_defaults();
+    wt_job common = wt_job_defaults();
+    wt_indent_tables known = {0};
+    wt_error err = WT_ERROR_INIT;
+    common.formats = formats;
+    job.sets = &set;
+    job.n_sets = 1;
+    job.options.fixed_contact_point = HERTZ_FREE - HERTZ_TOP;
+    assert_int_equal(wt_tip_parse(HERTZ_TIP, &job.tip, NULL), WT_OK);
+    if (wt_indent_group(&job, &common, &known, &err) != WT_OK)
+        fail_msg("%s: %s", err.place, err.message);
+    assert_near(cell(known.indentation, 0, "equivalent_frequency"),
+                2.02 * truth.velocity / hertz_travel(&truth), 0.01);
+    wt_indent_tables_clear(&known);
+}
+
 static void test_rejected(void **state)
 {
     (void)state;
@@ -154,6 +176,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_columns),
+        cmocka_unit_test(test_known_contact),
         cmocka_unit_test(test_rejected),
         cmocka_unit_test(test_curves),
     };
