@@ -15,7 +15,7 @@
 #include <stdlib.h>
 
 /* Rates of one class differ by less than this [ln]: half a decade. Without a slope it is left. */
-static const double same_rate = 1.15;
+static const double same_rate = 0.5 * M_LN10;
 
 /* The curves of one spot at one rate. */
 typedef struct cell {

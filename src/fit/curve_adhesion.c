@@ -158,7 +158,9 @@ void curve_read_retract(curve_fitting *f, const double *height, const double *fo
         largest = fmax(largest, scratch[i]);
     }
     const double in = work_along(s->position, scratch, f->input.n_all, c);
-    f->loss = (in - back) / (in - 0.5 * largest * largest / s->spring_constant);
+    const double share = (in - back) / (in - 0.5 * largest * largest / s->spring_constant);
+    if (share <= 1.0) /* more than all is no loss: the sample took too little of the work to say */
+        f->loss = share;
 }
 
 /* ---- adhesive contact ------------------------------------------------------------------------ */

@@ -47,7 +47,7 @@ typedef struct compare_known {
     bool temperature_not_known; /* they differ, and nothing says what that does */
     bool rates_by_dma;          /* the curves do not say what their rates do; the DMA does */
     double temperature[2];      /* [K]; NaN = not known */
-    char includes[160];         /* in words: what the interval has beside the scatter */
+    char includes[256];         /* in words: what the interval has beside the scatter */
 } compare_known;
 
 wt_status compare_find_known(const compare_pair *p, const wt_compare_job *job, const wt_job *work,

@@ -14,19 +14,21 @@ static double square(double x)
     return x * x;
 }
 
-static void include(compare_known *k, const char *words)
+static void include(compare_known *k, const char *sign, const char *words)
 {
     const size_t used = strlen(k->includes);
-    snprintf(k->includes + used, sizeof k->includes - used, ", %s", words);
+    snprintf(k->includes + used, sizeof k->includes - used, "%s%s", sign, words);
 }
 
-/* Adds a variance to that of the offset. */
+/* Adds a variance to that of the offset; one that is not known is named. */
 static void add_error(compare_known *k, double error, const char *words)
 {
+    if (isnan(error))
+        include(k, ", but not, for it is not known: ", words);
     if (!(error > 0))
         return;
     k->offset.standard_error = hypot(k->offset.standard_error, error);
-    include(k, words);
+    include(k, ", ", words);
 }
 
 static bool are_two(const compare_pair *p, wt_levers levers)
@@ -50,7 +52,8 @@ static void add_calibration(const compare_pair *p, const wt_compare_job *job, co
     const double gain[2] = {p->data[0].sensitivity_gain, p->data[1].sensitivity_gain};
     k->two_levers = are_two(p, job->levers);
     const double by_sensitivity = k->two_levers ? hypot(gain[0], gain[1]) : fabs(gain[1] - gain[0]);
-    add_error(k, job->sensitivity_error * by_sensitivity, "deflection sensitivity");
+    if (job->sensitivity_error > 0)
+        add_error(k, job->sensitivity_error * by_sensitivity, "deflection sensitivity");
     if (!k->two_levers)
         return;
     k->lever_not_stated = !(lever[0] > 0) || !(lever[1] > 0);
@@ -87,7 +90,8 @@ static wt_status log_modulus(const wt_rubber *rubber, condition at, uint64_t see
     return WT_OK;
 }
 
-/* ln |E*| of the track's condition over that of the bulk's, with its error by draws. */
+/* ln |E*| of the track's condition over that of the bulk's, with its error by draws; NaN if the
+ * material states none. */
 static wt_status change_of(const wt_rubber *rubber, const condition at[2], const wt_job *work,
                            wt_estimate *change, wt_error *err)
 {
@@ -108,7 +112,7 @@ static wt_status change_of(const wt_rubber *rubber, const condition at[2], const
             n++;
         }
     }
-    change->standard_error = n > 0 ? sqrt(sum / (double)n) : 0;
+    change->standard_error = sum > 0 ? sqrt(sum / (double)n) : (double)NAN;
     return WT_OK;
 }
 
@@ -140,8 +144,10 @@ static wt_status add_conditions(const compare_pair *p, const wt_compare_job *job
 {
     const wt_estimate slope = job->temperature_slope;
     wt_estimate bulk = job->temperature;
-    if (isnan(bulk.value) && job->rubber != NULL)
+    if (isnan(bulk.value) && job->rubber != NULL) {
         bulk.value = job->rubber->prony.reference_temperature;
+        bulk.standard_error = 0; /* a default, which the caveats name */
+    }
     const bool apart = !isnan(job->track_temperature.value);
     const wt_estimate track = apart ? job->track_temperature : bulk;
     const double step = track.value - bulk.value;
