@@ -161,11 +161,32 @@ typedef struct wt_rubber_draw {
     double *log_b; /* [n_vertical] */
 } wt_rubber_draw;
 
+/* What tells the moduli. */
+typedef enum wt_rubber_kind {
+    WT_RUBBER_SERIES, /* prony */
+    WT_RUBBER_TABLE,  /* the points of the one isotherm of `sweep`, linear in log-log */
+    WT_RUBBER_ZENER   /* fractional, in tension */
+} wt_rubber_kind;
+
+/* E(w) = (E0 + Eg z) / (1 + z), z = (i w tau)^alpha. */
+typedef struct wt_zener {
+    double e0, eg; /* [Pa] */
+    double tau;    /* [s] */
+    double alpha;
+    uint64_t reserved[4];
+} wt_zener;
+
 /* The rubber as the later stages know it: moduli at one reference temperature and how to go to
  * another one. */
 typedef struct wt_rubber {
-    wt_prony prony; /* E or G as measured, vertical shift applied, at the reference temperature */
+    wt_rubber_kind kind;
+    wt_prony prony; /* E or G as measured, vertical shift applied, at the reference temperature; of
+                       another kind without terms */
+    wt_zener zener;
+    wt_extrapolation extrapolation; /* of a table */
     double poisson_ratio;
+    bool is_transverse; /* the moduli are the E of the next */
+    wt_transverse transverse;
     wt_shift_law law;                         /* kind NONE: no other temperature */
     double c1_error, c2_error, c_correlation; /* of a law that came without isotherms; 0 unknown */
     double temperature_min, temperature_max;  /* of the isotherms [K]; NaN = not known */
@@ -177,6 +198,30 @@ typedef struct wt_rubber {
     wt_master_options fit;
 } wt_rubber;
 WT_API void wt_rubber_clear(wt_rubber *rubber);
+
+/* How the moduli of a rubber are taken. */
+typedef enum wt_moduli { WT_MODULI_SERIES, WT_MODULI_POINTS } wt_moduli;
+typedef struct wt_rubber_options {
+    wt_moduli moduli; /* of isotherms: the series, or the points of the master curve */
+    wt_extrapolation extrapolation; /* outside the points of any table; default hold */
+    uint64_t reserved[4];
+} wt_rubber_options;
+WT_API wt_rubber_options wt_rubber_options_defaults(void);
+WT_API const wt_params *wt_rubber_options_params(void);
+
+/* "fractional-zener:e0=5MPa,eg=2GPa,tau=1us,alpha=0.4" or the path of a table of the moduli at one
+ * temperature: that of the file, else of `read`, else not known. */
+WT_API wt_status wt_rubber_open(const char *text, const wt_read_options *read,
+                                const wt_rubber_options *options, double poisson_ratio,
+                                const wt_job *work, wt_rubber *rubber, wt_error *err) WT_NODISCARD;
+/* The points of a table "master_curve" in place of the series, without draws, with the shifts that
+ * the rubber has; one of zeros but for the Poisson ratio gets all that the table tells. Points
+ * closer than a twentieth of a decade are joined. */
+WT_API wt_status wt_rubber_tabulate(wt_rubber *rubber, const wt_table *master_curve,
+                                    const wt_rubber_options *options, wt_error *err) WT_NODISCARD;
+/* What tells the moduli, in words; "" for an isotropic series. Returns the length as snprintf does.
+ */
+WT_API size_t wt_rubber_describe(const wt_rubber *rubber, char *buffer, size_t size);
 
 typedef struct wt_master_tables {
     wt_table *shift_factors, *master_curve, *prony, *material_draws, *series_draws;

@@ -96,7 +96,7 @@ WT_API double wt_shift_law_log_a(const wt_shift_law *law, double temperature);
 typedef struct wt_material wt_material;
 
 typedef struct wt_material_law {
-    const char *name; /* "prony", "table", "fractional_zener" */
+    const char *name; /* "prony", "table", "fractional_zener", "transverse" */
     /* E'(w), E''(w) [Pa] at n angular frequencies > 0 [rad/s]. */
     void (*modulus)(const wt_material *material, const double *omega, size_t n, double *storage,
                     double *loss);
@@ -108,7 +108,12 @@ typedef struct wt_material_law {
     /* Angular frequencies where the law is not smooth (knots), rising, borrowed; *n = 0 if none. */
     const double *(*breaks)(const wt_material *material, size_t *n);
     void (*free)(wt_material *material);
-    uint64_t reserved[8];
+    /* WT_E_RANGE unless there can be such a material at frequencies up to `high` [rad/s], which are
+     * reached from `low` on. `statement` (may be NULL) gets what must be said of one that can be,
+     * or "". NULL: the constructor has checked all. */
+    wt_status (*check)(const wt_material *material, double low, double high, char statement[256],
+                       wt_error *err);
+    uint64_t reserved[7];
 } wt_material_law;
 
 struct wt_material {
@@ -135,6 +140,26 @@ WT_API wt_status wt_material_table(const double *omega, const double *storage, c
 WT_API wt_status wt_material_fractional_zener(double e0, double eg, double tau, double alpha,
                                               double poisson_ratio, wt_material **material,
                                               wt_error *err) WT_NODISCARD;
+
+/* Five moduli of a transversely isotropic solid whose axis is the surface normal: factors on E' and
+ * E'' of laws, and two real Poisson ratios. */
+typedef struct wt_transverse {
+    double axial_storage, axial_loss; /* Ez */
+    double plane_storage, plane_loss; /* Ep */
+    double shear_storage, shear_loss; /* the E of Gzp = E / (2 (1 + nu_p)) */
+    double
+        plane_poisson; /* nu_p: contraction in the plane under a load in it; NaN = poisson_ratio */
+    double axial_poisson; /* nu_zp: in the plane under a load along the axis; NaN likewise */
+    uint64_t reserved[4];
+} wt_transverse;
+WT_API wt_transverse wt_transverse_defaults(void); /* isotropic */
+WT_API const wt_params *wt_transverse_params(void);
+/* The isotropic solid of this Poisson ratio that its surface feels like. `axial` and `shear` may be
+ * NULL or `plane`, the law of which then holds. Takes the laws, also on failure. What is unstable
+ * or singular shows when frequencies are known: wt_material_law.check. */
+WT_API wt_status wt_material_transverse(wt_material *plane, wt_material *axial, wt_material *shear,
+                                        const wt_transverse *transverse, double poisson_ratio,
+                                        wt_material **material, wt_error *err) WT_NODISCARD;
 WT_API void wt_material_free(wt_material *material);
 
 /* ---- roughness ------------------------------------------------------------------------------- */

@@ -80,7 +80,8 @@ typedef struct wt_read_options {
     double temperature;       /* [K] for a sweep whose file gives none; NaN = none */
     const char *const *units; /* "NAME=UNIT" for columns of files that carry no units */
     size_t n_units;
-    uint64_t reserved[8];
+    bool any_temperature; /* a sweep without a temperature is read, as NaN */
+    uint64_t reserved[7];
 } wt_read_options;
 WT_API wt_read_options wt_read_defaults(void); /* everything, nothing replaced */
 WT_API const wt_params *wt_read_params(void);

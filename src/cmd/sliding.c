@@ -7,7 +7,9 @@
 
 static const wt_param contact_rows[] = {
     {PARAM_TEXT_OF("material", cmd_contact, material), .value = "FILE", .letter = 'm', .unset = "",
-     .help = "output of weartrack master (text stream or .h5); - is standard input"},
+     .help =
+         "output of weartrack master (text stream or .h5; - is standard input), a text table of "
+         "E' and E'' at one temperature, or fractional-zener:e0=..Pa,eg=..Pa,tau=..s,alpha=.."},
     {PARAM_TEXTS_OF("dma", cmd_contact, dma_files, n_dma), .value = "FILE", .unset = "",
      .help = "DMA file, folder or pattern instead of --material; repeatable"},
     {PARAM_TEXT_OF("roughness", cmd_contact, roughness), .value = "R", .flags = PARAM_REQUIRED,
@@ -21,12 +23,16 @@ void cmd_sliding_init(cmd_sliding *s, cmd_part own)
     memset(s, 0, sizeof *s);
     s->conditions = wt_sliding_defaults();
     s->master = wt_master_job_defaults();
+    s->options = wt_rubber_options_defaults();
+    s->transverse = wt_transverse_defaults();
     s->set.read = wt_read_defaults();
     s->session = cmd_session_defaults();
     s->parts[CMD_CONTACT] = (cmd_part){contact_params(), &s->contact, NULL, 0};
     s->parts[CMD_CONDITIONS] = (cmd_part){wt_sliding_params(), &s->conditions, NULL, 0};
     s->parts[CMD_WORK] = (cmd_part){wt_job_params(), &s->session.work, NULL, 0};
     s->parts[CMD_MASTER] = (cmd_part){wt_master_job_params(), &s->master, NULL, 0};
+    s->parts[CMD_RUBBER] = (cmd_part){wt_rubber_options_params(), &s->options, NULL, 0};
+    s->parts[CMD_TRANSVERSE] = (cmd_part){wt_transverse_params(), &s->transverse, NULL, 0};
     s->parts[CMD_READ] = (cmd_part){wt_read_params(), &s->set.read, "temperature units format", 0};
     s->parts[CMD_OWN] = own;
 }
@@ -56,18 +62,53 @@ bool cmd_sliding_parse(cmd_sliding *s, const cmd_usage *usage, int argc, char **
     return true;
 }
 
+static wt_status fit_material(cmd_sliding *s, wt_error *err)
+{
+    wt_master_tables tables = {0};
+    const bool listed = s->session.n_files > 0;
+    s->set.patterns = listed ? s->session.files : s->contact.dma_files;
+    s->set.n_patterns = listed ? s->session.n_files : s->contact.n_dma;
+    s->master.sets = &s->set;
+    s->master.n_sets = 1;
+    wt_status status = wt_master_make(&s->master, &s->session.work, &tables, &s->rubber, err);
+    if (status == WT_OK && s->options.moduli == WT_MODULI_POINTS)
+        status = wt_rubber_tabulate(&s->rubber, tables.master_curve, &s->options, err);
+    wt_master_tables_clear(&tables);
+    return status;
+}
+
+/* A result: the series, the points of its master curve if they are asked for or all there is. A
+ * file without either is taken for a table of moduli, and if it is none the first error holds. */
 static wt_status read_material(cmd_sliding *s, wt_error *err)
 {
     const char *material = s->contact.material;
-    if (material == NULL) {
-        const bool listed = s->session.n_files > 0;
-        s->set.patterns = listed ? s->session.files : s->contact.dma_files;
-        s->set.n_patterns = listed ? s->session.n_files : s->contact.n_dma;
-        s->master.sets = &s->set;
-        s->master.n_sets = 1;
-        return wt_master_make(&s->master, &s->session.work, NULL, &s->rubber, err);
+    const double poisson = s->master.poisson_ratio;
+    wt_error first = WT_ERROR_INIT;
+    wt_read_options read = s->set.read;
+    read.temperature = s->master.fit.reference_temperature;
+    if (strncmp(material, "fractional-zener:", 17) == 0) {
+        wt_status law = wt_rubber_open(material, &read, &s->options, poisson, &s->session.work,
+                                       &s->rubber, err);
+        s->rubber.prony.reference_temperature = read.temperature;
+        return law;
     }
-    return cmd_rubber_read(material, s->master.poisson_ratio, &s->material_tables, &s->rubber, err);
+    wt_status status = cmd_rubber_read(material, poisson, &s->material_tables, &s->rubber, &first);
+    const wt_table *curve =
+        s->material_tables != NULL ? wt_result_find(s->material_tables, "master_curve") : NULL;
+    if (curve != NULL &&
+        (status == WT_E_NOT_FOUND || (status == WT_OK && s->options.moduli == WT_MODULI_POINTS))) {
+        s->rubber.poisson_ratio = poisson;
+        return wt_rubber_tabulate(&s->rubber, curve, &s->options, err);
+    }
+    if (status != WT_OK && status != WT_E_MEMORY && strcmp(material, "-") != 0) {
+        const wt_status table = wt_rubber_open(material, &read, &s->options, poisson,
+                                               &s->session.work, &s->rubber, err);
+        if (table != WT_E_FORMAT && table != WT_E_NOT_FOUND)
+            return table;
+    }
+    if (status != WT_OK)
+        *err = first;
+    return status;
 }
 
 bool cmd_sliding_open(cmd_sliding *s)
@@ -79,7 +120,9 @@ bool cmd_sliding_open(cmd_sliding *s)
     /* without all that was asked for there is no friction */
     wt_table_free(work->failures);
     work->failures = NULL;
-    wt_status status = read_material(s, err);
+    wt_status status = s->contact.material != NULL ? read_material(s, err) : fit_material(s, err);
+    s->rubber.is_transverse = s->parts[CMD_TRANSVERSE].given != 0;
+    s->rubber.transverse = s->transverse;
     if (status == WT_OK) {
         status = wt_surface_open(s->contact.roughness, &s->set.read, work, &s->surface, err);
         if (status == WT_E_NOT_FOUND)

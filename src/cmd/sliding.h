@@ -7,19 +7,31 @@
 
 /* Where the rubber and the counter surface come from. */
 typedef struct cmd_contact {
-    const char *material;         /* output of `master` */
+    const char *material;         /* output of `master`, a table of moduli or a law */
     const char *const *dma_files; /* [n_dma] or DMA files */
     size_t n_dma;
     const char *roughness;
 } cmd_contact;
 
 /* Parts of the options; CMD_OWN are those of the subcommand itself. */
-enum { CMD_CONTACT, CMD_CONDITIONS, CMD_OWN, CMD_WORK, CMD_MASTER, CMD_READ, CMD_SLIDING_PARTS };
+enum {
+    CMD_CONTACT,
+    CMD_CONDITIONS,
+    CMD_OWN,
+    CMD_WORK,
+    CMD_MASTER,
+    CMD_RUBBER,
+    CMD_TRANSVERSE,
+    CMD_READ,
+    CMD_SLIDING_PARTS
+};
 
 typedef struct cmd_sliding {
     cmd_contact contact;
     wt_sliding conditions;
     wt_master_job master;
+    wt_rubber_options options;
+    wt_transverse transverse;
     wt_file_set set;
     cmd_session session;
     cmd_part parts[CMD_SLIDING_PARTS];

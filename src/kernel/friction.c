@@ -179,7 +179,11 @@ wt_status friction_prepare(wt_friction_workspace *ws, double pressure, const dou
                         ws->material->law->name);
         return WT_E_RANGE;
     }
-    return angular_cover(ws->angular, lowest, highest, err);
+    const wt_material *material = ws->material;
+    const wt_status status = material->law->check != NULL
+                                 ? material->law->check(material, lowest, highest, NULL, err)
+                                 : WT_OK;
+    return status == WT_OK ? angular_cover(ws->angular, lowest, highest, err) : status;
 }
 
 const panel_plan *friction_plan(const wt_friction_workspace *ws, friction_scratch *scratch,

@@ -29,7 +29,7 @@ wt_status material_wrap(const wt_material_law *law, void *data, double poisson_r
 {
     wt_material *made = malloc(sizeof *made);
     if (made == NULL) {
-        free(data);
+        law->free(&(wt_material){.data = data});
         return wt_fail(err, WT_E_MEMORY, "out of memory for a material");
     }
     *made = (wt_material){.law = law,

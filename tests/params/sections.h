@@ -14,7 +14,9 @@ static const struct {
     const wt_params *(*params[SECTION_TABLES])(void);
 } case_sections[] = {
     {"indentation", {wt_indent_job_params, wt_compare_job_params}},
-    {"dma", {wt_master_job_params, NULL}},
+    {"dma", {wt_master_job_params, wt_rubber_options_params}},
+    {"fractional-zener", {flow_zener_params, NULL}},
+    {"transverse", {wt_transverse_params, NULL}},
     {"wlf", {case_wlf_params, NULL}},
     {"self-affine", {flow_self_affine_params, NULL}},
     {"spectrum", {flow_spectrum_params, NULL}},

@@ -65,6 +65,13 @@ static const struct {
     {"c0", "3e-17m^4", NULL, NULL},
     {"hurst", "0.7", NULL, NULL},
     {"error", "0.2", NULL, NULL},
+    {"e0", "6MPa", NULL, NULL},
+    {"eg", "3GPa", NULL, NULL},
+    {"tau", "2us", NULL, NULL},
+    {"alpha", "0.5", NULL, NULL},
+    {"plane-poisson", "0.45", NULL, NULL},
+    {"axial-poisson", "0.45", NULL, NULL},
+    {"extrapolation", "slope", "moduli points", NULL},
     {"c1", "9", NULL, NULL},
     {"c2", "110K", NULL, NULL},
 };
@@ -170,9 +177,11 @@ enum { N_SUBCOMMANDS = sizeof subcommands / sizeof subcommands[0] };
 
 /* The parameters of the options, by the names that --help lists. */
 static const wt_params *(*const tables[])(void) = {
-    wt_convert_job_params, wt_file_set_params,    wt_indent_job_params, wt_compare_job_params,
-    wt_master_job_params,  wt_layer_known_params, wt_sliding_params,    wt_layer_job_params,
-    wt_job_params,         wt_report_params,      wt_read_params,
+    wt_convert_job_params,    wt_file_set_params,   wt_indent_job_params,
+    wt_compare_job_params,    wt_master_job_params, wt_layer_known_params,
+    wt_sliding_params,        wt_layer_job_params,  wt_job_params,
+    wt_report_params,         wt_read_params,       wt_transverse_params,
+    wt_rubber_options_params,
 };
 
 static char *read_file(const char *name, size_t *length)
@@ -307,6 +316,11 @@ static const struct {
      "files><files>track-2.jpk-force-map</files></track>"
      "</indentation><dma><files>dma.txt</files></dma>"},
     {"dma", "", "<dma>", "<files>dma.txt</files></dma>"},
+    {"fractional-zener", "<e0>5MPa</e0><eg>2GPa</eg><tau>1us</tau><alpha>0.4</alpha>",
+     "<dma><reference-temperature>30degC</reference-temperature><fractional-zener>",
+     "</fractional-zener></dma>"},
+    {"transverse", "<axial-poisson>0.4</axial-poisson>", "<dma><files>dma.txt</files><transverse>",
+     "</transverse></dma>"},
     {"wlf", "<c1>8</c1><c2>100K</c2>",
      "<dma><reference-temperature>20degC</reference-temperature><prony deformation='tension'>"
      "<equilibrium>1MPa</equilibrium><term time='1e-3s' modulus='10MPa'/>"
@@ -341,6 +355,13 @@ static void add_elements(char *xml, size_t size, const char *elements, const cha
     }
 }
 
+/* Its frame has a <dma> of its own. */
+static bool is_dma_part(const char *section)
+{
+    return strcmp(section, "wlf") == 0 || strcmp(section, "fractional-zener") == 0 ||
+           strcmp(section, "transverse") == 0;
+}
+
 /* The case that shows what section `s` does, with the moved element in it. */
 static void make_case(size_t s, const char *name, const char *text, const char *with,
                       const char *without, char *xml, size_t size)
@@ -351,7 +372,7 @@ static void make_case(size_t s, const char *name, const char *text, const char *
     for (size_t f = 0; f < N_FRAMES; f++) {
         const bool own = strcmp(frames[f].section, section) == 0;
         const bool other =
-            (strcmp(frames[f].section, "dma") == 0 && strcmp(section, "wlf") != 0) ||
+            (strcmp(frames[f].section, "dma") == 0 && !is_dma_part(section)) ||
             (strcmp(frames[f].section, "self-affine") == 0 && strcmp(section, "spectrum") != 0) ||
             strcmp(frames[f].section, "sliding") == 0 || strcmp(frames[f].section, "layer") == 0;
         if (!own && (indents || !other))

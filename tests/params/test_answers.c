@@ -28,6 +28,10 @@ static const struct {
     {"c0", "1e-17m^4"},
     {"c1", "8"},
     {"c2", "100K"},
+    {"e0", "0MPa"},
+    {"eg", "1e15Pa"},
+    {"tau", "1us"},
+    {"alpha", "0.4"},
     {"layer-thickness", "1um"}, /* these two go together */
     {"modulus-ratio", "1"},
 };
@@ -47,7 +51,7 @@ static const char *good_text(const char *name, const char *tried)
 /* Files that do not exist end every call that was understood. */
 static const struct {
     const char *name, *files;
-    const wt_params *(*params[6])(void);
+    const wt_params *(*params[7])(void);
 } subcommands[] = {
     {"info", "absent", {wt_read_params}},
     {"convert", "absent", {wt_convert_job_params}},
@@ -56,10 +60,12 @@ static const struct {
     {"master", "absent", {wt_master_options_params}},
     {"friction",
      "--material absent --roughness absent",
-     {wt_sliding_params, wt_layer_known_params, wt_job_params, wt_master_job_params}},
+     {wt_sliding_params, wt_layer_known_params, wt_job_params, wt_master_job_params,
+      wt_transverse_params, wt_rubber_options_params}},
     {"layer",
      "--material absent --roughness absent",
-     {wt_sliding_params, wt_layer_job_params, wt_job_params, wt_master_job_params}},
+     {wt_sliding_params, wt_layer_job_params, wt_job_params, wt_master_job_params,
+      wt_transverse_params, wt_rubber_options_params}},
     {"run", "absent", {wt_run_params}},
 };
 
@@ -103,6 +109,8 @@ static const struct {
     const char *section, *before, *after;
 } frames[] = {
     {"dma", "<dma>", "<files>x</files></dma>"},
+    {"fractional-zener", "<dma><fractional-zener>", "</fractional-zener></dma>"},
+    {"transverse", "<dma><files>x</files><transverse>", "</transverse></dma>"},
     {"wlf",
      "<dma><reference-temperature>20degC</reference-temperature><prony deformation='tension'>"
      "<equilibrium>1MPa</equilibrium><term time='1s' modulus='1MPa'/></prony><wlf>",

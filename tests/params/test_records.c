@@ -14,7 +14,8 @@ static const wt_params *(*const tables[])(void) = {
     wt_layer_known_params, wt_layer_job_params,     wt_run_params,
     wt_report_params,      flow_self_affine_params, flow_spectrum_params,
     case_group_params,     case_prony_params,       case_term_params,
-    case_wlf_params,
+    case_wlf_params,       flow_zener_params,       wt_rubber_options_params,
+    wt_transverse_params,
 };
 enum { N_TABLES = sizeof tables / sizeof tables[0] };
 

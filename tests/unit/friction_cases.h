@@ -7,8 +7,8 @@
 
 #include <math.h>
 
-static inline wt_status friction_case_material(const numeric_case *c, wt_material **material,
-                                               wt_error *err)
+static inline wt_status friction_case_law(const numeric_case *c, wt_material **material,
+                                          wt_error *err)
 {
     const char *kind = case_word(c, false, "material");
     const double nu = case_number(c, false, "poisson_ratio", (double)NAN);
@@ -44,6 +44,30 @@ static inline wt_status friction_case_material(const numeric_case *c, wt_materia
         case_number(c, false, "e0", (double)NAN), case_number(c, false, "eg", (double)NAN),
         case_number(c, false, "tau", (double)NAN), case_number(c, false, "alpha", (double)NAN), nu,
         material, err);
+}
+
+/* The law, or a transversely isotropic material of factors on it. */
+static inline wt_status friction_case_material(const numeric_case *c, wt_material **material,
+                                               wt_error *err)
+{
+    const case_line *axial = case_find(c, false, "axial"), *plane = case_find(c, false, "plane"),
+                    *shear = case_find(c, false, "shear");
+    wt_material *law = NULL;
+    const wt_status status = friction_case_law(c, &law, err);
+    if (status != WT_OK || !axial || !plane || !shear) {
+        *material = law;
+        return status;
+    }
+    wt_transverse t = wt_transverse_defaults();
+    t.axial_storage = axial->value[0];
+    t.axial_loss = axial->value[1];
+    t.plane_storage = plane->value[0];
+    t.plane_loss = plane->value[1];
+    t.shear_storage = shear->value[0];
+    t.shear_loss = shear->value[1];
+    t.plane_poisson = case_number(c, false, "plane_poisson", (double)NAN);
+    t.axial_poisson = case_number(c, false, "axial_poisson", (double)NAN);
+    return wt_material_transverse(law, NULL, NULL, &t, law->poisson_ratio, material, err);
 }
 
 static inline wt_status friction_case_roughness(const numeric_case *c, wt_roughness **roughness,

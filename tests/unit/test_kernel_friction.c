@@ -121,7 +121,7 @@ static void numeric_cases(void **state)
         wt_roughness_free(r.roughness);
         n++;
     }
-    assert_int_equal(n, 17);
+    assert_int_equal(n, 19);
     free(r.c);
     fclose(in);
 }
@@ -158,7 +158,7 @@ static void numeric_profiles(void **state)
         wt_material_free(r.material);
         wt_roughness_free(r.roughness);
     }
-    assert_int_equal(n, 9);
+    assert_int_equal(n, 10);
     free(r.c);
     fclose(in);
 }
@@ -273,6 +273,132 @@ static void scalings(void **state)
     const wt_friction_point stiffer = solve(&r, 1e-12);
     assert_near(stiffer.hysteresis.value, plain.hysteresis.value, 1e-12);
     assert_near(stiffer.stress_variance.value, plain.stress_variance.value, 1e-12);
+    rig_free(&r);
+}
+
+/* The 12 terms of the cases, with factors on them. */
+static wt_material *transverse(double axial_storage, double axial_loss, double plane_storage,
+                               double plane_loss, double nu_p, double nu_zp)
+{
+    rig r = rig_named("normal_prony_v1e-2");
+    wt_transverse t = wt_transverse_defaults();
+    t.axial_storage = axial_storage;
+    t.axial_loss = axial_loss;
+    t.plane_storage = plane_storage;
+    t.plane_loss = plane_loss;
+    t.plane_poisson = nu_p;
+    t.axial_poisson = nu_zp;
+    wt_material *made = NULL;
+    assert_int_equal(wt_material_transverse(r.material, NULL, NULL, &t, 0.3, &made, NULL), WT_OK);
+    r.material = NULL;
+    rig_free(&r);
+    return made;
+}
+
+/* Scaled moduli and pressure change nothing; without loss there is no friction; the sign is that of
+ * the velocity; what the isotropic solid is that the moduli are given as does not matter. */
+static void transverse_laws(void **state)
+{
+    (void)state;
+    rig r = rig_named("ti_R1_storage");
+    const wt_friction_point plain = solve(&r, 1e-12);
+    wt_material_free(r.material);
+    const double s = 7.3;
+    r.material = transverse(2.5, 1, 1, 1, 0.49, 0.49); /* as of nu = 0.3 */
+    const wt_friction_point other = solve(&r, 1e-12);
+    assert_near(other.hysteresis.value, plain.hysteresis.value, 3e-14);
+    r.velocity = -r.velocity;
+    const wt_friction_point back = solve(&r, 1e-12);
+    assert_near(back.hysteresis.value, -other.hysteresis.value, 0);
+    r.velocity = -r.velocity;
+    wt_material_free(r.material);
+    wt_transverse t = wt_transverse_defaults();
+    t.axial_storage = 2.5 * s;
+    t.axial_loss = t.plane_storage = t.plane_loss = t.shear_storage = t.shear_loss = s;
+    t.plane_poisson = t.axial_poisson = 0.49;
+    rig base = rig_named("normal_prony_v1e-2");
+    assert_int_equal(wt_material_transverse(base.material, NULL, NULL, &t, 0.5, &r.material, NULL),
+                     WT_OK);
+    base.material = NULL;
+    rig_free(&base);
+    r.pressure *= s;
+    const wt_friction_point stiffer = solve(&r, 1e-12);
+    assert_near(stiffer.hysteresis.value, plain.hysteresis.value, 1e-12);
+    assert_near(stiffer.stress_variance.value, plain.stress_variance.value, 1e-12);
+    rig_free(&r);
+    r = rig_named("elastic");
+    wt_material *law = r.material;
+    t = wt_transverse_defaults();
+    t.axial_storage = 3;
+    assert_int_equal(wt_material_transverse(law, NULL, NULL, &t, 0.4, &r.material, NULL), WT_OK);
+    const wt_friction_point elastic = solve(&r, 1e-12);
+    assert_near(elastic.hysteresis.value, 0, 0);
+    assert_true(elastic.stress_variance.value > 0 && elastic.reached);
+    rig_free(&r);
+}
+
+/* All factors 1 and equal Poisson ratios: nothing but the isotropic solid, to rounding. */
+static void isotropic_limit(void **state)
+{
+    (void)state;
+    const double nu[] = {0, 0.3, 0.49, 0.5};
+    for (size_t i = 0; i < 4; i++) {
+        rig r = rig_named("ti_isotropic_limit");
+        wt_material_free(r.material);
+        r.material = transverse(1, 1, 1, 1, nu[i], nu[i]);
+        const wt_friction_point p = solve(&r, 1e-12);
+        wt_material_free(r.material);
+        rig base = rig_named("normal_prony_v1e-2");
+        r.material = base.material;
+        r.material->poisson_ratio = nu[i];
+        base.material = NULL;
+        rig_free(&base);
+        const wt_friction_point q = solve(&r, 1e-12);
+        assert_near(p.stress_variance.value, q.stress_variance.value, 3e-14);
+        assert_near(p.area_ratio.value, q.area_ratio.value, 3e-14);
+        assert_near(p.hysteresis.value, q.hysteresis.value, 3e-14);
+        rig_free(&r);
+    }
+}
+
+/* Figures 3.3 and 3.4 of the thesis: reinforcing the loss raises friction, reinforcing the storage
+ * lowers friction and takes most of the contact. */
+static void trends_of_reinforcement(void **state)
+{
+    (void)state;
+    rig r = rig_named("ti_isotropic_limit");
+    for (double velocity = 1e-4; velocity < 2; velocity *= 100) {
+        wt_friction_point p[3];
+        const double factor[3][2] = {{1, 1}, {2.5, 1}, {1, 2.5}};
+        r.velocity = velocity;
+        for (size_t i = 0; i < 3; i++) {
+            wt_material_free(r.material);
+            r.material = transverse(factor[i][0], factor[i][1], 1, 1, 0.49, 0.49);
+            p[i] = solve(&r, 1e-10);
+        }
+        assert_true(p[2].hysteresis.value > 1.1 * p[0].hysteresis.value);
+        assert_true(p[1].hysteresis.value < p[0].hysteresis.value);
+        assert_true(p[1].area_ratio.value < 0.9 * p[0].area_ratio.value);
+        assert_true(p[1].area_ratio.value < p[2].area_ratio.value);
+        assert_true(p[2].area_ratio.value < p[0].area_ratio.value);
+    }
+    rig_free(&r);
+}
+
+/* What can be no solid is refused when frequencies are known. */
+static void transverse_refused(void **state)
+{
+    (void)state;
+    rig r = rig_named("ti_isotropic_limit");
+    wt_material_free(r.material);
+    r.material = transverse(2.5, 2.5, 1, 1, 0.49, 1.225); /* nu_pz taken for nu_zp */
+    wt_friction_workspace *ws = prepare(&r, 1e-10, 1);
+    wt_friction_point point;
+    wt_error err = WT_ERROR_INIT;
+    assert_int_equal(wt_friction_compute(ws, r.pressure, &r.velocity, 1, &point, &err), WT_E_RANGE);
+    assert_non_null(strstr(err.message, "unstable"));
+    assert_non_null(strstr(err.found, "nu_zp = 1.225"));
+    wt_friction_workspace_free(ws);
     rig_free(&r);
 }
 
@@ -398,7 +524,7 @@ static void same_as_shared_reference(void **state)
             assert_non_null(strstr(all, number));
             n++;
         }
-    assert_int_equal(n, 6 * 17);
+    assert_int_equal(n, 6 * 19);
     fclose(in);
     free(all);
 }
@@ -510,6 +636,10 @@ int main(void)
         cmocka_unit_test(area_integral_with_correction),
         cmocka_unit_test(odd_in_velocity),
         cmocka_unit_test(scalings),
+        cmocka_unit_test(transverse_laws),
+        cmocka_unit_test(isotropic_limit),
+        cmocka_unit_test(trends_of_reinforcement),
+        cmocka_unit_test(transverse_refused),
         cmocka_unit_test(elastic_area),
         cmocka_unit_test(same_bits_for_any_threads),
         cmocka_unit_test(extrapolated_share),

@@ -50,6 +50,7 @@
     X(FRICTION_KEY_ERROR_LACKS, "standard_error_lacks", TEXT, LABEL("No error known of"),          \
       OPTIONAL)                                                                                    \
     X(FRICTION_KEY_REPLICATES, "replicates", PLAIN)                                                \
+    X(FRICTION_KEY_MATERIAL, "material", TEXT, LABEL("Material"), OPTIONAL)                        \
     X(FRICTION_KEY_MATERIAL_STATEMENT, "material_statement", TEXT, OPTIONAL)                       \
     X(FRICTION_KEY_NUMERICAL_STATEMENT, "numerical_statement", TEXT, OPTIONAL)                     \
     X(FRICTION_KEY_LAYER_THICKNESS, "layer_thickness", SI(LENGTH), OPTIONAL)                       \

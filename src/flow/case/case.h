@@ -42,8 +42,14 @@ struct wt_case {
 
     case_files dma;
     wt_master_job master;
-    bool has_prony; /* given inline */
-    wt_prony prony; /* its arrays are in the memory of the case */
+    wt_rubber_options rubber;
+    bool has_material; /* given, not measured, as a */
+    wt_rubber_kind kind;
+    wt_prony prony;    /* its arrays are in the memory of the case */
+    case_files points; /* one file */
+    wt_zener zener;
+    bool is_transverse;
+    wt_transverse transverse;
     bool has_wlf;
     case_wlf wlf;
 

@@ -110,7 +110,29 @@ static wt_status read_terms(wt_case *c, const xmlNode *node, wt_error *err)
         p->modulus[p->n] = terms[p->n].modulus;
         p->n++;
     }
-    c->has_prony = status == WT_OK;
+    c->has_material = status == WT_OK;
+    return status;
+}
+
+static wt_status read_points(wt_case *c, const xmlNode *section, wt_error *err)
+{
+    c->kind = WT_RUBBER_TABLE;
+    c->has_material = true;
+    return case_read_files(c, section, "table", &c->points, err);
+}
+
+static wt_status read_zener(wt_case *c, const xmlNode *node, wt_error *err)
+{
+    wt_rubber rubber = {0};
+    c->kind = WT_RUBBER_ZENER;
+    c->has_material = true;
+    wt_status status = case_read_params(c, node, flow_zener_params(), &c->zener, err);
+    if (status == WT_OK) {
+        status = flow_rubber_zener(&c->zener, c->master.poisson_ratio, &rubber, err);
+        if (status != WT_OK)
+            case_at(node, status, err);
+        wt_rubber_clear(&rubber);
+    }
     return status;
 }
 
@@ -128,14 +150,30 @@ static wt_status read_wlf(wt_case *c, const xmlNode *node, wt_error *err)
 
 wt_status case_read_dma(wt_case *c, const xmlNode *section, wt_error *err)
 {
-    const xmlNode *prony = case_child(section, "prony"), *wlf = case_child(section, "wlf");
+    const xmlNode *prony = case_child(section, "prony"), *wlf = case_child(section, "wlf"),
+                  *zener = case_child(section, "fractional-zener"),
+                  *transverse = case_child(section, "transverse");
     wt_status status = case_read_params(c, section, wt_master_job_params(), &c->master, err);
+    if (status == WT_OK)
+        status = case_read_params(c, section, wt_rubber_options_params(), &c->rubber, err);
     if (status == WT_OK && prony != NULL)
         status = read_terms(c, prony, err);
+    if (status == WT_OK && case_child(section, "table") != NULL)
+        status = read_points(c, section, err);
+    if (status == WT_OK && zener != NULL)
+        status = read_zener(c, zener, err);
+    if (status == WT_OK && c->has_material && c->rubber.moduli == WT_MODULI_POINTS) {
+        wt_fail(err, WT_E_ARG, "a given material has no isotherms whose points could be taken");
+        wt_error_advice(err, "delete <moduli>, or give <files>");
+        return case_at(case_child(section, "moduli"), WT_E_ARG, err);
+    }
     if (status == WT_OK && wlf != NULL)
         status = read_wlf(c, wlf, err);
-    if (status == WT_OK && prony == NULL)
+    if (status == WT_OK && !c->has_material)
         status = case_read_files(c, section, "files", &c->dma, err);
+    c->is_transverse = transverse != NULL;
+    if (status == WT_OK && transverse != NULL)
+        status = case_read_params(c, transverse, wt_transverse_params(), &c->transverse, err);
     return status;
 }
 

@@ -11,7 +11,8 @@
     X(TRACK_CURVES, "wear-track curves", "no wear-track curves (<track> in <indentation>)",        \
       c->track.n > 0)                                                                              \
     X(DMA_FILES, "DMA files", "no DMA files (<files> in <dma>)", c->dma.n > 0)                     \
-    X(GIVEN_MATERIAL, "given material", "no material (<prony> in <dma>)", c->has_prony)            \
+    X(GIVEN_MATERIAL, "given material",                                                            \
+      "no material (<prony>, <table> or <fractional-zener> in <dma>)", c->has_material)            \
     X(COUNTER_SURFACE, "counter surface", "no counter surface (<roughness>)",                      \
       c->has_self_affine || c->has_spectrum)                                                       \
     X(CONDITIONS, "sliding conditions", "no sliding conditions (<sliding>)", c->has_sliding)       \

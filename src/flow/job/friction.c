@@ -203,6 +203,9 @@ static void set_keys(friction_task *task, table_writer *t, const char *statement
     if (task->replicates.lacks[0] != '\0')
         friction_set_text(t, FRICTION_KEY_ERROR_LACKS, task->replicates.lacks);
     friction_set_print(t, FRICTION_KEY_REPLICATES, "%zu", task->replicates.n);
+    char material[512];
+    if (wt_rubber_describe(s->rubber, material, sizeof material) > 0)
+        friction_set_text(t, FRICTION_KEY_MATERIAL, material);
     if (statement[0] != '\0')
         friction_set_text(t, FRICTION_KEY_MATERIAL_STATEMENT, statement);
     if (task->worst > 0)

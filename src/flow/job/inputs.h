@@ -41,6 +41,19 @@ void flow_files_clear(flow_files *files);
 wt_status flow_open(const wt_job *work, flow_file *file, const char *role, unsigned kinds,
                     wt_input **input, wt_error *err) WT_NODISCARD;
 
+/* A law in one word: "self-affine:q0=1e3rad/m,...". */
+typedef struct flow_law_text {
+    const char *prefix, *name; /* "self-affine:", "self-affine law" */
+    const char *what;          /* it is a law of: "roughness" */
+    const char *example;       /* after the prefix */
+    const wt_params *(*params)(void);
+} flow_law_text;
+/* Whether the text begins with the prefix. */
+bool flow_is_law(const flow_law_text *law, const char *text);
+/* Sets the parameters that are there; all required ones must be. */
+wt_status flow_law_parse(const flow_law_text *law, const char *text, void *structure,
+                         wt_error *err) WT_NODISCARD;
+
 wt_surface flow_surface_defaults(void); /* nothing is given */
 /* The parameters of a self-affine law, and of a measured spectrum, in a wt_surface. */
 const wt_params *flow_self_affine_params(void);
@@ -50,6 +63,16 @@ wt_status flow_surface_check(wt_surface *surface, wt_error *err) WT_NODISCARD;
 /* A measured spectrum as a surface, uncut; the densities are not checked. */
 wt_status flow_surface_read(flow_file *file, const wt_job *work, wt_surface *surface,
                             wt_error *err) WT_NODISCARD;
+
+void flow_rubber_drop_draws(wt_rubber *rubber);
+/* The parameters of a fractional Zener material, and those as a rubber, whose law is checked. */
+wt_zener flow_zener_defaults(void);
+const wt_params *flow_zener_params(void);
+wt_status flow_rubber_zener(const wt_zener *zener, double poisson_ratio, wt_rubber *rubber,
+                            wt_error *err) WT_NODISCARD;
+/* A table of moduli as a rubber; its points are checked. */
+wt_status flow_rubber_read(flow_file *file, const wt_rubber_options *options, double poisson_ratio,
+                           const wt_job *work, wt_rubber *rubber, wt_error *err) WT_NODISCARD;
 
 /* Whether a failure of one file leaves the others alone: false for lack of memory, cancelling,
  * internal errors, and when the job keeps no failures. */

@@ -19,7 +19,7 @@ typedef struct layer_run {
     wt_layer_balance balance;
     wt_estimate critical_energy, time_to_90_percent;
     wt_layer_point *points; /* [n of the task] */
-    char statement[256];
+    char statement[512];
 } layer_run;
 
 /* Single numbers of a run with their keys; the thicknesses in time follow them. */

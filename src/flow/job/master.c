@@ -341,6 +341,10 @@ wt_status wt_rubber_refit(const wt_rubber *rubber, wt_vertical_shift vertical, w
     const wt_rubber_tables of = {.prony = t.prony, .shift_factors = t.shift_factors};
     if (status == WT_OK)
         status = wt_rubber_from_tables(&of, rubber->poisson_ratio, refitted, err);
+    if (status == WT_OK) {
+        refitted->is_transverse = rubber->is_transverse;
+        refitted->transverse = rubber->transverse;
+    }
     wt_master_tables_clear(&t);
     wt_master_clear(&master);
     return status;

@@ -1,6 +1,7 @@
 /* The rubber as the stages after the DMA know it, and its material law at a temperature.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/job/draws.h"
+#include "flow/job/inputs.h"
 
 #include "base/clocale.h"
 #include "data/prony.h"
@@ -12,6 +13,17 @@
  * oven holds its temperature no better. */
 #define SAME_TEMPERATURE 1.0
 
+void flow_rubber_drop_draws(wt_rubber *rubber)
+{
+    for (size_t i = 0; i < rubber->n_draws; i++) {
+        wt_prony_clear(&rubber->draws[i].prony);
+        free(rubber->draws[i].log_b);
+    }
+    free(rubber->draws);
+    rubber->draws = NULL;
+    rubber->n_draws = 0;
+}
+
 void wt_rubber_clear(wt_rubber *rubber)
 {
     if (rubber == NULL)
@@ -19,11 +31,7 @@ void wt_rubber_clear(wt_rubber *rubber)
     wt_prony_clear(&rubber->prony);
     free(rubber->vertical_temperature);
     free(rubber->vertical_log_b);
-    for (size_t i = 0; i < rubber->n_draws; i++) {
-        wt_prony_clear(&rubber->draws[i].prony);
-        free(rubber->draws[i].log_b);
-    }
-    free(rubber->draws);
+    flow_rubber_drop_draws(rubber);
     wt_sweep_clear(&rubber->sweep);
     *rubber = (wt_rubber){0};
 }
@@ -120,29 +128,13 @@ static const wt_rubber_draw *draw_of(const wt_rubber *rubber, uint64_t seed, siz
     return &rubber->draws[(first + replicate) % rubber->n_draws];
 }
 
-wt_status wt_rubber_at(const wt_rubber *rubber, double temperature, uint64_t seed, size_t replicate,
-                       wt_material **material, char statement[256], wt_error *err)
+static wt_status series_at(const wt_rubber *rubber, const wt_rubber_draw *draw, double temperature,
+                           double a, double b, wt_material **material, wt_error *err)
 {
-    if (rubber == NULL || material == NULL)
-        return wt_fail(err, WT_E_ARG, "no rubber");
-    const double reference = rubber->prony.reference_temperature;
-    const wt_rubber_draw *draw = draw_of(rubber, seed, replicate);
-    const wt_shift_law *law = draw != NULL ? &draw->law : &rubber->law;
-    const double *log_b = draw != NULL ? draw->log_b : rubber->vertical_log_b;
     wt_prony prony = {0};
-    double log_a = 0;
-    bool held = false;
     wt_status status = prony_copy(draw != NULL ? &draw->prony : &rubber->prony, &prony, err);
-    if (status == WT_OK && isnan(temperature))
-        temperature = reference;
-    else if (status == WT_OK)
-        status = horizontal_shift(law, reference, temperature, &log_a, err);
     if (status != WT_OK)
-        goto done;
-    if (rubber->n_draws == 0 && temperature != reference)
-        log_a +=
-            law_error(rubber, temperature) * flow_draw_normal(seed, replicate, FLOW_DRAW_SHIFT_LAW);
-    const double a = pow(10, log_a), b = pow(10, vertical_shift(rubber, log_b, temperature, &held));
+        return status;
     prony.reference_temperature = temperature;
     prony.frequency_min /= a;
     prony.frequency_max /= a;
@@ -152,9 +144,80 @@ wt_status wt_rubber_at(const wt_rubber *rubber, double temperature, uint64_t see
         prony.modulus[i] /= b;
     }
     status = wt_material_prony(&prony, rubber->poisson_ratio, material, err);
-    if (status == WT_OK && statement != NULL)
-        make_statement(rubber, temperature, held, statement);
-done:
     wt_prony_clear(&prony);
     return status;
+}
+
+static wt_status table_at(const wt_rubber *rubber, double a, double b, wt_material **material,
+                          wt_error *err)
+{
+    const wt_isotherm *points = &rubber->sweep.isotherms[0];
+    const size_t n = points->n;
+    const double to_young =
+        rubber->sweep.deformation == WT_SHEAR ? 2 * (1 + rubber->poisson_ratio) : 1;
+    double *omega = malloc((3 * n + 1) * sizeof *omega);
+    if (omega == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    double *storage = omega + n, *loss = storage + n;
+    for (size_t i = 0; i < n; i++) {
+        omega[i] = points->angular_frequency[i] / a;
+        storage[i] = to_young / b * points->storage_modulus[i];
+        loss[i] = to_young / b * points->loss_modulus[i];
+    }
+    const wt_status status = wt_material_table(omega, storage, loss, n, rubber->poisson_ratio,
+                                               rubber->extrapolation, material, err);
+    free(omega);
+    return status;
+}
+
+/* The law of the moduli with times a and moduli 1/b times those at the reference temperature. */
+static wt_status law_at(const wt_rubber *rubber, const wt_rubber_draw *draw, double temperature,
+                        double a, double b, wt_material **material, wt_error *err)
+{
+    const wt_zener *z = &rubber->zener;
+    switch (rubber->kind) {
+    case WT_RUBBER_TABLE:
+        return table_at(rubber, a, b, material, err);
+    case WT_RUBBER_ZENER:
+        return wt_material_fractional_zener(z->e0 / b, z->eg / b, z->tau * a, z->alpha,
+                                            rubber->poisson_ratio, material, err);
+    case WT_RUBBER_SERIES:
+        break;
+    }
+    return series_at(rubber, draw, temperature, a, b, material, err);
+}
+
+wt_status wt_rubber_at(const wt_rubber *rubber, double temperature, uint64_t seed, size_t replicate,
+                       wt_material **material, char statement[256], wt_error *err)
+{
+    if (rubber == NULL || material == NULL)
+        return wt_fail(err, WT_E_ARG, "no rubber");
+    const double reference = rubber->prony.reference_temperature;
+    const wt_rubber_draw *draw = draw_of(rubber, seed, replicate);
+    const wt_shift_law *law = draw != NULL ? &draw->law : &rubber->law;
+    const double *log_b = draw != NULL ? draw->log_b : rubber->vertical_log_b;
+    wt_material *made = NULL;
+    double log_a = 0;
+    bool held = false;
+    wt_status status = WT_OK;
+    if (isnan(temperature))
+        temperature = reference;
+    else
+        status = horizontal_shift(law, reference, temperature, &log_a, err);
+    if (status != WT_OK)
+        return status;
+    if (rubber->n_draws == 0 && temperature != reference)
+        log_a +=
+            law_error(rubber, temperature) * flow_draw_normal(seed, replicate, FLOW_DRAW_SHIFT_LAW);
+    const double a = pow(10, log_a), b = pow(10, vertical_shift(rubber, log_b, temperature, &held));
+    status = law_at(rubber, draw, temperature, a, b, &made, err);
+    if (status == WT_OK && rubber->is_transverse)
+        status = wt_material_transverse(made, NULL, NULL, &rubber->transverse,
+                                        rubber->poisson_ratio, &made, err);
+    if (status != WT_OK)
+        return status;
+    *material = made;
+    if (statement != NULL)
+        make_statement(rubber, temperature, held, statement);
+    return WT_OK;
 }

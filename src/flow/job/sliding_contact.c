@@ -5,6 +5,7 @@
 #include "kernel/params.h"
 
 #include <math.h>
+#include <string.h>
 
 /* Relative numerical error asked of replicates: far below the scatter between them. */
 #define REPLICATE_TOLERANCE 1e-5
@@ -54,6 +55,23 @@ double flow_reference_velocity(const wt_sliding *sliding)
                                               : sliding->reference_velocity;
 }
 
+/* Whether there can be such a material at the frequencies of the velocities, and what to say of it.
+ */
+static wt_status check_material(const wt_sliding *sliding, sliding_contact *c, wt_error *err)
+{
+    const wt_material_law *law = c->material->law;
+    char words[256] = "";
+    if (law->check == NULL)
+        return WT_OK;
+    const wt_status status =
+        law->check(c->material, c->roughness->q0 * sliding->velocity[0],
+                   c->roughness->q1 * sliding->velocity[sliding->n_velocity - 1], words, err);
+    const size_t used = strlen(c->statement);
+    snprintf(c->statement + used, sizeof c->statement - used, "%s%s",
+             used > 0 && words[0] != '\0' ? "; " : "", words);
+    return status;
+}
+
 wt_status sliding_contact_make(const wt_sliding *sliding, const wt_job *work, size_t replicate,
                                wt_layer_state layer, sliding_contact *contact, wt_error *err)
 {
@@ -77,6 +95,8 @@ wt_status sliding_contact_make(const wt_sliding *sliding, const wt_job *work, si
         wt_rubber_at(sliding->rubber, temperature, seed, replicate, &c.material, c.statement, err);
     if (status == WT_OK)
         status = wt_surface_roughness(sliding->surface, factor, &c.roughness, err);
+    if (status == WT_OK)
+        status = check_material(sliding, &c, err);
     if (status == WT_OK)
         status = wt_friction_workspace_new(c.material, c.roughness, &options, &c.workspace, err);
     if (status != WT_OK) {

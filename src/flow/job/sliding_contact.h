@@ -10,7 +10,7 @@ typedef struct sliding_contact {
     wt_material *material;
     wt_roughness *roughness;
     wt_friction_workspace *workspace;
-    char statement[256]; /* what must be said of the material, "" if nothing */
+    char statement[512]; /* what must be said of the material, "" if nothing */
 } sliding_contact;
 
 /* Checks the numbers of a sliding contact and of the job. */

@@ -7,9 +7,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
-
-#define PREFIX "self-affine:"
 
 void wt_surface_clear(wt_surface *surface)
 {
@@ -20,12 +17,6 @@ void wt_surface_clear(wt_surface *surface)
 }
 
 /* ---- from text ------------------------------------------------------------------------------- */
-
-static wt_status spelling(wt_error *err)
-{
-    wt_error_expected(err, "%sq0=1e3rad/m,qr=5e3rad/m,q1=1e7rad/m,hurst=0.8,c0=1e-17m^4", PREFIX);
-    return WT_E_ARG;
-}
 
 wt_surface flow_surface_defaults(void)
 {
@@ -71,40 +62,19 @@ wt_status flow_surface_check(wt_surface *surface, wt_error *err)
     return status;
 }
 
+static const flow_law_text self_affine = {
+    .prefix = "self-affine:",
+    .name = "self-affine law",
+    .what = "roughness",
+    .example = "q0=1e3rad/m,qr=5e3rad/m,q1=1e7rad/m,hurst=0.8,c0=1e-17m^4",
+    .params = flow_self_affine_params,
+};
+
 static wt_status parse_self_affine(const char *text, wt_surface *surface, wt_error *err)
 {
-    char *copy = strdup(text), *rest = NULL;
-    if (copy == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    uint64_t given = 0;
-    wt_status status = WT_OK;
     *surface = flow_surface_defaults();
     surface->self_affine = true;
-    for (char *item = strtok_r(copy, ",", &rest); status == WT_OK && item != NULL;
-         item = strtok_r(NULL, ",", &rest)) {
-        char *value = strchr(item, '=');
-        if (value == NULL) {
-            wt_fail(err, WT_E_ARG, "\"%s\" is not NAME=VALUE", item);
-            status = spelling(err);
-            break;
-        }
-        *value++ = '\0';
-        status = wt_params_set(flow_self_affine_params(), item, surface, value, &given, err);
-        if (status == WT_E_NOT_FOUND) {
-            wt_fail(err, WT_E_ARG, "roughness has no parameter \"%s\"", item);
-            status = spelling(err);
-        } else if (status != WT_OK) {
-            wt_error_place(err, "roughness, %s", item);
-        }
-    }
-    if (status == WT_OK && param_missing(flow_self_affine_params(), given) != NULL) {
-        wt_fail(err, WT_E_MISSING, "the self-affine law is not complete");
-        wt_error_found(err, "\"%s\"", text);
-        (void)spelling(err);
-        status = WT_E_MISSING;
-    }
-    free(copy);
-    return status;
+    return flow_law_parse(&self_affine, text, surface, err);
 }
 
 wt_status flow_surface_read(flow_file *file, const wt_job *work, wt_surface *surface, wt_error *err)
@@ -139,9 +109,8 @@ wt_status wt_surface_open(const char *text, const wt_read_options *read, const w
     if (text == NULL || surface == NULL || work == NULL)
         return wt_fail(err, WT_E_ARG, "no roughness");
     wt_surface s = {0};
-    wt_status status = strncmp(text, PREFIX, strlen(PREFIX)) == 0
-                           ? parse_self_affine(text + strlen(PREFIX), &s, err)
-                           : read_spectrum(text, read, work, &s, err);
+    wt_status status = flow_is_law(&self_affine, text) ? parse_self_affine(text, &s, err)
+                                                       : read_spectrum(text, read, work, &s, err);
     if (status == WT_OK)
         status = flow_surface_check(&s, err);
     if (status != WT_OK) {

@@ -125,6 +125,14 @@ static bool move_gamma(const setting *used, size_t i, setting *s)
     return true;
 }
 
+/* Else it is not what the surface feels. */
+static bool has_poisson(const setting *s)
+{
+    const wt_rubber *r = &s->rubber;
+    return !r->is_transverse || isnan(r->transverse.plane_poisson) ||
+           isnan(r->transverse.axial_poisson);
+}
+
 static double value_poisson(const setting *s)
 {
     return s->rubber.poisson_ratio;
@@ -225,8 +233,9 @@ static const choice choices[] = {
      "1 is Persson's theory of 2001, 0.5 its later correction for partial contact", "", always,
      value_gamma, NULL, move_gamma},
     {"Poisson ratio", "1",
-     "0.5 is that of rubber, 0.4 that of a glass, as which the shortest waves feel it", "", always,
-     value_poisson, NULL, move_poisson},
+     "0.5 is that of rubber, 0.4 that of a glass, as which the shortest waves feel it",
+     "a transversely isotropic material has two others", has_poisson, value_poisson, NULL,
+     move_poisson},
     {"vertical shift", NULL, "all four; which of them is right the isotherms do not say",
      "no isotherms to fit again", has_vertical, NULL, name_vertical, move_vertical},
     {"depth profile", NULL,

@@ -29,30 +29,60 @@ static void keep(flow_run *run, flow_thing thing, wt_table **table)
 
 /* ---- from the case --------------------------------------------------------------------------- */
 
-/* As given in the case. */
-static wt_status make_rubber(const wt_case *c, wt_rubber *result, wt_error *err)
+static wt_status given_series(const wt_case *c, wt_rubber *rubber, wt_error *err)
 {
-    wt_rubber rubber = {
-        .poisson_ratio = c->master.poisson_ratio,
-        .law = {.kind = c->has_wlf ? WT_LAW_WLF : WT_LAW_NONE,
-                .wlf = {c->master.fit.reference_temperature, c->wlf.c1.value, c->wlf.c2.value}},
-        .c1_error = c->wlf.c1.standard_error,
-        .c2_error = c->wlf.c2.standard_error,
-        .temperature_min = (double)NAN,
-        .temperature_max = (double)NAN,
-    };
-    wt_status status = wt_prony_alloc(&rubber.prony, c->prony.n, err);
+    const wt_status status = wt_prony_alloc(&rubber->prony, c->prony.n, err);
     if (status != WT_OK)
         return status;
-    rubber.prony.deformation = c->prony.deformation;
-    rubber.prony.reference_temperature = c->master.fit.reference_temperature;
-    rubber.prony.equilibrium_modulus = c->prony.equilibrium_modulus;
-    rubber.prony.frequency_min = c->prony.frequency_min;
-    rubber.prony.frequency_max = c->prony.frequency_max;
-    memcpy(rubber.prony.relaxation_time, c->prony.relaxation_time, c->prony.n * sizeof(double));
-    memcpy(rubber.prony.modulus, c->prony.modulus, c->prony.n * sizeof(double));
-    *result = rubber;
+    rubber->prony.deformation = c->prony.deformation;
+    rubber->prony.equilibrium_modulus = c->prony.equilibrium_modulus;
+    rubber->prony.frequency_min = c->prony.frequency_min;
+    rubber->prony.frequency_max = c->prony.frequency_max;
+    memcpy(rubber->prony.relaxation_time, c->prony.relaxation_time, c->prony.n * sizeof(double));
+    memcpy(rubber->prony.modulus, c->prony.modulus, c->prony.n * sizeof(double));
+    rubber->poisson_ratio = c->master.poisson_ratio;
+    rubber->temperature_min = rubber->temperature_max = (double)NAN;
     return WT_OK;
+}
+
+static wt_status given_points(const wt_case *c, const wt_job *work, wt_rubber *rubber,
+                              wt_error *err)
+{
+    const wt_file_set *set = &c->points.sets[0];
+    char *path = wt_path_join(set->folder, set->patterns[0]);
+    if (path == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    flow_file file = {.path = path, .name = set->patterns[0], .set = set};
+    const wt_status status =
+        flow_rubber_read(&file, &c->rubber, c->master.poisson_ratio, work, rubber, err);
+    free(path);
+    return status;
+}
+
+/* As given in the case. */
+static wt_status make_rubber(const wt_case *c, const wt_job *work, wt_rubber *rubber, wt_error *err)
+{
+    const double reference = c->master.fit.reference_temperature;
+    wt_status status = c->kind == WT_RUBBER_TABLE ? given_points(c, work, rubber, err)
+                       : c->kind == WT_RUBBER_ZENER
+                           ? flow_rubber_zener(&c->zener, c->master.poisson_ratio, rubber, err)
+                           : given_series(c, rubber, err);
+    if (status != WT_OK)
+        return status;
+    if (!isnan(reference))
+        rubber->prony.reference_temperature = reference;
+    rubber->law = (wt_shift_law){.kind = c->has_wlf ? WT_LAW_WLF : WT_LAW_NONE,
+                                 .wlf = {reference, c->wlf.c1.value, c->wlf.c2.value}};
+    rubber->c1_error = c->wlf.c1.standard_error;
+    rubber->c2_error = c->wlf.c2.standard_error;
+    return WT_OK;
+}
+
+/* What the case says beside the moduli. */
+static void set_direction(const wt_case *c, wt_rubber *rubber)
+{
+    rubber->is_transverse = c->is_transverse;
+    rubber->transverse = c->transverse;
 }
 
 wt_status flow_case_surface(const wt_case *c, const wt_job *work, wt_surface *surface,
@@ -135,7 +165,7 @@ static wt_status compare(flow_run *run, bool groups_only, flow_cost *cost, wt_er
     job.rates = (run->plan.required & FLOW_BIT(FLOW_MODULUS_RATE)) != 0;
     job.groups_only = groups_only;
     if (!groups_only && (run->plan.required & FLOW_BIT(FLOW_RUBBER)) != 0 &&
-        run->rubber.prony.n > 0)
+        (run->rubber.prony.n > 0 || run->rubber.kind != WT_RUBBER_SERIES))
         job.rubber = &run->rubber;
     wt_status status = wt_compare_groups(&job, &run->job, &tables, err);
     if (status == WT_OK)
@@ -210,6 +240,9 @@ wt_status flow_step_master(flow_run *run, flow_cost *cost, wt_error *err)
     job.sets = run->c->dma.sets;
     job.n_sets = run->c->dma.n;
     wt_status status = wt_master_make(&job, &run->job, &tables, &run->rubber, err);
+    if (status == WT_OK && run->c->rubber.moduli == WT_MODULI_POINTS)
+        status = wt_rubber_tabulate(&run->rubber, tables.master_curve, &run->c->rubber, err);
+    set_direction(run->c, &run->rubber);
     cost->items = (double)tables.n_isotherms;
     keep(run, FLOW_SHIFT_FACTORS, &tables.shift_factors);
     keep(run, FLOW_MASTER_CURVE, &tables.master_curve);
@@ -221,8 +254,11 @@ wt_status flow_step_master(flow_run *run, flow_cost *cost, wt_error *err)
 
 wt_status flow_step_given_material(flow_run *run, flow_cost *cost, wt_error *err)
 {
-    cost->items = (double)run->c->prony.n;
-    return make_rubber(run->c, &run->rubber, err);
+    const wt_status status = make_rubber(run->c, &run->job, &run->rubber, err);
+    set_direction(run->c, &run->rubber);
+    cost->items = run->rubber.kind == WT_RUBBER_TABLE ? (double)run->rubber.sweep.isotherms[0].n
+                                                      : (double)run->rubber.prony.n;
+    return status;
 }
 
 /* ---- counter surface ------------------------------------------------------------------------- */

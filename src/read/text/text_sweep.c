@@ -99,7 +99,7 @@ static wt_status set_temperature(const builder *b, wt_isotherm *isotherm)
                             header - WT_ZERO_CELSIUS);
     } else if (n > 0) {
         isotherm->temperature = mean;
-    } else if (!isnan(b->options->temperature)) {
+    } else if (!isnan(b->options->temperature) || b->options->any_temperature) {
         isotherm->temperature = b->options->temperature;
     } else {
         wt_status status = text_table_problem(b->table, WT_Q_BIT(WT_Q_TEMPERATURE), b->err);
@@ -111,7 +111,7 @@ static wt_status set_temperature(const builder *b, wt_isotherm *isotherm)
         wt_error_advice(b->err, "give it with --temperature 25degC");
         return WT_E_MISSING;
     }
-    if (!(isotherm->temperature > 0)) {
+    if (isotherm->temperature <= 0) {
         wt_fail(b->err, WT_E_RANGE, "temperature below absolute zero");
         wt_error_place(b->err, "table at line %zu", b->table->names_line);
         wt_error_found(b->err, "%g K", isotherm->temperature);
