@@ -29,6 +29,7 @@ typedef struct wt_friction_options {
     double gamma;     /* S = gamma + (1 - gamma) P^2 in the friction integrand; 1 = Persson 2001 */
     wt_layer_state layer; /* default none */
     unsigned threads;     /* over velocities; 0 = one per processor; default 1 */
+    bool without_share;   /* the extrapolated share is not asked for, and NaN; default false */
     uint64_t reserved[8];
 } wt_friction_options;
 WT_API wt_friction_options wt_friction_defaults(void);

@@ -1,35 +1,36 @@
-/* Angular integrals: the closed form of the law, or Chebyshev series in ln w.
+/* Angular integrals: the closed form of the law, or Chebyshev series in ln w over what the panels
+ * give.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "kernel/angular.h"
 
 #include "base/array.h"
-#include "kernel/angular_integral.h"
+#include "kernel/angular_panels.h"
 
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
 
-enum { SHORT_SERIES = 12, COEFFICIENTS = 24, OUTSIDE_COEFFICIENTS = 16, MOST_CUTS = 10 };
+/* Degrees of the series: the nodes of the short one are among those of the long one. */
+enum { SHORT_DEGREE = 8, LONG_DEGREE = 16, MOST_CUTS = 12 };
 
 /* Pieces end at the whole multiples of this in ln w and at the knots of the law. */
-static const double piece_width = 2;
+static const double piece_width = 0.7;
 /* Two bounds closer than this are one. */
 static const double same_bound = 1e-12;
-/* Relative error at which a series is good enough; a piece with more is cut in two. */
-static const double series_goal = 4e-14;
+/* Relative error at which a series is good enough, of the tolerance, and at the best. */
+static const double goal_share = 0.01, least_goal = 2e-14, most_goal = 1e-6;
 
-/* ln(J / scale) of J1 and J2 on a piece. To the right of a knot w_k both integrals have a
- * (ln w - ln w_k)^(3/2) singularity: the series there runs in sqrt(ln w - ln w_k). */
+/* J1 and J2 on a piece. To the right of a knot w_k both integrals have a (ln w - ln w_k)^(3/2)
+ * singularity: the series there runs in u = sqrt(ln w - ln w_k). */
 typedef struct series {
-    double low, high; /* ln w */
-    double anchor;    /* ln w_k, NaN = the series runs in ln w itself */
-    double u_low, u_high;
-    size_t n;
-    double error;              /* relative */
-    double scale_j1, scale_j2; /* J in the middle; 0 for J1 of an elastic material */
-    double j1[COEFFICIENTS], j2[COEFFICIENTS];
+    double low, high;    /* ln w */
+    double anchor;       /* ln w_k, NaN = the series runs in ln w itself */
+    double middle, half; /* of u */
+    size_t degree;
+    double error; /* relative */
+    double j1[LONG_DEGREE + 1], j2[LONG_DEGREE + 1];
 } series;
 
 typedef struct series_list {
@@ -37,107 +38,74 @@ typedef struct series_list {
     series *items;
 } series_list;
 
-/* int over the angles with w cos(phi) < limit of cos(phi) E'' is theta^2 times a smooth function
- * of theta = asin(limit / w). */
-typedef struct outside_part {
-    double limit; /* NaN = none */
-    double coefficient[OUTSIDE_COEFFICIENTS];
-} outside_part;
-
 struct angular_law {
     const wt_material *material;
-    angular_quadrature quadrature;
-    double slope, rounding;
+    gauss_rule *rule;
+    double goal;
+    angular_panels panels, outside;
+    double panels_low, panels_high;
+    double limit[2];    /* of the range backed by data; NaN = none */
     series_list pieces; /* rising, without gaps */
-    outside_part below, above;
 };
-
-static double chebyshev(const double *coefficient, size_t n, double z)
-{
-    double b1 = 0, b2 = 0;
-    for (size_t k = n - 1; k > 0; k--) {
-        const double b = 2 * z * b1 - b2 + coefficient[k];
-        b2 = b1;
-        b1 = b;
-    }
-    return z * b1 - b2 + coefficient[0];
-}
-
-static void chebyshev_fit(const double *value, size_t n, double *coefficient)
-{
-    for (size_t k = 0; k < n; k++) {
-        double sum = 0;
-        for (size_t j = 0; j < n; j++)
-            sum += value[j] * cos(M_PI * (double)k * ((double)j + 0.5) / (double)n);
-        coefficient[k] = sum * (k ? 2 : 1) / (double)n;
-    }
-}
 
 /* ---- series ---------------------------------------------------------------------------------- */
 
-static double series_coordinate(const series *s, double x)
+/* cos(pi k / LONG_DEGREE). */
+static void make_cosines(double cosine[2 * LONG_DEGREE])
 {
-    const double u = isnan(s->anchor) ? x : sqrt(fmax(0, x - s->anchor));
-    const double z = (2 * u - s->u_low - s->u_high) / (s->u_high - s->u_low);
-    return fmin(fmax(z, -1), 1);
+    for (size_t k = 0; k < 2 * LONG_DEGREE; k++)
+        cosine[k] = cos(M_PI * (double)k / LONG_DEGREE);
 }
 
-static double series_omega(const series *s, double z)
+/* From values at cos(pi k / degree), each `step` of them. */
+static void chebyshev_fit(const double *value, size_t degree, const double *cosine,
+                          double *coefficient)
 {
-    const double u = 0.5 * (s->u_low + s->u_high) + 0.5 * (s->u_high - s->u_low) * z;
-    return exp(isnan(s->anchor) ? u : s->anchor + u * u);
-}
-
-static double series_tail(const double *coefficient, size_t n)
-{
-    double tail = 0;
-    for (size_t k = n - 3; k < n; k++)
-        tail = fmax(tail, fabs(coefficient[k]));
-    return 2 * tail;
-}
-
-/* Logarithms, so that the relative error is the same all over a piece. */
-static void series_values(const angular_law *a, const series *s, double z, unsigned refine,
-                          double *j1, double *j2)
-{
-    angular_integrate(&a->quadrature, series_omega(s, z), 1, refine, j1, j2);
-    *j1 = s->scale_j1 > 0 ? log(*j1 / s->scale_j1) : 0;
-    *j2 = log(*j2 / s->scale_j2);
-}
-
-static void series_fit(const angular_law *a, series *s, size_t n)
-{
-    double j1[COEFFICIENTS], j2[COEFFICIENTS];
-    s->n = n;
-    for (size_t j = 0; j < n; j++)
-        series_values(a, s, cos(M_PI * ((double)j + 0.5) / (double)n), 1, &j1[j], &j2[j]);
-    chebyshev_fit(j1, n, s->j1);
-    chebyshev_fit(j2, n, s->j2);
-    s->error = fmax(series_tail(s->j1, n), series_tail(s->j2, n));
-}
-
-/* Error of the series, also between its nodes. Against finer panels (refine 2) this holds the error
- * of the quadrature too. */
-static double series_check(const angular_law *a, const series *s, unsigned refine)
-{
-    static const double checks[] = {-0.83, 0.37};
-    double error = s->error;
-    for (size_t i = 0; i < sizeof checks / sizeof *checks; i++) {
-        double j1, j2;
-        series_values(a, s, checks[i], refine, &j1, &j2);
-        error = fmax(error, fabs(chebyshev(s->j1, s->n, checks[i]) - j1));
-        error = fmax(error, fabs(chebyshev(s->j2, s->n, checks[i]) - j2));
+    const size_t step = LONG_DEGREE / degree;
+    for (size_t j = 0; j <= degree; j++) {
+        double sum = 0;
+        for (size_t k = 0; k <= degree; k++) {
+            const double end = k == 0 || k == degree ? 0.5 : 1;
+            sum += end * value[k * step] * cosine[j * k * step % (2 * LONG_DEGREE)];
+        }
+        coefficient[j] = sum * (j == 0 || j == degree ? 1 : 2) / (double)degree;
     }
-    return error;
 }
 
-static void series_make(const angular_law *a, series *s)
+/* What the series leaves out, relative to the smallest value. */
+static double series_tail(const double *coefficient, const double *value, size_t degree)
 {
-    angular_integrate(&a->quadrature, series_omega(s, 0), 1, 1, &s->scale_j1, &s->scale_j2);
-    series_fit(a, s, SHORT_SERIES);
-    if (series_check(a, s, 1) > series_goal)
-        series_fit(a, s, COEFFICIENTS);
-    s->error = series_check(a, s, 1);
+    double least = (double)INFINITY, most = 0;
+    for (size_t k = 0; k <= LONG_DEGREE; k += LONG_DEGREE / degree) {
+        least = fmin(least, value[k]);
+        most = fmax(most, value[k]);
+    }
+    const double last = fmax(fabs(coefficient[degree]), fabs(coefficient[degree - 1]));
+    const double tail = 2 * fmax(last, 0.1 * fabs(coefficient[degree - 2]));
+    return most > 0 ? tail / (least > 0 ? least : most) : 0;
+}
+
+static void series_fit(const angular_law *a, series *s)
+{
+    double cosine[2 * LONG_DEGREE], j1[LONG_DEGREE + 1], j2[LONG_DEGREE + 1];
+    make_cosines(cosine);
+    for (size_t degree = SHORT_DEGREE; degree <= LONG_DEGREE; degree *= 2) {
+        for (size_t k = 0; k <= LONG_DEGREE; k++) {
+            const bool is_short = k % (LONG_DEGREE / SHORT_DEGREE) == 0;
+            if (is_short != (degree == SHORT_DEGREE))
+                continue;
+            const double u = s->middle + s->half * cosine[k];
+            const double w = exp(isnan(s->anchor) ? u : s->anchor + u * u);
+            angular_panels_integrate(&a->panels, w, (double)INFINITY, &j1[k], &j2[k]);
+        }
+        chebyshev_fit(j1, degree, cosine, s->j1);
+        chebyshev_fit(j2, degree, cosine, s->j2);
+        s->degree = degree;
+        s->error = fmax(series_tail(s->j1, j1, degree), series_tail(s->j2, j2, degree));
+        if (s->error <= a->goal)
+            break;
+    }
+    s->error += angular_panels_error(&a->panels, exp(s->low), j1[LONG_DEGREE], j2[LONG_DEGREE]);
 }
 
 static bool series_push(series_list *list, const series *s)
@@ -154,43 +122,53 @@ static bool series_push(series_list *list, const series *s)
 static bool series_add(const angular_law *a, series_list *list, double low, double high,
                        double anchor, int cuts)
 {
-    series s = {.low = low, .high = high, .anchor = anchor, .u_low = low, .u_high = high};
-    if (!isnan(anchor)) {
-        s.u_low = sqrt(fmax(0, low - anchor));
-        s.u_high = sqrt(high - anchor);
-    }
-    series_make(a, &s);
-    if (s.error <= series_goal || cuts == MOST_CUTS) {
-        s.error = series_check(a, &s, 2);
+    const bool in_root = !isnan(anchor);
+    const double from = in_root ? sqrt(fmax(0, low - anchor)) : low;
+    const double to = in_root ? sqrt(high - anchor) : high;
+    series s = {.low = low,
+                .high = high,
+                .anchor = anchor,
+                .middle = 0.5 * (from + to),
+                .half = 0.5 * (to - from)};
+    series_fit(a, &s);
+    const double middle = in_root ? anchor + s.middle * s.middle : s.middle;
+    if (s.error <= 2 * a->goal || cuts == MOST_CUTS || !(middle > low && middle < high))
         return series_push(list, &s);
-    }
-    const double u = 0.5 * (s.u_low + s.u_high);
-    const double middle = isnan(anchor) ? u : anchor + u * u;
     return series_add(a, list, low, middle, anchor, cuts + 1) &&
            series_add(a, list, middle, high, anchor, cuts + 1);
 }
 
-/* The nearest knot at or below x that a piece there must mind, or NaN. */
-static double knot_before(const angular_law *a, double x)
+static const double *knots_of(const angular_law *a, size_t *n)
 {
-    double anchor = (double)NAN;
-    for (size_t k = 0; k < a->quadrature.n_breaks; k++) {
-        const double knot = log(a->quadrature.breaks[k]);
-        if (knot <= x + same_bound && knot > x - piece_width)
-            anchor = knot;
+    *n = 0;
+    return a->material->law->breaks != NULL ? a->material->law->breaks(a->material, n) : NULL;
+}
+
+/* The nearest knot at or below x that a piece there must mind, or NaN. */
+static double knot_before(const double *knots, size_t n, double x)
+{
+    size_t low = 0, high = n; /* knots below `low` are at or below x */
+    while (low < high) {
+        const size_t middle = (low + high) / 2;
+        if (log(knots[middle]) <= x + same_bound)
+            low = middle + 1;
+        else
+            high = middle;
     }
-    return anchor;
+    const double knot = low > 0 ? log(knots[low - 1]) : -(double)INFINITY;
+    return knot > x - 3 * piece_width ? fmin(knot, x) : (double)NAN;
 }
 
 /* Adds the pieces from one multiple of piece_width to another. */
 static bool add_pieces(const angular_law *a, long first, long last, double *bounds,
                        series_list *list)
 {
-    size_t n = 0;
+    size_t n = 0, n_knots;
+    const double *knots = knots_of(a, &n_knots);
     for (long m = first; m <= last; m++)
         bounds[n++] = (double)m * piece_width;
-    for (size_t k = 0; k < a->quadrature.n_breaks; k++) {
-        const double x = log(a->quadrature.breaks[k]);
+    for (size_t k = 0; k < n_knots; k++) {
+        const double x = log(knots[k]);
         if (x > bounds[0] && x < (double)last * piece_width)
             bounds[n++] = x;
     }
@@ -198,11 +176,25 @@ static bool add_pieces(const angular_law *a, long first, long last, double *boun
     for (size_t i = 1, from = 0; i < n; i++) {
         if (bounds[i] - bounds[from] < same_bound)
             continue;
-        if (!series_add(a, list, bounds[from], bounds[i], knot_before(a, bounds[from]), 0))
+        const double anchor = knot_before(knots, n_knots, bounds[from]);
+        if (!series_add(a, list, bounds[from], bounds[i], anchor, 0))
             return false;
         from = i;
     }
     return true;
+}
+
+/* Panels for this range and what there was before. */
+static wt_status extend_panels(angular_law *a, double low, double high, wt_error *err)
+{
+    if (a->panels.n > 0) {
+        low = fmin(low, a->panels_low);
+        high = fmax(high, a->panels_high);
+        angular_panels_clear(&a->panels);
+    }
+    a->panels_low = low;
+    a->panels_high = high;
+    return angular_panels_new(a->material, a->rule, low, high, a->goal, &a->panels, err);
 }
 
 wt_status angular_cover(angular_law *angular, double w_min, double w_max, wt_error *err)
@@ -223,9 +215,14 @@ wt_status angular_cover(angular_law *angular, double w_min, double w_max, wt_err
         first = first < have_first ? first : have_first;
         last = last > have_last ? last : have_last;
     }
+    const wt_status status = extend_panels(angular, exp((double)first * piece_width),
+                                           exp((double)last * piece_width), err);
+    if (status != WT_OK)
+        return status;
+    size_t n_knots;
+    (void)knots_of(angular, &n_knots);
     series_list made = {0};
-    double *bounds =
-        calloc((size_t)(last - first) + 1 + angular->quadrature.n_breaks, sizeof *bounds);
+    double *bounds = calloc((size_t)(last - first) + 1 + n_knots, sizeof *bounds);
     bool good = bounds && add_pieces(angular, first, have_first, bounds, &made);
     for (size_t i = 0; good && i < have->n; i++)
         good = series_push(&made, &have->items[i]);
@@ -255,113 +252,95 @@ void angular_eval(const angular_law *angular, const double *w, size_t n, double 
         while (k > 0 && x < pieces->items[k].low)
             k--;
         const series *s = &pieces->items[k];
-        const double z = series_coordinate(s, x);
-        j1[i] = s->scale_j1 > 0 ? s->scale_j1 * exp(chebyshev(s->j1, s->n, z)) : 0;
-        j2[i] = s->scale_j2 * exp(chebyshev(s->j2, s->n, z));
-    }
-}
-
-double angular_error(const angular_law *angular)
-{
-    double error = 0;
-    for (size_t i = 0; i < angular->pieces.n; i++)
-        error = fmax(error, angular->pieces.items[i].error);
-    return error + angular->rounding;
-}
-
-double angular_slope(const angular_law *angular)
-{
-    return angular->slope;
-}
-
-/* A modulus is the exponential of a logarithm interpolated at a logarithm: what these lose by
- * rounding is multiplied by its slope. The frequencies may lie outside the knots. */
-static void rounding_make(angular_law *a)
-{
-    double steepest = 1, farthest = 50, largest = 0, last[3];
-    if (a->material->law->angular) {
-        a->slope = 1;
-        return;
-    }
-    for (size_t i = 0; i < a->quadrature.n_breaks; i++) {
-        const double omega = a->quadrature.breaks[i];
-        double e[2];
-        a->material->law->modulus(a->material, &omega, 1, &e[0], &e[1]);
-        const double now[] = {log(omega), log(e[0]), log(e[1])};
-        farthest = fmax(farthest, fabs(now[0]));
-        for (size_t k = 1; k < 3; k++) {
-            largest = fmax(largest, fabs(now[k]));
-            if (i > 0)
-                steepest = fmax(steepest, fabs((now[k] - last[k]) / (now[0] - last[0])));
-            last[k] = now[k];
+        const double u = isnan(s->anchor) ? x : sqrt(fmax(0, x - s->anchor));
+        const double z = fmin(fmax((u - s->middle) / s->half, -1), 1);
+        double a1 = 0, a2 = 0, b1 = 0, b2 = 0;
+        for (size_t m = s->degree; m > 0; m--) {
+            const double a = 2 * z * a1 - a2 + s->j1[m], b = 2 * z * b1 - b2 + s->j2[m];
+            a2 = a1;
+            a1 = a;
+            b2 = b1;
+            b1 = b;
         }
-        last[0] = now[0];
+        j1[i] = z * a1 - a2 + s->j1[0];
+        j2[i] = z * b1 - b2 + s->j2[0];
     }
-    a->slope = steepest;
-    /* twice, for |E|^2 */
-    a->rounding = 2 * DBL_EPSILON * (4 + largest + 2 * steepest * farthest);
+}
+
+double angular_error(const angular_law *angular, double w_min, double w_max)
+{
+    const series_list *pieces = &angular->pieces;
+    const double low = log(w_min), high = log(w_max);
+    double error = 0;
+    for (size_t i = 0; i < pieces->n; i++)
+        if (pieces->items[i].high >= low && pieces->items[i].low <= high)
+            error = fmax(error, pieces->items[i].error);
+    return error;
 }
 
 /* ---- the share of extrapolated frequencies --------------------------------------------------- */
 
-static void outside_make(const angular_law *a, double limit, outside_part *part)
-{
-    part->limit = limit > 0 && isfinite(limit) ? limit : (double)NAN;
-    if (isnan(part->limit))
-        return;
-    double value[OUTSIDE_COEFFICIENTS];
-    for (size_t j = 0; j < OUTSIDE_COEFFICIENTS; j++) {
-        const double z = cos(M_PI * ((double)j + 0.5) / OUTSIDE_COEFFICIENTS);
-        const double theta = M_PI_4 * (1 + z);
-        double j1, j2;
-        angular_integrate(&a->quadrature, limit / sin(theta), sin(theta), 1, &j1, &j2);
-        value[j] = j1 / (theta * theta);
-    }
-    chebyshev_fit(value, OUTSIDE_COEFFICIENTS, part->coefficient);
-}
-
-static double outside_below(const outside_part *part, double w, double j1)
-{
-    if (w <= part->limit)
-        return j1;
-    const double theta = asin(part->limit / w);
-    return theta * theta * chebyshev(part->coefficient, OUTSIDE_COEFFICIENTS, theta / M_PI_4 - 1);
-}
-
 bool angular_limited(const angular_law *angular)
 {
-    return !isnan(angular->below.limit) || !isnan(angular->above.limit);
+    return !isnan(angular->limit[0]) || !isnan(angular->limit[1]);
+}
+
+wt_status angular_cover_outside(angular_law *angular, wt_error *err)
+{
+    const double *limit = angular->limit;
+    if (!angular_limited(angular) || angular->outside.n > 0)
+        return WT_OK;
+    const double low = fmin(limit[0], limit[1]), high = fmax(limit[0], limit[1]);
+    return angular_panels_new(angular->material, angular->rule, low, high, most_goal,
+                              &angular->outside, err);
+}
+
+/* From frequencies below a limit. */
+static double below(const angular_law *a, double limit, double w, double j1)
+{
+    if (w <= limit)
+        return j1;
+    double part, j2;
+    angular_panels_integrate(&a->outside, w, limit, &part, &j2);
+    return part;
 }
 
 double angular_outside(const angular_law *angular, double w, double j1)
 {
     double outside = 0;
-    if (!isnan(angular->below.limit))
-        outside += outside_below(&angular->below, w, j1);
-    if (!isnan(angular->above.limit))
-        outside += j1 - outside_below(&angular->above, w, j1);
+    if (!isnan(angular->limit[0]))
+        outside += below(angular, angular->limit[0], w, j1);
+    if (!isnan(angular->limit[1]))
+        outside += j1 - below(angular, angular->limit[1], w, j1);
     return fmin(fmax(outside, 0), j1);
 }
 
-wt_status angular_new(const wt_material *material, pool *memory, angular_law **angular,
-                      wt_error *err)
+/* ---- construction ---------------------------------------------------------------------------- */
+
+static double limit_of(double frequency)
+{
+    return frequency > 0 && isfinite(frequency) ? frequency : (double)NAN;
+}
+
+wt_status angular_new(const wt_material *material, double tolerance, pool *memory,
+                      angular_law **angular, wt_error *err)
 {
     angular_law *made = pool_alloc(memory, 1, sizeof *made);
     if (made == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory for the angular integrals");
     made->material = material;
-    const wt_status status = angular_quadrature_init(material, memory, &made->quadrature, err);
-    if (status != WT_OK)
-        return status;
-    rounding_make(made);
-    outside_make(made, material->frequency_min, &made->below);
-    outside_make(made, material->frequency_max, &made->above);
+    made->goal = fmin(fmax(goal_share * tolerance, least_goal), most_goal);
+    made->limit[0] = limit_of(material->frequency_min);
+    made->limit[1] = limit_of(material->frequency_max);
     *angular = made;
-    return WT_OK;
+    return rule_new(PANEL_NODES, memory, &made->rule, err);
 }
 
 void angular_clear(angular_law *angular)
 {
-    if (angular != NULL)
-        free(angular->pieces.items);
+    if (angular == NULL)
+        return;
+    free(angular->pieces.items);
+    angular_panels_clear(&angular->panels);
+    angular_panels_clear(&angular->outside);
 }

@@ -15,24 +15,24 @@
 
 typedef struct angular_law angular_law;
 
-/* The material is borrowed. The law lives in the pool, but its series do not: to be cleared before
- * the pool is freed. */
-wt_status angular_new(const wt_material *material, pool *memory, angular_law **angular,
-                      wt_error *err) WT_NODISCARD;
+/* The material is borrowed. Relative errors are to be far below `tolerance`. The law lives in the
+ * pool, but what it makes later does not: to be cleared before the pool is freed. */
+wt_status angular_new(const wt_material *material, double tolerance, pool *memory,
+                      angular_law **angular, wt_error *err) WT_NODISCARD;
 void angular_clear(angular_law *angular); /* NULL: nothing */
 
 /* Prepares the series for w from w_min to w_max > 0; nothing to do for a closed form. A series,
  * once made, does not change: results do not depend on the order of the calls. */
 wt_status angular_cover(angular_law *angular, double w_min, double w_max,
                         wt_error *err) WT_NODISCARD;
+/* Prepares angular_outside. */
+wt_status angular_cover_outside(angular_law *angular, wt_error *err) WT_NODISCARD;
 /* J1 and J2 at n values of w inside the covered range, best in rising order. */
 void angular_eval(const angular_law *angular, const double *w, size_t n, double *j1, double *j2);
-/* Largest relative error of J1 and of J2 from the series and from rounding; 0 for a closed form. */
-double angular_error(const angular_law *angular);
-/* Steepest d ln E / d ln omega. */
-double angular_slope(const angular_law *angular);
-/* The part of J1(w) that comes from frequencies outside the range backed by data; j1 = J1(w).
- * Error about 1e-8 of J1, 1e-5 where the law has knots close to the limit. */
+/* Largest relative error of J1 and of J2 for w in this range, from series and panels; 0 for a
+ * closed form. */
+double angular_error(const angular_law *angular, double w_min, double w_max);
+/* The part of J1(w) that comes from frequencies outside the range backed by data; j1 = J1(w). */
 double angular_outside(const angular_law *angular, double w, double j1);
 /* Whether the range of the material is limited at all. */
 bool angular_limited(const angular_law *angular);

@@ -87,7 +87,7 @@ wt_status wt_energy_source_friction(wt_friction_workspace *workspace, double pre
         if (r > 0)
             error = compare_sources(*s, pair[1 - now], workspace->roughness) +
                     pass.core_error / (pass.hysteresis > 0 ? pass.hysteresis : 1);
-        s->numerical_error = error + workspace->rounding + 2 * angular_error(workspace->angular);
+        s->numerical_error = error + friction_relative_error(workspace, at, &pass).hysteresis;
     }
     status = energy_check(&pair[now], err);
     if (status != WT_OK)

@@ -85,7 +85,7 @@ static double rounding_of(const wt_friction_workspace *ws)
         q = next;
         density = there;
     }
-    const double slope = 4 + steepest + 2 * angular_slope(ws->angular) + 1;
+    const double slope = 4 + steepest + 3; /* 2 for a term of a Prony series */
     return FRICTION_ROUNDING + DBL_EPSILON * slope * log1p((q - roughness->q0) / roughness->q0);
 }
 
@@ -127,7 +127,7 @@ wt_status wt_friction_workspace_new(const wt_material *material, const wt_roughn
     ws->scratch = pool_alloc(&ws->memory, ws->threads, sizeof *ws->scratch);
     panel_plan_init(&ws->plan, roughness, levels_for(o.tolerance), 0, &ws->memory);
 
-    status = angular_new(material, &ws->memory, &ws->angular, err);
+    status = angular_new(material, o.tolerance, &ws->memory, &ws->angular, err);
     if (status == WT_OK)
         ws->rounding = rounding_of(ws);
     for (size_t r = 0; status == WT_OK && r < FRICTION_RULES; r++)
@@ -155,6 +155,9 @@ void wt_friction_workspace_free(wt_friction_workspace *ws)
     free(ws);
 }
 
+/* The series of a material reach down from there far enough. */
+#define LEAST_FREQUENCY 1e-250
+
 wt_status friction_prepare(wt_friction_workspace *ws, double pressure, const double *velocity,
                            size_t n, wt_error *err)
 {
@@ -168,18 +171,23 @@ wt_status friction_prepare(wt_friction_workspace *ws, double pressure, const dou
         slowest = fmin(slowest, speed);
         fastest = fmax(fastest, speed);
     }
-    if (n == 0 || ws->material->law->angular)
+    const wt_material *material = ws->material;
+    const bool share = !ws->options.without_share && angular_limited(ws->angular);
+    if (n == 0)
+        return WT_OK;
+    if (share && angular_cover_outside(ws->angular, err) != WT_OK)
+        return WT_E_MEMORY;
+    if (material->law->angular)
         return WT_OK;
     const double lowest = slowest * ws->roughness->q0;
     const double highest = fastest * ws->roughness->q1;
-    if (!(lowest >= DBL_MIN && highest <= DBL_MAX)) {
-        (void)range_error("velocity", lowest >= DBL_MIN ? fastest : slowest,
+    if (!(lowest >= LEAST_FREQUENCY && highest <= DBL_MAX)) {
+        (void)range_error("velocity", lowest >= LEAST_FREQUENCY ? fastest : slowest,
                           "not 0, and so that q v is a frequency in range", err);
         wt_error_advice(err, "a material of kind %s has no static limit; a Prony series has",
-                        ws->material->law->name);
+                        material->law->name);
         return WT_E_RANGE;
     }
-    const wt_material *material = ws->material;
     const wt_status status = material->law->check != NULL
                                  ? material->law->check(material, lowest, highest, NULL, err)
                                  : WT_OK;
@@ -250,8 +258,6 @@ static void compute_point(const wt_friction_workspace *ws, friction_scratch *scr
     const friction_load at = {.pressure = pressure, .speed = fabs(velocity)};
     const double sign = velocity < 0 ? -1 : velocity > 0 ? 1 : 0;
     const double tolerance = ws->options.tolerance;
-    const double series_error = angular_error(ws->angular);
-    const double rounding = ws->rounding;
     const panel_plan *plan = friction_plan(ws, scratch, at.speed, NULL, 0);
     const scale_grid *grid = friction_grid(ws, scratch, plan, 0);
     const size_t level = friction_level(ws, scratch, grid, at);
@@ -263,10 +269,11 @@ static void compute_point(const wt_friction_workspace *ws, friction_scratch *scr
         slot = 1 - slot;
         grid = friction_grid(ws, scratch, plan, r);
         friction_evaluate(ws, scratch, grid, level, at, slot, false, NULL, &pass);
-        const double error_g = (rounding + series_error) * pass.variance +
+        const friction_relative relative = friction_relative_error(ws, at, &pass);
+        const double error_g = relative.variance * pass.variance +
                                converged(scratch->panel_g[1 - slot], scratch->panel_g[slot],
                                          &scratch->trend_g, pass.parts, r - 1);
-        const double error_mu = (rounding + 2 * series_error) * pass.hysteresis + pass.core_error +
+        const double error_mu = relative.hysteresis * pass.hysteresis + pass.core_error +
                                 converged(scratch->panel_mu[1 - slot], scratch->panel_mu[slot],
                                           &scratch->trend_mu, pass.parts, r - 1);
         const double area = contact_area(pass.variance);
@@ -283,9 +290,12 @@ static void compute_point(const wt_friction_workspace *ws, friction_scratch *scr
         if (point->reached)
             break;
     }
-    if (angular_limited(ws->angular))
+    const bool share = !ws->options.without_share && angular_limited(ws->angular);
+    if (share)
         friction_evaluate(ws, scratch, grid, level, at, slot, true, NULL, &pass);
-    point->extrapolated_share = pass.hysteresis > 0 ? fmin(pass.outside / pass.hysteresis, 1) : 0;
+    point->extrapolated_share = ws->options.without_share ? (double)NAN
+                                : pass.hysteresis > 0     ? fmin(pass.outside / pass.hysteresis, 1)
+                                                          : 0;
 }
 
 typedef struct compute_job {

@@ -36,7 +36,7 @@ struct wt_friction_workspace {
     wt_friction_options options;
     angular_law *angular;
     double stiffness; /* 1 / (1 - nu^2) */
-    double rounding;  /* relative error of the integrals from rounding */
+    double rounding;  /* relative error of the integrals from rounding, but for that of J1, J2 */
     const double *knots;
     size_t n_knots; /* of the material, rad/s */
     gauss_rule *rules[FRICTION_RULES];
@@ -57,6 +57,7 @@ typedef struct friction_pass {
     double variance, hysteresis;
     double core_error; /* of the hysteresis, from the closed form in the core */
     double outside;    /* part of the hysteresis from frequencies outside the data */
+    double steep_variance, steep_hysteresis; /* int |d ln J| of their parts */
     size_t nodes;
     size_t parts;
 } friction_pass;
@@ -87,6 +88,13 @@ size_t friction_level(const wt_friction_workspace *ws, friction_scratch *scratch
 void friction_evaluate(const wt_friction_workspace *ws, friction_scratch *scratch,
                        const scale_grid *grid, size_t level, friction_load at, unsigned slot,
                        bool with_outside, friction_record *record, friction_pass *pass);
+
+/* Relative errors of G and of the hysteresis of a pass from J1 and J2 and from rounding. */
+typedef struct friction_relative {
+    double variance, hysteresis;
+} friction_relative;
+friction_relative friction_relative_error(const wt_friction_workspace *ws, friction_load at,
+                                          const friction_pass *pass);
 
 /* Half the change of P when G moves by its error, and the same of 1 - P. */
 double friction_area_error(double variance, double variance_error);

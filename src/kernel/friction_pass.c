@@ -31,6 +31,28 @@ double friction_gap_error(double variance, double variance_error)
     return fmax(fmax(above, below) + 4 * DBL_EPSILON * gap, variance > 0 ? DBL_MIN : 0);
 }
 
+friction_relative friction_relative_error(const wt_friction_workspace *ws, friction_load at,
+                                          const friction_pass *pass)
+{
+    const double low = ws->roughness->q0 * at.speed, high = ws->roughness->q1 * at.speed;
+    friction_relative e = {ws->rounding, ws->rounding};
+    if (ws->material->law->angular)
+        return e;
+    /* ln omega and the logarithms of the knots are rounded: what is steep there moves */
+    const double moved = 4 * DBL_EPSILON * (1 + fmax(fabs(log(low)), fabs(log(high))));
+    const double series = angular_error(ws->angular, low, high);
+    e.variance += series + (pass->variance > 0 ? moved * pass->steep_variance / pass->variance : 0);
+    e.hysteresis = e.variance + series +
+                   (pass->hysteresis > 0 ? moved * pass->steep_hysteresis / pass->hysteresis : 0);
+    return e;
+}
+
+/* |d ln J| over n nodes. */
+static double steepness(const double *j, size_t n)
+{
+    return j[0] > 0 && j[n - 1] > 0 ? fabs(log(j[n - 1] / j[0])) : 0;
+}
+
 static void angular_at(const wt_friction_workspace *ws, friction_scratch *scratch, const double *q,
                        size_t n, double speed)
 {
@@ -93,6 +115,8 @@ static double core_pass(const wt_friction_workspace *ws, friction_scratch *scrat
         }
     }
     double contact = 1;
+    pass->steep_variance = pass->variance * steepness(scratch->j2, n);
+    pass->steep_hysteresis = full * steepness(scratch->j1, n);
     if (pass->variance > CONTACT_FULL) {
         const double integral = contact_integral(pass->variance, ws->options.gamma);
         contact = integral / pass->variance;
@@ -163,6 +187,10 @@ void friction_evaluate(const wt_friction_workspace *ws, friction_scratch *scratc
                 pass->outside +=
                     share *
                     (angular_outside(ws->angular, scratch->omega[p * n + j], j1[j]) / j1[j]);
+        }
+        if (ws->material->law->angular == NULL) {
+            pass->steep_variance += sum_g * steepness(j2, n);
+            pass->steep_hysteresis += sum_mu * steepness(j1, n);
         }
         pass->variance += sum_g;
         pass->hysteresis += sum_mu;

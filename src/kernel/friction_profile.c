@@ -77,7 +77,7 @@ wt_status wt_friction_profile(wt_friction_workspace *workspace, double pressure,
     while (!pair_reached(workspace, &scratch, &pass) && rule + 2 < FRICTION_RULES)
         pass = run_pair(workspace, &scratch, plan, level, at, ++rule);
 
-    const double relative = workspace->rounding + angular_error(workspace->angular);
+    const double relative = friction_relative_error(workspace, at, &pass).variance;
     const double slack = 1e-13 * fmax(1, log(roughness->q1 / roughness->q0));
     const size_t first = plan->levels - level;
     double variance = 0, difference = 0, hysteresis = 0;

@@ -1,7 +1,7 @@
 /* Materials: moduli, closed angular integrals, limits, what is refused. */
 #include "near.h"
 
-#include "kernel/angular_integral.h"
+#include "kernel/angular_panels.h"
 #include "model/material_transverse.h"
 #include "weartrack/model.h"
 
@@ -64,12 +64,14 @@ static void closed_form_against_quadrature(void **state)
     const wt_prony prony = series(3e6, 3, modulus, tau);
     wt_material *m = NULL;
     pool memory = {0};
-    angular_quadrature quadrature;
+    gauss_rule *rule = NULL;
+    angular_panels panels;
     assert_int_equal(wt_material_prony(&prony, 0.5, &m, NULL), WT_OK);
-    assert_int_equal(angular_quadrature_init(m, &memory, &quadrature, NULL), WT_OK);
+    assert_int_equal(rule_new(PANEL_NODES, &memory, &rule, NULL), WT_OK);
+    assert_int_equal(angular_panels_new(m, rule, 1e-3, 1e12, 1e-16, &panels, NULL), WT_OK);
     for (double w = 1e-3; w < 1e12; w *= 17) {
         double j1, j2, closed_j1[2], closed_j2[2];
-        angular_integrate(&quadrature, w, 1, 1, &j1, &j2);
+        angular_panels_integrate(&panels, w, (double)INFINITY, &j1, &j2);
         m->law->angular(m, (double[]){w, 1e160}, 2, closed_j1, closed_j2); /* capped */
         assert_near(j1, closed_j1[0], 1e-13);
         assert_near(j2, closed_j2[0], 1e-13);
@@ -77,6 +79,7 @@ static void closed_form_against_quadrature(void **state)
         assert_near(j1, closed_j1[0], 0);
         assert_near(j2, closed_j2[0], 0);
     }
+    angular_panels_clear(&panels);
     pool_free(&memory);
     wt_material_free(m);
 }

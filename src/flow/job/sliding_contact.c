@@ -91,6 +91,7 @@ wt_status sliding_contact_make(const wt_sliding *sliding, const wt_job *work, si
     options.gamma = sliding->gamma;
     options.threads = drawn ? 1 : work->threads;
     options.layer = layer;
+    options.without_share = drawn;
     wt_status status =
         wt_rubber_at(sliding->rubber, temperature, seed, replicate, &c.material, c.statement, err);
     if (status == WT_OK)

@@ -1,0 +1,281 @@
+/* Angular integrals in linear time: the law is evaluated once at the nodes of panels in ln omega,
+ * cut at its knots, and the integrals up to each edge are summed from below.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "kernel/angular_panels.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+
+static const double widest = 0.35;
+/* ln F changes by no more over one panel. */
+static const double steepest = 1.2;
+/* The integrals begin so far below the range in ln omega, with a power law below. */
+static const double deep = 40;
+/* They begin at a whole multiple of it, so that similar ranges have the same panels. */
+static const double stride = 16;
+static const int power_of[2] = {2, 1};
+
+/* ---- edges ----------------------------------------------------------------------------------- */
+
+static void logs_at(const wt_material *material, double x, double e[2])
+{
+    const double omega = exp(x);
+    material->law->modulus(material, &omega, 1, &e[0], &e[1]);
+    e[0] = log(e[0]);
+    e[1] = log(e[1]);
+}
+
+static double change(const double *a, const double *b)
+{
+    const double storage = fabs(b[0] - a[0]), loss = fabs(b[1] - a[1]);
+    return 2 * fmax(isfinite(storage) ? storage : 0, isfinite(loss) ? loss : 0);
+}
+
+typedef struct edge_list {
+    size_t n, capacity;
+    double *edge; /* NULL: they are counted alone */
+} edge_list;
+
+static void add_edges(edge_list *list, double from, double to, double by)
+{
+    const double parts = ceil(fmax((to - from) / widest, by / steepest));
+    const size_t n = parts > 1 ? (size_t)fmin(parts, 1e6) : 1;
+    for (size_t i = 1; i <= n; i++) {
+        if (list->edge != NULL)
+            list->edge[list->n] = i < n ? from + (to - from) * (double)i / (double)n : to;
+        list->n++;
+    }
+}
+
+/* From `first` up, cut at whole multiples of `widest` and at the knots. */
+static void lay_edges(const wt_material *material, double first, double last, edge_list *list,
+                      double *largest)
+{
+    size_t n_breaks = 0, k = 0;
+    const double *breaks =
+        material->law->breaks != NULL ? material->law->breaks(material, &n_breaks) : NULL;
+    double x = first, e[2], next_e[2];
+    logs_at(material, x, e);
+    if (list->edge != NULL)
+        list->edge[0] = first;
+    list->n = 1;
+    while (x < last) {
+        double next = (floor(x / widest + 1e-9) + 1) * widest;
+        while (k < n_breaks && log(breaks[k]) <= x)
+            k++;
+        if (k < n_breaks)
+            next = fmin(next, log(breaks[k]));
+        logs_at(material, next, next_e);
+        add_edges(list, x, next, change(e, next_e));
+        x = next;
+        for (size_t i = 0; i < 2; i++) {
+            e[i] = next_e[i];
+            if (isfinite(e[i]))
+                *largest = fmax(*largest, fabs(e[i]));
+        }
+    }
+}
+
+/* ---- sums ------------------------------------------------------------------------------------ */
+
+/* F at the nodes of panel p. */
+static void evaluate(angular_panels *a, size_t p)
+{
+    const double half = 0.5 * (a->edge[p + 1] - a->edge[p]);
+    double *omega = a->omega + p * PANEL_NODES;
+    double storage[PANEL_NODES], loss[PANEL_NODES];
+    for (size_t i = 0; i < PANEL_NODES; i++)
+        omega[i] = exp(a->edge[p] + half * (1 + a->rule->node[i]));
+    a->material->law->modulus(a->material, omega, PANEL_NODES, storage, loss);
+    for (size_t i = 0; i < PANEL_NODES; i++) {
+        const double weight = half * a->rule->weight[i];
+        a->value[0][p * PANEL_NODES + i] = weight * loss[i];
+        a->value[1][p * PANEL_NODES + i] = weight * (storage[i] * storage[i] + loss[i] * loss[i]);
+    }
+}
+
+/* Below the first edge E' and E'' go on as the powers that they are there. */
+static void start_sums(angular_panels *a)
+{
+    const double x = a->edge[0], step = 1;
+    double e[3][2];
+    for (size_t i = 0; i < 3; i++)
+        logs_at(a->material, x + step * (double)i, e[i]);
+    for (size_t f = 0; f < 2; f++) {
+        double *sum = a->below[f];
+        for (size_t part = f == 0 ? 1 : 0; part < 2; part++) {
+            const double times = f == 0 ? 1 : 2;
+            const double slope = times * (e[1][part] - e[0][part]) / step;
+            const double other = times * (e[2][part] - e[1][part]) / step;
+            const double height = exp(times * e[0][part]);
+            if (!(height > 0) || !isfinite(slope))
+                continue;
+            for (size_t m = 0; m < a->terms; m++)
+                sum[m] += height / ((double)(2 * m) + power_of[f] + slope);
+            a->start_error[f] += sum[0] * fabs(other - slope);
+        }
+    }
+}
+
+static void sum_panels(angular_panels *a)
+{
+    for (size_t p = 0; p < a->n; p++) {
+        const double b = exp(a->edge[p + 1]), shrink = exp(a->edge[p] - a->edge[p + 1]);
+        for (size_t f = 0; f < 2; f++) {
+            const double *from = a->below[f] + p * a->terms;
+            double *to = a->below[f] + (p + 1) * a->terms;
+            double factor = f == 0 ? shrink * shrink : shrink;
+            for (size_t m = 0; m < a->terms; m++) {
+                to[m] = from[m] * factor;
+                factor *= shrink * shrink;
+            }
+            for (size_t i = 0; i < PANEL_NODES; i++) {
+                const double c = a->omega[p * PANEL_NODES + i] / b, square = c * c;
+                double term = a->value[f][p * PANEL_NODES + i] * (f == 0 ? square : c);
+                for (size_t m = 0; m < a->terms; m++) {
+                    to[m] += term;
+                    term *= square;
+                }
+            }
+        }
+    }
+}
+
+wt_status angular_panels_new(const wt_material *material, const gauss_rule *rule, double low,
+                             double high, double goal, angular_panels *panels, wt_error *err)
+{
+    size_t n_breaks = 0;
+    const double *breaks =
+        material->law->breaks != NULL ? material->law->breaks(material, &n_breaks) : NULL;
+    double begin = log(low);
+    if (n_breaks > 0)
+        begin = fmin(begin, log(breaks[0]));
+    const double first = fmax(floor(begin / stride) * stride - deep, log(DBL_MIN) + 1);
+    angular_panels a = {.material = material, .rule = rule};
+    /* c^(2m) is 4^-m */
+    a.terms = 2 + (size_t)ceil(-log(fmin(fmax(goal, 1e-16), 0.1)) / (2 * M_LN2));
+    edge_list list = {0};
+    lay_edges(material, first, log(high), &list, &a.largest);
+    a.n = list.n - 1;
+    const size_t nodes = a.n * PANEL_NODES, sums = (a.n + 1) * a.terms;
+    a.numbers = calloc(a.n + 1 + 3 * nodes + 2 * sums, sizeof *a.numbers);
+    if (a.numbers == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory for the angular integrals");
+    a.edge = list.edge = a.numbers;
+    a.omega = a.edge + a.n + 1;
+    a.value[0] = a.omega + nodes;
+    a.value[1] = a.value[0] + nodes;
+    a.below[0] = a.value[1] + nodes;
+    a.below[1] = a.below[0] + sums;
+    lay_edges(material, first, log(high), &list, &a.largest);
+    start_sums(&a);
+    for (size_t p = 0; p < a.n; p++)
+        evaluate(&a, p);
+    sum_panels(&a);
+    *panels = a;
+    return WT_OK;
+}
+
+void angular_panels_clear(angular_panels *panels)
+{
+    free(panels->numbers);
+    *panels = (angular_panels){0};
+}
+
+/* ---- one frequency --------------------------------------------------------------------------- */
+
+/* The last edge at or below x. */
+static size_t edge_before(const angular_panels *a, double x)
+{
+    size_t low = 0, high = a->n;
+    while (low < high) {
+        const size_t middle = (low + high + 1) / 2;
+        if (a->edge[middle] <= x)
+            low = middle;
+        else
+            high = middle - 1;
+    }
+    return low;
+}
+
+/* Everything below an edge at c <= 1/2: sum_m b_m S_m c^(2m + s). */
+static void add_far(const angular_panels *a, size_t edge, double w, double *j1, double *j2)
+{
+    const double c = exp(a->edge[edge]) / w, square = c * c;
+    const double *s1 = a->below[0] + edge * a->terms, *s2 = a->below[1] + edge * a->terms;
+    double sum1 = 0, sum2 = 0, b = 1, power = 1;
+    for (size_t m = 0; m < a->terms; m++) {
+        sum1 += b * power * s1[m];
+        sum2 += b * power * s2[m];
+        b *= (double)(2 * m + 1) / (double)(2 * m + 2);
+        power *= square;
+    }
+    *j1 += sum1 * square;
+    *j2 += sum2 * c;
+}
+
+/* A panel as far below w as it is wide, or further. */
+static void add_middle(const angular_panels *a, size_t p, double w, double *j1, double *j2)
+{
+    const double *omega = a->omega + p * PANEL_NODES;
+    const double *f1 = a->value[0] + p * PANEL_NODES, *f2 = a->value[1] + p * PANEL_NODES;
+    for (size_t i = 0; i < PANEL_NODES; i++) {
+        const double c = omega[i] / w;
+        const double kernel = c / sqrt((1 - c) * (1 + c));
+        *j1 += kernel * c * f1[i];
+        *j2 += kernel * f2[i];
+    }
+}
+
+/* From ln omega = `from` to `to` close below x = ln w, with ln omega = x - t^2. */
+static void add_near(const angular_panels *a, double x, double from, double to, double w,
+                     double *j1, double *j2)
+{
+    double omega[PANEL_NODES], storage[PANEL_NODES], loss[PANEL_NODES], weight[PANEL_NODES],
+        cosine[PANEL_NODES];
+    const double near = sqrt(fmax(0, x - to)), far = sqrt(x - from), half = 0.5 * (far - near);
+    for (size_t i = 0; i < PANEL_NODES; i++) {
+        const double t = near + half * (1 + a->rule->node[i]);
+        const double gap = -expm1(-2 * t * t); /* 1 - c^2 */
+        cosine[i] = sqrt(1 - gap);
+        omega[i] = w * cosine[i];
+        weight[i] = half * a->rule->weight[i] * 2 * t * cosine[i] / sqrt(gap);
+    }
+    a->material->law->modulus(a->material, omega, PANEL_NODES, storage, loss);
+    for (size_t i = 0; i < PANEL_NODES; i++) {
+        *j1 += weight[i] * cosine[i] * loss[i];
+        *j2 += weight[i] * (storage[i] * storage[i] + loss[i] * loss[i]);
+    }
+}
+
+void angular_panels_integrate(const angular_panels *panels, double w, double limit, double *j1,
+                              double *j2)
+{
+    const angular_panels *a = panels;
+    const double x = log(w), end = limit < w ? log(limit) : x;
+    size_t p = edge_before(a, fmin(x - M_LN2, end));
+    *j1 = *j2 = 0;
+    add_far(a, p, w, j1, j2);
+    for (; p < a->n && a->edge[p] < end; p++) {
+        const double from = a->edge[p], to = fmin(a->edge[p + 1], end);
+        if (to >= a->edge[p + 1] && to <= x - (to - from))
+            add_middle(a, p, w, j1, j2);
+        else
+            add_near(a, x, from, to, w, j1, j2);
+    }
+    *j1 *= 4;
+    *j2 *= 4;
+}
+
+double angular_panels_error(const angular_panels *panels, double w, double j1, double j2)
+{
+    const angular_panels *a = panels;
+    const double c = exp(a->edge[0]) / w;
+    const double from1 = j1 > 0 ? 4 * a->start_error[0] * c * c / j1 : 0;
+    const double from2 = j2 > 0 ? 4 * a->start_error[1] * c / j2 : 0;
+    return fmax(from1, from2) + pow(4, -(double)a->terms) + 8 * DBL_EPSILON +
+           2 * DBL_EPSILON * (4 + a->largest);
+}

@@ -1,0 +1,44 @@
+/* Internal to the kernel room: the angular integrals of a law at any frequency, from panels over
+ * which the law is evaluated once.
+ *
+ *   J1(w) = int_0^2pi cos(phi) E''(w cos phi) dphi,   J2(w) = int_0^2pi |E(w cos phi)|^2 dphi
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#ifndef WT_KERNEL_ANGULAR_PANELS_H
+#define WT_KERNEL_ANGULAR_PANELS_H
+
+#include "kernel/rule.h"
+#include "weartrack/model.h"
+
+enum { PANEL_NODES = 10 };
+
+/* With y = ln(omega / w) the integrals are 4 int K F dy of F1 = E'', F2 = |E|^2 with
+ *   K = c^s / sqrt(1 - c^2) = sum_m b_m c^(2m + s),   c = e^y,   s = 2 and 1. */
+typedef struct angular_panels {
+    const wt_material *material;
+    const gauss_rule *rule; /* of PANEL_NODES */
+    size_t terms;           /* of that sum where c <= 1/2 */
+    size_t n;
+    double *edge;          /* [n + 1] ln omega */
+    double *omega;         /* [n * PANEL_NODES] */
+    double *value[2];      /* [n * PANEL_NODES] F1 and F2 times weight and width */
+    double *below[2];      /* [(n + 1) * terms] int_-inf^edge F (omega / edge)^(2m + s) */
+    double largest;        /* |ln E'| and |ln E''| */
+    double start_error[2]; /* of `below` at the first edge, m = 0 */
+    double *numbers;       /* all of them */
+} angular_panels;
+
+/* For w from `low` to `high` > 0 and relative errors of about `goal`. The rule is borrowed. */
+wt_status angular_panels_new(const wt_material *material, const gauss_rule *rule, double low,
+                             double high, double goal, angular_panels *panels,
+                             wt_error *err) WT_NODISCARD;
+void angular_panels_clear(angular_panels *panels);
+
+/* J1 and J2 at w, from frequencies up to `limit` alone (infinity: all). */
+void angular_panels_integrate(const angular_panels *panels, double w, double limit, double *j1,
+                              double *j2);
+/* Relative error of J1 and J2 at any w in the range. */
+double angular_panels_error(const angular_panels *panels, double w, double j1, double j2);
+
+#endif
