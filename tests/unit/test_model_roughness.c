@@ -23,7 +23,7 @@ static void numeric_cases(void **state)
         wt_roughness_free(r);
         n++;
     }
-    assert_int_equal(n, 17);
+    assert_int_equal(n, 19);
     free(c);
     fclose(in);
 }
