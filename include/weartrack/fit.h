@@ -28,11 +28,15 @@ extern "C" {
  *                      shorter than 10 % of the indentation
  *   ambiguous_contact  a second contact point is as likely (2 ln likelihood ratio < 4, with the
  *                      effective number of samples) and gives a modulus that differs by 10 %
- *   disturbed_baseline a wave on it of more than 10 % of the largest force, peak to peak
- *   too_deep           deeper than one radius of a sphere
+ *   disturbed_baseline a wave on it of more than 10 % of the largest force, peak to peak; or it is
+ *                      bent (chance below 1 %) and the residual is that of a poor_fit
+ *   too_deep           deeper than one radius of a sphere; cones and pyramids have no such depth,
+ *                      as long as they are that high
  *   poor_fit           the noise of the baseline does not explain the residual (least_chance), or
- * no convergence adhesive           the same, of a curve with a snap-on or a pull-off imprecise a
- * standard error of more than largest_error of the modulus */
+ *                      no convergence
+ *   adhesive           the same, of a curve with a snap-on or a pull-off
+ *   imprecise          a standard error of more than largest_error of the modulus
+ */
 #define WT_CURVE_VERDICT_LIST(X)                                                                   \
     X(WT_CURVE_ACCEPTED, "accepted", "accepted")                                                   \
     X(WT_CURVE_NO_APPROACH, "no_approach", "the curve has no approach segment")                    \
@@ -88,15 +92,15 @@ WT_API const wt_params *wt_indent_params(void);
  * nu^2) G(indentation). */
 typedef struct wt_indent_fit {
     wt_curve_verdict verdict;
-    char reason[160];            /* verdict with its numbers; of an accepted
-                                    curve what is odd: snap-on left out, missing samples */
-    wt_estimate modulus;         /* E [Pa]; standard error includes baseline and contact point and
-                                    correlated residuals; NaN unless accepted */
+    char reason[160];    /* verdict with its numbers; of an accepted
+                            curve what is odd: snap-on left out, missing samples */
+    wt_estimate modulus; /* E [Pa]; standard error includes baseline, contact point, the colour
+                            of the noise and a bent baseline; NaN unless accepted */
     wt_estimate contact_point;   /* [m] */
     wt_estimate baseline_offset; /* [N] at the contact point */
     wt_estimate baseline_tilt;   /* [N/m] */
     double noise;                /* standard deviation of the baseline residual [N] */
-    double correlation_length;   /* of the residuals [samples] */
+    double correlation_length;   /* of the noise, for waves as long as the contact [samples] */
     double lack_of_fit;          /* slow part of the residual in contact, over the variance that the
                                     noise of the baseline gives it: 1 if the law is right; NaN where
                                     the baseline is too short to say */

@@ -131,9 +131,8 @@ typedef struct wt_group_data {
     double sensitivity_gain;      /* mean of the curves, NaN if unknown */
     bool several_levers;          /* the curves have several spring constants */
     bool spots_given;             /* the user named the spots */
-    bool one_map;                 /* curves of one file without named spots */
 } wt_group_data;
-/* The curves of one map without named spots are one spot, or `each_place` one of its own. */
+/* A spot is what was named so, else a file, or `each_place` of those that were not named. */
 WT_API wt_status wt_group_from_table(const wt_table *indentation, bool each_place,
                                      wt_group_data *data, wt_error *err) WT_NODISCARD;
 WT_API void wt_group_data_clear(wt_group_data *data);

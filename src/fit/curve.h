@@ -28,6 +28,14 @@ typedef struct curve_samples {
     double spring_constant;
 } curve_samples;
 
+/* Spectra that noise may have, in bands of the frequency: curve_noise.c. */
+enum { NOISE_BANDS = 52, NOISE_SHAPES = 82 };
+typedef struct noise_shapes {
+    double knee[NOISE_SHAPES]; /* below it they are no longer white */
+    double density[NOISE_SHAPES][NOISE_BANDS], logarithm[NOISE_SHAPES][NOISE_BANDS];
+} noise_shapes;
+void noise_shapes_make(noise_shapes *to);
+
 struct wt_indent_workspace {
     size_t capacity;
     double *block; /* what the arrays below are parts of */
@@ -39,6 +47,7 @@ struct wt_indent_workspace {
         bin_running_max[CURVE_MAX_BINS], bin_delta[CURVE_MAX_BINS], bin_g[CURVE_MAX_BINS],
         bin_weight[CURVE_MAX_BINS];
     gsl_min_fminimizer *minimizer;
+    noise_shapes shapes;
 };
 
 /* A way in or out, as measured; time NULL: not known. */
@@ -117,7 +126,6 @@ typedef struct curve_lack {
     double statistic, chance; /* of the contact part, and of more than that by noise alone */
     double baseline_chance;   /* that a straight baseline departs as much from a line */
     double wave[CURVE_WAVES]; /* cosines over the contact [N] */
-    double long_run; /* variance per sample of a mean over many, of the baseline; 0: not known */
 } curve_lack;
 
 typedef struct curve_solution {
@@ -128,8 +136,9 @@ typedef struct curve_solution {
     size_t first_contact; /* samples before it are baseline */
     double max_indentation;
     double noise, correlation_length;
-    double effective_n; /* samples over correlation length, baseline and contact part together */
+    double effective_n; /* samples over correlation length */
     curve_lack lack;
+    bool bent; /* the baseline: the errors hold what that does if it goes on in contact */
     bool converged;
 } curve_solution;
 
@@ -150,15 +159,5 @@ void curve_refine(const wt_contact_table *table, const curve_samples *samples, c
  * largest h. */
 double curve_weights(const wt_contact_table *table, const curve_samples *samples,
                      const curve_minimum *minimum, wt_indent_workspace *workspace);
-
-/* ---- noise: curve_noise.c -------------------------------------------------------------------- */
-
-typedef struct noise_level {
-    double variance;           /* of one sample */
-    double correlation_length; /* tau = 1 + 2 sum rho_k [samples] */
-} noise_level;
-
-/* Of a residual with mean 0. Destroys x. */
-noise_level noise_estimate(double *x, size_t n);
 
 #endif

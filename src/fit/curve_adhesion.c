@@ -20,7 +20,6 @@ static const double work_errors = 3.0;   /* a work of adhesion, in its standard 
 static const double better_chi2 = 9.0;   /* 2 ln(likelihood ratio) against no adhesion */
 static const double least_tabor = 1.0;   /* far below 5 the law is another */
 static const double let_go = 0.02;       /* of the retract: in it half of a pull-off is over */
-static const size_t baseline_samples = 10;
 enum { MAX_ROUNDS = 3 };
 
 /* Of the work: less than that is piezo and noise. */
@@ -51,7 +50,7 @@ static bool find_snap(const curve_fitting *f, snap *found)
         start--;
     while (end < s->n && above[end] < 0.0)
         end++;
-    if (start < baseline_samples)
+    if (start < CURVE_BASELINE_SAMPLES)
         return false;
     double elsewhere = 0.0, noise = 0.0;
     for (size_t i = 0; i < start; i++) {
@@ -141,7 +140,7 @@ void curve_read_retract(curve_fitting *f, const double *height, const double *fo
         above[kept++] = force[i] - f->input.force_origin - curve_baseline(&f->solution, z);
     }
     const size_t far = kept / 4;
-    if (far < baseline_samples)
+    if (far < CURVE_BASELINE_SAMPLES)
         return;
     /* The far end is its own baseline: drag and drift part it from that of the approach. */
     memcpy(scratch, above + kept - far, far * sizeof *scratch);
@@ -197,8 +196,8 @@ static curve_solution refine_from(curve_fitting *f, curve_solution s, size_t jum
             break;
         best = s;
         jump = first_beyond(&f->input.samples, s.p[CURVE_C]);
-        if (!follows || jump == f->kind.jump || jump < baseline_samples ||
-            n - jump < baseline_samples)
+        if (!follows || jump == f->kind.jump || jump < CURVE_BASELINE_SAMPLES ||
+            n - jump < CURVE_BASELINE_SAMPLES)
             break;
         f->kind.jump = jump;
     }
@@ -234,7 +233,7 @@ static bool try_adhesive(curve_fitting *f, double pull, size_t jump)
     for (size_t i = 0; i < (follows ? sizeof depths / sizeof depths[0] : 1); i++) {
         if (follows)
             jump = first_beyond(samples, start.p[CURVE_C] - depths[i] * depth);
-        if (jump < baseline_samples || samples->n - jump < baseline_samples)
+        if (jump < CURVE_BASELINE_SAMPLES || samples->n - jump < CURVE_BASELINE_SAMPLES)
             continue;
         f->solution = refine_from(f, start, jump, follows);
         if (is_adhesive(f))

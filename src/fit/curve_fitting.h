@@ -7,6 +7,8 @@
 
 #include "fit/curve.h"
 
+enum { CURVE_BASELINE_SAMPLES = 10 }; /* least */
+
 typedef struct curve_fitting {
     const wt_contact_table *table;
     const wt_indent_options *options;

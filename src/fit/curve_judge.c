@@ -13,7 +13,6 @@
 /* Limits of plausibility; every verdict names the number and the limit. */
 static const double contact_noise = 5.0;   /* force in contact, in noise of the baseline */
 static const double baseline_length = 0.1; /* of the largest indentation */
-static const size_t baseline_samples = 10;
 static const size_t contact_samples = 8;
 static const double baseline_bend = 0.1;   /* departure from a line, of the largest force */
 static const double rigid_gain = 50.0;     /* % of modulus per % of sensitivity */
@@ -133,9 +132,10 @@ static wt_curve_verdict judge_contact(const curve_fitting *f, const wt_indent_fi
                   curve_si(s->noise, "N").words, contact_noise);
         return WT_CURVE_NO_CONTACT;
     }
-    if (s->first_contact < baseline_samples || length < baseline_length * s->max_indentation) {
-        curve_say(reason, "baseline of %zu samples and %s; %zu samples and %s needed",
-                  s->first_contact, curve_si(length, "m").words, baseline_samples,
+    if (s->first_contact < CURVE_BASELINE_SAMPLES ||
+        length < baseline_length * s->max_indentation) {
+        curve_say(reason, "baseline of %zu samples and %s; %d samples and %s needed",
+                  s->first_contact, curve_si(length, "m").words, CURVE_BASELINE_SAMPLES,
                   curve_si(baseline_length * s->max_indentation, "m").words);
         return WT_CURVE_NO_BASELINE;
     }
@@ -192,18 +192,27 @@ static wt_curve_verdict judge_law(const curve_fitting *f, const wt_indent_fit *f
         return WT_CURVE_NO_BASELINE;
     }
     if (!curve_fits(f)) {
-        if (f->snap_on > 0.0 || f->pull_off > 0.0)
+        const double lack = sqrt(s->lack.statistic);
+        if (f->snap_on > 0.0 || f->pull_off > 0.0) {
             curve_say(reason,
                       "pull of %s; neither contact with adhesion nor without describes the rest: "
                       "residual %.3g times its noise",
                       curve_si(fmax(f->snap_on, f->pull_off > 0.0 ? f->pull_off : 0.0), "N").words,
-                      sqrt(s->lack.statistic));
-        else
+                      lack);
+            return WT_CURVE_ADHESIVE;
+        }
+        if (s->bent) {
             curve_say(reason,
-                      "slow residual %.3g times what the noise of the baseline explains: another "
-                      "tip, a layer, loss, adhesion or an uneven piezo",
-                      sqrt(s->lack.statistic));
-        return f->snap_on > 0.0 || f->pull_off > 0.0 ? WT_CURVE_ADHESIVE : WT_CURVE_POOR_FIT;
+                      "baseline bent (chance %.1g if it were straight), and slow residual in "
+                      "contact %.3g times its noise: piezo or drift",
+                      s->lack.baseline_chance, lack);
+            return WT_CURVE_DRIFT;
+        }
+        curve_say(reason,
+                  "slow residual %.3g times what the noise of the baseline explains: another "
+                  "tip, a layer, loss, adhesion or an uneven piezo",
+                  lack);
+        return WT_CURVE_POOR_FIT;
     }
     if (!f->kind.adhesive && fit->tabor_number < 1.0 &&
         f->pull_off * fit->modulus.value > 2.0 * fit->modulus.standard_error * fit->max_force) {
@@ -214,9 +223,10 @@ static wt_curve_verdict judge_law(const curve_fitting *f, const wt_indent_fit *f
         return WT_CURVE_ADHESIVE;
     }
     if (fit->modulus.standard_error > f->options->largest_error * fit->modulus.value) {
-        curve_say(reason, "standard error %.0f %% of the modulus of %s, %g %% allowed",
+        curve_say(reason, "standard error %.0f %% of the modulus of %s, %g %% allowed%s",
                   100.0 * fit->modulus.standard_error / fit->modulus.value,
-                  curve_si(fit->modulus.value, "Pa").words, 100.0 * f->options->largest_error);
+                  curve_si(fit->modulus.value, "Pa").words, 100.0 * f->options->largest_error,
+                  s->bent ? "; baseline bent" : "");
         return WT_CURVE_IMPRECISE;
     }
     return WT_CURVE_ACCEPTED;
@@ -245,6 +255,8 @@ static void add_notes(const curve_fitting *f, const wt_indent_fit *fit, char rea
                   100.0 * f->loss);
         append(reason, text);
     }
+    if (f->solution.bent)
+        append(reason, "; baseline bent: the error holds what that does in contact");
     const struct {
         size_t n;
         const char *what;

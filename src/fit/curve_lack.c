@@ -155,6 +155,7 @@ static void find_noise(blocks *b)
     for (size_t i = 0; i < n; i++)
         variance += x[i] * x[i] / (double)n;
     b->innovation = 0.0;
+    b->order = 0; /* of a baseline without noise, too */
     for (size_t order = 0; order <= MAX_ORDER && variance > 0.0; order++) {
         if (order > 0) {
             double above = 0.0, below = 0.0, old[MAX_ORDER + 1];
@@ -246,10 +247,6 @@ curve_lack curve_lack_of_fit(const curve_law *m, const double p[N], const double
     b.innovation = fmax(b.innovation, top * top);
     if (!(b.innovation > 0.0) || !isfinite(b.innovation))
         return lack;
-    double sum = 1.0;
-    for (size_t k = 1; k <= b.order; k++)
-        sum -= b.a[k];
-    lack.long_run = b.innovation * (double)b.length / (sum * sum);
     lack.baseline_chance = judge_baseline(&b);
     lack.chance = judge_contact(&b, &lack.statistic);
     for (int j = 0; j < CURVE_WAVES; j++) {

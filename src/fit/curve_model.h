@@ -42,6 +42,16 @@ double curve_model_row(const curve_law *model, const double p[CURVE_N_PARAMETERS
 /* Of the residuals e, those of the noise, at the parameters of the latest evaluation. */
 curve_lack curve_lack_of_fit(const curve_law *model, const double p[CURVE_N_PARAMETERS],
                              const double *e);
+/* What the noise does to the sums J'e, at the parameters of the latest evaluation. */
+typedef struct curve_noise {
+    double variance;           /* of a sample of the baseline */
+    double correlation_length; /* [samples], of waves as long as the contact */
+    double scatter[CURVE_N_PARAMETERS][CURVE_N_PARAMETERS]; /* covariance of J'e */
+} curve_noise;
+/* Of the residuals e, those of the noise, of which the first `first` are the baseline; bent: it is
+ * not straight, and nobody knows how that goes on in contact. */
+curve_noise curve_noise_of(const curve_law *model, const double p[CURVE_N_PARAMETERS],
+                           const double *e, size_t first, bool bent);
 /* h = 1 + S/k of sample i. */
 double curve_model_factor(const curve_law *model, const double p[CURVE_N_PARAMETERS], size_t i);
 

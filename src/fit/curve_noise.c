@@ -1,60 +1,311 @@
-/* Variance and correlation length of a residual.
+/* What the noise of a force curve does to the numbers of its fit.
  *
- * The variance of a mean of n correlated samples is that of n/tau independent ones, with
- * tau = 1 + 2 sum_k rho_k (Sokal, Monte Carlo Methods in Statistical Mechanics, 1989, section 3).
- * The sum is cut at the first autocorrelation that is not above its own noise. Slow drift under
- * fast noise would be cut off, too; so neighbours are averaged in pairs again and again (Flyvbjerg
- * and Petersen, J. Chem. Phys. 91 (1989) 461) and the longest of the answers is taken. The work is
- * proportional to n.
+ * Forces are averaged in blocks, a few dozen of them over the contact. The spectrum of the noise is
+ * that of the baseline: cosines of its residual, to which shapes are fitted (Whittle): white, white
+ * below a power of the frequency, white below a first-order process. Each weighs what its
+ * likelihood says, for the slow waves that matter to the contact are few in a baseline and no
+ * single shape is sure. The mean of them (of the standard deviations) then gives the variance of
+ * sum_i J_i e_i along the curve, whatever the colour.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "fit/curve.h"
+#include "fit/curve_model.h"
 
 #include <math.h>
+#include <string.h>
 
-enum { MAX_LAG = 48, MIN_BLOCKS = 64 };
+enum {
+    N = CURVE_N_PARAMETERS,
+    IN_CONTACT = 32, /* blocks */
+    BLOCKS = 512,    /* most of all */
+    FINE = 192,      /* of the baseline, for its spectrum */
+    LEAST = 16,      /* of these */
+    WAVES = 96,      /* looked at one by one; faster ones together */
+    SLOW = 8,        /* waves of the contact whose misfit counts */
+    PER_OCTAVE = 4,
+    POWERS = 4,
+    CORNERS = 9,
+    HEIGHTS = 5,
+};
 
-static double autocovariance(const double *x, size_t n, size_t lag)
+typedef struct block_sums {
+    size_t n, before, length; /* blocks, those before contact, samples in one */
+    double e[BLOCKS], z[BLOCKS], column[N][BLOCKS]; /* means of residual and position, sums of J */
+    double square[N][N], inside; /* of J and e: squares within the blocks, variance there */
+} block_sums;
+
+/* Variance of a unit wave of means over `length` samples, by its frequency: 1 is half a cycle for
+ * each of them. */
+typedef struct spectrum {
+    double density[NOISE_BANDS], length;
+} spectrum;
+
+static void add_shape(noise_shapes *to, size_t s, double knee, double corner, double power)
+{
+    to->knee[s] = knee;
+    for (size_t b = 0; b < NOISE_BANDS; b++) {
+        const double f = exp2(-(double)b / PER_OCTAVE);
+        to->density[s][b] = 1.0 + pow(knee / hypot(f, corner), power);
+        to->logarithm[s][b] = log(to->density[s][b]);
+    }
+}
+
+void noise_shapes_make(noise_shapes *to)
+{
+    size_t s = 0;
+    add_shape(to, s++, 0.0, 1.0, 1.0);
+    for (int knee = -2; knee < CORNERS - 2; knee++)
+        for (int power = 1; power <= POWERS; power++)
+            add_shape(to, s++, exp2(-knee), 0.0, 0.5 * power);
+    for (int corner = 0; corner < CORNERS; corner++)
+        for (int height = 0; height < HEIGHTS; height++)
+            add_shape(to, s++, exp2(height - corner), exp2(-corner), 2.0);
+}
+
+static size_t band_of(double frequency)
+{
+    const double band = -PER_OCTAVE * log2(frequency);
+    return !(band > 0.0) ? 0 : band < NOISE_BANDS - 1 ? (size_t)(band + 0.5) : NOISE_BANDS - 1;
+}
+
+/* Of unit wave k of n blocks of `length` samples. */
+static double variance_of(const spectrum *s, double k, size_t n, size_t length)
+{
+    const double part = s->length / (double)length;
+    return part * s->density[band_of(part * k / (double)n)];
+}
+
+/* Unit cosine k of n blocks. */
+static void make_wave(size_t k, size_t n, double *wave)
+{
+    const double angle = M_PI * (double)k / (double)n, twice = 2.0 * cos(angle);
+    double before = cos(0.5 * angle), now = before;
+    const double scale = sqrt((k > 0 ? 2.0 : 1.0) / (double)n);
+    for (size_t i = 0; i < n; i++) {
+        wave[i] = scale * now;
+        const double next = twice * now - before;
+        before = now;
+        now = next;
+    }
+}
+
+static double dot(const double *a, const double *b, size_t n)
 {
     double sum = 0.0;
-    for (size_t i = lag; i < n; i++)
-        sum += x[i] * x[i - lag];
-    return sum / (double)n;
+    for (size_t i = 0; i < n; i++)
+        sum += a[i] * b[i];
+    return sum;
 }
 
-static size_t average_pairs(double *x, size_t n)
+/* Takes the powers of z below `count` out of the first n of x. With 3, z2 becomes the square over
+ * `all`, less what the others have of it there. Returns what x had of the last one. */
+static double remove_powers(const double *z, double *x, size_t n, size_t all, int count, double *z2)
 {
-    for (size_t i = 0; i < n / 2; i++)
-        x[i] = 0.5 * (x[2 * i] + x[2 * i + 1]);
-    return n / 2;
-}
-
-noise_level noise_estimate(double *x, size_t n)
-{
-    noise_level noise = {0.0, 1.0};
-    if (n == 0)
-        return noise;
-    noise.variance = autocovariance(x, n, 0);
-    if (!(noise.variance > 0.0))
-        return noise;
-    double variance = noise.variance;
-    for (double block = 1.0;; block *= 2.0) {
-        double tau = 1.0, threshold = 2.0 / sqrt((double)n);
-        for (size_t lag = 1; lag <= MAX_LAG && lag < n / 2; lag++) {
-            double rho = autocovariance(x, n, lag) / variance;
-            if (rho < threshold)
-                break;
-            tau += 2.0 * rho;
+    double one[FINE + BLOCKS], line[FINE + BLOCKS], *const power[3] = {one, line, z2};
+    double share = 0.0;
+    for (int k = 0; k < count; k++) {
+        for (size_t i = 0; i < all; i++)
+            power[k][i] = k == 0 ? 1.0 : (z[i] - z[n / 2]) * power[k - 1][i];
+        for (int d = 0; d < k; d++) {
+            const double part = dot(power[d], power[k], n) / dot(power[d], power[d], n);
+            for (size_t i = 0; i < all; i++)
+                power[k][i] -= part * power[d][i];
         }
-        /* var(mean) = variance tau / n is the same for blocks as for samples. */
-        noise.correlation_length =
-            fmax(noise.correlation_length, tau * block * variance / noise.variance);
-        if (n < 2 * MIN_BLOCKS)
-            return noise;
-        n = average_pairs(x, n);
-        variance = autocovariance(x, n, 0);
-        if (!(variance > 0.0))
+        const double norm = dot(power[k], power[k], n);
+        share = norm > 0.0 ? dot(power[k], x, n) / norm : 0.0;
+        for (size_t i = 0; i < n; i++)
+            x[i] -= share * power[k][i];
+    }
+    return share;
+}
+
+static void average(const curve_law *m, const double p[N], const double *e, size_t first,
+                    block_sums *b)
+{
+    const curve_samples *s = m->samples;
+    const size_t contact = s->n - first, least = (s->n + BLOCKS - 1) / BLOCKS;
+    memset(b, 0, sizeof *b);
+    b->length = contact / IN_CONTACT > least ? contact / IN_CONTACT : least;
+    b->n = s->n / b->length;
+    const size_t start = s->n - b->n * b->length;
+    b->before = first > start ? (first - start) / b->length : 0;
+    const double share = 1.0 / (double)b->length;
+    for (size_t i = 0; i < b->n; i++) {
+        double sum = 0.0, sum2 = 0.0;
+        for (size_t j = start + i * b->length; j < start + (i + 1) * b->length; j++) {
+            double row[N];
+            const double h = curve_model_row(m, p, j, row);
+            sum += e[j];
+            sum2 += e[j] * e[j];
+            b->z[i] += s->position[j] * share;
+            for (size_t c = 0; c < N; c++) {
+                b->column[c][i] += row[c] * h;
+                for (size_t d = 0; d <= c; d++)
+                    b->square[c][d] += row[c] * row[d] * h * h;
+            }
+        }
+        b->e[i] = sum * share;
+        b->inside += sum2 - sum * sum * share;
+    }
+    for (size_t c = 0; c < N; c++)
+        for (size_t d = 0; d <= c; d++)
+            b->square[c][d] -= share * dot(b->column[c], b->column[d], b->n);
+    if (b->length > 1)
+        b->inside /= (double)(b->n * (b->length - 1));
+}
+
+/* The mean spectrum of n residuals x, each the mean of some samples. False if there is nothing. */
+static bool find_spectrum(const noise_shapes *shapes, const double *x, size_t n, spectrum *to)
+{
+    double power[NOISE_BANDS] = {0.0}, count[NOISE_BANDS] = {0.0}, wave[BLOCKS];
+    double chance[NOISE_SHAPES], level[NOISE_SHAPES], best = -(double)INFINITY, all = 0.0;
+    const double waves = (double)n - 2.0; /* an offset and a tilt are not in x */
+    double *const density = to->density, rest = dot(x, x, n);
+    for (size_t k = 0; k < n && k <= WAVES; k++) {
+        make_wave(k, n, wave);
+        const double along = dot(wave, x, n);
+        rest -= along * along;
+        if (k < 2)
+            continue;
+        const size_t band = band_of((double)k / (double)n);
+        power[band] += along * along;
+        count[band] += 1.0;
+    }
+    if (n > WAVES + 1) {
+        const size_t band = band_of(sqrt(WAVES / (double)n));
+        power[band] += fmax(rest, 0.0);
+        count[band] += (double)(n - WAVES - 1);
+    }
+    for (size_t s = 0; s < NOISE_SHAPES; s++) {
+        chance[s] = -(double)INFINITY;
+        if (s > 0 && shapes->knee[s] < 8.0 / (double)n) /* nothing here tells it from white */
+            continue;
+        double logarithms = 0.0, sum = 0.0;
+        for (size_t b = 0; b < NOISE_BANDS; b++)
+            if (count[b] > 0.0) {
+                logarithms += count[b] * shapes->logarithm[s][b];
+                sum += power[b] / shapes->density[s][b];
+            }
+        if (!(sum > 0.0))
+            return false;
+        const int family = s == 0 ? 1 : 2 * CORNERS * (s <= POWERS * CORNERS ? POWERS : HEIGHTS);
+        level[s] = sum / (waves - 2.0);
+        chance[s] = -0.5 * (logarithms + waves * log(sum)) - log(family);
+        best = fmax(best, chance[s]);
+    }
+    memset(density, 0, sizeof to->density);
+    for (size_t s = 0; s < NOISE_SHAPES; s++) {
+        const double weight = exp(chance[s] - best);
+        if (!(weight > 0.0))
+            continue;
+        all += weight;
+        for (size_t b = 0; b < NOISE_BANDS; b++)
+            density[b] += weight * sqrt(level[s] * shapes->density[s][b]);
+    }
+    for (size_t b = 0; b < NOISE_BANDS; b++)
+        density[b] *= density[b] / (all * all);
+    return true;
+}
+
+/* How much more there is of the slow waves in contact than the noise has. */
+static double slow_misfit(const block_sums *b, const spectrum *s)
+{
+    const size_t n = b->n - b->before;
+    double wave[BLOCKS], sum = 0.0, waves = 0.0;
+    for (size_t k = 1; k <= SLOW && k < n; k++) {
+        make_wave(k, n, wave);
+        const double along = dot(wave, b->e + b->before, n);
+        sum += along * along / variance_of(s, (double)k, n, b->length);
+        waves += 1.0;
+    }
+    return waves > 0.0 ? sum / waves : 1.0;
+}
+
+/* to = J' (covariance of the noise) J. */
+static void sum_waves(const block_sums *b, const spectrum *s, double to[N][N])
+{
+    double wave[BLOCKS], along[N], left[N][N];
+    size_t k = 0;
+    for (size_t c = 0; c < N; c++)
+        for (size_t d = 0; d <= c; d++)
+            left[c][d] = dot(b->column[c], b->column[d], b->n);
+    for (size_t c = 0; c < N; c++)
+        for (size_t d = 0; d <= c; d++)
+            to[c][d] = b->inside * b->square[c][d];
+    for (; k < b->n && k <= WAVES; k++) {
+        const double level = variance_of(s, k > 0 ? (double)k : 0.5, b->n, b->length);
+        make_wave(k, b->n, wave);
+        for (size_t c = 0; c < N; c++)
+            along[c] = dot(wave, b->column[c], b->n);
+        for (size_t c = 0; c < N; c++)
+            for (size_t d = 0; d <= c; d++) {
+                to[c][d] += level * along[c] * along[d];
+                left[c][d] -= along[c] * along[d];
+            }
+    }
+    if (k < b->n)
+        for (size_t c = 0; c < N; c++)
+            for (size_t d = 0; d <= c; d++)
+                to[c][d] += variance_of(s, (double)k, b->n, b->length) * left[c][d];
+}
+
+/* Of the baseline, the first `first` samples e, less a line, or where it is bent a parabola, which
+ * goes to `bow` all along the blocks. False if there is too little. */
+static bool read_baseline(const curve_law *m, const double *e, size_t first, block_sums *b,
+                          bool bent, double *bow, spectrum *to)
+{
+    double x[FINE], z[FINE + BLOCKS], square[FINE + BLOCKS];
+    const size_t length = (first + FINE - 1) / FINE, n = length > 0 ? first / length : 0;
+    if (n < LEAST)
+        return false;
+    for (size_t i = 0; i < n; i++) {
+        x[i] = z[i] = 0.0;
+        for (size_t j = first - (n - i) * length; j < first - (n - i - 1) * length; j++) {
+            x[i] += e[j] / (double)length;
+            z[i] += m->samples->position[j] / (double)length;
+        }
+    }
+    memcpy(z + n, b->z, b->n * sizeof *z);
+    const double share = remove_powers(z, x, n, n + b->n, bent ? 3 : 2, square);
+    for (size_t i = 0; i < b->n; i++)
+        bow[i] = bent ? share * square[n + i] : 0.0;
+    to->length = (double)length;
+    return find_spectrum(&m->workspace->shapes, x, n, to);
+}
+
+curve_noise curve_noise_of(const curve_law *m, const double p[N], const double *e, size_t first,
+                           bool bent)
+{
+    block_sums b;
+    spectrum s;
+    double bow[BLOCKS] = {0.0}, bent_by[N];
+    curve_noise noise = {.variance = 0.0, .correlation_length = 1.0};
+    average(m, p, e, first, &b);
+    for (size_t i = 0; i < first; i++)
+        noise.variance += e[i] * e[i] / (double)first;
+    if (!read_baseline(m, e, first, &b, bent, bow, &s)) {
+        s.length = (double)b.length;
+        if (!find_spectrum(&m->workspace->shapes, b.e, b.n, &s))
             return noise;
     }
+    const double misfit = slow_misfit(&b, &s);
+    if (noise.variance > 0.0) { /* at waves as long as the contact that the baseline shows, too */
+        const double contact = (double)(m->samples->n - first);
+        const double wave = fmax(2.0 / contact, 4.0 / (double)first);
+        noise.correlation_length = fmax(1.0, variance_of(&s, wave, 1, 1) / noise.variance);
+    }
+    /* What the law misses shows in contact; a little of it is chance. */
+    const double more = sqrt(fmax(1.0, m->lossy ? misfit : 0.5 * (misfit + 1.0)));
+    for (size_t c = 0; c < N; c++) {
+        bent_by[c] = dot(b.column[c], bow, b.n);
+        for (size_t i = b.before; i < b.n; i++)
+            b.column[c][i] *= more;
+    }
+    sum_waves(&b, &s, noise.scatter);
+    for (size_t c = 0; c < N; c++)
+        for (size_t d = 0; d <= c; d++) {
+            noise.scatter[c][d] += bent_by[c] * bent_by[d];
+            noise.scatter[d][c] = noise.scatter[c][d];
+        }
+    return noise;
 }

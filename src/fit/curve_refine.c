@@ -1,11 +1,7 @@
 /* Least squares of one force curve in modulus, contact point, baseline offset and tilt at once
- * (Levenberg-Marquardt), and the errors of the result.
- *
- * Errors. The residuals are correlated, and what the model misses shows only in contact. So
- *     covariance = (J'J)^-1 [ sum_i v_i h_i^2 J_i J_i' ] (J'J)^-1     (h = 1 unless plain)
- * with v = variance times correlation length of the noise on the baseline and in the contact part
- * separately. The lever is as noisy in contact as before it at least, so v of the contact part is
- * never taken below that of the baseline.
+ * (Levenberg-Marquardt), and the errors of the result:
+ *     covariance = (J'J)^-1 [ covariance of J'e ] (J'J)^-1
+ * with the noise e as correlated as that of the baseline (curve_noise.c).
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -17,6 +13,8 @@
 #include <string.h>
 
 enum { N = CURVE_N_PARAMETERS, MAX_ITERATIONS = 60, MAX_ADHESIVE = 25 };
+
+static const double bent_chance = 0.01; /* of a straight baseline that looks as bent */
 
 /* Solves (J'J + damping diag) x = y for several y, columns scaled to 1. */
 static bool solve(const normal_equations *e, double damping, double (*y)[N], size_t n_y)
@@ -95,14 +93,6 @@ static bool minimise(curve_law *m, double p[N], double *cost)
     return expected <= 1e4 * small * *cost;
 }
 
-/* Variance of the mean per sample, v = variance * tau, with the samples that the fit used up. */
-static double long_run_variance(noise_level noise, size_t n, double used)
-{
-    double independent = (double)n / noise.correlation_length;
-    return noise.variance * noise.correlation_length * independent /
-           fmax(independent - used, 1.0 / 3.0 * independent);
-}
-
 static void statistics(const curve_law *m, curve_solution *s)
 {
     const curve_samples *samples = m->samples;
@@ -115,39 +105,27 @@ static void statistics(const curve_law *m, curve_solution *s)
         first++;
     s->first_contact = first;
 
-    double row[N], n_contact = (double)(n - first);
+    double row[N], gain[N] = {0.0};
     s->max_indentation = 0.0;
     for (size_t i = 0; i < n; i++) {
-        w->scratch[i] = w->residual[i] / curve_model_row(m, p, i, row); /* e */
-        s->max_indentation = fmax(s->max_indentation, w->delta[i]);
-    }
-    s->lack = curve_lack_of_fit(m, p, w->scratch);
-
-    noise_level before = noise_estimate(w->scratch, first);
-    noise_level contact = noise_estimate(w->scratch + first, n - first);
-    double v_before = long_run_variance(before, first, 1.0 + (m->free[CURVE_T] ? 1.0 : 0.0));
-    double v_contact = long_run_variance(contact, n - first, 1.0 + (m->free[CURVE_C] ? 1.0 : 0.0));
-    v_before = fmax(v_before, s->lack.long_run);
-    v_contact = fmax(v_contact, v_before);
-    s->noise = sqrt(before.variance);
-    s->effective_n =
-        (double)first / before.correlation_length + n_contact / contact.correlation_length;
-    s->correlation_length = (double)n / s->effective_n;
-
-    normal_equations e;
-    curve_model_normal(m, p, &e);
-    double middle[N][N] = {{0.0}}, gain[N] = {0.0};
-    for (size_t i = 0; i < n; i++) {
-        double h = curve_model_row(m, p, i, row), v = (i < first ? v_before : v_contact) * h * h;
-        for (size_t a = 0; a < N; a++)
-            for (size_t b = 0; b < N; b++)
-                middle[a][b] += v * row[a] * row[b];
-        /* A sensitivity larger by a share u acts like a noise of u times the force. */
-        double f =
+        const double h = curve_model_row(m, p, i, row);
+        const double f =
             samples->force[i] - p[CURVE_F0] - p[CURVE_T] * (samples->position[i] - p[CURVE_C]);
+        w->scratch[i] = w->residual[i] / h; /* e */
+        s->max_indentation = fmax(s->max_indentation, w->delta[i]);
+        /* A sensitivity larger by a share u acts like a noise of u times the force. */
         for (size_t a = 0; a < N; a++)
             gain[a] += row[a] * h * f;
     }
+    s->lack = curve_lack_of_fit(m, p, w->scratch);
+    s->bent = s->lack.baseline_chance < bent_chance;
+    const curve_noise noise = curve_noise_of(m, p, w->scratch, first, s->bent);
+    s->noise = sqrt(noise.variance);
+    s->correlation_length = noise.correlation_length;
+    s->effective_n = (double)n / noise.correlation_length;
+
+    normal_equations e;
+    curve_model_normal(m, p, &e);
     double inverse[N + 1][N] = {{0.0}};
     for (size_t a = 0; a < N; a++)
         inverse[a][a] = 1.0;
@@ -157,7 +135,7 @@ static void statistics(const curve_law *m, curve_solution *s)
         double variance = 0.0;
         for (size_t b = 0; b < N; b++)
             for (size_t c = 0; c < N; c++)
-                variance += inverse[a][b] * middle[b][c] * inverse[a][c];
+                variance += inverse[a][b] * noise.scatter[b][c] * inverse[a][c];
         s->standard_error[a] = !m->free[a] ? 0.0 : solved ? sqrt(variance) : (double)NAN;
     }
     s->sensitivity_gain = solved ? inverse[N][CURVE_E] / p[CURVE_E] : (double)NAN;

@@ -78,8 +78,15 @@ static int add_lossy(const afm_scene *s, const afm_tip *tip, afm_sample *to)
     }
     bad = bad || lossy_forces(tip, &r, poisson, to->spring_constant, base, (size_t)n,
                               (to->time[1] - to->time[0]) / FINE, force, NULL) != 0;
-    for (int i = first; !bad && i < AFM_SAMPLES; i++)
+    afm_scene clean = *s; /* adhesion adds to it what it adds without loss */
+    clean.work = clean.work_out = 0;
+    for (int i = first; !bad && i < AFM_SAMPLES; i++) {
+        const int out = i >= AFM_BRANCH;
         to->force[i] = force[(i - first) * FINE + FINE - 1];
+        if (s->work > 0)
+            to->force[i] += elastic_force(s, tip, to->spring_constant, to->base[i], out) -
+                            elastic_force(&clean, tip, to->spring_constant, to->base[i], out);
+    }
     free(base);
     free(force);
     return bad ? -1 : 0;

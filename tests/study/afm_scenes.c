@@ -1,6 +1,7 @@
 /* Force curves. Fixed before any method was chosen, but IC6 and IV6 (lever, noise), changed when
  * the method before refused them, and IJ7 (modulus, lever), when it was not covered; it still is
- * not. SPDX-License-Identifier: GPL-3.0-or-later */
+ * not. IC7, IC8, IV7, IV8 and IB5 to IB8 were fixed before the spectrum of the noise was.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "afm_scene.h"
 
 #define DESCRIBED RIGHT(YES)
@@ -20,6 +21,10 @@ const afm_scene afm_scenes[] = {
      .kind = NOISE_CORRELATED},
     {NAMED("IC5", "clean, 1/f 0.5 %"), .facts.right = DESCRIBED, .noise = 0.005,
      .kind = NOISE_FLICKER},
+    {NAMED("IC7", "clean, 1/f 2 %"), .facts.right = DESCRIBED, .noise = 0.02,
+     .kind = NOISE_FLICKER},
+    {NAMED("IC8", "clean, 1/f 0.5 %, lever of 0.1 N/m"), .facts.right = DESCRIBED, .noise = 0.005,
+     .kind = NOISE_FLICKER, .spring_constant = 0.1},
     {NAMED("IC6", "clean, white, lever of 0.1 N/m"), .facts.intervals_promised = true,
      .facts.verdict_promised = true, .facts.right = DESCRIBED, .noise = 0.005,
      .spring_constant = 0.1},
@@ -53,6 +58,10 @@ const afm_scene afm_scenes[] = {
     {NAMED("IV6", "tan delta 0.3, correlated 2 %, lever of 0.1 N/m"),
      .facts.intervals_promised = true, .facts.right = EITHER, .noise = 0.02,
      .kind = NOISE_CORRELATED, .loss = LOSS_COLE_COLE, .tan_delta = 0.3, .spring_constant = 0.1},
+    {NAMED("IV7", "tan delta 0.1 with adhesion of 10 mJ/m^2"), .facts.right = EITHER,
+     .noise = 0.005, .loss = LOSS_COLE_COLE, .tan_delta = 0.1, .work = 10e-3, .work_out = 10e-3},
+    {NAMED("IV8", "tan delta 0.3 with adhesion of 10 mJ/m^2 in, 30 out"), .facts.right = EITHER,
+     .noise = 0.005, .loss = LOSS_COLE_COLE, .tan_delta = 0.3, .work = 10e-3, .work_out = 30e-3},
     {NAMED("IL1", "soft layer of 30 nm"), .facts.verdict_promised = true,
      .facts.right = NOT_DESCRIBED, .noise = 0.005, .layer_ratio = 0.5, .layer_thickness = 30e-9},
     {NAMED("IL2", "soft layer of 150 nm"), .facts.verdict_promised = true,
@@ -78,6 +87,13 @@ const afm_scene afm_scenes[] = {
      .noise = 0.005, .drift = 0.05},
     {NAMED("IB4", "detector 10 % short at the largest force"), .facts.verdict_promised = true,
      .facts.right = NOT_DESCRIBED, .noise = 0.005, .saturation = 1},
+    {NAMED("IB5", "bow of 2 nm"), .facts.right = EITHER, .noise = 0.005, .bow = 2e-9},
+    {NAMED("IB6", "bow of 2 nm, correlated 2 %"), .facts.right = EITHER, .noise = 0.02,
+     .kind = NOISE_CORRELATED, .bow = 2e-9},
+    {NAMED("IB7", "detector 3 % short at the largest force"), .facts.right = EITHER, .noise = 0.005,
+     .saturation = 0.3},
+    {NAMED("IB8", "detector 10 % short, correlated 2 %"), .facts.right = EITHER, .noise = 0.02,
+     .kind = NOISE_CORRELATED, .saturation = 1},
     {NAMED("IP1", "spikes in 1 %"), .facts.intervals_promised = true,
      .facts.verdict_promised = true, .facts.right = DESCRIBED, .noise = 0.005, .spikes = 0.01},
     {NAMED("IP2", "spikes in 10 %"), .facts.intervals_promised = true, .facts.right = DESCRIBED,

@@ -100,12 +100,9 @@ static void draw_sample(const track_scene *s, random_source *random, sample *to)
 
 /* ---- as the command is told ------------------------------------------------------------------ */
 
-static const char *spots_words(const track_scene *s, int zone)
+static const char *spots_words(const track_scene *s)
 {
-    if (!s->maps)
-        return "named";
-    return s->spots[zone] > 1 ? "file: each file is a spot, none were named"
-                              : "position: each curve is a spot, none were named";
+    return s->maps ? "file: each file is a spot, none were named" : "named";
 }
 
 /* What weartrack indent would have written. */
@@ -120,7 +117,7 @@ static int write_zone(const track_scene *s, const sample *drawn, int zone, const
     fprintf(file,
             "## spring_constant: %.9g standard_error=%.9g numerical_error=0 unit=N/m\n"
             "## spots: %s\n",
-            k, k * s->lever_error[zone], spots_words(s, zone));
+            k, k * s->lever_error[zone], spots_words(s));
     fputs("# file[text]\tcurve[1]\tspot[text]\tverdict[text]\treason[text]\tmodulus[Pa]\t"
           "contact_point[m]\tnoise[N]\tpiezo_rate[m/s]\tindentation_rate[m/s]\tload_time[s]\t"
           "sensitivity_gain[1]\n",
@@ -128,10 +125,7 @@ static int write_zone(const track_scene *s, const sample *drawn, int zone, const
     for (int i = 0; i < drawn->n[zone]; i++) {
         const curve *c = &drawn->curves[zone][i];
         char where[32];
-        if (s->maps && s->spots[zone] == 1)
-            snprintf(where, sizeof where, "%d,%d", i % 4, i / 4);
-        else
-            snprintf(where, sizeof where, s->maps ? "%s-%d.jpk" : "%s-%d", zones[zone], c->spot);
+        snprintf(where, sizeof where, s->maps ? "%s-%d.jpk" : "%s-%d", zones[zone], c->spot);
         fprintf(file,
                 "%s-%d.jpk\t%d\t%s\taccepted\taccepted\t%.9g\t%.9g\t%.9g\t%.9g\t%.9g\t%.9g\t%.9g\n",
                 zones[zone], c->spot, i, where, bulk_modulus * exp(c->y), c->contact_point,

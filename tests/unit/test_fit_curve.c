@@ -182,14 +182,17 @@ static void intervals_cover_the_truth(void **state)
             "covered: E %d, c %d, offset %d, tilt %d of %d\n",
             t.spring_constant, t.correlation, 100 * bias, 100 * scatter, 100 * errors / CURVES,
             covered[0], covered[1], covered[2], covered[3], CURVES);
+        /* A baseline half as long as the contact does not tell much of waves as long as that. */
+        const bool little = t.spring_constant < 1.0;
         for (int p = 0; p < 4; p++)
-            assert_in_range(covered[p], 0.88 * CURVES, 0.99 * CURVES);
+            assert_in_range(covered[p], 0.88 * CURVES, (little ? 1.0 : 0.99) * CURVES);
         assert_in_range(covered[0], 0.90 * CURVES, 0.99 * CURVES);
-        assert_true(errors / CURVES > 0.85 * scatter && errors / CURVES < 1.25 * scatter);
+        assert_true(errors / CURVES > 0.85 * scatter &&
+                    errors / CURVES < (little ? 1.5 : 1.25) * scatter);
         assert_true(fabs(bias) < 4.0 * scatter / sqrt(CURVES) + 0.1 * scatter);
         assert_near(noise / CURVES, t.noise, 0.05);
         double tau = (1.0 + t.correlation) / (1.0 - t.correlation);
-        assert_near(lengths / CURVES, tau, 0.25);
+        assert_near(lengths / CURVES, tau, little ? 0.5 : 0.25);
         wt_contact_table_free(table);
     }
 }

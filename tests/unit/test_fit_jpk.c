@@ -188,8 +188,8 @@ static void awkward_curves(void **state)
     } cases[] = {
         {"jpk/fmt-jpk-fd_single_bad_2017-01-16_2.jpk-force", WT_CURVE_TOO_SHORT, "1 different"},
         {"jpk/fmt-jpk-fd_single_bad_bead7_2017-04-27.jpk-force", WT_CURVE_TOO_SHORT, "3 different"},
-        {"jpk/fmt-jpk-fd_single_tilted-baseline-drift-mitotic_2021-01-29.jpk-force",
-         WT_CURVE_POOR_FIT, "noise of the baseline"},
+        {"jpk/fmt-jpk-fd_single_tilted-baseline-drift-mitotic_2021-01-29.jpk-force", WT_CURVE_DRIFT,
+         "baseline bent"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         n_answers = 0;
@@ -201,7 +201,7 @@ static void awkward_curves(void **state)
                      answers[0].reason);
     }
     /* The tilt is what the offset-only fit of this curve could not describe: R^2 0.987 there. */
-    assert_true(answers[0].baseline_tilt.value > 100 * answers[0].baseline_tilt.standard_error);
+    assert_true(answers[0].baseline_tilt.value > 10 * answers[0].baseline_tilt.standard_error);
 }
 
 static int set_up(void **state)

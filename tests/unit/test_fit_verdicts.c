@@ -4,6 +4,7 @@
  */
 #include "near.h"
 
+#include "fit/curve.h"
 #include "model/adhesion.h"
 #include "synthetic_curve.h"
 #include "weartrack/fit.h"
@@ -353,6 +354,14 @@ static void too_uncertain(void **state)
     assert_int_equal(fit_with(&t, &options).verdict, WT_CURVE_IMPRECISE);
 }
 
+static void bend(const curve_truth *t, double force)
+{
+    for (size_t i = 0; i < t->n; i++) {
+        const double x = (double)i / (double)t->n;
+        data.force[i] += 4 * force * x * (1 - x);
+    }
+}
+
 /* Another tip, a bent baseline: what R squared lets pass at 0.999 and more. */
 static void not_by_the_noise(void **state)
 {
@@ -362,13 +371,17 @@ static void not_by_the_noise(void **state)
     t.tip.radius = 40e-9;
     t.tip.transition_radius = wt_tip_tangent_transition(t.tip.radius, t.tip.half_angle);
     expect(&t, WT_CURVE_POOR_FIT, "another tip");
+    /* a bend that the residual does not show is in the error */
     t = curve_standard();
     curve_make(&t, 1, &data);
-    for (size_t i = 0; i < t.n; i++) {
-        const double x = (double)i / (double)t.n;
-        data.force[i] += 2e-9 * x * (1 - x);
-    }
-    assert_true(fit_with(&t, NULL).baseline_chance < 0.01);
+    const double straight = fit_with(&t, NULL).modulus.standard_error;
+    bend(&t, 0.1e-9);
+    const wt_indent_fit bent = expect(&t, WT_CURVE_ACCEPTED, "baseline bent: the error holds");
+    assert_true(bent.baseline_chance < 0.01);
+    assert_true(bent.modulus.standard_error > 1.5 * straight);
+    assert_near_abs(bent.modulus.value, t.modulus, 2 * bent.modulus.standard_error);
+    bend(&t, 3e-9);
+    expect(&t, WT_CURVE_DRIFT, "baseline bent");
 }
 
 /* One noisy curve hides what thirty together show. */
@@ -424,6 +437,47 @@ static void adhesive_contact_is_fitted(void **state)
     assert_true(fit.work_of_adhesion.standard_error < 0.003 && fit.tabor_number > 5);
 }
 
+/* A way out that gives back `share` of the force. */
+static double loss_of(const curve_truth *t, double share)
+{
+    static curve_data out;
+    wt_contact_table *table = NULL;
+    wt_indent_fit fit;
+    curve_make(t, 1, &data);
+    for (size_t i = 0; i < t->n; i++) {
+        const size_t j = t->n - 1 - i;
+        const double baseline = t->offset + t->tilt * (data.height[j] - t->height0);
+        out.height[i] = data.height[j];
+        out.force[i] = baseline + share * (data.force[j] - baseline);
+    }
+    const curve_branch in = {data.height, data.force, data.time, t->n};
+    const curve_branch back = {out.height, out.force, NULL, t->n};
+    assert_int_equal(wt_contact_table_new(&t->tip, 1e-11, 1e-4, &table, NULL), WT_OK);
+    assert_int_equal(
+        curve_fit_branches(table, NULL, &in, &back, t->spring_constant, workspace, &fit, NULL),
+        WT_OK);
+    wt_contact_table_free(table);
+    return fit.loss;
+}
+
+/* The lever takes most of the work. What is lost of all of it may be more than the sample had: that
+ * is no loss of the sample. */
+static void loss_of_the_sample(void **state)
+{
+    (void)state;
+    curve_truth t = curve_standard();
+    t.spring_constant = 0.1;
+    t.travel = 900e-9;
+    t.contact_point = 296.37e-9;
+    const double z = t.travel - t.contact_point, top = curve_contact_force(&t, z);
+    double work = 0.0, lever = 0.5 * top * top / t.spring_constant;
+    for (int i = 0; i < 1000; i++)
+        work += curve_contact_force(&t, z * (i + 0.5) / 1000) * z / 1000;
+    assert_true((work - lever) / work < 0.25);
+    assert_near(loss_of(&t, 0.97), 0.03 * work / (work - lever), 0.05);
+    assert_true(isnan(loss_of(&t, 0.7)));
+}
+
 static void names_of_verdicts(void **state)
 {
     (void)state;
@@ -460,6 +514,7 @@ int main(void)
         cmocka_unit_test(not_by_the_noise),
         cmocka_unit_test(curves_together),
         cmocka_unit_test(adhesive_contact_is_fitted),
+        cmocka_unit_test(loss_of_the_sample),
         cmocka_unit_test(wrong_way),
         cmocka_unit_test(too_stiff_for_the_lever),
         cmocka_unit_test(snap_on_is_left_out),

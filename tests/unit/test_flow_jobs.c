@@ -171,7 +171,15 @@ static void test_spots(void **state)
     wt_group_data none = {0};
     assert_int_equal(wt_group_from_table(NULL, false, &none, NULL), WT_E_ARG);
     const wt_file_set single = files(one, 1, NULL);
-    check_spots(&single, 1, "position", 1); /* a map */
+    check_spots(&single, 1, "file", 1); /* a map is one place, unless its places are to count */
+    wt_table *map = fit(&single, 1, 1, false);
+    wt_group_data places = {0};
+    assert_int_equal(wt_group_from_table(map, true, &places, NULL), WT_OK);
+    assert_true(places.group.n > 1);
+    for (size_t i = 0; i < places.group.n; i++)
+        assert_int_equal(places.spot[i], (long)i);
+    wt_group_data_clear(&places);
+    wt_table_free(map);
 }
 
 /* ---- comparison ------------------------------------------------------------------------------ */

@@ -413,12 +413,46 @@ static void test_warmer(void **state)
     assert_non_null(strstr(includes, "temperatures"));
 }
 
+static const char *includes_of(wt_compare_job job)
+{
+    wt_job common = wt_job_defaults();
+    wt_compare_tables_clear(&tables);
+    job.bulk = bulk_table;
+    job.track = track_table;
+    assert_int_equal(wt_compare_groups(&job, &common, &tables, NULL), WT_OK);
+    return wt_table_key(tables.comparison, "interval_includes");
+}
+
+/* An error that cannot be had is named; one that can is not lost to a default beside it. */
+static void test_not_known(void **state)
+{
+    (void)state;
+    static double tau = 1e-3, term = 6e6;
+    const wt_rubber rubber = rubber_of(&tau, &term);
+    const double scatter = SCATTER * (spread[0] + spread[1]) / 2 * sqrt(2.0 / SPOTS);
+    compare(RATIO, (double)NAN);
+    wt_compare_job job = wt_compare_job_defaults();
+    assert_null(strstr(includes_of(job), "sensitivity"));
+    job.sensitivity_error = 0.05; /* and no curve says what it does to the modulus */
+    assert_non_null(strstr(includes_of(job), "but not, for it is not known: deflection "
+                                             "sensitivity"));
+    job = wt_compare_job_defaults();
+    job.rubber = &rubber; /* the bulk is at its reference temperature by default */
+    job.track_temperature = (wt_estimate){303.15, 0.5, 0, "K"};
+    job.temperature_slope = (wt_estimate){-0.02, 0.004, 0, "1/K"};
+    assert_non_null(strstr(includes_of(job), "temperatures"));
+    assert_near(key_estimate(tables.comparison, "modulus_ratio").value, RATIO * exp(0.2), 1e-9);
+    assert_near(key_estimate(tables.comparison, "modulus_ratio").standard_error,
+                RATIO * exp(0.2) * hypot(scatter, hypot(0.02 * 0.5, 0.004 * 10)), 1e-9);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_comparison), cmocka_unit_test(test_verdict),
         cmocka_unit_test(test_groups),     cmocka_unit_test(test_rates),
         cmocka_unit_test(test_dma),        cmocka_unit_test(test_warmer),
+        cmocka_unit_test(test_not_known),
     };
     return cmocka_run_group_tests_name("comparison of known truth", tests, NULL, clean);
 }

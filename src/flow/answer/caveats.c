@@ -68,13 +68,11 @@ static const char *spots_caveat(const answer_story *story, const char *spots)
 {
     if (spots == NULL || strncmp(spots, "named", 5) == 0)
         return NULL;
-    if (strncmp(spots, "position", 8) != 0)
-        return "curves without a named spot count as one spot for each file: if some files are of "
-               "one place, they are not independent and the intervals are too narrow";
     return story->c->compare.map_spots
-               ? "curves of one file count as a spot each, as the case says: if their places are "
-                 "near to each other, the intervals are too narrow"
-               : "curves of one file count as one spot, for none is named";
+               ? "curves without a named spot count as a spot for each place, as the case says: if "
+                 "places are near to each other, the intervals are too narrow"
+               : "curves without a named spot count as one spot for each file: if some files are "
+                 "of one place, they are not independent and the intervals are too narrow";
 }
 
 /* What is true of both groups is said once. */

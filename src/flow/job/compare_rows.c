@@ -166,8 +166,6 @@ static const char *unit_words(const compare_pair *p, const wt_compare_job *job,
         return "spot";
     if (job->map_spots)
         return "spot: each place of a map counts as one";
-    if (p->data[0].one_map || p->data[1].one_map)
-        return "spot: a file of curves without named spots counts as one";
     return "spot: each file counts as one where none were named";
 }
 

@@ -109,15 +109,15 @@ static bool judge_error(const compare_pair *p, const wt_compare_job *job, const 
     const wt_comparison *c = &row->c;
     if (c->unsettled == WT_ONE_SPOT) {
         const bool both = c->n_bulk < 2 && c->n_track < 2;
-        const bool map = (c->n_bulk < 2 && p->data[0].one_map && !job->map_spots) ||
-                         (c->n_track < 2 && p->data[1].one_map && !job->map_spots);
+        const bool file = (c->n_bulk < 2 && !p->data[0].spots_given && !job->map_spots) ||
+                          (c->n_track < 2 && !p->data[1].spots_given && !job->map_spots);
         SAY(v->differs,
             "cannot say: %s measured on one spot only%s, so it is not known how much the modulus "
             "changes from place to place",
             both            ? "bulk and track were each"
             : c->n_bulk < 2 ? "the bulk was"
                             : "the track was",
-            map ? " (the curves of one file, none of them with a named spot)" : "");
+            file ? " (the curves of one file, none of them with a named spot)" : "");
         ask_for_spots(job, c, v);
         return true;
     }

@@ -12,7 +12,7 @@
 
 typedef struct named {
     const char *spot;
-    double x, y; /* the place, where that is a spot of its own; else 0 */
+    double x, y; /* the place, where that counts as a spot; else 0 */
     size_t item;
 } named;
 
@@ -36,8 +36,8 @@ static int by_name(const void *a, const void *b)
     return order != 0 ? order : (x->item > y->item) - (x->item < y->item);
 }
 
-/* Numbers the spots in the order of their first appearance. A map has a spot for each curve, so
- * equal names are found by sorting. */
+/* Numbers the spots in the order of their first appearance. There may be one for each curve, so
+ * equal ones are found by sorting. */
 static void number_spots(named *names, size_t n, long *spot)
 {
     long next = 0;
@@ -136,26 +136,27 @@ static wt_status find_rows(const table_view *t, wt_group_data *d, size_t *row_of
     return WT_OK;
 }
 
-/* How its spots were found: the words of the table. */
+/* How its spots were found: the words of the table; one without is not of this program. */
 static void note_spots(const table_view *t, wt_group_data *d)
 {
     const char *spots = indentation_words(t, INDENTATION_KEY_SPOTS);
-    d->spots_given = spots != NULL && strncmp(spots, "named", 5) == 0;
-    d->one_map = spots != NULL && strncmp(spots, "position", 8) == 0;
+    d->spots_given =
+        spots != NULL ? strncmp(spots, "named", 5) == 0 : indentation_has(t, INDENTATION_SPOT);
 }
 
-/* The spot of an accepted curve. The curves of one map are one, or `each_place` its own, unless the
- * user named the spots. */
+/* The spot of an accepted curve; with `each_place` a place in it, unless the user named the spots.
+ */
 static named name_of(const table_view *t, size_t row, size_t item, bool each_place,
                      const wt_group_data *d)
 {
-    const bool whole = d->one_map && !each_place;
-    named n = {whole ? "" : indentation_text(t, row, INDENTATION_SPOT), 0, 0, item};
-    const double x = indentation_get(t, row, INDENTATION_X),
-                 y = indentation_get(t, row, INDENTATION_Y);
-    if (each_place && !d->spots_given && isfinite(x) && isfinite(y)) {
-        n.x = x;
-        n.y = y;
+    named n = {indentation_text(t, row, INDENTATION_SPOT), 0, 0, item};
+    if (!each_place || d->spots_given)
+        return n;
+    n.x = indentation_get(t, row, INDENTATION_X);
+    n.y = indentation_get(t, row, INDENTATION_Y);
+    if (!isfinite(n.x) || !isfinite(n.y)) { /* a place that is not known is its own */
+        n.x = indentation_get(t, row, INDENTATION_CURVE);
+        n.y = 0;
     }
     return n;
 }

@@ -41,7 +41,7 @@ typedef struct indent_task {
     const wt_indent_job *job;
     const wt_job *work;
     flow_file *file;
-    const char *spot; /* of the set or the file; NULL = by position */
+    const char *spot; /* of the set, or the file */
     wt_contact_table *contact;
     wt_indent_workspace **scratch; /* [n_workers] */
     unsigned n_workers;
@@ -190,15 +190,10 @@ static void put_item(indent_task *task, const item *it)
     const double unknown = (double)NAN;
     const double frequency = rates ? equivalent_frequency(task->job, fit) : unknown;
     table_writer *t = &task->rows;
-    char place[64];
-    if (it->curve.grid_x >= 0 && it->curve.grid_y >= 0)
-        snprintf(place, sizeof place, "%ld,%ld", it->curve.grid_x, it->curve.grid_y);
-    else
-        snprintf(place, sizeof place, "curve %zu", it->curve.index);
     table_row(t);
     indentation_put_text(t, INDENTATION_FILE, task->file->name);
     indentation_put(t, INDENTATION_CURVE, (double)it->curve.index);
-    indentation_put_text(t, INDENTATION_SPOT, task->spot != NULL ? task->spot : place);
+    indentation_put_text(t, INDENTATION_SPOT, task->spot);
     indentation_put(t, INDENTATION_X, it->curve.x);
     indentation_put(t, INDENTATION_Y, it->curve.y);
     indentation_put_text(t, INDENTATION_VERDICT, wt_curve_verdict_id(fit->verdict));
@@ -323,9 +318,7 @@ static wt_status read_files(indent_task *task, const flow_files *files, wt_error
     for (size_t i = 0; status == WT_OK && i < files->n; i++) {
         wt_error failure = WT_ERROR_INIT;
         task->file = &files->file[i];
-        task->spot = task->file->set->spot;
-        if (task->spot == NULL && files->n > 1)
-            task->spot = task->file->name;
+        task->spot = task->file->set->spot != NULL ? task->file->set->spot : task->file->name;
         task->n_items = 0;
         status = read_file(task, &failure);
         if (status != WT_OK) {
@@ -427,8 +420,7 @@ static void set_keys(indent_task *task, const flow_files *files)
     if (named == files->n)
         spots = "named";
     else if (named == 0)
-        spots = files->n > 1 ? "file: each file is a spot, none were named"
-                             : "position: each curve is a spot, none were named";
+        spots = "file: each file is a spot, none were named";
     wt_tip_describe(&job->tip, tip, sizeof tip);
     indentation_set_text(t, INDENTATION_KEY_TIP, tip);
     indentation_set_print(t, INDENTATION_KEY_POISSON_RATIO, "%g", job->options.poisson_ratio);
