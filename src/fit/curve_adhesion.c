@@ -24,6 +24,8 @@ enum { MAX_ROUNDS = 3 };
 
 /* Of the work: less than that is piezo and noise. */
 static const double least_loss = 0.03;
+/* With adhesion: beyond it the shape of loss stands for what the work of adhesion should. */
+static const double most_loss = 0.5;
 
 /* ---- snap-on --------------------------------------------------------------------------------- */
 
@@ -245,7 +247,8 @@ static bool try_adhesive(curve_fitting *f, double pull, size_t jump)
 void curve_allow_loss(curve_fitting *f)
 {
     const bool pull_left_out = f->snap_on > 0.0 && !f->kind.adhesive;
-    if (curve_fits(f) || pull_left_out || !(f->loss > least_loss))
+    if (curve_fits(f) || pull_left_out || !(f->loss > least_loss) ||
+        (f->kind.adhesive && f->loss > most_loss))
         return;
     f->kind.lossy = true;
     refine(f, &f->solution);
