@@ -183,24 +183,6 @@ double curve_model_complete(curve_law *m, const double p[N])
     return evaluate(m, p, 0);
 }
 
-double curve_model_factor(const curve_law *m, const double p[N], size_t i)
-{
-    return 1.0 + p[CURVE_E] * m->workspace->slope[i] / m->samples->spring_constant;
-}
-
-double curve_model_row(const curve_law *m, const double p[N], size_t i, double row[N])
-{
-    const wt_indent_workspace *w = m->workspace;
-    double h = curve_model_factor(m, p, i), stiffness = p[CURVE_E] * w->slope[i];
-    double plain = m->plain ? h : 1.0, balanced = m->plain ? 1.0 : 1.0 / h;
-    row[CURVE_E] = (m->adhesive ? w->by_modulus[i] : w->g[i]) * balanced;
-    row[CURVE_C] = m->free[CURVE_C] ? -p[CURVE_T] * plain - stiffness * balanced : 0.0;
-    row[CURVE_F0] = plain;
-    row[CURVE_T] = m->free[CURVE_T] ? (m->samples->position[i] - p[CURVE_C]) * plain : 0.0;
-    row[CURVE_W] = m->adhesive ? w->by_work[i] * balanced : 0.0;
-    return plain;
-}
-
 /* Of the first n parameters. */
 static inline void add_row(normal_equations *e, const double row[N], double r, size_t n)
 {

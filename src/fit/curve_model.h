@@ -35,10 +35,6 @@ void curve_model_normal(const curve_law *model, const double p[CURVE_N_PARAMETER
                         normal_equations *equations);
 /* Evaluates all samples one by one, those of the baseline too. */
 double curve_model_complete(curve_law *model, const double p[CURVE_N_PARAMETERS]);
-/* Derivatives of the modelled force of sample i; 0 where a parameter is not free. Returns what the
- * residual makes of a noise of 1. */
-double curve_model_row(const curve_law *model, const double p[CURVE_N_PARAMETERS], size_t i,
-                       double row[CURVE_N_PARAMETERS]);
 /* Of the residuals e, those of the noise, at the parameters of the latest evaluation. */
 curve_lack curve_lack_of_fit(const curve_law *model, const double p[CURVE_N_PARAMETERS],
                              const double *e);
@@ -53,6 +49,26 @@ typedef struct curve_noise {
 curve_noise curve_noise_of(const curve_law *model, const double p[CURVE_N_PARAMETERS],
                            const double *e, size_t first, bool bent);
 /* h = 1 + S/k of sample i. */
-double curve_model_factor(const curve_law *model, const double p[CURVE_N_PARAMETERS], size_t i);
+static inline double curve_model_factor(const curve_law *m, const double p[CURVE_N_PARAMETERS],
+                                        size_t i)
+{
+    return 1.0 + p[CURVE_E] * m->workspace->slope[i] / m->samples->spring_constant;
+}
+
+/* Derivatives of the modelled force of sample i; 0 where a parameter is not free. Returns what the
+ * residual makes of a noise of 1. */
+static inline double curve_model_row(const curve_law *m, const double p[CURVE_N_PARAMETERS],
+                                     size_t i, double row[CURVE_N_PARAMETERS])
+{
+    const wt_indent_workspace *w = m->workspace;
+    double h = curve_model_factor(m, p, i), stiffness = p[CURVE_E] * w->slope[i];
+    double plain = m->plain ? h : 1.0, balanced = m->plain ? 1.0 : 1.0 / h;
+    row[CURVE_E] = (m->adhesive ? w->by_modulus[i] : w->g[i]) * balanced;
+    row[CURVE_C] = m->free[CURVE_C] ? -p[CURVE_T] * plain - stiffness * balanced : 0.0;
+    row[CURVE_F0] = plain;
+    row[CURVE_T] = m->free[CURVE_T] ? (m->samples->position[i] - p[CURVE_C]) * plain : 0.0;
+    row[CURVE_W] = m->adhesive ? w->by_work[i] * balanced : 0.0;
+    return plain;
+}
 
 #endif

@@ -20,7 +20,7 @@ enum {
     BLOCKS = 512,    /* most of all */
     FINE = 192,      /* of the baseline, for its spectrum */
     LEAST = 16,      /* of these */
-    WAVES = 96,      /* looked at one by one; faster ones together */
+    WAVES = 64,      /* looked at one by one; faster ones together */
     SLOW = 8,        /* waves of the contact whose misfit counts */
     PER_OCTAVE = 4,
     POWERS = 4,
@@ -31,7 +31,6 @@ enum {
 typedef struct block_sums {
     size_t n, before, length; /* blocks, those before contact, samples in one */
     double e[BLOCKS], z[BLOCKS], column[N][BLOCKS]; /* means of residual and position, sums of J */
-    double square[N][N], inside; /* of J and e: squares within the blocks, variance there */
 } block_sums;
 
 /* Variance of a unit wave of means over `length` samples, by its frequency: 1 is half a cycle for
@@ -75,18 +74,26 @@ static double variance_of(const spectrum *s, double k, size_t n, size_t length)
     return part * s->density[band_of(part * k / (double)n)];
 }
 
-/* Unit cosine k of n blocks. */
-static void make_wave(size_t k, size_t n, double *wave)
+/* How much of unit cosine k of n blocks there is in each of n_x. */
+static inline void find_wave(size_t k, size_t n, const double (*x)[BLOCKS], size_t n_x,
+                             double *along)
 {
     const double angle = M_PI * (double)k / (double)n, twice = 2.0 * cos(angle);
     double before = cos(0.5 * angle), now = before;
     const double scale = sqrt((k > 0 ? 2.0 : 1.0) / (double)n);
-    for (size_t i = 0; i < n; i++) {
-        wave[i] = scale * now;
+    double sum[N] = {0.0};
+    const double mirror = k % 2 == 0 ? 1.0 : -1.0; /* the second half of the wave */
+    for (size_t i = 0; i < n / 2; i++) {
+        for (size_t c = 0; c < n_x; c++)
+            sum[c] += now * (x[c][i] + mirror * x[c][n - 1 - i]);
         const double next = twice * now - before;
         before = now;
         now = next;
     }
+    for (size_t c = 0; c < n_x && n % 2 == 1 && k % 2 == 0; c++)
+        sum[c] += now * x[c][n / 2];
+    for (size_t c = 0; c < n_x; c++)
+        along[c] = scale * sum[c];
 }
 
 static double dot(const double *a, const double *b, size_t n)
@@ -131,39 +138,28 @@ static void average(const curve_law *m, const double p[N], const double *e, size
     b->before = first > start ? (first - start) / b->length : 0;
     const double share = 1.0 / (double)b->length;
     for (size_t i = 0; i < b->n; i++) {
-        double sum = 0.0, sum2 = 0.0;
         for (size_t j = start + i * b->length; j < start + (i + 1) * b->length; j++) {
             double row[N];
             const double h = curve_model_row(m, p, j, row);
-            sum += e[j];
-            sum2 += e[j] * e[j];
+            b->e[i] += e[j] * share;
             b->z[i] += s->position[j] * share;
-            for (size_t c = 0; c < N; c++) {
+            for (size_t c = 0; c < N; c++)
                 b->column[c][i] += row[c] * h;
-                for (size_t d = 0; d <= c; d++)
-                    b->square[c][d] += row[c] * row[d] * h * h;
-            }
         }
-        b->e[i] = sum * share;
-        b->inside += sum2 - sum * sum * share;
     }
-    for (size_t c = 0; c < N; c++)
-        for (size_t d = 0; d <= c; d++)
-            b->square[c][d] -= share * dot(b->column[c], b->column[d], b->n);
-    if (b->length > 1)
-        b->inside /= (double)(b->n * (b->length - 1));
 }
 
 /* The mean spectrum of n residuals x, each the mean of some samples. False if there is nothing. */
-static bool find_spectrum(const noise_shapes *shapes, const double *x, size_t n, spectrum *to)
+static bool find_spectrum(const noise_shapes *shapes, const double x[BLOCKS], size_t n,
+                          spectrum *to)
 {
-    double power[NOISE_BANDS] = {0.0}, count[NOISE_BANDS] = {0.0}, wave[BLOCKS];
+    double power[NOISE_BANDS] = {0.0}, count[NOISE_BANDS] = {0.0};
     double chance[NOISE_SHAPES], level[NOISE_SHAPES], best = -(double)INFINITY, all = 0.0;
     const double waves = (double)n - 2.0; /* an offset and a tilt are not in x */
     double *const density = to->density, rest = dot(x, x, n);
     for (size_t k = 0; k < n && k <= WAVES; k++) {
-        make_wave(k, n, wave);
-        const double along = dot(wave, x, n);
+        double along;
+        find_wave(k, n, (const double(*)[BLOCKS])x, 1, &along);
         rest -= along * along;
         if (k < 2)
             continue;
@@ -211,10 +207,11 @@ static bool find_spectrum(const noise_shapes *shapes, const double *x, size_t n,
 static double slow_misfit(const block_sums *b, const spectrum *s)
 {
     const size_t n = b->n - b->before;
-    double wave[BLOCKS], sum = 0.0, waves = 0.0;
+    double rest[1][BLOCKS], sum = 0.0, waves = 0.0;
+    memcpy(rest[0], b->e + b->before, n * sizeof rest[0][0]);
     for (size_t k = 1; k <= SLOW && k < n; k++) {
-        make_wave(k, n, wave);
-        const double along = dot(wave, b->e + b->before, n);
+        double along;
+        find_wave(k, n, (const double(*)[BLOCKS])rest, 1, &along);
         sum += along * along / variance_of(s, (double)k, n, b->length);
         waves += 1.0;
     }
@@ -224,19 +221,16 @@ static double slow_misfit(const block_sums *b, const spectrum *s)
 /* to = J' (covariance of the noise) J. */
 static void sum_waves(const block_sums *b, const spectrum *s, double to[N][N])
 {
-    double wave[BLOCKS], along[N], left[N][N];
+    double along[N], left[N][N];
     size_t k = 0;
     for (size_t c = 0; c < N; c++)
-        for (size_t d = 0; d <= c; d++)
+        for (size_t d = 0; d <= c; d++) {
             left[c][d] = dot(b->column[c], b->column[d], b->n);
-    for (size_t c = 0; c < N; c++)
-        for (size_t d = 0; d <= c; d++)
-            to[c][d] = b->inside * b->square[c][d];
+            to[c][d] = 0.0;
+        }
     for (; k < b->n && k <= WAVES; k++) {
         const double level = variance_of(s, k > 0 ? (double)k : 0.5, b->n, b->length);
-        make_wave(k, b->n, wave);
-        for (size_t c = 0; c < N; c++)
-            along[c] = dot(wave, b->column[c], b->n);
+        find_wave(k, b->n, (const double(*)[BLOCKS])b->column, N, along);
         for (size_t c = 0; c < N; c++)
             for (size_t d = 0; d <= c; d++) {
                 to[c][d] += level * along[c] * along[d];
@@ -254,7 +248,7 @@ static void sum_waves(const block_sums *b, const spectrum *s, double to[N][N])
 static bool read_baseline(const curve_law *m, const double *e, size_t first, block_sums *b,
                           bool bent, double *bow, spectrum *to)
 {
-    double x[FINE], z[FINE + BLOCKS], square[FINE + BLOCKS];
+    double x[BLOCKS], z[FINE + BLOCKS], square[FINE + BLOCKS];
     const size_t length = (first + FINE - 1) / FINE, n = length > 0 ? first / length : 0;
     if (n < LEAST)
         return false;
