@@ -106,6 +106,8 @@ typedef struct wt_indent_fit {
                                     the baseline is too short to say */
     double lack_of_fit_chance;   /* of more by noise alone */
     double baseline_chance;      /* that a straight baseline departs as much from a line */
+    double bend_shift;           /* what the same bend in contact adds to E [Pa]; 0: a baseline that
+                                    is straight, as far as its noise tells */
     double misfit[WT_CURVE_WAVES]; /* cosines of the residual over the contact, of max_force */
     double max_force;              /* [N] above the baseline */
     double max_indentation;        /* [m] */

@@ -133,6 +133,7 @@ typedef struct curve_solution {
     double standard_error[CURVE_N_PARAMETERS];
     double cost;
     double sensitivity_gain;
+    double bend_shift;    /* of the reduced modulus, if a bent baseline goes on in contact */
     size_t first_contact; /* samples before it are baseline */
     double max_indentation;
     double noise, correlation_length;

@@ -158,6 +158,7 @@ void curve_fit_empty(wt_indent_fit *fit)
                            .lack_of_fit = nan_,
                            .lack_of_fit_chance = nan_,
                            .baseline_chance = nan_,
+                           .bend_shift = nan_,
                            .max_force = nan_,
                            .max_indentation = nan_,
                            .adhesion_force = nan_,
@@ -216,6 +217,7 @@ static void report(curve_fitting *f, wt_indent_fit *fit)
     fit->lack_of_fit = s->lack.statistic;
     fit->lack_of_fit_chance = s->lack.chance;
     fit->baseline_chance = s->lack.baseline_chance;
+    fit->bend_shift = reduced * s->bend_shift;
     fit->max_indentation = s->max_indentation;
     fit->sensitivity_gain = s->sensitivity_gain;
     fit->n_fitted = samples->n;

@@ -272,7 +272,7 @@ curve_noise curve_noise_of(const curve_law *m, const double p[N], const double *
 {
     block_sums b;
     spectrum s;
-    double bow[BLOCKS] = {0.0}, bent_by[N];
+    double bow[BLOCKS] = {0.0};
     curve_noise noise = {.variance = 0.0, .correlation_length = 1.0};
     average(m, p, e, first, &b);
     for (size_t i = 0; i < first; i++)
@@ -291,14 +291,14 @@ curve_noise curve_noise_of(const curve_law *m, const double p[N], const double *
     /* What the law misses shows in contact; a little of it is chance. */
     const double more = sqrt(fmax(1.0, m->lossy ? misfit : 0.5 * (misfit + 1.0)));
     for (size_t c = 0; c < N; c++) {
-        bent_by[c] = dot(b.column[c], bow, b.n);
+        noise.bend[c] = dot(b.column[c], bow, b.n);
         for (size_t i = b.before; i < b.n; i++)
             b.column[c][i] *= more;
     }
     sum_waves(&b, &s, noise.scatter);
     for (size_t c = 0; c < N; c++)
         for (size_t d = 0; d <= c; d++) {
-            noise.scatter[c][d] += bent_by[c] * bent_by[d];
+            noise.scatter[c][d] += noise.bend[c] * noise.bend[d];
             noise.scatter[d][c] = noise.scatter[c][d];
         }
     return noise;

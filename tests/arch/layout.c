@@ -69,7 +69,7 @@ LAST(wt_extrapolation, WT_EXTRAPOLATE_SLOPE, 1)
 
 /* fit.h */
 ROOM(wt_indent_options, plain_least_squares, 56, 120)
-FIXED(wt_indent_fit, n_fitted, 536, 544)
+FIXED(wt_indent_fit, n_fitted, 544, 552)
 FIXED(wt_curve_pool, chance, 16, 24)
 ROOM(wt_group, n_rejected, 40, 96)
 FIXED(wt_group_summary, median, 72, 80)

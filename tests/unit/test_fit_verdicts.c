@@ -380,6 +380,8 @@ static void not_by_the_noise(void **state)
     assert_true(bent.baseline_chance < 0.01);
     assert_true(bent.modulus.standard_error > 1.5 * straight);
     assert_near_abs(bent.modulus.value, t.modulus, 2 * bent.modulus.standard_error);
+    assert_near_abs(bent.modulus.value - t.modulus, bent.bend_shift, 4 * straight);
+    assert_true(bent.bend_shift < -straight);
     bend(&t, 3e-9);
     expect(&t, WT_CURVE_DRIFT, "baseline bent");
 }

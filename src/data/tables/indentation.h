@@ -34,6 +34,9 @@
       NUMBER, OPTIONAL)                                                                            \
     X(INDENTATION_BASELINE_CHANCE, "baseline_chance",                                              \
       "chance that a straight baseline departs as much from a line", NUMBER, OPTIONAL)             \
+    X(INDENTATION_BEND_SHIFT, "bend_shift",                                                        \
+      "what the bend of the baseline adds to the modulus if it goes on in contact; 0: straight",   \
+      SI(MODULUS), OPTIONAL)                                                                       \
     X(INDENTATION_MAX_FORCE, "max_force", "largest force above the baseline", SI(FORCE), OPTIONAL) \
     X(INDENTATION_MAX_INDENTATION, "max_indentation", "largest indentation", SI(INDENTATION),      \
       OPTIONAL)                                                                                    \

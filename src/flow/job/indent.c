@@ -35,6 +35,7 @@ typedef struct accepted {
     const flow_file *file;
     size_t curve, order;
     double misfit[WT_CURVE_WAVES];
+    double bend_shift; /* of the modulus */
 } accepted;
 
 typedef struct indent_task {
@@ -163,7 +164,8 @@ static wt_status keep_modulus(indent_task *task, const item *it, wt_error *err)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     task->moduli = moduli;
     task->moduli[task->n_moduli] =
-        (accepted){it->fit.modulus.value, task->file, it->curve.index, task->n_moduli, {0}};
+        (accepted){it->fit.modulus.value, task->file, it->curve.index,
+                   task->n_moduli,        {0},        it->fit.bend_shift / it->fit.modulus.value};
     memcpy(task->moduli[task->n_moduli].misfit, it->fit.misfit, sizeof it->fit.misfit);
     task->n_moduli++;
     return WT_OK;
@@ -208,6 +210,7 @@ static void put_item(indent_task *task, const item *it)
     indentation_put(t, INDENTATION_LACK_OF_FIT, fit->lack_of_fit);
     indentation_put(t, INDENTATION_LACK_OF_FIT_CHANCE, fit->lack_of_fit_chance);
     indentation_put(t, INDENTATION_BASELINE_CHANCE, fit->baseline_chance);
+    indentation_put(t, INDENTATION_BEND_SHIFT, fit->bend_shift);
     indentation_put(t, INDENTATION_MAX_FORCE, fit->max_force);
     indentation_put(t, INDENTATION_MAX_INDENTATION, fit->max_indentation);
     indentation_put(t, INDENTATION_ADHESION_FORCE, fit->adhesion_force);
@@ -381,6 +384,26 @@ static wt_status add_representative(indent_task *task, wt_indent_tables *tables,
 
 /* ---- all curves together --------------------------------------------------------------------- */
 
+/* A bend that most baselines have is that of the piezo: it moves all moduli alike, and their
+ * scatter does not show it. */
+static void warn_bend(const indent_task *task)
+{
+    double sum = 0;
+    size_t n = 0;
+    for (size_t i = 0; i < task->n_moduli; i++)
+        if (fabs(task->moduli[i].bend_shift) > 0) {
+            sum += task->moduli[i].bend_shift;
+            n++;
+        }
+    if (2 * n > task->n_moduli)
+        wt_parselog_add(
+            task->work->log, WT_WARNING, NULL, NULL,
+            "%s: the baseline of %zu of %zu accepted curves is bent; a piezo that goes on "
+            "so in contact changes these moduli by %+.2g %% in the mean, which their "
+            "scatter does not show",
+            task->job->group, n, task->n_moduli, 100 * sum / (double)n);
+}
+
 /* Tests the mean residual of the accepted curves. */
 static wt_status pool_curves(indent_task *task, wt_error *err)
 {
@@ -503,6 +526,7 @@ wt_status wt_indent_group(const wt_indent_job *job, const wt_job *work, wt_inden
     }
     task.rows.err = err; /* that of the last row was the error of its file */
     set_keys(&task, &files);
+    warn_bend(&task);
     status = pool_curves(&task, err);
     if (status == WT_OK && job->curves && task.n_moduli > 0)
         status = add_representative(&task, tables, err);
