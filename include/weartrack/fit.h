@@ -79,7 +79,11 @@ typedef struct wt_indent_options {
      * measured indentation, as most programs do, for comparison with them; biased where the contact
      * is much stiffer than the lever. */
     bool plain_least_squares;
-    uint64_t reserved[7];
+    /* Relaxation spectrum of the rubber in Young's moduli at the temperature of the curve,
+     * borrowed; NULL (default): not known. With it a factor on it is fitted by the hereditary
+     * integral, and the modulus is that factor times |E*| at 1/load_time. */
+    const wt_prony *spectrum;
+    uint64_t reserved[6];
 } wt_indent_options;
 WT_API wt_indent_options wt_indent_defaults(void);
 WT_API const wt_params *wt_indent_params(void);
@@ -125,9 +129,10 @@ typedef struct wt_indent_fit {
     double sensitivity_gain; /* d ln E / d ln sensitivity of this fit, contact point and baseline
                                 fitted anew: 15.6 means 1 % gives 15.6 %. Of a single point at
                                 known contact it would be 1 + (contact stiffness)/k */
-    double direction;        /* +1: the height rises into the sample, -1: it falls */
-    size_t contact_index;    /* sample of the contact point in the approach */
-    size_t n_fitted;         /* samples used */
+    wt_estimate spectrum_factor; /* modulus over |E*| of the spectrum; NaN without one, or times */
+    double direction;            /* +1: the height rises into the sample, -1: it falls */
+    size_t contact_index;        /* sample of the contact point in the approach */
+    size_t n_fitted;             /* samples used */
 } wt_indent_fit;
 
 /* Scratch for curves of any length; one per thread. */

@@ -85,10 +85,12 @@ typedef struct wt_indent_job {
     size_t n_sets;
     wt_tip tip;
     wt_indent_options options;
-    wt_estimate spring_constant; /* for the table's key when given; value NaN: as in the files */
-    bool rates;                  /* decode what tells the time (piezo and indentation rate) */
-    bool curves;                 /* representative curves for the figures */
-    uint64_t reserved[8];
+    wt_estimate spring_constant;    /* for the table's key when given; value NaN: as in the files */
+    bool rates;                     /* decode what tells the time (piezo and indentation rate) */
+    bool curves;                    /* representative curves for the figures */
+    const struct wt_rubber *rubber; /* a factor on its spectrum is fitted; NULL = none (default) */
+    wt_estimate temperature;        /* of the curves [K]; NaN = the rubber's reference */
+    uint64_t reserved[3];
 } wt_indent_job;
 WT_API wt_indent_job wt_indent_job_defaults(void);
 WT_API const wt_params *wt_indent_job_params(void);
@@ -124,6 +126,7 @@ typedef struct wt_group_data {
     long *spot;
     double *indentation_rate;     /* [n] m/s, NaN if unknown */
     double *equivalent_frequency; /* [n] rad/s, NaN if unknown */
+    double *spectrum_factor;      /* [n] on the spectrum of the DMA, NaN if unknown */
     wt_curve_digest *digest;      /* [n_digests] of the curves, rising */
     size_t n_digests, n_copies;   /* how many were left out as copies */
     const char *copy_of[2];       /* files of the first copy; borrowed from the table */

@@ -1,6 +1,17 @@
 /* weartrack indent: contact point and modulus of every force curve.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cmd/cmd.h"
+#include "cmd/tables.h"
+
+typedef struct own_options {
+    const char *master;
+} own_options;
+
+static const wt_param rows[] = {
+    {PARAM_TEXT_OF("master", own_options, master), .value = "FILE", .unset = "",
+     .help = "output of weartrack master: a factor on its relaxation spectrum is fitted, so that "
+             "curves of all rates are comparable"},
+};
+CMD_OPTIONS(own_params, own_options, rows)
 
 int cmd_indent(int argc, char **argv)
 {
@@ -16,7 +27,11 @@ int cmd_indent(int argc, char **argv)
     wt_indent_job job = wt_indent_job_defaults();
     wt_file_set set = {.read = wt_read_defaults()};
     cmd_session s = cmd_session_defaults();
+    own_options own = {0};
+    wt_rubber rubber = {0};
+    wt_result *dma = NULL;
     cmd_part parts[] = {
+        {own_params(), &own, NULL, 0},
         {wt_indent_job_params(), &job, NULL, 0},
         {wt_file_set_params(), &set, "spot spring-constant sensitivity units format", 0},
         {wt_job_params(), &s.work, "threads", 0}};
@@ -29,7 +44,13 @@ int cmd_indent(int argc, char **argv)
     set.n_patterns = s.n_files;
     job.sets = &set;
     job.n_sets = 1;
-    wt_status made = wt_indent_group(&job, &s.work, &tables, &s.err);
+    wt_status made = WT_OK;
+    if (own.master != NULL) {
+        made = cmd_rubber_read(own.master, job.options.poisson_ratio, &dma, &rubber, &s.err);
+        job.rubber = &rubber;
+    }
+    if (made == WT_OK)
+        made = wt_indent_group(&job, &s.work, &tables, &s.err);
     const wt_table *const indentation[] = {tables.indentation};
     if (made == WT_OK)
         made = wt_modulus_groups(indentation, 1, &groups, &s.err);
@@ -39,5 +60,7 @@ int cmd_indent(int argc, char **argv)
 done:
     wt_table_free(groups);
     wt_indent_tables_clear(&tables);
+    wt_rubber_clear(&rubber);
+    wt_result_free(dma);
     return cmd_session_free(&s);
 }

@@ -171,3 +171,14 @@ const double *segment_height(const wt_segment *segment)
         channel = wt_segment_channel(segment, WT_Q_HEIGHT);
     return channel != NULL ? channel->values : NULL;
 }
+
+const double *segment_time(const wt_segment *segment, double *scratch)
+{
+    const wt_channel *time = wt_segment_channel(segment, WT_Q_TIME);
+    if (time != NULL)
+        return time->values;
+    if (!(segment->duration > 0))
+        return NULL;
+    sample_times(0, segment->duration, segment->n_points, scratch);
+    return scratch;
+}

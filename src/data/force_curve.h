@@ -35,5 +35,8 @@ const double *segment_force(const wt_segment *segment, const wt_cantilever *cant
                             double *scratch);
 /* The height that the fit uses: that of a sensor where there is one; NULL if there is none. */
 const double *segment_height(const wt_segment *segment);
+/* Time of every sample as stored, or made in scratch [n_points] from the duration; NULL if neither
+ * is known. */
+const double *segment_time(const wt_segment *segment, double *scratch);
 
 #endif

@@ -11,6 +11,7 @@
 #ifndef WT_FIT_CURVE_H
 #define WT_FIT_CURVE_H
 
+#include "model/hereditary.h"
 #include "weartrack/fit.h"
 
 #include <gsl/gsl_min.h>
@@ -41,6 +42,7 @@ struct wt_indent_workspace {
     double *block; /* what the arrays below are parts of */
     double *position, *force, *tip, *running_max, *delta, *g, *slope, *residual, *scratch, *weight;
     double *by_modulus, *by_work;     /* of an adhesive contact, at one depth */
+    double *by_contact, *time;        /* with memory */
     double *given_force, *given_time; /* of wt_indent_force_curve */
     double *retract_position, *retract_force;
     double bin_position[CURVE_MAX_BINS], bin_force[CURVE_MAX_BINS], bin_tip[CURVE_MAX_BINS],
@@ -48,6 +50,7 @@ struct wt_indent_workspace {
         bin_weight[CURVE_MAX_BINS];
     gsl_min_fminimizer *minimizer;
     noise_shapes shapes;
+    hereditary memory;
 };
 
 /* A way in or out, as measured; time NULL: not known. */
@@ -147,6 +150,7 @@ typedef struct curve_kind {
     bool tilt, contact_fixed;
     bool plain; /* force against measured indentation */
     bool adhesive;
+    bool memory; /* the rubber has the spectrum of the options; not with adhesion */
     bool lossy;  /* the retract shows loss: the residual may have its shape */
     size_t jump; /* of adhesive contact: the first sample in it; 0: where the tip touches */
 } curve_kind;

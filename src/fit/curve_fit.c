@@ -67,6 +67,7 @@ void wt_indent_workspace_free(wt_indent_workspace *workspace)
     if (workspace == NULL)
         return;
     gsl_min_fminimizer_free(workspace->minimizer);
+    hereditary_clear(&workspace->memory);
     free(workspace->block);
     free(workspace);
 }
@@ -173,6 +174,7 @@ void curve_fit_empty(wt_indent_fit *fit)
                            .second_minimum_ratio = nan_,
                            .second_contact_point = nan_,
                            .sensitivity_gain = nan_,
+                           .spectrum_factor = {nan_, nan_, 0.0, "1"},
                            .direction = nan_};
     for (int j = 0; j < CURVE_WAVES; j++)
         fit->misfit[j] = nan_;
@@ -196,6 +198,21 @@ static void report_adhesion(const curve_fitting *f, wt_indent_fit *fit)
         fmax(f->kind.adhesive ? root * root : 0.0, f->pull_off > 0.0 ? fit->pull_off_work : 0.0);
     if (law.work > 0.0)
         fit->tabor_number = adhesion_tabor(&law);
+}
+
+/* The factor on the spectrum, and the modulus that it is at the loading time of the curve. */
+static void report_spectrum(const curve_fitting *f, wt_indent_fit *fit)
+{
+    const wt_prony *spectrum = f->options->spectrum;
+    const bool memory = f->kind.memory && !f->kind.adhesive;
+    if (spectrum == NULL || !(fit->load_time > 0.0) || (f->another_rubber && !f->kind.adhesive))
+        return;
+    const double here = hereditary_modulus(spectrum, 1.0 / fit->load_time);
+    const double unit = memory ? f->unit : here;
+    fit->spectrum_factor.value = fit->modulus.value / unit;
+    fit->spectrum_factor.standard_error = fit->modulus.standard_error / unit;
+    fit->modulus.value *= here / unit;
+    fit->modulus.standard_error *= here / unit;
 }
 
 static void report(curve_fitting *f, wt_indent_fit *fit)
@@ -260,11 +277,14 @@ wt_status curve_fit_branches(const wt_contact_table *table, const wt_indent_opti
     wt_status status = check_arguments(options, n, spring_constant, err);
     if (status == WT_OK)
         status = curve_reserve(workspace, retract->n > n ? retract->n : n, err);
+    if (status == WT_OK && options->spectrum != NULL)
+        status = hereditary_reserve(&workspace->memory, options->spectrum->n, err);
     if (status != WT_OK)
         return status;
 
     curve_fitting f = {.table = table,
                        .options = options,
+                       .approach = approach,
                        .workspace = workspace,
                        .pull_off = (double)NAN,
                        .loss = (double)NAN,
@@ -293,9 +313,11 @@ wt_status curve_fit_branches(const wt_contact_table *table, const wt_indent_opti
     curve_allow_loss(&f);
     report(&f, fit);
     find_rates(&f, approach, fit);
+    report_spectrum(&f, fit);
     fit->verdict = curve_judge(&f, fit);
     if (fit->verdict != WT_CURVE_ACCEPTED)
-        fit->modulus.value = fit->modulus.standard_error = (double)NAN;
+        fit->modulus.value = fit->modulus.standard_error = fit->spectrum_factor.value =
+            fit->spectrum_factor.standard_error = (double)NAN;
     return WT_OK;
 }
 

@@ -12,6 +12,7 @@ enum { CURVE_BASELINE_SAMPLES = 10 }; /* least */
 typedef struct curve_fitting {
     const wt_contact_table *table;
     const wt_indent_options *options;
+    const curve_branch *approach;
     wt_indent_workspace *workspace;
     curve_input input;
     curve_kind kind;
@@ -23,6 +24,8 @@ typedef struct curve_fitting {
     double loss;     /* work that is lost on the way out, of that on the way in; NaN: no retract */
     size_t n_snap;   /* samples left out because of a snap-on */
     bool depth_settled;
+    bool another_rubber; /* than that of the spectrum */
+    double unit; /* with memory: |E*| of the spectrum that a modulus of the solution is in */
 } curve_fitting;
 
 /* The fitted baseline at a position. */
@@ -31,7 +34,8 @@ static inline double curve_baseline(const curve_solution *s, double position)
     return s->p[CURVE_F0] + s->p[CURVE_T] * (position - s->p[CURVE_C]);
 }
 
-/* Scan and refinement on the samples as they are now; false if nothing but a baseline is found. */
+/* Scan and refinement on the samples as they are now, with memory where a spectrum is given; false
+ * if nothing but a baseline is found. */
 bool curve_scan_and_refine(curve_fitting *f);
 /* Does noise alone explain the residual? True where there is too little baseline to say. */
 bool curve_fits(const curve_fitting *f);

@@ -250,7 +250,11 @@ static void add_notes(const curve_fitting *f, const wt_indent_fit *fit, char rea
                   f->n_snap);
         append(reason, text);
     }
-    if (f->kind.lossy) {
+    if (f->another_rubber && !f->kind.adhesive)
+        append(reason, "; not of the spectrum of the DMA: elastic");
+    if (f->kind.lossy && f->kind.memory) {
+        append(reason, "; the spectrum of the DMA does not describe its loss");
+    } else if (f->kind.lossy) {
         curve_say(text, "; %.0f %% of the work lost: |E*| at 1/(loading time) within 12 %%",
                   100.0 * f->loss);
         append(reason, text);

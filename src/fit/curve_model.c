@@ -144,6 +144,8 @@ static double evaluate(curve_law *m, const double p[N], size_t first)
                               w->slope + first);
     } else if (m->adhesive) {
         balance_adhesive(m, p, first);
+    } else if (m->memory) {
+        curve_balance_memory(m, p, first);
     } else {
         balance(m, p, first);
     }

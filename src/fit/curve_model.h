@@ -13,7 +13,7 @@ typedef struct curve_law {
     const curve_samples *samples;
     wt_indent_workspace *workspace; /* delta, g, slope, residual: of the latest evaluation */
     bool free[CURVE_N_PARAMETERS];
-    bool plain, adhesive, lossy;
+    bool plain, adhesive, memory, lossy;
     size_t jump; /* of adhesive contact: its first sample; 0: where the tip touches */
     /* The first samples, far from contact for any step of the fit, enter by their sums alone. */
     size_t n_baseline;
@@ -64,12 +64,18 @@ static inline double curve_model_row(const curve_law *m, const double p[CURVE_N_
     const wt_indent_workspace *w = m->workspace;
     double h = curve_model_factor(m, p, i), stiffness = p[CURVE_E] * w->slope[i];
     double plain = m->plain ? h : 1.0, balanced = m->plain ? 1.0 : 1.0 / h;
-    row[CURVE_E] = (m->adhesive ? w->by_modulus[i] : w->g[i]) * balanced;
-    row[CURVE_C] = m->free[CURVE_C] ? -p[CURVE_T] * plain - stiffness * balanced : 0.0;
+    const double by_contact = m->memory ? w->by_contact[i] : -stiffness;
+    row[CURVE_E] = (m->adhesive || m->memory ? w->by_modulus[i] : w->g[i]) * balanced;
+    row[CURVE_C] = m->free[CURVE_C] ? -p[CURVE_T] * plain + by_contact * balanced : 0.0;
     row[CURVE_F0] = plain;
     row[CURVE_T] = m->free[CURVE_T] ? (m->samples->position[i] - p[CURVE_C]) * plain : 0.0;
     row[CURVE_W] = m->adhesive ? w->by_work[i] * balanced : 0.0;
     return plain;
 }
+
+/* Lever and rubber with memory in balance: curve_memory.c. Of samples from `first` on, those before
+ * it are out of contact: depth, force over modulus, and its slope of the moment; the derivatives by
+ * modulus and contact point, times h. */
+void curve_balance_memory(const curve_law *model, const double p[CURVE_N_PARAMETERS], size_t first);
 
 #endif

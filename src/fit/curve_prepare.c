@@ -26,7 +26,7 @@ enum { SPIKE_SIDE = 7 };               /* neighbours on each side */
 
 wt_status curve_reserve(wt_indent_workspace *w, size_t n, wt_error *err)
 {
-    enum { N_ARRAYS = 16 };
+    enum { N_ARRAYS = 18 };
     if (n <= w->capacity)
         return WT_OK;
     size_t capacity = n + n / 4;
@@ -38,12 +38,12 @@ wt_status curve_reserve(wt_indent_workspace *w, size_t n, wt_error *err)
     free(w->block);
     w->block = block;
     w->capacity = capacity;
-    double **const arrays[N_ARRAYS] = {&w->position,     &w->force,       &w->tip,
-                                       &w->running_max,  &w->delta,       &w->g,
-                                       &w->slope,        &w->residual,    &w->scratch,
-                                       &w->weight,       &w->given_force, &w->given_time,
-                                       &w->by_work,      &w->by_modulus,  &w->retract_position,
-                                       &w->retract_force};
+    double **const arrays[N_ARRAYS] = {&w->position,      &w->force,       &w->tip,
+                                       &w->running_max,   &w->delta,       &w->g,
+                                       &w->slope,         &w->residual,    &w->scratch,
+                                       &w->weight,        &w->given_force, &w->given_time,
+                                       &w->by_work,       &w->by_modulus,  &w->retract_position,
+                                       &w->retract_force, &w->by_contact,  &w->time};
     for (size_t i = 0; i < N_ARRAYS; i++)
         *arrays[i] = block + i * capacity;
     return WT_OK;

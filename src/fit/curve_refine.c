@@ -151,6 +151,7 @@ void curve_refine(const wt_contact_table *table, const curve_samples *samples, c
                    .free = {true, !kind.contact_fixed, true, kind.tilt, kind.adhesive},
                    .plain = kind.plain,
                    .adhesive = kind.adhesive,
+                   .memory = kind.memory && !kind.adhesive,
                    .lossy = kind.lossy,
                    .jump = kind.jump};
     curve_solution s = {.p = {p[CURVE_E], p[CURVE_C], p[CURVE_F0], kind.tilt ? p[CURVE_T] : 0.0,

@@ -1,4 +1,5 @@
-/* From samples to a fit without adhesion: scan of the contact point, then refinement.
+/* From samples to a fit without adhesion: scan of the contact point, refinement, and another one
+ * with memory where the spectrum of the rubber is known.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -7,6 +8,58 @@
 #include <math.h>
 
 static const double weights_matter = 1.2; /* largest 1 + S/k */
+static const double better_chi2 = 9.0;    /* 2 ln(likelihood ratio) of no memory at all */
+
+/* ---- memory ---------------------------------------------------------------------------------- */
+
+/* The times of the samples that are left, which are some of those measured, in their order. False
+ * if they do not rise. */
+static bool find_times(const curve_fitting *f)
+{
+    const curve_samples *s = &f->input.samples;
+    const curve_branch *measured = f->approach;
+    double *time = f->workspace->time;
+    size_t i = 0;
+    for (size_t j = 0; measured->time != NULL && j < measured->n && i < s->n; j++) {
+        const double z = f->input.direction * measured->height[j] - f->input.position_origin,
+                     force = measured->force[j] - f->input.force_origin;
+        if (z - s->position[i] != 0.0 || force - s->force[i] != 0.0)
+            continue;
+        time[i] = measured->time[j];
+        if (i > 0 && !(time[i] > time[i - 1]))
+            return false;
+        i++;
+    }
+    return i == s->n;
+}
+
+/* From the elastic fit to that of rubber with the spectrum of the options, if times are known. A
+ * curve that is better described without it is not of that rubber. */
+static void add_memory(curve_fitting *f)
+{
+    wt_indent_workspace *w = f->workspace;
+    const curve_samples *s = &f->input.samples;
+    const wt_prony *spectrum = f->options->spectrum;
+    const curve_solution elastic = f->solution;
+    size_t first = elastic.first_contact;
+    if (first < 1 || first + 1 >= s->n || !find_times(f))
+        return;
+    const double end = w->time[s->n - 1], load = end - w->time[first - 1];
+    double shortest = load;
+    for (size_t i = first; i < s->n; i++)
+        shortest = fmin(shortest, w->time[i] - w->time[i - 1]);
+    f->unit = hereditary_modulus(spectrum, 1.0 / load);
+    hereditary_begin(&w->memory, spectrum, 1.0 / f->unit, shortest, end - w->time[0]);
+    f->kind.memory = true;
+    curve_refine(f->table, s, f->kind, elastic.p, w, &f->solution);
+    f->another_rubber = elastic.effective_n * log(f->solution.cost / elastic.cost) > better_chi2;
+    if (f->solution.converged && !f->another_rubber)
+        return;
+    f->kind.memory = false;
+    f->solution = elastic;
+}
+
+/* ---- scan and refinement --------------------------------------------------------------------- */
 
 static bool scan(curve_fitting *f, bool weighted)
 {
@@ -41,5 +94,7 @@ bool curve_scan_and_refine(curve_fitting *f)
     f->kind =
         (curve_kind){.tilt = o->fit_tilt, .contact_fixed = fixed, .plain = o->plain_least_squares};
     curve_refine(f->table, s, f->kind, start, f->workspace, &f->solution);
+    if (o->spectrum != NULL && !o->plain_least_squares)
+        add_memory(f);
     return true;
 }

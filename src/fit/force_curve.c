@@ -43,18 +43,6 @@ static wt_status no_force(wt_error *err, const wt_segment *segment)
                    "see what the file holds with: weartrack info FILE");
 }
 
-/* As stored, or from the duration; NULL if neither is known. */
-static const double *time_of(const wt_segment *segment, double *scratch)
-{
-    const wt_channel *time = wt_segment_channel(segment, WT_Q_TIME);
-    if (time != NULL)
-        return time->values;
-    if (!(segment->duration > 0.0))
-        return NULL;
-    sample_times(0.0, segment->duration, segment->n_points, scratch);
-    return scratch;
-}
-
 /* Empty where height or force are not there. */
 static curve_branch way_out(const wt_segment *retract, const wt_cantilever *cantilever,
                             wt_indent_workspace *workspace)
@@ -91,7 +79,7 @@ wt_status wt_indent_force_curve(const wt_contact_table *table, const wt_indent_o
     const double *force = segment_force(approach, &curve->cantilever, workspace->given_force);
     if (force == NULL)
         return no_force(err, approach);
-    const curve_branch in = {height, force, time_of(approach, workspace->given_time),
+    const curve_branch in = {height, force, segment_time(approach, workspace->given_time),
                              approach->n_points};
     const curve_branch out = way_out(retract, &curve->cantilever, workspace);
     status = curve_fit_branches(table, options, &in, &out, k, workspace, fit, err);

@@ -157,7 +157,8 @@ static const struct {
     const char *base; /* NAME VALUE pairs, parted by '|'; what stands alone ends them */
     const char *files;
 } subcommands[] = {
-    {"indent", "tip pyramid:half-angle=20deg,radius=20nm", CASE "bulk-1.jpk-force-map"},
+    {"indent", "tip pyramid:half-angle=20deg,radius=20nm|master master.tsv",
+     CASE "bulk-1.jpk-force-map"},
     {"convert", "", CASE "bulk-1.jpk-force-map"},
     {"compare", "master master.tsv|spring-constant-error 0.1", "bulk.tsv track.tsv"},
     {"master", "", CASE "dma.txt"},

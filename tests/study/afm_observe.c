@@ -21,8 +21,28 @@ static int write_curves(const afm_sample *sample, const afm_scene *s, random_sou
     return fclose(file) != 0 || bad ? -1 : 0;
 }
 
+/* The series of a DMA whose moduli are by the factor of the scene too small. */
+static int write_spectrum(const afm_scene *s, const char *path)
+{
+    const relaxation r = afm_relaxation(s);
+    FILE *file = fopen(path, "w");
+    if (file == NULL)
+        return -1;
+    fprintf(file,
+            "## table: " PLACE_PRONY "\n## deformation: tension\n"
+            "## equilibrium_modulus: %.17g standard_error=nan numerical_error=0 unit=Pa\n"
+            "## reference_temperature: 296.15 standard_error=0 numerical_error=0 unit=K\n"
+            "# " PLACE_PRONY_TIME "[s]\t" PLACE_PRONY_MODULUS "[Pa]\n",
+            r.rest / s->dma);
+    for (size_t i = 0; i < r.n; i++)
+        fprintf(file, "%.17g\t%.17g\n", r.tau[i], r.e[i] / s->dma);
+    fputs("##\n", file);
+    const int bad = ferror(file);
+    return fclose(file) != 0 || bad ? -1 : 0;
+}
+
 /* Described: most curves are accepted, and all of them together show no misfit. */
-static void read_curves(const char *path, const afm_sample *sample, trial *t)
+static void read_curves(const char *path, const afm_scene *s, const afm_sample *sample, trial *t)
 {
     stream *found = stream_read(path);
     if (found == NULL || stream_rows(found, place_modulus.table) != CURVES) {
@@ -33,6 +53,8 @@ static void read_curves(const char *path, const afm_sample *sample, trial *t)
             const estimate e = place_row(found, &place_modulus, i);
             accepted += !isnan(e.value);
             trial_add(t, Q_MODULUS, sample->modulus, e);
+            if (s->dma > 0)
+                trial_add(t, Q_FACTOR, s->dma, place_row(found, &place_factor, i));
         }
         const double chance = stream_number(found, place_modulus.table, PLACE_POOLED_CHANCE, NULL);
         t->draw->verdict = accepted < share_needed * CURVES || chance < level ? NO
@@ -57,18 +79,30 @@ static void observe(int scene, const void *prepared, random_source *random, tria
     const afm_scene *s = &afm_scenes[scene];
     const afm_sample *sample = prepared;
     const char *measured = trial_file(t, "curves.tsv"), *made = trial_file(t, "indentation.tsv");
+    const char *spectrum = s->dma > 0 ? trial_file(t, "spectrum.tsv") : NULL;
     char tip[80];
-    if (sample == NULL || write_curves(sample, s, random, measured) != 0) {
+    if (sample == NULL || write_curves(sample, s, random, measured) != 0 ||
+        (spectrum != NULL && write_spectrum(s, spectrum) != 0)) {
         trial_broke(t, "the curves cannot be written");
         return;
     }
     snprintf(tip, sizeof tip,
              s->sphere ? "sphere:radius=%gnm" : "pyramid:half-angle=35deg,radius=%gnm",
              sample->radius * 1e9);
-    const char *const arguments[] = {"indent", measured, "--tip",           tip, "--group", "bulk",
-                                     "-o",     made,     "--no-provenance", NULL};
+    const char *const arguments[] = {"indent",
+                                     measured,
+                                     "--tip",
+                                     tip,
+                                     "--group",
+                                     "bulk",
+                                     "-o",
+                                     made,
+                                     "--no-provenance",
+                                     spectrum != NULL ? "--master" : NULL,
+                                     spectrum,
+                                     NULL};
     if (trial_run(t, arguments))
-        read_curves(made, sample, t);
+        read_curves(made, s, sample, t);
 }
 
 family afm_family(void)

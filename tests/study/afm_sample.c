@@ -58,11 +58,8 @@ static void add_elastic(const afm_scene *s, const afm_tip *tip, afm_sample *to)
         to->force[i] = elastic_force(s, tip, to->spring_constant, to->base[i], i >= AFM_BRANCH);
 }
 
-/* In steps finer than the samples, from the first sample in contact on. */
-static int add_lossy(const afm_scene *s, const afm_tip *tip, afm_sample *to)
+relaxation afm_relaxation(const afm_scene *s)
 {
-    const int first = FREE, n = (AFM_SAMPLES - first) * FINE;
-    double *base = calloc((size_t)n, sizeof *base), *force = calloc((size_t)n, sizeof *force);
     relaxation r = s->loss == LOSS_POWER ? relaxation_power(0.25, s->tan_delta)
                                          : relaxation_cole_cole(0.6, s->tan_delta);
     double found;
@@ -70,6 +67,15 @@ static int add_lossy(const afm_scene *s, const afm_tip *tip, afm_sample *to)
     r.rest *= scale;
     for (size_t i = 0; i < r.n; i++)
         r.e[i] *= scale;
+    return r;
+}
+
+/* In steps finer than the samples, from the first sample in contact on. */
+static int add_lossy(const afm_scene *s, const afm_tip *tip, afm_sample *to)
+{
+    const int first = FREE, n = (AFM_SAMPLES - first) * FINE;
+    double *base = calloc((size_t)n, sizeof *base), *force = calloc((size_t)n, sizeof *force);
+    const relaxation r = afm_relaxation(s);
     int bad = base == NULL || force == NULL;
     for (int i = 0; !bad && i < n; i++) {
         const int at = first - 1 + i / FINE;

@@ -3,6 +3,7 @@
 #ifndef STUDY_AFM_SAMPLE_H
 #define STUDY_AFM_SAMPLE_H
 
+#include "afm_physics.h"
 #include "afm_scene.h"
 #include "random.h"
 
@@ -18,6 +19,8 @@ typedef struct afm_sample {
 
 /* Without noise. NULL if memory runs out. */
 afm_sample *afm_sample_make(const afm_scene *s);
+/* E(t) of a scene with loss [Pa]. */
+relaxation afm_relaxation(const afm_scene *s);
 /* One curve of it as a table of a text stream. */
 void afm_sample_write(const afm_sample *sample, const afm_scene *s, random_source *random,
                       int curve, FILE *file);

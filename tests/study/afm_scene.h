@@ -22,6 +22,7 @@ typedef struct afm_scene {
     bool dmt;              /* a pull of 2 pi w R without long contact, else JKR */
     afm_loss loss;
     double tan_delta;                    /* at 1/t_c */
+    double dma;                          /* the spectrum is given, as if it were 1/dma of it */
     double spring_constant, modulus;     /* 0: 0.5 N/m, 5 MPa */
     double layer_ratio, layer_thickness; /* E1/E2; [m] */
     double radius_factor;                /* the tip's over the stated one; 0: 1 */

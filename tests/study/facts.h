@@ -26,6 +26,7 @@ typedef enum quantity {
     Q_HYSTERESIS_KEPT, /* from the stored master curve instead of the isotherms */
     Q_AREA_KEPT,
     Q_MODULUS, /* of one force curve */
+    Q_FACTOR,  /* on the spectrum of the DMA, of one */
     Q_RATIO,   /* modulus of the track over that of the bulk */
     Q_LAYERED_FRICTION,
     Q_COUNT

@@ -96,9 +96,10 @@ static void test_what_runs(void **state)
     check_plan(HEAD PRONY ROAD SLIDE LAYER "</case>",
                "given_material roughness layer friction what_if_layer ");
     check_plan(HEAD "<indentation>" TIP BULK "</indentation>" DMA "</case>",
-               "indentation_bulk master_curve bulk_alone dma_comparison_bulk ");
+               "master_curve indentation_bulk_with_material bulk_alone dma_comparison_bulk ");
     check_plan(HEAD "<indentation>" TIP BULK TRACK "</indentation>" DMA ROAD SLIDE LAYER "</case>",
-               "indentation_bulk indentation_track master_curve comparison_with_material "
+               "master_curve indentation_bulk_with_material indentation_track_with_material "
+               "comparison_with_material "
                "dma_comparison roughness layer friction_with_layer what_if_with_layer ");
 }
 
@@ -112,17 +113,20 @@ static void test_what_is_asked(void **state)
                "master_curve roughness layer ");
     check_plan(ALL "<report><result>roughness</result></report></case>", "roughness ");
     check_plan(ALL "<report><result>indentation/track</result></report></case>",
-               "indentation_track ");
+               "master_curve indentation_track_with_material ");
     check_plan(ALL "<report><result>cost</result></report></case>", "");
     check_plan(ALL "<report><figure>power_spectrum</figure></report></case>", "roughness ");
     check_plan(ALL "<compare><track-to-bulk/></compare></case>",
-               "indentation_bulk indentation_track master_curve comparison_with_material "
+               "master_curve indentation_bulk_with_material indentation_track_with_material "
+               "comparison_with_material "
                "roughness layer friction_with_layer what_if_with_layer ");
     check_plan(ALL "<report><result>friction</result></report></case>",
-               "indentation_bulk indentation_track master_curve comparison_with_material "
+               "master_curve indentation_bulk_with_material indentation_track_with_material "
+               "comparison_with_material "
                "roughness layer friction_with_layer ");
     check_plan(ALL "<report><figure>what_if</figure></report></case>",
-               "indentation_bulk indentation_track master_curve comparison_with_material "
+               "master_curve indentation_bulk_with_material indentation_track_with_material "
+               "comparison_with_material "
                "roughness layer friction_with_layer what_if_with_layer ");
 }
 
@@ -137,7 +141,8 @@ static void test_reasons(void **state)
     check_because(HEAD PRONY ROAD SLIDE LAYER "</case>", "friction_with_layer",
                   "no bulk curves (<bulk> in <indentation>) and no modulus ratio");
     check_because(ALL "</case>", "friction", "friction_with_layer gives its results");
-    check_because(ALL "</case>", "master_curve", "comparison_with_material needs its material");
+    check_because(ALL "</case>", "master_curve",
+                  "indentation_bulk_with_material needs its material");
     check_because(ALL "<report><result>layer</result></report></case>", "master_curve",
                   "layer needs its material");
     check_because(ALL "<report><result>layer</result></report></case>", "indentation_bulk",

@@ -64,7 +64,12 @@
     X(INDENTATION_SENSITIVITY_GAIN, "sensitivity_gain",                                            \
       "relative error of the modulus per relative error of sensitivity", NUMBER, OPTIONAL)         \
     X(INDENTATION_EQUIVALENT_FREQUENCY, "equivalent_frequency",                                    \
-      "angular frequency of equal loading", SI(ANGULAR_FREQUENCY), OPTIONAL)
+      "angular frequency of equal loading", SI(ANGULAR_FREQUENCY), OPTIONAL)                       \
+    X(INDENTATION_SPECTRUM_FACTOR, "spectrum_factor",                                              \
+      "factor on the spectrum of the DMA: modulus over its |E*|", NUMBER,                          \
+      STANDARD_ERROR(INDENTATION_SPECTRUM_FACTOR), OPTIONAL)                                       \
+    X(INDENTATION_SPECTRUM_FACTOR_STANDARD_ERROR, "spectrum_factor_standard_error",                \
+      "standard error of the factor", NUMBER, OPTIONAL)
 
 #define INDENTATION_KEYS(X)                                                                        \
     X(INDENTATION_KEY_TIP, "tip", TEXT, OPTIONAL)                                                  \
@@ -72,6 +77,8 @@
     X(INDENTATION_KEY_SPRING_CONSTANT, "spring_constant", SI(SPRING_CONSTANT), OPTIONAL)           \
     X(INDENTATION_KEY_SPRING_CONSTANTS, "spring_constants", TEXT, OPTIONAL)                        \
     X(INDENTATION_KEY_SPOTS, "spots", TEXT, OPTIONAL)                                              \
+    X(INDENTATION_KEY_SPECTRUM_TEMPERATURE, "spectrum_temperature", SI(TEMPERATURE),               \
+      LABEL("Temperature of the spectrum"), OPTIONAL)                                              \
     X(INDENTATION_KEY_POOLED_MISFIT, "pooled_misfit", PLAIN,                                       \
       LABEL("Mean residual of all curves, of the largest force"), OPTIONAL)                        \
     X(INDENTATION_KEY_POOLED_MISFIT_CHANCE, "pooled_misfit_chance", PLAIN,                         \

@@ -70,7 +70,7 @@ static wt_status make_groups(const compare_pair *p, wt_table **table, wt_error *
 
 static wt_status point_of(compare_pair *p, int g, size_t bin, rate_point *point, wt_error *err)
 {
-    wt_group part = compare_part(p, g, bin, 0);
+    wt_group part = compare_part(p, g, bin, 0, false);
     double log_rate = 0, log_frequency = 0;
     point->n = part.n;
     if (part.n == 0)
@@ -240,6 +240,17 @@ static wt_status check_copies(const compare_pair *p, wt_error *err)
     return WT_E_RANGE;
 }
 
+/* Whether all curves tell their factor on the spectrum, in which no rate is left, and nobody says
+ * otherwise how temperature acts. */
+static bool compares_factors(const wt_compare_job *job, const compare_pair *p)
+{
+    bool all = p->present[0] && p->present[1] && isnan(job->temperature_slope.value);
+    for (int g = 0; all && g < 2; g++)
+        for (size_t i = 0; i < p->data[g].group.n; i++)
+            all = all && p->data[g].spectrum_factor[i] > 0;
+    return all;
+}
+
 static wt_status read_groups(const wt_compare_job *job, compare_pair *p, wt_error *err)
 {
     const wt_table *given[2] = {job->bulk, job->track};
@@ -251,6 +262,7 @@ static wt_status read_groups(const wt_compare_job *job, compare_pair *p, wt_erro
     }
     if (status == WT_OK)
         status = check_copies(p, err);
+    p->by_factor = status == WT_OK && compares_factors(job, p);
     return status == WT_OK ? compare_make_bins(p, err) : status;
 }
 

@@ -26,6 +26,7 @@ typedef struct compare_pair {
     wt_group_data data[2];
     bool present[2];
     bool by_rate;   /* both groups know rates: they are compared by them */
+    bool by_factor; /* what is compared is not the modulus but the factor on the spectrum */
     size_t *bin[2]; /* [n]; COMPARE_NO_BIN = rate unknown */
     size_t n_bins;
     double *low, *high;     /* [n_bins] smallest and largest rate */
@@ -36,8 +37,9 @@ typedef struct compare_pair {
 
 wt_status compare_make_bins(compare_pair *p, wt_error *err) WT_NODISCARD;
 void compare_pair_clear(compare_pair *p);
-/* The part of a group that lies in a bin, copied to scratch from `offset` on. */
-wt_group compare_part(const compare_pair *p, int g, size_t bin, size_t offset);
+/* The part of a group that lies in a bin, copied to scratch from `offset` on, with moduli or
+ * factors. */
+wt_group compare_part(const compare_pair *p, int g, size_t bin, size_t offset, bool factors);
 
 /* What ln(E_track / E_bulk) holds beside the difference. */
 typedef struct compare_known {

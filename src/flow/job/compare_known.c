@@ -125,11 +125,13 @@ static wt_status add_dma(const compare_pair *p, const wt_compare_job *job, const
         at[g].temperature = k->temperature[by_temperature ? g : 0];
         at[g].frequency = mean_frequency(&p->data[k->rates_by_dma ? g : 0]);
     }
-    wt_estimate change = {0};
-    wt_status status = change_of(job->rubber, at, work, &change, err);
-    k->offset.value += change.value;
+    wt_estimate change = {0, (double)NAN, 0, "1"};
+    wt_status status = WT_OK;
+    if (job->rubber != NULL)
+        status = change_of(job->rubber, at, work, &change, err);
+    k->offset.value += p->by_factor ? 0 : change.value; /* which the factors are free of */
     add_error(k, change.standard_error, "material");
-    if (status != WT_OK || !by_temperature || !(step_error > 0))
+    if (status != WT_OK || !by_temperature || !(step_error > 0) || job->rubber == NULL)
         return status;
     condition near[2] = {at[1], at[1]};
     near[0].temperature -= 1;
@@ -152,8 +154,9 @@ static wt_status add_conditions(const compare_pair *p, const wt_compare_job *job
     const wt_estimate track = apart ? job->track_temperature : bulk;
     const double step = track.value - bulk.value;
     const double step_error = apart ? hypot(bulk.standard_error, track.standard_error) : 0;
-    const bool has_dma = job->rubber != NULL && isfinite(mean_frequency(&p->data[0])) &&
-                         isfinite(mean_frequency(&p->data[1]));
+    const bool has_dma =
+        p->by_factor || (job->rubber != NULL && isfinite(mean_frequency(&p->data[0])) &&
+                         isfinite(mean_frequency(&p->data[1])));
     const bool warmer = apart && (step != 0 || step_error > 0);
     k->temperature[0] = bulk.value;
     k->temperature[1] = track.value;

@@ -74,7 +74,7 @@ wt_status compare_make_bins(compare_pair *p, wt_error *err)
     return WT_OK;
 }
 
-wt_group compare_part(const compare_pair *p, int g, size_t bin, size_t offset)
+wt_group compare_part(const compare_pair *p, int g, size_t bin, size_t offset, bool factors)
 {
     const wt_group_data *data = &p->data[g];
     const bool all = bin == COMPARE_ALL_BINS;
@@ -87,7 +87,7 @@ wt_group compare_part(const compare_pair *p, int g, size_t bin, size_t offset)
         const size_t at = p->bin[g][i];
         if (all ? p->by_rate && at == COMPARE_NO_BIN : at != bin)
             continue;
-        p->modulus[offset + part.n] = data->modulus[i];
+        p->modulus[offset + part.n] = factors ? data->spectrum_factor[i] : data->modulus[i];
         p->rate[offset + part.n] = data->indentation_rate[i];
         p->spot[offset + part.n] = data->spot[i];
         p->rate_class[offset + part.n] = (long)at;

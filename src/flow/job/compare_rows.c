@@ -19,7 +19,8 @@ static wt_status compare_bin(comparison_task *task, size_t bin, compare_row *r, 
 {
     compare_pair *p = task->p;
     const bool all = bin == COMPARE_ALL_BINS;
-    wt_group bulk = compare_part(p, 0, bin, 0), track = compare_part(p, 1, bin, bulk.n);
+    wt_group bulk = compare_part(p, 0, bin, 0, p->by_factor),
+             track = compare_part(p, 1, bin, bulk.n, p->by_factor);
     if (task->known.rates_by_dma)
         bulk.rate = track.rate = NULL;
     *r = (compare_row){.low = all ? (double)NAN : p->low[bin],
@@ -78,7 +79,7 @@ static wt_status compare_rows(comparison_task *task, wt_error *err)
     if (status == WT_OK)
         status = compare_bin(task, COMPARE_ALL_BINS, &task->rows[0], err);
     if (status == WT_OK && task->rows[0].c.unsettled == WT_RATES_APART &&
-        task->job->rubber != NULL) {
+        (task->job->rubber != NULL || p->by_factor)) {
         status = compare_find_known(p, task->job, task->work, true, &task->known, err);
         if (status == WT_OK)
             status = compare_bin(task, COMPARE_ALL_BINS, &task->rows[0], err);
@@ -174,8 +175,10 @@ static const char *rates_words(const comparison_task *task)
     const wt_comparison *c = &task->rows[0].c;
     if (!task->p->by_rate)
         return "not known";
-    if (task->known.rates_by_dma)
+    if (task->known.rates_by_dma || (task->p->by_factor && c->rates_by != WT_RATES_COMMON))
         return "brought to one by the DMA";
+    if (task->p->by_factor)
+        return "those that both groups have, each brought to one by the DMA";
     return c->rates_by == WT_RATES_WITHIN    ? "brought to one by the slope within the spots"
            : c->rates_by == WT_RATES_BETWEEN ? "brought to one by the slope between the spots"
                                              : "those that both groups have";

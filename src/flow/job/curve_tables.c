@@ -5,6 +5,7 @@
 
 #include "data/force_curve.h"
 #include "data/tables/tables.h"
+#include "model/hereditary.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -52,9 +53,58 @@ static void add_segment(table_writer *t, const wt_segment *segment, const wt_ind
     }
 }
 
+/* Turns elastic forces over modulus into those of rubber with memory. */
+static wt_status remember(const wt_prony *spectrum, const double *time, size_t n, double *force,
+                          wt_error *err)
+{
+    hereditary law = {0};
+    double before = 0, shortest = (double)INFINITY;
+    wt_status status = hereditary_reserve(&law, spectrum->n, err);
+    for (size_t i = 1; i < n; i++)
+        shortest = fmin(shortest, time[i] - time[i - 1]);
+    if (status == WT_OK && n > 1 && shortest > 0) {
+        hereditary_begin(&law, spectrum, 1, shortest, time[n - 1] - time[0]);
+        for (size_t i = 0; i < n; i++) {
+            const double f = force[i];
+            hereditary_step(&law, i > 0 ? time[i] - time[i - 1] : shortest);
+            force[i] = hereditary_force(&law, hereditary_fade(&law, law.memory[0]), before, f);
+            hereditary_add(&law, law.memory[0], f - before);
+            before = f;
+        }
+    }
+    hereditary_clear(&law);
+    return status;
+}
+
+/* Fitted forces of the n samples in contact, whose indentations are `delta`. */
+static wt_status fitted_forces(const wt_indent_fit *fit, const wt_indent_options *options,
+                               const wt_contact_table *contact, const wt_segment *approach,
+                               const double *delta, size_t n, double *time, double *model,
+                               wt_error *err)
+{
+    const double *height = segment_height(approach), *all = segment_time(approach, time);
+    const double reduced = 1 - options->poisson_ratio * options->poisson_ratio;
+    const bool memory = options->spectrum != NULL && isnan(fit->work_of_adhesion.value) &&
+                        !isnan(fit->spectrum_factor.value) && all != NULL;
+    double modulus = fit->modulus.value;
+    wt_status status = WT_OK;
+    wt_contact_table_eval(contact, delta, n, model, NULL);
+    if (memory) {
+        size_t m = 0; /* those that wt_indent_curve takes */
+        for (size_t i = 0; i < approach->n_points && m < n; i++)
+            if (fit->direction * height[i] >= fit->contact_point.value)
+                time[m++] = all[i];
+        modulus = fit->spectrum_factor.value;
+        status = remember(options->spectrum, time, m, model, err);
+    }
+    for (size_t i = 0; i < n; i++)
+        model[i] *= modulus / reduced;
+    return status;
+}
+
 wt_status flow_curve_tables_add(wt_indent_tables *tables, const char *group, const char *file,
                                 const wt_force_curve *curve, const wt_indent_fit *fit,
-                                const wt_contact_table *contact, double poisson_ratio,
+                                const wt_contact_table *contact, const wt_indent_options *options,
                                 wt_error *err)
 {
     const wt_segment *approach = wt_force_curve_segment(curve, WT_SEGMENT_APPROACH);
@@ -66,11 +116,11 @@ wt_status flow_curve_tables_add(wt_indent_tables *tables, const char *group, con
     size_t longest = approach->n_points;
     if (retract != NULL && retract->n_points > longest)
         longest = retract->n_points;
-    double *scratch = malloc(4 * longest * sizeof *scratch);
+    double *scratch = malloc(5 * longest * sizeof *scratch);
     if (scratch == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     double *delta = scratch + longest, *shown = scratch + 2 * longest,
-           *model = scratch + 3 * longest;
+           *model = scratch + 3 * longest, *time = scratch + 4 * longest;
     const double *force = segment_force(approach, &curve->cantilever, scratch);
 
     wt_status status = WT_OK;
@@ -82,8 +132,9 @@ wt_status flow_curve_tables_add(wt_indent_tables *tables, const char *group, con
     add_segment(&whole, approach, fit, force);
 
     size_t n = wt_indent_curve(fit, height, force, approach->n_points, k, delta, shown);
-    wt_contact_table_eval(contact, delta, n, model, NULL);
-    double effective = fit->modulus.value / (1 - poisson_ratio * poisson_ratio);
+    status = fitted_forces(fit, options, contact, approach, delta, n, time, model, err);
+    if (status != WT_OK)
+        goto done;
     table_writer branch =
         next_block(&tables->force_indentation, &force_indentation_schema, group, err);
     for (size_t i = 0; i < n; i++) {
@@ -91,7 +142,7 @@ wt_status flow_curve_tables_add(wt_indent_tables *tables, const char *group, con
         force_indentation_put_text(&branch, FORCE_INDENTATION_GROUP, group);
         force_indentation_put(&branch, FORCE_INDENTATION_INDENTATION, delta[i]);
         force_indentation_put(&branch, FORCE_INDENTATION_FORCE, shown[i]);
-        force_indentation_put(&branch, FORCE_INDENTATION_FITTED_FORCE, effective * model[i]);
+        force_indentation_put(&branch, FORCE_INDENTATION_FITTED_FORCE, model[i]);
     }
     if (retract != NULL)
         force = segment_force(retract, &curve->cantilever, scratch);

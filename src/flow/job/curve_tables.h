@@ -6,10 +6,10 @@
 #include "weartrack/flow.h"
 
 /* Appends the whole curve (approach and retract) and its indentation branch with the fit to the
- * curve tables of `tables`, which are made if they are NULL. */
+ * curve tables of `tables`, which are made if they are NULL. options: those of the fit. */
 wt_status flow_curve_tables_add(wt_indent_tables *tables, const char *group, const char *file,
                                 const wt_force_curve *curve, const wt_indent_fit *fit,
-                                const wt_contact_table *contact, double poisson_ratio,
+                                const wt_contact_table *contact, const wt_indent_options *options,
                                 wt_error *err) WT_NODISCARD;
 
 #endif

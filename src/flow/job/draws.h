@@ -21,6 +21,10 @@ typedef enum flow_draw {
     FLOW_DRAW_RATIO
 } flow_draw;
 
+/* The series of a rubber at a temperature in Young's moduli; to be cleared, also on failure. */
+wt_status flow_rubber_spectrum(const wt_rubber *rubber, double temperature, wt_prony *prony,
+                               char statement[256], wt_error *err) WT_NODISCARD;
+
 /* Standard normal; 0 for WT_NO_REPLICATE. */
 double flow_draw_normal(uint64_t seed, size_t replicate, flow_draw what);
 /* value + error z, for quantities of either sign. */

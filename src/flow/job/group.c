@@ -178,9 +178,11 @@ wt_status wt_group_from_table(const wt_table *table, bool each_place, wt_group_d
     d.spot = malloc(allocated * sizeof *d.spot);
     d.indentation_rate = malloc(allocated * sizeof *d.indentation_rate);
     d.equivalent_frequency = malloc(allocated * sizeof *d.equivalent_frequency);
+    d.spectrum_factor = malloc(allocated * sizeof *d.spectrum_factor);
     d.digest = malloc(allocated * sizeof *d.digest);
     if (names == NULL || row_of == NULL || d.modulus == NULL || d.spot == NULL ||
-        d.indentation_rate == NULL || d.equivalent_frequency == NULL || d.digest == NULL)
+        d.indentation_rate == NULL || d.equivalent_frequency == NULL || d.spectrum_factor == NULL ||
+        d.digest == NULL)
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
     else
         status = find_rows(&t, &d, row_of, err);
@@ -193,6 +195,7 @@ wt_status wt_group_from_table(const wt_table *table, bool each_place, wt_group_d
         d.indentation_rate[i] = indentation_get(&t, row_of[i], INDENTATION_RATE);
         d.equivalent_frequency[i] =
             indentation_get(&t, row_of[i], INDENTATION_EQUIVALENT_FREQUENCY);
+        d.spectrum_factor[i] = indentation_get(&t, row_of[i], INDENTATION_SPECTRUM_FACTOR);
         gain += indentation_get(&t, row_of[i], INDENTATION_SENSITIVITY_GAIN);
     }
     if (status == WT_OK) {
@@ -219,6 +222,7 @@ void wt_group_data_clear(wt_group_data *data)
     free(data->spot);
     free(data->indentation_rate);
     free(data->equivalent_frequency);
+    free(data->spectrum_factor);
     free(data->digest);
     *data = (wt_group_data){0};
 }

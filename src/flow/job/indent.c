@@ -40,6 +40,8 @@ typedef struct accepted {
 
 typedef struct indent_task {
     const wt_indent_job *job;
+    wt_indent_options options; /* of the job, with the spectrum */
+    wt_prony spectrum;
     const wt_job *work;
     flow_file *file;
     const char *spot; /* of the set, or the file */
@@ -65,6 +67,7 @@ wt_indent_job wt_indent_job_defaults(void)
         .group = "bulk",
         .options = wt_indent_defaults(),
         .spring_constant = {(double)NAN, 0, 0, "N/m"},
+        .temperature = {(double)NAN, (double)NAN, 0, "K"},
         .rates = true,
     };
 }
@@ -94,6 +97,9 @@ static const wt_param rows[] = {
              "sphere:radius=5um or cone:half-angle=20deg"},
     {PARAM_TEXT_OF("group", wt_indent_job, group), .check = check_group, .value = "NAME",
      .flags = PARAM_NO_CASE, .help = "what these curves are: bulk, track or another name"},
+    {PARAM("indentation-temperature", wt_indent_job, temperature, WT_Q_TEMPERATURE, ABOVE(0)),
+     .value = "T", .unset = "the reference temperature of the DMA", .flags = PARAM_NO_CASE,
+     .help = "at which the sample was indented; for the spectrum of the DMA"},
     {PARAM_FLAG_OF("curves", wt_indent_job, curves), .flags = PARAM_NO_CASE,
      .help = "also the representative (median) curve and its fit"},
 };
@@ -145,7 +151,7 @@ static wt_status fit_item(void *user, size_t i, unsigned worker)
     indent_task *task = user;
     item *it = &task->items[i];
     if (it->status == WT_OK)
-        it->status = wt_indent_force_curve(task->contact, &task->job->options, &it->curve,
+        it->status = wt_indent_force_curve(task->contact, &task->options, &it->curve,
                                            task->scratch[worker], &it->fit, &it->error);
     return WT_OK; /* a curve that fails does not stop the others */
 }
@@ -179,7 +185,7 @@ static double equivalent_frequency(const wt_indent_job *job, const wt_indent_fit
     double g = (double)NAN, slope = (double)NAN;
     if (!(fit->load_time > 0) || !(fit->max_indentation > 0))
         return (double)NAN;
-    if (isnan(job->options.fixed_contact_point))
+    if (isnan(job->options.fixed_contact_point) || !isnan(fit->spectrum_factor.value))
         return 1.0 / fit->load_time;
     wt_contact_function(tip, fit->max_indentation, &g, &slope);
     return wt_equivalent_frequency(fit->load_time, fit->max_indentation * slope / g);
@@ -227,6 +233,9 @@ static void put_item(indent_task *task, const item *it)
     indentation_put(t, INDENTATION_SECOND_MINIMUM_RATIO, fit->second_minimum_ratio);
     indentation_put(t, INDENTATION_SENSITIVITY_GAIN, fit->sensitivity_gain);
     indentation_put(t, INDENTATION_EQUIVALENT_FREQUENCY, frequency);
+    indentation_put(t, INDENTATION_SPECTRUM_FACTOR, fit->spectrum_factor.value);
+    indentation_put(t, INDENTATION_SPECTRUM_FACTOR_STANDARD_ERROR,
+                    fit->spectrum_factor.standard_error);
 }
 
 static wt_status write_item(indent_task *task, item *it, wt_error *err)
@@ -285,7 +294,7 @@ static wt_status read_file(indent_task *task, wt_error *err)
     wt_status status =
         flow_open(task->work, task->file, task->job->group, WT_KIND_FORCE, &input, err);
     wt_read_options options = task->file->read;
-    options.want &= wanted_channels(task->job->rates);
+    options.want &= wanted_channels(task->job->rates || task->options.spectrum != NULL);
     options.segments &= WT_SEGMENT_BIT(WT_SEGMENT_APPROACH) | WT_SEGMENT_BIT(WT_SEGMENT_RETRACT);
     if (status == WT_OK)
         status = wt_force_open(task->work->formats, input, &options, task->work->log, &source, err);
@@ -355,7 +364,7 @@ static wt_status add_representative(indent_task *task, wt_indent_tables *tables,
     wt_force_source *source = NULL;
     wt_force_curve *curve = &task->items[0].curve;
     wt_read_options options = file->read;
-    options.want &= wanted_channels(false);
+    options.want &= wanted_channels(task->options.spectrum != NULL);
     options.segments &= WT_SEGMENT_BIT(WT_SEGMENT_APPROACH) | WT_SEGMENT_BIT(WT_SEGMENT_RETRACT);
     wt_status status = wt_input_open(file->path, &input, err);
     if (status == WT_OK)
@@ -370,11 +379,11 @@ static wt_status add_representative(indent_task *task, wt_indent_tables *tables,
         if (next != WT_OK || curve->index != median->curve)
             continue;
         wt_indent_fit fit;
-        status = wt_indent_force_curve(task->contact, &task->job->options, curve, task->scratch[0],
-                                       &fit, err);
+        status = wt_indent_force_curve(task->contact, &task->options, curve, task->scratch[0], &fit,
+                                       err);
         if (status == WT_OK)
             status = flow_curve_tables_add(tables, task->job->group, file->name, curve, &fit,
-                                           task->contact, task->job->options.poisson_ratio, err);
+                                           task->contact, &task->options, err);
         break;
     }
     wt_force_close(source);
@@ -445,6 +454,9 @@ static void set_keys(indent_task *task, const flow_files *files)
     else if (named == 0)
         spots = "file: each file is a spot, none were named";
     wt_tip_describe(&job->tip, tip, sizeof tip);
+    if (task->options.spectrum != NULL)
+        indentation_set_value(t, INDENTATION_KEY_SPECTRUM_TEMPERATURE,
+                              task->spectrum.reference_temperature, 0, 0);
     indentation_set_text(t, INDENTATION_KEY_TIP, tip);
     indentation_set_print(t, INDENTATION_KEY_POISSON_RATIO, "%g", job->options.poisson_ratio);
     /* that of the user; else that of the files, whose error they do not say */
@@ -461,11 +473,32 @@ static void set_keys(indent_task *task, const flow_files *files)
     indentation_set_print(t, INDENTATION_KEY_N_REJECTED, "%zu", task->n_curves - task->n_accepted);
 }
 
+/* The spectrum of the rubber at the temperature of the curves. */
+static wt_status find_spectrum(indent_task *task, wt_error *err)
+{
+    const wt_indent_job *job = task->job;
+    char statement[256];
+    task->options = job->options;
+    if (job->rubber == NULL)
+        return WT_OK;
+    const wt_status status =
+        flow_rubber_spectrum(job->rubber, job->temperature.value, &task->spectrum, statement, err);
+    if (status != WT_OK)
+        return status;
+    task->options.spectrum = &task->spectrum;
+    if (statement[0] != '\0')
+        wt_parselog_add(task->work->log, WT_WARNING, NULL, NULL, "spectrum of the %s: %s",
+                        job->group, statement);
+    return WT_OK;
+}
+
 static wt_status prepare(indent_task *task, wt_error *err)
 {
     wt_status status = param_check(wt_indent_job_params(), task->job, err);
     if (status == WT_OK)
         status = param_check(wt_job_params(), task->work, err);
+    if (status == WT_OK)
+        status = find_spectrum(task, err);
     if (status == WT_OK)
         status = wt_contact_table_new(&task->job->tip, DEPTH_MIN, DEPTH_MAX, &task->contact, err);
     if (status != WT_OK)
@@ -498,6 +531,7 @@ static void release(indent_task *task)
     free(task->scratch);
     free(task->items);
     free(task->moduli);
+    wt_prony_clear(&task->spectrum);
     wt_contact_table_free(task->contact);
     wt_table_free(task->rows.table);
 }

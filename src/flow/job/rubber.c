@@ -128,22 +128,32 @@ static const wt_rubber_draw *draw_of(const wt_rubber *rubber, uint64_t seed, siz
     return &rubber->draws[(first + replicate) % rubber->n_draws];
 }
 
+/* The series with times a and moduli 1/b times those at the reference temperature. */
+static wt_status shifted_series(const wt_rubber *rubber, const wt_rubber_draw *draw,
+                                double temperature, double a, double b, wt_prony *prony,
+                                wt_error *err)
+{
+    wt_status status = prony_copy(draw != NULL ? &draw->prony : &rubber->prony, prony, err);
+    if (status != WT_OK)
+        return status;
+    prony->reference_temperature = temperature;
+    prony->frequency_min /= a;
+    prony->frequency_max /= a;
+    prony->equilibrium_modulus /= b;
+    for (size_t i = 0; i < prony->n; i++) {
+        prony->relaxation_time[i] *= a;
+        prony->modulus[i] /= b;
+    }
+    return WT_OK;
+}
+
 static wt_status series_at(const wt_rubber *rubber, const wt_rubber_draw *draw, double temperature,
                            double a, double b, wt_material **material, wt_error *err)
 {
     wt_prony prony = {0};
-    wt_status status = prony_copy(draw != NULL ? &draw->prony : &rubber->prony, &prony, err);
-    if (status != WT_OK)
-        return status;
-    prony.reference_temperature = temperature;
-    prony.frequency_min /= a;
-    prony.frequency_max /= a;
-    prony.equilibrium_modulus /= b;
-    for (size_t i = 0; i < prony.n; i++) {
-        prony.relaxation_time[i] *= a;
-        prony.modulus[i] /= b;
-    }
-    status = wt_material_prony(&prony, rubber->poisson_ratio, material, err);
+    wt_status status = shifted_series(rubber, draw, temperature, a, b, &prony, err);
+    if (status == WT_OK)
+        status = wt_material_prony(&prony, rubber->poisson_ratio, material, err);
     wt_prony_clear(&prony);
     return status;
 }
@@ -187,30 +197,43 @@ static wt_status law_at(const wt_rubber *rubber, const wt_rubber_draw *draw, dou
     return series_at(rubber, draw, temperature, a, b, material, err);
 }
 
+/* Factors of times and moduli at a temperature (NaN: the reference, which it then is); held: that
+ * of the moduli, beyond the isotherms. */
+static wt_status factors_at(const wt_rubber *rubber, const wt_rubber_draw *draw, uint64_t seed,
+                            size_t replicate, double *temperature, double *a, double *b, bool *held,
+                            wt_error *err)
+{
+    const double reference = rubber->prony.reference_temperature;
+    const wt_shift_law *law = draw != NULL ? &draw->law : &rubber->law;
+    const double *log_b = draw != NULL ? draw->log_b : rubber->vertical_log_b;
+    double log_a = 0;
+    wt_status status = WT_OK;
+    if (isnan(*temperature))
+        *temperature = reference;
+    else
+        status = horizontal_shift(law, reference, *temperature, &log_a, err);
+    if (status != WT_OK)
+        return status;
+    if (rubber->n_draws == 0 && *temperature != reference)
+        log_a += law_error(rubber, *temperature) *
+                 flow_draw_normal(seed, replicate, FLOW_DRAW_SHIFT_LAW);
+    *a = pow(10, log_a);
+    *b = pow(10, vertical_shift(rubber, log_b, *temperature, held));
+    return WT_OK;
+}
+
 wt_status wt_rubber_at(const wt_rubber *rubber, double temperature, uint64_t seed, size_t replicate,
                        wt_material **material, char statement[256], wt_error *err)
 {
     if (rubber == NULL || material == NULL)
         return wt_fail(err, WT_E_ARG, "no rubber");
-    const double reference = rubber->prony.reference_temperature;
     const wt_rubber_draw *draw = draw_of(rubber, seed, replicate);
-    const wt_shift_law *law = draw != NULL ? &draw->law : &rubber->law;
-    const double *log_b = draw != NULL ? draw->log_b : rubber->vertical_log_b;
     wt_material *made = NULL;
-    double log_a = 0;
+    double a = 1, b = 1;
     bool held = false;
-    wt_status status = WT_OK;
-    if (isnan(temperature))
-        temperature = reference;
-    else
-        status = horizontal_shift(law, reference, temperature, &log_a, err);
-    if (status != WT_OK)
-        return status;
-    if (rubber->n_draws == 0 && temperature != reference)
-        log_a +=
-            law_error(rubber, temperature) * flow_draw_normal(seed, replicate, FLOW_DRAW_SHIFT_LAW);
-    const double a = pow(10, log_a), b = pow(10, vertical_shift(rubber, log_b, temperature, &held));
-    status = law_at(rubber, draw, temperature, a, b, &made, err);
+    wt_status status = factors_at(rubber, draw, seed, replicate, &temperature, &a, &b, &held, err);
+    if (status == WT_OK)
+        status = law_at(rubber, draw, temperature, a, b, &made, err);
     if (status == WT_OK && rubber->is_transverse)
         status = wt_material_transverse(made, NULL, NULL, &rubber->transverse,
                                         rubber->poisson_ratio, &made, err);
@@ -219,5 +242,29 @@ wt_status wt_rubber_at(const wt_rubber *rubber, double temperature, uint64_t see
     *material = made;
     if (statement != NULL)
         make_statement(rubber, temperature, held, statement);
+    return WT_OK;
+}
+
+wt_status flow_rubber_spectrum(const wt_rubber *rubber, double temperature, wt_prony *prony,
+                               char statement[256], wt_error *err)
+{
+    wt_material *checked = NULL;
+    double a = 1, b = 1;
+    bool held = false;
+    wt_status status =
+        factors_at(rubber, NULL, 1, WT_NO_REPLICATE, &temperature, &a, &b, &held, err);
+    if (status == WT_OK)
+        status = shifted_series(rubber, NULL, temperature, a, b, prony, err);
+    if (status == WT_OK)
+        status = wt_material_prony(prony, rubber->poisson_ratio, &checked, err);
+    wt_material_free(checked);
+    if (status != WT_OK)
+        return status;
+    make_statement(rubber, temperature, held, statement);
+    const double to_young = prony->deformation == WT_SHEAR ? 2 * (1 + rubber->poisson_ratio) : 1;
+    prony->deformation = WT_TENSION;
+    prony->equilibrium_modulus *= to_young;
+    for (size_t i = 0; i < prony->n; i++)
+        prony->modulus[i] *= to_young;
     return WT_OK;
 }

@@ -9,10 +9,6 @@
  * comes after those it needs, and the fuller of two that give the same before the plainer one,
  * which then stands in if the fuller one fails. */
 #define STAGES(X)                                                                                  \
-    X(INDENTATION_BULK, indentation_bulk, "Contact point and modulus of every bulk curve",         \
-      B(BULK_CURVES), B(INDENTATION_BULK) | B(CURVE_BULK), flow_step_bulk)                         \
-    X(INDENTATION_TRACK, indentation_track, "Contact point and modulus of every wear-track curve", \
-      B(TRACK_CURVES), B(INDENTATION_TRACK) | B(CURVE_TRACK), flow_step_track)                     \
     X(MASTER_CURVE, master_curve, "Shift factors, WLF law, master curve, Prony series",            \
       B(DMA_FILES),                                                                                \
       B(SHIFT_FACTORS) | B(MASTER_CURVE) | B(PRONY) | B(MATERIAL_DRAWS) | B(SERIES_DRAWS) |        \
@@ -20,6 +16,18 @@
       flow_step_master)                                                                            \
     X(GIVEN_MATERIAL, given_material, "Material as given in the case", B(GIVEN_MATERIAL),          \
       B(RUBBER), flow_step_given_material)                                                         \
+    X(INDENTATION_BULK_WITH_MATERIAL, indentation_bulk_with_material,                              \
+      "Contact point and modulus of every bulk curve, by the spectrum of the material",            \
+      B(BULK_CURVES) | B(RUBBER), B(INDENTATION_BULK) | B(CURVE_BULK),                             \
+      flow_step_bulk_with_material)                                                                \
+    X(INDENTATION_TRACK_WITH_MATERIAL, indentation_track_with_material,                            \
+      "Contact point and modulus of every wear-track curve, by the spectrum of the material",      \
+      B(TRACK_CURVES) | B(RUBBER), B(INDENTATION_TRACK) | B(CURVE_TRACK),                          \
+      flow_step_track_with_material)                                                               \
+    X(INDENTATION_BULK, indentation_bulk, "Contact point and modulus of every bulk curve",         \
+      B(BULK_CURVES), B(INDENTATION_BULK) | B(CURVE_BULK), flow_step_bulk)                         \
+    X(INDENTATION_TRACK, indentation_track, "Contact point and modulus of every wear-track curve", \
+      B(TRACK_CURVES), B(INDENTATION_TRACK) | B(CURVE_TRACK), flow_step_track)                     \
     X(COMPARISON_WITH_MATERIAL, comparison_with_material,                                          \
       "Wear track against bulk, at one rate and temperature by the material",                      \
       B(INDENTATION_BULK) | B(INDENTATION_TRACK) | B(RUBBER),                                      \

@@ -125,7 +125,16 @@ wt_sliding flow_case_sliding(const wt_case *c, const wt_rubber *rubber, const wt
 
 /* ---- indentation ----------------------------------------------------------------------------- */
 
-static wt_status indent(flow_run *run, int g, flow_cost *cost, wt_error *err)
+/* The temperature at which a group was indented. */
+static wt_estimate indented_at(const wt_case *c, int g)
+{
+    const wt_compare_job *job = &c->compare;
+    return g > 0 && !isnan(job->track_temperature.value) ? job->track_temperature
+                                                         : job->temperature;
+}
+
+static wt_status indent(flow_run *run, int g, const wt_rubber *rubber, flow_cost *cost,
+                        wt_error *err)
 {
     static const flow_thing curve[2] = {FLOW_CURVE_BULK, FLOW_CURVE_TRACK};
     static const char *const names[2] = {"bulk", "track"};
@@ -138,20 +147,32 @@ static wt_status indent(flow_run *run, int g, flow_cost *cost, wt_error *err)
     job.rates =
         (run->plan.required & (FLOW_BIT(FLOW_MODULUS_RATE) | FLOW_BIT(FLOW_DMA_COMPARISON))) != 0;
     job.curves = (run->plan.wanted & FLOW_BIT(curve[g])) != 0;
+    job.rubber = rubber;
+    job.temperature = indented_at(run->c, g);
     wt_status status = wt_indent_group(&job, &run->job, &run->curves, err);
     keep(run, g == 0 ? FLOW_INDENTATION_BULK : FLOW_INDENTATION_TRACK, &run->curves.indentation);
     cost->items = (double)run->curves.n_curves;
     return status;
 }
 
+wt_status flow_step_bulk_with_material(flow_run *run, flow_cost *cost, wt_error *err)
+{
+    return indent(run, 0, &run->rubber, cost, err);
+}
+
+wt_status flow_step_track_with_material(flow_run *run, flow_cost *cost, wt_error *err)
+{
+    return indent(run, 1, &run->rubber, cost, err);
+}
+
 wt_status flow_step_bulk(flow_run *run, flow_cost *cost, wt_error *err)
 {
-    return indent(run, 0, cost, err);
+    return indent(run, 0, NULL, cost, err);
 }
 
 wt_status flow_step_track(flow_run *run, flow_cost *cost, wt_error *err)
 {
-    return indent(run, 1, cost, err);
+    return indent(run, 1, NULL, cost, err);
 }
 
 /* ---- comparison ------------------------------------------------------------------------------ */

@@ -1,0 +1,181 @@
+/* The fit of a factor on a known relaxation spectrum: curves of rubber with memory, made step by
+ * step from the relaxation modulus itself.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "near.h"
+
+#include "synthetic_curve.h"
+#include "weartrack/fit.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { TERMS = 3 };
+static double modulus[TERMS] = {6e6, 4e6, 2e6}, relaxation_time[TERMS] = {2e-3, 2e-2, 0.3};
+static const wt_prony spectrum = {
+    .equilibrium_modulus = 2e6, .n = TERMS, .modulus = modulus, .relaxation_time = relaxation_time};
+static curve_data data;
+static wt_indent_workspace *workspace;
+
+/* Mean of E(t) between two times. */
+static double mean_relaxation(double from, double to)
+{
+    double e = spectrum.equilibrium_modulus;
+    for (int i = 0; i < TERMS; i++) {
+        const double tau = relaxation_time[i];
+        e += modulus[i] * tau / (to - from) * exp(-from / tau) * -expm1((from - to) / tau);
+    }
+    return e;
+}
+
+static double complex_modulus(double omega)
+{
+    double storage = spectrum.equilibrium_modulus, loss = 0;
+    for (int i = 0; i < TERMS; i++) {
+        const double x = omega * relaxation_time[i];
+        storage += modulus[i] * x * x / (1 + x * x);
+        loss += modulus[i] * x / (1 + x * x);
+    }
+    return hypot(storage, loss);
+}
+
+/* The forces of the lever on `factor` times the spectrum, in place of those of `data`; `duration`
+ * of the approach. Contact comes at a sample. */
+static void make_lossy(const curve_truth *t, double factor, double duration)
+{
+    static double f[CURVE_MAX], e[CURVE_MAX];
+    const double scale = factor / (1 - t->poisson_ratio * t->poisson_ratio);
+    const double k = t->spring_constant, step = duration / (double)(t->n - 1);
+    for (size_t i = 0; i < t->n; i++)
+        e[i] = scale * mean_relaxation(step * (double)i, step * (double)(i + 1));
+    for (size_t i = 0; i < t->n; i++) {
+        const double z = t->travel * (double)i / (double)(t->n - 1) - t->contact_point;
+        double past = 0, low = 0, high = z, slope;
+        f[i] = 0;
+        for (size_t j = 1; z > 0 && j < i; j++)
+            past += e[i - j] * (f[j] - f[j - 1]);
+        past -= i > 0 ? e[0] * f[i - 1] : 0;
+        for (int round = 0; z > 0 && round < 60; round++) {
+            const double middle = 0.5 * (low + high);
+            wt_contact_function(&t->tip, middle, &f[i], &slope);
+            *(k * (z - middle) > past + e[0] * f[i] ? &low : &high) = middle;
+        }
+        data.time[i] = step * (double)i;
+        data.height[i] = t->height0 + t->direction * (z + t->contact_point);
+        data.force[i] = t->offset + t->tilt * z + (z > 0 ? k * (z - low) : 0);
+    }
+}
+
+static curve_truth lossy_curve(void)
+{
+    curve_truth t = curve_standard();
+    t.n = 801;
+    t.travel = 800e-9;
+    t.contact_point = 480e-9;
+    t.spring_constant = 0.5;
+    t.noise = 0;
+    return t;
+}
+
+static wt_indent_fit fit_with(const curve_truth *t, const wt_indent_options *options)
+{
+    wt_contact_table *table = NULL;
+    wt_indent_fit fit;
+    wt_error err = WT_ERROR_INIT;
+    assert_int_equal(wt_contact_table_new(&t->tip, 1e-11, 1e-4, &table, NULL), WT_OK);
+    if (wt_indent_fit_curve(table, options, data.height, data.force, data.time, t->n,
+                            t->spring_constant, workspace, &fit, &err) != WT_OK)
+        fail_msg("%s", err.message);
+    wt_contact_table_free(table);
+    return fit;
+}
+
+/* At any rate the factor is the true one, and the modulus |E*| at 1/t_c; an elastic fit is not. */
+static void factor_of_all_rates(void **state)
+{
+    (void)state;
+    wt_indent_options options = wt_indent_defaults();
+    double worst = 0;
+    options.least_chance = 0;
+    for (double duration = 0.02; duration < 30; duration *= 6) {
+        const curve_truth t = lossy_curve();
+        make_lossy(&t, 0.6, duration);
+        options.spectrum = &spectrum;
+        const wt_indent_fit fit = fit_with(&t, &options);
+        const double load_time = duration * 0.4;
+        assert_int_equal(fit.verdict, WT_CURVE_ACCEPTED);
+        assert_near(fit.spectrum_factor.value, 0.6, 1e-6);
+        assert_near(fit.load_time, load_time, 1e-5);
+        assert_near(fit.modulus.value, 0.6 * complex_modulus(1 / load_time), 1e-5);
+        assert_near(fit.modulus.standard_error / fit.modulus.value,
+                    fit.spectrum_factor.standard_error / 0.6, 1e-5);
+        assert_near_abs(fit.contact_point.value, t.direction * t.height0 + t.contact_point, 1e-13);
+        options.spectrum = NULL;
+        const wt_indent_fit elastic = fit_with(&t, &options);
+        assert_true(isnan(elastic.spectrum_factor.value));
+        worst = fmax(worst, fabs(elastic.modulus.value / fit.modulus.value - 1));
+    }
+    assert_true(worst > 0.03);
+}
+
+/* The errors hold the truth, and a residual that is loss alone is none. */
+static void coverage(void **state)
+{
+    (void)state;
+    enum { CURVES = 200 };
+    wt_indent_options options = wt_indent_defaults();
+    options.spectrum = &spectrum;
+    const curve_truth t = lossy_curve();
+    int accepted = 0, covered = 0;
+    uint64_t seed = 1;
+    static double clean[CURVE_MAX];
+    make_lossy(&t, 1.3, 0.5);
+    memcpy(clean, data.force, sizeof clean);
+    for (int curve = 0; curve < CURVES; curve++) {
+        for (size_t i = 0; i < t.n; i++)
+            data.force[i] = clean[i] + 150e-12 * curve_normal(&seed);
+        const wt_indent_fit fit = fit_with(&t, &options);
+        if (fit.verdict != WT_CURVE_ACCEPTED)
+            continue;
+        accepted++;
+        covered +=
+            fabs(fit.spectrum_factor.value - 1.3) < 1.96 * fit.spectrum_factor.standard_error;
+    }
+    assert_true(accepted > 0.95 * CURVES);
+    assert_true(covered > 0.91 * accepted && covered < accepted);
+}
+
+/* Samples that are missing, repeated or spikes leave the times of the others where they were; the
+ * direction of the height does not matter. Without times there is no memory. */
+static void times(void **state)
+{
+    (void)state;
+    wt_indent_options options = wt_indent_defaults();
+    options.least_chance = 0;
+    options.spectrum = &spectrum;
+    curve_truth t = lossy_curve();
+    t.direction = -1;
+    make_lossy(&t, 0.9, 1);
+    data.force[20] = data.height[700] = (double)NAN;
+    data.force[740] += 3e-8;
+    data.force[500] = data.force[499];
+    data.height[500] = data.height[499];
+    assert_near(fit_with(&t, &options).spectrum_factor.value, 0.9, 1e-5);
+    data.time[300] = data.time[299];
+    assert_near(fit_with(&t, &options).spectrum_factor.value, 0.9, 0.1);
+    assert_true(fabs(fit_with(&t, &options).spectrum_factor.value - 0.9) > 1e-3);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(factor_of_all_rates),
+        cmocka_unit_test(coverage),
+        cmocka_unit_test(times),
+    };
+    workspace = wt_indent_workspace_new();
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    wt_indent_workspace_free(workspace);
+    return failed;
+}

@@ -1,0 +1,169 @@
+/* Contact of rubber with memory: values in 12 digits; what is left out of a series does not matter.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "near.h"
+
+#include "model/hereditary.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { TERMS = 16, STEPS = 200000 };
+static char text[1 << 16];
+
+/* The number behind the next "key": before `end`; NaN if there is none. */
+static double number(const char **at, const char *key, const char *end)
+{
+    char quoted[64];
+    snprintf(quoted, sizeof quoted, "\"%s\":", key);
+    const char *found = strstr(*at, quoted);
+    if (found == NULL || (end != NULL && found > end))
+        return (double)NAN;
+    *at = found + strlen(quoted);
+    return strtod(*at + strspn(*at, " \n["), NULL);
+}
+
+static double number_in(const char *at, const char *key, const char *end)
+{
+    return number(&at, key, end);
+}
+
+static size_t list(const char *at, const char *key, double to[TERMS])
+{
+    size_t n = 0;
+    number(&at, key, NULL);
+    at += strspn(at, " \n[");
+    for (char *end; n < TERMS; at = end + strspn(end, ", \n")) {
+        to[n] = strtod(at, &end);
+        if (end == at)
+            break;
+        n++;
+    }
+    return n;
+}
+
+static wt_tip read_tip(const char *at, const char *end)
+{
+    const double degrees = number_in(at, "deg", end);
+    wt_tip tip = {.shape = WT_TIP_PARABOLOID, .radius = number_in(at, "R", end)};
+    if (isnan(degrees))
+        return tip;
+    tip.half_angle = degrees * M_PI / 180.0;
+    tip.shape = WT_TIP_CONE;
+    if (isnan(tip.radius))
+        return tip;
+    tip.shape = WT_TIP_BLUNTED_PYRAMID;
+    tip.sides = (unsigned)number_in(at, "n", end);
+    tip.transition_radius = number_in(at, "b", end);
+    return tip;
+}
+
+/* On the way in all motions of the file are lines to the top, or a squared sine. */
+static double depth_at(const char *at, const char *end, double t)
+{
+    double times[TERMS], depths[TERMS];
+    const double most = number_in(at, "delta_max_m", end);
+    if (!isnan(most)) {
+        const double s = sin(M_PI * t / (2 * number_in(at, "t_max_s", end)));
+        return most * s * s;
+    }
+    list(at, "t_s", times);
+    list(at, "delta_m", depths);
+    return depths[1] * t / times[1];
+}
+
+/* In steps that grow from the contact on, where the force bends most. */
+static double force_at(const wt_tip *tip, const wt_prony *series, const char *motion,
+                       const char *end, double t)
+{
+    hereditary law = {0};
+    double before = 0, force = 0, now = 0;
+    assert_int_equal(hereditary_reserve(&law, series->n, NULL), WT_OK);
+    hereditary_begin(&law, series, 1, t / STEPS / STEPS, t);
+    assert_int_equal(law.n, series->n);
+    for (int i = 1; i <= STEPS; i++) {
+        const double part = (double)i / STEPS, next = t * part * part;
+        double f, slope;
+        wt_contact_function(tip, depth_at(motion, end, next), &f, &slope);
+        hereditary_step(&law, next - now);
+        force = hereditary_force(&law, hereditary_fade(&law, law.memory[0]), before, f);
+        hereditary_add(&law, law.memory[0], f - before);
+        before = f;
+        now = next;
+    }
+    hereditary_clear(&law);
+    return force;
+}
+
+static int check_case(const char *at, const char *next)
+{
+    double modulus[TERMS], time[TERMS];
+    const wt_tip tip = read_tip(at, strstr(at, "\"prony\""));
+    const double nu = number_in(at, "nu", next);
+    wt_prony series = {.equilibrium_modulus = number_in(at, "Einf_Pa", next),
+                       .modulus = modulus,
+                       .relaxation_time = time};
+    const char *motion = strstr(at, "\"motion\""), *p = strstr(at, "\"points\"");
+    int n = 0;
+    series.n = list(at, "E_Pa", modulus);
+    list(at, "tau_s", time);
+    for (double t; !isnan(t = number(&p, "t_s", next));) {
+        const double expected = number_in(p, "F_N", next), t1 = number_in(p, "t1_s", next);
+        if (t1 < t)
+            continue;
+        assert_near(force_at(&tip, &series, motion, p, t) / (1 - nu * nu), expected, 1e-10);
+        n++;
+    }
+    return n;
+}
+
+static void reference_cases(void **state)
+{
+    (void)state;
+    FILE *file = fopen(WT_SHARED_DIR "/reference/indentation/viscoelastic.json", "r");
+    if (file == NULL)
+        skip();
+    assert_true(fread(text, 1, sizeof text - 1, file) > 1000);
+    fclose(file);
+    int n = 0;
+    for (const char *at = text; (at = strstr(at, "\"id\":")) != NULL; at += 5)
+        n += check_case(at, strstr(at + 5, "\"id\":"));
+    assert_int_equal(n, 13);
+}
+
+/* Terms far outside the motion go into the spring and the dashpot; the force hardly notices. */
+static void spring_and_dashpot(void **state)
+{
+    (void)state;
+    double modulus[] = {1e9, 3e6, 2e6, 4e5}, time[] = {1e-9, 1e-2, 1, 1e7}, force[2];
+    const wt_prony series = {
+        .equilibrium_modulus = 1e6, .n = 4, .modulus = modulus, .relaxation_time = time};
+    for (int all = 0; all < 2; all++) {
+        hereditary law = {0};
+        double f = 0;
+        assert_int_equal(hereditary_reserve(&law, 4, NULL), WT_OK);
+        hereditary_begin(&law, &series, 1, all ? 1e-12 : 1e-3, all ? 1e9 : 1);
+        assert_int_equal(law.n, all ? 4 : 2);
+        for (int i = 1; i <= 1000; i++) {
+            const double next = 1e-6 * i * i;
+            hereditary_step(&law, 1e-3);
+            force[all] = hereditary_force(&law, hereditary_fade(&law, law.memory[0]), f, next);
+            hereditary_add(&law, law.memory[0], next - f);
+            f = next;
+        }
+        hereditary_clear(&law);
+    }
+    assert_near(force[0], force[1], 1e-6);
+    assert_near(hereditary_modulus(&series, 1), hypot(1.4e6 + 1e6 + 3e2, 1e6 + 3e4), 1e-3);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(reference_cases),
+        cmocka_unit_test(spring_and_dashpot),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
