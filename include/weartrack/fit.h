@@ -129,6 +129,9 @@ typedef struct wt_indent_fit {
     double sensitivity_gain; /* d ln E / d ln sensitivity of this fit, contact point and baseline
                                 fitted anew: 15.6 means 1 % gives 15.6 %. Of a single point at
                                 known contact it would be 1 + (contact stiffness)/k */
+    double fitted_modulus;   /* the same whatever the verdict */
+    double baseline_length;  /* travel of the piezo before contact [m] */
+    double misfit_length;    /* and what `misfit` is over, to the end [m] */
     wt_estimate spectrum_factor; /* modulus over |E*| of the spectrum; NaN without one, or times */
     double direction;            /* +1: the height rises into the sample, -1: it falls */
     size_t contact_index;        /* sample of the contact point in the approach */
@@ -168,6 +171,48 @@ typedef struct wt_curve_pool {
 } wt_curve_pool;
 /* misfit: that of each fit. */
 WT_API wt_curve_pool wt_curve_pool_make(const double (*misfit)[WT_CURVE_WAVES], size_t n);
+
+/* The modulus against depth, from the residuals of curves of one tip, lever and depth with one
+ * contact point each, of which a fit with one modulus hides most. */
+typedef struct wt_depth_curve {
+    double modulus, depth, spring_constant; /* of the fit; the largest indentation */
+    double baseline, window; /* travel of the piezo before contact, and of the misfit [m] */
+    double misfit[WT_CURVE_WAVES];
+    long spot;
+} wt_depth_curve;
+
+#define WT_DEPTH_MARGIN 0.1 /* a relative change that does not matter */
+typedef enum wt_depth_verdict {
+    WT_DEPTH_CANNOT_SAY,
+    WT_DEPTH_SAME,      /* the whole interval of the change is within the margin */
+    WT_DEPTH_CHANGES,   /* p < 0.01 */
+    WT_DEPTH_OTHERWISE, /* there is a residual, but not that of a modulus that changes with depth */
+} wt_depth_verdict;
+
+/* With its 95 % interval; standard_error is half its width over 1.96. */
+typedef struct wt_interval {
+    double value, standard_error, low, high;
+} wt_interval;
+
+enum { WT_DEPTHS = 5 };
+typedef struct wt_curve_depth {
+    size_t n, n_units; /* curves; spots, or curves where fewer than three spots are */
+    bool by_spot;
+    wt_depth_verdict verdict;
+    double depth[WT_DEPTHS]; /* equal steps to the largest [m] */
+    wt_interval
+        modulus[WT_DEPTHS]; /* of the rubber that would give that force at that depth alone */
+    wt_interval change;     /* the last over the first */
+    double chance;          /* of a larger change by scatter alone */
+    double misfit_chance;   /* of a larger residual of another shape */
+    /* If a layer thinner than the indentation makes the change; NaN where the curves do not tell
+     * all three. */
+    wt_interval layer_modulus, ground_modulus, thickness;
+} wt_curve_depth;
+/* Fewer than 12 curves cannot say. */
+WT_API wt_status wt_curve_depth_make(const wt_contact_table *table, double poisson_ratio,
+                                     const wt_depth_curve *curve, size_t n, wt_curve_depth *depth,
+                                     wt_error *err) WT_NODISCARD;
 
 /* ---- groups and their comparison ------------------------------------------------------------- */
 
@@ -257,11 +302,6 @@ typedef enum wt_vertical_shift {
     WT_VERTICAL_TIED /* physical within the scatter of clamping and what departs smoothly with
                         temperature; how far is averaged over */
 } wt_vertical_shift;
-
-/* With its 95 % interval; standard_error is half its width over 1.96. */
-typedef struct wt_interval {
-    double value, standard_error, low, high;
-} wt_interval;
 
 typedef struct wt_master_options {
     double reference_temperature; /* [K]; need not be a measured isotherm; NaN (default): the

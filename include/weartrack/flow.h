@@ -96,12 +96,13 @@ WT_API wt_indent_job wt_indent_job_defaults(void);
 WT_API const wt_params *wt_indent_job_params(void);
 
 /* Tables; each freed with wt_table_free, all by wt_indent_tables_clear. Zero-initialise it; given
- * to a second group, `indentation` must have been taken out (set to NULL) and the curve tables are
+ * to a second group, `indentation` must have been taken out (set to NULL) and the other tables are
  * appended to. */
 typedef struct wt_indent_tables {
     wt_table *indentation;        /* indentation/GROUP, one row per curve, rejected ones included */
     wt_table *force_displacement; /* NULL unless curves are asked for */
     wt_table *force_indentation;
+    wt_table *modulus_depth; /* NULL if no group has the curves for it */
     size_t n_files, n_curves, n_accepted, n_failed;
 } wt_indent_tables;
 WT_API void wt_indent_tables_clear(wt_indent_tables *tables);

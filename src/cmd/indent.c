@@ -54,8 +54,8 @@ int cmd_indent(int argc, char **argv)
     const wt_table *const indentation[] = {tables.indentation};
     if (made == WT_OK)
         made = wt_modulus_groups(indentation, 1, &groups, &s.err);
-    wt_table **const made_tables[] = {&tables.indentation, &groups, &tables.force_displacement,
-                                      &tables.force_indentation};
+    wt_table **const made_tables[] = {&tables.indentation, &groups, &tables.modulus_depth,
+                                      &tables.force_displacement, &tables.force_indentation};
     cmd_finish(&s, made, made_tables, COUNT_OF(made_tables));
 done:
     wt_table_free(groups);

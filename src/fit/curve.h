@@ -129,6 +129,7 @@ typedef struct curve_lack {
     double statistic, chance; /* of the contact part, and of more than that by noise alone */
     double baseline_chance;   /* that a straight baseline departs as much from a line */
     double wave[CURVE_WAVES]; /* cosines over the contact [N] */
+    double window;            /* what they are over, to the end [m] */
 } curve_lack;
 
 typedef struct curve_solution {

@@ -174,6 +174,9 @@ void curve_fit_empty(wt_indent_fit *fit)
                            .second_minimum_ratio = nan_,
                            .second_contact_point = nan_,
                            .sensitivity_gain = nan_,
+                           .fitted_modulus = nan_,
+                           .baseline_length = nan_,
+                           .misfit_length = nan_,
                            .spectrum_factor = {nan_, nan_, 0.0, "1"},
                            .direction = nan_};
     for (int j = 0; j < CURVE_WAVES; j++)
@@ -228,6 +231,8 @@ static void report(curve_fitting *f, wt_indent_fit *fit)
     fit->baseline_offset.standard_error = s->standard_error[CURVE_F0];
     fit->baseline_tilt.value = s->p[CURVE_T];
     fit->baseline_tilt.standard_error = s->standard_error[CURVE_T];
+    fit->baseline_length = s->p[CURVE_C] - samples->position[0];
+    fit->misfit_length = s->lack.window;
     fit->noise = s->noise;
     fit->correlation_length = s->correlation_length;
     fit->loss = f->loss;
@@ -314,6 +319,7 @@ wt_status curve_fit_branches(const wt_contact_table *table, const wt_indent_opti
     report(&f, fit);
     find_rates(&f, approach, fit);
     report_spectrum(&f, fit);
+    fit->fitted_modulus = fit->modulus.value;
     fit->verdict = curve_judge(&f, fit);
     if (fit->verdict != WT_CURVE_ACCEPTED)
         fit->modulus.value = fit->modulus.standard_error = fit->spectrum_factor.value =

@@ -40,6 +40,7 @@ typedef struct blocks {
     double column[MAX_COLUMNS][BEFORE + WINDOW];
     size_t n_columns;
     size_t length; /* samples in one */
+    double travel; /* of the window [m] */
     size_t order;
     double a[MAX_ORDER + 1]; /* x_i = sum a_k x_(i-k) + innovation, k from 1 */
     double innovation;       /* its variance */
@@ -59,6 +60,7 @@ static bool average(const curve_law *m, const double p[N], const double *e, bloc
     const size_t length = (s->n - first) / b->n;
     first = s->n - length * b->n;
     b->length = length;
+    b->travel = (end - s->position[first]) * (double)(s->n - first) / (double)(s->n - first - 1);
     b->n_before = first / length < BEFORE ? first / length : BEFORE;
     if (b->n_before < LEAST)
         return false;
@@ -247,6 +249,7 @@ curve_lack curve_lack_of_fit(const curve_law *m, const double p[N], const double
     b.innovation = fmax(b.innovation, top * top);
     if (!(b.innovation > 0.0) || !isfinite(b.innovation))
         return lack;
+    lack.window = b.travel;
     lack.baseline_chance = judge_baseline(&b);
     lack.chance = judge_contact(&b, &lack.statistic);
     for (int j = 0; j < CURVE_WAVES; j++) {

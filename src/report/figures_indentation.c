@@ -254,6 +254,18 @@ const figure_description figures_indentation[] = {
      .words = "Modulus of the accepted curves at their positions; crosses: rejected curves. One "
               "scale of colour for all maps.",
      .draw = draw_modulus_map},
+    {.name = "modulus_depth",
+     .title = "Modulus against depth",
+     .table = &modulus_depth_schema,
+     .by_group = true,
+     .group = MODULUS_DEPTH_GROUP,
+     .x = {MODULUS_DEPTH_DEPTH, AXIS_LINEAR, "Indentation"},
+     .y = {{MODULUS_DEPTH_MODULUS, AXIS_LOG, "Modulus at this depth"}},
+     .curves = {CURVE(MODULUS_DEPTH_MODULUS, JOINED_BARS, .with_errors = true)},
+     .nothing = "too few curves without adhesion tell it",
+     .words = "Modulus of the homogeneous rubber that would give the force at this depth alone, of "
+              "all curves of a group together, with their contact point fitted anew; bars: 95 % "
+              "confidence interval."},
     {.name = "modulus_rate",
      .title = "Modulus against indentation rate",
      .table = &modulus_rate_schema,

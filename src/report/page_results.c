@@ -79,9 +79,10 @@ static void friction_table(page_writer *page)
 void page_results(page_writer *page)
 {
     const bound_tables *t = page->tables;
-    const table_view *const shown[] = {&t->modulus_groups, &t->comparison, &t->dma_comparison,
-                                       &t->shift_factors,  &t->prony,      &t->roughness,
-                                       &t->friction,       &t->layer,      &t->what_if};
+    const table_view *const shown[] = {&t->modulus_groups, &t->modulus_depth, &t->comparison,
+                                       &t->dma_comparison, &t->shift_factors, &t->prony,
+                                       &t->roughness,      &t->friction,      &t->layer,
+                                       &t->what_if};
     bool any = false;
     for (size_t i = 0; i < COUNT_OF(shown) && !any; i++)
         any = shown[i]->table != NULL;
@@ -90,6 +91,8 @@ void page_results(page_writer *page)
     page_heading(page, "tables", "Tables");
     page_whole_table(page, &t->modulus_groups, "Modulus by group", group_columns,
                      COUNT_OF(group_columns));
+    page_whole_table(page, &t->modulus_depth, "Modulus against depth, of all curves of a group",
+                     NULL, 0);
     page_whole_table(page, &t->comparison,
                      "Wear track against bulk: ratio of geometric means, by indentation rate", NULL,
                      0);

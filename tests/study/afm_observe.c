@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { CURVES = 30 };
 static const double level = 0.01, share_needed = 0.9;
@@ -57,9 +58,16 @@ static void read_curves(const char *path, const afm_scene *s, const afm_sample *
                 trial_add(t, Q_FACTOR, s->dma, place_row(found, &place_factor, i));
         }
         const double chance = stream_number(found, place_modulus.table, PLACE_POOLED_CHANCE, NULL);
-        t->draw->verdict = accepted < share_needed * CURVES || chance < level ? NO
-                           : isnan(chance)                                    ? CANNOT_SAY
-                                                                              : YES;
+        const char *changes = stream_key(found, PLACE_DEPTH, PLACE_DEPTH_CHANGES);
+        const bool silent =
+            changes != NULL && strncmp(changes, PLACE_CANNOT_SAY, strlen(PLACE_CANNOT_SAY)) == 0;
+        const bool shown = changes != NULL && strncmp(changes, PLACE_YES, strlen(PLACE_YES)) == 0;
+        t->draw->verdict = accepted < share_needed * CURVES || chance < level || shown ? NO
+                           : isnan(chance) || silent                                   ? CANNOT_SAY
+                                                                                       : YES;
+        for (int i = 0; i < AFM_DEPTHS && changes != NULL; i++)
+            trial_add(t, Q_DEPTH, afm_apparent(s, sample, (i + 1.0) / AFM_DEPTHS),
+                      place_row(found, &place_depth, i));
     }
     stream_free(found);
 }

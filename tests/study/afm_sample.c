@@ -141,6 +141,20 @@ afm_sample *afm_sample_make(const afm_scene *s)
     return to;
 }
 
+double afm_apparent(const afm_scene *s, const afm_sample *sample, double share)
+{
+    const double depth = share * (s->depth > 0 ? s->depth : s->sphere ? 50e-9 : 70e-9);
+    afm_scene stated = *s;
+    stated.radius_factor = 1;
+    const afm_tip tip = true_tip(s), as_stated = true_tip(&stated);
+    const double a = tip_contact_radius(&tip, depth),
+                 of_stated = tip_contact_radius(&as_stated, depth);
+    if (s->loss != LOSS_NONE)
+        return sample->modulus;
+    return layer_reduced(s, a) * (1 - poisson * poisson) * tip_force(&tip, a) /
+           tip_force(&as_stated, of_stated);
+}
+
 /* ---- noise ----------------------------------------------------------------------------------- */
 
 enum { OCTAVES = 12 };

@@ -19,6 +19,9 @@ typedef struct afm_sample {
 
 /* Without noise. NULL if memory runs out. */
 afm_sample *afm_sample_make(const afm_scene *s);
+/* What the tip as stated makes of the force at a share of the largest depth; |E*| for loss. */
+double afm_apparent(const afm_scene *s, const afm_sample *sample, double share);
+enum { AFM_DEPTHS = 5 };
 /* E(t) of a scene with loss [Pa]. */
 relaxation afm_relaxation(const afm_scene *s);
 /* One curve of it as a table of a text stream. */

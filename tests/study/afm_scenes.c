@@ -7,6 +7,8 @@
 #define DESCRIBED RIGHT(YES)
 #define NOT_DESCRIBED RIGHT(NO)
 #define EITHER (RIGHT(YES) | RIGHT(NO))
+#define NOT_REFUSED (RIGHT(YES) | RIGHT(CANNOT_SAY)) /* too noisy to say more */
+#define NOT_MISSED (RIGHT(NO) | RIGHT(CANNOT_SAY))
 
 const afm_scene afm_scenes[] = {
     {NAMED("IC1", "clean, white 0.2 %"), .facts.intervals_promised = true,
@@ -17,7 +19,7 @@ const afm_scene afm_scenes[] = {
      .facts.verdict_promised = true, .facts.right = DESCRIBED, .noise = 0.005,
      .kind = NOISE_CORRELATED},
     {NAMED("IC4", "clean, correlated 2 %"), .facts.intervals_promised = true,
-     .facts.verdict_promised = true, .facts.right = DESCRIBED, .noise = 0.02,
+     .facts.verdict_promised = true, .facts.right = NOT_REFUSED, .noise = 0.02,
      .kind = NOISE_CORRELATED},
     {NAMED("IC5", "clean, 1/f 0.5 %"), .facts.intervals_promised = true,
      .facts.verdict_promised = true, .facts.right = DESCRIBED, .noise = 0.005,
@@ -82,9 +84,9 @@ const afm_scene afm_scenes[] = {
      .facts.verdict_promised = true, .facts.right = DESCRIBED, .noise = 0.005, .loss = LOSS_POWER,
      .tan_delta = 0.3, .dma = 1.25},
     {NAMED("IH6", "tan delta 0.3, correlated 2 %, lever of 0.1 N/m, with the DMA"),
-     .facts.intervals_promised = true, .facts.verdict_promised = true, .facts.right = DESCRIBED,
-     .noise = 0.02, .kind = NOISE_CORRELATED, .loss = LOSS_COLE_COLE, .tan_delta = 0.3,
-     .spring_constant = 0.1, .dma = 1.25},
+     .facts.intervals_promised = true, .facts.right = EITHER, .noise = 0.02,
+     .kind = NOISE_CORRELATED, .loss = LOSS_COLE_COLE, .tan_delta = 0.3, .spring_constant = 0.1,
+     .dma = 1.25},
     {NAMED("IL1", "soft layer of 30 nm"), .facts.verdict_promised = true,
      .facts.right = NOT_DESCRIBED, .noise = 0.005, .layer_ratio = 0.5, .layer_thickness = 30e-9},
     {NAMED("IL2", "soft layer of 150 nm"), .facts.verdict_promised = true,
@@ -93,14 +95,15 @@ const afm_scene afm_scenes[] = {
      .layer_ratio = 0.4, .layer_thickness = 1000e-9},
     {NAMED("IL4", "stiff layer of 150 nm"), .facts.verdict_promised = true,
      .facts.right = NOT_DESCRIBED, .noise = 0.005, .layer_ratio = 2.5, .layer_thickness = 150e-9},
-    {NAMED("IL5", "soft layer of 150 nm, correlated 2 %"), .facts.right = NOT_DESCRIBED,
-     .noise = 0.02, .kind = NOISE_CORRELATED, .layer_ratio = 0.4, .layer_thickness = 150e-9},
+    {NAMED("IL5", "soft layer of 150 nm, correlated 2 %"), .facts.verdict_promised = true,
+     .facts.right = NOT_MISSED, .noise = 0.02, .kind = NOISE_CORRELATED, .layer_ratio = 0.4,
+     .layer_thickness = 150e-9},
     {NAMED("IR1", "radius twice the stated one"), .facts.verdict_promised = true,
      .facts.right = NOT_DESCRIBED, .noise = 0.005, .radius_factor = 2},
     {NAMED("IR2", "radius twice the stated one, correlated 2 %"), .facts.verdict_promised = true,
-     .facts.right = NOT_DESCRIBED, .noise = 0.02, .kind = NOISE_CORRELATED, .radius_factor = 2},
-    {NAMED("IR3", "radius four times, correlated 2 %"), .facts.right = NOT_DESCRIBED, .noise = 0.02,
-     .kind = NOISE_CORRELATED, .radius_factor = 4},
+     .facts.right = NOT_MISSED, .noise = 0.02, .kind = NOISE_CORRELATED, .radius_factor = 2},
+    {NAMED("IR3", "radius four times, correlated 2 %"), .facts.verdict_promised = true,
+     .facts.right = NOT_MISSED, .noise = 0.02, .kind = NOISE_CORRELATED, .radius_factor = 4},
     {NAMED("IR4", "sphere four radii deep"), .facts.verdict_promised = true,
      .facts.right = NOT_DESCRIBED, .noise = 0.005, .sphere = true, .depth = 400e-9},
     {NAMED("IB1", "bow of 0.5 nm"), .facts.intervals_promised = true, .facts.right = EITHER,

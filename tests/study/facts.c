@@ -19,6 +19,7 @@ const quantity_facts quantities[Q_COUNT] = {
     [Q_HYSTERESIS_KEPT] = {"hysteresis_kept", true},
     [Q_AREA_KEPT] = {"area_kept", true},
     [Q_MODULUS] = {"modulus", true},
+    [Q_DEPTH] = {"depth", true},
     [Q_FACTOR] = {"factor", true},
     [Q_RATIO] = {"ratio", true},
     [Q_LAYERED_FRICTION] = {"layered_friction", true},

@@ -27,6 +27,7 @@ typedef enum quantity {
     Q_AREA_KEPT,
     Q_MODULUS, /* of one force curve */
     Q_FACTOR,  /* on the spectrum of the DMA, of one */
+    Q_DEPTH,   /* modulus at a depth, of all curves */
     Q_RATIO,   /* modulus of the track over that of the bulk */
     Q_LAYERED_FRICTION,
     Q_COUNT

@@ -23,6 +23,7 @@ const place place_thickness = {"layer", "balance_thickness", "standard_error", N
 const place place_modulus = {"indentation/bulk", "modulus", "modulus_standard_error", NULL, NULL};
 const place place_factor = {"indentation/bulk", "spectrum_factor", "spectrum_factor_standard_error",
                             NULL, NULL};
+const place place_depth = {PLACE_DEPTH, "modulus", NULL, "low", "high"};
 const place place_ratio = {"comparison", "ratio", NULL, "ratio_low", "ratio_high"};
 const place place_layered_friction = {friction, "friction_with_layer_at_reference",
                                       "standard_error", NULL, NULL};

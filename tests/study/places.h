@@ -17,12 +17,16 @@ extern const place place_shift, place_law, place_storage, place_loss;
 extern const place place_hysteresis, place_area, place_friction;
 extern const place place_c1, place_c2, place_equilibrium, place_thickness;
 extern const place place_modulus, place_factor; /* of curves */
+extern const place place_depth;                 /* of all of them, a row for each depth */
 extern const place place_ratio;                 /* over all rates, the first row */
 extern const place place_layered_friction;      /* at the reference velocity */
 
 #define PLACE_POOLED_CHANCE "pooled_misfit_chance" /* in `place_modulus.table` */
-#define PLACE_TEMPERATURE "temperature"            /* [K], beside shift and law */
-#define PLACE_FREQUENCY "angular_frequency"        /* [rad/s], beside the moduli */
+#define PLACE_DEPTH "modulus_depth"
+#define PLACE_DEPTH_CHANGES "changes_bulk" /* begins with yes, no or cannot say */
+#define PLACE_DEPTH_MISFIT_CHANCE "misfit_chance_bulk"
+#define PLACE_TEMPERATURE "temperature"     /* [K], beside shift and law */
+#define PLACE_FREQUENCY "angular_frequency" /* [rad/s], beside the moduli */
 #define PLACE_VELOCITY "velocity"
 #define PLACE_PRONY "prony"
 #define PLACE_PRONY_TIME "relaxation_time"

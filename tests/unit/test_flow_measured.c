@@ -54,6 +54,7 @@ static void test_measured(void **state)
                                          "indentation/track",
                                          "force_displacement",
                                          "force_indentation",
+                                         "modulus_depth",
                                          "modulus_groups",
                                          "modulus_rate",
                                          "comparison",

@@ -197,6 +197,7 @@ static void test_curves_are_drawn_from_their_columns(void **state)
         {"modulus_groups", "yerrorbars ls 13", "geometric_mean low high"},
         {"modulus_map", "boxxyerror", "x y modulus"},
         {"modulus_map", "points ls 14", "x y"},
+        {"modulus_depth", "title 'track'", "depth modulus low high"},
         {"modulus_rate", "title 'track'", "indentation_rate geometric_mean low high"},
         {"dma_comparison", "title 'DMA |E*|'", "equivalent_frequency dma_complex_modulus"},
         {"dma_comparison", "title 'DMA E′'", "equivalent_frequency dma_storage_modulus"},

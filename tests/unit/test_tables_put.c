@@ -222,7 +222,7 @@ static void test_joined_law(void **state)
     unlink(path);
 }
 
-/* Groups whose cantilevers differ. */
+/* A group whose cantilevers differ, and a tip that makes the modulus change with depth. */
 static void test_spring_constants(void **state)
 {
     (void)state;
@@ -237,10 +237,12 @@ static void test_spring_constants(void **state)
     work.formats = formats;
     job.sets = sets;
     job.n_sets = 2;
-    job.tip = (wt_tip){.shape = WT_TIP_CONE, .half_angle = 0.35};
+    job.tip = (wt_tip){.sides = 4, .half_angle = M_PI / 9, .radius = 30e-9}; /* it was 20 nm */
+    job.tip.transition_radius = wt_tip_tangent_transition(job.tip.radius, job.tip.half_angle);
     if (wt_indent_group(&job, &work, &tables, &err) != WT_OK)
         fail_msg("%s", err.message);
     see(tables.indentation);
+    see(tables.modulus_depth);
     wt_indent_tables_clear(&tables);
 }
 

@@ -107,4 +107,23 @@
       SI(FORCE))
 #define FORCE_INDENTATION_KEYS(X)
 
+/* The rows of a group have the same numbers of curves and units. */
+#define MODULUS_DEPTH_COLUMNS(X)                                                                   \
+    X(MODULUS_DEPTH_GROUP, "group", "bulk or track", TEXT, LABEL("Group"))                         \
+    X(MODULUS_DEPTH_DEPTH, "depth", "indentation depth", SI(INDENTATION), LABEL("Depth"))          \
+    X(MODULUS_DEPTH_MODULUS, "modulus",                                                            \
+      "modulus of a homogeneous rubber with the force at this depth, geometric mean", SI(MODULUS), \
+      LABEL("Modulus at this depth"), INTERVAL(MODULUS_DEPTH_LOW, MODULUS_DEPTH_HIGH))             \
+    INTERVAL_COLUMNS(X, MODULUS_DEPTH, "", SI(MODULUS))                                            \
+    X(MODULUS_DEPTH_N, "n", "number of curves", NUMBER, LABEL("Curves"))                           \
+    X(MODULUS_DEPTH_UNITS, "n_units", "spots, or curves where fewer than three spots are", NUMBER, \
+      LABEL("Units"))
+/* One of each for every group. */
+#define MODULUS_DEPTH_KEYS(X)                                                                      \
+    X(MODULUS_DEPTH_KEY_CHANGES, "changes_", TEXT, OPTIONAL)                                       \
+    X(MODULUS_DEPTH_KEY_READING, "reading_", TEXT, OPTIONAL)                                       \
+    X(MODULUS_DEPTH_KEY_RATIO, "ratio_", PLAIN, OPTIONAL)                                          \
+    X(MODULUS_DEPTH_KEY_CHANCE, "chance_", PLAIN, OPTIONAL)                                        \
+    X(MODULUS_DEPTH_KEY_MISFIT_CHANCE, "misfit_chance_", PLAIN, OPTIONAL)
+
 #endif

@@ -47,6 +47,7 @@
       "Force against piezo displacement", "indent")                                                \
     X(force_indentation, FORCE_INDENTATION, "force_indentation", "Force against indentation",      \
       "indent")                                                                                    \
+    X(modulus_depth, MODULUS_DEPTH, "modulus_depth", "Modulus against depth", "indent")            \
     X(modulus_groups, MODULUS_GROUPS, "modulus_groups", "Modulus of the groups", "compare")        \
     X(modulus_rate, MODULUS_RATE, "modulus_rate", "Modulus against indentation rate", "compare")   \
     X(comparison, COMPARISON, "comparison", "Wear track against bulk", "compare")                  \

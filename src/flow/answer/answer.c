@@ -126,6 +126,24 @@ static void say_group(const answer_story *story, const char *name, const char *w
                n_spots > 1 ? "s" : "", modulus_groups_get(groups, row, MODULUS_GROUPS_N_REJECTED));
 }
 
+/* What depth does to the modulus. */
+static void say_depth(const answer_story *story, const char *name, const char *words)
+{
+    table_view depth = story->modulus_depth;
+    depth.suffix = name;
+    const char *changes = modulus_depth_words(&depth, MODULUS_DEPTH_KEY_CHANGES);
+    const char *reading = modulus_depth_words(&depth, MODULUS_DEPTH_KEY_READING);
+    if (changes == NULL)
+        return;
+    answer_say(story, how_different, "difference",
+               "Does the modulus of the %s change with depth? "
+               "%c%s.",
+               words, toupper((unsigned char)changes[0]), changes + 1);
+    if (reading != NULL)
+        answer_say(story, how_different, "caveat", "%c%s.", toupper((unsigned char)reading[0]),
+                   reading + 1);
+}
+
 static void say_rates(const answer_story *story)
 {
     double low = (double)NAN, high = (double)NAN, largest_p = (double)NAN;
@@ -198,6 +216,8 @@ static void answer_difference(const answer_story *story)
     }
     say_group(story, "bulk", "Bulk");
     say_group(story, "track", "Wear track");
+    say_depth(story, "bulk", "bulk");
+    say_depth(story, "track", "wear track");
     say_rates(story);
     say_dma(story);
 }
@@ -411,6 +431,7 @@ static wt_status bind_tables(const wt_result *result, answer_story *story, wt_er
         {&indentation_schema, "bulk", &story->indentation[0]},
         {&indentation_schema, "track", &story->indentation[1]},
         {&modulus_groups_schema, "", &story->modulus_groups},
+        {&modulus_depth_schema, "", &story->modulus_depth},
         {&comparison_schema, "", &story->comparison},
         {&dma_comparison_schema, "", &story->dma_comparison},
         {&shift_factors_schema, "", &story->shift_factors},

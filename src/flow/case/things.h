@@ -27,6 +27,8 @@
     X(INDENTATION_TRACK, "indentation/track", &indentation_schema, "track")                        \
     X(CURVE_BULK, "bulk curve", NULL, "")                                                          \
     X(CURVE_TRACK, "wear-track curve", NULL, "")                                                   \
+    X(DEPTH_BULK, "bulk modulus against depth", NULL, "")                                          \
+    X(DEPTH_TRACK, "wear-track modulus against depth", NULL, "")                                   \
     X(COMPARISON, "comparison", &comparison_schema, "")                                            \
     X(MODULUS_GROUPS, "modulus_groups", &modulus_groups_schema, "")                                \
     X(MODULUS_RATE, "modulus_rate", &modulus_rate_schema, "")                                      \

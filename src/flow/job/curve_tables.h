@@ -12,4 +12,8 @@ wt_status flow_curve_tables_add(wt_indent_tables *tables, const char *group, con
                                 const wt_contact_table *contact, const wt_indent_options *options,
                                 wt_error *err) WT_NODISCARD;
 
+/* Appends what depth does to the modulus of a group. */
+wt_status flow_depth_table_add(wt_indent_tables *tables, const char *group,
+                               const wt_curve_depth *depth, wt_error *err) WT_NODISCARD;
+
 #endif

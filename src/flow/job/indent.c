@@ -58,6 +58,10 @@ typedef struct indent_task {
     /* accepted moduli with the curve they are of, for the representative curve */
     accepted *moduli;
     size_t n_moduli;
+    wt_depth_curve *deep; /* [n_deep] curves for the modulus against depth */
+    size_t n_deep;
+    long n_spots; /* of them */
+    const char *last_spot;
     double k_low, k_high; /* spring constants of the accepted curves [N/m] */
 } indent_task;
 
@@ -163,6 +167,31 @@ static void mark_unreadable(wt_indent_fit *fit, const wt_error *error)
     snprintf(fit->reason, sizeof fit->reason, "%.159s", error->message);
 }
 
+/* What a curve says of the modulus against depth, also where one modulus does not describe it. */
+static wt_status keep_depth(indent_task *task, const item *it, wt_error *err)
+{
+    const wt_indent_fit *fit = &it->fit;
+    if ((fit->verdict != WT_CURVE_ACCEPTED && fit->verdict != WT_CURVE_POOR_FIT) ||
+        !isnan(fit->work_of_adhesion.value) || !(fit->fitted_modulus > 0) || isnan(fit->misfit[0]))
+        return WT_OK;
+    wt_depth_curve *deep = array_grow(task->deep, task->n_deep, sizeof *deep);
+    if (deep == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    task->deep = deep;
+    deep += task->n_deep++;
+    if (task->last_spot == NULL || strcmp(task->spot, task->last_spot) != 0)
+        task->n_spots++;
+    task->last_spot = task->spot;
+    *deep = (wt_depth_curve){.modulus = fit->fitted_modulus,
+                             .depth = fit->max_indentation,
+                             .spring_constant = it->curve.cantilever.spring_constant,
+                             .baseline = fit->baseline_length,
+                             .window = fit->misfit_length,
+                             .spot = task->n_spots};
+    memcpy(deep->misfit, fit->misfit, sizeof deep->misfit);
+    return WT_OK;
+}
+
 static wt_status keep_modulus(indent_task *task, const item *it, wt_error *err)
 {
     accepted *moduli = array_grow(task->moduli, task->n_moduli, sizeof *moduli);
@@ -252,6 +281,9 @@ static wt_status write_item(indent_task *task, item *it, wt_error *err)
     task->rows.err = err;
     put_item(task, it);
     task->n_curves++;
+    status = keep_depth(task, it, err);
+    if (status != WT_OK)
+        return status;
     if (task->rows.status != WT_OK || it->fit.verdict != WT_CURVE_ACCEPTED)
         return task->rows.status;
     task->n_accepted++;
@@ -438,6 +470,17 @@ static wt_status pool_curves(indent_task *task, wt_error *err)
     return WT_OK;
 }
 
+static wt_status add_depths(indent_task *task, wt_indent_tables *tables, wt_error *err)
+{
+    const wt_indent_job *job = task->job;
+    wt_curve_depth depth;
+    if (job->options.plain_least_squares || task->n_deep == 0)
+        return WT_OK;
+    const wt_status status = wt_curve_depth_make(task->contact, job->options.poisson_ratio,
+                                                 task->deep, task->n_deep, &depth, err);
+    return status == WT_OK ? flow_depth_table_add(tables, job->group, &depth, err) : status;
+}
+
 /* ---- the group ------------------------------------------------------------------------------- */
 
 static void set_keys(indent_task *task, const flow_files *files)
@@ -531,6 +574,7 @@ static void release(indent_task *task)
     free(task->scratch);
     free(task->items);
     free(task->moduli);
+    free(task->deep);
     wt_prony_clear(&task->spectrum);
     wt_contact_table_free(task->contact);
     wt_table_free(task->rows.table);
@@ -562,6 +606,8 @@ wt_status wt_indent_group(const wt_indent_job *job, const wt_job *work, wt_inden
     set_keys(&task, &files);
     warn_bend(&task);
     status = pool_curves(&task, err);
+    if (status == WT_OK)
+        status = add_depths(&task, tables, err);
     if (status == WT_OK && job->curves && task.n_moduli > 0)
         status = add_representative(&task, tables, err);
     if (status != WT_OK)
@@ -585,5 +631,6 @@ void wt_indent_tables_clear(wt_indent_tables *tables)
     wt_table_free(tables->indentation);
     wt_table_free(tables->force_displacement);
     wt_table_free(tables->force_indentation);
+    wt_table_free(tables->modulus_depth);
     *tables = (wt_indent_tables){0};
 }

@@ -18,16 +18,16 @@
       B(RUBBER), flow_step_given_material)                                                         \
     X(INDENTATION_BULK_WITH_MATERIAL, indentation_bulk_with_material,                              \
       "Contact point and modulus of every bulk curve, by the spectrum of the material",            \
-      B(BULK_CURVES) | B(RUBBER), B(INDENTATION_BULK) | B(CURVE_BULK),                             \
+      B(BULK_CURVES) | B(RUBBER), B(INDENTATION_BULK) | B(CURVE_BULK) | B(DEPTH_BULK),             \
       flow_step_bulk_with_material)                                                                \
     X(INDENTATION_TRACK_WITH_MATERIAL, indentation_track_with_material,                            \
       "Contact point and modulus of every wear-track curve, by the spectrum of the material",      \
-      B(TRACK_CURVES) | B(RUBBER), B(INDENTATION_TRACK) | B(CURVE_TRACK),                          \
+      B(TRACK_CURVES) | B(RUBBER), B(INDENTATION_TRACK) | B(CURVE_TRACK) | B(DEPTH_TRACK),         \
       flow_step_track_with_material)                                                               \
     X(INDENTATION_BULK, indentation_bulk, "Contact point and modulus of every bulk curve",         \
-      B(BULK_CURVES), B(INDENTATION_BULK) | B(CURVE_BULK), flow_step_bulk)                         \
+      B(BULK_CURVES), B(INDENTATION_BULK) | B(CURVE_BULK) | B(DEPTH_BULK), flow_step_bulk)         \
     X(INDENTATION_TRACK, indentation_track, "Contact point and modulus of every wear-track curve", \
-      B(TRACK_CURVES), B(INDENTATION_TRACK) | B(CURVE_TRACK), flow_step_track)                     \
+      B(TRACK_CURVES), B(INDENTATION_TRACK) | B(CURVE_TRACK) | B(DEPTH_TRACK), flow_step_track)    \
     X(COMPARISON_WITH_MATERIAL, comparison_with_material,                                          \
       "Wear track against bulk, at one rate and temperature by the material",                      \
       B(INDENTATION_BULK) | B(INDENTATION_TRACK) | B(RUBBER),                                      \

@@ -140,17 +140,22 @@ static wt_status publish_stages(conduct *d, wt_error *err)
 {
     flow_run *r = &d->run;
     const flow_things curves = FLOW_BIT(FLOW_CURVE_BULK) | FLOW_BIT(FLOW_CURVE_TRACK);
+    const struct {
+        const table_schema *schema;
+        flow_things things;
+        wt_table **table;
+    } of_both[] = {{&force_displacement_schema, curves, &r->curves.force_displacement},
+                   {&force_indentation_schema, curves, &r->curves.force_indentation},
+                   {&modulus_depth_schema, FLOW_BIT(FLOW_DEPTH_BULK) | FLOW_BIT(FLOW_DEPTH_TRACK),
+                    &r->curves.modulus_depth}};
     wt_status status = WT_OK;
     for (size_t i = 0; i < table_n_schemas; i++) {
         for (unsigned k = FLOW_FIRST_TABLE; status == WT_OK && k < FLOW_FIRST_INNER; k++)
             if (flow_thing_rows[k].schema == table_schemas[i] && (r->plan.required & FLOW_BIT(k)))
                 status = publish(d, &r->table[k], err);
-        if ((r->plan.required & curves) == 0)
-            continue;
-        if (status == WT_OK && table_schemas[i] == &force_displacement_schema)
-            status = publish(d, &r->curves.force_displacement, err);
-        if (status == WT_OK && table_schemas[i] == &force_indentation_schema)
-            status = publish(d, &r->curves.force_indentation, err);
+        for (size_t k = 0; status == WT_OK && k < COUNT_OF(of_both); k++)
+            if (of_both[k].schema == table_schemas[i] && (r->plan.required & of_both[k].things))
+                status = publish(d, of_both[k].table, err);
     }
     return status;
 }

@@ -1,0 +1,199 @@
+/* The modulus against depth, of many curves together: a layer that a homogeneous fit of one curve
+ * hides, a wrong tip, no change, and too little to say.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "near.h"
+
+#include "model/thin_layer.h"
+#include "synthetic_curve.h"
+#include "weartrack/fit.h"
+
+#include <stdio.h>
+#include <string.h>
+
+enum { CURVES = 30 };
+static curve_data data;
+static wt_indent_workspace *workspace;
+
+/* Over solutions of the integral equation in 11 digits. */
+static void quick_form(void **state)
+{
+    (void)state;
+    FILE *file = fopen(WT_SHARED_DIR "/reference/indentation/layer.csv", "r");
+    char line[512];
+    int rows = 0;
+    if (file == NULL)
+        skip();
+    while (fgets(line, sizeof line, file) != NULL) {
+        double ratio, x[7];
+        char tip[16];
+        if (sscanf(line, "%lf %15s %lf %lf %lf %lf %lf %lf %lf", &ratio, tip, x, x + 1, x + 2,
+                   x + 3, x + 4, x + 5, x + 6) != 9 ||
+            !thin_layer_holds(ratio, x[6]))
+            continue;
+        assert_near(thin_layer_apparent(ratio, x[6]), x[4], 0.02);
+        rows++;
+    }
+    fclose(file);
+    assert_true(rows > 40);
+}
+
+typedef struct scene {
+    double ratio, thickness; /* of a layer; 0: none */
+    double radius_factor;    /* of the true tip */
+    double noise;            /* [N] */
+} scene;
+
+static curve_truth truth_of(const scene *s)
+{
+    curve_truth t = {.tip = {.sides = 4, .half_angle = 35 * M_PI / 180, .radius = 20e-9},
+                     .modulus = 5e6,
+                     .poisson_ratio = 0.5,
+                     .spring_constant = 0.5,
+                     .n = 1200,
+                     .travel = 400e-9,
+                     .contact_point = 280e-9,
+                     .noise = s->noise,
+                     .direction = 1.0,
+                     .height0 = 1e-6};
+    t.tip.transition_radius = wt_tip_tangent_transition(t.tip.radius, t.tip.half_angle);
+    return t;
+}
+
+static double apparent(const scene *s, const wt_tip *tip, double depth)
+{
+    double g, slope;
+    wt_contact_function(tip, depth, &g, &slope);
+    return s->ratio > 0 ? thin_layer_apparent(s->ratio, slope / 2 / s->thickness) : 1;
+}
+
+static double force_at(const scene *s, const curve_truth *t, const wt_tip *tip, double z)
+{
+    double low = 0, high = z;
+    for (int i = 0; z > 0 && i < 60; i++) {
+        const double middle = 0.5 * (low + high);
+        double g, slope;
+        wt_contact_function(tip, middle, &g, &slope);
+        *(t->spring_constant * (z - middle) > t->modulus / 0.75 * apparent(s, tip, middle) * g
+              ? &low
+              : &high) = middle;
+    }
+    return z > 0 ? t->spring_constant * (z - low) : 0;
+}
+
+static wt_curve_depth depth_of(const scene *s, size_t n, long spots)
+{
+    static double clean[CURVE_MAX];
+    const curve_truth t = truth_of(s);
+    wt_contact_table *table = NULL;
+    wt_depth_curve curve[CURVES];
+    wt_curve_depth depth;
+    wt_tip tip = t.tip;
+    uint64_t seed = 7;
+    tip.radius *= s->radius_factor;
+    tip.transition_radius *= s->radius_factor;
+    assert_int_equal(wt_contact_table_new(&t.tip, 1e-11, 1e-4, &table, NULL), WT_OK);
+    for (size_t i = 0; i < t.n; i++) {
+        data.height[i] = t.height0 + t.travel * (double)i / (double)(t.n - 1);
+        clean[i] = force_at(s, &t, &tip, data.height[i] - t.height0 - t.contact_point);
+    }
+    for (size_t c = 0; c < n; c++) {
+        wt_indent_fit fit;
+        for (size_t i = 0; i < t.n; i++)
+            data.force[i] = clean[i] + t.noise * curve_normal(&seed);
+        assert_int_equal(wt_indent_fit_curve(table, NULL, data.height, data.force, NULL, t.n,
+                                             t.spring_constant, workspace, &fit, NULL),
+                         WT_OK);
+        assert_true(fit.verdict == WT_CURVE_ACCEPTED || fit.verdict == WT_CURVE_POOR_FIT);
+        curve[c] = (wt_depth_curve){.modulus = fit.fitted_modulus,
+                                    .depth = fit.max_indentation,
+                                    .spring_constant = t.spring_constant,
+                                    .baseline = fit.baseline_length,
+                                    .window = fit.misfit_length,
+                                    .spot = (long)c % spots};
+        memcpy(curve[c].misfit, fit.misfit, sizeof fit.misfit);
+    }
+    assert_int_equal(wt_curve_depth_make(table, 0.5, curve, n, &depth, NULL), WT_OK);
+    wt_contact_table_free(table);
+    return depth;
+}
+
+/* The error is that of the basis, too: a line or a bent one in the contact radius. */
+static void assert_moduli(const scene *s, const wt_curve_depth *d, double rtol)
+{
+    const curve_truth t = truth_of(s);
+    for (size_t i = 0; i < WT_DEPTHS; i++)
+        assert_near(d->modulus[i].value, t.modulus * apparent(s, &t.tip, d->depth[i]), rtol);
+}
+
+static void no_change(void **state)
+{
+    (void)state;
+    const scene s = {.radius_factor = 1, .noise = 100e-12};
+    const wt_curve_depth d = depth_of(&s, CURVES, CURVES), of_spots = depth_of(&s, CURVES, 5);
+    assert_int_equal(d.verdict, WT_DEPTH_SAME);
+    assert_true(d.change.low < 1 && d.change.high > 1 && d.change.high < 1.05);
+    assert_moduli(&s, &d, 0.01);
+    assert_true(isnan(d.thickness.value));
+    assert_int_equal(d.n_units, CURVES);
+    assert_int_equal(of_spots.n_units, 5);
+    assert_near(of_spots.change.value, d.change.value, 1e-9);
+}
+
+static void layers(void **state)
+{
+    (void)state;
+    static const scene scenes[] = {{0.5, 40e-9, 1, 100e-12},
+                                   {0.4, 60e-9, 1, 400e-12},
+                                   {2.5, 60e-9, 1, 100e-12},
+                                   {0.7, 30e-9, 1, 100e-12}};
+    for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
+        const wt_curve_depth d = depth_of(&scenes[i], CURVES, CURVES);
+        assert_int_equal(d.verdict, WT_DEPTH_CHANGES);
+        assert_int_equal(d.change.value > 1, scenes[i].ratio < 1);
+        assert_moduli(&scenes[i], &d, 0.06);
+        if (!isnan(d.thickness.value)) {
+            assert_true(d.thickness.low < 1.2 * scenes[i].thickness &&
+                        d.thickness.high > scenes[i].thickness / 1.2);
+            assert_near(d.layer_modulus.value, 5e6, 0.3);
+            assert_near(d.ground_modulus.value, 5e6 / scenes[i].ratio, 0.3);
+        }
+        print_message("ratio %g, %g nm: %g to %g nm, %g on %g Pa, left %g\n", scenes[i].ratio,
+                      1e9 * scenes[i].thickness, 1e9 * d.thickness.low, 1e9 * d.thickness.high,
+                      d.layer_modulus.value, d.ground_modulus.value, d.misfit_chance);
+    }
+}
+
+static void wrong_tip(void **state)
+{
+    (void)state;
+    const scene s = {.radius_factor = 2, .noise = 400e-12};
+    const wt_curve_depth d = depth_of(&s, CURVES, CURVES);
+    assert_int_equal(d.verdict, WT_DEPTH_CHANGES);
+    assert_true(d.change.value < 0.95);
+}
+
+static void too_little(void **state)
+{
+    (void)state;
+    const scene few = {.radius_factor = 1, .noise = 100e-12},
+                noisy = {.radius_factor = 1, .noise = 3e-9};
+    const wt_curve_depth d = depth_of(&few, 11, 11), loud = depth_of(&noisy, 12, 12);
+    assert_int_equal(d.verdict, WT_DEPTH_CANNOT_SAY);
+    assert_true(isnan(d.change.value) && isnan(d.thickness.value));
+    assert_int_equal(loud.verdict, WT_DEPTH_CANNOT_SAY);
+    assert_true(loud.change.high > 1.1 || loud.change.low < 0.9);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(quick_form), cmocka_unit_test(no_change),  cmocka_unit_test(layers),
+        cmocka_unit_test(wrong_tip),  cmocka_unit_test(too_little),
+    };
+    workspace = wt_indent_workspace_new();
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    wt_indent_workspace_free(workspace);
+    return failed;
+}
