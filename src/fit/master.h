@@ -22,7 +22,7 @@ typedef struct master_work {
     spectrum *s; /* that of the posterior */
     vertical vertical;
     spectrum_prior prior;
-    double rho_within; /* correlation of the noise within the isotherms */
+    spectrum_within within; /* noise within the isotherms */
     lack_of_fit lack;
 } master_work;
 

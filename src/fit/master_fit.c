@@ -16,7 +16,9 @@ static const double geometry_cells[] = {0.002, 0.0045, 0.0135, 0.04};
 static const double departure_widths[] = {0.0, 0.02, 0.1};
 static const double departure_cells[] = {0.02, 0.04, 0.12};
 static const double geometry_believed = 0.01, departure_believed = 0.05;
-enum { GEOMETRIES = 4, DEPARTURES = 3, MOST_ROUNDS = 4 };
+/* Noise that is the same all along an isotherm. */
+static const double even[SPECTRUM_SHAPES] = {0.0};
+enum { GEOMETRIES = 4, DEPARTURES = 3, MOST_ROUNDS = 4, BEND_ROUNDS = 3 };
 
 /* Cells with less of the logarithm of the largest weight count for nothing, whatever the law says.
  */
@@ -113,8 +115,8 @@ static wt_status set_widths(master_work *work, wt_vertical_shift kind, double ge
 {
     work->vertical.geometry = geometry;
     work->vertical.departure = departure;
-    wt_status status = vertical_prior(&work->vertical, kind, work->posterior->temperature,
-                                      work->s->n_curves, &work->prior, err);
+    wt_status status = vertical_prior(&work->vertical, kind, work->posterior->temperature, work->s,
+                                      &work->prior, err);
     if (status == WT_OK)
         spectrum_set_prior(work->s, &work->prior);
     return status;
@@ -178,8 +180,9 @@ static double take_shifts(master_work *work)
 
 static wt_status place_all(master_work *work, wt_error *err)
 {
-    wt_status status = spectrum_start(&work->set, work->anchor, work->options.vertical,
-                                      work->physical, work->placed, work->a, work->b, err);
+    wt_status status = WT_OK;
+    spectrum_start(&work->set, work->anchor, work->options.vertical, work->physical, work->placed,
+                   work->a, work->b);
     for (int round = 0; status == WT_OK && round < MOST_ROUNDS; round++) {
         const size_t before = work->s->n_curves;
         const double moved = round > 0 ? take_shifts(work) : 0.0;
@@ -202,13 +205,17 @@ static wt_status place_all(master_work *work, wt_error *err)
 
 /* ---- the fits -------------------------------------------------------------------------------- */
 
-/* Noise factors by what is within the isotherms; correlation by the fit, so that what a spectrum
- * misses a little counts as noise. */
+/* Noise factors by what is within the isotherms; where the spectrum bends; correlation by the fit,
+ * so that what a spectrum misses a little counts as noise. */
 static wt_status find_noise(master_work *work, wt_error *err)
 {
-    wt_status status = spectrum_noise_within(work->s, &work->rho_within, err);
-    if (status == WT_OK)
+    wt_status status = spectrum_noise_within(work->s, &work->within, err);
+    spectrum_spread(work->s, even);
+    for (int round = 0; status == WT_OK && round < BEND_ROUNDS; round++) {
         status = spectrum_fit(work->s, SPECTRUM_ROUGH, err);
+        if (status == WT_OK)
+            spectrum_bends(work->s);
+    }
     return status == WT_OK ? spectrum_choose_rho(work->s, err) : status;
 }
 
@@ -217,58 +224,85 @@ static double log_prior_of(double width, double believed, double cell)
     return log(cell / (1.0 + width * width / (believed * believed)));
 }
 
-/* A cell of the grid of widths. */
-static wt_status fit_cell(master_work *work, int g, int d, wt_error *err)
+/* One pair of widths of the tied vertical shift: ln of what it weighs. */
+static wt_status fit_cell(master_work *work, int g, int d, double *weight, wt_error *err)
 {
     wt_status status =
         set_widths(work, WT_VERTICAL_TIED, geometry_widths[g], departure_widths[d], err);
     if (status == WT_OK)
         status = spectrum_fit(work->s, SPECTRUM_NOISE, err);
-    return status == WT_OK
-               ? posterior_keep(
-                     work->posterior, &work->vertical,
-                     log_prior_of(geometry_widths[g], geometry_believed, geometry_cells[g]) +
-                         log_prior_of(departure_widths[d], departure_believed, departure_cells[d]),
-                     err)
+    *weight = log_prior_of(geometry_widths[g], geometry_believed, geometry_cells[g]) +
+              log_prior_of(departure_widths[d], departure_believed, departure_cells[d]) -
+              0.5 * work->s->criterion;
+    return status == WT_OK && work->options.vertical == WT_VERTICAL_TIED
+               ? posterior_keep(work->posterior, WT_VERTICAL_TIED, &work->vertical, *weight, err)
                : status;
 }
 
-/* From the widest down, for as long as it is not hopeless to be narrower. The spectrum is left at
- * the best of them. */
-static wt_status fit_widths(master_work *work, wt_error *err)
+/* From the widest down, for as long as it is not hopeless to be narrower; of[GEOMETRIES]: ln of the
+ * weight of each error of the geometry. */
+static wt_status fit_tied(master_work *work, double *of, wt_error *err)
 {
-    wt_posterior *p = work->posterior;
     wt_status status = WT_OK;
-    double best = -HUGE_VAL, row = HUGE_VAL;
-    int best_g = 0, best_d = 0;
-    if (work->options.vertical != WT_VERTICAL_TIED) {
-        status = spectrum_fit(work->s, SPECTRUM_NOISE, err);
-        return status == WT_OK ? posterior_keep(p, NULL, 0.0, err) : status;
-    }
-    for (int g = GEOMETRIES - 1; g >= 0 && row > best - hopeless; g--) {
-        double weight = row = -HUGE_VAL;
-        for (int d = DEPARTURES - 1; weight >= row - hopeless && d >= 0; d--) {
-            status = fit_cell(work, g, d, err);
+    double best = -HUGE_VAL;
+    for (int g = 0; g < GEOMETRIES; g++)
+        of[g] = -HUGE_VAL;
+    for (int g = GEOMETRIES - 1; g == GEOMETRIES - 1 || (g >= 0 && of[g + 1] > best - hopeless);
+         g--) {
+        double weight = 0.0;
+        for (int d = DEPARTURES - 1; weight >= of[g] - hopeless && d >= 0; d--) {
+            status = fit_cell(work, g, d, &weight, err);
             if (status != WT_OK)
                 return status;
-            weight = p->cells[p->n_cells - 1].log_weight;
-            row = fmax(row, weight);
-            if (weight > best) {
-                best = weight;
-                best_g = g;
-                best_d = d;
-            }
+            of[g] = fmax(of[g], weight) + log1p(exp(-fabs(of[g] - weight)));
         }
+        best = fmax(best, of[g]);
     }
-    status =
-        set_widths(work, WT_VERTICAL_TIED, geometry_widths[best_g], departure_widths[best_d], err);
-    for (size_t c = 0; c < p->n_cells; c++)
-        if (p->cells[c].log_weight == best)
-            posterior_restore(p, &p->cells[c]);
     return status;
 }
 
-/* With free vertical shifts, so that those are no part of the verdict. */
+/* The shifts are free, but the reference was clamped as the others were: what a tied shift makes of
+ * their scatter is the error of its level. */
+static wt_status fit_free(master_work *work, const double *of, wt_error *err)
+{
+    wt_status status = WT_OK;
+    for (int g = 0; status == WT_OK && g < GEOMETRIES; g++) {
+        if (!(of[g] > -HUGE_VAL))
+            continue;
+        status = set_widths(work, WT_VERTICAL_FREE, geometry_widths[g], 0.0, err);
+        if (status == WT_OK)
+            status = spectrum_fit(work->s, SPECTRUM_NOISE, err);
+        if (status == WT_OK)
+            status = posterior_keep(work->posterior, WT_VERTICAL_FREE, &work->vertical, of[g], err);
+    }
+    return status;
+}
+
+/* All widths that count; the spectrum is left at the best of them. */
+static wt_status fit_widths(master_work *work, wt_error *err)
+{
+    const wt_vertical_shift kind = work->options.vertical;
+    wt_posterior *p = work->posterior;
+    double of[GEOMETRIES];
+    wt_status status = WT_OK;
+    if (work->prior.held) {
+        status = spectrum_fit(work->s, SPECTRUM_NOISE, err);
+        return status == WT_OK ? posterior_keep(p, kind, &work->vertical, 0.0, err) : status;
+    }
+    status = fit_tied(work, of, err);
+    if (status == WT_OK && kind == WT_VERTICAL_FREE)
+        status = fit_free(work, of, err);
+    if (status != WT_OK)
+        return status;
+    const posterior_cell *best = posterior_best(p);
+    status = set_widths(work, kind, best->geometry, best->departure, err);
+    posterior_restore(p, best);
+    return status;
+}
+
+/* With free vertical shifts, so that those are no part of the verdict, and with the noise as it is
+ * along the isotherms: the fit takes it as even, for a misfit at their ends is no reason to believe
+ * them less. */
 static wt_status test_superposition(master_work *work, wt_error *err)
 {
     if (work->s->n_curves < 2)
@@ -276,12 +310,14 @@ static wt_status test_superposition(master_work *work, wt_error *err)
     spectrum *s = work->s;
     const double rho = s->rho;
     wt_status status = set_widths(work, WT_VERTICAL_FREE, 0.0, 0.0, err);
-    s->rho = work->rho_within;
+    s->rho = work->within.rho;
+    spectrum_spread(s, work->within.shape);
     if (status == WT_OK)
         status = spectrum_fit(s, SPECTRUM_NOISE, err);
     if (status == WT_OK)
-        status = superposition_test(s, &work->lack, err);
+        status = superposition_test(s, work->within.uncertainty, &work->lack, err);
     s->rho = rho;
+    spectrum_spread(s, even);
     if (status == WT_OK) /* the columns as the cells have them */
         status =
             set_widths(work, work->options.vertical, geometry_widths[0], departure_widths[0], err);

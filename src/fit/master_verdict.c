@@ -6,12 +6,15 @@
 
 #include <math.h>
 
-/* Lack of fit is real below this probability. */
+/* Lack of fit is real below this probability, with what is not known of the noise. */
 static const double significant = 0.01;
+/* Superposition does not hold below this one, with the noise as estimated: its factors and their
+ * place on the isotherms make small probabilities a few times too small. */
+static const double doubtful = 0.01;
 /* A misfit certainly above the first fails; possibly above the second leaves it open (relative).
- * Two processes miss by some per cent. Isotherms of polyisoprene, the example of a simple rubber,
- * miss by 0.24 to 0.34 %: with 0.2 % they would fail by what a rheometer does. */
-static const double matters = 0.005, may_matter = 0.01;
+ * Two processes miss by some per cent; isotherms of polyisoprene, the example of a simple rubber,
+ * by what a rheometer does, 0.3 to 0.4 %. */
+static const double matters = 0.004, may_matter = 0.01;
 /* Narrower windows hide a second process [decade]. */
 static const double least_window = 1.5;
 /* E'' that a spectrum makes of E' and that which was measured differ by at least so much. */
@@ -55,14 +58,14 @@ void master_judge(const master_work *work, wt_master *m)
                       "E'' is %+.1f %% off what E' demands (Kramers-Kronig, p = %.1g): check the "
                       "instrument, or the columns",
                       100.0 * expm1(-lack->factor), lack->kk);
-    } else if (determined >= LEAST_ISOTHERMS && lack->p < significant &&
+    } else if (determined >= LEAST_ISOTHERMS && lack->p_sure < significant &&
                lack->misfit_low > matters) {
         m->superposition = WT_SUPERPOSITION_FAILS;
         clocale_print(
             m->because, sizeof m->because,
             "one spectrum misses the isotherms by %.1f to %.1f %% (p = %.1g): a second process "
             "or a change of the material; treat the temperatures apart",
-            100.0 * lack->misfit_low, 100.0 * lack->misfit_high, lack->p);
+            100.0 * lack->misfit_low, 100.0 * lack->misfit_high, lack->p_sure);
     } else if (determined < LEAST_ISOTHERMS) {
         clocale_print(m->because, sizeof m->because,
                       "%zu isotherms that overlap; three or more would tell", determined);
@@ -78,7 +81,7 @@ void master_judge(const master_work *work, wt_master *m)
             "a misfit of up to %.1f %% would not be seen; less noise than %.1f %%, or more "
             "points, would tell",
             100.0 * lack->misfit_high, 100.0 * fmax(m->noise_storage, m->noise_loss));
-    } else if (lack->p < significant) {
+    } else if (lack->p < doubtful) {
         clocale_print(m->because, sizeof m->because,
                       "a misfit is likely (p = %.1g) but below %.1f %%", lack->p,
                       100.0 * lack->misfit_high);

@@ -30,7 +30,8 @@ void posterior_free(wt_posterior *p)
     free(p);
 }
 
-wt_status posterior_keep(wt_posterior *p, const vertical *v, double log_prior, wt_error *err)
+wt_status posterior_keep(wt_posterior *p, wt_vertical_shift kind, const vertical *v,
+                         double log_weight, wt_error *err)
 {
     const spectrum *s = &p->frame;
     const size_t n = s->n_unknowns, n_curves = s->n_curves;
@@ -40,8 +41,10 @@ wt_status posterior_keep(wt_posterior *p, const vertical *v, double log_prior, w
                           .root = pool_matrix(&p->memory, n, n),
                           .noise = {s->noise[STORAGE], s->noise[LOSS]},
                           .smoothness = s->smooth,
-                          .log_weight = log_prior - 0.5 * s->criterion};
-    if (v != NULL)
+                          .geometry = v->geometry,
+                          .departure = v->departure,
+                          .log_weight = log_weight};
+    if (kind == WT_VERTICAL_TIED)
         c->smooth = pool_numbers(&p->memory, n_curves * n_curves);
     if (p->memory.failed)
         return wt_fail(err, WT_E_MEMORY, "no memory for the fits");
@@ -50,10 +53,19 @@ wt_status posterior_keep(wt_posterior *p, const vertical *v, double log_prior, w
     gsl_matrix_const_view factor = gsl_matrix_const_submatrix(s->factor, 0, 0, n, n);
     gsl_matrix_memcpy(c->covariance, &part.matrix);
     gsl_matrix_memcpy(c->root, &factor.matrix);
-    for (size_t i = 0; v != NULL && i < n_curves; i++)
+    for (size_t i = 0; c->smooth != NULL && i < n_curves; i++)
         vertical_smooth_part(v, s->prior, p->temperature, n_curves, p->temperature[i],
                              c->smooth + i * n_curves);
     return WT_OK;
+}
+
+const posterior_cell *posterior_best(const wt_posterior *p)
+{
+    const posterior_cell *best = &p->cells[0];
+    for (size_t c = 1; c < p->n_cells; c++)
+        if (p->cells[c].log_weight > best->log_weight)
+            best = &p->cells[c];
+    return best;
 }
 
 void posterior_restore(wt_posterior *p, const posterior_cell *cell)
@@ -67,9 +79,8 @@ void posterior_restore(wt_posterior *p, const posterior_cell *cell)
 
 static void weigh_cells(wt_posterior *p)
 {
-    double most = -HUGE_VAL, sum = 0.0;
-    for (size_t i = 0; i < p->n_cells; i++)
-        most = fmax(most, p->cells[i].log_weight);
+    const double most = posterior_best(p)->log_weight;
+    double sum = 0.0;
     for (size_t i = 0; i < p->n_cells; i++)
         sum += p->cells[i].weight = exp(p->cells[i].log_weight - most);
     for (size_t i = 0; i < p->n_cells; i++)
@@ -219,11 +230,7 @@ wt_status posterior_close(wt_posterior *p, double reference, wt_error *err)
     if (p->memory.failed)
         return wt_fail(err, WT_E_MEMORY, "no memory for the law");
     weigh_cells(p);
-    size_t best = 0;
-    for (size_t c = 1; c < p->n_cells; c++)
-        if (p->cells[c].weight > p->cells[best].weight)
-            best = c;
-    shifts_of(p, &p->cells[best]);
+    shifts_of(p, posterior_best(p));
     wt_status status = n < 2 ? wt_fail(&failure, WT_E_RANGE, "one isotherm has no shift")
                              : law_choose(&p->data, reference, root, &p->shape, &failure);
     if (status == WT_OK)

@@ -16,7 +16,8 @@ typedef struct posterior_cell {
     gsl_matrix *root;       /* Cholesky factor of its inverse */
     double *smooth;         /* [n_curves^2] smooth part of b at the isotherms; NULL: b itself */
     double noise[MODULI], smoothness;
-    double log_weight, weight; /* without the law */
+    double geometry, departure; /* widths of the vertical shift */
+    double log_weight, weight;  /* without the law */
 } posterior_cell;
 
 /* The same with a law and a spread of the temperatures. */
@@ -48,10 +49,12 @@ struct wt_posterior {
 
 wt_posterior *posterior_new(void); /* NULL when out of memory */
 void posterior_free(wt_posterior *p);
-/* Keeps what the frame has been fitted to; v: of a tied vertical shift, else NULL. */
-wt_status posterior_keep(wt_posterior *p, const vertical *v, double log_prior,
-                         wt_error *err) WT_NODISCARD;
-/* Puts the frame back to what was kept. */
+/* Keeps what the frame has been fitted to. */
+wt_status posterior_keep(wt_posterior *p, wt_vertical_shift kind, const vertical *v,
+                         double log_weight, wt_error *err) WT_NODISCARD;
+/* What weighs most without the law. */
+const posterior_cell *posterior_best(const wt_posterior *p);
+/* Puts the frame back to what was kept; its prior is set. */
 void posterior_restore(wt_posterior *p, const posterior_cell *cell);
 /* Weighs the cells, chooses the law and weighs its parts; without one no_law says why. */
 wt_status posterior_close(wt_posterior *p, double reference, wt_error *err) WT_NODISCARD;

@@ -33,17 +33,8 @@ typedef struct shift_set {
 wt_status shift_set_new(const wt_sweep *sweep, wt_parselog *log, pool *memory, shift_set *set,
                         wt_error *err) WT_NODISCARD;
 
-/* Where curve s goes relative to curve p (as measured). */
-typedef struct shift_pair {
-    bool found;             /* false: no overlap; the rest is then not set */
-    double a, b;            /* s shifted by these lies on p */
-    double rms;             /* of the overlap residual [decade] */
-    double overlap[MODULI]; /* shared range of ordinates, measured [decade] */
-} shift_pair;
-
-/* Least squares of both moduli and both directions; b is projected out if free_b, else it is
- * fixed_b. */
-wt_status shift_pair_fit(const shift_curve *p, const shift_curve *s, bool free_b, double fixed_b,
-                         shift_pair *pair, wt_error *err) WT_NODISCARD;
+/* Where curve s goes relative to curve p (as measured): by least squares of both moduli and both
+ * directions; b is projected out if free_b, else it is given. False: no overlap. */
+bool shift_pair_fit(const shift_curve *p, const shift_curve *s, bool free_b, double *a, double *b);
 
 #endif

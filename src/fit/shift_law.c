@@ -223,38 +223,29 @@ static double chi_square_at(const struct gls *g, double log_distance, law_fit *f
     return good && fit->unknown[1] > 0.0 ? fit->chi_square : HUGE_VAL;
 }
 
-/* ln of the distance of the pole that fits best: scanned, then by golden sections. */
+/* ln of the distance of the pole that fits best: scanned, then by halves. */
 static double best_pole(const struct gls *g, law_fit *fit)
 {
-    const double golden = 0.5 * (sqrt(5.0) - 1.0);
-    const double step = log(pole_farthest / pole_nearest) / POLE_GRID;
-    double best = HUGE_VAL, at = log(pole_farthest);
+    const double nearest = log(pole_nearest), farthest = log(pole_farthest);
+    double step = (farthest - nearest) / POLE_GRID, best = HUGE_VAL, at = farthest;
     for (int i = 0; i <= POLE_GRID; i++) {
-        const double p = log(pole_nearest) + i * step, chi = chi_square_at(g, p, fit);
+        const double p = nearest + i * step, chi = chi_square_at(g, p, fit);
         if (chi < best) {
             best = chi;
             at = p;
         }
     }
-    double low = fmax(at - step, log(pole_nearest)), high = fmin(at + step, log(pole_farthest));
-    double left = high - golden * (high - low), right = low + golden * (high - low);
-    double of_left = chi_square_at(g, left, fit), of_right = chi_square_at(g, right, fit);
-    while (high - low > 1e-5) {
-        if (of_left <= of_right) {
-            high = right;
-            right = left;
-            of_right = of_left;
-            left = high - golden * (high - low);
-            of_left = chi_square_at(g, left, fit);
-        } else {
-            low = left;
-            left = right;
-            of_left = of_right;
-            right = low + golden * (high - low);
-            of_right = chi_square_at(g, right, fit);
+    for (; step > 1e-5; step *= 0.5)
+        for (int side = -1; side <= 1; side += 2) {
+            const double p = fmax(nearest, fmin(farthest, at + 0.5 * side * step));
+            const double chi = chi_square_at(g, p, fit);
+            if (chi < best) {
+                best = chi;
+                at = p;
+                break;
+            }
         }
-    }
-    return 0.5 * (low + high);
+    return at;
 }
 
 wt_status law_fit_with(const law_data *data, const law_shape *shape, gsl_matrix *root, law_fit *fit,

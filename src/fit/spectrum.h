@@ -31,7 +31,8 @@ typedef struct spectrum {
 
     /* unknowns: ln of the terms, ln of the equilibrium modulus, a, b */
     size_t n_terms, n_linear; /* terms; with the equilibrium modulus */
-    size_t n_measured;        /* terms before the slow end of the measured range */
+    size_t n_fast;            /* terms before the fast end of the measured range */
+    size_t n_measured;        /* and before the slow one */
     double log_tau, step;     /* ln of the first relaxation time and between them */
     bool liquid;              /* no equilibrium modulus */
     size_t n_unknowns;
@@ -42,10 +43,12 @@ typedef struct spectrum {
 
     /* noise and smoothness */
     double noise[MODULI];
-    double *kappa;      /* [n_curves] factor on the noise */
-    double smooth;      /* standard deviation of the second differences */
-    double smooth_move; /* its last step, ln */
-    double rho;         /* correlation of neighbouring points */
+    double *kappa;          /* [n_curves] factor on the noise of an isotherm */
+    double *spread[MODULI]; /* [n] the same of a point */
+    double *bend;           /* [n_terms] weight of a second difference */
+    double smooth;          /* standard deviation of the second differences */
+    double smooth_move;     /* its last step, ln */
+    double rho;             /* correlation of neighbouring points */
 
     /* of the last evaluation: whitened rows, curve by curve; E' of a point, then E'' */
     double *residual[MODULI]; /* [n] */
@@ -90,6 +93,8 @@ double spectrum_log_det_correlation(const spectrum *s);
 void spectrum_normal(spectrum *s);
 /* precision and gradient for the present noise and smoothness. */
 void spectrum_assemble(spectrum *s);
+/* What a residual in ln of a point is multiplied by; 0: left out. */
+double spectrum_weight(const spectrum *s, size_t k, int q);
 /* Of the residuals evaluated last. */
 double spectrum_objective(const spectrum *s, const double *value);
 double spectrum_squares(const spectrum *s, int q);                 /* of the whitened residuals */
@@ -111,6 +116,9 @@ wt_status spectrum_fit(spectrum *s, spectrum_mode mode, wt_error *err) WT_NODISC
 double spectrum_noise_update(spectrum *s);
 void spectrum_criterion(spectrum *s);
 void spectrum_student_weights(spectrum *s);
+/* A transition bends more than a plateau: weights of the second differences by what is near. Beyond
+ * the slow end none is held more than elsewhere: how it goes on there is open. */
+void spectrum_bends(spectrum *s);
 /* Leaves out single points far off and takes back those that are not; how many changed. */
 size_t spectrum_outliers(spectrum *s);
 
@@ -121,8 +129,17 @@ size_t spectrum_outliers(spectrum *s);
 /* ---- spectrum_correlation.c */
 /* Correlation along the isotherms by the criterion. */
 wt_status spectrum_choose_rho(spectrum *s, wt_error *err) WT_NODISCARD;
-/* Noise factors and correlation by what is left of each isotherm about a curve of its own: a
- * spectrum that does not fit is no noise. */
-wt_status spectrum_noise_within(spectrum *s, double *rho, wt_error *err) WT_NODISCARD;
+/* Noise by what is left of each isotherm about a curve of its own: a spectrum that does not fit is
+ * no noise. */
+enum { SPECTRUM_SHAPES = 2 };
+typedef struct spectrum_within {
+    double rho;
+    double shape[SPECTRUM_SHAPES]; /* of ln noise along an isotherm, from -1 to 1: line, parabola */
+    double uncertainty; /* variance of ln of the variance that slow waves of such noise have */
+} spectrum_within;
+/* Sets the factors of the isotherms, and leaves the rest to the caller. */
+wt_status spectrum_noise_within(spectrum *s, spectrum_within *within, wt_error *err) WT_NODISCARD;
+/* Factors of the points: of their isotherm, and by their place on it. */
+void spectrum_spread(spectrum *s, const double shape[SPECTRUM_SHAPES]);
 
 #endif

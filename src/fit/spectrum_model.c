@@ -36,11 +36,13 @@ static wt_status allocate(spectrum *s, wt_error *err)
         s->y[q] = pool_numbers(m, s->n);
         s->weight[q] = pool_numbers(m, s->n);
         s->was[q] = pool_numbers(m, s->n);
+        s->spread[q] = pool_numbers(m, s->n);
         s->residual[q] = pool_numbers(m, s->n);
         s->row[q] = pool_numbers(m, (s->n + ROWS - 1) * (s->n_linear + 2));
         s->normal[q] = pool_matrix(m, most, most);
     }
     s->kappa = pool_numbers(m, s->n_curves);
+    s->bend = pool_numbers(m, s->n_terms);
     s->term = pool_numbers(m, s->n_linear);
     s->value = pool_numbers(m, most);
     s->trial = pool_numbers(m, most);
@@ -107,6 +109,7 @@ wt_status spectrum_new(const shift_set *set, const bool *use, size_t anchor, con
     s->n_terms = 1 + (size_t)ceil((high - low + fast_margin + slow_margin) * terms_per_decade);
     s->n_linear = s->n_terms + (liquid ? 0 : 1);
     s->log_tau = -(high + fast_margin) * M_LN10;
+    s->n_fast = (size_t)ceil(fast_margin * terms_per_decade);
     s->n_measured = (size_t)ceil((high + fast_margin - low) * terms_per_decade);
     wt_status status = allocate(s, err);
     if (status != WT_OK) {
@@ -124,7 +127,7 @@ wt_status spectrum_new(const shift_set *set, const bool *use, size_t anchor, con
             s->x[k] = c->x[p] * M_LN10;
             for (int q = 0; q < MODULI; q++) {
                 s->y[q][k] = c->y[q][p] * M_LN10;
-                s->weight[q][k] = 1.0;
+                s->weight[q][k] = s->spread[q][k] = 1.0;
             }
         }
         start[curve] = a[i] * M_LN10;
@@ -134,6 +137,8 @@ wt_status spectrum_new(const shift_set *set, const bool *use, size_t anchor, con
     s->first[curve] = k;
     start_terms(s, start, start + s->n_curves);
     s->smooth = 0.3;
+    for (size_t j = 0; j < s->n_terms; j++)
+        s->bend[j] = 1.0;
     for (int q = 0; q < MODULI; q++)
         s->noise[q] = 0.05;
     /* until a prior is set: shifts lie behind the terms, the anchor's among them */
@@ -224,6 +229,11 @@ void spectrum_at(const spectrum *s, const double *term, double x, double log_mod
 
 /* ---- rows ------------------------------------------------------------------------------------ */
 
+double spectrum_weight(const spectrum *s, size_t k, int q)
+{
+    return sqrt(s->weight[q][k]) / s->spread[q][k];
+}
+
 /* The point that counts before point k of a curve; false if there is none. */
 static bool point_before(const spectrum *s, size_t curve, int q, size_t k, size_t *before)
 {
@@ -236,7 +246,7 @@ static bool point_before(const spectrum *s, size_t curve, int q, size_t k, size_
 void spectrum_whiten(const spectrum *s, size_t curve, int q, double *v, size_t width)
 {
     size_t at, before;
-    if (!(s->rho > 0.0) || !point_before(s, curve, q, s->first[curve + 1], &at))
+    if (s->rho == 0.0 || !point_before(s, curve, q, s->first[curve + 1], &at))
         return;
     for (; point_before(s, curve, q, at, &before); at = before) {
         const double rho = pow(s->rho, (double)(at - before));
@@ -249,7 +259,7 @@ void spectrum_whiten(const spectrum *s, size_t curve, int q, double *v, size_t w
 double spectrum_log_det_correlation(const spectrum *s)
 {
     double sum = 0.0;
-    for (size_t i = 0; i < s->n_curves && s->rho > 0.0; i++)
+    for (size_t i = 0; i < s->n_curves && s->rho != 0.0; i++)
         for (int q = 0; q < MODULI; q++) {
             size_t at, before;
             if (!point_before(s, i, q, s->first[i + 1], &at))
@@ -272,7 +282,7 @@ void spectrum_evaluate(spectrum *s, const double *value, bool with_rows)
             double modulus[MODULI], slope[MODULI];
             spectrum_at(s, s->term, s->x[k] + a, modulus, slope, with_rows ? row : NULL);
             for (int q = 0; q < MODULI; q++) {
-                const double w = sqrt(s->weight[q][k]) / s->kappa[i];
+                const double w = spectrum_weight(s, k, q);
                 s->residual[q][k] = w * (s->y[q][k] - modulus[q] + b);
                 for (size_t j = 0; with_rows && j < s->n_linear; j++)
                     row[q][j] *= w;
@@ -348,7 +358,7 @@ void spectrum_normal(spectrum *s)
 /* Weight of a second difference, of terms j to j + 2. */
 static double stiffness(const spectrum *s, size_t j)
 {
-    return j + 1 < s->n_measured ? 1.0 : slow_stiffness;
+    return s->bend[j] * (j + 1 < s->n_measured ? 1.0 : slow_stiffness);
 }
 
 static double b_departure(const spectrum *s, const double *value, size_t curve)

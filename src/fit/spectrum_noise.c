@@ -10,25 +10,20 @@
 /* No instrument knows a modulus better than this: so exact data do not make rounding decide. */
 static const double least_noise = 1e-4;
 static const double least_smooth = 1e-3;
+/* How much a spectrum bends somewhere is that of so many decades to either side, with as much
+ * belief that it is what it bends everywhere as so many second differences would give. */
+static const double bend_reach = 1.0, bend_belief = 5.0;
 /* Degrees of freedom of the Student distribution while outliers are looked for. */
 static const double student = 4.0;
 /* A point is left out beyond so many standard deviations, and taken back below the second. Of a
  * thousand points with normal noise one in a hundred sweeps is lost. */
 static const double outlier = 5.0, no_outlier = 4.5;
 
-static double count_used(const spectrum *s, int q, size_t curve)
+static double count_used(const spectrum *s, int q)
 {
     double n = 0.0;
-    for (size_t k = s->first[curve]; k < s->first[curve + 1]; k++)
+    for (size_t k = 0; k < s->n; k++)
         n += s->weight[q][k] > 0.0;
-    return n;
-}
-
-static double count_all(const spectrum *s, int q)
-{
-    double n = 0.0;
-    for (size_t i = 0; i < s->n_curves; i++)
-        n += count_used(s, q, i);
     return n;
 }
 
@@ -47,7 +42,7 @@ double spectrum_noise_update(spectrum *s)
     for (int q = 0; q < MODULI; q++) {
         const double square = s->noise[q] * s->noise[q];
         s->freedom[q] = trace_of_product(s->covariance, s->normal[q], s->n_unknowns) / square;
-        const double left = fmax(count_all(s, q) - s->freedom[q], 1.0);
+        const double left = fmax(count_used(s, q) - s->freedom[q], 1.0);
         const double next = fmax(sqrt(spectrum_squares(s, q) / left), least_noise);
         change = fmax(change, fabs(log(next / s->noise[q])));
         s->noise[q] = next;
@@ -73,9 +68,46 @@ void spectrum_criterion(spectrum *s)
 {
     s->criterion = spectrum_objective(s, s->value) + s->log_det + spectrum_prior_log_det(s) +
                    spectrum_log_det_correlation(s);
-    for (size_t i = 0; i < s->n_curves; i++)
-        for (int q = 0; q < MODULI; q++)
-            s->criterion += 2.0 * count_used(s, q, i) * log(s->noise[q] * s->kappa[i]);
+    for (int q = 0; q < MODULI; q++)
+        for (size_t k = 0; k < s->n; k++)
+            if (s->weight[q][k] > 0.0)
+                s->criterion += 2.0 * log(s->noise[q] * s->spread[q][k]);
+}
+
+/* ---- where the spectrum bends ---------------------------------------------------------------- */
+
+/* What a second difference has, in units of smooth^2: squared, and how much of it is known. */
+static double bend_known(const spectrum *s, size_t j, double *square)
+{
+    static const double weight[3] = {1.0, -2.0, 1.0};
+    const double unit = s->smooth * s->smooth;
+    const double bend = s->value[j] - 2.0 * s->value[j + 1] + s->value[j + 2];
+    double variance = 0.0;
+    for (size_t i = 0; i < 3; i++)
+        for (size_t k = 0; k < 3; k++)
+            variance += weight[i] * weight[k] * gsl_matrix_get(s->covariance, j + i, j + k);
+    *square = bend * bend / unit;
+    return fmax(1.0 - s->bend[j] * variance / unit, 0.0);
+}
+
+void spectrum_bends(spectrum *s)
+{
+    const size_t reach = (size_t)ceil(bend_reach * M_LN10 / s->step), n = s->n_terms - 2;
+    const size_t first = s->n_fast + reach;
+    const size_t last = s->n_measured > first + reach ? s->n_measured - reach : first;
+    double *next = s->term; /* scratch */
+    for (size_t j = 0; j < n; j++) {
+        const size_t at = j < first ? first : j > last ? last : j;
+        double sum = bend_belief, known = bend_belief;
+        for (size_t i = at - reach; i <= at + reach && i < n; i++) {
+            double square;
+            known += bend_known(s, i, &square);
+            sum += square;
+        }
+        next[j] = j > last ? fmin(known / sum, 1.0) : known / sum;
+    }
+    for (size_t j = 0; j < n; j++)
+        s->bend[j] = next[j];
 }
 
 /* ---- outliers -------------------------------------------------------------------------------- */

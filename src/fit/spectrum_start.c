@@ -8,48 +8,40 @@ enum { NEIGHBOURS = 3 };
 
 /* Places curve i on one of the placed curves towards the anchor: the next one, or one behind it if
  * that is not to be had. */
-static wt_status place(const shift_set *set, size_t anchor, wt_vertical_shift kind, size_t i,
-                       bool *placed, double *a, double *b, wt_error *err)
+static void place(const shift_set *set, size_t anchor, wt_vertical_shift kind, size_t i,
+                  bool *placed, double *a, double *b)
 {
     const bool free_b = kind == WT_VERTICAL_FREE || kind == WT_VERTICAL_TIED;
     const long inwards = i > anchor ? -1 : 1;
     int tried = 0;
     for (long p = (long)i + inwards; tried < NEIGHBOURS; p += inwards) {
+        double by = 0.0, vertical = b[i] - b[p];
         if (placed[p]) {
-            shift_pair pair;
-            wt_status status =
-                shift_pair_fit(&set->curves[p], &set->curves[i], free_b, b[i] - b[p], &pair, err);
-            if (status != WT_OK)
-                return status;
             tried++;
-            if (pair.found) {
-                a[i] = a[p] + pair.a;
-                if (free_b)
-                    b[i] = b[p] + pair.b;
-                placed[i] = true;
-                return WT_OK;
-            }
+            placed[i] = shift_pair_fit(&set->curves[p], &set->curves[i], free_b, &by, &vertical);
+        }
+        if (placed[i]) {
+            a[i] = a[p] + by;
+            b[i] = b[p] + vertical;
+            return;
         }
         if ((size_t)p == anchor)
-            break;
+            return;
     }
-    return WT_OK;
 }
 
-wt_status spectrum_start(const shift_set *set, size_t anchor, wt_vertical_shift kind,
-                         const double *physical, bool *placed, double *a, double *b, wt_error *err)
+void spectrum_start(const shift_set *set, size_t anchor, wt_vertical_shift kind,
+                    const double *physical, bool *placed, double *a, double *b)
 {
-    wt_status status = WT_OK;
     for (size_t i = 0; i < set->n; i++) {
         placed[i] = i == anchor;
         a[i] = 0.0;
         b[i] = kind == WT_VERTICAL_NONE ? 0.0 : physical[i];
     }
-    for (size_t i = anchor + 1; i < set->n && status == WT_OK; i++)
-        status = place(set, anchor, kind, i, placed, a, b, err);
-    for (size_t i = anchor; i-- > 0 && status == WT_OK;)
-        status = place(set, anchor, kind, i, placed, a, b, err);
-    return status;
+    for (size_t i = anchor + 1; i < set->n; i++)
+        place(set, anchor, kind, i, placed, a, b);
+    for (size_t i = anchor; i-- > 0;)
+        place(set, anchor, kind, i, placed, a, b);
 }
 
 static double shared(const shift_curve *p, double a_p, const shift_curve *s, double a_s)

@@ -6,9 +6,8 @@
 #include "fit/shift.h"
 
 /* Each isotherm against its placed neighbours, outwards from the anchor; a, b: [set->n] decades. */
-wt_status spectrum_start(const shift_set *set, size_t anchor, wt_vertical_shift kind,
-                         const double *physical, bool *placed, double *a, double *b,
-                         wt_error *err) WT_NODISCARD;
+void spectrum_start(const shift_set *set, size_t anchor, wt_vertical_shift kind,
+                    const double *physical, bool *placed, double *a, double *b);
 /* Keeps those of `placed` that hang together with the anchor through shared frequencies; overlap:
  * the least that is shared on the way to it [decade], infinite for the anchor. How many are left.
  */

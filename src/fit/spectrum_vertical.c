@@ -28,18 +28,25 @@ double vertical_physical(const vertical *v, double temperature)
     return log(t0 / temperature) + v->expansion * (temperature - t0);
 }
 
-wt_status vertical_prior(vertical *v, wt_vertical_shift kind, const double *temperature, size_t n,
-                         spectrum_prior *prior, wt_error *err)
+wt_status vertical_prior(vertical *v, wt_vertical_shift kind, const double *temperature,
+                         const spectrum *s, spectrum_prior *prior, wt_error *err)
 {
+    const size_t n = s->n_curves;
     gsl_quiet();
     *prior = (spectrum_prior){.held = kind == WT_VERTICAL_NONE || kind == WT_VERTICAL_PHYSICAL,
                               .mean = v->mean};
     for (size_t i = 0; i < n; i++)
         v->mean[i] = kind == WT_VERTICAL_NONE ? 0.0 : vertical_physical(v, temperature[i]);
-    if (kind != WT_VERTICAL_TIED)
-        return WT_OK;
     const double geometry = v->geometry * M_LN10, departure = v->departure * M_LN10;
     gsl_matrix_view part = gsl_matrix_submatrix(v->precision, 0, 0, n, n);
+    if (kind == WT_VERTICAL_FREE && geometry > 0.0) {
+        gsl_matrix_set_zero(&part.matrix);
+        gsl_matrix_set(&part.matrix, s->anchor, s->anchor, 1.0 / (geometry * geometry));
+        prior->log_det = 2.0 * log(geometry);
+        prior->precision = v->precision;
+    }
+    if (kind != WT_VERTICAL_TIED)
+        return WT_OK;
     for (size_t i = 0; i < n; i++)
         for (size_t k = 0; k < n; k++)
             gsl_matrix_set(&part.matrix, i, k,

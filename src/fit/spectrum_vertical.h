@@ -14,9 +14,10 @@ typedef struct vertical {
 
 /* ln b of rubber elasticity. */
 double vertical_physical(const vertical *v, double temperature);
-/* Fills mean and precision; the prior borrows them. */
-wt_status vertical_prior(vertical *v, wt_vertical_shift kind, const double *temperature, size_t n,
-                         spectrum_prior *prior, wt_error *err) WT_NODISCARD;
+/* Fills mean and precision of the curves of a spectrum; the prior borrows them. Free shifts are so
+ * but for the anchor, which is clamped as all are; without an error of the geometry it is held. */
+wt_status vertical_prior(vertical *v, wt_vertical_shift kind, const double *temperature,
+                         const spectrum *s, spectrum_prior *prior, wt_error *err) WT_NODISCARD;
 /* ln b of the material at a temperature is vertical_physical plus the sum of weight[i] times (b_i -
  * mean_i): what is smooth in them. */
 void vertical_smooth_part(const vertical *v, const spectrum_prior *prior, const double *temperature,

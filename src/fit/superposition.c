@@ -34,6 +34,7 @@ struct extra {
     gsl_matrix *matrix; /* [n * n] what the model leaves of them */
     gsl_vector *right;  /* [n] with the residuals */
     double squares, points, freedom;
+    double uncertainty; /* variance of ln of the variance of what columns explain */
 };
 
 /* Whitened and divided by the noise. */
@@ -45,8 +46,7 @@ static void add_column(struct extra *x, size_t curve, int q, int power)
     const double middle = 0.5 * (s->x[from] + s->x[to - 1]);
     const double half = fmax(0.5 * (s->x[to - 1] - s->x[from]), 1e-300);
     for (size_t k = from; k < to; k++)
-        v[k] += sqrt(s->weight[q][k]) / s->kappa[curve] / s->noise[q] *
-                pow((s->x[k] - middle) / half, power);
+        v[k] += spectrum_weight(s, k, q) / s->noise[q] * pow((s->x[k] - middle) / half, power);
     spectrum_whiten(s, curve, q, v, 1);
 }
 
@@ -91,8 +91,8 @@ static void add_parted(struct extra *x, size_t curve, size_t k, const double *sh
         for (int q = 0; q < MODULI; q++)
             for (size_t p = 0; p < PARTINGS; p++)
                 *gsl_matrix_ptr(x->column, p, (q == LOSS ? s->n : 0) + k) +=
-                    a * sqrt(s->weight[q][k]) / s->kappa[curve] / s->noise[q] *
-                    share[p * s->n_terms + j] * part[q][j] * rise[q];
+                    a * spectrum_weight(s, k, q) / s->noise[q] * share[p * s->n_terms + j] *
+                    part[q][j] * rise[q];
     }
 }
 
@@ -240,9 +240,11 @@ static wt_status test_columns(struct extra *x, lack_of_fit *result, wt_error *er
         return WT_OK;
     const double left = fmax(x->points - x->freedom - k, 1.0);
     const double variance = fmax(x->squares - q, least_squares * x->squares) / left;
+    const double known = 2.0 / (2.0 / left + x->uncertainty);
     const double to_misfit = s->noise[STORAGE] * s->noise[LOSS] * variance / x->points;
     const double above = q / variance;
     result->p = fmin(result->p, tests * gsl_cdf_fdist_Q(above / k, k, left));
+    result->p_sure = fmin(result->p_sure, tests * gsl_cdf_fdist_Q(above / k, k, known));
     result->misfit_low = fmax(result->misfit_low, sqrt(noncentrality(above, k, 0.975) * to_misfit));
     result->misfit_high =
         fmax(result->misfit_high, sqrt(noncentrality(above, k, 0.025) * to_misfit));
@@ -256,7 +258,7 @@ static wt_status test_factor(struct extra *x, lack_of_fit *result, wt_error *err
     double *v = gsl_matrix_ptr(x->column, 0, s->n);
     for (size_t i = 0; i < s->n_curves; i++) {
         for (size_t p = s->first[i]; p < s->first[i + 1]; p++)
-            v[p] = sqrt(s->weight[LOSS][p]) / s->kappa[i] / s->noise[LOSS];
+            v[p] = spectrum_weight(s, p, LOSS) / s->noise[LOSS];
         spectrum_whiten(s, i, LOSS, v, 1);
     }
     x->n = 1;
@@ -268,16 +270,18 @@ static wt_status test_factor(struct extra *x, lack_of_fit *result, wt_error *err
     const double d = gsl_matrix_get(x->matrix, 0, 0), r = gsl_vector_get(x->right, 0);
     const double left = fmax(x->points - x->freedom - 1.0, 1.0);
     const double spread = fmax((x->squares - r * r / d) / left, 1e-300);
+    const double known = 2.0 / (2.0 / left + x->uncertainty);
     result->factor = r / d / scale;
     result->factor_error = sqrt(spread / d) / scale;
-    result->kk = 2.0 * gsl_cdf_tdist_Q(fabs(r) / sqrt(spread * d), left);
+    result->kk = 2.0 * gsl_cdf_tdist_Q(fabs(r) / sqrt(spread * d), known);
     return WT_OK;
 }
 
-wt_status superposition_test(const spectrum *s, lack_of_fit *result, wt_error *err)
+wt_status superposition_test(const spectrum *s, double uncertainty, lack_of_fit *result,
+                             wt_error *err)
 {
     const size_t most = s->n_curves * (MODULI * POWERS - 1) + PARTINGS;
-    struct extra x = {.s = s};
+    struct extra x = {.s = s, .uncertainty = uncertainty};
     x.column = pool_matrix(&x.memory, most, 2 * s->n);
     x.matrix = pool_matrix(&x.memory, most, most);
     x.right = pool_vector(&x.memory, most);
@@ -290,7 +294,7 @@ wt_status superposition_test(const spectrum *s, lack_of_fit *result, wt_error *e
         for (size_t k = 0; k < s->n; k++)
             x.points += s->weight[q][k] > 0.0;
     }
-    *result = (lack_of_fit){.p = 1.0};
+    *result = (lack_of_fit){.p = 1.0, .p_sure = 1.0};
     if (status == WT_OK) {
         add_columns(&x);
         status = test_columns(&x, result, err);

@@ -1,5 +1,5 @@
-/* Of every number of friction and layer that has a standard error: known, not known or without one,
- * by where the material and its errors come from. 0 is for what has no error; what is not known is
+/* Of every number of the main tables that has a standard error: known, not known or without one, by
+ * where it and its errors come from. 0 is for what has no error; what is not known is
  * nan, and is named. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report_fixture.h"
 #include "truth.h"
@@ -10,10 +10,12 @@ enum { ALL, MATERIAL_ONLY, PRESSURE_ONLY, NOTHING, WAYS };
 
 /* For the four ways: known, not known, 0 because there is none. A column or key with a standard
  * error that is not here fails the test. */
-static const struct {
+typedef struct expectation {
     const table_schema *schema;
     const char *name, *expected;
-} list[] = {
+} expectation;
+
+static const expectation list[] = {
     {&friction_schema, "pressure", "knkn"},
     {&friction_schema, "temperature", "knnn"},
     {&friction_schema, "shear_stress", "knnn"},
@@ -94,20 +96,14 @@ static void make(int way)
         fail_msg("%s %s", err.message, err.found);
 }
 
-static const wt_table *table_of(const table_schema *schema, int way)
-{
-    return schema == &friction_schema ? friction[way].friction : layer[way].layer;
-}
-
 static char letter(double error)
 {
     return isnan(error) ? 'n' : error > 0 ? 'k' : '0';
 }
 
 /* Of a column: in its last row. */
-static char found(const table_schema *schema, size_t field, bool is_key, int way)
+static char found(const wt_table *t, const table_schema *schema, size_t field, bool is_key)
 {
-    const wt_table *t = table_of(schema, way);
     wt_estimate e;
     if (is_key)
         return wt_table_estimate(t, schema->keys[field].name, &e) ? letter(e.standard_error) : '.';
@@ -115,37 +111,145 @@ static char found(const table_schema *schema, size_t field, bool is_key, int way
     return letter(cell(t, wt_table_n_rows(t) - 1, column));
 }
 
-static bool check(const table_schema *schema, size_t field, bool is_key)
+static bool is_listed(const expectation *from, size_t n, const table_schema *schema,
+                      const char *name, const char *words)
 {
-    const char *name = is_key ? schema->keys[field].name : schema->columns[field].name;
-    char words[WAYS + 1] = "";
-    for (int way = 0; way < WAYS; way++)
-        words[way] = found(schema, field, is_key, way);
-    for (size_t i = 0; i < sizeof list / sizeof list[0]; i++)
-        if (list[i].schema == schema && strcmp(list[i].name, name) == 0) {
-            if (strcmp(list[i].expected, words) != 0)
-                print_error("%s of %s: %s, not %s\n", name, schema->name, words, list[i].expected);
-            return strcmp(list[i].expected, words) == 0;
+    for (size_t i = 0; i < n; i++)
+        if (from[i].schema == schema && strcmp(from[i].name, name) == 0) {
+            if (strcmp(from[i].expected, words) != 0)
+                print_error("%s of %s: %s, not %s\n", name, schema->name, words, from[i].expected);
+            return strcmp(from[i].expected, words) == 0;
         }
     print_error("%s of %s is not in the list: %s\n", name, schema->name, words);
     return false;
 }
 
+/* Every key and column of a table that has a standard error, in each of n ways. */
+static bool check(const expectation *from, size_t n_listed, const table_schema *schema,
+                  const wt_table *const *way, size_t n)
+{
+    bool good = true;
+    for (size_t field = 0; field < schema->n_keys + schema->n_columns; field++) {
+        const bool is_key = field < schema->n_keys;
+        const size_t i = is_key ? field : field - schema->n_keys;
+        if (is_key ? schema->keys[i].kind != SCHEMA_NUMBER : schema->columns[i].standard_error == 0)
+            continue;
+        char words[WAYS + 1] = "";
+        for (size_t w = 0; w < n; w++)
+            words[w] = found(way[w], schema, i, is_key);
+        good = is_listed(from, n_listed, schema,
+                         is_key ? schema->keys[i].name : schema->columns[i].name, words) &&
+               good;
+    }
+    return good;
+}
+
 static void test_all(void **state)
 {
     (void)state;
-    static const table_schema *const schemas[] = {&friction_schema, &layer_schema};
-    bool good = true;
-    for (int way = 0; way < WAYS; way++)
+    const wt_table *of_friction[WAYS], *of_layer[WAYS];
+    for (int way = 0; way < WAYS; way++) {
         make(way);
-    for (size_t s = 0; s < 2; s++) {
-        for (size_t i = 0; i < schemas[s]->n_keys; i++)
-            if (schemas[s]->keys[i].kind == SCHEMA_NUMBER)
-                good = check(schemas[s], i, true) && good;
-        for (size_t i = 0; i < schemas[s]->n_columns; i++)
-            if (schemas[s]->columns[i].standard_error != 0)
-                good = check(schemas[s], i, false) && good;
+        of_friction[way] = friction[way].friction;
+        of_layer[way] = layer[way].layer;
     }
+    const bool good[] = {
+        check(list, sizeof list / sizeof list[0], &friction_schema, of_friction, WAYS),
+        check(list, sizeof list / sizeof list[0], &layer_schema, of_layer, WAYS)};
+    assert_true(good[0] && good[1]);
+}
+
+/* ---- what is measured ------------------------------------------------------------------------ */
+
+/* Of the bundled case, and where there is less to know: a material without draws, vertical shifts
+ * that are given, a spring constant without an error. */
+static const expectation measured[] = {
+    {&comparison_schema, "rate_slope", "kk"},
+    {&comparison_schema, "interaction_p", "00"},
+    {&comparison_schema, "modulus_ratio", "kk"},
+    {&comparison_schema, "modulus_ratio_df", "00"},
+    {&dma_comparison_schema, "temperature", "00"},
+    {&dma_comparison_schema, "track_temperature", ".."}, /* not given */
+    {&dma_comparison_schema, "dma_complex_modulus", "kn"},
+    {&indentation_schema, "spring_constant", "kn"},
+    {&indentation_schema, "modulus", "kk"},
+    {&indentation_schema, "contact_point", "kk"},
+    {&indentation_schema, "work_of_adhesion", "nn"}, /* there is none */
+    {&shift_factors_schema, "wlf_c1", "kk"},
+    {&shift_factors_schema, "wlf_c2", "kk"},
+    {&shift_factors_schema, "activation_energy", ".."}, /* WLF has none, and no joint */
+    {&shift_factors_schema, "joint", ".."},
+    {&shift_factors_schema, "law_slope", "kk"},
+    {&shift_factors_schema, "pole", "kk"},
+    {&shift_factors_schema, "offset", "kk"},
+    {&shift_factors_schema, "law_rms", "00"},
+    {&shift_factors_schema, "temperature_spread", "nn"},
+    {&shift_factors_schema, "reference_temperature", "00"},
+    {&shift_factors_schema, "loss_factor", "kk"},
+    {&shift_factors_schema, "log_a", "kk"},
+    {&shift_factors_schema, "log_b", "k0"},
+    {&prony_schema, "equilibrium_modulus", "kk"},
+    {&prony_schema, "equilibrium_modulus_limit", ".."}, /* the modulus is known */
+    {&prony_schema, "reference_temperature", "00"},
+    {&prony_schema, "frequency_min", "00"},
+    {&prony_schema, "frequency_max", "00"},
+};
+static wt_compare_tables compared;
+static wt_master_tables mastered;
+static wt_indent_tables indented;
+
+static void measure_bare(void)
+{
+    const wt_result *result = fixture_produced();
+    const char *const isotherms[] = {WT_SOURCE_DIR "/fixtures/case/dma.txt"};
+    const char *const curves[] = {WT_SOURCE_DIR "/fixtures/case/bulk-1.jpk-force-map"};
+    const wt_file_set sweep = {.patterns = isotherms, .n_patterns = 1, .read = wt_read_defaults()};
+    const wt_file_set map = {.patterns = curves, .n_patterns = 1, .read = wt_read_defaults()};
+    wt_compare_job compare = wt_compare_job_defaults();
+    wt_master_job master = wt_master_job_defaults();
+    wt_indent_job indent = wt_indent_job_defaults();
+    wt_job work = wt_job_defaults();
+    wt_formats *formats = NULL;
+    fixture_check(wt_formats_new(NULL, &formats, NULL, NULL));
+    work.formats = formats;
+    work.threads = 1;
+    compare.bulk = wt_result_find(result, "indentation/bulk");
+    compare.track = wt_result_find(result, "indentation/track");
+    compare.rubber = &rubber[PRESSURE_ONLY]; /* of test_all */
+    fixture_check(wt_compare_groups(&compare, &work, &compared, NULL));
+    master.sets = &sweep;
+    master.n_sets = 1;
+    master.fit.vertical = WT_VERTICAL_NONE;
+    fixture_check(wt_master_make(&master, &work, &mastered, NULL, NULL));
+    indent.sets = &map;
+    indent.n_sets = 1;
+    indent.spring_constant = (wt_estimate){0.3, 0, 0, "N/m"};
+    fixture_check(wt_tip_parse("pyramid:half-angle=20deg,radius=20nm", &indent.tip, NULL));
+    fixture_check(wt_indent_group(&indent, &work, &indented, NULL));
+    wt_formats_free(formats);
+}
+
+static void test_measured(void **state)
+{
+    (void)state;
+    measure_bare();
+    const wt_result *result = fixture_produced();
+    const struct {
+        const table_schema *schema;
+        const wt_table *table[2];
+    } pairs[] = {
+        {&comparison_schema, {wt_result_find(result, "comparison"), compared.comparison}},
+        {&dma_comparison_schema,
+         {wt_result_find(result, "dma_comparison"), compared.dma_comparison}},
+        {&indentation_schema, {wt_result_find(result, "indentation/bulk"), indented.indentation}},
+        {&shift_factors_schema, {wt_result_find(result, "shift_factors"), mastered.shift_factors}},
+        {&prony_schema, {wt_result_find(result, "prony"), mastered.prony}},
+    };
+    bool good = true;
+    for (size_t p = 0; p < sizeof pairs / sizeof pairs[0]; p++)
+        good = check(measured, sizeof measured / sizeof measured[0], pairs[p].schema,
+                     pairs[p].table, 2) &&
+               good;
     assert_true(good);
 }
 
@@ -213,15 +317,17 @@ static int clear(void **state)
         wt_layer_tables_clear(&layer[way]);
         wt_rubber_clear(&rubber[way]);
     }
+    wt_compare_tables_clear(&compared);
+    wt_master_tables_clear(&mastered);
+    wt_indent_tables_clear(&indented);
     return 0;
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_all),
-        cmocka_unit_test(test_named),
-        cmocka_unit_test(test_share),
+        cmocka_unit_test(test_all),           cmocka_unit_test(test_measured),
+        cmocka_unit_test(test_named),         cmocka_unit_test(test_share),
         cmocka_unit_test(test_no_replicates),
     };
     return cmocka_run_group_tests_name("errors known", tests, NULL, clear);

@@ -297,7 +297,7 @@ static void test_incubation_is_marked_where_the_curve_shows_it(void **state)
     (void)state;
     NEED_REPORT();
     char *script = read_plot("out", "layer", "gp");
-    assert_non_null(strstr(script, "set label 'incubation' at 1.2065"));
+    assert_non_null(strstr(script, "set label 'incubation' at 1.206"));
     free(script);
     const fixture_change change = {"layer", .edit = grow_at_once};
     wt_result *result = fixture_with(&change);

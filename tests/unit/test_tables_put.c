@@ -140,7 +140,7 @@ static void run_case_at(double tolerance, const char *text, const char *instead)
     assert_int_equal(wt_result_contents(result, &plan, NULL), WT_OK);
     see(plan);
     wt_table_free(plan);
-    assert_int_equal(wt_table_keys(wt_result_find(result, "prony"), &plan, NULL), WT_OK);
+    assert_int_equal(wt_table_keys(wt_result_find(result, "friction"), &plan, NULL), WT_OK);
     see(plan);
     wt_table_free(plan);
     wt_result_free(result);
@@ -170,6 +170,10 @@ static void test_cases(void **state)
     run_case("<critical-energy>2e10J/m^3 +- 10%</critical-energy>", /* wear takes what was there */
              "<critical-energy>1e14J/m^3</critical-energy><start-thickness>1um</start-thickness>");
     run_case("<files>dma.txt", "<files>absent.txt</files><files>dma.txt");
+    run_case("<vertical-shift>tied</vertical-shift>\n"
+             "    <files>dma.txt</files>", /* a material without draws */
+             "<prony deformation=\"tension\"><equilibrium>5MPa</equilibrium>"
+             "<term time=\"1e-4s\" modulus=\"20MPa\"/></prony><wlf><c1>5</c1><c2>100K</c2></wlf>");
 }
 
 /* A melt whose shifts go over to Arrhenius in the cold: no equilibrium modulus, two laws. */

@@ -341,10 +341,12 @@ static void test_dma(void **state)
             assert_near(cell(t, i, "high"), mean * exp(reach), 1e-9);
             assert_near(cell(t, i, "dma_storage_modulus"), storage, 1e-9);
             assert_near(cell(t, i, "dma_complex_modulus"), complex, 1e-9);
+            assert_true(isnan(cell(t, i, "dma_complex_modulus_standard_error")));
             assert_near(cell(t, i, "ratio"), mean / complex, 1e-9);
             assert_near(cell(t, i, "extrapolated"),
                         frequency[r] * a < 10 || frequency[r] * a > 5000 ? 1 : 0, 0);
         }
+        assert_string_equal(wt_table_key(t, "standard_error_lacks"), "material");
         assert_near(key_estimate(t, "temperature").value, 293.15 + step, 1e-12);
         assert_int_equal(wt_table_block(t, RATES), 0);
     }

@@ -92,7 +92,11 @@
     X(DMA_COMPARISON_STORAGE_MODULUS, "dma_storage_modulus", "E' of the DMA at this frequency",    \
       SI(STORAGE_MODULUS), LABEL("DMA E′"), LIKE(DMA_COMPARISON_MODULUS), SPARSE)                  \
     X(DMA_COMPARISON_COMPLEX_MODULUS, "dma_complex_modulus", "|E*| of the DMA at this frequency",  \
-      SI(COMPLEX_MODULUS), LABEL("DMA |E*|"), LIKE(DMA_COMPARISON_MODULUS), SPARSE)                \
+      SI(COMPLEX_MODULUS), LABEL("DMA |E*|"), LIKE(DMA_COMPARISON_MODULUS),                        \
+      STANDARD_ERROR(DMA_COMPARISON_COMPLEX_MODULUS), SPARSE)                                      \
+    X(DMA_COMPARISON_COMPLEX_MODULUS_STANDARD_ERROR, "dma_complex_modulus_standard_error",         \
+      "its standard error, by the draws of the material; nan: not known", SI(COMPLEX_MODULUS),     \
+      LABEL("± stat."), LIKE(DMA_COMPARISON_MODULUS), SPARSE)                                      \
     X(DMA_COMPARISON_RATIO, "ratio", "indentation modulus over |E*|", NUMBER,                      \
       LABEL("Indentation / DMA"), SPARSE)                                                          \
     X(DMA_COMPARISON_EXTRAPOLATED, "extrapolated", "1: outside the frequencies measured by DMA",   \
@@ -102,6 +106,8 @@
     X(DMA_COMPARISON_KEY_TEMPERATURE, "temperature", SI(TEMPERATURE))                              \
     X(DMA_COMPARISON_KEY_TRACK_TEMPERATURE, "track_temperature", SI(TEMPERATURE), OPTIONAL)        \
     X(DMA_COMPARISON_KEY_RATIO_OF, "ratio_of", TEXT)                                               \
+    X(DMA_COMPARISON_KEY_ERROR_LACKS, "standard_error_lacks", TEXT, LABEL("No error known of"),    \
+      OPTIONAL)                                                                                    \
     X(DMA_COMPARISON_KEY_MATERIAL_STATEMENT, "material_statement", TEXT, OPTIONAL)
 
 #endif

@@ -111,7 +111,9 @@ static void rate_row(table_writer *t, int g, const rate_point *point)
     modulus_rate_put(t, MODULUS_RATE_HIGH, point->summary.high);
 }
 
-static void dma_row(table_writer *t, int g, const rate_point *point, const wt_material *material)
+/* error: relative, of |E*|. */
+static void dma_row(table_writer *t, int g, const rate_point *point, const wt_material *material,
+                    double error)
 {
     double storage = (double)NAN, loss = (double)NAN;
     table_row(t);
@@ -127,6 +129,8 @@ static void dma_row(table_writer *t, int g, const rate_point *point, const wt_ma
         point->frequency < material->frequency_min || point->frequency > material->frequency_max;
     dma_comparison_put(t, DMA_COMPARISON_STORAGE_MODULUS, storage);
     dma_comparison_put(t, DMA_COMPARISON_COMPLEX_MODULUS, hypot(storage, loss));
+    dma_comparison_put(t, DMA_COMPARISON_COMPLEX_MODULUS_STANDARD_ERROR,
+                       error * hypot(storage, loss));
     dma_comparison_put(t, DMA_COMPARISON_RATIO,
                        point->summary.geometric_mean / hypot(storage, loss));
     dma_comparison_put(t, DMA_COMPARISON_EXTRAPOLATED, outside);
@@ -145,6 +149,28 @@ static wt_status make_rate_table(const compare_pair *p, wt_table **table, wt_err
     return table_end(&t, table);
 }
 
+/* The rows of a group, at its temperature. */
+static wt_status dma_rows(table_writer *t, const compare_pair *p, int g, const wt_rubber *rubber,
+                          double temperature, const wt_job *work, char statement[256],
+                          wt_error *err)
+{
+    wt_material *material = NULL;
+    wt_status status =
+        wt_rubber_at(rubber, temperature, work->seed, WT_NO_REPLICATE, &material, statement, err);
+    for (size_t b = 0; status == WT_OK && b < p->n_bins; b++) {
+        const rate_point *point = &p->point[g][b];
+        const condition at = {temperature, point->frequency};
+        wt_estimate modulus = {0};
+        if (point->n == 0)
+            continue;
+        if (point->frequency > 0)
+            status = compare_material(rubber, &at, 1, work, &modulus, err);
+        dma_row(t, g, point, material, modulus.standard_error);
+    }
+    wt_material_free(material);
+    return status;
+}
+
 /* A block for each group that has a temperature of its own. */
 static wt_status make_dma_table(const compare_pair *p, const wt_compare_job *job,
                                 const wt_job *work, wt_table **table, wt_error *err)
@@ -157,15 +183,9 @@ static wt_status make_dma_table(const compare_pair *p, const wt_compare_job *job
     const bool apart = !isnan(given[1]) && given[1] != (isnan(given[0]) ? reference : given[0]);
     table_writer t = table_begin(&dma_comparison_schema, err);
     for (int g = 0; t.status == WT_OK && g < 2; g++) {
-        wt_material *material = NULL;
         if (apart)
             table_block(&t);
-        t.status = wt_rubber_at(job->rubber, given[g], work->seed, WT_NO_REPLICATE, &material,
-                                statement, err);
-        for (size_t b = 0; t.status == WT_OK && b < p->n_bins; b++)
-            if (p->point[g][b].n > 0)
-                dma_row(&t, g, &p->point[g][b], material);
-        wt_material_free(material);
+        t.status = dma_rows(&t, p, g, job->rubber, given[g], work, statement, err);
     }
     dma_comparison_set_value(&t, DMA_COMPARISON_KEY_TEMPERATURE,
                              isnan(given[0]) ? reference : given[0], 0, 0);
@@ -173,6 +193,8 @@ static wt_status make_dma_table(const compare_pair *p, const wt_compare_job *job
         dma_comparison_set_value(&t, DMA_COMPARISON_KEY_TRACK_TEMPERATURE, given[1], 0, 0);
     dma_comparison_set_text(&t, DMA_COMPARISON_KEY_RATIO_OF,
                             "indentation modulus over |E*| of the DMA");
+    if (job->rubber->n_draws == 0)
+        dma_comparison_set_text(&t, DMA_COMPARISON_KEY_ERROR_LACKS, "material");
     if (statement[0] != '\0')
         dma_comparison_set_text(&t, DMA_COMPARISON_KEY_MATERIAL_STATEMENT, statement);
     return table_end(&t, table);

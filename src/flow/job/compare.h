@@ -55,6 +55,16 @@ typedef struct compare_known {
 wt_status compare_find_known(const compare_pair *p, const wt_compare_job *job, const wt_job *work,
                              bool rates_by_dma, compare_known *known, wt_error *err) WT_NODISCARD;
 
+/* Where a modulus is asked of the material. */
+typedef struct condition {
+    double temperature, frequency;
+} condition;
+
+/* ln |E*| at one condition, or of the second over the first, with its error by draws; NaN if the
+ * material states none. */
+wt_status compare_material(const wt_rubber *rubber, const condition *at, int n, const wt_job *work,
+                           wt_estimate *value, wt_error *err) WT_NODISCARD;
+
 /* One row of "comparison" before Holm's correction is known. */
 typedef struct compare_row {
     double low, high; /* rate; NaN = all */

@@ -72,10 +72,6 @@ static double mean_frequency(const wt_group_data *d)
     return exp(sum / (double)d->group.n);
 }
 
-typedef struct condition {
-    double temperature, frequency;
-} condition;
-
 static wt_status log_modulus(const wt_rubber *rubber, condition at, uint64_t seed, size_t replicate,
                              double *value, wt_error *err)
 {
@@ -90,29 +86,29 @@ static wt_status log_modulus(const wt_rubber *rubber, condition at, uint64_t see
     return WT_OK;
 }
 
-/* ln |E*| of the track's condition over that of the bulk's, with its error by draws; NaN if the
- * material states none. */
-static wt_status change_of(const wt_rubber *rubber, const condition at[2], const wt_job *work,
-                           wt_estimate *change, wt_error *err)
+wt_status compare_material(const wt_rubber *rubber, const condition *at, int n_at,
+                           const wt_job *work, wt_estimate *value, wt_error *err)
 {
     double sum = 0;
     size_t n = 0;
     for (size_t i = 0; i <= DRAWS; i++) {
         const size_t replicate = i == 0 ? WT_NO_REPLICATE : i - 1;
-        double y[2];
+        double y = 0, one = 0;
         wt_status status = WT_OK;
-        for (int g = 0; status == WT_OK && g < 2; g++)
-            status = log_modulus(rubber, at[g], work->seed, replicate, &y[g], i == 0 ? err : NULL);
+        for (int g = 0; status == WT_OK && g < n_at; g++) {
+            status = log_modulus(rubber, at[g], work->seed, replicate, &one, i == 0 ? err : NULL);
+            y = one - y;
+        }
         if (status != WT_OK && (i == 0 || status == WT_E_MEMORY))
             return status;
         if (i == 0) {
-            change->value = y[1] - y[0];
-        } else if (status == WT_OK && isfinite(y[1] - y[0])) {
-            sum += square(y[1] - y[0] - change->value);
+            value->value = y;
+        } else if (status == WT_OK && isfinite(y)) {
+            sum += square(y - value->value);
             n++;
         }
     }
-    change->standard_error = sum > 0 ? sqrt(sum / (double)n) : (double)NAN;
+    value->standard_error = sum > 0 ? sqrt(sum / (double)n) : (double)NAN;
     return WT_OK;
 }
 
@@ -128,7 +124,7 @@ static wt_status add_dma(const compare_pair *p, const wt_compare_job *job, const
     wt_estimate change = {0, (double)NAN, 0, "1"};
     wt_status status = WT_OK;
     if (job->rubber != NULL)
-        status = change_of(job->rubber, at, work, &change, err);
+        status = compare_material(job->rubber, at, 2, work, &change, err);
     k->offset.value += p->by_factor ? 0 : change.value; /* which the factors are free of */
     add_error(k, change.standard_error, "material");
     if (status != WT_OK || !by_temperature || !(step_error > 0) || job->rubber == NULL)
@@ -136,7 +132,7 @@ static wt_status add_dma(const compare_pair *p, const wt_compare_job *job, const
     condition near[2] = {at[1], at[1]};
     near[0].temperature -= 1;
     near[1].temperature += 1;
-    status = change_of(job->rubber, near, work, &change, err);
+    status = compare_material(job->rubber, near, 2, work, &change, err);
     add_error(k, fabs(change.value / 2) * step_error, "temperatures");
     return status;
 }
