@@ -213,7 +213,7 @@ static wt_status find_noise(master_work *work, wt_error *err)
     spectrum_spread(work->s, even);
     for (int round = 0; status == WT_OK && round < BEND_ROUNDS; round++) {
         status = spectrum_fit(work->s, SPECTRUM_ROUGH, err);
-        if (status == WT_OK)
+        if (status == WT_OK && round + 1 < BEND_ROUNDS)
             spectrum_bends(work->s);
     }
     return status == WT_OK ? spectrum_choose_rho(work->s, err) : status;

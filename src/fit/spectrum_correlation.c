@@ -36,8 +36,8 @@ enum { LEAST_COEFFICIENTS = 3, MOST_COEFFICIENTS = 5, MOST_WIDTH = MOST_COEFFICI
 /* Points beyond the coefficients below which an isotherm says nothing. */
 enum { LEAST_LEFT = 3 };
 /* atanh of the correlation is looked for in such steps. Few points, of which a polynomial takes the
- * slow part, do not tell it from 0: it is believed to
- * be about so much (half width of a Cauchy prior). */
+ * slow part, do not tell it from 0: it is believed to be about so much (half width of a Cauchy
+ * prior). */
 enum { CORRELATIONS = 15 };
 static const double correlation_first = -0.36, correlation_step = 0.18, correlation_believed = 0.3;
 /* Noise that changes along all isotherms alike: ln of its size by their place from -1 to 1, a line
@@ -171,10 +171,11 @@ static void add_shape(const spectrum *s, size_t curve, int q, struct noise_work 
 }
 
 /* Factors of the isotherms and the shape from what the polynomials leave; the variance of ln of
- * the noise at the ends. */
+ * the noise towards the ends. */
 static double shape_within(spectrum *s, struct noise_work *w, double shape[SHAPES])
 {
-    const double belief = 1.0 / (shape_believed * shape_believed), end = 0.25;
+    const double belief = 1.0 / (shape_believed * shape_believed);
+    const double end = 0.25; /* where the columns of the test have their weight, by the parabola */
     (void)within_all(s, w);
     for (int i = 0; i < SHAPES; i++) {
         w->score[i] = -belief * shape[i];

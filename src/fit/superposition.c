@@ -26,6 +26,10 @@ static const double least_left = 1e-6;
  * exchanged moduli, they seem to explain more than there is. */
 static const double least_squares = 0.01;
 
+/* A misfit that is large makes noise within the isotherms that hardly is one: not less is believed
+ * to be known of it than so many degrees of freedom would tell. */
+static const double least_known = 12.0;
+
 struct extra {
     const spectrum *s;
     pool memory;
@@ -226,6 +230,12 @@ static double noncentrality(double x, double freedom, double probability)
     return 0.5 * (low + high);
 }
 
+/* Degrees of freedom by which the noise is known that slow columns have. */
+static double known_freedom(const struct extra *x, double left)
+{
+    return fmax(2.0 / (2.0 / left + x->uncertainty), fmin(least_known, left));
+}
+
 /* Probability and misfit of what the columns explain, if that is less likely than what is in
  * `result`; the misfit is the larger one. */
 static wt_status test_columns(struct extra *x, lack_of_fit *result, wt_error *err)
@@ -240,7 +250,7 @@ static wt_status test_columns(struct extra *x, lack_of_fit *result, wt_error *er
         return WT_OK;
     const double left = fmax(x->points - x->freedom - k, 1.0);
     const double variance = fmax(x->squares - q, least_squares * x->squares) / left;
-    const double known = 2.0 / (2.0 / left + x->uncertainty);
+    const double known = known_freedom(x, left);
     const double to_misfit = s->noise[STORAGE] * s->noise[LOSS] * variance / x->points;
     const double above = q / variance;
     result->p = fmin(result->p, tests * gsl_cdf_fdist_Q(above / k, k, left));
@@ -255,22 +265,19 @@ static wt_status test_factor(struct extra *x, lack_of_fit *result, wt_error *err
 {
     const spectrum *s = x->s;
     gsl_matrix_set_zero(x->column);
-    double *v = gsl_matrix_ptr(x->column, 0, s->n);
-    for (size_t i = 0; i < s->n_curves; i++) {
-        for (size_t p = s->first[i]; p < s->first[i + 1]; p++)
-            v[p] = spectrum_weight(s, p, LOSS) / s->noise[LOSS];
-        spectrum_whiten(s, i, LOSS, v, 1);
+    for (size_t i = 0; i < s->n_curves; i++) { /* one column of all */
+        x->n = 0;
+        add_column(x, i, LOSS, 0);
     }
-    x->n = 1;
-    gsl_vector_const_view length = gsl_vector_const_view_array(v, s->n);
-    const double scale = gsl_blas_dnrm2(&length.vector);
+    gsl_vector_view column = gsl_matrix_row(x->column, 0);
+    const double scale = gsl_blas_dnrm2(&column.vector);
     wt_status status = project(x, err);
     if (status != WT_OK)
         return status;
     const double d = gsl_matrix_get(x->matrix, 0, 0), r = gsl_vector_get(x->right, 0);
     const double left = fmax(x->points - x->freedom - 1.0, 1.0);
     const double spread = fmax((x->squares - r * r / d) / left, 1e-300);
-    const double known = 2.0 / (2.0 / left + x->uncertainty);
+    const double known = known_freedom(x, left);
     result->factor = r / d / scale;
     result->factor_error = sqrt(spread / d) / scale;
     result->kk = 2.0 * gsl_cdf_tdist_Q(fabs(r) / sqrt(spread * d), known);
