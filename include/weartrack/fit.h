@@ -308,8 +308,8 @@ typedef struct wt_master_options {
                                      isotherm in the middle */
     wt_vertical_shift vertical;   /* default TIED */
     double expansion;             /* volumetric thermal expansion of rho T [1/K], default 0 */
-    double terms_per_decade;      /* of the spectrum, default 3: more changes nothing */
-    bool liquid;                  /* equilibrium modulus 0 */
+    double terms_per_decade; /* of the spectrum; NaN (default): 3, or 10 if it is sharp lines */
+    bool liquid;             /* equilibrium modulus 0 */
     uint64_t reserved[8];
 } wt_master_options;
 WT_API wt_master_options wt_master_options_defaults(void);

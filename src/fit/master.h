@@ -13,6 +13,7 @@ typedef struct master_work {
     double reference; /* [K] */
     size_t anchor;
     bool measured_reference; /* the anchor is the reference */
+    double terms_per_decade; /* of the spectrum, as asked or as it needs */
     bool *placed;            /* [set.n] */
     double *a, *b;           /* [set.n] decades */
     double *physical;        /* [set.n] decades */

@@ -30,12 +30,19 @@ static const double same_temperature = 0.1;
 /* A fit is started anew when a shift has moved so far from its start that the relaxation times no
  * longer reach well beyond the isotherms [decade]. */
 static const double far = 0.5;
+/* Terms per decade that describe a smooth spectrum, and one of sharp lines. Where neighbouring
+ * terms bend more than `sharp` [ln], it is no smooth one: lines then lie between the terms, which
+ * pull the isotherms towards themselves, all but the one that is held, by more than their errors
+ * (tests/study: lines). */
+static const double smooth_terms = 3.0, sharp_terms = 10.0, sharp = 1.0;
+/* Bends and noise of lines, to start from; a noise that is clearly more than another one. */
+static const double lines_smooth = 5.0, lines_noise = 0.25, more_noise = 1.3;
 
 wt_master_options wt_master_options_defaults(void)
 {
     return (wt_master_options){.reference_temperature = (double)NAN,
                                .vertical = WT_VERTICAL_TIED,
-                               .terms_per_decade = 3.0};
+                               .terms_per_decade = (double)NAN};
 }
 
 static const wt_param rows[] = {
@@ -52,7 +59,8 @@ static const wt_param rows[] = {
          "volumetric thermal expansion in 1/K for the vertical shift of rubber elasticity; that "
          "of rubber is about 7e-4"},
     {PARAM("terms-per-decade", wt_master_options, terms_per_decade, WT_Q_NONE, FROM_TO(2, 10)),
-     .value = "X", .help = "of the relaxation spectrum"},
+     .value = "X", .unset = "3; 10 where the spectrum is sharp lines",
+     .help = "of the relaxation spectrum"},
     {PARAM_FLAG_OF("liquid", wt_master_options, liquid), .help = "no equilibrium modulus"},
 };
 PARAM_TABLE(wt_master_options_params, wt_master_options, rows, wt_master_options_defaults, NO_PARTS)
@@ -127,9 +135,8 @@ static wt_status make_spectrum(master_work *work, wt_error *err)
 {
     wt_posterior *p = work->posterior;
     spectrum_free(work->s);
-    wt_status status =
-        spectrum_new(&work->set, work->placed, work->anchor, work->a, work->b,
-                     work->options.terms_per_decade, work->options.liquid, work->s, err);
+    wt_status status = spectrum_new(&work->set, work->placed, work->anchor, work->a, work->b,
+                                    work->terms_per_decade, work->options.liquid, work->s, err);
     if (status != WT_OK)
         return status;
     const size_t n = work->s->n_curves;
@@ -178,9 +185,63 @@ static double take_shifts(master_work *work)
     return most;
 }
 
+/* The noise that more terms leave, as lines and with the vertical shifts as they are. */
+static wt_status noise_of_lines(const master_work *work, double noise[MODULI], wt_error *err)
+{
+    const spectrum *s = work->s;
+    spectrum lines;
+    wt_status status = spectrum_new(&work->set, work->placed, work->anchor, work->a, work->b,
+                                    sharp_terms, work->options.liquid, &lines, err);
+    if (status != WT_OK)
+        return status;
+    double *b = pool_numbers(&lines.memory, s->n_curves);
+    const spectrum_prior held = {.held = true, .mean = b};
+    if (b == NULL)
+        status = wt_fail(err, WT_E_MEMORY, "no memory for a spectrum");
+    for (size_t i = 0; i < s->n_curves && status == WT_OK; i++)
+        b[i] = spectrum_b(s, i);
+    if (status == WT_OK) {
+        spectrum_set_prior(&lines, &held);
+        lines.smooth = lines_smooth;
+        for (int q = 0; q < MODULI; q++) {
+            memcpy(lines.weight[q], s->weight[q], s->n * sizeof *s->weight[q]);
+            lines.noise[q] = lines_noise * s->noise[q];
+        }
+        status = spectrum_fit(&lines, SPECTRUM_HELD, err);
+        if (status == WT_OK)
+            status = spectrum_fit(&lines, SPECTRUM_ROUGH, err);
+    }
+    for (int q = 0; q < MODULI; q++)
+        noise[q] = lines.noise[q];
+    spectrum_free(&lines);
+    return status;
+}
+
+/* More terms where they are needed: few of them either bend, or take lines for noise. */
+static wt_status sharpen(master_work *work, wt_error *err)
+{
+    bool better = work->s->smooth > sharp;
+    double noise[MODULI];
+    wt_status status = WT_OK;
+    (void)take_shifts(work);
+    if (!better) {
+        status = noise_of_lines(work, noise, err);
+        for (int q = 0; q < MODULI && status == WT_OK; q++)
+            better |= more_noise * noise[q] < work->s->noise[q];
+    }
+    if (status != WT_OK || !better)
+        return status;
+    work->terms_per_decade = sharp_terms;
+    status = make_spectrum(work, err);
+    work->s->smooth = lines_smooth;
+    return status == WT_OK ? fit_robust(work, err) : status;
+}
+
 static wt_status place_all(master_work *work, wt_error *err)
 {
+    const double asked = work->options.terms_per_decade;
     wt_status status = WT_OK;
+    work->terms_per_decade = isnan(asked) ? smooth_terms : asked;
     spectrum_start(&work->set, work->anchor, work->options.vertical, work->physical, work->placed,
                    work->a, work->b);
     for (int round = 0; status == WT_OK && round < MOST_ROUNDS; round++) {
@@ -194,6 +255,8 @@ static wt_status place_all(master_work *work, wt_error *err)
         if (status == WT_OK)
             status = fit_robust(work, err);
     }
+    if (status == WT_OK && isnan(asked))
+        status = sharpen(work, err);
     if (status == WT_OK && work->s->n_curves < 2 && work->set.n > 1) {
         status = wt_fail(err, WT_E_NO_OVERLAP, "no isotherm overlaps the one of %.2f °C",
                          work->set.curves[work->anchor].temperature - WT_ZERO_CELSIUS);

@@ -4,7 +4,7 @@
 
 #include "bench/bench.h"
 
-enum { ISOTHERMS = 20, POINTS = 20, TERMS = 14, TRIALS = 2000 };
+enum { ISOTHERMS = 20, POINTS = 20, TERMS = 56, TRIALS = 2000 };
 
 typedef struct shift_case {
     wt_sweep sweep;
@@ -17,7 +17,8 @@ static void moduli(double omega, double *storage, double *loss)
     *storage = 1e6;
     *loss = 0;
     for (int k = 0; k < TERMS; k++) {
-        const double z = omega * pow(10, 2 - k), e = 1e6 * pow(10, 0.22 * k);
+        const double decade = 0.25 * k;
+        const double z = omega * pow(10, 2 - decade), e = 2.5e5 * pow(10, 0.22 * decade);
         *storage += e * z * z / (1 + z * z);
         *loss += e * z / (1 + z * z);
     }

@@ -76,6 +76,10 @@ rubber rubber_make(rubber_kind kind)
     case RUBBER_FRACTIONAL_ZENER:
         add_term(&r, 1.5e9, 1e-9, 0.42, 1);
         return r;
+    case RUBBER_LINES:
+        for (int k = 0; k < 16; k++)
+            add_term(&r, 3e6 * pow(10, 0.2 * k) * (k % 3 == 1 ? 1.4 : 1), pow(10, 4.3 - k), 1, 1);
+        return r;
     case RUBBER_WIDE:
         add_term(&r, 2e9, 1e-6, 0.12, 1);
         return r;

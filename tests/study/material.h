@@ -14,6 +14,7 @@ typedef enum rubber_kind {
     RUBBER_RIPPLE,           /* broad with a damped wave on its spectrum */
     RUBBER_HAVRILIAK_NEGAMI, /* two of them */
     RUBBER_FRACTIONAL_ZENER, /* springs and one fractional element */
+    RUBBER_LINES,            /* one sharp process a decade, as a short Prony series */
     RUBBER_WIDE,             /* a relaxation over forty decades */
 } rubber_kind;
 

@@ -453,6 +453,49 @@ static void expect_failure(const wt_sweep *sweep, const wt_master_options *optio
     assert_null(master.shifts);
 }
 
+/* One sharp process a decade: where the terms of the spectrum lie must not pull the isotherms, be
+ * the lines on them or between them. */
+static void lines_between_the_terms_pull_nothing(void **state)
+{
+    (void)state;
+    static const double phase[] = {0.0, 0.6};
+    for (size_t p = 0; p < 2; p++) {
+        wt_sweep sweep = {0};
+        uint64_t noise = 71 + p;
+        for (int i = -6; i <= 5; i++) {
+            wt_isotherm *iso = wt_sweep_add(&sweep, 16, false);
+            iso->temperature = 293.15 + 5.0 * i;
+            for (size_t k = 0; k < iso->n; k++) {
+                const double omega = pow(10.0, -1.0 + 0.2 * (double)k);
+                const double reduced = omega * pow(10.0, truth_at(iso->temperature));
+                double storage = 1e6, loss = 0.0;
+                for (int line = 0; line < 14; line++) {
+                    const double z = reduced * pow(10.0, 2.0 + phase[p] - line);
+                    const double share = 1e6 * pow(10.0, 0.22 * line) * z / (1.0 + z * z);
+                    storage += share * z;
+                    loss += share;
+                }
+                iso->angular_frequency[k] = omega;
+                iso->storage_modulus[k] = storage * (1.0 + 0.005 * dma_normal(&noise));
+                iso->loss_modulus[k] = loss * (1.0 + 0.005 * dma_normal(&noise));
+            }
+        }
+        const wt_master_options at = at_reference(293.15, WT_VERTICAL_NONE);
+        wt_master master = fit_good(&sweep, &at, NULL);
+        double square = 0.0;
+        for (size_t i = 0; i < master.n_shifts; i++) {
+            const wt_interval a = master.shifts[i].log_a;
+            if (a.standard_error > 0.0)
+                square += pow((a.value - truth_at(master.shifts[i].temperature)) / a.standard_error,
+                              2.0) /
+                          8.0;
+        }
+        assert_true(square < 4.0); /* chance is 1e-5; with three terms a decade 160 */
+        wt_master_clear(&master);
+        wt_sweep_clear(&sweep);
+    }
+}
+
 static void impossible_input_is_refused(void **state)
 {
     (void)state;
@@ -521,6 +564,7 @@ int main(void)
         cmocka_unit_test(thermal_expansion_enters_the_physical_shift),
         cmocka_unit_test(failing_superposition_is_said),
         cmocka_unit_test(mixed_strain_amplitudes_are_said),
+        cmocka_unit_test(lines_between_the_terms_pull_nothing),
         cmocka_unit_test(impossible_input_is_refused),
         cmocka_unit_test(isotherms_of_few_points_are_left_out),
     };
