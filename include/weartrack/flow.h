@@ -414,6 +414,35 @@ WT_API wt_status wt_what_if_make(const wt_sliding *sliding, const wt_layer_job *
                                  const wt_layer_known *known, const wt_job *work, wt_table **table,
                                  wt_error *err) WT_NODISCARD;
 
+/* ---- error budget ----------------------------------------------------------------------------
+ */
+
+/* Table "error_budget": the error of each number at the reference velocity by every source alone
+ * (replicates with all others held), by the replicates and the arithmetic, and by the choices of
+ * the model, which `what_if` (may be NULL) moved; with the time that each took (unless `timed` is
+ * false: two runs then give the same table) and what would make it smaller. `layer` and `known` as
+ * above. */
+WT_API wt_status wt_error_budget_make(const wt_sliding *sliding, const wt_layer_job *layer,
+                                      const wt_layer_known *known, const wt_table *what_if,
+                                      bool timed, const wt_job *work, wt_table **table,
+                                      wt_error *err) WT_NODISCARD;
+
+/* ---- error against run time ------------------------------------------------------------------
+ */
+
+typedef struct wt_accuracy_job {
+    const char *part; /* name of one numerical part; NULL (default): all */
+    size_t repeats;   /* how often each point is timed; default 9 */
+    uint64_t reserved[8];
+} wt_accuracy_job;
+WT_API wt_accuracy_job wt_accuracy_job_defaults(void);
+WT_API const wt_params *wt_accuracy_job_params(void);
+/* Table "work_precision": the error of every numerical part on a problem whose answer is known
+ * otherwise, and its processor time on one thread, as its setting is swept; beside it the textbook
+ * method. WT_E_NOT_FOUND for a part that is none. */
+WT_API wt_status wt_accuracy_make(const wt_accuracy_job *job, const wt_job *work, wt_table **table,
+                                  wt_error *err) WT_NODISCARD;
+
 /* ---- case ------------------------------------------------------------------------------------ */
 
 typedef struct wt_case wt_case;
@@ -421,6 +450,8 @@ typedef struct wt_case wt_case;
  * it. */
 WT_API wt_status wt_case_read(const char *path, wt_case **out, wt_error *err) WT_NODISCARD;
 WT_API void wt_case_free(wt_case *c);
+/* From now on the case asks for this table (its name in a result) and nothing else. */
+WT_API wt_status wt_case_ask(wt_case *c, const char *table, wt_error *err) WT_NODISCARD;
 WT_API const char *wt_case_schema(void);            /* XSD text; static */
 WT_API const char *wt_case_title(const wt_case *c); /* "" if none; borrowed */
 WT_API const char *wt_case_style(const wt_case *c); /* plot style asked for, NULL if none */

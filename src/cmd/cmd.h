@@ -20,6 +20,7 @@ typedef struct cmd_command {
 } cmd_command;
 extern const cmd_command cmd_commands[]; /* ends with a NULL name */
 
+int cmd_accuracy(int argc, char **argv);
 int cmd_info(int argc, char **argv);
 int cmd_convert(int argc, char **argv);
 int cmd_formats(int argc, char **argv);

@@ -4,7 +4,7 @@
 #include <math.h>
 
 #include "bench/bench.h"
-#include "numeric/friction_textbook.h"
+#include "flow/accuracy/textbook.h"
 
 enum { VELOCITIES = 100, TERMS = 12, NODES = 1000, ANGLES = 100 };
 

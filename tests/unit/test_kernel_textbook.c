@@ -2,7 +2,7 @@
 #include "near.h"
 
 #include "friction_cases.h"
-#include "numeric/friction_textbook.c"
+#include "flow/accuracy/textbook.c"
 #include "weartrack/kernel.h"
 
 static void kernel_against_textbook(void **state)

@@ -13,11 +13,13 @@
 #include "data/table_writer.h"
 #include "data/tables/comparison.h"
 #include "data/tables/dma.h"
+#include "data/tables/error_budget.h"
 #include "data/tables/indentation.h"
 #include "data/tables/measured.h"
 #include "data/tables/run.h"
 #include "data/tables/sliding.h"
 #include "data/tables/what_if.h"
+#include "data/tables/work_precision.h"
 
 /* Columns that come together: a number with its standard error behind it; with both errors; the
  * ends of an interval. `heading` is that of the page. */
@@ -65,6 +67,8 @@
     X(layer, LAYER, "layer", "Thickness of the modified layer", "layer")                           \
     X(energy_density, ENERGY_DENSITY, "energy_density", "Energy density with depth", "layer")      \
     X(what_if, WHAT_IF, "what_if", "What if a choice of the model were another", "friction")       \
+    X(error_budget, ERROR_BUDGET, "error_budget", "Error budget", "accuracy")                      \
+    X(work_precision, WORK_PRECISION, "work_precision", "Error against run time", "accuracy")      \
     X(force_curve, FORCE_CURVE, "force_curve/", "force curve", "convert")                          \
     X(sweep, SWEEP, "sweep", "DMA frequency sweeps", "convert")                                    \
     X(spectrum, SPECTRUM, "roughness", "power spectrum", "convert")                                \

@@ -50,3 +50,15 @@ const char *wt_case_style(const wt_case *c)
 {
     return c->report.style;
 }
+
+wt_status wt_case_ask(wt_case *c, const char *table, wt_error *err)
+{
+    flow_things things = 0;
+    if (c == NULL || table == NULL)
+        return wt_fail(err, WT_E_ARG, "no case, or no table");
+    if (!flow_things_of_table(table, &things) || things == 0)
+        return wt_fail(err, WT_E_NOT_FOUND, "no table of a run is called \"%s\"", table);
+    c->has_asked = true;
+    c->asked = things;
+    return WT_OK;
+}

@@ -1,6 +1,7 @@
 /* The "what if" job: friction and layer with one choice of the model moved at a time. What can be
  * moved, how far and why is the list `choices`.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/job/setting.h"
 #include "flow/job/sliding_contact.h"
 
 #include "base/array.h"
@@ -10,18 +11,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* Everything the answer rests on, as used or with one choice moved. */
-typedef struct setting {
-    wt_sliding sliding; /* of the velocity, rubber and surface below */
-    double velocity;
-    wt_rubber rubber;   /* borrowed, or `refitted` */
-    wt_surface surface; /* borrowed; its cut-offs are numbers */
-    bool has_layer, has_known;
-    wt_layer_job layer;
-    wt_layer_known known;
-    wt_vertical_shift vertical;
-} setting;
 
 /* ---- choices --------------------------------------------------------------------------------- */
 
@@ -271,66 +260,14 @@ static void say(const choice *c, const setting *s, char text[WORDS])
         snprintf(text + length, WORDS - length, " %s", c->unit);
 }
 
-/* ---- one setting ----------------------------------------------------------------------------- */
-
-enum { HYSTERESIS, AREA_RATIO, FRICTION, THICKNESS, WITH_LAYER, N_NUMBERS };
-
 /* What a setting comes to. */
 typedef struct outcome {
     const choice *choice; /* NULL: as used */
     setting setting;
     char used[WORDS], tried[WORDS];
-    double number[N_NUMBERS];
+    double number[SETTING_NUMBERS];
     char note[512];
 } outcome;
-
-static wt_status compute_layer(const setting *s, const wt_job *work, wt_layer_known *known,
-                               wt_error *err)
-{
-    static const double start = 0; /* the balance alone is asked for */
-    wt_layer_job job = s->layer;
-    wt_layer_tables tables = {0};
-    job.time = &start;
-    job.n_time = 1;
-    const wt_status status = wt_layer_make(&s->sliding, &job, work, &tables, err);
-    if (status == WT_OK)
-        known->thickness = tables.thickness;
-    wt_layer_tables_clear(&tables);
-    return status;
-}
-
-static wt_status compute_friction(const setting *s, const wt_layer_known *known, const wt_job *work,
-                                  double number[N_NUMBERS], wt_error *err)
-{
-    wt_friction_tables tables = {0};
-    table_view view;
-    wt_status status = wt_friction_make(&s->sliding, known, work, &tables, err);
-    if (status == WT_OK)
-        status = table_bind(tables.friction, &friction_schema, "", &view, err);
-    if (status == WT_OK) {
-        number[HYSTERESIS] = friction_value(&view, FRICTION_KEY_HYSTERESIS).value;
-        number[AREA_RATIO] = friction_value(&view, FRICTION_KEY_AREA_RATIO).value;
-        number[FRICTION] = friction_value(&view, FRICTION_KEY_FRICTION).value;
-        number[WITH_LAYER] = friction_value(&view, FRICTION_KEY_WITH_LAYER).value;
-    }
-    wt_friction_tables_clear(&tables);
-    return status;
-}
-
-static wt_status compute(setting *s, const wt_job *work, double number[N_NUMBERS], wt_error *err)
-{
-    wt_layer_known known = s->known;
-    s->sliding.rubber = &s->rubber;
-    s->sliding.surface = &s->surface;
-    s->sliding.velocity = &s->velocity;
-    wt_status status = s->has_layer ? compute_layer(s, work, &known, err) : WT_OK;
-    if (status == WT_OK && s->has_layer)
-        number[THICKNESS] = known.thickness.value;
-    /* a layer that grows without end has no friction */
-    const bool layered = s->has_known && isfinite(known.thickness.value);
-    return status == WT_OK ? compute_friction(s, layered ? &known : NULL, work, number, err)
-                           : status;
-}
 
 /* ---- all of them ----------------------------------------------------------------------------- */
 
@@ -339,6 +276,17 @@ typedef struct what_if {
     outcome *outcomes;
     size_t n;
 } what_if;
+
+static wt_status compute(outcome *o, const wt_job *work, wt_error *err)
+{
+    wt_estimate number[SETTING_NUMBERS];
+    for (size_t k = 0; k < SETTING_NUMBERS; k++)
+        number[k].value = (double)NAN;
+    const wt_status status = setting_compute(&o->setting, work, number, err);
+    for (size_t k = 0; k < SETTING_NUMBERS; k++)
+        o->number[k] = status == WT_OK ? number[k].value : (double)NAN;
+    return status;
+}
 
 static wt_status compute_one(void *user, size_t i, unsigned worker)
 {
@@ -353,12 +301,10 @@ static wt_status compute_one(void *user, size_t i, unsigned worker)
         o->setting.rubber = refitted;
     }
     if (status == WT_OK)
-        status = compute(&o->setting, &w->work, o->number, &why);
+        status = compute(o, &w->work, &why);
     wt_rubber_clear(&refitted);
     if (status == WT_OK || status == WT_E_MEMORY || status == WT_E_INTERNAL)
         return status;
-    for (size_t k = 0; k < N_NUMBERS; k++)
-        o->number[k] = (double)NAN;
     snprintf(o->note, sizeof o->note, "%s%s%s", why.message,
              why.expected[0] != '\0' ? ", expected " : "", why.expected);
     return WT_OK;
@@ -368,7 +314,7 @@ static outcome *add_outcome(what_if *w, const choice *c, const setting *s)
 {
     outcome *o = &w->outcomes[w->n++];
     *o = (outcome){.choice = c, .setting = *s};
-    for (size_t k = 0; k < N_NUMBERS; k++)
+    for (size_t k = 0; k < SETTING_NUMBERS; k++)
         o->number[k] = (double)NAN;
     return o;
 }
@@ -390,44 +336,21 @@ static void add_choice(what_if *w, const choice *c, const setting *used)
     }
 }
 
-static wt_status make_setting(const wt_sliding *sliding, const wt_layer_job *layer,
-                              const wt_layer_known *known, setting *s, wt_error *err)
-{
-    wt_roughness *law = NULL;
-    const wt_status status = wt_surface_roughness(sliding->surface, 1, &law, err);
-    if (status != WT_OK)
-        return status;
-    *s = (setting){.sliding = *sliding,
-                   .velocity = flow_reference_velocity(sliding),
-                   .rubber = *sliding->rubber,
-                   .surface = *sliding->surface,
-                   .has_layer = layer != NULL,
-                   .has_known = known != NULL,
-                   .vertical = sliding->rubber->fit.vertical};
-    s->sliding.n_velocity = 1;
-    s->sliding.reference_velocity = s->velocity;
-    s->surface.q0 = law->q0;
-    s->surface.q1 = law->q1;
-    if (layer != NULL)
-        s->layer = *layer;
-    if (known != NULL)
-        s->known = *known;
-    wt_roughness_free(law);
-    return WT_OK;
-}
-
 /* ---- table ----------------------------------------------------------------------------------- */
 
 static const struct {
     what_if_column value, change;
     what_if_key key;
     const char *unit;
-} numbers[N_NUMBERS] = {
-    [HYSTERESIS] = {WHAT_IF_HYSTERESIS, WHAT_IF_HYSTERESIS_CHANGE, WHAT_IF_KEY_HYSTERESIS, "1"},
-    [AREA_RATIO] = {WHAT_IF_AREA_RATIO, WHAT_IF_AREA_RATIO_CHANGE, WHAT_IF_KEY_AREA_RATIO, "1"},
-    [FRICTION] = {WHAT_IF_FRICTION, WHAT_IF_FRICTION_CHANGE, WHAT_IF_KEY_FRICTION, "1"},
-    [THICKNESS] = {WHAT_IF_THICKNESS, WHAT_IF_THICKNESS_CHANGE, WHAT_IF_KEY_THICKNESS, "m"},
-    [WITH_LAYER] = {WHAT_IF_WITH_LAYER, WHAT_IF_WITH_LAYER_CHANGE, WHAT_IF_KEY_WITH_LAYER, "1"}};
+} numbers[SETTING_NUMBERS] = {
+    [SETTING_HYSTERESIS] = {WHAT_IF_HYSTERESIS, WHAT_IF_HYSTERESIS_CHANGE, WHAT_IF_KEY_HYSTERESIS,
+                            "1"},
+    [SETTING_AREA_RATIO] = {WHAT_IF_AREA_RATIO, WHAT_IF_AREA_RATIO_CHANGE, WHAT_IF_KEY_AREA_RATIO,
+                            "1"},
+    [SETTING_FRICTION] = {WHAT_IF_FRICTION, WHAT_IF_FRICTION_CHANGE, WHAT_IF_KEY_FRICTION, "1"},
+    [SETTING_THICKNESS] = {WHAT_IF_THICKNESS, WHAT_IF_THICKNESS_CHANGE, WHAT_IF_KEY_THICKNESS, "m"},
+    [SETTING_WITH_LAYER] = {WHAT_IF_WITH_LAYER, WHAT_IF_WITH_LAYER_CHANGE, WHAT_IF_KEY_WITH_LAYER,
+                            "1"}};
 
 static void put_outcome(const what_if *w, const outcome *o, table_writer *t)
 {
@@ -435,7 +358,7 @@ static void put_outcome(const what_if *w, const outcome *o, table_writer *t)
     what_if_put_text(t, WHAT_IF_CHOICE, o->choice != NULL ? o->choice->words : "as used");
     what_if_put_text(t, WHAT_IF_USED, o->used);
     what_if_put_text(t, WHAT_IF_TRIED, o->tried);
-    for (size_t k = 0; k < N_NUMBERS; k++) {
+    for (size_t k = 0; k < SETTING_NUMBERS; k++) {
         const double used = w->outcomes[0].number[k];
         what_if_put(t, numbers[k].value, o->number[k]);
         what_if_put(t, numbers[k].change, used != 0 ? o->number[k] / used - 1 : (double)NAN);
@@ -533,7 +456,7 @@ static wt_status make_table(const what_if *w, wt_table **table, wt_error *err)
     table_writer t = table_begin(&what_if_schema, err);
     for (size_t i = 0; i < w->n; i++)
         put_outcome(w, &w->outcomes[i], &t);
-    for (size_t k = 0; k < N_NUMBERS; k++)
+    for (size_t k = 0; k < SETTING_NUMBERS; k++)
         set_range(w, k, &t);
     set_left_out(&w->outcomes[0].setting, &t);
     return table_end(&t, table);
@@ -546,9 +469,7 @@ wt_status wt_what_if_make(const wt_sliding *sliding, const wt_layer_job *layer,
     if (work == NULL || table == NULL)
         return wt_fail(err, WT_E_ARG, "no what-if job");
     setting used;
-    wt_status status = flow_sliding_check(sliding, work, err);
-    if (status == WT_OK)
-        status = make_setting(sliding, layer, known, &used, err);
+    wt_status status = setting_make(sliding, layer, known, work, &used, err);
     if (status != WT_OK)
         return status;
     what_if w = {.work = *work};
@@ -563,7 +484,7 @@ wt_status wt_what_if_make(const wt_sliding *sliding, const wt_layer_job *layer,
     for (size_t i = 0; i < COUNT_OF(choices); i++)
         if (choices[i].applies(&used))
             add_choice(&w, &choices[i], &used);
-    status = compute(&w.outcomes[0].setting, &w.work, w.outcomes[0].number, err);
+    status = compute(&w.outcomes[0], &w.work, err);
     if (status == WT_OK) {
         status =
             wt_parallel_for(w.n - 1, work->threads, compute_one, &w, &work->progress, "what if");

@@ -14,7 +14,7 @@ static flow_things sources_of(const wt_case *c)
 
 static flow_things wanted_by(const wt_case *c)
 {
-    flow_things wanted = c->has_asked ? c->asked : FLOW_TABLES;
+    flow_things wanted = c->has_asked ? c->asked : FLOW_TABLES & ~FLOW_BY_NAME;
     if (c->has_compare && !c->compare_groups)
         wanted &= ~FLOW_BIT(FLOW_COMPARISON);
     if (c->has_compare && !c->compare_rates)

@@ -69,7 +69,17 @@
       B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(FRICTION) | B(LAYER), B(WHAT_IF),                 \
       flow_step_what_if_layer)                                                                     \
     X(WHAT_IF, what_if, "What if a choice of the model were another, friction",                    \
-      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(FRICTION), B(WHAT_IF), flow_step_what_if)
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(FRICTION), B(WHAT_IF), flow_step_what_if)         \
+    X(ERROR_BUDGET_WITH_LAYER, error_budget_with_layer,                                            \
+      "Which error costs the numbers most, friction with layer",                                   \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(WHAT_IF) | B(LAYER) | B(MODULUS_RATIO),           \
+      B(ERROR_BUDGET), flow_step_budget_with_layer)                                                \
+    X(ERROR_BUDGET_LAYER, error_budget_layer,                                                      \
+      "Which error costs the numbers most, friction and layer",                                    \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(WHAT_IF) | B(LAYER), B(ERROR_BUDGET),             \
+      flow_step_budget_layer)                                                                      \
+    X(ERROR_BUDGET, error_budget, "Which error costs the numbers most, friction",                  \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(WHAT_IF), B(ERROR_BUDGET), flow_step_budget)
 
 #define STAGE_ID(id, ...) FLOW_STAGE_##id,
 typedef enum flow_stage_id { STAGES(STAGE_ID) FLOW_N_STAGES } flow_stage_id;

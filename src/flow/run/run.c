@@ -23,7 +23,6 @@ PARAM_TABLE(wt_run_params, wt_run_options, rows, wt_run_defaults, NO_PARTS)
 /* One run with what it reports. */
 typedef struct conduct {
     flow_run run;
-    bool no_timing;
     flow_things have;
     wt_formats *formats;
     wt_parselog *own_log;
@@ -60,8 +59,8 @@ static wt_status cost_row(conduct *d, size_t i, bool runs, const char *because, 
     cost_put_text(t, COST_STAGE, flow_stages[i].id);
     cost_put(t, COST_RUNS, runs);
     cost_put_text(t, COST_BECAUSE, because);
-    cost_put(t, COST_WALL_TIME, d->no_timing ? (double)NAN : wall);
-    cost_put(t, COST_CPU_TIME, d->no_timing ? (double)NAN : cpu);
+    cost_put(t, COST_WALL_TIME, d->run.no_timing ? (double)NAN : wall);
+    cost_put(t, COST_CPU_TIME, d->run.no_timing ? (double)NAN : cpu);
     cost_put(t, COST_ITEMS, cost->items);
     cost_put(t, COST_TOLERANCE_ASKED, cost->tolerance_asked);
     cost_put(t, COST_ERROR_ESTIMATED, cost->error_estimated);
@@ -224,7 +223,7 @@ static wt_status prepare(conduct *d, const wt_run_options *options, wt_parselog 
 {
     if (log == NULL)
         log = d->own_log = wt_parselog_new();
-    d->no_timing = options->no_timing;
+    d->run.no_timing = options->no_timing;
     d->result = wt_result_new();
     d->failures = wt_failures_new();
     if (log == NULL || d->result == NULL || d->failures == NULL)

@@ -356,7 +356,8 @@ wt_status flow_step_friction(flow_run *run, flow_cost *cost, wt_error *err)
     return friction(run, NULL, cost, err);
 }
 
-/* ---- what if --------------------------------------------------------------------------------- */
+/* ---- what if, error budget --------------------------------------------------------------------
+ */
 
 static wt_status what_if(flow_run *run, const wt_layer_job *layer, const wt_layer_known *known,
                          flow_cost *cost, wt_error *err)
@@ -369,19 +370,41 @@ static wt_status what_if(flow_run *run, const wt_layer_job *layer, const wt_laye
     return status;
 }
 
-wt_status flow_step_what_if_with_layer(flow_run *run, flow_cost *cost, wt_error *err)
+static wt_status budget(flow_run *run, const wt_layer_job *layer, const wt_layer_known *known,
+                        flow_cost *cost, wt_error *err)
+{
+    wt_sliding sliding = flow_case_sliding(run->c, &run->rubber, &run->surface);
+    const wt_status status =
+        wt_error_budget_make(&sliding, layer, known, run->table[FLOW_WHAT_IF], !run->no_timing,
+                             &run->job, &run->table[FLOW_ERROR_BUDGET], err);
+    if (status == WT_OK)
+        cost->items = (double)wt_table_n_rows(run->table[FLOW_ERROR_BUDGET]);
+    return status;
+}
+
+/* The same stage of each: with layer and ratio, with the layer, with neither. */
+typedef wt_status (*of_setting)(flow_run *run, const wt_layer_job *layer,
+                                const wt_layer_known *known, flow_cost *cost, wt_error *err);
+
+static wt_status with_layer(of_setting make, flow_run *run, flow_cost *cost, wt_error *err)
 {
     wt_layer_known known;
     const wt_status status = known_layer(run, &known, err);
-    return status == WT_OK ? what_if(run, &run->c->layer, &known, cost, err) : status;
+    return status == WT_OK ? make(run, &run->c->layer, &known, cost, err) : status;
 }
 
-wt_status flow_step_what_if_layer(flow_run *run, flow_cost *cost, wt_error *err)
-{
-    return what_if(run, &run->c->layer, NULL, cost, err);
-}
-
-wt_status flow_step_what_if(flow_run *run, flow_cost *cost, wt_error *err)
-{
-    return what_if(run, NULL, NULL, cost, err);
-}
+#define STEPS_OF_SETTING(name)                                                                     \
+    wt_status flow_step_##name##_with_layer(flow_run *run, flow_cost *cost, wt_error *err)         \
+    {                                                                                              \
+        return with_layer(name, run, cost, err);                                                   \
+    }                                                                                              \
+    wt_status flow_step_##name##_layer(flow_run *run, flow_cost *cost, wt_error *err)              \
+    {                                                                                              \
+        return name(run, &run->c->layer, NULL, cost, err);                                         \
+    }                                                                                              \
+    wt_status flow_step_##name(flow_run *run, flow_cost *cost, wt_error *err)                      \
+    {                                                                                              \
+        return name(run, NULL, NULL, cost, err);                                                   \
+    }
+STEPS_OF_SETTING(what_if)
+STEPS_OF_SETTING(budget)

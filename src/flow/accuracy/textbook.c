@@ -1,5 +1,5 @@
 /* Friction by the plain textbook method; see the header. */
-#include "numeric/friction_textbook.h"
+#include "flow/accuracy/textbook.h"
 
 #include <float.h>
 #include <math.h>

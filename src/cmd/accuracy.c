@@ -1,0 +1,76 @@
+/* weartrack accuracy: error against run time, of the methods or of a case.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cmd/cmd.h"
+
+static wt_status lacks_budget(cmd_session *s)
+{
+    wt_fail(&s->err, WT_E_MISSING, "the case has no error budget");
+    wt_error_file(&s->err, s->files[0]);
+    wt_error_expected(&s->err, "a material, a counter surface and sliding conditions");
+    wt_error_advice(&s->err, "`weartrack run --plan` says what each stage lacks");
+    return WT_E_MISSING;
+}
+
+/* The case is asked for its budget and nothing else. */
+static wt_status budget_of_case(cmd_session *s, wt_run_options *run)
+{
+    wt_case *c = NULL;
+    size_t n_failed = 0;
+    wt_status status = wt_case_read(s->files[0], &c, &s->err);
+    if (status == WT_OK)
+        status = wt_case_ask(c, "error_budget", &s->err);
+    run->formats = s->common.formats;
+    run->progress = cmd_progress_start(s);
+    run->no_timing = !s->common.provenance;
+    if (status == WT_OK)
+        status = wt_run(c, run, s->log, &s->result, &n_failed, &s->err);
+    cmd_progress_end(s);
+    wt_case_free(c);
+    if (s->result != NULL && n_failed > 0) {
+        cmd_say_failures(s, wt_result_find(s->result, "failures"));
+        s->status = CMD_FAILED;
+    }
+    if (status == WT_OK && wt_result_find(s->result, "error_budget") == NULL)
+        status = lacks_budget(s);
+    if (status == WT_OK)
+        status = cmd_provenance(s->result, &s->err);
+    return status == WT_OK ? cmd_write(s) : status;
+}
+
+int cmd_accuracy(int argc, char **argv)
+{
+    static const cmd_usage usage = {
+        .name = "accuracy",
+        .arguments = "[CASE.xml] [OPTION]...",
+        .what = "Error against run time. Without a case: every numerical part on a problem whose "
+                "answer is known otherwise, beside the textbook method, as its setting is swept. "
+                "With a case: which error costs each of its numbers most, what it takes to know "
+                "it, and what would make it smaller.",
+        .common = "output formats provenance",
+        .notes = "--part and --repeats are for the numerical parts, the others for a case."};
+    cmd_session s = cmd_session_defaults();
+    wt_accuracy_job job = wt_accuracy_job_defaults();
+    wt_run_options run = wt_run_defaults();
+    wt_table *table = NULL;
+    cmd_part parts[] = {{wt_accuracy_job_params(), &job, NULL, 0},
+                        {wt_run_params(), &run, NULL, 0}};
+    if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv))
+        goto done;
+    if (s.n_files > 1)
+        cmd_usage_error(&s, "one case at most");
+    else if (s.n_files == 1 && (cmd_given(&parts[0], "part") || cmd_given(&parts[0], "repeats")))
+        cmd_usage_error(&s, "--part and --repeats are not for a case");
+    else if (s.n_files == 1) {
+        s.log = wt_parselog_new();
+        const wt_status made = s.log == NULL ? wt_fail(&s.err, WT_E_MEMORY, "out of memory")
+                                             : budget_of_case(&s, &run);
+        cmd_end(&s, made);
+    } else if (cmd_begin(&s)) {
+        const wt_status made = wt_accuracy_make(&job, &s.work, &table, &s.err);
+        wt_table **const made_tables[] = {&table};
+        cmd_finish(&s, made, made_tables, COUNT_OF(made_tables));
+    }
+done:
+    wt_table_free(table);
+    return cmd_session_free(&s);
+}

@@ -1,0 +1,170 @@
+/* Times every method of every part at each of its settings.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/accuracy/accuracy.h"
+
+#include "base/array.h"
+#include "base/param.h"
+#include "data/tables/tables.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const accuracy_part *const lists[] = {accuracy_contact, accuracy_spectrum, accuracy_friction,
+                                             accuracy_layer};
+
+wt_accuracy_job wt_accuracy_job_defaults(void)
+{
+    return (wt_accuracy_job){.repeats = 9};
+}
+
+static const wt_param rows[] = {
+    {PARAM_TEXT_OF("part", wt_accuracy_job, part), .value = "NAME", .unset = "all",
+     .help = "this numerical part alone, such as friction-prony"},
+    {PARAM("repeats", wt_accuracy_job, repeats, WT_Q_NONE, FROM_TO(1, 1000)), .value = "N",
+     .help = "how often each point is timed"},
+};
+PARAM_TABLE(wt_accuracy_job_params, wt_accuracy_job, rows, wt_accuracy_job_defaults, NO_PARTS)
+
+double accuracy_relative(double value, double truth)
+{
+    const double difference = fabs(value - truth);
+    return difference > 0 ? difference / fabs(truth) : difference;
+}
+
+static int by_value(const void *a, const void *b)
+{
+    const double p = *(const double *)a, q = *(const double *)b;
+    return p < q ? -1 : p > q;
+}
+
+/* Processor time of one call: so many calls that the clock tells it. */
+#define LEAST_SECONDS 2e-4
+
+typedef struct timing {
+    double median, spread;
+    size_t repeats;
+} timing;
+
+static wt_status measure(const accuracy_method *m, void *problem, double value, double *seconds,
+                         wt_error *err)
+{
+    size_t n = 0;
+    const double start = wt_time_cpu();
+    do {
+        const wt_status status = m->solve(problem, value, err);
+        if (status != WT_OK)
+            return status;
+        n++;
+        *seconds = wt_time_cpu() - start;
+    } while (*seconds < LEAST_SECONDS);
+    *seconds /= (double)n;
+    return WT_OK;
+}
+
+/* A method that takes long is timed less often. */
+#define MOST_SECONDS 0.5
+
+static wt_status time_method(const accuracy_method *m, void *problem, double value, size_t repeats,
+                             timing *t, wt_error *err)
+{
+    double *seconds = malloc(repeats * sizeof *seconds), sum = 0;
+    wt_status status = seconds == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
+    size_t n = 0;
+    while (status == WT_OK && n < repeats && sum < MOST_SECONDS) {
+        status = measure(m, problem, value, &seconds[n], err);
+        sum += seconds[n++];
+    }
+    if (status == WT_OK) {
+        qsort(seconds, n, sizeof *seconds, by_value);
+        *t = (timing){seconds[n / 2],
+                      n > 2 ? (seconds[(3 * n) / 4] - seconds[n / 4]) / 2 : (double)NAN, n};
+    }
+    free(seconds);
+    return status;
+}
+
+static void put(const accuracy_part *part, const accuracy_method *m, double value,
+                accuracy_errors errors, double reference_error, const timing *time, table_writer *t)
+{
+    table_row(t);
+    work_precision_put_text(t, WORK_PRECISION_PART, part->name);
+    work_precision_put_text(t, WORK_PRECISION_METHOD, m->name);
+    work_precision_put_text(t, WORK_PRECISION_SETTING, m->setting);
+    work_precision_put(t, WORK_PRECISION_VALUE, value);
+    work_precision_put(t, WORK_PRECISION_TRUE_ERROR, errors.true_error);
+    work_precision_put(t, WORK_PRECISION_STATED_ERROR, errors.stated_error);
+    work_precision_put(t, WORK_PRECISION_REFERENCE_ERROR, reference_error);
+    work_precision_put(t, WORK_PRECISION_SECONDS, time->median);
+    work_precision_put(t, WORK_PRECISION_SPREAD, time->spread);
+    work_precision_put(t, WORK_PRECISION_REPEATS, (double)time->repeats);
+    work_precision_put_text(t, WORK_PRECISION_WORDS, part->words);
+}
+
+static wt_status sweep(const accuracy_part *part, void *problem, double reference_error,
+                       size_t repeats, table_writer *t, wt_error *err)
+{
+    wt_status status = WT_OK;
+    for (const accuracy_method *m = part->methods; m->name != NULL; m++)
+        for (size_t i = 0; i < ACCURACY_VALUES && m->values[i] > 0 && status == WT_OK; i++) {
+            timing time;
+            status = time_method(m, problem, m->values[i], repeats, &time, err);
+            if (status == WT_OK)
+                put(part, m, m->values[i], part->judge(problem), reference_error, &time, t);
+        }
+    return status;
+}
+
+static wt_status run_part(const accuracy_part *part, size_t repeats, table_writer *t, wt_error *err)
+{
+    double reference_error = (double)NAN;
+    void *problem = calloc(1, part->size);
+    if (problem == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    wt_status status = part->begin(problem, &reference_error, err);
+    if (status == WT_OK)
+        status = sweep(part, problem, reference_error, repeats, t, err);
+    part->end(problem);
+    free(problem);
+    return status;
+}
+
+static wt_status no_part(const char *name, wt_error *err)
+{
+    char names[512] = "";
+    size_t n = 0;
+    for (size_t l = 0; l < COUNT_OF(lists); l++)
+        for (const accuracy_part *p = lists[l]; p->name != NULL && n < sizeof names; p++)
+            n += (size_t)snprintf(names + n, sizeof names - n, "%s%s", n > 0 ? ", " : "", p->name);
+    wt_fail(err, WT_E_NOT_FOUND, "there is no numerical part of this name");
+    wt_error_place(err, "part");
+    wt_error_expected(err, "%s", names);
+    wt_error_found(err, "%s", name);
+    return WT_E_NOT_FOUND;
+}
+
+wt_status wt_accuracy_make(const wt_accuracy_job *job, const wt_job *work, wt_table **table,
+                           wt_error *err)
+{
+    if (job == NULL || work == NULL || table == NULL)
+        return wt_fail(err, WT_E_ARG, "no accuracy job");
+    wt_status status = param_check(wt_accuracy_job_params(), job, err);
+    if (status != WT_OK)
+        return status;
+    bool found = false;
+    table_writer t = table_begin(&work_precision_schema, err);
+    for (size_t l = 0; l < COUNT_OF(lists); l++)
+        for (const accuracy_part *p = lists[l]; p->name != NULL && t.status == WT_OK; p++) {
+            if (job->part != NULL && strcmp(job->part, p->name) != 0)
+                continue;
+            found = true;
+            if (work->progress.report != NULL &&
+                !work->progress.report(work->progress.user, p->name, 0, 0))
+                t.status = wt_fail(err, WT_E_CANCELLED, "cancelled");
+            else
+                t.status = run_part(p, job->repeats, &t, err);
+        }
+    if (t.status == WT_OK && !found)
+        t.status = no_part(job->part, err);
+    return table_end(&t, table);
+}

@@ -1,0 +1,164 @@
+/* Friction in long double. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/accuracy/reference.h"
+
+#include <complex.h>
+#include <math.h>
+
+typedef long double real;
+typedef long double complex complex_real;
+
+static real pi(void)
+{
+    return acosl(-1);
+}
+
+/* ---- angle ----------------------------------------------------------------------------------- */
+
+static complex_real modulus(const reference_material *m, real omega)
+{
+    complex_real e = m->e0;
+    for (size_t k = 0; k < m->n; k++) {
+        const real x = omega * m->tau[k];
+        const complex_real z = m->alpha < 1 ? cpowl(x * I, m->alpha) : x * I;
+        e += m->e[k] * z / (1 + z);
+    }
+    return e;
+}
+
+typedef struct integrals {
+    real j1, j2;
+} integrals;
+
+/* 4 int sin(u) E''(w sin u) du and 4 int |E|^2 du from a to b, u = pi/2 - phi; tanh-sinh, which
+ * does not mind an end where the integrand has no slope. */
+static integrals segment(const reference_material *m, real w, real a, real b)
+{
+    enum { HALF = 40 };
+    const real step = 3.2L / HALF, middle = (a + b) / 2, half = (b - a) / 2;
+    integrals sum = {0, 0};
+    for (int i = -HALF; i <= HALF; i++) {
+        const real t = step * i, s = pi() / 2 * sinhl(t), c = coshl(s);
+        const real weight = 4 * half * step * pi() / 2 * coshl(t) / (c * c);
+        /* from the nearer end, so that a small u keeps its digits */
+        const real from_end = half * expl(-fabsl(s)) / c;
+        const real u = i < 0 ? a + from_end : i > 0 ? b - from_end : middle;
+        const complex_real e = modulus(m, w * sinl(u));
+        sum.j1 += weight * sinl(u) * cimagl(e);
+        sum.j2 += weight * (creall(e) * creall(e) + cimagl(e) * cimagl(e));
+    }
+    return sum;
+}
+
+/* Cut where w sin(u) is a relaxation frequency. */
+static integrals angle(const reference_material *m, real w)
+{
+    integrals sum = {0, 0};
+    real from = 0;
+    for (size_t k = 0; k <= m->n; k++) {
+        const real x = k < m->n ? 1 / (w * m->tau[k]) : 1;
+        const real to = x < 1 ? asinl(x) : pi() / 2;
+        if (to > from) {
+            const integrals part = segment(m, w, from, to);
+            sum.j1 += part.j1;
+            sum.j2 += part.j2;
+            from = to;
+        }
+    }
+    return sum;
+}
+
+/* ---- wavenumber ------------------------------------------------------------------------------ */
+
+enum { MOST_ORDER = 24 };
+
+typedef struct rule {
+    int n;
+    real node[MOST_ORDER], weight[MOST_ORDER];
+} rule;
+
+/* Gauss-Legendre on [0, 1], by Newton's method. */
+static rule gauss(int n)
+{
+    rule r = {.n = n};
+    for (int i = 0; i < n; i++) {
+        real x = cosl(pi() * (i + 0.75L) / (n + 0.5L)), slope = 1;
+        for (int step = 0; step < 50; step++) {
+            real p = 1, before = 0;
+            for (int k = 1; k <= n; k++) {
+                const real next = ((2 * k - 1) * x * p - (k - 1) * before) / k;
+                before = p;
+                p = next;
+            }
+            slope = n * (x * p - before) / (x * x - 1);
+            x -= p / slope;
+        }
+        r.node[n - 1 - i] = (1 + x) / 2;
+        r.weight[n - 1 - i] = 1 / ((1 - x * x) * slope * slope);
+    }
+    return r;
+}
+
+typedef struct state {
+    const reference_contact *c;
+    rule rule;
+    real stiffness; /* 1 / ((1 - nu^2) pressure) */
+    real variance, hysteresis;
+} state;
+
+/* q^4 C and the angular integrals at q0 exp(t). */
+static integrals at(const state *s, real t)
+{
+    const reference_contact *c = s->c;
+    const real q = c->q0 * expl(t);
+    const real density =
+        c->c0 * (q > c->qr ? powl(q / c->qr, -2 * (1 + (real)c->hurst)) : 1) * q * q * q * q;
+    const integrals j = angle(&c->material, q * c->velocity);
+    return (integrals){density * j.j1, density * j.j2};
+}
+
+static real variance_between(const state *s, real a, real b)
+{
+    real sum = 0;
+    for (int i = 0; i < s->rule.n; i++)
+        sum += s->rule.weight[i] * at(s, a + (b - a) * s->rule.node[i]).j2;
+    return (b - a) * sum * s->stiffness * s->stiffness / 8;
+}
+
+static void panel(state *s, real a, real b)
+{
+    real sum = 0;
+    for (int i = 0; i < s->rule.n; i++) {
+        const real t = a + (b - a) * s->rule.node[i];
+        const real g = s->variance + variance_between(s, a, t);
+        sum += s->rule.weight[i] * at(s, t).j1 * erfl(1 / (2 * sqrtl(g)));
+    }
+    s->hysteresis += (b - a) * sum * s->stiffness / 2;
+    s->variance += variance_between(s, a, b);
+}
+
+/* Panels that grow by this factor from the beginning, where the area changes fastest. */
+#define GROWTH 3
+#define FIRST 1e-9L
+#define WIDEST 0.7L
+
+static void panels(state *s, real from, real to)
+{
+    real t = from;
+    while (t < to) {
+        const real width =
+            from > 0 || t > 0 ? fminl(WIDEST, fmaxl((GROWTH - 1) * t, FIRST)) : FIRST;
+        const real next = t + 1.5L * width < to ? t + width : to;
+        panel(s, t, next);
+        t = next;
+    }
+}
+
+double reference_friction(const reference_contact *c, int order)
+{
+    const real nu = c->poisson_ratio;
+    state s = {.c = c, .rule = gauss(order), .stiffness = 1 / ((1 - nu * nu) * c->pressure)};
+    const real roll_off = logl((real)c->qr / c->q0);
+    panels(&s, 0, roll_off);
+    panels(&s, roll_off, logl((real)c->q1 / c->q0));
+    return (double)s.hysteresis;
+}

@@ -1,0 +1,26 @@
+/* Friction once more, in long double and by other means than the kernel, as a reference: tanh-sinh
+ * rules between the relaxation times for the angle, Gauss rules with a nested integral for the
+ * wavenumber. Internal to flow/accuracy. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WEARTRACK_FLOW_ACCURACY_REFERENCE_H
+#define WEARTRACK_FLOW_ACCURACY_REFERENCE_H
+
+#include <stddef.h>
+
+/* E(w) = e0 + sum of e z / (1 + z), z = (i w tau)^alpha: Prony series (alpha 1) or fractional Zener
+ * (one term). */
+typedef struct reference_material {
+    double e0, alpha;
+    size_t n;
+    double e[16], tau[16];
+} reference_material;
+
+typedef struct reference_contact {
+    reference_material material;
+    double poisson_ratio, pressure, velocity;
+    double q0, qr, q1, hurst, c0; /* self-affine */
+} reference_contact;
+
+/* order: Gauss nodes of a panel, 2 to 24. */
+double reference_friction(const reference_contact *c, int order);
+
+#endif

@@ -1,0 +1,198 @@
+/* Shifting with its spectrum, and standard errors by draws.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/accuracy/accuracy.h"
+#include "flow/accuracy/noise.h"
+
+#include <math.h>
+
+/* ---- shift factors --------------------------------------------------------------------------- */
+
+enum { ISOTHERMS = 12, POINTS = 16, TERMS = 14, REFERENCE = 6 };
+
+#define NOISE 0.005
+
+typedef struct shift_problem {
+    wt_sweep sweep;
+    double truth[ISOTHERMS], log_a[ISOTHERMS], stated;
+} shift_problem;
+
+static void moduli(double omega, double *storage, double *loss)
+{
+    *storage = 1e6;
+    *loss = 0;
+    for (int k = 0; k < TERMS; k++) {
+        const double z = omega * pow(10, 2 - k), e = 1e6 * pow(10, 0.22 * k);
+        *storage += e * z * z / (1 + z * z);
+        *loss += e * z / (1 + z * z);
+    }
+}
+
+static wt_status begin_shift(void *problem, double *reference_error, wt_error *err)
+{
+    shift_problem *p = problem;
+    const wt_wlf wlf = {293.15, 8.5, 130};
+    *reference_error = 0;
+    for (int i = 0; i < ISOTHERMS; i++) {
+        wt_isotherm *iso = wt_sweep_add(&p->sweep, POINTS, false);
+        if (iso == NULL)
+            return wt_fail(err, WT_E_MEMORY, "out of memory");
+        iso->temperature = wlf.reference_temperature + 5 * (i - REFERENCE);
+        p->truth[i] = wt_wlf_log_shift(&wlf, iso->temperature);
+        for (int j = 0; j < POINTS; j++) {
+            const double omega = 0.1 * pow(10, 3.0 * j / (POINTS - 1));
+            const uint64_t place = (uint64_t)(i * POINTS + j);
+            double storage = 0, loss = 0;
+            moduli(omega * pow(10, p->truth[i]), &storage, &loss);
+            iso->angular_frequency[j] = omega;
+            iso->storage_modulus[j] = storage * (1 + NOISE * accuracy_noise(1, place));
+            iso->loss_modulus[j] = loss * (1 + NOISE * accuracy_noise(2, place));
+        }
+    }
+    wt_sweep_sort(&p->sweep);
+    return WT_OK;
+}
+
+static void end_shift(void *problem)
+{
+    shift_problem *p = problem;
+    wt_sweep_clear(&p->sweep);
+}
+
+static wt_status solve_shift(void *problem, double value, wt_error *err)
+{
+    shift_problem *p = problem;
+    wt_master_options options = wt_master_options_defaults();
+    wt_master master = {0};
+    options.reference_temperature = p->sweep.isotherms[REFERENCE].temperature;
+    options.vertical = WT_VERTICAL_NONE;
+    options.terms_per_decade = value;
+    const wt_status status = wt_master_fit(&p->sweep, &options, NULL, &master, err);
+    double sum = 0;
+    for (size_t i = 0; i < master.n_shifts && i < ISOTHERMS; i++) {
+        p->log_a[i] = master.shifts[i].log_a.value;
+        sum += pow(master.shifts[i].log_a.standard_error, 2);
+    }
+    p->stated = M_LN10 * sqrt(sum / ISOTHERMS);
+    wt_master_clear(&master);
+    return status;
+}
+
+/* log10 E' at log10 omega x by linear interpolation; NaN outside. */
+static double interpolate(const wt_isotherm *iso, double x)
+{
+    for (size_t j = 0; j + 1 < iso->n; j++) {
+        const double x0 = log10(iso->angular_frequency[j]);
+        const double x1 = log10(iso->angular_frequency[j + 1]);
+        const double y0 = log10(iso->storage_modulus[j]), y1 = log10(iso->storage_modulus[j + 1]);
+        if (x >= x0 && x <= x1)
+            return y0 + (y1 - y0) * (x - x0) / (x1 - x0);
+    }
+    return (double)NAN;
+}
+
+/* The best of so many shifts by the mean square of log E' where both have points. */
+static double pair_shift(const wt_isotherm *from, const wt_isotherm *to, int trials)
+{
+    double best = 0, least = (double)INFINITY;
+    for (int t = 0; t < trials; t++) {
+        const double shift = -2.8 + 5.6 * t / (trials - 1);
+        double sum = 0;
+        int n = 0;
+        for (size_t j = 0; j < from->n; j++) {
+            const double y = interpolate(to, log10(from->angular_frequency[j]) + shift);
+            if (isnan(y))
+                continue;
+            sum += pow(log10(from->storage_modulus[j]) - y, 2);
+            n++;
+        }
+        if (n >= 4 && sum / n < least) {
+            least = sum / n;
+            best = shift;
+        }
+    }
+    return best;
+}
+
+static wt_status solve_pairs(void *problem, double value, wt_error *err)
+{
+    shift_problem *p = problem;
+    const wt_isotherm *iso = p->sweep.isotherms;
+    (void)err;
+    p->log_a[REFERENCE] = 0;
+    for (int i = REFERENCE - 1; i >= 0; i--)
+        p->log_a[i] = p->log_a[i + 1] + pair_shift(&iso[i], &iso[i + 1], (int)value);
+    for (int i = REFERENCE + 1; i < ISOTHERMS; i++)
+        p->log_a[i] = p->log_a[i - 1] + pair_shift(&iso[i], &iso[i - 1], (int)value);
+    p->stated = (double)NAN;
+    return WT_OK;
+}
+
+static accuracy_errors judge_shift(const void *problem)
+{
+    const shift_problem *p = problem;
+    double sum = 0;
+    for (int i = 0; i < ISOTHERMS; i++)
+        sum += pow(p->log_a[i] - p->truth[i], 2);
+    return (accuracy_errors){M_LN10 * sqrt(sum / ISOTHERMS), p->stated};
+}
+
+/* ---- draws ----------------------------------------------------------------------------------- */
+
+#define SCATTER 0.1 /* of the logarithm */
+
+typedef struct draw_problem {
+    double value[4096], truth, error, stated;
+} draw_problem;
+
+static wt_status begin_draws(void *problem, double *reference_error, wt_error *err)
+{
+    draw_problem *p = problem;
+    const double square = SCATTER * SCATTER;
+    (void)err;
+    p->truth = exp(square / 2) * sqrt(expm1(square));
+    *reference_error = 0;
+    return WT_OK;
+}
+
+static void end_draws(void *problem)
+{
+    (void)problem;
+}
+
+static wt_status solve_draws(void *problem, double value, wt_error *err)
+{
+    draw_problem *p = problem;
+    const size_t n = (size_t)value;
+    (void)err;
+    for (size_t i = 0; i < n; i++)
+        p->value[i] = flow_draw_positive((wt_estimate){1, SCATTER, 0, "1"}, 1, i, FLOW_DRAW_WEAR);
+    p->error = flow_spread(p->value, n, 1);
+    p->stated = 1 / sqrt(2 * (value - 1));
+    return WT_OK;
+}
+
+static accuracy_errors judge_draws(const void *problem)
+{
+    const draw_problem *p = problem;
+    return (accuracy_errors){accuracy_relative(p->error, p->truth), p->stated};
+}
+
+const accuracy_part accuracy_spectrum[] = {
+    {"shifting",
+     "Shift factors of 12 simulated isotherms of 16 points with 0.5 % noise, against the law they "
+     "were made with; the true error is the rms of this set, its floor the noise",
+     sizeof(shift_problem),
+     begin_shift,
+     judge_shift,
+     end_shift,
+     {{"weartrack", "terms per decade of the spectrum", {2, 3, 4, 6, 10}, solve_shift},
+      {"textbook", "trial shifts of each neighbour", {30, 100, 300, 1000}, solve_pairs}}},
+    {"draws",
+     "Standard error of a logarithmic normal number by replicates, against its formula",
+     sizeof(draw_problem),
+     begin_draws,
+     judge_draws,
+     end_draws,
+     {{"weartrack", "replicates", {16, 64, 256, 1024, 4096}, solve_draws}}},
+    {.name = NULL},
+};
