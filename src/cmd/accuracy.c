@@ -11,6 +11,14 @@ static wt_status lacks_budget(cmd_session *s)
     return WT_E_MISSING;
 }
 
+static void say_advice(const cmd_session *s, const wt_table *budget)
+{
+    for (size_t i = 0; i < wt_table_n_keys(budget) && !s->common.quiet; i++) {
+        const char *name = wt_table_key_name(budget, i);
+        cmd_say("%s: %s\n", name, wt_table_key(budget, name));
+    }
+}
+
 /* The case is asked for its budget and nothing else. */
 static wt_status budget_of_case(cmd_session *s, wt_run_options *run)
 {
@@ -30,8 +38,11 @@ static wt_status budget_of_case(cmd_session *s, wt_run_options *run)
         cmd_say_failures(s, wt_result_find(s->result, "failures"));
         s->status = CMD_FAILED;
     }
-    if (status == WT_OK && wt_result_find(s->result, "error_budget") == NULL)
+    const wt_table *budget = s->result != NULL ? wt_result_find(s->result, "error_budget") : NULL;
+    if (status == WT_OK && budget == NULL)
         status = lacks_budget(s);
+    if (status == WT_OK)
+        say_advice(s, budget);
     if (status == WT_OK)
         status = cmd_provenance(s->result, &s->err);
     return status == WT_OK ? cmd_write(s) : status;

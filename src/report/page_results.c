@@ -82,7 +82,7 @@ void page_results(page_writer *page)
     const table_view *const shown[] = {&t->modulus_groups, &t->modulus_depth, &t->comparison,
                                        &t->dma_comparison, &t->shift_factors, &t->prony,
                                        &t->roughness,      &t->friction,      &t->layer,
-                                       &t->what_if};
+                                       &t->what_if,        &t->error_budget,  &t->work_precision};
     bool any = false;
     for (size_t i = 0; i < COUNT_OF(shown) && !any; i++)
         any = shown[i]->table != NULL;
@@ -113,6 +113,13 @@ void page_results(page_writer *page)
                      "by it, at the reference velocity",
                      NULL, 0);
     page_keys(page, &t->what_if, "What if: the choice that moves a number most");
+    page_keys(page, &t->error_budget, "Where the errors come from");
+    page_whole_table(page, &t->error_budget,
+                     "Error budget: what each source alone does to the numbers at the reference "
+                     "velocity, and the time it takes to know it",
+                     NULL, 0);
+    page_whole_table(page, &t->work_precision, "Error against run time of the numerical parts",
+                     NULL, 0);
 }
 
 /* ---- curves without a modulus ---------------------------------------------------------------- */

@@ -7,7 +7,7 @@
 
 /* ---- shift factors --------------------------------------------------------------------------- */
 
-enum { ISOTHERMS = 12, POINTS = 16, TERMS = 14, REFERENCE = 6 };
+enum { ISOTHERMS = 12, POINTS = 16, TERMS = 56, REFERENCE = 6 };
 
 #define NOISE 0.005
 
@@ -21,7 +21,8 @@ static void moduli(double omega, double *storage, double *loss)
     *storage = 1e6;
     *loss = 0;
     for (int k = 0; k < TERMS; k++) {
-        const double z = omega * pow(10, 2 - k), e = 1e6 * pow(10, 0.22 * k);
+        const double decade = 0.25 * k;
+        const double z = omega * pow(10, 2 - decade), e = 2.5e5 * pow(10, 0.22 * decade);
         *storage += e * z * z / (1 + z * z);
         *loss += e * z / (1 + z * z);
     }

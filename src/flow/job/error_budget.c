@@ -231,7 +231,7 @@ static void put_measured(const budget *b, setting_number k, verdict *v, table_wr
     }
     for (size_t i = 0; i < SOURCES; i++) {
         const double error = b->of[i].number[k].standard_error;
-        if (!b->of[i].computed || !isfinite(error))
+        if (!b->of[i].computed || !(error > 0))
             continue;
         const double part = error / sum, share = part * part;
         put(b, k,
@@ -273,9 +273,9 @@ static void advise(const budget *b, setting_number k, const verdict *v, table_wr
         SAY("%.0f %% of its variance is the %s: %s.", 100 * v->share, v->largest->words,
             v->largest->remedy);
     if (v->widest.half > v->together)
-        SAY(" The choice of the %s moves it by %.2g %%, %s: more of the same measurements do not "
+        SAY(" The choice of the %s moves it by %.*f %%, %s: more of the same measurements do not "
             "settle that.",
-            v->widest.words, 100 * v->widest.half / value,
+            v->widest.words, v->widest.half < 0.1 * value ? 1 : 0, 100 * v->widest.half / value,
             v->together > 0 ? "more than all measured errors" : "and no error is known beside it");
     const double floor = fmax(v->together, v->widest.half);
     if (v->numerical < 1e-2 * floor)

@@ -1,0 +1,194 @@
+/* Figures of error: against run time, and by where it comes from.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "report/drawing.h"
+
+#include <math.h>
+#include <string.h>
+
+/* ---- error against run time ------------------------------------------------------------------ */
+
+enum { PARTS = 12, METHODS = 3, ACROSS = 3 };
+
+/* Texts of a column in their order, each once. */
+static size_t list_texts(const table_view *t, work_precision_column column, const char *part,
+                         const char *texts[], size_t most)
+{
+    size_t n = 0;
+    for (size_t row = 0; row < t->n_rows; row++) {
+        const char *text = work_precision_text(t, row, column);
+        size_t i = 0;
+        if (part != NULL && strcmp(work_precision_text(t, row, WORK_PRECISION_PART), part) != 0)
+            continue;
+        while (i < n && strcmp(texts[i], text) != 0)
+            i++;
+        if (i == n && n < most)
+            texts[n++] = text;
+    }
+    return n;
+}
+
+static void draw_part(figure_drawing *d, const char *part)
+{
+    static const unsigned columns[] = {WORK_PRECISION_SECONDS, WORK_PRECISION_TRUE_ERROR,
+                                       WORK_PRECISION_STATED_ERROR, WORK_PRECISION_SPREAD};
+    const schema_field *field = d->table->schema->columns;
+    const char *methods[METHODS];
+    int section[METHODS];
+    const size_t n = list_texts(d->table, WORK_PRECISION_METHOD, part, methods, METHODS);
+    value_span time = SPAN_EMPTY, error = SPAN_EMPTY;
+    for (size_t i = 0; i < n; i++) {
+        const row_filter rows = {
+            {WORK_PRECISION_PART, WORK_PRECISION_METHOD}, {part, methods[i]}, false};
+        section[i] = drawing_section(d, d->table, methods[i], &rows, columns, 4, 2);
+        if (section[i] == NO_SECTION)
+            continue;
+        span_add_section(&time, d, section[i], 0, true);
+        span_add_section(&error, d, section[i], 1, true);
+        span_add_section(&error, d, section[i], 2, true);
+    }
+    if (span_empty(&time) || span_empty(&error))
+        return;
+    axis_log(d, "x", "Processor time", &field[WORK_PRECISION_SECONDS], time);
+    axis_log(d, "y", "Relative error", &field[WORK_PRECISION_TRUE_ERROR], error);
+    plot_heading(d, part);
+    for (size_t i = 0; i < n; i++) {
+        const int style = strcmp(methods[i], "textbook") == 0 ? 2 : i == 0 ? 1 : 3;
+        plot_item(d, section[i], "($1*x_unit):($2>0 ? $2*y_unit : NaN) with linespoints ls %d",
+                  style);
+        plot_title(d, methods[i]);
+        plot_item(d, section[i],
+                  "($1*x_unit):($3>0 ? $3*y_unit : NaN) with linespoints ls %d pt 6 notitle",
+                  30 + style);
+    }
+    plot_end(d);
+}
+
+static void draw_work_precision(figure_drawing *d)
+{
+    const char *parts[PARTS];
+    const size_t n = list_texts(d->table, WORK_PRECISION_PART, NULL, parts, PARTS);
+    const size_t across = n < ACROSS ? n : ACROSS, down = (n + ACROSS - 1) / ACROSS;
+    if (n == 0)
+        return;
+    d->width = 0.8 * (double)across;
+    d->height = 0.85 * (double)down;
+    text_format(&d->script, "set multiplot layout %zu,%zu\n", down, across);
+    for (size_t i = 0; i < n; i++)
+        draw_part(d, parts[i]);
+    text_add(&d->script, "unset multiplot\n");
+}
+
+/* ---- where an error comes from --------------------------------------------------------------- */
+
+enum { NUMBERS = 5, BARS = 32 };
+/* Smaller than any that matters beside a measurement. */
+static const double least_error = 1e-5;
+
+typedef struct number_panel {
+    const char *number;
+    size_t rows[BARS], n;
+    double largest;
+} number_panel;
+
+/* Those that are an error of the number by themselves; the rows of a number follow one another. */
+static size_t find_numbers(const table_view *t, number_panel panels[NUMBERS])
+{
+    size_t n = 0;
+    for (size_t row = 0; row < t->n_rows; row++) {
+        const char *number = error_budget_text(t, row, ERROR_BUDGET_NUMBER);
+        const double error = error_budget_get(t, row, ERROR_BUDGET_RELATIVE_ERROR);
+        if (n == 0 || strcmp(panels[n - 1].number, number) != 0) {
+            if (n == NUMBERS)
+                break;
+            panels[n++] = (number_panel){.number = number};
+        }
+        number_panel *p = &panels[n - 1];
+        if (!(error > least_error) || !isfinite(error) || p->n == BARS)
+            continue;
+        p->rows[p->n++] = row;
+        p->largest = fmax(p->largest, error);
+    }
+    return n;
+}
+
+static int style_of(const char *kind)
+{
+    return strcmp(kind, "measured") == 0 ? 1 : strcmp(kind, "model") == 0 ? 2 : 5;
+}
+
+static void draw_number(figure_drawing *d, const number_panel *p)
+{
+    static const char *const columns[] = {"relative_error", NULL}, *const units[] = {"1", NULL};
+    const table_view *t = d->table;
+    value_span span = {least_error, p->largest};
+    axis_log(d, "x", "Relative error", &t->schema->columns[ERROR_BUDGET_RELATIVE_ERROR], span);
+    text_format(&d->script, "set yrange [-0.7:%zu.7]\nset ytics (", p->n - 1);
+    for (size_t i = 0; i < p->n; i++) {
+        text_add(&d->script, i > 0 ? ", " : "");
+        text_tic(&d->script, error_budget_text(t, p->rows[p->n - 1 - i], ERROR_BUDGET_SOURCE));
+        text_format(&d->script, " %zu", i);
+    }
+    text_add(&d->script, ") noenhanced scale 0\n");
+    plot_heading(d, p->number);
+    for (size_t i = 0; i < p->n; i++) {
+        const size_t row = p->rows[p->n - 1 - i];
+        const double error = error_budget_get(t, row, ERROR_BUDGET_RELATIVE_ERROR);
+        plot_item(d,
+                  drawing_point(d, error_budget_text(t, row, ERROR_BUDGET_SOURCE), columns, units,
+                                &error),
+                  "(%s*x_unit):(%zu):(%s*x_unit):($1*x_unit):(%zu-0.3):(%zu+0.3) with boxxyerror "
+                  "ls %d",
+                  LITERAL(least_error), i, LITERAL(least_error), i, i,
+                  style_of(error_budget_text(t, row, ERROR_BUDGET_KIND)));
+    }
+    plot_end(d);
+}
+
+static void draw_error_budget(figure_drawing *d)
+{
+    number_panel panels[NUMBERS];
+    const size_t n = find_numbers(d->table, panels);
+    double top = 0;
+    d->height = 0;
+    for (size_t i = 0; i < n; i++)
+        d->height += 0.3 + 0.07 * (double)panels[i].n;
+    d->width = 1.3;
+    if (n > 0)
+        text_add(&d->script, "set lmargin 34\nunset key\nset border 1\nset multiplot\n");
+    for (size_t i = 0; i < n; i++) {
+        const double height = (0.3 + 0.07 * (double)panels[i].n) / d->height;
+        top += height;
+        text_format(&d->script, "set size 1,%s\nset origin 0,%s\n", LITERAL(height),
+                    LITERAL(1 - top));
+        if (panels[i].n > 0)
+            draw_number(d, &panels[i]);
+    }
+    if (n > 0)
+        text_add(&d->script, "unset multiplot\n");
+}
+
+const figure_description figures_accuracy[] = {
+    {.name = "work_precision",
+     .title = "Error against run time",
+     .table = &work_precision_schema,
+     .nothing = "no numerical part was timed",
+     .words = "True error of each numerical part against its processor time as the setting is "
+              "swept (full marks), and what the method itself states (open marks, dashed), which "
+              "should lie on or above; lower and further left is better. An error of exactly 0 is "
+              "not drawn.",
+     .draw = draw_work_precision},
+    {.name = "error_budget",
+     .title = "Where the errors come from",
+     .table = &error_budget_schema,
+     .nothing = "no error of these numbers is known",
+     .words =
+         "What each source alone does to the numbers at the reference velocity, relative, on a "
+         "logarithmic scale from 10^-5: one standard error of what is measured or stated "
+         "(blue), half the range of a choice of the model (orange), and (grey) all that is "
+         "measured together, the scatter of that by the number of replicates, and the "
+         "arithmetic, which is left out where it is smaller.",
+     .draw = draw_error_budget},
+    {.name = NULL},
+};
