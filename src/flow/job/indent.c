@@ -516,7 +516,7 @@ static void set_keys(indent_task *task, const flow_files *files)
     indentation_set_print(t, INDENTATION_KEY_N_REJECTED, "%zu", task->n_curves - task->n_accepted);
 }
 
-/* The spectrum of the rubber at the temperature of the curves. */
+/* The spectrum of the rubber at the temperature of the curves, if it is known by one. */
 static wt_status find_spectrum(indent_task *task, wt_error *err)
 {
     const wt_indent_job *job = task->job;
