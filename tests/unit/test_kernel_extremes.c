@@ -158,7 +158,8 @@ static void law_modulus(const scene *s, real omega, real *storage, real *loss)
     if (s->law == ZENER) {
         const real r = expl(s->alpha * logl(omega * s->tau[0]));
         const pair z = r * (cosl(s->alpha * M_PIl / 2) + sinl(s->alpha * M_PIl / 2) * (pair)I);
-        const pair e = s->e[0] + s->e[1] / (1 + 1 / z);
+        const real rise = (real)(s->e[0] + s->e[1]) - s->e[0];
+        const pair e = s->e[0] + rise / (1 + 1 / z);
         re = creall(e);
         im = cimagl(e);
     }
@@ -191,9 +192,11 @@ static void modulus(const scene *s, real omega, real *storage, real *loss)
 static void angle_piece(const scene *s, real w, real low, real high, real *j1, real *j2)
 {
     const real from = asinl(low), width = asinl(fminl(1, high)) - from;
-    for (int i = -ANGLES; i <= ANGLES; i++) {
-        const real u = 3.6L * i / ANGLES, a = M_PIl / 2 * sinhl(u);
-        const real d = 3.6L / ANGLES * M_PIl / 4 * coshl(u) / (coshl(a) * coshl(a));
+    /* with directions the moduli have poles close to the axis where the table is steep */
+    const int n = s->transverse ? 4 * ANGLES : ANGLES;
+    for (int i = -n; i <= n; i++) {
+        const real u = 3.6L * i / n, a = M_PIl / 2 * sinhl(u);
+        const real d = 3.6L / n * M_PIl / 4 * coshl(u) / (coshl(a) * coshl(a));
         const real c = sinl(from + width / (1 + expl(-2 * a)));
         real storage, loss;
         modulus(s, w * fminl(fmaxl(c, low), high), &storage, &loss);
