@@ -68,25 +68,27 @@ wt_status wt_energy_source_friction(wt_friction_workspace *workspace, double pre
         goto done;
 
     const panel_plan *plan = friction_plan(workspace, &scratch, at.speed, NULL, 0);
-    size_t level =
-        friction_level(workspace, &scratch, friction_grid(workspace, &scratch, plan, 0), at);
-    if (level < least_level)
-        level = least_level < plan->levels ? least_level : plan->levels;
     size_t now = 0;
     double error = (double)INFINITY;
-    for (size_t r = 0; r < FRICTION_RULES && error > workspace->options.tolerance; r++) {
+    const size_t first = friction_first_rule(workspace);
+    for (size_t r = first; r < FRICTION_RULES && error > workspace->options.tolerance; r++) {
+        size_t level;
+        status = friction_prepare_rule(workspace, r, err);
+        if (status != WT_OK)
+            goto done;
         now = r % 2;
         wt_energy_source *s = &pair[now];
         friction_record record = {.q = s->wavenumber, .mu = s->power};
         friction_pass pass;
-        friction_evaluate(workspace, &scratch, friction_grid(workspace, &scratch, plan, r), level,
-                          at, 0, false, &record, &pass);
+        const scale_grid *grid =
+            friction_grid(workspace, &scratch, plan, r, at, least_level, &level);
+        friction_evaluate(workspace, &scratch, grid, level, at, false, &record, &pass);
         s->n = record.n;
         for (size_t i = 0; i < s->n; i++)
             s->power[i] *= pressure * at.speed;
-        if (r > 0)
+        if (r > first)
             error = compare_sources(*s, pair[1 - now], workspace->roughness) +
-                    pass.core_error / (pass.hysteresis > 0 ? pass.hysteresis : 1);
+                    pass.hysteresis_error / (pass.hysteresis > 0 ? pass.hysteresis : 1);
         s->numerical_error = error + friction_relative_error(workspace, at, &pass).hysteresis;
     }
     status = energy_check(&pair[now], err);

@@ -11,7 +11,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-static const size_t rule_nodes[FRICTION_RULES] = {4, 8, 12, 16, 20, FRICTION_MAX_NODES};
+static const size_t rule_nodes[FRICTION_RULES] = {4, 6, 8, 10, 12, 16, 20, FRICTION_MAX_NODES};
 
 wt_friction_options wt_friction_defaults(void)
 {
@@ -53,15 +53,8 @@ wt_status friction_scratch_init(friction_scratch *scratch, const wt_friction_wor
     for (size_t i = 0; i < COUNT_OF(by_node); i++)
         *by_node[i] = pool_alloc(memory, panels * FRICTION_MAX_NODES, sizeof **by_node[i]);
     scratch->knots = pool_alloc(memory, ws->n_knots + 1, sizeof *scratch->knots);
-    double **const by_panel[] = {&scratch->bounds,
-                                 &scratch->panel_mu[0],
-                                 &scratch->panel_mu[1],
-                                 &scratch->panel_g[0],
-                                 &scratch->panel_g[1],
-                                 &scratch->trend_mu.last,
-                                 &scratch->trend_mu.foretold,
-                                 &scratch->trend_g.last,
-                                 &scratch->trend_g.foretold};
+    double **const by_panel[] = {&scratch->bounds, &scratch->panel_mu, &scratch->panel_g,
+                                 &scratch->error_mu, &scratch->error_g};
     for (size_t i = 0; i < COUNT_OF(by_panel); i++)
         *by_panel[i] = pool_alloc(memory, panels + 1, sizeof **by_panel[i]);
     return memory->failed ? no_memory(err) : WT_OK;
@@ -89,17 +82,40 @@ static double rounding_of(const wt_friction_workspace *ws)
     return FRICTION_ROUNDING + DBL_EPSILON * slope * log1p((q - roughness->q0) / roughness->q0);
 }
 
-/* The grids of the common plan. */
-static wt_status prepare_grids(wt_friction_workspace *ws, wt_error *err)
+size_t friction_first_rule(const wt_friction_workspace *ws)
+{
+    static const double best[] = {1e-3, 1e-5, 1e-7, 1e-9};
+    size_t rule = 0;
+    while (rule < COUNT_OF(best) && ws->options.tolerance < best[rule])
+        rule++;
+    return ws->n_knots > 0 && rule > 0 ? rule - 1 : rule; /* their panels are short */
+}
+
+wt_status friction_prepare_rule(wt_friction_workspace *ws, size_t rule, wt_error *err)
+{
+    if (ws->rules[rule] != NULL)
+        return WT_OK;
+    const wt_status status = rule_new(rule_nodes[rule], &ws->memory, &ws->rules[rule], err);
+    scale_grid *grid = &ws->grids[rule];
+    if (status != WT_OK || ws->n_knots > 0)
+        return status;
+    grid_init(grid, &ws->plan, rule_nodes[rule], &ws->memory);
+    if (ws->memory.failed)
+        return no_memory(err);
+    grid_begin(grid, &ws->plan, ws->rules[rule]);
+    grid_fill_panels(grid, &ws->plan, 0, ws->roughness, &ws->options.layer);
+    for (size_t level = 0; level <= ws->plan.levels; level++)
+        grid_fill_core(grid, &ws->plan, level, ws->roughness, &ws->options.layer);
+    return WT_OK;
+}
+
+/* The plan of all velocities. */
+static wt_status prepare_plan(wt_friction_workspace *ws, wt_error *err)
 {
     double *bounds = pool_alloc(&ws->memory, ws->plan.capacity + 1, sizeof *bounds);
-    for (size_t r = 0; r < FRICTION_RULES; r++)
-        grid_init(&ws->grids[r], &ws->plan, rule_nodes[r], &ws->memory);
     if (ws->memory.failed)
         return no_memory(err);
     panel_plan_lay(&ws->plan, ws->roughness, NULL, 0, NULL, 0, bounds);
-    for (size_t r = 0; r < FRICTION_RULES; r++)
-        grid_fill(&ws->grids[r], &ws->plan, ws->rules[r], ws->roughness, &ws->options.layer);
     return WT_OK;
 }
 
@@ -130,10 +146,8 @@ wt_status wt_friction_workspace_new(const wt_material *material, const wt_roughn
     status = angular_new(material, o.tolerance, &ws->memory, &ws->angular, err);
     if (status == WT_OK)
         ws->rounding = rounding_of(ws);
-    for (size_t r = 0; status == WT_OK && r < FRICTION_RULES; r++)
-        status = rule_new(rule_nodes[r], &ws->memory, &ws->rules[r], err);
     if (status == WT_OK && ws->n_knots == 0)
-        status = prepare_grids(ws, err);
+        status = prepare_plan(ws, err);
     if (status == WT_OK && ws->memory.failed)
         status = no_memory(err);
     for (unsigned i = 0; status == WT_OK && i < ws->threads; i++)
@@ -207,12 +221,30 @@ const panel_plan *friction_plan(const wt_friction_workspace *ws, friction_scratc
 }
 
 const scale_grid *friction_grid(const wt_friction_workspace *ws, friction_scratch *scratch,
-                                const panel_plan *plan, size_t rule)
+                                const panel_plan *plan, size_t rule, friction_load at, size_t least,
+                                size_t *level)
 {
-    if (plan == &ws->plan)
-        return &ws->grids[rule];
-    grid_fill(&scratch->grid, plan, ws->rules[rule], ws->roughness, &ws->options.layer);
-    return &scratch->grid;
+    const bool own = plan != &ws->plan;
+    scale_grid *grid = own ? &scratch->grid : NULL;
+    const scale_grid *made = own ? grid : &ws->grids[rule];
+    const double target = 0.5 * CONTACT_FULL;
+    size_t depth = least < plan->levels ? least : plan->levels;
+    if (own)
+        grid_begin(grid, plan, ws->rules[rule]);
+    for (;;) {
+        if (own)
+            grid_fill_core(grid, plan, depth, ws->roughness, &ws->options.layer);
+        const double variance = friction_core_variance(ws, scratch, made, depth, at);
+        if (depth >= plan->levels || !(variance > target))
+            break;
+        const double deeper = ceil(0.5 * log2(variance / target)); /* a cell is 1/4 of the next */
+        const size_t left = plan->levels - depth;
+        depth += deeper < (double)left ? (size_t)fmax(1, deeper) : left;
+    }
+    if (own)
+        grid_fill_panels(grid, plan, plan->levels - depth, ws->roughness, &ws->options.layer);
+    *level = depth;
+    return made;
 }
 
 /* ---- velocities ------------------------------------------------------------------------------ */
@@ -222,97 +254,91 @@ static wt_estimate number(double value, double error)
     return (wt_estimate){.value = value, .numerical_error = error, .unit = "1"};
 }
 
-static const double inflation = 200;
-static const double least_part = 0.05;
-
-/* Error of a sum over panels from the differences of two rules, and of those before. The rules gain
- * as many nodes at each step and converge geometrically or faster, so the next differences, and
- * with them the error, would be smaller again by the ratio of these two in the slowest panel that
- * counts. `inflation` times that is stated, but not less than a part of the differences and not
- * more than they are. A difference far below what the two before it foretold is taken for an
- * accident, and raised to the geometric mean of both. `lower` is used up. */
-static double converged(double *lower, const double *higher, friction_trend *trend, size_t parts,
-                        size_t step)
-{
-    double sum = 0, most = 0, ratio = 0;
-    for (size_t p = 0; p < parts; p++) {
-        lower[p] = fabs(higher[p] - lower[p]);
-        if (step > 1 && trend->foretold[p] > lower[p])
-            lower[p] = sqrt(lower[p]) * sqrt(trend->foretold[p]);
-        sum += lower[p];
-        most = fmax(most, lower[p]);
-    }
-    for (size_t p = 0; p < parts; p++) {
-        const double gain = step > 0 && trend->last[p] > 0 ? lower[p] / trend->last[p] : 1;
-        if (lower[p] > 0.01 * most)
-            ratio = fmax(ratio, inflation * gain);
-        trend->foretold[p] = lower[p] * gain;
-        trend->last[p] = lower[p];
-    }
-    return step > 0 ? sum * fmin(fmax(ratio, least_part), 1) : sum;
-}
-
-static void compute_point(const wt_friction_workspace *ws, friction_scratch *scratch,
-                          double pressure, double velocity, wt_friction_point *point)
-{
-    const friction_load at = {.pressure = pressure, .speed = fabs(velocity)};
-    const double sign = velocity < 0 ? -1 : velocity > 0 ? 1 : 0;
-    const double tolerance = ws->options.tolerance;
-    const panel_plan *plan = friction_plan(ws, scratch, at.speed, NULL, 0);
-    const scale_grid *grid = friction_grid(ws, scratch, plan, 0);
-    const size_t level = friction_level(ws, scratch, grid, at);
-
-    friction_pass pass;
-    unsigned slot = 0;
-    friction_evaluate(ws, scratch, grid, level, at, slot, false, NULL, &pass);
-    for (size_t r = 1; r < FRICTION_RULES; r++) {
-        slot = 1 - slot;
-        grid = friction_grid(ws, scratch, plan, r);
-        friction_evaluate(ws, scratch, grid, level, at, slot, false, NULL, &pass);
-        const friction_relative relative = friction_relative_error(ws, at, &pass);
-        const double error_g = relative.variance * pass.variance +
-                               converged(scratch->panel_g[1 - slot], scratch->panel_g[slot],
-                                         &scratch->trend_g, pass.parts, r - 1);
-        const double error_mu = relative.hysteresis * pass.hysteresis + pass.core_error +
-                                converged(scratch->panel_mu[1 - slot], scratch->panel_mu[slot],
-                                          &scratch->trend_mu, pass.parts, r - 1);
-        const double area = contact_area(pass.variance);
-        const double error_area = friction_area_error(pass.variance, error_g);
-        point->velocity = velocity;
-        point->stress_variance = number(pass.variance, error_g);
-        point->area_ratio = number(area, error_area);
-        point->one_minus_area =
-            number(contact_gap(pass.variance), friction_gap_error(pass.variance, error_g));
-        point->hysteresis = number(sign * pass.hysteresis, error_mu);
-        point->nodes = pass.nodes;
-        point->reached = error_g <= tolerance * pass.variance && error_area <= tolerance * area &&
-                         error_mu <= tolerance * pass.hysteresis;
-        if (point->reached)
-            break;
-    }
-    const bool share = !ws->options.without_share && angular_limited(ws->angular);
-    if (share)
-        friction_evaluate(ws, scratch, grid, level, at, slot, true, NULL, &pass);
-    point->extrapolated_share = ws->options.without_share ? (double)NAN
-                                : pass.hysteresis > 0     ? fmin(pass.outside / pass.hysteresis, 1)
-                                                          : 0;
-}
-
 typedef struct compute_job {
     const wt_friction_workspace *ws;
     double pressure;
     const double *velocity;
-    wt_friction_point *points;
+    size_t rule, stride;
+    unsigned char *first;      /* [n] the rule to begin with, in the end the last one */
+    wt_friction_point *points; /* those that are reached are done */
 } compute_job;
+
+/* Every so many velocities tell those between them with which rule to begin. */
+enum { STRIDE = 8 };
+
+static bool is_due(const compute_job *job, size_t i)
+{
+    return !job->points[i].reached && job->first[i] <= job->rule && i % job->stride == 0;
+}
+
+static void compute_point(const compute_job *job, friction_scratch *scratch, double velocity,
+                          wt_friction_point *point)
+{
+    const wt_friction_workspace *ws = job->ws;
+    const friction_load at = {.pressure = job->pressure, .speed = fabs(velocity)};
+    const double sign = velocity < 0 ? -1 : velocity > 0 ? 1 : 0;
+    const double tolerance = ws->options.tolerance;
+    const panel_plan *plan = friction_plan(ws, scratch, at.speed, NULL, 0);
+    size_t level;
+    const scale_grid *grid = friction_grid(ws, scratch, plan, job->rule, at, 0, &level);
+    friction_pass pass;
+    friction_evaluate(ws, scratch, grid, level, at, false, NULL, &pass);
+    const friction_relative relative = friction_relative_error(ws, at, &pass);
+    const double error_g = relative.variance * pass.variance + pass.variance_error;
+    const double error_mu = relative.hysteresis * pass.hysteresis + pass.hysteresis_error;
+    const double area = contact_area(pass.variance);
+    const double error_area = friction_area_error(pass.variance, error_g);
+    point->velocity = velocity;
+    point->stress_variance = number(pass.variance, error_g);
+    point->area_ratio = number(area, error_area);
+    point->one_minus_area =
+        number(contact_gap(pass.variance), friction_gap_error(pass.variance, error_g));
+    point->hysteresis = number(sign * pass.hysteresis, error_mu);
+    point->nodes = pass.nodes;
+    point->reached = error_g <= tolerance * pass.variance && error_area <= tolerance * area &&
+                     error_mu <= tolerance * pass.hysteresis;
+    point->extrapolated_share = (double)NAN;
+    if (ws->options.without_share || (!point->reached && job->rule + 1 < FRICTION_RULES))
+        return;
+    if (angular_limited(ws->angular))
+        friction_evaluate(ws, scratch, grid, level, at, true, NULL, &pass);
+    point->extrapolated_share = pass.hysteresis > 0 ? fmin(pass.outside / pass.hysteresis, 1) : 0;
+}
 
 static wt_status compute_item(void *user, size_t i, unsigned worker)
 {
     const compute_job *job = user;
-    compute_point(job->ws, &job->ws->scratch[worker], job->pressure, job->velocity[i],
-                  &job->points[i]);
-    const wt_friction_point *point = &job->points[i];
+    wt_friction_point *point = &job->points[i];
+    if (!is_due(job, i))
+        return WT_OK;
+    job->first[i] = (unsigned char)job->rule;
+    compute_point(job, &job->ws->scratch[worker], job->velocity[i], point);
     return isfinite(point->stress_variance.value) && isfinite(point->hysteresis.value) ? WT_OK
                                                                                        : WT_E_RANGE;
+}
+
+/* All that are due with one rule, then those that it does not suffice for with the next one. */
+static wt_status compute_all(wt_friction_workspace *ws, compute_job *job, size_t n, wt_error *err)
+{
+    for (job->rule = friction_first_rule(ws); job->rule < FRICTION_RULES; job->rule++) {
+        size_t due = 0;
+        for (size_t i = 0; i < n; i++)
+            due += is_due(job, i);
+        wt_status status = due > 0 ? friction_prepare_rule(ws, job->rule, err) : WT_OK;
+        if (status != WT_OK)
+            return status;
+        if (due > 0)
+            status = wt_parallel_for(n, ws->threads, compute_item, job, NULL, "friction");
+        if (status == WT_E_RANGE) {
+            (void)range_error("pressure", job->pressure,
+                              "so high that the stress variance G stays finite, in Pa", err);
+            wt_error_advice(err, "check the units of pressure, moduli and power spectrum");
+            return status;
+        }
+        if (status != WT_OK)
+            return wt_fail(err, status, "the friction integral could not be run");
+    }
+    return WT_OK;
 }
 
 wt_status wt_friction_compute(wt_friction_workspace *workspace, double pressure,
@@ -324,15 +350,28 @@ wt_status wt_friction_compute(wt_friction_workspace *workspace, double pressure,
     wt_status status = friction_prepare(workspace, pressure, velocity, n, err);
     if (status != WT_OK)
         return status;
-    compute_job job = {workspace, pressure, velocity, points};
-    status = wt_parallel_for(n, workspace->threads, compute_item, &job, NULL, "friction");
-    if (status == WT_E_RANGE) {
-        (void)range_error("pressure", pressure,
-                          "so high that the stress variance G stays finite, in Pa", err);
-        wt_error_advice(err, "check the units of pressure, moduli and power spectrum");
-    } else if (status != WT_OK) {
-        wt_fail(err, status, "the friction integral could not be run");
+    unsigned char *first = calloc(n + 1, 1);
+    if (first == NULL)
+        return no_memory(err);
+    for (size_t i = 0; i < n; i++)
+        points[i].reached = false;
+    compute_job job = {.ws = workspace,
+                       .pressure = pressure,
+                       .velocity = velocity,
+                       .first = first,
+                       .points = points};
+    job.stride = STRIDE;
+    status = compute_all(workspace, &job, n, err);
+    for (size_t i = 0; i < n; i++) {
+        const size_t before = i - i % STRIDE,
+                     after = before + STRIDE < n ? before + STRIDE : before;
+        if (i % STRIDE != 0)
+            first[i] = first[before] < first[after] ? first[before] : first[after];
     }
+    job.stride = 1;
+    if (status == WT_OK && n > 1)
+        status = compute_all(workspace, &job, n, err);
+    free(first);
     return status;
 }
 

@@ -10,23 +10,18 @@
 
 #include <float.h>
 
-/* Rules of rising order; neighbours give a value and its error. */
-enum { FRICTION_RULES = 6, FRICTION_MAX_NODES = RULE_MOST };
-
-/* Differences of the rules, per panel [capacity + 1]: the last ones, and the next ones to come. */
-typedef struct friction_trend {
-    double *last, *foretold;
-} friction_trend;
+/* Rules of rising order. */
+enum { FRICTION_RULES = 8, FRICTION_MAX_NODES = RULE_MOST };
 
 /* What one thread needs. */
 typedef struct friction_scratch {
-    panel_plan plan;                  /* of this velocity, where knots move with it */
-    scale_grid grid;                  /* likewise */
-    double *knots;                    /* [n_knots] t */
-    double *bounds;                   /* [capacity + 1] t */
-    double *omega, *j1, *j2;          /* [capacity * max nodes] */
-    double *panel_mu[2], *panel_g[2]; /* [capacity + 1]; of two passes */
-    friction_trend trend_mu, trend_g;
+    panel_plan plan;            /* of this velocity, where knots move with it */
+    scale_grid grid;            /* likewise */
+    double *knots;              /* [n_knots] t */
+    double *bounds;             /* [capacity + 1] t */
+    double *omega, *j1, *j2;    /* [capacity * max nodes] */
+    double *panel_mu, *panel_g; /* [capacity + 1]: parts of the last pass, */
+    double *error_mu, *error_g; /* and the errors of its rule in them */
 } friction_scratch;
 
 struct wt_friction_workspace {
@@ -38,8 +33,8 @@ struct wt_friction_workspace {
     double stiffness; /* 1 / (1 - nu^2) */
     double rounding;  /* relative error of the integrals from rounding, but for that of J1, J2 */
     const double *knots;
-    size_t n_knots; /* of the material, rad/s */
-    gauss_rule *rules[FRICTION_RULES];
+    size_t n_knots;                    /* of the material, rad/s */
+    gauss_rule *rules[FRICTION_RULES]; /* NULL: not used yet */
     /* Materials without knots: one plan and its grids for every velocity. */
     panel_plan plan;
     scale_grid grids[FRICTION_RULES];
@@ -55,8 +50,8 @@ typedef struct friction_load {
 /* One pass over a grid. Parts: 0 is the core, then the panels from the innermost cell used. */
 typedef struct friction_pass {
     double variance, hysteresis;
-    double core_error; /* of the hysteresis, from the closed form in the core */
-    double outside;    /* part of the hysteresis from frequencies outside the data */
+    double variance_error, hysteresis_error; /* from the rule and the closed form in the core */
+    double outside; /* part of the hysteresis from frequencies outside the data */
     double steep_variance, steep_hysteresis; /* int |d ln J| of their parts */
     size_t nodes;
     size_t parts;
@@ -75,19 +70,25 @@ wt_status friction_scratch_init(friction_scratch *scratch, const wt_friction_wor
 /* WT_E_RANGE unless pressure > 0 and the velocities are usable; then prepares J1 and J2. */
 wt_status friction_prepare(wt_friction_workspace *ws, double pressure, const double *velocity,
                            size_t n, wt_error *err) WT_NODISCARD;
-/* The grid of a rule at a speed, after its plan was laid. */
-const scale_grid *friction_grid(const wt_friction_workspace *ws, friction_scratch *scratch,
-                                const panel_plan *plan, size_t rule);
 /* Lays the plan of this speed with these extra cuts, or returns the common one. */
 const panel_plan *friction_plan(const wt_friction_workspace *ws, friction_scratch *scratch,
                                 double speed, const double *cuts, size_t n_cuts);
-/* How deep the first panel must be graded. */
-size_t friction_level(const wt_friction_workspace *ws, friction_scratch *scratch,
-                      const scale_grid *grid, friction_load at);
-/* slot: which of the two panel arrays receives the parts. record may be NULL. */
+/* The rule for the tolerance to begin with. */
+size_t friction_first_rule(const wt_friction_workspace *ws);
+/* Makes a rule ready; not from several threads at a time. */
+wt_status friction_prepare_rule(wt_friction_workspace *ws, size_t rule, wt_error *err) WT_NODISCARD;
+/* The grid of a rule on a plan, and how deep its first panel is graded for this load, no less than
+ * `least`. */
+const scale_grid *friction_grid(const wt_friction_workspace *ws, friction_scratch *scratch,
+                                const panel_plan *plan, size_t rule, friction_load at, size_t least,
+                                size_t *level);
+/* G over one core. */
+double friction_core_variance(const wt_friction_workspace *ws, friction_scratch *scratch,
+                              const scale_grid *grid, size_t level, friction_load at);
+/* One pass; record may be NULL. */
 void friction_evaluate(const wt_friction_workspace *ws, friction_scratch *scratch,
-                       const scale_grid *grid, size_t level, friction_load at, unsigned slot,
-                       bool with_outside, friction_record *record, friction_pass *pass);
+                       const scale_grid *grid, size_t level, friction_load at, bool with_outside,
+                       friction_record *record, friction_pass *pass);
 
 /* Relative errors of G and of the hysteresis of a pass from J1 and J2 and from rounding. */
 typedef struct friction_relative {

@@ -61,9 +61,8 @@ static void angular_at(const wt_friction_workspace *ws, friction_scratch *scratc
     angular_eval(ws->angular, scratch->omega, n, scratch->j1, scratch->j2);
 }
 
-/* G over one core. */
-static double core_variance(const wt_friction_workspace *ws, friction_scratch *scratch,
-                            const scale_grid *grid, size_t level, friction_load at)
+double friction_core_variance(const wt_friction_workspace *ws, friction_scratch *scratch,
+                              const scale_grid *grid, size_t level, friction_load at)
 {
     const size_t n = grid->rule->n;
     const double ratio = ws->stiffness / at.pressure;
@@ -73,22 +72,6 @@ static double core_variance(const wt_friction_workspace *ws, friction_scratch *s
     for (size_t i = 0; i < n; i++)
         sum += grid->rule->weight[i] * factor2[i] * scratch->j2[i];
     return sum * grid->core_half_width[level] * (ratio * ratio / 8);
-}
-
-size_t friction_level(const wt_friction_workspace *ws, friction_scratch *scratch,
-                      const scale_grid *grid, friction_load at)
-{
-    const double target = 0.5 * CONTACT_FULL;
-    size_t level = 0;
-    while (level < grid->levels) {
-        const double variance = core_variance(ws, scratch, grid, level, at);
-        if (!(variance > target))
-            break;
-        const double deeper = ceil(0.5 * log2(variance / target)); /* a cell is 1/4 of the next */
-        const size_t left = grid->levels - level;
-        level += deeper < (double)left ? (size_t)fmax(1, deeper) : left;
-    }
-    return level;
 }
 
 /* P is 1 in the core, or the core is so short that dmu/dG hardly changes in it:
@@ -103,15 +86,16 @@ static double core_pass(const wt_friction_workspace *ws, friction_scratch *scrat
     const double *factor1 = grid->core_factor1 + level * n;
     const double *factor2 = grid->core_factor2 + level * n;
     const double half = grid->core_half_width[level];
-    pass->variance = core_variance(ws, scratch, grid, level, at);
+    double f1[FRICTION_MAX_NODES], f2[FRICTION_MAX_NODES];
+    pass->variance = friction_core_variance(ws, scratch, grid, level, at);
     double full = 0, least = (double)INFINITY, most = 0;
     for (size_t i = 0; i < n; i++) {
-        const double f1 = mu_scale * factor1[i] * scratch->j1[i];
-        const double f2 = g_scale * factor2[i] * scratch->j2[i];
-        full += half * grid->rule->weight[i] * f1;
-        if (f2 > 0) {
-            least = fmin(least, f1 / f2);
-            most = fmax(most, f1 / f2);
+        f1[i] = half * mu_scale * factor1[i] * scratch->j1[i];
+        f2[i] = half * g_scale * factor2[i] * scratch->j2[i];
+        full += grid->rule->weight[i] * f1[i];
+        if (f2[i] > 0) {
+            least = fmin(least, f1[i] / f2[i]);
+            most = fmax(most, f1[i] / f2[i]);
         }
     }
     double contact = 1;
@@ -120,8 +104,10 @@ static double core_pass(const wt_friction_workspace *ws, friction_scratch *scrat
     if (pass->variance > CONTACT_FULL) {
         const double integral = contact_integral(pass->variance, ws->options.gamma);
         contact = integral / pass->variance;
-        pass->core_error = (most - least) * integral;
+        pass->hysteresis_error = (most - least) * integral;
     }
+    scratch->error_g[0] = rule_error(grid->rule, f2, pass->variance);
+    scratch->error_mu[0] = contact * rule_error(grid->rule, f1, full);
     if (record)
         for (size_t i = 0; i < n; i++) {
             record->q[record->n] = grid->core_q[level * n + i];
@@ -132,8 +118,8 @@ static double core_pass(const wt_friction_workspace *ws, friction_scratch *scrat
 }
 
 void friction_evaluate(const wt_friction_workspace *ws, friction_scratch *scratch,
-                       const scale_grid *grid, size_t level, friction_load at, unsigned slot,
-                       bool with_outside, friction_record *record, friction_pass *pass)
+                       const scale_grid *grid, size_t level, friction_load at, bool with_outside,
+                       friction_record *record, friction_pass *pass)
 {
     const gauss_rule *rule = grid->rule;
     const size_t n = rule->n;
@@ -141,12 +127,12 @@ void friction_evaluate(const wt_friction_workspace *ws, friction_scratch *scratc
     const double ratio = ws->stiffness / at.pressure;
     const double g_scale = ratio * ratio / 8;
     const double mu_scale = ratio / 2;
-    double *panel_mu = scratch->panel_mu[slot];
-    double *panel_g = scratch->panel_g[slot];
+    double *panel_mu = scratch->panel_mu, *panel_g = scratch->panel_g;
     *pass = (friction_pass){0};
     pass->hysteresis = core_pass(ws, scratch, grid, level, at, mu_scale, record, pass);
     panel_mu[0] = pass->hysteresis;
     panel_g[0] = pass->variance;
+    pass->variance_error = scratch->error_g[0];
     if (with_outside && scratch->j1[0] > 0)
         pass->outside =
             pass->hysteresis *
@@ -162,22 +148,24 @@ void friction_evaluate(const wt_friction_workspace *ws, friction_scratch *scratc
         const double half = grid->half_width[first + p];
         const double *j1 = scratch->j1 + p * n;
         const double *j2 = scratch->j2 + p * n;
-        double running[FRICTION_MAX_NODES];
+        double running[FRICTION_MAX_NODES], f[FRICTION_MAX_NODES];
         double sum_g = 0, sum_mu = 0;
         for (size_t j = 0; j < n; j++)
             running[j] = pass->variance;
         for (size_t i = 0; i < n; i++) {
-            const double f2 = half * g_scale * factor2[p * n + i] * j2[i];
+            f[i] = half * g_scale * factor2[p * n + i] * j2[i];
             const double *row = rule->running + i * n;
-            sum_g += rule->weight[i] * f2;
+            sum_g += rule->weight[i] * f[i];
             for (size_t j = 0; j < n; j++)
-                running[j] += f2 * row[j];
+                running[j] += f[i] * row[j];
         }
+        scratch->error_g[p + 1] = rule_error(rule, f, sum_g);
+        pass->variance_error += scratch->error_g[p + 1];
         for (size_t j = 0; j < n; j++) {
             const double area = contact_area(running[j]);
             const double correction = gamma + (1 - gamma) * area * area;
-            const double share =
-                half * mu_scale * rule->weight[j] * factor1[p * n + j] * j1[j] * area * correction;
+            f[j] = half * mu_scale * factor1[p * n + j] * j1[j] * area * correction;
+            const double share = rule->weight[j] * f[j];
             sum_mu += share;
             if (record) {
                 record->q[record->n] = q[p * n + j];
@@ -196,7 +184,13 @@ void friction_evaluate(const wt_friction_workspace *ws, friction_scratch *scratc
         pass->hysteresis += sum_mu;
         panel_g[p + 1] = sum_g;
         panel_mu[p + 1] = sum_mu;
+        /* S P falls no faster than G^(-3/2) */
+        scratch->error_mu[p + 1] =
+            rule_error(rule, f, sum_mu) +
+            (pass->variance > 0 ? 1.5 * sum_mu * (pass->variance_error / pass->variance) : 0);
     }
+    for (size_t p = 0; p <= panels; p++)
+        pass->hysteresis_error += scratch->error_mu[p];
     pass->parts = panels + 1;
     pass->nodes = pass->parts * n;
 }

@@ -23,29 +23,6 @@ static wt_status check_wavenumbers(const wt_roughness *roughness, const double *
     return WT_OK;
 }
 
-/* Runs the two rules of a profile and leaves their parts in the slots 0 (lower) and 1. */
-static friction_pass run_pair(const wt_friction_workspace *ws, friction_scratch *scratch,
-                              const panel_plan *plan, size_t level, friction_load at, size_t rule)
-{
-    friction_pass pass;
-    for (unsigned slot = 0; slot < 2; slot++)
-        friction_evaluate(ws, scratch, friction_grid(ws, scratch, plan, rule + slot), level, at,
-                          slot, false, NULL, &pass);
-    return pass;
-}
-
-static bool pair_reached(const wt_friction_workspace *ws, const friction_scratch *scratch,
-                         const friction_pass *pass)
-{
-    double difference_g = 0, difference_mu = 0;
-    for (size_t p = 0; p < pass->parts; p++) {
-        difference_g += fabs(scratch->panel_g[0][p] - scratch->panel_g[1][p]);
-        difference_mu += fabs(scratch->panel_mu[0][p] - scratch->panel_mu[1][p]);
-    }
-    return difference_g <= ws->options.tolerance * pass->variance &&
-           difference_mu <= ws->options.tolerance * pass->hysteresis;
-}
-
 wt_status wt_friction_profile(wt_friction_workspace *workspace, double pressure, double velocity,
                               const double *wavenumber, size_t n, wt_friction_node *nodes,
                               wt_error *err)
@@ -70,12 +47,18 @@ wt_status wt_friction_profile(wt_friction_workspace *workspace, double pressure,
     for (size_t i = 0; i < n; i++)
         cuts[i] = log1p((wavenumber[i] - roughness->q0) / roughness->q0);
     const panel_plan *plan = friction_plan(workspace, &scratch, at.speed, cuts, n);
-    const size_t level =
-        friction_level(workspace, &scratch, friction_grid(workspace, &scratch, plan, 0), at);
-    size_t rule = 1;
-    friction_pass pass = run_pair(workspace, &scratch, plan, level, at, rule);
-    while (!pair_reached(workspace, &scratch, &pass) && rule + 2 < FRICTION_RULES)
-        pass = run_pair(workspace, &scratch, plan, level, at, ++rule);
+    friction_pass pass;
+    size_t level = 0;
+    for (size_t rule = friction_first_rule(workspace); rule < FRICTION_RULES; rule++) {
+        status = friction_prepare_rule(workspace, rule, err);
+        if (status != WT_OK)
+            goto done;
+        const scale_grid *grid = friction_grid(workspace, &scratch, plan, rule, at, 0, &level);
+        friction_evaluate(workspace, &scratch, grid, level, at, false, NULL, &pass);
+        if (pass.variance_error <= workspace->options.tolerance * pass.variance &&
+            pass.hysteresis_error <= workspace->options.tolerance * pass.hysteresis)
+            break;
+    }
 
     const double relative = friction_relative_error(workspace, at, &pass).variance;
     const double slack = 1e-13 * fmax(1, log(roughness->q1 / roughness->q0));
@@ -88,9 +71,9 @@ wt_status wt_friction_profile(wt_friction_workspace *workspace, double pressure,
                 part == 0 ? plan->core[level].t_high : plan->panels[first + part - 1].t_high;
             if (end > cuts[i] + slack * (cuts[i] > slack))
                 break;
-            variance += scratch.panel_g[1][part];
-            hysteresis += scratch.panel_mu[1][part];
-            difference += fabs(scratch.panel_g[0][part] - scratch.panel_g[1][part]);
+            variance += scratch.panel_g[part];
+            hysteresis += scratch.panel_mu[part];
+            difference += scratch.error_g[part];
             part++;
         }
         nodes[i] = (wt_friction_node){

@@ -46,11 +46,18 @@ static grid_panel panel_at(double t_low, double t_high, const double *knots, siz
     if (t_low > 0 && t_high > 2 * t_low)
         panel.map = MAP_LOGARITHM;
     const double slack = 1e-12;
-    for (size_t k = 0; k < n_knots && knots[k] <= t_low + slack; k++)
-        if (knots[k] > t_low - panel_width) {
-            panel.map = MAP_SQUARE_ROOT;
-            panel.anchor = fmin(knots[k], t_low);
-        }
+    size_t low = 0, high = n_knots; /* the knots below `low` are at or below t_low */
+    while (low < high) {
+        const size_t middle = (low + high) / 2;
+        if (knots[middle] <= t_low + slack)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    if (low > 0 && knots[low - 1] > t_low - panel_width) {
+        panel.map = MAP_SQUARE_ROOT;
+        panel.anchor = fmin(knots[low - 1], t_low);
+    }
     return panel;
 }
 
@@ -132,25 +139,26 @@ void grid_init(scale_grid *grid, const panel_plan *plan, size_t max_nodes, pool 
 static double place_nodes(const panel_plan *plan, const grid_panel *panel, const gauss_rule *rule,
                           double *q, double *slope)
 {
-    double s_low = panel->t_low, s_high = panel->t_high;
+    const double width = panel->t_high - panel->t_low;
+    double s_low = 0, half = 0.5 * width;
     if (panel->map == MAP_LOGARITHM) {
         s_low = log(panel->t_low);
-        s_high = log(panel->t_high);
+        half = 0.5 * (log(panel->t_high) - s_low);
     } else if (panel->map == MAP_SQUARE_ROOT) {
         s_low = sqrt(panel->t_low - panel->anchor);
-        s_high = sqrt(panel->t_high - panel->anchor);
+        half = 0.5 * width / (s_low + sqrt(panel->t_high - panel->anchor));
     }
-    const double half = 0.5 * (s_high - s_low);
     for (size_t i = 0; i < rule->n; i++) {
-        const double s = s_low + half * (1 + rule->node[i]);
-        double t = s;
+        /* from the low end on: a range may be far shorter than its distance from the anchor */
+        const double step = half * (1 + rule->node[i]);
+        double t = panel->t_low + step;
         slope[i] = 1;
         if (panel->map == MAP_LOGARITHM) {
-            t = exp(s);
+            t = exp(s_low + step);
             slope[i] = t;
         } else if (panel->map == MAP_SQUARE_ROOT) {
-            t = panel->anchor + s * s;
-            slope[i] = 2 * s;
+            t = panel->t_low + step * (2 * s_low + step);
+            slope[i] = 2 * (s_low + step);
         }
         /* q0 + q0 (e^t - 1) keeps the digits of a range as short as q1/q0 - 1 = 1e-4 */
         q[i] = fmin(fmax(plan->q0 + plan->q0 * expm1(t), plan->q0), plan->q1);
@@ -171,20 +179,30 @@ static void weigh_nodes(const wt_roughness *roughness, const wt_layer_state *lay
     }
 }
 
-void grid_fill(scale_grid *grid, const panel_plan *plan, const gauss_rule *rule,
-               const wt_roughness *roughness, const wt_layer_state *layer)
+void grid_begin(scale_grid *grid, const panel_plan *plan, const gauss_rule *rule)
 {
-    const size_t n = rule->n;
     grid->rule = rule;
     grid->levels = plan->levels;
     grid->n_panels = plan->n_panels;
-    for (size_t p = 0; p < plan->n_panels; p++)
+}
+
+void grid_fill_panels(scale_grid *grid, const panel_plan *plan, size_t first,
+                      const wt_roughness *roughness, const wt_layer_state *layer)
+{
+    const size_t n = grid->rule->n, at = first * n;
+    for (size_t p = first; p < plan->n_panels; p++)
         grid->half_width[p] =
-            place_nodes(plan, &plan->panels[p], rule, grid->q + p * n, grid->factor1 + p * n);
-    for (size_t p = 0; p <= plan->levels; p++)
-        grid->core_half_width[p] = place_nodes(plan, &plan->core[p], rule, grid->core_q + p * n,
-                                               grid->core_factor1 + p * n);
-    weigh_nodes(roughness, layer, plan->n_panels * n, grid->q, grid->factor1, grid->factor2);
-    weigh_nodes(roughness, layer, (plan->levels + 1) * n, grid->core_q, grid->core_factor1,
-                grid->core_factor2);
+            place_nodes(plan, &plan->panels[p], grid->rule, grid->q + p * n, grid->factor1 + p * n);
+    weigh_nodes(roughness, layer, plan->n_panels * n - at, grid->q + at, grid->factor1 + at,
+                grid->factor2 + at);
+}
+
+void grid_fill_core(scale_grid *grid, const panel_plan *plan, size_t level,
+                    const wt_roughness *roughness, const wt_layer_state *layer)
+{
+    const size_t n = grid->rule->n, at = level * n;
+    grid->core_half_width[level] = place_nodes(plan, &plan->core[level], grid->rule,
+                                               grid->core_q + at, grid->core_factor1 + at);
+    weigh_nodes(roughness, layer, n, grid->core_q + at, grid->core_factor1 + at,
+                grid->core_factor2 + at);
 }

@@ -59,7 +59,11 @@ typedef struct scale_grid {
 
 /* Likewise. */
 void grid_init(scale_grid *grid, const panel_plan *plan, size_t max_nodes, pool *memory);
-void grid_fill(scale_grid *grid, const panel_plan *plan, const gauss_rule *rule,
-               const wt_roughness *roughness, const wt_layer_state *layer);
+/* Begins it anew; then the panels from the `first` on, and the core of a level. */
+void grid_begin(scale_grid *grid, const panel_plan *plan, const gauss_rule *rule);
+void grid_fill_panels(scale_grid *grid, const panel_plan *plan, size_t first,
+                      const wt_roughness *roughness, const wt_layer_state *layer);
+void grid_fill_core(scale_grid *grid, const panel_plan *plan, size_t level,
+                    const wt_roughness *roughness, const wt_layer_state *layer);
 
 #endif

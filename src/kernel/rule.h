@@ -14,11 +14,16 @@ typedef struct gauss_rule {
     double *node;    /* [n], rising */
     double *weight;  /* [n] */
     double *running; /* [n * n], row i: int from -1 to node[j] of the i-th Lagrange polynomial */
+    double *top; /* [RULE_TOP * n], row k: weights of the Legendre coefficient n - RULE_TOP + k */
     double numbers[];
 } gauss_rule;
 
-enum { RULE_MOST = 32 };
+enum { RULE_MOST = 32, RULE_TOP = 6 };
 /* n must be one of the sizes that GSL tabulates to full precision: 2 to 20, or 32. */
 wt_status rule_new(size_t n, pool *memory, gauss_rule **rule, wt_error *err) WT_NODISCARD;
+
+/* Error of sum_i weight[i] f[i] = `sum` for an integral from -1 to 1, by how the Legendre
+ * coefficients fall: the rule is exact up to twice the degree of the last one. */
+double rule_error(const gauss_rule *rule, const double *f, double sum);
 
 #endif
