@@ -6,6 +6,7 @@
 #include "kernel/angular.h"
 
 #include "base/array.h"
+#include "base/wide.h"
 #include "kernel/angular_panels.h"
 
 #include <float.h>
@@ -237,6 +238,26 @@ wt_status angular_cover(angular_law *angular, double w_min, double w_max, wt_err
     return WT_OK;
 }
 
+/* Nodes in one piece, with room for whole registers. */
+enum { BATCH = 32, REGISTER = 4 };
+
+/* The series at n <= BATCH places at a time, by Clenshaw's recurrence. */
+WIDE_REGISTERS
+static void series_eval(const double *restrict coefficient, size_t degree, size_t n,
+                        const double *restrict z, double *restrict value)
+{
+    double b1[BATCH] = {0}, b2[BATCH] = {0};
+    const size_t room = (n + REGISTER - 1) / REGISTER * REGISTER;
+    for (size_t m = degree; m > 0; m--)
+        for (size_t i = 0; i < room; i++) {
+            const double b = 2 * z[i] * b1[i] - b2[i] + coefficient[m];
+            b2[i] = b1[i];
+            b1[i] = b;
+        }
+    for (size_t i = 0; i < n; i++)
+        value[i] = z[i] * b1[i] - b2[i] + coefficient[0];
+}
+
 void angular_eval(const angular_law *angular, const double *w, size_t n, double *j1, double *j2)
 {
     if (angular->material->law->angular) {
@@ -245,25 +266,27 @@ void angular_eval(const angular_law *angular, const double *w, size_t n, double 
     }
     const series_list *pieces = &angular->pieces;
     size_t k = 0;
-    for (size_t i = 0; i < n; i++) {
-        const double x = log(w[i]);
+    for (size_t from = 0, count; from < n; from += count) {
+        double x = log(w[from]), z[BATCH];
         while (k + 1 < pieces->n && x > pieces->items[k].high)
             k++;
         while (k > 0 && x < pieces->items[k].low)
             k--;
         const series *s = &pieces->items[k];
-        const double u = isnan(s->anchor) ? x : sqrt(fmax(0, x - s->anchor));
-        const double z = fmin(fmax((u - s->middle) / s->half, -1), 1);
-        double a1 = 0, a2 = 0, b1 = 0, b2 = 0;
-        for (size_t m = s->degree; m > 0; m--) {
-            const double a = 2 * z * a1 - a2 + s->j1[m], b = 2 * z * b1 - b2 + s->j2[m];
-            a2 = a1;
-            a1 = a;
-            b2 = b1;
-            b1 = b;
+        const bool in_root = !isnan(s->anchor);
+        for (count = 0; count < BATCH && from + count < n; count++) {
+            if (count > 0)
+                x = log(w[from + count]);
+            if (count > 0 && (x > s->high || x < s->low))
+                break;
+            const double above = x > s->anchor ? x - s->anchor : 0;
+            const double place = ((in_root ? sqrt(above) : x) - s->middle) / s->half;
+            z[count] = place < -1 ? -1 : place > 1 ? 1 : place;
         }
-        j1[i] = z * a1 - a2 + s->j1[0];
-        j2[i] = z * b1 - b2 + s->j2[0];
+        for (size_t i = count; i < BATCH && i % REGISTER != 0; i++)
+            z[i] = 0;
+        series_eval(s->j1, s->degree, count, z, j1 + from);
+        series_eval(s->j2, s->degree, count, z, j2 + from);
     }
 }
 

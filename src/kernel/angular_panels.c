@@ -207,7 +207,7 @@ static void add_far(const angular_panels *a, size_t edge, double w, double *j1, 
     const double c = exp(a->edge[edge]) / w, square = c * c;
     const double *s1 = a->below[0] + edge * a->terms, *s2 = a->below[1] + edge * a->terms;
     double sum1 = 0, sum2 = 0, b = 1, power = 1;
-    for (size_t m = 0; m < a->terms; m++) {
+    for (size_t m = 0; m < a->terms && power > DBL_EPSILON / 64; m++) {
         sum1 += b * power * s1[m];
         sum2 += b * power * s2[m];
         b *= (double)(2 * m + 1) / (double)(2 * m + 2);

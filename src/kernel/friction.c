@@ -282,7 +282,8 @@ static void compute_point(const compute_job *job, friction_scratch *scratch, dou
     size_t level;
     const scale_grid *grid = friction_grid(ws, scratch, plan, job->rule, at, 0, &level);
     friction_pass pass;
-    friction_evaluate(ws, scratch, grid, level, at, false, NULL, &pass);
+    const bool share = !ws->options.without_share && angular_limited(ws->angular);
+    friction_evaluate(ws, scratch, grid, level, at, share, NULL, &pass);
     const friction_relative relative = friction_relative_error(ws, at, &pass);
     const double error_g = relative.variance * pass.variance + pass.variance_error;
     const double error_mu = relative.hysteresis * pass.hysteresis + pass.hysteresis_error;
@@ -297,12 +298,9 @@ static void compute_point(const compute_job *job, friction_scratch *scratch, dou
     point->nodes = pass.nodes;
     point->reached = error_g <= tolerance * pass.variance && error_area <= tolerance * area &&
                      error_mu <= tolerance * pass.hysteresis;
-    point->extrapolated_share = (double)NAN;
-    if (ws->options.without_share || (!point->reached && job->rule + 1 < FRICTION_RULES))
-        return;
-    if (angular_limited(ws->angular))
-        friction_evaluate(ws, scratch, grid, level, at, true, NULL, &pass);
-    point->extrapolated_share = pass.hysteresis > 0 ? fmin(pass.outside / pass.hysteresis, 1) : 0;
+    point->extrapolated_share = ws->options.without_share ? (double)NAN
+                                : pass.hysteresis > 0     ? fmin(pass.outside / pass.hysteresis, 1)
+                                                          : 0;
 }
 
 static wt_status compute_item(void *user, size_t i, unsigned worker)

@@ -2,6 +2,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
+#include "base/wide.h"
 #include "model/material.h"
 
 #include <math.h>
@@ -39,15 +40,6 @@ static void prony_modulus(const wt_material *material, const double *omega, size
         }
     }
 }
-
-/* The same code for wider registers where the machine has them; all its operations are correctly
- * rounded, so the bits do not depend on the width. */
-#if defined(__x86_64__) && defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) &&                 \
-    defined(__GNUC__) && !defined(__clang__)
-#define WIDE_REGISTERS __attribute__((target_clones("avx2", "default")))
-#else
-#define WIDE_REGISTERS
-#endif
 
 /* One term of the series added to J1 and J2: the loop in which friction spends its time. Without
  * the limit it has no branch and vectorises. */
