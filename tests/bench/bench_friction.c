@@ -1,12 +1,11 @@
-/* Hysteresis friction of a Prony material on a self-affine road; the textbook method is that of
- * friction_textbook.h. SPDX-License-Identifier:
- * GPL-3.0-or-later */
+/* Hysteresis friction of several materials on a self-affine road, set-up included; the textbook
+ * method is that of friction_textbook.h. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 
 #include "bench/bench.h"
 #include "flow/accuracy/textbook.h"
 
-enum { VELOCITIES = 100, TERMS = 12, NODES = 1000, ANGLES = 100 };
+enum { VELOCITIES = 100, TERMS = 12, NODES = 1000, ANGLES = 100, MOST_KNOTS = 1000 };
 
 static const double pressure = 3e5;
 static const double q0 = 500, qr = 2000, q1 = 1e6, hurst = 0.8, c0 = 6e-16;
@@ -15,49 +14,86 @@ static const double moduli[TERMS] = {1e6, 1.2e6, 1.6e6, 2.4e6, 4e6, 8e6,
 static const double equilibrium = 5e6;
 
 typedef struct friction_case {
-    double velocity[VELOCITIES], ours[VELOCITIES], textbook[VELOCITIES];
+    double velocity[VELOCITIES], textbook[VELOCITIES];
     wt_friction_point points[VELOCITIES];
-    wt_friction_workspace *workspace;
     wt_material *material;
     wt_roughness *roughness;
 } friction_case;
 
-static void make_case(friction_case *c)
+static wt_material *prony(void)
 {
     wt_error err = WT_ERROR_INIT;
-    wt_prony prony = {0};
-    bench_check(wt_prony_alloc(&prony, TERMS, &err), &err);
-    prony.deformation = WT_TENSION;
-    prony.reference_temperature = prony.frequency_min = prony.frequency_max = (double)NAN;
-    prony.equilibrium_modulus = equilibrium;
+    wt_prony series = {0};
+    wt_material *material = NULL;
+    bench_check(wt_prony_alloc(&series, TERMS, &err), &err);
+    series.deformation = WT_TENSION;
+    series.reference_temperature = series.frequency_min = series.frequency_max = (double)NAN;
+    series.equilibrium_modulus = equilibrium;
     for (int k = 0; k < TERMS; k++) {
-        prony.modulus[k] = moduli[k];
-        prony.relaxation_time[k] = pow(10, -k);
+        series.modulus[k] = moduli[k];
+        series.relaxation_time[k] = pow(10, -k);
     }
-    for (int i = 0; i < VELOCITIES; i++)
-        c->velocity[i] = 1e-4 * pow(10, 5.0 * i / (VELOCITIES - 1));
-    bench_check(wt_material_prony(&prony, 0.5, &c->material, &err), &err);
-    bench_check(wt_roughness_self_affine(q0, qr, q1, hurst, c0, &c->roughness, &err), &err);
-    wt_friction_options options = wt_friction_defaults();
-    options.threads = 1;
-    bench_check(wt_friction_workspace_new(c->material, c->roughness, &options, &c->workspace, &err),
-                &err);
-    wt_prony_clear(&prony);
+    bench_check(wt_material_prony(&series, 0.5, &material, &err), &err);
+    wt_prony_clear(&series);
+    return material;
 }
 
+/* Points of the same over 14 decades. */
+static wt_material *table(size_t knots)
+{
+    static double omega[MOST_KNOTS], storage[MOST_KNOTS], loss[MOST_KNOTS];
+    wt_error err = WT_ERROR_INIT;
+    wt_material *of = prony(), *material = NULL;
+    for (size_t i = 0; i < knots; i++)
+        omega[i] = 1e-2 * pow(10, 14.0 * (double)i / (double)(knots - 1));
+    of->law->modulus(of, omega, knots, storage, loss);
+    bench_check(
+        wt_material_table(omega, storage, loss, knots, 0.5, WT_EXTRAPOLATE_HOLD, &material, &err),
+        &err);
+    wt_material_free(of);
+    return material;
+}
+
+static wt_material *zener(void)
+{
+    wt_error err = WT_ERROR_INIT;
+    wt_material *material = NULL;
+    bench_check(wt_material_fractional_zener(5e6, 2e9, 1e-6, 0.4, 0.5, &material, &err), &err);
+    return material;
+}
+
+static wt_material *transverse(void)
+{
+    wt_error err = WT_ERROR_INIT;
+    wt_material *material = NULL;
+    wt_transverse t = wt_transverse_defaults();
+    t.axial_storage = 2.5;
+    bench_check(wt_material_transverse(prony(), NULL, NULL, &t, 0.49, &material, &err), &err);
+    return material;
+}
+
+/* With all that is prepared for it. */
 static void friction_weartrack(void *data)
 {
     friction_case *c = data;
     wt_error err = WT_ERROR_INIT;
-    bench_check(
-        wt_friction_compute(c->workspace, pressure, c->velocity, VELOCITIES, c->points, &err),
-        &err);
+    wt_friction_options options = wt_friction_defaults();
+    wt_friction_workspace *workspace = NULL;
+    options.threads = 1;
+    bench_check(wt_friction_workspace_new(c->material, c->roughness, &options, &workspace, &err),
+                &err);
+    bench_check(wt_friction_compute(workspace, pressure, c->velocity, VELOCITIES, c->points, &err),
+                &err);
+    wt_friction_workspace_free(workspace);
 }
+
+/* At every tenth velocity: it takes its time. */
+enum { EVERY = 10 };
 
 static void friction_plain(void *data)
 {
     friction_case *c = data;
-    for (int i = 0; i < VELOCITIES; i++) {
+    for (int i = 0; i < VELOCITIES; i += EVERY) {
         textbook_friction point;
         bench_check(friction_textbook(c->material, c->roughness, pressure, c->velocity[i], NODES,
                                       ANGLES, &point),
@@ -66,22 +102,36 @@ static void friction_plain(void *data)
     }
 }
 
-void bench_friction(void)
+/* Takes the material. */
+static void bench_material(const char *name, wt_material *material)
 {
     static friction_case c;
     char words[96];
-    make_case(&c);
+    wt_error err = WT_ERROR_INIT;
+    c.material = material;
+    for (int i = 0; i < VELOCITIES; i++)
+        c.velocity[i] = 1e-4 * pow(10, 5.0 * i / (VELOCITIES - 1));
+    bench_check(wt_roughness_self_affine(q0, qr, q1, hurst, c0, &c.roughness, &err), &err);
     const double ours = bench_time(friction_weartrack, &c);
-    const double textbook = bench_time(friction_plain, &c);
+    const double textbook = EVERY * bench_time(friction_plain, &c);
     double difference = 0, stated = 0;
     for (int i = 0; i < VELOCITIES; i++) {
         const wt_estimate mu = c.points[i].hysteresis;
-        difference = fmax(difference, fabs(c.textbook[i] / mu.value - 1));
+        if (i % EVERY == 0)
+            difference = fmax(difference, fabs(c.textbook[i] / mu.value - 1));
         stated = fmax(stated, mu.numerical_error / mu.value);
     }
     snprintf(words, sizeof words, "textbook %.1e off; stated error %.0e", difference, stated);
-    bench_row("friction velocities", ours, textbook, 1e-3 * VELOCITIES, "per millisecond", words);
-    wt_friction_workspace_free(c.workspace);
+    bench_row(name, ours, textbook, 1e-3 * VELOCITIES, "per millisecond", words);
     wt_roughness_free(c.roughness);
     wt_material_free(c.material);
+}
+
+void bench_friction(void)
+{
+    bench_material("friction velocities, Prony", prony());
+    bench_material("friction, table of 107 knots", table(107));
+    bench_material("friction, table of 1,000 knots", table(MOST_KNOTS));
+    bench_material("friction, fractional Zener", zener());
+    bench_material("friction, with directions", transverse());
 }

@@ -1,0 +1,15 @@
+/* The same code for wider registers where the machine has them; all its operations are correctly
+ * rounded, so the bits do not depend on the width. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WT_BASE_WIDE_H
+#define WT_BASE_WIDE_H
+
+#include <stdlib.h> /* tells glibc, whose resolver it needs */
+
+#if defined(__x86_64__) && defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) &&                 \
+    defined(__GNUC__) && !defined(__clang__)
+#define WIDE_REGISTERS __attribute__((target_clones("avx2", "default")))
+#else
+#define WIDE_REGISTERS
+#endif
+
+#endif
