@@ -28,21 +28,6 @@ static inline void fixture_free(void)
     wt_result_free(fixture_case);
 }
 
-/* The case is run once in each program. */
-static inline const wt_result *fixture_produced(void)
-{
-    if (fixture_case == NULL) {
-        wt_case *read = NULL;
-        size_t failed = 0;
-        fixture_check(wt_case_read(WT_SOURCE_DIR "/fixtures/case/case.xml", &read, NULL));
-        fixture_check(wt_run(read, NULL, NULL, &fixture_case, &failed, NULL));
-        fixture_check(failed == 0 ? WT_OK : WT_E_INTERNAL);
-        wt_case_free(read);
-        (void)atexit(fixture_free);
-    }
-    return fixture_case;
-}
-
 /* ---- changes --------------------------------------------------------------------------------- */
 
 /* What is changed in a table of that name. */
@@ -147,6 +132,44 @@ static inline wt_table *fixture_copy(const wt_table *table, const fixture_change
     if (change->finish != NULL)
         change->finish(copy);
     return copy;
+}
+
+/* What a case does not give unless it is asked for by name, and what needs no case. */
+static inline void fixture_accuracy(wt_case *read)
+{
+    size_t failed = 0;
+    wt_result *asked = NULL;
+    wt_table *table = NULL;
+    wt_run_options few = wt_run_defaults();
+    wt_accuracy_job job = wt_accuracy_job_defaults();
+    const wt_job work = wt_job_defaults();
+    const fixture_change no_change = {.table = "error_budget"};
+    few.replicates = 3;
+    job.part = "friction-prony";
+    job.repeats = 1;
+    fixture_check(wt_case_ask(read, "error_budget", NULL));
+    fixture_check(wt_run(read, &few, NULL, &asked, &failed, NULL));
+    fixture_check(wt_result_add(
+        fixture_case, fixture_copy(wt_result_find(asked, "error_budget"), &no_change), NULL));
+    fixture_check(wt_accuracy_make(&job, &work, &table, NULL));
+    fixture_check(wt_result_add(fixture_case, table, NULL));
+    wt_result_free(asked);
+}
+
+/* The case is run once in each program. */
+static inline const wt_result *fixture_produced(void)
+{
+    if (fixture_case == NULL) {
+        wt_case *read = NULL;
+        size_t failed = 0;
+        fixture_check(wt_case_read(WT_SOURCE_DIR "/fixtures/case/case.xml", &read, NULL));
+        fixture_check(wt_run(read, NULL, NULL, &fixture_case, &failed, NULL));
+        fixture_check(failed == 0 ? WT_OK : WT_E_INTERNAL);
+        fixture_accuracy(read);
+        wt_case_free(read);
+        (void)atexit(fixture_free);
+    }
+    return fixture_case;
 }
 
 /* A copy of a result with changes; freed with wt_result_free. */

@@ -117,6 +117,28 @@ static double core_pass(const wt_friction_workspace *ws, friction_scratch *scrat
     return contact * full;
 }
 
+/* Of one panel, from the values with full contact and with S P, on top of a pass so far. Where P
+ * leaves 1 the difference is too small to show in the last coefficients and too steep for the rule,
+ * so it is looked at alone. */
+static double hysteresis_error(const gauss_rule *rule, const double *full, const double *part,
+                               const friction_pass *pass, double sum_g)
+{
+    const double begun = 0.3; /* from there on all of P is in `part` */
+    double gap[FRICTION_MAX_NODES], sum[3] = {0};
+    for (size_t i = 0; i < rule->n; i++) {
+        gap[i] = full[i] - part[i];
+        sum[0] += rule->weight[i] * full[i];
+        sum[1] += rule->weight[i] * gap[i];
+        sum[2] += rule->weight[i] * part[i];
+    }
+    const double own = pass->variance < begun
+                           ? rule_error(rule, full, sum[0]) + rule_error(rule, gap, sum[1])
+                           : rule_error(rule, part, sum[2]);
+    /* S P falls no faster than G^(-3/2) */
+    const double variance = pass->variance + sum_g;
+    return own + (variance > 0 ? 1.5 * sum[2] * (pass->variance_error / variance) : 0);
+}
+
 void friction_evaluate(const wt_friction_workspace *ws, friction_scratch *scratch,
                        const scale_grid *grid, size_t level, friction_load at, bool with_outside,
                        friction_record *record, friction_pass *pass)
@@ -148,7 +170,7 @@ void friction_evaluate(const wt_friction_workspace *ws, friction_scratch *scratc
         const double half = grid->half_width[first + p];
         const double *j1 = scratch->j1 + p * n;
         const double *j2 = scratch->j2 + p * n;
-        double running[FRICTION_MAX_NODES], f[FRICTION_MAX_NODES];
+        double running[FRICTION_MAX_NODES], f[FRICTION_MAX_NODES], full[FRICTION_MAX_NODES];
         double sum_g = 0, sum_mu = 0;
         for (size_t j = 0; j < n; j++)
             running[j] = pass->variance;
@@ -164,7 +186,8 @@ void friction_evaluate(const wt_friction_workspace *ws, friction_scratch *scratc
         for (size_t j = 0; j < n; j++) {
             const double area = contact_area(running[j]);
             const double correction = gamma + (1 - gamma) * area * area;
-            f[j] = half * mu_scale * factor1[p * n + j] * j1[j] * area * correction;
+            full[j] = half * mu_scale * factor1[p * n + j] * j1[j];
+            f[j] = full[j] * area * correction;
             const double share = rule->weight[j] * f[j];
             sum_mu += share;
             if (record) {
@@ -180,14 +203,11 @@ void friction_evaluate(const wt_friction_workspace *ws, friction_scratch *scratc
             pass->steep_variance += sum_g * steepness(j2, n);
             pass->steep_hysteresis += sum_mu * steepness(j1, n);
         }
+        scratch->error_mu[p + 1] = hysteresis_error(rule, full, f, pass, sum_g);
         pass->variance += sum_g;
         pass->hysteresis += sum_mu;
         panel_g[p + 1] = sum_g;
         panel_mu[p + 1] = sum_mu;
-        /* S P falls no faster than G^(-3/2) */
-        scratch->error_mu[p + 1] =
-            rule_error(rule, f, sum_mu) +
-            (pass->variance > 0 ? 1.5 * sum_mu * (pass->variance_error / pass->variance) : 0);
     }
     for (size_t p = 0; p <= panels; p++)
         pass->hysteresis_error += scratch->error_mu[p];

@@ -82,17 +82,17 @@ static void draw_work_precision(figure_drawing *d)
 
 /* ---- where an error comes from --------------------------------------------------------------- */
 
-enum { NUMBERS = 5, BARS = 32 };
+enum { NUMBERS = 5 };
 /* Smaller than any that matters beside a measurement. */
 static const double least_error = 1e-5;
 
+/* The rows of a number, which follow one another. */
 typedef struct number_panel {
     const char *number;
-    size_t rows[BARS], n;
-    double largest;
+    size_t first, n;
+    value_span span;
 } number_panel;
 
-/* Those that are an error of the number by themselves; the rows of a number follow one another. */
 static size_t find_numbers(const table_view *t, number_panel panels[NUMBERS])
 {
     size_t n = 0;
@@ -102,13 +102,11 @@ static size_t find_numbers(const table_view *t, number_panel panels[NUMBERS])
         if (n == 0 || strcmp(panels[n - 1].number, number) != 0) {
             if (n == NUMBERS)
                 break;
-            panels[n++] = (number_panel){.number = number};
+            panels[n++] = (number_panel){number, row, 0, {least_error, least_error}};
         }
-        number_panel *p = &panels[n - 1];
-        if (!(error > least_error) || !isfinite(error) || p->n == BARS)
-            continue;
-        p->rows[p->n++] = row;
-        p->largest = fmax(p->largest, error);
+        panels[n - 1].n++;
+        if (error > least_error)
+            span_add(&panels[n - 1].span, error, true);
     }
     return n;
 }
@@ -118,30 +116,36 @@ static int style_of(const char *kind)
     return strcmp(kind, "measured") == 0 ? 1 : strcmp(kind, "model") == 0 ? 2 : 5;
 }
 
+static void draw_bars(figure_drawing *d, const number_panel *p, size_t from, const char *kind)
+{
+    static const unsigned columns[] = {ERROR_BUDGET_RELATIVE_ERROR, ERROR_BUDGET_SHARE};
+    const row_filter rows = {{ERROR_BUDGET_NUMBER, ERROR_BUDGET_KIND}, {p->number, kind}, false};
+    const size_t top = p->first + p->n - 1 - from;
+    plot_item(d, drawing_section(d, d->table, kind, &rows, columns, 2, 1),
+              "($1>%s ? %s*x_unit : NaN):(%zu-$0):(%s*x_unit):($1*x_unit):(%zu.7-$0-1):(%zu.3-$0) "
+              "with boxxyerror ls %d",
+              LITERAL(least_error), LITERAL(least_error), top, LITERAL(least_error), top, top,
+              style_of(kind));
+}
+
 static void draw_number(figure_drawing *d, const number_panel *p)
 {
-    static const char *const columns[] = {"relative_error", NULL}, *const units[] = {"1", NULL};
     const table_view *t = d->table;
-    value_span span = {least_error, p->largest};
-    axis_log(d, "x", "Relative error", &t->schema->columns[ERROR_BUDGET_RELATIVE_ERROR], span);
+    axis_log(d, "x", "Relative error", &t->schema->columns[ERROR_BUDGET_RELATIVE_ERROR], p->span);
     text_format(&d->script, "set yrange [-0.7:%zu.7]\nset ytics (", p->n - 1);
     for (size_t i = 0; i < p->n; i++) {
         text_add(&d->script, i > 0 ? ", " : "");
-        text_tic(&d->script, error_budget_text(t, p->rows[p->n - 1 - i], ERROR_BUDGET_SOURCE));
-        text_format(&d->script, " %zu", i);
+        text_tic(&d->script, error_budget_text(t, p->first + i, ERROR_BUDGET_SOURCE));
+        text_format(&d->script, " %zu", p->n - 1 - i);
     }
     text_add(&d->script, ") noenhanced scale 0\n");
     plot_heading(d, p->number);
-    for (size_t i = 0; i < p->n; i++) {
-        const size_t row = p->rows[p->n - 1 - i];
-        const double error = error_budget_get(t, row, ERROR_BUDGET_RELATIVE_ERROR);
-        plot_item(d,
-                  drawing_point(d, error_budget_text(t, row, ERROR_BUDGET_SOURCE), columns, units,
-                                &error),
-                  "(%s*x_unit):(%zu):(%s*x_unit):($1*x_unit):(%zu-0.3):(%zu+0.3) with boxxyerror "
-                  "ls %d",
-                  LITERAL(least_error), i, LITERAL(least_error), i, i,
-                  style_of(error_budget_text(t, row, ERROR_BUDGET_KIND)));
+    const char *last = "";
+    for (size_t row = p->first; row < p->first + p->n; row++) {
+        const char *kind = error_budget_text(t, row, ERROR_BUDGET_KIND);
+        if (strcmp(kind, last) != 0)
+            draw_bars(d, p, row, kind);
+        last = kind;
     }
     plot_end(d);
 }
@@ -149,8 +153,12 @@ static void draw_number(figure_drawing *d, const number_panel *p)
 static void draw_error_budget(figure_drawing *d)
 {
     number_panel panels[NUMBERS];
-    const size_t n = find_numbers(d->table, panels);
+    const size_t all = find_numbers(d->table, panels);
+    size_t n = 0;
     double top = 0;
+    for (size_t i = 0; i < all; i++)
+        if (panels[i].span.high > least_error)
+            panels[n++] = panels[i];
     d->height = 0;
     for (size_t i = 0; i < n; i++)
         d->height += 0.3 + 0.07 * (double)panels[i].n;
@@ -162,8 +170,7 @@ static void draw_error_budget(figure_drawing *d)
         top += height;
         text_format(&d->script, "set size 1,%s\nset origin 0,%s\n", LITERAL(height),
                     LITERAL(1 - top));
-        if (panels[i].n > 0)
-            draw_number(d, &panels[i]);
+        draw_number(d, &panels[i]);
     }
     if (n > 0)
         text_add(&d->script, "unset multiplot\n");

@@ -32,6 +32,7 @@ set(within_read/text read/reader.h read/facts.h read/force_source.h read/bytes r
 set(within_read/stored read/reader.h read/facts.h read/force_source.h read/bytes read/description
   read/text)
 set(within_flow/job "")
+set(within_flow/accuracy flow/job)
 set(within_flow/case flow/case_schema.h flow/job)
 set(within_flow/plan flow/case)
 set(within_flow/answer flow/case flow/plan)

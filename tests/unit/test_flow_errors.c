@@ -173,6 +173,8 @@ static const expectation measured[] = {
     {&dma_comparison_schema, "dma_complex_modulus", "kn"},
     {&indentation_schema, "spring_constant", "kn"},
     {&indentation_schema, "modulus", "kk"},
+    {&indentation_schema, "spectrum_temperature", "0."}, /* the other without a DMA */
+    {&indentation_schema, "spectrum_factor", "nn"},      /* the curves have no memory */
     {&indentation_schema, "contact_point", "kk"},
     {&indentation_schema, "work_of_adhesion", "nn"}, /* there is none */
     {&shift_factors_schema, "wlf_c1", "kk"},

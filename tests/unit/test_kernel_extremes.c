@@ -320,12 +320,12 @@ static truth truth_of(const scene *s)
     }
     qsort(cut, n, sizeof *cut, rising);
     truth sum = {0, 0};
-    const real widest = s->table ? 0.15L : 0.3L;
+    const real widest = 0.15L;
     real from = 0;
     for (size_t i = 0; i < n; i++)
         while (from < cut[i]) {
             /* from a panel so thin that G is 0 in it, growing */
-            real to = fminl(cut[i], from == 0 ? 1e-34L * cut[0] : from * 1.7L);
+            real to = fminl(cut[i], from == 0 ? 1e-34L * cut[0] : from * 1.35L);
             to = fminl(to, from + widest);
             panel(s, from, to, &sum);
             from = to;

@@ -227,6 +227,11 @@ static void test_curves_are_drawn_from_their_columns(void **state)
         {"layer", "title 'wear'", "time wear_rate"},
         {"what_if", "boxxyerror ls 1", "used low high"},
         {"what_if", "xerrorbars ls 13", "used low high"},
+        {"work_precision", "linespoints ls 1", "seconds true_error"},
+        {"work_precision", "linespoints ls 2", "seconds true_error"},
+        {"work_precision", "linespoints ls 31", "seconds stated_error"},
+        {"error_budget", "boxxyerror ls 1", "relative_error"},
+        {"error_budget", "boxxyerror ls 2", "relative_error"},
     };
     for (size_t i = 0; i < wt_figure_count(); i++) {
         const char *figure = wt_figure_get(i).name;

@@ -144,8 +144,25 @@ static void run_case_at(double tolerance, const char *text, const char *instead)
     see(plan);
     wt_table_free(plan);
     wt_result_free(result);
+    assert_int_equal(wt_case_ask(c, "error_budget", NULL), WT_OK);
+    assert_int_equal(wt_run(c, &options, NULL, &result, NULL, NULL), WT_OK);
+    if (wt_result_find(result, "error_budget") != NULL)
+        see(wt_result_find(result, "error_budget"));
+    wt_result_free(result);
     wt_parselog_free(log);
     wt_case_free(c);
+}
+
+static void test_accuracy(void **state)
+{
+    (void)state;
+    wt_accuracy_job job = wt_accuracy_job_defaults();
+    const wt_job work = wt_job_defaults();
+    wt_table *table = NULL;
+    job.part = "layer-history";
+    assert_int_equal(wt_accuracy_make(&job, &work, &table, NULL), WT_OK);
+    see(table);
+    wt_table_free(table);
 }
 
 static void run_case(const char *text, const char *instead)
@@ -377,6 +394,7 @@ int main(void)
         cmocka_unit_test(test_spring_constants),
         cmocka_unit_test(test_conversions),
         cmocka_unit_test(test_files),
+        cmocka_unit_test(test_accuracy),
         cmocka_unit_test(test_all_put),
     };
     return cmocka_run_group_tests_name("tables put", tests, open_formats, free_formats);

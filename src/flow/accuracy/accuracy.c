@@ -26,12 +26,6 @@ static const wt_param rows[] = {
 };
 PARAM_TABLE(wt_accuracy_job_params, wt_accuracy_job, rows, wt_accuracy_job_defaults, NO_PARTS)
 
-double accuracy_relative(double value, double truth)
-{
-    const double difference = fabs(value - truth);
-    return difference > 0 ? difference / fabs(truth) : difference;
-}
-
 static int by_value(const void *a, const void *b)
 {
     const double p = *(const double *)a, q = *(const double *)b;

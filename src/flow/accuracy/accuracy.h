@@ -6,6 +6,8 @@
 
 #include "weartrack/flow.h"
 
+#include <math.h>
+
 /* What a method gives: its largest relative error, and what it states that to be; NaN: nothing. */
 typedef struct accuracy_errors {
     double true_error, stated_error;
@@ -35,6 +37,10 @@ extern const accuracy_part accuracy_contact[], accuracy_spectrum[], accuracy_fri
     accuracy_layer[];
 
 /* |value / truth - 1|, 0 for two zeros. */
-double accuracy_relative(double value, double truth);
+static inline double accuracy_relative(double value, double truth)
+{
+    const double difference = fabs(value - truth);
+    return difference > 0 ? difference / fabs(truth) : difference;
+}
 
 #endif

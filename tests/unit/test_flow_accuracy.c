@@ -1,0 +1,192 @@
+/* Error against run time, and the error budget of a sliding contact.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cells.h"
+#include "truth.h"
+
+#include "weartrack/flow.h"
+
+/* ---- numerical parts ------------------------------------------------------------------------- */
+
+static wt_table *sweep(const char *part)
+{
+    wt_accuracy_job job = wt_accuracy_job_defaults();
+    const wt_job work = wt_job_defaults();
+    wt_table *table = NULL;
+    wt_error err = WT_ERROR_INIT;
+    job.part = part;
+    job.repeats = 1;
+    if (wt_accuracy_make(&job, &work, &table, &err) != WT_OK)
+        fail_msg("%s %s", err.message, err.found);
+    return table;
+}
+
+/* What a method states is no less than its error, as far as the reference tells. */
+static void test_stated_errors(void **state)
+{
+    (void)state;
+    static const char *const parts[] = {"contact-force",  "friction-prony", "friction-zener",
+                                        "friction-table", "layer-balance",  "layer-history"};
+    for (size_t p = 0; p < sizeof parts / sizeof *parts; p++) {
+        wt_table *table = sweep(parts[p]);
+        double textbook = 1, ours = 1;
+        for (size_t i = 0; i < wt_table_n_rows(table); i++) {
+            const double error = number_cell(table, i, "true_error"),
+                         stated = number_cell(table, i, "stated_error"),
+                         reference = number_cell(table, i, "reference_error");
+            const bool is_textbook = strcmp(text_cell(table, i, "method"), "textbook") == 0;
+            assert_true(number_cell(table, i, "seconds") > 0);
+            assert_true(reference < 1e-11);
+            if (!is_textbook && error > stated + reference)
+                fail_msg("%s, %s %g: error %g, stated %g", parts[p], text_cell(table, i, "setting"),
+                         number_cell(table, i, "value"), error, stated);
+            double *least = is_textbook ? &textbook : &ours;
+            *least = fmin(*least, error);
+        }
+        /* the problems are the same: the textbook comes near to it */
+        assert_true(textbook < 1e-4);
+        assert_true(ours < 1e-11);
+        wt_table_free(table);
+    }
+}
+
+static void test_what_is_estimated(void **state)
+{
+    (void)state;
+    wt_table *table = sweep("draws");
+    const size_t last = wt_table_n_rows(table) - 1;
+    assert_near(number_cell(table, last, "stated_error"), 1 / sqrt(2 * 4095), 1e-12);
+    assert_true(number_cell(table, last, "true_error") < 0.04);
+    wt_table_free(table);
+}
+
+static void test_no_such_part(void **state)
+{
+    (void)state;
+    wt_accuracy_job job = wt_accuracy_job_defaults();
+    const wt_job work = wt_job_defaults();
+    wt_table *table = NULL;
+    wt_error err = WT_ERROR_INIT;
+    job.part = "luck";
+    assert_int_equal(wt_accuracy_make(&job, &work, &table, &err), WT_E_NOT_FOUND);
+    assert_non_null(strstr(err.expected, "friction-prony"));
+    assert_null(table);
+}
+
+/* ---- budget ---------------------------------------------------------------------------------- */
+
+static double tau[] = {1e-6, 1e-4, 1e-2}, term[] = {300e6, 10e6, 3e6}, velocity[] = {0.1};
+static wt_rubber rubber;
+static wt_surface surface;
+static wt_sliding sliding;
+static wt_job work;
+
+static void set_up(void)
+{
+    rubber = (wt_rubber){.prony = {.deformation = WT_TENSION,
+                                   .reference_temperature = 293.15,
+                                   .equilibrium_modulus = 3e6,
+                                   .n = 3,
+                                   .relaxation_time = tau,
+                                   .modulus = term,
+                                   .frequency_min = 1e-2,
+                                   .frequency_max = 1e8},
+                         .poisson_ratio = 0.5};
+    surface = (wt_surface){.self_affine = true, .q0 = 2e3, .qr = 4e3, .q1 = 2e6, .hurst = 0.8};
+    surface.c0 = (wt_estimate){2e-17, 0, 0, "m^4"};
+    sliding = wt_sliding_defaults();
+    sliding.rubber = &rubber;
+    sliding.surface = &surface;
+    sliding.pressure = (wt_estimate){0.4e6, 0.02e6, 0, "Pa"};
+    sliding.shear_stress = (wt_estimate){5e6, 0.5e6, 0, "Pa"};
+    sliding.velocity = velocity;
+    sliding.n_velocity = 1;
+    work = wt_job_defaults();
+    work.threads = 1;
+}
+
+static double relative(const wt_table *table, const char *number, const char *source)
+{
+    for (size_t i = 0; i < wt_table_n_rows(table); i++)
+        if (strcmp(text_cell(table, i, "number"), number) == 0 &&
+            strcmp(text_cell(table, i, "source"), source) == 0)
+            return number_cell(table, i, "relative_error");
+    fail_msg("no row %s, %s", number, source);
+    return 0;
+}
+
+/* The standard error that a run with this source alone states. */
+static double alone(const wt_sliding *of)
+{
+    wt_friction_tables tables = {0};
+    assert_int_equal(wt_friction_make(of, NULL, &work, &tables, NULL), WT_OK);
+    const wt_estimate e = key_estimate(tables.friction, "friction_at_reference");
+    wt_friction_tables_clear(&tables);
+    return e.standard_error / e.value;
+}
+
+static void test_one_source_at_a_time(void **state)
+{
+    (void)state;
+    static const char number[] = "friction coefficient";
+    set_up();
+    wt_table *what_if = NULL, *table = NULL;
+    assert_int_equal(wt_what_if_make(&sliding, NULL, NULL, &work, &what_if, NULL), WT_OK);
+    assert_int_equal(
+        wt_error_budget_make(&sliding, NULL, NULL, what_if, false, &work, &table, NULL), WT_OK);
+    wt_sliding pressure = sliding, shear = sliding;
+    pressure.shear_stress.standard_error = 0;
+    shear.pressure.standard_error = 0;
+    assert_near(relative(table, number, "pressure"), alone(&pressure), 1e-12);
+    assert_near(relative(table, number, "shear stress"), alone(&shear), 1e-12);
+    assert_near(relative(table, number, "all together"), alone(&sliding), 1e-12);
+    /* mu_adhesion is 5e6 A/A0 / p, and its share of mu has the 10 % of the shear stress */
+    assert_true(relative(table, number, "shear stress") < 0.12);
+    assert_near(relative(table, number, "number of replicates"), alone(&sliding) / sqrt(2 * 63.0),
+                1e-12);
+    /* half the range of the what-if table */
+    double low = number_cell(what_if, 0, "friction"), used = low, high = low;
+    for (size_t i = 1; i < wt_table_n_rows(what_if); i++)
+        if (strcmp(text_cell(what_if, i, "choice"), "largest wavenumber q1") == 0) {
+            low = fmin(low, number_cell(what_if, i, "friction"));
+            high = fmax(high, number_cell(what_if, i, "friction"));
+        }
+    assert_near(relative(table, number, "largest wavenumber q1"), (high - low) / 2 / used, 1e-12);
+    /* shares are those of the variance; without timing two tables are the same */
+    double sum = 0;
+    for (size_t i = 0; i < wt_table_n_rows(table); i++) {
+        assert_true(isnan(number_cell(table, i, "seconds")));
+        if (strcmp(text_cell(table, i, "number"), number) == 0 &&
+            strcmp(text_cell(table, i, "kind"), "measured") == 0)
+            sum += number_cell(table, i, "share");
+    }
+    assert_near(sum, 1, 1e-12);
+    assert_string_equal(wt_table_key(table, "lacks"), "material, temperature, roughness");
+    assert_non_null(strstr(wt_table_key(table, "friction_advice"), "shear stress"));
+    wt_table_free(what_if);
+    wt_table_free(table);
+}
+
+/* What does not move a number has no row of it. */
+static void test_nothing_stated(void **state)
+{
+    (void)state;
+    set_up();
+    wt_table *table = NULL;
+    sliding.pressure.standard_error = sliding.shear_stress.standard_error = 0;
+    assert_int_equal(wt_error_budget_make(&sliding, NULL, NULL, NULL, true, &work, &table, NULL),
+                     WT_OK);
+    for (size_t i = 0; i < wt_table_n_rows(table); i++)
+        assert_string_equal(text_cell(table, i, "kind"), "numerical");
+    assert_non_null(strstr(wt_table_key(table, "friction_advice"), "No error"));
+    wt_table_free(table);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_stated_errors),  cmocka_unit_test(test_what_is_estimated),
+        cmocka_unit_test(test_no_such_part),   cmocka_unit_test(test_one_source_at_a_time),
+        cmocka_unit_test(test_nothing_stated),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
