@@ -11,7 +11,7 @@
 
 enum { PARTS = 12, METHODS = 3, ACROSS = 3 };
 
-/* Texts of a column in their order, each once. */
+/* Texts of a column in their order, each once, of rows that were timed. */
 static size_t list_texts(const table_view *t, work_precision_column column, const char *part,
                          const char *texts[], size_t most)
 {
@@ -19,6 +19,8 @@ static size_t list_texts(const table_view *t, work_precision_column column, cons
     for (size_t row = 0; row < t->n_rows; row++) {
         const char *text = work_precision_text(t, row, column);
         size_t i = 0;
+        if (!(work_precision_get(t, row, WORK_PRECISION_SECONDS) > 0))
+            continue;
         if (part != NULL && strcmp(work_precision_text(t, row, WORK_PRECISION_PART), part) != 0)
             continue;
         while (i < n && strcmp(texts[i], text) != 0)
