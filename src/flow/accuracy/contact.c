@@ -28,14 +28,14 @@ static long double cot_facets(const wt_tip *tip)
 /* As published (Rico 2005), with int_0^a delta da in closed form: G = 2 (a delta - that). */
 static long double depth_of(const wt_tip *tip, long double a)
 {
-    const long double b = tip->transition_radius, r = tip->radius;
+    const long double b = (long double)tip->transition_radius, r = (long double)tip->radius;
     return a <= b ? a * a / r
                   : a * (a - sqrtl(a * a - b * b)) / r + cot_facets(tip) * a * acosl(b / a);
 }
 
 static long double force_of(const wt_tip *tip, long double a)
 {
-    const long double b = tip->transition_radius, r = tip->radius;
+    const long double b = (long double)tip->transition_radius, r = (long double)tip->radius;
     if (a <= b)
         return 4 * a * a * a / (3 * r);
     const long double s = sqrtl(a * a - b * b);
@@ -43,8 +43,9 @@ static long double force_of(const wt_tip *tip, long double a)
                 cot_facets(tip) * (a * a * acosl(b / a) - b * s) / 2);
 }
 
-static long double bisect(const wt_tip *tip, long double depth, int steps)
+static long double bisect(const wt_tip *tip, double at, int steps)
 {
+    const long double depth = (long double)at;
     long double low = 0, high = 1e-9L;
     while (depth_of(tip, high) < depth)
         high *= 2;

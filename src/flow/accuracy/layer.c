@@ -51,10 +51,12 @@ static accuracy_errors judge_layer(const void *problem)
 static long double excess(const layer_problem *p, long double z)
 {
     const wt_layer_parameters *q = &p->parameters;
-    const long double wear = (long double)q->specific_wear_rate * q->pressure * q->velocity;
+    const long double wear =
+        (long double)q->specific_wear_rate * (long double)q->pressure * (long double)q->velocity;
     long double power = 0;
     for (size_t i = 0; i < p->source.n; i++)
-        power += p->source.power[i] * expl(-2 * (long double)p->source.wavenumber[i] * z);
+        power +=
+            (long double)p->source.power[i] * expl(-2 * (long double)p->source.wavenumber[i] * z);
     return power / ((long double)q->critical_energy * wear) - 1;
 }
 

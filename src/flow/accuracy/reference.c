@@ -16,11 +16,12 @@ static real pi(void)
 
 static complex_real modulus(const reference_material *m, real omega)
 {
-    complex_real e = m->e0;
+    complex_real e = (real)m->e0;
     for (size_t k = 0; k < m->n; k++) {
-        const real x = omega * m->tau[k];
-        const complex_real z = m->alpha < 1 ? cpowl(x * I, m->alpha) : x * I;
-        e += m->e[k] * z / (1 + z);
+        const real x = omega * (real)m->tau[k];
+        const complex_real ix = x * (complex_real)I;
+        const complex_real z = m->alpha < 1 ? cpowl(ix, (real)m->alpha) : ix;
+        e += (real)m->e[k] * z / (1 + z);
     }
     return e;
 }
@@ -55,7 +56,7 @@ static integrals angle(const reference_material *m, real w)
     integrals sum = {0, 0};
     real from = 0;
     for (size_t k = 0; k <= m->n; k++) {
-        const real x = k < m->n ? 1 / (w * m->tau[k]) : 1;
+        const real x = k < m->n ? 1 / (w * (real)m->tau[k]) : 1;
         const real to = x < 1 ? asinl(x) : pi() / 2;
         if (to > from) {
             const integrals part = segment(m, w, from, to);
@@ -109,10 +110,10 @@ typedef struct state {
 static integrals at(const state *s, real t)
 {
     const reference_contact *c = s->c;
-    const real q = c->q0 * expl(t);
+    const real q = (real)c->q0 * expl(t), qr = (real)c->qr;
     const real density =
-        c->c0 * (q > c->qr ? powl(q / c->qr, -2 * (1 + (real)c->hurst)) : 1) * q * q * q * q;
-    const integrals j = angle(&c->material, q * c->velocity);
+        (real)c->c0 * (q > qr ? powl(q / qr, -2 * (1 + (real)c->hurst)) : 1) * q * q * q * q;
+    const integrals j = angle(&c->material, q * (real)c->velocity);
     return (integrals){density * j.j1, density * j.j2};
 }
 
@@ -155,10 +156,10 @@ static void panels(state *s, real from, real to)
 
 double reference_friction(const reference_contact *c, int order)
 {
-    const real nu = c->poisson_ratio;
-    state s = {.c = c, .rule = gauss(order), .stiffness = 1 / ((1 - nu * nu) * c->pressure)};
-    const real roll_off = logl((real)c->qr / c->q0);
+    const real nu = (real)c->poisson_ratio, q0 = (real)c->q0;
+    state s = {.c = c, .rule = gauss(order), .stiffness = 1 / ((1 - nu * nu) * (real)c->pressure)};
+    const real roll_off = logl((real)c->qr / q0);
     panels(&s, 0, roll_off);
-    panels(&s, roll_off, logl((real)c->q1 / c->q0));
+    panels(&s, roll_off, logl((real)c->q1 / q0));
     return (double)s.hysteresis;
 }
