@@ -34,9 +34,9 @@ static const double far = 0.5;
  * terms bend more than `sharp` [ln], it is no smooth one: lines then lie between the terms, which
  * pull the isotherms towards themselves, all but the one that is held, by more than their errors
  * (tests/study: lines). */
-static const double smooth_terms = 3.0, sharp_terms = 10.0, sharp = 1.0;
-/* Bends and noise of lines, to start from; a noise that is clearly more than another one. */
-static const double lines_smooth = 5.0, lines_noise = 0.25, more_noise = 1.3;
+static const double smooth_terms = 3.0, trial_terms = 5.0, sharp_terms = 10.0, sharp = 1.0;
+/* Bends of lines, to start from; a noise that is clearly more than another one. */
+static const double lines_smooth = 5.0, more_noise = 1.3;
 
 wt_master_options wt_master_options_defaults(void)
 {
@@ -59,7 +59,7 @@ static const wt_param rows[] = {
          "volumetric thermal expansion in 1/K for the vertical shift of rubber elasticity; that "
          "of rubber is about 7e-4"},
     {PARAM("terms-per-decade", wt_master_options, terms_per_decade, WT_Q_NONE, FROM_TO(2, 10)),
-     .value = "X", .unset = "3; 10 where the spectrum is sharp lines",
+     .value = "X", .unset = "as the spectrum needs: 3, or 10 of sharp lines",
      .help = "of the relaxation spectrum"},
     {PARAM_FLAG_OF("liquid", wt_master_options, liquid), .help = "no equilibrium modulus"},
 };
@@ -191,7 +191,7 @@ static wt_status noise_of_lines(const master_work *work, double noise[MODULI], w
     const spectrum *s = work->s;
     spectrum lines;
     wt_status status = spectrum_new(&work->set, work->placed, work->anchor, work->a, work->b,
-                                    sharp_terms, work->options.liquid, &lines, err);
+                                    trial_terms, work->options.liquid, &lines, err);
     if (status != WT_OK)
         return status;
     double *b = pool_numbers(&lines.memory, s->n_curves);
@@ -205,11 +205,11 @@ static wt_status noise_of_lines(const master_work *work, double noise[MODULI], w
         lines.smooth = lines_smooth;
         for (int q = 0; q < MODULI; q++) {
             memcpy(lines.weight[q], s->weight[q], s->n * sizeof *s->weight[q]);
-            lines.noise[q] = lines_noise * s->noise[q];
+            lines.noise[q] = s->noise[q];
         }
         status = spectrum_fit(&lines, SPECTRUM_HELD, err);
         if (status == WT_OK)
-            status = spectrum_fit(&lines, SPECTRUM_ROUGH, err);
+            (void)spectrum_noise_update(&lines);
     }
     for (int q = 0; q < MODULI; q++)
         noise[q] = lines.noise[q];

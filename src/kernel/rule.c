@@ -64,7 +64,9 @@ double rule_error(const gauss_rule *rule, const double *f, double sum)
     }
     if (n < RULE_TOP)
         pair[0] = 0.5 * fabs(sum);
-    const double last = larger(pair[2], pair[0] > 0 ? 0.3 * pair[1] * (pair[1] / pair[0]) : 0);
+    /* where they do not fall, as much again */
+    const double next = pair[1] < pair[0] ? pair[1] * (pair[1] / pair[0]) : pair[1];
+    const double last = larger(pair[2], 0.3 * next);
     if (!(last < pair[1]) || !(pair[1] < pair[0]))
         return caution * last;
     const double ratio = larger(last / pair[1], pair[1] / pair[0]);

@@ -21,6 +21,7 @@ static const struct {
     const char *without; /* the base is given without this one */
 } moved[] = {
     {"reference-temperature", "35degC", NULL, NULL},
+    {"terms-per-decade", "2.7", NULL, NULL},
     {"expansion", "7e-4", "vertical-shift physical", NULL},
     {"fit-depth", "30nm", NULL, NULL},
     {"fit-force-fraction", "0.5", NULL, NULL},
