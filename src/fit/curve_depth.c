@@ -298,10 +298,11 @@ static wt_interval interval_of(depth_pool *d, const depth_fit *fit, double at,
     }
     d->value[unit++] /= (double)in_unit;
     const moments all = compare_moments(d->value, unit);
-    const double curves = (double)d->n, df = fmax(1.0, all.n - 1.0 - rest);
     /* The weights are of the same curves: Rao, Biometrika 54 (1967) 447. And where the law leaves
      * more than scatter, its parameters are off by as much. */
-    const double more = (all.n - 1.0) / df * (1.0 + fit->left / (curves - 1.0));
+    const double curves = (double)d->n, left = fmax(1.0, curves - 1.0 - rest);
+    const double df = fmin(all.n - 1.0, left);
+    const double more = (curves - 1.0) / left * (1.0 + fit->left / (curves - 1.0));
     const double scatter = sqrt(all.variance / all.n * more * fit->excess);
     const double error = fit->law == LINE ? scatter : hypot(scatter, shape_error);
     const double reach = compare_quantile(df) * error;
