@@ -34,9 +34,9 @@ static const double far = 0.5;
  * terms bend more than `sharp` [ln], it is no smooth one: lines then lie between the terms, which
  * pull the isotherms towards themselves, all but the one that is held, by more than their errors
  * (tests/study: lines). */
-static const double smooth_terms = 3.0, trial_terms = 5.0, sharp_terms = 10.0, sharp = 1.0;
+static const double smooth_terms = 3.0, trial_terms = 5.0, sharp_terms = 10.0, sharp = 3.0;
 /* Bends of lines, to start from; a noise that is clearly more than another one. */
-static const double lines_smooth = 5.0, more_noise = 1.3;
+static const double lines_smooth = 5.0, more_noise = 2.0;
 
 wt_master_options wt_master_options_defaults(void)
 {
