@@ -109,19 +109,23 @@ static double dot(const double *a, const double *b, size_t n)
 static double remove_powers(const double *z, double *x, size_t n, size_t all, int count, double *z2)
 {
     double one[FINE + BLOCKS], line[FINE + BLOCKS], *const power[3] = {one, line, z2};
+    const double middle = z[n / 2];
     double share = 0.0;
     for (int k = 0; k < count; k++) {
+        double *now = power[k];
         for (size_t i = 0; i < all; i++)
-            power[k][i] = k == 0 ? 1.0 : (z[i] - z[n / 2]) * power[k - 1][i];
+            now[i] = 1.0;
+        for (size_t i = 0; i < all && k > 0; i++)
+            now[i] = (z[i] - middle) * power[k - 1][i];
         for (int d = 0; d < k; d++) {
-            const double part = dot(power[d], power[k], n) / dot(power[d], power[d], n);
+            const double part = dot(power[d], now, n) / dot(power[d], power[d], n);
             for (size_t i = 0; i < all; i++)
-                power[k][i] -= part * power[d][i];
+                now[i] -= part * power[d][i];
         }
-        const double norm = dot(power[k], power[k], n);
-        share = norm > 0.0 ? dot(power[k], x, n) / norm : 0.0;
+        const double norm = dot(now, now, n);
+        share = norm > 0.0 ? dot(now, x, n) / norm : 0.0;
         for (size_t i = 0; i < n; i++)
-            x[i] -= share * power[k][i];
+            x[i] -= share * now[i];
     }
     return share;
 }
