@@ -24,7 +24,9 @@ static wt_status budget_of_case(cmd_session *s, wt_run_options *run)
 {
     wt_case *c = NULL;
     size_t n_failed = 0;
-    wt_status status = wt_case_read(s->files[0], &c, &s->err);
+    wt_status status = s->common.output != NULL ? wt_guard_write(s->common.output, &s->err) : WT_OK;
+    if (status == WT_OK)
+        status = wt_case_read(s->files[0], &c, &s->err);
     if (status == WT_OK)
         status = wt_case_ask(c, "error_budget", &s->err);
     run->formats = s->common.formats;
@@ -71,6 +73,8 @@ int cmd_accuracy(int argc, char **argv)
         cmd_usage_error(&s, "one case at most");
     else if (s.n_files == 1 && (cmd_given(&parts[0], "part") || cmd_given(&parts[0], "repeats")))
         cmd_usage_error(&s, "--part and --repeats are not for a case");
+    else if (s.n_files == 0 && parts[1].given != 0)
+        cmd_usage_error(&s, "without a case there are --part and --repeats only");
     else if (s.n_files == 1) {
         s.log = wt_parselog_new();
         const wt_status made = s.log == NULL ? wt_fail(&s.err, WT_E_MEMORY, "out of memory")

@@ -222,17 +222,19 @@ static wt_status sharpen(master_work *work, wt_error *err)
 {
     bool better = work->s->smooth > sharp;
     double noise[MODULI];
-    wt_status status = WT_OK;
+    wt_error no_lines = WT_ERROR_INIT; /* a trial without an answer is no reason to give none */
     (void)take_shifts(work);
     if (!better) {
-        status = noise_of_lines(work, noise, err);
-        for (int q = 0; q < MODULI && status == WT_OK; q++)
+        const wt_status tried = noise_of_lines(work, noise, &no_lines);
+        if (tried == WT_E_MEMORY)
+            return wt_fail(err, tried, "%s", no_lines.message);
+        for (int q = 0; q < MODULI && tried == WT_OK; q++)
             better |= more_noise * noise[q] < work->s->noise[q];
     }
-    if (status != WT_OK || !better)
-        return status;
+    if (!better)
+        return WT_OK;
     work->terms_per_decade = sharp_terms;
-    status = make_spectrum(work, err);
+    const wt_status status = make_spectrum(work, err);
     work->s->smooth = lines_smooth;
     return status == WT_OK ? fit_robust(work, err) : status;
 }

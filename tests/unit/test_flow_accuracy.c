@@ -179,6 +179,14 @@ static void test_nothing_stated(void **state)
         assert_string_equal(text_cell(table, i, "kind"), "numerical");
     assert_non_null(strstr(wt_table_key(table, "friction_advice"), "No error"));
     wt_table_free(table);
+    /* the choices of the model are said all the same */
+    wt_table *what_if = NULL;
+    assert_int_equal(wt_what_if_make(&sliding, NULL, NULL, &work, &what_if, NULL), WT_OK);
+    assert_int_equal(wt_error_budget_make(&sliding, NULL, NULL, what_if, true, &work, &table, NULL),
+                     WT_OK);
+    assert_non_null(strstr(wt_table_key(table, "friction_advice"), "no error is known beside it"));
+    wt_table_free(what_if);
+    wt_table_free(table);
 }
 
 int main(void)

@@ -268,17 +268,20 @@ static void advise(const budget *b, setting_number k, const verdict *v, table_wr
     size_t n = 0;
 #define SAY(...) n += n < sizeof text ? (size_t)snprintf(text + n, sizeof text - n, __VA_ARGS__) : 0
     if (v->largest == NULL)
-        SAY("No error of what it is made from is measured or stated.");
+        SAY(b->work.replicates < 2 ? "Without replicates no error is drawn."
+                                   : "No error of what it is made from is measured or stated.");
     else
         SAY("%.0f %% of its variance is the %s: %s.", 100 * v->share, v->largest->words,
             v->largest->remedy);
-    if (v->widest.half > v->together)
+    if (v->widest.half > 0 && !(v->widest.half <= v->together)) /* together may be unknown */
         SAY(" The choice of the %s moves it by %.*f %%, %s: more of the same measurements do not "
             "settle that.",
             v->widest.words, v->widest.half < 0.1 * value ? 1 : 0, 100 * v->widest.half / value,
             v->together > 0 ? "more than all measured errors" : "and no error is known beside it");
     const double floor = fmax(v->together, v->widest.half);
-    if (v->numerical < 1e-2 * floor)
+    if (isnan(v->numerical))
+        SAY(" What the arithmetic leaves open is not known.");
+    else if (v->numerical < 1e-2 * floor)
         SAY(" The arithmetic is good to %.1g: a tighter tolerance buys nothing.",
             v->numerical / value);
     else if (floor > 0)
