@@ -11,6 +11,8 @@
 #include "kernel/energy.h"
 #include "kernel/params.h"
 
+#include "base/exponential.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -55,11 +57,13 @@ bool energy_range(const wt_energy_source *source, double *q_min, double *q_max)
 {
     *q_min = (double)INFINITY;
     *q_max = 0;
-    for (size_t i = 0; i < source->n; i++)
-        if (source->power[i] > 0) {
-            *q_min = fmin(*q_min, source->wavenumber[i]);
-            *q_max = fmax(*q_max, source->wavenumber[i]);
-        }
+    for (size_t i = 0; i < source->n; i++) {
+        const double q = source->wavenumber[i];
+        if (!(source->power[i] > 0))
+            continue;
+        *q_min = q < *q_min ? q : *q_min;
+        *q_max = q > *q_max ? q : *q_max;
+    }
     return *q_max > 0;
 }
 
@@ -88,34 +92,65 @@ static double slope_bracket(double s, double x)
     return -8 * (x - 1) * (x - s);
 }
 
-/* exp(2 q z) times what one wavenumber gives at a depth. */
-typedef double shape_fn(const wt_energy_source *source, double r, double q, double depth,
-                        double length);
+/* Some wavenumbers of a source at a depth. */
+enum { BATCH = 64 };
+typedef struct batch {
+    size_t n;
+    const double *q;
+    double r, depth, length;
+    double power[BATCH]; /* as it is left at the depth, over exp(-2 q_min depth) */
+    double gone[BATCH];  /* exp(-2 q length) - 1 */
+} batch;
+
+/* Begins at a wavenumber. */
+static void batch_fill(const wt_energy_source *source, size_t from, double q_min, batch *b)
+{
+    double x[BATCH];
+    b->n = source->n - from < BATCH ? source->n - from : BATCH;
+    b->q = source->wavenumber + from;
+    for (size_t i = 0; i < b->n; i++) /* without power it may be below q_min */
+        x[i] = b->q[i] > q_min ? -2 * (b->q[i] - q_min) * b->depth : 0;
+    exponential(x, b->n, b->power);
+    for (size_t i = 0; i < b->n; i++) {
+        b->power[i] *= source->power[from + i];
+        x[i] = -2 * b->q[i] * b->length;
+    }
+    if (b->length > 0)
+        exponential_less_one(x, b->n, b->gone);
+}
+
+/* What wavenumbers of power exp(2 q z) give at a depth z. */
+typedef void shape_fn(const wt_energy_source *source, const batch *b, double *value);
 
 /* g(z; q) exp(2 q z) */
-static double shape(const wt_energy_source *source, double r, double q, double depth, double length)
+static void shape(const wt_energy_source *source, const batch *b, double *value)
 {
-    (void)length;
-    if (source->profile == WT_PROFILE_PERSSON)
-        return 2 * q;
-    return q * density_bracket(1 - r, q * depth);
+    const bool plain = source->profile == WT_PROFILE_PERSSON;
+    for (size_t i = 0; i < b->n; i++)
+        value[i] = b->q[i] * (plain ? 2 : density_bracket(1 - b->r, b->q[i] * b->depth));
 }
 
 /* exp(2 q z) int_z^inf g */
-static double tail_shape(const wt_energy_source *source, double r, double q, double depth,
-                         double length)
+static void tail_shape(const wt_energy_source *source, const batch *b, double *value)
 {
-    (void)length;
-    if (source->profile == WT_PROFILE_PERSSON)
-        return 1;
-    const double x = q * depth;
-    return 1 + 2 * x * (x + r);
+    const bool plain = source->profile == WT_PROFILE_PERSSON;
+    for (size_t i = 0; i < b->n; i++) {
+        const double x = b->q[i] * b->depth;
+        value[i] = plain ? 1 : 1 + 2 * x * (x + b->r);
+    }
+}
+
+static double lesser(double a, double b)
+{
+    return a < b ? a : b;
 }
 
 /* Largest |exp(-2 t) (a + b t + c t^2)| for 0 <= t <= width. */
 static double largest(double a, double b, double c, double width)
 {
-    return fabs(a) + fabs(b) * fmin(width, 0.5 / M_E) + fabs(c) * fmin(width * width, exp(-2));
+    static const double inverse_square = 0.13533528323661269; /* exp(-2) */
+    return fabs(a) + fabs(b) * lesser(width, 0.5 / M_E) +
+           fabs(c) * lesser(width * width, inverse_square);
 }
 
 /* exp(2 x) times the largest |g'| / q^2 and |g''| / q^3 from x to x + width. */
@@ -144,34 +179,35 @@ static double short_integral(double (*bracket)(double s, double x), double s, do
 }
 
 /* exp(2 q z) int_z^(z+length) g */
-static double gain_shape(const wt_energy_source *source, double r, double q, double depth,
-                         double length)
+static void gain_shape(const wt_energy_source *source, const batch *b, double *value)
 {
-    const double l = q * length;
-    const double gone = -expm1(-2 * l);
-    if (source->profile == WT_PROFILE_PERSSON)
-        return gone;
-    const double x = q * depth;
-    if (l < short_way)
-        return short_integral(density_bracket, 1 - r, x, l);
-    const double here = 1 + 2 * x * (x + r);
-    const double grown =
-        2 * l * (2 * x + l + r); /* the bracket of the tail at x + l, less `here` */
-    return l < 300 ? fmax(0, gone * here - (1 - gone) * grown) : here;
+    const bool plain = source->profile == WT_PROFILE_PERSSON;
+    const double r = b->r;
+    for (size_t i = 0; i < b->n; i++) {
+        const double x = b->q[i] * b->depth, l = b->q[i] * b->length;
+        const double here = 1 + 2 * x * (x + r), left = 1 + b->gone[i];
+        /* the bracket of the tail at x + l, less `here` */
+        const double grown = 2 * l * (2 * x + l + r);
+        const double gain = -b->gone[i] * here - (left > 0 ? left * grown : 0);
+        value[i] = plain ? -b->gone[i] : gain > 0 ? gain : 0;
+    }
+    for (size_t i = 0; !plain && i < b->n; i++)
+        if (b->q[i] * b->length < short_way)
+            value[i] =
+                short_integral(density_bracket, 1 - r, b->q[i] * b->depth, b->q[i] * b->length);
 }
 
 static double log_sum(const wt_energy_source *source, shape_fn *of, double depth, double length)
 {
-    double q_min, q_max;
+    double q_min, q_max, sum = 0, value[BATCH];
     if (!energy_range(source, &q_min, &q_max))
         return -(double)INFINITY;
-    const double r = asymmetry(source->local_friction);
-    double sum = 0;
-    for (size_t i = 0; i < source->n; i++) {
-        const double q = source->wavenumber[i];
-        if (source->power[i] > 0)
-            sum +=
-                source->power[i] * of(source, r, q, depth, length) * exp(-2 * (q - q_min) * depth);
+    batch b = {.r = asymmetry(source->local_friction), .depth = depth, .length = length};
+    for (size_t from = 0; from < source->n; from += BATCH) {
+        batch_fill(source, from, q_min, &b);
+        of(source, &b, value);
+        for (size_t i = 0; i < b.n; i++)
+            sum += b.power[i] * value[i];
     }
     return log(sum) - 2 * q_min * depth;
 }
@@ -183,42 +219,46 @@ double energy_falling(const wt_energy_source *source)
     return !energy_falls(source) && energy_range(source, &q_min, &q_max) ? last / q_min : 0;
 }
 
-/* One wavenumber of the incompressible profile. */
-static void course_add(energy_course *sum, double power, double s, double q, double depth,
-                       double length, double reach)
+/* One wavenumber of the incompressible profile; left: exp(-2 q length). */
+static void course_add(energy_course *sum, const batch *b, size_t i, double left, double reach)
 {
-    const double x = q * depth, width = q * reach, l = q * length;
+    const double power = b->power[i], q = b->q[i], s = 1 - b->r;
+    const double x = q * b->depth, width = q * reach, l = q * b->length;
     if (l == 0) {
         sum->value += power * q * density_bracket(s, x);
         sum->slope += power * q * q * slope_bracket(s, x);
         sum->curvature += power * q * q * q * largest_bend(s, x, width);
         return;
     }
-    const double left = exp(-2 * l);
     const double apart =
         largest_slope(s, x, width) + (left > 0 ? left * largest_slope(s, x + l, width) : 0);
     const double slope =
         l < short_way ? short_integral(slope_bracket, s, x, l)
                       : (left > 0 ? left * density_bracket(s, x + l) : 0) - density_bracket(s, x);
     sum->slope += power * q * slope;
-    sum->curvature += power * q * q * fmin(apart, l * largest_bend(s, x, width + l));
+    sum->curvature += power * q * q * lesser(apart, l * largest_bend(s, x, width + l));
 }
 
 energy_course energy_course_at(const wt_energy_source *source, double depth, double length,
                                double reach)
 {
-    double q_min = 0, q_max;
+    double q_min = 0, q_max, value[BATCH], x[BATCH], left[BATCH];
     (void)energy_range(source, &q_min, &q_max);
-    const double r = asymmetry(source->local_friction);
+    batch b = {.r = asymmetry(source->local_friction), .depth = depth, .length = length};
     energy_course sum = {.log_scale = -2 * q_min * depth};
-    for (size_t i = 0; i < source->n; i++) {
-        const double q = source->wavenumber[i];
-        const double power = source->power[i] * exp(-2 * (q - q_min) * depth);
-        if (!(power > 0))
-            continue;
-        course_add(&sum, power, 1 - r, q, depth, length, reach);
+    for (size_t from = 0; from < source->n; from += BATCH) {
+        batch_fill(source, from, q_min, &b);
         if (length > 0)
-            sum.value += power * gain_shape(source, r, q, depth, length);
+            gain_shape(source, &b, value);
+        for (size_t i = 0; i < b.n; i++)
+            x[i] = -2 * b.q[i] * length;
+        exponential(x, b.n, left);
+        for (size_t i = 0; i < b.n; i++) {
+            if (!(b.power[i] > 0))
+                continue;
+            course_add(&sum, &b, i, left[i], reach);
+            sum.value += length > 0 ? b.power[i] * value[i] : 0;
+        }
     }
     return sum;
 }

@@ -121,13 +121,8 @@ static wt_status damage_edge(damage *d, stretch range, double level, double *edg
     stretch s;
     *edge = (double)NAN;
     d->level = level;
-    if (energy_falls(d->rates->source)) {
-        if (damage_at(range.low, d) < 0)
-            return WT_OK;
-        s = range;
-    } else if (!damage_climb(d, range, &s, NULL)) {
+    if (!damage_climb(d, range, &s, NULL))
         return WT_OK;
-    }
     *edge = s.low;
     return damage_at(s.low, d) > 0 ? root_find(damage_at, d, s.low, s.high, edge, err) : WT_OK;
 }
@@ -143,22 +138,57 @@ static wt_status edge_error(damage *d, double edge, double most, double error, d
     return status;
 }
 
-wt_status layer_damage_depth(const layer_rates *rates, double time, wt_estimate *thickness,
-                             wt_error *err)
+/* Of a profile that falls all the way: one edge, the deeper the longer; `near`: where it may be. */
+static wt_status falling_depth(damage *d, double error, double near, wt_estimate *thickness,
+                               wt_error *err)
+{
+    const wt_energy_source *source = d->rates->source;
+    const bool none = damage_at(0, d) < 0;
+    if (none) /* perhaps there is a layer all the same */
+        d->level = -error;
+    if (none && damage_at(0, d) < 0)
+        return WT_OK;
+    double edge, step = near > 0 ? 0.1 * near : 1 / d->rates->q_max;
+    stretch s = {0, near};
+    while (damage_at(s.high, d) >= 0) {
+        s.low = s.high;
+        s.high += step;
+        step *= 2;
+    }
+    const wt_status status = root_find(damage_at, d, s.low, s.high, &edge, err);
+    if (status != WT_OK)
+        return status;
+    if (none) {
+        thickness->numerical_error = edge;
+        return WT_OK;
+    }
+    const double lost =
+        exp(energy_log_density(source, edge)) - exp(energy_log_density(source, edge + d->way));
+    const double reach = error / lost * exp(energy_log_gain(source, edge, d->way));
+    thickness->value = edge;
+    thickness->numerical_error = root_reach(
+        damage_at, d, edge, error, fmax(2 * DBL_EPSILON * edge, isfinite(reach) ? reach : 0),
+        error / d->rates->q_max);
+    return WT_OK;
+}
+
+wt_status layer_damage_depth(const layer_rates *rates, double time, double near,
+                             wt_estimate *thickness, wt_error *err)
 {
     *thickness = (wt_estimate){.unit = "m"};
     damage d = damage_of(rates, true);
     if (rates->formation == 0 || time == 0)
         return WT_OK;
-    const bool falls = energy_falls(rates->source);
     const double error = damage_error(rates);
     damage_set_time(&d, time);
+    if (energy_falls(rates->source))
+        return falling_depth(&d, error, near, thickness, err);
     d.level = -error;
     double end = fmax(energy_falling(rates->source), 1 / rates->q_min);
     while (damage_at(end, &d) >= 0)
         end *= 2;
-    double most = end, edge;
-    wt_status status = falls ? WT_OK : damage_edge(&d, (stretch){0, end}, -error, &most, err);
+    double most, edge;
+    wt_status status = damage_edge(&d, (stretch){0, end}, -error, &most, err);
     if (status != WT_OK || isnan(most))
         return status;
     /* a step deeper, for at the edge itself D may be on either side of its level */
@@ -167,17 +197,11 @@ wt_status layer_damage_depth(const layer_rates *rates, double time, wt_estimate 
     if (status != WT_OK)
         return status;
     if (isnan(edge)) { /* perhaps there is a layer all the same */
-        if (falls)
-            status = damage_edge(&d, range, -error, &most, err);
-        thickness->numerical_error = isnan(most) ? 0 : most;
+        thickness->numerical_error = most;
         return status;
     }
     thickness->value = edge;
-    if (!falls)
-        return edge_error(&d, edge, most, error, &thickness->numerical_error, err);
-    thickness->numerical_error =
-        root_reach(damage_at, &d, edge, error, 2 * DBL_EPSILON * edge, error / rates->q_max);
-    return WT_OK;
+    return edge_error(&d, edge, most, error, &thickness->numerical_error, err);
 }
 
 /* ---- times ----------------------------------------------------------------------------------- */

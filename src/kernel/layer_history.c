@@ -12,11 +12,13 @@
 static wt_status history_damage(const layer_rates *rates, double start, const double *time,
                                 size_t n, wt_layer_point *points, wt_error *err)
 {
+    double near = 0;
     for (size_t i = 0; i < n; i++) {
         wt_estimate grown;
-        const wt_status status = layer_damage_depth(rates, time[i], &grown, err);
+        const wt_status status = layer_damage_depth(rates, time[i], near, &grown, err);
         if (status != WT_OK)
             return status;
+        near = grown.value;
         const double old = fmax(0, start - rates->wear * time[i]);
         if (old > grown.value) {
             grown.value = old;
