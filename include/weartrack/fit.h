@@ -343,6 +343,7 @@ typedef struct wt_master {
     wt_deformation deformation;
     double reference_temperature; /* [K] */
     wt_vertical_shift vertical;
+    double terms_per_decade; /* of the spectrum */
     size_t n_shifts;
     wt_master_shift *shifts; /* [n_shifts], rising temperature */
 

@@ -426,6 +426,7 @@ wt_status master_report(master_work *work, const wt_sweep *sweep, wt_parselog *l
     wt_master m = {.deformation = sweep->deformation,
                    .reference_temperature = work->reference,
                    .vertical = work->options.vertical,
+                   .terms_per_decade = work->terms_per_decade,
                    .noise_storage = work->s->noise[STORAGE],
                    .noise_loss = work->s->noise[LOSS],
                    .correlation = work->s->rho};

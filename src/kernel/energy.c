@@ -197,11 +197,11 @@ static void gain_shape(const wt_energy_source *source, const batch *b, double *v
                 short_integral(density_bracket, 1 - r, b->q[i] * b->depth, b->q[i] * b->length);
 }
 
-static double log_sum(const wt_energy_source *source, shape_fn *of, double depth, double length)
+/* Over exp(-2 q_min depth). */
+static double sum_of(const wt_energy_source *source, shape_fn *of, double depth, double length,
+                     double q_min)
 {
-    double q_min, q_max, sum = 0, value[BATCH];
-    if (!energy_range(source, &q_min, &q_max))
-        return -(double)INFINITY;
+    double sum = 0, value[BATCH];
     batch b = {.r = asymmetry(source->local_friction), .depth = depth, .length = length};
     for (size_t from = 0; from < source->n; from += BATCH) {
         batch_fill(source, from, q_min, &b);
@@ -209,7 +209,16 @@ static double log_sum(const wt_energy_source *source, shape_fn *of, double depth
         for (size_t i = 0; i < b.n; i++)
             sum += b.power[i] * value[i];
     }
-    return log(sum) - 2 * q_min * depth;
+    return sum;
+}
+
+static double log_sum(const wt_energy_source *source, shape_fn *of, double depth, double length)
+{
+    double q_min, q_max;
+    const double sum = sum_of(source, of, depth, length, 0);
+    if (sum > 1e-200 || !energy_range(source, &q_min, &q_max))
+        return log(sum);
+    return log(sum_of(source, of, depth, length, q_min)) - 2 * q_min * depth;
 }
 
 double energy_falling(const wt_energy_source *source)

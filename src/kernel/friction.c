@@ -186,12 +186,7 @@ wt_status friction_prepare(wt_friction_workspace *ws, double pressure, const dou
         fastest = fmax(fastest, speed);
     }
     const wt_material *material = ws->material;
-    const bool share = !ws->options.without_share && angular_limited(ws->angular);
-    if (n == 0)
-        return WT_OK;
-    if (share && angular_cover_outside(ws->angular, err) != WT_OK)
-        return WT_E_MEMORY;
-    if (material->law->angular)
+    if (n == 0 || material->law->angular)
         return WT_OK;
     const double lowest = slowest * ws->roughness->q0;
     const double highest = fastest * ws->roughness->q1;
@@ -271,6 +266,11 @@ static bool is_due(const compute_job *job, size_t i)
     return !job->points[i].reached && job->first[i] <= job->rule && i % job->stride == 0;
 }
 
+static bool with_share(const wt_friction_workspace *ws)
+{
+    return !ws->options.without_share && angular_limited(ws->angular);
+}
+
 static void compute_point(const compute_job *job, friction_scratch *scratch, double velocity,
                           wt_friction_point *point)
 {
@@ -282,8 +282,7 @@ static void compute_point(const compute_job *job, friction_scratch *scratch, dou
     size_t level;
     const scale_grid *grid = friction_grid(ws, scratch, plan, job->rule, at, 0, &level);
     friction_pass pass;
-    const bool share = !ws->options.without_share && angular_limited(ws->angular);
-    friction_evaluate(ws, scratch, grid, level, at, share, NULL, &pass);
+    friction_evaluate(ws, scratch, grid, level, at, with_share(ws), NULL, &pass);
     const friction_relative relative = friction_relative_error(ws, at, &pass);
     const double error_g = relative.variance * pass.variance + pass.variance_error;
     const double error_mu = relative.hysteresis * pass.hysteresis + pass.hysteresis_error;
@@ -346,6 +345,8 @@ wt_status wt_friction_compute(wt_friction_workspace *workspace, double pressure,
     if (workspace == NULL || velocity == NULL || points == NULL)
         return wt_fail(err, WT_E_ARG, "friction needs velocities and a place for the results");
     wt_status status = friction_prepare(workspace, pressure, velocity, n, err);
+    if (status == WT_OK && n > 0 && with_share(workspace))
+        status = angular_cover_outside(workspace->angular, err);
     if (status != WT_OK)
         return status;
     unsigned char *first = calloc(n + 1, 1);

@@ -377,6 +377,7 @@ wt_status wt_master_make(const wt_master_job *job, const wt_job *work, wt_master
     if (status == WT_OK && rubber != NULL) {
         rubber->sweep = sweep;
         rubber->fit = job->fit;
+        rubber->fit.terms_per_decade = master.terms_per_decade; /* which need not be found again */
         sweep = (wt_sweep){0};
     }
     if (status == WT_OK && tables != NULL) {
