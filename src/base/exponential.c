@@ -25,7 +25,7 @@ static inline double split(double x, double *rest)
     /* k times the first part of ln 2 is exact */
     const double ln2_high = 6.93147180369123816490e-01, ln2_low = 1.90821492927058770002e-10;
     const double lowest = -708;
-    const double kept = x > lowest ? x : lowest;
+    const double kept = x < lowest ? lowest : x;
     const double shifted = kept * M_LOG2E + shift;
     const double k = shifted - shift;
     const double r = (kept - k * ln2_high) - k * ln2_low;

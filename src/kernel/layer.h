@@ -30,8 +30,8 @@ wt_status layer_fixed_point(const layer_rates *rates, double log_scale, wt_estim
                             wt_error *err) WT_NODISCARD;
 
 /* Damage transport: the deepest place where int Omega dt >= Lambda at `time`; 0 before incubation.
- * It is looked for from `near` on, which changes no more than the time that takes. */
-wt_status layer_damage_depth(const layer_rates *rates, double time, double near,
+ * It is looked for from that of an earlier time on, or from 0. */
+wt_status layer_damage_depth(const layer_rates *rates, double time, double earlier,
                              wt_estimate *thickness, wt_error *err) WT_NODISCARD;
 /* First time at which any place at this depth or below is modified; NaN if never. */
 wt_status layer_damage_time(const layer_rates *rates, bool with_wear, wt_estimate depth,

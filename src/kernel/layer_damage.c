@@ -138,8 +138,8 @@ static wt_status edge_error(damage *d, double edge, double most, double error, d
     return status;
 }
 
-/* Of a profile that falls all the way: one edge, the deeper the longer; `near`: where it may be. */
-static wt_status falling_depth(damage *d, double error, double near, wt_estimate *thickness,
+/* Of a profile that falls all the way: one edge, which only goes deeper. */
+static wt_status falling_depth(damage *d, double error, double earlier, wt_estimate *thickness,
                                wt_error *err)
 {
     const wt_energy_source *source = d->rates->source;
@@ -148,16 +148,18 @@ static wt_status falling_depth(damage *d, double error, double near, wt_estimate
         d->level = -error;
     if (none && damage_at(0, d) < 0)
         return WT_OK;
-    double edge, step = near > 0 ? 0.1 * near : 1 / d->rates->q_max;
-    stretch s = {0, near};
-    while (damage_at(s.high, d) >= 0) {
+    double edge = earlier, step = earlier > 0 ? 0.1 * earlier : 1 / d->rates->q_max;
+    stretch s = {earlier, earlier};
+    do {
         s.low = s.high;
         s.high += step;
         step *= 2;
+    } while (damage_at(s.high, d) >= 0);
+    if (damage_at(s.low, d) > 0) { /* but for rounding it is there */
+        const wt_status status = root_find(damage_at, d, s.low, s.high, &edge, err);
+        if (status != WT_OK)
+            return status;
     }
-    const wt_status status = root_find(damage_at, d, s.low, s.high, &edge, err);
-    if (status != WT_OK)
-        return status;
     if (none) {
         thickness->numerical_error = edge;
         return WT_OK;
@@ -172,7 +174,7 @@ static wt_status falling_depth(damage *d, double error, double near, wt_estimate
     return WT_OK;
 }
 
-wt_status layer_damage_depth(const layer_rates *rates, double time, double near,
+wt_status layer_damage_depth(const layer_rates *rates, double time, double earlier,
                              wt_estimate *thickness, wt_error *err)
 {
     *thickness = (wt_estimate){.unit = "m"};
@@ -182,7 +184,7 @@ wt_status layer_damage_depth(const layer_rates *rates, double time, double near,
     const double error = damage_error(rates);
     damage_set_time(&d, time);
     if (energy_falls(rates->source))
-        return falling_depth(&d, error, near, thickness, err);
+        return falling_depth(&d, error, earlier, thickness, err);
     d.level = -error;
     double end = fmax(energy_falling(rates->source), 1 / rates->q_min);
     while (damage_at(end, &d) >= 0)

@@ -9,22 +9,22 @@
 #include <stdlib.h>
 
 /* Damage transport: the old layer is carried up and worn off, new damage grows below. */
-static wt_status history_damage(const layer_rates *rates, double start, const double *time,
-                                size_t n, wt_layer_point *points, wt_error *err)
+static wt_status history_damage(const layer_rates *rates, double start, const layer_instant *at,
+                                size_t n, wt_error *err)
 {
-    double near = 0;
+    double earlier = 0;
     for (size_t i = 0; i < n; i++) {
         wt_estimate grown;
-        const wt_status status = layer_damage_depth(rates, time[i], near, &grown, err);
+        const wt_status status = layer_damage_depth(rates, at[i].time, earlier, &grown, err);
         if (status != WT_OK)
             return status;
-        near = grown.value;
-        const double old = fmax(0, start - rates->wear * time[i]);
+        earlier = grown.value;
+        const double old = fmax(0, start - rates->wear * at[i].time);
         if (old > grown.value) {
             grown.value = old;
             grown.numerical_error = fmax(grown.numerical_error, 4 * DBL_EPSILON * start);
         }
-        points[i].thickness = grown;
+        at[i].point->thickness = grown;
     }
     return WT_OK;
 }
@@ -63,8 +63,10 @@ static int by_time(const void *left, const void *right)
     return (a->time > b->time) - (a->time < b->time);
 }
 
-static wt_status history_march(const layer_rates *rates, double start, const double *time, size_t n,
-                               wt_layer_point *points, wt_error *err)
+/* By damage transport or by the rates. */
+static wt_status history_in_order(const layer_rates *rates, const wt_layer_parameters *p,
+                                  const double *time, size_t n, wt_layer_point *points,
+                                  wt_error *err)
 {
     layer_instant *order = calloc(n, sizeof *order);
     if (order == NULL)
@@ -72,7 +74,9 @@ static wt_status history_march(const layer_rates *rates, double start, const dou
     for (size_t i = 0; i < n; i++)
         order[i] = (layer_instant){time[i], &points[i]};
     qsort(order, n, sizeof *order, by_time);
-    const wt_status status = layer_march(rates, start, order, n, err);
+    const wt_status status = p->incubation
+                                 ? history_damage(rates, p->start_thickness, order, n, err)
+                                 : layer_march(rates, p->start_thickness, order, n, err);
     free(order);
     return status;
 }
@@ -93,14 +97,11 @@ wt_status wt_layer_history(const wt_energy_source *source, const wt_layer_parame
             wt_error_found(err, "%g", time[i]);
             return WT_E_RANGE;
         }
-    const double start = parameters->start_thickness;
     const double kappa = single_kappa(&rates);
-    if (parameters->incubation)
-        status = history_damage(&rates, start, time, n, points, err);
-    else if (kappa > 0)
-        history_exponential(&rates, kappa, start, time, n, points);
+    if (kappa > 0 && !parameters->incubation)
+        history_exponential(&rates, kappa, parameters->start_thickness, time, n, points);
     else
-        status = history_march(&rates, start, time, n, points, err);
+        status = history_in_order(&rates, parameters, time, n, points, err);
     if (status != WT_OK)
         return status;
     for (size_t i = 0; i < n; i++) {

@@ -83,6 +83,7 @@ int main(int argc, char **argv)
     bench_curves();
     bench_detect();
     bench_friction();
+    bench_layer();
     bench_shift();
     return 0;
 }

@@ -22,6 +22,7 @@ double bench_normal(bench_random *random);
 void bench_curves(void);
 void bench_detect(void);
 void bench_friction(void);
+void bench_layer(void);
 void bench_shift(void);
 
 #endif

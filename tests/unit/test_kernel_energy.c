@@ -1,11 +1,39 @@
 /* Energy density with depth, its source in friction, and the stiffness of a layered half-space. */
 #include "near.h"
 
+#include "base/exponential.h"
 #include "kernel/contact.h"
 #include "kernel/energy.h"
 #include "weartrack/kernel.h"
 
 #include <float.h>
+
+/* ---- many exponentials at a time --------------------------------------------------------------
+ */
+
+/* To the last digits, whatever the number of them, and 0 far below. */
+static void exponentials(void **state)
+{
+    (void)state;
+    enum { N = 999 };
+    double x[N], power[N], less_one[N];
+    for (size_t i = 0; i < N; i++)
+        x[i] = i % 2 == 0 ? -pow(10, -20 + 22.85 * (double)i / N) : 700.0 - 1.4 * (double)i;
+    exponential(x, N, power);
+    exponential_less_one(x, N, less_one);
+    for (size_t i = 0; i < N; i++) {
+        assert_near(power[i], exp(x[i]), 2 * DBL_EPSILON);
+        assert_near(less_one[i], expm1(x[i]), 2 * DBL_EPSILON);
+    }
+    const double far[] = {-(double)INFINITY, -709, -1e300, 0, (double)NAN};
+    exponential(far, 5, power);
+    exponential_less_one(far, 5, less_one);
+    for (size_t i = 0; i < 3; i++) {
+        assert_true(power[i] == 0);
+        assert_true(less_one[i] == -1);
+    }
+    assert_true(power[3] == 1 && less_one[3] == 0 && isnan(power[4]) && isnan(less_one[4]));
+}
 
 /* ---- energy density -------------------------------------------------------------------------- */
 
@@ -162,9 +190,8 @@ static void layered_limits(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(density_tail_gain),
-        cmocka_unit_test(source_of_friction),
-        cmocka_unit_test(deep_tail),
+        cmocka_unit_test(exponentials),       cmocka_unit_test(density_tail_gain),
+        cmocka_unit_test(source_of_friction), cmocka_unit_test(deep_tail),
         cmocka_unit_test(layered_limits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
