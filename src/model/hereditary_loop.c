@@ -1,0 +1,169 @@
+/* A tip that goes into rubber with memory and out again (Lee and Radok; Ting). On the way out the
+ * contact has shrunk to what it was at an earlier time t1 of the way in, for which the integral of
+ * E(t - t') ddelta from t1 to t is zero; only what was pressed in before t1 pushes. t1 falls: it is
+ * followed back through the steps of the way in.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "model/hereditary.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MAX_NEWTON = 60, MAX_ROUNDS = 100 };
+static const double close = 1e-15; /* of a step: t1 */
+
+/* The way in, and where the way out is. */
+typedef struct loop {
+    hereditary *law;
+    const wt_tip *tip;
+    double compliance;
+    const double *time;
+    size_t top;            /* last step of the way in */
+    double *depth, *f;     /* [top + 1] */
+    double *pushed, *moved; /* [top + 1][terms]: memories of f and of the depth */
+    size_t step;           /* t1 lies in the one that ends here */
+    double *now;           /* [terms] memory of the depth */
+} loop;
+
+/* base = depth + compliance (past + now f(depth)), from a depth that is not too small. */
+static double depth_in(const wt_tip *tip, double compliance, double base, double past, double now,
+                       double *f)
+{
+    const double most = base - compliance * past;
+    double x = fmax(most, 0.0), slope;
+    for (int i = 0; i < MAX_NEWTON && x > 0.0; i++) {
+        wt_contact_function(tip, x, f, &slope);
+        const double step =
+            (most - x - compliance * now * *f) / (1.0 + compliance * now * slope);
+        x = fmax(x + step, 0.0);
+        if (fabs(step) <= 1e-15 * x)
+            break;
+    }
+    wt_contact_function(tip, x, f, &slope);
+    return x;
+}
+
+static double step_in(loop *l, size_t i, double base)
+{
+    hereditary *law = l->law;
+    const size_t n = law->n;
+    double *pushed = l->pushed + i * n, *moved = l->moved + i * n;
+    memcpy(pushed, pushed - n, n * sizeof *pushed);
+    memcpy(moved, moved - n, n * sizeof *moved);
+    const double faded = hereditary_fade(law, pushed), before = l->f[i - 1];
+    hereditary_fade(law, moved);
+    const double past = hereditary_force(law, faded, before, 0.0);
+    const double now = hereditary_force(law, 0.0, 0.0, 1.0);
+    l->depth[i] = depth_in(l->tip, l->compliance, base, past, now, &l->f[i]);
+    hereditary_add(law, pushed, l->f[i] - before);
+    hereditary_add(law, moved, l->depth[i] - l->depth[i - 1]);
+    return past + now * l->f[i];
+}
+
+/* At time t with t1 a share of step j after its beginning: the force, and in `open` what the depth
+ * took of the integral since t1. */
+static double force_since(const loop *l, size_t j, double share, double t, double *depth,
+                          double *open)
+{
+    const hereditary *law = l->law;
+    const double part = share * (l->time[j] - l->time[j - 1]), since = t - l->time[j - 1] - part;
+    const double moved = share * (l->depth[j] - l->depth[j - 1]);
+    double f, slope, force = 0.0;
+    *depth = l->depth[j - 1] + moved;
+    *open = 0.0;
+    wt_contact_function(l->tip, *depth, &f, &slope);
+    for (size_t i = 0; i < law->n; i++) {
+        const double x = part / law->time[i], then = exp(-since / law->time[i]);
+        const double gain = law->modulus[i] * (x > 0.0 ? -expm1(-x) / x : 1.0), fade = exp(-x);
+        const size_t at = (j - 1) * law->n + i;
+        force += then * (fade * l->pushed[at] + gain * (f - l->f[j - 1]));
+        *open -= then * (fade * l->moved[at] + gain * moved);
+    }
+    return law->rest * f + force;
+}
+
+/* The integral since t1, which falls as t1 rises; at its root the force is that of the contact. */
+static double integral_since(const loop *l, size_t j, double share, double t, double base,
+                             double before, double faded, double *force, double *depth)
+{
+    const hereditary *law = l->law;
+    double then, open;
+    *force = force_since(l, j, share, t, &then, &open);
+    *depth = base - l->compliance * *force;
+    return law->rest * (*depth - then) + open + faded +
+           (law->gains + law->viscosity / law->step) * (*depth - before);
+}
+
+static double step_out(loop *l, double t, double base, double *depth)
+{
+    const double before = *depth, faded = hereditary_fade(l->law, l->now);
+    double force = 0.0, low = 0.0, high = 1.0, below, above;
+#define INTEGRAL_SINCE(share)                                                                      \
+    integral_since(l, l->step, share, t, base, before, faded, &force, depth)
+    while (l->step > 0 && (below = INTEGRAL_SINCE(0.0)) <= 0.0)
+        l->step--;
+    if (l->step == 0) {
+        *depth = base;
+        return 0.0;
+    }
+    above = INTEGRAL_SINCE(1.0);
+    for (int i = 0; i < MAX_ROUNDS && high - low > close; i++) { /* regula falsi of Illinois */
+        const double share = low + (high - low) * below / (below - above);
+        const double found = INTEGRAL_SINCE(share);
+        if (!(fabs(found) > 0.0) || !(share > low && share < high))
+            break;
+        if (found > 0.0) {
+            low = share;
+            below = found;
+            above *= 0.5;
+        } else {
+            high = share;
+            above = found;
+            below *= 0.5;
+        }
+    }
+#undef INTEGRAL_SINCE
+    hereditary_add(l->law, l->now, *depth - before);
+    return force;
+}
+
+wt_status hereditary_loop(hereditary *law, const wt_tip *tip, double compliance, const double *time,
+                          const double *base, size_t n, double *force, wt_error *err)
+{
+    size_t top = 0;
+    while (top + 1 < n && base[top + 1] >= base[top])
+        top++;
+    const size_t rows = top + 1, terms = law->n;
+    double *block = calloc(rows * (2 + 2 * terms) + terms + 1, sizeof *block);
+    if (block == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory for %zu steps of an indentation", n);
+    loop l = {.law = law,
+              .tip = tip,
+              .compliance = compliance,
+              .time = time,
+              .top = top,
+              .depth = block,
+              .f = block + rows,
+              .pushed = block + 2 * rows,
+              .moved = block + (2 + terms) * rows,
+              .step = top,
+              .now = block + (2 + 2 * terms) * rows};
+    double depth = 0.0;
+    force[0] = 0.0;
+    for (size_t i = 1; i < n; i++) {
+        hereditary_step(law, time[i] - time[i - 1]);
+        if (i <= top) {
+            force[i] = step_in(&l, i, base[i]);
+            continue;
+        }
+        if (i == top + 1) {
+            depth = l.depth[top];
+            memcpy(l.now, l.moved + top * terms, terms * sizeof *l.now);
+        }
+        force[i] = step_out(&l, time[i], base[i], &depth);
+    }
+    free(block);
+    return WT_OK;
+}
