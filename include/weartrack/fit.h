@@ -121,6 +121,9 @@ typedef struct wt_indent_fit {
     double pull_off_work;         /* the work of adhesion that it takes [J/m^2], an upper bound */
     double tabor_number;          /* of the larger work */
     double loss; /* work not given back by the retract, of that of the approach; NaN: no retract */
+    /* what such a loss adds to the modulus, which a fit without memory gives as |E*| at 1/loading
+     * time, as a share of it; NaN: no loss, or a fit with memory or adhesion */
+    double loss_bias;
     double piezo_rate;           /* [m/s], NaN if no time */
     double indentation_rate;     /* mean of the contact part [m/s], NaN if no time */
     double load_time;            /* contact to end of approach [s], NaN if no time */

@@ -20,6 +20,7 @@ enum {
     CURVE_MIN_SAMPLES = 32,
     CURVE_MAX_BINS = 1024, /* of the coarse scan */
     CURVE_MAX_MINIMA = 4,
+    CURVE_POWER_TERMS = 15, /* of a power law as a series */
 };
 
 /* Samples in the order of time. */

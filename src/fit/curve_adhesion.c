@@ -22,11 +22,6 @@ static const double least_tabor = 1.0;   /* far below 5 the law is another */
 static const double let_go = 0.02;       /* of the retract: in it half of a pull-off is over */
 enum { MAX_ROUNDS = 3 };
 
-/* Of the work: less than that is piezo and noise. */
-static const double least_loss = 0.03;
-/* With adhesion: beyond it the shape of loss stands for what the work of adhesion should. */
-static const double most_loss = 0.5;
-
 /* ---- snap-on --------------------------------------------------------------------------------- */
 
 typedef struct snap {
@@ -242,16 +237,6 @@ static bool try_adhesive(curve_fitting *f, double pull, size_t jump)
             return true;
     }
     return false;
-}
-
-void curve_allow_loss(curve_fitting *f)
-{
-    const bool pull_left_out = f->snap_on > 0.0 && !f->kind.adhesive;
-    if (curve_fits(f) || pull_left_out || !(f->loss > least_loss) ||
-        (f->kind.adhesive && f->loss > most_loss))
-        return;
-    f->kind.lossy = true;
-    refine(f, &f->solution);
 }
 
 bool curve_fit_adhesion(curve_fitting *f)

@@ -168,6 +168,7 @@ void curve_fit_empty(wt_indent_fit *fit)
                            .pull_off_work = nan_,
                            .tabor_number = nan_,
                            .loss = nan_,
+                           .loss_bias = nan_,
                            .piezo_rate = nan_,
                            .indentation_rate = nan_,
                            .load_time = nan_,
@@ -236,6 +237,7 @@ static void report(curve_fitting *f, wt_indent_fit *fit)
     fit->noise = s->noise;
     fit->correlation_length = s->correlation_length;
     fit->loss = f->loss;
+    fit->loss_bias = f->loss_bias;
     fit->lack_of_fit = s->lack.statistic;
     fit->lack_of_fit_chance = s->lack.chance;
     fit->baseline_chance = s->lack.baseline_chance;
@@ -282,8 +284,10 @@ wt_status curve_fit_branches(const wt_contact_table *table, const wt_indent_opti
     wt_status status = check_arguments(options, n, spring_constant, err);
     if (status == WT_OK)
         status = curve_reserve(workspace, retract->n > n ? retract->n : n, err);
-    if (status == WT_OK && options->spectrum != NULL)
-        status = hereditary_reserve(&workspace->memory, options->spectrum->n, err);
+    const size_t terms = options->spectrum != NULL ? options->spectrum->n : 0;
+    if (status == WT_OK)
+        status = hereditary_reserve(&workspace->memory,
+                                    terms > CURVE_POWER_TERMS ? terms : CURVE_POWER_TERMS, err);
     if (status != WT_OK)
         return status;
 
@@ -293,6 +297,7 @@ wt_status curve_fit_branches(const wt_contact_table *table, const wt_indent_opti
                        .workspace = workspace,
                        .pull_off = (double)NAN,
                        .loss = (double)NAN,
+                       .loss_bias = (double)NAN,
                        .depth_settled = true};
     curve_fit_empty(fit);
     fit->verdict = curve_prepare(approach->height, approach->force, n, spring_constant,

@@ -19,10 +19,11 @@ typedef struct curve_fitting {
     curve_solution solution;
     curve_minimum minima[CURVE_MAX_MINIMA];
     size_t n_minima;
-    double snap_on;  /* pull before contact [N]; 0: none stands out */
-    double pull_off; /* of the retract; 0: none stands out, NaN: no retract that tells */
-    double loss;     /* work that is lost on the way out, of that on the way in; NaN: no retract */
-    size_t n_snap;   /* samples left out because of a snap-on */
+    double snap_on;   /* pull before contact [N]; 0: none stands out */
+    double pull_off;  /* of the retract; 0: none stands out, NaN: no retract that tells */
+    double loss;      /* work that is lost on the way out, of that on the way in; NaN: no retract */
+    double loss_bias; /* what it adds to a modulus without memory, of it; NaN: not known */
+    size_t n_snap;    /* samples left out because of a snap-on */
     bool depth_settled;
     bool another_rubber; /* than that of the spectrum */
     double unit; /* with memory: |E*| of the spectrum that a modulus of the solution is in */
@@ -37,6 +38,9 @@ static inline double curve_baseline(const curve_solution *s, double position)
 /* Scan and refinement on the samples as they are now, with memory where a spectrum is given; false
  * if nothing but a baseline is found. */
 bool curve_scan_and_refine(curve_fitting *f);
+/* Makes the memory ready for the samples: that of a series, its times in loading times or in
+ * seconds. False if the times of the samples are not known. */
+bool curve_remember(curve_fitting *f, const wt_prony *series, bool in_loading_times);
 /* Does noise alone explain the residual? True where there is too little baseline to say. */
 bool curve_fits(const curve_fitting *f);
 
@@ -48,8 +52,11 @@ void curve_read_retract(curve_fitting *f, const double *height, const double *fo
  * adhesion, fits adhesive contact; if that does not describe the curve, the pull is left out. False
  * if nothing but a baseline is found then. */
 bool curve_fit_adhesion(curve_fitting *f);
-/* Where the residual is more than noise and the retract shows loss, tries the residual again with
- * the shape of loss allowed for. */
+
+/* ---- loss without a spectrum: curve_loss.c --------------------------------------------------- */
+
+/* Where the retract shows loss, finds its bias; where the residual is more than noise, tries it
+ * again with the shape of loss allowed for. */
 void curve_allow_loss(curve_fitting *f);
 
 /* ---- verdict: curve_judge.c ------------------------------------------------------------------ */

@@ -22,6 +22,7 @@ static const double reverse_ratio = 0.5;   /* cost of the fit in reverse against
 /* In radii of a sphere: there its paraboloid is 11 % off in the force. */
 static const double deepest_sphere = 1.0;
 enum { BEND_BLOCKS = 16 };
+static const double least_bias = 0.005; /* of a modulus by loss, to be said */
 
 static const struct {
     const char *id, *text;
@@ -254,6 +255,11 @@ static void add_notes(const curve_fitting *f, const wt_indent_fit *fit, char rea
         append(reason, "; not of the spectrum of the DMA: elastic");
     if (f->kind.lossy && f->kind.memory) {
         append(reason, "; the spectrum of the DMA does not describe its loss");
+    } else if (fabs(f->loss_bias) >= least_bias) {
+        curve_say(text,
+                  "; %.0f %% of the work lost: |E*| at 1/(loading time), about %.2g %% too %s",
+                  100.0 * f->loss, 100.0 * fabs(f->loss_bias), f->loss_bias > 0.0 ? "high" : "low");
+        append(reason, text);
     } else if (f->kind.lossy) {
         curve_say(text, "; %.0f %% of the work lost: |E*| at 1/(loading time) within 12 %%",
                   100.0 * f->loss);

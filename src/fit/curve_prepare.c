@@ -19,10 +19,10 @@ static const double travel_share = 0.5;  /* of the range of the height that must
 static const double rigid_share = 0.02;  /* least advance of the tip per bending of the lever */
 static const double plateau_ratio = 5.0; /* force gained before a flat top against in it */
 static const size_t plateau_samples = 5;
-static const double spike_noise = 8.0; /* a spike beyond its neighbours, in noise */
-static const double spike_step = 3.0;  /* of one below, and in the step between its two sides */
-static const double spike_share = 0.2; /* of the samples: with more it is no spike */
-enum { SPIKE_SIDE = 7 };               /* neighbours on each side */
+static const double spike_noise = 8.0;     /* a spike beyond its neighbours, in noise */
+static const double spike_step = 3.0;      /* of one below, and in the step between its two sides */
+static const double spike_share = 0.2;     /* of the samples: with more it is no spike */
+enum { SPIKE_SIDE = 7, SPIKE_ROUNDS = 2 }; /* neighbours on each side */
 
 wt_status curve_reserve(wt_indent_workspace *w, size_t n, wt_error *err)
 {
@@ -146,36 +146,46 @@ static double median_of(const double *x, size_t n)
     return n % 2 == 1 ? sorted[n / 2] : 0.5 * (sorted[n / 2 - 1] + sorted[n / 2]);
 }
 
-/* Leaves out samples far outside what lies before and behind them; a step has one side to agree
- * with, a snap-on a step or a neighbour beside it. */
-static void leave_out_spikes(curve_input *input, double noise)
+/* Is sample i, of which `kept` before it are left, far outside what lies before and behind it? A
+ * step has one side to agree with, a snap-on a step or a neighbour beside it. At an end there is
+ * one side only, and how that goes on. */
+static bool is_spike(const curve_samples *s, size_t i, size_t kept, double far)
 {
-    curve_samples *s = &input->samples;
-    const double far = spike_noise * noise;
-    size_t kept = SPIKE_SIDE, spikes = 0;
-    bool after_spike = false;
-    if (!(far > 0.0))
-        return;
-    for (size_t i = SPIKE_SIDE; i < s->n; i++) {
-        const double x = s->force[i];
-        bool spike = false;
-        if (i + SPIKE_SIDE < s->n && (after_spike || fabs(x - s->force[kept - 1]) > 0.5 * far)) {
-            const double left = median_of(s->force + kept - SPIKE_SIDE, SPIKE_SIDE);
-            const double right = median_of(s->force + i + 1, SPIKE_SIDE);
-            const double above = x - fmax(left, right), below = fmin(left, right) - x;
-            const double beside = fmin(s->force[kept - 1], s->force[i + 1]) - x;
-            spike =
-                above > far || (beside > far && below > fmax(far, spike_step * fabs(left - right)));
-        }
+    const double x = s->force[i], *right = s->force + i + 1;
+    const bool start = kept < SPIKE_SIDE;
+    const double *left = start ? NULL : s->force + kept - SPIKE_SIDE;
+    if (start ? i + 2 * SPIKE_SIDE >= s->n : kept < 2 * SPIKE_SIDE)
+        return false;
+    if (start || i + SPIKE_SIDE >= s->n) {
+        const double level = median_of(start ? right : left, SPIKE_SIDE);
+        const double next = median_of(start ? right + SPIKE_SIDE : left - SPIKE_SIDE, SPIKE_SIDE);
+        return x - level > far + 2.0 * fabs(level - next);
+    }
+    const double before = median_of(left, SPIKE_SIDE), behind = median_of(right, SPIKE_SIDE);
+    const double above = x - fmax(before, behind), below = fmin(before, behind) - x;
+    const double beside = fmin(s->force[kept - 1], s->force[i + 1]) - x;
+    return above > far || (beside > far && below > fmax(far, spike_step * fabs(before - behind)));
+}
+
+/* Returns how many spikes it leaves out. */
+static size_t leave_out_spikes(curve_samples *s, double far)
+{
+    size_t kept = 0;
+    bool after_spike = true; /* or at an end */
+    for (size_t i = 0; i < s->n; i++) {
+        const bool end = kept < SPIKE_SIDE || i + SPIKE_SIDE >= s->n;
+        const bool spike =
+            (end || after_spike || fabs(s->force[i] - s->force[kept - 1]) > 0.5 * far) &&
+            is_spike(s, i, kept, far);
         after_spike = spike;
-        spikes += spike;
         if (spike)
             continue;
         s->position[kept] = s->position[i];
-        s->force[kept++] = x;
+        s->force[kept++] = s->force[i];
     }
-    input->n_spikes = spikes;
+    const size_t spikes = s->n - kept;
     s->n = kept;
+    return spikes;
 }
 
 /* Samples up to where the force passes a share of its largest value: halfway between the first
@@ -228,7 +238,9 @@ wt_curve_verdict curve_prepare(const double *height, const double *force, size_t
 
     double resolution = 0.0;
     input->step_noise = difference_noise(s, w->scratch, &resolution);
-    leave_out_spikes(input, fmax(input->step_noise, resolution));
+    const double far = spike_noise * fmax(input->step_noise, resolution);
+    for (int round = 0; far > 0.0 && round < SPIKE_ROUNDS; round++) /* some hide others */
+        input->n_spikes += leave_out_spikes(s, far);
     if ((double)input->n_spikes > spike_share * (double)n) {
         curve_say(reason, "%zu of %zu samples are spikes, %g %% allowed", input->n_spikes, n,
                   100.0 * spike_share);

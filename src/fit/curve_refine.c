@@ -14,7 +14,8 @@
 
 enum { N = CURVE_N_PARAMETERS, MAX_ITERATIONS = 60, MAX_ADHESIVE = 25 };
 
-static const double bent_chance = 0.01; /* of a straight baseline that looks as bent */
+/* Of a straight baseline that looks as bent: to say so, and to allow for it in the errors. */
+static const double bent_chance = 0.01, perhaps_bent = 0.05;
 
 /* Solves (J'J + damping diag) x = y for several y, columns scaled to 1. */
 static bool solve(const normal_equations *e, double damping, double (*y)[N], size_t n_y)
@@ -119,7 +120,8 @@ static void statistics(const curve_law *m, curve_solution *s)
     }
     s->lack = curve_lack_of_fit(m, p, w->scratch);
     s->bent = s->lack.baseline_chance < bent_chance;
-    const curve_noise noise = curve_noise_of(m, p, w->scratch, first, s->bent);
+    const curve_noise noise =
+        curve_noise_of(m, p, w->scratch, first, s->lack.baseline_chance < perhaps_bent);
     s->noise = sqrt(noise.variance);
     s->correlation_length = noise.correlation_length;
     s->effective_n = (double)n / noise.correlation_length;

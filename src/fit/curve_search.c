@@ -33,25 +33,33 @@ static bool find_times(const curve_fitting *f)
     return i == s->n;
 }
 
+bool curve_remember(curve_fitting *f, const wt_prony *series, bool in_loading_times)
+{
+    wt_indent_workspace *w = f->workspace;
+    const curve_samples *s = &f->input.samples;
+    const size_t first = f->solution.first_contact;
+    if (first < 1 || first + 1 >= s->n || !find_times(f))
+        return false;
+    const double load = w->time[s->n - 1] - w->time[first - 1];
+    double shortest = load;
+    for (size_t i = 0; in_loading_times && i < s->n; i++)
+        w->time[i] /= load;
+    for (size_t i = first; i < s->n; i++)
+        shortest = fmin(shortest, w->time[i] - w->time[i - 1]);
+    f->unit = hereditary_modulus(series, in_loading_times ? 1.0 : 1.0 / load);
+    hereditary_begin(&w->memory, series, 1.0 / f->unit, shortest, w->time[s->n - 1] - w->time[0]);
+    return true;
+}
+
 /* From the elastic fit to that of rubber with the spectrum of the options, if times are known. A
  * curve that is better described without it is not of that rubber. */
 static void add_memory(curve_fitting *f)
 {
-    wt_indent_workspace *w = f->workspace;
-    const curve_samples *s = &f->input.samples;
-    const wt_prony *spectrum = f->options->spectrum;
     const curve_solution elastic = f->solution;
-    size_t first = elastic.first_contact;
-    if (first < 1 || first + 1 >= s->n || !find_times(f))
+    if (!curve_remember(f, f->options->spectrum, false))
         return;
-    const double end = w->time[s->n - 1], load = end - w->time[first - 1];
-    double shortest = load;
-    for (size_t i = first; i < s->n; i++)
-        shortest = fmin(shortest, w->time[i] - w->time[i - 1]);
-    f->unit = hereditary_modulus(spectrum, 1.0 / load);
-    hereditary_begin(&w->memory, spectrum, 1.0 / f->unit, shortest, end - w->time[0]);
     f->kind.memory = true;
-    curve_refine(f->table, s, f->kind, elastic.p, w, &f->solution);
+    curve_refine(f->table, &f->input.samples, f->kind, elastic.p, f->workspace, &f->solution);
     f->another_rubber = elastic.effective_n * log(f->solution.cost / elastic.cost) > better_chi2;
     if (f->solution.converged && !f->another_rubber)
         return;

@@ -20,11 +20,10 @@ typedef struct loop {
     const wt_tip *tip;
     double compliance;
     const double *time;
-    size_t top;            /* last step of the way in */
-    double *depth, *f;     /* [top + 1] */
-    double *pushed, *moved; /* [top + 1][terms]: memories of f and of the depth */
-    size_t step;           /* t1 lies in the one that ends here */
-    double *now;           /* [terms] memory of the depth */
+    double *depth, *f;      /* [steps] of the way in */
+    double *pushed, *moved; /* [steps][terms]: memories of f and of the depth */
+    size_t step;            /* t1 lies in the one that ends here */
+    double *now;            /* [terms] memory of the depth */
 } loop;
 
 /* base = depth + compliance (past + now f(depth)), from a depth that is not too small. */
@@ -35,8 +34,7 @@ static double depth_in(const wt_tip *tip, double compliance, double base, double
     double x = fmax(most, 0.0), slope;
     for (int i = 0; i < MAX_NEWTON && x > 0.0; i++) {
         wt_contact_function(tip, x, f, &slope);
-        const double step =
-            (most - x - compliance * now * *f) / (1.0 + compliance * now * slope);
+        const double step = (most - x - compliance * now * *f) / (1.0 + compliance * now * slope);
         x = fmax(x + step, 0.0);
         if (fabs(step) <= 1e-15 * x)
             break;
@@ -108,8 +106,9 @@ static double step_out(loop *l, double t, double base, double *depth)
         *depth = base;
         return 0.0;
     }
-    above = INTEGRAL_SINCE(1.0);
-    for (int i = 0; i < MAX_ROUNDS && high - low > close; i++) { /* regula falsi of Illinois */
+    above = INTEGRAL_SINCE(1.0); /* not below zero: the contact holds on to its radius */
+    for (int i = 0; i < MAX_ROUNDS && above < 0.0 && high - low > close;
+         i++) { /* regula falsi of Illinois */
         const double share = low + (high - low) * below / (below - above);
         const double found = INTEGRAL_SINCE(share);
         if (!(fabs(found) > 0.0) || !(share > low && share < high))
@@ -132,35 +131,32 @@ static double step_out(loop *l, double t, double base, double *depth)
 wt_status hereditary_loop(hereditary *law, const wt_tip *tip, double compliance, const double *time,
                           const double *base, size_t n, double *force, wt_error *err)
 {
-    size_t top = 0;
-    while (top + 1 < n && base[top + 1] >= base[top])
-        top++;
-    const size_t rows = top + 1, terms = law->n;
-    double *block = calloc(rows * (2 + 2 * terms) + terms + 1, sizeof *block);
+    const size_t terms = law->n;
+    double *block = calloc(n * (2 + 2 * terms) + terms + 1, sizeof *block);
     if (block == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory for %zu steps of an indentation", n);
     loop l = {.law = law,
               .tip = tip,
               .compliance = compliance,
               .time = time,
-              .top = top,
               .depth = block,
-              .f = block + rows,
-              .pushed = block + 2 * rows,
-              .moved = block + (2 + terms) * rows,
-              .step = top,
-              .now = block + (2 + 2 * terms) * rows};
+              .f = block + n,
+              .pushed = block + 2 * n,
+              .moved = block + (2 + terms) * n,
+              .now = block + (2 + 2 * terms) * n};
     double depth = 0.0;
+    bool out = false;
     force[0] = 0.0;
     for (size_t i = 1; i < n; i++) {
         hereditary_step(law, time[i] - time[i - 1]);
-        if (i <= top) {
+        if (!out) { /* with a lever it goes deeper for a while after the base has turned */
             force[i] = step_in(&l, i, base[i]);
-            continue;
-        }
-        if (i == top + 1) {
-            depth = l.depth[top];
-            memcpy(l.now, l.moved + top * terms, terms * sizeof *l.now);
+            if (l.depth[i] >= l.depth[i - 1])
+                continue;
+            out = true;
+            l.step = i - 1;
+            depth = l.depth[i - 1];
+            memcpy(l.now, l.moved + (i - 1) * terms, terms * sizeof *l.now);
         }
         force[i] = step_out(&l, time[i], base[i], &depth);
     }

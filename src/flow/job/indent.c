@@ -256,6 +256,7 @@ static void put_item(indent_task *task, const item *it)
     indentation_put(t, INDENTATION_PULL_OFF_WORK, fit->pull_off_work);
     indentation_put(t, INDENTATION_TABOR_NUMBER, fit->tabor_number);
     indentation_put(t, INDENTATION_LOSS, fit->loss);
+    indentation_put(t, INDENTATION_LOSS_BIAS, fit->loss_bias);
     indentation_put(t, INDENTATION_PIEZO_RATE, rates ? fit->piezo_rate : unknown);
     indentation_put(t, INDENTATION_RATE, rates ? fit->indentation_rate : unknown);
     indentation_put(t, INDENTATION_LOAD_TIME, rates ? fit->load_time : unknown);
