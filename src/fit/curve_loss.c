@@ -16,6 +16,9 @@ static const double least_loss = 0.03;
 /* With adhesion: beyond it the shape of loss stands for what the work of adhesion should. */
 static const double most_loss = 0.5;
 static const double most_power = 0.8, power_close = 1e-3;
+/* Lever over contact: with a softer one the bias hangs on more of the spectrum than the loss tells.
+ */
+static const double least_lever = 0.5;
 enum {
     STEPS = 24, /* of a way in, for its loss */
     HALF_DECADES = CURVE_POWER_TERMS,
@@ -122,6 +125,13 @@ static curve_solution with_memory(curve_fitting *f)
     return found;
 }
 
+static bool is_soft(const curve_fitting *f)
+{
+    double g, slope;
+    wt_contact_function(contact_table_tip(f->table), f->solution.max_indentation, &g, &slope);
+    return f->input.samples.spring_constant < least_lever * f->solution.p[CURVE_E] * slope;
+}
+
 void curve_allow_loss(curve_fitting *f)
 {
     const bool pull = f->snap_on > 0.0 || f->pull_off > 0.0 || f->kind.adhesive;
@@ -131,7 +141,7 @@ void curve_allow_loss(curve_fitting *f)
     if (!pull && !f->kind.memory && !f->kind.plain)
         lossy = with_memory(f);
     const bool explains = lossy.converged && !(lossy.lack.chance < f->options->least_chance);
-    if (lossy.converged)
+    if (lossy.converged && !is_soft(f))
         f->loss_bias = f->solution.p[CURVE_E] / lossy.p[CURVE_E] - 1.0;
     if (!curve_fits(f)) {
         const curve_solution elastic = f->solution;

@@ -69,7 +69,7 @@ LAST(wt_extrapolation, WT_EXTRAPOLATE_SLOPE, 1)
 
 /* fit.h */
 ROOM(wt_indent_options, spectrum, 64, 120)
-FIXED(wt_indent_fit, n_fitted, 600, 608)
+FIXED(wt_indent_fit, n_fitted, 608, 616)
 FIXED(wt_curve_pool, chance, 16, 24)
 FIXED(wt_depth_curve, spot, 88, 96)
 FIXED(wt_curve_depth, thickness, 336, 368)

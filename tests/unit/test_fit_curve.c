@@ -293,9 +293,29 @@ static void largest_force(void **state)
     (void)state;
     curve_truth t = curve_standard();
     curve_make(&t, 1, &data);
-    data.force[0] += 500e-9;
+    const double largest = fit_with(&t, NULL).max_force;
+    for (size_t i = 0; i < 20; i++) /* few would be spikes */
+        data.force[i] += 10 * largest;
     wt_indent_fit fit = fit_with(&t, NULL);
-    assert_near(fit.max_force, 500e-9, 0.01);
+    assert_near(fit.max_force, 10 * largest, 0.1);
+}
+
+/* At the ends, where there are neighbours on one side only. */
+static void spikes_at_the_ends(void **state)
+{
+    (void)state;
+    curve_truth t = curve_standard();
+    curve_make(&t, 1, &data);
+    const double modulus = fit_default(&t).modulus.value;
+    const double step = fabs(data.force[t.n - 1] - data.force[t.n - 21]) / 20;
+    data.force[0] += 40 * step;
+    data.force[4] += 30 * step;
+    data.force[t.n - 5] += 30 * step;
+    data.force[t.n - 4] += 30 * step;
+    data.force[t.n - 1] += 40 * step;
+    const wt_indent_fit fit = fit_default(&t);
+    assert_int_equal(fit.n_fitted, t.n - 5);
+    assert_near(fit.modulus.value, modulus, 0.01);
 }
 
 static void range_of_the_fit(void **state)
@@ -520,6 +540,7 @@ int main(void)
         cmocka_unit_test(sensitivity_budget),
         cmocka_unit_test(sums_stand_for_the_baseline),
         cmocka_unit_test(largest_force),
+        cmocka_unit_test(spikes_at_the_ends),
         cmocka_unit_test(range_of_the_fit),
         cmocka_unit_test(nothing_hidden_decides),
         cmocka_unit_test(points_for_plots),

@@ -1,5 +1,5 @@
-/* The representative curves: the whole curve for force against displacement, the contact part with
- * its fit for force against indentation.
+/* Curves as rows of tables: what was found of each; of the representative one the whole curve for
+ * force against displacement, the contact part with its fit for force against indentation.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/job/curve_tables.h"
 
@@ -154,4 +154,67 @@ wt_status flow_curve_tables_add(wt_indent_tables *tables, const char *group, con
 done:
     free(scratch);
     return status;
+}
+
+/* ---- rows of indentation -------------------------------------------------------------------- */
+
+/* What an elastic fit of rubber with loss returns is |E*| at 1/(loading time) where the contact
+ * point is fitted, too. Where it is given: local exponent p of F ~ delta^p at the deepest point. */
+static double equivalent_frequency(const wt_indent_job *job, const wt_indent_fit *fit)
+{
+    const wt_tip *tip = &job->tip;
+    double g = (double)NAN, slope = (double)NAN;
+    if (!(fit->load_time > 0) || !(fit->max_indentation > 0))
+        return (double)NAN;
+    if (isnan(job->options.fixed_contact_point) || !isnan(fit->spectrum_factor.value))
+        return 1.0 / fit->load_time;
+    wt_contact_function(tip, fit->max_indentation, &g, &slope);
+    return wt_equivalent_frequency(fit->load_time, fit->max_indentation * slope / g);
+}
+
+void flow_indentation_row(table_writer *t, const wt_indent_job *job, const char *file,
+                          const char *spot, const wt_force_curve *curve, const wt_indent_fit *fit)
+{
+    const bool rates = job->rates;
+    const double unknown = (double)NAN;
+    const double frequency = rates ? equivalent_frequency(job, fit) : unknown;
+    table_row(t);
+    indentation_put_text(t, INDENTATION_FILE, file);
+    indentation_put(t, INDENTATION_CURVE, (double)curve->index);
+    indentation_put_text(t, INDENTATION_SPOT, spot);
+    indentation_put(t, INDENTATION_X, curve->x);
+    indentation_put(t, INDENTATION_Y, curve->y);
+    indentation_put_text(t, INDENTATION_VERDICT, wt_curve_verdict_id(fit->verdict));
+    indentation_put_text(t, INDENTATION_REASON, fit->reason);
+    indentation_put(t, INDENTATION_MODULUS, fit->modulus.value);
+    indentation_put(t, INDENTATION_MODULUS_STANDARD_ERROR, fit->modulus.standard_error);
+    indentation_put(t, INDENTATION_CONTACT_POINT, fit->contact_point.value);
+    indentation_put(t, INDENTATION_CONTACT_POINT_STANDARD_ERROR, fit->contact_point.standard_error);
+    indentation_put(t, INDENTATION_BASELINE_OFFSET, fit->baseline_offset.value);
+    indentation_put(t, INDENTATION_BASELINE_TILT, fit->baseline_tilt.value);
+    indentation_put(t, INDENTATION_NOISE, fit->noise);
+    indentation_put(t, INDENTATION_LACK_OF_FIT, fit->lack_of_fit);
+    indentation_put(t, INDENTATION_LACK_OF_FIT_CHANCE, fit->lack_of_fit_chance);
+    indentation_put(t, INDENTATION_BASELINE_CHANCE, fit->baseline_chance);
+    indentation_put(t, INDENTATION_BEND_SHIFT, fit->bend_shift);
+    indentation_put(t, INDENTATION_MAX_FORCE, fit->max_force);
+    indentation_put(t, INDENTATION_MAX_INDENTATION, fit->max_indentation);
+    indentation_put(t, INDENTATION_ADHESION_FORCE, fit->adhesion_force);
+    indentation_put(t, INDENTATION_WORK_OF_ADHESION, fit->work_of_adhesion.value);
+    indentation_put(t, INDENTATION_WORK_OF_ADHESION_STANDARD_ERROR,
+                    fit->work_of_adhesion.standard_error);
+    indentation_put(t, INDENTATION_PULL_OFF_FORCE, fit->pull_off_force);
+    indentation_put(t, INDENTATION_PULL_OFF_WORK, fit->pull_off_work);
+    indentation_put(t, INDENTATION_TABOR_NUMBER, fit->tabor_number);
+    indentation_put(t, INDENTATION_LOSS, fit->loss);
+    indentation_put(t, INDENTATION_LOSS_BIAS, fit->loss_bias);
+    indentation_put(t, INDENTATION_PIEZO_RATE, rates ? fit->piezo_rate : unknown);
+    indentation_put(t, INDENTATION_RATE, rates ? fit->indentation_rate : unknown);
+    indentation_put(t, INDENTATION_LOAD_TIME, rates ? fit->load_time : unknown);
+    indentation_put(t, INDENTATION_SECOND_MINIMUM_RATIO, fit->second_minimum_ratio);
+    indentation_put(t, INDENTATION_SENSITIVITY_GAIN, fit->sensitivity_gain);
+    indentation_put(t, INDENTATION_EQUIVALENT_FREQUENCY, frequency);
+    indentation_put(t, INDENTATION_SPECTRUM_FACTOR, fit->spectrum_factor.value);
+    indentation_put(t, INDENTATION_SPECTRUM_FACTOR_STANDARD_ERROR,
+                    fit->spectrum_factor.standard_error);
 }

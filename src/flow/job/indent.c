@@ -11,6 +11,7 @@
 #include "fit/curve.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -35,7 +36,7 @@ typedef struct accepted {
     const flow_file *file;
     size_t curve, order;
     double misfit[WT_CURVE_WAVES];
-    double bend_shift; /* of the modulus */
+    double bend_shift, loss_bias; /* of the modulus */
 } accepted;
 
 typedef struct indent_task {
@@ -199,73 +200,15 @@ static wt_status keep_modulus(indent_task *task, const item *it, wt_error *err)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     task->moduli = moduli;
     task->moduli[task->n_moduli] =
-        (accepted){it->fit.modulus.value, task->file, it->curve.index,
-                   task->n_moduli,        {0},        it->fit.bend_shift / it->fit.modulus.value};
+        (accepted){.modulus = it->fit.modulus.value,
+                   .file = task->file,
+                   .curve = it->curve.index,
+                   .order = task->n_moduli,
+                   .bend_shift = it->fit.bend_shift / it->fit.modulus.value,
+                   .loss_bias = it->fit.loss_bias};
     memcpy(task->moduli[task->n_moduli].misfit, it->fit.misfit, sizeof it->fit.misfit);
     task->n_moduli++;
     return WT_OK;
-}
-
-/* What an elastic fit of rubber with loss returns is |E*| at 1/(loading time) where the contact
- * point is fitted, too. Where it is given: local exponent p of F ~ delta^p at the deepest point. */
-static double equivalent_frequency(const wt_indent_job *job, const wt_indent_fit *fit)
-{
-    const wt_tip *tip = &job->tip;
-    double g = (double)NAN, slope = (double)NAN;
-    if (!(fit->load_time > 0) || !(fit->max_indentation > 0))
-        return (double)NAN;
-    if (isnan(job->options.fixed_contact_point) || !isnan(fit->spectrum_factor.value))
-        return 1.0 / fit->load_time;
-    wt_contact_function(tip, fit->max_indentation, &g, &slope);
-    return wt_equivalent_frequency(fit->load_time, fit->max_indentation * slope / g);
-}
-
-static void put_item(indent_task *task, const item *it)
-{
-    const wt_indent_fit *fit = &it->fit;
-    const bool rates = task->job->rates;
-    const double unknown = (double)NAN;
-    const double frequency = rates ? equivalent_frequency(task->job, fit) : unknown;
-    table_writer *t = &task->rows;
-    table_row(t);
-    indentation_put_text(t, INDENTATION_FILE, task->file->name);
-    indentation_put(t, INDENTATION_CURVE, (double)it->curve.index);
-    indentation_put_text(t, INDENTATION_SPOT, task->spot);
-    indentation_put(t, INDENTATION_X, it->curve.x);
-    indentation_put(t, INDENTATION_Y, it->curve.y);
-    indentation_put_text(t, INDENTATION_VERDICT, wt_curve_verdict_id(fit->verdict));
-    indentation_put_text(t, INDENTATION_REASON, fit->reason);
-    indentation_put(t, INDENTATION_MODULUS, fit->modulus.value);
-    indentation_put(t, INDENTATION_MODULUS_STANDARD_ERROR, fit->modulus.standard_error);
-    indentation_put(t, INDENTATION_CONTACT_POINT, fit->contact_point.value);
-    indentation_put(t, INDENTATION_CONTACT_POINT_STANDARD_ERROR, fit->contact_point.standard_error);
-    indentation_put(t, INDENTATION_BASELINE_OFFSET, fit->baseline_offset.value);
-    indentation_put(t, INDENTATION_BASELINE_TILT, fit->baseline_tilt.value);
-    indentation_put(t, INDENTATION_NOISE, fit->noise);
-    indentation_put(t, INDENTATION_LACK_OF_FIT, fit->lack_of_fit);
-    indentation_put(t, INDENTATION_LACK_OF_FIT_CHANCE, fit->lack_of_fit_chance);
-    indentation_put(t, INDENTATION_BASELINE_CHANCE, fit->baseline_chance);
-    indentation_put(t, INDENTATION_BEND_SHIFT, fit->bend_shift);
-    indentation_put(t, INDENTATION_MAX_FORCE, fit->max_force);
-    indentation_put(t, INDENTATION_MAX_INDENTATION, fit->max_indentation);
-    indentation_put(t, INDENTATION_ADHESION_FORCE, fit->adhesion_force);
-    indentation_put(t, INDENTATION_WORK_OF_ADHESION, fit->work_of_adhesion.value);
-    indentation_put(t, INDENTATION_WORK_OF_ADHESION_STANDARD_ERROR,
-                    fit->work_of_adhesion.standard_error);
-    indentation_put(t, INDENTATION_PULL_OFF_FORCE, fit->pull_off_force);
-    indentation_put(t, INDENTATION_PULL_OFF_WORK, fit->pull_off_work);
-    indentation_put(t, INDENTATION_TABOR_NUMBER, fit->tabor_number);
-    indentation_put(t, INDENTATION_LOSS, fit->loss);
-    indentation_put(t, INDENTATION_LOSS_BIAS, fit->loss_bias);
-    indentation_put(t, INDENTATION_PIEZO_RATE, rates ? fit->piezo_rate : unknown);
-    indentation_put(t, INDENTATION_RATE, rates ? fit->indentation_rate : unknown);
-    indentation_put(t, INDENTATION_LOAD_TIME, rates ? fit->load_time : unknown);
-    indentation_put(t, INDENTATION_SECOND_MINIMUM_RATIO, fit->second_minimum_ratio);
-    indentation_put(t, INDENTATION_SENSITIVITY_GAIN, fit->sensitivity_gain);
-    indentation_put(t, INDENTATION_EQUIVALENT_FREQUENCY, frequency);
-    indentation_put(t, INDENTATION_SPECTRUM_FACTOR, fit->spectrum_factor.value);
-    indentation_put(t, INDENTATION_SPECTRUM_FACTOR_STANDARD_ERROR,
-                    fit->spectrum_factor.standard_error);
 }
 
 static wt_status write_item(indent_task *task, item *it, wt_error *err)
@@ -280,7 +223,8 @@ static wt_status write_item(indent_task *task, item *it, wt_error *err)
     if (status != WT_OK)
         return status;
     task->rows.err = err;
-    put_item(task, it);
+    flow_indentation_row(&task->rows, task->job, task->file->name, task->spot, &it->curve,
+                         &it->fit);
     task->n_curves++;
     status = keep_depth(task, it, err);
     if (status != WT_OK)
@@ -426,24 +370,42 @@ static wt_status add_representative(indent_task *task, wt_indent_tables *tables,
 
 /* ---- all curves together --------------------------------------------------------------------- */
 
-/* A bend that most baselines have is that of the piezo: it moves all moduli alike, and their
- * scatter does not show it. */
-static void warn_bend(const indent_task *task)
+/* Mean of what most moduli of the group are shifted by; 0 if not most are. */
+static double mean_shift(const indent_task *task, size_t member, size_t *n)
 {
     double sum = 0;
-    size_t n = 0;
-    for (size_t i = 0; i < task->n_moduli; i++)
-        if (fabs(task->moduli[i].bend_shift) > 0) {
-            sum += task->moduli[i].bend_shift;
-            n++;
+    *n = 0;
+    for (size_t i = 0; i < task->n_moduli; i++) {
+        const double shift = *(const double *)((const char *)&task->moduli[i] + member);
+        if (fabs(shift) > 0) {
+            sum += shift;
+            ++*n;
         }
-    if (2 * n > task->n_moduli)
+    }
+    return 2 * *n > task->n_moduli ? sum / (double)*n : 0;
+}
+
+/* What moves all moduli alike, so that their scatter does not show it: a bend of most baselines,
+ * which is that of the piezo, and loss whose spectrum is not known. */
+static void say_shifts(const indent_task *task)
+{
+    size_t n;
+    const double bend = mean_shift(task, offsetof(accepted, bend_shift), &n);
+    if (fabs(bend) > 0)
         wt_parselog_add(
             task->work->log, WT_WARNING, NULL, NULL,
             "%s: the baseline of %zu of %zu accepted curves is bent; a piezo that goes on "
             "so in contact changes these moduli by %+.2g %% in the mean, which their "
             "scatter does not show",
-            task->job->group, n, task->n_moduli, 100 * sum / (double)n);
+            task->job->group, n, task->n_moduli, 100 * bend);
+    const double loss = mean_shift(task, offsetof(accepted, loss_bias), &n);
+    if (fabs(loss) >= 0.01)
+        wt_parselog_add(
+            task->work->log, WT_NOTE, NULL, NULL,
+            "%s: %zu of %zu accepted curves lose work on the way out; without the DMA of the "
+            "rubber their moduli are |E*| at 1/(loading time), by what the loss tells about "
+            "%.1g %% too %s in the mean",
+            task->job->group, n, task->n_moduli, 100 * fabs(loss), loss > 0 ? "high" : "low");
 }
 
 /* Tests the mean residual of the accepted curves. */
@@ -605,7 +567,7 @@ wt_status wt_indent_group(const wt_indent_job *job, const wt_job *work, wt_inden
     }
     task.rows.err = err; /* that of the last row was the error of its file */
     set_keys(&task, &files);
-    warn_bend(&task);
+    say_shifts(&task);
     status = pool_curves(&task, err);
     if (status == WT_OK)
         status = add_depths(&task, tables, err);
