@@ -108,14 +108,15 @@ static void start_sums(angular_panels *a)
         double *sum = a->below[f];
         for (size_t part = f == 0 ? 1 : 0; part < 2; part++) {
             const double times = f == 0 ? 1 : 2;
-            const double slope = times * (e[1][part] - e[0][part]) / step;
+            /* of a part that is all rounding it may be anything */
+            const double slope = fmax(times * (e[1][part] - e[0][part]) / step, -0.5);
             const double other = times * (e[2][part] - e[1][part]) / step;
             const double height = exp(times * e[0][part]);
             if (!(height > 0) || !isfinite(slope))
                 continue;
             for (size_t m = 0; m < a->terms; m++)
                 sum[m] += height / ((double)(2 * m) + power_of[f] + slope);
-            a->start_error[f] += sum[0] * fabs(other - slope);
+            a->start_error[f] += sum[0] * fmin(fabs(other - slope), 1);
         }
     }
 }

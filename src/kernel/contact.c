@@ -13,9 +13,15 @@ double contact_area(double variance)
     return variance > CONTACT_FULL ? erf(0.5 / sqrt(variance)) : 1;
 }
 
+/* erfc falls so steeply that the rounding of its argument y counts: y^2 G = 1/4 tells it. */
 double contact_gap(double variance)
 {
-    return variance > 0 ? erfc(0.5 / sqrt(variance)) : 0;
+    const double y = variance > 0 ? 0.5 / sqrt(variance) : (double)INFINITY;
+    if (y > 27) /* erfc is 0 in double precision */
+        return 0;
+    const double square = y * y, rest = fma(y, y, -square) * variance;
+    const double missing = (fma(-square, variance, 0.25) - rest) / (2 * y * variance);
+    return erfc(y) - M_2_SQRTPI * exp(-square) * missing;
 }
 
 /* int_0^G P^3 dG = int_y^inf erf(u)^3 / (2 u^3) du with y = 1 / (2 sqrt G): erf is 1 beyond u = 6,

@@ -188,6 +188,7 @@ wt_status friction_prepare(wt_friction_workspace *ws, double pressure, const dou
     const wt_material *material = ws->material;
     if (n == 0 || material->law->angular)
         return WT_OK;
+    wt_status status = WT_OK;
     const double lowest = slowest * ws->roughness->q0;
     const double highest = fastest * ws->roughness->q1;
     if (!(lowest >= LEAST_FREQUENCY && highest <= DBL_MAX)) {
@@ -197,9 +198,8 @@ wt_status friction_prepare(wt_friction_workspace *ws, double pressure, const dou
                         material->law->name);
         return WT_E_RANGE;
     }
-    const wt_status status = material->law->check != NULL
-                                 ? material->law->check(material, lowest, highest, NULL, err)
-                                 : WT_OK;
+    if (material->law->check != NULL)
+        status = material->law->check(material, lowest, highest, NULL, err);
     return status == WT_OK ? angular_cover(ws->angular, lowest, highest, err) : status;
 }
 

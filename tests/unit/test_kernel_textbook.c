@@ -2,7 +2,7 @@
 #include "near.h"
 
 #include "flow/accuracy/textbook.c"
-#include "friction_cases.h"
+#include "numeric/friction_scene.h"
 #include "weartrack/kernel.h"
 
 static void kernel_against_textbook(void **state)

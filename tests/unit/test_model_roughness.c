@@ -1,7 +1,7 @@
 /* Power spectra: densities, root-mean-square height and slope, what is refused. */
 #include "near.h"
 
-#include "friction_cases.h"
+#include "numeric/friction_scene.h"
 
 #include <float.h>
 
