@@ -319,8 +319,9 @@ typedef struct wt_provenance_input {
     const char *role;   /* "bulk", "track", "dma", "case", ... */
     const char *format; /* id of the reader or description, with its version */
     uint64_t bytes;
-    char sha256[65];
-    uint64_t reserved[8];
+    char sha256[65];      /* "": not asked for */
+    uint64_t fingerprint; /* of the bytes: those of copies are equal; 0 = not known */
+    uint64_t reserved[7];
 } wt_provenance_input;
 
 typedef struct wt_provenance wt_provenance;

@@ -19,6 +19,16 @@ extern "C" {
 
 /* ---- what all jobs share --------------------------------------------------------------------- */
 
+/* What a job can give besides its main table. */
+typedef enum wt_extra {
+    WT_EXTRA_SHARE = 1,         /* of friction: the extrapolated share, else NaN */
+    WT_EXTRA_MODULUS_DEPTH = 2, /* of the curves: the table modulus_depth */
+    WT_EXTRA_DRAWS = 4,         /* of the isotherms: what is not known of the material, as
+                                   material_draws and series_draws and for the replicates */
+    WT_EXTRA_DIGESTS = 8,       /* SHA-256 of the files read, else "" */
+    WT_EXTRAS = 15
+} wt_extra;
+
 typedef struct wt_job {
     const wt_formats *formats; /* borrowed; needed by jobs that read files */
     unsigned threads;          /* 0 = one per processor; never changes a result */
@@ -27,10 +37,11 @@ typedef struct wt_job {
     size_t replicates;         /* for standard errors; default 64, 0 = no standard errors */
     wt_progress progress;
     wt_parselog *log;          /* borrowed, may be NULL */
-    wt_provenance *provenance; /* every file read is added with its digest; may be NULL */
+    wt_provenance *provenance; /* every file read is added; may be NULL */
     wt_table *failures;        /* of wt_failures_new: a file or curve that fails gets a row and the
                                   work goes on; NULL: the first one that fails ends the job */
-    uint64_t reserved[8];
+    unsigned left_out;         /* of wt_extra: not asked for, so not made; default 0 */
+    uint64_t reserved[7];
 } wt_job;
 WT_API wt_job wt_job_defaults(void);
 WT_API const wt_params *wt_job_params(void);
@@ -350,7 +361,7 @@ typedef struct wt_layer_known {
 WT_API const wt_params *wt_layer_known_params(void);
 
 typedef struct wt_friction_tables {
-    wt_table *friction, *contact_area;
+    wt_table *friction;
     size_t n_points;           /* velocities times replicates computed */
     double tolerance_asked;    /* relative */
     double error_reached;      /* largest relative numerical error of the hysteresis friction */
@@ -366,6 +377,11 @@ WT_API void wt_friction_tables_clear(wt_friction_tables *tables);
 WT_API wt_status wt_friction_make(const wt_sliding *sliding, const wt_layer_known *layer,
                                   const wt_job *work, wt_friction_tables *tables,
                                   wt_error *err) WT_NODISCARD;
+
+/* Table "contact_area": contact area and friction against magnification at the slowest, the
+ * reference and the fastest velocity. */
+WT_API wt_status wt_contact_area_table(const wt_sliding *sliding, const wt_job *work,
+                                       wt_table **table, wt_error *err) WT_NODISCARD;
 
 /* ---- modified layer -------------------------------------------------------------------------- */
 
@@ -391,7 +407,7 @@ WT_API const wt_params *wt_layer_job_params(void);
 WT_API wt_status wt_layer_job_check(const wt_layer_job *job, wt_error *err) WT_NODISCARD;
 
 typedef struct wt_layer_tables {
-    wt_table *layer, *energy_density;
+    wt_table *layer;
     wt_estimate thickness; /* at balance [m]; infinity without wear */
     wt_layer_balance balance;
 } wt_layer_tables;
@@ -402,6 +418,11 @@ WT_API void wt_layer_tables_clear(wt_layer_tables *tables);
 WT_API wt_status wt_layer_make(const wt_sliding *sliding, const wt_layer_job *job,
                                const wt_job *work, wt_layer_tables *tables,
                                wt_error *err) WT_NODISCARD;
+
+/* Table "energy_density": the energy density against depth at the velocity of the layer. */
+WT_API wt_status wt_energy_density_table(const wt_sliding *sliding, const wt_layer_job *job,
+                                         const wt_job *work, wt_table **table,
+                                         wt_error *err) WT_NODISCARD;
 
 /* ---- what if ----------------------------------------------------------------------------------
  */
@@ -465,7 +486,7 @@ typedef struct wt_run_options {
     uint64_t seed;       /* of the draws */
     size_t replicates;   /* of the draws; default 64 */
     wt_progress progress;
-    bool no_timing; /* leave the times of "cost" NaN: two runs then give the same result */
+    bool no_provenance; /* no times in "cost", no digests in "inputs" */
     uint64_t reserved[8];
 } wt_run_options;
 WT_API wt_run_options wt_run_defaults(void);

@@ -81,6 +81,7 @@ typedef struct wt_read_options {
     const char *const *units; /* "NAME=UNIT" for columns of files that carry no units */
     size_t n_units;
     bool any_temperature; /* a sweep without a temperature is read, as NaN */
+    bool one_height;      /* of the heights wanted only that of a sensor, where there is one */
     uint64_t reserved[7];
 } wt_read_options;
 WT_API wt_read_options wt_read_defaults(void); /* everything, nothing replaced */

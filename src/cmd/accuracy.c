@@ -31,7 +31,7 @@ static wt_status budget_of_case(cmd_session *s, wt_run_options *run)
         status = wt_case_ask(c, "error_budget", &s->err);
     run->formats = s->common.formats;
     run->progress = cmd_progress_start(s);
-    run->no_timing = !s->common.provenance;
+    run->no_provenance = !s->common.provenance;
     if (status == WT_OK)
         status = wt_run(c, run, s->log, &s->result, &n_failed, &s->err);
     cmd_progress_end(s);

@@ -26,7 +26,7 @@ static const wt_param common_rows[] = {
          "files to read, besides those named in the call: their names, a line each or parted by "
          "zero bytes; - is standard input"},
     {PARAM_FLAG_OF("provenance", cmd_common, provenance),
-     .help = "version, command line and times in what is written"},
+     .help = "version, command line, digests and times in what is written"},
     {PARAM_FLAG_OF("quiet", cmd_common, quiet), .letter = 'q',
      .help = "no progress and no warnings on standard error; errors are printed all the same"},
     {PARAM_FLAG_OF("strict", cmd_common, strict),

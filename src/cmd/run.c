@@ -97,7 +97,7 @@ static wt_status compute(run_call *r, size_t *n_failed)
 {
     cmd_session *s = &r->s;
     r->run.progress = cmd_progress_start(s);
-    r->run.no_timing = !s->common.provenance;
+    r->run.no_provenance = !s->common.provenance;
     r->run.formats = s->common.formats;
     wt_status status = wt_run(r->the_case, &r->run, s->log, &s->result, n_failed, &s->err);
     cmd_progress_end(s);

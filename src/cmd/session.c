@@ -21,6 +21,7 @@ bool cmd_begin(cmd_session *s)
         return cmd_fail(s);
     s->work.log = s->log;
     s->work.provenance = wt_result_provenance(s->result);
+    s->work.left_out = s->common.provenance ? 0 : WT_EXTRA_DIGESTS;
     s->work.progress = cmd_progress_start(s);
     return true;
 }

@@ -218,6 +218,18 @@ static wt_status plan_column(const wt_force_source *source, const force_facts *f
     return WT_OK;
 }
 
+static bool is_wanted(const wt_read_options *options, const force_facts *facts,
+                      wt_quantity quantity)
+{
+    if ((options->want & WT_Q_BIT(quantity)) == 0)
+        return false;
+    if (!options->one_height || quantity != WT_Q_HEIGHT)
+        return true;
+    const force_signal *sensor = force_find_signal(facts, WT_Q_MEASURED_HEIGHT);
+    return (options->want & WT_Q_BIT(WT_Q_MEASURED_HEIGHT)) == 0 || sensor == NULL ||
+           sensor->problem != NULL;
+}
+
 wt_status force_add_segment(wt_force_source *source, const force_facts *facts,
                             wt_force_curve *curve, wt_error *err)
 {
@@ -231,7 +243,7 @@ wt_status force_add_segment(wt_force_source *source, const force_facts *facts,
     if (n == 0)
         return WT_OK;
     for (size_t i = 0; i < facts->n_offers && status == WT_OK; i++)
-        if ((source->options.want & WT_Q_BIT(facts->offers[i])) != 0)
+        if (is_wanted(&source->options, facts, facts->offers[i]))
             status = plan_column(source, facts, facts->offers[i], &plan, err);
     if (status != WT_OK)
         return status;

@@ -30,7 +30,7 @@
 FIXED(wt_error, advice, 1316, 1572)
 FIXED(wt_log_entry, count, 32, 40)
 FIXED(wt_estimate, unit, 24, 32)
-ROOM(wt_provenance_input, sha256, 32, 168)
+ROOM(wt_provenance_input, fingerprint, 104, 168)
 FIXED(wt_progress, user, 8, 16)
 LAST(wt_status, WT_E_INTERNAL, 19)
 LAST(wt_severity, WT_LOSS, 2)
@@ -54,7 +54,7 @@ LAST(wt_export_form, WT_EXPORT_STREAM, 3)
 
 /* read.h */
 FIXED(wt_format_info, version, 32, 40)
-ROOM(wt_read_options, any_temperature, 64, 128)
+ROOM(wt_read_options, one_height, 65, 128)
 
 /* model.h */
 ROOM(wt_tip, transition_radius, 24, 96)
@@ -102,7 +102,8 @@ LAST(wt_depth_profile, WT_PROFILE_INCOMPRESSIBLE, 1)
 LAST(wt_layer_regime, WT_LAYER_THICK, 2)
 
 /* flow.h */
-ROOM(wt_job, failures, 72, 144)
+ROOM(wt_job, left_out, 80, 144)
+LAST(wt_extra, WT_EXTRA_DIGESTS, 8)
 ROOM(wt_file_set, spot, 152, 224)
 ROOM(wt_convert_job, read, 8, 200)
 ROOM(wt_indent_job, temperature, 288, 344)
@@ -125,10 +126,10 @@ ROOM(wt_surface, spectrum, 72, 232)
 ROOM(wt_sliding, reference_velocity, 136, 208)
 ROOM(wt_layer_known, bulk_shear, 72, 128)
 ROOM(wt_accuracy_job, repeats, 8, 80)
-FIXED(wt_friction_tables, extrapolated_share, 40, 48)
+FIXED(wt_friction_tables, extrapolated_share, 32, 40)
 ROOM(wt_layer_job, n_time, 144, 216)
-FIXED(wt_layer_tables, balance, 48, 232)
-ROOM(wt_run_options, no_timing, 56, 128)
+FIXED(wt_layer_tables, balance, 40, 224)
+ROOM(wt_run_options, no_provenance, 56, 128)
 
 /* report.h */
 ROOM(wt_report_options, with_provenance, 16, 88)

@@ -403,7 +403,7 @@ static char *run_case(const char *xml, size_t *length)
     size_t n_failed = 0;
     wt_run_options options = wt_run_defaults();
     options.replicates = 2;
-    options.no_timing = true;
+    options.no_provenance = true;
     char *bytes = NULL;
     FILE *out = open_memstream(&bytes, length);
     assert_non_null(out);

@@ -92,15 +92,18 @@ static void test_what_runs(void **state)
     check_plan(HEAD "<indentation>" TIP BULK TRACK "</indentation><compare/></case>",
                "indentation_bulk indentation_track groups ");
     check_plan(HEAD DMA "</case>", "master_curve ");
-    check_plan(HEAD PRONY ROAD SLIDE "</case>", "given_material roughness friction what_if ");
-    check_plan(HEAD PRONY ROAD SLIDE LAYER "</case>",
-               "given_material roughness layer friction what_if_layer ");
+    check_plan(HEAD PRONY ROAD SLIDE "</case>",
+               "given_material roughness friction contact_area what_if ");
+    check_plan(
+        HEAD PRONY ROAD SLIDE LAYER "</case>",
+        "given_material roughness layer energy_density friction contact_area what_if_layer ");
     check_plan(HEAD "<indentation>" TIP BULK "</indentation>" DMA "</case>",
                "master_curve indentation_bulk_with_material bulk_alone dma_comparison_bulk ");
     check_plan(HEAD "<indentation>" TIP BULK TRACK "</indentation>" DMA ROAD SLIDE LAYER "</case>",
                "master_curve indentation_bulk_with_material indentation_track_with_material "
                "comparison_with_material "
-               "dma_comparison roughness layer friction_with_layer what_if_with_layer ");
+               "dma_comparison roughness layer energy_density friction_with_layer "
+               "contact_area what_if_with_layer ");
 }
 
 /* What is asked for decides: nothing else runs, and nothing else is read. */
@@ -114,12 +117,20 @@ static void test_what_is_asked(void **state)
     check_plan(ALL "<report><result>roughness</result></report></case>", "roughness ");
     check_plan(ALL "<report><result>indentation/track</result></report></case>",
                "master_curve indentation_track_with_material ");
+    check_plan(ALL "<report><result>energy_density</result></report></case>",
+               "master_curve roughness energy_density ");
+    check_plan(ALL "<report><result>contact_area</result></report></case>",
+               "master_curve roughness contact_area ");
+    check_plan(ALL "<report><result>modulus_groups</result></report></case>",
+               "master_curve indentation_bulk_with_material indentation_track_with_material "
+               "groups ");
     check_plan(ALL "<report><result>cost</result></report></case>", "");
     check_plan(ALL "<report><figure>power_spectrum</figure></report></case>", "roughness ");
     check_plan(ALL "<compare><track-to-bulk/></compare></case>",
                "master_curve indentation_bulk_with_material indentation_track_with_material "
                "comparison_with_material "
-               "roughness layer friction_with_layer what_if_with_layer ");
+               "roughness layer energy_density friction_with_layer contact_area "
+               "what_if_with_layer ");
     check_plan(ALL "<report><result>friction</result></report></case>",
                "master_curve indentation_bulk_with_material indentation_track_with_material "
                "comparison_with_material "
@@ -127,7 +138,7 @@ static void test_what_is_asked(void **state)
     check_plan(ALL "<report><figure>what_if</figure></report></case>",
                "master_curve indentation_bulk_with_material indentation_track_with_material "
                "comparison_with_material "
-               "roughness layer friction_with_layer what_if_with_layer ");
+               "roughness what_if_with_layer ");
 }
 
 static void test_reasons(void **state)

@@ -27,7 +27,6 @@ static wt_table *friction_of(const wt_rubber *rubber, wt_estimate pressure)
     work.replicates = 8;
     if (wt_friction_make(&sliding, NULL, &work, &tables, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
-    wt_table_free(tables.contact_area);
     return tables.friction;
 }
 

@@ -239,7 +239,7 @@ static wt_status run_case(FILE **out, wt_error *err)
     options.threads = 1;
     options.replicates = 2;
     options.tolerance = 1e-3;
-    options.no_timing = true;
+    options.no_provenance = true;
     wt_status status = wt_case_read(text, &c, err);
     if (status == WT_OK)
         status = wt_plan(c, &plan, err);

@@ -38,6 +38,8 @@
       HEADLINE("Layer thickness at balance, by choice of model"), OPTIONAL)                        \
     X(WHAT_IF_KEY_WITH_LAYER, "friction_with_layer_what_if", TEXT,                                 \
       HEADLINE("Friction coefficient with layer, by choice of model"), OPTIONAL)                   \
-    X(WHAT_IF_KEY_LEFT_OUT, "left_out", TEXT, LABEL("Choices that do not apply"), OPTIONAL)
+    X(WHAT_IF_KEY_LEFT_OUT, "left_out", TEXT, LABEL("Choices that do not apply"), OPTIONAL)        \
+    X(WHAT_IF_KEY_MATERIAL_STATEMENT, "material_statement", TEXT, OPTIONAL)                        \
+    X(WHAT_IF_KEY_EXTRAPOLATED_SHARE, "extrapolated_share", NUMBER, OPTIONAL)
 
 #endif

@@ -10,15 +10,8 @@
 /* A share of the friction below this is not worth a remark. */
 static const double odd_share = 0.01;
 
-static void of_friction(const table_view *v, wt_parselog *log)
+static void of_material(double share, const char *statement, wt_parselog *log)
 {
-    double share = 0;
-    const char *statement = friction_words(v, FRICTION_KEY_MATERIAL_STATEMENT);
-    const char *numerical = friction_words(v, FRICTION_KEY_NUMERICAL_STATEMENT);
-    for (size_t i = 0; i < v->n_rows; i++)
-        share = fmax(share, friction_get(v, i, FRICTION_EXTRAPOLATED_SHARE));
-    if (numerical != NULL)
-        wt_parselog_add(log, WT_WARNING, NULL, NULL, "friction: %s", numerical);
     if (share >= odd_share)
         wt_parselog_add(log, WT_WARNING, NULL, NULL,
                         "friction: up to %.0f %% of the hysteresis comes from frequencies outside "
@@ -26,6 +19,17 @@ static void of_friction(const table_view *v, wt_parselog *log)
                         100 * share);
     if (statement != NULL)
         wt_parselog_add(log, WT_WARNING, NULL, NULL, "friction: %s", statement);
+}
+
+static void of_friction(const table_view *v, wt_parselog *log)
+{
+    double share = 0;
+    const char *numerical = friction_words(v, FRICTION_KEY_NUMERICAL_STATEMENT);
+    for (size_t i = 0; i < v->n_rows; i++)
+        share = fmax(share, friction_get(v, i, FRICTION_EXTRAPOLATED_SHARE));
+    if (numerical != NULL)
+        wt_parselog_add(log, WT_WARNING, NULL, NULL, "friction: %s", numerical);
+    of_material(share, friction_words(v, FRICTION_KEY_MATERIAL_STATEMENT), log);
 }
 
 static void of_comparison(const table_view *v, wt_parselog *log)
@@ -70,6 +74,9 @@ void wt_result_remarks(const wt_result *result, wt_parselog *log)
     table_view view;
     if (table_bind_of(result, &friction_schema, "", &view, NULL) == WT_OK)
         of_friction(&view, log);
+    else if (table_bind_of(result, &what_if_schema, "", &view, NULL) == WT_OK)
+        of_material(what_if_value(&view, WHAT_IF_KEY_EXTRAPOLATED_SHARE).value,
+                    what_if_words(&view, WHAT_IF_KEY_MATERIAL_STATEMENT), log);
     if (table_bind_of(result, &dma_comparison_schema, "", &view, NULL) == WT_OK)
         of_comparison(&view, log);
     if (table_bind_of(result, &layer_schema, "", &view, NULL) == WT_OK)

@@ -322,6 +322,7 @@ wt_status wt_error_budget_make(const wt_sliding *sliding, const wt_layer_job *la
         return wt_fail(err, WT_E_ARG, "no error budget to make");
     budget b = {.work = *work};
     table_view moved = {0};
+    b.work.left_out = WT_EXTRAS;
     b.work.log = NULL; /* what is to be said of these numbers has been said */
     b.work.progress = (wt_progress){0};
     wt_status status = setting_make(sliding, layer, known, work, &b.setting, err);

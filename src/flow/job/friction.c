@@ -12,15 +12,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What one replicate gives at the velocities (the reference one is the last). */
+/* What one replicate gives at the velocities. */
 enum { HYSTERESIS, AREA, TOTAL, LAYERED, CHANGE, RELATIVE, N_KINDS };
 
 typedef struct friction_task {
     const wt_sliding *sliding;
     const wt_layer_known *layer; /* NULL = none */
     const wt_job *work;
-    size_t n;                  /* velocities + 1 */
-    double *velocity;          /* [n] */
+    size_t n;                  /* velocities, and the reference if it is not the only one */
+    double *velocity;          /* [n] the reference is the last */
     double *centre;            /* [N_KINDS * n] */
     double worst;              /* relative numerical error where the tolerance is not reached */
     double numerical[2];       /* of the total friction at the reference: without, with the layer */
@@ -124,7 +124,7 @@ static void add_rows(friction_task *task, table_writer *t)
 {
     const wt_sliding *s = task->sliding;
     const wt_estimate shear = {s->shear_stress.value, 0, 0, "Pa"};
-    for (size_t i = 0; i + 1 < task->n; i++) {
+    for (size_t i = 0; i < s->n_velocity; i++) {
         const wt_friction_point *p = &task->points[i];
         wt_estimate hysteresis = {p->hysteresis.value, 0, p->hysteresis.numerical_error, "1"};
         wt_estimate area = {p->area_ratio.value, 0, p->area_ratio.numerical_error, "1"};
@@ -224,54 +224,12 @@ static wt_status friction_table(friction_task *task, const char *statement, wt_t
     return table_end(&t, out);
 }
 
-#define POINTS_PER_DECADE 20
-
-static void add_area_block(const sliding_contact *c, double velocity, const double *q, size_t n,
-                           wt_friction_node *nodes, table_writer *t)
-{
-    if (t->status == WT_OK)
-        t->status = wt_friction_profile(c->workspace, c->pressure, velocity, q, n, nodes, t->err);
-    table_block(t);
-    for (size_t i = 0; t->status == WT_OK && i < n; i++) {
-        table_row(t);
-        contact_area_put(t, CONTACT_AREA_VELOCITY, velocity);
-        contact_area_put(t, CONTACT_AREA_MAGNIFICATION, q[i] / c->roughness->q0);
-        contact_area_put(t, CONTACT_AREA_WAVENUMBER, q[i]);
-        contact_area_put(t, CONTACT_AREA_AREA_RATIO, nodes[i].area_ratio);
-        contact_area_put(t, CONTACT_AREA_HYSTERESIS, nodes[i].hysteresis);
-    }
-}
-
-/* Contact area against magnification at the slowest, the reference and the fastest velocity. */
-static wt_status area_table(friction_task *task, const sliding_contact *c, wt_table **out,
-                            wt_error *err)
-{
-    double first = task->velocity[0], last = task->velocity[task->n - 2],
-           middle = task->velocity[task->n - 1];
-    double decades = log10(c->roughness->q1 / c->roughness->q0);
-    size_t n = 2 + (size_t)ceil(decades * POINTS_PER_DECADE);
-    double *q = malloc(n * sizeof *q);
-    wt_friction_node *nodes = malloc(n * sizeof *nodes);
-    table_writer t = table_begin(&contact_area_schema, err);
-    if (q == NULL || nodes == NULL) {
-        t.status = wt_fail(err, WT_E_MEMORY, "out of memory");
-        goto done;
-    }
-    for (size_t i = 0; i < n; i++)
-        q[i] = c->roughness->q0 * pow(10, decades * (double)i / (double)(n - 1));
-    q[n - 1] = c->roughness->q1;
-    add_area_block(c, first, q, n, nodes, &t);
-    if (middle > first && middle < last)
-        add_area_block(c, middle, q, n, nodes, &t);
-    if (last > first)
-        add_area_block(c, last, q, n, nodes, &t);
-done:
-    free(q);
-    free(nodes);
-    return table_end(&t, out);
-}
-
 /* ---- the job --------------------------------------------------------------------------------- */
+
+static bool is_reference_alone(const wt_sliding *sliding)
+{
+    return sliding->n_velocity == 1 && sliding->velocity[0] == flow_reference_velocity(sliding);
+}
 
 static wt_status allocate(friction_task *task, wt_error *err)
 {
@@ -280,7 +238,8 @@ static wt_status allocate(friction_task *task, wt_error *err)
     task->points = malloc(task->n * sizeof *task->points);
     if (task->velocity == NULL || task->centre == NULL || task->points == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    memcpy(task->velocity, task->sliding->velocity, (task->n - 1) * sizeof *task->velocity);
+    memcpy(task->velocity, task->sliding->velocity,
+           task->sliding->n_velocity * sizeof *task->velocity);
     task->velocity[task->n - 1] = flow_reference_velocity(task->sliding);
     return WT_OK;
 }
@@ -416,7 +375,7 @@ wt_status wt_friction_make(const wt_sliding *sliding, const wt_layer_known *laye
     friction_task task = {.sliding = sliding,
                           .layer = layer,
                           .work = work,
-                          .n = sliding->n_velocity + 1,
+                          .n = sliding->n_velocity + !is_reference_alone(sliding),
                           .replicates = replicates_of(sliding, work, "friction")};
     wt_friction_tables t = {.tolerance_asked = work->tolerance};
     sliding_contact c = {0};
@@ -427,8 +386,6 @@ wt_status wt_friction_make(const wt_sliding *sliding, const wt_layer_known *laye
         status = draw_replicates(&task, err);
     if (status == WT_OK)
         status = friction_table(&task, c.statement, &t.friction, err);
-    if (status == WT_OK)
-        status = area_table(&task, &c, &t.contact_area, err);
     if (status == WT_OK) {
         summarise(&task, &t);
         *tables = t;
@@ -445,6 +402,5 @@ void wt_friction_tables_clear(wt_friction_tables *tables)
     if (tables == NULL)
         return;
     wt_table_free(tables->friction);
-    wt_table_free(tables->contact_area);
     *tables = (wt_friction_tables){0};
 }

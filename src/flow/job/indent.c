@@ -111,12 +111,15 @@ static const wt_param rows[] = {
 PARAM_TABLE(wt_indent_job_params, wt_indent_job, rows, wt_indent_job_defaults,
             PARAM_PART(wt_indent_params, wt_indent_job, options))
 
-static wt_quantity_set wanted_channels(bool rates)
+/* What the fit uses, and nothing else. */
+static wt_read_options wanted_channels(const flow_file *file, bool time)
 {
-    wt_quantity_set want = WT_Q_BIT(WT_Q_HEIGHT) | WT_Q_BIT(WT_Q_MEASURED_HEIGHT) |
-                           WT_Q_BIT(WT_Q_FORCE) | WT_Q_BIT(WT_Q_DEFLECTION) |
-                           WT_Q_BIT(WT_Q_DEFLECTION_VOLTAGE);
-    return rates ? want | WT_Q_BIT(WT_Q_TIME) : want;
+    wt_read_options options = file->read;
+    options.want &= WT_Q_BIT(WT_Q_HEIGHT) | WT_Q_BIT(WT_Q_MEASURED_HEIGHT) | WT_Q_BIT(WT_Q_FORCE) |
+                    (time ? WT_Q_BIT(WT_Q_TIME) : 0);
+    options.one_height = true;
+    options.segments &= WT_SEGMENT_BIT(WT_SEGMENT_APPROACH) | WT_SEGMENT_BIT(WT_SEGMENT_RETRACT);
+    return options;
 }
 
 /* ---- failures of curves ---------------------------------------------------------------------- */
@@ -172,6 +175,8 @@ static void mark_unreadable(wt_indent_fit *fit, const wt_error *error)
 static wt_status keep_depth(indent_task *task, const item *it, wt_error *err)
 {
     const wt_indent_fit *fit = &it->fit;
+    if ((task->work->left_out & WT_EXTRA_MODULUS_DEPTH) != 0)
+        return WT_OK;
     if ((fit->verdict != WT_CURVE_ACCEPTED && fit->verdict != WT_CURVE_POOR_FIT) ||
         !isnan(fit->work_of_adhesion.value) || !(fit->fitted_modulus > 0) || isnan(fit->misfit[0]))
         return WT_OK;
@@ -270,9 +275,8 @@ static wt_status read_file(indent_task *task, wt_error *err)
     size_t samples = 0;
     wt_status status =
         flow_open(task->work, task->file, task->job->group, WT_KIND_FORCE, &input, err);
-    wt_read_options options = task->file->read;
-    options.want &= wanted_channels(task->job->rates || task->options.spectrum != NULL);
-    options.segments &= WT_SEGMENT_BIT(WT_SEGMENT_APPROACH) | WT_SEGMENT_BIT(WT_SEGMENT_RETRACT);
+    const wt_read_options options =
+        wanted_channels(task->file, task->job->rates || task->options.spectrum != NULL);
     if (status == WT_OK)
         status = wt_force_open(task->work->formats, input, &options, task->work->log, &source, err);
     if (status != WT_OK)
@@ -340,9 +344,7 @@ static wt_status add_representative(indent_task *task, wt_indent_tables *tables,
     wt_input *input = NULL;
     wt_force_source *source = NULL;
     wt_force_curve *curve = &task->items[0].curve;
-    wt_read_options options = file->read;
-    options.want &= wanted_channels(task->options.spectrum != NULL);
-    options.segments &= WT_SEGMENT_BIT(WT_SEGMENT_APPROACH) | WT_SEGMENT_BIT(WT_SEGMENT_RETRACT);
+    const wt_read_options options = wanted_channels(file, task->options.spectrum != NULL);
     wt_status status = wt_input_open(file->path, &input, err);
     if (status == WT_OK)
         status = wt_force_open(task->work->formats, input, &options, NULL, &source, err);

@@ -3,6 +3,7 @@
 #include "flow/job/inputs.h"
 
 #include "base/array.h"
+#include "base/mix.h"
 #include "data/tables/tables.h"
 
 #include <search.h>
@@ -185,7 +186,9 @@ static wt_status add_provenance(const wt_job *work, wt_input *input, const flow_
     snprintf(format, sizeof format, "%s %s", info->id, info->version != NULL ? info->version : "");
     wt_provenance_input record = {
         .path = file->name, .role = role, .format = format, .bytes = length};
-    wt_digest(bytes, length, record.sha256);
+    record.fingerprint = mix_bytes(bytes, length);
+    if ((work->left_out & WT_EXTRA_DIGESTS) == 0)
+        wt_digest(bytes, length, record.sha256);
     status = wt_provenance_add_input(work->provenance, &record);
     return status == WT_OK ? WT_OK : wt_fail(err, status, "cannot keep the list of inputs");
 }

@@ -85,7 +85,6 @@ void wt_layer_tables_clear(wt_layer_tables *tables)
     if (tables == NULL)
         return;
     wt_table_free(tables->layer);
-    wt_table_free(tables->energy_density);
     *tables = (wt_layer_tables){0};
 }
 
@@ -136,7 +135,9 @@ static wt_status find_balance(const layer_task *task, size_t replicate, layer_ru
     const wt_layer_job *job = task->job;
     const uint64_t seed = task->work->seed;
     sliding_contact c = {0};
-    wt_status status = sliding_contact_make(task->sliding, task->work, replicate, none, &c, err);
+    wt_job work = *task->work;
+    work.left_out |= WT_EXTRA_SHARE;
+    wt_status status = sliding_contact_make(task->sliding, &work, replicate, none, &c, err);
     if (status == WT_OK)
         status =
             wt_energy_source_friction(c.workspace, c.pressure, task->velocity, &run->source, err);
@@ -337,29 +338,6 @@ static wt_status layer_table(const layer_task *task, const layer_run *run, wt_ta
     return table_end(&t, out);
 }
 
-#define DEPTHS 121
-
-static wt_status energy_table(const layer_task *task, const wt_energy_source *source,
-                              wt_table **out, wt_error *err)
-{
-    double q_min = source->wavenumber[0], q_max = source->wavenumber[0];
-    for (size_t i = 1; i < source->n; i++) {
-        q_min = fmin(q_min, source->wavenumber[i]);
-        q_max = fmax(q_max, source->wavenumber[i]);
-    }
-    /* from a tenth of the shortest wave to where the longest one has died out */
-    double first = 0.1 / q_max, last = 3 / q_min;
-    table_writer t = table_begin(&energy_density_schema, err);
-    for (size_t i = 0; i < DEPTHS; i++) {
-        double depth = first * pow(last / first, (double)i / (DEPTHS - 1));
-        table_row(&t);
-        energy_density_put(&t, ENERGY_DENSITY_DEPTH, depth);
-        energy_density_put(&t, ENERGY_DENSITY_POWER, wt_energy_density(source, depth));
-    }
-    energy_density_set_value(&t, ENERGY_DENSITY_KEY_VELOCITY, task->velocity, 0, 0);
-    return table_end(&t, out);
-}
-
 /* ---- the job --------------------------------------------------------------------------------- */
 
 wt_status wt_layer_make(const wt_sliding *sliding, const wt_layer_job *job, const wt_job *work,
@@ -375,8 +353,7 @@ wt_status wt_layer_make(const wt_sliding *sliding, const wt_layer_job *job, cons
     layer_task task = {.sliding = sliding,
                        .job = job,
                        .work = work,
-                       .velocity =
-                           isnan(job->velocity) ? flow_reference_velocity(sliding) : job->velocity,
+                       .velocity = flow_layer_velocity(sliding, job),
                        .replicates = replicates_of(sliding, work, "layer")};
     layer_run centre = {.points = NULL};
     wt_layer_tables t = {0};
@@ -389,8 +366,6 @@ wt_status wt_layer_make(const wt_sliding *sliding, const wt_layer_job *job, cons
         status = draw_replicates(&task, err);
     if (status == WT_OK)
         status = layer_table(&task, &centre, &t.layer, err);
-    if (status == WT_OK)
-        status = energy_table(&task, &centre.source, &t.energy_density, err);
     if (status == WT_OK) {
         t.balance = centre.balance;
         t.thickness = centre.balance.thickness;

@@ -311,7 +311,8 @@ static wt_status fit(const wt_master_job *job, const wt_job *work, const wt_swee
     return status;
 }
 
-static wt_status make_tables(const wt_master *m, wt_master_tables *t, wt_error *err)
+static wt_status make_tables(const wt_master *m, const wt_job *work, wt_master_tables *t,
+                             wt_error *err)
 {
     t->n_isotherms = m->n_shifts;
     wt_status status = shift_table(m, &t->shift_factors, err);
@@ -319,7 +320,8 @@ static wt_status make_tables(const wt_master *m, wt_master_tables *t, wt_error *
         status = master_table(m, &t->master_curve, err);
     if (status == WT_OK)
         status = prony_table(m, &t->prony, err);
-    return status == WT_OK ? draw_tables(m, t, err) : status;
+    return status == WT_OK && (work->left_out & WT_EXTRA_DRAWS) == 0 ? draw_tables(m, t, err)
+                                                                     : status;
 }
 
 wt_status wt_rubber_refit(const wt_rubber *rubber, wt_vertical_shift vertical, wt_rubber *refitted,
@@ -366,7 +368,7 @@ wt_status wt_master_make(const wt_master_job *job, const wt_job *work, wt_master
     if (status == WT_OK)
         status = fit(job, work, &sweep, &master, err);
     if (status == WT_OK)
-        status = make_tables(&master, &t, err);
+        status = make_tables(&master, work, &t, err);
     if (status == WT_OK && rubber != NULL) {
         const wt_rubber_tables of = {.prony = t.prony,
                                      .shift_factors = t.shift_factors,

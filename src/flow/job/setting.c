@@ -49,7 +49,7 @@ static wt_status compute_layer(const setting *s, const wt_job *work, wt_layer_kn
     return status;
 }
 
-static wt_status compute_friction(const setting *s, const wt_layer_known *known, const wt_job *work,
+static wt_status compute_friction(setting *s, const wt_layer_known *known, const wt_job *work,
                                   wt_estimate *number, wt_error *err)
 {
     wt_friction_tables tables = {0};
@@ -62,6 +62,9 @@ static wt_status compute_friction(const setting *s, const wt_layer_known *known,
         number[SETTING_AREA_RATIO] = friction_value(&view, FRICTION_KEY_AREA_RATIO);
         number[SETTING_FRICTION] = friction_value(&view, FRICTION_KEY_FRICTION);
         number[SETTING_WITH_LAYER] = friction_value(&view, FRICTION_KEY_WITH_LAYER);
+        const char *statement = friction_words(&view, FRICTION_KEY_MATERIAL_STATEMENT);
+        snprintf(s->statement, sizeof s->statement, "%s", statement != NULL ? statement : "");
+        s->extrapolated_share = friction_get(&view, 0, FRICTION_EXTRAPOLATED_SHARE);
     }
     wt_friction_tables_clear(&tables);
     return status;

@@ -14,6 +14,10 @@ typedef struct setting {
     wt_layer_job layer;
     wt_layer_known known;
     wt_vertical_shift vertical;
+    /* after setting_compute: what is to be said of the material, and what share of the hysteresis
+     * comes from outside its frequencies (NaN: not asked for) */
+    char statement[512];
+    double extrapolated_share;
 } setting;
 
 /* What comes of it, at the reference velocity. */

@@ -55,6 +55,11 @@ double flow_reference_velocity(const wt_sliding *sliding)
                                               : sliding->reference_velocity;
 }
 
+double flow_layer_velocity(const wt_sliding *sliding, const wt_layer_job *layer)
+{
+    return isnan(layer->velocity) ? flow_reference_velocity(sliding) : layer->velocity;
+}
+
 /* Whether there can be such a material at the frequencies of the velocities, and what to say of it.
  */
 static wt_status check_material(const wt_sliding *sliding, sliding_contact *c, wt_error *err)
@@ -91,7 +96,7 @@ wt_status sliding_contact_make(const wt_sliding *sliding, const wt_job *work, si
     options.gamma = sliding->gamma;
     options.threads = drawn ? 1 : work->threads;
     options.layer = layer;
-    options.without_share = drawn;
+    options.without_share = drawn || layer.thickness > 0 || (work->left_out & WT_EXTRA_SHARE) != 0;
     wt_status status =
         wt_rubber_at(sliding->rubber, temperature, seed, replicate, &c.material, c.statement, err);
     if (status == WT_OK)

@@ -18,6 +18,8 @@ wt_status flow_sliding_check(const wt_sliding *sliding, const wt_job *work,
                              wt_error *err) WT_NODISCARD;
 /* The velocity of the answer: as given, or the middle of the list. */
 double flow_reference_velocity(const wt_sliding *sliding);
+/* The velocity at which the track was worn. */
+double flow_layer_velocity(const wt_sliding *sliding, const wt_layer_job *layer);
 /* Draws replicate `replicate` (WT_NO_REPLICATE = the values themselves) and prepares the kernel. A
  * replicate takes one thread and asks for a small numerical error, as many are made at a time. */
 wt_status sliding_contact_make(const wt_sliding *sliding, const wt_job *work, size_t replicate,

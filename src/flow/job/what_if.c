@@ -453,12 +453,18 @@ static void set_left_out(const setting *used, table_writer *t)
 
 static wt_status make_table(const what_if *w, wt_table **table, wt_error *err)
 {
+    const setting *used = &w->outcomes[0].setting;
     table_writer t = table_begin(&what_if_schema, err);
     for (size_t i = 0; i < w->n; i++)
         put_outcome(w, &w->outcomes[i], &t);
     for (size_t k = 0; k < SETTING_NUMBERS; k++)
         set_range(w, k, &t);
-    set_left_out(&w->outcomes[0].setting, &t);
+    set_left_out(used, &t);
+    if (used->statement[0] != '\0')
+        what_if_set_text(&t, WHAT_IF_KEY_MATERIAL_STATEMENT, used->statement);
+    if (!isnan(used->extrapolated_share))
+        what_if_set_value(&t, WHAT_IF_KEY_EXTRAPOLATED_SHARE, used->extrapolated_share, (double)NAN,
+                          (double)NAN);
     return table_end(&t, table);
 }
 
@@ -484,7 +490,9 @@ wt_status wt_what_if_make(const wt_sliding *sliding, const wt_layer_job *layer,
     for (size_t i = 0; i < COUNT_OF(choices); i++)
         if (choices[i].applies(&used))
             add_choice(&w, &choices[i], &used);
+    w.work.left_out = WT_EXTRAS & ~(unsigned)WT_EXTRA_SHARE;
     status = compute(&w.outcomes[0], &w.work, err);
+    w.work.left_out = WT_EXTRAS;
     if (status == WT_OK) {
         status =
             wt_parallel_for(w.n - 1, work->threads, compute_one, &w, &work->progress, "what if");

@@ -38,15 +38,17 @@ static void find_able(flow_things sources, bool able[FLOW_N_STAGES])
 }
 
 /* Whether stage a is to be preferred to b for what they both give: the one that takes more into
- * account, or else the one that does less that nobody asked for. */
+ * account; but what does the same and more that nobody asked for is not. */
 static bool is_better(const flow_plan *plan, size_t a, size_t b)
 {
-    int more =
-        __builtin_popcountll(flow_stages[a].needs) - __builtin_popcountll(flow_stages[b].needs);
-    if (more != 0)
-        return more > 0;
-    return __builtin_popcountll(flow_stages[a].gives & ~plan->required) <
-           __builtin_popcountll(flow_stages[b].gives & ~plan->required);
+    const flow_stage *s = &flow_stages[a], *t = &flow_stages[b];
+    const int more = __builtin_popcountll(s->needs) - __builtin_popcountll(t->needs);
+    const int idle = __builtin_popcountll(s->gives & ~plan->required) -
+                     __builtin_popcountll(t->gives & ~plan->required);
+    const bool same_way = (s->needs & ~t->needs) == 0 || (t->needs & ~s->needs) == 0;
+    if (idle != 0 && (same_way || more == 0))
+        return idle < 0;
+    return more > 0;
 }
 
 /* Chooses the best stage that gives a thing, then what it needs. */

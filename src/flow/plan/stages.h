@@ -52,31 +52,36 @@
     X(GIVEN_RATIO, given_ratio, "Modulus ratio as given in the case", B(GIVEN_RATIO),              \
       B(MODULUS_RATIO), flow_step_given_ratio)                                                     \
     X(LAYER, layer, "Formation, wear and thickness of the modified layer",                         \
-      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(LAYER_PARAMETERS), B(LAYER) | B(ENERGY_DENSITY),  \
-      flow_step_layer)                                                                             \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(LAYER_PARAMETERS), B(LAYER), flow_step_layer)     \
+    X(ENERGY_DENSITY, energy_density, "Energy density against depth",                              \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(LAYER_PARAMETERS), B(ENERGY_DENSITY),             \
+      flow_step_energy_density)                                                                    \
     X(FRICTION_WITH_LAYER, friction_with_layer,                                                    \
       "Contact area and friction, with and without the layer",                                     \
-      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(LAYER) | B(MODULUS_RATIO),                        \
-      B(FRICTION) | B(CONTACT_AREA), flow_step_friction_with_layer)                                \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(LAYER) | B(MODULUS_RATIO), B(FRICTION),           \
+      flow_step_friction_with_layer)                                                               \
     X(FRICTION, friction, "Contact area and friction", B(RUBBER) | B(SURFACE) | B(CONDITIONS),     \
-      B(FRICTION) | B(CONTACT_AREA), flow_step_friction)                                           \
+      B(FRICTION), flow_step_friction)                                                             \
+    X(CONTACT_AREA, contact_area, "Contact area against magnification",                            \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS), B(CONTACT_AREA), flow_step_contact_area)             \
     X(WHAT_IF_WITH_LAYER, what_if_with_layer,                                                      \
       "What if a choice of the model were another, friction with layer",                           \
-      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(FRICTION) | B(LAYER) | B(MODULUS_RATIO),          \
-      B(WHAT_IF), flow_step_what_if_with_layer)                                                    \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(LAYER_PARAMETERS) | B(MODULUS_RATIO), B(WHAT_IF), \
+      flow_step_what_if_with_layer)                                                                \
     X(WHAT_IF_LAYER, what_if_layer,                                                                \
       "What if a choice of the model were another, friction and layer",                            \
-      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(FRICTION) | B(LAYER), B(WHAT_IF),                 \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(LAYER_PARAMETERS), B(WHAT_IF),                    \
       flow_step_what_if_layer)                                                                     \
     X(WHAT_IF, what_if, "What if a choice of the model were another, friction",                    \
-      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(FRICTION), B(WHAT_IF), flow_step_what_if)         \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS), B(WHAT_IF), flow_step_what_if)                       \
     X(ERROR_BUDGET_WITH_LAYER, error_budget_with_layer,                                            \
       "Which error costs the numbers most, friction with layer",                                   \
-      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(WHAT_IF) | B(LAYER) | B(MODULUS_RATIO),           \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(WHAT_IF) | B(LAYER_PARAMETERS) |                  \
+          B(MODULUS_RATIO),                                                                        \
       B(ERROR_BUDGET), flow_step_budget_with_layer)                                                \
     X(ERROR_BUDGET_LAYER, error_budget_layer,                                                      \
       "Which error costs the numbers most, friction and layer",                                    \
-      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(WHAT_IF) | B(LAYER), B(ERROR_BUDGET),             \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(WHAT_IF) | B(LAYER_PARAMETERS), B(ERROR_BUDGET),  \
       flow_step_budget_layer)                                                                      \
     X(ERROR_BUDGET, error_budget, "Which error costs the numbers most, friction",                  \
       B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(WHAT_IF), B(ERROR_BUDGET), flow_step_budget)

@@ -59,8 +59,8 @@ static wt_status cost_row(conduct *d, size_t i, bool runs, const char *because, 
     cost_put_text(t, COST_STAGE, flow_stages[i].id);
     cost_put(t, COST_RUNS, runs);
     cost_put_text(t, COST_BECAUSE, because);
-    cost_put(t, COST_WALL_TIME, d->run.no_timing ? (double)NAN : wall);
-    cost_put(t, COST_CPU_TIME, d->run.no_timing ? (double)NAN : cpu);
+    cost_put(t, COST_WALL_TIME, d->run.no_provenance ? (double)NAN : wall);
+    cost_put(t, COST_CPU_TIME, d->run.no_provenance ? (double)NAN : cpu);
     cost_put(t, COST_ITEMS, cost->items);
     cost_put(t, COST_TOLERANCE_ASKED, cost->tolerance_asked);
     cost_put(t, COST_ERROR_ESTIMATED, cost->error_estimated);
@@ -73,6 +73,17 @@ static wt_status report_progress(const conduct *d, const char *what, wt_error *e
     if (progress->report != NULL && !progress->report(progress->user, what, 0, 0))
         return wt_fail(err, WT_E_CANCELLED, "cancelled");
     return WT_OK;
+}
+
+/* Stages that fail for one reason make one row. */
+static bool is_listed(const conduct *d, const wt_error *failure)
+{
+    char message[2048];
+    wt_error_format(failure, message, sizeof message);
+    for (size_t row = 0; row < wt_table_n_rows(d->failures); row++)
+        if (strcmp(wt_table_text(d->failures, row, FAILURES_MESSAGE), message) == 0)
+            return true;
+    return false;
 }
 
 static wt_status run_stage(conduct *d, size_t i, const char *because, wt_error *err)
@@ -100,7 +111,7 @@ static wt_status run_stage(conduct *d, size_t i, const char *because, wt_error *
     d->run.plan.outcome[i] = FLOW_FAILED;
     snprintf(stage, sizeof stage, "stage %s", flow_stages[i].id);
     snprintf(text, sizeof text, "%s, and failed", because);
-    status = flow_add_failure(&d->run.job, stage, &failure, err);
+    status = is_listed(d, &failure) ? WT_OK : flow_add_failure(&d->run.job, stage, &failure, err);
     return status == WT_OK ? cost_row(d, i, true, text, wall, cpu, &cost) : status;
 }
 
@@ -168,7 +179,7 @@ static void warn_of_copies(const conduct *d)
         const wt_provenance_input *a = wt_provenance_get_input(p, i);
         for (size_t k = i + 1; k < n; k++) {
             const wt_provenance_input *b = wt_provenance_get_input(p, k);
-            if (strcmp(a->sha256, b->sha256) == 0)
+            if (a->bytes == b->bytes && a->fingerprint == b->fingerprint)
                 wt_parselog_add(d->run.job.log, WT_WARNING, b->path, NULL,
                                 "the same bytes as %s (%s and %s)", a->path, a->role, b->role);
         }
@@ -206,6 +217,38 @@ static wt_status finish(conduct *d, wt_error *err)
 
 /* ---- the run --------------------------------------------------------------------------------- */
 
+/* Whether a stage runs that draws the material. */
+static bool draws_material(const flow_plan *plan, size_t replicates)
+{
+    const flow_things compared = FLOW_BIT(FLOW_COMPARISON) | FLOW_BIT(FLOW_DMA_COMPARISON);
+    const flow_things replicated =
+        FLOW_BIT(FLOW_LAYER) | FLOW_BIT(FLOW_FRICTION) | FLOW_BIT(FLOW_ERROR_BUDGET);
+    const flow_things drawn = compared | (replicates >= 2 ? replicated : 0);
+    for (size_t i = 0; i < FLOW_N_STAGES; i++)
+        if (plan->chosen[i] && (flow_stages[i].needs & FLOW_BIT(FLOW_RUBBER)) != 0 &&
+            (flow_stages[i].gives & drawn) != 0)
+            return true;
+    return false;
+}
+
+/* What of the stages nothing asks for. */
+static unsigned find_left_out(const flow_plan *plan, const wt_run_options *options)
+{
+    static const struct {
+        unsigned extra;
+        flow_things shown_in;
+    } extras[] = {{WT_EXTRA_SHARE, FLOW_BIT(FLOW_FRICTION)},
+                  {WT_EXTRA_MODULUS_DEPTH, FLOW_BIT(FLOW_DEPTH_BULK) | FLOW_BIT(FLOW_DEPTH_TRACK)},
+                  {WT_EXTRA_DRAWS, FLOW_BIT(FLOW_MATERIAL_DRAWS) | FLOW_BIT(FLOW_SERIES_DRAWS)}};
+    unsigned left_out = options->no_provenance ? WT_EXTRA_DIGESTS : 0;
+    for (size_t i = 0; i < COUNT_OF(extras); i++)
+        if ((plan->required & extras[i].shown_in) == 0)
+            left_out |= extras[i].extra;
+    if (draws_material(plan, options->replicates))
+        left_out &= ~(unsigned)WT_EXTRA_DRAWS;
+    return left_out;
+}
+
 static wt_status add_case(conduct *d, wt_error *err)
 {
     const wt_case *c = d->run.c;
@@ -213,7 +256,8 @@ static wt_status add_case(conduct *d, wt_error *err)
                                  .role = "case",
                                  .format = "weartrack-case 1",
                                  .bytes = c->xml_length};
-    wt_digest(c->xml, c->xml_length, input.sha256);
+    if (!d->run.no_provenance)
+        wt_digest(c->xml, c->xml_length, input.sha256);
     if (wt_provenance_add_input(d->run.job.provenance, &input) != WT_OK)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     return wt_result_set_case(d->result, c->xml, c->xml_length, err);
@@ -223,7 +267,7 @@ static wt_status prepare(conduct *d, const wt_run_options *options, wt_parselog 
 {
     if (log == NULL)
         log = d->own_log = wt_parselog_new();
-    d->run.no_timing = options->no_timing;
+    d->run.no_provenance = options->no_provenance;
     d->result = wt_result_new();
     d->failures = wt_failures_new();
     if (log == NULL || d->result == NULL || d->failures == NULL)
@@ -261,6 +305,7 @@ wt_status wt_run(const wt_case *c, const wt_run_options *options, wt_parselog *l
     if (status != WT_OK)
         goto done;
     flow_plan_make(c, &d.run.plan);
+    d.run.job.left_out = find_left_out(&d.run.plan, options);
     d.have = d.run.plan.sources;
     for (size_t i = 0; status == WT_OK && i < FLOW_N_STAGES; i++)
         status = consider_stage(&d, i, err);

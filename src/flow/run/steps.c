@@ -309,8 +309,18 @@ wt_status flow_step_layer(flow_run *run, flow_cost *cost, wt_error *err)
     if (run->thickness.value > 0)
         cost->error_estimated = run->thickness.numerical_error / run->thickness.value;
     keep(run, FLOW_LAYER, &tables.layer);
-    keep(run, FLOW_ENERGY_DENSITY, &tables.energy_density);
     return WT_OK;
+}
+
+wt_status flow_step_energy_density(flow_run *run, flow_cost *cost, wt_error *err)
+{
+    const wt_sliding sliding = flow_case_sliding(run->c, &run->rubber, &run->surface);
+    wt_table **table = &run->table[FLOW_ENERGY_DENSITY];
+    const wt_status status =
+        wt_energy_density_table(&sliding, &run->c->layer, &run->job, table, err);
+    if (status == WT_OK)
+        cost->items = (double)wt_table_n_rows(*table);
+    return status;
 }
 
 /* A comparison that cannot say leaves no ratio. */
@@ -340,8 +350,17 @@ static wt_status friction(flow_run *run, const wt_layer_known *layer, flow_cost 
     cost->tolerance_asked = tables.tolerance_asked;
     cost->error_estimated = tables.error_reached;
     keep(run, FLOW_FRICTION, &tables.friction);
-    keep(run, FLOW_CONTACT_AREA, &tables.contact_area);
     return WT_OK;
+}
+
+wt_status flow_step_contact_area(flow_run *run, flow_cost *cost, wt_error *err)
+{
+    const wt_sliding sliding = flow_case_sliding(run->c, &run->rubber, &run->surface);
+    wt_table **table = &run->table[FLOW_CONTACT_AREA];
+    const wt_status status = wt_contact_area_table(&sliding, &run->job, table, err);
+    if (status == WT_OK)
+        cost->items = (double)wt_table_n_rows(*table);
+    return status;
 }
 
 wt_status flow_step_friction_with_layer(flow_run *run, flow_cost *cost, wt_error *err)
@@ -375,7 +394,7 @@ static wt_status budget(flow_run *run, const wt_layer_job *layer, const wt_layer
 {
     wt_sliding sliding = flow_case_sliding(run->c, &run->rubber, &run->surface);
     const wt_status status =
-        wt_error_budget_make(&sliding, layer, known, run->table[FLOW_WHAT_IF], !run->no_timing,
+        wt_error_budget_make(&sliding, layer, known, run->table[FLOW_WHAT_IF], !run->no_provenance,
                              &run->job, &run->table[FLOW_ERROR_BUDGET], err);
     if (status == WT_OK)
         cost->items = (double)wt_table_n_rows(run->table[FLOW_ERROR_BUDGET]);

@@ -22,7 +22,7 @@ typedef struct flow_run {
     wt_surface surface;
     wt_estimate modulus_ratio, thickness;
     double modulus_ratio_df; /* 0 = its error is normal */
-    bool no_timing;
+    bool no_provenance;
 } flow_run;
 
 void flow_run_clear(flow_run *run);

@@ -1,0 +1,485 @@
+/* What nothing asks for costs nothing: for every table and every figure that a case can ask for,
+ * which files are opened and how many of their bytes are read, which channels are decoded, which
+ * stages run, and how often the inner work is done. The linker lays the counters around the
+ * functions (see CMakeLists.txt), so the library has none.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cells.h"
+
+#include "flow/plan/plan.h"
+#include "kernel/friction.h"
+#include "read/bytes/samples.h"
+#include "weartrack/flow.h"
+#include "weartrack/report.h"
+
+#include <fcntl.h>
+#include <stdarg.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* ---- files ----------------------------------------------------------------------------------- */
+
+#define CASE WT_SOURCE_DIR "/fixtures/case/"
+enum { MOST_FILES = 64 };
+
+typedef struct seen_file {
+    char path[512];
+    size_t opened, bytes;
+    int descriptor;
+} seen_file;
+
+static seen_file seen[MOST_FILES];
+static size_t n_seen;
+
+/* Of the case; system files such as those of the libraries are no inputs. */
+static seen_file *find_seen(const char *path)
+{
+    for (size_t i = 0; i < n_seen; i++)
+        if (strcmp(seen[i].path, path) == 0)
+            return &seen[i];
+    assert_true(n_seen < MOST_FILES);
+    seen_file *f = &seen[n_seen++];
+    *f = (seen_file){.descriptor = -1};
+    snprintf(f->path, sizeof f->path, "%s", path);
+    return f;
+}
+
+int __real_open(const char *path, int flags, ...);
+int __wrap_open(const char *path, int flags, ...);
+int __wrap_open(const char *path, int flags, ...)
+{
+    va_list list;
+    va_start(list, flags);
+    const unsigned mode = (flags & O_CREAT) != 0 ? va_arg(list, unsigned) : 0;
+    va_end(list);
+    const int descriptor = __real_open(path, flags, mode);
+    if (descriptor >= 0 && (flags & O_ACCMODE) == O_RDONLY) {
+        seen_file *f = find_seen(path);
+        f->opened++;
+        f->descriptor = descriptor;
+    }
+    return descriptor;
+}
+
+ssize_t __real_read(int descriptor, void *buffer, size_t n);
+ssize_t __wrap_read(int descriptor, void *buffer, size_t n);
+ssize_t __wrap_read(int descriptor, void *buffer, size_t n)
+{
+    const ssize_t got = __real_read(descriptor, buffer, n);
+    for (size_t i = 0; got > 0 && i < n_seen; i++)
+        if (seen[i].descriptor == descriptor)
+            seen[i].bytes += (size_t)got;
+    return got;
+}
+
+int __real_close(int descriptor);
+int __wrap_close(int descriptor);
+int __wrap_close(int descriptor)
+{
+    for (size_t i = 0; i < n_seen; i++)
+        if (seen[i].descriptor == descriptor)
+            seen[i].descriptor = -1;
+    return __real_close(descriptor);
+}
+
+/* ---- inner work ------------------------------------------------------------------------------ */
+
+typedef enum work {
+    CHANNELS,   /* decoded, of one segment each */
+    CURVES,     /* fitted */
+    MASTERS,    /* fits of isotherms */
+    DRAWS,      /* of a material from them */
+    DEPTHS,     /* moduli against depth */
+    WORKSPACES, /* contacts with a counter surface */
+    PASSES,     /* of the friction integral */
+    SHARES,     /* passes with the extrapolated share */
+    PROFILES,   /* contact area against magnification */
+    SOURCES_OF, /* energy of the layer */
+    DENSITIES,  /* energy density at a depth */
+    BALANCES,
+    HISTORIES,
+    DIGESTS, /* SHA-256 */
+    N_WORK
+} work;
+
+static const char *const work_names[N_WORK] = {"channels decoded",
+                                               "curves fitted",
+                                               "fits of isotherms",
+                                               "draws of the material",
+                                               "moduli against depth",
+                                               "contacts",
+                                               "passes of the friction integral",
+                                               "extrapolated shares",
+                                               "contact profiles",
+                                               "energy sources",
+                                               "energy densities",
+                                               "balances",
+                                               "histories",
+                                               "digests"};
+static atomic_size_t count[N_WORK];
+
+/* Declares, counts and calls the function. */
+#define COUNTED(type, name, which, parameters, arguments)                                          \
+    type __real_##name parameters;                                                                 \
+    type __wrap_##name parameters;                                                                 \
+    type __wrap_##name parameters                                                                  \
+    {                                                                                              \
+        count[which]++;                                                                            \
+        return __real_##name arguments;                                                            \
+    }
+COUNTED(size_t, samples_decode, CHANNELS,
+        (sample_type type, bool big_endian, const unsigned char *bytes, size_t n, double multiplier,
+         double offset, double *values),
+        (type, big_endian, bytes, n, multiplier, offset, values))
+COUNTED(wt_status, wt_indent_force_curve, CURVES,
+        (const wt_contact_table *contact, const wt_indent_options *options,
+         const wt_force_curve *curve, wt_indent_workspace *workspace, wt_indent_fit *fit,
+         wt_error *err),
+        (contact, options, curve, workspace, fit, err))
+COUNTED(wt_status, wt_master_fit, MASTERS,
+        (const wt_sweep *sweep, const wt_master_options *options, wt_parselog *log,
+         wt_master *master, wt_error *err),
+        (sweep, options, log, master, err))
+COUNTED(wt_status, wt_master_draw, DRAWS,
+        (const wt_master *master, uint64_t seed, size_t draw, wt_prony *prony, wt_shift_law *law,
+         double *log_b, wt_error *err),
+        (master, seed, draw, prony, law, log_b, err))
+COUNTED(wt_status, wt_curve_depth_make, DEPTHS,
+        (const wt_contact_table *contact, double poisson_ratio, const wt_depth_curve *curves,
+         size_t n, wt_curve_depth *depth, wt_error *err),
+        (contact, poisson_ratio, curves, n, depth, err))
+COUNTED(wt_status, wt_friction_workspace_new, WORKSPACES,
+        (const wt_material *material, const wt_roughness *roughness,
+         const wt_friction_options *options, wt_friction_workspace **workspace, wt_error *err),
+        (material, roughness, options, workspace, err))
+COUNTED(wt_status, wt_friction_profile, PROFILES,
+        (wt_friction_workspace * workspace, double pressure, double velocity,
+         const double *wavenumber, size_t n, wt_friction_node *nodes, wt_error *err),
+        (workspace, pressure, velocity, wavenumber, n, nodes, err))
+COUNTED(wt_status, wt_energy_source_friction, SOURCES_OF,
+        (wt_friction_workspace * workspace, double pressure, double velocity,
+         wt_energy_source *source, wt_error *err),
+        (workspace, pressure, velocity, source, err))
+COUNTED(double, wt_energy_density, DENSITIES, (const wt_energy_source *source, double depth),
+        (source, depth))
+COUNTED(wt_status, wt_layer_balance_compute, BALANCES,
+        (const wt_energy_source *source, const wt_layer_parameters *parameters,
+         wt_layer_balance *balance, wt_error *err),
+        (source, parameters, balance, err))
+COUNTED(wt_status, wt_layer_history, HISTORIES,
+        (const wt_energy_source *source, const wt_layer_parameters *parameters, const double *time,
+         size_t n, wt_layer_point *points, wt_error *err),
+        (source, parameters, time, n, points, err))
+void __real_wt_digest(const void *bytes, size_t length, char hex[65]);
+void __wrap_wt_digest(const void *bytes, size_t length, char hex[65]);
+void __wrap_wt_digest(const void *bytes, size_t length, char hex[65])
+{
+    count[DIGESTS]++;
+    __real_wt_digest(bytes, length, hex);
+}
+
+void __real_friction_evaluate(const wt_friction_workspace *ws, friction_scratch *scratch,
+                              const scale_grid *grid, size_t level, friction_load at,
+                              bool with_outside, friction_record *record, friction_pass *pass);
+void __wrap_friction_evaluate(const wt_friction_workspace *ws, friction_scratch *scratch,
+                              const scale_grid *grid, size_t level, friction_load at,
+                              bool with_outside, friction_record *record, friction_pass *pass);
+void __wrap_friction_evaluate(const wt_friction_workspace *ws, friction_scratch *scratch,
+                              const scale_grid *grid, size_t level, friction_load at,
+                              bool with_outside, friction_record *record, friction_pass *pass)
+{
+    count[PASSES]++;
+    count[SHARES] += with_outside;
+    __real_friction_evaluate(ws, scratch, grid, level, at, with_outside, record, pass);
+}
+
+/* ---- one run --------------------------------------------------------------------------------- */
+
+typedef struct ran {
+    wt_case *c;
+    flow_plan plan;
+    wt_result *result;
+    size_t replicates;
+    bool provenance;
+} ran;
+
+/* `case_file` with what it asks for put in place of its <report>. */
+static wt_case *case_that_asks(const char *asks)
+{
+    char path[] = CASE "asks-XXXXXX";
+    char *text = NULL, *end;
+    size_t length = 0;
+    wt_error err = WT_ERROR_INIT;
+    wt_case *c = NULL;
+    FILE *in = fopen(CASE "case.xml", "r");
+    assert_non_null(in);
+    assert_true(getdelim(&text, &length, '\0', in) > 0);
+    fclose(in);
+    end = strstr(text, "<report");
+    assert_non_null(end);
+    *end = '\0';
+    const int file = mkstemp(path);
+    assert_true(file >= 0);
+    dprintf(file, "%s<report>%s</report></case>", text, asks);
+    close(file);
+    const wt_status status = wt_case_read(path, &c, &err);
+    unlink(path);
+    free(text);
+    if (status != WT_OK)
+        fail_msg("%s: %s %s", asks, err.message, err.found);
+    return c;
+}
+
+static ran run(const char *asks, size_t replicates, bool provenance)
+{
+    ran r = {.c = case_that_asks(asks), .replicates = replicates, .provenance = provenance};
+    wt_run_options options = wt_run_defaults();
+    wt_error err = WT_ERROR_INIT;
+    size_t n_failed = 0;
+    options.threads = 1;
+    options.tolerance = 1e-3;
+    options.replicates = replicates;
+    options.no_provenance = !provenance;
+    flow_plan_make(r.c, &r.plan);
+    n_seen = 0;
+    for (int i = 0; i < N_WORK; i++)
+        count[i] = 0;
+    if (wt_run(r.c, &options, NULL, &r.result, &n_failed, &err) != WT_OK || n_failed > 0)
+        fail_msg("%s: %s %s", asks, err.message, err.found);
+    return r;
+}
+
+static void release(ran *r)
+{
+    wt_result_free(r->result);
+    wt_case_free(r->c);
+}
+
+static bool runs(const ran *r, flow_thing given)
+{
+    for (size_t i = 0; i < FLOW_N_STAGES; i++)
+        if (r->plan.chosen[i] && (flow_stages[i].gives & FLOW_BIT(given)) != 0)
+            return true;
+    return false;
+}
+
+static bool shown(const ran *r, flow_thing table)
+{
+    return (r->plan.required & FLOW_BIT(table)) != 0;
+}
+
+/* ---- checks ---------------------------------------------------------------------------------- */
+
+static void check_stages(const char *asks, const ran *r)
+{
+    const wt_table *cost = wt_result_find(r->result, "cost");
+    assert_int_equal(wt_table_n_rows(cost), FLOW_N_STAGES);
+    for (size_t i = 0; i < FLOW_N_STAGES; i++)
+        if ((number_cell(cost, i, "runs") > 0) != r->plan.chosen[i])
+            fail_msg("%s: stage %s %s, the plan says otherwise", asks, flow_stages[i].id,
+                     r->plan.chosen[i] ? "did not run" : "ran");
+}
+
+/* Each file of a kind once, and all of its bytes once; of another kind none. */
+static size_t check_kind(const char *asks, const char *pattern, bool needed, bool median)
+{
+    char **paths = NULL;
+    size_t n = 0, again = 0;
+    assert_int_equal(wt_glob(WT_SOURCE_DIR "/fixtures/case", pattern, &paths, &n, NULL), WT_OK);
+    for (size_t i = 0; i < n; i++) {
+        struct stat info;
+        size_t opened = 0, bytes = 0;
+        assert_int_equal(stat(paths[i], &info), 0);
+        for (size_t k = 0; k < n_seen; k++)
+            if (strcmp(seen[k].path, paths[i]) == 0) {
+                opened = seen[k].opened;
+                bytes = seen[k].bytes;
+            }
+        if (median && opened == 2) {
+            again++;
+            opened = 1;
+            bytes /= 2;
+        }
+        if (opened != needed || bytes != (needed ? (size_t)info.st_size : 0))
+            fail_msg("%s: %s was opened %zu times, %zu of its %zu bytes were read", asks, paths[i],
+                     opened, bytes, (size_t)info.st_size);
+    }
+    wt_strings_free(paths, n);
+    assert_int_equal(again, median);
+    return needed ? n : 0;
+}
+
+static void check_files(const char *asks, const ran *r)
+{
+    const bool bulk = runs(r, FLOW_INDENTATION_BULK), track = runs(r, FLOW_INDENTATION_TRACK);
+    size_t n = check_kind(asks, "bulk-*", bulk, bulk && shown(r, FLOW_CURVE_BULK));
+    n += check_kind(asks, "track-*", track, track && shown(r, FLOW_CURVE_TRACK));
+    n += check_kind(asks, "dma.txt", runs(r, FLOW_PRONY), false);
+    size_t inputs = 0;
+    for (size_t i = 0; i < n_seen; i++)
+        inputs += strncmp(seen[i].path, CASE, strlen(CASE)) == 0 && seen[i].bytes > 0;
+    if (inputs != n)
+        fail_msg("%s: %zu inputs were read, %zu are needed", asks, inputs, n);
+}
+
+static void check(const char *asks, work which, size_t expected)
+{
+    if (count[which] != expected)
+        fail_msg("%s: %s: %zu, needed %zu", asks, work_names[which], (size_t)count[which],
+                 expected);
+}
+
+static void check_some(const char *asks, work which, bool needed)
+{
+    if ((count[which] > 0) != needed)
+        fail_msg("%s: %s: %zu, %s", asks, work_names[which], (size_t)count[which],
+                 needed ? "some are needed" : "none are needed");
+}
+
+enum { CURVES_OF_A_FILE = 12, FILES_OF_A_GROUP = 4, DEPTHS_SHOWN = 121 };
+
+static void check_curves(const char *asks, const ran *r)
+{
+    /* approach and retract with height and deflection; the time is not a channel here */
+    const size_t channels = 4, fitted = CURVES_OF_A_FILE * FILES_OF_A_GROUP;
+    const size_t groups = (size_t)runs(r, FLOW_INDENTATION_BULK) + runs(r, FLOW_INDENTATION_TRACK);
+    const bool again = shown(r, FLOW_CURVE_BULK) || shown(r, FLOW_CURVE_TRACK);
+    if (!again) {
+        check(asks, CURVES, groups * fitted);
+        check(asks, CHANNELS, channels * groups * fitted);
+    } else { /* the representative one, and those before it in its file */
+        check(asks, CURVES, groups * (fitted + 1));
+        assert_true(count[CHANNELS] > channels * groups * fitted &&
+                    count[CHANNELS] <= channels * groups * (fitted + CURVES_OF_A_FILE));
+    }
+    check(asks, DEPTHS, (size_t)shown(r, FLOW_DEPTH_BULK) + (size_t)shown(r, FLOW_DEPTH_TRACK));
+}
+
+static void check_material(const char *asks, const ran *r)
+{
+    const bool drawn = shown(r, FLOW_MATERIAL_DRAWS) || shown(r, FLOW_SERIES_DRAWS) ||
+                       runs(r, FLOW_COMPARISON) || runs(r, FLOW_DMA_COMPARISON) ||
+                       (r->replicates > 0 && (runs(r, FLOW_LAYER) || runs(r, FLOW_FRICTION) ||
+                                              runs(r, FLOW_ERROR_BUDGET)));
+    /* the choice of the vertical shift fits again with each of the three others */
+    check(asks, MASTERS, runs(r, FLOW_PRONY) + 3 * (size_t)runs(r, FLOW_WHAT_IF));
+    check(asks, DRAWS, drawn ? 200 : 0);
+}
+
+static void check_sliding(const char *asks, const ran *r)
+{
+    const size_t layer = runs(r, FLOW_LAYER), friction = runs(r, FLOW_FRICTION);
+    const size_t area = shown(r, FLOW_CONTACT_AREA), density = shown(r, FLOW_ENERGY_DENSITY);
+    const bool settings = runs(r, FLOW_WHAT_IF); /* the budget needs it */
+    const size_t times = 1 + r->replicates;
+    check(asks, DENSITIES, density > 0 ? DEPTHS_SHOWN : 0);
+    check(asks, PROFILES, 3 * area);
+    check_some(asks, SHARES, friction > 0 || settings);
+    check_some(asks, PASSES, layer + friction + area + density > 0 || settings);
+    if (settings)
+        return;
+    check(asks, WORKSPACES, times * (layer + 2 * friction) + area + density);
+    check(asks, SOURCES_OF, times * layer + density);
+    check(asks, BALANCES, times * layer);
+    check(asks, HISTORIES, times * layer);
+}
+
+static void check_asked(const char *element, const char *name, size_t replicates)
+{
+    char asks[160];
+    snprintf(asks, sizeof asks, "<%s>%s</%s>", element, name, element);
+    ran r = run(asks, replicates, false);
+    check_stages(asks, &r);
+    check_files(asks, &r);
+    check_curves(asks, &r);
+    check_material(asks, &r);
+    check_sliding(asks, &r);
+    check(asks, DIGESTS, 0);
+    release(&r);
+}
+
+/* What is in every result. */
+static bool is_of_run(const char *table)
+{
+    flow_things things;
+    return flow_things_of_table(table, &things) && things == 0;
+}
+
+static void check_tables(size_t replicates)
+{
+    for (unsigned t = FLOW_FIRST_TABLE; t < FLOW_FIRST_INNER; t++)
+        if (flow_thing_rows[t].schema != NULL)
+            check_asked("result", flow_thing_rows[t].words, replicates);
+    check_asked("result", "modulus_depth", replicates);
+    check_asked("result", "force_indentation", replicates);
+    check_asked("result", "cost", replicates);
+}
+
+static void test_tables(void **state)
+{
+    (void)state;
+    check_tables(0);
+}
+
+static void test_tables_with_replicates(void **state)
+{
+    (void)state;
+    check_tables(3);
+}
+
+static void test_figures(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < wt_figure_count(); i++) {
+        const wt_figure_info figure = wt_figure_get(i);
+        flow_things things;
+        if (flow_things_of_figure(figure.name, &things) && !is_of_run(figure.table))
+            check_asked("figure", figure.name, 0);
+    }
+}
+
+/* A digest of each file and of the case, and none without provenance; a copy is noticed without. */
+static void test_digests(void **state)
+{
+    (void)state;
+    ran r = run("<result>prony</result>", 0, true);
+    const wt_table *inputs = wt_result_find(r.result, "inputs");
+    check("prony", DIGESTS, 2);
+    assert_int_equal(wt_table_n_rows(inputs), 2);
+    assert_int_equal(strlen(text_cell(inputs, 1, "sha256")), 64);
+    release(&r);
+    r = run("<result>prony</result>", 0, false);
+    inputs = wt_result_find(r.result, "inputs");
+    check("prony", DIGESTS, 0);
+    assert_string_equal(text_cell(inputs, 1, "sha256"), "");
+    release(&r);
+}
+
+/* In the settings of the budget and of what if: no list of velocities, no profile, no density, no
+ * history beside that of the beginning, and the share once. */
+static void test_settings(void **state)
+{
+    (void)state;
+    ran r = run("<result>what_if</result>", 0, false);
+    const size_t rows = wt_table_n_rows(wt_result_find(r.result, "what_if"));
+    check("what_if", WORKSPACES, 3 * rows); /* layer, friction without and with it */
+    check("what_if", BALANCES, rows);
+    assert_true(count[SHARES] > 0 && count[SHARES] <= 8);
+    release(&r);
+    r = run("<result>error_budget</result>", 3, false);
+    const size_t passes = count[PASSES], contacts = count[WORKSPACES];
+    assert_true(passes <= 9 * contacts); /* rules of one velocity */
+    release(&r);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_tables),   cmocka_unit_test(test_tables_with_replicates),
+        cmocka_unit_test(test_figures),  cmocka_unit_test(test_digests),
+        cmocka_unit_test(test_settings),
+    };
+    return cmocka_run_group_tests_name("left out", tests, NULL, NULL);
+}
