@@ -14,7 +14,8 @@ extern "C" {
 
 /* ---- input -------------------------------------------------------------------------------- */
 
-/* Bytes with peek. A file is read into memory, a pipe is buffered. */
+/* Bytes with peek. A file is read into memory, a pipe is buffered. Gzip archives and spreadsheets
+ * are unpacked where formats are detected and data read; the bytes here are those of the file. */
 typedef struct wt_input wt_input;
 /* path "-" is standard input. A named pipe is refused: nobody may ever write to it. */
 WT_API wt_status wt_input_open(const char *path, wt_input **input, wt_error *err) WT_NODISCARD;
@@ -61,9 +62,12 @@ WT_API const char *wt_formats_xml(const wt_formats *formats, const char *id);
 WT_API const char *wt_formats_schema(void);
 /* The format of that id, or NULL. */
 WT_API const wt_format_info *wt_formats_find(const wt_formats *formats, const char *id);
-/* Which format the input is. `kinds` limits the question (0 = any). Its id in
- * wt_read_options.format hands the answer on: nobody is asked again when the input is read. */
-WT_API wt_status wt_detect(const wt_formats *formats, wt_input *input, unsigned kinds,
+/* Which format the input is, or what is packed in it. `kinds` limits the question (0 = any); of the
+ * options (NULL = the defaults) the sheet is used. Its id in wt_read_options.format hands the
+ * answer on: nobody is asked again when the input is read. */
+struct wt_read_options;
+WT_API wt_status wt_detect(const wt_formats *formats, wt_input *input,
+                           const struct wt_read_options *options, unsigned kinds,
                            const wt_format_info **info, wt_error *err) WT_NODISCARD;
 
 /* ---- options ------------------------------------------------------------------------------ */
@@ -82,7 +86,9 @@ typedef struct wt_read_options {
     size_t n_units;
     bool any_temperature; /* a sweep without a temperature is read, as NaN */
     bool one_height;      /* of the heights wanted only that of a sensor, where there is one */
-    uint64_t reserved[7];
+    const char *sheet; /* of a spreadsheet: its name; "all" = all that are recognised, one after the
+                          other; NULL = the only one that is */
+    uint64_t reserved[6];
 } wt_read_options;
 WT_API wt_read_options wt_read_defaults(void); /* everything, nothing replaced */
 WT_API const wt_params *wt_read_params(void);

@@ -20,7 +20,7 @@ int cmd_master(int argc, char **argv)
     cmd_part parts[] = {{wt_master_job_params(), &job,
                          "reference-temperature vertical-shift expansion terms-per-decade liquid",
                          0},
-                        {wt_read_params(), &set.read, "temperature units format", 0}};
+                        {wt_read_params(), &set.read, "temperature units format sheet", 0}};
     cmd_session s = cmd_session_defaults();
     wt_master_tables tables = {0};
     if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv) ||

@@ -81,7 +81,7 @@ wt_status store_take(const char *bytes, size_t length, wt_result *result, wt_err
 wt_status wt_store_read_memory(const void *bytes, size_t length, const char *name,
                                wt_result **result, wt_error *err)
 {
-    const hdf5_limits limits = hdf5_limits_of(length);
+    const door_limits limits = door_limits_of(length);
     size_t n = 0;
     char *answer = NULL;
     wt_result *const read = wt_result_new();

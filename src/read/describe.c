@@ -12,9 +12,10 @@ wt_status wt_describe(const wt_formats *formats, wt_input *input, const wt_read_
 {
     wt_read_options o;
     const file_reader *reader = NULL;
+    wt_input *content = NULL;
     const unsigned char *bytes = NULL;
     size_t length = 0;
-    wt_status status = read_start(formats, input, options, 0, &o, &reader, err);
+    wt_status status = read_start(formats, input, options, 0, &o, &reader, &content, err);
     if (status == WT_OK)
         status = wt_input_bytes(input, &bytes, &length, err);
     if (status != WT_OK)
@@ -29,7 +30,7 @@ wt_status wt_describe(const wt_formats *formats, wt_input *input, const wt_read_
     facts_add(&w, "format title", "", "", "%s", reader->info.title);
     facts_add(&w, "format verified", "", reader->info.evidence, "%s",
               reader->info.verified ? "yes" : "no");
-    status = reader->describe(reader, input, &o, log, &w);
+    status = reader->describe(reader, content, &o, log, &w);
     const wt_status written = table_end(&w, &table);
     status = shortage_end(status == WT_OK ? written : status, err);
     if (status != WT_OK) {

@@ -30,13 +30,10 @@ typedef struct signature {
     "export it in one of the formats of `weartrack formats list`, or describe its layout in a "    \
     "file (weartrack-format(5)) and give its folder with --formats"
 static const signature signatures[] = {
-    SIGNATURE("PK\3\4", "a ZIP archive (also .docx, .xlsx) without force curves, or a cut one",
-              "copy a JPK file again, save a spreadsheet as CSV, unpack any other archive"),
+    SIGNATURE("PK\3\4", "a ZIP archive without force curves that is no spreadsheet, or a cut one",
+              "copy a JPK file or a spreadsheet again, unpack any other archive"),
     SIGNATURE("PK\5\6", "an empty ZIP archive", NO_DATA),
-    SIGNATURE("\037\213", "a gzip archive", "unpack it first: gunzip -c FILE | weartrack ... -"),
     SIGNATURE("\211HDF\r\n\032\n", "an HDF5 file of another program", AS_TEXT),
-    SIGNATURE("\320\317\021\340\241\261\032\341", "an old Excel or Word file",
-              "save it as CSV or text"),
     SIGNATURE("%PDF", "a PDF document", NO_DATA),
     SIGNATURE("\211PNG", "a PNG picture", NO_DATA),
     SIGNATURE("\377\330\377", "a JPEG picture", NO_DATA),
@@ -234,8 +231,8 @@ static wt_status detect(const wt_formats *formats, wt_input *input, unsigned kin
     return unknown(input, err);
 }
 
-wt_status find_reader(const wt_formats *formats, wt_input *input, const char *format,
-                      unsigned kinds, const file_reader **reader, wt_error *err)
+wt_status detect_reader(const wt_formats *formats, wt_input *input, const char *format,
+                        unsigned kinds, const file_reader **reader, wt_error *err)
 {
     wt_status status = WT_E_NOT_FOUND;
     if (format == NULL) {
@@ -254,15 +251,5 @@ wt_status find_reader(const wt_formats *formats, wt_input *input, const char *fo
     }
     if (status != WT_OK)
         wt_error_file(err, wt_input_name(input));
-    return status;
-}
-
-wt_status wt_detect(const wt_formats *formats, wt_input *input, unsigned kinds,
-                    const wt_format_info **info, wt_error *err)
-{
-    const file_reader *reader = NULL;
-    wt_status status = find_reader(formats, input, NULL, kinds, &reader, err);
-    if (status == WT_OK)
-        *info = &reader->info;
     return status;
 }

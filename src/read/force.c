@@ -10,9 +10,11 @@ wt_status wt_force_open(const wt_formats *formats, wt_input *input, const wt_rea
 {
     wt_read_options o;
     const file_reader *reader = NULL;
-    wt_status status = read_start(formats, input, options, WT_KIND_FORCE, &o, &reader, err);
+    wt_input *content = NULL;
+    wt_status status =
+        read_start(formats, input, options, WT_KIND_FORCE, &o, &reader, &content, err);
     if (status == WT_OK)
-        status = reader->open_force(reader, input, &o, log, source, err);
+        status = reader->open_force(reader, content, &o, log, source, err);
     const wt_status end = shortage_end(status, err);
     if (status == WT_OK && end != WT_OK) {
         wt_force_close(*source);

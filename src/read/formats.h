@@ -12,16 +12,22 @@ const file_reader *formats_reader(const wt_formats *formats, size_t i);
 /* The reader of that id, or NULL. */
 const file_reader *formats_find_reader(const wt_formats *formats, const char *id);
 
-/* detect.c: the reader that the input belongs to: the one of that format, or with NULL the one that
- * recognises it. `kinds` limits the question (0 = any); what is recognised but has none of them is
- * WT_E_UNSUPPORTED and says so. */
-wt_status find_reader(const wt_formats *formats, wt_input *input, const char *format,
-                      unsigned kinds, const file_reader **reader, wt_error *err);
+/* detect.c: the reader that the bytes belong to as they are: the one of that format, or with NULL
+ * the one that recognises them. `kinds` limits the question (0 = any); what is recognised but has
+ * none of them is WT_E_UNSUPPORTED and says so. */
+wt_status detect_reader(const wt_formats *formats, wt_input *input, const char *format,
+                        unsigned kinds, const file_reader **reader, wt_error *err);
 
-/* start.c: what each kind of reading begins with: `given` or the defaults, checked, and the reader.
- */
+/* content.c: the same of what is packed in the input, which *content is then; the input keeps it.
+ * It is the input itself if nothing is packed there. */
+wt_status find_reader(const wt_formats *formats, wt_input *input, const wt_read_options *options,
+                      unsigned kinds, const file_reader **reader, wt_input **content,
+                      wt_error *err);
+
+/* start.c: what each kind of reading begins with: `given` or the defaults, checked, the reader and
+ * what it is to read. */
 wt_status read_start(const wt_formats *formats, wt_input *input, const wt_read_options *given,
                      unsigned kind, wt_read_options *options, const file_reader **reader,
-                     wt_error *err);
+                     wt_input **content, wt_error *err);
 
 #endif

@@ -10,9 +10,11 @@ wt_status wt_images_read(const wt_formats *formats, wt_input *input, const wt_re
 {
     wt_read_options o;
     const file_reader *reader = NULL;
-    wt_status status = read_start(formats, input, options, WT_KIND_IMAGE, &o, &reader, err);
+    wt_input *content = NULL;
+    wt_status status =
+        read_start(formats, input, options, WT_KIND_IMAGE, &o, &reader, &content, err);
     if (status == WT_OK)
-        status = reader->read_images(reader, input, &o, log, images, n, err);
+        status = reader->read_images(reader, content, &o, log, images, n, err);
     if (status != WT_OK)
         wt_error_file(err, wt_input_name(input));
     return status;

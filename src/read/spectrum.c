@@ -11,9 +11,11 @@ wt_status wt_power_spectrum_read(const wt_formats *formats, wt_input *input,
 {
     wt_read_options o;
     const file_reader *reader = NULL;
-    wt_status status = read_start(formats, input, options, WT_KIND_SPECTRUM, &o, &reader, err);
+    wt_input *content = NULL;
+    wt_status status =
+        read_start(formats, input, options, WT_KIND_SPECTRUM, &o, &reader, &content, err);
     if (status == WT_OK)
-        status = reader->read_spectrum(reader, input, &o, log, spectrum, err);
+        status = reader->read_spectrum(reader, content, &o, log, spectrum, err);
     const wt_status end = shortage_end(status, err);
     if (status == WT_OK && end != WT_OK)
         wt_power_spectrum_clear(spectrum);

@@ -19,6 +19,7 @@ wt_read_options wt_read_defaults(void)
         .temperature = (double)NAN,
         .units = NULL,
         .n_units = 0,
+        .sheet = NULL,
     };
 }
 
@@ -32,17 +33,21 @@ static const wt_param rows[] = {
      .help = "unit of a column that carries none, such as \"E'=MPa\"; repeatable"},
     {PARAM_TEXT_OF("format", wt_read_options, format), .value = "ID", .unset = "",
      .help = "read the files as this format (see weartrack formats list)"},
+    {PARAM_TEXT_OF("sheet", wt_read_options, sheet), .value = "NAME", .unset = "",
+     .help =
+         "sheet of a spreadsheet file; all: those that hold data, one after the other; default: "
+         "the only one that holds data"},
 };
 PARAM_TABLE(wt_read_params, wt_read_options, rows, wt_read_defaults, NO_PARTS)
 
 wt_status read_start(const wt_formats *formats, wt_input *input, const wt_read_options *given,
                      unsigned kind, wt_read_options *options, const file_reader **reader,
-                     wt_error *err)
+                     wt_input **content, wt_error *err)
 {
     shortage_forget();
     *options = given != NULL ? *given : wt_read_defaults();
     wt_status status = param_check(wt_read_params(), options, err);
     if (status != WT_OK)
         return status;
-    return find_reader(formats, input, options->format, kind, reader, err);
+    return find_reader(formats, input, options, kind, reader, content, err);
 }

@@ -10,9 +10,11 @@ wt_status wt_sweep_read(const wt_formats *formats, wt_input *input, const wt_rea
 {
     wt_read_options o;
     const file_reader *reader = NULL;
-    wt_status status = read_start(formats, input, options, WT_KIND_SWEEP, &o, &reader, err);
+    wt_input *content = NULL;
+    wt_status status =
+        read_start(formats, input, options, WT_KIND_SWEEP, &o, &reader, &content, err);
     if (status == WT_OK)
-        status = reader->read_sweep(reader, input, &o, log, sweep, err);
+        status = reader->read_sweep(reader, content, &o, log, sweep, err);
     status = shortage_end(status, err);
     if (status != WT_OK)
         wt_error_file(err, wt_input_name(input));

@@ -29,6 +29,7 @@ set(within_read/force_source.c read/facts.h read/force_source.h)
 set(within_read/bytes "")
 set(within_read/description read/reader.h read/embedded_formats.h read/bytes)
 set(within_read/text read/reader.h read/facts.h read/force_source.h read/bytes read/description)
+set(within_read/packed read/bytes)
 set(within_read/stored read/reader.h read/facts.h read/force_source.h read/bytes read/description
   read/text)
 set(within_flow/job "")
@@ -45,14 +46,14 @@ set(third_party
   "^udunits2" base
   "^(sha2|md5|sha256|sha1|md4)\\.h" base
   "^(hdf5|H5)" data+read
-  "^zip\\.h" read
+  "^(zip|zlib|freexl)\\.h" read
   "^libxml/" read+flow
   "^(iconv|regex)\\.h" read
   "^gsl/gsl_errno" base+model+fit+kernel
   "^gsl/gsl_(sf_|math|const|poly|interp)" model+fit+kernel
   "^gsl/" fit+kernel
   "^fftw3" fit
-  "^(spawn\\.h|sys/wait\\.h)" data+report
+  "^(spawn\\.h|sys/wait\\.h)" base+report
   "^getopt\\.h" cmd)
 
 if(NOT SOURCE)

@@ -275,7 +275,7 @@ static void check(reading *r, const wt_formats *formats, const char *fixtures)
         fail(r, "%s", err.message);
         return;
     }
-    if (wt_detect(formats, input, 0, &info, &err) != WT_OK)
+    if (wt_detect(formats, input, NULL, 0, &info, &err) != WT_OK)
         fail(r, "not recognised: %s, %s", err.message, err.found);
     else if (strlen(info->id) != id_length || strncmp(info->id, r->file, id_length) != 0)
         fail(r, "recognised as %s", info->id);

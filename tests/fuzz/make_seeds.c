@@ -3,6 +3,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
+#include "writers/book_writer.h"
 #include "writers/jpk_writer.h"
 #include "writers/nid_writer.h"
 
@@ -136,6 +137,25 @@ static int make_nid(const char *folder)
     return 0;
 }
 
+/* ---- spreadsheets ------------------------------------------------------------------------- */
+
+static int make_packed(const char *folder)
+{
+    static const char sweep[] =
+        "f\tT\tE'\tE''\nHz\tdegC\tMPa\tMPa\n1\t20\t11\t1.25\n10\t20\t12\t1.5\n";
+    const book_writer_sheet sheets[] = {{"A", "Operator\tM & M\n", false}, {"B", sweep, false}};
+    char archive[512], list[512];
+    for (int shared = 0; shared < 2; shared++) {
+        path_of(archive, sizeof archive, folder, "book.xlsx");
+        path_of(list, sizeof list, folder, shared ? "shared.list" : "inline.list");
+        if (xlsx_write(archive, sheets, 2, shared) != 0 || write_list(archive, list) != 0 ||
+            remove(archive) != 0)
+            return -1;
+    }
+    path_of(archive, sizeof archive, folder, "book.xls");
+    return xls_write(archive, sheets, 2);
+}
+
 /* ---- properties --------------------------------------------------------------------------- */
 
 static int make_properties(const char *folder)
@@ -161,8 +181,8 @@ static int make_folder(char *path, size_t size, const char *parent, const char *
 
 int main(int argc, char *argv[])
 {
-    static int (*const make[])(const char *) = {make_jpk, make_nid, make_properties};
-    static const char *const names[] = {"jpk", "nid", "properties"};
+    static int (*const make[])(const char *) = {make_jpk, make_nid, make_packed, make_properties};
+    static const char *const names[] = {"jpk", "nid", "packed", "properties"};
     char folder[256];
     if (argc != 2) {
         fprintf(stderr, "usage: make_seeds FOLDER\n");
@@ -173,7 +193,7 @@ int main(int argc, char *argv[])
         force[i] = 1e-9 * (double)(i * i) / POINTS;
         sensor[i] = 2e-6 - 1e-7 * (double)i;
     }
-    for (size_t i = 0; i < 3; i++) {
+    for (size_t i = 0; i < 4; i++) {
         if (make_folder(folder, sizeof folder, argv[1], names[i]) != 0 || make[i](folder) != 0) {
             fprintf(stderr, "%s/%s: cannot be written\n", argv[1], names[i]);
             return 1;

@@ -89,6 +89,7 @@ static const struct {
     {NULL, "formats", "further descriptions: tests/formats"},
     {NULL, "format", "overrules what is found: tests/cli"},
     {NULL, "units", "for files without units: tests/formats"},
+    {NULL, "sheet", "for spreadsheets: unit_read_packed"},
     {NULL, "temperature", "for files without a temperature: tests/formats"},
     {NULL, "material", "the base has the same from --dma: tests/cli/round_trip.txt"},
     {NULL, "dma", "the base has it"},

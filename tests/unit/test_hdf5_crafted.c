@@ -304,7 +304,7 @@ static wt_status walk(hid_t file, size_t size, FILE *out, wt_error *err)
 static void try_walk(void *user, const char *what, const uint8_t *bytes, size_t size)
 {
     tally *const t = user;
-    const hdf5_limits limits = {(size_t)64 << 20, (size_t)1 << 20, 2, 20};
+    const door_limits limits = {(size_t)64 << 20, (size_t)1 << 20, 2, 20};
     char *answer = NULL;
     size_t length = 0;
     wt_error err = WT_ERROR_INIT;

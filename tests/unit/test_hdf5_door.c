@@ -17,7 +17,7 @@
 static char path[] = "/tmp/weartrack-door-XXXXXX";
 static unsigned char *bytes;
 static size_t size;
-static const hdf5_limits usual = {(size_t)64 << 20, (size_t)1 << 20, 20, 60};
+static const door_limits usual = {(size_t)64 << 20, (size_t)1 << 20, 20, 60};
 
 static int set_up(void **state)
 {
@@ -39,7 +39,7 @@ static int clean(void **state)
 }
 
 /* Reads with it; the error is that of a failure. */
-static wt_status pass(hdf5_reading *reading, hdf5_limits limits, char **answer, wt_error *err)
+static wt_status pass(hdf5_reading *reading, door_limits limits, char **answer, wt_error *err)
 {
     size_t length = 0;
     *err = (wt_error)WT_ERROR_INIT;
@@ -52,7 +52,7 @@ static wt_status pass(hdf5_reading *reading, hdf5_limits limits, char **answer, 
     return status;
 }
 
-static void refused(hdf5_reading *reading, hdf5_limits limits, wt_status expected,
+static void refused(hdf5_reading *reading, door_limits limits, wt_status expected,
                     const char *words)
 {
     wt_error err;
@@ -201,7 +201,7 @@ static void every_end(void **state)
 static void every_limit(void **state)
 {
     (void)state;
-    hdf5_limits limits = usual;
+    door_limits limits = usual;
     const double start = wt_time_wall();
     limits.cpu_time = 1;
     refused(spins, limits, WT_E_CORRUPT, "did not end within 1 s of processor time");
@@ -218,7 +218,7 @@ static void every_limit(void **state)
 static void not_hdf5(void **state)
 {
     (void)state;
-    const hdf5_limits limits = hdf5_limits_of(8);
+    const door_limits limits = door_limits_of(8);
     char *answer = NULL;
     size_t length = 0;
     wt_error err = WT_ERROR_INIT;

@@ -502,7 +502,7 @@ static wt_status detect_text(const char *text, size_t n, unsigned kinds, const c
     wt_input *input = NULL;
     const wt_format_info *info = NULL;
     assert_int_equal(wt_input_open_memory(text, n, "made-up", &input, err), WT_OK);
-    wt_status status = wt_detect(formats, input, kinds, &info, err);
+    wt_status status = wt_detect(formats, input, NULL, kinds, &info, err);
     *id = status == WT_OK ? info->id : "";
     wt_input_close(input);
     return status;

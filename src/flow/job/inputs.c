@@ -208,7 +208,7 @@ wt_status flow_open(const wt_job *work, flow_file *file, const char *role, unsig
             wt_error_advice(err, "`weartrack formats list` shows the formats");
         }
     } else if (status == WT_OK) {
-        status = wt_detect(work->formats, input, kinds, &file->format, err);
+        status = wt_detect(work->formats, input, &file->read, kinds, &file->format, err);
     }
     if (status == WT_OK && work->provenance != NULL)
         status = add_provenance(work, input, file, role, err);

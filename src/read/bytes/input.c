@@ -24,8 +24,9 @@ struct wt_input {
     bool whole;            /* bytes..length is all there is */
     unsigned char *buffer; /* what was read */
     size_t capacity;
-    size_t expected; /* size of a file, 0 of a pipe */
-    int fd;          /* -1 if there is nothing left to read or to close */
+    size_t expected;   /* size of a file, 0 of a pipe */
+    wt_input *content; /* what was unpacked from it, or NULL */
+    int fd;            /* -1 if there is nothing left to read or to close */
 };
 
 static wt_status input_new(const char *name, wt_input **input, wt_error *err)
@@ -149,11 +150,25 @@ void wt_input_close(wt_input *input)
 {
     if (input == NULL)
         return;
+    wt_input_close(input->content);
     if (input->fd >= 0)
         close(input->fd);
     free(input->buffer);
     free(input->name);
     free(input);
+}
+
+void input_keep(wt_input *input, wt_input *content)
+{
+    wt_input_close(input->content);
+    input->content = content;
+}
+
+wt_input *input_content(wt_input *input)
+{
+    while (input->content != NULL)
+        input = input->content;
+    return input;
 }
 
 const char *wt_input_name(const wt_input *input)

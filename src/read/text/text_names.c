@@ -111,6 +111,9 @@ bool names_match(names_row *names, const text_description *d, text_span line,
         return try_separator(names, d, line, separator, kinds) > 0;
     }
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
+        /* Names of several words would make blanks find more of them than are there. */
+        if (all[i] == SEPARATOR_WHITESPACE && best > 0)
+            break;
         size_t known = try_separator(names, d, line, all[i], kinds);
         if (known > best) {
             best = known;

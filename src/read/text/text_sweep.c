@@ -135,6 +135,20 @@ static void set_source(const builder *b, wt_isotherm *isotherm)
     memcpy(isotherm->source + strlen(isotherm->source), end, length + 1);
 }
 
+/* No instrument sweeps so many decades at one temperature. */
+static const double most_decades = 7;
+
+/* A master curve that another program made looks like one isotherm. */
+static void warn_of_shifted(const builder *b, double low, double high)
+{
+    const double decades = log10(high / low);
+    if (decades > most_decades)
+        wt_parselog_add(b->log, WT_WARNING, b->file->name, line_place(b->table->names_line).words,
+                        "frequencies over %.1f decades at one temperature: this looks like a "
+                        "master curve that was shifted already; export the measured isotherms",
+                        decades);
+}
+
 /* The rows collected so far become an isotherm, if their frequency was swept. */
 static wt_status flush(builder *b)
 {
@@ -153,6 +167,7 @@ static wt_status flush(builder *b)
         b->n = 0;
         return WT_OK;
     }
+    warn_of_shifted(b, low, high);
     wt_isotherm *isotherm = wt_sweep_add(b->sweep, b->n, b->c.strain != NULL);
     if (isotherm == NULL)
         return wt_fail(b->err, WT_E_MEMORY, "no memory for an isotherm");

@@ -1,0 +1,53 @@
+/* A process of its own for a library that hostile bytes may crash: its end, however it comes, is an
+ * error here and nothing more.
+ *
+ * The process is a fork of the caller, without an exec: it needs no helper program that would have
+ * to be found, it sees the bytes as they were checked, and it begins with the library loaded. In a
+ * program with threads it has the calling one alone. What it uses is safe then: memory (glibc keeps
+ * it whole across a fork) and the library, if its locks are held while the process is made (enter,
+ * leave).
+ *
+ * The process has the signals of a new one, no open file but its answer and one that it may be
+ * given, can write none (and open none, without that one), leaves no core file and does not outlive
+ * the caller. What it may take is limited. The caller's signal handlers are left alone: one that
+ * waits for every child may take this one too, and then only the cause of a failure stays unknown.
+ *
+ * Not promised: that a made file cannot run code in that process. It runs as the user, and no more
+ * is kept from it than is said here. Without /proc the limit of memory is left out.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WT_BASE_DOOR_H
+#define WT_BASE_DOOR_H
+
+#include "weartrack/base.h"
+
+#include <stdio.h>
+
+typedef struct door_limits {
+    size_t memory, answer;        /* bytes */
+    unsigned cpu_time, wall_time; /* s */
+} door_limits;
+/* What a file of this size may take: several times what a sound one does. */
+door_limits door_limits_of(size_t size);
+
+/* The number of the file that the process is given; it may open that one again. */
+enum { DOOR_FILE = 4 };
+
+typedef struct door_call {
+    const char *what; /* for messages: "HDF5" */
+    /* Runs behind the door: reads of the bytes what is wanted and prints it. */
+    wt_status (*reading)(const struct door_call *door, FILE *answer, wt_error *err);
+    const void *bytes;
+    size_t size;
+    const void *with;          /* for `reading` */
+    int file;                  /* -1: none */
+    void (*enter)(void *hold); /* around the making of the process; or NULL */
+    void (*leave)(void *hold);
+    void *hold;
+} door_call;
+
+/* Gives what `reading` printed, new, freed with free(). It comes from where the file had its way:
+ * nothing in it may be trusted. The error has no file name. */
+wt_status door_read(const door_call *door, const door_limits *limits, char **answer, size_t *length,
+                    wt_error *err) WT_NODISCARD;
+
+#endif

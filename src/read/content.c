@@ -1,0 +1,250 @@
+/* What is read of a file that packs another: of a gzip archive its content, of a spreadsheet the
+ * sheet that holds the data, as text.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "read/bytes/input.h"
+#include "read/formats.h"
+#include "read/packed/packed.h"
+#include "read/text/text.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+/* ---- the sheet ------------------------------------------------------------------------------- */
+
+typedef struct choice {
+    const wt_formats *formats;
+    const wt_read_options *options;
+    unsigned kinds;
+    const workbook *book;
+    const char *file;
+    bool *chosen; /* of each sheet */
+    wt_error *err;
+} choice;
+
+static bool wants_all(const choice *c)
+{
+    return c->options->sheet != NULL && strcmp(c->options->sheet, "all") == 0;
+}
+
+/* The sheets as words of a message: all, or those chosen. */
+static void list_sheets(const choice *c, bool chosen, char *words, size_t size)
+{
+    size_t used = 0;
+    words[0] = '\0';
+    for (size_t i = 0; i < c->book->n && used < size; i++)
+        if (!chosen || c->chosen[i])
+            used += (size_t)snprintf(words + used, size - used, "%s\"%s\"", used > 0 ? ", " : "",
+                                     c->book->sheets[i].name);
+}
+
+static wt_status sheet_input(const choice *c, size_t i, wt_input **input)
+{
+    const book_sheet *s = &c->book->sheets[i];
+    char *name = NULL, *copy = malloc(s->length + 1);
+    if (copy == NULL || asprintf(&name, "%s, sheet %s", c->file, s->name) < 0) {
+        free(copy);
+        return wt_fail(c->err, WT_E_MEMORY, "no memory for a sheet");
+    }
+    memcpy(copy, s->text, s->length);
+    copy[s->length] = '\0';
+    const wt_status status = input_own(copy, s->length, name, input, c->err);
+    free(name);
+    return status;
+}
+
+/* Whether a sheet holds something that is read, and of the kinds asked for. */
+static wt_status recognised(const choice *c, size_t i, bool *yes)
+{
+    wt_error why = WT_ERROR_INIT;
+    wt_input *input = NULL;
+    const file_reader *reader = NULL;
+    wt_status status = sheet_input(c, i, &input);
+    if (status != WT_OK)
+        return status;
+    status = detect_reader(c->formats, input, c->options->format, c->kinds, &reader, &why);
+    if (status == WT_OK && c->options->format != NULL) {
+        const unsigned char *bytes = NULL;
+        file_peek peek = {.whole = true, .name = c->file};
+        status = wt_input_bytes(input, &bytes, &peek.length, c->err);
+        peek.bytes = bytes;
+        *yes = status == WT_OK && reader->detect(reader, &peek).answer == ANSWER_YES;
+        text_peek_free(peek.text);
+    } else {
+        *yes = status == WT_OK;
+        status = status == WT_E_MEMORY ? wt_fail(c->err, status, "%s", why.message) : WT_OK;
+    }
+    wt_input_close(input);
+    return status;
+}
+
+static wt_status choose_by_name(const choice *c)
+{
+    char words[200];
+    for (size_t i = 0; i < c->book->n; i++) {
+        c->chosen[i] = strcasecmp(c->book->sheets[i].name, c->options->sheet) == 0;
+        if (c->chosen[i])
+            return WT_OK;
+    }
+    list_sheets(c, false, words, sizeof words);
+    wt_fail(c->err, WT_E_NOT_FOUND, "the spreadsheet has no sheet \"%s\"", c->options->sheet);
+    wt_error_found(c->err, "%s", words);
+    return WT_E_NOT_FOUND;
+}
+
+/* Hidden sheets are no answer unless they are named. */
+static wt_status choose_by_content(const choice *c)
+{
+    char words[200];
+    size_t n = 0, visible = 0, last = 0;
+    for (size_t i = 0; i < c->book->n; i++) {
+        if (c->book->sheets[i].hidden)
+            continue;
+        const wt_status status = recognised(c, i, &c->chosen[i]);
+        if (status != WT_OK)
+            return status;
+        n += c->chosen[i];
+        visible++;
+        last = i;
+    }
+    if (n == 1 || (n > 1 && wants_all(c)))
+        return WT_OK;
+    list_sheets(c, n > 0, words, sizeof words);
+    if (n > 1) {
+        wt_fail(c->err, WT_E_AMBIGUOUS, "%zu sheets of the spreadsheet hold data", n);
+        wt_error_found(c->err, "%s", words);
+        wt_error_advice(c->err, "choose one with --sheet NAME, or take all of them as one "
+                                "measurement with --sheet all");
+        return WT_E_AMBIGUOUS;
+    }
+    /* The only one may be read all the same if the user says how, or tells what is wrong with it.
+     */
+    c->chosen[last] = visible == 1;
+    if (visible == 1)
+        return WT_OK;
+    wt_fail(c->err, WT_E_FORMAT, "no sheet of the spreadsheet is recognised");
+    wt_error_found(c->err, "%s", words);
+    wt_error_advice(c->err, "a table of data begins with the names of its columns, such as f, E', "
+                            "E'' and T, with their units behind them in brackets or in the next "
+                            "row; `weartrack formats list` shows what is known");
+    return WT_E_FORMAT;
+}
+
+/* The sheets chosen as one text. */
+static wt_status join_sheets(const choice *c, wt_input **content)
+{
+    char *text = NULL, *name = NULL;
+    char words[200];
+    size_t length = 0, n = 0, one = 0;
+    for (size_t i = 0; i < c->book->n; i++) {
+        n += c->chosen[i];
+        one = c->chosen[i] ? i : one;
+    }
+    if (n == 1)
+        return sheet_input(c, one, content);
+    FILE *out = open_memstream(&text, &length);
+    if (out == NULL)
+        return wt_fail(c->err, WT_E_MEMORY, "no memory for the sheets");
+    for (size_t i = 0; i < c->book->n; i++)
+        if (c->chosen[i])
+            (void)fwrite(c->book->sheets[i].text, 1, c->book->sheets[i].length, out);
+    const bool failed = ferror(out) != 0;
+    list_sheets(c, true, words, sizeof words);
+    if (fclose(out) != 0 || failed ||
+        asprintf(&name, "%s, sheets %s one after the other", c->file, words) < 0) {
+        free(text);
+        return wt_fail(c->err, WT_E_MEMORY, "no memory for the sheets");
+    }
+    const wt_status status = input_own(text, length, name, content, c->err);
+    free(name);
+    return status;
+}
+
+static wt_status choose(const wt_formats *formats, wt_input *input, const workbook *book,
+                        const wt_read_options *options, unsigned kinds, wt_input **content,
+                        wt_error *err)
+{
+    const choice c = {.formats = formats,
+                      .options = options,
+                      .kinds = kinds,
+                      .book = book,
+                      .file = wt_input_name(input),
+                      .chosen = calloc(book->n + 1, sizeof(bool)),
+                      .err = err};
+    wt_status status = WT_OK;
+    if (c.chosen == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for the sheets");
+    if (book->n == 0)
+        status = wt_fail(err, WT_E_EMPTY, "the spreadsheet has no sheet with cells");
+    else
+        status =
+            options->sheet != NULL && !wants_all(&c) ? choose_by_name(&c) : choose_by_content(&c);
+    if (status == WT_OK)
+        status = join_sheets(&c, content);
+    free(c.chosen);
+    return status;
+}
+
+/* ---- unpacking ------------------------------------------------------------------------------- */
+
+/* One step; *content stays NULL if nothing is packed there. */
+static wt_status unpack(const wt_formats *formats, wt_input *input, const wt_read_options *options,
+                        unsigned kinds, wt_input **content, wt_error *err)
+{
+    const unsigned char *bytes = NULL;
+    size_t length = 0;
+    bool whole = false;
+    workbook book = {NULL, 0};
+    wt_status status = wt_input_peek(input, PACKED_PEEK, &bytes, &length, &whole, err);
+    if (status != WT_OK)
+        return status;
+    if (gzip_is(bytes, length))
+        return gzip_unpack(input, content, err);
+    const bool new_book = xlsx_is(bytes, length);
+    if (!new_book && !xls_is(bytes, length))
+        return WT_OK;
+    status = new_book ? xlsx_read(input, &book, err) : xls_read(input, &book, err);
+    if (status == WT_OK)
+        status = choose(formats, input, &book, options, kinds, content, err);
+    workbook_clear(&book);
+    return status;
+}
+
+/* An archive of an archive of a spreadsheet is as deep as it goes. */
+enum { MOST_LAYERS = 3 };
+
+wt_status find_reader(const wt_formats *formats, wt_input *input, const wt_read_options *options,
+                      unsigned kinds, const file_reader **reader, wt_input **content, wt_error *err)
+{
+    wt_input *in = input_content(input);
+    wt_status status = WT_OK;
+    for (int i = in == input ? 0 : MOST_LAYERS; i < MOST_LAYERS; i++) {
+        wt_input *inner = NULL;
+        status = unpack(formats, in, options, kinds, &inner, err);
+        if (status != WT_OK || inner == NULL)
+            break;
+        input_keep(in, inner);
+        in = inner;
+    }
+    *content = in;
+    if (status == WT_OK)
+        status = detect_reader(formats, in, options->format, kinds, reader, err);
+    if (status != WT_OK)
+        wt_error_file(err, wt_input_name(input));
+    return status;
+}
+
+wt_status wt_detect(const wt_formats *formats, wt_input *input, const wt_read_options *options,
+                    unsigned kinds, const wt_format_info **info, wt_error *err)
+{
+    static const wt_read_options usual = {.format = NULL, .sheet = NULL};
+    const file_reader *reader = NULL;
+    wt_input *content = NULL;
+    wt_status status = find_reader(formats, input, options != NULL ? options : &usual, kinds,
+                                   &reader, &content, err);
+    if (status == WT_OK)
+        *info = &reader->info;
+    return status;
+}

@@ -1,0 +1,104 @@
+/* Sheets as text. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "read/packed/packed.h"
+
+#include "base/array.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define FIRST_ROOM ((size_t)4096)
+
+static bool room_for(sheet_text *sheet, size_t n)
+{
+    if (n > sheet->most - sheet->length) {
+        sheet->too_long = true;
+        return false;
+    }
+    size_t room = sheet->room > 0 ? sheet->room : FIRST_ROOM;
+    while (room < sheet->length + n)
+        room *= 2;
+    if (room == sheet->room)
+        return true;
+    char *bytes = realloc(sheet->bytes, room);
+    if (bytes == NULL) {
+        sheet->no_memory = true;
+        return false;
+    }
+    sheet->bytes = bytes;
+    sheet->room = room;
+    return true;
+}
+
+static bool put_marks(sheet_text *sheet, char mark, size_t n)
+{
+    if (!room_for(sheet, n))
+        return false;
+    if (n > 0)
+        memset(sheet->bytes + sheet->length, mark, n);
+    sheet->length += n;
+    return true;
+}
+
+bool sheet_put(sheet_text *sheet, size_t row, size_t column, const char *text, size_t length)
+{
+    if (row > sheet->row) {
+        if (!put_marks(sheet, '\n', row - sheet->row))
+            return false;
+        sheet->row = row;
+        sheet->column = 0;
+    }
+    if (column > sheet->column) {
+        if (!put_marks(sheet, '\t', column - sheet->column))
+            return false;
+        sheet->column = column;
+    }
+    if (!room_for(sheet, length))
+        return false;
+    char *to = sheet->bytes + sheet->length;
+    for (size_t i = 0; i < length; i++)
+        to[i] = text[i];
+    for (size_t i = 0; i < length; i++)
+        if ((unsigned char)to[i] < 0x20)
+            to[i] = ' ';
+    sheet->length += length;
+    return true;
+}
+
+wt_status sheet_refuse(const sheet_text *sheet, const char *name, wt_error *err)
+{
+    if (sheet->no_memory)
+        return wt_fail(err, WT_E_MEMORY, "no memory for a sheet");
+    wt_fail(err, WT_E_CORRUPT, "a sheet gives more text than a file of this size can hold");
+    wt_error_place(err, "sheet %s", name);
+    wt_error_advice(err, "save the sheet as CSV");
+    return WT_E_CORRUPT;
+}
+
+wt_status workbook_add(workbook *book, const char *name, bool hidden, sheet_text *text,
+                       wt_error *err)
+{
+    book_sheet *sheets = array_grow(book->sheets, book->n, sizeof *sheets);
+    char *copy = strdup(name);
+    const bool ended = put_marks(text, '\n', 1);
+    if (sheets != NULL)
+        book->sheets = sheets;
+    if (sheets == NULL || copy == NULL || !ended) {
+        free(copy);
+        return ended ? wt_fail(err, WT_E_MEMORY, "no memory for a sheet")
+                     : sheet_refuse(text, name, err);
+    }
+    book->sheets[book->n++] =
+        (book_sheet){.name = copy, .text = text->bytes, .length = text->length, .hidden = hidden};
+    *text = (sheet_text){.bytes = NULL};
+    return WT_OK;
+}
+
+void workbook_clear(workbook *book)
+{
+    for (size_t i = 0; i < book->n; i++) {
+        free(book->sheets[i].name);
+        free(book->sheets[i].text);
+    }
+    free(book->sheets);
+    *book = (workbook){NULL, 0};
+}

@@ -1,0 +1,429 @@
+/* Office Open XML spreadsheets: a ZIP archive of XML. Numbers are taken as they are written, texts
+ * from the shared strings; formulas have the value that was saved with them.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "base/array.h"
+#include "read/bytes/archive.h"
+#include "read/packed/packed.h"
+
+#include <libxml/xmlreader.h>
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define MIB ((size_t)1 << 20)
+#define MOST_ENTRY (512 * MIB)
+/* Limits of the format: columns, rows (ECMA-376 has none, the programs that write it do). */
+enum { MOST_COLUMNS = 16384, MOST_ROWS = 1048576 };
+
+bool xlsx_is(const unsigned char *bytes, size_t length)
+{
+    /* The name of the first entry, behind its 30 bytes of header. */
+    static const char *const first[] = {"[Content_Types].xml", "_rels/", "docProps/", "xl/"};
+    if (length < 30 || memcmp(bytes, "PK\3\4", 4) != 0)
+        return false;
+    for (size_t i = 0; i < COUNT_OF(first); i++) {
+        const size_t n = strlen(first[i]);
+        if (length >= 30 + n && memcmp(bytes + 30, first[i], n) == 0)
+            return true;
+    }
+    return false;
+}
+
+/* ---- XML of an entry ------------------------------------------------------------------------- */
+
+typedef struct part {
+    const char *name; /* of the entry */
+    byte_buffer bytes;
+    xmlTextReader *xml;
+} part;
+
+static void part_close(part *p)
+{
+    if (p->xml != NULL)
+        xmlFreeTextReader(p->xml);
+    free(p->bytes.data);
+    *p = (part){.name = NULL};
+}
+
+/* WT_END: there is no such entry. */
+static wt_status part_open(const zip_archive *zip, const char *name, part *p, wt_error *err)
+{
+    size_t i = 0;
+    *p = (part){.name = name};
+    if (!archive_find(zip, name, &i))
+        return WT_END;
+    wt_status status = archive_read(zip, i, MOST_ENTRY, &p->bytes, err);
+    if (status == WT_OK && p->bytes.length > INT_MAX)
+        status = wt_fail(err, WT_E_UNSUPPORTED, "a part of the spreadsheet is too large");
+    if (status == WT_OK) {
+        p->xml = xmlReaderForMemory((const char *)p->bytes.data, (int)p->bytes.length, NULL, NULL,
+                                    XML_PARSE_NONET | XML_PARSE_NOERROR | XML_PARSE_NOWARNING);
+        if (p->xml == NULL)
+            status = wt_fail(err, WT_E_MEMORY, "no memory for a part of the spreadsheet");
+    }
+    if (status != WT_OK)
+        part_close(p);
+    return status;
+}
+
+static wt_status damaged(const part *p, wt_error *err, const char *what)
+{
+    wt_fail(err, WT_E_CORRUPT, "%s", what);
+    wt_error_place(err, "%s", p->name);
+    wt_error_advice(err, "open the file in a spreadsheet program and save it again, or as CSV");
+    return WT_E_CORRUPT;
+}
+
+/* To the next node; WT_END behind the last one. A document type could define entities, and no
+ * spreadsheet has one. */
+static wt_status part_next(const part *p, wt_error *err)
+{
+    const int more = xmlTextReaderRead(p->xml);
+    if (more == 0)
+        return WT_END;
+    if (more < 0)
+        return damaged(p, err, "a part of the spreadsheet is not well-formed XML");
+    const int type = xmlTextReaderNodeType(p->xml);
+    if (type == XML_READER_TYPE_DOCUMENT_TYPE || type == XML_READER_TYPE_ENTITY_REFERENCE)
+        return damaged(p, err, "a part of the spreadsheet defines entities");
+    return WT_OK;
+}
+
+static bool begins(const part *p, const char *name)
+{
+    return xmlTextReaderNodeType(p->xml) == XML_READER_TYPE_ELEMENT &&
+           strcmp((const char *)xmlTextReaderConstLocalName(p->xml), name) == 0;
+}
+
+static bool ends(const part *p, const char *name)
+{
+    const int type = xmlTextReaderNodeType(p->xml);
+    return (type == XML_READER_TYPE_END_ELEMENT ||
+            (type == XML_READER_TYPE_ELEMENT && xmlTextReaderIsEmptyElement(p->xml) == 1)) &&
+           strcmp((const char *)xmlTextReaderConstLocalName(p->xml), name) == 0;
+}
+
+static const char *characters(const part *p)
+{
+    const int type = xmlTextReaderNodeType(p->xml);
+    if (type != XML_READER_TYPE_TEXT && type != XML_READER_TYPE_CDATA &&
+        type != XML_READER_TYPE_SIGNIFICANT_WHITESPACE)
+        return NULL;
+    return (const char *)xmlTextReaderConstValue(p->xml);
+}
+
+/* The attribute of that local name, copied; NULL if absent. */
+static char *attribute(const part *p, const char *name)
+{
+    char *copy = NULL;
+    int more = xmlTextReaderMoveToFirstAttribute(p->xml);
+    for (; more == 1 && copy == NULL; more = xmlTextReaderMoveToNextAttribute(p->xml)) {
+        const char *value = (const char *)xmlTextReaderConstValue(p->xml);
+        if (value != NULL && strcmp((const char *)xmlTextReaderConstLocalName(p->xml), name) == 0)
+            copy = strdup(value);
+    }
+    (void)xmlTextReaderMoveToElement(p->xml);
+    return copy;
+}
+
+/* ---- texts ----------------------------------------------------------------------------------- */
+
+/* Pieces of text, one behind the other. */
+typedef struct texts {
+    char *bytes;
+    size_t length, room;
+    size_t *end; /* of each text */
+    size_t n;
+} texts;
+
+static void texts_clear(texts *t)
+{
+    free(t->bytes);
+    free(t->end);
+    *t = (texts){.bytes = NULL};
+}
+
+static bool texts_append(texts *t, const char *piece)
+{
+    const size_t n = strlen(piece);
+    if (t->room - t->length < n) {
+        const size_t room = 2 * (t->room + n);
+        char *bytes = realloc(t->bytes, room);
+        if (bytes == NULL)
+            return false;
+        t->bytes = bytes;
+        t->room = room;
+    }
+    memcpy(t->bytes + t->length, piece, n);
+    t->length += n;
+    return true;
+}
+
+static bool texts_end(texts *t)
+{
+    size_t *end = array_grow(t->end, t->n, sizeof *end);
+    if (end == NULL)
+        return false;
+    t->end = end;
+    t->end[t->n++] = t->length;
+    return true;
+}
+
+static wt_status no_memory(wt_error *err)
+{
+    return wt_fail(err, WT_E_MEMORY, "no memory for a spreadsheet");
+}
+
+/* The shared strings; how something is pronounced (rPh) is no part of the text. */
+static wt_status read_strings(const zip_archive *zip, texts *strings, wt_error *err)
+{
+    part p;
+    bool in_text = false, aside = false;
+    wt_status status = part_open(zip, "xl/sharedStrings.xml", &p, err);
+    if (status == WT_END)
+        return WT_OK;
+    while (status == WT_OK && (status = part_next(&p, err)) == WT_OK) {
+        const char *piece = characters(&p);
+        if (piece != NULL && in_text && !aside && !texts_append(strings, piece))
+            status = no_memory(err);
+        if (begins(&p, "rPh"))
+            aside = true;
+        if (ends(&p, "rPh"))
+            aside = false;
+        if (begins(&p, "t"))
+            in_text = true;
+        if (ends(&p, "t"))
+            in_text = false;
+        if (ends(&p, "si") && !texts_end(strings))
+            status = no_memory(err);
+    }
+    part_close(&p);
+    return status == WT_END ? WT_OK : status;
+}
+
+/* ---- cells ----------------------------------------------------------------------------------- */
+
+/* What is known of the cell that is read. */
+typedef struct cell {
+    size_t row, column;
+    enum { CELL_VALUE, CELL_SHARED, CELL_INLINE, CELL_NOTHING } kind;
+    texts text; /* its characters so far */
+    bool in_text;
+} cell;
+
+/* "BC12" to column 54; the row stands there too, but belongs to the row. False: no reference. */
+static bool parse_column(const char *reference, size_t *column)
+{
+    size_t c = 0;
+    const char *at = reference;
+    for (; *at >= 'A' && *at <= 'Z' && c <= MOST_COLUMNS; at++)
+        c = 26 * c + (size_t)(*at - 'A') + 1;
+    if (at == reference || c > MOST_COLUMNS)
+        return false;
+    *column = c - 1;
+    return true;
+}
+
+static bool parse_count(const char *text, size_t most, size_t *count)
+{
+    char *end = NULL;
+    if (*text < '0' || *text > '9')
+        return false;
+    const unsigned long long n = strtoull(text, &end, 10);
+    if (*end != '\0' || n > most)
+        return false;
+    *count = (size_t)n;
+    return true;
+}
+
+static wt_status begin_row(const part *p, cell *c, wt_error *err)
+{
+    char *number = attribute(p, "r");
+    size_t row = c->row + 2; /* from 1, behind the last one; SIZE_MAX + 2 is 1 */
+    bool good = number == NULL || parse_count(number, MOST_ROWS, &row);
+    free(number);
+    good = good && row >= 1 && row <= MOST_ROWS && (c->row == SIZE_MAX || row - 1 > c->row);
+    if (!good)
+        return damaged(p, err, "the rows of a sheet are not numbered one after the other");
+    c->row = row - 1;
+    c->column = SIZE_MAX;
+    return WT_OK;
+}
+
+static wt_status begin_cell(const part *p, cell *c, wt_error *err)
+{
+    static const struct {
+        const char *type;
+        int kind;
+    } kinds[] = {{"s", CELL_SHARED}, {"inlineStr", CELL_INLINE}, {"e", CELL_NOTHING}};
+    char *reference = attribute(p, "r"), *type = attribute(p, "t");
+    size_t column = c->column + 1;
+    const bool good = (reference == NULL || parse_column(reference, &column)) &&
+                      column < MOST_COLUMNS && (c->column == SIZE_MAX || column > c->column) &&
+                      c->row != SIZE_MAX;
+    c->kind = CELL_VALUE;
+    for (size_t i = 0; i < COUNT_OF(kinds) && type != NULL; i++)
+        if (strcmp(type, kinds[i].type) == 0)
+            c->kind = kinds[i].kind;
+    free(reference);
+    free(type);
+    if (!good)
+        return damaged(p, err, "the cells of a row do not stand one after the other");
+    c->column = column;
+    c->text.length = 0;
+    return WT_OK;
+}
+
+static wt_status end_cell(const part *p, cell *c, const texts *strings, sheet_text *out,
+                          wt_error *err)
+{
+    const char *text = c->text.bytes;
+    size_t length = c->text.length;
+    if (c->kind == CELL_NOTHING || length == 0)
+        return WT_OK;
+    if (c->kind == CELL_SHARED) {
+        size_t i = 0;
+        if (!texts_append(&c->text, "") || length >= 20)
+            return damaged(p, err, "a cell names no text");
+        char number[20];
+        memcpy(number, text, length);
+        number[length] = '\0';
+        if (!parse_count(number, SIZE_MAX / 2, &i) || i >= strings->n)
+            return damaged(p, err, "a cell names a text that is not there");
+        const size_t from = i > 0 ? strings->end[i - 1] : 0;
+        text = strings->bytes + from;
+        length = strings->end[i] - from;
+    }
+    return length == 0 || sheet_put(out, c->row, c->column, text, length)
+               ? WT_OK
+               : sheet_refuse(out, p->name, err);
+}
+
+/* Of one node. */
+static wt_status read_node(const part *p, cell *c, const texts *strings, sheet_text *out,
+                           wt_error *err)
+{
+    wt_status status = WT_OK;
+    const char *mark = c->kind == CELL_INLINE ? "t" : "v";
+    const char *piece = characters(p);
+    if (piece != NULL && c->in_text && !texts_append(&c->text, piece))
+        return no_memory(err);
+    if (begins(p, "row"))
+        status = begin_row(p, c, err);
+    else if (begins(p, "c"))
+        status = begin_cell(p, c, err);
+    else if (begins(p, mark))
+        c->in_text = true;
+    if (status == WT_OK && ends(p, mark))
+        c->in_text = false;
+    if (status == WT_OK && ends(p, "c"))
+        status = end_cell(p, c, strings, out, err);
+    return status;
+}
+
+/* WT_END: a chart, which has no rows. */
+static wt_status read_sheet(const zip_archive *zip, const char *entry, const texts *strings,
+                            sheet_text *out, wt_error *err)
+{
+    part p;
+    cell c = {.row = SIZE_MAX, .column = SIZE_MAX};
+    bool is_sheet = false;
+    wt_status status = part_open(zip, entry, &p, err);
+    if (status == WT_END) {
+        wt_fail(err, WT_E_CORRUPT, "a sheet of the spreadsheet is missing");
+        wt_error_place(err, "%s", entry);
+        return WT_E_CORRUPT;
+    }
+    if (status == WT_OK)
+        out->most = 16 * MIB + 4 * (p.bytes.length + strings->length);
+    while (status == WT_OK && (status = part_next(&p, err)) == WT_OK) {
+        is_sheet = is_sheet || begins(&p, "worksheet");
+        status = read_node(&p, &c, strings, out, err);
+    }
+    texts_clear(&c.text);
+    part_close(&p);
+    return status == WT_END && is_sheet ? WT_OK : status;
+}
+
+/* ---- the book -------------------------------------------------------------------------------- */
+
+/* The entry that a relation of the workbook leads to, new; *entry stays NULL if there is none. */
+static wt_status find_entry(const zip_archive *zip, const char *id, char **entry, wt_error *err)
+{
+    part p;
+    wt_status status = part_open(zip, "xl/_rels/workbook.xml.rels", &p, err);
+    while (status == WT_OK && *entry == NULL && (status = part_next(&p, err)) == WT_OK) {
+        if (!begins(&p, "Relationship"))
+            continue;
+        char *this = attribute(&p, "Id"), *target = attribute(&p, "Target");
+        if (this != NULL && target != NULL && strcmp(this, id) == 0) {
+            const int n = target[0] == '/' ? asprintf(entry, "%s", target + 1)
+                                           : asprintf(entry, "xl/%s", target);
+            if (n < 0) {
+                *entry = NULL;
+                status = no_memory(err);
+            }
+        }
+        free(this);
+        free(target);
+    }
+    part_close(&p);
+    return status == WT_END ? WT_OK : status;
+}
+
+static wt_status add_sheet(const zip_archive *zip, const part *p, const texts *strings,
+                           workbook *book, wt_error *err)
+{
+    char *name = attribute(p, "name"), *id = attribute(p, "id"), *state = attribute(p, "state");
+    char *entry = NULL;
+    sheet_text text = {.bytes = NULL};
+    wt_status status = WT_OK;
+    if (name == NULL || id == NULL)
+        status = damaged(p, err, "a sheet has no name, or no place");
+    if (status == WT_OK)
+        status = find_entry(zip, id, &entry, err);
+    if (status == WT_OK && entry == NULL)
+        status = damaged(p, err, "a sheet has no place in the file");
+    if (status == WT_OK)
+        status = read_sheet(zip, entry, strings, &text, err);
+    if (status == WT_OK)
+        status =
+            workbook_add(book, name, state != NULL && strcmp(state, "visible") != 0, &text, err);
+    free(text.bytes);
+    free(entry);
+    free(state);
+    free(id);
+    free(name);
+    return status == WT_END ? WT_OK : status;
+}
+
+wt_status xlsx_read(wt_input *input, workbook *book, wt_error *err)
+{
+    zip_archive *zip = NULL;
+    texts strings = {.bytes = NULL};
+    part p = {.name = NULL};
+    wt_status status = archive_open(input, &zip, err);
+    if (status == WT_OK && zip->truncated)
+        status = wt_fail(err, WT_E_CORRUPT, "the end of the spreadsheet file is missing");
+    if (status == WT_OK)
+        status = part_open(zip, "xl/workbook.xml", &p, err);
+    if (status == WT_END) {
+        status = wt_fail(err, WT_E_FORMAT, "not a spreadsheet");
+        wt_error_found(err, "a document or an archive of another program");
+        wt_error_advice(err, "give the file that the instrument exported, as text or CSV");
+    }
+    if (status == WT_OK)
+        status = read_strings(zip, &strings, err);
+    while (status == WT_OK && (status = part_next(&p, err)) == WT_OK)
+        if (begins(&p, "sheet"))
+            status = add_sheet(zip, &p, &strings, book, err);
+    status = status == WT_END ? WT_OK : status;
+    part_close(&p);
+    texts_clear(&strings);
+    archive_close(zip);
+    if (status != WT_OK)
+        workbook_clear(book);
+    return status;
+}

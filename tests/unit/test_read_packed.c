@@ -1,0 +1,315 @@
+/* What stands in packed files: gzip archives and spreadsheets, sound, damaged and made to harm.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "near.h"
+
+#include "weartrack/read.h"
+#include "writers/book_writer.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+#include <zip.h>
+#include <zlib.h>
+
+static wt_formats *formats;
+static char path[] = "/tmp/weartrack-packed-XXXXXX";
+
+static int set_up(void **state)
+{
+    (void)state;
+    const int fd = mkstemp(path);
+    return fd < 0 || close(fd) != 0 || wt_formats_new(NULL, &formats, NULL, NULL) != WT_OK ? -1 : 0;
+}
+
+static int clean(void **state)
+{
+    (void)state;
+    wt_formats_free(formats);
+    return unlink(path);
+}
+
+#define TABLE "f\tT\tE'\tE''\nHz\tdegC\tMPa\tMPa\n"
+#define SWEEP TABLE "0.1\t20\t10\t1\n1\t20\t11\t1.25\n10\t20\t12.1\t1.5\n"
+#define WARM TABLE "0.1\t60\t8\t0.5\n1\t60\t8.5\t0.625\n10\t60\t9\t0.75\n"
+
+/* Reads the file; the error is that of a failure. */
+static wt_status read_sweep(const char *sheet, wt_sweep *sweep, wt_parselog *log, wt_error *err)
+{
+    wt_input *input = NULL;
+    wt_read_options options = wt_read_defaults();
+    const wt_format_info *info = NULL;
+    *err = (wt_error)WT_ERROR_INIT;
+    *sweep = (wt_sweep){.n_isotherms = 0};
+    options.sheet = sheet;
+    wt_status status = wt_input_open(path, &input, err);
+    assert_int_equal(status, WT_OK);
+    status = wt_detect(formats, input, &options, WT_KIND_SWEEP, &info, err);
+    if (status == WT_OK) {
+        options.format = info->id;
+        status = wt_sweep_read(formats, input, &options, log, sweep, err);
+    }
+    if (status != WT_OK)
+        assert_non_null(strstr(err->file, "weartrack-packed"));
+    wt_input_close(input);
+    return status;
+}
+
+static void reads(const char *sheet, size_t isotherms, double storage)
+{
+    wt_sweep sweep;
+    wt_error err;
+    if (read_sweep(sheet, &sweep, NULL, &err) != WT_OK)
+        fail_msg("%s (%s, %s)", err.message, err.found, err.advice);
+    assert_int_equal(sweep.n_isotherms, isotherms);
+    assert_int_equal(sweep.isotherms[0].n, 3);
+    assert_near(sweep.isotherms[0].storage_modulus[0], storage, 1e-12);
+    assert_near(sweep.isotherms[0].angular_frequency[2], 20 * M_PI, 1e-12);
+    wt_sweep_clear(&sweep);
+}
+
+static void refused(const char *sheet, wt_status expected, const char *words)
+{
+    wt_sweep sweep;
+    wt_error err;
+    const wt_status status = read_sweep(sheet, &sweep, NULL, &err);
+    char all[2000];
+    snprintf(all, sizeof all, "%s; %s; %s; %s", err.message, err.place, err.found, err.advice);
+    if (status != expected || strstr(all, words) == NULL)
+        fail_msg("%d, \"%s\" instead of %d, \"%s\"", (int)status, all, (int)expected, words);
+}
+
+/* ---- gzip ------------------------------------------------------------------------------------ */
+
+static size_t pack(const char *text, size_t length, unsigned char *to, size_t size)
+{
+    z_stream z = {.next_in = (z_const Bytef *)(uintptr_t)text,
+                  .avail_in = (uInt)length,
+                  .next_out = to,
+                  .avail_out = (uInt)size};
+    assert_int_equal(deflateInit2(&z, 9, Z_DEFLATED, 16 + MAX_WBITS, 9, Z_DEFAULT_STRATEGY), Z_OK);
+    assert_int_equal(deflate(&z, Z_FINISH), Z_STREAM_END);
+    assert_int_equal(deflateEnd(&z), Z_OK);
+    return size - z.avail_out;
+}
+
+static void write_bytes(const unsigned char *bytes, size_t n)
+{
+    FILE *out = fopen(path, "wb");
+    assert_true(out != NULL && fwrite(bytes, 1, n, out) == n && fclose(out) == 0);
+}
+
+static void test_gzip(void **state)
+{
+    (void)state;
+    unsigned char bytes[4000];
+    size_t n = pack(SWEEP, strlen(SWEEP), bytes, sizeof bytes);
+    write_bytes(bytes, n);
+    reads(NULL, 1, 10e6);
+    /* A lone half of it, and one whose check sum differs. */
+    write_bytes(bytes, n / 2);
+    refused(NULL, WT_E_CORRUPT, "the end of the archive is missing");
+    bytes[n - 6] ^= 1;
+    write_bytes(bytes, n);
+    refused(NULL, WT_E_CORRUPT, "damaged");
+    /* Members follow one another; zeros at the end are no member. */
+    n = pack(TABLE, strlen(TABLE), bytes, sizeof bytes);
+    n += pack(SWEEP + strlen(TABLE), strlen(SWEEP) - strlen(TABLE), bytes + n, sizeof bytes - n);
+    memset(bytes + n, 0, 100);
+    write_bytes(bytes, n + 100);
+    reads(NULL, 1, 10e6);
+    /* What is in it is said, not that it is packed. */
+    n = pack("nothing known", 13, bytes, sizeof bytes);
+    write_bytes(bytes, n);
+    refused(NULL, WT_E_FORMAT, "text of no known layout");
+}
+
+/* ---- spreadsheets ---------------------------------------------------------------------------- */
+
+typedef int write_book(const char *file, const book_writer_sheet *sheets, size_t n);
+
+static int write_shared(const char *file, const book_writer_sheet *sheets, size_t n)
+{
+    return xlsx_write(file, sheets, n, true);
+}
+
+static int write_inline(const char *file, const book_writer_sheet *sheets, size_t n)
+{
+    return xlsx_write(file, sheets, n, false);
+}
+
+static write_book *const kinds[] = {write_shared, write_inline, xls_write};
+
+static void test_sheets(void **state)
+{
+    (void)state;
+    const book_writer_sheet sheets[] = {{"About", "Operator\tM. Muster\n\n\t\t2026\n", false},
+                                        {"Cold", SWEEP, false},
+                                        {"Warm & wet", WARM, false}};
+    const book_writer_sheet plain[] = {sheets[0], sheets[1], {"Warm", WARM, false}};
+    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
+        assert_int_equal(kinds[k](path, sheets, 2), 0);
+        reads(NULL, 1, 10e6);
+        reads("cold", 1, 10e6);
+        refused("hot", WT_E_NOT_FOUND, "\"About\", \"Cold\"");
+        refused("About", WT_E_FORMAT, "not recognised");
+        assert_int_equal(kinds[k](path, plain, 3), 0);
+        refused(NULL, WT_E_AMBIGUOUS, "\"Cold\", \"Warm\"");
+        reads("Warm", 1, 8e6);
+        reads("all", 2, 10e6);
+        assert_int_equal(kinds[k](path, plain, 1), 0);
+        refused(NULL, WT_E_FORMAT, "not recognised");
+        const book_writer_sheet two[] = {sheets[0], sheets[0]};
+        assert_int_equal(kinds[k](path, two, 2), 0);
+        refused(NULL, WT_E_FORMAT, "\"About\", \"About\"");
+    }
+    /* A hidden sheet is read only if it is named. */
+    const book_writer_sheet hidden[] = {{"Cold", SWEEP, false}, {"Warm", WARM, true}};
+    assert_int_equal(xlsx_write(path, hidden, 2, true), 0);
+    reads(NULL, 1, 10e6);
+    reads("Warm", 1, 8e6);
+}
+
+/* The number of a row is its number in the sheet. */
+static void test_place(void **state)
+{
+    (void)state;
+    const book_writer_sheet sheet = {"One", "\n\n" TABLE "0.1\t20\t10\t1\n1\t20\tten\t1\n", false};
+    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
+        assert_int_equal(kinds[k](path, &sheet, 1), 0);
+        wt_sweep sweep;
+        wt_error err;
+        wt_parselog *log = wt_parselog_new();
+        const wt_status status = read_sweep(NULL, &sweep, log, &err);
+        bool found = strstr(err.place, "line 6") != NULL;
+        for (size_t i = 0; i < wt_parselog_count(log); i++) {
+            const wt_log_entry entry = wt_parselog_get(log, i);
+            found = found || (entry.place != NULL && strstr(entry.place, "line 6") != NULL &&
+                              strstr(entry.file, ", sheet One") != NULL);
+        }
+        if (!found)
+            fail_msg("kind %zu, %d: %s, %s", k, (int)status, err.message, err.place);
+        wt_parselog_free(log);
+        wt_sweep_clear(&sweep);
+    }
+}
+
+/* ---- made to harm ---------------------------------------------------------------------------- */
+
+#define SHEET(cells) "<worksheet><sheetData>" cells "</sheetData></worksheet>"
+#define ROW(n, cells) "<row r=\"" n "\">" cells "</row>"
+
+/* A book with one sheet of this XML, and these strings. */
+static void write_parts(const char *sheet, const char *strings)
+{
+    static const char book[] = "<workbook><sheets><sheet name=\"A\" sheetId=\"1\" "
+                               "xmlns:r=\"r\" r:id=\"r1\"/></sheets></workbook>";
+    static const char relations[] = "<Relationships><Relationship Id=\"r1\" "
+                                    "Target=\"/xl/s.xml\"/></Relationships>";
+    const char *const names[] = {"xl/workbook.xml", "xl/_rels/workbook.xml.rels", "xl/s.xml",
+                                 "xl/sharedStrings.xml"};
+    const char *const texts[] = {book, relations, sheet, strings};
+    zip_t *zip = zip_open(path, ZIP_CREATE | ZIP_TRUNCATE, NULL);
+    assert_non_null(zip);
+    for (size_t i = 0; i < 4; i++) {
+        if (texts[i] == NULL)
+            continue;
+        zip_source_t *source = zip_source_buffer(zip, texts[i], strlen(texts[i]), 0);
+        assert_true(source != NULL && zip_file_add(zip, names[i], source, 0) >= 0);
+    }
+    assert_int_equal(zip_close(zip), 0);
+}
+
+static void test_hostile(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *sheet, *strings, *words;
+    } cases[] = {
+        {SHEET(ROW("2", "") ROW("1", "")), NULL, "not numbered"},
+        {SHEET(ROW("0", "")), NULL, "not numbered"},
+        {SHEET(ROW("1048577", "")), NULL, "not numbered"},
+        {SHEET(ROW("1x", "")), NULL, "not numbered"},
+        {SHEET(ROW("1", "<c r=\"B1\"/><c r=\"A1\"/>")), NULL, "do not stand"},
+        {SHEET(ROW("1", "<c r=\"XFE1\"/>")), NULL, "do not stand"},
+        {SHEET(ROW("1", "<c r=\"ZZZZZZZZZZZZZZZZZZ1\"/>")), NULL, "do not stand"},
+        {SHEET(ROW("1", "<c r=\"12\"/>")), NULL, "do not stand"},
+        {SHEET("<c r=\"A1\"/>"), NULL, "do not stand"},
+        {SHEET(ROW("1", "<c t=\"s\"><v>0</v></c>")), NULL, "not there"},
+        {SHEET(ROW("1", "<c t=\"s\"><v>-1</v></c>")), "<sst><si><t>x</t></si></sst>", "not there"},
+        {SHEET(ROW("1", "<c t=\"s\"><v>99999999999999999999</v></c>")),
+         "<sst><si><t>x</t></si></sst>", "names no text"},
+        {"<worksheet><sheetData>", NULL, "not well-formed"},
+        {"<!DOCTYPE x [<!ENTITY a \"b\">]>" SHEET(ROW("1", "<c><v>&a;</v></c>")), NULL, "entities"},
+        {SHEET(""), "<!DOCTYPE x [<!ENTITY a SYSTEM \"/etc/passwd\">]><sst>&a;</sst>", "entities"},
+        {NULL, NULL, "is missing"},
+        {"<chartsheet/>", NULL, "no sheet"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        write_parts(cases[i].sheet, cases[i].strings);
+        wt_sweep sweep;
+        wt_error err;
+        const wt_status status = read_sweep(NULL, &sweep, NULL, &err);
+        if ((status != WT_E_CORRUPT && status != WT_E_EMPTY) ||
+            strstr(err.message, cases[i].words) == NULL)
+            fail_msg("case %zu: %d, %s", i, (int)status, err.message);
+    }
+    /* One long text in many cells: more text than any sound file gives. */
+    static char sheet[400000], strings[300000];
+    size_t used = (size_t)snprintf(sheet, sizeof sheet, "<worksheet><sheetData>");
+    for (unsigned i = 1; i < 4000; i++)
+        used += (size_t)snprintf(sheet + used, sizeof sheet - used,
+                                 "<row r=\"%u\"><c t=\"s\"><v>0</v></c></row>", i);
+    snprintf(sheet + used, sizeof sheet - used, "</sheetData></worksheet>");
+    memset(strings, 'x', sizeof strings - 1);
+    memcpy(strings, "<sst><si><t>", 12);
+    memcpy(strings + sizeof strings - 20, "</t></si></sst>", 16);
+    write_parts(sheet, strings);
+    refused(NULL, WT_E_CORRUPT, "more text than a file of this size can hold");
+}
+
+/* A book cut off, and an archive that is none. */
+static void test_damaged(void **state)
+{
+    (void)state;
+    const book_writer_sheet sheet = {"One", SWEEP, false};
+    static unsigned char bytes[100000];
+    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
+        assert_int_equal(kinds[k](path, &sheet, 1), 0);
+        FILE *in = fopen(path, "rb");
+        assert_non_null(in);
+        const size_t n = fread(bytes, 1, sizeof bytes, in);
+        (void)fclose(in);
+        for (size_t part = 1; part < 8; part++) {
+            wt_sweep sweep;
+            wt_error err;
+            write_bytes(bytes, n * part / 8);
+            const wt_status status = read_sweep(NULL, &sweep, NULL, &err);
+            /* The last sectors of an .xls may be padding. */
+            if (status != WT_E_CORRUPT && status != WT_E_FORMAT && !(k == 2 && status == WT_OK))
+                fail_msg("kind %zu, %zu of 8: %d, %s", k, part, (int)status, err.message);
+            wt_sweep_clear(&sweep);
+        }
+    }
+    /* The real sheets of the instrument: skipped where they are absent. */
+    const char *real = WT_SHARED_DIR "/data/dma/eplexor/freq_Eplexor_raw.xls";
+    wt_input *input = NULL;
+    if (access(real, R_OK) != 0 || wt_input_open(real, &input, NULL) != WT_OK)
+        return;
+    wt_sweep sweep = {.n_isotherms = 0};
+    assert_int_equal(wt_sweep_read(formats, input, NULL, NULL, &sweep, NULL), WT_OK);
+    assert_int_equal(sweep.n_isotherms, 21);
+    assert_near(sweep.isotherms[0].storage_modulus[0], 8097.175545345271e6, 1e-14);
+    assert_near(sweep.isotherms[0].angular_frequency[0], 0.2 * M_PI, 1e-14);
+    wt_sweep_clear(&sweep);
+    wt_input_close(input);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_gzip), cmocka_unit_test(test_sheets),
+                                       cmocka_unit_test(test_place), cmocka_unit_test(test_hostile),
+                                       cmocka_unit_test(test_damaged)};
+    return cmocka_run_group_tests(tests, set_up, clean);
+}

@@ -1,0 +1,304 @@
+/* Spreadsheets for tests. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "writers/book_writer.h"
+
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <zip.h>
+
+/* ---- cells of a sheet's text ----------------------------------------------------------------- */
+
+typedef struct cell {
+    size_t row, column;
+    const char *text;
+    size_t length;
+    bool is_number;
+    double number;
+} cell;
+
+/* The next cell that is not empty; *at is where to go on. */
+static bool next_cell(const char **at, cell *c)
+{
+    for (; **at != '\0'; (*at)++) {
+        if (**at == '\n') {
+            c->row++;
+            c->column = 0;
+        } else if (**at == '\t') {
+            c->column++;
+        } else {
+            char copy[400], *end = NULL;
+            c->text = *at;
+            c->length = strcspn(*at, "\t\n");
+            *at += c->length;
+            snprintf(copy, sizeof copy, "%.*s", (int)c->length, c->text);
+            c->number = strtod(copy, &end);
+            c->is_number = *end == '\0';
+            return true;
+        }
+    }
+    return false;
+}
+
+/* ---- .xlsx ----------------------------------------------------------------------------------- */
+
+#define HEAD "<?xml version=\"1.0\" encoding=\"UTF-8\" standalone=\"yes\"?>\n"
+#define MAIN "xmlns=\"http://schemas.openxmlformats.org/spreadsheetml/2006/main\""
+#define RELATIONS "http://schemas.openxmlformats.org/officeDocument/2006/relationships"
+
+static void put_escaped(FILE *out, const char *text, size_t length)
+{
+    for (size_t i = 0; i < length; i++) {
+        if (text[i] == '<')
+            fputs("&lt;", out);
+        else if (text[i] == '&')
+            fputs("&amp;", out);
+        else if (text[i] == '"')
+            fputs("&quot;", out);
+        else
+            fputc(text[i], out);
+    }
+}
+
+static void put_sheet(FILE *out, const char *text, FILE *strings, size_t *n_strings)
+{
+    cell c = {.row = 0};
+    size_t row = SIZE_MAX;
+    fputs(HEAD "<worksheet " MAIN "><sheetData>", out);
+    while (next_cell(&text, &c)) {
+        if (c.row != row)
+            fprintf(out, "%s<row r=\"%zu\">", row != SIZE_MAX ? "</row>" : "", c.row + 1);
+        row = c.row;
+        fprintf(out, "<c r=\"%c%zu\"", (char)('A' + c.column), c.row + 1);
+        if (c.is_number) {
+            fprintf(out, "><v>%.*s</v></c>", (int)c.length, c.text);
+        } else if (strings != NULL) {
+            fprintf(out, " t=\"s\"><v>%zu</v></c>", (*n_strings)++);
+            fputs("<si><t>", strings);
+            put_escaped(strings, c.text, c.length);
+            fputs("</t></si>", strings);
+        } else {
+            fputs(" t=\"inlineStr\"><is><t>", out);
+            put_escaped(out, c.text, c.length);
+            fputs("</t></is></c>", out);
+        }
+    }
+    fprintf(out, "%s</sheetData></worksheet>", row != SIZE_MAX ? "</row>" : "");
+}
+
+static int add_part(zip_t *zip, const char *name, char *bytes, size_t length)
+{
+    zip_source_t *source = zip_source_buffer(zip, bytes, length, 1); /* freed by libzip */
+    const zip_int64_t i = source != NULL ? zip_file_add(zip, name, source, ZIP_FL_ENC_UTF_8) : -1;
+    if (i < 0)
+        return -1;
+    return zip_set_file_compression(zip, (zip_uint64_t)i, ZIP_CM_STORE, 0) == 0 &&
+                   zip_file_set_dostime(zip, (zip_uint64_t)i, 0, 0x5021, 0) == 0
+               ? 0
+               : -1;
+}
+
+static int put_books(zip_t *zip, const book_writer_sheet *sheets, size_t n)
+{
+    char *book = NULL, *relations = NULL;
+    size_t n_book = 0, n_relations = 0;
+    FILE *b = open_memstream(&book, &n_book), *r = open_memstream(&relations, &n_relations);
+    if (b == NULL || r == NULL)
+        return -1;
+    fputs(HEAD "<workbook " MAIN " xmlns:r=\"" RELATIONS "\"><sheets>", b);
+    fputs(HEAD "<Relationships xmlns=\"http://schemas.openxmlformats.org/package/2006/"
+               "relationships\">",
+          r);
+    for (size_t i = 0; i < n; i++) {
+        fprintf(b, "<sheet name=\"%s\" sheetId=\"%zu\"%s r:id=\"rId%zu\"/>", sheets[i].name, i + 1,
+                sheets[i].hidden ? " state=\"hidden\"" : "", i + 1);
+        fprintf(r,
+                "<Relationship Id=\"rId%zu\" Type=\"" RELATIONS
+                "/worksheet\" Target=\"worksheets/sheet%zu.xml\"/>",
+                i + 1, i + 1);
+    }
+    fputs("</sheets></workbook>", b);
+    fputs("</Relationships>", r);
+    if (fclose(b) != 0 || fclose(r) != 0)
+        return -1;
+    return add_part(zip, "xl/workbook.xml", book, n_book) == 0 &&
+                   add_part(zip, "xl/_rels/workbook.xml.rels", relations, n_relations) == 0
+               ? 0
+               : -1;
+}
+
+int xlsx_write(const char *path, const book_writer_sheet *sheets, size_t n, bool shared_strings)
+{
+    char *strings = NULL;
+    size_t n_bytes = 0, n_strings = 0;
+    FILE *s = open_memstream(&strings, &n_bytes);
+    zip_t *zip = zip_open(path, ZIP_CREATE | ZIP_TRUNCATE, NULL);
+    if (s == NULL || zip == NULL)
+        return -1;
+    fputs(HEAD "<sst " MAIN ">", s);
+    int bad = put_books(zip, sheets, n);
+    for (size_t i = 0; i < n; i++) {
+        char *bytes = NULL, name[64];
+        size_t length = 0;
+        FILE *out = open_memstream(&bytes, &length);
+        if (out == NULL)
+            return -1;
+        put_sheet(out, sheets[i].text, shared_strings ? s : NULL, &n_strings);
+        snprintf(name, sizeof name, "xl/worksheets/sheet%zu.xml", i + 1);
+        bad |= fclose(out) != 0 || add_part(zip, name, bytes, length) != 0;
+    }
+    fputs("</sst>", s);
+    bad |= fclose(s) != 0;
+    if (shared_strings)
+        bad |= add_part(zip, "xl/sharedStrings.xml", strings, n_bytes) != 0;
+    else
+        free(strings);
+    return zip_close(zip) == 0 && !bad ? 0 : -1;
+}
+
+/* ---- .xls: [MS-XLS] in [MS-CFB] -------------------------------------------------------------- */
+
+enum { SECTOR = 512, FAT_SECTORS = 128, MOST = SECTOR * (FAT_SECTORS - 2) };
+
+typedef struct bytes {
+    uint8_t data[MOST];
+    size_t n;
+} bytes;
+
+static void put(uint8_t *to, uint64_t value, size_t width)
+{
+    for (size_t i = 0; i < width; i++)
+        to[i] = (uint8_t)(value >> (8 * i) & 0xff);
+}
+
+static uint8_t *record(bytes *b, unsigned id, size_t length)
+{
+    if (b->n + 4 + length > MOST)
+        abort();
+    uint8_t *at = b->data + b->n;
+    put(at, id, 2);
+    put(at + 2, length, 2);
+    b->n += 4 + length;
+    return at + 4;
+}
+
+static void put_bof(bytes *b, unsigned kind)
+{
+    uint8_t *at = record(b, 0x0809, 16);
+    put(at, 0x0600, 2); /* BIFF8 */
+    put(at + 2, kind, 2);
+    put(at + 4, 0x0dbb07cc, 4);
+    put(at + 8, 0x00000041, 4);
+    put(at + 12, 6, 4);
+}
+
+static void put_cells(bytes *b, const char *text)
+{
+    cell c = {.row = 0};
+    size_t rows = 0, columns = 0;
+    const char *at = text;
+    while (next_cell(&at, &c)) {
+        rows = c.row + 1;
+        columns = c.column + 1 > columns ? c.column + 1 : columns;
+    }
+    uint8_t *to = record(b, 0x0200, 14); /* dimensions */
+    put(to + 4, rows, 4);
+    put(to + 10, columns, 2);
+    c = (cell){.row = 0};
+    while (next_cell(&text, &c)) {
+        to = c.is_number ? record(b, 0x0203, 14) : record(b, 0x0204, 9 + c.length);
+        put(to, c.row, 2);
+        put(to + 2, c.column, 2);
+        put(to + 4, 0, 2); /* format */
+        if (c.is_number) {
+            uint64_t bits;
+            memcpy(&bits, &c.number, sizeof bits);
+            put(to + 6, bits, 8);
+        } else {
+            put(to + 6, c.length, 2);
+            to[8] = 0; /* 8 bits a character */
+            memcpy(to + 9, c.text, c.length);
+        }
+    }
+}
+
+static void put_stream(bytes *b, const book_writer_sheet *sheets, size_t n)
+{
+    size_t place[16];
+    put_bof(b, 5);
+    put(record(b, 0x0042, 2), 1200, 2); /* code page: UTF-16 */
+    put(record(b, 0x0022, 2), 0, 2);    /* dates from 1900 */
+    put(record(b, 0x00e0, 20), 0, 2);   /* one cell format: general */
+    for (size_t i = 0; i < n; i++) {
+        const size_t length = strlen(sheets[i].name);
+        uint8_t *to = record(b, 0x0085, 8 + length);
+        place[i] = (size_t)(to - b->data);
+        to[6] = (uint8_t)length;
+        memcpy(to + 8, sheets[i].name, length);
+    }
+    (void)record(b, 0x000a, 0);
+    for (size_t i = 0; i < n; i++) {
+        put(b->data + place[i], b->n, 4);
+        put_bof(b, 0x10);
+        put_cells(b, sheets[i].text);
+        (void)record(b, 0x000a, 0);
+    }
+    if (b->n < 4096)
+        b->n = 4096; /* what is shorter stands in another place */
+}
+
+static void put_entry(uint8_t *to, const char *name, unsigned kind, unsigned child, unsigned start,
+                      size_t size)
+{
+    const size_t length = strlen(name);
+    for (size_t i = 0; i < length; i++)
+        to[2 * i] = (uint8_t)name[i];
+    put(to + 64, 2 * (length + 1), 2);
+    to[66] = (uint8_t)kind;
+    to[67] = 1;
+    put(to + 68, 0xffffffff, 4);
+    put(to + 72, 0xffffffff, 4);
+    put(to + 76, child, 4);
+    put(to + 116, start, 4);
+    put(to + 120, size, 8);
+}
+
+int xls_write(const char *path, const book_writer_sheet *sheets, size_t n)
+{
+    static const uint8_t signature[8] = {0xd0, 0xcf, 0x11, 0xe0, 0xa1, 0xb1, 0x1a, 0xe1};
+    static bytes b;
+    uint8_t head[SECTOR] = {0}, fat[SECTOR], directory[SECTOR] = {0};
+    memset(&b, 0, sizeof b);
+    if (n > 16)
+        return -1;
+    put_stream(&b, sheets, n);
+    const size_t sectors = (b.n + SECTOR - 1) / SECTOR;
+    memcpy(head, signature, sizeof signature);
+    put(head + 24, 0x003e, 2);
+    put(head + 26, 3, 2);
+    put(head + 28, 0xfffe, 2);
+    put(head + 30, 9, 2); /* 2^9 bytes a sector */
+    put(head + 32, 6, 2);
+    put(head + 44, 1, 4); /* sectors of the FAT */
+    put(head + 48, 1, 4); /* the directory is sector 1 */
+    put(head + 56, 4096, 4);
+    put(head + 60, 0xfffffffe, 4);
+    put(head + 68, 0xfffffffe, 4);
+    memset(head + 76, 0xff, SECTOR - 76);
+    put(head + 76, 0, 4); /* the FAT is sector 0 */
+    memset(fat, 0xff, sizeof fat);
+    put(fat, 0xfffffffd, 4);
+    put(fat + 4, 0xfffffffe, 4);
+    for (size_t i = 0; i < sectors; i++)
+        put(fat + 4 * (i + 2), i + 1 < sectors ? i + 3 : 0xfffffffe, 4);
+    put_entry(directory, "Root Entry", 5, 1, 0xfffffffe, 0);
+    put_entry(directory + 128, "Workbook", 2, 0xffffffff, 2, b.n);
+    FILE *out = fopen(path, "wb");
+    if (out == NULL)
+        return -1;
+    const bool good = fwrite(head, sizeof head, 1, out) == 1 &&
+                      fwrite(fat, sizeof fat, 1, out) == 1 &&
+                      fwrite(directory, sizeof directory, 1, out) == 1 &&
+                      fwrite(b.data, SECTOR, sectors, out) == sectors;
+    return fclose(out) == 0 && good ? 0 : -1;
+}
