@@ -29,8 +29,8 @@ string(REGEX MATCHALL "[0-9a-f]+ [TDBRVW] [^\n]+" rows "${out}")
 set(exported "")
 foreach(row IN LISTS rows)
   string(REGEX REPLACE "^[0-9a-f]+ [A-Z] ([^@]+).*$" "\\1" name "${row}")
-  # sanitizers and the linker bring symbols of their own
-  if(NOT name MATCHES "^(_|__asan|__ubsan|__lsan|__sanitizer|__sancov)")
+  # sanitizers, the linker, and functions made for several processors bring symbols of their own
+  if(NOT name MATCHES "^(_|__asan|__ubsan|__lsan|__sanitizer|__sancov)" AND NOT name MATCHES "[.]resolver$")
     list(APPEND exported ${name})
   endif()
 endforeach()

@@ -1,4 +1,5 @@
-/* Contact of rubber with memory, in and out: values in 12 digits; what is left out of a series does not matter.
+/* Contact of rubber with memory, in and out: values in 12 digits; what is left out of a series does
+ * not matter.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
