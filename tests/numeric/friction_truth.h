@@ -18,6 +18,7 @@ typedef __complex128 pair;
 #define FN(name) name##q
 #define TRUTH_PI M_PIq
 #define TRUTH_DEEP 80 /* e-folds below w that count */
+#define TRUTH_SMALL (real)1e-16
 #else
 #include <complex.h>
 typedef long double real;
@@ -25,6 +26,7 @@ typedef long double _Complex pair;
 #define FN(name) name##l
 #define TRUTH_PI M_PIl
 #define TRUTH_DEEP 52
+#define TRUTH_SMALL 1e-14L
 #endif
 
 typedef struct truth {
@@ -67,8 +69,8 @@ static void make_rule(void)
     }
 }
 
-/* Legendre coefficients; whether they end. */
-static bool expand(const real *value, real *coefficient)
+/* Legendre coefficients; how far they are from ending. */
+static real expand(const real *value, real *coefficient)
 {
     real most = 0;
     for (int k = 0; k < NODES; k++) {
@@ -77,8 +79,15 @@ static bool expand(const real *value, real *coefficient)
             coefficient[k] += (2 * k + 1) * weight[i] * value[i] * legendre[i][k];
         most = FN(fmax)(most, FN(fabs)(coefficient[k]));
     }
-    return FN(fabs)(coefficient[NODES - 1]) + FN(fabs)(coefficient[NODES - 2]) <=
-           (real)1e-16 * most;
+    const real tail = FN(fabs)(coefficient[NODES - 1]) + FN(fabs)(coefficient[NODES - 2]);
+    return most > 0 ? tail / most : 0;
+}
+
+/* Whether halves would be no better: they end, or `before`, of twice the width, shows that what is
+ * left is rounding. */
+static bool is_fine(real tail, real before)
+{
+    return tail <= TRUTH_SMALL || (tail <= 1000 * TRUTH_SMALL && tail > before / 4);
 }
 
 static real series_at(const real *coefficient, real x)
@@ -160,10 +169,11 @@ static void modulus(const scene *s, real omega, real *storage, real *loss)
  * more than one e-fold over `wide`: cos(phi) = exp(-t^2). */
 static void angle_piece(const scene *s, real w, real low, real high, real wide, real *j1, real *j2)
 {
-    const real end = FN(sqrt)(low), longest = s->transverse ? (real)0.12 : (real)0.35;
+    const real end = FN(sqrt)(low), longest = s->transverse ? (real)0.2 : (real)0.35;
     real from = FN(sqrt)(high);
     while (from < end) {
-        const real to = FN(fmin)(FN(fmin)(from + longest, FN(sqrt)(from * from + wide)), end);
+        const real more = wide * (1 + from * from / 8); /* c^s is next to nothing there */
+        const real to = FN(fmin)(FN(fmin)(from + longest, FN(sqrt)(from * from + more)), end);
         for (int i = 0; i < NODES; i++) {
             const real t = from + (to - from) * node[i], c = FN(exp)(-t * t);
             const real d =
@@ -218,7 +228,7 @@ static void angular(const scene *s, real w, real *j1, real *j2)
         return;
     }
     if (s->law == ZENER || s->transverse) {
-        angle_piece(s, w, TRUTH_DEEP, 0, s->transverse ? (real)0.3 : (real)0.7, j1, j2);
+        angle_piece(s, w, TRUTH_DEEP, 0, s->transverse ? (real)0.5 : 2, j1, j2);
         return;
     }
     real sum = (real)s->e0 * s->e0;
@@ -305,7 +315,7 @@ static real rise(const panel *p, real a, real b)
 static const double full_contact = 0.0037;
 
 /* int S P mu dt from u = a, where G is `variance`, to b. */
-static real contact_part(const panel *p, real a, real b, real variance, int depth)
+static real contact_part(const panel *p, real a, real b, real variance, real before, int depth)
 {
     real value[NODES], coefficient[NODES], sum = 0;
     for (int i = 0; i < NODES; i++) {
@@ -315,13 +325,15 @@ static real contact_part(const panel *p, real a, real b, real variance, int dept
     }
     const real half = rise(p, a, (a + b) / 2), end = variance + rise(p, a, b);
     const bool begins = a == 0 && variance == 0 && end > full_contact;
-    if ((expand(value, coefficient) && !begins) || depth > 150 || (depth > 40 && a > 0))
+    const real tail = expand(value, coefficient);
+    if ((is_fine(tail, before) && !begins) || depth > 150 || (depth > 20 && a > 0))
         return sum;
-    return contact_part(p, a, (a + b) / 2, variance, depth + 1) +
-           contact_part(p, (a + b) / 2, b, variance + half, depth + 1);
+    return contact_part(p, a, (a + b) / 2, variance, tail, depth + 1) +
+           contact_part(p, (a + b) / 2, b, variance + half, tail, depth + 1);
 }
 
-static void panel_add(const scene *s, real anchor, real from, real to, int depth, truth *sum)
+static void panel_add(const scene *s, real anchor, real from, real to, real before, int depth,
+                      truth *sum)
 {
     real g[NODES], mu[NODES], full = 0;
     panel p = {.root = FN(sqrt)(from - anchor), .start = sum->variance, .gamma = s->gamma};
@@ -331,15 +343,16 @@ static void panel_add(const scene *s, real anchor, real from, real to, int depth
         integrand(s, from + step * (2 * p.root + step), &g[i], &mu[i]);
         full += weight[i] * slope_at(&p, node[i]) * mu[i];
     }
-    const bool good = expand(g, p.g), fine = expand(mu, p.mu);
-    if (!(good && fine) && depth < 40) {
+    const real tail_g = expand(g, p.g), tail_mu = expand(mu, p.mu);
+    const real tail = FN(fmax)(tail_g, tail_mu);
+    if (!is_fine(tail, before) && depth < 40) {
         const real step = p.width / 2, middle = from + step * (2 * p.root + step);
-        panel_add(s, anchor, from, middle, depth + 1, sum);
-        panel_add(s, anchor, middle, to, depth + 1, sum);
+        panel_add(s, anchor, from, middle, tail, depth + 1, sum);
+        panel_add(s, anchor, middle, to, tail, depth + 1, sum);
         return;
     }
     const real more = rise(&p, 0, 1);
-    sum->hysteresis += p.start + more > full_contact ? contact_part(&p, 0, 1, p.start, 0) : full;
+    sum->hysteresis += p.start + more > full_contact ? contact_part(&p, 0, 1, p.start, 1, 0) : full;
     sum->variance += more;
 }
 
@@ -379,7 +392,7 @@ static truth truth_of(const scene *s)
                 anchor = below > from - 3 ? below : from;
             }
             const real to = FN(fmin)(cut[i], from + widest);
-            panel_add(s, anchor, from, to, 0, &sum);
+            panel_add(s, anchor, from, to, 1, 0, &sum);
             from = to;
         }
     free(cut);

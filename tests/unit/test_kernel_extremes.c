@@ -70,7 +70,7 @@ static void draw_table(drawn *d)
     scene *s = &d->s;
     const double kind = uniform(0, 1);
     const bool noisy = kind < 0.1 && !s->transverse, close = kind > 0.8;
-    s->n = noisy ? 2 + (size_t)uniform(0, MOST - 2) : 2 + (size_t)uniform(0, FEW - 2);
+    s->n = noisy ? 2 + (size_t)uniform(0, 5 * FEW) : 2 + (size_t)uniform(0, FEW - 2);
     double omega = decades(-8, 4), height = decades(4, 9);
     for (size_t k = 0; k < s->n; k++) {
         d->tau[k] = omega *= close && uniform(0, 1) < 0.5 ? 1 + decades(-10, -1)
@@ -135,13 +135,15 @@ static void draw_scene(drawn *d, law_kind law, bool transverse)
 
 static size_t n_cases = 24, first_case, n_checks, reached, refused, broken;
 
-static void check(const drawn *d, size_t number, const char *what, wt_estimate actual, real exact)
+/* `most`: that a stated error may be, relative to the number. */
+static void check(const drawn *d, size_t number, const char *what, wt_estimate actual, real exact,
+                  double most)
 {
     const scene *s = &d->s;
     const real error = fabsl(actual.value - exact);
     n_checks++;
     if (error <= actual.numerical_error + 1e-17L * fabsl(exact) + DBL_MIN &&
-        actual.numerical_error <= 0.1 * fabs(actual.value) + DBL_MIN)
+        actual.numerical_error <= most * fabs(actual.value) + DBL_MIN)
         return;
     broken++;
     print_error("case %zu (%s%s, %zu, tolerance %.2g, v %.2g, p %.2g): %s %.17g is %.3Lg from "
@@ -188,10 +190,10 @@ static void compare(drawn *d, size_t number)
         goto done;
     }
     const truth exact = truth_of(&d->s);
-    check(d, number, "G", p.stress_variance, exact.variance);
-    check(d, number, "P", p.area_ratio, area(exact.variance));
-    check(d, number, "1 - P", p.one_minus_area, erfcl(0.5L / sqrtl(exact.variance)));
-    check(d, number, "mu", p.hysteresis, exact.hysteresis);
+    check(d, number, "G", p.stress_variance, exact.variance, 0.1);
+    check(d, number, "P", p.area_ratio, area(exact.variance), 0.1);
+    check(d, number, "1 - P", p.one_minus_area, erfcl(0.5L / sqrtl(exact.variance)), 10);
+    check(d, number, "mu", p.hysteresis, exact.hysteresis, 0.1);
     reached += p.reached;
 done:
     wt_friction_workspace_free(ws);
@@ -304,7 +306,7 @@ static void edges_of_the_domain(void **ignored)
         for (size_t i = 0; i < 3; i++)
             try_edge(c, &made->s, tolerances[i]);
     }
-    assert_int_equal(n, 52);
+    assert_int_equal(n, 57);
     free(made);
     free(c);
     fclose(in);
