@@ -183,8 +183,11 @@ void friction_evaluate(const wt_friction_workspace *ws, friction_scratch *scratc
         }
         scratch->error_g[p + 1] = rule_error(rule, f, sum_g);
         pass->variance_error += scratch->error_g[p + 1];
+        double below = pass->variance;
         for (size_t j = 0; j < n; j++) {
-            const double area = contact_area(running[j]);
+            /* G never falls: where it rises too steeply for a polynomial, the nodes so far */
+            const double area = contact_area(running[j] < pass->variance ? below : running[j]);
+            below += rule->weight[j] * f[j];
             const double correction = gamma + (1 - gamma) * area * area;
             full[j] = half * mu_scale * factor1[p * n + j] * j1[j];
             f[j] = full[j] * area * correction;

@@ -5,10 +5,12 @@
  *     .\" options            .\" parameters SECTION     <!-- parameters SECTION -->
  *     .\" end                .\" end                    <!-- end -->
  * .\" table NAME is for the columns and keys of a table, called as in data/tables/tables.h; a page
- * with one has all of them. .\" subcommands, .\" results and .\" figures are for their lists.
+ * with one has all of them. .\" subcommands, .\" results and .\" figures are for their lists, and
+ * .\" limits for the limits of every number of a case or an option.
  * <!-- choices --> is for the types of those that are words.
  * After SECTION, "= NAME..." takes these alone and "but NAME..." all others.
  * Usage: docs_records PROGRAM FILE. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/quantity.h"
 #include "data/tables/tables.h"
 #include "flow/case/things.h"
 #include "params/sections.h"
@@ -43,6 +45,15 @@ static void put_troff(const char *text)
                 printf("\\:");
         }
     }
+}
+
+static void put_name(const char *name, const char *unit)
+{
+    printf("\\fB");
+    put_troff(name);
+    printf("\\fR");
+    if (unit[0] != '\0' && strcmp(unit, "1") != 0)
+        printf(" [%s]", unit);
 }
 
 /* A sentence: with a capital and a stop. */
@@ -220,21 +231,61 @@ static void put_choices(const char *indent)
             }
 }
 
+/* ---- limits ---------------------------------------------------------------------------------- */
+
+/* Where its own limits and what there is at all of the quantity both let it be. */
+static void put_limit(const wt_param *param)
+{
+    const param_limits *l = &param->limits;
+    const double most =
+        param->kind == PARAM_COUNT ? (double)INFINITY : quantity_most(param->quantity);
+    const bool with_low = l->with_low || l->low < -most, with_high = l->with_high || l->high > most;
+    const double low = fmax(l->low, -most), high = fmin(l->high, most);
+    char text[TEXT];
+    puts(".TP 38");
+    put_name(param->name, wt_quantity_unit(param->quantity));
+    putchar('\n');
+    if (isinf(high))
+        snprintf(text, sizeof text, "%s%g%s", with_low ? "" : "above ", low,
+                 with_low ? " or more" : "");
+    else
+        snprintf(text, sizeof text, "%s %g%s%g", with_low ? "from" : "above", low,
+                 with_high && !with_low ? ", up to "
+                 : with_high            ? " to "
+                                        : " to below ",
+                 high);
+    put_troff(text);
+    putchar('\n');
+}
+
+static void put_limits(void)
+{
+    puts(".PD 0");
+    for (size_t s = 0; s < N_CASE_SECTIONS; s++) {
+        printf(".SS ");
+        put_troff(case_sections[s].name);
+        putchar('\n');
+        char names[TEXT] = "";
+        for (size_t t = 0; t < SECTION_TABLES && case_sections[s].params[t] != NULL; t++)
+            for (size_t i = 0; i < wt_params_count(case_sections[s].params[t]()); i++) {
+                const wt_param *param = wt_params_get(case_sections[s].params[t](), i);
+                const size_t used = strlen(names);
+                if (param->kind > PARAM_COUNT || is_listed(names, param->name) ||
+                    (param->flags & PARAM_ONLY_C) == PARAM_ONLY_C)
+                    continue;
+                snprintf(names + used, sizeof names - used, " %s", param->name);
+                put_limit(param);
+            }
+    }
+    puts(".PD");
+}
+
 /* ---- tables ---------------------------------------------------------------------------------- */
 
 #define TABLE_NAME(name, ...) #name,
 static const char *const table_names[] = {TABLES(TABLE_NAME)};
 enum { N_TABLES = sizeof table_names / sizeof table_names[0] };
 static bool table_put[N_TABLES];
-
-static void put_name(const char *name, const char *unit)
-{
-    printf("\\fB");
-    put_troff(name);
-    printf("\\fR");
-    if (unit[0] != '\0' && strcmp(unit, "1") != 0)
-        printf(" [%s]", unit);
-}
 
 static void put_columns(const table_schema *schema)
 {
@@ -364,7 +415,7 @@ static bool is_marker(const char *word)
 {
     static const char *const starts[] = {".\\\" options",     ".\\\" parameters", ".\\\" table ",
                                          ".\\\" subcommands", ".\\\" results",    ".\\\" figures",
-                                         "<!-- parameters",   "<!-- choices"};
+                                         ".\\\" limits",      "<!-- parameters",  "<!-- choices"};
     for (size_t i = 0; i < sizeof starts / sizeof starts[0]; i++)
         if (strncmp(word, starts[i], strlen(starts[i])) == 0)
             return true;
@@ -388,6 +439,10 @@ static bool put_block(const char *line, const char *program, const char *path)
     }
     if (strcmp(line, ".\\\" figures\n") == 0) {
         put_figures();
+        return true;
+    }
+    if (strcmp(line, ".\\\" limits\n") == 0) {
+        put_limits();
         return true;
     }
     if (sscanf(line, ".\\\" parameters %1023[^\n]", what) == 1)
