@@ -43,7 +43,8 @@ struct angular_law {
     const wt_material *material;
     gauss_rule *rule;
     double goal;
-    angular_panels panels, outside;
+    angular_panels panels;
+    angular_panels below[2]; /* up to each limit */
     double panels_low, panels_high;
     double limit[2];    /* of the range backed by data; NaN = none */
     series_list pieces; /* rising, without gaps */
@@ -97,7 +98,7 @@ static void series_fit(const angular_law *a, series *s)
                 continue;
             const double u = s->middle + s->half * cosine[k];
             const double w = exp(isnan(s->anchor) ? u : s->anchor + u * u);
-            angular_panels_integrate(&a->panels, w, (double)INFINITY, &j1[k], &j2[k]);
+            angular_panels_integrate(&a->panels, w, &j1[k], &j2[k]);
         }
         chebyshev_fit(j1, degree, cosine, s->j1);
         chebyshev_fit(j2, degree, cosine, s->j2);
@@ -195,7 +196,8 @@ static wt_status extend_panels(angular_law *a, double low, double high, wt_error
     }
     a->panels_low = low;
     a->panels_high = high;
-    return angular_panels_new(a->material, a->rule, low, high, a->goal, &a->panels, err);
+    /* past the end, where rounding may put a frequency: the integrand has a pole there */
+    return angular_panels_new(a->material, a->rule, low, 1.01 * high, a->goal, &a->panels, err);
 }
 
 wt_status angular_cover(angular_law *angular, double w_min, double w_max, wt_error *err)
@@ -311,20 +313,22 @@ bool angular_limited(const angular_law *angular)
 wt_status angular_cover_outside(angular_law *angular, wt_error *err)
 {
     const double *limit = angular->limit;
-    if (!angular_limited(angular) || angular->outside.n > 0)
-        return WT_OK;
-    const double low = fmin(limit[0], limit[1]), high = fmax(limit[0], limit[1]);
-    return angular_panels_new(angular->material, angular->rule, low, high, most_goal,
-                              &angular->outside, err);
+    const double low = fmin(limit[0], limit[1]);
+    wt_status status = WT_OK;
+    for (size_t k = 0; k < 2 && status == WT_OK; k++)
+        if (!isnan(limit[k]) && angular->below[k].n == 0)
+            status = angular_panels_new(angular->material, angular->rule, low, limit[k], most_goal,
+                                        &angular->below[k], err);
+    return status;
 }
 
 /* From frequencies below a limit. */
-static double below(const angular_law *a, double limit, double w, double j1)
+static double below(const angular_law *a, size_t limit, double w, double j1)
 {
-    if (w <= limit)
-        return j1;
     double part, j2;
-    angular_panels_integrate(&a->outside, w, limit, &part, &j2);
+    if (w <= a->limit[limit])
+        return j1;
+    angular_panels_integrate(&a->below[limit], w, &part, &j2);
     return part;
 }
 
@@ -332,9 +336,9 @@ double angular_outside(const angular_law *angular, double w, double j1)
 {
     double outside = 0;
     if (!isnan(angular->limit[0]))
-        outside += below(angular, angular->limit[0], w, j1);
+        outside += below(angular, 0, w, j1);
     if (!isnan(angular->limit[1]))
-        outside += j1 - below(angular, angular->limit[1], w, j1);
+        outside += j1 - below(angular, 1, w, j1);
     return fmin(fmax(outside, 0), j1);
 }
 
@@ -365,5 +369,6 @@ void angular_clear(angular_law *angular)
         return;
     free(angular->pieces.items);
     angular_panels_clear(&angular->panels);
-    angular_panels_clear(&angular->outside);
+    angular_panels_clear(&angular->below[0]);
+    angular_panels_clear(&angular->below[1]);
 }

@@ -50,7 +50,7 @@ static void add_edges(edge_list *list, double from, double to, double by)
     }
 }
 
-/* From `first` up, cut at whole multiples of `widest` and at the knots. */
+/* From `first` to `last`, cut at whole multiples of `widest` and at the knots. */
 static void lay_edges(const wt_material *material, double first, double last, edge_list *list,
                       double *largest)
 {
@@ -63,7 +63,7 @@ static void lay_edges(const wt_material *material, double first, double last, ed
         list->edge[0] = first;
     list->n = 1;
     while (x < last) {
-        double next = (floor(x / widest + 1e-9) + 1) * widest;
+        double next = fmin((floor(x / widest + 1e-9) + 1) * widest, last);
         while (k < n_breaks && log(breaks[k]) <= x)
             k++;
         if (k < n_breaks)
@@ -123,8 +123,10 @@ static void start_sums(angular_panels *a)
 
 static void sum_panels(angular_panels *a)
 {
+    for (size_t p = 0; p <= a->n; p++)
+        a->edge_omega[p] = exp(a->edge[p]);
     for (size_t p = 0; p < a->n; p++) {
-        const double b = exp(a->edge[p + 1]), shrink = exp(a->edge[p] - a->edge[p + 1]);
+        const double b = a->edge_omega[p + 1], shrink = exp(a->edge[p] - a->edge[p + 1]);
         for (size_t f = 0; f < 2; f++) {
             const double *from = a->below[f] + p * a->terms;
             double *to = a->below[f] + (p + 1) * a->terms;
@@ -162,11 +164,12 @@ wt_status angular_panels_new(const wt_material *material, const gauss_rule *rule
     lay_edges(material, first, log(high), &list, &a.largest);
     a.n = list.n - 1;
     const size_t nodes = a.n * PANEL_NODES, sums = (a.n + 1) * a.terms;
-    a.numbers = calloc(a.n + 1 + 3 * nodes + 2 * sums, sizeof *a.numbers);
+    a.numbers = calloc(2 * (a.n + 1) + 3 * nodes + 2 * sums, sizeof *a.numbers);
     if (a.numbers == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory for the angular integrals");
     a.edge = list.edge = a.numbers;
-    a.omega = a.edge + a.n + 1;
+    a.edge_omega = a.edge + a.n + 1;
+    a.omega = a.edge_omega + a.n + 1;
     a.value[0] = a.omega + nodes;
     a.value[1] = a.value[0] + nodes;
     a.below[0] = a.value[1] + nodes;
@@ -191,7 +194,7 @@ void angular_panels_clear(angular_panels *panels)
 /* The last edge at or below x. */
 static size_t edge_before(const angular_panels *a, double x)
 {
-    size_t low = 0, high = a->n;
+    size_t low = a->edge[a->n] <= x ? a->n : 0, high = a->n;
     while (low < high) {
         const size_t middle = (low + high + 1) / 2;
         if (a->edge[middle] <= x)
@@ -205,7 +208,7 @@ static size_t edge_before(const angular_panels *a, double x)
 /* Everything below an edge at c <= 1/2: sum_m b_m S_m c^(2m + s). */
 static void add_far(const angular_panels *a, size_t edge, double w, double *j1, double *j2)
 {
-    const double c = exp(a->edge[edge]) / w, square = c * c;
+    const double c = a->edge_omega[edge] / w, square = c * c;
     const double *s1 = a->below[0] + edge * a->terms, *s2 = a->below[1] + edge * a->terms;
     double sum1 = 0, sum2 = 0, b = 1, power = 1;
     for (size_t m = 0; m < a->terms && power > DBL_EPSILON / 64; m++) {
@@ -252,20 +255,19 @@ static void add_near(const angular_panels *a, double x, double from, double to, 
     }
 }
 
-void angular_panels_integrate(const angular_panels *panels, double w, double limit, double *j1,
-                              double *j2)
+void angular_panels_integrate(const angular_panels *panels, double w, double *j1, double *j2)
 {
     const angular_panels *a = panels;
-    const double x = log(w), end = limit < w ? log(limit) : x;
-    size_t p = edge_before(a, fmin(x - M_LN2, end));
+    const double x = log(w);
+    size_t p = edge_before(a, x - M_LN2);
     *j1 = *j2 = 0;
     add_far(a, p, w, j1, j2);
-    for (; p < a->n && a->edge[p] < end; p++) {
-        const double from = a->edge[p], to = fmin(a->edge[p + 1], end);
-        if (to >= a->edge[p + 1] && to <= x - (to - from))
+    for (; p < a->n && a->edge[p] < x; p++) {
+        const double from = a->edge[p], to = a->edge[p + 1];
+        if (to <= x - (to - from))
             add_middle(a, p, w, j1, j2);
         else
-            add_near(a, x, from, to, w, j1, j2);
+            add_near(a, x, from, fmin(to, x), w, j1, j2);
     }
     *j1 *= 4;
     *j2 *= 4;

@@ -21,6 +21,7 @@ typedef struct angular_panels {
     size_t terms;           /* of that sum where c <= 1/2 */
     size_t n;
     double *edge;          /* [n + 1] ln omega */
+    double *edge_omega;    /* [n + 1] */
     double *omega;         /* [n * PANEL_NODES] */
     double *value[2];      /* [n * PANEL_NODES] F1 and F2 times weight and width */
     double *below[2];      /* [(n + 1) * terms] int_-inf^edge F (omega / edge)^(2m + s) */
@@ -35,9 +36,8 @@ wt_status angular_panels_new(const wt_material *material, const gauss_rule *rule
                              wt_error *err) WT_NODISCARD;
 void angular_panels_clear(angular_panels *panels);
 
-/* J1 and J2 at w, from frequencies up to `limit` alone (infinity: all). */
-void angular_panels_integrate(const angular_panels *panels, double w, double limit, double *j1,
-                              double *j2);
+/* J1 and J2 at w, from frequencies up to `high` alone. */
+void angular_panels_integrate(const angular_panels *panels, double w, double *j1, double *j2);
 /* Relative error of J1 and J2 at any w in the range. */
 double angular_panels_error(const angular_panels *panels, double w, double j1, double j2);
 

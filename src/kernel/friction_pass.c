@@ -106,8 +106,8 @@ static double core_pass(const wt_friction_workspace *ws, friction_scratch *scrat
         contact = integral / pass->variance;
         pass->hysteresis_error = (most - least) * integral;
     }
-    scratch->error_g[0] = rule_error(grid->rule, f2, pass->variance);
-    scratch->error_mu[0] = contact * rule_error(grid->rule, f1, full);
+    scratch->error_g[0] = rule_error(grid->rule, f2);
+    scratch->error_mu[0] = contact * rule_error(grid->rule, f1);
     if (record)
         for (size_t i = 0; i < n; i++) {
             record->q[record->n] = grid->core_q[level * n + i];
@@ -121,22 +121,17 @@ static double core_pass(const wt_friction_workspace *ws, friction_scratch *scrat
  * leaves 1 the difference is too small to show in the last coefficients and too steep for the rule,
  * so it is looked at alone. */
 static double hysteresis_error(const gauss_rule *rule, const double *full, const double *part,
-                               const friction_pass *pass, double sum_g)
+                               const friction_pass *pass, double sum_g, double sum_mu)
 {
     const double begun = 0.3; /* from there on all of P is in `part` */
-    double gap[FRICTION_MAX_NODES], sum[3] = {0};
-    for (size_t i = 0; i < rule->n; i++) {
+    double gap[FRICTION_MAX_NODES];
+    for (size_t i = 0; i < rule->n; i++)
         gap[i] = full[i] - part[i];
-        sum[0] += rule->weight[i] * full[i];
-        sum[1] += rule->weight[i] * gap[i];
-        sum[2] += rule->weight[i] * part[i];
-    }
-    const double own = pass->variance < begun
-                           ? rule_error(rule, full, sum[0]) + rule_error(rule, gap, sum[1])
-                           : rule_error(rule, part, sum[2]);
+    const double own = pass->variance < begun ? rule_error(rule, full) + rule_error(rule, gap)
+                                              : rule_error(rule, part);
     /* S P falls no faster than G^(-3/2) */
     const double variance = pass->variance + sum_g;
-    return own + (variance > 0 ? 1.5 * sum[2] * (pass->variance_error / variance) : 0);
+    return own + (variance > 0 ? 1.5 * sum_mu * (pass->variance_error / variance) : 0);
 }
 
 void friction_evaluate(const wt_friction_workspace *ws, friction_scratch *scratch,
@@ -171,17 +166,13 @@ void friction_evaluate(const wt_friction_workspace *ws, friction_scratch *scratc
         const double *j1 = scratch->j1 + p * n;
         const double *j2 = scratch->j2 + p * n;
         double running[FRICTION_MAX_NODES], f[FRICTION_MAX_NODES], full[FRICTION_MAX_NODES];
-        double sum_g = 0, sum_mu = 0;
-        for (size_t j = 0; j < n; j++)
+        double sum_mu = 0;
+        for (size_t j = 0; j < n; j++) {
             running[j] = pass->variance;
-        for (size_t i = 0; i < n; i++) {
-            f[i] = half * g_scale * factor2[p * n + i] * j2[i];
-            const double *row = rule->running + i * n;
-            sum_g += rule->weight[i] * f[i];
-            for (size_t j = 0; j < n; j++)
-                running[j] += f[i] * row[j];
+            f[j] = half * g_scale * factor2[p * n + j] * j2[j];
         }
-        scratch->error_g[p + 1] = rule_error(rule, f, sum_g);
+        const double sum_g = rule_running(rule, f, running);
+        scratch->error_g[p + 1] = rule_error(rule, f);
         pass->variance_error += scratch->error_g[p + 1];
         double below = pass->variance;
         for (size_t j = 0; j < n; j++) {
@@ -206,7 +197,7 @@ void friction_evaluate(const wt_friction_workspace *ws, friction_scratch *scratc
             pass->steep_variance += sum_g * steepness(j2, n);
             pass->steep_hysteresis += sum_mu * steepness(j1, n);
         }
-        scratch->error_mu[p + 1] = hysteresis_error(rule, full, f, pass, sum_g);
+        scratch->error_mu[p + 1] = hysteresis_error(rule, full, f, pass, sum_g, sum_mu);
         pass->variance += sum_g;
         pass->hysteresis += sum_mu;
         panel_g[p + 1] = sum_g;

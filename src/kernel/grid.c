@@ -5,6 +5,7 @@
 #include "kernel/grid.h"
 
 #include "base/array.h"
+#include "base/exponential.h"
 #include "kernel/contact.h"
 
 #include <math.h>
@@ -148,20 +149,26 @@ static double place_nodes(const panel_plan *plan, const grid_panel *panel, const
         s_low = sqrt(panel->t_low - panel->anchor);
         half = 0.5 * width / (s_low + sqrt(panel->t_high - panel->anchor));
     }
+    double t[RULE_MOST], less_one[RULE_MOST];
     for (size_t i = 0; i < rule->n; i++) {
         /* from the low end on: a range may be far shorter than its distance from the anchor */
         const double step = half * (1 + rule->node[i]);
-        double t = panel->t_low + step;
+        t[i] = panel->t_low + step;
         slope[i] = 1;
         if (panel->map == MAP_LOGARITHM) {
-            t = exp(s_low + step);
-            slope[i] = t;
+            t[i] = exp(s_low + step);
+            slope[i] = t[i];
         } else if (panel->map == MAP_SQUARE_ROOT) {
-            t = panel->t_low + step * (2 * s_low + step);
+            t[i] = panel->t_low + step * (2 * s_low + step);
             slope[i] = 2 * (s_low + step);
         }
-        /* q0 + q0 (e^t - 1) keeps the digits of a range as short as q1/q0 - 1 = 1e-4 */
-        q[i] = fmin(fmax(plan->q0 + plan->q0 * expm1(t), plan->q0), plan->q1);
+    }
+    exponential_less_one(t, rule->n, less_one);
+    for (size_t i = 0; i < rule->n; i++) {
+        /* keeps the digits of a range as short as q1/q0 - 1 = 1e-4 */
+        const double there = plan->q0 + plan->q0 * less_one[i];
+        const double kept = there < plan->q1 ? there : plan->q1;
+        q[i] = kept > plan->q0 ? kept : plan->q0;
     }
     return half;
 }

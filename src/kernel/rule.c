@@ -5,10 +5,15 @@
 #include "kernel/rule.h"
 
 #include "base/gsl_quiet.h"
+#include "base/wide.h"
 
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_integration.h>
 #include <math.h>
+#include <string.h>
+
+enum { REGISTER = 4, TOP_ROOM = 8 };
+typedef double wide __attribute__((vector_size(REGISTER * sizeof(double))));
 
 /* P_0(x) ... P_n(x). */
 static void legendre(size_t n, double x, double *p)
@@ -33,11 +38,11 @@ static void fill_running(gauss_rule *rule)
             double sum = (rule->node[j] + 1) / 2;
             for (size_t k = 1; k < n; k++)
                 sum += p[i][k] * (p[j][k + 1] - p[j][k - 1]) / 2;
-            rule->running[i * n + j] = rule->weight[i] * sum;
+            rule->running[i * rule->room + j] = rule->weight[i] * sum;
         }
         for (size_t k = 0; k < RULE_TOP; k++) {
             const size_t degree = n + k - RULE_TOP; /* those below 0 are left out */
-            rule->top[k * n + i] =
+            rule->top[i * TOP_ROOM + k] =
                 n + k < RULE_TOP ? 0 : rule->weight[i] * ((double)degree + 0.5) * p[i][degree];
         }
     }
@@ -52,18 +57,44 @@ static double larger(double a, double b)
     return a > b ? a : b;
 }
 
-double rule_error(const gauss_rule *rule, const double *f, double sum)
+/* Adds the columns of a matrix, of so many rounded up to whole registers, each times a number. */
+WIDE_REGISTERS
+static void add_columns(const double *restrict matrix, size_t rows, size_t n,
+                        const double *restrict times, double *restrict sum)
+{
+    for (size_t from = 0; from < rows; from += REGISTER) {
+        wide part, column;
+        memcpy(&part, sum + from, sizeof part);
+        for (size_t i = 0; i < n; i++) {
+            memcpy(&column, matrix + i * rows + from, sizeof column);
+            part += column * times[i];
+        }
+        memcpy(sum + from, &part, sizeof part);
+    }
+}
+
+double rule_running(const gauss_rule *rule, const double *f, double *running)
+{
+    double sum = 0;
+    add_columns(rule->running, rule->room, rule->n, f, running);
+    for (size_t i = 0; i < rule->n; i++)
+        sum += rule->weight[i] * f[i];
+    return sum;
+}
+
+double rule_error(const gauss_rule *rule, const double *f)
 {
     const size_t n = rule->n;
-    double pair[RULE_TOP / 2] = {0};
-    for (size_t k = 0; k < RULE_TOP; k++) {
-        double c = 0;
+    double pair[RULE_TOP / 2] = {0}, coefficient[TOP_ROOM] = {0};
+    add_columns(rule->top, TOP_ROOM, n, f, coefficient);
+    for (size_t k = 0; k < RULE_TOP; k++)
+        pair[k / 2] = larger(pair[k / 2], fabs(coefficient[k]));
+    if (n < RULE_TOP) {
+        double sum = 0;
         for (size_t i = 0; i < n; i++)
-            c += rule->top[k * n + i] * f[i];
-        pair[k / 2] = larger(pair[k / 2], fabs(c));
-    }
-    if (n < RULE_TOP)
+            sum += rule->weight[i] * f[i];
         pair[0] = 0.5 * fabs(sum);
+    }
     /* where they do not fall, as much again */
     const double next = pair[1] < pair[0] ? pair[1] * (pair[1] / pair[0]) : pair[1];
     const double last = larger(pair[2], 0.3 * next);
@@ -80,18 +111,20 @@ wt_status rule_new(size_t n, pool *memory, gauss_rule **rule, wt_error *err)
 {
     gsl_quiet();
     wt_status status = WT_OK;
+    const size_t room = (n + REGISTER - 1) / REGISTER * REGISTER;
     gauss_rule *made =
-        pool_alloc(memory, 1, sizeof *made + n * (n + 2 + RULE_TOP) * sizeof *made->numbers);
+        pool_alloc(memory, 1, sizeof *made + n * (room + 2 + TOP_ROOM) * sizeof *made->numbers);
     gsl_integration_glfixed_table *table = gsl_integration_glfixed_table_alloc(n);
     if (made == NULL || table == NULL) {
         status = wt_fail(err, WT_E_MEMORY, "out of memory for a quadrature rule");
         goto done;
     }
     made->n = n;
+    made->room = room;
     made->node = made->numbers;
     made->weight = made->node + n;
     made->running = made->weight + n;
-    made->top = made->running + n * n;
+    made->top = made->running + n * room;
     for (size_t i = 0; i < n; i++)
         if (gsl_integration_glfixed_point(-1, 1, i, &made->node[i], &made->weight[i], table) !=
             GSL_SUCCESS) {

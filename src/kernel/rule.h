@@ -10,11 +10,11 @@
 
 /* On [-1, 1]. */
 typedef struct gauss_rule {
-    size_t n;
+    size_t n, room;  /* room: n and up to 3 more */
     double *node;    /* [n], rising */
     double *weight;  /* [n] */
-    double *running; /* [n * n], row i: int from -1 to node[j] of the i-th Lagrange polynomial */
-    double *top; /* [RULE_TOP * n], row k: weights of the Legendre coefficient n - RULE_TOP + k */
+    double *running; /* [n * room], row i: int from -1 to node[j] of the i-th Lagrange polynomial */
+    double *top;     /* [n * 8], column k: weights of the Legendre coefficient n - RULE_TOP + k */
     double numbers[];
 } gauss_rule;
 
@@ -22,8 +22,10 @@ enum { RULE_MOST = 32, RULE_TOP = 6 };
 /* n must be one of the sizes that GSL tabulates to full precision: 2 to 20, or 32. */
 wt_status rule_new(size_t n, pool *memory, gauss_rule **rule, wt_error *err) WT_NODISCARD;
 
-/* Error of sum_i weight[i] f[i] = `sum` for an integral from -1 to 1, by how the Legendre
- * coefficients fall: the rule is exact up to twice the degree of the last one. */
-double rule_error(const gauss_rule *rule, const double *f, double sum);
+/* Adds the integrals of f from -1 to each node to running[room]; returns that to 1. */
+double rule_running(const gauss_rule *rule, const double *f, double *running);
+/* Error of sum_i weight[i] f[i] for an integral from -1 to 1, by how the Legendre coefficients
+ * fall: the rule is exact up to twice the degree of the last one. */
+double rule_error(const gauss_rule *rule, const double *f);
 
 #endif
