@@ -117,6 +117,14 @@ struct wt_params {
 #define PARAM_OTHER_OF(name_, type, member, function)                                              \
     .name = (name_), PARAM_AT(type, member), .kind = PARAM_OTHER, .read = (function)
 
+/* A record that many have. */
+#define PARAM_THREADS(type)                                                                        \
+    {                                                                                              \
+        PARAM("threads", type, threads, WT_Q_NONE, FROM_TO(0, 1024)),                              \
+            .value = "N", .flags = PARAM_NO_CASE,                                                  \
+            .help = "threads to use, which change no result; 0 is one per processor"               \
+    }
+
 /* Defines a function that gives the table of a structure; the last arguments are the structures
  * that lie in it. */
 #define NO_PARTS BRACED(NULL, 0)

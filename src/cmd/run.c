@@ -113,6 +113,7 @@ static wt_status compute(run_call *r, size_t *n_failed)
 
 static wt_status draw(run_call *r)
 {
+    r->report.threads = r->run.threads;
     r->run.progress = cmd_progress_start(&r->s);
     cmd_catch_interruptions();
     wt_status status =

@@ -25,7 +25,7 @@ static const wt_param rows[] = {
     FRICTION_TOLERANCE(wt_friction_options),
     FRICTION_GAMMA(wt_friction_options),
     LAYER_STATE_ROWS(wt_friction_options, layer.),
-    FRICTION_THREADS(wt_friction_options),
+    PARAM_THREADS(wt_friction_options),
 };
 PARAM_TABLE(wt_friction_params, wt_friction_options, rows, wt_friction_defaults, NO_PARTS)
 

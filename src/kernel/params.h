@@ -13,12 +13,6 @@
         PARAM("tolerance", type, tolerance, WT_Q_NONE, ABOVE_TO(0, 0.1)),                          \
             .value = "X", .flags = PARAM_NO_CASE, .help = "relative numerical error asked for"     \
     }
-#define FRICTION_THREADS(type)                                                                     \
-    {                                                                                              \
-        PARAM("threads", type, threads, WT_Q_NONE, FROM_TO(0, 1024)),                              \
-            .value = "N", .flags = PARAM_NO_CASE,                                                  \
-            .help = "threads to use, which change no result; 0 is one per processor"               \
-    }
 #define FRICTION_GAMMA(type)                                                                       \
     {                                                                                              \
         PARAM("gamma", type, gamma, WT_Q_NONE, FROM_TO(0, 1)),                                     \

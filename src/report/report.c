@@ -10,6 +10,7 @@
 #include "report/gnuplot.h"
 #include "report/page.h"
 
+#include <pthread.h>
 #include <stdlib.h>
 
 wt_report_options wt_report_defaults(void)
@@ -25,6 +26,7 @@ static const wt_param rows[] = {
      .flags = PARAM_NO_CASE, .help = "the gnuplot to use"},
     {PARAM("gnuplot-time", wt_report_options, gnuplot_time, WT_Q_TIME, ABOVE(0)), .value = "TIME",
      .flags = PARAM_NO_CASE, .help = "the longest that one figure may take to draw"},
+    PARAM_THREADS(wt_report_options),
 };
 PARAM_TABLE(wt_report_params, wt_report_options, rows, wt_report_defaults, NO_PARTS)
 
@@ -33,27 +35,34 @@ PARAM_TABLE(wt_report_params, wt_report_options, rows, wt_report_defaults, NO_PA
 /* One report while it is written. */
 typedef struct report {
     bound_tables tables;
-    gnuplot_call gnuplot;
-    const wt_progress *progress;
-    size_t step; /* the figure that is being made */
+    gnuplot_call gnuplot; /* but for the script */
     growing_text style;
+    bool has_style; /* in the folder */
     report_folder *folder;
     drawn_figure *figures; /* one for each that this library knows */
-    size_t n_pictures;
+    wt_error *errors;      /* of each */
+    const wt_progress *progress;
+    pthread_mutex_t lock; /* for what follows, and so that progress is told by one at a time */
+    size_t step;          /* the last figure that was begun */
+    bool failed;
 } report;
 
 /* Tells that the figure of this step is next, or the page, the last one; false to stop. */
-static bool tell(const report *r, size_t step)
+static bool tell(report *r, size_t step)
 {
-    const char *what = step < wt_figure_count() ? figure_find(step)->name : "page";
-    return r->progress == NULL || r->progress->report == NULL ||
-           r->progress->report(r->progress->user, what, step, wt_figure_count() + 1);
+    (void)pthread_mutex_lock(&r->lock);
+    r->step = step > r->step ? step : r->step;
+    const char *what = r->step < wt_figure_count() ? figure_find(r->step)->name : "page";
+    const bool more = !r->failed && (r->progress == NULL || r->progress->report == NULL ||
+                                     r->progress->report(r->progress->user, what, r->step,
+                                                         wt_figure_count() + 1));
+    (void)pthread_mutex_unlock(&r->lock);
+    return more;
 }
 
 static bool go_on(void *user)
 {
-    const report *r = user;
-    return tell(r, r->step);
+    return tell(user, 0);
 }
 
 static wt_status write_data(const report_folder *folder, const figure_drawing *d, wt_error *err)
@@ -103,36 +112,12 @@ static wt_status write_script(const report_folder *folder, const figure_drawing 
     return status;
 }
 
-/* The picture of one figure, from its script. */
-static wt_status draw_picture(report *r, drawn_figure *figure, wt_error *err)
+/* What the picture of a figure is made of; nothing if there is nothing to draw. */
+static wt_status write_figure(report *r, size_t i, wt_error *err)
 {
-    const char *const name = figure->drawing.figure->name;
-    char script[96], picture[96];
-    wt_status status = WT_OK;
-    (void)snprintf(script, sizeof script, "%s.gp", name);
-    (void)snprintf(picture, sizeof picture, "%s.svg", name);
-    if (r->n_pictures++ == 0)
-        status =
-            folder_write(r->folder, "plots/style.gp", text_string(&r->style), r->style.length, err);
-    if (status == WT_OK) {
-        r->gnuplot.folder = folder_plots(r->folder);
-        r->gnuplot.script = script;
-        status = gnuplot_run(&r->gnuplot, err);
-    }
-    if (status != WT_OK)
-        return status;
-    char *path = wt_path_join(folder_plots(r->folder), picture);
-    if (path == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    status = file_read(path, GNUPLOT_PICTURE_LIMIT, &figure->svg, err);
-    free(path);
-    return status;
-}
-
-static wt_status make_figure(report *r, size_t i, wt_error *err)
-{
-    drawn_figure *figure = &r->figures[i];
-    figure_drawing *d = &figure->drawing;
+    figure_drawing *d = &r->figures[i].drawing;
+    if (bound_find(&r->tables, figure_find(i)->table)->n_rows == 0)
+        return WT_OK;
     wt_status status = drawing_make(d, figure_find(i), &r->tables, err);
     if (status != WT_OK)
         return status;
@@ -141,9 +126,63 @@ static wt_status make_figure(report *r, size_t i, wt_error *err)
     if (d->script.length == 0)
         return WT_OK;
     if ((status = write_data(r->folder, d, err)) != WT_OK ||
-        (status = write_script(r->folder, d, err)) != WT_OK)
+        (status = write_script(r->folder, d, err)) != WT_OK || r->has_style)
         return status;
-    return draw_picture(r, figure, err);
+    r->has_style = true;
+    return folder_write(r->folder, "plots/style.gp", text_string(&r->style), r->style.length, err);
+}
+
+/* The picture of one figure, from its script. */
+static wt_status draw_picture(const report *r, drawn_figure *figure, wt_error *err)
+{
+    const char *const name = figure->drawing.figure->name;
+    char script[96], picture[96];
+    (void)snprintf(script, sizeof script, "%s.gp", name);
+    (void)snprintf(picture, sizeof picture, "%s.svg", name);
+    gnuplot_call call = r->gnuplot;
+    call.script = script;
+    const wt_status status = gnuplot_run(&call, err);
+    if (status != WT_OK)
+        return status;
+    char *path = wt_path_join(folder_plots(r->folder), picture);
+    if (path == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    const wt_status read = file_read(path, GNUPLOT_PICTURE_LIMIT, &figure->svg, err);
+    free(path);
+    return read;
+}
+
+static wt_status draw_one(void *user, size_t i, unsigned worker)
+{
+    report *r = user;
+    (void)worker;
+    if (r->figures[i].drawing.script.length == 0)
+        return WT_OK;
+    const wt_status status =
+        tell(r, i) ? draw_picture(r, &r->figures[i], &r->errors[i])
+                   : wt_fail(&r->errors[i], WT_E_CANCELLED, "the report was cancelled");
+    if (status != WT_OK) {
+        (void)pthread_mutex_lock(&r->lock);
+        r->failed = true;
+        (void)pthread_mutex_unlock(&r->lock);
+    }
+    return status;
+}
+
+/* Those that are ended because of another one say no more than that. */
+static wt_status draw_all(report *r, unsigned threads, wt_error *err)
+{
+    const size_t n = wt_figure_count();
+    const wt_status status = wt_parallel_for(n, threads, draw_one, r, NULL, "figures");
+    const wt_error *first = NULL;
+    for (size_t i = 0; i < n; i++)
+        if (r->errors[i].status != WT_OK && (first == NULL || first->status == WT_E_CANCELLED))
+            first = &r->errors[i];
+    if (first == NULL)
+        return status;
+    if (err != NULL)
+        *err = *first;
+    return first->status;
 }
 
 static wt_status make_page(const report *r, const wt_result *result, bool with_provenance,
@@ -190,8 +229,10 @@ wt_status wt_report_write(const wt_result *result, const char *folder,
                             .go_on = go_on,
                             .user = &r},
                 .progress = progress,
-                .figures = calloc(n, sizeof *r.figures)};
-    if (r.figures == NULL) {
+                .lock = PTHREAD_MUTEX_INITIALIZER,
+                .figures = calloc(n, sizeof *r.figures),
+                .errors = calloc(n, sizeof *r.errors)};
+    if (r.figures == NULL || r.errors == NULL) {
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
         goto done;
     }
@@ -199,16 +240,15 @@ wt_status wt_report_write(const wt_result *result, const char *folder,
         (status = file_style(chosen.style, &r.style, err)) != WT_OK ||
         (status = folder_open(folder, &r.folder, err)) != WT_OK)
         goto done;
-    for (r.step = 0; r.step <= n && status == WT_OK; r.step++) {
-        if (r.step < n && bound_find(&r.tables, figure_find(r.step)->table)->n_rows == 0)
-            continue;
-        if (!tell(&r, r.step))
-            status = wt_fail(err, WT_E_CANCELLED, "the report was cancelled");
-        else if (r.step < n)
-            status = make_figure(&r, r.step, err);
-        else
-            status = make_page(&r, result, chosen.with_provenance, err);
-    }
+    r.gnuplot.folder = folder_plots(r.folder);
+    for (size_t i = 0; i < n && status == WT_OK; i++)
+        status = write_figure(&r, i, err);
+    if (status == WT_OK)
+        status = draw_all(&r, chosen.threads, err);
+    if (status == WT_OK && !tell(&r, n))
+        status = wt_fail(err, WT_E_CANCELLED, "the report was cancelled");
+    if (status == WT_OK)
+        status = make_page(&r, result, chosen.with_provenance, err);
     if (status != WT_OK)
         goto done;
     status = folder_commit(r.folder, err);
@@ -222,6 +262,8 @@ done:
         text_free(&r.figures[i].svg);
     }
     free(r.figures);
+    free(r.errors);
+    (void)pthread_mutex_destroy(&r.lock);
     text_free(&r.style);
     bound_clear(&r.tables);
     return status;

@@ -353,6 +353,7 @@ static wt_status pass_store(FILE **out, wt_error *err)
 static wt_status write_report(FILE **out, wt_error *err)
 {
     wt_report_options options = wt_report_defaults();
+    options.threads = 1; /* allocations are counted */
     wt_result *result = NULL;
     char path[128];
     wt_status status = make_result(&result, err);

@@ -13,7 +13,7 @@
          .flags = PARAM_NO_CASE, .help = "draws behind the standard errors; 0 for none"},          \
         {PARAM("seed", type, seed, WT_Q_NONE, AT_LEAST(0)), .value = "N", .flags = PARAM_NO_CASE,  \
          .help = "seed of the draws behind the standard errors"},                                  \
-        FRICTION_THREADS(type)
+        PARAM_THREADS(type)
 
 /* One file of the sets of a job. */
 typedef struct flow_file {
