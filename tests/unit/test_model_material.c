@@ -71,13 +71,48 @@ static void closed_form_against_quadrature(void **state)
     assert_int_equal(angular_panels_new(m, rule, 1e-3, 1e12, 1e-16, &panels, NULL), WT_OK);
     for (double w = 1e-3; w < 1e12; w *= 17) {
         double j1, j2, closed_j1[2], closed_j2[2];
-        angular_panels_integrate(&panels, w, (double)INFINITY, &j1, &j2);
+        angular_panels_integrate(&panels, w, &j1, &j2);
         m->law->angular(m, (double[]){w, 1e160}, 2, closed_j1, closed_j2); /* capped */
         assert_near(j1, closed_j1[0], 1e-13);
         assert_near(j2, closed_j2[0], 1e-13);
         m->law->angular(m, &w, 1, &j1, &j2);
         assert_near(j1, closed_j1[0], 0);
         assert_near(j2, closed_j2[0], 0);
+    }
+    angular_panels_clear(&panels);
+    pool_free(&memory);
+    wt_material_free(m);
+}
+
+/* Panels end where they are told to, not at the next edge: what lies below counts, what above does
+ * not. */
+static void frequencies_below_a_limit(void **state)
+{
+    (void)state;
+    double modulus[] = {2.385e6, 4.1e7, 7e8}, tau[] = {3.1e-2, 5e-5, 2e-8};
+    const wt_prony prony = series(3e6, 3, modulus, tau);
+    const double limit = 137;
+    enum { ANGLES = 20000 };
+    wt_material *m = NULL;
+    pool memory = {0};
+    gauss_rule *rule = NULL;
+    angular_panels panels;
+    assert_int_equal(wt_material_prony(&prony, 0.5, &m, NULL), WT_OK);
+    assert_int_equal(rule_new(PANEL_NODES, &memory, &rule, NULL), WT_OK);
+    assert_int_equal(angular_panels_new(m, rule, limit, limit, 1e-10, &panels, NULL), WT_OK);
+    for (double w = 1.001 * limit; w < 1e6; w *= 1.7) {
+        double sum1 = 0, sum2 = 0, j1, j2;
+        const double first = acos(limit / w), step = (M_PI / 2 - first) / ANGLES;
+        for (int i = 0; i < ANGLES; i++) {
+            const double cosine = cos(first + (i + 0.5) * step), omega = w * cosine;
+            double storage, loss;
+            m->law->modulus(m, &omega, 1, &storage, &loss);
+            sum1 += 4 * step * cosine * loss;
+            sum2 += 4 * step * (storage * storage + loss * loss);
+        }
+        angular_panels_integrate(&panels, w, &j1, &j2);
+        assert_near(j1, sum1, 1e-7);
+        assert_near(j2, sum2, 1e-7);
     }
     angular_panels_clear(&panels);
     pool_free(&memory);
@@ -375,6 +410,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(closed_angular_integrals),
         cmocka_unit_test(closed_form_against_quadrature),
+        cmocka_unit_test(frequencies_below_a_limit),
         cmocka_unit_test(prony_moduli),
         cmocka_unit_test(table_moduli),
         cmocka_unit_test(fractional_zener_moduli),

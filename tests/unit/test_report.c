@@ -322,7 +322,9 @@ static void test_the_same_bytes_twice(void **state)
     wt_result *result = fixture_result();
     wt_report_options options = wt_report_defaults();
     options.with_provenance = false;
+    options.threads = 1;
     write_report(result, "one", &options);
+    options.threads = 3; /* however many at a time */
     write_report(result, "two", &options);
     for (size_t i = 0; i <= wt_figure_count(); i++) {
         char one[160], two[160];
