@@ -214,7 +214,7 @@ static void numeric_cases(void **state)
         }
         rig_free(&r);
     }
-    assert_int_equal(lines, 168);
+    assert_int_equal(lines, 180);
     free(c);
     fclose(in);
 }

@@ -62,6 +62,9 @@ static double vertical_shift(const wt_rubber *rubber, const double *b, double te
     return b[i - 1] + (b[i] - b[i - 1]) * (temperature - t[i - 1]) / (t[i] - t[i - 1]);
 }
 
+/* Further away times and frequencies are no numbers. */
+static const double most_decades = 200;
+
 /* log10 a_T of a law. */
 static wt_status horizontal_shift(const wt_shift_law *law, double reference, double temperature,
                                   double *log_a, wt_error *err)
@@ -86,6 +89,14 @@ static wt_status horizontal_shift(const wt_shift_law *law, double reference, dou
         wt_error_expected(err, "more than %.2f degC",
                           law->wlf.reference_temperature - law->wlf.c2 - WT_ZERO_CELSIUS);
         wt_error_found(err, "%.2f degC", temperature - WT_ZERO_CELSIUS);
+        return WT_E_RANGE;
+    }
+    if (fabs(*log_a) > most_decades) {
+        wt_fail(err, WT_E_RANGE, "the temperature is out of reach of the shift law");
+        wt_error_expected(err, "one at which log10 aT is from -%g to %g", most_decades,
+                          most_decades);
+        wt_error_found(err, "%.2f degC, at which it is %.3g", temperature - WT_ZERO_CELSIUS,
+                       *log_a);
         return WT_E_RANGE;
     }
     return WT_OK;
