@@ -10,9 +10,10 @@
 #include <math.h>
 #include <string.h>
 
-/* Widths of the prior of the vertical shift [decade]: clamping, departure of the material. */
-static const double geometry_widths[] = {0.001, 0.003, 0.01, 0.03};
-static const double geometry_cells[] = {0.002, 0.0045, 0.0135, 0.04};
+/* Widths of the prior of the vertical shift [decade]: clamping, departure of the material. Cells:
+ * what of all widths each stands for; in one of four sweeps there is next to none of either. */
+static const double geometry_widths[] = {0.0003, 0.002, 0.008, 0.03};
+static const double geometry_cells[] = {0.0068, 0.0032, 0.0115, 0.0445};
 static const double departure_widths[] = {0.0, 0.02, 0.1};
 static const double departure_cells[] = {0.02, 0.04, 0.12};
 static const double geometry_believed = 0.01, departure_believed = 0.05;
@@ -207,7 +208,7 @@ static wt_status noise_of_lines(const master_work *work, double noise[MODULI], w
             memcpy(lines.weight[q], s->weight[q], s->n * sizeof *s->weight[q]);
             lines.noise[q] = s->noise[q];
         }
-        status = spectrum_fit(&lines, SPECTRUM_HELD, err);
+        status = spectrum_fit(&lines, SPECTRUM_TRIAL, err);
         if (status == WT_OK)
             (void)spectrum_noise_update(&lines);
     }

@@ -6,8 +6,9 @@
 
 #include <math.h>
 
-/* Lack of fit is real below this probability, with what is not known of the noise. */
-static const double significant = 0.01;
+/* Lack of fit is real below this probability, with what is not known of the noise: noise that goes
+ * together over most of an isotherm makes it small too (tests/study: correlated_strong). */
+static const double significant = 0.001;
 /* Superposition does not hold below this one, with the noise as estimated: its factors and their
  * place on the isotherms make small probabilities a few times too small. */
 static const double doubtful = 0.01;
@@ -17,8 +18,9 @@ static const double doubtful = 0.01;
 static const double matters = 0.004, may_matter = 0.01;
 /* Narrower windows hide a second process [decade]. */
 static const double least_window = 1.5;
-/* E'' that a spectrum makes of E' and that which was measured differ by at least so much. */
-static const double loss_matters = 0.01, loss_significant = 0.001;
+/* E'' that a spectrum makes of E' and that which was measured differ by at least so much. One
+ * factor on all is what such noise looks like most. */
+static const double loss_matters = 0.01, loss_significant = 1e-5;
 /* By fewer shared frequencies an isotherm tests nothing: the smoothness of the spectrum alone
  * places it [decade]. */
 static const double least_overlap = 0.3;
@@ -56,8 +58,8 @@ void master_judge(const master_work *work, wt_master *m)
         m->superposition = WT_SUPERPOSITION_FAILS;
         clocale_print(m->because, sizeof m->because,
                       "E'' is %+.1f %% off what E' demands (Kramers-Kronig, p = %.1g): check the "
-                      "instrument, or the columns",
-                      100.0 * expm1(-lack->factor), lack->kk);
+                      "instrument, the columns, and whether the material changed meanwhile",
+                      100.0 * expm1(lack->factor), lack->kk);
     } else if (determined >= LEAST_ISOTHERMS && lack->p_sure < significant &&
                lack->misfit_low > matters) {
         m->superposition = WT_SUPERPOSITION_FAILS;

@@ -19,8 +19,9 @@ static const double pole_nearest = 2.0, pole_farthest = 1e4;
 /* A pole whose distance is known to less than this (error of its ln) bends nothing that is seen:
  * constants and draws of such a law would mean nothing, and it counts as impossible. */
 static const double pole_error = 2.0;
-/* Temperatures are believed to so many kelvin (half width of a Cauchy prior). */
-static const double believed = 0.3;
+/* Temperatures are believed to so many kelvin (half width of a Cauchy prior), and in one of four
+ * sweeps not to scatter at all: so much weight has the smallest spread beyond its own. */
+static const double believed = 0.3, steady = 0.15;
 /* The isotherm whose own shift gains more than this of -2 ln likelihood is odd. */
 static const double odd_gain = 20.0;
 enum { POLE_GRID = 40, LEAST_CORRECTED = 7, LEAST_JOINED = 8, LEAST_ODD = 6 };
@@ -69,26 +70,29 @@ static double arrhenius_part(double reference, double temperature)
     return (reference - temperature) / (reference * temperature) / (gas_constant * M_LN10);
 }
 
-/* Main part, part below the joint, and derivative of the main part by the pole. */
-static void parts(const law_shape *shape, double distance, double temperature, double *main_part,
-                  double *below, double *by_pole)
+/* The main part and its derivative by the pole. */
+static double part_main(const law_shape *shape, double distance, double temperature,
+                        double *by_pole)
 {
-    const double r = shape->reference;
-    const bool joined = shape->kind == WT_LAW_JOINED;
-    *below = *by_pole = 0.0;
-    if (!has_wlf(shape)) {
-        *main_part = arrhenius_part(r, temperature);
-        return;
-    }
-    double at_reference = 0.0, of_reference = 0.0;
-    *main_part =
-        wlf_part(shape, distance, joined ? fmax(temperature, shape->joint) : temperature, by_pole);
-    if (!joined)
-        return;
-    at_reference = wlf_part(shape, distance, fmax(r, shape->joint), &of_reference);
-    *main_part -= at_reference;
+    const double r = shape->reference, joint = shape->joint;
+    *by_pole = 0.0;
+    if (!has_wlf(shape))
+        return arrhenius_part(r, temperature);
+    if (shape->kind != WT_LAW_JOINED)
+        return wlf_part(shape, distance, temperature, by_pole);
+    double of_reference;
+    const double part = wlf_part(shape, distance, fmax(temperature, joint), by_pole) -
+                        wlf_part(shape, distance, fmax(r, joint), &of_reference);
     *by_pole -= of_reference;
-    *below = arrhenius_part(fmin(r, shape->joint), fmin(temperature, shape->joint));
+    return part;
+}
+
+/* The part below the joint. */
+static double part_below(const law_shape *shape, double temperature)
+{
+    return shape->kind == WT_LAW_JOINED ? arrhenius_part(fmin(shape->reference, shape->joint),
+                                                         fmin(temperature, shape->joint))
+                                        : 0.0;
 }
 
 static double pole_distance(const law_shape *shape, const double *unknown)
@@ -98,8 +102,9 @@ static double pole_distance(const law_shape *shape, const double *unknown)
 
 double law_at(const law_shape *shape, const double *unknown, double temperature, double *gradient)
 {
-    double main_part, below, by_pole;
-    parts(shape, pole_distance(shape, unknown), temperature, &main_part, &below, &by_pole);
+    double by_pole;
+    const double main_part = part_main(shape, pole_distance(shape, unknown), temperature, &by_pole),
+                 below = part_below(shape, temperature);
     const bool joined = shape->kind == WT_LAW_JOINED;
     if (gradient != NULL) {
         for (size_t u = 0; u < LAW_MOST; u++)
@@ -139,12 +144,6 @@ wt_shift_law law_constants(const law_shape *shape, const double *unknown)
 
 /* ---- generalised least squares --------------------------------------------------------------- */
 
-struct gls {
-    const law_data *data;
-    const law_shape *shape;
-    const gsl_matrix *root; /* Cholesky factor of the covariance of the shifts and temperatures */
-};
-
 wt_status law_gls_covariance(const law_data *data, double spread, gsl_matrix *covariance,
                              wt_error *err)
 {
@@ -158,65 +157,103 @@ wt_status law_gls_covariance(const law_data *data, double spread, gsl_matrix *co
     return WT_OK;
 }
 
-/* Offset, parts that are linear, odd isotherm, derivative by the pole. */
-static void design(const law_data *data, const law_shape *shape, double distance,
-                   double main_factor, gsl_matrix *x)
+/* What hangs on the distance of the pole: the main part, and the derivative by it if the matrix has
+ * that column. */
+static void design_pole(const law_data *data, const law_shape *shape, double distance,
+                        double main_factor, gsl_matrix *x)
 {
-    const size_t odd = law_odd_index(shape), pole = law_pole_index(shape);
+    const size_t pole = law_pole_index(shape);
     for (size_t i = 0; i < data->n; i++) {
-        double main_part, below, by_pole;
-        parts(shape, distance, data->temperature[i], &main_part, &below, &by_pole);
+        double by_pole;
+        gsl_matrix_set(x, i, 1, part_main(shape, distance, data->temperature[i], &by_pole));
+        if (pole < x->size2)
+            gsl_matrix_set(x, i, pole, main_factor * by_pole);
+    }
+}
+
+/* Offset, part below the joint, odd isotherm. */
+static void design_fixed(const law_data *data, const law_shape *shape, gsl_matrix *x)
+{
+    const size_t odd = law_odd_index(shape);
+    for (size_t i = 0; i < data->n; i++) {
         gsl_matrix_set(x, i, 0, 1.0);
-        gsl_matrix_set(x, i, 1, main_part);
         if (shape->kind == WT_LAW_JOINED)
-            gsl_matrix_set(x, i, 2, below);
+            gsl_matrix_set(x, i, 2, part_below(shape, data->temperature[i]));
         if (odd < LAW_MOST)
             gsl_matrix_set(x, i, odd, (long)i == shape->odd ? 1.0 : 0.0);
-        if (pole < LAW_MOST)
-            gsl_matrix_set(x, i, pole, main_factor * by_pole);
     }
 }
 
 void law_design(const law_data *data, const law_shape *shape, const double *unknown, gsl_matrix *x)
 {
-    design(data, shape, pole_distance(shape, unknown), unknown[1], x);
+    design_fixed(data, shape, x);
+    design_pole(data, shape, pole_distance(shape, unknown), unknown[1], x);
+}
+
+/* Shifts and design in units of the errors. */
+struct gls {
+    const law_data *data;
+    const law_shape *shape;
+    const gsl_matrix *root; /* Cholesky factor of the covariance of the shifts and temperatures */
+    gsl_vector_view y;      /* [n] */
+    gsl_matrix_view x;      /* [n * unknowns] */
+};
+
+/* The columns that hang on the pole, or those that do not. */
+static void whiten_columns(const struct gls *g, gsl_matrix *x, bool of_pole)
+{
+    for (size_t u = 0; u < x->size2; u++) {
+        gsl_vector_view column = gsl_matrix_column(x, u);
+        if ((u == 1 || u == law_pole_index(g->shape)) == of_pole)
+            gsl_blas_dtrsv(CblasLower, CblasNoTrans, CblasNonUnit, g->root, &column.vector);
+    }
+}
+
+static struct gls gls_new(const law_data *data, const law_shape *shape, const gsl_matrix *root)
+{
+    struct gls g = {data, shape, root, gsl_vector_view_array(data->scratch, data->n),
+                    gsl_matrix_view_array(data->scratch + data->n, data->n, law_unknowns(shape))};
+    for (size_t i = 0; i < data->n; i++)
+        gsl_vector_set(&g.y.vector, i, data->log_a[i]);
+    gsl_blas_dtrsv(CblasLower, CblasNoTrans, CblasNonUnit, root, &g.y.vector);
+    design_fixed(data, shape, &g.x.matrix);
+    whiten_columns(&g, &g.x.matrix, false);
+    return g;
+}
+
+/* The covariance of the first unknowns, which solve() leaves as its inverse. */
+static gsl_matrix_view covariance_of(law_fit *fit, size_t used)
+{
+    return gsl_matrix_view_array_with_tda(&fit->covariance[0][0], used, used, LAW_MOST);
 }
 
 /* Least squares for a given distance of the pole, with `used` columns; false if they are
- * dependent. */
-static bool solve(const struct gls *g, double distance, double main_factor, size_t used,
-                  law_fit *fit)
+ * dependent. In the place of the covariance is the factor of its inverse. */
+static bool solve(struct gls *g, double distance, double main_factor, size_t used, law_fit *fit)
 {
-    const size_t n = g->data->n, k = law_unknowns(g->shape);
-    double cross_block[LAW_MOST * LAW_MOST];
-    gsl_vector_view y = gsl_vector_view_array(g->data->scratch, n);
-    gsl_matrix_view whole = gsl_matrix_view_array(g->data->scratch + n, n, k);
-    gsl_matrix_view cross = gsl_matrix_view_array(cross_block, used, used);
+    gsl_matrix_view x = gsl_matrix_submatrix(&g->x.matrix, 0, 0, g->data->n, used);
+    gsl_matrix_view cross = covariance_of(fit, used);
     gsl_vector_view right = gsl_vector_view_array(fit->unknown, used);
-    for (size_t i = 0; i < n; i++)
-        gsl_vector_set(&y.vector, i, g->data->log_a[i]);
-    design(g->data, g->shape, distance, main_factor, &whole.matrix);
-    gsl_matrix_view x = gsl_matrix_submatrix(&whole.matrix, 0, 0, n, used);
-    gsl_blas_dtrsv(CblasLower, CblasNoTrans, CblasNonUnit, g->root, &y.vector);
-    gsl_blas_dtrsm(CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, 1.0, g->root, &x.matrix);
+    design_pole(g->data, g->shape, distance, main_factor, &x.matrix);
+    whiten_columns(g, &x.matrix, true);
     gsl_blas_dsyrk(CblasLower, CblasTrans, 1.0, &x.matrix, 0.0, &cross.matrix);
-    gsl_blas_dgemv(CblasTrans, 1.0, &x.matrix, &y.vector, 0.0, &right.vector);
+    gsl_blas_dgemv(CblasTrans, 1.0, &x.matrix, &g->y.vector, 0.0, &right.vector);
     if (gsl_linalg_cholesky_decomp1(&cross.matrix) != GSL_SUCCESS)
         return false;
     gsl_linalg_cholesky_svx(&cross.matrix, &right.vector);
-    fit->log_det_design = 0.0;
+    fit->log_det_design = fit->chi_square = 0.0;
     for (size_t u = 0; u < used; u++)
-        fit->log_det_design += 2.0 * log(gsl_matrix_get(&cross.matrix, u, u));
-    gsl_linalg_cholesky_invert(&cross.matrix);
-    for (size_t u = 0; u < used; u++)
-        for (size_t v = 0; v < used; v++)
-            fit->covariance[u][v] = gsl_matrix_get(&cross.matrix, u, v);
-    gsl_blas_dgemv(CblasNoTrans, -1.0, &x.matrix, &right.vector, 1.0, &y.vector);
-    gsl_blas_ddot(&y.vector, &y.vector, &fit->chi_square);
+        fit->log_det_design += 2.0 * log(fit->covariance[u][u]);
+    for (size_t i = 0; i < g->data->n; i++) {
+        double off = gsl_vector_get(&g->y.vector, i);
+        for (size_t u = 0; u < used; u++)
+            off -= gsl_matrix_get(&x.matrix, i, u) * fit->unknown[u];
+        fit->chi_square += off * off;
+    }
     return true;
 }
 
-static double chi_square_at(const struct gls *g, double log_distance, law_fit *fit)
+static double chi_square_at(struct gls *g, double log_distance, law_fit *fit)
 {
     const bool good = solve(g, exp(log_distance), 1.0, law_unknowns(g->shape) - 1, fit);
     /* a law that rises with temperature is none */
@@ -224,7 +261,7 @@ static double chi_square_at(const struct gls *g, double log_distance, law_fit *f
 }
 
 /* ln of the distance of the pole that fits best: scanned, then by halves. */
-static double best_pole(const struct gls *g, law_fit *fit)
+static double best_pole(struct gls *g, law_fit *fit)
 {
     const double nearest = log(pole_nearest), farthest = log(pole_farthest);
     double step = (farthest - nearest) / POLE_GRID, best = HUGE_VAL, at = farthest;
@@ -251,7 +288,7 @@ static double best_pole(const struct gls *g, law_fit *fit)
 wt_status law_fit_with(const law_data *data, const law_shape *shape, gsl_matrix *root, law_fit *fit,
                        wt_error *err)
 {
-    const struct gls g = {data, shape, root};
+    struct gls g = gls_new(data, shape, root);
     const size_t k = law_unknowns(shape), pole = law_pole_index(shape);
     *fit = (law_fit){.n_unknowns = k};
     bool good;
@@ -260,21 +297,21 @@ wt_status law_fit_with(const law_data *data, const law_shape *shape, gsl_matrix 
     } else {
         const double p = best_pole(&g, fit);
         good = chi_square_at(&g, p, fit) < HUGE_VAL;
-        double linear[LAW_MOST];
-        const double chi_square = fit->chi_square;
-        memcpy(linear, fit->unknown, sizeof linear);
-        if (good)
-            good = solve(&g, exp(p), linear[1], k, fit);
-        memcpy(fit->unknown, linear, sizeof linear);
+        const law_fit linear = *fit;
+        good = good && solve(&g, exp(p), linear.unknown[1], k, fit);
+        memcpy(fit->unknown, linear.unknown, sizeof linear.unknown);
         fit->unknown[pole] = p;
-        fit->chi_square =
-            fit->covariance[pole][pole] < pole_error * pole_error ? chi_square : HUGE_VAL;
+        fit->chi_square = linear.chi_square;
     }
     if (!good || !(fit->unknown[1] > 0.0)) {
         wt_fail(err, WT_E_RANGE, "the shift factors do not fall with temperature");
         wt_error_advice(err, "are the temperatures those of the isotherms?");
         return WT_E_RANGE;
     }
+    gsl_matrix_view covariance = covariance_of(fit, k);
+    gsl_linalg_cholesky_invert(&covariance.matrix);
+    if (pole < LAW_MOST && !(fit->covariance[pole][pole] < pole_error * pole_error))
+        fit->chi_square = HUGE_VAL;
     for (size_t i = 0; i < data->n; i++)
         fit->log_det += 2.0 * log(gsl_matrix_get(root, i, i));
     return WT_OK;
@@ -287,7 +324,8 @@ double law_reml(const law_fit *fit)
 
 double law_spread_prior(double spread)
 {
-    return spread / (1.0 + spread * spread / (believed * believed));
+    return spread / (1.0 + spread * spread / (believed * believed)) +
+           (spread > law_spread(0) ? 0.0 : steady);
 }
 
 /* ---- which law ------------------------------------------------------------------------------- */

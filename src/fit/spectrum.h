@@ -107,7 +107,8 @@ typedef enum spectrum_mode {
     SPECTRUM_NOISE,  /* noise and smoothness are estimated */
     SPECTRUM_ROUGH,  /* the same, good enough to look for outliers */
     SPECTRUM_ROBUST, /* the same, with the weights of a Student distribution */
-    SPECTRUM_HELD    /* noise and smoothness are held */
+    SPECTRUM_HELD,   /* noise and smoothness are held */
+    SPECTRUM_TRIAL   /* the same, good enough to see whether much less is left */
 } spectrum_mode;
 wt_status spectrum_fit(spectrum *s, spectrum_mode mode, wt_error *err) WT_NODISCARD;
 

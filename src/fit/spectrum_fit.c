@@ -17,6 +17,8 @@ enum { MAX_STEPS = 80, MAX_DAMPINGS = 12 };
 static const double least_gain = 1e-3, least_change = 2e-3;
 /* The same where that is good enough, and where only the objective is wanted. */
 static const double rough_gain = 0.1, rough_change = 0.02, held_gain = 0.02;
+/* Where a trial only asks whether much less is left: share of the objective. */
+static const double trial_gain = 0.005;
 
 static gsl_matrix_view part(gsl_matrix *m, size_t n)
 {
@@ -97,7 +99,8 @@ static void prepare(spectrum *s)
 wt_status spectrum_fit(spectrum *s, spectrum_mode mode, wt_error *err)
 {
     const bool rough = mode == SPECTRUM_ROBUST || mode == SPECTRUM_ROUGH;
-    const double enough_gain = rough ? rough_gain : mode == SPECTRUM_HELD ? held_gain : least_gain;
+    const bool held = mode == SPECTRUM_HELD || mode == SPECTRUM_TRIAL;
+    const double enough_gain = rough ? rough_gain : held ? held_gain : least_gain;
     wt_status status = WT_OK;
     double damping = 0.0, gain = HUGE_VAL, change = 0.0;
     bool done = false;
@@ -109,7 +112,7 @@ wt_status spectrum_fit(spectrum *s, spectrum_mode mode, wt_error *err)
         if (status != WT_OK)
             break;
         prepare(s);
-        if (mode != SPECTRUM_HELD) {
+        if (!held) {
             status = invert(s, err);
             if (status != WT_OK)
                 break;
@@ -122,6 +125,7 @@ wt_status spectrum_fit(spectrum *s, spectrum_mode mode, wt_error *err)
             weigh(s);
         }
         done = gain < enough_gain && change < (rough ? rough_change : least_change);
+        done = done || (mode == SPECTRUM_TRIAL && gain < trial_gain * s->objective);
     }
     if (status == WT_OK)
         status = invert(s, err);

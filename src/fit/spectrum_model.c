@@ -11,7 +11,7 @@
 static const double equilibrium_spread = 3.0;
 /* How far the relaxation times go beyond the measured range [decade]: those that are longer than
  * the second are no different from an equilibrium modulus. */
-static const double fast_margin = 1.5, slow_margin = 3.0;
+static const double fast_margin = 1.5, slow_margin = 2.5;
 /* Weight of the second differences of terms slower than the measured range: beyond it a spectrum
  * rather goes on as it did, but does not have to. Larger ones narrow the equilibrium modulus and
  * miss it where a slower process begins there (tests/study: D3). */

@@ -149,7 +149,7 @@ static void law_rows(page_writer *page)
     if (table->table == NULL)
         return;
     growing_text remark = {0};
-    text_format(&remark, "correlated with C₂, see the table of constants; superposition %s",
+    text_format(&remark, "correlated with C₂, see the table of constants; superposition: %s",
                 shift_factors_words(table, SHIFT_FACTORS_KEY_SUPERPOSITION));
     headline_rows(page, table, SHIFT_FACTORS_KEY_WLF_C1, text_string(&remark));
     text_done(&remark, &page->out);

@@ -152,7 +152,7 @@ static void test_page(void **state)
         "bulk: 1 of 12 curves rejected",
         "R^2 0.71 below 0.90 &lt;i&gt;",
         "&lt;b&gt;&#39;`touch fixture_was_run`&quot;&amp;;$(rm -r x)\\",
-        "Correlation of C₁ and C₂</th><td colspan=\"3\">0.929",
+        "Correlation of C₁ and C₂</th><td colspan=\"3\">0.9",
         "left out: nothing asked for it",
         "&lt;case title=&quot;HC &amp;amp; severe&quot;&gt;",
         "weartrack run &#39;&lt;case&gt;.xml&#39;",
@@ -219,11 +219,11 @@ static void test_tables_on_the_page(void **state)
         "−30.0|5.4",
         "Reference isotherm off the law (decades)|0.00000|"
         "± 1.0×10⁻⁷|–|",
-        "WLF constant C₁|6.505|± 0.015|–|correlated with C₂, see the table of constants; "
-        "superposition holds: ",
-        "WLF constant C₂|110.08 K|± 0.17 K|–||",
+        "WLF constant C₁|6.504|± 0.011|–|correlated with C₂, see the table of constants; "
+        "superposition: holds: ",
+        "WLF constant C₂|110.08 K|± 0.11 K|–||",
         "Reference temperature|20 °C|–|–||",
-        "Friction coefficient|0.689|± 0.067|± ",
+        "Friction coefficient|0.689|± 0.066|± ",
         "Friction coefficient with layer|0.566|± 0.056|± ",
         "Group|Equivalent frequency (rad/s)|Indentation (MPa)|95 % interval from (MPa)|to (MPa)|"
         "DMA E′ (MPa)|DMA |E*| (MPa)|± stat. (MPa)|Indentation / DMA|Outside measured frequencies|",

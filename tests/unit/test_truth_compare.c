@@ -415,6 +415,26 @@ static void test_warmer(void **state)
     assert_non_null(strstr(includes, "temperatures"));
 }
 
+/* A temperature below the pole of the law, or without a law, leaves the question open. */
+static void test_out_of_reach(void **state)
+{
+    (void)state;
+    static double tau = 1e-3, term = 6e6;
+    wt_rubber rubber = rubber_of(&tau, &term);
+    rubber.law.wlf = (wt_wlf){403.15, 6.5, 105}; /* the pole is between bulk and track */
+    assert_non_null(strstr(warmer(1, true, &rubber, 0), "cannot say: the DMA does not reach"));
+    assert_null(wt_table_key(tables.comparison, "modulus_ratio"));
+    assert_non_null(strstr(wt_table_key(tables.comparison, "settled_by"), "temperature-slope"));
+    assert_non_null(
+        strstr(wt_table_key(tables.dma_comparison, "material_statement"), "none at "));
+    for (size_t i = 0; i < 2 * RATES; i++)
+        assert_int_equal(isnan(cell(tables.dma_comparison, i, "ratio")) != 0, i < RATES);
+    rubber.law.kind = WT_LAW_NONE;
+    assert_non_null(strstr(warmer(1, true, &rubber, 0), "no shift law"));
+    assert_string_equal(warmer(RATIO, false, &rubber, 0), /* at one temperature it is not asked */
+                        "yes: the wear track is softer than the bulk");
+}
+
 static const char *includes_of(wt_compare_job job)
 {
     wt_job common = wt_job_defaults();
@@ -454,7 +474,7 @@ int main(void)
         cmocka_unit_test(test_comparison), cmocka_unit_test(test_verdict),
         cmocka_unit_test(test_groups),     cmocka_unit_test(test_rates),
         cmocka_unit_test(test_dma),        cmocka_unit_test(test_warmer),
-        cmocka_unit_test(test_not_known),
+        cmocka_unit_test(test_not_known),  cmocka_unit_test(test_out_of_reach),
     };
     return cmocka_run_group_tests_name("comparison of known truth", tests, NULL, clean);
 }

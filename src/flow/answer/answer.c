@@ -409,14 +409,16 @@ static void answer_rubber(const answer_story *story)
         shift_factors_value(shift, SHIFT_FACTORS_KEY_REFERENCE_TEMPERATURE).value;
     const wt_estimate equilibrium = prony_value(prony, PRONY_KEY_EQUILIBRIUM_MODULUS),
                       limit = prony_value(prony, PRONY_KEY_EQUILIBRIUM_LIMIT);
+    const char *verdict = shift_factors_words(shift, SHIFT_FACTORS_KEY_SUPERPOSITION);
+    const bool holds = strncmp(verdict, "holds", 5) == 0; /* else a caveat says it */
     answer_say(story, what_rubber, "material",
-               "At %s, from %zu isotherms: %s; equilibrium modulus %s%s (%s). "
-               "Time-temperature superposition %s.",
+               "At %s, from %zu isotherms: %s; equilibrium modulus %s%s (%s).%s%s%s",
                words_of_celsius(reference).text, shift->n_rows, law_words(shift).text,
                isnan(limit.value) ? "" : "at most ",
                words_of_estimate(isnan(limit.value) ? equilibrium : limit).text,
                prony_words(prony, PRONY_KEY_DEFORMATION),
-               shift_factors_words(shift, SHIFT_FACTORS_KEY_SUPERPOSITION));
+               holds ? " Time-temperature superposition " : "", holds ? verdict : "",
+               holds ? "." : "");
 }
 
 /* ---- the story ------------------------------------------------------------------------------- */

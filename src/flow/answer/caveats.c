@@ -215,6 +215,16 @@ static void say_includes(const answer_story *story, const char *what, const char
            lacks != NULL ? lacks : "");
 }
 
+/* What material_caveats says. */
+static bool is_superposition(const answer_story *story, const char *text)
+{
+    const table_view *shifts = &story->shift_factors;
+    const char *verdict =
+        shifts->table == NULL ? NULL : shift_factors_words(shifts, SHIFT_FACTORS_KEY_SUPERPOSITION);
+    const char *because = verdict != NULL ? strstr(verdict, ": ") : NULL;
+    return because != NULL && strstr(text, because) != NULL;
+}
+
 /* The first warnings in full, the others by number. */
 static void warnings(const answer_story *story)
 {
@@ -222,12 +232,13 @@ static void warnings(const answer_story *story)
     size_t n = 0;
     for (size_t i = 0; i < wt_parselog_count(story->log); i++) {
         wt_log_entry entry = wt_parselog_get(story->log, i);
-        if (entry.severity != WT_NOTE && ++n <= SHOWN)
+        if (entry.severity != WT_NOTE && !is_superposition(story, entry.text) && ++n <= SHOWN)
             CAVEAT(story, "%s%s%s: %s.", entry.severity == WT_LOSS ? "Lost" : "Warning",
                    entry.file[0] != '\0' ? " of " : "", wt_path_base(entry.file), entry.text);
     }
     if (n > SHOWN)
-        CAVEAT(story, "%zu more warnings are in the table notes.", n - SHOWN);
+        CAVEAT(story, "%zu more warning%s in the table notes.", n - SHOWN,
+               n == SHOWN + 1 ? " is" : "s are");
 }
 
 static void comparison_caveats(const answer_story *story)

@@ -2,7 +2,9 @@
  * the equivalent frequency.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/job/compare.h"
+#include "flow/job/inputs.h"
 
+#include "base/clocale.h"
 #include "base/param.h"
 #include "data/tables/tables.h"
 
@@ -111,7 +113,7 @@ static void rate_row(table_writer *t, int g, const rate_point *point)
     modulus_rate_put(t, MODULUS_RATE_HIGH, point->summary.high);
 }
 
-/* error: relative, of |E*|. */
+/* error: relative, of |E*|; material: NULL where the DMA does not reach. */
 static void dma_row(table_writer *t, int g, const rate_point *point, const wt_material *material,
                     double error)
 {
@@ -122,7 +124,7 @@ static void dma_row(table_writer *t, int g, const rate_point *point, const wt_ma
     dma_comparison_put(t, DMA_COMPARISON_MODULUS, point->summary.geometric_mean);
     dma_comparison_put(t, DMA_COMPARISON_LOW, point->summary.low);
     dma_comparison_put(t, DMA_COMPARISON_HIGH, point->summary.high);
-    if (!(point->frequency > 0))
+    if (!(point->frequency > 0) || material == NULL)
         return;
     material->law->modulus(material, &point->frequency, 1, &storage, &loss);
     bool outside =
@@ -155,15 +157,21 @@ static wt_status dma_rows(table_writer *t, const compare_pair *p, int g, const w
                           wt_error *err)
 {
     wt_material *material = NULL;
-    wt_status status =
-        wt_rubber_at(rubber, temperature, work->seed, WT_NO_REPLICATE, &material, statement, err);
+    wt_error why = WT_ERROR_INIT;
+    wt_status status = WT_OK;
+    if (flow_rubber_reaches(rubber, temperature, &why))
+        status = wt_rubber_at(rubber, temperature, work->seed, WT_NO_REPLICATE, &material,
+                              statement, err);
+    else
+        clocale_print(statement, 256, "none at %.2f °C: %s", temperature - WT_ZERO_CELSIUS,
+                      why.message);
     for (size_t b = 0; status == WT_OK && b < p->n_bins; b++) {
         const rate_point *point = &p->point[g][b];
         const condition at = {temperature, point->frequency};
         wt_estimate modulus = {0};
         if (point->n == 0)
             continue;
-        if (point->frequency > 0)
+        if (point->frequency > 0 && material != NULL)
             status = compare_material(rubber, &at, 1, work, &modulus, err);
         dma_row(t, g, point, material, modulus.standard_error);
     }
@@ -175,7 +183,7 @@ static wt_status dma_rows(table_writer *t, const compare_pair *p, int g, const w
 static wt_status make_dma_table(const compare_pair *p, const wt_compare_job *job,
                                 const wt_job *work, wt_table **table, wt_error *err)
 {
-    char statement[256] = "";
+    char statement[2][256] = {"", ""};
     const double given[2] = {job->temperature.value, isnan(job->track_temperature.value)
                                                          ? job->temperature.value
                                                          : job->track_temperature.value};
@@ -185,7 +193,7 @@ static wt_status make_dma_table(const compare_pair *p, const wt_compare_job *job
     for (int g = 0; t.status == WT_OK && g < 2; g++) {
         if (apart)
             table_block(&t);
-        t.status = dma_rows(&t, p, g, job->rubber, given[g], work, statement, err);
+        t.status = dma_rows(&t, p, g, job->rubber, given[g], work, statement[g], err);
     }
     dma_comparison_set_value(&t, DMA_COMPARISON_KEY_TEMPERATURE,
                              isnan(given[0]) ? reference : given[0], 0, 0);
@@ -195,8 +203,11 @@ static wt_status make_dma_table(const compare_pair *p, const wt_compare_job *job
                             "indentation modulus over |E*| of the DMA");
     if (job->rubber->n_draws == 0)
         dma_comparison_set_text(&t, DMA_COMPARISON_KEY_ERROR_LACKS, "material");
-    if (statement[0] != '\0')
-        dma_comparison_set_text(&t, DMA_COMPARISON_KEY_MATERIAL_STATEMENT, statement);
+    const bool both = statement[0][0] != '\0' && strcmp(statement[0], statement[1]) != 0;
+    if (statement[0][0] != '\0' || statement[1][0] != '\0')
+        dma_comparison_set_print(&t, DMA_COMPARISON_KEY_MATERIAL_STATEMENT, "%s%s%s", statement[0],
+                                 both && statement[1][0] != '\0' ? "; " : "",
+                                 both || statement[0][0] == '\0' ? statement[1] : "");
     return table_end(&t, table);
 }
 

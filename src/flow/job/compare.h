@@ -48,6 +48,7 @@ typedef struct compare_known {
     bool lever_not_stated;      /* two, and the error of a spring constant is not known */
     bool temperature_not_known; /* they differ, and nothing says what that does */
     bool rates_by_dma;          /* the curves do not say what their rates do; the DMA does */
+    char out_of_reach[160];     /* a temperature to which no law takes the DMA, which was asked */
     double temperature[2];      /* [K]; NaN = not known */
     char includes[256];         /* in words: what the interval has beside the scatter */
 } compare_known;

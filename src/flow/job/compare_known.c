@@ -2,6 +2,9 @@
  * both groups share cancels in it; what each has of its own enters its error.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/job/compare.h"
+#include "flow/job/inputs.h"
+
+#include "base/clocale.h"
 
 #include <math.h>
 #include <string.h>
@@ -112,6 +115,16 @@ wt_status compare_material(const wt_rubber *rubber, const condition *at, int n_a
     return WT_OK;
 }
 
+static bool reaches(const wt_rubber *rubber, double temperature, compare_known *k)
+{
+    wt_error why = WT_ERROR_INIT;
+    if (rubber == NULL || flow_rubber_reaches(rubber, temperature, &why))
+        return true;
+    clocale_print(k->out_of_reach, sizeof k->out_of_reach, "%.2f °C: %s",
+                  temperature - WT_ZERO_CELSIUS, why.message);
+    return false;
+}
+
 /* By the DMA: from the condition of the bulk to that of the track. */
 static wt_status add_dma(const compare_pair *p, const wt_compare_job *job, const wt_job *work,
                          bool by_temperature, double step_error, compare_known *k, wt_error *err)
@@ -121,17 +134,21 @@ static wt_status add_dma(const compare_pair *p, const wt_compare_job *job, const
         at[g].temperature = k->temperature[by_temperature ? g : 0];
         at[g].frequency = mean_frequency(&p->data[k->rates_by_dma ? g : 0]);
     }
+    condition near[2] = {at[1], at[1]};
+    near[0].temperature -= 1;
+    near[1].temperature += 1;
+    const bool near_too = by_temperature && step_error > 0 && job->rubber != NULL;
+    if (!reaches(job->rubber, at[0].temperature, k) || !reaches(job->rubber, at[1].temperature, k) ||
+        (near_too && !reaches(job->rubber, near[0].temperature, k)))
+        return WT_OK;
     wt_estimate change = {0, (double)NAN, 0, "1"};
     wt_status status = WT_OK;
     if (job->rubber != NULL)
         status = compare_material(job->rubber, at, 2, work, &change, err);
     k->offset.value += p->by_factor ? 0 : change.value; /* which the factors are free of */
     add_error(k, change.standard_error, "material");
-    if (status != WT_OK || !by_temperature || !(step_error > 0) || job->rubber == NULL)
+    if (status != WT_OK || !near_too)
         return status;
-    condition near[2] = {at[1], at[1]};
-    near[0].temperature -= 1;
-    near[1].temperature += 1;
     status = compare_material(job->rubber, near, 2, work, &change, err);
     add_error(k, fabs(change.value / 2) * step_error, "temperatures");
     return status;

@@ -94,6 +94,12 @@ static bool judge_conditions(const compare_pair *p, const compare_known *k, cons
                         "nothing says how the modulus changes with temperature");
         SAY(v->settled_by, "a DMA of the rubber, the slope of ln E against temperature "
                            "(temperature-slope), or curves at one temperature");
+    } else if (k->out_of_reach[0] != '\0') {
+        SAY(v->differs, "cannot say: the DMA does not reach %s", k->out_of_reach);
+        SAY(v->settled_by, "DMA isotherms at that temperature, %s",
+            k->rates_by_dma ? "or curves of both at one rate"
+                            : "the slope of ln E against temperature (temperature-slope), or "
+                              "curves at one temperature");
     } else if (c->unsettled == WT_RATES_APART || c->unsettled == WT_RATES_TWIST) {
         say_rates_apart(p, c->unsettled == WT_RATES_TWIST, v);
     } else {

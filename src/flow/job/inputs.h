@@ -65,6 +65,8 @@ wt_status flow_surface_read(flow_file *file, const wt_job *work, wt_surface *sur
                             wt_error *err) WT_NODISCARD;
 
 void flow_rubber_drop_draws(wt_rubber *rubber);
+/* Whether the shift law takes the material to a temperature (NaN: the reference); if not, why. */
+bool flow_rubber_reaches(const wt_rubber *rubber, double temperature, wt_error *why);
 /* The parameters of a fractional Zener material, and those as a rubber, whose law is checked. */
 wt_zener flow_zener_defaults(void);
 const wt_params *flow_zener_params(void);
