@@ -36,8 +36,5 @@ void master_note(wt_master_shift *shift, const char *format, ...) WT_PRINTF(2, 3
 void master_notes(const master_work *work, const wt_sweep *sweep, wt_master *m, wt_parselog *log);
 /* The verdict on superposition; shifts and test are in `master`. */
 void master_judge(const master_work *work, wt_master *master);
-/* One-sided limit of 95 % of the equilibrium modulus [ln], if the data give no more; the spectrum
- * is moved. */
-wt_status master_equilibrium_limit(master_work *work, double *limit, wt_error *err) WT_NODISCARD;
 
 #endif

@@ -296,6 +296,33 @@ static wt_status series(const wt_posterior *p, const double *value, double offse
     return WT_OK;
 }
 
+/* One-sided limit of 95 % of the equilibrium modulus [ln], if the data give no more, by the rise of
+ * the objective above what it is without one to speak of; the spectrum is moved. */
+static wt_status limit_equilibrium(master_work *work, double *limit, wt_error *err)
+{
+    spectrum *s = work->s;
+    const double narrow = 1e-3, mean = s->equilibrium_mean, spread = s->equilibrium_spread;
+    double low = s->value[s->n_terms], high = mean + 1.5;
+    wt_status status = WT_OK;
+    s->equilibrium_spread = narrow;
+    s->equilibrium_mean = low;
+    status = spectrum_fit(s, SPECTRUM_HELD, err);
+    const double least = s->objective;
+    while (status == WT_OK && high - low > 0.02) {
+        s->equilibrium_mean = 0.5 * (low + high);
+        s->value[s->n_terms] = s->equilibrium_mean;
+        status = spectrum_fit(s, SPECTRUM_HELD, err);
+        if (s->objective - least < one_sided)
+            low = s->equilibrium_mean;
+        else
+            high = s->equilibrium_mean;
+    }
+    s->equilibrium_mean = mean;
+    s->equilibrium_spread = spread;
+    *limit = high;
+    return status;
+}
+
 static wt_status fill_series(master_work *work, wt_master *m, wt_error *err)
 {
     const wt_posterior *p = work->posterior;
@@ -327,36 +354,10 @@ static wt_status fill_series(master_work *work, wt_master *m, wt_error *err)
     if (!m->equilibrium_limit)
         return WT_OK;
     double limit;
-    status = master_equilibrium_limit(work, &limit, err);
+    status = limit_equilibrium(work, &limit, err);
     m->equilibrium.low = 0.0;
     m->equilibrium.high = exp(limit);
     m->equilibrium.standard_error = (double)NAN;
-    return status;
-}
-
-/* By the rise of the objective above what it is without an equilibrium modulus to speak of. */
-wt_status master_equilibrium_limit(master_work *work, double *limit, wt_error *err)
-{
-    spectrum *s = work->s;
-    const double narrow = 1e-3, mean = s->equilibrium_mean, spread = s->equilibrium_spread;
-    double low = s->value[s->n_terms], high = mean + 1.5;
-    wt_status status = WT_OK;
-    s->equilibrium_spread = narrow;
-    s->equilibrium_mean = low;
-    status = spectrum_fit(s, SPECTRUM_HELD, err);
-    const double least = s->objective;
-    while (status == WT_OK && high - low > 0.02) {
-        s->equilibrium_mean = 0.5 * (low + high);
-        s->value[s->n_terms] = s->equilibrium_mean;
-        status = spectrum_fit(s, SPECTRUM_HELD, err);
-        if (s->objective - least < one_sided)
-            low = s->equilibrium_mean;
-        else
-            high = s->equilibrium_mean;
-    }
-    s->equilibrium_mean = mean;
-    s->equilibrium_spread = spread;
-    *limit = high;
     return status;
 }
 
