@@ -168,7 +168,7 @@ static wt_status fit_parts(wt_posterior *p, posterior_part *part, size_t *n, gsl
             if (status != WT_OK)
                 return status;
             one->weight = p->cells[c].log_weight - 0.5 * law_reml(&one->law) +
-                          log(law_spread_prior(one->spread));
+                          log(law_spread_prior(&p->data, one->spread));
             most = fmax(most, one->weight);
         }
     }

@@ -20,11 +20,12 @@ static const double pole_nearest = 2.0, pole_farthest = 1e4;
  * constants and draws of such a law would mean nothing, and it counts as impossible. */
 static const double pole_error = 2.0;
 /* Temperatures are believed to so many kelvin (half width of a Cauchy prior), and in one of four
- * sweeps not to scatter at all: so much weight has the smallest spread beyond its own. */
+ * sweeps not to scatter at all: so much weight has the smallest spread beyond its own. Fewer than
+ * LEAST_STEADY isotherms look steady by chance too often (tests/study: D11). */
 static const double believed = 0.3, steady = 0.15;
 /* The isotherm whose own shift gains more than this of -2 ln likelihood is odd. */
 static const double odd_gain = 20.0;
-enum { POLE_GRID = 40, LEAST_CORRECTED = 7, LEAST_JOINED = 8, LEAST_ODD = 6 };
+enum { POLE_GRID = 40, LEAST_CORRECTED = 7, LEAST_JOINED = 8, LEAST_ODD = 6, LEAST_STEADY = 7 };
 
 double law_spread(size_t i)
 {
@@ -322,10 +323,10 @@ double law_reml(const law_fit *fit)
     return fit->chi_square + fit->log_det + fit->log_det_design;
 }
 
-double law_spread_prior(double spread)
+double law_spread_prior(const law_data *data, double spread)
 {
-    return spread / (1.0 + spread * spread / (believed * believed)) +
-           (spread > law_spread(0) ? 0.0 : steady);
+    const bool none = data->n >= LEAST_STEADY && !(spread > law_spread(0));
+    return spread / (1.0 + spread * spread / (believed * believed)) + (none ? steady : 0.0);
 }
 
 /* ---- which law ------------------------------------------------------------------------------- */
@@ -349,8 +350,8 @@ static wt_status likelihoods(const law_data *data, const law_shape *shape, gsl_m
     if (!(*largest < HUGE_VAL))
         return wt_fail(err, WT_E_RANGE, "the pole of the law is not determined");
     for (size_t i = 0; i < LAW_SPREADS; i++) {
-        sum += law_spread_prior(law_spread(i)) * exp(-0.5 * (value[i] - *largest));
-        weights += law_spread_prior(law_spread(i));
+        sum += law_spread_prior(data, law_spread(i)) * exp(-0.5 * (value[i] - *largest));
+        weights += law_spread_prior(data, law_spread(i));
     }
     *mean = *largest - 2.0 * log(sum / weights);
     return WT_OK;

@@ -67,6 +67,7 @@ void law_design(const law_data *data, const law_shape *shape, const double *unkn
 wt_status law_fit_with(const law_data *data, const law_shape *shape, gsl_matrix *root, law_fit *fit,
                        wt_error *err) WT_NODISCARD;
 double law_reml(const law_fit *fit);
-double law_spread_prior(double spread); /* times the width of its cell in the grid of spreads */
+/* Times the width of its cell in the grid of spreads. */
+double law_spread_prior(const law_data *data, double spread);
 
 #endif
