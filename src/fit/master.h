@@ -14,6 +14,7 @@ typedef struct master_work {
     size_t anchor;
     bool measured_reference; /* the anchor is the reference */
     double terms_per_decade; /* of the spectrum, as asked or as it needs */
+    bool lines;              /* it needs more, for it is one of sharp lines */
     bool *placed;            /* [set.n] */
     double *a, *b;           /* [set.n] decades */
     double *physical;        /* [set.n] decades */

@@ -234,6 +234,7 @@ static wt_status sharpen(master_work *work, wt_error *err)
     }
     if (!better)
         return WT_OK;
+    work->lines = true;
     work->terms_per_decade = sharp_terms;
     const wt_status status = make_spectrum(work, err);
     work->s->smooth = lines_smooth;

@@ -109,6 +109,11 @@ void master_notes(const master_work *work, const wt_sweep *sweep, wt_master *m, 
             wt_parselog_add(log, m->shifts[i].determined ? WT_NOTE : WT_WARNING, NULL, NULL,
                             "isotherm of %.2f °C: %s", m->shifts[i].temperature - WT_ZERO_CELSIUS,
                             m->shifts[i].note);
+    if (work->lines)
+        wt_parselog_add(log, WT_WARNING, NULL, NULL,
+                        "the spectrum is one of few sharp processes: between their lines nothing "
+                        "is measured, and the errors of E'', of the series and of what is worked "
+                        "out with it are up to twice as large as stated");
     if (m->n_shifts > 1 && (m->reference_temperature < m->shifts[0].temperature ||
                             m->reference_temperature > m->shifts[m->n_shifts - 1].temperature))
         wt_parselog_add(log, WT_WARNING, NULL, NULL,

@@ -481,7 +481,13 @@ static void lines_between_the_terms_pull_nothing(void **state)
             }
         }
         const wt_master_options at = at_reference(293.15, WT_VERTICAL_NONE);
-        wt_master master = fit_good(&sweep, &at, NULL);
+        wt_parselog *log = wt_parselog_new();
+        wt_master master = fit_good(&sweep, &at, log);
+        bool named = false;
+        for (size_t i = 0; i < wt_parselog_count(log); i++)
+            named = named || strstr(wt_parselog_get(log, i).text, "few sharp processes") != NULL;
+        assert_true(named);
+        wt_parselog_free(log);
         double square = 0.0;
         for (size_t i = 0; i < master.n_shifts; i++) {
             const wt_interval a = master.shifts[i].log_a;
