@@ -6,9 +6,10 @@
 
 #include <math.h>
 
-/* Lack of fit is real below this probability, with what is not known of the noise: noise that goes
- * together over most of an isotherm makes it small too (tests/study: correlated_strong). */
-static const double significant = 0.001;
+/* Lack of fit is real below this probability, with what is not known of the noise. A smaller one
+ * would miss second processes (unit_fit_master), and be right a little more often where noise goes
+ * together over most of an isotherm (tests/study: correlated_strong). */
+static const double significant = 0.01;
 /* Superposition does not hold below this one, with the noise as estimated: its factors and their
  * place on the isotherms make small probabilities a few times too small. */
 static const double doubtful = 0.01;
@@ -18,9 +19,8 @@ static const double doubtful = 0.01;
 static const double matters = 0.004, may_matter = 0.01;
 /* Narrower windows hide a second process [decade]. */
 static const double least_window = 1.5;
-/* E'' that a spectrum makes of E' and that which was measured differ by at least so much. One
- * factor on all is what such noise looks like most. */
-static const double loss_matters = 0.01, loss_significant = 1e-5;
+/* E'' that a spectrum makes of E' and that which was measured differ by at least so much. */
+static const double loss_matters = 0.01, loss_significant = 0.001;
 /* By fewer shared frequencies an isotherm tests nothing: the smoothness of the spectrum alone
  * places it [decade]. */
 static const double least_overlap = 0.3;
