@@ -282,6 +282,33 @@ static void scalings(void **state)
     rig_free(&r);
 }
 
+/* Where P is 1, mu and G go with C; and everywhere mu <= 4 sigma0 max(J1 / J2) int P dG. One
+ * Maxwell element has J1 = 2 pi E s and J2 = 2 pi E^2 a s with a = omega tau. */
+static void linear_and_bounded(void **state)
+{
+    (void)state;
+    double e = 1e9, tau = 1e-6;
+    const wt_prony prony = {.n = 1, .relaxation_time = &tau, .modulus = &e};
+    rig r = {.pressure = 3e5, .velocity = 0.01, .gamma = 1};
+    assert_int_equal(wt_material_prony(&prony, 0, &r.material, NULL), WT_OK);
+    wt_friction_point p[3];
+    const double c0[] = {1e-30, 2e-30, 1e-13};
+    for (size_t i = 0; i < 3; i++) {
+        assert_int_equal(wt_roughness_self_affine(500, 2e3, 1e6, 0.8, c0[i], &r.roughness, NULL),
+                         WT_OK);
+        p[i] = solve(&r, 1e-12);
+        wt_roughness_free(r.roughness);
+    }
+    assert_near(p[0].area_ratio.value, 1, 0);
+    assert_near(p[1].hysteresis.value, 2 * p[0].hysteresis.value, 4 * DBL_EPSILON);
+    assert_near(p[1].stress_variance.value, 2 * p[0].stress_variance.value, 4 * DBL_EPSILON);
+    const double most = 1 / (e * 500 * r.velocity * tau); /* at q0 */
+    const double bound = 4 * r.pressure * most * contact_integral(p[2].stress_variance.value, 1);
+    assert_true(p[2].area_ratio.value < 0.5);
+    assert_true(p[2].hysteresis.value < bound && p[2].hysteresis.value > 1e-4 * bound);
+    wt_material_free(r.material);
+}
+
 /* The 12 terms of the cases, with factors on them. */
 static wt_material *transverse(double axial_storage, double axial_loss, double plane_storage,
                                double plane_loss, double nu_p, double nu_zp)
@@ -642,6 +669,7 @@ int main(void)
         cmocka_unit_test(area_integral_with_correction),
         cmocka_unit_test(odd_in_velocity),
         cmocka_unit_test(scalings),
+        cmocka_unit_test(linear_and_bounded),
         cmocka_unit_test(transverse_laws),
         cmocka_unit_test(isotropic_limit),
         cmocka_unit_test(trends_of_reinforcement),
