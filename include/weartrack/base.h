@@ -176,7 +176,10 @@ WT_API size_t wt_parselog_lost(const wt_parselog *log);
     X(WT_Q_LOSS_MODULUS, "loss_modulus", "Pa", "tensile loss modulus E''")                         \
     X(WT_Q_SHEAR_STORAGE_MODULUS, "shear_storage_modulus", "Pa", "shear storage modulus G'")       \
     X(WT_Q_SHEAR_LOSS_MODULUS, "shear_loss_modulus", "Pa", "shear loss modulus G''")               \
-    X(WT_Q_COMPLEX_MODULUS, "complex_modulus", "Pa", "absolute value of the complex modulus")      \
+    X(WT_Q_COMPLEX_MODULUS, "complex_modulus", "Pa",                                               \
+      "absolute value of the complex tensile modulus")                                             \
+    X(WT_Q_SHEAR_COMPLEX_MODULUS, "shear_complex_modulus", "Pa",                                   \
+      "absolute value of the complex shear modulus")                                               \
     X(WT_Q_LOSS_FACTOR, "loss_factor", "1", "loss factor tan delta")                               \
     X(WT_Q_STRAIN, "strain", "1", "strain amplitude")                                              \
     X(WT_Q_STRESS, "stress", "Pa", "stress amplitude")                                             \

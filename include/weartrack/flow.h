@@ -486,8 +486,10 @@ typedef struct wt_run_options {
     uint64_t seed;       /* of the draws */
     size_t replicates;   /* of the draws; default 64 */
     wt_progress progress;
-    bool no_provenance; /* no times in "cost", no digests in "inputs" */
-    uint64_t reserved[8];
+    bool no_provenance;         /* no times in "cost", no digests in "inputs" */
+    const char *const *columns; /* of plain tables, as wt_formats_add_columns takes them */
+    size_t n_columns;
+    uint64_t reserved[6];
 } wt_run_options;
 WT_API wt_run_options wt_run_defaults(void);
 WT_API const wt_params *wt_run_params(void);

@@ -53,6 +53,10 @@ typedef struct wt_format_info {
 typedef struct wt_formats wt_formats;
 WT_API wt_status wt_formats_new(const char *folder, wt_formats **formats, wt_parselog *log,
                                 wt_error *err) WT_NODISCARD;
+/* The columns of plain tables, "NAME=QUANTITY" or "NAME=QUANTITY:UNIT", as a description called
+ * "given-columns" (wt_formats_xml shows it). Before the set is used. */
+WT_API wt_status wt_formats_add_columns(wt_formats *formats, const char *const *columns, size_t n,
+                                        wt_error *err) WT_NODISCARD;
 WT_API void wt_formats_free(wt_formats *formats);
 WT_API size_t wt_formats_count(const wt_formats *formats);
 WT_API const wt_format_info *wt_formats_get(const wt_formats *formats, size_t i);

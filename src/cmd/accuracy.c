@@ -30,6 +30,8 @@ static wt_status budget_of_case(cmd_session *s, wt_run_options *run)
     if (status == WT_OK)
         status = wt_case_ask(c, "error_budget", &s->err);
     run->formats = s->common.formats;
+    run->columns = s->common.columns;
+    run->n_columns = s->common.n_columns;
     run->progress = cmd_progress_start(s);
     run->no_provenance = !s->common.provenance;
     if (status == WT_OK)
@@ -59,7 +61,7 @@ int cmd_accuracy(int argc, char **argv)
                 "answer is known otherwise, beside the textbook method, as its setting is swept. "
                 "With a case: which error costs each of its numbers most, what it takes to know "
                 "it, and what would make it smaller.",
-        .common = "output formats provenance",
+        .common = "output formats columns provenance",
         .notes = "--part and --repeats are for the numerical parts, the others for a case."};
     cmd_session s = cmd_session_defaults();
     wt_accuracy_job job = wt_accuracy_job_defaults();

@@ -58,8 +58,10 @@ typedef struct cmd_part {
 
 /* Options that mean the same everywhere. A subcommand shows those it names. */
 typedef struct cmd_common {
-    const char *output;     /* -o, NULL = standard output */
-    const char *formats;    /* folder of further descriptions */
+    const char *output;         /* -o, NULL = standard output */
+    const char *formats;        /* folder of further descriptions */
+    const char *const *columns; /* of plain tables */
+    size_t n_columns;
     const char *files_from; /* file with names of files, NULL = none */
     bool provenance;
     bool quiet, strict, help;

@@ -33,7 +33,7 @@ int cmd_convert(int argc, char **argv)
         .arguments = "[OPTION]... FILE",
         .what = "Writes an instrument file as a text stream (weartrack-stream(5)), or as HDF5 if "
                 "the name after -o ends in .h5 or .hdf5, in SI units. - is standard input.",
-        .common = "output formats provenance",
+        .common = "output formats columns provenance",
         .n_files = 1,
         .files = "one file is needed"};
     wt_convert_job job = wt_convert_job_defaults();

@@ -72,7 +72,7 @@ int cmd_formats(int argc, char **argv)
                 "file.\nshow: the description of one of them; `show schema` prints the schema of "
                 "descriptions.\ncheck: checks a description, and with a sample shows what is "
                 "understood of it.",
-        .common = "output formats provenance"};
+        .common = "output formats columns provenance"};
     wt_read_options read = wt_read_defaults();
     cmd_part part = {wt_read_params(), &read, "spring-constant sensitivity temperature units", 0};
     cmd_session s = cmd_session_defaults();

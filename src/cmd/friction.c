@@ -10,7 +10,7 @@ int cmd_friction(int argc, char **argv)
         .what = "Persson's hysteresis friction, contact area and, with --shear-stress, total "
                 "friction at each velocity, each with its numerical and its standard error; with a "
                 "modified layer on top if its thickness and modulus ratio are given.",
-        .common = "output formats files-from provenance"};
+        .common = "output formats columns files-from provenance"};
     wt_layer_known layer = {0};
     cmd_sliding s;
     cmd_sliding_init(&s, (cmd_part){wt_layer_known_params(), &layer, NULL, 0});

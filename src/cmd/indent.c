@@ -21,7 +21,7 @@ int cmd_indent(int argc, char **argv)
         .what = "Fits baseline, contact point and modulus of every approach curve of the files "
                 "(folders and patterns are allowed). One row per curve; a curve without a modulus "
                 "says why.",
-        .common = "output formats files-from provenance",
+        .common = "output formats columns files-from provenance",
         .notes = "Exit status 1 if a file could not be read; the others are answered all the same.",
         .n_files = CMD_SOME};
     wt_indent_job job = wt_indent_job_defaults();

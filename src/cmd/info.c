@@ -95,7 +95,7 @@ int cmd_info(int argc, char **argv)
         .arguments = "[OPTION]... FILE...",
         .what = "Says what each file is and who recognised it, its segments, channels and "
                 "calibration, and what is missing or odd. - is standard input.",
-        .common = "formats files-from",
+        .common = "formats columns files-from",
         .n_files = CMD_SOME};
     wt_read_options read = wt_read_defaults();
     cmd_part part = {wt_read_params(), &read, NULL, 0};

@@ -10,7 +10,7 @@ int cmd_master(int argc, char **argv)
         .what = "Fits one relaxation spectrum to all isotherms of DMA frequency sweeps, with their "
                 "shifts, the law of these and the errors of everything; says whether superposition "
                 "holds. Folders and patterns are allowed.",
-        .common = "output formats files-from provenance",
+        .common = "output formats columns files-from provenance",
         .notes = "The tables prony, shift_factors and master_curve follow one another, then draws "
                  "of all that is not known of the material, material_draws and series_draws; "
                  "weartrack friction, layer and compare read them as they are.",

@@ -21,6 +21,11 @@ static const wt_param common_rows[] = {
      .help =
          "use the format descriptions (*.xml) of this folder too; one with the id of a built-in "
          "description takes its place"},
+    {PARAM_TEXTS_OF("columns", cmd_common, columns, n_columns), .value = "NAME=QUANTITY:UNIT",
+     .unset = "",
+     .help =
+         "column of tables whose names are not known, such as \"Stor. Mod.=storage_modulus:MPa\"; "
+         "the unit only where the file says none; repeatable"},
     {PARAM_TEXT_OF("files-from", cmd_common, files_from), .value = "FILE", .unset = "",
      .help =
          "files to read, besides those named in the call: their names, a line each or parted by "

@@ -99,6 +99,8 @@ static wt_status compute(run_call *r, size_t *n_failed)
     r->run.progress = cmd_progress_start(s);
     r->run.no_provenance = !s->common.provenance;
     r->run.formats = s->common.formats;
+    r->run.columns = s->common.columns;
+    r->run.n_columns = s->common.n_columns;
     wt_status status = wt_run(r->the_case, &r->run, s->log, &s->result, n_failed, &s->err);
     cmd_progress_end(s);
     cmd_say_log(s, s->log, false);
@@ -175,7 +177,7 @@ int cmd_run(int argc, char **argv)
         .what = "Runs a whole case: what the case asks for, and nothing else. The answer goes to "
                 "standard output, the result to an HDF5 file and the figures to a report folder "
                 "with one page.",
-        .common = "formats provenance",
+        .common = "formats columns provenance",
         .notes = "--style replaces that of the case.\nExit status 1 if a file of the case failed; "
                  "the rest is answered all the same.",
         .n_files = 1,

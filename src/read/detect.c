@@ -27,8 +27,10 @@ typedef struct signature {
 #define AS_TEXT "export it as text or CSV from the program of the instrument"
 #define NO_DATA "give the file that the instrument exported, as text or CSV"
 #define DESCRIBE                                                                                   \
-    "export it in one of the formats of `weartrack formats list`, or describe its layout in a "    \
-    "file (weartrack-format(5)) and give its folder with --formats"
+    "export it in one of the formats of `weartrack formats list`; say what its columns hold, "     \
+    "with "                                                                                        \
+    "--columns \"NAME=QUANTITY:UNIT\" for each; or describe its layout in a file "                 \
+    "(weartrack-format(5)) and give its folder with --formats"
 static const signature signatures[] = {
     SIGNATURE("PK\3\4", "a ZIP archive without force curves that is no spreadsheet, or a cut one",
               "copy a JPK file or a spreadsheet again, unpack any other archive"),

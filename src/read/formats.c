@@ -42,9 +42,8 @@ const file_reader *formats_find_reader(const wt_formats *formats, const char *id
     return NULL;
 }
 
-/* Takes the description, also on failure. */
-static wt_status add_text(wt_formats *f, text_description *d, wt_parselog *log, const char *path,
-                          wt_error *err)
+wt_status formats_add_text(wt_formats *f, text_description *d, wt_parselog *log, const char *path,
+                           wt_error *err)
 {
     wt_status status = WT_OK;
     const file_reader reader = text_reader(d);
@@ -79,7 +78,7 @@ static wt_status add_built_in(wt_formats *f, description_xsd *schema, wt_error *
             continue;
         status = description_parse(schema, e->text, e->length, e->name, &d, err);
         if (status == WT_OK)
-            status = add_text(f, d, NULL, e->name, err);
+            status = formats_add_text(f, d, NULL, e->name, err);
     }
     return status;
 }
@@ -94,7 +93,7 @@ static wt_status add_folder(wt_formats *f, description_xsd *schema, const char *
         text_description *d = NULL;
         status = description_parse_file(schema, paths[i], &d, err);
         if (status == WT_OK)
-            status = add_text(f, d, log, paths[i], err);
+            status = formats_add_text(f, d, log, paths[i], err);
     }
     wt_strings_free(paths, n);
     return status;

@@ -9,6 +9,9 @@
 
 /* The i-th reader of a set, in the order of wt_formats_get; borrowed. */
 const file_reader *formats_reader(const wt_formats *formats, size_t i);
+/* Takes the description, also on failure; one of the same id is replaced, with a note. */
+wt_status formats_add_text(wt_formats *formats, struct text_description *description,
+                           wt_parselog *log, const char *path, wt_error *err);
 /* The reader of that id, or NULL. */
 const file_reader *formats_find_reader(const wt_formats *formats, const char *id);
 

@@ -129,7 +129,7 @@ ROOM(wt_accuracy_job, repeats, 8, 80)
 FIXED(wt_friction_tables, extrapolated_share, 32, 40)
 ROOM(wt_layer_job, n_time, 144, 216)
 FIXED(wt_layer_tables, balance, 40, 224)
-ROOM(wt_run_options, no_provenance, 56, 128)
+ROOM(wt_run_options, n_columns, 72, 128)
 
 /* report.h */
 ROOM(wt_report_options, with_provenance, 16, 88)

@@ -88,6 +88,7 @@ static const struct {
     {NULL, "output", "where the result goes, not what it is"},
     {NULL, "formats", "further descriptions: tests/formats"},
     {NULL, "format", "overrules what is found: tests/cli"},
+    {NULL, "columns", "for tables with other names: tests/cli/options.txt"},
     {NULL, "units", "for files without units: tests/formats"},
     {NULL, "sheet", "for spreadsheets: unit_read_packed"},
     {NULL, "temperature", "for files without a temperature: tests/formats"},

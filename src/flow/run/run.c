@@ -276,6 +276,8 @@ static wt_status prepare(conduct *d, const wt_run_options *options, wt_parselog 
     wt_status status = d->cost.status;
     if (status == WT_OK)
         status = wt_formats_new(options->formats, &d->formats, log, err);
+    if (status == WT_OK)
+        status = wt_formats_add_columns(d->formats, options->columns, options->n_columns, err);
     d->run.job = (wt_job){
         .formats = d->formats,
         .threads = options->threads,

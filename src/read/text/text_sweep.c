@@ -12,7 +12,7 @@
 static const double same_frequency = 0.01;
 
 typedef struct sweep_columns {
-    const text_column *frequency, *storage, *loss, *factor, *temperature, *strain;
+    const text_column *frequency, *storage, *loss, *magnitude, *factor, *temperature, *strain;
     double to_angular; /* 2 pi for a frequency in Hz */
     wt_deformation deformation;
 } sweep_columns;
@@ -32,8 +32,9 @@ typedef struct builder {
 static sweep_columns find_columns(const text_table *t)
 {
     sweep_columns c = {.to_angular = 1};
-    const bool tension =
-        quantities_suffice(t->quantities & ~WT_Q_BIT(WT_Q_SHEAR_STORAGE_MODULUS), WT_KIND_SWEEP);
+    const bool tension = quantities_suffice(t->quantities & ~WT_Q_BIT(WT_Q_SHEAR_STORAGE_MODULUS) &
+                                                ~WT_Q_BIT(WT_Q_SHEAR_COMPLEX_MODULUS),
+                                            WT_KIND_SWEEP);
     c.deformation = tension ? WT_TENSION : WT_SHEAR;
     c.frequency = text_table_column(t, WT_Q_ANGULAR_FREQUENCY, -1);
     if (c.frequency == NULL) {
@@ -43,6 +44,8 @@ static sweep_columns find_columns(const text_table *t)
     c.storage =
         text_table_column(t, tension ? WT_Q_STORAGE_MODULUS : WT_Q_SHEAR_STORAGE_MODULUS, -1);
     c.loss = text_table_column(t, tension ? WT_Q_LOSS_MODULUS : WT_Q_SHEAR_LOSS_MODULUS, -1);
+    c.magnitude =
+        text_table_column(t, tension ? WT_Q_COMPLEX_MODULUS : WT_Q_SHEAR_COMPLEX_MODULUS, -1);
     c.factor = text_table_column(t, WT_Q_LOSS_FACTOR, -1);
     c.temperature = text_table_column(t, WT_Q_TEMPERATURE, -1);
     c.strain = text_table_column(t, WT_Q_STRAIN, -1);
@@ -54,12 +57,22 @@ static double angular(const builder *b, size_t row)
     return b->c.to_angular * text_table_value(b->table, row, b->c.frequency);
 }
 
+static double storage(const builder *b, size_t row)
+{
+    if (b->c.storage != NULL)
+        return text_table_value(b->table, row, b->c.storage);
+    const double magnitude = text_table_value(b->table, row, b->c.magnitude);
+    if (b->c.factor != NULL)
+        return magnitude / hypot(1.0, text_table_value(b->table, row, b->c.factor));
+    const double lost = text_table_value(b->table, row, b->c.loss);
+    return sqrt((magnitude - lost) * (magnitude + lost));
+}
+
 static double loss(const builder *b, size_t row)
 {
     if (b->c.loss != NULL)
         return text_table_value(b->table, row, b->c.loss);
-    return text_table_value(b->table, row, b->c.storage) *
-           text_table_value(b->table, row, b->c.factor);
+    return storage(b, row) * text_table_value(b->table, row, b->c.factor);
 }
 
 static double temperature(const builder *b, size_t row)
@@ -70,8 +83,7 @@ static double temperature(const builder *b, size_t row)
 
 static bool is_point(const builder *b, size_t row)
 {
-    return angular(b, row) > 0 && !isnan(text_table_value(b->table, row, b->c.storage)) &&
-           !isnan(loss(b, row));
+    return angular(b, row) > 0 && !isnan(storage(b, row)) && !isnan(loss(b, row));
 }
 
 /* Mean and scatter of the column, or what the header or the user says. */
@@ -173,7 +185,7 @@ static wt_status flush(builder *b)
         return wt_fail(b->err, WT_E_MEMORY, "no memory for an isotherm");
     for (size_t i = 0; i < b->n; i++) {
         isotherm->angular_frequency[i] = angular(b, b->rows[i]);
-        isotherm->storage_modulus[i] = text_table_value(b->table, b->rows[i], b->c.storage);
+        isotherm->storage_modulus[i] = storage(b, b->rows[i]);
         isotherm->loss_modulus[i] = loss(b, b->rows[i]);
         if (b->c.strain != NULL)
             isotherm->strain[i] = text_table_value(b->table, b->rows[i], b->c.strain);
@@ -236,6 +248,11 @@ static wt_status read_table(builder *b)
         return WT_E_UNIT;
     }
     b->sweep->deformation = b->c.deformation;
+    if (b->c.storage == NULL)
+        wt_parselog_add(
+            b->log, WT_NOTE, b->file->name, NULL,
+            "no column of the storage modulus: it follows from column \"%s\" and the %s",
+            b->c.magnitude->name, b->c.factor != NULL ? "loss factor" : "loss modulus");
     if (b->c.loss == NULL)
         wt_parselog_add(b->log, WT_NOTE, b->file->name, NULL,
                         "no column of the loss modulus: storage modulus times loss factor");

@@ -1,0 +1,153 @@
+/* Columns that the user names: the description of a plain table (table-units and its like) with
+ * these names before its own.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "read/formats.h"
+#include "read/text/text.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* "NAME=QUANTITY:UNIT", the unit where the file does not say one. */
+typedef struct given_column {
+    text_span name, unit;
+    wt_quantity quantity;
+} given_column;
+
+static wt_status complain(const char *text, const char *message, wt_error *err)
+{
+    wt_fail(err, WT_E_ARG, "%s", message);
+    wt_error_expected(err, "NAME=QUANTITY or NAME=QUANTITY:UNIT");
+    wt_error_found(err, "\"%s\"", text);
+    wt_error_advice(err, "for example \"Stor. Mod.=storage_modulus:MPa\"; the quantities stand in "
+                         "weartrack-format(5)");
+    return WT_E_ARG;
+}
+
+static wt_status parse_column(const char *text, given_column *column, wt_error *err)
+{
+    char id[64];
+    double factor, offset;
+    const char *equal = strrchr(text, '=');
+    if (equal == NULL || equal == text || equal[1] == '\0')
+        return complain(text, "a column is not given as NAME=QUANTITY:UNIT", err);
+    const char *unit = strchr(equal, ':');
+    const size_t n = unit != NULL ? (size_t)(unit - equal) - 1 : strlen(equal + 1);
+    snprintf(id, sizeof id, "%.*s", (int)(n < sizeof id ? n : sizeof id - 1), equal + 1);
+    *column = (given_column){.name = {text, (size_t)(equal - text)}};
+    if (!wt_quantity_find(id, &column->quantity) || column->quantity == WT_Q_NONE)
+        return complain(text, "a column is given for a quantity that there is not", err);
+    if (unit == NULL)
+        return WT_OK;
+    column->unit = (text_span){unit + 1, strlen(unit + 1)};
+    if (wt_unit_to_si(column->unit.text, column->quantity, &factor, &offset, NULL) != WT_OK)
+        return complain(text, "the unit of a column does not fit its quantity", err);
+    return WT_OK;
+}
+
+/* A plain table for each kind of data. */
+typedef struct base_table {
+    unsigned kind;
+    const char *id;
+} base_table;
+
+/* The one that these columns belong into. */
+static const base_table *base_of(const given_column *columns, size_t n)
+{
+    static const base_table bases[] = {{WT_KIND_FORCE, "table-force"},
+                                       {WT_KIND_SPECTRUM, "table-spectrum"},
+                                       {WT_KIND_SWEEP, "table-units"}};
+    const size_t last = sizeof bases / sizeof *bases - 1;
+    for (size_t i = 0; i < n; i++)
+        for (size_t b = 0; b < last; b++)
+            if ((quantities_of(bases[b].kind) & WT_Q_BIT(columns[i].quantity)) != 0)
+                return &bases[b];
+    return &bases[last];
+}
+
+static void put_escaped(FILE *out, text_span text)
+{
+    for (size_t i = 0; i < text.length; i++) {
+        const char c = text.text[i];
+        if (c == '<' || c == '>' || c == '&' || c == '"')
+            (void)fprintf(out, "&#%d;", c);
+        else
+            (void)fputc(c, out);
+    }
+}
+
+static void put_columns(FILE *out, const given_column *columns, size_t n)
+{
+    for (size_t i = 0; i < n; i++) {
+        (void)fprintf(out, "<column quantity=\"%s\"", wt_quantity_id(columns[i].quantity));
+        if (columns[i].unit.length > 0) {
+            (void)fputs(" unit=\"", out);
+            put_escaped(out, columns[i].unit);
+            (void)fputc('"', out);
+        }
+        (void)fputs("><name>", out);
+        put_escaped(out, columns[i].name);
+        (void)fputs("</name></column>\n    ", out);
+    }
+}
+
+/* The description of the base with a head of its own, a score above all that know no name of a
+ * maker, and the columns before those of the base. */
+static wt_status write_description(const base_table *base, const char *xml,
+                                   const given_column *columns, size_t n, char **text,
+                                   size_t *length, wt_error *err)
+{
+    static const char score[] = "score=\"30\"";
+    const char *const detect = strstr(xml, "<detect>");
+    const char *const scored = detect != NULL ? strstr(detect, score) : NULL;
+    const char *const first = scored != NULL ? strstr(scored, "<column ") : NULL;
+    FILE *out = first != NULL ? open_memstream(text, length) : NULL;
+    if (out == NULL)
+        return wt_fail(err, first != NULL ? WT_E_MEMORY : WT_E_SCHEMA,
+                       "no description %s that columns could be added to", base->id);
+    (void)fprintf(out,
+                  "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<format id=\"given-columns\" "
+                  "version=\"1\" kinds=\"%s\" verified=\"false\">\n"
+                  "  <title>table with columns named by the user, else as %s</title>\n"
+                  "  <evidence>the call</evidence>\n  ",
+                  kind_name(base->kind), base->id);
+    (void)fwrite(detect, 1, (size_t)(scored - detect), out);
+    (void)fputs("score=\"60\"", out);
+    (void)fwrite(scored + strlen(score), 1, (size_t)(first - scored) - strlen(score), out);
+    put_columns(out, columns, n);
+    (void)fputs(first, out);
+    return fclose(out) == 0 ? WT_OK : wt_fail(err, WT_E_MEMORY, "no memory for a description");
+}
+
+wt_status wt_formats_add_columns(wt_formats *formats, const char *const *columns, size_t n,
+                                 wt_error *err)
+{
+    char *text = NULL;
+    size_t length = 0;
+    text_description *d = NULL;
+    description_xsd *schema = NULL;
+    if (n == 0)
+        return WT_OK;
+    given_column *given = calloc(n, sizeof *given);
+    if (given == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for the columns");
+    wt_status status = WT_OK;
+    for (size_t i = 0; i < n && status == WT_OK; i++)
+        status = parse_column(columns[i], &given[i], err);
+    if (status == WT_OK) {
+        const base_table *base = base_of(given, n);
+        status = write_description(base, wt_formats_xml(formats, base->id), given, n, &text,
+                                   &length, err);
+    }
+    if (status == WT_OK)
+        status = description_xsd_new(&schema, err);
+    if (status == WT_OK)
+        status = description_parse(schema, text, length, "the columns given", &d, err);
+    if (status == WT_OK)
+        status = formats_add_text(formats, d, NULL, "the columns given", err);
+    description_xsd_free(schema);
+    free(text);
+    free(given);
+    return status;
+}
