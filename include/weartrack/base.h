@@ -178,8 +178,6 @@ WT_API size_t wt_parselog_lost(const wt_parselog *log);
     X(WT_Q_SHEAR_LOSS_MODULUS, "shear_loss_modulus", "Pa", "shear loss modulus G''")               \
     X(WT_Q_COMPLEX_MODULUS, "complex_modulus", "Pa",                                               \
       "absolute value of the complex tensile modulus")                                             \
-    X(WT_Q_SHEAR_COMPLEX_MODULUS, "shear_complex_modulus", "Pa",                                   \
-      "absolute value of the complex shear modulus")                                               \
     X(WT_Q_LOSS_FACTOR, "loss_factor", "1", "loss factor tan delta")                               \
     X(WT_Q_STRAIN, "strain", "1", "strain amplitude")                                              \
     X(WT_Q_STRESS, "stress", "Pa", "stress amplitude")                                             \
@@ -197,7 +195,9 @@ WT_API size_t wt_parselog_lost(const wt_parselog *log);
     X(WT_Q_ENERGY_DENSITY, "energy_density", "J/m^3", "energy per volume")                         \
     X(WT_Q_POWER_DENSITY, "power_density", "W/m^3", "power per volume")                            \
     X(WT_Q_RATE, "rate", "1/s", "rate")                                                            \
-    X(WT_Q_DATA_SIZE, "data_size", "byte", "size of a file")
+    X(WT_Q_DATA_SIZE, "data_size", "byte", "size of a file")                                       \
+    X(WT_Q_SHEAR_COMPLEX_MODULUS, "shear_complex_modulus", "Pa",                                   \
+      "absolute value of the complex shear modulus")
 
 typedef enum wt_quantity {
 #define WT_QUANTITY_ENUM(name, id, unit, text) name,

@@ -125,6 +125,10 @@ WT_API void wt_sweep_clear(wt_sweep *sweep);
  * source) and the points of each by frequency. */
 WT_API wt_isotherm *wt_sweep_add(wt_sweep *sweep, size_t n, bool with_strain);
 WT_API void wt_sweep_sort(wt_sweep *sweep);
+/* Of a sorted sweep: takes out isotherms and points that stand there twice to the last bit, with a
+ * warning for each (the same file under two names, a table pasted twice): measured again, they
+ * would differ. */
+WT_API void wt_sweep_drop_copies(wt_sweep *sweep, wt_parselog *log);
 
 /* ---- power spectrum ----------------------------------------------------------------------- */
 

@@ -121,3 +121,74 @@ void wt_sweep_sort(wt_sweep *sweep)
     if (sweep->n_isotherms > 1)
         qsort(sweep->isotherms, sweep->n_isotherms, sizeof *sweep->isotherms, compare);
 }
+
+/* ---- copies ---------------------------------------------------------------------------------- */
+
+static bool same_numbers(const double *a, const double *b, size_t n)
+{
+    return memcmp(a, b, n * sizeof *a) == 0;
+}
+
+static bool is_copy(const wt_isotherm *a, const wt_isotherm *b)
+{
+    return a->n == b->n && same_numbers(a->angular_frequency, b->angular_frequency, a->n) &&
+           same_numbers(a->storage_modulus, b->storage_modulus, a->n) &&
+           same_numbers(a->loss_modulus, b->loss_modulus, a->n);
+}
+
+static bool same_point(const wt_isotherm *t, size_t i, size_t k)
+{
+    return same_numbers(t->angular_frequency + i, t->angular_frequency + k, 1) &&
+           same_numbers(t->storage_modulus + i, t->storage_modulus + k, 1) &&
+           same_numbers(t->loss_modulus + i, t->loss_modulus + k, 1);
+}
+
+/* Points of one frequency stand together. */
+static size_t drop_points(wt_isotherm *t)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < t->n; i++) {
+        size_t before = kept;
+        while (before > 0 && !same_point(t, before - 1, i) &&
+               same_numbers(t->angular_frequency + before - 1, t->angular_frequency + i, 1))
+            before--;
+        if (before > 0 && same_point(t, before - 1, i))
+            continue;
+        swap_points(t, kept++, i);
+    }
+    const size_t dropped = t->n - kept;
+    t->n = kept;
+    return dropped;
+}
+
+static void drop_copies_of_points(wt_isotherm *t, wt_parselog *log)
+{
+    const size_t dropped = drop_points(t);
+    if (dropped > 0)
+        wt_parselog_add(log, WT_WARNING, t->source, NULL,
+                        "%zu points of the isotherm at %.1f degC stand there twice; the copies are "
+                        "left out",
+                        dropped, t->temperature - WT_ZERO_CELSIUS);
+}
+
+/* Isotherms are few; those measured again at one temperature fewer. */
+void wt_sweep_drop_copies(wt_sweep *sweep, wt_parselog *log)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < sweep->n_isotherms; i++) {
+        wt_isotherm *const t = &sweep->isotherms[i];
+        size_t original = 0;
+        drop_copies_of_points(t, log);
+        while (original < kept && !is_copy(&sweep->isotherms[original], t))
+            original++;
+        if (original == kept) {
+            sweep->isotherms[kept++] = *t;
+            continue;
+        }
+        wt_parselog_add(log, WT_WARNING, t->source, NULL,
+                        "the isotherm at %.1f degC is a copy of one before it (%s), left out",
+                        t->temperature - WT_ZERO_CELSIUS, sweep->isotherms[original].source);
+        isotherm_free(t);
+    }
+    sweep->n_isotherms = kept;
+}

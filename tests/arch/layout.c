@@ -34,7 +34,7 @@ ROOM(wt_provenance_input, fingerprint, 104, 168)
 FIXED(wt_progress, user, 8, 16)
 LAST(wt_status, WT_E_INTERNAL, 19)
 LAST(wt_severity, WT_LOSS, 2)
-LAST(wt_quantity, WT_Q_DATA_SIZE, 40)
+LAST(wt_quantity, WT_Q_SHEAR_COMPLEX_MODULUS, 41)
 
 /* data.h */
 ROOM(wt_channel, values, 104, 176)
@@ -54,7 +54,7 @@ LAST(wt_export_form, WT_EXPORT_STREAM, 3)
 
 /* read.h */
 FIXED(wt_format_info, version, 32, 40)
-ROOM(wt_read_options, one_height, 65, 128)
+ROOM(wt_read_options, sheet, 72, 128)
 
 /* model.h */
 ROOM(wt_tip, transition_radius, 24, 96)

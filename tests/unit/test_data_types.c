@@ -240,12 +240,63 @@ static void table_keys(void **state)
     wt_table_free(t);
 }
 
+static void add_measured(wt_sweep *sweep, double temperature, double storage, const char *source)
+{
+    static const double w[] = {10, 1, 1, 0.1, 1};
+    wt_isotherm *t = wt_sweep_add(sweep, 5, true);
+    assert_non_null(t);
+    t->temperature = temperature;
+    snprintf(t->source, sizeof t->source, "%s", source);
+    for (size_t i = 0; i < 5; i++) {
+        t->angular_frequency[i] = w[i];
+        t->storage_modulus[i] = i == 2 ? 7 : storage;
+        t->loss_modulus[i] = 1;
+        t->strain[i] = (double)i;
+    }
+}
+
+/* Copies to the last bit go, with a word for each; what was measured again stays. */
+static void sweep_copies(void **state)
+{
+    (void)state;
+    wt_sweep sweep = {0};
+    wt_parselog *log = wt_parselog_new();
+    add_measured(&sweep, 300, 5, "a.csv");
+    add_measured(&sweep, 300, 5, "b.csv");
+    add_measured(&sweep, 300, nextafter(5, 6), "c.csv");
+    add_measured(&sweep, 320, 9, "a.csv");
+    wt_sweep_sort(&sweep);
+    wt_sweep_drop_copies(&sweep, log);
+    assert_int_equal(sweep.n_isotherms, 3);
+    assert_string_equal(sweep.isotherms[0].source, "a.csv");
+    assert_string_equal(sweep.isotherms[1].source, "c.csv");
+    for (size_t i = 0; i < 3; i++) {
+        const wt_isotherm *t = &sweep.isotherms[i];
+        double sum = 0;
+        assert_int_equal(t->n, 4); /* the point of 5 at 1 rad/s stood there twice, that of 7 once */
+        assert_near(t->angular_frequency[0], 0.1, 0);
+        assert_near(t->angular_frequency[3], 10, 0);
+        for (size_t k = 1; k < 3; k++) {
+            assert_near(t->angular_frequency[k], 1, 0);
+            sum += t->storage_modulus[k];
+        }
+        assert_near(sum, 7 + t->storage_modulus[0], 1e-15);
+        assert_near(t->strain[0], 3, 0);
+        assert_near(t->strain[3], 0, 0);
+    }
+    assert_int_equal(wt_parselog_count(log), 5);
+    assert_non_null(strstr(wt_parselog_get(log, 2).text, "copy of one before it (a.csv)"));
+    wt_parselog_free(log);
+    wt_sweep_clear(&sweep);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(force_curve_memory), cmocka_unit_test(deflection_and_force),
-        cmocka_unit_test(sweep_order),        cmocka_unit_test(small_types),
-        cmocka_unit_test(table_columns),      cmocka_unit_test(table_keys),
+        cmocka_unit_test(sweep_order),        cmocka_unit_test(sweep_copies),
+        cmocka_unit_test(small_types),        cmocka_unit_test(table_columns),
+        cmocka_unit_test(table_keys),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -233,7 +233,8 @@ static void damaged_rows(void **state)
         read_rows(d, "1\t2\t3\t20\n\n10\t2\t3x\t20\n20\t2\t3\t20\n", &sweep, NULL, &err),
         WT_E_CORRUPT);
     assert_string_equal(err.place, "line 5, column 3 (E'')");
-    assert_int_equal(read_rows(d, "1\t2\t3\t20\nend of data\n", &sweep, NULL, &err), WT_E_CORRUPT);
+    assert_int_equal(read_rows(d, "1\t2\t3\t20\nend of data\n5\t2\t3\t20\n", &sweep, NULL, &err),
+                     WT_E_CORRUPT);
     assert_int_equal(sweep.n_isotherms, 0);
     description_free(d);
 }

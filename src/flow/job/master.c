@@ -63,8 +63,10 @@ static wt_status read_sweeps(const wt_master_job *job, const wt_job *work, wt_sw
         wt_error_found(err, "files: %zu", files.n);
         wt_error_advice(err, "`weartrack info FILE` shows what a file holds");
     }
-    if (status == WT_OK)
+    if (status == WT_OK) {
         wt_sweep_sort(sweep);
+        wt_sweep_drop_copies(sweep, work->log);
+    }
     flow_files_clear(&files);
     return status;
 }

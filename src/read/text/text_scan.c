@@ -187,6 +187,33 @@ static void watch_orphan(text_scanner *s)
                         "row of numbers after the end of its table, not read");
 }
 
+/* Whether nothing of a table comes any more: a signature, the remarks of a person. Asked once, as
+ * it ends the table or the reading. */
+static bool rest_is_words(text_scanner *s)
+{
+    const text_span line = s->line;
+    const text_lines *lines = &s->file->lines;
+    bool words = true;
+    for (size_t i = s->i + 1; i < lines->n && words && s->status == WT_OK; i++) {
+        size_t bad = 0;
+        s->line = lines->lines[i];
+        words = scan_split_row(s) && (cells_blank(&s->row) || scan_read_row(s, &bad) == ROW_TEXT);
+    }
+    s->line = line;
+    return scan_split_row(s) && words;
+}
+
+static void leave_rest(text_scanner *s)
+{
+    char found[48];
+    text_copy(found, sizeof found, s->line);
+    wt_parselog_add(s->log, WT_WARNING, s->file->name, line_place(s->i + 1).words,
+                    "the lines from here on are no rows of the table and are left out: \"%s\"",
+                    found);
+    s->state = SCAN_HEADER;
+    header_line(s);
+}
+
 static void table_line(text_scanner *s)
 {
     const text_description *d = s->d;
@@ -211,7 +238,11 @@ static void table_line(text_scanner *s)
     if (row == ROW_GOOD) {
         scan_add_row(s);
     } else if (!match_names(s) && s->status == WT_OK) {
-        if (!s->blank || (row == ROW_BROKEN && s->row.n == t->n_names) || d->row_prefix != NULL) {
+        if (row == ROW_TEXT && !s->blank && t->n_rows > 0 && d->row_prefix == NULL &&
+            rest_is_words(s))
+            leave_rest(s);
+        else if (!s->blank || (row == ROW_BROKEN && s->row.n == t->n_names) ||
+                 d->row_prefix != NULL) {
             scan_bad_row(s, bad);
         } else {
             s->state = SCAN_HEADER;

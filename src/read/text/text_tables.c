@@ -75,6 +75,32 @@ static const char *usual_unit(wt_quantity quantity)
     }
 }
 
+/* All columns without a unit at once, so that nobody has to ask one after the other. */
+static wt_status without_units(const text_table *table, wt_quantity_set lacking, wt_error *err)
+{
+    char names[120] = "", options[200] = "";
+    size_t n = 0, n_names = 0, n_options = 0;
+    for (size_t i = 0; i < table->n_problems; i++) {
+        const text_column *c = &table->problems[i];
+        const wt_quantity q = c->rule->quantity;
+        const bool either = q == WT_Q_FREQUENCY || q == WT_Q_ANGULAR_FREQUENCY;
+        if (c->problem != COLUMN_NO_UNIT || (lacking & WT_Q_BIT(q)) == 0 ||
+            n_names + 8 >= sizeof names || n_options + 8 >= sizeof options)
+            continue;
+        n_names += (size_t)snprintf(names + n_names, sizeof names - n_names, "%s\"%s\"",
+                                    n > 0 ? ", " : "", c->name);
+        n_options +=
+            (size_t)snprintf(options + n_options, sizeof options - n_options,
+                             either ? "%s--units \"%s=Hz\" or \"%s=rad/s\"" : "%s--units \"%s=%s\"",
+                             n > 0 ? " " : "", c->name, either ? c->name : usual_unit(q));
+        n++;
+    }
+    wt_fail(err, WT_E_UNIT, "the file does not say the unit%s of column%s %s", n > 1 ? "s" : "",
+            n > 1 ? "s" : "", names);
+    wt_error_advice(err, "give %s with %s", n > 1 ? "them" : "it", options);
+    return WT_E_UNIT;
+}
+
 wt_status text_table_problem(const text_table *table, wt_quantity_set quantities, wt_error *err)
 {
     for (size_t i = 0; i < table->n_problems; i++) {
@@ -85,13 +111,8 @@ wt_status text_table_problem(const text_table *table, wt_quantity_set quantities
         wt_status status = WT_E_UNIT;
         switch (c->problem) {
         case COLUMN_NO_UNIT:
-            wt_fail(err, status, "the file does not say the unit of column \"%s\"", c->name);
+            status = without_units(table, quantities & ~table->quantities, err);
             wt_error_expected(err, "a unit of %s", wt_quantity_id(q));
-            if (q == WT_Q_FREQUENCY || q == WT_Q_ANGULAR_FREQUENCY)
-                wt_error_advice(err, "give it with --units \"%s=Hz\" or \"%s=rad/s\"", c->name,
-                                c->name);
-            else
-                wt_error_advice(err, "give it with --units \"%s=%s\"", c->name, usual_unit(q));
             break;
         case COLUMN_BAD_UNIT:
             wt_fail(err, status, "the unit of column \"%s\" does not fit", c->name);
