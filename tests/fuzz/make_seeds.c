@@ -4,6 +4,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "writers/book_writer.h"
+#include "writers/ibw_writer.h"
 #include "writers/jpk_writer.h"
 #include "writers/nid_writer.h"
 
@@ -137,6 +138,35 @@ static int make_nid(const char *folder)
     return 0;
 }
 
+/* ---- Igor --------------------------------------------------------------------------------- */
+
+static int make_ibw(const char *folder)
+{
+    static const char *const labels[] = {"Raw", "Defl", "ZSnsr"};
+    const double *const values[] = {height, force, sensor};
+    char path[512];
+    for (int kind = 0; kind < 2; kind++) {
+        char name[32];
+        snprintf(name, sizeof name, "seed%d.ibw", kind);
+        path_of(path, sizeof path, folder, name);
+        const ibw_writer_file f = {
+            .path = path,
+            .big_endian = kind == 1,
+            .doubles = kind == 1,
+            .n = POINTS,
+            .n_channels = 3,
+            .labels = labels,
+            .values = values,
+            .interval = 0.01,
+            .note =
+                "SpringConstant: 0.5\rInvOLS: 5e-08\rTriggerChannel:Force\rTriggerPoint: 2e-09\r"
+                "Indexes: 0,6,8,11\rDirection: NaN,1,0,-1,\r"};
+        if (ibw_write(&f) != 0)
+            return -1;
+    }
+    return 0;
+}
+
 /* ---- spreadsheets ------------------------------------------------------------------------- */
 
 static int make_packed(const char *folder)
@@ -181,8 +211,9 @@ static int make_folder(char *path, size_t size, const char *parent, const char *
 
 int main(int argc, char *argv[])
 {
-    static int (*const make[])(const char *) = {make_jpk, make_nid, make_packed, make_properties};
-    static const char *const names[] = {"jpk", "nid", "packed", "properties"};
+    static int (*const make[])(const char *) = {make_ibw, make_jpk, make_nid, make_packed,
+                                                make_properties};
+    static const char *const names[] = {"ibw", "jpk", "nid", "packed", "properties"};
     char folder[256];
     if (argc != 2) {
         fprintf(stderr, "usage: make_seeds FOLDER\n");
@@ -193,7 +224,7 @@ int main(int argc, char *argv[])
         force[i] = 1e-9 * (double)(i * i) / POINTS;
         sensor[i] = 2e-6 - 1e-7 * (double)i;
     }
-    for (size_t i = 0; i < 4; i++) {
+    for (size_t i = 0; i < 5; i++) {
         if (make_folder(folder, sizeof folder, argv[1], names[i]) != 0 || make[i](folder) != 0) {
             fprintf(stderr, "%s/%s: cannot be written\n", argv[1], names[i]);
             return 1;

@@ -1,0 +1,209 @@
+/* Igor binary waves: the descriptor, detection, facts and curves.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "read/ibw/ibw.h"
+
+#include "read/facts.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static recognition detect(const file_reader *self, file_peek *peek)
+{
+    recognition match = {.answer = ANSWER_NO};
+    bool big_endian = false;
+    (void)self;
+    if (ibw_is(peek->bytes, peek->length, &big_endian)) {
+        match.answer = ANSWER_YES;
+        match.score = 90;
+    }
+    return match;
+}
+
+/* ---- what is in it --------------------------------------------------------------------------- */
+
+static double positive(double value)
+{
+    return value > 0 && isfinite(value) ? value : (double)NAN;
+}
+
+static void add_setpoint(const ibw_file *file, force_facts *facts)
+{
+    static const struct {
+        const char *channel;
+        wt_quantity quantity;
+    } known[] = {{"Force", WT_Q_FORCE},
+                 {"Deflection", WT_Q_DEFLECTION},
+                 {"DeflVolts", WT_Q_DEFLECTION_VOLTAGE}};
+    char channel[IBW_TEXT];
+    if (!ibw_note(file, "TriggerChannel", channel))
+        return;
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+        if (strcmp(channel, known[i].channel) == 0) {
+            facts->setpoint = ibw_number(file, "TriggerPoint");
+            facts->setpoint_quantity = known[i].quantity;
+        }
+}
+
+/* Heights count towards the sample in the file and fall here. The deflection is in metres already,
+ * by the sensitivity of the note. The velocities of the note are settings, also those that were not
+ * used, so none is taken. */
+force_facts ibw_facts(const ibw_file *file)
+{
+    static const struct {
+        const char *name;
+        wt_quantity quantity;
+        double multiplier;
+    } known[] = {{"ZSnsr", WT_Q_MEASURED_HEIGHT, -1},
+                 {"Raw", WT_Q_HEIGHT, -1},
+                 {"Defl", WT_Q_DEFLECTION, 1}};
+    force_facts facts = {
+        .velocity = (double)NAN,
+        .setpoint = (double)NAN,
+        .cantilever = {.spring_constant = positive(ibw_number(file, "SpringConstant")),
+                       .sensitivity = positive(ibw_number(file, "InvOLS"))},
+        .offers = {WT_Q_TIME, WT_Q_HEIGHT, WT_Q_MEASURED_HEIGHT, WT_Q_FORCE, WT_Q_DEFLECTION,
+                   WT_Q_DEFLECTION_VOLTAGE},
+        .n_offers = 6};
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+        for (size_t c = 0; c < file->n_channels; c++)
+            if (strcmp(file->channels[c].name, known[i].name) == 0)
+                force_add_signal(&facts, (force_signal){.quantity = known[i].quantity,
+                                                        .name = file->channels[c].name,
+                                                        .unit = "m",
+                                                        .to_si = {known[i].multiplier, 0},
+                                                        .channel = &file->channels[c]});
+    add_setpoint(file, &facts);
+    return facts;
+}
+
+static wt_status describe(const file_reader *self, wt_input *input, const wt_read_options *options,
+                          wt_parselog *log, table_writer *facts)
+{
+    ibw_file file;
+    ibw_segment segments[IBW_SEGMENTS];
+    size_t n = 0;
+    char text[IBW_TEXT];
+    static const char *const keys[] = {"ImagingMode", "Date", "Time", "TriggerChannel"};
+    (void)self;
+    (void)log;
+    wt_status status = ibw_open(input, &file, facts->err);
+    if (status == WT_OK)
+        status = ibw_segments(&file, segments, &n, facts->err);
+    if (status != WT_OK)
+        return status;
+    const force_facts read = ibw_facts(&file);
+    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
+        if (ibw_note(&file, keys[i], text))
+            facts_add(facts, keys[i], "", "note", "%s", text);
+    for (size_t i = 0; i < file.n_channels; i++) {
+        const wt_quantity q = force_read_as(&read, options, &file.channels[i]);
+        facts_add(facts, file.channels[i].name, "m", "label", "%zu samples%s%s", file.n,
+                  q != WT_Q_NONE ? ", " : "", q != WT_Q_NONE ? wt_quantity_id(q) : "");
+    }
+    for (size_t i = 0; i < n; i++) {
+        char item[32];
+        snprintf(item, sizeof item, "segment %zu", i);
+        facts_add(facts, item, "", "Indexes, Direction", "%s, %zu points",
+                  wt_segment_kind_name(segments[i].kind), segments[i].n);
+    }
+    force_describe_calibration(&read, options, "note, SpringConstant", "note, InvOLS", facts);
+    return WT_OK;
+}
+
+/* ---- curves ---------------------------------------------------------------------------------- */
+
+typedef struct ibw_source {
+    wt_force_source base;
+    ibw_file file;
+    force_facts facts;
+    ibw_segment segments[IBW_SEGMENTS];
+    size_t n_segments;
+    size_t from; /* first sample of the segment that is read */
+    bool done;
+} ibw_source;
+
+static wt_status decode(wt_force_source *base, const force_signal *signal, force_linear scaling,
+                        size_t n, double *values, wt_error *err)
+{
+    const ibw_source *source = (const ibw_source *)base;
+    const ibw_file *file = &source->file;
+    const ibw_channel *channel = signal->channel;
+    const size_t width = sample_width(file->type);
+    (void)err;
+    const size_t missing = samples_decode(file->type, file->big_endian,
+                                          file->bytes + file->data +
+                                              width * (channel->number * file->n + source->from),
+                                          n, scaling.multiplier, scaling.offset, values);
+    if (missing > 0)
+        wt_parselog_add(base->log, WT_WARNING, file->name, channel->name,
+                        "%zu samples are not finite numbers and left out", missing);
+    return WT_OK;
+}
+
+static wt_status next_curve(wt_force_source *base, wt_force_curve *curve, wt_error *err)
+{
+    ibw_source *source = (ibw_source *)base;
+    wt_status status = WT_OK;
+    if (source->done)
+        return WT_END;
+    source->done = true;
+    for (size_t i = 0; i < source->n_segments && status == WT_OK; i++) {
+        const ibw_segment *segment = &source->segments[i];
+        force_facts facts = source->facts;
+        facts.kind = segment->kind;
+        facts.index = i;
+        facts.n_points = segment->n;
+        facts.start = source->file.interval * (double)segment->from;
+        facts.duration = source->file.interval * (double)segment->n;
+        source->from = segment->from;
+        if (force_wants_segment(base, segment->kind))
+            status = force_add_segment(base, &facts, curve, err);
+    }
+    return status;
+}
+
+static void close_source(wt_force_source *base)
+{
+    free(base);
+}
+
+wt_status ibw_open_force(const file_reader *self, wt_input *input, const wt_read_options *options,
+                         wt_parselog *log, wt_force_source **source, wt_error *err)
+{
+    (void)self;
+    ibw_source *s = calloc(1, sizeof *s);
+    if (s == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory to read the file");
+    wt_status status = ibw_open(input, &s->file, err);
+    if (status == WT_OK)
+        status = ibw_segments(&s->file, s->segments, &s->n_segments, err);
+    if (status != WT_OK) {
+        free(s);
+        return status;
+    }
+    s->facts = ibw_facts(&s->file); /* points to the channels of this file */
+    s->base = (wt_force_source){.next = next_curve,
+                                .decode = decode,
+                                .close = close_source,
+                                .name = s->file.name,
+                                .options = *options,
+                                .log = log,
+                                .n_curves = 1};
+    *source = &s->base;
+    return WT_OK;
+}
+
+const file_reader reader_ibw = {
+    .info = {.id = "ibw",
+             .title = "Igor binary waves of Asylum Research (.ibw), single force curves",
+             .kinds = WT_KIND_FORCE,
+             .verified = true,
+             .evidence = "a measured curve of an MFP-3D, approach and retract",
+             .version = "1"},
+    .detect = detect,
+    .open_force = ibw_open_force,
+    .describe = describe,
+};

@@ -1,0 +1,190 @@
+/* The wave: header, labels, note. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "read/ibw/ibw.h"
+
+#include "base/number.h"
+#include "read/bytes/bytes.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    HEADER_5 = 64, /* of the file, before that of the wave */
+    WAVE_5 = 320   /* header of the wave, before the samples */
+};
+
+bool ibw_is(const unsigned char *bytes, size_t length, bool *big_endian)
+{
+    unsigned sum = 0;
+    if (length < HEADER_5 + WAVE_5)
+        return false;
+    *big_endian = bytes[0] == 0;
+    for (size_t i = 0; i < HEADER_5 + WAVE_5; i += 2)
+        sum += *big_endian ? be16(bytes + i) : le16(bytes + i);
+    return (sum & 0xffff) == 0 && (*big_endian ? be16(bytes) : le16(bytes)) == 5;
+}
+
+static uint32_t number(const ibw_file *f, size_t at)
+{
+    return f->big_endian ? be32(f->bytes + at) : le32(f->bytes + at);
+}
+
+static double real(const ibw_file *f, size_t at)
+{
+    return float64(f->big_endian ? be64(f->bytes + at) : le64(f->bytes + at));
+}
+
+static wt_status fail(wt_error *err, wt_status status, const char *message, const char *expected)
+{
+    wt_fail(err, status, "%s", message);
+    wt_error_place(err, "header of the Igor wave");
+    wt_error_expected(err, "%s", expected);
+    if (status == WT_E_CORRUPT)
+        wt_error_advice(err, "copy the file again from the instrument");
+    return status;
+}
+
+static wt_status read_shape(ibw_file *f, wt_error *err)
+{
+    enum { TYPE = HEADER_5 + 16, SIZES = HEADER_5 + 68, STEPS = HEADER_5 + 84 };
+    const unsigned type = f->big_endian ? be16(f->bytes + TYPE) : le16(f->bytes + TYPE);
+    const size_t n = number(f, SIZES), channels = number(f, SIZES + 4);
+    if (type != 2 && type != 4)
+        return fail(err, WT_E_UNSUPPORTED, "the wave does not hold real numbers",
+                    "numbers of 32 or 64 bits");
+    f->type = type == 2 ? SAMPLE_FLOAT32 : SAMPLE_FLOAT64;
+    if (channels == 0 || number(f, SIZES + 8) != 0)
+        return fail(err, WT_E_EMPTY, "the wave holds no force curve",
+                    "two dimensions: samples and channels");
+    if (n == 0 || n > (size_t)1 << 28 || channels > IBW_CHANNELS)
+        return fail(err, WT_E_CORRUPT, "impossible size of the wave",
+                    "up to 268 million samples of up to 32 channels");
+    f->n = n;
+    f->n_channels = channels;
+    f->interval = real(f, STEPS);
+    if (!(f->interval > 0) || !isfinite(f->interval))
+        f->interval = (double)NAN;
+    return WT_OK;
+}
+
+/* Where the parts behind the samples are, in their order. */
+static wt_status read_parts(ibw_file *f, size_t length, wt_error *err)
+{
+    enum { SIZES = 4, LABELS = 36, LABEL = 32, N_BEFORE = 8 };
+    const size_t samples = f->n * f->n_channels * sample_width(f->type);
+    const size_t wave = number(f, SIZES), note = number(f, SIZES + 8);
+    /* Formula, note, unit of the data, units of the four dimensions, labels of the first. */
+    static const size_t before[N_BEFORE] = {8, 12, 16, 20, 24, 28, 32, 36};
+    const size_t labels = number(f, LABELS + 4);
+    uint64_t end = (uint64_t)HEADER_5 + wave;
+    if (wave != WAVE_5 + samples)
+        return fail(err, WT_E_CORRUPT, "the sizes of the wave contradict one another",
+                    "one number for each sample of each channel");
+    for (size_t i = 0; i < N_BEFORE; i++) {
+        if (before[i] == 12)
+            f->note = (const char *)f->bytes + (end < length ? end : length);
+        end += number(f, before[i]);
+    }
+    if (end + labels > length) {
+        wt_fail(err, WT_E_CORRUPT, "the end of the file is missing");
+        wt_error_expected(err, "%llu bytes", (unsigned long long)(end + labels));
+        wt_error_found(err, "%zu bytes", length);
+        wt_error_advice(err, "copy the file again from the instrument");
+        return WT_E_CORRUPT;
+    }
+    f->note_length = note;
+    f->data = HEADER_5 + WAVE_5;
+    /* The first label is that of the dimension. */
+    for (size_t i = 0; i < f->n_channels; i++) {
+        ibw_channel *c = &f->channels[i];
+        const size_t at = (i + 1) * LABEL;
+        *c = (ibw_channel){.number = i};
+        if (at + LABEL <= labels)
+            memcpy(c->name, f->bytes + end + at, LABEL);
+    }
+    return WT_OK;
+}
+
+wt_status ibw_open(wt_input *input, ibw_file *file, wt_error *err)
+{
+    size_t length = 0;
+    *file = (ibw_file){.name = wt_input_name(input)};
+    wt_status status = wt_input_bytes(input, &file->bytes, &length, err);
+    if (status != WT_OK)
+        return status;
+    if (!ibw_is(file->bytes, length, &file->big_endian))
+        return fail(err, WT_E_CORRUPT, "damaged header", "version 5, and a check sum that agrees");
+    status = read_shape(file, err);
+    return status == WT_OK ? read_parts(file, length, err) : status;
+}
+
+/* ---- the note -------------------------------------------------------------------------------- */
+
+bool ibw_note(const ibw_file *file, const char *key, char value[IBW_TEXT])
+{
+    const size_t length = strlen(key);
+    size_t at = 0;
+    while (at < file->note_length) {
+        const char *line = file->note + at;
+        size_t n = 0;
+        while (at + n < file->note_length && line[n] != '\r' && line[n] != '\n')
+            n++;
+        at += n + 1;
+        if (n <= length || memcmp(line, key, length) != 0 || line[length] != ':')
+            continue;
+        size_t from = length + 1;
+        while (from < n && line[from] == ' ')
+            from++;
+        const size_t taken = n - from < IBW_TEXT ? n - from : IBW_TEXT - 1;
+        memcpy(value, line + from, taken);
+        value[taken] = '\0';
+        return true;
+    }
+    return false;
+}
+
+double ibw_number(const ibw_file *file, const char *key)
+{
+    char text[IBW_TEXT];
+    double value;
+    return ibw_note(file, key, text) && wt_number_parse(text, strlen(text), '.', &value)
+               ? value
+               : (double)NAN;
+}
+
+static wt_status bad_segments(const char *found, wt_error *err)
+{
+    wt_fail(err, WT_E_CORRUPT, "the note does not part the samples into approach and retract");
+    wt_error_place(err, "note of the wave, Indexes and Direction");
+    wt_error_expected(err, "rising sample numbers, such as 0,1008,2015, and NaN,1,-1");
+    wt_error_found(err, "%s", found);
+    return WT_E_CORRUPT;
+}
+
+/* "0,1008,2015" and "NaN,1,-1,": from 0 to 1008 towards the sample, from there to the last away. */
+wt_status ibw_segments(const ibw_file *file, ibw_segment segments[IBW_SEGMENTS], size_t *n,
+                       wt_error *err)
+{
+    char indexes[IBW_TEXT], directions[IBW_TEXT];
+    *n = 0;
+    if (!ibw_note(file, "Indexes", indexes) || !ibw_note(file, "Direction", directions))
+        return bad_segments("no such lines", err);
+    char *index = indexes, *direction = directions;
+    unsigned long from = strtoul(index, &index, 10);
+    (void)strtod(direction, &direction);
+    while (*index == ',' && index[1] >= '0' && index[1] <= '9' && *n < IBW_SEGMENTS) {
+        const unsigned long to = strtoul(index + 1, &index, 10);
+        const double way = *direction == ',' ? strtod(direction + 1, &direction) : (double)NAN;
+        const bool last = *index != ',' || index[1] < '0' || index[1] > '9';
+        if (to <= from || to >= file->n + !last || isnan(way))
+            return bad_segments(indexes, err);
+        /* The numbers are those of first samples, and the last that of the last one. */
+        segments[(*n)++] = (ibw_segment){.kind = way > 0   ? WT_SEGMENT_APPROACH
+                                                 : way < 0 ? WT_SEGMENT_RETRACT
+                                                           : WT_SEGMENT_DWELL,
+                                         .from = from,
+                                         .n = to - from + last};
+        from = to;
+    }
+    return *n > 0 && *index != ',' ? WT_OK : bad_segments(indexes, err);
+}
