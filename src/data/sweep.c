@@ -2,6 +2,7 @@
 #include "weartrack/data.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -174,7 +175,8 @@ static void drop_copies_of_points(wt_isotherm *t, wt_parselog *log)
 /* Isotherms are few; those measured again at one temperature fewer. */
 void wt_sweep_drop_copies(wt_sweep *sweep, wt_parselog *log)
 {
-    size_t kept = 0;
+    size_t kept = 0, n = 0;
+    char first[2 * sizeof sweep->isotherms->source + 8] = "";
     for (size_t i = 0; i < sweep->n_isotherms; i++) {
         wt_isotherm *const t = &sweep->isotherms[i];
         size_t original = 0;
@@ -185,10 +187,13 @@ void wt_sweep_drop_copies(wt_sweep *sweep, wt_parselog *log)
             sweep->isotherms[kept++] = *t;
             continue;
         }
-        wt_parselog_add(log, WT_WARNING, t->source, NULL,
-                        "the isotherm at %.1f degC is a copy of one before it (%s), left out",
-                        t->temperature - WT_ZERO_CELSIUS, sweep->isotherms[original].source);
+        if (n++ == 0)
+            snprintf(first, sizeof first, "%s is %s", t->source, sweep->isotherms[original].source);
         isotherm_free(t);
     }
     sweep->n_isotherms = kept;
+    if (n > 0)
+        wt_parselog_add(log, WT_WARNING, NULL, NULL, "%zu %s and left out; the first: %s", n,
+                        n > 1 ? "isotherms are copies of others" : "isotherm is a copy of another",
+                        first);
 }
