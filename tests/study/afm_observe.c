@@ -7,19 +7,50 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { CURVES = 30 };
+enum { CURVES = 30, MOST_SPOTS = 6 };
 static const double level = 0.01, share_needed = 0.9;
 
+/* The curves of one draw: a sample and a file for each spot. */
+typedef struct spots {
+    int n;
+    const afm_sample *sample[MOST_SPOTS];
+    afm_sample *own[MOST_SPOTS]; /* to be freed */
+    const char *path[MOST_SPOTS];
+} spots;
+
 static int write_curves(const afm_sample *sample, const afm_scene *s, random_source *random,
-                        const char *path)
+                        int first, int n, const char *path)
 {
     FILE *file = fopen(path, "w");
     if (file == NULL)
         return -1;
-    for (int curve = 0; curve < CURVES; curve++)
+    for (int curve = first; curve < first + n; curve++)
         afm_sample_write(sample, s, random, curve, file);
     const int bad = ferror(file);
     return fclose(file) != 0 || bad ? -1 : 0;
+}
+
+static int make_spots(spots *to, const afm_sample *sample, const afm_scene *s,
+                      random_source *random, trial *t)
+{
+    int bad = sample == NULL;
+    *to = (spots){.n = s->spots > 0 ? MOST_SPOTS : 1};
+    for (int i = 0; i < to->n && !bad; i++) {
+        char name[24];
+        afm_scene here = *s;
+        snprintf(name, sizeof name, "curves%.d.tsv", s->spots > 0 ? i + 1 : 0);
+        to->path[i] = trial_file(t, name);
+        to->sample[i] = sample;
+        if (s->spots > 0) {
+            here.modulus =
+                (s->modulus > 0 ? s->modulus : 5e6) * exp(s->spots * random_normal(random));
+            to->sample[i] = to->own[i] = afm_sample_make(&here);
+        }
+        bad =
+            to->sample[i] == NULL || write_curves(to->sample[i], &here, random, i * CURVES / to->n,
+                                                  CURVES / to->n, to->path[i]) != 0;
+    }
+    return bad ? -1 : 0;
 }
 
 /* The series of a DMA whose moduli are by the factor of the scene too small. */
@@ -43,7 +74,8 @@ static int write_spectrum(const afm_scene *s, const char *path)
 }
 
 /* Described: most curves are accepted, and all of them together show no misfit. */
-static void read_curves(const char *path, const afm_scene *s, const afm_sample *sample, trial *t)
+static void read_curves(const char *path, const afm_scene *s, const afm_sample *sample,
+                        const spots *from, trial *t)
 {
     stream *found = stream_read(path);
     if (found == NULL || stream_rows(found, place_modulus.table) != CURVES) {
@@ -53,7 +85,7 @@ static void read_curves(const char *path, const afm_scene *s, const afm_sample *
         for (int i = 0; i < CURVES; i++) {
             const estimate e = place_row(found, &place_modulus, i);
             accepted += !isnan(e.value);
-            trial_add(t, Q_MODULUS, sample->modulus, e);
+            trial_add(t, Q_MODULUS, from->sample[i * from->n / CURVES]->modulus, e);
             if (s->dma > 0)
                 trial_add(t, Q_FACTOR, s->dma, place_row(found, &place_factor, i));
         }
@@ -86,31 +118,32 @@ static void observe(int scene, const void *prepared, random_source *random, tria
 {
     const afm_scene *s = &afm_scenes[scene];
     const afm_sample *sample = prepared;
-    const char *measured = trial_file(t, "curves.tsv"), *made = trial_file(t, "indentation.tsv");
+    const char *made = trial_file(t, "indentation.tsv");
     const char *spectrum = s->dma > 0 ? trial_file(t, "spectrum.tsv") : NULL;
+    const char *arguments[MOST_SPOTS + 12] = {"indent"};
     char tip[80];
-    if (sample == NULL || write_curves(sample, s, random, measured) != 0 ||
+    spots from;
+    int n = 1;
+    if (make_spots(&from, sample, s, random, t) != 0 ||
         (spectrum != NULL && write_spectrum(s, spectrum) != 0)) {
         trial_broke(t, "the curves cannot be written");
-        return;
+    } else {
+        snprintf(tip, sizeof tip,
+                 s->sphere ? "sphere:radius=%gnm" : "pyramid:half-angle=35deg,radius=%gnm",
+                 sample->radius * 1e9);
+        const char *const options[] = {
+            "--tip", tip,  "--group",         "bulk",
+            "-o",    made, "--no-provenance", spectrum != NULL ? "--master" : NULL,
+            spectrum};
+        for (int i = 0; i < from.n; i++)
+            arguments[n++] = from.path[i];
+        for (size_t i = 0; i < sizeof options / sizeof options[0] && options[i] != NULL; i++)
+            arguments[n++] = options[i];
+        if (trial_run(t, arguments))
+            read_curves(made, s, sample, &from, t);
     }
-    snprintf(tip, sizeof tip,
-             s->sphere ? "sphere:radius=%gnm" : "pyramid:half-angle=35deg,radius=%gnm",
-             sample->radius * 1e9);
-    const char *const arguments[] = {"indent",
-                                     measured,
-                                     "--tip",
-                                     tip,
-                                     "--group",
-                                     "bulk",
-                                     "-o",
-                                     made,
-                                     "--no-provenance",
-                                     spectrum != NULL ? "--master" : NULL,
-                                     spectrum,
-                                     NULL};
-    if (trial_run(t, arguments))
-        read_curves(made, s, sample, t);
+    for (int i = 0; i < from.n; i++)
+        free(from.own[i]);
 }
 
 family afm_family(void)

@@ -1,6 +1,7 @@
 /* Force curves. Fixed before any method was chosen, but IC6 and IV6 (lever, noise), changed when
  * the method before refused them, and IJ7 (modulus, lever), when it was not covered; it still is
- * not. IC7, IC8, IV7, IV8 and IB5 to IB8 were fixed before the spectrum of the noise was.
+ * not. IC7, IC8, IV7, IV8 and IB5 to IB8 were fixed before the spectrum of the noise was; IS1 to
+ * IS3, of spots, when the method was there.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "afm_scene.h"
 
@@ -125,5 +126,13 @@ const afm_scene afm_scenes[] = {
      .facts.verdict_promised = true, .facts.right = DESCRIBED, .noise = 0.005, .spikes = 0.01},
     {NAMED("IP2", "spikes in 10 %"), .facts.intervals_promised = true, .facts.right = DESCRIBED,
      .noise = 0.005, .spikes = 0.1},
+    {NAMED("IS1", "six spots, 10 %"), .facts.intervals_promised = true,
+     .facts.verdict_promised = true, .facts.right = NOT_REFUSED, .noise = 0.005, .spots = 0.1},
+    {NAMED("IS2", "soft layer of 1000 nm on six spots, 10 %"), .facts.verdict_promised = true,
+     .facts.right = NOT_DESCRIBED, .noise = 0.005, .layer_ratio = 0.4, .layer_thickness = 1000e-9,
+     .spots = 0.1},
+    {NAMED("IS3", "soft layer of 150 nm on six spots, 10 %, correlated 2 %"),
+     .facts.right = NOT_MISSED, .noise = 0.02, .kind = NOISE_CORRELATED, .layer_ratio = 0.4,
+     .layer_thickness = 150e-9, .spots = 0.1},
 };
 const int n_afm_scenes = sizeof afm_scenes / sizeof afm_scenes[0];

@@ -84,6 +84,12 @@ static void check_jkr(const char *text)
             const double a = number(&p, "a_m", next);
             check_near("adhesive depth", jkr_depth(&law, a) + 1e-8, depth + 1e-8, 1e-10);
             check_near("adhesive force", jkr_force(&law, a), number(&p, "F_N", next), 1e-10);
+            const double far = number_in(p, "F_DMT_N", strchr(p, '}'));
+            if (!isnan(far) && depth > 0) /* the cap of the attraction: 2 pi w R */
+                check_near("force of Derjaguin, Muller and Toporov",
+                           law.reduced * tip_force(&tip, tip_contact_radius(&tip, depth)) -
+                               2 * M_PI * law.work * tip.radius,
+                           far, 1e-9);
         }
         at += 5;
     }

@@ -38,6 +38,11 @@ static void say_change(const wt_curve_depth *d, char text[320])
             "cannot say: the curves have a residual in common that no modulus that changes "
             "with depth leaves (chance %.1g)",
             d->misfit_chance);
+    else if (d->verdict == WT_DEPTH_CHANGES && d->change.low < 1 && d->change.high > 1)
+        clocale_print(text, 320,
+                      "yes: between %s and %s the modulus changes, by how much and which way the "
+                      "curves do not tell (factor %s)",
+                      shallow.text, deep.text, range);
     else if (d->verdict == WT_DEPTH_CHANGES)
         clocale_print(text, 320,
                       "yes%s: at %s the modulus is another than at %s, by a factor of %s",
@@ -69,7 +74,10 @@ static void say_reading(const wt_curve_depth *d, char text[640])
                   "the modulus of a whole curve is that of neither%s; another radius of the tip, "
                   "loss, adhesion and an uneven piezo do the same, which a second rate, a second "
                   "tip or the untouched bulk tells apart",
-                  d->change.value > 1 ? "softer" : "stiffer", numbers);
+                  d->change.low > 1    ? "softer"
+                  : d->change.high < 1 ? "stiffer"
+                                       : "softer or stiffer",
+                  numbers);
 }
 
 wt_status flow_depth_table_add(wt_indent_tables *tables, const char *group, const wt_curve_depth *d,
