@@ -385,14 +385,19 @@ static void read_layer(depth_pool *d, wt_curve_depth *to, wt_error *err)
     to->ground_modulus = interval_of(d, &fit, fit.p[LEVEL] - fit.p[RATIO], of_ground, true, NULL);
 }
 
+/* Too little to matter, whichever way. */
+static bool is_small(const wt_curve_depth *d)
+{
+    return d->change.low > 1.0 / (1.0 + margin) && d->change.high < 1.0 + margin;
+}
+
 /* What the change says: shown, of no matter, or neither. */
 static void judge(const depth_fit *fit, wt_curve_depth *to)
 {
     to->misfit_chance = fit->chance;
-    const bool small = to->change.low > 1.0 / (1.0 + margin) && to->change.high < 1.0 + margin;
     to->verdict = to->chance < level    ? WT_DEPTH_CHANGES
                   : fit->chance < level ? WT_DEPTH_OTHERWISE
-                  : small               ? WT_DEPTH_SAME
+                  : is_small(to)        ? WT_DEPTH_SAME
                                         : WT_DEPTH_CANNOT_SAY;
 }
 
@@ -418,7 +423,10 @@ static wt_status make(depth_pool *d, wt_curve_depth *to, wt_error *err)
         if (fit.law == LINE && bent.good) /* that it is a line nobody says */
             tell_depths(d, &bent, to);
         to->chance = chance;
-        read_layer(d, to, &failure);
+        if (is_small(to) && to->change.low < 1.0 && to->change.high > 1.0)
+            to->verdict = WT_DEPTH_SAME;
+        else
+            read_layer(d, to, &failure);
     }
     if (failure.status == WT_OK)
         return WT_OK;

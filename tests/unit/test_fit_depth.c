@@ -5,6 +5,7 @@
  */
 #include "near.h"
 
+#include "flow/job/curve_tables.h"
 #include "model/thin_layer.h"
 #include "synthetic_curve.h"
 #include "weartrack/fit.h"
@@ -186,11 +187,54 @@ static void too_little(void **state)
     assert_true(loud.change.high > 1.1 || loud.change.low < 0.9);
 }
 
+/* One of a few per cent: shown or of no matter, but not shown by an interval that holds none. */
+static void little_change(void **state)
+{
+    (void)state;
+    for (double thickness = 500e-9; thickness < 5e-6; thickness *= 1.3) {
+        const scene s = {0.4, thickness, 1, 30e-12};
+        const wt_curve_depth d = depth_of(&s, CURVES, CURVES);
+        assert_true(d.verdict == WT_DEPTH_SAME || d.change.low > 1 || d.change.high < 1);
+    }
+}
+
+/* What is said of a change agrees with its interval. */
+static void words_of_a_change(void **state)
+{
+    (void)state;
+    static const struct {
+        wt_interval change;
+        const char *changes, *reading;
+    } cases[] = {
+        {{1.4, 0.1, 1.2, 1.6},
+         "yes: at 50.0 nm the modulus is another",
+         "the layer is softer than"},
+        {{0.7, 0.1, 0.5, 0.9}, "yes: at 50.0 nm the modulus is another", "is stiffer than"},
+        {{1.05, 0.02, 1.01, 1.09}, "yes, but hardly", "is softer than"},
+        {{1.1, 0.2, 0.8, 1.5}, "the curves do not tell (factor 1.100", "softer or stiffer than"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        wt_curve_depth d = {.verdict = WT_DEPTH_CHANGES,
+                            .change = cases[i].change,
+                            .thickness = {(double)NAN, 0, 0, 0}};
+        wt_indent_tables tables = {0};
+        for (size_t j = 0; j < WT_DEPTHS; j++)
+            d.depth[j] = 10e-9 * (double)(j + 1);
+        assert_int_equal(flow_depth_table_add(&tables, "bulk", &d, NULL), WT_OK);
+        assert_non_null(
+            strstr(wt_table_key(tables.modulus_depth, "changes_bulk"), cases[i].changes));
+        assert_non_null(
+            strstr(wt_table_key(tables.modulus_depth, "reading_bulk"), cases[i].reading));
+        wt_indent_tables_clear(&tables);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(quick_form), cmocka_unit_test(no_change),  cmocka_unit_test(layers),
-        cmocka_unit_test(wrong_tip),  cmocka_unit_test(too_little),
+        cmocka_unit_test(quick_form), cmocka_unit_test(no_change),
+        cmocka_unit_test(layers),     cmocka_unit_test(wrong_tip),
+        cmocka_unit_test(too_little), cmocka_unit_test(words_of_a_change),
     };
     workspace = wt_indent_workspace_new();
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);

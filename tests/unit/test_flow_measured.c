@@ -14,6 +14,8 @@
 #define JPK WT_SHARED_DIR "/data/afm/jpk/"
 #define SWEEPS WT_SHARED_DIR "/data/dma/trios/frequency_sweep_tts.txt"
 
+/* Without a test of the residual: these cells stick and their baselines are bent, so that with it
+ * no curve of the track is left. */
 static const char text[] =
     "<case version=\"1\"><indentation><tip>pyramid:half-angle=17.5deg,radius=20nm</tip>"
     "<least-chance>0</least-chance>"
