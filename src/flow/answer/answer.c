@@ -93,9 +93,10 @@ static void answer_layer(const answer_story *story)
     if (!isnan(low)) {
         char found[256];
         list_evidence(story, found, sizeof found);
-        clocale_print(
-            evidence, sizeof evidence, " E_track/E_bulk = %.3g, 95 %% interval %.3g to %.3g (%s).",
-            over_all(story, COMPARISON_RATIO), low, over_all(story, COMPARISON_RATIO_HIGH), found);
+        clocale_print(evidence, sizeof evidence,
+                      " E_track/E_bulk = %#.3g, 95 %% interval %#.3g to %#.3g (%s).",
+                      over_all(story, COMPARISON_RATIO), low,
+                      over_all(story, COMPARISON_RATIO_HIGH), found);
     }
     answer_say(story, is_there, "layer", "%c%s.%s%s%s%s", toupper((unsigned char)differs[0]),
                differs + 1, evidence, settled != NULL ? " What would settle it: " : "",
