@@ -164,8 +164,8 @@ static void caption_shift_factors(figure_drawing *d)
                     "isotherm that was fitted; band: its 95 %% interval.",
                     ESTIMATE(&c1), ESTIMATE(&c2));
     if (isfinite(energy.value))
-        text_format(&d->caption, " Arrhenius%s with %s.",
-                    isfinite(c1.value) ? " in the cold" : "", ESTIMATE(&energy));
+        text_format(&d->caption, " Arrhenius%s with %s.", isfinite(c1.value) ? " in the cold" : "",
+                    ESTIMATE(&energy));
     text_format(&d->caption, " Time-temperature superposition: %s.", verdict);
     if (undetermined > 0)
         text_format(&d->caption, " Not determined by overlap: %zu of %zu isotherms.", undetermined,

@@ -232,9 +232,10 @@ static void words_of_a_change(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(quick_form), cmocka_unit_test(no_change),
-        cmocka_unit_test(layers),     cmocka_unit_test(wrong_tip),
-        cmocka_unit_test(too_little), cmocka_unit_test(words_of_a_change),
+        cmocka_unit_test(quick_form),    cmocka_unit_test(no_change),
+        cmocka_unit_test(layers),        cmocka_unit_test(wrong_tip),
+        cmocka_unit_test(too_little),    cmocka_unit_test(words_of_a_change),
+        cmocka_unit_test(little_change),
     };
     workspace = wt_indent_workspace_new();
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);

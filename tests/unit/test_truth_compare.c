@@ -425,8 +425,7 @@ static void test_out_of_reach(void **state)
     assert_non_null(strstr(warmer(1, true, &rubber, 0), "cannot say: the DMA does not reach"));
     assert_null(wt_table_key(tables.comparison, "modulus_ratio"));
     assert_non_null(strstr(wt_table_key(tables.comparison, "settled_by"), "temperature-slope"));
-    assert_non_null(
-        strstr(wt_table_key(tables.dma_comparison, "material_statement"), "none at "));
+    assert_non_null(strstr(wt_table_key(tables.dma_comparison, "material_statement"), "none at "));
     for (size_t i = 0; i < 2 * RATES; i++)
         assert_int_equal(isnan(cell(tables.dma_comparison, i, "ratio")) != 0, i < RATES);
     rubber.law.kind = WT_LAW_NONE;

@@ -138,7 +138,8 @@ static wt_status add_dma(const compare_pair *p, const wt_compare_job *job, const
     near[0].temperature -= 1;
     near[1].temperature += 1;
     const bool near_too = by_temperature && step_error > 0 && job->rubber != NULL;
-    if (!reaches(job->rubber, at[0].temperature, k) || !reaches(job->rubber, at[1].temperature, k) ||
+    if (!reaches(job->rubber, at[0].temperature, k) ||
+        !reaches(job->rubber, at[1].temperature, k) ||
         (near_too && !reaches(job->rubber, near[0].temperature, k)))
         return WT_OK;
     wt_estimate change = {0, (double)NAN, 0, "1"};

@@ -105,9 +105,8 @@ static wt_status horizontal_shift(const wt_shift_law *law, double reference, dou
 bool flow_rubber_reaches(const wt_rubber *rubber, double temperature, wt_error *why)
 {
     double log_a;
-    return isnan(temperature) ||
-           horizontal_shift(&rubber->law, rubber->prony.reference_temperature, temperature, &log_a,
-                            why) == WT_OK;
+    return isnan(temperature) || horizontal_shift(&rubber->law, rubber->prony.reference_temperature,
+                                                  temperature, &log_a, why) == WT_OK;
 }
 
 /* Standard error of log10 a_T by those of the constants of a law that came with them. */
