@@ -151,6 +151,12 @@ static inline void fixture_accuracy(wt_case *read)
     fixture_check(wt_run(read, &few, NULL, &asked, &failed, NULL));
     fixture_check(wt_result_add(
         fixture_case, fixture_copy(wt_result_find(asked, "error_budget"), &no_change), NULL));
+    wt_result_free(asked);
+    few.trials = 3;
+    fixture_check(wt_case_ask(read, "coverage", NULL));
+    fixture_check(wt_run(read, &few, NULL, &asked, &failed, NULL));
+    fixture_check(wt_result_add(fixture_case,
+                                fixture_copy(wt_result_find(asked, "coverage"), &no_change), NULL));
     fixture_check(wt_accuracy_make(&job, &work, &table, NULL));
     fixture_check(wt_result_add(fixture_case, table, NULL));
     wt_result_free(asked);

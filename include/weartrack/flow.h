@@ -448,6 +448,24 @@ WT_API wt_status wt_error_budget_make(const wt_sliding *sliding, const wt_layer_
                                       bool timed, const wt_job *work, wt_table **table,
                                       wt_error *err) WT_NODISCARD;
 
+/* ---- coverage --------------------------------------------------------------------------------
+ */
+
+typedef struct wt_coverage_job {
+    const wt_sliding *sliding;
+    const wt_layer_job *layer;    /* NULL, as above */
+    const wt_layer_known *known;  /* likewise */
+    const wt_table *bulk, *track; /* indentation tables, or NULL: no groups to compare */
+    size_t trials;
+    uint64_t reserved[6];
+} wt_coverage_job;
+/* Table "coverage": the case drawn anew from its own fit (isotherms with their noise and scatter of
+ * temperature, moduli by spots and curves, inputs by their stated errors), computed each time as it
+ * is, and how often the intervals that it then states hold what it was drawn from. It cannot reveal
+ * a wrong model, which the table says. */
+WT_API wt_status wt_coverage_make(const wt_coverage_job *job, const wt_job *work, wt_table **table,
+                                  wt_error *err) WT_NODISCARD;
+
 /* ---- error against run time ------------------------------------------------------------------
  */
 
@@ -486,10 +504,11 @@ typedef struct wt_run_options {
     uint64_t seed;       /* of the draws */
     size_t replicates;   /* of the draws; default 64 */
     wt_progress progress;
+    size_t trials;              /* of the table "coverage"; default 100 */
     bool no_provenance;         /* no times in "cost", no digests in "inputs" */
     const char *const *columns; /* of plain tables, as wt_formats_add_columns takes them */
     size_t n_columns;
-    uint64_t reserved[6];
+    uint64_t reserved[5];
 } wt_run_options;
 WT_API wt_run_options wt_run_defaults(void);
 WT_API const wt_params *wt_run_params(void);

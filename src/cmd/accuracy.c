@@ -2,33 +2,47 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cmd/cmd.h"
 
-static wt_status lacks_budget(cmd_session *s)
+typedef struct own_options {
+    size_t coverage;
+} own_options;
+
+static const wt_param own_rows[] = {
+    {PARAM("coverage", own_options, coverage, WT_Q_NONE, FROM_TO(0, 100000)), .value = "N",
+     .help = "of a case, instead of the budget: how often its intervals hold in N trials drawn "
+             "from its own fit"},
+};
+CMD_OPTIONS(own_params, own_options, own_rows)
+
+static wt_status lacks_table(cmd_session *s, const char *title)
 {
-    wt_fail(&s->err, WT_E_MISSING, "the case has no error budget");
+    wt_fail(&s->err, WT_E_MISSING, "the case has no %s", title);
     wt_error_file(&s->err, s->files[0]);
     wt_error_expected(&s->err, "a material, a counter surface and sliding conditions");
     wt_error_advice(&s->err, "`weartrack run --plan` says what each stage lacks");
     return WT_E_MISSING;
 }
 
-static void say_advice(const cmd_session *s, const wt_table *budget)
+static void say_keys(const cmd_session *s, const wt_table *table)
 {
-    for (size_t i = 0; i < wt_table_n_keys(budget) && !s->common.quiet; i++) {
-        const char *name = wt_table_key_name(budget, i);
-        cmd_say("%s: %s\n", name, wt_table_key(budget, name));
+    for (size_t i = 0; i < wt_table_n_keys(table) && !s->common.quiet; i++) {
+        const char *name = wt_table_key_name(table, i);
+        wt_estimate number;
+        if (!wt_table_estimate(table, name, &number))
+            cmd_say("%s: %s\n", name, wt_table_key(table, name));
     }
 }
 
-/* The case is asked for its budget and nothing else. */
-static wt_status budget_of_case(cmd_session *s, wt_run_options *run)
+/* The case is asked for its budget or its coverage and nothing else. */
+static wt_status ask_case(cmd_session *s, wt_run_options *run)
 {
+    const char *const asked = run->trials > 0 ? "coverage" : "error_budget";
     wt_case *c = NULL;
     size_t n_failed = 0;
     wt_status status = s->common.output != NULL ? wt_guard_write(s->common.output, &s->err) : WT_OK;
     if (status == WT_OK)
         status = wt_case_read(s->files[0], &c, &s->err);
     if (status == WT_OK)
-        status = wt_case_ask(c, "error_budget", &s->err);
+        status = wt_case_ask(c, asked, &s->err);
     run->formats = s->common.formats;
     run->columns = s->common.columns;
     run->n_columns = s->common.n_columns;
@@ -42,11 +56,11 @@ static wt_status budget_of_case(cmd_session *s, wt_run_options *run)
         cmd_say_failures(s, wt_result_find(s->result, "failures"));
         s->status = CMD_FAILED;
     }
-    const wt_table *budget = s->result != NULL ? wt_result_find(s->result, "error_budget") : NULL;
-    if (status == WT_OK && budget == NULL)
-        status = lacks_budget(s);
+    const wt_table *table = s->result != NULL ? wt_result_find(s->result, asked) : NULL;
+    if (status == WT_OK && table == NULL)
+        status = lacks_table(s, run->trials > 0 ? "intervals to be counted" : "error budget");
     if (status == WT_OK)
-        say_advice(s, budget);
+        say_keys(s, table);
     if (status == WT_OK)
         status = cmd_provenance(s->result, &s->err);
     return status == WT_OK ? cmd_write(s) : status;
@@ -60,27 +74,30 @@ int cmd_accuracy(int argc, char **argv)
         .what = "Error against run time. Without a case: every numerical part on a problem whose "
                 "answer is known otherwise, beside the textbook method, as its setting is swept. "
                 "With a case: which error costs each of its numbers most, what it takes to know "
-                "it, and what would make it smaller.",
+                "it, and what would make it smaller; or how often its intervals hold.",
         .common = "output formats columns provenance",
         .notes = "--part and --repeats are for the numerical parts, the others for a case."};
     cmd_session s = cmd_session_defaults();
     wt_accuracy_job job = wt_accuracy_job_defaults();
     wt_run_options run = wt_run_defaults();
+    own_options own = {0};
     wt_table *table = NULL;
     cmd_part parts[] = {{wt_accuracy_job_params(), &job, NULL, 0},
-                        {wt_run_params(), &run, NULL, 0}};
+                        {wt_run_params(), &run, NULL, 0},
+                        {own_params(), &own, NULL, 0}};
     if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv))
         goto done;
     if (s.n_files > 1)
         cmd_usage_error(&s, "one case at most");
     else if (s.n_files == 1 && (cmd_given(&parts[0], "part") || cmd_given(&parts[0], "repeats")))
         cmd_usage_error(&s, "--part and --repeats are not for a case");
-    else if (s.n_files == 0 && parts[1].given != 0)
+    else if (s.n_files == 0 && (parts[1].given != 0 || parts[2].given != 0))
         cmd_usage_error(&s, "without a case there are --part and --repeats only");
     else if (s.n_files == 1) {
         s.log = wt_parselog_new();
-        const wt_status made = s.log == NULL ? wt_fail(&s.err, WT_E_MEMORY, "out of memory")
-                                             : budget_of_case(&s, &run);
+        run.trials = own.coverage;
+        const wt_status made =
+            s.log == NULL ? wt_fail(&s.err, WT_E_MEMORY, "out of memory") : ask_case(&s, &run);
         cmd_end(&s, made);
     } else if (cmd_begin(&s)) {
         const wt_status made = wt_accuracy_make(&job, &s.work, &table, &s.err);

@@ -82,7 +82,8 @@ void page_results(page_writer *page)
     const table_view *const shown[] = {&t->modulus_groups, &t->modulus_depth, &t->comparison,
                                        &t->dma_comparison, &t->shift_factors, &t->prony,
                                        &t->roughness,      &t->friction,      &t->layer,
-                                       &t->what_if,        &t->error_budget,  &t->work_precision};
+                                       &t->what_if,        &t->error_budget,  &t->coverage,
+                                       &t->work_precision};
     bool any = false;
     for (size_t i = 0; i < COUNT_OF(shown) && !any; i++)
         any = shown[i]->table != NULL;
@@ -117,6 +118,11 @@ void page_results(page_writer *page)
     page_whole_table(page, &t->error_budget,
                      "Error budget: what each source alone does to the numbers at the reference "
                      "velocity, and the time it takes to know it",
+                     NULL, 0);
+    page_keys(page, &t->coverage, "How often the intervals hold");
+    page_whole_table(page, &t->coverage,
+                     "Coverage: the share of trials, drawn from the fit of the case, in which an "
+                     "interval holds the truth",
                      NULL, 0);
     page_whole_table(page, &t->work_precision, "Error against run time of the numerical parts",
                      NULL, 0);

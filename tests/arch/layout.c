@@ -125,11 +125,12 @@ FIXED(wt_compare_tables, dma_comparison, 24, 32)
 ROOM(wt_surface, spectrum, 72, 232)
 ROOM(wt_sliding, reference_velocity, 136, 208)
 ROOM(wt_layer_known, bulk_shear, 72, 128)
+ROOM(wt_coverage_job, trials, 40, 96)
 ROOM(wt_accuracy_job, repeats, 8, 80)
 FIXED(wt_friction_tables, extrapolated_share, 32, 40)
 ROOM(wt_layer_job, n_time, 144, 216)
 FIXED(wt_layer_tables, balance, 40, 224)
-ROOM(wt_run_options, n_columns, 72, 128)
+ROOM(wt_run_options, n_columns, 80, 128)
 
 /* report.h */
 ROOM(wt_report_options, with_provenance, 16, 88)

@@ -3,7 +3,7 @@
 #include "cells.h"
 #include "truth.h"
 
-#include "weartrack/flow.h"
+#include "flow/job/regenerate.h"
 
 /* ---- numerical parts ------------------------------------------------------------------------- */
 
@@ -189,12 +189,90 @@ static void test_nothing_stated(void **state)
     wt_table_free(table);
 }
 
+/* ---- coverage -------------------------------------------------------------------------------- */
+
+static wt_table *cover(size_t trials, unsigned threads)
+{
+    const wt_coverage_job job = {.sliding = &sliding, .trials = trials};
+    wt_table *table = NULL;
+    wt_error err = WT_ERROR_INIT;
+    work.threads = threads;
+    if (wt_coverage_make(&job, &work, &table, &err) != WT_OK)
+        fail_msg("%s %s", err.message, err.found);
+    return table;
+}
+
+static size_t covered_row(const wt_table *table, const char *number)
+{
+    for (size_t i = 0; i < wt_table_n_rows(table); i++)
+        if (strcmp(text_cell(table, i, "number"), number) == 0)
+            return i;
+    fail_msg("no row %s", number);
+    return 0;
+}
+
+/* The friction scatters over the trials as it says, and the share is what is stated. */
+static void test_coverage(void **state)
+{
+    (void)state;
+    set_up();
+    wt_table *table = cover(400, 1), *again = cover(400, 3);
+    const size_t row = covered_row(table, "friction coefficient");
+    assert_int_equal(wt_table_n_rows(table), 3); /* no layer, no isotherms, no groups */
+    assert_near(number_cell(table, row, "trials"), 400, 1e-12);
+    assert_true(fabs(number_cell(table, row, "scatter") - 1) < 0.15);
+    assert_true(fabs(number_cell(table, row, "within_one") - 0.683) < 0.09);
+    assert_true(number_cell(table, row, "low") < 0.95 && number_cell(table, row, "high") > 0.92);
+    assert_string_equal(text_cell(table, row, "verdict"), "holds");
+    assert_non_null(strstr(wt_table_key(table, "caution"), "cannot reveal a wrong model"));
+    assert_string_equal(wt_table_key(table, "regenerated"),
+                        "material as given, pressure, shear stress");
+    for (size_t i = 0; i < 3; i++)
+        assert_near(number_cell(again, i, "scatter"), number_cell(table, i, "scatter"), 1e-12);
+    wt_table_free(table);
+    wt_table_free(again);
+}
+
+/* What states no error has no interval to be judged. */
+static void test_nothing_to_cover(void **state)
+{
+    (void)state;
+    set_up();
+    sliding.pressure.standard_error = sliding.shear_stress.standard_error = 0;
+    wt_table *table = cover(3, 1);
+    assert_int_equal(wt_table_n_rows(table), 0);
+    assert_non_null(strstr(wt_table_key(table, "answer"), "none was stated"));
+    wt_table_free(table);
+}
+
+/* Spots and the curves on them scatter as they were found to. */
+static void test_scatter_of_a_group(void **state)
+{
+    (void)state;
+    enum { SPOTS = 40, CURVES = 10, N = SPOTS * CURVES };
+    const long same[3] = {0, 0, 0};
+    double modulus[N];
+    long spot[N];
+    scattered_group found, group = {.n = N, .spot = spot, .mean = log(3e6), .between = 0.2};
+    group.within = 0.05;
+    for (int i = 0; i < N; i++)
+        spot[i] = i / CURVES;
+    regenerate_group(&group, 7, 0, modulus);
+    assert_true(regenerate_scatter(modulus, spot, N, &found));
+    assert_int_equal(found.n_spots, SPOTS);
+    assert_true(fabs(found.mean - group.mean) < 0.1);
+    assert_true(fabs(found.between - 0.2) < 0.07);
+    assert_true(fabs(found.within - 0.05) < 0.007);
+    assert_false(regenerate_scatter(modulus, same, 3, &found));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_stated_errors),  cmocka_unit_test(test_what_is_estimated),
-        cmocka_unit_test(test_no_such_part),   cmocka_unit_test(test_one_source_at_a_time),
-        cmocka_unit_test(test_nothing_stated),
+        cmocka_unit_test(test_stated_errors),    cmocka_unit_test(test_what_is_estimated),
+        cmocka_unit_test(test_no_such_part),     cmocka_unit_test(test_one_source_at_a_time),
+        cmocka_unit_test(test_nothing_stated),   cmocka_unit_test(test_coverage),
+        cmocka_unit_test(test_nothing_to_cover), cmocka_unit_test(test_scatter_of_a_group),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

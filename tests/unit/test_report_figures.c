@@ -232,6 +232,8 @@ static void test_curves_are_drawn_from_their_columns(void **state)
         {"work_precision", "linespoints ls 31", "seconds stated_error"},
         {"error_budget", "boxxyerror ls 1", "relative_error"},
         {"error_budget", "boxxyerror ls 2", "relative_error"},
+        {"coverage", "xerrorbars ls 13", "within_95 low high"},
+        {"coverage", "points ls 2", "within_one"},
     };
     for (size_t i = 0; i < wt_figure_count(); i++) {
         const char *figure = wt_figure_get(i).name;

@@ -149,6 +149,12 @@ static void run_case_at(double tolerance, const char *text, const char *instead)
     if (wt_result_find(result, "error_budget") != NULL)
         see(wt_result_find(result, "error_budget"));
     wt_result_free(result);
+    options.trials = 2;
+    assert_int_equal(wt_case_ask(c, "coverage", NULL), WT_OK);
+    assert_int_equal(wt_run(c, &options, NULL, &result, NULL, NULL), WT_OK);
+    if (wt_result_find(result, "coverage") != NULL)
+        see(wt_result_find(result, "coverage"));
+    wt_result_free(result);
     wt_parselog_free(log);
     wt_case_free(c);
 }

@@ -12,6 +12,7 @@
 #include "data/table_view.h"
 #include "data/table_writer.h"
 #include "data/tables/comparison.h"
+#include "data/tables/coverage.h"
 #include "data/tables/dma.h"
 #include "data/tables/error_budget.h"
 #include "data/tables/indentation.h"
@@ -68,6 +69,7 @@
     X(energy_density, ENERGY_DENSITY, "energy_density", "Energy density with depth", "layer")      \
     X(what_if, WHAT_IF, "what_if", "What if a choice of the model were another", "friction")       \
     X(error_budget, ERROR_BUDGET, "error_budget", "Error budget", "accuracy")                      \
+    X(coverage, COVERAGE, "coverage", "How often the stated intervals hold", "accuracy")           \
     X(work_precision, WORK_PRECISION, "work_precision", "Error against run time", "accuracy")      \
     X(force_curve, FORCE_CURVE, "force_curve/", "force curve", "convert")                          \
     X(sweep, SWEEP, "sweep", "DMA frequency sweeps", "convert")                                    \

@@ -1,6 +1,6 @@
 /* Contact force and contact fit. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/accuracy/accuracy.h"
-#include "flow/accuracy/noise.h"
+#include "flow/job/draws.h"
 
 #include <float.h>
 #include <math.h>
@@ -166,8 +166,8 @@ static void make_curve(fit_problem *p, int n, int curve)
     for (int i = 0; i < n; i++) {
         p->position[i] = 1.5e-6 * i / (n - 1);
         wt_contact_function(&p->tip, p->position[i] - CONTACT, &p->g[i], &slope);
-        p->force[i] =
-            MODULUS / 0.75 * p->g[i] + RESIDUAL * accuracy_noise((uint64_t)curve, (uint64_t)i);
+        p->force[i] = MODULUS / 0.75 * p->g[i] +
+                      RESIDUAL * flow_draw_normal((uint64_t)curve, (uint64_t)i, FLOW_DRAW_NOISE);
         p->height[i] = p->position[i] + p->force[i] / SPRING_CONSTANT;
     }
 }

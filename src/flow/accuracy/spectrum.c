@@ -1,7 +1,7 @@
 /* Shifting with its spectrum, and standard errors by draws.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/accuracy/accuracy.h"
-#include "flow/accuracy/noise.h"
+#include "flow/job/draws.h"
 
 #include <math.h>
 
@@ -45,8 +45,9 @@ static wt_status begin_shift(void *problem, double *reference_error, wt_error *e
             double storage = 0, loss = 0;
             moduli(omega * pow(10, p->truth[i]), &storage, &loss);
             iso->angular_frequency[j] = omega;
-            iso->storage_modulus[j] = storage * (1 + NOISE * accuracy_noise(1, place));
-            iso->loss_modulus[j] = loss * (1 + NOISE * accuracy_noise(2, place));
+            iso->storage_modulus[j] =
+                storage * (1 + NOISE * flow_draw_normal(1, place, FLOW_DRAW_NOISE));
+            iso->loss_modulus[j] = loss * (1 + NOISE * flow_draw_normal(2, place, FLOW_DRAW_NOISE));
         }
     }
     wt_sweep_sort(&p->sweep);

@@ -44,7 +44,8 @@
     X(FRICTION, "friction", &friction_schema, "")                                                  \
     X(CONTACT_AREA, "contact_area", &contact_area_schema, "")                                      \
     X(WHAT_IF, "what_if", &what_if_schema, "")                                                     \
-    X(ERROR_BUDGET, "error_budget", &error_budget_schema, "")
+    X(ERROR_BUDGET, "error_budget", &error_budget_schema, "")                                      \
+    X(COVERAGE, "coverage", &coverage_schema, "")
 
 /* Handed from stage to stage only: id, words. */
 #define INNER_THINGS(X)                                                                            \
@@ -63,7 +64,7 @@ typedef uint64_t flow_things; /* bit i = thing i */
 #define FLOW_SOURCES (FLOW_BIT(FLOW_FIRST_TABLE) - 1)
 #define FLOW_TABLES (FLOW_BIT(FLOW_FIRST_INNER) - 1 - FLOW_SOURCES)
 /* What costs more than it tells most: only where a case names it. */
-#define FLOW_BY_NAME FLOW_BIT(FLOW_ERROR_BUDGET)
+#define FLOW_BY_NAME (FLOW_BIT(FLOW_ERROR_BUDGET) | FLOW_BIT(FLOW_COVERAGE))
 
 typedef struct flow_thing_row {
     const char *words, *missing;

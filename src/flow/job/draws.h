@@ -18,7 +18,12 @@ typedef enum flow_draw {
     FLOW_DRAW_WEAR,
     FLOW_DRAW_OBSERVED,
     FLOW_DRAW_THICKNESS,
-    FLOW_DRAW_RATIO
+    FLOW_DRAW_RATIO,
+    /* of data that are made, not of replicates */
+    FLOW_DRAW_NOISE,
+    FLOW_DRAW_ISOTHERM,
+    FLOW_DRAW_SPOT,
+    FLOW_DRAW_CURVE
 } flow_draw;
 
 /* The series of a rubber at a temperature in Young's moduli; to be cleared, also on failure. */

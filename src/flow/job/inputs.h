@@ -67,6 +67,11 @@ wt_status flow_surface_read(flow_file *file, const wt_job *work, wt_surface *sur
 void flow_rubber_drop_draws(wt_rubber *rubber);
 /* Whether the shift law takes the material to a temperature (NaN: the reference); if not, why. */
 bool flow_rubber_reaches(const wt_rubber *rubber, double temperature, wt_error *why);
+/* Isotherms fitted, and the rubber that comes of it, with draws unless they are left out. Both
+ * cleared by the caller, also on failure. */
+wt_status flow_rubber_fit(const wt_sweep *sweep, const wt_master_options *options,
+                          double poisson_ratio, const wt_job *work, wt_master *fit,
+                          wt_rubber *rubber, wt_error *err) WT_NODISCARD;
 /* The parameters of a fractional Zener material, and those as a rubber, whose law is checked. */
 wt_zener flow_zener_defaults(void);
 const wt_params *flow_zener_params(void);

@@ -326,6 +326,24 @@ static wt_status make_tables(const wt_master *m, const wt_job *work, wt_master_t
                                                                      : status;
 }
 
+wt_status flow_rubber_fit(const wt_sweep *sweep, const wt_master_options *options,
+                          double poisson_ratio, const wt_job *work, wt_master *fit,
+                          wt_rubber *rubber, wt_error *err)
+{
+    wt_master_tables t = {0};
+    wt_status status = wt_master_fit(sweep, options, NULL, fit, err);
+    if (status == WT_OK)
+        status = make_tables(fit, work, &t, err);
+    const wt_rubber_tables of = {.prony = t.prony,
+                                 .shift_factors = t.shift_factors,
+                                 .material_draws = t.material_draws,
+                                 .series_draws = t.series_draws};
+    if (status == WT_OK)
+        status = wt_rubber_from_tables(&of, poisson_ratio, rubber, err);
+    wt_master_tables_clear(&t);
+    return status;
+}
+
 wt_status wt_rubber_refit(const wt_rubber *rubber, wt_vertical_shift vertical, wt_rubber *refitted,
                           wt_error *err)
 {
@@ -333,24 +351,17 @@ wt_status wt_rubber_refit(const wt_rubber *rubber, wt_vertical_shift vertical, w
         return wt_fail(err, WT_E_ARG, "no rubber");
     if (rubber->sweep.n_isotherms == 0)
         return wt_fail(err, WT_E_MISSING, "there are no isotherms to be fitted again");
+    const wt_job work = {.left_out = WT_EXTRAS};
     wt_master_options options = rubber->fit;
-    wt_master master = {0};
-    wt_master_tables t = {0};
+    wt_master fit = {0};
     options.vertical = vertical;
-    wt_status status = wt_master_fit(&rubber->sweep, &options, NULL, &master, err);
-    if (status == WT_OK)
-        status = shift_table(&master, &t.shift_factors, err);
-    if (status == WT_OK)
-        status = prony_table(&master, &t.prony, err);
-    const wt_rubber_tables of = {.prony = t.prony, .shift_factors = t.shift_factors};
-    if (status == WT_OK)
-        status = wt_rubber_from_tables(&of, rubber->poisson_ratio, refitted, err);
+    const wt_status status = flow_rubber_fit(&rubber->sweep, &options, rubber->poisson_ratio, &work,
+                                             &fit, refitted, err);
     if (status == WT_OK) {
         refitted->is_transverse = rubber->is_transverse;
         refitted->transverse = rubber->transverse;
     }
-    wt_master_tables_clear(&t);
-    wt_master_clear(&master);
+    wt_master_clear(&fit);
     return status;
 }
 

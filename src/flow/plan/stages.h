@@ -84,7 +84,16 @@
       B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(WHAT_IF) | B(LAYER_PARAMETERS), B(ERROR_BUDGET),  \
       flow_step_budget_layer)                                                                      \
     X(ERROR_BUDGET, error_budget, "Which error costs the numbers most, friction",                  \
-      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(WHAT_IF), B(ERROR_BUDGET), flow_step_budget)
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(WHAT_IF), B(ERROR_BUDGET), flow_step_budget)      \
+    X(COVERAGE_WITH_LAYER, coverage_with_layer,                                                    \
+      "How often the stated intervals hold, friction with layer",                                  \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(LAYER_PARAMETERS) | B(MODULUS_RATIO),             \
+      B(COVERAGE), flow_step_coverage_with_layer)                                                  \
+    X(COVERAGE_LAYER, coverage_layer, "How often the stated intervals hold, friction and layer",   \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(LAYER_PARAMETERS), B(COVERAGE),                   \
+      flow_step_coverage_layer)                                                                    \
+    X(COVERAGE, coverage, "How often the stated intervals hold, friction",                         \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS), B(COVERAGE), flow_step_coverage)
 
 #define STAGE_ID(id, ...) FLOW_STAGE_##id,
 typedef enum flow_stage_id { STAGES(STAGE_ID) FLOW_N_STAGES } flow_stage_id;

@@ -14,7 +14,7 @@ wt_run_options wt_run_defaults(void)
 {
     const wt_job job = wt_job_defaults();
     return (wt_run_options){
-        .tolerance = job.tolerance, .seed = job.seed, .replicates = job.replicates};
+        .tolerance = job.tolerance, .seed = job.seed, .replicates = job.replicates, .trials = 100};
 }
 
 static const wt_param rows[] = {JOB_ROWS(wt_run_options)};
@@ -268,6 +268,7 @@ static wt_status prepare(conduct *d, const wt_run_options *options, wt_parselog 
     if (log == NULL)
         log = d->own_log = wt_parselog_new();
     d->run.no_provenance = options->no_provenance;
+    d->run.trials = options->trials;
     d->result = wt_result_new();
     d->failures = wt_failures_new();
     if (log == NULL || d->result == NULL || d->failures == NULL)

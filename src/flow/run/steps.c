@@ -375,7 +375,7 @@ wt_status flow_step_friction(flow_run *run, flow_cost *cost, wt_error *err)
     return friction(run, NULL, cost, err);
 }
 
-/* ---- what if, error budget --------------------------------------------------------------------
+/* ---- what if, error budget, coverage ----------------------------------------------------------
  */
 
 static wt_status what_if(flow_run *run, const wt_layer_job *layer, const wt_layer_known *known,
@@ -399,6 +399,20 @@ static wt_status budget(flow_run *run, const wt_layer_job *layer, const wt_layer
     if (status == WT_OK)
         cost->items = (double)wt_table_n_rows(run->table[FLOW_ERROR_BUDGET]);
     return status;
+}
+
+static wt_status coverage(flow_run *run, const wt_layer_job *layer, const wt_layer_known *known,
+                          flow_cost *cost, wt_error *err)
+{
+    const wt_sliding sliding = flow_case_sliding(run->c, &run->rubber, &run->surface);
+    const wt_coverage_job job = {.sliding = &sliding,
+                                 .layer = layer,
+                                 .known = known,
+                                 .bulk = run->table[FLOW_INDENTATION_BULK],
+                                 .track = run->table[FLOW_INDENTATION_TRACK],
+                                 .trials = run->trials};
+    cost->items = (double)job.trials;
+    return wt_coverage_make(&job, &run->job, &run->table[FLOW_COVERAGE], err);
 }
 
 /* The same stage of each: with layer and ratio, with the layer, with neither. */
@@ -427,3 +441,4 @@ static wt_status with_layer(of_setting make, flow_run *run, flow_cost *cost, wt_
     }
 STEPS_OF_SETTING(what_if)
 STEPS_OF_SETTING(budget)
+STEPS_OF_SETTING(coverage)

@@ -23,6 +23,7 @@ typedef struct flow_run {
     wt_estimate modulus_ratio, thickness;
     double modulus_ratio_df; /* 0 = its error is normal */
     bool no_provenance;
+    size_t trials; /* of the coverage */
 } flow_run;
 
 void flow_run_clear(flow_run *run);

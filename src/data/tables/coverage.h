@@ -1,0 +1,33 @@
+/* The columns and keys of the table "coverage": how often the intervals that are stated hold where
+ * the truth is known. Included by tables.h alone. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WT_DATA_TABLES_COVERAGE_H
+#define WT_DATA_TABLES_COVERAGE_H
+
+#define COVERAGE_COLUMNS(X)                                                                        \
+    X(COVERAGE_NUMBER, "number", "whose interval it is", TEXT, LABEL("Number"))                    \
+    X(COVERAGE_TRIALS, "trials", "how often it was stated", NUMBER, LABEL("Trials"))               \
+    X(COVERAGE_ONE, "within_one",                                                                  \
+      "share of the trials in which the truth lies within one "                                    \
+      "standard error; stated: 0.683",                                                             \
+      NUMBER, LABEL("Within one standard error"))                                                  \
+    X(COVERAGE_BOTH, "within_95", "share in which it lies in the 95 % interval; stated: 0.95",     \
+      NUMBER, LABEL("In the 95 % interval"))                                                       \
+    X(COVERAGE_LOW, "low", "lower end of the 95 % interval of that share by the number of trials", \
+      NUMBER, LABEL("Share known from"))                                                           \
+    X(COVERAGE_HIGH, "high", "upper end", NUMBER, LABEL("to"))                                     \
+    X(COVERAGE_SCATTER, "scatter",                                                                 \
+      "scatter of the number over the trials, over the standard error stated (root of the mean "   \
+      "squares)",                                                                                  \
+      NUMBER, LABEL("Scatter over stated"))                                                        \
+    X(COVERAGE_VERDICT, "verdict",                                                                 \
+      "holds; too narrow or too wide where chance alone would do it once in 200", TEXT,            \
+      LABEL("Verdict"))
+
+#define COVERAGE_KEYS(X)                                                                           \
+    X(COVERAGE_KEY_ANSWER, "answer", TEXT, LABEL("How often the intervals hold"))                  \
+    X(COVERAGE_KEY_CAUTION, "caution", TEXT, LABEL("What this cannot tell"))                       \
+    X(COVERAGE_KEY_REGENERATED, "regenerated", TEXT, LABEL("What was drawn anew"))                 \
+    X(COVERAGE_KEY_TRIALS, "trials", NUMBER, LABEL("Trials"))                                      \
+    X(COVERAGE_KEY_LOST, "trials_lost", NUMBER, LABEL("Trials without an answer"))
+
+#endif

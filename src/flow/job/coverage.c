@@ -1,0 +1,378 @@
+/* Coverage: the case drawn anew from its own fit many times, and how often the intervals that it
+ * then states hold what it was drawn from. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/job/inputs.h"
+#include "flow/job/regenerate.h"
+
+#include "base/array.h"
+#include "base/mix.h"
+#include "data/tables/tables.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Whose intervals are judged; the numbers of a setting come first. */
+enum { OF_SHIFTS = SETTING_NUMBERS, OF_C1, OF_C2, OF_RATIO, N_JUDGED };
+static const char *const judged_words[N_JUDGED] = {
+    [SETTING_HYSTERESIS] = "hysteresis part",
+    [SETTING_AREA_RATIO] = "real over nominal contact area",
+    [SETTING_FRICTION] = "friction coefficient",
+    [SETTING_THICKNESS] = "layer thickness",
+    [SETTING_WITH_LAYER] = "friction coefficient with layer",
+    [OF_SHIFTS] = "shift factors",
+    [OF_C1] = "WLF constant c1",
+    [OF_C2] = "WLF constant c2",
+    [OF_RATIO] = "modulus ratio by its spots"};
+
+/* 95 % of a normal number. */
+static const double both_ends = 1.959963984540054;
+
+/* One trial of one number: whether the truth lies within, as a share where there are several. */
+typedef struct hit {
+    double one, both, deviation, variance; /* squares of the last two; `one` NaN: none was stated */
+} hit;
+
+typedef struct coverage {
+    const wt_coverage_job *job;
+    wt_job work; /* of one trial */
+    setting setting;
+    wt_estimate truth[SETTING_NUMBERS];
+    wt_master fit; /* n_shifts 0: the material is held */
+    wt_group_data data[2];
+    scattered_group group[2];
+    bool has_groups;
+    double log_ratio;
+    hit *hits; /* [trials * N_JUDGED] */
+} coverage;
+
+static hit judge(double value, double error, double low, double high, double truth)
+{
+    if (!(error > 0) || !isfinite(value) || !isfinite(truth))
+        return (hit){(double)NAN, (double)NAN, (double)NAN, (double)NAN};
+    return (hit){fabs(value - truth) <= error, low <= truth && truth <= high,
+                 (value - truth) * (value - truth), error * error};
+}
+
+static hit judge_interval(wt_interval x, double truth)
+{
+    return judge(x.value, x.standard_error, x.low, x.high, truth);
+}
+
+/* ---- one trial ------------------------------------------------------------------------------- */
+
+static hit judge_shifts(const wt_master *m, const double *truth)
+{
+    hit sum = {0, 0, 0, 0};
+    double n = 0;
+    for (size_t k = 0; k < m->n_shifts; k++) {
+        const hit h = judge_interval(m->shifts[k].log_a, truth[k]);
+        if (isnan(h.one))
+            continue;
+        sum = (hit){sum.one + h.one, sum.both + h.both, sum.deviation + h.deviation,
+                    sum.variance + h.variance};
+        n++;
+    }
+    return (hit){sum.one / n, sum.both / n, sum.deviation / n, sum.variance / n};
+}
+
+/* Isotherms drawn anew and fitted as the case fits its own. */
+static wt_status try_material(const coverage *c, uint64_t seed, wt_rubber *rubber, hit *hits,
+                              wt_error *err)
+{
+    const wt_rubber *own = &c->setting.rubber;
+    wt_sweep sweep = {0};
+    wt_master fit = {0};
+    double *shift = malloc((c->fit.n_shifts + 1) * sizeof *shift);
+    wt_status status = shift == NULL
+                           ? wt_fail(err, WT_E_MEMORY, "out of memory")
+                           : regenerate_sweep(&own->sweep, &c->fit, seed, &sweep, shift, err);
+    if (status == WT_OK)
+        status =
+            flow_rubber_fit(&sweep, &own->fit, own->poisson_ratio, &c->work, &fit, rubber, err);
+    if (status == WT_OK && fit.n_shifts == c->fit.n_shifts)
+        hits[OF_SHIFTS] = judge_shifts(&fit, shift);
+    if (status == WT_OK && fit.law.kind == WT_LAW_WLF && c->fit.law.kind == WT_LAW_WLF) {
+        hits[OF_C1] = judge_interval(fit.c1, c->fit.c1.value);
+        hits[OF_C2] = judge_interval(fit.c2, c->fit.c2.value);
+    }
+    if (status == WT_OK) {
+        rubber->is_transverse = own->is_transverse;
+        rubber->transverse = own->transverse;
+    }
+    wt_sweep_clear(&sweep);
+    wt_master_clear(&fit);
+    free(shift);
+    return status;
+}
+
+static wt_status try_groups(const coverage *c, uint64_t seed, hit *hits, wt_error *err)
+{
+    wt_group group[2];
+    wt_comparison found;
+    const size_t n[2] = {c->group[0].n, c->group[1].n};
+    double *modulus = malloc((n[0] + n[1]) * sizeof *modulus);
+    if (modulus == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (unsigned g = 0; g < 2; g++) {
+        double *own = modulus + (g == 0 ? 0 : n[0]);
+        regenerate_group(&c->group[g], seed, g, own);
+        group[g] = (wt_group){.modulus = own, .spot = c->group[g].spot, .n = n[g]};
+    }
+    const wt_status status = wt_compare(&group[0], &group[1], NULL, &found, err);
+    if (status == WT_OK)
+        hits[OF_RATIO] = judge(found.log_ratio.value, found.log_ratio.standard_error,
+                               log(found.ratio_low), log(found.ratio_high), c->log_ratio);
+    free(modulus);
+    return status;
+}
+
+static wt_status try_once(const coverage *c, size_t trial, hit *hits, wt_error *err)
+{
+    const uint64_t seed = mix64(mix64(c->work.seed) + 1 + trial);
+    wt_estimate number[SETTING_NUMBERS];
+    wt_rubber rubber = {0};
+    wt_job work = c->work;
+    setting s = c->setting;
+    wt_status status = WT_OK;
+    work.seed += 1 + trial;
+    for (size_t k = 0; k < SETTING_NUMBERS; k++)
+        number[k] = (wt_estimate){(double)NAN, (double)NAN, (double)NAN, NULL};
+    if (c->fit.n_shifts > 0) {
+        status = try_material(c, seed, &rubber, hits, err);
+        s.rubber = rubber;
+    }
+    regenerate_inputs(&s, seed);
+    if (status == WT_OK)
+        status = setting_compute(&s, &work, number, err);
+    for (size_t k = 0; k < SETTING_NUMBERS && status == WT_OK; k++) {
+        const double half = both_ends * number[k].standard_error;
+        hits[k] = judge(number[k].value, number[k].standard_error, number[k].value - half,
+                        number[k].value + half, c->truth[k].value);
+    }
+    if (status == WT_OK && c->has_groups)
+        status = try_groups(c, seed, hits, err);
+    wt_rubber_clear(&rubber);
+    return status;
+}
+
+/* A trial without an answer counts in no row. */
+static wt_status try_one(void *user, size_t trial, unsigned worker)
+{
+    const coverage *c = user;
+    hit *hits = c->hits + trial * N_JUDGED;
+    wt_error ignored = WT_ERROR_INIT;
+    (void)worker;
+    const wt_status status = try_once(c, trial, hits, &ignored);
+    for (size_t k = 0; status != WT_OK && k < N_JUDGED; k++)
+        hits[k].one = (double)NAN;
+    return status == WT_E_MEMORY ? status : WT_OK;
+}
+
+/* ---- table ----------------------------------------------------------------------------------- */
+
+typedef struct tally {
+    size_t n;
+    double one, both, low, high, scatter;
+} tally;
+
+typedef struct share_interval {
+    double low, high;
+} share_interval;
+
+/* What so many trials leave open of a share (Wilson), `z` standard errors to each side. */
+static share_interval known_share(double share, double n, double z)
+{
+    const double centre = (share + z * z / (2 * n)) / (1 + z * z / n);
+    const double half = z / (1 + z * z / n) * sqrt(share * (1 - share) / n + z * z / (4 * n * n));
+    return (share_interval){fmax(0, centre - half), fmin(1, centre + half)};
+}
+
+static tally count(const coverage *c, size_t k)
+{
+    tally t = {0, 0, 0, (double)NAN, (double)NAN, (double)NAN};
+    double deviation = 0, variance = 0;
+    for (size_t i = 0; i < c->job->trials; i++) {
+        const hit *h = &c->hits[i * N_JUDGED + k];
+        if (isnan(h->one))
+            continue;
+        t.n++;
+        t.one += h->one;
+        t.both += h->both;
+        deviation += h->deviation;
+        variance += h->variance;
+    }
+    if (t.n == 0)
+        return t;
+    t.one /= (double)t.n;
+    t.both /= (double)t.n;
+    t.scatter = sqrt(deviation / variance);
+    const share_interval known = known_share(t.both, (double)t.n, both_ends);
+    t.low = known.low;
+    t.high = known.high;
+    return t;
+}
+
+/* One in 200: there are several numbers, and a false alarm among them is to be rare. */
+static const double alarm = 2.807033768343811;
+
+static const char *verdict_of(const tally *t)
+{
+    const share_interval known = known_share(t->both, (double)t->n, alarm);
+    return known.high < 0.95 ? "too narrow" : known.low > 0.95 ? "too wide" : "holds";
+}
+
+static size_t lost_trials(const coverage *c)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < c->job->trials; i++) {
+        size_t stated = 0;
+        for (size_t k = 0; k < N_JUDGED; k++)
+            stated += isnan(c->hits[i * N_JUDGED + k].one) == 0;
+        n += stated == 0;
+    }
+    return n;
+}
+
+/* All numbers with their shares, or those of one verdict. */
+static void list(const coverage *c, const char *verdict, char *text, size_t size)
+{
+    size_t n = 0;
+    text[0] = '\0';
+    for (size_t k = 0; k < N_JUDGED && n < size; k++) {
+        const tally found = count(c, k);
+        if (found.n == 0 || (verdict != NULL && strcmp(verdict_of(&found), verdict) != 0))
+            continue;
+        n += (size_t)snprintf(text + n, size - n, "%s%s", n > 0 ? ", " : "", judged_words[k]);
+        if (verdict == NULL && n < size)
+            n += (size_t)snprintf(text + n, size - n, " %.0f %%", 100 * found.both);
+    }
+}
+
+static void say(const coverage *c, table_writer *t)
+{
+    char all[400], narrow[300], wide[300], inputs[300];
+    list(c, NULL, all, sizeof all);
+    list(c, "too narrow", narrow, sizeof narrow);
+    list(c, "too wide", wide, sizeof wide);
+    regenerate_words(&c->setting, inputs, sizeof inputs);
+    coverage_set_print(t, COVERAGE_KEY_ANSWER,
+                       "in %zu trials the 95 %% intervals held the truth: %s%s%s%s%s%s",
+                       c->job->trials, all[0] != '\0' ? all : "none was stated",
+                       narrow[0] != '\0' ? "; too narrow: " : "", narrow,
+                       wide[0] != '\0' ? "; too wide: " : "", wide,
+                       narrow[0] == '\0' && wide[0] == '\0' && all[0] != '\0'
+                           ? "; as far as so many tell, as often as stated"
+                           : "");
+    coverage_set_print(t, COVERAGE_KEY_REGENERATED, "%s%s%s%s",
+                       c->fit.n_shifts > 0 ? "isotherms of the DMA" : "material as given",
+                       inputs[0] != '\0' ? ", " : "", inputs,
+                       c->has_groups ? ", moduli of bulk and track (for their ratio alone)" : "");
+    coverage_set_text(t, COVERAGE_KEY_CAUTION,
+                      "the case was drawn anew from its own fit and judged with the same model: "
+                      "this tells whether the errors are reckoned right and cannot reveal a wrong "
+                      "model, such as a wrong tip, roughness or law of friction; the table what_if "
+                      "has what the choices of the model do");
+}
+
+static wt_status make_table(const coverage *c, wt_table **table, wt_error *err)
+{
+    table_writer t = table_begin(&coverage_schema, err);
+    for (size_t k = 0; k < N_JUDGED; k++) {
+        const tally found = count(c, k);
+        if (found.n == 0)
+            continue;
+        table_row(&t);
+        coverage_put_text(&t, COVERAGE_NUMBER, judged_words[k]);
+        coverage_put(&t, COVERAGE_TRIALS, (double)found.n);
+        coverage_put(&t, COVERAGE_ONE, found.one);
+        coverage_put(&t, COVERAGE_BOTH, found.both);
+        coverage_put(&t, COVERAGE_LOW, found.low);
+        coverage_put(&t, COVERAGE_HIGH, found.high);
+        coverage_put(&t, COVERAGE_SCATTER, found.scatter);
+        coverage_put_text(&t, COVERAGE_VERDICT, verdict_of(&found));
+    }
+    say(c, &t);
+    coverage_set_value(&t, COVERAGE_KEY_TRIALS, (double)c->job->trials, (double)NAN, (double)NAN);
+    coverage_set_value(&t, COVERAGE_KEY_LOST, (double)lost_trials(c), (double)NAN, (double)NAN);
+    return table_end(&t, table);
+}
+
+/* ---- the job --------------------------------------------------------------------------------- */
+
+/* The groups as they were compared: factors on the spectrum if all curves have one. */
+static wt_status find_groups(coverage *c, wt_error *err)
+{
+    const wt_table *const tables[2] = {c->job->bulk, c->job->track};
+    bool factors = true;
+    wt_group group[2];
+    wt_comparison found;
+    if (tables[0] == NULL || tables[1] == NULL)
+        return WT_OK;
+    for (int g = 0; g < 2; g++) {
+        const wt_status status = wt_group_from_table(tables[g], false, &c->data[g], err);
+        if (status != WT_OK)
+            return status;
+        for (size_t i = 0; i < c->data[g].group.n; i++)
+            factors = factors && c->data[g].spectrum_factor[i] > 0;
+    }
+    c->has_groups = true;
+    for (int g = 0; g < 2; g++) {
+        const wt_group_data *d = &c->data[g];
+        const double *of = factors ? d->spectrum_factor : d->modulus;
+        c->has_groups = regenerate_scatter(of, d->spot, d->group.n, &c->group[g]) && c->has_groups;
+        group[g] = (wt_group){.modulus = of, .spot = d->spot, .n = d->group.n};
+    }
+    if (c->has_groups && wt_compare(&group[0], &group[1], NULL, &found, NULL) == WT_OK)
+        c->log_ratio = found.log_ratio.value;
+    else
+        c->has_groups = false;
+    return WT_OK;
+}
+
+/* What the case says as it is: the truth from now on. */
+static wt_status prepare(coverage *c, const wt_job *work, wt_error *err)
+{
+    const wt_coverage_job *job = c->job;
+    wt_status status = setting_make(job->sliding, job->layer, job->known, work, &c->setting, err);
+    if (status != WT_OK)
+        return status;
+    c->work = *work;
+    c->work.threads = 1; /* the trials take the threads */
+    c->work.left_out = work->replicates < 2 ? WT_EXTRAS : WT_EXTRAS & ~(unsigned)WT_EXTRA_DRAWS;
+    c->work.log = NULL;
+    c->work.progress = (wt_progress){0};
+    const wt_rubber *rubber = &c->setting.rubber;
+    if (rubber->kind == WT_RUBBER_SERIES && rubber->sweep.n_isotherms > 0)
+        status = wt_master_fit(&rubber->sweep, &rubber->fit, NULL, &c->fit, err);
+    if (status == WT_OK)
+        status = find_groups(c, err);
+    for (size_t k = 0; k < SETTING_NUMBERS; k++)
+        c->truth[k] = (wt_estimate){(double)NAN, (double)NAN, (double)NAN, NULL};
+    wt_job plain = c->work;
+    plain.replicates = 0;
+    return status == WT_OK ? setting_compute(&c->setting, &plain, c->truth, err) : status;
+}
+
+wt_status wt_coverage_make(const wt_coverage_job *job, const wt_job *work, wt_table **table,
+                           wt_error *err)
+{
+    if (job == NULL || work == NULL || table == NULL || job->trials == 0)
+        return wt_fail(err, WT_E_ARG, "no coverage to count");
+    coverage c = {.job = job};
+    wt_status status = prepare(&c, work, err);
+    if (status == WT_OK) {
+        c.hits = malloc(job->trials * N_JUDGED * sizeof *c.hits);
+        for (size_t i = 0; c.hits != NULL && i < job->trials * N_JUDGED; i++)
+            c.hits[i].one = (double)NAN;
+        status = c.hits == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory")
+                                : wt_parallel_for(job->trials, work->threads, try_one, &c,
+                                                  &work->progress, "coverage");
+    }
+    if (status == WT_OK)
+        status = make_table(&c, table, err);
+    wt_master_clear(&c.fit);
+    wt_group_data_clear(&c.data[0]);
+    wt_group_data_clear(&c.data[1]);
+    free(c.hits);
+    return status;
+}
