@@ -356,7 +356,9 @@ typedef struct wt_layer_known {
     wt_estimate modulus_ratio; /* E_track / E_bulk */
     double modulus_ratio_df;   /* degrees of freedom of its error (Student's t); 0 = normal */
     bool bulk_shear;           /* tau_s = tau_bulk, not times the modulus ratio; default false */
-    uint64_t reserved[6];
+    double calibration_share;  /* of the variance of the ratio that is of spring constants and the
+                                  like, not of the scatter of spots; default 0 */
+    uint64_t reserved[5];
 } wt_layer_known;
 WT_API const wt_params *wt_layer_known_params(void);
 

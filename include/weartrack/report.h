@@ -41,7 +41,8 @@ WT_API wt_status wt_report_write(const wt_result *result, const char *folder,
 typedef struct wt_figure_info {
     const char *name; /* "force_displacement" */
     const char *title;
-    const char *table; /* it is drawn if a result has this table with a row at least */
+    const char *table;  /* it is drawn if a result has this table with a row at least */
+    const char *beside; /* other tables that it shows something of, parted by blanks; "" */
 } wt_figure_info;
 WT_API size_t wt_figure_count(void);
 WT_API wt_figure_info wt_figure_get(size_t i); /* all NULL past the last one */

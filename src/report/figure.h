@@ -59,6 +59,7 @@ enum { FIGURE_PANELS = 2, FIGURE_CURVES = 6, FIGURE_COLUMNS = 12 };
 typedef struct figure_description {
     const char *name, *title;
     const table_schema *table; /* drawn if this has a row */
+    const char *beside;        /* names of others that it shows something of; NULL: none */
     const char *data_title;    /* of its data; of groups, theirs */
     bool by_group;             /* a curve for each text in the column `group` */
     unsigned group;

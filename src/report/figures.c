@@ -29,6 +29,7 @@ size_t wt_figure_count(void)
 wt_figure_info wt_figure_get(size_t i)
 {
     const figure_description *figure = figure_find(i);
-    return figure == NULL ? (wt_figure_info){NULL, NULL, NULL}
-                          : (wt_figure_info){figure->name, figure->title, figure->table->name};
+    return figure == NULL ? (wt_figure_info){NULL, NULL, NULL, NULL}
+                          : (wt_figure_info){figure->name, figure->title, figure->table->name,
+                                             figure->beside != NULL ? figure->beside : ""};
 }

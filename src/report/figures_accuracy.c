@@ -130,6 +130,20 @@ static void draw_bars(figure_drawing *d, const number_panel *p, size_t from, con
               style_of(kind));
 }
 
+/* A line at the largest error of a kind: what no work on the others takes the number below. */
+static void draw_floor(figure_drawing *d, const number_panel *p, const char *kind)
+{
+    double largest = 0;
+    for (size_t row = p->first; row < p->first + p->n; row++)
+        if (strcmp(error_budget_text(d->table, row, ERROR_BUDGET_KIND), kind) == 0)
+            largest = fmax(largest, error_budget_get(d->table, row, ERROR_BUDGET_RELATIVE_ERROR));
+    if (largest > least_error)
+        text_format(&d->script,
+                    "set arrow from %s*x_unit, graph 0 to %s*x_unit, graph 1 nohead ls %d dt 3 "
+                    "back\n",
+                    LITERAL(largest), LITERAL(largest), style_of(kind));
+}
+
 static void draw_number(figure_drawing *d, const number_panel *p)
 {
     const table_view *t = d->table;
@@ -140,7 +154,9 @@ static void draw_number(figure_drawing *d, const number_panel *p)
         text_tic(&d->script, error_budget_text(t, p->first + i, ERROR_BUDGET_SOURCE));
         text_format(&d->script, " %zu", p->n - 1 - i);
     }
-    text_add(&d->script, ") noenhanced scale 0\n");
+    text_add(&d->script, ") noenhanced scale 0\nunset arrow\n");
+    draw_floor(d, p, "together");
+    draw_floor(d, p, "model");
     plot_heading(d, p->number);
     const char *last = "";
     for (size_t row = p->first; row < p->first + p->n; row++) {
@@ -234,7 +250,9 @@ const figure_description figures_accuracy[] = {
          "logarithmic scale from 10^-5: one standard error of what is measured or stated "
          "(blue), half the range of a choice of the model (orange), and (grey) all that is "
          "measured together, the scatter of that by the number of replicates, and the "
-         "arithmetic, which is left out where it is smaller.",
+         "arithmetic, which is left out where it is smaller. The dotted lines are the floors: all "
+         "that is measured (grey) and the widest choice of the model (orange); a smaller error of "
+         "another source does not take the number below them.",
      .draw = draw_error_budget},
     {.name = "coverage",
      .title = "How often the stated intervals hold",

@@ -194,6 +194,7 @@ const figure_description figures_dma[] = {
     {.name = "master_curve",
      .title = "Master curve",
      .table = &master_curve_schema,
+     .beside = "prony",
      .data_title = "master curve",
      .x = {MASTER_CURVE_ANGULAR_FREQUENCY, AXIS_LOG, "Reduced angular frequency"},
      .y = {{MASTER_CURVE_STORAGE_MODULUS, AXIS_LOG, "Storage and loss modulus"}},

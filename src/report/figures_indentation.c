@@ -236,6 +236,7 @@ const figure_description figures_indentation[] = {
     {.name = "modulus_groups",
      .title = "Modulus in and beside the wear track",
      .table = &modulus_groups_schema,
+     .beside = "comparison",
      .by_group = true,
      .group = MODULUS_GROUPS_GROUP,
      .y = {{MODULUS_GROUPS_GEOMETRIC_MEAN, AXIS_LOG, "Modulus"}},

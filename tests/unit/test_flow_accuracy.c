@@ -24,8 +24,9 @@ static wt_table *sweep(const char *part)
 static void test_stated_errors(void **state)
 {
     (void)state;
-    static const char *const parts[] = {"contact-force",  "friction-prony", "friction-zener",
-                                        "friction-table", "layer-balance",  "layer-history"};
+    static const char *const parts[] = {"contact-force",  "angular-integrals",   "friction-prony",
+                                        "friction-zener", "friction-transverse", "friction-table",
+                                        "layer-balance",  "layer-history"};
     for (size_t p = 0; p < sizeof parts / sizeof *parts; p++) {
         wt_table *table = sweep(parts[p]);
         double textbook = 1, ours = 1;
@@ -189,6 +190,25 @@ static void test_nothing_stated(void **state)
     wt_table_free(table);
 }
 
+/* The scatter of the spots and what is known of their calibration are parts of one variance. */
+static void test_calibration(void **state)
+{
+    (void)state;
+    static const char number[] = "friction coefficient with layer";
+    const wt_layer_known known = {.thickness = {5e-6, 0, 0, "m"},
+                                  .modulus_ratio = {0.6, 0.06, 0, "1"},
+                                  .calibration_share = 0.36};
+    set_up();
+    wt_table *table = NULL;
+    assert_int_equal(wt_error_budget_make(&sliding, NULL, &known, NULL, false, &work, &table, NULL),
+                     WT_OK);
+    const double spots = relative(table, number, "modulus ratio"),
+                 calibration = relative(table, number, "calibration");
+    assert_near(calibration / spots, 0.6 / 0.8, 0.02);
+    assert_null(strstr(wt_table_key(table, "lacks"), "calibration"));
+    wt_table_free(table);
+}
+
 /* ---- coverage -------------------------------------------------------------------------------- */
 
 static wt_table *cover(size_t trials, unsigned threads)
@@ -269,10 +289,11 @@ static void test_scatter_of_a_group(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_stated_errors),    cmocka_unit_test(test_what_is_estimated),
-        cmocka_unit_test(test_no_such_part),     cmocka_unit_test(test_one_source_at_a_time),
-        cmocka_unit_test(test_nothing_stated),   cmocka_unit_test(test_coverage),
-        cmocka_unit_test(test_nothing_to_cover), cmocka_unit_test(test_scatter_of_a_group),
+        cmocka_unit_test(test_stated_errors),      cmocka_unit_test(test_what_is_estimated),
+        cmocka_unit_test(test_no_such_part),       cmocka_unit_test(test_one_source_at_a_time),
+        cmocka_unit_test(test_nothing_stated),     cmocka_unit_test(test_calibration),
+        cmocka_unit_test(test_coverage),           cmocka_unit_test(test_nothing_to_cover),
+        cmocka_unit_test(test_scatter_of_a_group),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -135,10 +135,15 @@ static void test_what_is_asked(void **state)
                "master_curve indentation_bulk_with_material indentation_track_with_material "
                "comparison_with_material "
                "roughness layer friction_with_layer ");
-    check_plan(ALL "<report><figure>what_if</figure></report></case>",
+    check_plan(ALL "<report><result>what_if</result></report></case>",
                "master_curve indentation_bulk_with_material indentation_track_with_material "
                "comparison_with_material "
                "roughness what_if_with_layer ");
+    /* which shows the errors of friction and layer beside */
+    check_plan(ALL "<report><figure>what_if</figure></report></case>",
+               "master_curve indentation_bulk_with_material indentation_track_with_material "
+               "comparison_with_material "
+               "roughness layer friction_with_layer what_if_with_layer ");
 }
 
 static void test_reasons(void **state)

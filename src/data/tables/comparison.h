@@ -67,7 +67,8 @@
     X(COMPARISON_KEY_INTERACTION_P, "interaction_p", NUMBER,                                       \
       LABEL("p of one slope in both groups"), OPTIONAL)                                            \
     X(COMPARISON_KEY_MODULUS_RATIO, "modulus_ratio", NUMBER, OPTIONAL)                             \
-    X(COMPARISON_KEY_MODULUS_RATIO_DF, "modulus_ratio_df", NUMBER, OPTIONAL)
+    X(COMPARISON_KEY_MODULUS_RATIO_DF, "modulus_ratio_df", NUMBER, OPTIONAL)                       \
+    X(COMPARISON_KEY_CALIBRATION_SHARE, "calibration_share", NUMBER, OPTIONAL)
 
 #define MODULUS_RATE_COLUMNS(X)                                                                    \
     X(MODULUS_RATE_GROUP, "group", "bulk or track", TEXT)                                          \

@@ -10,8 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const accuracy_part *const lists[] = {accuracy_contact, accuracy_spectrum, accuracy_friction,
-                                             accuracy_layer};
+static const accuracy_part *const lists[] = {accuracy_contact, accuracy_spectrum, accuracy_angular,
+                                             accuracy_friction, accuracy_layer};
 
 wt_accuracy_job wt_accuracy_job_defaults(void)
 {

@@ -33,8 +33,8 @@ typedef struct accuracy_part {
 } accuracy_part;
 
 /* Each ends with a name that is NULL. */
-extern const accuracy_part accuracy_contact[], accuracy_spectrum[], accuracy_friction[],
-    accuracy_layer[];
+extern const accuracy_part accuracy_contact[], accuracy_spectrum[], accuracy_angular[],
+    accuracy_friction[], accuracy_layer[];
 
 /* |value / truth - 1|, 0 for two zeros. */
 static inline double accuracy_relative(double value, double truth)

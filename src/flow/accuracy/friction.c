@@ -95,6 +95,30 @@ static wt_status begin_zener(void *problem, double *reference_error, wt_error *e
     return status;
 }
 
+/* Stiffer along the normal and with more loss; the series as it is in the plane and in shear. */
+static wt_status begin_transverse(void *problem, double *reference_error, wt_error *err)
+{
+    friction_problem *p = problem;
+    wt_transverse factors = wt_transverse_defaults();
+    wt_material *series = NULL;
+    factors.axial_storage = 1.5;
+    factors.axial_loss = 2;
+    p->contact = contact;
+    p->contact.poisson_ratio = 0.45;
+    p->contact.material.axial_storage = factors.axial_storage;
+    p->contact.material.axial_loss = factors.axial_loss;
+    p->contact.material.poisson_ratio = p->contact.poisson_ratio;
+    wt_status status = begin(p, err);
+    if (status == WT_OK)
+        status = make_prony(&p->contact, &series, err);
+    if (status == WT_OK)
+        status = wt_material_transverse(series, NULL, NULL, &factors, p->contact.poisson_ratio,
+                                        &p->material, err);
+    if (status == WT_OK)
+        set_reference(p, reference_error);
+    return status;
+}
+
 static wt_status solve(friction_problem *p, double tolerance, wt_estimate *mu, wt_error *err)
 {
     wt_friction_options options = wt_friction_defaults();
@@ -191,6 +215,10 @@ const accuracy_part accuracy_friction[] = {
      sizeof(friction_problem), begin_prony, judge, end, METHODS},
     {"friction-zener", "The same for a fractional Zener law; reference: long double, other rules",
      sizeof(friction_problem), begin_zener, judge, end, METHODS},
+    {"friction-transverse",
+     "The same for the series with directions: along the surface normal 1.5 E' and 2 E''; "
+     "reference: long double, other rules",
+     sizeof(friction_problem), begin_transverse, judge, end, METHODS},
     {"friction-table",
      "The same for a table of 107 knots; reference: the kernel at the tolerance 1e-13",
      sizeof(friction_problem), begin_table, judge, end, METHODS},

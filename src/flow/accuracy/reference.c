@@ -14,6 +14,20 @@ static real pi(void)
 
 /* ---- angle ----------------------------------------------------------------------------------- */
 
+/* The isotropic modulus that the surface of a transversely isotropic solid feels like: the
+ * compliances of plane strain, as in the theory. */
+static complex_real felt(const reference_material *m, complex_real e)
+{
+    const real nu = (real)m->poisson_ratio;
+    const complex_real axial =
+        (real)m->axial_storage * creall(e) + (real)m->axial_loss * cimagl(e) * (complex_real)I;
+    const complex_real b11 = (1 - nu * nu) / e, b33 = (1 - nu * nu * e / axial) / axial,
+                       b13 = -nu * (1 + nu) / axial;
+    const complex_real shear = 2 * (1 + nu) / e;
+    return 2 * (1 - nu * nu) /
+           (csqrtl(b33) * csqrtl(shear + 2 * (b13 + csqrtl(b11) * csqrtl(b33))));
+}
+
 static complex_real modulus(const reference_material *m, real omega)
 {
     complex_real e = (real)m->e0;
@@ -23,7 +37,7 @@ static complex_real modulus(const reference_material *m, real omega)
         const complex_real z = m->alpha < 1 ? cpowl(ix, (real)m->alpha) : ix;
         e += (real)m->e[k] * z / (1 + z);
     }
-    return e;
+    return m->axial_storage > 0 ? felt(m, e) : e;
 }
 
 typedef struct integrals {
@@ -66,6 +80,13 @@ static integrals angle(const reference_material *m, real w)
         }
     }
     return sum;
+}
+
+void reference_angle(const reference_material *material, double w, double *j1, double *j2)
+{
+    const integrals j = angle(material, (real)w);
+    *j1 = (double)j.j1;
+    *j2 = (double)j.j2;
 }
 
 /* ---- wavenumber ------------------------------------------------------------------------------ */

@@ -12,7 +12,12 @@ typedef struct reference_material {
     double e0, alpha;
     size_t n;
     double e[16], tau[16];
+    /* factors on E' and E'' along the surface normal, with the Poisson ratio; 0: isotropic */
+    double axial_storage, axial_loss, poisson_ratio;
 } reference_material;
+
+/* The angular integrals J1 and J2 at w. */
+void reference_angle(const reference_material *material, double w, double *j1, double *j2);
 
 typedef struct reference_contact {
     reference_material material;

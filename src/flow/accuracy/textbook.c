@@ -5,9 +5,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* int_0^2pi cos(phi) E'' and |E|^2 by Simpson's rule over a quarter turn; scratch: 3 (n + 1). */
-static void textbook_angular(const wt_material *material, double w, size_t n, double *scratch,
-                             double *j1, double *j2)
+void textbook_angular(const wt_material *material, double w, size_t n, double *scratch, double *j1,
+                      double *j2)
 {
     double *omega = scratch, *storage = scratch + n + 1, *loss = scratch + 2 * (n + 1);
     const double step = M_PI_2 / (double)n;

@@ -46,8 +46,20 @@ bool flow_things_of_table(const char *table, flow_things *things)
 
 bool flow_things_of_figure(const char *figure, flow_things *things)
 {
-    for (size_t i = 0; i < wt_figure_count(); i++)
-        if (strcmp(wt_figure_get(i).name, figure) == 0)
-            return flow_things_of_table(wt_figure_get(i).table, things);
+    for (size_t i = 0; i < wt_figure_count(); i++) {
+        const wt_figure_info info = wt_figure_get(i);
+        if (strcmp(info.name, figure) != 0)
+            continue;
+        char names[128], *rest = NULL;
+        const bool known = flow_things_of_table(info.table, things);
+        snprintf(names, sizeof names, "%s", info.beside);
+        for (const char *name = strtok_r(names, " ", &rest); name != NULL;
+             name = strtok_r(NULL, " ", &rest)) {
+            flow_things more = 0;
+            if (flow_things_of_table(name, &more))
+                *things |= more;
+        }
+        return known;
+    }
     return false;
 }

@@ -210,6 +210,10 @@ static void set_ratio(table_writer *t, const comparison_task *task, const compar
     comparison_set_value(t, COMPARISON_KEY_MODULUS_RATIO, c->ratio, c->ratio * error, 0);
     if (interval && isfinite(c->df))
         comparison_set_value(t, COMPARISON_KEY_MODULUS_RATIO_DF, c->df, 0, 0);
+    /* of the variance above: spring constants, sensitivities, tips, temperatures */
+    const double known = c->known_share * pow(c->log_ratio.standard_error / error, 2);
+    if (interval && known > 0)
+        comparison_set_value(t, COMPARISON_KEY_CALIBRATION_SHARE, known, 0, 0);
 }
 
 static wt_status write_table(const comparison_task *task, wt_table **table, wt_error *err)

@@ -54,7 +54,29 @@ OF_ESTIMATE(wear, layer.specific_wear_rate)
 OF_ESTIMATE(energy, layer.critical_energy)
 OF_ESTIMATE(observed, layer.observed_thickness)
 OF_ESTIMATE(thickness, known.thickness)
-OF_ESTIMATE(ratio, known.modulus_ratio)
+
+/* What the spots tell, and what is known beside them: parts of one variance. */
+static bool stated_ratio(const setting *s)
+{
+    return s->known.modulus_ratio.standard_error > 0 && s->known.calibration_share < 1;
+}
+
+static void hold_ratio(setting *s)
+{
+    s->known.modulus_ratio.standard_error *= sqrt(s->known.calibration_share);
+    s->known.calibration_share = 1;
+}
+
+static bool stated_calibration(const setting *s)
+{
+    return s->known.modulus_ratio.standard_error > 0;
+}
+
+static void hold_calibration(setting *s)
+{
+    s->known.modulus_ratio.standard_error *= sqrt(1 - s->known.calibration_share);
+    s->known.calibration_share = 0;
+}
 
 static bool has_shear(const setting *s)
 {
@@ -86,6 +108,12 @@ static bool has_ratio(const setting *s)
     return s->has_known;
 }
 
+/* Else there is none, or it cancels. */
+static bool has_calibration(const setting *s)
+{
+    return s->has_known && s->known.calibration_share > 0;
+}
+
 static const source sources[] = {
     {"material", "a second DMA run; temperatures known better", always, stated_rubber, hold_rubber},
     {"pressure", "the load and the nominal area known better", always, stated_pressure,
@@ -102,6 +130,10 @@ static const source sources[] = {
      hold_thickness},
     {"modulus ratio", "more spots: four times as many halve it", has_ratio, stated_ratio,
      hold_ratio},
+    {"calibration",
+     "one cantilever for both groups, or spring constants, sensitivities, tips and "
+     "temperatures known better",
+     has_calibration, stated_calibration, hold_calibration},
 };
 enum { SOURCES = COUNT_OF(sources) };
 

@@ -210,6 +210,8 @@ wt_status flow_step_compare(flow_run *run, flow_cost *cost, wt_error *err)
     run->modulus_ratio.unit = "1"; /* not that of the table */
     const double df = comparison_value(&comparison, COMPARISON_KEY_MODULUS_RATIO_DF).value;
     run->modulus_ratio_df = isnan(df) ? 0 : df;
+    const double share = comparison_value(&comparison, COMPARISON_KEY_CALIBRATION_SHARE).value;
+    run->calibration_share = isnan(share) ? 0 : share;
     return WT_OK;
 }
 
@@ -330,6 +332,7 @@ static wt_status known_layer(const flow_run *run, wt_layer_known *known, wt_erro
     known->thickness = run->thickness;
     known->modulus_ratio = run->modulus_ratio;
     known->modulus_ratio_df = run->modulus_ratio_df;
+    known->calibration_share = run->calibration_share;
     if (!isnan(known->modulus_ratio.value))
         return WT_OK;
     wt_fail(err, WT_E_MISSING, "the modulus ratio of track and bulk is not known");

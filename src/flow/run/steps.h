@@ -21,7 +21,8 @@ typedef struct flow_run {
     wt_rubber rubber;
     wt_surface surface;
     wt_estimate modulus_ratio, thickness;
-    double modulus_ratio_df; /* 0 = its error is normal */
+    double modulus_ratio_df;  /* 0 = its error is normal */
+    double calibration_share; /* of its variance */
     bool no_provenance;
     size_t trials; /* of the coverage */
 } flow_run;
