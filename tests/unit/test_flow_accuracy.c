@@ -1,6 +1,7 @@
 /* Error against run time, and the error budget of a sliding contact.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cells.h"
+#include "sliding.h"
 #include "truth.h"
 
 #include "flow/job/regenerate.h"
@@ -10,9 +11,9 @@
 static wt_table *sweep(const char *part)
 {
     wt_accuracy_job job = wt_accuracy_job_defaults();
-    const wt_job work = wt_job_defaults();
     wt_table *table = NULL;
     wt_error err = WT_ERROR_INIT;
+    work = wt_job_defaults();
     job.part = part;
     job.repeats = 1;
     if (wt_accuracy_make(&job, &work, &table, &err) != WT_OK)
@@ -64,9 +65,9 @@ static void test_no_such_part(void **state)
 {
     (void)state;
     wt_accuracy_job job = wt_accuracy_job_defaults();
-    const wt_job work = wt_job_defaults();
     wt_table *table = NULL;
     wt_error err = WT_ERROR_INIT;
+    work = wt_job_defaults();
     job.part = "luck";
     assert_int_equal(wt_accuracy_make(&job, &work, &table, &err), WT_E_NOT_FOUND);
     assert_non_null(strstr(err.expected, "friction-prony"));
@@ -75,34 +76,12 @@ static void test_no_such_part(void **state)
 
 /* ---- budget ---------------------------------------------------------------------------------- */
 
-static double tau[] = {1e-6, 1e-4, 1e-2}, term[] = {300e6, 10e6, 3e6}, velocity[] = {0.1};
-static wt_rubber rubber;
-static wt_surface surface;
-static wt_sliding sliding;
-static wt_job work;
-
 static void set_up(void)
 {
-    rubber = (wt_rubber){.prony = {.deformation = WT_TENSION,
-                                   .reference_temperature = 293.15,
-                                   .equilibrium_modulus = 3e6,
-                                   .n = 3,
-                                   .relaxation_time = tau,
-                                   .modulus = term,
-                                   .frequency_min = 1e-2,
-                                   .frequency_max = 1e8},
-                         .poisson_ratio = 0.5};
-    surface = (wt_surface){.self_affine = true, .q0 = 2e3, .qr = 4e3, .q1 = 2e6, .hurst = 0.8};
-    surface.c0 = (wt_estimate){2e-17, 0, 0, "m^4"};
-    sliding = wt_sliding_defaults();
-    sliding.rubber = &rubber;
-    sliding.surface = &surface;
-    sliding.pressure = (wt_estimate){0.4e6, 0.02e6, 0, "Pa"};
-    sliding.shear_stress = (wt_estimate){5e6, 0.5e6, 0, "Pa"};
-    sliding.velocity = velocity;
-    sliding.n_velocity = 1;
-    work = wt_job_defaults();
-    work.threads = 1;
+    static const double velocity = 0.1;
+    sliding_set_up(&velocity, 1);
+    sliding.pressure.standard_error = 0.02e6;
+    sliding.shear_stress.standard_error = 0.5e6;
 }
 
 static double relative(const wt_table *table, const char *number, const char *source)

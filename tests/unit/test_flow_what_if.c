@@ -1,44 +1,22 @@
 /* What if: every row is what a single run with that choice moved gives, to the last bit.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cells.h"
+#include "sliding.h"
 #include "truth.h"
 
 #include "weartrack/flow.h"
 
-static double tau[] = {1e-6, 1e-4, 1e-2}, term[] = {300e6, 10e6, 3e6}, velocity[] = {1e-3, 0.1, 10};
-static wt_rubber rubber;
-static wt_surface surface;
-static wt_sliding sliding;
 static wt_layer_known known;
 static wt_layer_job layer;
-static wt_job work;
 
 static void set_up(void)
 {
-    rubber = (wt_rubber){.prony = {.deformation = WT_TENSION,
-                                   .reference_temperature = 293.15,
-                                   .equilibrium_modulus = 3e6,
-                                   .n = 3,
-                                   .relaxation_time = tau,
-                                   .modulus = term,
-                                   .frequency_min = 1e-2,
-                                   .frequency_max = 1e8},
-                         .poisson_ratio = 0.5};
-    surface = (wt_surface){.self_affine = true, .q0 = 2e3, .qr = 4e3, .q1 = 2e6, .hurst = 0.8};
-    surface.c0 = (wt_estimate){2e-17, 0, 0, "m^4"};
-    sliding = wt_sliding_defaults();
-    sliding.rubber = &rubber;
-    sliding.surface = &surface;
-    sliding.pressure.value = 0.4e6;
-    sliding.shear_stress.value = 5e6;
-    sliding.velocity = velocity;
-    sliding.n_velocity = 3;
+    static const double velocity[] = {1e-3, 0.1, 10};
+    sliding_set_up(velocity, 3);
     known = (wt_layer_known){.thickness = {1e-6, 0, 0, "m"}, .modulus_ratio = {0.6, 0, 0, "1"}};
     layer = wt_layer_job_defaults();
     layer.specific_wear_rate.value = 1e-12;
     layer.critical_energy.value = 2e10;
-    work = wt_job_defaults();
-    work.threads = 1;
     work.replicates = 0;
 }
 

@@ -1,6 +1,7 @@
 /* The replicates behind the standard errors: what is drawn for one purpose has nothing to do with
  * what is drawn for another, and the seed decides all of it.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "sliding.h"
 #include "truth.h"
 
 #include "weartrack/flow.h"
@@ -13,51 +14,30 @@ typedef struct knob {
     double *value, *error;
 } knob;
 
-static double tau[] = {1e-6, 1e-4, 1e-2}, term[] = {300e6, 10e6, 3e6}, velocity = 0.1;
-static wt_rubber rubber;
-static wt_surface surface;
-static wt_sliding sliding;
 static wt_layer_known layer;
 static wt_layer_job layer_job;
-static wt_job common;
 
 static void set_up(void)
 {
-    rubber = (wt_rubber){.prony = {.deformation = WT_TENSION,
-                                   .reference_temperature = 293.15,
-                                   .equilibrium_modulus = 3e6,
-                                   .n = 3,
-                                   .relaxation_time = tau,
-                                   .modulus = term,
-                                   .frequency_min = 1e-2,
-                                   .frequency_max = 1e8},
-                         .poisson_ratio = 0.5,
-                         .law = {.kind = WT_LAW_WLF, .wlf = {293.15, 6.5, 110}},
-                         .temperature_min = 273.15,
-                         .temperature_max = 333.15};
-    surface = (wt_surface){.self_affine = true, .q0 = 2e3, .qr = 4e3, .q1 = 2e4, .hurst = 0.8};
-    surface.c0 = (wt_estimate){2e-17, 0, 0, "m^4"};
-    sliding = wt_sliding_defaults();
-    sliding.rubber = &rubber;
-    sliding.surface = &surface;
+    static const double velocity = 0.1;
+    sliding_set_up(&velocity, 1);
+    rubber.law = (wt_shift_law){.kind = WT_LAW_WLF, .wlf = {293.15, 6.5, 110}};
+    rubber.temperature_min = 273.15;
+    rubber.temperature_max = 333.15;
+    surface.q1 = 2e4;
     sliding.pressure.value = 0.8e6;
     sliding.temperature.value = 313.15;
-    sliding.shear_stress.value = 5e6;
-    sliding.velocity = &velocity;
-    sliding.n_velocity = 1;
     layer = (wt_layer_known){.thickness = {100e-6, 0, 0, "m"}, .modulus_ratio = {0.6, 0, 0, "1"}};
     layer_job = wt_layer_job_defaults();
     layer_job.specific_wear_rate.value = 1e-12;
-    common = wt_job_defaults();
-    common.threads = 1;
-    common.replicates = REPLICATES;
+    work.replicates = REPLICATES;
 }
 
 static wt_estimate friction(const char *key)
 {
     wt_friction_tables tables = {0};
     wt_error err = WT_ERROR_INIT;
-    if (wt_friction_make(&sliding, &layer, &common, &tables, &err) != WT_OK)
+    if (wt_friction_make(&sliding, &layer, &work, &tables, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     wt_estimate e = key_estimate(tables.friction, key);
     wt_friction_tables_clear(&tables);
@@ -68,7 +48,7 @@ static wt_estimate thickness(const char *key)
 {
     wt_layer_tables tables = {0};
     wt_error err = WT_ERROR_INIT;
-    if (wt_layer_make(&sliding, &layer_job, &common, &tables, &err) != WT_OK)
+    if (wt_layer_make(&sliding, &layer_job, &work, &tables, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     wt_estimate e = key_estimate(tables.layer, key);
     wt_layer_tables_clear(&tables);
@@ -87,13 +67,13 @@ static void check_independent(const knob *knobs, int n, wt_estimate (*result)(co
     for (int i = 0; i < n; i++) {
         const knob *k = &knobs[i];
         double value = *k->value, step = 1e-4 * value;
-        common.replicates = 0;
+        work.replicates = 0;
         double middle = result(key).value;
         *k->value = value + step;
         double slope = log(result(key).value / middle) / step;
         *k->value = value;
         errors[i] = SHARE / fabs(slope);
-        common.replicates = REPLICATES;
+        work.replicates = REPLICATES;
         *k->error = errors[i];
         wt_estimate e = result(key);
         *k->error = 0;
@@ -162,7 +142,7 @@ static void test_seed(void **state)
 {
     (void)state;
     set_up();
-    common.replicates = 16;
+    work.replicates = 16;
     sliding.pressure.standard_error = 0.02e6;
     layer_job.critical_energy.value = 1e9;
     double hysteresis = friction("hysteresis_at_reference").standard_error;
@@ -171,10 +151,10 @@ static void test_seed(void **state)
     sliding.shear_stress.standard_error = 0.5e6;
     assert_near(friction("hysteresis_at_reference").standard_error, hysteresis, 0);
     assert_near(thickness("balance_thickness").standard_error, depth, 0);
-    common.seed += 1;
+    work.seed += 1;
     assert_true(fabs(friction("hysteresis_at_reference").standard_error / hysteresis - 1) > 1e-6);
     assert_true(fabs(thickness("balance_thickness").standard_error / depth - 1) > 1e-6);
-    common.seed -= 1;
+    work.seed -= 1;
     assert_near(friction("hysteresis_at_reference").standard_error, hysteresis, 0);
 }
 
