@@ -157,6 +157,15 @@ static inline void fixture_accuracy(wt_case *read)
     fixture_check(wt_run(read, &few, NULL, &asked, &failed, NULL));
     fixture_check(wt_result_add(fixture_case,
                                 fixture_copy(wt_result_find(asked, "coverage"), &no_change), NULL));
+    wt_case *directed = NULL;
+    wt_result *other = NULL;
+    fixture_check(wt_case_read(WT_SOURCE_DIR "/fixtures/transverse/case.xml", &directed, NULL));
+    fixture_check(wt_case_ask(directed, "directions", NULL));
+    fixture_check(wt_run(directed, &few, NULL, &other, &failed, NULL));
+    fixture_check(wt_result_add(
+        fixture_case, fixture_copy(wt_result_find(other, "directions"), &no_change), NULL));
+    wt_result_free(other);
+    wt_case_free(directed);
     fixture_check(wt_accuracy_make(&job, &work, &table, NULL));
     fixture_check(wt_result_add(fixture_case, table, NULL));
     wt_result_free(asked);

@@ -385,6 +385,12 @@ WT_API wt_status wt_friction_make(const wt_sliding *sliding, const wt_layer_know
 WT_API wt_status wt_contact_area_table(const wt_sliding *sliding, const wt_job *work,
                                        wt_table **table, wt_error *err) WT_NODISCARD;
 
+/* Table "directions": hysteresis friction and contact area of a transversely isotropic rubber at
+ * every velocity, with its factors on E' and E'' and with those on one of them or none. WT_E_ARG if
+ * it has no directions. */
+WT_API wt_status wt_directions_make(const wt_sliding *sliding, const wt_job *work, wt_table **table,
+                                    wt_error *err) WT_NODISCARD;
+
 /* ---- modified layer -------------------------------------------------------------------------- */
 
 typedef struct wt_layer_job {

@@ -16,7 +16,7 @@ int cmd_friction(int argc, char **argv)
     cmd_sliding_init(&s, (cmd_part){wt_layer_known_params(), &layer, NULL, 0});
     const cmd_part *own = &s.parts[CMD_OWN];
     wt_friction_tables tables = {0};
-    wt_table *contact_area = NULL, *what_if = NULL;
+    wt_table *contact_area = NULL, *directions = NULL, *what_if = NULL;
     if (!cmd_sliding_parse(&s, &usage, argc, argv))
         goto done;
     const bool has_layer = cmd_given(own, "layer-thickness");
@@ -29,15 +29,18 @@ int cmd_friction(int argc, char **argv)
         if (made == WT_OK)
             made = wt_contact_area_table(&s.conditions, &s.session.work, &contact_area,
                                          &s.session.err);
+        if (made == WT_OK && s.rubber.is_transverse)
+            made = wt_directions_make(&s.conditions, &s.session.work, &directions, &s.session.err);
         if (made == WT_OK)
             made = wt_what_if_make(&s.conditions, NULL, known, &s.session.work, &what_if,
                                    &s.session.err);
-        wt_table **const parts[] = {&tables.friction, &contact_area, &what_if};
+        wt_table **const parts[] = {&tables.friction, &contact_area, &directions, &what_if};
         cmd_finish(&s.session, made, parts, COUNT_OF(parts));
     }
 done:
     wt_friction_tables_clear(&tables);
     wt_table_free(contact_area);
+    wt_table_free(directions);
     wt_table_free(what_if);
     return cmd_sliding_free(&s);
 }

@@ -14,7 +14,7 @@
     X(modulus_groups) X(modulus_depth) X(modulus_rate) X(comparison) X(dma_comparison) X(shift_factors)             \
     X(master_curve) X(prony) X(material_draws) X(series_draws) X(roughness) X(friction)            \
     X(contact_area) X(layer) X(energy_density) X(what_if) X(error_budget) X(coverage)      \
-    X(work_precision)
+    X(work_precision) X(directions)
 /* clang-format on */
 
 typedef struct bound_tables {

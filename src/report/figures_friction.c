@@ -4,6 +4,8 @@
  */
 #include "report/drawing.h"
 
+#include "base/array.h"
+
 #include <math.h>
 
 static void caption_spectrum(figure_drawing *d)
@@ -77,6 +79,51 @@ static void caption_friction(figure_drawing *d)
 
 /* ---- descriptions ---------------------------------------------------------------------------- */
 
+/* ---- directions ------------------------------------------------------------------------------ */
+
+static void draw_directions(figure_drawing *d)
+{
+    static const struct {
+        const char *factors, *title;
+        int style;
+    } kept[] = {{"none", "isotropic", 23},
+                {"loss", "factors on E″ alone", 22},
+                {"storage", "factors on E′ alone", 21},
+                {"both", "both", 24}};
+    static const struct {
+        directions_column column;
+        const char *label;
+    } panels[] = {{DIRECTIONS_HYSTERESIS, "Hysteresis friction coefficient"},
+                  {DIRECTIONS_AREA_RATIO, "Real over nominal contact area"}};
+    static const unsigned columns[] = {DIRECTIONS_VELOCITY, DIRECTIONS_HYSTERESIS,
+                                       DIRECTIONS_AREA_RATIO};
+    const schema_field *field = d->table->schema->columns;
+    int section[COUNT_OF(kept)];
+    value_span velocity = SPAN_EMPTY;
+    span_add_column(&velocity, d->table, DIRECTIONS_VELOCITY, true);
+    if (span_empty(&velocity))
+        return;
+    d->height = 1.5;
+    text_add(&d->script, "set multiplot layout 2,1\n");
+    for (size_t k = 0; k < COUNT_OF(kept); k++) {
+        const row_filter rows = {{DIRECTIONS_FACTORS, 0}, {kept[k].factors, NULL}, false};
+        section[k] = drawing_section(d, d->table, kept[k].factors, &rows, columns, 3, 3);
+    }
+    axis_log(d, "x", "Sliding velocity", &field[DIRECTIONS_VELOCITY], velocity);
+    for (size_t p = 0; p < COUNT_OF(panels); p++) {
+        value_span span = SPAN_EMPTY;
+        span_add(&span, 0, false);
+        span_add_column(&span, d->table, panels[p].column, false);
+        axis_linear(d, "y", panels[p].label, &field[panels[p].column], span);
+        for (size_t k = 0; k < COUNT_OF(kept); k++)
+            plot_item(d, section[k], "($1*x_unit):($%zu*y_unit) with lines ls %d title '%s'", p + 2,
+                      kept[k].style, kept[k].title);
+        plot_end(d);
+        text_add(&d->script, "unset key\n");
+    }
+    text_add(&d->script, "unset multiplot\n");
+}
+
 const figure_description figures_friction[] = {
     {.name = "power_spectrum",
      .title = "Power spectrum of the counter surface",
@@ -132,5 +179,12 @@ const figure_description figures_friction[] = {
             "where a line rises, those length scales make the friction. A line that still rises "
             "at its right end depends on the upper cut-off of the spectrum.",
     },
+    {.name = "directions",
+     .title = "What the directions of the material do",
+     .table = &directions_schema,
+     .words = "Hysteresis friction and contact area of the transversely isotropic material against "
+              "velocity: with its factors on the moduli, with those on one modulus alone and as "
+              "the isotropic material.",
+     .draw = draw_directions},
     {.name = NULL},
 };

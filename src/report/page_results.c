@@ -83,7 +83,7 @@ void page_results(page_writer *page)
                                        &t->dma_comparison, &t->shift_factors, &t->prony,
                                        &t->roughness,      &t->friction,      &t->layer,
                                        &t->what_if,        &t->error_budget,  &t->coverage,
-                                       &t->work_precision};
+                                       &t->work_precision, &t->directions};
     bool any = false;
     for (size_t i = 0; i < COUNT_OF(shown) && !any; i++)
         any = shown[i]->table != NULL;
@@ -108,6 +108,7 @@ void page_results(page_writer *page)
     page_keys(page, &t->roughness, "Counter surface");
     friction_table(page);
     page_keys(page, &t->friction, "Conditions of the friction");
+    page_keys(page, &t->directions, "What the directions of the material do");
     page_keys(page, &t->layer, "Balance of the modified layer");
     page_whole_table(page, &t->what_if,
                      "What if: one choice of the model moved in each row, and the relative changes "

@@ -220,6 +220,8 @@ static void test_curves_are_drawn_from_their_columns(void **state)
         {"friction", "title 'total with layer'", "velocity friction_with_layer"},
         {"contact_area", "lines lw 1.8", "magnification area_ratio velocity"},
         {"friction_scales", "lines lw 1.8", "magnification hysteresis velocity"},
+        {"directions", "title 'isotropic'", "velocity hysteresis"},
+        {"directions", "title 'both'", "velocity hysteresis"},
         {"energy_density", "lines ls 21", "depth energy_density"},
         {"layer", "ls 71 notitle", "time thickness thickness_standard_error"},
         {"layer", "title 'thickness'", "time thickness"},

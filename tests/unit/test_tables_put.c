@@ -1,5 +1,6 @@
 /* Every column and key that is declared is put by some run, job or conversion, and none is put that
  * is not declared. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "sliding.h"
 #include "truth.h"
 
 #include "base/array.h"
@@ -159,14 +160,32 @@ static void run_case_at(double tolerance, const char *text, const char *instead)
     wt_case_free(c);
 }
 
+/* Incompressible, the isotropic solid is no transversely isotropic one. */
+static void test_directions(void **state)
+{
+    (void)state;
+    static const double velocity = 0.1;
+    sliding_set_up(&velocity, 1);
+    rubber.is_transverse = true;
+    rubber.transverse = wt_transverse_defaults();
+    rubber.transverse.axial_storage = rubber.transverse.axial_loss = 2.5;
+    for (int i = 0; i < 2; i++) {
+        wt_table *table = NULL;
+        rubber.poisson_ratio = i == 0 ? 0.49 : 0.5;
+        assert_int_equal(wt_directions_make(&sliding, &work, &table, NULL), WT_OK);
+        see(table);
+        wt_table_free(table);
+    }
+}
+
 static void test_accuracy(void **state)
 {
     (void)state;
     wt_accuracy_job job = wt_accuracy_job_defaults();
-    const wt_job work = wt_job_defaults();
+    const wt_job common = wt_job_defaults();
     wt_table *table = NULL;
     job.part = "layer-history";
-    assert_int_equal(wt_accuracy_make(&job, &work, &table, NULL), WT_OK);
+    assert_int_equal(wt_accuracy_make(&job, &common, &table, NULL), WT_OK);
     see(table);
     wt_table_free(table);
 }
@@ -211,7 +230,7 @@ static void test_joined_law(void **state)
     const char *const patterns[] = {path};
     const wt_file_set set = {.patterns = patterns, .n_patterns = 1, .read = wt_read_defaults()};
     wt_master_job job = wt_master_job_defaults();
-    wt_job work = wt_job_defaults();
+    wt_job common = wt_job_defaults();
     wt_master_tables tables = {0};
     wt_error err = WT_ERROR_INIT;
     uint64_t seed = 3;
@@ -235,11 +254,11 @@ static void test_joined_law(void **state)
         fputs("\n", out);
     }
     fclose(out);
-    work.formats = formats;
+    common.formats = formats;
     job.sets = &set;
     job.n_sets = 1;
     job.fit.reference_temperature = 293.15;
-    if (wt_master_make(&job, &work, &tables, NULL, &err) != WT_OK)
+    if (wt_master_make(&job, &common, &tables, NULL, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     assert_string_equal(wt_table_key(tables.shift_factors, "law"), "joined");
     see(tables.shift_factors);
@@ -258,15 +277,15 @@ static void test_spring_constants(void **state)
                            {&files[1], 1, NULL, wt_read_defaults(), NULL, {0}}};
     sets[1].read.spring_constant = 0.2;
     wt_indent_job job = wt_indent_job_defaults();
-    wt_job work = wt_job_defaults();
+    wt_job common = wt_job_defaults();
     wt_indent_tables tables = {0};
     wt_error err = WT_ERROR_INIT;
-    work.formats = formats;
+    common.formats = formats;
     job.sets = sets;
     job.n_sets = 2;
     job.tip = (wt_tip){.sides = 4, .half_angle = M_PI / 9, .radius = 30e-9}; /* it was 20 nm */
     job.tip.transition_radius = wt_tip_tangent_transition(job.tip.radius, job.tip.half_angle);
-    if (wt_indent_group(&job, &work, &tables, &err) != WT_OK)
+    if (wt_indent_group(&job, &common, &tables, &err) != WT_OK)
         fail_msg("%s", err.message);
     see(tables.indentation);
     see(tables.modulus_depth);
@@ -276,11 +295,11 @@ static void test_spring_constants(void **state)
 static void convert_with(const char *path, unsigned kind, wt_table_sink sink)
 {
     wt_convert_job job = wt_convert_job_defaults();
-    wt_job work = wt_job_defaults();
+    wt_job common = wt_job_defaults();
     wt_error err = WT_ERROR_INIT;
-    work.formats = formats;
+    common.formats = formats;
     job.kind = kind;
-    if (wt_convert_file(&job, path, &work, sink, NULL, &err) != WT_OK)
+    if (wt_convert_file(&job, path, &common, sink, NULL, &err) != WT_OK)
         fail_msg("%s: %s", path, err.message);
 }
 
@@ -400,6 +419,7 @@ int main(void)
         cmocka_unit_test(test_spring_constants),
         cmocka_unit_test(test_conversions),
         cmocka_unit_test(test_files),
+        cmocka_unit_test(test_directions),
         cmocka_unit_test(test_accuracy),
         cmocka_unit_test(test_all_put),
     };

@@ -66,6 +66,22 @@
     X(FRICTION_KEY_RELATIVE_CHANGE_HIGH, "relative_change_high", NUMBER,                           \
       LABEL("Relative change, highest of all velocities"), OPTIONAL)
 
+#define DIRECTIONS_COLUMNS(X)                                                                      \
+    X(DIRECTIONS_FACTORS, "factors",                                                               \
+      "which factors of the directions are kept: none (isotropic), loss, storage, both", TEXT)     \
+    X(DIRECTIONS_VELOCITY, "velocity", "sliding velocity", SI(VELOCITY))                           \
+    X(DIRECTIONS_HYSTERESIS, "hysteresis", "hysteresis friction", NUMBER)                          \
+    X(DIRECTIONS_HYSTERESIS_ERROR, "hysteresis_numerical_error", "its numerical error", NUMBER)    \
+    X(DIRECTIONS_AREA_RATIO, "area_ratio", "real over nominal contact area", NUMBER)               \
+    X(DIRECTIONS_AREA_RATIO_ERROR, "area_ratio_numerical_error", "its numerical error", NUMBER)
+
+#define DIRECTIONS_KEYS(X)                                                                         \
+    X(DIRECTIONS_KEY_MATERIAL, "material", TEXT, LABEL("Material"))                                \
+    X(DIRECTIONS_KEY_LOSS, "by_loss", TEXT, LABEL("The factors on E″ alone"), OPTIONAL)            \
+    X(DIRECTIONS_KEY_STORAGE, "by_storage", TEXT, LABEL("The factors on E′ alone"), OPTIONAL)      \
+    X(DIRECTIONS_KEY_BOTH, "by_both", TEXT, LABEL("Both"), OPTIONAL)                               \
+    X(DIRECTIONS_KEY_LEFT_OUT, "left_out", TEXT, LABEL("Not computed"), OPTIONAL)
+
 #define CONTACT_AREA_COLUMNS(X)                                                                    \
     X(CONTACT_AREA_VELOCITY, "velocity", "sliding velocity", SI(VELOCITY))                         \
     X(CONTACT_AREA_MAGNIFICATION, "magnification", "wavenumber over the smallest one", NUMBER)     \

@@ -18,7 +18,9 @@
     X(CONDITIONS, "sliding conditions", "no sliding conditions (<sliding>)", c->has_sliding)       \
     X(LAYER_PARAMETERS, "layer parameters", "no layer parameters (<layer>)", c->has_layer)         \
     X(GIVEN_RATIO, "given modulus ratio", "no modulus ratio (<modulus-ratio> in <layer>)",         \
-      c->has_modulus_ratio)
+      c->has_modulus_ratio)                                                                        \
+    X(GIVEN_DIRECTIONS, "directions of the material",                                              \
+      "no directions of the material (<transverse> in <dma>)", c->is_transverse)
 
 /* Tables: id, name, schema and what completes its name. The curve of a group is a block of two
  * tables, which the groups share. */
@@ -43,6 +45,7 @@
     X(ENERGY_DENSITY, "energy_density", &energy_density_schema, "")                                \
     X(FRICTION, "friction", &friction_schema, "")                                                  \
     X(CONTACT_AREA, "contact_area", &contact_area_schema, "")                                      \
+    X(DIRECTIONS, "directions", &directions_schema, "")                                            \
     X(WHAT_IF, "what_if", &what_if_schema, "")                                                     \
     X(ERROR_BUDGET, "error_budget", &error_budget_schema, "")                                      \
     X(COVERAGE, "coverage", &coverage_schema, "")

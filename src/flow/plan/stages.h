@@ -64,6 +64,9 @@
       B(FRICTION), flow_step_friction)                                                             \
     X(CONTACT_AREA, contact_area, "Contact area against magnification",                            \
       B(RUBBER) | B(SURFACE) | B(CONDITIONS), B(CONTACT_AREA), flow_step_contact_area)             \
+    X(DIRECTIONS, directions, "What the directions of the material do",                            \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(GIVEN_DIRECTIONS), B(DIRECTIONS),                 \
+      flow_step_directions)                                                                        \
     X(WHAT_IF_WITH_LAYER, what_if_with_layer,                                                      \
       "What if a choice of the model were another, friction with layer",                           \
       B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(LAYER_PARAMETERS) | B(MODULUS_RATIO), B(WHAT_IF), \

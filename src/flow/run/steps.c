@@ -378,6 +378,17 @@ wt_status flow_step_friction(flow_run *run, flow_cost *cost, wt_error *err)
     return friction(run, NULL, cost, err);
 }
 
+wt_status flow_step_directions(flow_run *run, flow_cost *cost, wt_error *err)
+{
+    const wt_sliding sliding = flow_case_sliding(run->c, &run->rubber, &run->surface);
+    wt_table **table = &run->table[FLOW_DIRECTIONS];
+    const wt_status status = wt_directions_make(&sliding, &run->job, table, err);
+    cost->tolerance_asked = run->job.tolerance;
+    if (status == WT_OK)
+        cost->items = (double)wt_table_n_rows(*table);
+    return status;
+}
+
 /* ---- what if, error budget, coverage ----------------------------------------------------------
  */
 
