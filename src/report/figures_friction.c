@@ -99,9 +99,10 @@ static void draw_directions(figure_drawing *d)
                                        DIRECTIONS_AREA_RATIO};
     const schema_field *field = d->table->schema->columns;
     int section[COUNT_OF(kept)];
-    value_span velocity = SPAN_EMPTY;
+    value_span velocity = SPAN_EMPTY, friction = SPAN_EMPTY;
     span_add_column(&velocity, d->table, DIRECTIONS_VELOCITY, true);
-    if (span_empty(&velocity))
+    span_add_column(&friction, d->table, DIRECTIONS_HYSTERESIS, false);
+    if (span_empty(&velocity) || span_empty(&friction))
         return;
     d->height = 1.5;
     text_add(&d->script, "set multiplot layout 2,1\n");
@@ -182,6 +183,7 @@ const figure_description figures_friction[] = {
     {.name = "directions",
      .title = "What the directions of the material do",
      .table = &directions_schema,
+     .nothing = "no friction of the material with its directions",
      .words = "Hysteresis friction and contact area of the transversely isotropic material against "
               "velocity: with its factors on the moduli, with those on one modulus alone and as "
               "the isotropic material.",

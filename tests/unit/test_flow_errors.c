@@ -168,6 +168,7 @@ static const expectation measured[] = {
     {&comparison_schema, "interaction_p", "00"},
     {&comparison_schema, "modulus_ratio", "kk"},
     {&comparison_schema, "modulus_ratio_df", "00"},
+    {&comparison_schema, "calibration_share", ".."}, /* one cantilever: it cancels */
     {&dma_comparison_schema, "temperature", "00"},
     {&dma_comparison_schema, "track_temperature", ".."}, /* not given */
     {&dma_comparison_schema, "dma_complex_modulus", "kn"},

@@ -70,10 +70,14 @@
     X(DIRECTIONS_FACTORS, "factors",                                                               \
       "which factors of the directions are kept: none (isotropic), loss, storage, both", TEXT)     \
     X(DIRECTIONS_VELOCITY, "velocity", "sliding velocity", SI(VELOCITY))                           \
-    X(DIRECTIONS_HYSTERESIS, "hysteresis", "hysteresis friction", NUMBER)                          \
-    X(DIRECTIONS_HYSTERESIS_ERROR, "hysteresis_numerical_error", "its numerical error", NUMBER)    \
-    X(DIRECTIONS_AREA_RATIO, "area_ratio", "real over nominal contact area", NUMBER)               \
-    X(DIRECTIONS_AREA_RATIO_ERROR, "area_ratio_numerical_error", "its numerical error", NUMBER)
+    X(DIRECTIONS_HYSTERESIS, "hysteresis", "hysteresis friction", NUMBER,                          \
+      NUMERICAL_ERROR(DIRECTIONS_HYSTERESIS))                                                      \
+    X(DIRECTIONS_HYSTERESIS_NUMERICAL_ERROR, "hysteresis_numerical_error", "its numerical error",  \
+      NUMBER)                                                                                      \
+    X(DIRECTIONS_AREA_RATIO, "area_ratio", "real over nominal contact area", NUMBER,               \
+      NUMERICAL_ERROR(DIRECTIONS_AREA_RATIO))                                                      \
+    X(DIRECTIONS_AREA_RATIO_NUMERICAL_ERROR, "area_ratio_numerical_error", "its numerical error",  \
+      NUMBER)
 
 #define DIRECTIONS_KEYS(X)                                                                         \
     X(DIRECTIONS_KEY_MATERIAL, "material", TEXT, LABEL("Material"))                                \

@@ -11,7 +11,8 @@
 #define LABEL(words) .label = words
 #define HEADLINE(words) .headline = words
 #define STANDARD_ERROR(id) .standard_error = id##_STANDARD_ERROR
-#define BOTH_ERRORS(id) STANDARD_ERROR(id), .numerical_error = id##_NUMERICAL_ERROR
+#define NUMERICAL_ERROR(id) .numerical_error = id##_NUMERICAL_ERROR
+#define BOTH_ERRORS(id) STANDARD_ERROR(id), NUMERICAL_ERROR(id)
 #define INTERVAL(low_end, high_end) .low = low_end, .high = high_end
 #define LIKE(column) .like = column
 #define MISSING(words) .missing = words

@@ -90,9 +90,9 @@ static void put_points(const directions *d, size_t k, table_writer *t)
         directions_put_text(t, DIRECTIONS_FACTORS, kept[k].words);
         directions_put(t, DIRECTIONS_VELOCITY, p->velocity);
         directions_put(t, DIRECTIONS_HYSTERESIS, p->hysteresis.value);
-        directions_put(t, DIRECTIONS_HYSTERESIS_ERROR, p->hysteresis.numerical_error);
+        directions_put(t, DIRECTIONS_HYSTERESIS_NUMERICAL_ERROR, p->hysteresis.numerical_error);
         directions_put(t, DIRECTIONS_AREA_RATIO, p->area_ratio.value);
-        directions_put(t, DIRECTIONS_AREA_RATIO_ERROR, p->area_ratio.numerical_error);
+        directions_put(t, DIRECTIONS_AREA_RATIO_NUMERICAL_ERROR, p->area_ratio.numerical_error);
     }
 }
 
