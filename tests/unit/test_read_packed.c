@@ -115,7 +115,7 @@ static void test_gzip(void **state)
     refused(NULL, WT_E_CORRUPT, "damaged");
     /* Members follow one another; zeros at the end are no member. */
     n = pack(TABLE, strlen(TABLE), bytes, sizeof bytes);
-    n += pack(SWEEP + strlen(TABLE), strlen(SWEEP) - strlen(TABLE), bytes + n, sizeof bytes - n);
+    n += pack(&SWEEP[strlen(TABLE)], strlen(SWEEP) - strlen(TABLE), bytes + n, sizeof bytes - n);
     memset(bytes + n, 0, 100);
     write_bytes(bytes, n + 100);
     reads(NULL, 1, 10e6);

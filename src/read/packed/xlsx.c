@@ -205,10 +205,12 @@ static wt_status read_strings(const zip_archive *zip, texts *strings, wt_error *
 
 /* ---- cells ----------------------------------------------------------------------------------- */
 
+typedef enum cell_kind { CELL_VALUE, CELL_SHARED, CELL_INLINE, CELL_NOTHING } cell_kind;
+
 /* What is known of the cell that is read. */
 typedef struct cell {
     size_t row, column;
-    enum { CELL_VALUE, CELL_SHARED, CELL_INLINE, CELL_NOTHING } kind;
+    cell_kind kind;
     texts text; /* its characters so far */
     bool in_text;
 } cell;
@@ -256,7 +258,7 @@ static wt_status begin_cell(const part *p, cell *c, wt_error *err)
 {
     static const struct {
         const char *type;
-        int kind;
+        cell_kind kind;
     } kinds[] = {{"s", CELL_SHARED}, {"inlineStr", CELL_INLINE}, {"e", CELL_NOTHING}};
     char *reference = attribute(p, "r"), *type = attribute(p, "t");
     size_t column = c->column + 1;
