@@ -97,7 +97,7 @@ static double integral_since(const loop *l, size_t j, double share, double t, do
 static double step_out(loop *l, double t, double base, double *depth)
 {
     const double before = *depth, faded = hereditary_fade(l->law, l->now);
-    double force = 0.0, low = 0.0, high = 1.0, below, above;
+    double force = 0.0, low = 0.0, high = 1.0, below = 0.0, above;
 #define INTEGRAL_SINCE(share)                                                                      \
     integral_since(l, l->step, share, t, base, before, faded, &force, depth)
     while (l->step > 0 && (below = INTEGRAL_SINCE(0.0)) <= 0.0)
