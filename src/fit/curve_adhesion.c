@@ -107,16 +107,20 @@ static double sudden_pull(const double *above, size_t n, size_t far, double nois
     return sudden && pull > snap_noise * noise && pull > snap_rest * elsewhere ? pull : 0.0;
 }
 
-/* Work against the lever and the sample between the contact point and the top, by the positions of
- * the base: the loop is the loss. */
-static double work_along(const double *position, const double *force, size_t n, double from)
+/* Work against the lever and the sample between two positions of the base: the loop is the loss. */
+static double work_along(const double *position, const double *force, size_t n, double from,
+                         double to)
 {
     double sum = 0.0;
     for (size_t i = 1; i < n; i++) {
-        if (!(fmin(position[i], position[i - 1]) > from))
+        const double before = fmax(force[i - 1], 0.0), behind = fmax(force[i], 0.0);
+        const double first = fmin(fmax(position[i - 1], from), to),
+                     last = fmin(fmax(position[i], from), to);
+        const double step = position[i] - position[i - 1];
+        if (!(fabs(last - first) > 0.0))
             continue;
-        const double f = 0.5 * (fmax(force[i], 0.0) + fmax(force[i - 1], 0.0));
-        sum += f * (position[i] - position[i - 1]);
+        const double middle = (0.5 * (first + last) - position[i - 1]) / step;
+        sum += (before + middle * (behind - before)) * (last - first);
     }
     return fabs(sum);
 }
@@ -148,12 +152,15 @@ void curve_read_retract(curve_fitting *f, const double *height, const double *fo
         scratch[i] = fabs(above[kept - far + i]);
     const double noise = median(scratch, far) / 0.6744897501960817;
     f->pull_off = sudden_pull(above, kept, far, noise);
-    const double back = work_along(position, above, kept, c);
+    /* A way out may begin below the top of the way in: what both have is compared. */
+    const double top =
+        fmin(gsl_stats_max(position, 1, kept), gsl_stats_max(s->position, 1, f->input.n_all));
+    const double back = work_along(position, above, kept, c, top);
     for (size_t i = 0; i < f->input.n_all; i++) {
         scratch[i] = s->force[i] - curve_baseline(&f->solution, s->position[i]);
         largest = fmax(largest, scratch[i]);
     }
-    const double in = work_along(s->position, scratch, f->input.n_all, c);
+    const double in = work_along(s->position, scratch, f->input.n_all, c, top);
     const double share = (in - back) / (in - 0.5 * largest * largest / s->spring_constant);
     if (share <= 1.0) /* more than all is no loss: the sample took too little of the work to say */
         f->loss = share;

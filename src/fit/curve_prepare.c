@@ -19,10 +19,10 @@ static const double travel_share = 0.5;  /* of the range of the height that must
 static const double rigid_share = 0.02;  /* least advance of the tip per bending of the lever */
 static const double plateau_ratio = 5.0; /* force gained before a flat top against in it */
 static const size_t plateau_samples = 5;
-static const double spike_noise = 8.0;     /* a spike beyond its neighbours, in noise */
-static const double spike_step = 3.0;      /* of one below, and in the step between its two sides */
-static const double spike_share = 0.2;     /* of the samples: with more it is no spike */
-enum { SPIKE_SIDE = 7, SPIKE_ROUNDS = 2 }; /* neighbours on each side */
+static const double spike_noise = 8.0; /* a spike beyond its neighbours, in noise */
+static const double spike_step = 3.0;  /* of one below, and in the step between its two sides */
+static const double spike_share = 0.2; /* of the samples: with more it is no spike */
+enum { SPIKE_SIDE = 7 };               /* neighbours on each side */
 
 wt_status curve_reserve(wt_indent_workspace *w, size_t n, wt_error *err)
 {
@@ -239,8 +239,8 @@ wt_curve_verdict curve_prepare(const double *height, const double *force, size_t
     double resolution = 0.0;
     input->step_noise = difference_noise(s, w->scratch, &resolution);
     const double far = spike_noise * fmax(input->step_noise, resolution);
-    for (int round = 0; far > 0.0 && round < SPIKE_ROUNDS; round++) /* some hide others */
-        input->n_spikes += leave_out_spikes(s, far);
+    if (far > 0.0) /* once: again, it would wear down a contact that is noisier than the baseline */
+        input->n_spikes = leave_out_spikes(s, far);
     if ((double)input->n_spikes > spike_share * (double)n) {
         curve_say(reason, "%zu of %zu samples are spikes, %g %% allowed", input->n_spikes, n,
                   100.0 * spike_share);
