@@ -97,6 +97,7 @@ int cmd_session_free(cmd_session *s)
 {
     for (size_t i = 0; i < s->n_parts; i++)
         wt_params_clear(s->parts[i].params, s->parts[i].structure, &s->parts[i].given);
+    wt_strings_free((char **)s->common.columns, s->common.n_columns);
     free(s->files);
     free(s->names);
     wt_table_free(s->work.failures);
