@@ -61,7 +61,8 @@ static wt_status recognised(const choice *c, size_t i, bool *yes)
     wt_error why = WT_ERROR_INIT;
     wt_input *input = NULL;
     const file_reader *reader = NULL;
-    wt_status status = sheet_input(c, i, &input);
+    wt_status status = wt_input_open_memory(c->book->sheets[i].text, c->book->sheets[i].length,
+                                            c->file, &input, c->err);
     if (status != WT_OK)
         return status;
     status = detect_reader(c->formats, input, c->options->format, c->kinds, &reader, &why);
@@ -196,7 +197,7 @@ static wt_status unpack(const wt_formats *formats, wt_input *input, const wt_rea
     const unsigned char *bytes = NULL;
     size_t length = 0;
     bool whole = false;
-    workbook book = {NULL, 0};
+    workbook book = {.sheets = NULL};
     wt_status status = wt_input_peek(input, PACKED_PEEK, &bytes, &length, &whole, err);
     if (status != WT_OK)
         return status;

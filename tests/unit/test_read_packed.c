@@ -119,6 +119,9 @@ static void test_gzip(void **state)
     memset(bytes + n, 0, 100);
     write_bytes(bytes, n + 100);
     reads(NULL, 1, 10e6);
+    memset(bytes + n, 'x', 100);
+    write_bytes(bytes, n + 100);
+    refused(NULL, WT_E_CORRUPT, "something else stands behind");
     /* What is in it is said, not that it is packed. */
     n = pack("nothing known", 13, bytes, sizeof bytes);
     write_bytes(bytes, n);
@@ -164,6 +167,12 @@ static void test_sheets(void **state)
         assert_int_equal(kinds[k](path, two, 2), 0);
         refused(NULL, WT_E_FORMAT, "\"About\", \"About\"");
     }
+    /* More sheets than anybody has. */
+    static book_writer_sheet many[1025];
+    for (size_t i = 0; i < sizeof many / sizeof *many; i++)
+        many[i] = sheets[0];
+    assert_int_equal(xlsx_write(path, many, sizeof many / sizeof *many, true), 0);
+    refused(NULL, WT_E_UNSUPPORTED, "more than 1024 sheets");
     /* A hidden sheet is read only if it is named. */
     const book_writer_sheet hidden[] = {{"Cold", SWEEP, false}, {"Warm", WARM, true}};
     assert_int_equal(xlsx_write(path, hidden, 2, true), 0);

@@ -50,7 +50,16 @@ static uInt piece(size_t left)
     return left < UINT_MAX ? (uInt)left : UINT_MAX;
 }
 
-/* All members, one after the other. Zeros behind the last are what tape drives leave. */
+/* Zeros behind the last member are what tape drives leave; anything else would be lost. */
+static wt_status check_rest(const unpacking *u, const unsigned char *rest, size_t n, wt_error *err)
+{
+    for (size_t i = 0; i < n; i++)
+        if (rest[i] != 0)
+            return fail(err, u, "something else stands behind the archive");
+    return WT_OK;
+}
+
+/* All members, one after the other. */
 static wt_status unpack(unpacking *u, const unsigned char *packed, size_t n, wt_error *err)
 {
     size_t at = 0;
@@ -68,7 +77,7 @@ static wt_status unpack(unpacking *u, const unsigned char *packed, size_t n, wt_
         u->length += out - u->z.avail_out;
         if (what == Z_STREAM_END) {
             if (!gzip_is(packed + at, n - at))
-                return WT_OK;
+                return check_rest(u, packed + at, n - at, err);
             if (inflateReset(&u->z) != Z_OK)
                 return fail(err, u, "the archive cannot be unpacked");
         } else if (what == Z_MEM_ERROR) {

@@ -17,8 +17,12 @@ typedef struct book_sheet {
 
 typedef struct workbook {
     book_sheet *sheets;
-    size_t n;
+    size_t n, length; /* length: of all texts */
 } workbook;
+
+/* No measurement fills so many sheets or so much text; a made file could. */
+#define MOST_SHEETS ((size_t)1024)
+#define MOST_TEXT ((size_t)1 << 30)
 
 /* Bytes that begin as these do: at least PACKED_PEEK of them, if there are as many. */
 #define PACKED_PEEK ((size_t)256)
@@ -46,6 +50,8 @@ typedef struct sheet_text {
 bool sheet_put(sheet_text *sheet, size_t row, size_t column, const char *text, size_t length);
 /* The failure of a text without room. */
 wt_status sheet_refuse(const sheet_text *sheet, const char *name, wt_error *err);
+/* What a sheet may add to the book, and `usual` at most. */
+size_t workbook_room(const workbook *book, size_t usual);
 /* Takes over name (copied) and text. */
 wt_status workbook_add(workbook *book, const char *name, bool hidden, sheet_text *text,
                        wt_error *err) WT_NODISCARD;

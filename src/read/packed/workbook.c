@@ -74,9 +74,20 @@ wt_status sheet_refuse(const sheet_text *sheet, const char *name, wt_error *err)
     return WT_E_CORRUPT;
 }
 
+size_t workbook_room(const workbook *book, size_t usual)
+{
+    const size_t left = MOST_TEXT - book->length;
+    return usual < left ? usual : left;
+}
+
 wt_status workbook_add(workbook *book, const char *name, bool hidden, sheet_text *text,
                        wt_error *err)
 {
+    if (book->n >= MOST_SHEETS) {
+        wt_fail(err, WT_E_UNSUPPORTED, "the spreadsheet has more than %zu sheets", MOST_SHEETS);
+        wt_error_advice(err, "save the sheet with the data as CSV");
+        return WT_E_UNSUPPORTED;
+    }
     book_sheet *sheets = array_grow(book->sheets, book->n, sizeof *sheets);
     char *copy = strdup(name);
     const bool ended = put_marks(text, '\n', 1);
@@ -89,6 +100,7 @@ wt_status workbook_add(workbook *book, const char *name, bool hidden, sheet_text
     }
     book->sheets[book->n++] =
         (book_sheet){.name = copy, .text = text->bytes, .length = text->length, .hidden = hidden};
+    book->length += text->length;
     *text = (sheet_text){.bytes = NULL};
     return WT_OK;
 }
@@ -100,5 +112,5 @@ void workbook_clear(workbook *book)
         free(book->sheets[i].text);
     }
     free(book->sheets);
-    *book = (workbook){NULL, 0};
+    *book = (workbook){.sheets = NULL};
 }

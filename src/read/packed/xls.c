@@ -120,7 +120,7 @@ static wt_status take_answer(const char *answer, size_t length, size_t most, wor
                              wt_error *err)
 {
     const char *name = NULL;
-    sheet_text text = {.most = most};
+    sheet_text text = {.most = workbook_room(book, most)};
     wt_status status = WT_OK;
     for (size_t at = 0; status == WT_OK && at < length; at += strlen(answer + at) + 1) {
         const bool whole = memchr(answer + at, '\0', length - at) != NULL;
@@ -132,7 +132,7 @@ static wt_status take_answer(const char *answer, size_t length, size_t most, wor
         } else {
             if (name != NULL)
                 status = workbook_add(book, name, false, &text, err);
-            text = status == WT_OK ? (sheet_text){.most = most} : text;
+            text = status == WT_OK ? (sheet_text){.most = workbook_room(book, most)} : text;
             name = record + 1;
         }
         if (status != WT_OK)

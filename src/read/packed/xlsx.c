@@ -327,7 +327,7 @@ static wt_status read_node(const part *p, cell *c, const texts *strings, sheet_t
 
 /* WT_END: a chart, which has no rows. */
 static wt_status read_sheet(const zip_archive *zip, const char *entry, const texts *strings,
-                            sheet_text *out, wt_error *err)
+                            const workbook *book, sheet_text *out, wt_error *err)
 {
     part p;
     cell c = {.row = SIZE_MAX, .column = SIZE_MAX};
@@ -339,7 +339,7 @@ static wt_status read_sheet(const zip_archive *zip, const char *entry, const tex
         return WT_E_CORRUPT;
     }
     if (status == WT_OK)
-        out->most = 16 * MIB + 4 * (p.bytes.length + strings->length);
+        out->most = workbook_room(book, 16 * MIB + 4 * (p.bytes.length + strings->length));
     while (status == WT_OK && (status = part_next(&p, err)) == WT_OK) {
         is_sheet = is_sheet || begins(&p, "worksheet");
         status = read_node(&p, &c, strings, out, err);
@@ -351,45 +351,53 @@ static wt_status read_sheet(const zip_archive *zip, const char *entry, const tex
 
 /* ---- the book -------------------------------------------------------------------------------- */
 
-/* The entry that a relation of the workbook leads to, new; *entry stays NULL if there is none. */
-static wt_status find_entry(const zip_archive *zip, const char *id, char **entry, wt_error *err)
+/* Where the relations of the workbook lead: id and entry in turn. */
+static wt_status read_relations(const zip_archive *zip, texts *relations, wt_error *err)
 {
     part p;
     wt_status status = part_open(zip, "xl/_rels/workbook.xml.rels", &p, err);
-    while (status == WT_OK && *entry == NULL && (status = part_next(&p, err)) == WT_OK) {
+    while (status == WT_OK && (status = part_next(&p, err)) == WT_OK) {
         if (!begins(&p, "Relationship"))
             continue;
-        char *this = attribute(&p, "Id"), *target = attribute(&p, "Target");
-        if (this != NULL && target != NULL && strcmp(this, id) == 0) {
-            const int n = target[0] == '/' ? asprintf(entry, "%s", target + 1)
-                                           : asprintf(entry, "xl/%s", target);
-            if (n < 0) {
-                *entry = NULL;
-                status = no_memory(err);
-            }
-        }
-        free(this);
+        char *id = attribute(&p, "Id"), *target = attribute(&p, "Target");
+        const bool absolute = target != NULL && target[0] == '/';
+        if (id != NULL && target != NULL &&
+            !(texts_append(relations, id) && texts_end(relations) &&
+              texts_append(relations, absolute ? "" : "xl/") &&
+              texts_append(relations, absolute ? target + 1 : target) && texts_end(relations)))
+            status = no_memory(err);
+        free(id);
         free(target);
     }
     part_close(&p);
     return status == WT_END ? WT_OK : status;
 }
 
-static wt_status add_sheet(const zip_archive *zip, const part *p, const texts *strings,
-                           workbook *book, wt_error *err)
+/* The entry of a relation, new; NULL if there is none, or no memory. */
+static char *find_entry(const texts *relations, const char *id)
+{
+    const size_t length = strlen(id);
+    for (size_t i = 0; i + 1 < relations->n; i += 2) {
+        const size_t from = i > 0 ? relations->end[i - 1] : 0, middle = relations->end[i];
+        if (middle - from == length && memcmp(relations->bytes + from, id, length) == 0)
+            return strndup(relations->bytes + middle, relations->end[i + 1] - middle);
+    }
+    return NULL;
+}
+
+static wt_status add_sheet(const zip_archive *zip, const part *p, const texts *relations,
+                           const texts *strings, workbook *book, wt_error *err)
 {
     char *name = attribute(p, "name"), *id = attribute(p, "id"), *state = attribute(p, "state");
-    char *entry = NULL;
+    char *entry = id != NULL ? find_entry(relations, id) : NULL;
     sheet_text text = {.bytes = NULL};
     wt_status status = WT_OK;
     if (name == NULL || id == NULL)
         status = damaged(p, err, "a sheet has no name, or no place");
-    if (status == WT_OK)
-        status = find_entry(zip, id, &entry, err);
     if (status == WT_OK && entry == NULL)
         status = damaged(p, err, "a sheet has no place in the file");
     if (status == WT_OK)
-        status = read_sheet(zip, entry, strings, &text, err);
+        status = read_sheet(zip, entry, strings, book, &text, err);
     if (status == WT_OK)
         status =
             workbook_add(book, name, state != NULL && strcmp(state, "visible") != 0, &text, err);
@@ -404,7 +412,7 @@ static wt_status add_sheet(const zip_archive *zip, const part *p, const texts *s
 wt_status xlsx_read(wt_input *input, workbook *book, wt_error *err)
 {
     zip_archive *zip = NULL;
-    texts strings = {.bytes = NULL};
+    texts strings = {.bytes = NULL}, relations = {.bytes = NULL};
     part p = {.name = NULL};
     wt_status status = archive_open(input, &zip, err);
     if (status == WT_OK && zip->truncated)
@@ -418,11 +426,14 @@ wt_status xlsx_read(wt_input *input, workbook *book, wt_error *err)
     }
     if (status == WT_OK)
         status = read_strings(zip, &strings, err);
+    if (status == WT_OK)
+        status = read_relations(zip, &relations, err);
     while (status == WT_OK && (status = part_next(&p, err)) == WT_OK)
         if (begins(&p, "sheet"))
-            status = add_sheet(zip, &p, &strings, book, err);
+            status = add_sheet(zip, &p, &relations, &strings, book, err);
     status = status == WT_END ? WT_OK : status;
     part_close(&p);
+    texts_clear(&relations);
     texts_clear(&strings);
     archive_close(zip);
     if (status != WT_OK)
