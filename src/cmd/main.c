@@ -79,6 +79,10 @@ int main(int argc, char **argv)
     signal(SIGPIPE, SIG_DFL);
     wt_guard_start();
     cmd_end_without_memory();
+    /* A line is one write: forty thousand bad files are as many, not three million. The room is
+     * static, for the words that say that memory is short must not need any. */
+    static char words[BUFSIZ];
+    (void)setvbuf(stderr, words, _IOLBF, sizeof words);
 
     if (argc < 2) {
         print_help(stderr);
