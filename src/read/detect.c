@@ -43,7 +43,6 @@ static const signature signatures[] = {
     SIGNATURE("MM\0*", "a TIFF picture", NO_DATA),
     SIGNATURE("GWYP", "a Gwyddion file", "export it as text from Gwyddion"),
     SIGNATURE("\\*File list", "a NanoScope (Bruker, Veeco) image", AS_TEXT),
-    SIGNATURE("\\*Force file list", "a NanoScope (Bruker, Veeco) force curve", AS_TEXT),
     SIGNATURE("\5\0", "an Igor binary wave (Asylum Research), or unknown binary data", AS_TEXT),
     SIGNATURE("<?xml", "an XML document", "a case file is for `weartrack run`; " NO_DATA),
     SIGNATURE("<!DOCTYPE", "an HTML or XML document", NO_DATA),

@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "base/shortage.h"
+#include "read/force_source.h"
 #include "read/formats.h"
 
 wt_status wt_force_open(const wt_formats *formats, wt_input *input, const wt_read_options *options,
@@ -14,7 +15,7 @@ wt_status wt_force_open(const wt_formats *formats, wt_input *input, const wt_rea
     wt_status status =
         read_start(formats, input, options, WT_KIND_FORCE, &o, &reader, &content, err);
     if (status == WT_OK)
-        status = reader->open_force(reader, content, &o, log, source, err);
+        status = force_open(reader->force, reader, content, &o, log, source, err);
     const wt_status end = shortage_end(status, err);
     if (status == WT_OK && end != WT_OK) {
         wt_force_close(*source);

@@ -9,12 +9,32 @@
 #include "read/facts.h"
 
 #include <math.h>
+#include <stdlib.h>
+
+wt_status force_open(const force_stream *stream, const struct file_reader *self, wt_input *input,
+                     const wt_read_options *options, wt_parselog *log, wt_force_source **source,
+                     wt_error *err)
+{
+    wt_force_source *s = calloc(1, stream->size);
+    if (s == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory to read the file");
+    s->stream = stream;
+    s->name = wt_input_name(input);
+    s->options = *options;
+    s->log = log;
+    wt_status status = stream->open(s, self, input, err);
+    if (status == WT_OK)
+        *source = s;
+    else
+        wt_force_close(s);
+    return status;
+}
 
 wt_status wt_force_next(wt_force_source *source, wt_force_curve *curve, wt_error *err)
 {
     wt_force_curve_reset(curve);
     shortage_forget();
-    wt_status status = shortage_end(source->next(source, curve, err), err);
+    wt_status status = shortage_end(source->stream->next(source, curve, err), err);
     if (status != WT_OK && status != WT_END) {
         wt_force_curve_reset(curve);
         wt_error_file(err, source->name);
@@ -24,8 +44,11 @@ wt_status wt_force_next(wt_force_source *source, wt_force_curve *curve, wt_error
 
 void wt_force_close(wt_force_source *source)
 {
-    if (source != NULL)
-        source->close(source);
+    if (source == NULL)
+        return;
+    if (source->stream->close != NULL)
+        source->stream->close(source);
+    free(source);
 }
 
 size_t wt_force_count(const wt_force_source *source)
@@ -39,6 +62,11 @@ bool force_wants_segment(const wt_force_source *source, wt_segment_kind kind)
 }
 
 /* ---- what a quantity is made of ----------------------------------------------------------- */
+
+double force_positive(double value)
+{
+    return value > 0 && isfinite(value) ? value : (double)NAN;
+}
 
 const force_signal *force_find_signal(const force_facts *facts, wt_quantity quantity)
 {
@@ -264,8 +292,8 @@ wt_status force_add_segment(wt_force_source *source, const force_facts *facts,
         if (signal == NULL)
             sample_times(facts->start, facts->duration, n, channel->values);
         else
-            status =
-                source->decode(source, signal, plan.columns[i].scaling, n, channel->values, err);
+            status = source->stream->decode(source, signal, plan.columns[i].scaling, n,
+                                            channel->values, err);
     }
     return status;
 }

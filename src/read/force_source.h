@@ -44,14 +44,25 @@ typedef struct force_facts {
     size_t n_signals;
 } force_facts;
 
-/* The first member of each reader's own struct. */
-struct wt_force_source {
+struct file_reader;
+
+/* How a reader streams its curves. */
+typedef struct force_stream {
+    size_t size; /* of its own struct, whose first member is a wt_force_source */
+    /* Name, options and log are set, the rest is zero. What failed is closed like any other. */
+    wt_status (*open)(wt_force_source *source, const struct file_reader *self, wt_input *input,
+                      wt_error *err);
     /* Fills an empty curve. */
     wt_status (*next)(wt_force_source *source, wt_force_curve *curve, wt_error *err);
     /* values[n] = scaling of the numbers of a channel of the segment that is being read. */
     wt_status (*decode)(wt_force_source *source, const force_signal *signal, force_linear scaling,
                         size_t n, double *values, wt_error *err);
-    void (*close)(wt_force_source *source);
+    void (*close)(wt_force_source *source); /* all but the struct itself; NULL: there is nothing */
+} force_stream;
+
+/* The first member of each reader's own struct. */
+struct wt_force_source {
+    const force_stream *stream;
     const char *name;        /* of the input */
     wt_read_options options; /* what was asked for */
     wt_parselog *log;
@@ -59,8 +70,15 @@ struct wt_force_source {
     long grid_columns, grid_rows; /* 0 if there is no grid */
 };
 
+/* The curves of a file, by the stream of its reader `self`; the source borrows the input until it
+ * is closed. */
+wt_status force_open(const force_stream *stream, const struct file_reader *self, wt_input *input,
+                     const wt_read_options *options, wt_parselog *log, wt_force_source **source,
+                     wt_error *err);
 bool force_wants_segment(const wt_force_source *source, wt_segment_kind kind);
 
+/* A calibration, a velocity or a time as a header says it; NaN if that is nothing. */
+double force_positive(double value);
 /* Each quantity once: what comes first counts. */
 void force_add_signal(force_facts *facts, force_signal signal);
 void force_offer(force_facts *facts, wt_quantity quantity);

@@ -43,10 +43,8 @@ typedef struct file_reader {
     wt_status (*as_text)(wt_input *input, wt_parselog *log, wt_input **text, wt_error *err);
     /* `self` is the reader itself. */
     recognition (*detect)(const struct file_reader *self, file_peek *peek);
-    /* Kinds that it cannot deliver are NULL. The source borrows the input until it is closed. */
-    wt_status (*open_force)(const struct file_reader *self, wt_input *input,
-                            const wt_read_options *options, wt_parselog *log,
-                            wt_force_source **source, wt_error *err);
+    /* Kinds that it cannot deliver are NULL. */
+    const struct force_stream *force; /* force_source.h */
     wt_status (*read_sweep)(const struct file_reader *self, wt_input *input,
                             const wt_read_options *options, wt_parselog *log, wt_sweep *sweep,
                             wt_error *err);

@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "data/tables/tables.h"
+#include "read/force_source.h"
 #include "read/text/text.h"
 
 static void report_column(table_writer *report, const text_table *t, const text_column *c)
@@ -58,7 +59,7 @@ static wt_status try_kinds(const file_reader *reader, const text_file *file, wt_
     if (status == WT_OK && text_has(file, WT_KIND_FORCE)) {
         wt_force_source *source = NULL;
         wt_force_curve curve = {.n_segments = 0};
-        status = reader->open_force(reader, sample, options, log, &source, err);
+        status = force_open(reader->force, reader, sample, options, log, &source, err);
         if (status == WT_OK) {
             status = wt_force_next(source, &curve, err);
             wt_force_curve_clear(&curve);

@@ -71,7 +71,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     file_peek peek = {.bytes = data, .length = size, .whole = size % 3 > 0, .name = "fuzz"};
     (void)reader->detect(reader, &peek);
     read_as(reader, input, &options);
-    if (reader->open_force != NULL)
+    if (reader->force != NULL)
         read_curves(reader, data, size, &options);
     describe(reader, data, size, &options);
     text_peek_free(peek.text);

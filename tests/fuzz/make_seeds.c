@@ -6,7 +6,9 @@
 #include "writers/book_writer.h"
 #include "writers/ibw_writer.h"
 #include "writers/jpk_writer.h"
+#include "writers/nanoscope_writer.h"
 #include "writers/nid_writer.h"
+#include "writers/park_writer.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -167,6 +169,55 @@ static int make_ibw(const char *folder)
     return 0;
 }
 
+/* ---- NanoScope, Park --------------------------------------------------------------------------
+ */
+
+static int make_nanoscope(const char *folder)
+{
+    char path[512];
+    const nanoscope_writer_channel channels[] = {
+        {"Deflection Error", "Sens. DeflSens", 1e-10, force},
+        {"Height Sensor", "Sens. ZsensSens", 1e-8, sensor}};
+    for (int kind = 0; kind < 3; kind++) {
+        char name[32];
+        snprintf(name, sizeof name, "seed%d.spm", kind);
+        path_of(path, sizeof path, folder, name);
+        const nanoscope_writer_file f = {.path = path,
+                                         .volume = kind > 0,
+                                         .side = kind > 0 ? 2 : 1,
+                                         .n_in = kind > 0 ? 1 : 5,
+                                         .n_hold = kind == 1 ? 1 : 0,
+                                         .n_out = kind > 0 ? 1 : 5,
+                                         .width = kind == 1 ? 4 : 2,
+                                         .ramp_volts = 20,
+                                         .z_sensitivity = 10,
+                                         .deflection_sensitivity = 40,
+                                         .spring_constant = 0.5,
+                                         .trigger = 1e-9,
+                                         .rate = 100,
+                                         .amplitude = kind == 2 ? 100 : 0,
+                                         .sync = 1,
+                                         .n_channels = 2,
+                                         .channels = channels};
+        if (nanoscope_write(&f) != 0)
+            return -1;
+    }
+    return 0;
+}
+
+static int make_park(const char *folder)
+{
+    char path[512];
+    const park_writer_channel channels[] = {{"Force", "nN", 1, force},
+                                            {"Z Scan", "um", 1, height},
+                                            {"Z Detector", "um", 1, sensor},
+                                            {"Time Stamp", "usec", 1, force}};
+    path_of(path, sizeof path, folder, "seed0.tiff");
+    const park_writer_file f = {
+        .path = path, .n_curves = 2, .n_samples = 6, .n_channels = 4, .channels = channels};
+    return park_write(&f);
+}
+
 /* ---- spreadsheets ------------------------------------------------------------------------- */
 
 static int make_packed(const char *folder)
@@ -211,9 +262,10 @@ static int make_folder(char *path, size_t size, const char *parent, const char *
 
 int main(int argc, char *argv[])
 {
-    static int (*const make[])(const char *) = {make_ibw, make_jpk, make_nid, make_packed,
-                                                make_properties};
-    static const char *const names[] = {"ibw", "jpk", "nid", "packed", "properties"};
+    static int (*const make[])(const char *) = {make_ibw,    make_jpk,  make_nanoscope, make_nid,
+                                                make_packed, make_park, make_properties};
+    static const char *const names[] = {"ibw",    "jpk",  "nanoscope", "nid",
+                                        "packed", "park", "properties"};
     char folder[256];
     if (argc != 2) {
         fprintf(stderr, "usage: make_seeds FOLDER\n");
@@ -224,7 +276,7 @@ int main(int argc, char *argv[])
         force[i] = 1e-9 * (double)(i * i) / POINTS;
         sensor[i] = 2e-6 - 1e-7 * (double)i;
     }
-    for (size_t i = 0; i < 5; i++) {
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         if (make_folder(folder, sizeof folder, argv[1], names[i]) != 0 || make[i](folder) != 0) {
             fprintf(stderr, "%s/%s: cannot be written\n", argv[1], names[i]);
             return 1;

@@ -7,6 +7,7 @@
 #define TESTS_FUZZ_READ_ALL_H
 
 #include "data/tables/tables.h"
+#include "read/force_source.h"
 #include "read/formats.h"
 
 #include <math.h>
@@ -34,7 +35,7 @@ static inline void read_curves(const file_reader *reader, const uint8_t *data, s
     wt_error err = WT_ERROR_INIT;
     if (wt_input_open_memory(data, size, "fuzz", &input, NULL) != WT_OK)
         abort();
-    if (reader->open_force(reader, input, options, log, &source, &err) == WT_OK) {
+    if (force_open(reader->force, reader, input, options, log, &source, &err) == WT_OK) {
         /* Every call moves on, also after a curve that cannot be read. */
         for (size_t i = 0; wt_force_next(source, &curve, &err) != WT_END; i++) {
             if (i > wt_force_count(source))
@@ -94,7 +95,7 @@ static inline void read_all(const file_reader *reader, const uint8_t *data, size
     for (int given = 0; given < 2; given++) {
         if (reader->read_images != NULL)
             read_images(reader, data, size, &options);
-        if (reader->open_force != NULL)
+        if (reader->force != NULL)
             read_curves(reader, data, size, &options);
         options.want = WT_Q_BIT(WT_Q_FORCE);
         options.spring_constant = 0.3;

@@ -111,7 +111,7 @@ static void binary_readers_are_complete(void **state)
             assert_string_not_equal(r->info.id, readers[k]->info.id);
         assert_true(strlen(r->info.title) > 0 && strlen(r->info.evidence) > 0);
         assert_true(strlen(r->info.version) > 0);
-        assert_int_equal(r->open_force != NULL, (r->info.kinds & WT_KIND_FORCE) != 0);
+        assert_int_equal(r->force != NULL, (r->info.kinds & WT_KIND_FORCE) != 0);
         assert_int_equal(r->read_sweep != NULL, (r->info.kinds & WT_KIND_SWEEP) != 0);
         assert_int_equal(r->read_images != NULL, (r->info.kinds & WT_KIND_IMAGE) != 0);
         assert_int_equal(r->read_spectrum != NULL, (r->info.kinds & WT_KIND_SPECTRUM) != 0);

@@ -41,13 +41,13 @@ static wt_status decode(wt_force_source *base, const force_signal *signal, force
     return signal->channel == three ? wt_fail(err, WT_E_CORRUPT, "three is broken") : WT_OK;
 }
 
+static const force_stream stream = {.next = next, .decode = decode};
 static const wt_cantilever known = {.spring_constant = 0.3, .sensitivity = 50e-9};
 static const wt_cantilever unknown = {.spring_constant = (double)NAN, .sensitivity = (double)NAN};
 
 static made_up make(wt_cantilever cantilever)
 {
-    return (made_up){.base = {.next = next,
-                              .decode = decode,
+    return (made_up){.base = {.stream = &stream,
                               .name = "made-up",
                               .options = wt_read_defaults(),
                               .log = wt_parselog_new()},

@@ -3,73 +3,12 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "near.h"
+#include "made_file.h"
 #include "read/force_source.h"
-
-#include "weartrack/read.h"
 #include "writers/nid_writer.h"
-
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
 
 #define LINES 6
 #define POINTS 16
-
-static const char path[] = "test_read_nid.nid";
-
-/* One set serves all tests: making it parses every description. */
-static wt_formats *formats;
-
-static int make_formats(void **state)
-{
-    (void)state;
-    return wt_formats_new(NULL, &formats, NULL, NULL) == WT_OK ? 0 : -1;
-}
-
-static int free_formats(void **state)
-{
-    (void)state;
-    wt_formats_free(formats);
-    return 0;
-}
-
-typedef struct reading {
-    wt_input *input;
-    wt_force_source *source;
-    wt_parselog *log;
-    wt_force_curve curve;
-    wt_error err;
-} reading;
-
-static void open_input(reading *r, const char *name)
-{
-    *r = (reading){.log = wt_parselog_new()};
-    assert_int_equal(wt_input_open(name, &r->input, &r->err), WT_OK);
-}
-
-static wt_status open_force(reading *r, const char *name, const wt_read_options *options)
-{
-    open_input(r, name);
-    return wt_force_open(formats, r->input, options, r->log, &r->source, &r->err);
-}
-
-static void close_all(reading *r)
-{
-    wt_force_close(r->source);
-    wt_input_close(r->input);
-    wt_parselog_free(r->log);
-    wt_force_curve_clear(&r->curve);
-}
-
-static bool logged(const reading *r, const char *words)
-{
-    for (size_t i = 0; i < wt_parselog_count(r->log); i++)
-        if (strstr(wt_parselog_get(r->log, i).text, words) != NULL)
-            return true;
-    return false;
-}
 
 /* ---- force curves ------------------------------------------------------------------------- */
 
@@ -182,7 +121,6 @@ static void units_versions_encodings(void **state)
         assert_curves(&r, lengths_differ, factors[i % 3]);
         close_all(&r);
     }
-    unlink(path);
 }
 
 /* A phase that is not in the file takes no time, even if the header does not tell how much. */
@@ -204,7 +142,6 @@ static void without_pause(void **state)
     assert_near(time->values[0], 0.5, 0);
     assert_near(time->values[POINTS - 1], 0.5 + (POINTS - 1.0) / POINTS, 1e-15);
     close_all(&r);
-    unlink(path);
 }
 
 /* What the user gives replaces what the instrument has applied, whatever the exported unit. */
@@ -237,7 +174,6 @@ static void user_calibration(void **state)
         assert_int_equal(r.curve.cantilever.spring_constant_given, !isnan(o.spring_constant));
         close_all(&r);
     }
-    unlink(path);
 }
 
 static void missing_calibration(void **state)
@@ -261,7 +197,6 @@ static void missing_calibration(void **state)
     assert_exact(&r.curve.segments[0], WT_Q_FORCE, bending[0], 0.5 * 1e-7);
     assert_int_equal(r.curve.segments[0].n_channels, 2);
     close_all(&r);
-    unlink(path);
 }
 
 /* A force in newton whose spring constant the file does not tell: the force stands, the deflection
@@ -285,7 +220,6 @@ static void force_without_spring_constant(void **state)
     assert_exact(&r.curve.segments[0], WT_Q_FORCE, bending[0], 1);
     assert_exact(&r.curve.segments[0], WT_Q_DEFLECTION, bending[0], 2);
     close_all(&r);
-    unlink(path);
 }
 
 static void serpentine_map(void **state)
@@ -320,7 +254,6 @@ static void serpentine_map(void **state)
     assert_int_equal(wt_force_next(r.source, &r.curve, &r.err), WT_OK);
     assert_true(isnan(r.curve.x) && logged(&r, "rotated"));
     close_all(&r);
-    unlink(path);
 }
 
 static void listed_positions(void **state)
@@ -342,7 +275,6 @@ static void listed_positions(void **state)
         assert_int_equal(r.curve.grid_x, -1);
     }
     close_all(&r);
-    unlink(path);
 }
 
 static void described(void **state)
@@ -381,7 +313,6 @@ static void described(void **state)
         assert_string_not_equal(wt_table_text(facts, row, 0), "missing");
     wt_table_free(facts);
     close_all(&r);
-    unlink(path);
 }
 
 /* ---- images ------------------------------------------------------------------------------- */
@@ -437,7 +368,6 @@ static void image_with_known_rows(void **state)
         wt_image_clear(&images[i]);
     free(images);
     close_all(&r);
-    unlink(path);
 }
 
 /* Every change of the file's length, and of what the header says of it, is found. */
@@ -447,11 +377,7 @@ static void sizes_must_add_up(void **state)
     static unsigned char bytes[65536];
     nid_writer_file f = make_file("N", true, false);
     assert_int_equal(nid_write(&f), 0);
-    FILE *in = fopen(path, "rb");
-    assert_non_null(in);
-    size_t whole = fread(bytes, 1, sizeof bytes, in);
-    fclose(in);
-    unlink(path);
+    const size_t whole = read_bytes(bytes, sizeof bytes);
     wt_read_options o = wt_read_defaults();
     o.format = "nid"; /* the question is what the reader says */
     for (size_t n = whole - 1500; n < whole + 3; n++) {
@@ -474,11 +400,7 @@ static void no_samples(void **state)
         wt_read_options o = wt_read_defaults();
         reading r = {.log = NULL};
         assert_int_equal(nid_write(&f), 0);
-        FILE *in = fopen(path, "rb");
-        assert_non_null(in);
-        size_t n = fread(bytes, 1, sizeof bytes, in);
-        fclose(in);
-        unlink(path);
+        const size_t n = read_bytes(bytes, sizeof bytes);
         unsigned char *at = memmem(bytes, n, keys[k], strlen(keys[k]));
         assert_non_null(at);
         for (at += strlen(keys[k]); *at >= '0' && *at <= '9'; at++)
@@ -610,5 +532,5 @@ int main(void)
         cmocka_unit_test(measured_thermal_spectrum),
         cmocka_unit_test(measured_images),
     };
-    return cmocka_run_group_tests(tests, make_formats, free_formats);
+    return cmocka_run_group_tests(tests, set_up, clean);
 }

@@ -2,33 +2,11 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "near.h"
-
-#include "weartrack/read.h"
+#include "made_file.h"
 #include "writers/book_writer.h"
 
-#include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
 #include <zip.h>
 #include <zlib.h>
-
-static wt_formats *formats;
-static char path[] = "/tmp/weartrack-packed-XXXXXX";
-
-static int set_up(void **state)
-{
-    (void)state;
-    const int fd = mkstemp(path);
-    return fd < 0 || close(fd) != 0 || wt_formats_new(NULL, &formats, NULL, NULL) != WT_OK ? -1 : 0;
-}
-
-static int clean(void **state)
-{
-    (void)state;
-    wt_formats_free(formats);
-    return unlink(path);
-}
 
 #define TABLE "f\tT\tE'\tE''\nHz\tdegC\tMPa\tMPa\n"
 #define SWEEP TABLE "0.1\t20\t10\t1\n1\t20\t11\t1.25\n10\t20\t12.1\t1.5\n"
@@ -51,7 +29,7 @@ static wt_status read_sweep(const char *sheet, wt_sweep *sweep, wt_parselog *log
         status = wt_sweep_read(formats, input, &options, log, sweep, err);
     }
     if (status != WT_OK)
-        assert_non_null(strstr(err->file, "weartrack-packed"));
+        assert_non_null(strstr(err->file, "weartrack-made"));
     wt_input_close(input);
     return status;
 }
@@ -69,7 +47,7 @@ static void reads(const char *sheet, size_t isotherms, double storage)
     wt_sweep_clear(&sweep);
 }
 
-static void refused(const char *sheet, wt_status expected, const char *words)
+static void cannot_read(const char *sheet, wt_status expected, const char *words)
 {
     wt_sweep sweep;
     wt_error err;
@@ -109,10 +87,10 @@ static void test_gzip(void **state)
     reads(NULL, 1, 10e6);
     /* A lone half of it, and one whose check sum differs. */
     write_bytes(bytes, n / 2);
-    refused(NULL, WT_E_CORRUPT, "the end of the archive is missing");
+    cannot_read(NULL, WT_E_CORRUPT, "the end of the archive is missing");
     bytes[n - 6] ^= 1;
     write_bytes(bytes, n);
-    refused(NULL, WT_E_CORRUPT, "damaged");
+    cannot_read(NULL, WT_E_CORRUPT, "damaged");
     /* Members follow one another; zeros at the end are no member. */
     n = pack(TABLE, strlen(TABLE), bytes, sizeof bytes);
     n += pack(&SWEEP[strlen(TABLE)], strlen(SWEEP) - strlen(TABLE), bytes + n, sizeof bytes - n);
@@ -121,11 +99,11 @@ static void test_gzip(void **state)
     reads(NULL, 1, 10e6);
     memset(bytes + n, 'x', 100);
     write_bytes(bytes, n + 100);
-    refused(NULL, WT_E_CORRUPT, "something else stands behind");
+    cannot_read(NULL, WT_E_CORRUPT, "something else stands behind");
     /* What is in it is said, not that it is packed. */
     n = pack("nothing known", 13, bytes, sizeof bytes);
     write_bytes(bytes, n);
-    refused(NULL, WT_E_FORMAT, "text of no known layout");
+    cannot_read(NULL, WT_E_FORMAT, "text of no known layout");
 }
 
 /* ---- spreadsheets ---------------------------------------------------------------------------- */
@@ -155,24 +133,24 @@ static void test_sheets(void **state)
         assert_int_equal(kinds[k](path, sheets, 2), 0);
         reads(NULL, 1, 10e6);
         reads("cold", 1, 10e6);
-        refused("hot", WT_E_NOT_FOUND, "\"About\", \"Cold\"");
-        refused("About", WT_E_FORMAT, "not recognised");
+        cannot_read("hot", WT_E_NOT_FOUND, "\"About\", \"Cold\"");
+        cannot_read("About", WT_E_FORMAT, "not recognised");
         assert_int_equal(kinds[k](path, plain, 3), 0);
-        refused(NULL, WT_E_AMBIGUOUS, "\"Cold\", \"Warm\"");
+        cannot_read(NULL, WT_E_AMBIGUOUS, "\"Cold\", \"Warm\"");
         reads("Warm", 1, 8e6);
         reads("all", 2, 10e6);
         assert_int_equal(kinds[k](path, plain, 1), 0);
-        refused(NULL, WT_E_FORMAT, "not recognised");
+        cannot_read(NULL, WT_E_FORMAT, "not recognised");
         const book_writer_sheet two[] = {sheets[0], sheets[0]};
         assert_int_equal(kinds[k](path, two, 2), 0);
-        refused(NULL, WT_E_FORMAT, "\"About\", \"About\"");
+        cannot_read(NULL, WT_E_FORMAT, "\"About\", \"About\"");
     }
     /* More sheets than anybody has. */
     static book_writer_sheet many[1025];
     for (size_t i = 0; i < sizeof many / sizeof *many; i++)
         many[i] = sheets[0];
     assert_int_equal(xlsx_write(path, many, sizeof many / sizeof *many, true), 0);
-    refused(NULL, WT_E_UNSUPPORTED, "more than 1024 sheets");
+    cannot_read(NULL, WT_E_UNSUPPORTED, "more than 1024 sheets");
     /* A hidden sheet is read only if it is named. */
     const book_writer_sheet hidden[] = {{"Cold", SWEEP, false}, {"Warm", WARM, true}};
     assert_int_equal(xlsx_write(path, hidden, 2, true), 0);
@@ -275,7 +253,7 @@ static void test_hostile(void **state)
     memcpy(strings, "<sst><si><t>", 12);
     memcpy(strings + sizeof strings - 20, "</t></si></sst>", 16);
     write_parts(sheet, strings);
-    refused(NULL, WT_E_CORRUPT, "more text than a file of this size can hold");
+    cannot_read(NULL, WT_E_CORRUPT, "more text than a file of this size can hold");
 }
 
 /* A book cut off, and an archive that is none. */

@@ -12,7 +12,6 @@
 #include <string.h>
 
 #define DMA WT_SHARED_DIR "/data/dma/"
-#define AFM WT_SHARED_DIR "/data/afm/"
 
 static wt_formats *formats;
 
@@ -231,98 +230,6 @@ static void tables(void **state)
     wt_sweep_clear(&sweep);
 }
 
-/* ---- force curves ------------------------------------------------------------------------- */
-
-/* The rows of the reference table for one file: n, min, max, mean, first, last of a channel. */
-static size_t compare_channels(const char *file, const wt_force_curve *curve)
-{
-    char line[1024], name[64];
-    size_t checked = 0;
-    FILE *in = fopen(WT_SHARED_DIR "/reference/force-curve-channels.csv", "r");
-    if (in == NULL)
-        skip();
-    while (fgets(line, sizeof line, in) != NULL) {
-        const char *c = line;
-        size_t segment, n;
-        double minimum, maximum, mean, first, last;
-        if (strncmp(line, file, strlen(file)) != 0)
-            continue;
-        for (int comma = 0; comma < 12; comma++)
-            c = strchr(c, ',') + 1;
-        assert_int_equal(sscanf(c, "%zu,%63[^,],%zu,%lf,%lf,%lf,%lf,%lf", &segment, name, &n,
-                                &minimum, &maximum, &mean, &first, &last),
-                         8);
-        assert_true(segment < curve->n_segments);
-        const wt_quantity q = strcmp(name, "force") == 0 ? WT_Q_FORCE : WT_Q_MEASURED_HEIGHT;
-        const wt_channel *channel = wt_segment_channel(&curve->segments[segment], q);
-        assert_non_null(channel);
-        assert_int_equal(curve->segments[segment].n_points, n);
-        double low = (double)INFINITY, high = -(double)INFINITY, sum = 0;
-        for (size_t i = 0; i < n; i++) {
-            low = fmin(low, channel->values[i]);
-            high = fmax(high, channel->values[i]);
-            sum += channel->values[i];
-        }
-        assert_near(low, minimum, 1e-11);
-        assert_near(high, maximum, 1e-11);
-        assert_near(sum / (double)n, mean, 1e-11);
-        assert_near(channel->values[0], first, 1e-11);
-        assert_near(channel->values[n - 1], last, 1e-11);
-        checked++;
-    }
-    fclose(in);
-    return checked;
-}
-
-static void workshop_file(const char *file)
-{
-    char path[512];
-    wt_force_source *source = NULL;
-    wt_force_curve curve = {.n_segments = 0};
-    wt_error err = WT_ERROR_INIT;
-    wt_read_options options = wt_read_defaults();
-    snprintf(path, sizeof path, AFM "%s", file);
-    wt_input *input = open_measured(path);
-    check_id(input, 0, "afm-workshop");
-    /* The file has volts only: an error for who asks for the force, left out for who asks for all.
-     */
-    wt_parselog *log = wt_parselog_new();
-    assert_int_equal(wt_force_open(formats, input, &options, log, &source, &err), WT_OK);
-    assert_int_equal(wt_force_next(source, &curve, &err), WT_OK);
-    assert_null(wt_segment_channel(&curve.segments[0], WT_Q_FORCE));
-    assert_non_null(wt_segment_channel(&curve.segments[0], WT_Q_DEFLECTION_VOLTAGE));
-    assert_non_null(strstr(wt_parselog_get(log, 0).text, "no force"));
-    wt_force_close(source);
-    wt_parselog_free(log);
-    options.want = WT_Q_ALL & ~WT_Q_BIT(WT_Q_NONE);
-    assert_int_equal(wt_force_open(formats, input, &options, NULL, &source, &err), WT_OK);
-    assert_int_equal(wt_force_next(source, &curve, &err), WT_E_MISSING);
-    assert_non_null(strstr(err.advice, "--sensitivity"));
-    wt_force_close(source);
-    options.sensitivity = 60e-9;
-    options.spring_constant = 0.05;
-    assert_int_equal(wt_force_open(formats, input, &options, NULL, &source, &err), WT_OK);
-    assert_int_equal(wt_force_count(source), 1);
-    assert_int_equal(wt_force_next(source, &curve, &err), WT_OK);
-    assert_int_equal(curve.n_segments, 2);
-    assert_int_equal(curve.segments[0].kind, WT_SEGMENT_APPROACH);
-    assert_int_equal(curve.segments[1].kind, WT_SEGMENT_RETRACT);
-    assert_near(curve.x, 25e-6, 1e-15);
-    assert_true(curve.cantilever.sensitivity_given);
-    assert_int_equal(compare_channels(file, &curve), 4);
-    assert_int_equal(wt_force_next(source, &curve, &err), WT_END);
-    wt_force_close(source);
-    wt_force_curve_clear(&curve);
-    wt_input_close(input);
-}
-
-static void afm_workshop(void **state)
-{
-    (void)state;
-    workshop_file("text/fmt-afm-workshop-fd_single_2018-08-01_13.06.09.csv");
-    workshop_file("text/fmt-afm-workshop-fd_single_2021-01-15.csv");
-}
-
 static int setup(void **state)
 {
     wt_error err = WT_ERROR_INIT;
@@ -344,9 +251,8 @@ static int teardown(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(trios_lims),   cmocka_unit_test(trios_text),  cmocka_unit_test(stare),
-        cmocka_unit_test(reptate),      cmocka_unit_test(rheocompass), cmocka_unit_test(tables),
-        cmocka_unit_test(afm_workshop),
+        cmocka_unit_test(trios_lims), cmocka_unit_test(trios_text),  cmocka_unit_test(stare),
+        cmocka_unit_test(reptate),    cmocka_unit_test(rheocompass), cmocka_unit_test(tables),
     };
     return cmocka_run_group_tests(tests, setup, teardown);
 }

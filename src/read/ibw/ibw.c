@@ -7,7 +7,6 @@
 #include "read/facts.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 static recognition detect(const file_reader *self, file_peek *peek)
@@ -18,16 +17,17 @@ static recognition detect(const file_reader *self, file_peek *peek)
     if (ibw_is(peek->bytes, peek->length, &big_endian)) {
         match.answer = ANSWER_YES;
         match.score = 90;
+    } else if (peek->whole && ibw_is_old(peek->bytes, peek->length)) {
+        match.answer = ANSWER_UNSUPPORTED;
+        snprintf(
+            match.reason, sizeof match.reason,
+            "an Igor wave of version 2 holds one row of numbers and no force curve: export the "
+            "curve as text, with height and deflection");
     }
     return match;
 }
 
 /* ---- what is in it --------------------------------------------------------------------------- */
-
-static double positive(double value)
-{
-    return value > 0 && isfinite(value) ? value : (double)NAN;
-}
 
 static void add_setpoint(const ibw_file *file, force_facts *facts)
 {
@@ -62,8 +62,8 @@ force_facts ibw_facts(const ibw_file *file)
     force_facts facts = {
         .velocity = (double)NAN,
         .setpoint = (double)NAN,
-        .cantilever = {.spring_constant = positive(ibw_number(file, "SpringConstant")),
-                       .sensitivity = positive(ibw_number(file, "InvOLS"))},
+        .cantilever = {.spring_constant = force_positive(ibw_number(file, "SpringConstant")),
+                       .sensitivity = force_positive(ibw_number(file, "InvOLS"))},
         .offers = {WT_Q_TIME, WT_Q_HEIGHT, WT_Q_MEASURED_HEIGHT, WT_Q_FORCE, WT_Q_DEFLECTION,
                    WT_Q_DEFLECTION_VOLTAGE},
         .n_offers = 6};
@@ -165,36 +165,21 @@ static wt_status next_curve(wt_force_source *base, wt_force_curve *curve, wt_err
     return status;
 }
 
-static void close_source(wt_force_source *base)
+static wt_status open_source(wt_force_source *base, const file_reader *self, wt_input *input,
+                             wt_error *err)
 {
-    free(base);
+    ibw_source *source = (ibw_source *)base;
+    (void)self;
+    wt_status status = ibw_open(input, &source->file, err);
+    if (status == WT_OK)
+        status = ibw_segments(&source->file, source->segments, &source->n_segments, err);
+    source->facts = ibw_facts(&source->file); /* points to the channels of this file */
+    base->n_curves = 1;
+    return status;
 }
 
-wt_status ibw_open_force(const file_reader *self, wt_input *input, const wt_read_options *options,
-                         wt_parselog *log, wt_force_source **source, wt_error *err)
-{
-    (void)self;
-    ibw_source *s = calloc(1, sizeof *s);
-    if (s == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory to read the file");
-    wt_status status = ibw_open(input, &s->file, err);
-    if (status == WT_OK)
-        status = ibw_segments(&s->file, s->segments, &s->n_segments, err);
-    if (status != WT_OK) {
-        free(s);
-        return status;
-    }
-    s->facts = ibw_facts(&s->file); /* points to the channels of this file */
-    s->base = (wt_force_source){.next = next_curve,
-                                .decode = decode,
-                                .close = close_source,
-                                .name = s->file.name,
-                                .options = *options,
-                                .log = log,
-                                .n_curves = 1};
-    *source = &s->base;
-    return WT_OK;
-}
+static const force_stream ibw_force = {
+    .size = sizeof(ibw_source), .open = open_source, .next = next_curve, .decode = decode};
 
 const file_reader reader_ibw = {
     .info = {.id = "ibw",
@@ -204,6 +189,6 @@ const file_reader reader_ibw = {
              .evidence = "a measured curve of an MFP-3D, approach and retract",
              .version = "1"},
     .detect = detect,
-    .open_force = ibw_open_force,
+    .force = &ibw_force,
     .describe = describe,
 };

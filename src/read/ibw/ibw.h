@@ -41,6 +41,8 @@ typedef struct ibw_segment {
 /* Whether a wave of version 5 begins with these bytes: all 16-bit numbers of its headers add up to
  * 0. */
 bool ibw_is(const unsigned char *bytes, size_t length, bool *big_endian);
+/* Whether the bytes are a whole wave of version 2: its sizes add up to the file. */
+bool ibw_is_old(const unsigned char *bytes, size_t length);
 /* Everything is inside the file. */
 wt_status ibw_open(wt_input *input, ibw_file *file, wt_error *err) WT_NODISCARD;
 /* The value of a key of the note, cut to fit; false if it is not there. */
@@ -50,8 +52,5 @@ wt_status ibw_segments(const ibw_file *file, ibw_segment segments[IBW_SEGMENTS],
                        wt_error *err) WT_NODISCARD;
 /* Signals and calibration, the same for all segments. */
 force_facts ibw_facts(const ibw_file *file);
-
-wt_status ibw_open_force(const file_reader *self, wt_input *input, const wt_read_options *options,
-                         wt_parselog *log, wt_force_source **source, wt_error *err);
 
 #endif

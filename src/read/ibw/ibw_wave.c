@@ -10,7 +10,9 @@
 
 enum {
     HEADER_5 = 64, /* of the file, before that of the wave */
-    WAVE_5 = 320   /* header of the wave, before the samples */
+    WAVE_5 = 320,  /* header of the wave, before the samples */
+    HEADER_2 = 16, /* the same of version 2 */
+    WAVE_2 = 110
 };
 
 bool ibw_is(const unsigned char *bytes, size_t length, bool *big_endian)
@@ -22,6 +24,16 @@ bool ibw_is(const unsigned char *bytes, size_t length, bool *big_endian)
     for (size_t i = 0; i < HEADER_5 + WAVE_5; i += 2)
         sum += *big_endian ? be16(bytes + i) : le16(bytes + i);
     return (sum & 0xffff) == 0 && (*big_endian ? be16(bytes) : le16(bytes)) == 5;
+}
+
+bool ibw_is_old(const unsigned char *bytes, size_t length)
+{
+    if (length < HEADER_2 + WAVE_2)
+        return false;
+    const bool big = bytes[0] == 0;
+    const uint64_t wave = big ? be32(bytes + 2) : le32(bytes + 2);
+    const uint64_t note = big ? be32(bytes + 6) : le32(bytes + 6);
+    return (big ? be16(bytes) : le16(bytes)) == 2 && HEADER_2 + wave + note == length;
 }
 
 static uint32_t number(const ibw_file *f, size_t at)

@@ -166,6 +166,6 @@ const file_reader reader_jpk = {
                  "quantitative imaging, pauses, 16-bit and 32-bit data",
              .version = "1"},
     .detect = detect,
-    .open_force = jpk_open_force,
+    .force = &jpk_force,
     .describe = describe,
 };

@@ -125,7 +125,6 @@ void jpk_segment_facts(const jpk_segment *segment, force_facts *facts);
 
 /* ---- curves: jpk_force.c ------------------------------------------------------------------ */
 
-wt_status jpk_open_force(const file_reader *self, wt_input *input, const wt_read_options *options,
-                         wt_parselog *log, wt_force_source **source, wt_error *err);
+extern const force_stream jpk_force;
 
 #endif

@@ -7,7 +7,6 @@
 #include "read/jpk/jpk.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 typedef struct jpk_source {
@@ -135,30 +134,22 @@ static void close_source(wt_force_source *base)
     jpk_source *source = (jpk_source *)base;
     properties_clear(&source->segment.header);
     jpk_file_close(&source->file);
-    free(source);
 }
 
-wt_status jpk_open_force(const file_reader *self, wt_input *input, const wt_read_options *options,
-                         wt_parselog *log, wt_force_source **source, wt_error *err)
+static wt_status open_source(wt_force_source *base, const file_reader *self, wt_input *input,
+                             wt_error *err)
 {
+    jpk_file *file = &((jpk_source *)base)->file;
     (void)self;
-    jpk_source *s = calloc(1, sizeof *s);
-    if (s == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory to read the file");
-    wt_status status = jpk_file_open(input, log, &s->file, err);
-    if (status != WT_OK) {
-        free(s);
-        return status;
-    }
-    s->base = (wt_force_source){.next = next_curve,
-                                .decode = decode,
-                                .close = close_source,
-                                .name = s->file.name,
-                                .options = *options,
-                                .log = log,
-                                .n_curves = s->file.n_curves,
-                                .grid_columns = s->file.columns,
-                                .grid_rows = s->file.rows};
-    *source = &s->base;
-    return WT_OK;
+    wt_status status = jpk_file_open(input, base->log, file, err);
+    base->n_curves = file->n_curves;
+    base->grid_columns = file->columns;
+    base->grid_rows = file->rows;
+    return status;
 }
+
+const force_stream jpk_force = {.size = sizeof(jpk_source),
+                                .open = open_source,
+                                .next = next_curve,
+                                .decode = decode,
+                                .close = close_source};

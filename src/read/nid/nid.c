@@ -125,7 +125,7 @@ const file_reader reader_nid = {
                  "not verified on a genuine file",
              .version = "1"},
     .detect = detect,
-    .open_force = nid_open_force,
+    .force = &nid_force,
     .read_images = nid_read_images,
     .describe = describe,
 };

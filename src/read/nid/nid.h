@@ -100,8 +100,7 @@ typedef struct nid_spectroscopy {
 /* WT_E_EMPTY if there are no curves. */
 wt_status nid_spectroscopy_find(const nid_file *file, nid_spectroscopy *spectroscopy,
                                 wt_error *err);
-wt_status nid_open_force(const file_reader *self, wt_input *input, const wt_read_options *options,
-                         wt_parselog *log, wt_force_source **source, wt_error *err);
+extern const force_stream nid_force;
 
 /* ---- where the curves are: nid_position.c ------------------------------------------------- */
 

@@ -10,7 +10,6 @@
 #include "base/number.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
@@ -54,11 +53,6 @@ static double full_scale(const nid_header *header, const char *name, wt_quantity
     return (double)NAN;
 }
 
-static double positive(double value)
-{
-    return value > 0 && isfinite(value) ? value : (double)NAN;
-}
-
 static void read_phase(const nid_header *header, size_t i, nid_phase *phase)
 {
     double time = nid_typed(header, SPECTROSCOPY, phase_names[i].time, WT_Q_TIME);
@@ -69,7 +63,7 @@ static void read_phase(const nid_header *header, size_t i, nid_phase *phase)
         !wt_number_parse(points + 2, strcspn(points + 2, "]"), '.', &n))
         n = (double)NAN;
     phase->group = phase_names[i].group;
-    phase->interval = positive(time / n);
+    phase->interval = force_positive(time / n);
     phase->facts = (force_facts){.kind = phase_names[i].kind,
                                  .index = i,
                                  .place = SPECTROSCOPY,
@@ -79,7 +73,7 @@ static void read_phase(const nid_header *header, size_t i, nid_phase *phase)
                                             WT_Q_FORCE, WT_Q_DEFLECTION, WT_Q_DEFLECTION_VOLTAGE},
                                  .n_offers = 6};
     if (phase_names[i].range != NULL)
-        phase->facts.velocity = positive(
+        phase->facts.velocity = force_positive(
             fabs(nid_typed(header, SPECTROSCOPY, phase_names[i].range, WT_Q_LENGTH)) / time);
 }
 
@@ -112,9 +106,9 @@ static void add_channel(const nid_channel *c, force_facts *facts)
 wt_status nid_spectroscopy_find(const nid_file *file, nid_spectroscopy *s, wt_error *err)
 {
     *s = (nid_spectroscopy){
-        .cantilever = {.spring_constant = positive(
+        .cantilever = {.spring_constant = force_positive(
                            nid_typed(&file->header, CANTILEVER, "Prop0", WT_Q_SPRING_CONSTANT)),
-                       .sensitivity = positive(
+                       .sensitivity = force_positive(
                            full_scale(&file->header, "TipSignalDC", WT_Q_DEFLECTION) /
                            full_scale(&file->header, "TipSignalDC1", WT_Q_DEFLECTION_VOLTAGE))}};
     for (size_t p = 0; p < NID_PHASES; p++) {
@@ -231,38 +225,30 @@ static wt_status next_curve(wt_force_source *base, wt_force_curve *curve, wt_err
 
 static void close_source(wt_force_source *base)
 {
-    nid_source *source = (nid_source *)base;
-    nid_file_close(&source->file);
-    free(source);
+    nid_file_close(&((nid_source *)base)->file);
 }
 
-wt_status nid_open_force(const file_reader *self, wt_input *input, const wt_read_options *options,
-                         wt_parselog *log, wt_force_source **source, wt_error *err)
+static wt_status open_source(wt_force_source *base, const file_reader *self, wt_input *input,
+                             wt_error *err)
 {
+    nid_source *source = (nid_source *)base;
     (void)self;
-    nid_source *s = calloc(1, sizeof *s);
-    if (s == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory to read the file");
-    wt_status status = nid_file_open(input, &s->file, err);
+    wt_status status = nid_file_open(input, &source->file, err);
     if (status == WT_OK)
-        status = nid_spectroscopy_find(&s->file, &s->spectroscopy, err);
-    if (status != WT_OK) {
-        nid_file_close(&s->file);
-        free(s);
+        status = nid_spectroscopy_find(&source->file, &source->spectroscopy, err);
+    if (status != WT_OK)
         return status;
-    }
-    wt_parselog_add(log, WT_NOTE, s->file.name, NULL,
+    wt_parselog_add(base->log, WT_NOTE, base->name, NULL,
                     "force curves of this format were not verified on a genuine file: compare one "
                     "with the instrument's own software");
-    s->base = (wt_force_source){.next = next_curve,
-                                .decode = decode,
-                                .close = close_source,
-                                .name = s->file.name,
-                                .options = *options,
-                                .log = log,
-                                .n_curves = s->spectroscopy.n_curves,
-                                .grid_columns = s->spectroscopy.columns,
-                                .grid_rows = s->spectroscopy.rows};
-    *source = &s->base;
+    base->n_curves = source->spectroscopy.n_curves;
+    base->grid_columns = source->spectroscopy.columns;
+    base->grid_rows = source->spectroscopy.rows;
     return WT_OK;
 }
+
+const force_stream nid_force = {.size = sizeof(nid_source),
+                                .open = open_source,
+                                .next = next_curve,
+                                .decode = decode,
+                                .close = close_source};

@@ -195,8 +195,7 @@ void names_free(names_row *names);
 file_reader text_reader(text_description *description);
 void text_peek_free(struct text_peek *peek);
 
-wt_status text_open_force(const file_reader *self, wt_input *input, const wt_read_options *options,
-                          wt_parselog *log, wt_force_source **source, wt_error *err);
+extern const struct force_stream text_force;
 wt_status text_read_sweep(const file_reader *self, wt_input *input, const wt_read_options *options,
                           wt_parselog *log, wt_sweep *sweep, wt_error *err);
 wt_status text_read_spectrum(const file_reader *self, wt_input *input,

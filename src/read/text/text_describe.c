@@ -4,6 +4,8 @@
  */
 #include "read/text/text.h"
 
+#include "read/force_source.h"
+
 #include "read/facts.h"
 
 #include <math.h>
@@ -116,7 +118,7 @@ static void add_curves(const file_reader *self, wt_input *input, const wt_read_o
     wt_error problem = WT_ERROR_INIT;
     wt_read_options bare = *options;
     bare.want &= ~WT_Q_BIT(WT_Q_FORCE);
-    if (text_open_force(self, input, &bare, NULL, &source, &problem) != WT_OK) {
+    if (force_open(self->force, self, input, &bare, NULL, &source, &problem) != WT_OK) {
         add_problem(&problem, facts);
         return;
     }
@@ -146,7 +148,7 @@ static void add_force(const file_reader *self, wt_input *input, const wt_read_op
     wt_read_options force_only = *options;
     force_only.want = WT_Q_BIT(WT_Q_FORCE);
     add_curves(self, input, options, facts);
-    if (text_open_force(self, input, &force_only, NULL, &source, &problem) != WT_OK)
+    if (force_open(self->force, self, input, &force_only, NULL, &source, &problem) != WT_OK)
         return;
     if (wt_force_next(source, &curve, &problem) == WT_E_MISSING)
         add_problem(&problem, facts);

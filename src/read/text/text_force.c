@@ -7,7 +7,6 @@
 #include "read/force_source.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* A curve that turns comes back by more than the noise of its last point before it. */
@@ -29,11 +28,6 @@ typedef struct text_source {
 static double header(const text_table *t, header_value value)
 {
     return t->header.value[value];
-}
-
-static double positive(double value)
-{
-    return value > 0 ? value : (double)NAN;
 }
 
 static wt_status decode(wt_force_source *base, const force_signal *signal, force_linear scaling,
@@ -103,8 +97,8 @@ static wt_status add_segment(text_source *s, wt_force_curve *curve, wt_segment_k
         .velocity = header(t, HEADER_VELOCITY),
         .setpoint = header(t, HEADER_SETPOINT),
         .setpoint_quantity = WT_Q_FORCE,
-        .cantilever = {.spring_constant = positive(header(t, HEADER_SPRING_CONSTANT)),
-                       .sensitivity = positive(header(t, HEADER_SENSITIVITY))}};
+        .cantilever = {.spring_constant = force_positive(header(t, HEADER_SPRING_CONSTANT)),
+                       .sensitivity = force_positive(header(t, HEADER_SENSITIVITY))}};
     if (!force_wants_segment(&s->base, kind))
         return WT_OK;
     find_signals(s, t, kind, &facts);
@@ -207,9 +201,7 @@ static wt_status text_next(wt_force_source *source, wt_force_curve *curve, wt_er
 
 static void text_close(wt_force_source *source)
 {
-    text_source *s = (text_source *)source;
-    text_file_free(&s->file);
-    free(s);
+    text_file_free(&((text_source *)source)->file);
 }
 
 static size_t count_curves(const text_file *file)
@@ -223,30 +215,24 @@ static size_t count_curves(const text_file *file)
     return n;
 }
 
-wt_status text_open_force(const file_reader *self, wt_input *input, const wt_read_options *options,
-                          wt_parselog *log, wt_force_source **source, wt_error *err)
+static wt_status text_open(wt_force_source *source, const file_reader *self, wt_input *input,
+                           wt_error *err)
 {
-    text_source *s = calloc(1, sizeof *s);
-    if (s == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the force curves");
-    wt_status status = text_scan(self, input, WT_KIND_FORCE, options, log, &s->file, err);
-    if (status != WT_OK) {
-        free(s);
+    text_source *s = (text_source *)source;
+    wt_status status =
+        text_scan(self, input, WT_KIND_FORCE, &source->options, source->log, &s->file, err);
+    if (status != WT_OK)
         return status;
-    }
-    if (s->file.n_tables == 0) {
-        status = text_nothing(&s->file, "force curve", err);
-        text_close(&s->base);
-        return status;
-    }
-    text_log_columns(&s->file, log);
-    s->base = (wt_force_source){.next = text_next,
-                                .decode = decode,
-                                .close = text_close,
-                                .name = s->file.name,
-                                .options = *options,
-                                .log = log,
-                                .n_curves = count_curves(&s->file)};
-    *source = &s->base;
+    if (s->file.n_tables == 0)
+        return text_nothing(&s->file, "force curve", err);
+    text_log_columns(&s->file, source->log);
+    source->name = s->file.name;
+    source->n_curves = count_curves(&s->file);
     return WT_OK;
 }
+
+const force_stream text_force = {.size = sizeof(text_source),
+                                 .open = text_open,
+                                 .next = text_next,
+                                 .decode = decode,
+                                 .close = text_close};

@@ -172,7 +172,7 @@ file_reader text_reader(text_description *d)
                  .version = d->version},
         .description = d,
         .detect = detect,
-        .open_force = (d->kinds & WT_KIND_FORCE) != 0 ? text_open_force : NULL,
+        .force = (d->kinds & WT_KIND_FORCE) != 0 ? &text_force : NULL,
         .read_sweep = (d->kinds & WT_KIND_SWEEP) != 0 ? text_read_sweep : NULL,
         .read_spectrum = (d->kinds & WT_KIND_SPECTRUM) != 0 ? text_read_spectrum : NULL,
         .describe = text_describe,

@@ -1,0 +1,390 @@
+/* What the header of a NanoScope file says of the curves, held against the bytes that are there.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "read/nanoscope/nanoscope.h"
+
+#include "base/number.h"
+#include "read/bytes/bytes.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define SCAN "Ciao scan list"
+#define FORCE "Ciao force list"
+#define BLOCK "Ciao force image list"
+#define IMAGE "Ciao image list"
+
+/* Counts that a converter of 16 bits has, which the volts of a count in the header are for. */
+static const double most_counts = 32768;
+
+static wt_status corrupt(wt_error *err, const char *message, const char *expected)
+{
+    wt_fail(err, WT_E_CORRUPT, "%s", message);
+    wt_error_place(err, "\\*" BLOCK);
+    wt_error_expected(err, "%s", expected);
+    return WT_E_CORRUPT;
+}
+
+/* Number i of a list of whole numbers such as "512 512"; 0 if there is none, or it is too large. */
+static size_t whole(const char *text, size_t i)
+{
+    for (; text != NULL; i--) {
+        char *end = NULL;
+        const double value = strtod(text, &end);
+        if (end == text)
+            return 0;
+        if (i == 0)
+            return value >= 1 && value <= 1e7 ? (size_t)value : 0;
+        text = end;
+    }
+    return 0;
+}
+
+static size_t whole_of(const nanoscope_file *f, size_t section, const char *key, size_t i)
+{
+    return whole(nanoscope_get(&f->header, section, key), i);
+}
+
+/* ---- how many curves, how wide their numbers ---------------------------------------------------
+ */
+
+static size_t samples(const nanoscope_file *f)
+{
+    return f->n_in + f->n_hold + f->n_out;
+}
+
+/* A grid is what the header names somewhere and the size of the block agrees with: the number of
+ * pixels of an image need not be that of the curves, and "Bytes/pixel" is 2 where four are stored.
+ */
+static bool try_grid(nanoscope_file *f, size_t columns, size_t rows, size_t bytes, unsigned *width)
+{
+    const size_t samps = samples(f);
+    if (columns == 0 || rows == 0 || bytes / samps / rows < columns)
+        return false;
+    for (unsigned w = 2; w <= 4; w += 2) {
+        if (bytes != w * columns * rows * samps)
+            continue;
+        *width = w;
+        f->n_planned = columns * rows;
+        f->columns = f->n_planned > 1 ? (long)columns : 0;
+        f->rows = f->n_planned > 1 ? (long)rows : 0;
+        return true;
+    }
+    return false;
+}
+
+static bool find_grid(nanoscope_file *f, size_t bytes, unsigned *width)
+{
+    const size_t force = nanoscope_section(&f->header, FORCE, 0);
+    const size_t scan = nanoscope_section(&f->header, SCAN, 0);
+    const char *context = nanoscope_get(&f->header, 0, "Start context");
+    const size_t side = whole_of(f, force, "force/line", 0);
+    if (context != NULL && strcmp(context, "FOL") == 0)
+        return try_grid(f, 1, 1, bytes, width);
+    if (try_grid(f, side, side, bytes, width) ||
+        try_grid(f, whole_of(f, scan, "Samps/line", 0), whole_of(f, scan, "Lines", 0), bytes,
+                 width))
+        return true;
+    for (size_t i = 0;; i++) {
+        const size_t image = nanoscope_section(&f->header, IMAGE, i);
+        if (image == SIZE_MAX)
+            return try_grid(f, 1, 1, bytes, width);
+        if (try_grid(f, whole_of(f, image, "Samps/line", 0),
+                     whole_of(f, image, "Number of lines", 0), bytes, width))
+            return true;
+    }
+}
+
+/* "[DeflectionError] "Deflection Error"": what stands in quotation marks counts. */
+static void name_channel(const char *text, nanoscope_channel *c)
+{
+    const char *open = text != NULL ? strchr(text, '"') : NULL;
+    const char *close = open != NULL ? strchr(open + 1, '"') : NULL;
+    snprintf(c->name, sizeof c->name, "%.*s", close != NULL ? (int)(close - open - 1) : 0,
+             close != NULL ? open + 1 : "");
+    c->quantity = strncmp(c->name, "Defl", 4) == 0             ? WT_Q_DEFLECTION_VOLTAGE
+                  : strncmp(c->name, "Height Sensor", 13) == 0 ? WT_Q_MEASURED_HEIGHT
+                                                               : WT_Q_NONE;
+}
+
+static wt_status read_channel(nanoscope_file *f, size_t section, wt_error *err)
+{
+    nanoscope_channel c = {.width = 0};
+    const nanoscope_value scale = nanoscope_value_of(nanoscope_get(&f->header, section, "Z scale"));
+    const size_t bytes = whole_of(f, section, "Data length", 0);
+    const size_t n_in = whole_of(f, section, "Samps/line", 0);
+    const size_t n_out = whole_of(f, section, "Samps/line", 1);
+    c.offset = whole_of(f, section, "Data offset", 0);
+    name_channel(nanoscope_get(&f->header, section, "Image Data"), &c);
+    const double soft = nanoscope_soft(&f->header, scale.soft);
+    c.scale = c.quantity == WT_Q_MEASURED_HEIGHT ? scale.step * soft : scale.step;
+    if (f->n_in == 0) {
+        f->n_in = n_in;
+        f->n_out = n_out > 0 ? n_out : n_in;
+    }
+    if (n_in == 0 || bytes == 0 || c.offset == 0)
+        return corrupt(err, "the block of a channel is not described",
+                       "Data offset, Data length and Samps/line");
+    if (n_in != f->n_in || (n_out > 0 && n_out != f->n_out))
+        return corrupt(err, "channels of different length", "the same Samps/line for all");
+    if (c.quantity == WT_Q_DEFLECTION_VOLTAGE && !isfinite(soft))
+        f->cantilever.sensitivity = (double)NAN;
+    else if (c.quantity == WT_Q_DEFLECTION_VOLTAGE)
+        f->cantilever.sensitivity = soft;
+    if (!find_grid(f, bytes, &c.width)) {
+        wt_error_found(err, "%zu bytes for curves of %zu samples", bytes, samples(f));
+        wt_fail(err, WT_E_CORRUPT, "the size of a block agrees with no number of curves");
+        wt_error_place(err, "\\*" BLOCK ", Data length");
+        wt_error_expected(err, "2 or 4 bytes for each sample of all curves");
+        return WT_E_CORRUPT;
+    }
+    if (!isfinite(c.scale))
+        c.quantity = WT_Q_NONE;
+    f->channels[f->n_channels++] = c;
+    return WT_OK;
+}
+
+/* A block that goes on behind the end of the file holds the curves until there. */
+static wt_status cut_curves(nanoscope_file *f, wt_parselog *log, wt_error *err)
+{
+    f->n_curves = f->n_planned;
+    for (size_t i = 0; i < f->n_channels; i++) {
+        const nanoscope_channel *c = &f->channels[i];
+        const size_t there = c->offset < f->length ? f->length - c->offset : 0;
+        const size_t whole_curves = there / c->width / samples(f);
+        f->n_curves = whole_curves < f->n_curves ? whole_curves : f->n_curves;
+    }
+    if (f->n_curves == 0)
+        return corrupt(err, "the end of the file is missing", "at least one curve");
+    if (f->n_curves < f->n_planned)
+        wt_parselog_add(log, WT_LOSS, f->name, NULL,
+                        "the end of the file is missing: %zu of %zu curves are there", f->n_curves,
+                        f->n_planned);
+    return WT_OK;
+}
+
+/* ---- how the piezo went ------------------------------------------------------------------------
+ */
+
+/* The first of these keys that is there, in the section of the block or that of the ramp. */
+static nanoscope_value ramp_value(const nanoscope_file *f, size_t block, size_t force)
+{
+    static const char *const keys[] = {"Ramp size", "Ramp size Zsweep", "Z scan size"};
+    nanoscope_value v = nanoscope_value_of(NULL);
+    for (size_t k = 0; k < sizeof keys / sizeof *keys; k++) {
+        v = nanoscope_value_of(nanoscope_get(&f->header, block, keys[k]));
+        if (!isfinite(v.value))
+            v = nanoscope_value_of(nanoscope_get(&f->header, force, keys[k]));
+        if (v.value > 0)
+            return v;
+    }
+    return v;
+}
+
+static void read_ramp(nanoscope_file *f, size_t block)
+{
+    const size_t force = nanoscope_section(&f->header, FORCE, 0);
+    const nanoscope_value size = ramp_value(f, block, force);
+    const double sensitivity = nanoscope_soft(&f->header, size.soft);
+    const double there = force_positive(nanoscope_number(&f->header, force, "Forward vel."));
+    const double back = force_positive(nanoscope_number(&f->header, force, "Reverse vel."));
+    f->ramp = force_positive(size.value * sensitivity);
+    /* The velocities are in volts of the piezo. */
+    f->time_in = size.value / there;
+    f->time_out = size.value / back;
+    f->time_hold = f->n_hold > 0 ? nanoscope_number(&f->header, force, "Hold Time") : 0;
+    f->velocity_in = there * sensitivity;
+    f->velocity_out = back * sensitivity;
+    const char *mode = nanoscope_get(&f->header, force, "Trigger mode");
+    const nanoscope_value trigger =
+        nanoscope_value_of(nanoscope_get(&f->header, force, "Trig threshold Deflection"));
+    f->trigger =
+        mode != NULL && strcmp(mode, "Relative") == 0 ? force_positive(trigger.value) : (double)NAN;
+}
+
+/* A PeakForce capture holds one period of an oscillation, which begins anywhere: its farthest point
+ * into the sample is at "Sync Distance" of "Sample Points". Known from other programs only. */
+static void read_sinusoid(nanoscope_file *f)
+{
+    const size_t scan = nanoscope_section(&f->header, SCAN, 0);
+    const char *capture = nanoscope_get(&f->header, scan, "PeakForce Capture");
+    const double amplitude = nanoscope_number(&f->header, scan, "Peak Force Amplitude");
+    double sync = nanoscope_number(&f->header, scan, "Sync Distance QNM");
+    const double points = nanoscope_number(&f->header, scan, "Sample Points");
+    const double kilohertz = nanoscope_number(&f->header, scan, "PFT Freq");
+    const double n = (double)samples(f);
+    if (isnan(sync))
+        sync = nanoscope_number(&f->header, scan, "Sync Distance");
+    if (capture == NULL || strcmp(capture, "Allow") != 0 || !(amplitude > 0) || !(points > 0) ||
+        !(sync >= 0 && sync <= points) || f->n_hold > 0)
+        return;
+    f->sinusoid = true;
+    f->shift = (size_t)lrint(sync / points * n) % samples(f);
+    f->ramp = 2e-9 * amplitude;
+    const double period = force_positive(1e-3 / kilohertz);
+    f->time_in = period * (double)f->n_in / n;
+    f->time_out = period * (double)f->n_out / n;
+    f->velocity_in = f->velocity_out = f->trigger = (double)NAN;
+}
+
+static void read_place(nanoscope_file *f)
+{
+    const char *text =
+        nanoscope_get(&f->header, nanoscope_section(&f->header, SCAN, 0), "Scan Size");
+    char *unit = NULL;
+    double factor = (double)NAN, offset = 0;
+    const double size = text != NULL ? strtod(text, &unit) : (double)NAN;
+    f->pitch = (double)NAN;
+    if (f->columns == 0 || text == NULL || unit == text)
+        return;
+    unit += strspn(unit, " ");
+    if (strcmp(unit, "~m") == 0)
+        factor = 1e-6;
+    else if (wt_unit_to_si(unit, WT_Q_LENGTH, &factor, &offset, NULL) != WT_OK)
+        return;
+    f->pitch = force_positive(factor * size / (double)f->columns);
+}
+
+/* ---- counts ------------------------------------------------------------------------------------
+ */
+
+/* Where sample i in the order of time is stored in its curve. */
+static size_t place_of(const nanoscope_file *f, size_t i)
+{
+    const size_t n = samples(f);
+    if (f->sinusoid)
+        i = (i + f->shift + n - f->n_in) % n;
+    return i < f->n_in ? f->n_in - 1 - i : i;
+}
+
+double nanoscope_count(const nanoscope_file *f, const nanoscope_channel *channel, size_t curve,
+                       size_t i)
+{
+    const unsigned char *at =
+        f->bytes + channel->offset + channel->width * (curve * samples(f) + place_of(f, i));
+    const double count =
+        channel->width == 2 ? (double)signed16(le16(at)) : (double)signed32(le32(at));
+    return count == -most_counts || count == -2147483648.0 ? (double)NAN : count;
+}
+
+/* Volts between the end of the way in and its beginning, the median over the curves not needed: the
+ * largest is enough to tell 1 from 256. */
+static double largest_rise(const nanoscope_file *f, const nanoscope_channel *c, double *largest)
+{
+    double rise = 0;
+    *largest = 0;
+    for (size_t curve = 0; curve < f->n_curves; curve++) {
+        const double end = c->scale * nanoscope_count(f, c, curve, f->n_in - 1);
+        const double start = c->scale * nanoscope_count(f, c, curve, 0);
+        *largest = fmax(*largest, fmax(fabs(start), fabs(end)));
+        if (fabs(end - start) > fabs(rise))
+            rise = end - start;
+    }
+    return rise;
+}
+
+/* In force volumes of software 9.2 the counts of 32 bits are 256 times those of the header, in
+ * single curves of the same software they are not. What the trigger said tells, else the range of
+ * the converter. */
+static wt_status check_scale(nanoscope_file *f, wt_parselog *log, wt_error *err)
+{
+    static const double times = 256, doubtful = 5;
+    for (size_t i = 0; i < f->n_channels; i++) {
+        nanoscope_channel *c = &f->channels[i];
+        double largest = 0;
+        if (c->quantity != WT_Q_DEFLECTION_VOLTAGE)
+            continue;
+        double rise = largest_rise(f, c, &largest);
+        const double range = most_counts * c->scale;
+        if (c->width == 4 &&
+            (largest > range || (f->trigger > 0 && fabs(rise) > 16 * f->trigger))) {
+            c->scale /= times;
+            rise /= times;
+            largest /= times;
+            f->scaled = true;
+            wt_parselog_add(log, WT_NOTE, f->name, c->name,
+                            "counts are 256 times those that the header is for");
+        }
+        if (largest > range)
+            return corrupt(err, "deflections are outside the range of the converter",
+                           "counts that Z scale is for");
+        if (f->trigger > 0 && !(rise > f->trigger / doubtful && rise < f->trigger * doubtful))
+            wt_parselog_add(
+                log, WT_WARNING, f->name, c->name,
+                "the deflection rises by %.3g V where the trigger was %.3g V: the scale "
+                "of the file is doubtful",
+                rise, f->trigger);
+    }
+    return WT_OK;
+}
+
+/* Whether a sensor counts towards the sample or away from it is not said; the way in leads there.
+ */
+static void turn_sensor(nanoscope_file *f)
+{
+    for (size_t i = 0; i < f->n_channels; i++) {
+        nanoscope_channel *c = &f->channels[i];
+        if (c->quantity == WT_Q_MEASURED_HEIGHT &&
+            nanoscope_count(f, c, 0, f->n_in - 1) > nanoscope_count(f, c, 0, 0))
+            c->scale = -c->scale;
+        if (c->quantity == WT_Q_MEASURED_HEIGHT && f->scaled)
+            c->scale /= 256;
+    }
+}
+
+/* ---- opening -----------------------------------------------------------------------------------
+ */
+
+static wt_status read_blocks(nanoscope_file *f, wt_error *err)
+{
+    const size_t force = nanoscope_section(&f->header, FORCE, 0);
+    const size_t first = nanoscope_section(&f->header, BLOCK, 0);
+    wt_status status = WT_OK;
+    if (first == SIZE_MAX) {
+        wt_fail(err, WT_E_EMPTY, "the file holds no force curve");
+        wt_error_expected(err, "a section \"\\*" BLOCK "\"");
+        return WT_E_EMPTY;
+    }
+    f->n_hold = whole_of(f, force, "Hold Samples", 0);
+    for (size_t i = 0; i < NANOSCOPE_CHANNELS && status == WT_OK; i++) {
+        const size_t section = nanoscope_section(&f->header, BLOCK, i);
+        if (section == SIZE_MAX)
+            break;
+        status = read_channel(f, section, err);
+    }
+    f->cantilever.spring_constant =
+        force_positive(nanoscope_number(&f->header, first, "Spring Constant"));
+    return status;
+}
+
+wt_status nanoscope_file_open(wt_input *input, wt_parselog *log, nanoscope_file *f, wt_error *err)
+{
+    *f = (nanoscope_file){
+        .name = wt_input_name(input),
+        .cantilever = {.spring_constant = (double)NAN, .sensitivity = (double)NAN}};
+    wt_status status = wt_input_bytes(input, &f->bytes, &f->length, err);
+    if (status == WT_OK && !nanoscope_is(f->bytes, f->length))
+        status = corrupt(err, "damaged header", "\\*Force file list");
+    if (status == WT_OK)
+        status = nanoscope_header_read(f->bytes, f->length, &f->header, err);
+    if (status == WT_OK)
+        status = read_blocks(f, err);
+    if (status == WT_OK)
+        status = cut_curves(f, log, err);
+    if (status == WT_OK) {
+        read_ramp(f, nanoscope_section(&f->header, BLOCK, 0));
+        read_sinusoid(f);
+        read_place(f);
+        status = check_scale(f, log, err);
+    }
+    if (status == WT_OK)
+        turn_sensor(f);
+    return status;
+}
+
+void nanoscope_file_close(nanoscope_file *f)
+{
+    nanoscope_header_clear(&f->header);
+}

@@ -1,0 +1,164 @@
+/* The text at the beginning of a NanoScope file. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "read/nanoscope/nanoscope.h"
+
+#include "base/number.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+/* Headers of measured files end before 40,960 bytes. */
+#define HEADER_MAX ((size_t)1 << 20)
+
+bool nanoscope_is(const unsigned char *bytes, size_t length)
+{
+    static const char first[] = "\\*Force file list";
+    return length >= sizeof first - 1 && memcmp(bytes, first, sizeof first - 1) == 0;
+}
+
+/* "\@4:Z scale: V ..." is "Z scale" and "V ..."; a section has its name as key. */
+static void parse_line(nanoscope_header *header, char *line)
+{
+    nanoscope_line *to = &header->lines[header->n];
+    char *end = line + strlen(line);
+    if (*line != '\\')
+        return;
+    while (end > line && isspace((unsigned char)end[-1]))
+        *--end = '\0';
+    line++;
+    if (*line == '*') {
+        *to = (nanoscope_line){header->n_sections++, line + 1, ""};
+        header->n++;
+        return;
+    }
+    if (*line == '@') {
+        char *group = ++line;
+        while (isdigit((unsigned char)*group))
+            group++;
+        if (group > line && *group == ':')
+            line = group + 1;
+    }
+    char *colon = strchr(line, ':');
+    if (colon == NULL || header->n_sections == 0)
+        return;
+    *colon++ = '\0';
+    *to = (nanoscope_line){header->n_sections - 1, line, colon + strspn(colon, " ")};
+    header->n++;
+}
+
+wt_status nanoscope_header_read(const unsigned char *bytes, size_t length, nanoscope_header *header,
+                                wt_error *err)
+{
+    const unsigned char *end = memchr(bytes, 0x1a, length < HEADER_MAX ? length : HEADER_MAX);
+    const size_t n = end != NULL ? (size_t)(end - bytes) : 0;
+    size_t lines = 1;
+    *header = (nanoscope_header){.text = NULL};
+    if (end == NULL) {
+        wt_fail(err, WT_E_CORRUPT, "the header has no end");
+        wt_error_expected(err, "the byte 1A behind the line \"\\*File list end\"");
+        return WT_E_CORRUPT;
+    }
+    header->text = malloc(n + 1);
+    for (size_t i = 0; i < n; i++)
+        lines += bytes[i] == '\n';
+    header->lines = calloc(lines, sizeof *header->lines);
+    if (header->text == NULL || header->lines == NULL) {
+        nanoscope_header_clear(header);
+        return wt_fail(err, WT_E_MEMORY, "no memory for the header");
+    }
+    /* All that is used is ASCII. */
+    for (size_t i = 0; i < n; i++)
+        header->text[i] = (char)(bytes[i] == 0 || bytes[i] >= 0x80 ? '?' : bytes[i]);
+    header->text[n] = '\0';
+    for (char *line = header->text; line != NULL;) {
+        char *next = strchr(line, '\n');
+        if (next != NULL)
+            *next++ = '\0';
+        parse_line(header, line);
+        line = next;
+    }
+    return WT_OK;
+}
+
+void nanoscope_header_clear(nanoscope_header *header)
+{
+    free(header->lines);
+    free(header->text);
+    *header = (nanoscope_header){.text = NULL};
+}
+
+size_t nanoscope_section(const nanoscope_header *header, const char *name, size_t number)
+{
+    for (size_t i = 0; i < header->n; i++)
+        if (header->lines[i].value[0] == '\0' && strcmp(header->lines[i].key, name) == 0 &&
+            (i == 0 || header->lines[i - 1].section != header->lines[i].section) && number-- == 0)
+            return header->lines[i].section;
+    return SIZE_MAX;
+}
+
+const char *nanoscope_get(const nanoscope_header *header, size_t section, const char *key)
+{
+    for (size_t i = 0; i < header->n && header->lines[i].section <= section; i++)
+        if (header->lines[i].section == section && strcasecmp(header->lines[i].key, key) == 0)
+            return header->lines[i].value;
+    return NULL;
+}
+
+/* The number that a text begins with, behind blanks. */
+static double leading(const char *text)
+{
+    double value = (double)NAN;
+    text += strspn(text, " ");
+    const size_t n = number_prefix(text, strlen(text), '.');
+    return n > 0 && wt_number_parse(text, n, '.', &value) ? value : (double)NAN;
+}
+
+double nanoscope_number(const nanoscope_header *header, size_t section, const char *key)
+{
+    const char *text = nanoscope_get(header, section, key);
+    return text != NULL ? leading(text) : (double)NAN;
+}
+
+nanoscope_value nanoscope_value_of(const char *text)
+{
+    nanoscope_value v = {.soft = "", .step = (double)NAN, .value = (double)NAN};
+    if (text == NULL)
+        return v;
+    const char *open = strchr(text, '['), *close = open != NULL ? strchr(open, ']') : NULL;
+    if (close != NULL) {
+        snprintf(v.soft, sizeof v.soft, "%.*s", (int)(close - open - 1), open + 1);
+        text = close + 1;
+    } else {
+        text += text[0] == 'V' ? 1 : 0;
+    }
+    /* What stands between the round brackets may be anything. */
+    open = strchr(text, '(');
+    close = open != NULL ? strchr(open, ')') : NULL;
+    if (close != NULL)
+        v.step = leading(open + 1);
+    v.value = leading(close != NULL ? close + 1 : text);
+    return v;
+}
+
+double nanoscope_soft(const nanoscope_header *header, const char *soft)
+{
+    static const char *const lists[] = {"Ciao scan list", "Scanner list"};
+    double factor = 1e-9, offset = 0;
+    for (size_t i = 0; *soft != '\0' && i < sizeof lists / sizeof *lists; i++) {
+        const size_t section = nanoscope_section(header, lists[i], 0);
+        const char *text = nanoscope_get(header, section, soft);
+        if (text == NULL)
+            continue;
+        text += text[0] == 'V' ? 1 : 0;
+        text += strspn(text, " ");
+        const char *unit = text + strcspn(text, " ");
+        unit += strspn(unit, " ");
+        /* Software 9.2 leaves the unit out; then it is nm/V. */
+        if (*unit != '\0' && wt_unit_to_si(unit, WT_Q_SENSITIVITY, &factor, &offset, NULL) != WT_OK)
+            return (double)NAN;
+        return force_positive(factor * leading(text));
+    }
+    return (double)NAN;
+}
