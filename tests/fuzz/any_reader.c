@@ -4,6 +4,8 @@
  */
 #include "read_all.h"
 
+#include "read/text/text.h"
+
 #define JOIN(a, b) a##b
 #define READER_OF(id) JOIN(reader_, id)
 
@@ -11,6 +13,13 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    read_all(&READER_OF(READER_ID), data, size);
+    static wt_formats *formats;
+    const file_reader *reader = &READER_OF(READER_ID);
+    if (reader->runs != NULL) { /* a description, which the set of formats gives it */
+        if (formats == NULL && wt_formats_new(NULL, &formats, NULL, NULL) != WT_OK)
+            abort();
+        reader = formats_find_reader(formats, reader->info.id);
+    }
+    read_all(reader, data, size);
     return 0;
 }

@@ -4,6 +4,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "writers/book_writer.h"
+#include "writers/curve_hdf5_writer.h"
 #include "writers/ibw_writer.h"
 #include "writers/jpk_writer.h"
 #include "writers/nanoscope_writer.h"
@@ -218,6 +219,66 @@ static int make_park(const char *folder)
     return park_write(&f);
 }
 
+/* ---- HDF5, NT-MDT -----------------------------------------------------------------------------
+ */
+
+static int make_afmformats(const char *folder)
+{
+    static const unsigned char segments[POINTS] = {0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1};
+    char path[512];
+    for (int packed = 0; packed < 2; packed++) {
+        path_of(path, sizeof path, folder, packed ? "packed.h5" : "plain.h5");
+        const afmformats_writer_file f = {.path = path,
+                                          .n_curves = 1,
+                                          .n = POINTS,
+                                          .height = height,
+                                          .force = force,
+                                          .segments = segments,
+                                          .spring_constant = 0.3,
+                                          .force_unit = "N",
+                                          .packed = packed == 1};
+        if (afmformats_write(&f) != 0)
+            return -1;
+    }
+    return 0;
+}
+
+static int make_nhf(const char *folder)
+{
+    static const int sizes[] = {7, 5};
+    const nhf_writer_channel channels[] = {{"Deflection", "Volt (V)", -1, 1, force},
+                                           {"Position Z", "m", -1e-5, 1e-5, height}};
+    const nhf_writer_segment segment = {"Advance to Setpoint 1", sizes, 2, channels};
+    char path[512];
+    for (int version = 1; version <= 2; version++) {
+        path_of(path, sizeof path, folder, version == 1 ? "old.nhf" : "new.nhf");
+        const nhf_writer_file f = {.path = path,
+                                   .version = version,
+                                   .type = version == 1 ? "spectroscopy_grid" : "spectroscopy",
+                                   .n_curves = 2,
+                                   .n_segments = 1,
+                                   .segments = &segment,
+                                   .spring_constant = 0.5,
+                                   .sensitivity = 1e-7,
+                                   .x = height,
+                                   .y = sensor,
+                                   .newtons_per_count = version == 1 ? 0 : 1e-18};
+        if (nhf_write(&f) != 0)
+            return -1;
+    }
+    return 0;
+}
+
+static int make_ntmdt(const char *folder)
+{
+    char path[512];
+    path_of(path, sizeof path, folder, "seed0.txt");
+    FILE *out = fopen(path, "wb");
+    for (int i = 0; out != NULL && i < POINTS; i++)
+        fprintf(out, "-%d,5\t%d,25\t%d,5\r\n", 10 * (POINTS - i), i < 2 ? 7 : 9 - i, 8 - i);
+    return out != NULL ? fclose(out) : -1;
+}
+
 /* ---- spreadsheets ------------------------------------------------------------------------- */
 
 static int make_packed(const char *folder)
@@ -262,10 +323,13 @@ static int make_folder(char *path, size_t size, const char *parent, const char *
 
 int main(int argc, char *argv[])
 {
-    static int (*const make[])(const char *) = {make_ibw,    make_jpk,  make_nanoscope, make_nid,
-                                                make_packed, make_park, make_properties};
-    static const char *const names[] = {"ibw",    "jpk",  "nanoscope", "nid",
-                                        "packed", "park", "properties"};
+    static const struct {
+        const char *name;
+        int (*make)(const char *folder);
+    } targets[] = {{"afmformats", make_afmformats}, {"ibw", make_ibw},       {"jpk", make_jpk},
+                   {"nanoscope", make_nanoscope},   {"nhf", make_nhf},       {"nid", make_nid},
+                   {"ntmdt", make_ntmdt},           {"packed", make_packed}, {"park", make_park},
+                   {"properties", make_properties}};
     char folder[256];
     if (argc != 2) {
         fprintf(stderr, "usage: make_seeds FOLDER\n");
@@ -276,9 +340,10 @@ int main(int argc, char *argv[])
         force[i] = 1e-9 * (double)(i * i) / POINTS;
         sensor[i] = 2e-6 - 1e-7 * (double)i;
     }
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        if (make_folder(folder, sizeof folder, argv[1], names[i]) != 0 || make[i](folder) != 0) {
-            fprintf(stderr, "%s/%s: cannot be written\n", argv[1], names[i]);
+    for (size_t i = 0; i < sizeof targets / sizeof *targets; i++) {
+        if (make_folder(folder, sizeof folder, argv[1], targets[i].name) != 0 ||
+            targets[i].make(folder) != 0) {
+            fprintf(stderr, "%s/%s: cannot be written\n", argv[1], targets[i].name);
             return 1;
         }
     }

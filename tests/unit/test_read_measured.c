@@ -59,7 +59,7 @@ static const known_file known_files[] = {
     {"afm/asylum", "fmt-igor-fd_SiN_FD_plot.ibw", "ibw", NULL, 1, 0, 0, 3},
     {"afm/bruker", "20200904_Egel4-Z1.0_00025.spm", "nanoscope", NULL, 1, 0, 0, 0},
     {"afm/bruker", "Test.000", "nanoscope", NULL, 1, 0, 0, 0},
-    {"afm/hdf5", "fmt-hdf5-fd_version_0.13.3.h5", NULL, "not recognised", 0, 0, 0, 0},
+    {"afm/hdf5", "fmt-hdf5-fd_version_0.13.3.h5", "afmformats-h5", NULL, 1, 0, 0, 8},
     {"afm/jpk", "fmt-jpk-cc_pr14-polymergel-2021.06.30.jpk-force", "jpk", NULL, 1, 0, 0, 12},
     {"afm/jpk", CALIBRATION_FILE, "jpk", NULL, 1, 0.05, 60e-9, 8},
     {"afm/jpk", "fmt-jpk-fd_2020.02.07-16.29.05.036.jpk-qi-data", "jpk", NULL, 4, 0, 0, 32},
@@ -84,8 +84,8 @@ static const known_file known_files[] = {
     {"afm/text", "fmt-afm-workshop-fd_single_2021-01-15.csv", "afm-workshop", NULL, 1, 0.05, 60e-9,
      4},
     {"afm/text", "fmt-chiaro-txt_AEBP1_Indentation_002.txt", "chiaro", NULL, 1, 0, 0, 10},
-    {"afm/text", "fmt-ntmdt-txt-fd_2015_01_17_gel4-0,1_mQ_adh_6B_Curve_DFL_Height_51.txt", NULL,
-     "not recognised", 0, 0, 0, 0},
+    {"afm/text", "fmt-ntmdt-txt-fd_2015_01_17_gel4-0,1_mQ_adh_6B_Curve_DFL_Height_51.txt",
+     "ntmdt-text", NULL, 1, 0.05, 60e-9, 4},
     {"afm/text", "fmt-tab-fd_version_0.13.3.tab", "afmformats-tab", NULL, 1, 0, 0, 6},
     {"afm/text", "veeco_file.txt.gz", "nanoscope-text", NULL, 1, 0, 0, 0},
     {"afm-more", "ForceCurve_009.tiff", "park", NULL, 7, 0, 0, 0},
@@ -348,7 +348,10 @@ static summary summarise(const wt_force_curve *curve, size_t number, wt_quantity
                 1);
         add(&s, channel->values, segment->n_points - (turns && i == 0));
     }
-    return s;
+    /* The other program takes the unnamed numbers of NT-MDT for nanovolts. */
+    const double unit = strstr(row, "ntmdt") != NULL && q == WT_Q_FORCE ? 1e-9 : 1;
+    return (summary){s.n,          s.missing,      unit * s.low, unit * s.high,
+                     unit * s.sum, unit * s.first, unit * s.last};
 }
 
 static void check_values(const wt_force_curve *curve, size_t number, char *const *field,

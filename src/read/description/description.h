@@ -12,7 +12,7 @@
 
 /* A line that is longer is not compared with regular expressions, which bounds their cost. */
 #define PATTERN_LINE_MAX ((size_t)16384)
-#define NAME_MAX ((size_t)128) /* bytes of a normalised name, with its end */
+#define NAME_LONGEST ((size_t)128) /* bytes of a normalised name, with its end */
 
 /* Part of a text; borrowed. */
 typedef struct text_span {
@@ -204,8 +204,8 @@ bool description_find_name(const text_description *description, const char *name
                            size_t *n);
 
 /* Lower case, no blanks, primes and Greek letters spelled one way: "E \"" and "E″" are "e''",
- * "tan(δ)" is "tan(delta)". Cut at NAME_MAX. */
-void name_normalise(text_span text, char name[NAME_MAX]);
+ * "tan(δ)" is "tan(delta)". Cut at NAME_LONGEST. */
+void name_normalise(text_span text, char name[NAME_LONGEST]);
 /* Is the text, normalised, that name? */
 bool name_is(text_span text, const char *name);
 

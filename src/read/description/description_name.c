@@ -51,7 +51,7 @@ static const char *spelling(const char *text, size_t length, size_t *taken)
     return NULL;
 }
 
-void name_normalise(text_span text, char name[NAME_MAX])
+void name_normalise(text_span text, char name[NAME_LONGEST])
 {
     size_t out = 0;
     for (size_t i = 0, taken; i < text.length; i += taken) {
@@ -65,7 +65,7 @@ void name_normalise(text_span text, char name[NAME_MAX])
             c = c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c;
             piece = &c;
         }
-        if (out + written >= NAME_MAX)
+        if (out + written >= NAME_LONGEST)
             break;
         memcpy(name + out, piece, written);
         out += written;
@@ -75,7 +75,7 @@ void name_normalise(text_span text, char name[NAME_MAX])
 
 bool name_is(text_span text, const char *name)
 {
-    char own[NAME_MAX];
+    char own[NAME_LONGEST];
     name_normalise(text, own);
     return strcmp(own, name) == 0;
 }

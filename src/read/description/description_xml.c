@@ -71,7 +71,7 @@ char *parse_content(description_parser *p, const xmlNode *node)
 
 char *parse_normalised(description_parser *p, const char *text)
 {
-    char name[NAME_MAX];
+    char name[NAME_LONGEST];
     if (text == NULL)
         return NULL;
     name_normalise((text_span){text, strlen(text)}, name);

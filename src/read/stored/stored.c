@@ -107,10 +107,7 @@ static wt_status describe(const file_reader *self, wt_input *input, const wt_rea
                           wt_parselog *log, table_writer *facts)
 {
     wt_result *result = NULL;
-    wt_input *text = NULL;
-    file_reader of_text = *self;
     bool measured = false;
-    of_text.as_text = NULL;
     wt_status status = read_result(input, &result, facts->err);
     if (status != WT_OK)
         return status;
@@ -121,13 +118,8 @@ static wt_status describe(const file_reader *self, wt_input *input, const wt_rea
         facts_add(facts, item, "", "", "%zu rows", wt_table_n_rows(table));
         measured = measured || is_measured(wt_table_name(table));
     }
-    if (measured)
-        status = as_text(input, NULL, &text, facts->err);
-    if (measured && status == WT_OK)
-        status = text_describe(&of_text, text, options, log, facts);
-    wt_input_close(text);
     wt_result_free(result);
-    return status;
+    return measured ? text_describe_made(self, input, options, log, facts) : WT_OK;
 }
 
 const file_reader reader_stored = {

@@ -203,6 +203,9 @@ wt_status text_read_spectrum(const file_reader *self, wt_input *input,
                              wt_power_spectrum *spectrum, wt_error *err);
 wt_status text_describe(const file_reader *self, wt_input *input, const wt_read_options *options,
                         wt_parselog *log, table_writer *facts);
+/* The same of a reader with `as_text`, whose text is made once. */
+wt_status text_describe_made(const file_reader *self, wt_input *input,
+                             const wt_read_options *options, wt_parselog *log, table_writer *facts);
 
 /* The isotherms of a scanned file, appended to `sweep`. */
 wt_status text_sweep(const text_file *file, const wt_read_options *options, wt_parselog *log,

@@ -216,3 +216,16 @@ wt_status text_describe(const file_reader *self, wt_input *input, const wt_read_
         add_spectrum(self, input, options, facts);
     return WT_OK;
 }
+
+wt_status text_describe_made(const file_reader *self, wt_input *input,
+                             const wt_read_options *options, wt_parselog *log, table_writer *facts)
+{
+    wt_input *text = NULL;
+    file_reader of_text = *self;
+    of_text.as_text = NULL;
+    wt_status status = self->as_text(input, NULL, &text, facts->err);
+    if (status == WT_OK)
+        status = text_describe(&of_text, text, options, log, facts);
+    wt_input_close(text);
+    return status;
+}

@@ -53,9 +53,9 @@ bool names_part(const text_description *d, text_span *line)
 
 bool names_known(const text_description *d, text_span cell, known_name *known)
 {
-    char name[NAME_MAX];
+    char name[NAME_LONGEST];
     known->unit = (text_span){"", 0};
-    if (cell.length == 0 || cell.length >= NAME_MAX)
+    if (cell.length == 0 || cell.length >= NAME_LONGEST)
         return false;
     name_normalise(cell, name);
     if (description_find_name(d, name, &known->first, &known->n))
@@ -155,7 +155,7 @@ static text_span bare_unit(text_span unit)
 /* The unit that the user gives for a column, NULL if none. */
 static const char *given_unit(const wt_read_options *options, const char *normalised)
 {
-    char name[NAME_MAX];
+    char name[NAME_LONGEST];
     for (size_t i = 0; i < options->n_units; i++) {
         const char *equal = strrchr(options->units[i], '=');
         if (equal == NULL)
@@ -182,7 +182,7 @@ static bool to_si(const text_description *d, const column_rule *rule, const char
 typedef struct resolver {
     const text_description *d;
     const names_row *names;
-    char (*normalised)[NAME_MAX];
+    char (*normalised)[NAME_LONGEST];
     text_table *table;
     const wt_read_options *options;
 } resolver;

@@ -332,7 +332,7 @@ static wt_status check_given_units(const text_file *file, const wt_read_options 
                                    wt_parselog *log, wt_error *err)
 {
     for (size_t u = 0; u < options->n_units; u++) {
-        char name[NAME_MAX];
+        char name[NAME_LONGEST];
         const char *equal = strrchr(options->units[u], '=');
         bool found = false;
         if (equal == NULL || equal == options->units[u] || equal[1] == '\0') {

@@ -1,0 +1,163 @@
+/* HDF5 files of afmformats (.h5): a group for each curve with a data set for each column, the
+ * number of the segment among them, and the metadata as attributes.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "data/hdf5_scope.h"
+#include "read/hierarchy/curves_hdf5.h"
+#include "read/text/curve_text.h"
+#include "read/text/text.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- behind the door --------------------------------------------------------------------------
+ */
+
+enum { COLUMNS = 4, MISSING_MAX = 10000 };
+static const struct {
+    const char *name, *unit;
+    wt_quantity quantity;
+} known[COLUMNS] = {{"time", "s", WT_Q_TIME},
+                    {"height (piezo)", "m", WT_Q_HEIGHT},
+                    {"height (measured)", "m", WT_Q_MEASURED_HEIGHT},
+                    {"force", "N", WT_Q_FORCE}};
+
+static wt_status bad_curve(const char *name, const char *message, wt_error *err)
+{
+    wt_fail(err, WT_E_CORRUPT, "%s", message);
+    wt_error_place(err, "group %s", name);
+    wt_error_expected(err, "columns of one length, and segment numbers that rise by one");
+    return WT_E_CORRUPT;
+}
+
+/* Two segments are way in and way out; what lies between the first and the last is a dwell. */
+static wt_segment_kind kind_of(size_t segment, size_t n)
+{
+    return segment == 0       ? WT_SEGMENT_APPROACH
+           : segment == n - 1 ? WT_SEGMENT_RETRACT
+                              : WT_SEGMENT_DWELL;
+}
+
+static wt_status print_rows(FILE *out, const curve_text *curve, const double *segments, size_t n,
+                            const char *name, wt_error *err)
+{
+    if (segments[0] != 0 || !(segments[n - 1] < 64))
+        return bad_curve(name, "the numbers of the segments are not understood", err);
+    for (size_t i = 1; i < n; i++)
+        if (segments[i] != segments[i - 1] && segments[i] != segments[i - 1] + 1)
+            return bad_curve(name, "the numbers of the segments are not understood", err);
+    const size_t n_segments = (size_t)segments[n - 1] + 1;
+    for (size_t from = 0, to = 0; from < n; from = to) {
+        while (to < n && segments[to] == segments[from])
+            to++;
+        curve_text_rows(out, curve, kind_of((size_t)segments[from], n_segments), from, to - from,
+                        false);
+    }
+    return WT_OK;
+}
+
+/* A column of the right length and unit; NULL if there is none. */
+static double *column(hid_t group, const char *name, const char *unit, size_t size, size_t n,
+                      bool *wrong)
+{
+    char text[HDF5_TEXT];
+    size_t own = 0;
+    const hid_t data = hdf5_open_data(group, name);
+    double *values = data >= 0 ? hdf5_values(data, size, &own) : NULL;
+    if (values != NULL && (own != n || (hdf5_text(data, "unit", text) && strcmp(text, unit) != 0)))
+        *wrong = true;
+    hdf5_close(data);
+    return values;
+}
+
+static wt_status print_curve(hid_t group, const char *name, size_t number, size_t size, FILE *out,
+                             wt_error *err)
+{
+    curve_text curve = {.number = number,
+                        .x = hdf5_number(group, "position x", 0),
+                        .y = hdf5_number(group, "position y", 0),
+                        .cantilever = {.spring_constant = hdf5_number(group, "spring constant", 0),
+                                       .sensitivity = hdf5_number(group, "sensitivity", 0)}};
+    double *values[COLUMNS] = {NULL};
+    bool wrong = false;
+    size_t n = 0;
+    const hid_t data = hdf5_open_data(group, "segment");
+    double *segments = data >= 0 ? hdf5_values(data, size, &n) : NULL;
+    hdf5_close(data);
+    for (size_t i = 0; i < COLUMNS && segments != NULL; i++) {
+        values[i] = column(group, known[i].name, known[i].unit, size, n, &wrong);
+        if (values[i] == NULL)
+            continue;
+        curve.columns[curve.n_columns].quantity = known[i].quantity;
+        curve.columns[curve.n_columns++].values = values[i];
+    }
+    wt_status status = WT_OK;
+    if (segments == NULL || wrong) {
+        status = bad_curve(name,
+                           wrong ? "a column has another length or unit"
+                                 : "there are no numbers of segments",
+                           err);
+    } else {
+        curve_text_begin(out, &curve);
+        status = print_rows(out, &curve, segments, n, name, err);
+    }
+    for (size_t i = 0; i < COLUMNS; i++)
+        free(values[i]);
+    free(segments);
+    return status;
+}
+
+/* The curves are named by their numbers, of which some may be missing. */
+static wt_status print_curves(hid_t file, size_t size, FILE *out, wt_error *err)
+{
+    char name[HDF5_NAME];
+    wt_status status = WT_OK;
+    size_t n = 0, missing = 0;
+    const size_t links = hdf5_links(file);
+    for (size_t number = 0; n < links && missing < MISSING_MAX && status == WT_OK; number++) {
+        snprintf(name, sizeof name, "%zu", number);
+        const hid_t group = hdf5_open_group(file, name);
+        missing += group < 0;
+        if (group < 0)
+            continue;
+        n++;
+        status = print_curve(group, name, number, size, out, err);
+        hdf5_close(group);
+    }
+    if (status == WT_OK && n == 0) {
+        status = wt_fail(err, WT_E_EMPTY, "the file holds no force curve");
+        wt_error_expected(err, "groups \"0\", \"1\", ...");
+    }
+    return status;
+}
+
+/* ---- the descriptor ---------------------------------------------------------------------------
+ */
+
+static recognition detect(const file_reader *self, file_peek *peek)
+{
+    (void)self;
+    return hdf5_recognise(peek, "afmformats");
+}
+
+static wt_status as_text(wt_input *input, wt_parselog *log, wt_input **text, wt_error *err)
+{
+    (void)log;
+    return hdf5_as_text(input, print_curves, text, err);
+}
+
+const file_reader reader_afmformats = {
+    .info = {.id = "afmformats-h5",
+             .title = "HDF5 files of afmformats (.h5)",
+             .kinds = WT_KIND_FORCE,
+             .verified = true,
+             .evidence = "a file of afmformats 0.13.3",
+             .version = "1"},
+    .runs = "weartrack-stream",
+    .detect = detect,
+    .as_text = as_text,
+    .force = &text_force,
+    .describe = text_describe_made,
+};

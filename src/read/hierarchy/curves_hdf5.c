@@ -1,0 +1,175 @@
+/* HDF5 files of force curves: attributes, data sets, the door.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "read/hierarchy/curves_hdf5.h"
+
+#include "data/hdf5_scope.h"
+#include "read/bytes/input.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Numbers of an attribute that anybody asks for. */
+#define NUMBERS_MAX 64
+/* Links of a group that are looked at one by one. */
+#define LINKS_MAX 4096
+/* How much longer than the file what was packed in it may be; deflate cannot more. */
+#define UNPACKED_MAX 1040
+
+static hid_t open_attribute(hid_t object, const char *name, size_t *n)
+{
+    if (H5Aexists(object, name) <= 0)
+        return -1;
+    const hid_t attribute = H5Aopen(object, name, H5P_DEFAULT);
+    const hid_t space = attribute >= 0 ? H5Aget_space(attribute) : -1;
+    const hssize_t points = space >= 0 ? H5Sget_simple_extent_npoints(space) : -1;
+    hdf5_close(space);
+    *n = points > 0 ? (size_t)points : 0;
+    return attribute;
+}
+
+double hdf5_number(hid_t object, const char *name, size_t i)
+{
+    double values[NUMBERS_MAX] = {(double)NAN}, value = (double)NAN;
+    size_t n = 0;
+    const hid_t attribute = open_attribute(object, name, &n);
+    const hid_t type = attribute >= 0 ? H5Aget_type(attribute) : -1;
+    const H5T_class_t class = type >= 0 ? H5Tget_class(type) : H5T_NO_CLASS;
+    if ((class == H5T_FLOAT || class == H5T_INTEGER) && i < n && n <= NUMBERS_MAX &&
+        H5Aread(attribute, H5T_NATIVE_DOUBLE, values) >= 0)
+        value = values[i];
+    hdf5_close(type);
+    hdf5_close(attribute);
+    return value;
+}
+
+bool hdf5_text(hid_t object, const char *name, char text[HDF5_TEXT])
+{
+    enum { WIDTH_MAX = 65536 };
+    size_t n = 0;
+    char *moving = NULL, *fixed = NULL;
+    const hid_t attribute = open_attribute(object, name, &n);
+    const hid_t type = attribute >= 0 ? H5Aget_type(attribute) : -1;
+    text[0] = '\0';
+    if (type >= 0 && n == 1 && H5Tget_class(type) == H5T_STRING) {
+        const size_t width = H5Tget_size(type);
+        if (H5Tis_variable_str(type) > 0) {
+            if (H5Aread(attribute, type, &moving) >= 0 && moving != NULL)
+                snprintf(text, HDF5_TEXT, "%s", moving);
+        } else if (width <= WIDTH_MAX && (fixed = calloc(width + 1, 1)) != NULL &&
+                   H5Aread(attribute, type, fixed) >= 0) {
+            snprintf(text, HDF5_TEXT, "%s", fixed);
+        }
+    }
+    (void)H5free_memory(moving);
+    free(fixed);
+    hdf5_close(type);
+    hdf5_close(attribute);
+    return text[0] != '\0';
+}
+
+size_t hdf5_links(hid_t group)
+{
+    H5G_info_t info;
+    return H5Gget_info(group, &info) >= 0 ? (size_t)info.nlinks : 0;
+}
+
+bool hdf5_link(hid_t group, size_t i, char name[HDF5_NAME])
+{
+    if (i >= hdf5_links(group) || i >= LINKS_MAX)
+        return false;
+    const ssize_t length =
+        H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, i, name, HDF5_NAME, H5P_DEFAULT);
+    if (length >= HDF5_NAME)
+        name[0] = '\0';
+    return length > 0; /* a damaged group may announce any number of links */
+}
+
+/* Only what stands in this file. */
+static hid_t open_object(hid_t parent, const char *name, H5I_type_t kind)
+{
+    H5L_info_t info;
+    if (name[0] == '\0' || strchr(name, '/') != NULL || H5Lexists(parent, name, H5P_DEFAULT) <= 0 ||
+        H5Lget_info(parent, name, &info, H5P_DEFAULT) < 0 || info.type != H5L_TYPE_HARD)
+        return -1;
+    const hid_t object = H5Oopen(parent, name, H5P_DEFAULT);
+    if (object < 0 || H5Iget_type(object) == kind)
+        return object;
+    hdf5_close(object);
+    return -1;
+}
+
+hid_t hdf5_open_group(hid_t parent, const char *name)
+{
+    return open_object(parent, name, H5I_GROUP);
+}
+
+hid_t hdf5_open_data(hid_t parent, const char *name)
+{
+    return open_object(parent, name, H5I_DATASET);
+}
+
+double *hdf5_values(hid_t data, size_t size, size_t *n)
+{
+    double *values = NULL;
+    const hid_t creation = H5Dget_create_plist(data);
+    const hid_t space = H5Dget_space(data);
+    const hid_t type = H5Dget_type(data);
+    const H5T_class_t class = type >= 0 ? H5Tget_class(type) : H5T_NO_CLASS;
+    const hssize_t points = space >= 0 ? H5Sget_simple_extent_npoints(space) : -1;
+    const H5D_layout_t layout = creation >= 0 ? H5Pget_layout(creation) : H5D_LAYOUT_ERROR;
+    if ((class == H5T_FLOAT || class == H5T_INTEGER) && points > 0 &&
+        H5Sget_simple_extent_ndims(space) == 1 &&
+        (layout == H5D_CHUNKED || layout == H5D_CONTIGUOUS || layout == H5D_COMPACT) &&
+        H5Pget_external_count(creation) == 0 && (size_t)points / UNPACKED_MAX <= size) {
+        values = calloc((size_t)points, sizeof *values);
+        if (values != NULL &&
+            H5Dread(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0) {
+            free(values);
+            values = NULL;
+        }
+        *n = (size_t)points;
+    }
+    hdf5_close(type);
+    hdf5_close(space);
+    hdf5_close(creation);
+    return values;
+}
+
+/* ---- in front of the door ---------------------------------------------------------------------
+ */
+
+recognition hdf5_recognise(const file_peek *peek, const char *words)
+{
+    static const char signature[] = "\211HDF\r\n\032\n";
+    recognition match = {.answer = ANSWER_NO};
+    if (peek->length < sizeof signature - 1 ||
+        memcmp(peek->bytes, signature, sizeof signature - 1) != 0)
+        return match;
+    if (memmem(peek->bytes, peek->length, words, strlen(words)) != NULL) {
+        match.answer = ANSWER_YES;
+        match.score = 85;
+    } else if (!peek->whole) {
+        match.answer = ANSWER_MORE;
+        match.need = 4 * peek->length;
+    }
+    return match;
+}
+
+wt_status hdf5_as_text(wt_input *input, hdf5_reading *reading, wt_input **text, wt_error *err)
+{
+    const unsigned char *bytes = NULL;
+    size_t length = 0, n = 0;
+    char *answer = NULL;
+    wt_status status = wt_input_bytes(input, &bytes, &length, err);
+    if (status != WT_OK)
+        return status;
+    door_limits limits = door_limits_of(length);
+    /* HDF5 may look for a text of a damaged heap for ever; a sound file takes far less a megabyte.
+     */
+    limits.cpu_time = 2 + (unsigned)(length >> 20);
+    status = hdf5_door_read(bytes, length, &limits, reading, &answer, &n, err);
+    return status == WT_OK ? input_own(answer, n, wt_input_name(input), text, err) : status;
+}

@@ -1,0 +1,39 @@
+/* HDF5 files of force curves, behind the door (data/hdf5_door.h): attributes and data sets of files
+ * that may be damaged or made to do harm, and the way of their curves to text.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#ifndef WT_READ_CURVES_HDF5_H
+#define WT_READ_CURVES_HDF5_H
+
+#include "data/hdf5_door.h"
+#include "read/reader.h"
+
+enum { HDF5_TEXT = 128, HDF5_NAME = 64 };
+
+/* A number, or number i of a list; NaN if there is none. */
+double hdf5_number(hid_t object, const char *attribute, size_t i);
+/* A text, cut to fit; false and "" if there is none. */
+bool hdf5_text(hid_t object, const char *attribute, char text[HDF5_TEXT]);
+/* How many links a group has, or says that it has. */
+size_t hdf5_links(hid_t group);
+/* The name of link number i of a group, "" if it is too long; false if there is none. */
+bool hdf5_link(hid_t group, size_t i, char name[HDF5_NAME]);
+/* Opens a group or a data set by a name that hdf5_link gave, or that must be checked like one; -1
+ * if it is none. */
+hid_t hdf5_open_group(hid_t parent, const char *name);
+hid_t hdf5_open_data(hid_t parent, const char *name);
+/* All numbers of a data set of one dimension, new; NULL if it is none or has more than a file of
+ * `size` bytes can hold. */
+double *hdf5_values(hid_t data, size_t size, size_t *n);
+
+/* ---- in front of the door ---------------------------------------------------------------------
+ */
+
+/* Whether bytes are HDF5 and hold the words. */
+recognition hdf5_recognise(const file_peek *peek, const char *words);
+/* What `reading` printed, as an input of text. */
+wt_status hdf5_as_text(wt_input *input, hdf5_reading *reading, wt_input **text,
+                       wt_error *err) WT_NODISCARD;
+
+#endif

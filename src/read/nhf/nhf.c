@@ -1,0 +1,323 @@
+/* Nanosurf Studio files: measurements, segments and curves, and the descriptor.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "read/nhf/nhf.h"
+
+#include "data/hdf5_scope.h"
+#include "read/text/curve_text.h"
+#include "read/text/text.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+enum { CHANNELS = 3, SEGMENTS = 16 };
+
+typedef struct nhf_segment {
+    wt_segment_kind kind;
+    double order; /* its number, or that of its link */
+    nhf_channel channels[CHANNELS];
+    size_t n_channels;
+    double *sizes;         /* [n_curves] samples of each curve */
+    size_t n_curves, from; /* of the curve that is printed */
+} nhf_segment;
+
+typedef struct measurement {
+    nhf_segment segments[SEGMENTS];
+    size_t n_segments, n_curves;
+    wt_cantilever cantilever;
+    double *x, *y; /* [n_curves], or NULL */
+} measurement;
+
+static wt_status bad(const char *place, const char *message, const char *expected, wt_error *err)
+{
+    wt_fail(err, WT_E_CORRUPT, "%s", message);
+    wt_error_place(err, "%s", place);
+    wt_error_expected(err, "%s", expected);
+    return WT_E_CORRUPT;
+}
+
+static void clear(measurement *m)
+{
+    for (size_t s = 0; s < m->n_segments; s++) {
+        for (size_t c = 0; c < m->segments[s].n_channels; c++)
+            free(m->segments[s].channels[c].values);
+        free(m->segments[s].sizes);
+    }
+    free(m->x);
+    free(m->y);
+    *m = (measurement){.n_segments = 0};
+}
+
+/* ---- segments ---------------------------------------------------------------------------------
+ */
+
+static wt_segment_kind kind_of(const char *name)
+{
+    static const struct {
+        const char *word;
+        wt_segment_kind kind;
+    } words[] = {{"advance", WT_SEGMENT_APPROACH}, {"approach", WT_SEGMENT_APPROACH},
+                 {"forward", WT_SEGMENT_APPROACH}, {"retract", WT_SEGMENT_RETRACT},
+                 {"backward", WT_SEGMENT_RETRACT}, {"wait", WT_SEGMENT_DWELL},
+                 {"pause", WT_SEGMENT_DWELL},      {"sweep", WT_SEGMENT_MODULATION}};
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (strcasestr(name, words[i].word) != NULL)
+            return words[i].kind;
+    return WT_SEGMENT_OTHER;
+}
+
+/* The data set of a group whose attribute has this text. */
+static double *values_by(const nhf_file *f, hid_t group, const char *attribute, const char *text,
+                         size_t *n)
+{
+    char name[HDF5_NAME], found[HDF5_TEXT];
+    for (size_t i = 0; hdf5_link(group, i, name); i++) {
+        const hid_t data = hdf5_open_data(group, name);
+        const bool is = data >= 0 && hdf5_text(data, attribute, found) && strcmp(found, text) == 0;
+        double *values = is ? hdf5_values(data, f->size, n) : NULL;
+        hdf5_close(data);
+        if (is)
+            return values;
+    }
+    return NULL;
+}
+
+/* How many samples each curve has: what the channel points to, or in version 1 a channel. Without
+ * either there is one curve. */
+static wt_status read_sizes(const nhf_file *f, hid_t group, const char *source, nhf_segment *s,
+                            const char *place, wt_error *err)
+{
+    const size_t n = s->channels[0].n;
+    double sum = 0;
+    s->sizes = f->old ? values_by(f, group, "name", "number_of_datapoints_acquired", &s->n_curves)
+                      : values_by(f, group, "dataset_block_size_id", source, &s->n_curves);
+    if (s->sizes == NULL && (f->old || source[0] == '\0')) {
+        s->sizes = calloc(1, sizeof *s->sizes);
+        if (s->sizes == NULL)
+            return wt_fail(err, WT_E_MEMORY, "no memory for a segment");
+        s->sizes[0] = (double)n;
+        s->n_curves = 1;
+    }
+    for (size_t i = 0; s->sizes != NULL && i < s->n_curves; i++) {
+        if (!(s->sizes[i] >= 0 && s->sizes[i] <= (double)n) || s->sizes[i] != floor(s->sizes[i]))
+            sum = (double)NAN;
+        sum += s->sizes[i];
+    }
+    if (s->sizes == NULL || !(sum <= (double)n))
+        return bad(place, "the numbers of samples of the curves contradict the channel",
+                   "whole numbers that add up to the length of the channel", err);
+    return WT_OK;
+}
+
+static wt_status read_segment(const nhf_file *f, hid_t group, const char *place, nhf_segment *s,
+                              wt_error *err)
+{
+    char name[HDF5_NAME], source[HDF5_TEXT] = "";
+    const char *problem = NULL;
+    wt_status status = WT_OK;
+    for (size_t i = 0; status == WT_OK && hdf5_link(group, i, name) && s->n_channels < CHANNELS;
+         i++) {
+        nhf_channel *c = &s->channels[s->n_channels];
+        const hid_t data = hdf5_open_data(group, name);
+        if (data >= 0 && nhf_channel_read(f, data, c, &problem)) {
+            if (s->n_channels++ == 0)
+                (void)hdf5_text(data, "dataset_block_size_source", source);
+            if (c->n != s->channels[0].n)
+                problem = "channels of different length";
+        }
+        hdf5_close(data);
+        if (problem != NULL)
+            status = bad(place, problem, "a type and a linear calibration that are known", err);
+    }
+    return status == WT_OK && s->n_channels > 0 ? read_sizes(f, group, source, s, place, err)
+                                                : status;
+}
+
+static int by_order(const void *a, const void *b)
+{
+    const nhf_segment *x = a, *y = b;
+    return x->order < y->order ? -1 : x->order > y->order;
+}
+
+static double positive(hid_t group, const char *attribute)
+{
+    const double value = hdf5_number(group, attribute, 0);
+    return value > 0 ? value : (double)NAN;
+}
+
+/* Where the curves are: a channel of the measurement with a number for each. */
+static void read_places(const nhf_file *f, hid_t group, measurement *m)
+{
+    const char *key = f->old ? "name" : "signal_name";
+    double **const places[] = {&m->x, &m->y};
+    static const char *const names[] = {"Position X", "Position Y"};
+    for (size_t i = 0; i < 2; i++) {
+        size_t n = 0;
+        *places[i] = values_by(f, group, key, names[i], &n);
+        if (n != m->n_curves) {
+            free(*places[i]);
+            *places[i] = NULL;
+        }
+    }
+}
+
+static wt_status read_measurement(const nhf_file *f, hid_t group, measurement *m, wt_error *err)
+{
+    char name[HDF5_NAME], title[HDF5_TEXT];
+    wt_status status = WT_OK;
+    m->cantilever = (wt_cantilever){
+        .spring_constant = positive(group, "spm_probe_calibration_spring_constant"),
+        .sensitivity = positive(group, "spm_probe_calibration_deflection_sensitivity")};
+    for (size_t i = 0; status == WT_OK && hdf5_link(group, i, name) && m->n_segments < SEGMENTS;
+         i++) {
+        nhf_segment *s = &m->segments[m->n_segments];
+        const hid_t inner = hdf5_open_group(group, name);
+        if (inner >= 0 && hdf5_text(inner, f->old ? "name" : "segment_name", title)) {
+            const double order = hdf5_number(inner, "segment_index", 0);
+            *s =
+                (nhf_segment){.kind = kind_of(title), .order = isfinite(order) ? order : (double)i};
+            m->n_segments++;
+            status = read_segment(f, inner, name, s, err);
+            m->n_curves = s->n_curves > m->n_curves ? s->n_curves : m->n_curves;
+        }
+        hdf5_close(inner);
+    }
+    if (status == WT_OK) {
+        qsort(m->segments, m->n_segments, sizeof *m->segments, by_order);
+        read_places(f, group, m);
+    }
+    return status;
+}
+
+/* ---- curves -----------------------------------------------------------------------------------
+ */
+
+/* Whether heights fall towards the sample is known from other programs only: the first way in
+ * tells.
+ */
+static void turn_heights(measurement *m)
+{
+    double way = 0;
+    for (size_t s = 0; s < m->n_segments && way == 0; s++)
+        for (size_t c = 0; c < m->segments[s].n_channels; c++) {
+            const nhf_channel *channel = &m->segments[s].channels[c];
+            const size_t n = m->segments[s].n_curves > 0 ? (size_t)m->segments[s].sizes[0] : 0;
+            if (m->segments[s].kind == WT_SEGMENT_APPROACH && channel->quantity == WT_Q_HEIGHT &&
+                n > 1)
+                way = channel->values[n - 1] - channel->values[0];
+        }
+    for (size_t s = 0; s < m->n_segments && way > 0; s++)
+        for (size_t c = 0; c < m->segments[s].n_channels; c++) {
+            const nhf_channel *channel = &m->segments[s].channels[c];
+            for (size_t i = 0; channel->quantity == WT_Q_HEIGHT && i < channel->n; i++)
+                channel->values[i] = -channel->values[i];
+        }
+}
+
+/* Each segment has its own columns and its own time, which begins at 0; a curve has one. */
+static void print_curve(measurement *m, size_t number, size_t curve, FILE *out)
+{
+    double end = 0;
+    bool begun = false;
+    for (size_t i = 0; i < m->n_segments; i++) {
+        nhf_segment *s = &m->segments[i];
+        const size_t n = curve < s->n_curves ? (size_t)s->sizes[curve] : 0;
+        curve_text text = {.number = number,
+                           .x = m->x != NULL ? m->x[curve] : (double)NAN,
+                           .y = m->y != NULL ? m->y[curve] : (double)NAN,
+                           .cantilever = m->cantilever,
+                           .n_columns = s->n_channels};
+        for (size_t c = 0; c < s->n_channels; c++) {
+            double *values = s->channels[c].values;
+            text.columns[c].quantity = s->channels[c].quantity;
+            text.columns[c].values = values;
+            if (s->channels[c].quantity != WT_Q_TIME || n == 0)
+                continue;
+            const double shift = values[s->from] < end ? end : 0;
+            for (size_t k = 0; k < n; k++)
+                values[s->from + k] += shift;
+            end = values[s->from + n - 1];
+        }
+        if (n > 0) {
+            (begun ? curve_text_names : curve_text_begin)(out, &text);
+            curve_text_rows(out, &text, s->kind, s->from, n, false);
+            begun = true;
+        }
+        s->from += n;
+    }
+}
+
+static wt_status print_curves(hid_t file, size_t size, FILE *out, wt_error *err)
+{
+    char name[HDF5_NAME], type[HDF5_TEXT];
+    nhf_file f = {.file = file, .size = size, .calibration = -1};
+    size_t number = 0;
+    wt_status status = WT_OK;
+    const double version = hdf5_number(file, "nsf_file_version_major", 0);
+    if (version != 1 && version != 2) {
+        wt_fail(err, WT_E_UNSUPPORTED, "this version of Nanosurf files is not known");
+        wt_error_expected(err, "nsf_file_version_major 1 or 2");
+        return WT_E_UNSUPPORTED;
+    }
+    f.old = version == 1;
+    for (size_t i = 0; f.calibration < 0 && hdf5_link(file, i, name); i++) {
+        const hid_t group = hdf5_open_group(file, name);
+        if (group >= 0 && hdf5_text(group, "group_type", type) && strcmp(type, "calibration") == 0)
+            f.calibration = group;
+        else
+            hdf5_close(group);
+    }
+    for (size_t i = 0; status == WT_OK && hdf5_link(file, i, name); i++) {
+        measurement m = {.n_segments = 0};
+        const hid_t group = hdf5_open_group(file, name);
+        if (group >= 0 && hdf5_text(group, f.old ? "measurement_type" : "group_type", type) &&
+            strncmp(type, "spectroscopy", 12) == 0)
+            status = read_measurement(&f, group, &m, err);
+        if (status == WT_OK)
+            turn_heights(&m);
+        for (size_t curve = 0; status == WT_OK && curve < m.n_curves; curve++)
+            print_curve(&m, number++, curve, out);
+        clear(&m);
+        hdf5_close(group);
+    }
+    hdf5_close(f.calibration);
+    if (status == WT_OK && number == 0) {
+        status = wt_fail(err, WT_E_EMPTY, "the file holds no force curve");
+        wt_error_expected(err, "a group of spectroscopy with Deflection and Position Z");
+    }
+    return status;
+}
+
+/* ---- the descriptor ---------------------------------------------------------------------------
+ */
+
+static recognition detect(const file_reader *self, file_peek *peek)
+{
+    (void)self;
+    return hdf5_recognise(peek, "nsf_file_version_major");
+}
+
+static wt_status as_text(wt_input *input, wt_parselog *log, wt_input **text, wt_error *err)
+{
+    wt_parselog_add(log, WT_NOTE, wt_input_name(input), NULL,
+                    "force curves of this format were not verified on a genuine file: compare one "
+                    "with the instrument's own software");
+    return hdf5_as_text(input, print_curves, text, err);
+}
+
+const file_reader reader_nhf = {
+    .info = {.id = "nhf",
+             .title = "Nanosurf Studio force curves and maps (.nhf)",
+             .kinds = WT_KIND_FORCE,
+             .verified = false,
+             .evidence = "two other programs that read it; no measured file",
+             .version = "1"},
+    .runs = "weartrack-stream",
+    .detect = detect,
+    .as_text = as_text,
+    .force = &text_force,
+    .describe = text_describe_made,
+};

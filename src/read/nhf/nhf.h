@@ -1,0 +1,35 @@
+/* Nanosurf Studio files (.nhf, HDF5) of version 1.1 and 2: what the parts of the reader share, all
+ * of it behind the door. Known from the readers of other programs; no genuine file was at hand.
+ *
+ * A group of the file is a measurement, its groups are the segments (in version 1 "name" says
+ * which, in version 2 "segment_name"), whose data sets are the channels. All curves of a map stand
+ * one behind the other in one data set; another one says how many samples each has.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#ifndef WT_READ_NHF_H
+#define WT_READ_NHF_H
+
+#include "read/hierarchy/curves_hdf5.h"
+
+typedef struct nhf_file {
+    hid_t file;
+    size_t size;
+    bool old;          /* version 1 */
+    hid_t calibration; /* group of the nodes; -1 if there is none */
+} nhf_file;
+
+/* Numbers of a channel in the SI unit of its quantity. */
+typedef struct nhf_channel {
+    wt_quantity quantity;
+    double *values;
+    size_t n;
+} nhf_channel;
+
+/* The channel of a segment whose name is known and whose numbers and unit are understood; false if
+ * it is none of them. What it is instead is said in *problem if it hinders. */
+bool nhf_channel_read(const nhf_file *f, hid_t data, nhf_channel *channel, const char **problem);
+/* The name of a channel, "" if it has none. */
+void nhf_channel_name(const nhf_file *f, hid_t data, char name[HDF5_TEXT]);
+
+#endif

@@ -1,0 +1,200 @@
+/* Channels of Nanosurf Studio files: from the stored numbers to SI units.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "read/nhf/nhf.h"
+
+#include "data/hdf5_scope.h"
+#include "read/force_source.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Longest way through the graph of calibrations. */
+enum { NODES_MAX = 8 };
+
+void nhf_channel_name(const nhf_file *f, hid_t data, char name[HDF5_TEXT])
+{
+    (void)hdf5_text(data, f->old ? "name" : "signal_name", name);
+}
+
+/* ---- the range of the stored type -------------------------------------------------------------
+ */
+
+typedef struct element_type {
+    const char *name;
+    int number; /* in version 1 */
+    double minimum, maximum;
+} element_type;
+
+/* Version 2 keeps one number of each type for what is missing. */
+static bool find_type(const nhf_file *f, hid_t data, element_type *type, double *missing)
+{
+    static const element_type types[] = {
+        {"int32", 0, -0x1p31, 0x1p31 - 1}, {"uint8", 1, 0, 255},
+        {"uint16", 2, 0, 65535},           {"uint32", 3, 0, 0x1p32 - 1},
+        {"int16", 5, -0x1p15, 0x1p15 - 1}, {"double", 7, 0, 1},
+    };
+    char name[HDF5_TEXT];
+    const double number = hdf5_number(data, "dataset_element_type", 0);
+    (void)hdf5_text(data, "dataset_element_type", name);
+    *missing = (double)NAN;
+    for (size_t i = 0; i < sizeof types / sizeof *types; i++) {
+        if (f->old ? number != types[i].number : strcmp(name, types[i].name) != 0)
+            continue;
+        *type = types[i];
+        if (f->old || types[i].number == 7)
+            return true;
+        if (types[i].minimum < 0)
+            *missing = type->minimum++;
+        else
+            *missing = type->maximum--;
+        return true;
+    }
+    return false;
+}
+
+/* ---- the graph of calibrations ----------------------------------------------------------------
+ */
+
+/* "Meter (m)" and "m" are m. */
+static void unit_of(char text[HDF5_TEXT])
+{
+    char *open = strchr(text, '(');
+    char *close = open != NULL ? strchr(open, ')') : NULL;
+    if (close == NULL)
+        return;
+    *close = '\0';
+    memmove(text, open + 1, strlen(open + 1) + 1);
+}
+
+typedef struct node {
+    char source[HDF5_TEXT], sink[HDF5_TEXT], unit[HDF5_TEXT];
+    force_linear to_sink;
+} node;
+
+/* A linear node that leads from `from`; false if this is none. */
+static bool read_node(hid_t data, const char *from, node *to)
+{
+    char type[HDF5_TEXT], ways[HDF5_TEXT];
+    const double a = hdf5_number(data, "signal_mapping_parameters", 0);
+    const double b = hdf5_number(data, "signal_mapping_parameters", 1);
+    (void)hdf5_text(data, "signal_mapping_type", type);
+    (void)hdf5_text(data, "signal_invertibility", ways);
+    (void)hdf5_text(data, "signal_source_id", to->source);
+    (void)hdf5_text(data, "signal_sink_id", to->sink);
+    const bool forward = strcmp(to->source, from) == 0;
+    const bool right = strcmp(ways, "right") == 0, both = strcmp(ways, "two_way") == 0;
+    if (strncmp(type, "linear", 6) != 0 || strstr(type, "interpolation") != NULL || !isfinite(a) ||
+        !isfinite(b) || a == 0 || (!forward && strcmp(to->sink, from) != 0))
+        return false;
+    if (forward ? !right && !both : right)
+        return false;
+    (void)hdf5_text(data, forward ? "signal_sink_unit" : "signal_source_unit", to->unit);
+    unit_of(to->unit);
+    /* What leads both ways is written as the source that follows from the sink. */
+    to->to_sink = forward && both ? (force_linear){1 / a, -b / a} : (force_linear){a, b};
+    if (!forward)
+        memcpy(to->sink, to->source, sizeof to->sink);
+    return true;
+}
+
+/* From a signal to another, by the nodes between them; never back over one that led here. */
+static bool walk(const nhf_file *f, const char *from, const char *before, const char *wanted,
+                 int depth, force_linear *scaling, char unit[HDF5_TEXT])
+{
+    char name[HDF5_NAME];
+    for (size_t i = 0; depth < NODES_MAX && hdf5_link(f->calibration, i, name); i++) {
+        node n;
+        const hid_t data = hdf5_open_data(f->calibration, name);
+        const bool leads = data >= 0 && read_node(data, from, &n) && strcmp(n.sink, before) != 0;
+        hdf5_close(data);
+        if (!leads)
+            continue;
+        force_linear rest = {1, 0};
+        const bool there = strcmp(n.sink, wanted) == 0;
+        if (!there && !walk(f, n.sink, from, wanted, depth + 1, &rest, unit))
+            continue;
+        if (there)
+            memcpy(unit, n.unit, sizeof n.unit);
+        *scaling = (force_linear){rest.multiplier * n.to_sink.multiplier,
+                                  rest.multiplier * n.to_sink.offset + rest.offset};
+        return true;
+    }
+    return false;
+}
+
+/* ---- channels ---------------------------------------------------------------------------------
+ */
+
+/* From the stored numbers to the unit. */
+static bool find_scaling(const nhf_file *f, hid_t data, const element_type *type,
+                         force_linear *scaling, char unit[HDF5_TEXT])
+{
+    char selected[HDF5_TEXT], own[HDF5_TEXT];
+    const double low =
+        hdf5_number(data, f->old ? "base_calibration_min" : "signal_calibration_min", 0);
+    const double high =
+        hdf5_number(data, f->old ? "base_calibration_max" : "signal_calibration_max", 0);
+    (void)hdf5_text(data, f->old ? "base_calibration_unit" : "signal_calibration_unit", unit);
+    unit_of(unit);
+    if (!f->old && hdf5_text(data, "signal_selected", selected) &&
+        hdf5_text(data, "signal_id", own) && strcmp(selected, own) != 0 && f->calibration >= 0)
+        return walk(f, own, "", selected, 0, scaling, unit);
+    if (!(high > low))
+        return false;
+    const double multiplier = (high - low) / (type->maximum - type->minimum);
+    *scaling = (force_linear){multiplier, low - multiplier * type->minimum};
+    return true;
+}
+
+/* A deflection is what its unit says. */
+static bool find_quantity(const char *name, const char *unit, wt_quantity *quantity, double *factor)
+{
+    static const struct {
+        const char *name;
+        wt_quantity quantity;
+    } known[] = {{"Deflection", WT_Q_FORCE},
+                 {"Deflection", WT_Q_DEFLECTION},
+                 {"Deflection", WT_Q_DEFLECTION_VOLTAGE},
+                 {"Position Z", WT_Q_HEIGHT},
+                 {"Time", WT_Q_TIME}};
+    double offset = 0;
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+        if (strcmp(name, known[i].name) == 0 &&
+            wt_unit_to_si(unit, known[i].quantity, factor, &offset, NULL) == WT_OK) {
+            *quantity = known[i].quantity;
+            return true;
+        }
+    return false;
+}
+
+static bool is_wanted(const char *name)
+{
+    return strcmp(name, "Deflection") == 0 || strcmp(name, "Position Z") == 0 ||
+           strcmp(name, "Time") == 0;
+}
+
+bool nhf_channel_read(const nhf_file *f, hid_t data, nhf_channel *c, const char **problem)
+{
+    char name[HDF5_TEXT], unit[HDF5_TEXT];
+    element_type type;
+    force_linear scaling = {1, 0};
+    double missing = (double)NAN, factor = 1;
+    nhf_channel_name(f, data, name);
+    if (!is_wanted(name))
+        return false;
+    if (!find_type(f, data, &type, &missing) || !find_scaling(f, data, &type, &scaling, unit))
+        *problem = "the calibration of a channel is not understood";
+    else if (!find_quantity(name, unit, &c->quantity, &factor))
+        *problem = "the unit of a channel is not understood";
+    else if ((c->values = hdf5_values(data, f->size, &c->n)) == NULL)
+        *problem = "the numbers of a channel cannot be read";
+    else
+        for (size_t i = 0; i < c->n; i++)
+            c->values[i] = c->values[i] == missing
+                               ? (double)NAN
+                               : factor * (scaling.multiplier * c->values[i] + scaling.offset);
+    return c->values != NULL;
+}

@@ -1,0 +1,149 @@
+/* Text exports of NT-MDT force curves: three columns without a name, parted by tabs, with a decimal
+ * comma: the height [nm], the deflection signal on the way in and on the way out. The rows begin at
+ * the end of the ramp in the sample; those that the curve did not reach repeat its first sample.
+ *
+ * Known from one measured file. Neither the unit of the signal nor a calibration is in it.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "read/bytes/input.h"
+#include "read/text/curve_text.h"
+#include "read/text/text.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { COLUMNS = 3, ROWS_MIN = 10, LINE_MAX_LENGTH = 80 };
+
+/* The numbers of a line; false if it is anything else. *line moves behind it. */
+static bool read_row(const char **line, const char *end, double row[COLUMNS], bool *commas)
+{
+    const char *at = *line;
+    for (size_t c = 0; c < COLUMNS; c++) {
+        const char *stop = at;
+        while (stop < end && *stop != '\t' && *stop != '\r' && *stop != '\n')
+            stop++;
+        *commas = *commas && memchr(at, ',', (size_t)(stop - at)) != NULL;
+        if (!wt_number_parse(at, (size_t)(stop - at), ',', &row[c]) || stop == end ||
+            (*stop == '\t') != (c + 1 < COLUMNS))
+            return false;
+        at = stop + 1;
+    }
+    if (at[-1] == '\r' && at < end && *at == '\n')
+        at++;
+    *line = at;
+    return true;
+}
+
+/* Every number has a comma, the height rises row by row and stays at or below 0. */
+static recognition detect(const file_reader *self, file_peek *peek)
+{
+    const char *line = (const char *)peek->bytes, *end = line + peek->length;
+    double row[COLUMNS], before = -(double)INFINITY;
+    bool commas = true;
+    size_t n = 0;
+    recognition match = {.answer = ANSWER_NO};
+    (void)self;
+    for (; read_row(&line, end, row, &commas); n++) {
+        if (row[0] <= before || row[0] > 0 || !commas)
+            return match;
+        before = row[0];
+    }
+    /* A peek ends within a line. */
+    if (n >= ROWS_MIN && (line == end || (!peek->whole && end - line < LINE_MAX_LENGTH))) {
+        match.answer = ANSWER_YES;
+        match.score = 60;
+    }
+    return match;
+}
+
+typedef struct ramp {
+    double *values; /* [COLUMNS][capacity] */
+    size_t n, capacity;
+} ramp;
+
+/* Heights in metres, and how many rows at the beginning the curve did not reach. */
+static wt_status read_ramp(const char *line, size_t length, ramp *r, size_t *idle, wt_error *err)
+{
+    const char *end = line + length;
+    double row[COLUMNS];
+    bool commas = true;
+    r->capacity = length / (2 * COLUMNS) + 1;
+    r->values = calloc(COLUMNS * r->capacity, sizeof *r->values);
+    if (r->values == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for a curve");
+    while (r->n < r->capacity && read_row(&line, end, row, &commas)) {
+        r->values[r->n] = 1e-9 * row[0];
+        for (size_t c = 1; c < COLUMNS; c++)
+            r->values[c * r->capacity + r->n] = row[c];
+        r->n++;
+    }
+    if (line != end || r->n < ROWS_MIN) {
+        wt_fail(err, WT_E_CORRUPT, "a line is no row of three numbers");
+        wt_error_place(err, "line %zu", r->n + 1);
+        wt_error_expected(err, "height, way in and way out, parted by tabs, with decimal commas");
+        return WT_E_CORRUPT;
+    }
+    for (*idle = 0; *idle + 1 < r->n; ++*idle)
+        for (size_t c = 1; c < COLUMNS; c++) {
+            const double *signal = r->values + c * r->capacity + *idle;
+            if (signal[0] != signal[1])
+                return WT_OK;
+        }
+    return WT_OK;
+}
+
+static wt_status as_text(wt_input *input, wt_parselog *log, wt_input **text, wt_error *err)
+{
+    const unsigned char *bytes = NULL;
+    size_t length = 0, n_text = 0, idle = 0;
+    char *made = NULL;
+    ramp r = {.n = 0};
+    wt_status status = wt_input_bytes(input, &bytes, &length, err);
+    if (status == WT_OK)
+        status = read_ramp((const char *)bytes, length, &r, &idle, err);
+    FILE *out = status == WT_OK ? open_memstream(&made, &n_text) : NULL;
+    if (status == WT_OK && out == NULL)
+        status = wt_fail(err, WT_E_MEMORY, "no memory for a curve");
+    if (status == WT_OK) {
+        curve_text curve = {
+            .x = (double)NAN,
+            .y = (double)NAN,
+            .cantilever = {.spring_constant = (double)NAN, .sensitivity = (double)NAN},
+            .columns = {{WT_Q_MEASURED_HEIGHT, r.values},
+                        {WT_Q_DEFLECTION_VOLTAGE, r.values + r.capacity}},
+            .n_columns = 2};
+        curve_text_begin(out, &curve);
+        curve_text_rows(out, &curve, WT_SEGMENT_APPROACH, idle, r.n - idle, true);
+        curve.columns[1].values = r.values + 2 * r.capacity;
+        curve_text_rows(out, &curve, WT_SEGMENT_RETRACT, idle, r.n - idle, false);
+        if (fclose(out) != 0)
+            status = wt_fail(err, WT_E_MEMORY, "no memory for a curve");
+        wt_parselog_add(log, WT_WARNING, wt_input_name(input), NULL,
+                        "the file does not say the unit of the deflection signal: its numbers are "
+                        "taken as volts, and the sensitivity must be that of one such unit");
+        if (idle > 0)
+            wt_parselog_add(log, WT_NOTE, wt_input_name(input), NULL,
+                            "%zu rows that repeat the first sample are left out", idle);
+    }
+    free(r.values);
+    if (status == WT_OK)
+        return input_own(made, n_text, wt_input_name(input), text, err);
+    free(made);
+    return status;
+}
+
+const file_reader reader_ntmdt = {
+    .info = {.id = "ntmdt-text",
+             .title = "NT-MDT force curve, text export without names",
+             .kinds = WT_KIND_FORCE,
+             .verified = true,
+             .evidence = "a measured file; its units are not in it",
+             .version = "1"},
+    .runs = "weartrack-stream",
+    .detect = detect,
+    .as_text = as_text,
+    .force = &text_force,
+    .describe = text_describe_made,
+};

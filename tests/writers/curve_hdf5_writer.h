@@ -1,0 +1,50 @@
+/* Writes HDF5 files of force curves as other programs do: afmformats, Nanosurf Studio. Shares no
+ * code with the readers.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#ifndef TESTS_WRITERS_CURVE_HDF5_WRITER_H
+#define TESTS_WRITERS_CURVE_HDF5_WRITER_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+typedef struct afmformats_writer_file {
+    const char *path;
+    size_t n_curves, n;                  /* rows of each curve */
+    const double *time, *height, *force; /* [n_curves][n]; NULL: left out */
+    const unsigned char *segments;       /* [n] */
+    double spring_constant;
+    const char *force_unit;
+    bool packed;
+} afmformats_writer_file;
+
+typedef struct nhf_writer_channel {
+    const char *name, *unit; /* "Deflection", "Volt (V)" */
+    double minimum, maximum; /* that the range of int32 stands for */
+    const double *values;    /* [all samples] in the unit; NaN: missing */
+} nhf_writer_channel;
+
+typedef struct nhf_writer_segment {
+    const char *name; /* "Advance to Setpoint 1" */
+    const int *sizes; /* [n_curves] */
+    size_t n_channels;
+    const nhf_writer_channel *channels;
+} nhf_writer_segment;
+
+typedef struct nhf_writer_file {
+    const char *path;
+    int version; /* 1, 2 */
+    const char *type;
+    size_t n_curves, n_segments;
+    const nhf_writer_segment *segments;
+    double spring_constant, sensitivity;
+    const double *x, *y;      /* [n_curves] */
+    double newtons_per_count; /* version 2: the deflection has a node to force; 0: none */
+} nhf_writer_file;
+
+/* 0, or -1 */
+int afmformats_write(const afmformats_writer_file *file);
+int nhf_write(const nhf_writer_file *file);
+
+#endif
