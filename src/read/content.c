@@ -4,6 +4,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "read/bytes/input.h"
+#include "read/collection.h"
 #include "read/formats.h"
 #include "read/packed/packed.h"
 #include "read/text/text.h"
@@ -216,6 +217,57 @@ static wt_status unpack(const wt_formats *formats, wt_input *input, const wt_rea
 /* An archive of an archive of a spreadsheet is as deep as it goes. */
 enum { MOST_LAYERS = 3 };
 
+/* ---- an archive of force curves -------------------------------------------------------------- */
+
+typedef struct search {
+    const wt_formats *formats;
+    bool found;
+} search;
+
+static wt_status look_for_curves(wt_input *entry, void *user, bool *taken, wt_error *err)
+{
+    search *s = user;
+    const file_reader *reader = NULL;
+    wt_error why = WT_ERROR_INIT;
+    const wt_status status = detect_reader(s->formats, entry, NULL, WT_KIND_FORCE, &reader, &why);
+    *taken = s->found = status == WT_OK;
+    return status == WT_E_MEMORY ? wt_fail(err, status, "%s", why.message) : WT_OK;
+}
+
+static bool is_zip(wt_input *input)
+{
+    const unsigned char *bytes = NULL;
+    size_t length = 0;
+    bool whole = false;
+    return wt_input_peek(input, PACKED_PEEK, &bytes, &length, &whole, NULL) == WT_OK &&
+           length >= 4 && memcmp(bytes, "PK\3\4", 4) == 0;
+}
+
+/* A ZIP archive of curves is one that no reader knows but for what is in it, or that the format of
+ * a text is given for. */
+static wt_status detect_content(const wt_formats *formats, wt_input *in, const char *format,
+                                unsigned kinds, const file_reader **reader, wt_error *err)
+{
+    search s = {.formats = formats};
+    const bool zip = (kinds == 0 || (kinds & WT_KIND_FORCE) != 0) && is_zip(in);
+    const file_reader *given = format != NULL ? formats_find_reader(formats, format) : NULL;
+    wt_status status = WT_OK;
+    if (zip && format != NULL)
+        s.found = strcmp(format, reader_collection.info.id) == 0 ||
+                  (given != NULL && reader_is_text(given));
+    if (!s.found)
+        status = detect_reader(formats, in, format, kinds, reader, err);
+    if (status == WT_E_FORMAT && zip && format == NULL) {
+        wt_error damaged = WT_ERROR_INIT;
+        const wt_status looked = collection_each(in, look_for_curves, &s, &damaged);
+        if (looked == WT_E_MEMORY)
+            return wt_fail(err, looked, "%s", damaged.message);
+    }
+    if (s.found)
+        *reader = &reader_collection;
+    return s.found ? WT_OK : status;
+}
+
 wt_status find_reader(const wt_formats *formats, wt_input *input, const wt_read_options *options,
                       unsigned kinds, const file_reader **reader, wt_input **content, wt_error *err)
 {
@@ -231,7 +283,7 @@ wt_status find_reader(const wt_formats *formats, wt_input *input, const wt_read_
     }
     *content = in;
     if (status == WT_OK)
-        status = detect_reader(formats, in, options->format, kinds, reader, err);
+        status = detect_content(formats, in, options->format, kinds, reader, err);
     if (status != WT_OK)
         wt_error_file(err, wt_input_name(input));
     return status;

@@ -3,19 +3,51 @@
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "base/shortage.h"
-#include "read/force_source.h"
+#include "read/collection.h"
 #include "read/formats.h"
+
+#include <string.h>
+
+static wt_status open_content(const wt_formats *formats, wt_input *input,
+                              const wt_read_options *options, wt_parselog *log,
+                              wt_force_source **source, const file_reader **reader, wt_error *err)
+{
+    wt_read_options o;
+    wt_input *content = NULL;
+    wt_status status =
+        read_start(formats, input, options, WT_KIND_FORCE, &o, reader, &content, err);
+    if (status == WT_OK)
+        status = force_open((*reader)->force, *reader, content, &o, log, source, err);
+    return status;
+}
+
+/* A file of an archive; the options are those of the archive, whose format is not that of the file.
+ * An archive in it is none. */
+static wt_status open_entry(const wt_formats *formats, wt_input *entry,
+                            const wt_read_options *options, wt_parselog *log,
+                            wt_force_source **source, wt_error *err)
+{
+    const file_reader *reader = NULL;
+    wt_read_options own = *options;
+    if (own.format != NULL && strcmp(own.format, reader_collection.info.id) == 0)
+        own.format = NULL;
+    wt_status status = open_content(formats, entry, &own, log, source, &reader, err);
+    if (status == WT_OK && reader == &reader_collection) {
+        wt_force_close(*source);
+        *source = NULL;
+        status = wt_fail(err, WT_E_UNSUPPORTED, "an archive within an archive");
+        wt_error_advice(err, "unpack it");
+    }
+    return status;
+}
 
 wt_status wt_force_open(const wt_formats *formats, wt_input *input, const wt_read_options *options,
                         wt_parselog *log, wt_force_source **source, wt_error *err)
 {
-    wt_read_options o;
     const file_reader *reader = NULL;
-    wt_input *content = NULL;
-    wt_status status =
-        read_start(formats, input, options, WT_KIND_FORCE, &o, &reader, &content, err);
-    if (status == WT_OK)
-        status = force_open(reader->force, reader, content, &o, log, source, err);
+    wt_status status = open_content(formats, input, options, log, source, &reader, err);
+    if (status == WT_OK && reader == &reader_collection)
+        collection_use(*source, formats, open_entry);
     const wt_status end = shortage_end(status, err);
     if (status == WT_OK && end != WT_OK) {
         wt_force_close(*source);

@@ -1,0 +1,227 @@
+/* A ZIP archive of files of force curves. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "read/collection.h"
+
+#include "read/bytes/archive.h"
+#include "read/bytes/input.h"
+#include "read/facts.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* A file of curves that somebody packed; nothing else ends an entry that was made to grow. */
+#define ENTRY_MAX ((size_t)256 << 20)
+enum { NAMES_SHOWN = 5 };
+
+typedef struct entry {
+    const char *name;
+    size_t number; /* in the archive */
+} entry;
+
+typedef struct collection {
+    zip_archive *archive;
+    entry *entries; /* the files by name, 2 before 10 */
+    size_t n;
+    const char *name; /* of the archive */
+} collection;
+
+static void close_collection(collection *c)
+{
+    archive_close(c->archive);
+    free(c->entries);
+    *c = (collection){.n = 0};
+}
+
+static int by_name(const void *a, const void *b)
+{
+    const entry *x = a, *y = b;
+    const int order = strverscmp(x->name, y->name);
+    return order != 0 ? order : (x->number > y->number) - (x->number < y->number);
+}
+
+/* Folders, and what a system hides beside its files, hold nothing. */
+static bool is_file(const char *name)
+{
+    const char *base = strrchr(name, '/');
+    base = base != NULL ? base + 1 : name;
+    return *base != '\0' && *base != '.' && strncmp(name, "__MACOSX/", 9) != 0;
+}
+
+static wt_status open_collection(wt_input *input, collection *c, wt_error *err)
+{
+    *c = (collection){.name = wt_input_name(input)};
+    wt_status status = archive_open(input, &c->archive, err);
+    if (status != WT_OK)
+        return status;
+    c->entries = calloc(c->archive->n, sizeof *c->entries);
+    if (c->entries == NULL) {
+        close_collection(c);
+        return wt_fail(err, WT_E_MEMORY, "no memory for the entries of an archive");
+    }
+    for (size_t i = 0; i < c->archive->n; i++)
+        if (is_file(archive_name(c->archive, i)))
+            c->entries[c->n++] = (entry){archive_name(c->archive, i), i};
+    qsort(c->entries, c->n, sizeof *c->entries, by_name);
+    return WT_OK;
+}
+
+/* An entry unpacked, to be closed. */
+static wt_status open_entry(const collection *c, size_t i, wt_input **input, wt_error *err)
+{
+    char *name = NULL;
+    byte_buffer buffer = {.data = NULL};
+    wt_status status = archive_read(c->archive, c->entries[i].number, ENTRY_MAX, &buffer, err);
+    if (status == WT_OK && asprintf(&name, "%s, %s", c->name, c->entries[i].name) < 0) {
+        name = NULL;
+        status = wt_fail(err, WT_E_MEMORY, "no memory for an archive entry");
+    }
+    if (status == WT_OK)
+        status = input_own((char *)buffer.data, buffer.length, name, input, err);
+    else
+        free(buffer.data);
+    free(name);
+    return status;
+}
+
+wt_status collection_each(wt_input *input, collection_look *look, void *user, wt_error *err)
+{
+    collection c;
+    bool taken = false;
+    wt_status status = open_collection(input, &c, err);
+    for (size_t i = 0; i < c.n && status == WT_OK && !taken; i++) {
+        wt_input *content = NULL;
+        wt_error damaged = WT_ERROR_INIT;
+        status = open_entry(&c, i, &content, &damaged);
+        if (status == WT_OK)
+            status = look(content, user, &taken, err);
+        else if (status != WT_E_MEMORY)
+            status = WT_OK; /* said where it is read */
+        else
+            wt_fail(err, status, "%s", damaged.message);
+        wt_input_close(content);
+    }
+    close_collection(&c);
+    return status;
+}
+
+/* ---- curves ---------------------------------------------------------------------------------- */
+
+typedef struct collection_source {
+    wt_force_source base;
+    collection files;
+    const wt_formats *formats;
+    collection_open *open;
+    size_t next, n_curves; /* entry, curves so far */
+    wt_input *input;       /* of the entry that is read, or NULL */
+    wt_force_source *inner;
+} collection_source;
+
+static void close_entry(collection_source *s)
+{
+    wt_force_close(s->inner);
+    wt_input_close(s->input);
+    s->inner = NULL;
+    s->input = NULL;
+}
+
+/* What is no force curve is left out with a warning; what is one and cannot be read fails. */
+static wt_status next_entry(collection_source *s, wt_error *err)
+{
+    const char *place = s->files.entries[s->next].name;
+    wt_error why = WT_ERROR_INIT;
+    char words[512];
+    wt_status status = open_entry(&s->files, s->next++, &s->input, &why);
+    if (status == WT_OK)
+        status = s->open(s->formats, s->input, &s->base.options, s->base.log, &s->inner, &why);
+    if (status == WT_OK)
+        return WT_OK;
+    close_entry(s);
+    if (status == WT_E_FORMAT || status == WT_E_UNSUPPORTED || status == WT_E_EMPTY) {
+        wt_error_format(&why, words, sizeof words);
+        wt_parselog_add(s->base.log, WT_WARNING, s->base.name, place, "left out: %s", words);
+        return WT_OK;
+    }
+    if (err != NULL)
+        *err = why;
+    return status;
+}
+
+static wt_status next_curve(wt_force_source *base, wt_force_curve *curve, wt_error *err)
+{
+    collection_source *s = (collection_source *)base;
+    for (;;) {
+        wt_status status = WT_END;
+        if (s->inner != NULL)
+            status = wt_force_next(s->inner, curve, err);
+        if (s->inner != NULL && status != WT_END) {
+            curve->index = s->n_curves++;
+            return status;
+        }
+        close_entry(s);
+        if (s->next == s->files.n)
+            return WT_END;
+        status = next_entry(s, err);
+        if (status != WT_OK) {
+            s->n_curves++;
+            return status;
+        }
+    }
+}
+
+static void close_source(wt_force_source *base)
+{
+    collection_source *s = (collection_source *)base;
+    close_entry(s);
+    close_collection(&s->files);
+}
+
+static wt_status open_source(wt_force_source *base, const file_reader *self, wt_input *input,
+                             wt_error *err)
+{
+    (void)self;
+    base->n_curves = SIZE_MAX;
+    return open_collection(input, &((collection_source *)base)->files, err);
+}
+
+static const force_stream collection_force = {.size = sizeof(collection_source),
+                                              .open = open_source,
+                                              .next = next_curve,
+                                              .close = close_source};
+
+void collection_use(wt_force_source *source, const wt_formats *formats, collection_open *open)
+{
+    collection_source *s = (collection_source *)source;
+    s->formats = formats;
+    s->open = open;
+}
+
+/* ---- the descriptor -------------------------------------------------------------------------- */
+
+static wt_status describe(const file_reader *self, wt_input *input, const wt_read_options *options,
+                          wt_parselog *log, table_writer *facts)
+{
+    collection c;
+    (void)self;
+    (void)options;
+    (void)log;
+    wt_status status = open_collection(input, &c, facts->err);
+    if (status != WT_OK)
+        return status;
+    facts_add(facts, "files", "", "entries of the archive", "%zu", c.n);
+    for (size_t i = 0; i < c.n && i < NAMES_SHOWN; i++)
+        facts_add(facts, "file", "", "", "%s", c.entries[i].name);
+    if (c.n > NAMES_SHOWN)
+        facts_add(facts, "more files", "", "", "%zu", c.n - NAMES_SHOWN);
+    close_collection(&c);
+    return WT_OK;
+}
+
+const file_reader reader_collection = {
+    .info = {.id = "archive",
+             .title = "ZIP archive of files of force curves",
+             .kinds = WT_KIND_FORCE,
+             .verified = true,
+             .evidence = "each file is read as its own format",
+             .version = "1"},
+    .force = &collection_force,
+    .describe = describe,
+};
