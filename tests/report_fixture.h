@@ -134,6 +134,29 @@ static inline wt_table *fixture_copy(const wt_table *table, const fixture_change
     return copy;
 }
 
+/* A temperature sweep. */
+static inline void fixture_ramp(void)
+{
+    static const char *const file[] = {WT_SOURCE_DIR "/fixtures/formats/table-units/ramp.csv"};
+    static const double at[] = {298.15};
+    const wt_file_set set = {.patterns = file, .n_patterns = 1, .read = wt_read_defaults()};
+    wt_ramp_job job = wt_ramp_job_defaults();
+    wt_job work = wt_job_defaults();
+    wt_formats *formats = NULL;
+    wt_ramp_tables tables = {0};
+    fixture_check(wt_formats_new(NULL, &formats, NULL, NULL));
+    work.formats = formats;
+    job.sets = &set;
+    job.n_sets = 1;
+    job.temperature = at;
+    job.n_temperatures = 1;
+    fixture_check(wt_ramp_make(&job, &work, &tables, NULL));
+    fixture_check(wt_result_add(fixture_case, tables.ramp, NULL));
+    fixture_check(wt_result_add(fixture_case, tables.glass_transition, NULL));
+    fixture_check(wt_result_add(fixture_case, tables.moduli_at, NULL));
+    wt_formats_free(formats);
+}
+
 /* What a case does not give unless it is asked for by name, and what needs no case. */
 static inline void fixture_accuracy(wt_case *read)
 {
@@ -181,6 +204,7 @@ static inline const wt_result *fixture_produced(void)
         fixture_check(wt_run(read, NULL, NULL, &fixture_case, &failed, NULL));
         fixture_check(failed == 0 ? WT_OK : WT_E_INTERNAL);
         fixture_accuracy(read);
+        fixture_ramp();
         wt_case_free(read);
         (void)atexit(fixture_free);
     }

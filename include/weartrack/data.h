@@ -112,12 +112,26 @@ typedef struct wt_isotherm {
     uint64_t reserved[8];
 } wt_isotherm;
 
-/* Isotherms in the order of rising temperature (equal temperatures stay separate). */
+/* Moduli against temperature at one frequency, heated or cooled once. */
+typedef struct wt_ramp {
+    double angular_frequency; /* mean of the points [rad/s] */
+    size_t n;
+    double *temperature;     /* [n] rising [K] */
+    double *storage_modulus; /* [n] Pa, as measured: E' or G' */
+    double *loss_modulus;    /* [n] Pa */
+    char source[128];        /* file and step it came from */
+    uint64_t reserved[8];
+} wt_ramp;
+
+/* Isotherms in the order of rising temperature (equal temperatures stay separate), and temperature
+ * sweeps in the order of rising frequency. */
 typedef struct wt_sweep {
     wt_deformation deformation;
     size_t n_isotherms;
     wt_isotherm *isotherms;
-    uint64_t reserved[8];
+    size_t n_ramps;
+    wt_ramp *ramps;
+    uint64_t reserved[6];
 } wt_sweep;
 WT_API void wt_sweep_clear(wt_sweep *sweep);
 /* Appends an isotherm with uninitialised arrays of n points (strain if with_strain); NULL when out
@@ -125,9 +139,11 @@ WT_API void wt_sweep_clear(wt_sweep *sweep);
  * source) and the points of each by frequency. */
 WT_API wt_isotherm *wt_sweep_add(wt_sweep *sweep, size_t n, bool with_strain);
 WT_API void wt_sweep_sort(wt_sweep *sweep);
-/* Of a sorted sweep: takes out isotherms and points that stand there twice to the last bit, with a
- * warning for each (the same file under two names, a table pasted twice): measured again, they
- * would differ. */
+/* The same for a temperature sweep; wt_sweep_sort orders its points by temperature. */
+WT_API wt_ramp *wt_sweep_add_ramp(wt_sweep *sweep, size_t n);
+/* Of a sorted sweep: takes out isotherms and their points, and temperature sweeps, that stand there
+ * twice to the last bit, with a warning for each (the same file under two names, a table pasted
+ * twice): measured again, they would differ. */
 WT_API void wt_sweep_drop_copies(wt_sweep *sweep, wt_parselog *log);
 
 /* ---- power spectrum ----------------------------------------------------------------------- */

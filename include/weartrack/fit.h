@@ -296,6 +296,27 @@ WT_API void wt_holm(const double *p, size_t n, double *adjusted);
  * (2.52/t for p = 2, 2.02/t for p = 1.5). NaN for t <= 0. */
 WT_API double wt_equivalent_frequency(double load_time, double force_exponent);
 
+/* ---- peaks and values of a curve against temperature ------------------------------------------
+ */
+
+/* The maximum of a curve of scattered points. The errors are those of the scatter of the points,
+ * not of the thermometer. */
+typedef struct wt_peak {
+    bool found;
+    wt_interval at, height; /* NaN if not found; ends that few points do not bound are NaN, too */
+    size_t n;               /* points used */
+    double misfit;          /* root mean square of what they are off the curve, of the height */
+    const char *why_not;    /* "", or why it is not found or not bounded; static */
+} wt_peak;
+/* x rising, y > 0. The curve is a parabola of ln y with a smooth departure from it, as smooth as
+ * the points say, down to half the height; with `points` > 0 a plain parabola of y through so many
+ * points about the largest. A largest point that is one of the outer two on a side is no peak. */
+WT_API wt_status wt_peak_find(const double *x, const double *y, size_t n, size_t points,
+                              wt_peak *peak, wt_error *err) WT_NODISCARD;
+/* The value at a place by such a curve through its neighbours; NaN outside of the points. */
+WT_API wt_status wt_value_between(const double *x, const double *y, size_t n, double at,
+                                  wt_interval *value, wt_error *err) WT_NODISCARD;
+
 /* ---- master curve: one spectrum behind all isotherms ----------------------------------------- */
 
 typedef enum wt_vertical_shift {

@@ -248,6 +248,28 @@ WT_API void wt_master_tables_clear(wt_master_tables *tables);
 WT_API wt_status wt_master_make(const wt_master_job *job, const wt_job *work,
                                 wt_master_tables *tables, wt_rubber *rubber,
                                 wt_error *err) WT_NODISCARD;
+/* Temperature sweeps, or isotherms taken apart by frequency: where the glass transition is, and the
+ * moduli at temperatures. */
+typedef struct wt_ramp_job {
+    const wt_file_set *sets;
+    size_t n_sets;
+    const double *temperature; /* rising [K]; owned by the caller */
+    size_t n_temperatures;
+    size_t peak_points; /* of a plain parabola; 0 (default): as wt_peak_find chooses */
+    uint64_t reserved[8];
+} wt_ramp_job;
+WT_API wt_ramp_job wt_ramp_job_defaults(void);
+WT_API const wt_params *wt_ramp_job_params(void);
+typedef struct wt_ramp_tables {
+    wt_table *ramp, *glass_transition;
+    wt_table *moduli_at; /* NULL without temperatures */
+    size_t n_ramps;
+    uint64_t reserved[4];
+} wt_ramp_tables;
+WT_API void wt_ramp_tables_clear(wt_ramp_tables *tables);
+WT_API wt_status wt_ramp_make(const wt_ramp_job *job, const wt_job *work, wt_ramp_tables *tables,
+                              wt_error *err) WT_NODISCARD;
+
 /* The tables that wt_master_make gave, as read from a file; borrowed. */
 typedef struct wt_rubber_tables {
     const wt_table *prony;

@@ -14,6 +14,13 @@ static void isotherm_free(wt_isotherm *isotherm)
     free(isotherm->strain);
 }
 
+static void ramp_free(wt_ramp *ramp)
+{
+    free(ramp->temperature);
+    free(ramp->storage_modulus);
+    free(ramp->loss_modulus);
+}
+
 void wt_sweep_clear(wt_sweep *sweep)
 {
     if (sweep == NULL)
@@ -21,6 +28,9 @@ void wt_sweep_clear(wt_sweep *sweep)
     for (size_t i = 0; i < sweep->n_isotherms; i++)
         isotherm_free(&sweep->isotherms[i]);
     free(sweep->isotherms);
+    for (size_t i = 0; i < sweep->n_ramps; i++)
+        ramp_free(&sweep->ramps[i]);
+    free(sweep->ramps);
     *sweep = (wt_sweep){0};
 }
 
@@ -51,6 +61,30 @@ wt_isotherm *wt_sweep_add(wt_sweep *sweep, size_t n, bool with_strain)
     return &isotherms[sweep->n_isotherms++];
 }
 
+wt_ramp *wt_sweep_add_ramp(wt_sweep *sweep, size_t n)
+{
+    if (n > SIZE_MAX / sizeof(double) || sweep->n_ramps >= SIZE_MAX / sizeof *sweep->ramps - 1)
+        return NULL;
+    const size_t size = (n > 0 ? n : 1) * sizeof(double);
+    wt_ramp ramp = {.angular_frequency = (double)NAN,
+                    .n = n,
+                    .temperature = malloc(size),
+                    .storage_modulus = malloc(size),
+                    .loss_modulus = malloc(size)};
+    wt_ramp *const ramps = realloc(sweep->ramps, (sweep->n_ramps + 1) * sizeof *ramps);
+    if (ramps != NULL)
+        sweep->ramps = ramps;
+    if (ramps == NULL || ramp.temperature == NULL || ramp.storage_modulus == NULL ||
+        ramp.loss_modulus == NULL) {
+        ramp_free(&ramp);
+        return NULL;
+    }
+    ramps[sweep->n_ramps] = ramp;
+    return &ramps[sweep->n_ramps++];
+}
+
+/* ---- order ----------------------------------------------------------------------------------- */
+
 /* By temperature, not known last; equal ones by where they came from, steps in their number. */
 static int compare(const void *a, const void *b)
 {
@@ -66,61 +100,83 @@ static int compare(const void *a, const void *b)
     return strverscmp(p->source, q->source);
 }
 
-static void swap(double *values, size_t i, size_t k)
+static int compare_ramps(const void *a, const void *b)
 {
-    if (values != NULL) {
-        const double kept = values[i];
-        values[i] = values[k];
-        values[k] = kept;
+    const wt_ramp *const p = a, *const q = b;
+    if (p->angular_frequency != q->angular_frequency)
+        return p->angular_frequency < q->angular_frequency ? -1 : 1;
+    return strverscmp(p->source, q->source);
+}
+
+/* Points in arrays that move together: in the order of the first. */
+enum { ARRAYS = 4 };
+typedef struct points {
+    double *array[ARRAYS]; /* those that there are not are NULL */
+} points;
+
+static points of_isotherm(const wt_isotherm *t)
+{
+    return (points){{t->angular_frequency, t->storage_modulus, t->loss_modulus, t->strain}};
+}
+
+static void swap_points(const points *p, size_t i, size_t k)
+{
+    for (size_t j = 0; j < ARRAYS; j++) {
+        if (p->array[j] == NULL)
+            continue;
+        const double kept = p->array[j][i];
+        p->array[j][i] = p->array[j][k];
+        p->array[j][k] = kept;
     }
 }
 
-static void swap_points(wt_isotherm *isotherm, size_t i, size_t k)
+static void sift_down(const points *p, size_t root, size_t n)
 {
-    swap(isotherm->angular_frequency, i, k);
-    swap(isotherm->storage_modulus, i, k);
-    swap(isotherm->loss_modulus, i, k);
-    swap(isotherm->strain, i, k);
-}
-
-static void sift_down(wt_isotherm *isotherm, size_t root, size_t n)
-{
-    const double *const w = isotherm->angular_frequency;
+    const double *const w = p->array[0];
     size_t child;
     while ((child = 2 * root + 1) < n) {
         if (child + 1 < n && w[child] < w[child + 1])
             child++;
         if (!(w[root] < w[child]))
             return;
-        swap_points(isotherm, root, child);
+        swap_points(p, root, child);
         root = child;
     }
 }
 
-/* Sweeps are also measured from high to low frequency. Heap sort, as it moves several arrays
- * together and needs no memory that could be refused. */
-static void sort_points(wt_isotherm *isotherm)
+/* Sweeps are also measured from high to low. Heap sort, as it moves several arrays together and
+ * needs no memory that could be refused. */
+static void sort_points(const points *p, size_t n)
 {
-    const double *const w = isotherm->angular_frequency;
+    const double *const w = p->array[0];
     bool sorted = true;
-    for (size_t i = 1; i < isotherm->n && sorted; i++)
+    for (size_t i = 1; i < n && sorted; i++)
         sorted = !(w[i] < w[i - 1]);
     if (sorted)
         return;
-    for (size_t root = isotherm->n / 2; root-- > 0;)
-        sift_down(isotherm, root, isotherm->n);
-    for (size_t end = isotherm->n - 1; end > 0; end--) {
-        swap_points(isotherm, 0, end);
-        sift_down(isotherm, 0, end);
+    for (size_t root = n / 2; root-- > 0;)
+        sift_down(p, root, n);
+    for (size_t end = n - 1; end > 0; end--) {
+        swap_points(p, 0, end);
+        sift_down(p, 0, end);
     }
 }
 
 void wt_sweep_sort(wt_sweep *sweep)
 {
-    for (size_t i = 0; i < sweep->n_isotherms; i++)
-        sort_points(&sweep->isotherms[i]);
+    for (size_t i = 0; i < sweep->n_isotherms; i++) {
+        const points p = of_isotherm(&sweep->isotherms[i]);
+        sort_points(&p, sweep->isotherms[i].n);
+    }
+    for (size_t i = 0; i < sweep->n_ramps; i++) {
+        const wt_ramp *r = &sweep->ramps[i];
+        const points p = {{r->temperature, r->storage_modulus, r->loss_modulus}};
+        sort_points(&p, r->n);
+    }
     if (sweep->n_isotherms > 1)
         qsort(sweep->isotherms, sweep->n_isotherms, sizeof *sweep->isotherms, compare);
+    if (sweep->n_ramps > 1)
+        qsort(sweep->ramps, sweep->n_ramps, sizeof *sweep->ramps, compare_ramps);
 }
 
 /* ---- copies ---------------------------------------------------------------------------------- */
@@ -147,6 +203,7 @@ static bool same_point(const wt_isotherm *t, size_t i, size_t k)
 /* Points of one frequency stand together. */
 static size_t drop_points(wt_isotherm *t)
 {
+    const points p = of_isotherm(t);
     size_t kept = 0;
     for (size_t i = 0; i < t->n; i++) {
         size_t before = kept;
@@ -155,7 +212,7 @@ static size_t drop_points(wt_isotherm *t)
             before--;
         if (before > 0 && same_point(t, before - 1, i))
             continue;
-        swap_points(t, kept++, i);
+        swap_points(&p, kept++, i);
     }
     const size_t dropped = t->n - kept;
     t->n = kept;
@@ -170,6 +227,26 @@ static void drop_copies_of_points(wt_isotherm *t, wt_parselog *log)
                         "%zu points of the isotherm at %.1f degC stand there twice; the copies are "
                         "left out",
                         dropped, t->temperature - WT_ZERO_CELSIUS);
+}
+
+/* Those of one frequency stand together. */
+static void drop_copies_of_ramps(wt_sweep *sweep, wt_parselog *log)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < sweep->n_ramps; i++) {
+        wt_ramp *const t = &sweep->ramps[i];
+        const wt_ramp *const b = kept > 0 ? &sweep->ramps[kept - 1] : NULL;
+        if (b == NULL || b->n != t->n || !same_numbers(b->temperature, t->temperature, t->n) ||
+            !same_numbers(b->storage_modulus, t->storage_modulus, t->n) ||
+            !same_numbers(b->loss_modulus, t->loss_modulus, t->n)) {
+            sweep->ramps[kept++] = *t;
+            continue;
+        }
+        wt_parselog_add(log, WT_WARNING, t->source, NULL,
+                        "this temperature sweep is a copy of that of %s and left out", b->source);
+        ramp_free(t);
+    }
+    sweep->n_ramps = kept;
 }
 
 /* Isotherms are few; those measured again at one temperature fewer. */
@@ -192,6 +269,7 @@ void wt_sweep_drop_copies(wt_sweep *sweep, wt_parselog *log)
         isotherm_free(t);
     }
     sweep->n_isotherms = kept;
+    drop_copies_of_ramps(sweep, log);
     if (n > 0)
         wt_parselog_add(log, WT_WARNING, NULL, NULL, "%zu %s and left out; the first: %s", n,
                         n > 1 ? "isotherms are copies of others" : "isotherm is a copy of another",

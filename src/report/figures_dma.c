@@ -172,6 +172,68 @@ static void caption_shift_factors(figure_drawing *d)
                     d->table->n_rows);
 }
 
+/* ---- temperature sweeps ---------------------------------------------------------------------- */
+
+/* Points of a panel, coloured by frequency where there are several, and the peaks in it. */
+static void plot_ramp(figure_drawing *d, int column, int style, const char *title)
+{
+    const bool coloured = d->colour.high > d->colour.low;
+    plot_item(d, d->data[0], "($1+x_offset):($%d*y_unit)%s with points ls %d %s notitle", column,
+              coloured ? ":($5*cb_unit)" : "", style, coloured ? "lc palette" : "lc rgb 'black'");
+    plot_other(d, "keyentry with points ls %d lc rgb '#111111' title '%s'", style, title);
+}
+
+static void plot_peaks(figure_drawing *d, glass_transition_column peak, const char *title)
+{
+    const unsigned columns[] = {peak, peak + GLASS_TRANSITION_FACTOR_HEIGHT -
+                                          GLASS_TRANSITION_FACTOR_PEAK};
+    const int peaks = drawing_section(d, &d->tables->glass_transition, title, NULL, columns, 2, 2);
+    plot_item(d, peaks, "($1+x_offset):($2*y_unit) with points ls 14 ps 1.5 title '%s'", title);
+}
+
+/* Moduli above, loss factor below. */
+static void draw_ramp(figure_drawing *d)
+{
+    if (!drawing_data(d))
+        return;
+    const char *deformation = ramp_words(d->table, RAMP_KEY_DEFORMATION);
+    const char letter = strcmp(deformation, "shear") == 0 ? 'G' : 'E';
+    char label[64], storage[16], loss[16];
+    (void)snprintf(label, sizeof label, "%c′, %c″", letter, letter);
+    (void)snprintf(storage, sizeof storage, "%c′", letter);
+    (void)snprintf(loss, sizeof loss, "%c″", letter);
+    d->height = 1.5;
+    text_add(&d->script, "set multiplot layout 2,1\n");
+    drawing_axis(d, "x", &d->figure->x, NULL, d->x);
+    if (d->colour.high > d->colour.low) {
+        d->width = 1.15;
+        drawing_axis(d, "cb", &d->figure->colour, NULL, d->colour);
+    }
+    drawing_axis(d, "y", &d->figure->y[0], label, d->y[0]);
+    plot_ramp(d, 2, 51, storage);
+    plot_ramp(d, 3, 52, loss);
+    plot_peaks(d, GLASS_TRANSITION_LOSS_PEAK, "peak of the loss modulus");
+    plot_end(d);
+    text_add(&d->script, "unset mytics\n");
+    drawing_axis(d, "y", &d->figure->y[1], NULL, d->y[1]);
+    plot_ramp(d, 4, 51, "tan δ");
+    plot_peaks(d, GLASS_TRANSITION_FACTOR_PEAK, "peak of tan δ");
+    plot_end(d);
+    text_add(&d->script, "unset multiplot\n");
+}
+
+static void caption_ramp(figure_drawing *d)
+{
+    const table_view *peaks = &d->tables->glass_transition;
+    size_t none = 0;
+    for (size_t row = 0; row < peaks->n_rows; row++)
+        none += isnan(glass_transition_get(peaks, row, GLASS_TRANSITION_FACTOR_PEAK)) ? 1 : 0;
+    text_format(&d->caption, " %zu temperature sweeps.",
+                wt_table_block(d->table->table, d->table->n_rows - 1) + 1);
+    if (none > 0)
+        text_format(&d->caption, " Without a peak of tan δ in range: %zu.", none);
+}
+
 /* ---- descriptions ---------------------------------------------------------------------------- */
 
 const figure_description figures_dma[] = {
@@ -207,6 +269,22 @@ const figure_description figures_dma[] = {
      .words = "Storage and loss modulus shifted to the reference temperature",
      .draw = draw_master_curve,
      .caption = caption_master_curve},
+    {.name = "ramp",
+     .title = "Moduli against temperature",
+     .table = &ramp_schema,
+     .beside = "glass_transition",
+     .data_title = "temperature sweeps",
+     .x = {RAMP_TEMPERATURE, AXIS_LINEAR, "Temperature"},
+     .y = {{RAMP_STORAGE_MODULUS, AXIS_LOG, "Storage and loss modulus"},
+           {RAMP_LOSS_FACTOR, AXIS_FROM_ZERO, "tan δ"}},
+     .colour = {RAMP_ANGULAR_FREQUENCY, AXIS_LOG, "Angular frequency"},
+     .curves = {CURVE(RAMP_STORAGE_MODULUS, OWN), CURVE(RAMP_LOSS_MODULUS, OWN),
+                CURVE(RAMP_LOSS_FACTOR, OWN, .panel = 1)},
+     .nothing = "no modulus above zero at any temperature",
+     .words = "Storage and loss modulus against temperature and, below, tan δ, with the peaks that "
+              "tell the glass transition.",
+     .draw = draw_ramp,
+     .caption = caption_ramp},
     {.name = "shift_factors",
      .title = "Shift factors",
      .table = &shift_factors_schema,

@@ -120,11 +120,31 @@ static void check_warning(reading *r, const wt_parselog *log)
         fail(r, "warning is \"%s\", expected \"%s\" in it", found != NULL ? found : "", wanted);
 }
 
+static void check_ramp(reading *r, const char *key, const char *value, const wt_ramp *ramp)
+{
+    const size_t last = ramp->n - 1;
+    if (strcmp(key, "points") == 0)
+        is(r, key, (double)ramp->n, value);
+    else if (strcmp(key, "w") == 0)
+        is(r, key, ramp->angular_frequency, value);
+    else if (strcmp(key, "coldest") == 0)
+        is(r, key, round((ramp->temperature[0] - 273.15) * 1e9) / 1e9, value);
+    else if (strcmp(key, "warmest") == 0)
+        is(r, key, round((ramp->temperature[last] - 273.15) * 1e9) / 1e9, value);
+    else if (strcmp(key, "storage") == 0)
+        is(r, key, ramp->storage_modulus[0], value);
+    else if (strcmp(key, "loss") == 0)
+        is(r, key, ramp->loss_modulus[0], value);
+    else if (strcmp(key, "storage_last") == 0)
+        is(r, key, ramp->storage_modulus[last], value);
+}
+
 static void check_sweep(reading *r, const wt_formats *formats, wt_input *input)
 {
     wt_sweep sweep = {.n_isotherms = 0};
     wt_error err = WT_ERROR_INIT;
     const wt_isotherm *s = NULL;
+    const wt_ramp *ramp = NULL;
     wt_parselog *log = wt_parselog_new();
     wt_status status = wt_sweep_read(formats, input, &r->options, log, &sweep, &err);
     if (status == WT_OK)
@@ -140,6 +160,12 @@ static void check_sweep(reading *r, const wt_formats *formats, wt_input *input)
             is_word(r, key, sweep.deformation == WT_TENSION ? "tension" : "shear", value);
         else if (strcmp(key, "at") == 0)
             s = number(value) < (double)sweep.n_isotherms ? &sweep.isotherms[atoi(value)] : NULL;
+        else if (strcmp(key, "ramps") == 0)
+            is(r, key, (double)sweep.n_ramps, value);
+        else if (strcmp(key, "ramp") == 0)
+            ramp = number(value) < (double)sweep.n_ramps ? &sweep.ramps[atoi(value)] : NULL;
+        if (ramp != NULL)
+            check_ramp(r, key, value, ramp);
         if (s == NULL)
             continue;
         if (strcmp(key, "temperature_is") == 0)

@@ -292,12 +292,51 @@ static void sweep_copies(void **state)
     wt_sweep_clear(&sweep);
 }
 
+/* By frequency, points by temperature; one that stands there twice goes. */
+static void ramps(void **state)
+{
+    static const double frequency[] = {10, 1, 1};
+    wt_sweep sweep = {0};
+    wt_parselog *log = wt_parselog_new();
+    (void)state;
+    for (size_t i = 0; i < 3; i++) {
+        wt_ramp *ramp = wt_sweep_add_ramp(&sweep, 6);
+        assert_non_null(ramp);
+        ramp->angular_frequency = frequency[i];
+        (void)snprintf(ramp->source, sizeof ramp->source, "%zu.txt", i);
+        for (size_t k = 0; k < 6; k++) {
+            ramp->temperature[k] = 300.0 - 10.0 * (double)k;
+            ramp->storage_modulus[k] = 2 * ramp->temperature[k];
+            ramp->loss_modulus[k] = 3 * ramp->temperature[k];
+        }
+    }
+    assert_null(wt_sweep_add_ramp(&sweep, SIZE_MAX / 4));
+    wt_sweep_sort(&sweep);
+    wt_sweep_drop_copies(&sweep, log);
+    assert_int_equal(sweep.n_ramps, 2);
+    assert_string_equal(sweep.ramps[0].source, "1.txt");
+    assert_near(sweep.ramps[1].angular_frequency, 10, 0);
+    for (size_t k = 0; k < 6; k++) {
+        const wt_ramp *ramp = &sweep.ramps[0];
+        assert_near(ramp->temperature[k], 250.0 + 10.0 * (double)k, 0);
+        assert_near(ramp->storage_modulus[k], 2 * ramp->temperature[k], 0);
+        assert_near(ramp->loss_modulus[k], 3 * ramp->temperature[k], 0);
+    }
+    assert_non_null(strstr(wt_parselog_get(log, 0).text, "a copy of that of 1.txt"));
+    wt_parselog_free(log);
+    wt_sweep_clear(&sweep);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(force_curve_memory), cmocka_unit_test(deflection_and_force),
-        cmocka_unit_test(sweep_order),        cmocka_unit_test(sweep_copies),
-        cmocka_unit_test(small_types),        cmocka_unit_test(table_columns),
+        cmocka_unit_test(ramps),
+        cmocka_unit_test(force_curve_memory),
+        cmocka_unit_test(deflection_and_force),
+        cmocka_unit_test(sweep_order),
+        cmocka_unit_test(sweep_copies),
+        cmocka_unit_test(small_types),
+        cmocka_unit_test(table_columns),
         cmocka_unit_test(table_keys),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

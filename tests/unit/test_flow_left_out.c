@@ -222,9 +222,12 @@ static wt_case *case_that_asks(const char *asks)
     end = strstr(text, "<report");
     assert_non_null(end);
     *end = '\0';
+    char *dma = strstr(text, "<files>dma.txt"); /* the moduli are told at a temperature */
+    assert_non_null(dma);
     const int file = mkstemp(path);
     assert_true(file >= 0);
-    dprintf(file, "%s<report>%s</report></case>", text, asks);
+    dprintf(file, "%.*s<at>25degC</at>%s<report>%s</report></case>", (int)(dma - text), text, dma,
+            asks);
     close(file);
     const wt_status status = wt_case_read(path, &c, &err);
     unlink(path);
@@ -319,7 +322,7 @@ static void check_files(const char *asks, const ran *r)
     const bool bulk = runs(r, FLOW_INDENTATION_BULK), track = runs(r, FLOW_INDENTATION_TRACK);
     size_t n = check_kind(asks, "bulk-*", bulk, bulk && shown(r, FLOW_CURVE_BULK));
     n += check_kind(asks, "track-*", track, track && shown(r, FLOW_CURVE_TRACK));
-    n += check_kind(asks, "dma.txt", runs(r, FLOW_PRONY), false);
+    n += check_kind(asks, "dma.txt", runs(r, FLOW_PRONY) || runs(r, FLOW_RAMP), false);
     size_t inputs = 0;
     for (size_t i = 0; i < n_seen; i++)
         inputs += strncmp(seen[i].path, CASE, strlen(CASE)) == 0 && seen[i].bytes > 0;

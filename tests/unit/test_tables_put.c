@@ -353,6 +353,33 @@ static void test_conversions(void **state)
     convert(FORMATS "table-spectrum/line.csv", WT_KIND_SPECTRUM);
 }
 
+/* A temperature sweep with peaks, and isotherms without one. */
+static void test_ramps(void **state)
+{
+    (void)state;
+    static const char *const files[] = {FORMATS "table-units/ramp.csv", CASE "dma.txt"};
+    static const double at[] = {290, 500};
+    wt_job common = wt_job_defaults();
+    common.formats = formats;
+    for (size_t i = 0; i < COUNT_OF(files); i++) {
+        const wt_file_set set = {
+            .patterns = &files[i], .n_patterns = 1, .read = wt_read_defaults()};
+        wt_ramp_job job = wt_ramp_job_defaults();
+        wt_ramp_tables tables = {0};
+        wt_error err = WT_ERROR_INIT;
+        job.sets = &set;
+        job.n_sets = 1;
+        job.temperature = at;
+        job.n_temperatures = COUNT_OF(at);
+        if (wt_ramp_make(&job, &common, &tables, &err) != WT_OK)
+            fail_msg("%s %s", err.message, err.found);
+        see(tables.ramp);
+        see(tables.glass_transition);
+        see(tables.moduli_at);
+        wt_ramp_tables_clear(&tables);
+    }
+}
+
 static void test_files(void **state)
 {
     (void)state;
@@ -418,6 +445,7 @@ int main(void)
         cmocka_unit_test(test_joined_law),
         cmocka_unit_test(test_spring_constants),
         cmocka_unit_test(test_conversions),
+        cmocka_unit_test(test_ramps),
         cmocka_unit_test(test_files),
         cmocka_unit_test(test_directions),
         cmocka_unit_test(test_accuracy),

@@ -151,7 +151,7 @@ static void trios_text(void **state)
     wt_input *input = open_measured(DMA "trios/creep_experiment.txt");
     check_id(input, 0, "trios-text");
     assert_int_equal(wt_sweep_read(formats, input, NULL, NULL, &sweep, &err), WT_E_EMPTY);
-    assert_non_null(strstr(err.message, "frequency sweep"));
+    assert_non_null(strstr(err.message, "no frequency or temperature sweep"));
     assert_non_null(strstr(err.found, "Creep - 1"));
     assert_int_equal(sweep.n_isotherms, 0);
     wt_input_close(input);

@@ -17,6 +17,7 @@
 #include "data/tables/error_budget.h"
 #include "data/tables/indentation.h"
 #include "data/tables/measured.h"
+#include "data/tables/ramp.h"
 #include "data/tables/run.h"
 #include "data/tables/sliding.h"
 #include "data/tables/what_if.h"
@@ -61,6 +62,9 @@
     X(material_draws, MATERIAL_DRAWS, "material_draws", "Draws of the material, law and vertical", \
       "master")                                                                                    \
     X(series_draws, SERIES_DRAWS, "series_draws", "Draws of the Prony series", "master")           \
+    X(ramp, RAMP, "ramp", "Moduli against temperature", "ramp")                                    \
+    X(glass_transition, GLASS_TRANSITION, "glass_transition", "Glass transition", "ramp")          \
+    X(moduli_at, MODULI_AT, "moduli_at", "Moduli at temperatures", "ramp")                         \
     X(roughness, ROUGHNESS, "roughness", "Power spectrum of the counter surface", "run")           \
     X(friction, FRICTION, "friction", "Friction against velocity", "friction")                     \
     X(contact_area, CONTACT_AREA, "contact_area", "Contact area against magnification",            \

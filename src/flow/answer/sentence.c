@@ -87,6 +87,27 @@ static void say_material(sentence *s, const table_view *v)
     say(s, ", superposition: %s", shift_factors_words(v, SHIFT_FACTORS_KEY_SUPERPOSITION));
 }
 
+static void say_transition(sentence *s, const table_view *v)
+{
+    if (v->table == NULL)
+        return;
+    const wt_estimate factor = glass_transition_value(v, GLASS_TRANSITION_KEY_FACTOR_PEAK),
+                      loss = glass_transition_value(v, GLASS_TRANSITION_KEY_LOSS_PEAK);
+    next(s);
+    if (isnan(factor.value) && isnan(loss.value)) {
+        say(s, "no glass transition in the range measured");
+        return;
+    }
+    say(s, "glass transition at %s:",
+        words_of_value(glass_transition_value(v, GLASS_TRANSITION_KEY_ANGULAR_FREQUENCY)).text);
+    if (!isnan(factor.value))
+        say(s, " %s ± %.2g K (peak of tan delta)%s", words_of_celsius(factor.value).text,
+            factor.standard_error, isnan(loss.value) ? "" : ",");
+    if (!isnan(loss.value))
+        say(s, " %s ± %.2g K (peak of the loss modulus)", words_of_celsius(loss.value).text,
+            loss.standard_error);
+}
+
 static void say_friction(sentence *s, const table_view *v)
 {
     if (v->table == NULL)
@@ -136,11 +157,9 @@ size_t wt_result_sentence(const wt_result *result, char *buffer, size_t size)
     static const struct {
         const table_schema *schema;
         void (*say)(sentence *s, const table_view *view);
-    } parts[] = {{&modulus_groups_schema, say_groups},
-                 {&comparison_schema, say_ratio},
-                 {&shift_factors_schema, say_material},
-                 {&friction_schema, say_friction},
-                 {&layer_schema, say_layer}};
+    } parts[] = {{&modulus_groups_schema, say_groups},  {&comparison_schema, say_ratio},
+                 {&shift_factors_schema, say_material}, {&glass_transition_schema, say_transition},
+                 {&friction_schema, say_friction},      {&layer_schema, say_layer}};
     sentence s = {.text = buffer, .size = size};
     const locale_t previous = clocale_enter();
     if (size > 0)

@@ -21,6 +21,7 @@ wt_case *case_new(void)
     c->compare = wt_compare_job_defaults();
     c->bulk.spring_constant = c->track.spring_constant = (wt_estimate){(double)NAN, 0, 0, "N/m"};
     c->master = wt_master_job_defaults();
+    c->ramp = wt_ramp_job_defaults();
     c->rubber = wt_rubber_options_defaults();
     c->zener = flow_zener_defaults();
     c->transverse = wt_transverse_defaults();

@@ -42,6 +42,7 @@ struct wt_case {
 
     case_files dma;
     wt_master_job master;
+    wt_ramp_job ramp;
     wt_rubber_options rubber;
     bool has_material; /* given, not measured, as a */
     wt_rubber_kind kind;

@@ -40,6 +40,9 @@
     X(PRONY, "prony", &prony_schema, "")                                                           \
     X(MATERIAL_DRAWS, "material_draws", &material_draws_schema, "")                                \
     X(SERIES_DRAWS, "series_draws", &series_draws_schema, "")                                      \
+    X(RAMP, "ramp", &ramp_schema, "")                                                              \
+    X(GLASS_TRANSITION, "glass_transition", &glass_transition_schema, "")                          \
+    X(MODULI_AT, "moduli_at", &moduli_at_schema, "")                                               \
     X(ROUGHNESS, "roughness", &roughness_schema, "")                                               \
     X(LAYER, "layer", &layer_schema, "")                                                           \
     X(ENERGY_DENSITY, "energy_density", &energy_density_schema, "")                                \
@@ -66,8 +69,11 @@ typedef uint64_t flow_things; /* bit i = thing i */
 #define FLOW_BIT(thing) ((flow_things)1 << (unsigned)(thing))
 #define FLOW_SOURCES (FLOW_BIT(FLOW_FIRST_TABLE) - 1)
 #define FLOW_TABLES (FLOW_BIT(FLOW_FIRST_INNER) - 1 - FLOW_SOURCES)
-/* What costs more than it tells most: only where a case names it. */
-#define FLOW_BY_NAME (FLOW_BIT(FLOW_ERROR_BUDGET) | FLOW_BIT(FLOW_COVERAGE))
+/* What costs more than it tells most, or is of another measurement than sliding needs: only where a
+ * case names it. */
+#define FLOW_BY_NAME                                                                               \
+    (FLOW_BIT(FLOW_ERROR_BUDGET) | FLOW_BIT(FLOW_COVERAGE) | FLOW_BIT(FLOW_RAMP) |                 \
+     FLOW_BIT(FLOW_GLASS_TRANSITION) | FLOW_BIT(FLOW_MODULI_AT))
 
 typedef struct flow_thing_row {
     const char *words, *missing;

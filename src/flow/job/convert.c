@@ -133,6 +133,17 @@ static wt_status send_sweep(const conversion *c, const wt_sweep *sweep, wt_error
             sweep_put(&t, loss, iso->loss_modulus[i]);
         }
     }
+    for (size_t k = 0; k < sweep->n_ramps; k++) {
+        const wt_ramp *ramp = &sweep->ramps[k];
+        table_block(&t);
+        for (size_t i = 0; i < ramp->n; i++) {
+            table_row(&t);
+            sweep_put(&t, SWEEP_TEMPERATURE, ramp->temperature[i]);
+            sweep_put(&t, SWEEP_ANGULAR_FREQUENCY, ramp->angular_frequency);
+            sweep_put(&t, storage, ramp->storage_modulus[i]);
+            sweep_put(&t, loss, ramp->loss_modulus[i]);
+        }
+    }
     return send(c, &t, err);
 }
 

@@ -222,6 +222,37 @@ wt_status flow_open(const wt_job *work, flow_file *file, const char *role, unsig
     return WT_OK;
 }
 
+/* ---- DMA ------------------------------------------------------------------------------------- */
+
+wt_status flow_sweeps_read(const wt_file_set *sets, size_t n_sets, const wt_job *work,
+                           wt_sweep *sweep, wt_error *err)
+{
+    flow_files files = {NULL, 0, NULL};
+    wt_status status = flow_files_list(sets, n_sets, work, &files, err);
+    for (size_t i = 0; status == WT_OK && i < files.n; i++) {
+        wt_input *input = NULL;
+        wt_error failure = WT_ERROR_INIT;
+        status = flow_open(work, &files.file[i], "dma", WT_KIND_SWEEP, &input, &failure);
+        if (status == WT_OK)
+            status = wt_sweep_read(work->formats, input, &files.file[i].read, work->log, sweep,
+                                   &failure);
+        wt_input_close(input);
+        if (status != WT_OK)
+            status = flow_failed(work, files.file[i].name, status, &failure, err);
+    }
+    if (status == WT_OK && sweep->n_isotherms + sweep->n_ramps == 0) {
+        status = wt_fail(err, WT_E_EMPTY, "no DMA sweep could be read");
+        wt_error_found(err, "files: %zu", files.n);
+        wt_error_advice(err, "`weartrack info FILE` shows what a file holds");
+    }
+    if (status == WT_OK) {
+        wt_sweep_sort(sweep);
+        wt_sweep_drop_copies(sweep, work->log);
+    }
+    flow_files_clear(&files);
+    return status;
+}
+
 /* ---- a law as text --------------------------------------------------------------------------- */
 
 bool flow_is_law(const flow_law_text *law, const char *text)

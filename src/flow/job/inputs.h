@@ -41,6 +41,11 @@ void flow_files_clear(flow_files *files);
 wt_status flow_open(const wt_job *work, flow_file *file, const char *role, unsigned kinds,
                     wt_input **input, wt_error *err) WT_NODISCARD;
 
+/* All isotherms and temperature sweeps of the files, sorted, without copies; cleared by the caller,
+ * also on failure. */
+wt_status flow_sweeps_read(const wt_file_set *sets, size_t n_sets, const wt_job *work,
+                           wt_sweep *sweep, wt_error *err) WT_NODISCARD;
+
 /* A law in one word: "self-affine:q0=1e3rad/m,...". */
 typedef struct flow_law_text {
     const char *prefix, *name; /* "self-affine:", "self-affine law" */

@@ -40,37 +40,6 @@ static const char *deformation_name(wt_deformation deformation)
     return deformation == WT_SHEAR ? "shear" : "tension";
 }
 
-/* ---- reading --------------------------------------------------------------------------------- */
-
-static wt_status read_sweeps(const wt_master_job *job, const wt_job *work, wt_sweep *sweep,
-                             wt_error *err)
-{
-    flow_files files = {NULL, 0, NULL};
-    wt_status status = flow_files_list(job->sets, job->n_sets, work, &files, err);
-    for (size_t i = 0; status == WT_OK && i < files.n; i++) {
-        wt_input *input = NULL;
-        wt_error failure = WT_ERROR_INIT;
-        status = flow_open(work, &files.file[i], "dma", WT_KIND_SWEEP, &input, &failure);
-        if (status == WT_OK)
-            status = wt_sweep_read(work->formats, input, &files.file[i].read, work->log, sweep,
-                                   &failure);
-        wt_input_close(input);
-        if (status != WT_OK)
-            status = flow_failed(work, files.file[i].name, status, &failure, err);
-    }
-    if (status == WT_OK && sweep->n_isotherms == 0) {
-        status = wt_fail(err, WT_E_EMPTY, "no DMA isotherm could be read");
-        wt_error_found(err, "files: %zu", files.n);
-        wt_error_advice(err, "`weartrack info FILE` shows what a file holds");
-    }
-    if (status == WT_OK) {
-        wt_sweep_sort(sweep);
-        wt_sweep_drop_copies(sweep, work->log);
-    }
-    flow_files_clear(&files);
-    return status;
-}
-
 /* ---- tables ---------------------------------------------------------------------------------- */
 
 static void put_shift(table_writer *t, const wt_master_shift *s)
@@ -297,6 +266,23 @@ static wt_status draw_tables(const wt_master *m, wt_master_tables *tables, wt_er
 
 /* ---- the job --------------------------------------------------------------------------------- */
 
+static wt_status check_isotherms(const wt_sweep *sweep, const wt_job *work, wt_error *err)
+{
+    const size_t n = sweep->n_ramps;
+    if (sweep->n_isotherms > 0) {
+        if (n > 0)
+            wt_parselog_add(work->log, WT_WARNING, sweep->ramps[0].source, NULL,
+                            "%zu temperature sweep%s left out of the master curve: `weartrack "
+                            "ramp` tells the glass transition of %s",
+                            n, n > 1 ? "s are" : " is", n > 1 ? "them" : "it");
+        return WT_OK;
+    }
+    wt_fail(err, WT_E_EMPTY, "a master curve needs isotherms");
+    wt_error_found(err, "temperature sweeps: %zu", n);
+    wt_error_advice(err, "`weartrack ramp FILE` tells the glass transition of them");
+    return WT_E_EMPTY;
+}
+
 static wt_status fit(const wt_master_job *job, const wt_job *work, const wt_sweep *sweep,
                      wt_master *master, wt_error *err)
 {
@@ -377,7 +363,9 @@ wt_status wt_master_make(const wt_master_job *job, const wt_job *work, wt_master
     if (status == WT_OK)
         status = param_check(wt_job_params(), work, err);
     if (status == WT_OK)
-        status = read_sweeps(job, work, &sweep, err);
+        status = flow_sweeps_read(job->sets, job->n_sets, work, &sweep, err);
+    if (status == WT_OK)
+        status = check_isotherms(&sweep, work, err);
     if (status == WT_OK)
         status = fit(job, work, &sweep, &master, err);
     if (status == WT_OK)

@@ -275,6 +275,31 @@ wt_status flow_step_master(flow_run *run, flow_cost *cost, wt_error *err)
     return status;
 }
 
+/* Files and words of reading stand in the result once. */
+wt_status flow_step_ramp(flow_run *run, flow_cost *cost, wt_error *err)
+{
+    wt_ramp_tables tables = {0};
+    wt_ramp_job job = run->c->ramp;
+    wt_job work = run->job;
+    if ((run->plan.wanted & FLOW_BIT(FLOW_MODULI_AT)) != 0 && job.n_temperatures == 0) {
+        wt_fail(err, WT_E_MISSING, "no temperatures at which the moduli are asked for");
+        wt_error_expected(err, "<at> in <dma>, such as 25degC,60degC");
+        return WT_E_MISSING;
+    }
+    job.sets = run->c->dma.sets;
+    job.n_sets = run->c->dma.n;
+    if (run->plan.chosen[FLOW_STAGE_MASTER_CURVE]) {
+        work.log = NULL;
+        work.provenance = NULL;
+    }
+    const wt_status status = wt_ramp_make(&job, &work, &tables, err);
+    cost->items = (double)tables.n_ramps;
+    keep(run, FLOW_RAMP, &tables.ramp);
+    keep(run, FLOW_GLASS_TRANSITION, &tables.glass_transition);
+    keep(run, FLOW_MODULI_AT, &tables.moduli_at);
+    return status;
+}
+
 wt_status flow_step_given_material(flow_run *run, flow_cost *cost, wt_error *err)
 {
     const wt_status status = make_rubber(run->c, &run->job, &run->rubber, err);

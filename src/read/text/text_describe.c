@@ -95,6 +95,14 @@ static void add_sweep(const text_file *file, const wt_read_options *options, wt_
                   s->temperature - WT_ZERO_CELSIUS, s->n, s->angular_frequency[0],
                   s->angular_frequency[s->n - 1]);
     }
+    if (sweep.n_ramps > 0)
+        facts_add(facts, "temperature sweeps", "", "", "%zu", sweep.n_ramps);
+    for (size_t i = 0; i < sweep.n_ramps; i++) {
+        const wt_ramp *r = &sweep.ramps[i];
+        facts_add(facts, "temperature sweep", "", r->source,
+                  "%.4g rad/s, %zu points, %.2f to %.2f degC", r->angular_frequency, r->n,
+                  r->temperature[0] - WT_ZERO_CELSIUS, r->temperature[r->n - 1] - WT_ZERO_CELSIUS);
+    }
     wt_sweep_clear(&sweep);
 }
 

@@ -1,0 +1,156 @@
+/* Temperature sweeps in the rows of a table: rows of one frequency while the temperature moves, or
+ * frequencies in turn while it goes on moving.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "read/text/text_sweep.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Fewest points and kelvin of a temperature sweep; a temperature that turns back by more goes the
+ * other way. */
+enum { FEWEST = 5 };
+static const double least_span = 5, turn = 2;
+/* What the temperature moves within the frequencies of a turn, of what it moves from turn to turn:
+ * next to nothing where it is held for them, more than half in a sweep. */
+static const double least_drift = 0.25;
+
+/* `turns`: it was heated and cooled, so that its name has to tell. */
+static wt_status add_ramp(sweep_builder *b, const size_t *rows, size_t n, bool turns)
+{
+    static const char *const way[] = {" (heated)", " (cooled)"};
+    wt_ramp *ramp = wt_sweep_add_ramp(b->sweep, n);
+    if (ramp == NULL)
+        return wt_fail(b->err, WT_E_MEMORY, "no memory for a temperature sweep");
+    double sum = 0;
+    for (size_t i = 0; i < n; i++) {
+        ramp->temperature[i] = sweep_temperature(b, rows[i]);
+        ramp->storage_modulus[i] = sweep_storage(b, rows[i]);
+        ramp->loss_modulus[i] = sweep_loss(b, rows[i]);
+        sum += sweep_angular(b, rows[i]);
+    }
+    ramp->angular_frequency = sum / (double)n;
+    sweep_source(b, ramp->source, sizeof ramp->source - sizeof " (heated)");
+    if (turns)
+        strcat(ramp->source, way[ramp->temperature[0] > ramp->temperature[n - 1]]);
+    return WT_OK;
+}
+
+/* The first of the rows [first, n) behind which the temperature turns back, or n. */
+static size_t turning_point(const sweep_builder *b, const size_t *rows, size_t first, size_t n)
+{
+    size_t warmest = first, coldest = first;
+    for (size_t i = first + 1; i < n; i++) {
+        const double t = sweep_temperature(b, rows[i]);
+        if (t >= sweep_temperature(b, rows[warmest]))
+            warmest = i;
+        if (t <= sweep_temperature(b, rows[coldest]))
+            coldest = i;
+        const bool fell = sweep_temperature(b, rows[warmest]) - t > turn && warmest > coldest,
+                   rose = t - sweep_temperature(b, rows[coldest]) > turn && coldest > warmest;
+        if (fell || rose)
+            return (fell ? warmest : coldest) + 1;
+    }
+    return n;
+}
+
+static bool is_ramp(const sweep_builder *b, const size_t *rows, size_t n)
+{
+    return n >= FEWEST &&
+           fabs(sweep_temperature(b, rows[n - 1]) - sweep_temperature(b, rows[0])) >= least_span;
+}
+
+/* Rows of one frequency, cut where the temperature turns; *taken: whether there was a sweep. */
+static wt_status add_ramps(sweep_builder *b, const size_t *rows, size_t n, bool *taken)
+{
+    wt_status status = WT_OK;
+    size_t used = 0;
+    for (size_t first = 0, end; first < n && status == WT_OK; first = end) {
+        end = turning_point(b, rows, first, n);
+        if (!is_ramp(b, rows + first, end - first))
+            continue;
+        status = add_ramp(b, rows + first, end - first, first > 0 || end < n);
+        used += end - first;
+    }
+    *taken = used > 0;
+    if (*taken && used < n)
+        wt_parselog_add(b->log, WT_NOTE, b->file->name, line_place(b->table->names_line).words,
+                        "%zu points beside the temperature sweeps at %g rad/s left out", n - used,
+                        sweep_angular(b, rows[0]));
+    return status;
+}
+
+/* Rows that stand one behind the other with the same frequency. */
+static wt_status take_runs(sweep_builder *b, size_t *rows, size_t *n)
+{
+    size_t kept = 0;
+    wt_status status = WT_OK;
+    for (size_t first = 0, end; first < *n && status == WT_OK; first = end) {
+        bool taken = false;
+        for (end = first + 1; end < *n && sweep_way(b, rows[first], rows[end]) == 0;)
+            end++;
+        if (end - first >= FEWEST)
+            status = add_ramps(b, rows + first, end - first, &taken);
+        for (size_t i = first; i < end && !taken; i++)
+            rows[kept++] = rows[i];
+    }
+    *n = kept;
+    return status;
+}
+
+/* Whether the temperature goes on moving while the frequencies take turns. */
+static bool moves_on(const sweep_builder *b, const size_t *rows, size_t n)
+{
+    double within = 0, between = 0;
+    size_t first = 0, turns = 1;
+    int direction = 0;
+    for (size_t i = 1; i < n; i++) {
+        const int way = sweep_way(b, rows[i - 1], rows[i]);
+        if (way * direction >= 0) {
+            direction = way != 0 ? way : direction;
+            continue;
+        }
+        within += fabs(sweep_temperature(b, rows[i - 1]) - sweep_temperature(b, rows[first]));
+        between += fabs(sweep_temperature(b, rows[i]) - sweep_temperature(b, rows[first]));
+        first = i;
+        direction = 0;
+        turns++;
+    }
+    return turns >= FEWEST && between >= least_span && within > least_drift * between;
+}
+
+/* Frequencies in turn: the rows of each are a temperature sweep. `chosen` is room for n rows. */
+static wt_status take_turns(sweep_builder *b, size_t *rows, size_t *n, size_t *chosen)
+{
+    wt_status status = WT_OK;
+    if (!moves_on(b, rows, *n))
+        return WT_OK;
+    while (*n > 0 && status == WT_OK) {
+        const size_t like = rows[0];
+        size_t kept = 0, n_chosen = 0;
+        bool taken = false;
+        for (size_t i = 0; i < *n; i++) {
+            if (sweep_way(b, like, rows[i]) == 0)
+                chosen[n_chosen++] = rows[i];
+            else
+                rows[kept++] = rows[i];
+        }
+        *n = kept;
+        status = add_ramps(b, chosen, n_chosen, &taken);
+        if (!taken)
+            wt_parselog_add(b->log, WT_WARNING, b->file->name,
+                            line_place(b->table->names_line).words,
+                            "%zu points at %g rad/s make no temperature sweep and are left out",
+                            n_chosen, sweep_angular(b, like));
+    }
+    return status;
+}
+
+wt_status ramps_take(sweep_builder *b, size_t *rows, size_t *n)
+{
+    if (b->c.temperature == NULL)
+        return WT_OK;
+    const wt_status status = take_runs(b, rows, n);
+    return status == WT_OK ? take_turns(b, rows, n, b->rows) : status;
+}

@@ -1,0 +1,49 @@
+/* The frequency sweeps and temperature sweeps of a table. Internal to the text engine.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#ifndef WT_READ_TEXT_SWEEP_H
+#define WT_READ_TEXT_SWEEP_H
+
+#include "read/text/text.h"
+
+/* Instruments hold a set frequency better than this; what differs by less is the same one. */
+#define SAME_FREQUENCY 0.01
+
+typedef struct sweep_columns {
+    const text_column *frequency, *storage, *loss, *magnitude, *factor, *temperature, *strain;
+    double to_angular; /* 2 pi for a frequency in Hz */
+    wt_deformation deformation;
+} sweep_columns;
+
+typedef struct sweep_builder {
+    const text_file *file;
+    const text_table *table;
+    sweep_columns c;
+    const wt_read_options *options;
+    wt_parselog *log;
+    wt_sweep *sweep;
+    size_t *rows; /* [n] of the isotherm or the temperature sweep that is being collected */
+    size_t n;
+    wt_error *err;
+} sweep_builder;
+
+/* ---- text_sweep_row.c */
+sweep_columns sweep_find_columns(const text_table *table);
+double sweep_angular(const sweep_builder *b, size_t row);
+double sweep_storage(const sweep_builder *b, size_t row);
+double sweep_loss(const sweep_builder *b, size_t row);
+double sweep_temperature(const sweep_builder *b, size_t row);
+/* 1: the frequency rises from one row to another, -1: it falls, 0: it is the same. */
+int sweep_way(const sweep_builder *b, size_t from, size_t to);
+/* Whether the row has a frequency and both moduli. */
+bool sweep_is_point(const sweep_builder *b, size_t row);
+/* "FILE, TITLE OF THE STEP". */
+void sweep_source(const sweep_builder *b, char *source, size_t size);
+
+/* ---- text_ramp.c: takes the rows of temperature sweeps out of `rows`, and adds these to the
+ * sweep.
+ */
+wt_status ramps_take(sweep_builder *b, size_t *rows, size_t *n);
+
+#endif

@@ -1,0 +1,86 @@
+/* What a row of a table says of a sweep.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "read/text/text_sweep.h"
+
+#include <math.h>
+#include <string.h>
+
+sweep_columns sweep_find_columns(const text_table *t)
+{
+    sweep_columns c = {.to_angular = 1};
+    const bool tension = quantities_suffice(t->quantities & ~WT_Q_BIT(WT_Q_SHEAR_STORAGE_MODULUS) &
+                                                ~WT_Q_BIT(WT_Q_SHEAR_COMPLEX_MODULUS),
+                                            WT_KIND_SWEEP);
+    c.deformation = tension ? WT_TENSION : WT_SHEAR;
+    c.frequency = text_table_column(t, WT_Q_ANGULAR_FREQUENCY, -1);
+    if (c.frequency == NULL) {
+        c.frequency = text_table_column(t, WT_Q_FREQUENCY, -1);
+        c.to_angular = 2 * M_PI;
+    }
+    c.storage =
+        text_table_column(t, tension ? WT_Q_STORAGE_MODULUS : WT_Q_SHEAR_STORAGE_MODULUS, -1);
+    c.loss = text_table_column(t, tension ? WT_Q_LOSS_MODULUS : WT_Q_SHEAR_LOSS_MODULUS, -1);
+    c.magnitude =
+        text_table_column(t, tension ? WT_Q_COMPLEX_MODULUS : WT_Q_SHEAR_COMPLEX_MODULUS, -1);
+    c.factor = text_table_column(t, WT_Q_LOSS_FACTOR, -1);
+    c.temperature = text_table_column(t, WT_Q_TEMPERATURE, -1);
+    c.strain = text_table_column(t, WT_Q_STRAIN, -1);
+    return c;
+}
+
+double sweep_angular(const sweep_builder *b, size_t row)
+{
+    return b->c.to_angular * text_table_value(b->table, row, b->c.frequency);
+}
+
+double sweep_storage(const sweep_builder *b, size_t row)
+{
+    if (b->c.storage != NULL)
+        return text_table_value(b->table, row, b->c.storage);
+    const double magnitude = text_table_value(b->table, row, b->c.magnitude);
+    if (b->c.factor != NULL)
+        return magnitude / hypot(1.0, text_table_value(b->table, row, b->c.factor));
+    const double lost = text_table_value(b->table, row, b->c.loss);
+    return sqrt((magnitude - lost) * (magnitude + lost));
+}
+
+double sweep_loss(const sweep_builder *b, size_t row)
+{
+    if (b->c.loss != NULL)
+        return text_table_value(b->table, row, b->c.loss);
+    return sweep_storage(b, row) * text_table_value(b->table, row, b->c.factor);
+}
+
+double sweep_temperature(const sweep_builder *b, size_t row)
+{
+    return b->c.temperature != NULL ? text_table_value(b->table, row, b->c.temperature)
+                                    : (double)NAN;
+}
+
+int sweep_way(const sweep_builder *b, size_t from, size_t to)
+{
+    const double ratio = sweep_angular(b, to) / sweep_angular(b, from);
+    return ratio > 1 + SAME_FREQUENCY ? 1 : ratio < 1 / (1 + SAME_FREQUENCY) ? -1 : 0;
+}
+
+bool sweep_is_point(const sweep_builder *b, size_t row)
+{
+    return sweep_angular(b, row) > 0 && !isnan(sweep_storage(b, row)) && !isnan(sweep_loss(b, row));
+}
+
+/* "FILE, TITLE OF THE STEP"; the title is what tells the isotherms apart, so the name gives way. */
+void sweep_source(const sweep_builder *b, char *source, size_t size)
+{
+    const text_table *t = b->table;
+    const char *name = wt_path_base(b->file->name);
+    char end[112];
+    if (t->title[0] != '\0')
+        snprintf(end, sizeof end, ", %s", t->title);
+    else
+        snprintf(end, sizeof end, ", line %zu", t->names_line);
+    const size_t length = strlen(end);
+    text_copy(source, size - length, (text_span){name, strlen(name)});
+    memcpy(source + strlen(source), end, length + 1);
+}

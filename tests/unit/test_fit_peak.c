@@ -1,0 +1,239 @@
+/* Peaks of curves against temperature and values between their points: intervals that hold the
+ * truth, no peak where there is none, the plain parabola of the reference table.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "near.h"
+#include "weartrack/fit.h"
+
+#include "dma_data.h"
+
+#define TIDY WT_SHARED_DIR "/data/dma/tidy/"
+#define REFERENCE WT_SHARED_DIR "/data/dma-scans/tg-from-isotherms.csv"
+
+/* A Havriliak-Negami process, which is not symmetric, beside a network. */
+typedef struct rubber {
+    double glassy, rubbery, width, skew;
+    double c1, c2, reference; /* WLF, degC */
+} rubber;
+
+static double value(const rubber *r, double celsius, bool factor)
+{
+    const double log_a = -r->c1 * (celsius - r->reference) / (r->c2 + celsius - r->reference);
+    /* E = glassy - (glassy - rubbery) / (1 + (i w tau)^width)^skew */
+    const double m = pow(2 * M_PI * pow(10, log_a), r->width);
+    const double re = 1 + m * cos(r->width * M_PI / 2), im = m * sin(r->width * M_PI / 2);
+    const double part = (r->glassy - r->rubbery) * pow(hypot(re, im), -r->skew),
+                 angle = r->skew * atan2(im, re);
+    const double storage = r->glassy - part * cos(angle), loss = part * sin(angle);
+    return factor ? loss / storage : loss;
+}
+
+static double true_peak(const rubber *r, bool factor)
+{
+    double at = r->reference, best = 0;
+    for (double t = r->reference - 30; t < r->reference + 70; t += 0.005)
+        if (value(r, t, factor) > best) {
+            best = value(r, t, factor);
+            at = t;
+        }
+    return at;
+}
+
+enum { DRAWS = 200, MOST = 400 };
+static const rubber rubbers[] = {{2e9, 3e6, 0.6, 0.8, 12, 50, -40},
+                                 {1.5e9, 8e6, 0.5, 0.9, 14, 55, -20},
+                                 {2e9, 5e6, 0.75, 0.6, 14, 45, 0},
+                                 {2.5e9, 2e6, 0.55, 1, 11, 60, 10}};
+static const double steps[] = {0.5, 1, 2, 3}, noises[] = {0.003, 0.01, 0.02};
+
+/* 200 sweeps of one rubber, step and noise after the other. */
+static size_t measure(size_t draw, bool factor, double *x, double *y, uint64_t *state,
+                      const rubber **of)
+{
+    const rubber *r = *of = &rubbers[draw % 4];
+    const double step = steps[draw / 4 % 4], noise = noises[draw / 16 % 3];
+    const double first = r->reference - 35 + step * (double)(draw % 7) / 7;
+    size_t n = 0;
+    for (double t = first; t < r->reference + 80; t += step) {
+        x[n] = t;
+        y[n++] = value(r, t, factor) * exp(noise * dma_normal(state));
+    }
+    return n;
+}
+
+static void peaks_hold_the_truth(void **unused)
+{
+    (void)unused;
+    for (int factor = 0; factor < 2; factor++) {
+        uint64_t state = 7;
+        size_t held = 0, found = 0;
+        for (size_t draw = 0; draw < DRAWS; draw++) {
+            double x[MOST], y[MOST];
+            const rubber *r;
+            wt_peak peak;
+            const size_t n = measure(draw, factor, x, y, &state, &r);
+            assert_int_equal(wt_peak_find(x, y, n, 0, &peak, NULL), WT_OK);
+            if (!peak.found)
+                continue;
+            const double truth = true_peak(r, factor);
+            found++;
+            held += peak.at.low <= truth && truth <= peak.at.high;
+            assert_true(peak.at.low < peak.at.value && peak.at.value < peak.at.high);
+            assert_string_equal(peak.why_not, "");
+            assert_true(peak.misfit < 0.05 && peak.n >= 9);
+        }
+        print_message("peak of %s: %zu of %zu\n", factor ? "tan delta" : "E''", held, found);
+        assert_true(found > DRAWS * 95 / 100);
+        assert_true((double)held > 0.92 * (double)found && (double)held <= 0.98 * (double)found);
+    }
+}
+
+static void values_hold_the_truth(void **unused)
+{
+    uint64_t state = 11;
+    size_t held = 0;
+    (void)unused;
+    for (size_t draw = 0; draw < DRAWS; draw++) {
+        double x[MOST], y[MOST];
+        const rubber *r;
+        wt_interval got;
+        const bool factor = draw % 2 == 0;
+        const size_t n = measure(draw, factor, x, y, &state, &r);
+        const double at = r->reference - 20 + 90 * (double)draw / DRAWS;
+        assert_int_equal(wt_value_between(x, y, n, at, &got, NULL), WT_OK);
+        assert_true(got.low < got.value && got.value < got.high);
+        const double truth = value(r, at, factor);
+        held += got.low <= truth && truth <= got.high;
+    }
+    print_message("values: %zu of %d\n", held, DRAWS);
+    assert_true(held >= 184 && held <= 196);
+}
+
+/* Nothing beyond the points, and none of a monotone or a scattered line. */
+static void no_peak(void **unused)
+{
+    double x[60], y[60];
+    uint64_t state = 3;
+    wt_peak peak;
+    wt_interval got;
+    size_t false_ones = 0;
+    (void)unused;
+    for (int i = 0; i < 60; i++) {
+        x[i] = i;
+        y[i] = exp(0.05 * i);
+    }
+    assert_int_equal(wt_peak_find(x, y, 60, 0, &peak, NULL), WT_OK);
+    assert_false(peak.found);
+    assert_true(isnan(peak.at.value));
+    assert_non_null(strstr(peak.why_not, "largest at the highest temperatures"));
+    for (int i = 0; i < 60; i++)
+        y[i] = exp(-0.05 * i);
+    y[1] = 2;
+    assert_int_equal(wt_peak_find(x, y, 60, 0, &peak, NULL), WT_OK);
+    assert_non_null(strstr(peak.why_not, "no peak in range: largest at the lowest"));
+    assert_int_equal(wt_peak_find(x, y, 4, 0, &peak, NULL), WT_OK);
+    assert_non_null(strstr(peak.why_not, "fewer than 5"));
+    for (int k = 0; k < 100; k++) {
+        for (int i = 0; i < 60; i++)
+            y[i] = exp(0.02 * dma_normal(&state));
+        assert_int_equal(wt_peak_find(x, y, 60, 0, &peak, NULL), WT_OK);
+        false_ones += peak.found;
+    }
+    print_message("peaks of scatter: %zu of 100\n", false_ones);
+    assert_true(false_ones <= 10);
+    assert_int_equal(wt_value_between(x, y, 60, 59.5, &got, NULL), WT_OK);
+    assert_true(isnan(got.value) && isnan(got.low));
+    assert_int_equal(wt_value_between(x, y, 4, 2, &got, NULL), WT_OK);
+    assert_true(isnan(got.value));
+}
+
+/* Exact points tell a parabola exactly. */
+static void parabola(void **unused)
+{
+    double x[9], y[9];
+    wt_peak peak;
+    (void)unused;
+    for (int i = 0; i < 9; i++) {
+        x[i] = 280 + 3 * i;
+        y[i] = 0.8 - 1e-3 * (x[i] - 291.3) * (x[i] - 291.3);
+    }
+    for (size_t points = 5; points <= 7; points++) {
+        assert_int_equal(wt_peak_find(x, y, 9, points, &peak, NULL), WT_OK);
+        assert_true(peak.found);
+        assert_near(peak.at.value, 291.3, 1e-9);
+        assert_near(peak.height.value, 0.8, 1e-9);
+        assert_int_equal(peak.n, points);
+        assert_near_abs(peak.misfit, 0, 1e-9);
+    }
+    assert_int_equal(wt_peak_find(x, y, 8, 8, &peak, NULL), WT_OK);
+    assert_false(peak.found); /* not so many on both sides */
+}
+
+/* ---- the reference table --------------------------------------------------------------------- */
+
+/* Points of one nominal frequency. */
+static size_t slice(const wt_sweep *sweep, double omega, bool factor, double *x, double *y)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < sweep->n_isotherms; i++) {
+        const wt_isotherm *t = &sweep->isotherms[i];
+        for (size_t k = 0; k < t->n; k++)
+            if (fabs(t->angular_frequency[k] / omega - 1) < 5e-4 && t->loss_modulus[k] > 0) {
+                x[n] = t->temperature - 273.15;
+                y[n++] = t->loss_modulus[k] / (factor ? t->storage_modulus[k] : 1);
+                break;
+            }
+    }
+    return n;
+}
+
+/* Each vertex, height and misfit of five points, of another program. */
+static void reference_parabolas(void **unused)
+{
+    static const char *const sets[] = {"stare_E", "hermes_ares", "nrel_A", "PI_94.9k"};
+    FILE *file = fopen(REFERENCE, "r");
+    char line[1024];
+    size_t checked = 0;
+    (void)unused;
+    if (file == NULL)
+        skip();
+    for (size_t s = 0; s < 4; s++) {
+        wt_sweep sweep = {0};
+        char path[256];
+        (void)snprintf(path, sizeof path, "%s%s.csv", TIDY, sets[s]);
+        assert_true(dma_read_tidy(path, &sweep));
+        rewind(file);
+        while (fgets(line, sizeof line, file) != NULL) {
+            char set[32], quantity[32];
+            double f, largest, at, height, misfit, x[MOST], y[MOST];
+            int n_t;
+            wt_peak peak;
+            if (sscanf(line, "%31[^,],%31[^,],%lf,%d,%lf,%lf,%lf,%lf", set, quantity, &f, &n_t,
+                       &largest, &at, &height, &misfit) != 8 ||
+                strcmp(set, sets[s]) != 0)
+                continue;
+            const size_t n = slice(&sweep, 2 * M_PI * f, strcmp(quantity, "tan_delta") == 0, x, y);
+            assert_int_equal(n, n_t);
+            assert_int_equal(wt_peak_find(x, y, n, 5, &peak, NULL), WT_OK);
+            /* the tidy tables of two sets have measured temperatures, the other table nominal ones
+             */
+            const bool nominal = s == 1 || s == 2;
+            assert_near_abs(peak.at.value, at, nominal ? 0.05 : 2e-6);
+            assert_near(peak.height.value, height, nominal ? 1e-3 : 2e-6);
+            assert_near_abs(peak.misfit, misfit, nominal ? 1e-3 : 1e-4);
+            checked++;
+        }
+        wt_sweep_clear(&sweep);
+    }
+    fclose(file);
+    print_message("%zu parabolas\n", checked);
+    assert_int_equal(checked, 152);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(peaks_hold_the_truth),
+                                       cmocka_unit_test(values_hold_the_truth),
+                                       cmocka_unit_test(no_peak), cmocka_unit_test(parabola),
+                                       cmocka_unit_test(reference_parabolas)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
