@@ -6,7 +6,7 @@
 #include "kernel/layer.h"
 #include "kernel/params.h"
 
-#include "kernel/root.h"
+#include "model/root.h"
 
 #include <float.h>
 #include <math.h>
@@ -117,7 +117,7 @@ wt_status layer_fixed_point(const layer_rates *rates, double log_scale, wt_estim
     while (balance_function(high, &b) > 0)
         high *= 2;
     double root = 0;
-    const wt_status status = root_find(balance_function, &b, 0, high, &root, err);
+    const wt_status status = root_find(balance_function, &b, 0, high, 0, &root, err);
     if (status != WT_OK)
         return status;
     thickness->value = none ? 0 : root;

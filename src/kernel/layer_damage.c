@@ -12,7 +12,7 @@
  */
 #include "kernel/layer.h"
 
-#include "kernel/root.h"
+#include "model/root.h"
 
 #include <float.h>
 #include <math.h>
@@ -124,7 +124,7 @@ static wt_status damage_edge(damage *d, stretch range, double level, double *edg
     if (!damage_climb(d, range, &s, NULL))
         return WT_OK;
     *edge = s.low;
-    return damage_at(s.low, d) > 0 ? root_find(damage_at, d, s.low, s.high, edge, err) : WT_OK;
+    return damage_at(s.low, d) > 0 ? root_find(damage_at, d, s.low, s.high, 0, edge, err) : WT_OK;
 }
 
 /* How far the edge moves, to other bands too, when D moves by its error. `most`: as deep as it may
@@ -156,7 +156,7 @@ static wt_status falling_depth(damage *d, double error, double earlier, wt_estim
         step *= 2;
     } while (damage_at(s.high, d) >= 0);
     if (damage_at(s.low, d) > 0) { /* but for rounding it is there */
-        const wt_status status = root_find(damage_at, d, s.low, s.high, &edge, err);
+        const wt_status status = root_find(damage_at, d, s.low, s.high, 0, &edge, err);
         if (status != WT_OK)
             return status;
     }
@@ -243,7 +243,7 @@ static wt_status damage_log_time(damage *d, double depth, double level, double *
         high += step;
     if (passage_at(high, &p) < 0)
         return WT_OK;
-    return root_find(passage_at, &p, high - step, high, log_time, err);
+    return root_find(passage_at, &p, high - step, high, 0, log_time, err);
 }
 
 /* The same of any depth at or below `from`: the time of one place, then of the place where D is

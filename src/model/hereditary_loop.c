@@ -6,12 +6,13 @@
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "model/hereditary.h"
+#include "model/root.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_NEWTON = 60, MAX_ROUNDS = 100 };
+enum { MAX_NEWTON = 60 };
 static const double close = 1e-15; /* of a step: t1 */
 
 /* The way in, and where the way out is. */
@@ -82,50 +83,53 @@ static double force_since(const loop *l, size_t j, double share, double t, doubl
     return law->rest * f + force;
 }
 
-/* The integral since t1, which falls as t1 rises; at its root the force is that of the contact. */
-static double integral_since(const loop *l, size_t j, double share, double t, double base,
-                             double before, double faded, double *force, double *depth)
+/* A moment of the way out, with what the depth took of the integral before. */
+typedef struct moment {
+    const loop *l;
+    double t, base, before, faded;
+    double force, depth; /* of the latest t1 */
+} moment;
+
+/* The integral since t1, a share of the step, which falls as t1 rises; at its root the force is that
+ * of the contact. */
+static double integral_since(double share, void *user)
 {
+    moment *m = user;
+    const loop *l = m->l;
     const hereditary *law = l->law;
     double then, open;
-    *force = force_since(l, j, share, t, &then, &open);
-    *depth = base - l->compliance * *force;
-    return law->rest * (*depth - then) + open + faded +
-           (law->gains + law->viscosity / law->step) * (*depth - before);
+    m->force = force_since(l, l->step, share, m->t, &then, &open);
+    m->depth = m->base - l->compliance * m->force;
+    return law->rest * (m->depth - then) + open + m->faded +
+           (law->gains + law->viscosity / law->step) * (m->depth - m->before);
 }
 
-static double step_out(loop *l, double t, double base, double *depth)
+static wt_status step_out(loop *l, double t, double base, double *depth, double *force,
+                          wt_error *err)
 {
-    const double before = *depth, faded = hereditary_fade(l->law, l->now);
-    double force = 0.0, low = 0.0, high = 1.0, below = 0.0, above;
-#define INTEGRAL_SINCE(share)                                                                      \
-    integral_since(l, l->step, share, t, base, before, faded, &force, depth)
-    while (l->step > 0 && (below = INTEGRAL_SINCE(0.0)) <= 0.0)
+    moment m = {.l = l,
+                .t = t,
+                .base = base,
+                .before = *depth,
+                .faded = hereditary_fade(l->law, l->now)};
+    *depth = base;
+    *force = 0.0;
+    while (l->step > 0 && integral_since(0.0, &m) <= 0.0)
         l->step--;
-    if (l->step == 0) {
-        *depth = base;
-        return 0.0;
+    if (l->step == 0)
+        return WT_OK;
+    /* not below zero: the contact holds on to its radius */
+    double share = 1.0;
+    if (integral_since(1.0, &m) < 0.0) {
+        const wt_status status = root_find(integral_since, &m, 0.0, 1.0, close, &share, err);
+        if (status != WT_OK)
+            return status;
+        (void)integral_since(share, &m);
     }
-    above = INTEGRAL_SINCE(1.0); /* not below zero: the contact holds on to its radius */
-    for (int i = 0; i < MAX_ROUNDS && above < 0.0 && high - low > close;
-         i++) { /* regula falsi of Illinois */
-        const double share = low + (high - low) * below / (below - above);
-        const double found = INTEGRAL_SINCE(share);
-        if (!(fabs(found) > 0.0) || !(share > low && share < high))
-            break;
-        if (found > 0.0) {
-            low = share;
-            below = found;
-            above *= 0.5;
-        } else {
-            high = share;
-            above = found;
-            below *= 0.5;
-        }
-    }
-#undef INTEGRAL_SINCE
-    hereditary_add(l->law, l->now, *depth - before);
-    return force;
+    hereditary_add(l->law, l->now, m.depth - m.before);
+    *depth = m.depth;
+    *force = m.force;
+    return WT_OK;
 }
 
 wt_status hereditary_loop(hereditary *law, const wt_tip *tip, double compliance, const double *time,
@@ -146,8 +150,9 @@ wt_status hereditary_loop(hereditary *law, const wt_tip *tip, double compliance,
               .now = block + (2 + 2 * terms) * n};
     double depth = 0.0;
     bool out = false;
+    wt_status status = WT_OK;
     force[0] = 0.0;
-    for (size_t i = 1; i < n; i++) {
+    for (size_t i = 1; i < n && status == WT_OK; i++) {
         hereditary_step(law, time[i] - time[i - 1]);
         if (!out) { /* with a lever it goes deeper for a while after the base has turned */
             force[i] = step_in(&l, i, base[i]);
@@ -158,8 +163,8 @@ wt_status hereditary_loop(hereditary *law, const wt_tip *tip, double compliance,
             depth = l.depth[i - 1];
             memcpy(l.now, l.moved + (i - 1) * terms, terms * sizeof *l.now);
         }
-        force[i] = step_out(&l, time[i], base[i], &depth);
+        status = step_out(&l, time[i], base[i], &depth, &force[i], err);
     }
     free(block);
-    return WT_OK;
+    return status;
 }

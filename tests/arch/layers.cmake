@@ -54,7 +54,7 @@ set(third_party
   "^libxml/" read+flow
   "^(iconv|regex)\\.h" read
   "^gsl/gsl_errno" base+model+fit+kernel
-  "^gsl/gsl_(sf_|math|const|poly|interp)" model+fit+kernel
+  "^gsl/gsl_(sf_|math|const|poly|interp|roots)" model+fit+kernel
   "^gsl/" fit+kernel
   "^fftw3" fit
   "^(spawn\\.h|sys/wait\\.h)" base+report

@@ -2,7 +2,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "kernel/root.h"
+#include "model/root.h"
 
 #include "base/gsl_quiet.h"
 
@@ -23,7 +23,8 @@ double root_reach(root_fn f, void *user, double root, double error, double reach
     return reach;
 }
 
-wt_status root_find(root_fn f, void *user, double low, double high, double *root, wt_error *err)
+wt_status root_find(root_fn f, void *user, double low, double high, double close, double *root,
+                    wt_error *err)
 {
     const double at_low = f(low, user);
     const double at_high = f(high, user);
@@ -45,7 +46,7 @@ wt_status root_find(root_fn f, void *user, double low, double high, double *root
             break;
         }
         const double width = gsl_root_fsolver_x_upper(solver) - gsl_root_fsolver_x_lower(solver);
-        if (width <= 2 * DBL_EPSILON * fabs(gsl_root_fsolver_root(solver)))
+        if (width <= fmax(close, 2 * DBL_EPSILON * fabs(gsl_root_fsolver_root(solver))))
             break;
         code = gsl_root_fsolver_iterate(solver);
     }
