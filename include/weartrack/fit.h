@@ -121,10 +121,10 @@ typedef struct wt_indent_fit {
     double pull_off_work;         /* the work of adhesion that it takes [J/m^2], an upper bound */
     double tabor_number;          /* of the larger work */
     double loss; /* work not given back by the retract, of that of the approach; NaN: no retract */
-    /* what such a loss adds to the modulus, which a fit without memory gives as |E*| at 1/loading
-     * time, as a share of it; NaN: no loss, or a fit with memory or adhesion */
-    double loss_bias;
-    double piezo_rate;           /* [m/s], NaN if no time */
+    double loss_bias;  /* what a fit without memory has more, of the modulus, which then is |E*| at
+                          1/loading time; 0: the way in shows no memory; NaN: no loss, no power that
+                          is known, a fit with a spectrum or adhesion */
+    double piezo_rate; /* [m/s], NaN if no time */
     double indentation_rate;     /* mean of the contact part [m/s], NaN if no time */
     double load_time;            /* contact to end of approach [s], NaN if no time */
     double second_minimum_ratio; /* cost of the second best contact point / best; NaN if none */
@@ -139,6 +139,12 @@ typedef struct wt_indent_fit {
     double direction;            /* +1: the height rises into the sample, -1: it falls */
     size_t contact_index;        /* sample of the contact point in the approach */
     size_t n_fitted;             /* samples used */
+    double
+        loss_power; /* of time, of the memory that loses as much and is in the fit; as loss_bias */
+    /* of the modulus: what is added to that of the power, and the error of it, which all curves of
+     * one rubber share */
+    double loss_shift, loss_error;
+    double baseline_curvature; /* the square of the position in it [N/m^2] */
 } wt_indent_fit;
 
 /* Scratch for curves of any length; one per thread. */
@@ -182,6 +188,8 @@ typedef struct wt_depth_curve {
     double baseline, window; /* travel of the piezo before contact, and of the misfit [m] */
     double misfit[WT_CURVE_WAVES];
     long spot;
+    double curvature;  /* of the baseline, which may go on in contact [N/m^2] */
+    double loss_error; /* of the modulus, shared by all; NaN: loss whose bias is not known */
 } wt_depth_curve;
 
 #define WT_DEPTH_MARGIN 0.1 /* a relative change that does not matter */
@@ -211,8 +219,12 @@ typedef struct wt_curve_depth {
     /* If a layer thinner than the indentation makes the change; NaN where the curves do not tell
      * all three. */
     wt_interval layer_modulus, ground_modulus, thickness;
+    size_t n_lossy; /* curves left out, for what loss does to them is not known; as many as the
+                       others: nothing is said */
+    double bend_share, loss_share; /* of the variance of the change */
 } wt_curve_depth;
-/* Fewer than 12 curves cannot say. */
+/* Fewer than 12 curves cannot say. The intervals hold what a bend that the baselines have in common
+ * does if it goes on in contact, and the error of the memory that stands for loss. */
 WT_API wt_status wt_curve_depth_make(const wt_contact_table *table, double poisson_ratio,
                                      const wt_depth_curve *curve, size_t n, wt_curve_depth *depth,
                                      wt_error *err) WT_NODISCARD;

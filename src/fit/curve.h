@@ -22,6 +22,14 @@ enum {
     CURVE_MAX_MINIMA = 4,
     CURVE_POWER_TERMS = 15, /* of a power law as a series */
 };
+#define CURVE_LEAST_LOSS 0.03
+
+/* E(t) = t^-power from 1e-4 to 1e3 times the loading time, and a rest for what is slower. */
+typedef struct curve_power {
+    double modulus[CURVE_POWER_TERMS], time[CURVE_POWER_TERMS];
+    wt_prony series;
+} curve_power;
+void curve_power_make(curve_power *to, double power, double load_time);
 
 /* Samples in the order of time. */
 typedef struct curve_samples {
@@ -139,6 +147,7 @@ typedef struct curve_solution {
     double cost;
     double sensitivity_gain;
     double bend_shift;    /* of the reduced modulus, if a bent baseline goes on in contact */
+    double curvature;     /* of the baseline [N/m^2] */
     size_t first_contact; /* samples before it are baseline */
     double max_indentation;
     double noise, correlation_length;

@@ -9,7 +9,9 @@
  * distribution whatever the noise; where it is too much, a square is fitted as well, or a layer on
  * other rubber. Each curve has
  * its share in the parameters, and the scatter of the shares between spots is their error,
- * enlarged by what is not known of the weights.
+ * enlarged by what is not known of the weights. What all curves share does not scatter: a bend that
+ * their baselines have in common goes on in contact, nobody knows how, and what it does there if it
+ * does is part of the errors; so is what is not known of the memory that stands for loss.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -41,6 +43,7 @@ static const double margin = WT_DEPTH_MARGIN; /* a change that does not matter *
 static const double roughest = 4.0;           /* ends of the interval of a thickness that is told */
 static const double shape_error = 0.01;       /* of a modulus by a law that is one of several */
 static const double largest_log = 4.0;        /* of a factor */
+static const double more_shallow = 1.5;       /* of the error of a memory, at no depth */
 
 /* Contact point [depth], then: ln of the modulus at the top, slope, bend; or ln E1, ln E1/E2, ln
  * (contact radius over thickness). */
@@ -55,8 +58,10 @@ static size_t n_parameters(depth_law law)
 typedef struct mean_curve {
     const wt_contact_table *table;
     double reduced, k, depth, force, length, baseline, window;
-    double widest;        /* G' at the depth: twice the contact radius */
-    double wave[W];       /* over the force */
+    double widest;  /* G' at the depth: twice the contact radius */
+    double wave[W]; /* over the force */
+    double bend[W]; /* those of the bend that the baselines have in common, if it goes on */
+    double loss_error;
     double factor[W * W]; /* Cholesky's of the scatter of a mean */
     depth_law law;
 } mean_curve;
@@ -105,20 +110,32 @@ static void take_out_line(const mean_curve *m, const double *z, double *d)
         d[i] -= sum / n + moment / spread * (z[i] - middle);
 }
 
-/* Cosines of the force of p less that of the fit, of the largest force. */
-static void waves_of(const mean_curve *m, const double *p, double wave[W])
+/* Position of a point of the window. */
+static double point_of(const mean_curve *m, size_t i)
 {
-    double z[POINTS], d[POINTS];
-    for (size_t i = 0; i < POINTS; i++) {
-        z[i] = m->length - m->window * (1.0 - ((double)i + 0.5) / POINTS);
-        d[i] = force_at(m, p, z[i] - p[CONTACT] * m->depth) - force_at(m, NULL, z[i]);
-    }
-    take_out_line(m, z, d);
+    return m->length - m->window * (1.0 - ((double)i + 0.5) / POINTS);
+}
+
+/* Cosines over the window of a force, of the largest one. */
+static void cosines_of(const mean_curve *m, const double d[POINTS], double wave[W])
+{
     memset(wave, 0, W * sizeof *wave);
     for (size_t i = 0; i < POINTS; i++)
         for (size_t j = 0; j < W; j++)
             wave[j] += 2.0 / POINTS * d[i] / m->force *
                        cos(M_PI * (double)(j + 1) * ((double)i + 0.5) / POINTS);
+}
+
+/* Those of the force of p less that of the fit. */
+static void waves_of(const mean_curve *m, const double *p, double wave[W])
+{
+    double z[POINTS], d[POINTS];
+    for (size_t i = 0; i < POINTS; i++) {
+        z[i] = point_of(m, i);
+        d[i] = force_at(m, p, z[i] - p[CONTACT] * m->depth) - force_at(m, NULL, z[i]);
+    }
+    take_out_line(m, z, d);
+    cosines_of(m, d, wave);
 }
 
 /* x solved by the factor of the scatter: of the size of its error each. */
@@ -229,7 +246,7 @@ typedef struct depth_pool {
     size_t n, n_units;
     bool by_spot;
     mean_curve mean;
-    double *value; /* [n_units] */
+    double *value; /* [n], then of the units */
 } depth_pool;
 
 static int by_spot(const void *a, const void *b)
@@ -252,6 +269,7 @@ static bool make_mean(depth_pool *d, const wt_contact_table *table, double poiss
         k += c->spring_constant / curves;
         m->baseline += c->baseline / curves;
         m->window += c->window / curves;
+        m->loss_error += c->loss_error / curves;
         for (size_t a = 0; a < W; a++)
             m->wave[a] += c->misfit[a] / curves;
     }
@@ -272,24 +290,13 @@ static bool make_mean(depth_pool *d, const wt_contact_table *table, double poiss
     return m->force > 0.0 && gsl_linalg_cholesky_decomp1(&scatter.matrix) == GSL_SUCCESS;
 }
 
-/* Interval of a number of the curves: `at` for the parameters of the fit, its derivatives by them,
- * and with_level: with ln E of each curve. By Student's t over the units. */
-static wt_interval interval_of(depth_pool *d, const depth_fit *fit, double at,
-                               const double by[MAX_PARAMETERS], bool with_level, double *chance)
+/* Mean of d->value of the curves over each spot, or of each curve. */
+static moments over_units(depth_pool *d)
 {
-    const mean_curve *m = &d->mean;
-    const double rest = (double)(W - n_parameters(fit->law));
     size_t unit = 0, in_unit = 0;
     for (size_t i = 0; i < d->n; i++) {
-        const wt_depth_curve *c = &d->curve[i];
-        double wave[W], value = at + (with_level ? log(c->modulus) : 0.0);
-        for (size_t a = 0; a < W; a++)
-            wave[a] = c->misfit[a] - m->wave[a];
-        whiten(m, wave);
-        for (size_t a = 0; a < n_parameters(fit->law); a++)
-            for (size_t j = 0; j < W; j++)
-                value += by[a] * fit->gain[a][j] * wave[j];
-        if (i > 0 && (!d->by_spot || c->spot != c[-1].spot)) {
+        const double value = d->value[i]; /* not before d->value[unit] */
+        if (i > 0 && (!d->by_spot || d->curve[i].spot != d->curve[i - 1].spot)) {
             d->value[unit++] /= (double)in_unit;
             in_unit = 0;
         }
@@ -297,19 +304,78 @@ static wt_interval interval_of(depth_pool *d, const depth_fit *fit, double at,
         in_unit++;
     }
     d->value[unit++] /= (double)in_unit;
-    const moments all = compare_moments(d->value, unit);
+    return compare_moments(d->value, unit);
+}
+
+/* The parabola of the baselines over the window, if it is more than they scatter. */
+static void find_bend(depth_pool *d)
+{
+    mean_curve *m = &d->mean;
+    double z[POINTS], bend[POINTS];
+    for (size_t i = 0; i < d->n; i++)
+        d->value[i] = d->curve[i].curvature;
+    const moments all = over_units(d);
+    const double error = compare_quantile(all.n - 1.0) * sqrt(all.variance / all.n);
+    const double curvature = fabs(all.mean) > error ? all.mean : 0.0;
+    const double middle = 0.5 * (m->length - m->baseline), n = m->length + m->baseline;
+    for (size_t i = 0; i < POINTS; i++) { /* less the line it is fitted with, all along */
+        z[i] = point_of(m, i) - middle;
+        bend[i] = curvature * (z[i] * z[i] - n * n / 12.0);
+    }
+    cosines_of(m, bend, m->bend);
+}
+
+/* What the waves w add to a number with these derivatives by the parameters. */
+static double share_of(const mean_curve *m, const depth_fit *fit, const double by[MAX_PARAMETERS],
+                       const double w[W])
+{
+    double white[W], sum = 0.0;
+    memcpy(white, w, sizeof white);
+    whiten(m, white);
+    for (size_t a = 0; a < n_parameters(fit->law); a++)
+        for (size_t j = 0; j < W; j++)
+            sum += by[a] * fit->gain[a][j] * white[j];
+    return sum;
+}
+
+typedef struct depth_number {
+    wt_interval interval;
+    double chance;                 /* of the logarithm being 0 */
+    double bend_share, loss_share; /* of its variance */
+} depth_number;
+
+/* A number of the curves: `at` for the parameters of the fit, its derivatives by them, and
+ * with_level: with ln E of each curve; losses: errors of the memory in it. By Student's t over the
+ * units. */
+static depth_number number_of(depth_pool *d, const depth_fit *fit, double at,
+                              const double by[MAX_PARAMETERS], bool with_level, double losses)
+{
+    const mean_curve *m = &d->mean;
+    const double rest = (double)(W - n_parameters(fit->law));
+    for (size_t i = 0; i < d->n; i++) {
+        double wave[W];
+        for (size_t a = 0; a < W; a++)
+            wave[a] = d->curve[i].misfit[a] - m->wave[a];
+        d->value[i] =
+            at + share_of(m, fit, by, wave) + (with_level ? log(d->curve[i].modulus) : 0.0);
+    }
+    const moments all = over_units(d);
     /* The weights are of the same curves: Rao, Biometrika 54 (1967) 447. And where the law leaves
      * more than scatter, its parameters are off by as much. */
     const double curves = (double)d->n, left = fmax(1.0, curves - 1.0 - rest);
     const double df = fmin(all.n - 1.0, left);
     const double more = (curves - 1.0) / left * (1.0 + fit->left / (curves - 1.0));
     const double scatter = sqrt(all.variance / all.n * more * fit->excess);
-    const double error = fit->law == LINE ? scatter : hypot(scatter, shape_error);
+    const double bend = share_of(m, fit, by, m->bend), loss = losses * m->loss_error;
+    const double own = fit->law == LINE ? scatter : hypot(scatter, shape_error);
+    const double error = hypot(own, hypot(bend, loss));
     const double reach = compare_quantile(df) * error;
-    if (chance != NULL)
-        *chance = 2.0 * gsl_cdf_tdist_Q(fabs(all.mean) / error, df);
-    return (wt_interval){exp(all.mean), exp(all.mean) * error, exp(all.mean - reach),
-                         exp(all.mean + reach)};
+    const double value = exp(all.mean);
+    return (depth_number){
+        .interval = {value, value * error, exp(all.mean - reach), exp(all.mean + reach)},
+        .chance = 2.0 * gsl_cdf_tdist_Q(fabs(all.mean) / error, df),
+        .bend_share = bend * bend / (error * error),
+        .loss_share = loss * loss / (error * error)};
 }
 
 /* ---- what is told ---------------------------------------------------------------------------- */
@@ -339,7 +405,8 @@ static void tell_depths(depth_pool *d, const depth_fit *fit, wt_curve_depth *to)
         const double share = (double)(i + 1) / WT_DEPTHS;
         const double at = at_depth(&d->mean, fit, share, by);
         to->depth[i] = share * d->mean.depth;
-        to->modulus[i] = interval_of(d, fit, at, by, true, NULL);
+        to->modulus[i] =
+            number_of(d, fit, at, by, true, 1.0 + more_shallow * (1.0 - share)).interval;
         if (i == 0) {
             memcpy(first, by, sizeof first);
             top = at;
@@ -348,7 +415,12 @@ static void tell_depths(depth_pool *d, const depth_fit *fit, wt_curve_depth *to)
             continue;
         for (size_t a = 0; a < MAX_PARAMETERS; a++)
             by[a] -= first[a];
-        to->change = interval_of(d, fit, at - top, by, false, &to->chance);
+        const depth_number change =
+            number_of(d, fit, at - top, by, false, more_shallow * (1.0 - 1.0 / WT_DEPTHS));
+        to->change = change.interval;
+        to->chance = change.chance;
+        to->bend_share = change.bend_share;
+        to->loss_share = change.loss_share;
     }
 }
 
@@ -377,12 +449,14 @@ static void read_layer(depth_pool *d, wt_curve_depth *to, wt_error *err)
     const double of_layer[] = {0.0, 1.0, 0.0, 0.0}, of_ground[] = {0.0, 1.0, -1.0, 0.0},
                  of_thickness[] = {0.0, 0.0, 0.0, -1.0};
     const wt_interval thickness =
-        interval_of(d, &fit, log(0.5 * d->mean.widest) - fit.p[REACH], of_thickness, false, NULL);
+        number_of(d, &fit, log(0.5 * d->mean.widest) - fit.p[REACH], of_thickness, false, 1.0)
+            .interval;
     if (thickness.high > roughest * thickness.low)
         return;
     to->thickness = thickness;
-    to->layer_modulus = interval_of(d, &fit, fit.p[LEVEL], of_layer, true, NULL);
-    to->ground_modulus = interval_of(d, &fit, fit.p[LEVEL] - fit.p[RATIO], of_ground, true, NULL);
+    to->layer_modulus = number_of(d, &fit, fit.p[LEVEL], of_layer, true, 1.0).interval;
+    to->ground_modulus =
+        number_of(d, &fit, fit.p[LEVEL] - fit.p[RATIO], of_ground, true, 1.0).interval;
 }
 
 /* Too little to matter, whichever way. */
@@ -443,9 +517,13 @@ wt_status wt_curve_depth_make(const wt_contact_table *table, double poisson_rati
     const wt_interval nothing = {unknown, unknown, unknown, unknown};
     pool memory = {0};
     wt_depth_curve *sorted = pool_alloc(&memory, n, sizeof *sorted);
-    depth_pool d = {.curve = sorted, .n = n, .value = pool_numbers(&memory, n)};
+    depth_pool d = {.curve = sorted, .value = pool_numbers(&memory, n)};
     wt_status status = WT_OK;
-    *to = (wt_curve_depth){.n = n,
+    for (size_t i = 0; i < n && !memory.failed; i++)
+        if (!isnan(curve[i].loss_error))
+            sorted[d.n++] = curve[i];
+    *to = (wt_curve_depth){.n = d.n,
+                           .n_lossy = n - d.n,
                            .chance = unknown,
                            .misfit_chance = unknown,
                            .change = nothing,
@@ -454,17 +532,18 @@ wt_status wt_curve_depth_make(const wt_contact_table *table, double poisson_rati
                            .thickness = nothing};
     if (memory.failed) {
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
-    } else if (n >= LEAST_CURVES) {
-        memcpy(sorted, curve, n * sizeof *sorted);
-        qsort(sorted, n, sizeof *sorted, by_spot);
+    } else if (d.n >= LEAST_CURVES && to->n_lossy < d.n) {
+        qsort(sorted, d.n, sizeof *sorted, by_spot);
         d.n_units = 1;
-        for (size_t i = 1; i < n; i++)
+        for (size_t i = 1; i < d.n; i++)
             d.n_units += sorted[i].spot != sorted[i - 1].spot;
         d.by_spot = d.n_units >= LEAST_SPOTS;
         to->by_spot = d.by_spot;
-        to->n_units = d.by_spot ? d.n_units : n;
-        if (make_mean(&d, table, poisson_ratio))
+        to->n_units = d.by_spot ? d.n_units : d.n;
+        if (make_mean(&d, table, poisson_ratio)) {
+            find_bend(&d);
             status = make(&d, to, err);
+        }
     }
     pool_free(&memory);
     return status;

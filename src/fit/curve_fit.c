@@ -22,7 +22,7 @@ wt_indent_options wt_indent_defaults(void)
                                .fit_force_fraction = 1.0,
                                .fit_tilt = true,
                                .least_chance = 0.01,
-                               .largest_error = 0.3,
+                               .largest_error = 0.5,
                                .plain_least_squares = false,
                                .fixed_contact_point = (double)NAN};
 }
@@ -169,6 +169,10 @@ void curve_fit_empty(wt_indent_fit *fit)
                            .tabor_number = nan_,
                            .loss = nan_,
                            .loss_bias = nan_,
+                           .loss_power = nan_,
+                           .loss_shift = nan_,
+                           .loss_error = nan_,
+                           .baseline_curvature = nan_,
                            .piezo_rate = nan_,
                            .indentation_rate = nan_,
                            .load_time = nan_,
@@ -224,8 +228,10 @@ static void report(curve_fitting *f, wt_indent_fit *fit)
     const curve_solution *s = &f->solution;
     const curve_samples *samples = &f->input.samples;
     double reduced = 1.0 - f->options->poisson_ratio * f->options->poisson_ratio;
-    fit->modulus.value = reduced * s->p[CURVE_E];
-    fit->modulus.standard_error = reduced * s->standard_error[CURVE_E];
+    const double e = reduced * s->p[CURVE_E] * (1.0 + f->loss_shift);
+    fit->modulus.value = e;
+    fit->modulus.standard_error =
+        e * hypot(s->standard_error[CURVE_E] / s->p[CURVE_E], f->loss_error);
     fit->contact_point.value = s->p[CURVE_C] + f->input.position_origin;
     fit->contact_point.standard_error = s->standard_error[CURVE_C];
     fit->baseline_offset.value = s->p[CURVE_F0] + f->input.force_origin;
@@ -238,6 +244,10 @@ static void report(curve_fitting *f, wt_indent_fit *fit)
     fit->correlation_length = s->correlation_length;
     fit->loss = f->loss;
     fit->loss_bias = f->loss_bias;
+    fit->loss_power = f->loss_power;
+    fit->loss_shift = f->loss_shift;
+    fit->loss_error = f->loss_error;
+    fit->baseline_curvature = s->curvature;
     fit->lack_of_fit = s->lack.statistic;
     fit->lack_of_fit_chance = s->lack.chance;
     fit->baseline_chance = s->lack.baseline_chance;
@@ -298,6 +308,7 @@ wt_status curve_fit_branches(const wt_contact_table *table, const wt_indent_opti
                        .pull_off = (double)NAN,
                        .loss = (double)NAN,
                        .loss_bias = (double)NAN,
+                       .loss_power = (double)NAN,
                        .depth_settled = true};
     curve_fit_empty(fit);
     fit->verdict = curve_prepare(approach->height, approach->force, n, spring_constant,

@@ -19,11 +19,13 @@ typedef struct curve_fitting {
     curve_solution solution;
     curve_minimum minima[CURVE_MAX_MINIMA];
     size_t n_minima;
-    double snap_on;   /* pull before contact [N]; 0: none stands out */
-    double pull_off;  /* of the retract; 0: none stands out, NaN: no retract that tells */
-    double loss;      /* work that is lost on the way out, of that on the way in; NaN: no retract */
-    double loss_bias; /* what it adds to a modulus without memory, of it; NaN: not known */
-    size_t n_snap;    /* samples left out because of a snap-on */
+    double snap_on;  /* pull before contact [N]; 0: none stands out */
+    double pull_off; /* of the retract; 0: none stands out, NaN: no retract that tells */
+    double loss;     /* work that is lost on the way out, of that on the way in; NaN: no retract */
+    double loss_power; /* of time, of a memory that loses as much; 0: none; NaN: not known */
+    double loss_bias;  /* what a fit without it has more, of the modulus */
+    double loss_shift, loss_error; /* of the modulus: what other spectra have more, and its error */
+    size_t n_snap;                 /* samples left out because of a snap-on */
     bool depth_settled;
     bool another_rubber; /* than that of the spectrum */
     double unit; /* with memory: |E*| of the spectrum that a modulus of the solution is in */

@@ -23,6 +23,7 @@ static const double reverse_ratio = 0.5;   /* cost of the fit in reverse against
 static const double deepest_sphere = 1.0;
 enum { BEND_BLOCKS = 16 };
 static const double least_bias = 0.005; /* of a modulus by loss, to be said */
+static const double large_error = 0.2;  /* of a modulus that is accepted, to be said */
 
 static const struct {
     const char *id, *text;
@@ -252,13 +253,15 @@ static void add_notes(const curve_fitting *f, const wt_indent_fit *fit, char rea
         append(reason, text);
     }
     if (f->another_rubber && !f->kind.adhesive)
-        append(reason, "; not of the spectrum of the DMA: elastic");
+        append(reason, "; not of the spectrum of the DMA");
     if (f->kind.lossy && f->kind.memory) {
         append(reason, "; the spectrum of the DMA does not describe its loss");
     } else if (fabs(f->loss_bias) >= least_bias) {
-        curve_say(text,
-                  "; %.0f %% of the work lost: |E*| at 1/(loading time), about %.2g %% too %s",
-                  100.0 * f->loss, 100.0 * fabs(f->loss_bias), f->loss_bias > 0.0 ? "high" : "low");
+        curve_say(
+            text,
+            "; %.0f %% of the work lost: with a memory of time^-%.2g, %.2g %% %s than without",
+            100.0 * f->loss, f->loss_power, 100.0 * fabs(f->loss_bias),
+            f->loss_bias > 0.0 ? "less" : "more");
         append(reason, text);
     } else if (f->kind.lossy) {
         curve_say(text, "; %.0f %% of the work lost: |E*| at 1/(loading time) within 12 %%",
@@ -267,6 +270,11 @@ static void add_notes(const curve_fitting *f, const wt_indent_fit *fit, char rea
     }
     if (f->solution.bent)
         append(reason, "; baseline bent: the error holds what that does in contact");
+    const double error = fit->modulus.standard_error / fit->modulus.value;
+    if (error > large_error) {
+        curve_say(text, "; standard error %.0f %%", 100.0 * error);
+        append(reason, text);
+    }
     const struct {
         size_t n;
         const char *what;

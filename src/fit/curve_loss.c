@@ -1,38 +1,34 @@
 /* A curve of rubber that loses work, and no spectrum of it is known. The work that the way out does
  * not give back says which power of time the relaxation is near to; with this memory the fit is
- * made once more. It tells what the loss does to the modulus of the fit without memory, and whether
- * loss is all that this fit lacks.
+ * made once more. Other spectra that lose as much have, at 1/(loading time), a modulus a few per
+ * cent above: the mean of them is taken, and how they scatter is in the error.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "fit/curve_fitting.h"
 
+#include "model/root.h"
 #include "model/tip.h"
 
 #include <math.h>
 
 /* Of the work: less than that is piezo and noise. */
-static const double least_loss = 0.03;
+static const double least_loss = CURVE_LEAST_LOSS;
 /* With adhesion: beyond it the shape of loss stands for what the work of adhesion should. */
 static const double most_loss = 0.5;
-static const double most_power = 0.8, power_close = 1e-3;
-/* Lever over contact: with a softer one the bias hangs on more of the spectrum than the loss tells.
- */
-static const double least_lever = 0.5;
+static const double least_power = 1e-3, most_power = 0.8, power_close = 1e-3;
+static const double better_chi2 = 9.0; /* 2 ln(likelihood ratio) of no memory at all */
+/* Of the modulus by a power law, per loss: what Cole-Cole and power spectra of several widths,
+ * below and above their peaks, have more, that over the lever by the contact, and their scatter. */
+static const double more = 0.05, more_soft = 0.0075, law_error = 0.04;
+static const double least_lever = 0.05; /* over the contact: softer ones were not looked at */
 enum {
     STEPS = 24, /* of a way in, for its loss */
     HALF_DECADES = CURVE_POWER_TERMS,
     FASTEST = -8, /* in half decades of the loading time */
-    MAX_ROUNDS = 20,
 };
 
-/* E(t) = t^-power from 1e-4 to 1e3 times the loading time, and a rest for what is slower. */
-typedef struct power_law {
-    double modulus[HALF_DECADES], time[HALF_DECADES];
-    wt_prony series;
-} power_law;
-
-static void make_power(power_law *to, double power, double load_time)
+void curve_power_make(curve_power *to, double power, double load_time)
 {
     const double ratio = pow(10.0, -0.5 * power);
     for (int i = 0; i < HALF_DECADES; i++) {
@@ -54,14 +50,14 @@ static double loss_of(const curve_fitting *f, double power)
     double time[2 * STEPS + 1], base[2 * STEPS + 1], force[2 * STEPS + 1], g, slope;
     const wt_tip *tip = contact_table_tip(f->table);
     hereditary *law = &f->workspace->memory;
-    power_law rubber;
+    curve_power rubber;
     wt_contact_function(tip, f->solution.max_indentation, &g, &slope);
     const double top = f->solution.max_indentation + modulus * g / k;
     for (int i = 0; i <= 2 * STEPS; i++) {
         time[i] = (double)i / STEPS;
         base[i] = top * (i <= STEPS ? time[i] : 2.0 - time[i]);
     }
-    make_power(&rubber, power, 1.0);
+    curve_power_make(&rubber, power, 1.0);
     hereditary_begin(law, &rubber.series, modulus / hereditary_modulus(&rubber.series, 1.0),
                      1.0 / STEPS, 2.0);
     if (hereditary_loop(law, tip, 1.0 / k, time, base, 2 * STEPS + 1, force, NULL) != WT_OK)
@@ -74,30 +70,20 @@ static double loss_of(const curve_fitting *f, double power)
     return (in - back) / (in - 0.5 * force[STEPS] * force[STEPS] / k);
 }
 
-/* The power that loses what the curve does; NaN if none does. */
-static double find_power(const curve_fitting *f)
+static double loss_beyond(double power, void *user)
 {
-    double low = 0.0, high = most_power, below = -f->loss, above = loss_of(f, high) - f->loss;
-    if (!(above > 0.0))
-        return (double)NAN;
-    for (int i = 0; i < MAX_ROUNDS && high - low > power_close; i++) { /* Illinois */
-        const double power = low + (high - low) * below / (below - above);
-        const double found = loss_of(f, power) - f->loss;
-        if (isnan(found))
-            return found;
-        if (fabs(found) < power_close)
-            return power;
-        if (found < 0.0) {
-            low = power;
-            below = found;
-            above *= 0.5;
-        } else {
-            high = power;
-            above = found;
-            below *= 0.5;
-        }
-    }
-    return 0.5 * (low + high);
+    const curve_fitting *f = user;
+    return loss_of(f, power) - f->loss;
+}
+
+/* The power that loses what the curve does; NaN if none does. */
+static double find_power(curve_fitting *f)
+{
+    double power = (double)NAN;
+    if (loss_beyond(most_power, f) > 0.0 &&
+        root_find(loss_beyond, f, least_power, most_power, power_close, &power, NULL) != WT_OK)
+        power = (double)NAN;
+    return power;
 }
 
 static void refine(curve_fitting *f, const curve_solution *from)
@@ -105,31 +91,44 @@ static void refine(curve_fitting *f, const curve_solution *from)
     curve_refine(f->table, &f->input.samples, f->kind, from->p, f->workspace, &f->solution);
 }
 
-/* The fit with the memory of a power law; not converged where times or a power are not known. */
-static curve_solution with_memory(curve_fitting *f)
-{
-    const curve_solution elastic = f->solution;
-    curve_solution found = {.converged = false};
-    power_law rubber;
-    const double power = find_power(f);
-    if (!(power > 0.0))
-        return found;
-    make_power(&rubber, power, 1.0);
-    if (!curve_remember(f, &rubber.series, true))
-        return found;
-    f->kind.memory = f->kind.lossy = true;
-    refine(f, &elastic);
-    found = f->solution;
-    f->kind.memory = f->kind.lossy = false;
-    f->solution = elastic;
-    return found;
-}
-
-static bool is_soft(const curve_fitting *f)
+/* Lever over contact. */
+static double stiffness_ratio(const curve_fitting *f)
 {
     double g, slope;
     wt_contact_function(contact_table_tip(f->table), f->solution.max_indentation, &g, &slope);
-    return f->input.samples.spring_constant < least_lever * f->solution.p[CURVE_E] * slope;
+    return f->input.samples.spring_constant / (f->solution.p[CURVE_E] * slope);
+}
+
+/* The fit with the memory of a power law; false, and the fit as it was, where times or a power are
+ * not known, or the way in tells that this is not its memory. */
+static bool remember_power(curve_fitting *f)
+{
+    const curve_solution elastic = f->solution;
+    const bool explained = curve_fits(f);
+    const double ratio = stiffness_ratio(f), power = find_power(f);
+    curve_power rubber;
+    if (!(power > 0.0) || !(ratio > least_lever))
+        return false;
+    curve_power_make(&rubber, power, 1.0);
+    if (!curve_remember(f, &rubber.series, true))
+        return false;
+    f->kind.memory = f->kind.lossy = true;
+    refine(f, &elastic);
+    f->kind.memory = f->kind.lossy = false;
+    const curve_solution *s = &f->solution;
+    const bool fits = s->converged && curve_fits(f);
+    const bool worse = elastic.effective_n * log(s->cost / elastic.cost) > better_chi2;
+    if (fits && !worse) {
+        f->loss_power = power;
+        f->loss_shift = f->loss * (more + more_soft / ratio);
+        f->loss_error = f->loss * law_error;
+        f->loss_bias = elastic.p[CURVE_E] / s->p[CURVE_E] / (1.0 + f->loss_shift) - 1.0;
+        return true;
+    }
+    if (s->converged && (worse || explained)) /* of the piezo, not of the rubber */
+        f->loss_power = f->loss_bias = 0.0;
+    f->solution = elastic;
+    return false;
 }
 
 void curve_allow_loss(curve_fitting *f)
@@ -137,17 +136,12 @@ void curve_allow_loss(curve_fitting *f)
     const bool pull = f->snap_on > 0.0 || f->pull_off > 0.0 || f->kind.adhesive;
     if (!(f->loss > least_loss) || (pull && f->loss > most_loss))
         return;
-    curve_solution lossy = {.converged = false};
-    if (!pull && !f->kind.memory && !f->kind.plain)
-        lossy = with_memory(f);
-    const bool explains = lossy.converged && !(lossy.lack.chance < f->options->least_chance);
-    if (lossy.converged && !is_soft(f))
-        f->loss_bias = f->solution.p[CURVE_E] / lossy.p[CURVE_E] - 1.0;
+    const bool whole = f->input.samples.n == f->input.n_all; /* up to where it turns */
+    if (!pull && whole && !f->kind.memory && !f->kind.plain && remember_power(f))
+        return;
     if (!curve_fits(f)) {
         const curve_solution elastic = f->solution;
         f->kind.lossy = true;
         refine(f, &elastic);
     }
-    if (explains)
-        f->solution.lack = lossy.lack;
 }

@@ -44,6 +44,7 @@ typedef struct curve_noise {
     double correlation_length; /* [samples], of waves as long as the contact */
     double scatter[CURVE_N_PARAMETERS][CURVE_N_PARAMETERS]; /* covariance of J'e */
     double bend[CURVE_N_PARAMETERS]; /* J' of the bend of the baseline, which is in it */
+    double curvature; /* of the baseline, bent or not: the square of the position in it [N/m^2] */
 } curve_noise;
 /* Of the residuals e, those of the noise, of which the first `first` are the baseline; bent: it is
  * not straight, and nobody knows how that goes on in contact. */

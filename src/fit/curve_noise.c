@@ -250,9 +250,9 @@ static void sum_waves(const block_sums *b, const spectrum *s, double to[N][N])
 /* Of the baseline, the first `first` samples e, less a line, or where it is bent a parabola, which
  * goes to `bow` all along the blocks. False if there is too little. */
 static bool read_baseline(const curve_law *m, const double *e, size_t first, block_sums *b,
-                          bool bent, double *bow, spectrum *to)
+                          bool bent, double *bow, double *curvature, spectrum *to)
 {
-    double x[BLOCKS], z[FINE + BLOCKS], square[FINE + BLOCKS];
+    double x[BLOCKS], y[BLOCKS], z[FINE + BLOCKS], square[FINE + BLOCKS];
     const size_t length = (first + FINE - 1) / FINE, n = length > 0 ? first / length : 0;
     if (n < LEAST)
         return false;
@@ -264,11 +264,14 @@ static bool read_baseline(const curve_law *m, const double *e, size_t first, blo
         }
     }
     memcpy(z + n, b->z, b->n * sizeof *z);
-    const double share = remove_powers(z, x, n, n + b->n, bent ? 3 : 2, square);
+    memcpy(y, x, n * sizeof *y);
+    *curvature = remove_powers(z, y, n, n + b->n, 3, square);
     for (size_t i = 0; i < b->n; i++)
-        bow[i] = bent ? share * square[n + i] : 0.0;
+        bow[i] = bent ? *curvature * square[n + i] : 0.0;
+    if (!bent)
+        remove_powers(z, x, n, n, 2, square);
     to->length = (double)length;
-    return find_spectrum(&m->workspace->shapes, x, n, to);
+    return find_spectrum(&m->workspace->shapes, bent ? y : x, n, to);
 }
 
 curve_noise curve_noise_of(const curve_law *m, const double p[N], const double *e, size_t first,
@@ -277,11 +280,11 @@ curve_noise curve_noise_of(const curve_law *m, const double p[N], const double *
     block_sums b;
     spectrum s;
     double bow[BLOCKS] = {0.0};
-    curve_noise noise = {.variance = 0.0, .correlation_length = 1.0};
+    curve_noise noise = {.variance = 0.0, .correlation_length = 1.0, .curvature = (double)NAN};
     average(m, p, e, first, &b);
     for (size_t i = 0; i < first; i++)
         noise.variance += e[i] * e[i] / (double)first;
-    if (!read_baseline(m, e, first, &b, bent, bow, &s)) {
+    if (!read_baseline(m, e, first, &b, bent, bow, &noise.curvature, &s)) {
         s.length = (double)b.length;
         if (!find_spectrum(&m->workspace->shapes, b.e, b.n, &s))
             return noise;

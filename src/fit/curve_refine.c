@@ -140,6 +140,7 @@ static void statistics(const curve_law *m, curve_solution *s)
                 variance += inverse[a][b] * noise.scatter[b][c] * inverse[a][c];
         s->standard_error[a] = !m->free[a] ? 0.0 : solved ? sqrt(variance) : (double)NAN;
     }
+    s->curvature = noise.curvature;
     s->bend_shift = solved ? dot(inverse[CURVE_E], noise.bend) : (double)NAN;
     s->sensitivity_gain = solved ? inverse[N][CURVE_E] / p[CURVE_E] : (double)NAN;
 }

@@ -70,10 +70,10 @@ LAST(wt_extrapolation, WT_EXTRAPOLATE_SLOPE, 1)
 
 /* fit.h */
 ROOM(wt_indent_options, spectrum, 64, 120)
-FIXED(wt_indent_fit, n_fitted, 608, 616)
+FIXED(wt_indent_fit, baseline_curvature, 640, 648)
 FIXED(wt_curve_pool, chance, 16, 24)
-FIXED(wt_depth_curve, spot, 88, 96)
-FIXED(wt_curve_depth, thickness, 336, 368)
+FIXED(wt_depth_curve, loss_error, 104, 112)
+FIXED(wt_curve_depth, loss_share, 384, 392)
 ROOM(wt_group, n_rejected, 40, 96)
 FIXED(wt_group_summary, median, 72, 80)
 FIXED(wt_comparison, interaction_p, 376, 384)

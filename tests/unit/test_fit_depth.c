@@ -44,6 +44,8 @@ typedef struct scene {
     double ratio, thickness; /* of a layer; 0: none */
     double radius_factor;    /* of the true tip */
     double noise;            /* [N] */
+    double bow;              /* [N] of the force, over the way */
+    double loss_error;       /* of the modulus, as if the rubber had loss */
 } scene;
 
 static curve_truth truth_of(const scene *s)
@@ -97,7 +99,9 @@ static wt_curve_depth depth_of(const scene *s, size_t n, long spots)
     assert_int_equal(wt_contact_table_new(&t.tip, 1e-11, 1e-4, &table, NULL), WT_OK);
     for (size_t i = 0; i < t.n; i++) {
         data.height[i] = t.height0 + t.travel * (double)i / (double)(t.n - 1);
-        clean[i] = force_at(s, &t, &tip, data.height[i] - t.height0 - t.contact_point);
+        const double x = (double)i / (double)t.n;
+        clean[i] = force_at(s, &t, &tip, data.height[i] - t.height0 - t.contact_point) +
+                   4 * s->bow * x * (1 - x);
     }
     for (size_t c = 0; c < n; c++) {
         wt_indent_fit fit;
@@ -112,6 +116,8 @@ static wt_curve_depth depth_of(const scene *s, size_t n, long spots)
                                     .spring_constant = t.spring_constant,
                                     .baseline = fit.baseline_length,
                                     .window = fit.misfit_length,
+                                    .curvature = fit.baseline_curvature,
+                                    .loss_error = s->loss_error,
                                     .spot = (long)c % spots};
         memcpy(curve[c].misfit, fit.misfit, sizeof fit.misfit);
     }
@@ -145,10 +151,10 @@ static void no_change(void **state)
 static void layers(void **state)
 {
     (void)state;
-    static const scene scenes[] = {{0.5, 40e-9, 1, 100e-12},
-                                   {0.4, 60e-9, 1, 400e-12},
-                                   {2.5, 60e-9, 1, 100e-12},
-                                   {0.7, 30e-9, 1, 100e-12}};
+    static const scene scenes[] = {{0.5, 40e-9, 1, 100e-12, 0, 0},
+                                   {0.4, 60e-9, 1, 400e-12, 0, 0},
+                                   {2.5, 60e-9, 1, 100e-12, 0, 0},
+                                   {0.7, 30e-9, 1, 100e-12, 0, 0}};
     for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
         const wt_curve_depth d = depth_of(&scenes[i], CURVES, CURVES);
         assert_int_equal(d.verdict, WT_DEPTH_CHANGES);
@@ -192,13 +198,55 @@ static void little_change(void **state)
 {
     (void)state;
     for (double thickness = 500e-9; thickness < 5e-6; thickness *= 1.3) {
-        const scene s = {0.4, thickness, 1, 30e-12};
+        const scene s = {0.4, thickness, 1, 30e-12, 0, 0};
         const wt_curve_depth d = depth_of(&s, CURVES, CURVES);
         assert_true(d.verdict == WT_DEPTH_SAME || d.change.low > 1 || d.change.high < 1);
     }
 }
 
-/* What is said of a change agrees with its interval. */
+static void assert_held(const scene *s, const wt_curve_depth *d)
+{
+    for (size_t i = 0; i < WT_DEPTHS; i++)
+        assert_true(d->modulus[i].low < 5e6 && d->modulus[i].high > 5e6);
+    assert_true(s->bow > 0 || d->bend_share < 0.01);
+}
+
+/* A bend that all baselines have does not scatter: the intervals hold it, and no change is seen in
+ * it; with no noise to speak of they do not without. */
+static void bent_baselines(void **state)
+{
+    (void)state;
+    for (double bow = 150e-12; bow < 700e-12; bow *= 1.7) {
+        const scene s = {.radius_factor = 1, .noise = 100e-12, .bow = bow};
+        const wt_curve_depth d = depth_of(&s, CURVES, CURVES);
+        assert_held(&s, &d);
+        assert_true(d.bend_share > 0.5 && d.modulus[4].value < 5e6 * 0.99);
+        assert_true(d.modulus[4].high < 5e6 * 1.12);
+        assert_true(d.verdict == WT_DEPTH_SAME || d.verdict == WT_DEPTH_CANNOT_SAY);
+    }
+}
+
+/* So does the error of a memory; where what loss does is not known, nothing is said. */
+static void loss(void **state)
+{
+    (void)state;
+    const scene clean = {.radius_factor = 1, .noise = 100e-12},
+                lossy = {.radius_factor = 1, .noise = 100e-12, .loss_error = 0.04},
+                unknown = {.radius_factor = 1, .noise = 100e-12, .loss_error = (double)NAN};
+    const wt_curve_depth a = depth_of(&clean, CURVES, CURVES), b = depth_of(&lossy, CURVES, CURVES),
+                         c = depth_of(&unknown, CURVES, CURVES);
+    assert_near(b.modulus[4].value, a.modulus[4].value, 1e-12);
+    assert_near(b.modulus[4].standard_error, 0.04 * 5e6, 0.1);
+    assert_true(b.modulus[0].standard_error > 1.5 * b.modulus[4].standard_error);
+    assert_int_equal(a.verdict, WT_DEPTH_SAME);
+    assert_int_equal(b.verdict, WT_DEPTH_CANNOT_SAY);
+    assert_true(b.loss_share > 0.9 && a.loss_share < 1e-9);
+    assert_int_equal(c.verdict, WT_DEPTH_CANNOT_SAY);
+    assert_true(isnan(c.change.value) && c.n == 0 && c.n_lossy == CURVES);
+}
+
+/* What is said of a change agrees with its interval, and what would settle it with what hides it.
+ */
 static void words_of_a_change(void **state)
 {
     (void)state;
@@ -229,13 +277,47 @@ static void words_of_a_change(void **state)
     }
 }
 
+static void words_of_no_answer(void **state)
+{
+    (void)state;
+    static const struct {
+        wt_depth_verdict verdict;
+        double bend_share, loss_share;
+        size_t n_lossy;
+        const char *words;
+    } cases[] = {
+        {WT_DEPTH_CANNOT_SAY, 0, 0, 0, "more curves would tell"},
+        {WT_DEPTH_CANNOT_SAY, 0.6, 0, 0, "a straight piezo, or one that has settled, would tell"},
+        {WT_DEPTH_CANNOT_SAY, 0, 0.6, 0, "the DMA of the rubber would tell"},
+        {WT_DEPTH_CANNOT_SAY, 0, 0, 40, "cannot say: 40 of 70 curves lose work"},
+        {WT_DEPTH_OTHERWISE, 0, 0, 0, "another tip or rate would tell"},
+        {WT_DEPTH_OTHERWISE, 0.1, 0, 0, "a straight piezo, or one that has settled, would tell"},
+        {WT_DEPTH_OTHERWISE, 0, 0.1, 0, "the DMA of the rubber would tell"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        const wt_curve_depth d = {.n = 30,
+                                  .n_lossy = cases[i].n_lossy,
+                                  .verdict = cases[i].verdict,
+                                  .change = {1, 0.1, 0.8, 1.2},
+                                  .bend_share = cases[i].bend_share,
+                                  .loss_share = cases[i].loss_share};
+        wt_indent_tables tables = {0};
+        assert_int_equal(flow_depth_table_add(&tables, "bulk", &d, NULL), WT_OK);
+        const char *words = wt_table_key(tables.modulus_depth, "changes_bulk");
+        assert_ptr_equal(strstr(words, "cannot say"), words);
+        assert_non_null(strstr(words, cases[i].words));
+        wt_indent_tables_clear(&tables);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(quick_form),    cmocka_unit_test(no_change),
         cmocka_unit_test(layers),        cmocka_unit_test(wrong_tip),
         cmocka_unit_test(too_little),    cmocka_unit_test(words_of_a_change),
-        cmocka_unit_test(little_change),
+        cmocka_unit_test(little_change), cmocka_unit_test(bent_baselines),
+        cmocka_unit_test(loss),          cmocka_unit_test(words_of_no_answer),
     };
     workspace = wt_indent_workspace_new();
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);

@@ -55,8 +55,8 @@
     X(INDENTATION_LOSS, "loss", "share of the work that the retract does not give back", NUMBER,   \
       OPTIONAL)                                                                                    \
     X(INDENTATION_LOSS_BIAS, "loss_bias",                                                          \
-      "what such a loss adds to |E*| at 1/load_time in a fit without memory, of the modulus",      \
-      NUMBER, OPTIONAL)                                                                            \
+      "what a fit without memory has more than |E*| at 1/load_time, of the modulus", NUMBER,       \
+      OPTIONAL)                                                                                    \
     X(INDENTATION_PIEZO_RATE, "piezo_rate", "rate of the piezo", SI(VELOCITY), OPTIONAL)           \
     X(INDENTATION_RATE, "indentation_rate", "mean rate of indentation", SI(VELOCITY), OPTIONAL)    \
     X(INDENTATION_LOAD_TIME, "load_time", "time from contact to the end of the approach",          \

@@ -5,6 +5,7 @@
 
 #include "data/force_curve.h"
 #include "data/tables/tables.h"
+#include "fit/curve.h"
 #include "model/hereditary.h"
 
 #include <math.h>
@@ -84,18 +85,25 @@ static wt_status fitted_forces(const wt_indent_fit *fit, const wt_indent_options
 {
     const double *height = segment_height(approach), *all = segment_time(approach, time);
     const double reduced = 1 - options->poisson_ratio * options->poisson_ratio;
-    const bool memory = options->spectrum != NULL && isnan(fit->work_of_adhesion.value) &&
-                        !isnan(fit->spectrum_factor.value) && all != NULL;
+    const bool known = options->spectrum != NULL && isnan(fit->work_of_adhesion.value) &&
+                       !isnan(fit->spectrum_factor.value);
+    curve_power power;
     double modulus = fit->modulus.value;
     wt_status status = WT_OK;
     wt_contact_table_eval(contact, delta, n, model, NULL);
-    if (memory) {
+    if (all != NULL && (known || fit->loss_power > 0)) {
         size_t m = 0; /* those that wt_indent_curve takes */
         for (size_t i = 0; i < approach->n_points && m < n; i++)
             if (fit->direction * height[i] >= fit->contact_point.value)
                 time[m++] = all[i];
-        modulus = fit->spectrum_factor.value;
-        status = remember(options->spectrum, time, m, model, err);
+        if (known) {
+            modulus = fit->spectrum_factor.value;
+        } else {
+            curve_power_make(&power, fit->loss_power, fit->load_time);
+            modulus /=
+                (1 + fit->loss_shift) * hereditary_modulus(&power.series, 1 / fit->load_time);
+        }
+        status = remember(known ? options->spectrum : &power.series, time, m, model, err);
     }
     for (size_t i = 0; i < n; i++)
         model[i] *= modulus / reduced;
@@ -166,7 +174,8 @@ static double equivalent_frequency(const wt_indent_job *job, const wt_indent_fit
     double g = (double)NAN, slope = (double)NAN;
     if (!(fit->load_time > 0) || !(fit->max_indentation > 0))
         return (double)NAN;
-    if (isnan(job->options.fixed_contact_point) || !isnan(fit->spectrum_factor.value))
+    if (isnan(job->options.fixed_contact_point) || !isnan(fit->spectrum_factor.value) ||
+        fit->loss_power > 0)
         return 1.0 / fit->load_time;
     wt_contact_function(tip, fit->max_indentation, &g, &slope);
     return wt_equivalent_frequency(fit->load_time, fit->max_indentation * slope / g);

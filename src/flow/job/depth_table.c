@@ -17,6 +17,16 @@ static depth_words si_words(double value, const char *unit)
     return w;
 }
 
+/* What would settle it; other: a residual that is no change with depth. */
+static const char *advice(const wt_curve_depth *d, bool other)
+{
+    if (d->loss_share > 0.5 || (other && d->loss_share > 0))
+        return "the DMA of the rubber would tell";
+    if (d->bend_share > 0.5 || (other && d->bend_share > 0))
+        return "the baselines are bent: a straight piezo, or one that has settled, would tell";
+    return other ? "another tip or rate would tell" : "more curves would tell";
+}
+
 static void say_change(const wt_curve_depth *d, char text[320])
 {
     const depth_words shallow = si_words(d->depth[0], "m"),
@@ -27,7 +37,12 @@ static void say_change(const wt_curve_depth *d, char text[320])
     char range[96];
     clocale_print(range, sizeof range, "%.3f, 95 %% interval %.3f to %.3f", d->change.value,
                   d->change.low, d->change.high);
-    if (isnan(d->change.value))
+    if (d->n_lossy > 0 && d->n_lossy >= d->n)
+        clocale_print(text, 320,
+                      "cannot say: %zu of %zu curves lose work on the way out, and what that does "
+                      "to their moduli is not known; the DMA of the rubber would tell",
+                      d->n_lossy, d->n + d->n_lossy);
+    else if (isnan(d->change.value))
         clocale_print(text, 320,
                       "cannot say: %zu curves without adhesion do not tell, 12 are "
                       "needed that differ by noise alone",
@@ -36,8 +51,8 @@ static void say_change(const wt_curve_depth *d, char text[320])
         clocale_print(
             text, 320,
             "cannot say: the curves have a residual in common that no modulus that changes "
-            "with depth leaves (chance %.1g)",
-            d->misfit_chance);
+            "with depth leaves (chance %.1g); %s",
+            d->misfit_chance, advice(d, true));
     else if (d->verdict == WT_DEPTH_CHANGES && d->change.low < 1 && d->change.high > 1)
         clocale_print(text, 320,
                       "yes: between %s and %s the modulus changes, by how much and which way the "
@@ -54,8 +69,8 @@ static void say_change(const wt_curve_depth *d, char text[320])
     else
         clocale_print(text, 320,
                       "cannot say: between %s and %s the modulus may be the same or change by more "
-                      "than %g %% (factor %s); more curves would tell",
-                      shallow.text, deep.text, margin, range);
+                      "than %g %% (factor %s); %s",
+                      shallow.text, deep.text, margin, range, advice(d, false));
 }
 
 /* What a change would mean if a layer made it, and what else may. */

@@ -36,7 +36,7 @@ typedef struct accepted {
     const flow_file *file;
     size_t curve, order;
     double misfit[WT_CURVE_WAVES];
-    double bend_shift, loss_bias; /* of the modulus */
+    double bend_shift, loss_bias, loss_error; /* of the modulus */
 } accepted;
 
 typedef struct indent_task {
@@ -180,6 +180,9 @@ static wt_status keep_depth(indent_task *task, const item *it, wt_error *err)
     if ((fit->verdict != WT_CURVE_ACCEPTED && fit->verdict != WT_CURVE_POOR_FIT) ||
         !isnan(fit->work_of_adhesion.value) || !(fit->fitted_modulus > 0) || isnan(fit->misfit[0]))
         return WT_OK;
+    const bool pull = fit->adhesion_force > 0 || fit->pull_off_force > 0; /* loses work, too */
+    const bool lost = fit->loss > CURVE_LEAST_LOSS && isnan(fit->loss_bias) &&
+                      isnan(fit->spectrum_factor.value) && !pull;
     wt_depth_curve *deep = array_grow(task->deep, task->n_deep, sizeof *deep);
     if (deep == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
@@ -193,6 +196,8 @@ static wt_status keep_depth(indent_task *task, const item *it, wt_error *err)
                              .spring_constant = it->curve.cantilever.spring_constant,
                              .baseline = fit->baseline_length,
                              .window = fit->misfit_length,
+                             .curvature = fit->baseline_curvature,
+                             .loss_error = lost ? (double)NAN : fit->loss_error,
                              .spot = task->n_spots};
     memcpy(deep->misfit, fit->misfit, sizeof deep->misfit);
     return WT_OK;
@@ -210,7 +215,8 @@ static wt_status keep_modulus(indent_task *task, const item *it, wt_error *err)
                    .curve = it->curve.index,
                    .order = task->n_moduli,
                    .bend_shift = it->fit.bend_shift / it->fit.modulus.value,
-                   .loss_bias = it->fit.loss_bias};
+                   .loss_bias = it->fit.loss_bias,
+                   .loss_error = it->fit.loss_error};
     memcpy(task->moduli[task->n_moduli].misfit, it->fit.misfit, sizeof it->fit.misfit);
     task->n_moduli++;
     return WT_OK;
@@ -400,14 +406,17 @@ static void say_shifts(const indent_task *task)
             "so in contact changes these moduli by %+.2g %% in the mean, which their "
             "scatter does not show",
             task->job->group, n, task->n_moduli, 100 * bend);
+    const double error = mean_shift(task, offsetof(accepted, loss_error), &n);
     const double loss = mean_shift(task, offsetof(accepted, loss_bias), &n);
-    if (fabs(loss) >= 0.01)
+    if (error > 0)
         wt_parselog_add(
             task->work->log, WT_NOTE, NULL, NULL,
-            "%s: %zu of %zu accepted curves lose work on the way out; without the DMA of the "
-            "rubber their moduli are |E*| at 1/(loading time), by what the loss tells about "
-            "%.1g %% too %s in the mean",
-            task->job->group, n, task->n_moduli, 100 * fabs(loss), loss > 0 ? "high" : "low");
+            "%s: %zu of %zu accepted curves lose work on the way out; their moduli are |E*| at "
+            "1/(loading time) of a rubber that loses as much, %.1g %% %s than those of a fit "
+            "without loss; that its spectrum is not known leaves a standard error of %.1g %%, "
+            "which all of them share and the DMA of the rubber takes away",
+            task->job->group, n, task->n_moduli, 100 * fabs(loss), loss > 0 ? "less" : "more",
+            100 * error);
 }
 
 /* Tests the mean residual of the accepted curves. */
