@@ -18,7 +18,6 @@
 
 enum {
     CURVE_MIN_SAMPLES = 32,
-    CURVE_MAX_BINS = 1024, /* of the coarse scan */
     CURVE_MAX_MINIMA = 4,
     CURVE_POWER_TERMS = 15, /* of a power law as a series */
 };
@@ -42,21 +41,28 @@ typedef struct curve_samples {
 enum { NOISE_BANDS = 52, NOISE_SHAPES = 82 };
 typedef struct noise_shapes {
     double knee[NOISE_SHAPES]; /* below it they are no longer white */
-    double density[NOISE_SHAPES][NOISE_BANDS], logarithm[NOISE_SHAPES][NOISE_BANDS];
+    double density[NOISE_SHAPES][NOISE_BANDS], logarithm[NOISE_SHAPES][NOISE_BANDS],
+        root[NOISE_SHAPES][NOISE_BANDS];
 } noise_shapes;
 void noise_shapes_make(noise_shapes *to);
+
+/* Sums at depths below the deepest point, from that of an octave to 0, and the contact function at
+ * as many distances: curve_scan.c. */
+enum { SCAN_OCTAVES = 19, SCAN_NODES = 128 };
+typedef struct scan_octave {
+    double weight[SCAN_NODES + 2], force[SCAN_NODES + 2], position[SCAN_NODES + 2];
+    double g[SCAN_NODES + 1], gg[SCAN_NODES + 1]; /* and its square */
+} scan_octave;
 
 struct wt_indent_workspace {
     size_t capacity;
     double *block; /* what the arrays below are parts of */
-    double *position, *force, *tip, *running_max, *delta, *g, *slope, *residual, *scratch, *weight;
+    double *position, *force, *tip, *delta, *g, *slope, *residual, *scratch, *weight;
     double *by_modulus, *by_work;     /* of an adhesive contact, at one depth */
     double *by_contact, *time;        /* with memory */
     double *given_force, *given_time; /* of wt_indent_force_curve */
     double *retract_position, *retract_force;
-    double bin_position[CURVE_MAX_BINS], bin_force[CURVE_MAX_BINS], bin_tip[CURVE_MAX_BINS],
-        bin_running_max[CURVE_MAX_BINS], bin_delta[CURVE_MAX_BINS], bin_g[CURVE_MAX_BINS],
-        bin_weight[CURVE_MAX_BINS];
+    scan_octave octave[SCAN_OCTAVES];
     gsl_min_fminimizer *minimizer;
     noise_shapes shapes;
     hereditary memory;
@@ -79,6 +85,19 @@ void curve_fit_empty(wt_indent_fit *fit);
 
 /* WT_E_MEMORY when n samples find no room. */
 wt_status curve_reserve(wt_indent_workspace *workspace, size_t n, wt_error *err);
+
+/* With several sums, for one would wait for itself at each term. */
+static inline double curve_dot(const double *a, const double *b, size_t n)
+{
+    double sum[4] = {0.0};
+    size_t i = 0;
+    for (; i + 4 <= n; i += 4)
+        for (size_t j = 0; j < 4; j++)
+            sum[j] += a[i + j] * b[i + j];
+    for (; i < n; i++)
+        sum[0] += a[i] * b[i];
+    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+}
 
 /* The reason of a verdict. */
 void curve_say(char reason[160], const char *format, ...) WT_PRINTF(2, 3);

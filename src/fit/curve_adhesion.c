@@ -51,7 +51,7 @@ static bool find_snap(const curve_fitting *f, snap *found)
         return false;
     double elsewhere = 0.0, noise = 0.0;
     for (size_t i = 0; i < start; i++) {
-        elsewhere = fmax(elsewhere, -above[i]);
+        elsewhere = -above[i] > elsewhere ? -above[i] : elsewhere;
         noise += above[i] * above[i];
     }
     noise = sqrt(noise / (double)start);

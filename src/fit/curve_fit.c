@@ -256,9 +256,10 @@ static void report(curve_fitting *f, wt_indent_fit *fit)
     fit->sensitivity_gain = s->sensitivity_gain;
     fit->n_fitted = samples->n;
     fit->max_force = 0.0;
-    for (size_t i = 0; i < f->input.n_all - f->n_snap; i++)
-        fit->max_force =
-            fmax(fit->max_force, samples->force[i] - curve_baseline(s, samples->position[i]));
+    for (size_t i = 0; i < f->input.n_all - f->n_snap; i++) {
+        const double above = samples->force[i] - curve_baseline(s, samples->position[i]);
+        fit->max_force = above > fit->max_force ? above : fit->max_force;
+    }
     for (int j = 0; j < CURVE_WAVES; j++)
         fit->misfit[j] = s->lack.wave[j] / fit->max_force;
     report_adhesion(f, fit);

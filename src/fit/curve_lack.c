@@ -37,7 +37,8 @@ static const double same = 1e-9;          /* of a column: it lies in those befor
 typedef struct blocks {
     size_t n_before, n; /* blocks of the baseline and of the window behind it */
     double r[BEFORE + WINDOW];
-    double column[MAX_COLUMNS][BEFORE + WINDOW];
+    double column[MAX_COLUMNS][MAX_ORDER + WINDOW]; /* of the window, and what it owes to */
+    double wave[COSINES][MAX_ORDER + WINDOW];
     size_t n_columns;
     size_t length; /* samples in one */
     double travel; /* of the window [m] */
@@ -45,6 +46,26 @@ typedef struct blocks {
     double a[MAX_ORDER + 1]; /* x_i = sum a_k x_(i-k) + innovation, k from 1 */
     double innovation;       /* its variance */
 } blocks;
+
+/* Sample j, of block i. */
+static void add_columns(const curve_law *m, const double p[N], size_t j, size_t i, size_t length,
+                        blocks *b)
+{
+    const curve_samples *s = m->samples;
+    const double end = s->position[s->n - 1];
+    double row[N];
+    const double factor = curve_model_row(m, p, j, row), share = 1.0 / (factor * (double)length);
+    size_t c = 0;
+    for (size_t a = 0; a < N; a++)
+        if (m->free[a])
+            b->column[c++][i] += row[a] * share;
+    const double part = (s->position[j] - p[CURVE_C]) / (end - p[CURVE_C]);
+    if (m->lossy && part > 0.0) { /* the modulus falls with the time since contact */
+        double fallen = row[CURVE_E] * share;
+        for (size_t power = 0; power < LOSS; power++)
+            b->column[c + power][i] += fallen *= log(part);
+    }
+}
 
 /* Block means of residual and Jacobian. False if there is too little baseline. */
 static bool average(const curve_law *m, const double p[N], const double *e, blocks *b)
@@ -68,35 +89,24 @@ static bool average(const curve_law *m, const double p[N], const double *e, bloc
     for (size_t a = 0; a < N; a++)
         b->n_columns += m->free[a];
     b->n_columns += m->lossy ? LOSS : 0;
-    memset(b->column, 0, sizeof b->column);
+    const double share = 1.0 / (double)length;
     for (size_t i = 0; i < b->n_before + b->n; i++) {
         const size_t from = first + i * length - b->n_before * length;
         b->r[i] = 0.0;
-        for (size_t j = from; j < from + length; j++) {
-            double row[N];
-            const double factor = curve_model_row(m, p, j, row);
-            b->r[i] += e[j] / (double)length;
-            size_t c = 0;
-            for (size_t a = 0; a < N; a++)
-                if (m->free[a])
-                    b->column[c++][i] += row[a] / factor / (double)length;
-            const double part = (s->position[j] - p[CURVE_C]) / (end - p[CURVE_C]);
-            if (m->lossy && part > 0.0) { /* the modulus falls with the time since contact */
-                double share = row[CURVE_E] / factor / (double)length;
-                for (size_t power = 0; power < LOSS; power++)
-                    b->column[c + power][i] += share *= log(part);
-            }
-        }
+        for (size_t j = from; j < from + length; j++)
+            b->r[i] += e[j] * share;
     }
+    memset(b->column, 0, b->n_columns * sizeof b->column[0]);
+    for (size_t i = 0; i < MAX_ORDER + b->n; i++)
+        for (size_t j = 0; j < length; j++)
+            add_columns(m, p, first + i * length + j - MAX_ORDER * length, i, length, b);
     return true;
 }
 
 /* x less the part of it along the unit vector q. */
 static double remove_along(const double *q, double *x, size_t n)
 {
-    double along = 0.0;
-    for (size_t i = 0; i < n; i++)
-        along += q[i] * x[i];
+    const double along = curve_dot(q, x, n);
     for (size_t i = 0; i < n; i++)
         x[i] -= along * q[i];
     return along;
@@ -110,14 +120,11 @@ static double project_out(double *r, double *const *columns, size_t n_columns, s
     double taken = 0.0;
     *n_counted = 0;
     for (size_t c = 0; c < n_columns; c++) {
-        double before = 0.0, norm = 0.0;
-        for (size_t i = 0; i < n; i++)
-            before += columns[c][i] * columns[c][i];
+        const double before = curve_dot(columns[c], columns[c], n);
         for (int twice = 0; twice < 2; twice++)
             for (size_t d = 0; d < c; d++)
                 remove_along(columns[d], columns[c], n);
-        for (size_t i = 0; i < n; i++)
-            norm += columns[c][i] * columns[c][i];
+        const double norm = curve_dot(columns[c], columns[c], n);
         const bool new = norm > same *same *before;
         for (size_t i = 0; i < n; i++)
             columns[c][i] = new ? columns[c][i] / sqrt(norm) : 0.0;
@@ -153,9 +160,7 @@ static void find_noise(blocks *b)
     powers(n, power);
     project_out(x, columns, 4, 4, n, &ignored);
     memcpy(back, x, n * sizeof *x);
-    double variance = 0.0, best = (double)INFINITY;
-    for (size_t i = 0; i < n; i++)
-        variance += x[i] * x[i] / (double)n;
+    double variance = curve_dot(x, x, n) / (double)n, best = (double)INFINITY;
     b->innovation = 0.0;
     b->order = 0; /* of a baseline without noise, too */
     for (size_t order = 0; order <= MAX_ORDER && variance > 0.0; order++) {
@@ -198,19 +203,29 @@ static void whiten(const blocks *b, const double *x, size_t from, size_t n, doub
     }
 }
 
+/* Cosines over the window, nothing before it. */
+static void make_waves(blocks *b)
+{
+    memset(b->wave, 0, sizeof b->wave);
+    for (size_t j = 0; j < COSINES; j++) {
+        double *wave = b->wave[j] + MAX_ORDER;
+        const double angle = M_PI * (double)(j + 1) / (double)b->n, twice = 2.0 * cos(angle);
+        wave[0] = cos(0.5 * angle);
+        wave[1] = cos(1.5 * angle);
+        for (size_t i = 2; i < b->n; i++)
+            wave[i] = twice * wave[i - 1] - wave[i - 2];
+    }
+}
+
 static double judge_contact(const blocks *b, double *statistic)
 {
     double store[MAX_COLUMNS][WINDOW], r[WINDOW], *columns[MAX_COLUMNS];
-    double wave[BEFORE + WINDOW] = {0.0};
     size_t n = 0, counted;
     whiten(b, b->r, b->n_before, b->n, r);
     for (; n < b->n_columns; n++)
-        whiten(b, b->column[n], b->n_before, b->n, store[n]);
-    for (int j = 1; j <= COSINES; j++, n++) {
-        for (size_t i = 0; i < b->n; i++)
-            wave[b->n_before + i] = cos(M_PI * j * ((double)i + 0.5) / (double)b->n);
-        whiten(b, wave, b->n_before, b->n, store[n]);
-    }
+        whiten(b, b->column[n], MAX_ORDER, b->n, store[n]);
+    for (size_t j = 0; j < COSINES; j++, n++)
+        whiten(b, b->wave[j], MAX_ORDER, b->n, store[n]);
     for (size_t c = 0; c < n; c++)
         columns[c] = store[c];
     const double taken = project_out(r, columns, n, b->n_columns, b->n, &counted);
@@ -251,12 +266,9 @@ curve_lack curve_lack_of_fit(const curve_law *m, const double p[N], const double
         return lack;
     lack.window = b.travel;
     lack.baseline_chance = judge_baseline(&b);
+    make_waves(&b);
     lack.chance = judge_contact(&b, &lack.statistic);
-    for (int j = 0; j < CURVE_WAVES; j++) {
-        lack.wave[j] = 0.0;
-        for (size_t i = 0; i < b.n; i++)
-            lack.wave[j] += 2.0 / (double)b.n * b.r[b.n_before + i] *
-                            cos(M_PI * (j + 1) * ((double)i + 0.5) / (double)b.n);
-    }
+    for (size_t j = 0; j < CURVE_WAVES; j++)
+        lack.wave[j] = 2.0 / (double)b.n * curve_dot(b.r + b.n_before, b.wave[j] + MAX_ORDER, b.n);
     return lack;
 }

@@ -30,10 +30,14 @@ static void sum_baseline(curve_law *m, size_t n)
     m->baseline_end = -(double)INFINITY;
     m->z = m->zz = m->f = m->zf = m->ff = m->z0 = m->f0 = 0.0;
     for (size_t i = 0; i < n; i++) {
-        m->z0 += s->position[i] / (double)n;
-        m->f0 += s->force[i] / (double)n;
+        m->z0 += s->position[i];
+        m->f0 += s->force[i];
         if (s->position[i] > m->baseline_end)
             m->baseline_end = s->position[i];
+    }
+    if (n > 0) {
+        m->z0 /= (double)n;
+        m->f0 /= (double)n;
     }
     for (size_t i = 0; i < n; i++) {
         double z = s->position[i] - m->z0, f = s->force[i] - m->f0;
@@ -162,14 +166,14 @@ static double evaluate(curve_law *m, const double p[N], size_t first)
 void curve_model_start(curve_law *m, const double p[N])
 {
     sum_baseline(m, count_baseline(m, p[CURVE_C]));
-    measure(m, p, 0);
+    measure(m, p, m->n_baseline);
 }
 
 double curve_model_cost(curve_law *m, const double p[N])
 {
     if (m->jump == 0 && m->n_baseline > 0 && p[CURVE_C] < m->baseline_end) {
         sum_baseline(m, count_baseline(m, p[CURVE_C]));
-        measure(m, p, 0);
+        measure(m, p, m->n_baseline);
     }
     double n = (double)m->n_baseline, t = p[CURVE_T];
     double offset = m->f0 - p[CURVE_F0] - t * (m->z0 - p[CURVE_C]);
@@ -178,11 +182,18 @@ double curve_model_cost(curve_law *m, const double p[N])
     return baseline + evaluate(m, p, m->n_baseline);
 }
 
-double curve_model_complete(curve_law *m, const double p[N])
+void curve_model_complete(const curve_law *m, const double p[N])
 {
-    sum_baseline(m, 0);
-    measure(m, p, 0);
-    return evaluate(m, p, 0);
+    const curve_samples *s = m->samples;
+    wt_indent_workspace *w = m->workspace;
+    for (size_t i = 0; i < m->n_baseline; i++) {
+        const double z = s->position[i] - p[CURVE_C];
+        w->delta[i] = z;
+        w->g[i] = w->slope[i] = 0.0;
+        w->residual[i] = s->force[i] - p[CURVE_F0] - p[CURVE_T] * z;
+    }
+    for (size_t i = 0; i < m->n_baseline && (m->adhesive || m->memory); i++)
+        w->by_modulus[i] = w->by_contact[i] = w->by_work[i] = 0.0;
 }
 
 /* Of the first n parameters. */
@@ -193,6 +204,22 @@ static inline void add_row(normal_equations *e, const double row[N], double r, s
             e->jj[a][b] += row[a] * row[b];
         e->jr[a] += row[a] * r;
     }
+}
+
+static void sum_rows(const curve_law *m, const double p[N], normal_equations *to)
+{
+    normal_equations e = *to; /* whose sums stay in registers */
+    for (size_t i = m->n_baseline; i < m->samples->n; i++) {
+        double row[N], r = m->workspace->residual[i];
+        curve_model_row(m, p, i, row);
+        add_row(&e, row, r, CURVE_W);
+        if (m->adhesive) {
+            for (size_t a = 0; a < N; a++)
+                e.jj[a][CURVE_W] += row[a] * row[CURVE_W];
+            e.jr[CURVE_W] += row[CURVE_W] * r;
+        }
+    }
+    *to = e;
 }
 
 void curve_model_normal(const curve_law *m, const double p[N], normal_equations *e)
@@ -218,16 +245,7 @@ void curve_model_normal(const curve_law *m, const double p[N], normal_equations 
         e->jj[CURVE_T][CURVE_T] = szz;
         e->jr[CURVE_T] = szr;
     }
-    for (size_t i = m->n_baseline; i < m->samples->n; i++) {
-        double row[N], r = m->workspace->residual[i];
-        curve_model_row(m, p, i, row);
-        add_row(e, row, r, CURVE_W);
-        if (m->adhesive) {
-            for (size_t a = 0; a < N; a++)
-                e->jj[a][CURVE_W] += row[a] * row[CURVE_W];
-            e->jr[CURVE_W] += row[CURVE_W] * r;
-        }
-    }
+    sum_rows(m, p, e);
     for (size_t a = 0; a < N; a++) {
         for (size_t b = 0; b < a; b++)
             e->jj[a][b] = e->jj[b][a];

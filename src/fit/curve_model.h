@@ -33,8 +33,8 @@ double curve_model_cost(curve_law *model, const double p[CURVE_N_PARAMETERS]);
 /* At the parameters of the latest evaluation. */
 void curve_model_normal(const curve_law *model, const double p[CURVE_N_PARAMETERS],
                         normal_equations *equations);
-/* Evaluates all samples one by one, those of the baseline too. */
-double curve_model_complete(curve_law *model, const double p[CURVE_N_PARAMETERS]);
+/* At the parameters of the latest evaluation, fills in the samples that the sums stand for. */
+void curve_model_complete(const curve_law *model, const double p[CURVE_N_PARAMETERS]);
 /* Of the residuals e, those of the noise, at the parameters of the latest evaluation. */
 curve_lack curve_lack_of_fit(const curve_law *model, const double p[CURVE_N_PARAMETERS],
                              const double *e);

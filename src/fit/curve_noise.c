@@ -21,6 +21,7 @@ enum {
     FINE = 192,      /* of the baseline, for its spectrum */
     LEAST = 16,      /* of these */
     WAVES = 64,      /* looked at one by one; faster ones together */
+    AT_ONCE = 4,     /* even */
     SLOW = 8,        /* waves of the contact whose misfit counts */
     PER_OCTAVE = 4,
     POWERS = 4,
@@ -46,6 +47,7 @@ static void add_shape(noise_shapes *to, size_t s, double knee, double corner, do
         const double f = exp2(-(double)b / PER_OCTAVE);
         to->density[s][b] = 1.0 + pow(knee / hypot(f, corner), power);
         to->logarithm[s][b] = log(to->density[s][b]);
+        to->root[s][b] = sqrt(to->density[s][b]);
     }
 }
 
@@ -74,34 +76,41 @@ static double variance_of(const spectrum *s, double k, size_t n, size_t length)
     return part * s->density[band_of(part * k / (double)n)];
 }
 
-/* How much of unit cosine k of n blocks there is in each of n_x. */
-static inline void find_wave(size_t k, size_t n, const double (*x)[BLOCKS], size_t n_x,
-                             double *along)
+/* How much of unit cosines k to k + AT_ONCE - 1 of n blocks there is in each of n_x. Several at
+ * once, for each term of a wave waits for the one before. */
+static inline void find_waves(size_t k, size_t n, const double (*x)[BLOCKS], size_t n_x,
+                              double along[AT_ONCE][N])
 {
-    const double angle = M_PI * (double)k / (double)n, twice = 2.0 * cos(angle);
-    double before = cos(0.5 * angle), now = before;
-    const double scale = sqrt((k > 0 ? 2.0 : 1.0) / (double)n);
-    double sum[N] = {0.0};
-    const double mirror = k % 2 == 0 ? 1.0 : -1.0; /* the second half of the wave */
-    for (size_t i = 0; i < n / 2; i++) {
-        for (size_t c = 0; c < n_x; c++)
-            sum[c] += now * (x[c][i] + mirror * x[c][n - 1 - i]);
-        const double next = twice * now - before;
-        before = now;
-        now = next;
+    double twice[AT_ONCE], before[AT_ONCE], now[AT_ONCE], sum[N][AT_ONCE] = {{0.0}};
+    const double mirror = k % 2 == 0 ? 1.0 : -1.0; /* the second half of wave k */
+    for (size_t j = 0; j < AT_ONCE; j++) {
+        const double angle = M_PI * (double)(k + j) / (double)n;
+        twice[j] = 2.0 * cos(angle);
+        before[j] = now[j] = cos(0.5 * angle);
     }
-    for (size_t c = 0; c < n_x && n % 2 == 1 && k % 2 == 0; c++)
-        sum[c] += now * x[c][n / 2];
-    for (size_t c = 0; c < n_x; c++)
-        along[c] = scale * sum[c];
-}
-
-static double dot(const double *a, const double *b, size_t n)
-{
-    double sum = 0.0;
-    for (size_t i = 0; i < n; i++)
-        sum += a[i] * b[i];
-    return sum;
+    for (size_t i = 0; i < n / 2; i++) {
+        for (size_t c = 0; c < n_x; c++) {
+            const double other = mirror * x[c][n - 1 - i], same = x[c][i] + other,
+                         opposite = x[c][i] - other;
+            for (size_t j = 0; j < AT_ONCE; j += 2) {
+                sum[c][j] += now[j] * same;
+                sum[c][j + 1] += now[j + 1] * opposite;
+            }
+        }
+        for (size_t j = 0; j < AT_ONCE; j++) {
+            const double next = twice[j] * now[j] - before[j];
+            before[j] = now[j];
+            now[j] = next;
+        }
+    }
+    for (size_t j = 0; j < AT_ONCE; j++) {
+        const double scale = sqrt((k + j > 0 ? 2.0 : 1.0) / (double)n);
+        for (size_t c = 0; c < n_x; c++) {
+            if (n % 2 == 1 && (k + j) % 2 == 0)
+                sum[c][j] += now[j] * x[c][n / 2];
+            along[j][c] = scale * sum[c][j];
+        }
+    }
 }
 
 /* Takes the powers of z below `count` out of the first n of x. With 3, z2 becomes the square over
@@ -118,12 +127,12 @@ static double remove_powers(const double *z, double *x, size_t n, size_t all, in
         for (size_t i = 0; i < all && k > 0; i++)
             now[i] = (z[i] - middle) * power[k - 1][i];
         for (int d = 0; d < k; d++) {
-            const double part = dot(power[d], now, n) / dot(power[d], power[d], n);
+            const double part = curve_dot(power[d], now, n) / curve_dot(power[d], power[d], n);
             for (size_t i = 0; i < all; i++)
                 now[i] -= part * power[d][i];
         }
-        const double norm = dot(now, now, n);
-        share = norm > 0.0 ? dot(now, x, n) / norm : 0.0;
+        const double norm = curve_dot(now, now, n);
+        share = norm > 0.0 ? curve_dot(now, x, n) / norm : 0.0;
         for (size_t i = 0; i < n; i++)
             x[i] -= share * now[i];
     }
@@ -140,13 +149,25 @@ static void average(const curve_law *m, const double p[N], const double *e, size
     b->n = s->n / b->length;
     const size_t start = s->n - b->n * b->length;
     b->before = first > start ? (first - start) / b->length : 0;
-    const double share = 1.0 / (double)b->length;
+    const double length = (double)b->length, share = 1.0 / length;
     for (size_t i = 0; i < b->n; i++) {
-        for (size_t j = start + i * b->length; j < start + (i + 1) * b->length; j++) {
+        const size_t from = start + i * b->length, to = from + b->length;
+        double residual = 0.0, position = 0.0;
+        for (size_t j = from; j < to; j++) {
+            residual += e[j];
+            position += s->position[j];
+        }
+        b->e[i] = residual * share;
+        b->z[i] = position * share;
+        if (to <= m->n_baseline) {
+            b->column[CURVE_C][i] = m->free[CURVE_C] ? -p[CURVE_T] * length : 0.0;
+            b->column[CURVE_F0][i] = length;
+            b->column[CURVE_T][i] = m->free[CURVE_T] ? position - p[CURVE_C] * length : 0.0;
+            continue;
+        }
+        for (size_t j = from; j < to; j++) {
             double row[N];
             const double h = curve_model_row(m, p, j, row);
-            b->e[i] += e[j] * share;
-            b->z[i] += s->position[j] * share;
             for (size_t c = 0; c < N; c++)
                 b->column[c][i] += row[c] * h;
         }
@@ -160,16 +181,19 @@ static bool find_spectrum(const noise_shapes *shapes, const double x[BLOCKS], si
     double power[NOISE_BANDS] = {0.0}, count[NOISE_BANDS] = {0.0};
     double chance[NOISE_SHAPES], level[NOISE_SHAPES], best = -(double)INFINITY, all = 0.0;
     const double waves = (double)n - 2.0; /* an offset and a tilt are not in x */
-    double *const density = to->density, rest = dot(x, x, n);
-    for (size_t k = 0; k < n && k <= WAVES; k++) {
-        double along;
-        find_wave(k, n, (const double(*)[BLOCKS])x, 1, &along);
-        rest -= along * along;
-        if (k < 2)
-            continue;
-        const size_t band = band_of((double)k / (double)n);
-        power[band] += along * along;
-        count[band] += 1.0;
+    double *const density = to->density, rest = curve_dot(x, x, n);
+    for (size_t first = 0; first < n && first <= WAVES; first += AT_ONCE) {
+        double along[AT_ONCE][N];
+        find_waves(first, n, (const double(*)[BLOCKS])x, 1, along);
+        for (size_t k = first; k < first + AT_ONCE && k < n && k <= WAVES; k++) {
+            const double square = along[k - first][0] * along[k - first][0];
+            rest -= square;
+            if (k < 2)
+                continue;
+            const size_t band = band_of((double)k / (double)n);
+            power[band] += square;
+            count[band] += 1.0;
+        }
     }
     if (n > WAVES + 1) {
         const size_t band = band_of(sqrt(WAVES / (double)n));
@@ -195,12 +219,13 @@ static bool find_spectrum(const noise_shapes *shapes, const double x[BLOCKS], si
     }
     memset(density, 0, sizeof to->density);
     for (size_t s = 0; s < NOISE_SHAPES; s++) {
-        const double weight = exp(chance[s] - best);
-        if (!(weight > 0.0))
+        const double share = exp(chance[s] - best),
+                     weight = share > 0.0 ? share * sqrt(level[s]) : 0.0;
+        if (!(share > 0.0))
             continue;
-        all += weight;
+        all += share;
         for (size_t b = 0; b < NOISE_BANDS; b++)
-            density[b] += weight * sqrt(level[s] * shapes->density[s][b]);
+            density[b] += weight * shapes->root[s][b];
     }
     for (size_t b = 0; b < NOISE_BANDS; b++)
         density[b] *= density[b] / (all * all);
@@ -211,38 +236,41 @@ static bool find_spectrum(const noise_shapes *shapes, const double x[BLOCKS], si
 static double slow_misfit(const block_sums *b, const spectrum *s)
 {
     const size_t n = b->n - b->before;
-    double rest[1][BLOCKS], sum = 0.0, waves = 0.0;
+    double rest[1][BLOCKS], along[AT_ONCE][N], sum = 0.0, waves = 0.0;
     memcpy(rest[0], b->e + b->before, n * sizeof rest[0][0]);
     for (size_t k = 1; k <= SLOW && k < n; k++) {
-        double along;
-        find_wave(k, n, (const double(*)[BLOCKS])rest, 1, &along);
-        sum += along * along / variance_of(s, (double)k, n, b->length);
+        const size_t j = (k - 1) % AT_ONCE;
+        if (j == 0)
+            find_waves(k, n, (const double(*)[BLOCKS])rest, 1, along);
+        sum += along[j][0] * along[j][0] / variance_of(s, (double)k, n, b->length);
         waves += 1.0;
     }
     return waves > 0.0 ? sum / waves : 1.0;
 }
 
-/* to = J' (covariance of the noise) J. */
-static void sum_waves(const block_sums *b, const spectrum *s, double to[N][N])
+/* to = J' (covariance of the noise) J, of the first parameters. */
+static void sum_waves(const block_sums *b, const spectrum *s, size_t n_free, double to[N][N])
 {
-    double along[N], left[N][N];
+    double waves[AT_ONCE][N], left[N][N];
     size_t k = 0;
-    for (size_t c = 0; c < N; c++)
+    for (size_t c = 0; c < n_free; c++)
         for (size_t d = 0; d <= c; d++) {
-            left[c][d] = dot(b->column[c], b->column[d], b->n);
+            left[c][d] = curve_dot(b->column[c], b->column[d], b->n);
             to[c][d] = 0.0;
         }
     for (; k < b->n && k <= WAVES; k++) {
         const double level = variance_of(s, k > 0 ? (double)k : 0.5, b->n, b->length);
-        find_wave(k, b->n, (const double(*)[BLOCKS])b->column, N, along);
-        for (size_t c = 0; c < N; c++)
+        const double *along = waves[k % AT_ONCE];
+        if (k % AT_ONCE == 0)
+            find_waves(k, b->n, (const double(*)[BLOCKS])b->column, n_free, waves);
+        for (size_t c = 0; c < n_free; c++)
             for (size_t d = 0; d <= c; d++) {
                 to[c][d] += level * along[c] * along[d];
                 left[c][d] -= along[c] * along[d];
             }
     }
     if (k < b->n)
-        for (size_t c = 0; c < N; c++)
+        for (size_t c = 0; c < n_free; c++)
             for (size_t d = 0; d <= c; d++)
                 to[c][d] += variance_of(s, (double)k, b->n, b->length) * left[c][d];
 }
@@ -259,9 +287,11 @@ static bool read_baseline(const curve_law *m, const double *e, size_t first, blo
     for (size_t i = 0; i < n; i++) {
         x[i] = z[i] = 0.0;
         for (size_t j = first - (n - i) * length; j < first - (n - i - 1) * length; j++) {
-            x[i] += e[j] / (double)length;
-            z[i] += m->samples->position[j] / (double)length;
+            x[i] += e[j];
+            z[i] += m->samples->position[j];
         }
+        x[i] /= (double)length;
+        z[i] /= (double)length;
     }
     memcpy(z + n, b->z, b->n * sizeof *z);
     memcpy(y, x, n * sizeof *y);
@@ -282,8 +312,8 @@ curve_noise curve_noise_of(const curve_law *m, const double p[N], const double *
     double bow[BLOCKS] = {0.0};
     curve_noise noise = {.variance = 0.0, .correlation_length = 1.0, .curvature = (double)NAN};
     average(m, p, e, first, &b);
-    for (size_t i = 0; i < first; i++)
-        noise.variance += e[i] * e[i] / (double)first;
+    if (first > 0)
+        noise.variance = curve_dot(e, e, first) / (double)first;
     if (!read_baseline(m, e, first, &b, bent, bow, &noise.curvature, &s)) {
         s.length = (double)b.length;
         if (!find_spectrum(&m->workspace->shapes, b.e, b.n, &s))
@@ -298,11 +328,11 @@ curve_noise curve_noise_of(const curve_law *m, const double p[N], const double *
     /* What the law misses shows in contact; a little of it is chance. */
     const double more = sqrt(fmax(1.0, m->lossy ? misfit : 0.5 * (misfit + 1.0)));
     for (size_t c = 0; c < N; c++) {
-        noise.bend[c] = dot(b.column[c], bow, b.n);
+        noise.bend[c] = curve_dot(b.column[c], bow, b.n);
         for (size_t i = b.before; i < b.n; i++)
             b.column[c][i] *= more;
     }
-    sum_waves(&b, &s, noise.scatter);
+    sum_waves(&b, &s, m->adhesive ? N : CURVE_W, noise.scatter);
     for (size_t c = 0; c < N; c++)
         for (size_t d = 0; d <= c; d++) {
             noise.scatter[c][d] += noise.bend[c] * noise.bend[d];

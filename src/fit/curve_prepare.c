@@ -10,6 +10,7 @@
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdarg.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -22,11 +23,14 @@ static const size_t plateau_samples = 5;
 static const double spike_noise = 8.0; /* a spike beyond its neighbours, in noise */
 static const double spike_step = 3.0;  /* of one below, and in the step between its two sides */
 static const double spike_share = 0.2; /* of the samples: with more it is no spike */
-enum { SPIKE_SIDE = 7 };               /* neighbours on each side */
+enum {
+    SPIKE_SIDE = 7, /* neighbours on each side */
+    CLASSES = 512,  /* of sizes, to find a median */
+};
 
 wt_status curve_reserve(wt_indent_workspace *w, size_t n, wt_error *err)
 {
-    enum { N_ARRAYS = 18 };
+    enum { N_ARRAYS = 17 };
     if (n <= w->capacity)
         return WT_OK;
     size_t capacity = n + n / 4;
@@ -38,12 +42,23 @@ wt_status curve_reserve(wt_indent_workspace *w, size_t n, wt_error *err)
     free(w->block);
     w->block = block;
     w->capacity = capacity;
-    double **const arrays[N_ARRAYS] = {&w->position,      &w->force,       &w->tip,
-                                       &w->running_max,   &w->delta,       &w->g,
-                                       &w->slope,         &w->residual,    &w->scratch,
-                                       &w->weight,        &w->given_force, &w->given_time,
-                                       &w->by_work,       &w->by_modulus,  &w->retract_position,
-                                       &w->retract_force, &w->by_contact,  &w->time};
+    double **const arrays[N_ARRAYS] = {&w->position,
+                                       &w->force,
+                                       &w->tip,
+                                       &w->delta,
+                                       &w->g,
+                                       &w->slope,
+                                       &w->residual,
+                                       &w->scratch,
+                                       &w->weight,
+                                       &w->given_force,
+                                       &w->given_time,
+                                       &w->by_work,
+                                       &w->by_modulus,
+                                       &w->retract_position,
+                                       &w->retract_force,
+                                       &w->by_contact,
+                                       &w->time};
     for (size_t i = 0; i < N_ARRAYS; i++)
         *arrays[i] = block + i * capacity;
     return WT_OK;
@@ -57,19 +72,47 @@ static double mean(const double *x, size_t n)
     return sum / (double)n;
 }
 
+/* 32 classes to each power of two of what is below `largest`. */
+static size_t class_of(double x, double largest)
+{
+    enum { LEADING = 52 - 5 };
+    uint64_t bits, most;
+    memcpy(&bits, &x, sizeof bits);
+    memcpy(&most, &largest, sizeof most);
+    const uint64_t below = (most >> LEADING) - (bits >> LEADING);
+    return below < CLASSES ? (size_t)below : CLASSES - 1;
+}
+
+/* The k-th smallest of n numbers from 0 to the largest, which are lost: all of them are counted by
+ * size, and only those of its size are compared. */
+static double select_size(double *x, size_t n, size_t k, double largest)
+{
+    size_t count[CLASSES] = {0}, class = CLASSES - 1, kept = 0;
+    for (size_t i = 0; i < n; i++)
+        count[class_of(x[i], largest)]++;
+    for (; k >= count[class]; class --)
+        k -= count[class];
+    for (size_t i = 0; i < n; i++) {
+        const double now = x[i];
+        x[kept] = now;
+        kept += class_of(now, largest) == class;
+    }
+    return gsl_stats_select(x, 1, kept, k);
+}
+
 /* Standard deviation of white noise from the median of |successive differences|, and the smallest
  * step that occurs (the resolution of the converter where there is one). */
 static double difference_noise(const curve_samples *s, double *scratch, double *resolution)
 {
-    *resolution = (double)INFINITY;
+    double largest = 0.0, smallest = (double)INFINITY;
     for (size_t i = 1; i < s->n; i++) {
-        scratch[i - 1] = fabs(s->force[i] - s->force[i - 1]);
-        if (scratch[i - 1] > 0.0 && scratch[i - 1] < *resolution)
-            *resolution = scratch[i - 1];
+        const double step = fabs(s->force[i] - s->force[i - 1]);
+        scratch[i - 1] = step;
+        largest = step > largest ? step : largest;
+        smallest = step > 0.0 && step < smallest ? step : smallest;
     }
-    if (!isfinite(*resolution))
-        *resolution = 0.0;
-    return gsl_stats_select(scratch, 1, s->n - 1, (s->n - 1) / 2) / (0.6744897501960817 * M_SQRT2);
+    *resolution = isfinite(smallest) ? smallest : 0.0;
+    return select_size(scratch, s->n - 1, (s->n - 1) / 2, largest) / (0.6744897501960817 * M_SQRT2);
 }
 
 /* Force that the travel of the samples from `first` on had gained just before it. */

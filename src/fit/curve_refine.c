@@ -52,14 +52,14 @@ static double dot(const double a[N], const double b[N])
     return sum;
 }
 
+/* Leaves the model evaluated at p. */
 static bool minimise(curve_law *m, double p[N], double *cost)
 {
     const curve_samples *s = m->samples;
-    double scale = 0.0, expected = (double)INFINITY;
-    for (size_t i = 0; i < s->n; i++)
-        scale += s->force[i] * s->force[i];
+    double expected = (double)INFINITY;
     /* A step of 1e-5 standard errors, and of the rounding of the forces. */
-    const double small = 1e-10 / (double)s->n, rounding = 1e-28 * scale;
+    const double small = 1e-10 / (double)s->n,
+                 rounding = 1e-28 * curve_dot(s->force, s->force, s->n);
     curve_model_start(m, p);
     *cost = curve_model_cost(m, p);
     for (int iteration = 0; iteration < (m->adhesive ? MAX_ADHESIVE : MAX_ITERATIONS);
@@ -80,15 +80,18 @@ static bool minimise(curve_law *m, double p[N], double *cost)
                 trial[a] = p[a] + step[0][a];
             if (solved && trial[CURVE_E] > 0.0 && trial[CURVE_W] >= 0.0) {
                 double trial_cost = curve_model_cost(m, trial);
-                /* Near the minimum the decrease drowns in the rounding of the cost. */
-                if (trial_cost < *cost || (damping == 0.0 && expected < 1e-9 * *cost)) {
+                /* Near the minimum the decrease drowns in the rounding of the cost and its sums. */
+                if (trial_cost < *cost ||
+                    (damping == 0.0 && expected < fmax(1e-9 * *cost, 1e-14 * m->ff))) {
                     *cost = trial_cost;
                     memcpy(p, trial, sizeof trial);
                     moved = true;
                 }
             }
-            if (damping > 1e8) /* nothing descends: rounding decides, unless much was expected */
+            if (damping > 1e8) { /* nothing descends: rounding decides, unless much was expected */
+                *cost = curve_model_cost(m, p);
                 return expected <= 1e6 * rounding;
+            }
         }
     }
     return expected <= 1e4 * small * *cost;
@@ -106,17 +109,24 @@ static void statistics(const curve_law *m, curve_solution *s)
         first++;
     s->first_contact = first;
 
-    double row[N], gain[N] = {0.0};
+    /* A sensitivity larger by a share u acts like a noise of u times the force f: J'f is J'r where
+     * the baseline is, which has nothing but noise. */
+    normal_equations e;
+    curve_model_normal(m, p, &e);
+    double row[N], gain[N];
+    memcpy(gain, e.jr, sizeof gain);
     s->max_indentation = 0.0;
-    for (size_t i = 0; i < n; i++) {
-        const double h = curve_model_row(m, p, i, row);
+    for (size_t i = 0; i < m->n_baseline; i++)
+        w->scratch[i] = w->residual[i];
+    for (size_t i = m->n_baseline; i < n; i++) {
+        const double r = w->residual[i], h = curve_model_row(m, p, i, row);
         const double f =
             samples->force[i] - p[CURVE_F0] - p[CURVE_T] * (samples->position[i] - p[CURVE_C]);
-        w->scratch[i] = w->residual[i] / h; /* e */
-        s->max_indentation = fmax(s->max_indentation, w->delta[i]);
-        /* A sensitivity larger by a share u acts like a noise of u times the force. */
+        w->scratch[i] = r / h; /* e */
+        if (w->delta[i] > s->max_indentation)
+            s->max_indentation = w->delta[i];
         for (size_t a = 0; a < N; a++)
-            gain[a] += row[a] * h * f;
+            gain[a] += row[a] * (h * f - r);
     }
     s->lack = curve_lack_of_fit(m, p, w->scratch);
     s->bent = s->lack.baseline_chance < bent_chance;
@@ -126,8 +136,6 @@ static void statistics(const curve_law *m, curve_solution *s)
     s->correlation_length = noise.correlation_length;
     s->effective_n = (double)n / noise.correlation_length;
 
-    normal_equations e;
-    curve_model_normal(m, p, &e);
     double inverse[N + 1][N] = {{0.0}};
     for (size_t a = 0; a < N; a++)
         inverse[a][a] = 1.0;
@@ -160,7 +168,7 @@ void curve_refine(const wt_contact_table *table, const curve_samples *samples, c
     curve_solution s = {.p = {p[CURVE_E], p[CURVE_C], p[CURVE_F0], kind.tilt ? p[CURVE_T] : 0.0,
                               kind.adhesive ? p[CURVE_W] : 0.0}};
     s.converged = minimise(&m, s.p, &s.cost);
-    s.cost = curve_model_complete(&m, s.p);
+    curve_model_complete(&m, s.p);
     statistics(&m, &s);
     *solution = s;
 }
@@ -172,11 +180,13 @@ double curve_weights(const wt_contact_table *table, const curve_samples *samples
     const double p[N] = {minimum->reduced_modulus, minimum->contact_point, minimum->offset,
                          minimum->tilt, 0.0};
     double largest = 1.0;
+    curve_model_start(&m, p);
+    curve_model_cost(&m, p);
     curve_model_complete(&m, p);
     for (size_t i = 0; i < samples->n; i++) {
-        double h = curve_model_factor(&m, p, i);
+        const double h = curve_model_factor(&m, p, i);
         workspace->weight[i] = 1.0 / (h * h);
-        largest = fmax(largest, h);
+        largest = h > largest ? h : largest;
     }
     return largest;
 }

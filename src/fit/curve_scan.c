@@ -1,10 +1,14 @@
 /* Search for the contact point: the cost as a function of the contact point alone.
  *
  * For a given contact point the modulus, the offset and the tilt are linear and are projected out.
- * The cost has several minima on real curves, so it is scanned first: on averaged samples, over
- * contact points whose depths below the deepest point form a geometric series, because a length
- * that does not scale with the indentation of the curve itself has no meaning. The lowest minima
- * are then refined on all samples (Brent).
+ * The cost has several minima on real curves, so it is scanned first, over contact points whose
+ * depths below the deepest point form octaves, because a length that does not scale with the
+ * indentation of the curve itself has no meaning. The lowest minima are then refined (Brent).
+ *
+ * Each octave has a grid of tip positions, even from its depth to the deepest point. A sample is
+ * shared between the two nodes beside it, so that a sum over nodes is the sum over all samples with
+ * the contact function between nodes a line, whatever lies between them. The contact points are
+ * nodes, too: one column of values of the contact function serves them all.
  *
  * In the scan the tilt is not yet taken out of the deflection (that makes the tip position depend
  * on it); the refinement does that.
@@ -16,24 +20,40 @@
 
 #include <gsl/gsl_errno.h>
 #include <math.h>
+#include <stdint.h>
+#include <string.h>
 
-/* Depths per e-fold and how far before the first sample a contact point is looked for. */
-static const double depth_ratio = 1.04;
-static const double reach_before_start = 4.0;
+/* How far before the first sample a contact point is looked for, and how near to the deepest point
+ * it may be, in depths of the first sample; how many samples are behind it, as a share. */
+static const double reach_before_start = 4.0, least_depth = 1e-5;
 static const double least_rise = 1.001; /* of the cost between two minima */
-enum { MAX_DEPTHS = 400, MAX_ITERATIONS = 40 };
+enum {
+    NODES = SCAN_NODES,
+    STRIDE = 4, /* of the contact points that are tried */
+    MAX_DEPTHS = SCAN_OCTAVES * NODES / 2 / STRIDE + 1,
+    MAX_ITERATIONS = 40,
+    SAMPLES_BEHIND = 4, /* of 1024 */
+};
 
+/* Samples with what does not depend on the contact point. */
 typedef struct projection {
     const wt_contact_table *table;
-    size_t n;
-    const double *position, *force, *tip, *running_max;
+    const curve_samples *samples;
+    wt_indent_workspace *workspace;
     const double *weight; /* NULL: 1 */
-    double *delta, *g;
-    double s_w;
+    bool tilt;
+    double s_w, inverse_w, inverse_zz;
     double origin_position, origin_force; /* means */
     double s_zz, s_zf, s_ff;              /* centred sums */
-    bool tilt;
+    double deepest, top; /* tip position, and the depth below it of the first octave */
+    size_t n_octaves;
+    size_t octave; /* for Brent */
 } projection;
+
+/* Weighted sums of the contact function. */
+typedef struct contact_sums {
+    double g, gg, gf, gz;
+} contact_sums;
 
 typedef struct projected {
     double modulus, offset, tilt; /* offset at the origin of the position */
@@ -45,162 +65,196 @@ static double weight_of(const projection *p, size_t i)
     return p->weight != NULL ? p->weight[i] : 1.0;
 }
 
-static void projection_sums(projection *p)
+static projection begin(const wt_contact_table *table, const curve_samples *samples, bool tilt,
+                        bool weighted, wt_indent_workspace *w)
 {
-    double z = 0.0, f = 0.0;
-    p->s_w = 0.0;
-    for (size_t i = 0; i < p->n; i++) {
-        double w = weight_of(p, i);
-        p->s_w += w;
-        z += w * p->position[i];
-        f += w * p->force[i];
+    projection p = {.table = table,
+                    .samples = samples,
+                    .workspace = w,
+                    .weight = weighted ? w->weight : NULL,
+                    .tilt = tilt,
+                    .deepest = -(double)INFINITY};
+    double z = 0.0, f = 0.0, zz = 0.0, zf = 0.0, ff = 0.0;
+    for (size_t i = 0; i < samples->n; i++) {
+        const double position = samples->position[i], force = samples->force[i],
+                     weight = weight_of(&p, i), wz = weight * position, wf = weight * force;
+        p.s_w += weight;
+        z += wz;
+        f += wf;
+        zz += wz * position;
+        zf += wz * force;
+        ff += wf * force;
+        w->tip[i] = tip_position(position, force, samples->spring_constant);
+        p.deepest = w->tip[i] > p.deepest ? w->tip[i] : p.deepest;
     }
-    p->origin_position = z / p->s_w;
-    p->origin_force = f / p->s_w;
-    p->s_zz = p->s_zf = p->s_ff = 0.0;
-    for (size_t i = 0; i < p->n; i++) {
-        double w = weight_of(p, i);
-        z = p->position[i] - p->origin_position;
-        f = p->force[i] - p->origin_force;
-        p->s_zz += w * z * z;
-        p->s_zf += w * z * f;
-        p->s_ff += w * f * f;
-    }
-}
-
-static void tip_positions(size_t n, const double *position, const double *force, double k,
-                          double *tip, double *running_max)
-{
-    double max = -(double)INFINITY;
-    for (size_t i = 0; i < n; i++) {
-        tip[i] = tip_position(position[i], force[i], k);
-        if (tip[i] > max)
-            max = tip[i];
-        running_max[i] = max;
-    }
-}
-
-/* First sample whose tip may be beyond `contact`. */
-static size_t first_beyond(const double *running_max, size_t n, double contact)
-{
-    size_t lo = 0, hi = n;
-    while (lo < hi) {
-        size_t middle = lo + (hi - lo) / 2;
-        if (running_max[middle] > contact)
-            hi = middle;
-        else
-            lo = middle + 1;
-    }
-    return lo;
+    p.origin_position = z / p.s_w;
+    p.origin_force = f / p.s_w;
+    p.s_zz = zz - z * p.origin_position;
+    p.s_zf = zf - z * p.origin_force;
+    p.s_ff = ff - f * p.origin_force;
+    p.inverse_w = 1.0 / p.s_w;
+    p.inverse_zz = 1.0 / p.s_zz;
+    return p;
 }
 
 static double cost_without_contact(const projection *p)
 {
-    return p->tilt && p->s_zz > 0.0 ? p->s_ff - p->s_zf * p->s_zf / p->s_zz : p->s_ff;
+    return p->tilt && p->s_zz > 0.0 ? p->s_ff - p->s_zf * p->s_zf * p->inverse_zz : p->s_ff;
 }
 
-static projected project(const projection *p, double contact)
+static projected project(const projection *p, contact_sums s)
 {
-    size_t first = first_beyond(p->running_max, p->n, contact);
-    size_t m = p->n - first;
-    double *delta = p->delta + first, *g = p->g + first;
-    for (size_t i = 0; i < m; i++)
-        delta[i] = p->tip[first + i] - contact;
-    wt_contact_table_eval(p->table, delta, m, g, NULL);
-    double sg = 0.0, sgg = 0.0, sgf = 0.0, sgz = 0.0;
-    for (size_t i = 0; i < m; i++) {
-        double wg = weight_of(p, first + i) * g[i];
-        sg += wg;
-        sgg += wg * g[i];
-        sgf += wg * (p->force[first + i] - p->origin_force);
-        sgz += wg * (p->position[first + i] - p->origin_position);
-    }
-    double free_gg = sgg - sg * sg / p->s_w, free_gf = sgf;
-    if (p->tilt) {
-        free_gg -= sgz * sgz / p->s_zz;
-        free_gf -= sgz * p->s_zf / p->s_zz;
-    }
-    projected result = {0.0, p->origin_force, p->tilt ? p->s_zf / p->s_zz : 0.0,
+    const double along = p->tilt ? s.gz * p->inverse_zz : 0.0;
+    const double free_gg = s.gg - s.g * s.g * p->inverse_w - s.gz * along,
+                 free_gf = s.gf - p->s_zf * along;
+    projected result = {0.0, p->origin_force, p->tilt ? p->s_zf * p->inverse_zz : 0.0,
                         cost_without_contact(p)};
     /* Where the contact part looks like a straight line nothing is left to decide. */
-    if (free_gf > 0.0 && free_gg > 1e-12 * sgg) {
+    if (free_gf > 0.0 && free_gg > 1e-12 * s.gg) {
         result.modulus = free_gf / free_gg;
         result.cost = fmax(0.0, result.cost - free_gf * result.modulus);
-        result.offset -= result.modulus * sg / p->s_w;
-        if (p->tilt)
-            result.tilt -= result.modulus * sgz / p->s_zz;
+        result.offset -= result.modulus * s.g * p->inverse_w;
+        result.tilt -= result.modulus * along;
     }
     return result;
 }
 
-static double project_cost(double contact, void *projection_)
+/* From the tip position at contact, on all samples, to the position at which the lever is straight
+ * there. */
+static curve_minimum to_minimum(const projection *p, double contact)
 {
-    return project(projection_, contact).cost;
-}
-
-/* From the tip position at contact to the position at which the lever is straight there. */
-static curve_minimum to_minimum(const projection *p, double contact, double k)
-{
-    projected at = project(p, contact);
-    double offset0 = at.offset - at.tilt * p->origin_position; /* at position 0 */
-    double position = (contact + offset0 / k) / (1.0 - at.tilt / k);
-    return (curve_minimum){position, at.modulus, offset0 + at.tilt * position, at.tilt, at.cost};
-}
-
-/* Averages neighbours so that no more than CURVE_MAX_BINS are left; a rest at the start, far
- * from contact, is left out. */
-static projection make_bins(const projection *full, double k, wt_indent_workspace *w)
-{
-    size_t width = (full->n + CURVE_MAX_BINS - 1) / CURVE_MAX_BINS;
-    size_t n = full->n / width, skip = full->n - n * width;
-    for (size_t bin = 0; bin < n; bin++) {
-        double z = 0.0, f = 0.0, weight = 0.0;
-        for (size_t i = skip + bin * width; i < skip + (bin + 1) * width; i++) {
-            z += full->position[i];
-            f += full->force[i];
-            weight += weight_of(full, i);
-        }
-        w->bin_weight[bin] = weight;
-        w->bin_position[bin] = z / (double)width;
-        w->bin_force[bin] = f / (double)width;
+    wt_indent_workspace *w = p->workspace;
+    const double *position = p->samples->position, *force = p->samples->force;
+    const double k = p->samples->spring_constant;
+    size_t first = 0;
+    while (first < p->samples->n && !(w->tip[first] > contact))
+        first++;
+    for (size_t i = first; i < p->samples->n; i++)
+        w->delta[i] = w->tip[i] - contact;
+    wt_contact_table_eval(p->table, w->delta + first, p->samples->n - first, w->g + first, NULL);
+    contact_sums s = {0.0, 0.0, 0.0, 0.0};
+    for (size_t i = first; i < p->samples->n; i++) {
+        const double wg = weight_of(p, i) * w->g[i];
+        s.g += wg;
+        s.gg += wg * w->g[i];
+        s.gf += wg * (force[i] - p->origin_force);
+        s.gz += wg * (position[i] - p->origin_position);
     }
-    projection bins = *full;
-    bins.n = n;
-    bins.position = w->bin_position;
-    bins.force = w->bin_force;
-    bins.weight = w->bin_weight;
-    bins.tip = w->bin_tip;
-    bins.running_max = w->bin_running_max;
-    bins.delta = w->bin_delta;
-    bins.g = w->bin_g;
-    tip_positions(n, w->bin_position, w->bin_force, k, w->bin_tip, w->bin_running_max);
-    projection_sums(&bins);
-    return bins;
+    const projected at = project(p, s);
+    const double offset0 = at.offset - at.tilt * p->origin_position; /* at position 0 */
+    const double c = (contact + offset0 / k) / (1.0 - at.tilt / k);
+    return (curve_minimum){c, at.modulus, offset0 + at.tilt * c, at.tilt, at.cost};
 }
 
-static projection make_full(const wt_contact_table *table, const curve_samples *samples, bool tilt,
-                            bool weighted, wt_indent_workspace *w)
+/* ---- octaves --------------------------------------------------------------------------------- */
+
+/* x = fraction 2^-l with a fraction from 1/2 to 1, of a normal number below 1. */
+static double fraction(double x, size_t *l)
 {
-    projection full = {.table = table,
-                       .n = samples->n,
-                       .position = samples->position,
-                       .force = samples->force,
-                       .weight = weighted ? w->weight : NULL,
-                       .tip = w->tip,
-                       .running_max = w->running_max,
-                       .delta = w->delta,
-                       .g = w->g,
-                       .tilt = tilt};
-    tip_positions(samples->n, samples->position, samples->force, samples->spring_constant, w->tip,
-                  w->running_max);
-    projection_sums(&full);
-    return full;
+    uint64_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    *l = 1022 - (size_t)(bits >> 52);
+    bits = (bits & 0xFFFFFFFFFFFFFu) | (uint64_t)1022 << 52;
+    memcpy(&x, &bits, sizeof x);
+    return x;
 }
 
-static double brent(projection *bins, double lo, double middle, double hi,
-                    gsl_min_fminimizer *minimizer)
+/* Shares the samples between the nodes of the octaves that they lie in, and those of each octave
+ * between the nodes of the one before, whose step is twice theirs. */
+static void share_samples(const projection *p)
 {
-    gsl_function function = {project_cost, bins};
+    scan_octave *octaves = p->workspace->octave;
+    const curve_samples *s = p->samples;
+    const double *tip = p->workspace->tip, scale = 1.0 / p->top,
+                 last = ldexp(1.0, -(int)p->n_octaves);
+    memset(octaves, 0, p->n_octaves * sizeof *octaves);
+    for (size_t i = 0; i < s->n; i++) {
+        double part = (p->deepest - tip[i]) * scale;
+        size_t l = p->n_octaves - 1;
+        if (!(part < 1.0)) /* beyond any contact point */
+            continue;
+        if (part >= last)
+            part = fraction(part, &l);
+        else
+            part /= 2.0 * last;
+        const double at = NODES * (1.0 - part), weight = weight_of(p, i);
+        const size_t node = (size_t)at;
+        const double right = weight * (at - (double)node), left = weight - right;
+        const double z = s->position[i] - p->origin_position, f = s->force[i] - p->origin_force;
+        scan_octave *o = &octaves[l];
+        o->weight[node] += left;
+        o->force[node] += left * f;
+        o->position[node] += left * z;
+        o->weight[node + 1] += right;
+        o->force[node + 1] += right * f;
+        o->position[node + 1] += right * z;
+    }
+    for (size_t l = p->n_octaves - 1; l > 0; l--) {
+        const double *from[] = {octaves[l].weight, octaves[l].force, octaves[l].position};
+        double *to[] = {octaves[l - 1].weight, octaves[l - 1].force, octaves[l - 1].position};
+        for (size_t c = 0; c < 3; c++) {
+            double *upper = to[c] + NODES / 2;
+            upper[0] += from[c][0] + 0.5 * from[c][1];
+            for (size_t i = 1; i <= NODES / 2; i++)
+                upper[i] += from[c][2 * i] + 0.5 * (from[c][2 * i - 1] + from[c][2 * i + 1]);
+        }
+    }
+}
+
+/* The contact function at the distances between nodes. */
+static void make_values(const projection *p)
+{
+    scan_octave *octaves = p->workspace->octave;
+    for (size_t l = p->n_octaves; l-- > 0;) {
+        const size_t known = l + 1 < p->n_octaves ? NODES / 2 : 0;
+        const double step = ldexp(p->top, -(int)l) / NODES;
+        double depth[NODES + 1], *g = octaves[l].g;
+        for (size_t i = 0; i <= NODES; i++)
+            depth[i] = (double)i * step;
+        for (size_t i = 0; i < known; i++)
+            g[i] = octaves[l + 1].g[2 * i];
+        wt_contact_table_eval(p->table, depth + known, NODES + 1 - known, g + known, NULL);
+        for (size_t i = 0; i <= NODES; i++)
+            octaves[l].gg[i] = g[i] * g[i];
+    }
+}
+
+/* Of a contact point at a node. */
+static double cost_at_node(const projection *p, size_t octave, size_t node)
+{
+    const scan_octave *o = &p->workspace->octave[octave];
+    const size_t n = NODES - node, first = node + 1;
+    const contact_sums s = {
+        curve_dot(o->weight + first, o->g + 1, n), curve_dot(o->weight + first, o->gg + 1, n),
+        curve_dot(o->force + first, o->g + 1, n), curve_dot(o->position + first, o->g + 1, n)};
+    return project(p, s).cost;
+}
+
+/* Of any contact point, on the grid of one octave. */
+static double cost_between(double depth, void *projection_)
+{
+    const projection *p = projection_;
+    const scan_octave *o = &p->workspace->octave[p->octave];
+    const double step = ldexp(p->top, -(int)p->octave) / NODES;
+    double delta[NODES + 1], g[NODES + 1];
+    contact_sums s = {0.0, 0.0, 0.0, 0.0};
+    for (size_t i = 0; i <= NODES; i++)
+        delta[i] = depth - (double)(NODES - i) * step;
+    wt_contact_table_eval(p->table, delta, NODES + 1, g, NULL);
+    for (size_t i = 0; i <= NODES; i++) {
+        const double wg = o->weight[i] * g[i];
+        s.g += wg;
+        s.gg += wg * g[i];
+        s.gf += o->force[i] * g[i];
+        s.gz += o->position[i] * g[i];
+    }
+    return project(p, s).cost;
+}
+
+static double brent(projection *p, double lo, double middle, double hi)
+{
+    gsl_min_fminimizer *minimizer = p->workspace->minimizer;
+    gsl_function function = {cost_between, p};
     if (gsl_min_fminimizer_set(minimizer, &function, middle, lo, hi) != GSL_SUCCESS)
         return middle; /* flat to rounding */
     for (int i = 0; i < MAX_ITERATIONS; i++) {
@@ -258,38 +312,51 @@ static void keep_best(curve_minimum *minima, size_t *n, curve_minimum candidate)
     minima[at] = candidate;
 }
 
+/* Finds how deep contact points are looked for: false if nowhere. */
+static bool find_depths(projection *p, double *shallowest)
+{
+    const double *tip = p->workspace->tip;
+    const size_t n = p->samples->n, behind = SAMPLES_BEHIND * ((n + 1023) / 1024);
+    double nearest = -(double)INFINITY;
+    for (size_t i = 0; i + behind <= n; i++)
+        nearest = tip[i] > nearest ? tip[i] : nearest;
+    const double reach = p->deepest - tip[0];
+    if (!(reach > 0.0))
+        return false;
+    *shallowest = fmax(p->deepest - nearest, least_depth * reach);
+    p->top = reach_before_start * reach;
+    p->n_octaves = 1;
+    while (p->n_octaves < SCAN_OCTAVES && ldexp(p->top, -(int)p->n_octaves) > *shallowest)
+        p->n_octaves++;
+    return true;
+}
+
 size_t curve_scan(const wt_contact_table *table, const curve_samples *samples, bool tilt,
                   bool weighted, wt_indent_workspace *w, curve_minimum minima[CURVE_MAX_MINIMA])
 {
-    const double k = samples->spring_constant;
-    projection full = make_full(table, samples, tilt, weighted, w);
-    projection bins = make_bins(&full, k, w);
-
-    const double deepest = bins.running_max[bins.n - 1];
-    const double reach = deepest - bins.tip[0];
-    if (!(reach > 0.0))
+    projection p = begin(table, samples, tilt, weighted, w);
+    double shallowest, depth[MAX_DEPTHS], cost[MAX_DEPTHS];
+    size_t octave[MAX_DEPTHS], n_depths = 0, bottom[MAX_DEPTHS], n = 0;
+    if (!find_depths(&p, &shallowest))
         return 0;
-    double shallowest = deepest - bins.running_max[bins.n - 4];
-    shallowest = fmax(shallowest, 1e-5 * reach);
-
-    double contact[MAX_DEPTHS], cost[MAX_DEPTHS];
-    size_t n_depths = 0;
-    for (double depth = reach * reach_before_start; depth >= shallowest && n_depths < MAX_DEPTHS;
-         depth /= depth_ratio) {
-        contact[n_depths] = deepest - depth;
-        cost[n_depths] = project_cost(contact[n_depths], &bins);
-        n_depths++;
-    }
-
-    size_t bottom[MAX_DEPTHS];
-    size_t n_bottoms = find_bottoms(cost, n_depths, cost_without_contact(&bins), bottom);
-    size_t n = 0;
+    share_samples(&p);
+    make_values(&p);
+    for (size_t l = 0; l < p.n_octaves; l++)
+        for (size_t node = 0; node < NODES / 2; node += STRIDE) {
+            depth[n_depths] = ldexp(p.top, -(int)l) * (1.0 - (double)node / NODES);
+            octave[n_depths] = l;
+            if (depth[n_depths] >= shallowest)
+                cost[n_depths++] = cost_at_node(&p, l, node);
+        }
+    const size_t n_bottoms = find_bottoms(cost, n_depths, cost_without_contact(&p), bottom);
     for (size_t i = 0; i < n_bottoms; i++) {
-        size_t j = bottom[i];
-        double at = contact[j];
-        if (j > 0 && j + 1 < n_depths)
-            at = brent(&bins, contact[j - 1], at, contact[j + 1], w->minimizer);
-        curve_minimum minimum = to_minimum(&full, at, k);
+        const size_t j = bottom[i];
+        double at = depth[j];
+        if (j > 0 && j + 1 < n_depths) {
+            p.octave = octave[j - 1];
+            at = brent(&p, depth[j + 1], at, depth[j - 1]);
+        }
+        const curve_minimum minimum = to_minimum(&p, p.deepest - at);
         if (minimum.reduced_modulus > 0.0)
             keep_best(minima, &n, minimum);
     }
@@ -299,15 +366,14 @@ size_t curve_scan(const wt_contact_table *table, const curve_samples *samples, b
 bool curve_scan_at(const wt_contact_table *table, const curve_samples *samples, bool tilt,
                    double contact_point, wt_indent_workspace *w, curve_minimum *minimum)
 {
-    const double k = samples->spring_constant;
-    projection full = make_full(table, samples, tilt, false, w);
+    const projection p = begin(table, samples, tilt, false, w);
     /* The tip position of the contact depends on the baseline, which is part of the answer. */
-    double tip = tip_position(contact_point, full.origin_force, k);
+    double tip = tip_position(contact_point, p.origin_force, samples->spring_constant);
     for (int i = 0; i < MAX_ITERATIONS; i++) {
-        *minimum = to_minimum(&full, tip, k);
+        *minimum = to_minimum(&p, tip);
         double step = contact_point - minimum->contact_point;
         tip += step;
-        if (fabs(step) <= 1e-12 * fabs(full.running_max[full.n - 1] - full.tip[0]))
+        if (fabs(step) <= 1e-12 * fabs(p.deepest - w->tip[0]))
             break;
     }
     minimum->contact_point = contact_point;

@@ -280,6 +280,39 @@ static void several_contact_points(void **state)
     assert_true(ambiguous > 0);
 }
 
+/* A soft lever, few samples in contact, and repulsion before it: means of neighbours show a second
+ * minimum that the samples do not have. */
+static void one_contact_point(void **state)
+{
+    (void)state;
+    curve_truth t = curve_standard();
+    t.tip.radius = 20e-9;
+    t.tip.transition_radius = wt_tip_tangent_transition(t.tip.radius, t.tip.half_angle);
+    t.n = 4100;
+    t.modulus = 190e3;
+    t.spring_constant = 0.0155;
+    t.travel = 10.27e-6;
+    t.contact_point = 9.98e-6;
+    t.tilt = 0.0;
+    t.noise = 5e-12;
+    wt_indent_options options = wt_indent_defaults();
+    options.fit_tilt = false;
+    for (uint64_t seed = 1; seed <= 5; seed++) {
+        uint64_t other = 991 * seed;
+        curve_make(&t, seed, &data);
+        for (size_t i = 0; i < t.n; i++) {
+            const double z = t.travel * (double)i / (double)(t.n - 1) - t.contact_point;
+            data.height[i] += 0.5e-9 * curve_normal(&other);
+            data.force[i] += 100e-12 * exp(fmin(z, 0.0) / 120e-9);
+        }
+        const wt_indent_fit fit = fit_with(&t, &options);
+        assert_true(fit.fitted_modulus > 0.0);
+        if (!isnan(fit.second_minimum_ratio))
+            fail_msg("seed %d: a second minimum at %.4f times the cost", (int)seed,
+                     fit.second_minimum_ratio);
+    }
+}
+
 /* Numbers of no meaning at all: always a verdict with a reason, never a modulus that is not a
  * number.
  */
@@ -523,6 +556,7 @@ int main(void)
         cmocka_unit_test(snap_on_is_left_out),
         cmocka_unit_test(not_this_tip),
         cmocka_unit_test(several_contact_points),
+        cmocka_unit_test(one_contact_point),
         cmocka_unit_test(nonsense_has_a_verdict_too),
         cmocka_unit_test(names_of_verdicts),
     };
