@@ -410,7 +410,8 @@ typedef struct wt_master {
     wt_superposition superposition;
     double lack_of_fit_p, misfit_low, misfit_high;           /* misfit: relative, 95 % */
     double kramers_kronig_p, loss_factor, loss_factor_error; /* ln of a factor on all E'' */
-    char because[256]; /* of the verdict, and what would settle it */
+    char because[256];  /* of the verdict, and what would settle it */
+    size_t evaluations; /* of the model, at all points */
     wt_posterior *posterior;
 } wt_master;
 WT_API void wt_master_clear(wt_master *master);

@@ -26,8 +26,11 @@ typedef enum wt_extra {
     WT_EXTRA_DRAWS = 4,         /* of the isotherms: what is not known of the material, as
                                    material_draws and series_draws and for the replicates */
     WT_EXTRA_DIGESTS = 8,       /* SHA-256 of the files read, else "" */
-    WT_EXTRAS = 15
+    WT_EXTRA_SUMMARY = 16,      /* items and errors in the cost, else its nodes and files alone */
+    WT_EXTRAS = 31
 } wt_extra;
+
+typedef struct wt_cost wt_cost;
 
 typedef struct wt_job {
     const wt_formats *formats; /* borrowed; needed by jobs that read files */
@@ -41,7 +44,8 @@ typedef struct wt_job {
     wt_table *failures;        /* of wt_failures_new: a file or curve that fails gets a row and the
                                   work goes on; NULL: the first one that fails ends the job */
     unsigned left_out;         /* of wt_extra: not asked for, so not made; default 0 */
-    uint64_t reserved[7];
+    wt_cost *cost;             /* borrowed; NULL (default): nothing is counted */
+    uint64_t reserved[6];
 } wt_job;
 WT_API wt_job wt_job_defaults(void);
 WT_API const wt_params *wt_job_params(void);
@@ -50,6 +54,15 @@ WT_API wt_table *wt_failures_new(void); /* table "failures"; NULL when out of me
  * are. */
 WT_API wt_status wt_notes_table(const wt_parselog *log, const char *folder, wt_table **table,
                                 wt_error *err) WT_NODISCARD;
+/* What jobs cost, stage by stage. `timed` false: counts without times, so that two runs give the
+ * same table. NULL when out of memory. */
+WT_API wt_cost *wt_cost_new(bool timed, unsigned threads);
+WT_API void wt_cost_free(wt_cost *cost);
+/* A stage begins, and the one before ends: what jobs with this cost do from now on is of this
+ * stage. NULL: nothing. */
+WT_API void wt_cost_stage(wt_cost *cost, const char *stage);
+/* Ends the last stage. Table "cost", one row for each stage. */
+WT_API wt_status wt_cost_table(wt_cost *cost, wt_table **table, wt_error *err) WT_NODISCARD;
 /* Adds to the log what a person should know of the tables of a result: a tolerance that is not
  * reached, what is extrapolated. */
 WT_API void wt_result_remarks(const wt_result *result, wt_parselog *log);
@@ -386,9 +399,6 @@ WT_API const wt_params *wt_layer_known_params(void);
 
 typedef struct wt_friction_tables {
     wt_table *friction;
-    size_t n_points;           /* velocities times replicates computed */
-    double tolerance_asked;    /* relative */
-    double error_reached;      /* largest relative numerical error of the hysteresis friction */
     double extrapolated_share; /* largest of all velocities */
 } wt_friction_tables;
 WT_API void wt_friction_tables_clear(wt_friction_tables *tables);
@@ -470,12 +480,12 @@ WT_API wt_status wt_what_if_make(const wt_sliding *sliding, const wt_layer_job *
 
 /* Table "error_budget": the error of each number at the reference velocity by every source alone
  * (replicates with all others held), by the replicates and the arithmetic, and by the choices of
- * the model, which `what_if` (may be NULL) moved; with the time that each took (unless `timed` is
- * false: two runs then give the same table) and what would make it smaller. `layer` and `known` as
- * above. */
+ * the model, which `what_if` (may be NULL) moved; with the time that each took, if the cost of
+ * `work` has times and was that of `what_if`, and what would make it smaller. `layer` and `known`
+ * as above. */
 WT_API wt_status wt_error_budget_make(const wt_sliding *sliding, const wt_layer_job *layer,
                                       const wt_layer_known *known, const wt_table *what_if,
-                                      bool timed, const wt_job *work, wt_table **table,
+                                      const wt_job *work, wt_table **table,
                                       wt_error *err) WT_NODISCARD;
 
 /* ---- coverage --------------------------------------------------------------------------------

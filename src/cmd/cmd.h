@@ -64,7 +64,7 @@ typedef struct cmd_common {
     const char *const *columns; /* of plain tables */
     size_t n_columns;
     const char *files_from; /* file with names of files, NULL = none */
-    bool provenance;
+    bool provenance, cost;
     bool quiet, strict, help;
 } cmd_common;
 cmd_common cmd_common_defaults(void);
@@ -102,7 +102,8 @@ typedef struct cmd_session {
     wt_formats *formats;
     wt_parselog *log;
     wt_result *result;
-    wt_job work; /* for the job: what failed is listed, inputs go to the result's provenance */
+    wt_cost *cost; /* NULL: not asked for */
+    wt_job work;   /* for the job: what failed is listed, inputs go to the result's provenance */
     cmd_progress progress;
 } cmd_session;
 

@@ -10,7 +10,7 @@ int cmd_friction(int argc, char **argv)
         .what = "Persson's hysteresis friction, contact area and, with --shear-stress, total "
                 "friction at each velocity, each with its numerical and its standard error; with a "
                 "modified layer on top if its thickness and modulus ratio are given.",
-        .common = "output formats columns files-from provenance"};
+        .common = "output formats columns files-from provenance cost"};
     wt_layer_known layer = {0};
     cmd_sliding s;
     cmd_sliding_init(&s, (cmd_part){wt_layer_known_params(), &layer, NULL, 0});
@@ -24,13 +24,18 @@ int cmd_friction(int argc, char **argv)
         cmd_usage_error(&s.session, "--layer-thickness and --modulus-ratio go together");
     else if (cmd_sliding_open(&s)) {
         const wt_layer_known *known = has_layer ? &layer : NULL;
+        wt_cost_stage(s.session.cost, has_layer ? "friction_with_layer" : "friction");
         wt_status made =
             wt_friction_make(&s.conditions, known, &s.session.work, &tables, &s.session.err);
+        wt_cost_stage(s.session.cost, "contact_area");
         if (made == WT_OK)
             made = wt_contact_area_table(&s.conditions, &s.session.work, &contact_area,
                                          &s.session.err);
-        if (made == WT_OK && s.rubber.is_transverse)
+        if (made == WT_OK && s.rubber.is_transverse) {
+            wt_cost_stage(s.session.cost, "directions");
             made = wt_directions_make(&s.conditions, &s.session.work, &directions, &s.session.err);
+        }
+        wt_cost_stage(s.session.cost, "what_if");
         if (made == WT_OK)
             made = wt_what_if_make(&s.conditions, NULL, known, &s.session.work, &what_if,
                                    &s.session.err);

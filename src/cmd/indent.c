@@ -21,7 +21,7 @@ int cmd_indent(int argc, char **argv)
         .what = "Fits baseline, contact point and modulus of every approach curve of the files "
                 "(folders and patterns are allowed). One row per curve; a curve without a modulus "
                 "says why.",
-        .common = "output formats columns files-from provenance",
+        .common = "output formats columns files-from provenance cost",
         .notes = "Exit status 1 if a file could not be read; the others are answered all the same.",
         .n_files = CMD_SOME};
     wt_indent_job job = wt_indent_job_defaults();
@@ -46,9 +46,14 @@ int cmd_indent(int argc, char **argv)
     job.n_sets = 1;
     wt_status made = WT_OK;
     if (own.master != NULL) {
+        wt_cost_stage(s.cost, "given_material");
         made = cmd_rubber_read(own.master, job.options.poisson_ratio, &dma, &rubber, &s.err);
         job.rubber = &rubber;
     }
+    char stage[64];
+    snprintf(stage, sizeof stage, "indentation_%s%s", job.group,
+             own.master != NULL ? "_with_material" : "");
+    wt_cost_stage(s.cost, stage);
     if (made == WT_OK)
         made = wt_indent_group(&job, &s.work, &tables, &s.err);
     const wt_table *const indentation[] = {tables.indentation};

@@ -11,7 +11,7 @@ int cmd_layer(int argc, char **argv)
         .what = "Energy density with depth, formation and wear rate, balance and thickness in time "
                 "of the modified layer, for the energy closure at constant load, at the velocity "
                 "given (the middle one of a list).",
-        .common = "output formats columns files-from provenance"};
+        .common = "output formats columns files-from provenance cost"};
     wt_layer_job job = wt_layer_job_defaults();
     cmd_sliding s;
     cmd_sliding_init(&s, (cmd_part){wt_layer_job_params(), &job, NULL, 0});
@@ -24,11 +24,14 @@ int cmd_layer(int argc, char **argv)
     if (wt_layer_job_check(&job, &s.session.err) != WT_OK)
         cmd_param_error(&s.session);
     else if (cmd_sliding_open(&s)) {
+        wt_cost_stage(s.session.cost, "layer");
         wt_status made =
             wt_layer_make(&s.conditions, &job, &s.session.work, &tables, &s.session.err);
+        wt_cost_stage(s.session.cost, "energy_density");
         if (made == WT_OK)
             made = wt_energy_density_table(&s.conditions, &job, &s.session.work, &energy_density,
                                            &s.session.err);
+        wt_cost_stage(s.session.cost, "what_if_layer");
         if (made == WT_OK)
             made = wt_what_if_make(&s.conditions, &job, NULL, &s.session.work, &what_if,
                                    &s.session.err);

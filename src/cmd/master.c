@@ -10,7 +10,7 @@ int cmd_master(int argc, char **argv)
         .what = "Fits one relaxation spectrum to all isotherms of DMA frequency sweeps, with their "
                 "shifts, the law of these and the errors of everything; says whether superposition "
                 "holds. Folders and patterns are allowed.",
-        .common = "output formats columns files-from provenance",
+        .common = "output formats columns files-from provenance cost",
         .notes = "The tables prony, shift_factors and master_curve follow one another, then draws "
                  "of all that is not known of the material, material_draws and series_draws; "
                  "weartrack friction, layer and compare read them as they are.",
@@ -30,6 +30,7 @@ int cmd_master(int argc, char **argv)
     set.n_patterns = s.n_files;
     job.sets = &set;
     job.n_sets = 1;
+    wt_cost_stage(s.cost, "master_curve");
     const wt_status made = wt_master_make(&job, &s.work, &tables, NULL, &s.err);
     wt_table **const made_tables[] = {&tables.prony, &tables.shift_factors, &tables.master_curve,
                                       &tables.material_draws, &tables.series_draws};

@@ -32,6 +32,8 @@ static const wt_param common_rows[] = {
          "zero bytes; - is standard input"},
     {PARAM_FLAG_OF("provenance", cmd_common, provenance),
      .help = "version, command line, digests and times in what is written"},
+    {PARAM_FLAG_OF("cost", cmd_common, cost),
+     .help = "also the table cost: time, nodes, files and errors of every stage"},
     {PARAM_FLAG_OF("quiet", cmd_common, quiet), .letter = 'q',
      .help = "no progress and no warnings on standard error; errors are printed all the same"},
     {PARAM_FLAG_OF("strict", cmd_common, strict),

@@ -11,7 +11,7 @@ int cmd_ramp(int argc, char **argv)
                 "and the loss modulus have their peaks, at each frequency, with their errors; with "
                 "--at the moduli and tan delta at temperatures. Isotherms are taken apart by "
                 "frequency. Folders and patterns are allowed.",
-        .common = "output formats columns files-from provenance",
+        .common = "output formats columns files-from provenance cost",
         .notes = "The tables glass_transition, moduli_at (with --at) and ramp follow one another.",
         .n_files = CMD_SOME};
     wt_ramp_job job = wt_ramp_job_defaults();
@@ -27,6 +27,7 @@ int cmd_ramp(int argc, char **argv)
     set.n_patterns = s.n_files;
     job.sets = &set;
     job.n_sets = 1;
+    wt_cost_stage(s.cost, "ramp");
     const wt_status made = wt_ramp_make(&job, &s.work, &tables, &s.err);
     wt_table **const made_tables[] = {&tables.glass_transition, &tables.moduli_at, &tables.ramp};
     cmd_finish(&s, made, made_tables, COUNT_OF(made_tables));

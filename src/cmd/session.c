@@ -23,7 +23,12 @@ bool cmd_begin(cmd_session *s)
     s->work.provenance = wt_result_provenance(s->result);
     s->work.left_out = s->common.provenance ? 0 : WT_EXTRA_DIGESTS;
     s->work.progress = cmd_progress_start(s);
-    return true;
+    if (!s->common.cost)
+        return true;
+    s->work.cost = s->cost = wt_cost_new(s->common.provenance, s->work.threads);
+    if (s->cost == NULL)
+        wt_fail(&s->err, WT_E_MEMORY, "out of memory");
+    return s->cost != NULL || cmd_fail(s);
 }
 
 bool cmd_begin_reading(cmd_session *s, const char *format)
@@ -87,6 +92,12 @@ void cmd_finish(cmd_session *s, wt_status made, wt_table **const tables[], size_
         *tables[i] = NULL;
         made = wt_result_add(s->result, table, &s->err);
     }
+    if (made == WT_OK && s->cost != NULL) {
+        wt_table *cost = NULL;
+        made = wt_cost_table(s->cost, &cost, &s->err);
+        if (made == WT_OK)
+            made = wt_result_add(s->result, cost, &s->err);
+    }
     if (made == WT_OK) {
         wt_result_remarks(s->result, s->log);
         made = cmd_record(s, add_table, s->result);
@@ -105,6 +116,7 @@ int cmd_session_free(cmd_session *s)
     free(s->names);
     wt_table_free(s->work.failures);
     wt_result_free(s->result);
+    wt_cost_free(s->cost);
     wt_parselog_free(s->log);
     wt_formats_free(s->formats);
     return s->status;

@@ -121,9 +121,11 @@ bool cmd_sliding_open(cmd_sliding *s)
     /* without all that was asked for there is no friction */
     wt_table_free(work->failures);
     work->failures = NULL;
+    wt_cost_stage(s->session.cost, s->contact.material != NULL ? "given_material" : "master_curve");
     wt_status status = s->contact.material != NULL ? read_material(s, err) : fit_material(s, err);
     s->rubber.is_transverse = s->parts[CMD_TRANSVERSE].given != 0;
     s->rubber.transverse = s->transverse;
+    wt_cost_stage(s->session.cost, "roughness");
     if (status == WT_OK) {
         status = wt_surface_open(s->contact.roughness, &s->set.read, work, &s->surface, err);
         if (status == WT_E_NOT_FOUND)

@@ -66,6 +66,7 @@ struct wt_indent_workspace {
     gsl_min_fminimizer *minimizer;
     noise_shapes shapes;
     hereditary memory;
+    size_t evaluations; /* of the model so far */
 };
 
 /* A way in or out, as measured; time NULL: not known. */

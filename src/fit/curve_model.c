@@ -142,6 +142,7 @@ static double evaluate(curve_law *m, const double p[N], size_t first)
 {
     const curve_samples *s = m->samples;
     wt_indent_workspace *w = m->workspace;
+    w->evaluations++;
     if (m->plain) {
         measure(m, p, first);
         wt_contact_table_eval(m->table, w->delta + first, s->n - first, w->g + first,

@@ -135,9 +135,11 @@ static wt_status set_widths(master_work *work, wt_vertical_shift kind, double ge
 static wt_status make_spectrum(master_work *work, wt_error *err)
 {
     wt_posterior *p = work->posterior;
+    const size_t evaluations = work->s->evaluations;
     spectrum_free(work->s);
     wt_status status = spectrum_new(&work->set, work->placed, work->anchor, work->a, work->b,
                                     work->terms_per_decade, work->options.liquid, work->s, err);
+    work->s->evaluations = evaluations;
     if (status != WT_OK)
         return status;
     const size_t n = work->s->n_curves;
@@ -214,6 +216,7 @@ static wt_status noise_of_lines(const master_work *work, double noise[MODULI], w
     }
     for (int q = 0; q < MODULI; q++)
         noise[q] = lines.noise[q];
+    work->s->evaluations += lines.evaluations;
     spectrum_free(&lines);
     return status;
 }

@@ -430,7 +430,8 @@ wt_status master_report(master_work *work, const wt_sweep *sweep, wt_parselog *l
                    .terms_per_decade = work->terms_per_decade,
                    .noise_storage = work->s->noise[STORAGE],
                    .noise_loss = work->s->noise[LOSS],
-                   .correlation = work->s->rho};
+                   .correlation = work->s->rho,
+                   .evaluations = work->s->evaluations};
     wt_status status = fill_shifts(work, &m, err);
     if (status == WT_OK) {
         fill_law(work->posterior, &m);

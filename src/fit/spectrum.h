@@ -50,6 +50,7 @@ typedef struct spectrum {
     double smooth_move;     /* its last step, ln */
     double rho;             /* correlation of neighbouring points */
 
+    size_t evaluations; /* so far */
     /* of the last evaluation: whitened rows, curve by curve; E' of a point, then E'' */
     double *residual[MODULI]; /* [n] */
     double *row[MODULI];      /* [n * (n_linear + 2)] d/d terms, d/da, d/db */

@@ -273,6 +273,7 @@ double spectrum_log_det_correlation(const spectrum *s)
 void spectrum_evaluate(spectrum *s, const double *value, bool with_rows)
 {
     const size_t width = s->n_linear + 2;
+    s->evaluations++;
     spectrum_terms(s, value, s->term);
     for (size_t i = 0; i < s->n_curves; i++) {
         const double a = s->column_a[i] < 0 ? 0.0 : value[s->column_a[i]];

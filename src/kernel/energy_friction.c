@@ -99,6 +99,7 @@ wt_status wt_energy_source_friction(wt_friction_workspace *workspace, double pre
 done:
     wt_energy_source_clear(&pair[0]);
     wt_energy_source_clear(&pair[1]);
+    workspace->scratch[0].nodes += scratch.nodes;
     pool_free(&memory);
     return status;
 }

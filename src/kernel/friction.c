@@ -169,6 +169,14 @@ void wt_friction_workspace_free(wt_friction_workspace *ws)
     free(ws);
 }
 
+size_t friction_nodes(const wt_friction_workspace *ws)
+{
+    size_t nodes = 0;
+    for (unsigned i = 0; i < ws->threads; i++)
+        nodes += ws->scratch[i].nodes;
+    return nodes;
+}
+
 /* The series of a material reach down from there far enough. */
 #define LEAST_FREQUENCY 1e-250
 

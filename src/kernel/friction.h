@@ -22,6 +22,7 @@ typedef struct friction_scratch {
     double *omega, *j1, *j2;    /* [capacity * max nodes] */
     double *panel_mu, *panel_g; /* [capacity + 1]: parts of the last pass, */
     double *error_mu, *error_g; /* and the errors of its rule in them */
+    size_t nodes;               /* at which J1 and J2 were evaluated so far */
 } friction_scratch;
 
 struct wt_friction_workspace {
@@ -66,6 +67,9 @@ typedef struct friction_record {
 /* Room for `n_cuts` more cuts than roughness and material make themselves. */
 wt_status friction_scratch_init(friction_scratch *scratch, const wt_friction_workspace *ws,
                                 size_t n_cuts, pool *memory, wt_error *err) WT_NODISCARD;
+
+/* Of all threads and calls so far. */
+size_t friction_nodes(const wt_friction_workspace *ws);
 
 /* WT_E_RANGE unless pressure > 0 and the velocities are usable; then prepares J1 and J2. */
 wt_status friction_prepare(wt_friction_workspace *ws, double pressure, const double *velocity,

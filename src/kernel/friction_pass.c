@@ -58,6 +58,7 @@ static void angular_at(const wt_friction_workspace *ws, friction_scratch *scratc
 {
     for (size_t i = 0; i < n; i++)
         scratch->omega[i] = q[i] * speed;
+    scratch->nodes += n;
     angular_eval(ws->angular, scratch->omega, n, scratch->j1, scratch->j2);
 }
 

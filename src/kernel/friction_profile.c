@@ -84,6 +84,7 @@ wt_status wt_friction_profile(wt_friction_workspace *workspace, double pressure,
             .numerical_error = friction_area_error(variance, difference + relative * variance)};
     }
 done:
+    workspace->scratch[0].nodes += scratch.nodes;
     pool_free(&memory);
     return status;
 }

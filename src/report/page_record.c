@@ -24,9 +24,9 @@ void page_cost(page_writer *page)
 {
     // Columns of times come last: without provenance they are left out, as they never repeat.
     enum { N_TIMES = 2, STAGES = 64 };
-    static const unsigned ran[] = {COST_STAGE,           COST_ITEMS,   COST_TOLERANCE_ASKED,
-                                   COST_ERROR_ESTIMATED, COST_BECAUSE, COST_WALL_TIME,
-                                   COST_CPU_TIME},
+    static const unsigned ran[] = {COST_STAGE,           COST_ITEMS,           COST_NODES,
+                                   COST_TOLERANCE_ASKED, COST_ERROR_ESTIMATED, COST_STANDARD_ERROR,
+                                   COST_BECAUSE,         COST_WALL_TIME,       COST_CPU_TIME},
                           left_out[] = {COST_STAGE, COST_BECAUSE};
     const table_view *table = &page->tables->cost;
     size_t rows[2][STAGES], n[2] = {0, 0};

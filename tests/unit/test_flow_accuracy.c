@@ -111,8 +111,8 @@ static void test_one_source_at_a_time(void **state)
     set_up();
     wt_table *what_if = NULL, *table = NULL;
     assert_int_equal(wt_what_if_make(&sliding, NULL, NULL, &work, &what_if, NULL), WT_OK);
-    assert_int_equal(
-        wt_error_budget_make(&sliding, NULL, NULL, what_if, false, &work, &table, NULL), WT_OK);
+    assert_int_equal(wt_error_budget_make(&sliding, NULL, NULL, what_if, &work, &table, NULL),
+                     WT_OK);
     wt_sliding pressure = sliding, shear = sliding;
     pressure.shear_stress.standard_error = 0;
     shear.pressure.standard_error = 0;
@@ -146,6 +146,37 @@ static void test_one_source_at_a_time(void **state)
     wt_table_free(table);
 }
 
+/* With times every row of the budget has its own, those of the choices of the model too, and all
+ * else is the same. */
+static void test_seconds(void **state)
+{
+    (void)state;
+    set_up();
+    wt_table *what_if = NULL, *plain = NULL, *timed = NULL;
+    assert_int_equal(wt_what_if_make(&sliding, NULL, NULL, &work, &what_if, NULL), WT_OK);
+    assert_int_equal(wt_error_budget_make(&sliding, NULL, NULL, what_if, &work, &plain, NULL),
+                     WT_OK);
+    wt_table_free(what_if);
+    work.cost = wt_cost_new(true, 1);
+    assert_int_equal(wt_what_if_make(&sliding, NULL, NULL, &work, &what_if, NULL), WT_OK);
+    assert_int_equal(wt_error_budget_make(&sliding, NULL, NULL, what_if, &work, &timed, NULL),
+                     WT_OK);
+    assert_int_equal(wt_table_n_rows(timed), wt_table_n_rows(plain));
+    size_t model = 0;
+    for (size_t i = 0; i < wt_table_n_rows(timed); i++) {
+        model += strcmp(text_cell(timed, i, "kind"), "model") == 0;
+        assert_true(number_cell(timed, i, "seconds") > 0);
+        assert_true(isnan(number_cell(plain, i, "seconds")));
+        assert_near(number_cell(timed, i, "relative_error"),
+                    number_cell(plain, i, "relative_error"), 0);
+    }
+    assert_true(model > 0);
+    wt_cost_free(work.cost);
+    wt_table_free(what_if);
+    wt_table_free(plain);
+    wt_table_free(timed);
+}
+
 /* What does not move a number has no row of it. */
 static void test_nothing_stated(void **state)
 {
@@ -153,8 +184,7 @@ static void test_nothing_stated(void **state)
     set_up();
     wt_table *table = NULL;
     sliding.pressure.standard_error = sliding.shear_stress.standard_error = 0;
-    assert_int_equal(wt_error_budget_make(&sliding, NULL, NULL, NULL, true, &work, &table, NULL),
-                     WT_OK);
+    assert_int_equal(wt_error_budget_make(&sliding, NULL, NULL, NULL, &work, &table, NULL), WT_OK);
     for (size_t i = 0; i < wt_table_n_rows(table); i++)
         assert_string_equal(text_cell(table, i, "kind"), "numerical");
     assert_non_null(strstr(wt_table_key(table, "friction_advice"), "No error"));
@@ -162,7 +192,7 @@ static void test_nothing_stated(void **state)
     /* the choices of the model are said all the same */
     wt_table *what_if = NULL;
     assert_int_equal(wt_what_if_make(&sliding, NULL, NULL, &work, &what_if, NULL), WT_OK);
-    assert_int_equal(wt_error_budget_make(&sliding, NULL, NULL, what_if, true, &work, &table, NULL),
+    assert_int_equal(wt_error_budget_make(&sliding, NULL, NULL, what_if, &work, &table, NULL),
                      WT_OK);
     assert_non_null(strstr(wt_table_key(table, "friction_advice"), "no error is known beside it"));
     wt_table_free(what_if);
@@ -179,7 +209,7 @@ static void test_calibration(void **state)
                                   .calibration_share = 0.36};
     set_up();
     wt_table *table = NULL;
-    assert_int_equal(wt_error_budget_make(&sliding, NULL, &known, NULL, false, &work, &table, NULL),
+    assert_int_equal(wt_error_budget_make(&sliding, NULL, &known, NULL, &work, &table, NULL),
                      WT_OK);
     const double spots = relative(table, number, "modulus ratio"),
                  calibration = relative(table, number, "calibration");
@@ -268,11 +298,11 @@ static void test_scatter_of_a_group(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_stated_errors),      cmocka_unit_test(test_what_is_estimated),
-        cmocka_unit_test(test_no_such_part),       cmocka_unit_test(test_one_source_at_a_time),
-        cmocka_unit_test(test_nothing_stated),     cmocka_unit_test(test_calibration),
-        cmocka_unit_test(test_coverage),           cmocka_unit_test(test_nothing_to_cover),
-        cmocka_unit_test(test_scatter_of_a_group),
+        cmocka_unit_test(test_stated_errors),    cmocka_unit_test(test_what_is_estimated),
+        cmocka_unit_test(test_no_such_part),     cmocka_unit_test(test_one_source_at_a_time),
+        cmocka_unit_test(test_seconds),          cmocka_unit_test(test_nothing_stated),
+        cmocka_unit_test(test_calibration),      cmocka_unit_test(test_coverage),
+        cmocka_unit_test(test_nothing_to_cover), cmocka_unit_test(test_scatter_of_a_group),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

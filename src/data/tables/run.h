@@ -42,8 +42,17 @@
     X(COST_TOLERANCE_ASKED, "tolerance_asked", "relative numerical error asked for", NUMBER,       \
       LABEL("Tolerance asked"))                                                                    \
     X(COST_ERROR_ESTIMATED, "error_estimated", "largest relative numerical error estimated",       \
-      NUMBER, LABEL("Error estimated"))
-#define COST_KEYS(X)
+      NUMBER, LABEL("Error estimated"))                                                            \
+    X(COST_NODES, "nodes", "nodes of the friction integral; of a fit, evaluations of its model",   \
+      NUMBER, LABEL("Nodes"))                                                                      \
+    X(COST_STANDARD_ERROR, "standard_error", "relative standard error of the main number", NUMBER, \
+      LABEL("Standard error"))                                                                     \
+    X(COST_FILES, "files", "data files read", NUMBER, LABEL("Files"))                              \
+    X(COST_BYTES, "bytes", "their size", SI(DATA_SIZE), LABEL("Size"))
+#define COST_KEYS(X)                                                                               \
+    X(COST_KEY_WALL_TIME, "total_wall_time", SI(TIME), OPTIONAL)                                   \
+    X(COST_KEY_CPU_TIME, "total_cpu_time", SI(TIME), OPTIONAL)                                     \
+    X(COST_KEY_THREADS, "threads", NUMBER, OPTIONAL)
 
 #define PLAN_COLUMNS(X)                                                                            \
     X(PLAN_STAGE, "stage", "stage", TEXT)                                                          \

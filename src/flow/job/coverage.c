@@ -1,5 +1,6 @@
 /* Coverage: the case drawn anew from its own fit many times, and how often the intervals that it
  * then states hold what it was drawn from. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/job/cost.h"
 #include "flow/job/inputs.h"
 #include "flow/job/regenerate.h"
 
@@ -370,6 +371,7 @@ wt_status wt_coverage_make(const wt_coverage_job *job, const wt_job *work, wt_ta
     }
     if (status == WT_OK)
         status = make_table(&c, table, err);
+    cost_say(work, (cost_summary){.items = (double)job->trials});
     wt_master_clear(&c.fit);
     wt_group_data_clear(&c.data[0]);
     wt_group_data_clear(&c.data[1]);

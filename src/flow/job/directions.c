@@ -1,5 +1,6 @@
 /* What the directions of a transversely isotropic rubber do: friction and contact area with its
  * factors on the moduli and without them. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/job/cost.h"
 #include "flow/job/sliding_contact.h"
 
 #include "base/clocale.h"
@@ -126,6 +127,18 @@ static wt_status make_table(const directions *d, wt_table **table, wt_error *err
     return table_end(&t, table);
 }
 
+static void say_cost(const directions *d, const wt_job *work)
+{
+    cost_summary cost = {.tolerance_asked = work->tolerance};
+    for (size_t k = 0; k < N_KEPT; k++)
+        for (size_t i = 0; d->known[k] && i < d->n; i++) {
+            const wt_estimate *h = &d->points[k * d->n + i].hysteresis;
+            cost.items++;
+            cost.error_estimated = fmax(cost.error_estimated, h->numerical_error / fabs(h->value));
+        }
+    cost_say(work, cost);
+}
+
 wt_status wt_directions_make(const wt_sliding *sliding, const wt_job *work, wt_table **table,
                              wt_error *err)
 {
@@ -144,6 +157,8 @@ wt_status wt_directions_make(const wt_sliding *sliding, const wt_job *work, wt_t
     status = compute_all(&d, err);
     if (status == WT_OK)
         status = make_table(&d, table, err);
+    if (status == WT_OK)
+        say_cost(&d, work);
     free(d.points);
     return status;
 }

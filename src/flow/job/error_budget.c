@@ -1,6 +1,7 @@
 /* The error budget: the standard errors again with one source drawn at a time, beside what the
  * arithmetic, the number of replicates and the choices of the model leave open.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/job/cost.h"
 #include "flow/job/draws.h"
 #include "flow/job/setting.h"
 
@@ -160,9 +161,9 @@ static wt_status compute(const budget *b, const setting *as, size_t replicates, 
     work.replicates = replicates;
     for (size_t k = 0; k < SETTING_NUMBERS; k++)
         o->number[k] = (wt_estimate){(double)NAN, (double)NAN, (double)NAN, NULL};
-    const double start = wt_time_wall();
+    const double start = cost_clock(work.cost);
     const wt_status status = setting_compute(&s, &work, o->number, err);
-    o->seconds = wt_time_wall() - start;
+    o->seconds = cost_clock(work.cost) - start;
     o->computed = status == WT_OK;
     return status;
 }
@@ -286,7 +287,7 @@ static void put_model(const budget *b, setting_number k, const table_view *what_
             continue;
         put(b, k,
             (row){range.words, "model", "a measurement that settles the choice", range.half,
-                  (double)NAN, (double)NAN},
+                  (double)NAN, cost_part(b->work.cost, range.words)},
             t);
         if (range.half > v->widest.half)
             v->widest = range;
@@ -347,7 +348,7 @@ static void put_number(const budget *b, setting_number k, const table_view *what
 }
 
 wt_status wt_error_budget_make(const wt_sliding *sliding, const wt_layer_job *layer,
-                               const wt_layer_known *known, const wt_table *what_if, bool timed,
+                               const wt_layer_known *known, const wt_table *what_if,
                                const wt_job *work, wt_table **table, wt_error *err)
 {
     if (work == NULL || table == NULL)
@@ -364,16 +365,14 @@ wt_status wt_error_budget_make(const wt_sliding *sliding, const wt_layer_job *la
         status = compute_all(&b, err);
     if (status != WT_OK)
         return status;
-    if (!timed) {
-        b.values.seconds = b.all.seconds = (double)NAN;
-        for (size_t i = 0; i < SOURCES; i++)
-            b.of[i].seconds = (double)NAN;
-    }
     table_writer t = table_begin(&error_budget_schema, err);
     for (size_t k = 0; k < SETTING_NUMBERS; k++)
         if (isfinite(b.values.number[k].value))
             put_number(&b, (setting_number)k, &moved, &t);
     if (b.lacks[0] != '\0')
         error_budget_set_text(&t, ERROR_BUDGET_KEY_LACKS, b.lacks);
-    return table_end(&t, table);
+    status = table_end(&t, table);
+    if (status == WT_OK)
+        cost_say(work, (cost_summary){.items = (double)wt_table_n_rows(*table)});
+    return status;
 }

@@ -1,6 +1,7 @@
 /* The friction job: hysteresis, contact area and total friction at every velocity, with and without
  * the modified layer, with standard errors from replicates.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/job/cost.h"
 #include "flow/job/draws.h"
 #include "flow/job/replicates.h"
 #include "flow/job/sliding_contact.h"
@@ -288,22 +289,28 @@ static double total_error(const wt_friction_point *point, double shear)
     return point->hysteresis.numerical_error + shear * point->area_ratio.numerical_error;
 }
 
-static void summarise(const friction_task *task, wt_friction_tables *t)
-{
-    for (size_t i = 0; i < task->n; i++) {
-        const wt_friction_point *p = &task->points[i];
-        double relative = p->hysteresis.numerical_error / fabs(p->hysteresis.value);
-        if (relative > t->error_reached)
-            t->error_reached = relative;
-        if (p->extrapolated_share > t->extrapolated_share)
-            t->extrapolated_share = p->extrapolated_share;
-    }
-    t->n_points = task->n * (1 + task->replicates.n) * (task->layer != NULL ? 2 : 1);
-}
-
 static double relative_error(wt_estimate e)
 {
     return e.numerical_error > 0 ? e.numerical_error / fabs(e.value) : 0;
+}
+
+static void summarise(const friction_task *task, wt_friction_tables *t)
+{
+    const bool total = !isnan(task->sliding->shear_stress.value);
+    const int kind = total ? TOTAL : HYSTERESIS;
+    const size_t contacts = (1 + task->replicates.n) * (task->layer != NULL ? 2 : 1);
+    cost_summary cost = {
+        .items = (double)(task->n * contacts),
+        .tolerance_asked = task->work->tolerance,
+        .number = {.value = slot(task->centre, task->n, kind)[task->n - 1],
+                   .standard_error = slot(task->replicates.error, task->n, kind)[task->n - 1]}};
+    for (size_t i = 0; i < task->n; i++) {
+        const wt_friction_point *p = &task->points[i];
+        cost.error_estimated = fmax(cost.error_estimated, relative_error(p->hysteresis));
+        if (p->extrapolated_share > t->extrapolated_share)
+            t->extrapolated_share = p->extrapolated_share;
+    }
+    cost_say(task->work, cost);
 }
 
 static void note_not_reached(friction_task *task, const wt_friction_point *points)
@@ -377,7 +384,7 @@ wt_status wt_friction_make(const wt_sliding *sliding, const wt_layer_known *laye
                           .work = work,
                           .n = sliding->n_velocity + !is_reference_alone(sliding),
                           .replicates = replicates_of(sliding, work, "friction")};
-    wt_friction_tables t = {.tolerance_asked = work->tolerance};
+    wt_friction_tables t = {0};
     sliding_contact c = {0};
     status = allocate(&task, err);
     if (status == WT_OK)

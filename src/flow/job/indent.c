@@ -2,6 +2,7 @@
  * batches, written in order.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/param.h"
+#include "flow/job/cost.h"
 #include "flow/job/curve_tables.h"
 #include "flow/job/draws.h"
 #include "flow/job/inputs.h"
@@ -64,52 +65,8 @@ typedef struct indent_task {
     long n_spots; /* of them */
     const char *last_spot;
     double k_low, k_high; /* spring constants of the accepted curves [N/m] */
+    double squares;       /* of relative standard errors of their moduli */
 } indent_task;
-
-wt_indent_job wt_indent_job_defaults(void)
-{
-    return (wt_indent_job){
-        .group = "bulk",
-        .options = wt_indent_defaults(),
-        .spring_constant = {(double)NAN, 0, 0, "N/m"},
-        .temperature = {(double)NAN, (double)NAN, 0, "K"},
-        .rates = true,
-    };
-}
-
-static wt_status read_tip(const char *text, void *tip, wt_error *err)
-{
-    return wt_tip_parse(text, tip, err);
-}
-
-static wt_status check_tip(const void *tip, wt_error *err)
-{
-    return wt_tip_check(tip, err);
-}
-
-static wt_status check_group(const void *member, wt_error *err)
-{
-    const char *group = *(const char *const *)member;
-    if (*group != '\0' && group[strspn(group, "abcdefghijklmnopqrstuvwxyz0123456789_")] == '\0')
-        return WT_OK;
-    return wt_fail(err, WT_E_ARG, "'%s' is not made of a-z, 0-9 and _", group);
-}
-
-static const wt_param rows[] = {
-    {PARAM_OTHER_OF("tip", wt_indent_job, tip, read_tip), .check = check_tip, .value = "TIP",
-     .flags = PARAM_REQUIRED,
-     .help = "pyramid:half-angle=35deg,radius=20nm[,sides=4][,transition=16nm] (axis to FACE), "
-             "sphere:radius=5um or cone:half-angle=20deg"},
-    {PARAM_TEXT_OF("group", wt_indent_job, group), .check = check_group, .value = "NAME",
-     .flags = PARAM_NO_CASE, .help = "what these curves are: bulk, track or another name"},
-    {PARAM("indentation-temperature", wt_indent_job, temperature, WT_Q_TEMPERATURE, ABOVE(0)),
-     .value = "T", .unset = "the reference temperature of the DMA", .flags = PARAM_NO_CASE,
-     .help = "at which the sample was indented; for the spectrum of the DMA"},
-    {PARAM_FLAG_OF("curves", wt_indent_job, curves), .flags = PARAM_NO_CASE,
-     .help = "also the representative (median) curve and its fit"},
-};
-PARAM_TABLE(wt_indent_job_params, wt_indent_job, rows, wt_indent_job_defaults,
-            PARAM_PART(wt_indent_params, wt_indent_job, options))
 
 /* What the fit uses, and nothing else. */
 static wt_read_options wanted_channels(const flow_file *file, bool time)
@@ -245,6 +202,8 @@ static wt_status write_item(indent_task *task, item *it, wt_error *err)
     task->n_accepted++;
     task->k_low = fmin(task->k_low, it->curve.cantilever.spring_constant);
     task->k_high = fmax(task->k_high, it->curve.cantilever.spring_constant);
+    const double error = it->fit.modulus.standard_error / it->fit.modulus.value;
+    task->squares += error * error;
     return keep_modulus(task, it, err);
 }
 
@@ -554,6 +513,16 @@ static void release(indent_task *task)
     wt_table_free(task->rows.table);
 }
 
+/* The main number is the modulus of a curve, with the root mean square of its errors. */
+static void say_cost(const indent_task *task)
+{
+    for (unsigned i = 0; i < task->n_workers; i++)
+        cost_add_nodes(task->work->cost, task->scratch[i]->evaluations);
+    cost_say(task->work,
+             (cost_summary){.items = (double)task->n_curves,
+                            .number = {1, sqrt(task->squares / (double)task->n_moduli), 0, "1"}});
+}
+
 wt_status wt_indent_group(const wt_indent_job *job, const wt_job *work, wt_indent_tables *tables,
                           wt_error *err)
 {
@@ -592,6 +561,7 @@ wt_status wt_indent_group(const wt_indent_job *job, const wt_job *work, wt_inden
     tables->n_curves = task.n_curves;
     tables->n_accepted = task.n_accepted;
     tables->n_failed = task.n_failed;
+    say_cost(&task);
 done:
     release(&task);
     flow_files_clear(&files);

@@ -1,6 +1,7 @@
 /* The files of a job: listing, opening with provenance, recording what failed.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/job/inputs.h"
+#include "flow/job/cost.h"
 
 #include "base/array.h"
 #include "base/mix.h"
@@ -173,14 +174,17 @@ void flow_files_clear(flow_files *files)
 
 /* ---- opening --------------------------------------------------------------------------------- */
 
-static wt_status add_provenance(const wt_job *work, wt_input *input, const flow_file *file,
-                                const char *role, wt_error *err)
+static wt_status record_input(const wt_job *work, wt_input *input, const flow_file *file,
+                              const char *role, wt_error *err)
 {
     const unsigned char *bytes = NULL;
     size_t length = 0;
     wt_status status = wt_input_bytes(input, &bytes, &length, err);
     if (status != WT_OK)
         return status;
+    cost_add_file(work->cost, length);
+    if (work->provenance == NULL)
+        return WT_OK;
     const wt_format_info *info = file->format;
     char format[128];
     snprintf(format, sizeof format, "%s %s", info->id, info->version != NULL ? info->version : "");
@@ -210,8 +214,8 @@ wt_status flow_open(const wt_job *work, flow_file *file, const char *role, unsig
     } else if (status == WT_OK) {
         status = wt_detect(work->formats, input, &file->read, kinds, &file->format, err);
     }
-    if (status == WT_OK && work->provenance != NULL)
-        status = add_provenance(work, input, file, role, err);
+    if (status == WT_OK && (work->provenance != NULL || work->cost != NULL))
+        status = record_input(work, input, file, role, err);
     if (status != WT_OK) {
         wt_error_file(err, file->name);
         wt_input_close(input);

@@ -1,6 +1,7 @@
 /* The layer job: energy density with depth, formation against wear, thickness at balance and in
  * time, with standard errors from replicates.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/job/cost.h"
 #include "flow/job/draws.h"
 #include "flow/job/replicates.h"
 #include "flow/job/sliding_contact.h"
@@ -371,6 +372,11 @@ wt_status wt_layer_make(const wt_sliding *sliding, const wt_layer_job *job, cons
         t.thickness = centre.balance.thickness;
         t.thickness.standard_error = task.replicates.error[NUMBER_BALANCE_THICKNESS];
         t.balance.thickness = t.thickness;
+        const double thickness = t.thickness.value > 0 ? t.thickness.value : (double)NAN;
+        cost_say(work, (cost_summary){.items = (double)(task.n * (1 + task.replicates.n)),
+                                      .tolerance_asked = work->tolerance,
+                                      .error_estimated = t.thickness.numerical_error / thickness,
+                                      .number = t.thickness});
         *tables = t;
         t = (wt_layer_tables){0};
     }

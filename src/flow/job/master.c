@@ -1,5 +1,6 @@
 /* The DMA job: sweeps to one spectrum with shift factors, their law, master curve and series.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/job/cost.h"
 #include "flow/job/inputs.h"
 
 #include "data/tables/tables.h"
@@ -351,6 +352,16 @@ wt_status wt_rubber_refit(const wt_rubber *rubber, wt_vertical_shift vertical, w
     return status;
 }
 
+/* The main number is E', known everywhere: the mean of its relative standard error. */
+static void say_cost(const wt_master *m, const wt_job *work)
+{
+    double error = 0;
+    for (size_t i = 0; i < m->n; i++)
+        error += M_LN10 * m->fitted_storage[i].standard_error / (double)m->n;
+    cost_add_nodes(work->cost, m->evaluations);
+    cost_say(work, (cost_summary){.items = (double)m->n_shifts, .number = {1, error, 0, "1"}});
+}
+
 wt_status wt_master_make(const wt_master_job *job, const wt_job *work, wt_master_tables *tables,
                          wt_rubber *rubber, wt_error *err)
 {
@@ -383,6 +394,8 @@ wt_status wt_master_make(const wt_master_job *job, const wt_job *work, wt_master
         rubber->fit.terms_per_decade = master.terms_per_decade; /* which need not be found again */
         sweep = (wt_sweep){0};
     }
+    if (status == WT_OK)
+        say_cost(&master, work);
     if (status == WT_OK && tables != NULL) {
         *tables = t;
         t = (wt_master_tables){0};

@@ -1,5 +1,6 @@
 /* What one contact is inside: its area against magnification, its energy against depth.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/job/cost.h"
 #include "flow/job/sliding_contact.h"
 
 #include "data/tables/tables.h"
@@ -22,7 +23,7 @@ static wt_status make_contact(const wt_sliding *sliding, const wt_job *work, sli
 #define POINTS_PER_DECADE 20
 
 static void add_area_block(const sliding_contact *c, double velocity, const double *q, size_t n,
-                           wt_friction_node *nodes, table_writer *t)
+                           wt_friction_node *nodes, table_writer *t, cost_summary *cost)
 {
     if (t->status == WT_OK)
         t->status = wt_friction_profile(c->workspace, c->pressure, velocity, q, n, nodes, t->err);
@@ -34,10 +35,14 @@ static void add_area_block(const sliding_contact *c, double velocity, const doub
         contact_area_put(t, CONTACT_AREA_WAVENUMBER, q[i]);
         contact_area_put(t, CONTACT_AREA_AREA_RATIO, nodes[i].area_ratio);
         contact_area_put(t, CONTACT_AREA_HYSTERESIS, nodes[i].hysteresis);
+        cost->items++;
+        cost->error_estimated =
+            fmax(cost->error_estimated, nodes[i].numerical_error / nodes[i].area_ratio);
     }
 }
 
-static void add_areas(const wt_sliding *sliding, const sliding_contact *c, table_writer *t)
+static void add_areas(const wt_sliding *sliding, const sliding_contact *c, table_writer *t,
+                      cost_summary *cost)
 {
     const double first = sliding->velocity[0], last = sliding->velocity[sliding->n_velocity - 1],
                  middle = flow_reference_velocity(sliding);
@@ -52,11 +57,11 @@ static void add_areas(const wt_sliding *sliding, const sliding_contact *c, table
     for (size_t i = 0; i < n; i++)
         q[i] = c->roughness->q0 * pow(10, decades * (double)i / (double)(n - 1));
     q[n - 1] = c->roughness->q1;
-    add_area_block(c, first, q, n, nodes, t);
+    add_area_block(c, first, q, n, nodes, t, cost);
     if (middle > first && middle < last)
-        add_area_block(c, middle, q, n, nodes, t);
+        add_area_block(c, middle, q, n, nodes, t, cost);
     if (last > first)
-        add_area_block(c, last, q, n, nodes, t);
+        add_area_block(c, last, q, n, nodes, t, cost);
 done:
     free(q);
     free(nodes);
@@ -74,7 +79,9 @@ wt_status wt_contact_area_table(const wt_sliding *sliding, const wt_job *work, w
     if (status != WT_OK)
         return status;
     table_writer t = table_begin(&contact_area_schema, err);
-    add_areas(sliding, &c, &t);
+    cost_summary cost = {.tolerance_asked = work->tolerance};
+    add_areas(sliding, &c, &t, &cost);
+    cost_say(work, cost);
     sliding_contact_clear(&c);
     return table_end(&t, table);
 }
@@ -123,6 +130,9 @@ wt_status wt_energy_density_table(const wt_sliding *sliding, const wt_layer_job 
     table_writer t = table_begin(&energy_density_schema, err);
     add_depths(&source, &t);
     energy_density_set_value(&t, ENERGY_DENSITY_KEY_VELOCITY, velocity, 0, 0);
+    cost_say(work, (cost_summary){.items = DEPTHS,
+                                  .tolerance_asked = work->tolerance,
+                                  .error_estimated = source.numerical_error});
     wt_energy_source_clear(&source);
     return table_end(&t, table);
 }

@@ -1,5 +1,6 @@
 /* The job of temperature sweeps: glass transition by the peaks of tan delta and of the loss modulus
  * at each frequency, moduli at temperatures. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/job/cost.h"
 #include "flow/job/inputs.h"
 
 #include "base/array.h"
@@ -323,6 +324,7 @@ wt_status wt_ramp_make(const wt_ramp_job *job, const wt_job *work, wt_ramp_table
     if (status == WT_OK)
         status = make_tables(job, work, &sweep, &t, err);
     if (status == WT_OK) {
+        cost_say(work, (cost_summary){.items = (double)t.n_ramps});
         *tables = t;
         t = (wt_ramp_tables){0};
     }

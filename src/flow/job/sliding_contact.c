@@ -1,7 +1,9 @@
 /* Material, roughness and load of one replicate of a sliding contact.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/job/sliding_contact.h"
+#include "flow/job/cost.h"
 #include "flow/job/draws.h"
+#include "kernel/friction.h"
 #include "kernel/params.h"
 
 #include <math.h>
@@ -80,7 +82,7 @@ static wt_status check_material(const wt_sliding *sliding, sliding_contact *c, w
 wt_status sliding_contact_make(const wt_sliding *sliding, const wt_job *work, size_t replicate,
                                wt_layer_state layer, sliding_contact *contact, wt_error *err)
 {
-    sliding_contact c = {0};
+    sliding_contact c = {.cost = work->cost};
     const uint64_t seed = work->seed;
     const bool drawn = replicate != WT_NO_REPLICATE;
     double temperature =
@@ -115,6 +117,8 @@ wt_status sliding_contact_make(const wt_sliding *sliding, const wt_job *work, si
 
 void sliding_contact_clear(sliding_contact *contact)
 {
+    if (contact->workspace != NULL)
+        cost_add_nodes(contact->cost, friction_nodes(contact->workspace));
     wt_friction_workspace_free(contact->workspace);
     wt_roughness_free(contact->roughness);
     wt_material_free(contact->material);

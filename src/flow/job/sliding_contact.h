@@ -10,6 +10,7 @@ typedef struct sliding_contact {
     wt_material *material;
     wt_roughness *roughness;
     wt_friction_workspace *workspace;
+    wt_cost *cost;       /* of its nodes */
     char statement[512]; /* what must be said of the material, "" if nothing */
 } sliding_contact;
 

@@ -1,6 +1,7 @@
 /* The "what if" job: friction and layer with one choice of the model moved at a time. What can be
  * moved, how far and why is the list `choices`.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/job/cost.h"
 #include "flow/job/setting.h"
 #include "flow/job/sliding_contact.h"
 
@@ -266,6 +267,8 @@ typedef struct outcome {
     setting setting;
     char used[WORDS], tried[WORDS];
     double number[SETTING_NUMBERS];
+    double error;   /* the largest relative numerical one of them */
+    double seconds; /* NaN: not timed */
     char note[512];
 } outcome;
 
@@ -283,8 +286,11 @@ static wt_status compute(outcome *o, const wt_job *work, wt_error *err)
     for (size_t k = 0; k < SETTING_NUMBERS; k++)
         number[k].value = (double)NAN;
     const wt_status status = setting_compute(&o->setting, work, number, err);
-    for (size_t k = 0; k < SETTING_NUMBERS; k++)
+    for (size_t k = 0; k < SETTING_NUMBERS; k++) {
         o->number[k] = status == WT_OK ? number[k].value : (double)NAN;
+        if (fabs(o->number[k]) > 0) /* fmax leaves out NaN */
+            o->error = fmax(o->error, number[k].numerical_error / fabs(o->number[k]));
+    }
     return status;
 }
 
@@ -295,6 +301,7 @@ static wt_status compute_one(void *user, size_t i, unsigned worker)
     wt_error why = WT_ERROR_INIT;
     wt_rubber refitted = {0};
     wt_status status = WT_OK;
+    const double start = cost_clock(w->work.cost);
     (void)worker;
     if (o->choice->move == move_vertical) {
         status = wt_rubber_refit(&o->setting.rubber, o->setting.vertical, &refitted, &why);
@@ -303,6 +310,7 @@ static wt_status compute_one(void *user, size_t i, unsigned worker)
     if (status == WT_OK)
         status = compute(o, &w->work, &why);
     wt_rubber_clear(&refitted);
+    o->seconds = cost_clock(w->work.cost) - start;
     if (status == WT_OK || status == WT_E_MEMORY || status == WT_E_INTERNAL)
         return status;
     snprintf(o->note, sizeof o->note, "%s%s%s", why.message,
@@ -468,6 +476,21 @@ static wt_status make_table(const what_if *w, wt_table **table, wt_error *err)
     return table_end(&t, table);
 }
 
+/* The choices one by one, for the error budget, and the stage. */
+static void say_cost(const what_if *w, const wt_job *work)
+{
+    cost_summary cost = {.items = (double)w->n, .tolerance_asked = work->tolerance};
+    for (size_t i = 0; i < w->n; i++)
+        cost.error_estimated = fmax(cost.error_estimated, w->outcomes[i].error);
+    for (size_t i = 0; i < COUNT_OF(choices); i++) {
+        double seconds = 0;
+        for (size_t k = 1; k < w->n; k++)
+            seconds += w->outcomes[k].choice == &choices[i] ? w->outcomes[k].seconds : 0;
+        cost_set_part(work->cost, choices[i].words, seconds);
+    }
+    cost_say(work, cost);
+}
+
 wt_status wt_what_if_make(const wt_sliding *sliding, const wt_layer_job *layer,
                           const wt_layer_known *known, const wt_job *work, wt_table **table,
                           wt_error *err)
@@ -501,6 +524,8 @@ wt_status wt_what_if_make(const wt_sliding *sliding, const wt_layer_job *layer,
     }
     if (status == WT_OK)
         status = make_table(&w, table, err);
+    if (status == WT_OK)
+        say_cost(&w, work);
     free(w.outcomes);
     return status;
 }

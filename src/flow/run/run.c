@@ -1,6 +1,7 @@
 /* Running a case: the stages of the plan in order, their cost, what failed, the tables.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/answer/answer.h"
+#include "flow/job/cost.h"
 #include "flow/job/inputs.h"
 #include "flow/run/steps.h"
 
@@ -28,14 +29,13 @@ typedef struct conduct {
     wt_parselog *own_log;
     wt_result *result;
     wt_table *failures;
-    table_writer cost;
+    wt_cost *cost;
 } conduct;
 
 /* ---- one stage ------------------------------------------------------------------------------- */
 
 #define STEP(id, name, title, needs, gives, step) step,
-static wt_status (*const steps[FLOW_N_STAGES])(flow_run *, flow_cost *,
-                                               wt_error *) = {STAGES(STEP)};
+static wt_status (*const steps[FLOW_N_STAGES])(flow_run *, wt_error *) = {STAGES(STEP)};
 
 /* Whether a stage that was not chosen must stand in for a fuller one that did not succeed. */
 static bool stands_in(const conduct *d, size_t i)
@@ -49,22 +49,6 @@ static bool stands_in(const conduct *d, size_t i)
             (flow_stages[k].gives & lacking) != 0)
             return true;
     return false;
-}
-
-static wt_status cost_row(conduct *d, size_t i, bool runs, const char *because, double wall,
-                          double cpu, const flow_cost *cost)
-{
-    table_writer *t = &d->cost;
-    table_row(t);
-    cost_put_text(t, COST_STAGE, flow_stages[i].id);
-    cost_put(t, COST_RUNS, runs);
-    cost_put_text(t, COST_BECAUSE, because);
-    cost_put(t, COST_WALL_TIME, d->run.no_provenance ? (double)NAN : wall);
-    cost_put(t, COST_CPU_TIME, d->run.no_provenance ? (double)NAN : cpu);
-    cost_put(t, COST_ITEMS, cost->items);
-    cost_put(t, COST_TOLERANCE_ASKED, cost->tolerance_asked);
-    cost_put(t, COST_ERROR_ESTIMATED, cost->error_estimated);
-    return t->status;
 }
 
 static wt_status report_progress(const conduct *d, const char *what, wt_error *err)
@@ -88,19 +72,17 @@ static bool is_listed(const conduct *d, const wt_error *failure)
 
 static wt_status run_stage(conduct *d, size_t i, const char *because, wt_error *err)
 {
-    flow_cost cost = {(double)NAN, (double)NAN, (double)NAN};
     wt_error failure = WT_ERROR_INIT;
     wt_status status = report_progress(d, flow_stages[i].title, err);
     if (status != WT_OK)
         return status;
-    double wall = wt_time_wall(), cpu = wt_time_cpu();
-    status = steps[i](&d->run, &cost, &failure);
-    wall = wt_time_wall() - wall;
-    cpu = wt_time_cpu() - cpu;
+    cost_begin(d->cost, flow_stages[i].id, because);
+    status = steps[i](&d->run, &failure);
+    cost_end(d->cost);
     if (status == WT_OK) {
         d->run.plan.outcome[i] = FLOW_DONE;
         d->have |= flow_stages[i].gives;
-        return cost_row(d, i, true, because, wall, cpu, &cost);
+        return WT_OK;
     }
     if (!flow_goes_on(&d->run.job, status)) {
         if (err != NULL)
@@ -111,26 +93,28 @@ static wt_status run_stage(conduct *d, size_t i, const char *because, wt_error *
     d->run.plan.outcome[i] = FLOW_FAILED;
     snprintf(stage, sizeof stage, "stage %s", flow_stages[i].id);
     snprintf(text, sizeof text, "%s, and failed", because);
-    status = is_listed(d, &failure) ? WT_OK : flow_add_failure(&d->run.job, stage, &failure, err);
-    return status == WT_OK ? cost_row(d, i, true, text, wall, cpu, &cost) : status;
+    cost_explain(d->cost, text);
+    return is_listed(d, &failure) ? WT_OK : flow_add_failure(&d->run.job, stage, &failure, err);
 }
 
 static wt_status consider_stage(conduct *d, size_t i, wt_error *err)
 {
     flow_plan *plan = &d->run.plan;
-    const flow_cost none = {0, (double)NAN, (double)NAN};
     char missing[160], because[256];
     if (stands_in(d, i))
         return run_stage(d, i, "runs because the stage that gives more did not succeed", err);
-    if (!plan->chosen[i])
-        return cost_row(d, i, false, plan->because[i], 0, 0, &none);
+    if (!plan->chosen[i]) {
+        cost_leave_out(d->cost, flow_stages[i].id, plan->because[i]);
+        return WT_OK;
+    }
     if ((flow_stages[i].needs & ~d->have) == 0)
         return run_stage(d, i, plan->because[i], err);
     plan->outcome[i] = FLOW_BLOCKED;
     flow_things_list(flow_stages[i].needs & ~d->have, missing, sizeof missing);
     snprintf(because, sizeof because, "left out because a stage before failed to give its %s",
              missing);
-    return cost_row(d, i, false, because, 0, 0, &none);
+    cost_leave_out(d->cost, flow_stages[i].id, because);
+    return WT_OK;
 }
 
 /* ---- tables ---------------------------------------------------------------------------------- */
@@ -202,10 +186,8 @@ static wt_status finish(conduct *d, wt_error *err)
         status = wt_provenance_table(provenance, "inputs", &inputs, err);
     if (status == WT_OK)
         status = wt_notes_table(d->run.job.log, d->run.c->folder, &notes, err);
-    if (status == WT_OK) {
-        status = table_end(&d->cost, &cost);
-        d->cost.table = NULL; /* handed over, or freed */
-    }
+    if (status == WT_OK)
+        status = wt_cost_table(d->cost, &cost, err);
     for (size_t i = 0; status == WT_OK && i < COUNT_OF(last); i++)
         status = publish(d, last[i], err);
     for (size_t i = 0; i < COUNT_OF(last); i++) {
@@ -271,12 +253,10 @@ static wt_status prepare(conduct *d, const wt_run_options *options, wt_parselog 
     d->run.trials = options->trials;
     d->result = wt_result_new();
     d->failures = wt_failures_new();
-    if (log == NULL || d->result == NULL || d->failures == NULL)
+    d->cost = wt_cost_new(!options->no_provenance, options->threads);
+    if (log == NULL || d->result == NULL || d->failures == NULL || d->cost == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    d->cost = table_begin(&cost_schema, err);
-    wt_status status = d->cost.status;
-    if (status == WT_OK)
-        status = wt_formats_new(options->formats, &d->formats, log, err);
+    wt_status status = wt_formats_new(options->formats, &d->formats, log, err);
     if (status == WT_OK)
         status = wt_formats_add_columns(d->formats, options->columns, options->n_columns, err);
     d->run.job = (wt_job){
@@ -289,6 +269,7 @@ static wt_status prepare(conduct *d, const wt_run_options *options, wt_parselog 
         .log = log,
         .provenance = wt_result_provenance(d->result),
         .failures = d->failures,
+        .cost = d->cost,
     };
     return status == WT_OK ? add_case(d, err) : status;
 }
@@ -327,7 +308,7 @@ done:
     wt_formats_free(d.formats);
     wt_result_free(d.result);
     wt_table_free(d.failures);
-    wt_table_free(d.cost.table);
+    wt_cost_free(d.cost);
     wt_parselog_free(d.own_log);
     return status;
 }

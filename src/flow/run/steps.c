@@ -1,6 +1,7 @@
 /* The function of each stage: takes what the case and the stages before gave, runs one job.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/run/steps.h"
+#include "flow/job/cost.h"
 #include "flow/job/inputs.h"
 
 #include "data/tables/tables.h"
@@ -25,6 +26,12 @@ static void keep(flow_run *run, flow_thing thing, wt_table **table)
     wt_table_free(run->table[thing]);
     run->table[thing] = *table;
     *table = NULL;
+}
+
+/* What a stage costs whose job does not say it. */
+static void say_items(const flow_run *run, const wt_table *table)
+{
+    cost_say(&run->job, (cost_summary){.items = (double)wt_table_n_rows(table)});
 }
 
 /* ---- from the case --------------------------------------------------------------------------- */
@@ -133,8 +140,7 @@ static wt_estimate indented_at(const wt_case *c, int g)
                                                          : job->temperature;
 }
 
-static wt_status indent(flow_run *run, int g, const wt_rubber *rubber, flow_cost *cost,
-                        wt_error *err)
+static wt_status indent(flow_run *run, int g, const wt_rubber *rubber, wt_error *err)
 {
     static const flow_thing curve[2] = {FLOW_CURVE_BULK, FLOW_CURVE_TRACK};
     static const char *const names[2] = {"bulk", "track"};
@@ -151,33 +157,32 @@ static wt_status indent(flow_run *run, int g, const wt_rubber *rubber, flow_cost
     job.temperature = indented_at(run->c, g);
     wt_status status = wt_indent_group(&job, &run->job, &run->curves, err);
     keep(run, g == 0 ? FLOW_INDENTATION_BULK : FLOW_INDENTATION_TRACK, &run->curves.indentation);
-    cost->items = (double)run->curves.n_curves;
     return status;
 }
 
-wt_status flow_step_bulk_with_material(flow_run *run, flow_cost *cost, wt_error *err)
+wt_status flow_step_bulk_with_material(flow_run *run, wt_error *err)
 {
-    return indent(run, 0, &run->rubber, cost, err);
+    return indent(run, 0, &run->rubber, err);
 }
 
-wt_status flow_step_track_with_material(flow_run *run, flow_cost *cost, wt_error *err)
+wt_status flow_step_track_with_material(flow_run *run, wt_error *err)
 {
-    return indent(run, 1, &run->rubber, cost, err);
+    return indent(run, 1, &run->rubber, err);
 }
 
-wt_status flow_step_bulk(flow_run *run, flow_cost *cost, wt_error *err)
+wt_status flow_step_bulk(flow_run *run, wt_error *err)
 {
-    return indent(run, 0, NULL, cost, err);
+    return indent(run, 0, NULL, err);
 }
 
-wt_status flow_step_track(flow_run *run, flow_cost *cost, wt_error *err)
+wt_status flow_step_track(flow_run *run, wt_error *err)
 {
-    return indent(run, 1, NULL, cost, err);
+    return indent(run, 1, NULL, err);
 }
 
 /* ---- comparison ------------------------------------------------------------------------------ */
 
-static wt_status compare(flow_run *run, bool groups_only, flow_cost *cost, wt_error *err)
+static wt_status compare(flow_run *run, bool groups_only, wt_error *err)
 {
     wt_compare_tables tables = {0};
     wt_compare_job job = run->c->compare;
@@ -190,7 +195,7 @@ static wt_status compare(flow_run *run, bool groups_only, flow_cost *cost, wt_er
         job.rubber = &run->rubber;
     wt_status status = wt_compare_groups(&job, &run->job, &tables, err);
     if (status == WT_OK)
-        cost->items = (double)wt_table_n_rows(tables.modulus_groups);
+        say_items(run, tables.modulus_groups);
     keep(run, FLOW_MODULUS_GROUPS, &tables.modulus_groups);
     keep(run, FLOW_COMPARISON, &tables.comparison);
     keep(run, FLOW_MODULUS_RATE, &tables.modulus_rate);
@@ -198,10 +203,10 @@ static wt_status compare(flow_run *run, bool groups_only, flow_cost *cost, wt_er
     return status;
 }
 
-wt_status flow_step_compare(flow_run *run, flow_cost *cost, wt_error *err)
+wt_status flow_step_compare(flow_run *run, wt_error *err)
 {
     table_view comparison;
-    wt_status status = compare(run, false, cost, err);
+    wt_status status = compare(run, false, err);
     if (status == WT_OK)
         status = table_bind(run->table[FLOW_COMPARISON], &comparison_schema, "", &comparison, err);
     if (status != WT_OK)
@@ -212,16 +217,17 @@ wt_status flow_step_compare(flow_run *run, flow_cost *cost, wt_error *err)
     run->modulus_ratio_df = isnan(df) ? 0 : df;
     const double share = comparison_value(&comparison, COMPARISON_KEY_CALIBRATION_SHARE).value;
     run->calibration_share = isnan(share) ? 0 : share;
+    cost_say(&run->job, (cost_summary){.items = 2, .number = run->modulus_ratio});
     return WT_OK;
 }
 
 /* Of the groups there are. */
-wt_status flow_step_groups(flow_run *run, flow_cost *cost, wt_error *err)
+wt_status flow_step_groups(flow_run *run, wt_error *err)
 {
-    return compare(run, true, cost, err);
+    return compare(run, true, err);
 }
 
-wt_status flow_step_dma_comparison(flow_run *run, flow_cost *cost, wt_error *err)
+wt_status flow_step_dma_comparison(flow_run *run, wt_error *err)
 {
     wt_compare_tables tables = {0};
     wt_compare_job job = run->c->compare;
@@ -238,25 +244,25 @@ wt_status flow_step_dma_comparison(flow_run *run, flow_cost *cost, wt_error *err
             wt_fail(err, WT_E_MISSING,
                     "the curves tell no indentation rate, so no frequency corresponds to them");
     if (status == WT_OK) {
-        cost->items = (double)wt_table_n_rows(tables.dma_comparison);
+        say_items(run, tables.dma_comparison);
         keep(run, FLOW_DMA_COMPARISON, &tables.dma_comparison);
     }
     wt_compare_tables_clear(&tables);
     return status;
 }
 
-wt_status flow_step_given_ratio(flow_run *run, flow_cost *cost, wt_error *err)
+wt_status flow_step_given_ratio(flow_run *run, wt_error *err)
 {
     (void)err;
     run->modulus_ratio = run->c->known.modulus_ratio;
     run->modulus_ratio_df = run->c->known.modulus_ratio_df;
-    cost->items = 1;
+    cost_say(&run->job, (cost_summary){.items = 1, .number = run->modulus_ratio});
     return WT_OK;
 }
 
 /* ---- material -------------------------------------------------------------------------------- */
 
-wt_status flow_step_master(flow_run *run, flow_cost *cost, wt_error *err)
+wt_status flow_step_master(flow_run *run, wt_error *err)
 {
     wt_master_tables tables = {0};
     wt_master_job job = run->c->master;
@@ -266,7 +272,6 @@ wt_status flow_step_master(flow_run *run, flow_cost *cost, wt_error *err)
     if (status == WT_OK && run->c->rubber.moduli == WT_MODULI_POINTS)
         status = wt_rubber_tabulate(&run->rubber, tables.master_curve, &run->c->rubber, err);
     set_direction(run->c, &run->rubber);
-    cost->items = (double)tables.n_isotherms;
     keep(run, FLOW_SHIFT_FACTORS, &tables.shift_factors);
     keep(run, FLOW_MASTER_CURVE, &tables.master_curve);
     keep(run, FLOW_PRONY, &tables.prony);
@@ -276,7 +281,7 @@ wt_status flow_step_master(flow_run *run, flow_cost *cost, wt_error *err)
 }
 
 /* Files and words of reading stand in the result once. */
-wt_status flow_step_ramp(flow_run *run, flow_cost *cost, wt_error *err)
+wt_status flow_step_ramp(flow_run *run, wt_error *err)
 {
     wt_ramp_tables tables = {0};
     wt_ramp_job job = run->c->ramp;
@@ -293,37 +298,37 @@ wt_status flow_step_ramp(flow_run *run, flow_cost *cost, wt_error *err)
         work.provenance = NULL;
     }
     const wt_status status = wt_ramp_make(&job, &work, &tables, err);
-    cost->items = (double)tables.n_ramps;
     keep(run, FLOW_RAMP, &tables.ramp);
     keep(run, FLOW_GLASS_TRANSITION, &tables.glass_transition);
     keep(run, FLOW_MODULI_AT, &tables.moduli_at);
     return status;
 }
 
-wt_status flow_step_given_material(flow_run *run, flow_cost *cost, wt_error *err)
+wt_status flow_step_given_material(flow_run *run, wt_error *err)
 {
     const wt_status status = make_rubber(run->c, &run->job, &run->rubber, err);
     set_direction(run->c, &run->rubber);
-    cost->items = run->rubber.kind == WT_RUBBER_TABLE ? (double)run->rubber.sweep.isotherms[0].n
-                                                      : (double)run->rubber.prony.n;
+    const bool table = status == WT_OK && run->rubber.kind == WT_RUBBER_TABLE;
+    cost_say(&run->job, (cost_summary){.items = table ? (double)run->rubber.sweep.isotherms[0].n
+                                                      : (double)run->rubber.prony.n});
     return status;
 }
 
 /* ---- counter surface ------------------------------------------------------------------------- */
 
-wt_status flow_step_roughness(flow_run *run, flow_cost *cost, wt_error *err)
+wt_status flow_step_roughness(flow_run *run, wt_error *err)
 {
     wt_status status = flow_case_surface(run->c, &run->job, &run->surface, err);
     if (status == WT_OK)
         status = wt_surface_table(&run->surface, &run->table[FLOW_ROUGHNESS], err);
     if (status == WT_OK)
-        cost->items = (double)wt_table_n_rows(run->table[FLOW_ROUGHNESS]);
+        say_items(run, run->table[FLOW_ROUGHNESS]);
     return status;
 }
 
 /* ---- friction and layer ---------------------------------------------------------------------- */
 
-wt_status flow_step_layer(flow_run *run, flow_cost *cost, wt_error *err)
+wt_status flow_step_layer(flow_run *run, wt_error *err)
 {
     wt_sliding sliding = flow_case_sliding(run->c, &run->rubber, &run->surface);
     wt_layer_tables tables = {0};
@@ -331,23 +336,15 @@ wt_status flow_step_layer(flow_run *run, flow_cost *cost, wt_error *err)
     if (status != WT_OK)
         return status;
     run->thickness = tables.thickness;
-    cost->items = (double)wt_table_n_rows(tables.layer);
-    cost->tolerance_asked = run->job.tolerance;
-    if (run->thickness.value > 0)
-        cost->error_estimated = run->thickness.numerical_error / run->thickness.value;
     keep(run, FLOW_LAYER, &tables.layer);
     return WT_OK;
 }
 
-wt_status flow_step_energy_density(flow_run *run, flow_cost *cost, wt_error *err)
+wt_status flow_step_energy_density(flow_run *run, wt_error *err)
 {
     const wt_sliding sliding = flow_case_sliding(run->c, &run->rubber, &run->surface);
-    wt_table **table = &run->table[FLOW_ENERGY_DENSITY];
-    const wt_status status =
-        wt_energy_density_table(&sliding, &run->c->layer, &run->job, table, err);
-    if (status == WT_OK)
-        cost->items = (double)wt_table_n_rows(*table);
-    return status;
+    return wt_energy_density_table(&sliding, &run->c->layer, &run->job,
+                                   &run->table[FLOW_ENERGY_DENSITY], err);
 }
 
 /* A comparison that cannot say leaves no ratio. */
@@ -366,82 +363,60 @@ static wt_status known_layer(const flow_run *run, wt_layer_known *known, wt_erro
     return WT_E_MISSING;
 }
 
-static wt_status friction(flow_run *run, const wt_layer_known *layer, flow_cost *cost,
-                          wt_error *err)
+static wt_status friction(flow_run *run, const wt_layer_known *layer, wt_error *err)
 {
     wt_sliding sliding = flow_case_sliding(run->c, &run->rubber, &run->surface);
     wt_friction_tables tables = {0};
     wt_status status = wt_friction_make(&sliding, layer, &run->job, &tables, err);
-    if (status != WT_OK)
-        return status;
-    cost->items = (double)tables.n_points;
-    cost->tolerance_asked = tables.tolerance_asked;
-    cost->error_estimated = tables.error_reached;
-    keep(run, FLOW_FRICTION, &tables.friction);
-    return WT_OK;
-}
-
-wt_status flow_step_contact_area(flow_run *run, flow_cost *cost, wt_error *err)
-{
-    const wt_sliding sliding = flow_case_sliding(run->c, &run->rubber, &run->surface);
-    wt_table **table = &run->table[FLOW_CONTACT_AREA];
-    const wt_status status = wt_contact_area_table(&sliding, &run->job, table, err);
     if (status == WT_OK)
-        cost->items = (double)wt_table_n_rows(*table);
+        keep(run, FLOW_FRICTION, &tables.friction);
     return status;
 }
 
-wt_status flow_step_friction_with_layer(flow_run *run, flow_cost *cost, wt_error *err)
+wt_status flow_step_contact_area(flow_run *run, wt_error *err)
+{
+    const wt_sliding sliding = flow_case_sliding(run->c, &run->rubber, &run->surface);
+    return wt_contact_area_table(&sliding, &run->job, &run->table[FLOW_CONTACT_AREA], err);
+}
+
+wt_status flow_step_friction_with_layer(flow_run *run, wt_error *err)
 {
     wt_layer_known layer;
     const wt_status status = known_layer(run, &layer, err);
-    return status == WT_OK ? friction(run, &layer, cost, err) : status;
+    return status == WT_OK ? friction(run, &layer, err) : status;
 }
 
-wt_status flow_step_friction(flow_run *run, flow_cost *cost, wt_error *err)
+wt_status flow_step_friction(flow_run *run, wt_error *err)
 {
-    return friction(run, NULL, cost, err);
+    return friction(run, NULL, err);
 }
 
-wt_status flow_step_directions(flow_run *run, flow_cost *cost, wt_error *err)
+wt_status flow_step_directions(flow_run *run, wt_error *err)
 {
     const wt_sliding sliding = flow_case_sliding(run->c, &run->rubber, &run->surface);
-    wt_table **table = &run->table[FLOW_DIRECTIONS];
-    const wt_status status = wt_directions_make(&sliding, &run->job, table, err);
-    cost->tolerance_asked = run->job.tolerance;
-    if (status == WT_OK)
-        cost->items = (double)wt_table_n_rows(*table);
-    return status;
+    return wt_directions_make(&sliding, &run->job, &run->table[FLOW_DIRECTIONS], err);
 }
 
 /* ---- what if, error budget, coverage ----------------------------------------------------------
  */
 
 static wt_status what_if(flow_run *run, const wt_layer_job *layer, const wt_layer_known *known,
-                         flow_cost *cost, wt_error *err)
+                         wt_error *err)
 {
     wt_sliding sliding = flow_case_sliding(run->c, &run->rubber, &run->surface);
-    const wt_status status =
-        wt_what_if_make(&sliding, layer, known, &run->job, &run->table[FLOW_WHAT_IF], err);
-    if (status == WT_OK)
-        cost->items = (double)wt_table_n_rows(run->table[FLOW_WHAT_IF]);
-    return status;
+    return wt_what_if_make(&sliding, layer, known, &run->job, &run->table[FLOW_WHAT_IF], err);
 }
 
 static wt_status budget(flow_run *run, const wt_layer_job *layer, const wt_layer_known *known,
-                        flow_cost *cost, wt_error *err)
+                        wt_error *err)
 {
     wt_sliding sliding = flow_case_sliding(run->c, &run->rubber, &run->surface);
-    const wt_status status =
-        wt_error_budget_make(&sliding, layer, known, run->table[FLOW_WHAT_IF], !run->no_provenance,
-                             &run->job, &run->table[FLOW_ERROR_BUDGET], err);
-    if (status == WT_OK)
-        cost->items = (double)wt_table_n_rows(run->table[FLOW_ERROR_BUDGET]);
-    return status;
+    return wt_error_budget_make(&sliding, layer, known, run->table[FLOW_WHAT_IF], &run->job,
+                                &run->table[FLOW_ERROR_BUDGET], err);
 }
 
 static wt_status coverage(flow_run *run, const wt_layer_job *layer, const wt_layer_known *known,
-                          flow_cost *cost, wt_error *err)
+                          wt_error *err)
 {
     const wt_sliding sliding = flow_case_sliding(run->c, &run->rubber, &run->surface);
     const wt_coverage_job job = {.sliding = &sliding,
@@ -450,33 +425,32 @@ static wt_status coverage(flow_run *run, const wt_layer_job *layer, const wt_lay
                                  .bulk = run->table[FLOW_INDENTATION_BULK],
                                  .track = run->table[FLOW_INDENTATION_TRACK],
                                  .trials = run->trials};
-    cost->items = (double)job.trials;
     return wt_coverage_make(&job, &run->job, &run->table[FLOW_COVERAGE], err);
 }
 
 /* The same stage of each: with layer and ratio, with the layer, with neither. */
 typedef wt_status (*of_setting)(flow_run *run, const wt_layer_job *layer,
-                                const wt_layer_known *known, flow_cost *cost, wt_error *err);
+                                const wt_layer_known *known, wt_error *err);
 
-static wt_status with_layer(of_setting make, flow_run *run, flow_cost *cost, wt_error *err)
+static wt_status with_layer(of_setting make, flow_run *run, wt_error *err)
 {
     wt_layer_known known;
     const wt_status status = known_layer(run, &known, err);
-    return status == WT_OK ? make(run, &run->c->layer, &known, cost, err) : status;
+    return status == WT_OK ? make(run, &run->c->layer, &known, err) : status;
 }
 
 #define STEPS_OF_SETTING(name)                                                                     \
-    wt_status flow_step_##name##_with_layer(flow_run *run, flow_cost *cost, wt_error *err)         \
+    wt_status flow_step_##name##_with_layer(flow_run *run, wt_error *err)                          \
     {                                                                                              \
-        return with_layer(name, run, cost, err);                                                   \
+        return with_layer(name, run, err);                                                         \
     }                                                                                              \
-    wt_status flow_step_##name##_layer(flow_run *run, flow_cost *cost, wt_error *err)              \
+    wt_status flow_step_##name##_layer(flow_run *run, wt_error *err)                               \
     {                                                                                              \
-        return name(run, &run->c->layer, NULL, cost, err);                                         \
+        return name(run, &run->c->layer, NULL, err);                                               \
     }                                                                                              \
-    wt_status flow_step_##name(flow_run *run, flow_cost *cost, wt_error *err)                      \
+    wt_status flow_step_##name(flow_run *run, wt_error *err)                                       \
     {                                                                                              \
-        return name(run, NULL, NULL, cost, err);                                                   \
+        return name(run, NULL, NULL, err);                                                         \
     }
 STEPS_OF_SETTING(what_if)
 STEPS_OF_SETTING(budget)

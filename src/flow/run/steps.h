@@ -5,13 +5,6 @@
 
 #include "flow/plan/plan.h"
 
-/* What a stage reports for the table "cost". */
-typedef struct flow_cost {
-    double items;
-    double tolerance_asked; /* relative; NaN = does not apply */
-    double error_estimated;
-} flow_cost;
-
 typedef struct flow_run {
     const wt_case *c;
     wt_job job;
@@ -34,7 +27,7 @@ wt_status flow_case_surface(const wt_case *c, const wt_job *work, wt_surface *su
 wt_sliding flow_case_sliding(const wt_case *c, const wt_rubber *rubber, const wt_surface *surface);
 
 #define STEP_PROTOTYPE(id, name, title, needs, gives, step)                                        \
-    wt_status step(flow_run *run, flow_cost *cost, wt_error *err);
+    wt_status step(flow_run *run, wt_error *err);
 STAGES(STEP_PROTOTYPE)
 
 #endif

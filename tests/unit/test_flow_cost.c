@@ -1,0 +1,310 @@
+/* What the stages cost: one row for each, with items and nodes that are those of the work, the same
+ * for any number of threads; and without being asked nothing is timed or counted.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cells.h"
+#include "sliding.h"
+
+#include "base/array.h"
+#include "flow/plan/plan.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#define CASE WT_SOURCE_DIR "/fixtures/case"
+enum { CURVES = 48, ISOTHERMS = 12, VELOCITIES = 32, TIMES = 61, REPLICATES = 3 };
+
+/* ---- clocks ---------------------------------------------------------------------------------- */
+
+static size_t looks;
+
+double __real_wt_time_wall(void);
+double __wrap_wt_time_wall(void);
+double __wrap_wt_time_wall(void)
+{
+    looks++;
+    return __real_wt_time_wall();
+}
+
+double __real_wt_time_cpu(void);
+double __wrap_wt_time_cpu(void);
+double __wrap_wt_time_cpu(void)
+{
+    looks++;
+    return __real_wt_time_cpu();
+}
+
+/* ---- a whole case ---------------------------------------------------------------------------- */
+
+static wt_case *the_case;
+
+static wt_result *run(unsigned threads, bool timed)
+{
+    wt_run_options options = wt_run_defaults();
+    wt_error err = WT_ERROR_INIT;
+    wt_result *result = NULL;
+    size_t n_failed = 0;
+    options.threads = threads;
+    options.tolerance = 1e-6;
+    options.replicates = REPLICATES;
+    options.no_provenance = !timed;
+    if (wt_run(the_case, &options, NULL, &result, &n_failed, &err) != WT_OK || n_failed > 0)
+        fail_msg("%s", err.message);
+    return result;
+}
+
+static size_t row_of(const wt_table *cost, const char *stage)
+{
+    size_t found = SIZE_MAX, n = 0;
+    for (size_t row = 0; row < wt_table_n_rows(cost); row++)
+        if (strcmp(text_cell(cost, row, "stage"), stage) == 0) {
+            found = row;
+            n++;
+        }
+    if (n != 1)
+        fail_msg("stage %s has %zu rows", stage, n);
+    return found;
+}
+
+static double of(const wt_table *cost, const char *stage, const char *column)
+{
+    return number_cell(cost, row_of(cost, stage), column);
+}
+
+static double size_of(const char *name)
+{
+    struct stat info;
+    char path[512];
+    snprintf(path, sizeof path, CASE "/%s", name);
+    assert_int_equal(stat(path, &info), 0);
+    return (double)info.st_size;
+}
+
+/* A stage that did not run has nothing but its reason. */
+static void check_stages(const wt_table *cost)
+{
+    flow_plan plan;
+    flow_plan_make(the_case, &plan);
+    assert_int_equal(wt_table_n_rows(cost), FLOW_N_STAGES);
+    for (size_t i = 0; i < FLOW_N_STAGES; i++) {
+        const size_t row = row_of(cost, flow_stages[i].id);
+        assert_near(number_cell(cost, row, "runs"), plan.chosen[i], 0);
+        if (plan.chosen[i]) {
+            assert_true(number_cell(cost, row, "items") > 0);
+            continue;
+        }
+        static const char *const nothing[] = {"wall_time", "cpu_time", "items",
+                                              "nodes",     "files",    "bytes"};
+        for (size_t k = 0; k < COUNT_OF(nothing); k++)
+            assert_near(number_cell(cost, row, nothing[k]), 0, 0);
+        assert_true(isnan(number_cell(cost, row, "tolerance_asked")));
+        assert_true(isnan(number_cell(cost, row, "standard_error")));
+    }
+}
+
+static void check_work(const wt_table *cost)
+{
+    static const char *const groups[] = {"indentation_bulk_with_material",
+                                         "indentation_track_with_material"};
+    for (size_t g = 0; g < 2; g++) {
+        double bytes = 0;
+        for (int i = 1; i <= 4; i++) {
+            char name[64];
+            snprintf(name, sizeof name, "%s-%d.jpk-force-map", g == 0 ? "bulk" : "track", i);
+            bytes += size_of(name);
+        }
+        assert_near(of(cost, groups[g], "items"), CURVES, 0);
+        assert_near(of(cost, groups[g], "files"), 4, 0);
+        assert_near(of(cost, groups[g], "bytes"), bytes, 0);
+        assert_true(of(cost, groups[g], "nodes") >= CURVES); /* each curve was fitted */
+        const double error = of(cost, groups[g], "standard_error");
+        assert_true(error > 1e-4 && error < 0.1);
+    }
+    assert_near(of(cost, "master_curve", "items"), ISOTHERMS, 0);
+    assert_near(of(cost, "master_curve", "bytes"), size_of("dma.txt"), 0);
+    assert_true(of(cost, "master_curve", "nodes") > 10);
+    assert_near(of(cost, "friction_with_layer", "items"), VELOCITIES * 2 * (1 + REPLICATES), 0);
+    assert_near(of(cost, "layer", "items"), TIMES * (1 + REPLICATES), 0);
+    /* no rule has fewer nodes than 4, and no plan fewer panels than 2 */
+    assert_true(of(cost, "friction_with_layer", "nodes") >
+                4.0 * 2 * VELOCITIES * 2 * (1 + REPLICATES));
+    assert_true(of(cost, "layer", "nodes") > 4.0 * 2 * (1 + REPLICATES));
+}
+
+/* What was stated stands in the tables of the stages, too. The tolerance is that of the integrals:
+ * a thickness may rest on them more than in proportion. */
+static void check_errors(const wt_result *result, const wt_table *cost)
+{
+    wt_estimate e;
+    for (size_t i = 0; i < wt_table_n_rows(cost); i++) {
+        const double asked = number_cell(cost, i, "tolerance_asked");
+        if (isnan(asked))
+            continue;
+        assert_near(asked, 1e-6, 0);
+        const bool of_thickness = strstr(text_cell(cost, i, "stage"), "layer") != NULL;
+        const bool itself = strcmp(text_cell(cost, i, "stage"), "friction_with_layer") == 0;
+        assert_true(number_cell(cost, i, "error_estimated") <=
+                    (of_thickness && !itself ? 100 : 1) * asked);
+    }
+    const wt_table *friction = wt_result_find(result, "friction"),
+                   *layer = wt_result_find(result, "layer");
+    double largest = 0;
+    for (size_t i = 0; i < wt_table_n_rows(friction); i++)
+        largest = fmax(largest, number_cell(friction, i, "hysteresis_numerical_error") /
+                                    number_cell(friction, i, "hysteresis"));
+    assert_true(wt_table_estimate(friction, "hysteresis_at_reference", &e));
+    largest = fmax(largest, e.numerical_error / e.value);
+    assert_near(of(cost, "friction_with_layer", "error_estimated"), largest, 0);
+    assert_true(wt_table_estimate(friction, "friction_at_reference", &e));
+    assert_near(of(cost, "friction_with_layer", "standard_error"), e.standard_error / e.value, 0);
+    assert_true(wt_table_estimate(layer, "balance_thickness", &e));
+    assert_near(of(cost, "layer", "standard_error"), e.standard_error / e.value, 0);
+    assert_near(of(cost, "layer", "error_estimated"), e.numerical_error / e.value, 0);
+}
+
+/* No tight bounds: a busy machine is no error. */
+static void check_times(const wt_table *cost, unsigned threads)
+{
+    wt_estimate total;
+    double sum = 0;
+    assert_true(wt_table_estimate(cost, "threads", &total));
+    assert_near(total.value, threads, 0);
+    for (size_t i = 0; i < wt_table_n_rows(cost); i++) {
+        const double wall = number_cell(cost, i, "wall_time");
+        if (number_cell(cost, i, "runs") == 0)
+            continue;
+        assert_true(wall > 0);
+        assert_true(number_cell(cost, i, "cpu_time") <= 2 * threads * wall + 0.1);
+        sum += wall;
+    }
+    assert_true(wt_table_estimate(cost, "total_wall_time", &total));
+    assert_true(sum <= total.value);
+    assert_true(wt_table_estimate(cost, "total_cpu_time", &total));
+    assert_true(total.value > 0);
+}
+
+static void test_case(void **state)
+{
+    (void)state;
+    wt_result *result = run(2, true);
+    const wt_table *cost = wt_result_find(result, "cost");
+    check_stages(cost);
+    check_work(cost);
+    check_errors(result, cost);
+    check_times(cost, 2);
+    wt_result_free(result);
+}
+
+/* All but the times, which without provenance are not there. */
+static void test_any_number_of_threads(void **state)
+{
+    (void)state;
+    looks = 0;
+    wt_result *one = run(1, false);
+    assert_int_equal(looks, 0);
+    wt_result *two = run(2, false);
+    const wt_table *a = wt_result_find(one, "cost"), *b = wt_result_find(two, "cost");
+    wt_estimate none;
+    assert_false(wt_table_estimate(a, "threads", &none));
+    for (size_t c = 0; c < wt_table_n_columns(a); c++)
+        for (size_t i = 0; i < wt_table_n_rows(a); i++) {
+            if (wt_table_column_kind(a, c) == WT_COLUMN_TEXT) {
+                assert_string_equal(wt_table_text(a, i, c), wt_table_text(b, i, c));
+                continue;
+            }
+            const double x = wt_table_number(a, i, c), y = wt_table_number(b, i, c);
+            if (!(isnan(x) && isnan(y)) && x != y)
+                fail_msg("%s, %s: %.17g with one thread, %.17g with two", text_cell(a, i, "stage"),
+                         wt_table_column_name(a, c), x, y);
+        }
+    wt_result_free(one);
+    wt_result_free(two);
+}
+
+/* ---- one job --------------------------------------------------------------------------------- */
+
+static wt_table *make_friction(wt_cost *cost)
+{
+    static const double velocity[] = {0.01, 0.1, 1};
+    wt_friction_tables tables = {0};
+    sliding_set_up(velocity, COUNT_OF(velocity));
+    work.tolerance = 1e-6;
+    work.replicates = 0;
+    work.cost = cost;
+    assert_int_equal(wt_friction_make(&sliding, NULL, &work, &tables, NULL), WT_OK);
+    return tables.friction;
+}
+
+/* The nodes are those that the kernel tells of its last rules, and those of the rules before. */
+static void test_nodes(void **state)
+{
+    (void)state;
+    wt_cost *cost = wt_cost_new(false, 1);
+    wt_table *table = NULL;
+    wt_cost_stage(cost, "friction");
+    wt_table_free(make_friction(cost));
+    wt_cost_stage(cost, "nothing");
+    assert_int_equal(wt_cost_table(cost, &table, NULL), WT_OK);
+    assert_int_equal(wt_table_n_rows(table), 2);
+    assert_near(of(table, "friction", "items"), 4, 0); /* and the one of the answer */
+    assert_near(of(table, "nothing", "nodes"), 0, 0);
+    assert_true(isnan(of(table, "friction", "wall_time")));
+
+    wt_material *material = NULL;
+    wt_roughness *road = NULL;
+    wt_friction_workspace *workspace = NULL;
+    wt_friction_options options = wt_friction_defaults();
+    wt_friction_point point[4];
+    const double velocity[] = {0.01, 0.1, 1, 0.1};
+    options.tolerance = 1e-6;
+    assert_int_equal(wt_rubber_at(&rubber, (double)NAN, 1, WT_NO_REPLICATE, &material, NULL, NULL),
+                     WT_OK);
+    assert_int_equal(wt_surface_roughness(&surface, 1, &road, NULL), WT_OK);
+    assert_int_equal(wt_friction_workspace_new(material, road, &options, &workspace, NULL), WT_OK);
+    assert_int_equal(wt_friction_compute(workspace, 0.4e6, velocity, 4, point, NULL), WT_OK);
+    double last = 0;
+    for (size_t i = 0; i < 4; i++)
+        last += (double)point[i].nodes;
+    const double nodes = of(table, "friction", "nodes");
+    assert_true(nodes >= last && nodes < 6 * last);
+    wt_friction_workspace_free(workspace);
+    wt_roughness_free(road);
+    wt_material_free(material);
+    wt_cost_free(cost);
+    wt_table_free(table);
+}
+
+static void test_not_asked(void **state)
+{
+    (void)state;
+    wt_cost *cost = wt_cost_new(true, 1);
+    looks = 0;
+    wt_table *plain = make_friction(NULL);
+    wt_cost_stage(NULL, "friction");
+    assert_int_equal(looks, 0);
+    wt_table *counted = make_friction(cost);
+    for (size_t c = 0; c < wt_table_n_columns(plain); c++)
+        assert_memory_equal(wt_table_numbers(plain, c), wt_table_numbers(counted, c),
+                            wt_table_n_rows(plain) * sizeof(double));
+    wt_cost_free(cost);
+    wt_table_free(plain);
+    wt_table_free(counted);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_case),
+        cmocka_unit_test(test_any_number_of_threads),
+        cmocka_unit_test(test_nodes),
+        cmocka_unit_test(test_not_asked),
+    };
+    wt_error err = WT_ERROR_INIT;
+    if (wt_case_read(CASE "/case.xml", &the_case, &err) != WT_OK) {
+        fprintf(stderr, "%s\n", err.message);
+        return EXIT_FAILURE;
+    }
+    const int failed = cmocka_run_group_tests_name("cost", tests, NULL, NULL);
+    wt_case_free(the_case);
+    return failed;
+}
