@@ -346,6 +346,7 @@ typedef struct wt_master_options {
     double expansion;             /* volumetric thermal expansion of rho T [1/K], default 0 */
     double terms_per_decade; /* of the spectrum; NaN (default): 3, or 10 if it is sharp lines */
     bool liquid;             /* equilibrium modulus 0 */
+    bool series_only;        /* no moduli of the spectrum at the points (NaN) and no verdict */
     uint64_t reserved[8];
 } wt_master_options;
 WT_API wt_master_options wt_master_options_defaults(void);

@@ -27,7 +27,8 @@ typedef enum wt_extra {
                                    material_draws and series_draws and for the replicates */
     WT_EXTRA_DIGESTS = 8,       /* SHA-256 of the files read, else "" */
     WT_EXTRA_SUMMARY = 16,      /* items and errors in the cost, else its nodes and files alone */
-    WT_EXTRAS = 31
+    WT_EXTRA_TIMES = 32,        /* of the layer: its incubation and its time to 90 %, else NaN */
+    WT_EXTRAS = 63
 } wt_extra;
 
 typedef struct wt_cost wt_cost;
@@ -276,8 +277,7 @@ WT_API const wt_params *wt_ramp_job_params(void);
 typedef struct wt_ramp_tables {
     wt_table *ramp, *glass_transition;
     wt_table *moduli_at; /* NULL without temperatures */
-    size_t n_ramps;
-    uint64_t reserved[4];
+    uint64_t reserved[5];
 } wt_ramp_tables;
 WT_API void wt_ramp_tables_clear(wt_ramp_tables *tables);
 WT_API wt_status wt_ramp_make(const wt_ramp_job *job, const wt_job *work, wt_ramp_tables *tables,

@@ -117,7 +117,9 @@ typedef struct wt_layer_parameters {
     double velocity;           /* [m/s] */
     double start_thickness;    /* [m] */
     double duty;               /* share of the time in contact, (0, 1]; default 1 */
-    bool incubation; /* damage transport (exact, with incubation) instead of the rate balance */
+    bool incubation;     /* damage transport (exact, with incubation) instead of the rate balance */
+    bool without_errors; /* no numerical error that costs more than its number: NaN */
+    bool balance_only;   /* of a balance no incubation time: NaN */
     uint64_t reserved[8];
 } wt_layer_parameters;
 WT_API wt_layer_parameters wt_layer_defaults(void);

@@ -384,7 +384,7 @@ static wt_status test_superposition(master_work *work, wt_error *err)
     spectrum_spread(s, work->within.shape);
     if (status == WT_OK)
         status = spectrum_fit(s, SPECTRUM_NOISE, err);
-    if (status == WT_OK)
+    if (status == WT_OK && !work->options.series_only)
         status = superposition_test(s, work->within.uncertainty, &work->lack, err);
     s->rho = rho;
     spectrum_spread(s, even);

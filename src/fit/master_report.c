@@ -228,9 +228,12 @@ static void fill_fitted(const wt_posterior *p, wt_master *m)
     for (size_t j = 0; j < m->n; j++) {
         const double x = m->log_frequency[j], from = step * floor(x / step);
         if (from > at) {
-            at = from;
-            posterior_moduli(p, from * M_LN10, low);
+            if (from == at + step)
+                memcpy(low, high, sizeof low);
+            else
+                posterior_moduli(p, from * M_LN10, low);
             posterior_moduli(p, (from + step) * M_LN10, high);
+            at = from;
         }
         const double share = (x - from) / step;
         m->fitted_storage[j] = scaled(between(low[STORAGE], high[STORAGE], share), 1.0 / M_LN10);
@@ -275,7 +278,10 @@ static wt_status fill_curve(const master_work *work, wt_master *m, wt_error *err
         m->log_loss[j] = s->y[LOSS][k] / M_LN10 + m->shifts[i].log_b.value;
         m->left_out[j] = s->weight[STORAGE][k] == 0.0 || s->weight[LOSS][k] == 0.0;
     }
-    fill_fitted(work->posterior, m);
+    for (size_t j = 0; j < m->n; j++)
+        m->fitted_storage[j] = m->fitted_loss[j] = unknown_interval;
+    if (!work->options.series_only)
+        fill_fitted(work->posterior, m);
     free(order);
     return WT_OK;
 }
@@ -452,7 +458,10 @@ wt_status master_report(master_work *work, const wt_sweep *sweep, wt_parselog *l
         wt_master_clear(&m);
         return status;
     }
-    master_judge(work, &m);
+    m.superposition = WT_SUPERPOSITION_CANNOT_SAY;
+    m.lack_of_fit_p = (double)NAN;
+    if (!work->options.series_only)
+        master_judge(work, &m);
     master_notes(work, sweep, &m, log);
     work->s->prior = NULL; /* of the work */
     m.posterior = work->posterior;

@@ -38,7 +38,7 @@ wt_status layer_rates_make(const wt_energy_source *source, const wt_layer_parame
     if (status != WT_OK)
         return status;
     const wt_layer_parameters *p = parameters;
-    layer_rates r = {.source = source, .duty = p->duty};
+    layer_rates r = {.source = source, .duty = p->duty, .without_errors = p->without_errors};
     if (!energy_range(source, &r.q_min, &r.q_max))
         r.q_min = 0;
     for (size_t i = 0; i < source->n; i++)
@@ -104,8 +104,10 @@ wt_status layer_fixed_point(const layer_rates *rates, double log_scale, wt_estim
     const double error = 8 * DBL_EPSILON * (1 + fabs(excess) + fabs(rates->log_power)) +
                          rates->source->numerical_error;
     const bool none = !(excess > 0);
-    if (none) /* how thick it might be all the same */
+    if (none && !rates->without_errors) /* how thick it might be all the same */
         excess += error;
+    if (rates->without_errors)
+        thickness->numerical_error = (double)NAN;
     if (!(excess > 0))
         return WT_OK;
     if (isinf(excess)) {
@@ -121,6 +123,7 @@ wt_status layer_fixed_point(const layer_rates *rates, double log_scale, wt_estim
     if (status != WT_OK)
         return status;
     thickness->value = none ? 0 : root;
-    thickness->numerical_error = none ? root : root_error(&b, root, error);
+    if (!rates->without_errors)
+        thickness->numerical_error = none ? root : root_error(&b, root, error);
     return WT_OK;
 }

@@ -18,6 +18,7 @@ typedef struct layer_rates {
     double log_ratio;    /* ln R; -infinity without power, +infinity without wear */
     double threshold;    /* ln(U_c Lambda) */
     double duty;
+    bool without_errors;
 } layer_rates;
 
 wt_status layer_rates_make(const wt_energy_source *source, const wt_layer_parameters *parameters,

@@ -36,6 +36,8 @@ static wt_estimate relaxation_of(const layer_rates *rates, wt_estimate thickness
     if (!(rate > 0))
         return seconds(HUGE_VAL, 0);
     const double time = 1 / rate;
+    if (rates->without_errors)
+        return seconds(time, (double)NAN);
     const double above = layer_decay(rates, thickness.value + thickness.numerical_error);
     const double below = layer_decay(rates, fmax(0, thickness.value - thickness.numerical_error));
     const double moved =
@@ -54,7 +56,8 @@ wt_status wt_layer_balance_compute(const wt_energy_source *source,
     wt_status status = layer_rates_make(source, parameters, &r, err);
     if (status == WT_OK)
         status = layer_fixed_point(&r, 0, &b.thickness, err);
-    if (status == WT_OK)
+    b.incubation_time = seconds((double)NAN, (double)NAN);
+    if (status == WT_OK && !parameters->balance_only)
         status = layer_damage_time(&r, parameters->incubation, (wt_estimate){.unit = "m"},
                                    &b.incubation_time, err);
     if (status != WT_OK)

@@ -144,6 +144,10 @@ static wt_status falling_depth(damage *d, double error, double earlier, wt_estim
 {
     const wt_energy_source *source = d->rates->source;
     const bool none = damage_at(0, d) < 0;
+    if (d->rates->without_errors)
+        thickness->numerical_error = (double)NAN;
+    if (none && d->rates->without_errors)
+        return WT_OK;
     if (none) /* perhaps there is a layer all the same */
         d->level = -error;
     if (none && damage_at(0, d) < 0)
@@ -164,10 +168,12 @@ static wt_status falling_depth(damage *d, double error, double earlier, wt_estim
         thickness->numerical_error = edge;
         return WT_OK;
     }
+    thickness->value = edge;
+    if (d->rates->without_errors)
+        return WT_OK;
     const double lost =
         exp(energy_log_density(source, edge)) - exp(energy_log_density(source, edge + d->way));
     const double reach = error / lost * exp(energy_log_gain(source, edge, d->way));
-    thickness->value = edge;
     thickness->numerical_error = root_reach(
         damage_at, d, edge, error, fmax(2 * DBL_EPSILON * edge, isfinite(reach) ? reach : 0),
         error / d->rates->q_max);
@@ -198,11 +204,10 @@ wt_status layer_damage_depth(const layer_rates *rates, double time, double earli
     status = damage_edge(&d, range, 0, &edge, err);
     if (status != WT_OK)
         return status;
-    if (isnan(edge)) { /* perhaps there is a layer all the same */
-        thickness->numerical_error = most;
+    thickness->value = isnan(edge) ? 0 : edge;
+    thickness->numerical_error = rates->without_errors ? (double)NAN : most;
+    if (isnan(edge) || rates->without_errors) /* perhaps there is a layer all the same */
         return status;
-    }
-    thickness->value = edge;
     return edge_error(&d, edge, most, error, &thickness->numerical_error, err);
 }
 
@@ -281,10 +286,12 @@ wt_status layer_damage_time(const layer_rates *rates, bool with_wear, wt_estimat
     wt_status status = damage_first(&d, depth.value, 0, &log_time, err);
     if (status != WT_OK || isinf(log_time))
         return status;
+    time->value = exp(log_time);
+    if (rates->without_errors)
+        return WT_OK;
     status = damage_first(&d, above, -error, &early, err);
     if (status == WT_OK)
         status = damage_first(&d, depth.value + depth.numerical_error, error, &late, err);
-    time->value = exp(log_time);
     time->numerical_error = fmax(time->value - exp(early), exp(late) - time->value) +
                             8 * DBL_EPSILON * (1 + fabs(log_time)) * time->value;
     return status;

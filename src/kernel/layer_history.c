@@ -22,7 +22,9 @@ static wt_status history_damage(const layer_rates *rates, double start, const la
         const double old = fmax(0, start - rates->wear * at[i].time);
         if (old > grown.value) {
             grown.value = old;
-            grown.numerical_error = fmax(grown.numerical_error, 4 * DBL_EPSILON * start);
+            grown.numerical_error = rates->without_errors
+                                        ? (double)NAN
+                                        : fmax(grown.numerical_error, 4 * DBL_EPSILON * start);
         }
         at[i].point->thickness = grown;
     }

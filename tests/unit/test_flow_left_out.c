@@ -5,8 +5,11 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cells.h"
 
+#include "fit/superposition.h"
 #include "flow/plan/plan.h"
 #include "kernel/friction.h"
+#include "kernel/layer.h"
+#include "kernel/root.h"
 #include "read/bytes/samples.h"
 #include "weartrack/flow.h"
 #include "weartrack/report.h"
@@ -100,7 +103,10 @@ typedef enum work {
     DENSITIES,  /* energy density at a depth */
     BALANCES,
     HISTORIES,
-    DIGESTS, /* SHA-256 */
+    TIMES,    /* of the layer, to a thickness */
+    REACHES,  /* numerical errors of its thicknesses */
+    VERDICTS, /* on superposition */
+    DIGESTS,  /* SHA-256 */
     N_WORK
 } work;
 
@@ -117,6 +123,9 @@ static const char *const work_names[N_WORK] = {"channels decoded",
                                                "energy densities",
                                                "balances",
                                                "histories",
+                                               "times to a thickness",
+                                               "errors of a thickness",
+                                               "verdicts on superposition",
                                                "digests"};
 static atomic_size_t count[N_WORK];
 
@@ -172,6 +181,16 @@ COUNTED(wt_status, wt_layer_history, HISTORIES,
         (const wt_energy_source *source, const wt_layer_parameters *parameters, const double *time,
          size_t n, wt_layer_point *points, wt_error *err),
         (source, parameters, time, n, points, err))
+COUNTED(wt_status, layer_damage_time, TIMES,
+        (const layer_rates *rates, bool with_wear, wt_estimate depth, wt_estimate *time,
+         wt_error *err),
+        (rates, with_wear, depth, time, err))
+COUNTED(double, root_reach, REACHES,
+        (root_fn function, void *user, double root, double error, double reach, double least),
+        (function, user, root, error, reach, least))
+COUNTED(wt_status, superposition_test, VERDICTS,
+        (const spectrum *s, double uncertainty, lack_of_fit *result, wt_error *err),
+        (s, uncertainty, result, err))
 void __real_wt_digest(const void *bytes, size_t length, char hex[65]);
 void __wrap_wt_digest(const void *bytes, size_t length, char hex[65]);
 void __wrap_wt_digest(const void *bytes, size_t length, char hex[65])
@@ -344,7 +363,7 @@ static void check_some(const char *asks, work which, bool needed)
                  needed ? "some are needed" : "none are needed");
 }
 
-enum { CURVES_OF_A_FILE = 12, FILES_OF_A_GROUP = 4, DEPTHS_SHOWN = 121 };
+enum { CURVES_OF_A_FILE = 12, FILES_OF_A_GROUP = 4, DEPTHS_SHOWN = 121, TIMES_SHOWN = 61 };
 
 static void check_curves(const char *asks, const ran *r)
 {
@@ -374,6 +393,7 @@ static void check_material(const char *asks, const ran *r)
     const size_t trials = runs(r, FLOW_COVERAGE) ? TRIALS : 0;
     check(asks, MASTERS,
           runs(r, FLOW_PRONY) + 3 * (size_t)runs(r, FLOW_WHAT_IF) + (trials > 0) + trials);
+    check(asks, VERDICTS, (size_t)runs(r, FLOW_PRONY) + (trials > 0));
     check(asks, DRAWS, 200 * (drawn + (r->replicates > 0 ? trials : 0)));
 }
 
@@ -382,11 +402,15 @@ static void check_sliding(const char *asks, const ran *r)
     const size_t layer = runs(r, FLOW_LAYER), friction = runs(r, FLOW_FRICTION);
     const size_t area = shown(r, FLOW_CONTACT_AREA), density = shown(r, FLOW_ENERGY_DENSITY);
     const bool settings = runs(r, FLOW_WHAT_IF); /* the budget needs it */
+    const bool covered = runs(r, FLOW_COVERAGE);
     const size_t times = 1 + r->replicates;
     check(asks, DENSITIES, density > 0 ? DEPTHS_SHOWN : 0);
     check(asks, PROFILES, 3 * area);
     check_some(asks, SHARES, friction > 0 || settings);
-    const bool covered = runs(r, FLOW_COVERAGE);
+    /* the errors are those of the values themselves */
+    if (!settings && !covered && count[REACHES] > layer * (1 + TIMES_SHOWN))
+        fail_msg("%s: %s: %zu", asks, work_names[REACHES], (size_t)count[REACHES]);
+    check(asks, TIMES, 2 * times * layer); /* incubation, and to 90 % */
     check_some(asks, PASSES, layer + friction + area + density > 0 || settings || covered);
     if (settings || covered)
         return;

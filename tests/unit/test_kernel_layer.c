@@ -603,6 +603,54 @@ static void nothing_happens(void **state)
     assert_true(isnan(wt_layer_exponential(0, 1, (double)NAN, 1, 1)));
 }
 
+static void same_value(wt_estimate full, wt_estimate alone)
+{
+    assert_memory_equal(&full.value, &alone.value, sizeof full.value);
+    if (full.numerical_error > 0) /* else there is certainly none, which costs nothing */
+        assert_true(isnan(alone.numerical_error));
+}
+
+/* What is not asked for changes no bit of what is. */
+static void numbers_alone(void **state)
+{
+    (void)state;
+    enum { TIMES = 40 };
+    for (int way = 0; way < 8; way++) {
+        rig r = rig_several();
+        wt_layer_parameters *p = &r.parameters;
+        r.source.profile = (way & 1) != 0 ? WT_PROFILE_INCOMPRESSIBLE : WT_PROFILE_PERSSON;
+        p->incubation = true;
+        p->specific_wear_rate = (way & 2) != 0 ? 1e-12 : 1e-9; /* with and without a layer */
+        p->start_thickness = (way & 4) != 0 ? 1e-6 : 0;
+        const wt_layer_balance full = balance_of(&r);
+        wt_layer_point points[2][TIMES];
+        wt_estimate time[2], goal = {0.9 * full.thickness.value, 0, 0, "m"};
+        double at[TIMES];
+        for (size_t i = 0; i < TIMES; i++)
+            at[i] = 1e-2 * pow(10, 0.3 * (double)i);
+        assert_int_equal(wt_layer_history(&r.source, p, at, TIMES, points[0], NULL), WT_OK);
+        assert_int_equal(wt_layer_time(&r.source, p, goal, &time[0], NULL), WT_OK);
+        p->without_errors = true;
+        const wt_layer_balance alone = balance_of(&r);
+        same_value(full.thickness, alone.thickness);
+        same_value(full.incubation_time, alone.incubation_time);
+        if (isfinite(full.relaxation_time.value))
+            same_value(full.relaxation_time, alone.relaxation_time);
+        assert_int_equal(wt_layer_history(&r.source, p, at, TIMES, points[1], NULL), WT_OK);
+        for (size_t i = 1; i < TIMES; i++)
+            same_value(points[0][i].thickness, points[1][i].thickness);
+        assert_int_equal(wt_layer_time(&r.source, p, goal, &time[1], NULL), WT_OK);
+        if (!isnan(time[0].value))
+            same_value(time[0], time[1]);
+        p->without_errors = false;
+        p->balance_only = true;
+        const wt_layer_balance only = balance_of(&r);
+        assert_memory_equal(&full.thickness, &only.thickness, sizeof full.thickness);
+        assert_true(isnan(only.incubation_time.value));
+        rig_free(&r);
+    }
+}
+
 static void bad_input(void **state)
 {
     (void)state;
@@ -663,6 +711,7 @@ int main(void)
         cmocka_unit_test(regimes),
         cmocka_unit_test(calibration),
         cmocka_unit_test(nothing_happens),
+        cmocka_unit_test(numbers_alone),
         cmocka_unit_test(bad_input),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -137,6 +137,7 @@ static wt_status find_balance(const layer_task *task, size_t replicate, layer_ru
     const uint64_t seed = task->work->seed;
     sliding_contact c = {0};
     wt_job work = *task->work;
+    const bool with_times = (work.left_out & WT_EXTRA_TIMES) == 0;
     work.left_out |= WT_EXTRA_SHARE;
     wt_status status = sliding_contact_make(task->sliding, &work, replicate, none, &c, err);
     if (status == WT_OK)
@@ -152,6 +153,8 @@ static wt_status find_balance(const layer_task *task, size_t replicate, layer_ru
         p->duty = job->duty;
         p->start_thickness = job->start_thickness;
         p->incubation = job->incubation;
+        p->without_errors = replicate != WT_NO_REPLICATE;
+        p->balance_only = !with_times;
         p->pressure = c.pressure;
         p->velocity = task->velocity;
         p->specific_wear_rate =
@@ -170,7 +173,8 @@ static wt_status find_balance(const layer_task *task, size_t replicate, layer_ru
     wt_estimate most = run->balance.thickness;
     most.value *= 0.9;
     most.numerical_error *= 0.9;
-    if (status == WT_OK)
+    run->time_to_90_percent = (wt_estimate){(double)NAN, (double)NAN, (double)NAN, "s"};
+    if (status == WT_OK && with_times)
         status = wt_layer_time(&run->source, &run->parameters, most, &run->time_to_90_percent, err);
     sliding_contact_clear(&c);
     return status;

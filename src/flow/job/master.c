@@ -300,13 +300,12 @@ static wt_status fit(const wt_master_job *job, const wt_job *work, const wt_swee
     return status;
 }
 
+/* All but the master curve. */
 static wt_status make_tables(const wt_master *m, const wt_job *work, wt_master_tables *t,
                              wt_error *err)
 {
     t->n_isotherms = m->n_shifts;
     wt_status status = shift_table(m, &t->shift_factors, err);
-    if (status == WT_OK)
-        status = master_table(m, &t->master_curve, err);
     if (status == WT_OK)
         status = prony_table(m, &t->prony, err);
     return status == WT_OK && (work->left_out & WT_EXTRA_DRAWS) == 0 ? draw_tables(m, t, err)
@@ -318,7 +317,9 @@ wt_status flow_rubber_fit(const wt_sweep *sweep, const wt_master_options *option
                           wt_rubber *rubber, wt_error *err)
 {
     wt_master_tables t = {0};
-    wt_status status = wt_master_fit(sweep, options, NULL, fit, err);
+    wt_master_options own = *options;
+    own.series_only = true;
+    wt_status status = wt_master_fit(sweep, &own, NULL, fit, err);
     if (status == WT_OK)
         status = make_tables(fit, work, &t, err);
     const wt_rubber_tables of = {.prony = t.prony,
@@ -381,6 +382,8 @@ wt_status wt_master_make(const wt_master_job *job, const wt_job *work, wt_master
         status = fit(job, work, &sweep, &master, err);
     if (status == WT_OK)
         status = make_tables(&master, work, &t, err);
+    if (status == WT_OK)
+        status = master_table(&master, &t.master_curve, err);
     if (status == WT_OK && rubber != NULL) {
         const wt_rubber_tables of = {.prony = t.prony,
                                      .shift_factors = t.shift_factors,

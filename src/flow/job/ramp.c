@@ -299,7 +299,6 @@ static wt_status make_tables(const wt_ramp_job *job, const wt_job *work, const w
         wt_table_free(t->moduli_at);
         t->moduli_at = NULL;
     }
-    t->n_ramps = sweep->n_ramps;
     return status;
 }
 
@@ -324,7 +323,7 @@ wt_status wt_ramp_make(const wt_ramp_job *job, const wt_job *work, wt_ramp_table
     if (status == WT_OK)
         status = make_tables(job, work, &sweep, &t, err);
     if (status == WT_OK) {
-        cost_say(work, (cost_summary){.items = (double)t.n_ramps});
+        cost_say(work, (cost_summary){.items = (double)sweep.n_ramps});
         *tables = t;
         t = (wt_ramp_tables){0};
     }
