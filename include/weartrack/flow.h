@@ -32,6 +32,7 @@ typedef enum wt_extra {
 } wt_extra;
 
 typedef struct wt_cost wt_cost;
+typedef struct wt_drawn wt_drawn;
 
 typedef struct wt_job {
     const wt_formats *formats; /* borrowed; needed by jobs that read files */
@@ -46,7 +47,8 @@ typedef struct wt_job {
                                   work goes on; NULL: the first one that fails ends the job */
     unsigned left_out;         /* of wt_extra: not asked for, so not made; default 0 */
     wt_cost *cost;             /* borrowed; NULL (default): nothing is counted */
-    uint64_t reserved[6];
+    wt_drawn *drawn;           /* of wt_run, whose jobs share what is drawn of the material; NULL */
+    uint64_t reserved[5];
 } wt_job;
 WT_API wt_job wt_job_defaults(void);
 WT_API const wt_params *wt_job_params(void);

@@ -30,7 +30,8 @@ typedef struct wt_friction_options {
     wt_layer_state layer; /* default none */
     unsigned threads;     /* over velocities; 0 = one per processor; default 1 */
     bool without_share;   /* the extrapolated share is not asked for, and NaN; default false */
-    uint64_t reserved[8];
+    struct angular_law *series; /* of the library: that of the material, borrowed; default NULL */
+    uint64_t reserved[7];
 } wt_friction_options;
 WT_API wt_friction_options wt_friction_defaults(void);
 WT_API const wt_params *wt_friction_params(void);

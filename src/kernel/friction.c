@@ -143,7 +143,9 @@ wt_status wt_friction_workspace_new(const wt_material *material, const wt_roughn
     ws->scratch = pool_alloc(&ws->memory, ws->threads, sizeof *ws->scratch);
     panel_plan_init(&ws->plan, roughness, levels_for(o.tolerance), 0, &ws->memory);
 
-    status = angular_new(material, o.tolerance, &ws->memory, &ws->angular, err);
+    ws->angular = o.series;
+    if (o.series == NULL)
+        status = angular_new(material, o.tolerance, &ws->memory, &ws->angular, err);
     if (status == WT_OK)
         ws->rounding = rounding_of(ws);
     if (status == WT_OK && ws->n_knots == 0)
@@ -164,7 +166,8 @@ void wt_friction_workspace_free(wt_friction_workspace *ws)
 {
     if (ws == NULL)
         return;
-    angular_clear(ws->angular);
+    if (ws->options.series == NULL)
+        angular_clear(ws->angular);
     pool_free(&ws->memory);
     free(ws);
 }

@@ -93,7 +93,7 @@ LAST(wt_superposition, WT_SUPERPOSITION_CANNOT_SAY, 2)
 
 /* kernel.h */
 ROOM(wt_layer_state, modulus_ratio, 8, 80)
-ROOM(wt_friction_options, without_share, 100, 168)
+ROOM(wt_friction_options, series, 104, 168)
 FIXED(wt_friction_point, reached, 152, 160)
 FIXED(wt_friction_node, numerical_error, 32, 40)
 ROOM(wt_energy_source, numerical_error, 40, 112)
@@ -104,7 +104,7 @@ LAST(wt_depth_profile, WT_PROFILE_INCOMPRESSIBLE, 1)
 LAST(wt_layer_regime, WT_LAYER_THICK, 2)
 
 /* flow.h */
-ROOM(wt_job, cost, 88, 144)
+ROOM(wt_job, drawn, 96, 144)
 LAST(wt_extra, WT_EXTRA_TIMES, 32)
 ROOM(wt_file_set, spot, 152, 224)
 ROOM(wt_convert_job, read, 8, 200)

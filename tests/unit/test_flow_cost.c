@@ -6,10 +6,12 @@
 
 #include "base/array.h"
 #include "flow/plan/plan.h"
+#include "kernel/angular_panels.h"
 
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #define CASE WT_SOURCE_DIR "/fixtures/case"
 enum { CURVES = 48, ISOTHERMS = 12, VELOCITIES = 32, TIMES = 61, REPLICATES = 3 };
@@ -221,6 +223,112 @@ static void test_any_number_of_threads(void **state)
     wt_result_free(two);
 }
 
+/* ---- materials ------------------------------------------------------------------------------- */
+
+static size_t fits; /* of the angular integrals of a material */
+
+wt_status __real_angular_panels_new(const wt_material *material, const gauss_rule *rule, double low,
+                                    double high, double goal, angular_panels *panels,
+                                    wt_error *err);
+wt_status __wrap_angular_panels_new(const wt_material *material, const gauss_rule *rule, double low,
+                                    double high, double goal, angular_panels *panels,
+                                    wt_error *err);
+wt_status __wrap_angular_panels_new(const wt_material *material, const gauss_rule *rule, double low,
+                                    double high, double goal, angular_panels *panels, wt_error *err)
+{
+    fits++;
+    return __real_angular_panels_new(material, rule, low, high, goal, panels, err);
+}
+
+/* Layer, friction and friction with the layer of a material without a closed form. */
+static wt_result *run_zener(const char *temperature, unsigned threads)
+{
+    char path[] = "/tmp/weartrack-cost-XXXXXX";
+    const int file = mkstemp(path);
+    assert_true(file >= 0);
+    dprintf(file,
+            "<?xml version=\"1.0\"?><case version=\"1\"><dma>"
+            "<reference-temperature>20degC</reference-temperature>"
+            "<fractional-zener><e0>5MPa</e0><eg>2GPa</eg><tau>1us</tau><alpha>0.4</alpha>"
+            "</fractional-zener><wlf><c1>12</c1><c2>80K</c2></wlf></dma>"
+            "<roughness><self-affine><q0>2e3rad/m</q0><qr>4e3rad/m</qr><q1>2e6rad/m</q1>"
+            "<hurst>0.8</hurst><c0>2e-17m^4 +- 5%%</c0></self-affine></roughness>"
+            "<sliding><pressure>0.4MPa</pressure><temperature>%s</temperature>"
+            "<velocity>1e-3:1m/s:log:4</velocity><shear-stress>5MPa</shear-stress></sliding>"
+            "<layer><specific-wear-rate>1e-3mm^3/(N m)</specific-wear-rate>"
+            "<critical-energy>1e10J/m^3</critical-energy><modulus-ratio>0.6</modulus-ratio></layer>"
+            "<report><result>layer</result><result>friction</result></report></case>",
+            temperature);
+    close(file);
+    wt_error err = WT_ERROR_INIT;
+    wt_case *whole = the_case;
+    const wt_status status = wt_case_read(path, &the_case, &err);
+    unlink(path);
+    if (status != WT_OK)
+        fail_msg("%s %s", err.message, err.found);
+    fits = 0;
+    wt_result *result = run(threads, false);
+    wt_case_free(the_case);
+    the_case = whole;
+    return result;
+}
+
+/* Three contacts of the values themselves; of the replicates one material each, or one for all
+ * where nothing of it is drawn. */
+static void test_materials_are_shared(void **state)
+{
+    (void)state;
+    wt_result *result = run_zener("30degC", 1);
+    assert_int_equal(fits, 3 + 1);
+    wt_result_free(result);
+    result = run_zener("30degC +- 1K", 1);
+    assert_int_equal(fits, 3 + REPLICATES);
+    wt_result_free(result);
+}
+
+/* And what is shared is what a job alone finds. */
+static void test_shared_or_not(void **state)
+{
+    (void)state;
+    const wt_zener zener = {.e0 = 5e6, .eg = 2e9, .tau = 1e-6, .alpha = 0.4};
+    static const double velocity[] = {1e-3, 1e-2, 0.1, 1};
+    wt_result *result = run_zener("30degC +- 1K", 2);
+    const wt_table *layer = wt_result_find(result, "layer"),
+                   *friction = wt_result_find(result, "friction");
+    wt_friction_tables alone = {0};
+    wt_estimate thickness;
+    sliding_set_up(velocity, COUNT_OF(velocity));
+    rubber = (wt_rubber){.kind = WT_RUBBER_ZENER,
+                         .zener = zener,
+                         .poisson_ratio = 0.5,
+                         .law = {.kind = WT_LAW_WLF, .wlf = {293.15, 12, 80}},
+                         .temperature_min = (double)NAN,
+                         .temperature_max = (double)NAN,
+                         .prony = {.reference_temperature = 293.15,
+                                   .frequency_min = (double)NAN,
+                                   .frequency_max = (double)NAN}};
+    surface.c0.standard_error = 0.05 * surface.c0.value;
+    sliding.temperature = (wt_estimate){303.15, 1, 0, "K"};
+    sliding.reference_velocity = 0.1;
+    work.tolerance = 1e-6;
+    work.replicates = REPLICATES;
+    assert_true(wt_table_estimate(layer, "balance_thickness", &thickness));
+    thickness.numerical_error = 0;
+    const wt_layer_known known = {.thickness = thickness, .modulus_ratio = {0.6, 0, 0, "1"}};
+    assert_int_equal(wt_friction_make(&sliding, &known, &work, &alone, NULL), WT_OK);
+    for (size_t i = 0; i < COUNT_OF(velocity); i++) {
+        static const char *const columns[] = {"friction", "friction_standard_error",
+                                              "friction_with_layer_standard_error"};
+        for (size_t k = 0; k < COUNT_OF(columns); k++) {
+            const double x = number_cell(friction, i, columns[k]);
+            assert_true(x > 0);
+            assert_near(number_cell(alone.friction, i, columns[k]), x, 1e-12 * x);
+        }
+    }
+    wt_friction_tables_clear(&alone);
+    wt_result_free(result);
+}
+
 /* ---- one job --------------------------------------------------------------------------------- */
 
 static wt_table *make_friction(wt_cost *cost)
@@ -296,6 +404,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_case),
         cmocka_unit_test(test_any_number_of_threads),
+        cmocka_unit_test(test_materials_are_shared),
+        cmocka_unit_test(test_shared_or_not),
         cmocka_unit_test(test_nodes),
         cmocka_unit_test(test_not_asked),
     };

@@ -340,6 +340,7 @@ static wt_status prepare(coverage *c, const wt_job *work, wt_error *err)
     c->work = *work;
     c->work.threads = 1; /* the trials take the threads */
     c->work.left_out = work->replicates < 2 ? WT_EXTRAS : WT_EXTRAS & ~(unsigned)WT_EXTRA_DRAWS;
+    c->work.drawn = NULL; /* of another material */
     c->work.log = NULL;
     c->work.progress = (wt_progress){0};
     const wt_rubber *rubber = &c->setting.rubber;

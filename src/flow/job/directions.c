@@ -50,7 +50,8 @@ static wt_status compute(directions *d, size_t k, wt_error *err)
     sliding_contact c = {0};
     rubber.transverse = factors_of(&rubber.transverse, k);
     sliding.rubber = &rubber;
-    wt_status status = sliding_contact_make(&sliding, &d->work, WT_NO_REPLICATE, none, &c, err);
+    wt_status status =
+        sliding_contact_make(&sliding, &d->work, WT_NO_REPLICATE, NULL, none, &c, err);
     if (status == WT_OK)
         status = wt_friction_compute(c.workspace, c.pressure, sliding.velocity, sliding.n_velocity,
                                      points, err);

@@ -356,7 +356,8 @@ wt_status wt_error_budget_make(const wt_sliding *sliding, const wt_layer_job *la
     budget b = {.work = *work};
     table_view moved = {0};
     b.work.left_out = WT_EXTRAS;
-    b.work.log = NULL; /* what is to be said of these numbers has been said */
+    b.work.drawn = NULL; /* of another material */
+    b.work.log = NULL;   /* what is to be said of these numbers has been said */
     b.work.progress = (wt_progress){0};
     wt_status status = setting_make(sliding, layer, known, work, &b.setting, err);
     if (status == WT_OK && what_if != NULL)

@@ -60,7 +60,8 @@ static wt_status compute(const friction_task *task, size_t replicate, wt_frictio
                          double *out, sliding_contact *c, wt_error *err)
 {
     const wt_layer_state none = {.modulus_ratio = 1};
-    wt_status status = sliding_contact_make(task->sliding, task->work, replicate, none, c, err);
+    wt_status status = sliding_contact_make(task->sliding, task->work, replicate,
+                                            task->replicates.drawn, none, c, err);
     if (status == WT_OK)
         status =
             wt_friction_compute(c->workspace, c->pressure, task->velocity, task->n, points, err);
@@ -81,7 +82,8 @@ static wt_status compute_layered(const friction_task *task, size_t replicate,
 {
     wt_layer_state layer = layer_of(task, replicate);
     sliding_contact c = {0};
-    wt_status status = sliding_contact_make(task->sliding, task->work, replicate, layer, &c, err);
+    wt_status status = sliding_contact_make(task->sliding, task->work, replicate,
+                                            task->replicates.drawn, layer, &c, err);
     if (status == WT_OK)
         status = wt_friction_compute(c.workspace, c.pressure, task->velocity, task->n, points, err);
     for (size_t i = 0; status == WT_OK && i < task->n; i++) {

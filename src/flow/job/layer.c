@@ -139,7 +139,8 @@ static wt_status find_balance(const layer_task *task, size_t replicate, layer_ru
     wt_job work = *task->work;
     const bool with_times = (work.left_out & WT_EXTRA_TIMES) == 0;
     work.left_out |= WT_EXTRA_SHARE;
-    wt_status status = sliding_contact_make(task->sliding, &work, replicate, none, &c, err);
+    wt_status status = sliding_contact_make(task->sliding, &work, replicate, task->replicates.drawn,
+                                            none, &c, err);
     if (status == WT_OK)
         status =
             wt_energy_source_friction(c.workspace, c.pressure, task->velocity, &run->source, err);
@@ -360,6 +361,7 @@ wt_status wt_layer_make(const wt_sliding *sliding, const wt_layer_job *job, cons
                        .work = work,
                        .velocity = flow_layer_velocity(sliding, job),
                        .replicates = replicates_of(sliding, work, "layer")};
+    task.replicates.velocity = task.velocity;
     layer_run centre = {.points = NULL};
     wt_layer_tables t = {0};
     status = find_balance(&task, WT_NO_REPLICATE, &centre, err);

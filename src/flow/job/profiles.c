@@ -15,7 +15,7 @@ static wt_status make_contact(const wt_sliding *sliding, const wt_job *work, sli
     const wt_layer_state none = {.modulus_ratio = 1};
     wt_job own = *work;
     own.left_out = WT_EXTRAS;
-    return sliding_contact_make(sliding, &own, WT_NO_REPLICATE, none, c, err);
+    return sliding_contact_make(sliding, &own, WT_NO_REPLICATE, NULL, none, c, err);
 }
 
 /* ---- contact area ---------------------------------------------------------------------------- */

@@ -1,6 +1,7 @@
 /* Standard errors from replicates. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/job/replicates.h"
 #include "flow/job/draws.h"
+#include "flow/job/sliding_contact.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -35,7 +36,7 @@ void replicates_add(replicates *r, double standard_error, const char *words)
 replicates replicates_of(const wt_sliding *sliding, const wt_job *work, const char *what)
 {
     const wt_rubber *rubber = sliding->rubber;
-    replicates r = {.work = work, .what = what};
+    replicates r = {.sliding = sliding, .work = work, .what = what};
     if (rubber->n_draws > 0) {
         add_drawn(&r, rubber->law.kind == WT_LAW_NONE ? "material" : "material with its shift law");
     } else {
@@ -76,6 +77,31 @@ static wt_status draw_one(void *user, size_t i, unsigned worker)
     return status == WT_E_MEMORY ? status : WT_OK;
 }
 
+/* For its velocities; where jobs share the material, for all of the contact, so that it does not
+ * matter which comes first. */
+static wt_status begin(replicates *r, wt_error *err)
+{
+    const wt_sliding *s = r->sliding;
+    const double *v = s->velocity, reference = flow_reference_velocity(s);
+    const bool shared = r->work->drawn != NULL, alone = r->velocity > 0;
+    const double own = alone ? r->velocity : reference;
+    double slowest = own, fastest = own;
+    if (shared || !alone) {
+        slowest = fmin(slowest, fmin(v[0], reference));
+        fastest = fmax(fastest, fmax(v[s->n_velocity - 1], reference));
+    }
+    r->drawn = shared ? r->work->drawn : drawn_new();
+    return r->drawn != NULL ? drawn_begin(r->drawn, s, r->work, slowest, fastest, err)
+                            : wt_fail(err, WT_E_MEMORY, "out of memory");
+}
+
+static void end(replicates *r)
+{
+    if (r->drawn != r->work->drawn)
+        drawn_free(r->drawn);
+    r->drawn = NULL;
+}
+
 wt_status replicates_draw(replicates *r, size_t stride, replicate_fn one, const void *user,
                           wt_error *err)
 {
@@ -87,8 +113,13 @@ wt_status replicates_draw(replicates *r, size_t stride, replicate_fn one, const 
     drawing d = {r, one, user};
     char words[64];
     snprintf(words, sizeof words, "%s replicates", r->what);
-    const wt_status status =
-        wt_parallel_for(r->n, r->work->threads, draw_one, &d, &r->work->progress, words);
+    wt_status status = r->n > 0 ? begin(r, err) : WT_OK;
+    if (status != WT_OK) {
+        end(r);
+        return status;
+    }
+    status = wt_parallel_for(r->n, r->work->threads, draw_one, &d, &r->work->progress, words);
+    end(r);
     if (status != WT_OK)
         return wt_fail(err, status, "the replicates of the %s failed", r->what);
     size_t lost = 0;

@@ -3,10 +3,13 @@
 #ifndef WEARTRACK_FLOW_REPLICATES_H
 #define WEARTRACK_FLOW_REPLICATES_H
 
-#include "weartrack/flow.h"
+#include "flow/job/drawn.h"
 
 typedef struct replicates {
+    const wt_sliding *sliding;
     const wt_job *work;
+    double velocity;                /* the only one [m/s]; 0: those of the list and the reference */
+    wt_drawn *drawn;                /* while they are drawn */
     const char *what;               /* "friction", for messages */
     bool varies;                    /* an error is stated or measured: there are replicates */
     char includes[256], lacks[256]; /* in words: what is drawn, what has no stated error */

@@ -9,9 +9,6 @@
 #include <math.h>
 #include <string.h>
 
-/* Relative numerical error asked of replicates: far below the scatter between them. */
-#define REPLICATE_TOLERANCE 1e-5
-
 wt_sliding wt_sliding_defaults(void)
 {
     return (wt_sliding){
@@ -80,7 +77,8 @@ static wt_status check_material(const wt_sliding *sliding, sliding_contact *c, w
 }
 
 wt_status sliding_contact_make(const wt_sliding *sliding, const wt_job *work, size_t replicate,
-                               wt_layer_state layer, sliding_contact *contact, wt_error *err)
+                               wt_drawn *shared, wt_layer_state layer, sliding_contact *contact,
+                               wt_error *err)
 {
     sliding_contact c = {.cost = work->cost};
     const uint64_t seed = work->seed;
@@ -99,8 +97,14 @@ wt_status sliding_contact_make(const wt_sliding *sliding, const wt_job *work, si
     options.threads = drawn ? 1 : work->threads;
     options.layer = layer;
     options.without_share = drawn || layer.thickness > 0 || (work->left_out & WT_EXTRA_SHARE) != 0;
-    wt_status status =
-        wt_rubber_at(sliding->rubber, temperature, seed, replicate, &c.material, c.statement, err);
+    drawn_material kept = {0};
+    wt_status status = shared != NULL ? drawn_get(shared, replicate, &kept, err) : WT_OK;
+    c.shared = kept.material != NULL;
+    c.material = kept.material;
+    options.series = kept.series;
+    if (status == WT_OK && !c.shared)
+        status = wt_rubber_at(sliding->rubber, temperature, seed, replicate, &c.material,
+                              c.statement, err);
     if (status == WT_OK)
         status = wt_surface_roughness(sliding->surface, factor, &c.roughness, err);
     if (status == WT_OK)
@@ -121,6 +125,7 @@ void sliding_contact_clear(sliding_contact *contact)
         cost_add_nodes(contact->cost, friction_nodes(contact->workspace));
     wt_friction_workspace_free(contact->workspace);
     wt_roughness_free(contact->roughness);
-    wt_material_free(contact->material);
+    if (!contact->shared)
+        wt_material_free(contact->material);
     *contact = (sliding_contact){0};
 }

@@ -3,11 +3,12 @@
 #ifndef WEARTRACK_FLOW_SLIDING_CONTACT_H
 #define WEARTRACK_FLOW_SLIDING_CONTACT_H
 
-#include "weartrack/flow.h"
+#include "flow/job/drawn.h"
 
 typedef struct sliding_contact {
     double pressure, shear_stress;
     wt_material *material;
+    bool shared; /* it is that of `drawn` */
     wt_roughness *roughness;
     wt_friction_workspace *workspace;
     wt_cost *cost;       /* of its nodes */
@@ -21,10 +22,11 @@ wt_status flow_sliding_check(const wt_sliding *sliding, const wt_job *work,
 double flow_reference_velocity(const wt_sliding *sliding);
 /* The velocity at which the track was worn. */
 double flow_layer_velocity(const wt_sliding *sliding, const wt_layer_job *layer);
-/* Draws replicate `replicate` (WT_NO_REPLICATE = the values themselves) and prepares the kernel. A
- * replicate takes one thread and asks for a small numerical error, as many are made at a time. */
+/* Draws replicate `replicate` (WT_NO_REPLICATE = the values themselves, with drawn NULL) and
+ * prepares the kernel. A replicate takes one thread and asks for a small numerical error, as many
+ * are made at a time. */
 wt_status sliding_contact_make(const wt_sliding *sliding, const wt_job *work, size_t replicate,
-                               wt_layer_state layer, sliding_contact *contact,
+                               wt_drawn *drawn, wt_layer_state layer, sliding_contact *contact,
                                wt_error *err) WT_NODISCARD;
 /* What must be said of numbers whose relative error is not below the tolerance. */
 #define TOLERANCE_STATEMENT "the tolerance %.2g is not reached, the numerical error is up to %.2g"

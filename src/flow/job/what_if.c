@@ -504,7 +504,8 @@ wt_status wt_what_if_make(const wt_sliding *sliding, const wt_layer_job *layer,
     what_if w = {.work = *work};
     w.work.threads = 1; /* the settings take the threads */
     w.work.replicates = 0;
-    w.work.log = NULL; /* what is to be said of the values as used has been said */
+    w.work.drawn = NULL; /* of another material */
+    w.work.log = NULL;   /* what is to be said of the values as used has been said */
     w.work.progress = (wt_progress){0};
     w.outcomes = malloc((1 + COUNT_OF(choices) * MOST_TRIED) * sizeof *w.outcomes);
     if (w.outcomes == NULL)

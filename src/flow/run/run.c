@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/answer/answer.h"
 #include "flow/job/cost.h"
+#include "flow/job/drawn.h"
 #include "flow/job/inputs.h"
 #include "flow/run/steps.h"
 
@@ -30,6 +31,7 @@ typedef struct conduct {
     wt_result *result;
     wt_table *failures;
     wt_cost *cost;
+    wt_drawn *drawn;
 } conduct;
 
 /* ---- one stage ------------------------------------------------------------------------------- */
@@ -254,7 +256,9 @@ static wt_status prepare(conduct *d, const wt_run_options *options, wt_parselog 
     d->result = wt_result_new();
     d->failures = wt_failures_new();
     d->cost = wt_cost_new(!options->no_provenance, options->threads);
-    if (log == NULL || d->result == NULL || d->failures == NULL || d->cost == NULL)
+    d->drawn = drawn_new();
+    if (log == NULL || d->result == NULL || d->failures == NULL || d->cost == NULL ||
+        d->drawn == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     wt_status status = wt_formats_new(options->formats, &d->formats, log, err);
     if (status == WT_OK)
@@ -270,6 +274,7 @@ static wt_status prepare(conduct *d, const wt_run_options *options, wt_parselog 
         .provenance = wt_result_provenance(d->result),
         .failures = d->failures,
         .cost = d->cost,
+        .drawn = d->drawn,
     };
     return status == WT_OK ? add_case(d, err) : status;
 }
@@ -309,6 +314,7 @@ done:
     wt_result_free(d.result);
     wt_table_free(d.failures);
     wt_cost_free(d.cost);
+    drawn_free(d.drawn);
     wt_parselog_free(d.own_log);
     return status;
 }
