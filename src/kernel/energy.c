@@ -212,13 +212,52 @@ static double sum_of(const wt_energy_source *source, shape_fn *of, double depth,
     return sum;
 }
 
+/* Below it the powers are taken relative to the last that is left. */
+static const double least_sum = 1e-200;
+
 static double log_sum(const wt_energy_source *source, shape_fn *of, double depth, double length)
 {
     double q_min, q_max;
     const double sum = sum_of(source, of, depth, length, 0);
-    if (sum > 1e-200 || !energy_range(source, &q_min, &q_max))
+    if (sum > least_sum || !energy_range(source, &q_min, &q_max))
         return log(sum);
     return log(sum_of(source, of, depth, length, q_min)) - 2 * q_min * depth;
+}
+
+static void sums_of_both(const wt_energy_source *source, double depth, double q_min,
+                         double sum[ENERGY_BOTH])
+{
+    static shape_fn *const of[] = {tail_shape, shape};
+    wt_energy_source as[2] = {*source, *source};
+    double value[BATCH];
+    batch b = {.r = asymmetry(source->local_friction), .depth = depth};
+    as[0].profile = WT_PROFILE_PERSSON;
+    as[1].profile = WT_PROFILE_INCOMPRESSIBLE;
+    for (size_t k = 0; k < ENERGY_BOTH; k++)
+        sum[k] = 0;
+    for (size_t from = 0; from < source->n; from += BATCH) {
+        batch_fill(source, from, q_min, &b);
+        for (size_t k = 0; k < ENERGY_BOTH; k++) {
+            of[k % 2](&as[k / 2], &b, value);
+            for (size_t i = 0; i < b.n; i++)
+                sum[k] += b.power[i] * value[i];
+        }
+    }
+}
+
+void energy_log_both(const wt_energy_source *source, double depth, double logarithm[ENERGY_BOTH])
+{
+    double sum[ENERGY_BOTH], scaled[ENERGY_BOTH], q_min, q_max;
+    bool small = false;
+    sums_of_both(source, depth, 0, sum);
+    for (size_t k = 0; k < ENERGY_BOTH; k++)
+        small = small || !(sum[k] > least_sum);
+    small = small && energy_range(source, &q_min, &q_max);
+    if (small)
+        sums_of_both(source, depth, q_min, scaled);
+    for (size_t k = 0; k < ENERGY_BOTH; k++)
+        logarithm[k] =
+            small && !(sum[k] > least_sum) ? log(scaled[k]) - 2 * q_min * depth : log(sum[k]);
 }
 
 double energy_falling(const wt_energy_source *source)

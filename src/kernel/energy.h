@@ -14,6 +14,9 @@ wt_status energy_check(const wt_energy_source *source, wt_error *err) WT_NODISCA
 double energy_log_density(const wt_energy_source *source, double depth);
 double energy_log_tail(const wt_energy_source *source, double depth);
 double energy_log_gain(const wt_energy_source *source, double depth, double length);
+/* The first two under both profiles, at the cost of one. */
+enum { ENERGY_BOTH = 4 };
+void energy_log_both(const wt_energy_source *source, double depth, double logarithm[ENERGY_BOTH]);
 /* Smallest and largest wavenumber with power; false if there is none. */
 bool energy_range(const wt_energy_source *source, double *q_min, double *q_max);
 /* w falls from the surface on, for any set of wavenumbers. */

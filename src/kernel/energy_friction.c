@@ -5,8 +5,6 @@
 #include "kernel/energy.h"
 #include "kernel/friction.h"
 
-#include "base/array.h"
-
 #include <math.h>
 #include <stdlib.h>
 
@@ -19,20 +17,19 @@ static const double last_depth = 710;
 static const size_t least_level = 6;
 
 /* Largest relative difference of w and of int w, for both profiles. */
-static double compare_sources(wt_energy_source a, wt_energy_source b, const wt_roughness *roughness)
+static double compare_sources(const wt_energy_source *a, const wt_energy_source *b,
+                              const wt_roughness *roughness)
 {
-    static const wt_depth_profile profiles[] = {WT_PROFILE_PERSSON, WT_PROFILE_INCOMPRESSIBLE};
     double worst = 0;
     const double from = 0.1 / roughness->q1;
     const double to = last_depth / roughness->q0;
     for (size_t i = 0; i <= DEPTHS; i++) {
         const double depth = i ? from * pow(to / from, (double)(i - 1) / (DEPTHS - 1)) : 0;
-        for (size_t k = 0; k < COUNT_OF(profiles); k++) {
-            a.profile = b.profile = profiles[k];
-            const double tail = energy_log_tail(&a, depth) - energy_log_tail(&b, depth);
-            const double density = energy_log_density(&a, depth) - energy_log_density(&b, depth);
-            worst = fmax(worst, fmax(fabs(tail), fabs(density))); /* NaN: both without power */
-        }
+        double of_a[ENERGY_BOTH], of_b[ENERGY_BOTH];
+        energy_log_both(a, depth, of_a);
+        energy_log_both(b, depth, of_b);
+        for (size_t k = 0; k < ENERGY_BOTH; k++)
+            worst = fmax(worst, fabs(of_a[k] - of_b[k])); /* NaN: both without power */
     }
     return worst;
 }
@@ -87,7 +84,7 @@ wt_status wt_energy_source_friction(wt_friction_workspace *workspace, double pre
         for (size_t i = 0; i < s->n; i++)
             s->power[i] *= pressure * at.speed;
         if (r > first)
-            error = compare_sources(*s, pair[1 - now], workspace->roughness) +
+            error = compare_sources(s, &pair[1 - now], workspace->roughness) +
                     pass.hysteresis_error / (pass.hysteresis > 0 ? pass.hysteresis : 1);
         s->numerical_error = error + friction_relative_error(workspace, at, &pass).hysteresis;
     }
