@@ -107,7 +107,9 @@ static void series_fit(const angular_law *a, series *s)
         if (s->error <= a->goal)
             break;
     }
-    s->error += angular_panels_error(&a->panels, exp(s->low), j1[LONG_DEGREE], j2[LONG_DEGREE]);
+    s->error +=
+        fmax(angular_panels_error(&a->panels, exp(s->high), j1[0], j2[0]),
+             angular_panels_error(&a->panels, exp(s->low), j1[LONG_DEGREE], j2[LONG_DEGREE]));
 }
 
 static bool series_push(series_list *list, const series *s)
@@ -240,6 +242,20 @@ wt_status angular_cover(angular_law *angular, double w_min, double w_max, wt_err
     return WT_OK;
 }
 
+/* The first piece that reaches up to x, or the last one. */
+static size_t piece_at(const series_list *list, double x)
+{
+    size_t low = 0, high = list->n > 0 ? list->n - 1 : 0;
+    while (low < high) {
+        const size_t middle = (low + high) / 2;
+        if (list->items[middle].high < x)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
 /* Nodes in one piece, with room for whole registers. */
 enum { BATCH = 32, REGISTER = 4 };
 
@@ -267,7 +283,7 @@ void angular_eval(const angular_law *angular, const double *w, size_t n, double 
         return;
     }
     const series_list *pieces = &angular->pieces;
-    size_t k = 0;
+    size_t k = n > 0 ? piece_at(pieces, log(w[0])) : 0;
     for (size_t from = 0, count; from < n; from += count) {
         double x = log(w[from]), z[BATCH];
         while (k + 1 < pieces->n && x > pieces->items[k].high)
@@ -297,9 +313,8 @@ double angular_error(const angular_law *angular, double w_min, double w_max)
     const series_list *pieces = &angular->pieces;
     const double low = log(w_min), high = log(w_max);
     double error = 0;
-    for (size_t i = 0; i < pieces->n; i++)
-        if (pieces->items[i].high >= low && pieces->items[i].low <= high)
-            error = fmax(error, pieces->items[i].error);
+    for (size_t i = piece_at(pieces, low); i < pieces->n && pieces->items[i].low <= high; i++)
+        error = fmax(error, pieces->items[i].error);
     return error;
 }
 

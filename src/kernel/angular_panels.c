@@ -121,6 +121,18 @@ static void start_sums(angular_panels *a)
     }
 }
 
+/* What the rounding of ln omega at nodes, edges and knots makes of one panel whose part is `sum`.
+ */
+static double moved_part(const angular_panels *a, size_t f, size_t p, double sum)
+{
+    const double *value = a->value[f] + p * PANEL_NODES, *weight = a->rule->weight;
+    const double first = value[0] / weight[0], last = value[PANEL_NODES - 1] / weight[0];
+    const double width = a->edge[p + 1] - a->edge[p];
+    const double far = fmax(fabs(a->edge[p]), fabs(a->edge[p + 1]));
+    const double change = first > 0 && last > 0 ? fabs(log(last / first)) : 0;
+    return 2 * DBL_EPSILON * (1 + far) * sum * change / width;
+}
+
 static void sum_panels(angular_panels *a)
 {
     for (size_t p = 0; p <= a->n; p++)
@@ -131,6 +143,8 @@ static void sum_panels(angular_panels *a)
             const double *from = a->below[f] + p * a->terms;
             double *to = a->below[f] + (p + 1) * a->terms;
             double factor = f == 0 ? shrink * shrink : shrink;
+            const double passed = from[0] * factor;
+            a->moved[f][p + 1] = a->moved[f][p] * factor;
             for (size_t m = 0; m < a->terms; m++) {
                 to[m] = from[m] * factor;
                 factor *= shrink * shrink;
@@ -143,6 +157,7 @@ static void sum_panels(angular_panels *a)
                     term *= square;
                 }
             }
+            a->moved[f][p + 1] += moved_part(a, f, p, to[0] - passed);
         }
     }
 }
@@ -164,7 +179,7 @@ wt_status angular_panels_new(const wt_material *material, const gauss_rule *rule
     lay_edges(material, first, log(high), &list, &a.largest);
     a.n = list.n - 1;
     const size_t nodes = a.n * PANEL_NODES, sums = (a.n + 1) * a.terms;
-    a.numbers = calloc(2 * (a.n + 1) + 3 * nodes + 2 * sums, sizeof *a.numbers);
+    a.numbers = calloc(4 * (a.n + 1) + 3 * nodes + 2 * sums, sizeof *a.numbers);
     if (a.numbers == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory for the angular integrals");
     a.edge = list.edge = a.numbers;
@@ -174,6 +189,8 @@ wt_status angular_panels_new(const wt_material *material, const gauss_rule *rule
     a.value[1] = a.value[0] + nodes;
     a.below[0] = a.value[1] + nodes;
     a.below[1] = a.below[0] + sums;
+    a.moved[0] = a.below[1] + sums;
+    a.moved[1] = a.moved[0] + a.n + 1;
     lay_edges(material, first, log(high), &list, &a.largest);
     start_sums(&a);
     for (size_t p = 0; p < a.n; p++)
@@ -276,9 +293,11 @@ void angular_panels_integrate(const angular_panels *panels, double w, double *j1
 double angular_panels_error(const angular_panels *panels, double w, double j1, double j2)
 {
     const angular_panels *a = panels;
-    const double c = exp(a->edge[0]) / w;
-    const double from1 = j1 > 0 ? 4 * a->start_error[0] * c * c / j1 : 0;
-    const double from2 = j2 > 0 ? 4 * a->start_error[1] * c / j2 : 0;
-    return fmax(from1, from2) + pow(4, -(double)a->terms) + 8 * DBL_EPSILON +
-           2 * DBL_EPSILON * (4 + a->largest);
+    const size_t edge = edge_before(a, log(w) - widest);
+    const double start = a->edge_omega[0] / w, c = a->edge_omega[edge] / w;
+    const double kernel = 4 * c / sqrt((1 - c) * (1 + c)); /* at the edge, and less below it */
+    const double error1 = 4 * a->start_error[0] * start * start + kernel * c * a->moved[0][edge];
+    const double error2 = 4 * a->start_error[1] * start + kernel * a->moved[1][edge];
+    return fmax(j1 > 0 ? error1 / j1 : 0, j2 > 0 ? error2 / j2 : 0) + pow(4, -(double)a->terms) +
+           8 * DBL_EPSILON + 2 * DBL_EPSILON * (4 + a->largest);
 }

@@ -27,6 +27,7 @@ typedef struct angular_panels {
     double *below[2];      /* [(n + 1) * terms] int_-inf^edge F (omega / edge)^(2m + s) */
     double largest;        /* |ln E'| and |ln E''| */
     double start_error[2]; /* of `below` at the first edge, m = 0 */
+    double *moved[2];      /* [n + 1] error of `below`, m = 0, from the rounding of ln omega */
     double *numbers;       /* all of them */
 } angular_panels;
 
@@ -38,7 +39,8 @@ void angular_panels_clear(angular_panels *panels);
 
 /* J1 and J2 at w, from frequencies up to `high` alone. */
 void angular_panels_integrate(const angular_panels *panels, double w, double *j1, double *j2);
-/* Relative error of J1 and J2 at any w in the range. */
+/* Relative error of J1 and J2 at w, but for what rounding makes of steep moduli closer to w than a
+ * panel: there J1 and J2 are steep themselves. */
 double angular_panels_error(const angular_panels *panels, double w, double j1, double j2);
 
 #endif

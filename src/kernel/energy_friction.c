@@ -54,11 +54,11 @@ wt_status wt_energy_source_friction(wt_friction_workspace *workspace, double pre
     if (status != WT_OK)
         return status;
     const friction_load at = {.pressure = pressure, .speed = fabs(velocity)};
-    const size_t room = (workspace->plan.capacity + workspace->n_knots + 1) * FRICTION_MAX_NODES;
     friction_scratch scratch;
     pool memory = {0};
     wt_energy_source pair[2] = {{0}, {0}};
     status = friction_scratch_init(&scratch, workspace, 0, &memory, err);
+    const size_t room = (scratch.plan.capacity + 1) * FRICTION_MAX_NODES;
     for (size_t i = 0; status == WT_OK && i < 2; i++)
         status = source_alloc(&pair[i], room, err);
     if (status != WT_OK)
@@ -86,7 +86,7 @@ wt_status wt_energy_source_friction(wt_friction_workspace *workspace, double pre
         if (r > first)
             error = compare_sources(s, &pair[1 - now], workspace->roughness) +
                     pass.hysteresis_error / (pass.hysteresis > 0 ? pass.hysteresis : 1);
-        s->numerical_error = error + friction_relative_error(workspace, at, &pass).hysteresis;
+        s->numerical_error = error + friction_relative_error(workspace, &pass).hysteresis;
     }
     status = energy_check(&pair[now], err);
     if (status != WT_OK)

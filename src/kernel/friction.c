@@ -46,7 +46,8 @@ wt_status friction_scratch_init(friction_scratch *scratch, const wt_friction_wor
                                 size_t n_cuts, pool *memory, wt_error *err)
 {
     *scratch = (friction_scratch){0};
-    panel_plan_init(&scratch->plan, ws->roughness, ws->plan.levels, ws->n_knots + n_cuts, memory);
+    panel_plan_init(&scratch->plan, ws->roughness, ws->plan.levels, ws->knots, ws->n_knots, n_cuts,
+                    memory);
     grid_init(&scratch->grid, &scratch->plan, FRICTION_MAX_NODES, memory);
     const size_t panels = scratch->plan.capacity;
     double **const by_node[] = {&scratch->omega, &scratch->j1, &scratch->j2};
@@ -141,7 +142,7 @@ wt_status wt_friction_workspace_new(const wt_material *material, const wt_roughn
 
     ws->threads = wt_thread_count(o.threads);
     ws->scratch = pool_alloc(&ws->memory, ws->threads, sizeof *ws->scratch);
-    panel_plan_init(&ws->plan, roughness, levels_for(o.tolerance), 0, &ws->memory);
+    panel_plan_init(&ws->plan, roughness, levels_for(o.tolerance), NULL, 0, 0, &ws->memory);
 
     ws->angular = o.series;
     if (o.series == NULL)
@@ -294,7 +295,7 @@ static void compute_point(const compute_job *job, friction_scratch *scratch, dou
     const scale_grid *grid = friction_grid(ws, scratch, plan, job->rule, at, 0, &level);
     friction_pass pass;
     friction_evaluate(ws, scratch, grid, level, at, with_share(ws), NULL, &pass);
-    const friction_relative relative = friction_relative_error(ws, at, &pass);
+    const friction_relative relative = friction_relative_error(ws, &pass);
     const double error_g = relative.variance * pass.variance + pass.variance_error;
     const double error_mu = relative.hysteresis * pass.hysteresis + pass.hysteresis_error;
     const double area = contact_area(pass.variance);

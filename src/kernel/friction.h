@@ -53,7 +53,7 @@ typedef struct friction_pass {
     double variance, hysteresis;
     double variance_error, hysteresis_error; /* from the rule and the closed form in the core */
     double outside; /* part of the hysteresis from frequencies outside the data */
-    double steep_variance, steep_hysteresis; /* int |d ln J| of their parts */
+    double variance_moved, hysteresis_moved; /* errors that come from those of J1 and J2 */
     size_t nodes;
     size_t parts;
 } friction_pass;
@@ -98,7 +98,7 @@ void friction_evaluate(const wt_friction_workspace *ws, friction_scratch *scratc
 typedef struct friction_relative {
     double variance, hysteresis;
 } friction_relative;
-friction_relative friction_relative_error(const wt_friction_workspace *ws, friction_load at,
+friction_relative friction_relative_error(const wt_friction_workspace *ws,
                                           const friction_pass *pass);
 
 /* Half the change of P when G moves by its error, and the same of 1 - P. */

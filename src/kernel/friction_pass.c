@@ -31,19 +31,14 @@ double friction_gap_error(double variance, double variance_error)
     return fmax(fmax(above, below) + 4 * DBL_EPSILON * gap, variance > 0 ? DBL_MIN : 0);
 }
 
-friction_relative friction_relative_error(const wt_friction_workspace *ws, friction_load at,
+friction_relative friction_relative_error(const wt_friction_workspace *ws,
                                           const friction_pass *pass)
 {
-    const double low = ws->roughness->q0 * at.speed, high = ws->roughness->q1 * at.speed;
     friction_relative e = {ws->rounding, ws->rounding};
-    if (ws->material->law->angular)
-        return e;
-    /* ln omega and the logarithms of the knots are rounded: what is steep there moves */
-    const double moved = 4 * DBL_EPSILON * (1 + fmax(fabs(log(low)), fabs(log(high))));
-    const double series = angular_error(ws->angular, low, high);
-    e.variance += series + (pass->variance > 0 ? moved * pass->steep_variance / pass->variance : 0);
-    e.hysteresis = e.variance + series +
-                   (pass->hysteresis > 0 ? moved * pass->steep_hysteresis / pass->hysteresis : 0);
+    if (pass->variance > 0)
+        e.variance += pass->variance_moved / pass->variance;
+    if (pass->hysteresis > 0)
+        e.hysteresis += pass->hysteresis_moved / pass->hysteresis;
     return e;
 }
 
@@ -51,6 +46,28 @@ friction_relative friction_relative_error(const wt_friction_workspace *ws, frict
 static double steepness(const double *j, size_t n)
 {
     return j[0] > 0 && j[n - 1] > 0 ? fabs(log(j[n - 1] / j[0])) : 0;
+}
+
+/* S P falls no faster than G to the power of minus this. */
+static const double area_power = 1.5;
+
+/* What the errors of J1 and J2 make of the part of a pass whose n nodes are at `omega`; G so far
+ * contains it. Errors of the series; and ln omega and the logarithms of the knots are rounded, so
+ * what is steep there moves. */
+static void add_moved(const wt_friction_workspace *ws, const double *omega, const double *j1,
+                      const double *j2, size_t n, double variance, double hysteresis,
+                      double variance_so_far, friction_pass *pass)
+{
+    if (ws->material->law->angular)
+        return;
+    const double far = fmax(fabs(log(omega[0])), fabs(log(omega[n - 1])));
+    const double moved = 4 * DBL_EPSILON * (1 + far);
+    const double series = angular_error(ws->angular, omega[0], omega[n - 1]);
+    pass->variance_moved += variance * (series + moved * steepness(j2, n));
+    pass->hysteresis_moved += hysteresis * (series + moved * steepness(j1, n));
+    if (variance_so_far > 0)
+        pass->hysteresis_moved +=
+            hysteresis * area_power * (pass->variance_moved / variance_so_far);
 }
 
 static void angular_at(const wt_friction_workspace *ws, friction_scratch *scratch, const double *q,
@@ -100,13 +117,13 @@ static double core_pass(const wt_friction_workspace *ws, friction_scratch *scrat
         }
     }
     double contact = 1;
-    pass->steep_variance = pass->variance * steepness(scratch->j2, n);
-    pass->steep_hysteresis = full * steepness(scratch->j1, n);
     if (pass->variance > CONTACT_FULL) {
         const double integral = contact_integral(pass->variance, ws->options.gamma);
         contact = integral / pass->variance;
         pass->hysteresis_error = (most - least) * integral;
     }
+    add_moved(ws, scratch->omega, scratch->j1, scratch->j2, n, pass->variance, contact * full,
+              pass->variance, pass);
     scratch->error_g[0] = rule_error(grid->rule, f2);
     scratch->error_mu[0] = contact * rule_error(grid->rule, f1);
     if (record)
@@ -130,9 +147,8 @@ static double hysteresis_error(const gauss_rule *rule, const double *full, const
         gap[i] = full[i] - part[i];
     const double own = pass->variance < begun ? rule_error(rule, full) + rule_error(rule, gap)
                                               : rule_error(rule, part);
-    /* S P falls no faster than G^(-3/2) */
     const double variance = pass->variance + sum_g;
-    return own + (variance > 0 ? 1.5 * sum_mu * (pass->variance_error / variance) : 0);
+    return own + (variance > 0 ? area_power * sum_mu * (pass->variance_error / variance) : 0);
 }
 
 void friction_evaluate(const wt_friction_workspace *ws, friction_scratch *scratch,
@@ -194,10 +210,8 @@ void friction_evaluate(const wt_friction_workspace *ws, friction_scratch *scratc
                     share *
                     (angular_outside(ws->angular, scratch->omega[p * n + j], j1[j]) / j1[j]);
         }
-        if (ws->material->law->angular == NULL) {
-            pass->steep_variance += sum_g * steepness(j2, n);
-            pass->steep_hysteresis += sum_mu * steepness(j1, n);
-        }
+        add_moved(ws, scratch->omega + p * n, j1, j2, n, sum_g, sum_mu, pass->variance + sum_g,
+                  pass);
         scratch->error_mu[p + 1] = hysteresis_error(rule, full, f, pass, sum_g, sum_mu);
         pass->variance += sum_g;
         pass->hysteresis += sum_mu;

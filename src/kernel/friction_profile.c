@@ -60,7 +60,7 @@ wt_status wt_friction_profile(wt_friction_workspace *workspace, double pressure,
             break;
     }
 
-    const double relative = friction_relative_error(workspace, at, &pass).variance;
+    const double relative = friction_relative_error(workspace, &pass).variance;
     const double slack = 1e-13 * fmax(1, log(roughness->q1 / roughness->q0));
     const size_t first = plan->levels - level;
     double variance = 0, difference = 0, hysteresis = 0;

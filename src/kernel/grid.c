@@ -14,6 +14,11 @@
 /* In ln q; the Maxwell poles lie pi/2 off the real axis. */
 static const double panel_width = 1.2;
 static const double cell_ratio = 4;
+/* A panel right of a knot may be so many times longer than its distance from the knot before. */
+static const double grading = 8;
+/* Knots closer than this part of a panel are one: what lies between them weighs no more than the
+ * power 3/2 of it. */
+static const double same_knot = 1e-11;
 
 static const double *roughness_breaks(const wt_roughness *roughness, size_t *n)
 {
@@ -26,38 +31,65 @@ static double log_ratio(double q, double q0)
     return log1p((q - q0) / q0);
 }
 
+/* Panels more than one that a knot can make: those graded away from the knot before it. */
+static size_t graded_most(const double *knots, size_t n)
+{
+    size_t most = 0;
+    for (size_t k = 1; k < n; k++) {
+        const double gap = fmax(log(knots[k] / knots[k - 1]), same_knot * panel_width);
+        const double next = k + 1 < n ? log(knots[k + 1] / knots[k]) : panel_width;
+        const double steps = log(fmin(next, panel_width) / gap) / log(grading);
+        most += steps > 0 ? 1 + (size_t)steps : 0;
+    }
+    return most;
+}
+
 void panel_plan_init(panel_plan *plan, const wt_roughness *roughness, size_t levels,
-                     size_t n_breaks, pool *memory)
+                     const double *knots, size_t n_knots, size_t n_cuts, pool *memory)
 {
     size_t n_roughness = 0;
     (void)roughness_breaks(roughness, &n_roughness);
     const double length = log_ratio(roughness->q1, roughness->q0);
     *plan = (panel_plan){.q0 = roughness->q0, .q1 = roughness->q1, .levels = levels};
     /* from the smallest t up to the width of a panel there are 27 steps of the cell ratio */
-    plan->capacity = levels + n_roughness + n_breaks + 32 + (size_t)(length / panel_width);
+    plan->capacity = levels + n_roughness + n_knots + graded_most(knots, n_knots) + n_cuts + 32 +
+                     (size_t)(length / panel_width);
     plan->core = pool_alloc(memory, levels + 1, sizeof *plan->core);
     plan->panels = pool_alloc(memory, plan->capacity, sizeof *plan->panels);
 }
 
-/* Square roots right of a knot that is close enough to spoil a polynomial, logarithms close to
+/* How many knots are at or below t. */
+static size_t knots_below(const double *knots, size_t n, double t)
+{
+    const double slack = 1e-12;
+    size_t low = 0, high = n;
+    while (low < high) {
+        const size_t middle = (low + high) / 2;
+        if (knots[middle] <= t + slack)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+/* From t_low up to t_high, or less where the square root of one knot does not smooth the one before
+ * it. Square roots right of a knot that is close enough to spoil a polynomial, logarithms close to
  * t = 0, where G is 0. */
 static grid_panel panel_at(double t_low, double t_high, const double *knots, size_t n_knots)
 {
     grid_panel panel = {.t_low = t_low, .t_high = t_high, .map = MAP_LINEAR};
     if (t_low > 0 && t_high > 2 * t_low)
         panel.map = MAP_LOGARITHM;
-    const double slack = 1e-12;
-    size_t low = 0, high = n_knots; /* the knots below `low` are at or below t_low */
-    while (low < high) {
-        const size_t middle = (low + high) / 2;
-        if (knots[middle] <= t_low + slack)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    if (low > 0 && knots[low - 1] > t_low - panel_width) {
+    size_t before = knots_below(knots, n_knots, t_low);
+    if (before > 0 && knots[before - 1] > t_low - panel_width) {
         panel.map = MAP_SQUARE_ROOT;
-        panel.anchor = fmin(knots[low - 1], t_low);
+        panel.anchor = fmin(knots[before - 1], t_low);
+        do
+            before--;
+        while (before > 0 && t_low - knots[before - 1] < same_knot * panel_width);
+        if (before > 0)
+            panel.t_high = fmin(t_high, t_low + grading * (t_low - knots[before - 1]));
     }
     return panel;
 }
@@ -97,8 +129,8 @@ void panel_plan_lay(panel_plan *plan, const wt_roughness *roughness, const doubl
             const double pieces = 1 + floor((bounds[i] - low) / panel_width);
             if (pieces > 1)
                 high = fmin(high, low + (bounds[i] - low) / pieces);
-            plan->panels[plan->n_panels++] = panel_at(low, high, knots, n_knots);
-            low = high;
+            plan->panels[plan->n_panels] = panel_at(low, high, knots, n_knots);
+            low = plan->panels[plan->n_panels++].t_high;
         }
         from = bounds[i];
     }

@@ -35,10 +35,10 @@ typedef struct panel_plan {
     size_t capacity;
 } panel_plan;
 
-/* Room for a plan with up to n_breaks cuts besides those of the roughness. The pool tells whether
- * there was memory. */
+/* Room for a plan with these knots (of any one unit of frequency) and up to n_cuts cuts besides
+ * those of the roughness. The pool tells whether there was memory. */
 void panel_plan_init(panel_plan *plan, const wt_roughness *roughness, size_t levels,
-                     size_t n_breaks, pool *memory);
+                     const double *knots, size_t n_knots, size_t n_cuts, pool *memory);
 /* Lays the panels: cut at the breaks of the roughness, at `cuts` (plain, t rising) and at `knots`
  * (of the material: square-root maps to their right; t rising, also outside the range).
  * `bounds` is scratch for capacity + 1 numbers. */

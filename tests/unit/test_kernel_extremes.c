@@ -234,14 +234,16 @@ static double seconds(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-static void check_edge(const numeric_case *c, double tolerance, const char *key, wt_estimate actual)
+/* `most`: that a stated error may be, relative to the number. */
+static void check_edge(const numeric_case *c, double tolerance, double most, const char *key,
+                       wt_estimate actual)
 {
     const double exact = case_number(c, true, key, (double)NAN);
     if (!(fabs(actual.value - exact) <= actual.numerical_error + DBL_EPSILON * fabs(exact) / 2))
         fail_msg("%s, tolerance %g: %s is %.17g +- %.3g, not %.17g", c->name, tolerance, key,
                  actual.value, actual.numerical_error, exact);
     /* below the smallest number there is no relative error */
-    if (!(actual.numerical_error <= fmax(tolerance, 1e-9) * fabs(actual.value) + DBL_MIN))
+    if (!(actual.numerical_error <= most * fabs(actual.value) + DBL_MIN))
         fail_msg("%s, tolerance %g: %s is %.17g +- %.3g", c->name, tolerance, key, actual.value,
                  actual.numerical_error);
 }
@@ -282,10 +284,13 @@ static void try_edge(const numeric_case *c, const scene *s, double tolerance)
         if (status != WT_OK)
             fail_msg("%s: %s, expected %s, found %s", c->name, err.message, err.expected,
                      err.found);
-        check_edge(c, tolerance, "stress_variance", p.stress_variance);
-        check_edge(c, tolerance, "area_ratio", p.area_ratio);
-        check_edge(c, tolerance, "one_minus_area", p.one_minus_area);
-        check_edge(c, tolerance, "hysteresis", p.hysteresis);
+        const double most = fmax(tolerance, 1e-9);
+        check_edge(c, tolerance, most, "stress_variance", p.stress_variance);
+        check_edge(c, tolerance, most, "area_ratio", p.area_ratio);
+        check_edge(c, tolerance, most, "hysteresis", p.hysteresis);
+        /* no promise: ln(1 - P) is about -1 / (4 G) */
+        check_edge(c, tolerance, most * (1 + 0.5 / p.stress_variance.value), "one_minus_area",
+                   p.one_minus_area);
     }
     wt_friction_workspace_free(ws);
     wt_roughness_free(roughness);
@@ -312,13 +317,46 @@ static void edges_of_the_domain(void **ignored)
     fclose(in);
 }
 
+static void draw_case(drawn *d, size_t i)
+{
+    /* of sixteen: three tables, two Zener, two with directions */
+    draw_scene(d, i % 8 == 7 || i % 16 == 11 ? TABLE : i % 8 == 5 ? ZENER : PRONY, i % 8 == 3);
+}
+
+/* Where the error was once more than the stated one: tables whose knots nearly coincide, and one
+ * with directions whose moduli are next to singular between its knots. */
+static void once_broken(void **ignored)
+{
+    (void)ignored;
+    static const struct {
+        uint64_t seed;
+        size_t number;
+    } cases[] = {{20261, 475}, {20261, 2767}, {20261, 3391}, {31337, 4063}};
+    const uint64_t kept = state;
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        drawn d;
+        state = cases[k].seed;
+        for (size_t i = 0; i <= cases[k].number; i++)
+            draw_case(&d, i);
+        compare(&d, cases[k].number);
+        const double tolerances[] = {1e-2, 1e-4, 1e-10};
+        for (size_t i = 0; i < 3; i++) {
+            d.tolerance = tolerances[i];
+            compare(&d, cases[k].number);
+        }
+    }
+    assert_int_equal(n_checks, 64);
+    assert_int_equal(broken, 0);
+    n_checks = reached = refused = 0;
+    state = kept;
+}
+
 static void extreme_friction(void **ignored)
 {
     (void)ignored;
     for (size_t i = 0; i < n_cases; i++) {
         drawn d;
-        /* of sixteen: three tables, two Zener, two with directions */
-        draw_scene(&d, i % 8 == 7 || i % 16 == 11 ? TABLE : i % 8 == 5 ? ZENER : PRONY, i % 8 == 3);
+        draw_case(&d, i);
         if (i >= first_case)
             compare(&d, i);
     }
@@ -340,6 +378,7 @@ int main(int argc, char **argv)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(truth_of_reference),
         cmocka_unit_test(edges_of_the_domain),
+        cmocka_unit_test(once_broken),
         cmocka_unit_test(extreme_friction),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
