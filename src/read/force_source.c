@@ -7,6 +7,7 @@
 #include "base/shortage.h"
 #include "data/force_curve.h"
 #include "read/facts.h"
+#include "read/force_contradiction.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -270,6 +271,8 @@ wt_status force_add_segment(wt_force_source *source, const force_facts *facts,
         curve->cantilever = used;
     if (n == 0)
         return WT_OK;
+    status = contradiction_constant(source, facts, force_find_signal(facts, WT_Q_FORCE),
+                                    force_find_signal(facts, WT_Q_DEFLECTION), err);
     for (size_t i = 0; i < facts->n_offers && status == WT_OK; i++)
         if (is_wanted(&source->options, facts, facts->offers[i]))
             status = plan_column(source, facts, facts->offers[i], &plan, err);
@@ -295,6 +298,8 @@ wt_status force_add_segment(wt_force_source *source, const force_facts *facts,
             status = source->stream->decode(source, signal, plan.columns[i].scaling, n,
                                             channel->values, err);
     }
+    if (status == WT_OK)
+        contradiction_heights(source, facts, segment);
     return status;
 }
 

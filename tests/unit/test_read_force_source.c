@@ -223,18 +223,18 @@ static void given_to_columns(void **state)
     wt_force_curve curve = {0};
     (void)state;
     add(&m, WT_Q_DEFLECTION, 1e-9, 0, one);
-    add(&m, WT_Q_FORCE, 1e-9, 0, two);
+    add(&m, WT_Q_FORCE, 0.3e-9, 0, two);
     m.base.options.spring_constant = 0.6;
     m.base.options.sensitivity = 75e-9;
     assert_int_equal(read_curve(&m, &curve, NULL), WT_OK);
-    assert_column(&curve, WT_Q_FORCE, 3e-9, 0);
+    assert_column(&curve, WT_Q_FORCE, 0.9e-9, 0);
     assert_column(&curve, WT_Q_DEFLECTION, 1.5e-9, 0);
     assert_column(&curve, WT_Q_DEFLECTION_VOLTAGE, 1e-9 / 50e-9, 0);
     assert_int_equal(wt_parselog_count(m.base.log), 0);
     /* Where the file does not tell its own, it stays and that is said. */
     m.facts.cantilever = unknown;
     assert_int_equal(read_curve(&m, &curve, NULL), WT_OK);
-    assert_column(&curve, WT_Q_FORCE, 1e-9, 0);
+    assert_column(&curve, WT_Q_FORCE, 0.3e-9, 0);
     assert_column(&curve, WT_Q_DEFLECTION, 1e-9, 0);
     assert_null(wt_segment_channel(&curve.segments[0], WT_Q_DEFLECTION_VOLTAGE));
     assert_true(logged(&m, "its sensitivity, so the given one cannot replace it in a column of "
@@ -243,6 +243,56 @@ static void given_to_columns(void **state)
                            "force"));
     assert_true(logged(&m, "no deflection_voltage"));
     done(&m, &curve);
+}
+
+/* ---- contradictions ----------------------------------------------------------------------- */
+
+/* Force and deflection that were stored apart mean a spring constant; heights go as far as one
+ * another. Each is said once. */
+static void contradictions(void **state)
+{
+    static const struct {
+        double force; /* N for each metre of deflection */
+        double own, given;
+        const char *words;
+    } cases[] = {{0.3, 0.3, NAN, NULL},
+                 {0.305, 0.3, NAN, NULL},
+                 {0.45, 0.3, NAN, "mean a spring constant of 0.45 N/m, the file says 0.3 N/m"},
+                 {0.45, 0.3, 0.45, "the file says 0.3 N/m"},
+                 {0.3, NAN, 0.3, NULL},
+                 {0.3, NAN, 0.6, "mean a spring constant of 0.3 N/m, given is 0.6 N/m"},
+                 {0.3, NAN, NAN, NULL}};
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        made_up m = make((wt_cantilever){.spring_constant = cases[i].own, .sensitivity = 50e-9});
+        wt_force_curve curve = {0};
+        add(&m, WT_Q_DEFLECTION, 1e-9, 0, one);
+        add(&m, WT_Q_FORCE, 1e-9 * cases[i].force, 0, two);
+        m.base.options.spring_constant = cases[i].given;
+        for (int again = 0; again < 2; again++)
+            assert_int_equal(read_curve(&m, &curve, NULL), WT_OK);
+        if (cases[i].words == NULL)
+            assert_false(logged(&m, "mean a spring constant"));
+        else
+            assert_true(logged(&m, cases[i].words));
+        size_t said = 0;
+        for (size_t k = 0; k < wt_parselog_count(m.base.log); k++)
+            said += strstr(wt_parselog_get(m.base.log, k).text, "mean a spring constant") != NULL;
+        assert_int_equal(said, cases[i].words != NULL);
+        done(&m, &curve);
+    }
+    for (int far = 0; far < 2; far++) {
+        made_up m = make(known);
+        wt_force_curve curve = {0};
+        m.facts.kind = WT_SEGMENT_APPROACH;
+        force_offer(&m.facts, WT_Q_MEASURED_HEIGHT);
+        add(&m, WT_Q_HEIGHT, -1e-6, 5, one);
+        add(&m, WT_Q_MEASURED_HEIGHT, far == 1 ? -1.5e-6 : -1.01e-6, 0, two);
+        assert_int_equal(read_curve(&m, &curve, NULL), WT_OK);
+        assert_true(logged(&m, "changes by 4 um, that of its sensor by 6 um") == (far == 1));
+        assert_true(logged(&m, "that of its sensor") == (far == 1));
+        done(&m, &curve);
+    }
 }
 
 /* ---- what is missing ---------------------------------------------------------------------- */
@@ -404,11 +454,17 @@ static void described(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(as_the_file_says), cmocka_unit_test(as_asked_for),
-        cmocka_unit_test(given_to_a_chain), cmocka_unit_test(given_to_columns),
-        cmocka_unit_test(from_one_signal),  cmocka_unit_test(missing_calibration),
-        cmocka_unit_test(missing_channels), cmocka_unit_test(calibration_of_the_curve),
-        cmocka_unit_test(places),           cmocka_unit_test(described),
+        cmocka_unit_test(as_the_file_says),
+        cmocka_unit_test(as_asked_for),
+        cmocka_unit_test(given_to_a_chain),
+        cmocka_unit_test(given_to_columns),
+        cmocka_unit_test(contradictions),
+        cmocka_unit_test(from_one_signal),
+        cmocka_unit_test(missing_calibration),
+        cmocka_unit_test(missing_channels),
+        cmocka_unit_test(calibration_of_the_curve),
+        cmocka_unit_test(places),
+        cmocka_unit_test(described),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,17 @@
+/* What a file says twice and not alike. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WT_READ_FORCE_CONTRADICTION_H
+#define WT_READ_FORCE_CONTRADICTION_H
+
+#include "read/force_source.h"
+
+/* Warns, once for a source, if force and deflection that are stored both (NULL: one is not) mean
+ * another spring constant than the file says or, where it says none, the user. */
+wt_status contradiction_constant(wt_force_source *source, const force_facts *facts,
+                                 const force_signal *force, const force_signal *bend,
+                                 wt_error *err);
+/* Notes, once for a source, if the two heights of an approach that was read differ in their range.
+ */
+void contradiction_heights(wt_force_source *source, const force_facts *facts,
+                           const wt_segment *segment);
+
+#endif
