@@ -48,7 +48,7 @@ void noise_shapes_make(noise_shapes *to);
 
 /* Sums at depths below the deepest point, from that of an octave to 0, and the contact function at
  * as many distances: curve_scan.c. */
-enum { SCAN_OCTAVES = 19, SCAN_NODES = 128 };
+enum { SCAN_OCTAVES = 17, SCAN_NODES = 128, SCAN_REACH = 4 };
 typedef struct scan_octave {
     double weight[SCAN_NODES + 2], force[SCAN_NODES + 2], position[SCAN_NODES + 2];
     double g[SCAN_NODES + 1], gg[SCAN_NODES + 1]; /* and its square */
@@ -63,6 +63,7 @@ struct wt_indent_workspace {
     double *given_force, *given_time; /* of wt_indent_force_curve */
     double *retract_position, *retract_force;
     scan_octave octave[SCAN_OCTAVES];
+    double before_start[2][SCAN_REACH * SCAN_NODES + 1]; /* contact function, square */
     gsl_min_fminimizer *minimizer;
     noise_shapes shapes;
     hereditary memory;

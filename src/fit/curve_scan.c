@@ -23,14 +23,13 @@
 #include <stdint.h>
 #include <string.h>
 
-/* How far before the first sample a contact point is looked for, and how near to the deepest point
- * it may be, in depths of the first sample; how many samples are behind it, as a share. */
-static const double reach_before_start = 4.0, least_depth = 1e-5;
+static const double least_depth = 1e-5; /* of a contact point below the deepest, of all depths */
 static const double least_rise = 1.001; /* of the cost between two minima */
 enum {
     NODES = SCAN_NODES,
-    STRIDE = 4, /* of the contact points that are tried */
-    MAX_DEPTHS = SCAN_OCTAVES * NODES / 2 / STRIDE + 1,
+    REACH = SCAN_REACH, /* how far before the start a contact point is looked for, in all depths */
+    PER_OCTAVE = 16,    /* contact points that are tried */
+    MAX_DEPTHS = (SCAN_OCTAVES + REACH) * PER_OCTAVE,
     MAX_ITERATIONS = 40,
     SAMPLES_BEHIND = 4, /* of 1024 */
 };
@@ -45,7 +44,7 @@ typedef struct projection {
     double s_w, inverse_w, inverse_zz;
     double origin_position, origin_force; /* means */
     double s_zz, s_zf, s_ff;              /* centred sums */
-    double deepest, top; /* tip position, and the depth below it of the first octave */
+    double deepest, top; /* tip position, and how far below it the farthest sample is */
     size_t n_octaves;
     size_t octave; /* for Brent */
 } projection;
@@ -74,7 +73,7 @@ static projection begin(const wt_contact_table *table, const curve_samples *samp
                     .weight = weighted ? w->weight : NULL,
                     .tilt = tilt,
                     .deepest = -(double)INFINITY};
-    double z = 0.0, f = 0.0, zz = 0.0, zf = 0.0, ff = 0.0;
+    double z = 0.0, f = 0.0, zz = 0.0, zf = 0.0, ff = 0.0, farthest = (double)INFINITY;
     for (size_t i = 0; i < samples->n; i++) {
         const double position = samples->position[i], force = samples->force[i],
                      weight = weight_of(&p, i), wz = weight * position, wf = weight * force;
@@ -86,7 +85,9 @@ static projection begin(const wt_contact_table *table, const curve_samples *samp
         ff += wf * force;
         w->tip[i] = tip_position(position, force, samples->spring_constant);
         p.deepest = w->tip[i] > p.deepest ? w->tip[i] : p.deepest;
+        farthest = w->tip[i] < farthest ? w->tip[i] : farthest;
     }
+    p.top = p.deepest - farthest;
     p.origin_position = z / p.s_w;
     p.origin_force = f / p.s_w;
     p.s_zz = zz - z * p.origin_position;
@@ -165,14 +166,12 @@ static void share_samples(const projection *p)
 {
     scan_octave *octaves = p->workspace->octave;
     const curve_samples *s = p->samples;
-    const double *tip = p->workspace->tip, scale = 1.0 / p->top,
+    const double *tip = p->workspace->tip, scale = (1.0 - 0x1p-50) / p->top,
                  last = ldexp(1.0, -(int)p->n_octaves);
     memset(octaves, 0, p->n_octaves * sizeof *octaves);
     for (size_t i = 0; i < s->n; i++) {
         double part = (p->deepest - tip[i]) * scale;
         size_t l = p->n_octaves - 1;
-        if (!(part < 1.0)) /* beyond any contact point */
-            continue;
         if (part >= last)
             part = fraction(part, &l);
         else
@@ -201,32 +200,39 @@ static void share_samples(const projection *p)
     }
 }
 
-/* The contact function at the distances between nodes. */
+/* The contact function at distances of a step, in the first octave also of what lies before it. */
 static void make_values(const projection *p)
 {
-    scan_octave *octaves = p->workspace->octave;
+    wt_indent_workspace *w = p->workspace;
+    double depth[REACH * NODES + 1], *far = w->before_start[0];
     for (size_t l = p->n_octaves; l-- > 0;) {
-        const size_t known = l + 1 < p->n_octaves ? NODES / 2 : 0;
+        scan_octave *o = &w->octave[l];
+        const size_t known = l + 1 < p->n_octaves ? NODES / 2 : 0,
+                     n = l > 0 ? NODES : REACH * NODES;
         const double step = ldexp(p->top, -(int)l) / NODES;
-        double depth[NODES + 1], *g = octaves[l].g;
-        for (size_t i = 0; i <= NODES; i++)
-            depth[i] = (double)i * step;
+        double *g = l > 0 ? o->g : far;
         for (size_t i = 0; i < known; i++)
-            g[i] = octaves[l + 1].g[2 * i];
-        wt_contact_table_eval(p->table, depth + known, NODES + 1 - known, g + known, NULL);
-        for (size_t i = 0; i <= NODES; i++)
-            octaves[l].gg[i] = g[i] * g[i];
+            g[i] = w->octave[l + 1].g[2 * i];
+        for (size_t i = known; i <= n; i++)
+            depth[i] = (double)i * step;
+        wt_contact_table_eval(p->table, depth + known, n + 1 - known, g + known, NULL);
+        for (size_t i = 0; i <= NODES; i++) {
+            o->g[i] = g[i];
+            o->gg[i] = g[i] * g[i];
+        }
     }
+    for (size_t i = 0; i <= REACH * NODES; i++)
+        w->before_start[1][i] = far[i] * far[i];
 }
 
-/* Of a contact point at a node. */
-static double cost_at_node(const projection *p, size_t octave, size_t node)
+/* Of nodes from `first` on, with values of the contact function and of its square. */
+static double cost_of(const projection *p, const scan_octave *o, size_t first, const double *g,
+                      const double *gg)
 {
-    const scan_octave *o = &p->workspace->octave[octave];
-    const size_t n = NODES - node, first = node + 1;
-    const contact_sums s = {
-        curve_dot(o->weight + first, o->g + 1, n), curve_dot(o->weight + first, o->gg + 1, n),
-        curve_dot(o->force + first, o->g + 1, n), curve_dot(o->position + first, o->g + 1, n)};
+    const size_t n = NODES + 1 - first;
+    const contact_sums s = {curve_dot(o->weight + first, g, n), curve_dot(o->weight + first, gg, n),
+                            curve_dot(o->force + first, g, n),
+                            curve_dot(o->position + first, g, n)};
     return project(p, s).cost;
 }
 
@@ -312,49 +318,64 @@ static void keep_best(curve_minimum *minima, size_t *n, curve_minimum candidate)
     minima[at] = candidate;
 }
 
-/* Finds how deep contact points are looked for: false if nowhere. */
-static bool find_depths(projection *p, double *shallowest)
+/* Costs of contact points from far before the start to the deepest. */
+typedef struct profile {
+    double depth[MAX_DEPTHS], cost[MAX_DEPTHS];
+    size_t octave[MAX_DEPTHS], n;
+} profile;
+
+static void add_point(profile *to, double depth, double cost, size_t octave)
 {
-    const double *tip = p->workspace->tip;
-    const size_t n = p->samples->n, behind = SAMPLES_BEHIND * ((n + 1023) / 1024);
-    double nearest = -(double)INFINITY;
-    for (size_t i = 0; i + behind <= n; i++)
-        nearest = tip[i] > nearest ? tip[i] : nearest;
-    const double reach = p->deepest - tip[0];
-    if (!(reach > 0.0))
-        return false;
-    *shallowest = fmax(p->deepest - nearest, least_depth * reach);
-    p->top = reach_before_start * reach;
-    p->n_octaves = 1;
-    while (p->n_octaves < SCAN_OCTAVES && ldexp(p->top, -(int)p->n_octaves) > *shallowest)
-        p->n_octaves++;
-    return true;
+    to->depth[to->n] = depth;
+    to->cost[to->n] = cost;
+    to->octave[to->n++] = octave;
+}
+
+static void scan(const projection *p, double shallowest, profile *to)
+{
+    const wt_indent_workspace *w = p->workspace;
+    const double *g = w->before_start[0], *gg = w->before_start[1];
+    to->n = 0;
+    for (size_t octave = REACH * NODES; octave > NODES; octave /= 2)
+        for (size_t i = octave; i > octave / 2; i -= octave / 2 / PER_OCTAVE)
+            add_point(to, p->top * (double)i / NODES,
+                      cost_of(p, &w->octave[0], 0, g + i - NODES, gg + i - NODES), 0);
+    for (size_t l = 0; l < p->n_octaves; l++) {
+        const scan_octave *o = &w->octave[l];
+        for (size_t node = 0; node < NODES / 2; node += NODES / 2 / PER_OCTAVE) {
+            const double depth = ldexp(p->top, -(int)l) * (1.0 - (double)node / NODES);
+            if (depth >= shallowest)
+                add_point(to, depth, cost_of(p, o, node + 1, o->g + 1, o->gg + 1), l);
+        }
+    }
 }
 
 size_t curve_scan(const wt_contact_table *table, const curve_samples *samples, bool tilt,
                   bool weighted, wt_indent_workspace *w, curve_minimum minima[CURVE_MAX_MINIMA])
 {
     projection p = begin(table, samples, tilt, weighted, w);
-    double shallowest, depth[MAX_DEPTHS], cost[MAX_DEPTHS];
-    size_t octave[MAX_DEPTHS], n_depths = 0, bottom[MAX_DEPTHS], n = 0;
-    if (!find_depths(&p, &shallowest))
+    const size_t behind = SAMPLES_BEHIND * ((samples->n + 1023) / 1024);
+    double nearest = -(double)INFINITY;
+    size_t bottom[MAX_DEPTHS], n = 0;
+    profile points;
+    for (size_t i = 0; i + behind <= samples->n; i++)
+        nearest = w->tip[i] > nearest ? w->tip[i] : nearest;
+    if (!(p.top > 0.0))
         return 0;
+    const double shallowest = fmax(p.deepest - nearest, least_depth * p.top);
+    p.n_octaves = 1;
+    while (p.n_octaves < SCAN_OCTAVES && ldexp(p.top, -(int)p.n_octaves) > shallowest)
+        p.n_octaves++;
     share_samples(&p);
     make_values(&p);
-    for (size_t l = 0; l < p.n_octaves; l++)
-        for (size_t node = 0; node < NODES / 2; node += STRIDE) {
-            depth[n_depths] = ldexp(p.top, -(int)l) * (1.0 - (double)node / NODES);
-            octave[n_depths] = l;
-            if (depth[n_depths] >= shallowest)
-                cost[n_depths++] = cost_at_node(&p, l, node);
-        }
-    const size_t n_bottoms = find_bottoms(cost, n_depths, cost_without_contact(&p), bottom);
+    scan(&p, shallowest, &points);
+    const size_t n_bottoms = find_bottoms(points.cost, points.n, cost_without_contact(&p), bottom);
     for (size_t i = 0; i < n_bottoms; i++) {
         const size_t j = bottom[i];
-        double at = depth[j];
-        if (j > 0 && j + 1 < n_depths) {
-            p.octave = octave[j - 1];
-            at = brent(&p, depth[j + 1], at, depth[j - 1]);
+        double at = points.depth[j];
+        if (j > 0 && j + 1 < points.n) {
+            p.octave = points.octave[j - 1];
+            at = brent(&p, points.depth[j + 1], at, points.depth[j - 1]);
         }
         const curve_minimum minimum = to_minimum(&p, p.deepest - at);
         if (minimum.reduced_modulus > 0.0)
@@ -373,7 +394,7 @@ bool curve_scan_at(const wt_contact_table *table, const curve_samples *samples, 
         *minimum = to_minimum(&p, tip);
         double step = contact_point - minimum->contact_point;
         tip += step;
-        if (fabs(step) <= 1e-12 * fabs(p.deepest - w->tip[0]))
+        if (fabs(step) <= 1e-12 * fabs(p.top))
             break;
     }
     minimum->contact_point = contact_point;
