@@ -9,7 +9,7 @@
 #include "flow/plan/plan.h"
 #include "kernel/friction.h"
 #include "kernel/layer.h"
-#include "kernel/root.h"
+#include "model/root.h"
 #include "read/bytes/samples.h"
 #include "weartrack/flow.h"
 #include "weartrack/report.h"
