@@ -90,8 +90,8 @@ typedef struct moment {
     double force, depth; /* of the latest t1 */
 } moment;
 
-/* The integral since t1, a share of the step, which falls as t1 rises; at its root the force is that
- * of the contact. */
+/* The integral since t1, a share of the step, which falls as t1 rises; at its root the force is
+ * that of the contact. */
 static double integral_since(double share, void *user)
 {
     moment *m = user;
@@ -107,11 +107,8 @@ static double integral_since(double share, void *user)
 static wt_status step_out(loop *l, double t, double base, double *depth, double *force,
                           wt_error *err)
 {
-    moment m = {.l = l,
-                .t = t,
-                .base = base,
-                .before = *depth,
-                .faded = hereditary_fade(l->law, l->now)};
+    moment m = {
+        .l = l, .t = t, .base = base, .before = *depth, .faded = hereditary_fade(l->law, l->now)};
     *depth = base;
     *force = 0.0;
     while (l->step > 0 && integral_since(0.0, &m) <= 0.0)
