@@ -236,7 +236,8 @@ static void drop_copies_of_ramps(wt_sweep *sweep, wt_parselog *log)
     for (size_t i = 0; i < sweep->n_ramps; i++) {
         wt_ramp *const t = &sweep->ramps[i];
         const wt_ramp *const b = kept > 0 ? &sweep->ramps[kept - 1] : NULL;
-        if (b == NULL || b->n != t->n || !same_numbers(b->temperature, t->temperature, t->n) ||
+        if (b == NULL || b->n != t->n || b->angular_frequency != t->angular_frequency ||
+            !same_numbers(b->temperature, t->temperature, t->n) ||
             !same_numbers(b->storage_modulus, t->storage_modulus, t->n) ||
             !same_numbers(b->loss_modulus, t->loss_modulus, t->n)) {
             sweep->ramps[kept++] = *t;
