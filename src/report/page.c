@@ -103,11 +103,17 @@ static wt_status page_figures(page_writer *page, wt_error *err)
     return status;
 }
 
-/* The title of the case, if the result has one. */
+/* The title of the case if the result has one; of one subcommand's tables that of the first. */
 static const char *page_title(const page_writer *page)
 {
     const char *title = answer_words(&page->tables->answer, ANSWER_KEY_CASE_TITLE);
-    return title != NULL && title[0] != '\0' ? title : "Wear track against bulk";
+    if (title != NULL && title[0] != '\0')
+        return title;
+    if (page->tables->answer.table != NULL || wt_result_n_tables(page->result) == 0)
+        return comparison_schema.title;
+    const wt_table *first = wt_result_table(page->result, 0);
+    title = wt_table_title(first);
+    return title[0] != '\0' ? title : wt_table_name(first);
 }
 
 wt_status page_write(page_writer *page, wt_error *err)

@@ -313,6 +313,12 @@ static void test_nothing_from_a_file_is_run(void **state)
     assert_false(exists("out/plots/fixture_was_run"));
     check_page("out/index.html", 1, 2);
     wt_result_free(result);
+
+    // Without an answer the page is called by what is in it.
+    size_t length = 0;
+    char *page = read_all("out/index.html", &length);
+    assert_non_null(strstr(page, "<title>Modulus of the groups"));
+    free(page);
 }
 
 static void test_the_same_bytes_twice(void **state)
