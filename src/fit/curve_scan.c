@@ -360,7 +360,8 @@ size_t curve_scan(const wt_contact_table *table, const curve_samples *samples, b
     profile points;
     for (size_t i = 0; i + behind <= samples->n; i++)
         nearest = w->tip[i] > nearest ? w->tip[i] : nearest;
-    if (!(p.top > 0.0))
+    /* nonsense may be as large as numbers get, or too small to divide by */
+    if (!isnormal(p.top) || p.top < 0.0)
         return 0;
     const double shallowest = fmax(p.deepest - nearest, least_depth * p.top);
     p.n_octaves = 1;

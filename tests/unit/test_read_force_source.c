@@ -255,13 +255,14 @@ static void contradictions(void **state)
         double force; /* N for each metre of deflection */
         double own, given;
         const char *words;
-    } cases[] = {{0.3, 0.3, NAN, NULL},
-                 {0.305, 0.3, NAN, NULL},
-                 {0.45, 0.3, NAN, "mean a spring constant of 0.45 N/m, the file says 0.3 N/m"},
-                 {0.45, 0.3, 0.45, "the file says 0.3 N/m"},
-                 {0.3, NAN, 0.3, NULL},
-                 {0.3, NAN, 0.6, "mean a spring constant of 0.3 N/m, given is 0.6 N/m"},
-                 {0.3, NAN, NAN, NULL}};
+    } cases[] = {
+        {0.3, 0.3, (double)NAN, NULL},
+        {0.305, 0.3, (double)NAN, NULL},
+        {0.45, 0.3, (double)NAN, "mean a spring constant of 0.45 N/m, the file says 0.3 N/m"},
+        {0.45, 0.3, 0.45, "the file says 0.3 N/m"},
+        {0.3, (double)NAN, 0.3, NULL},
+        {0.3, (double)NAN, 0.6, "mean a spring constant of 0.3 N/m, given is 0.6 N/m"},
+        {0.3, (double)NAN, (double)NAN, NULL}};
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         made_up m = make((wt_cantilever){.spring_constant = cases[i].own, .sensitivity = 50e-9});
