@@ -154,12 +154,13 @@ static void check_curves(const char *file, double sign)
 
 static void nanosurf_curves(void **state)
 {
+    static const double v_whole[] = {-1, 0, 0.5, 1, 2};
     (void)state;
     for (int version = 1; version <= 2; version++) {
         nhf_writer_file f = nanosurf(version);
         double up[5], out[4];
         if (version == 1) /* has no number for what is missing */
-            channels[0][0].values = (const double[]){-1, 0, 0.5, 1, 2};
+            channels[0][0].values = v_whole;
         assert_int_equal(nhf_write(&f), 0);
         if (version == 2)
             check_curves(path, 1);
@@ -176,7 +177,7 @@ static void nanosurf_curves(void **state)
     }
     nhf_writer_file f = nanosurf(1);
     reading r;
-    channels[0][0].values = (const double[]){-1, 0, 0.5, 1, 2};
+    channels[0][0].values = v_whole;
     assert_int_equal(nhf_write(&f), 0);
     assert_int_equal(open_force(&r, path, NULL), WT_OK);
     next_curve(&r);
