@@ -57,6 +57,37 @@ static wt_file_set files(const char *const *patterns, size_t n, const char *spot
 
 /* ---- indentation ----------------------------------------------------------------------------- */
 
+/* A law that is no series has no spectrum: the curves are fitted as without a material. */
+static void test_material_without_a_spectrum(void **state)
+{
+    (void)state;
+    const char *const names[] = {"bulk-1.jpk-force-map"};
+    const wt_file_set set = files(names, 1, NULL);
+    const wt_rubber zener = {.kind = WT_RUBBER_ZENER,
+                             .zener = {.e0 = 5e6, .eg = 2e9, .tau = 1e-6, .alpha = 0.4},
+                             .poisson_ratio = 0.5,
+                             .prony = {.reference_temperature = 293.15}};
+    wt_indent_job job = bulk_job(&set, 1);
+    wt_job work = common_job();
+    wt_indent_tables plain = {0}, given = {0};
+    wt_error err = WT_ERROR_INIT;
+    work.log = wt_parselog_new();
+    assert_int_equal(wt_indent_group(&job, &work, &plain, NULL), WT_OK);
+    const size_t notes = wt_parselog_count(work.log);
+    job.rubber = &zener;
+    if (wt_indent_group(&job, &work, &given, &err) != WT_OK)
+        fail_msg("%s", err.message);
+    assert_true(wt_parselog_count(work.log) > notes);
+    assert_int_equal(wt_table_n_rows(given.indentation), wt_table_n_rows(plain.indentation));
+    for (size_t i = 0; i < wt_table_n_rows(plain.indentation); i++)
+        assert_near(number_cell(given.indentation, i, "modulus"),
+                    number_cell(plain.indentation, i, "modulus"), 0);
+    assert_null(wt_table_key(given.indentation, "spectrum_temperature"));
+    wt_parselog_free(work.log);
+    wt_indent_tables_clear(&plain);
+    wt_indent_tables_clear(&given);
+}
+
 /* A bad file is recorded and the others are fitted; a file named twice counts once. */
 static void test_bad_files(void **state)
 {
@@ -570,11 +601,17 @@ static void test_draws(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_bad_files),    cmocka_unit_test(test_threads_and_rates),
-        cmocka_unit_test(test_spots),        cmocka_unit_test(test_one_spot),
-        cmocka_unit_test(test_rubber_at),    cmocka_unit_test(test_rubber_at_reference),
-        cmocka_unit_test(test_surface_text), cmocka_unit_test(test_surface_cut),
-        cmocka_unit_test(test_calibration),  cmocka_unit_test(test_layer_numbers),
+        cmocka_unit_test(test_material_without_a_spectrum),
+        cmocka_unit_test(test_bad_files),
+        cmocka_unit_test(test_threads_and_rates),
+        cmocka_unit_test(test_spots),
+        cmocka_unit_test(test_one_spot),
+        cmocka_unit_test(test_rubber_at),
+        cmocka_unit_test(test_rubber_at_reference),
+        cmocka_unit_test(test_surface_text),
+        cmocka_unit_test(test_surface_cut),
+        cmocka_unit_test(test_calibration),
+        cmocka_unit_test(test_layer_numbers),
         cmocka_unit_test(test_draws),
     };
     return cmocka_run_group_tests_name("flow jobs", tests, open_formats, close_formats);

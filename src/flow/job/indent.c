@@ -457,6 +457,13 @@ static wt_status find_spectrum(indent_task *task, wt_error *err)
     task->options = job->options;
     if (job->rubber == NULL)
         return WT_OK;
+    if (job->rubber->kind != WT_RUBBER_SERIES && job->rubber->prony.n == 0) {
+        wt_parselog_add(task->work->log, WT_NOTE, NULL, NULL,
+                        "%s: the material has no relaxation spectrum (it is a table or a law), so "
+                        "each curve has the modulus of its own rate",
+                        job->group);
+        return WT_OK;
+    }
     const wt_status status =
         flow_rubber_spectrum(job->rubber, job->temperature.value, &task->spectrum, statement, err);
     if (status != WT_OK)
