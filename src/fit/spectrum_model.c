@@ -2,6 +2,7 @@
  * equations, priors. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "fit/spectrum.h"
 
+#include "base/wide.h"
 #include "fit/pool_gsl.h"
 
 #include <math.h>
@@ -303,6 +304,7 @@ void spectrum_evaluate(spectrum *s, const double *value, bool with_rows)
 
 /* Adds the products of ROWS rows to the block of the terms, upper triangle: so many at a time keep
  * it out of the way to memory, which is what this costs. */
+WIDE_REGISTERS
 static void add_rows(gsl_matrix *normal, size_t m, const double *row, size_t width)
 {
     const double *r0 = row, *r1 = r0 + width, *r2 = r1 + width, *r3 = r2 + width;

@@ -105,17 +105,40 @@ double adhesion_radius(const adhesion *law, double k, double position, double re
     return a;
 }
 
+/* ln of the force at which it comes off. */
+static double log_pull_off(const wt_tip *tip, double reduced, double k, double log_work)
+{
+    const adhesion law = {tip, reduced, exp(log_work)};
+    return log(fmax(-adhesion_at(&law, adhesion_release(&law, k)).force, DBL_MIN));
+}
+
+/* By the false position of Illinois: in logarithms it is close to a line. */
 double adhesion_work(const wt_tip *tip, double reduced, double k, double pull_off)
 {
-    double low = 1e-9, high = 1e3;
-    for (int i = 0; i < MAX_ROUNDS && high > low * (1.0 + 1e-12); i++) {
-        const adhesion law = {tip, reduced, sqrt(low * high)};
-        if (-adhesion_at(&law, adhesion_release(&law, k)).force > pull_off)
-            high = law.work;
-        else
-            low = law.work;
+    const double wanted = log(pull_off), close = 1e-12;
+    double low = log(1e-9), high = log(1e3);
+    double below = log_pull_off(tip, reduced, k, low) - wanted;
+    double above = log_pull_off(tip, reduced, k, high) - wanted;
+    if (!(below < 0.0) || !(above > 0.0))
+        return exp(below < 0.0 ? high : low);
+    for (int i = 0, side = 0; i < MAX_ROUNDS && high - low > close; i++) {
+        const double middle = high - above * (high - low) / (above - below);
+        const double off = log_pull_off(tip, reduced, k, middle) - wanted;
+        const int now = off > 0.0 ? 1 : -1;
+        if (fabs(off) < close)
+            return exp(middle);
+        if (off > 0.0) {
+            high = middle;
+            above = off;
+            below *= side == now ? 0.5 : 1.0;
+        } else {
+            low = middle;
+            below = off;
+            above *= side == now ? 0.5 : 1.0;
+        }
+        side = now;
     }
-    return sqrt(low * high);
+    return exp(0.5 * (low + high));
 }
 
 double adhesion_tabor(const adhesion *law)

@@ -50,10 +50,9 @@ static contact_point_values sharp(const wt_tip *tip, double delta)
 }
 
 /* G beyond the transition radius. */
-static double faces_force(const wt_tip *tip, double s)
+static double faces_force(const wt_tip *tip, double mcot, double s)
 {
     const double b = tip->transition_radius, h = hypot(1.0, s), hs = h + s, a = b * h;
-    const double mcot = tip_facet_factor(tip->sides) / tan(tip->half_angle);
     return 2.0 * (b * b / tip->radius * b * (2.0 * h + s) / (3.0 * hs * hs) +
                   0.5 * mcot * (a * a * atan(s) + b * (b * s)));
 }
@@ -78,7 +77,7 @@ static contact_point_values faces(const wt_tip *tip, double delta)
         s = next;
     }
     const double a = b * h;
-    return (contact_point_values){faces_force(tip, s), 2.0 * a, 2.0 * b * s / rise};
+    return (contact_point_values){faces_force(tip, mcot, s), 2.0 * a, 2.0 * b * s / rise};
 }
 
 contact_radius_values contact_at_radius(const wt_tip *tip, double a)
@@ -94,7 +93,7 @@ contact_radius_values contact_at_radius(const wt_tip *tip, double a)
                                        0.5 * M_PI * mcot};
     const double cap = b * b / tip->radius, h = a / b, s = sqrt((h - 1.0) * (h + 1.0)), hs = h + s;
     const double rise = mcot * b * (1.0 + s * atan(s)) - cap / (hs * hs);
-    return (contact_radius_values){cap * h / hs + mcot * b * h * atan(s), faces_force(tip, s),
+    return (contact_radius_values){cap * h / hs + mcot * b * h * atan(s), faces_force(tip, mcot, s),
                                    rise / (b * s)};
 }
 
