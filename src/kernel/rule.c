@@ -50,8 +50,9 @@ static void fill_running(gauss_rule *rule)
 
 /* The coefficients in pairs, of which one may be small by accident. Those that are left out fall no
  * faster than a power of the degree through the slower of the last two rates: 2^-p from n to 2n,
- * where (1 - 2/n)^p is the rate, so rate^(0.35 n). The last pair looks smaller than it is where
- * they fall slowly, for what is left out folds back on it. `caution` is for what that overlooks. */
+ * where (1 - 2/n)^p is the rate of a pair, so rate^(0.35 n). The last ones look smaller than they
+ * are where they fall slowly, for what is left out folds back on them. `caution` is for what that
+ * overlooks, and a tenth of it is enough where the fall goes no further. */
 static const double caution = 40;
 
 static double larger(double a, double b)
@@ -91,15 +92,17 @@ double rule_error(const gauss_rule *rule, const double *f)
     add_columns(rule->top, TOP_ROOM, n, f, coefficient);
     for (size_t k = 0; k < RULE_TOP; k++)
         pair[k / 2] = larger(pair[k / 2], fabs(coefficient[k]));
-    const bool falls = pair[1] < pair[0];
-    const double next = n < RULE_TOP ? 0 : falls ? pair[1] * (pair[1] / pair[0]) : pair[1];
-    const double last = larger(pair[2], next);
-    if (!(last < pair[1]) || (n >= RULE_TOP && !falls))
-        return caution * last; /* where they do not fall, as much again */
-    const double ratio = last / pair[1];
+    const bool has_three = n >= RULE_TOP;
+    if (!(pair[2] < pair[1]) || (has_three && !(pair[1] < pair[0])))
+        return 0.1 * caution * larger(pair[1], pair[2]);
+    const double last_rate = pair[2] / pair[1];
+    const double rate = sqrt(has_three ? larger(last_rate, pair[1] / pair[0]) : last_rate);
+    double last = larger(fabs(coefficient[RULE_TOP - 1]), fabs(coefficient[RULE_TOP - 2]) * rate);
+    if (has_three)
+        last = larger(last, pair[1] * rate * rate * rate);
     double fall = 1;
-    for (size_t i = 0; 20 * (i + 1) <= 7 * n; i++)
-        fall *= ratio;
+    for (size_t i = 0; 10 * (i + 1) <= 7 * n; i++)
+        fall *= rate;
     return caution * last * fall;
 }
 
