@@ -155,8 +155,9 @@ typedef struct wt_transverse {
 WT_API wt_transverse wt_transverse_defaults(void); /* isotropic */
 WT_API const wt_params *wt_transverse_params(void);
 /* The isotropic solid of this Poisson ratio that its surface feels like. `axial` and `shear` may be
- * NULL or `plane`, the law of which then holds. Takes the laws, also on failure. What is unstable
- * or singular shows when frequencies are known: wt_material_law.check. */
+ * NULL or `plane`, the law of which then holds. Takes the laws, also on failure. With one law, all
+ * factors 1 and equal Poisson ratios that is `plane` itself. What is unstable or singular shows
+ * when frequencies are known: wt_material_law.check. */
 WT_API wt_status wt_material_transverse(wt_material *plane, wt_material *axial, wt_material *shear,
                                         const wt_transverse *transverse, double poisson_ratio,
                                         wt_material **material, wt_error *err) WT_NODISCARD;

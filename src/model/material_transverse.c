@@ -297,6 +297,20 @@ static void join_range(const transverse_data *d, double *low, double *high)
     }
 }
 
+/* One law for all directions, with one Poisson ratio: the isotropic solid itself. */
+static bool is_isotropic(const transverse_data *d)
+{
+    const wt_transverse *t = &d->given;
+    const double factors[] = {t->plane_storage, t->plane_loss,    t->axial_storage,
+                              t->axial_loss,    t->shear_storage, t->shear_loss};
+    for (size_t i = 0; i < COUNT_OF(factors); i++)
+        if (factors[i] < 1 || factors[i] > 1)
+            return false;
+    return d->law[AXIAL] == d->law[PLANE] && d->law[SHEAR] == d->law[PLANE] &&
+           t->axial_poisson >= t->plane_poisson && t->axial_poisson <= t->plane_poisson &&
+           t->plane_poisson >= 0 && t->plane_poisson <= 0.5;
+}
+
 wt_status wt_material_transverse(wt_material *plane, wt_material *axial, wt_material *shear,
                                  const wt_transverse *transverse, double poisson_ratio,
                                  wt_material **material, wt_error *err)
@@ -322,6 +336,12 @@ wt_status wt_material_transverse(wt_material *plane, wt_material *axial, wt_mate
         d->given.plane_poisson = poisson_ratio;
     if (isnan(d->given.axial_poisson))
         d->given.axial_poisson = poisson_ratio;
+    if (is_isotropic(d)) {
+        plane->poisson_ratio = d->given.plane_poisson;
+        *material = plane;
+        free(d);
+        return WT_OK;
+    }
     d->stiffness = 2 * (1 - poisson_ratio * poisson_ratio);
     double low, high;
     join_range(d, &low, &high);

@@ -266,7 +266,7 @@ static void transverse_checks(void **state)
         {{2.5, 1}, 1, 0.45, 0.45, WT_OK, ""},
         {{1, 2.5}, 1, 0.45, 0.45, WT_OK, "not passive"},
         {{1, 2.5}, 1, 0.3, 0.3, WT_OK, ""},
-        {{1, 1}, 1, 0.5, 0.5, WT_OK, ""},
+        {{1, 1}, 1, 0.5, 0.5, WT_OK, ""},   /* isotropic: nothing to check */
         {{4, 4}, 1, 0.875, 0.5, WT_OK, ""}, /* incompressible */
         {{1, 1}, 1, 0.5, 0.51, WT_E_RANGE, "unstable"},
         {{2.5, 2.5}, 1, 0.49, 1.225, WT_E_RANGE, "unstable"},
@@ -281,7 +281,9 @@ static void transverse_checks(void **state)
         t.plane_poisson = sets[i].nu_p;
         t.axial_poisson = sets[i].nu_zp;
         wt_material *m = reinforced(&t, &modulus, &tau);
-        const wt_status status = m->law->check(m, 1e-2, 1e12, words, &err);
+        words[0] = '\0';
+        const wt_status status =
+            m->law->check == NULL ? WT_OK : m->law->check(m, 1e-2, 1e12, words, &err);
         const char *said = status == WT_OK ? words : err.message;
         if (status != sets[i].status || strstr(said, sets[i].says) == NULL ||
             (sets[i].says[0] == '\0' && words[0] != '\0'))
