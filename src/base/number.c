@@ -116,6 +116,12 @@ static size_t shorten_exponent(char *text, size_t length)
     return (size_t)(to - text);
 }
 
+double number_to_tens(double value, int decimals)
+{
+    const double tens = pow(10, decimals < 0 ? -decimals : 0);
+    return decimals < 0 ? tens * round(value / tens) : value;
+}
+
 size_t wt_number_format(double value, char *buffer)
 {
     enum { SIZE = 32 };

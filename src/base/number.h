@@ -12,5 +12,8 @@ size_t number_prefix(const char *text, size_t length, char decimal);
 double number_of(const char *text);
 /* Reads what wt_number_format writes: also "nan", "inf" and "-inf". */
 bool number_read(const char *text, size_t length, double *value);
+/* A value to so many decimals, which below 0 are tens, hundreds ...: there it is rounded to them,
+ * else as it is, for the text to round. */
+double number_to_tens(double value, int decimals);
 
 #endif

@@ -93,6 +93,8 @@ int cmd_accuracy(int argc, char **argv)
         cmd_usage_error(&s, "--part and --repeats are not for a case");
     else if (s.n_files == 0 && (parts[1].given != 0 || parts[2].given != 0))
         cmd_usage_error(&s, "without a case there are --part and --repeats only");
+    else if (s.common.n_columns > 0 && !cmd_read_formats(&s))
+        goto done;
     else if (s.n_files == 1) {
         s.log = wt_parselog_new();
         run.trials = own.coverage;

@@ -115,7 +115,9 @@ bool cmd_parse(cmd_session *s, const cmd_usage *usage, cmd_part *parts, size_t n
                char **argv);
 /* Makes log, result and all that the job is given. False if it cannot. */
 bool cmd_begin(cmd_session *s);
-/* The same with the formats; --format (may be NULL) must name one of them. */
+/* The formats with those of --formats and --columns, which may say what is no quantity. */
+bool cmd_read_formats(cmd_session *s);
+/* Both; --format (may be NULL) must name one of them. */
 bool cmd_begin_reading(cmd_session *s, const char *format);
 /* Says what failed and gives the tables "failures" and "notes" of what was done, unless they would
  * be empty. */

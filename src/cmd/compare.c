@@ -71,6 +71,10 @@ int cmd_compare(int argc, char **argv)
     wt_status made = read_group(s.files, 0, &bulk, &job.bulk, &s.err);
     if (made == WT_OK)
         made = read_group(s.files, 1, &track, &job.track, &s.err);
+    if (made == WT_OK && is_called(job.track, names[0]))
+        wt_parselog_add(s.log, WT_WARNING, s.files[1], NULL,
+                        "its curves are called bulk and are taken for those of the track; "
+                        "`weartrack indent --group track` names them");
     if (made == WT_OK && own.master != NULL) {
         made = cmd_rubber_read(own.master, material.poisson_ratio, &dma, &rubber, &s.err);
         job.rubber = &rubber;

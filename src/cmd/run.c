@@ -191,6 +191,7 @@ int cmd_run(int argc, char **argv)
                         {wt_report_params(), &r.report, "style", 0},
                         {wt_run_params(), &r.run, NULL, 0}};
     if (cmd_parse(&r.s, &usage, parts, COUNT_OF(parts), argc, argv) && check_output(&r) &&
+        (r.s.common.n_columns == 0 || cmd_read_formats(&r.s)) &&
         run_case(&r, cmd_given(&parts[2], "style")) != WT_OK)
         cmd_fail(&r.s);
     free(r.result_name);

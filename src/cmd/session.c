@@ -31,17 +31,22 @@ bool cmd_begin(cmd_session *s)
     return s->cost != NULL || cmd_fail(s);
 }
 
-bool cmd_begin_reading(cmd_session *s, const char *format)
+bool cmd_read_formats(cmd_session *s)
 {
-    s->log = wt_parselog_new();
     if (wt_formats_new(s->common.formats, &s->formats, s->log, &s->err) != WT_OK)
         return cmd_fail(s);
     const wt_status status =
         wt_formats_add_columns(s->formats, s->common.columns, s->common.n_columns, &s->err);
     if (status == WT_E_ARG)
         return cmd_usage_error(s, "--columns: %s; %s", s->err.message, s->err.found);
-    if (status != WT_OK)
-        return cmd_fail(s);
+    return status == WT_OK || cmd_fail(s);
+}
+
+bool cmd_begin_reading(cmd_session *s, const char *format)
+{
+    s->log = wt_parselog_new();
+    if (!cmd_read_formats(s))
+        return false;
     if (format != NULL && wt_formats_find(s->formats, format) == NULL)
         return cmd_usage_error(s, "--format: there is no format '%s', see weartrack formats list",
                                format);

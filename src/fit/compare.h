@@ -33,7 +33,8 @@ typedef struct t_error {
 moments compare_moments(const double *x, size_t n);
 double compare_t_of_normal(double z, double df); /* beyond it lies as much of the law */
 double compare_quantile(double df);              /* 97.5 % of Student's t */
-/* Of the difference of two means; `shift` adds to it, and `known` as a normal variance. */
+/* Of the difference of two means, each of two units or more; `shift` adds to it, and `known` as a
+ * normal variance. */
 t_error compare_welch(moments a, moments b, t_error shift, double known);
 t_error compare_sum(t_error part, double known);
 wt_status compare_ranks(const compare_units *units, pool *memory, wt_comparison *result,

@@ -5,6 +5,7 @@
 #include "base/clocale.h"
 
 #include <math.h>
+#include <string.h>
 
 /* Lack of fit is real below this probability, with what is not known of the noise. A smaller one
  * would miss second processes (unit_fit_master), and be right a little more often where noise goes
@@ -63,14 +64,18 @@ void master_judge(const master_work *work, wt_master *m)
     } else if (determined >= LEAST_ISOTHERMS && lack->p_sure < significant &&
                lack->misfit_low > matters) {
         m->superposition = WT_SUPERPOSITION_FAILS;
-        clocale_print(
-            m->because, sizeof m->because,
-            "one spectrum misses the isotherms by %.1f to %.1f %% (p = %.1g): a second process "
-            "or a change of the material; treat the temperatures apart",
-            100.0 * lack->misfit_low, 100.0 * lack->misfit_high, lack->p_sure);
+        char low[16], high[16];
+        clocale_print(low, sizeof low, "%.1f", 100.0 * lack->misfit_low);
+        clocale_print(high, sizeof high, "%.1f", 100.0 * lack->misfit_high);
+        const bool one = strcmp(low, high) == 0;
+        clocale_print(m->because, sizeof m->because,
+                      "one spectrum misses the isotherms by %s%s%s %% (p = %.1g): a second process "
+                      "or a change of the material; treat the temperatures apart",
+                      one ? "about " : low, one ? "" : " to ", high, lack->p_sure);
     } else if (determined < LEAST_ISOTHERMS) {
         clocale_print(m->because, sizeof m->because,
-                      "%zu isotherms that overlap; three or more would tell", determined);
+                      "%zu isotherm%s that overlap%s; three or more would tell", determined,
+                      determined == 1 ? "" : "s", determined == 1 ? "s" : "");
     } else if (3 * undetermined > m->n_shifts) {
         clocale_print(
             m->because, sizeof m->because,

@@ -18,11 +18,16 @@ typedef struct signature {
     size_t length;
     const char *words;
     const char *advice;
+    bool measured; /* may hold what an instrument measured */
 } signature;
 
 #define SIGNATURE(bytes, words, advice)                                                            \
     {                                                                                              \
-        bytes, sizeof bytes - 1, words, advice                                                     \
+        bytes, sizeof bytes - 1, words, advice, false                                              \
+    }
+#define NOT_READ(bytes, words, advice)                                                             \
+    {                                                                                              \
+        bytes, sizeof bytes - 1, words, advice, true                                               \
     }
 #define AS_TEXT "export it as text or CSV from the program of the instrument"
 #define NO_DATA "give the file that the instrument exported, as text or CSV"
@@ -32,27 +37,27 @@ typedef struct signature {
     "--columns \"NAME=QUANTITY:UNIT\" for each; or describe its layout in a file "                 \
     "(weartrack-format(5)) and give its folder with --formats"
 static const signature signatures[] = {
-    SIGNATURE("PK\3\4", "a ZIP archive without force curves that is no spreadsheet, or a cut one",
-              "copy a JPK file or a spreadsheet again, unpack any other archive"),
-    SIGNATURE("PK\5\6", "an empty ZIP archive", NO_DATA),
-    SIGNATURE("\211HDF\r\n\032\n", "an HDF5 file of another program", AS_TEXT),
+    NOT_READ("PK\3\4", "a ZIP archive without force curves that is no spreadsheet, or a cut one",
+             "copy a JPK file or a spreadsheet again, unpack any other archive"),
+    NOT_READ("PK\5\6", "an empty ZIP archive", NO_DATA),
+    NOT_READ("\211HDF\r\n\032\n", "an HDF5 file of another program", AS_TEXT),
     SIGNATURE("%PDF", "a PDF document", NO_DATA),
     SIGNATURE("\211PNG", "a PNG picture", NO_DATA),
     SIGNATURE("\377\330\377", "a JPEG picture", NO_DATA),
     SIGNATURE("II*\0", "a TIFF picture", NO_DATA),
     SIGNATURE("MM\0*", "a TIFF picture", NO_DATA),
-    SIGNATURE("GWYP", "a Gwyddion file", "export it as text from Gwyddion"),
-    SIGNATURE("\\*File list", "a NanoScope (Bruker, Veeco) image", AS_TEXT),
-    SIGNATURE("\5\0", "an Igor binary wave (Asylum Research), or unknown binary data", AS_TEXT),
+    NOT_READ("GWYP", "a Gwyddion file", "export it as text from Gwyddion"),
+    NOT_READ("\\*File list", "a NanoScope (Bruker, Veeco) image", AS_TEXT),
+    NOT_READ("\5\0", "an Igor binary wave (Asylum Research), or unknown binary data", AS_TEXT),
     SIGNATURE("<?xml", "an XML document", "a case file is for `weartrack run`; " NO_DATA),
     SIGNATURE("<!DOCTYPE", "an HTML or XML document", NO_DATA),
     SIGNATURE("<html", "an HTML page", NO_DATA),
     SIGNATURE("\377\376", "UTF-16 text of no known layout", DESCRIBE),
     SIGNATURE("\376\377", "UTF-16 text of no known layout", DESCRIBE),
 };
-static const signature empty = {"", 0, "an empty file", "export it again"};
-static const signature binary = {"", 0, "unknown binary data", AS_TEXT};
-static const signature text = {"", 0, "text of no known layout", DESCRIBE};
+static const signature empty = {"", 0, "an empty file", "export it again", true};
+static const signature binary = {"", 0, "unknown binary data", AS_TEXT, false};
+static const signature text = {"", 0, "text of no known layout", DESCRIBE, false};
 
 static const signature *looks_like(const unsigned char *bytes, size_t length)
 {
@@ -178,9 +183,9 @@ static const char *kind_words(unsigned kinds)
 
 static wt_status wrong_kind(const file_reader *reader, unsigned kinds, wt_error *err)
 {
-    wt_fail(err, WT_E_UNSUPPORTED, "this format holds no %s", kind_words(kinds));
+    wt_fail(err, WT_E_EMPTY, "this format holds no %s", kind_words(kinds));
     wt_error_found(err, "%s (%s)", reader->info.title, reader->info.id);
-    return WT_E_UNSUPPORTED;
+    return WT_E_EMPTY;
 }
 
 static wt_status unknown(wt_input *input, wt_error *err)
@@ -191,11 +196,12 @@ static wt_status unknown(wt_input *input, wt_error *err)
     wt_status status = wt_input_peek(input, FIRST_PEEK, &bytes, &length, &whole, err);
     if (status != WT_OK)
         return status;
-    wt_fail(err, WT_E_FORMAT, "file format not recognised");
     const signature *like = looks_like(bytes, length);
+    status = like->measured ? wt_fail(err, WT_E_UNSUPPORTED, "such a file is not read")
+                            : wt_fail(err, WT_E_FORMAT, "file format not recognised");
     wt_error_found(err, "%s", like->words);
     wt_error_advice(err, "%s", like->advice);
-    return WT_E_FORMAT;
+    return status;
 }
 
 static wt_status ambiguous(const file_reader *a, const file_reader *b, wt_error *err)

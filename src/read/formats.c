@@ -68,6 +68,21 @@ wt_status formats_add_text(wt_formats *f, text_description *d, wt_parselog *log,
     return status;
 }
 
+wt_status formats_of(text_description *d, const char *path, wt_formats **formats, wt_error *err)
+{
+    wt_formats *f = calloc(1, sizeof *f);
+    if (f == NULL) {
+        description_free(d);
+        return wt_fail(err, WT_E_MEMORY, "no memory for the formats");
+    }
+    const wt_status status = formats_add_text(f, d, NULL, path, err);
+    if (status == WT_OK)
+        *formats = f;
+    else
+        wt_formats_free(f);
+    return status;
+}
+
 static wt_status add_built_in(wt_formats *f, description_xsd *schema, wt_error *err)
 {
     wt_status status = WT_OK;

@@ -12,12 +12,15 @@ const file_reader *formats_reader(const wt_formats *formats, size_t i);
 /* Takes the description, also on failure; one of the same id is replaced, with a note. */
 wt_status formats_add_text(wt_formats *formats, struct text_description *description,
                            wt_parselog *log, const char *path, wt_error *err);
+/* A set of this one alone, taken also on failure. */
+wt_status formats_of(struct text_description *description, const char *path, wt_formats **formats,
+                     wt_error *err);
 /* The reader of that id, or NULL. */
 const file_reader *formats_find_reader(const wt_formats *formats, const char *id);
 
 /* detect.c: the reader that the bytes belong to as they are: the one of that format, or with NULL
  * the one that recognises them. `kinds` limits the question (0 = any); what is recognised but has
- * none of them is WT_E_UNSUPPORTED and says so. */
+ * none of them is WT_E_EMPTY and says so. */
 wt_status detect_reader(const wt_formats *formats, wt_input *input, const char *format,
                         unsigned kinds, const file_reader **reader, wt_error *err);
 

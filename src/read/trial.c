@@ -4,6 +4,7 @@
  */
 #include "data/tables/tables.h"
 #include "read/force_source.h"
+#include "read/formats.h"
 #include "read/text/text.h"
 
 static void report_column(table_writer *report, const text_table *t, const text_column *c)
@@ -70,27 +71,32 @@ static wt_status try_kinds(const file_reader *reader, const text_file *file, wt_
     return status;
 }
 
-static wt_status try_sample(const file_reader *reader, wt_input *sample,
-                            const wt_read_options *options, wt_parselog *log, table_writer *report,
-                            wt_error *err)
+/* As reading does, of what is packed in the sample. */
+static wt_status try_sample(const wt_formats *alone, wt_input *sample, wt_read_options options,
+                            wt_parselog *log, table_writer *report, wt_error *err)
 {
     text_file file;
+    const file_reader *reader = NULL;
+    wt_input *content = NULL;
     file_peek peek = {.whole = true, .name = wt_input_name(sample)};
-    wt_status status = wt_input_bytes(sample, &peek.bytes, &peek.length, err);
+    options.format = wt_formats_get(alone, 0)->id;
+    wt_status status = find_reader(alone, sample, &options, 0, &reader, &content, err);
+    if (status == WT_OK)
+        status = wt_input_bytes(content, &peek.bytes, &peek.length, err);
     if (status != WT_OK)
         return status;
     if (reader->detect(reader, &peek).answer != ANSWER_YES)
         wt_parselog_add(log, WT_WARNING, peek.name, NULL,
                         "the detect element does not recognise this file");
     text_peek_free(peek.text);
-    status = text_scan(reader, sample, reader->info.kinds, options, log, &file, err);
+    status = text_scan(reader, content, reader->info.kinds, &options, log, &file, err);
     if (status != WT_OK)
         return status;
     if (file.n_tables == 0)
         status = text_nothing(&file, "table whose names are understood", err);
     report_tables(report, &file);
     if (status == WT_OK)
-        status = try_kinds(reader, &file, sample, options, log, err);
+        status = try_kinds(reader, &file, content, &options, log, err);
     text_file_free(&file);
     return status;
 }
@@ -99,17 +105,19 @@ wt_status wt_description_check(const char *xml_path, wt_input *sample,
                                const wt_read_options *options, wt_parselog *log, wt_table **report,
                                wt_error *err)
 {
-    const wt_read_options o = options != NULL ? *options : wt_read_defaults();
     description_xsd *xsd = NULL;
     text_description *d = NULL;
+    wt_formats *alone = NULL;
     wt_table *table = NULL;
     table_writer writer = table_begin(&description_schema, err);
     wt_status status = description_xsd_new(&xsd, err);
     if (status == WT_OK)
         status = description_parse_file(xsd, xml_path, &d, err);
+    if (status == WT_OK)
+        status = formats_of(d, xml_path, &alone, err);
     if (status == WT_OK && sample != NULL) {
-        const file_reader reader = text_reader(d);
-        status = try_sample(&reader, sample, &o, log, &writer, err);
+        status = try_sample(alone, sample, options != NULL ? *options : wt_read_defaults(), log,
+                            &writer, err);
         if (status != WT_OK)
             wt_error_file(err, wt_input_name(sample));
     }
@@ -119,7 +127,7 @@ wt_status wt_description_check(const char *xml_path, wt_input *sample,
         *report = table;
     else
         wt_table_free(table);
-    description_free(d);
+    wt_formats_free(alone);
     description_xsd_free(xsd);
     return status;
 }

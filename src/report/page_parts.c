@@ -5,6 +5,7 @@
 #include "report/page.h"
 
 #include "base/array.h"
+#include "base/number.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -211,7 +212,7 @@ static void add_value(growing_text *text, const wt_estimate *e, const lab_unit *
     else {
         int decimals = 1 - (int)floor(log10(error));
         decimals = decimals > 5 - leading ? 5 - leading : decimals;
-        text_add(text, FIXED(value, decimals));
+        text_add(text, FIXED(number_to_tens(value, decimals), decimals));
     }
 }
 
@@ -222,7 +223,9 @@ static void add_error(growing_text *text, double error, const lab_unit *lab)
     else if (error == 0)
         text_add(text, "–");
     else {
-        text_format(text, "± %s", NUMBER(fabs(error) * lab->factor, 2));
+        const double size = fabs(error) * lab->factor;
+        const int decimals = 1 - (int)floor(log10(size));
+        text_format(text, "± %s", NUMBER(number_to_tens(size, decimals), 2));
         add_unit(text, strcmp(lab->label, "°C") == 0 ? "K" : lab->label);
     }
 }

@@ -4,6 +4,7 @@
  */
 #include "report/units.h"
 
+#include "base/number.h"
 #include "report/numbers.h"
 
 #include <math.h>
@@ -86,11 +87,11 @@ value_words estimate_in_words(const wt_estimate *estimate)
         (void)snprintf(text.words, sizeof text.words, "%.700s (error not known)", value.words);
         return text;
     }
-    int decimals = 1 - (int)floor(log10(error));
-    decimals = decimals < 0 ? 0 : decimals > 9 ? 9 : decimals;
+    const int decimals = (int)fmin(9, 1 - floor(log10(error)));
     value_words text;
     (void)snprintf(text.words, sizeof text.words, "%s ± %s%s%s",
-                   FIXED(lab_value(&lab, estimate->value), decimals), FIXED(error, decimals),
+                   FIXED(number_to_tens(lab_value(&lab, estimate->value), decimals), decimals),
+                   FIXED(number_to_tens(error, decimals), decimals),
                    lab.label[0] != '\0' ? " " : "", lab.label);
     return text;
 }

@@ -58,6 +58,38 @@ static void cannot_read(const char *sheet, wt_status expected, const char *words
         fail_msg("%d, \"%s\" instead of %d, \"%s\"", (int)status, all, (int)expected, words);
 }
 
+/* The check of a description reads a packed sample as reading does. */
+static void checks(const char *sheet, double storage)
+{
+    char xml[] = "/tmp/weartrack-packed-XXXXXX.xml";
+    const int fd = mkstemps(xml, 4);
+    wt_read_options options = wt_read_defaults();
+    const wt_format_info *info = NULL;
+    wt_input *input = NULL;
+    wt_table *report = NULL;
+    wt_error err = WT_ERROR_INIT;
+    options.sheet = sheet;
+    assert_int_equal(wt_input_open(path, &input, NULL), WT_OK);
+    assert_int_equal(wt_detect(formats, input, &options, WT_KIND_SWEEP, &info, NULL), WT_OK);
+    FILE *out = fdopen(fd, "w");
+    assert_non_null(out);
+    assert_true(fputs(wt_formats_xml(formats, info->id), out) >= 0 && fclose(out) == 0);
+    wt_input_close(input);
+    assert_int_equal(wt_input_open(path, &input, NULL), WT_OK);
+    if (wt_description_check(xml, input, &options, NULL, &report, &err) != WT_OK)
+        fail_msg("%s (%s, %s)", err.message, err.found, err.advice);
+    bool found = false;
+    for (size_t i = 0; i < wt_table_n_rows(report); i++)
+        if (strcmp(wt_table_text(report, i, 1), "storage_modulus") == 0) {
+            assert_near(wt_table_number(report, i, 4), storage, 1e-12);
+            found = true;
+        }
+    assert_true(found);
+    wt_table_free(report);
+    wt_input_close(input);
+    assert_int_equal(unlink(xml), 0);
+}
+
 /* ---- gzip ------------------------------------------------------------------------------------ */
 
 static size_t pack(const char *text, size_t length, unsigned char *to, size_t size)
@@ -85,6 +117,7 @@ static void test_gzip(void **state)
     size_t n = pack(SWEEP, strlen(SWEEP), bytes, sizeof bytes);
     write_bytes(bytes, n);
     reads(NULL, 1, 10e6);
+    checks(NULL, 10e6);
     /* A lone half of it, and one whose check sum differs. */
     write_bytes(bytes, n / 2);
     cannot_read(NULL, WT_E_CORRUPT, "the end of the archive is missing");
@@ -133,6 +166,7 @@ static void test_sheets(void **state)
         assert_int_equal(kinds[k](path, sheets, 2), 0);
         reads(NULL, 1, 10e6);
         reads("cold", 1, 10e6);
+        checks("cold", 10e6);
         cannot_read("hot", WT_E_NOT_FOUND, "\"About\", \"Cold\"");
         cannot_read("About", WT_E_FORMAT, "not recognised");
         assert_int_equal(kinds[k](path, plain, 3), 0);

@@ -84,7 +84,11 @@ static void say_material(sentence *s, const table_view *v)
     if (!isnan(c1.value))
         say(s, ", WLF C1 = %s, C2 = %s", words_of_estimate(c1).text,
             words_of_estimate(shift_factors_value(v, SHIFT_FACTORS_KEY_WLF_C2)).text);
-    say(s, ", superposition: %s", shift_factors_words(v, SHIFT_FACTORS_KEY_SUPERPOSITION));
+    const char *verdict = shift_factors_words(v, SHIFT_FACTORS_KEY_SUPERPOSITION);
+    /* why it fails or cannot be judged is a warning */
+    const bool warned = v->n_rows > 1 && strncmp(verdict, "holds", 5) != 0;
+    say(s, ", superposition: %.*s", (int)(warned ? strcspn(verdict, ":") : strlen(verdict)),
+        verdict);
 }
 
 static void say_transition(sentence *s, const table_view *v)

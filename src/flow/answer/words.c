@@ -2,6 +2,7 @@
 #include "flow/answer/words.h"
 
 #include "base/clocale.h"
+#include "base/number.h"
 
 #include <math.h>
 #include <string.h>
@@ -26,7 +27,8 @@ number_words words_of_value(wt_estimate e)
 }
 
 /* Value and error in one scale and with the same decimals, two digits of the error: "3.16 ± 0.96
- * um", "0.1050 ± 0.0029"; "3.16 um (error not known)". As on the page, six digits at most. */
+ * um", "0.1050 ± 0.0029", "1230 ± 230 s"; "3.16 um (error not known)". As on the page, six digits
+ * at most. */
 number_words words_of_estimate(wt_estimate e)
 {
     number_words value = words_of(e.value, e.unit), words = value;
@@ -50,7 +52,8 @@ number_words words_of_estimate(wt_estimate e)
         const int decimals = needed < 0 ? 0 : needed < most ? needed : most;
         clocale_print(words.text, sizeof words.text,
                       needed <= most ? "%.*f \xc2\xb1 %.*f%.40s" : "%.*f \xc2\xb1 %.*g%.40s",
-                      decimals, e.value * scale, needed <= most ? decimals : 2, error,
+                      decimals, number_to_tens(e.value * scale, needed),
+                      needed <= most ? decimals : 2, number_to_tens(error, needed),
                       suffix == NULL ? "" : suffix);
     }
     return words;

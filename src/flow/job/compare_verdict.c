@@ -44,10 +44,15 @@ static void ask_for_spots(const wt_compare_job *job, const wt_comparison *c, com
         snprintf(number, sizeof number, "more than 1000 spots");
     else
         snprintf(number, sizeof number, "%zu spots", n < 3 ? 3 : n);
+    const char *third = "";
+    if (c->by_spot && c->n_bulk == 2 && c->n_track > 2)
+        third = "a third spot in the bulk first, for two do not tell how much they scatter; ";
+    else if (c->by_spot && c->n_track == 2 && c->n_bulk > 2)
+        third = "a third spot in the track first, for two do not tell how much they scatter; ";
     SAY(v->settled_by,
-        "%s in each group would show a difference of %s in four of five trials where spots scatter "
-        "by %s%s; more curves on a spot do not help",
-        number, percent(fabs(expm1(difference))).text, percent(scatter).text,
+        "%s%s in each group would show a difference of %s in four of five trials where spots "
+        "scatter by %s%s; more curves on a spot do not help",
+        third, number, percent(fabs(expm1(difference))).text, percent(scatter).text,
         measured ? ", as they do here" : " (assumed)");
 }
 

@@ -279,10 +279,12 @@ static wt_status read_files(indent_task *task, const flow_files *files, wt_error
         task->spot = task->file->set->spot != NULL ? task->file->set->spot : task->file->name;
         task->n_items = 0;
         status = read_file(task, &failure);
-        if (status != WT_OK) {
-            task->n_failed++;
-            status = flow_failed(task->work, task->file->name, status, &failure, err);
+        if (status == WT_OK || flow_leave_out(task->work, task->file, &failure)) {
+            status = WT_OK;
+            continue;
         }
+        task->n_failed++;
+        status = flow_failed(task->work, task->file->name, status, &failure, err);
     }
     return status;
 }

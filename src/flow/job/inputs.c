@@ -96,8 +96,20 @@ wt_status flow_failed(const wt_job *work, const char *file, wt_status status, wt
 
 /* ---- listing --------------------------------------------------------------------------------- */
 
+/* Names between the slashes of a path. */
+static size_t depth(const char *path)
+{
+    size_t n = 0;
+    for (path += strspn(path, "/"); *path != '\0'; n++) {
+        path += strcspn(path, "/");
+        path += strspn(path, "/");
+    }
+    return n;
+}
+
 /* Takes `path`, also on failure. */
-static wt_status files_add(flow_files *files, char *path, const wt_file_set *set, wt_error *err)
+static wt_status files_add(flow_files *files, char *path, const char *pattern,
+                           const wt_file_set *set, wt_error *err)
 {
     flow_file *grown = array_grow(files->file, files->n, sizeof *grown);
     files->file = grown != NULL ? grown : files->file;
@@ -105,8 +117,9 @@ static wt_status files_add(flow_files *files, char *path, const wt_file_set *set
         free(path);
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     }
-    files->file[files->n++] =
-        (flow_file){.path = path, .name = below(set->folder, path), .set = set};
+    const char *name = below(set->folder, path);
+    files->file[files->n++] = (flow_file){
+        .path = path, .name = name, .set = set, .of_folder = depth(name) > depth(pattern)};
     return WT_OK;
 }
 
@@ -128,7 +141,7 @@ static wt_status list_pattern(const wt_file_set *set, const char *pattern, const
     wt_status status = WT_OK;
     wt_error failure = WT_ERROR_INIT;
     if (strcmp(pattern, "-") == 0)
-        return files_add(files, strdup("-"), set, err);
+        return files_add(files, strdup("-"), pattern, set, err);
     status = wt_glob(set->folder, pattern, &paths, &n, &failure);
     if (status != WT_OK)
         return flow_failed(work, pattern, status, &failure, err);
@@ -143,7 +156,7 @@ static wt_status list_pattern(const wt_file_set *set, const char *pattern, const
                             "named more than once; its curves are taken once");
             continue;
         }
-        status = files_add(files, paths[i], set, err);
+        status = files_add(files, paths[i], pattern, set, err);
         paths[i] = NULL;
     }
     wt_strings_free(paths, n);
@@ -226,6 +239,16 @@ wt_status flow_open(const wt_job *work, flow_file *file, const char *role, unsig
     return WT_OK;
 }
 
+bool flow_leave_out(const wt_job *work, const flow_file *file, const wt_error *failure)
+{
+    const bool unknown = failure->status == WT_E_FORMAT && file->format == NULL;
+    if (!file->of_folder || !(unknown || failure->status == WT_E_EMPTY))
+        return false;
+    wt_parselog_add(work->log, WT_WARNING, file->name, NULL, "left out of its folder: %s%s%s",
+                    failure->message, failure->found[0] != '\0' ? "; found " : "", failure->found);
+    return true;
+}
+
 /* ---- DMA ------------------------------------------------------------------------------------- */
 
 wt_status flow_sweeps_read(const wt_file_set *sets, size_t n_sets, const wt_job *work,
@@ -242,7 +265,9 @@ wt_status flow_sweeps_read(const wt_file_set *sets, size_t n_sets, const wt_job 
                                    &failure);
         wt_input_close(input);
         if (status != WT_OK)
-            status = flow_failed(work, files.file[i].name, status, &failure, err);
+            status = flow_leave_out(work, &files.file[i], &failure)
+                         ? WT_OK
+                         : flow_failed(work, files.file[i].name, status, &failure, err);
     }
     if (status == WT_OK && sweep->n_isotherms + sweep->n_ramps == 0) {
         status = wt_fail(err, WT_E_EMPTY, "no DMA sweep could be read");

@@ -20,6 +20,7 @@ typedef struct flow_file {
     const char *path;       /* to open; owned by the list */
     const char *name;       /* to show: `path` without the folder of the set; borrowed from it */
     const wt_file_set *set; /* whose options hold */
+    bool of_folder;         /* not named itself, but found in a folder that was */
     /* by flow_open: */
     const wt_format_info *format;
     wt_read_options read; /* options of the set, with the format that was found */
@@ -45,6 +46,9 @@ wt_status flow_open(const wt_job *work, flow_file *file, const char *role, unsig
  * also on failure. */
 wt_status flow_sweeps_read(const wt_file_set *sets, size_t n_sets, const wt_job *work,
                            wt_sweep *sweep, wt_error *err) WT_NODISCARD;
+/* Whether a file that gave `failure` is one that merely lies in the folder that was named, without
+ * measured data of the kind asked for: it is left out with a warning. Else it has failed. */
+bool flow_leave_out(const wt_job *work, const flow_file *file, const wt_error *failure);
 
 /* A law in one word: "self-affine:q0=1e3rad/m,...". */
 typedef struct flow_law_text {
