@@ -41,9 +41,13 @@ void found_value(const char *value, const char *unit, char *out, size_t size)
 static const struct {
     const char *item;
     unsigned kind; /* that a file with this item has; 0: any */
-} telling[] = {
-    {"curves", WT_KIND_FORCE},    {"spring constant", 0}, {"deflection sensitivity", 0},
-    {"isotherms", WT_KIND_SWEEP}, {"deformation", 0},     {"power spectrum", WT_KIND_SPECTRUM}};
+} telling[] = {{"curves", WT_KIND_FORCE},
+               {"spring constant", 0},
+               {"deflection sensitivity", 0},
+               {"isotherms", WT_KIND_SWEEP},
+               {"temperature sweeps", WT_KIND_SWEEP},
+               {"deformation", 0},
+               {"power spectrum", WT_KIND_SPECTRUM}};
 
 static void read_fact(const char *item, const char *value, const char *unit, found_file *found)
 {
@@ -52,6 +56,8 @@ static void read_fact(const char *item, const char *value, const char *unit, fou
         char shown[160];
         if (strcmp(item, telling[i].item) != 0 || strcmp(value, "0") == 0)
             continue;
+        if (strcmp(item, "temperature sweeps") == 0)
+            found->is_ramp = found->kind == 0; /* isotherms come first */
         if (found->kind == 0)
             found->kind = telling[i].kind;
         found_value(value, unit, shown, sizeof shown);

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/job/cost.h"
 #include "flow/job/inputs.h"
+#include "flow/job/ramp_windows.h"
 
 #include "data/tables/tables.h"
 #include "model/material.h"
@@ -267,34 +268,20 @@ static wt_status draw_tables(const wt_master *m, wt_master_tables *tables, wt_er
 
 /* ---- the job --------------------------------------------------------------------------------- */
 
-static wt_status check_isotherms(const wt_sweep *sweep, const wt_job *work, wt_error *err)
-{
-    const size_t n = sweep->n_ramps;
-    if (sweep->n_isotherms > 0) {
-        if (n > 0)
-            wt_parselog_add(work->log, WT_WARNING, sweep->ramps[0].source, NULL,
-                            "%zu temperature sweep%s left out of the master curve: `weartrack "
-                            "ramp` tells the glass transition of %s",
-                            n, n > 1 ? "s are" : " is", n > 1 ? "them" : "it");
-        return WT_OK;
-    }
-    wt_fail(err, WT_E_EMPTY, "a master curve needs isotherms");
-    wt_error_found(err, "temperature sweeps: %zu", n);
-    wt_error_advice(err, "`weartrack ramp FILE` tells the glass transition of them");
-    return WT_E_EMPTY;
-}
-
-static wt_status fit(const wt_master_job *job, const wt_job *work, const wt_sweep *sweep,
+/* Temperature sweeps become isotherms of `sweep`. */
+static wt_status fit(const wt_master_job *job, const wt_job *work, wt_sweep *sweep,
                      wt_master *master, wt_error *err)
 {
-    const wt_status status = wt_master_fit(sweep, &job->fit, work->log, master, err);
+    const wt_status status = sweep->n_ramps > 0
+                                 ? flow_ramps_fit(sweep, &job->fit, work->log, master, err)
+                                 : wt_master_fit(sweep, &job->fit, work->log, master, err);
     if (status == WT_OK)
         return WT_OK;
     /* the fit sees isotherms, not files */
     const size_t n = sweep->n_isotherms;
     if (job->n_sets > 0 && job->sets[0].n_patterns > 0)
         wt_error_file(err, job->sets[0].patterns[0]);
-    if (err != NULL && err->place[0] == '\0')
+    if (err != NULL && err->place[0] == '\0' && n > 0)
         wt_error_place(err, "%zu isotherm%s from %s", n, n == 1 ? "" : "s",
                        sweep->isotherms[0].source);
     return status;
@@ -376,8 +363,6 @@ wt_status wt_master_make(const wt_master_job *job, const wt_job *work, wt_master
         status = param_check(wt_job_params(), work, err);
     if (status == WT_OK)
         status = flow_sweeps_read(job->sets, job->n_sets, work, &sweep, err);
-    if (status == WT_OK)
-        status = check_isotherms(&sweep, work, err);
     if (status == WT_OK)
         status = fit(job, work, &sweep, &master, err);
     if (status == WT_OK)

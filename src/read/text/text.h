@@ -185,7 +185,7 @@ bool names_match(names_row *names, const text_description *description, text_spa
  * file->unknown. */
 wt_status names_resolve(const names_row *names, text_file *file, text_table *table,
                         const wt_read_options *options, wt_error *err);
-/* Does a name carry its unit ("f (Hz)", "E' / MPa", "q[1/m]")? Shortens it to the name. */
+/* Does a name carry its unit ("f (Hz)", "E' / MPa", "f/Hz", "q[1/m]")? Shortens it to the name. */
 bool name_unit(text_span *name, text_span *unit);
 void names_free(names_row *names);
 

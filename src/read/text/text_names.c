@@ -40,7 +40,12 @@ bool name_unit(text_span *name, text_span *unit)
             name->length = i - 2;
             return name->length > 0;
         }
-    return false;
+    const char *const slash = memchr(text, '/', n); /* f/Hz, w/rad/s */
+    if (slash == NULL || slash == text || slash + 1 == text + n)
+        return false;
+    *unit = (text_span){slash + 1, (size_t)(text + n - slash) - 1};
+    name->length = (size_t)(slash - text);
+    return true;
 }
 
 bool names_part(const text_description *d, text_span *line)
