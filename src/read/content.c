@@ -257,7 +257,7 @@ static wt_status detect_content(const wt_formats *formats, wt_input *in, const c
                   (given != NULL && reader_is_text(given));
     if (!s.found)
         status = detect_reader(formats, in, format, kinds, reader, err);
-    if (status == WT_E_FORMAT && zip && format == NULL) {
+    if ((status == WT_E_FORMAT || status == WT_E_UNSUPPORTED) && zip && format == NULL) {
         wt_error damaged = WT_ERROR_INIT;
         const wt_status looked = collection_each(in, look_for_curves, &s, &damaged);
         if (looked == WT_E_MEMORY)

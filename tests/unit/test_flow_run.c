@@ -226,7 +226,7 @@ static void test_one_isotherm(void **state)
     (void)state;
 #define STARE                                                                                      \
     "<dma><terms-per-decade>2</terms-per-decade><files>" WT_SOURCE_DIR                             \
-    "/fixtures/formats/stare/*</files></dma>"
+    "/fixtures/formats/stare/isotherm.txt</files></dma>"
     ran r = run_text(HEAD STARE ROAD SLIDE("") "</case>", 1);
     assert_int_equal(r.n_failed, 0);
     assert_int_equal(wt_table_n_rows(table_of(&r, "shift_factors")), 1);
