@@ -102,7 +102,7 @@ static void none(void **state)
     const packed_file words[] = {{"a.txt", "words\n", 0}, {"b.txt", "more words\n", 0}};
     const packed_file one[] = {{"a.txt", CURVE("1"), 0}};
     write_archive(words, 2);
-    refused(WT_E_FORMAT, "a ZIP archive without force curves");
+    refused(WT_E_UNSUPPORTED, "a ZIP archive without force curves");
     /* An archive within an archive is not opened, whatever it holds. */
     write_archive(one, 1);
     const size_t n = read_bytes(inner, sizeof inner);
@@ -115,12 +115,12 @@ static void none(void **state)
     assert_true(logged(&r, "an archive within an archive"));
     close_all(&r);
     write_archive(both + 1, 1);
-    refused(WT_E_FORMAT, "a ZIP archive without force curves");
+    refused(WT_E_UNSUPPORTED, "a ZIP archive without force curves");
     /* It holds no sweep. */
     wt_sweep sweep = {.n_isotherms = 0};
     write_archive(one, 1);
     open_input(&r, path);
-    assert_int_equal(wt_sweep_read(formats, r.input, NULL, NULL, &sweep, &r.err), WT_E_FORMAT);
+    assert_int_equal(wt_sweep_read(formats, r.input, NULL, NULL, &sweep, &r.err), WT_E_UNSUPPORTED);
     close_all(&r);
 }
 
