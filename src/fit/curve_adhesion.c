@@ -80,9 +80,14 @@ static double median(double *x, size_t n)
     return gsl_stats_select(x, 1, n, n / 2);
 }
 
+static double within(double x, double from, double to)
+{
+    return x < from ? from : x > to ? to : x;
+}
+
 static double middle_of(double a, double b, double c)
 {
-    return fmax(fmin(a, b), fmin(fmax(a, b), c));
+    return a < b ? within(c, a, b) : within(c, b, a);
 }
 
 /* The largest pull of n forces above the baseline, the last of which are far from the sample, if it
@@ -94,7 +99,7 @@ static double sudden_pull(const double *above, size_t n, size_t far, double nois
     for (size_t i = 1; i + 1 < n; i++) {
         const double x = -middle_of(above[i - 1], above[i], above[i + 1]);
         if (i >= n - far) {
-            elsewhere = fmax(elsewhere, x);
+            elsewhere = x > elsewhere ? x : elsewhere;
         } else if (x > pull) {
             pull = x;
             deepest = i;
@@ -113,12 +118,12 @@ static double work_along(const double *position, const double *force, size_t n, 
 {
     double sum = 0.0;
     for (size_t i = 1; i < n; i++) {
-        const double before = fmax(force[i - 1], 0.0), behind = fmax(force[i], 0.0);
-        const double first = fmin(fmax(position[i - 1], from), to),
-                     last = fmin(fmax(position[i], from), to);
-        const double step = position[i] - position[i - 1];
+        const double first = within(position[i - 1], from, to),
+                     last = within(position[i], from, to);
         if (!(fabs(last - first) > 0.0))
             continue;
+        const double before = fmax(force[i - 1], 0.0), behind = fmax(force[i], 0.0);
+        const double step = position[i] - position[i - 1];
         const double middle = (0.5 * (first + last) - position[i - 1]) / step;
         sum += (before + middle * (behind - before)) * (last - first);
     }
@@ -158,7 +163,7 @@ void curve_read_retract(curve_fitting *f, const double *height, const double *fo
     const double back = work_along(position, above, kept, c, top);
     for (size_t i = 0; i < f->input.n_all; i++) {
         scratch[i] = s->force[i] - curve_baseline(&f->solution, s->position[i]);
-        largest = fmax(largest, scratch[i]);
+        largest = scratch[i] > largest ? scratch[i] : largest;
     }
     const double in = work_along(s->position, scratch, f->input.n_all, c, top);
     const double share = (in - back) / (in - 0.5 * largest * largest / s->spring_constant);

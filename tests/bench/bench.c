@@ -80,7 +80,8 @@ int main(int argc, char **argv)
     printf("weartrack %s, one thread; median of five\n\n", wt_version());
     printf("%-34s %10s %-14s %10s  %10s  %s\n", "what", "weartrack", "", "textbook", "ratio",
            "largest difference");
-    bench_curves();
+    const double textbook = bench_curves();
+    bench_indent(textbook);
     bench_detect();
     bench_friction();
     bench_layer();

@@ -19,8 +19,11 @@ typedef struct bench_random {
 double bench_uniform(bench_random *random);
 double bench_normal(bench_random *random);
 
-void bench_curves(void);
+/* Returns the seconds of the textbook fit of one curve. */
+double bench_curves(void);
 void bench_detect(void);
+/* textbook: seconds of its fit of one curve. */
+void bench_indent(double textbook);
 void bench_friction(void);
 void bench_layer(void);
 void bench_shift(void);

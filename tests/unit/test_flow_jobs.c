@@ -6,6 +6,7 @@
 #include "base/array.h"
 #include "flow/job/draws.h"
 #include "weartrack/flow.h"
+#include "writers/jpk_writer.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -176,6 +177,55 @@ static void test_threads_and_rates(void **state)
     wt_table_free(one);
     wt_table_free(three);
     wt_table_free(without);
+}
+
+/* More curves than two batches hold, each stiffer than the one before: every one has its row, in
+ * the order of the file, whatever thread it was fitted on. */
+static void test_batches(void **state)
+{
+    (void)state;
+    enum { CURVES = 530, N = 120 };
+    static double height[N], force[CURVES][N];
+    static jpk_writer_segment segments[CURVES];
+    static jpk_writer_curve curves[CURVES];
+    const char *const path = "batches.jpk-force-map";
+    const wt_file_set set = {.patterns = &path, .n_patterns = 1, .read = wt_read_defaults()};
+    const wt_indent_job job = bulk_job(&set, 1);
+    jpk_writer_file file = jpk_writer_defaults();
+    for (size_t i = 0; i < N; i++)
+        height[i] = -1e-9 * (double)i;
+    for (size_t c = 0; c < CURVES; c++) {
+        for (size_t i = 0; i < N; i++) {
+            double g, slope;
+            wt_contact_function(&job.tip, 1e-9 * ((double)i - 80.3), &g, &slope);
+            force[c][i] = 1e6 * (1.0 + 0.01 * (double)c) * g + 1e-13 * (double)(i % 2);
+        }
+        segments[c] = (jpk_writer_segment){
+            .style = "extend", .n = N, .duration = 0.1, .height = height, .force = force[c]};
+        curves[c] = (jpk_writer_curve){.index = c, .n_segments = 1, .segments = &segments[c]};
+    }
+    file.path = path;
+    file.map = true;
+    file.curves = curves;
+    file.n_curves = CURVES;
+    file.spring_constant = 1e3;
+    file.sensitivity = 50e-9;
+    assert_int_equal(jpk_write(&file), 0);
+    for (unsigned threads = 1; threads <= 3; threads += 2) {
+        wt_job common = common_job();
+        wt_indent_tables tables = {0};
+        wt_error err = WT_ERROR_INIT;
+        common.threads = threads;
+        if (wt_indent_group(&job, &common, &tables, &err) != WT_OK)
+            fail_msg("%s: %s", err.file, err.message);
+        assert_int_equal(wt_table_n_rows(tables.indentation), CURVES);
+        for (size_t i = 0; i < CURVES; i++) {
+            assert_near(number_cell(tables.indentation, i, "curve"), (double)i, 0);
+            assert_near(number_cell(tables.indentation, i, "max_force"), force[i][N - 1], 0.02);
+        }
+        wt_indent_tables_clear(&tables);
+    }
+    assert_int_equal(unlink(path), 0);
 }
 
 static void check_spots(const wt_file_set *sets, size_t n, const char *key, size_t expected)
@@ -604,6 +654,7 @@ int main(void)
         cmocka_unit_test(test_material_without_a_spectrum),
         cmocka_unit_test(test_bad_files),
         cmocka_unit_test(test_threads_and_rates),
+        cmocka_unit_test(test_batches),
         cmocka_unit_test(test_spots),
         cmocka_unit_test(test_one_spot),
         cmocka_unit_test(test_rubber_at),

@@ -16,9 +16,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A batch ends with the first of the two: it bounds memory and keeps all threads busy. */
+/* A batch ends with the first of the two: it bounds memory and keeps all threads busy. There are
+ * two of them: while one is fitted the next is read. */
 #define BATCH_CURVES 256
-#define BATCH_SAMPLES ((size_t)1 << 22)
+#define BATCH_SAMPLES ((size_t)1 << 21)
 
 /* Range of indentations that the table of the contact function covers; outside it the function is
  * computed directly, so this is only about speed. */
@@ -31,6 +32,11 @@ typedef struct item {
     wt_error error;
     wt_indent_fit fit;
 } item;
+
+typedef struct batch {
+    item *items; /* [BATCH_CURVES] */
+    size_t n;
+} batch;
 
 typedef struct accepted {
     double modulus;
@@ -50,8 +56,9 @@ typedef struct indent_task {
     wt_contact_table *contact;
     wt_indent_workspace **scratch; /* [n_workers] */
     unsigned n_workers;
-    item *items; /* [BATCH_CURVES] */
-    size_t n_items;
+    wt_force_source *source; /* NULL: nothing is left to read */
+    item *items;             /* [2 * BATCH_CURVES], of the two batches */
+    batch now, next;
     table_writer rows;
     size_t n_curves, n_accepted, n_failed;
     /* equal failures of one file make one row */
@@ -111,10 +118,37 @@ static wt_status note_failure(indent_task *task, size_t curve, const wt_error *f
 
 /* ---- one batch ------------------------------------------------------------------------------- */
 
+static size_t samples_of(const wt_force_curve *curve)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < curve->n_segments; i++)
+        n += curve->segments[i].n_points * curve->segments[i].n_channels;
+    return n;
+}
+
+static void read_batch(indent_task *task)
+{
+    size_t samples = 0;
+    while (task->source != NULL && task->next.n < BATCH_CURVES && samples < BATCH_SAMPLES) {
+        item *it = &task->next.items[task->next.n];
+        it->error = (wt_error)WT_ERROR_INIT;
+        it->status = wt_force_next(task->source, &it->curve, &it->error);
+        if (it->status == WT_END) {
+            wt_force_close(task->source);
+            task->source = NULL;
+            break;
+        }
+        samples += it->status == WT_OK ? samples_of(&it->curve) : 0;
+        task->next.n++;
+    }
+}
+
 static wt_status fit_item(void *user, size_t i, unsigned worker)
 {
     indent_task *task = user;
-    item *it = &task->items[i];
+    item *it = &task->now.items[i];
+    if (worker == 0 && task->next.n == 0) /* files are read by the thread that opened them */
+        read_batch(task);
     if (it->status == WT_OK)
         it->status = wt_indent_force_curve(task->contact, &task->options, &it->curve,
                                            task->scratch[worker], &it->fit, &it->error);
@@ -210,12 +244,11 @@ static wt_status write_item(indent_task *task, item *it, wt_error *err)
 static wt_status run_batch(indent_task *task, wt_error *err)
 {
     wt_status status =
-        wt_parallel_for(task->n_items, task->work->threads, fit_item, task, NULL, "fitting curves");
+        wt_parallel_for(task->now.n, task->work->threads, fit_item, task, NULL, "fitting curves");
     if (status != WT_OK)
         return wt_fail(err, status, "fitting in parallel failed");
-    for (size_t i = 0; status == WT_OK && i < task->n_items; i++)
-        status = write_item(task, &task->items[i], err);
-    task->n_items = 0;
+    for (size_t i = 0; status == WT_OK && i < task->now.n; i++)
+        status = write_item(task, &task->now.items[i], err);
     const wt_progress *progress = &task->work->progress;
     if (status == WT_OK && progress->report != NULL &&
         !progress->report(progress->user, "indentation", task->n_curves, 0))
@@ -223,49 +256,33 @@ static wt_status run_batch(indent_task *task, wt_error *err)
     return status;
 }
 
-static size_t samples_of(const wt_force_curve *curve)
-{
-    size_t n = 0;
-    for (size_t i = 0; i < curve->n_segments; i++)
-        n += curve->segments[i].n_points * curve->segments[i].n_channels;
-    return n;
-}
-
 /* ---- one file -------------------------------------------------------------------------------- */
 
 static wt_status read_file(indent_task *task, wt_error *err)
 {
     wt_input *input = NULL;
-    wt_force_source *source = NULL;
-    size_t samples = 0;
     wt_status status =
         flow_open(task->work, task->file, task->job->group, WT_KIND_FORCE, &input, err);
     const wt_read_options options =
         wanted_channels(task->file, task->job->rates || task->options.spectrum != NULL);
     if (status == WT_OK)
-        status = wt_force_open(task->work->formats, input, &options, task->work->log, &source, err);
-    if (status != WT_OK)
-        goto done;
-    for (;;) {
-        item *it = &task->items[task->n_items];
-        it->error = (wt_error)WT_ERROR_INIT;
-        it->status = wt_force_next(source, &it->curve, &it->error);
-        if (it->status == WT_END)
+        status = wt_force_open(task->work->formats, input, &options, task->work->log, &task->source,
+                               err);
+    while (status == WT_OK) {
+        if (task->next.n == 0)
+            read_batch(task);
+        if (task->next.n == 0)
             break;
-        samples += it->status == WT_OK ? samples_of(&it->curve) : 0;
-        task->n_items++;
-        if (task->n_items == BATCH_CURVES || samples >= BATCH_SAMPLES) {
-            status = run_batch(task, err);
-            samples = 0;
-            if (status != WT_OK)
-                goto done;
-        }
+        const batch done = task->now;
+        task->now = task->next;
+        task->next = (batch){done.items, 0};
+        status = run_batch(task, err);
     }
-    status = run_batch(task, err);
+    task->next.n = 0;
     if (status == WT_OK)
         status = flush_failures(task, err);
-done:
-    wt_force_close(source);
+    wt_force_close(task->source);
+    task->source = NULL;
     wt_input_close(input);
     return status;
 }
@@ -277,7 +294,6 @@ static wt_status read_files(indent_task *task, const flow_files *files, wt_error
         wt_error failure = WT_ERROR_INIT;
         task->file = &files->file[i];
         task->spot = task->file->set->spot != NULL ? task->file->set->spot : task->file->name;
-        task->n_items = 0;
         status = read_file(task, &failure);
         if (status == WT_OK || flow_leave_out(task->work, task->file, &failure)) {
             status = WT_OK;
@@ -310,7 +326,7 @@ static wt_status add_representative(indent_task *task, wt_indent_tables *tables,
         return WT_OK; /* a pipe cannot be read twice */
     wt_input *input = NULL;
     wt_force_source *source = NULL;
-    wt_force_curve *curve = &task->items[0].curve;
+    wt_force_curve *curve = &task->now.items[0].curve;
     const wt_read_options options = wanted_channels(file, task->options.spectrum != NULL);
     wt_status status = wt_input_open(file->path, &input, err);
     if (status == WT_OK)
@@ -498,9 +514,11 @@ static wt_status prepare(indent_task *task, wt_error *err)
     if (task->n_workers > BATCH_CURVES)
         task->n_workers = BATCH_CURVES;
     task->scratch = calloc(task->n_workers, sizeof(wt_indent_workspace *));
-    task->items = calloc(BATCH_CURVES, sizeof *task->items);
+    task->items = calloc(2 * BATCH_CURVES, sizeof *task->items);
     if (task->scratch == NULL || task->items == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
+    task->now.items = task->items;
+    task->next.items = task->items + BATCH_CURVES;
     for (unsigned i = 0; i < task->n_workers; i++)
         if ((task->scratch[i] = wt_indent_workspace_new()) == NULL)
             return wt_fail(err, WT_E_MEMORY, "out of memory");
@@ -511,7 +529,7 @@ static void release(indent_task *task)
 {
     for (unsigned i = 0; task->scratch != NULL && i < task->n_workers; i++)
         wt_indent_workspace_free(task->scratch[i]);
-    for (size_t i = 0; task->items != NULL && i < BATCH_CURVES; i++)
+    for (size_t i = 0; task->items != NULL && i < 2 * BATCH_CURVES; i++)
         wt_force_curve_clear(&task->items[i].curve);
     free(task->scratch);
     free(task->items);
