@@ -123,15 +123,31 @@ typedef struct wt_ramp {
     uint64_t reserved[8];
 } wt_ramp;
 
-/* Isotherms in the order of rising temperature (equal temperatures stay separate), and temperature
- * sweeps in the order of rising frequency. */
+/* Moduli against the amplitude of the strain at one frequency and temperature, raised or lowered
+ * once.
+ */
+typedef struct wt_strain_sweep {
+    double angular_frequency; /* mean of the points [rad/s] */
+    double temperature;       /* likewise, or what the header or the user says; NaN: unknown [K] */
+    size_t n;
+    double *strain;          /* [n] rising */
+    double *storage_modulus; /* [n] Pa, as measured: E' or G' */
+    double *loss_modulus;    /* [n] Pa */
+    char source[128];        /* file and step it came from */
+    uint64_t reserved[8];
+} wt_strain_sweep;
+
+/* Isotherms in the order of rising temperature (equal temperatures stay separate), temperature
+ * sweeps in the order of rising frequency, strain sweeps in that of temperature and frequency. */
 typedef struct wt_sweep {
     wt_deformation deformation;
     size_t n_isotherms;
     wt_isotherm *isotherms;
     size_t n_ramps;
     wt_ramp *ramps;
-    uint64_t reserved[6];
+    size_t n_strain_sweeps;
+    wt_strain_sweep *strain_sweeps;
+    uint64_t reserved[4];
 } wt_sweep;
 WT_API void wt_sweep_clear(wt_sweep *sweep);
 /* Appends an isotherm with uninitialised arrays of n points (strain if with_strain); NULL when out
@@ -141,9 +157,11 @@ WT_API wt_isotherm *wt_sweep_add(wt_sweep *sweep, size_t n, bool with_strain);
 WT_API void wt_sweep_sort(wt_sweep *sweep);
 /* The same for a temperature sweep; wt_sweep_sort orders its points by temperature. */
 WT_API wt_ramp *wt_sweep_add_ramp(wt_sweep *sweep, size_t n);
-/* Of a sorted sweep: takes out isotherms and their points, and temperature sweeps, that stand there
- * twice to the last bit, with a warning for each (the same file under two names, a table pasted
- * twice): measured again, they would differ. */
+/* The same for a strain sweep; wt_sweep_sort orders its points by strain. */
+WT_API wt_strain_sweep *wt_sweep_add_strain_sweep(wt_sweep *sweep, size_t n);
+/* Of a sorted sweep: takes out isotherms and their points, and other sweeps, that stand there twice
+ * to the last bit, with a warning for each (the same file under two names, a table pasted twice):
+ * measured again, they would differ. */
 WT_API void wt_sweep_drop_copies(wt_sweep *sweep, wt_parselog *log);
 
 /* ---- power spectrum ----------------------------------------------------------------------- */

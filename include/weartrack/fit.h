@@ -329,6 +329,39 @@ WT_API wt_status wt_peak_find(const double *x, const double *y, size_t n, size_t
 WT_API wt_status wt_value_between(const double *x, const double *y, size_t n, double at,
                                   wt_interval *value, wt_error *err) WT_NODISCARD;
 
+/* ---- strain sweeps (Payne effect) ------------------------------------------------------------ */
+
+/* Kraus: storage = storage_inf + (storage_0 - storage_inf) / (1 + x^2), loss = loss_inf +
+ * (loss_m - loss_inf) 2 x / (1 + x^2), x = (strain / strain_c)^exponent. */
+typedef struct wt_kraus {
+    double storage_0, storage_inf, strain_c, exponent, loss_m, loss_inf;
+} wt_kraus;
+WT_API double wt_kraus_storage(const wt_kraus *law, double strain);
+WT_API double wt_kraus_loss(const wt_kraus *law, double strain);
+
+/* What is not reached in the range measured is NaN. */
+typedef struct wt_payne {
+    /* As measured: means of up to three points of the smallest amplitudes (those within a factor of
+     * three of the smallest) and of the three largest; amplitudes at which the storage modulus
+     * first falls below 0.9 and 0.5 of its start, between points linear in ln strain; the largest
+     * loss modulus, and its amplitude unless that is one of the outer two on a side. */
+    double storage_start, loss_start, storage_end;
+    double strain_tenth, strain_half, loss_max, strain_loss_max;
+    /* Least squares with equal errors of the storage moduli; the loss moduli then follow its
+     * strain_c and exponent. Intervals are those of the profiled sum of squares, ends that the
+     * points do not bound are NaN. strain_c is where half of the fall is reached. */
+    bool fitted;
+    wt_kraus law;
+    wt_interval storage_0, storage_inf, strain_c, exponent, loss_m, loss_inf;
+    double storage_misfit, loss_misfit; /* root mean square of what the points are off, of
+                                           storage_0 and of loss_max */
+    const char *note;                   /* "", or why there is no fit or what it lacks; static */
+    const char *loss_note;              /* likewise of the loss modulus */
+} wt_payne;
+/* strain rising and, like the moduli, > 0. */
+WT_API wt_status wt_payne_fit(const double *strain, const double *storage, const double *loss,
+                              size_t n, wt_payne *payne, wt_error *err) WT_NODISCARD;
+
 /* ---- master curve: one spectrum behind all isotherms ----------------------------------------- */
 
 typedef enum wt_vertical_shift {

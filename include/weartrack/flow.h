@@ -285,6 +285,21 @@ WT_API void wt_ramp_tables_clear(wt_ramp_tables *tables);
 WT_API wt_status wt_ramp_make(const wt_ramp_job *job, const wt_job *work, wt_ramp_tables *tables,
                               wt_error *err) WT_NODISCARD;
 
+/* Strain sweeps: how the moduli fall with the amplitude. */
+typedef struct wt_payne_job {
+    const wt_file_set *sets;
+    size_t n_sets;
+    uint64_t reserved[8];
+} wt_payne_job;
+WT_API wt_payne_job wt_payne_job_defaults(void);
+typedef struct wt_payne_tables {
+    wt_table *payne, *payne_sweep;
+    uint64_t reserved[4];
+} wt_payne_tables;
+WT_API void wt_payne_tables_clear(wt_payne_tables *tables);
+WT_API wt_status wt_payne_make(const wt_payne_job *job, const wt_job *work, wt_payne_tables *tables,
+                               wt_error *err) WT_NODISCARD;
+
 /* The tables that wt_master_make gave, as read from a file; borrowed. */
 typedef struct wt_rubber_tables {
     const wt_table *prony;

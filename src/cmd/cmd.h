@@ -28,6 +28,7 @@ int cmd_indent(int argc, char **argv);
 int cmd_compare(int argc, char **argv);
 int cmd_master(int argc, char **argv);
 int cmd_ramp(int argc, char **argv);
+int cmd_payne(int argc, char **argv);
 int cmd_friction(int argc, char **argv);
 int cmd_layer(int argc, char **argv);
 int cmd_new_case(int argc, char **argv);

@@ -21,6 +21,13 @@ static void ramp_free(wt_ramp *ramp)
     free(ramp->loss_modulus);
 }
 
+static void strain_sweep_free(wt_strain_sweep *s)
+{
+    free(s->strain);
+    free(s->storage_modulus);
+    free(s->loss_modulus);
+}
+
 void wt_sweep_clear(wt_sweep *sweep)
 {
     if (sweep == NULL)
@@ -31,6 +38,9 @@ void wt_sweep_clear(wt_sweep *sweep)
     for (size_t i = 0; i < sweep->n_ramps; i++)
         ramp_free(&sweep->ramps[i]);
     free(sweep->ramps);
+    for (size_t i = 0; i < sweep->n_strain_sweeps; i++)
+        strain_sweep_free(&sweep->strain_sweeps[i]);
+    free(sweep->strain_sweeps);
     *sweep = (wt_sweep){0};
 }
 
@@ -83,29 +93,60 @@ wt_ramp *wt_sweep_add_ramp(wt_sweep *sweep, size_t n)
     return &ramps[sweep->n_ramps++];
 }
 
+wt_strain_sweep *wt_sweep_add_strain_sweep(wt_sweep *sweep, size_t n)
+{
+    const size_t most = SIZE_MAX / sizeof *sweep->strain_sweeps - 1;
+    if (n > SIZE_MAX / sizeof(double) || sweep->n_strain_sweeps >= most)
+        return NULL;
+    const size_t size = (n > 0 ? n : 1) * sizeof(double);
+    wt_strain_sweep made = {.angular_frequency = (double)NAN,
+                            .temperature = (double)NAN,
+                            .n = n,
+                            .strain = malloc(size),
+                            .storage_modulus = malloc(size),
+                            .loss_modulus = malloc(size)};
+    wt_strain_sweep *const all =
+        realloc(sweep->strain_sweeps, (sweep->n_strain_sweeps + 1) * sizeof *all);
+    if (all != NULL)
+        sweep->strain_sweeps = all;
+    if (all == NULL || made.strain == NULL || made.storage_modulus == NULL ||
+        made.loss_modulus == NULL) {
+        strain_sweep_free(&made);
+        return NULL;
+    }
+    all[sweep->n_strain_sweeps] = made;
+    return &all[sweep->n_strain_sweeps++];
+}
+
 /* ---- order ----------------------------------------------------------------------------------- */
 
-/* By temperature, not known last; equal ones by where they came from, steps in their number. */
+static int by_number(double a, double b) /* not known last */
+{
+    return isnan(a) || isnan(b) ? isnan(a) - isnan(b) : (a > b) - (a < b);
+}
+
+/* By temperature; equal ones by where they came from, steps in their number. */
 static int compare(const void *a, const void *b)
 {
     const wt_isotherm *const p = a, *const q = b;
-    if (isnan(p->temperature) || isnan(q->temperature)) {
-        if (isnan(p->temperature) != isnan(q->temperature))
-            return isnan(p->temperature) ? 1 : -1;
-    } else if (p->temperature < q->temperature) {
-        return -1;
-    } else if (p->temperature > q->temperature) {
-        return 1;
-    }
-    return strverscmp(p->source, q->source);
+    const int order = by_number(p->temperature, q->temperature);
+    return order != 0 ? order : strverscmp(p->source, q->source);
 }
 
 static int compare_ramps(const void *a, const void *b)
 {
     const wt_ramp *const p = a, *const q = b;
-    if (p->angular_frequency != q->angular_frequency)
-        return p->angular_frequency < q->angular_frequency ? -1 : 1;
-    return strverscmp(p->source, q->source);
+    const int order = by_number(p->angular_frequency, q->angular_frequency);
+    return order != 0 ? order : strverscmp(p->source, q->source);
+}
+
+static int compare_strain_sweeps(const void *a, const void *b)
+{
+    const wt_strain_sweep *const p = a, *const q = b;
+    int order = by_number(p->temperature, q->temperature);
+    if (order == 0)
+        order = by_number(p->angular_frequency, q->angular_frequency);
+    return order != 0 ? order : strverscmp(p->source, q->source);
 }
 
 /* Points in arrays that move together: in the order of the first. */
@@ -173,10 +214,18 @@ void wt_sweep_sort(wt_sweep *sweep)
         const points p = {{r->temperature, r->storage_modulus, r->loss_modulus}};
         sort_points(&p, r->n);
     }
+    for (size_t i = 0; i < sweep->n_strain_sweeps; i++) {
+        const wt_strain_sweep *r = &sweep->strain_sweeps[i];
+        const points p = {{r->strain, r->storage_modulus, r->loss_modulus}};
+        sort_points(&p, r->n);
+    }
     if (sweep->n_isotherms > 1)
         qsort(sweep->isotherms, sweep->n_isotherms, sizeof *sweep->isotherms, compare);
     if (sweep->n_ramps > 1)
         qsort(sweep->ramps, sweep->n_ramps, sizeof *sweep->ramps, compare_ramps);
+    if (sweep->n_strain_sweeps > 1)
+        qsort(sweep->strain_sweeps, sweep->n_strain_sweeps, sizeof *sweep->strain_sweeps,
+              compare_strain_sweeps);
 }
 
 /* ---- copies ---------------------------------------------------------------------------------- */
@@ -250,6 +299,27 @@ static void drop_copies_of_ramps(wt_sweep *sweep, wt_parselog *log)
     sweep->n_ramps = kept;
 }
 
+/* Those of one temperature and frequency stand together. */
+static void drop_copies_of_strain_sweeps(wt_sweep *sweep, wt_parselog *log)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < sweep->n_strain_sweeps; i++) {
+        wt_strain_sweep *const t = &sweep->strain_sweeps[i];
+        const wt_strain_sweep *const b = kept > 0 ? &sweep->strain_sweeps[kept - 1] : NULL;
+        if (b == NULL || b->n != t->n || b->angular_frequency != t->angular_frequency ||
+            !same_numbers(b->strain, t->strain, t->n) ||
+            !same_numbers(b->storage_modulus, t->storage_modulus, t->n) ||
+            !same_numbers(b->loss_modulus, t->loss_modulus, t->n)) {
+            sweep->strain_sweeps[kept++] = *t;
+            continue;
+        }
+        wt_parselog_add(log, WT_WARNING, t->source, NULL,
+                        "this strain sweep is a copy of that of %s and left out", b->source);
+        strain_sweep_free(t);
+    }
+    sweep->n_strain_sweeps = kept;
+}
+
 /* Isotherms are few; those measured again at one temperature fewer. */
 void wt_sweep_drop_copies(wt_sweep *sweep, wt_parselog *log)
 {
@@ -271,6 +341,7 @@ void wt_sweep_drop_copies(wt_sweep *sweep, wt_parselog *log)
     }
     sweep->n_isotherms = kept;
     drop_copies_of_ramps(sweep, log);
+    drop_copies_of_strain_sweeps(sweep, log);
     if (n > 0)
         wt_parselog_add(log, WT_WARNING, NULL, NULL, "%zu %s and left out; the first: %s", n,
                         n > 1 ? "isotherms are copies of others" : "isotherm is a copy of another",

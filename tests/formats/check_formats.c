@@ -120,6 +120,28 @@ static void check_warning(reading *r, const wt_parselog *log)
         fail(r, "warning is \"%s\", expected \"%s\" in it", found != NULL ? found : "", wanted);
 }
 
+static void check_strain_sweep(reading *r, const char *key, const char *value,
+                               const wt_strain_sweep *s)
+{
+    const size_t last = s->n - 1;
+    if (strcmp(key, "points") == 0)
+        is(r, key, (double)s->n, value);
+    else if (strcmp(key, "w") == 0)
+        is(r, key, s->angular_frequency, value);
+    else if (strcmp(key, "temperature_is") == 0)
+        is(r, key, round((s->temperature - 273.15) * 1e9) / 1e9, value);
+    else if (strcmp(key, "strain") == 0)
+        is(r, key, s->strain[0], value);
+    else if (strcmp(key, "strain_last") == 0)
+        is(r, key, s->strain[last], value);
+    else if (strcmp(key, "storage") == 0)
+        is(r, key, s->storage_modulus[0], value);
+    else if (strcmp(key, "loss") == 0)
+        is(r, key, s->loss_modulus[0], value);
+    else if (strcmp(key, "storage_last") == 0)
+        is(r, key, s->storage_modulus[last], value);
+}
+
 static void check_ramp(reading *r, const char *key, const char *value, const wt_ramp *ramp)
 {
     const size_t last = ramp->n - 1;
@@ -145,6 +167,7 @@ static void check_sweep(reading *r, const wt_formats *formats, wt_input *input)
     wt_error err = WT_ERROR_INIT;
     const wt_isotherm *s = NULL;
     const wt_ramp *ramp = NULL;
+    const wt_strain_sweep *strain = NULL;
     wt_parselog *log = wt_parselog_new();
     wt_status status = wt_sweep_read(formats, input, &r->options, log, &sweep, &err);
     if (status == WT_OK)
@@ -164,8 +187,16 @@ static void check_sweep(reading *r, const wt_formats *formats, wt_input *input)
             is(r, key, (double)sweep.n_ramps, value);
         else if (strcmp(key, "ramp") == 0)
             ramp = number(value) < (double)sweep.n_ramps ? &sweep.ramps[atoi(value)] : NULL;
+        else if (strcmp(key, "strain_sweeps") == 0)
+            is(r, key, (double)sweep.n_strain_sweeps, value);
+        else if (strcmp(key, "strain_sweep") == 0)
+            strain = number(value) < (double)sweep.n_strain_sweeps
+                         ? &sweep.strain_sweeps[atoi(value)]
+                         : NULL;
         if (ramp != NULL)
             check_ramp(r, key, value, ramp);
+        if (strain != NULL)
+            check_strain_sweep(r, key, value, strain);
         if (s == NULL)
             continue;
         if (strcmp(key, "temperature_is") == 0)

@@ -327,10 +327,48 @@ static void ramps(void **state)
     wt_sweep_clear(&sweep);
 }
 
+/* By temperature and frequency, points by strain; one that stands there twice goes. */
+static void strain_sweeps(void **state)
+{
+    static const double temperature[] = {300, 280, 280, 280}, frequency[] = {1, 10, 1, 1};
+    wt_sweep sweep = {0};
+    wt_parselog *log = wt_parselog_new();
+    (void)state;
+    for (size_t i = 0; i < 4; i++) {
+        wt_strain_sweep *s = wt_sweep_add_strain_sweep(&sweep, 6);
+        assert_non_null(s);
+        s->temperature = temperature[i];
+        s->angular_frequency = frequency[i];
+        (void)snprintf(s->source, sizeof s->source, "%zu.txt", i);
+        for (size_t k = 0; k < 6; k++) {
+            s->strain[k] = 0.1 / (double)(k + 1);
+            s->storage_modulus[k] = 2 * s->strain[k];
+            s->loss_modulus[k] = 3 * s->strain[k];
+        }
+    }
+    assert_null(wt_sweep_add_strain_sweep(&sweep, SIZE_MAX / 4));
+    wt_sweep_sort(&sweep);
+    wt_sweep_drop_copies(&sweep, log);
+    assert_int_equal(sweep.n_strain_sweeps, 3);
+    assert_string_equal(sweep.strain_sweeps[0].source, "2.txt");
+    assert_string_equal(sweep.strain_sweeps[1].source, "1.txt");
+    assert_string_equal(sweep.strain_sweeps[2].source, "0.txt");
+    for (size_t k = 0; k < 6; k++) {
+        const wt_strain_sweep *s = &sweep.strain_sweeps[0];
+        assert_near(s->strain[k], 0.1 / (double)(6 - k), 0);
+        assert_near(s->storage_modulus[k], 2 * s->strain[k], 0);
+        assert_near(s->loss_modulus[k], 3 * s->strain[k], 0);
+    }
+    assert_non_null(strstr(wt_parselog_get(log, 0).text, "a copy of that of 2.txt"));
+    wt_parselog_free(log);
+    wt_sweep_clear(&sweep);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(ramps),
+        cmocka_unit_test(strain_sweeps),
         cmocka_unit_test(force_curve_memory),
         cmocka_unit_test(deflection_and_force),
         cmocka_unit_test(sweep_order),

@@ -380,6 +380,28 @@ static void test_ramps(void **state)
     }
 }
 
+/* Strain sweeps that reach half of the fall and its double. */
+static void test_strain_sweeps(void **state)
+{
+    (void)state;
+    static const char *const file[] = {FORMATS "tidy/strain-sweeps.csv"};
+    const wt_file_set set = {.patterns = file, .n_patterns = 1, .read = wt_read_defaults()};
+    wt_job common = wt_job_defaults();
+    wt_payne_job job = wt_payne_job_defaults();
+    wt_payne_tables tables = {0};
+    wt_error err = WT_ERROR_INIT;
+    common.formats = formats;
+    job.sets = &set;
+    job.n_sets = 1;
+    if (wt_payne_make(&job, &common, &tables, &err) != WT_OK)
+        fail_msg("%s %s", err.message, err.found);
+    assert_int_equal(wt_table_n_rows(tables.payne), 3);
+    see(tables.payne);
+    see(tables.payne_sweep);
+    wt_payne_tables_clear(&tables);
+    convert(file[0], WT_KIND_SWEEP);
+}
+
 static void test_files(void **state)
 {
     (void)state;
@@ -446,6 +468,7 @@ int main(void)
         cmocka_unit_test(test_spring_constants),
         cmocka_unit_test(test_conversions),
         cmocka_unit_test(test_ramps),
+        cmocka_unit_test(test_strain_sweeps),
         cmocka_unit_test(test_files),
         cmocka_unit_test(test_directions),
         cmocka_unit_test(test_accuracy),

@@ -146,12 +146,16 @@ static void trios_text(void **state)
     assert_near(s->loss_modulus[s->n - 1], -0.00116959899902344e6, 1e-15);
     assert_near_abs(s->temperature, 298.15, 0.05);
     assert_non_null(strstr(s->source, "Frequency sweep - 2"));
+    assert_int_equal(sweep.n_strain_sweeps, 1);
+    assert_int_equal(sweep.strain_sweeps[0].n, 29);
+    assert_near(sweep.strain_sweeps[0].angular_frequency, 2 * M_PI, 1e-5);
+    assert_non_null(strstr(sweep.strain_sweeps[0].source, "Amplitude sweep - 1"));
     wt_sweep_clear(&sweep);
 
     wt_input *input = open_measured(DMA "trios/creep_experiment.txt");
     check_id(input, 0, "trios-text");
     assert_int_equal(wt_sweep_read(formats, input, NULL, NULL, &sweep, &err), WT_E_EMPTY);
-    assert_non_null(strstr(err.message, "no frequency or temperature sweep"));
+    assert_non_null(strstr(err.message, "no sweep of frequency, temperature or strain"));
     assert_non_null(strstr(err.found, "Creep - 1"));
     assert_int_equal(sweep.n_isotherms, 0);
     wt_input_close(input);

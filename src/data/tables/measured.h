@@ -22,7 +22,8 @@
     X(SWEEP_SHEAR_STORAGE_MODULUS, "shear_storage_modulus", "shear storage modulus G'",            \
       SI(SHEAR_STORAGE_MODULUS), OPTIONAL)                                                         \
     X(SWEEP_SHEAR_LOSS_MODULUS, "shear_loss_modulus", "shear loss modulus G''",                    \
-      SI(SHEAR_LOSS_MODULUS), OPTIONAL)
+      SI(SHEAR_LOSS_MODULUS), OPTIONAL)                                                            \
+    X(SWEEP_STRAIN, "strain", "strain amplitude", SI(STRAIN), OPTIONAL)
 #define SWEEP_KEYS(X)
 
 /* The density of a surface or of a line, as measured. */

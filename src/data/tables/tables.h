@@ -17,6 +17,7 @@
 #include "data/tables/error_budget.h"
 #include "data/tables/indentation.h"
 #include "data/tables/measured.h"
+#include "data/tables/payne.h"
 #include "data/tables/ramp.h"
 #include "data/tables/run.h"
 #include "data/tables/sliding.h"
@@ -65,6 +66,8 @@
     X(ramp, RAMP, "ramp", "Moduli against temperature", "ramp")                                    \
     X(glass_transition, GLASS_TRANSITION, "glass_transition", "Glass transition", "ramp")          \
     X(moduli_at, MODULI_AT, "moduli_at", "Moduli at temperatures", "ramp")                         \
+    X(payne_sweep, PAYNE_SWEEP, "payne_sweep", "Moduli against strain amplitude", "payne")         \
+    X(payne, PAYNE, "payne", "Softening with strain (Payne effect)", "payne")                      \
     X(roughness, ROUGHNESS, "roughness", "Power spectrum of the counter surface", "run")           \
     X(friction, FRICTION, "friction", "Friction against velocity", "friction")                     \
     X(contact_area, CONTACT_AREA, "contact_area", "Contact area against magnification",            \

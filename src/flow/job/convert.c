@@ -120,7 +120,11 @@ static wt_status send_sweep(const conversion *c, const wt_sweep *sweep, wt_error
     const sweep_column loss = shear ? SWEEP_SHEAR_LOSS_MODULUS : SWEEP_LOSS_MODULUS;
     const sweep_column without[] = {shear ? SWEEP_STORAGE_MODULUS : SWEEP_SHEAR_STORAGE_MODULUS,
                                     shear ? SWEEP_LOSS_MODULUS : SWEEP_SHEAR_LOSS_MODULUS};
-    const uint64_t left_out = SCHEMA_BIT(without[0]) | SCHEMA_BIT(without[1]);
+    uint64_t left_out = SCHEMA_BIT(without[0]) | SCHEMA_BIT(without[1]);
+    bool strain = sweep->n_strain_sweeps > 0;
+    for (size_t k = 0; k < sweep->n_isotherms && !strain; k++)
+        strain = sweep->isotherms[k].strain != NULL;
+    left_out |= strain ? 0 : SCHEMA_BIT(SWEEP_STRAIN);
     table_writer t = table_begin_variant(&sweep_schema, (table_variant){.left_out = left_out}, err);
     for (size_t k = 0; k < sweep->n_isotherms; k++) {
         const wt_isotherm *iso = &sweep->isotherms[k];
@@ -131,6 +135,8 @@ static wt_status send_sweep(const conversion *c, const wt_sweep *sweep, wt_error
             sweep_put(&t, SWEEP_ANGULAR_FREQUENCY, iso->angular_frequency[i]);
             sweep_put(&t, storage, iso->storage_modulus[i]);
             sweep_put(&t, loss, iso->loss_modulus[i]);
+            if (iso->strain != NULL)
+                sweep_put(&t, SWEEP_STRAIN, iso->strain[i]);
         }
     }
     for (size_t k = 0; k < sweep->n_ramps; k++) {
@@ -142,6 +148,18 @@ static wt_status send_sweep(const conversion *c, const wt_sweep *sweep, wt_error
             sweep_put(&t, SWEEP_ANGULAR_FREQUENCY, ramp->angular_frequency);
             sweep_put(&t, storage, ramp->storage_modulus[i]);
             sweep_put(&t, loss, ramp->loss_modulus[i]);
+        }
+    }
+    for (size_t k = 0; k < sweep->n_strain_sweeps; k++) {
+        const wt_strain_sweep *s = &sweep->strain_sweeps[k];
+        table_block(&t);
+        for (size_t i = 0; i < s->n; i++) {
+            table_row(&t);
+            sweep_put(&t, SWEEP_TEMPERATURE, s->temperature);
+            sweep_put(&t, SWEEP_ANGULAR_FREQUENCY, s->angular_frequency);
+            sweep_put(&t, storage, s->storage_modulus[i]);
+            sweep_put(&t, loss, s->loss_modulus[i]);
+            sweep_put(&t, SWEEP_STRAIN, s->strain[i]);
         }
     }
     return send(c, &t, err);

@@ -269,7 +269,7 @@ wt_status flow_sweeps_read(const wt_file_set *sets, size_t n_sets, const wt_job 
                          ? WT_OK
                          : flow_failed(work, files.file[i].name, status, &failure, err);
     }
-    if (status == WT_OK && sweep->n_isotherms + sweep->n_ramps == 0) {
+    if (status == WT_OK && sweep->n_isotherms + sweep->n_ramps + sweep->n_strain_sweeps == 0) {
         status = wt_fail(err, WT_E_EMPTY, "no DMA sweep could be read");
         wt_error_found(err, "files: %zu", files.n);
         wt_error_advice(err, "`weartrack info FILE` shows what a file holds");

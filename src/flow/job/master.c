@@ -268,6 +268,22 @@ static wt_status draw_tables(const wt_master *m, wt_master_tables *tables, wt_er
 
 /* ---- the job --------------------------------------------------------------------------------- */
 
+/* Strain sweeps say nothing of the spectrum. */
+static wt_status check_strain(const wt_sweep *sweep, const wt_job *work, wt_error *err)
+{
+    const size_t n = sweep->n_strain_sweeps;
+    if (n > 0 && sweep->n_isotherms + sweep->n_ramps > 0)
+        wt_parselog_add(work->log, WT_WARNING, sweep->strain_sweeps[0].source, NULL,
+                        "%zu strain sweep%s left out of the master curve: see `weartrack payne`", n,
+                        n > 1 ? "s are" : " is");
+    if (n == 0 || sweep->n_isotherms + sweep->n_ramps > 0)
+        return WT_OK;
+    wt_fail(err, WT_E_EMPTY, "a master curve needs isotherms");
+    wt_error_found(err, "strain sweeps: %zu", n);
+    wt_error_advice(err, "`weartrack payne FILE` tells how the rubber softens with strain");
+    return WT_E_EMPTY;
+}
+
 /* Temperature sweeps become isotherms of `sweep`. */
 static wt_status fit(const wt_master_job *job, const wt_job *work, wt_sweep *sweep,
                      wt_master *master, wt_error *err)
@@ -363,6 +379,8 @@ wt_status wt_master_make(const wt_master_job *job, const wt_job *work, wt_master
         status = param_check(wt_job_params(), work, err);
     if (status == WT_OK)
         status = flow_sweeps_read(job->sets, job->n_sets, work, &sweep, err);
+    if (status == WT_OK)
+        status = check_strain(&sweep, work, err);
     if (status == WT_OK)
         status = fit(job, work, &sweep, &master, err);
     if (status == WT_OK)

@@ -103,6 +103,15 @@ static void add_sweep(const text_file *file, const wt_read_options *options, wt_
                   "%.4g rad/s, %zu points, %.2f to %.2f degC", r->angular_frequency, r->n,
                   r->temperature[0] - WT_ZERO_CELSIUS, r->temperature[r->n - 1] - WT_ZERO_CELSIUS);
     }
+    if (sweep.n_strain_sweeps > 0)
+        facts_add(facts, "strain sweeps", "", "", "%zu", sweep.n_strain_sweeps);
+    for (size_t i = 0; i < sweep.n_strain_sweeps; i++) {
+        const wt_strain_sweep *r = &sweep.strain_sweeps[i];
+        facts_add(facts, "strain sweep", "", r->source,
+                  "%.2f degC, %.4g rad/s, %zu points, amplitude %.3g to %.3g %%",
+                  r->temperature - WT_ZERO_CELSIUS, r->angular_frequency, r->n, 100 * r->strain[0],
+                  100 * r->strain[r->n - 1]);
+    }
     wt_sweep_clear(&sweep);
 }
 

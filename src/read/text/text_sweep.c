@@ -8,8 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Mean and scatter of the column, or what the header or the user says. */
-static wt_status set_temperature(const sweep_builder *b, wt_isotherm *isotherm)
+wt_status sweep_set_temperature(const sweep_builder *b, double *temperature, double *spread)
 {
     const double header = b->table->header.value[HEADER_TEMPERATURE];
     const bool fallback = b->table->header.fallback[HEADER_TEMPERATURE];
@@ -24,17 +23,17 @@ static wt_status set_temperature(const sweep_builder *b, wt_isotherm *isotherm)
         mean += before / (double)++n;
         scatter += before * (t - mean);
     }
-    isotherm->temperature_spread = n > 1 ? sqrt(scatter / (double)(n - 1)) : (double)NAN;
+    *spread = n > 1 ? sqrt(scatter / (double)(n - 1)) : (double)NAN;
     if (!isnan(header) && (!fallback || n == 0)) {
-        isotherm->temperature = header;
+        *temperature = header;
         if (fallback)
             wt_parselog_add(b->log, WT_WARNING, b->file->name, NULL,
                             "the temperature of %.2f degC stands in the header text only",
                             header - WT_ZERO_CELSIUS);
     } else if (n > 0) {
-        isotherm->temperature = mean;
+        *temperature = mean;
     } else if (!isnan(b->options->temperature) || b->options->any_temperature) {
-        isotherm->temperature = b->options->temperature;
+        *temperature = b->options->temperature;
     } else {
         wt_status status = text_table_problem(b->table, WT_Q_BIT(WT_Q_TEMPERATURE), b->err);
         if (status != WT_OK)
@@ -45,10 +44,10 @@ static wt_status set_temperature(const sweep_builder *b, wt_isotherm *isotherm)
         wt_error_advice(b->err, "give it with --temperature 25degC");
         return WT_E_MISSING;
     }
-    if (isotherm->temperature <= 0) {
+    if (*temperature <= 0) {
         wt_fail(b->err, WT_E_RANGE, "temperature below absolute zero");
         wt_error_place(b->err, "table at line %zu", b->table->names_line);
-        wt_error_found(b->err, "%g K", isotherm->temperature);
+        wt_error_found(b->err, "%g K", *temperature);
         return WT_E_RANGE;
     }
     return WT_OK;
@@ -98,7 +97,8 @@ static wt_status flush(sweep_builder *b)
             isotherm->strain[i] = text_table_value(b->table, b->rows[i], b->c.strain);
     }
     sweep_source(b, isotherm->source, sizeof isotherm->source);
-    wt_status status = set_temperature(b, isotherm);
+    wt_status status =
+        sweep_set_temperature(b, &isotherm->temperature, &isotherm->temperature_spread);
     b->n = 0;
     return status;
 }
@@ -142,11 +142,18 @@ static wt_status split_table(sweep_builder *b)
         wt_parselog_add(b->log, WT_NOTE, b->file->name, line_place(t->names_line).words,
                         "%zu rows without a positive frequency or without a modulus left out",
                         t->n_rows - n);
-    wt_status status = ramps_take(b, rows, &n);
+    wt_status status = strain_sweeps_take(b, rows, &n);
+    if (status == WT_OK)
+        status = ramps_take(b, rows, &n);
     if (status == WT_OK)
         status = split_rows(b, rows, n);
     free(rows);
     return status;
+}
+
+static size_t n_sweeps(const wt_sweep *s)
+{
+    return s->n_isotherms + s->n_ramps + s->n_strain_sweeps;
 }
 
 static wt_status read_table(sweep_builder *b)
@@ -155,8 +162,7 @@ static wt_status read_table(sweep_builder *b)
     if (status != WT_OK)
         return status;
     b->c = sweep_find_columns(b->table);
-    if (b->sweep->n_isotherms + b->sweep->n_ramps > 0 &&
-        b->c.deformation != b->sweep->deformation) {
+    if (n_sweeps(b->sweep) > 0 && b->c.deformation != b->sweep->deformation) {
         wt_fail(b->err, WT_E_UNIT, "tension and shear in one sweep");
         wt_error_place(b->err, "line %zu", b->table->names_line);
         wt_error_expected(b->err, "the moduli of one deformation, E or G");
@@ -180,11 +186,11 @@ static wt_status read_table(sweep_builder *b)
     return status;
 }
 
-/* Moves isotherms and temperature sweeps; all or none. */
+/* Moves isotherms and other sweeps; all or none. */
 static wt_status append(wt_sweep *to, wt_sweep *from, wt_error *err)
 {
-    const size_t n = to->n_isotherms, n_ramps = to->n_ramps;
-    if (n + n_ramps > 0 && to->deformation != from->deformation) {
+    const size_t n = to->n_isotherms, n_ramps = to->n_ramps, n_strain = to->n_strain_sweeps;
+    if (n_sweeps(to) > 0 && to->deformation != from->deformation) {
         wt_fail(err, WT_E_UNIT, "tension and shear in one sweep");
         wt_error_expected(err, "a file with moduli of %s like those before it",
                           to->deformation == WT_TENSION ? "tension (E)" : "shear (G)");
@@ -195,16 +201,22 @@ static wt_status append(wt_sweep *to, wt_sweep *from, wt_error *err)
     to->isotherms = isotherms != NULL ? isotherms : to->isotherms;
     wt_ramp *ramps = realloc(to->ramps, (n_ramps + from->n_ramps + 1) * sizeof *to->ramps);
     to->ramps = ramps != NULL ? ramps : to->ramps;
-    if (isotherms == NULL || ramps == NULL)
+    wt_strain_sweep *strain =
+        realloc(to->strain_sweeps, (n_strain + from->n_strain_sweeps + 1) * sizeof *strain);
+    to->strain_sweeps = strain != NULL ? strain : to->strain_sweeps;
+    if (isotherms == NULL || ramps == NULL || strain == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for the isotherms");
     if (from->n_isotherms > 0)
         memcpy(isotherms + n, from->isotherms, from->n_isotherms * sizeof *isotherms);
     if (from->n_ramps > 0)
         memcpy(ramps + n_ramps, from->ramps, from->n_ramps * sizeof *ramps);
+    if (from->n_strain_sweeps > 0)
+        memcpy(strain + n_strain, from->strain_sweeps, from->n_strain_sweeps * sizeof *strain);
+    to->n_strain_sweeps = n_strain + from->n_strain_sweeps;
     to->n_isotherms = n + from->n_isotherms;
     to->n_ramps = n_ramps + from->n_ramps;
     to->deformation = from->deformation;
-    from->n_isotherms = from->n_ramps = 0;
+    from->n_isotherms = from->n_ramps = from->n_strain_sweeps = 0;
     wt_sweep_sort(to);
     return WT_OK;
 }
@@ -226,8 +238,8 @@ wt_status text_sweep(const text_file *file, const wt_read_options *options, wt_p
     for (size_t i = 0; i < file->steps.n; i++)
         wt_parselog_add(log, WT_NOTE, file->name, NULL, "step without a frequency sweep: %s",
                         file->steps.items[i]);
-    if (status == WT_OK && made.n_isotherms + made.n_ramps == 0)
-        status = text_nothing(file, "frequency or temperature sweep", err);
+    if (status == WT_OK && n_sweeps(&made) == 0)
+        status = text_nothing(file, "sweep of frequency, temperature or strain", err);
     if (status == WT_OK)
         status = append(sweep, &made, err);
     wt_sweep_clear(&made);

@@ -1,4 +1,4 @@
-/* The frequency sweeps and temperature sweeps of a table. Internal to the text engine.
+/* The sweeps of frequency, temperature and strain in a table. Internal to the text engine.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -40,6 +40,14 @@ int sweep_way(const sweep_builder *b, size_t from, size_t to);
 bool sweep_is_point(const sweep_builder *b, size_t row);
 /* "FILE, TITLE OF THE STEP". */
 void sweep_source(const sweep_builder *b, char *source, size_t size);
+
+/* ---- text_sweep.c: of the rows in `b->rows`: mean and scatter of the column, or what the header
+ * or the user says. */
+wt_status sweep_set_temperature(const sweep_builder *b, double *temperature, double *spread);
+
+/* ---- text_strain.c: takes the rows of strain sweeps out of `rows`, and adds these to the sweep.
+ */
+wt_status strain_sweeps_take(sweep_builder *b, size_t *rows, size_t *n);
 
 /* ---- text_ramp.c: takes the rows of temperature sweeps out of `rows`, and adds these to the
  * sweep.

@@ -1,0 +1,36 @@
+/* weartrack payne: softening with strain, of DMA strain sweeps.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cmd/cmd.h"
+
+int cmd_payne(int argc, char **argv)
+{
+    static const cmd_usage usage = {
+        .name = "payne",
+        .arguments = "[OPTION]... FILE...",
+        .what = "How a filled rubber softens with the amplitude of strain (Payne effect), of DMA "
+                "strain sweeps: moduli by those of the smallest amplitudes, the amplitudes at "
+                "which the storage modulus lost a tenth and half, the maximum of the loss modulus, "
+                "and the law of Kraus with its errors, at each frequency and temperature. Folders "
+                "and patterns are allowed.",
+        .common = "output formats columns files-from provenance cost",
+        .notes = "The tables payne and payne_sweep follow one another.",
+        .n_files = CMD_SOME};
+    wt_payne_job job = wt_payne_job_defaults();
+    wt_file_set set = {.read = wt_read_defaults()};
+    cmd_part parts[] = {{wt_read_params(), &set.read, "units format sheet temperature", 0}};
+    cmd_session s = cmd_session_defaults();
+    wt_payne_tables tables = {0};
+    if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv) ||
+        !cmd_begin_reading(&s, set.read.format))
+        goto done;
+    set.patterns = s.files;
+    set.n_patterns = s.n_files;
+    job.sets = &set;
+    job.n_sets = 1;
+    const wt_status made = wt_payne_make(&job, &s.work, &tables, &s.err);
+    wt_table **const made_tables[] = {&tables.payne, &tables.payne_sweep};
+    cmd_finish(&s, made, made_tables, COUNT_OF(made_tables));
+done:
+    wt_payne_tables_clear(&tables);
+    return cmd_session_free(&s);
+}

@@ -1,0 +1,109 @@
+/* Strain sweeps in the rows of a table: rows of one frequency and temperature while the amplitude
+ * rises or falls.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "read/text/text_sweep.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Fewest points of a strain sweep, and how many times the smallest amplitude the largest is; one
+ * that turns back by more goes the other way, for the first points of a sweep scatter. */
+enum { FEWEST = 5 };
+static const double least_ratio = 3, turn = 1.5;
+/* Kelvin that the temperature may drift meanwhile: in less than a temperature sweep has. */
+static const double most_drift = 4;
+
+static double strain_of(const sweep_builder *b, size_t row)
+{
+    return text_table_value(b->table, row, b->c.strain);
+}
+
+/* A temperature that is not known is the same one. */
+static bool goes_on(const sweep_builder *b, size_t first, size_t last, size_t row)
+{
+    const double drift = fabs(sweep_temperature(b, row) - sweep_temperature(b, first)),
+                 jump = fabs(sweep_temperature(b, row) - sweep_temperature(b, last));
+    return b->table->blocks[row] == b->table->blocks[first] && sweep_way(b, first, row) == 0 &&
+           strain_of(b, row) > 0 && !(drift > most_drift) &&
+           !(jump > b->file->description->temperature_jump);
+}
+
+/* One past the last of the rows from `first` on whose amplitude goes one way. */
+static size_t end_of(const sweep_builder *b, const size_t *rows, size_t first, size_t n)
+{
+    size_t largest = first, smallest = first, i = first + 1;
+    for (; i < n && goes_on(b, rows[first], rows[i - 1], rows[i]); i++) {
+        const double strain = strain_of(b, rows[i]);
+        if (strain >= strain_of(b, rows[largest]))
+            largest = i;
+        if (strain <= strain_of(b, rows[smallest]))
+            smallest = i;
+        const bool fell = strain_of(b, rows[largest]) > turn * strain && largest > smallest,
+                   rose = strain > turn * strain_of(b, rows[smallest]) && smallest > largest;
+        if (fell || rose)
+            return (fell ? largest : smallest) + 1;
+    }
+    return i;
+}
+
+static bool is_strain_sweep(const sweep_builder *b, const size_t *rows, size_t n)
+{
+    if (n < FEWEST || !(strain_of(b, rows[0]) > 0))
+        return false;
+    const double ratio = strain_of(b, rows[n - 1]) / strain_of(b, rows[0]);
+    return fmax(ratio, 1 / ratio) >= least_ratio;
+}
+
+/* `turns`: rows of the same frequency and temperature stand before or behind it. */
+static wt_status add_strain_sweep(sweep_builder *b, const size_t *rows, size_t n, bool turns)
+{
+    static const char *const way[] = {" (rising strain)", " (falling strain)"};
+    wt_strain_sweep *s = wt_sweep_add_strain_sweep(b->sweep, n);
+    if (s == NULL)
+        return wt_fail(b->err, WT_E_MEMORY, "no memory for a strain sweep");
+    double sum = 0;
+    b->n = 0;
+    for (size_t i = 0; i < n; i++) {
+        s->strain[i] = strain_of(b, rows[i]);
+        s->storage_modulus[i] = sweep_storage(b, rows[i]);
+        s->loss_modulus[i] = sweep_loss(b, rows[i]);
+        sum += sweep_angular(b, rows[i]);
+        b->rows[b->n++] = rows[i];
+    }
+    s->angular_frequency = sum / (double)n;
+    sweep_source(b, s->source, sizeof s->source - sizeof " (falling strain)");
+    if (turns)
+        strcat(s->source, way[s->strain[0] > s->strain[n - 1]]);
+    double spread;
+    const wt_status status = sweep_set_temperature(b, &s->temperature, &spread);
+    b->n = 0;
+    return status;
+}
+
+static bool same_place(const sweep_builder *b, const size_t *rows, size_t i, size_t k, size_t n)
+{
+    return i < n && k < n && goes_on(b, rows[i], rows[i], rows[k]);
+}
+
+wt_status strain_sweeps_take(sweep_builder *b, size_t *rows, size_t *n)
+{
+    size_t kept = 0;
+    wt_status status = WT_OK;
+    if (b->c.strain == NULL)
+        return WT_OK;
+    for (size_t first = 0, end; first < *n && status == WT_OK; first = end) {
+        end = end_of(b, rows, first, *n);
+        if (is_strain_sweep(b, rows + first, end - first)) {
+            const bool turns = (first > 0 && same_place(b, rows, first - 1, first, *n)) ||
+                               same_place(b, rows, end - 1, end, *n);
+            status = add_strain_sweep(b, rows + first, end - first, turns);
+            continue;
+        }
+        for (size_t i = first; i < end; i++)
+            rows[kept++] = rows[i];
+    }
+    *n = kept;
+    return status;
+}
