@@ -27,6 +27,7 @@ int cmd_payne(int argc, char **argv)
     set.n_patterns = s.n_files;
     job.sets = &set;
     job.n_sets = 1;
+    wt_cost_stage(s.cost, "payne");
     const wt_status made = wt_payne_make(&job, &s.work, &tables, &s.err);
     wt_table **const made_tables[] = {&tables.payne, &tables.payne_sweep};
     cmd_finish(&s, made, made_tables, COUNT_OF(made_tables));
