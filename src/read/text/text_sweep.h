@@ -40,9 +40,7 @@ int sweep_way(const sweep_builder *b, size_t from, size_t to);
 bool sweep_is_point(const sweep_builder *b, size_t row);
 /* "FILE, TITLE OF THE STEP". */
 void sweep_source(const sweep_builder *b, char *source, size_t size);
-
-/* ---- text_sweep.c: of the rows in `b->rows`: mean and scatter of the column, or what the header
- * or the user says. */
+/* Of the rows in `b->rows`: mean and scatter of the column, or what the header or the user says. */
 wt_status sweep_set_temperature(const sweep_builder *b, double *temperature, double *spread);
 
 /* ---- text_strain.c: takes the rows of strain sweeps out of `rows`, and adds these to the sweep.

@@ -84,3 +84,48 @@ void sweep_source(const sweep_builder *b, char *source, size_t size)
     text_copy(source, size - length, (text_span){name, strlen(name)});
     memcpy(source + strlen(source), end, length + 1);
 }
+
+wt_status sweep_set_temperature(const sweep_builder *b, double *temperature, double *spread)
+{
+    const double header = b->table->header.value[HEADER_TEMPERATURE];
+    const bool fallback = b->table->header.fallback[HEADER_TEMPERATURE];
+    double mean = 0, scatter = 0;
+    size_t n = 0;
+    /* Welford's recurrence: the scatter of 0.01 K about 300 K is not lost to rounding. */
+    for (size_t i = 0; i < b->n; i++) {
+        const double t = sweep_temperature(b, b->rows[i]);
+        if (isnan(t))
+            continue;
+        const double before = t - mean;
+        mean += before / (double)++n;
+        scatter += before * (t - mean);
+    }
+    *spread = n > 1 ? sqrt(scatter / (double)(n - 1)) : (double)NAN;
+    if (!isnan(header) && (!fallback || n == 0)) {
+        *temperature = header;
+        if (fallback)
+            wt_parselog_add(b->log, WT_WARNING, b->file->name, NULL,
+                            "the temperature of %.2f degC stands in the header text only",
+                            header - WT_ZERO_CELSIUS);
+    } else if (n > 0) {
+        *temperature = mean;
+    } else if (!isnan(b->options->temperature) || b->options->any_temperature) {
+        *temperature = b->options->temperature;
+    } else {
+        wt_status status = text_table_problem(b->table, WT_Q_BIT(WT_Q_TEMPERATURE), b->err);
+        if (status != WT_OK)
+            return status;
+        wt_fail(b->err, WT_E_MISSING, "no temperature");
+        wt_error_place(b->err, "table at line %zu", b->table->names_line);
+        wt_error_expected(b->err, "a column of temperature or a header line that tells it");
+        wt_error_advice(b->err, "give it with --temperature 25degC");
+        return WT_E_MISSING;
+    }
+    if (*temperature <= 0) {
+        wt_fail(b->err, WT_E_RANGE, "temperature below absolute zero");
+        wt_error_place(b->err, "table at line %zu", b->table->names_line);
+        wt_error_found(b->err, "%g K", *temperature);
+        return WT_E_RANGE;
+    }
+    return WT_OK;
+}
