@@ -219,9 +219,13 @@ enum { MOST_LAYERS = 3 };
 
 /* ---- an archive of force curves -------------------------------------------------------------- */
 
+/* Files without a curve that may stand before the first with one. */
+enum { LOOKED_AT_MAX = 64 };
+
 typedef struct search {
     const wt_formats *formats;
     bool found;
+    size_t n;
 } search;
 
 static wt_status look_for_curves(wt_input *entry, void *user, bool *taken, wt_error *err)
@@ -230,7 +234,8 @@ static wt_status look_for_curves(wt_input *entry, void *user, bool *taken, wt_er
     const file_reader *reader = NULL;
     wt_error why = WT_ERROR_INIT;
     const wt_status status = detect_reader(s->formats, entry, NULL, WT_KIND_FORCE, &reader, &why);
-    *taken = s->found = status == WT_OK;
+    s->found = status == WT_OK;
+    *taken = s->found || ++s->n == LOOKED_AT_MAX;
     return status == WT_E_MEMORY ? wt_fail(err, status, "%s", why.message) : WT_OK;
 }
 

@@ -14,6 +14,7 @@
 /* ---- what an unknown file looks like ------------------------------------------------------ */
 
 typedef struct signature {
+    size_t at; /* in the file */
     const char *bytes;
     size_t length;
     const char *words;
@@ -21,14 +22,12 @@ typedef struct signature {
     bool measured; /* may hold what an instrument measured */
 } signature;
 
-#define SIGNATURE(bytes, words, advice)                                                            \
+#define SIGNATURE_AT(at, bytes, words, advice, measured)                                           \
     {                                                                                              \
-        bytes, sizeof bytes - 1, words, advice, false                                              \
+        at, bytes, sizeof bytes - 1, words, advice, measured                                       \
     }
-#define NOT_READ(bytes, words, advice)                                                             \
-    {                                                                                              \
-        bytes, sizeof bytes - 1, words, advice, true                                               \
-    }
+#define SIGNATURE(bytes, words, advice) SIGNATURE_AT(0, bytes, words, advice, false)
+#define NOT_READ(bytes, words, advice) SIGNATURE_AT(0, bytes, words, advice, true)
 #define AS_TEXT "export it as text or CSV from the program of the instrument"
 #define NO_DATA "give the file that the instrument exported, as text or CSV"
 #define DESCRIBE                                                                                   \
@@ -47,7 +46,13 @@ static const signature signatures[] = {
     SIGNATURE("II*\0", "a TIFF picture", NO_DATA),
     SIGNATURE("MM\0*", "a TIFF picture", NO_DATA),
     NOT_READ("GWYP", "a Gwyddion file", "export it as text from Gwyddion"),
-    NOT_READ("\\*File list", "a NanoScope (Bruker, Veeco) image", AS_TEXT),
+    SIGNATURE("\\*File list", "a NanoScope (Bruker, Veeco) image without force curves",
+              "give the files of the force curves; those of PeakForce are in a capture (.pfc)"),
+    NOT_READ("\1\260\223\377", "an NT-MDT file (.mdt)",
+             "export each curve as text from Nova: height, approach and retract"),
+    SIGNATURE_AT(8, "ARDF", "an Asylum Research map (ARDF)",
+                 "export its curves as Igor binary waves (.ibw), and give their folder", true),
+    SIGNATURE(":NANONIS_VERSION:", "a Nanonis (SPECS) image", AS_TEXT),
     NOT_READ("\5\0", "an Igor binary wave (Asylum Research), or unknown binary data", AS_TEXT),
     SIGNATURE("<?xml", "an XML document", "a case file is for `weartrack run`; " NO_DATA),
     SIGNATURE("<!DOCTYPE", "an HTML or XML document", NO_DATA),
@@ -55,9 +60,9 @@ static const signature signatures[] = {
     SIGNATURE("\377\376", "UTF-16 text of no known layout", DESCRIBE),
     SIGNATURE("\376\377", "UTF-16 text of no known layout", DESCRIBE),
 };
-static const signature empty = {"", 0, "an empty file", "export it again", true};
-static const signature binary = {"", 0, "unknown binary data", AS_TEXT, false};
-static const signature text = {"", 0, "text of no known layout", DESCRIBE, false};
+static const signature empty = {0, "", 0, "an empty file", "export it again", true};
+static const signature binary = {0, "", 0, "unknown binary data", AS_TEXT, false};
+static const signature text = {0, "", 0, "text of no known layout", DESCRIBE, false};
 
 static const signature *looks_like(const unsigned char *bytes, size_t length)
 {
@@ -65,7 +70,7 @@ static const signature *looks_like(const unsigned char *bytes, size_t length)
         return &empty;
     for (size_t i = 0; i < sizeof signatures / sizeof *signatures; i++) {
         const signature *s = &signatures[i];
-        if (length >= s->length && memcmp(bytes, s->bytes, s->length) == 0)
+        if (length >= s->at + s->length && memcmp(bytes + s->at, s->bytes, s->length) == 0)
             return s;
     }
     size_t n = length < FIRST_PEEK ? length : FIRST_PEEK;

@@ -8,7 +8,7 @@
 #define N 7
 #define NOTE                                                                                       \
     "SpringConstant: 0.5\rInvOLS: 5e-08\rTriggerChannel:Force\rTriggerPoint: 2e-09\r"              \
-    "ImagingMode:Contact\r"
+    "ImagingMode:Contact\rXLVDT:-3e-06\rYLVDT: 4e-06\r"
 #define PARTED NOTE "Indexes: 0,4,6\rDirection: NaN,1,-1,\r"
 static const double raw[N] = {1e-7, 2e-7, 3e-7, 4e-7, 5e-7, 3.5e-7, 2.5e-7};
 static const double deflection[N] = {0, 0, 1e-9, 3e-9, 6e-9, 2e-9, -1e-9};
@@ -42,6 +42,8 @@ static void test_curve(void **state)
         next_curve(&r);
         const wt_force_curve curve = r.curve;
         assert_int_equal(curve.n_segments, 2);
+        assert_near(curve.x, -3e-6, 0);
+        assert_near(curve.y, 4e-6, 0);
         assert_near(curve.cantilever.spring_constant, 0.5, 0);
         assert_near(curve.cantilever.sensitivity, 5e-8, 0);
         for (size_t s = 0, from = 0; s < 2; from += curve.segments[s].n_points, s++) {

@@ -116,6 +116,25 @@ static void curves(void **state)
             }
 }
 
+/* Sizes of a block are as large as a map needs. */
+static void large(void **state)
+{
+    (void)state;
+    enum { BIG_SIDE = 64, N = 700 };
+    nanoscope_writer_file f = usual(0, true);
+    const nanoscope_writer_channel channel = {"Deflection Error", "Sens. DeflSens", step, NULL};
+    f.side = BIG_SIDE;
+    f.n_in = f.n_out = N;
+    f.trigger = 0;
+    f.n_channels = 1;
+    f.channels = &channel;
+    reading r;
+    assert_int_equal(nanoscope_write(&f), 0);
+    assert_int_equal(open_force(&r, path, NULL), WT_OK);
+    assert_int_equal(wt_force_count(r.source), BIG_SIDE * BIG_SIDE);
+    close_all(&r);
+}
+
 /* The end of the file is missing: the curves before it are there. */
 static void cut(void **state)
 {
@@ -221,8 +240,8 @@ static void damaged(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(curves), cmocka_unit_test(cut),
-                                       cmocka_unit_test(oddities), cmocka_unit_test(peakforce),
-                                       cmocka_unit_test(damaged)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(curves),    cmocka_unit_test(large),
+                                       cmocka_unit_test(cut),       cmocka_unit_test(oddities),
+                                       cmocka_unit_test(peakforce), cmocka_unit_test(damaged)};
     return cmocka_run_group_tests(tests, set_up, clean);
 }

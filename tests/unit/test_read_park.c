@@ -67,6 +67,21 @@ static void curves(void **state)
     }
 }
 
+/* Without a time nothing tells what was measured, and that is said. */
+static void untimed(void **state)
+{
+    (void)state;
+    park_writer_file f = usual();
+    reading r;
+    f.n_channels = 3;
+    assert_int_equal(park_write(&f), 0);
+    assert_int_equal(open_force(&r, path, NULL), WT_OK);
+    assert_true(logged(&r, "no channel Time Stamp"));
+    next_curve(&r);
+    assert_int_equal(r.curve.segments[0].n_points, HALF);
+    close_all(&r);
+}
+
 static void pictures(void **state)
 {
     (void)state;
@@ -97,7 +112,7 @@ static void damaged(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(curves), cmocka_unit_test(pictures),
-                                       cmocka_unit_test(damaged)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(curves), cmocka_unit_test(untimed),
+                                       cmocka_unit_test(pictures), cmocka_unit_test(damaged)};
     return cmocka_run_group_tests(tests, set_up, clean);
 }

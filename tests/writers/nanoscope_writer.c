@@ -74,9 +74,11 @@ int nanoscope_write(const nanoscope_writer_file *f)
         fputc(0, out);
     for (size_t c = 0; c < f->n_channels; c++)
         for (size_t curve = 0; curve < curves; curve++) {
-            const double *values = f->channels[c].values + curve * n;
-            for (size_t i = 0; i < n; i++)
-                write_count(f, values[i < f->n_in ? f->n_in - 1 - i : i], f->channels[c].step, out);
+            const double *values = f->channels[c].values;
+            for (size_t i = 0; i < n; i++) {
+                const size_t at = curve * n + (i < f->n_in ? f->n_in - 1 - i : i);
+                write_count(f, values != NULL ? values[at] : 0, f->channels[c].step, out);
+            }
         }
     bool good = ferror(out) == 0;
     if (good && f->missing_bytes > 0) {

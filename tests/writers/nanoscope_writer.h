@@ -12,7 +12,7 @@ typedef struct nanoscope_writer_channel {
     const char *name;     /* "Deflection Error", "Height Sensor" */
     const char *soft;     /* "Sens. DeflSens" */
     double step;          /* volts of a count */
-    const double *values; /* [curves][n_in + n_hold + n_out] V; NaN: not measured */
+    const double *values; /* [curves][n_in + n_hold + n_out] V; NaN: not measured; NULL: zeros */
 } nanoscope_writer_channel;
 
 typedef struct nanoscope_writer_file {

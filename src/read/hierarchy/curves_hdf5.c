@@ -169,6 +169,7 @@ wt_status hdf5_as_text(wt_input *input, hdf5_reading *reading, wt_input **text, 
     door_limits limits = door_limits_of(length);
     /* HDF5 may look for a text of a damaged heap for ever; a sound file takes far less a megabyte.
      */
+    limits.answer = ((size_t)16 << 20) + 24 * length; /* numbers may be packed */
     limits.cpu_time = 2 + (unsigned)(length >> 20);
     status = hdf5_door_read(bytes, length, &limits, reading, &answer, &n, err);
     return status == WT_OK ? input_own(answer, n, wt_input_name(input), text, err) : status;

@@ -150,6 +150,8 @@ static wt_status next_curve(wt_force_source *base, wt_force_curve *curve, wt_err
     if (source->done)
         return WT_END;
     source->done = true;
+    curve->x = ibw_number(&source->file, "XLVDT");
+    curve->y = ibw_number(&source->file, "YLVDT");
     for (size_t i = 0; i < source->n_segments && status == WT_OK; i++) {
         const ibw_segment *segment = &source->segments[i];
         force_facts facts = source->facts;

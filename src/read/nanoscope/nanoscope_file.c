@@ -16,6 +16,9 @@
 #define BLOCK "Ciao force image list"
 #define IMAGE "Ciao image list"
 
+/* Of a part of a curve. */
+#define SAMPLES_MAX ((size_t)10000000)
+
 /* Counts that a converter of 16 bits has, which the volts of a count in the header are for. */
 static const double most_counts = 32768;
 
@@ -36,7 +39,7 @@ static size_t whole(const char *text, size_t i)
         if (end == text)
             return 0;
         if (i == 0)
-            return value >= 1 && value <= 1e7 ? (size_t)value : 0;
+            return value >= 1 && value <= 1e15 ? (size_t)value : 0;
         text = end;
     }
     return 0;
@@ -124,7 +127,7 @@ static wt_status read_channel(nanoscope_file *f, size_t section, wt_error *err)
         f->n_in = n_in;
         f->n_out = n_out > 0 ? n_out : n_in;
     }
-    if (n_in == 0 || bytes == 0 || c.offset == 0)
+    if (n_in == 0 || n_in > SAMPLES_MAX || n_out > SAMPLES_MAX || bytes == 0 || c.offset == 0)
         return corrupt(err, "the block of a channel is not described",
                        "Data offset, Data length and Samps/line");
     if (n_in != f->n_in || (n_out > 0 && n_out != f->n_out))
@@ -229,22 +232,20 @@ static void read_sinusoid(nanoscope_file *f)
     f->velocity_in = f->velocity_out = f->trigger = (double)NAN;
 }
 
+/* "2000 nm" or "2 2 ~m". */
 static void read_place(nanoscope_file *f)
 {
-    const char *text =
-        nanoscope_get(&f->header, nanoscope_section(&f->header, SCAN, 0), "Scan Size");
-    char *unit = NULL;
-    double factor = (double)NAN, offset = 0;
-    const double size = text != NULL ? strtod(text, &unit) : (double)NAN;
+    const size_t scan = nanoscope_section(&f->header, SCAN, 0);
+    const char *text = nanoscope_get(&f->header, scan, "Scan Size");
+    const char *unit = text != NULL ? strrchr(text, ' ') : NULL;
+    double factor = 1e-6, offset = 0;
     f->pitch = (double)NAN;
-    if (f->columns == 0 || text == NULL || unit == text)
+    if (f->columns == 0 || unit == NULL ||
+        (strcmp(unit + 1, "~m") != 0 &&
+         wt_unit_to_si(unit + 1, WT_Q_LENGTH, &factor, &offset, NULL) != WT_OK))
         return;
-    unit += strspn(unit, " ");
-    if (strcmp(unit, "~m") == 0)
-        factor = 1e-6;
-    else if (wt_unit_to_si(unit, WT_Q_LENGTH, &factor, &offset, NULL) != WT_OK)
-        return;
-    f->pitch = force_positive(factor * size / (double)f->columns);
+    f->pitch = force_positive(factor * nanoscope_number(&f->header, scan, "Scan Size") /
+                              (double)f->columns);
 }
 
 /* ---- counts ------------------------------------------------------------------------------------
@@ -348,6 +349,8 @@ static wt_status read_blocks(nanoscope_file *f, wt_error *err)
         return WT_E_EMPTY;
     }
     f->n_hold = whole_of(f, force, "Hold Samples", 0);
+    if (f->n_hold > SAMPLES_MAX)
+        return corrupt(err, "the hold is longer than any measurement", "Hold Samples up to 10^7");
     for (size_t i = 0; i < NANOSCOPE_CHANNELS && status == WT_OK; i++) {
         const size_t section = nanoscope_section(&f->header, BLOCK, i);
         if (section == SIZE_MAX)

@@ -254,6 +254,13 @@ static wt_status open_source(wt_force_source *base, const file_reader *self, wt_
     park_file *f = &((park_source *)base)->file;
     (void)self;
     wt_status status = open_file(input, f, err);
+    bool timed = false;
+    for (size_t i = 0; i < f->n_channels && i < CHANNELS; i++)
+        timed = timed || f->channels[i].quantity == WT_Q_TIME;
+    if (status == WT_OK && !timed)
+        wt_parselog_add(base->log, WT_WARNING, base->name, NULL,
+                        "no channel Time Stamp: samples that were not measured cannot be told from "
+                        "those that were");
     base->n_curves = f->n_curves;
     return status;
 }
