@@ -20,6 +20,7 @@ static const double work_errors = 3.0;   /* a work of adhesion, in its standard 
 static const double better_chi2 = 9.0;   /* 2 ln(likelihood ratio) against no adhesion */
 static const double least_tabor = 1.0;   /* far below 5 the law is another */
 static const double let_go = 0.02;       /* of the retract: in it half of a pull-off is over */
+static const double most_loss = 2.0;     /* rubber loses of what the lever gives back, too */
 enum { MAX_ROUNDS = 3 };
 
 /* ---- snap-on --------------------------------------------------------------------------------- */
@@ -130,13 +131,26 @@ static double work_along(const double *position, const double *force, size_t n, 
     return fabs(sum);
 }
 
+/* What the lever holds of it at a position near the top, by the fit: of a soft one it is nearly
+ * all, and noise of one force would make loss. */
+static double lever_work(const curve_fitting *f, double top)
+{
+    const curve_samples *s = &f->input.samples;
+    const double *p = f->solution.p, k = s->spring_constant, depth = f->solution.max_indentation;
+    double g, slope;
+    wt_contact_table_eval(f->table, &depth, 1, &g, &slope);
+    const double stiffness = p[CURVE_E] * slope,
+                 above = depth + p[CURVE_E] * g / k - (top - p[CURVE_C]);
+    const double force = p[CURVE_E] * g - above * k * stiffness / (k + stiffness);
+    return 0.5 * force * force / k;
+}
+
 void curve_read_retract(curve_fitting *f, const double *height, const double *force, size_t n)
 {
     wt_indent_workspace *w = f->workspace;
     const curve_samples *s = &f->input.samples;
     const double c = f->solution.p[CURVE_C];
     double *above = w->retract_force, *position = w->retract_position, *scratch = w->scratch;
-    double largest = 0.0;
     size_t kept = 0;
     for (size_t i = 0; i < n; i++) {
         const double z = f->input.direction * height[i] - f->input.position_origin;
@@ -161,13 +175,11 @@ void curve_read_retract(curve_fitting *f, const double *height, const double *fo
     const double top =
         fmin(gsl_stats_max(position, 1, kept), gsl_stats_max(s->position, 1, f->input.n_all));
     const double back = work_along(position, above, kept, c, top);
-    for (size_t i = 0; i < f->input.n_all; i++) {
+    for (size_t i = 0; i < f->input.n_all; i++)
         scratch[i] = s->force[i] - curve_baseline(&f->solution, s->position[i]);
-        largest = scratch[i] > largest ? scratch[i] : largest;
-    }
     const double in = work_along(s->position, scratch, f->input.n_all, c, top);
-    const double share = (in - back) / (in - 0.5 * largest * largest / s->spring_constant);
-    if (share <= 1.0) /* more than all is no loss: the sample took too little of the work to say */
+    const double share = (in - back) / (in - lever_work(f, top));
+    if (share < most_loss) /* else the sample took too little of the work to say */
         f->loss = share;
 }
 

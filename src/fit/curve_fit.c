@@ -242,7 +242,7 @@ static void report(curve_fitting *f, wt_indent_fit *fit)
     fit->misfit_length = s->lack.window;
     fit->noise = s->noise;
     fit->correlation_length = s->correlation_length;
-    fit->loss = f->loss;
+    fit->loss = f->loss > 1.0 ? 1.0 : f->loss;
     fit->loss_bias = f->loss_bias;
     fit->loss_power = f->loss_power;
     fit->loss_shift = f->loss_shift;

@@ -260,7 +260,7 @@ static void add_notes(const curve_fitting *f, const wt_indent_fit *fit, char rea
         curve_say(
             text,
             "; %.0f %% of the work lost: with a memory of time^-%.2g, %.2g %% %s than without",
-            100.0 * f->loss, f->loss_power, 100.0 * fabs(f->loss_bias),
+            100.0 * fit->loss, f->loss_power, 100.0 * fabs(f->loss_bias),
             f->loss_bias > 0.0 ? "less" : "more");
         append(reason, text);
     } else if (f->kind.lossy) {

@@ -19,9 +19,9 @@ static const double most_loss = 0.5;
 static const double least_power = 1e-3, most_power = 0.8, power_close = 1e-3;
 static const double better_chi2 = 9.0; /* 2 ln(likelihood ratio) of no memory at all */
 /* Of the modulus by a power law, per loss: what Cole-Cole and power spectra of several widths,
- * below and above their peaks, have more, that over the lever by the contact, and their scatter. */
-static const double more = 0.05, more_soft = 0.0075, law_error = 0.04;
-static const double least_lever = 0.05; /* over the contact: softer ones were not looked at */
+ * below and above their peaks, have more, and their scatter; for pyramid, sphere and cone and
+ * levers of a tenth of the contact to ten times. */
+static const double more = 0.04, law_error = 0.045;
 enum {
     STEPS = 24, /* of a way in, for its loss */
     HALF_DECADES = CURVE_POWER_TERMS,
@@ -91,23 +91,15 @@ static void refine(curve_fitting *f, const curve_solution *from)
     curve_refine(f->table, &f->input.samples, f->kind, from->p, f->workspace, &f->solution);
 }
 
-/* Lever over contact. */
-static double stiffness_ratio(const curve_fitting *f)
-{
-    double g, slope;
-    wt_contact_function(contact_table_tip(f->table), f->solution.max_indentation, &g, &slope);
-    return f->input.samples.spring_constant / (f->solution.p[CURVE_E] * slope);
-}
-
 /* The fit with the memory of a power law; false, and the fit as it was, where times or a power are
  * not known, or the way in tells that this is not its memory. */
 static bool remember_power(curve_fitting *f)
 {
     const curve_solution elastic = f->solution;
     const bool explained = curve_fits(f);
-    const double ratio = stiffness_ratio(f), power = find_power(f);
+    const double power = find_power(f);
     curve_power rubber;
-    if (!(power > 0.0) || !(ratio > least_lever))
+    if (!(power > 0.0))
         return false;
     curve_power_make(&rubber, power, 1.0);
     if (!curve_remember(f, &rubber.series, true))
@@ -120,7 +112,7 @@ static bool remember_power(curve_fitting *f)
     const bool worse = elastic.effective_n * log(s->cost / elastic.cost) > better_chi2;
     if (fits && !worse) {
         f->loss_power = power;
-        f->loss_shift = f->loss * (more + more_soft / ratio);
+        f->loss_shift = f->loss * more;
         f->loss_error = f->loss * law_error;
         f->loss_bias = elastic.p[CURVE_E] / s->p[CURVE_E] / (1.0 + f->loss_shift) - 1.0;
         return true;

@@ -129,10 +129,10 @@ static relaxation cole_cole(double alpha, double centre)
     return r;
 }
 
-relaxation relaxation_cole_cole(double alpha, double tan_delta)
+relaxation relaxation_cole_cole(double alpha, double tan_delta, int beyond)
 {
     /* tan delta has its peak where E' is the geometric mean of the ends */
-    double low = -9, high = -1.5 / alpha;
+    double low = beyond ? 4 : -9, high = -1.5 / alpha;
     relaxation r;
     for (int k = 0; k < 60; k++) {
         const double middle = 0.5 * (low + high);

@@ -34,8 +34,9 @@ typedef struct relaxation {
     size_t n;
     double rest, e[RELAXATIONS], tau[RELAXATIONS];
 } relaxation;
-/* Cole and Cole, 1000 to 1, with this tan delta at 1 rad/s on the side of the rubber. */
-relaxation relaxation_cole_cole(double alpha, double tan_delta);
+/* Cole and Cole, 1000 to 1, with this tan delta at 1 rad/s, on the side of the rubber or beyond the
+ * peak. */
+relaxation relaxation_cole_cole(double alpha, double tan_delta, int beyond);
 /* A power of time over six decades about 1 s, and a rest that sets tan delta at 1 rad/s. */
 relaxation relaxation_power(double power, double tan_delta);
 double relaxation_modulus(const relaxation *r, double omega, double *tan_delta);

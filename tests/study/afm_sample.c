@@ -60,8 +60,9 @@ static void add_elastic(const afm_scene *s, const afm_tip *tip, afm_sample *to)
 
 relaxation afm_relaxation(const afm_scene *s)
 {
-    relaxation r = s->loss == LOSS_POWER ? relaxation_power(0.25, s->tan_delta)
-                                         : relaxation_cole_cole(0.6, s->tan_delta);
+    relaxation r = s->loss == LOSS_POWER
+                       ? relaxation_power(0.25, s->tan_delta)
+                       : relaxation_cole_cole(0.6, s->tan_delta, s->loss == LOSS_BEYOND);
     double found;
     const double scale = modulus_of(s) / relaxation_modulus(&r, 1, &found);
     r.rest *= scale;

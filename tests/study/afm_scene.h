@@ -10,7 +10,7 @@ typedef enum afm_noise {
     NOISE_FLICKER,    /* 70 % 1/f, the rest white */
 } afm_noise;
 
-typedef enum afm_loss { LOSS_NONE, LOSS_COLE_COLE, LOSS_POWER } afm_loss;
+typedef enum afm_loss { LOSS_NONE, LOSS_COLE_COLE, LOSS_BEYOND, LOSS_POWER } afm_loss;
 
 /* A four-sided pyramid of 35 degrees and 20 nm, pressed 70 nm into rubber of 5 MPa by a lever of
  * 0.5 N/m, unless a member says otherwise. */

@@ -1,7 +1,7 @@
 /* Force curves. Fixed before any method was chosen, but IC6 and IV6 (lever, noise), changed when
  * the method before refused them, and IJ7 (modulus, lever), when it was not covered; it still is
  * not. IC7, IC8, IV7, IV8 and IB5 to IB8 were fixed before the spectrum of the noise was; IS1 to
- * IS3, of spots, when the method was there.
+ * IS3, of spots, when the method was there; IV9 to IV11 after the error of a memory was chosen.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "afm_scene.h"
 
@@ -70,6 +70,14 @@ const afm_scene afm_scenes[] = {
      .work_out = 10e-3},
     {NAMED("IV8", "tan delta 0.3 with adhesion of 10 mJ/m^2 in, 30 out"), .facts.right = EITHER,
      .noise = 0.005, .loss = LOSS_COLE_COLE, .tan_delta = 0.3, .work = 10e-3, .work_out = 30e-3},
+    {NAMED("IV9", "tan delta 0.3 beyond the peak"), .facts.right = EITHER, .noise = 0.005,
+     .loss = LOSS_BEYOND, .tan_delta = 0.3},
+    {NAMED("IV10", "tan delta 0.3, lever of 0.1 N/m"), .facts.intervals_promised = true,
+     .facts.right = EITHER, .noise = 0.005, .loss = LOSS_COLE_COLE, .tan_delta = 0.3,
+     .spring_constant = 0.1},
+    {NAMED("IV11", "tan delta 0.6, sphere"), .facts.intervals_promised = true,
+     .facts.right = EITHER, .noise = 0.005, .loss = LOSS_COLE_COLE, .tan_delta = 0.6,
+     .sphere = true},
     {NAMED("IH1", "tan delta 0.02, with the DMA"), .facts.intervals_promised = true,
      .facts.verdict_promised = true, .facts.right = DESCRIBED, .noise = 0.005,
      .loss = LOSS_COLE_COLE, .tan_delta = 0.02, .dma = 1.25},

@@ -154,11 +154,14 @@ void check_afm(const char *folder)
     char *adhesive = read_all(folder, "jkr.json"), *lossy = read_all(folder, "viscoelastic.json");
     char *layer = read_all(folder, "layer.csv");
     double found;
-    const relaxation r = relaxation_cole_cole(0.6, 0.3), p = relaxation_power(0.25, 0.3);
+    const relaxation r = relaxation_cole_cole(0.6, 0.3, 0), p = relaxation_power(0.25, 0.3),
+                     beyond = relaxation_cole_cole(0.6, 0.3, 1);
     relaxation_modulus(&r, 1, &found);
     check_near("tan delta", found, 0.3, 1e-6);
     relaxation_modulus(&p, 1, &found);
     check_near("tan delta of powers", found, 0.3, 1e-6);
+    relaxation_modulus(&beyond, 1, &found);
+    check_near("tan delta beyond the peak", found, 0.3, 1e-6);
     if (adhesive != NULL)
         check_jkr(adhesive);
     for (const char *at = lossy; at != NULL && (at = strstr(at, "\"id\":")) != NULL; at += 5)
