@@ -86,14 +86,14 @@ static void draw_layer(figure_drawing *d)
 static void caption_layer(figure_drawing *d)
 {
     const wt_estimate balance = layer_value(d->table, LAYER_KEY_BALANCE_THICKNESS);
-    const double incubation = shown_incubation(d),
-                 relaxation = positive_value(d, LAYER_KEY_RELAXATION_TIME);
+    const wt_estimate incubation = layer_value(d->table, LAYER_KEY_INCUBATION_TIME),
+                      relaxation = layer_value(d->table, LAYER_KEY_RELAXATION_TIME);
     if (isfinite(positive_value(d, LAYER_KEY_BALANCE_THICKNESS)))
         text_format(&d->caption, " Balance thickness %s.", ESTIMATE(&balance));
-    if (isfinite(incubation))
-        text_format(&d->caption, " Incubation time %s.", VALUE(WT_Q_TIME, NULL, incubation));
-    if (isfinite(relaxation))
-        text_format(&d->caption, " Relaxation time %s.", VALUE(WT_Q_TIME, NULL, relaxation));
+    if (isfinite(shown_incubation(d)))
+        text_format(&d->caption, " Incubation time %s.", ESTIMATE(&incubation));
+    if (isfinite(positive_value(d, LAYER_KEY_RELAXATION_TIME)))
+        text_format(&d->caption, " Relaxation time %s.", ESTIMATE(&relaxation));
 }
 
 /* ---- descriptions ---------------------------------------------------------------------------- */

@@ -54,8 +54,10 @@ static void group_rows(page_writer *page)
             continue;
         growing_text name = {0}, remark = {0};
         text_format(&name, "Modulus, %s", modulus_groups_text(table, row, MODULUS_GROUPS_GROUP));
-        text_format(&remark, "geometric mean; n = %.0f, rejected %.0f",
-                    modulus_groups_get(table, row, MODULUS_GROUPS_N),
+        const double n_spots = modulus_groups_get(table, row, MODULUS_GROUPS_N_SPOTS);
+        text_format(&remark, "geometric mean; %.0f curves on %.0f spot%s, %.0f rejected",
+                    modulus_groups_get(table, row, MODULUS_GROUPS_N), n_spots,
+                    n_spots == 1 ? "" : "s",
                     modulus_groups_get(table, row, MODULUS_GROUPS_N_REJECTED));
         interval_row(page, text_string(&name), WT_Q_MODULUS, mean,
                      modulus_groups_get(table, row, MODULUS_GROUPS_LOW),

@@ -405,8 +405,8 @@ static void test_numbers_of_captions(void **state)
                      "temperature 30 °C, shear stress of the real contact 5 MPa. "},
         {"friction", " numerical error of the hysteresis part: 0.0020 %, not in the bands."},
         {"friction", " Up to 4.0 % of the hysteresis part comes"},
-        {"layer", " Balance thickness 3.16 ± 0.78 µm. Incubation time 1.2 s. Relaxation time "
-                  "46.5 s."},
+        {"layer", " Balance thickness 3.16 ± 0.78 µm. Incubation time 1.20 ± 0.15 s. Relaxation "
+                  "time 47 ± 16 s."},
     };
     for (size_t i = 0; i < sizeof captions / sizeof *captions; i++)
         check_caption("out", captions[i][0], captions[i][1]);

@@ -67,8 +67,10 @@
     X(COMPARISON_KEY_INTERACTION_P, "interaction_p", NUMBER,                                       \
       LABEL("p of one slope in both groups"), OPTIONAL)                                            \
     X(COMPARISON_KEY_MODULUS_RATIO, "modulus_ratio", NUMBER, OPTIONAL)                             \
-    X(COMPARISON_KEY_MODULUS_RATIO_DF, "modulus_ratio_df", NUMBER, OPTIONAL)                       \
-    X(COMPARISON_KEY_CALIBRATION_SHARE, "calibration_share", NUMBER, OPTIONAL)
+    X(COMPARISON_KEY_MODULUS_RATIO_DF, "modulus_ratio_df", NUMBER,                                 \
+      LABEL("Degrees of freedom of its error"), OPTIONAL)                                          \
+    X(COMPARISON_KEY_CALIBRATION_SHARE, "calibration_share", NUMBER,                               \
+      LABEL("Share of calibration and temperature in it"), OPTIONAL)
 
 #define MODULUS_RATE_COLUMNS(X)                                                                    \
     X(MODULUS_RATE_GROUP, "group", "bulk or track", TEXT)                                          \

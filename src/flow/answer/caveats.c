@@ -43,26 +43,6 @@ static double median_accepted(const table_view *indentation, indentation_column 
     return median;
 }
 
-/* "3 poor_fit, 1 saturated" of the rejected curves. */
-static size_t list_rejected(const table_view *indentation, char *text, size_t size)
-{
-    size_t counts[WT_CURVE_UNREADABLE + 1] = {0}, total = 0, used = 0;
-    text[0] = '\0';
-    for (size_t i = 0; i < indentation->n_rows; i++) {
-        const char *verdict = indentation_text(indentation, i, INDENTATION_VERDICT);
-        for (int v = WT_CURVE_ACCEPTED + 1; v <= WT_CURVE_UNREADABLE; v++)
-            if (strcmp(verdict, wt_curve_verdict_id((wt_curve_verdict)v)) == 0)
-                counts[v]++;
-    }
-    for (int v = WT_CURVE_ACCEPTED + 1; v <= WT_CURVE_UNREADABLE; v++) {
-        total += counts[v];
-        if (counts[v] > 0 && used < size)
-            used += (size_t)snprintf(text + used, size - used, "%s%zu %s", used > 0 ? ", " : "",
-                                     counts[v], wt_curve_verdict_text((wt_curve_verdict)v));
-    }
-    return total;
-}
-
 /* How the spots of a group were found, as a sentence of "the ... curves". */
 static const char *spots_caveat(const answer_story *story, const char *spots)
 {
@@ -83,7 +63,7 @@ static void indentation_caveats(const answer_story *story)
     const char *spots[2];
     for (int g = 0; g < 2; g++) {
         const table_view *t = &story->indentation[g];
-        rejected[g] = list_rejected(t, reasons[g], sizeof reasons[g]);
+        rejected[g] = words_of_rejected(t, reasons[g], sizeof reasons[g]);
         spots[g] = spots_caveat(story, indentation_words(t, INDENTATION_KEY_SPOTS));
     }
     for (int g = 0; g < 2; g++)

@@ -12,6 +12,7 @@
 typedef struct sentence {
     char *text;
     size_t size, used;
+    const wt_result *result;
     table_view what_if;
 } sentence;
 
@@ -44,9 +45,15 @@ static void say_groups(sentence *s, const table_view *v)
     for (size_t i = 0; i < v->n_rows; i++) {
         const double n = modulus_groups_get(v, i, MODULUS_GROUPS_N);
         const double mean = modulus_groups_get(v, i, MODULUS_GROUPS_GEOMETRIC_MEAN);
+        const char *group = modulus_groups_text(v, i, MODULUS_GROUPS_GROUP);
         next(s);
-        say(s, "%s: %.0f of %.0f curves accepted", modulus_groups_text(v, i, MODULUS_GROUPS_GROUP),
-            n, n + modulus_groups_get(v, i, MODULUS_GROUPS_N_REJECTED));
+        say(s, "%s: %.0f of %.0f curves accepted", group, n,
+            n + modulus_groups_get(v, i, MODULUS_GROUPS_N_REJECTED));
+        table_view curves;
+        char reasons[512];
+        if (table_bind_of(s->result, &indentation_schema, group, &curves, NULL) == WT_OK &&
+            words_of_rejected(&curves, reasons, sizeof reasons) > 0)
+            say(s, " (rejected: %s)", reasons);
         if (isnan(mean))
             continue;
         say(s, ", E = %s", words_of(mean, "Pa").text);
@@ -164,7 +171,7 @@ size_t wt_result_sentence(const wt_result *result, char *buffer, size_t size)
     } parts[] = {{&modulus_groups_schema, say_groups},  {&comparison_schema, say_ratio},
                  {&shift_factors_schema, say_material}, {&glass_transition_schema, say_transition},
                  {&friction_schema, say_friction},      {&layer_schema, say_layer}};
-    sentence s = {.text = buffer, .size = size};
+    sentence s = {.text = buffer, .size = size, .result = result};
     const locale_t previous = clocale_enter();
     if (size > 0)
         buffer[0] = '\0';

@@ -3,6 +3,7 @@
 
 #include "base/clocale.h"
 #include "base/number.h"
+#include "weartrack/fit.h"
 
 #include <math.h>
 #include <string.h>
@@ -67,4 +68,23 @@ number_words words_of_celsius(double kelvin)
                   "C",
                   kelvin - WT_ZERO_CELSIUS);
     return words;
+}
+
+size_t words_of_rejected(const table_view *indentation, char *text, size_t size)
+{
+    size_t counts[WT_CURVE_UNREADABLE + 1] = {0}, total = 0, used = 0;
+    text[0] = '\0';
+    for (size_t i = 0; i < indentation->n_rows; i++) {
+        const char *verdict = indentation_text(indentation, i, INDENTATION_VERDICT);
+        for (int v = WT_CURVE_ACCEPTED + 1; v <= WT_CURVE_UNREADABLE; v++)
+            if (strcmp(verdict, wt_curve_verdict_id((wt_curve_verdict)v)) == 0)
+                counts[v]++;
+    }
+    for (int v = WT_CURVE_ACCEPTED + 1; v <= WT_CURVE_UNREADABLE; v++) {
+        total += counts[v];
+        if (counts[v] > 0 && used < size)
+            used += (size_t)snprintf(text + used, size - used, "%s%zu %s", used > 0 ? ", " : "",
+                                     counts[v], wt_curve_verdict_text((wt_curve_verdict)v));
+    }
+    return total;
 }
