@@ -33,11 +33,6 @@ typedef struct item {
     wt_indent_fit fit;
 } item;
 
-typedef struct batch {
-    item *items; /* [BATCH_CURVES] */
-    size_t n;
-} batch;
-
 typedef struct accepted {
     double modulus;
     const flow_file *file;
@@ -56,9 +51,9 @@ typedef struct indent_task {
     wt_contact_table *contact;
     wt_indent_workspace **scratch; /* [n_workers] */
     unsigned n_workers;
-    wt_force_source *source; /* NULL: nothing is left to read */
-    item *items;             /* [2 * BATCH_CURVES], of the two batches */
-    batch now, next;
+    wt_force_source *source;  /* NULL: nothing is left to read */
+    item *items, *now, *next; /* [2 * BATCH_CURVES], of the two batches */
+    size_t n_now, n_next;
     table_writer rows;
     size_t n_curves, n_accepted, n_failed;
     /* equal failures of one file make one row */
@@ -118,19 +113,11 @@ static wt_status note_failure(indent_task *task, size_t curve, const wt_error *f
 
 /* ---- one batch ------------------------------------------------------------------------------- */
 
-static size_t samples_of(const wt_force_curve *curve)
-{
-    size_t n = 0;
-    for (size_t i = 0; i < curve->n_segments; i++)
-        n += curve->segments[i].n_points * curve->segments[i].n_channels;
-    return n;
-}
-
 static void read_batch(indent_task *task)
 {
     size_t samples = 0;
-    while (task->source != NULL && task->next.n < BATCH_CURVES && samples < BATCH_SAMPLES) {
-        item *it = &task->next.items[task->next.n];
+    while (task->source != NULL && task->n_next < BATCH_CURVES && samples < BATCH_SAMPLES) {
+        item *it = &task->next[task->n_next];
         it->error = (wt_error)WT_ERROR_INIT;
         it->status = wt_force_next(task->source, &it->curve, &it->error);
         if (it->status == WT_END) {
@@ -138,16 +125,17 @@ static void read_batch(indent_task *task)
             task->source = NULL;
             break;
         }
-        samples += it->status == WT_OK ? samples_of(&it->curve) : 0;
-        task->next.n++;
+        for (size_t i = 0; it->status == WT_OK && i < it->curve.n_segments; i++)
+            samples += it->curve.segments[i].n_points * it->curve.segments[i].n_channels;
+        task->n_next++;
     }
 }
 
 static wt_status fit_item(void *user, size_t i, unsigned worker)
 {
     indent_task *task = user;
-    item *it = &task->now.items[i];
-    if (worker == 0 && task->next.n == 0) /* files are read by the thread that opened them */
+    item *it = &task->now[i];
+    if (worker == 0 && task->n_next == 0) /* files are read by the thread that opened them */
         read_batch(task);
     if (it->status == WT_OK)
         it->status = wt_indent_force_curve(task->contact, &task->options, &it->curve,
@@ -244,11 +232,11 @@ static wt_status write_item(indent_task *task, item *it, wt_error *err)
 static wt_status run_batch(indent_task *task, wt_error *err)
 {
     wt_status status =
-        wt_parallel_for(task->now.n, task->work->threads, fit_item, task, NULL, "fitting curves");
+        wt_parallel_for(task->n_now, task->work->threads, fit_item, task, NULL, "fitting curves");
     if (status != WT_OK)
         return wt_fail(err, status, "fitting in parallel failed");
-    for (size_t i = 0; status == WT_OK && i < task->now.n; i++)
-        status = write_item(task, &task->now.items[i], err);
+    for (size_t i = 0; status == WT_OK && i < task->n_now; i++)
+        status = write_item(task, &task->now[i], err);
     const wt_progress *progress = &task->work->progress;
     if (status == WT_OK && progress->report != NULL &&
         !progress->report(progress->user, "indentation", task->n_curves, 0))
@@ -269,16 +257,18 @@ static wt_status read_file(indent_task *task, wt_error *err)
         status = wt_force_open(task->work->formats, input, &options, task->work->log, &task->source,
                                err);
     while (status == WT_OK) {
-        if (task->next.n == 0)
+        if (task->n_next == 0)
             read_batch(task);
-        if (task->next.n == 0)
+        if (task->n_next == 0)
             break;
-        const batch done = task->now;
+        item *const done = task->now;
         task->now = task->next;
-        task->next = (batch){done.items, 0};
+        task->n_now = task->n_next;
+        task->next = done;
+        task->n_next = 0;
         status = run_batch(task, err);
     }
-    task->next.n = 0;
+    task->n_next = 0;
     if (status == WT_OK)
         status = flush_failures(task, err);
     wt_force_close(task->source);
@@ -326,7 +316,7 @@ static wt_status add_representative(indent_task *task, wt_indent_tables *tables,
         return WT_OK; /* a pipe cannot be read twice */
     wt_input *input = NULL;
     wt_force_source *source = NULL;
-    wt_force_curve *curve = &task->now.items[0].curve;
+    wt_force_curve *curve = &task->now[0].curve;
     const wt_read_options options = wanted_channels(file, task->options.spectrum != NULL);
     wt_status status = wt_input_open(file->path, &input, err);
     if (status == WT_OK)
@@ -517,8 +507,8 @@ static wt_status prepare(indent_task *task, wt_error *err)
     task->items = calloc(2 * BATCH_CURVES, sizeof *task->items);
     if (task->scratch == NULL || task->items == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    task->now.items = task->items;
-    task->next.items = task->items + BATCH_CURVES;
+    task->now = task->items;
+    task->next = task->items + BATCH_CURVES;
     for (unsigned i = 0; i < task->n_workers; i++)
         if ((task->scratch[i] = wt_indent_workspace_new()) == NULL)
             return wt_fail(err, WT_E_MEMORY, "out of memory");
