@@ -147,7 +147,7 @@ static wt_status add_isotherms(wt_sweep *sweep, windows *w, wt_error *err)
 /* What the law says of the points, given where they lie, comes nearer to where they belong by the
  * same share in each round; two rounds foretell where it ends (Anderson's mixing). The furthest
  * that a point is off what the law says. */
-static double listen(const windows *w, const wt_master *law)
+static double listen(const windows *w, const wt_master *law, bool first)
 {
     double most = 0, product = 0, square = 0;
     for (size_t i = 0; i < w->n; i++) {
@@ -164,7 +164,7 @@ static double listen(const windows *w, const wt_master *law)
             p->misses = misses;
         }
     }
-    const double share = square > 0 ? fmax(-MOST_AHEAD, fmin(0.5, product / square)) : 0;
+    const double share = square > 0 && !first ? fmax(-MOST_AHEAD, fmin(0.5, product / square)) : 0;
     for (size_t k = 0; k < w->n_points; k++)
         w->point[k].off = w->point[k].told - share * w->point[k].off;
     return most;
@@ -195,7 +195,8 @@ static wt_status check(const wt_sweep *sweep, wt_error *err)
     return WT_E_MISSING;
 }
 
-static void tell(const wt_sweep *sweep, const windows *w, const wt_master *master, wt_parselog *log)
+static void tell(const wt_sweep *sweep, const windows *w, const wt_master *master, double moved,
+                 wt_parselog *log)
 {
     wt_parselog_add(log, WT_NOTE, sweep->ramps[0].source, NULL,
                     "%zu temperature sweeps at %zu frequencies are fitted as %zu isotherms, each "
@@ -205,6 +206,11 @@ static void tell(const wt_sweep *sweep, const windows *w, const wt_master *maste
         wt_parselog_add(log, WT_WARNING, sweep->ramps[0].source, NULL,
                         "%zu points of the temperature sweeps left out, no positive modulus",
                         w->n_left_out);
+    if (moved >= enough)
+        wt_parselog_add(log, WT_WARNING, sweep->ramps[0].source, NULL,
+                        "the shift law and what it makes of the temperature sweeps do not agree "
+                        "to better than %.2g decades",
+                        moved);
     if (master->law.kind == WT_LAW_NONE)
         wt_parselog_add(log, WT_WARNING, sweep->ramps[0].source, NULL,
                         "no shift law brings the points of the temperature sweeps to one "
@@ -225,8 +231,9 @@ wt_status flow_ramps_fit(wt_sweep *sweep, const wt_master_options *options, wt_p
     if (quick.vertical != WT_VERTICAL_NONE)
         quick.vertical = WT_VERTICAL_PHYSICAL; /* near enough for the law */
     bool last = false;
+    double moved = 0;
     for (int round = 0; status == WT_OK && !last; round++) {
-        const double moved = round > 0 ? listen(&w, master) : 0;
+        moved = round > 0 ? listen(&w, master, round == 1) : 0;
         last = round > 0 && (moved < enough || round == MOST_ROUNDS);
         bring(&w, options->vertical != WT_VERTICAL_NONE);
         wt_sweep_sort(sweep);
@@ -234,7 +241,7 @@ wt_status flow_ramps_fit(wt_sweep *sweep, const wt_master_options *options, wt_p
         status = wt_master_fit(sweep, last ? options : &quick, last ? log : NULL, master, err);
     }
     if (status == WT_OK)
-        tell(sweep, &w, master, log);
+        tell(sweep, &w, master, moved, log);
     windows_free(&w);
     return status;
 }
