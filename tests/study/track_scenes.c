@@ -58,8 +58,9 @@ const track_scene track_scenes[] = {
          .through_friction = true, STATED, GIVEN(96, .106)),
     PAIR("T2.three", "3 + 3 spots, 6 %", PERHAPS, NOT_YES, SPOTS(3, 3, .06, .06), .rate_slope = .06,
          COMMON_RATES, STATED, NOT_GIVEN),
+    /* Not promised: that two spots scatter more than the others cannot be known from two. */
     PAIR("T4.wide", "2 + 6 spots, the two scatter 25 %, the others 5 %", PERHAPS, NOT_YES,
-         SPOTS(2, 6, .25, .05), .rate_slope = .06, COMMON_RATES, STATED, NOT_GIVEN),
+         SPOTS(2, 6, .25, .05), .rate_slope = .06, COMMON_RATES, NOT_GIVEN),
     PAIR("T4.narrow", "2 + 6 spots, the two scatter 5 %, the others 25 %", PERHAPS, NOT_YES,
          SPOTS(2, 6, .05, .25), .rate_slope = .06, COMMON_RATES, STATED, NOT_GIVEN),
     PAIR("T4.three", "3 + 2 spots, 6 %", PERHAPS, NOT_YES, SPOTS(3, 2, .06, .06), .rate_slope = .06,

@@ -26,6 +26,8 @@ static double modulus(double mean, int r, int spot)
     return mean * with_rate[r] * exp((spot - 1) * SCATTER * spread[r]);
 }
 
+static int n_names = SPOTS; /* of spots; the others are called as those are */
+
 /* An indentation table with all its columns; one curve for each spot and rate, one rejected. */
 static wt_table *indentation(const char *group, double mean)
 {
@@ -66,7 +68,7 @@ static wt_table *indentation(const char *group, double mean)
     for (int i = 0; i <= SPOTS * RATES; i++) {
         int r = i / SPOTS, s = i % SPOTS;
         bool good = i < SPOTS * RATES;
-        snprintf(spot, sizeof spot, "s%d", s);
+        snprintf(spot, sizeof spot, "s%d", s % n_names);
         assert_int_equal(wt_table_add_row(t, NULL), WT_OK);
         assert_int_equal(wt_table_put_text(t, SPOT, spot, NULL), WT_OK);
         assert_int_equal(wt_table_put_text(t, VERDICT, good ? "accepted" : "saturated", NULL),
@@ -267,6 +269,39 @@ static void test_verdict(void **state)
                         "difference and for one above 5 %");
     assert_non_null(strstr(wt_table_key(tables.comparison, "settled_by"),
                            "spots in each group would show a difference of 5 %"));
+}
+
+/* What two spots cannot tell is said where the others are more. */
+static void test_two_spots(void **state)
+{
+    (void)state;
+    static const int names[][2] = {{3, 2}, {2, 3}, {2, 2}, {3, 3}};
+    static const char *const words[] = {"the two spots of the track do not tell",
+                                        "the two spots of the bulk do not tell", NULL, NULL};
+    for (size_t i = 0; i < 4; i++) {
+        wt_job common = wt_job_defaults();
+        wt_compare_job job = wt_compare_job_defaults();
+        wt_compare_tables made = {0};
+        common.log = wt_parselog_new();
+        n_names = names[i][0];
+        wt_table *bulk = indentation("bulk", BULK);
+        n_names = names[i][1];
+        wt_table *track = indentation("track", RATIO * BULK);
+        n_names = SPOTS;
+        job.bulk = bulk;
+        job.track = track;
+        assert_int_equal(wt_compare_groups(&job, &common, &made, NULL), WT_OK);
+        bool said = false;
+        for (size_t j = 0; j < wt_parselog_count(common.log); j++) {
+            const char *text = wt_parselog_get(common.log, j).text;
+            said = said || strstr(text, words[i] != NULL ? words[i] : "the two spots") != NULL;
+        }
+        assert_int_equal(said, words[i] != NULL);
+        wt_compare_tables_clear(&made);
+        wt_table_free(bulk);
+        wt_table_free(track);
+        wt_parselog_free(common.log);
+    }
 }
 
 static void test_groups(void **state)
@@ -470,10 +505,11 @@ static void test_not_known(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_comparison), cmocka_unit_test(test_verdict),
-        cmocka_unit_test(test_groups),     cmocka_unit_test(test_rates),
-        cmocka_unit_test(test_dma),        cmocka_unit_test(test_warmer),
-        cmocka_unit_test(test_not_known),  cmocka_unit_test(test_out_of_reach),
+        cmocka_unit_test(test_comparison),   cmocka_unit_test(test_verdict),
+        cmocka_unit_test(test_two_spots),    cmocka_unit_test(test_groups),
+        cmocka_unit_test(test_rates),        cmocka_unit_test(test_dma),
+        cmocka_unit_test(test_warmer),       cmocka_unit_test(test_not_known),
+        cmocka_unit_test(test_out_of_reach),
     };
     return cmocka_run_group_tests_name("comparison of known truth", tests, NULL, clean);
 }
