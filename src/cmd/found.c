@@ -40,14 +40,16 @@ void found_value(const char *value, const char *unit, char *out, size_t size)
 /* Items by which a file shows what it holds, or which a case tells about it. */
 static const struct {
     const char *item;
-    unsigned kind; /* that a file with this item has; 0: any */
-} telling[] = {{"curves", WT_KIND_FORCE},
-               {"spring constant", 0},
-               {"deflection sensitivity", 0},
-               {"isotherms", WT_KIND_SWEEP},
-               {"temperature sweeps", WT_KIND_SWEEP},
-               {"deformation", 0},
-               {"power spectrum", WT_KIND_SPECTRUM}};
+    unsigned kind;    /* that a file with this item has; 0: any */
+    const char *next; /* what to do with it if it is the first; NULL: by its kind */
+} telling[] = {{"curves", WT_KIND_FORCE, NULL},
+               {"spring constant", 0, NULL},
+               {"deflection sensitivity", 0, NULL},
+               {"isotherms", WT_KIND_SWEEP, NULL},
+               {"temperature sweeps", WT_KIND_SWEEP, "ramp"},
+               {"strain sweeps", WT_KIND_SWEEP, "payne"},
+               {"deformation", 0, NULL},
+               {"power spectrum", WT_KIND_SPECTRUM, NULL}};
 
 static void read_fact(const char *item, const char *value, const char *unit, found_file *found)
 {
@@ -56,10 +58,10 @@ static void read_fact(const char *item, const char *value, const char *unit, fou
         char shown[160];
         if (strcmp(item, telling[i].item) != 0 || strcmp(value, "0") == 0)
             continue;
-        if (strcmp(item, "temperature sweeps") == 0)
-            found->is_ramp = found->kind == 0; /* isotherms come first */
-        if (found->kind == 0)
+        if (found->kind == 0) {
             found->kind = telling[i].kind;
+            found->next = telling[i].next;
+        }
         found_value(value, unit, shown, sizeof shown);
         snprintf(found->words + used, sizeof found->words - used, "%s%s %s",
                  strchr(found->words, ',') != NULL || strchr(found->words, ' ') != NULL ? ", "

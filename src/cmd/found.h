@@ -16,7 +16,7 @@ extern const found_missing found_missing_rows[FOUND_N_MISSING];
 typedef struct found_file {
     unsigned kind;                 /* WT_KIND_*, 0 = no measurement */
     bool is_result;                /* tables of this program */
-    bool is_ramp;                  /* a sweep of temperatures alone */
+    const char *next;              /* subcommand, NULL: by its kind; static */
     bool missing[FOUND_N_MISSING]; /* see above */
     char words[512];               /* "jpk: curves 12, spring constant 300 mN/m" */
 } found_file;

@@ -73,7 +73,7 @@ static void print_next(const char *const *files, size_t n, const found_file *fou
     const char *indent = "indent --tip pyramid:half-angle=35deg,radius=20nm";
     printf("\nnext: weartrack %s", found->is_result               ? "table --list"
                                    : found->kind == WT_KIND_FORCE ? indent
-                                   : found->is_ramp               ? "ramp"
+                                   : found->next != NULL          ? found->next
                                    : found->kind == WT_KIND_SWEEP ? "master"
                                                                   : "convert");
     for (size_t k = 0; k < FOUND_N_MISSING; k++)
