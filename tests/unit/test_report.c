@@ -152,7 +152,7 @@ static void test_page(void **state)
         "bulk: 1 of 12 curves rejected",
         "R^2 0.71 below 0.90 &lt;i&gt;",
         "&lt;b&gt;&#39;`touch fixture_was_run`&quot;&amp;;$(rm -r x)\\",
-        "Correlation of C₁ and C₂</th><td colspan=\"3\">0.9",
+        "Correlation of C₁ and C₂</th><td colspan=\"3\">0.92",
         "left out: nothing asked for it",
         "&lt;case title=&quot;HC &amp;amp; severe&quot;&gt;",
         "weartrack run &#39;&lt;case&gt;.xml&#39;",
