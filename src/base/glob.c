@@ -12,6 +12,7 @@
 typedef struct list {
     char **paths;
     size_t n;
+    size_t n_folders; /* within folders, not entered */
 } list;
 
 /* Takes `path`, also on failure. */
@@ -57,9 +58,11 @@ static wt_status add_path(list *l, const char *path, wt_error *err)
         if (item->d_name[0] == '.')
             continue;
         char *const inner = wt_path_join(path, item->d_name);
+        const bool known = inner != NULL && stat(inner, &info) == 0;
+        l->n_folders += known && S_ISDIR(info.st_mode);
         if (inner == NULL)
             status = wt_fail(err, WT_E_MEMORY, "out of memory");
-        else if (stat(inner, &info) != 0 || !S_ISREG(info.st_mode))
+        else if (!known || !S_ISREG(info.st_mode))
             free(inner);
         else if (!list_take(l, inner))
             status = wt_fail(err, WT_E_MEMORY, "out of memory");
@@ -87,7 +90,7 @@ static char *quote(const char *text)
 wt_status wt_glob(const char *folder, const char *pattern, char ***paths, size_t *n, wt_error *err)
 {
     wt_status status = WT_OK;
-    list l = {NULL, 0};
+    list l = {NULL, 0, 0};
     glob_t found = {0};
     struct stat info;
     char *quoted = quote(folder != NULL ? folder : "");
@@ -115,13 +118,17 @@ wt_status wt_glob(const char *folder, const char *pattern, char ***paths, size_t
         wt_error_file(err, literal);
         wt_error_expected(err, "the name of a file or a folder with files, or a pattern such as "
                                "'*.txt'");
+        if (l.n_folders > 0) {
+            wt_error_found(err, "folders only: %zu", l.n_folders);
+            wt_error_advice(err, "'%s/*' takes the files of each", pattern);
+        }
     }
     if (status == WT_OK) {
         /* Bytewise: glob's own order depends on the locale. */
         qsort(l.paths, l.n, sizeof *l.paths, compare);
         *paths = l.paths;
         *n = l.n;
-        l = (list){NULL, 0};
+        l = (list){NULL, 0, 0};
     }
 done:
     wt_strings_free(l.paths, l.n);

@@ -104,6 +104,14 @@ static void globs(void **state)
     assert_string_equal(err.file, odd);
     assert_true(paths == NULL && n == 7);
     assert_int_equal(wt_glob(NULL, inner, &paths, &n, &err), WT_E_NOT_FOUND); /* an empty folder */
+    assert_string_equal(err.advice, "");
+    /* A folder that holds a folder only. */
+    path_of("sub[1]/deeper/deepest", odd);
+    assert_int_equal(mkdir(odd, 0700), 0);
+    assert_int_equal(wt_glob(NULL, inner, &paths, &n, &err), WT_E_NOT_FOUND);
+    assert_string_equal(err.found, "folders only: 1");
+    assert_non_null(strstr(err.advice, "sub[1]/deeper/*' takes the files of each"));
+    assert_int_equal(rmdir(odd), 0);
     static const char *const names[] = {"b.txt",         "a.txt",        "B.txt",
                                         "curve[1].dat",  "sub[1]/2.jpk", "sub[1]/10.jpk",
                                         "sub[1]/.hidden"};
