@@ -103,7 +103,8 @@ static wt_status page_figures(page_writer *page, wt_error *err)
     return status;
 }
 
-/* The title of the case if the result has one; of one subcommand's tables that of the first. */
+/* The title of the case if the result has one; of one subcommand's tables that of the first figure,
+ * or of the first table. */
 static const char *page_title(const page_writer *page)
 {
     const char *title = answer_words(&page->tables->answer, ANSWER_KEY_CASE_TITLE);
@@ -111,6 +112,9 @@ static const char *page_title(const page_writer *page)
         return title;
     if (page->tables->answer.table != NULL || wt_result_n_tables(page->result) == 0)
         return comparison_schema.title;
+    for (size_t i = 0; i < page->n_figures; i++)
+        if (page->figures[i].drawing.figure != NULL && page->figures[i].svg.length > 0)
+            return page->figures[i].drawing.figure->title;
     const wt_table *first = wt_result_table(page->result, 0);
     title = wt_table_title(first);
     return title[0] != '\0' ? title : wt_table_name(first);
