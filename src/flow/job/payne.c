@@ -63,7 +63,8 @@ static void put_points(table_writer *t, const wt_strain_sweep *s, const wt_payne
         payne_sweep_put(t, PAYNE_SWEEP_TEMPERATURE, s->temperature);
         payne_sweep_put(t, PAYNE_SWEEP_STORAGE_MODULUS, storage);
         payne_sweep_put(t, PAYNE_SWEEP_LOSS_MODULUS, loss);
-        payne_sweep_put(t, PAYNE_SWEEP_LOSS_FACTOR, loss / storage);
+        if (storage > 0)
+            payne_sweep_put(t, PAYNE_SWEEP_LOSS_FACTOR, loss / storage);
         payne_sweep_put(t, PAYNE_SWEEP_STORAGE_RATIO, storage / p->storage_start);
         payne_sweep_put(t, PAYNE_SWEEP_LOSS_RATIO, loss / p->loss_start);
         if (p->fitted) {
@@ -117,6 +118,7 @@ static wt_status make_tables(const wt_job *work, const wt_sweep *sweep, wt_payne
     table_writer points = table_begin(&payne_sweep_schema, err),
                  numbers = table_begin(&payne_schema, err);
     wt_status status = WT_OK;
+    size_t told = 0;
     payne_sweep_set_text(&points, PAYNE_SWEEP_KEY_DEFORMATION, deformation);
     payne_set_text(&numbers, PAYNE_KEY_DEFORMATION, deformation);
     for (size_t i = 0; i < sweep->n_strain_sweeps && status == WT_OK; i++) {
@@ -125,17 +127,19 @@ static wt_status make_tables(const wt_job *work, const wt_sweep *sweep, wt_payne
         usable u;
         wt_payne payne;
         status = take_usable(s, &memory, work->log, &u, err);
-        if (status == WT_OK && u.n == 0) {
-            status = wt_fail(err, WT_E_RANGE, "strain sweep without a positive modulus");
-            wt_error_place(err, "%s", s->source);
-        }
-        if (status == WT_OK)
+        if (status == WT_OK && u.n > 0) {
             status = wt_payne_fit(u.strain, u.storage, u.loss, u.n, &payne, err);
-        if (status == WT_OK) {
-            put_points(&points, s, &payne);
-            put_numbers(&numbers, s, u.n, &payne);
+            if (status == WT_OK) {
+                put_points(&points, s, &payne);
+                put_numbers(&numbers, s, u.n, &payne);
+                told++;
+            }
         }
         pool_free(&memory);
+    }
+    if (status == WT_OK && told == 0) {
+        status = wt_fail(err, WT_E_RANGE, "no strain sweep has a positive modulus");
+        wt_error_place(err, "%s", sweep->strain_sweeps[0].source);
     }
     const wt_status first = table_end(&points, &t->payne_sweep),
                     second = table_end(&numbers, &t->payne);
