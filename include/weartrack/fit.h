@@ -421,6 +421,7 @@ typedef struct wt_master {
     double *log_frequency; /* [n] log10 of the reduced angular frequency [rad/s] */
     double *log_storage, *log_loss; /* [n] log10 of E' or G' [Pa], vertical shift applied */
     wt_interval *fitted_storage, *fitted_loss; /* [n] log10 of the moduli of the spectrum there */
+    wt_interval *fitted_loss_factor;           /* [n] log10 of its tan delta */
     size_t *isotherm;                          /* [n] which of `shifts` */
     bool *left_out;                            /* [n] an outlier in a modulus */
     double noise_storage, noise_loss;          /* relative standard deviation */
