@@ -424,7 +424,8 @@ static void not_by_the_noise(void **state)
     curve_make(&t, 1, &data);
     const double straight = fit_with(&t, NULL).modulus.standard_error;
     bend(&t, 0.1e-9);
-    const wt_indent_fit bent = expect(&t, WT_CURVE_ACCEPTED, "baseline bent, which the error holds");
+    const wt_indent_fit bent =
+        expect(&t, WT_CURVE_ACCEPTED, "baseline bent, which the error holds");
     assert_true(bent.baseline_chance < 0.01);
     assert_true(bent.modulus.standard_error > 1.5 * straight);
     assert_near_abs(bent.modulus.value, t.modulus, 2 * bent.modulus.standard_error);
