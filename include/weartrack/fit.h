@@ -445,8 +445,10 @@ typedef struct wt_master {
     wt_superposition superposition;
     double lack_of_fit_p, misfit_low, misfit_high;           /* misfit: relative, 95 % */
     double kramers_kronig_p, loss_factor, loss_factor_error; /* ln of a factor on all E'' */
-    char because[256];  /* of the verdict, and what would settle it */
-    size_t evaluations; /* of the model, at all points */
+    char because[256];              /* of the verdict, and what would settle it */
+    size_t evaluations;             /* of the model, at all points */
+    double step_allowed, step_left; /* what a further step may change, and would at most
+                                       [standard errors] */
     wt_posterior *posterior;
 } wt_master;
 WT_API void wt_master_clear(wt_master *master);

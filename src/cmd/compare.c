@@ -21,10 +21,13 @@ static bool is_called(const wt_table *table, const char *name)
 }
 
 /* The table of the group, or the first of another name; what is called the track is no bulk. */
-static wt_status read_group(const char **files, int g, wt_result **tables, const wt_table **table,
-                            wt_error *err)
+static wt_status read_group(cmd_session *s, int g, wt_result **tables, const wt_table **table)
 {
-    wt_status status = cmd_table_read(files[g], "indentation/", "indent", tables, table, err);
+    const char **files = s->files;
+    wt_error *err = &s->err;
+    wt_status status =
+        cmd_table_read(files[g], "indentation/", (cmd_made){"indent", g == 0 ? "bulk" : "track"},
+                       &s->work, tables, table, err);
     if (status != WT_OK)
         return status;
     for (size_t i = 0; i < wt_result_n_tables(*tables); i++)
@@ -68,15 +71,15 @@ int cmd_compare(int argc, char **argv)
     wt_compare_tables tables = {0};
     if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv) || !cmd_begin(&s))
         goto done;
-    wt_status made = read_group(s.files, 0, &bulk, &job.bulk, &s.err);
+    wt_status made = read_group(&s, 0, &bulk, &job.bulk);
     if (made == WT_OK)
-        made = read_group(s.files, 1, &track, &job.track, &s.err);
+        made = read_group(&s, 1, &track, &job.track);
     if (made == WT_OK && is_called(job.track, names[0]))
         wt_parselog_add(s.log, WT_WARNING, s.files[1], NULL,
                         "its curves are called bulk and are taken for those of the track; "
                         "`weartrack indent --group track` names them");
     if (made == WT_OK && own.master != NULL) {
-        made = cmd_rubber_read(own.master, material.poisson_ratio, &dma, &rubber, &s.err);
+        made = cmd_rubber_read(own.master, material.poisson_ratio, &s.work, &dma, &rubber, &s.err);
         job.rubber = &rubber;
     }
     if (made == WT_OK)

@@ -44,7 +44,8 @@ int cmd_indent(int argc, char **argv)
     wt_status made = WT_OK;
     if (own.master != NULL) {
         wt_cost_stage(s.cost, "given_material");
-        made = cmd_rubber_read(own.master, job.options.poisson_ratio, &dma, &rubber, &s.err);
+        made =
+            cmd_rubber_read(own.master, job.options.poisson_ratio, &s.work, &dma, &rubber, &s.err);
         job.rubber = &rubber;
     }
     char stage[64];

@@ -93,7 +93,9 @@ static wt_status read_material(cmd_sliding *s, wt_error *err)
         s->rubber.prony.reference_temperature = read.temperature;
         return law;
     }
-    wt_status status = cmd_rubber_read(material, poisson, &s->material_tables, &s->rubber, &first);
+    wt_job work = s->session.work;
+    wt_status status =
+        cmd_rubber_read(material, poisson, &work, &s->material_tables, &s->rubber, &first);
     const wt_table *curve =
         s->material_tables != NULL ? wt_result_find(s->material_tables, "master_curve") : NULL;
     if (curve != NULL &&
@@ -102,8 +104,12 @@ static wt_status read_material(cmd_sliding *s, wt_error *err)
         return wt_rubber_tabulate(&s->rubber, curve, &s->options, err);
     }
     if (status != WT_OK && status != WT_E_MEMORY && strcmp(material, "-") != 0) {
-        const wt_status table = wt_rubber_open(material, &read, &s->options, poisson,
-                                               &s->session.work, &s->rubber, err);
+        if (s->material_tables != NULL) { /* an input already */
+            work.provenance = NULL;
+            work.cost = NULL;
+        }
+        const wt_status table =
+            wt_rubber_open(material, &read, &s->options, poisson, &work, &s->rubber, err);
         if (table != WT_E_FORMAT && table != WT_E_NOT_FOUND)
             return table;
     }

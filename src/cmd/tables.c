@@ -42,7 +42,9 @@ static wt_status read_text(const unsigned char *bytes, size_t length, const char
     return status;
 }
 
-wt_status cmd_tables_read(const char *path, wt_result **tables, wt_error *err)
+/* work NULL: the file is nobody's input. */
+static wt_status read_tables(const char *path, const wt_job *work, const char *role,
+                             wt_result **tables, wt_error *err)
 {
     static const unsigned char hdf5_signature[8] = {0x89, 'H', 'D', 'F', '\r', '\n', 0x1a, '\n'};
     const unsigned char *bytes = NULL;
@@ -51,13 +53,25 @@ wt_status cmd_tables_read(const char *path, wt_result **tables, wt_error *err)
     wt_status status = wt_input_open(path, &input, err);
     if (status == WT_OK)
         status = wt_input_bytes(input, &bytes, &length, err);
-    if (status == WT_OK && length >= sizeof hdf5_signature &&
-        memcmp(bytes, hdf5_signature, sizeof hdf5_signature) == 0)
-        status = wt_store_read_memory(bytes, length, path, tables, err);
-    else if (status == WT_OK)
-        status = read_text(bytes, length, path, tables, err);
+    const bool store = length >= sizeof hdf5_signature &&
+                       memcmp(bytes, hdf5_signature, sizeof hdf5_signature) == 0;
+    if (status == WT_OK)
+        status = store ? wt_store_read_memory(bytes, length, path, tables, err)
+                       : read_text(bytes, length, path, tables, err);
+    if (status == WT_OK && work != NULL)
+        status = wt_job_input(
+            work,
+            (wt_provenance_input){.path = path,
+                                  .role = role,
+                                  .format = store ? "weartrack-hdf5" : "weartrack-stream"},
+            bytes, length, err);
     wt_input_close(input);
     return status;
+}
+
+wt_status cmd_tables_read(const char *path, wt_result **tables, wt_error *err)
+{
+    return read_tables(path, NULL, NULL, tables, err);
 }
 
 void cmd_tables_remarks(cmd_session *s, const char *path, const wt_result *tables)
@@ -77,10 +91,10 @@ void cmd_tables_remarks(cmd_session *s, const char *path, const wt_result *table
     s->status = CMD_FAILED;
 }
 
-wt_status cmd_table_read(const char *path, const char *prefix, const char *made_by,
+wt_status cmd_table_read(const char *path, const char *prefix, cmd_made made, const wt_job *work,
                          wt_result **tables, const wt_table **table, wt_error *err)
 {
-    wt_status status = cmd_tables_read(path, tables, err);
+    wt_status status = read_tables(path, work, made.role, tables, err);
     if (status != WT_OK)
         return status;
     for (size_t i = 0; i < wt_result_n_tables(*tables); i++) {
@@ -92,15 +106,16 @@ wt_status cmd_table_read(const char *path, const char *prefix, const char *made_
     wt_error_file(err, path);
     wt_error_expected(err, "a table '%s'", prefix);
     wt_error_found(err, "'%s'", wt_table_name(wt_result_table(*tables, 0)));
-    wt_error_advice(err, "give the output of weartrack %s", made_by);
+    wt_error_advice(err, "give the output of weartrack %s", made.by);
     return WT_E_NOT_FOUND;
 }
 
-wt_status cmd_rubber_read(const char *path, double poisson_ratio, wt_result **tables,
-                          wt_rubber *rubber, wt_error *err)
+wt_status cmd_rubber_read(const char *path, double poisson_ratio, const wt_job *work,
+                          wt_result **tables, wt_rubber *rubber, wt_error *err)
 {
     wt_rubber_tables of = {.prony = NULL};
-    wt_status status = cmd_table_read(path, "prony", "master", tables, &of.prony, err);
+    wt_status status = cmd_table_read(path, "prony", (cmd_made){"master", "material"}, work, tables,
+                                      &of.prony, err);
     if (status == WT_OK) {
         of.shift_factors = wt_result_find(*tables, "shift_factors");
         of.material_draws = wt_result_find(*tables, "material_draws");

@@ -68,6 +68,9 @@ struct wt_indent_workspace {
     noise_shapes shapes;
     hereditary memory;
     size_t evaluations; /* of the model so far */
+    /* Of the accepted curves so far, relative: by how much a further step may change the modulus
+     * where the fit ends, and would at most. */
+    double step_allowed, step_left;
 };
 
 /* A way in or out, as measured; time NULL: not known. */
@@ -175,6 +178,7 @@ typedef struct curve_solution {
     double effective_n; /* samples over correlation length */
     curve_lack lack;
     bool bent; /* the baseline: the errors hold what that does if it goes on in contact */
+    double step_allowed, step_left; /* as in the workspace, of this curve */
     bool converged;
 } curve_solution;
 

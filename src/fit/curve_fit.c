@@ -338,9 +338,13 @@ wt_status curve_fit_branches(const wt_contact_table *table, const wt_indent_opti
     report_spectrum(&f, fit);
     fit->fitted_modulus = fit->modulus.value;
     fit->verdict = curve_judge(&f, fit);
-    if (fit->verdict != WT_CURVE_ACCEPTED)
-        fit->modulus.value = fit->modulus.standard_error = fit->spectrum_factor.value =
-            fit->spectrum_factor.standard_error = (double)NAN;
+    if (fit->verdict == WT_CURVE_ACCEPTED) {
+        workspace->step_allowed = fmax(workspace->step_allowed, f.solution.step_allowed);
+        workspace->step_left = fmax(workspace->step_left, f.solution.step_left);
+        return WT_OK;
+    }
+    fit->modulus.value = fit->modulus.standard_error = fit->spectrum_factor.value =
+        fit->spectrum_factor.standard_error = (double)NAN;
     return WT_OK;
 }
 

@@ -52,14 +52,26 @@ static double dot(const double a[N], const double b[N])
     return sum;
 }
 
+/* A decrease of the cost that is none: by a step of so many standard errors, or of the rounding of
+ * the forces. */
+static const double least_step = 1e-5;
+
+static double by_step(const curve_samples *s, double cost)
+{
+    return least_step * least_step / (double)s->n * cost;
+}
+
+static double by_rounding(const curve_samples *s)
+{
+    return 1e-28 * curve_dot(s->force, s->force, s->n);
+}
+
 /* Leaves the model evaluated at p. */
 static bool minimise(curve_law *m, double p[N], double *cost)
 {
     const curve_samples *s = m->samples;
     double expected = (double)INFINITY;
-    /* A step of 1e-5 standard errors, and of the rounding of the forces. */
-    const double small = 1e-10 / (double)s->n,
-                 rounding = 1e-28 * curve_dot(s->force, s->force, s->n);
+    const double rounding = by_rounding(s);
     curve_model_start(m, p);
     *cost = curve_model_cost(m, p);
     for (int iteration = 0; iteration < (m->adhesive ? MAX_ADHESIVE : MAX_ITERATIONS);
@@ -73,7 +85,7 @@ static bool minimise(curve_law *m, double p[N], double *cost)
             bool solved = solve(&e, damping, step, 1);
             if (damping == 0.0) {
                 expected = solved ? dot(step[0], e.jr) : (double)INFINITY;
-                if (expected <= small * *cost || expected <= rounding)
+                if (expected <= by_step(s, *cost) || expected <= rounding)
                     return true;
             }
             for (size_t a = 0; a < N; a++)
@@ -94,7 +106,7 @@ static bool minimise(curve_law *m, double p[N], double *cost)
             }
         }
     }
-    return expected <= 1e4 * small * *cost;
+    return expected <= 1e4 * by_step(s, *cost);
 }
 
 static void statistics(const curve_law *m, curve_solution *s)
@@ -136,11 +148,12 @@ static void statistics(const curve_law *m, curve_solution *s)
     s->correlation_length = noise.correlation_length;
     s->effective_n = (double)n / noise.correlation_length;
 
-    double inverse[N + 1][N] = {{0.0}};
+    double inverse[N + 2][N] = {{0.0}};
     for (size_t a = 0; a < N; a++)
         inverse[a][a] = 1.0;
     memcpy(inverse[N], gain, sizeof gain);
-    bool solved = solve(&e, 0.0, inverse, N + 1);
+    memcpy(inverse[N + 1], e.jr, sizeof e.jr); /* the step to the minimum */
+    bool solved = solve(&e, 0.0, inverse, N + 2);
     for (size_t a = 0; a < N; a++) {
         double variance = 0.0;
         for (size_t b = 0; b < N; b++)
@@ -148,6 +161,10 @@ static void statistics(const curve_law *m, curve_solution *s)
                 variance += inverse[a][b] * noise.scatter[b][c] * inverse[a][c];
         s->standard_error[a] = !m->free[a] ? 0.0 : solved ? sqrt(variance) : (double)NAN;
     }
+    /* No step that promises to lower the cost by so much moves the modulus by more. */
+    const double allowed = fmax(by_step(samples, s->cost), by_rounding(samples));
+    s->step_allowed = sqrt(allowed * inverse[CURVE_E][CURVE_E]) / p[CURVE_E];
+    s->step_left = sqrt(dot(inverse[N + 1], e.jr) * inverse[CURVE_E][CURVE_E]) / p[CURVE_E];
     s->curvature = noise.curvature;
     s->bend_shift = solved ? dot(inverse[CURVE_E], noise.bend) : (double)NAN;
     s->sensitivity_gain = solved ? inverse[N][CURVE_E] / p[CURVE_E] : (double)NAN;

@@ -439,7 +439,9 @@ wt_status master_report(master_work *work, const wt_sweep *sweep, wt_parselog *l
                    .noise_storage = work->s->noise[STORAGE],
                    .noise_loss = work->s->noise[LOSS],
                    .correlation = work->s->rho,
-                   .evaluations = work->s->evaluations};
+                   .evaluations = work->s->evaluations,
+                   .step_allowed = sqrt(SPECTRUM_LEAST_GAIN),
+                   .step_left = work->posterior->step_left};
     wt_status status = fill_shifts(work, &m, err);
     if (status == WT_OK) {
         fill_law(work->posterior, &m);

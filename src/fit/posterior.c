@@ -30,6 +30,19 @@ void posterior_free(wt_posterior *p)
     free(p);
 }
 
+/* What a step of Newton's method would still move any of the unknowns by, in standard errors, at
+ * most. */
+static double step_left(const spectrum *s)
+{
+    const size_t n = s->n_unknowns;
+    gsl_matrix_const_view root = gsl_matrix_const_submatrix(s->factor, 0, 0, n, n);
+    gsl_vector_const_view gradient = gsl_vector_const_subvector(s->gradient, 0, n);
+    gsl_vector_view step = gsl_vector_subvector(s->direction, 0, n);
+    gsl_vector_memcpy(&step.vector, &gradient.vector);
+    gsl_blas_dtrsv(CblasLower, CblasNoTrans, CblasNonUnit, &root.matrix, &step.vector);
+    return gsl_blas_dnrm2(&step.vector);
+}
+
 wt_status posterior_keep(wt_posterior *p, wt_vertical_shift kind, const vertical *v,
                          double log_weight, wt_error *err)
 {
@@ -48,6 +61,7 @@ wt_status posterior_keep(wt_posterior *p, wt_vertical_shift kind, const vertical
         c->smooth = pool_numbers(&p->memory, n_curves * n_curves);
     if (p->memory.failed)
         return wt_fail(err, WT_E_MEMORY, "no memory for the fits");
+    p->step_left = fmax(p->step_left, step_left(s));
     memcpy(c->value, s->value, n * sizeof *c->value);
     gsl_matrix_const_view part = gsl_matrix_const_submatrix(s->covariance, 0, 0, n, n);
     gsl_matrix_const_view factor = gsl_matrix_const_submatrix(s->factor, 0, 0, n, n);

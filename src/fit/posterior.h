@@ -45,6 +45,7 @@ struct wt_posterior {
     size_t n_cells, n_parts;
     posterior_cell cells[POSTERIOR_CELLS];
     posterior_part *parts;
+    double step_left; /* of a cell, by one more [standard errors] */
 };
 
 wt_posterior *posterior_new(void); /* NULL when out of memory */

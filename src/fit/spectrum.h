@@ -112,6 +112,9 @@ typedef enum spectrum_mode {
     SPECTRUM_TRIAL   /* the same, good enough to see whether much less is left */
 } spectrum_mode;
 wt_status spectrum_fit(spectrum *s, spectrum_mode mode, wt_error *err) WT_NODISCARD;
+#define SPECTRUM_LEAST_GAIN                                                                        \
+    1e-3 /* of -2 ln likelihood by a step; the square of standard errors                           \
+          */
 
 /* ---- spectrum_noise.c */
 /* Of both moduli and the smoothness; the largest relative change. */

@@ -14,7 +14,7 @@
 enum { MAX_STEPS = 80, MAX_DAMPINGS = 12 };
 /* Done when a step gains less than this of -2 ln likelihood (a standard error is 1), and noise and
  * smoothness change by less than this share. */
-static const double least_gain = 1e-3, least_change = 2e-3;
+static const double least_gain = SPECTRUM_LEAST_GAIN, least_change = 2e-3;
 /* The same where that is good enough, and where only the objective is wanted. */
 static const double rough_gain = 0.1, rough_change = 0.02, held_gain = 0.02;
 /* Where a trial only asks whether much less is left: share of the objective. */

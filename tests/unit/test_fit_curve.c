@@ -533,6 +533,95 @@ static int tear_down(void **state)
     return 0;
 }
 
+/* ---- a further step -------------------------------------------------------------------------- */
+
+enum { UNKNOWNS = 4 };
+
+/* Force at E, contact point, offset there, tilt. */
+static double modelled(const curve_truth *t, const double p[UNKNOWNS], double z)
+{
+    curve_truth at = *t;
+    at.modulus = p[0];
+    return p[2] + p[3] * (z - p[1]) + curve_contact_force(&at, z - p[1]);
+}
+
+/* Solves for both right sides. */
+static void solve_normal(double a[UNKNOWNS][UNKNOWNS], double b[2][UNKNOWNS])
+{
+    for (int k = 0; k < UNKNOWNS; k++)
+        for (int i = 0; i < UNKNOWNS; i++) {
+            const double share = i == k ? 0 : a[i][k] / a[k][k];
+            for (int j = 0; j < UNKNOWNS; j++)
+                a[i][j] -= share * a[k][j];
+            for (int j = 0; j < 2; j++)
+                b[j][i] -= share * b[j][k];
+        }
+    for (int k = 0; k < UNKNOWNS; k++)
+        for (int j = 0; j < 2; j++)
+            b[j][k] /= a[k][k];
+}
+
+/* Gauss-Newton by differences from where the fit ended, relative: the step of the modulus, and the
+ * largest that a step of this length in all unknowns can be. */
+static void step_from(const curve_truth *t, const wt_indent_fit *fit, double *step, double *most)
+{
+    const double unit[UNKNOWNS] = {1e5, 1e-10, 1e-11, 1e-5};
+    const double p[UNKNOWNS] = {fit->modulus.value, fit->contact_point.value - t->height0,
+                                fit->baseline_offset.value, fit->baseline_tilt.value};
+    double jj[UNKNOWNS][UNKNOWNS] = {{0}}, solved[2][UNKNOWNS] = {{0}, {1, 0, 0, 0}};
+    double jr[UNKNOWNS], length = 0;
+    for (size_t i = 0; i < t->n; i++) {
+        const double z = data.height[i] - t->height0;
+        const double r = data.force[i] - modelled(t, p, z);
+        double row[UNKNOWNS];
+        for (int a = 0; a < UNKNOWNS; a++) {
+            double up[UNKNOWNS], down[UNKNOWNS];
+            memcpy(up, p, sizeof up);
+            memcpy(down, p, sizeof down);
+            up[a] += 0.01 * unit[a];
+            down[a] -= 0.01 * unit[a];
+            row[a] = 50 * (modelled(t, up, z) - modelled(t, down, z));
+        }
+        for (int a = 0; a < UNKNOWNS; a++) {
+            solved[0][a] += row[a] * r;
+            for (int b = 0; b < UNKNOWNS; b++)
+                jj[a][b] += row[a] * row[b];
+        }
+    }
+    memcpy(jr, solved[0], sizeof jr);
+    solve_normal(jj, solved);
+    for (int a = 0; a < UNKNOWNS; a++)
+        length += jr[a] * solved[0][a];
+    *step = fabs(solved[0][0]) * unit[0] / p[0];
+    *most = sqrt(length * solved[1][0]) * unit[0] / p[0];
+}
+
+static void what_a_further_step_would_change(void **state)
+{
+    (void)state;
+    curve_truth t = curve_standard();
+    t.n = 500;
+    double largest = 0;
+    for (uint64_t seed = 1; seed <= 14; seed++) {
+        double step, most;
+        t.modulus = seed % 2 == 0 ? 20e6 : 2e6;
+        curve_make(&t, seed, &data);
+        workspace->step_left = workspace->step_allowed = 0;
+        const wt_indent_fit fit = fit_default(&t);
+        assert_accepted(&fit);
+        const double share = fit.modulus.standard_error / fit.modulus.value;
+        step_from(&t, &fit, &step, &most);
+        assert_near_abs(workspace->step_left, most, 0.02 * most + 3e-10);
+        assert_true(step <= workspace->step_left + 3e-10);
+        assert_true(workspace->step_left <= workspace->step_allowed);
+        /* 1e-5 of the error by noise that is not correlated */
+        assert_true(workspace->step_allowed < 2e-5 * share);
+        assert_true(workspace->step_allowed > 2e-6 * share);
+        largest = fmax(largest, most);
+    }
+    assert_true(largest > 5e-9); /* there was something to say */
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -548,6 +637,7 @@ int main(void)
         cmocka_unit_test(points_for_plots),
         cmocka_unit_test(force_curve_as_read),
         cmocka_unit_test(arguments),
+        cmocka_unit_test(what_a_further_step_would_change),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

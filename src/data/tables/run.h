@@ -39,9 +39,11 @@
     X(COST_CPU_TIME, "cpu_time", "processor time", SI(TIME), LABEL("Processor time"),              \
       LIKE(COST_WALL_TIME))                                                                        \
     X(COST_ITEMS, "items", "curves, isotherms, points", NUMBER, LABEL("Items"))                    \
-    X(COST_TOLERANCE_ASKED, "tolerance_asked", "relative numerical error asked for", NUMBER,       \
-      LABEL("Tolerance asked"))                                                                    \
-    X(COST_ERROR_ESTIMATED, "error_estimated", "largest relative numerical error estimated",       \
+    X(COST_TOLERANCE_ASKED, "tolerance_asked",                                                     \
+      "relative numerical error asked for; of a fit, the change by a further step that ends it",   \
+      NUMBER, LABEL("Tolerance asked"))                                                            \
+    X(COST_ERROR_ESTIMATED, "error_estimated",                                                     \
+      "largest relative numerical error estimated; of a fit, the change by a further step",        \
       NUMBER, LABEL("Error estimated"))                                                            \
     X(COST_NODES, "nodes", "nodes of the friction integral; of a fit, evaluations of its model",   \
       NUMBER, LABEL("Nodes"))                                                                      \

@@ -534,11 +534,15 @@ static void release(indent_task *task)
 /* The main number is the modulus of a curve, with the root mean square of its errors. */
 static void say_cost(const indent_task *task)
 {
-    for (unsigned i = 0; i < task->n_workers; i++)
-        cost_add_nodes(task->work->cost, task->scratch[i]->evaluations);
-    cost_say(task->work,
-             (cost_summary){.items = (double)task->n_curves,
-                            .number = {1, sqrt(task->squares / (double)task->n_moduli), 0, "1"}});
+    cost_summary cost = {.items = (double)task->n_curves,
+                         .number = {1, sqrt(task->squares / (double)task->n_moduli), 0, "1"}};
+    for (unsigned i = 0; i < task->n_workers; i++) {
+        const wt_indent_workspace *w = task->scratch[i];
+        cost_add_nodes(task->work->cost, w->evaluations);
+        cost.tolerance_asked = fmax(cost.tolerance_asked, w->step_allowed);
+        cost.error_estimated = fmax(cost.error_estimated, w->step_left);
+    }
+    cost_say(task->work, cost);
 }
 
 wt_status wt_indent_group(const wt_indent_job *job, const wt_job *work, wt_indent_tables *tables,

@@ -187,6 +187,20 @@ void flow_files_clear(flow_files *files)
 
 /* ---- opening --------------------------------------------------------------------------------- */
 
+wt_status wt_job_input(const wt_job *work, wt_provenance_input input, const unsigned char *bytes,
+                       size_t length, wt_error *err)
+{
+    cost_add_file(work->cost, length);
+    if (work->provenance == NULL)
+        return WT_OK;
+    input.bytes = length;
+    input.fingerprint = mix_bytes(bytes, length);
+    if ((work->left_out & WT_EXTRA_DIGESTS) == 0)
+        wt_digest(bytes, length, input.sha256);
+    const wt_status status = wt_provenance_add_input(work->provenance, &input);
+    return status == WT_OK ? WT_OK : wt_fail(err, status, "cannot keep the list of inputs");
+}
+
 static wt_status record_input(const wt_job *work, wt_input *input, const flow_file *file,
                               const char *role, wt_error *err)
 {
@@ -195,19 +209,12 @@ static wt_status record_input(const wt_job *work, wt_input *input, const flow_fi
     wt_status status = wt_input_bytes(input, &bytes, &length, err);
     if (status != WT_OK)
         return status;
-    cost_add_file(work->cost, length);
-    if (work->provenance == NULL)
-        return WT_OK;
     const wt_format_info *info = file->format;
     char format[128];
     snprintf(format, sizeof format, "%s %s", info->id, info->version != NULL ? info->version : "");
-    wt_provenance_input record = {
-        .path = file->name, .role = role, .format = format, .bytes = length};
-    record.fingerprint = mix_bytes(bytes, length);
-    if ((work->left_out & WT_EXTRA_DIGESTS) == 0)
-        wt_digest(bytes, length, record.sha256);
-    status = wt_provenance_add_input(work->provenance, &record);
-    return status == WT_OK ? WT_OK : wt_fail(err, status, "cannot keep the list of inputs");
+    return wt_job_input(work,
+                        (wt_provenance_input){.path = file->name, .role = role, .format = format},
+                        bytes, length, err);
 }
 
 wt_status flow_open(const wt_job *work, flow_file *file, const char *role, unsigned kinds,

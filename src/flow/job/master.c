@@ -372,7 +372,10 @@ static void say_cost(const wt_master *m, const wt_job *work)
     for (size_t i = 0; i < m->n; i++)
         error += M_LN10 * m->fitted_storage[i].standard_error / (double)m->n;
     cost_add_nodes(work->cost, m->evaluations);
-    cost_say(work, (cost_summary){.items = (double)m->n_shifts, .number = {1, error, 0, "1"}});
+    cost_say(work, (cost_summary){.items = (double)m->n_shifts,
+                                  .tolerance_asked = m->step_allowed * error,
+                                  .error_estimated = m->step_left * error,
+                                  .number = {1, error, 0, "1"}});
 }
 
 wt_status wt_master_make(const wt_master_job *job, const wt_job *work, wt_master_tables *tables,
