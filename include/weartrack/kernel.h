@@ -46,7 +46,7 @@ typedef struct wt_friction_point {
     wt_estimate hysteresis;      /* mu_hys */
     double extrapolated_share; /* share of mu_hys from frequencies outside the material's range: the
                                   angle is cut where q v cos(phi) leaves it; good to 1e-5 */
-    size_t nodes;              /* q nodes of the last rule */
+    size_t nodes;              /* q nodes of the rules that sufficed */
     bool reached;              /* G, P and mu_hys meet the tolerance, relative to each */
 } wt_friction_point;
 

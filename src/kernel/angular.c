@@ -13,8 +13,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Degrees of the series: the nodes of the short one are among those of the long one. */
-enum { SHORT_DEGREE = 8, LONG_DEGREE = 16, MOST_CUTS = 12 };
+/* Degrees of the series, each twice the one before: its nodes are among those of the next. */
+enum { SHORT_DEGREE = 4, LONG_DEGREE = 16, MOST_CUTS = 12 };
 
 /* Pieces end at the whole multiples of this in ln w and at the knots of the law. */
 static const double piece_width = 0.7;
@@ -92,9 +92,9 @@ static void series_fit(const angular_law *a, series *s)
     double cosine[2 * LONG_DEGREE], j1[LONG_DEGREE + 1], j2[LONG_DEGREE + 1];
     make_cosines(cosine);
     for (size_t degree = SHORT_DEGREE; degree <= LONG_DEGREE; degree *= 2) {
-        for (size_t k = 0; k <= LONG_DEGREE; k++) {
-            const bool is_short = k % (LONG_DEGREE / SHORT_DEGREE) == 0;
-            if (is_short != (degree == SHORT_DEGREE))
+        const size_t step = LONG_DEGREE / degree;
+        for (size_t k = 0; k <= LONG_DEGREE; k += step) {
+            if (degree > SHORT_DEGREE && k % (2 * step) == 0)
                 continue;
             const double u = s->middle + s->half * cosine[k];
             const double w = exp(isnan(s->anchor) ? u : s->anchor + u * u);

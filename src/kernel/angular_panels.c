@@ -275,16 +275,20 @@ static void add_near(const angular_panels *a, double x, double from, double to, 
 void angular_panels_integrate(const angular_panels *panels, double w, double *j1, double *j2)
 {
     const angular_panels *a = panels;
-    const double x = log(w);
-    size_t p = edge_before(a, x - M_LN2);
     *j1 = *j2 = 0;
-    add_far(a, p, w, j1, j2);
-    for (; p < a->n && a->edge[p] < x; p++) {
-        const double from = a->edge[p], to = a->edge[p + 1];
-        if (to <= x - (to - from))
-            add_middle(a, p, w, j1, j2);
-        else
-            add_near(a, x, from, fmin(to, x), w, j1, j2);
+    if (w >= 2 * a->edge_omega[a->n]) {
+        add_far(a, a->n, w, j1, j2);
+    } else {
+        const double x = log(w);
+        size_t p = edge_before(a, x - M_LN2);
+        add_far(a, p, w, j1, j2);
+        for (; p < a->n && a->edge[p] < x; p++) {
+            const double from = a->edge[p], to = a->edge[p + 1];
+            if (to <= x - (to - from))
+                add_middle(a, p, w, j1, j2);
+            else
+                add_near(a, x, from, fmin(to, x), w, j1, j2);
+        }
     }
     *j1 *= 4;
     *j2 *= 4;

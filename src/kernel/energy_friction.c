@@ -67,23 +67,17 @@ wt_status wt_energy_source_friction(wt_friction_workspace *workspace, double pre
     const panel_plan *plan = friction_plan(workspace, &scratch, at.speed, NULL, 0);
     size_t now = 0;
     double error = (double)INFINITY;
-    const size_t first = friction_first_rule(workspace);
-    for (size_t r = first; r < FRICTION_RULES && error > workspace->options.tolerance; r++) {
-        size_t level;
-        status = friction_prepare_rule(workspace, r, err);
-        if (status != WT_OK)
-            goto done;
-        now = r % 2;
+    for (size_t k = 0; k < FRICTION_STEPS && error > workspace->options.tolerance; k++) {
+        now = k % 2;
         wt_energy_source *s = &pair[now];
         friction_record record = {.q = s->wavenumber, .mu = s->power};
         friction_pass pass;
-        const scale_grid *grid =
-            friction_grid(workspace, &scratch, plan, r, at, least_level, &level);
-        friction_evaluate(workspace, &scratch, grid, level, at, false, &record, &pass);
+        const friction_effort effort = {.step = k, .level = least_level, .share = FRICTION_SHARE};
+        friction_evaluate(workspace, &scratch, plan, effort, at, false, &record, &pass);
         s->n = record.n;
         for (size_t i = 0; i < s->n; i++)
             s->power[i] *= pressure * at.speed;
-        if (r > first)
+        if (k > 0)
             error = compare_sources(s, &pair[1 - now], workspace->roughness) +
                     pass.hysteresis_error / (pass.hysteresis > 0 ? pass.hysteresis : 1);
         s->numerical_error = error + friction_relative_error(workspace, &pass).hysteresis;

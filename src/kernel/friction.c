@@ -11,7 +11,15 @@
 #include <math.h>
 #include <stdlib.h>
 
-static const size_t rule_nodes[FRICTION_RULES] = {4, 6, 8, 10, 12, 16, 20, FRICTION_MAX_NODES};
+/* The rules for tolerances down to the one that stands with them. */
+static const struct {
+    double tolerance;
+    size_t nodes[FRICTION_STEPS];
+} ladders[] = {{3e-3, {4, 8, 12, FRICTION_MAX_NODES}},
+               {3e-4, {5, 8, 12, FRICTION_MAX_NODES}},
+               {3e-7, {8, 12, 16, FRICTION_MAX_NODES}},
+               {3e-9, {10, 16, 20, FRICTION_MAX_NODES}},
+               {0, {12, 16, 20, FRICTION_MAX_NODES}}};
 
 wt_friction_options wt_friction_defaults(void)
 {
@@ -48,11 +56,13 @@ wt_status friction_scratch_init(friction_scratch *scratch, const wt_friction_wor
     *scratch = (friction_scratch){0};
     panel_plan_init(&scratch->plan, ws->roughness, ws->plan.levels, ws->knots, ws->n_knots, n_cuts,
                     memory);
-    grid_init(&scratch->grid, &scratch->plan, FRICTION_MAX_NODES, memory);
     const size_t panels = scratch->plan.capacity;
+    scratch->room = panels;
+    for (size_t k = 0; k < FRICTION_STEPS; k++)
+        grid_init(&scratch->grids[k], &scratch->plan, ws->rules[k], memory);
     double **const by_node[] = {&scratch->omega, &scratch->j1, &scratch->j2};
     for (size_t i = 0; i < COUNT_OF(by_node); i++)
-        *by_node[i] = pool_alloc(memory, panels * FRICTION_MAX_NODES, sizeof **by_node[i]);
+        *by_node[i] = pool_alloc(memory, (panels + 2) * FRICTION_MAX_NODES, sizeof **by_node[i]);
     scratch->knots = pool_alloc(memory, ws->n_knots + 1, sizeof *scratch->knots);
     double **const by_panel[] = {&scratch->bounds, &scratch->panel_mu, &scratch->panel_g,
                                  &scratch->error_mu, &scratch->error_g};
@@ -83,31 +93,15 @@ static double rounding_of(const wt_friction_workspace *ws)
     return FRICTION_ROUNDING + DBL_EPSILON * slope * log1p((q - roughness->q0) / roughness->q0);
 }
 
-size_t friction_first_rule(const wt_friction_workspace *ws)
+static wt_status make_rules(wt_friction_workspace *ws, wt_error *err)
 {
-    static const double best[] = {1e-3, 1e-5, 1e-7, 1e-9};
-    size_t rule = 0;
-    while (rule < COUNT_OF(best) && ws->options.tolerance < best[rule])
-        rule++;
-    return ws->n_knots > 0 && rule > 0 ? rule - 1 : rule; /* their panels are short */
-}
-
-wt_status friction_prepare_rule(wt_friction_workspace *ws, size_t rule, wt_error *err)
-{
-    if (ws->rules[rule] != NULL)
-        return WT_OK;
-    const wt_status status = rule_new(rule_nodes[rule], &ws->memory, &ws->rules[rule], err);
-    scale_grid *grid = &ws->grids[rule];
-    if (status != WT_OK || ws->n_knots > 0)
-        return status;
-    grid_init(grid, &ws->plan, rule_nodes[rule], &ws->memory);
-    if (ws->memory.failed)
-        return no_memory(err);
-    grid_begin(grid, &ws->plan, ws->rules[rule]);
-    grid_fill_panels(grid, &ws->plan, 0, ws->roughness, &ws->options.layer);
-    for (size_t level = 0; level <= ws->plan.levels; level++)
-        grid_fill_core(grid, &ws->plan, level, ws->roughness, &ws->options.layer);
-    return WT_OK;
+    size_t ladder = 0;
+    wt_status status = WT_OK;
+    while (ws->options.tolerance < ladders[ladder].tolerance)
+        ladder++;
+    for (size_t k = 0; status == WT_OK && k < FRICTION_STEPS; k++)
+        status = rule_new(ladders[ladder].nodes[k], &ws->memory, &ws->rules[k], err);
+    return status;
 }
 
 /* The plan of all velocities. */
@@ -147,6 +141,8 @@ wt_status wt_friction_workspace_new(const wt_material *material, const wt_roughn
     ws->angular = o.series;
     if (o.series == NULL)
         status = angular_new(material, o.tolerance, &ws->memory, &ws->angular, err);
+    if (status == WT_OK)
+        status = make_rules(ws, err);
     if (status == WT_OK)
         ws->rounding = rounding_of(ws);
     if (status == WT_OK && ws->n_knots == 0)
@@ -224,34 +220,9 @@ const panel_plan *friction_plan(const wt_friction_workspace *ws, friction_scratc
         scratch->knots[k] = log(ws->knots[k] / (speed * ws->roughness->q0));
     panel_plan_lay(&scratch->plan, ws->roughness, cuts, n_cuts, scratch->knots, ws->n_knots,
                    scratch->bounds);
+    for (size_t k = 0; k < FRICTION_STEPS; k++)
+        grid_begin(&scratch->grids[k], &scratch->plan);
     return &scratch->plan;
-}
-
-const scale_grid *friction_grid(const wt_friction_workspace *ws, friction_scratch *scratch,
-                                const panel_plan *plan, size_t rule, friction_load at, size_t least,
-                                size_t *level)
-{
-    const bool own = plan != &ws->plan;
-    scale_grid *grid = own ? &scratch->grid : NULL;
-    const scale_grid *made = own ? grid : &ws->grids[rule];
-    const double target = 0.5 * CONTACT_FULL;
-    size_t depth = least < plan->levels ? least : plan->levels;
-    if (own)
-        grid_begin(grid, plan, ws->rules[rule]);
-    for (;;) {
-        if (own)
-            grid_fill_core(grid, plan, depth, ws->roughness, &ws->options.layer);
-        const double variance = friction_core_variance(ws, scratch, made, depth, at);
-        if (depth >= plan->levels || !(variance > target))
-            break;
-        const double deeper = ceil(0.5 * log2(variance / target)); /* a cell is 1/4 of the next */
-        const size_t left = plan->levels - depth;
-        depth += deeper < (double)left ? (size_t)fmax(1, deeper) : left;
-    }
-    if (own)
-        grid_fill_panels(grid, plan, plan->levels - depth, ws->roughness, &ws->options.layer);
-    *level = depth;
-    return made;
 }
 
 /* ---- velocities ------------------------------------------------------------------------------ */
@@ -265,18 +236,8 @@ typedef struct compute_job {
     const wt_friction_workspace *ws;
     double pressure;
     const double *velocity;
-    size_t rule, stride;
-    unsigned char *first;      /* [n] the rule to begin with, in the end the last one */
-    wt_friction_point *points; /* those that are reached are done */
+    wt_friction_point *points;
 } compute_job;
-
-/* Every so many velocities tell those between them with which rule to begin. */
-enum { STRIDE = 8 };
-
-static bool is_due(const compute_job *job, size_t i)
-{
-    return !job->points[i].reached && job->first[i] <= job->rule && i % job->stride == 0;
-}
 
 static bool with_share(const wt_friction_workspace *ws)
 {
@@ -291,10 +252,16 @@ static void compute_point(const compute_job *job, friction_scratch *scratch, dou
     const double sign = velocity < 0 ? -1 : velocity > 0 ? 1 : 0;
     const double tolerance = ws->options.tolerance;
     const panel_plan *plan = friction_plan(ws, scratch, at.speed, NULL, 0);
-    size_t level;
-    const scale_grid *grid = friction_grid(ws, scratch, plan, job->rule, at, 0, &level);
+    friction_effort effort = {.share = FRICTION_SHARE};
     friction_pass pass;
-    friction_evaluate(ws, scratch, grid, level, at, with_share(ws), NULL, &pass);
+    /* again where what many panels leave adds up */
+    for (int tries = 0; tries < 3; tries++) {
+        friction_evaluate(ws, scratch, plan, effort, at, with_share(ws), NULL, &pass);
+        if (pass.variance_error <= tolerance * pass.variance &&
+            pass.hysteresis_error <= tolerance * pass.hysteresis)
+            break;
+        effort.share /= 16;
+    }
     const friction_relative relative = friction_relative_error(ws, &pass);
     const double error_g = relative.variance * pass.variance + pass.variance_error;
     const double error_mu = relative.hysteresis * pass.hysteresis + pass.hysteresis_error;
@@ -318,36 +285,9 @@ static wt_status compute_item(void *user, size_t i, unsigned worker)
 {
     const compute_job *job = user;
     wt_friction_point *point = &job->points[i];
-    if (!is_due(job, i))
-        return WT_OK;
-    job->first[i] = (unsigned char)job->rule;
     compute_point(job, &job->ws->scratch[worker], job->velocity[i], point);
     return isfinite(point->stress_variance.value) && isfinite(point->hysteresis.value) ? WT_OK
                                                                                        : WT_E_RANGE;
-}
-
-/* All that are due with one rule, then those that it does not suffice for with the next one. */
-static wt_status compute_all(wt_friction_workspace *ws, compute_job *job, size_t n, wt_error *err)
-{
-    for (job->rule = friction_first_rule(ws); job->rule < FRICTION_RULES; job->rule++) {
-        size_t due = 0;
-        for (size_t i = 0; i < n; i++)
-            due += is_due(job, i);
-        wt_status status = due > 0 ? friction_prepare_rule(ws, job->rule, err) : WT_OK;
-        if (status != WT_OK)
-            return status;
-        if (due > 0)
-            status = wt_parallel_for(n, ws->threads, compute_item, job, NULL, "friction");
-        if (status == WT_E_RANGE) {
-            (void)range_error("pressure", job->pressure,
-                              "so high that the stress variance G stays finite, in Pa", err);
-            wt_error_advice(err, "check the units of pressure, moduli and power spectrum");
-            return status;
-        }
-        if (status != WT_OK)
-            return wt_fail(err, status, "the friction integral could not be run");
-    }
-    return WT_OK;
 }
 
 wt_status wt_friction_compute(wt_friction_workspace *workspace, double pressure,
@@ -361,29 +301,16 @@ wt_status wt_friction_compute(wt_friction_workspace *workspace, double pressure,
         status = angular_cover_outside(workspace->angular, err);
     if (status != WT_OK)
         return status;
-    unsigned char *first = calloc(n + 1, 1);
-    if (first == NULL)
-        return no_memory(err);
-    for (size_t i = 0; i < n; i++)
-        points[i].reached = false;
-    compute_job job = {.ws = workspace,
-                       .pressure = pressure,
-                       .velocity = velocity,
-                       .first = first,
-                       .points = points};
-    job.stride = STRIDE;
-    status = compute_all(workspace, &job, n, err);
-    for (size_t i = 0; i < n; i++) {
-        const size_t before = i - i % STRIDE,
-                     after = before + STRIDE < n ? before + STRIDE : before;
-        if (i % STRIDE != 0)
-            first[i] = first[before] < first[after] ? first[before] : first[after];
+    compute_job job = {
+        .ws = workspace, .pressure = pressure, .velocity = velocity, .points = points};
+    status = wt_parallel_for(n, workspace->threads, compute_item, &job, NULL, "friction");
+    if (status == WT_E_RANGE) {
+        (void)range_error("pressure", pressure,
+                          "so high that the stress variance G stays finite, in Pa", err);
+        wt_error_advice(err, "check the units of pressure, moduli and power spectrum");
+        return status;
     }
-    job.stride = 1;
-    if (status == WT_OK && n > 1)
-        status = compute_all(workspace, &job, n, err);
-    free(first);
-    return status;
+    return status == WT_OK ? WT_OK : wt_fail(err, status, "the friction integral could not be run");
 }
 
 wt_estimate wt_friction_total(wt_estimate hysteresis, wt_estimate area_ratio,

@@ -10,17 +10,19 @@
 
 #include <float.h>
 
-/* Rules of rising order. */
-enum { FRICTION_RULES = 8, FRICTION_MAX_NODES = RULE_MOST };
+/* Rules of rising order, from the one for all panels to that for what is steep. */
+enum { FRICTION_STEPS = 4, FRICTION_MAX_NODES = RULE_MOST };
 
 /* What one thread needs. */
 typedef struct friction_scratch {
-    panel_plan plan;            /* of this velocity, where knots move with it */
-    scale_grid grid;            /* likewise */
-    double *knots;              /* [n_knots] t */
-    double *bounds;             /* [capacity + 1] t */
-    double *omega, *j1, *j2;    /* [capacity * max nodes] */
-    double *panel_mu, *panel_g; /* [capacity + 1]: parts of the last pass, */
+    panel_plan plan;                  /* of this velocity, where knots move with it */
+    scale_grid grids[FRICTION_STEPS]; /* of that, or of the plan of all velocities */
+    size_t room;                      /* panels that there may be */
+    double *knots;                    /* [n_knots] t */
+    double *bounds;                   /* [room + 1] t */
+    /* [(room + 2) * max nodes]: all panels, then one made anew, then the core */
+    double *omega, *j1, *j2;
+    double *panel_mu, *panel_g; /* [room + 1]: parts of the last pass, */
     double *error_mu, *error_g; /* and the errors of its rule in them */
     size_t nodes;               /* at which J1 and J2 were evaluated so far */
 } friction_scratch;
@@ -34,11 +36,9 @@ struct wt_friction_workspace {
     double stiffness; /* 1 / (1 - nu^2) */
     double rounding;  /* relative error of the integrals from rounding, but for that of J1, J2 */
     const double *knots;
-    size_t n_knots;                    /* of the material, rad/s */
-    gauss_rule *rules[FRICTION_RULES]; /* NULL: not used yet */
-    /* Materials without knots: one plan and its grids for every velocity. */
-    panel_plan plan;
-    scale_grid grids[FRICTION_RULES];
+    size_t n_knots; /* of the material, rad/s */
+    gauss_rule *rules[FRICTION_STEPS];
+    panel_plan plan; /* of every velocity, for materials without knots */
     unsigned threads;
     friction_scratch *scratch; /* [threads] */
 };
@@ -48,12 +48,23 @@ typedef struct friction_load {
     double pressure, speed; /* speed >= 0 */
 } friction_load;
 
-/* One pass over a grid. Parts: 0 is the core, then the panels from the innermost cell used. */
+/* What a pass begins with and how far it goes. */
+typedef struct friction_effort {
+    size_t step;  /* the first rule */
+    size_t level; /* of the core, at least */
+    double share; /* of the tolerance, that the rule may take in one panel */
+} friction_effort;
+
+/* Of the tolerance. */
+#define FRICTION_SHARE 0.2
+
+/* One pass. Parts: 0 is the core, then the panels from the innermost cell used. */
 typedef struct friction_pass {
     double variance, hysteresis;
     double variance_error, hysteresis_error; /* from the rule and the closed form in the core */
     double outside; /* part of the hysteresis from frequencies outside the data */
     double variance_moved, hysteresis_moved; /* errors that come from those of J1 and J2 */
+    size_t level;                            /* of the core */
     size_t nodes;
     size_t parts;
 } friction_pass;
@@ -77,22 +88,11 @@ wt_status friction_prepare(wt_friction_workspace *ws, double pressure, const dou
 /* Lays the plan of this speed with these extra cuts, or returns the common one. */
 const panel_plan *friction_plan(const wt_friction_workspace *ws, friction_scratch *scratch,
                                 double speed, const double *cuts, size_t n_cuts);
-/* The rule for the tolerance to begin with. */
-size_t friction_first_rule(const wt_friction_workspace *ws);
-/* Makes a rule ready; not from several threads at a time. */
-wt_status friction_prepare_rule(wt_friction_workspace *ws, size_t rule, wt_error *err) WT_NODISCARD;
-/* The grid of a rule on a plan, and how deep its first panel is graded for this load, no less than
- * `least`. */
-const scale_grid *friction_grid(const wt_friction_workspace *ws, friction_scratch *scratch,
-                                const panel_plan *plan, size_t rule, friction_load at, size_t least,
-                                size_t *level);
-/* G over one core. */
-double friction_core_variance(const wt_friction_workspace *ws, friction_scratch *scratch,
-                              const scale_grid *grid, size_t level, friction_load at);
-/* One pass; record may be NULL. */
+/* Evaluates all panels with the first rule, and those again with the next ones for which it does
+ * not suffice. The record may be NULL. */
 void friction_evaluate(const wt_friction_workspace *ws, friction_scratch *scratch,
-                       const scale_grid *grid, size_t level, friction_load at, bool with_outside,
-                       friction_record *record, friction_pass *pass);
+                       const panel_plan *plan, friction_effort effort, friction_load at,
+                       bool with_outside, friction_record *record, friction_pass *pass);
 
 /* Relative errors of G and of the hysteresis of a pass from J1 and J2 and from rounding. */
 typedef struct friction_relative {

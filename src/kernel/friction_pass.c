@@ -70,156 +70,296 @@ static void add_moved(const wt_friction_workspace *ws, const double *omega, cons
             hysteresis * area_power * (pass->variance_moved / variance_so_far);
 }
 
-static void angular_at(const wt_friction_workspace *ws, friction_scratch *scratch, const double *q,
-                       size_t n, double speed)
+/* ---- nodes ----------------------------------------------------------------------------------- */
+
+/* Those of one panel, of a core, or of many panels in a row. */
+typedef struct node_view {
+    const gauss_rule *rule;
+    const double *q, *factor1, *factor2;
+    double half;
+    double *omega, *j1, *j2;
+} node_view;
+
+static node_view place_view(friction_scratch *scratch, const scale_grid *grid, size_t from)
 {
-    for (size_t i = 0; i < n; i++)
-        scratch->omega[i] = q[i] * speed;
-    scratch->nodes += n;
-    angular_eval(ws->angular, scratch->omega, n, scratch->j1, scratch->j2);
+    return (node_view){.rule = grid->rule,
+                       .omega = scratch->omega + from,
+                       .j1 = scratch->j1 + from,
+                       .j2 = scratch->j2 + from};
 }
 
-double friction_core_variance(const wt_friction_workspace *ws, friction_scratch *scratch,
-                              const scale_grid *grid, size_t level, friction_load at)
+static node_view panel_view(friction_scratch *scratch, const scale_grid *grid, size_t p,
+                            size_t from)
 {
-    const size_t n = grid->rule->n;
-    const double ratio = ws->stiffness / at.pressure;
-    const double *factor2 = grid->core_factor2 + level * n;
-    angular_at(ws, scratch, grid->core_q + level * n, n, at.speed);
-    double sum = 0;
+    const size_t at = p * grid->rule->n;
+    node_view view = place_view(scratch, grid, from);
+    view.q = grid->q + at;
+    view.factor1 = grid->factor1 + at;
+    view.factor2 = grid->factor2 + at;
+    view.half = grid->half_width[p];
+    return view;
+}
+
+static void evaluate_nodes(const wt_friction_workspace *ws, friction_scratch *scratch,
+                           const node_view *view, size_t n, friction_load at)
+{
     for (size_t i = 0; i < n; i++)
-        sum += grid->rule->weight[i] * factor2[i] * scratch->j2[i];
-    return sum * grid->core_half_width[level] * (ratio * ratio / 8);
+        view->omega[i] = view->q[i] * at.speed;
+    scratch->nodes += n;
+    angular_eval(ws->angular, view->omega, n, view->j1, view->j2);
+}
+
+static node_view core_view(const wt_friction_workspace *ws, friction_scratch *scratch,
+                           const panel_plan *plan, size_t step, size_t level, friction_load at)
+{
+    scale_grid *grid = &scratch->grids[step];
+    const size_t from = (scratch->room + 1) * FRICTION_MAX_NODES;
+    grid_fill_core(grid, plan, level, ws->roughness, &ws->options.layer);
+    node_view view = place_view(scratch, grid, from);
+    const size_t first = level * grid->rule->n;
+    view.q = grid->core_q + first;
+    view.factor1 = grid->core_factor1 + first;
+    view.factor2 = grid->core_factor2 + first;
+    view.half = grid->core_half_width[level];
+    evaluate_nodes(ws, scratch, &view, grid->rule->n, at);
+    return view;
+}
+
+/* Of G at a node from J2, and of the hysteresis at full contact from J1. */
+typedef struct pass_scale {
+    double g, mu;
+} pass_scale;
+
+static pass_scale scale_of(const wt_friction_workspace *ws, friction_load at)
+{
+    const double ratio = ws->stiffness / at.pressure;
+    return (pass_scale){.g = ratio * ratio / 8, .mu = ratio / 2};
+}
+
+/* Both over the nodes, without weights. */
+static void fill_parts(const node_view *view, pass_scale scale, double *g, double *mu)
+{
+    for (size_t i = 0; i < view->rule->n; i++) {
+        g[i] = view->half * scale.g * view->factor2[i] * view->j2[i];
+        mu[i] = view->half * scale.mu * view->factor1[i] * view->j1[i];
+    }
+}
+
+static double weighted(const gauss_rule *rule, const double *f)
+{
+    double sum = 0;
+    for (size_t i = 0; i < rule->n; i++)
+        sum += rule->weight[i] * f[i];
+    return sum;
+}
+
+typedef struct pass_part {
+    double variance, hysteresis;
+    double variance_error, hysteresis_error; /* from the rule */
+    double closed_error;                     /* of the hysteresis from the closed form in a core */
+    double share[FRICTION_MAX_NODES];        /* of the hysteresis, by node */
+} pass_part;
+
+static rule_fall fall_of(const wt_friction_workspace *ws)
+{
+    return ws->material->law->angular != NULL ? FALL_SMOOTH : FALL_LAW;
+}
+
+/* ---- core ------------------------------------------------------------------------------------ */
+
+/* The largest one in which P is 1 or that is as deep as they go, at no less than `*level`. */
+static node_view find_core(const wt_friction_workspace *ws, friction_scratch *scratch,
+                           const panel_plan *plan, size_t step, friction_load at, size_t *level)
+{
+    const double target = 0.5 * CONTACT_FULL;
+    if (*level > plan->levels)
+        *level = plan->levels;
+    for (;;) {
+        const node_view core = core_view(ws, scratch, plan, step, *level, at);
+        double g[FRICTION_MAX_NODES], mu[FRICTION_MAX_NODES];
+        fill_parts(&core, scale_of(ws, at), g, mu);
+        const double variance = weighted(core.rule, g);
+        if (*level >= plan->levels || !(variance > target))
+            return core;
+        const double deeper = ceil(0.5 * log2(variance / target)); /* a cell is 1/4 of the next */
+        const size_t left = plan->levels - *level;
+        *level += deeper < (double)left ? (size_t)fmax(1, deeper) : left;
+    }
 }
 
 /* P is 1 in the core, or the core is so short that dmu/dG hardly changes in it:
  * mu = (dmu/dG) int S P dG in closed form. */
-static double core_pass(const wt_friction_workspace *ws, friction_scratch *scratch,
-                        const scale_grid *grid, size_t level, friction_load at, double mu_scale,
-                        friction_record *record, friction_pass *pass)
+static void core_pass(const wt_friction_workspace *ws, const node_view *core, pass_scale scale,
+                      pass_part *part)
 {
-    const size_t n = grid->rule->n;
-    const double ratio = ws->stiffness / at.pressure;
-    const double g_scale = ratio * ratio / 8;
-    const double *factor1 = grid->core_factor1 + level * n;
-    const double *factor2 = grid->core_factor2 + level * n;
-    const double half = grid->core_half_width[level];
-    double f1[FRICTION_MAX_NODES], f2[FRICTION_MAX_NODES];
-    pass->variance = friction_core_variance(ws, scratch, grid, level, at);
-    double full = 0, least = (double)INFINITY, most = 0;
-    for (size_t i = 0; i < n; i++) {
-        f1[i] = half * mu_scale * factor1[i] * scratch->j1[i];
-        f2[i] = half * g_scale * factor2[i] * scratch->j2[i];
-        full += grid->rule->weight[i] * f1[i];
-        if (f2[i] > 0) {
-            least = fmin(least, f1[i] / f2[i]);
-            most = fmax(most, f1[i] / f2[i]);
+    const gauss_rule *rule = core->rule;
+    double g[FRICTION_MAX_NODES], mu[FRICTION_MAX_NODES];
+    double least = (double)INFINITY, most = 0, contact = 1;
+    fill_parts(core, scale, g, mu);
+    part->variance = weighted(rule, g);
+    part->variance_error = rule_error(rule, g, fall_of(ws));
+    for (size_t i = 0; i < rule->n; i++)
+        if (g[i] > 0) {
+            least = fmin(least, mu[i] / g[i]);
+            most = fmax(most, mu[i] / g[i]);
         }
+    part->closed_error = 0;
+    if (part->variance > CONTACT_FULL) {
+        const double integral = contact_integral(part->variance, ws->options.gamma);
+        contact = integral / part->variance;
+        part->closed_error = (most - least) * integral;
     }
-    double contact = 1;
-    if (pass->variance > CONTACT_FULL) {
-        const double integral = contact_integral(pass->variance, ws->options.gamma);
-        contact = integral / pass->variance;
-        pass->hysteresis_error = (most - least) * integral;
-    }
-    add_moved(ws, scratch->omega, scratch->j1, scratch->j2, n, pass->variance, contact * full,
-              pass->variance, pass);
-    scratch->error_g[0] = rule_error(grid->rule, f2);
-    scratch->error_mu[0] = contact * rule_error(grid->rule, f1);
-    if (record)
-        for (size_t i = 0; i < n; i++) {
-            record->q[record->n] = grid->core_q[level * n + i];
-            record->mu[record->n++] =
-                contact * half * grid->rule->weight[i] * mu_scale * factor1[i] * scratch->j1[i];
-        }
-    return contact * full;
+    part->hysteresis = contact * weighted(rule, mu);
+    part->hysteresis_error = contact * rule_error(rule, mu, fall_of(ws));
+    for (size_t i = 0; i < rule->n; i++)
+        part->share[i] = contact * rule->weight[i] * mu[i];
 }
 
-/* Of one panel, from the values with full contact and with S P, on top of a pass so far. Where P
- * leaves 1 the difference is too small to show in the last coefficients and too steep for the rule,
- * so it is looked at alone. */
+/* ---- panels ---------------------------------------------------------------------------------- */
+
+static const double steep_rise = 2;
+
+/* Of one panel, from the values with full contact and with S P, G rising from `before` to `after`.
+ * Where P leaves 1 the difference is too small to show in the last coefficients and too steep for
+ * the rule, so it is looked at alone. */
 static double hysteresis_error(const gauss_rule *rule, const double *full, const double *part,
-                               const friction_pass *pass, double sum_g, double sum_mu)
+                               rule_fall fall, double before, double after)
 {
     const double begun = 0.3; /* from there on all of P is in `part` */
+    const bool steep = after > CONTACT_FULL && after > steep_rise * before;
     double gap[FRICTION_MAX_NODES];
+    if (!(before < begun))
+        return rule_error(rule, part, steep ? FALL_STEEP : fall);
+    const double own = rule_error(rule, full, fall);
+    if (!(after > CONTACT_FULL))
+        return own;
     for (size_t i = 0; i < rule->n; i++)
         gap[i] = full[i] - part[i];
-    const double own = pass->variance < begun ? rule_error(rule, full) + rule_error(rule, gap)
-                                              : rule_error(rule, part);
-    const double variance = pass->variance + sum_g;
-    return own + (variance > 0 ? area_power * sum_mu * (pass->variance_error / variance) : 0);
+    return own + rule_error(rule, gap, steep ? FALL_STEEP : fall);
+}
+
+/* On top of a variance so far. */
+static void panel_pass(const wt_friction_workspace *ws, const node_view *view, pass_scale scale,
+                       double variance, pass_part *part)
+{
+    const gauss_rule *rule = view->rule;
+    const double gamma = ws->options.gamma;
+    double running[FRICTION_MAX_NODES], f[FRICTION_MAX_NODES], full[FRICTION_MAX_NODES];
+    fill_parts(view, scale, f, full);
+    for (size_t j = 0; j < rule->n; j++)
+        running[j] = variance;
+    part->variance = rule_running(rule, f, running);
+    part->variance_error = rule_error(rule, f, fall_of(ws));
+    part->closed_error = 0;
+    part->hysteresis = 0;
+    double below = variance;
+    for (size_t j = 0; j < rule->n; j++) {
+        /* G never falls: where it rises too steeply for a polynomial, the nodes so far */
+        const double area = contact_area(running[j] < variance ? below : running[j]);
+        below += rule->weight[j] * f[j];
+        f[j] = full[j] * area * (gamma + (1 - gamma) * area * area);
+        part->share[j] = rule->weight[j] * f[j];
+        part->hysteresis += part->share[j];
+    }
+    part->hysteresis_error =
+        hysteresis_error(rule, full, f, fall_of(ws), variance, variance + part->variance);
+}
+
+/* About the hysteresis of a pass whose panels begin so far up. */
+static double rough_hysteresis(const wt_friction_workspace *ws, friction_scratch *scratch,
+                               const scale_grid *grid, size_t first, size_t last, pass_scale scale,
+                               const friction_pass *core)
+{
+    double variance = core->variance, hysteresis = core->hysteresis;
+    double g[FRICTION_MAX_NODES], mu[FRICTION_MAX_NODES];
+    for (size_t p = first; p < last; p++) {
+        const node_view view = panel_view(scratch, grid, p, (p - first) * grid->rule->n);
+        fill_parts(&view, scale, g, mu);
+        const double rise = weighted(grid->rule, g);
+        const double square = 1 / (1 + M_PI * (variance + 0.5 * rise)); /* about P^2 */
+        hysteresis += weighted(grid->rule, mu) * sqrt(square) *
+                      (ws->options.gamma + (1 - ws->options.gamma) * square);
+        variance += rise;
+    }
+    return hysteresis;
+}
+
+/* Adds a part, from the nodes in view, to a pass. */
+static void add_part(const wt_friction_workspace *ws, friction_scratch *scratch,
+                     const node_view *view, const pass_part *part, bool with_outside,
+                     friction_record *record, friction_pass *pass)
+{
+    const size_t n = view->rule->n, place = pass->parts++;
+    const double variance = pass->variance + part->variance;
+    const double moved = place > 0 && variance > 0 ? area_power / variance : 0;
+    for (size_t j = 0; record && j < n; j++) {
+        record->q[record->n] = view->q[j];
+        record->mu[record->n++] = part->share[j];
+    }
+    for (size_t j = 0; with_outside && j < n; j++)
+        if (part->share[j] > 0)
+            pass->outside +=
+                part->share[j] *
+                (angular_outside(ws->angular, view->omega[j], view->j1[j]) / view->j1[j]);
+    pass->variance_error += part->variance_error;
+    add_moved(ws, view->omega, view->j1, view->j2, n, part->variance, part->hysteresis, variance,
+              pass);
+    scratch->error_g[place] = part->variance_error;
+    scratch->error_mu[place] = part->hysteresis_error + part->closed_error +
+                               moved * part->hysteresis * pass->variance_error;
+    scratch->panel_g[place] = part->variance;
+    scratch->panel_mu[place] = part->hysteresis;
+    pass->variance = variance;
+    pass->hysteresis += part->hysteresis;
+    pass->hysteresis_error += scratch->error_mu[place];
+    pass->nodes += n;
+}
+
+/* Whether the rule suffices for so much of the variance so far and of the hysteresis. */
+static bool is_fine(const pass_part *part, double variance, double hysteresis)
+{
+    return part->variance_error <= variance && part->hysteresis_error <= hysteresis;
 }
 
 void friction_evaluate(const wt_friction_workspace *ws, friction_scratch *scratch,
-                       const scale_grid *grid, size_t level, friction_load at, bool with_outside,
-                       friction_record *record, friction_pass *pass)
+                       const panel_plan *plan, friction_effort effort, friction_load at,
+                       bool with_outside, friction_record *record, friction_pass *pass)
 {
-    const gauss_rule *rule = grid->rule;
-    const size_t n = rule->n;
-    const double gamma = ws->options.gamma;
-    const double ratio = ws->stiffness / at.pressure;
-    const double g_scale = ratio * ratio / 8;
-    const double mu_scale = ratio / 2;
-    double *panel_mu = scratch->panel_mu, *panel_g = scratch->panel_g;
-    *pass = (friction_pass){0};
-    pass->hysteresis = core_pass(ws, scratch, grid, level, at, mu_scale, record, pass);
-    panel_mu[0] = pass->hysteresis;
-    panel_g[0] = pass->variance;
-    pass->variance_error = scratch->error_g[0];
-    if (with_outside && scratch->j1[0] > 0)
-        pass->outside =
-            pass->hysteresis *
-            (angular_outside(ws->angular, scratch->omega[0], scratch->j1[0]) / scratch->j1[0]);
+    const pass_scale scale = scale_of(ws, at);
+    const double share = effort.share * ws->options.tolerance;
+    const wt_roughness *roughness = ws->roughness;
+    const wt_layer_state *layer = &ws->options.layer;
+    pass_part part;
+    size_t level = effort.level, step = effort.step;
+    node_view view = find_core(ws, scratch, plan, step, at, &level);
+    for (core_pass(ws, &view, scale, &part);
+         !is_fine(&part, share * part.variance, share * part.hysteresis) && ++step < FRICTION_STEPS;
+         core_pass(ws, &view, scale, &part))
+        view = core_view(ws, scratch, plan, step, level, at);
+    *pass = (friction_pass){.level = level};
+    add_part(ws, scratch, &view, &part, with_outside, record, pass);
 
-    const size_t first = grid->levels - level;
-    const size_t panels = grid->n_panels - first;
-    const double *q = grid->q + first * n;
-    const double *factor1 = grid->factor1 + first * n;
-    const double *factor2 = grid->factor2 + first * n;
-    angular_at(ws, scratch, q, panels * n, at.speed);
-    for (size_t p = 0; p < panels; p++) {
-        const double half = grid->half_width[first + p];
-        const double *j1 = scratch->j1 + p * n;
-        const double *j2 = scratch->j2 + p * n;
-        double running[FRICTION_MAX_NODES], f[FRICTION_MAX_NODES], full[FRICTION_MAX_NODES];
-        double sum_mu = 0;
-        for (size_t j = 0; j < n; j++) {
-            running[j] = pass->variance;
-            f[j] = half * g_scale * factor2[p * n + j] * j2[j];
-        }
-        const double sum_g = rule_running(rule, f, running);
-        scratch->error_g[p + 1] = rule_error(rule, f);
-        pass->variance_error += scratch->error_g[p + 1];
-        double below = pass->variance;
-        for (size_t j = 0; j < n; j++) {
-            /* G never falls: where it rises too steeply for a polynomial, the nodes so far */
-            const double area = contact_area(running[j] < pass->variance ? below : running[j]);
-            below += rule->weight[j] * f[j];
-            const double correction = gamma + (1 - gamma) * area * area;
-            full[j] = half * mu_scale * factor1[p * n + j] * j1[j];
-            f[j] = full[j] * area * correction;
-            const double share = rule->weight[j] * f[j];
-            sum_mu += share;
-            if (record) {
-                record->q[record->n] = q[p * n + j];
-                record->mu[record->n++] = share;
-            }
-            if (with_outside && share > 0)
-                pass->outside +=
-                    share *
-                    (angular_outside(ws->angular, scratch->omega[p * n + j], j1[j]) / j1[j]);
-        }
-        add_moved(ws, scratch->omega + p * n, j1, j2, n, sum_g, sum_mu, pass->variance + sum_g,
-                  pass);
-        scratch->error_mu[p + 1] = hysteresis_error(rule, full, f, pass, sum_g, sum_mu);
-        pass->variance += sum_g;
-        pass->hysteresis += sum_mu;
-        panel_g[p + 1] = sum_g;
-        panel_mu[p + 1] = sum_mu;
+    scale_grid *grid = &scratch->grids[effort.step];
+    const size_t n = grid->rule->n, first = plan->levels - level, last = plan->n_panels;
+    grid_fill_panels(grid, plan, first, last, roughness, layer);
+    if (first < last) {
+        const node_view all = panel_view(scratch, grid, first, 0);
+        evaluate_nodes(ws, scratch, &all, (last - first) * n, at);
     }
-    for (size_t p = 0; p <= panels; p++)
-        pass->hysteresis_error += scratch->error_mu[p];
-    pass->parts = panels + 1;
-    pass->nodes = pass->parts * n;
+    const double hysteresis = share * rough_hysteresis(ws, scratch, grid, first, last, scale, pass);
+    for (size_t p = first; p < last; p++) {
+        view = panel_view(scratch, grid, p, (p - first) * n);
+        panel_pass(ws, &view, scale, pass->variance, &part);
+        for (step = effort.step + 1;
+             step < FRICTION_STEPS &&
+             !is_fine(&part, share * (pass->variance + part.variance), hysteresis);
+             step++) {
+            scale_grid *finer = &scratch->grids[step];
+            grid_fill_panels(finer, plan, p, p + 1, roughness, layer);
+            view = panel_view(scratch, finer, p, scratch->room * FRICTION_MAX_NODES);
+            evaluate_nodes(ws, scratch, &view, finer->rule->n, at);
+            panel_pass(ws, &view, scale, pass->variance, &part);
+        }
+        add_part(ws, scratch, &view, &part, with_outside, record, pass);
+    }
 }

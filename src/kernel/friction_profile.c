@@ -48,27 +48,18 @@ wt_status wt_friction_profile(wt_friction_workspace *workspace, double pressure,
         cuts[i] = log1p((wavenumber[i] - roughness->q0) / roughness->q0);
     const panel_plan *plan = friction_plan(workspace, &scratch, at.speed, cuts, n);
     friction_pass pass;
-    size_t level = 0;
-    for (size_t rule = friction_first_rule(workspace); rule < FRICTION_RULES; rule++) {
-        status = friction_prepare_rule(workspace, rule, err);
-        if (status != WT_OK)
-            goto done;
-        const scale_grid *grid = friction_grid(workspace, &scratch, plan, rule, at, 0, &level);
-        friction_evaluate(workspace, &scratch, grid, level, at, false, NULL, &pass);
-        if (pass.variance_error <= workspace->options.tolerance * pass.variance &&
-            pass.hysteresis_error <= workspace->options.tolerance * pass.hysteresis)
-            break;
-    }
+    const friction_effort effort = {.share = FRICTION_SHARE};
+    friction_evaluate(workspace, &scratch, plan, effort, at, false, NULL, &pass);
 
     const double relative = friction_relative_error(workspace, &pass).variance;
     const double slack = 1e-13 * fmax(1, log(roughness->q1 / roughness->q0));
-    const size_t first = plan->levels - level;
+    const size_t first = plan->levels - pass.level;
     double variance = 0, difference = 0, hysteresis = 0;
     size_t part = 0; /* the next one; part p ends at end[p] */
     for (size_t i = 0; i < n; i++) {
         while (part < pass.parts) {
             const double end =
-                part == 0 ? plan->core[level].t_high : plan->panels[first + part - 1].t_high;
+                part == 0 ? plan->core[pass.level].t_high : plan->panels[first + part - 1].t_high;
             if (end > cuts[i] + slack * (cuts[i] > slack))
                 break;
             variance += scratch.panel_g[part];

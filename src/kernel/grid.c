@@ -153,11 +153,12 @@ void panel_plan_lay(panel_plan *plan, const wt_roughness *roughness, const doubl
 
 /* ---- nodes ----------------------------------------------------------------------------------- */
 
-void grid_init(scale_grid *grid, const panel_plan *plan, size_t max_nodes, pool *memory)
+void grid_init(scale_grid *grid, const panel_plan *plan, const gauss_rule *rule, pool *memory)
 {
-    const size_t nodes = plan->capacity * max_nodes;
-    const size_t core_nodes = (plan->levels + 1) * max_nodes;
-    *grid = (scale_grid){.q = pool_alloc(memory, nodes, sizeof *grid->q),
+    const size_t nodes = plan->capacity * rule->n;
+    const size_t core_nodes = (plan->levels + 1) * rule->n;
+    *grid = (scale_grid){.rule = rule,
+                         .q = pool_alloc(memory, nodes, sizeof *grid->q),
                          .factor1 = pool_alloc(memory, nodes, sizeof *grid->factor1),
                          .factor2 = pool_alloc(memory, nodes, sizeof *grid->factor2),
                          .half_width = pool_alloc(memory, plan->capacity, sizeof *grid->half_width),
@@ -218,28 +219,31 @@ static void weigh_nodes(const wt_roughness *roughness, const wt_layer_state *lay
     }
 }
 
-void grid_begin(scale_grid *grid, const panel_plan *plan, const gauss_rule *rule)
+void grid_begin(scale_grid *grid, const panel_plan *plan)
 {
-    grid->rule = rule;
-    grid->levels = plan->levels;
-    grid->n_panels = plan->n_panels;
+    memset(grid->half_width, 0, plan->n_panels * sizeof *grid->half_width);
+    memset(grid->core_half_width, 0, (plan->levels + 1) * sizeof *grid->core_half_width);
 }
 
-void grid_fill_panels(scale_grid *grid, const panel_plan *plan, size_t first,
+void grid_fill_panels(scale_grid *grid, const panel_plan *plan, size_t first, size_t last,
                       const wt_roughness *roughness, const wt_layer_state *layer)
 {
-    const size_t n = grid->rule->n, at = first * n;
-    for (size_t p = first; p < plan->n_panels; p++)
+    for (size_t p = first; p < last; p++) {
+        const size_t n = grid->rule->n, at = p * n;
+        if (grid->half_width[p] > 0)
+            continue;
         grid->half_width[p] =
-            place_nodes(plan, &plan->panels[p], grid->rule, grid->q + p * n, grid->factor1 + p * n);
-    weigh_nodes(roughness, layer, plan->n_panels * n - at, grid->q + at, grid->factor1 + at,
-                grid->factor2 + at);
+            place_nodes(plan, &plan->panels[p], grid->rule, grid->q + at, grid->factor1 + at);
+        weigh_nodes(roughness, layer, n, grid->q + at, grid->factor1 + at, grid->factor2 + at);
+    }
 }
 
 void grid_fill_core(scale_grid *grid, const panel_plan *plan, size_t level,
                     const wt_roughness *roughness, const wt_layer_state *layer)
 {
     const size_t n = grid->rule->n, at = level * n;
+    if (grid->core_half_width[level] > 0)
+        return;
     grid->core_half_width[level] = place_nodes(plan, &plan->core[level], grid->rule,
                                                grid->core_q + at, grid->core_factor1 + at);
     weigh_nodes(roughness, layer, n, grid->core_q + at, grid->core_factor1 + at,

@@ -45,23 +45,24 @@ void panel_plan_init(panel_plan *plan, const wt_roughness *roughness, size_t lev
 void panel_plan_lay(panel_plan *plan, const wt_roughness *roughness, const double *cuts,
                     size_t n_cuts, const double *knots, size_t n_knots, double *bounds);
 
-/* Nodes of one rule on a plan. The factors hold q^4 C(q) dt/ds and the scale of a layered modulus:
+/* Nodes of one rule on a plan, each panel and core made when it is asked for. The factors hold
+ * q^4 C(q) dt/ds and the scale of a layered modulus:
  * int k^3 C J1 s dk -> sum of half_width weight factor1 J1, with s^2 in factor2. */
 typedef struct scale_grid {
     const gauss_rule *rule;
-    size_t levels;
-    size_t n_panels;
-    double *q, *factor1, *factor2;                /* [n_panels * n] */
-    double *half_width;                           /* [n_panels] */
+    double *q, *factor1, *factor2;                /* [capacity * n] */
+    double *half_width;                           /* [capacity] 0: not made yet */
     double *core_q, *core_factor1, *core_factor2; /* [(levels + 1) * n] */
-    double *core_half_width;                      /* [levels + 1] */
+    double *core_half_width;                      /* [levels + 1] likewise */
 } scale_grid;
 
-/* Likewise. */
-void grid_init(scale_grid *grid, const panel_plan *plan, size_t max_nodes, pool *memory);
-/* Begins it anew; then the panels from the `first` on, and the core of a level. */
-void grid_begin(scale_grid *grid, const panel_plan *plan, const gauss_rule *rule);
-void grid_fill_panels(scale_grid *grid, const panel_plan *plan, size_t first,
+/* Likewise, for any plan of this capacity. The rule is borrowed. */
+void grid_init(scale_grid *grid, const panel_plan *plan, const gauss_rule *rule, pool *memory);
+/* Begins it anew. */
+void grid_begin(scale_grid *grid, const panel_plan *plan);
+/* Makes the panels from the `first` up to the `last` ready, which is left out; and the core of a
+ * level. */
+void grid_fill_panels(scale_grid *grid, const panel_plan *plan, size_t first, size_t last,
                       const wt_roughness *roughness, const wt_layer_state *layer);
 void grid_fill_core(scale_grid *grid, const panel_plan *plan, size_t level,
                     const wt_roughness *roughness, const wt_layer_state *layer);

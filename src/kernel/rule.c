@@ -30,16 +30,22 @@ static void legendre(size_t n, double x, double *p)
 static void fill_running(gauss_rule *rule)
 {
     double p[RULE_MOST][RULE_MOST + 1]; /* at each node */
+    double change[RULE_MOST][RULE_MOST];
     const size_t n = rule->n;
-    for (size_t i = 0; i < n; i++)
-        legendre(n, rule->node[i], p[i]);
     for (size_t i = 0; i < n; i++) {
-        for (size_t j = 0; j < n; j++) {
-            double sum = (rule->node[j] + 1) / 2;
-            for (size_t k = 1; k < n; k++)
-                sum += p[i][k] * (p[j][k + 1] - p[j][k - 1]) / 2;
-            rule->running[i * rule->room + j] = rule->weight[i] * sum;
-        }
+        legendre(n, rule->node[i], p[i]);
+        for (size_t k = 1; k < n; k++)
+            change[k][i] = (p[i][k + 1] - p[i][k - 1]) / 2;
+    }
+    for (size_t i = 0; i < n; i++) {
+        double *row = rule->running + i * rule->room;
+        for (size_t j = 0; j < n; j++)
+            row[j] = (rule->node[j] + 1) / 2;
+        for (size_t k = 1; k < n; k++)
+            for (size_t j = 0; j < n; j++)
+                row[j] += p[i][k] * change[k][j];
+        for (size_t j = 0; j < n; j++)
+            row[j] *= rule->weight[i];
         for (size_t k = 0; k < RULE_TOP; k++) {
             const size_t degree = n + k - RULE_TOP; /* those below 0 are left out */
             rule->top[i * TOP_ROOM + k] =
@@ -48,12 +54,15 @@ static void fill_running(gauss_rule *rule)
     }
 }
 
-/* The coefficients in pairs, of which one may be small by accident. Those that are left out fall no
- * faster than a power of the degree through the slower of the last two rates: 2^-p from n to 2n,
- * where (1 - 2/n)^p is the rate of a pair, so rate^(0.35 n). The last ones look smaller than they
- * are where they fall slowly, for what is left out folds back on them. `caution` is for what that
- * overlooks, and a tenth of it is enough where the fall goes no further. */
-static const double caution = 40;
+/* The coefficients in pairs, of which one may be small by accident. Those that are left out fall
+ * through the slower of the last two rates: from n to 2n like those before, or, where the fall may
+ * be that of something too steep for the rule, no faster than a power of the degree: 2^-p, where
+ * (1 - 2/n)^p is the rate of a pair, so rate^(0.35 n). No fall is trusted to be faster than the
+ * poles next to a panel let it be. The last ones look smaller than they are where they fall slowly,
+ * for what is left out folds back on them. `caution` is for what that overlooks, and a tenth of it
+ * is enough where the fall goes no further. */
+static const double caution = 40, caution_smooth = 10, caution_few = 6;
+static const double fastest[] = {[FALL_SMOOTH] = 0.25, [FALL_LAW] = 0.4};
 
 static double larger(double a, double b)
 {
@@ -85,7 +94,7 @@ double rule_running(const gauss_rule *rule, const double *f, double *running)
     return sum;
 }
 
-double rule_error(const gauss_rule *rule, const double *f)
+double rule_error(const gauss_rule *rule, const double *f, rule_fall kind)
 {
     const size_t n = rule->n;
     double pair[RULE_TOP / 2] = {0}, coefficient[TOP_ROOM] = {0};
@@ -96,14 +105,17 @@ double rule_error(const gauss_rule *rule, const double *f)
     if (!(pair[2] < pair[1]) || (has_three && !(pair[1] < pair[0])))
         return 0.1 * caution * larger(pair[1], pair[2]);
     const double last_rate = pair[2] / pair[1];
-    const double rate = sqrt(has_three ? larger(last_rate, pair[1] / pair[0]) : last_rate);
+    double rate = sqrt(has_three ? larger(last_rate, pair[1] / pair[0]) : last_rate);
+    const bool steep = kind == FALL_STEEP || (kind == FALL_LAW && rate > fastest[kind]);
     double last = larger(fabs(coefficient[RULE_TOP - 1]), fabs(coefficient[RULE_TOP - 2]) * rate);
     if (has_three)
-        last = larger(last, pair[1] * rate * rate * rate);
+        last = larger(last, pair[1] * rate * rate * (steep ? rate : 1));
+    if (!steep)
+        rate = larger(rate, fastest[kind]);
     double fall = 1;
-    for (size_t i = 0; 10 * (i + 1) <= 7 * n; i++)
+    for (size_t left = steep ? 7 * n / 10 : n; left > 0; left--)
         fall *= rate;
-    return caution * last * fall;
+    return (steep ? caution : n < 8 ? caution_few : caution_smooth) * last * fall;
 }
 
 wt_status rule_new(size_t n, pool *memory, gauss_rule **rule, wt_error *err)

@@ -24,8 +24,14 @@ wt_status rule_new(size_t n, pool *memory, gauss_rule **rule, wt_error *err) WT_
 
 /* Adds the integrals of f from -1 to each node to running[room]; returns that to 1. */
 double rule_running(const gauss_rule *rule, const double *f, double *running);
+/* How the Legendre coefficients of an integrand are known to fall on. */
+typedef enum rule_fall {
+    FALL_SMOOTH, /* like the last ones, and no faster than the poles next to a panel let them */
+    FALL_LAW,    /* the same if they fall fast, else steep: singular points may be closer */
+    FALL_STEEP   /* like a power of the degree: too steep for the rule to tell */
+} rule_fall;
 /* Error of sum_i weight[i] f[i] for an integral from -1 to 1, by how the Legendre coefficients
  * fall: the rule is exact up to twice the degree of the last one. */
-double rule_error(const gauss_rule *rule, const double *f);
+double rule_error(const gauss_rule *rule, const double *f, rule_fall kind);
 
 #endif

@@ -200,18 +200,18 @@ void __wrap_wt_digest(const void *bytes, size_t length, char hex[65])
 }
 
 void __real_friction_evaluate(const wt_friction_workspace *ws, friction_scratch *scratch,
-                              const scale_grid *grid, size_t level, friction_load at,
+                              const panel_plan *plan, friction_effort effort, friction_load at,
                               bool with_outside, friction_record *record, friction_pass *pass);
 void __wrap_friction_evaluate(const wt_friction_workspace *ws, friction_scratch *scratch,
-                              const scale_grid *grid, size_t level, friction_load at,
+                              const panel_plan *plan, friction_effort effort, friction_load at,
                               bool with_outside, friction_record *record, friction_pass *pass);
 void __wrap_friction_evaluate(const wt_friction_workspace *ws, friction_scratch *scratch,
-                              const scale_grid *grid, size_t level, friction_load at,
+                              const panel_plan *plan, friction_effort effort, friction_load at,
                               bool with_outside, friction_record *record, friction_pass *pass)
 {
     count[PASSES]++;
     count[SHARES] += with_outside;
-    __real_friction_evaluate(ws, scratch, grid, level, at, with_outside, record, pass);
+    __real_friction_evaluate(ws, scratch, plan, effort, at, with_outside, record, pass);
 }
 
 /* ---- one run --------------------------------------------------------------------------------- */
