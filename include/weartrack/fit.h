@@ -49,7 +49,7 @@ extern "C" {
     X(WT_CURVE_AMBIGUOUS, "ambiguous_contact", "two contact points describe the curve alike")      \
     X(WT_CURVE_NEGATIVE, "negative_modulus", "the modulus is not positive")                        \
     X(WT_CURVE_DRIFT, "disturbed_baseline", "the baseline is bent or oscillates")                  \
-    X(WT_CURVE_RIGID, "rigid", "stiffer than the cantilever can tell: no indentation")             \
+    X(WT_CURVE_RIGID, "rigid", "no indentation: sample too stiff, or calibration wrong")           \
     X(WT_CURVE_ADHESIVE, "adhesive", "adhesion that the contact law does not describe")            \
     X(WT_CURVE_TOO_DEEP, "too_deep", "deeper than the shape of the tip is known")                  \
     X(WT_CURVE_IMPRECISE, "imprecise", "the modulus is too uncertain")                             \
@@ -72,7 +72,7 @@ typedef struct wt_indent_options {
     bool fit_tilt;             /* baseline tilt is fitted, else offset only; default true */
     double least_chance;  /* that noise like that of the baseline leaves a larger residual; below it
                              POOR_FIT; default 0.01 */
-    double largest_error; /* standard error over modulus, above it IMPRECISE; default 0.3 */
+    double largest_error; /* standard error over modulus, above it IMPRECISE; default 0.5 */
     double fixed_contact_point; /* [m] tip position, NaN = fitted (default) */
     /* Default false: the force is compared with that of lever and sample together at the height of
      * the sample, which is where the noise of the force belongs. true: with the force at the
@@ -421,6 +421,7 @@ typedef struct wt_master {
     double *log_frequency; /* [n] log10 of the reduced angular frequency [rad/s] */
     double *log_storage, *log_loss; /* [n] log10 of E' or G' [Pa], vertical shift applied */
     wt_interval *fitted_storage, *fitted_loss; /* [n] log10 of the moduli of the spectrum there */
+    wt_interval *fitted_loss_factor;           /* [n] log10 of its tan delta */
     size_t *isotherm;                          /* [n] which of `shifts` */
     bool *left_out;                            /* [n] an outlier in a modulus */
     double noise_storage, noise_loss;          /* relative standard deviation */

@@ -122,6 +122,13 @@ double number_to_tens(double value, int decimals)
     return decimals < 0 ? tens * round(value / tens) : value;
 }
 
+chance_words number_chance(double chance)
+{
+    chance_words words;
+    clocale_print(words.text, sizeof words.text, chance < 1e-3 ? "below 0.001" : "%.2g", chance);
+    return words;
+}
+
 size_t wt_number_format(double value, char *buffer)
 {
     enum { SIZE = 32 };

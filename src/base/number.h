@@ -15,5 +15,10 @@ bool number_read(const char *text, size_t length, double *value);
 /* A value to so many decimals, which below 0 are tens, hundreds ...: there it is rounded to them,
  * else as it is, for the text to round. */
 double number_to_tens(double value, int decimals);
+/* A probability in a sentence: "0.02", "below 0.001" where more digits tell nobody more. */
+typedef struct chance_words {
+    char text[16];
+} chance_words;
+chance_words number_chance(double chance);
 
 #endif

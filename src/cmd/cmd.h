@@ -120,6 +120,8 @@ bool cmd_begin(cmd_session *s);
 bool cmd_read_formats(cmd_session *s);
 /* Both; --format (may be NULL) must name one of them. */
 bool cmd_begin_reading(cmd_session *s, const char *format);
+/* Both for the files of the call, which become those of the set. */
+bool cmd_begin_files(cmd_session *s, wt_file_set *set);
 /* Says what failed and gives the tables "failures" and "notes" of what was done, unless they would
  * be empty. */
 wt_status cmd_record(cmd_session *s, wt_table_sink sink, void *user);

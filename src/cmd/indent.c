@@ -37,11 +37,8 @@ int cmd_indent(int argc, char **argv)
         {wt_job_params(), &s.work, "threads", 0}};
     wt_indent_tables tables = {0};
     wt_table *groups = NULL;
-    if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv) ||
-        !cmd_begin_reading(&s, set.read.format))
+    if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv) || !cmd_begin_files(&s, &set))
         goto done;
-    set.patterns = s.files;
-    set.n_patterns = s.n_files;
     job.sets = &set;
     job.n_sets = 1;
     wt_status made = WT_OK;

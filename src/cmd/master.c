@@ -23,11 +23,8 @@ int cmd_master(int argc, char **argv)
                         {wt_read_params(), &set.read, "temperature units format sheet", 0}};
     cmd_session s = cmd_session_defaults();
     wt_master_tables tables = {0};
-    if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv) ||
-        !cmd_begin_reading(&s, set.read.format))
+    if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv) || !cmd_begin_files(&s, &set))
         goto done;
-    set.patterns = s.files;
-    set.n_patterns = s.n_files;
     job.sets = &set;
     job.n_sets = 1;
     wt_cost_stage(s.cost, "master_curve");

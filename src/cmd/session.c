@@ -54,6 +54,13 @@ bool cmd_begin_reading(cmd_session *s, const char *format)
     return cmd_begin(s);
 }
 
+bool cmd_begin_files(cmd_session *s, wt_file_set *set)
+{
+    set->patterns = s->files;
+    set->n_patterns = s->n_files;
+    return cmd_begin_reading(s, set->read.format);
+}
+
 wt_status cmd_record(cmd_session *s, wt_table_sink sink, void *user)
 {
     wt_status status = WT_OK;

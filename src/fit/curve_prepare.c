@@ -329,8 +329,15 @@ wt_curve_verdict curve_prepare(const double *height, const double *force, size_t
             curve_si(level, "N").words, s->n - top, curve_si(travelled, "m").words);
         return WT_CURVE_SATURATED;
     }
-    double advance = advance_per_bending(s, input->step_noise) - 1.0;
-    if (advance > -0.5 && advance < rigid_share) {
+    const double advance = advance_per_bending(s, input->step_noise) - 1.0;
+    if (advance > -1.0 && advance < -rigid_share) { /* below -1: a force of the wrong sign */
+        curve_say(reason,
+                  "the lever bends %.3g times as far as the piezo moves: deflection sensitivity, "
+                  "spring constant or a unit is wrong",
+                  1.0 / (1.0 + advance));
+        return WT_CURVE_RIGID;
+    }
+    if (fabs(advance) < rigid_share) {
         curve_say(
             reason,
             "the tip advances %.1f %% of the bending of the lever, %g %% needed to tell a modulus",

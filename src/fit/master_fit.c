@@ -147,7 +147,7 @@ static wt_status make_spectrum(master_work *work, wt_error *err)
     p->temperature = pool_numbers(m, n);
     p->mean_b = pool_numbers(m, n);
     p->slope = pool_numbers(m, n);
-    p->scratch = pool_numbers(m, 5 * n + 3 * work->s->n_linear);
+    p->scratch = pool_numbers(m, 7 * n + 4 * work->s->n_linear);
     if (m->failed)
         return wt_fail(err, WT_E_MEMORY, "no memory for %zu isotherms", n);
     work->vertical.mean = p->mean_b;

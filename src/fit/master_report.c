@@ -223,7 +223,7 @@ static int by_x(const void *left, const void *right)
 static void fill_fitted(const wt_posterior *p, wt_master *m)
 {
     const double step = 0.1;
-    wt_interval low[MODULI], high[MODULI];
+    wt_interval low[WITH_LOSS_FACTOR], high[WITH_LOSS_FACTOR];
     double at = -HUGE_VAL;
     for (size_t j = 0; j < m->n; j++) {
         const double x = m->log_frequency[j], from = step * floor(x / step);
@@ -236,8 +236,9 @@ static void fill_fitted(const wt_posterior *p, wt_master *m)
             at = from;
         }
         const double share = (x - from) / step;
-        m->fitted_storage[j] = scaled(between(low[STORAGE], high[STORAGE], share), 1.0 / M_LN10);
-        m->fitted_loss[j] = scaled(between(low[LOSS], high[LOSS], share), 1.0 / M_LN10);
+        wt_interval *const fitted[] = {m->fitted_storage, m->fitted_loss, m->fitted_loss_factor};
+        for (int q = 0; q < WITH_LOSS_FACTOR; q++)
+            fitted[q][j] = scaled(between(low[q], high[q], share), 1.0 / M_LN10);
     }
 }
 
@@ -249,7 +250,7 @@ static wt_status fill_curve(const master_work *work, wt_master *m, wt_error *err
     m->log_frequency = malloc(3 * (s->n + 1) * sizeof *m->log_frequency);
     m->isotherm = malloc((s->n + 1) * sizeof *m->isotherm);
     m->left_out = malloc((s->n + 1) * sizeof *m->left_out);
-    m->fitted_storage = malloc(2 * (s->n + 1) * sizeof *m->fitted_storage);
+    m->fitted_storage = malloc(3 * (s->n + 1) * sizeof *m->fitted_storage);
     if (order == NULL || m->log_frequency == NULL || m->isotherm == NULL || m->left_out == NULL ||
         m->fitted_storage == NULL) {
         free(order);
@@ -258,6 +259,7 @@ static wt_status fill_curve(const master_work *work, wt_master *m, wt_error *err
     m->log_storage = m->log_frequency + s->n;
     m->log_loss = m->log_storage + s->n;
     m->fitted_loss = m->fitted_storage + s->n;
+    m->fitted_loss_factor = m->fitted_loss + s->n;
     for (size_t i = 0; i < m->n_shifts; i++) {
         if (!m->shifts[i].determined)
             continue; /* may not be among the curves of the spectrum */
@@ -279,7 +281,7 @@ static wt_status fill_curve(const master_work *work, wt_master *m, wt_error *err
         m->left_out[j] = s->weight[STORAGE][k] == 0.0 || s->weight[LOSS][k] == 0.0;
     }
     for (size_t j = 0; j < m->n; j++)
-        m->fitted_storage[j] = m->fitted_loss[j] = unknown_interval;
+        m->fitted_storage[j] = m->fitted_loss[j] = m->fitted_loss_factor[j] = unknown_interval;
     if (!work->options.series_only)
         fill_fitted(work->posterior, m);
     free(order);
@@ -484,7 +486,7 @@ wt_interval wt_master_law(const wt_master *master, double temperature)
 void wt_master_moduli(const wt_master *master, double angular_frequency, wt_interval *log_storage,
                       wt_interval *log_loss)
 {
-    wt_interval modulus[MODULI];
+    wt_interval modulus[WITH_LOSS_FACTOR];
     posterior_moduli(master->posterior, log(angular_frequency), modulus);
     *log_storage = scaled(modulus[STORAGE], 1.0 / M_LN10);
     *log_loss = scaled(modulus[LOSS], 1.0 / M_LN10);

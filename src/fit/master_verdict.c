@@ -3,6 +3,7 @@
 #include "fit/master.h"
 
 #include "base/clocale.h"
+#include "base/number.h"
 
 #include <math.h>
 #include <string.h>
@@ -58,9 +59,9 @@ void master_judge(const master_work *work, wt_master *m)
         fabs(lack->factor) - 2.0 * lack->factor_error > loss_matters) {
         m->superposition = WT_SUPERPOSITION_FAILS;
         clocale_print(m->because, sizeof m->because,
-                      "E'' is %+.1f %% off what E' demands (Kramers-Kronig, p = %.1g): check the "
+                      "E'' is %+.1f %% off what E' demands (Kramers-Kronig, p %s): check the "
                       "instrument, the columns, and whether the material changed meanwhile",
-                      100.0 * expm1(lack->factor), lack->kk);
+                      100.0 * expm1(lack->factor), number_chance(lack->kk).text);
     } else if (determined >= LEAST_ISOTHERMS && lack->p_sure < significant &&
                lack->misfit_low > matters) {
         m->superposition = WT_SUPERPOSITION_FAILS;
@@ -69,9 +70,10 @@ void master_judge(const master_work *work, wt_master *m)
         clocale_print(high, sizeof high, "%.1f", 100.0 * lack->misfit_high);
         const bool one = strcmp(low, high) == 0;
         clocale_print(m->because, sizeof m->because,
-                      "one spectrum misses the isotherms by %s%s%s %% (p = %.1g): a second process "
+                      "one spectrum misses the isotherms by %s%s%s %% (p %s): a second process "
                       "or a change of the material; treat the temperatures apart",
-                      one ? "about " : low, one ? "" : " to ", high, lack->p_sure);
+                      one ? "about " : low, one ? "" : " to ", high,
+                      number_chance(lack->p_sure).text);
     } else if (determined < LEAST_ISOTHERMS) {
         clocale_print(m->because, sizeof m->because,
                       "%zu isotherm%s that overlap%s; three or more would tell", determined,
@@ -89,9 +91,8 @@ void master_judge(const master_work *work, wt_master *m)
             "points, would tell",
             100.0 * lack->misfit_high, 100.0 * fmax(m->noise_storage, m->noise_loss));
     } else if (lack->p < doubtful) {
-        clocale_print(m->because, sizeof m->because,
-                      "a misfit is likely (p = %.1g) but below %.1f %%", lack->p,
-                      100.0 * lack->misfit_high);
+        clocale_print(m->because, sizeof m->because, "a misfit is likely (p %s) but below %.1f %%",
+                      number_chance(lack->p).text, 100.0 * lack->misfit_high);
     } else if (window < least_window) {
         clocale_print(
             m->because, sizeof m->because,
@@ -99,7 +100,7 @@ void master_judge(const master_work *work, wt_master *m)
             window);
     } else {
         m->superposition = WT_SUPERPOSITION_HOLDS;
-        clocale_print(m->because, sizeof m->because, "misfit below %.1f %% (lack of fit p = %.2g)",
-                      100.0 * lack->misfit_high, lack->p);
+        clocale_print(m->because, sizeof m->because, "misfit below %.1f %% (lack of fit p %s)",
+                      100.0 * lack->misfit_high, number_chance(lack->p).text);
     }
 }

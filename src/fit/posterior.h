@@ -37,7 +37,7 @@ struct wt_posterior {
     double *temperature; /* [n_curves] */
     double *mean_b;      /* [n_curves] prior of ln b */
     double *slope;       /* [n_curves] of the law */
-    double *scratch;     /* [n_curves + 3 n_linear] */
+    double *scratch;     /* [7 n_curves + 4 n_linear] */
     char no_law[256];    /* why there is none */
     size_t *curve;       /* [isotherms of the sweep] in the spectrum */
     law_shape shape;
@@ -70,8 +70,9 @@ double posterior_tie(const wt_posterior *p, size_t curve);
 wt_interval posterior_law(const wt_posterior *p, double temperature);
 wt_interval posterior_slope(const wt_posterior *p, double temperature); /* decade/K */
 wt_interval posterior_constant(const wt_posterior *p, size_t unknown);
-/* ln E', ln E'' at ln w and the reference temperature. */
-void posterior_moduli(const wt_posterior *p, double x, wt_interval modulus[MODULI]);
+/* ln E', ln E'' and ln tan delta at ln w and the reference temperature. */
+enum { LOSS_FACTOR = MODULI, WITH_LOSS_FACTOR };
+void posterior_moduli(const wt_posterior *p, double x, wt_interval modulus[WITH_LOSS_FACTOR]);
 wt_interval posterior_equilibrium(const wt_posterior *p); /* ln */
 /* Means over the mixture: of all unknowns, of those of the law. */
 void posterior_mean(const wt_posterior *p, double *value);

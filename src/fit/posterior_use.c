@@ -173,14 +173,14 @@ wt_interval posterior_constant(const wt_posterior *p, size_t unknown)
     return interval_of(part, p->n_parts);
 }
 
-/* scratch: with log a, terms, and by the unknowns for both moduli. */
-void posterior_moduli(const wt_posterior *p, double x, wt_interval modulus[MODULI])
+/* scratch: with log a, terms, and by the unknowns for both moduli and the loss factor. */
+void posterior_moduli(const wt_posterior *p, double x, wt_interval modulus[WITH_LOSS_FACTOR])
 {
     const size_t n = p->frame.n_unknowns;
-    struct normal part[MODULI][MOST_PARTS];
+    struct normal part[WITH_LOSS_FACTOR][MOST_PARTS];
     double *term = p->scratch + p->frame.n_curves, *const by_storage = term + p->frame.n_linear;
-    double *const gradient[MODULI] = {by_storage, by_storage + n};
-    double value[MODULI], slope[MODULI], mean[LAW_MOST];
+    double *const gradient[WITH_LOSS_FACTOR] = {by_storage, by_storage + n, by_storage + 2 * n};
+    double value[WITH_LOSS_FACTOR], slope[WITH_LOSS_FACTOR], mean[LAW_MOST];
     const posterior_cell *last = NULL;
     posterior_mean_law(p, mean);
     memset(by_storage, 0, 2 * n * sizeof *by_storage);
@@ -189,15 +189,19 @@ void posterior_moduli(const wt_posterior *p, double x, wt_interval modulus[MODUL
             last = p->parts[i].cell;
             spectrum_terms(&p->frame, last->value, term);
             spectrum_at(&p->frame, term, x + mean[0] * M_LN10, value, slope, gradient);
+            value[LOSS_FACTOR] = value[LOSS] - value[STORAGE];
+            slope[LOSS_FACTOR] = slope[LOSS] - slope[STORAGE];
+            for (size_t u = 0; u < n; u++)
+                gradient[LOSS_FACTOR][u] = gradient[LOSS][u] - gradient[STORAGE][u];
         }
-        for (int q = 0; q < MODULI; q++) {
+        for (int q = 0; q < WITH_LOSS_FACTOR; q++) {
             const double off = p->parts[i].law.unknown[0] - mean[0];
             const struct quantity e = {
                 value[q] + slope[q] * M_LN10 * off, gradient[q], {slope[q] * M_LN10}};
             part[q][i] = of_part(p, &p->parts[i], &e, p->scratch);
         }
     }
-    for (int q = 0; q < MODULI; q++)
+    for (int q = 0; q < WITH_LOSS_FACTOR; q++)
         modulus[q] = interval_of(part[q], p->n_parts);
 }
 

@@ -57,10 +57,12 @@ static double faces_force(const wt_tip *tip, double mcot, double s)
                   0.5 * mcot * (a * a * atan(s) + b * (b * s)));
 }
 
+/* The equation is solved for the depth beyond the switch, or the root near it would be lost in the
+ * rounding of the depth:  delta - b^2/R = m cot(theta) b h atan(s) - b^2 s / (R (h + s)). */
 static contact_point_values faces(const wt_tip *tip, double delta)
 {
     const double b = tip->transition_radius;
-    const double cap = b * b / tip->radius;
+    const double cap = b * b / tip->radius, beyond = delta - cap;
     const double mcot = tip_facet_factor(tip->sides) / tan(tip->half_angle);
     /* h atan(s) >= pi s/2 - 1 makes this an upper bound of the root. */
     double s = 2.0 / M_PI * (delta / (mcot * b) + 1.0);
@@ -69,15 +71,16 @@ static contact_point_values faces(const wt_tip *tip, double delta)
         h = hypot(1.0, s);
         hs = h + s;
         rise = mcot * b * (1.0 + s * atan(s)) - cap / (hs * hs); /* h ddelta/ds */
-        double excess = cap * h / hs + mcot * b * h * atan(s) - delta;
-        double next = s - excess * h / rise;
+        double excess = mcot * b * h * atan(s) - cap * s / hs - beyond;
+        double next = fmax(s - excess * h / rise, 0.0);
         /* The iterates fall until rounding stops them: that is the root. */
-        if (!(next < s) || !(next > 0.0))
+        if (!(next < s))
             break;
         s = next;
     }
-    const double a = b * h;
-    return (contact_point_values){faces_force(tip, mcot, s), 2.0 * a, 2.0 * b * s / rise};
+    /* At the switch itself the contact grows no faster than s, but that of a smooth cap. */
+    const double growth = rise > 0.0 ? b * s / rise : 0.5 * tip->radius / b;
+    return (contact_point_values){faces_force(tip, mcot, s), 2.0 * b * h, 2.0 * growth};
 }
 
 contact_radius_values contact_at_radius(const wt_tip *tip, double a)

@@ -54,7 +54,7 @@ typedef struct figure_curve {
         .column = which, .form = CURVE_##__VA_ARGS__                                               \
     }
 
-enum { FIGURE_PANELS = 2, FIGURE_CURVES = 6, FIGURE_COLUMNS = 12 };
+enum { FIGURE_PANELS = 2, FIGURE_CURVES = 8, FIGURE_COLUMNS = 16 };
 
 typedef struct figure_description {
     const char *name, *title;
@@ -73,8 +73,8 @@ typedef struct figure_description {
 } figure_description;
 
 /* In the order of the page; each ends with a row without a name. */
-extern const figure_description figures_indentation[], figures_dma[], figures_friction[],
-    figures_layer[], figures_what_if[], figures_accuracy[];
+extern const figure_description figures_indentation[], figures_master[], figures_dma[],
+    figures_friction[], figures_layer[], figures_what_if[], figures_accuracy[];
 const figure_description *figure_find(size_t i); /* NULL past the last one */
 
 /* Of each group whose curves lie on a grid. */

@@ -276,6 +276,15 @@ static const schema_field *find_key(const table_view *table, const char *name)
     return NULL;
 }
 
+/* A number without errors as the page writes numbers; a count or a text as it is. */
+static void add_plain(page_writer *page, const schema_field *key, const char *text)
+{
+    double value;
+    const bool rounded = key != NULL && key->kind == SCHEMA_PLAIN && strpbrk(text, ".e") != NULL &&
+                         number_read(text, strlen(text), &value);
+    text_html(&page->out, "%s", rounded ? SHORT_NUMBER(value, 3) : text);
+}
+
 void page_keys(page_writer *page, const table_view *table, const char *caption)
 {
     const size_t n = table->table != NULL ? wt_table_n_keys(table->table) : 0;
@@ -291,9 +300,11 @@ void page_keys(page_writer *page, const table_view *table, const char *caption)
         if (wt_table_estimate(table->table, name, &estimate))
             page_estimate(page, label, &estimate, key != NULL ? key->quantity : WT_Q_NONE, NULL,
                           NULL);
-        else
-            text_html(&page->out, "<tr><th scope=\"row\">%s</th><td colspan=\"3\">%s</td></tr>\n",
-                      label, wt_table_key(table->table, name));
+        else {
+            text_html(&page->out, "<tr><th scope=\"row\">%s</th><td colspan=\"3\">", label);
+            add_plain(page, key, wt_table_key(table->table, name));
+            text_add(&page->out, "</td></tr>\n");
+        }
     }
     page_table_end(page);
 }

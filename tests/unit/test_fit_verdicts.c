@@ -209,6 +209,21 @@ static void too_stiff_for_the_lever(void **state)
     expect(&t, WT_CURVE_RIGID, "bending of the lever");
 }
 
+/* No sample bends the lever by more than the piezo moves, however soft: that of a technician who
+ * gave the sensitivity of another lever is not called stiff, nor without contact. */
+static void more_bending_than_travel(void **state)
+{
+    (void)state;
+    const double factors[] = {2, 4, 100};
+    for (size_t f = 0; f < sizeof factors / sizeof *factors; f++) {
+        curve_truth t = curve_standard();
+        curve_make(&t, 1, &data);
+        for (size_t i = 0; i < t.n; i++)
+            data.force[i] *= factors[f];
+        expect(&t, WT_CURVE_RIGID, "times as far as the piezo moves");
+    }
+}
+
 static void snap_on_is_left_out(void **state)
 {
     (void)state;
@@ -409,7 +424,8 @@ static void not_by_the_noise(void **state)
     curve_make(&t, 1, &data);
     const double straight = fit_with(&t, NULL).modulus.standard_error;
     bend(&t, 0.1e-9);
-    const wt_indent_fit bent = expect(&t, WT_CURVE_ACCEPTED, "baseline bent: the error holds");
+    const wt_indent_fit bent =
+        expect(&t, WT_CURVE_ACCEPTED, "baseline bent, which the error holds");
     assert_true(bent.baseline_chance < 0.01);
     assert_true(bent.modulus.standard_error > 1.5 * straight);
     assert_near_abs(bent.modulus.value, t.modulus, 2 * bent.modulus.standard_error);
@@ -553,6 +569,7 @@ int main(void)
         cmocka_unit_test(loss_of_the_sample),
         cmocka_unit_test(wrong_way),
         cmocka_unit_test(too_stiff_for_the_lever),
+        cmocka_unit_test(more_bending_than_travel),
         cmocka_unit_test(snap_on_is_left_out),
         cmocka_unit_test(not_this_tip),
         cmocka_unit_test(several_contact_points),

@@ -236,6 +236,14 @@ static void damaged(void **state)
     }
     for (size_t length = 0; length < n; length += 29)
         (void)open_bytes(bytes, length);
+    /* One channel of one curve beside one of nine: it would read on in the block of the other. */
+    f = usual(0, true);
+    assert_int_equal(nanoscope_write(&f), 0);
+    const size_t n_volume = read_bytes(bytes, sizeof bytes);
+    unsigned char *at = memmem(bytes, n_volume, "Data length: 288", 16);
+    assert_non_null(at);
+    memcpy(at, "Data length: 032", 16);
+    assert_int_equal(open_bytes(bytes, n_volume), WT_E_CORRUPT);
 }
 
 int main(void)

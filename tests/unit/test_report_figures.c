@@ -202,13 +202,35 @@ static void test_curves_are_drawn_from_their_columns(void **state)
         {"dma_comparison", "title 'DMA |E*|'", "equivalent_frequency dma_complex_modulus"},
         {"dma_comparison", "title 'DMA E′'", "equivalent_frequency dma_storage_modulus"},
         {"dma_comparison", "title 'bulk'", "equivalent_frequency indentation_modulus low high"},
+        {"isotherms", ":($2*y_unit)", "own_frequency own_storage temperature"},
+        {"isotherms", ":($3*y_unit)", "own_frequency own_loss temperature"},
+        {"isotherms", "ratio(", "own_frequency own_storage own_loss temperature"},
         {"master_curve", "points ls 51", "angular_frequency storage_modulus temperature"},
         {"master_curve", "points ls 52", "angular_frequency loss_modulus temperature"},
+        {"master_curve", "ratio($2,$3)",
+         "angular_frequency storage_modulus loss_modulus temperature"},
+        {"master_curve", "($6*y_unit)", "angular_frequency fitted_storage_low fitted_storage_high"},
+        {"master_curve", "($9*y_unit)", "angular_frequency fitted_loss_low fitted_loss_high"},
+        {"master_curve", "($12*1)",
+         "angular_frequency fitted_loss_factor_low fitted_loss_factor_high"},
+        {"master_curve", "($11*1)", "angular_frequency fitted_loss_factor"},
         {"master_curve", "title 'one spectrum'", "angular_frequency fitted_storage"},
         {"master_curve", "lines ls 11 notitle", "angular_frequency fitted_loss"},
         {"shift_factors", "title 'from overlap'",
          "temperature determined log_a log_a_standard_error"},
         {"shift_factors", "title 'too little overlap'", "temperature determined log_a"},
+        {"shift_factors", "$2-offset-$5",
+         "temperature determined log_a law_log_a log_a_standard_error"},
+        {"shift_factors", "($6-$5)", "temperature law_log_a_low law_log_a law_log_a_high"},
+        {"vertical_shifts", "title 'isotherms'", "temperature log_b log_b_standard_error"},
+        {"vertical_shifts", "title 'material'", "temperature log_b_material"},
+        {"vertical_shifts", "title 'rubber elasticity'", "temperature log_b_physical"},
+        {"van_gurp_palmen", "points ls 51", "storage_modulus loss_modulus temperature"},
+        {"van_gurp_palmen", "title 'one spectrum'", "fitted_storage fitted_loss"},
+        {"wicket", "points ls 51", "storage_modulus loss_modulus temperature"},
+        {"wicket", "title 'one spectrum'", "fitted_storage fitted_loss"},
+        {"cole_cole", "points ls 51", "storage_modulus loss_modulus temperature"},
+        {"cole_cole", "title 'one spectrum'", "fitted_storage fitted_loss"},
         {"ramp", "points ls 51 lc rgb 'black'", "temperature storage_modulus"},
         {"ramp", "points ls 52 lc rgb 'black'", "temperature loss_modulus"},
         {"ramp", "title 'peak of the loss modulus'",
@@ -358,6 +380,59 @@ static void test_range_of_a_map(void **state)
     free_sections(sections, n);
 }
 
+/* Raw and shifted isotherms have one scale of colour, and so have the planes. */
+static void test_one_scale_of_colour(void **state)
+{
+    (void)state;
+    NEED_REPORT();
+    static const char *const others[] = {"master_curve", "van_gurp_palmen", "wicket", "cole_cole"};
+    char *script = read_plot("out", "isotherms", "gp");
+    const double low = number_behind(script, "set cbrange [");
+    free(script);
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
+        script = read_plot("out", others[i], "gp");
+        assert_near(number_behind(script, "set cbrange ["), low, 0);
+        free(script);
+    }
+}
+
+/* The axis of a plane goes as far as what is made of the two moduli. */
+static void test_range_of_a_plane(void **state)
+{
+    (void)state;
+    NEED_REPORT();
+    wt_table *sections[MOST];
+    const size_t n = read_sections("out", "van_gurp_palmen", sections);
+    double most = 0;
+    for (size_t row = 0; row < wt_table_n_rows(sections[0]); row++)
+        most = fmax(most, atan2(wt_table_number(sections[0], row, 2),
+                                wt_table_number(sections[0], row, 1)) *
+                              180 / M_PI);
+    char *script = read_plot("out", "van_gurp_palmen", "gp");
+    assert_near(number_behind(script, "set yrange [0:"), 1.04 * most, 1e-6);
+    free(script);
+    free_sections(sections, n);
+}
+
+/* A vertical shift that is none has no picture. */
+static void forget_vertical(wt_table *shifts)
+{
+    fixture_words(shifts, "vertical", "none");
+}
+
+static void test_no_vertical_shift_no_figure(void **state)
+{
+    (void)state;
+    NEED_REPORT();
+    static const char *const tables[] = {"shift_factors"};
+    const fixture_change change = {"shift_factors", .finish = forget_vertical};
+    wt_result *result = fixture_only(tables, 1, &change);
+    write_report(result, "flat", NULL);
+    assert_true(exists("flat/plots/shift_factors.gp"));
+    assert_false(exists("flat/plots/vertical_shifts.gp"));
+    wt_result_free(result);
+}
+
 /* A subscript needs the enhanced mode that labels are without. */
 static void test_label_with_subscripts(void **state)
 {
@@ -394,8 +469,10 @@ static void test_numbers_of_captions(void **state)
                            "track: n = 48, rejected 0."},
         {"modulus_rate", ": bulk n = 16, 16, 16; track n = 16, 16, 16."},
         {"dma_comparison", " 1 of 6 points lie outside"},
-        {"master_curve", " of 20 °C; 192 points of 12 isotherms, "},
+        {"master_curve", " of 20 °C, and tan δ below; 192 points of 12 isotherms, "},
         {"master_curve", " one relaxation spectrum of "},
+        {"isotherms", " 12 isotherms. Those that superposition"},
+        {"vertical_shifts", " are off it by up to "},
         {"shift_factors", " C₁ = 6.504 ± 0.011 and C₂ = 110.08 ± 0.11 K, with the offset"},
         {"shift_factors", " Not determined by overlap: 1 of 12 isotherms."},
         {"power_spectrum", " height 44.8 ± 1.1 µm. Root-mean-square slope 0.945 ± 0.024."},
@@ -538,6 +615,9 @@ int main(void)
         cmocka_unit_test(test_incubation_is_marked_where_the_curve_shows_it),
         cmocka_unit_test(test_label_with_subscripts),
         cmocka_unit_test(test_range_of_a_map),
+        cmocka_unit_test(test_one_scale_of_colour),
+        cmocka_unit_test(test_range_of_a_plane),
+        cmocka_unit_test(test_no_vertical_shift_no_figure),
         cmocka_unit_test(test_numbers_of_captions),
         cmocka_unit_test(test_crowds_are_thinned),
         cmocka_unit_test(test_what_is_missing_is_an_error),

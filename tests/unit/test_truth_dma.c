@@ -169,6 +169,16 @@ static void test_master_curve(void **state)
         assert_true(cell(t, i, "fitted_loss_low") < cell(t, i, "fitted_loss"));
         assert_true(cell(t, i, "fitted_loss_high") > cell(t, i, "fitted_loss"));
         assert_near(cell(t, i, "left_out"), 0, 0);
+        assert_near(cell(t, i, "fitted_loss_factor"), loss / storage, 0.03);
+        assert_near(cell(t, i, "fitted_loss_factor"),
+                    cell(t, i, "fitted_loss") / cell(t, i, "fitted_storage"), 1e-6);
+        assert_true(cell(t, i, "fitted_loss_factor_low") < cell(t, i, "fitted_loss_factor"));
+        assert_true(cell(t, i, "fitted_loss_factor_high") > cell(t, i, "fitted_loss_factor"));
+        /* as measured, whatever the shifts are */
+        assert_near(cell(t, i, "own_frequency"),
+                    pow(10, -1 + 3.0 * (double)(i % POINTS) / (POINTS - 1)), 1e-9);
+        assert_near(cell(t, i, "own_storage"), storage * at / REFERENCE, 5 * NOISE);
+        assert_near(cell(t, i, "own_loss"), loss * at / REFERENCE, 5 * NOISE);
         assert_int_equal(wt_table_block(t, i), i / POINTS);
     }
     assert_near(atof(wt_table_key(t, "noise_storage")), NOISE, 0.2);

@@ -97,7 +97,19 @@
       SI(LOSS_MODULUS))                                                                            \
     X(MASTER_CURVE_FITTED_LOSS_HIGH, "fitted_loss_high", "upper end of its 95 % interval",         \
       SI(LOSS_MODULUS))                                                                            \
-    X(MASTER_CURVE_LEFT_OUT, "left_out", "1: one of the moduli is far off and was left out", YES_NO)
+    X(MASTER_CURVE_LEFT_OUT, "left_out", "1: one of the moduli is far off and was left out",       \
+      YES_NO)                                                                                      \
+    X(MASTER_CURVE_FITTED_LOSS_FACTOR, "fitted_loss_factor", "tan delta of the spectrum", NUMBER,  \
+      INTERVAL(MASTER_CURVE_FITTED_LOSS_FACTOR_LOW, MASTER_CURVE_FITTED_LOSS_FACTOR_HIGH))         \
+    X(MASTER_CURVE_FITTED_LOSS_FACTOR_LOW, "fitted_loss_factor_low",                               \
+      "lower end of its 95 % interval", NUMBER)                                                    \
+    X(MASTER_CURVE_FITTED_LOSS_FACTOR_HIGH, "fitted_loss_factor_high",                             \
+      "upper end of its 95 % interval", NUMBER)                                                    \
+    X(MASTER_CURVE_OWN_FREQUENCY, "own_frequency",                                                 \
+      "angular frequency at the temperature it was measured at", SI(ANGULAR_FREQUENCY))            \
+    X(MASTER_CURVE_OWN_STORAGE, "own_storage", "storage modulus at this temperature",              \
+      SI(STORAGE_MODULUS))                                                                         \
+    X(MASTER_CURVE_OWN_LOSS, "own_loss", "loss modulus at this temperature", SI(LOSS_MODULUS))
 
 #define MASTER_CURVE_KEYS(X)                                                                       \
     X(MASTER_CURVE_KEY_NOISE_STORAGE, "noise_storage", PLAIN,                                      \

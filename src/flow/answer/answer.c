@@ -6,6 +6,7 @@
 
 #include "base/array.h"
 #include "base/clocale.h"
+#include "base/number.h"
 
 #include <ctype.h>
 #include <math.h>
@@ -72,12 +73,13 @@ static void list_evidence(const answer_story *story, char *text, size_t size)
     if (smallest > 0.05)
         clocale_print(least, sizeof least, ", which cannot be below %.2g with so few", smallest);
     clocale_print(text, size,
-                  "%.0f %s in the bulk and %.0f in the track; p %.2g by Welch, %.2g by "
+                  "%.0f %s in the bulk and %.0f in the track; p %s by Welch, %s by "
                   "Mann and Whitney%s",
                   over_all(story, COMPARISON_SPOTS_BULK),
                   strncmp(unit, "curve", 5) == 0 ? "curves" : "spots",
-                  over_all(story, COMPARISON_SPOTS_TRACK), over_all(story, COMPARISON_WELCH_P),
-                  over_all(story, COMPARISON_MANN_WHITNEY_P), least);
+                  over_all(story, COMPARISON_SPOTS_TRACK),
+                  number_chance(over_all(story, COMPARISON_WELCH_P)).text,
+                  number_chance(over_all(story, COMPARISON_MANN_WHITNEY_P)).text, least);
 }
 
 static void answer_layer(const answer_story *story)
@@ -161,8 +163,8 @@ static void say_rates(const answer_story *story)
     if (n >= 2)
         answer_say(story, how_different, "difference",
                    "Rate by rate (%zu indentation rates) the ratio is %.3g to %.3g; the "
-                   "largest p after Holm's correction is %.2g.",
-                   n, low, high, largest_p);
+                   "largest p after Holm's correction is %s.",
+                   n, low, high, number_chance(largest_p).text);
 }
 
 static void say_dma(const answer_story *story)

@@ -98,6 +98,19 @@ static void say_material(sentence *s, const table_view *v)
         verdict);
 }
 
+/* With the digits that its error tells. */
+static void say_peak(sentence *s, wt_estimate at, const char *of)
+{
+    const double error = at.standard_error;
+    if (!(error > 0) || !isfinite(error)) {
+        say(s, " %s (peak of %s, error not known)", words_of_celsius(at.value).text, of);
+        return;
+    }
+    const int decimals = (int)fmax(0, fmin(4, 1 - floor(log10(error))));
+    say(s, " %.*f °C ± %.*f K (peak of %s)", decimals, at.value - WT_ZERO_CELSIUS, decimals, error,
+        of);
+}
+
 static void say_transition(sentence *s, const table_view *v)
 {
     if (v->table == NULL)
@@ -112,11 +125,11 @@ static void say_transition(sentence *s, const table_view *v)
     say(s, "glass transition at %s:",
         words_of_value(glass_transition_value(v, GLASS_TRANSITION_KEY_ANGULAR_FREQUENCY)).text);
     if (!isnan(factor.value))
-        say(s, " %s ± %.2g K (peak of tan delta)%s", words_of_celsius(factor.value).text,
-            factor.standard_error, isnan(loss.value) ? "" : ",");
-    if (!isnan(loss.value))
-        say(s, " %s ± %.2g K (peak of the loss modulus)", words_of_celsius(loss.value).text,
-            loss.standard_error);
+        say_peak(s, factor, "tan delta");
+    if (!isnan(loss.value)) {
+        say(s, "%s", isnan(factor.value) ? "" : ",");
+        say_peak(s, loss, "the loss modulus");
+    }
 }
 
 static void say_friction(sentence *s, const table_view *v)

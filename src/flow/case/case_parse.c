@@ -105,7 +105,13 @@ static wt_status read_document(const wt_case *c, xmlDoc **out, wt_error *err)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     wt_status status = WT_OK;
     xmlDoc *doc = xmlCtxtReadMemory(context, c->xml, (int)c->xml_length, NULL, NULL, options);
-    if (doc == NULL) {
+    const size_t beginning = c->xml_length < 16 ? c->xml_length : 16; /* byte order, blanks */
+    if (doc == NULL && memchr(c->xml, '<', beginning) == NULL) {
+        status = wt_fail(err, WT_E_SCHEMA, "is no case file");
+        wt_error_expected(err, "an XML file that begins with <?xml or <case");
+        wt_error_advice(err, "`weartrack new-case FILE...` writes one for measured files; "
+                             "`weartrack info FILE` says what this one is");
+    } else if (doc == NULL) {
         const xmlError *last = xmlCtxtGetLastError(context);
         char message[200];
         snprintf(message, sizeof message, "%s",

@@ -3,6 +3,7 @@
 #include "flow/job/compare.h"
 
 #include "base/clocale.h"
+#include "base/number.h"
 
 #include <math.h>
 
@@ -155,18 +156,18 @@ static void judge_twist(const compare_row *rates, size_t n, double interaction, 
     v->twisted = true;
     if (!softer && !stiffer) {
         SAY(v->differs,
-            "cannot say: the ratio depends on the rate (p %.2g), and at no single rate is a "
+            "cannot say: the ratio depends on the rate (p %s), and at no single rate is a "
             "difference shown",
-            interaction);
+            number_chance(interaction).text);
         SAY(v->settled_by, "more spots at each rate");
         return;
     }
     SAY(v->differs,
-        "yes: the wear track is %s the bulk, by a ratio that depends on the rate (p %.2g)",
+        "yes: the wear track is %s the bulk, by a ratio that depends on the rate (p %s)",
         softer && stiffer ? "at some rates softer and at others stiffer than"
         : softer          ? "softer than"
                           : "stiffer than",
-        interaction);
+        number_chance(interaction).text);
 }
 
 compare_verdict compare_judge(const compare_pair *p, const wt_compare_job *job,

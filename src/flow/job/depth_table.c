@@ -1,6 +1,7 @@
 /* The modulus against depth, and in words whether it changes and what that may mean.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/clocale.h"
+#include "base/number.h"
 #include "data/tables/tables.h"
 #include "flow/job/curve_tables.h"
 
@@ -51,8 +52,8 @@ static void say_change(const wt_curve_depth *d, char text[320])
         clocale_print(
             text, 320,
             "cannot say: the curves have a residual in common that no modulus that changes "
-            "with depth leaves (chance %.1g); %s",
-            d->misfit_chance, advice(d, true));
+            "with depth leaves (chance %s); %s",
+            number_chance(d->misfit_chance).text, advice(d, true));
     else if (d->verdict == WT_DEPTH_CHANGES && d->change.low < 1 && d->change.high > 1)
         clocale_print(text, 320,
                       "yes: between %s and %s the modulus changes, by how much and which way the "

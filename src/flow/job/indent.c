@@ -8,6 +8,7 @@
 #include "flow/job/inputs.h"
 
 #include "base/array.h"
+#include "base/number.h"
 #include "data/tables/tables.h"
 #include "fit/curve.h"
 
@@ -405,9 +406,9 @@ static wt_status pool_curves(indent_task *task, wt_error *err)
     if (pool.chance < task->job->options.least_chance)
         wt_parselog_add(task->work->log, WT_WARNING, NULL, NULL,
                         "%s: the mean residual of %zu accepted curves is %.2g %% of the largest "
-                        "force, which scatter does not explain (chance %.1g): another tip, a "
+                        "force, which scatter does not explain (chance %s): another tip, a "
                         "layer, loss, adhesion or an uneven piezo; the moduli may be further off",
-                        task->job->group, n, 100 * pool.misfit, pool.chance);
+                        task->job->group, n, 100 * pool.misfit, number_chance(pool.chance).text);
     return WT_OK;
 }
 
@@ -562,8 +563,7 @@ wt_status wt_indent_group(const wt_indent_job *job, const wt_job *work, wt_inden
         goto done;
     if (task.n_curves == 0) {
         status = wt_fail(err, WT_E_EMPTY, "no force curve could be read for \"%s\"", job->group);
-        wt_error_found(err, "files: %zu, failed: %zu", files.n, task.n_failed);
-        wt_error_advice(err, "`weartrack info FILE` shows what a file holds");
+        flow_tell_files(&files, task.n_failed, err);
         goto done;
     }
     task.rows.err = err; /* that of the last row was the error of its file */

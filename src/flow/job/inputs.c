@@ -256,6 +256,19 @@ bool flow_leave_out(const wt_job *work, const flow_file *file, const wt_error *f
     return true;
 }
 
+void flow_tell_files(const flow_files *files, size_t n_failed, wt_error *err)
+{
+    bool of_folder = false;
+    for (size_t i = 0; i < files->n; i++)
+        of_folder = of_folder || files->file[i].of_folder;
+    if (n_failed > 0)
+        wt_error_found(err, "files: %zu, failed: %zu", files->n, n_failed);
+    else
+        wt_error_found(err, "files: %zu", files->n);
+    wt_error_advice(err, "`weartrack info FILE` shows what a file holds%s",
+                    of_folder ? "; 'FOLDER/*' takes the files of the folders in a folder" : "");
+}
+
 /* ---- DMA ------------------------------------------------------------------------------------- */
 
 wt_status flow_sweeps_read(const wt_file_set *sets, size_t n_sets, const wt_job *work,
@@ -278,8 +291,7 @@ wt_status flow_sweeps_read(const wt_file_set *sets, size_t n_sets, const wt_job 
     }
     if (status == WT_OK && sweep->n_isotherms + sweep->n_ramps + sweep->n_strain_sweeps == 0) {
         status = wt_fail(err, WT_E_EMPTY, "no DMA sweep could be read");
-        wt_error_found(err, "files: %zu", files.n);
-        wt_error_advice(err, "`weartrack info FILE` shows what a file holds");
+        flow_tell_files(&files, 0, err);
     }
     if (status == WT_OK) {
         wt_sweep_sort(sweep);

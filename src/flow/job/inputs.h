@@ -42,6 +42,9 @@ void flow_files_clear(flow_files *files);
 wt_status flow_open(const wt_job *work, flow_file *file, const char *role, unsigned kinds,
                     wt_input **input, wt_error *err) WT_NODISCARD;
 
+/* For an error of files none of which held what is needed: how many, and where to look. */
+void flow_tell_files(const flow_files *files, size_t n_failed, wt_error *err);
+
 /* All isotherms and temperature sweeps of the files, sorted, without copies; cleared by the caller,
  * also on failure. */
 wt_status flow_sweeps_read(const wt_file_set *sets, size_t n_sets, const wt_job *work,

@@ -131,12 +131,14 @@ static wt_status shift_table(const wt_master *m, wt_table **table, wt_error *err
 
 static void put_point(table_writer *t, const wt_master *m, size_t i)
 {
-    const wt_interval *storage = &m->fitted_storage[i], *loss = &m->fitted_loss[i];
+    const wt_interval *storage = &m->fitted_storage[i], *loss = &m->fitted_loss[i],
+                      *factor = &m->fitted_loss_factor[i];
+    const wt_master_shift *shift = &m->shifts[m->isotherm[i]];
     table_row(t);
     master_curve_put(t, MASTER_CURVE_ANGULAR_FREQUENCY, pow(10, m->log_frequency[i]));
     master_curve_put(t, MASTER_CURVE_STORAGE_MODULUS, pow(10, m->log_storage[i]));
     master_curve_put(t, MASTER_CURVE_LOSS_MODULUS, pow(10, m->log_loss[i]));
-    master_curve_put(t, MASTER_CURVE_TEMPERATURE, m->shifts[m->isotherm[i]].temperature);
+    master_curve_put(t, MASTER_CURVE_TEMPERATURE, shift->temperature);
     master_curve_put(t, MASTER_CURVE_FITTED_STORAGE, pow(10, storage->value));
     master_curve_put(t, MASTER_CURVE_FITTED_STORAGE_LOW, pow(10, storage->low));
     master_curve_put(t, MASTER_CURVE_FITTED_STORAGE_HIGH, pow(10, storage->high));
@@ -144,6 +146,13 @@ static void put_point(table_writer *t, const wt_master *m, size_t i)
     master_curve_put(t, MASTER_CURVE_FITTED_LOSS_LOW, pow(10, loss->low));
     master_curve_put(t, MASTER_CURVE_FITTED_LOSS_HIGH, pow(10, loss->high));
     master_curve_put(t, MASTER_CURVE_LEFT_OUT, m->left_out[i]);
+    master_curve_put(t, MASTER_CURVE_FITTED_LOSS_FACTOR, pow(10, factor->value));
+    master_curve_put(t, MASTER_CURVE_FITTED_LOSS_FACTOR_LOW, pow(10, factor->low));
+    master_curve_put(t, MASTER_CURVE_FITTED_LOSS_FACTOR_HIGH, pow(10, factor->high));
+    master_curve_put(t, MASTER_CURVE_OWN_FREQUENCY,
+                     pow(10, m->log_frequency[i] - shift->log_a.value + m->offset.value));
+    master_curve_put(t, MASTER_CURVE_OWN_STORAGE, pow(10, m->log_storage[i] - shift->log_b.value));
+    master_curve_put(t, MASTER_CURVE_OWN_LOSS, pow(10, m->log_loss[i] - shift->log_b.value));
 }
 
 static wt_status master_table(const wt_master *m, wt_table **table, wt_error *err)

@@ -63,8 +63,7 @@ static void put_points(table_writer *t, const wt_strain_sweep *s, const wt_payne
         payne_sweep_put(t, PAYNE_SWEEP_TEMPERATURE, s->temperature);
         payne_sweep_put(t, PAYNE_SWEEP_STORAGE_MODULUS, storage);
         payne_sweep_put(t, PAYNE_SWEEP_LOSS_MODULUS, loss);
-        if (storage > 0)
-            payne_sweep_put(t, PAYNE_SWEEP_LOSS_FACTOR, loss / storage);
+        payne_sweep_put(t, PAYNE_SWEEP_LOSS_FACTOR, storage > 0 ? loss / storage : (double)NAN);
         payne_sweep_put(t, PAYNE_SWEEP_STORAGE_RATIO, storage / p->storage_start);
         payne_sweep_put(t, PAYNE_SWEEP_LOSS_RATIO, loss / p->loss_start);
         if (p->fitted) {

@@ -155,7 +155,8 @@ static void put_points(table_writer *t, const wt_ramp *ramp)
         ramp_put(t, RAMP_ANGULAR_FREQUENCY, ramp->angular_frequency);
         ramp_put(t, RAMP_STORAGE_MODULUS, ramp->storage_modulus[i]);
         ramp_put(t, RAMP_LOSS_MODULUS, ramp->loss_modulus[i]);
-        ramp_put(t, RAMP_LOSS_FACTOR, ramp->loss_modulus[i] / ramp->storage_modulus[i]);
+        const double storage = ramp->storage_modulus[i];
+        ramp_put(t, RAMP_LOSS_FACTOR, storage > 0 ? ramp->loss_modulus[i] / storage : (double)NAN);
         ramp_put_text(t, RAMP_SOURCE, ramp->source);
     }
 }

@@ -104,6 +104,7 @@ wt_status wt_input_open(const char *path, wt_input **input, wt_error *err)
         status = wt_fail(err, WT_E_ARG, "is a folder");
         wt_error_file(err, path);
         wt_error_expected(err, "a file");
+        wt_error_advice(err, "'%s/*' names the files in it", path);
         goto fail;
     }
     /* Standard input that was redirected from a file may stand anywhere in it: read it as a pipe.

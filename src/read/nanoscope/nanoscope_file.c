@@ -119,6 +119,7 @@ static wt_status read_channel(nanoscope_file *f, size_t section, wt_error *err)
     const size_t bytes = whole_of(f, section, "Data length", 0);
     const size_t n_in = whole_of(f, section, "Samps/line", 0);
     const size_t n_out = whole_of(f, section, "Samps/line", 1);
+    const size_t before = f->n_planned;
     c.offset = whole_of(f, section, "Data offset", 0);
     name_channel(nanoscope_get(&f->header, section, "Image Data"), &c);
     const double soft = nanoscope_soft(&f->header, scale.soft);
@@ -143,6 +144,9 @@ static wt_status read_channel(nanoscope_file *f, size_t section, wt_error *err)
         wt_error_expected(err, "2 or 4 bytes for each sample of all curves");
         return WT_E_CORRUPT;
     }
+    if (f->n_channels > 0 && f->n_planned != before)
+        return corrupt(err, "channels of different numbers of curves",
+                       "blocks of all channels for as many curves");
     if (!isfinite(c.scale))
         c.quantity = WT_Q_NONE;
     f->channels[f->n_channels++] = c;

@@ -62,10 +62,14 @@ static bool is_ramp(const sweep_builder *b, const size_t *rows, size_t n)
 }
 
 /* Rows of one frequency, cut where the temperature turns; *taken: whether there was a sweep. */
-static wt_status add_ramps(sweep_builder *b, const size_t *rows, size_t n, bool *taken)
+static wt_status add_ramps(sweep_builder *b, const size_t *all, size_t n_all, bool *taken)
 {
+    size_t *const rows = b->rows; /* `all` may be the same ones */
     wt_status status = WT_OK;
-    size_t used = 0;
+    size_t used = 0, n = 0;
+    for (size_t i = 0; i < n_all; i++)
+        if (sweep_temperature(b, all[i]) > 0)
+            rows[n++] = all[i];
     for (size_t first = 0, end; first < n && status == WT_OK; first = end) {
         end = turning_point(b, rows, first, n);
         if (!is_ramp(b, rows + first, end - first))
@@ -74,6 +78,10 @@ static wt_status add_ramps(sweep_builder *b, const size_t *rows, size_t n, bool 
         used += end - first;
     }
     *taken = used > 0;
+    if (*taken && n < n_all)
+        wt_parselog_add(b->log, WT_WARNING, b->file->name, line_place(b->table->names_line).words,
+                        "%zu points at %g rad/s without a temperature above absolute zero left out",
+                        n_all - n, sweep_angular(b, rows[0]));
     if (*taken && used < n)
         wt_parselog_add(b->log, WT_NOTE, b->file->name, line_place(b->table->names_line).words,
                         "%zu points beside the temperature sweeps at %g rad/s left out", n - used,
@@ -99,6 +107,13 @@ static wt_status take_runs(sweep_builder *b, size_t *rows, size_t *n)
     return status;
 }
 
+/* Kelvin between two rows; 0 if they are not known. */
+static double apart(const sweep_builder *b, size_t row, size_t other)
+{
+    const double kelvin = fabs(sweep_temperature(b, row) - sweep_temperature(b, other));
+    return isnan(kelvin) ? 0 : kelvin;
+}
+
 /* Whether the temperature goes on moving while the frequencies take turns. */
 static bool moves_on(const sweep_builder *b, const size_t *rows, size_t n)
 {
@@ -111,8 +126,8 @@ static bool moves_on(const sweep_builder *b, const size_t *rows, size_t n)
             direction = way != 0 ? way : direction;
             continue;
         }
-        within += fabs(sweep_temperature(b, rows[i - 1]) - sweep_temperature(b, rows[first]));
-        between += fabs(sweep_temperature(b, rows[i]) - sweep_temperature(b, rows[first]));
+        within += apart(b, rows[i - 1], rows[first]);
+        between += apart(b, rows[i], rows[first]);
         first = i;
         direction = 0;
         turns++;

@@ -51,6 +51,9 @@ set style line 71 lc rgb '#c0555555'
 set style line 72 lc rgb '#c00b4f8a'
 set style line 74 lc rgb '#b0e88a0c'
 
+# 61 interval of a fitted law or spectrum, behind points
+set style line 61 lc rgb '#c4c4c4'
+
 # 51 and 52 points that take their colour from the palette: full and open
 set style line 51 lw 1.2 pt 7 ps 0.6
 set style line 52 lw 1.2 pt 6 ps 0.6

@@ -1,0 +1,516 @@
+/* Figures of isotherms and what is made of them: before and after shifting, shift factors with
+ * their law, and the planes without a frequency in which superposition is seen.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "report/drawing.h"
+
+#include <math.h>
+#include <string.h>
+
+/* ---- what is made of two moduli -------------------------------------------------------------- */
+
+static double storage_of(double storage, double loss)
+{
+    (void)loss;
+    return storage;
+}
+
+static double loss_of(double storage, double loss)
+{
+    (void)storage;
+    return loss;
+}
+
+static double ratio_of(double storage, double loss)
+{
+    return storage > 0 ? loss / storage : (double)NAN;
+}
+
+static double size_of(double storage, double loss)
+{
+    return hypot(storage, loss);
+}
+
+static double angle_of(double storage, double loss)
+{
+    return atan2(loss, storage) * (180 / M_PI);
+}
+
+/* By its name in the script, and as it is done here for the axes. */
+typedef struct combination {
+    const char *name;
+    double (*of)(double storage, double loss);
+    axis_scale scale;
+    bool is_modulus;
+    const char *label, *behind; /* of a modulus: before and behind its letter */
+} combination;
+
+static const combination storage_log = {"storage", storage_of, AXIS_LOG, true, "", "′"},
+                         storage_linear = {"storage", storage_of, AXIS_FROM_ZERO, true, "", "′"},
+                         loss_linear = {"loss", loss_of, AXIS_FROM_ZERO, true, "", "″"},
+                         loss_ratio = {"ratio", ratio_of, AXIS_LOG, false, "tan δ", ""},
+                         size_log = {"size", size_of, AXIS_LOG, true, "|", "*|"},
+                         angle = {"angle", angle_of, AXIS_FROM_ZERO, false, "δ (°)", ""};
+
+/* Columns of the data of every figure of the master curve, the first behind the frequency. */
+enum { STORAGE = 1, TEMPERATURE = 3, FITTED = 4 };
+
+static void define_combinations(figure_drawing *d)
+{
+    text_add(&d->script, "storage(s, l) = s\nloss(s, l) = l\nratio(s, l) = s > 0 ? l/s : NaN\n"
+                         "size(s, l) = sqrt(s**2 + l**2)\nangle(s, l) = atan2(l, s)*180/pi\n");
+}
+
+static char letter_of(const figure_drawing *d)
+{
+    const char *deformation = master_curve_words(d->table, MASTER_CURVE_KEY_DEFORMATION);
+    return strcmp(deformation, "shear") == 0 ? 'G' : 'E';
+}
+
+static void combined_axis(figure_drawing *d, const char *axis, const combination *c)
+{
+    static const schema_field number = {.quantity = WT_Q_NONE};
+    const schema_field *column =
+        c->is_modulus ? &master_curve_schema.columns[MASTER_CURVE_STORAGE_MODULUS] : &number;
+    const char letter[2] = {c->is_modulus ? letter_of(d) : '\0', '\0'};
+    const wt_table *data = d->sections[d->data[0]];
+    value_span span = SPAN_EMPTY;
+    char label[64];
+    (void)snprintf(label, sizeof label, "%s%s%s", c->label, letter, c->behind);
+    for (size_t row = 0; row < wt_table_n_rows(data); row++)
+        span_add(
+            &span,
+            c->of(wt_table_number(data, row, STORAGE), wt_table_number(data, row, STORAGE + 1)),
+            c->scale == AXIS_LOG);
+    if (span_empty(&span))
+        span = (value_span){1, 1};
+    if (c->scale == AXIS_LOG) {
+        axis_log(d, axis, label, column, span);
+    } else {
+        span_add(&span, 0, false);
+        axis_linear(d, axis, label, column, span);
+    }
+}
+
+/* ---- isotherms and master curve -------------------------------------------------------------- */
+
+/* Points take the colour of the temperature they were measured at, which in all these figures is
+ * the same. */
+static void plot_points(figure_drawing *d, const char *using, const char *with)
+{
+    const bool coloured = !span_empty(&d->colour);
+    plot_item(d, d->data[0], "%s%s with %s %s notitle", using, coloured ? ":($4+cb_offset)" : "",
+              with, coloured ? "lc palette" : "lc rgb 'black'");
+}
+
+/* The spectrum with its interval: columns of value, low and high. */
+static void plot_band(figure_drawing *d, size_t column, const char *unit)
+{
+    plot_item(d, d->data[0], "($1*x_unit):($%zu*%s):($%zu*%s) with filledcurves ls 61 notitle",
+              column + 1, unit, column + 2, unit);
+}
+
+static void plot_spectrum(figure_drawing *d, size_t column, const char *unit, const char *title)
+{
+    plot_item(d, d->data[0], "($1*x_unit):($%zu*%s) with lines ls 11 %s", column, unit, title);
+}
+
+/* How the two moduli are drawn. */
+typedef struct marking {
+    const char *storage, *loss;
+} marking;
+
+static void plot_moduli(figure_drawing *d, bool fitted, marking with)
+{
+    const char letter = letter_of(d);
+    if (fitted) {
+        plot_band(d, FITTED + 1, "y_unit");
+        plot_band(d, FITTED + 4, "y_unit");
+    }
+    plot_points(d, "($1*x_unit):($2*y_unit)", with.storage);
+    plot_points(d, "($1*x_unit):($3*y_unit)", with.loss);
+    plot_other(d, "keyentry with %s lc rgb '#111111' title '%c′'", with.storage, letter);
+    plot_other(d, "keyentry with %s lc rgb '#111111' title '%c″'", with.loss, letter);
+    if (fitted) {
+        plot_spectrum(d, FITTED + 1, "y_unit", "title 'one spectrum'");
+        plot_spectrum(d, FITTED + 4, "y_unit", "notitle");
+    }
+    plot_end(d);
+}
+
+/* Moduli above, tan delta below. */
+static void draw_over_frequency(figure_drawing *d, bool fitted, marking with)
+{
+    char label[64];
+    if (!drawing_data(d))
+        return;
+    (void)snprintf(label, sizeof label, "%c′, %c″", letter_of(d), letter_of(d));
+    d->width = 1.15;
+    d->height = 1.6;
+    define_combinations(d);
+    text_add(&d->script, "set multiplot layout 2,1\n");
+    drawing_axis(d, "x", &d->figure->x, NULL, d->x);
+    drawing_axis(d, "y", &d->figure->y[0], label, d->y[0]);
+    if (!span_empty(&d->colour))
+        drawing_axis(d, "cb", &d->figure->colour, NULL, d->colour);
+    plot_moduli(d, fitted, with);
+    combined_axis(d, "y", &loss_ratio);
+    text_add(&d->script, "unset key\nunset colorbox\n");
+    if (fitted)
+        plot_band(d, FITTED + 7, "1");
+    plot_points(d, "($1*x_unit):(ratio($2,$3))", with.storage);
+    if (fitted)
+        plot_spectrum(d, FITTED + 7, "1", "notitle");
+    plot_end(d);
+    text_add(&d->script, "unset multiplot\n");
+}
+
+static size_t count_isotherms(const figure_drawing *d)
+{
+    return wt_table_block(d->table->table, d->table->n_rows - 1) + 1;
+}
+
+/* Joined points; of many the line alone. */
+static void draw_isotherms(figure_drawing *d)
+{
+    enum { MANY = 25 };
+    static const marking few = {"linespoints ls 51", "linespoints ls 52"},
+                         many = {"lines ls 51", "lines ls 52 dt (5,3)"};
+    draw_over_frequency(d, false, d->table->n_rows > MANY * count_isotherms(d) ? many : few);
+}
+
+static void draw_master_curve(figure_drawing *d)
+{
+    draw_over_frequency(d, true, (marking){"points ls 51", "points ls 52"});
+}
+
+static void caption_isotherms(figure_drawing *d)
+{
+    text_format(&d->caption,
+                " %zu isotherms. Those that superposition can join have the same form, moved along "
+                "the axis of frequency; where one crosses its neighbours, look at the sample, the "
+                "clamping and the oven first.",
+                count_isotherms(d));
+}
+
+static void caption_master_curve(figure_drawing *d)
+{
+    const double reference =
+        master_curve_value(d->table, MASTER_CURVE_KEY_REFERENCE_TEMPERATURE).value;
+    const size_t n = d->table->n_rows, terms = d->tables->prony.n_rows;
+    value_span fit = SPAN_EMPTY;
+
+    if (isfinite(reference))
+        text_format(&d->caption, " of %s", VALUE(WT_Q_TEMPERATURE, NULL, reference));
+    text_format(&d->caption,
+                ", and tan δ below; %zu points of %zu isotherms, coloured by the temperature of "
+                "the measurement.",
+                n, count_isotherms(d));
+    span_add_column(&fit, d->table, MASTER_CURVE_FITTED_STORAGE, true);
+    if (span_empty(&fit))
+        return;
+    if (terms > 0)
+        text_format(&d->caption, " Lines: one relaxation spectrum of %zu terms behind both moduli.",
+                    terms);
+    text_add(&d->caption, " Grey: its 95 % interval, mostly narrower than the line. A good one has "
+                          "the points of all temperatures on one line without steps.");
+}
+
+/* ---- superposition without a frequency ------------------------------------------------------- */
+
+static void plot_plane(figure_drawing *d, const combination *x, const combination *y, size_t column,
+                       bool line)
+{
+    char using[128];
+    (void)snprintf(using, sizeof using, "(%s($%zu,$%zu)*x_unit):(%s($%zu,$%zu)*y_unit)", x->name,
+                   column, column + 1, y->name, column, column + 1);
+    if (line)
+        plot_item(d, d->data[0], "%s with lines ls 11 title 'one spectrum'", using);
+    else
+        plot_points(d, using, "points ls 51");
+}
+
+static void draw_plane(figure_drawing *d, const combination *x, const combination *y)
+{
+    if (!drawing_data(d))
+        return;
+    d->width = 1.15;
+    define_combinations(d);
+    combined_axis(d, "x", x);
+    combined_axis(d, "y", y);
+    if (!span_empty(&d->colour))
+        drawing_axis(d, "cb", &d->figure->colour, NULL, d->colour);
+    plot_plane(d, x, y, STORAGE + 1, false);
+    plot_plane(d, x, y, FITTED + 1, true);
+    plot_end(d);
+}
+
+static void draw_cole_cole(figure_drawing *d)
+{
+    draw_plane(d, &storage_linear, &loss_linear);
+}
+
+static void draw_van_gurp_palmen(figure_drawing *d)
+{
+    draw_plane(d, &size_log, &angle);
+}
+
+static void draw_wicket(figure_drawing *d)
+{
+    draw_plane(d, &storage_log, &loss_ratio);
+}
+
+/* ---- shift factors --------------------------------------------------------------------------- */
+
+/* The law as it was fitted, with the offset of the reference isotherm, over the measured range
+ * only; the pole is never in it. */
+static bool define_law(figure_drawing *d)
+{
+    const table_view *shifts = d->table;
+    const double c1 = shift_factors_value(shifts, SHIFT_FACTORS_KEY_WLF_C1).value,
+                 c2 = shift_factors_value(shifts, SHIFT_FACTORS_KEY_WLF_C2).value,
+                 energy = shift_factors_value(shifts, SHIFT_FACTORS_KEY_ACTIVATION_ENERGY).value,
+                 joint = shift_factors_value(shifts, SHIFT_FACTORS_KEY_JOINT).value,
+                 offset = shift_factors_value(shifts, SHIFT_FACTORS_KEY_OFFSET).value,
+                 reference =
+                     shift_factors_value(shifts, SHIFT_FACTORS_KEY_REFERENCE_TEMPERATURE).value;
+    const bool has_wlf = isfinite(c1) && isfinite(c2), has_energy = isfinite(energy);
+    if ((!has_wlf && !has_energy) || !isfinite(reference) || !isfinite(offset))
+        return false;
+    /* K and degrees Celsius; WLF above the joint, Arrhenius below it */
+    const double at = isfinite(joint) ? joint - WT_ZERO_CELSIUS : has_wlf ? -300 : 1e6;
+    text_format(&d->script, "c1 = %s; c2 = %s; t_ref = %s; offset = %s\n",
+                LITERAL(has_wlf ? c1 : 0), LITERAL(has_wlf ? c2 : 1),
+                LITERAL(reference - WT_ZERO_CELSIUS), LITERAL(offset));
+    text_format(&d->script, "slope = %s; joint = %s; t_low = %s; t_high = %s\n",
+                LITERAL(has_energy ? energy / (8.31446261815324 * M_LN10) : 0), LITERAL(at),
+                LITERAL(d->x.low - WT_ZERO_CELSIUS), LITERAL(d->x.high - WT_ZERO_CELSIUS));
+    text_add(&d->script,
+             "upper(t) = t > joint ? t : joint\nlower(t) = t < joint ? t : joint\n"
+             "wlf(t) = -c1*(t - t_ref)/(c2 + t - t_ref)\n"
+             "arrhenius(t) = slope/(t + 273.15)\n"
+             "warm(t) = c1 == 0 ? 0 : wlf(upper(t)) - wlf(upper(t_ref))\n"
+             "cold(t) = slope == 0 ? 0 : arrhenius(lower(t)) - arrhenius(lower(t_ref))\n"
+             "law(t) = t < t_low || t > t_high ? NaN : offset + warm(t) + cold(t)\n"
+             "set samples 400\n");
+    return true;
+}
+
+static size_t count_undetermined(const table_view *shift_factors)
+{
+    size_t n = 0;
+    for (size_t row = 0; row < shift_factors->n_rows; row++)
+        n += shift_factors_get(shift_factors, row, SHIFT_FACTORS_DETERMINED) == 0;
+    return n;
+}
+
+/* What the law leaves of the shifts: columns of shift, its error and the law. */
+static value_span span_residual(const figure_drawing *d, double offset)
+{
+    const wt_table *data = d->sections[d->data[0]];
+    value_span span = SPAN_EMPTY;
+    for (size_t row = 0; row < wt_table_n_rows(data); row++) {
+        const double law = wt_table_number(data, row, 4), error = wt_table_number(data, row, 2);
+        const double left = wt_table_number(data, row, 1) - offset - law;
+        span_add(&span, left - error, false);
+        span_add(&span, left + error, false);
+        span_add(&span, wt_table_number(data, row, 5) - law, false);
+        span_add(&span, wt_table_number(data, row, 6) - law, false);
+    }
+    span_add(&span, 0, false);
+    return span;
+}
+
+static void plot_residual(figure_drawing *d)
+{
+    const double offset = shift_factors_value(d->table, SHIFT_FACTORS_KEY_OFFSET).value;
+    drawing_axis(d, "y", &d->figure->y[1], NULL, span_residual(d, offset));
+    text_add(&d->script, "unset key\nset ylabel 'Residual, log_{10} a_T' enhanced\n");
+    plot_item(d, d->data[0], "($1+x_offset):($6-$5):($7-$5) with filledcurves ls 61 notitle");
+    plot_other(d, "0 with lines ls 11 notitle");
+    plot_item(d, d->data[0],
+              "($1+x_offset):($4 == 0 ? NaN : $2-offset-$5):3 with yerrorbars ls 1 notitle");
+    plot_end(d);
+}
+
+/* Shifts with their law above, what it leaves of them below. */
+static void draw_shift_factors(figure_drawing *d)
+{
+    if (!drawing_data(d))
+        return;
+    drawing_axes(d);
+    text_add(&d->script, "set ylabel 'Shift factor, log_{10} a_T' enhanced\n");
+    const bool law = define_law(d);
+    if (law) {
+        d->height = 1.6;
+        text_add(&d->script, "set multiplot layout 2,1\n");
+        plot_item(d, d->data[0],
+                  "($1+x_offset):($6+offset):($7+offset) with filledcurves ls 61 notitle");
+        plot_other(d, "law(x) with lines ls 11 title 'fitted law'");
+    }
+    plot_item(d, d->data[0],
+              "($1+x_offset):($4 == 0 ? NaN : $2):3 with yerrorbars ls 1 title 'from overlap'");
+    if (count_undetermined(d->table) > 0)
+        plot_item(d, d->data[0],
+                  "($1+x_offset):($4 == 0 ? $2 : NaN) with points ls 14 title "
+                  "'too little overlap'");
+    plot_end(d);
+    if (!law)
+        return;
+    plot_residual(d);
+    text_add(&d->script, "unset multiplot\n");
+}
+
+static void caption_shift_factors(figure_drawing *d)
+{
+    size_t undetermined = count_undetermined(d->table);
+    const wt_estimate c1 = shift_factors_value(d->table, SHIFT_FACTORS_KEY_WLF_C1),
+                      c2 = shift_factors_value(d->table, SHIFT_FACTORS_KEY_WLF_C2),
+                      energy = shift_factors_value(d->table, SHIFT_FACTORS_KEY_ACTIVATION_ENERGY);
+    const char *verdict = shift_factors_words(d->table, SHIFT_FACTORS_KEY_SUPERPOSITION);
+    if (isfinite(c1.value))
+        text_format(&d->caption,
+                    " Line: WLF law with C₁ = %s and C₂ = %s, with the offset of the reference "
+                    "isotherm that was fitted; band: its 95 %% interval.",
+                    ESTIMATE(&c1), ESTIMATE(&c2));
+    if (isfinite(energy.value))
+        text_format(&d->caption, " Arrhenius%s with %s.", isfinite(c1.value) ? " in the cold" : "",
+                    ESTIMATE(&energy));
+    text_format(&d->caption, " Time-temperature superposition: %s.", verdict);
+    if (undetermined > 0)
+        text_format(&d->caption, " Not determined by overlap: %zu of %zu isotherms.", undetermined,
+                    d->table->n_rows);
+}
+
+/* ---- vertical shifts ------------------------------------------------------------------------- */
+
+static void draw_vertical_shifts(figure_drawing *d)
+{
+    const char *vertical = shift_factors_words(d->table, SHIFT_FACTORS_KEY_VERTICAL);
+    if (d->table->n_rows < 2 || strcmp(vertical, "none") == 0 || !drawing_data(d))
+        return;
+    drawing_axes(d);
+    text_add(&d->script, "set ylabel 'Shift factor, log_{10} b_T' enhanced\n");
+    plot_item(d, d->data[0], "($1+x_offset):4 with lines ls 12 title 'rubber elasticity'");
+    plot_item(d, d->data[0], "($1+x_offset):5 with lines ls 11 title 'material'");
+    plot_item(d, d->data[0], "($1+x_offset):2:3 with yerrorbars ls 1 title 'isotherms'");
+    plot_end(d);
+}
+
+static void caption_vertical_shifts(figure_drawing *d)
+{
+    double most = 0;
+    for (size_t row = 0; row < d->table->n_rows; row++) {
+        const double off = shift_factors_get(d->table, row, SHIFT_FACTORS_LOG_B) -
+                           shift_factors_get(d->table, row, SHIFT_FACTORS_LOG_B_PHYSICAL);
+        most = fmax(most, isfinite(off) ? fabs(off) : 0);
+    }
+    text_format(&d->caption,
+                " A good one is smooth, and near the line of rubber elasticity above the glass "
+                "transition; here the isotherms are off it by up to %.2g decade. A filler that "
+                "softens with temperature or a clamp that yields leads away from it.",
+                most);
+}
+
+/* ---- descriptions ---------------------------------------------------------------------------- */
+
+/* Of the planes: the data are the same. */
+#define PLANE                                                                                      \
+    .table = &master_curve_schema, .data_title = "master curve",                                   \
+    .x = {MASTER_CURVE_ANGULAR_FREQUENCY, AXIS_LOG, "Reduced angular frequency"},                  \
+    .y = {{MASTER_CURVE_STORAGE_MODULUS, AXIS_LOG, "Storage modulus"}},                            \
+    .colour = {MASTER_CURVE_TEMPERATURE, AXIS_LINEAR, "Temperature"},                              \
+    .nothing = "no point of the master curve has numbers above zero",                              \
+    .curves = {CURVE(MASTER_CURVE_STORAGE_MODULUS, OWN), CURVE(MASTER_CURVE_LOSS_MODULUS, OWN),    \
+               CURVE(MASTER_CURVE_TEMPERATURE, DATA), CURVE(MASTER_CURVE_FITTED_STORAGE, DATA),    \
+               CURVE(MASTER_CURVE_FITTED_LOSS, DATA)}
+
+const figure_description figures_master[] = {
+    {.name = "isotherms",
+     .title = "Isotherms before shifting",
+     .table = &master_curve_schema,
+     .data_title = "isotherms",
+     .x = {MASTER_CURVE_OWN_FREQUENCY, AXIS_LOG, "Angular frequency"},
+     .y = {{MASTER_CURVE_OWN_STORAGE, AXIS_LOG, "Storage and loss modulus"}},
+     .colour = {MASTER_CURVE_TEMPERATURE, AXIS_LINEAR, "Temperature"},
+     .curves = {CURVE(MASTER_CURVE_OWN_STORAGE, OWN), CURVE(MASTER_CURVE_OWN_LOSS, OWN),
+                CURVE(MASTER_CURVE_TEMPERATURE, DATA)},
+     .nothing = "no point of the isotherms has numbers above zero",
+     .words =
+         "Storage and loss modulus at the temperature of each isotherm, and tan δ below, before "
+         "any shift; the colours are those of the master curve.",
+     .draw = draw_isotherms,
+     .caption = caption_isotherms},
+    {.name = "master_curve",
+     .title = "Master curve",
+     .table = &master_curve_schema,
+     .beside = "prony",
+     .data_title = "master curve",
+     .x = {MASTER_CURVE_ANGULAR_FREQUENCY, AXIS_LOG, "Reduced angular frequency"},
+     .y = {{MASTER_CURVE_STORAGE_MODULUS, AXIS_LOG, "Storage and loss modulus"}},
+     .colour = {MASTER_CURVE_TEMPERATURE, AXIS_LINEAR, "Temperature"},
+     .curves = {CURVE(MASTER_CURVE_STORAGE_MODULUS, OWN), CURVE(MASTER_CURVE_LOSS_MODULUS, OWN),
+                CURVE(MASTER_CURVE_TEMPERATURE, DATA),
+                CURVE(MASTER_CURVE_FITTED_STORAGE, DATA, .with_errors = true),
+                CURVE(MASTER_CURVE_FITTED_LOSS, DATA, .with_errors = true),
+                CURVE(MASTER_CURVE_FITTED_LOSS_FACTOR, DATA, .with_errors = true)},
+     .nothing = "no point of the master curve has numbers above zero",
+     .words = "Storage and loss modulus shifted to the reference temperature",
+     .draw = draw_master_curve,
+     .caption = caption_master_curve},
+    {.name = "shift_factors",
+     .title = "Shift factors",
+     .table = &shift_factors_schema,
+     .data_title = "shift factors",
+     .x = {SHIFT_FACTORS_TEMPERATURE, AXIS_LINEAR, "Temperature"},
+     .y = {{SHIFT_FACTORS_LOG_A, AXIS_NUMBER, "Shift factor, log₁₀ a_T"},
+           {SHIFT_FACTORS_LAW_LOG_A, AXIS_NUMBER, "Residual, log₁₀ a_T"}},
+     .curves = {CURVE(SHIFT_FACTORS_LOG_A, OWN, .with_errors = true),
+                CURVE(SHIFT_FACTORS_DETERMINED, DATA), CURVE(SHIFT_FACTORS_LAW_LOG_A, OWN),
+                CURVE(SHIFT_FACTORS_LAW_LOG_A_LOW, DATA),
+                CURVE(SHIFT_FACTORS_LAW_LOG_A_HIGH, DATA)},
+     .nothing = "no shift factor is known",
+     .words = "Horizontal shift factors with one standard error (bars; smaller than the symbol "
+              "where not seen).",
+     .draw = draw_shift_factors,
+     .caption = caption_shift_factors},
+    {.name = "vertical_shifts",
+     .title = "Vertical shift factors",
+     .table = &shift_factors_schema,
+     .data_title = "vertical shift factors",
+     .x = {SHIFT_FACTORS_TEMPERATURE, AXIS_LINEAR, "Temperature"},
+     .y = {{SHIFT_FACTORS_LOG_B, AXIS_NUMBER, "Shift factor, log₁₀ b_T"}},
+     .curves = {CURVE(SHIFT_FACTORS_LOG_B, OWN, .with_errors = true),
+                CURVE(SHIFT_FACTORS_LOG_B_PHYSICAL, OWN), CURVE(SHIFT_FACTORS_LOG_B_MATERIAL, OWN)},
+     .nothing = "there is no vertical shift",
+     .words = "Vertical shift factors of the isotherms with one standard error, what is smooth in "
+              "them, which is taken for the material, and what density and temperature alone would "
+              "give.",
+     .draw = draw_vertical_shifts,
+     .caption = caption_vertical_shifts},
+    {.name = "van_gurp_palmen",
+     .title = "Superposition: van Gurp-Palmen plot",
+     PLANE,
+     .words = "Phase angle against the size of the modulus, shifted vertically only: frequency and "
+              "horizontal shift do not enter. In a good one the isotherms lie on one line; where "
+              "they fan out with temperature no horizontal shift can join them.",
+     .draw = draw_van_gurp_palmen},
+    {.name = "wicket",
+     .title = "Superposition: wicket plot",
+     PLANE,
+     .words = "tan δ against the storage modulus, shifted vertically only. In a good one all "
+              "temperatures lie on one line, over a glass transition an arch, the wicket; single "
+              "points beside it are outliers, an isotherm beside it was measured on a changed "
+              "sample or at the limit of the instrument.",
+     .draw = draw_wicket},
+    {.name = "cole_cole",
+     .title = "Superposition: Cole-Cole plot",
+     PLANE,
+     .words =
+         "Loss against storage modulus on linear axes, shifted vertically only, which shows the "
+         "stiff end. In a good one the isotherms follow one arc without steps; a glass that "
+         "the clamps or the instrument could not hold bends away from it.",
+     .draw = draw_cole_cole},
+    {.name = NULL},
+};
