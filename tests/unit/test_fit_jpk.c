@@ -201,7 +201,9 @@ static void awkward_curves(void **state)
                      answers[0].reason);
     }
     /* The tilt is what the offset-only fit of this curve could not describe: R^2 0.987 there. */
-    assert_true(answers[0].baseline_tilt.value > 10 * answers[0].baseline_tilt.standard_error);
+    /* 93 errors, which hold what its bend may do to the tilt; by white noise alone it is far more.
+     */
+    assert_true(answers[0].baseline_tilt.value > 80 * answers[0].baseline_tilt.standard_error);
 }
 
 /* Curves with a second contact point in sums over a few hundred means of neighbours, or in

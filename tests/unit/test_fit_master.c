@@ -287,24 +287,39 @@ static void an_isotherm_of_another_temperature_is_named(void **state)
     wt_sweep_clear(&sweep);
 }
 
+/* The law that the others tell holds it, too, so that its error is two to three times theirs and
+ * not eight times; of one draw the ratio is anything from 1.6 to 5. */
 static void an_isotherm_with_more_noise_weighs_less(void **state)
 {
     (void)state;
-    const scene s = {usual(), 243.15, 333.15, 10, 0.005, 0, 19, 0, 0};
-    wt_sweep sweep = {0};
-    uint64_t state_of_noise = 23;
-    measure(&s, &sweep);
-    for (size_t k = 0; k < 13; k++) {
-        sweep.isotherms[3].storage_modulus[k] *= exp(0.04 * dma_normal(&state_of_noise));
-        sweep.isotherms[3].loss_modulus[k] *= exp(0.04 * dma_normal(&state_of_noise));
+    enum { DRAWS = 6, LOUD = 3, CALM = 6 };
+    double errors[2] = {0, 0}, factors = 0;
+    size_t named = 0;
+    tally inside = {0, 0};
+    for (uint64_t draw = 0; draw < DRAWS; draw++) {
+        const scene s = {usual(), 243.15, 333.15, 10, 0.005, 0, 19 + 1000 * draw, 0, 0};
+        wt_sweep sweep = {0};
+        uint64_t state_of_noise = 23 + 77 * draw;
+        measure(&s, &sweep);
+        for (size_t k = 0; k < 13; k++) {
+            sweep.isotherms[LOUD].storage_modulus[k] *= exp(0.04 * dma_normal(&state_of_noise));
+            sweep.isotherms[LOUD].loss_modulus[k] *= exp(0.04 * dma_normal(&state_of_noise));
+        }
+        wt_master m = fit(&sweep);
+        const wt_master_shift *loud = &m.shifts[LOUD];
+        factors += loud->noise_factor / DRAWS;
+        named += strstr(loud->note, "times the noise of the others") != NULL;
+        assert_true(m.noise_storage < 0.01);
+        errors[0] += loud->log_a.standard_error;
+        errors[1] += m.shifts[CALM].log_a.standard_error;
+        count(&inside, loud->log_a, wt_shift_law_log_a(&s.material.law[0], loud->temperature));
+        wt_master_clear(&m);
+        wt_sweep_clear(&sweep);
     }
-    wt_master m = fit(&sweep);
-    assert_true(m.shifts[3].noise_factor > 3);
-    assert_non_null(strstr(m.shifts[3].note, "times the noise of the others"));
-    assert_true(m.noise_storage < 0.01);
-    assert_true(m.shifts[3].log_a.standard_error > 1.2 * m.shifts[6].log_a.standard_error);
-    wt_master_clear(&m);
-    wt_sweep_clear(&sweep);
+    assert_true(factors > 3);
+    assert_true(named + 1 >= DRAWS);
+    assert_true(errors[0] > 2 * errors[1]);
+    assert_true(inside.inside + 1 >= DRAWS);
 }
 
 /* ---- laws ------------------------------------------------------------------------------------ */

@@ -155,7 +155,8 @@ static void test_no_track(void **state)
     assert_null(wt_result_find(result, "comparison"));
     assert_non_null(groups);
     assert_int_equal(wt_table_n_rows(groups), 2);
-    assert_true(number_cell(groups, 0, "n") > 0);
+    /* Of 16; the others have a bent baseline or adhesion that no law describes. */
+    assert_near(number_cell(groups, 0, "n"), 5, 0);
     assert_near(number_cell(groups, 1, "n"), 0, 0);
     assert_non_null(
         strstr(text_cell(wt_result_find(result, "answer"), 0, "answer"), "Not answered"));

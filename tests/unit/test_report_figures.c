@@ -333,7 +333,13 @@ static void test_incubation_is_marked_where_the_curve_shows_it(void **state)
     (void)state;
     NEED_REPORT();
     char *script = read_plot("out", "layer", "gp");
-    assert_non_null(strstr(script, "set label 'incubation' at 1.204"));
+    const wt_table *const layer = wt_result_find(fixture_produced(), "layer");
+    wt_estimate incubation;
+    const char *label = strstr(script, "set label 'incubation' at ");
+    assert_non_null(label);
+    assert_true(wt_table_estimate(layer, "incubation_time", &incubation));
+    assert_near(strtod(label + strlen("set label 'incubation' at "), NULL), incubation.value, 1e-6);
+    assert_near(incubation.value, 1.2, 0.02);
     free(script);
     const fixture_change change = {"layer", .edit = grow_at_once};
     wt_result *result = fixture_with(&change);
