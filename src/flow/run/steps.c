@@ -293,11 +293,16 @@ wt_status flow_step_ramp(flow_run *run, wt_error *err)
     }
     job.sets = run->c->dma.sets;
     job.n_sets = run->c->dma.n;
+    wt_table *again = NULL;
     if (run->plan.chosen[FLOW_STAGE_MASTER_CURVE]) {
         work.log = NULL;
         work.provenance = NULL;
+        work.failures = again = wt_failures_new();
+        if (again == NULL)
+            return wt_fail(err, WT_E_MEMORY, "out of memory");
     }
     const wt_status status = wt_ramp_make(&job, &work, &tables, err);
+    wt_table_free(again);
     keep(run, FLOW_RAMP, &tables.ramp);
     keep(run, FLOW_GLASS_TRANSITION, &tables.glass_transition);
     keep(run, FLOW_MODULI_AT, &tables.moduli_at);
