@@ -81,10 +81,10 @@ void page_results(page_writer *page)
     const bound_tables *t = page->tables;
     const table_view *const shown[] = {&t->modulus_groups,   &t->modulus_depth, &t->comparison,
                                        &t->dma_comparison,   &t->shift_factors, &t->prony,
-                                       &t->glass_transition, &t->moduli_at,     &t->roughness,
-                                       &t->friction,         &t->layer,         &t->what_if,
-                                       &t->error_budget,     &t->coverage,      &t->work_precision,
-                                       &t->directions};
+                                       &t->glass_transition, &t->moduli_at,     &t->payne,
+                                       &t->roughness,        &t->friction,      &t->layer,
+                                       &t->what_if,          &t->error_budget,  &t->coverage,
+                                       &t->work_precision,   &t->directions};
     bool any = false;
     for (size_t i = 0; i < COUNT_OF(shown) && !any; i++)
         any = shown[i]->table != NULL;
@@ -110,6 +110,7 @@ void page_results(page_writer *page)
                      "Glass transition: temperatures of the peaks at each frequency", NULL, 0);
     page_keys(page, &t->glass_transition, "Glass transition: where");
     page_whole_table(page, &t->moduli_at, "Moduli at temperatures", NULL, 0);
+    page_whole_table(page, &t->payne, "Softening with strain (Payne effect)", NULL, 0);
     page_keys(page, &t->roughness, "Counter surface");
     friction_table(page);
     page_keys(page, &t->friction, "Conditions of the friction");

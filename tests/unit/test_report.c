@@ -592,6 +592,34 @@ static void test_only_reports_are_replaced(void **state)
     wt_result_free(result);
 }
 
+/* A page of strain sweeps has their numbers, though no figure draws them. */
+static void test_strain_sweeps(void **state)
+{
+    (void)state;
+    static const char *const file[] = {WT_SOURCE_DIR "/fixtures/formats/tidy/strain-sweeps.csv"};
+    const wt_file_set set = {.patterns = file, .n_patterns = 1, .read = wt_read_defaults()};
+    wt_payne_job job = wt_payne_job_defaults();
+    wt_job work = wt_job_defaults();
+    wt_formats *formats = NULL;
+    wt_payne_tables tables = {0};
+    wt_result *result = wt_result_new();
+    assert_int_equal(wt_formats_new(NULL, &formats, NULL, NULL), WT_OK);
+    work.formats = formats;
+    job.sets = &set;
+    job.n_sets = 1;
+    assert_int_equal(wt_payne_make(&job, &work, &tables, NULL), WT_OK);
+    assert_int_equal(wt_result_add(result, tables.payne, NULL), WT_OK);
+    wt_table_free(tables.payne_sweep);
+    wt_formats_free(formats);
+    write_report(result, "out", NULL);
+    size_t length = 0;
+    char *page = read_all("out/index.html", &length);
+    assert_non_null(strstr(page, "Storage modulus, smallest strain"));
+    assert_non_null(strstr(page, ">4.87</td>"));
+    free(page);
+    wt_result_free(result);
+}
+
 /* Permissions, of the folder too, are those of the older report. */
 static void test_modes_stay(void **state)
 {
@@ -701,6 +729,7 @@ int main(void)
         cmocka_unit_test(test_the_man_pages_name_every_figure),
         cmocka_unit_test_setup_teardown(test_everything, make_workplace, remove_workplace),
         cmocka_unit_test_setup_teardown(test_page, make_workplace, remove_workplace),
+        cmocka_unit_test_setup_teardown(test_strain_sweeps, make_workplace, remove_workplace),
         cmocka_unit_test_setup_teardown(test_tables_on_the_page, make_workplace, remove_workplace),
         cmocka_unit_test_setup_teardown(test_the_median_decides_the_unit, make_workplace,
                                         remove_workplace),

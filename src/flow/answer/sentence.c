@@ -132,6 +132,24 @@ static void say_transition(sentence *s, const table_view *v)
     }
 }
 
+static void say_payne(sentence *s, const table_view *v)
+{
+    enum { MOST = 3 };
+    for (size_t i = 0; i < v->n_rows && i < MOST; i++) {
+        const double tenth = payne_get(v, i, PAYNE_STRAIN_TENTH);
+        next(s);
+        say(s, "at %s the storage modulus goes from %s to %s, between strains of %.2g and %.2g %%",
+            words_of(payne_get(v, i, PAYNE_ANGULAR_FREQUENCY), "rad/s").text,
+            words_of(payne_get(v, i, PAYNE_STORAGE_START), "Pa").text,
+            words_of(payne_get(v, i, PAYNE_STORAGE_END), "Pa").text,
+            100 * payne_get(v, i, PAYNE_STRAIN_MIN), 100 * payne_get(v, i, PAYNE_STRAIN_MAX));
+        if (!isnan(tenth))
+            say(s, "; a tenth is lost at %.2g %%", 100 * tenth);
+    }
+    if (v->n_rows > MOST)
+        say(s, "; %zu more strain sweeps", v->n_rows - MOST);
+}
+
 static void say_friction(sentence *s, const table_view *v)
 {
     if (v->table == NULL)
@@ -181,9 +199,13 @@ size_t wt_result_sentence(const wt_result *result, char *buffer, size_t size)
     static const struct {
         const table_schema *schema;
         void (*say)(sentence *s, const table_view *view);
-    } parts[] = {{&modulus_groups_schema, say_groups},  {&comparison_schema, say_ratio},
-                 {&shift_factors_schema, say_material}, {&glass_transition_schema, say_transition},
-                 {&friction_schema, say_friction},      {&layer_schema, say_layer}};
+    } parts[] = {{&modulus_groups_schema, say_groups},
+                 {&comparison_schema, say_ratio},
+                 {&shift_factors_schema, say_material},
+                 {&glass_transition_schema, say_transition},
+                 {&payne_schema, say_payne},
+                 {&friction_schema, say_friction},
+                 {&layer_schema, say_layer}};
     sentence s = {.text = buffer, .size = size, .result = result};
     const locale_t previous = clocale_enter();
     if (size > 0)
