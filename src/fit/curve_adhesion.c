@@ -179,7 +179,8 @@ void curve_read_retract(curve_fitting *f, const double *height, const double *fo
         scratch[i] = s->force[i] - curve_baseline(&f->solution, s->position[i]);
     const double in = work_along(s->position, scratch, f->input.n_all, c, top);
     const double share = (in - back) / (in - lever_work(f, top));
-    if (share < most_loss) /* else the sample took too little of the work to say */
+    /* Else the sample took too little of the work to say. */
+    if (share > 1.0 - most_loss && share < most_loss)
         f->loss = share;
 }
 

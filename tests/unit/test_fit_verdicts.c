@@ -527,6 +527,7 @@ static void loss_of_the_sample(void **state)
     assert_true((work - lever) / work < 0.25);
     assert_near(loss_of(&t, 0.97, 0), 0.03 * work / (work - lever), 0.05);
     assert_true(isnan(loss_of(&t, 0.7, 0)));
+    assert_true(isnan(loss_of(&t, 1.3, 0)));     /* nor does a sample give more than it took */
     assert_near_abs(loss_of(&t, 1, 5), 0, 0.01); /* what is not there is not lost */
 }
 

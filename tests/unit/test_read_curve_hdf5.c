@@ -222,6 +222,15 @@ static void odd_nanosurf(void **state)
         (const double[5]){(double)NAN, (double)NAN, (double)NAN, (double)NAN, (double)NAN};
     assert_int_equal(nhf_write(&f), 0);
     refused(WT_E_CORRUPT, "the calibration of a channel is not understood");
+    /* More segments than there is room for are not left out in silence. */
+    f = nanosurf(2);
+    static nhf_writer_segment many[17];
+    for (size_t s = 0; s < 17; s++)
+        many[s] = segments[s % 2];
+    f.n_segments = 17;
+    f.segments = many;
+    assert_int_equal(nhf_write(&f), 0);
+    refused(WT_E_CORRUPT, "more segments than any");
     /* A channel of six samples for curves of five. */
     f = nanosurf(2);
     segments[0].sizes = cut_sizes;

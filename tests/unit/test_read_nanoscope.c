@@ -165,6 +165,15 @@ static void oddities(void **state)
     assert_true(isnan(channel(&r.curve.segments[0], WT_Q_FORCE)[2]));
     assert_true(logged(&r, "1 samples of curve 0 were not measured"));
     close_all(&r);
+    /* The mark of 16 bits is a number like any other in 32. */
+    f = usual(0, false);
+    f.width = 4;
+    volts[2] = -32768 * step;
+    assert_int_equal(nanoscope_write(&f), 0);
+    assert_int_equal(open_force(&r, path, NULL), WT_OK);
+    next_curve(&r);
+    assert_near(channel(&r.curve.segments[0], WT_Q_DEFLECTION_VOLTAGE)[2], volts[2], 1e-12);
+    close_all(&r);
     /* A trigger that the deflections contradict. */
     f = usual(0, false);
     f.trigger = 0.1;

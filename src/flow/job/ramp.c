@@ -237,7 +237,7 @@ typedef struct writers {
     table_writer ramp, transition, moduli;
 } writers;
 
-/* Keys of the frequency nearest to 1 Hz that has a peak of tan delta, or of any. */
+/* Keys of the frequency nearest to 1 Hz that has a peak. */
 static void set_keys(table_writer *t, double frequency, const peaks *best)
 {
     const wt_interval *factor = &best->factor.at, *loss = &best->loss.at;

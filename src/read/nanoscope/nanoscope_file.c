@@ -269,9 +269,9 @@ double nanoscope_count(const nanoscope_file *f, const nanoscope_channel *channel
 {
     const unsigned char *at =
         f->bytes + channel->offset + channel->width * (curve * samples(f) + place_of(f, i));
-    const double count =
-        channel->width == 2 ? (double)signed16(le16(at)) : (double)signed32(le32(at));
-    return count == -most_counts || count == -2147483648.0 ? (double)NAN : count;
+    const bool narrow = channel->width == 2;
+    const double count = narrow ? (double)signed16(le16(at)) : (double)signed32(le32(at));
+    return count == (narrow ? -most_counts : -0x1p31) ? (double)NAN : count;
 }
 
 /* Volts between the end of the way in and its beginning, the median over the curves not needed: the

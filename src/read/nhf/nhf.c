@@ -171,11 +171,14 @@ static wt_status read_measurement(const nhf_file *f, hid_t group, measurement *m
     m->cantilever = (wt_cantilever){
         .spring_constant = positive(group, "spm_probe_calibration_spring_constant"),
         .sensitivity = positive(group, "spm_probe_calibration_deflection_sensitivity")};
-    for (size_t i = 0; status == WT_OK && hdf5_link(group, i, name) && m->n_segments < SEGMENTS;
-         i++) {
-        nhf_segment *s = &m->segments[m->n_segments];
+    for (size_t i = 0; status == WT_OK && hdf5_link(group, i, name); i++) {
         const hid_t inner = hdf5_open_group(group, name);
         if (inner >= 0 && hdf5_text(inner, f->old ? "name" : "segment_name", title)) {
+            if (m->n_segments == SEGMENTS) {
+                hdf5_close(inner);
+                return bad(name, "a measurement of more segments than any has", "16 or fewer", err);
+            }
+            nhf_segment *s = &m->segments[m->n_segments];
             const double order = hdf5_number(inner, "segment_index", 0);
             *s =
                 (nhf_segment){.kind = kind_of(title), .order = isfinite(order) ? order : (double)i};
