@@ -109,7 +109,9 @@ typedef struct wt_isotherm {
     double *loss_modulus;      /* [n] Pa */
     double *strain;            /* [n] or NULL */
     char source[128];          /* file and step it came from */
-    uint64_t reserved[8];
+    double given_log_a;        /* log10 of the horizontal shift, if it is given */
+    bool shift_given;          /* differences of given shifts count, and are not fitted */
+    uint64_t reserved[6];
 } wt_isotherm;
 
 /* Moduli against temperature at one frequency, heated or cooled once. */

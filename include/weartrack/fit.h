@@ -372,6 +372,14 @@ typedef enum wt_vertical_shift {
                         temperature; how far is averaged over */
 } wt_vertical_shift;
 
+/* What the spectrum is fitted to and the isotherms are shifted by. */
+typedef enum wt_shift_by {
+    WT_BY_MODULI,     /* both, or what was measured of all isotherms */
+    WT_BY_STORAGE,    /* E' or G' alone */
+    WT_BY_LOSS,       /* E'' or G'' alone: the equilibrium modulus, and so E', stay unknown */
+    WT_BY_LOSS_FACTOR /* tan delta alone: no level of the moduli, no vertical shift */
+} wt_shift_by;
+
 typedef struct wt_master_options {
     double reference_temperature; /* [K]; need not be a measured isotherm; NaN (default): the
                                      isotherm in the middle */
@@ -380,6 +388,7 @@ typedef struct wt_master_options {
     double terms_per_decade; /* of the spectrum; NaN (default): 3, or 10 if it is sharp lines */
     bool liquid;             /* equilibrium modulus 0 */
     bool series_only;        /* no moduli of the spectrum at the points (NaN) and no verdict */
+    wt_shift_by shift_by;    /* default MODULI */
     uint64_t reserved[8];
 } wt_master_options;
 WT_API wt_master_options wt_master_options_defaults(void);
@@ -469,6 +478,13 @@ WT_API wt_status wt_master_fit(const wt_sweep *sweep, const wt_master_options *o
 /* log10 aT of the law at a temperature; NaN without a law, and beyond the isotherms where fewer
  * than four tell it. */
 WT_API wt_interval wt_master_law(const wt_master *master, double temperature);
+/* log10 aT of an isotherm by the closed form of ISO 18437-6, for comparison: storage moduli alone,
+ * neighbour by neighbour, without a vertical shift. NaN where neighbours share too little. */
+WT_API double wt_master_closed_form(const wt_master *master, size_t isotherm);
+/* What the spectrum was fitted to: MODULI only where both were measured. */
+WT_API wt_shift_by wt_master_shifted_by(const wt_master *master);
+/* tan delta as measured at point i of the master curve; NaN if it was not. */
+WT_API double wt_master_loss_factor(const wt_master *master, size_t i);
 /* log10 E', log10 E'' [Pa] at the reference temperature. */
 WT_API void wt_master_moduli(const wt_master *master, double angular_frequency,
                              wt_interval *log_storage, wt_interval *log_loss);

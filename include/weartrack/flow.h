@@ -182,9 +182,16 @@ WT_API wt_status wt_modulus_groups(const wt_table *const *indentation, size_t n,
 typedef struct wt_master_job {
     const wt_file_set *sets;
     size_t n_sets;
-    wt_master_options fit; /* reference_temperature NaN: the isotherm in the middle */
-    double poisson_ratio;  /* of the rubber; default 0.5 */
-    uint64_t reserved[7];
+    wt_master_options fit;        /* reference_temperature NaN: the isotherm in the middle */
+    double poisson_ratio;         /* of the rubber; default 0.5 */
+    const char *const *leave_out; /* "temperature:LOW..HIGH" or "frequency:LOW..HIGH", where either
+                                     end may be missing, or one value in its place */
+    size_t n_leave_out;
+    const char *shift_law;  /* "wlf:reference-temperature=T,c1=X,c2=X" or
+                               "arrhenius:activation-energy=E" that all shifts follow; or NULL */
+    const wt_table *shifts; /* columns temperature and log_a of shifts that are not fitted,
+                               borrowed; or NULL */
+    uint64_t reserved[3];
 } wt_master_job;
 WT_API wt_master_job wt_master_job_defaults(void);
 WT_API const wt_params *wt_master_job_params(void);

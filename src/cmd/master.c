@@ -1,6 +1,29 @@
 /* weartrack master: shift factors, master curve, WLF and Prony series.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cmd/cmd.h"
+#include "cmd/tables.h"
+
+typedef struct saved_shifts {
+    const char *read, *written;
+} saved_shifts;
+
+static const wt_param saved_rows[] = {
+    {PARAM_TEXT_OF("shifts", saved_shifts, read), .value = "FILE", .unset = "fitted",
+     .help =
+         "table with columns temperature and log_a, as --save-shifts writes it: these shifts are "
+         "not fitted, those of other isotherms are; - is standard input"},
+    {PARAM_TEXT_OF("save-shifts", saved_shifts, written), .value = "FILE", .unset = "",
+     .help = "write the table shift_factors there too, as a text stream"},
+};
+CMD_OPTIONS(saved_params, saved_shifts, saved_rows)
+
+static wt_status save_shifts(const char *path, const wt_table *shifts, wt_error *err)
+{
+    cmd_sink sink;
+    wt_status status = cmd_sink_open(path, &sink, err);
+    if (status == WT_OK)
+        status = wt_stream_write(sink.stream, shifts, NULL, err);
+    return cmd_sink_close(&sink, status, err);
+}
 
 int cmd_master(int argc, char **argv)
 {
@@ -17,22 +40,37 @@ int cmd_master(int argc, char **argv)
         .n_files = CMD_SOME};
     wt_master_job job = wt_master_job_defaults();
     wt_file_set set = {.read = wt_read_defaults()};
+    saved_shifts saved = {NULL, NULL};
     cmd_part parts[] = {{wt_master_job_params(), &job,
-                         "reference-temperature vertical-shift expansion terms-per-decade liquid",
+                         "reference-temperature vertical-shift expansion terms-per-decade liquid "
+                         "shift-by leave-out shift-law",
                          0},
+                        {saved_params(), &saved, NULL, 0},
                         {wt_read_params(), &set.read, "temperature units format sheet", 0}};
     cmd_session s = cmd_session_defaults();
     wt_master_tables tables = {0};
+    wt_result *given = NULL;
     if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv) || !cmd_begin_files(&s, &set))
         goto done;
     job.sets = &set;
     job.n_sets = 1;
     wt_cost_stage(s.cost, "master_curve");
-    const wt_status made = wt_master_make(&job, &s.work, &tables, NULL, &s.err);
+    wt_status made = WT_OK;
+    if (saved.read != NULL)
+        made = cmd_tables_read(saved.read, &given, &s.err);
+    if (given != NULL) /* all that master wrote, or a table of the user's own */
+        job.shifts = wt_result_find(given, "shift_factors");
+    if (given != NULL && job.shifts == NULL)
+        job.shifts = wt_result_table(given, 0);
+    if (made == WT_OK)
+        made = wt_master_make(&job, &s.work, &tables, NULL, &s.err);
+    if (made == WT_OK && saved.written != NULL)
+        made = save_shifts(saved.written, tables.shift_factors, &s.err);
     wt_table **const made_tables[] = {&tables.prony, &tables.shift_factors, &tables.master_curve,
                                       &tables.material_draws, &tables.series_draws};
     cmd_finish(&s, made, made_tables, COUNT_OF(made_tables));
 done:
     wt_master_tables_clear(&tables);
+    wt_result_free(given);
     return cmd_session_free(&s);
 }

@@ -4,6 +4,7 @@
 #include "fit/master.h"
 
 #include "base/param.h"
+#include "fit/closed_form.h"
 #include "fit/pool_gsl.h"
 #include "fit/spectrum_start.h"
 
@@ -63,10 +64,27 @@ static const wt_param rows[] = {
      .value = "X", .unset = "as the spectrum needs: 3, or 10 of sharp lines",
      .help = "of the relaxation spectrum"},
     {PARAM_FLAG_OF("liquid", wt_master_options, liquid), .help = "no equilibrium modulus"},
+    {PARAM_CHOICE_OF("shift-by", wt_master_options, shift_by, "moduli|storage|loss|loss-factor"),
+     .help =
+         "what isotherms are shifted by and the spectrum is fitted to: both moduli (or what was "
+         "measured of all isotherms), one of them, or the loss factor, which tells no level"},
 };
 PARAM_TABLE(wt_master_options_params, wt_master_options, rows, wt_master_options_defaults, NO_PARTS)
 
 /* ---- start ----------------------------------------------------------------------------------- */
+
+/* tan delta knows no vertical shift, and one modulus does not tell it from the horizontal one. */
+static wt_status check_vertical(master_work *work, wt_error *err)
+{
+    if (work->set.by == WT_BY_LOSS_FACTOR)
+        work->options.vertical = WT_VERTICAL_NONE;
+    if (work->set.by == WT_BY_MODULI || work->options.vertical != WT_VERTICAL_FREE)
+        return WT_OK;
+    wt_fail(err, WT_E_ARG, "one modulus alone does not tell free vertical shifts");
+    wt_error_place(err, "vertical-shift");
+    wt_error_expected(err, "tied, physical or none");
+    return WT_E_ARG;
+}
 
 /* The isotherm to start from: nearest to the reference temperature, or the one in the middle. */
 static wt_status choose_anchor(master_work *work, wt_error *err)
@@ -74,11 +92,15 @@ static wt_status choose_anchor(master_work *work, wt_error *err)
     const shift_set *set = &work->set;
     const double asked = work->options.reference_temperature;
     double nearest = HUGE_VAL;
+    bool given = false; /* then the anchor is one of these */
     work->anchor = set->n;
+    for (size_t i = 0; i < set->n; i++)
+        given = given || (set->curves[i].given && set->curves[i].n >= SHIFT_MIN_POINTS);
     for (size_t i = 0; i < set->n; i++) {
         const double away = isnan(asked) ? fabs((double)i - (double)(set->n / 2))
                                          : fabs(set->curves[i].temperature - asked);
-        if (set->curves[i].n >= SHIFT_MIN_POINTS && away < nearest) {
+        if (set->curves[i].n >= SHIFT_MIN_POINTS && (!given || set->curves[i].given) &&
+            away < nearest) {
             nearest = away;
             work->anchor = i;
         }
@@ -111,10 +133,11 @@ static wt_status work_alloc(master_work *work, wt_error *err)
     work->posterior = posterior_new();
     if (work->posterior != NULL) {
         work->posterior->curve = pool_alloc(&work->posterior->memory, n, sizeof(size_t));
+        work->posterior->closed_form = pool_numbers(&work->posterior->memory, n);
         work->curve = work->posterior->curve;
         work->s = &work->posterior->frame;
     }
-    return m->failed || work->curve == NULL
+    return m->failed || work->posterior == NULL || work->posterior->memory.failed
                ? wt_fail(err, WT_E_MEMORY, "no memory for %zu isotherms", n)
                : WT_OK;
 }
@@ -375,7 +398,7 @@ static wt_status fit_widths(master_work *work, wt_error *err)
  * them less. */
 static wt_status test_superposition(master_work *work, wt_error *err)
 {
-    if (work->s->n_curves < 2)
+    if (work->s->n_curves < 2 || work->set.by != WT_BY_MODULI)
         return WT_OK;
     spectrum *s = work->s;
     const double rho = s->rho;
@@ -400,13 +423,17 @@ wt_status wt_master_fit(const wt_sweep *sweep, const wt_master_options *options,
     master_work work = {.options = options != NULL ? *options : wt_master_options_defaults()};
     wt_status status = param_check(wt_master_options_params(), &work.options, err);
     if (status == WT_OK)
-        status = shift_set_new(sweep, log, &work.memory, &work.set, err);
+        status = shift_set_new(sweep, work.options.shift_by, log, &work.memory, &work.set, err);
+    if (status == WT_OK)
+        status = check_vertical(&work, err);
     if (status == WT_OK)
         status = work_alloc(&work, err);
     if (status == WT_OK)
         status = choose_anchor(&work, err);
-    if (status == WT_OK)
+    if (status == WT_OK) {
+        closed_form_shifts(&work.set, work.anchor, work.posterior->closed_form);
         status = place_all(&work, err);
+    }
     if (status == WT_OK)
         status = find_noise(&work, err);
     if (status == WT_OK)

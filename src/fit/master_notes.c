@@ -45,7 +45,9 @@ static void note_shift(const master_work *work, size_t i, wt_master_shift *shift
         master_note(shift, "%.1f times the noise of the others", shift->noise_factor);
     if (!shift->determined)
         return;
-    if (work->options.vertical != WT_VERTICAL_NONE &&
+    if (work->set.curves[i].given)
+        master_note(shift, "as given");
+    if (work->options.vertical != WT_VERTICAL_NONE && isfinite(shift->log_b.value) &&
         fabs(shift->log_b.value - shift->log_b_physical) > odd_vertical)
         master_note(shift, "log bT %+.3f where rho T gives %+.3f", shift->log_b.value,
                     shift->log_b_physical);
@@ -98,8 +100,25 @@ static void note_strain(const wt_sweep *sweep, wt_parselog *log)
                         low, high);
 }
 
+/* What one quantity leaves open. */
+static void note_quantity(const master_work *work, wt_parselog *log)
+{
+    static const char *const open[] = {
+        [WT_BY_STORAGE] = "fitted to the storage modulus alone: the loss modulus is what its slope "
+                          "demands (Kramers-Kronig), and superposition is not tested",
+        [WT_BY_LOSS] = "fitted to the loss modulus alone: no equilibrium modulus, so no storage "
+                       "modulus and no series, and superposition is not tested",
+        [WT_BY_LOSS_FACTOR] =
+            "fitted to the loss factor alone: shifts and their law, but no level of "
+            "the moduli, no vertical shift and no series, and superposition is not "
+            "tested"};
+    if (work->set.by != WT_BY_MODULI)
+        wt_parselog_add(log, WT_WARNING, NULL, NULL, "%s", open[work->set.by]);
+}
+
 void master_notes(const master_work *work, const wt_sweep *sweep, wt_master *m, wt_parselog *log)
 {
+    note_quantity(work, log);
     for (size_t i = 0; i < m->n_shifts; i++)
         note_shift(work, i, &m->shifts[i]);
     note_runs(m);
@@ -119,7 +138,8 @@ void master_notes(const master_work *work, const wt_sweep *sweep, wt_master *m, 
         wt_parselog_add(log, WT_WARNING, NULL, NULL,
                         "the reference temperature is outside the isotherms: the law is "
                         "extrapolated");
-    if (m->n_shifts > 1 && m->superposition != WT_SUPERPOSITION_HOLDS)
+    if (m->n_shifts > 1 && work->set.by == WT_BY_MODULI &&
+        m->superposition != WT_SUPERPOSITION_HOLDS)
         wt_parselog_add(log, WT_WARNING, NULL, NULL, "time-temperature superposition %s: %s",
                         m->superposition == WT_SUPERPOSITION_FAILS ? "fails" : "cannot be judged",
                         m->because);

@@ -61,6 +61,12 @@ static wt_interval between(wt_interval a, wt_interval b, double share)
                          a.low + share * (b.low - a.low), a.high + share * (b.high - a.high)};
 }
 
+/* Whether the level of the moduli is told. */
+static bool has_level(wt_shift_by by)
+{
+    return by == WT_BY_MODULI || by == WT_BY_STORAGE;
+}
+
 /* ---- shifts ---------------------------------------------------------------------------------- */
 
 static size_t count_outliers(const spectrum *s, size_t curve)
@@ -68,7 +74,7 @@ static size_t count_outliers(const spectrum *s, size_t curve)
     size_t n = 0;
     for (size_t k = s->first[curve]; k < s->first[curve + 1]; k++)
         for (int q = 0; q < MODULI; q++)
-            n += s->weight[q][k] == 0.0 ? 1 : 0;
+            n += s->used[q] && s->weight[q][k] == 0.0 ? 1 : 0;
     return n;
 }
 
@@ -114,6 +120,8 @@ static void fill_shift(const master_work *work, size_t i, const double *log_b_ma
         return;
     shift->determined = true;
     shift->log_a = work->measured_reference ? a : posterior_a_to_reference(work->posterior, curve);
+    if (work->set.by == WT_BY_LOSS_FACTOR)
+        return;
     shift->log_b = posterior_b(work->posterior, curve);
     shift->log_b_material = log_b_material[curve];
 }
@@ -188,6 +196,20 @@ static void fill_law(const wt_posterior *p, wt_master *m)
         m->temperature_spread += p->parts[i].weight * p->parts[i].spread;
 }
 
+/* A law of shifts that are all given has no error of its own. */
+static void forget_errors(const spectrum *s, wt_master *m)
+{
+    wt_interval *const of_law[] = {&m->c1, &m->c2, &m->pole, &m->activation_energy, &m->slope};
+    const double unknown = (double)NAN;
+    bool given = s->n_curves > 1;
+    for (size_t i = 0; i < s->n_curves; i++)
+        given = given && s->given[i];
+    for (size_t i = 0; given && i < sizeof of_law / sizeof *of_law; i++)
+        *of_law[i] = (wt_interval){of_law[i]->value, unknown, unknown, unknown};
+    for (size_t i = 0; given && i < m->n_shifts; i++)
+        m->shifts[i].law = (wt_interval){m->shifts[i].law.value, unknown, unknown, unknown};
+}
+
 static void set_rms(wt_master *m)
 {
     double sum = 0.0;
@@ -218,7 +240,7 @@ static int by_x(const void *left, const void *right)
     return (a->point > b->point) - (a->point < b->point);
 }
 
-/* The moduli of the spectrum at the points: on a grid, and between its points by lines, for nothing
+/* What the spectrum says at the points: on a grid, and between its points by lines, for nothing
  * turns within a tenth of a decade. */
 static void fill_fitted(const wt_posterior *p, wt_master *m)
 {
@@ -236,23 +258,35 @@ static void fill_fitted(const wt_posterior *p, wt_master *m)
             at = from;
         }
         const double share = (x - from) / step;
+        const bool told[] = {has_level(p->by), p->by != WT_BY_LOSS_FACTOR, p->by != WT_BY_LOSS};
         wt_interval *const fitted[] = {m->fitted_storage, m->fitted_loss, m->fitted_loss_factor};
         for (int q = 0; q < WITH_LOSS_FACTOR; q++)
-            fitted[q][j] = scaled(between(low[q], high[q], share), 1.0 / M_LN10);
+            if (told[q])
+                fitted[q][j] = scaled(between(low[q], high[q], share), 1.0 / M_LN10);
     }
+}
+
+/* tan delta as measured at a point of the spectrum. */
+static double factor_of_point(const spectrum *s, size_t k)
+{
+    if (s->ratio)
+        return exp(s->y[LOSS][k]);
+    return s->used[STORAGE] && s->used[LOSS] ? exp(s->y[LOSS][k] - s->y[STORAGE][k]) : (double)NAN;
 }
 
 /* Points of the determined isotherms, by reduced frequency. */
 static wt_status fill_curve(const master_work *work, wt_master *m, wt_error *err)
 {
     const spectrum *s = work->s;
+    wt_posterior *p = work->posterior;
+    p->measured_factor = pool_numbers(&p->memory, s->n);
     struct order *order = malloc((s->n + 1) * sizeof *order);
     m->log_frequency = malloc(3 * (s->n + 1) * sizeof *m->log_frequency);
     m->isotherm = malloc((s->n + 1) * sizeof *m->isotherm);
     m->left_out = malloc((s->n + 1) * sizeof *m->left_out);
     m->fitted_storage = malloc(3 * (s->n + 1) * sizeof *m->fitted_storage);
     if (order == NULL || m->log_frequency == NULL || m->isotherm == NULL || m->left_out == NULL ||
-        m->fitted_storage == NULL) {
+        m->fitted_storage == NULL || p->memory.failed) {
         free(order);
         return wt_fail(err, WT_E_MEMORY, "no memory for the master curve");
     }
@@ -276,9 +310,12 @@ static wt_status fill_curve(const master_work *work, wt_master *m, wt_error *err
             i++;
         m->isotherm[j] = i;
         m->log_frequency[j] = order[j].x;
-        m->log_storage[j] = s->y[STORAGE][k] / M_LN10 + m->shifts[i].log_b.value;
-        m->log_loss[j] = s->y[LOSS][k] / M_LN10 + m->shifts[i].log_b.value;
-        m->left_out[j] = s->weight[STORAGE][k] == 0.0 || s->weight[LOSS][k] == 0.0;
+        const double b = m->shifts[i].log_b.value, unknown = (double)NAN;
+        m->log_storage[j] = s->used[STORAGE] ? s->y[STORAGE][k] / M_LN10 + b : unknown;
+        m->log_loss[j] = s->used[LOSS] && !s->ratio ? s->y[LOSS][k] / M_LN10 + b : unknown;
+        p->measured_factor[j] = factor_of_point(s, k);
+        m->left_out[j] = (s->used[STORAGE] && s->weight[STORAGE][k] == 0.0) ||
+                         (s->used[LOSS] && s->weight[LOSS][k] == 0.0);
     }
     for (size_t j = 0; j < m->n; j++)
         m->fitted_storage[j] = m->fitted_loss[j] = m->fitted_loss_factor[j] = unknown_interval;
@@ -340,7 +377,7 @@ static wt_status fill_series(master_work *work, wt_master *m, wt_error *err)
     double unknown[LAW_MOST];
     posterior_mean(p, value);
     posterior_mean_law(p, unknown);
-    wt_status status = series(p, value, unknown[0], &m->prony, err);
+    wt_status status = has_level(p->by) ? series(p, value, unknown[0], &m->prony, err) : WT_OK;
     free(value);
     if (status != WT_OK)
         return status;
@@ -350,8 +387,8 @@ static wt_status fill_series(master_work *work, wt_master *m, wt_error *err)
         m->prony.frequency_min = pow(10.0, m->log_frequency[0]);
         m->prony.frequency_max = pow(10.0, m->log_frequency[m->n - 1]);
     }
-    m->equilibrium = (wt_interval){0};
-    if (p->frame.liquid)
+    m->equilibrium = has_level(p->by) ? (wt_interval){0} : unknown_interval;
+    if (p->frame.liquid || !has_level(p->by))
         return WT_OK;
     const wt_interval e = posterior_equilibrium(p);
     m->equilibrium = transform(e, exp);
@@ -436,20 +473,23 @@ wt_status master_report(master_work *work, const wt_sweep *sweep, wt_parselog *l
                    .reference_temperature = work->reference,
                    .vertical = work->options.vertical,
                    .terms_per_decade = work->terms_per_decade,
-                   .noise_storage = work->s->noise[STORAGE],
-                   .noise_loss = work->s->noise[LOSS],
+                   .noise_storage = work->s->used[STORAGE] ? work->s->noise[STORAGE] : (double)NAN,
+                   .noise_loss = work->s->used[LOSS] ? work->s->noise[LOSS] : (double)NAN,
                    .correlation = work->s->rho,
                    .evaluations = work->s->evaluations,
                    .step_allowed = sqrt(SPECTRUM_LEAST_GAIN),
                    .step_left = work->posterior->step_left};
+    work->posterior->by = work->set.by;
     wt_status status = fill_shifts(work, &m, err);
     if (status == WT_OK) {
         fill_law(work->posterior, &m);
+        forget_errors(work->s, &m);
         status = check_reference(work, &m, err);
     }
     if (status == WT_OK)
         status = check_shifts(&m, err);
     if (status == WT_OK) {
+        work->posterior->anchor_a = m.shifts[work->anchor].log_a.value;
         if (!work->measured_reference) /* the shifts are to the reference itself */
             m.offset = (wt_interval){0};
         set_rms(&m);
@@ -483,13 +523,29 @@ wt_interval wt_master_law(const wt_master *master, double temperature)
     return law_of(master->posterior, temperature);
 }
 
+double wt_master_closed_form(const wt_master *master, size_t isotherm)
+{
+    return master->posterior->closed_form[isotherm] + master->posterior->anchor_a;
+}
+
 void wt_master_moduli(const wt_master *master, double angular_frequency, wt_interval *log_storage,
                       wt_interval *log_loss)
 {
     wt_interval modulus[WITH_LOSS_FACTOR];
+    const wt_shift_by by = master->posterior->by;
     posterior_moduli(master->posterior, log(angular_frequency), modulus);
-    *log_storage = scaled(modulus[STORAGE], 1.0 / M_LN10);
-    *log_loss = scaled(modulus[LOSS], 1.0 / M_LN10);
+    *log_storage = has_level(by) ? scaled(modulus[STORAGE], 1.0 / M_LN10) : unknown_interval;
+    *log_loss = by != WT_BY_LOSS_FACTOR ? scaled(modulus[LOSS], 1.0 / M_LN10) : unknown_interval;
+}
+
+wt_shift_by wt_master_shifted_by(const wt_master *master)
+{
+    return master->posterior->by;
+}
+
+double wt_master_loss_factor(const wt_master *master, size_t i)
+{
+    return master->posterior->measured_factor[i];
 }
 
 wt_status wt_master_draw(const wt_master *master, uint64_t seed, size_t index, wt_prony *prony,

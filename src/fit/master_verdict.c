@@ -47,7 +47,7 @@ void master_judge(const master_work *work, wt_master *m)
     const size_t undetermined = m->n_shifts - determined;
     const lack_of_fit *lack = &work->lack;
     const double window = widest_of_half(work);
-    const bool tested = work->s->n_curves > 1;
+    const bool both = work->set.by == WT_BY_MODULI, tested = both && work->s->n_curves > 1;
     m->lack_of_fit_p = tested ? lack->p : (double)NAN;
     m->misfit_low = tested ? lack->misfit_low : (double)NAN;
     m->misfit_high = tested ? lack->misfit_high : (double)NAN;
@@ -55,8 +55,12 @@ void master_judge(const master_work *work, wt_master *m)
     m->loss_factor = tested ? lack->factor : (double)NAN;
     m->loss_factor_error = tested ? lack->factor_error : (double)NAN;
     m->superposition = WT_SUPERPOSITION_CANNOT_SAY;
-    if (determined >= 2 && lack->kk < loss_significant &&
-        fabs(lack->factor) - 2.0 * lack->factor_error > loss_matters) {
+    if (!both) {
+        clocale_print(m->because, sizeof m->because,
+                      "%s alone does not tell; storage and loss modulus together would",
+                      work->set.by == WT_BY_LOSS_FACTOR ? "the loss factor" : "one modulus");
+    } else if (determined >= 2 && lack->kk < loss_significant &&
+               fabs(lack->factor) - 2.0 * lack->factor_error > loss_matters) {
         m->superposition = WT_SUPERPOSITION_FAILS;
         clocale_print(m->because, sizeof m->because,
                       "E'' is %+.1f %% off what E' demands (Kramers-Kronig, p %s): check the "

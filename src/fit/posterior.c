@@ -2,11 +2,10 @@
  * back to spectrum and shifts. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "fit/posterior.h"
 
+#include "fit/dense.h"
 #include "fit/pool_gsl.h"
 
 #include <gsl/gsl_blas.h>
-#include <gsl/gsl_errno.h>
-#include <gsl/gsl_linalg.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -67,9 +66,8 @@ wt_status posterior_keep(wt_posterior *p, wt_vertical_shift kind, const vertical
     gsl_matrix_const_view factor = gsl_matrix_const_submatrix(s->factor, 0, 0, n, n);
     gsl_matrix_memcpy(c->covariance, &part.matrix);
     gsl_matrix_memcpy(c->root, &factor.matrix);
-    for (size_t i = 0; c->smooth != NULL && i < n_curves; i++)
-        vertical_smooth_part(v, s->prior, p->temperature, n_curves, p->temperature[i],
-                             c->smooth + i * n_curves);
+    if (c->smooth != NULL)
+        vertical_smooth_part(v, s->prior, p->temperature, n_curves, c->smooth);
     return WT_OK;
 }
 
@@ -118,7 +116,8 @@ static void shifts_of(const wt_posterior *p, const posterior_cell *cell)
     gsl_matrix_set_zero(covariance);
     for (size_t i = 0; i < p->frame.n_curves; i++) {
         size_t at, with;
-        p->data.log_a[i] = posterior_column(p, i, &at) ? cell->value[at] / M_LN10 : 0.0;
+        p->data.log_a[i] =
+            (posterior_column(p, i, &at) ? cell->value[at] : p->frame.given_a[i]) / M_LN10;
         for (size_t k = 0; k < p->frame.n_curves; k++)
             if (posterior_column(p, i, &at) && posterior_column(p, k, &with))
                 gsl_matrix_set(covariance, i, k,
@@ -145,10 +144,13 @@ static wt_status part_fill(wt_posterior *p, posterior_part *part, wt_error *err)
     part_alloc(p, part);
     if (p->memory.failed)
         return wt_fail(err, WT_E_MEMORY, "no memory for the law");
-    const wt_status status = law_gls_covariance(data, part->spread, part->inverse, err);
+    gsl_matrix *root = pool_matrix(&p->memory, n, n);
+    const wt_status status = root == NULL || root->data == NULL
+                                 ? wt_fail(err, WT_E_MEMORY, "no memory for the law")
+                                 : law_gls_covariance(data, part->spread, root, err);
     if (status != WT_OK)
         return status;
-    gsl_linalg_cholesky_invert(part->inverse);
+    dense_inverse(root, part->inner, part->inverse);
     law_design(data, &p->shape, part->law.unknown, x);
     for (size_t i = 0; i < n; i++)
         gsl_vector_set(gap, i,

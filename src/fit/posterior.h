@@ -40,6 +40,10 @@ struct wt_posterior {
     double *scratch;     /* [7 n_curves + 4 n_linear] */
     char no_law[256];    /* why there is none */
     size_t *curve;       /* [isotherms of the sweep] in the spectrum */
+    double *closed_form; /* [isotherms of the sweep] log10 a of ISO 18437-6, against the anchor */
+    double *measured_factor; /* [points of the master curve] tan delta, NaN: not measured */
+    wt_shift_by by;
+    double anchor_a; /* log10 a of the anchor against the reference temperature */
     law_shape shape;
     law_data data;
     size_t n_cells, n_parts;

@@ -72,7 +72,7 @@ static wt_interval of_column(const wt_posterior *p, long column, double held)
 
 wt_interval posterior_a(const wt_posterior *p, size_t curve)
 {
-    return of_column(p, p->frame.column_a[curve], 0.0);
+    return of_column(p, p->frame.column_a[curve], p->frame.given_a[curve] / M_LN10);
 }
 
 wt_interval posterior_b(const wt_posterior *p, size_t curve)
@@ -183,7 +183,7 @@ void posterior_moduli(const wt_posterior *p, double x, wt_interval modulus[WITH_
     double value[WITH_LOSS_FACTOR], slope[WITH_LOSS_FACTOR], mean[LAW_MOST];
     const posterior_cell *last = NULL;
     posterior_mean_law(p, mean);
-    memset(by_storage, 0, 2 * n * sizeof *by_storage);
+    memset(by_storage, 0, WITH_LOSS_FACTOR * n * sizeof *by_storage);
     for (size_t i = 0; i < p->n_parts; i++) {
         if (p->parts[i].cell != last) {
             last = p->parts[i].cell;
@@ -205,8 +205,10 @@ void posterior_moduli(const wt_posterior *p, double x, wt_interval modulus[WITH_
         modulus[q] = interval_of(part[q], p->n_parts);
 }
 
-/* One unknown of the spectrum times `scale`, less the offset of the law times `offset`. */
-static wt_interval of_unknown(const wt_posterior *p, long column, double scale, double offset)
+/* One unknown of the spectrum, or what is given in its place, times `scale`, less the offset of the
+ * law times `offset`. */
+static wt_interval of_unknown(const wt_posterior *p, long column, double given, double scale,
+                              double offset)
 {
     struct normal part[MOST_PARTS];
     double *by_unknown = p->scratch + p->frame.n_curves;
@@ -215,8 +217,7 @@ static wt_interval of_unknown(const wt_posterior *p, long column, double scale, 
         by_unknown[column] = scale;
     for (size_t i = 0; i < p->n_parts; i++) {
         struct quantity x = {-offset * p->parts[i].law.unknown[0], by_unknown, {-offset}};
-        if (column >= 0)
-            x.value += scale * p->parts[i].cell->value[column];
+        x.value += scale * (column >= 0 ? p->parts[i].cell->value[column] : given);
         part[i] = of_part(p, &p->parts[i], &x, p->scratch);
     }
     return interval_of(part, p->n_parts);
@@ -224,12 +225,12 @@ static wt_interval of_unknown(const wt_posterior *p, long column, double scale, 
 
 wt_interval posterior_a_to_reference(const wt_posterior *p, size_t curve)
 {
-    return of_unknown(p, p->frame.column_a[curve], 1.0 / M_LN10, 1.0);
+    return of_unknown(p, p->frame.column_a[curve], p->frame.given_a[curve], 1.0 / M_LN10, 1.0);
 }
 
 wt_interval posterior_equilibrium(const wt_posterior *p)
 {
-    return of_unknown(p, (long)p->frame.n_terms, 1.0, 0.0);
+    return of_unknown(p, (long)p->frame.n_terms, 0.0, 1.0, 0.0);
 }
 
 /* ---- means and draws ------------------------------------------------------------------------- */
@@ -363,10 +364,9 @@ wt_status posterior_draw(const wt_posterior *p, uint64_t seed, size_t index, dou
         draw_law(part, &s, unknown);
         for (size_t k = 0; k < n_curves; k++) {
             size_t column;
-            double law = law_of_isotherm(&p->data, &p->shape, unknown, k);
-            if (posterior_column(p, k, &column))
-                law -= value[column] / M_LN10;
-            gsl_vector_set(gap, k, law - part->spread * p->slope[k] * normal(&s));
+            const double law = law_of_isotherm(&p->data, &p->shape, unknown, k),
+                         a = posterior_column(p, k, &column) ? value[column] : p->frame.given_a[k];
+            gsl_vector_set(gap, k, law - a / M_LN10 - part->spread * p->slope[k] * normal(&s));
         }
         gsl_blas_dgemv(CblasNoTrans, 1.0, part->inverse, gap, 0.0, pull);
         add_pull(p, part, pull, 1.0, value);

@@ -19,22 +19,27 @@ typedef struct shift_curve {
     double *x;         /* [n] */
     double *y[MODULI]; /* [n] */
     size_t n_left_out; /* points with a modulus <= 0 */
+    bool given;        /* its shift is not fitted */
+    double given_a;    /* its difference to another given one counts [decade] */
 } shift_curve;
 
 /* All isotherms in the order of rising temperature. */
 typedef struct shift_set {
+    wt_shift_by by;    /* never MODULI if a modulus is missing */
+    bool used[MODULI]; /* by tan delta alone it stands in the place of LOSS */
     size_t n;
     shift_curve *curves;
     size_t n_points; /* of all curves */
 } shift_set;
 
-/* Takes logarithms, sorts, leaves out points without one. WT_E_RANGE names an isotherm that has too
- * few positive points left, or temperatures that are not kelvin. */
-wt_status shift_set_new(const wt_sweep *sweep, wt_parselog *log, pool *memory, shift_set *set,
-                        wt_error *err) WT_NODISCARD;
+/* Takes logarithms of what is asked for, sorts, leaves out points without one. WT_E_RANGE names an
+ * isotherm that has too few positive points left, or temperatures that are not kelvin; WT_E_MISSING
+ * for a modulus that was not measured. */
+wt_status shift_set_new(const wt_sweep *sweep, wt_shift_by by, wt_parselog *log, pool *memory,
+                        shift_set *set, wt_error *err) WT_NODISCARD;
 
-/* Where curve s goes relative to curve p (as measured): by least squares of both moduli and both
- * directions; b is projected out if free_b, else it is given. False: no overlap. */
-bool shift_pair_fit(const shift_curve *p, const shift_curve *s, bool free_b, double *a, double *b);
+/* Where curve s goes relative to curve p (as measured): by least squares of the moduli used and
+ * both directions; b is projected out if free_b, else it is given. False: no overlap. */
+bool shift_pair_fit(const shift_set *set, size_t p, size_t s, bool free_b, double *a, double *b);
 
 #endif

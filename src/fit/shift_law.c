@@ -4,6 +4,8 @@
 #include "fit/shift_law.h"
 
 #include "base/gsl_quiet.h"
+#include "fit/dense.h"
+#include "fit/pool_gsl.h"
 
 #include <gsl/gsl_blas.h>
 #include <gsl/gsl_errno.h>
@@ -26,6 +28,10 @@ static const double believed = 0.3, steady = 0.15;
 /* The isotherm whose own shift gains more than this of -2 ln likelihood is odd. */
 static const double odd_gain = 20.0;
 enum { POLE_GRID = 40, LEAST_CORRECTED = 7, LEAST_JOINED = 8, LEAST_ODD = 6, LEAST_STEADY = 7 };
+/* Joints that are tried all over the isotherms; between the two beside the best of them all are. */
+enum { JOINTS = 24 };
+/* An isotherm is tried as the odd one from this share of the gain on, by the linearised law. */
+static const double odd_tried = 0.25;
 
 double law_spread(size_t i)
 {
@@ -153,7 +159,7 @@ wt_status law_gls_covariance(const law_data *data, double spread, gsl_matrix *co
             gsl_matrix_set(covariance, i, k, gsl_matrix_get(data->covariance, i, k));
     for (size_t i = 0; i < data->n; i++)
         *gsl_matrix_ptr(covariance, i, i) += spread * spread * data->slope[i] * data->slope[i];
-    if (gsl_linalg_cholesky_decomp1(covariance) != GSL_SUCCESS)
+    if (!dense_factor(covariance))
         return wt_fail(err, WT_E_CONVERGENCE, "the covariance of the shifts is not positive");
     return WT_OK;
 }
@@ -286,8 +292,8 @@ static double best_pole(struct gls *g, law_fit *fit)
     return at;
 }
 
-wt_status law_fit_with(const law_data *data, const law_shape *shape, gsl_matrix *root, law_fit *fit,
-                       wt_error *err)
+wt_status law_fit_with(const law_data *data, const law_shape *shape, const gsl_matrix *root,
+                       law_fit *fit, wt_error *err)
 {
     struct gls g = gls_new(data, shape, root);
     const size_t k = law_unknowns(shape), pole = law_pole_index(shape);
@@ -331,17 +337,40 @@ double law_spread_prior(const law_data *data, double spread)
 
 /* ---- which law ------------------------------------------------------------------------------- */
 
-/* -2 ln of the largest likelihood over the spread of temperatures, and of the mean one. */
-static wt_status likelihoods(const law_data *data, const law_shape *shape, gsl_matrix *root,
-                             double *largest, double *mean, wt_error *err)
+struct search {
+    law_data *data;
+    pool memory;
+    gsl_matrix *root[LAW_SPREADS]; /* of the covariance with each spread */
+    double best;                   /* score */
+    double largest;                /* likelihood that goes with it */
+    law_shape chosen;
+};
+
+/* For the slopes as they are. */
+static wt_status make_roots(struct search *search, wt_error *err)
 {
+    const size_t n = search->data->n;
+    wt_status status = WT_OK;
+    for (size_t i = 0; i < LAW_SPREADS && status == WT_OK; i++) {
+        if (search->root[i] == NULL)
+            search->root[i] = pool_matrix(&search->memory, n, n);
+        status = search->memory.failed
+                     ? wt_fail(err, WT_E_MEMORY, "no memory for the law")
+                     : law_gls_covariance(search->data, law_spread(i), search->root[i], err);
+    }
+    return status;
+}
+
+/* -2 ln of the largest likelihood over the spread of temperatures, and of the mean one. */
+static wt_status likelihoods(const struct search *search, const law_shape *shape, double *largest,
+                             double *mean, wt_error *err)
+{
+    const law_data *data = search->data;
     double value[LAW_SPREADS], sum = 0.0, weights = 0.0;
     *largest = HUGE_VAL;
     for (size_t i = 0; i < LAW_SPREADS; i++) {
         law_fit fit;
-        wt_status status = law_gls_covariance(data, law_spread(i), root, err);
-        if (status == WT_OK)
-            status = law_fit_with(data, shape, root, &fit, err);
+        const wt_status status = law_fit_with(data, shape, search->root[i], &fit, err);
         if (status != WT_OK)
             return status;
         value[i] = fit.chi_square + fit.log_det;
@@ -367,28 +396,21 @@ static double score(const law_data *data, const law_shape *shape, double largest
     return n > k + 1.0 ? largest + 2.0 * k + 2.0 * k * (k + 1.0) / (n - k - 1.0) : HUGE_VAL;
 }
 
-struct search {
-    law_data *data;
-    gsl_matrix *root;
-    double best;    /* score */
-    double largest; /* likelihood that goes with it */
-    law_shape chosen;
-};
-
-static wt_status consider(struct search *search, law_shape shape, wt_error *err)
+/* better: whether it is the best so far. */
+static wt_status consider(struct search *search, law_shape shape, bool *better, wt_error *err)
 {
     double largest, mean;
     wt_error failure = WT_ERROR_INIT;
-    wt_status status = likelihoods(search->data, &shape, search->root, &largest, &mean, &failure);
+    const wt_status status = likelihoods(search, &shape, &largest, &mean, &failure);
+    *better = false;
     if (status == WT_E_MEMORY || status == WT_E_INTERNAL) {
         if (err != NULL)
             *err = failure;
         return status;
     }
-    if (status != WT_OK)
-        return WT_OK;
-    const double s = score(search->data, &shape, largest, mean);
+    const double s = status == WT_OK ? score(search->data, &shape, largest, mean) : HUGE_VAL;
     if (s < search->best) {
+        *better = true;
         search->best = s;
         search->largest = largest;
         search->chosen = shape;
@@ -396,21 +418,109 @@ static wt_status consider(struct search *search, law_shape shape, wt_error *err)
     return WT_OK;
 }
 
-static wt_status consider_all(struct search *search, const law_shape *start, wt_error *err)
+/* Joints from `first` to before `end`; the best of them, if one is better than all before. */
+static wt_status consider_joints(struct search *search, law_shape shape, size_t first, size_t end,
+                                 size_t step, size_t *best, wt_error *err)
 {
     const law_data *data = search->data;
-    law_shape shape = *start;
-    shape.kind = WT_LAW_ARRHENIUS;
-    wt_status status = consider(search, shape, err);
-    shape.kind = WT_LAW_WLF;
-    if (status == WT_OK && data->n >= LAW_LEAST_TOLD)
-        status = consider(search, shape, err);
+    wt_status status = WT_OK;
     shape.kind = WT_LAW_JOINED;
-    for (size_t i = 2; status == WT_OK && data->n >= LEAST_JOINED && i + 3 < data->n; i++) {
+    for (size_t i = first; status == WT_OK && i < end; i += step) {
+        bool better = false;
         shape.joint = data->temperature[i];
         shape.coldest = fmin(shape.joint, shape.reference);
         if (data->temperature[i] > data->temperature[0])
-            status = consider(search, shape, err);
+            status = consider(search, shape, &better, err);
+        if (better)
+            *best = i;
+    }
+    return status;
+}
+
+static wt_status consider_all(struct search *search, const law_shape *start, wt_error *err)
+{
+    const size_t n = search->data->n, step = 1 + n / JOINTS;
+    bool better;
+    size_t joint = 0;
+    law_shape shape = *start;
+    shape.kind = WT_LAW_ARRHENIUS;
+    wt_status status = consider(search, shape, &better, err);
+    shape.kind = WT_LAW_WLF;
+    if (status == WT_OK && n >= LAW_LEAST_TOLD)
+        status = consider(search, shape, &better, err);
+    if (status == WT_OK && n >= LEAST_JOINED)
+        status = consider_joints(search, shape, 2, n - 3, step, &joint, err);
+    if (status == WT_OK && joint > 0 && step > 1)
+        status = consider_joints(search, shape, joint > step + 1 ? joint - step + 1 : 2,
+                                 joint + step < n - 3 ? joint + step : n - 3, 1, &joint, err);
+    return status;
+}
+
+/* What -2 ln likelihood each isotherm would take away with a shift of its own, by the law made
+ * linear at its best. */
+static wt_status odd_gains(struct search *search, const law_shape *shape, double *gain,
+                           wt_error *err)
+{
+    const law_data *data = search->data;
+    const size_t n = data->n, k = law_unknowns(shape);
+    pool *m = &search->memory;
+    gsl_matrix *scratch = pool_matrix(m, n, n), *inverse = pool_matrix(m, n, n),
+               *x = pool_matrix(m, n, k), *mx = pool_matrix(m, n, k);
+    gsl_vector *gap = pool_vector(m, n), *pull = pool_vector(m, n);
+    double least[LAW_SPREADS];
+    wt_status status = m->failed ? wt_fail(err, WT_E_MEMORY, "no memory for the law") : WT_OK;
+    for (size_t i = 0; status == WT_OK && i < LAW_SPREADS; i++) {
+        law_fit fit;
+        status = law_fit_with(data, shape, search->root[i], &fit, err);
+        if (status != WT_OK)
+            break;
+        least[i] = fit.chi_square + fit.log_det - search->largest;
+        law_design(data, shape, fit.unknown, x);
+        for (size_t p = 0; p < n; p++)
+            gsl_vector_set(gap, p, data->log_a[p] - law_of_isotherm(data, shape, fit.unknown, p));
+        dense_inverse(search->root[i], scratch, inverse);
+        gsl_blas_dgemv(CblasNoTrans, 1.0, inverse, gap, 0.0, pull);
+        gsl_blas_dgemm(CblasNoTrans, CblasNoTrans, 1.0, inverse, x, 0.0, mx);
+        for (size_t p = 0; p < n; p++) {
+            double own = gsl_matrix_get(inverse, p, p);
+            for (size_t u = 0; u < k; u++)
+                for (size_t w = 0; w < k; w++)
+                    own -=
+                        gsl_matrix_get(mx, p, u) * fit.covariance[u][w] * gsl_matrix_get(mx, p, w);
+            const double pulled = gsl_vector_get(pull, p);
+            gain[p] = fmax(gain[p], pulled * pulled / fmax(own, 1e-300) - least[i]);
+        }
+    }
+    return status;
+}
+
+/* An isotherm that does not belong to the law. */
+static wt_status find_odd(struct search *search, wt_error *err)
+{
+    const struct search plain = *search;
+    const size_t n = search->data->n;
+    double *gain = pool_numbers(&search->memory, n);
+    wt_status status =
+        gain == NULL ? wt_fail(err, WT_E_MEMORY, "no memory for the law") : make_roots(search, err);
+    if (status == WT_OK)
+        status = odd_gains(search, &plain.chosen, gain, err);
+    if (status == WT_E_RANGE)
+        return WT_OK; /* at some spread the law does not fall: none is odd by it */
+    for (size_t i = 0; status == WT_OK && i < n; i++) {
+        double largest, mean;
+        law_shape shape = plain.chosen;
+        shape.odd = (long)i;
+        if (gain[i] < odd_tried * odd_gain)
+            continue;
+        status = likelihoods(search, &shape, &largest, &mean, err);
+        if (status == WT_E_RANGE) {
+            status = WT_OK; /* without this isotherm there is no such law */
+            continue;
+        }
+        if (status == WT_OK && largest < search->largest && largest < plain.largest - odd_gain) {
+            search->largest = largest;
+            search->chosen = shape;
+        }
     }
     return status;
 }
@@ -425,24 +535,17 @@ static void set_slopes(law_data *data, const law_shape *shape, const double *unk
                          (2.0 * step);
 }
 
-wt_status law_choose(law_data *data, double reference, gsl_matrix *root, law_shape *chosen,
-                     wt_error *err)
+/* Slopes of a WLF law first, then with the law that is chosen. */
+static wt_status choose(struct search *search, const law_shape *start, gsl_matrix *root,
+                        wt_error *err)
 {
-    const double coldest = fmin(data->temperature[0], reference);
-    struct search search = {data, root, HUGE_VAL, HUGE_VAL, {0}};
-    law_shape start = {.kind = data->n >= LAW_LEAST_TOLD ? WT_LAW_WLF : WT_LAW_ARRHENIUS,
-                       .reference = reference,
-                       .odd = -1,
-                       .coldest = coldest};
+    law_data *data = search->data;
     wt_status status = WT_OK;
-    gsl_quiet();
-    for (size_t i = 0; i < data->n; i++)
-        data->slope[i] = 0.1;
     for (int round = 0; status == WT_OK && round < 3; round++) {
         law_fit fit;
-        if (round == 2 && !(search.best < HUGE_VAL))
+        if (round == 2 && !(search->best < HUGE_VAL))
             break; /* with the spread of the temperatures no law falls */
-        const law_shape *shape = round == 2 ? &search.chosen : &start;
+        const law_shape *shape = round == 2 ? &search->chosen : start;
         status = law_gls_covariance(data, believed, root, err);
         if (status == WT_OK)
             status = law_fit_with(data, shape, root, &fit, err);
@@ -450,27 +553,30 @@ wt_status law_choose(law_data *data, double reference, gsl_matrix *root, law_sha
             break;
         set_slopes(data, shape, fit.unknown);
         if (round == 1)
-            status = consider_all(&search, &start, err);
+            status = make_roots(search, err);
+        if (round == 1 && status == WT_OK)
+            status = consider_all(search, start, err);
     }
-    if (status == WT_OK && !(search.best < HUGE_VAL))
+    if (status == WT_OK && !(search->best < HUGE_VAL))
         status = wt_fail(err, WT_E_RANGE, "no law describes the shift factors");
-    if (status != WT_OK)
-        return status;
-    const struct search plain = search;
-    for (size_t i = 0; status == WT_OK && data->n >= LEAST_ODD && i < data->n; i++) {
-        double largest, mean;
-        law_shape shape = plain.chosen;
-        shape.odd = (long)i;
-        status = likelihoods(data, &shape, root, &largest, &mean, err);
-        if (status == WT_E_RANGE) {
-            status = WT_OK; /* without this isotherm there is no such law */
-            continue;
-        }
-        if (status == WT_OK && largest < search.largest && largest < plain.largest - odd_gain) {
-            search.largest = largest;
-            search.chosen = shape;
-        }
-    }
+    return status;
+}
+
+wt_status law_choose(law_data *data, double reference, gsl_matrix *root, law_shape *chosen,
+                     wt_error *err)
+{
+    struct search search = {.data = data, .best = HUGE_VAL, .largest = HUGE_VAL};
+    const law_shape start = {.kind = data->n >= LAW_LEAST_TOLD ? WT_LAW_WLF : WT_LAW_ARRHENIUS,
+                             .reference = reference,
+                             .odd = -1,
+                             .coldest = fmin(data->temperature[0], reference)};
+    gsl_quiet();
+    for (size_t i = 0; i < data->n; i++)
+        data->slope[i] = 0.1;
+    wt_status status = choose(&search, &start, root, err);
+    if (status == WT_OK && data->n >= LEAST_ODD)
+        status = find_odd(&search, err);
+    pool_free(&search.memory);
     *chosen = search.chosen;
     return status;
 }

@@ -59,13 +59,13 @@ wt_shift_law law_constants(const law_shape *shape, const double *unknown);
  * root: [n * n] scratch. WT_E_RANGE if the shifts do not fall with temperature. */
 wt_status law_choose(law_data *data, double reference, gsl_matrix *root, law_shape *chosen,
                      wt_error *err) WT_NODISCARD;
-/* Cholesky factor of covariance + (spread * slope)^2. */
+/* Factor (fit/dense.h) of covariance + (spread * slope)^2. */
 wt_status law_gls_covariance(const law_data *data, double spread, gsl_matrix *root,
                              wt_error *err) WT_NODISCARD;
 /* How the shifts depend on the unknowns: x[n * law_unknowns]. */
 void law_design(const law_data *data, const law_shape *shape, const double *unknown, gsl_matrix *x);
-wt_status law_fit_with(const law_data *data, const law_shape *shape, gsl_matrix *root, law_fit *fit,
-                       wt_error *err) WT_NODISCARD;
+wt_status law_fit_with(const law_data *data, const law_shape *shape, const gsl_matrix *root,
+                       law_fit *fit, wt_error *err) WT_NODISCARD;
 double law_reml(const law_fit *fit);
 /* Times the width of its cell in the grid of spreads. */
 double law_spread_prior(const law_data *data, double spread);

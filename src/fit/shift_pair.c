@@ -18,6 +18,7 @@ enum { GRID = 400 };
 
 struct pair {
     const shift_curve *p, *s;
+    const bool *used; /* [MODULI] */
     bool free_b;
     double fixed_b;
 };
@@ -29,8 +30,8 @@ struct overlap {
 
 /* Gaps y_onto(x + a) - y_from(x) times `sign` for the points of `from` that fall on `onto`. Both
  * abscissas rise, so one pass over `onto` is enough. */
-static void add_gaps(const shift_curve *onto, const shift_curve *from, double a, double sign,
-                     double pivot, struct overlap *sum)
+static void add_gaps(const shift_curve *onto, const shift_curve *from, const bool *used, double a,
+                     double sign, double pivot, struct overlap *sum)
 {
     size_t k = 0;
     for (size_t i = 0; i < from->n; i++) {
@@ -44,6 +45,8 @@ static void add_gaps(const shift_curve *onto, const shift_curve *from, double a,
         const double width = onto->x[k + 1] - onto->x[k];
         const double share = width > 0.0 ? (x - onto->x[k]) / width : 0.5;
         for (int q = 0; q < MODULI; q++) {
+            if (!used[q])
+                continue;
             const double y = onto->y[q][k] + share * (onto->y[q][k + 1] - onto->y[q][k]);
             const double gap = sign * (y - from->y[q][i]) - pivot;
             sum->n[q]++;
@@ -56,8 +59,8 @@ static void add_gaps(const shift_curve *onto, const shift_curve *from, double a,
 static struct overlap overlap_at(const struct pair *pair, double a)
 {
     struct overlap sum = {0};
-    add_gaps(pair->p, pair->s, a, 1.0, pair->fixed_b, &sum);
-    add_gaps(pair->s, pair->p, -a, -1.0, pair->fixed_b, &sum);
+    add_gaps(pair->p, pair->s, pair->used, a, 1.0, pair->fixed_b, &sum);
+    add_gaps(pair->s, pair->p, pair->used, -a, -1.0, pair->fixed_b, &sum);
     return sum;
 }
 
@@ -80,29 +83,42 @@ static double cost_of(const struct overlap *sum, double square)
 }
 
 /* E' shares a twentieth of a decade, or a quarter of the flatter curve (a plateau has no more to
- * give). E'' may turn back and meet anything; E' rises with frequency, so it decides. */
-static bool ordinates_overlap(const shift_curve *p, const shift_curve *s)
+ * give). E'' may turn back and meet anything; E' rises with frequency, so it decides if it is
+ * there. */
+static bool ordinates_overlap(const struct pair *pair)
 {
+    const int q = pair->used[STORAGE] ? STORAGE : LOSS;
     double low[2], high[2];
-    const shift_curve *curve[2] = {p, s};
+    const shift_curve *curve[2] = {pair->p, pair->s};
     for (int c = 0; c < 2; c++)
-        gsl_stats_minmax(&low[c], &high[c], curve[c]->y[STORAGE], 1, curve[c]->n);
+        gsl_stats_minmax(&low[c], &high[c], curve[c]->y[q], 1, curve[c]->n);
     const double shared = fmin(high[0], high[1]) - fmax(low[0], low[1]);
     const double flatter = fmin(high[0] - low[0], high[1] - low[1]);
     return shared > 0.0 && shared >= fmin(least_overlap, 0.25 * flatter);
 }
 
-bool shift_pair_fit(const shift_curve *p, const shift_curve *s, bool free_b, double *a, double *b)
+/* Whether enough points lie on the other curve. */
+static bool overlaps(const struct pair *pair, const struct overlap *sum)
 {
-    const struct pair pair = {p, s, free_b, free_b ? 0.0 : *b};
-    if (p->n < SHIFT_MIN_POINTS || s->n < SHIFT_MIN_POINTS || !ordinates_overlap(p, s))
+    bool enough = true;
+    for (int q = 0; q < MODULI; q++)
+        enough = enough && (!pair->used[q] || sum->n[q] >= SHIFT_MIN_POINTS);
+    return enough;
+}
+
+bool shift_pair_fit(const shift_set *set, size_t onto, size_t from, bool free_b, double *a,
+                    double *b)
+{
+    const shift_curve *p = &set->curves[onto], *s = &set->curves[from];
+    const struct pair pair = {p, s, set->used, free_b, free_b ? 0.0 : *b};
+    if (p->n < SHIFT_MIN_POINTS || s->n < SHIFT_MIN_POINTS || !ordinates_overlap(&pair))
         return false;
     const double lowest = p->x[0] - s->x[s->n - 1], highest = p->x[p->n - 1] - s->x[0];
     const double step = (highest - lowest) / GRID;
     double best_cost = HUGE_VAL, least_square = HUGE_VAL, closest = 0.0, b_closest = 0.0;
     for (int g = 1; g < GRID; g++) {
         const struct overlap sum = overlap_at(&pair, lowest + g * step);
-        if (sum.n[STORAGE] < SHIFT_MIN_POINTS || sum.n[LOSS] < SHIFT_MIN_POINTS)
+        if (!overlaps(&pair, &sum))
             continue;
         double vertical;
         const double square = mean_square(&pair, &sum, &vertical);

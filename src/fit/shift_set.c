@@ -29,6 +29,12 @@ static int by_temperature(const void *left, const void *right)
     return (a->index > b->index) - (a->index < b->index); /* runs of one temperature keep order */
 }
 
+/* tan delta of a point. */
+static double factor_of(const wt_isotherm *t, size_t k)
+{
+    return t->loss_modulus[k] / t->storage_modulus[k];
+}
+
 static wt_status check_temperatures(const wt_sweep *sweep, wt_error *err)
 {
     for (size_t i = 0; i < sweep->n_isotherms; i++) {
@@ -46,18 +52,33 @@ static wt_status check_temperatures(const wt_sweep *sweep, wt_error *err)
     return WT_OK;
 }
 
+/* What of an isotherm is fitted; NaN where it was not measured. */
+static void values_of(const wt_isotherm *t, wt_shift_by by, size_t k, double value[MODULI])
+{
+    value[STORAGE] = t->storage_modulus[k];
+    value[LOSS] = t->loss_modulus[k];
+    if (by == WT_BY_LOSS_FACTOR)
+        value[LOSS] = factor_of(t, k);
+}
+
 /* Fills one curve from an isotherm; scratch: [isotherm->n]. */
-static wt_status fill_curve(const wt_isotherm *isotherm, struct point *scratch, shift_curve *curve,
-                            wt_parselog *log, wt_error *err)
+static wt_status fill_curve(const wt_isotherm *isotherm, const shift_set *set,
+                            struct point *scratch, shift_curve *curve, wt_parselog *log,
+                            wt_error *err)
 {
     size_t n = 0;
     size_t first_bad = isotherm->n;
     for (size_t k = 0; k < isotherm->n; k++) {
         const double w = isotherm->angular_frequency[k];
-        const double storage = isotherm->storage_modulus[k], loss = isotherm->loss_modulus[k];
-        if (w > 0.0 && storage > 0.0 && loss > 0.0 && isfinite(w) && isfinite(storage) &&
-            isfinite(loss)) {
-            scratch[n++] = (struct point){log10(w), {log10(storage), log10(loss)}};
+        double value[MODULI];
+        bool good = w > 0.0 && isfinite(w);
+        values_of(isotherm, set->by, k, value);
+        for (int q = 0; q < MODULI; q++) {
+            good = good && (!set->used[q] || (value[q] > 0.0 && isfinite(value[q])));
+            value[q] = set->used[q] ? log10(value[q]) : 0.0;
+        }
+        if (good) {
+            scratch[n++] = (struct point){log10(w), {value[STORAGE], value[LOSS]}};
         } else {
             if (first_bad == isotherm->n)
                 first_bad = k;
@@ -94,8 +115,49 @@ static wt_status fill_curve(const wt_isotherm *isotherm, struct point *scratch, 
     return WT_OK;
 }
 
-wt_status shift_set_new(const wt_sweep *sweep, wt_parselog *log, pool *memory, shift_set *set,
-                        wt_error *err)
+/* Which quantities all isotherms have at some point. */
+static void measured(const wt_sweep *sweep, bool has[MODULI], bool *factor)
+{
+    has[STORAGE] = has[LOSS] = *factor = true;
+    for (size_t i = 0; i < sweep->n_isotherms; i++) {
+        const wt_isotherm *t = &sweep->isotherms[i];
+        bool storage = t->n == 0, loss = storage, ratio = storage;
+        for (size_t k = 0; k < t->n; k++) {
+            storage = storage || isfinite(t->storage_modulus[k]);
+            loss = loss || isfinite(t->loss_modulus[k]);
+            ratio = ratio || isfinite(factor_of(t, k));
+        }
+        has[STORAGE] = has[STORAGE] && storage;
+        has[LOSS] = has[LOSS] && loss;
+        *factor = *factor && ratio;
+    }
+}
+
+static wt_status choose_quantity(const wt_sweep *sweep, wt_shift_by by, shift_set *set,
+                                 wt_error *err)
+{
+    static const char *const names[] = {[WT_BY_MODULI] = "storage or loss modulus",
+                                        [WT_BY_STORAGE] = "storage modulus",
+                                        [WT_BY_LOSS] = "loss modulus",
+                                        [WT_BY_LOSS_FACTOR] = "loss factor"};
+    bool has[MODULI], factor;
+    measured(sweep, has, &factor);
+    if (by == WT_BY_MODULI && !(has[STORAGE] && has[LOSS]))
+        by = has[STORAGE] ? WT_BY_STORAGE : has[LOSS] ? WT_BY_LOSS : WT_BY_LOSS_FACTOR;
+    set->by = by;
+    set->used[STORAGE] = by == WT_BY_MODULI || by == WT_BY_STORAGE;
+    set->used[LOSS] = by != WT_BY_STORAGE;
+    if (by == WT_BY_LOSS_FACTOR
+            ? factor
+            : set->used[STORAGE] <= has[STORAGE] && set->used[LOSS] <= has[LOSS])
+        return WT_OK;
+    wt_fail(err, WT_E_MISSING, "not all isotherms have a %s", names[by]);
+    wt_error_expected(err, "the same of all: storage modulus, loss modulus or loss factor");
+    return WT_E_MISSING;
+}
+
+wt_status shift_set_new(const wt_sweep *sweep, wt_shift_by by, wt_parselog *log, pool *memory,
+                        shift_set *set, wt_error *err)
 {
     const size_t n = sweep->n_isotherms;
     size_t n_points = 0, n_longest = 1;
@@ -119,6 +181,7 @@ wt_status shift_set_new(const wt_sweep *sweep, wt_parselog *log, pool *memory, s
     *set = (shift_set){.n = n, .curves = pool_alloc(memory, n, sizeof *set->curves)};
     if (memory->failed)
         return wt_fail(err, WT_E_MEMORY, "no memory for %zu isotherms", n);
+    status = choose_quantity(sweep, by, set, err);
     for (size_t i = 0; i < n; i++)
         order[i] = (struct order){sweep->isotherms[i].temperature, i};
     qsort(order, n, sizeof *order, by_temperature);
@@ -126,11 +189,13 @@ wt_status shift_set_new(const wt_sweep *sweep, wt_parselog *log, pool *memory, s
         const wt_isotherm *isotherm = &sweep->isotherms[order[i].index];
         shift_curve *curve = &set->curves[i];
         curve->temperature = isotherm->temperature;
+        curve->given = isotherm->shift_given;
+        curve->given_a = isotherm->given_log_a;
         curve->x = next;
         curve->y[STORAGE] = next + isotherm->n;
         curve->y[LOSS] = next + 2 * isotherm->n;
         next += 3 * isotherm->n;
-        status = fill_curve(isotherm, scratch, curve, log, err);
+        status = fill_curve(isotherm, set, scratch, curve, log, err);
         set->n_points += curve->n;
     }
     return status;

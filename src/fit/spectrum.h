@@ -28,6 +28,10 @@ typedef struct spectrum {
     double *y[MODULI];      /* [n] */
     double *weight[MODULI]; /* [n] 0: left out; 1, or less while outliers are looked for */
     size_t anchor;          /* its horizontal shift is 0 */
+    bool used[MODULI];      /* the other one has weight 0 */
+    bool ratio;             /* in the place of LOSS is tan delta: no level, no vertical shift */
+    bool *given;            /* [n_curves] the horizontal shift is not fitted */
+    double *given_a;        /* [n_curves] it */
 
     /* unknowns: ln of the terms, ln of the equilibrium modulus, a, b */
     size_t n_terms, n_linear; /* terms; with the equilibrium modulus */
@@ -39,6 +43,7 @@ typedef struct spectrum {
     double *value;                               /* [n_unknowns] */
     long *column_a, *column_b;                   /* [n_curves] unknown of a curve, -1: held */
     double equilibrium_mean, equilibrium_spread; /* prior of its logarithm */
+    double level; /* of ratio: mean of ln of the terms, which nothing tells, to 1 */
     const spectrum_prior *prior;
 
     /* noise and smoothness */
@@ -66,7 +71,7 @@ typedef struct spectrum {
     double *term;        /* [n_linear] */
     double *copy;        /* [n] scratch */
     double *was[MODULI]; /* [n] weights before */
-    gsl_matrix *factor;
+    gsl_matrix *factor, *scratch;
     gsl_vector *direction;
     double *trial;
 } spectrum;

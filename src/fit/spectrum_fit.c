@@ -4,9 +4,8 @@
 #include "fit/spectrum.h"
 
 #include "base/gsl_quiet.h"
+#include "fit/dense.h"
 
-#include <gsl/gsl_blas.h>
-#include <gsl/gsl_errno.h>
 #include <gsl/gsl_linalg.h>
 #include <math.h>
 #include <string.h>
@@ -33,7 +32,7 @@ static bool factorise(spectrum *s, double damping)
     gsl_matrix_memcpy(&factor.matrix, &precision.matrix);
     for (size_t i = 0; i < n; i++)
         *gsl_matrix_ptr(s->factor, i, i) *= 1.0 + damping;
-    return gsl_linalg_cholesky_decomp1(&factor.matrix) == GSL_SUCCESS;
+    return dense_factor(&factor.matrix);
 }
 
 static wt_status invert(spectrum *s, wt_error *err)
@@ -45,9 +44,8 @@ static wt_status invert(spectrum *s, wt_error *err)
     s->log_det = 0.0;
     for (size_t i = 0; i < n; i++)
         s->log_det += 2.0 * log(gsl_matrix_get(s->factor, i, i));
-    gsl_matrix_memcpy(&covariance.matrix, &factor.matrix);
-    if (gsl_linalg_cholesky_invert(&covariance.matrix) != GSL_SUCCESS)
-        return wt_fail(err, WT_E_INTERNAL, "a matrix could not be inverted");
+    gsl_matrix_view scratch = part(s->scratch, n);
+    dense_inverse(&factor.matrix, &scratch.matrix, &covariance.matrix);
     return WT_OK;
 }
 

@@ -19,6 +19,8 @@ static const double fast_margin = 1.5, slow_margin = 2.5;
 static const double slow_stiffness = 2.0;
 /* Slope of the terms to start from beyond the slowest measured point. */
 static const double start_fall = 0.5;
+/* Slopes of ln E' that a spectrum can have. */
+static const double flattest = 0.01, steepest = 1.5;
 /* Rows that go into the normal equations together. */
 enum { ROWS = 4 };
 
@@ -31,6 +33,8 @@ static wt_status allocate(spectrum *s, wt_error *err)
     s->first = pool_alloc(m, s->n_curves + 1, sizeof *s->first);
     s->column_a = pool_alloc(m, s->n_curves, sizeof *s->column_a);
     s->column_b = pool_alloc(m, s->n_curves, sizeof *s->column_b);
+    s->given = pool_alloc(m, s->n_curves, sizeof *s->given);
+    s->given_a = pool_numbers(m, s->n_curves);
     s->x = pool_numbers(m, s->n);
     s->copy = pool_numbers(m, s->n);
     for (int q = 0; q < MODULI; q++) {
@@ -50,6 +54,7 @@ static wt_status allocate(spectrum *s, wt_error *err)
     s->precision = pool_matrix(m, most, most);
     s->covariance = pool_matrix(m, most, most);
     s->factor = pool_matrix(m, most, most);
+    s->scratch = pool_matrix(m, most, most);
     s->gradient = pool_vector(m, most);
     s->direction = pool_vector(m, most);
     return m->failed
@@ -63,26 +68,55 @@ void spectrum_free(spectrum *s)
     *s = (spectrum){0};
 }
 
-/* Terms to start from: E'' at the frequency of a term, of the nearest points once shifted. */
+/* ln of what is nearest to E'' at a point: E'' itself, what the slope of E' makes of it
+ * (Kramers-Kronig in its local form), or tan delta. */
+static double near_loss(const spectrum *s, size_t curve, size_t k)
+{
+    if (s->used[LOSS])
+        return s->y[LOSS][k];
+    const size_t from = k > s->first[curve] ? k - 1 : k,
+                 to = k + 1 < s->first[curve + 1] ? k + 1 : k;
+    const double rise = s->y[STORAGE][to] - s->y[STORAGE][from], width = s->x[to] - s->x[from];
+    const double slope = width > 0.0 ? fmax(flattest, fmin(steepest, rise / width)) : flattest;
+    return s->y[STORAGE][k] + log(slope * M_PI / 2.0);
+}
+
+/* The same at ln w = `at`, of the nearest points once shifted. */
+static double loss_at(const spectrum *s, double at, const double *a, const double *b)
+{
+    double sum = 0.0, weights = 0.0;
+    for (size_t i = 0; i < s->n_curves; i++)
+        for (size_t k = s->first[i]; k < s->first[i + 1]; k++) {
+            const double away = (s->x[k] + a[i] - at) / s->step;
+            const double w = 1.0 / (1e-2 + away * away * away * away);
+            sum += w * (near_loss(s, i, k) + b[i]);
+            weights += w;
+        }
+    return sum / weights;
+}
+
+/* Terms to start from: E'' at the frequency of a term. By tan delta alone E' begins at 1 and rises
+ * by 2/pi delta. */
 static void start_terms(spectrum *s, const double *a, const double *b)
 {
-    double lowest = HUGE_VAL, slowest = HUGE_VAL;
-    for (size_t i = 0; i < s->n_curves; i++)
+    double lowest = HUGE_VAL, slowest = HUGE_VAL, fastest = -HUGE_VAL, level = 0.0;
+    const int q = s->used[STORAGE] ? STORAGE : LOSS;
+    for (size_t i = 0; i < s->n_curves; i++) {
         slowest = fmin(slowest, s->x[s->first[i]] + a[i]);
-    for (size_t j = 0; j < s->n_terms; j++) {
-        const double at = -(s->log_tau + (double)j * s->step);
-        double sum = 0.0, weights = 0.0;
-        for (size_t i = 0; i < s->n_curves; i++)
-            for (size_t k = s->first[i]; k < s->first[i + 1]; k++) {
-                const double away = (s->x[k] + a[i] - at) / s->step;
-                const double w = 1.0 / (1e-2 + away * away * away * away);
-                sum += w * (s->y[LOSS][k] + b[i]);
-                weights += w;
-                lowest = fmin(lowest, s->y[STORAGE][k] + b[i]);
-            }
+        fastest = fmax(fastest, s->x[s->first[i + 1] - 1] + a[i]);
+        for (size_t k = s->first[i]; k < s->first[i + 1]; k++)
+            lowest = fmin(lowest, s->y[q][k] + b[i]);
+    }
+    if (s->ratio)
+        lowest = 0.0;
+    s->level = 0.0;
+    for (size_t j = s->n_terms; j-- > 0;) { /* from slow to fast */
+        const double at = -(s->log_tau + (double)j * s->step), near = loss_at(s, at, a, b);
+        if (s->ratio && at > slowest && at < fastest)
+            level += 2.0 / M_PI * atan(exp(near)) * s->step;
         /* beyond the measured range falling: what is slow is left to the equilibrium modulus */
-        s->value[j] =
-            sum / weights + log(s->step * 2.0 / M_PI) - start_fall * fmax(slowest - at, 0);
+        s->value[j] = near + level + log(s->step * 2.0 / M_PI) - start_fall * fmax(slowest - at, 0);
+        s->level += s->value[j] / (double)s->n_terms;
     }
     s->equilibrium_mean = lowest - 1.0;
     s->equilibrium_spread = equilibrium_spread;
@@ -95,7 +129,10 @@ wt_status spectrum_new(const shift_set *set, const bool *use, size_t anchor, con
                        wt_error *err)
 {
     double low = HUGE_VAL, high = -HUGE_VAL;
-    *s = (spectrum){.liquid = liquid, .step = M_LN10 / terms_per_decade};
+    *s = (spectrum){.liquid = liquid,
+                    .used = {set->used[STORAGE], set->used[LOSS]},
+                    .ratio = set->by == WT_BY_LOSS_FACTOR,
+                    .step = M_LN10 / terms_per_decade};
     for (size_t i = 0; i < set->n; i++) {
         const shift_curve *c = &set->curves[i];
         if (!use[i])
@@ -128,10 +165,13 @@ wt_status spectrum_new(const shift_set *set, const bool *use, size_t anchor, con
             s->x[k] = c->x[p] * M_LN10;
             for (int q = 0; q < MODULI; q++) {
                 s->y[q][k] = c->y[q][p] * M_LN10;
-                s->weight[q][k] = s->spread[q][k] = 1.0;
+                s->weight[q][k] = s->used[q] ? 1.0 : 0.0;
+                s->spread[q][k] = 1.0;
             }
         }
         start[curve] = a[i] * M_LN10;
+        s->given[curve] = c->given || i == anchor;
+        s->given_a[curve] = (a[i] - a[anchor]) * M_LN10;
         start[s->n_curves + curve] = b[i] * M_LN10;
         s->kappa[curve++] = 1.0;
     }
@@ -155,7 +195,7 @@ wt_status spectrum_new(const shift_set *set, const bool *use, size_t anchor, con
 
 double spectrum_a(const spectrum *s, size_t curve)
 {
-    return s->column_a[curve] < 0 ? 0.0 : s->value[s->column_a[curve]];
+    return s->column_a[curve] < 0 ? s->given_a[curve] : s->value[s->column_a[curve]];
 }
 
 double spectrum_b(const spectrum *s, size_t curve)
@@ -180,7 +220,7 @@ void spectrum_set_prior(spectrum *s, const spectrum_prior *prior)
     s->n_unknowns = s->n_linear;
     for (size_t i = 0; i < s->n_curves; i++) {
         s->column_a[i] = s->column_b[i] = -1;
-        if (i != s->anchor) {
+        if (!s->given[i]) {
             s->column_a[i] = (long)s->n_unknowns;
             s->value[s->n_unknowns++] = shift[2 * i];
         }
@@ -271,25 +311,37 @@ double spectrum_log_det_correlation(const spectrum *s)
     return sum;
 }
 
+/* tan delta in the place of E''. */
+static void to_factor(const spectrum *s, double modulus[MODULI], double slope[MODULI],
+                      double *const row[MODULI])
+{
+    modulus[LOSS] -= modulus[STORAGE];
+    slope[LOSS] -= slope[STORAGE];
+    for (size_t j = 0; row != NULL && j < s->n_linear; j++)
+        row[LOSS][j] -= row[STORAGE][j];
+}
+
 void spectrum_evaluate(spectrum *s, const double *value, bool with_rows)
 {
     const size_t width = s->n_linear + 2;
     s->evaluations++;
     spectrum_terms(s, value, s->term);
     for (size_t i = 0; i < s->n_curves; i++) {
-        const double a = s->column_a[i] < 0 ? 0.0 : value[s->column_a[i]];
+        const double a = s->column_a[i] < 0 ? s->given_a[i] : value[s->column_a[i]];
         const double b = s->column_b[i] < 0 ? s->prior->mean[i] : value[s->column_b[i]];
         for (size_t k = s->first[i]; k < s->first[i + 1]; k++) {
             double *const row[MODULI] = {s->row[STORAGE] + k * width, s->row[LOSS] + k * width};
             double modulus[MODULI], slope[MODULI];
             spectrum_at(s, s->term, s->x[k] + a, modulus, slope, with_rows ? row : NULL);
+            if (s->ratio)
+                to_factor(s, modulus, slope, with_rows ? row : NULL);
             for (int q = 0; q < MODULI; q++) {
                 const double w = spectrum_weight(s, k, q);
-                s->residual[q][k] = w * (s->y[q][k] - modulus[q] + b);
+                s->residual[q][k] = w * (s->y[q][k] - modulus[q] + (s->ratio ? 0.0 : b));
                 for (size_t j = 0; with_rows && j < s->n_linear; j++)
                     row[q][j] *= w;
                 row[q][s->n_linear] = w * slope[q];
-                row[q][s->n_linear + 1] = -w;
+                row[q][s->n_linear + 1] = s->ratio ? 0.0 : -w;
             }
         }
         for (int q = 0; q < MODULI; q++) {
@@ -369,6 +421,15 @@ static double b_departure(const spectrum *s, const double *value, size_t curve)
     return value[s->column_b[curve]] - s->prior->mean[curve];
 }
 
+/* By tan delta alone the level is held, loosely: it is no part of what is told. */
+static double off_level(const spectrum *s, const double *value)
+{
+    double sum = -s->level;
+    for (size_t j = 0; j < s->n_terms; j++)
+        sum += value[j] / (double)s->n_terms;
+    return sum;
+}
+
 double spectrum_objective(const spectrum *s, const double *value)
 {
     double sum = spectrum_roughness(s, value) / (s->smooth * s->smooth);
@@ -378,6 +439,8 @@ double spectrum_objective(const spectrum *s, const double *value)
         const double off = (value[s->n_terms] - s->equilibrium_mean) / s->equilibrium_spread;
         sum += off * off;
     }
+    if (s->ratio)
+        sum += pow(off_level(s, value), 2);
     for (size_t i = 0; s->prior->precision != NULL && i < s->n_curves; i++)
         for (size_t k = 0; k < s->n_curves; k++)
             sum += gsl_matrix_get(s->prior->precision, i, k) * b_departure(s, value, i) *
@@ -432,6 +495,12 @@ static void add_priors(spectrum *s)
         *gsl_matrix_ptr(s->precision, s->n_terms, s->n_terms) += w;
         *gsl_vector_ptr(s->gradient, s->n_terms) -=
             w * (s->value[s->n_terms] - s->equilibrium_mean);
+    }
+    const double share = 1.0 / (double)s->n_terms, off = s->ratio ? off_level(s, s->value) : 0.0;
+    for (size_t j = 0; s->ratio && j < s->n_terms; j++) {
+        *gsl_vector_ptr(s->gradient, j) -= share * off;
+        for (size_t i = 0; i < s->n_terms; i++)
+            *gsl_matrix_ptr(s->precision, j, i) += share * share;
     }
     for (size_t i = 0; s->prior->precision != NULL && i < s->n_curves; i++)
         for (size_t k = 0; k < s->n_curves; k++) {

@@ -116,7 +116,7 @@ void spectrum_student_weights(spectrum *s)
 {
     for (size_t i = 0; i < s->n_curves; i++)
         for (int q = 0; q < MODULI; q++)
-            for (size_t k = s->first[i]; k < s->first[i + 1]; k++) {
+            for (size_t k = s->first[i]; s->used[q] && k < s->first[i + 1]; k++) {
                 const double r = s->residual[q][k] / s->noise[q];
                 const double square = r * r / s->weight[q][k];
                 s->weight[q][k] = (student + 1.0) / (student + square);
@@ -141,11 +141,13 @@ size_t spectrum_outliers(spectrum *s)
     for (int q = 0; q < MODULI; q++)
         for (size_t k = 0; k < s->n; k++) {
             s->was[q][k] = s->weight[q][k];
-            s->weight[q][k] = 1.0;
+            s->weight[q][k] = s->used[q] ? 1.0 : 0.0;
         }
     spectrum_evaluate(s, s->value, false);
     s->rho = rho;
     for (int q = 0; q < MODULI; q++) {
+        if (!s->used[q])
+            continue;
         for (size_t k = 0; k < s->n; k++)
             copy[k] = s->residual[q][k];
         const double all = robust_spread(copy, s->n);

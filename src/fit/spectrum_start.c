@@ -11,14 +11,17 @@ enum { NEIGHBOURS = 3 };
 static void place(const shift_set *set, size_t anchor, wt_vertical_shift kind, size_t i,
                   bool *placed, double *a, double *b)
 {
-    const bool free_b = kind == WT_VERTICAL_FREE || kind == WT_VERTICAL_TIED;
+    const bool free_b = set->used[STORAGE] && set->used[LOSS] &&
+                        (kind == WT_VERTICAL_FREE || kind == WT_VERTICAL_TIED);
+    if (placed[i])
+        return;
     const long inwards = i > anchor ? -1 : 1;
     int tried = 0;
     for (long p = (long)i + inwards; tried < NEIGHBOURS; p += inwards) {
         double by = 0.0, vertical = b[i] - b[p];
         if (placed[p]) {
             tried++;
-            placed[i] = shift_pair_fit(&set->curves[p], &set->curves[i], free_b, &by, &vertical);
+            placed[i] = shift_pair_fit(set, (size_t)p, i, free_b, &by, &vertical);
         }
         if (placed[i]) {
             a[i] = a[p] + by;
@@ -34,9 +37,10 @@ void spectrum_start(const shift_set *set, size_t anchor, wt_vertical_shift kind,
                     const double *physical, bool *placed, double *a, double *b)
 {
     for (size_t i = 0; i < set->n; i++) {
-        placed[i] = i == anchor;
-        a[i] = 0.0;
-        b[i] = kind == WT_VERTICAL_NONE ? 0.0 : physical[i];
+        const shift_curve *c = &set->curves[i];
+        placed[i] = i == anchor || (c->given && c->n >= SHIFT_MIN_POINTS);
+        a[i] = c->given ? c->given_a - set->curves[anchor].given_a : 0.0;
+        b[i] = kind == WT_VERTICAL_NONE || set->by == WT_BY_LOSS_FACTOR ? 0.0 : physical[i];
     }
     for (size_t i = anchor + 1; i < set->n; i++)
         place(set, anchor, kind, i, placed, a, b);
@@ -54,7 +58,7 @@ size_t spectrum_connected(const shift_set *set, size_t anchor, const double *a, 
 {
     size_t count = 1;
     for (size_t i = 0; i < set->n; i++)
-        overlap[i] = i == anchor ? HUGE_VAL : 0.0;
+        overlap[i] = i == anchor || (placed[i] && set->curves[i].given) ? HUGE_VAL : 0.0;
     /* an isotherm hangs by its largest overlap, or by that of the one it hangs on if that is less
      */
     for (bool grown = true; grown;) {

@@ -3,6 +3,7 @@
 #include "fit/spectrum_vertical.h"
 
 #include "base/gsl_quiet.h"
+#include "fit/dense.h"
 
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_linalg.h>
@@ -62,13 +63,13 @@ wt_status vertical_prior(vertical *v, wt_vertical_shift kind, const double *temp
 }
 
 void vertical_smooth_part(const vertical *v, const spectrum_prior *prior, const double *temperature,
-                          size_t n, double at, double *weight)
+                          size_t n, double *weight)
 {
     const double departure = v->departure * M_LN10;
-    for (size_t i = 0; i < n; i++) {
-        weight[i] = 0.0;
-        for (size_t k = 0; k < n; k++)
-            weight[i] += departure * departure * smooth(v, at, temperature[k]) *
-                         gsl_matrix_get(prior->precision, k, i);
-    }
+    for (size_t i = 0; i < n; i++)
+        for (size_t k = 0; k < n; k++) {
+            const double with = departure * departure * smooth(v, temperature[i], temperature[k]);
+            dense_add(weight + i * n, n, &with, 1, gsl_matrix_const_ptr(prior->precision, k, 0),
+                      prior->precision->tda, 1);
+        }
 }

@@ -18,9 +18,9 @@ double vertical_physical(const vertical *v, double temperature);
  * but for the anchor, which is clamped as all are; without an error of the geometry it is held. */
 wt_status vertical_prior(vertical *v, wt_vertical_shift kind, const double *temperature,
                          const spectrum *s, spectrum_prior *prior, wt_error *err) WT_NODISCARD;
-/* ln b of the material at a temperature is vertical_physical plus the sum of weight[i] times (b_i -
- * mean_i): what is smooth in them. */
+/* ln b of the material at isotherm i is vertical_physical plus the sum of weight[i * n + k] times
+ * (b_k - mean_k): what is smooth in them. weight: of zeros. */
 void vertical_smooth_part(const vertical *v, const spectrum_prior *prior, const double *temperature,
-                          size_t n, double at, double *weight);
+                          size_t n, double *weight);
 
 #endif

@@ -4,6 +4,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "fit/superposition.h"
 
+#include "fit/dense.h"
 #include "fit/pool_gsl.h"
 
 #include <gsl/gsl_blas.h>
@@ -37,6 +38,7 @@ struct extra {
     gsl_matrix *column; /* [n * 2N]: whitened, E' then E'' */
     gsl_matrix *matrix; /* [n * n] what the model leaves of them */
     gsl_vector *right;  /* [n] with the residuals */
+    size_t *from, *to;  /* [n] where a column is not zero */
     double squares, points, freedom;
     double uncertainty; /* variance of ln of the variance of what columns explain */
 };
@@ -142,17 +144,58 @@ static void add_product(const spectrum *s, const double *z, double *product)
             }
 }
 
+/* Products of the columns with each other, where both are not zero: most are of one isotherm. */
+static void multiply_columns(struct extra *x, const gsl_matrix *columns)
+{
+    const size_t n = columns->size1;
+    size_t *from = x->from, *to = x->to;
+    for (size_t c = 0; c < n; c++) {
+        const double *v = gsl_matrix_const_ptr(columns, c, 0);
+        to[c] = columns->size2;
+        for (from[c] = 0; from[c] < to[c] && v[from[c]] == 0.0;)
+            from[c]++;
+        while (to[c] > from[c] && v[to[c] - 1] == 0.0)
+            to[c]--;
+        for (size_t d = 0; d <= c; d++) {
+            const double *w = gsl_matrix_const_ptr(columns, d, 0);
+            const size_t end = to[c] < to[d] ? to[c] : to[d];
+            double sum = 0.0;
+            for (size_t k = from[c] > from[d] ? from[c] : from[d]; k < end; k++)
+                sum += v[k] * w[k];
+            gsl_matrix_set(x->matrix, c, d, sum);
+            gsl_matrix_set(x->matrix, d, c, sum);
+        }
+    }
+}
+
+/* Takes by' V by from the products, V the covariance; by: [n * unknowns]. */
+static wt_status take_out_model(struct extra *x, gsl_matrix *by, wt_error *err)
+{
+    const size_t n = by->size1, m = by->size2;
+    const gsl_matrix *v = x->s->covariance;
+    gsl_matrix *solved = pool_matrix(&x->memory, m, n), *across = pool_matrix(&x->memory, m, n);
+    if (x->memory.failed)
+        return wt_fail(err, WT_E_MEMORY, "no memory for the test of superposition");
+    gsl_matrix_transpose_memcpy(across, by);
+    for (size_t u = 0; u < m; u++)
+        dense_add(gsl_matrix_ptr(solved, u, 0), n, gsl_matrix_const_ptr(v, u, 0), 1, across->data,
+                  across->tda, m);
+    gsl_matrix_scale(by, -1.0);
+    for (size_t c = 0; c < n; c++)
+        dense_add(gsl_matrix_ptr(x->matrix, c, 0), n, gsl_matrix_const_ptr(by, c, 0), 1,
+                  solved->data, solved->tda, m);
+    return WT_OK;
+}
+
 /* Columns and residuals with the model taken out, each column of length 1 before. */
 static wt_status project(struct extra *x, wt_error *err)
 {
     const spectrum *s = x->s;
     const size_t n = x->n, m = s->n_unknowns;
-    gsl_matrix *by = pool_matrix(&x->memory, n, m), *solved = pool_matrix(&x->memory, n, m);
+    gsl_matrix *by = pool_matrix(&x->memory, n, m);
     if (x->memory.failed)
         return wt_fail(err, WT_E_MEMORY, "no memory for the test of superposition");
     gsl_matrix_view columns = gsl_matrix_submatrix(x->column, 0, 0, n, 2 * s->n);
-    gsl_matrix_view matrix = gsl_matrix_submatrix(x->matrix, 0, 0, n, n);
-    gsl_matrix_const_view v = gsl_matrix_const_submatrix(s->covariance, 0, 0, m, m);
     for (size_t c = 0; c < n; c++) {
         gsl_vector_view column = gsl_matrix_row(&columns.matrix, c);
         const double length = gsl_blas_dnrm2(&column.vector);
@@ -166,11 +209,8 @@ static wt_status project(struct extra *x, wt_error *err)
                        s->residual[q][k] / s->noise[q];
         gsl_vector_set(x->right, c, sum);
     }
-    gsl_blas_dgemm(CblasNoTrans, CblasTrans, 1.0, &columns.matrix, &columns.matrix, 0.0,
-                   &matrix.matrix);
-    gsl_blas_dsymm(CblasRight, CblasLower, 1.0, &v.matrix, by, 0.0, solved);
-    gsl_blas_dgemm(CblasNoTrans, CblasTrans, -1.0, by, solved, 1.0, &matrix.matrix);
-    return WT_OK;
+    multiply_columns(x, &columns.matrix);
+    return take_out_model(x, by, err);
 }
 
 /* right' matrix^- right and the rank, by Cholesky with the largest pivot left. */
@@ -193,9 +233,10 @@ static double quadratic(struct extra *x, size_t *rank)
         sum += r * r / d;
         for (size_t i = *rank + 1; i < x->n; i++) {
             const double f = gsl_matrix_get(x->matrix, i, *rank) / d;
+            const double less = -f;
             *gsl_vector_ptr(x->right, i) -= f * r;
-            for (size_t j = *rank + 1; j < x->n; j++)
-                *gsl_matrix_ptr(x->matrix, i, j) -= f * gsl_matrix_get(x->matrix, *rank, j);
+            dense_add(gsl_matrix_ptr(x->matrix, i, *rank + 1), x->n - *rank - 1, &less, 1,
+                      gsl_matrix_const_ptr(x->matrix, *rank, *rank + 1), x->matrix->tda, 1);
         }
     }
     return sum;
@@ -292,6 +333,8 @@ wt_status superposition_test(const spectrum *s, double uncertainty, lack_of_fit 
     x.column = pool_matrix(&x.memory, most, 2 * s->n);
     x.matrix = pool_matrix(&x.memory, most, most);
     x.right = pool_vector(&x.memory, most);
+    x.from = pool_alloc(&x.memory, most, sizeof *x.from);
+    x.to = pool_alloc(&x.memory, most, sizeof *x.to);
     wt_status status = x.memory.failed
                            ? wt_fail(err, WT_E_MEMORY, "no memory for the test of superposition")
                            : WT_OK;

@@ -22,6 +22,8 @@ static const struct {
 } moved[] = {
     {"reference-temperature", "35degC", NULL, NULL},
     {"terms-per-decade", "2.7", NULL, NULL},
+    {"leave-out", "temperature:..0degC", NULL, NULL},
+    {"shift-law", "wlf:reference-temperature=20degC,c1=9,c2=100K", NULL, NULL},
     {"expansion", "7e-4", "vertical-shift physical", NULL},
     {"fit-depth", "30nm", NULL, NULL},
     {"fit-force-fraction", "0.5", NULL, NULL},
@@ -97,6 +99,8 @@ static const struct {
     {NULL, "material", "the base has the same from --dma: tests/cli/round_trip.txt"},
     {NULL, "dma", "the base has it"},
     {NULL, "master", "the base has it"},
+    {"master", "shifts", "a file of shifts: tests/cli/shifts.txt"},
+    {"master", "save-shifts", "where shifts go: tests/cli/shifts.txt"},
     {NULL, "report", "where the report goes, not what it is"},
     {NULL, "no-report", "the base has it"},
     {NULL, "style", "of the pictures: test_report"},

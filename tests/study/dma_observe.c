@@ -376,6 +376,7 @@ static void observe(int scene, const void *what, random_source *random, trial *t
     sample_draw(s, &p->rubber, random, measured);
     say_number(&l, "--reference-temperature", s->reference, "degC");
     say(&l, "--vertical-shift", s->vertical);
+    say(&l, "--shift-by", s->by);
     if (sample_write(s, measured, sweep) != 0) {
         trial_broke(t, "the isotherms cannot be written");
     } else if (run(&l, master, t)) {

@@ -35,6 +35,7 @@ typedef struct dma_scene {
     double crystallises;              /* below 10 degC; 1 is strong */
 
     const char *vertical; /* of --vertical-shift; NULL: the default */
+    const char *by;       /* of --shift-by; NULL: both moduli */
     const contact *contact;
     bool other_layout; /* of the file */
     bool shear;        /* G = E/3 is measured, and what is stated is of G */

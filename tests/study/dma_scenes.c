@@ -273,6 +273,20 @@ const dma_scene dma_scenes[] = {
     {NAMED("held_two_laws", "two laws less far apart, 1 %"), VERDICT_PROMISED, .rubber = RUBBER_TWO,
      .law = {900, -90, 500, NONE, 1, 0}, .reference = 20, .first = -40, .last = 70, .step = 10,
      .lg_first = -1, .lg_last = 2, .frequencies = 13, NOISE(.01), BAD},
+
+    /* one quantity alone */
+    {NAMED("storage_alone", "D1 by the storage modulus alone"), .rubber = RUBBER_BROAD, BASE_LAW,
+     G10, NOISE(.01), .by = "storage", OPEN},
+    {NAMED("loss_alone", "D1 by the loss modulus alone"), .rubber = RUBBER_BROAD, BASE_LAW, G10,
+     NOISE(.01), .by = "loss", OPEN},
+    {NAMED("factor_alone", "D1 by the loss factor alone"), .rubber = RUBBER_BROAD, BASE_LAW, G10,
+     NOISE(.01), .by = "loss-factor", OPEN},
+    {NAMED("storage_alone_two", "D6 by the storage modulus alone"), .rubber = RUBBER_TWO, TWO_LAW,
+     G13, NOISE(.015), .temperature_error = .1, .by = "storage", OPEN},
+    {NAMED("loss_alone_two", "D6 by the loss modulus alone"), .rubber = RUBBER_TWO, TWO_LAW, G13,
+     NOISE(.015), .temperature_error = .1, .by = "loss", OPEN},
+    {NAMED("factor_alone_two", "D6 by the loss factor alone"), .rubber = RUBBER_TWO, TWO_LAW, G13,
+     NOISE(.015), .temperature_error = .1, .by = "loss-factor", OPEN},
 };
 const int n_dma_scenes = sizeof dma_scenes / sizeof dma_scenes[0];
 

@@ -62,6 +62,8 @@ static void hold(wt_sweep *sweep, double first, double last, uint64_t *state)
     wt_sweep_sort(sweep);
 }
 
+static const wt_shift_law none = {.kind = WT_LAW_NONE};
+
 static wt_master_options options(void)
 {
     wt_master_options o = wt_master_options_defaults();
@@ -81,7 +83,7 @@ static void sweeps_are_isotherms(void **unused)
         wt_master a = {0}, b = {0};
         heat(&heated, 3, 1, &state);
         hold(&held_at, 243.15, 353.15, &state);
-        assert_int_equal(flow_ramps_fit(&heated, &o, NULL, &a, NULL), WT_OK);
+        assert_int_equal(flow_ramps_fit(&heated, &o, &none, NULL, &a, NULL), WT_OK);
         assert_int_equal(wt_master_fit(&held_at, &o, NULL, &b, NULL), WT_OK);
         assert_int_equal(a.superposition, WT_SUPERPOSITION_HOLDS);
         assert_true(a.noise_storage < 1.2 * noise && a.noise_loss < 1.2 * noise);
@@ -126,10 +128,10 @@ static void one_frequency(void **unused)
     uint64_t state = 5;
     (void)unused;
     heat(&sweep, 1, 1, &state);
-    assert_int_equal(flow_ramps_fit(&sweep, &o, NULL, &m, &err), WT_E_MISSING);
+    assert_int_equal(flow_ramps_fit(&sweep, &o, &none, NULL, &m, &err), WT_E_MISSING);
     assert_non_null(strstr(err.message, "at one frequency"));
     hold(&sweep, 243.15, 353.15, &state);
-    assert_int_equal(flow_ramps_fit(&sweep, &o, NULL, &m, &err), WT_OK);
+    assert_int_equal(flow_ramps_fit(&sweep, &o, &none, NULL, &m, &err), WT_OK);
     assert_true(m.n > 12 * 13);
     assert_true(m.n_shifts == sweep.n_isotherms && m.n_shifts > 30);
     for (size_t i = 1; i < sweep.n_isotherms; i++)

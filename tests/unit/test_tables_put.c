@@ -265,6 +265,10 @@ static void test_joined_law(void **state)
     see(tables.prony);
     see(tables.material_draws);
     wt_master_tables_clear(&tables);
+    job.fit.shift_by = WT_BY_STORAGE;
+    assert_int_equal(wt_master_make(&job, &common, &tables, NULL, NULL), WT_OK);
+    see(tables.shift_factors);
+    wt_master_tables_clear(&tables);
     unlink(path);
 }
 

@@ -37,7 +37,10 @@
     X(SHIFT_FACTORS_LAW_LOG_A_LOW, "law_log_a_low", "lower end of its 95 % interval", NUMBER,      \
       DECIMALS(3), SPARSE)                                                                         \
     X(SHIFT_FACTORS_LAW_LOG_A_HIGH, "law_log_a_high", "upper end of its 95 % interval", NUMBER,    \
-      DECIMALS(3), SPARSE)
+      DECIMALS(3), SPARSE)                                                                         \
+    X(SHIFT_FACTORS_CLOSED_FORM, "log_a_closed_form",                                              \
+      "log10 a by the closed form of ISO 18437-6, of the storage modulus alone, for comparison",   \
+      NUMBER, DECIMALS(3), SPARSE)
 
 /* Those of the law only where there is one. */
 #define SHIFT_FACTORS_KEYS(X)                                                                      \
@@ -64,6 +67,7 @@
     X(SHIFT_FACTORS_KEY_REFERENCE_TEMPERATURE, "reference_temperature", SI(TEMPERATURE),           \
       HEADLINE("Reference temperature"))                                                           \
     X(SHIFT_FACTORS_KEY_VERTICAL, "vertical", TEXT, LABEL("Vertical shift"))                       \
+    X(SHIFT_FACTORS_KEY_SHIFTED_BY, "shifted_by", TEXT, LABEL("Shifted by"), OPTIONAL)             \
     X(SHIFT_FACTORS_KEY_DEFORMATION, "deformation", TEXT)                                          \
     X(SHIFT_FACTORS_KEY_SUPERPOSITION, "superposition", TEXT,                                      \
       HEADLINE("Time-temperature superposition"))                                                  \
@@ -109,7 +113,8 @@
       "angular frequency at the temperature it was measured at", SI(ANGULAR_FREQUENCY))            \
     X(MASTER_CURVE_OWN_STORAGE, "own_storage", "storage modulus at this temperature",              \
       SI(STORAGE_MODULUS))                                                                         \
-    X(MASTER_CURVE_OWN_LOSS, "own_loss", "loss modulus at this temperature", SI(LOSS_MODULUS))
+    X(MASTER_CURVE_OWN_LOSS, "own_loss", "loss modulus at this temperature", SI(LOSS_MODULUS))     \
+    X(MASTER_CURVE_LOSS_FACTOR, "loss_factor", "tan delta as measured", NUMBER, SPARSE)
 
 #define MASTER_CURVE_KEYS(X)                                                                       \
     X(MASTER_CURVE_KEY_NOISE_STORAGE, "noise_storage", PLAIN,                                      \

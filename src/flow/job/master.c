@@ -3,6 +3,7 @@
 #include "flow/job/cost.h"
 #include "flow/job/inputs.h"
 #include "flow/job/ramp_windows.h"
+#include "flow/job/sweep_prepare.h"
 
 #include "data/tables/tables.h"
 #include "model/material.h"
@@ -15,7 +16,33 @@ wt_master_job wt_master_job_defaults(void)
     return (wt_master_job){.fit = wt_master_options_defaults(), .poisson_ratio = 0.5};
 }
 
-static const wt_param rows[] = {POISSON_RATIO(wt_master_job)};
+static wt_status check_law(const void *member, wt_error *err)
+{
+    wt_shift_law law;
+    return flow_shift_law(*(const char *const *)member, &law, err);
+}
+
+static wt_status check_cuts(const void *member, wt_error *err)
+{
+    const char *at = member;
+    const wt_master_job *job = (const void *)(at - offsetof(wt_master_job, leave_out));
+    return flow_cuts_check(job->leave_out, job->n_leave_out, err);
+}
+
+static const wt_param rows[] = {
+    POISSON_RATIO(wt_master_job),
+    {PARAM_TEXTS_OF("leave-out", wt_master_job, leave_out, n_leave_out), .value = "WHAT",
+     .unset = "",
+     .help = "leave out isotherms and points of the DMA: temperature:LOW..HIGH or "
+             "frequency:LOW..HIGH, such as temperature:..-20degC, or one value, such as "
+             "frequency:50Hz; repeatable",
+     .check = check_cuts},
+    {PARAM_TEXT_OF("shift-law", wt_master_job, shift_law), .value = "LAW", .unset = "fitted",
+     .help = "law that gives all horizontal shifts of the DMA: "
+             "wlf:reference-temperature=20degC,c1=8.86,c2=101.6K or "
+             "arrhenius:activation-energy=80e3 (J/mol); its errors are in no interval",
+     .check = check_law},
+};
 PARAM_TABLE(wt_master_job_params, wt_master_job, rows, wt_master_job_defaults,
             PARAM_PART(wt_master_options_params, wt_master_job, fit))
 
@@ -37,6 +64,13 @@ static const char *vertical_name(wt_vertical_shift vertical)
     return names[vertical];
 }
 
+static const char *shifted_by_name(wt_shift_by by)
+{
+    static const char *const names[] = {"both moduli", "storage modulus alone",
+                                        "loss modulus alone", "loss factor alone"};
+    return names[by];
+}
+
 static const char *deformation_name(wt_deformation deformation)
 {
     return deformation == WT_SHEAR ? "shear" : "tension";
@@ -44,8 +78,9 @@ static const char *deformation_name(wt_deformation deformation)
 
 /* ---- tables ---------------------------------------------------------------------------------- */
 
-static void put_shift(table_writer *t, const wt_master_shift *s)
+static void put_shift(table_writer *t, const wt_master *m, size_t i)
 {
+    const wt_master_shift *s = &m->shifts[i];
     table_row(t);
     shift_factors_put(t, SHIFT_FACTORS_TEMPERATURE, s->temperature);
     shift_factors_put(t, SHIFT_FACTORS_LOG_A, s->log_a.value);
@@ -64,6 +99,7 @@ static void put_shift(table_writer *t, const wt_master_shift *s)
     shift_factors_put(t, SHIFT_FACTORS_LAW_LOG_A, s->law.value);
     shift_factors_put(t, SHIFT_FACTORS_LAW_LOG_A_LOW, s->law.low);
     shift_factors_put(t, SHIFT_FACTORS_LAW_LOG_A_HIGH, s->law.high);
+    shift_factors_put(t, SHIFT_FACTORS_CLOSED_FORM, wt_master_closed_form(m, i));
 }
 
 static void set_interval(table_writer *t, shift_factors_key key, wt_interval x)
@@ -119,11 +155,14 @@ static wt_status shift_table(const wt_master *m, wt_table **table, wt_error *err
 {
     table_writer t = table_begin(&shift_factors_schema, err);
     for (size_t i = 0; i < m->n_shifts; i++)
-        put_shift(&t, &m->shifts[i]);
+        put_shift(&t, m, i);
     set_law(&t, m);
     shift_factors_set_value(&t, SHIFT_FACTORS_KEY_REFERENCE_TEMPERATURE, m->reference_temperature,
                             0, 0);
     shift_factors_set_text(&t, SHIFT_FACTORS_KEY_VERTICAL, vertical_name(m->vertical));
+    if (wt_master_shifted_by(m) != WT_BY_MODULI)
+        shift_factors_set_text(&t, SHIFT_FACTORS_KEY_SHIFTED_BY,
+                               shifted_by_name(wt_master_shifted_by(m)));
     shift_factors_set_text(&t, SHIFT_FACTORS_KEY_DEFORMATION, deformation_name(m->deformation));
     set_verdict(&t, m);
     return table_end(&t, table);
@@ -153,6 +192,7 @@ static void put_point(table_writer *t, const wt_master *m, size_t i)
                      pow(10, m->log_frequency[i] - shift->log_a.value + m->offset.value));
     master_curve_put(t, MASTER_CURVE_OWN_STORAGE, pow(10, m->log_storage[i] - shift->log_b.value));
     master_curve_put(t, MASTER_CURVE_OWN_LOSS, pow(10, m->log_loss[i] - shift->log_b.value));
+    master_curve_put(t, MASTER_CURVE_LOSS_FACTOR, wt_master_loss_factor(m, i));
 }
 
 static wt_status master_table(const wt_master *m, wt_table **table, wt_error *err)
@@ -293,13 +333,34 @@ static wt_status check_strain(const wt_sweep *sweep, const wt_job *work, wt_erro
     return WT_E_EMPTY;
 }
 
+/* What is left of the sweeps, with the shifts that are given. */
+static wt_status prepare(const wt_master_job *job, const wt_job *work, wt_shift_law *law,
+                         wt_sweep *sweep, wt_error *err)
+{
+    wt_status status = flow_sweep_cut(job->leave_out, job->n_leave_out, sweep, work->log, err);
+    if (status == WT_OK)
+        status = flow_shift_law(job->shift_law, law, err);
+    if (status == WT_OK && law->kind != WT_LAW_NONE && job->shifts != NULL)
+        status = wt_fail(err, WT_E_ARG, "shifts are given by a law and by a table; give one");
+    if (status == WT_OK)
+        status = flow_shifts_give(law, job->shifts, sweep, work->log, err);
+    if (status == WT_OK && law->kind != WT_LAW_NONE)
+        wt_parselog_add(work->log, WT_NOTE, NULL, NULL,
+                        "the shifts are those of the law that is given: its errors are in no "
+                        "interval");
+    return status;
+}
+
 /* Temperature sweeps become isotherms of `sweep`. */
 static wt_status fit(const wt_master_job *job, const wt_job *work, wt_sweep *sweep,
                      wt_master *master, wt_error *err)
 {
-    const wt_status status = sweep->n_ramps > 0
-                                 ? flow_ramps_fit(sweep, &job->fit, work->log, master, err)
-                                 : wt_master_fit(sweep, &job->fit, work->log, master, err);
+    wt_shift_law law;
+    wt_status status = prepare(job, work, &law, sweep, err);
+    if (status != WT_OK)
+        return status;
+    status = sweep->n_ramps > 0 ? flow_ramps_fit(sweep, &job->fit, &law, work->log, master, err)
+                                : wt_master_fit(sweep, &job->fit, work->log, master, err);
     if (status == WT_OK)
         return WT_OK;
     /* the fit sees isotherms, not files */
@@ -312,12 +373,29 @@ static wt_status fit(const wt_master_job *job, const wt_job *work, wt_sweep *swe
     return status;
 }
 
+/* Without it there is no series. */
+static bool tells_level(const wt_master *m)
+{
+    const wt_shift_by by = wt_master_shifted_by(m);
+    return by == WT_BY_MODULI || by == WT_BY_STORAGE;
+}
+
+static wt_status no_level(const wt_master *m, wt_error *err)
+{
+    wt_fail(err, WT_E_MISSING, "the %s alone tells no level of the moduli, and friction needs both",
+            wt_master_shifted_by(m) == WT_BY_LOSS ? "loss modulus" : "loss factor");
+    wt_error_expected(err, "isotherms with storage and loss modulus");
+    return WT_E_MISSING;
+}
+
 /* All but the master curve. */
 static wt_status make_tables(const wt_master *m, const wt_job *work, wt_master_tables *t,
                              wt_error *err)
 {
     t->n_isotherms = m->n_shifts;
     wt_status status = shift_table(m, &t->shift_factors, err);
+    if (status != WT_OK || !tells_level(m))
+        return status;
     if (status == WT_OK)
         status = prony_table(m, &t->prony, err);
     return status == WT_OK && (work->left_out & WT_EXTRA_DRAWS) == 0 ? draw_tables(m, t, err)
@@ -365,12 +443,20 @@ wt_status wt_rubber_refit(const wt_rubber *rubber, wt_vertical_shift vertical, w
     return status;
 }
 
+/* In decades, of E' if it is told. */
+static double shown_error(const wt_master *m, size_t i)
+{
+    return !isnan(m->fitted_storage[i].value) ? m->fitted_storage[i].standard_error
+           : !isnan(m->fitted_loss[i].value)  ? m->fitted_loss[i].standard_error
+                                              : m->fitted_loss_factor[i].standard_error;
+}
+
 /* The main number is E', known everywhere: the mean of its relative standard error. */
 static void say_cost(const wt_master *m, const wt_job *work)
 {
     double error = 0;
     for (size_t i = 0; i < m->n; i++)
-        error += M_LN10 * m->fitted_storage[i].standard_error / (double)m->n;
+        error += M_LN10 * shown_error(m, i) / (double)m->n;
     cost_add_nodes(work->cost, m->evaluations);
     cost_say(work, (cost_summary){.items = (double)m->n_shifts,
                                   .tolerance_asked = m->step_allowed * error,
@@ -399,6 +485,8 @@ wt_status wt_master_make(const wt_master_job *job, const wt_job *work, wt_master
         status = make_tables(&master, work, &t, err);
     if (status == WT_OK)
         status = master_table(&master, &t.master_curve, err);
+    if (status == WT_OK && rubber != NULL && !tells_level(&master))
+        status = no_level(&master, err);
     if (status == WT_OK && rubber != NULL) {
         const wt_rubber_tables of = {.prony = t.prony,
                                      .shift_factors = t.shift_factors,

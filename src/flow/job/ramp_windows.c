@@ -2,6 +2,7 @@
  * its temperature by the shift law, which is found with them.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/job/ramp_windows.h"
+#include "flow/job/sweep_prepare.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -147,14 +148,14 @@ static wt_status add_isotherms(wt_sweep *sweep, windows *w, wt_error *err)
 /* What the law says of the points, given where they lie, comes nearer to where they belong by the
  * same share in each round; two rounds foretell where it ends (Anderson's mixing). The furthest
  * that a point is off what the law says. */
-static double listen(const windows *w, const wt_master *law, bool first)
+static double listen(const windows *w, const wt_master *master, bool first)
 {
     double most = 0, product = 0, square = 0;
     for (size_t i = 0; i < w->n; i++) {
-        const double here = wt_master_law(law, w->isotherm[i].temperature).value;
+        const double here = wt_master_law(master, w->isotherm[i].temperature).value;
         for (size_t k = w->first[i]; k < w->first[i + 1]; k++) {
             point *p = &w->point[k];
-            const double off = wt_master_law(law, p->temperature).value - here,
+            const double off = wt_master_law(master, p->temperature).value - here,
                          told = isfinite(off) ? off : 0, misses = told - p->off;
             product += misses * (misses - p->misses);
             square += (misses - p->misses) * (misses - p->misses);
@@ -168,6 +169,17 @@ static double listen(const windows *w, const wt_master *law, bool first)
     for (size_t k = 0; k < w->n_points; k++)
         w->point[k].off = w->point[k].told - share * w->point[k].off;
     return most;
+}
+
+/* A law that is given needs not be listened to; nor are the shifts fitted. */
+static wt_status obey(const windows *w, const wt_shift_law *law, wt_sweep *sweep, wt_error *err)
+{
+    for (size_t i = 0; i < w->n; i++) {
+        const double here = wt_shift_law_log_a(law, w->isotherm[i].temperature);
+        for (size_t k = w->first[i]; k < w->first[i + 1]; k++)
+            w->point[k].off = wt_shift_law_log_a(law, w->point[k].temperature) - here;
+    }
+    return flow_shifts_give(law, NULL, sweep, NULL, err);
 }
 
 /* The points as they would have been at the temperature of their window. */
@@ -191,17 +203,21 @@ static wt_status check(const wt_sweep *sweep, wt_error *err)
         return WT_OK;
     wt_fail(err, WT_E_MISSING, "a temperature sweep at one frequency has no shift of its own");
     wt_error_expected(err, "sweeps at two frequencies or more, or isotherms beside it");
-    wt_error_advice(err, "`weartrack ramp FILE` tells its glass transition");
+    wt_error_advice(err, "give the law of the shifts (--shift-law wlf:...); `weartrack ramp FILE` "
+                         "tells the glass transition");
     return WT_E_MISSING;
 }
 
-static void tell(const wt_sweep *sweep, const windows *w, const wt_master *master, double moved,
-                 wt_parselog *log)
+static void tell(const wt_sweep *sweep, const windows *w, const wt_master *master, bool given,
+                 double moved, wt_parselog *log)
 {
+    const size_t frequencies = count_frequencies(sweep);
     wt_parselog_add(log, WT_NOTE, sweep->ramps[0].source, NULL,
-                    "%zu temperature sweeps at %zu frequencies are fitted as %zu isotherms, each "
-                    "point brought to the temperature of its isotherm by the shift law",
-                    sweep->n_ramps, count_frequencies(sweep), w->n);
+                    "%zu temperature sweep%s at %zu frequenc%s %s fitted as %zu isotherms, each "
+                    "point brought to the temperature of its isotherm by the shift law%s",
+                    sweep->n_ramps, sweep->n_ramps > 1 ? "s" : "", frequencies,
+                    frequencies > 1 ? "ies" : "y", sweep->n_ramps > 1 ? "are" : "is", w->n,
+                    given ? " that is given" : "");
     if (w->n_left_out > 0)
         wt_parselog_add(log, WT_WARNING, sweep->ramps[0].source, NULL,
                         "%zu points of the temperature sweeps left out, no positive modulus",
@@ -218,15 +234,19 @@ static void tell(const wt_sweep *sweep, const windows *w, const wt_master *maste
                         w->point[w->first[1] - 1].temperature - w->point[0].temperature);
 }
 
-wt_status flow_ramps_fit(wt_sweep *sweep, const wt_master_options *options, wt_parselog *log,
-                         wt_master *master, wt_error *err)
+wt_status flow_ramps_fit(wt_sweep *sweep, const wt_master_options *options,
+                         const wt_shift_law *given, wt_parselog *log, wt_master *master,
+                         wt_error *err)
 {
     windows w = {0};
-    wt_status status = check(sweep, err);
+    const bool known = given->kind != WT_LAW_NONE;
+    wt_status status = known ? WT_OK : check(sweep, err);
     if (status == WT_OK)
         status = make_windows(sweep, &w, err);
     if (status == WT_OK)
         status = add_isotherms(sweep, &w, err);
+    if (status == WT_OK && known)
+        status = obey(&w, given, sweep, err);
     wt_master_options quick = *options;
     if (quick.vertical != WT_VERTICAL_NONE)
         quick.vertical = WT_VERTICAL_PHYSICAL; /* near enough for the law */
@@ -234,14 +254,14 @@ wt_status flow_ramps_fit(wt_sweep *sweep, const wt_master_options *options, wt_p
     double moved = 0;
     for (int round = 0; status == WT_OK && !last; round++) {
         moved = round > 0 ? listen(&w, master, round == 1) : 0;
-        last = round > 0 && (moved < enough || round == MOST_ROUNDS);
+        last = known || (round > 0 && (moved < enough || round == MOST_ROUNDS));
         bring(&w, options->vertical != WT_VERTICAL_NONE);
         wt_sweep_sort(sweep);
         wt_master_clear(master);
         status = wt_master_fit(sweep, last ? options : &quick, last ? log : NULL, master, err);
     }
     if (status == WT_OK)
-        tell(sweep, &w, master, moved, log);
+        tell(sweep, &w, master, known, moved, log);
     windows_free(&w);
     return status;
 }

@@ -1,0 +1,160 @@
+/* Shifts that are given: by a law, or by a table that an earlier fit or another program made.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/job/inputs.h"
+#include "flow/job/sweep_prepare.h"
+
+#include <math.h>
+#include <string.h>
+
+/* A row of the table is that of an isotherm this close [K]: what a chamber holds. */
+static const double same_temperature = 0.5;
+
+/* ---- a law in words -------------------------------------------------------------------------- */
+
+static wt_wlf no_wlf(void)
+{
+    return (wt_wlf){(double)NAN, (double)NAN, (double)NAN};
+}
+
+static const wt_param wlf_rows[] = {
+    {PARAM("reference-temperature", wt_wlf, reference_temperature, WT_Q_TEMPERATURE, ABOVE(0)),
+     .flags = PARAM_REQUIRED | PARAM_NO_OPTION, .help = "at which log aT is 0"},
+    {PARAM("c1", wt_wlf, c1, WT_Q_NONE, ABOVE(0)), .flags = PARAM_REQUIRED | PARAM_NO_OPTION,
+     .help = "constant C1, for log10"},
+    {PARAM("c2", wt_wlf, c2, WT_Q_TEMPERATURE_DIFFERENCE, ABOVE(0)),
+     .flags = PARAM_REQUIRED | PARAM_NO_OPTION, .help = "constant C2"},
+};
+PARAM_LOCAL_TABLE(wlf_params, wt_wlf, wlf_rows, no_wlf, NO_PARTS)
+
+typedef struct arrhenius {
+    double activation_energy; /* [J/mol] */
+} arrhenius;
+
+static arrhenius no_arrhenius(void)
+{
+    return (arrhenius){(double)NAN};
+}
+
+static const wt_param arrhenius_rows[] = {
+    {PARAM("activation-energy", arrhenius, activation_energy, WT_Q_NONE, ABOVE(0)),
+     .flags = PARAM_REQUIRED | PARAM_NO_OPTION, .help = "activation energy in J/mol"},
+};
+PARAM_LOCAL_TABLE(arrhenius_params, arrhenius, arrhenius_rows, no_arrhenius, NO_PARTS)
+
+static const flow_law_text wlf_text = {.prefix = "wlf:",
+                                       .name = "WLF law",
+                                       .what = "the WLF law",
+                                       .example = "reference-temperature=20degC,c1=8.86,c2=101.6K",
+                                       .params = wlf_params};
+static const flow_law_text arrhenius_text = {.prefix = "arrhenius:",
+                                             .name = "law of Arrhenius",
+                                             .what = "the law of Arrhenius",
+                                             .example = "activation-energy=80e3",
+                                             .params = arrhenius_params};
+
+wt_status flow_shift_law(const char *text, wt_shift_law *law, wt_error *err)
+{
+    const double unknown = (double)NAN, room = 293.15;
+    *law = (wt_shift_law){.wlf = no_wlf(), .activation_energy = unknown, .joint = unknown};
+    if (text == NULL)
+        return WT_OK;
+    wt_status status;
+    if (flow_is_law(&wlf_text, text)) {
+        law->kind = WT_LAW_WLF;
+        status = flow_law_parse(&wlf_text, text, &law->wlf, err);
+    } else if (flow_is_law(&arrhenius_text, text)) {
+        arrhenius a = no_arrhenius();
+        law->kind = WT_LAW_ARRHENIUS;
+        law->wlf.reference_temperature = room; /* differences of shifts do not hang on it */
+        status = flow_law_parse(&arrhenius_text, text, &a, err);
+        law->activation_energy = a.activation_energy;
+    } else {
+        status = wt_fail(err, WT_E_ARG, "\"%s\" is no law of shifts", text);
+        wt_error_expected(err, "%s%s or %s%s", wlf_text.prefix, wlf_text.example,
+                          arrhenius_text.prefix, arrhenius_text.example);
+    }
+    return status;
+}
+
+/* ---- to the isotherms ------------------------------------------------------------------------ */
+
+static wt_status give_law(const wt_shift_law *law, wt_sweep *sweep, wt_error *err)
+{
+    for (size_t i = 0; i < sweep->n_isotherms; i++) {
+        wt_isotherm *t = &sweep->isotherms[i];
+        t->given_log_a = wt_shift_law_log_a(law, t->temperature);
+        t->shift_given = isfinite(t->given_log_a);
+        if (t->shift_given)
+            continue;
+        wt_fail(err, WT_E_RANGE, "an isotherm is at or below the pole of the law that is given");
+        wt_error_place(err, "shift-law");
+        wt_error_found(err, "%.2f degC", t->temperature - WT_ZERO_CELSIUS);
+        wt_error_advice(err, "leave it out, or give a law that reaches it");
+        return WT_E_RANGE;
+    }
+    return WT_OK;
+}
+
+/* Row of the table nearest to a temperature, or the number of rows. */
+static size_t nearest(const wt_table *table, size_t column, double to_kelvin, double zero, double t)
+{
+    const size_t n = wt_table_n_rows(table);
+    size_t best = n;
+    double away = same_temperature;
+    for (size_t i = 0; i < n; i++) {
+        const double off = fabs(wt_table_number(table, i, column) * to_kelvin + zero - t);
+        if (off <= away) {
+            away = off;
+            best = i;
+        }
+    }
+    return best;
+}
+
+static wt_status give_table(const wt_table *table, wt_sweep *sweep, wt_parselog *log, wt_error *err)
+{
+    const long temperature = wt_table_find(table, "temperature"),
+               log_a = wt_table_find(table, "log_a");
+    double factor = 1, zero = 0;
+    size_t given = 0;
+    if (temperature < 0 || log_a < 0 ||
+        wt_table_column_kind(table, (size_t)temperature) == WT_COLUMN_TEXT ||
+        wt_table_column_kind(table, (size_t)log_a) == WT_COLUMN_TEXT) {
+        wt_fail(err, WT_E_MISSING, "the table of the shifts has not the columns it needs");
+        wt_error_expected(err, "temperature[K] and log_a[1], as weartrack master --save-shifts "
+                               "writes them");
+        return WT_E_MISSING;
+    }
+    const wt_status status = wt_unit_to_si(wt_table_column_unit(table, (size_t)temperature),
+                                           WT_Q_TEMPERATURE, &factor, &zero, err);
+    if (status != WT_OK)
+        return status;
+    for (size_t i = 0; i < sweep->n_isotherms; i++) {
+        wt_isotherm *t = &sweep->isotherms[i];
+        const size_t row = nearest(table, (size_t)temperature, factor, zero, t->temperature);
+        const double a =
+            row < wt_table_n_rows(table) ? wt_table_number(table, row, (size_t)log_a) : (double)NAN;
+        t->shift_given = isfinite(a);
+        t->given_log_a = t->shift_given ? a : 0;
+        given += t->shift_given;
+    }
+    if (given == 0) {
+        wt_fail(err, WT_E_MISSING, "the table has a shift of none of the isotherms");
+        wt_error_expected(err, "log_a at temperatures within %g K of theirs", same_temperature);
+        return WT_E_MISSING;
+    }
+    wt_parselog_add(log, WT_NOTE, NULL, NULL,
+                    "%zu of %zu shifts are as given, without an error of their own; the others are "
+                    "fitted",
+                    given, sweep->n_isotherms);
+    return WT_OK;
+}
+
+wt_status flow_shifts_give(const wt_shift_law *law, const wt_table *table, wt_sweep *sweep,
+                           wt_parselog *log, wt_error *err)
+{
+    wt_status status = law->kind != WT_LAW_NONE ? give_law(law, sweep, err) : WT_OK;
+    if (status == WT_OK && table != NULL)
+        status = give_table(table, sweep, log, err);
+    return status;
+}

@@ -1,0 +1,239 @@
+/* What is left out of sweeps, shifts that a law or a table gives, and what one quantity alone
+ * tells. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/job/ramp_windows.h"
+#include "flow/job/sweep_prepare.h"
+#include "near.h"
+
+#include "dma_data.h"
+
+static const double noise = 0.005;
+
+static wt_master_options options(wt_shift_by by)
+{
+    wt_master_options o = wt_master_options_defaults();
+    o.reference_temperature = 293.15;
+    o.shift_by = by;
+    return o;
+}
+
+/* Moduli of a tenth of a kelvin to the next at one frequency, and nothing beside. */
+static void heat(wt_sweep *sweep, double omega, size_t n, uint64_t *state)
+{
+    wt_ramp *ramp = wt_sweep_add_ramp(sweep, n);
+    assert_non_null(ramp);
+    ramp->angular_frequency = omega;
+    for (size_t k = 0; k < n; k++) {
+        const double t = 253.15 + 100.0 * (double)k / (double)n;
+        double *storage = &ramp->storage_modulus[k], *loss = &ramp->loss_modulus[k];
+        ramp->temperature[k] = t;
+        dma_moduli(&dma_rubber, omega * pow(10, wt_wlf_log_shift(&dma_rubber.wlf, t)), storage,
+                   loss);
+        *storage *= t / 293.15 * exp(noise * dma_normal(state));
+        *loss *= t / 293.15 * exp(noise * dma_normal(state));
+    }
+}
+
+static void cut_by_temperature_and_frequency(void **unused)
+{
+    static const char *const texts[] = {"temperature:..-5degC", "temperature:30degC",
+                                        "frequency:10Hz.."};
+    wt_sweep sweep = {0};
+    uint64_t state = 1;
+    (void)unused;
+    dma_usual(&sweep, true, 0, 1); /* -20 to 80 degC; 0.1 to 100 rad/s in 16 points */
+    heat(&sweep, 2 * M_PI, 100, &state);
+    heat(&sweep, 20 * M_PI * 1.001, 100, &state);
+    assert_int_equal(flow_sweep_cut(texts, 3, &sweep, NULL, NULL), WT_OK);
+    assert_int_equal(sweep.n_isotherms, 8);
+    assert_near_abs(sweep.isotherms[0].temperature, 273.15, 1e-9);
+    for (size_t i = 0; i < sweep.n_isotherms; i++) {
+        const wt_isotherm *t = &sweep.isotherms[i];
+        assert_true(fabs(t->temperature - 303.15) > 1);
+        assert_int_equal(t->n, 14);
+        assert_true(t->angular_frequency[t->n - 1] < 20 * M_PI);
+    }
+    assert_int_equal(sweep.n_ramps, 1);
+    assert_near_abs(sweep.ramps[0].angular_frequency, 2 * M_PI, 1e-9);
+    for (size_t k = 0; k < sweep.ramps[0].n; k++) /* 15 colder ones, 11 at 30 degC */
+        assert_true(sweep.ramps[0].temperature[k] > 268.15 &&
+                    fabs(sweep.ramps[0].temperature[k] - 303.15) > 0.5);
+    assert_in_range(sweep.ramps[0].n, 80, 84);
+    wt_sweep_clear(&sweep);
+}
+
+static void words_that_cut_nothing(void **unused)
+{
+    static const char *const bad[] = {
+        "temperature",           "temperature:", "temperature:..",
+        "frequency:5rad/s..",    "strain:1..2",  "temperature:30degC..20degC",
+        "temperature:20degC..x", ":20degC"};
+    (void)unused;
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        wt_sweep sweep = {0};
+        wt_error err = WT_ERROR_INIT;
+        dma_usual(&sweep, true, 0, 1);
+        assert_int_not_equal(flow_sweep_cut(&bad[i], 1, &sweep, NULL, &err), WT_OK);
+        assert_int_not_equal(flow_cuts_check(&bad[i], 1, &err), WT_OK);
+        assert_int_equal(sweep.n_isotherms, 11);
+        wt_sweep_clear(&sweep);
+    }
+}
+
+/* One frequency and the law: the moduli at the reference, where without the law nothing is told. */
+static void one_frequency_by_a_law(void **unused)
+{
+    enum { DRAWS = 12, PLACES = 9 };
+    const wt_shift_law law = {.kind = WT_LAW_WLF, .wlf = dma_rubber.wlf};
+    const wt_master_options o = options(WT_BY_MODULI);
+    size_t held = 0;
+    (void)unused;
+    for (uint64_t draw = 1; draw <= DRAWS; draw++) {
+        wt_sweep sweep = {0};
+        wt_master m = {0};
+        uint64_t state = draw;
+        heat(&sweep, 2 * M_PI, 400, &state);
+        assert_int_equal(flow_ramps_fit(&sweep, &o, &law, NULL, &m, NULL), WT_OK);
+        assert_near_abs(m.c1.value, 8, 0.01);
+        assert_near_abs(m.c2.value, 110, 0.1);
+        assert_true(isnan(m.c1.standard_error) != 0 && isnan(m.c2.low) != 0);
+        for (int k = 0; k < PLACES; k++) {
+            const double w = pow(10, -1.5 + 0.75 * k);
+            double truth[2];
+            wt_interval x[2];
+            dma_moduli(&dma_rubber, w, &truth[0], &truth[1]);
+            wt_master_moduli(&m, w, &x[0], &x[1]);
+            for (int q = 0; q < 2; q++) {
+                held += x[q].low <= log10(truth[q]) && log10(truth[q]) <= x[q].high;
+                assert_near_abs(x[q].value, log10(truth[q]), 0.01);
+            }
+        }
+        wt_master_clear(&m);
+        wt_sweep_clear(&sweep);
+    }
+    print_message("moduli held %.3f\n", (double)held / (2.0 * DRAWS * PLACES));
+    assert_true((double)held > 0.88 * 2 * DRAWS * PLACES);
+}
+
+/* Shifts of every second isotherm: these stay, the others are fitted between them. */
+static void some_given_others_fitted(void **unused)
+{
+    wt_sweep sweep = {0};
+    wt_master m = {0};
+    const wt_master_options o = options(WT_BY_MODULI);
+    size_t given = 0;
+    (void)unused;
+    dma_usual(&sweep, true, noise, 7);
+    for (size_t i = 0; i < sweep.n_isotherms; i += 2) {
+        wt_isotherm *t = &sweep.isotherms[i];
+        t->shift_given = true; /* to another reference: differences count */
+        t->given_log_a = 3 + wt_wlf_log_shift(&dma_rubber.wlf, t->temperature);
+    }
+    assert_int_equal(wt_master_fit(&sweep, &o, NULL, &m, NULL), WT_OK);
+    for (size_t i = 0; i < m.n_shifts; i++) {
+        const double truth = wt_wlf_log_shift(&dma_rubber.wlf, m.shifts[i].temperature);
+        assert_near_abs(m.shifts[i].log_a.value, truth, i % 2 == 0 ? 1e-9 : 0.02);
+        assert_true(i % 2 == 0 ? m.shifts[i].log_a.standard_error < 1e-9
+                               : m.shifts[i].log_a.standard_error > 1e-4);
+        given += strstr(m.shifts[i].note, "as given") != NULL;
+    }
+    assert_int_equal(given, 6);
+    wt_master_clear(&m);
+    wt_sweep_clear(&sweep);
+}
+
+/* Storage moduli that follow no rho T, for the closed form knows none. */
+static void closed_form_of_the_standard(void **unused)
+{
+    wt_sweep sweep = {0};
+    wt_master m = {0};
+    wt_master_options o = options(WT_BY_MODULI);
+    (void)unused;
+    dma_usual(&sweep, false, 0, 1);
+    o.vertical = WT_VERTICAL_NONE;
+    assert_int_equal(wt_master_fit(&sweep, &o, NULL, &m, NULL), WT_OK);
+    for (size_t i = 0; i < m.n_shifts; i++) /* lines between the points: not exact */
+        assert_near_abs(wt_master_closed_form(&m, i),
+                        wt_wlf_log_shift(&dma_rubber.wlf, m.shifts[i].temperature), 0.08);
+    wt_master_clear(&m);
+    wt_sweep_clear(&sweep);
+}
+
+/* Each quantity alone: shifts of the truth in their intervals, and nothing said of what it leaves
+ * open. */
+static void one_quantity_alone(void **unused)
+{
+    enum { DRAWS = 24 };
+    static const wt_shift_by by[] = {WT_BY_STORAGE, WT_BY_LOSS, WT_BY_LOSS_FACTOR};
+    (void)unused;
+    for (size_t b = 0; b < 3; b++) {
+        const wt_master_options o = options(WT_BY_MODULI);
+        const wt_master_options alone = options(by[b]);
+        size_t held = 0, n = 0;
+        for (uint64_t draw = 1; draw <= DRAWS; draw++) {
+            wt_sweep sweep = {0};
+            wt_master m = {0};
+            dma_usual(&sweep, true, noise, draw);
+            for (size_t i = 0; by[b] != WT_BY_LOSS_FACTOR && i < sweep.n_isotherms; i++)
+                for (size_t k = 0; k < sweep.isotherms[i].n; k++) /* as if not measured */
+                    (by[b] == WT_BY_STORAGE ? sweep.isotherms[i].loss_modulus
+                                            : sweep.isotherms[i].storage_modulus)[k] = (double)NAN;
+            const wt_master_options *use = by[b] == WT_BY_LOSS_FACTOR ? &alone : &o;
+            assert_int_equal(wt_master_fit(&sweep, use, NULL, &m, NULL), WT_OK);
+            assert_int_equal(wt_master_shifted_by(&m), by[b]);
+            assert_int_equal(m.superposition, WT_SUPERPOSITION_CANNOT_SAY);
+            for (size_t i = 0; i < m.n_shifts; i++) {
+                const double truth = wt_wlf_log_shift(&dma_rubber.wlf, m.shifts[i].temperature);
+                const wt_interval a = m.shifts[i].log_a;
+                if (!m.shifts[i].determined || !(a.standard_error > 0))
+                    continue;
+                n++;
+                held += a.low <= truth && truth <= a.high;
+            }
+            const bool level = by[b] == WT_BY_STORAGE, factor = by[b] == WT_BY_LOSS_FACTOR;
+            const double measured = wt_master_loss_factor(&m, m.n / 2);
+            const wt_interval ratio = m.fitted_loss_factor[m.n / 2];
+            assert_int_equal(m.prony.n > 0, level);
+            assert_int_equal(isfinite(m.fitted_storage[m.n / 2].value) != 0, level);
+            assert_int_equal(isfinite(m.fitted_loss[m.n / 2].value) != 0, !factor);
+            assert_int_equal(isfinite(ratio.value) != 0, by[b] != WT_BY_LOSS);
+            assert_int_equal(isfinite(measured) != 0, factor);
+            assert_int_equal(isfinite(m.log_storage[0]) != 0, level);
+            assert_int_equal(isfinite(m.shifts[0].log_b.value) != 0, !factor);
+            if (factor)
+                assert_near_abs(ratio.value, log10(measured), 3 * noise);
+            wt_master_clear(&m);
+            wt_sweep_clear(&sweep);
+        }
+        print_message("%zu: %zu of %zu shifts held\n", b, held, n);
+        assert_true(n > 5 * DRAWS && (double)held > 0.85 * (double)n);
+    }
+}
+
+/* One modulus does not tell a free vertical shift. */
+static void one_modulus_and_free_shifts(void **unused)
+{
+    wt_sweep sweep = {0};
+    wt_master m = {0};
+    wt_error err = WT_ERROR_INIT;
+    wt_master_options o = options(WT_BY_STORAGE);
+    (void)unused;
+    dma_usual(&sweep, true, noise, 1);
+    o.vertical = WT_VERTICAL_FREE;
+    assert_int_equal(wt_master_fit(&sweep, &o, NULL, &m, &err), WT_E_ARG);
+    assert_string_equal(err.place, "vertical-shift");
+    wt_sweep_clear(&sweep);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(cut_by_temperature_and_frequency),
+        cmocka_unit_test(words_that_cut_nothing),
+        cmocka_unit_test(one_frequency_by_a_law),
+        cmocka_unit_test(some_given_others_fitted),
+        cmocka_unit_test(closed_form_of_the_standard),
+        cmocka_unit_test(one_quantity_alone),
+        cmocka_unit_test(one_modulus_and_free_shifts),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
