@@ -125,7 +125,11 @@ double number_to_tens(double value, int decimals)
 chance_words number_chance(double chance)
 {
     chance_words words;
-    clocale_print(words.text, sizeof words.text, chance < 1e-3 ? "below 0.001" : "%.2g", chance);
+    clocale_print(words.text, sizeof words.text,
+                  isnan(chance)   ? "not known"
+                  : chance < 1e-3 ? "below 0.001"
+                                  : "%.2g",
+                  chance);
     return words;
 }
 

@@ -262,6 +262,52 @@ si_text curve_si(double value, const char *unit)
     return text;
 }
 
+/* The direction of the piezo, and origins that keep the digits of sums. */
+static wt_curve_verdict turn_and_centre(curve_input *input, char reason[160])
+{
+    curve_samples *s = &input->samples;
+    const size_t end = s->n / 20 + 1;
+    double min, max;
+    gsl_stats_minmax(&min, &max, s->position, 1, s->n);
+    const double travel = mean(s->position + s->n - end, end) - mean(s->position, end);
+    if (!(fabs(travel) > travel_share * (max - min))) {
+        curve_say(reason, "the height does not go one way: from start to end %s in a range of %s",
+                  curve_si(travel, "m").words, curve_si(max - min, "m").words);
+        return WT_CURVE_NO_APPROACH;
+    }
+    input->direction = travel > 0.0 ? 1.0 : -1.0;
+    for (size_t i = 0; i < s->n; i++)
+        s->position[i] *= input->direction;
+    input->position_origin = mean(s->position, s->n);
+    input->force_origin = mean(s->force, s->n);
+    for (size_t i = 0; i < s->n; i++) {
+        s->position[i] -= input->position_origin;
+        s->force[i] -= input->force_origin;
+    }
+    return WT_CURVE_ACCEPTED;
+}
+
+/* A tip that hardly goes in, or backwards. */
+static wt_curve_verdict judge_advance(const curve_input *input, char reason[160])
+{
+    const double advance = advance_per_bending(&input->samples, input->step_noise) - 1.0;
+    if (advance > -1.0 && advance < -rigid_share) { /* below -1: a force of the wrong sign */
+        curve_say(reason,
+                  "the lever bends %.3g times as far as the piezo moves: deflection sensitivity, "
+                  "spring constant or a unit is wrong",
+                  1.0 / (1.0 + advance));
+        return WT_CURVE_RIGID;
+    }
+    if (fabs(advance) < rigid_share) {
+        curve_say(
+            reason,
+            "the tip advances %.1f %% of the bending of the lever, %g %% needed to tell a modulus",
+            100.0 * advance, 100.0 * rigid_share);
+        return WT_CURVE_RIGID;
+    }
+    return WT_CURVE_ACCEPTED;
+}
+
 wt_curve_verdict curve_prepare(const double *height, const double *force, size_t n,
                                double spring_constant, double force_fraction,
                                wt_indent_workspace *w, curve_input *input, char reason[160])
@@ -290,24 +336,9 @@ wt_curve_verdict curve_prepare(const double *height, const double *force, size_t
         return WT_CURVE_NOT_FINITE;
     }
 
-    size_t end = s->n / 20 + 1;
-    double min, max;
-    gsl_stats_minmax(&min, &max, s->position, 1, s->n);
-    double travel = mean(s->position + s->n - end, end) - mean(s->position, end);
-    if (!(fabs(travel) > travel_share * (max - min))) {
-        curve_say(reason, "the height does not go one way: from start to end %s in a range of %s",
-                  curve_si(travel, "m").words, curve_si(max - min, "m").words);
-        return WT_CURVE_NO_APPROACH;
-    }
-    input->direction = travel > 0.0 ? 1.0 : -1.0;
-    for (size_t i = 0; i < s->n; i++)
-        s->position[i] *= input->direction;
-    input->position_origin = mean(s->position, s->n);
-    input->force_origin = mean(s->force, s->n);
-    for (size_t i = 0; i < s->n; i++) {
-        s->position[i] -= input->position_origin;
-        s->force[i] -= input->force_origin;
-    }
+    const wt_curve_verdict verdict = turn_and_centre(input, reason);
+    if (verdict != WT_CURVE_ACCEPTED)
+        return verdict;
 
     input->n_all = s->n;
     if (force_fraction < 1.0)
@@ -329,22 +360,7 @@ wt_curve_verdict curve_prepare(const double *height, const double *force, size_t
             curve_si(level, "N").words, s->n - top, curve_si(travelled, "m").words);
         return WT_CURVE_SATURATED;
     }
-    const double advance = advance_per_bending(s, input->step_noise) - 1.0;
-    if (advance > -1.0 && advance < -rigid_share) { /* below -1: a force of the wrong sign */
-        curve_say(reason,
-                  "the lever bends %.3g times as far as the piezo moves: deflection sensitivity, "
-                  "spring constant or a unit is wrong",
-                  1.0 / (1.0 + advance));
-        return WT_CURVE_RIGID;
-    }
-    if (fabs(advance) < rigid_share) {
-        curve_say(
-            reason,
-            "the tip advances %.1f %% of the bending of the lever, %g %% needed to tell a modulus",
-            100.0 * advance, 100.0 * rigid_share);
-        return WT_CURVE_RIGID;
-    }
-    return WT_CURVE_ACCEPTED;
+    return judge_advance(input, reason);
 }
 
 void curve_reverse(curve_samples *s)

@@ -1,4 +1,5 @@
 /* Units, quantities on the command line, SI prefixes. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/number.h"
 #include "near.h"
 #include "weartrack/base.h"
 
@@ -274,6 +275,16 @@ static void several_threads(void **state)
     }
 }
 
+static void chances_in_words(void **state)
+{
+    (void)state;
+    assert_string_equal(number_chance(0.0214).text, "0.021");
+    assert_string_equal(number_chance(0.001).text, "0.001");
+    assert_string_equal(number_chance(1.3e-5).text, "below 0.001");
+    assert_string_equal(number_chance(0).text, "below 0.001");
+    assert_string_equal(number_chance((double)NAN).text, "not known");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -281,7 +292,8 @@ int main(void)
         cmocka_unit_test(frequency_is_not_angular), cmocka_unit_test(wrong_units),
         cmocka_unit_test(every_si_unit_is_itself),  cmocka_unit_test(quantities),
         cmocka_unit_test(quantities_refused),       cmocka_unit_test(formatted),
-        cmocka_unit_test(foreign_locale),           cmocka_unit_test(several_threads),
+        cmocka_unit_test(foreign_locale),           cmocka_unit_test(chances_in_words),
+        cmocka_unit_test(several_threads),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
