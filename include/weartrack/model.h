@@ -113,7 +113,9 @@ typedef struct wt_material_law {
      * or "". NULL: the constructor has checked all. */
     wt_status (*check)(const wt_material *material, double low, double high, char statement[256],
                        wt_error *err);
-    uint64_t reserved[7];
+    /* How many terms `angular` adds up. NULL: few. */
+    size_t (*terms)(const wt_material *material);
+    uint64_t reserved[6];
 } wt_material_law;
 
 struct wt_material {

@@ -22,6 +22,11 @@ static const double piece_width = 0.7;
 static const double same_bound = 1e-12;
 /* Relative error at which a series is good enough, of the tolerance, and at the best. */
 static const double goal_share = 0.01, least_goal = 2e-14, most_goal = 1e-6;
+/* Of J1 and J2 from a sum of positive terms. */
+static const double closed_error = 16 * DBL_EPSILON;
+/* A series costs about as much as so many terms of a closed form, and is good to these. */
+enum { MANY_TERMS = 24 };
+static const double least_frequency = 1e-250, most_frequency = 1e250;
 
 /* J1 and J2 on a piece. To the right of a knot w_k both integrals have a (ln w - ln w_k)^(3/2)
  * singularity: the series there runs in u = sqrt(ln w - ln w_k). */
@@ -41,6 +46,7 @@ typedef struct series_list {
 
 struct angular_law {
     const wt_material *material;
+    bool closed; /* there is a closed form */
     gauss_rule *rule;
     double goal;
     angular_panels panels;
@@ -98,7 +104,10 @@ static void series_fit(const angular_law *a, series *s)
                 continue;
             const double u = s->middle + s->half * cosine[k];
             const double w = exp(isnan(s->anchor) ? u : s->anchor + u * u);
-            angular_panels_integrate(&a->panels, w, &j1[k], &j2[k]);
+            if (a->closed)
+                a->material->law->angular(a->material, &w, 1, &j1[k], &j2[k]);
+            else
+                angular_panels_integrate(&a->panels, w, &j1[k], &j2[k]);
         }
         chebyshev_fit(j1, degree, cosine, s->j1);
         chebyshev_fit(j2, degree, cosine, s->j2);
@@ -107,9 +116,12 @@ static void series_fit(const angular_law *a, series *s)
         if (s->error <= a->goal)
             break;
     }
-    s->error +=
-        fmax(angular_panels_error(&a->panels, exp(s->high), j1[0], j2[0]),
-             angular_panels_error(&a->panels, exp(s->low), j1[LONG_DEGREE], j2[LONG_DEGREE]));
+    if (a->closed)
+        s->error += closed_error;
+    else
+        s->error +=
+            fmax(angular_panels_error(&a->panels, exp(s->high), j1[0], j2[0]),
+                 angular_panels_error(&a->panels, exp(s->low), j1[LONG_DEGREE], j2[LONG_DEGREE]));
 }
 
 static bool series_push(series_list *list, const series *s)
@@ -204,7 +216,9 @@ static wt_status extend_panels(angular_law *a, double low, double high, wt_error
 
 wt_status angular_cover(angular_law *angular, double w_min, double w_max, wt_error *err)
 {
-    if (angular->material->law->angular)
+    const wt_material_law *law = angular->material->law;
+    if (angular->closed && (law->terms == NULL || law->terms(angular->material) < MANY_TERMS ||
+                            !(w_min >= least_frequency && w_max <= most_frequency)))
         return WT_OK;
     long first = (long)floor(log(w_min) / piece_width);
     long last = (long)ceil(log(w_max) / piece_width);
@@ -220,8 +234,10 @@ wt_status angular_cover(angular_law *angular, double w_min, double w_max, wt_err
         first = first < have_first ? first : have_first;
         last = last > have_last ? last : have_last;
     }
-    const wt_status status = extend_panels(angular, exp((double)first * piece_width),
-                                           exp((double)last * piece_width), err);
+    const wt_status status = angular->closed
+                                 ? WT_OK
+                                 : extend_panels(angular, exp((double)first * piece_width),
+                                                 exp((double)last * piece_width), err);
     if (status != WT_OK)
         return status;
     size_t n_knots;
@@ -256,6 +272,14 @@ static size_t piece_at(const series_list *list, double x)
     return low;
 }
 
+bool angular_closed(const angular_law *angular, double w_min, double w_max)
+{
+    const series_list *pieces = &angular->pieces;
+    return angular->closed &&
+           (pieces->n == 0 || !(log(w_min) >= pieces->items[0].low &&
+                                log(w_max) <= pieces->items[pieces->n - 1].high));
+}
+
 /* Nodes in one piece, with room for whole registers. */
 enum { BATCH = 32, REGISTER = 4 };
 
@@ -278,12 +302,14 @@ static void series_eval(const double *restrict coefficient, size_t degree, size_
 
 void angular_eval(const angular_law *angular, const double *w, size_t n, double *j1, double *j2)
 {
-    if (angular->material->law->angular) {
+    if (n == 0)
+        return;
+    if (angular_closed(angular, w[0], w[n - 1])) {
         angular->material->law->angular(angular->material, w, n, j1, j2);
         return;
     }
     const series_list *pieces = &angular->pieces;
-    size_t k = n > 0 ? piece_at(pieces, log(w[0])) : 0;
+    size_t k = piece_at(pieces, log(w[0]));
     for (size_t from = 0, count; from < n; from += count) {
         double x = log(w[from]), z[BATCH];
         while (k + 1 < pieces->n && x > pieces->items[k].high)
@@ -371,6 +397,7 @@ wt_status angular_new(const wt_material *material, double tolerance, pool *memor
     if (made == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory for the angular integrals");
     made->material = material;
+    made->closed = material->law->angular != NULL;
     made->goal = fmin(fmax(goal_share * tolerance, least_goal), most_goal);
     made->limit[0] = limit_of(material->frequency_min);
     made->limit[1] = limit_of(material->frequency_max);

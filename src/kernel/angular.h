@@ -3,7 +3,8 @@
  *   J1(w) = int_0^2pi cos(phi) E''(w cos phi) dphi,   J2(w) = int_0^2pi |E(w cos phi)|^2 dphi
  *
  * From the closed form of the law where it has one; otherwise integrated once and then read from
- * Chebyshev series in ln w, so that the cost per velocity does not know the material.
+ * Chebyshev series in ln w, so that the cost per velocity does not know the material; a closed form
+ * of many terms likewise.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -21,16 +22,17 @@ wt_status angular_new(const wt_material *material, double tolerance, pool *memor
                       angular_law **angular, wt_error *err) WT_NODISCARD;
 void angular_clear(angular_law *angular); /* NULL: nothing */
 
-/* Prepares the series for w from w_min to w_max > 0; nothing to do for a closed form. A series,
- * once made, does not change: results do not depend on the order of the calls. */
+/* Prepares the series for w from w_min to w_max > 0; nothing to do for a closed form of few terms.
+ * A series, once made, does not change: results do not depend on the order of the calls. */
 wt_status angular_cover(angular_law *angular, double w_min, double w_max,
                         wt_error *err) WT_NODISCARD;
 /* Prepares angular_outside. */
 wt_status angular_cover_outside(angular_law *angular, wt_error *err) WT_NODISCARD;
-/* J1 and J2 at n values of w inside the covered range, best in rising order. */
+/* J1 and J2 at n rising values of w inside the covered range. */
 void angular_eval(const angular_law *angular, const double *w, size_t n, double *j1, double *j2);
-/* Largest relative error of J1 and of J2 for w in this range, from series and panels; 0 for a
- * closed form. */
+/* Whether the closed form gives J1 and J2 from w_min to w_max. */
+bool angular_closed(const angular_law *angular, double w_min, double w_max);
+/* Largest relative error of J1 and of J2 for w in this range, from series and panels. */
 double angular_error(const angular_law *angular, double w_min, double w_max);
 /* The part of J1(w) that comes from frequencies outside the range backed by data; j1 = J1(w). */
 double angular_outside(const angular_law *angular, double w, double j1);

@@ -177,6 +177,8 @@ size_t friction_nodes(const wt_friction_workspace *ws)
     return nodes;
 }
 
+/* So many velocities are worth a series of a closed form. */
+enum { MANY_VELOCITIES = 8 };
 /* The series of a material reach down from there far enough. */
 #define LEAST_FREQUENCY 1e-250
 
@@ -194,11 +196,13 @@ wt_status friction_prepare(wt_friction_workspace *ws, double pressure, const dou
         fastest = fmax(fastest, speed);
     }
     const wt_material *material = ws->material;
-    if (n == 0 || material->law->angular)
-        return WT_OK;
-    wt_status status = WT_OK;
     const double lowest = slowest * ws->roughness->q0;
     const double highest = fastest * ws->roughness->q1;
+    if (n == 0 || (material->law->angular && n < MANY_VELOCITIES))
+        return WT_OK;
+    if (material->law->angular)
+        return angular_cover(ws->angular, lowest, highest, err);
+    wt_status status = WT_OK;
     if (!(lowest >= LEAST_FREQUENCY && highest <= DBL_MAX)) {
         (void)range_error("velocity", lowest >= LEAST_FREQUENCY ? fastest : slowest,
                           "not 0, and so that q v is a frequency in range", err);

@@ -58,7 +58,7 @@ static void add_moved(const wt_friction_workspace *ws, const double *omega, cons
                       const double *j2, size_t n, double variance, double hysteresis,
                       double variance_so_far, friction_pass *pass)
 {
-    if (ws->material->law->angular)
+    if (angular_closed(ws->angular, omega[0], omega[n - 1]))
         return;
     const double far = fmax(fabs(log(omega[0])), fabs(log(omega[n - 1])));
     const double moved = 4 * DBL_EPSILON * (1 + far);

@@ -97,10 +97,17 @@ static void prony_angular(const wt_material *material, const double *restrict om
     }
 }
 
+static size_t prony_terms(const wt_material *material)
+{
+    const prony_data *d = material->data;
+    return d->n;
+}
+
 static const wt_material_law prony_law = {
     .name = "prony",
     .modulus = prony_modulus,
     .angular = prony_angular,
+    .terms = prony_terms,
     .free = material_free_data,
 };
 
