@@ -268,10 +268,12 @@ bool curve_fit_adhesion(curve_fitting *f)
 {
     const curve_solution elastic = f->solution;
     const curve_kind plainly = f->kind;
+    const bool try_it =
+        !f->options->plain_least_squares && adhesion_applies(contact_table_tip(f->table));
     snap found;
     if (find_snap(f, &found)) {
         f->snap_on = found.pull;
-        if (!f->options->plain_least_squares) {
+        if (try_it) {
             leave_out(f, found.start, found.deepest + 1);
             if (try_adhesive(f, found.pull, found.start)) {
                 curve_allow_loss(f);
@@ -286,7 +288,7 @@ bool curve_fit_adhesion(curve_fitting *f)
         return curve_scan_and_refine(f);
     }
     /* Where the law without adhesion describes the curve it has none to speak of. */
-    if (!(f->pull_off > 0.0) || f->options->plain_least_squares || curve_fits(f))
+    if (!(f->pull_off > 0.0) || !try_it || curve_fits(f))
         return true;
     if (try_adhesive(f, f->pull_off, 0) &&
         f->solution.effective_n * log(elastic.cost / f->solution.cost) > better_chi2)

@@ -60,6 +60,9 @@ bool curve_fit_adhesion(curve_fitting *f);
 /* Where the retract shows loss, finds its bias; where the residual is more than noise, tries it
  * again with the shape of loss allowed for. */
 void curve_allow_loss(curve_fitting *f);
+/* Loss under a punch, without a spectrum: other spectra that lose as much scatter more there than
+ * the error that is stated for the other tips. */
+bool curve_unknown_loss(const curve_fitting *f);
 
 /* ---- verdict: curve_judge.c ------------------------------------------------------------------ */
 

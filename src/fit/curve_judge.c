@@ -20,8 +20,9 @@ static const double told_gain = 1000.0;    /* of it, in words */
 static const double ambiguous_chi2 = 4.0;  /* 2 ln(likelihood ratio) of two contact points */
 static const double ambiguous_ratio = 0.1; /* least |ln(E2/E1)| to call them different */
 static const double reverse_ratio = 0.5;   /* cost of the fit in reverse against the fit */
-/* In radii of a sphere: there its paraboloid is 11 % off in the force. */
-static const double deepest_sphere = 1.0;
+/* In radii of a sphere, paraboloid or punch: strains of 1. A sphere's paraboloid is 11 % off there.
+ */
+static const double deepest_round = 1.0;
 enum { BEND_BLOCKS = 16 };
 static const double least_bias = 0.005; /* of a modulus by loss, to be said */
 /* Of the work: at a tan delta of 1, to which elastic fits of rubber with broad spectra were tried:
@@ -177,17 +178,31 @@ bool curve_fits(const curve_fitting *f)
     return !(f->solution.lack.chance < f->options->least_chance);
 }
 
+bool curve_unknown_loss(const curve_fitting *f)
+{
+    return contact_table_tip(f->table)->shape == WT_TIP_PUNCH && f->loss > CURVE_LEAST_LOSS &&
+           !f->kind.memory;
+}
+
 /* What is against the contact law. */
 static wt_curve_verdict judge_law(const curve_fitting *f, const wt_indent_fit *fit,
                                   char reason[160])
 {
     const curve_solution *s = &f->solution;
     const wt_tip *tip = contact_table_tip(f->table);
-    if (tip->shape == WT_TIP_PARABOLOID && s->max_indentation > deepest_sphere * tip->radius) {
-        curve_say(reason, "%s deep, %.1f radii of the sphere; the contact law holds to %g",
+    const bool faced = tip->shape == WT_TIP_CONE || tip->shape == WT_TIP_BLUNTED_PYRAMID;
+    if (!faced && s->max_indentation > deepest_round * tip->radius) {
+        curve_say(reason, "%s deep, %.1f radii of the tip; the contact law holds to %g",
                   curve_si(s->max_indentation, "m").words, s->max_indentation / tip->radius,
-                  deepest_sphere);
+                  deepest_round);
         return WT_CURVE_TOO_DEEP;
+    }
+    if (curve_unknown_loss(f)) {
+        curve_say(
+            reason,
+            "%.0f %% of the work lost; what loss does under a punch is known with the DMA only",
+            100.0 * f->loss);
+        return WT_CURVE_POOR_FIT;
     }
     if (!s->converged || isnan(s->standard_error[CURVE_E])) {
         curve_say(reason, "the least-squares fit found no minimum within its iterations");

@@ -126,7 +126,7 @@ static bool remember_power(curve_fitting *f)
 void curve_allow_loss(curve_fitting *f)
 {
     const bool pull = f->snap_on > 0.0 || f->pull_off > 0.0 || f->kind.adhesive;
-    if (!(f->loss > least_loss) || (pull && f->loss > most_loss))
+    if (!(f->loss > least_loss) || (pull && f->loss > most_loss) || curve_unknown_loss(f))
         return;
     const bool whole = f->input.samples.n == f->input.n_all; /* up to where it turns */
     if (!pull && whole && !f->kind.memory && !f->kind.plain && remember_power(f))

@@ -20,6 +20,11 @@ static const double force_range = 0.3e-9;
 static const double radius_step = 0.97;
 enum { MAX_STEPS = 3000, MAX_ROUNDS = 200 };
 
+bool adhesion_applies(const wt_tip *tip)
+{
+    return tip->shape != WT_TIP_PUNCH;
+}
+
 adhesive_contact adhesion_at(const adhesion *law, double a)
 {
     const contact_radius_values v = contact_at_radius(law->tip, a);
@@ -38,7 +43,7 @@ static double restoring(const adhesion *law, double k, double a)
     const double slope = contact_at_radius(law->tip, a).slope;
     const double q = sqrt(2.0 * M_PI * law->work / law->reduced) / (2.0 * sqrt(a));
     const double sample = 2.0 * law->reduced * a * (slope - 3.0 * q), lever = slope - q;
-    return isinf(k) ? lever : sample + k * lever;
+    return isinf(k) || isinf(slope) ? lever : sample + k * lever;
 }
 
 double adhesion_release(const adhesion *law, double k)
@@ -73,24 +78,23 @@ double adhesion_release(const adhesion *law, double k)
     return 0.5 * (low + high);
 }
 
+/* Where the base of the lever is; infinite for a radius that the tip does not have. */
+static double base_at(const adhesion *law, double k, double a)
+{
+    const adhesive_contact c = adhesion_at(law, a);
+    return isinf(c.depth) ? c.depth : c.depth + c.force / k;
+}
+
 double adhesion_radius(const adhesion *law, double k, double position, double release, double start)
 {
     double low = release, high = fmax(start, fmax(2.0 * low, 1e-12));
-    if (release > 0.0) {
-        const adhesive_contact end = adhesion_at(law, release);
-        if (position <= end.depth + end.force / k)
-            return release;
-    }
-    for (;; high *= 2.0) {
-        const adhesive_contact c = adhesion_at(law, high);
-        if (!(c.depth + c.force / k < position))
-            break;
+    if (release > 0.0 && position <= base_at(law, k, release))
+        return release;
+    for (; base_at(law, k, high) < position; high *= 2.0)
         low = high;
-    }
     double a = start > low && start < high ? start : high;
     for (int i = 0; i < MAX_ROUNDS; i++) {
-        const adhesive_contact c = adhesion_at(law, a);
-        const double excess = c.depth + c.force / k - position;
+        const double excess = base_at(law, k, a) - position;
         if (excess > 0.0)
             high = a;
         else
@@ -115,6 +119,8 @@ static double log_pull_off(const wt_tip *tip, double reduced, double k, double l
 /* By the false position of Illinois: in logarithms it is close to a line. */
 double adhesion_work(const wt_tip *tip, double reduced, double k, double pull_off)
 {
+    if (tip->shape == WT_TIP_PUNCH)
+        return pull_off * pull_off / (8.0 * M_PI * reduced * pow(tip->radius, 3));
     const double wanted = log(pull_off), close = 1e-12;
     double low = log(1e-9), high = log(1e3);
     double below = log_pull_off(tip, reduced, k, low) - wanted;
@@ -143,7 +149,8 @@ double adhesion_work(const wt_tip *tip, double reduced, double k, double pull_of
 
 double adhesion_tabor(const adhesion *law)
 {
-    if (law->tip->shape == WT_TIP_CONE || !(law->tip->radius > 0.0))
+    if (law->tip->shape == WT_TIP_CONE || law->tip->shape == WT_TIP_PUNCH ||
+        !(law->tip->radius > 0.0))
         return (double)NAN;
     const double x = law->work / law->reduced;
     return cbrt(law->tip->radius * x * x / (force_range * force_range * force_range));

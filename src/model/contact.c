@@ -1,5 +1,8 @@
 /* Contact laws of rigid tips on an elastic half-space: Hertz, Sneddon, blunted pyramid.
  *
+ * Sphere: Sneddon, Int. J. Eng. Sci. 3 (1965) 47, with t = atanh(a/R): delta = R t tanh(t) and
+ * G = R^2 { (1 + tanh(t)^2) t - tanh(t) }, the difference t - tanh(t) by a continued fraction.
+ *
  * Blunted pyramid: Rico et al., Phys. Rev. E 72 (2005) 021914, with a parabolic cap r^2/(2R) up to
  * the transition radius b. The published pair delta(a), F(a) loses digits at both ends in double
  * precision; here it is written in s = sqrt(a^2 - b^2)/b, h = sqrt(1 + s^2), a = b h:
@@ -14,6 +17,7 @@
  */
 #include "model/tip.h"
 
+#include <float.h>
 #include <math.h>
 
 double tip_facet_factor(unsigned sides)
@@ -27,6 +31,8 @@ double contact_switch_depth(const wt_tip *tip)
     case WT_TIP_PARABOLOID:
         return (double)INFINITY;
     case WT_TIP_CONE:
+    case WT_TIP_SPHERE:
+    case WT_TIP_PUNCH:
         return 0.0;
     case WT_TIP_BLUNTED_PYRAMID:
         break;
@@ -40,6 +46,36 @@ static contact_point_values paraboloid(double radius, double delta)
 {
     double a = sqrt(radius * delta);
     return (contact_point_values){4.0 / 3.0 * a * delta, 2.0 * a, a / delta};
+}
+
+static double sphere_force(double radius, double t)
+{
+    const double share = tanh(t);
+    double rest = t - share;
+    if (t < 1.0) {
+        double w = 0.0;
+        for (int odd = 19; odd > 1; odd -= 2)
+            w = t * t / (odd + w);
+        rest = w * share;
+    }
+    return radius * radius * (share * share * t + rest);
+}
+
+static contact_point_values sphere(double radius, double delta)
+{
+    enum { MAX_ROUNDS = 60 };
+    const double x = delta / radius;
+    double t = sqrt(x) * sqrt(1.0 + x), share = 0.0, left = 0.0; /* not below the root */
+    for (int i = 0; i < MAX_ROUNDS; i++) {
+        share = tanh(t);
+        left = 1.0 / (cosh(t) * cosh(t));
+        const double next = t - (t * share - x) / (share + t * left);
+        if (!(fabs(next - t) > DBL_EPSILON * t))
+            break;
+        t = next;
+    }
+    return (contact_point_values){sphere_force(radius, t), 2.0 * radius * share,
+                                  2.0 * left / (share + t * left)};
 }
 
 static contact_point_values sharp(const wt_tip *tip, double delta)
@@ -83,8 +119,20 @@ static contact_point_values faces(const wt_tip *tip, double delta)
     return (contact_point_values){faces_force(tip, mcot, s), 2.0 * b * h, 2.0 * growth};
 }
 
+/* No part of a sphere is wider than its radius. */
+static contact_radius_values sphere_at_radius(double radius, double a)
+{
+    const double share = a / radius, t = atanh(share), never = (double)INFINITY;
+    if (!(share < 1.0))
+        return (contact_radius_values){never, never, never};
+    return (contact_radius_values){a * t, sphere_force(radius, t),
+                                   t + share / ((1.0 - share) * (1.0 + share))};
+}
+
 contact_radius_values contact_at_radius(const wt_tip *tip, double a)
 {
+    if (tip->shape == WT_TIP_SPHERE)
+        return sphere_at_radius(tip->radius, a);
     const bool cone = tip->shape == WT_TIP_CONE;
     const double b = cone ? 0.0 : tip->transition_radius;
     if (tip->shape == WT_TIP_PARABOLOID || a <= b)
@@ -107,6 +155,10 @@ contact_point_values contact_values(const wt_tip *tip, double delta)
         return paraboloid(tip->radius, delta);
     case WT_TIP_CONE:
         return sharp(tip, delta);
+    case WT_TIP_SPHERE:
+        return sphere(tip->radius, delta);
+    case WT_TIP_PUNCH:
+        return (contact_point_values){2.0 * tip->radius * delta, 2.0 * tip->radius, 0.0};
     case WT_TIP_BLUNTED_PYRAMID:
         break;
     }

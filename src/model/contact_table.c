@@ -3,7 +3,8 @@
  * The knots lie in the depth e = delta - b^2/R beyond the switch, 64 to every power of two, so that
  * the bits of e are the number of the piece and the jump of the curvature at the switch falls on a
  * border. Value, slope and curvature of every knot are exact; the interpolation error is below
- * 1e-13 of G. Below the switch, and for tips without one, the law is a formula that needs no table.
+ * 1e-13 of G. Below the switch the law is a formula that needs no table, as it is for tips without
+ * one, except the sphere: its table begins at the smallest depth.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -92,7 +93,7 @@ wt_status wt_contact_table_new(const wt_tip *tip, double delta_min, double delta
     double at = contact_switch_depth(tip);
     uint64_t first = 0;
     size_t n = 0;
-    if (at > 0.0 && delta_max > at) {
+    if ((at > 0.0 || tip->shape == WT_TIP_SPHERE) && delta_max > at) {
         double lo = ldexp(at, -OCTAVES_BELOW_SWITCH_DEPTH), hi = delta_max - at;
         if (delta_min - at > lo)
             lo = delta_min - at;

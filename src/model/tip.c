@@ -66,6 +66,8 @@ wt_status wt_tip_check(const wt_tip *tip, wt_error *err)
     wt_status status = WT_OK;
     switch (tip->shape) {
     case WT_TIP_PARABOLOID:
+    case WT_TIP_SPHERE:
+    case WT_TIP_PUNCH:
         return check_positive(tip->radius, "radius", err);
     case WT_TIP_CONE:
         return check_half_angle(tip->half_angle, err);
@@ -76,7 +78,7 @@ wt_status wt_tip_check(const wt_tip *tip, wt_error *err)
             return status;
         }
         status = check_half_angle(tip->half_angle, err);
-        if (status == WT_OK)
+        if (status == WT_OK && !(tip->radius == 0.0 && tip->transition_radius == 0.0))
             status = check_positive(tip->radius, "cap radius", err);
         if (status == WT_OK)
             status = check_cap(tip, err);

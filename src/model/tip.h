@@ -18,7 +18,7 @@ typedef struct contact_point_values {
 } contact_point_values;
 contact_point_values contact_values(const wt_tip *tip, double delta);
 
-/* The same contact, at a contact radius a > 0. */
+/* The same contact, at a contact radius a > 0. Not for a punch, whose radius is always its own. */
 typedef struct contact_radius_values {
     double depth, g;
     double slope; /* ddelta/da; infinite right at a corner of the profile */
@@ -28,8 +28,8 @@ contact_radius_values contact_at_radius(const wt_tip *tip, double a);
 /* The tip of a table. */
 const wt_tip *contact_table_tip(const wt_contact_table *table);
 
-/* The depth b^2/R below which a blunted tip is a paraboloid; 0 for a sharp one, infinite for a
- * paraboloid. */
+/* The depth b^2/R below which a blunted tip is a paraboloid; infinite for a paraboloid, 0 for
+ * others. */
 double contact_switch_depth(const wt_tip *tip);
 
 #endif

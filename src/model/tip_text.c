@@ -23,15 +23,18 @@ static const struct {
 static const struct {
     const char *name, *example;
     unsigned allowed, needed;
+    wt_tip_shape shape;
 } shapes[] = {
     {"pyramid", "pyramid:half-angle=35deg,radius=20nm",
      1u << HALF_ANGLE | 1u << RADIUS | 1u << SIDES | 1u << TRANSITION,
-     1u << HALF_ANGLE | 1u << RADIUS},
+     1u << HALF_ANGLE | 1u << RADIUS, WT_TIP_BLUNTED_PYRAMID},
     {"cone", "cone:half-angle=20deg", 1u << HALF_ANGLE | 1u << RADIUS | 1u << TRANSITION,
-     1u << HALF_ANGLE},
-    {"sphere", "sphere:radius=5um", 1u << RADIUS, 1u << RADIUS},
+     1u << HALF_ANGLE, WT_TIP_CONE},
+    {"sphere", "sphere:radius=5um", 1u << RADIUS, 1u << RADIUS, WT_TIP_SPHERE},
+    {"paraboloid", "paraboloid:radius=5um", 1u << RADIUS, 1u << RADIUS, WT_TIP_PARABOLOID},
+    {"punch", "punch:radius=2um", 1u << RADIUS, 1u << RADIUS, WT_TIP_PUNCH},
 };
-enum { PYRAMID, CONE, SPHERE, N_SHAPES };
+enum { PYRAMID, N_SHAPES = sizeof shapes / sizeof shapes[0] };
 
 enum { LIST = 256 };
 
@@ -143,12 +146,9 @@ wt_status wt_tip_parse(const char *text, wt_tip *tip, wt_error *err)
         return status;
     }
 
-    wt_tip made = {.half_angle = values[HALF_ANGLE], .radius = values[RADIUS]};
-    if (shape == SPHERE) {
-        made.shape = WT_TIP_PARABOLOID;
-    } else if (shape == CONE && !(seen & 1u << RADIUS)) {
-        made.shape = WT_TIP_CONE;
-    } else {
+    wt_tip made = {
+        .shape = shapes[shape].shape, .half_angle = values[HALF_ANGLE], .radius = values[RADIUS]};
+    if (seen & 1u << HALF_ANGLE && seen & 1u << RADIUS) {
         made.shape = WT_TIP_BLUNTED_PYRAMID;
         if (shape == PYRAMID)
             made.sides = seen & 1u << SIDES ? (unsigned)values[SIDES] : 4;
@@ -174,13 +174,26 @@ size_t wt_tip_describe(const wt_tip *tip, char *buffer, size_t size)
     int length = 0;
     switch (tip->shape) {
     case WT_TIP_PARABOLOID:
-        length = snprintf(buffer, size, "sphere (paraboloid), radius %s", radius);
+        length = snprintf(buffer, size, "paraboloid, radius %s", radius);
+        break;
+    case WT_TIP_SPHERE:
+        length = snprintf(buffer, size, "sphere, radius %s", radius);
+        break;
+    case WT_TIP_PUNCH:
+        length = snprintf(buffer, size, "flat punch, radius %s", radius);
         break;
     case WT_TIP_CONE:
         length = clocale_print(buffer, size, "cone, half-angle %.4g degrees", angle);
         break;
     case WT_TIP_BLUNTED_PYRAMID:
-        if (tip->sides == 0)
+        if (tip->transition_radius == 0.0 && tip->sides == 0)
+            length = clocale_print(buffer, size, "cone, half-angle %.4g degrees", angle);
+        else if (tip->transition_radius == 0.0)
+            length = clocale_print(buffer, size,
+                                   "sharp pyramid, %u sides, half-angle %.4g degrees from the axis "
+                                   "to a face",
+                                   tip->sides, angle);
+        else if (tip->sides == 0)
             length =
                 clocale_print(buffer, size,
                               "blunted cone, half-angle %.4g degrees, cap radius %s, transition "

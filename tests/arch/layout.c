@@ -66,7 +66,7 @@ ROOM(wt_material, data, 32, 104)
 ROOM(wt_transverse, axial_poisson, 56, 96)
 ROOM(wt_roughness_law, free, 32, 104)
 ROOM(wt_roughness, data, 24, 96)
-LAST(wt_tip_shape, WT_TIP_CONE, 2)
+LAST(wt_tip_shape, WT_TIP_PUNCH, 4)
 LAST(wt_extrapolation, WT_EXTRAPOLATE_SLOPE, 1)
 
 /* fit.h */

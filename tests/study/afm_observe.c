@@ -97,7 +97,7 @@ static void read_curves(const char *path, const afm_scene *s, const afm_sample *
         t->draw->verdict = accepted < share_needed * CURVES || chance < level || shown ? NO
                            : isnan(chance) || silent                                   ? CANNOT_SAY
                                                                                        : YES;
-        for (int i = 0; i < AFM_DEPTHS && changes != NULL; i++)
+        for (int i = 0; i < AFM_DEPTHS && changes != NULL && s->tip != TIP_PUNCH; i++)
             trial_add(t, Q_DEPTH, afm_apparent(s, sample, (i + 1.0) / AFM_DEPTHS),
                       place_row(found, &place_depth, i));
     }
@@ -116,24 +116,29 @@ static void *prepare(int scene)
 
 static void observe(int scene, const void *prepared, random_source *random, trial *t)
 {
+    static const char *const tip[] = {[TIP_PYRAMID] = "pyramid:half-angle=35deg,radius=20nm",
+                                      [TIP_SHARP] = "pyramid:half-angle=35deg,radius=0nm",
+                                      [TIP_THREE_SIDES] =
+                                          "pyramid:half-angle=35deg,radius=20nm,sides=3",
+                                      [TIP_CONE] = "cone:half-angle=35deg",
+                                      [TIP_BLUNT_CONE] = "cone:half-angle=35deg,radius=20nm",
+                                      [TIP_PARABOLOID] = "paraboloid:radius=100nm",
+                                      [TIP_SPHERE] = "sphere:radius=100nm",
+                                      [TIP_PUNCH] = "punch:radius=100nm"};
     const afm_scene *s = &afm_scenes[scene];
     const afm_sample *sample = prepared;
     const char *made = trial_file(t, "indentation.tsv");
     const char *spectrum = s->dma > 0 ? trial_file(t, "spectrum.tsv") : NULL;
     const char *arguments[MOST_SPOTS + 12] = {"indent"};
-    char tip[80];
     spots from;
     int n = 1;
     if (make_spots(&from, sample, s, random, t) != 0 ||
         (spectrum != NULL && write_spectrum(s, spectrum) != 0)) {
         trial_broke(t, "the curves cannot be written");
     } else {
-        snprintf(tip, sizeof tip,
-                 s->sphere ? "sphere:radius=%gnm" : "pyramid:half-angle=35deg,radius=%gnm",
-                 sample->radius * 1e9);
         const char *const options[] = {
-            "--tip", tip,  "--group",         "bulk",
-            "-o",    made, "--no-provenance", spectrum != NULL ? "--master" : NULL,
+            "--tip", tip[s->tip], "--group",         "bulk",
+            "-o",    made,        "--no-provenance", spectrum != NULL ? "--master" : NULL,
             spectrum};
         for (int i = 0; i < from.n; i++)
             arguments[n++] = from.path[i];

@@ -14,11 +14,15 @@ static double facets(const afm_tip *t)
 afm_tip afm_pyramid(double radius, double angle_degrees, unsigned sides)
 {
     const double angle = angle_degrees * M_PI / 180;
-    return (afm_tip){radius, angle, radius * cos(angle), sides};
+    return (afm_tip){radius, angle, radius * cos(angle), sides, END_FACES};
 }
 
 double tip_depth(const afm_tip *t, double a)
 {
+    if (t->end == END_FLAT)
+        return a;
+    if (t->end == END_SPHERE)
+        return a < t->radius ? a / 2 * log((t->radius + a) / (t->radius - a)) : (double)INFINITY;
     if (a <= t->b)
         return a * a / t->radius;
     const double edge = sqrt(a * a - t->b * t->b);
@@ -28,6 +32,11 @@ double tip_depth(const afm_tip *t, double a)
 
 double tip_force(const afm_tip *t, double a)
 {
+    const double r = t->radius;
+    if (t->end == END_FLAT)
+        return 2 * r * a;
+    if (t->end == END_SPHERE)
+        return a < r ? (a * a + r * r) / 2 * log((r + a) / (r - a)) - a * r : (double)INFINITY;
     if (a <= t->b)
         return 4 * a * a * a / (3 * t->radius);
     const double edge = sqrt(a * a - t->b * t->b), c = facets(t) / 2;
@@ -274,8 +283,8 @@ int lossy_forces(const afm_tip *tip, const relaxation *r, double poisson, double
     m.d = calloc(n, sizeof *m.d);
     const int good = m.depth != NULL && m.f != NULL && m.h != NULL && m.d != NULL;
     for (size_t i = 0; good && i < n; i++) {
-        if (since == 0 && (i == 0 || base[i] >= base[i - 1])) {
-            force[i] = step_in(&m, base[i]);
+        if (tip->end == END_FLAT || (since == 0 && (i == 0 || base[i] >= base[i - 1]))) {
+            force[i] = fmax(step_in(&m, base[i]), 0); /* the contact of a flat end stays as it is */
             here = m.depth[m.n - 1];
             from = m.n - 1;
             memcpy(d, m.d[from], sizeof d);

@@ -5,10 +5,13 @@
 
 #include <stddef.h>
 
-/* Paraboloid below the radius b, regular pyramid (or cone: sides 0) beyond it. */
+/* Paraboloid below the radius b, regular pyramid (or cone: sides 0) beyond it; a sphere; the flat
+ * end of a cylinder, for which the depth stands in the place of a contact radius. */
+typedef enum afm_end { END_FACES, END_SPHERE, END_FLAT } afm_end;
 typedef struct afm_tip {
     double radius, angle, b; /* b infinite: a paraboloid only; b 0: sharp */
     unsigned sides;
+    afm_end end;
 } afm_tip;
 afm_tip afm_pyramid(double radius, double angle_degrees, unsigned sides);
 

@@ -16,9 +16,33 @@ static double modulus_of(const afm_scene *s)
 static afm_tip true_tip(const afm_scene *s)
 {
     const double factor = s->radius_factor > 0 ? s->radius_factor : 1;
-    if (s->sphere)
-        return (afm_tip){.radius = 100e-9 * factor, .angle = 1, .b = (double)INFINITY};
+    afm_tip tip = {.radius = 100e-9 * factor, .angle = 1, .b = (double)INFINITY};
+    switch (s->tip) {
+    case TIP_PARABOLOID:
+        return tip;
+    case TIP_SPHERE:
+        tip.end = END_SPHERE;
+        return tip;
+    case TIP_PUNCH:
+        tip.end = END_FLAT;
+        return tip;
+    case TIP_SHARP:
+        return afm_pyramid(0, 35, 4);
+    case TIP_CONE:
+        return afm_pyramid(0, 35, 0);
+    case TIP_BLUNT_CONE:
+        return afm_pyramid(20e-9 * factor, 35, 0);
+    case TIP_THREE_SIDES:
+        return afm_pyramid(20e-9 * factor, 35, 3);
+    case TIP_PYRAMID:
+        break;
+    }
     return afm_pyramid(20e-9 * factor, 35, 4);
+}
+
+static double true_depth(const afm_scene *s)
+{
+    return s->depth > 0 ? s->depth : s->tip >= TIP_PARABOLOID ? 50e-9 : 70e-9;
 }
 
 static double layer_reduced(const afm_scene *s, double a)
@@ -118,8 +142,7 @@ afm_sample *afm_sample_make(const afm_scene *s)
     if (to == NULL)
         return NULL;
     to->spring_constant = s->spring_constant > 0 ? s->spring_constant : 0.5;
-    to->radius = s->sphere ? 100e-9 : 20e-9;
-    const double depth = s->depth > 0 ? s->depth : s->sphere ? 50e-9 : 70e-9;
+    const double depth = true_depth(s);
     const double a = tip_contact_radius(&tip, depth),
                  top = layer_reduced(s, a) * tip_force(&tip, a);
     const double most = depth + top / to->spring_constant;
@@ -144,7 +167,7 @@ afm_sample *afm_sample_make(const afm_scene *s)
 
 double afm_apparent(const afm_scene *s, const afm_sample *sample, double share)
 {
-    const double depth = share * (s->depth > 0 ? s->depth : s->sphere ? 50e-9 : 70e-9);
+    const double depth = share * true_depth(s);
     afm_scene stated = *s;
     stated.radius_factor = 1;
     const afm_tip tip = true_tip(s), as_stated = true_tip(&stated);

@@ -12,7 +12,7 @@
 /* Way in and way out; contact in the middle of the way in. */
 enum { AFM_BRANCH = 900, AFM_SAMPLES = 2 * AFM_BRANCH };
 typedef struct afm_sample {
-    double spring_constant, radius, largest; /* radius: as the user states it */
+    double spring_constant, largest;
     double base[AFM_SAMPLES], time[AFM_SAMPLES], force[AFM_SAMPLES];
     double modulus; /* the truth: of the rubber, |E*(1/t_c)|, or that at the largest depth */
 } afm_sample;

@@ -10,6 +10,18 @@ typedef enum afm_noise {
     NOISE_FLICKER,    /* 70 % 1/f, the rest white */
 } afm_noise;
 
+/* The first of 20 nm and 35 degrees, the round and flat ones of 100 nm. */
+typedef enum afm_kind {
+    TIP_PYRAMID,
+    TIP_SHARP,
+    TIP_THREE_SIDES,
+    TIP_CONE,
+    TIP_BLUNT_CONE,
+    TIP_PARABOLOID,
+    TIP_SPHERE,
+    TIP_PUNCH
+} afm_kind;
+
 typedef enum afm_loss { LOSS_NONE, LOSS_COLE_COLE, LOSS_BEYOND, LOSS_POWER } afm_loss;
 
 /* A four-sided pyramid of 35 degrees and 20 nm, pressed 70 nm into rubber of 5 MPa by a lever of
@@ -26,10 +38,10 @@ typedef struct afm_scene {
     double spring_constant, modulus;     /* 0: 0.5 N/m, 5 MPa */
     double layer_ratio, layer_thickness; /* E1/E2; [m] */
     double radius_factor;                /* the tip's over the stated one; 0: 1 */
-    bool sphere;                         /* of 100 nm */
-    double depth;                        /* [m], 0: 70 nm */
-    double bow;                          /* of the deflection over the way in [m] */
-    double drift;                        /* of the force by the end, as the square root of time */
+    afm_kind tip;
+    double depth;      /* [m], 0: 70 nm */
+    double bow;        /* of the deflection over the way in [m] */
+    double drift;      /* of the force by the end, as the square root of time */
     double saturation; /* force at which the detector has lost 10 %, of the largest */
     double spikes;     /* share of samples 20 to 40 noises off */
     double spots;      /* relative scatter of the moduli of six spots, a file each; 0: one spot */

@@ -386,7 +386,7 @@ static void deeper_than_the_sphere(void **state)
     t.tip = (wt_tip){.shape = WT_TIP_PARABOLOID, .radius = 60e-9};
     t.modulus = 5e6;
     curve_make(&t, 1, &data);
-    expect(&t, WT_CURVE_TOO_DEEP, "radii of the sphere");
+    expect(&t, WT_CURVE_TOO_DEEP, "radii of the tip");
     t.tip.radius = 300e-9;
     curve_make(&t, 1, &data);
     expect(&t, WT_CURVE_ACCEPTED, "accepted");

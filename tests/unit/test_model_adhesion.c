@@ -139,9 +139,52 @@ static void textbook(void **state)
                 54 * 0.01 * 0.01 / (M_PI * 1e7 * c * c * c), 1e-9);
 }
 
+/* A sphere that is hardly dented is its paraboloid; where it is, depth, force and their derivative
+ * follow from the law without adhesion, and the pull-off is the lowest point of the branch. */
+static void sphere(void **state)
+{
+    (void)state;
+    const wt_tip round = {.shape = WT_TIP_SPHERE, .radius = 5e-6};
+    const wt_tip hertz = {.shape = WT_TIP_PARABOLOID, .radius = 5e-6};
+    const adhesion weak = {&round, 1e7, 1e-6}, same = {&hertz, 1e7, 1e-6};
+    assert_near(adhesion_at(&weak, adhesion_release(&weak, 0.1)).force,
+                adhesion_at(&same, adhesion_release(&same, 0.1)).force, 1e-4);
+    const adhesion law = {&round, 1e4, 0.005};
+    for (double a = 1e-6; a < 5e-6; a *= 1.1) {
+        const adhesive_contact c = adhesion_at(&law, a);
+        double g, slope;
+        wt_contact_function(&round, c.depth + sqrt(2 * M_PI * law.work * a / law.reduced), &g,
+                            &slope);
+        assert_near(slope, 2 * a, 1e-12);
+        assert_near(c.force, law.reduced * g - sqrt(8 * M_PI * law.reduced * law.work * a * a * a),
+                    1e-11);
+        const adhesive_contact more = adhesion_at(&law, a * (1 + 1e-5));
+        const adhesive_contact less = adhesion_at(&law, a * (1 - 1e-5));
+        assert_near(c.stiffness, (more.force - less.force) / (more.depth - less.depth), 1e-6);
+    }
+    const double a = adhesion_release(&law, 0.0), lowest = adhesion_at(&law, a).force;
+    assert_true(a > 2.5e-6 && a < 5e-6);
+    for (double other = 1e-6; other < 5e-6; other *= 1.01)
+        assert_true(adhesion_at(&law, other).force >= lowest);
+    assert_near(adhesion_work(&round, law.reduced, 0.0, -lowest), law.work, 1e-9);
+    const double deep = adhesion_radius(&law, (double)INFINITY, 4e-6, 0.0, 0.0);
+    assert_near(adhesion_at(&law, deep).depth, 4e-6, 1e-12);
+}
+
+/* The edge of a punch lets go all at once: Kendall. */
+static void punch(void **state)
+{
+    (void)state;
+    const wt_tip tip = {.shape = WT_TIP_PUNCH, .radius = 2e-6};
+    assert_false(adhesion_applies(&tip));
+    assert_near(adhesion_work(&tip, 1e7, 0.5, sqrt(8 * M_PI * 1e7 * 0.02 * 8e-18)), 0.02, 1e-12);
+    assert_true(isnan(adhesion_tabor(&(adhesion){&tip, 1e7, 0.02})));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(reference_cases),
-                                       cmocka_unit_test(derivatives), cmocka_unit_test(textbook)};
+                                       cmocka_unit_test(derivatives), cmocka_unit_test(textbook),
+                                       cmocka_unit_test(sphere), cmocka_unit_test(punch)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -130,6 +130,35 @@ static void sharp_limits(void **state)
     assert_near(slope, 2.0 * M_2_PI * tan(20 * degree) * 3e-8, 1e-14);
 }
 
+/* From a millionth of the radius to a million radii; the sphere of Hertz where it is shallow, the
+ * end of a punch where it is deep. */
+static void sphere_of_sneddon(void **state)
+{
+    (void)state;
+    FILE *in = fopen(WT_SOURCE_DIR "/tests/numeric/sphere.txt", "r");
+    assert_non_null(in);
+    char line[256];
+    int n = 0;
+    while (fgets(line, sizeof line, in) != NULL) {
+        double radius, delta, g, slope;
+        if (line[0] == '#')
+            continue;
+        assert_int_equal(sscanf(line, "%lf %lf %lf %lf", &radius, &delta, &g, &slope), 4);
+        check_point(&(wt_tip){.shape = WT_TIP_SPHERE, .radius = radius}, delta, g, slope);
+        n++;
+    }
+    fclose(in);
+    assert_int_equal(n, 15);
+}
+
+static void flat_punch(void **state)
+{
+    (void)state;
+    const wt_tip tip = {.shape = WT_TIP_PUNCH, .radius = 2e-6};
+    for (double delta = 2e-12; delta < 3.0; delta *= 10.0)
+        check_point(&tip, delta, 2.0 * 2e-6 * delta, 4e-6);
+}
+
 static void sphere_below_the_switch(void **state)
 {
     (void)state;
@@ -211,6 +240,9 @@ static void table_agrees_with_function(void **state)
                            smooth(4, 35, 20e-9),
                            smooth(3, 30, 1e-6),
                            {.shape = WT_TIP_PARABOLOID, .radius = 5e-6},
+                           {.shape = WT_TIP_SPHERE, .radius = 5e-6},
+                           {.shape = WT_TIP_SPHERE, .radius = 20e-9},
+                           {.shape = WT_TIP_PUNCH, .radius = 20e-9},
                            {.shape = WT_TIP_CONE, .half_angle = 20 * degree}};
     for (size_t i = 0; i < sizeof tips / sizeof tips[0]; i++) {
         wt_contact_table *table = table_of(&tips[i], 1e-12, 1e-5);
@@ -276,6 +308,8 @@ int main(void)
         cmocka_unit_test(numeric_cases),
         cmocka_unit_test(shared_reference),
         cmocka_unit_test(sharp_limits),
+        cmocka_unit_test(sphere_of_sneddon),
+        cmocka_unit_test(flat_punch),
         cmocka_unit_test(sphere_below_the_switch),
         cmocka_unit_test(continuous_at_the_switch),
         cmocka_unit_test(slope_is_the_derivative),

@@ -40,8 +40,16 @@ static void understood(void **state)
     assert_near(tip.transition_radius, 0.0, 0.0);
 
     tip = parsed("sphere:radius=5um");
-    assert_int_equal(tip.shape, WT_TIP_PARABOLOID);
+    assert_int_equal(tip.shape, WT_TIP_SPHERE);
     assert_near(tip.radius, 5e-6, 1e-14);
+    assert_int_equal(parsed("paraboloid:radius=5um").shape, WT_TIP_PARABOLOID);
+    tip = parsed("punch:radius=2um");
+    assert_int_equal(tip.shape, WT_TIP_PUNCH);
+    assert_near(tip.radius, 2e-6, 1e-14);
+
+    tip = parsed("pyramid:half-angle=35deg,radius=0nm,sides=3"); /* sharp */
+    assert_int_equal(tip.sides, 3);
+    assert_near(tip.transition_radius, 0.0, 0.0);
 
     tip = parsed("cone:half-angle=20deg");
     assert_int_equal(tip.shape, WT_TIP_CONE);
@@ -61,9 +69,9 @@ static void refused_in_clear_words(void **state)
         wt_status status;
         const char *words; /* somewhere in the message */
     } cases[] = {
-        {"", WT_E_ARG, "pyramid, cone or sphere"},
-        {"cube:radius=5um", WT_E_ARG, "pyramid, cone or sphere"},
-        {"pyramids:radius=5um", WT_E_ARG, "pyramid, cone or sphere"},
+        {"", WT_E_ARG, "pyramid, cone, sphere, paraboloid or punch"},
+        {"cube:radius=5um", WT_E_ARG, "pyramid, cone, sphere, paraboloid or punch"},
+        {"pyramids:radius=5um", WT_E_ARG, "pyramid, cone, sphere, paraboloid or punch"},
         {"pyramid", WT_E_ARG, "lacks its half-angle"},
         {"pyramid:", WT_E_ARG, "lacks its half-angle"},
         {"pyramid:half-angle=35deg", WT_E_ARG, "pyramid:half-angle=35deg,radius=20nm"},
@@ -84,6 +92,9 @@ static void refused_in_clear_words(void **state)
         {"pyramid:half-angle=65deg,radius=20nm", WT_E_RANGE, "concave"},
         {"pyramid:half-angle=95deg,radius=20nm", WT_E_RANGE, "between 0 and 90"},
         {"sphere:radius=-5um", WT_E_RANGE, "above 0"},
+        {"punch:radius=0um", WT_E_RANGE, "above 0"},
+        {"punch:half-angle=35deg", WT_E_ARG, "punch:radius=2um"},
+        {"pyramid:half-angle=35deg,radius=0nm,transition=2nm", WT_E_RANGE, "above 0"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         wt_tip tip = {.radius = 1.0};
@@ -114,7 +125,11 @@ static void described_with_all_numbers(void **state)
         {"cone:half-angle=20deg,radius=10nm",
          {"blunted cone", "half-angle 20 deg", "cap radius 10.00 nm", "radius b 9.397 nm"}},
         {"cone:half-angle=20deg", {"cone", "20 deg", "", ""}},
+        {"cone:half-angle=20deg,radius=0nm", {"cone, half-angle 20 deg", "", "", ""}},
+        {"pyramid:half-angle=35deg,radius=0nm", {"sharp pyramid, 4 sides", "35 deg", "", ""}},
         {"sphere:radius=5um", {"sphere", "5.000 ", "", ""}},
+        {"paraboloid:radius=5um", {"paraboloid", "5.000 ", "", ""}},
+        {"punch:radius=2um", {"flat punch", "2.000 ", "", ""}},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         wt_tip tip = parsed(cases[i].text);

@@ -56,7 +56,7 @@ static inline double truth_normal(uint64_t *state)
 /* ---- force curves of a sphere of 5 um (paraboloid), Poisson's ratio 0.5 ---------------------- */
 
 #define HERTZ_RADIUS 5e-6
-#define HERTZ_TIP "sphere:radius=5um"
+#define HERTZ_TIP "paraboloid:radius=5um"
 
 typedef struct hertz {
     double modulus, spring_constant; /* [Pa], [N/m] */

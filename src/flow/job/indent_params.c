@@ -38,7 +38,8 @@ static const wt_param rows[] = {
     {PARAM_OTHER_OF("tip", wt_indent_job, tip, read_tip), .check = check_tip, .value = "TIP",
      .flags = PARAM_REQUIRED,
      .help = "pyramid:half-angle=35deg,radius=20nm[,sides=4][,transition=16nm] (axis to FACE), "
-             "sphere:radius=5um or cone:half-angle=20deg"},
+             "cone:half-angle=20deg[,radius=20nm], sphere:radius=5um, paraboloid:radius=5um or "
+             "punch:radius=2um"},
     {PARAM_TEXT_OF("group", wt_indent_job, group), .check = check_group, .value = "NAME",
      .flags = PARAM_NO_CASE, .help = "what these curves are: bulk, track or another name"},
     {PARAM("indentation-temperature", wt_indent_job, temperature, WT_Q_TEMPERATURE, ABOVE(0)),
