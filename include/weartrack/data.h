@@ -99,7 +99,8 @@ WT_API void wt_image_clear(wt_image *image);
 
 typedef enum wt_deformation { WT_TENSION, WT_SHEAR } wt_deformation; /* E or G */
 
-/* One temperature of a sweep, points in the order of rising frequency. */
+/* One temperature of a sweep, points in the order of rising frequency. A modulus that was not
+ * measured is NaN at all points. */
 typedef struct wt_isotherm {
     double temperature;        /* mean of the points, or the nominal one if no column says [K] */
     double temperature_spread; /* standard deviation of the points [K], NaN if not measured */
@@ -111,7 +112,8 @@ typedef struct wt_isotherm {
     char source[128];          /* file and step it came from */
     double given_log_a;        /* log10 of the horizontal shift, if it is given */
     bool shift_given;          /* differences of given shifts count, and are not fitted */
-    uint64_t reserved[6];
+    double *loss_factor;       /* [n] where it was measured without a modulus, else NULL */
+    uint64_t reserved[5];
 } wt_isotherm;
 
 /* Moduli against temperature at one frequency, heated or cooled once. */
@@ -122,7 +124,9 @@ typedef struct wt_ramp {
     double *storage_modulus; /* [n] Pa, as measured: E' or G' */
     double *loss_modulus;    /* [n] Pa */
     char source[128];        /* file and step it came from */
-    uint64_t reserved[8];
+    double *strain;          /* [n] or NULL */
+    double *loss_factor;     /* [n] where it was measured without a modulus, else NULL */
+    uint64_t reserved[6];
 } wt_ramp;
 
 /* Moduli against the amplitude of the strain at one frequency and temperature, raised or lowered
@@ -152,13 +156,15 @@ typedef struct wt_sweep {
     uint64_t reserved[4];
 } wt_sweep;
 WT_API void wt_sweep_clear(wt_sweep *sweep);
-/* Appends an isotherm with uninitialised arrays of n points (strain if with_strain); NULL when out
- * of memory. Call wt_sweep_sort when all are in: it orders the isotherms by temperature (then by
- * source) and the points of each by frequency. */
-WT_API wt_isotherm *wt_sweep_add(wt_sweep *sweep, size_t n, bool with_strain);
+/* Arrays that a sweep may have beside those of the moduli. */
+enum { WT_WITH_STRAIN = 1, WT_WITH_LOSS_FACTOR = 2 };
+/* Appends an isotherm with uninitialised arrays of n points; NULL when out of memory. Call
+ * wt_sweep_sort when all are in: it orders the isotherms by temperature (then by source) and the
+ * points of each by frequency. */
+WT_API wt_isotherm *wt_sweep_add(wt_sweep *sweep, size_t n, unsigned with);
 WT_API void wt_sweep_sort(wt_sweep *sweep);
 /* The same for a temperature sweep; wt_sweep_sort orders its points by temperature. */
-WT_API wt_ramp *wt_sweep_add_ramp(wt_sweep *sweep, size_t n);
+WT_API wt_ramp *wt_sweep_add_ramp(wt_sweep *sweep, size_t n, unsigned with);
 /* The same for a strain sweep; wt_sweep_sort orders its points by strain. */
 WT_API wt_strain_sweep *wt_sweep_add_strain_sweep(wt_sweep *sweep, size_t n);
 /* Of a sorted sweep: takes out isotherms and their points, and other sweeps, that stand there twice

@@ -77,6 +77,15 @@ WT_API wt_status wt_detect(const wt_formats *formats, wt_input *input,
 
 /* ---- options ------------------------------------------------------------------------------ */
 
+/* What moduli are of whose names do not say it, as "storage modulus". Those of bending are of
+ * tension. */
+typedef enum wt_read_deformation {
+    WT_DEFORMATION_OF_FILE,
+    WT_DEFORMATION_TENSION,
+    WT_DEFORMATION_SHEAR,
+    WT_DEFORMATION_BENDING
+} wt_read_deformation;
+
 /* Nothing that is not asked for is decoded. */
 typedef struct wt_read_options {
     const char *format;   /* id that overrules detection, or NULL */
@@ -93,7 +102,8 @@ typedef struct wt_read_options {
     bool one_height;      /* of the heights wanted only that of a sensor, where there is one */
     const char *sheet; /* of a spreadsheet: its name; "all" = all that are recognised, one after the
                           other; NULL = the only one that is */
-    uint64_t reserved[6];
+    wt_read_deformation deformation; /* one that the file contradicts is WT_E_UNIT */
+    uint64_t reserved[5];
 } wt_read_options;
 WT_API wt_read_options wt_read_defaults(void); /* everything, nothing replaced */
 WT_API const wt_params *wt_read_params(void);

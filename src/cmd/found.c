@@ -5,10 +5,8 @@
 #include "data/tables/tables.h"
 
 const found_missing found_missing_rows[FOUND_N_MISSING] = {
-    {"spring-constant", "0.1N/m"},
-    {"sensitivity", "60nm/V"},
-    {"temperature", "20degC"},
-    {"units", "\"E'=MPa\""},
+    {"spring-constant", "0.1N/m"}, {"sensitivity", "60nm/V"},  {"temperature", "20degC"},
+    {"units", "\"E'=MPa\""},       {"deformation", "tension"},
 };
 
 void found_value(const char *value, const char *unit, char *out, size_t size)
@@ -68,7 +66,9 @@ static void read_fact(const char *item, const char *value, const char *unit, fou
                                                                                         : ": ",
                  item, shown);
     }
-    for (size_t i = 0; i < FOUND_N_MISSING && strcmp(item, "not readable as it is") == 0; i++) {
+    const bool unread = strcmp(item, "not readable as it is") == 0;
+    found->nothing = found->nothing || (unread && strstr(value, " not read;") != NULL);
+    for (size_t i = 0; i < FOUND_N_MISSING && unread; i++) {
         char option[32];
         snprintf(option, sizeof option, "--%s", found_missing_rows[i].name);
         found->missing[i] = found->missing[i] || strstr(value, option) != NULL;

@@ -6,7 +6,7 @@
 #include "cmd/cmd.h"
 
 /* What a file does not say and the user must. */
-enum { FOUND_N_MISSING = 4 };
+enum { FOUND_N_MISSING = 5 };
 /* The name of the option and of the attribute in a case; a value as an example. */
 typedef struct found_missing {
     const char *name, *example;
@@ -18,6 +18,7 @@ typedef struct found_file {
     bool is_result;                /* tables of this program */
     const char *next;              /* subcommand, NULL: by its kind; static */
     bool missing[FOUND_N_MISSING]; /* see above */
+    bool nothing;                  /* it holds nothing that is read, whatever one says */
     char words[512];               /* "jpk: curves 12, spring constant 300 mN/m" */
 } found_file;
 

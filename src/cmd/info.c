@@ -63,6 +63,8 @@ static void print_word(const char *word)
 /* The command to type next for the only file, or for all of them. */
 static void print_next(const char *const *files, size_t n, const found_file *found)
 {
+    if (found->nothing)
+        return;
     if (n > 1) {
         fputs("\nnext: weartrack new-case", stdout);
         for (size_t i = 0; i < n; i++)

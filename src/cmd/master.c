@@ -41,12 +41,13 @@ int cmd_master(int argc, char **argv)
     wt_master_job job = wt_master_job_defaults();
     wt_file_set set = {.read = wt_read_defaults()};
     saved_shifts saved = {NULL, NULL};
-    cmd_part parts[] = {{wt_master_job_params(), &job,
-                         "reference-temperature vertical-shift expansion terms-per-decade liquid "
-                         "shift-by leave-out shift-law",
-                         0},
-                        {saved_params(), &saved, NULL, 0},
-                        {wt_read_params(), &set.read, "temperature units format sheet", 0}};
+    cmd_part parts[] = {
+        {wt_master_job_params(), &job,
+         "reference-temperature vertical-shift expansion terms-per-decade liquid "
+         "shift-by leave-out shift-law",
+         0},
+        {saved_params(), &saved, NULL, 0},
+        {wt_read_params(), &set.read, "temperature units format sheet deformation", 0}};
     cmd_session s = cmd_session_defaults();
     wt_master_tables tables = {0};
     wt_result *given = NULL;

@@ -12,6 +12,7 @@ static void isotherm_free(wt_isotherm *isotherm)
     free(isotherm->storage_modulus);
     free(isotherm->loss_modulus);
     free(isotherm->strain);
+    free(isotherm->loss_factor);
 }
 
 static void ramp_free(wt_ramp *ramp)
@@ -19,6 +20,8 @@ static void ramp_free(wt_ramp *ramp)
     free(ramp->temperature);
     free(ramp->storage_modulus);
     free(ramp->loss_modulus);
+    free(ramp->strain);
+    free(ramp->loss_factor);
 }
 
 static void strain_sweep_free(wt_strain_sweep *s)
@@ -44,8 +47,9 @@ void wt_sweep_clear(wt_sweep *sweep)
     *sweep = (wt_sweep){0};
 }
 
-wt_isotherm *wt_sweep_add(wt_sweep *sweep, size_t n, bool with_strain)
+wt_isotherm *wt_sweep_add(wt_sweep *sweep, size_t n, unsigned with)
 {
+    const bool strain = (with & WT_WITH_STRAIN) != 0, factor = (with & WT_WITH_LOSS_FACTOR) != 0;
     if (n > SIZE_MAX / sizeof(double) ||
         sweep->n_isotherms >= SIZE_MAX / sizeof *sweep->isotherms - 1)
         return NULL;
@@ -56,14 +60,15 @@ wt_isotherm *wt_sweep_add(wt_sweep *sweep, size_t n, bool with_strain)
                             .angular_frequency = malloc(size),
                             .storage_modulus = malloc(size),
                             .loss_modulus = malloc(size),
-                            .strain = with_strain ? malloc(size) : NULL};
+                            .strain = strain ? malloc(size) : NULL,
+                            .loss_factor = factor ? malloc(size) : NULL};
     wt_isotherm *const isotherms =
         realloc(sweep->isotherms, (sweep->n_isotherms + 1) * sizeof *isotherms);
     if (isotherms != NULL)
         sweep->isotherms = isotherms;
     if (isotherms == NULL || isotherm.angular_frequency == NULL ||
         isotherm.storage_modulus == NULL || isotherm.loss_modulus == NULL ||
-        (with_strain && isotherm.strain == NULL)) {
+        (strain && isotherm.strain == NULL) || (factor && isotherm.loss_factor == NULL)) {
         isotherm_free(&isotherm);
         return NULL;
     }
@@ -71,8 +76,9 @@ wt_isotherm *wt_sweep_add(wt_sweep *sweep, size_t n, bool with_strain)
     return &isotherms[sweep->n_isotherms++];
 }
 
-wt_ramp *wt_sweep_add_ramp(wt_sweep *sweep, size_t n)
+wt_ramp *wt_sweep_add_ramp(wt_sweep *sweep, size_t n, unsigned with)
 {
+    const bool strain = (with & WT_WITH_STRAIN) != 0, factor = (with & WT_WITH_LOSS_FACTOR) != 0;
     if (n > SIZE_MAX / sizeof(double) || sweep->n_ramps >= SIZE_MAX / sizeof *sweep->ramps - 1)
         return NULL;
     const size_t size = (n > 0 ? n : 1) * sizeof(double);
@@ -80,12 +86,15 @@ wt_ramp *wt_sweep_add_ramp(wt_sweep *sweep, size_t n)
                     .n = n,
                     .temperature = malloc(size),
                     .storage_modulus = malloc(size),
-                    .loss_modulus = malloc(size)};
+                    .loss_modulus = malloc(size),
+                    .strain = strain ? malloc(size) : NULL,
+                    .loss_factor = factor ? malloc(size) : NULL};
     wt_ramp *const ramps = realloc(sweep->ramps, (sweep->n_ramps + 1) * sizeof *ramps);
     if (ramps != NULL)
         sweep->ramps = ramps;
     if (ramps == NULL || ramp.temperature == NULL || ramp.storage_modulus == NULL ||
-        ramp.loss_modulus == NULL) {
+        ramp.loss_modulus == NULL || (strain && ramp.strain == NULL) ||
+        (factor && ramp.loss_factor == NULL)) {
         ramp_free(&ramp);
         return NULL;
     }
@@ -150,14 +159,15 @@ static int compare_strain_sweeps(const void *a, const void *b)
 }
 
 /* Points in arrays that move together: in the order of the first. */
-enum { ARRAYS = 4 };
+enum { ARRAYS = 5 };
 typedef struct points {
     double *array[ARRAYS]; /* those that there are not are NULL */
 } points;
 
 static points of_isotherm(const wt_isotherm *t)
 {
-    return (points){{t->angular_frequency, t->storage_modulus, t->loss_modulus, t->strain}};
+    return (points){
+        {t->angular_frequency, t->storage_modulus, t->loss_modulus, t->strain, t->loss_factor}};
 }
 
 static void swap_points(const points *p, size_t i, size_t k)
@@ -211,7 +221,8 @@ void wt_sweep_sort(wt_sweep *sweep)
     }
     for (size_t i = 0; i < sweep->n_ramps; i++) {
         const wt_ramp *r = &sweep->ramps[i];
-        const points p = {{r->temperature, r->storage_modulus, r->loss_modulus}};
+        const points p = {
+            {r->temperature, r->storage_modulus, r->loss_modulus, r->strain, r->loss_factor}};
         sort_points(&p, r->n);
     }
     for (size_t i = 0; i < sweep->n_strain_sweeps; i++) {
@@ -230,8 +241,11 @@ void wt_sweep_sort(wt_sweep *sweep)
 
 /* ---- copies ---------------------------------------------------------------------------------- */
 
+/* Of arrays, or of none on both sides. */
 static bool same_numbers(const double *a, const double *b, size_t n)
 {
+    if (a == NULL || b == NULL)
+        return a == b;
     return memcmp(a, b, n * sizeof *a) == 0;
 }
 
@@ -239,14 +253,16 @@ static bool is_copy(const wt_isotherm *a, const wt_isotherm *b)
 {
     return a->n == b->n && same_numbers(a->angular_frequency, b->angular_frequency, a->n) &&
            same_numbers(a->storage_modulus, b->storage_modulus, a->n) &&
-           same_numbers(a->loss_modulus, b->loss_modulus, a->n);
+           same_numbers(a->loss_modulus, b->loss_modulus, a->n) &&
+           same_numbers(a->loss_factor, b->loss_factor, a->n);
 }
 
 static bool same_point(const wt_isotherm *t, size_t i, size_t k)
 {
     return same_numbers(t->angular_frequency + i, t->angular_frequency + k, 1) &&
            same_numbers(t->storage_modulus + i, t->storage_modulus + k, 1) &&
-           same_numbers(t->loss_modulus + i, t->loss_modulus + k, 1);
+           same_numbers(t->loss_modulus + i, t->loss_modulus + k, 1) &&
+           (t->loss_factor == NULL || same_numbers(t->loss_factor + i, t->loss_factor + k, 1));
 }
 
 /* Points of one frequency stand together. */
@@ -288,7 +304,8 @@ static void drop_copies_of_ramps(wt_sweep *sweep, wt_parselog *log)
         if (b == NULL || b->n != t->n || b->angular_frequency != t->angular_frequency ||
             !same_numbers(b->temperature, t->temperature, t->n) ||
             !same_numbers(b->storage_modulus, t->storage_modulus, t->n) ||
-            !same_numbers(b->loss_modulus, t->loss_modulus, t->n)) {
+            !same_numbers(b->loss_modulus, t->loss_modulus, t->n) ||
+            !same_numbers(b->loss_factor, t->loss_factor, t->n)) {
             sweep->ramps[kept++] = *t;
             continue;
         }

@@ -32,7 +32,7 @@ static int by_temperature(const void *left, const void *right)
 /* tan delta of a point. */
 static double factor_of(const wt_isotherm *t, size_t k)
 {
-    return t->loss_modulus[k] / t->storage_modulus[k];
+    return t->loss_factor != NULL ? t->loss_factor[k] : t->loss_modulus[k] / t->storage_modulus[k];
 }
 
 static wt_status check_temperatures(const wt_sweep *sweep, wt_error *err)

@@ -37,6 +37,9 @@ static const wt_param rows[] = {
      .help =
          "sheet of a spreadsheet file; all: those that hold data, one after the other; default: "
          "the only one that holds data"},
+    {PARAM_CHOICE_OF("deformation", wt_read_options, deformation, "of-file|tension|shear|bending"),
+     .help = "what the moduli of a DMA file are of where their names do not say it, as \"storage "
+             "modulus\"; bending gives E like tension"},
 };
 PARAM_TABLE(wt_read_params, wt_read_options, rows, wt_read_defaults, NO_PARTS)
 

@@ -29,7 +29,7 @@ static void make_sweep(shift_case *c)
     bench_random random = {77};
     const wt_wlf wlf = {293.15, 8.5, 130};
     for (int i = 0; i < ISOTHERMS; i++) {
-        wt_isotherm *iso = wt_sweep_add(&c->sweep, POINTS, false);
+        wt_isotherm *iso = wt_sweep_add(&c->sweep, POINTS, 0);
         iso->temperature = 253.15 + 4 * i;
         c->truth[i] = wt_wlf_log_shift(&wlf, iso->temperature);
         for (int j = 0; j < POINTS; j++) {

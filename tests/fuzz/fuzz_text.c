@@ -20,6 +20,16 @@ static void all_finite(const double *values, size_t n)
             abort();
 }
 
+/* Numbers at all points, or NaN at all; returns whether there are numbers. */
+static bool finite_or_none(const double *values, size_t n)
+{
+    const bool none = values == NULL || n == 0 || isnan(values[0]);
+    for (size_t i = 0; i < n && values != NULL; i++)
+        if (none ? !isnan(values[i]) : !isfinite(values[i]))
+            abort();
+    return !none;
+}
+
 static void read_as(const file_reader *reader, wt_input *input, const wt_read_options *options)
 {
     wt_error err = WT_ERROR_INIT;
@@ -30,8 +40,11 @@ static void read_as(const file_reader *reader, wt_input *input, const wt_read_op
             const wt_isotherm *s = &sweep.isotherms[i];
             all_finite(&s->temperature, 1);
             all_finite(s->angular_frequency, s->n);
-            all_finite(s->storage_modulus, s->n);
-            all_finite(s->loss_modulus, s->n);
+            const bool storage = finite_or_none(s->storage_modulus, s->n),
+                       loss = finite_or_none(s->loss_modulus, s->n),
+                       factor = finite_or_none(s->loss_factor, s->n);
+            if (!storage && !loss && !factor)
+                abort();
         }
         wt_sweep_clear(&sweep);
     }

@@ -44,7 +44,7 @@ static inline bool dma_read_tidy(const char *path, wt_sweep *sweep)
     for (size_t first = 0, last; good && first < n; first = last) {
         for (last = first; last < n && rows[last][0] == rows[first][0];)
             last++;
-        wt_isotherm *isotherm = wt_sweep_add(sweep, last - first, false);
+        wt_isotherm *isotherm = wt_sweep_add(sweep, last - first, 0);
         good = isotherm != NULL;
         if (!good)
             break;
@@ -106,7 +106,7 @@ static inline wt_isotherm *dma_add(wt_sweep *sweep, const dma_truth *truth, doub
                                    double w_min, double w_max, size_t n, bool vertical,
                                    double noise, uint64_t *state)
 {
-    wt_isotherm *isotherm = wt_sweep_add(sweep, n, false);
+    wt_isotherm *isotherm = wt_sweep_add(sweep, n, 0);
     if (isotherm == NULL)
         return NULL;
     isotherm->temperature = temperature;

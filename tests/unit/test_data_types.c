@@ -141,7 +141,7 @@ static void sweep_order(void **state)
                 assert_near(t->strain[k], 4.0 * t->angular_frequency[k], 0);
         }
     }
-    assert_null(wt_sweep_add(&sweep, SIZE_MAX / 4, false));
+    assert_null(wt_sweep_add(&sweep, SIZE_MAX / 4, 0));
     assert_int_equal(sweep.n_isotherms, 4);
     wt_sweep_clear(&sweep);
     wt_sweep_clear(NULL);
@@ -243,7 +243,7 @@ static void table_keys(void **state)
 static void add_measured(wt_sweep *sweep, double temperature, double storage, const char *source)
 {
     static const double w[] = {10, 1, 1, 0.1, 1};
-    wt_isotherm *t = wt_sweep_add(sweep, 5, true);
+    wt_isotherm *t = wt_sweep_add(sweep, 5, WT_WITH_STRAIN);
     assert_non_null(t);
     t->temperature = temperature;
     snprintf(t->source, sizeof t->source, "%s", source);
@@ -300,7 +300,7 @@ static void ramps(void **state)
     wt_parselog *log = wt_parselog_new();
     (void)state;
     for (size_t i = 0; i < 3; i++) {
-        wt_ramp *ramp = wt_sweep_add_ramp(&sweep, 6);
+        wt_ramp *ramp = wt_sweep_add_ramp(&sweep, 6, 0);
         assert_non_null(ramp);
         ramp->angular_frequency = frequency[i];
         (void)snprintf(ramp->source, sizeof ramp->source, "%zu.txt", i);
@@ -310,7 +310,7 @@ static void ramps(void **state)
             ramp->loss_modulus[k] = 3 * ramp->temperature[k];
         }
     }
-    assert_null(wt_sweep_add_ramp(&sweep, SIZE_MAX / 4));
+    assert_null(wt_sweep_add_ramp(&sweep, SIZE_MAX / 4, 0));
     wt_sweep_sort(&sweep);
     wt_sweep_drop_copies(&sweep, log);
     assert_int_equal(sweep.n_ramps, 2);

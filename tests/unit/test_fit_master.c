@@ -55,7 +55,7 @@ static void measure(const scene *s, wt_sweep *sweep)
 {
     uint64_t state = s->seed;
     for (double t = s->first; t < s->last + 1; t += s->step) {
-        wt_isotherm *isotherm = wt_sweep_add(sweep, 13, false);
+        wt_isotherm *isotherm = wt_sweep_add(sweep, 13, 0);
         const double real = t + s->temperature_error * dma_normal(&state);
         const double level = s->clamping > 0 ? exp(s->clamping * dma_normal(&state)) : 1;
         isotherm->temperature = t;

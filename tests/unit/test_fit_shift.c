@@ -111,7 +111,7 @@ static void order_of_the_data_does_not_matter(void **state)
     dma_usual(&sweep, true, 0.01, 7);
     for (size_t i = sweep.n_isotherms; i-- > 0;) {
         const wt_isotherm *from = &sweep.isotherms[i];
-        wt_isotherm *to = wt_sweep_add(&reversed, from->n, false);
+        wt_isotherm *to = wt_sweep_add(&reversed, from->n, 0);
         to->temperature = from->temperature;
         for (size_t k = 0; k < from->n; k++) {
             to->angular_frequency[k] = from->angular_frequency[from->n - 1 - k];
@@ -184,7 +184,7 @@ static void a_plateau_without_slope_decides_nothing(void **state)
     wt_sweep sweep = {0};
     uint64_t noise = 12;
     for (int i = 0; i < 3; i++) {
-        wt_isotherm *isotherm = wt_sweep_add(&sweep, 15, false);
+        wt_isotherm *isotherm = wt_sweep_add(&sweep, 15, 0);
         isotherm->temperature = 330.0 + 10.0 * i;
         for (size_t k = 0; k < isotherm->n; k++) {
             const double w = pow(10.0, 0.2 * (double)k - 1.0), rise = pow(w, 0.002);
@@ -210,7 +210,7 @@ static void on_the_plateau_of_storage_the_loss_decides(void **state)
     uint64_t noise = 13;
     const double step = 0.41;
     for (int i = 0; i < 4; i++) {
-        wt_isotherm *isotherm = wt_sweep_add(&sweep, 16, false);
+        wt_isotherm *isotherm = wt_sweep_add(&sweep, 16, 0);
         isotherm->temperature = 330.0 + 10.0 * i;
         for (size_t k = 0; k < isotherm->n; k++) {
             const double x = 0.2 * (double)k - 1.0;
@@ -239,7 +239,7 @@ static void on_a_power_law_both_shifts_are_one(void **state)
     wt_sweep sweep = {0};
     uint64_t noise = 19;
     for (int i = 0; i < 4; i++) {
-        wt_isotherm *isotherm = wt_sweep_add(&sweep, 20, false);
+        wt_isotherm *isotherm = wt_sweep_add(&sweep, 20, 0);
         isotherm->temperature = 300.0 + 10.0 * i;
         for (size_t k = 0; k < isotherm->n; k++) {
             const double x = 0.15 * (double)k - 1.0;
@@ -463,7 +463,7 @@ static void lines_between_the_terms_pull_nothing(void **state)
         wt_sweep sweep = {0};
         uint64_t noise = 71 + p;
         for (int i = -6; i <= 5; i++) {
-            wt_isotherm *iso = wt_sweep_add(&sweep, 16, false);
+            wt_isotherm *iso = wt_sweep_add(&sweep, 16, 0);
             iso->temperature = 293.15 + 5.0 * i;
             for (size_t k = 0; k < iso->n; k++) {
                 const double omega = pow(10.0, -1.0 + 0.2 * (double)k);

@@ -19,7 +19,7 @@ static wt_master_options options(wt_shift_by by)
 /* Moduli of a tenth of a kelvin to the next at one frequency, and nothing beside. */
 static void heat(wt_sweep *sweep, double omega, size_t n, uint64_t *state)
 {
-    wt_ramp *ramp = wt_sweep_add_ramp(sweep, n);
+    wt_ramp *ramp = wt_sweep_add_ramp(sweep, n, 0);
     assert_non_null(ramp);
     ramp->angular_frequency = omega;
     for (size_t k = 0; k < n; k++) {

@@ -30,7 +30,7 @@ static void heat(wt_sweep *sweep, size_t frequencies, double step, uint64_t *sta
 {
     const size_t n = (size_t)(110 / step);
     for (size_t i = 0; i < frequencies; i++) {
-        wt_ramp *ramp = wt_sweep_add_ramp(sweep, n);
+        wt_ramp *ramp = wt_sweep_add_ramp(sweep, n, 0);
         assert_non_null(ramp);
         const double share = frequencies > 1 ? (double)i / (double)(frequencies - 1) : 0.5;
         ramp->angular_frequency = 2 * M_PI * pow(10, -1 + 2 * share);
@@ -48,7 +48,7 @@ static void heat(wt_sweep *sweep, size_t frequencies, double step, uint64_t *sta
 static void hold(wt_sweep *sweep, double first, double last, uint64_t *state)
 {
     for (double t = first; t < last + 1; t += 10) {
-        wt_isotherm *isotherm = wt_sweep_add(sweep, 13, false);
+        wt_isotherm *isotherm = wt_sweep_add(sweep, 13, 0);
         assert_non_null(isotherm);
         isotherm->temperature = t;
         for (size_t k = 0; k < 13; k++) {

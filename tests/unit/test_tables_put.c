@@ -353,6 +353,7 @@ static void test_conversions(void **state)
     convert(CASE "bulk-1.jpk-force-map", WT_KIND_FORCE);
     convert(CASE "dma.txt", WT_KIND_SWEEP);
     convert(FORMATS "stare/isotherm.txt", WT_KIND_SWEEP);
+    convert(FORMATS "table-units/loss-factor-only.csv", WT_KIND_SWEEP);
     convert(FORMATS "table-spectrum/surface.txt", WT_KIND_SPECTRUM);
     convert(FORMATS "table-spectrum/line.csv", WT_KIND_SPECTRUM);
 }
@@ -361,7 +362,8 @@ static void test_conversions(void **state)
 static void test_ramps(void **state)
 {
     (void)state;
-    static const char *const files[] = {FORMATS "table-units/ramp.csv", CASE "dma.txt"};
+    static const char *const files[] = {FORMATS "table-units/ramp.csv", CASE "dma.txt",
+                                        FORMATS "table-units/ramp-with-strain.csv"};
     static const double at[] = {290, 500};
     wt_job common = wt_job_defaults();
     common.formats = formats;

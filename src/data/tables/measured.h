@@ -17,13 +17,16 @@
     X(SWEEP_TEMPERATURE, "temperature", "temperature", SI(TEMPERATURE))                            \
     X(SWEEP_ANGULAR_FREQUENCY, "angular_frequency", "angular frequency", SI(ANGULAR_FREQUENCY))    \
     X(SWEEP_STORAGE_MODULUS, "storage_modulus", "tensile storage modulus E'", SI(STORAGE_MODULUS), \
-      OPTIONAL)                                                                                    \
-    X(SWEEP_LOSS_MODULUS, "loss_modulus", "tensile loss modulus E''", SI(LOSS_MODULUS), OPTIONAL)  \
+      OPTIONAL, SPARSE)                                                                            \
+    X(SWEEP_LOSS_MODULUS, "loss_modulus", "tensile loss modulus E''", SI(LOSS_MODULUS), OPTIONAL,  \
+      SPARSE)                                                                                      \
     X(SWEEP_SHEAR_STORAGE_MODULUS, "shear_storage_modulus", "shear storage modulus G'",            \
-      SI(SHEAR_STORAGE_MODULUS), OPTIONAL)                                                         \
+      SI(SHEAR_STORAGE_MODULUS), OPTIONAL, SPARSE)                                                 \
     X(SWEEP_SHEAR_LOSS_MODULUS, "shear_loss_modulus", "shear loss modulus G''",                    \
-      SI(SHEAR_LOSS_MODULUS), OPTIONAL)                                                            \
-    X(SWEEP_STRAIN, "strain", "strain amplitude", SI(STRAIN), OPTIONAL)
+      SI(SHEAR_LOSS_MODULUS), OPTIONAL, SPARSE)                                                    \
+    X(SWEEP_STRAIN, "strain", "strain amplitude", SI(STRAIN), OPTIONAL, SPARSE)                    \
+    X(SWEEP_LOSS_FACTOR, "loss_factor", "loss factor tan delta, where it was measured alone",      \
+      SI(LOSS_FACTOR), OPTIONAL, SPARSE)
 #define SWEEP_KEYS(X)
 
 /* The density of a surface or of a line, as measured. */

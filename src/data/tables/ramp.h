@@ -6,10 +6,11 @@
 #define RAMP_COLUMNS(X)                                                                            \
     X(RAMP_TEMPERATURE, "temperature", "temperature", SI(TEMPERATURE))                             \
     X(RAMP_ANGULAR_FREQUENCY, "angular_frequency", "angular frequency", SI(ANGULAR_FREQUENCY))     \
-    X(RAMP_STORAGE_MODULUS, "storage_modulus", "storage modulus", SI(STORAGE_MODULUS))             \
-    X(RAMP_LOSS_MODULUS, "loss_modulus", "loss modulus", SI(LOSS_MODULUS))                         \
-    X(RAMP_LOSS_FACTOR, "loss_factor", "loss factor tan delta", SI(LOSS_FACTOR))                   \
-    X(RAMP_SOURCE, "source", "file and step", TEXT)
+    X(RAMP_STORAGE_MODULUS, "storage_modulus", "storage modulus", SI(STORAGE_MODULUS), SPARSE)     \
+    X(RAMP_LOSS_MODULUS, "loss_modulus", "loss modulus", SI(LOSS_MODULUS), SPARSE)                 \
+    X(RAMP_LOSS_FACTOR, "loss_factor", "loss factor tan delta", SI(LOSS_FACTOR), SPARSE)           \
+    X(RAMP_SOURCE, "source", "file and step", TEXT)                                                \
+    X(RAMP_STRAIN, "strain", "strain amplitude", SI(STRAIN), SPARSE)
 #define RAMP_KEYS(X) X(RAMP_KEY_DEFORMATION, "deformation", TEXT)
 
 /* A number with its error and interval; empty where it is not known. */

@@ -34,7 +34,7 @@ static wt_status begin_shift(void *problem, double *reference_error, wt_error *e
     const wt_wlf wlf = {293.15, 8.5, 130};
     *reference_error = 0;
     for (int i = 0; i < ISOTHERMS; i++) {
-        wt_isotherm *iso = wt_sweep_add(&p->sweep, POINTS, false);
+        wt_isotherm *iso = wt_sweep_add(&p->sweep, POINTS, 0);
         if (iso == NULL)
             return wt_fail(err, WT_E_MEMORY, "out of memory");
         iso->temperature = wlf.reference_temperature + 5 * (i - REFERENCE);

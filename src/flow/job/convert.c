@@ -113,56 +113,97 @@ static wt_status convert_force(const conversion *c, wt_error *err)
     return status;
 }
 
-static wt_status send_sweep(const conversion *c, const wt_sweep *sweep, wt_error *err)
+/* A point of any sweep; what was not measured is NaN. */
+typedef struct dma_point {
+    double temperature, angular_frequency, storage, loss, strain, factor;
+} dma_point;
+
+static double at(const double *values, size_t i)
 {
-    const bool shear = sweep->deformation == WT_SHEAR;
-    const sweep_column storage = shear ? SWEEP_SHEAR_STORAGE_MODULUS : SWEEP_STORAGE_MODULUS;
-    const sweep_column loss = shear ? SWEEP_SHEAR_LOSS_MODULUS : SWEEP_LOSS_MODULUS;
-    const sweep_column without[] = {shear ? SWEEP_STORAGE_MODULUS : SWEEP_SHEAR_STORAGE_MODULUS,
-                                    shear ? SWEEP_LOSS_MODULUS : SWEEP_SHEAR_LOSS_MODULUS};
-    uint64_t left_out = SCHEMA_BIT(without[0]) | SCHEMA_BIT(without[1]);
-    bool strain = sweep->n_strain_sweeps > 0;
-    for (size_t k = 0; k < sweep->n_isotherms && !strain; k++)
-        strain = sweep->isotherms[k].strain != NULL;
-    left_out |= strain ? 0 : SCHEMA_BIT(SWEEP_STRAIN);
-    table_writer t = table_begin_variant(&sweep_schema, (table_variant){.left_out = left_out}, err);
+    return values != NULL ? values[i] : (double)NAN;
+}
+
+/* The table, as far as columns and rows are known. */
+typedef struct dma_table {
+    table_writer writer;
+    sweep_column storage, loss;
+    uint64_t used; /* bits of the columns that some point has */
+    bool counting; /* nothing is written yet */
+} dma_table;
+
+static void put_known(dma_table *t, sweep_column column, double value)
+{
+    if (isnan(value))
+        return;
+    t->used |= SCHEMA_BIT(column);
+    if (!t->counting)
+        sweep_put(&t->writer, column, value);
+}
+
+static void put_point(dma_table *t, const dma_point *p)
+{
+    if (!t->counting) {
+        table_row(&t->writer);
+        sweep_put(&t->writer, SWEEP_TEMPERATURE, p->temperature);
+        sweep_put(&t->writer, SWEEP_ANGULAR_FREQUENCY, p->angular_frequency);
+    }
+    put_known(t, t->storage, p->storage);
+    put_known(t, t->loss, p->loss);
+    put_known(t, SWEEP_STRAIN, p->strain);
+    put_known(t, SWEEP_LOSS_FACTOR, p->factor);
+}
+
+static void put_block(dma_table *t)
+{
+    if (!t->counting)
+        table_block(&t->writer);
+}
+
+static void put_sweep(dma_table *t, const wt_sweep *sweep)
+{
     for (size_t k = 0; k < sweep->n_isotherms; k++) {
-        const wt_isotherm *iso = &sweep->isotherms[k];
-        table_block(&t);
-        for (size_t i = 0; i < iso->n; i++) {
-            table_row(&t);
-            sweep_put(&t, SWEEP_TEMPERATURE, iso->temperature);
-            sweep_put(&t, SWEEP_ANGULAR_FREQUENCY, iso->angular_frequency[i]);
-            sweep_put(&t, storage, iso->storage_modulus[i]);
-            sweep_put(&t, loss, iso->loss_modulus[i]);
-            if (iso->strain != NULL)
-                sweep_put(&t, SWEEP_STRAIN, iso->strain[i]);
-        }
+        const wt_isotherm *s = &sweep->isotherms[k];
+        put_block(t);
+        for (size_t i = 0; i < s->n; i++)
+            put_point(t,
+                      &(dma_point){s->temperature, s->angular_frequency[i], s->storage_modulus[i],
+                                   s->loss_modulus[i], at(s->strain, i), at(s->loss_factor, i)});
     }
     for (size_t k = 0; k < sweep->n_ramps; k++) {
-        const wt_ramp *ramp = &sweep->ramps[k];
-        table_block(&t);
-        for (size_t i = 0; i < ramp->n; i++) {
-            table_row(&t);
-            sweep_put(&t, SWEEP_TEMPERATURE, ramp->temperature[i]);
-            sweep_put(&t, SWEEP_ANGULAR_FREQUENCY, ramp->angular_frequency);
-            sweep_put(&t, storage, ramp->storage_modulus[i]);
-            sweep_put(&t, loss, ramp->loss_modulus[i]);
-        }
+        const wt_ramp *s = &sweep->ramps[k];
+        put_block(t);
+        for (size_t i = 0; i < s->n; i++)
+            put_point(t,
+                      &(dma_point){s->temperature[i], s->angular_frequency, s->storage_modulus[i],
+                                   s->loss_modulus[i], at(s->strain, i), at(s->loss_factor, i)});
     }
     for (size_t k = 0; k < sweep->n_strain_sweeps; k++) {
         const wt_strain_sweep *s = &sweep->strain_sweeps[k];
-        table_block(&t);
-        for (size_t i = 0; i < s->n; i++) {
-            table_row(&t);
-            sweep_put(&t, SWEEP_TEMPERATURE, s->temperature);
-            sweep_put(&t, SWEEP_ANGULAR_FREQUENCY, s->angular_frequency);
-            sweep_put(&t, storage, s->storage_modulus[i]);
-            sweep_put(&t, loss, s->loss_modulus[i]);
-            sweep_put(&t, SWEEP_STRAIN, s->strain[i]);
-        }
+        put_block(t);
+        for (size_t i = 0; i < s->n; i++)
+            put_point(t, &(dma_point){s->temperature, s->angular_frequency, s->storage_modulus[i],
+                                      s->loss_modulus[i], s->strain[i], (double)NAN});
     }
-    return send(c, &t, err);
+}
+
+/* Columns that no point has are left out. */
+static wt_status send_sweep(const conversion *c, const wt_sweep *sweep, wt_error *err)
+{
+    static const sweep_column maybe[] = {
+        SWEEP_STORAGE_MODULUS,    SWEEP_LOSS_MODULUS, SWEEP_SHEAR_STORAGE_MODULUS,
+        SWEEP_SHEAR_LOSS_MODULUS, SWEEP_STRAIN,       SWEEP_LOSS_FACTOR};
+    const bool shear = sweep->deformation == WT_SHEAR;
+    dma_table t = {.storage = shear ? SWEEP_SHEAR_STORAGE_MODULUS : SWEEP_STORAGE_MODULUS,
+                   .loss = shear ? SWEEP_SHEAR_LOSS_MODULUS : SWEEP_LOSS_MODULUS,
+                   .counting = true};
+    uint64_t left_out = 0;
+    put_sweep(&t, sweep);
+    for (size_t i = 0; i < COUNT_OF(maybe); i++)
+        left_out |= SCHEMA_BIT(maybe[i]) & ~t.used;
+    t.writer = table_begin_variant(&sweep_schema, (table_variant){.left_out = left_out}, err);
+    t.counting = false;
+    put_sweep(&t, sweep);
+    return send(c, &t.writer, err);
 }
 
 static wt_status convert_sweep(const conversion *c, wt_error *err)

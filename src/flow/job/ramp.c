@@ -55,7 +55,7 @@ void wt_ramp_tables_clear(wt_ramp_tables *tables)
 /* ---- isotherms by frequency ------------------------------------------------------------------ */
 
 typedef struct point {
-    double frequency, temperature, storage, loss;
+    double frequency, temperature, storage, loss, factor, strain;
 } point;
 
 static int by_frequency(const void *a, const void *b)
@@ -66,7 +66,8 @@ static int by_frequency(const void *a, const void *b)
 
 static wt_status add_ramp(wt_sweep *sweep, const point *points, size_t n, wt_error *err)
 {
-    wt_ramp *ramp = n >= FEWEST ? wt_sweep_add_ramp(sweep, n) : NULL;
+    wt_ramp *ramp =
+        n >= FEWEST ? wt_sweep_add_ramp(sweep, n, WT_WITH_LOSS_FACTOR | WT_WITH_STRAIN) : NULL;
     if (n < FEWEST)
         return WT_OK;
     if (ramp == NULL)
@@ -76,6 +77,8 @@ static wt_status add_ramp(wt_sweep *sweep, const point *points, size_t n, wt_err
         ramp->temperature[i] = points[i].temperature;
         ramp->storage_modulus[i] = points[i].storage;
         ramp->loss_modulus[i] = points[i].loss;
+        ramp->loss_factor[i] = points[i].factor;
+        ramp->strain[i] = points[i].strain;
         sum += points[i].frequency;
     }
     ramp->angular_frequency = sum / (double)n;
@@ -95,8 +98,12 @@ static wt_status add_isotherms(wt_sweep *sweep, wt_error *err)
     for (size_t i = 0; i < sweep->n_isotherms; i++) {
         const wt_isotherm *t = &sweep->isotherms[i];
         for (size_t k = 0; k < t->n; k++)
-            points[n++] = (point){t->angular_frequency[k], t->temperature, t->storage_modulus[k],
-                                  t->loss_modulus[k]};
+            points[n++] = (point){t->angular_frequency[k],
+                                  t->temperature,
+                                  t->storage_modulus[k],
+                                  t->loss_modulus[k],
+                                  t->loss_factor != NULL ? t->loss_factor[k] : (double)NAN,
+                                  t->strain != NULL ? t->strain[k] : (double)NAN};
     }
     qsort(points, n, sizeof *points, by_frequency);
     wt_status status = WT_OK;
@@ -119,7 +126,17 @@ typedef enum quantity { STORAGE, LOSS, FACTOR, QUANTITIES } quantity;
 typedef struct usable {
     size_t n;
     double *temperature, *value[QUANTITIES];
+    bool has[QUANTITIES]; /* it was measured */
 } usable;
+
+/* Ratio of the moduli, or what was measured without them. */
+static double loss_factor(const wt_ramp *ramp, size_t i)
+{
+    const double storage = ramp->storage_modulus[i];
+    if (storage > 0)
+        return ramp->loss_modulus[i] / storage;
+    return ramp->loss_factor != NULL ? ramp->loss_factor[i] : (double)NAN;
+}
 
 static wt_status take_usable(const wt_ramp *ramp, pool *memory, wt_parselog *log, usable *u,
                              wt_error *err)
@@ -130,13 +147,22 @@ static wt_status take_usable(const wt_ramp *ramp, pool *memory, wt_parselog *log
     if (memory->failed)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t i = 0; i < ramp->n; i++) {
-        const double storage = ramp->storage_modulus[i], loss = ramp->loss_modulus[i];
-        if (!(storage > 0 && loss > 0 && isfinite(storage) && isfinite(loss)))
+        u->has[STORAGE] = u->has[STORAGE] || !isnan(ramp->storage_modulus[i]);
+        u->has[LOSS] = u->has[LOSS] || !isnan(ramp->loss_modulus[i]);
+        u->has[FACTOR] = u->has[FACTOR] || !isnan(loss_factor(ramp, i));
+    }
+    for (size_t i = 0; i < ramp->n; i++) {
+        const double values[QUANTITIES] = {ramp->storage_modulus[i], ramp->loss_modulus[i],
+                                           loss_factor(ramp, i)};
+        bool good = true;
+        for (int q = 0; q < QUANTITIES; q++)
+            good = good && (!u->has[q] || (values[q] > 0 && isfinite(values[q])));
+        if (!good)
             continue;
         u->temperature[u->n] = ramp->temperature[i];
-        u->value[STORAGE][u->n] = storage;
-        u->value[LOSS][u->n] = loss;
-        u->value[FACTOR][u->n++] = loss / storage;
+        for (int q = 0; q < QUANTITIES; q++)
+            u->value[q][u->n] = values[q];
+        u->n++;
     }
     if (u->n < ramp->n)
         wt_parselog_add(log, WT_WARNING, ramp->source, NULL,
@@ -155,8 +181,9 @@ static void put_points(table_writer *t, const wt_ramp *ramp)
         ramp_put(t, RAMP_ANGULAR_FREQUENCY, ramp->angular_frequency);
         ramp_put(t, RAMP_STORAGE_MODULUS, ramp->storage_modulus[i]);
         ramp_put(t, RAMP_LOSS_MODULUS, ramp->loss_modulus[i]);
-        const double storage = ramp->storage_modulus[i];
-        ramp_put(t, RAMP_LOSS_FACTOR, storage > 0 ? ramp->loss_modulus[i] / storage : (double)NAN);
+        ramp_put(t, RAMP_LOSS_FACTOR, loss_factor(ramp, i));
+        if (ramp->strain != NULL)
+            ramp_put(t, RAMP_STRAIN, ramp->strain[i]);
         ramp_put_text(t, RAMP_SOURCE, ramp->source);
     }
 }
@@ -179,14 +206,21 @@ typedef struct peaks {
     wt_peak factor, loss;
 } peaks;
 
+static wt_status find_peak(const wt_ramp_job *job, const usable *u, quantity q, wt_peak *peak,
+                           wt_error *err)
+{
+    if (u->has[q])
+        return wt_peak_find(u->temperature, u->value[q], u->n, job->peak_points, peak, err);
+    *peak = (wt_peak){.found = false, .why_not = "not measured"};
+    return WT_OK;
+}
+
 static wt_status put_transition(table_writer *t, const wt_ramp_job *job, const wt_ramp *ramp,
                                 const usable *u, peaks *found, wt_error *err)
 {
-    wt_status status =
-        wt_peak_find(u->temperature, u->value[FACTOR], u->n, job->peak_points, &found->factor, err);
+    wt_status status = find_peak(job, u, FACTOR, &found->factor, err);
     if (status == WT_OK)
-        status =
-            wt_peak_find(u->temperature, u->value[LOSS], u->n, job->peak_points, &found->loss, err);
+        status = find_peak(job, u, LOSS, &found->loss, err);
     if (status != WT_OK)
         return status;
     table_row(t);
@@ -218,6 +252,8 @@ static wt_status put_moduli(table_writer *t, const wt_ramp_job *job, const wt_ra
         moduli_at_put_text(t, MODULI_AT_SOURCE, ramp->source);
         for (int q = 0; within && q < QUANTITIES; q++) {
             wt_interval value;
+            if (!u->has[q])
+                continue;
             const wt_status status =
                 wt_value_between(u->temperature, u->value[q], u->n, at, &value, err);
             if (status != WT_OK)
@@ -313,13 +349,15 @@ wt_status wt_ramp_make(const wt_ramp_job *job, const wt_job *work, wt_ramp_table
     wt_status status = param_check(wt_ramp_job_params(), job, err);
     if (status == WT_OK)
         status = flow_sweeps_read(job->sets, job->n_sets, work, &sweep, err);
-    const size_t isotherms = sweep.n_isotherms;
+    const size_t isotherms = sweep.n_isotherms, strain_sweeps = sweep.n_strain_sweeps;
     if (status == WT_OK)
         status = add_isotherms(&sweep, err);
     if (status == WT_OK && sweep.n_ramps == 0) {
         status = wt_fail(err, WT_E_EMPTY, "no temperature sweep could be read");
         wt_error_expected(err, "moduli at one frequency at %d temperatures or more", FEWEST);
-        wt_error_found(err, "%zu isotherms", isotherms);
+        wt_error_found(err, "isotherms: %zu, strain sweeps: %zu", isotherms, strain_sweeps);
+        if (strain_sweeps > 0)
+            wt_error_advice(err, "`weartrack payne FILE` tells how the rubber softens with strain");
     }
     if (status == WT_OK)
         status = make_tables(job, work, &sweep, &t, err);

@@ -130,7 +130,7 @@ static wt_status add_isotherms(wt_sweep *sweep, windows *w, wt_error *err)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t i = 0; i < w->n; i++) {
         const size_t first = w->first[i], n = w->first[i + 1] - first;
-        wt_isotherm *t = wt_sweep_add(sweep, n, false);
+        wt_isotherm *t = wt_sweep_add(sweep, n, 0);
         if (t == NULL)
             return wt_fail(err, WT_E_MEMORY, "out of memory");
         double sum = 0;

@@ -36,7 +36,7 @@ static wt_status add_isotherm(const wt_isotherm *measured, const wt_master *fit,
                               double shift, uint64_t seed, wt_sweep *sweep)
 {
     const wt_master_shift *s = &fit->shifts[k];
-    wt_isotherm *iso = wt_sweep_add(sweep, measured->n, false);
+    wt_isotherm *iso = wt_sweep_add(sweep, measured->n, 0);
     double noise[2] = {0, 0};
     if (iso == NULL)
         return WT_E_MEMORY;

@@ -196,7 +196,7 @@ static wt_status take_points(const table_view *view, wt_sweep *sweep, wt_error *
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     wt_status status = WT_OK;
     const size_t n = join_points(view, p);
-    wt_isotherm *points = n < 2 ? NULL : wt_sweep_add(sweep, n, false);
+    wt_isotherm *points = n < 2 ? NULL : wt_sweep_add(sweep, n, 0);
     if (n < 2)
         status = wt_fail(err, WT_E_EMPTY, "the master curve has %zu points that can be used", n);
     else if (points == NULL)

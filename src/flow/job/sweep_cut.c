@@ -101,7 +101,7 @@ static void cut_isotherms(const cut *c, wt_sweep *sweep, gone *g)
         wt_isotherm *t = &sweep->isotherms[i];
         const size_t before = t->n;
         double *const array[] = {t->angular_frequency, t->storage_modulus, t->loss_modulus,
-                                 t->strain};
+                                 t->strain, t->loss_factor};
         if (c->of_frequency)
             t->n = keep_points(c, array, sizeof array / sizeof *array, t->n);
         if (t->n == 0 || (!c->of_frequency && within(c, t->temperature))) {
@@ -120,7 +120,8 @@ static void cut_ramps(const cut *c, wt_sweep *sweep, gone *g)
     for (size_t i = 0; i < sweep->n_ramps; i++) {
         wt_ramp *t = &sweep->ramps[i];
         const size_t before = t->n;
-        double *const array[] = {t->temperature, t->storage_modulus, t->loss_modulus};
+        double *const array[] = {t->temperature, t->storage_modulus, t->loss_modulus, t->strain,
+                                 t->loss_factor};
         if (!c->of_frequency)
             t->n = keep_points(c, array, sizeof array / sizeof *array, t->n);
         if (t->n == 0 || (c->of_frequency && within(c, t->angular_frequency))) {

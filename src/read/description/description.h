@@ -105,6 +105,12 @@ typedef struct step_marker {
     bool title_next; /* the line after it is the title; else group 1 */
 } step_marker;
 
+/* A line by which a file without data that are read tells what it is. */
+typedef struct other_test {
+    line_pattern pattern;
+    char *what; /* "a creep test" */
+} other_test;
+
 typedef struct unit_alias {
     char *found, *means;
 } unit_alias;
@@ -159,6 +165,8 @@ typedef struct text_description {
     size_t n_steps;
     line_pattern *ends;
     size_t n_ends;
+    other_test *others;
+    size_t n_others;
     unit_alias *aliases;
     size_t n_aliases;
     column_rule *rules;
@@ -166,7 +174,9 @@ typedef struct text_description {
     column_name *names; /* sorted by name, then rule */
     size_t n_names;
     bool has_names_line;
-    line_pattern names_line; /* group 1 is the names row */
+    line_pattern names_line;  /* group 1 is the names row, unless names stand elsewhere */
+    line_pattern names_lines; /* group 1 of each line above `names_line` is a name */
+    char *names_are;          /* what the columns are called where the file does not say it */
     units_where units;
     line_pattern units_line; /* of UNITS_LINE; group 1 is the units row */
     char *row_prefix;        /* normalised */

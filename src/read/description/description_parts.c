@@ -191,8 +191,14 @@ static void read_table(description_parser *p, const xmlNode *table)
     static const char *const titles[] = {"same", "next"};
     static const char *const blanks[] = {"skip", "block"};
     text_description *d = p->d;
-    parse_pattern(p, table, "names", &d->names_line, 1);
+    d->names_are = parse_attribute(p, table, "names-are");
+    parse_pattern(p, table, "names-lines", &d->names_lines, 1);
+    const bool elsewhere = d->names_are != NULL || d->names_lines.compiled;
+    parse_pattern(p, table, "names", &d->names_line, elsewhere ? 0 : 1);
     d->has_names_line = d->names_line.compiled;
+    if (elsewhere && (!d->has_names_line || (d->names_are != NULL && d->names_lines.compiled)))
+        parse_complain(p, table, "names that stand elsewhere go with the line above the rows",
+                       "an attribute names, and either names-are or names-lines", NULL);
     d->units = (units_where)parse_one_of(p, table, "units", units, 5, 0);
     parse_pattern(p, table, "units-line", &d->units_line, 1);
     if ((d->units == UNITS_LINE) != d->units_line.compiled)
@@ -206,6 +212,7 @@ static void read_table(description_parser *p, const xmlNode *table)
     d->blank_is_block = parse_one_of(p, table, "blank", blanks, 2, 0) == 1;
     d->steps = parse_room(p, table, "step", sizeof *d->steps);
     d->ends = parse_room(p, table, "end", sizeof *d->ends);
+    d->others = parse_room(p, table, "other", sizeof *d->others);
     d->aliases = parse_room(p, table, "unit", sizeof *d->aliases);
     for (const xmlNode *c = NULL; (c = parse_next(p, table, c, "step")) != NULL;) {
         step_marker *step = &d->steps[d->n_steps++];
@@ -214,6 +221,11 @@ static void read_table(description_parser *p, const xmlNode *table)
     }
     for (const xmlNode *c = NULL; (c = parse_next(p, table, c, "end")) != NULL;)
         parse_pattern(p, c, "regex", &d->ends[d->n_ends++], 0);
+    for (const xmlNode *c = NULL; (c = parse_next(p, table, c, "other")) != NULL;) {
+        other_test *other = &d->others[d->n_others++];
+        parse_pattern(p, c, "regex", &other->pattern, 0);
+        other->what = parse_attribute(p, c, "what");
+    }
     for (const xmlNode *c = NULL; (c = parse_next(p, table, c, "unit")) != NULL;) {
         unit_alias *alias = &d->aliases[d->n_aliases++];
         alias->found = parse_attribute(p, c, "found");

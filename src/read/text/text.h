@@ -63,12 +63,19 @@ typedef enum column_problem {
     COLUMN_UNCLEAR   /* the column that tells what it is (`with`) is not there */
 } column_problem;
 
+#define MODULI_OF_TENSION                                                                          \
+    (WT_Q_BIT(WT_Q_STORAGE_MODULUS) | WT_Q_BIT(WT_Q_LOSS_MODULUS) | WT_Q_BIT(WT_Q_COMPLEX_MODULUS))
+#define MODULI_OF_SHEAR                                                                            \
+    (WT_Q_BIT(WT_Q_SHEAR_STORAGE_MODULUS) | WT_Q_BIT(WT_Q_SHEAR_LOSS_MODULUS) |                    \
+     WT_Q_BIT(WT_Q_SHEAR_COMPLEX_MODULUS))
+
 /* A column of a table that is known by its name. */
 typedef struct text_column {
     size_t cell;
     column_problem problem;
     const column_rule *rule;
     double factor, offset; /* to SI, the sign of a negated column included */
+    const char *assumed;   /* of the rule, unless the user says it */
     char name[64];         /* as exported, without a unit in it */
     char unit[32];         /* as exported or given, "" if none */
 } text_column;

@@ -50,6 +50,12 @@ bool name_unit(text_span *name, text_span *unit)
 
 bool names_part(const text_description *d, text_span *line)
 {
+    if (d->names_are != NULL) {
+        const text_span names = {d->names_are, strlen(d->names_are)};
+        const bool found = pattern_match(&d->names_line, *line, NULL, 0);
+        *line = found ? names : *line;
+        return found;
+    }
     if (d->has_names_line)
         return pattern_part(&d->names_line, line);
     (void)line_uncomment(d, line);
@@ -212,6 +218,27 @@ static bool is_taken(const text_table *table, const column_rule *rule)
     return false;
 }
 
+typedef enum open_answer { OPEN_NOT, OPEN_YES, OPEN_NO } open_answer;
+
+/* Whether the name leaves open what the modulus is of and the user says that it is what this rule
+ * takes it for, or what it does not. */
+static open_answer answer_of(const resolver *r, const known_name *known, const column_rule *rule)
+{
+    const wt_quantity_set bit = WT_Q_BIT(rule->quantity);
+    wt_quantity_set all = 0;
+    for (size_t k = known->first; k < known->first + known->n; k++) {
+        const column_rule *const other = &r->d->rules[r->d->names[k].rule];
+        all |= WT_Q_BIT(other->quantity);
+        if (other->with != NULL && find_cell(r, other->with) != SIZE_MAX)
+            return OPEN_NOT; /* the file says it by that column */
+    }
+    if (r->options->deformation == WT_DEFORMATION_OF_FILE || (all & MODULI_OF_TENSION) == 0 ||
+        (all & MODULI_OF_SHEAR) == 0 || ((MODULI_OF_TENSION | MODULI_OF_SHEAR) & bit) == 0)
+        return OPEN_NOT;
+    const bool shear = r->options->deformation == WT_DEFORMATION_SHEAR;
+    return ((shear ? MODULI_OF_SHEAR : MODULI_OF_TENSION) & bit) != 0 ? OPEN_YES : OPEN_NO;
+}
+
 /* The first rule of that name whose condition holds and whose quantity has that unit. */
 static text_column resolve_column(const resolver *r, size_t cell, const known_name *known)
 {
@@ -234,8 +261,10 @@ static text_column resolve_column(const resolver *r, size_t cell, const known_na
     for (size_t k = known->first; k < known->first + known->n; k++) {
         const column_rule *rule = &r->d->rules[r->d->names[k].rule];
         double factor = 1, offset = 0;
+        const open_answer answer = answer_of(r, known, rule);
+        const bool lacks = rule->with != NULL && find_cell(r, rule->with) == SIZE_MAX;
         bool good;
-        if (rule->with != NULL && find_cell(r, rule->with) == SIZE_MAX) {
+        if (answer == OPEN_NO || (answer == OPEN_NOT && lacks)) {
             if (column.rule == NULL)
                 column.rule = rule;
             continue;
@@ -255,6 +284,7 @@ static text_column resolve_column(const resolver *r, size_t cell, const known_na
         if (column.unit[0] == '\0' && rule->unit != NULL)
             snprintf(column.unit, sizeof column.unit, "%s", rule->unit);
         column.rule = rule;
+        column.assumed = answer == OPEN_NOT ? rule->assumed : NULL;
         column.problem = COLUMN_GOOD;
         column.factor = rule->negate ? -factor : factor;
         column.offset = rule->negate ? -offset : offset;

@@ -20,7 +20,7 @@ static const double least_drift = 0.25;
 static wt_status add_ramp(sweep_builder *b, const size_t *rows, size_t n, bool turns)
 {
     static const char *const way[] = {" (heated)", " (cooled)"};
-    wt_ramp *ramp = wt_sweep_add_ramp(b->sweep, n);
+    wt_ramp *ramp = wt_sweep_add_ramp(b->sweep, n, sweep_arrays(&b->c));
     if (ramp == NULL)
         return wt_fail(b->err, WT_E_MEMORY, "no memory for a temperature sweep");
     double sum = 0;
@@ -28,6 +28,10 @@ static wt_status add_ramp(sweep_builder *b, const size_t *rows, size_t n, bool t
         ramp->temperature[i] = sweep_temperature(b, rows[i]);
         ramp->storage_modulus[i] = sweep_storage(b, rows[i]);
         ramp->loss_modulus[i] = sweep_loss(b, rows[i]);
+        if (ramp->strain != NULL)
+            ramp->strain[i] = text_table_value(b->table, rows[i], b->c.strain);
+        if (ramp->loss_factor != NULL)
+            ramp->loss_factor[i] = sweep_factor(b, rows[i]);
         sum += sweep_angular(b, rows[i]);
     }
     ramp->angular_frequency = sum / (double)n;
@@ -43,14 +47,14 @@ static size_t turning_point(const sweep_builder *b, const size_t *rows, size_t f
     size_t warmest = first, coldest = first;
     for (size_t i = first + 1; i < n; i++) {
         const double t = sweep_temperature(b, rows[i]);
-        if (t >= sweep_temperature(b, rows[warmest]))
-            warmest = i;
-        if (t <= sweep_temperature(b, rows[coldest]))
-            coldest = i;
         const bool fell = sweep_temperature(b, rows[warmest]) - t > turn && warmest > coldest,
                    rose = t - sweep_temperature(b, rows[coldest]) > turn && coldest > warmest;
         if (fell || rose)
             return (fell ? warmest : coldest) + 1;
+        if (t >= sweep_temperature(b, rows[warmest]))
+            warmest = i;
+        if (t <= sweep_temperature(b, rows[coldest]))
+            coldest = i;
     }
     return n;
 }

@@ -136,6 +136,26 @@ static void begin_rows(text_scanner *s)
     s->table->decimal = choose_decimal(s);
 }
 
+/* Names that stand one below the other: each is kept until the line above the rows comes. */
+static bool gathered_names(text_scanner *s, text_span *line)
+{
+    text_span name = *line;
+    if (pattern_part(&s->d->names_lines, &name)) {
+        if (s->n_gathered + name.length + 1 < sizeof s->gathered) {
+            s->gathered[s->n_gathered] = '\t';
+            s->n_gathered += s->n_gathered > 0;
+            memcpy(s->gathered + s->n_gathered, name.text, name.length);
+            s->n_gathered += name.length;
+        }
+        return false;
+    }
+    if (!pattern_match(&s->d->names_line, *line, NULL, 0))
+        return false;
+    *line = (text_span){s->gathered, s->n_gathered};
+    s->n_gathered = 0;
+    return true;
+}
+
 /* Is the line a names row? Then opens a table and moves to the last line of names and units. */
 static bool match_names(text_scanner *s)
 {
@@ -143,7 +163,8 @@ static bool match_names(text_scanner *s)
     text_span line = s->line;
     const cell_separator separator =
         d->names_separator != SEPARATOR_AUTO ? d->names_separator : s->separator;
-    if (!names_part(d, &line) || !names_match(&s->names, d, line, separator, s->kinds)) {
+    if (!(d->names_lines.compiled ? gathered_names(s, &line) : names_part(d, &line)) ||
+        !names_match(&s->names, d, line, separator, s->kinds)) {
         if (s->names.no_memory)
             scan_no_memory(s);
         return false;

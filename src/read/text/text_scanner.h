@@ -31,6 +31,8 @@ typedef struct text_scanner {
     text_header header;
     char decimal;             /* as declared by the file, or '\0' */
     cell_separator separator; /* as declared by the file, or SEPARATOR_AUTO */
+    char gathered[4096];      /* names that stand in lines of their own, parted by tabs */
+    size_t n_gathered;
     char title[96];
     size_t step_line;
     bool title_next;     /* the next line is the title of the step */

@@ -36,14 +36,14 @@ static size_t end_of(const sweep_builder *b, const size_t *rows, size_t first, s
     size_t largest = first, smallest = first, i = first + 1;
     for (; i < n && goes_on(b, rows[first], rows[i - 1], rows[i]); i++) {
         const double strain = strain_of(b, rows[i]);
-        if (strain >= strain_of(b, rows[largest]))
-            largest = i;
-        if (strain <= strain_of(b, rows[smallest]))
-            smallest = i;
         const bool fell = strain_of(b, rows[largest]) > turn * strain && largest > smallest,
                    rose = strain > turn * strain_of(b, rows[smallest]) && smallest > largest;
         if (fell || rose)
             return (fell ? largest : smallest) + 1;
+        if (strain >= strain_of(b, rows[largest]))
+            largest = i;
+        if (strain <= strain_of(b, rows[smallest]))
+            smallest = i;
     }
     return i;
 }
@@ -91,7 +91,7 @@ wt_status strain_sweeps_take(sweep_builder *b, size_t *rows, size_t *n)
 {
     size_t kept = 0;
     wt_status status = WT_OK;
-    if (b->c.strain == NULL)
+    if (b->c.strain == NULL || !(b->c.has_storage || b->c.has_loss))
         return WT_OK;
     for (size_t first = 0, end; first < *n && status == WT_OK; first = end) {
         end = end_of(b, rows, first, *n);

@@ -41,7 +41,7 @@ static wt_status flush(sweep_builder *b)
         return WT_OK;
     }
     warn_of_shifted(b, low, high);
-    wt_isotherm *isotherm = wt_sweep_add(b->sweep, b->n, b->c.strain != NULL);
+    wt_isotherm *isotherm = wt_sweep_add(b->sweep, b->n, sweep_arrays(&b->c));
     if (isotherm == NULL)
         return wt_fail(b->err, WT_E_MEMORY, "no memory for an isotherm");
     for (size_t i = 0; i < b->n; i++) {
@@ -50,6 +50,8 @@ static wt_status flush(sweep_builder *b)
         isotherm->loss_modulus[i] = sweep_loss(b, b->rows[i]);
         if (b->c.strain != NULL)
             isotherm->strain[i] = text_table_value(b->table, b->rows[i], b->c.strain);
+        if (isotherm->loss_factor != NULL)
+            isotherm->loss_factor[i] = sweep_factor(b, b->rows[i]);
     }
     sweep_source(b, isotherm->source, sizeof isotherm->source);
     wt_status status =
@@ -111,27 +113,63 @@ static size_t n_sweeps(const wt_sweep *s)
     return s->n_isotherms + s->n_ramps + s->n_strain_sweeps;
 }
 
+/* Moduli that stand in no column of their own, or in none. */
+static void say_what_follows(const sweep_builder *b)
+{
+    const sweep_columns *c = &b->c;
+    if (!c->has_storage || !c->has_loss)
+        wt_parselog_add(b->log, WT_NOTE, b->file->name, NULL, "only the %s was measured",
+                        c->has_storage ? "storage modulus"
+                        : c->has_loss  ? "loss modulus"
+                                       : "loss factor");
+    else if (c->storage == NULL)
+        wt_parselog_add(
+            b->log, WT_NOTE, b->file->name, NULL,
+            "no column of the storage modulus: it follows from column \"%s\" and the %s",
+            (c->magnitude != NULL ? c->magnitude : c->loss)->name,
+            c->factor != NULL ? "loss factor" : "loss modulus");
+    if (c->has_loss && c->loss == NULL)
+        wt_parselog_add(b->log, WT_NOTE, b->file->name, NULL,
+                        "no column of the loss modulus: storage modulus times loss factor");
+}
+
+/* The user may say what names leave open, not what they tell. */
+static wt_status check_deformation(const sweep_builder *b)
+{
+    const wt_read_deformation said = b->options->deformation;
+    if (said != WT_DEFORMATION_OF_FILE &&
+        (said == WT_DEFORMATION_SHEAR) != (b->c.deformation == WT_SHEAR)) {
+        wt_fail(b->err, WT_E_UNIT, "the file says that its moduli are of %s, not of %s",
+                b->c.deformation == WT_SHEAR ? "shear" : "tension or bending",
+                said == WT_DEFORMATION_SHEAR ? "shear" : "tension or bending");
+        wt_error_place(b->err, "line %zu", b->table->names_line);
+        const text_column *const column = b->c.storage != NULL     ? b->c.storage
+                                          : b->c.magnitude != NULL ? b->c.magnitude
+                                                                   : b->c.loss;
+        wt_error_found(b->err, "column \"%s\"", column->name);
+        wt_error_advice(b->err, "if the file is wrong, say what its columns are with --columns");
+        return WT_E_UNIT;
+    }
+    return WT_OK;
+}
+
 static wt_status read_table(sweep_builder *b)
 {
     wt_status status = text_table_require(b->table, WT_KIND_SWEEP, b->err);
     if (status != WT_OK)
         return status;
-    b->c = sweep_find_columns(b->table);
+    b->c = sweep_find_columns(b->table, b->options->deformation);
     if (n_sweeps(b->sweep) > 0 && b->c.deformation != b->sweep->deformation) {
         wt_fail(b->err, WT_E_UNIT, "tension and shear in one sweep");
         wt_error_place(b->err, "line %zu", b->table->names_line);
         wt_error_expected(b->err, "the moduli of one deformation, E or G");
         return WT_E_UNIT;
     }
+    status = check_deformation(b);
+    if (status != WT_OK)
+        return status;
     b->sweep->deformation = b->c.deformation;
-    if (b->c.storage == NULL)
-        wt_parselog_add(
-            b->log, WT_NOTE, b->file->name, NULL,
-            "no column of the storage modulus: it follows from column \"%s\" and the %s",
-            b->c.magnitude->name, b->c.factor != NULL ? "loss factor" : "loss modulus");
-    if (b->c.loss == NULL)
-        wt_parselog_add(b->log, WT_NOTE, b->file->name, NULL,
-                        "no column of the loss modulus: storage modulus times loss factor");
+    say_what_follows(b);
     b->rows = malloc((b->table->n_rows + 1) * sizeof *b->rows);
     if (b->rows == NULL)
         return wt_fail(b->err, WT_E_MEMORY, "no memory for an isotherm");

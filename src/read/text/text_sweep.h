@@ -11,9 +11,11 @@
 #define SAME_FREQUENCY 0.01
 
 typedef struct sweep_columns {
-    const text_column *frequency, *storage, *loss, *magnitude, *factor, *temperature, *strain;
+    const text_column *frequency, *storage, *loss, *magnitude, *factor, *temperature, *strain,
+        *time;
     double to_angular; /* 2 pi for a frequency in Hz */
     wt_deformation deformation;
+    bool has_storage, has_loss; /* measured, or following from what was */
 } sweep_columns;
 
 typedef struct sweep_builder {
@@ -29,14 +31,18 @@ typedef struct sweep_builder {
 } sweep_builder;
 
 /* ---- text_sweep_row.c */
-sweep_columns sweep_find_columns(const text_table *table);
+sweep_columns sweep_find_columns(const text_table *table, wt_read_deformation said);
+/* What the sweeps of the table have beside their moduli, for wt_sweep_add. */
+unsigned sweep_arrays(const sweep_columns *c);
+/* NaN without such a column. */
+double sweep_factor(const sweep_builder *b, size_t row);
 double sweep_angular(const sweep_builder *b, size_t row);
 double sweep_storage(const sweep_builder *b, size_t row);
 double sweep_loss(const sweep_builder *b, size_t row);
 double sweep_temperature(const sweep_builder *b, size_t row);
 /* 1: the frequency rises from one row to another, -1: it falls, 0: it is the same. */
 int sweep_way(const sweep_builder *b, size_t from, size_t to);
-/* Whether the row has a frequency and both moduli. */
+/* Whether the row has a frequency and all that the table can give. */
 bool sweep_is_point(const sweep_builder *b, size_t row);
 /* "FILE, TITLE OF THE STEP". */
 void sweep_source(const sweep_builder *b, char *source, size_t size);

@@ -7,12 +7,12 @@
 #include <math.h>
 #include <string.h>
 
-sweep_columns sweep_find_columns(const text_table *t)
+sweep_columns sweep_find_columns(const text_table *t, wt_read_deformation said)
 {
     sweep_columns c = {.to_angular = 1};
-    const bool tension = quantities_suffice(t->quantities & ~WT_Q_BIT(WT_Q_SHEAR_STORAGE_MODULUS) &
-                                                ~WT_Q_BIT(WT_Q_SHEAR_COMPLEX_MODULUS),
-                                            WT_KIND_SWEEP);
+    /* A loss factor alone is of either. */
+    const bool tension = (t->quantities & MODULI_OF_TENSION) != 0 ||
+                         ((t->quantities & MODULI_OF_SHEAR) == 0 && said != WT_DEFORMATION_SHEAR);
     c.deformation = tension ? WT_TENSION : WT_SHEAR;
     c.frequency = text_table_column(t, WT_Q_ANGULAR_FREQUENCY, -1);
     if (c.frequency == NULL) {
@@ -27,6 +27,10 @@ sweep_columns sweep_find_columns(const text_table *t)
     c.factor = text_table_column(t, WT_Q_LOSS_FACTOR, -1);
     c.temperature = text_table_column(t, WT_Q_TEMPERATURE, -1);
     c.strain = text_table_column(t, WT_Q_STRAIN, -1);
+    c.time = text_table_column(t, WT_Q_TIME, -1);
+    const bool two = (c.loss != NULL) + (c.factor != NULL) + (c.magnitude != NULL) >= 2;
+    c.has_storage = c.storage != NULL || two;
+    c.has_loss = c.loss != NULL || (c.has_storage && c.factor != NULL);
     return c;
 }
 
@@ -35,22 +39,42 @@ double sweep_angular(const sweep_builder *b, size_t row)
     return b->c.to_angular * text_table_value(b->table, row, b->c.frequency);
 }
 
+double sweep_factor(const sweep_builder *b, size_t row)
+{
+    return b->c.factor != NULL ? text_table_value(b->table, row, b->c.factor) : (double)NAN;
+}
+
 double sweep_storage(const sweep_builder *b, size_t row)
 {
+    if (!b->c.has_storage)
+        return (double)NAN;
     if (b->c.storage != NULL)
         return text_table_value(b->table, row, b->c.storage);
+    if (b->c.magnitude == NULL) {
+        const double ratio = text_table_value(b->table, row, b->c.loss) / sweep_factor(b, row);
+        return isfinite(ratio) ? ratio : (double)NAN;
+    }
     const double magnitude = text_table_value(b->table, row, b->c.magnitude);
     if (b->c.factor != NULL)
-        return magnitude / hypot(1.0, text_table_value(b->table, row, b->c.factor));
+        return magnitude / hypot(1.0, sweep_factor(b, row));
     const double lost = text_table_value(b->table, row, b->c.loss);
     return sqrt((magnitude - lost) * (magnitude + lost));
 }
 
 double sweep_loss(const sweep_builder *b, size_t row)
 {
+    if (!b->c.has_loss)
+        return (double)NAN;
     if (b->c.loss != NULL)
         return text_table_value(b->table, row, b->c.loss);
-    return sweep_storage(b, row) * text_table_value(b->table, row, b->c.factor);
+    return sweep_storage(b, row) * sweep_factor(b, row);
+}
+
+unsigned sweep_arrays(const sweep_columns *c)
+{
+    const bool alone = c->factor != NULL && !c->has_storage && !c->has_loss;
+    return (c->strain != NULL ? (unsigned)WT_WITH_STRAIN : 0) |
+           (alone ? (unsigned)WT_WITH_LOSS_FACTOR : 0);
 }
 
 double sweep_temperature(const sweep_builder *b, size_t row)
@@ -67,7 +91,13 @@ int sweep_way(const sweep_builder *b, size_t from, size_t to)
 
 bool sweep_is_point(const sweep_builder *b, size_t row)
 {
-    return sweep_angular(b, row) > 0 && !isnan(sweep_storage(b, row)) && !isnan(sweep_loss(b, row));
+    const sweep_columns *c = &b->c;
+    /* Some programs part segments by rows of a negative time. */
+    const bool marker = c->time != NULL && text_table_value(b->table, row, c->time) < 0;
+    const bool alone = !c->has_storage && !c->has_loss;
+    return !marker && sweep_angular(b, row) > 0 &&
+           !(c->has_storage && isnan(sweep_storage(b, row))) &&
+           !(c->has_loss && isnan(sweep_loss(b, row))) && !(alone && isnan(sweep_factor(b, row)));
 }
 
 /* "FILE, TITLE OF THE STEP"; the title is what tells the isotherms apart, so the name gives way. */

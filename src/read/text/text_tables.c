@@ -125,7 +125,8 @@ wt_status text_table_problem(const text_table *table, wt_quantity_set quantities
             status = WT_E_MISSING;
             wt_fail(err, status, "column \"%s\" may be tension or shear", c->name);
             wt_error_expected(err, "a column that tells which, such as \"%s\"", c->rule->with);
-            wt_error_advice(err, "export that column too");
+            wt_error_advice(err, "export that column too, or say it with --deformation tension or "
+                                 "--deformation shear");
             break;
         }
         wt_error_place(err, "line %zu, column %zu", table->names_line, c->cell + 1);
@@ -134,12 +135,26 @@ wt_status text_table_problem(const text_table *table, wt_quantity_set quantities
     return WT_OK;
 }
 
+/* What a sweep may do without, but not where the file has a column of it that is not understood. */
+static wt_quantity_set not_to_lose(const text_table *table)
+{
+    static const wt_quantity_set pairs[] = {
+        WT_Q_BIT(WT_Q_STORAGE_MODULUS) | WT_Q_BIT(WT_Q_SHEAR_STORAGE_MODULUS),
+        WT_Q_BIT(WT_Q_LOSS_MODULUS) | WT_Q_BIT(WT_Q_SHEAR_LOSS_MODULUS)};
+    wt_quantity_set set = 0;
+    for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++)
+        set |= (table->quantities & pairs[i]) == 0 ? pairs[i] : 0;
+    return set;
+}
+
 wt_status text_table_require(const text_table *table, unsigned kind, wt_error *err)
 {
-    if (quantities_suffice(table->quantities, kind))
-        return WT_OK;
-    wt_status status =
-        text_table_problem(table, quantities_of(kind) & ~WT_Q_BIT(WT_Q_LOSS_FACTOR), err);
+    const bool suffices = quantities_suffice(table->quantities, kind);
+    wt_status status = text_table_problem(
+        table, suffices ? not_to_lose(table) : quantities_of(kind) & ~WT_Q_BIT(WT_Q_LOSS_FACTOR),
+        err);
+    if (suffices)
+        return status;
     if (status != WT_OK)
         return status;
     wt_fail(err, WT_E_MISSING, "columns are missing");
@@ -168,8 +183,8 @@ static void log_assumed(const text_file *file, const text_table *table, wt_parse
 {
     for (size_t i = 0; i < table->n_columns; i++) {
         const text_column *column = &table->columns[i];
-        if (column->rule->assumed != NULL)
-            wt_parselog_add(log, WT_WARNING, file->name, NULL, "%s", column->rule->assumed);
+        if (column->assumed != NULL)
+            wt_parselog_add(log, WT_WARNING, file->name, NULL, "%s", column->assumed);
     }
 }
 
@@ -183,8 +198,20 @@ void text_log_columns(const text_file *file, wt_parselog *log)
         log_assumed(file, &file->tables[i], log);
 }
 
+/* The first of the tests named in the description of which the file has a line, or NULL. */
+static const char *other_test_of(const text_file *file)
+{
+    const text_description *d = file->description;
+    for (size_t k = 0; k < d->n_others; k++)
+        for (size_t i = 0; i < file->lines.n; i++)
+            if (pattern_match(&d->others[k].pattern, file->lines.lines[i], NULL, 0))
+                return d->others[k].what;
+    return NULL;
+}
+
 wt_status text_nothing(const text_file *file, const char *what, wt_error *err)
 {
+    const char *const other = other_test_of(file);
     char steps[160] = "";
     size_t used = 0;
     for (size_t i = 0; i < file->steps.n && used < sizeof steps; i++) {
@@ -193,7 +220,12 @@ wt_status text_nothing(const text_file *file, const char *what, wt_error *err)
         used += n > 0 ? (size_t)n : 0;
     }
     wt_fail(err, WT_E_EMPTY, "no %s in it", what);
-    if (file->steps.n > 0)
+    if (other != NULL) {
+        wt_error_found(err, "%s%s%s", other, file->steps.n > 0 ? ": " : "", steps);
+        wt_error_advice(err, "such files are known but not read; sweeps of frequency, temperature "
+                             "or strain are");
+    } else if (file->steps.n > 0) {
         wt_error_found(err, "%s", steps);
+    }
     return WT_E_EMPTY;
 }
