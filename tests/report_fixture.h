@@ -157,6 +157,42 @@ static inline void fixture_ramp(void)
     wt_formats_free(formats);
 }
 
+/* The material of a result. */
+static inline wt_status fixture_rubber(const wt_result *result, wt_rubber *rubber, wt_error *err)
+{
+    const wt_rubber_tables tables = {.prony = wt_result_find(result, "prony"),
+                                     .shift_factors = wt_result_find(result, "shift_factors"),
+                                     .material_draws = wt_result_find(result, "material_draws"),
+                                     .series_draws = wt_result_find(result, "series_draws")};
+    return wt_rubber_from_tables(&tables, 0.5, rubber, err);
+}
+
+/* The material of the case and one that is a fifth stiffer, side by side. */
+static inline void fixture_materials(void)
+{
+    wt_rubber rubber[2] = {0};
+    const wt_compared two[] = {{.name = "soft", .rubber = &rubber[0]},
+                               {.name = FIXTURE_EVIL, .rubber = &rubber[1]}};
+    const wt_job work = wt_job_defaults();
+    wt_materials_job job = wt_materials_job_defaults();
+    wt_materials_tables tables = {0};
+    for (int k = 0; k < 2; k++)
+        fixture_check(fixture_rubber(fixture_case, &rubber[k], NULL));
+    for (size_t i = 0; i <= rubber[1].n_draws; i++) {
+        wt_prony *p = i < rubber[1].n_draws ? &rubber[1].draws[i].prony : &rubber[1].prony;
+        p->equilibrium_modulus *= 1.2;
+        for (size_t k = 0; k < p->n; k++)
+            p->modulus[k] *= 1.2;
+    }
+    job.materials = two;
+    job.n_materials = 2;
+    fixture_check(wt_compare_materials(&job, &work, &tables, NULL));
+    fixture_check(wt_result_add(fixture_case, tables.materials, NULL));
+    fixture_check(wt_result_add(fixture_case, tables.material_ratio, NULL));
+    for (int k = 0; k < 2; k++)
+        wt_rubber_clear(&rubber[k]);
+}
+
 /* What a case does not give unless it is asked for by name, and what needs no case. */
 static inline void fixture_accuracy(wt_case *read)
 {
@@ -205,6 +241,7 @@ static inline const wt_result *fixture_produced(void)
         fixture_check(failed == 0 ? WT_OK : WT_E_INTERNAL);
         fixture_accuracy(read);
         fixture_ramp();
+        fixture_materials();
         wt_case_free(read);
         (void)atexit(fixture_free);
     }
@@ -253,16 +290,6 @@ static inline wt_result *fixture_only(const char *const *names, size_t n,
 }
 
 /* ---- everything ------------------------------------------------------------------------------ */
-
-/* The material of a result. */
-static inline wt_status fixture_rubber(const wt_result *result, wt_rubber *rubber, wt_error *err)
-{
-    const wt_rubber_tables tables = {.prony = wt_result_find(result, "prony"),
-                                     .shift_factors = wt_result_find(result, "shift_factors"),
-                                     .material_draws = wt_result_find(result, "material_draws"),
-                                     .series_draws = wt_result_find(result, "series_draws")};
-    return wt_rubber_from_tables(&tables, 0.5, rubber, err);
-}
 
 /* One file of each group, so that its curves are a map. */
 static inline bool fixture_first_file(const wt_table *table, size_t row)

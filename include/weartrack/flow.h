@@ -374,6 +374,37 @@ WT_API void wt_compare_tables_clear(wt_compare_tables *tables);
 WT_API wt_status wt_compare_groups(const wt_compare_job *job, const wt_job *work,
                                    wt_compare_tables *tables, wt_error *err) WT_NODISCARD;
 
+/* ---- materials side by side ------------------------------------------------------------------ */
+
+typedef struct wt_compared {
+    const char *name;
+    const wt_rubber *rubber;
+    const wt_table *shift_factors; /* whether superposition holds; NULL: not known */
+    uint64_t reserved[4];
+} wt_compared;
+
+typedef struct wt_materials_job {
+    const wt_compared *materials; /* the moduli of each are divided by those of the first */
+    size_t n_materials;           /* two or more */
+    double temperature;  /* over frequency [K]; NaN: the first's reference, if all have it */
+    double frequency;    /* over temperature [rad/s]; NaN: 10 Hz, if all have it */
+    double sample_error; /* of the modulus by the dimensions of a sample, relative */
+    double margin;       /* relative difference that does not matter; default 0.2 */
+    uint64_t reserved[8];
+} wt_materials_job;
+WT_API wt_materials_job wt_materials_job_defaults(void);
+WT_API const wt_params *wt_materials_job_params(void);
+
+typedef struct wt_materials_tables {
+    wt_table *materials, *material_ratio;
+    uint64_t reserved[4];
+} wt_materials_tables;
+WT_API void wt_materials_tables_clear(wt_materials_tables *tables);
+/* Moduli and their ratios where all was measured: each at the other's temperatures by its own shift
+ * law. WT_E_RANGE without a temperature and a frequency in common. */
+WT_API wt_status wt_compare_materials(const wt_materials_job *job, const wt_job *work,
+                                      wt_materials_tables *tables, wt_error *err) WT_NODISCARD;
+
 /* ---- roughness ------------------------------------------------------------------------------- */
 
 /* A counter surface with its stated error. */

@@ -1,5 +1,6 @@
-/* weartrack compare: wear track against bulk. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cmd/tables.h"
+/* weartrack compare: wear track against bulk, or materials. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
+#include "cmd/compare.h"
 
 #include <string.h>
 
@@ -21,23 +22,25 @@ static bool is_called(const wt_table *table, const char *name)
 }
 
 /* The table of the group, or the first of another name; what is called the track is no bulk. */
-static wt_status read_group(cmd_session *s, int g, wt_result **tables, const wt_table **table)
+static wt_status find_group(const compare_call *call, int g, const wt_table **table, wt_error *err)
 {
-    const char **files = s->files;
-    wt_error *err = &s->err;
-    wt_status status =
-        cmd_table_read(files[g], "indentation/", (cmd_made){"indent", g == 0 ? "bulk" : "track"},
-                       &s->work, tables, table, err);
+    const compare_input *input = &call->input[g];
+    if (input->tables == NULL) {
+        *err = input->failure;
+        return err->status;
+    }
+    const wt_status status =
+        cmd_table_find(input->tables, input->path, "indentation/", "indent", table, err);
     if (status != WT_OK)
         return status;
-    for (size_t i = 0; i < wt_result_n_tables(*tables); i++)
-        if (is_called(wt_result_table(*tables, i), names[g]))
-            *table = wt_result_table(*tables, i);
-    const bool same = strcmp(files[0], files[1]) == 0;
+    for (size_t i = 0; i < wt_result_n_tables(input->tables); i++)
+        if (is_called(wt_result_table(input->tables, i), names[g]))
+            *table = wt_result_table(input->tables, i);
+    const bool same = strcmp(call->input[0].path, call->input[1].path) == 0;
     if (!same && (g > 0 || !is_called(*table, names[1])))
         return WT_OK;
     wt_fail(err, WT_E_ARG, same ? "BULK and TRACK are one file" : "the first file is the track");
-    wt_error_file(err, files[g]);
+    wt_error_file(err, input->path);
     if (!same) {
         wt_error_expected(err, "the table of the bulk");
         wt_error_found(err, "'%s'", wt_table_name(*table));
@@ -46,52 +49,97 @@ static wt_status read_group(cmd_session *s, int g, wt_result **tables, const wt_
     return WT_E_ARG;
 }
 
+static void compare_groups(compare_call *call, const char *master)
+{
+    cmd_session *s = &call->s;
+    wt_compare_job *job = &call->groups;
+    wt_result *dma = NULL;
+    wt_rubber rubber = {0};
+    wt_compare_tables tables = {0};
+    wt_status made = find_group(call, 0, &job->bulk, &s->err);
+    if (made == WT_OK)
+        made = find_group(call, 1, &job->track, &s->err);
+    if (made == WT_OK && s->n_files > 2)
+        made =
+            wt_fail(&s->err, WT_E_ARG, "BULK and TRACK are two files, %zu are given", s->n_files);
+    if (made == WT_OK && is_called(job->track, names[0]))
+        wt_parselog_add(s->log, WT_WARNING, s->files[1], NULL,
+                        "its curves are called bulk and are taken for those of the track; "
+                        "`weartrack indent --group track` names them");
+    if (made == WT_OK && master != NULL) {
+        made =
+            cmd_rubber_read(master, call->master.poisson_ratio, &s->work, &dma, &rubber, &s->err);
+        job->rubber = &rubber;
+    }
+    if (made == WT_OK)
+        made = wt_compare_groups(job, &s->work, &tables, &s->err);
+    wt_table **const made_tables[] = {&tables.comparison, &tables.modulus_groups,
+                                      &tables.modulus_rate, &tables.dma_comparison};
+    cmd_finish(s, made, made_tables, COUNT_OF(made_tables));
+    wt_compare_tables_clear(&tables);
+    wt_rubber_clear(&rubber);
+    wt_result_free(dma);
+}
+
+/* What a file is its content says. */
+static bool read_inputs(compare_call *call)
+{
+    cmd_session *s = &call->s;
+    if (s->n_files < 2)
+        return cmd_usage_error(
+            s, "two files are needed, BULK and TRACK or two materials; %zu given", s->n_files);
+    call->input = calloc(s->n_files, sizeof *call->input);
+    if (!cmd_begin(s))
+        return false;
+    for (size_t i = 0; call->input != NULL && i < s->n_files; i++) {
+        compare_input *input = &call->input[i];
+        input->path = s->files[i];
+        const cmd_roles role = {i == 0 ? "bulk" : "track", "material"};
+        (void)cmd_tables_input(input->path, &s->work, role, &input->tables, &input->failure);
+    }
+    if (call->input != NULL)
+        return true;
+    wt_fail(&s->err, WT_E_MEMORY, "out of memory");
+    return cmd_fail(s);
+}
+
 int cmd_compare(int argc, char **argv)
 {
     static const cmd_usage usage = {
         .name = "compare",
-        .arguments = "[OPTION]... BULK TRACK",
+        .arguments = "[OPTION]... BULK TRACK | MATERIAL MATERIAL...",
         .what =
             "Compares the moduli of the wear track with those of the bulk: does it differ (yes, no "
             "or cannot say), the ratio with its 95 % interval, Welch's and the Mann-Whitney test, "
             "effect size, and the same rate by rate. BULK and TRACK are outputs of weartrack "
-            "indent; - is standard input.",
-        .common = "output provenance",
-        .n_files = 2,
-        .files = "two files are needed, BULK and TRACK"};
+            "indent; - is standard input. Or materials: the ratios of E', E'' and tan delta to "
+            "those of the first, with their intervals, over frequency and temperature. MATERIAL is "
+            "the output of weartrack master or what was measured (file, folder, pattern).",
+        .common = "output formats columns provenance",
+        .n_files = CMD_SOME};
     own_options own = {0};
-    wt_compare_job job = wt_compare_job_defaults();
-    wt_master_job material = wt_master_job_defaults();
-    cmd_part parts[] = {{own_params(), &own, NULL, 0},
-                        {wt_compare_job_params(), &job, NULL, 0},
-                        {wt_master_job_params(), &material, "poisson-ratio", 0}};
-    cmd_session s = cmd_session_defaults();
-    wt_result *bulk = NULL, *track = NULL, *dma = NULL;
-    wt_rubber rubber = {0};
-    wt_compare_tables tables = {0};
-    if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv) || !cmd_begin(&s))
-        goto done;
-    wt_status made = read_group(&s, 0, &bulk, &job.bulk);
-    if (made == WT_OK)
-        made = read_group(&s, 1, &track, &job.track);
-    if (made == WT_OK && is_called(job.track, names[0]))
-        wt_parselog_add(s.log, WT_WARNING, s.files[1], NULL,
-                        "its curves are called bulk and are taken for those of the track; "
-                        "`weartrack indent --group track` names them");
-    if (made == WT_OK && own.master != NULL) {
-        made = cmd_rubber_read(own.master, material.poisson_ratio, &s.work, &dma, &rubber, &s.err);
-        job.rubber = &rubber;
+    compare_call call = {.s = cmd_session_defaults(),
+                         .groups = wt_compare_job_defaults(),
+                         .materials = wt_materials_job_defaults(),
+                         .master = wt_master_job_defaults(),
+                         .set = {.read = wt_read_defaults()}};
+    cmd_part parts[] = {
+        {own_params(), &own, NULL, 0},
+        {wt_compare_job_params(), &call.groups, NULL, 0},
+        {wt_materials_job_params(), &call.materials, "at-temperature at-frequency sample-error", 0},
+        {wt_master_job_params(), &call.master, "poisson-ratio", 0},
+        {wt_read_params(), &call.set.read, "temperature units format sheet", 0}};
+    if (cmd_parse(&call.s, &usage, parts, COUNT_OF(parts), argc, argv) && read_inputs(&call)) {
+        if (compare_takes_materials(&call))
+            compare_materials(&call);
+        else
+            compare_groups(&call, own.master);
     }
-    if (made == WT_OK)
-        made = wt_compare_groups(&job, &s.work, &tables, &s.err);
-    wt_table **const made_tables[] = {&tables.comparison, &tables.modulus_groups,
-                                      &tables.modulus_rate, &tables.dma_comparison};
-    cmd_finish(&s, made, made_tables, COUNT_OF(made_tables));
-done:
-    wt_compare_tables_clear(&tables);
-    wt_rubber_clear(&rubber);
-    wt_result_free(bulk);
-    wt_result_free(track);
-    wt_result_free(dma);
-    return cmd_session_free(&s);
+    for (size_t i = 0; call.input != NULL && i < call.s.n_files; i++) {
+        wt_result_free(call.input[i].tables);
+        wt_rubber_clear(&call.input[i].rubber);
+        wt_table_free(call.input[i].shift_factors);
+    }
+    free(call.input);
+    return cmd_session_free(&call.s);
 }

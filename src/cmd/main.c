@@ -17,7 +17,7 @@ const cmd_command cmd_commands[] = {
     {"formats", cmd_formats, "the formats that are understood; check a description"},
     {"Indentation", NULL, NULL},
     {"indent", cmd_indent, "contact point and modulus of every force curve"},
-    {"compare", cmd_compare, "wear track against bulk, by rate, against DMA"},
+    {"compare", cmd_compare, "wear track against bulk, or materials against one another"},
     {"Material and sliding", NULL, NULL},
     {"master", cmd_master, "shift factors, master curve, WLF and Prony series of DMA sweeps"},
     {"ramp", cmd_ramp, "glass transition and moduli of DMA temperature sweeps"},

@@ -42,9 +42,16 @@ static wt_status read_text(const unsigned char *bytes, size_t length, const char
     return status;
 }
 
-/* work NULL: the file is nobody's input. */
-static wt_status read_tables(const char *path, const wt_job *work, const char *role,
-                             wt_result **tables, wt_error *err)
+bool cmd_tables_have(const wt_result *tables, const char *prefix)
+{
+    for (size_t i = 0; tables != NULL && i < wt_result_n_tables(tables); i++)
+        if (strncmp(wt_table_name(wt_result_table(tables, i)), prefix, strlen(prefix)) == 0)
+            return true;
+    return false;
+}
+
+wt_status cmd_tables_input(const char *path, const wt_job *work, cmd_roles role, wt_result **tables,
+                           wt_error *err)
 {
     static const unsigned char hdf5_signature[8] = {0x89, 'H', 'D', 'F', '\r', '\n', 0x1a, '\n'};
     const unsigned char *bytes = NULL;
@@ -62,7 +69,8 @@ static wt_status read_tables(const char *path, const wt_job *work, const char *r
         status = wt_job_input(
             work,
             (wt_provenance_input){.path = path,
-                                  .role = role,
+                                  .role = cmd_tables_have(*tables, "indentation/") ? role.of_curves
+                                                                                   : role.of_others,
                                   .format = store ? "weartrack-hdf5" : "weartrack-stream"},
             bytes, length, err);
     wt_input_close(input);
@@ -71,7 +79,7 @@ static wt_status read_tables(const char *path, const wt_job *work, const char *r
 
 wt_status cmd_tables_read(const char *path, wt_result **tables, wt_error *err)
 {
-    return read_tables(path, NULL, NULL, tables, err);
+    return cmd_tables_input(path, NULL, (cmd_roles){NULL, NULL}, tables, err);
 }
 
 void cmd_tables_remarks(cmd_session *s, const char *path, const wt_result *tables)
@@ -91,37 +99,39 @@ void cmd_tables_remarks(cmd_session *s, const char *path, const wt_result *table
     s->status = CMD_FAILED;
 }
 
-wt_status cmd_table_read(const char *path, const char *prefix, cmd_made made, const wt_job *work,
-                         wt_result **tables, const wt_table **table, wt_error *err)
+wt_status cmd_table_find(const wt_result *tables, const char *path, const char *prefix,
+                         const char *made_by, const wt_table **table, wt_error *err)
 {
-    wt_status status = read_tables(path, work, made.role, tables, err);
-    if (status != WT_OK)
-        return status;
-    for (size_t i = 0; i < wt_result_n_tables(*tables); i++) {
-        *table = wt_result_table(*tables, i);
+    for (size_t i = 0; i < wt_result_n_tables(tables); i++) {
+        *table = wt_result_table(tables, i);
         if (strncmp(wt_table_name(*table), prefix, strlen(prefix)) == 0)
             return WT_OK;
     }
     wt_fail(err, WT_E_NOT_FOUND, "a table is missing");
     wt_error_file(err, path);
     wt_error_expected(err, "a table '%s'", prefix);
-    wt_error_found(err, "'%s'", wt_table_name(wt_result_table(*tables, 0)));
-    wt_error_advice(err, "give the output of weartrack %s", made.by);
+    wt_error_found(err, "'%s'", wt_table_name(wt_result_table(tables, 0)));
+    wt_error_advice(err, "give the output of weartrack %s", made_by);
     return WT_E_NOT_FOUND;
+}
+
+wt_status cmd_rubber_of(const wt_result *tables, const char *path, double poisson_ratio,
+                        wt_rubber *rubber, wt_error *err)
+{
+    wt_rubber_tables of = {.shift_factors = wt_result_find(tables, "shift_factors"),
+                           .material_draws = wt_result_find(tables, "material_draws"),
+                           .series_draws = wt_result_find(tables, "series_draws")};
+    wt_status status = cmd_table_find(tables, path, "prony", "master", &of.prony, err);
+    if (status == WT_OK)
+        status = wt_rubber_from_tables(&of, poisson_ratio, rubber, err);
+    wt_error_file(status != WT_OK ? err : NULL, path);
+    return status;
 }
 
 wt_status cmd_rubber_read(const char *path, double poisson_ratio, const wt_job *work,
                           wt_result **tables, wt_rubber *rubber, wt_error *err)
 {
-    wt_rubber_tables of = {.prony = NULL};
-    wt_status status = cmd_table_read(path, "prony", (cmd_made){"master", "material"}, work, tables,
-                                      &of.prony, err);
-    if (status == WT_OK) {
-        of.shift_factors = wt_result_find(*tables, "shift_factors");
-        of.material_draws = wt_result_find(*tables, "material_draws");
-        of.series_draws = wt_result_find(*tables, "series_draws");
-        status = wt_rubber_from_tables(&of, poisson_ratio, rubber, err);
-    }
-    wt_error_file(status != WT_OK ? err : NULL, path);
-    return status;
+    const wt_status status =
+        cmd_tables_input(path, work, (cmd_roles){"material", "material"}, tables, err);
+    return status == WT_OK ? cmd_rubber_of(*tables, path, poisson_ratio, rubber, err) : status;
 }

@@ -8,14 +8,22 @@
 wt_status cmd_tables_read(const char *path, wt_result **tables, wt_error *err);
 /* With --strict the call has failed, and says so, where the result that was read holds remarks. */
 void cmd_tables_remarks(cmd_session *s, const char *path, const wt_result *tables);
-/* The first table of the file whose name begins with `prefix`, in `tables`, which hold all of them;
- * WT_E_NOT_FOUND says which subcommand makes it. The file is an input of the work. */
-typedef struct cmd_made {
-    const char *by, *role; /* subcommand; what the file is used for */
-} cmd_made;
-wt_status cmd_table_read(const char *path, const char *prefix, cmd_made made, const wt_job *work,
-                         wt_result **tables, const wt_table **table, wt_error *err);
-/* The rubber that weartrack master wrote; it borrows from the tables. */
+/* Whether one of them has a name that begins so. */
+bool cmd_tables_have(const wt_result *tables, const char *prefix);
+/* The tables of a file that is an input of the work, and what it is used for: by its content. */
+typedef struct cmd_roles {
+    const char *of_curves, *of_others;
+} cmd_roles;
+wt_status cmd_tables_input(const char *path, const wt_job *work, cmd_roles role, wt_result **tables,
+                           wt_error *err);
+/* The first of the tables of a file whose name begins with `prefix`; WT_E_NOT_FOUND says which
+ * subcommand makes it. */
+wt_status cmd_table_find(const wt_result *tables, const char *path, const char *prefix,
+                         const char *made_by, const wt_table **table, wt_error *err);
+/* The rubber of the tables that weartrack master wrote into a file. */
+wt_status cmd_rubber_of(const wt_result *tables, const char *path, double poisson_ratio,
+                        wt_rubber *rubber, wt_error *err);
+/* The same from the file, an input of the work. */
 wt_status cmd_rubber_read(const char *path, double poisson_ratio, const wt_job *work,
                           wt_result **tables, wt_rubber *rubber, wt_error *err);
 

@@ -79,12 +79,12 @@ static void friction_table(page_writer *page)
 void page_results(page_writer *page)
 {
     const bound_tables *t = page->tables;
-    const table_view *const shown[] = {&t->modulus_groups,   &t->modulus_depth, &t->comparison,
-                                       &t->dma_comparison,   &t->shift_factors, &t->prony,
-                                       &t->glass_transition, &t->moduli_at,     &t->payne,
-                                       &t->roughness,        &t->friction,      &t->layer,
-                                       &t->what_if,          &t->error_budget,  &t->coverage,
-                                       &t->work_precision,   &t->directions};
+    const table_view *const shown[] = {&t->modulus_groups, &t->modulus_depth,    &t->comparison,
+                                       &t->dma_comparison, &t->material_ratio,   &t->shift_factors,
+                                       &t->prony,          &t->glass_transition, &t->moduli_at,
+                                       &t->payne,          &t->roughness,        &t->friction,
+                                       &t->layer,          &t->what_if,          &t->error_budget,
+                                       &t->coverage,       &t->work_precision,   &t->directions};
     bool any = false;
     for (size_t i = 0; i < COUNT_OF(shown) && !any; i++)
         any = shown[i]->table != NULL;
@@ -101,6 +101,7 @@ void page_results(page_writer *page)
     page_keys(page, &t->comparison, "Wear track against bulk: what was compared");
     page_whole_table(page, &t->dma_comparison,
                      "Indentation against DMA at the equivalent frequency", NULL, 0);
+    page_keys(page, &t->material_ratio, "Materials: what was compared");
     page_whole_table(page, &t->shift_factors, "Shift factors", shift_columns,
                      COUNT_OF(shift_columns));
     page_keys(page, &t->shift_factors, "Shifting, law and superposition");

@@ -105,6 +105,9 @@ static const struct {
     {NULL, "report", "where the report goes, not what it is"},
     {NULL, "no-report", "the base has it"},
     {NULL, "style", "of the pictures: test_report"},
+    {"compare", "at-temperature", "of materials: unit_truth_materials, tests/cli/materials.txt"},
+    {"compare", "at-frequency", "the same"},
+    {"compare", "sample-error", "the same"},
     {NULL, "provenance", "tests/cli/round_trip.txt"},
 };
 

@@ -7,15 +7,19 @@
 #include <string.h>
 
 static const wt_params *(*const tables[])(void) = {
-    wt_read_params,        wt_indent_params,        wt_master_options_params,
-    wt_friction_params,    wt_layer_params,         wt_job_params,
-    wt_file_set_params,    wt_convert_job_params,   wt_indent_job_params,
-    wt_master_job_params,  wt_compare_job_params,   wt_sliding_params,
-    wt_layer_known_params, wt_layer_job_params,     wt_run_params,
-    wt_report_params,      flow_self_affine_params, flow_spectrum_params,
-    case_group_params,     case_prony_params,       case_term_params,
-    case_wlf_params,       flow_zener_params,       wt_rubber_options_params,
-    wt_transverse_params,
+    wt_read_params,           wt_indent_params,
+    wt_master_options_params, wt_friction_params,
+    wt_layer_params,          wt_job_params,
+    wt_file_set_params,       wt_convert_job_params,
+    wt_indent_job_params,     wt_master_job_params,
+    wt_compare_job_params,    wt_materials_job_params,
+    wt_sliding_params,        wt_layer_known_params,
+    wt_layer_job_params,      wt_run_params,
+    wt_report_params,         flow_self_affine_params,
+    flow_spectrum_params,     case_group_params,
+    case_prony_params,        case_term_params,
+    case_wlf_params,          flow_zener_params,
+    wt_rubber_options_params, wt_transverse_params,
 };
 enum { N_TABLES = sizeof tables / sizeof tables[0] };
 

@@ -16,6 +16,7 @@
 #include "data/tables/dma.h"
 #include "data/tables/error_budget.h"
 #include "data/tables/indentation.h"
+#include "data/tables/materials.h"
 #include "data/tables/measured.h"
 #include "data/tables/payne.h"
 #include "data/tables/ramp.h"
@@ -57,6 +58,9 @@
     X(modulus_rate, MODULUS_RATE, "modulus_rate", "Modulus against indentation rate", "compare")   \
     X(comparison, COMPARISON, "comparison", "Wear track against bulk", "compare")                  \
     X(dma_comparison, DMA_COMPARISON, "dma_comparison", "Indentation against DMA", "compare")      \
+    X(materials, MATERIALS, "materials", "Materials side by side", "compare")                      \
+    X(material_ratio, MATERIAL_RATIO, "material_ratio", "Ratio of the moduli of materials",        \
+      "compare")                                                                                   \
     X(shift_factors, SHIFT_FACTORS, "shift_factors", "Shift factors", "master")                    \
     X(master_curve, MASTER_CURVE, "master_curve", "Master curve", "master")                        \
     X(prony, PRONY, "prony", "Prony series", "master")                                             \

@@ -79,6 +79,17 @@ static void say_ratio(sentence *s, const table_view *v)
         words_of(comparison_get(v, 0, COMPARISON_RATIO_HIGH), "1").text);
 }
 
+static void say_materials(sentence *s, const table_view *v)
+{
+    if (v->table == NULL)
+        return;
+    const char *settled = material_ratio_words(v, MATERIAL_RATIO_KEY_SETTLED_BY);
+    next(s);
+    say(s, "%s", material_ratio_words(v, MATERIAL_RATIO_KEY_DIFFERS));
+    if (settled != NULL)
+        say(s, "; what would settle it: %s", settled);
+}
+
 static void say_material(sentence *s, const table_view *v)
 {
     if (v->table == NULL)
@@ -201,6 +212,7 @@ size_t wt_result_sentence(const wt_result *result, char *buffer, size_t size)
         void (*say)(sentence *s, const table_view *view);
     } parts[] = {{&modulus_groups_schema, say_groups},
                  {&comparison_schema, say_ratio},
+                 {&material_ratio_schema, say_materials},
                  {&shift_factors_schema, say_material},
                  {&glass_transition_schema, say_transition},
                  {&payne_schema, say_payne},

@@ -247,9 +247,7 @@ static const wt_param rows[] = {
     {PARAM_FLAG_OF("map-spots", wt_compare_job, map_spots),
      .help = "each place of a map is a spot of its own; else a map whose spots are not named is "
              "one, for its places are near to each other"},
-    {PARAM("equivalence-margin", wt_compare_job, margin, WT_Q_NONE, ABOVE(0)), .value = "X",
-     .help = "relative difference of the moduli that does not matter: \"no difference\" is said "
-             "only if the whole interval lies within it"},
+    EQUIVALENCE_MARGIN(wt_compare_job),
 };
 PARAM_TABLE(wt_compare_job_params, wt_compare_job, rows, wt_compare_job_defaults, NO_PARTS)
 

@@ -41,7 +41,7 @@ set style line 13 lc rgb '#111111' lw 2.8 dt solid pt 7 ps 1.12
 set style line 14 lc rgb '#555555' lw 2.8 dt solid pt 6 ps 1.12
 set style line 15 lc rgb '#111111' lw 2.24 dt (8,4)
 
-# 21 the whole, 22 and 23 its two parts, 24 the whole with a layer; 50 more: bands of error, see-through
+# 21 the whole, 22 and 23 its two parts, 24 the whole with a layer; 50 more and 81 to 86, of groups: bands of error, see-through
 set style line 21 lc rgb '#111111' lw 3.36 dt solid
 set style line 22 lc rgb '#0b4f8a' lw 3.08 dt (10,4)
 set style line 23 lc rgb '#2f9bd6' lw 3.08 dt (10,4,2,4)
@@ -50,6 +50,12 @@ set style fill solid 1 noborder
 set style line 71 lc rgb '#c0555555'
 set style line 72 lc rgb '#c00b4f8a'
 set style line 74 lc rgb '#b0e88a0c'
+set style line 81 lc rgb '#b00b4f8a'
+set style line 82 lc rgb '#b0e88a0c'
+set style line 83 lc rgb '#b00f8f6b'
+set style line 84 lc rgb '#b0b8569a'
+set style line 85 lc rgb '#b0555555'
+set style line 86 lc rgb '#b07a1f2b'
 
 # 61 interval of a fitted law or spectrum, behind points
 set style line 61 lc rgb '#c4c4c4'

@@ -1,0 +1,116 @@
+/* weartrack compare of materials: outputs of weartrack master, or measured isotherms.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cmd/compare.h"
+
+#include <string.h>
+
+/* A text that is not ours, a spreadsheet, a folder, a pattern. Standard input is read once. */
+static bool may_be_measured(const compare_input *input)
+{
+    const bool other = input->tables == NULL && input->failure.status != WT_E_MEMORY;
+    return strcmp(input->path, "-") != 0 && (other || cmd_tables_have(input->tables, "sweep"));
+}
+
+bool compare_takes_materials(const compare_call *call)
+{
+    bool any = false;
+    for (size_t i = 0; i < call->s.n_files; i++) {
+        const compare_input *input = &call->input[i];
+        if (cmd_tables_have(input->tables, "indentation/"))
+            return false;
+        any = any || cmd_tables_have(input->tables, "prony") || may_be_measured(input);
+    }
+    return any;
+}
+
+static wt_status fit(compare_call *call, compare_input *input, wt_error *err)
+{
+    wt_master_tables tables = {0};
+    wt_error failure = WT_ERROR_INIT;
+    wt_master_job job = call->master;
+    wt_file_set set = call->set;
+    if (call->s.formats == NULL && !cmd_read_formats(&call->s))
+        return WT_E_CANCELLED;
+    wt_job work = call->s.work;
+    work.formats = call->s.formats;
+    if (input->tables != NULL) /* the file is an input already */
+        work.provenance = NULL;
+    set.patterns = &input->path;
+    set.n_patterns = 1;
+    job.sets = &set;
+    job.n_sets = 1;
+    wt_status status = wt_master_make(&job, &work, &tables, &input->rubber, &failure);
+    input->shift_factors = tables.shift_factors;
+    tables.shift_factors = NULL;
+    wt_master_tables_clear(&tables);
+    /* what is nothing that is known might have been meant for a result */
+    if (status != WT_OK)
+        *err = status == WT_E_FORMAT && input->tables == NULL ? input->failure : failure;
+    return status;
+}
+
+static wt_status read_material(compare_call *call, compare_input *input, wt_error *err)
+{
+    if (!cmd_tables_have(input->tables, "prony") && may_be_measured(input))
+        return fit(call, input, err);
+    if (input->tables != NULL)
+        return cmd_rubber_of(input->tables, input->path, call->master.poisson_ratio, &input->rubber,
+                             err);
+    *err = input->failure;
+    return err->status;
+}
+
+/* The name of the file, with its folders if another is called so too. */
+static const char *name_of(const compare_call *call, size_t i)
+{
+    const char *slash = strrchr(call->s.files[i], '/');
+    const char *name = slash != NULL && slash[1] != '\0' ? slash + 1 : call->s.files[i];
+    for (size_t k = 0; k < call->s.n_files; k++) {
+        const char *other = strrchr(call->s.files[k], '/');
+        if (k != i && strcmp(other != NULL ? other + 1 : call->s.files[k], name) == 0)
+            return call->s.files[i];
+    }
+    return name;
+}
+
+static wt_status check_names(const compare_call *call, wt_error *err)
+{
+    for (size_t i = 1; i < call->s.n_files; i++)
+        for (size_t k = 0; k < i; k++)
+            if (strcmp(call->s.files[i], call->s.files[k]) == 0) {
+                wt_fail(err, WT_E_ARG, "a material is given twice");
+                wt_error_file(err, call->s.files[i]);
+                return WT_E_ARG;
+            }
+    return WT_OK;
+}
+
+void compare_materials(compare_call *call)
+{
+    cmd_session *s = &call->s;
+    wt_materials_tables tables = {0};
+    wt_compared *of = calloc(s->n_files, sizeof *of);
+    wt_status made =
+        of == NULL ? wt_fail(&s->err, WT_E_MEMORY, "out of memory") : check_names(call, &s->err);
+    /* without all that was asked for there is no comparison */
+    wt_table_free(s->work.failures);
+    s->work.failures = NULL;
+    for (size_t i = 0; made == WT_OK && i < s->n_files; i++) {
+        compare_input *input = &call->input[i];
+        made = read_material(call, input, &s->err);
+        const wt_table *shifts = input->shift_factors;
+        if (made == WT_OK && input->tables != NULL && shifts == NULL)
+            shifts = wt_result_find(input->tables, "shift_factors");
+        of[i] = (wt_compared){
+            .name = name_of(call, i), .rubber = &input->rubber, .shift_factors = shifts};
+    }
+    call->materials.materials = of;
+    call->materials.n_materials = s->n_files;
+    call->materials.margin = call->groups.margin;
+    if (made == WT_OK)
+        made = wt_compare_materials(&call->materials, &s->work, &tables, &s->err);
+    wt_table **const made_tables[] = {&tables.material_ratio, &tables.materials};
+    cmd_finish(s, made, made_tables, COUNT_OF(made_tables));
+    wt_materials_tables_clear(&tables);
+    free(of);
+}

@@ -1,0 +1,219 @@
+/* Figures of materials side by side: their moduli, and the ratios.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "report/drawing.h"
+
+#include <math.h>
+#include <string.h>
+
+/* A band between two columns, from 1, in the tint of a group; without an interval none. */
+static void plot_interval(figure_drawing *d, int section, const char *x, size_t column,
+                          size_t group)
+{
+    value_span span = SPAN_EMPTY;
+    span_add_section(&span, d, section, column - 1, true);
+    if (!span_empty(&span))
+        plot_item(d, section, "%s:($%zu*y_unit):($%zu*y_unit) with filledcurves ls %zu notitle", x,
+                  column, column + 1, 81 + group);
+}
+
+/* ---- moduli ---------------------------------------------------------------------------------- */
+
+enum { ROLES = 3 };
+
+/* Columns of the data: frequency, then each quantity with the ends of its interval. */
+static void plot_materials(figure_drawing *d, size_t column, bool titled, const char *dash)
+{
+    for (size_t i = 0; i < d->n_groups; i++) {
+        plot_item(d, d->data[i], "($1*x_unit):($%zu*y_unit) with lines ls %zu%s", column, i + 1,
+                  dash);
+        if (titled)
+            plot_title(d, d->groups[i]);
+        else
+            text_add(&d->script, " notitle");
+    }
+}
+
+static void draw_materials(figure_drawing *d)
+{
+    enum { STORAGE = 2, LOSS = 5, FACTOR = 8 };
+    if (!drawing_data(d))
+        return;
+    d->height = 1.6;
+    text_add(&d->script, "set multiplot layout 2,1\n");
+    drawing_axis(d, "x", &d->figure->x, NULL, d->x);
+    drawing_axis(d, "y", &d->figure->y[0], NULL, d->y[0]);
+    for (size_t i = 0; i < d->n_groups; i++) {
+        plot_interval(d, d->data[i], "($1*x_unit)", STORAGE + 1, i);
+        plot_interval(d, d->data[i], "($1*x_unit)", LOSS + 1, i);
+    }
+    plot_materials(d, STORAGE, true, "");
+    plot_materials(d, LOSS, false, " dt (6,4)");
+    plot_end(d);
+    drawing_axis(d, "y", &d->figure->y[1], NULL, d->y[1]);
+    text_add(&d->script, "unset key\n");
+    for (size_t i = 0; i < d->n_groups; i++)
+        plot_interval(d, d->data[i], "($1*x_unit)", FACTOR + 1, i);
+    plot_materials(d, FACTOR, false, "");
+    plot_end(d);
+    text_add(&d->script, "unset multiplot\n");
+}
+
+static void caption_materials(figure_drawing *d)
+{
+    const double at = materials_value(d->table, MATERIALS_KEY_TEMPERATURE).value;
+    if (isfinite(at))
+        text_format(&d->caption, " All at %s, each over the frequencies that were measured of it.",
+                    VALUE(WT_Q_TEMPERATURE, NULL, at));
+}
+
+/* ---- ratios ---------------------------------------------------------------------------------- */
+
+/* One column of panels: over frequency, or over temperature. */
+typedef struct ratio_side {
+    const char *over;
+    material_ratio_column column;
+    axis_scale scale;
+    const char *label, *x;
+    int section[DRAWING_GROUPS];
+    value_span span;
+} ratio_side;
+
+static const unsigned ratio_columns[ROLES] = {MATERIAL_RATIO_STORAGE, MATERIAL_RATIO_LOSS,
+                                              MATERIAL_RATIO_FACTOR};
+
+static bool find_side(figure_drawing *d, ratio_side *side, value_span y[ROLES])
+{
+    const schema_field *of = material_ratio_schema.columns;
+    unsigned columns[1 + 3 * ROLES] = {side->column};
+    for (size_t q = 0; q < ROLES; q++) {
+        columns[1 + 3 * q] = ratio_columns[q];
+        columns[2 + 3 * q] = of[ratio_columns[q]].low;
+        columns[3 + 3 * q] = of[ratio_columns[q]].high;
+    }
+    side->span = SPAN_EMPTY;
+    for (size_t i = 0; i < d->n_groups; i++) {
+        const row_filter rows = {
+            {MATERIAL_RATIO_MATERIAL, MATERIAL_RATIO_OVER}, {d->groups[i], side->over}, false};
+        side->section[i] = drawing_section(d, d->table, side->over, &rows, columns,
+                                           sizeof columns / sizeof *columns, 2);
+        span_add_section(&side->span, d, side->section[i], 0, side->scale == AXIS_LOG);
+        for (size_t q = 0; q < ROLES; q++)
+            for (size_t k = 1; k <= 3; k++)
+                span_add_section(&y[q], d, side->section[i], 3 * q + k, true);
+    }
+    return !span_empty(&side->span);
+}
+
+static void draw_ratio(figure_drawing *d, const ratio_side *side, size_t q, value_span y,
+                       bool titled)
+{
+    static const char *const labels[ROLES] = {"Ratio of E′", "Ratio of E″", "Ratio of tan δ"};
+    const size_t column = 2 + 3 * q;
+    const schema_field *of = &material_ratio_schema.columns[side->column];
+    if (side->scale == AXIS_LOG) {
+        axis_log(d, "x", side->label, of, side->span);
+    } else {
+        text_add(&d->script, "unset mxtics\n");
+        axis_linear(d, "x", side->label, of, side->span);
+    }
+    span_add(&y, 1, true);
+    axis_log(d, "y", labels[q], &material_ratio_schema.columns[ratio_columns[q]], y);
+    if (!titled)
+        text_add(&d->script, "unset key\n");
+    for (size_t i = 0; i < d->n_groups; i++)
+        plot_interval(d, side->section[i], side->x, column + 1, i + 1);
+    plot_other(d, "1 with lines ls 12 notitle");
+    for (size_t i = 0; i < d->n_groups; i++) {
+        plot_item(d, side->section[i], "%s:($%zu*y_unit) with lines ls %zu", side->x, column,
+                  i + 2);
+        if (side->section[i] >= 0 && titled)
+            plot_title(d, d->groups[i]);
+        else if (side->section[i] >= 0)
+            text_add(&d->script, " notitle");
+    }
+    plot_end(d);
+}
+
+/* Rows: E', E'' and tan delta. Left over frequency, right over temperature, if there are several.
+ */
+static void draw_material_ratio(figure_drawing *d)
+{
+    ratio_side sides[] = {{.over = "frequency",
+                           .column = MATERIAL_RATIO_ANGULAR_FREQUENCY,
+                           .scale = AXIS_LOG,
+                           .label = "Angular frequency",
+                           .x = "($1*x_unit)"},
+                          {.over = "temperature",
+                           .column = MATERIAL_RATIO_TEMPERATURE,
+                           .scale = AXIS_LINEAR,
+                           .label = "Temperature",
+                           .x = "($1+x_offset)"}};
+    value_span y[ROLES] = {SPAN_EMPTY, SPAN_EMPTY, SPAN_EMPTY};
+    const bool left = find_side(d, &sides[0], y), right = find_side(d, &sides[1], y);
+    if (!left || d->status != WT_OK)
+        return;
+    d->width = right ? 1.6 : 1;
+    d->height = 2.2;
+    text_format(&d->script, "set tmargin 2.2\nset multiplot layout 3,%d\n", right ? 2 : 1);
+    for (size_t q = 0; q < ROLES; q++) {
+        draw_ratio(d, &sides[0], q, y[q], q == 0);
+        if (right)
+            draw_ratio(d, &sides[1], q, y[q], false);
+    }
+    text_add(&d->script, "unset multiplot\n");
+}
+
+static void caption_material_ratio(figure_drawing *d)
+{
+    const char *settled = material_ratio_words(d->table, MATERIAL_RATIO_KEY_SETTLED_BY);
+    const double at = material_ratio_value(d->table, MATERIAL_RATIO_KEY_TEMPERATURE).value;
+    const wt_estimate frequency = material_ratio_value(d->table, MATERIAL_RATIO_KEY_FREQUENCY);
+    text_format(&d->caption, " Divided by %s.",
+                material_ratio_words(d->table, MATERIAL_RATIO_KEY_FIRST));
+    if (isfinite(at))
+        text_format(&d->caption, " Over frequency: at %s.", VALUE(WT_Q_TEMPERATURE, NULL, at));
+    if (isfinite(frequency.value))
+        text_format(&d->caption, " Over temperature: at %s.", ESTIMATE(&frequency));
+    text_format(&d->caption, " Do they differ? %s.",
+                material_ratio_words(d->table, MATERIAL_RATIO_KEY_DIFFERS));
+    if (settled != NULL)
+        text_format(&d->caption, " What would settle it: %s.", settled);
+}
+
+/* ---- descriptions ---------------------------------------------------------------------------- */
+
+const figure_description figures_materials[] = {
+    {.name = "materials",
+     .title = "Materials side by side",
+     .table = &materials_schema,
+     .by_group = true,
+     .group = MATERIALS_MATERIAL,
+     .x = {MATERIALS_ANGULAR_FREQUENCY, AXIS_LOG, "Angular frequency"},
+     .y = {{MATERIALS_STORAGE, AXIS_LOG, "E′, E″"}, {MATERIALS_FACTOR, AXIS_LOG, "tan δ"}},
+     .curves = {CURVE(MATERIALS_STORAGE, OWN, .with_errors = true),
+                CURVE(MATERIALS_LOSS, OWN, .with_errors = true),
+                CURVE(MATERIALS_FACTOR, OWN, .with_errors = true, .panel = 1)},
+     .nothing = "no material has moduli over a known range of frequencies",
+     .words = "Storage modulus (full lines), loss modulus (broken lines) and, below, tan δ of the "
+              "materials; bands: 95 % intervals.",
+     .draw = draw_materials,
+     .caption = caption_materials},
+    {.name = "material_ratio",
+     .title = "Ratio of the moduli of materials",
+     .table = &material_ratio_schema,
+     .by_group = true,
+     .group = MATERIAL_RATIO_MATERIAL,
+     .x = {MATERIAL_RATIO_ANGULAR_FREQUENCY, AXIS_LOG, "Angular frequency"},
+     .y = {{MATERIAL_RATIO_STORAGE, AXIS_LOG, "Ratio of E′"}},
+     .curves = {CURVE(MATERIAL_RATIO_STORAGE, OWN, .with_errors = true),
+                CURVE(MATERIAL_RATIO_LOSS, OWN, .with_errors = true),
+                CURVE(MATERIAL_RATIO_FACTOR, OWN, .with_errors = true)},
+     .nothing = "no ratio of moduli is known",
+     .words = "E′, E″ and tan δ of materials, each divided by those of the first, where both were "
+              "measured (bands: 95 % intervals).",
+     .draw = draw_material_ratio,
+     .caption = caption_material_ratio},
+    {.name = NULL},
+};
