@@ -133,6 +133,23 @@ chance_words number_chance(double chance)
     return words;
 }
 
+/* A whole number of up to 15 digits, as %.15g writes it. */
+static size_t format_whole(double value, char *buffer)
+{
+    char digits[16];
+    size_t n = 0, length = 0;
+    uint64_t left = (uint64_t)fabs(value);
+    do
+        digits[n++] = (char)('0' + left % 10);
+    while ((left /= 10) > 0);
+    if (signbit(value))
+        buffer[length++] = '-';
+    while (n > 0)
+        buffer[length++] = digits[--n];
+    buffer[length] = '\0';
+    return length;
+}
+
 size_t wt_number_format(double value, char *buffer)
 {
     enum { SIZE = 32 };
@@ -142,6 +159,8 @@ size_t wt_number_format(double value, char *buffer)
         memcpy(buffer, text, length + 1);
         return length;
     }
+    if (fabs(value) < 1e15 && !(fabs(value - trunc(value)) > 0))
+        return format_whole(value, buffer);
     /* Any decimal number of 15 digits survives a normal double, so 15 digits without their trailing
      * zeros are the shortest text if they read back. Subnormal numbers hold fewer digits. */
     const bool subnormal = fpclassify(value) == FP_SUBNORMAL;

@@ -144,6 +144,18 @@ static void draw_floor(figure_drawing *d, const number_panel *p, const char *kin
                     LITERAL(largest), LITERAL(largest), style_of(kind));
 }
 
+/* The source with the time that it takes to know it, where that is known. */
+static void put_source(figure_drawing *d, size_t row)
+{
+    const double seconds = error_budget_get(d->table, row, ERROR_BUDGET_SECONDS);
+    char words[96], time[32] = "";
+    if (seconds > 0)
+        wt_format_si(seconds, "s", 2, time, sizeof time);
+    snprintf(words, sizeof words, "%s%s%s", error_budget_text(d->table, row, ERROR_BUDGET_SOURCE),
+             time[0] != '\0' ? ", " : "", time);
+    text_tic(&d->script, words);
+}
+
 static void draw_number(figure_drawing *d, const number_panel *p)
 {
     const table_view *t = d->table;
@@ -151,7 +163,7 @@ static void draw_number(figure_drawing *d, const number_panel *p)
     text_format(&d->script, "set yrange [-0.7:%zu.7]\nset ytics (", p->n - 1);
     for (size_t i = 0; i < p->n; i++) {
         text_add(&d->script, i > 0 ? ", " : "");
-        text_tic(&d->script, error_budget_text(t, p->first + i, ERROR_BUDGET_SOURCE));
+        put_source(d, p->first + i);
         text_format(&d->script, " %zu", p->n - 1 - i);
     }
     text_add(&d->script, ") noenhanced scale 0\nunset arrow\n");
@@ -182,7 +194,7 @@ static void draw_error_budget(figure_drawing *d)
         d->height += 0.3 + 0.07 * (double)panels[i].n;
     d->width = 1.3;
     if (n > 0)
-        text_add(&d->script, "set lmargin 34\nunset key\nset border 1\nset multiplot\n");
+        text_add(&d->script, "set lmargin 42\nunset key\nset border 1\nset multiplot\n");
     for (size_t i = 0; i < n; i++) {
         const double height = (0.3 + 0.07 * (double)panels[i].n) / d->height;
         top += height;
@@ -192,6 +204,71 @@ static void draw_error_budget(figure_drawing *d)
     }
     if (n > 0)
         text_add(&d->script, "unset multiplot\n");
+}
+
+/* ---- time and error of each stage ------------------------------------------------------------ */
+
+static size_t name_stages(figure_drawing *d)
+{
+    const table_view *t = d->table;
+    size_t n = 0;
+    text_add(&d->script, "set ytics (");
+    for (size_t row = 0; row < t->n_rows; row++) {
+        if (!(cost_get(t, row, COST_RUNS) > 0))
+            continue;
+        text_add(&d->script, n > 0 ? ", " : "");
+        char words[96];
+        snprintf(words, sizeof words, "%s", cost_text(t, row, COST_STAGE));
+        for (char *c = words; (c = strchr(c, '_')) != NULL;)
+            *c = ' ';
+        text_tic(&d->script, words);
+        text_format(&d->script, " -%zu", ++n);
+    }
+    text_format(&d->script, ") noenhanced scale 0\nset yrange [-%zu.7:-0.3]\n", n);
+    return n;
+}
+
+/* The k-th stage that ran lies at -k; those that did not have no line. */
+#define AT_STAGE "($2>0 ? -(k=k+1) : NaN)"
+
+static void draw_cost(figure_drawing *d)
+{
+    static const unsigned columns[] = {COST_CPU_TIME, COST_RUNS, COST_STANDARD_ERROR,
+                                       COST_ERROR_ESTIMATED};
+    const table_view *t = d->table;
+    const row_filter all = {{0, 0}, {NULL, NULL}, false};
+    value_span time = SPAN_EMPTY, error = SPAN_EMPTY;
+    span_add_column(&time, t, COST_CPU_TIME, true);
+    span_add_column(&error, t, COST_STANDARD_ERROR, true);
+    span_add_column(&error, t, COST_ERROR_ESTIMATED, true);
+    const int section =
+        span_empty(&time) ? NO_SECTION : drawing_section(d, t, "cost", &all, columns, 4, 2);
+    if (section == NO_SECTION)
+        return;
+    time.low = 0;
+    d->width = 1.6;
+    text_add(&d->script, "set border 1\nset multiplot\nset size 0.62,1\nset lmargin 34\n"
+                         "set tmargin 3\nunset key\n");
+    d->height = 0.3 + 0.08 * (double)name_stages(d);
+    axis_linear(d, "x", "Processor time", &t->schema->columns[COST_CPU_TIME], time);
+    text_add(&d->script, "k=0\n");
+    plot_item(d, section,
+              "(0):" AT_STAGE ":(0):($1*x_unit):(-k-0.35):(-k+0.35) "
+              "with boxxyerror ls 1");
+    plot_end(d);
+    if (!span_empty(&error)) {
+        text_add(&d->script, "set origin 0.62,0\nset size 0.38,1\nset lmargin 2\n"
+                             "unset ytics\nset key outside top center horizontal\n");
+        axis_log(d, "x", "Relative error", &t->schema->columns[COST_STANDARD_ERROR], error);
+        text_add(&d->script, "k=0\nj=0\n");
+        plot_item(d, section,
+                  "($3>0 ? $3*x_unit : NaN):" AT_STAGE " with points ls 1 title 'standard error'");
+        plot_item(d, section,
+                  "($4>0 ? $4*x_unit : NaN):($2>0 ? -(j=j+1) : NaN)"
+                  " with points ls 2 pt 6 title 'numerical error'");
+        plot_end(d);
+    }
+    text_add(&d->script, "unset multiplot\n");
 }
 
 /* ---- how often intervals hold ---------------------------------------------------------------- */
@@ -247,13 +324,23 @@ const figure_description figures_accuracy[] = {
      .nothing = "no error of these numbers is known",
      .words =
          "What each source alone does to the numbers at the reference velocity, relative, on a "
-         "logarithmic scale from 10^-5: one standard error of what is measured or stated "
+         "logarithmic scale from 10^-5, with the elapsed time that it takes to know it: one "
+         "standard error of what is measured or stated "
          "(blue), half the range of a choice of the model (orange), and (grey) all that is "
          "measured together, the scatter of that by the number of replicates, and the "
          "arithmetic, which is left out where it is smaller. The dotted lines are the floors: all "
          "that is measured (grey) and the widest choice of the model (orange); a smaller error of "
          "another source does not take the number below them.",
      .draw = draw_error_budget},
+    {.name = "cost",
+     .title = "Time and error of each stage",
+     .table = &cost_schema,
+     .nothing = "no stage was timed",
+     .words = "Processor time of each stage that ran (left), and the relative errors it leaves "
+              "(right): the standard error of its main number (full marks) and its numerical error "
+              "(open marks), of a fit what a further step would change. A tighter tolerance buys "
+              "nothing where the open mark lies left of the full one.",
+     .draw = draw_cost},
     {.name = "coverage",
      .title = "How often the stated intervals hold",
      .table = &coverage_schema,

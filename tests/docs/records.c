@@ -258,25 +258,36 @@ static void put_limit(const wt_param *param)
     putchar('\n');
 }
 
+typedef const wt_params *params_of(void);
+
+static void put_limits_of(const char *title, params_of *const *tables)
+{
+    char names[TEXT] = "";
+    printf(".SS ");
+    put_troff(title);
+    putchar('\n');
+    for (size_t t = 0; t < SECTION_TABLES && tables[t] != NULL; t++)
+        for (size_t i = 0; i < wt_params_count(tables[t]()); i++) {
+            const wt_param *param = wt_params_get(tables[t](), i);
+            const size_t used = strlen(names);
+            if (param->kind > PARAM_COUNT || is_listed(names, param->name) ||
+                (param->flags & PARAM_ONLY_C) == PARAM_ONLY_C)
+                continue;
+            snprintf(names + used, sizeof names - used, " %s", param->name);
+            put_limit(param);
+        }
+}
+
 static void put_limits(void)
 {
     puts(".PD 0");
-    for (size_t s = 0; s < N_CASE_SECTIONS; s++) {
-        printf(".SS ");
-        put_troff(case_sections[s].name);
-        putchar('\n');
-        char names[TEXT] = "";
-        for (size_t t = 0; t < SECTION_TABLES && case_sections[s].params[t] != NULL; t++)
-            for (size_t i = 0; i < wt_params_count(case_sections[s].params[t]()); i++) {
-                const wt_param *param = wt_params_get(case_sections[s].params[t](), i);
-                const size_t used = strlen(names);
-                if (param->kind > PARAM_COUNT || is_listed(names, param->name) ||
-                    (param->flags & PARAM_ONLY_C) == PARAM_ONLY_C)
-                    continue;
-                snprintf(names + used, sizeof names - used, " %s", param->name);
-                put_limit(param);
-            }
-    }
+    for (size_t s = 0; s < N_CASE_SECTIONS; s++)
+        put_limits_of(case_sections[s].name, case_sections[s].params);
+    put_limits_of("prony", (params_of *const[SECTION_TABLES]){case_prony_params, case_term_params});
+    put_limits_of("files that are read", (params_of *const[SECTION_TABLES]){wt_read_params});
+    put_limits_of("options of the work",
+                  (params_of *const[SECTION_TABLES]){wt_run_params, wt_accuracy_job_params,
+                                                     wt_report_params});
     puts(".PD");
 }
 

@@ -275,6 +275,9 @@ static void test_curves_are_drawn_from_their_columns(void **state)
         {"work_precision", "linespoints ls 31", "seconds stated_error"},
         {"error_budget", "boxxyerror ls 1", "relative_error"},
         {"error_budget", "boxxyerror ls 2", "relative_error"},
+        {"cost", "boxxyerror ls 1", "runs cpu_time"},
+        {"cost", "points ls 1", "standard_error runs"},
+        {"cost", "points ls 2", "error_estimated runs"},
         {"coverage", "xerrorbars ls 13", "within_95 low high"},
         {"coverage", "points ls 2", "within_one"},
     };
