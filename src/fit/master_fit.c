@@ -37,6 +37,8 @@ static const double far = 0.5;
  * pull the isotherms towards themselves, all but the one that is held, by more than their errors
  * (tests/study: lines). */
 static const double smooth_terms = 3.0, trial_terms = 5.0, sharp_terms = 10.0, sharp = 3.0;
+/* Modulus along the steepest isotherm against that along another one that is flat [decade]. */
+static const double much_steeper = 2.0;
 /* Bends of lines, to start from; a noise that is clearly more than another one. */
 static const double lines_smooth = 5.0, more_noise = 2.0;
 
@@ -417,8 +419,23 @@ static wt_status test_superposition(master_work *work, wt_error *err)
     return status;
 }
 
-wt_status wt_master_fit(const wt_sweep *sweep, const wt_master_options *options, wt_parselog *log,
-                        wt_master *master, wt_error *err)
+/* NaN, or the temperature of an isotherm that changes much more than the one that was started from.
+ */
+static double steeper(const master_work *work)
+{
+    const shift_set *set = &work->set;
+    size_t steepest = work->anchor;
+    for (size_t i = 0; i < set->n; i++)
+        if (set->curves[i].n >= SHIFT_MIN_POINTS &&
+            shift_change(set, i) > shift_change(set, steepest))
+            steepest = i;
+    return shift_change(set, steepest) > much_steeper * shift_change(set, work->anchor)
+               ? set->curves[steepest].temperature
+               : (double)NAN;
+}
+
+static wt_status fit_from(const wt_sweep *sweep, const wt_master_options *options, wt_parselog *log,
+                          wt_master *master, double *better, wt_error *err)
 {
     master_work work = {.options = options != NULL ? *options : wt_master_options_defaults()};
     wt_status status = param_check(wt_master_options_params(), &work.options, err);
@@ -444,7 +461,30 @@ wt_status wt_master_fit(const wt_sweep *sweep, const wt_master_options *options,
         status = posterior_close(work.posterior, work.reference, err);
     if (status == WT_OK)
         status = master_report(&work, sweep, log, master, err);
+    *better = status == WT_E_NO_OVERLAP ? steeper(&work) : (double)NAN;
     posterior_free(work.posterior);
     pool_free(&work.memory);
     return status;
+}
+
+/* Where the isotherm in the middle is one of a glass, flat, the one that changes most is the
+ * reference, unless one is asked for. */
+wt_status wt_master_fit(const wt_sweep *sweep, const wt_master_options *options, wt_parselog *log,
+                        wt_master *master, wt_error *err)
+{
+    double better;
+    wt_error flat = WT_ERROR_INIT;
+    wt_master_options again = options != NULL ? *options : wt_master_options_defaults();
+    const wt_status status = fit_from(sweep, options, log, master, &better, &flat);
+    if (isnan(better) || !isnan(again.reference_temperature)) {
+        if (status != WT_OK && err != NULL)
+            *err = flat;
+        return status;
+    }
+    wt_parselog_add(log, WT_WARNING, NULL, NULL,
+                    "the isotherm in the middle is too flat to shift others onto it: the reference "
+                    "is %.2f °C, where the modulus changes most with frequency",
+                    better - WT_ZERO_CELSIUS);
+    again.reference_temperature = better;
+    return fit_from(sweep, &again, log, master, &better, err);
 }

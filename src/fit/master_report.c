@@ -409,19 +409,31 @@ static wt_status fill_series(master_work *work, wt_master *m, wt_error *err)
 /* ---- the whole ------------------------------------------------------------------------------- */
 
 /* An isotherm is shifted onto the reference, or there is nothing to hand out. */
-static wt_status check_shifts(const wt_master *m, wt_error *err)
+static wt_status check_shifts(const master_work *work, const wt_master *m, wt_error *err)
 {
-    size_t n = 0;
-    for (size_t i = 0; i < m->n_shifts; i++)
+    size_t n = 0, placed = 0;
+    for (size_t i = 0; i < m->n_shifts; i++) {
         n += m->shifts[i].determined;
+        placed += work->placed[i];
+    }
     if (n > 1 || m->n_shifts == 1)
         return WT_OK;
-    wt_fail(err, WT_E_NO_OVERLAP,
-            "no shift is determined: the isotherms are flat, or share too few frequencies");
-    wt_error_expected(err, "moduli that change with frequency by more than their scatter, and 0.3 "
-                           "decade shared by neighbours once shifted");
-    wt_error_advice(err, "measure into the transition, at smaller steps of temperature or over "
-                         "more frequencies");
+    if (placed <= 1) {
+        wt_fail(err, WT_E_NO_OVERLAP,
+                "no shift is determined: once shifted, the isotherms share too "
+                "few frequencies with that of the reference");
+        wt_error_expected(err, "0.3 decade shared by neighbours");
+        wt_error_advice(err, "measure at smaller steps of temperature or over more frequencies");
+        return WT_E_NO_OVERLAP;
+    }
+    const shift_curve *at = &work->set.curves[work->anchor];
+    wt_fail(err, WT_E_NO_OVERLAP, "no shift is determined: the isotherms are flat");
+    wt_error_expected(err,
+                      "moduli that change along an isotherm by more than noise and clamping do");
+    wt_error_found(err, "a change of %.2g %% along that of the reference, %.2f °C",
+                   100.0 * expm1(shift_change(&work->set, work->anchor) * M_LN10),
+                   at->temperature - WT_ZERO_CELSIUS);
+    wt_error_advice(err, "measure into the transition, or choose a reference temperature there");
     return WT_E_NO_OVERLAP;
 }
 
@@ -487,7 +499,7 @@ wt_status master_report(master_work *work, const wt_sweep *sweep, wt_parselog *l
         status = check_reference(work, &m, err);
     }
     if (status == WT_OK)
-        status = check_shifts(&m, err);
+        status = check_shifts(work, &m, err);
     if (status == WT_OK) {
         work->posterior->anchor_a = m.shifts[work->anchor].log_a.value;
         if (!work->measured_reference) /* the shifts are to the reference itself */

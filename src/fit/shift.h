@@ -38,6 +38,9 @@ typedef struct shift_set {
 wt_status shift_set_new(const wt_sweep *sweep, wt_shift_by by, wt_parselog *log, pool *memory,
                         shift_set *set, wt_error *err) WT_NODISCARD;
 
+/* By how much the modulus changes along a curve, storage if it is used [decade]. */
+double shift_change(const shift_set *set, size_t curve);
+
 /* Where curve s goes relative to curve p (as measured): by least squares of the moduli used and
  * both directions; b is projected out if free_b, else it is given. False: no overlap. */
 bool shift_pair_fit(const shift_set *set, size_t p, size_t s, bool free_b, double *a, double *b);

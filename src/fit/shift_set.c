@@ -200,3 +200,10 @@ wt_status shift_set_new(const wt_sweep *sweep, wt_shift_by by, wt_parselog *log,
     }
     return status;
 }
+
+double shift_change(const shift_set *set, size_t curve)
+{
+    const shift_curve *c = &set->curves[curve];
+    const double *y = c->y[set->used[STORAGE] ? STORAGE : LOSS];
+    return c->n > 0 ? fabs(y[c->n - 1] - y[0]) : 0.0;
+}

@@ -106,6 +106,8 @@ static void compare_row(const stream *t, const dma_scene *s, const rubber *r, do
 static void compare_prony(const stream *t, const dma_scene *s, const rubber *r, double omega,
                           trial *to)
 {
+    if (stream_rows(t, PLACE_PRONY) == 0)
+        return; /* one quantity alone tells no series */
     const rubber_state state = stated_state(s, r);
     double storage, loss, sum_storage = place_key(t, &place_equilibrium).value, sum_loss = 0;
     for (int row = 0; row < stream_rows(t, PLACE_PRONY); row++) {

@@ -539,9 +539,50 @@ static void draws_scatter_as_the_intervals_say(void **state)
     wt_master_clear(&m);
 }
 
+/* The isotherm in the middle is one of a glass, flat in both moduli: onto it no shift is known.
+ * Unless it was asked for, one of the transition takes its place. */
+static void a_flat_middle_is_no_reference(void **state)
+{
+    (void)state;
+    const scene s = {usual(), 243.15, 273.15, 5, 0.01, 0, 51, 0, 0};
+    wt_sweep sweep = {0};
+    wt_master m = {0};
+    wt_error err = WT_ERROR_INIT;
+    wt_parselog *log = wt_parselog_new();
+    wt_master_options options = wt_master_options_defaults();
+    uint64_t seed = 5;
+    size_t said = 0;
+    measure(&s, &sweep);
+    for (int i = 0; i < 10; i++) {
+        wt_isotherm *glass = wt_sweep_add(&sweep, 13, false);
+        glass->temperature = 238.15 - 5 * i;
+        for (size_t k = 0; k < glass->n; k++) {
+            glass->angular_frequency[k] = pow(10, -0.2 + 0.25 * (double)k);
+            glass->storage_modulus[k] = 1.6e9 * exp(s.noise * dma_normal(&seed));
+            glass->loss_modulus[k] = 3e7 * exp(s.noise * dma_normal(&seed));
+        }
+    }
+    wt_sweep_sort(&sweep);
+    assert_int_equal(wt_master_fit(&sweep, &options, log, &m, &err), WT_OK);
+    assert_true(m.reference_temperature > 243);
+    for (size_t i = 10; i < m.n_shifts; i++)
+        assert_true(m.shifts[i].determined);
+    for (size_t i = 0; i < wt_parselog_count(log); i++)
+        said += strstr(wt_parselog_get(log, i).text, "too flat to shift others onto it") != NULL;
+    assert_int_equal(said, 1);
+    wt_master_clear(&m);
+    options.reference_temperature = 228.15;
+    assert_int_equal(wt_master_fit(&sweep, &options, NULL, &m, &err), WT_E_NO_OVERLAP);
+    assert_non_null(strstr(err.message, "the isotherms are flat"));
+    assert_non_null(strstr(err.advice, "choose a reference temperature there"));
+    wt_parselog_free(log);
+    wt_sweep_clear(&sweep);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_flat_middle_is_no_reference),
         cmocka_unit_test(intervals_hold_the_truth),
         cmocka_unit_test(a_liquid_has_an_upper_limit),
         cmocka_unit_test(far_shifts_are_found),
