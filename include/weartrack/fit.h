@@ -380,6 +380,11 @@ typedef enum wt_shift_by {
     WT_BY_LOSS_FACTOR /* tan delta alone: no level of the moduli, no vertical shift */
 } wt_shift_by;
 
+typedef enum wt_reference_at {
+    WT_REFERENCE_TEMPERATURE,   /* as reference_temperature says */
+    WT_REFERENCE_TAN_DELTA_PEAK /* where tan delta peaks at 1 Hz; WT_E_RANGE if it does not */
+} wt_reference_at;
+
 typedef struct wt_master_options {
     double reference_temperature; /* [K]; need not be a measured isotherm; NaN (default): the
                                      isotherm in the middle */
@@ -389,7 +394,8 @@ typedef struct wt_master_options {
     bool liquid;             /* equilibrium modulus 0 */
     bool series_only;        /* no moduli of the spectrum at the points (NaN) and no verdict */
     wt_shift_by shift_by;    /* default MODULI */
-    uint64_t reserved[8];
+    wt_reference_at reference_at;
+    uint64_t reserved[7];
 } wt_master_options;
 WT_API wt_master_options wt_master_options_defaults(void);
 WT_API const wt_params *wt_master_options_params(void);

@@ -43,7 +43,7 @@ int cmd_master(int argc, char **argv)
     saved_shifts saved = {NULL, NULL};
     cmd_part parts[] = {
         {wt_master_job_params(), &job,
-         "reference-temperature vertical-shift expansion terms-per-decade liquid "
+         "reference-temperature reference-at vertical-shift expansion terms-per-decade liquid "
          "shift-by leave-out shift-law",
          0},
         {saved_params(), &saved, NULL, 0},

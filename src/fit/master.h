@@ -28,6 +28,10 @@ typedef struct master_work {
     lack_of_fit lack;
 } master_work;
 
+/* For the reference of the options. *better: where the fit failed for want of overlap, NaN or the
+ * temperature of an isotherm that changes much more than the one it was started from. */
+wt_status master_fit_once(const wt_sweep *sweep, const wt_master_options *options, wt_parselog *log,
+                          wt_master *master, double *better, wt_error *err) WT_NODISCARD;
 /* Fills `master` (without the posterior, which it takes over). */
 wt_status master_report(master_work *work, const wt_sweep *sweep, wt_parselog *log,
                         wt_master *master, wt_error *err) WT_NODISCARD;

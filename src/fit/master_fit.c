@@ -54,6 +54,10 @@ static const wt_param rows[] = {
            ABOVE(0)),
      .value = "T", .unset = "the isotherm in the middle",
      .help = "reference temperature, such as 20degC; it need not be one of the isotherms"},
+    {PARAM_CHOICE_OF("reference-at", wt_master_options, reference_at, "temperature|tan-delta-peak"),
+     .help =
+         "reference: the temperature that is given or chosen, or that at which tan delta peaks at "
+         "1 Hz, a glass transition"},
     {PARAM_CHOICE_OF("vertical-shift", wt_master_options, vertical, "none|physical|free|tied"),
      .help = "vertical shift: none, as rubber elasticity says (Tref/T, with the thermal expansion "
              "of the density), fitted, or tied to that of rubber elasticity as closely as the data "
@@ -434,10 +438,10 @@ static double steeper(const master_work *work)
                : (double)NAN;
 }
 
-static wt_status fit_from(const wt_sweep *sweep, const wt_master_options *options, wt_parselog *log,
+wt_status master_fit_once(const wt_sweep *sweep, const wt_master_options *options, wt_parselog *log,
                           wt_master *master, double *better, wt_error *err)
 {
-    master_work work = {.options = options != NULL ? *options : wt_master_options_defaults()};
+    master_work work = {.options = *options};
     wt_status status = param_check(wt_master_options_params(), &work.options, err);
     if (status == WT_OK)
         status = shift_set_new(sweep, work.options.shift_by, log, &work.memory, &work.set, err);
@@ -465,26 +469,4 @@ static wt_status fit_from(const wt_sweep *sweep, const wt_master_options *option
     posterior_free(work.posterior);
     pool_free(&work.memory);
     return status;
-}
-
-/* Where the isotherm in the middle is one of a glass, flat, the one that changes most is the
- * reference, unless one is asked for. */
-wt_status wt_master_fit(const wt_sweep *sweep, const wt_master_options *options, wt_parselog *log,
-                        wt_master *master, wt_error *err)
-{
-    double better;
-    wt_error flat = WT_ERROR_INIT;
-    wt_master_options again = options != NULL ? *options : wt_master_options_defaults();
-    const wt_status status = fit_from(sweep, options, log, master, &better, &flat);
-    if (isnan(better) || !isnan(again.reference_temperature)) {
-        if (status != WT_OK && err != NULL)
-            *err = flat;
-        return status;
-    }
-    wt_parselog_add(log, WT_WARNING, NULL, NULL,
-                    "the isotherm in the middle is too flat to shift others onto it: the reference "
-                    "is %.2f °C, where the modulus changes most with frequency",
-                    better - WT_ZERO_CELSIUS);
-    again.reference_temperature = better;
-    return fit_from(sweep, &again, log, master, &better, err);
 }

@@ -1,15 +1,17 @@
-/* Shift factors of 20 isotherms. The textbook method: neighbour by neighbour, E' only, best of 2000
- * trial shifts by linear interpolation. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Shift factors of 20 isotherms, and of 154 with 2,000 points. The textbook method: neighbour by
+ * neighbour, E' only, best of 2000 trial shifts by linear interpolation.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 
 #include "bench/bench.h"
 
-enum { ISOTHERMS = 20, POINTS = 20, TERMS = 56, TRIALS = 2000 };
+enum { MOST = 154, POINTS = 13, TERMS = 56, TRIALS = 2000 };
 
 typedef struct shift_case {
     wt_sweep sweep;
-    double truth[ISOTHERMS];
-    double ours[ISOTHERMS], textbook[ISOTHERMS];
+    int n;
+    double truth[MOST];
+    double ours[MOST], textbook[MOST];
 } shift_case;
 
 static void moduli(double omega, double *storage, double *loss)
@@ -28,9 +30,9 @@ static void make_sweep(shift_case *c)
 {
     bench_random random = {77};
     const wt_wlf wlf = {293.15, 8.5, 130};
-    for (int i = 0; i < ISOTHERMS; i++) {
+    for (int i = 0; i < c->n; i++) {
         wt_isotherm *iso = wt_sweep_add(&c->sweep, POINTS, 0);
-        iso->temperature = 253.15 + 4 * i;
+        iso->temperature = 253.15 + 80.0 * i / c->n;
         c->truth[i] = wt_wlf_log_shift(&wlf, iso->temperature);
         for (int j = 0; j < POINTS; j++) {
             const double omega = 0.1 * pow(10, 3.0 * j / (POINTS - 1));
@@ -53,7 +55,7 @@ static void shift_weartrack(void *data)
     options.reference_temperature = 293.15;
     options.vertical = WT_VERTICAL_NONE;
     bench_check(wt_master_fit(&c->sweep, &options, NULL, &master, &err), &err);
-    for (size_t i = 0; i < master.n_shifts && i < ISOTHERMS; i++)
+    for (size_t i = 0; i < master.n_shifts && i < (size_t)c->n; i++)
         c->ours[i] = master.shifts[i].log_a.value;
     wt_master_clear(&master);
 }
@@ -99,30 +101,38 @@ static double pair_shift(const wt_isotherm *from, const wt_isotherm *to)
 static void shift_textbook(void *data)
 {
     shift_case *c = data;
-    const int reference = 10;
+    const int reference = c->n / 2;
     c->textbook[reference] = 0;
     for (int i = reference - 1; i >= 0; i--)
         c->textbook[i] =
             c->textbook[i + 1] + pair_shift(&c->sweep.isotherms[i], &c->sweep.isotherms[i + 1]);
-    for (int i = reference + 1; i < ISOTHERMS; i++)
+    for (int i = reference + 1; i < c->n; i++)
         c->textbook[i] =
             c->textbook[i - 1] + pair_shift(&c->sweep.isotherms[i], &c->sweep.isotherms[i - 1]);
 }
 
-void bench_shift(void)
+static void compare(int n)
 {
     static shift_case c;
-    char words[96];
+    char words[96], what[64];
+    c = (shift_case){.n = n};
     make_sweep(&c);
     const double ours = bench_time(shift_weartrack, &c);
     const double textbook = bench_time(shift_textbook, &c);
     double rms = 0, rms_textbook = 0;
-    for (int i = 0; i < ISOTHERMS; i++) {
-        rms += pow(c.ours[i] - c.truth[i], 2) / ISOTHERMS;
-        rms_textbook += pow(c.textbook[i] - c.truth[i], 2) / ISOTHERMS;
+    for (int i = 0; i < n; i++) {
+        rms += pow(c.ours[i] - c.truth[i], 2) / n;
+        rms_textbook += pow(c.textbook[i] - c.truth[i], 2) / n;
     }
     snprintf(words, sizeof words, "rms from the truth %.4f, textbook %.4f decade", sqrt(rms),
              sqrt(rms_textbook));
-    bench_row("sweeps shifted (20 isotherms)", ours, textbook, 1, "per second", words);
+    snprintf(what, sizeof what, "sweeps shifted (%d isotherms)", n);
+    bench_row(what, ours, textbook, 1, "per second", words);
     wt_sweep_clear(&c.sweep);
+}
+
+void bench_shift(void)
+{
+    compare(20);
+    compare(MOST);
 }

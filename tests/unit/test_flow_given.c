@@ -224,6 +224,41 @@ static void one_modulus_and_free_shifts(void **unused)
     wt_sweep_clear(&sweep);
 }
 
+/* tan delta of the rubber at 1 Hz against temperature, finely, has its peak where the reference is.
+ */
+static void glass_transition_as_reference(void **unused)
+{
+    double peak = 0, largest = 0;
+    (void)unused;
+    for (double t = 223.15; t < 353; t += 0.05) {
+        double storage, loss;
+        dma_moduli(&dma_rubber, 2 * M_PI * pow(10, wt_wlf_log_shift(&dma_rubber.wlf, t)), &storage,
+                   &loss);
+        if (loss / storage > largest) {
+            largest = loss / storage;
+            peak = t;
+        }
+    }
+    for (size_t by = WT_BY_MODULI; by <= WT_BY_LOSS_FACTOR; by++) {
+        wt_sweep sweep = {0};
+        wt_master m = {0};
+        wt_error err = WT_ERROR_INIT;
+        wt_master_options o = options((wt_shift_by)by);
+        o.reference_at = WT_REFERENCE_TAN_DELTA_PEAK;
+        dma_usual(&sweep, true, noise, 3);
+        const wt_status status = wt_master_fit(&sweep, &o, NULL, &m, &err);
+        assert_int_equal(status, by == WT_BY_LOSS ? WT_E_RANGE : WT_OK);
+        if (by == WT_BY_LOSS) {
+            assert_non_null(strstr(err.message, "no peak that was measured"));
+        } else {
+            print_message("%.2f, truth %.2f K\n", m.reference_temperature, peak);
+            assert_near_abs(m.reference_temperature, peak, 0.5);
+        }
+        wt_master_clear(&m);
+        wt_sweep_clear(&sweep);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -234,6 +269,7 @@ int main(void)
         cmocka_unit_test(closed_form_of_the_standard),
         cmocka_unit_test(one_quantity_alone),
         cmocka_unit_test(one_modulus_and_free_shifts),
+        cmocka_unit_test(glass_transition_as_reference),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
