@@ -203,14 +203,17 @@ static inline void fixture_accuracy(wt_case *read)
     wt_accuracy_job job = wt_accuracy_job_defaults();
     const wt_job work = wt_job_defaults();
     const fixture_change no_change = {.table = "error_budget"};
+    static const char *const names[] = {"error_budget", "relaxation_spectrum", "prony_reduced"};
     few.replicates = 3;
     job.part = "friction-prony";
     job.repeats = 1;
-    fixture_check(wt_case_ask(read, "error_budget", NULL));
-    fixture_check(wt_run(read, &few, NULL, &asked, &failed, NULL));
-    fixture_check(wt_result_add(
-        fixture_case, fixture_copy(wt_result_find(asked, "error_budget"), &no_change), NULL));
-    wt_result_free(asked);
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        fixture_check(wt_case_ask(read, names[i], NULL));
+        fixture_check(wt_run(read, &few, NULL, &asked, &failed, NULL));
+        fixture_check(wt_result_add(
+            fixture_case, fixture_copy(wt_result_find(asked, names[i]), &no_change), NULL));
+        wt_result_free(asked);
+    }
     few.trials = 3;
     fixture_check(wt_case_ask(read, "coverage", NULL));
     fixture_check(wt_run(read, &few, NULL, &asked, &failed, NULL));

@@ -494,12 +494,46 @@ WT_API double wt_master_loss_factor(const wt_master *master, size_t i);
 /* log10 E', log10 E'' [Pa] at the reference temperature. */
 WT_API void wt_master_moduli(const wt_master *master, double angular_frequency,
                              wt_interval *log_storage, wt_interval *log_loss);
+/* log10 of the relaxation spectrum H, a modulus for each unit of ln tau [Pa], at the relaxation
+ * time of a term of the series; NaN where that lies outside the measured frequencies. */
+WT_API void wt_master_spectrum(const wt_master *master, size_t term, wt_interval *log_density);
 /* One draw of all that is not known: series at the reference temperature, law, log10 b of the
  * material at the isotherms (log_b: [n_shifts], NaN where not determined; or NULL). The same seed
  * and index give the same, whatever ran before. */
 WT_API wt_status wt_master_draw(const wt_master *master, uint64_t seed, size_t index,
                                 wt_prony *prony, wt_shift_law *law, double *log_b,
                                 wt_error *err) WT_NODISCARD;
+
+/* ---- few terms in place of a spectrum ---------------------------------------------------------
+ */
+
+typedef struct wt_reduction {
+    unsigned terms;   /* 0 (default): as few as the error needs */
+    double error;     /* largest relative deviation of both moduli over the measured frequencies */
+    double long_term; /* equilibrium modulus [Pa]; NaN (default): fitted */
+} wt_reduction;
+WT_API wt_reduction wt_reduction_defaults(void);
+WT_API const wt_params *wt_reduction_params(void);
+/* A series with few positive terms, times rising, close to both moduli of another one over its
+ * range of frequencies, which must be known. Where no number of terms is close enough, or they are
+ * given, it is as close as it can be: ask wt_prony_deviation. to: cleared by the caller. */
+WT_API wt_status wt_prony_reduce(const wt_prony *from, const wt_reduction *options, wt_prony *to,
+                                 wt_error *err) WT_NODISCARD;
+/* Largest relative deviation of storage and loss modulus over the frequencies of `from`. */
+WT_API void wt_prony_deviation(const wt_prony *from, const wt_prony *to, double deviation[2]);
+
+/* A fractional Zener law through the points of a master curve that were not left out, by least
+ * squares of the logarithms, and how both it and a series describe them: root mean squares in ln,
+ * and Akaike's criterion with the correction for few points, less being better. No errors: what the
+ * law is off is not noise. */
+typedef struct wt_zener_fit {
+    double e0, eg, tau, alpha; /* (E0 + Eg z)/(1 + z), z = (i w tau)^alpha; moduli as measured */
+    bool determined;           /* the points reach its glass modulus and its time */
+    double rms_storage, rms_loss, aicc;
+    double series_rms_storage, series_rms_loss, series_aicc;
+} wt_zener_fit;
+WT_API wt_status wt_master_zener(const wt_master *master, const wt_prony *series, wt_zener_fit *fit,
+                                 wt_error *err) WT_NODISCARD;
 
 #ifdef __cplusplus
 }

@@ -28,7 +28,9 @@ typedef enum wt_extra {
     WT_EXTRA_DIGESTS = 8,       /* SHA-256 of the files read, else "" */
     WT_EXTRA_SUMMARY = 16,      /* items and errors in the cost, else its nodes and files alone */
     WT_EXTRA_TIMES = 32,        /* of the layer: its incubation and its time to 90 %, else NaN */
-    WT_EXTRAS = 63
+    WT_EXTRA_REDUCED = 64,      /* of the isotherms: the series with few terms */
+    WT_EXTRA_SPECTRUM = 128,    /* of the isotherms: the relaxation spectrum with its error */
+    WT_EXTRAS = 255
 } wt_extra;
 
 typedef struct wt_cost wt_cost;
@@ -191,6 +193,7 @@ typedef struct wt_master_job {
                                "arrhenius:activation-energy=E" that all shifts follow; or NULL */
     const wt_table *shifts; /* columns temperature and log_a of shifts that are not fitted,
                                borrowed; or NULL */
+    wt_reduction reduction; /* with parameters of its own */
     uint64_t reserved[3];
 } wt_master_job;
 WT_API wt_master_job wt_master_job_defaults(void);
@@ -268,6 +271,7 @@ WT_API size_t wt_rubber_describe(const wt_rubber *rubber, char *buffer, size_t s
 typedef struct wt_master_tables {
     wt_table *shift_factors, *master_curve, *prony, *material_draws, *series_draws;
     size_t n_isotherms;
+    wt_table *prony_reduced, *relaxation_spectrum;
 } wt_master_tables;
 WT_API void wt_master_tables_clear(wt_master_tables *tables);
 
@@ -324,6 +328,35 @@ WT_API wt_status wt_rubber_from_tables(const wt_rubber_tables *tables, double po
 /* The same isotherms with another vertical shift, without draws. WT_E_MISSING without isotherms. */
 WT_API wt_status wt_rubber_refit(const wt_rubber *rubber, wt_vertical_shift vertical,
                                  wt_rubber *refitted, wt_error *err) WT_NODISCARD;
+
+/* The reduced series for programs of finite elements, each by the keywords of its manual. */
+typedef enum wt_solid_program {
+    WT_SOLID_ABAQUS,
+    WT_SOLID_ANSYS,
+    WT_SOLID_CODE_ASTER, /* needs a Poisson's ratio below 0.5 */
+    WT_SOLID_TABLE
+} wt_solid_program;
+/* Stress and time: Pa and s, MPa and s, GPa and ms. */
+typedef enum wt_solid_units { WT_SOLID_M_KG_S, WT_SOLID_MM_T_S, WT_SOLID_MM_KG_MS } wt_solid_units;
+typedef enum wt_solid_temperature { WT_SOLID_CELSIUS, WT_SOLID_KELVIN } wt_solid_temperature;
+typedef struct wt_solid_options {
+    wt_solid_units units;
+    wt_solid_temperature temperature;
+    double poisson_ratio; /* at all times; default 0.5: incompressible */
+    uint64_t reserved[6];
+} wt_solid_options;
+WT_API wt_solid_options wt_solid_options_defaults(void);
+WT_API const wt_params *wt_solid_options_params(void);
+/* Whether there is such a program: "abaqus", "ansys", "code_aster", "table". */
+WT_API bool wt_solid_program_find(const char *name, size_t length, wt_solid_program *program);
+/* Whether the program can have such a material. */
+WT_API wt_status wt_solid_check(wt_solid_program program, const wt_solid_options *options,
+                                wt_error *err) WT_NODISCARD;
+/* Tables of wt_master_make; shift_factors NULL: no law. options NULL = defaults. */
+WT_API wt_status wt_solid_write(FILE *out, wt_solid_program program, const wt_table *prony_reduced,
+                                const wt_table *shift_factors, const wt_solid_options *options,
+                                wt_error *err) WT_NODISCARD;
+
 #define WT_NO_REPLICATE                                                                            \
     SIZE_MAX /* in the place of the number of a replicate: the values as fitted */
 /* The material at a temperature [K] (NaN = reference): relaxation times times a_T, moduli divided

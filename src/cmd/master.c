@@ -2,6 +2,8 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cmd/tables.h"
 
+#include <string.h>
+
 typedef struct saved_shifts {
     const char *read, *written;
 } saved_shifts;
@@ -16,6 +18,28 @@ static const wt_param saved_rows[] = {
 };
 CMD_OPTIONS(saved_params, saved_shifts, saved_rows)
 
+/* The material for other programs. */
+typedef struct exported {
+    const char *const *exports;
+    size_t n_exports;
+    wt_solid_options solid;
+    wt_reduction reduction;
+} exported;
+
+static exported export_defaults(void)
+{
+    return (exported){.solid = wt_solid_options_defaults(), .reduction = wt_reduction_defaults()};
+}
+
+static const wt_param export_rows[] = {
+    {PARAM_TEXTS_OF("export", exported, exports, n_exports), .value = "PROGRAM:FILE", .unset = "",
+     .help = "write the reduced series with its shifts as the material of a program for finite "
+             "elements: abaqus, ansys, code_aster, or as a plain table; repeatable"},
+};
+PARAM_LOCAL_TABLE(exported_params, exported, export_rows, export_defaults,
+                  PARAM_PART(wt_reduction_params, exported, reduction),
+                  PARAM_PART(wt_solid_options_params, exported, solid))
+
 static wt_status save_shifts(const char *path, const wt_table *shifts, wt_error *err)
 {
     cmd_sink sink;
@@ -23,6 +47,48 @@ static wt_status save_shifts(const char *path, const wt_table *shifts, wt_error 
     if (status == WT_OK)
         status = wt_stream_write(sink.stream, shifts, NULL, err);
     return cmd_sink_close(&sink, status, err);
+}
+
+/* The program and, behind the colon, the file. */
+static bool split_export(const char *text, wt_solid_program *program, const char **file)
+{
+    const char *colon = strchr(text, ':');
+    *file = colon != NULL ? colon + 1 : "";
+    return **file != '\0' && wt_solid_program_find(text, (size_t)(colon - text), program);
+}
+
+/* Before the work begins. */
+static bool check_exports(cmd_session *s, const exported *own)
+{
+    for (size_t i = 0; i < own->n_exports; i++) {
+        wt_solid_program program;
+        const char *file;
+        if (!split_export(own->exports[i], &program, &file))
+            return cmd_usage_error(s,
+                                   "--export %s: expected abaqus, ansys, code_aster or table, a "
+                                   "colon and the name of a file, such as abaqus:rubber.inp",
+                                   own->exports[i]);
+        if (wt_solid_check(program, &own->solid, &s->err) != WT_OK)
+            return cmd_param_error(s);
+    }
+    return true;
+}
+
+static wt_status write_exports(cmd_session *s, const exported *own, const wt_master_tables *tables)
+{
+    wt_status status = WT_OK;
+    for (size_t i = 0; status == WT_OK && i < own->n_exports; i++) {
+        wt_solid_program program = WT_SOLID_TABLE;
+        const char *file;
+        cmd_sink sink;
+        (void)split_export(own->exports[i], &program, &file);
+        status = cmd_sink_open(file, &sink, &s->err);
+        if (status == WT_OK)
+            status = wt_solid_write(sink.stream, program, tables->prony_reduced,
+                                    tables->shift_factors, &own->solid, &s->err);
+        status = cmd_sink_close(&sink, status, &s->err);
+    }
+    return status;
 }
 
 int cmd_master(int argc, char **argv)
@@ -34,8 +100,9 @@ int cmd_master(int argc, char **argv)
                 "shifts, the law of these and the errors of everything; says whether superposition "
                 "holds. Folders and patterns are allowed.",
         .common = "output formats columns files-from provenance cost",
-        .notes = "The tables prony, shift_factors and master_curve follow one another, then draws "
-                 "of all that is not known of the material, material_draws and series_draws; "
+        .notes = "The tables prony, prony_reduced (few terms in place of it), relaxation_spectrum, "
+                 "shift_factors and master_curve follow one another, then draws of all that is not "
+                 "known of the material, material_draws and series_draws; "
                  "weartrack friction, layer and compare read them as they are.",
         .n_files = CMD_SOME};
     wt_master_job job = wt_master_job_defaults();
@@ -51,8 +118,15 @@ int cmd_master(int argc, char **argv)
     cmd_session s = cmd_session_defaults();
     wt_master_tables tables = {0};
     wt_result *given = NULL;
-    if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv) || !cmd_begin_files(&s, &set))
+    exported own = export_defaults();
+    cmd_part all[COUNT_OF(parts) + 1];
+    memcpy(all, parts, sizeof parts);
+    all[COUNT_OF(parts)] = parts[COUNT_OF(parts) - 1]; /* those of reading come last */
+    all[COUNT_OF(parts) - 1] = (cmd_part){exported_params(), &own, NULL, 0};
+    if (!cmd_parse(&s, &usage, all, COUNT_OF(all), argc, argv) || !check_exports(&s, &own) ||
+        !cmd_begin_files(&s, &set))
         goto done;
+    job.reduction = own.reduction;
     job.sets = &set;
     job.n_sets = 1;
     wt_cost_stage(s.cost, "master_curve");
@@ -67,8 +141,12 @@ int cmd_master(int argc, char **argv)
         made = wt_master_make(&job, &s.work, &tables, NULL, &s.err);
     if (made == WT_OK && saved.written != NULL)
         made = save_shifts(saved.written, tables.shift_factors, &s.err);
-    wt_table **const made_tables[] = {&tables.prony, &tables.shift_factors, &tables.master_curve,
-                                      &tables.material_draws, &tables.series_draws};
+    if (made == WT_OK)
+        made = write_exports(&s, &own, &tables);
+    wt_table **const made_tables[] = {
+        &tables.prony,         &tables.prony_reduced, &tables.relaxation_spectrum,
+        &tables.shift_factors, &tables.master_curve,  &tables.material_draws,
+        &tables.series_draws};
     cmd_finish(&s, made, made_tables, COUNT_OF(made_tables));
 done:
     wt_master_tables_clear(&tables);

@@ -560,6 +560,21 @@ double wt_master_loss_factor(const wt_master *master, size_t i)
     return master->posterior->measured_factor[i];
 }
 
+void wt_master_spectrum(const wt_master *master, size_t term, wt_interval *log_density)
+{
+    const wt_prony *p = &master->prony;
+    const double step = master->posterior->frame.step;
+    *log_density = unknown_interval;
+    if (term >= p->n || !(p->relaxation_time[term] * p->frequency_max >= 1.0) ||
+        !(p->relaxation_time[term] * p->frequency_min <= 1.0))
+        return;
+    const size_t before = term > 0 ? term - 1 : 0, after = term + 1 < p->n ? term + 1 : term;
+    const double slope =
+        log(p->modulus[after] / p->modulus[before]) / (step * (double)(after - before));
+    *log_density =
+        scaled(moved(posterior_term(master->posterior, term, slope), -log(step)), 1.0 / M_LN10);
+}
+
 wt_status wt_master_draw(const wt_master *master, uint64_t seed, size_t index, wt_prony *prony,
                          wt_shift_law *law, double *log_b, wt_error *err)
 {

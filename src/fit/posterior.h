@@ -78,6 +78,9 @@ wt_interval posterior_constant(const wt_posterior *p, size_t unknown);
 enum { LOSS_FACTOR = MODULI, WITH_LOSS_FACTOR };
 void posterior_moduli(const wt_posterior *p, double x, wt_interval modulus[WITH_LOSS_FACTOR]);
 wt_interval posterior_equilibrium(const wt_posterior *p); /* ln */
+/* ln of the spectrum at the time that a term has by the mean offset of the law; slope: d ln/d ln
+ * tau. */
+wt_interval posterior_term(const wt_posterior *p, size_t term, double slope);
 /* Means over the mixture: of all unknowns, of those of the law. */
 void posterior_mean(const wt_posterior *p, double *value);
 void posterior_mean_law(const wt_posterior *p, double unknown[LAW_MOST]);

@@ -233,6 +233,18 @@ wt_interval posterior_equilibrium(const wt_posterior *p)
     return of_unknown(p, (long)p->frame.n_terms, 0.0, 1.0, 0.0);
 }
 
+wt_interval posterior_term(const wt_posterior *p, size_t term, double slope)
+{
+    double mean[LAW_MOST];
+    posterior_mean_law(p, mean);
+    wt_interval x = of_unknown(p, (long)term, 0.0, 1.0, slope * M_LN10);
+    const double by = slope * M_LN10 * mean[0];
+    x.value += by;
+    x.low += by;
+    x.high += by;
+    return x;
+}
+
 /* ---- means and draws ------------------------------------------------------------------------- */
 
 /* Adds to all unknowns what a gap between law and shifts (times S^-1) pulls them by. */

@@ -40,6 +40,18 @@ static void caption_dma_comparison(figure_drawing *d)
         text_add(&d->caption, " The DMA is that at the temperature of each group.");
 }
 
+/* ---- relaxation spectrum --------------------------------------------------------------------- */
+
+static void draw_relaxation_spectrum(figure_drawing *d)
+{
+    if (!drawing_data(d))
+        return;
+    drawing_axes(d);
+    plot_item(d, d->data[0], "($1*x_unit):($3*y_unit):($4*y_unit) with filledcurves ls 61 notitle");
+    plot_item(d, d->data[0], "($1*x_unit):($2*y_unit) with lines ls 11 notitle");
+    plot_end(d);
+}
+
 /* ---- temperature sweeps ---------------------------------------------------------------------- */
 
 /* Points of a panel, coloured by frequency where there are several, and the peaks in it. */
@@ -121,6 +133,19 @@ const figure_description figures_dma[] = {
               "tip a small volume strongly: agreement is not expected to be exact.",
      .draw = draw_dma_comparison,
      .caption = caption_dma_comparison},
+    {.name = "relaxation_spectrum",
+     .title = "Relaxation spectrum",
+     .table = &relaxation_spectrum_schema,
+     .data_title = "relaxation spectrum",
+     .x = {RELAXATION_SPECTRUM_RELAXATION_TIME, AXIS_LOG, "Relaxation time"},
+     .y = {{RELAXATION_SPECTRUM_DENSITY, AXIS_LOG, "H, modulus for each unit of ln τ"}},
+     .curves = {CURVE(RELAXATION_SPECTRUM_DENSITY, OWN), CURVE(RELAXATION_SPECTRUM_LOW, DATA),
+                CURVE(RELAXATION_SPECTRUM_HIGH, DATA)},
+     .nothing = "no relaxation time lies within the measured frequencies",
+     .words = "Relaxation spectrum behind the master curve with its 95 % interval (band): which "
+              "modulus relaxes at which time. A step of the storage modulus is a hump here; where "
+              "the band is wide the measurement tells little.",
+     .draw = draw_relaxation_spectrum},
     {.name = "ramp",
      .title = "Moduli against temperature",
      .table = &ramp_schema,

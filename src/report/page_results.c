@@ -79,12 +79,12 @@ static void friction_table(page_writer *page)
 void page_results(page_writer *page)
 {
     const bound_tables *t = page->tables;
-    const table_view *const shown[] = {&t->modulus_groups, &t->modulus_depth,    &t->comparison,
-                                       &t->dma_comparison, &t->material_ratio,   &t->shift_factors,
-                                       &t->prony,          &t->glass_transition, &t->moduli_at,
-                                       &t->payne,          &t->roughness,        &t->friction,
-                                       &t->layer,          &t->what_if,          &t->error_budget,
-                                       &t->coverage,       &t->work_precision,   &t->directions};
+    const table_view *const shown[] = {
+        &t->modulus_groups,   &t->modulus_depth,  &t->comparison, &t->dma_comparison,
+        &t->material_ratio,   &t->shift_factors,  &t->prony,      &t->prony_reduced,
+        &t->glass_transition, &t->moduli_at,      &t->payne,      &t->roughness,
+        &t->friction,         &t->layer,          &t->what_if,    &t->error_budget,
+        &t->coverage,         &t->work_precision, &t->directions};
     bool any = false;
     for (size_t i = 0; i < COUNT_OF(shown) && !any; i++)
         any = shown[i]->table != NULL;
@@ -107,6 +107,9 @@ void page_results(page_writer *page)
     page_keys(page, &t->shift_factors, "Shifting, law and superposition");
     page_whole_table(page, &t->prony, "Prony series at the reference temperature", NULL, 0);
     page_keys(page, &t->prony, "Prony series: constants");
+    page_whole_table(page, &t->prony_reduced, "Prony series with few terms, for finite elements",
+                     NULL, 0);
+    page_keys(page, &t->prony_reduced, "Prony series with few terms: constants, what it is off");
     page_whole_table(page, &t->glass_transition,
                      "Glass transition: temperatures of the peaks at each frequency", NULL, 0);
     page_keys(page, &t->glass_transition, "Glass transition: where");

@@ -7,14 +7,15 @@
 #include "flow/case/case_sections.h"
 #include "flow/job/inputs.h"
 
-enum { SECTION_TABLES = 3 };
+enum { SECTION_TABLES = 4 };
 
 static const struct {
     const char *name;
     const wt_params *(*params[SECTION_TABLES])(void);
 } case_sections[] = {
     {"indentation", {wt_indent_job_params, wt_compare_job_params}},
-    {"dma", {wt_master_job_params, wt_ramp_job_params, wt_rubber_options_params}},
+    {"dma",
+     {wt_master_job_params, wt_ramp_job_params, wt_rubber_options_params, wt_reduction_params}},
     {"fractional-zener", {flow_zener_params, NULL}},
     {"transverse", {wt_transverse_params, NULL}},
     {"wlf", {case_wlf_params, NULL}},

@@ -24,6 +24,9 @@ static const struct {
     {"terms-per-decade", "2.7", NULL, NULL},
     {"leave-out", "temperature:..0degC", NULL, NULL},
     {"shift-law", "wlf:reference-temperature=20degC,c1=9,c2=100K", NULL, NULL},
+    {"prony-terms", "3", NULL, NULL},
+    {"prony-error", "0.2", NULL, NULL},
+    {"prony-long-term", "0Pa", NULL, NULL},
     {"expansion", "7e-4", "vertical-shift physical", NULL},
     {"fit-depth", "30nm", NULL, NULL},
     {"fit-force-fraction", "0.5", NULL, NULL},
@@ -108,6 +111,10 @@ static const struct {
     {"compare", "at-temperature", "of materials: unit_truth_materials, tests/cli/materials.txt"},
     {"compare", "at-frequency", "the same"},
     {"compare", "sample-error", "the same"},
+    {"master", "export", "a file of its own: unit_flow_solid, tests/cli/solid.txt"},
+    {"master", "export-units", "of that file"},
+    {"master", "export-temperature", "of that file"},
+    {"master", "poisson-ratio", "of that file"},
     {NULL, "provenance", "tests/cli/round_trip.txt"},
 };
 
@@ -195,7 +202,7 @@ static const wt_params *(*const tables[])(void) = {
     wt_compare_job_params,    wt_master_job_params, wt_layer_known_params,
     wt_sliding_params,        wt_layer_job_params,  wt_job_params,
     wt_report_params,         wt_read_params,       wt_transverse_params,
-    wt_rubber_options_params,
+    wt_rubber_options_params, wt_reduction_params,
 };
 
 static char *read_file(const char *name, size_t *length)
@@ -408,6 +415,8 @@ static void make_case(size_t s, const char *name, const char *text, const char *
         strncat(xml, "<report><result>moduli_at</result></report>", size - strlen(xml) - 1);
     if (strcmp(name, "peak-points") == 0)
         strncat(xml, "<report><result>glass_transition</result></report>", size - strlen(xml) - 1);
+    if (strncmp(name, "prony-", 6) == 0)
+        strncat(xml, "<report><result>prony_reduced</result></report>", size - strlen(xml) - 1);
     strncat(xml, "</case>", size - strlen(xml) - 1);
 }
 

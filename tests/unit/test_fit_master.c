@@ -406,6 +406,57 @@ static void shifts_without_a_pole_are_not_wlf(void **state)
     assert_int_equal(chosen.kind, WT_LAW_ARRHENIUS);
 }
 
+/* ---- spectrum -------------------------------------------------------------------------------- */
+
+/* H of the processes in closed form, log10. */
+static double true_density(const material *m, double log_tau)
+{
+    double sum = 0;
+    for (int i = 0; i < 2; i++) {
+        const process *p = &m->processes[i];
+        sum += p->strength * sin(p->alpha * M_PI) / (2 * M_PI) /
+               (cosh(p->alpha * (log_tau - p->log_tau) * M_LN10) + cos(p->alpha * M_PI));
+    }
+    return log10(sum);
+}
+
+/* Its band holds the truth as often as it says, within the measured frequencies, and is not much
+ * wider than that needs. */
+static void the_spectrum_and_its_band(void **state)
+{
+    (void)state;
+    for (int sharp = 0; sharp < 2; sharp++) {
+        size_t n = 0, inside = 0;
+        double squares = 0;
+        for (uint64_t seed = 100; seed < 130; seed++) {
+            scene s = {usual(), 233.15, 353.15, 10, sharp ? 0.05 : 0.01, 0, seed, 0, 0};
+            if (sharp)
+                s.material.processes[0].alpha = 0.8;
+            wt_master m = fit_scene(&s);
+            const double t = m.reference_temperature,
+                         log_a = wt_shift_law_log_a(&s.material.law[0], t);
+            for (size_t i = 0; i < m.prony.n; i++) {
+                wt_interval h;
+                const double tau = m.prony.relaxation_time[i];
+                wt_master_spectrum(&m, i, &h);
+                assert_int_equal(isnan(h.value) != 0, tau * m.prony.frequency_max < 1 ||
+                                                          tau * m.prony.frequency_min > 1);
+                if (isnan(h.value))
+                    continue;
+                const double truth =
+                    true_density(&s.material, log10(tau) - log_a) + log10(t / 293.15);
+                n++;
+                inside += truth >= h.low && truth <= h.high;
+                squares += pow((truth - h.value) / h.standard_error, 2);
+            }
+            wt_master_clear(&m);
+        }
+        const double wide = sqrt(squares / (double)n); /* 1: not a bit too wide */
+        assert_true(inside >= n * 95 / 100);
+        assert_true(wide > 0.5 && wide < 1.1);
+    }
+}
+
 /* ---- verdicts -------------------------------------------------------------------------------- */
 
 static void superposition_is_judged(void **state)
@@ -593,6 +644,7 @@ int main(void)
         cmocka_unit_test(three_isotherms_tell_no_law_beyond_them),
         cmocka_unit_test(shifts_that_rise_have_no_law),
         cmocka_unit_test(shifts_without_a_pole_are_not_wlf),
+        cmocka_unit_test(the_spectrum_and_its_band),
         cmocka_unit_test(superposition_is_judged),
         cmocka_unit_test(a_second_process_is_seen),
         cmocka_unit_test(louder_ends_are_no_misfit),

@@ -239,6 +239,8 @@ static void test_curves_are_drawn_from_their_columns(void **state)
         {"vertical_shifts", "title 'isotherms'", "temperature log_b log_b_standard_error"},
         {"vertical_shifts", "title 'material'", "temperature log_b_material"},
         {"vertical_shifts", "title 'rubber elasticity'", "temperature log_b_physical"},
+        {"relaxation_spectrum", "filledcurves ls 61", "relaxation_time density_low density_high"},
+        {"relaxation_spectrum", "lines ls 11", "relaxation_time density"},
         {"van_gurp_palmen", "points ls 51", "storage_modulus loss_modulus temperature"},
         {"van_gurp_palmen", "title 'one spectrum'", "fitted_storage fitted_loss"},
         {"wicket", "points ls 51", "storage_modulus loss_modulus temperature"},

@@ -146,6 +146,47 @@
       LABEL("Noise of the storage modulus, relative"), OPTIONAL)                                   \
     X(PRONY_KEY_RMS_LOSS, "rms_loss", PLAIN, LABEL("Noise of the loss modulus, relative"), OPTIONAL)
 
+#define RELAXATION_SPECTRUM_COLUMNS(X)                                                             \
+    X(RELAXATION_SPECTRUM_RELAXATION_TIME, "relaxation_time", "relaxation time", SI(TIME))         \
+    X(RELAXATION_SPECTRUM_DENSITY, "density", "modulus for each unit of ln tau", SI(MODULUS),      \
+      INTERVAL(RELAXATION_SPECTRUM_LOW, RELAXATION_SPECTRUM_HIGH))                                 \
+    X(RELAXATION_SPECTRUM_LOW, "density_low", "lower end of its 95 % interval", SI(MODULUS))       \
+    X(RELAXATION_SPECTRUM_HIGH, "density_high", "upper end of its 95 % interval", SI(MODULUS))
+#define RELAXATION_SPECTRUM_KEYS(X)                                                                \
+    X(RELAXATION_SPECTRUM_KEY_REFERENCE_TEMPERATURE, "reference_temperature", SI(TEMPERATURE))     \
+    X(RELAXATION_SPECTRUM_KEY_DEFORMATION, "deformation", TEXT)
+
+/* What a program for finite elements is given: few terms in place of the spectrum. */
+#define PRONY_REDUCED_COLUMNS(X)                                                                   \
+    X(PRONY_REDUCED_RELAXATION_TIME, "relaxation_time", "relaxation time", SI(TIME),               \
+      LABEL("Relaxation time"))                                                                    \
+    X(PRONY_REDUCED_MODULUS, "modulus", "modulus of the term", SI(MODULUS), LABEL("Modulus"))      \
+    X(PRONY_REDUCED_SHARE, "share", "modulus of the term over the instantaneous one", NUMBER,      \
+      LABEL("Share"))
+
+#define PRONY_REDUCED_KEYS(X)                                                                      \
+    X(PRONY_REDUCED_KEY_EQUILIBRIUM_MODULUS, "equilibrium_modulus", SI(MODULUS),                   \
+      LABEL("Long-term modulus"))                                                                  \
+    X(PRONY_REDUCED_KEY_INSTANTANEOUS_MODULUS, "instantaneous_modulus", SI(MODULUS),               \
+      LABEL("Instantaneous modulus"))                                                              \
+    X(PRONY_REDUCED_KEY_DEVIATION_STORAGE, "deviation_storage", PLAIN,                             \
+      LABEL("Storage modulus off the spectrum by at most, relative"))                              \
+    X(PRONY_REDUCED_KEY_DEVIATION_LOSS, "deviation_loss", PLAIN,                                   \
+      LABEL("Loss modulus off the spectrum by at most, relative"))                                 \
+    X(PRONY_REDUCED_KEY_INTERVAL_STORAGE, "interval_storage", PLAIN,                               \
+      LABEL("Half of the 95 % interval of the storage modulus where it is widest, relative"))      \
+    X(PRONY_REDUCED_KEY_INTERVAL_LOSS, "interval_loss", PLAIN,                                     \
+      LABEL("Half of the 95 % interval of the loss modulus where it is widest, relative"))         \
+    X(PRONY_REDUCED_KEY_REFERENCE_TEMPERATURE, "reference_temperature", SI(TEMPERATURE))           \
+    X(PRONY_REDUCED_KEY_FREQUENCY_MIN, "frequency_min", SI(ANGULAR_FREQUENCY),                     \
+      LABEL("Lowest angular frequency it holds for"))                                              \
+    X(PRONY_REDUCED_KEY_FREQUENCY_MAX, "frequency_max", SI(ANGULAR_FREQUENCY),                     \
+      LABEL("Highest angular frequency it holds for"))                                             \
+    X(PRONY_REDUCED_KEY_DEFORMATION, "deformation", TEXT)                                          \
+    X(PRONY_REDUCED_KEY_ZENER, "fractional_zener", TEXT,                                           \
+      LABEL("Fractional Zener law through the same points"), OPTIONAL)                             \
+    X(PRONY_REDUCED_KEY_BETTER, "better", TEXT, LABEL("What describes the points better"), OPTIONAL)
+
 #define MATERIAL_DRAWS_COLUMNS(X)                                                                  \
     X(MATERIAL_DRAWS_DRAW, "draw", "number of the draw, from 1", NUMBER)                           \
     X(MATERIAL_DRAWS_TEMPERATURE, "temperature", "temperature of an isotherm", SI(TEMPERATURE),    \

@@ -64,6 +64,9 @@
     X(shift_factors, SHIFT_FACTORS, "shift_factors", "Shift factors", "master")                    \
     X(master_curve, MASTER_CURVE, "master_curve", "Master curve", "master")                        \
     X(prony, PRONY, "prony", "Prony series", "master")                                             \
+    X(relaxation_spectrum, RELAXATION_SPECTRUM, "relaxation_spectrum", "Relaxation spectrum",      \
+      "master")                                                                                    \
+    X(prony_reduced, PRONY_REDUCED, "prony_reduced", "Prony series with few terms", "master")      \
     X(material_draws, MATERIAL_DRAWS, "material_draws", "Draws of the material, law and vertical", \
       "master")                                                                                    \
     X(series_draws, SERIES_DRAWS, "series_draws", "Draws of the Prony series", "master")           \

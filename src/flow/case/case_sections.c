@@ -155,6 +155,8 @@ wt_status case_read_dma(wt_case *c, const xmlNode *section, wt_error *err)
                   *transverse = case_child(section, "transverse");
     wt_status status = case_read_params(c, section, wt_master_job_params(), &c->master, err);
     if (status == WT_OK)
+        status = case_read_params(c, section, wt_reduction_params(), &c->master.reduction, err);
+    if (status == WT_OK)
         status = case_read_params(c, section, wt_ramp_job_params(), &c->ramp, err);
     if (status == WT_OK)
         status = case_read_params(c, section, wt_rubber_options_params(), &c->rubber, err);

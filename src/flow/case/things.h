@@ -38,6 +38,8 @@
     X(SHIFT_FACTORS, "shift_factors", &shift_factors_schema, "")                                   \
     X(MASTER_CURVE, "master_curve", &master_curve_schema, "")                                      \
     X(PRONY, "prony", &prony_schema, "")                                                           \
+    X(RELAXATION_SPECTRUM, "relaxation_spectrum", &relaxation_spectrum_schema, "")                 \
+    X(PRONY_REDUCED, "prony_reduced", &prony_reduced_schema, "")                                   \
     X(MATERIAL_DRAWS, "material_draws", &material_draws_schema, "")                                \
     X(SERIES_DRAWS, "series_draws", &series_draws_schema, "")                                      \
     X(RAMP, "ramp", &ramp_schema, "")                                                              \
@@ -73,7 +75,8 @@ typedef uint64_t flow_things; /* bit i = thing i */
  * case names it. */
 #define FLOW_BY_NAME                                                                               \
     (FLOW_BIT(FLOW_ERROR_BUDGET) | FLOW_BIT(FLOW_COVERAGE) | FLOW_BIT(FLOW_RAMP) |                 \
-     FLOW_BIT(FLOW_GLASS_TRANSITION) | FLOW_BIT(FLOW_MODULI_AT))
+     FLOW_BIT(FLOW_GLASS_TRANSITION) | FLOW_BIT(FLOW_MODULI_AT) | FLOW_BIT(FLOW_PRONY_REDUCED) |   \
+     FLOW_BIT(FLOW_RELAXATION_SPECTRUM))
 
 typedef struct flow_thing_row {
     const char *words, *missing;

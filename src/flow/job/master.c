@@ -1,5 +1,6 @@
 /* The DMA job: sweeps to one spectrum with shift factors, their law, master curve and series.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/job/master.h"
 #include "flow/job/cost.h"
 #include "flow/job/inputs.h"
 #include "flow/job/ramp_windows.h"
@@ -13,7 +14,9 @@
 
 wt_master_job wt_master_job_defaults(void)
 {
-    return (wt_master_job){.fit = wt_master_options_defaults(), .poisson_ratio = 0.5};
+    return (wt_master_job){.fit = wt_master_options_defaults(),
+                           .poisson_ratio = 0.5,
+                           .reduction = wt_reduction_defaults()};
 }
 
 static wt_status check_law(const void *member, wt_error *err)
@@ -53,6 +56,8 @@ void wt_master_tables_clear(wt_master_tables *tables)
     wt_table_free(tables->shift_factors);
     wt_table_free(tables->master_curve);
     wt_table_free(tables->prony);
+    wt_table_free(tables->prony_reduced);
+    wt_table_free(tables->relaxation_spectrum);
     wt_table_free(tables->material_draws);
     wt_table_free(tables->series_draws);
     *tables = (wt_master_tables){0};
@@ -69,11 +74,6 @@ static const char *shifted_by_name(wt_shift_by by)
     static const char *const names[] = {"both moduli", "storage modulus alone",
                                         "loss modulus alone", "loss factor alone"};
     return names[by];
-}
-
-static const char *deformation_name(wt_deformation deformation)
-{
-    return deformation == WT_SHEAR ? "shear" : "tension";
 }
 
 /* ---- tables ---------------------------------------------------------------------------------- */
@@ -163,7 +163,8 @@ static wt_status shift_table(const wt_master *m, wt_table **table, wt_error *err
     if (wt_master_shifted_by(m) != WT_BY_MODULI)
         shift_factors_set_text(&t, SHIFT_FACTORS_KEY_SHIFTED_BY,
                                shifted_by_name(wt_master_shifted_by(m)));
-    shift_factors_set_text(&t, SHIFT_FACTORS_KEY_DEFORMATION, deformation_name(m->deformation));
+    shift_factors_set_text(&t, SHIFT_FACTORS_KEY_DEFORMATION,
+                           flow_deformation_name(m->deformation));
     set_verdict(&t, m);
     return table_end(&t, table);
 }
@@ -209,7 +210,7 @@ static wt_status master_table(const wt_master *m, wt_table **table, wt_error *er
     master_curve_set_print(&t, MASTER_CURVE_KEY_NOISE_CORRELATION, "%.6g", m->correlation);
     master_curve_set_value(&t, MASTER_CURVE_KEY_REFERENCE_TEMPERATURE, m->reference_temperature, 0,
                            0);
-    master_curve_set_text(&t, MASTER_CURVE_KEY_DEFORMATION, deformation_name(m->deformation));
+    master_curve_set_text(&t, MASTER_CURVE_KEY_DEFORMATION, flow_deformation_name(m->deformation));
     return table_end(&t, table);
 }
 
@@ -229,7 +230,7 @@ static wt_status prony_table(const wt_master *m, wt_table **table, wt_error *err
     prony_set_value(&t, PRONY_KEY_REFERENCE_TEMPERATURE, p->reference_temperature, 0, 0);
     prony_set_value(&t, PRONY_KEY_FREQUENCY_MIN, p->frequency_min, 0, 0);
     prony_set_value(&t, PRONY_KEY_FREQUENCY_MAX, p->frequency_max, 0, 0);
-    prony_set_text(&t, PRONY_KEY_DEFORMATION, deformation_name(p->deformation));
+    prony_set_text(&t, PRONY_KEY_DEFORMATION, flow_deformation_name(p->deformation));
     prony_set_print(&t, PRONY_KEY_RMS_STORAGE, "%.6g", m->noise_storage);
     prony_set_print(&t, PRONY_KEY_RMS_LOSS, "%.6g", m->noise_loss);
     return table_end(&t, table);
@@ -485,6 +486,10 @@ wt_status wt_master_make(const wt_master_job *job, const wt_job *work, wt_master
         status = make_tables(&master, work, &t, err);
     if (status == WT_OK)
         status = master_table(&master, &t.master_curve, err);
+    if (status == WT_OK && tells_level(&master) && (work->left_out & WT_EXTRA_SPECTRUM) == 0)
+        status = flow_spectrum_table(&master, &t.relaxation_spectrum, err);
+    if (status == WT_OK && tells_level(&master) && (work->left_out & WT_EXTRA_REDUCED) == 0)
+        status = flow_reduced_table(&master, job, work, &t.prony_reduced, err);
     if (status == WT_OK && rubber != NULL && !tells_level(&master))
         status = no_level(&master, err);
     if (status == WT_OK && rubber != NULL) {

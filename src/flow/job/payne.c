@@ -2,6 +2,7 @@
  * temperature. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/job/cost.h"
 #include "flow/job/inputs.h"
+#include "flow/job/master.h"
 
 #include "base/pool.h"
 #include "data/tables/tables.h"
@@ -113,7 +114,7 @@ static void put_numbers(table_writer *t, const wt_strain_sweep *s, size_t n, con
 static wt_status make_tables(const wt_job *work, const wt_sweep *sweep, wt_payne_tables *t,
                              wt_error *err)
 {
-    const char *deformation = sweep->deformation == WT_SHEAR ? "shear" : "tension";
+    const char *deformation = flow_deformation_name(sweep->deformation);
     table_writer points = table_begin(&payne_sweep_schema, err),
                  numbers = table_begin(&payne_schema, err);
     wt_status status = WT_OK;

@@ -2,6 +2,7 @@
  * at each frequency, moduli at temperatures. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/job/cost.h"
 #include "flow/job/inputs.h"
+#include "flow/job/master.h"
 
 #include "base/array.h"
 #include "base/pool.h"
@@ -320,7 +321,7 @@ static wt_status put_all(const wt_ramp_job *job, const wt_job *work, const wt_sw
 static wt_status make_tables(const wt_ramp_job *job, const wt_job *work, const wt_sweep *sweep,
                              wt_ramp_tables *t, wt_error *err)
 {
-    const char *deformation = sweep->deformation == WT_SHEAR ? "shear" : "tension";
+    const char *deformation = flow_deformation_name(sweep->deformation);
     writers w = {table_begin(&ramp_schema, err), table_begin(&glass_transition_schema, err),
                  table_begin(&moduli_at_schema, err)};
     wt_status status = put_all(job, work, sweep, &w, err);

@@ -11,8 +11,8 @@
 #define STAGES(X)                                                                                  \
     X(MASTER_CURVE, master_curve, "Shift factors, WLF law, master curve, Prony series",            \
       B(DMA_FILES),                                                                                \
-      B(SHIFT_FACTORS) | B(MASTER_CURVE) | B(PRONY) | B(MATERIAL_DRAWS) | B(SERIES_DRAWS) |        \
-          B(RUBBER),                                                                               \
+      B(SHIFT_FACTORS) | B(MASTER_CURVE) | B(PRONY) | B(RELAXATION_SPECTRUM) | B(PRONY_REDUCED) |  \
+          B(MATERIAL_DRAWS) | B(SERIES_DRAWS) | B(RUBBER),                                         \
       flow_step_master)                                                                            \
     X(RAMP, ramp, "Glass transition and moduli against temperature", B(DMA_FILES),                 \
       B(RAMP) | B(GLASS_TRANSITION) | B(MODULI_AT), flow_step_ramp)                                \

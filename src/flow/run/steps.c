@@ -275,6 +275,8 @@ wt_status flow_step_master(flow_run *run, wt_error *err)
     keep(run, FLOW_SHIFT_FACTORS, &tables.shift_factors);
     keep(run, FLOW_MASTER_CURVE, &tables.master_curve);
     keep(run, FLOW_PRONY, &tables.prony);
+    keep(run, FLOW_PRONY_REDUCED, &tables.prony_reduced);
+    keep(run, FLOW_RELAXATION_SPECTRUM, &tables.relaxation_spectrum);
     keep(run, FLOW_MATERIAL_DRAWS, &tables.material_draws);
     keep(run, FLOW_SERIES_DRAWS, &tables.series_draws);
     return status;

@@ -1,0 +1,630 @@
+/* The material for finite elements: each file is read here by the rules of its program's manual and
+ * loaded at once in tension by an integration of its own; the relaxation must be that of the table
+ * it was made from, at the reference and, by the shift of that program, at other temperatures. */
+#include "near.h"
+
+#include "weartrack/flow.h"
+
+#include <ctype.h>
+#include <locale.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST = 200, FIELDS = 16 };
+
+/* What a program would know, in its own units. */
+typedef struct solid {
+    size_t n, n_levels;
+    double g[MOST], k[MOST], tau[MOST];
+    double level[MOST], shear[MOST], bulk[MOST]; /* instantaneous; bulk infinite */
+    bool shifts;
+    double t0, c1, c2, sign; /* log10 of what multiplies time is sign C1 (T - T0)/(C2 + T - T0) */
+} solid;
+
+/* ---- the programs ---------------------------------------------------------------------------- */
+
+static void of_young(double young, double nu, double *shear, double *bulk)
+{
+    *shear = young / (2 + 2 * nu);
+    *bulk = young / (3 - 6 * nu);
+}
+
+/* Fields parted by commas, blanks around them dropped, in upper case. */
+static size_t split(char *line, char *field[FIELDS])
+{
+    size_t n = 0;
+    for (char *p = line; n < FIELDS; p++) {
+        field[n] = p + strspn(p, " \t");
+        p += strcspn(p, ",");
+        const char end = *p;
+        *p = '\0';
+        for (char *c = field[n] + strlen(field[n]); c > field[n] && isspace((unsigned char)c[-1]);)
+            *--c = '\0';
+        for (char *c = field[n]; *c != '\0'; c++)
+            *c = (char)toupper((unsigned char)*c);
+        n++;
+        if (end == '\0')
+            return n;
+    }
+    fail_msg("too many fields");
+    return n;
+}
+
+static double number(const char *text)
+{
+    char *end;
+    const double x = strtod(text, &end);
+    if (end == text || *end != '\0')
+        fail_msg("\"%s\" is no number", text);
+    return x;
+}
+
+/* Keyword lines begin with one star, comments with two; data lines follow their keyword. */
+static void read_abaqus(char *text, solid *s)
+{
+    enum { NOTHING, ELASTIC, NEO, PRONY, TRS } in = NOTHING;
+    bool named = false;
+    s->sign = 1;
+    for (char *line = strtok(text, "\n"); line != NULL; line = strtok(NULL, "\n")) {
+        char *field[FIELDS];
+        if (strncmp(line, "**", 2) == 0)
+            continue;
+        assert_true(strlen(line) <= 256);
+        const size_t n = split(line, field);
+        if (field[0][0] == '*') {
+            if (strcmp(field[0], "*MATERIAL") == 0) {
+                named = n == 2 && strncmp(field[1], "NAME=", 5) == 0;
+                in = NOTHING;
+            } else if (strcmp(field[0], "*ELASTIC") == 0) {
+                assert_string_equal(field[1], "MODULI=INSTANTANEOUS");
+                in = ELASTIC;
+            } else if (strcmp(field[0], "*HYPERELASTIC") == 0) {
+                assert_int_equal(n, 3);
+                assert_string_equal(field[1], "NEO HOOKE");
+                assert_string_equal(field[2], "MODULI=INSTANTANEOUS");
+                in = NEO;
+            } else if (strcmp(field[0], "*VISCOELASTIC") == 0) {
+                assert_string_equal(field[1], "TIME=PRONY");
+                in = PRONY;
+            } else if (strcmp(field[0], "*TRS") == 0) {
+                assert_string_equal(field[1], "DEFINITION=WLF");
+                in = TRS;
+            } else {
+                fail_msg("keyword %s", field[0]);
+            }
+            continue;
+        }
+        assert_true(named && n >= 2 && n <= 3);
+        const double a = number(field[0]), b = number(field[1]);
+        if (in == ELASTIC || in == NEO) {
+            s->level[s->n_levels] = n == 3 ? number(field[2]) : 0;
+            if (in == ELASTIC) {
+                assert_true(b < 0.5);
+                of_young(a, b, &s->shear[s->n_levels], &s->bulk[s->n_levels]);
+            } else {
+                assert_true(b == 0); /* D1: incompressible */
+                s->shear[s->n_levels] = 2 * a;
+                s->bulk[s->n_levels] = (double)INFINITY;
+            }
+            s->n_levels++;
+        } else if (in == PRONY) {
+            assert_int_equal(n, 3);
+            s->g[s->n] = a;
+            s->k[s->n] = b;
+            s->tau[s->n++] = number(field[2]);
+        } else {
+            assert_true(in == TRS && n == 3);
+            /* log A = -C1 (T - T0)/(C2 + T - T0), and reduced time is time over A */
+            s->t0 = a;
+            s->c1 = b;
+            s->c2 = number(field[2]);
+            s->shifts = true;
+        }
+    }
+}
+
+/* A comment goes from ! to the end of the line; TB begins a table, TBDATA fills it from a place on,
+ * TBTEMP begins the next temperature of it. */
+static void read_ansys(char *text, solid *s)
+{
+    enum { NOTHING, HYPER, SHEAR, BULK, SHIFT } in = NOTHING;
+    double ratio = (double)NAN, constant[3] = {0, 0, 0};
+    size_t last[2] = {0, 0};
+    s->sign = 1;
+    for (char *line = strtok(text, "\n"); line != NULL; line = strtok(NULL, "\n")) {
+        char *field[FIELDS];
+        line[strcspn(line, "!")] = '\0';
+        assert_true(strlen(line) < 640);
+        const size_t n = split(line, field);
+        if (n == 1 && (field[0][0] == '\0' || strcmp(field[0], "MPTEMP") == 0))
+            continue;
+        if (n == 1 && strcmp(field[0], "RUBBER=1") == 0)
+            continue;
+        if (strcmp(field[0], "MP") == 0 && strcmp(field[1], "EX") == 0) {
+            assert_string_equal(field[2], "RUBBER");
+            s->shear[s->n_levels++] = number(field[3]); /* Young's, until the ratio is known */
+        } else if (strcmp(field[0], "MP") == 0) {
+            assert_string_equal(field[1], "PRXY");
+            ratio = number(field[3]);
+        } else if (strcmp(field[0], "MPTEMP") == 0) {
+            assert_true(n <= 8);
+            for (size_t i = 2; i < n; i++)
+                s->level[(size_t)number(field[1]) + i - 3] = number(field[i]);
+        } else if (strcmp(field[0], "MPDATA") == 0) {
+            assert_true(n <= 10 && strcmp(field[1], "EX") == 0);
+            for (size_t i = 4; i < n; i++) {
+                s->shear[(size_t)number(field[3]) + i - 5] = number(field[i]);
+                s->n_levels++;
+            }
+        } else if (strcmp(field[0], "TB") == 0) {
+            const char *option = n > 5 ? field[5] : "";
+            assert_string_equal(field[2], "RUBBER");
+            in = strcmp(field[1], "HYPER") == 0 && strcmp(option, "NEO") == 0     ? HYPER
+                 : strcmp(field[1], "PRONY") == 0 && strcmp(option, "SHEAR") == 0 ? SHEAR
+                 : strcmp(field[1], "PRONY") == 0 && strcmp(option, "BULK") == 0  ? BULK
+                 : strcmp(field[1], "SHIFT") == 0 && strcmp(option, "WLF") == 0   ? SHIFT
+                                                                                  : NOTHING;
+            assert_true(in != NOTHING);
+            if (in == SHEAR)
+                s->n = (size_t)number(field[4]);
+            assert_true(in != BULK || s->n == (size_t)number(field[4]));
+        } else if (strcmp(field[0], "TBTEMP") == 0) {
+            assert_true(in == HYPER);
+            s->level[s->n_levels] = number(field[1]);
+        } else {
+            assert_string_equal(field[0], "TBDATA");
+            assert_true(n <= 8); /* six constants */
+            const size_t from = (size_t)number(field[1]);
+            for (size_t i = 2; i < n; i++) {
+                const size_t at = from + i - 3; /* from 0 */
+                const double x = number(field[i]);
+                if (in == SHEAR || in == BULK) {
+                    if (at % 2 == 0)
+                        (in == SHEAR ? s->g : s->k)[at / 2] = x;
+                    else if (in == SHEAR)
+                        s->tau[at / 2] = x;
+                    else
+                        assert_true(x == s->tau[at / 2]);
+                    last[in - SHEAR] = at + 1;
+                } else {
+                    assert_true(at < 3);
+                    constant[at] = x;
+                }
+            }
+            if (in == HYPER) {
+                assert_true(constant[1] == 0); /* d: incompressible */
+                s->shear[s->n_levels] = constant[0];
+                s->bulk[s->n_levels++] = (double)INFINITY;
+            } else if (in == SHIFT) {
+                /* log10 A = C1 (T - Tr)/(C2 + T - Tr), and reduced time is A times time */
+                s->t0 = constant[0];
+                s->c1 = constant[1];
+                s->c2 = constant[2];
+                s->shifts = true;
+            }
+        }
+    }
+    assert_int_equal(last[0], 2 * s->n);
+    assert_true(isnan(ratio) || last[1] == 2 * s->n);
+    for (size_t i = 0; !isnan(ratio) && i < s->n_levels; i++)
+        of_young(s->shear[i], ratio, &s->shear[i], &s->bulk[i]);
+}
+
+/* DEFI_MATERIAU gives the numbers of a behaviour in the order in which its source declares them as
+ * @MaterialProperty; what they do there is the Maxwell model. */
+static void read_code_aster(char *text, solid *s)
+{
+    double value[8 * MOST], *of[16];
+    char name[16][32];
+    size_t n = 0, n_names = 0, used = 0, counts[16];
+    char *list = strstr(text, "LISTE_COEF=(");
+    assert_non_null(list);
+    assert_non_null(
+        strstr(text, "CREA_LIB_MFRONT(NOM_COMPOR=\"WeartrackMaxwell\", UNITE_MFRONT=38)"));
+    assert_non_null(strstr(text, "@Behaviour WeartrackMaxwell;"));
+    for (char *p = list + strlen("LISTE_COEF=("), *end; n < 8 * MOST;
+         p = end + strspn(end, ", \n")) {
+        value[n] = strtod(p, &end);
+        if (end == p) {
+            assert_true(p[strspn(p, " \n")] == ')');
+            break;
+        }
+        n++;
+    }
+    for (char *p = text; (p = strstr(p, "@MaterialProperty ")) != NULL; p++) {
+        int count = 1;
+        assert_true(sscanf(p, "@MaterialProperty %*s %31[A-Za-z0-9][%d]", name[n_names], &count) >=
+                    1);
+        of[n_names] = value + used;
+        counts[n_names++] = (size_t)count;
+        used += (size_t)count;
+    }
+    assert_int_equal(used, n);
+    static const char *const known[] = {"Nu", "El", "Ei", "Tau", "T0", "C1", "C2", "Tb", "Lb"};
+    assert_int_equal(n_names, 9);
+    for (size_t i = 0; i < 9; i++)
+        assert_string_equal(name[i], known[i]);
+    assert_int_equal(counts[2], counts[3]);
+    assert_int_equal(counts[7], counts[8]);
+    double young = *of[1];
+    s->n = counts[2];
+    for (size_t i = 0; i < s->n; i++)
+        young += of[2][i];
+    for (size_t i = 0; i < s->n; i++) {
+        s->g[i] = s->k[i] = of[2][i] / young;
+        s->tau[i] = of[3][i];
+    }
+    s->n_levels = counts[7];
+    for (size_t i = 0; i < s->n_levels; i++) {
+        s->level[i] = of[7][i];
+        of_young(young * pow(10, of[8][i]), *of[0], &s->shear[i], &s->bulk[i]);
+    }
+    double elastic[2]; /* for what Code_Aster predicts with */
+    assert_int_equal(
+        sscanf(strstr(text, "ELAS=_F("), "ELAS=_F(E=%lf, NU=%lf)", &elastic[0], &elastic[1]), 2);
+    assert_near(elastic[0], young, 1e-10);
+    assert_near(elastic[1], *of[0], 0);
+    s->sign = 1;
+    s->shifts = *of[5] != 0;
+    s->t0 = *of[4];
+    s->c1 = *of[5];
+    s->c2 = *of[6];
+}
+
+static void read_table(char *text, solid *s)
+{
+    double young = (double)NAN, nu = (double)NAN, factor;
+    bool rows = false;
+    s->sign = 1;
+    for (char *line = strtok(text, "\n"); line != NULL; line = strtok(NULL, "\n")) {
+        if (rows) {
+            double e, shear, bulk;
+            assert_int_equal(sscanf(line, "%lf\t%lf\t%lf\t%lf\t%lf\t%lf", &s->tau[s->n],
+                                    &s->g[s->n], &s->k[s->n], &e, &shear, &bulk),
+                             6);
+            assert_near(e, young * s->g[s->n], 1e-10);
+            assert_near(shear, e / (2 + 2 * nu), 1e-10);
+            assert_near(bulk, nu < 0.5 ? e / (3 - 6 * nu) : 0, 1e-10);
+            s->n++;
+        } else if (line[0] != '#') {
+            assert_string_equal(
+                line, "relaxation_time\tg\tk\tyoungs_modulus\tshear_modulus\tbulk_modulus");
+            rows = true;
+        }
+        (void)sscanf(line, "# poisson_ratio %lf", &nu);
+        (void)sscanf(line, "# instantaneous_modulus %lf", &young);
+        (void)sscanf(line, "# reference_temperature %lf", &s->t0);
+        s->shifts += sscanf(line, "# wlf_c1 %lf", &s->c1);
+        (void)sscanf(line, "# wlf_c2 %lf", &s->c2);
+        if (sscanf(line, "# factor of the moduli at %lf: %lf", &s->level[s->n_levels], &factor) ==
+            2)
+            of_young(young * factor, nu, &s->shear[s->n_levels], &s->bulk[s->n_levels]),
+                s->n_levels++;
+    }
+    if (s->n_levels == 0) {
+        of_young(young, nu, &s->shear[0], &s->bulk[0]);
+        s->n_levels = 1;
+    }
+}
+
+static void (*const readers[])(char *, solid *) = {read_abaqus, read_ansys, read_code_aster,
+                                                   read_table};
+
+/* ---- a bar that is stretched at once --------------------------------------------------------- */
+
+static double at_level(const solid *s, const double *value, double t)
+{
+    size_t i = 1;
+    if (s->n_levels == 1 || t <= s->level[0])
+        return value[0];
+    while (i < s->n_levels - 1 && s->level[i] < t)
+        i++;
+    if (t >= s->level[i])
+        return value[i];
+    return value[i - 1] +
+           (value[i] - value[i - 1]) * (t - s->level[i - 1]) / (s->level[i] - s->level[i - 1]);
+}
+
+/* Stress over strain after `time` at the temperature t, in steps; the sides are free. */
+static double relaxed(const solid *s, double t, double time)
+{
+    enum { STEPS = 25 };
+    const double shear = at_level(s, s->shear, t), bulk = at_level(s, s->bulk, t);
+    const double speed =
+        s->shifts ? pow(10, s->sign * s->c1 * (t - s->t0) / (s->c2 + t - s->t0)) : 1;
+    double q[MOST] = {0}, v[MOST] = {0}, rest_g = 1, rest_k = 1, e = 0, volume = 0, at = 0;
+    double stress = (double)NAN;
+    for (size_t i = 0; i < s->n; i++) {
+        rest_g -= s->g[i];
+        rest_k -= s->k[i];
+    }
+    for (int step = 0; step <= STEPS; step++) {
+        /* the jump, then steps that grow */
+        const double next =
+            step == 0 ? 0 : time * speed * pow(10, -12.0 * (1 - step / (double)STEPS));
+        const double h = next - at;
+        double old_d = 0, old_p = 0, by_d = rest_g, by_p = rest_k;
+        for (size_t i = 0; i < s->n; i++) {
+            const double x = h / s->tau[i], w = x > 1e-9 ? -expm1(-x) / x : 1;
+            q[i] *= exp(-x);
+            v[i] *= exp(-x);
+            old_d += s->g[i] * q[i];
+            old_p += s->k[i] * v[i];
+            by_d += s->g[i] * w;
+            by_p += s->k[i] * w;
+        }
+        old_d += rest_g * e;
+        old_p += rest_k * volume;
+        /* strain 1 along, y across: deviator 2/3 (1 - y), volume 1 + 2 y; no stress across */
+        double y = -0.5;
+        if (isfinite(bulk)) {
+            const double d0 = 2 * shear * (old_d + by_d * (2.0 / 3 - e)),
+                         d1 = -2 * shear * by_d * 2.0 / 3,
+                         p0 = bulk * (old_p + by_p * (1 - volume)), p1 = 2 * bulk * by_p;
+            y = (d0 / 2 - p0) / (p1 - d1 / 2);
+        }
+        const double new_e = 2.0 / 3 * (1 - y), new_volume = 1 + 2 * y;
+        const double d = 2 * shear * (old_d + by_d * (new_e - e));
+        for (size_t i = 0; i < s->n; i++) {
+            const double x = h / s->tau[i], w = x > 1e-9 ? -expm1(-x) / x : 1;
+            q[i] += w * (new_e - e);
+            v[i] += w * (new_volume - volume);
+        }
+        e = new_e;
+        volume = new_volume;
+        at = next;
+        stress = 1.5 * d; /* and the pressure that keeps the sides free */
+    }
+    return stress;
+}
+
+/* ---- what it was made from ------------------------------------------------------------------- */
+
+static wt_master_tables tables;
+
+static int make(void **state)
+{
+    (void)state;
+    static const char *const files[] = {WT_SOURCE_DIR "/fixtures/case/dma.txt"};
+    const wt_file_set set = {.patterns = files, .n_patterns = 1, .read = wt_read_defaults()};
+    wt_master_job job = wt_master_job_defaults();
+    wt_job work = wt_job_defaults();
+    wt_formats *formats = NULL;
+    assert_int_equal(wt_formats_new(NULL, &formats, NULL, NULL), WT_OK);
+    work.formats = formats;
+    job.sets = &set;
+    job.n_sets = 1;
+    assert_int_equal(wt_master_make(&job, &work, &tables, NULL, NULL), WT_OK);
+    wt_formats_free(formats);
+    return 0;
+}
+
+static int clear(void **state)
+{
+    (void)state;
+    wt_master_tables_clear(&tables);
+    return 0;
+}
+
+static double key(const wt_table *table, const char *name)
+{
+    wt_estimate e;
+    assert_true(wt_table_estimate(table, name, &e));
+    return e.value;
+}
+
+static double cell(const wt_table *table, size_t row, const char *name)
+{
+    const long column = wt_table_find(table, name);
+    assert_true(column >= 0);
+    return wt_table_number(table, row, (size_t)column);
+}
+
+/* E(t) of the library at an isotherm, or at the reference (row of no isotherm). */
+static double known(const wt_shift_law *law, size_t row, double to_young, double time)
+{
+    const wt_table *p = tables.prony_reduced, *shifts = tables.shift_factors;
+    const bool reference = row >= wt_table_n_rows(shifts);
+    const double log_a = reference ? 0 : wt_shift_law_log_a(law, cell(shifts, row, "temperature"));
+    const double b = reference ? 1 : pow(10, cell(shifts, row, "log_b_material"));
+    double sum = key(p, "equilibrium_modulus");
+    for (size_t i = 0; i < wt_table_n_rows(p); i++)
+        sum +=
+            cell(p, i, "modulus") * exp(-time / (cell(p, i, "relaxation_time") * pow(10, log_a)));
+    return to_young * sum / b;
+}
+
+static void write(wt_solid_program program, const wt_solid_options *o, char **text)
+{
+    size_t n;
+    wt_error err = WT_ERROR_INIT;
+    FILE *out = open_memstream(text, &n);
+    if (wt_solid_write(out, program, tables.prony_reduced, tables.shift_factors, o, &err) != WT_OK)
+        fail_msg("%s %s", err.message, err.found);
+    assert_int_equal(fclose(out), 0);
+}
+
+/* Every isotherm and times from the fastest to the slowest measured ones. */
+static void check(wt_solid_program program, const wt_solid_options *o, const wt_shift_law *law)
+{
+    static const double stress[] = {1, 1e6, 1e9}, second[] = {1, 1, 1e3};
+    const double zero = o->temperature == WT_SOLID_CELSIUS ? WT_ZERO_CELSIUS : 0;
+    const wt_table *p = tables.prony_reduced;
+    const bool shear = strcmp(wt_table_key(p, "deformation"), "shear") == 0;
+    const double to_young = shear ? 2 * (1 + o->poisson_ratio) : 1;
+    const size_t isotherms = wt_table_n_rows(tables.shift_factors);
+    solid s = {0};
+    char *text = NULL;
+    write(program, o, &text);
+    readers[program](text, &s);
+    free(text);
+    assert_int_equal(s.n, wt_table_n_rows(p));
+    assert_int_equal(s.shifts, law->kind != WT_LAW_NONE);
+    size_t tried = 0;
+    for (size_t row = 0; row <= isotherms; row++) {
+        if (law->kind == WT_LAW_NONE && row < isotherms)
+            continue;
+        const double t = row < isotherms ? cell(tables.shift_factors, row, "temperature")
+                                         : key(p, "reference_temperature");
+        const double a = row < isotherms ? pow(10, wt_shift_law_log_a(law, t)) : 1;
+        for (int i = -2; i <= 12; i++) {
+            const double time = a / key(p, "frequency_max") *
+                                pow(key(p, "frequency_max") / key(p, "frequency_min"), i / 10.0);
+            const double is = relaxed(&s, t - zero, time * second[o->units]) * stress[o->units];
+            assert_near(is, known(law, row, to_young, time), 1e-6);
+            tried++;
+        }
+    }
+    assert_true(tried >= 15);
+}
+
+static wt_shift_law fitted_law(void)
+{
+    assert_string_equal(wt_table_key(tables.shift_factors, "law"), "WLF");
+    return (wt_shift_law){.kind = WT_LAW_WLF,
+                          .wlf = {key(tables.prony_reduced, "reference_temperature"),
+                                  key(tables.shift_factors, "wlf_c1"),
+                                  key(tables.shift_factors, "wlf_c2")}};
+}
+
+static void check_all(const wt_shift_law *law)
+{
+    for (int program = WT_SOLID_ABAQUS; program <= WT_SOLID_TABLE; program++)
+        for (int units = 0; units < 3; units++)
+            for (int kelvin = 0; kelvin < 2; kelvin++)
+                for (int i = 0; i < 2; i++) {
+                    wt_solid_options o = wt_solid_options_defaults();
+                    o.units = (wt_solid_units)units;
+                    o.temperature = (wt_solid_temperature)kelvin;
+                    o.poisson_ratio = i == 0 ? 0.45 : 0.5;
+                    if (program != WT_SOLID_CODE_ASTER || i == 0)
+                        check((wt_solid_program)program, &o, law);
+                }
+}
+
+/* ---- tests ----------------------------------------------------------------------------------- */
+
+static void relaxation_is_that_of_the_fit(void **state)
+{
+    (void)state;
+    const wt_shift_law law = fitted_law();
+    check_all(&law);
+}
+
+static void of_shear(void **state)
+{
+    (void)state;
+    const wt_shift_law law = fitted_law();
+    assert_int_equal(wt_table_set_key(tables.prony_reduced, "deformation", "shear", NULL), WT_OK);
+    check_all(&law);
+    assert_int_equal(wt_table_set_key(tables.prony_reduced, "deformation", "tension", NULL), WT_OK);
+}
+
+static void in_another_locale(void **state)
+{
+    (void)state;
+    const wt_shift_law law = fitted_law();
+    const wt_solid_options o = wt_solid_options_defaults();
+    char *text = NULL, *same = NULL;
+    write(WT_SOLID_ABAQUS, &o, &text);
+    if (setlocale(LC_NUMERIC, "de_DE.UTF-8") == NULL)
+        (void)setlocale(LC_NUMERIC, "fr_FR.UTF-8");
+    write(WT_SOLID_ABAQUS, &o, &same);
+    (void)setlocale(LC_NUMERIC, "C");
+    assert_string_equal(text, same);
+    free(text);
+    free(same);
+    (void)law;
+}
+
+/* Arrhenius through the same cards; without a law none. */
+static void other_laws(void **state)
+{
+    (void)state;
+    const wt_shift_law arrhenius = {
+        .kind = WT_LAW_ARRHENIUS,
+        .wlf = {.reference_temperature = key(tables.prony_reduced, "reference_temperature")},
+        .activation_energy = 120e3};
+    const wt_estimate energy = {120e3, 0, 0, "J/mol"};
+    wt_table *shifts = tables.shift_factors;
+    assert_int_equal(wt_table_set_key(shifts, "law", "Arrhenius", NULL), WT_OK);
+    assert_int_equal(wt_table_set_estimate(shifts, "activation_energy", energy, NULL), WT_OK);
+    check_all(&arrhenius);
+    assert_int_equal(wt_table_set_key(shifts, "law", "none: flat", NULL), WT_OK);
+    check_all(&(wt_shift_law){.kind = WT_LAW_NONE});
+    assert_int_equal(wt_table_set_key(shifts, "law", "WLF", NULL), WT_OK);
+}
+
+/* Of a law of two parts the card is that at the reference, and the file says so. */
+static void a_joined_law(void **state)
+{
+    (void)state;
+    wt_table *shifts = tables.shift_factors;
+    const double reference = key(tables.prony_reduced, "reference_temperature");
+    const wt_solid_options o = {.temperature = WT_SOLID_KELVIN, .poisson_ratio = 0.5};
+    wt_estimate joint = {reference - 12.5, 0, 0, "K"};
+    char *text = NULL, words[64];
+    solid s = {0};
+    assert_int_equal(wt_table_set_key(shifts, "law", "joined", NULL), WT_OK);
+    assert_int_equal(wt_table_set_estimate(shifts, "joint", joint, NULL), WT_OK);
+    write(WT_SOLID_ABAQUS, &o, &text);
+    snprintf(words, sizeof words, "Only above %.6g:", joint.value);
+    assert_non_null(strstr(text, words));
+    read_abaqus(text, &s);
+    assert_near(s.c1, key(shifts, "wlf_c1"), 1e-10);
+    free(text);
+    joint.value = reference + 12.5;
+    s = (solid){0};
+    assert_int_equal(wt_table_set_estimate(shifts, "joint", joint, NULL), WT_OK);
+    write(WT_SOLID_ABAQUS, &o, &text);
+    snprintf(words, sizeof words, "Only below %.6g:", joint.value);
+    assert_non_null(strstr(text, words));
+    read_abaqus(text, &s);
+    assert_near(s.c1, 120e3 / (8.31446261815324 * log(10) * reference), 1e-10);
+    assert_near(s.c2, reference, 1e-10);
+    free(text);
+    assert_int_equal(wt_table_set_key(shifts, "law", "WLF", NULL), WT_OK);
+}
+
+static void refused(void **state)
+{
+    (void)state;
+    wt_solid_options o = wt_solid_options_defaults();
+    wt_solid_program program;
+    wt_error err = WT_ERROR_INIT;
+    FILE *out = fopen("/dev/null", "w");
+    assert_int_equal(wt_solid_write(out, WT_SOLID_CODE_ASTER, tables.prony_reduced,
+                                    tables.shift_factors, &o, &err),
+                     WT_E_RANGE);
+    assert_string_equal(err.place, "poisson-ratio");
+    o.poisson_ratio = 0.6;
+    assert_int_equal(wt_solid_write(out, WT_SOLID_ABAQUS, tables.prony_reduced, NULL, &o, NULL),
+                     WT_E_RANGE);
+    assert_int_equal(wt_solid_write(out, WT_SOLID_ABAQUS, NULL, NULL, NULL, NULL), WT_E_MISSING);
+    assert_int_equal(wt_solid_write(NULL, WT_SOLID_ABAQUS, tables.prony_reduced, NULL, NULL, NULL),
+                     WT_E_ARG);
+    fclose(out);
+    out = fopen("/dev/full", "w");
+    assert_int_equal(setvbuf(out, NULL, _IONBF, 0), 0);
+    assert_int_equal(wt_solid_write(out, WT_SOLID_ABAQUS, tables.prony_reduced,
+                                    tables.shift_factors, NULL, NULL),
+                     WT_E_IO);
+    fclose(out);
+    assert_true(wt_solid_program_find("ansys:x", 5, &program));
+    assert_int_equal(program, WT_SOLID_ANSYS);
+    assert_false(wt_solid_program_find("ansys", 4, &program));
+    assert_false(wt_solid_program_find("nastran", 7, &program));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(relaxation_is_that_of_the_fit),
+        cmocka_unit_test(of_shear),
+        cmocka_unit_test(in_another_locale),
+        cmocka_unit_test(other_laws),
+        cmocka_unit_test(a_joined_law),
+        cmocka_unit_test(refused),
+    };
+    return cmocka_run_group_tests(tests, make, clear);
+}
