@@ -108,22 +108,19 @@ int cmd_master(int argc, char **argv)
     wt_master_job job = wt_master_job_defaults();
     wt_file_set set = {.read = wt_read_defaults()};
     saved_shifts saved = {NULL, NULL};
+    exported own = export_defaults();
     cmd_part parts[] = {
         {wt_master_job_params(), &job,
          "reference-temperature reference-at vertical-shift expansion terms-per-decade liquid "
          "shift-by leave-out shift-law",
          0},
         {saved_params(), &saved, NULL, 0},
+        {exported_params(), &own, NULL, 0},
         {wt_read_params(), &set.read, "temperature units format sheet deformation", 0}};
     cmd_session s = cmd_session_defaults();
     wt_master_tables tables = {0};
     wt_result *given = NULL;
-    exported own = export_defaults();
-    cmd_part all[COUNT_OF(parts) + 1];
-    memcpy(all, parts, sizeof parts);
-    all[COUNT_OF(parts)] = parts[COUNT_OF(parts) - 1]; /* those of reading come last */
-    all[COUNT_OF(parts) - 1] = (cmd_part){exported_params(), &own, NULL, 0};
-    if (!cmd_parse(&s, &usage, all, COUNT_OF(all), argc, argv) || !check_exports(&s, &own) ||
+    if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv) || !check_exports(&s, &own) ||
         !cmd_begin_files(&s, &set))
         goto done;
     job.reduction = own.reduction;

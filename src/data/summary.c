@@ -102,8 +102,8 @@ static void put_verdict(table_writer *t, const table_view *view)
 
 wt_status wt_result_headlines(const wt_result *result, wt_table **headlines, wt_error *err)
 {
-    const table_schema *const with_keys[] = {&shift_factors_schema, &friction_schema, &layer_schema,
-                                             &what_if_schema};
+    const table_schema *const with_keys[] = {&shift_factors_schema, &glass_transition_schema,
+                                             &friction_schema, &layer_schema, &what_if_schema};
     enum { N_WITH_KEYS = sizeof with_keys / sizeof *with_keys };
     table_view answer, groups, comparison, keys[N_WITH_KEYS], notes, failures;
     wt_status status = table_bind_of(result, &answer_schema, "", &answer, err);

@@ -157,11 +157,25 @@ static void law_rows(page_writer *page)
     text_done(&remark, &page->out);
 }
 
+static void transition_rows(page_writer *page)
+{
+    const table_view *table = &page->tables->glass_transition;
+    if (table->table == NULL)
+        return;
+    const wt_estimate frequency =
+        glass_transition_value(table, GLASS_TRANSITION_KEY_ANGULAR_FREQUENCY);
+    growing_text remark = {0};
+    text_format(&remark, "at %s", VALUE(WT_Q_ANGULAR_FREQUENCY, NULL, frequency.value));
+    headline_rows(page, table, EVERY_KEY, text_string(&remark));
+    text_done(&remark, &page->out);
+}
+
 void page_numbers(page_writer *page)
 {
     const bound_tables *t = page->tables;
     if (t->comparison.table == NULL && t->modulus_groups.table == NULL &&
-        t->shift_factors.table == NULL && t->friction.table == NULL && t->layer.table == NULL)
+        t->shift_factors.table == NULL && t->glass_transition.table == NULL &&
+        t->friction.table == NULL && t->layer.table == NULL)
         return;
     page_heading(page, "numbers", "Numbers");
     page_estimates_begin(page,
@@ -171,6 +185,7 @@ void page_numbers(page_writer *page)
     ratio_row(page);
     group_rows(page);
     law_rows(page);
+    transition_rows(page);
     reference_rows(page);
     largest_row(page);
     headline_rows(page, &t->layer, LAYER_KEY_BALANCE_THICKNESS,

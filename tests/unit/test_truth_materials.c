@@ -104,7 +104,7 @@ static void pair_fit(const rubber_truth *first, const rubber_truth *second, doub
 {
     static const char *const names[2] = {"first", "second"};
     const rubber_truth *const truth[2] = {first, second};
-    *p = (made_pair){.made = {NULL}};
+    *p = (made_pair){.made = {.materials = NULL}};
     for (int k = 0; k < 2; k++) {
         fit_rubber(truth[k], ISOTHERMS, noise, spread, &seed, &p->tables[k], &p->rubber[k]);
         p->compared[k] = (wt_compared){

@@ -210,14 +210,10 @@ size_t wt_result_sentence(const wt_result *result, char *buffer, size_t size)
     static const struct {
         const table_schema *schema;
         void (*say)(sentence *s, const table_view *view);
-    } parts[] = {{&modulus_groups_schema, say_groups},
-                 {&comparison_schema, say_ratio},
-                 {&material_ratio_schema, say_materials},
-                 {&shift_factors_schema, say_material},
-                 {&glass_transition_schema, say_transition},
-                 {&payne_schema, say_payne},
-                 {&friction_schema, say_friction},
-                 {&layer_schema, say_layer}};
+    } parts[] = {{&modulus_groups_schema, say_groups},       {&comparison_schema, say_ratio},
+                 {&material_ratio_schema, say_materials},    {&shift_factors_schema, say_material},
+                 {&glass_transition_schema, say_transition}, {&payne_schema, say_payne},
+                 {&friction_schema, say_friction},           {&layer_schema, say_layer}};
     sentence s = {.text = buffer, .size = size, .result = result};
     const locale_t previous = clocale_enter();
     if (size > 0)

@@ -9,9 +9,10 @@
 #include <string.h>
 
 /* Fewest points of a strain sweep, and how many times the smallest amplitude the largest is; one
- * that turns back by more goes the other way, for the first points of a sweep scatter. */
+ * that went one way by more than what the first points of a sweep scatter by, and turns back by
+ * more than `turn`, goes the other way. */
 enum { FEWEST = 5 };
-static const double least_ratio = 3, turn = 1.5;
+static const double least_ratio = 3, turn = 1.5, scatter = 1.1;
 /* Kelvin that the temperature may drift meanwhile: in less than a temperature sweep has. */
 static const double most_drift = 4;
 
@@ -36,13 +37,15 @@ static size_t end_of(const sweep_builder *b, const size_t *rows, size_t first, s
     size_t largest = first, smallest = first, i = first + 1;
     for (; i < n && goes_on(b, rows[first], rows[i - 1], rows[i]); i++) {
         const double strain = strain_of(b, rows[i]);
-        const bool fell = strain_of(b, rows[largest]) > turn * strain && largest > smallest,
-                   rose = strain > turn * strain_of(b, rows[smallest]) && smallest > largest;
+        const double top = strain_of(b, rows[largest]), bottom = strain_of(b, rows[smallest]);
+        const bool went = top > scatter * bottom,
+                   fell = went && largest > smallest && top > turn * strain,
+                   rose = went && smallest > largest && strain > turn * bottom;
         if (fell || rose)
             return (fell ? largest : smallest) + 1;
-        if (strain >= strain_of(b, rows[largest]))
+        if (strain >= top)
             largest = i;
-        if (strain <= strain_of(b, rows[smallest]))
+        if (strain <= bottom)
             smallest = i;
     }
     return i;
