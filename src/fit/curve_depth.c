@@ -20,6 +20,7 @@
 #include "fit/compare.h"
 #include "fit/curve.h"
 #include "model/thin_layer.h"
+#include "model/tip.h"
 
 #include <gsl/gsl_blas.h>
 #include <gsl/gsl_cdf.h>
@@ -443,8 +444,9 @@ static void read_layer(depth_pool *d, wt_curve_depth *to, wt_error *err)
 {
     const depth_fit fit = fit_layer(d, log(to->change.value), err);
     const double ratio = exp(fit.p[RATIO]), reach = exp(fit.p[REACH]);
-    if (!fit.good || fit.chance < level || !thin_layer_holds(ratio, reach) ||
-        (ratio > 0.6 && ratio < 1.6) || reach < 0.7 || reach > 2.5)
+    if (contact_table_tip(d->mean.table)->sample_thickness > 0.0 || !fit.good ||
+        fit.chance < level || !thin_layer_holds(ratio, reach) || (ratio > 0.6 && ratio < 1.6) ||
+        reach < 0.7 || reach > 2.5)
         return;
     const double of_layer[] = {0.0, 1.0, 0.0, 0.0}, of_ground[] = {0.0, 1.0, -1.0, 0.0},
                  of_thickness[] = {0.0, 0.0, 0.0, -1.0};

@@ -197,6 +197,12 @@ static wt_curve_verdict judge_law(const curve_fitting *f, const wt_indent_fit *f
                   deepest_round);
         return WT_CURVE_TOO_DEEP;
     }
+    const double reach = thin_sample_reach(tip, s->max_indentation);
+    if (reach > THIN_SAMPLE_REACH) {
+        curve_say(reason, "contact radius %.2f of the thickness of the sample; its law holds to %g",
+                  reach, THIN_SAMPLE_REACH);
+        return WT_CURVE_TOO_DEEP;
+    }
     if (curve_unknown_loss(f)) {
         curve_say(
             reason,

@@ -22,7 +22,7 @@ enum { MAX_STEPS = 3000, MAX_ROUNDS = 200 };
 
 bool adhesion_applies(const wt_tip *tip)
 {
-    return tip->shape != WT_TIP_PUNCH;
+    return tip->shape != WT_TIP_PUNCH && !(tip->sample_thickness > 0.0);
 }
 
 adhesive_contact adhesion_at(const adhesion *law, double a)
@@ -119,6 +119,8 @@ static double log_pull_off(const wt_tip *tip, double reduced, double k, double l
 /* By the false position of Illinois: in logarithms it is close to a line. */
 double adhesion_work(const wt_tip *tip, double reduced, double k, double pull_off)
 {
+    if (tip->sample_thickness > 0.0)
+        return (double)NAN;
     if (tip->shape == WT_TIP_PUNCH)
         return pull_off * pull_off / (8.0 * M_PI * reduced * pow(tip->radius, 3));
     const double wanted = log(pull_off), close = 1e-12;

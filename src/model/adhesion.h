@@ -7,7 +7,8 @@
 
 #include "weartrack/model.h"
 
-/* Whether the law below holds: not for a punch, which has no smaller contact to grow from. */
+/* Whether the law below holds: not for a punch, which has no smaller contact to grow from, nor on a
+ * thin sample. */
 bool adhesion_applies(const wt_tip *tip);
 
 typedef struct adhesion {
@@ -31,7 +32,8 @@ double adhesion_release(const adhesion *law, double k);
  * that it cannot reach gives it. start: a guess, or 0. */
 double adhesion_radius(const adhesion *law, double k, double position, double release,
                        double start);
-/* The work of adhesion of a pull-off force [N] > 0; of a punch, whose edge lets go, by Kendall. */
+/* The work of adhesion of a pull-off force [N] > 0; of a punch, whose edge lets go, by Kendall;
+ * NaN on a thin sample. */
 double adhesion_work(const wt_tip *tip, double reduced, double k, double pull_off);
 /* Of Tabor: above 5 the law is that of Johnson, Kendall and Roberts, below 0.1 that of Derjaguin,
  * Muller and Toporov. NaN for a tip without a curvature. */

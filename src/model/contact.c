@@ -176,6 +176,8 @@ void wt_contact_function(const wt_tip *tip, double delta, double *g, double *slo
         v.g = v.slope = delta;
     else if (delta > 0.0)
         v = contact_values(tip, delta);
+    if (tip->sample_thickness > 0.0 && delta > 0.0)
+        v = thin_sample_values(tip, v);
     *g = v.g;
     *slope = v.slope;
 }

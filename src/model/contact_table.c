@@ -127,15 +127,15 @@ void wt_contact_table_free(wt_contact_table *table)
     free(table);
 }
 
-void wt_contact_table_eval(const wt_contact_table *table, const double *delta, size_t n, double *g,
-                           double *slope)
+static void half_space(const wt_contact_table *table, const double *delta, size_t n, double *g,
+                       double *slope)
 {
     const double at = table->switch_depth;
     for (size_t i = 0; i < n; i++) {
         double d = delta[i], value = 0.0, rise = 0.0;
         uint64_t number;
-        if (d <= 0.0) {
-            /* out of contact */
+        if (!(d > 0.0)) {
+            value = rise = isnan(d) ? d : 0.0; /* out of contact */
         } else if (d <= at) {
             double a = sqrt(table->tip.radius * d);
             value = 4.0 / 3.0 * a * d;
@@ -148,10 +148,44 @@ void wt_contact_table_eval(const wt_contact_table *table, const double *delta, s
             rise = (c[1] + t * (2 * c[2] + t * (3 * c[3] + t * (4 * c[4] + t * 5 * c[5])))) *
                    p->inverse_width;
         } else {
-            wt_contact_function(&table->tip, d, &value, &rise);
+            const contact_point_values v = contact_values(&table->tip, d);
+            value = v.g;
+            rise = v.slope;
         }
         g[i] = value;
         if (slope != NULL)
             slope[i] = rise;
+    }
+}
+
+static double curvature_at(const wt_contact_table *table, double d)
+{
+    const uint64_t number = piece_number(d - table->switch_depth) - table->first;
+    if (d <= table->switch_depth || number >= table->n)
+        return contact_values(&table->tip, d).curvature;
+    const piece *p = &table->pieces[number];
+    const double *c = p->c;
+    const double t = (d - table->switch_depth - p->start) * p->inverse_width;
+    return (2 * c[2] + t * (6 * c[3] + t * (12 * c[4] + t * 20 * c[5]))) * p->inverse_width *
+           p->inverse_width;
+}
+
+void wt_contact_table_eval(const wt_contact_table *table, const double *delta, size_t n, double *g,
+                           double *slope)
+{
+    if (!(table->tip.sample_thickness > 0.0)) {
+        half_space(table, delta, n, g, slope);
+        return;
+    }
+    for (size_t i = 0; i < n; i++) {
+        contact_point_values v = {0.0, 0.0, 0.0};
+        half_space(table, &delta[i], 1, &v.g, &v.slope);
+        if (delta[i] > 0.0) {
+            v.curvature = slope != NULL ? curvature_at(table, delta[i]) : 0.0;
+            v = thin_sample_values(&table->tip, v);
+        }
+        g[i] = v.g;
+        if (slope != NULL)
+            slope[i] = v.slope;
     }
 }

@@ -20,7 +20,7 @@ static wt_status check_positive(double value, const char *what, wt_error *err)
 {
     if (value > 0.0 && quantity_is_possible(WT_Q_LENGTH, value))
         return WT_OK;
-    wt_status status = wt_fail(err, WT_E_RANGE, "%s of the tip is not usable", what);
+    wt_status status = wt_fail(err, WT_E_RANGE, "%s is not usable", what);
     wt_error_expected(err, "a length above 0, at most %g m", quantity_most(WT_Q_LENGTH));
     wt_error_found(err, "%g m", value);
     return status;
@@ -64,11 +64,15 @@ static wt_status check_cap(const wt_tip *tip, wt_error *err)
 wt_status wt_tip_check(const wt_tip *tip, wt_error *err)
 {
     wt_status status = WT_OK;
+    if (tip->sample_thickness != 0.0)
+        status = check_positive(tip->sample_thickness, "thickness of the sample", err);
+    if (status != WT_OK)
+        return status;
     switch (tip->shape) {
     case WT_TIP_PARABOLOID:
     case WT_TIP_SPHERE:
     case WT_TIP_PUNCH:
-        return check_positive(tip->radius, "radius", err);
+        return check_positive(tip->radius, "radius of the tip", err);
     case WT_TIP_CONE:
         return check_half_angle(tip->half_angle, err);
     case WT_TIP_BLUNTED_PYRAMID:
@@ -79,7 +83,7 @@ wt_status wt_tip_check(const wt_tip *tip, wt_error *err)
         }
         status = check_half_angle(tip->half_angle, err);
         if (status == WT_OK && !(tip->radius == 0.0 && tip->transition_radius == 0.0))
-            status = check_positive(tip->radius, "cap radius", err);
+            status = check_positive(tip->radius, "cap radius of the tip", err);
         if (status == WT_OK)
             status = check_cap(tip, err);
         return status;

@@ -11,8 +11,8 @@
  * in Rico's averaging; 1 for sides = 0. */
 double tip_facet_factor(unsigned sides);
 
-/* G, dG/ddelta = 2a and d2G/ddelta2 at delta > 0; the curvature is that of the side above at the
- * switch depth b^2/R, where it jumps. */
+/* On a half-space: G, dG/ddelta = 2a and d2G/ddelta2 at delta > 0; the curvature is that of the
+ * side above at the switch depth b^2/R, where it jumps. */
 typedef struct contact_point_values {
     double g, slope, curvature;
 } contact_point_values;
@@ -24,6 +24,13 @@ typedef struct contact_radius_values {
     double slope; /* ddelta/da; infinite right at a corner of the profile */
 } contact_radius_values;
 contact_radius_values contact_at_radius(const wt_tip *tip, double a);
+
+/* Of a contact radius over the thickness of a sample on a rigid base: up to it the force is known.
+ */
+#define THIN_SAMPLE_REACH 1.0
+double thin_sample_reach(const wt_tip *tip, double delta);
+/* What the base makes of G and slope of a half-space; no curvature. */
+contact_point_values thin_sample_values(const wt_tip *tip, contact_point_values half_space);
 
 /* The tip of a table. */
 const wt_tip *contact_table_tip(const wt_contact_table *table);

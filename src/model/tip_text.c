@@ -207,5 +207,11 @@ size_t wt_tip_describe(const wt_tip *tip, char *buffer, size_t size)
                 tip->sides, angle, radius, transition);
         break;
     }
+    if (length > 0 && tip->sample_thickness > 0.0) {
+        const size_t used = (size_t)length < size ? (size_t)length : size;
+        wt_format_si(tip->sample_thickness, "m", 4, radius, sizeof radius);
+        length += snprintf(buffer + used, size - used, "; sample %s thick, %s its rigid base",
+                           radius, tip->unbonded ? "sliding on" : "bonded to");
+    }
     return length > 0 ? (size_t)length : 0;
 }

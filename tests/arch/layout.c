@@ -59,7 +59,7 @@ FIXED(wt_format_info, version, 32, 40)
 ROOM(wt_read_options, sheet, 72, 128)
 
 /* model.h */
-ROOM(wt_tip, transition_radius, 24, 96)
+ROOM(wt_tip, unbonded, 40, 96)
 FIXED(wt_wlf, c2, 16, 24)
 ROOM(wt_material_law, check, 40, 104)
 ROOM(wt_material, data, 32, 104)

@@ -29,6 +29,8 @@ static const struct {
     {"prony-long-term", "0Pa", NULL, NULL},
     {"expansion", "7e-4", "vertical-shift physical", NULL},
     {"fit-depth", "30nm", NULL, NULL},
+    {"sample-thickness", "2um", NULL, NULL},
+    {"unbonded", "yes", "sample-thickness 2um", NULL},
     {"fit-force-fraction", "0.5", NULL, NULL},
     {"least-chance", "0.99", NULL, NULL},
     {"largest-error", "0.00001", NULL, NULL},

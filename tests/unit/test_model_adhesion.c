@@ -179,6 +179,9 @@ static void punch(void **state)
     assert_false(adhesion_applies(&tip));
     assert_near(adhesion_work(&tip, 1e7, 0.5, sqrt(8 * M_PI * 1e7 * 0.02 * 8e-18)), 0.02, 1e-12);
     assert_true(isnan(adhesion_tabor(&(adhesion){&tip, 1e7, 0.02})));
+    const wt_tip thin = {.shape = WT_TIP_PARABOLOID, .radius = 2e-6, .sample_thickness = 2e-6};
+    assert_false(adhesion_applies(&thin));
+    assert_true(isnan(adhesion_work(&thin, 1e7, 0.5, 1e-8)));
 }
 
 int main(void)

@@ -26,6 +26,7 @@
  * computed directly, so this is only about speed. */
 #define DEPTH_MIN 1e-11
 #define DEPTH_MAX 1e-4
+static const double least_bonded_poisson = 0.499;
 
 typedef struct item {
     wt_force_curve curve;
@@ -484,9 +485,23 @@ static wt_status find_spectrum(indent_task *task, wt_error *err)
     return WT_OK;
 }
 
+static wt_status check_sample(const wt_indent_job *job, wt_error *err)
+{
+    if (!(job->tip.sample_thickness > 0.0) || job->tip.unbonded ||
+        job->options.poisson_ratio >= least_bonded_poisson)
+        return WT_OK;
+    const wt_status status =
+        wt_fail(err, WT_E_RANGE, "a thin sample bonded to its base is known for rubber only");
+    wt_error_expected(err, "Poisson's ratio of %g or more, or --unbonded", least_bonded_poisson);
+    wt_error_found(err, "poisson-ratio %g", job->options.poisson_ratio);
+    return status;
+}
+
 static wt_status prepare(indent_task *task, wt_error *err)
 {
     wt_status status = param_check(wt_indent_job_params(), task->job, err);
+    if (status == WT_OK)
+        status = check_sample(task->job, err);
     if (status == WT_OK)
         status = param_check(wt_job_params(), task->work, err);
     if (status == WT_OK)

@@ -18,7 +18,14 @@ wt_indent_job wt_indent_job_defaults(void)
 
 static wt_status read_tip(const char *text, void *tip, wt_error *err)
 {
-    return wt_tip_parse(text, tip, err);
+    wt_tip made, *to = tip;
+    const wt_status status = wt_tip_parse(text, &made, err);
+    if (status != WT_OK)
+        return status;
+    made.sample_thickness = to->sample_thickness; /* parameters of their own */
+    made.unbonded = to->unbonded;
+    *to = made;
+    return WT_OK;
 }
 
 static wt_status check_tip(const void *tip, wt_error *err)
@@ -40,6 +47,10 @@ static const wt_param rows[] = {
      .help = "pyramid:half-angle=35deg,radius=20nm[,sides=4][,transition=16nm] (axis to FACE), "
              "cone:half-angle=20deg[,radius=20nm], sphere:radius=5um, paraboloid:radius=5um or "
              "punch:radius=2um"},
+    {PARAM("sample-thickness", wt_indent_job, tip.sample_thickness, WT_Q_LENGTH, AT_LEAST(0)),
+     .value = "H", .help = "of a thin sample on a rigid base, such as 2um; 0 is thick"},
+    {PARAM_FLAG_OF("unbonded", wt_indent_job, tip.unbonded),
+     .help = "the thin sample slides on its base"},
     {PARAM_TEXT_OF("group", wt_indent_job, group), .check = check_group, .value = "NAME",
      .flags = PARAM_NO_CASE, .help = "what these curves are: bulk, track or another name"},
     {PARAM("indentation-temperature", wt_indent_job, temperature, WT_Q_TEMPERATURE, ABOVE(0)),
