@@ -169,6 +169,13 @@ contact_point_values contact_values(const wt_tip *tip, double delta)
     return faces(tip, delta);
 }
 
+double thin_sample_reach(const wt_tip *tip, double delta)
+{
+    return tip->sample_thickness > 0.0 && delta > 0.0
+               ? 0.5 * contact_values(tip, delta).slope / tip->sample_thickness
+               : 0.0;
+}
+
 void wt_contact_function(const wt_tip *tip, double delta, double *g, double *slope)
 {
     contact_point_values v = {0.0, 0.0, 0.0};

@@ -44,13 +44,6 @@ static double shape_number(const wt_tip *tip, double a, double *slope)
     return 0.5 + left;
 }
 
-double thin_sample_reach(const wt_tip *tip, double delta)
-{
-    return tip->sample_thickness > 0.0 && delta > 0.0
-               ? 0.5 * contact_values(tip, delta).slope / tip->sample_thickness
-               : 0.0;
-}
-
 contact_point_values thin_sample_values(const wt_tip *tip, contact_point_values half_space)
 {
     const double a = 0.5 * half_space.slope, growth = 0.5 * half_space.curvature;
@@ -63,12 +56,13 @@ contact_point_values thin_sample_values(const wt_tip *tip, contact_point_values 
     const double d5 = bases[tip->unbonded].fifth[1], c5 = bases[tip->unbonded].fifth[0] + u * d5;
     const double by_x = g + x * (2.0 * g2 + x * (3.0 * c3 + x * (4.0 * c4 + x * 5.0 * c5)));
     const double by_u = x * x * (-0.5 * g * g + x * (d3 + x * (d4 + x * d5)));
-    /* Beyond what is known it goes on as a line, so that a fit finds its way; it is then refused. */
+    /* Beyond what is known it goes on as a line, so that a fit finds its way; it is then refused.
+     */
     const double factor =
         1.0 + x * (g + x * (g2 + x * (c3 + x * (c4 + x * c5)))) + by_x * (reach - x);
-    return (contact_point_values){
-        factor * half_space.g,
-        factor * half_space.slope +
-            half_space.g * growth * (by_x / tip->sample_thickness + by_u * u_slope),
-        (double)NAN};
+    return (contact_point_values){factor * half_space.g,
+                                  factor * half_space.slope +
+                                      half_space.g * growth *
+                                          (by_x / tip->sample_thickness + by_u * u_slope),
+                                  (double)NAN};
 }

@@ -387,10 +387,10 @@ static void deeper_than_the_sphere(void **state)
     t.modulus = 5e6;
     curve_make(&t, 1, &data);
     expect(&t, WT_CURVE_TOO_DEEP, "radii of the tip");
-    t.tip = (wt_tip){.sides = 4, .half_angle = 0.6, .sample_thickness = 40e-9};
+    t.tip = (wt_tip){.sides = 4, .half_angle = 0.6, .sample_thickness = 10e-9};
     curve_make(&t, 1, &data);
     expect(&t, WT_CURVE_TOO_DEEP, "of the thickness of the sample");
-    t.tip.radius = 300e-9;
+    t.tip = (wt_tip){.shape = WT_TIP_PARABOLOID, .radius = 300e-9};
     curve_make(&t, 1, &data);
     expect(&t, WT_CURVE_ACCEPTED, "accepted");
 }
