@@ -263,6 +263,8 @@ static void test_joined_law(void **state)
     assert_string_equal(wt_table_key(tables.shift_factors, "law"), "joined");
     see(tables.shift_factors);
     see(tables.prony);
+    see(tables.prony_reduced);
+    see(tables.relaxation_spectrum);
     see(tables.material_draws);
     wt_master_tables_clear(&tables);
     job.fit.shift_by = WT_BY_STORAGE;
@@ -270,6 +272,45 @@ static void test_joined_law(void **state)
     see(tables.shift_factors);
     wt_master_tables_clear(&tables);
     unlink(path);
+}
+
+/* The bundled material, one measured less widely, and one of another deformation. */
+static void test_materials(void **state)
+{
+    (void)state;
+    const char *const patterns[] = {CASE "dma.txt"};
+    const wt_file_set set = {.patterns = patterns, .n_patterns = 1, .read = wt_read_defaults()};
+    wt_job common = wt_job_defaults();
+    wt_error err = WT_ERROR_INIT;
+    wt_master_job job = wt_master_job_defaults();
+    wt_master_tables fitted = {0};
+    wt_rubber made[2] = {0};
+    common.formats = formats;
+    job.sets = &set;
+    job.n_sets = 1;
+    if (wt_master_make(&job, &common, &fitted, &made[0], &err) != WT_OK)
+        fail_msg("%s %s", err.message, err.found);
+    see(fitted.prony_reduced);
+    wt_master_tables_clear(&fitted);
+    assert_int_equal(wt_master_make(&job, &common, &fitted, &made[1], NULL), WT_OK);
+    const wt_compared two[] = {
+        {.name = "as it is", .rubber = &made[0], .shift_factors = fitted.shift_factors},
+        {.name = "less widely", .rubber = &made[1], .shift_factors = fitted.shift_factors}};
+    wt_materials_job compared = wt_materials_job_defaults();
+    compared.materials = two;
+    compared.n_materials = 2;
+    made[1].prony.frequency_max /= 10;
+    for (int i = 0; i < 2; i++) {
+        wt_materials_tables tables = {0};
+        compared.sample_error = i == 0 ? 0.5 : 0;
+        assert_int_equal(wt_compare_materials(&compared, &common, &tables, NULL), WT_OK);
+        see(tables.materials);
+        see(tables.material_ratio);
+        wt_materials_tables_clear(&tables);
+    }
+    wt_master_tables_clear(&fitted);
+    for (int k = 0; k < 2; k++)
+        wt_rubber_clear(&made[k]);
 }
 
 /* A group whose cantilevers differ, and a tip that makes the modulus change with depth. */
@@ -469,15 +510,11 @@ static int free_formats(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_cases),
-        cmocka_unit_test(test_joined_law),
-        cmocka_unit_test(test_spring_constants),
-        cmocka_unit_test(test_conversions),
-        cmocka_unit_test(test_ramps),
-        cmocka_unit_test(test_strain_sweeps),
-        cmocka_unit_test(test_files),
-        cmocka_unit_test(test_directions),
-        cmocka_unit_test(test_accuracy),
+        cmocka_unit_test(test_cases),         cmocka_unit_test(test_joined_law),
+        cmocka_unit_test(test_materials),     cmocka_unit_test(test_spring_constants),
+        cmocka_unit_test(test_conversions),   cmocka_unit_test(test_ramps),
+        cmocka_unit_test(test_strain_sweeps), cmocka_unit_test(test_files),
+        cmocka_unit_test(test_directions),    cmocka_unit_test(test_accuracy),
         cmocka_unit_test(test_all_put),
     };
     return cmocka_run_group_tests_name("tables put", tests, open_formats, free_formats);

@@ -17,9 +17,13 @@
 
 /* The record of what compares groups of curves, and of what compares materials. */
 #define EQUIVALENCE_MARGIN(type)                                                                   \
-    {PARAM("equivalence-margin", type, margin, WT_Q_NONE, ABOVE(0)), .value = "X",                 \
-     .help = "relative difference of the moduli that does not matter: \"no difference\" is said "   \
-             "only if the whole interval lies within it"}
+    {                                                                                              \
+        PARAM("equivalence-margin", type, margin, WT_Q_NONE, ABOVE(0)),                            \
+            .value = "X",                                                                          \
+            .help = "relative difference of the moduli that does not matter: \"no difference\" "   \
+                    "is said "                                                                     \
+                    "only if the whole interval lies within it"                                    \
+    }
 
 /* One file of the sets of a job. */
 typedef struct flow_file {
