@@ -193,6 +193,25 @@ static inline void fixture_materials(void)
         wt_rubber_clear(&rubber[k]);
 }
 
+/* Strain sweeps at two frequencies. */
+static inline void fixture_payne(void)
+{
+    static const char *const file[] = {WT_SOURCE_DIR "/fixtures/formats/tidy/strain-sweeps.csv"};
+    const wt_file_set set = {.patterns = file, .n_patterns = 1, .read = wt_read_defaults()};
+    wt_payne_job job = wt_payne_job_defaults();
+    wt_job work = wt_job_defaults();
+    wt_formats *formats = NULL;
+    wt_payne_tables tables = {0};
+    fixture_check(wt_formats_new(NULL, &formats, NULL, NULL));
+    work.formats = formats;
+    job.sets = &set;
+    job.n_sets = 1;
+    fixture_check(wt_payne_make(&job, &work, &tables, NULL));
+    fixture_check(wt_result_add(fixture_case, tables.payne, NULL));
+    fixture_check(wt_result_add(fixture_case, tables.payne_sweep, NULL));
+    wt_formats_free(formats);
+}
+
 /* What a case does not give unless it is asked for by name, and what needs no case. */
 static inline void fixture_accuracy(wt_case *read)
 {
@@ -245,6 +264,7 @@ static inline const wt_result *fixture_produced(void)
         fixture_accuracy(read);
         fixture_ramp();
         fixture_materials();
+        fixture_payne();
         wt_case_free(read);
         (void)atexit(fixture_free);
     }

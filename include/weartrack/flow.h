@@ -50,7 +50,9 @@ typedef struct wt_job {
     unsigned left_out;         /* of wt_extra: not asked for, so not made; default 0 */
     wt_cost *cost;             /* borrowed; NULL (default): nothing is counted */
     wt_drawn *drawn;           /* of wt_run, whose jobs share what is drawn of the material; NULL */
-    uint64_t reserved[5];
+    wt_sweep
+        *dma; /* of wt_run, whose jobs share the DMA files of the case: read into this once; NULL */
+    uint64_t reserved[4];
 } wt_job;
 WT_API wt_job wt_job_defaults(void);
 WT_API const wt_params *wt_job_params(void);

@@ -103,7 +103,8 @@ typedef struct wt_read_options {
     const char *sheet; /* of a spreadsheet: its name; "all" = all that are recognised, one after the
                           other; NULL = the only one that is */
     wt_read_deformation deformation; /* one that the file contradicts is WT_E_UNIT */
-    uint64_t reserved[5];
+    double strain; /* of isotherms at several strain amplitudes take those nearest to this; NaN */
+    uint64_t reserved[4];
 } wt_read_options;
 WT_API wt_read_options wt_read_defaults(void); /* everything, nothing replaced */
 WT_API const wt_params *wt_read_params(void);

@@ -116,7 +116,7 @@ int cmd_master(int argc, char **argv)
          0},
         {saved_params(), &saved, NULL, 0},
         {exported_params(), &own, NULL, 0},
-        {wt_read_params(), &set.read, "temperature units format sheet deformation", 0}};
+        {wt_read_params(), &set.read, "temperature units format sheet deformation strain", 0}};
     cmd_session s = cmd_session_defaults();
     wt_master_tables tables = {0};
     wt_result *given = NULL;

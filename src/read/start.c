@@ -20,6 +20,7 @@ wt_read_options wt_read_defaults(void)
         .units = NULL,
         .n_units = 0,
         .sheet = NULL,
+        .strain = (double)NAN,
     };
 }
 
@@ -40,6 +41,10 @@ static const wt_param rows[] = {
     {PARAM_CHOICE_OF("deformation", wt_read_options, deformation, "of-file|tension|shear|bending"),
      .help = "what the moduli of a DMA file are of where their names do not say it, as \"storage "
              "modulus\"; bending gives E like tension"},
+    {PARAM("strain", wt_read_options, strain, WT_Q_STRAIN, ABOVE(0)), .value = "S", .unset = "",
+     .help =
+         "of DMA isotherms measured at several strain amplitudes take those nearest to this one, "
+         "such as 0.1%"},
 };
 PARAM_TABLE(wt_read_params, wt_read_options, rows, wt_read_defaults, NO_PARTS)
 

@@ -100,6 +100,7 @@ static const struct {
     {NULL, "columns", "for tables with other names: tests/cli/options.txt"},
     {NULL, "units", "for files without units: tests/formats"},
     {NULL, "sheet", "for spreadsheets: unit_read_packed"},
+    {NULL, "strain", "for isotherms of several amplitudes: tests/cli/payne.txt"},
     {NULL, "deformation", "for moduli whose names leave it open: tests/formats"},
     {NULL, "temperature", "for files without a temperature: tests/formats"},
     {NULL, "material", "the base has the same from --dma: tests/cli/round_trip.txt"},

@@ -45,6 +45,8 @@
     X(RAMP, "ramp", &ramp_schema, "")                                                              \
     X(GLASS_TRANSITION, "glass_transition", &glass_transition_schema, "")                          \
     X(MODULI_AT, "moduli_at", &moduli_at_schema, "")                                               \
+    X(PAYNE, "payne", &payne_schema, "")                                                           \
+    X(PAYNE_SWEEP, "payne_sweep", &payne_sweep_schema, "")                                         \
     X(ROUGHNESS, "roughness", &roughness_schema, "")                                               \
     X(LAYER, "layer", &layer_schema, "")                                                           \
     X(ENERGY_DENSITY, "energy_density", &energy_density_schema, "")                                \
@@ -76,7 +78,7 @@ typedef uint64_t flow_things; /* bit i = thing i */
 #define FLOW_BY_NAME                                                                               \
     (FLOW_BIT(FLOW_ERROR_BUDGET) | FLOW_BIT(FLOW_COVERAGE) | FLOW_BIT(FLOW_RAMP) |                 \
      FLOW_BIT(FLOW_GLASS_TRANSITION) | FLOW_BIT(FLOW_MODULI_AT) | FLOW_BIT(FLOW_PRONY_REDUCED) |   \
-     FLOW_BIT(FLOW_RELAXATION_SPECTRUM))
+     FLOW_BIT(FLOW_RELAXATION_SPECTRUM) | FLOW_BIT(FLOW_PAYNE) | FLOW_BIT(FLOW_PAYNE_SWEEP))
 
 typedef struct flow_thing_row {
     const char *words, *missing;

@@ -59,6 +59,10 @@ void flow_tell_files(const flow_files *files, size_t n_failed, wt_error *err);
  * also on failure. */
 wt_status flow_sweeps_read(const wt_file_set *sets, size_t n_sets, const wt_job *work,
                            wt_sweep *sweep, wt_error *err) WT_NODISCARD;
+/* Of isotherms of several strain amplitudes at one temperature keeps those nearest to the one that
+ * the first set names; without one they are WT_E_AMBIGUOUS. */
+wt_status flow_one_amplitude(wt_sweep *sweep, const wt_file_set *sets, size_t n_sets,
+                             wt_parselog *log, wt_error *err) WT_NODISCARD;
 /* Whether a file that gave `failure` is one that merely lies in the folder that was named, without
  * measured data of the kind asked for: it is left out with a warning. Else it has failed. */
 bool flow_leave_out(const wt_job *work, const flow_file *file, const wt_error *failure);

@@ -481,6 +481,8 @@ wt_status wt_master_make(const wt_master_job *job, const wt_job *work, wt_master
     if (status == WT_OK)
         status = check_strain(&sweep, work, err);
     if (status == WT_OK)
+        status = flow_one_amplitude(&sweep, job->sets, job->n_sets, work->log, err);
+    if (status == WT_OK)
         status = fit(job, work, &sweep, &master, err);
     if (status == WT_OK)
         status = make_tables(&master, work, &t, err);

@@ -350,6 +350,8 @@ wt_status wt_ramp_make(const wt_ramp_job *job, const wt_job *work, wt_ramp_table
     wt_status status = param_check(wt_ramp_job_params(), job, err);
     if (status == WT_OK)
         status = flow_sweeps_read(job->sets, job->n_sets, work, &sweep, err);
+    if (status == WT_OK)
+        status = flow_one_amplitude(&sweep, job->sets, job->n_sets, work->log, err);
     const size_t isotherms = sweep.n_isotherms, strain_sweeps = sweep.n_strain_sweeps;
     if (status == WT_OK)
         status = add_isotherms(&sweep, err);

@@ -16,6 +16,8 @@
       flow_step_master)                                                                            \
     X(RAMP, ramp, "Glass transition and moduli against temperature", B(DMA_FILES),                 \
       B(RAMP) | B(GLASS_TRANSITION) | B(MODULI_AT), flow_step_ramp)                                \
+    X(PAYNE, payne, "Softening with strain", B(DMA_FILES), B(PAYNE) | B(PAYNE_SWEEP),              \
+      flow_step_payne)                                                                             \
     X(GIVEN_MATERIAL, given_material, "Material as given in the case", B(GIVEN_MATERIAL),          \
       B(RUBBER), flow_step_given_material)                                                         \
     X(INDENTATION_BULK_WITH_MATERIAL, indentation_bulk_with_material,                              \

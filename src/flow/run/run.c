@@ -32,6 +32,7 @@ typedef struct conduct {
     wt_table *failures;
     wt_cost *cost;
     wt_drawn *drawn;
+    wt_sweep dma;
 } conduct;
 
 /* ---- one stage ------------------------------------------------------------------------------- */
@@ -215,6 +216,15 @@ static bool draws_material(const flow_plan *plan, size_t replicates)
     return false;
 }
 
+/* Whether several stages read the DMA files. */
+static bool shares_dma(const flow_plan *plan)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < FLOW_N_STAGES; i++)
+        n += plan->chosen[i] && (flow_stages[i].needs & FLOW_BIT(FLOW_DMA_FILES)) != 0;
+    return n > 1;
+}
+
 /* What of the stages nothing asks for. */
 static unsigned find_left_out(const flow_plan *plan, const wt_run_options *options)
 {
@@ -296,6 +306,7 @@ wt_status wt_run(const wt_case *c, const wt_run_options *options, wt_parselog *l
     if (status != WT_OK)
         goto done;
     flow_plan_make(c, &d.run.plan);
+    d.run.job.dma = shares_dma(&d.run.plan) ? &d.dma : NULL;
     d.run.job.left_out = find_left_out(&d.run.plan, options);
     d.have = d.run.plan.sources;
     for (size_t i = 0; status == WT_OK && i < FLOW_N_STAGES; i++)
@@ -317,6 +328,7 @@ done:
     wt_table_free(d.failures);
     wt_cost_free(d.cost);
     drawn_free(d.drawn);
+    wt_sweep_clear(&d.dma);
     wt_parselog_free(d.own_log);
     return status;
 }

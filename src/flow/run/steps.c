@@ -282,12 +282,10 @@ wt_status flow_step_master(flow_run *run, wt_error *err)
     return status;
 }
 
-/* Files and words of reading stand in the result once. */
 wt_status flow_step_ramp(flow_run *run, wt_error *err)
 {
     wt_ramp_tables tables = {0};
     wt_ramp_job job = run->c->ramp;
-    wt_job work = run->job;
     if ((run->plan.wanted & FLOW_BIT(FLOW_MODULI_AT)) != 0 && job.n_temperatures == 0) {
         wt_fail(err, WT_E_MISSING, "no temperatures at which the moduli are asked for");
         wt_error_expected(err, "<at> in <dma>, such as 25degC,60degC");
@@ -308,6 +306,18 @@ wt_status flow_step_ramp(flow_run *run, wt_error *err)
     keep(run, FLOW_RAMP, &tables.ramp);
     keep(run, FLOW_GLASS_TRANSITION, &tables.glass_transition);
     keep(run, FLOW_MODULI_AT, &tables.moduli_at);
+    return status;
+}
+
+wt_status flow_step_payne(flow_run *run, wt_error *err)
+{
+    wt_payne_tables tables = {0};
+    wt_payne_job job = wt_payne_job_defaults();
+    job.sets = run->c->dma.sets;
+    job.n_sets = run->c->dma.n;
+    const wt_status status = wt_payne_make(&job, &run->job, &tables, err);
+    keep(run, FLOW_PAYNE, &tables.payne);
+    keep(run, FLOW_PAYNE_SWEEP, &tables.payne_sweep);
     return status;
 }
 

@@ -22,6 +22,16 @@ static void warn_of_shifted(const sweep_builder *b, double low, double high)
                         decades);
 }
 
+/* An isotherm of one of several amplitudes has it behind its source. */
+static void name_isotherm(const sweep_builder *b, wt_isotherm *isotherm)
+{
+    char amplitude[24] = "";
+    if (b->amplitudes && isotherm->strain != NULL)
+        snprintf(amplitude, sizeof amplitude, " (%.3g %%)", 100 * isotherm->strain[0]);
+    sweep_source(b, isotherm->source, sizeof isotherm->source - strlen(amplitude));
+    strcat(isotherm->source, amplitude);
+}
+
 /* The rows collected so far become an isotherm, if their frequency was swept. */
 static wt_status flush(sweep_builder *b)
 {
@@ -53,19 +63,25 @@ static wt_status flush(sweep_builder *b)
         if (isotherm->loss_factor != NULL)
             isotherm->loss_factor[i] = sweep_factor(b, b->rows[i]);
     }
-    sweep_source(b, isotherm->source, sizeof isotherm->source);
+    name_isotherm(b, isotherm);
     wt_status status =
         sweep_set_temperature(b, &isotherm->temperature, &isotherm->temperature_spread);
     b->n = 0;
     return status;
 }
 
+/* Whether a row is of the block and temperature of the one before it. */
+static bool goes_on(const sweep_builder *b, size_t last, size_t row)
+{
+    const double jump = b->file->description->temperature_jump;
+    return b->table->blocks[row] == b->table->blocks[last] &&
+           !(fabs(sweep_temperature(b, row) - sweep_temperature(b, last)) > jump);
+}
+
 /* An isotherm ends where a block ends, where the frequency turns back or where the temperature
  * jumps. */
 static wt_status split_rows(sweep_builder *b, const size_t *rows, size_t n)
 {
-    const text_table *t = b->table;
-    const double jump = b->file->description->temperature_jump;
     int direction = 0;
     wt_status status = WT_OK;
     b->n = 0;
@@ -73,8 +89,7 @@ static wt_status split_rows(sweep_builder *b, const size_t *rows, size_t n)
         if (b->n > 0) {
             const size_t row = rows[i], last = b->rows[b->n - 1];
             const int way = sweep_way(b, last, row);
-            const bool jumps = fabs(sweep_temperature(b, row) - sweep_temperature(b, last)) > jump;
-            if (t->blocks[row] != t->blocks[last] || way * direction < 0 || jumps) {
+            if (way * direction < 0 || !goes_on(b, last, row)) {
                 status = flush(b);
                 direction = 0;
             } else if (way != 0) {
@@ -84,6 +99,41 @@ static wt_status split_rows(sweep_builder *b, const size_t *rows, size_t n)
         b->rows[b->n++] = rows[i];
     }
     return status == WT_OK ? flush(b) : status;
+}
+
+/* Amplitudes of one set strain are held better than this. */
+static const double same_amplitude = 1.5;
+
+static bool other_amplitude(const sweep_builder *b, size_t row, size_t other)
+{
+    const double ratio = text_table_value(b->table, row, b->c.strain) /
+                         text_table_value(b->table, other, b->c.strain);
+    return ratio > same_amplitude || ratio < 1 / same_amplitude;
+}
+
+/* Several amplitudes in turn at each frequency: the rows of each are moved together, so that the
+ * frequency turns back between them. */
+static void part_amplitudes(sweep_builder *b, size_t *rows, size_t n)
+{
+    bool turns = false;
+    for (size_t i = 1; i < n && !turns; i++)
+        turns = b->table->blocks[rows[i]] == b->table->blocks[rows[i - 1]] &&
+                sweep_way(b, rows[i - 1], rows[i]) == 0 && other_amplitude(b, rows[i], rows[i - 1]);
+    b->amplitudes = turns;
+    for (size_t first = 0, end, done; turns && first < n; first = done) {
+        /* one block at one temperature */
+        for (end = first + 1; end < n && goes_on(b, rows[end - 1], rows[end]);)
+            end++;
+        const size_t like = rows[first];
+        size_t n_others = 0;
+        done = first;
+        for (size_t i = first; i < end; i++)
+            if (other_amplitude(b, rows[i], like))
+                b->rows[n_others++] = rows[i];
+            else
+                rows[done++] = rows[i];
+        memcpy(rows + done, b->rows, n_others * sizeof *rows);
+    }
 }
 
 static wt_status split_table(sweep_builder *b)
@@ -102,6 +152,8 @@ static wt_status split_table(sweep_builder *b)
     wt_status status = strain_sweeps_take(b, rows, &n);
     if (status == WT_OK)
         status = ramps_take(b, rows, &n);
+    if (status == WT_OK && b->c.strain != NULL)
+        part_amplitudes(b, rows, n);
     if (status == WT_OK)
         status = split_rows(b, rows, n);
     free(rows);

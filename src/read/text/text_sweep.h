@@ -27,6 +27,7 @@ typedef struct sweep_builder {
     wt_sweep *sweep;
     size_t *rows; /* [n] of the isotherm or the temperature sweep that is being collected */
     size_t n;
+    bool amplitudes; /* they took turns, so that an isotherm has its own in its name */
     wt_error *err;
 } sweep_builder;
 

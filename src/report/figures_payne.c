@@ -1,0 +1,110 @@
+/* Figure of strain sweeps: how a filled rubber softens with the amplitude of strain.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "report/drawing.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Places in the data: strain, what the curves are described in, the frequency. */
+enum { STORAGE = 2, LOSS = 3, STORAGE_LAW = 4, LOSS_LAW = 5, FREQUENCY = 6 };
+
+static bool has_law(const figure_drawing *d)
+{
+    for (size_t row = 0; row < d->table->n_rows; row++)
+        if (!isnan(payne_sweep_get(d->table, row, PAYNE_SWEEP_STORAGE_KRAUS)))
+            return true;
+    return false;
+}
+
+/* Points of a panel, coloured by frequency where there are several, and the law through them. */
+static void plot_points(figure_drawing *d, int column, int law, int style, const char *title)
+{
+    const bool coloured = d->colour.high > d->colour.low;
+    char colour[32] = "";
+    if (coloured)
+        (void)snprintf(colour, sizeof colour, ":($%d*cb_unit)", FREQUENCY);
+    if (has_law(d))
+        plot_item(d, d->data[0], "($1*x_unit):($%d*y_unit) with lines ls 11 title 'law of Kraus'",
+                  law);
+    plot_item(d, d->data[0], "($1*x_unit):($%d*y_unit)%s with points ls %d %s notitle", column,
+              colour, style, coloured ? "lc palette" : "lc rgb 'black'");
+    plot_other(d, "keyentry with points ls %d lc rgb '#111111' title '%s'", style, title);
+}
+
+/* Where so much of the start is left. */
+static void plot_mark(figure_drawing *d, payne_column strain, double left, const char *title)
+{
+    const unsigned columns[] = {strain, PAYNE_STORAGE_START};
+    const int marks = drawing_section(d, &d->tables->payne, title, NULL, columns, 2, 2);
+    plot_item(d, marks, "($1*x_unit):(%g*$2*y_unit) with points ls 14 ps 1.5 title '%s'", left,
+              title);
+}
+
+/* Storage modulus above, loss modulus below. */
+static void draw_payne(figure_drawing *d)
+{
+    if (!drawing_data(d))
+        return;
+    const char *deformation = payne_sweep_words(d->table, PAYNE_SWEEP_KEY_DEFORMATION);
+    const char letter = strcmp(deformation, "shear") == 0 ? 'G' : 'E';
+    char storage[16], loss[16];
+    (void)snprintf(storage, sizeof storage, "%c′", letter);
+    (void)snprintf(loss, sizeof loss, "%c″", letter);
+    d->height = 1.5;
+    text_add(&d->script, "set multiplot layout 2,1\n");
+    drawing_axis(d, "x", &d->figure->x, NULL, d->x);
+    if (d->colour.high > d->colour.low) {
+        d->width = 1.15;
+        drawing_axis(d, "cb", &d->figure->colour, NULL, d->colour);
+    }
+    drawing_axis(d, "y", &d->figure->y[0], NULL, d->y[0]);
+    plot_points(d, STORAGE, STORAGE_LAW, 51, storage);
+    plot_mark(d, PAYNE_STRAIN_TENTH, 0.9, "a tenth lost");
+    plot_mark(d, PAYNE_STRAIN_HALF, 0.5, "half lost");
+    plot_end(d);
+    drawing_axis(d, "y", &d->figure->y[1], NULL, d->y[1]);
+    plot_points(d, LOSS, LOSS_LAW, 52, loss);
+    plot_end(d);
+    text_add(&d->script, "unset multiplot\n");
+}
+
+static void caption_payne(figure_drawing *d)
+{
+    const table_view *sweeps = &d->tables->payne;
+    size_t without = 0, half = 0;
+    for (size_t row = 0; row < sweeps->n_rows; row++) {
+        without += isnan(payne_get(sweeps, row, PAYNE_STORAGE_0)) ? 1 : 0;
+        half += isnan(payne_get(sweeps, row, PAYNE_STRAIN_HALF)) ? 1 : 0;
+    }
+    text_format(&d->caption, " %zu strain sweeps.",
+                wt_table_block(d->table->table, d->table->n_rows - 1) + 1);
+    if (without > 0)
+        text_format(&d->caption, " Without a law of Kraus: %zu.", without);
+    if (half > 0)
+        text_format(&d->caption, " In which half of the storage modulus is not lost: %zu.", half);
+}
+
+const figure_description figures_payne[] = {
+    {.name = "payne",
+     .title = "Softening with strain",
+     .table = &payne_sweep_schema,
+     .beside = "payne",
+     .data_title = "strain sweeps",
+     .x = {PAYNE_SWEEP_STRAIN, AXIS_LOG, "Strain amplitude"},
+     .y = {{PAYNE_SWEEP_STORAGE_MODULUS, AXIS_FROM_ZERO, "Storage modulus"},
+           {PAYNE_SWEEP_LOSS_MODULUS, AXIS_FROM_ZERO, "Loss modulus"}},
+     .colour = {PAYNE_SWEEP_ANGULAR_FREQUENCY, AXIS_LOG, "Angular frequency"},
+     .curves = {CURVE(PAYNE_SWEEP_STORAGE_MODULUS, OWN),
+                CURVE(PAYNE_SWEEP_LOSS_MODULUS, OWN, .panel = 1),
+                CURVE(PAYNE_SWEEP_STORAGE_KRAUS, DATA), CURVE(PAYNE_SWEEP_LOSS_KRAUS, DATA)},
+     .nothing = "no modulus above zero at any amplitude",
+     .words = "Storage modulus and, below, loss modulus against the amplitude of strain, with the "
+              "law of Kraus (lines) and the amplitudes at which a tenth and half of the storage "
+              "modulus are lost. A filled rubber falls between two plateaus, and the loss modulus "
+              "has its maximum where half of that fall is reached.",
+     .draw = draw_payne,
+     .caption = caption_payne},
+    {.name = NULL},
+};
