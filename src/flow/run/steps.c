@@ -286,6 +286,7 @@ wt_status flow_step_ramp(flow_run *run, wt_error *err)
 {
     wt_ramp_tables tables = {0};
     wt_ramp_job job = run->c->ramp;
+    wt_job work = run->job;
     if ((run->plan.wanted & FLOW_BIT(FLOW_MODULI_AT)) != 0 && job.n_temperatures == 0) {
         wt_fail(err, WT_E_MISSING, "no temperatures at which the moduli are asked for");
         wt_error_expected(err, "<at> in <dma>, such as 25degC,60degC");
