@@ -18,7 +18,7 @@ typedef struct points {
 
 static double complex law(double e0, double eg, double tau, double alpha, double w)
 {
-    const double complex z = cpow(CMPLX(0, w * tau), alpha);
+    const double complex z = cpow(w * tau * (double complex)I, alpha);
     return (e0 + eg * z) / (1 + z);
 }
 
@@ -51,7 +51,7 @@ static double criterion(const points *p, const wt_prony *s, double rms[2])
         if (p->left_out[i])
             continue;
         for (size_t k = 0; k < s->n; k++) {
-            const double complex z = CMPLX(0, pow(10, p->x[i]) * s->relaxation_time[k]);
+            const double complex z = pow(10, p->x[i]) * s->relaxation_time[k] * (double complex)I;
             e += s->modulus[k] * z / (1 + z);
         }
         sum[0] += pow(log(creal(e)) - p->storage[i] * log(10), 2);
