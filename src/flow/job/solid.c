@@ -380,7 +380,7 @@ static void write_table(solid *s)
     for (size_t i = 0; i < p->n; i++) {
         const double e = p->modulus[i], k = s->incompressible ? 0 : share(s, i);
         say(s, "%.12g\t%.12g\t%.12g\t%.12g\t%.12g\t%.12g\n", p->relaxation_time[i], share(s, i), k,
-            e, shear_of(s, e), s->incompressible ? 0 : bulk_of(s, e));
+            e, shear_of(s, e), bulk_of(s, e));
     }
 }
 
