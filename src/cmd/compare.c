@@ -2,6 +2,7 @@
  * GPL-3.0-or-later */
 #include "cmd/compare.h"
 
+#include <math.h>
 #include <string.h>
 
 typedef struct own_options {
@@ -81,6 +82,16 @@ static void compare_groups(compare_call *call, const char *master)
     wt_result_free(dma);
 }
 
+/* What is asked of materials would be left out without a word. */
+static bool check_options(compare_call *call)
+{
+    const wt_materials_job *m = &call->materials;
+    if (!isnan(m->temperature) || !isnan(m->frequency) || m->sample_error > 0)
+        return cmd_usage_error(&call->s, "--at-temperature, --at-frequency and --sample-error are "
+                                         "for materials, not for BULK and TRACK");
+    return true;
+}
+
 /* What a file is its content says. */
 static bool read_inputs(compare_call *call)
 {
@@ -128,11 +139,11 @@ int cmd_compare(int argc, char **argv)
         {wt_compare_job_params(), &call.groups, NULL, 0},
         {wt_materials_job_params(), &call.materials, "at-temperature at-frequency sample-error", 0},
         {wt_master_job_params(), &call.master, "poisson-ratio", 0},
-        {wt_read_params(), &call.set.read, "temperature units format sheet", 0}};
+        {wt_read_params(), &call.set.read, "temperature units format sheet deformation strain", 0}};
     if (cmd_parse(&call.s, &usage, parts, COUNT_OF(parts), argc, argv) && read_inputs(&call)) {
-        if (compare_takes_materials(&call))
+        if (own.master == NULL && compare_takes_materials(&call))
             compare_materials(&call);
-        else
+        else if (check_options(&call))
             compare_groups(&call, own.master);
     }
     for (size_t i = 0; call.input != NULL && i < call.s.n_files; i++) {

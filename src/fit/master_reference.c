@@ -87,6 +87,12 @@ wt_status wt_master_fit(const wt_sweep *sweep, const wt_master_options *options,
     wt_master_options own = options != NULL ? *options : wt_master_options_defaults();
     if (own.reference_at != WT_REFERENCE_TAN_DELTA_PEAK)
         return fit_somewhere(sweep, own, log, master, err);
+    if (!isnan(own.reference_temperature)) {
+        wt_fail(err, WT_E_ARG, "two references: a temperature and the peak of tan delta");
+        wt_error_place(err, "reference-at");
+        wt_error_advice(err, "give one of them");
+        return WT_E_ARG;
+    }
     wt_master first = {0};
     wt_status status = fit_somewhere(sweep, own, NULL, &first, err);
     if (status == WT_OK)

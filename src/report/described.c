@@ -109,6 +109,11 @@ void drawing_axes(figure_drawing *d)
     drawing_axis(d, "cb", &d->figure->colour, NULL, d->colour);
 }
 
+char drawing_letter(const char *deformation)
+{
+    return strcmp(deformation, "shear") == 0 ? 'G' : 'E';
+}
+
 /* ---- curves ---------------------------------------------------------------------------------- */
 
 /* Adds a column with the factor to the unit of its axis: "($2*y_unit)". */

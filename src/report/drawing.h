@@ -64,6 +64,8 @@ void drawing_axis(figure_drawing *d, const char *letter, const figure_axis *axis
                   value_span span);
 /* x, y of the first panel and, if it says something, the scale of colour beside the picture. */
 void drawing_axes(figure_drawing *d);
+/* Of the moduli, by the words of a table for its deformation. */
+char drawing_letter(const char *deformation);
 /* All that is described of one panel, in a plot command: the bands, then the curves. */
 void drawing_bands(figure_drawing *d, size_t panel);
 void drawing_curves(figure_drawing *d, size_t panel);

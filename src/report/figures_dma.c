@@ -76,20 +76,15 @@ static void draw_ramp(figure_drawing *d)
 {
     if (!drawing_data(d))
         return;
-    const char *deformation = ramp_words(d->table, RAMP_KEY_DEFORMATION);
-    const char letter = strcmp(deformation, "shear") == 0 ? 'G' : 'E';
+    const char letter = drawing_letter(ramp_words(d->table, RAMP_KEY_DEFORMATION));
     char label[64], storage[16], loss[16];
     (void)snprintf(label, sizeof label, "%c′, %c″", letter, letter);
     (void)snprintf(storage, sizeof storage, "%c′", letter);
     (void)snprintf(loss, sizeof loss, "%c″", letter);
     d->height = 1.5;
     text_add(&d->script, "set multiplot layout 2,1\n");
-    drawing_axis(d, "x", &d->figure->x, NULL, d->x);
-    if (d->colour.high > d->colour.low) {
-        d->width = 1.15;
-        drawing_axis(d, "cb", &d->figure->colour, NULL, d->colour);
-    }
-    drawing_axis(d, "y", &d->figure->y[0], label, d->y[0]);
+    d->y_label = label;
+    drawing_axes(d);
     plot_ramp(d, 2, 51, storage);
     plot_ramp(d, 3, 52, loss);
     plot_peaks(d, GLASS_TRANSITION_LOSS_PEAK, "peak of the loss modulus");

@@ -64,8 +64,7 @@ static void define_combinations(figure_drawing *d)
 
 static char letter_of(const figure_drawing *d)
 {
-    const char *deformation = master_curve_words(d->table, MASTER_CURVE_KEY_DEFORMATION);
-    return strcmp(deformation, "shear") == 0 ? 'G' : 'E';
+    return drawing_letter(master_curve_words(d->table, MASTER_CURVE_KEY_DEFORMATION));
 }
 
 static void combined_axis(figure_drawing *d, const char *axis, const combination *c)

@@ -5,7 +5,6 @@
 #include "report/drawing.h"
 
 #include <math.h>
-#include <string.h>
 
 /* Places in the data: strain, what the curves are described in, the frequency. */
 enum { STORAGE = 2, LOSS = 3, STORAGE_LAW = 4, LOSS_LAW = 5, FREQUENCY = 6 };
@@ -47,19 +46,13 @@ static void draw_payne(figure_drawing *d)
 {
     if (!drawing_data(d))
         return;
-    const char *deformation = payne_sweep_words(d->table, PAYNE_SWEEP_KEY_DEFORMATION);
-    const char letter = strcmp(deformation, "shear") == 0 ? 'G' : 'E';
+    const char letter = drawing_letter(payne_sweep_words(d->table, PAYNE_SWEEP_KEY_DEFORMATION));
     char storage[16], loss[16];
     (void)snprintf(storage, sizeof storage, "%c′", letter);
     (void)snprintf(loss, sizeof loss, "%c″", letter);
     d->height = 1.5;
     text_add(&d->script, "set multiplot layout 2,1\n");
-    drawing_axis(d, "x", &d->figure->x, NULL, d->x);
-    if (d->colour.high > d->colour.low) {
-        d->width = 1.15;
-        drawing_axis(d, "cb", &d->figure->colour, NULL, d->colour);
-    }
-    drawing_axis(d, "y", &d->figure->y[0], NULL, d->y[0]);
+    drawing_axes(d);
     plot_points(d, STORAGE, STORAGE_LAW, 51, storage);
     plot_mark(d, PAYNE_STRAIN_TENTH, 0.9, "a tenth lost");
     plot_mark(d, PAYNE_STRAIN_HALF, 0.5, "half lost");

@@ -245,6 +245,7 @@ static void glass_transition_as_reference(void **unused)
         wt_error err = WT_ERROR_INIT;
         wt_master_options o = options((wt_shift_by)by);
         o.reference_at = WT_REFERENCE_TAN_DELTA_PEAK;
+        o.reference_temperature = (double)NAN;
         dma_usual(&sweep, true, noise, 3);
         const wt_status status = wt_master_fit(&sweep, &o, NULL, &m, &err);
         assert_int_equal(status, by == WT_BY_LOSS ? WT_E_RANGE : WT_OK);
