@@ -24,6 +24,18 @@ typedef struct wt_layer_state {
     uint64_t reserved[8];
 } wt_layer_state;
 
+/* How the moduli soften with strain (Payne effect): E' becomes f E', E'' becomes g E''. f and g are
+ * linear in ln strain between n >= 1 points and constant outside; the strain at a wavenumber is
+ * strain_factor times the rms slope of the roughness up to there. Of a transversely isotropic
+ * rubber it is the modulus that its surface feels. */
+typedef struct wt_softening {
+    size_t n;
+    double *strain;  /* [n] amplitude, 1 = 100 %, > 0 and rising */
+    double *storage; /* [n] f, from 1e-3 to 1e3 */
+    double *loss;    /* [n] g, likewise */
+    uint64_t reserved[4];
+} wt_softening;
+
 typedef struct wt_friction_options {
     double tolerance; /* relative numerical error asked for; default 1e-10 */
     double gamma;     /* S = gamma + (1 - gamma) P^2 in the friction integrand; 1 = Persson 2001 */
@@ -31,7 +43,9 @@ typedef struct wt_friction_options {
     unsigned threads;     /* over velocities; 0 = one per processor; default 1 */
     bool without_share;   /* the extrapolated share is not asked for, and NaN; default false */
     struct angular_law *series; /* of the library: that of the material, borrowed; default NULL */
-    uint64_t reserved[7];
+    const wt_softening *softening; /* borrowed while the workspace is made; NULL (default) = none */
+    double strain_factor;          /* of the softening, > 0; default 1 */
+    uint64_t reserved[5];
 } wt_friction_options;
 WT_API wt_friction_options wt_friction_defaults(void);
 WT_API const wt_params *wt_friction_params(void);
@@ -65,6 +79,8 @@ WT_API wt_status wt_friction_workspace_new(const wt_material *material,
                                            wt_friction_workspace **workspace,
                                            wt_error *err) WT_NODISCARD;
 WT_API void wt_friction_workspace_free(wt_friction_workspace *workspace);
+/* Strain at a wavenumber in [q0, q1]; NaN elsewhere or without a softening. */
+WT_API double wt_friction_strain(const wt_friction_workspace *workspace, double wavenumber);
 /* mu_hys, P, G at n velocities; pressure [Pa] > 0. A negative velocity gives negative friction; 0
  * is allowed where the law has closed angular integrals (Prony). points: [n], undefined on failure.
  * WT_E_RANGE names pressure or velocity. One call at a time per workspace. */

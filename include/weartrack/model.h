@@ -126,7 +126,10 @@ typedef struct wt_material_law {
                        wt_error *err);
     /* How many terms `angular` adds up. NULL: few. */
     size_t (*terms)(const wt_material *material);
-    uint64_t reserved[6];
+    /* int_0^2pi E''(w cos phi)^2 dphi, the part of J2 from E'' alone, in closed form. NULL: the
+     * kernel integrates `modulus`. */
+    void (*angular_loss)(const wt_material *material, const double *omega, size_t n, double *j2);
+    uint64_t reserved[5];
 } wt_material_law;
 
 struct wt_material {

@@ -26,13 +26,13 @@ wt_friction_options wt_friction_defaults(void)
     return (wt_friction_options){.tolerance = 1e-10,
                                  .gamma = 1,
                                  .layer = {.thickness = 0, .modulus_ratio = 1},
-                                 .threads = 1};
+                                 .threads = 1,
+                                 .strain_factor = 1};
 }
 
 static const wt_param rows[] = {
-    FRICTION_TOLERANCE(wt_friction_options),
-    FRICTION_GAMMA(wt_friction_options),
-    LAYER_STATE_ROWS(wt_friction_options, layer.),
+    FRICTION_TOLERANCE(wt_friction_options),     FRICTION_GAMMA(wt_friction_options),
+    FRICTION_STRAIN_FACTOR(wt_friction_options), LAYER_STATE_ROWS(wt_friction_options, layer.),
     PARAM_THREADS(wt_friction_options),
 };
 PARAM_TABLE(wt_friction_params, wt_friction_options, rows, wt_friction_defaults, NO_PARTS)
@@ -55,13 +55,15 @@ wt_status friction_scratch_init(friction_scratch *scratch, const wt_friction_wor
 {
     *scratch = (friction_scratch){0};
     panel_plan_init(&scratch->plan, ws->roughness, ws->plan.levels, ws->knots, ws->n_knots, n_cuts,
-                    memory);
+                    ws->softening, memory);
     const size_t panels = scratch->plan.capacity;
     scratch->room = panels;
     for (size_t k = 0; k < FRICTION_STEPS; k++)
         grid_init(&scratch->grids[k], &scratch->plan, ws->rules[k], memory);
-    double **const by_node[] = {&scratch->omega, &scratch->j1, &scratch->j2};
-    for (size_t i = 0; i < COUNT_OF(by_node); i++)
+    double **const by_node[] = {&scratch->omega, &scratch->j1, &scratch->j2, &scratch->loss_j1,
+                                &scratch->loss_j2};
+    const size_t n_by_node = ws->softening != NULL ? COUNT_OF(by_node) : 3;
+    for (size_t i = 0; i < n_by_node; i++)
         *by_node[i] = pool_alloc(memory, (panels + 2) * FRICTION_MAX_NODES, sizeof **by_node[i]);
     scratch->knots = pool_alloc(memory, ws->n_knots + 1, sizeof *scratch->knots);
     double **const by_panel[] = {&scratch->bounds, &scratch->panel_mu, &scratch->panel_g,
@@ -90,7 +92,13 @@ static double rounding_of(const wt_friction_workspace *ws)
         density = there;
     }
     const double slope = 4 + steepest + 3; /* 2 for a term of a Prony series */
-    return FRICTION_ROUNDING + DBL_EPSILON * slope * log1p((q - roughness->q0) / roughness->q0);
+    const double nodes = DBL_EPSILON * slope * log1p((q - roughness->q0) / roughness->q0);
+    const strain_law *s = ws->softening;
+    if (s == NULL)
+        return FRICTION_ROUNDING + nodes;
+    /* close to q0 the strain is that of a rounded q - q0, in as many cells as there are */
+    return FRICTION_ROUNDING * s->caution + nodes +
+           2 * s->steepest * (8 + (double)ws->plan.levels) * DBL_EPSILON;
 }
 
 static wt_status make_rules(wt_friction_workspace *ws, wt_error *err)
@@ -112,6 +120,17 @@ static wt_status prepare_plan(wt_friction_workspace *ws, wt_error *err)
         return no_memory(err);
     panel_plan_lay(&ws->plan, ws->roughness, NULL, 0, NULL, 0, bounds);
     return WT_OK;
+}
+
+static wt_status begin_softening(wt_friction_workspace *ws, wt_error *err)
+{
+    const wt_friction_options *o = &ws->options;
+    const wt_status status = softening_new(o->softening, o->strain_factor, ws->material,
+                                           ws->roughness, &ws->memory, &ws->softening, err);
+    ws->options.softening = NULL; /* its table was borrowed until now */
+    return status == WT_OK
+               ? angular_new(&ws->softening->loss, o->tolerance, &ws->memory, &ws->loss, err)
+               : status;
 }
 
 wt_status wt_friction_workspace_new(const wt_material *material, const wt_roughness *roughness,
@@ -136,10 +155,13 @@ wt_status wt_friction_workspace_new(const wt_material *material, const wt_roughn
 
     ws->threads = wt_thread_count(o.threads);
     ws->scratch = pool_alloc(&ws->memory, ws->threads, sizeof *ws->scratch);
-    panel_plan_init(&ws->plan, roughness, levels_for(o.tolerance), NULL, 0, 0, &ws->memory);
+    if (o.softening != NULL)
+        status = begin_softening(ws, err);
+    panel_plan_init(&ws->plan, roughness, levels_for(o.tolerance), NULL, 0, 0, ws->softening,
+                    &ws->memory);
 
     ws->angular = o.series;
-    if (o.series == NULL)
+    if (status == WT_OK && o.series == NULL)
         status = angular_new(material, o.tolerance, &ws->memory, &ws->angular, err);
     if (status == WT_OK)
         status = make_rules(ws, err);
@@ -165,6 +187,7 @@ void wt_friction_workspace_free(wt_friction_workspace *ws)
         return;
     if (ws->options.series == NULL)
         angular_clear(ws->angular);
+    angular_clear(ws->loss);
     pool_free(&ws->memory);
     free(ws);
 }
@@ -182,6 +205,14 @@ enum { MANY_VELOCITIES = 8 };
 /* The series of a material reach down from there far enough. */
 #define LEAST_FREQUENCY 1e-250
 
+/* A closed form is taken as it is for a few velocities. */
+static wt_status cover(angular_law *angular, const wt_material *material, size_t n, double lowest,
+                       double highest, wt_error *err)
+{
+    const bool as_it_is = material->law->angular != NULL && n < MANY_VELOCITIES;
+    return as_it_is ? WT_OK : angular_cover(angular, lowest, highest, err);
+}
+
 wt_status friction_prepare(wt_friction_workspace *ws, double pressure, const double *velocity,
                            size_t n, wt_error *err)
 {
@@ -198,21 +229,23 @@ wt_status friction_prepare(wt_friction_workspace *ws, double pressure, const dou
     const wt_material *material = ws->material;
     const double lowest = slowest * ws->roughness->q0;
     const double highest = fastest * ws->roughness->q1;
-    if (n == 0 || (material->law->angular && n < MANY_VELOCITIES))
+    if (n == 0)
         return WT_OK;
-    if (material->law->angular)
-        return angular_cover(ws->angular, lowest, highest, err);
     wt_status status = WT_OK;
-    if (!(lowest >= LEAST_FREQUENCY && highest <= DBL_MAX)) {
+    if (!material->law->angular && !(lowest >= LEAST_FREQUENCY && highest <= DBL_MAX)) {
         (void)range_error("velocity", lowest >= LEAST_FREQUENCY ? fastest : slowest,
                           "not 0, and so that q v is a frequency in range", err);
         wt_error_advice(err, "a material of kind %s has no static limit; a Prony series has",
                         material->law->name);
         return WT_E_RANGE;
     }
-    if (material->law->check != NULL)
+    if (!material->law->angular && material->law->check != NULL)
         status = material->law->check(material, lowest, highest, NULL, err);
-    return status == WT_OK ? angular_cover(ws->angular, lowest, highest, err) : status;
+    if (status == WT_OK)
+        status = cover(ws->angular, material, n, lowest, highest, err);
+    return status == WT_OK && ws->softening != NULL
+               ? cover(ws->loss, &ws->softening->loss, n, lowest, highest, err)
+               : status;
 }
 
 const panel_plan *friction_plan(const wt_friction_workspace *ws, friction_scratch *scratch,

@@ -22,6 +22,7 @@ typedef struct friction_scratch {
     double *bounds;                   /* [room + 1] t */
     /* [(room + 2) * max nodes]: all panels, then one made anew, then the core */
     double *omega, *j1, *j2;
+    double *loss_j1, *loss_j2;  /* likewise, of the loss modulus, with a softening */
     double *panel_mu, *panel_g; /* [room + 1]: parts of the last pass, */
     double *error_mu, *error_g; /* and the errors of its rule in them */
     size_t nodes;               /* at which J1 and J2 were evaluated so far */
@@ -33,8 +34,10 @@ struct wt_friction_workspace {
     const wt_roughness *roughness;
     wt_friction_options options;
     angular_law *angular;
-    double stiffness; /* 1 / (1 - nu^2) */
-    double rounding;  /* relative error of the integrals from rounding, but for that of J1, J2 */
+    strain_law *softening; /* NULL: none */
+    angular_law *loss;     /* of its loss modulus */
+    double stiffness;      /* 1 / (1 - nu^2) */
+    double rounding; /* relative error of the integrals from rounding, but for that of J1, J2 */
     const double *knots;
     size_t n_knots; /* of the material, rad/s */
     gauss_rule *rules[FRICTION_STEPS];

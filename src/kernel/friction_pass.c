@@ -51,6 +51,14 @@ static double steepness(const double *j, size_t n)
 /* S P falls no faster than G to the power of minus this. */
 static const double area_power = 1.5;
 
+static double series_error(const wt_friction_workspace *ws, double low, double high)
+{
+    const double error = angular_error(ws->angular, low, high);
+    return ws->softening == NULL
+               ? error
+               : ws->softening->caution * (error + angular_error(ws->loss, low, high));
+}
+
 /* What the errors of J1 and J2 make of the part of a pass whose n nodes are at `omega`; G so far
  * contains it. Errors of the series; and ln omega and the logarithms of the knots are rounded, so
  * what is steep there moves. */
@@ -58,11 +66,12 @@ static void add_moved(const wt_friction_workspace *ws, const double *omega, cons
                       const double *j2, size_t n, double variance, double hysteresis,
                       double variance_so_far, friction_pass *pass)
 {
-    if (angular_closed(ws->angular, omega[0], omega[n - 1]))
+    if (angular_closed(ws->angular, omega[0], omega[n - 1]) &&
+        (ws->loss == NULL || angular_closed(ws->loss, omega[0], omega[n - 1])))
         return;
     const double far = fmax(fabs(log(omega[0])), fabs(log(omega[n - 1])));
     const double moved = 4 * DBL_EPSILON * (1 + far);
-    const double series = angular_error(ws->angular, omega[0], omega[n - 1]);
+    const double series = series_error(ws, omega[0], omega[n - 1]);
     pass->variance_moved += variance * (series + moved * steepness(j2, n));
     pass->hysteresis_moved += hysteresis * (series + moved * steepness(j1, n));
     if (variance_so_far > 0)
@@ -76,6 +85,7 @@ static void add_moved(const wt_friction_workspace *ws, const double *omega, cons
 typedef struct node_view {
     const gauss_rule *rule;
     const double *q, *factor1, *factor2;
+    const double *f, *g; /* NULL without a softening */
     double half;
     double *omega, *j1, *j2;
 } node_view;
@@ -97,7 +107,25 @@ static node_view panel_view(friction_scratch *scratch, const scale_grid *grid, s
     view.factor1 = grid->factor1 + at;
     view.factor2 = grid->factor2 + at;
     view.half = grid->half_width[p];
+    if (grid->f != NULL) {
+        view.f = grid->f + at;
+        view.g = grid->g + at;
+    }
     return view;
+}
+
+/* J1 and J2 of the softened moduli, from those of the moduli. */
+static void soften(const wt_friction_workspace *ws, friction_scratch *scratch,
+                   const node_view *view, size_t n)
+{
+    const size_t from = (size_t)(view->omega - scratch->omega);
+    double *loss = scratch->loss_j2 + from;
+    angular_eval(ws->loss, view->omega, n, scratch->loss_j1 + from, loss);
+    for (size_t i = 0; i < n; i++) {
+        const double f = view->f[i], g = view->g[i];
+        view->j1[i] *= g;
+        view->j2[i] = f * f * view->j2[i] + (g - f) * (g + f) * loss[i];
+    }
 }
 
 static void evaluate_nodes(const wt_friction_workspace *ws, friction_scratch *scratch,
@@ -107,6 +135,8 @@ static void evaluate_nodes(const wt_friction_workspace *ws, friction_scratch *sc
         view->omega[i] = view->q[i] * at.speed;
     scratch->nodes += n;
     angular_eval(ws->angular, view->omega, n, view->j1, view->j2);
+    if (view->f != NULL)
+        soften(ws, scratch, view, n);
 }
 
 static node_view core_view(const wt_friction_workspace *ws, friction_scratch *scratch,
@@ -121,6 +151,10 @@ static node_view core_view(const wt_friction_workspace *ws, friction_scratch *sc
     view.factor1 = grid->core_factor1 + first;
     view.factor2 = grid->core_factor2 + first;
     view.half = grid->core_half_width[level];
+    if (grid->f != NULL) {
+        view.f = grid->core_f + first;
+        view.g = grid->core_g + first;
+    }
     evaluate_nodes(ws, scratch, &view, grid->rule->n, at);
     return view;
 }
@@ -162,7 +196,7 @@ typedef struct pass_part {
 
 static rule_fall fall_of(const wt_friction_workspace *ws)
 {
-    return ws->material->law->angular != NULL ? FALL_SMOOTH : FALL_LAW;
+    return ws->material->law->angular != NULL && ws->softening == NULL ? FALL_SMOOTH : FALL_LAW;
 }
 
 /* ---- core ------------------------------------------------------------------------------------ */
@@ -297,10 +331,11 @@ static void add_part(const wt_friction_workspace *ws, friction_scratch *scratch,
         record->mu[record->n++] = part->share[j];
     }
     for (size_t j = 0; with_outside && j < n; j++)
-        if (part->share[j] > 0)
+        if (part->share[j] > 0) {
+            const double j1 = view->g != NULL ? view->j1[j] / view->g[j] : view->j1[j];
             pass->outside +=
-                part->share[j] *
-                (angular_outside(ws->angular, view->omega[j], view->j1[j]) / view->j1[j]);
+                part->share[j] * (angular_outside(ws->angular, view->omega[j], j1) / j1);
+        }
     pass->variance_error += part->variance_error;
     add_moved(ws, view->omega, view->j1, view->j2, n, part->variance, part->hysteresis, variance,
               pass);

@@ -45,15 +45,17 @@ static size_t graded_most(const double *knots, size_t n)
 }
 
 void panel_plan_init(panel_plan *plan, const wt_roughness *roughness, size_t levels,
-                     const double *knots, size_t n_knots, size_t n_cuts, pool *memory)
+                     const double *knots, size_t n_knots, size_t n_cuts,
+                     const strain_law *softening, pool *memory)
 {
     size_t n_roughness = 0;
     (void)roughness_breaks(roughness, &n_roughness);
     const double length = log_ratio(roughness->q1, roughness->q0);
-    *plan = (panel_plan){.q0 = roughness->q0, .q1 = roughness->q1, .levels = levels};
+    *plan = (panel_plan){
+        .q0 = roughness->q0, .q1 = roughness->q1, .softening = softening, .levels = levels};
     /* from the smallest t up to the width of a panel there are 27 steps of the cell ratio */
     plan->capacity = levels + n_roughness + n_knots + graded_most(knots, n_knots) + n_cuts + 32 +
-                     (size_t)(length / panel_width);
+                     (softening != NULL ? softening->n_cuts : 0) + (size_t)(length / panel_width);
     plan->core = pool_alloc(memory, levels + 1, sizeof *plan->core);
     plan->panels = pool_alloc(memory, plan->capacity, sizeof *plan->panels);
 }
@@ -108,6 +110,9 @@ void panel_plan_lay(panel_plan *plan, const wt_roughness *roughness, const doubl
     for (size_t i = 0; i < n_cuts; i++)
         if (cuts[i] > 0 && cuts[i] < length)
             bounds[n++] = cuts[i];
+    for (size_t i = 0; plan->softening != NULL && i < plan->softening->n_cuts; i++)
+        if (plan->softening->cuts[i] > least && plan->softening->cuts[i] < length - least)
+            bounds[n++] = plan->softening->cuts[i];
     for (size_t i = 0; i < n_knots; i++)
         if (knots[i] > least && knots[i] < length - least)
             bounds[n++] = knots[i];
@@ -167,6 +172,12 @@ void grid_init(scale_grid *grid, const panel_plan *plan, const gauss_rule *rule,
                          .core_factor2 = pool_alloc(memory, core_nodes, sizeof *grid->core_factor2),
                          .core_half_width =
                              pool_alloc(memory, plan->levels + 1, sizeof *grid->core_half_width)};
+    if (plan->softening == NULL)
+        return;
+    grid->f = pool_alloc(memory, nodes, sizeof *grid->f);
+    grid->g = pool_alloc(memory, nodes, sizeof *grid->g);
+    grid->core_f = pool_alloc(memory, core_nodes, sizeof *grid->core_f);
+    grid->core_g = pool_alloc(memory, core_nodes, sizeof *grid->core_g);
 }
 
 /* Fills q and dt/ds (into factor1) on one panel; returns the half width in s. */
@@ -235,6 +246,8 @@ void grid_fill_panels(scale_grid *grid, const panel_plan *plan, size_t first, si
         grid->half_width[p] =
             place_nodes(plan, &plan->panels[p], grid->rule, grid->q + at, grid->factor1 + at);
         weigh_nodes(roughness, layer, n, grid->q + at, grid->factor1 + at, grid->factor2 + at);
+        if (plan->softening != NULL)
+            softening_at(plan->softening, grid->q + at, n, grid->f + at, grid->g + at);
     }
 }
 
@@ -248,4 +261,6 @@ void grid_fill_core(scale_grid *grid, const panel_plan *plan, size_t level,
                                                grid->core_q + at, grid->core_factor1 + at);
     weigh_nodes(roughness, layer, n, grid->core_q + at, grid->core_factor1 + at,
                 grid->core_factor2 + at);
+    if (plan->softening != NULL)
+        softening_at(plan->softening, grid->core_q + at, n, grid->core_f + at, grid->core_g + at);
 }

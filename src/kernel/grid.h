@@ -11,6 +11,7 @@
 #define WT_KERNEL_GRID_H
 
 #include "kernel/rule.h"
+#include "kernel/softening.h"
 #include "weartrack/kernel.h"
 
 typedef enum panel_map {
@@ -28,6 +29,7 @@ typedef struct grid_panel {
 /* Panels in rising t: cell[levels - 1] ... cell[0], then the others; cores apart. */
 typedef struct panel_plan {
     double q0, q1;
+    const strain_law *softening; /* borrowed, NULL = none */
     size_t levels;
     grid_panel *core;   /* [levels + 1] */
     size_t n_panels;    /* levels cells and the others */
@@ -36,11 +38,12 @@ typedef struct panel_plan {
 } panel_plan;
 
 /* Room for a plan with these knots (of any one unit of frequency) and up to n_cuts cuts besides
- * those of the roughness. The pool tells whether there was memory. */
+ * those of roughness and softening. The pool tells whether there was memory. */
 void panel_plan_init(panel_plan *plan, const wt_roughness *roughness, size_t levels,
-                     const double *knots, size_t n_knots, size_t n_cuts, pool *memory);
-/* Lays the panels: cut at the breaks of the roughness, at `cuts` (plain, t rising) and at `knots`
- * (of the material: square-root maps to their right; t rising, also outside the range).
+                     const double *knots, size_t n_knots, size_t n_cuts,
+                     const strain_law *softening, pool *memory);
+/* Lays the panels: cut at the breaks of roughness and softening, at `cuts` (plain, t rising) and at
+ * `knots` (of the material: square-root maps to their right; t rising, also outside the range).
  * `bounds` is scratch for capacity + 1 numbers. */
 void panel_plan_lay(panel_plan *plan, const wt_roughness *roughness, const double *cuts,
                     size_t n_cuts, const double *knots, size_t n_knots, double *bounds);
@@ -54,6 +57,8 @@ typedef struct scale_grid {
     double *half_width;                           /* [capacity] 0: not made yet */
     double *core_q, *core_factor1, *core_factor2; /* [(levels + 1) * n] */
     double *core_half_width;                      /* [levels + 1] likewise */
+    /* at the same nodes, NULL without a softening */
+    double *f, *g, *core_f, *core_g;
 } scale_grid;
 
 /* Likewise, for any plan of this capacity. The rule is borrowed. */

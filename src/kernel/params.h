@@ -21,6 +21,14 @@
                     "Persson 2001"                                                                 \
     }
 
+#define FRICTION_STRAIN_FACTOR(type)                                                               \
+    {                                                                                              \
+        PARAM("strain-factor", type, strain_factor, WT_Q_NONE, FROM_TO(0.01, 100)),                \
+            .value = "X",                                                                          \
+            .help = "strain at a wavenumber over the rms slope of the roughness up "               \
+                    "to there, for the softening"                                                  \
+    }
+
 /* What is on the surface. `in` stands before the member. */
 #define LAYER_STATE_ROWS(type, in)                                                                 \
     {PARAM("layer-thickness", type, in thickness, WT_Q_LENGTH, AT_LEAST(0)), .value = "D",         \

@@ -97,6 +97,51 @@ static void prony_angular(const wt_material *material, const double *restrict om
     }
 }
 
+/* sqrt(1 + a^2) and E a / sqrt(1 + a^2) for a = omega tau. */
+static void loss_parts(double omega, double modulus, double tau, double *root, double *height)
+{
+    const double a = omega * tau;
+    const bool square = a < square_limit;
+    *root = square ? sqrt(1 + a * a) : a;
+    *height = square ? modulus * (a / *root) : modulus;
+}
+
+enum { LOSS_BLOCK = 64 };
+
+/* sum_j h_j / (R_j + R_k) of the terms k of a block. */
+WIDE_REGISTERS
+static void add_pairs(double root, double height, const double *restrict roots, size_t n,
+                      double *restrict sums)
+{
+    for (size_t k = 0; k < n; k++)
+        sums[k] += height / (root + roots[k]);
+}
+
+/* int E''^2 = 2 pi sum_jk h_j h_k / (R_j + R_k) with R = sqrt(1 + a^2), h = E a / R. */
+static void prony_angular_loss(const wt_material *material, const double *omega, size_t n,
+                               double *j2)
+{
+    const prony_data *d = material->data;
+    for (size_t i = 0; i < n; i++) {
+        j2[i] = 0;
+        for (size_t from = 0; from < d->n; from += LOSS_BLOCK) {
+            const size_t count = d->n - from < LOSS_BLOCK ? d->n - from : LOSS_BLOCK;
+            double roots[LOSS_BLOCK], heights[LOSS_BLOCK], sums[LOSS_BLOCK] = {0};
+            for (size_t k = 0; k < count; k++)
+                loss_parts(omega[i], d->modulus[from + k], d->relaxation_time[from + k], &roots[k],
+                           &heights[k]);
+            for (size_t j = 0; j < d->n; j++) {
+                double root, height;
+                loss_parts(omega[i], d->modulus[j], d->relaxation_time[j], &root, &height);
+                add_pairs(root, height, roots, count, sums);
+            }
+            for (size_t k = 0; k < count; k++)
+                j2[i] += heights[k] * sums[k];
+        }
+        j2[i] *= 2 * M_PI;
+    }
+}
+
 static size_t prony_terms(const wt_material *material)
 {
     const prony_data *d = material->data;
@@ -108,6 +153,7 @@ static const wt_material_law prony_law = {
     .modulus = prony_modulus,
     .angular = prony_angular,
     .terms = prony_terms,
+    .angular_loss = prony_angular_loss,
     .free = material_free_data,
 };
 

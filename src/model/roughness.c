@@ -2,8 +2,8 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
+#include "model/roughness.h"
 #include "model/special.h"
-#include "weartrack/model.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -39,28 +39,28 @@ static double moment_piece(const wt_roughness *roughness, int m, double from, do
     return sum;
 }
 
-static double moment_all(const wt_roughness *roughness, int m)
+double roughness_moment(const wt_roughness *roughness, int m, double q)
 {
     if (roughness->law->moment != NULL)
-        return roughness->law->moment(roughness, m, roughness->q1);
+        return roughness->law->moment(roughness, m, q);
     size_t n = 0;
     const double *breaks =
         roughness->law->breaks != NULL ? roughness->law->breaks(roughness, &n) : NULL;
     double from = roughness->q0;
     double sum = 0;
-    for (size_t i = 0; i < n; i++) {
+    for (size_t i = 0; i < n && breaks[i] < q; i++) {
         sum += moment_piece(roughness, m, from, breaks[i]);
         from = breaks[i];
     }
-    return sum + moment_piece(roughness, m, from, roughness->q1);
+    return sum + moment_piece(roughness, m, from, q);
 }
 
 double wt_roughness_rms_height(const wt_roughness *roughness)
 {
-    return sqrt(2 * M_PI * moment_all(roughness, 1));
+    return sqrt(2 * M_PI * roughness_moment(roughness, 1, roughness->q1));
 }
 
 double wt_roughness_rms_slope(const wt_roughness *roughness)
 {
-    return sqrt(2 * M_PI * moment_all(roughness, 3));
+    return sqrt(2 * M_PI * roughness_moment(roughness, 3, roughness->q1));
 }

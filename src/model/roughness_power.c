@@ -16,7 +16,8 @@ typedef struct power_data {
     double *knot;     /* [n + 1] rad/m, rising */
     double *density;  /* [n] m^4 at the left end */
     double *slope;    /* [n] */
-    double numbers[]; /* [3 n + 1] all of them */
+    double *below[2]; /* [n] int q C and int q^3 C up to the left end */
+    double numbers[]; /* [5 n + 1] all of them */
 } power_data;
 
 static void power_density(const wt_roughness *roughness, const double *q, size_t n, double *c)
@@ -40,19 +41,21 @@ static const double *power_breaks(const wt_roughness *roughness, size_t *n)
     return d->knot + 1;
 }
 
+/* int q^m C from knot k to q. */
+static double moment_in(const power_data *d, int m, size_t k, double q)
+{
+    const double from = d->knot[k];
+    const double length = log1p((q - from) / from);
+    const double exponent = (m + 1) + d->slope[k];
+    const double integral = exponent == 0 ? length : expm1(exponent * length) / exponent;
+    return d->density[k] * pow(from, m + 1) * integral;
+}
+
 static double power_moment(const wt_roughness *roughness, int m, double q)
 {
     const power_data *d = roughness->data;
-    double sum = 0;
-    for (size_t k = 0; k < d->n && d->knot[k] < q; k++) {
-        const double from = d->knot[k];
-        const double to = fmin(q, d->knot[k + 1]);
-        const double length = log1p((to - from) / from);
-        const double exponent = (m + 1) + d->slope[k];
-        const double integral = exponent == 0 ? length : expm1(exponent * length) / exponent;
-        sum += d->density[k] * pow(from, m + 1) * integral;
-    }
-    return sum;
+    const size_t k = gsl_interp_bsearch(d->knot, q, 0, d->n);
+    return d->below[m == 3][k] + moment_in(d, m, k, fmin(q, d->knot[d->n]));
 }
 
 static void power_free(wt_roughness *roughness)
@@ -81,7 +84,7 @@ static wt_status power_new(const wt_roughness_law *law, const double *knot, cons
                            wt_error *err)
 {
     wt_roughness *made = malloc(sizeof *made);
-    power_data *d = malloc(sizeof *d + (3 * pieces + 1) * sizeof d->numbers[0]);
+    power_data *d = malloc(sizeof *d + (5 * pieces + 1) * sizeof d->numbers[0]);
     if (made == NULL || d == NULL) {
         free(d);
         free(made);
@@ -91,9 +94,16 @@ static wt_status power_new(const wt_roughness_law *law, const double *knot, cons
     d->knot = d->numbers;
     d->density = d->knot + pieces + 1;
     d->slope = d->density + pieces;
+    d->below[0] = d->slope + pieces;
+    d->below[1] = d->below[0] + pieces;
     memcpy(d->knot, knot, (pieces + 1) * sizeof *knot);
     memcpy(d->density, density, pieces * sizeof *density);
     memcpy(d->slope, slope, pieces * sizeof *slope);
+    for (size_t i = 0; i < 2; i++) {
+        d->below[i][0] = 0;
+        for (size_t k = 0; k + 1 < pieces; k++)
+            d->below[i][k + 1] = d->below[i][k] + moment_in(d, i == 0 ? 1 : 3, k, d->knot[k + 1]);
+    }
     *made = (wt_roughness){.law = law, .q0 = knot[0], .q1 = knot[pieces], .data = d};
     *roughness = made;
     return WT_OK;

@@ -99,7 +99,8 @@ LAST(wt_superposition, WT_SUPERPOSITION_CANNOT_SAY, 2)
 
 /* kernel.h */
 ROOM(wt_layer_state, modulus_ratio, 8, 80)
-ROOM(wt_friction_options, series, 104, 168)
+ROOM(wt_softening, loss, 24, 64)
+ROOM(wt_friction_options, strain_factor, 120, 168)
 FIXED(wt_friction_point, reached, 152, 160)
 FIXED(wt_friction_node, numerical_error, 32, 40)
 ROOM(wt_energy_source, numerical_error, 40, 112)

@@ -4,7 +4,7 @@
 #define WT_TESTS_FRICTION_SCENE_H
 
 #include "numeric/cases.h"
-#include "weartrack/model.h"
+#include "weartrack/kernel.h"
 
 #include <math.h>
 
@@ -23,6 +23,9 @@ typedef struct scene {
     size_t n_density; /* 0: self-affine */
     const double *wavenumber, *density;
     double thickness, ratio; /* of a layer; 0: none */
+    size_t n_strain;         /* of a softening; 0: none */
+    const double *strain, *f, *g;
+    double strain_factor;
 } scene;
 
 /* Of the library. */
@@ -62,6 +65,15 @@ static inline wt_status scene_roughness(const scene *s, wt_roughness **roughness
     return wt_roughness_self_affine(s->q0, s->qr, s->q1, s->hurst, s->c0, roughness, err);
 }
 
+/* None without points. */
+static inline wt_softening scene_softening(const scene *s)
+{
+    return (wt_softening){.n = s->n_strain,
+                          .strain = (double *)s->strain,
+                          .storage = (double *)s->f,
+                          .loss = (double *)s->g};
+}
+
 /* ---- from a case ----------------------------------------------------------------------------- */
 
 enum { SCENE_MOST = 2000 };
@@ -71,6 +83,7 @@ typedef struct case_scene {
     scene s;
     double e[SCENE_MOST], tau[SCENE_MOST], loss[SCENE_MOST];
     double wavenumber[CASE_VALUES], density[CASE_VALUES];
+    double strain[CASE_VALUES], f[CASE_VALUES], g[CASE_VALUES];
 } case_scene;
 
 static inline size_t case_numbers(const numeric_case *c, const char *key, double *value)
@@ -171,6 +184,13 @@ static inline void case_to_scene(const numeric_case *c, case_scene *made)
     s->qr = case_number(c, false, "qr", (double)NAN);
     s->hurst = case_number(c, false, "hurst", (double)NAN);
     s->c0 = case_number(c, false, "c0", (double)NAN);
+    s->n_strain = case_numbers(c, "strain", made->strain);
+    (void)case_numbers(c, "f", made->f);
+    (void)case_numbers(c, "g", made->g);
+    s->strain = made->strain;
+    s->f = made->f;
+    s->g = made->g;
+    s->strain_factor = case_number(c, false, "strain_factor", 1);
 }
 
 static inline wt_status friction_case_material(const numeric_case *c, wt_material **material,

@@ -142,12 +142,18 @@ static void law_modulus(const scene *s, real omega, real *storage, real *loss)
     *loss = im;
 }
 
+/* Those of the strain in question. */
+static real soft_storage = 1, soft_loss = 1;
+
 static void modulus(const scene *s, real omega, real *storage, real *loss)
 {
     const wt_transverse *t = &s->factors;
     law_modulus(s, omega, storage, loss);
-    if (!s->transverse)
+    if (!s->transverse) {
+        *storage *= soft_storage;
+        *loss *= soft_loss;
         return;
+    }
     const pair i = (pair)I;
     const pair plane = t->plane_storage * *storage + t->plane_loss * *loss * i,
                axial = t->axial_storage * *storage + t->axial_loss * *loss * i,
@@ -159,8 +165,8 @@ static void modulus(const scene *s, real omega, real *storage, real *loss)
     const pair d =
         FN(csqrt)(b33) * FN(csqrt)(1 / shear + 2 * (b13 + FN(csqrt)(b11) * FN(csqrt)(b33)));
     const pair e = 2 * (1 - (real)s->nu * s->nu) / d;
-    *storage = FN(creal)(e);
-    *loss = FN(cimag)(e);
+    *storage = soft_storage * FN(creal)(e);
+    *loss = soft_loss * FN(cimag)(e);
 }
 
 /* ---- angle ----------------------------------------------------------------------------------- */
@@ -227,7 +233,7 @@ static void angular(const scene *s, real w, real *j1, real *j2)
         table_angular(s, w, j1, j2);
         return;
     }
-    if (s->law == ZENER || s->transverse) {
+    if (s->law == ZENER || s->transverse || s->n_strain > 0) {
         angle_piece(s, w, TRUTH_DEEP, 0, s->transverse ? (real)0.5 : 2, j1, j2);
         return;
     }
@@ -271,6 +277,63 @@ static real layer_scale(const scene *s, real q)
            (1 + 4 * n * x * e - n * n * e * e);
 }
 
+/* int k^4 C dt up to t, on pieces between the bends of the spectrum; a power law in each. */
+static real slope_moment(const scene *s, real t)
+{
+    const size_t bends = s->n_density > 0 ? s->n_density : 1;
+    real from = 0, sum = 0;
+    for (size_t k = 0; k <= bends && from < t; k++) {
+        const real bend = k == bends         ? t
+                          : s->n_density > 0 ? FN(log)((real)s->wavenumber[k] / s->q0)
+                                             : FN(log)((real)s->qr / s->q0);
+        const real to = FN(fmin)(bend, t);
+        while (from < to) {
+            const real end = FN(fmin)(to, from + (real)0.5);
+            for (int i = 0; i < NODES; i++) {
+                const real q = s->q0 * FN(exp)(from + (end - from) * node[i]);
+                sum += (end - from) * weight[i] * q * q * q * q * density_at(s, q);
+            }
+            from = end;
+        }
+    }
+    return sum;
+}
+
+static real strain_at(const scene *s, real t)
+{
+    return s->strain_factor * FN(sqrt)(2 * TRUTH_PI * slope_moment(s, t));
+}
+
+/* Where a strain is met, by halves; a negative number if it is not. */
+static real strain_met(const scene *s, real strain, real length)
+{
+    real low = 0, high = length;
+    if (!(strain_at(s, length) > strain))
+        return -1;
+    for (int i = 0; i < 140; i++) {
+        const real middle = i < 40 ? low + (high - low) / 16 : (low + high) / 2;
+        if (strain_at(s, middle) > strain)
+            high = middle;
+        else
+            low = middle;
+    }
+    return high;
+}
+
+static void soften(const scene *s, real t)
+{
+    const real strain = strain_at(s, t);
+    size_t k = 0;
+    while (k < s->n_strain && s->strain[k] <= strain)
+        k++;
+    const size_t left = k > 0 ? k - 1 : 0, right = k < s->n_strain ? k : s->n_strain - 1;
+    const real part = left < right ? FN(log)(strain / s->strain[left]) /
+                                         FN(log)((real)s->strain[right] / s->strain[left])
+                                   : 0;
+    soft_storage = (1 - part) * s->f[left] + part * s->f[right];
+    soft_loss = (1 - part) * s->g[left] + part * s->g[right];
+}
+
 /* d G / dt and, without S P, d mu / dt at q = q0 exp(t). */
 static void integrand(const scene *s, real t, real *g, real *mu)
 {
@@ -278,7 +341,10 @@ static void integrand(const scene *s, real t, real *g, real *mu)
     const real q = s->q0 * FN(exp)(t);
     const real stiff = layer_scale(s, q) / (1 - (real)s->nu * s->nu) / s->pressure;
     const real power = q * q * q * q * density_at(s, q);
+    if (s->n_strain > 0)
+        soften(s, t);
     angular(s, q * s->velocity, &j1, &j2);
+    soft_storage = soft_loss = 1;
     *g = power * j2 * stiff * stiff / 8;
     *mu = power * j1 * stiff / 2;
 }
@@ -366,7 +432,7 @@ static int rising(const void *a, const void *b)
 static truth truth_of(const scene *s)
 {
     const real length = FN(log)((real)s->q1 / s->q0), widest = (real)0.7;
-    real *cut = malloc((s->n + s->n_density + 3) * sizeof *cut);
+    real *cut = malloc((s->n + s->n_density + s->n_strain + 3) * sizeof *cut);
     truth sum = {0, 0};
     if (cut == NULL)
         return sum;
@@ -379,6 +445,8 @@ static truth truth_of(const scene *s)
     const size_t n_knots = s->law == TABLE ? s->n : 0;
     for (size_t k = 0; k < n_knots; k++)
         cut[n++] = FN(log)(s->tau[k] / ((real)s->velocity * s->q0));
+    for (size_t k = 0; k < s->n_strain; k++)
+        cut[n++] = strain_met(s, s->strain[k], length);
     qsort(cut, n, sizeof *cut, rising);
     real from = 0;
     for (size_t i = 0; i < n; i++)

@@ -33,6 +33,7 @@ enum { MOST = 120, FEW = 6, SPECTRUM = 6, SWEEP = 11 };
 typedef struct drawn {
     scene s;
     double e[MOST], tau[MOST], loss[MOST], wavenumber[SPECTRUM], density[SPECTRUM];
+    double strain[FEW], f[FEW], g[FEW];
     double tolerance;
     size_t n_velocities; /* the one in question is in the middle */
 } drawn;
@@ -131,6 +132,26 @@ static void draw_scene(drawn *d, law_kind law, bool transverse)
     d->n_velocities = uniform(0, 1) < 0.7 ? 1 : SWEEP;
 }
 
+/* From gentle to absurd; some met next to q0, some never. */
+static void draw_softening(drawn *d)
+{
+    scene *s = &d->s;
+    const double reach = uniform(0, 1) < 0.5 ? 1 : 2;
+    s->strain = d->strain;
+    s->f = d->f;
+    s->g = d->g;
+    s->n_strain = 1 + (size_t)uniform(0, FEW);
+    s->strain_factor = decades(-1, 1);
+    /* of the order of what the surface has */
+    double strain = (double)strain_at(s, logl((long double)s->q1 / s->q0)) * decades(-5, 1);
+    for (size_t k = 0; k < s->n_strain; k++) {
+        d->strain[k] = strain;
+        d->f[k] = decades(-reach, 0.1 * reach);
+        d->g[k] = decades(-reach, 0.3 * reach);
+        strain *= decades(0.01, 1.5);
+    }
+}
+
 /* ---- the comparison -------------------------------------------------------------------------- */
 
 static size_t n_cases = 24, first_case, n_checks, reached, refused, broken;
@@ -146,10 +167,11 @@ static void check(const drawn *d, size_t number, const char *what, wt_estimate a
         actual.numerical_error <= most * fabs(actual.value) + DBL_MIN)
         return;
     broken++;
-    print_error("case %zu (%s%s, %zu, tolerance %.2g, v %.2g, p %.2g): %s %.17g is %.3Lg from "
+    print_error("case %zu (%s%s%s, %zu, tolerance %.2g, v %.2g, p %.2g): %s %.17g is %.3Lg from "
                 "%.20Lg, but %.3g is stated\n",
-                number, s->transverse ? "transverse " : "", law_names[s->law], s->n, d->tolerance,
-                s->velocity, s->pressure, what, actual.value, error, exact, actual.numerical_error);
+                number, s->n_strain > 0 ? "softened " : "", s->transverse ? "transverse " : "",
+                law_names[s->law], s->n, d->tolerance, s->velocity, s->pressure, what, actual.value,
+                error, exact, actual.numerical_error);
 }
 
 /* At the velocity in question, with others beside it. */
@@ -168,26 +190,41 @@ static wt_status compute(const drawn *d, wt_friction_workspace *ws, wt_friction_
     return status;
 }
 
-static void compare(drawn *d, size_t number)
+/* False if it is refused for its directions. */
+static bool compute_scene(const drawn *d, wt_friction_point *p)
 {
     wt_material *material = NULL;
     wt_roughness *roughness = NULL;
     wt_friction_workspace *ws = NULL;
     wt_friction_options options = wt_friction_defaults();
-    wt_friction_point p;
     wt_error err = WT_ERROR_INIT;
     assert_int_equal(scene_material(&d->s, &material, NULL), WT_OK);
     assert_int_equal(scene_roughness(&d->s, &roughness, NULL), WT_OK);
     options.tolerance = d->tolerance;
     options.gamma = d->s.gamma;
+    const wt_softening softening = scene_softening(&d->s);
+    if (softening.n > 0) {
+        options.softening = &softening;
+        options.strain_factor = d->s.strain_factor;
+    }
     if (d->s.thickness > 0)
         options.layer = (wt_layer_state){.thickness = d->s.thickness, .modulus_ratio = d->s.ratio};
     assert_int_equal(wt_friction_workspace_new(material, roughness, &options, &ws, NULL), WT_OK);
-    if (compute(d, ws, &p, &err) != WT_OK) {
-        if (!d->s.transverse || strstr(err.message, "transversely isotropic") == NULL)
-            fail_msg("case %zu: %s", number, err.message);
+    const bool good = compute(d, ws, p, &err) == WT_OK;
+    if (!good && (!d->s.transverse || strstr(err.message, "transversely isotropic") == NULL))
+        fail_msg("%s", err.message);
+    wt_friction_workspace_free(ws);
+    wt_roughness_free(roughness);
+    wt_material_free(material);
+    return good;
+}
+
+static void compare(drawn *d, size_t number)
+{
+    wt_friction_point p;
+    if (!compute_scene(d, &p)) {
         refused++;
-        goto done;
+        return;
     }
     const truth exact = truth_of(&d->s);
     check(d, number, "G", p.stress_variance, exact.variance, 0.1);
@@ -195,10 +232,40 @@ static void compare(drawn *d, size_t number)
     check(d, number, "1 - P", p.one_minus_area, erfcl(0.5L / sqrtl(exact.variance)), 10);
     check(d, number, "mu", p.hysteresis, exact.hysteresis, 10);
     reached += p.reached;
-done:
-    wt_friction_workspace_free(ws);
-    wt_roughness_free(roughness);
-    wt_material_free(material);
+}
+
+/* Cases in quad precision, that of the truth with other angular integrals than here among them. */
+static void softened_cases(void **ignored)
+{
+    (void)ignored;
+    FILE *in = fopen(WT_SOURCE_DIR "/tests/numeric/friction-softening.txt", "r");
+    numeric_case *c = malloc(sizeof *c);
+    case_scene *made = malloc(sizeof *made);
+    assert_true(in != NULL && c != NULL && made != NULL);
+    size_t n = 0;
+    for (; case_read(in, c); n++) {
+        case_to_scene(c, made);
+        const double tolerances[] = {1e-3, 1e-6, 1e-10};
+        for (size_t i = 0; i < 3; i++)
+            for (size_t many = 1; many <= SWEEP; many += SWEEP - 1) {
+                drawn d = {.s = made->s, .tolerance = tolerances[i], .n_velocities = many};
+                wt_friction_point p;
+                compute_scene(&d, &p);
+                check(&d, n, "G", p.stress_variance,
+                      (real)case_number(c, true, "stress_variance", 0), tolerances[i]);
+                check(&d, n, "P", p.area_ratio, (real)case_number(c, true, "area_ratio", 0),
+                      tolerances[i]);
+                check(&d, n, "mu", p.hysteresis, (real)case_number(c, true, "hysteresis", 0),
+                      tolerances[i]);
+                assert_true(p.reached);
+            }
+    }
+    assert_int_equal(n, 5);
+    assert_int_equal(broken, 0);
+    n_checks = 0;
+    free(made);
+    free(c);
+    fclose(in);
 }
 
 /* The truth itself, against values of 30-digit arithmetic by another program. */
@@ -367,6 +434,23 @@ static void extreme_friction(void **ignored)
     assert_true(20 * refused <= n_cases);
 }
 
+/* Half the number of cases, softened. */
+static void softened_friction(void **ignored)
+{
+    (void)ignored;
+    n_checks = reached = refused = 0;
+    for (size_t i = 0; i < n_cases / 2; i++) {
+        drawn d;
+        draw_case(&d, i);
+        draw_softening(&d);
+        if (i >= first_case)
+            compare(&d, i);
+    }
+    print_message("softened: %zu checks, %zu to their tolerance, %zu refused\n", n_checks, reached,
+                  refused);
+    assert_int_equal(broken, 0);
+}
+
 int main(int argc, char **argv)
 {
     if (argc > 1)
@@ -376,10 +460,9 @@ int main(int argc, char **argv)
         first_case = strtoul(argv[3], NULL, 10);
     make_rule();
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(truth_of_reference),
-        cmocka_unit_test(edges_of_the_domain),
-        cmocka_unit_test(once_broken),
-        cmocka_unit_test(extreme_friction),
+        cmocka_unit_test(truth_of_reference), cmocka_unit_test(edges_of_the_domain),
+        cmocka_unit_test(once_broken),        cmocka_unit_test(extreme_friction),
+        cmocka_unit_test(softened_cases),     cmocka_unit_test(softened_friction),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
