@@ -49,6 +49,8 @@ typedef struct param_limits {
 #define PARAM_NO_OPTION 2u
 #define PARAM_NO_CASE 4u
 #define PARAM_ONLY_C (PARAM_NO_OPTION | PARAM_NO_CASE)
+/* A file that is written: no input. */
+#define PARAM_WRITTEN 8u
 
 struct wt_param {
     const char *name; /* option and element; in a section of the same name, <sliding>, that part of

@@ -2,7 +2,6 @@
  * GPL-3.0-or-later */
 #include "cmd/compare.h"
 
-#include <math.h>
 #include <string.h>
 
 typedef struct own_options {
@@ -82,13 +81,22 @@ static void compare_groups(compare_call *call, const char *master)
     wt_result_free(dma);
 }
 
-/* What is asked of materials would be left out without a word. */
-static bool check_options(compare_call *call)
+enum { OWN, OF_GROUPS, OF_MATERIALS, OF_RUBBER, OF_READING, PARTS };
+
+/* What nothing here is asked would be left out without a word. */
+static bool check_options(compare_call *call, bool materials, bool master)
 {
-    const wt_materials_job *m = &call->materials;
-    if (!isnan(m->temperature) || !isnan(m->frequency) || m->sample_error > 0)
+    const cmd_part *parts = call->s.parts;
+    if (!materials && parts[OF_MATERIALS].given != 0)
         return cmd_usage_error(&call->s, "--at-temperature, --at-frequency and --sample-error are "
                                          "for materials, not for BULK and TRACK");
+    if (!materials && !master && parts[OF_RUBBER].given != 0)
+        return cmd_usage_error(&call->s, "--poisson-ratio is of materials, or of --master");
+    if (parts[OF_READING].given != 0 && !(materials && compare_reads_isotherms(call)))
+        return cmd_usage_error(&call->s,
+                               "--temperature, --units, --format, --sheet, --deformation and "
+                               "--strain are for measured isotherms; %s",
+                               materials ? "all that is given are results" : "there are none");
     return true;
 }
 
@@ -134,17 +142,22 @@ int cmd_compare(int argc, char **argv)
                          .materials = wt_materials_job_defaults(),
                          .master = wt_master_job_defaults(),
                          .set = {.read = wt_read_defaults()}};
-    cmd_part parts[] = {
-        {own_params(), &own, NULL, 0},
-        {wt_compare_job_params(), &call.groups, NULL, 0},
-        {wt_materials_job_params(), &call.materials, "at-temperature at-frequency sample-error", 0},
-        {wt_master_job_params(), &call.master, "poisson-ratio", 0},
-        {wt_read_params(), &call.set.read, "temperature units format sheet deformation strain", 0}};
-    if (cmd_parse(&call.s, &usage, parts, COUNT_OF(parts), argc, argv) && read_inputs(&call)) {
-        if (own.master == NULL && compare_takes_materials(&call))
-            compare_materials(&call);
-        else if (check_options(&call))
-            compare_groups(&call, own.master);
+    cmd_part parts[PARTS] = {
+        [OWN] = {own_params(), &own, NULL, 0},
+        [OF_GROUPS] = {wt_compare_job_params(), &call.groups, NULL, 0},
+        [OF_MATERIALS] = {wt_materials_job_params(), &call.materials,
+                          "at-temperature at-frequency sample-error", 0},
+        [OF_RUBBER] = {wt_master_job_params(), &call.master, "poisson-ratio", 0},
+        [OF_READING] = {wt_read_params(), &call.set.read,
+                        "temperature units format sheet deformation strain", 0}};
+    if (cmd_parse(&call.s, &usage, parts, PARTS, argc, argv) && read_inputs(&call)) {
+        const bool materials = own.master == NULL && compare_takes_materials(&call);
+        if (check_options(&call, materials, own.master != NULL)) {
+            if (materials)
+                compare_materials(&call);
+            else
+                compare_groups(&call, own.master);
+        }
     }
     for (size_t i = 0; call.input != NULL && i < call.s.n_files; i++) {
         wt_result_free(call.input[i].tables);

@@ -27,6 +27,8 @@ typedef struct compare_call {
 /* Whether the files are materials: some say so, or are no tables, and none holds curves of an
  * indentation. */
 bool compare_takes_materials(const compare_call *call);
+/* Whether one of them is measured isotherms, which are read and fitted here. */
+bool compare_reads_isotherms(const compare_call *call);
 /* Compares them and writes the tables. */
 void compare_materials(compare_call *call);
 

@@ -23,6 +23,19 @@ bool compare_takes_materials(const compare_call *call)
     return any;
 }
 
+static bool is_measured(const compare_input *input)
+{
+    return !cmd_tables_have(input->tables, "prony") && may_be_measured(input);
+}
+
+bool compare_reads_isotherms(const compare_call *call)
+{
+    bool any = false;
+    for (size_t i = 0; i < call->s.n_files; i++)
+        any = any || is_measured(&call->input[i]);
+    return any;
+}
+
 static wt_status fit(compare_call *call, compare_input *input, wt_error *err)
 {
     wt_master_tables tables = {0};
@@ -51,7 +64,7 @@ static wt_status fit(compare_call *call, compare_input *input, wt_error *err)
 
 static wt_status read_material(compare_call *call, compare_input *input, wt_error *err)
 {
-    if (!cmd_tables_have(input->tables, "prony") && may_be_measured(input))
+    if (is_measured(input))
         return fit(call, input, err);
     if (input->tables != NULL)
         return cmd_rubber_of(input->tables, input->path, call->master.poisson_ratio, &input->rubber,

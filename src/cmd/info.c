@@ -82,7 +82,10 @@ static void print_next(const char *const *files, size_t n, const found_file *fou
         if (found->missing[k])
             printf(" --%s %s", found_missing_rows[k].name, found_missing_rows[k].example);
     print_word(files[0]);
-    char *output = found->is_result ? NULL : cmd_default_name(files[0], ".h5");
+    char *output = found->is_result ? NULL
+                                    : cmd_default_name(files[0], cmd_is_store(files[0])
+                                                                     ? "-result.h5" /* not itself */
+                                                                     : ".h5");
     if (output != NULL) {
         fputs(" -o", stdout);
         print_word(output);

@@ -96,7 +96,9 @@ int main(int argc, char **argv)
     int status = CMD_OK;
     if (strcmp(word, "--version") == 0 || strcmp(word, "-V") == 0)
         printf("weartrack %s\nLicence GPL-3.0-or-later. There is no warranty.\n", wt_version());
-    else if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0 || (help && argc == 2))
+    else if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0 ||
+             (help &&
+              (argc == 2 || strcmp(argv[2], "help") == 0 || strcmp(argv[2], "--help") == 0)))
         print_help(stdout);
     else if (help)
         status = dispatch(2, (char *[]){argv[2], help_option, NULL});

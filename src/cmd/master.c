@@ -14,7 +14,7 @@ static const wt_param saved_rows[] = {
          "table with columns temperature and log_a, as --save-shifts writes it: these shifts are "
          "not fitted, those of other isotherms are; - is standard input"},
     {PARAM_TEXT_OF("save-shifts", saved_shifts, written), .value = "FILE", .unset = "",
-     .help = "write the table shift_factors there too, as a text stream"},
+     .flags = PARAM_WRITTEN, .help = "write the table shift_factors there too, as a text stream"},
 };
 CMD_OPTIONS(saved_params, saved_shifts, saved_rows)
 
@@ -55,6 +55,28 @@ static bool split_export(const char *text, wt_solid_program *program, const char
     const char *colon = strchr(text, ':');
     *file = colon != NULL ? colon + 1 : "";
     return **file != '\0' && wt_solid_program_find(text, (size_t)(colon - text), program);
+}
+
+/* One file takes one of them; on standard output each would be unreadable. */
+static bool check_outputs(cmd_session *s, const saved_shifts *saved, const exported *own)
+{
+    const char *result = s->common.output != NULL ? s->common.output : "-";
+    for (size_t i = 0; i <= own->n_exports; i++) {
+        wt_solid_program program;
+        const char *one = saved->written, *other;
+        if (i < own->n_exports && !split_export(own->exports[i], &program, &one))
+            return false;
+        bool twice = one != NULL && strcmp(one, result) == 0;
+        for (size_t k = 0; k < i && one != NULL; k++)
+            twice = twice ||
+                    (split_export(own->exports[k], &program, &other) && strcmp(one, other) == 0);
+        if (twice && strcmp(one, "-") == 0)
+            return cmd_usage_error(s, "two outputs cannot both go to standard output; give -o FILE "
+                                      "or the names of others");
+        if (twice)
+            return cmd_usage_error(s, "%s is given for two outputs; give another name", one);
+    }
+    return true;
 }
 
 /* Before the work begins. */
@@ -121,7 +143,7 @@ int cmd_master(int argc, char **argv)
     wt_master_tables tables = {0};
     wt_result *given = NULL;
     if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv) || !check_exports(&s, &own) ||
-        !cmd_begin_files(&s, &set))
+        !check_outputs(&s, &saved, &own) || !cmd_begin_files(&s, &set))
         goto done;
     job.reduction = own.reduction;
     job.sets = &set;
@@ -137,6 +159,8 @@ int cmd_master(int argc, char **argv)
         job.shifts = wt_result_table(given, 0);
     if (made == WT_OK)
         made = wt_master_make(&job, &s.work, &tables, NULL, &s.err);
+    if (made != WT_OK && job.shifts != NULL && strcmp(s.err.place, "shifts") == 0)
+        wt_error_file(&s.err, saved.read);
     if (made == WT_OK && saved.written != NULL)
         made = save_shifts(saved.written, tables.shift_factors, &s.err);
     if (made == WT_OK)

@@ -15,6 +15,7 @@ cmd_common cmd_common_defaults(void)
 
 static const wt_param common_rows[] = {
     {PARAM_TEXT_OF("output", cmd_common, output), .value = "FILE", .letter = 'o', .unset = "",
+     .flags = PARAM_WRITTEN,
      .help = "write there instead of standard output, as HDF5 if the name ends in .h5 or .hdf5; - "
              "is standard output"},
     {PARAM_TEXT_OF("formats", cmd_common, formats), .value = "FOLDER", .unset = "",
@@ -319,7 +320,7 @@ static bool parse_options(cmd_session *s, const option_list *list, int argc, cha
             return false;
         const char *value = row->param->value;
         if (value != NULL && (strcmp(value, "FILE") == 0 || strcmp(value, "R") == 0) &&
-            strcmp(row->name, "output") != 0)
+            (row->param->flags & PARAM_WRITTEN) == 0)
             inputs[(*n_inputs)++] = optarg;
     }
     return true;

@@ -45,7 +45,8 @@ typedef struct own_options {
 
 static const wt_param output_rows[] = {
     {PARAM_TEXT_OF("output", cmd_common, output), .value = "FILE", .letter = 'o',
-     .unset = "the name of the case with .h5, in the current folder", .help = "the result, HDF5"},
+     .flags = PARAM_WRITTEN, .unset = "the name of the case with .h5, in the current folder",
+     .help = "the result, HDF5"},
 };
 PARAM_LOCAL_TABLE(output_params, cmd_common, output_rows, cmd_common_defaults, NO_PARTS)
 

@@ -1,6 +1,8 @@
 /* DMA sweeps. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "weartrack/data.h"
 
+#include "base/clocale.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -337,11 +339,22 @@ static void drop_copies_of_strain_sweeps(wt_sweep *sweep, wt_parselog *log)
     sweep->n_strain_sweeps = kept;
 }
 
+/* Another temperature may be a slip of the one who typed it. */
+static void first_copy(const wt_isotherm *t, const wt_isotherm *original, char *text, size_t size)
+{
+    if (t->temperature == original->temperature)
+        snprintf(text, size, "%s is %s", t->source, original->source);
+    else
+        clocale_print(text, size, "%s at %.1f degC is %s at %.1f degC", t->source,
+                      t->temperature - WT_ZERO_CELSIUS, original->source,
+                      original->temperature - WT_ZERO_CELSIUS);
+}
+
 /* Isotherms are few; those measured again at one temperature fewer. */
 void wt_sweep_drop_copies(wt_sweep *sweep, wt_parselog *log)
 {
     size_t kept = 0, n = 0;
-    char first[2 * sizeof sweep->isotherms->source + 8] = "";
+    char first[2 * sizeof sweep->isotherms->source + 64] = "";
     for (size_t i = 0; i < sweep->n_isotherms; i++) {
         wt_isotherm *const t = &sweep->isotherms[i];
         size_t original = 0;
@@ -353,7 +366,7 @@ void wt_sweep_drop_copies(wt_sweep *sweep, wt_parselog *log)
             continue;
         }
         if (n++ == 0)
-            snprintf(first, sizeof first, "%s is %s", t->source, sweep->isotherms[original].source);
+            first_copy(t, &sweep->isotherms[original], first, sizeof first);
         isotherm_free(t);
     }
     sweep->n_isotherms = kept;

@@ -2,6 +2,8 @@
  * the glass transition. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "fit/master.h"
 
+#include "base/clocale.h"
+
 #include <math.h>
 
 /* Where the peak of tan delta is looked for [decade], and how far beyond the isotherms its
@@ -41,11 +43,18 @@ static wt_status find_transition(const wt_master *m, double *temperature, wt_err
         m->n > 0 && wt_master_shifted_by(m) != WT_BY_LOSS ? find_peak(m) : (double)NAN;
     double low = m->shifts[0].temperature - beyond,
            high = m->shifts[m->n_shifts - 1].temperature + beyond;
-    const double last = log10(2.0 * M_PI) + wt_shift_law_log_a(&m->law, high);
-    if (m->law.kind == WT_LAW_NONE || isnan(peak) || !(last < peak)) {
+    const bool law = m->law.kind != WT_LAW_NONE;
+    const double first = law ? log10(2.0 * M_PI) + wt_shift_law_log_a(&m->law, low) : 0.0,
+                 last = law ? log10(2.0 * M_PI) + wt_shift_law_log_a(&m->law, high) : 0.0;
+    if (!law || isnan(peak) || first < peak || !(last < peak)) { /* first: NaN below the pole */
+        char where[64];
+        clocale_print(where, sizeof where,
+                      "at 1 Hz tan delta peaks more than %g K %s the isotherms", beyond,
+                      first < peak ? "below" : "above");
         wt_fail(err, WT_E_RANGE, "no glass transition for a reference: %s",
-                m->law.kind == WT_LAW_NONE ? "the shifts have no law"
-                                           : "tan delta has no peak that was measured");
+                !law          ? "the shifts have no law"
+                : isnan(peak) ? "tan delta has no peak that was measured"
+                              : where);
         wt_error_advice(err, "give a reference temperature");
         return WT_E_RANGE;
     }
@@ -60,6 +69,15 @@ static wt_status find_transition(const wt_master *m, double *temperature, wt_err
     return WT_OK;
 }
 
+static void hand_on(const wt_parselog *from, wt_parselog *to)
+{
+    for (size_t i = 0; i < wt_parselog_count(from); i++) {
+        const wt_log_entry e = wt_parselog_get(from, i);
+        for (size_t k = 0; k < e.count; k++)
+            wt_parselog_add(to, e.severity, e.file, e.place, "%s", e.text);
+    }
+}
+
 /* Where the isotherm in the middle is one of a glass, flat, the one that changes most is the
  * reference, unless one is asked for. */
 static wt_status fit_somewhere(const wt_sweep *sweep, wt_master_options options, wt_parselog *log,
@@ -67,8 +85,15 @@ static wt_status fit_somewhere(const wt_sweep *sweep, wt_master_options options,
 {
     double better;
     wt_error flat = WT_ERROR_INIT;
-    const wt_status status = master_fit_once(sweep, &options, log, master, &better, &flat);
-    if (isnan(better) || !isnan(options.reference_temperature)) {
+    wt_parselog *words = wt_parselog_new(); /* a second fit has the same to say */
+    if (words == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for the remarks of a fit");
+    const wt_status status = master_fit_once(sweep, &options, words, master, &better, &flat);
+    const bool only = isnan(better) || !isnan(options.reference_temperature);
+    if (only)
+        hand_on(words, log);
+    wt_parselog_free(words);
+    if (only) {
         if (status != WT_OK && err != NULL)
             *err = flat;
         return status;

@@ -206,6 +206,8 @@ static void forget_errors(const spectrum *s, wt_master *m)
         given = given && s->given[i];
     for (size_t i = 0; given && i < sizeof of_law / sizeof *of_law; i++)
         *of_law[i] = (wt_interval){of_law[i]->value, unknown, unknown, unknown};
+    if (given)
+        m->c_correlation = unknown;
     for (size_t i = 0; given && i < m->n_shifts; i++)
         m->shifts[i].law = (wt_interval){m->shifts[i].law.value, unknown, unknown, unknown};
 }

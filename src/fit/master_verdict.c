@@ -39,6 +39,12 @@ static double widest_of_half(const master_work *work)
     return widest;
 }
 
+/* A bound in per cent, which rounding does not make smaller. */
+static double at_most(double share)
+{
+    return fmax(0.1, 0.1 * ceil(1e3 * share));
+}
+
 void master_judge(const master_work *work, wt_master *m)
 {
     size_t determined = 0;
@@ -93,10 +99,10 @@ void master_judge(const master_work *work, wt_master *m)
             m->because, sizeof m->because,
             "a misfit of up to %.1f %% would not be seen; less noise than %.1f %%, or more "
             "points, would tell",
-            100.0 * lack->misfit_high, 100.0 * fmax(m->noise_storage, m->noise_loss));
+            at_most(lack->misfit_high), 100.0 * fmax(m->noise_storage, m->noise_loss));
     } else if (lack->p < doubtful) {
         clocale_print(m->because, sizeof m->because, "a misfit is likely (p %s) but below %.1f %%",
-                      number_chance(lack->p).text, 100.0 * lack->misfit_high);
+                      number_chance(lack->p).text, at_most(lack->misfit_high));
     } else if (window < least_window) {
         clocale_print(
             m->because, sizeof m->because,
@@ -105,6 +111,6 @@ void master_judge(const master_work *work, wt_master *m)
     } else {
         m->superposition = WT_SUPERPOSITION_HOLDS;
         clocale_print(m->because, sizeof m->because, "misfit below %.1f %% (lack of fit p %s)",
-                      100.0 * lack->misfit_high, number_chance(lack->p).text);
+                      at_most(lack->misfit_high), number_chance(lack->p).text);
     }
 }

@@ -17,6 +17,9 @@ static const double fast_margin = 1.5, slow_margin = 2.5;
  * rather goes on as it did, but does not have to. Larger ones narrow the equilibrium modulus and
  * miss it where a slower process begins there (tests/study: D3). */
 static const double slow_stiffness = 2.0;
+/* Isotherms that span more once shifted have frequencies or shifts of another unit: no law of
+ * rubber goes over half of it. [decade] */
+static const double most_decades = 100.0;
 /* Slope of the terms to start from beyond the slowest measured point. */
 static const double start_fall = 0.5;
 /* Slopes of ln E' that a spectrum can have. */
@@ -143,6 +146,13 @@ wt_status spectrum_new(const shift_set *set, const bool *use, size_t anchor, con
         s->n += c->n;
         low = fmin(low, c->x[0] + a[i]);
         high = fmax(high, c->x[c->n - 1] + a[i]);
+    }
+    if (!(high - low <= most_decades)) {
+        wt_fail(err, WT_E_RANGE, "the shifted isotherms span %.3g decades of frequency",
+                high - low);
+        wt_error_expected(err, "at most %g", most_decades);
+        wt_error_advice(err, "check the unit of the frequencies, and the shifts if they are given");
+        return WT_E_RANGE;
     }
     s->n_terms = 1 + (size_t)ceil((high - low + fast_margin + slow_margin) * terms_per_decade);
     s->n_linear = s->n_terms + (liquid ? 0 : 1);

@@ -141,6 +141,46 @@ static void some_given_others_fitted(void **unused)
     wt_sweep_clear(&sweep);
 }
 
+/* Two runs at one temperature have two shifts in the table, each its own; two for one isotherm, or
+ * of temperatures that were not measured, are no small matter. */
+static void runs_at_one_temperature_keep_their_shifts(void **unused)
+{
+    static const double temperature[] = {293.15, 293.15, 303.15, 393.15},
+                        log_a[] = {0, 0.1, -0.6, -3};
+    const wt_shift_law none = {.kind = WT_LAW_NONE};
+    (void)unused;
+    for (int run = 0; run < 2; run++) {
+        wt_sweep sweep = {0};
+        wt_error err = WT_ERROR_INIT;
+        wt_parselog *log = wt_parselog_new();
+        wt_table *table = wt_table_new("shifts", "");
+        uint64_t state = 1;
+        size_t said = 0;
+        assert_int_equal(wt_table_add_column(table, "temperature", "K", "", NULL), WT_OK);
+        assert_int_equal(wt_table_add_column(table, "log_a", "1", "", NULL), WT_OK);
+        for (size_t i = 0; i < 4; i++) {
+            assert_int_equal(wt_table_add_row(table, NULL), WT_OK);
+            wt_table_put(table, 0, temperature[i]);
+            wt_table_put(table, 1, log_a[i]);
+        }
+        for (size_t i = run == 0 ? 0 : 1; i < 3; i++) /* the second time one run only */
+            assert_non_null(
+                dma_add(&sweep, &dma_rubber, temperature[i], 0.1, 100, 8, true, noise, &state));
+        const wt_status status = flow_shifts_give(&none, table, &sweep, log, &err);
+        assert_int_equal(status, run == 0 ? WT_OK : WT_E_AMBIGUOUS);
+        for (size_t i = 0; run == 0 && i < 3; i++) {
+            assert_true(sweep.isotherms[i].shift_given);
+            assert_near_abs(sweep.isotherms[i].given_log_a, log_a[i], 0);
+        }
+        for (size_t i = 0; i < wt_parselog_count(log); i++)
+            said += strstr(wt_parselog_get(log, i).text, "1 of the 4 given shifts are of no") != 0;
+        assert_int_equal(said, run == 0);
+        wt_table_free(table);
+        wt_parselog_free(log);
+        wt_sweep_clear(&sweep);
+    }
+}
+
 /* Storage moduli that follow no rho T, for the closed form knows none. */
 static void closed_form_of_the_standard(void **unused)
 {
@@ -260,6 +300,27 @@ static void glass_transition_as_reference(void **unused)
     }
 }
 
+/* Isotherms far above the transition that reach it by their frequencies: at 1 Hz it lies further
+ * below them than the law is believed. */
+static void no_glass_transition_far_from_the_isotherms(void **unused)
+{
+    wt_sweep sweep = {0};
+    wt_master m = {0};
+    wt_error err = WT_ERROR_INIT;
+    wt_master_options o = options(WT_BY_MODULI);
+    uint64_t state = 3;
+    (void)unused;
+    o.reference_at = WT_REFERENCE_TAN_DELTA_PEAK;
+    o.reference_temperature = (double)NAN;
+    for (int i = 0; i < 5; i++)
+        assert_non_null(
+            dma_add(&sweep, &dma_rubber, 333.15 + 10 * i, 1e3, 1e10, 30, true, noise, &state));
+    assert_int_equal(wt_master_fit(&sweep, &o, NULL, &m, &err), WT_E_RANGE);
+    print_message("%s\n", err.message);
+    assert_non_null(strstr(err.message, "peaks more than 20 K below the isotherms"));
+    wt_sweep_clear(&sweep);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -267,6 +328,8 @@ int main(void)
         cmocka_unit_test(words_that_cut_nothing),
         cmocka_unit_test(one_frequency_by_a_law),
         cmocka_unit_test(some_given_others_fitted),
+        cmocka_unit_test(runs_at_one_temperature_keep_their_shifts),
+        cmocka_unit_test(no_glass_transition_far_from_the_isotherms),
         cmocka_unit_test(closed_form_of_the_standard),
         cmocka_unit_test(one_quantity_alone),
         cmocka_unit_test(one_modulus_and_free_shifts),

@@ -81,6 +81,10 @@ static void odd_afmformats(void **state)
     assert_int_equal(afmformats_write(&f), 0);
     refused(WT_E_CORRUPT, "another length or unit");
     f = usual(good);
+    f.number_step = 20000; /* the second is not lost without a word */
+    assert_int_equal(afmformats_write(&f), 0);
+    refused(WT_E_UNSUPPORTED, "too many curves are missing before curve 20000");
+    f = usual(good);
     f.n_curves = 0;
     assert_int_equal(afmformats_write(&f), 0);
     refused(WT_E_EMPTY, "no force curve");

@@ -79,7 +79,7 @@ int afmformats_write(const afmformats_writer_file *f)
     put_text(file, "software version", "0.13.3", false);
     for (size_t i = 0; i < f->n_curves; i++) {
         char name[32];
-        snprintf(name, sizeof name, "%zu", i);
+        snprintf(name, sizeof name, "%zu", f->number_step > 0 ? i * f->number_step : i);
         const hid_t group = make_group(file, name);
         put_number(group, "position x", 1e-6 * (double)i);
         put_number(group, "position y", 2e-6);

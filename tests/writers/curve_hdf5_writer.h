@@ -12,6 +12,7 @@
 typedef struct afmformats_writer_file {
     const char *path;
     size_t n_curves, n;                  /* rows of each curve */
+    size_t number_step;                  /* between the numbers that are their names; 0: 1 */
     const double *time, *height, *force; /* [n_curves][n]; NULL: left out */
     const unsigned char *segments;       /* [n] */
     double spring_constant;

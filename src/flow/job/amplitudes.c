@@ -44,6 +44,25 @@ static wt_status refuse(const wt_isotherm *a, const wt_isotherm *b, wt_error *er
     return WT_E_AMBIGUOUS;
 }
 
+/* How far what was asked for is from what was measured. */
+static void check_wanted(const wt_sweep *sweep, double wanted, wt_parselog *log)
+{
+    double nearest = (double)NAN;
+    for (size_t i = 0; i < sweep->n_isotherms; i++) {
+        const double here = amplitude(&sweep->isotherms[i]);
+        if (isnan(nearest) || fabs(log2(here / wanted)) < fabs(log2(nearest / wanted)))
+            nearest = here;
+    }
+    if (sweep->n_isotherms > 0 && isnan(nearest))
+        wt_parselog_add(log, WT_WARNING, sweep->isotherms[0].source, NULL,
+                        "isotherms of one strain are asked for, but no strain amplitude was read");
+    else if (nearest / wanted > other_amplitude || wanted / nearest > other_amplitude)
+        wt_parselog_add(log, WT_WARNING, sweep->isotherms[0].source, NULL,
+                        "isotherms at a strain of %.3g %% are asked for; the nearest were measured "
+                        "at %.3g %%",
+                        100 * wanted, 100 * nearest);
+}
+
 wt_status flow_one_amplitude(wt_sweep *sweep, const wt_file_set *sets, size_t n_sets,
                              wt_parselog *log, wt_error *err)
 {
@@ -78,6 +97,8 @@ wt_status flow_one_amplitude(wt_sweep *sweep, const wt_file_set *sets, size_t n_
         wt_parselog_add(log, WT_WARNING, dropped.isotherms[0].source, NULL,
                         "%zu isotherm%s of other strain amplitudes left out", dropped.n_isotherms,
                         dropped.n_isotherms > 1 ? "s" : "");
+    if (status == WT_OK && !isnan(wanted))
+        check_wanted(sweep, wanted, log);
     wt_sweep_clear(&dropped);
     free(drop);
     return status;

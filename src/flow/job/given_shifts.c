@@ -95,51 +95,118 @@ static wt_status give_law(const wt_shift_law *law, wt_sweep *sweep, wt_error *er
     return WT_OK;
 }
 
-/* Row of the table nearest to a temperature, or the number of rows. */
-static size_t nearest(const wt_table *table, size_t column, double to_kelvin, double zero, double t)
+/* The table of shifts, in kelvin. */
+typedef struct shift_rows {
+    const wt_table *table;
+    size_t temperature, log_a; /* columns */
+    double to_kelvin, zero;
+} shift_rows;
+
+static double kelvin(const shift_rows *r, size_t row)
 {
-    const size_t n = wt_table_n_rows(table);
+    return wt_table_number(r->table, row, r->temperature) * r->to_kelvin + r->zero;
+}
+
+static bool has_shift(const shift_rows *r, size_t row)
+{
+    return isfinite(wt_table_number(r->table, row, r->log_a));
+}
+
+/* First row of those nearest to a temperature, or the number of rows; how many there are. */
+static size_t nearest(const shift_rows *r, double t, size_t *n_alike)
+{
+    const size_t n = wt_table_n_rows(r->table);
     size_t best = n;
     double away = same_temperature;
+    *n_alike = 0;
     for (size_t i = 0; i < n; i++) {
-        const double off = fabs(wt_table_number(table, i, column) * to_kelvin + zero - t);
-        if (off <= away) {
+        const double off = fabs(kelvin(r, i) - t);
+        if (off < away || (best == n && off <= away)) {
             away = off;
             best = i;
+            *n_alike = 0;
         }
+        *n_alike += best < n && kelvin(r, i) == kelvin(r, best);
     }
     return best;
+}
+
+/* Row of an isotherm; runs at one temperature have theirs in their order. */
+static wt_status row_of(const shift_rows *r, const wt_sweep *sweep, size_t isotherm, size_t *row,
+                        wt_error *err)
+{
+    const double t = sweep->isotherms[isotherm].temperature;
+    size_t rank = 0, runs = 0, n_alike;
+    for (size_t i = 0; i < sweep->n_isotherms; i++) {
+        const bool same = sweep->isotherms[i].temperature == t;
+        runs += same;
+        rank += same && i < isotherm;
+    }
+    *row = nearest(r, t, &n_alike);
+    if (n_alike <= 1)
+        return WT_OK;
+    if (n_alike != runs) {
+        wt_fail(err, WT_E_AMBIGUOUS, "the table has %zu shifts for one temperature", n_alike);
+        wt_error_place(err, "shifts");
+        wt_error_expected(err, "one, or one for each of the isotherms there (%zu)", runs);
+        wt_error_found(err, "%.2f degC", kelvin(r, *row) - WT_ZERO_CELSIUS);
+        return WT_E_AMBIGUOUS;
+    }
+    const double here = kelvin(r, *row);
+    while (rank > 0 || kelvin(r, *row) != here)
+        rank -= kelvin(r, (*row)++) == here;
+    return WT_OK;
+}
+
+/* Those that belong to no isotherm are likely to be of other files. */
+static size_t count_unused(const shift_rows *r, const wt_sweep *sweep)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < wt_table_n_rows(r->table); i++) {
+        bool used = !has_shift(r, i);
+        for (size_t k = 0; k < sweep->n_isotherms && !used; k++)
+            used = fabs(kelvin(r, i) - sweep->isotherms[k].temperature) <= same_temperature;
+        n += !used;
+    }
+    return n;
 }
 
 static wt_status give_table(const wt_table *table, wt_sweep *sweep, wt_parselog *log, wt_error *err)
 {
     const long temperature = wt_table_find(table, "temperature"),
                log_a = wt_table_find(table, "log_a");
-    double factor = 1, zero = 0;
+    shift_rows r = {.table = table, .to_kelvin = 1};
     size_t given = 0;
     if (temperature < 0 || log_a < 0 ||
         wt_table_column_kind(table, (size_t)temperature) == WT_COLUMN_TEXT ||
         wt_table_column_kind(table, (size_t)log_a) == WT_COLUMN_TEXT) {
         wt_fail(err, WT_E_MISSING, "the table of the shifts has not the columns it needs");
+        wt_error_place(err, "shifts");
         wt_error_expected(err, "temperature[K] and log_a[1], as weartrack master --save-shifts "
                                "writes them");
         return WT_E_MISSING;
     }
-    const wt_status status = wt_unit_to_si(wt_table_column_unit(table, (size_t)temperature),
-                                           WT_Q_TEMPERATURE, &factor, &zero, err);
-    if (status != WT_OK)
+    r.temperature = (size_t)temperature;
+    r.log_a = (size_t)log_a;
+    wt_status status = wt_unit_to_si(wt_table_column_unit(table, r.temperature), WT_Q_TEMPERATURE,
+                                     &r.to_kelvin, &r.zero, err);
+    if (status != WT_OK) {
+        wt_error_place(err, "shifts");
         return status;
+    }
     for (size_t i = 0; i < sweep->n_isotherms; i++) {
         wt_isotherm *t = &sweep->isotherms[i];
-        const size_t row = nearest(table, (size_t)temperature, factor, zero, t->temperature);
-        const double a =
-            row < wt_table_n_rows(table) ? wt_table_number(table, row, (size_t)log_a) : (double)NAN;
-        t->shift_given = isfinite(a);
-        t->given_log_a = t->shift_given ? a : 0;
+        size_t row;
+        status = row_of(&r, sweep, i, &row, err);
+        if (status != WT_OK)
+            return status;
+        t->shift_given = row < wt_table_n_rows(table) && has_shift(&r, row);
+        t->given_log_a = t->shift_given ? wt_table_number(table, row, r.log_a) : 0;
         given += t->shift_given;
     }
     if (given == 0) {
         wt_fail(err, WT_E_MISSING, "the table has a shift of none of the isotherms");
+        wt_error_place(err, "shifts");
         wt_error_expected(err, "log_a at temperatures within %g K of theirs", same_temperature);
         return WT_E_MISSING;
     }
@@ -147,6 +214,12 @@ static wt_status give_table(const wt_table *table, wt_sweep *sweep, wt_parselog 
                     "%zu of %zu shifts are as given, without an error of their own; the others are "
                     "fitted",
                     given, sweep->n_isotherms);
+    const size_t unused = count_unused(&r, sweep);
+    if (unused > 0)
+        wt_parselog_add(log, WT_WARNING, NULL, NULL,
+                        "%zu of the %zu given shifts are of no isotherm: no temperature within %g "
+                        "K of theirs was measured",
+                        unused, wt_table_n_rows(table), same_temperature);
     return WT_OK;
 }
 

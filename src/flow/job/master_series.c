@@ -121,9 +121,9 @@ wt_status flow_reduced_table(const wt_master *m, const wt_master_job *job, const
         const double most = fmax(deviation[0], deviation[1]);
         if (most > how->error)
             wt_parselog_add(work->log, WT_WARNING, NULL, NULL,
-                            "the reduced Prony series of %zu terms is off the spectrum by up to "
+                            "the reduced Prony series of %zu term%s is off the spectrum by up to "
                             "%.3g %%, more than the %.3g %% of --prony-error: %s",
-                            p.n, 100 * most, 100 * how->error,
+                            p.n, p.n == 1 ? "" : "s", 100 * most, 100 * how->error,
                             how->terms > 0 ? "more terms are closer"
                                            : "its long-term modulus may not be that of the rubber");
     }

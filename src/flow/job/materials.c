@@ -148,6 +148,23 @@ static wt_status no_common_frequency(const wt_compared pair[2], const range own[
     return WT_E_RANGE;
 }
 
+/* Over temperature there is nothing to compare at what was asked for. */
+static wt_status no_such_frequency(const wt_compared pair[2], const range own[2], const setting *s,
+                                   wt_error *err)
+{
+    const range t = s->temperature;
+    const bool one = !(t.high - t.low > 2 * same_temperature);
+    wt_fail(err, WT_E_RANGE,
+            one ? "materials are compared over temperature where both were measured at several"
+                : "the materials were not both measured at the at-frequency");
+    wt_error_place(err, "at-frequency");
+    wt_error_found(err, "%.3g rad/s; at %.1f °C %s: %.3g to %.3g rad/s; %s: %.3g to %.3g rad/s",
+                   s->at_frequency, s->at_temperature - WT_ZERO_CELSIUS, pair[0].name, own[0].low,
+                   own[0].high, pair[1].name, own[1].low, own[1].high);
+    wt_error_advice(err, one ? "leave it out" : "choose one that both have at some temperature");
+    return WT_E_RANGE;
+}
+
 /* ---- places ---------------------------------------------------------------------------------- */
 
 /* PER_DECADE of a range, its ends among them; returns how many. */
@@ -338,6 +355,8 @@ static wt_status add_pair(const wt_materials_job *job, const wt_compared pair[2]
     if (isnan(s->at_frequency))
         s->at_frequency = holds(shared, ten_hertz) ? ten_hertz : sqrt(shared.low * shared.high);
     status = over_temperature(pair, s, s->at_frequency, place + n, &n_temperatures, err);
+    if (status == WT_OK && n_temperatures == 0 && !isnan(job->frequency))
+        status = no_such_frequency(pair, own, s, err);
     for (int k = 0; status == WT_OK && k < 2; k++)
         status = material_values_make(pair[k].rubber, &beside[k], place, n + n_temperatures, work,
                                       &values[k], err);

@@ -33,8 +33,9 @@ static wt_status read_shifts(const table_view *shifts, wt_rubber *rubber, wt_err
     rubber->c1_error = c1.standard_error;
     rubber->c2_error = c2.standard_error;
     if (correlation != NULL &&
-        !wt_number_parse(correlation, strlen(correlation), '.', &rubber->c_correlation))
-        rubber->c_correlation = 0;
+        (!wt_number_parse(correlation, strlen(correlation), '.', &rubber->c_correlation) ||
+         !isfinite(rubber->c_correlation)))
+        rubber->c_correlation = 0; /* of constants without errors too */
     rubber->vertical_temperature = malloc((rows + 1) * sizeof *rubber->vertical_temperature);
     rubber->vertical_log_b = malloc((rows + 1) * sizeof *rubber->vertical_log_b);
     if (rubber->vertical_temperature == NULL || rubber->vertical_log_b == NULL)

@@ -109,14 +109,45 @@ static wt_status print_curve(hid_t group, const char *name, size_t number, size_
     return status;
 }
 
+/* The least number at or behind `from` that a link has for a name; HUGE_VAL: none. */
+typedef struct far_number {
+    double from, least;
+} far_number;
+
+static herr_t find_far(hid_t group, const char *name, const H5L_info_t *info, void *user)
+{
+    (void)group;
+    (void)info;
+    far_number *far = user;
+    double number;
+    if (strspn(name, "0123456789") == strlen(name) &&
+        wt_number_parse(name, strlen(name), '.', &number) && number >= far->from)
+        far->least = fmin(far->least, number);
+    return 0;
+}
+
+/* Where the search for curves ended before all that there are. */
+static wt_status check_far(hid_t file, size_t from, wt_error *err)
+{
+    far_number far = {(double)from, HUGE_VAL};
+    (void)H5Literate(file, H5_INDEX_NAME, H5_ITER_NATIVE, NULL, find_far, &far);
+    if (isinf(far.least))
+        return WT_OK;
+    wt_fail(err, WT_E_UNSUPPORTED, "too many curves are missing before curve %.0f", far.least);
+    wt_error_expected(err, "curves numbered from 0 on, less than %d numbers of them missing",
+                      MISSING_MAX);
+    wt_error_advice(err, "store those that there are with afmformats in a file of their own");
+    return WT_E_UNSUPPORTED;
+}
+
 /* The curves are named by their numbers, of which some may be missing. */
 static wt_status print_curves(hid_t file, size_t size, FILE *out, wt_error *err)
 {
     char name[HDF5_NAME];
     wt_status status = WT_OK;
-    size_t n = 0, missing = 0;
+    size_t n = 0, missing = 0, number = 0;
     const size_t links = hdf5_links(file);
-    for (size_t number = 0; n < links && missing < MISSING_MAX && status == WT_OK; number++) {
+    for (; n < links && missing < MISSING_MAX && status == WT_OK; number++) {
         snprintf(name, sizeof name, "%zu", number);
         const hid_t group = hdf5_open_group(file, name);
         missing += group < 0;
@@ -126,6 +157,8 @@ static wt_status print_curves(hid_t file, size_t size, FILE *out, wt_error *err)
         status = print_curve(group, name, number, size, out, err);
         hdf5_close(group);
     }
+    if (status == WT_OK && n < links)
+        status = check_far(file, number, err);
     if (status == WT_OK && n == 0) {
         status = wt_fail(err, WT_E_EMPTY, "the file holds no force curve");
         wt_error_expected(err, "groups \"0\", \"1\", ...");
