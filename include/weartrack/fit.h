@@ -362,6 +362,45 @@ typedef struct wt_payne {
 WT_API wt_status wt_payne_fit(const double *strain, const double *storage, const double *loss,
                               size_t n, wt_payne *payne, wt_error *err) WT_NODISCARD;
 
+/* ---- deflection sensitivity: curves on a hard surface ---------------------------------------- */
+
+/* The part of the contact by which the slope is measured: shares of the rise of the signal. */
+typedef struct wt_slope_options {
+    double from, to;
+    uint64_t reserved[6];
+} wt_slope_options;
+WT_API wt_slope_options wt_slope_defaults(void);
+WT_API const wt_params *wt_slope_params(void);
+
+/* One way of a curve. Errors are those of the scatter within it, with `freedom` degrees: lines
+ * through the means of as many blocks of samples, so that noise which lasts shorter than a block is
+ * in them. */
+typedef struct wt_contact_slope {
+    bool found;
+    char why_not[96];              /* "", or why there is no slope */
+    double slope, slope_error;     /* of the signal against the piezo: [unit of the signal / m] */
+    double change, change_error;   /* of the slope from end to end of the part, of the slope */
+    double tilt;                   /* of the baseline, subtracted, of the slope; NaN: none seen */
+    double misfit;                 /* root mean square of the residuals, of the rise */
+    double signal_from, signal_to; /* the part, above the baseline */
+    double travel;                 /* of the piezo in it [m] */
+    size_t n;                      /* samples in it */
+    double freedom;
+} wt_contact_slope;
+/* Piezo position [m] of either direction and the signal, which is larger in contact, in the order
+ * of time of an approach or a retract. NaN samples are left out. */
+WT_API wt_status wt_contact_slope_fit(const double *position, const double *signal, size_t n,
+                                      const wt_slope_options *options, wt_contact_slope *slope,
+                                      wt_error *err) WT_NODISCARD;
+/* Half of the interval of 95 % over the error, by Student's t. */
+WT_API double wt_student(double freedom);
+/* Mean of n values: of the means of their units (spots, files), numbered in `units`, if there are
+ * three units or more, else of the values; those of a unit stand one behind another, NULL: there
+ * are no units. Interval of 95 % by Student's t with *n_units - 1 degrees of freedom; of one value
+ * the error and the ends are NaN. */
+WT_API wt_interval wt_student_mean(const double *values, const long *units, size_t n,
+                                   size_t *n_units);
+
 /* ---- master curve: one spectrum behind all isotherms ----------------------------------------- */
 
 typedef enum wt_vertical_shift {

@@ -149,6 +149,32 @@ WT_API void wt_indent_tables_clear(wt_indent_tables *tables);
 WT_API wt_status wt_indent_group(const wt_indent_job *job, const wt_job *work,
                                  wt_indent_tables *tables, wt_error *err) WT_NODISCARD;
 
+/* ---- calibration of the lever ---------------------------------------------------------------- */
+
+typedef enum wt_ways { WT_WAYS_BOTH, WT_WAYS_APPROACH, WT_WAYS_RETRACT } wt_ways;
+
+/* Deflection sensitivity by curves on a hard surface. */
+typedef struct wt_sensitivity_job {
+    const wt_file_set *sets;
+    size_t n_sets;
+    wt_slope_options options;
+    wt_ways ways; /* which ways the answer is of */
+    double
+        most_bend; /* change of the slope within the part, of the slope, that is still straight */
+    uint64_t reserved[6];
+} wt_sensitivity_job;
+WT_API wt_sensitivity_job wt_sensitivity_job_defaults(void);
+WT_API const wt_params *wt_sensitivity_job_params(void);
+typedef struct wt_sensitivity_tables {
+    wt_table *sensitivity, *sensitivity_curves;
+    uint64_t reserved[4];
+} wt_sensitivity_tables;
+WT_API void wt_sensitivity_tables_clear(wt_sensitivity_tables *tables);
+/* WT_E_EMPTY if no file gives a curve. Where the surface gives way or the signal is not straight
+ * there is no sensitivity, and the verdict says why. */
+WT_API wt_status wt_sensitivity_make(const wt_sensitivity_job *job, const wt_job *work,
+                                     wt_sensitivity_tables *tables, wt_error *err) WT_NODISCARD;
+
 /* What was measured on a curve as one number; 0 = too little for that. */
 typedef struct wt_curve_digest {
     uint64_t digest;

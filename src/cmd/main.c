@@ -17,6 +17,7 @@ const cmd_command cmd_commands[] = {
     {"formats", cmd_formats, "the formats that are understood; check a description"},
     {"Indentation", NULL, NULL},
     {"indent", cmd_indent, "contact point and modulus of every force curve"},
+    {"sensitivity", cmd_sensitivity, "deflection sensitivity from curves on a hard surface"},
     {"compare", cmd_compare, "wear track against bulk, or materials against one another"},
     {"Material and sliding", NULL, NULL},
     {"master", cmd_master, "shift factors, master curve, WLF and Prony series of DMA sweeps"},

@@ -7,6 +7,7 @@
 #include "data/tables/tables.h"
 #include "flow/case/case.h"
 #include "weartrack/flow.h"
+#include "writers/jpk_writer.h"
 #include "writers/nid_writer.h"
 
 #include <stdlib.h>
@@ -449,6 +450,50 @@ static void test_strain_sweeps(void **state)
     convert(file[0], WT_KIND_SWEEP);
 }
 
+/* Curves on a hard surface, of a file that says its sensitivity. */
+static void test_calibration(void **state)
+{
+    (void)state;
+    enum { N = 200, CURVES = 2 };
+    static const char path[] = "test_tables_put.jpk-force-map";
+    static double height[2][N], force[3][N];
+    const jpk_writer_segment there = {"extend", N, 1, height[0], force[0], NULL},
+                             back = {"retract", N, 1, height[1], force[1], NULL},
+                             back_again = {"retract", N, 1, height[1], force[2], NULL};
+    const jpk_writer_segment segments[CURVES][2] = {{there, back}, {there, back_again}};
+    const jpk_writer_curve curves[CURVES] = {{0, 0, 0, 2, segments[0]},
+                                             {1, 1e-6, 0, 2, segments[1]}};
+    const char *const patterns[] = {path};
+    const wt_file_set set = {.patterns = patterns, .n_patterns = 1, .read = wt_read_defaults()};
+    wt_job common = wt_job_defaults();
+    jpk_writer_file file = jpk_writer_defaults();
+    for (size_t i = 0; i < N; i++) {
+        height[0][i] = height[1][N - 1 - i] = 1e-6 - 1e-9 * (double)i;
+        force[0][i] = i > 150 ? 1e-9 * (double)(i - 150) * 0.1 : 0;
+        force[1][N - 1 - i] = 1.01 * force[0][i];
+        force[2][N - 1 - i] = 1.02 * force[0][i];
+    }
+    file.path = path;
+    file.map = true;
+    file.n_curves = CURVES;
+    file.curves = curves;
+    file.spring_constant = 0.1;
+    file.sensitivity = 50e-9;
+    assert_int_equal(jpk_write(&file), 0);
+    common.formats = formats;
+    wt_sensitivity_job job = wt_sensitivity_job_defaults();
+    wt_sensitivity_tables tables = {0};
+    wt_error err = WT_ERROR_INIT;
+    job.sets = &set;
+    job.n_sets = 1;
+    if (wt_sensitivity_make(&job, &common, &tables, &err) != WT_OK)
+        fail_msg("%s %s", err.message, err.found);
+    see(tables.sensitivity);
+    see(tables.sensitivity_curves);
+    wt_sensitivity_tables_clear(&tables);
+    (void)remove(path);
+}
+
 static void test_files(void **state)
 {
     (void)state;
@@ -514,8 +559,8 @@ int main(void)
         cmocka_unit_test(test_materials),     cmocka_unit_test(test_spring_constants),
         cmocka_unit_test(test_conversions),   cmocka_unit_test(test_ramps),
         cmocka_unit_test(test_strain_sweeps), cmocka_unit_test(test_files),
-        cmocka_unit_test(test_directions),    cmocka_unit_test(test_accuracy),
-        cmocka_unit_test(test_all_put),
+        cmocka_unit_test(test_calibration),   cmocka_unit_test(test_directions),
+        cmocka_unit_test(test_accuracy),      cmocka_unit_test(test_all_put),
     };
     return cmocka_run_group_tests_name("tables put", tests, open_formats, free_formats);
 }

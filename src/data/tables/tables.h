@@ -11,6 +11,7 @@
 
 #include "data/table_view.h"
 #include "data/table_writer.h"
+#include "data/tables/calibration.h"
 #include "data/tables/comparison.h"
 #include "data/tables/coverage.h"
 #include "data/tables/dma.h"
@@ -54,6 +55,9 @@
     X(force_indentation, FORCE_INDENTATION, "force_indentation", "Force against indentation",      \
       "indent")                                                                                    \
     X(modulus_depth, MODULUS_DEPTH, "modulus_depth", "Modulus against depth", "indent")            \
+    X(sensitivity, SENSITIVITY, "sensitivity", "Deflection sensitivity", "sensitivity")            \
+    X(sensitivity_curves, SENSITIVITY_CURVES, "sensitivity_curves",                                \
+      "Deflection sensitivity of every curve", "sensitivity")                                      \
     X(modulus_groups, MODULUS_GROUPS, "modulus_groups", "Modulus of the groups", "compare")        \
     X(modulus_rate, MODULUS_RATE, "modulus_rate", "Modulus against indentation rate", "compare")   \
     X(comparison, COMPARISON, "comparison", "Wear track against bulk", "compare")                  \

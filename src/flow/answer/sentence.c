@@ -161,6 +161,35 @@ static void say_payne(sentence *s, const table_view *v)
         say(s, "; %zu more strain sweeps", v->n_rows - MOST);
 }
 
+static void say_sensitivity(sentence *s, const table_view *v)
+{
+    if (v->table == NULL)
+        return;
+    const wt_estimate value = sensitivity_value(v, SENSITIVITY_KEY_SENSITIVITY),
+                      factor = sensitivity_value(v, SENSITIVITY_KEY_FACTOR);
+    const char *direction = sensitivity_words(v, SENSITIVITY_KEY_DIRECTION),
+               *option = sensitivity_words(v, SENSITIVITY_KEY_INDENT),
+               *compare = sensitivity_words(v, SENSITIVITY_KEY_COMPARE);
+    next(s);
+    if (!isnan(value.value))
+        say(s, "deflection sensitivity %s", words_of_estimate(value).text);
+    else if (isnan(factor.value))
+        say(s, "no deflection sensitivity");
+    if (!isnan(factor.value))
+        say(s, "%s%s of that of the file", isnan(value.value) ? "deflection sensitivity " : ", ",
+            words_of_estimate(factor).text);
+    for (size_t i = 0; i < v->n_rows; i++)
+        if (strcmp(sensitivity_text(v, i, SENSITIVITY_DIRECTION), direction) == 0) {
+            const double n = sensitivity_get(v, i, SENSITIVITY_N);
+            say(s, " (%.0f curve%s, %s)", n, n > 1 ? "s" : "",
+                strcmp(direction, "both") == 0 ? "approach and retract" : direction);
+        }
+    say(s, "; %s", sensitivity_words(v, SENSITIVITY_KEY_VERDICT));
+    if (option != NULL)
+        say(s, "; use %s%s%s", option, compare != NULL ? ", and in compare " : "",
+            compare != NULL ? compare : "");
+}
+
 static void say_friction(sentence *s, const table_view *v)
 {
     if (v->table == NULL)
@@ -210,10 +239,15 @@ size_t wt_result_sentence(const wt_result *result, char *buffer, size_t size)
     static const struct {
         const table_schema *schema;
         void (*say)(sentence *s, const table_view *view);
-    } parts[] = {{&modulus_groups_schema, say_groups},       {&comparison_schema, say_ratio},
-                 {&material_ratio_schema, say_materials},    {&shift_factors_schema, say_material},
-                 {&glass_transition_schema, say_transition}, {&payne_schema, say_payne},
-                 {&friction_schema, say_friction},           {&layer_schema, say_layer}};
+    } parts[] = {{&sensitivity_schema, say_sensitivity},
+                 {&modulus_groups_schema, say_groups},
+                 {&comparison_schema, say_ratio},
+                 {&material_ratio_schema, say_materials},
+                 {&shift_factors_schema, say_material},
+                 {&glass_transition_schema, say_transition},
+                 {&payne_schema, say_payne},
+                 {&friction_schema, say_friction},
+                 {&layer_schema, say_layer}};
     sentence s = {.text = buffer, .size = size, .result = result};
     const locale_t previous = clocale_enter();
     if (size > 0)

@@ -1,0 +1,263 @@
+/* Deflection sensitivity of files by independent writers: volts, calibrated files, forces alone,
+ * both ways with friction, several files, a soft surface.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "near.h"
+
+#include "dma_data.h"
+#include "weartrack/flow.h"
+#include "writers/curve_hdf5_writer.h"
+#include "writers/jpk_writer.h"
+
+#include <math.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { N = 400, MOST_CURVES = 12, MOST_FILES = 4 };
+static const double free_travel = 200e-9, press = 100e-9, spring = 0.3;
+
+static wt_formats *formats;
+static double height[MOST_CURVES][2][N], signal[MOST_CURVES][2][N];
+
+/* A curve whose way in is of sensitivity s (1 + friction), the way out of s (1 - friction). The
+ * deflection is `scale` times volts; a surface that gives way lets it fall behind. */
+static void draw_curve(size_t i, double s, double friction, double give, double scale,
+                       uint64_t *seed)
+{
+    for (size_t way = 0; way < 2; way++)
+        for (size_t k = 0; k < N; k++) {
+            const double share = (double)k / (N - 1);
+            const double at = (way == 0 ? share : 1 - share) * (free_travel + press) - free_travel;
+            const double own = s * (way == 0 ? 1 + friction : 1 - friction);
+            double v = at > 0 ? at / own : 0;
+            if (at > 0)
+                v *= 1 - give * pow(press / at, 1.0 / 3);
+            height[i][way][k] = 5e-6 - at;
+            signal[i][way][k] = scale * (v + 0.004 * dma_normal(seed));
+        }
+}
+
+static void write_map(const char *path, size_t n, double k, double s)
+{
+    jpk_writer_segment segments[MOST_CURVES][2];
+    jpk_writer_curve curves[MOST_CURVES];
+    jpk_writer_file file = jpk_writer_defaults();
+    for (size_t i = 0; i < n; i++) {
+        segments[i][0] = (jpk_writer_segment){"extend", N, 1, height[i][0], signal[i][0], NULL};
+        segments[i][1] = (jpk_writer_segment){"retract", N, 1, height[i][1], signal[i][1], NULL};
+        curves[i] = (jpk_writer_curve){i, 0, 0, 2, segments[i]};
+    }
+    file.path = path;
+    file.map = true;
+    file.n_curves = n;
+    file.curves = curves;
+    file.spring_constant = k;
+    file.sensitivity = s;
+    assert_int_equal(jpk_write(&file), 0);
+}
+
+static wt_status make(const wt_sensitivity_job *options, const char *const *paths, size_t n,
+                      wt_sensitivity_tables *tables, wt_error *err)
+{
+    const wt_file_set set = {.patterns = paths, .n_patterns = n, .read = wt_read_defaults()};
+    wt_sensitivity_job job = *options;
+    wt_job work = wt_job_defaults();
+    work.formats = formats;
+    job.sets = &set;
+    job.n_sets = 1;
+    return wt_sensitivity_make(&job, &work, tables, err);
+}
+
+static wt_sensitivity_tables made(const char *const *paths, size_t n)
+{
+    const wt_sensitivity_job job = wt_sensitivity_job_defaults();
+    wt_sensitivity_tables tables = {0};
+    wt_error err = WT_ERROR_INIT;
+    if (make(&job, paths, n, &tables, &err) != WT_OK)
+        fail_msg("%s; %s", err.message, err.found);
+    return tables;
+}
+
+static double cell(const wt_table *table, size_t row, const char *column)
+{
+    const long c = wt_table_find(table, column);
+    assert_true(c >= 0);
+    return wt_table_number(table, row, (size_t)c);
+}
+
+static wt_estimate key(const wt_table *table, const char *name)
+{
+    wt_estimate e = {(double)NAN, (double)NAN, (double)NAN, ""};
+    (void)wt_table_estimate(table, name, &e);
+    return e;
+}
+
+/* Volts alone: both ways with their friction, whose mean is the truth. */
+static void test_volts(void **state)
+{
+    (void)state;
+    static const char *const path[] = {"test_sensitivity_volts.jpk-force-map"};
+    uint64_t seed = 3;
+    for (size_t i = 0; i < 6; i++)
+        draw_curve(i, 60e-9 * (1 + 0.002 * dma_normal(&seed)), 0.02, 0, 1, &seed);
+    write_map(path[0], 6, (double)NAN, (double)NAN);
+    wt_sensitivity_tables t = made(path, 1);
+    assert_int_equal(wt_table_n_rows(t.sensitivity), 3);
+    assert_int_equal(wt_table_n_rows(t.sensitivity_curves), 12);
+    assert_near(cell(t.sensitivity, 0, "sensitivity"), 60e-9 * 1.02, 0.004);
+    assert_near(cell(t.sensitivity, 1, "sensitivity"), 60e-9 * 0.98, 0.004);
+    assert_near(cell(t.sensitivity, 2, "sensitivity"), 60e-9, 0.004);
+    assert_true(cell(t.sensitivity, 2, "sensitivity_low") < 60e-9);
+    assert_true(cell(t.sensitivity, 2, "sensitivity_high") > 60e-9);
+    assert_near(key(t.sensitivity, "retract_over_approach").value, 0.98 / 1.02, 0.003);
+    assert_string_equal(wt_table_key(t.sensitivity, "verdict"), "straight");
+    assert_true(strncmp(wt_table_key(t.sensitivity, "indent_option"), "--sensitivity ", 14) == 0);
+    assert_true(isnan(key(t.sensitivity, "factor").value));
+    wt_sensitivity_tables_clear(&t);
+    (void)remove(path[0]);
+}
+
+/* A file that was calibrated with 50 nm/V: the volts are taken back, and the factor is told. */
+static void test_calibrated(void **state)
+{
+    (void)state;
+    static const char *const path[] = {"test_sensitivity_force.jpk-force-map"};
+    uint64_t seed = 4;
+    for (size_t i = 0; i < 4; i++)
+        draw_curve(i, 60e-9, 0, 0, spring * 50e-9, &seed);
+    write_map(path[0], 4, spring, 50e-9);
+    wt_sensitivity_tables t = made(path, 1);
+    assert_near(key(t.sensitivity, "sensitivity").value, 60e-9, 0.004);
+    assert_near(key(t.sensitivity, "factor").value, 1.2, 0.004);
+    assert_near(strtod(wt_table_key(t.sensitivity, "thermal_spring_constant_factor"), NULL),
+                1 / 1.44, 0.01);
+    wt_sensitivity_tables_clear(&t);
+    (void)remove(path[0]);
+}
+
+/* Forces and a spring constant alone: the factor on the deflection. */
+static void test_forces(void **state)
+{
+    (void)state;
+    static const char *const path[] = {"test_sensitivity_force.h5"};
+    static double time[2 * N], z[2 * N], f[2 * N];
+    static unsigned char segments[2 * N];
+    uint64_t seed = 4;
+    draw_curve(0, 60e-9, 0, 0, spring * 50e-9, &seed);
+    for (size_t k = 0; k < 2 * N; k++) {
+        time[k] = 1e-3 * (double)k;
+        z[k] = height[0][k / N][k % N];
+        f[k] = signal[0][k / N][k % N];
+        segments[k] = k >= N;
+    }
+    const afmformats_writer_file file = {.path = path[0],
+                                         .n_curves = 1,
+                                         .n = 2 * N,
+                                         .time = time,
+                                         .height = z,
+                                         .force = f,
+                                         .segments = segments,
+                                         .spring_constant = spring,
+                                         .force_unit = "N"};
+    assert_int_equal(afmformats_write(&file), 0);
+    wt_sensitivity_tables t = made(path, 1);
+    assert_near(key(t.sensitivity, "factor").value, 1.2, 0.01);
+    assert_true(isnan(key(t.sensitivity, "sensitivity").value));
+    assert_null(wt_table_key(t.sensitivity, "indent_option"));
+    assert_true(isnan(key(t.sensitivity, "factor").standard_error)); /* one curve */
+    wt_sensitivity_tables_clear(&t);
+    (void)remove(path[0]);
+}
+
+/* Four files whose laser moved: the files count, not their curves. A curve with dust is left out.
+ */
+static void test_files(void **state)
+{
+    (void)state;
+    static const char *const paths[MOST_FILES] = {
+        "test_sensitivity_0.jpk-force-map", "test_sensitivity_1.jpk-force-map",
+        "test_sensitivity_2.jpk-force-map", "test_sensitivity_3.jpk-force-map"};
+    static const double moved[MOST_FILES] = {0.98, 1.01, 1.02, 0.99};
+    uint64_t seed = 5;
+    for (size_t f = 0; f < MOST_FILES; f++) {
+        for (size_t i = 0; i < 10; i++)
+            draw_curve(i, 60e-9 * moved[f] * (f == 1 && i == 4 ? 1.3 : 1), 0, 0, 1, &seed);
+        write_map(paths[f], 10, (double)NAN, (double)NAN);
+    }
+    wt_sensitivity_tables t = made(paths, MOST_FILES);
+    assert_near(cell(t.sensitivity, 2, "n"), 39, 0);
+    assert_near(cell(t.sensitivity, 2, "n_units"), 4, 0);
+    assert_near(cell(t.sensitivity, 2, "sensitivity"), 60e-9, 0.001);
+    assert_near(cell(t.sensitivity, 2, "scatter"), 0.01826, 0.05);
+    assert_string_equal(wt_table_key(t.sensitivity, "n_left_out"), "1");
+    wt_sensitivity_tables_clear(&t);
+    for (size_t f = 0; f < MOST_FILES; f++)
+        (void)remove(paths[f]);
+}
+
+/* A soft surface: no number, and why; with a looser limit there is one. */
+static void test_soft(void **state)
+{
+    (void)state;
+    static const char *const path[] = {"test_sensitivity_soft.jpk-force-map"};
+    wt_sensitivity_job job = wt_sensitivity_job_defaults();
+    wt_sensitivity_tables t = {0};
+    uint64_t seed = 6;
+    for (size_t i = 0; i < 6; i++)
+        draw_curve(i, 60e-9, 0, 0.3, 1, &seed);
+    write_map(path[0], 6, (double)NAN, (double)NAN);
+    t = made(path, 1);
+    assert_string_equal(wt_table_key(t.sensitivity, "verdict"),
+                        "soft surface: the slope rises with the deflection");
+    assert_true(isnan(key(t.sensitivity, "sensitivity").value));
+    assert_true(isnan(cell(t.sensitivity, 2, "sensitivity")));
+    assert_near(cell(t.sensitivity, 2, "surface_share"),
+                2.4 * cell(t.sensitivity, 2, "slope_change_high"), 0.005);
+    wt_sensitivity_tables_clear(&t);
+    job.most_bend = 0.5;
+    job.ways = WT_WAYS_RETRACT;
+    assert_int_equal(make(&job, path, 1, &t, NULL), WT_OK);
+    assert_string_equal(wt_table_key(t.sensitivity, "verdict"), "straight");
+    assert_string_equal(wt_table_key(t.sensitivity, "direction"), "retract");
+    assert_true(key(t.sensitivity, "sensitivity").value > 60e-9);
+    wt_sensitivity_tables_clear(&t);
+    (void)remove(path[0]);
+}
+
+/* 252 of 256 curves on mica, and one of finer steps, by the same lever. */
+static void test_genuine(void **state)
+{
+    (void)state;
+    static const char *const map[] = {WT_SHARED_DIR "/data/afm-more/Test.003"};
+    static const char *const one[] = {WT_SHARED_DIR "/data/afm-more/Test.001"};
+    if (access(map[0], R_OK) != 0 || access(one[0], R_OK) != 0)
+        skip();
+    wt_sensitivity_tables t = made(map, 1), s = made(one, 1);
+    assert_string_equal(wt_table_key(t.sensitivity, "verdict"), "straight");
+    assert_true(cell(t.sensitivity, 2, "n") > 240);
+    assert_near(key(t.sensitivity, "sensitivity").value, 30.2e-9, 0.01);
+    assert_near(key(s.sensitivity, "sensitivity").value, 30.2e-9, 0.02);
+    wt_sensitivity_tables_clear(&t);
+    wt_sensitivity_tables_clear(&s);
+}
+
+static int open_formats(void **state)
+{
+    (void)state;
+    return wt_formats_new(NULL, &formats, NULL, NULL) == WT_OK ? 0 : -1;
+}
+
+static int free_formats(void **state)
+{
+    (void)state;
+    wt_formats_free(formats);
+    return 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_volts),  cmocka_unit_test(test_calibrated),
+        cmocka_unit_test(test_forces), cmocka_unit_test(test_files),
+        cmocka_unit_test(test_soft),   cmocka_unit_test(test_genuine)};
+    return cmocka_run_group_tests(tests, open_formats, free_formats);
+}
