@@ -271,6 +271,9 @@ typedef struct wt_rubber {
     wt_master_options fit;
 } wt_rubber;
 WT_API void wt_rubber_clear(wt_rubber *rubber);
+/* Says to the cost of `work` what the stage that goes on has read: the terms of a series, the points
+ * of a table or the constants of a law are its items. For a rubber that no job made. */
+WT_API void wt_rubber_cost(const wt_rubber *rubber, const wt_job *work);
 
 /* How the moduli of a rubber are taken. */
 typedef enum wt_moduli { WT_MODULI_SERIES, WT_MODULI_POINTS } wt_moduli;
@@ -620,6 +623,8 @@ typedef struct wt_coverage_job {
     size_t trials;
     uint64_t reserved[6];
 } wt_coverage_job;
+WT_API wt_coverage_job wt_coverage_job_defaults(void); /* trials 0 */
+WT_API const wt_params *wt_coverage_job_params(void);
 /* Table "coverage": the case drawn anew from its own fit (isotherms with their noise and scatter of
  * temperature, moduli by spots and curves, inputs by their stated errors), computed each time as it
  * is, and how often the intervals that it then states hold what it was drawn from. It cannot reveal

@@ -2,17 +2,6 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cmd/cmd.h"
 
-typedef struct own_options {
-    size_t coverage;
-} own_options;
-
-static const wt_param own_rows[] = {
-    {PARAM("coverage", own_options, coverage, WT_Q_NONE, FROM_TO(0, 100000)), .value = "N",
-     .help = "of a case, instead of the budget: how often its intervals hold in N trials drawn "
-             "from its own fit"},
-};
-CMD_OPTIONS(own_params, own_options, own_rows)
-
 static wt_status lacks_table(cmd_session *s, const char *title)
 {
     wt_fail(&s->err, WT_E_MISSING, "the case has no %s", title);
@@ -80,11 +69,11 @@ int cmd_accuracy(int argc, char **argv)
     cmd_session s = cmd_session_defaults();
     wt_accuracy_job job = wt_accuracy_job_defaults();
     wt_run_options run = wt_run_defaults();
-    own_options own = {0};
+    wt_coverage_job coverage = wt_coverage_job_defaults();
     wt_table *table = NULL;
     cmd_part parts[] = {{wt_accuracy_job_params(), &job, NULL, 0},
                         {wt_run_params(), &run, NULL, 0},
-                        {own_params(), &own, NULL, 0}};
+                        {wt_coverage_job_params(), &coverage, NULL, 0}};
     if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv))
         goto done;
     if (s.n_files > 1)
@@ -97,7 +86,7 @@ int cmd_accuracy(int argc, char **argv)
         goto done;
     else if (s.n_files == 1) {
         s.log = wt_parselog_new();
-        run.trials = own.coverage;
+        run.trials = coverage.trials;
         const wt_status made =
             s.log == NULL ? wt_fail(&s.err, WT_E_MEMORY, "out of memory") : ask_case(&s, &run);
         cmd_end(&s, made);

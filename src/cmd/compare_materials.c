@@ -46,6 +46,7 @@ static wt_status fit(compare_call *call, compare_input *input, wt_error *err)
         return WT_E_CANCELLED;
     wt_job work = call->s.work;
     work.formats = call->s.formats;
+    work.left_out = WT_EXTRA_REDUCED | WT_EXTRA_SPECTRUM;
     if (input->tables != NULL) /* the file is an input already */
         work.provenance = NULL;
     set.patterns = &input->path;

@@ -113,6 +113,16 @@ static wt_status write_exports(cmd_session *s, const exported *own, const wt_mas
     return status;
 }
 
+/* Few terms for finite elements take several times as long as the fit. */
+static bool asks_for_few_terms(const cmd_part *part, const exported *own)
+{
+    static const char *const options[] = {"prony-terms", "prony-error", "prony-long-term"};
+    bool asked = own->n_exports > 0;
+    for (size_t i = 0; i < COUNT_OF(options); i++)
+        asked = asked || cmd_given(part, options[i]);
+    return asked;
+}
+
 int cmd_master(int argc, char **argv)
 {
     static const cmd_usage usage = {
@@ -122,22 +132,24 @@ int cmd_master(int argc, char **argv)
                 "shifts, the law of these and the errors of everything; says whether superposition "
                 "holds. Folders and patterns are allowed.",
         .common = "output formats columns files-from provenance cost",
-        .notes = "The tables prony, prony_reduced (few terms in place of it), relaxation_spectrum, "
-                 "shift_factors and master_curve follow one another, then draws of all that is not "
-                 "known of the material, material_draws and series_draws; "
+        .notes = "The tables prony, relaxation_spectrum, shift_factors and master_curve follow one "
+                 "another, then draws of all that is not known of the material, material_draws and "
+                 "series_draws; with --prony-error, --prony-terms, --prony-long-term or --export "
+                 "prony_reduced, too (few terms in place of prony). "
                  "weartrack friction, layer and compare read them as they are.",
         .n_files = CMD_SOME};
     wt_master_job job = wt_master_job_defaults();
     wt_file_set set = {.read = wt_read_defaults()};
     saved_shifts saved = {NULL, NULL};
     exported own = export_defaults();
+    enum { EXPORTED = 2 };
     cmd_part parts[] = {
         {wt_master_job_params(), &job,
          "reference-temperature reference-at vertical-shift expansion terms-per-decade liquid "
          "shift-by leave-out shift-law",
          0},
         {saved_params(), &saved, NULL, 0},
-        {exported_params(), &own, NULL, 0},
+        [EXPORTED] = {exported_params(), &own, NULL, 0},
         {wt_read_params(), &set.read, "temperature units format sheet deformation strain", 0}};
     cmd_session s = cmd_session_defaults();
     wt_master_tables tables = {0};
@@ -146,6 +158,8 @@ int cmd_master(int argc, char **argv)
         !check_outputs(&s, &saved, &own) || !cmd_begin_files(&s, &set))
         goto done;
     job.reduction = own.reduction;
+    if (!asks_for_few_terms(&parts[EXPORTED], &own))
+        s.work.left_out |= WT_EXTRA_REDUCED;
     job.sets = &set;
     job.n_sets = 1;
     wt_cost_stage(s.cost, "master_curve");

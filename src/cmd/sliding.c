@@ -71,7 +71,11 @@ static wt_status fit_material(cmd_sliding *s, wt_error *err)
     s->set.n_patterns = listed ? s->session.n_files : s->contact.n_dma;
     s->master.sets = &s->set;
     s->master.n_sets = 1;
-    wt_status status = wt_master_make(&s->master, &s->session.work, &tables, &s->rubber, err);
+    wt_job work = s->session.work;
+    work.left_out = WT_EXTRA_REDUCED | WT_EXTRA_SPECTRUM;
+    if (work.replicates < 2)
+        work.left_out |= WT_EXTRA_DRAWS;
+    wt_status status = wt_master_make(&s->master, &work, &tables, &s->rubber, err);
     if (status == WT_OK && s->options.moduli == WT_MODULI_POINTS)
         status = wt_rubber_tabulate(&s->rubber, tables.master_curve, &s->options, err);
     wt_master_tables_clear(&tables);
@@ -129,6 +133,8 @@ bool cmd_sliding_open(cmd_sliding *s)
     work->failures = NULL;
     wt_cost_stage(s->session.cost, s->contact.material != NULL ? "given_material" : "master_curve");
     wt_status status = s->contact.material != NULL ? read_material(s, err) : fit_material(s, err);
+    if (status == WT_OK && s->contact.material != NULL)
+        wt_rubber_cost(&s->rubber, work);
     s->rubber.is_transverse = s->parts[CMD_TRANSVERSE].given != 0;
     s->rubber.transverse = s->transverse;
     wt_cost_stage(s->session.cost, "roughness");

@@ -40,7 +40,7 @@ static const wt_param rows[] = {
     {PARAM("prony-error", wt_reduction, error, WT_Q_NONE, FROM_TO(1e-4, 1)), .value = "X",
      .help = "largest relative deviation of storage and loss modulus of the reduced Prony series "
              "from the spectrum, over the measured frequencies"},
-    {PARAM("prony-long-term", wt_reduction, long_term, WT_Q_MODULUS, AT_LEAST(0)),
+    {PARAM("prony-long-term", wt_reduction, long_term, WT_Q_MODULUS, AT_LEAST(0)), .value = "E",
      .help = "long-term modulus of the reduced Prony series, 0Pa for a liquid",
      .unset = "fitted with the terms"},
 };

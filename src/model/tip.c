@@ -11,6 +11,19 @@
 
 static const double degree = M_PI / 180.0;
 
+const wt_param tip_dimensions[TIP_N_DIMENSIONS] = {
+    [TIP_HALF_ANGLE] = {PARAM("half-angle", wt_tip, half_angle, WT_Q_ANGLE,
+                              BRACED(0, M_PI_2, false, false))},
+    [TIP_RADIUS] = {PARAM("radius", wt_tip, radius, WT_Q_LENGTH, AT_LEAST(0))},
+    [TIP_SIDES] = {PARAM("sides", wt_tip, sides, WT_Q_NONE, FROM_TO(3, 1e6))},
+    [TIP_TRANSITION] = {PARAM("transition", wt_tip, transition_radius, WT_Q_LENGTH, AT_LEAST(0))},
+};
+
+static bool is_within(tip_dimension which, double value)
+{
+    return param_check_number(&tip_dimensions[which], value, NULL) == WT_OK;
+}
+
 double wt_tip_tangent_transition(double radius, double half_angle)
 {
     return radius * cos(half_angle);
@@ -18,7 +31,7 @@ double wt_tip_tangent_transition(double radius, double half_angle)
 
 static wt_status check_positive(double value, const char *what, wt_error *err)
 {
-    if (value > 0.0 && quantity_is_possible(WT_Q_LENGTH, value))
+    if (value > 0.0 && is_within(TIP_RADIUS, value))
         return WT_OK;
     wt_status status = wt_fail(err, WT_E_RANGE, "%s is not usable", what);
     wt_error_expected(err, "a length above 0, at most %g m", quantity_most(WT_Q_LENGTH));
@@ -28,7 +41,7 @@ static wt_status check_positive(double value, const char *what, wt_error *err)
 
 static wt_status check_half_angle(double half_angle, wt_error *err)
 {
-    if (half_angle > 0.0 && half_angle < M_PI_2)
+    if (is_within(TIP_HALF_ANGLE, half_angle))
         return WT_OK;
     wt_status status = wt_fail(err, WT_E_RANGE, "half-angle of the tip is not usable");
     wt_error_expected(err, "an angle from the axis to the face between 0 and 90 degrees");
@@ -39,7 +52,7 @@ static wt_status check_half_angle(double half_angle, wt_error *err)
 static wt_status check_cap(const wt_tip *tip, wt_error *err)
 {
     double b = tip->transition_radius;
-    if (!(b >= 0.0) || !isfinite(b)) {
+    if (!is_within(TIP_TRANSITION, b)) {
         wt_status status = wt_fail(err, WT_E_RANGE, "transition radius of the tip is not usable");
         wt_error_expected(err, "a length of 0 (sharp) or more");
         wt_error_found(err, "%g m", b);
@@ -76,9 +89,9 @@ wt_status wt_tip_check(const wt_tip *tip, wt_error *err)
     case WT_TIP_CONE:
         return check_half_angle(tip->half_angle, err);
     case WT_TIP_BLUNTED_PYRAMID:
-        if (tip->sides == 1 || tip->sides == 2) {
+        if (tip->sides != 0 && !is_within(TIP_SIDES, tip->sides)) {
             status = wt_fail(err, WT_E_RANGE, "a pyramid of %u sides does not exist", tip->sides);
-            wt_error_expected(err, "3 sides or more, or 0 for a cone");
+            wt_error_expected(err, "3 sides or more, up to 1e6, or 0 for a cone");
             return status;
         }
         status = check_half_angle(tip->half_angle, err);

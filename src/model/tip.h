@@ -5,7 +5,19 @@
 #ifndef WT_MODEL_TIP_H
 #define WT_MODEL_TIP_H
 
+#include "base/param.h"
 #include "weartrack/model.h"
+
+/* What the short text form names, with its limits; which shape takes which is in tip_text.c, and
+ * what must go together in wt_tip_check. */
+typedef enum tip_dimension {
+    TIP_HALF_ANGLE,
+    TIP_RADIUS,
+    TIP_SIDES,
+    TIP_TRANSITION,
+    TIP_N_DIMENSIONS
+} tip_dimension;
+extern const wt_param tip_dimensions[TIP_N_DIMENSIONS];
 
 /* m(n) = (n/pi) sin(pi/n), the ratio of the mean to the largest distance of the faces from the axis
  * in Rico's averaging; 1 for sides = 0. */

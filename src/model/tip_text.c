@@ -9,16 +9,6 @@
 #include <math.h>
 #include <string.h>
 
-enum { HALF_ANGLE, RADIUS, SIDES, TRANSITION, N_KEYS };
-
-static const struct {
-    const char *name;
-    wt_quantity quantity;
-} keys[N_KEYS] = {{"half-angle", WT_Q_ANGLE},
-                  {"radius", WT_Q_LENGTH},
-                  {"sides", WT_Q_NONE},
-                  {"transition", WT_Q_LENGTH}};
-
 /* What each shape takes: "allowed" includes "needed". */
 static const struct {
     const char *name, *example;
@@ -26,13 +16,14 @@ static const struct {
     wt_tip_shape shape;
 } shapes[] = {
     {"pyramid", "pyramid:half-angle=35deg,radius=20nm",
-     1u << HALF_ANGLE | 1u << RADIUS | 1u << SIDES | 1u << TRANSITION,
-     1u << HALF_ANGLE | 1u << RADIUS, WT_TIP_BLUNTED_PYRAMID},
-    {"cone", "cone:half-angle=20deg", 1u << HALF_ANGLE | 1u << RADIUS | 1u << TRANSITION,
-     1u << HALF_ANGLE, WT_TIP_CONE},
-    {"sphere", "sphere:radius=5um", 1u << RADIUS, 1u << RADIUS, WT_TIP_SPHERE},
-    {"paraboloid", "paraboloid:radius=5um", 1u << RADIUS, 1u << RADIUS, WT_TIP_PARABOLOID},
-    {"punch", "punch:radius=2um", 1u << RADIUS, 1u << RADIUS, WT_TIP_PUNCH},
+     1u << TIP_HALF_ANGLE | 1u << TIP_RADIUS | 1u << TIP_SIDES | 1u << TIP_TRANSITION,
+     1u << TIP_HALF_ANGLE | 1u << TIP_RADIUS, WT_TIP_BLUNTED_PYRAMID},
+    {"cone", "cone:half-angle=20deg",
+     1u << TIP_HALF_ANGLE | 1u << TIP_RADIUS | 1u << TIP_TRANSITION, 1u << TIP_HALF_ANGLE,
+     WT_TIP_CONE},
+    {"sphere", "sphere:radius=5um", 1u << TIP_RADIUS, 1u << TIP_RADIUS, WT_TIP_SPHERE},
+    {"paraboloid", "paraboloid:radius=5um", 1u << TIP_RADIUS, 1u << TIP_RADIUS, WT_TIP_PARABOLOID},
+    {"punch", "punch:radius=2um", 1u << TIP_RADIUS, 1u << TIP_RADIUS, WT_TIP_PUNCH},
 };
 enum { PYRAMID, N_SHAPES = sizeof shapes / sizeof shapes[0] };
 
@@ -65,20 +56,20 @@ static wt_status tip_syntax(wt_error *err, size_t shape, const char *text, const
 }
 
 static wt_status parse_item(const char *text, size_t shape, const char *item, size_t length,
-                            double values[N_KEYS], unsigned *seen, wt_error *err)
+                            double values[TIP_N_DIMENSIONS], unsigned *seen, wt_error *err)
 {
     const char *equals = memchr(item, '=', length);
     if (equals == NULL)
         return tip_syntax(err, shape, text, "name=value", item, length);
     size_t name_length = (size_t)(equals - item), key = 0;
-    while (key < N_KEYS && (strlen(keys[key].name) != name_length ||
-                            strncmp(keys[key].name, item, name_length) != 0))
+    while (key < TIP_N_DIMENSIONS && (strlen(tip_dimensions[key].name) != name_length ||
+                                      strncmp(tip_dimensions[key].name, item, name_length) != 0))
         key++;
-    if (key == N_KEYS || !(shapes[shape].allowed & 1u << key)) {
+    if (key == TIP_N_DIMENSIONS || !(shapes[shape].allowed & 1u << key)) {
         char names[LIST] = "";
-        for (size_t i = 0; i < N_KEYS; i++)
+        for (size_t i = 0; i < TIP_N_DIMENSIONS; i++)
             if (shapes[shape].allowed & 1u << i)
-                add_word(names, keys[i].name, shapes[shape].allowed >> (i + 1));
+                add_word(names, tip_dimensions[i].name, shapes[shape].allowed >> (i + 1));
         return tip_syntax(err, shape, text, names, item, name_length);
     }
     if (*seen & 1u << key)
@@ -91,9 +82,9 @@ static wt_status parse_item(const char *text, size_t shape, const char *item, si
         return tip_syntax(err, shape, text, "a number with its unit", equals + 1, value_length);
     memcpy(value, equals + 1, value_length);
     value[value_length] = '\0';
-    wt_status status = wt_quantity_parse(value, keys[key].quantity, &values[key], err);
+    wt_status status = wt_quantity_parse(value, tip_dimensions[key].quantity, &values[key], err);
     if (status != WT_OK)
-        wt_error_place(err, "tip \"%s\", %s", text, keys[key].name);
+        wt_error_place(err, "tip \"%s\", %s", text, tip_dimensions[key].name);
     return status;
 }
 
@@ -117,7 +108,7 @@ wt_status wt_tip_parse(const char *text, wt_tip *tip, wt_error *err)
     wt_status status = find_shape(text, name_length, &shape, err);
     if (status != WT_OK)
         return status;
-    double values[N_KEYS] = {0.0};
+    double values[TIP_N_DIMENSIONS] = {0.0};
     unsigned seen = 0;
     for (const char *item = colon != NULL ? colon + 1 : ""; *item != '\0';) {
         size_t length = strcspn(item, ",");
@@ -129,31 +120,34 @@ wt_status wt_tip_parse(const char *text, wt_tip *tip, wt_error *err)
             item++;
     }
     unsigned missing = shapes[shape].needed & ~seen;
-    if (!(seen & 1u << RADIUS) && (seen & 1u << TRANSITION))
-        missing |= 1u << RADIUS; /* a transition without a cap */
-    for (size_t key = 0; key < N_KEYS; key++) {
+    if (!(seen & 1u << TIP_RADIUS) && (seen & 1u << TIP_TRANSITION))
+        missing |= 1u << TIP_RADIUS; /* a transition without a cap */
+    for (size_t key = 0; key < TIP_N_DIMENSIONS; key++) {
         if (missing & 1u << key) {
-            status = wt_fail(err, WT_E_ARG, "tip \"%s\" lacks its %s", text, keys[key].name);
+            status =
+                wt_fail(err, WT_E_ARG, "tip \"%s\" lacks its %s", text, tip_dimensions[key].name);
             advise(err, shape);
             return status;
         }
     }
-    if ((seen & 1u << SIDES) &&
-        !(values[SIDES] >= 3.0 && values[SIDES] <= 1e6 && floor(values[SIDES]) == values[SIDES])) {
+    if ((seen & 1u << TIP_SIDES) &&
+        (param_check_number(&tip_dimensions[TIP_SIDES], values[TIP_SIDES], NULL) != WT_OK ||
+         floor(values[TIP_SIDES]) != values[TIP_SIDES])) {
         status = wt_fail(err, WT_E_RANGE, "tip \"%s\": sides is not usable", text);
         wt_error_expected(err, "a whole number of 3 or more");
-        wt_error_found(err, "%g", values[SIDES]);
+        wt_error_found(err, "%g", values[TIP_SIDES]);
         return status;
     }
 
-    wt_tip made = {
-        .shape = shapes[shape].shape, .half_angle = values[HALF_ANGLE], .radius = values[RADIUS]};
-    if (seen & 1u << HALF_ANGLE && seen & 1u << RADIUS) {
+    wt_tip made = {.shape = shapes[shape].shape,
+                   .half_angle = values[TIP_HALF_ANGLE],
+                   .radius = values[TIP_RADIUS]};
+    if (seen & 1u << TIP_HALF_ANGLE && seen & 1u << TIP_RADIUS) {
         made.shape = WT_TIP_BLUNTED_PYRAMID;
         if (shape == PYRAMID)
-            made.sides = seen & 1u << SIDES ? (unsigned)values[SIDES] : 4;
-        made.transition_radius = seen & 1u << TRANSITION
-                                     ? values[TRANSITION]
+            made.sides = seen & 1u << TIP_SIDES ? (unsigned)values[TIP_SIDES] : 4;
+        made.transition_radius = seen & 1u << TIP_TRANSITION
+                                     ? values[TIP_TRANSITION]
                                      : wt_tip_tangent_transition(made.radius, made.half_angle);
     }
     status = wt_tip_check(&made, err);

@@ -13,6 +13,7 @@
 #include "base/quantity.h"
 #include "data/tables/tables.h"
 #include "flow/case/things.h"
+#include "model/tip.h"
 #include "params/sections.h"
 #include "weartrack/report.h"
 
@@ -283,11 +284,14 @@ static void put_limits(void)
     puts(".PD 0");
     for (size_t s = 0; s < N_CASE_SECTIONS; s++)
         put_limits_of(case_sections[s].name, case_sections[s].params);
+    puts(".SS tip");
+    for (size_t i = 0; i < TIP_N_DIMENSIONS; i++)
+        put_limit(&tip_dimensions[i]);
     put_limits_of("prony", (params_of *const[SECTION_TABLES]){case_prony_params, case_term_params});
     put_limits_of("files that are read", (params_of *const[SECTION_TABLES]){wt_read_params});
     put_limits_of("options of the work",
                   (params_of *const[SECTION_TABLES]){wt_run_params, wt_accuracy_job_params,
-                                                     wt_report_params});
+                                                     wt_coverage_job_params, wt_report_params});
     puts(".PD");
 }
 

@@ -20,6 +20,8 @@ static const wt_params *(*const tables[])(void) = {
     case_prony_params,        case_term_params,
     case_wlf_params,          flow_zener_params,
     wt_rubber_options_params, wt_transverse_params,
+    wt_accuracy_job_params,   wt_coverage_job_params,
+    wt_ramp_job_params,       wt_reduction_params,
 };
 enum { N_TABLES = sizeof tables / sizeof tables[0] };
 

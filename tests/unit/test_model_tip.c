@@ -3,6 +3,9 @@
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "near.h"
+
+#include "base/quantity.h"
+#include "model/tip.h"
 #include "status_name.h"
 
 #include "weartrack/model.h"
@@ -144,12 +147,47 @@ static void described_with_all_numbers(void **state)
     }
 }
 
+/* What the pages say of the dimensions is what a tip is checked by. */
+static void within_declared_limits(void **state)
+{
+    (void)state;
+    const wt_tip usual = parsed("pyramid:half-angle=35deg,radius=1m,transition=1um");
+    for (size_t i = 0; i < TIP_N_DIMENSIONS; i++) {
+        const wt_param *p = &tip_dimensions[i];
+        const bool count = p->kind == PARAM_COUNT;
+        const double least = p->limits.low, most = fmin(p->limits.high, quantity_most(p->quantity));
+        const double outside[2] = {count ? least - 1 : nextafter(least, -1),
+                                   count ? most + 1 : nextafter(most, 1e300)};
+        for (int end = 0; end < 2; end++) {
+            wt_tip tip = usual;
+            void *member = (char *)&tip + p->offset;
+            if (count)
+                *(unsigned *)member = (unsigned)outside[end];
+            else
+                *(double *)member = outside[end];
+            assert_int_equal(wt_tip_check(&tip, NULL), WT_E_RANGE);
+            if (count)
+                *(unsigned *)member = (unsigned)(end == 0 ? least : most);
+            else if (i != TIP_TRANSITION || end == 0) /* else the cap would be concave */
+                *(double *)member = end == 0 ? nextafter(least, 1) : nextafter(most, 0);
+            else
+                continue;
+            if (i == TIP_HALF_ANGLE || i == TIP_RADIUS)
+                tip.transition_radius = i == TIP_RADIUS && end == 0 ? 0 : 1e-30;
+            if (i == TIP_RADIUS && end == 0)
+                tip.radius = 0; /* sharp */
+            assert_int_equal(wt_tip_check(&tip, NULL), WT_OK);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(understood),
         cmocka_unit_test(refused_in_clear_words),
         cmocka_unit_test(described_with_all_numbers),
+        cmocka_unit_test(within_declared_limits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

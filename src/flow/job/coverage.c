@@ -6,11 +6,24 @@
 
 #include "base/array.h"
 #include "base/mix.h"
+#include "base/param.h"
 #include "data/tables/tables.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+wt_coverage_job wt_coverage_job_defaults(void)
+{
+    return (wt_coverage_job){.trials = 0};
+}
+
+static const wt_param rows[] = {
+    {PARAM("coverage", wt_coverage_job, trials, WT_Q_NONE, FROM_TO(0, 100000)), .value = "N",
+     .help = "of a case, instead of the budget: how often its intervals hold in N trials drawn "
+             "from its own fit"},
+};
+PARAM_TABLE(wt_coverage_job_params, wt_coverage_job, rows, wt_coverage_job_defaults, NO_PARTS)
 
 /* Whose intervals are judged; the numbers of a setting come first. */
 enum { OF_SHIFTS = SETTING_NUMBERS, OF_C1, OF_C2, OF_RATIO, N_JUDGED };
@@ -361,7 +374,9 @@ wt_status wt_coverage_make(const wt_coverage_job *job, const wt_job *work, wt_ta
     if (job == NULL || work == NULL || table == NULL || job->trials == 0)
         return wt_fail(err, WT_E_ARG, "no coverage to count");
     coverage c = {.job = job};
-    wt_status status = prepare(&c, work, err);
+    wt_status status = param_check(wt_coverage_job_params(), job, err);
+    if (status == WT_OK)
+        status = prepare(&c, work, err);
     if (status == WT_OK) {
         c.hits = malloc(job->trials * N_JUDGED * sizeof *c.hits);
         for (size_t i = 0; c.hits != NULL && i < job->trials * N_JUDGED; i++)

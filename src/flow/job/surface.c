@@ -1,8 +1,10 @@
 /* The counter surface: a self-affine law or a measured spectrum, with its stated error.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/job/cost.h"
 #include "flow/job/draws.h"
 #include "flow/job/inputs.h"
 
+#include "base/array.h"
 #include "data/tables/tables.h"
 
 #include <math.h>
@@ -103,6 +105,8 @@ static wt_status read_spectrum(const char *path, const wt_read_options *read, co
     return flow_surface_read(&file, work, surface, err);
 }
 
+enum { LAW_CONSTANTS = COUNT_OF(law_rows) };
+
 wt_status wt_surface_open(const char *text, const wt_read_options *read, const wt_job *work,
                           wt_surface *surface, wt_error *err)
 {
@@ -118,6 +122,7 @@ wt_status wt_surface_open(const char *text, const wt_read_options *read, const w
         return status;
     }
     *surface = s;
+    cost_say(work, (cost_summary){.items = s.self_affine ? LAW_CONSTANTS : (double)s.spectrum.n});
     return WT_OK;
 }
 

@@ -326,9 +326,8 @@ wt_status flow_step_given_material(flow_run *run, wt_error *err)
 {
     const wt_status status = make_rubber(run->c, &run->job, &run->rubber, err);
     set_direction(run->c, &run->rubber);
-    const bool table = status == WT_OK && run->rubber.kind == WT_RUBBER_TABLE;
-    cost_say(&run->job, (cost_summary){.items = table ? (double)run->rubber.sweep.isotherms[0].n
-                                                      : (double)run->rubber.prony.n});
+    if (status == WT_OK)
+        wt_rubber_cost(&run->rubber, &run->job);
     return status;
 }
 
