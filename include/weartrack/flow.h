@@ -126,10 +126,17 @@ typedef struct wt_indent_job {
     bool curves;                    /* representative curves for the figures */
     const struct wt_rubber *rubber; /* a factor on its spectrum is fitted; NULL = none (default) */
     wt_estimate temperature;        /* of the curves [K]; NaN = the rubber's reference */
-    uint64_t reserved[3];
+    struct wt_curve_set *keep;      /* takes the accepted curves; NULL (default) */
+    uint64_t reserved[2];
 } wt_indent_job;
 WT_API wt_indent_job wt_indent_job_defaults(void);
 WT_API const wt_params *wt_indent_job_params(void);
+
+/* The accepted curves of a group with their fits, to be drawn anew by wt_coverage_make. NULL when
+ * out of memory. */
+typedef struct wt_curve_set wt_curve_set;
+WT_API wt_curve_set *wt_curve_set_new(void);
+WT_API void wt_curve_set_free(wt_curve_set *set);
 
 /* Tables; each freed with wt_table_free, all by wt_indent_tables_clear. Zero-initialise it; given
  * to a second group, `indentation` must have been taken out (set to NULL) and the other tables are
@@ -271,8 +278,8 @@ typedef struct wt_rubber {
     wt_master_options fit;
 } wt_rubber;
 WT_API void wt_rubber_clear(wt_rubber *rubber);
-/* Says to the cost of `work` what the stage that goes on has read: the terms of a series, the points
- * of a table or the constants of a law are its items. For a rubber that no job made. */
+/* Says to the cost of `work` what the stage that goes on has read: the terms of a series, the
+ * points of a table or the constants of a law are its items. For a rubber that no job made. */
 WT_API void wt_rubber_cost(const wt_rubber *rubber, const wt_job *work);
 
 /* How the moduli of a rubber are taken. */
@@ -621,14 +628,17 @@ typedef struct wt_coverage_job {
     const wt_layer_known *known;  /* likewise */
     const wt_table *bulk, *track; /* indentation tables, or NULL: no groups to compare */
     size_t trials;
-    uint64_t reserved[6];
+    /* the curves of both groups, which are then drawn anew and fitted; NULL: their moduli are drawn
+     */
+    const wt_curve_set *curves[2];
+    uint64_t reserved[4];
 } wt_coverage_job;
 WT_API wt_coverage_job wt_coverage_job_defaults(void); /* trials 0 */
 WT_API const wt_params *wt_coverage_job_params(void);
 /* Table "coverage": the case drawn anew from its own fit (isotherms with their noise and scatter of
- * temperature, moduli by spots and curves, inputs by their stated errors), computed each time as it
- * is, and how often the intervals that it then states hold what it was drawn from. It cannot reveal
- * a wrong model, which the table says. */
+ * temperature, force curves of spots and curves that scatter, inputs by their stated errors),
+ * computed each time as it is, and how often the intervals that it then states hold what it was
+ * drawn from. It cannot reveal a wrong model, which the table says. */
 WT_API wt_status wt_coverage_make(const wt_coverage_job *job, const wt_job *work, wt_table **table,
                                   wt_error *err) WT_NODISCARD;
 

@@ -287,12 +287,12 @@ static void test_scatter_of_a_group(void **state)
     for (int i = 0; i < N; i++)
         spot[i] = i / CURVES;
     regenerate_group(&group, 7, 0, modulus);
-    assert_true(regenerate_scatter(modulus, spot, N, &found));
+    assert_true(regenerate_scatter(modulus, spot, N, 0, &found));
     assert_int_equal(found.n_spots, SPOTS);
     assert_true(fabs(found.mean - group.mean) < 0.1);
     assert_true(fabs(found.between - 0.2) < 0.07);
     assert_true(fabs(found.within - 0.05) < 0.007);
-    assert_false(regenerate_scatter(modulus, same, 3, &found));
+    assert_false(regenerate_scatter(modulus, same, 3, 0, &found));
 }
 
 int main(void)

@@ -1,6 +1,8 @@
 /* Coverage: the case drawn anew from its own fit many times, and how often the intervals that it
  * then states hold what it was drawn from. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/job/cost.h"
+#include "flow/job/curve_set.h"
+#include "flow/job/draws.h"
 #include "flow/job/inputs.h"
 #include "flow/job/regenerate.h"
 
@@ -26,7 +28,7 @@ static const wt_param rows[] = {
 PARAM_TABLE(wt_coverage_job_params, wt_coverage_job, rows, wt_coverage_job_defaults, NO_PARTS)
 
 /* Whose intervals are judged; the numbers of a setting come first. */
-enum { OF_SHIFTS = SETTING_NUMBERS, OF_C1, OF_C2, OF_RATIO, N_JUDGED };
+enum { OF_SHIFTS = SETTING_NUMBERS, OF_C1, OF_C2, OF_CURVES, OF_CONTACT, OF_RATIO, N_JUDGED };
 static const char *const judged_words[N_JUDGED] = {
     [SETTING_HYSTERESIS] = "hysteresis part",
     [SETTING_AREA_RATIO] = "real over nominal contact area",
@@ -36,6 +38,8 @@ static const char *const judged_words[N_JUDGED] = {
     [OF_SHIFTS] = "shift factors",
     [OF_C1] = "WLF constant c1",
     [OF_C2] = "WLF constant c2",
+    [OF_CURVES] = "moduli of the curves",
+    [OF_CONTACT] = "contact points of the curves",
     [OF_RATIO] = "modulus ratio by its spots"};
 
 /* 95 % of a normal number. */
@@ -54,8 +58,12 @@ typedef struct coverage {
     wt_master fit; /* n_shifts 0: the material is held */
     wt_group_data data[2];
     scattered_group group[2];
-    bool has_groups;
+    bool has_groups, has_curves;
     double log_ratio;
+    wt_contact_table *contact[2]; /* of the curves, as the next two */
+    wt_prony spectrum[2];         /* without terms: none */
+    curve_scratch **scratch;      /* [n_workers] */
+    unsigned n_workers;
     hit *hits; /* [trials * N_JUDGED] */
 } coverage;
 
@@ -72,21 +80,42 @@ static hit judge_interval(wt_interval x, double truth)
     return judge(x.value, x.standard_error, x.low, x.high, truth);
 }
 
+/* Of a normal number whose truth is 0. */
+static hit judge_estimate(wt_estimate e)
+{
+    const double half = both_ends * e.standard_error;
+    return judge(e.value, e.standard_error, e.value - half, e.value + half, 0);
+}
+
+/* Of several alike: their sum with its number, and their mean. */
+typedef struct hit_sum {
+    hit of;
+    double n;
+} hit_sum;
+
+static void add_hit(hit_sum *sum, hit h)
+{
+    if (isnan(h.one))
+        return;
+    sum->of = (hit){sum->of.one + h.one, sum->of.both + h.both, sum->of.deviation + h.deviation,
+                    sum->of.variance + h.variance};
+    sum->n++;
+}
+
+static hit mean_hit(hit_sum sum)
+{
+    return (hit){sum.of.one / sum.n, sum.of.both / sum.n, sum.of.deviation / sum.n,
+                 sum.of.variance / sum.n};
+}
+
 /* ---- one trial ------------------------------------------------------------------------------- */
 
 static hit judge_shifts(const wt_master *m, const double *truth)
 {
-    hit sum = {0, 0, 0, 0};
-    double n = 0;
-    for (size_t k = 0; k < m->n_shifts; k++) {
-        const hit h = judge_interval(m->shifts[k].log_a, truth[k]);
-        if (isnan(h.one))
-            continue;
-        sum = (hit){sum.one + h.one, sum.both + h.both, sum.deviation + h.deviation,
-                    sum.variance + h.variance};
-        n++;
-    }
-    return (hit){sum.one / n, sum.both / n, sum.deviation / n, sum.variance / n};
+    hit_sum sum = {0};
+    for (size_t k = 0; k < m->n_shifts; k++)
+        add_hit(&sum, judge_interval(m->shifts[k].log_a, truth[k]));
+    return mean_hit(sum);
 }
 
 /* Isotherms drawn anew and fitted as the case fits its own. */
@@ -119,28 +148,73 @@ static wt_status try_material(const coverage *c, uint64_t seed, wt_rubber *rubbe
     return status;
 }
 
-static wt_status try_groups(const coverage *c, uint64_t seed, hit *hits, wt_error *err)
+/* The force curves of a group drawn anew about moduli that scatter, fitted with the spectrum of the
+ * trial. The accepted ones follow one another. */
+static wt_status try_curves(const coverage *c, unsigned g, const wt_rubber *rubber, uint64_t seed,
+                            unsigned worker, double *modulus, long *spot, size_t *n, hit_sum *sums,
+                            wt_error *err)
+{
+    const wt_curve_set *set = c->job->curves[g];
+    const bool known = c->spectrum[g].n > 0;
+    wt_prony own = {0};
+    char ignored[256];
+    wt_status status = WT_OK;
+    size_t accepted = 0;
+    if (known && rubber != NULL)
+        status = flow_rubber_spectrum(rubber, curve_set_temperature(set), &own, ignored, err);
+    const wt_prony *fitted = !known ? NULL : rubber != NULL ? &own : &c->spectrum[g];
+    for (size_t i = 0; i < *n && status == WT_OK; i++) {
+        curve_again again;
+        status = curve_set_try(set, i, modulus[i], known ? &c->spectrum[g] : NULL, fitted,
+                               c->contact[g], mix64(seed + g), c->scratch[worker], &again, err);
+        if (status != WT_OK || !again.accepted)
+            continue;
+        add_hit(&sums[OF_CURVES], judge_estimate(again.log_level));
+        add_hit(&sums[OF_CONTACT], judge_estimate(again.contact_point));
+        modulus[accepted] = again.level;
+        spot[accepted++] = c->group[g].spot[i];
+    }
+    wt_prony_clear(&own);
+    *n = accepted;
+    return status;
+}
+
+/* rubber: of the trial, NULL where the material is held. */
+static wt_status try_groups(const coverage *c, const wt_rubber *rubber, uint64_t seed,
+                            unsigned worker, hit *hits, wt_error *err)
 {
     wt_group group[2];
     wt_comparison found;
+    hit_sum sums[N_JUDGED] = {0};
     const size_t n[2] = {c->group[0].n, c->group[1].n};
     double *modulus = malloc((n[0] + n[1]) * sizeof *modulus);
-    if (modulus == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    for (unsigned g = 0; g < 2; g++) {
+    long *spot = malloc((n[0] + n[1]) * sizeof *spot);
+    wt_status status =
+        modulus == NULL || spot == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
+    for (unsigned g = 0; g < 2 && status == WT_OK; g++) {
         double *own = modulus + (g == 0 ? 0 : n[0]);
+        long *of = spot + (g == 0 ? 0 : n[0]);
         regenerate_group(&c->group[g], seed, g, own);
         group[g] = (wt_group){.modulus = own, .spot = c->group[g].spot, .n = n[g]};
+        if (!c->has_curves)
+            continue;
+        status = try_curves(c, g, rubber, seed, worker, own, of, &group[g].n, sums, err);
+        group[g].spot = of;
     }
-    const wt_status status = wt_compare(&group[0], &group[1], NULL, &found, err);
+    for (int k = OF_CURVES; k <= OF_CONTACT && status == WT_OK && c->has_curves; k++)
+        hits[k] = mean_hit(sums[k]);
+    if (status == WT_OK)
+        status = wt_compare(&group[0], &group[1], NULL, &found, err);
     if (status == WT_OK)
         hits[OF_RATIO] = judge(found.log_ratio.value, found.log_ratio.standard_error,
                                log(found.ratio_low), log(found.ratio_high), c->log_ratio);
     free(modulus);
+    free(spot);
     return status;
 }
 
-static wt_status try_once(const coverage *c, size_t trial, hit *hits, wt_error *err)
+static wt_status try_once(const coverage *c, size_t trial, unsigned worker, hit *hits,
+                          wt_error *err)
 {
     const uint64_t seed = mix64(mix64(c->work.seed) + 1 + trial);
     wt_estimate number[SETTING_NUMBERS];
@@ -164,7 +238,7 @@ static wt_status try_once(const coverage *c, size_t trial, hit *hits, wt_error *
                         number[k].value + half, c->truth[k].value);
     }
     if (status == WT_OK && c->has_groups)
-        status = try_groups(c, seed, hits, err);
+        status = try_groups(c, c->fit.n_shifts > 0 ? &rubber : NULL, seed, worker, hits, err);
     wt_rubber_clear(&rubber);
     return status;
 }
@@ -175,8 +249,7 @@ static wt_status try_one(void *user, size_t trial, unsigned worker)
     const coverage *c = user;
     hit *hits = c->hits + trial * N_JUDGED;
     wt_error ignored = WT_ERROR_INIT;
-    (void)worker;
-    const wt_status status = try_once(c, trial, hits, &ignored);
+    const wt_status status = try_once(c, trial, worker, hits, &ignored);
     for (size_t k = 0; status != WT_OK && k < N_JUDGED; k++)
         hits[k].one = (double)NAN;
     return status == WT_E_MEMORY ? status : WT_OK;
@@ -280,7 +353,10 @@ static void say(const coverage *c, table_writer *t)
     coverage_set_print(t, COVERAGE_KEY_REGENERATED, "%s%s%s%s",
                        c->fit.n_shifts > 0 ? "isotherms of the DMA" : "material as given",
                        inputs[0] != '\0' ? ", " : "", inputs,
-                       c->has_groups ? ", moduli of bulk and track (for their ratio alone)" : "");
+                       !c->has_groups ? ""
+                       : c->has_curves
+                           ? ", force curves of bulk and track (for their moduli and ratio)"
+                           : ", moduli of bulk and track (for their ratio alone)");
     coverage_set_text(t, COVERAGE_KEY_CAUTION,
                       "the case was drawn anew from its own fit and judged with the same model: "
                       "this tells whether the errors are reckoned right and cannot reveal a wrong "
@@ -329,11 +405,19 @@ static wt_status find_groups(coverage *c, wt_error *err)
         for (size_t i = 0; i < c->data[g].group.n; i++)
             factors = factors && c->data[g].spectrum_factor[i] > 0;
     }
-    c->has_groups = true;
+    c->has_groups = c->has_curves = true;
+    for (int g = 0; g < 2; g++) {
+        const wt_curve_set *set = c->job->curves[g];
+        const size_t n = curve_set_size(set);
+        if (n == 0 || n != c->data[g].group.n || curve_set_has_spectrum(set) != factors)
+            c->has_curves = false;
+    }
     for (int g = 0; g < 2; g++) {
         const wt_group_data *d = &c->data[g];
         const double *of = factors ? d->spectrum_factor : d->modulus;
-        c->has_groups = regenerate_scatter(of, d->spot, d->group.n, &c->group[g]) && c->has_groups;
+        const double error = c->has_curves ? curve_set_variance(c->job->curves[g]) : 0;
+        c->has_groups =
+            regenerate_scatter(of, d->spot, d->group.n, error, &c->group[g]) && c->has_groups;
         group[g] = (wt_group){.modulus = of, .spot = d->spot, .n = d->group.n};
     }
     if (c->has_groups && wt_compare(&group[0], &group[1], NULL, &found, NULL) == WT_OK)
@@ -341,6 +425,30 @@ static wt_status find_groups(coverage *c, wt_error *err)
     else
         c->has_groups = false;
     return WT_OK;
+}
+
+/* What the curves are made and fitted with. */
+static wt_status prepare_curves(coverage *c, unsigned threads, wt_error *err)
+{
+    char ignored[256];
+    wt_status status = WT_OK;
+    c->has_curves = c->has_curves && c->has_groups;
+    if (!c->has_curves)
+        return WT_OK;
+    for (int g = 0; g < 2 && status == WT_OK; g++) {
+        const wt_curve_set *set = c->job->curves[g];
+        status = flow_contact_table(curve_set_tip(set), &c->contact[g], err);
+        if (status == WT_OK && curve_set_has_spectrum(set))
+            status = flow_rubber_spectrum(&c->setting.rubber, curve_set_temperature(set),
+                                          &c->spectrum[g], ignored, err);
+    }
+    c->n_workers = wt_thread_count(threads);
+    c->scratch = status == WT_OK ? calloc(c->n_workers, sizeof(curve_scratch *)) : NULL;
+    for (unsigned i = 0; i < c->n_workers && c->scratch != NULL && status == WT_OK; i++)
+        if ((c->scratch[i] = curve_scratch_new(c->job->curves)) == NULL)
+            status = WT_E_MEMORY;
+    return status == WT_OK && c->scratch == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory")
+                                                 : status;
 }
 
 /* What the case says as it is: the truth from now on. */
@@ -361,6 +469,8 @@ static wt_status prepare(coverage *c, const wt_job *work, wt_error *err)
         status = wt_master_fit(&rubber->sweep, &rubber->fit, NULL, &c->fit, err);
     if (status == WT_OK)
         status = find_groups(c, err);
+    if (status == WT_OK)
+        status = prepare_curves(c, work->threads, err);
     for (size_t k = 0; k < SETTING_NUMBERS; k++)
         c->truth[k] = (wt_estimate){(double)NAN, (double)NAN, (double)NAN, NULL};
     wt_job plain = c->work;
@@ -388,9 +498,15 @@ wt_status wt_coverage_make(const wt_coverage_job *job, const wt_job *work, wt_ta
     if (status == WT_OK)
         status = make_table(&c, table, err);
     cost_say(work, (cost_summary){.items = (double)job->trials});
+    for (unsigned i = 0; i < c.n_workers && c.scratch != NULL; i++)
+        curve_scratch_free(c.scratch[i]);
+    free(c.scratch);
+    for (int g = 0; g < 2; g++) {
+        wt_group_data_clear(&c.data[g]);
+        wt_contact_table_free(c.contact[g]);
+        wt_prony_clear(&c.spectrum[g]);
+    }
     wt_master_clear(&c.fit);
-    wt_group_data_clear(&c.data[0]);
-    wt_group_data_clear(&c.data[1]);
     free(c.hits);
     return status;
 }

@@ -23,7 +23,8 @@ typedef enum flow_draw {
     FLOW_DRAW_NOISE,
     FLOW_DRAW_ISOTHERM,
     FLOW_DRAW_SPOT,
-    FLOW_DRAW_CURVE
+    FLOW_DRAW_CURVE,
+    FLOW_DRAW_FORCE
 } flow_draw;
 
 /* The series of a rubber at a temperature in Young's moduli; to be cleared, also on failure. */

@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/param.h"
 #include "flow/job/cost.h"
+#include "flow/job/curve_set.h"
 #include "flow/job/curve_tables.h"
 #include "flow/job/draws.h"
 #include "flow/job/inputs.h"
@@ -22,10 +23,6 @@
 #define BATCH_CURVES 256
 #define BATCH_SAMPLES ((size_t)1 << 21)
 
-/* Range of indentations that the table of the contact function covers; outside it the function is
- * computed directly, so this is only about speed. */
-#define DEPTH_MIN 1e-11
-#define DEPTH_MAX 1e-4
 static const double least_bonded_poisson = 0.499;
 
 typedef struct item {
@@ -228,7 +225,9 @@ static wt_status write_item(indent_task *task, item *it, wt_error *err)
     task->k_high = fmax(task->k_high, it->curve.cantilever.spring_constant);
     const double error = it->fit.modulus.standard_error / it->fit.modulus.value;
     task->squares += error * error;
-    return keep_modulus(task, it, err);
+    if (task->job->keep != NULL)
+        status = curve_set_add(task->job->keep, &it->curve, &it->fit, err);
+    return status == WT_OK ? keep_modulus(task, it, err) : status;
 }
 
 static wt_status run_batch(indent_task *task, wt_error *err)
@@ -507,7 +506,7 @@ static wt_status prepare(indent_task *task, wt_error *err)
     if (status == WT_OK)
         status = find_spectrum(task, err);
     if (status == WT_OK)
-        status = wt_contact_table_new(&task->job->tip, DEPTH_MIN, DEPTH_MAX, &task->contact, err);
+        status = flow_contact_table(&task->job->tip, &task->contact, err);
     if (status != WT_OK)
         return status;
     char title[96];
@@ -516,6 +515,8 @@ static wt_status prepare(indent_task *task, wt_error *err)
         &indentation_schema, (table_variant){.suffix = task->job->group, .title = title}, err);
     if (task->rows.status != WT_OK)
         return task->rows.status;
+    if (task->job->keep != NULL)
+        curve_set_begin(task->job->keep, task->job);
     task->n_workers = wt_thread_count(task->work->threads);
     if (task->n_workers > BATCH_CURVES)
         task->n_workers = BATCH_CURVES;

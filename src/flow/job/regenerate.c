@@ -86,7 +86,8 @@ wt_status regenerate_sweep(const wt_sweep *measured, const wt_master *fit, uint6
 
 /* ---- groups of moduli ------------------------------------------------------------------------ */
 
-bool regenerate_scatter(const double *modulus, const long *spot, size_t n, scattered_group *group)
+bool regenerate_scatter(const double *modulus, const long *spot, size_t n, double error,
+                        scattered_group *group)
 {
     double sum = 0, squares = 0, inside = 0, inverse = 0;
     *group = (scattered_group){.n = n, .spot = spot};
@@ -113,7 +114,7 @@ bool regenerate_scatter(const double *modulus, const long *spot, size_t n, scatt
     group->mean = sum / spots;
     const double curves = n > group->n_spots ? inside / (double)(n - group->n_spots) : 0;
     const double means = (squares - sum * sum / spots) / (spots - 1);
-    group->within = sqrt(curves);
+    group->within = sqrt(fmax(0, curves - error));
     group->between = sqrt(fmax(0, means - curves * inverse / spots));
     return true;
 }

@@ -20,8 +20,10 @@ typedef struct scattered_group {
     double mean, between, within; /* of ln E, and its standard deviations */
 } scattered_group;
 
-/* False if fewer than two spots tell the scatter. */
-bool regenerate_scatter(const double *modulus, const long *spot, size_t n, scattered_group *group);
+/* False if fewer than two spots tell the scatter. error: mean square of what the fit leaves open of
+ * ln E, which the scatter of the curves then is without. */
+bool regenerate_scatter(const double *modulus, const long *spot, size_t n, double error,
+                        scattered_group *group);
 /* modulus: [n]. Two groups of one trial have two numbers. */
 void regenerate_group(const scattered_group *group, uint64_t seed, unsigned number,
                       double *modulus);

@@ -15,6 +15,8 @@ void flow_run_clear(flow_run *run)
     for (size_t i = 0; i < FLOW_N_THINGS; i++)
         wt_table_free(run->table[i]);
     wt_indent_tables_clear(&run->curves);
+    for (int g = 0; g < 2; g++)
+        wt_curve_set_free(run->kept[g]);
     wt_rubber_clear(&run->rubber);
     wt_surface_clear(&run->surface);
     *run = (flow_run){0};
@@ -155,6 +157,12 @@ static wt_status indent(flow_run *run, int g, const wt_rubber *rubber, wt_error 
     job.curves = (run->plan.wanted & FLOW_BIT(curve[g])) != 0;
     job.rubber = rubber;
     job.temperature = indented_at(run->c, g);
+    if ((run->plan.required & FLOW_BIT(FLOW_COVERAGE)) != 0) {
+        wt_curve_set_free(run->kept[g]);
+        job.keep = run->kept[g] = wt_curve_set_new();
+        if (job.keep == NULL)
+            return wt_fail(err, WT_E_MEMORY, "out of memory for the curves");
+    }
     wt_status status = wt_indent_group(&job, &run->job, &run->curves, err);
     keep(run, g == 0 ? FLOW_INDENTATION_BULK : FLOW_INDENTATION_TRACK, &run->curves.indentation);
     return status;
@@ -441,6 +449,7 @@ static wt_status coverage(flow_run *run, const wt_layer_job *layer, const wt_lay
                                  .known = known,
                                  .bulk = run->table[FLOW_INDENTATION_BULK],
                                  .track = run->table[FLOW_INDENTATION_TRACK],
+                                 .curves = {run->kept[0], run->kept[1]},
                                  .trials = run->trials};
     return wt_coverage_make(&job, &run->job, &run->table[FLOW_COVERAGE], err);
 }

@@ -11,6 +11,7 @@ typedef struct flow_run {
     flow_plan plan;
     wt_table *table[FLOW_N_THINGS]; /* of the things that are a table of their own */
     wt_indent_tables curves;        /* only the curve tables */
+    wt_curve_set *kept[2];          /* curves of bulk and track, for the coverage */
     wt_rubber rubber;
     wt_surface surface;
     wt_estimate modulus_ratio, thickness;
