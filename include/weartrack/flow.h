@@ -30,7 +30,8 @@ typedef enum wt_extra {
     WT_EXTRA_TIMES = 32,        /* of the layer: its incubation and its time to 90 %, else NaN */
     WT_EXTRA_REDUCED = 64,      /* of the isotherms: the series with few terms */
     WT_EXTRA_SPECTRUM = 128,    /* of the isotherms: the relaxation spectrum with its error */
-    WT_EXTRAS = 255
+    WT_EXTRA_TRANSITION = 256,  /* of temperature sweeps: the peaks, else without rows */
+    WT_EXTRAS = 511
 } wt_extra;
 
 typedef struct wt_cost wt_cost;

@@ -114,7 +114,7 @@ LAST(wt_layer_regime, WT_LAYER_THICK, 2)
 
 /* flow.h */
 ROOM(wt_job, drawn, 96, 144)
-LAST(wt_extra, WT_EXTRA_SPECTRUM, 128)
+LAST(wt_extra, WT_EXTRA_TRANSITION, 256)
 LAST(wt_solid_program, WT_SOLID_TABLE, 3)
 LAST(wt_solid_units, WT_SOLID_MM_KG_MS, 2)
 LAST(wt_solid_temperature, WT_SOLID_KELVIN, 1)

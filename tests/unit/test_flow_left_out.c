@@ -5,7 +5,9 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cells.h"
 
+#include "fit/curve.h"
 #include "fit/superposition.h"
+#include "flow/job/master.h"
 #include "flow/plan/plan.h"
 #include "kernel/friction.h"
 #include "kernel/layer.h"
@@ -107,6 +109,14 @@ typedef enum work {
     REACHES,  /* numerical errors of its thicknesses */
     VERDICTS, /* on superposition */
     DIGESTS,  /* SHA-256 */
+    AGAIN,    /* curves fitted, those drawn anew among them */
+    SPECTRA,  /* relaxation spectra with their intervals */
+    FEW,      /* reductions to few terms */
+    LAWS,     /* fractional Zener laws beside them */
+    PEAKS,    /* of temperature sweeps */
+    BETWEEN,  /* moduli at a temperature */
+    SOFTENED, /* laws of strain sweeps */
+    SURFACES, /* tables of the counter surface */
     N_WORK
 } work;
 
@@ -126,7 +136,15 @@ static const char *const work_names[N_WORK] = {"channels decoded",
                                                "times to a thickness",
                                                "errors of a thickness",
                                                "verdicts on superposition",
-                                               "digests"};
+                                               "digests",
+                                               "fits of curves",
+                                               "relaxation spectra",
+                                               "reduced series",
+                                               "fractional Zener laws",
+                                               "peaks",
+                                               "moduli at temperatures",
+                                               "laws of softening",
+                                               "tables of the surface"};
 static atomic_size_t count[N_WORK];
 
 /* Declares, counts and calls the function. */
@@ -191,6 +209,31 @@ COUNTED(double, root_reach, REACHES,
 COUNTED(wt_status, superposition_test, VERDICTS,
         (const spectrum *s, double uncertainty, lack_of_fit *result, wt_error *err),
         (s, uncertainty, result, err))
+COUNTED(wt_status, curve_fit_branches, AGAIN,
+        (const wt_contact_table *table, const wt_indent_options *options,
+         const curve_branch *approach, const curve_branch *retract, double spring_constant,
+         wt_indent_workspace *workspace, wt_indent_fit *fit, wt_error *err),
+        (table, options, approach, retract, spring_constant, workspace, fit, err))
+COUNTED(wt_status, flow_spectrum_table, SPECTRA,
+        (const wt_master *m, wt_table **table, wt_error *err), (m, table, err))
+COUNTED(wt_status, wt_prony_reduce, FEW,
+        (const wt_prony *from, const wt_reduction *how, wt_prony *prony, wt_error *err),
+        (from, how, prony, err))
+COUNTED(wt_status, wt_master_zener, LAWS,
+        (const wt_master *master, const wt_prony *series, wt_zener_fit *fit, wt_error *err),
+        (master, series, fit, err))
+COUNTED(wt_status, wt_peak_find, PEAKS,
+        (const double *x, const double *y, size_t n, size_t points, wt_peak *peak, wt_error *err),
+        (x, y, n, points, peak, err))
+COUNTED(wt_status, wt_value_between, BETWEEN,
+        (const double *x, const double *y, size_t n, double at, wt_interval *value, wt_error *err),
+        (x, y, n, at, value, err))
+COUNTED(wt_status, wt_payne_fit, SOFTENED,
+        (const double *strain, const double *storage, const double *loss, size_t n, wt_payne *payne,
+         wt_error *err),
+        (strain, storage, loss, n, payne, err))
+COUNTED(wt_status, wt_surface_table, SURFACES,
+        (const wt_surface *surface, wt_table **table, wt_error *err), (surface, table, err))
 void __real_wt_digest(const void *bytes, size_t length, char hex[65]);
 void __wrap_wt_digest(const void *bytes, size_t length, char hex[65]);
 void __wrap_wt_digest(const void *bytes, size_t length, char hex[65])
@@ -383,6 +426,9 @@ static void check_curves(const char *asks, const ran *r)
         assert_true(count[CHANNELS] > channels * groups * fitted &&
                     count[CHANNELS] <= channels * groups * (fitted + CURVES_OF_A_FILE));
     }
+    /* once more in each trial */
+    check(asks, AGAIN,
+          count[CURVES] + (runs(r, FLOW_COVERAGE) ? TRIALS * groups * fitted : (size_t)0));
     check(asks, DEPTHS, (size_t)shown(r, FLOW_DEPTH_BULK) + (size_t)shown(r, FLOW_DEPTH_TRACK));
 }
 
@@ -399,6 +445,18 @@ static void check_material(const char *asks, const ran *r)
           runs(r, FLOW_PRONY) + 3 * (size_t)runs(r, FLOW_WHAT_IF) + (trials > 0) + trials);
     check(asks, VERDICTS, (size_t)runs(r, FLOW_PRONY) + (trials > 0));
     check(asks, DRAWS, 200 * (drawn + (r->replicates > 0 ? trials : 0)));
+}
+
+/* What the DMA tells beside the material of the other stages. */
+static void check_dma(const char *asks, const ran *r)
+{
+    check(asks, SPECTRA, shown(r, FLOW_RELAXATION_SPECTRUM));
+    check(asks, FEW, shown(r, FLOW_PRONY_REDUCED));
+    check(asks, LAWS, shown(r, FLOW_PRONY_REDUCED));
+    check_some(asks, PEAKS, shown(r, FLOW_GLASS_TRANSITION));
+    check_some(asks, BETWEEN, shown(r, FLOW_MODULI_AT));
+    check_some(asks, SOFTENED, runs(r, FLOW_PAYNE));
+    check(asks, SURFACES, shown(r, FLOW_ROUGHNESS));
 }
 
 static void check_sliding(const char *asks, const ran *r)
@@ -433,6 +491,7 @@ static void check_asked(const char *element, const char *name, size_t replicates
     check_files(asks, &r);
     check_curves(asks, &r);
     check_material(asks, &r);
+    check_dma(asks, &r);
     check_sliding(asks, &r);
     check(asks, DIGESTS, 0);
     release(&r);

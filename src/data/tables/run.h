@@ -38,7 +38,7 @@
     X(COST_WALL_TIME, "wall_time", "elapsed time", SI(TIME), LABEL("Wall time"))                   \
     X(COST_CPU_TIME, "cpu_time", "processor time", SI(TIME), LABEL("Processor time"),              \
       LIKE(COST_WALL_TIME))                                                                        \
-    X(COST_ITEMS, "items", "curves, isotherms, points, terms of a series", NUMBER, LABEL("Items"))                    \
+    X(COST_ITEMS, "items", "curves, isotherms, points, terms of a series", NUMBER, LABEL("Items")) \
     X(COST_TOLERANCE_ASKED, "tolerance_asked",                                                     \
       "relative numerical error asked for; of a fit, the change by a further step that ends it",   \
       NUMBER, LABEL("Tolerance asked"))                                                            \

@@ -299,10 +299,10 @@ static wt_status put_all(const wt_ramp_job *job, const wt_job *work, const wt_sw
         const wt_ramp *ramp = &sweep->ramps[i];
         pool memory = {0};
         usable u;
-        peaks found;
+        peaks found = {0};
         put_points(&w->ramp, ramp);
         status = take_usable(ramp, &memory, work->log, &u, err);
-        if (status == WT_OK)
+        if (status == WT_OK && (work->left_out & WT_EXTRA_TRANSITION) == 0)
             status = put_transition(&w->transition, job, ramp, &u, &found, err);
         if (status == WT_OK)
             status = put_moduli(&w->moduli, job, ramp, &u, err);

@@ -105,7 +105,11 @@ static wt_status read_spectrum(const char *path, const wt_read_options *read, co
     return flow_surface_read(&file, work, surface, err);
 }
 
-enum { LAW_CONSTANTS = COUNT_OF(law_rows) };
+void flow_surface_cost(const wt_surface *surface, const wt_job *work)
+{
+    const size_t items = surface->self_affine ? COUNT_OF(law_rows) : surface->spectrum.n;
+    cost_say(work, (cost_summary){.items = (double)items});
+}
 
 wt_status wt_surface_open(const char *text, const wt_read_options *read, const wt_job *work,
                           wt_surface *surface, wt_error *err)
@@ -122,7 +126,7 @@ wt_status wt_surface_open(const char *text, const wt_read_options *read, const w
         return status;
     }
     *surface = s;
-    cost_say(work, (cost_summary){.items = s.self_affine ? LAW_CONSTANTS : (double)s.spectrum.n});
+    flow_surface_cost(&s, work);
     return WT_OK;
 }
 

@@ -235,7 +235,8 @@ static unsigned find_left_out(const flow_plan *plan, const wt_run_options *optio
                   {WT_EXTRA_MODULUS_DEPTH, FLOW_BIT(FLOW_DEPTH_BULK) | FLOW_BIT(FLOW_DEPTH_TRACK)},
                   {WT_EXTRA_DRAWS, FLOW_BIT(FLOW_MATERIAL_DRAWS) | FLOW_BIT(FLOW_SERIES_DRAWS)},
                   {WT_EXTRA_SPECTRUM, FLOW_BIT(FLOW_RELAXATION_SPECTRUM)},
-                  {WT_EXTRA_REDUCED, FLOW_BIT(FLOW_PRONY_REDUCED)}};
+                  {WT_EXTRA_REDUCED, FLOW_BIT(FLOW_PRONY_REDUCED)},
+                  {WT_EXTRA_TRANSITION, FLOW_BIT(FLOW_GLASS_TRANSITION)}};
     unsigned left_out = options->no_provenance ? WT_EXTRA_DIGESTS : 0;
     for (size_t i = 0; i < COUNT_OF(extras); i++)
         if ((plan->required & extras[i].shown_in) == 0)

@@ -300,6 +300,8 @@ wt_status flow_step_ramp(flow_run *run, wt_error *err)
         wt_error_expected(err, "<at> in <dma>, such as 25degC,60degC");
         return WT_E_MISSING;
     }
+    if ((run->plan.required & FLOW_BIT(FLOW_MODULI_AT)) == 0)
+        job.n_temperatures = 0;
     job.sets = run->c->dma.sets;
     job.n_sets = run->c->dma.n;
     wt_table *again = NULL;
@@ -345,9 +347,9 @@ wt_status flow_step_roughness(flow_run *run, wt_error *err)
 {
     wt_status status = flow_case_surface(run->c, &run->job, &run->surface, err);
     if (status == WT_OK)
+        flow_surface_cost(&run->surface, &run->job);
+    if (status == WT_OK && (run->plan.required & FLOW_BIT(FLOW_ROUGHNESS)) != 0)
         status = wt_surface_table(&run->surface, &run->table[FLOW_ROUGHNESS], err);
-    if (status == WT_OK)
-        say_items(run, run->table[FLOW_ROUGHNESS]);
     return status;
 }
 
