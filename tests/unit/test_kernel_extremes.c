@@ -378,7 +378,7 @@ static void edges_of_the_domain(void **ignored)
         for (size_t i = 0; i < 3; i++)
             try_edge(c, &made->s, tolerances[i]);
     }
-    assert_int_equal(n, 57);
+    assert_int_equal(n, 67);
     free(made);
     free(c);
     fclose(in);
