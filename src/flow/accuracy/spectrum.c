@@ -1,28 +1,31 @@
-/* Shifting with its spectrum, and standard errors by draws.
+/* Shifting, the spectrum, and standard errors by draws.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/accuracy/accuracy.h"
 #include "flow/job/draws.h"
 
 #include <math.h>
+#include <string.h>
 
 /* ---- shift factors --------------------------------------------------------------------------- */
 
-enum { ISOTHERMS = 12, POINTS = 16, TERMS = 56, REFERENCE = 6 };
+enum { ISOTHERMS = 12, POINTS = 16, TERMS = 64, REFERENCE = 6 };
 
 #define NOISE 0.005
 
 typedef struct shift_problem {
     wt_sweep sweep;
     double truth[ISOTHERMS], log_a[ISOTHERMS], stated;
+    double error; /* of the moduli of the spectrum */
 } shift_problem;
 
+/* Slower and faster than all isotherms, too. */
 static void moduli(double omega, double *storage, double *loss)
 {
     *storage = 1e6;
     *loss = 0;
     for (int k = 0; k < TERMS; k++) {
         const double decade = 0.25 * k;
-        const double z = omega * pow(10, 2 - decade), e = 2.5e5 * pow(10, 0.22 * decade);
+        const double z = omega * pow(10, 4 - decade), e = 9e4 * pow(10, 0.22 * decade);
         *storage += e * z * z / (1 + z * z);
         *loss += e * z / (1 + z * z);
     }
@@ -60,15 +63,20 @@ static void end_shift(void *problem)
     wt_sweep_clear(&p->sweep);
 }
 
+static wt_status fit(const shift_problem *p, double terms, wt_master *master, wt_error *err)
+{
+    wt_master_options options = wt_master_options_defaults();
+    options.reference_temperature = p->sweep.isotherms[REFERENCE].temperature;
+    options.vertical = WT_VERTICAL_NONE;
+    options.terms_per_decade = terms;
+    return wt_master_fit(&p->sweep, &options, NULL, master, err);
+}
+
 static wt_status solve_shift(void *problem, double value, wt_error *err)
 {
     shift_problem *p = problem;
-    wt_master_options options = wt_master_options_defaults();
     wt_master master = {0};
-    options.reference_temperature = p->sweep.isotherms[REFERENCE].temperature;
-    options.vertical = WT_VERTICAL_NONE;
-    options.terms_per_decade = value;
-    const wt_status status = wt_master_fit(&p->sweep, &options, NULL, &master, err);
+    const wt_status status = fit(p, value, &master, err);
     double sum = 0;
     for (size_t i = 0; i < master.n_shifts && i < ISOTHERMS; i++) {
         p->log_a[i] = master.shifts[i].log_a.value;
@@ -138,6 +146,134 @@ static accuracy_errors judge_shift(const void *problem)
     return (accuracy_errors){M_LN10 * sqrt(sum / ISOTHERMS), p->stated};
 }
 
+/* ---- the spectrum ---------------------------------------------------------------------------- */
+
+/* Where all isotherms together tell the moduli, off the points. */
+enum { JUDGED = 200 };
+
+static double judged_frequency(const shift_problem *p, int i)
+{
+    const double low = p->truth[ISOTHERMS - 1] - 1, high = p->truth[0] + 2;
+    return pow(10, low + (high - low) * (i + 0.5) / JUDGED);
+}
+
+static double squares_of(double log_storage, double log_loss, double omega)
+{
+    double storage = 0, loss = 0;
+    moduli(omega, &storage, &loss);
+    return pow(log_storage - log(storage), 2) + pow(log_loss - log(loss), 2);
+}
+
+static wt_status solve_spectrum(void *problem, double value, wt_error *err)
+{
+    shift_problem *p = problem;
+    wt_master master = {0};
+    double sum = 0, stated = 0;
+    const wt_status status = fit(p, value, &master, err);
+    for (int i = 0; i < JUDGED && status == WT_OK; i++) {
+        wt_interval storage, loss;
+        const double omega = judged_frequency(p, i);
+        wt_master_moduli(&master, omega, &storage, &loss);
+        sum += squares_of(M_LN10 * storage.value, M_LN10 * loss.value, omega);
+        stated += pow(storage.standard_error, 2) + pow(loss.standard_error, 2);
+    }
+    p->error = sqrt(sum / (2 * JUDGED));
+    p->stated = M_LN10 * sqrt(stated / (2 * JUDGED));
+    wt_master_clear(&master);
+    return status;
+}
+
+enum { MOST_TERMS = 64 };
+
+/* Symmetric and positive: Cholesky. False if it is not, as far as rounding tells. */
+static bool solve_normal(double a[MOST_TERMS][MOST_TERMS], double *x, size_t n)
+{
+    for (size_t j = 0; j < n; j++) {
+        for (size_t k = 0; k < j; k++)
+            a[j][j] -= a[j][k] * a[j][k];
+        if (!(a[j][j] > 0))
+            return false;
+        a[j][j] = sqrt(a[j][j]);
+        for (size_t i = j + 1; i < n; i++) {
+            for (size_t k = 0; k < j; k++)
+                a[i][j] -= a[i][k] * a[j][k];
+            a[i][j] /= a[j][j];
+        }
+    }
+    for (size_t i = 0; i < n; i++) {
+        for (size_t k = 0; k < i; k++)
+            x[i] -= a[i][k] * x[k];
+        x[i] /= a[i][i];
+    }
+    for (size_t i = n; i-- > 0;) {
+        for (size_t k = i + 1; k < n; k++)
+            x[i] -= a[k][i] * x[k];
+        x[i] /= a[i][i];
+    }
+    return true;
+}
+
+/* What a term with a modulus of 1, the first one without relaxation, gives to E' and E''. */
+static void term_at(double omega, size_t j, double first, double density, double part[2])
+{
+    const double z = omega * pow(10, first + ((double)j - 1) / density);
+    part[0] = j == 0 ? 1 : z * z / (1 + z * z);
+    part[1] = j == 0 ? 0 : z / (1 + z * z);
+}
+
+/* Terms at fixed times, so many a decade, by linear least squares of the relative residuals, with
+ * the shifts that the isotherms truly have. */
+static wt_status solve_collocation(void *problem, double value, wt_error *err)
+{
+    shift_problem *p = problem;
+    static double a[MOST_TERMS][MOST_TERMS]; /* too large for the stack of a thread */
+    double x[MOST_TERMS] = {0}, part[2];
+    const double first = -(p->truth[0] + 2), decades = p->truth[0] - p->truth[ISOTHERMS - 1] + 3;
+    const size_t n = 2 + (size_t)(decades * value);
+    if (n > MOST_TERMS)
+        return wt_fail(err, WT_E_RANGE, "too many terms");
+    memset(a, 0, sizeof a);
+    for (int i = 0; i < ISOTHERMS; i++)
+        for (size_t k = 0; k < POINTS; k++) {
+            const wt_isotherm *iso = &p->sweep.isotherms[i];
+            const double measured[2] = {iso->storage_modulus[k], iso->loss_modulus[k]};
+            double row[2][MOST_TERMS];
+            for (size_t j = 0; j < n; j++) {
+                term_at(iso->angular_frequency[k] * pow(10, p->truth[i]), j, first, value, part);
+                row[0][j] = part[0] / measured[0];
+                row[1][j] = part[1] / measured[1];
+            }
+            for (int q = 0; q < 2; q++)
+                for (size_t j = 0; j < n; j++) {
+                    x[j] += row[q][j];
+                    for (size_t l = 0; l <= j; l++)
+                        a[j][l] += row[q][j] * row[q][l];
+                }
+        }
+    const bool solved = solve_normal(a, x, n);
+    double sum = 0;
+    for (int i = 0; i < JUDGED; i++) {
+        const double omega = judged_frequency(p, i);
+        double storage = 0, loss = 0;
+        for (size_t j = 0; j < n; j++) {
+            term_at(omega, j, first, value, part);
+            storage += x[j] * part[0];
+            loss += x[j] * part[1];
+        }
+        /* a modulus below zero is off by all of it */
+        sum += squares_of(log(fmax(storage, 1)), log(fmax(loss, 1)), omega);
+    }
+    p->error = solved ? sqrt(sum / (2 * JUDGED)) : (double)NAN;
+    p->stated = (double)NAN;
+    return WT_OK;
+}
+
+static accuracy_errors judge_spectrum(const void *problem)
+{
+    const shift_problem *p = problem;
+    return (accuracy_errors){p->error, p->stated};
+}
+
 /* ---- draws ----------------------------------------------------------------------------------- */
 
 #define SCATTER 0.1 /* of the logarithm */
@@ -173,6 +309,16 @@ static wt_status solve_draws(void *problem, double value, wt_error *err)
     return WT_OK;
 }
 
+/* The law of propagation: half of what one standard error to each side does. */
+static wt_status solve_propagation(void *problem, double value, wt_error *err)
+{
+    draw_problem *p = problem;
+    (void)err;
+    p->error = (exp(value * SCATTER) - exp(-value * SCATTER)) / (2 * value);
+    p->stated = (double)NAN;
+    return WT_OK;
+}
+
 static accuracy_errors judge_draws(const void *problem)
 {
     const draw_problem *p = problem;
@@ -189,12 +335,26 @@ const accuracy_part accuracy_spectrum[] = {
      end_shift,
      {{"weartrack", "terms per decade of the spectrum", {2, 3, 4, 6, 10}, solve_shift},
       {"textbook", "trial shifts of each neighbour", {30, 100, 300, 1000}, solve_pairs}}},
+    {"spectrum",
+     "E' and E'' of the spectrum of the same isotherms between their points, against the series "
+     "they "
+     "were made with, rms; the textbook knows the shifts",
+     sizeof(shift_problem),
+     begin_shift,
+     judge_spectrum,
+     end_shift,
+     {{"weartrack", "terms per decade", {2, 3, 4, 6, 10}, solve_spectrum},
+      {"textbook",
+       "terms per decade, linear least squares",
+       {0.5, 1, 1.5, 2, 3},
+       solve_collocation}}},
     {"draws",
      "Standard error of a logarithmic normal number by replicates, against its formula",
      sizeof(draw_problem),
      begin_draws,
      judge_draws,
      end_draws,
-     {{"weartrack", "replicates", {16, 64, 256, 1024, 4096}, solve_draws}}},
+     {{"weartrack", "replicates", {16, 64, 256, 1024, 4096}, solve_draws},
+      {"textbook", "standard errors to each side", {1}, solve_propagation}}},
     {.name = NULL},
 };
