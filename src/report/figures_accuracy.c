@@ -31,10 +31,19 @@ static size_t list_texts(const table_view *t, work_precision_column column, cons
     return n;
 }
 
+/* An error of 0 stands at what the reference is good to. */
+static void span_add_references(value_span *span, const table_view *t, const char *part)
+{
+    for (size_t row = 0; row < t->n_rows; row++)
+        if (strcmp(work_precision_text(t, row, WORK_PRECISION_PART), part) == 0 &&
+            !(work_precision_get(t, row, WORK_PRECISION_TRUE_ERROR) > 0))
+            span_add(span, work_precision_get(t, row, WORK_PRECISION_REFERENCE_ERROR), true);
+}
+
 static void draw_part(figure_drawing *d, const char *part)
 {
     static const unsigned columns[] = {WORK_PRECISION_SECONDS, WORK_PRECISION_TRUE_ERROR,
-                                       WORK_PRECISION_STATED_ERROR, WORK_PRECISION_SPREAD};
+                                       WORK_PRECISION_STATED_ERROR, WORK_PRECISION_REFERENCE_ERROR};
     const schema_field *field = d->table->schema->columns;
     const char *methods[METHODS];
     int section[METHODS];
@@ -50,6 +59,7 @@ static void draw_part(figure_drawing *d, const char *part)
         span_add_section(&error, d, section[i], 1, true);
         span_add_section(&error, d, section[i], 2, true);
     }
+    span_add_references(&error, d->table, part);
     if (span_empty(&time) || span_empty(&error))
         return;
     axis_log(d, "x", "Processor time", &field[WORK_PRECISION_SECONDS], time);
@@ -57,7 +67,8 @@ static void draw_part(figure_drawing *d, const char *part)
     plot_heading(d, part);
     for (size_t i = 0; i < n; i++) {
         const int style = strcmp(methods[i], "textbook") == 0 ? 2 : i == 0 ? 1 : 3;
-        plot_item(d, section[i], "($1*x_unit):($2>0 ? $2*y_unit : NaN) with linespoints ls %d",
+        plot_item(d, section[i],
+                  "($1*x_unit):($2>0 ? $2*y_unit : $4>0 ? $4*y_unit : NaN) with linespoints ls %d",
                   style);
         plot_title(d, methods[i]);
         plot_item(d, section[i],
@@ -314,9 +325,10 @@ const figure_description figures_accuracy[] = {
      .table = &work_precision_schema,
      .nothing = "no numerical part was timed",
      .words = "True error of each numerical part against its processor time as the setting is "
-              "swept (full marks), and what the method itself states (open marks, dashed), which "
-              "should lie on or above; lower and further left is better. An error of exactly 0 is "
-              "not drawn.",
+              "swept (full marks), and what the method itself states (open marks, dashed): of the "
+              "arithmetic a bound, which should lie on or above, of noise and draws a standard "
+              "error, which the one error that is drawn is near; lower and further left is better. "
+              "An error of exactly 0 stands at what the reference is good to.",
      .draw = draw_work_precision},
     {.name = "error_budget",
      .title = "Where the errors come from",

@@ -7,6 +7,7 @@
 #include "weartrack/kernel.h"
 
 #include <float.h>
+#include <time.h>
 
 typedef struct rig {
     wt_energy_source source;
@@ -197,6 +198,7 @@ static void numeric_cases(void **state)
         if (strcmp(c->name, "Q_step_in_severity") == 0)
             continue; /* its own test */
         const bool layer = case_find(c, false, "critical_energy") != NULL;
+        const clock_t start = clock();
         rig r = layer ? rig_case(c) : rig_mild();
         for (size_t i = 0; i < c->n; i++) {
             const case_line *line = &c->lines[i];
@@ -213,6 +215,7 @@ static void numeric_cases(void **state)
                 check_balance(c, &r, line);
         }
         rig_free(&r);
+        assert_true(clock() - start < CLOCKS_PER_SEC);
     }
     assert_int_equal(lines, 180);
     free(c);
