@@ -83,6 +83,8 @@ WT_API void wt_friction_workspace_free(wt_friction_workspace *workspace);
 WT_API double wt_friction_strain(const wt_friction_workspace *workspace, double wavenumber);
 /* mu_hys, P, G at n velocities; pressure [Pa] > 0. A negative velocity gives negative friction; 0
  * is allowed where the law has closed angular integrals (Prony). points: [n], undefined on failure.
+ * Velocities that are asked for together share work: which they are moves digits below the error,
+ * the number of threads does not.
  * WT_E_RANGE names pressure or velocity. One call at a time per workspace. */
 WT_API wt_status wt_friction_compute(wt_friction_workspace *workspace, double pressure,
                                      const double *velocity, size_t n, wt_friction_point *points,

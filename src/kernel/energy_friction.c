@@ -67,8 +67,9 @@ wt_status wt_energy_source_friction(wt_friction_workspace *workspace, double pre
     const panel_plan *plan = friction_plan(workspace, &scratch, at.speed, NULL, 0);
     size_t now = 0;
     double error = (double)INFINITY;
-    for (size_t k = 0; k < FRICTION_STEPS && error > workspace->options.tolerance; k++) {
-        now = k % 2;
+    for (size_t k = 0; k < FRICTION_STEPS && error > workspace->options.tolerance; k += 2) {
+        now = 1 - now;
+        scratch.trail.n = 0; /* what is compared must not begin with the same rules */
         wt_energy_source *s = &pair[now];
         friction_record record = {.q = s->wavenumber, .mu = s->power};
         friction_pass pass;

@@ -15,11 +15,12 @@
 static const struct {
     double tolerance;
     size_t nodes[FRICTION_STEPS];
-} ladders[] = {{3e-3, {4, 8, 12, FRICTION_MAX_NODES}},
-               {3e-4, {5, 8, 12, FRICTION_MAX_NODES}},
-               {3e-7, {8, 12, 16, FRICTION_MAX_NODES}},
-               {3e-9, {10, 16, 20, FRICTION_MAX_NODES}},
-               {0, {12, 16, 20, FRICTION_MAX_NODES}}};
+    size_t first;
+} ladders[] = {{3e-3, {3, 4, 5, 6, 8, 12, FRICTION_MAX_NODES}, 1},
+               {3e-5, {4, 5, 6, 8, 10, 14, FRICTION_MAX_NODES}, 1},
+               {3e-8, {6, 7, 8, 10, 12, 16, FRICTION_MAX_NODES}, 1},
+               {3e-11, {8, 9, 10, 12, 14, 18, FRICTION_MAX_NODES}, 2},
+               {0, {10, 12, 14, 16, 18, 20, FRICTION_MAX_NODES}, 1}};
 
 wt_friction_options wt_friction_defaults(void)
 {
@@ -66,6 +67,13 @@ wt_status friction_scratch_init(friction_scratch *scratch, const wt_friction_wor
     for (size_t i = 0; i < n_by_node; i++)
         *by_node[i] = pool_alloc(memory, (panels + 2) * FRICTION_MAX_NODES, sizeof **by_node[i]);
     scratch->knots = pool_alloc(memory, ws->n_knots + 1, sizeof *scratch->knots);
+    size_t **const places[] = {&scratch->step, &scratch->from};
+    for (size_t i = 0; i < COUNT_OF(places); i++)
+        *places[i] = pool_alloc(memory, panels + 1, sizeof **places[i]);
+    friction_trail *trail = &scratch->trail;
+    friction_start **const starts[] = {&trail->starts, &trail->spare};
+    for (size_t i = 0; i < COUNT_OF(starts); i++)
+        *starts[i] = pool_alloc(memory, panels, sizeof **starts[i]);
     double **const by_panel[] = {&scratch->bounds, &scratch->panel_mu, &scratch->panel_g,
                                  &scratch->error_mu, &scratch->error_g};
     for (size_t i = 0; i < COUNT_OF(by_panel); i++)
@@ -107,6 +115,7 @@ static wt_status make_rules(wt_friction_workspace *ws, wt_error *err)
     wt_status status = WT_OK;
     while (ws->options.tolerance < ladders[ladder].tolerance)
         ladder++;
+    ws->first_step = ladders[ladder].first;
     for (size_t k = 0; status == WT_OK && k < FRICTION_STEPS; k++)
         status = rule_new(ladders[ladder].nodes[k], &ws->memory, &ws->rules[k], err);
     return status;
@@ -273,6 +282,7 @@ typedef struct compute_job {
     const wt_friction_workspace *ws;
     double pressure;
     const double *velocity;
+    size_t n;
     wt_friction_point *points;
 } compute_job;
 
@@ -318,13 +328,22 @@ static void compute_point(const compute_job *job, friction_scratch *scratch, dou
                                                           : 0;
 }
 
-static wt_status compute_item(void *user, size_t i, unsigned worker)
+/* So many velocities go one after the other, each from where the one before it ended: what comes of
+ * them does not depend on the number of threads. */
+enum { IN_A_ROW = 16 };
+
+static wt_status compute_row(void *user, size_t row, unsigned worker)
 {
     const compute_job *job = user;
-    wt_friction_point *point = &job->points[i];
-    compute_point(job, &job->ws->scratch[worker], job->velocity[i], point);
-    return isfinite(point->stress_variance.value) && isfinite(point->hysteresis.value) ? WT_OK
-                                                                                       : WT_E_RANGE;
+    friction_scratch *scratch = &job->ws->scratch[worker];
+    scratch->trail.n = 0;
+    for (size_t i = row * IN_A_ROW; i < job->n && i < (row + 1) * IN_A_ROW; i++) {
+        wt_friction_point *point = &job->points[i];
+        compute_point(job, scratch, job->velocity[i], point);
+        if (!isfinite(point->stress_variance.value) || !isfinite(point->hysteresis.value))
+            return WT_E_RANGE;
+    }
+    return WT_OK;
 }
 
 wt_status wt_friction_compute(wt_friction_workspace *workspace, double pressure,
@@ -339,8 +358,9 @@ wt_status wt_friction_compute(wt_friction_workspace *workspace, double pressure,
     if (status != WT_OK)
         return status;
     compute_job job = {
-        .ws = workspace, .pressure = pressure, .velocity = velocity, .points = points};
-    status = wt_parallel_for(n, workspace->threads, compute_item, &job, NULL, "friction");
+        .ws = workspace, .pressure = pressure, .velocity = velocity, .n = n, .points = points};
+    const size_t n_rows = (n + IN_A_ROW - 1) / IN_A_ROW;
+    status = wt_parallel_for(n_rows, workspace->threads, compute_row, &job, NULL, "friction");
     if (status == WT_E_RANGE) {
         (void)range_error("pressure", pressure,
                           "so high that the stress variance G stays finite, in Pa", err);

@@ -11,7 +11,18 @@
 #include <float.h>
 
 /* Rules of rising order, from the one for all panels to that for what is steep. */
-enum { FRICTION_STEPS = 4, FRICTION_MAX_NODES = RULE_MOST };
+enum { FRICTION_STEPS = 7, FRICTION_MAX_NODES = RULE_MOST };
+
+/* Where one velocity ended, for the next one to begin at. */
+typedef struct friction_start {
+    double t_high;      /* of a panel */
+    size_t step, least; /* rule to begin with; the one before `least` did not suffice */
+} friction_start;
+typedef struct friction_trail {
+    size_t n; /* 0: there was none */
+    size_t level;
+    friction_start *starts, *spare; /* [panels] */
+} friction_trail;
 
 /* What one thread needs. */
 typedef struct friction_scratch {
@@ -25,7 +36,9 @@ typedef struct friction_scratch {
     double *loss_j1, *loss_j2;  /* likewise, of the loss modulus, with a softening */
     double *panel_mu, *panel_g; /* [room + 1]: parts of the last pass, */
     double *error_mu, *error_g; /* and the errors of its rule in them */
-    size_t nodes;               /* at which J1 and J2 were evaluated so far */
+    size_t *step, *from;        /* [room + 1]: first rule and first node of panels */
+    friction_trail trail;
+    size_t nodes; /* at which J1 and J2 were evaluated so far */
 } friction_scratch;
 
 struct wt_friction_workspace {
@@ -41,7 +54,8 @@ struct wt_friction_workspace {
     const double *knots;
     size_t n_knots; /* of the material, rad/s */
     gauss_rule *rules[FRICTION_STEPS];
-    panel_plan plan; /* of every velocity, for materials without knots */
+    size_t first_step; /* the rule of a panel of which nothing is known */
+    panel_plan plan;   /* of every velocity, for materials without knots */
     unsigned threads;
     friction_scratch *scratch; /* [threads] */
 };
@@ -53,7 +67,7 @@ typedef struct friction_load {
 
 /* What a pass begins with and how far it goes. */
 typedef struct friction_effort {
-    size_t step;  /* the first rule */
+    size_t step;  /* the first rule, at least */
     size_t level; /* of the core, at least */
     double share; /* of the tolerance, that the rule may take in one panel */
 } friction_effort;
@@ -91,8 +105,8 @@ wt_status friction_prepare(wt_friction_workspace *ws, double pressure, const dou
 /* Lays the plan of this speed with these extra cuts, or returns the common one. */
 const panel_plan *friction_plan(const wt_friction_workspace *ws, friction_scratch *scratch,
                                 double speed, const double *cuts, size_t n_cuts);
-/* Evaluates all panels with the first rule, and those again with the next ones for which it does
- * not suffice. The record may be NULL. */
+/* Evaluates all panels with the first rule, or with that of the trail of the velocity before, and
+ * those again with the next ones for which it does not suffice. The record may be NULL. */
 void friction_evaluate(const wt_friction_workspace *ws, friction_scratch *scratch,
                        const panel_plan *plan, friction_effort effort, friction_load at,
                        bool with_outside, friction_record *record, friction_pass *pass);

@@ -115,28 +115,33 @@ static node_view panel_view(friction_scratch *scratch, const scale_grid *grid, s
 }
 
 /* J1 and J2 of the softened moduli, from those of the moduli. */
-static void soften(const wt_friction_workspace *ws, friction_scratch *scratch,
-                   const node_view *view, size_t n)
+static void soften(const friction_scratch *scratch, const node_view *view)
 {
-    const size_t from = (size_t)(view->omega - scratch->omega);
-    double *loss = scratch->loss_j2 + from;
-    angular_eval(ws->loss, view->omega, n, scratch->loss_j1 + from, loss);
-    for (size_t i = 0; i < n; i++) {
+    if (view->f == NULL)
+        return;
+    const double *loss = scratch->loss_j2 + (view->omega - scratch->omega);
+    for (size_t i = 0; i < view->rule->n; i++) {
         const double f = view->f[i], g = view->g[i];
         view->j1[i] *= g;
         view->j2[i] = f * f * view->j2[i] + (g - f) * (g + f) * loss[i];
     }
 }
 
-static void evaluate_nodes(const wt_friction_workspace *ws, friction_scratch *scratch,
-                           const node_view *view, size_t n, friction_load at)
+static void place_omega(const node_view *view, friction_load at)
 {
-    for (size_t i = 0; i < n; i++)
+    for (size_t i = 0; i < view->rule->n; i++)
         view->omega[i] = view->q[i] * at.speed;
+}
+
+/* J1 and J2 at n nodes whose omega has been placed. */
+static void evaluate_nodes(const wt_friction_workspace *ws, friction_scratch *scratch,
+                           const double *omega, size_t n)
+{
+    const size_t from = (size_t)(omega - scratch->omega);
     scratch->nodes += n;
-    angular_eval(ws->angular, view->omega, n, view->j1, view->j2);
-    if (view->f != NULL)
-        soften(ws, scratch, view, n);
+    angular_eval(ws->angular, omega, n, scratch->j1 + from, scratch->j2 + from);
+    if (ws->loss != NULL)
+        angular_eval(ws->loss, omega, n, scratch->loss_j1 + from, scratch->loss_j2 + from);
 }
 
 static node_view core_view(const wt_friction_workspace *ws, friction_scratch *scratch,
@@ -155,7 +160,9 @@ static node_view core_view(const wt_friction_workspace *ws, friction_scratch *sc
         view.f = grid->core_f + first;
         view.g = grid->core_g + first;
     }
-    evaluate_nodes(ws, scratch, &view, grid->rule->n, at);
+    place_omega(&view, at);
+    evaluate_nodes(ws, scratch, view.omega, grid->rule->n);
+    soften(scratch, &view);
     return view;
 }
 
@@ -301,17 +308,18 @@ static void panel_pass(const wt_friction_workspace *ws, const node_view *view, p
 
 /* About the hysteresis of a pass whose panels begin so far up. */
 static double rough_hysteresis(const wt_friction_workspace *ws, friction_scratch *scratch,
-                               const scale_grid *grid, size_t first, size_t last, pass_scale scale,
+                               size_t first, size_t last, pass_scale scale,
                                const friction_pass *core)
 {
     double variance = core->variance, hysteresis = core->hysteresis;
     double g[FRICTION_MAX_NODES], mu[FRICTION_MAX_NODES];
     for (size_t p = first; p < last; p++) {
-        const node_view view = panel_view(scratch, grid, p, (p - first) * grid->rule->n);
+        const node_view view =
+            panel_view(scratch, &scratch->grids[scratch->step[p]], p, scratch->from[p]);
         fill_parts(&view, scale, g, mu);
-        const double rise = weighted(grid->rule, g);
+        const double rise = weighted(view.rule, g);
         const double square = 1 / (1 + M_PI * (variance + 0.5 * rise)); /* about P^2 */
-        hysteresis += weighted(grid->rule, mu) * sqrt(square) *
+        hysteresis += weighted(view.rule, mu) * sqrt(square) *
                       (ws->options.gamma + (1 - ws->options.gamma) * square);
         variance += rise;
     }
@@ -350,6 +358,29 @@ static void add_part(const wt_friction_workspace *ws, friction_scratch *scratch,
     pass->nodes += n;
 }
 
+/* ---- from one velocity to the next ------------------------------------------------------------
+ */
+
+/* Of the panel of the velocity before that the middle of this one lies in; `k` is where to look
+ * from. */
+static friction_start start_of(const wt_friction_workspace *ws, const friction_trail *trail,
+                               const grid_panel *panel, size_t step, size_t *k)
+{
+    const double middle = 0.5 * (panel->t_low + panel->t_high);
+    while (*k < trail->n && trail->starts[*k].t_high < middle)
+        ++*k;
+    friction_start start = {.step = ws->first_step};
+    if (*k < trail->n)
+        start = trail->starts[*k];
+    if (start.step < step)
+        start.step = step;
+    start.t_high = panel->t_high;
+    return start;
+}
+
+/* The error of a rule of so many nodes less is larger by no more than this for each of them. */
+static const double node_worth = 0.03;
+
 /* Whether the rule suffices for so much of the variance so far and of the hysteresis. */
 static bool is_fine(const pass_part *part, double variance, double hysteresis)
 {
@@ -374,27 +405,51 @@ void friction_evaluate(const wt_friction_workspace *ws, friction_scratch *scratc
     *pass = (friction_pass){.level = level};
     add_part(ws, scratch, &view, &part, with_outside, record, pass);
 
-    scale_grid *grid = &scratch->grids[effort.step];
-    const size_t n = grid->rule->n, first = plan->levels - level, last = plan->n_panels;
-    grid_fill_panels(grid, plan, first, last, roughness, layer);
-    if (first < last) {
-        const node_view all = panel_view(scratch, grid, first, 0);
-        evaluate_nodes(ws, scratch, &all, (last - first) * n, at);
+    friction_trail *trail = &scratch->trail;
+    friction_start *ends = trail->spare;
+    const size_t first = plan->levels - level, last = plan->n_panels;
+    size_t nodes = 0;
+    for (size_t p = first, k = 0; p < last; p++) {
+        ends[p - first] = start_of(ws, trail, &plan->panels[p], effort.step, &k);
+        scratch->step[p] = ends[p - first].step;
+        scratch->from[p] = nodes;
+        scale_grid *grid = &scratch->grids[scratch->step[p]];
+        grid_fill_panels(grid, plan, p, p + 1, roughness, layer);
+        view = panel_view(scratch, grid, p, nodes);
+        place_omega(&view, at);
+        nodes += grid->rule->n;
     }
-    const double hysteresis = share * rough_hysteresis(ws, scratch, grid, first, last, scale, pass);
+    evaluate_nodes(ws, scratch, scratch->omega, nodes);
     for (size_t p = first; p < last; p++) {
-        view = panel_view(scratch, grid, p, (p - first) * n);
+        view = panel_view(scratch, &scratch->grids[scratch->step[p]], p, scratch->from[p]);
+        soften(scratch, &view);
+    }
+    const double hysteresis = share * rough_hysteresis(ws, scratch, first, last, scale, pass);
+    for (size_t p = first; p < last; p++) {
+        friction_start *end = &ends[p - first];
+        view = panel_view(scratch, &scratch->grids[end->step], p, scratch->from[p]);
         panel_pass(ws, &view, scale, pass->variance, &part);
-        for (step = effort.step + 1;
-             step < FRICTION_STEPS &&
-             !is_fine(&part, share * (pass->variance + part.variance), hysteresis);
-             step++) {
-            scale_grid *finer = &scratch->grids[step];
+        double variance = share * (pass->variance + part.variance);
+        while (end->step + 1 < FRICTION_STEPS && !is_fine(&part, variance, hysteresis)) {
+            scale_grid *finer = &scratch->grids[++end->step];
+            end->least = end->step;
             grid_fill_panels(finer, plan, p, p + 1, roughness, layer);
             view = panel_view(scratch, finer, p, scratch->room * FRICTION_MAX_NODES);
-            evaluate_nodes(ws, scratch, &view, finer->rule->n, at);
+            place_omega(&view, at);
+            evaluate_nodes(ws, scratch, view.omega, finer->rule->n);
+            soften(scratch, &view);
             panel_pass(ws, &view, scale, pass->variance, &part);
+            variance = share * (pass->variance + part.variance);
+        }
+        if (end->step > end->least) {
+            const size_t fewer = view.rule->n - ws->rules[end->step - 1]->n;
+            const double worth = pow(node_worth, (double)fewer);
+            if (is_fine(&part, worth * variance, worth * hysteresis))
+                end->step--;
         }
         add_part(ws, scratch, &view, &part, with_outside, record, pass);
     }
+    trail->spare = trail->starts;
+    trail->starts = ends;
+    trail->n = last - first;
 }

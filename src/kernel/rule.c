@@ -62,7 +62,7 @@ static void fill_running(gauss_rule *rule)
  * for what is left out folds back on them. `caution` is for what that overlooks, and a tenth of it
  * is enough where the fall goes no further. */
 static const double caution = 40, caution_smooth = 10, caution_few = 6;
-static const double fastest[] = {[FALL_SMOOTH] = 0.25, [FALL_LAW] = 0.4};
+static const double fastest[] = {[FALL_SMOOTH] = 0.2, [FALL_LAW] = 0.4};
 
 static double larger(double a, double b)
 {
@@ -105,7 +105,9 @@ double rule_error(const gauss_rule *rule, const double *f, rule_fall kind)
     if (!(pair[2] < pair[1]) || (has_three && !(pair[1] < pair[0])))
         return 0.1 * caution * larger(pair[1], pair[2]);
     const double last_rate = pair[2] / pair[1];
-    double rate = sqrt(has_three ? larger(last_rate, pair[1] / pair[0]) : last_rate);
+    double rate = sqrt(has_three && kind == FALL_SMOOTH ? sqrt(pair[2] / pair[0])
+                       : has_three                      ? larger(last_rate, pair[1] / pair[0])
+                                                        : last_rate);
     const bool steep = kind == FALL_STEEP || (kind == FALL_LAW && rate > fastest[kind]);
     double last = larger(fabs(coefficient[RULE_TOP - 1]), fabs(coefficient[RULE_TOP - 2]) * rate);
     if (has_three)
@@ -113,8 +115,8 @@ double rule_error(const gauss_rule *rule, const double *f, rule_fall kind)
     if (!steep)
         rate = larger(rate, fastest[kind]);
     double fall = 1;
-    for (size_t left = steep ? 7 * n / 10 : n; left > 0; left--)
-        fall *= rate;
+    for (size_t left = steep ? 7 * n / 10 : n; left > 0; left /= 2, rate *= rate)
+        fall *= left % 2 ? rate : 1;
     return (steep ? caution : n < 8 ? caution_few : caution_smooth) * last * fall;
 }
 

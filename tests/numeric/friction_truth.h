@@ -87,7 +87,7 @@ static real expand(const real *value, real *coefficient)
  * left is rounding. */
 static bool is_fine(real tail, real before)
 {
-    return tail <= TRUTH_SMALL || (tail <= (real)1e-6 && tail > before / 4);
+    return tail <= TRUTH_SMALL || (tail <= (real)1e-9 && tail > before / 4);
 }
 
 static real series_at(const real *coefficient, real x)

@@ -240,11 +240,18 @@ static void odd_in_velocity(void **state)
     wt_friction_workspace *ws = prepare(&r, 1e-10, 1);
     const double velocity[] = {0.0385, -0.0385, 0};
     wt_friction_point p[3];
-    assert_int_equal(wt_friction_compute(ws, r.pressure, velocity, 3, p, NULL), WT_OK);
+    for (size_t i = 0; i < 3; i++)
+        assert_int_equal(wt_friction_compute(ws, r.pressure, &velocity[i], 1, &p[i], NULL), WT_OK);
     assert_near(p[1].hysteresis.value, -p[0].hysteresis.value, 0);
     assert_near(p[1].stress_variance.value, p[0].stress_variance.value, 0);
     assert_near(p[2].hysteresis.value, 0, 0);
     assert_true(p[2].stress_variance.value > 0 && p[2].reached);
+
+    /* together: each begins where the one before it ended, and the last digits differ */
+    const double alone = p[0].hysteresis.value;
+    assert_int_equal(wt_friction_compute(ws, r.pressure, velocity, 3, p, NULL), WT_OK);
+    assert_true(fabs(p[0].hysteresis.value - alone) <= p[0].hysteresis.numerical_error);
+    assert_true(fabs(p[1].hysteresis.value + alone) <= p[1].hysteresis.numerical_error);
     wt_friction_workspace_free(ws);
     rig_free(&r);
 }
