@@ -129,7 +129,9 @@ typedef struct wt_material_law {
     /* int_0^2pi E''(w cos phi)^2 dphi, the part of J2 from E'' alone, in closed form. NULL: the
      * kernel integrates `modulus`. */
     void (*angular_loss)(const wt_material *material, const double *omega, size_t n, double *j2);
-    uint64_t reserved[5];
+    /* Below the first of the breaks E' and E'' are powers of the frequency. */
+    bool power_below;
+    uint64_t reserved[4];
 } wt_material_law;
 
 struct wt_material {

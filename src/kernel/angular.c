@@ -12,12 +12,14 @@
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* Degrees of the series, each twice the one before: its nodes are among those of the next. */
 enum { SHORT_DEGREE = 4, LONG_DEGREE = 16, MOST_CUTS = 12 };
 
-/* Pieces end at the whole multiples of this in ln w and at the knots of the law. */
-static const double piece_width = 0.7;
+/* Pieces end at the whole multiples of this in ln w and at the knots of the law. A closed form is
+ * smooth: its poles lie at pi/2 beside the axis. */
+static const double law_width = 0.7, closed_width = 1;
 /* Two bounds closer than this are one. */
 static const double same_bound = 1e-12;
 /* Relative error at which a series is good enough, of the tolerance, and at the best. */
@@ -25,7 +27,7 @@ static const double goal_share = 0.01, least_goal = 2e-14, most_goal = 1e-6;
 /* Of J1 and J2 from a sum of positive terms. */
 static const double closed_error = 16 * DBL_EPSILON;
 /* A series costs about as much as so many terms of a closed form, and is good to these. */
-enum { MANY_TERMS = 24 };
+enum { MANY_TERMS = 6 };
 static const double least_frequency = 1e-250, most_frequency = 1e250;
 
 /* J1 and J2 on a piece. To the right of a knot w_k both integrals have a (ln w - ln w_k)^(3/2)
@@ -35,8 +37,8 @@ typedef struct series {
     double anchor;       /* ln w_k, NaN = the series runs in ln w itself */
     double middle, half; /* of u */
     size_t degree;
-    double error; /* relative */
-    double j1[LONG_DEGREE + 1], j2[LONG_DEGREE + 1];
+    double error;                                    /* relative */
+    double j1[LONG_DEGREE + 1], j2[LONG_DEGREE + 1]; /* of powers of z = (u - middle) / half */
 } series;
 
 typedef struct series_list {
@@ -47,6 +49,7 @@ typedef struct series_list {
 struct angular_law {
     const wt_material *material;
     bool closed; /* there is a closed form */
+    double piece_width;
     gauss_rule *rule;
     double goal;
     angular_panels panels;
@@ -54,6 +57,8 @@ struct angular_law {
     double panels_low, panels_high;
     double limit[2];    /* of the range backed by data; NaN = none */
     series_list pieces; /* rising, without gaps */
+    double worst;       /* error of these */
+    double cosine[2 * LONG_DEGREE];
 };
 
 /* ---- series ---------------------------------------------------------------------------------- */
@@ -93,10 +98,63 @@ static double series_tail(const double *coefficient, const double *value, size_t
     return most > 0 ? tail / (least > 0 ? least : most) : 0;
 }
 
+/* As many terms as the error needs that is there anyway, as powers of z instead of T_n(z): twice as
+ * fast to sum, and what rounding makes of them is about the sum of their magnitudes. Returns that,
+ * relative to `least`, and what was cut. */
+static double make_powers(double *coefficient, size_t *degree, double allowed)
+{
+    double t[LONG_DEGREE + 1] = {0}, last[LONG_DEGREE + 1] = {1}, now[LONG_DEGREE + 1] = {0, 1};
+    double cut = 0, sum = 0;
+    size_t kept = *degree;
+    while (kept > 2 && cut + fabs(coefficient[kept]) <= allowed)
+        cut += fabs(coefficient[kept--]);
+    t[0] = coefficient[0];
+    for (size_t n = 1; n <= kept; n++) {
+        double next[LONG_DEGREE + 1];
+        for (size_t k = 0; k <= LONG_DEGREE; k++) {
+            t[k] += coefficient[n] * now[k];
+            next[k] = (k > 0 ? 2 * now[k - 1] : 0) - last[k];
+        }
+        memcpy(last, now, sizeof last);
+        memcpy(now, next, sizeof now);
+    }
+    for (size_t k = 0; k <= LONG_DEGREE; k++) {
+        coefficient[k] = t[k];
+        sum += fabs(t[k]);
+    }
+    *degree = kept;
+    return cut + 2 * DBL_EPSILON * sum;
+}
+
+static double least_of(const double *value, size_t step)
+{
+    double least = value[0];
+    for (size_t k = 0; k <= LONG_DEGREE; k += step)
+        least = fmin(least, value[k]);
+    return least;
+}
+
+/* Both, to the larger of the two degrees. */
+static void series_powers(series *s, const double *j1, const double *j2, double goal)
+{
+    const size_t step = LONG_DEGREE / s->degree;
+    const double least[2] = {least_of(j1, step), least_of(j2, step)};
+    double *const coefficient[2] = {s->j1, s->j2};
+    size_t degree[2] = {s->degree, s->degree};
+    double more = 0;
+    for (size_t i = 0; i < 2; i++) {
+        const double left =
+            make_powers(coefficient[i], &degree[i], 0.3 * fmax(goal, s->error) * least[i]);
+        more = fmax(more, least[i] > 0 ? left / least[i] : 0);
+    }
+    s->degree = degree[0] > degree[1] ? degree[0] : degree[1];
+    s->error += more;
+}
+
 static void series_fit(const angular_law *a, series *s)
 {
-    double cosine[2 * LONG_DEGREE], j1[LONG_DEGREE + 1], j2[LONG_DEGREE + 1];
-    make_cosines(cosine);
+    const double *const cosine = a->cosine;
+    double j1[LONG_DEGREE + 1], j2[LONG_DEGREE + 1];
     for (size_t degree = SHORT_DEGREE; degree <= LONG_DEGREE; degree *= 2) {
         const size_t step = LONG_DEGREE / degree;
         for (size_t k = 0; k <= LONG_DEGREE; k += step) {
@@ -116,6 +174,7 @@ static void series_fit(const angular_law *a, series *s)
         if (s->error <= a->goal)
             break;
     }
+    series_powers(s, j1, j2, a->goal);
     if (a->closed)
         s->error += closed_error;
     else
@@ -172,7 +231,7 @@ static double knot_before(const double *knots, size_t n, double x)
             high = middle;
     }
     const double knot = low > 0 ? log(knots[low - 1]) : -(double)INFINITY;
-    return knot > x - 3 * piece_width ? fmin(knot, x) : (double)NAN;
+    return knot > x - 3 * law_width ? fmin(knot, x) : (double)NAN;
 }
 
 /* Adds the pieces from one multiple of piece_width to another. */
@@ -182,10 +241,10 @@ static bool add_pieces(const angular_law *a, long first, long last, double *boun
     size_t n = 0, n_knots;
     const double *knots = knots_of(a, &n_knots);
     for (long m = first; m <= last; m++)
-        bounds[n++] = (double)m * piece_width;
+        bounds[n++] = (double)m * a->piece_width;
     for (size_t k = 0; k < n_knots; k++) {
         const double x = log(knots[k]);
-        if (x > bounds[0] && x < (double)last * piece_width)
+        if (x > bounds[0] && x < (double)last * a->piece_width)
             bounds[n++] = x;
     }
     numbers_sort(bounds, n);
@@ -220,6 +279,7 @@ wt_status angular_cover(angular_law *angular, double w_min, double w_max, wt_err
     if (angular->closed && (law->terms == NULL || law->terms(angular->material) < MANY_TERMS ||
                             !(w_min >= least_frequency && w_max <= most_frequency)))
         return WT_OK;
+    const double piece_width = angular->piece_width;
     long first = (long)floor(log(w_min) / piece_width);
     long last = (long)ceil(log(w_max) / piece_width);
     if (last <= first)
@@ -255,6 +315,9 @@ wt_status angular_cover(angular_law *angular, double w_min, double w_max, wt_err
     }
     free(angular->pieces.items);
     angular->pieces = made;
+    angular->worst = 0;
+    for (size_t i = 0; i < made.n; i++)
+        angular->worst = fmax(angular->worst, made.items[i].error);
     return WT_OK;
 }
 
@@ -272,74 +335,97 @@ static size_t piece_at(const series_list *list, double x)
     return low;
 }
 
-bool angular_closed(const angular_law *angular, double w_min, double w_max)
+bool angular_closed(const angular_law *angular, double x_min, double x_max)
 {
     const series_list *pieces = &angular->pieces;
-    return angular->closed &&
-           (pieces->n == 0 || !(log(w_min) >= pieces->items[0].low &&
-                                log(w_max) <= pieces->items[pieces->n - 1].high));
+    return angular->closed && (pieces->n == 0 || !(x_min >= pieces->items[0].low &&
+                                                   x_max <= pieces->items[pieces->n - 1].high));
 }
 
 /* Nodes in one piece, with room for whole registers. */
-enum { BATCH = 32, REGISTER = 4 };
+enum { BATCH = 32, REGISTER = 4, AT_ONCE = 2 * REGISTER };
+typedef double wide __attribute__((vector_size(REGISTER * sizeof(double))));
 
-/* The series at n <= BATCH places at a time, by Clenshaw's recurrence. */
+/* Both series at n <= BATCH places: even and odd powers in turn, so that neither waits for the
+ * other. `value` has room for BATCH numbers each. */
 WIDE_REGISTERS
-static void series_eval(const double *restrict coefficient, size_t degree, size_t n,
-                        const double *restrict z, double *restrict value)
+static void series_eval(const series *restrict s, size_t n, const double *restrict z,
+                        double *restrict value1, double *restrict value2)
 {
-    double b1[BATCH] = {0}, b2[BATCH] = {0};
-    const size_t room = (n + REGISTER - 1) / REGISTER * REGISTER;
-    for (size_t m = degree; m > 0; m--)
-        for (size_t i = 0; i < room; i++) {
-            const double b = 2 * z[i] * b1[i] - b2[i] + coefficient[m];
-            b2[i] = b1[i];
-            b1[i] = b;
+    const size_t top = s->degree / 2 * 2; /* even */
+    const double *const j1 = s->j1, *const j2 = s->j2;
+    const double above1 = s->degree > top ? j1[top + 1] : 0,
+                 above2 = s->degree > top ? j2[top + 1] : 0;
+    for (size_t from = 0; from < n; from += AT_ONCE) {
+        wide a, b;
+        memcpy(&a, z + from, sizeof a);
+        memcpy(&b, z + from + REGISTER, sizeof b);
+        const wide aa = a * a, bb = b * b, zero = {0};
+        wide even_a1 = zero + j1[top], odd_a1 = zero + above1, even_a2 = zero + j2[top],
+             odd_a2 = zero + above2;
+        wide even_b1 = even_a1, odd_b1 = odd_a1, even_b2 = even_a2, odd_b2 = odd_a2;
+        for (size_t m = top; m >= 2; m -= 2) {
+            even_a1 = even_a1 * aa + j1[m - 2];
+            odd_a1 = odd_a1 * aa + j1[m - 1];
+            even_a2 = even_a2 * aa + j2[m - 2];
+            odd_a2 = odd_a2 * aa + j2[m - 1];
+            even_b1 = even_b1 * bb + j1[m - 2];
+            odd_b1 = odd_b1 * bb + j1[m - 1];
+            even_b2 = even_b2 * bb + j2[m - 2];
+            odd_b2 = odd_b2 * bb + j2[m - 1];
         }
-    for (size_t i = 0; i < n; i++)
-        value[i] = z[i] * b1[i] - b2[i] + coefficient[0];
+        const wide a1 = even_a1 + a * odd_a1, a2 = even_a2 + a * odd_a2;
+        const wide b1 = even_b1 + b * odd_b1, b2 = even_b2 + b * odd_b2;
+        memcpy(value1 + from, &a1, sizeof a1);
+        memcpy(value1 + from + REGISTER, &b1, sizeof b1);
+        memcpy(value2 + from, &a2, sizeof a2);
+        memcpy(value2 + from + REGISTER, &b2, sizeof b2);
+    }
 }
 
-void angular_eval(const angular_law *angular, const double *w, size_t n, double *j1, double *j2)
+void angular_eval(const angular_law *angular, const double *w, const double *x, size_t n,
+                  double *j1, double *j2)
 {
     if (n == 0)
         return;
-    if (angular_closed(angular, w[0], w[n - 1])) {
+    if (angular_closed(angular, x[0], x[n - 1])) {
         angular->material->law->angular(angular->material, w, n, j1, j2);
         return;
     }
     const series_list *pieces = &angular->pieces;
-    size_t k = piece_at(pieces, log(w[0]));
+    size_t k = piece_at(pieces, x[0]);
     for (size_t from = 0, count; from < n; from += count) {
-        double x = log(w[from]), z[BATCH];
-        while (k + 1 < pieces->n && x > pieces->items[k].high)
+        double z[BATCH], value1[BATCH], value2[BATCH];
+        while (k + 1 < pieces->n && x[from] > pieces->items[k].high)
             k++;
-        while (k > 0 && x < pieces->items[k].low)
+        while (k > 0 && x[from] < pieces->items[k].low)
             k--;
         const series *s = &pieces->items[k];
         const bool in_root = !isnan(s->anchor);
+        const double scale = 1 / s->half;
         for (count = 0; count < BATCH && from + count < n; count++) {
-            if (count > 0)
-                x = log(w[from + count]);
-            if (count > 0 && (x > s->high || x < s->low))
+            const double there = x[from + count];
+            if (count > 0 && (there > s->high || there < s->low))
                 break;
-            const double above = x > s->anchor ? x - s->anchor : 0;
-            const double place = ((in_root ? sqrt(above) : x) - s->middle) / s->half;
+            const double above = there > s->anchor ? there - s->anchor : 0;
+            const double place = ((in_root ? sqrt(above) : there) - s->middle) * scale;
             z[count] = place < -1 ? -1 : place > 1 ? 1 : place;
         }
-        for (size_t i = count; i < BATCH && i % REGISTER != 0; i++)
+        for (size_t i = count; i < BATCH && i % AT_ONCE != 0; i++)
             z[i] = 0;
-        series_eval(s->j1, s->degree, count, z, j1 + from);
-        series_eval(s->j2, s->degree, count, z, j2 + from);
+        series_eval(s, count, z, value1, value2);
+        memcpy(j1 + from, value1, count * sizeof *j1);
+        memcpy(j2 + from, value2, count * sizeof *j2);
     }
 }
 
-double angular_error(const angular_law *angular, double w_min, double w_max)
+double angular_error(const angular_law *angular, double x_min, double x_max)
 {
     const series_list *pieces = &angular->pieces;
-    const double low = log(w_min), high = log(w_max);
+    if (angular->worst <= 2 * angular->goal)
+        return angular->worst;
     double error = 0;
-    for (size_t i = piece_at(pieces, low); i < pieces->n && pieces->items[i].low <= high; i++)
+    for (size_t i = piece_at(pieces, x_min); i < pieces->n && pieces->items[i].low <= x_max; i++)
         error = fmax(error, pieces->items[i].error);
     return error;
 }
@@ -398,6 +484,8 @@ wt_status angular_new(const wt_material *material, double tolerance, pool *memor
         return wt_fail(err, WT_E_MEMORY, "out of memory for the angular integrals");
     made->material = material;
     made->closed = material->law->angular != NULL;
+    make_cosines(made->cosine);
+    made->piece_width = made->closed ? closed_width : law_width;
     made->goal = fmin(fmax(goal_share * tolerance, least_goal), most_goal);
     made->limit[0] = limit_of(material->frequency_min);
     made->limit[1] = limit_of(material->frequency_max);

@@ -28,12 +28,13 @@ wt_status angular_cover(angular_law *angular, double w_min, double w_max,
                         wt_error *err) WT_NODISCARD;
 /* Prepares angular_outside. */
 wt_status angular_cover_outside(angular_law *angular, wt_error *err) WT_NODISCARD;
-/* J1 and J2 at n rising values of w inside the covered range. */
-void angular_eval(const angular_law *angular, const double *w, size_t n, double *j1, double *j2);
-/* Whether the closed form gives J1 and J2 from w_min to w_max. */
-bool angular_closed(const angular_law *angular, double w_min, double w_max);
-/* Largest relative error of J1 and of J2 for w in this range, from series and panels. */
-double angular_error(const angular_law *angular, double w_min, double w_max);
+/* J1 and J2 at n rising values of w inside the covered range; x = ln w. */
+void angular_eval(const angular_law *angular, const double *w, const double *x, size_t n,
+                  double *j1, double *j2);
+/* Whether the closed form gives J1 and J2 for ln w from x_min to x_max. */
+bool angular_closed(const angular_law *angular, double x_min, double x_max);
+/* Largest relative error of J1 and of J2 for ln w in this range, from series and panels. */
+double angular_error(const angular_law *angular, double x_min, double x_max);
 /* The part of J1(w) that comes from frequencies outside the range backed by data; j1 = J1(w). */
 double angular_outside(const angular_law *angular, double w, double j1);
 /* Whether the range of the material is limited at all. */

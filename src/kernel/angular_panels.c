@@ -12,8 +12,9 @@
 static const double widest = 0.35;
 /* ln F changes by no more over one panel. */
 static const double steepest = 1.2;
-/* The integrals begin so far below the range in ln omega, with a power law below. */
-static const double deep = 40;
+/* The integrals begin so far below the range in ln omega, with a power law below; less where the
+ * law is one. */
+static const double deep = 40, shallow = 2.5;
 /* They begin at a whole multiple of it, so that similar ranges have the same panels. */
 static const double stride = 16;
 static const int power_of[2] = {2, 1};
@@ -168,10 +169,13 @@ wt_status angular_panels_new(const wt_material *material, const gauss_rule *rule
     size_t n_breaks = 0;
     const double *breaks =
         material->law->breaks != NULL ? material->law->breaks(material, &n_breaks) : NULL;
-    double begin = log(low);
-    if (n_breaks > 0)
+    const bool is_power = n_breaks > 0 && material->law->power_below;
+    double begin = floor(log(low) / stride) * stride;
+    if (is_power)
         begin = fmin(begin, log(breaks[0]));
-    const double first = fmax(floor(begin / stride) * stride - deep, log(DBL_MIN) + 1);
+    else if (n_breaks > 0)
+        begin = fmin(begin, floor(log(breaks[0]) / stride) * stride);
+    const double first = fmax(begin - (is_power ? shallow : deep), log(DBL_MIN) + 1);
     angular_panels a = {.material = material, .rule = rule};
     /* c^(2m) is 4^-m */
     a.terms = 2 + (size_t)ceil(-log(fmin(fmax(goal, 1e-16), 0.1)) / (2 * M_LN2));

@@ -4,6 +4,7 @@
  */
 #include "kernel/contact.h"
 
+#include "base/wide.h"
 #include "model/special.h"
 
 #include <math.h>
@@ -11,6 +12,47 @@
 double contact_area(double variance)
 {
     return variance > CONTACT_FULL ? erf(0.5 / sqrt(variance)) : 1;
+}
+
+/* From there on the power series of erf ends soon: its argument is at most 1. */
+static const double late = 0.25;
+
+/* erf(x) = 2 / sqrt(pi) sum of (-1)^k x^(2 k + 1) / (k! (2 k + 1)), even and odd k in turn. */
+WIDE_REGISTERS
+static void late_areas(const double *restrict variance, size_t n, double *restrict area)
+{
+    for (size_t i = 0; i < n; i++) {
+        const double square = 0.25 / variance[i], fourth = square * square;
+        double even = 1 / 690452066304000.0, odd = 1 / 12449059983360000.0; /* k = 16, 17 */
+        even = even * fourth + 1 / 2528170444800.0;
+        odd = odd * fourth + 1 / 40537905408000.0;
+        even = even * fourth + 1 / 11975040000.0;
+        odd = odd * fourth + 1 / 168129561600.0;
+        even = even * fourth + 1 / 76204800.0;
+        odd = odd * fourth + 1 / 918086400.0;
+        even = even * fourth + 1 / 685440.0;
+        odd = odd * fourth + 1 / 6894720.0;
+        even = even * fourth + 1 / 9360.0;
+        odd = odd * fourth + 1 / 75600.0;
+        even = even * fourth + 1 / 216.0;
+        odd = odd * fourth + 1 / 1320.0;
+        even = even * fourth + 1 / 10.0;
+        odd = odd * fourth + 1 / 42.0;
+        even = even * fourth + 1;
+        odd = odd * fourth + 1 / 3.0;
+        area[i] = M_2_SQRTPI * sqrt(square) * (even - square * odd);
+    }
+}
+
+void contact_areas(const double *variance, size_t n, double *area)
+{
+    size_t early = 0;
+    while (early < n && !(variance[early] > late)) {
+        area[early] = contact_area(variance[early]);
+        early++;
+    }
+    if (early < n)
+        late_areas(variance + early, n - early, area + early);
 }
 
 /* erfc falls so steeply that the rounding of its argument y counts: y^2 G = 1/4 tells it. */

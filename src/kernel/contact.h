@@ -12,6 +12,8 @@
 
 /* P = erf(1 / (2 sqrt G)); 1 for G <= 0. */
 double contact_area(double variance);
+/* Of n rising variances. */
+void contact_areas(const double *variance, size_t n, double *area);
 /* 1 - P without cancellation. */
 double contact_gap(double variance);
 /* int_0^G S P dG' with S = gamma + (1 - gamma) P^2. */

@@ -53,7 +53,7 @@ wt_status wt_energy_source_friction(wt_friction_workspace *workspace, double pre
     wt_status status = friction_prepare(workspace, pressure, &velocity, 1, err);
     if (status != WT_OK)
         return status;
-    const friction_load at = {.pressure = pressure, .speed = fabs(velocity)};
+    const friction_load at = friction_load_at(workspace, pressure, velocity);
     friction_scratch scratch;
     pool memory = {0};
     wt_energy_source pair[2] = {{0}, {0}};

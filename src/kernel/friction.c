@@ -16,8 +16,8 @@ static const struct {
     double tolerance;
     size_t nodes[FRICTION_STEPS];
     size_t first;
-} ladders[] = {{3e-3, {3, 4, 5, 6, 8, 12, FRICTION_MAX_NODES}, 1},
-               {3e-5, {4, 5, 6, 8, 10, 14, FRICTION_MAX_NODES}, 1},
+} ladders[] = {{3e-3, {3, 4, 5, 6, 8, 12, 20}, 1},
+               {3e-5, {4, 5, 6, 8, 10, 14, 20}, 1},
                {3e-8, {6, 7, 8, 10, 12, 16, FRICTION_MAX_NODES}, 1},
                {3e-11, {8, 9, 10, 12, 14, 18, FRICTION_MAX_NODES}, 2},
                {0, {10, 12, 14, 16, 18, 20, FRICTION_MAX_NODES}, 1}};
@@ -61,9 +61,9 @@ wt_status friction_scratch_init(friction_scratch *scratch, const wt_friction_wor
     scratch->room = panels;
     for (size_t k = 0; k < FRICTION_STEPS; k++)
         grid_init(&scratch->grids[k], &scratch->plan, ws->rules[k], memory);
-    double **const by_node[] = {&scratch->omega, &scratch->j1, &scratch->j2, &scratch->loss_j1,
-                                &scratch->loss_j2};
-    const size_t n_by_node = ws->softening != NULL ? COUNT_OF(by_node) : 3;
+    double **const by_node[] = {&scratch->omega, &scratch->log_omega, &scratch->j1,
+                                &scratch->j2,    &scratch->loss_j1,   &scratch->loss_j2};
+    const size_t n_by_node = ws->softening != NULL ? COUNT_OF(by_node) : 4;
     for (size_t i = 0; i < n_by_node; i++)
         *by_node[i] = pool_alloc(memory, (panels + 2) * FRICTION_MAX_NODES, sizeof **by_node[i]);
     scratch->knots = pool_alloc(memory, ws->n_knots + 1, sizeof *scratch->knots);
@@ -257,6 +257,12 @@ wt_status friction_prepare(wt_friction_workspace *ws, double pressure, const dou
                : status;
 }
 
+friction_load friction_load_at(const wt_friction_workspace *ws, double pressure, double velocity)
+{
+    const double speed = fabs(velocity);
+    return (friction_load){pressure, speed, log(ws->roughness->q0) + log(speed)};
+}
+
 const panel_plan *friction_plan(const wt_friction_workspace *ws, friction_scratch *scratch,
                                 double speed, const double *cuts, size_t n_cuts)
 {
@@ -295,7 +301,7 @@ static void compute_point(const compute_job *job, friction_scratch *scratch, dou
                           wt_friction_point *point)
 {
     const wt_friction_workspace *ws = job->ws;
-    const friction_load at = {.pressure = job->pressure, .speed = fabs(velocity)};
+    const friction_load at = friction_load_at(ws, job->pressure, velocity);
     const double sign = velocity < 0 ? -1 : velocity > 0 ? 1 : 0;
     const double tolerance = ws->options.tolerance;
     const panel_plan *plan = friction_plan(ws, scratch, at.speed, NULL, 0);

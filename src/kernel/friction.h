@@ -32,7 +32,7 @@ typedef struct friction_scratch {
     double *knots;                    /* [n_knots] t */
     double *bounds;                   /* [room + 1] t */
     /* [(room + 2) * max nodes]: all panels, then one made anew, then the core */
-    double *omega, *j1, *j2;
+    double *omega, *log_omega, *j1, *j2;
     double *loss_j1, *loss_j2;  /* likewise, of the loss modulus, with a softening */
     double *panel_mu, *panel_g; /* [room + 1]: parts of the last pass, */
     double *error_mu, *error_g; /* and the errors of its rule in them */
@@ -63,7 +63,10 @@ struct wt_friction_workspace {
 /* How hard and how fast. */
 typedef struct friction_load {
     double pressure, speed; /* speed >= 0 */
+    double log_lowest;      /* ln(q0 speed) */
 } friction_load;
+
+friction_load friction_load_at(const wt_friction_workspace *ws, double pressure, double velocity);
 
 /* What a pass begins with and how far it goes. */
 typedef struct friction_effort {

@@ -45,7 +45,9 @@ friction_relative friction_relative_error(const wt_friction_workspace *ws,
 /* |d ln J| over n nodes. */
 static double steepness(const double *j, size_t n)
 {
-    return j[0] > 0 && j[n - 1] > 0 ? fabs(log(j[n - 1] / j[0])) : 0;
+    const double ratio = j[0] > 0 && j[n - 1] > 0 ? j[n - 1] / j[0] : 1;
+    const double few = 8; /* up to there |sinh ln| is at most twice |ln| */
+    return ratio < few && ratio > 1 / few ? 0.5 * fabs(ratio - 1 / ratio) : fabs(log(ratio));
 }
 
 /* S P falls no faster than G to the power of minus this. */
@@ -59,19 +61,20 @@ static double series_error(const wt_friction_workspace *ws, double low, double h
                : ws->softening->caution * (error + angular_error(ws->loss, low, high));
 }
 
-/* What the errors of J1 and J2 make of the part of a pass whose n nodes are at `omega`; G so far
- * contains it. Errors of the series; and ln omega and the logarithms of the knots are rounded, so
- * what is steep there moves. */
-static void add_moved(const wt_friction_workspace *ws, const double *omega, const double *j1,
-                      const double *j2, size_t n, double variance, double hysteresis,
-                      double variance_so_far, friction_pass *pass)
+/* What the errors of J1 and J2 make of the part of a pass whose n nodes are at ln omega = `x`; G so
+ * far contains it. Errors of the series; and ln omega and the logarithms of the knots are rounded,
+ * so what is steep there moves. */
+static void add_moved(const wt_friction_workspace *ws, const double *x, const double *j1,
+                      const double *j2, size_t n, double log_lowest, double variance,
+                      double hysteresis, double variance_so_far, friction_pass *pass)
 {
-    if (angular_closed(ws->angular, omega[0], omega[n - 1]) &&
-        (ws->loss == NULL || angular_closed(ws->loss, omega[0], omega[n - 1])))
+    if (angular_closed(ws->angular, x[0], x[n - 1]) &&
+        (ws->loss == NULL || angular_closed(ws->loss, x[0], x[n - 1])))
         return;
-    const double far = fmax(fabs(log(omega[0])), fabs(log(omega[n - 1])));
+    /* ln omega is a sum of two */
+    const double far = fmax(fabs(x[0]), fabs(x[n - 1])) + fabs(log_lowest);
     const double moved = 4 * DBL_EPSILON * (1 + far);
-    const double series = series_error(ws, omega[0], omega[n - 1]);
+    const double series = series_error(ws, x[0], x[n - 1]);
     pass->variance_moved += variance * (series + moved * steepness(j2, n));
     pass->hysteresis_moved += hysteresis * (series + moved * steepness(j1, n));
     if (variance_so_far > 0)
@@ -84,16 +87,17 @@ static void add_moved(const wt_friction_workspace *ws, const double *omega, cons
 /* Those of one panel, of a core, or of many panels in a row. */
 typedef struct node_view {
     const gauss_rule *rule;
-    const double *q, *factor1, *factor2;
+    const double *t, *q, *factor1, *factor2;
     const double *f, *g; /* NULL without a softening */
     double half;
-    double *omega, *j1, *j2;
+    double *omega, *log_omega, *j1, *j2;
 } node_view;
 
 static node_view place_view(friction_scratch *scratch, const scale_grid *grid, size_t from)
 {
     return (node_view){.rule = grid->rule,
                        .omega = scratch->omega + from,
+                       .log_omega = scratch->log_omega + from,
                        .j1 = scratch->j1 + from,
                        .j2 = scratch->j2 + from};
 }
@@ -103,6 +107,7 @@ static node_view panel_view(friction_scratch *scratch, const scale_grid *grid, s
 {
     const size_t at = p * grid->rule->n;
     node_view view = place_view(scratch, grid, from);
+    view.t = grid->t + at;
     view.q = grid->q + at;
     view.factor1 = grid->factor1 + at;
     view.factor2 = grid->factor2 + at;
@@ -129,8 +134,10 @@ static void soften(const friction_scratch *scratch, const node_view *view)
 
 static void place_omega(const node_view *view, friction_load at)
 {
-    for (size_t i = 0; i < view->rule->n; i++)
+    for (size_t i = 0; i < view->rule->n; i++) {
         view->omega[i] = view->q[i] * at.speed;
+        view->log_omega[i] = view->t[i] + at.log_lowest;
+    }
 }
 
 /* J1 and J2 at n nodes whose omega has been placed. */
@@ -139,9 +146,10 @@ static void evaluate_nodes(const wt_friction_workspace *ws, friction_scratch *sc
 {
     const size_t from = (size_t)(omega - scratch->omega);
     scratch->nodes += n;
-    angular_eval(ws->angular, omega, n, scratch->j1 + from, scratch->j2 + from);
+    const double *x = scratch->log_omega + from;
+    angular_eval(ws->angular, omega, x, n, scratch->j1 + from, scratch->j2 + from);
     if (ws->loss != NULL)
-        angular_eval(ws->loss, omega, n, scratch->loss_j1 + from, scratch->loss_j2 + from);
+        angular_eval(ws->loss, omega, x, n, scratch->loss_j1 + from, scratch->loss_j2 + from);
 }
 
 static node_view core_view(const wt_friction_workspace *ws, friction_scratch *scratch,
@@ -152,6 +160,7 @@ static node_view core_view(const wt_friction_workspace *ws, friction_scratch *sc
     grid_fill_core(grid, plan, level, ws->roughness, &ws->options.layer);
     node_view view = place_view(scratch, grid, from);
     const size_t first = level * grid->rule->n;
+    view.t = grid->core_t + first;
     view.q = grid->core_q + first;
     view.factor1 = grid->core_factor1 + first;
     view.factor2 = grid->core_factor2 + first;
@@ -237,8 +246,10 @@ static void core_pass(const wt_friction_workspace *ws, const node_view *core, pa
     double g[FRICTION_MAX_NODES], mu[FRICTION_MAX_NODES];
     double least = (double)INFINITY, most = 0, contact = 1;
     fill_parts(core, scale, g, mu);
+    rule_top top_g, top_mu;
+    rule_tops(rule, g, mu, &top_g, &top_mu);
     part->variance = weighted(rule, g);
-    part->variance_error = rule_error(rule, g, fall_of(ws));
+    part->variance_error = rule_error(rule, &top_g, fall_of(ws));
     for (size_t i = 0; i < rule->n; i++)
         if (g[i] > 0) {
             least = fmin(least, mu[i] / g[i]);
@@ -251,7 +262,7 @@ static void core_pass(const wt_friction_workspace *ws, const node_view *core, pa
         part->closed_error = (most - least) * integral;
     }
     part->hysteresis = contact * weighted(rule, mu);
-    part->hysteresis_error = contact * rule_error(rule, mu, fall_of(ws));
+    part->hysteresis_error = contact * rule_error(rule, &top_mu, fall_of(ws));
     for (size_t i = 0; i < rule->n; i++)
         part->share[i] = contact * rule->weight[i] * mu[i];
 }
@@ -259,24 +270,25 @@ static void core_pass(const wt_friction_workspace *ws, const node_view *core, pa
 /* ---- panels ---------------------------------------------------------------------------------- */
 
 static const double steep_rise = 2;
+/* From this G on all of P shows in the hysteresis. */
+static const double area_begun = 0.3;
 
 /* Of one panel, from the values with full contact and with S P, G rising from `before` to `after`.
  * Where P leaves 1 the difference is too small to show in the last coefficients and too steep for
  * the rule, so it is looked at alone. */
-static double hysteresis_error(const gauss_rule *rule, const double *full, const double *part,
+static double hysteresis_error(const gauss_rule *rule, const rule_top *full, const rule_top *part,
                                rule_fall fall, double before, double after)
 {
-    const double begun = 0.3; /* from there on all of P is in `part` */
     const bool steep = after > CONTACT_FULL && after > steep_rise * before;
-    double gap[FRICTION_MAX_NODES];
-    if (!(before < begun))
+    rule_top gap;
+    if (!(before < area_begun))
         return rule_error(rule, part, steep ? FALL_STEEP : fall);
     const double own = rule_error(rule, full, fall);
     if (!(after > CONTACT_FULL))
         return own;
-    for (size_t i = 0; i < rule->n; i++)
-        gap[i] = full[i] - part[i];
-    return own + rule_error(rule, gap, steep ? FALL_STEEP : fall);
+    for (size_t k = 0; k < RULE_TOP; k++)
+        gap.coefficient[k] = full->coefficient[k] - part->coefficient[k];
+    return own + rule_error(rule, &gap, steep ? FALL_STEEP : fall);
 }
 
 /* On top of a variance so far. */
@@ -285,25 +297,34 @@ static void panel_pass(const wt_friction_workspace *ws, const node_view *view, p
 {
     const gauss_rule *rule = view->rule;
     const double gamma = ws->options.gamma;
-    double running[FRICTION_MAX_NODES], f[FRICTION_MAX_NODES], full[FRICTION_MAX_NODES];
-    fill_parts(view, scale, f, full);
+    double running[FRICTION_MAX_NODES], g[FRICTION_MAX_NODES], full[FRICTION_MAX_NODES],
+        area[FRICTION_MAX_NODES], mu[FRICTION_MAX_NODES];
+    rule_top top_g, top_full, top_mu;
+    fill_parts(view, scale, g, full);
     for (size_t j = 0; j < rule->n; j++)
         running[j] = variance;
-    part->variance = rule_running(rule, f, running);
-    part->variance_error = rule_error(rule, f, fall_of(ws));
+    part->variance = rule_running(rule, g, running);
     part->closed_error = 0;
     part->hysteresis = 0;
-    double below = variance;
+    double below = variance, highest = variance;
     for (size_t j = 0; j < rule->n; j++) {
         /* G never falls: where it rises too steeply for a polynomial, the nodes so far */
-        const double area = contact_area(running[j] < variance ? below : running[j]);
-        below += rule->weight[j] * f[j];
-        f[j] = full[j] * area * (gamma + (1 - gamma) * area * area);
-        part->share[j] = rule->weight[j] * f[j];
+        const double here = running[j] < variance ? below : running[j];
+        below += rule->weight[j] * g[j];
+        running[j] = highest = here > highest ? here : highest;
+    }
+    contact_areas(running, rule->n, area);
+    for (size_t j = 0; j < rule->n; j++) {
+        mu[j] = full[j] * area[j] * (gamma + (1 - gamma) * area[j] * area[j]);
+        part->share[j] = rule->weight[j] * mu[j];
         part->hysteresis += part->share[j];
     }
-    part->hysteresis_error =
-        hysteresis_error(rule, full, f, fall_of(ws), variance, variance + part->variance);
+    rule_tops(rule, g, mu, &top_g, &top_mu);
+    part->variance_error = rule_error(rule, &top_g, fall_of(ws));
+    if (variance < area_begun)
+        rule_tops(rule, full, mu, &top_full, &top_mu);
+    part->hysteresis_error = hysteresis_error(rule, &top_full, &top_mu, fall_of(ws), variance,
+                                              variance + part->variance);
 }
 
 /* About the hysteresis of a pass whose panels begin so far up. */
@@ -312,14 +333,17 @@ static double rough_hysteresis(const wt_friction_workspace *ws, friction_scratch
                                const friction_pass *core)
 {
     double variance = core->variance, hysteresis = core->hysteresis;
-    double g[FRICTION_MAX_NODES], mu[FRICTION_MAX_NODES];
     for (size_t p = first; p < last; p++) {
         const node_view view =
             panel_view(scratch, &scratch->grids[scratch->step[p]], p, scratch->from[p]);
-        fill_parts(&view, scale, g, mu);
-        const double rise = weighted(view.rule, g);
+        double rise = 0, full = 0;
+        for (size_t i = 0; i < view.rule->n; i++) {
+            rise += view.rule->weight[i] * view.factor2[i] * view.j2[i];
+            full += view.rule->weight[i] * view.factor1[i] * view.j1[i];
+        }
+        rise *= view.half * scale.g;
         const double square = 1 / (1 + M_PI * (variance + 0.5 * rise)); /* about P^2 */
-        hysteresis += weighted(view.rule, mu) * sqrt(square) *
+        hysteresis += view.half * scale.mu * full * sqrt(square) *
                       (ws->options.gamma + (1 - ws->options.gamma) * square);
         variance += rise;
     }
@@ -328,8 +352,8 @@ static double rough_hysteresis(const wt_friction_workspace *ws, friction_scratch
 
 /* Adds a part, from the nodes in view, to a pass. */
 static void add_part(const wt_friction_workspace *ws, friction_scratch *scratch,
-                     const node_view *view, const pass_part *part, bool with_outside,
-                     friction_record *record, friction_pass *pass)
+                     const node_view *view, const pass_part *part, double log_lowest,
+                     bool with_outside, friction_record *record, friction_pass *pass)
 {
     const size_t n = view->rule->n, place = pass->parts++;
     const double variance = pass->variance + part->variance;
@@ -345,8 +369,8 @@ static void add_part(const wt_friction_workspace *ws, friction_scratch *scratch,
                 part->share[j] * (angular_outside(ws->angular, view->omega[j], j1) / j1);
         }
     pass->variance_error += part->variance_error;
-    add_moved(ws, view->omega, view->j1, view->j2, n, part->variance, part->hysteresis, variance,
-              pass);
+    add_moved(ws, view->log_omega, view->j1, view->j2, n, log_lowest, part->variance,
+              part->hysteresis, variance, pass);
     scratch->error_g[place] = part->variance_error;
     scratch->error_mu[place] = part->hysteresis_error + part->closed_error +
                                moved * part->hysteresis * pass->variance_error;
@@ -403,7 +427,7 @@ void friction_evaluate(const wt_friction_workspace *ws, friction_scratch *scratc
          core_pass(ws, &view, scale, &part))
         view = core_view(ws, scratch, plan, step, level, at);
     *pass = (friction_pass){.level = level};
-    add_part(ws, scratch, &view, &part, with_outside, record, pass);
+    add_part(ws, scratch, &view, &part, at.log_lowest, with_outside, record, pass);
 
     friction_trail *trail = &scratch->trail;
     friction_start *ends = trail->spare;
@@ -443,11 +467,13 @@ void friction_evaluate(const wt_friction_workspace *ws, friction_scratch *scratc
         }
         if (end->step > end->least) {
             const size_t fewer = view.rule->n - ws->rules[end->step - 1]->n;
-            const double worth = pow(node_worth, (double)fewer);
+            double worth = 1;
+            for (size_t i = 0; i < fewer; i++)
+                worth *= node_worth;
             if (is_fine(&part, worth * variance, worth * hysteresis))
                 end->step--;
         }
-        add_part(ws, scratch, &view, &part, with_outside, record, pass);
+        add_part(ws, scratch, &view, &part, at.log_lowest, with_outside, record, pass);
     }
     trail->spare = trail->starts;
     trail->starts = ends;

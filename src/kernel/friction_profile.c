@@ -36,7 +36,7 @@ wt_status wt_friction_profile(wt_friction_workspace *workspace, double pressure,
     if (status != WT_OK || n == 0)
         return status;
 
-    const friction_load at = {.pressure = pressure, .speed = fabs(velocity)};
+    const friction_load at = friction_load_at(workspace, pressure, velocity);
     const double sign = velocity < 0 ? -1 : velocity > 0 ? 1 : 0;
     friction_scratch scratch;
     pool memory = {0};

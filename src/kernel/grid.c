@@ -163,10 +163,12 @@ void grid_init(scale_grid *grid, const panel_plan *plan, const gauss_rule *rule,
     const size_t nodes = plan->capacity * rule->n;
     const size_t core_nodes = (plan->levels + 1) * rule->n;
     *grid = (scale_grid){.rule = rule,
+                         .t = pool_alloc(memory, nodes, sizeof *grid->t),
                          .q = pool_alloc(memory, nodes, sizeof *grid->q),
                          .factor1 = pool_alloc(memory, nodes, sizeof *grid->factor1),
                          .factor2 = pool_alloc(memory, nodes, sizeof *grid->factor2),
                          .half_width = pool_alloc(memory, plan->capacity, sizeof *grid->half_width),
+                         .core_t = pool_alloc(memory, core_nodes, sizeof *grid->core_t),
                          .core_q = pool_alloc(memory, core_nodes, sizeof *grid->core_q),
                          .core_factor1 = pool_alloc(memory, core_nodes, sizeof *grid->core_factor1),
                          .core_factor2 = pool_alloc(memory, core_nodes, sizeof *grid->core_factor2),
@@ -180,9 +182,9 @@ void grid_init(scale_grid *grid, const panel_plan *plan, const gauss_rule *rule,
     grid->core_g = pool_alloc(memory, core_nodes, sizeof *grid->core_g);
 }
 
-/* Fills q and dt/ds (into factor1) on one panel; returns the half width in s. */
+/* Fills t, q and dt/ds (into factor1) on one panel; returns the half width in s. */
 static double place_nodes(const panel_plan *plan, const grid_panel *panel, const gauss_rule *rule,
-                          double *q, double *slope)
+                          double *t, double *q, double *slope)
 {
     const double width = panel->t_high - panel->t_low;
     double s_low = 0, half = 0.5 * width;
@@ -193,7 +195,7 @@ static double place_nodes(const panel_plan *plan, const grid_panel *panel, const
         s_low = sqrt(panel->t_low - panel->anchor);
         half = 0.5 * width / (s_low + sqrt(panel->t_high - panel->anchor));
     }
-    double t[RULE_MOST], less_one[RULE_MOST];
+    double less_one[RULE_MOST];
     for (size_t i = 0; i < rule->n; i++) {
         /* from the low end on: a range may be far shorter than its distance from the anchor */
         const double step = half * (1 + rule->node[i]);
@@ -243,8 +245,8 @@ void grid_fill_panels(scale_grid *grid, const panel_plan *plan, size_t first, si
         const size_t n = grid->rule->n, at = p * n;
         if (grid->half_width[p] > 0)
             continue;
-        grid->half_width[p] =
-            place_nodes(plan, &plan->panels[p], grid->rule, grid->q + at, grid->factor1 + at);
+        grid->half_width[p] = place_nodes(plan, &plan->panels[p], grid->rule, grid->t + at,
+                                          grid->q + at, grid->factor1 + at);
         weigh_nodes(roughness, layer, n, grid->q + at, grid->factor1 + at, grid->factor2 + at);
         if (plan->softening != NULL)
             softening_at(plan->softening, grid->q + at, n, grid->f + at, grid->g + at);
@@ -257,8 +259,9 @@ void grid_fill_core(scale_grid *grid, const panel_plan *plan, size_t level,
     const size_t n = grid->rule->n, at = level * n;
     if (grid->core_half_width[level] > 0)
         return;
-    grid->core_half_width[level] = place_nodes(plan, &plan->core[level], grid->rule,
-                                               grid->core_q + at, grid->core_factor1 + at);
+    grid->core_half_width[level] =
+        place_nodes(plan, &plan->core[level], grid->rule, grid->core_t + at, grid->core_q + at,
+                    grid->core_factor1 + at);
     weigh_nodes(roughness, layer, n, grid->core_q + at, grid->core_factor1 + at,
                 grid->core_factor2 + at);
     if (plan->softening != NULL)

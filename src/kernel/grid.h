@@ -53,10 +53,10 @@ void panel_plan_lay(panel_plan *plan, const wt_roughness *roughness, const doubl
  * int k^3 C J1 s dk -> sum of half_width weight factor1 J1, with s^2 in factor2. */
 typedef struct scale_grid {
     const gauss_rule *rule;
-    double *q, *factor1, *factor2;                /* [capacity * n] */
-    double *half_width;                           /* [capacity] 0: not made yet */
-    double *core_q, *core_factor1, *core_factor2; /* [(levels + 1) * n] */
-    double *core_half_width;                      /* [levels + 1] likewise */
+    double *t, *q, *factor1, *factor2;                     /* [capacity * n] */
+    double *half_width;                                    /* [capacity] 0: not made yet */
+    double *core_t, *core_q, *core_factor1, *core_factor2; /* [(levels + 1) * n] */
+    double *core_half_width;                               /* [levels + 1] likewise */
     /* at the same nodes, NULL without a softening */
     double *f, *g, *core_f, *core_g;
 } scale_grid;

@@ -12,7 +12,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { REGISTER = 4, TOP_ROOM = 8 };
+enum { REGISTER = 4 };
 typedef double wide __attribute__((vector_size(REGISTER * sizeof(double))));
 
 /* P_0(x) ... P_n(x). */
@@ -48,7 +48,7 @@ static void fill_running(gauss_rule *rule)
             row[j] *= rule->weight[i];
         for (size_t k = 0; k < RULE_TOP; k++) {
             const size_t degree = n + k - RULE_TOP; /* those below 0 are left out */
-            rule->top[i * TOP_ROOM + k] =
+            rule->top[i * RULE_TOP_ROOM + k] =
                 n + k < RULE_TOP ? 0 : rule->weight[i] * ((double)degree + 0.5) * p[i][degree];
         }
     }
@@ -94,20 +94,50 @@ double rule_running(const gauss_rule *rule, const double *f, double *running)
     return sum;
 }
 
-double rule_error(const gauss_rule *rule, const double *f, rule_fall kind)
+/* Without a store in between. */
+WIDE_REGISTERS
+static void tops(const double *restrict top, size_t n, const double *restrict f,
+                 const double *restrict g, double *restrict of_f, double *restrict of_g)
+{
+    wide f_low = {0}, f_high = {0}, g_low = {0}, g_high = {0}, low, high;
+    for (size_t i = 0; i < n; i++) {
+        memcpy(&low, top + i * RULE_TOP_ROOM, sizeof low);
+        memcpy(&high, top + i * RULE_TOP_ROOM + REGISTER, sizeof high);
+        f_low += low * f[i];
+        f_high += high * f[i];
+        g_low += low * g[i];
+        g_high += high * g[i];
+    }
+    memcpy(of_f, &f_low, sizeof f_low);
+    memcpy(of_f + REGISTER, &f_high, sizeof f_high);
+    memcpy(of_g, &g_low, sizeof g_low);
+    memcpy(of_g + REGISTER, &g_high, sizeof g_high);
+}
+
+void rule_tops(const gauss_rule *rule, const double *f, const double *g, rule_top *of_f,
+               rule_top *of_g)
+{
+    tops(rule->top, rule->n, f, g, of_f->coefficient, of_g->coefficient);
+}
+
+double rule_error(const gauss_rule *rule, const rule_top *top, rule_fall kind)
 {
     const size_t n = rule->n;
-    double pair[RULE_TOP / 2] = {0}, coefficient[TOP_ROOM] = {0};
-    add_columns(rule->top, TOP_ROOM, n, f, coefficient);
+    const double *const coefficient = top->coefficient;
+    double pair[RULE_TOP / 2] = {0};
     for (size_t k = 0; k < RULE_TOP; k++)
         pair[k / 2] = larger(pair[k / 2], fabs(coefficient[k]));
     const bool has_three = n >= RULE_TOP;
     if (!(pair[2] < pair[1]) || (has_three && !(pair[1] < pair[0])))
         return 0.1 * caution * larger(pair[1], pair[2]);
     const double last_rate = pair[2] / pair[1];
-    double rate = sqrt(has_three && kind == FALL_SMOOTH ? sqrt(pair[2] / pair[0])
-                       : has_three                      ? larger(last_rate, pair[1] / pair[0])
-                                                        : last_rate);
+    double rate;
+    if (has_three && kind == FALL_SMOOTH) {
+        const double least = fastest[kind] * fastest[kind], both = pair[2] / pair[0];
+        rate = both > least * least ? sqrt(sqrt(both)) : fastest[kind];
+    } else {
+        rate = sqrt(has_three ? larger(last_rate, pair[1] / pair[0]) : last_rate);
+    }
     const bool steep = kind == FALL_STEEP || (kind == FALL_LAW && rate > fastest[kind]);
     double last = larger(fabs(coefficient[RULE_TOP - 1]), fabs(coefficient[RULE_TOP - 2]) * rate);
     if (has_three)
@@ -125,8 +155,8 @@ wt_status rule_new(size_t n, pool *memory, gauss_rule **rule, wt_error *err)
     gsl_quiet();
     wt_status status = WT_OK;
     const size_t room = (n + REGISTER - 1) / REGISTER * REGISTER;
-    gauss_rule *made =
-        pool_alloc(memory, 1, sizeof *made + n * (room + 2 + TOP_ROOM) * sizeof *made->numbers);
+    gauss_rule *made = pool_alloc(
+        memory, 1, sizeof *made + n * (room + 2 + RULE_TOP_ROOM) * sizeof *made->numbers);
     gsl_integration_glfixed_table *table = gsl_integration_glfixed_table_alloc(n);
     if (made == NULL || table == NULL) {
         status = wt_fail(err, WT_E_MEMORY, "out of memory for a quadrature rule");

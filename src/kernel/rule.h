@@ -14,11 +14,12 @@ typedef struct gauss_rule {
     double *node;    /* [n], rising */
     double *weight;  /* [n] */
     double *running; /* [n * room], row i: int from -1 to node[j] of the i-th Lagrange polynomial */
-    double *top;     /* [n * 8], column k: weights of the Legendre coefficient n - RULE_TOP + k */
+    double *top;     /* [n * RULE_TOP_ROOM], column k: weights of the Legendre coefficient
+                        n - RULE_TOP + k */
     double numbers[];
 } gauss_rule;
 
-enum { RULE_MOST = 32, RULE_TOP = 6 };
+enum { RULE_MOST = 32, RULE_TOP = 6, RULE_TOP_ROOM = 8 };
 /* n must be one of the sizes that GSL tabulates to full precision: 2 to 20, or 32. */
 wt_status rule_new(size_t n, pool *memory, gauss_rule **rule, wt_error *err) WT_NODISCARD;
 
@@ -30,8 +31,15 @@ typedef enum rule_fall {
     FALL_LAW,    /* the same if they fall fast, else steep: singular points may be closer */
     FALL_STEEP   /* like a power of the degree: too steep for the rule to tell */
 } rule_fall;
+/* The last Legendre coefficients of an integrand. */
+typedef struct rule_top {
+    double coefficient[RULE_TOP_ROOM];
+} rule_top;
+/* Of two integrands at a time. */
+void rule_tops(const gauss_rule *rule, const double *f, const double *g, rule_top *of_f,
+               rule_top *of_g);
 /* Error of sum_i weight[i] f[i] for an integral from -1 to 1, by how the Legendre coefficients
  * fall: the rule is exact up to twice the degree of the last one. */
-double rule_error(const gauss_rule *rule, const double *f, rule_fall kind);
+double rule_error(const gauss_rule *rule, const rule_top *top, rule_fall kind);
 
 #endif

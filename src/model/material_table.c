@@ -45,6 +45,7 @@ static const wt_material_law table_law = {
     .modulus = table_modulus,
     .breaks = table_breaks,
     .free = material_free_data,
+    .power_below = true,
 };
 
 static wt_status table_check(const double *omega, const double *storage, const double *loss,

@@ -44,8 +44,11 @@ static wt_status solve_series(void *problem, double value, wt_error *err)
     if (status == WT_OK)
         status = angular_cover(law, p->w[0], p->w[PLACES - 1], err);
     if (status == WT_OK) {
-        angular_eval(law, p->w, PLACES, p->found[0], p->found[1]);
-        p->stated = angular_error(law, p->w[0], p->w[PLACES - 1]);
+        double x[PLACES];
+        for (int i = 0; i < PLACES; i++)
+            x[i] = log(p->w[i]);
+        angular_eval(law, p->w, x, PLACES, p->found[0], p->found[1]);
+        p->stated = angular_error(law, x[0], x[PLACES - 1]);
         angular_clear(law);
     }
     pool_free(&memory);
