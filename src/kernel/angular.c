@@ -57,7 +57,6 @@ struct angular_law {
     double panels_low, panels_high;
     double limit[2];    /* of the range backed by data; NaN = none */
     series_list pieces; /* rising, without gaps */
-    double worst;       /* error of these */
     double cosine[2 * LONG_DEGREE];
 };
 
@@ -315,9 +314,6 @@ wt_status angular_cover(angular_law *angular, double w_min, double w_max, wt_err
     }
     free(angular->pieces.items);
     angular->pieces = made;
-    angular->worst = 0;
-    for (size_t i = 0; i < made.n; i++)
-        angular->worst = fmax(angular->worst, made.items[i].error);
     return WT_OK;
 }
 
@@ -422,8 +418,6 @@ void angular_eval(const angular_law *angular, const double *w, const double *x, 
 double angular_error(const angular_law *angular, double x_min, double x_max)
 {
     const series_list *pieces = &angular->pieces;
-    if (angular->worst <= 2 * angular->goal)
-        return angular->worst;
     double error = 0;
     for (size_t i = piece_at(pieces, x_min); i < pieces->n && pieces->items[i].low <= x_max; i++)
         error = fmax(error, pieces->items[i].error);

@@ -36,32 +36,43 @@ static double change(const double *a, const double *b)
 }
 
 typedef struct edge_list {
-    size_t n, capacity;
-    double *edge; /* NULL: they are counted alone */
+    size_t n;
+    double *edge, *largest; /* NULL: they are counted alone */
 } edge_list;
 
-static void add_edges(edge_list *list, double from, double to, double by)
+/* Those of a panel or of its parts, up to an edge where the largest logarithm so far is given. */
+static void add_edges(edge_list *list, double from, double to, double by, double largest)
 {
     const double parts = ceil(fmax((to - from) / widest, by / steepest));
     const size_t n = parts > 1 ? (size_t)fmin(parts, 1e6) : 1;
-    for (size_t i = 1; i <= n; i++) {
-        if (list->edge != NULL)
+    for (size_t i = 1; i <= n; i++, list->n++)
+        if (list->edge != NULL) {
             list->edge[list->n] = i < n ? from + (to - from) * (double)i / (double)n : to;
-        list->n++;
-    }
+            list->largest[list->n] = largest;
+        }
+}
+
+static double larger_log(double largest, const double e[2])
+{
+    for (size_t i = 0; i < 2; i++)
+        if (isfinite(e[i]))
+            largest = fmax(largest, fabs(e[i]));
+    return largest;
 }
 
 /* From `first` to `last`, cut at whole multiples of `widest` and at the knots. */
-static void lay_edges(const wt_material *material, double first, double last, edge_list *list,
-                      double *largest)
+static void lay_edges(const wt_material *material, double first, double last, edge_list *list)
 {
     size_t n_breaks = 0, k = 0;
     const double *breaks =
         material->law->breaks != NULL ? material->law->breaks(material, &n_breaks) : NULL;
     double x = first, e[2], next_e[2];
     logs_at(material, x, e);
-    if (list->edge != NULL)
+    double largest = larger_log(0, e);
+    if (list->edge != NULL) {
         list->edge[0] = first;
+        list->largest[0] = largest;
+    }
     list->n = 1;
     while (x < last) {
         double next = fmin((floor(x / widest + 1e-9) + 1) * widest, last);
@@ -70,13 +81,11 @@ static void lay_edges(const wt_material *material, double first, double last, ed
         if (k < n_breaks)
             next = fmin(next, log(breaks[k]));
         logs_at(material, next, next_e);
-        add_edges(list, x, next, change(e, next_e));
+        largest = larger_log(largest, next_e);
+        add_edges(list, x, next, change(e, next_e), largest);
         x = next;
-        for (size_t i = 0; i < 2; i++) {
-            e[i] = next_e[i];
-            if (isfinite(e[i]))
-                *largest = fmax(*largest, fabs(e[i]));
-        }
+        e[0] = next_e[0];
+        e[1] = next_e[1];
     }
 }
 
@@ -170,20 +179,19 @@ wt_status angular_panels_new(const wt_material *material, const gauss_rule *rule
     const double *breaks =
         material->law->breaks != NULL ? material->law->breaks(material, &n_breaks) : NULL;
     const bool is_power = n_breaks > 0 && material->law->power_below;
-    double begin = floor(log(low) / stride) * stride;
-    if (is_power)
+    double begin = log(low);
+    if (n_breaks > 0)
         begin = fmin(begin, log(breaks[0]));
-    else if (n_breaks > 0)
-        begin = fmin(begin, floor(log(breaks[0]) / stride) * stride);
-    const double first = fmax(begin - (is_power ? shallow : deep), log(DBL_MIN) + 1);
+    const double first =
+        fmax(floor(begin / stride) * stride - (is_power ? shallow : deep), log(DBL_MIN) + 1);
     angular_panels a = {.material = material, .rule = rule};
     /* c^(2m) is 4^-m */
     a.terms = 2 + (size_t)ceil(-log(fmin(fmax(goal, 1e-16), 0.1)) / (2 * M_LN2));
     edge_list list = {0};
-    lay_edges(material, first, log(high), &list, &a.largest);
+    lay_edges(material, first, log(high), &list);
     a.n = list.n - 1;
     const size_t nodes = a.n * PANEL_NODES, sums = (a.n + 1) * a.terms;
-    a.numbers = calloc(4 * (a.n + 1) + 3 * nodes + 2 * sums, sizeof *a.numbers);
+    a.numbers = calloc(5 * (a.n + 1) + 3 * nodes + 2 * sums, sizeof *a.numbers);
     if (a.numbers == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory for the angular integrals");
     a.edge = list.edge = a.numbers;
@@ -195,7 +203,8 @@ wt_status angular_panels_new(const wt_material *material, const gauss_rule *rule
     a.below[1] = a.below[0] + sums;
     a.moved[0] = a.below[1] + sums;
     a.moved[1] = a.moved[0] + a.n + 1;
-    lay_edges(material, first, log(high), &list, &a.largest);
+    a.largest = list.largest = a.moved[1] + a.n + 1;
+    lay_edges(material, first, log(high), &list);
     start_sums(&a);
     for (size_t p = 0; p < a.n; p++)
         evaluate(&a, p);
@@ -301,11 +310,15 @@ void angular_panels_integrate(const angular_panels *panels, double w, double *j1
 double angular_panels_error(const angular_panels *panels, double w, double j1, double j2)
 {
     const angular_panels *a = panels;
-    const size_t edge = edge_before(a, log(w) - widest);
+    const double x = log(w);
+    const size_t edge = edge_before(a, x - widest);
+    double e[2];
+    logs_at(a->material, x, e);
+    const double largest = larger_log(a->largest[edge_before(a, x)], e);
     const double start = a->edge_omega[0] / w, c = a->edge_omega[edge] / w;
     const double kernel = 4 * c / sqrt((1 - c) * (1 + c)); /* at the edge, and less below it */
     const double error1 = 4 * a->start_error[0] * start * start + kernel * c * a->moved[0][edge];
     const double error2 = 4 * a->start_error[1] * start + kernel * a->moved[1][edge];
     return fmax(j1 > 0 ? error1 / j1 : 0, j2 > 0 ? error2 / j2 : 0) + pow(4, -(double)a->terms) +
-           8 * DBL_EPSILON + 2 * DBL_EPSILON * (4 + a->largest);
+           8 * DBL_EPSILON + 2 * DBL_EPSILON * (4 + largest);
 }

@@ -25,7 +25,7 @@ typedef struct angular_panels {
     double *omega;         /* [n * PANEL_NODES] */
     double *value[2];      /* [n * PANEL_NODES] F1 and F2 times weight and width */
     double *below[2];      /* [(n + 1) * terms] int_-inf^edge F (omega / edge)^(2m + s) */
-    double largest;        /* |ln E'| and |ln E''| */
+    double *largest;       /* [n + 1] |ln E'| and |ln E''| at the edges so far */
     double start_error[2]; /* of `below` at the first edge, m = 0 */
     double *moved[2];      /* [n + 1] error of `below`, m = 0, from the rounding of ln omega */
     double *numbers;       /* all of them */

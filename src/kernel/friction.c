@@ -307,17 +307,19 @@ static void compute_point(const compute_job *job, friction_scratch *scratch, dou
     const panel_plan *plan = friction_plan(ws, scratch, at.speed, NULL, 0);
     friction_effort effort = {.share = FRICTION_SHARE};
     friction_pass pass;
+    friction_relative relative;
+    double error_g, error_mu;
     /* again where what many panels leave adds up */
-    for (int tries = 0; tries < 3; tries++) {
+    for (int tries = 0; tries < 4; tries++) {
         friction_evaluate(ws, scratch, plan, effort, at, with_share(ws), NULL, &pass);
-        if (pass.variance_error <= tolerance * pass.variance &&
-            pass.hysteresis_error <= tolerance * pass.hysteresis)
+        relative = friction_relative_error(ws, &pass);
+        error_g = relative.variance * pass.variance + pass.variance_error;
+        error_mu = relative.hysteresis * pass.hysteresis + pass.hysteresis_error;
+        if (!(error_g > tolerance * pass.variance && relative.variance < tolerance) &&
+            !(error_mu > tolerance * pass.hysteresis && relative.hysteresis < tolerance))
             break;
-        effort.share /= 16;
+        effort.share /= 4;
     }
-    const friction_relative relative = friction_relative_error(ws, &pass);
-    const double error_g = relative.variance * pass.variance + pass.variance_error;
-    const double error_mu = relative.hysteresis * pass.hysteresis + pass.hysteresis_error;
     const double area = contact_area(pass.variance);
     const double error_area = friction_area_error(pass.variance, error_g);
     point->velocity = velocity;

@@ -46,12 +46,13 @@ static void check_cell(const wt_table *table, size_t row, const char *column, do
 {
     char change[64];
     const double used = number_cell(table, 0, column), cell = number_cell(table, row, column);
-    if (cell < value || cell > value || isnan(cell))
+    /* the velocity alone is that among others but for digits below the error */
+    if (!(fabs(cell / value - 1) <= 1e-12))
         fail_msg("row %zu (%s %s), %s: %.17g, a single run gives %.17g", row,
                  text_cell(table, row, "choice"), text_cell(table, row, "tried"), column, cell,
                  value);
     snprintf(change, sizeof change, "%s_change", column);
-    assert_near(number_cell(table, row, change), value / used - 1, 1e-12);
+    assert_true(fabs(number_cell(table, row, change) - (value / used - 1)) <= 2e-12);
 }
 
 /* What the settings as they are now give in single runs. */
