@@ -197,7 +197,11 @@ WT_API size_t wt_parselog_lost(const wt_parselog *log);
     X(WT_Q_RATE, "rate", "1/s", "rate")                                                            \
     X(WT_Q_DATA_SIZE, "data_size", "byte", "size of a file")                                       \
     X(WT_Q_SHEAR_COMPLEX_MODULUS, "shear_complex_modulus", "Pa",                                   \
-      "absolute value of the complex shear modulus")
+      "absolute value of the complex shear modulus")                                               \
+    X(WT_Q_DEFLECTION_NOISE, "deflection_noise", "m^2/Hz", "power spectral density of deflection") \
+    X(WT_Q_VOLTAGE_NOISE, "voltage_noise", "V^2/Hz", "power spectral density of the detector")     \
+    X(WT_Q_VOLTAGE_DENSITY, "voltage_density", "V.Hz^-0.5",                                        \
+      "amplitude spectral density of the detector")
 
 typedef enum wt_quantity {
 #define WT_QUANTITY_ENUM(name, id, unit, text) name,

@@ -185,6 +185,25 @@ typedef struct wt_power_spectrum {
 } wt_power_spectrum;
 WT_API void wt_power_spectrum_clear(wt_power_spectrum *spectrum);
 
+/* ---- thermal noise ------------------------------------------------------------------------ */
+
+/* One-sided power spectrum of the deflection of a lever at rest, and what the instrument says of
+ * it; NaN: nothing. */
+typedef struct wt_noise_spectrum {
+    bool volts; /* of the detector, else deflection in metres */
+    size_t n;
+    double *frequency;         /* [n] Hz, rising */
+    double *density;           /* [n] m^2/Hz or V^2/Hz; NaN: not measured */
+    double averages;           /* spectra that were averaged */
+    double temperature;        /* [K] */
+    double spring_constant;    /* [N/m] */
+    double resonance, quality; /* [Hz], 1 */
+    double sensitivity;        /* [m/V] */
+    bool amplitudes;           /* the file holds square roots, whose squares these are */
+    uint64_t reserved[8];
+} wt_noise_spectrum;
+WT_API void wt_noise_spectrum_clear(wt_noise_spectrum *spectrum);
+
 /* ---- Prony series ------------------------------------------------------------------------- */
 
 /* M(w) = equilibrium + sum_k modulus[k] i w tau[k] / (1 + i w tau[k]) at one temperature. */

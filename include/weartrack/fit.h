@@ -401,6 +401,28 @@ WT_API double wt_student(double freedom);
 WT_API wt_interval wt_student_mean(const double *values, const long *units, size_t n,
                                    size_t *n_units);
 
+/* ---- thermal noise of a lever ---------------------------------------------------------------- */
+
+/* A simple harmonic oscillator on a white floor: S(f) = floor + 2 mean_square f0^3 / (pi Q) /
+ * ((f0^2 - f^2)^2 + (f f0 / Q)^2), one-sided. Intervals are of 95 %, normal in the logarithm. */
+typedef struct wt_thermal {
+    bool found;
+    wt_interval mean_square; /* of the oscillator over all frequencies [density Hz] */
+    wt_interval resonance;   /* f0 [Hz] */
+    wt_interval quality;     /* Q */
+    double floor;            /* [density] */
+    double from, to;         /* range that was fitted [Hz] */
+    size_t n;                /* points in it */
+    double averages;         /* spectra averaged, as the scatter about the fit tells */
+    double chance;           /* of as much slow departure from the oscillator by scatter alone */
+    const char *why_not;     /* "", or why there is none; static */
+} wt_thermal;
+/* Maximum likelihood of an averaged periodogram: frequencies [Hz] rising, densities [unit^2/Hz];
+ * points without a positive density are left out. from and to [Hz]: NaN = about the peak. */
+WT_API wt_status wt_thermal_fit(const double *frequency, const double *density, size_t n,
+                                double from, double to, wt_thermal *thermal,
+                                wt_error *err) WT_NODISCARD;
+
 /* ---- master curve: one spectrum behind all isotherms ----------------------------------------- */
 
 typedef enum wt_vertical_shift {

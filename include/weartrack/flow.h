@@ -183,6 +183,24 @@ WT_API void wt_sensitivity_tables_clear(wt_sensitivity_tables *tables);
 WT_API wt_status wt_sensitivity_make(const wt_sensitivity_job *job, const wt_job *work,
                                      wt_sensitivity_tables *tables, wt_error *err) WT_NODISCARD;
 
+/* Spring constant of a lever by the spectrum of its thermal noise: k = mode_shape / chi^2 k_B T /
+ * <d^2>, d the deflection by the sensitivity of curves on a hard surface. */
+typedef struct wt_thermal_job {
+    const wt_file_set *sets; /* read.sensitivity [m/V] for spectra in volts that say none */
+    size_t n_sets;
+    wt_estimate temperature;  /* of the lever [K]; NaN: of the file, else 25 degC with a warning */
+    double sensitivity_error; /* relative */
+    double mode_shape;        /* share of the first mode in the thermal energy of the deflection */
+    double chi;               /* sensitivity of the free lever over that on a surface */
+    double from, to;          /* range of the fit [Hz]; NaN: about the peak */
+    uint64_t reserved[6];
+} wt_thermal_job;
+WT_API wt_thermal_job wt_thermal_job_defaults(void);
+WT_API const wt_params *wt_thermal_job_params(void);
+/* Table "thermal". WT_E_EMPTY if no file has a spectrum. */
+WT_API wt_status wt_thermal_make(const wt_thermal_job *job, const wt_job *work, wt_table **table,
+                                 wt_error *err) WT_NODISCARD;
+
 /* What was measured on a curve as one number; 0 = too little for that. */
 typedef struct wt_curve_digest {
     uint64_t digest;

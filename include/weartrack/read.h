@@ -37,7 +37,8 @@ WT_API wt_status wt_input_peek(wt_input *input, size_t want, const unsigned char
 #define WT_KIND_FORCE 1u    /* force curves */
 #define WT_KIND_SWEEP 2u    /* DMA sweeps */
 #define WT_KIND_IMAGE 4u    /* topography and other images */
-#define WT_KIND_SPECTRUM 8u /* power spectra */
+#define WT_KIND_SPECTRUM 8u /* power spectra of surfaces */
+#define WT_KIND_NOISE 16u   /* spectra of the thermal noise of a lever */
 
 typedef struct wt_format_info {
     const char *id;       /* "jpk", "trios-lims" */
@@ -138,6 +139,10 @@ WT_API wt_status wt_images_read(const wt_formats *formats, wt_input *input,
 WT_API wt_status wt_power_spectrum_read(const wt_formats *formats, wt_input *input,
                                         const wt_read_options *options, wt_parselog *log,
                                         wt_power_spectrum *spectrum, wt_error *err) WT_NODISCARD;
+/* The thermal noise of a lever; amplitude densities are squared. */
+WT_API wt_status wt_noise_read(const wt_formats *formats, wt_input *input,
+                               const wt_read_options *options, wt_parselog *log,
+                               wt_noise_spectrum *spectrum, wt_error *err) WT_NODISCARD;
 /* What a file is, for `weartrack info`: rows of (item, value, unit, source), all text. */
 WT_API wt_status wt_describe(const wt_formats *formats, wt_input *input,
                              const wt_read_options *options, wt_parselog *log, wt_table **facts,

@@ -47,18 +47,31 @@ typedef struct unit_words {
 
 static const unit_words *words(wt_quantity quantity)
 {
-    static const unit_words by_unit[] = {
-        {"1", "0.5", 1e30},          {"s", "10s", 1e30},
-        {"m", "250nm", 1e6},         {"V", "1.5V", 1e6},
-        {"N", "20nN", 1e9},          {"rad", "35deg", 1e6},
-        {"Hz", "10Hz", 1e30},        {"rad/s", "63rad/s", 1e30},
-        {"Pa", "0.4MPa", 1e15},      {"rad/m", "1e6rad/m", 1e15},
-        {"m^4", "1e-30m^4", 1e12},   {"m^3", "1e-24m^3", 1e12},
-        {"m/s", "1mm/s", 1e9},       {"N/m", "0.3N/m", 1e9},
-        {"m/V", "50nm/V", 1e3},      {"m^2/N", "1e-4mm^3/(N m)", 1e3},
-        {"J/m^3", "1e5J/m^3", 1e30}, {"W/m^3", "1e9W/m^3", 1e30},
-        {"1/s", "0.1s^-1", 1e30},    {"byte", "1000byte", 1e30},
-        {"K", "20degC", 1e5},        {"m.Hz^-0.5", "1e-12m/sqrt(Hz)", 1}};
+    static const unit_words by_unit[] = {{"1", "0.5", 1e30},
+                                         {"s", "10s", 1e30},
+                                         {"m", "250nm", 1e6},
+                                         {"V", "1.5V", 1e6},
+                                         {"N", "20nN", 1e9},
+                                         {"rad", "35deg", 1e6},
+                                         {"Hz", "10Hz", 1e30},
+                                         {"rad/s", "63rad/s", 1e30},
+                                         {"Pa", "0.4MPa", 1e15},
+                                         {"rad/m", "1e6rad/m", 1e15},
+                                         {"m^4", "1e-30m^4", 1e12},
+                                         {"m^3", "1e-24m^3", 1e12},
+                                         {"m/s", "1mm/s", 1e9},
+                                         {"N/m", "0.3N/m", 1e9},
+                                         {"m/V", "50nm/V", 1e3},
+                                         {"m^2/N", "1e-4mm^3/(N m)", 1e3},
+                                         {"J/m^3", "1e5J/m^3", 1e30},
+                                         {"W/m^3", "1e9W/m^3", 1e30},
+                                         {"1/s", "0.1s^-1", 1e30},
+                                         {"byte", "1000byte", 1e30},
+                                         {"K", "20degC", 1e5},
+                                         {"m.Hz^-0.5", "1e-12m/sqrt(Hz)", 1},
+                                         {"m^2/Hz", "1e-26m^2/Hz", 1},
+                                         {"V^2/Hz", "1e-10V^2/Hz", 1e6},
+                                         {"V.Hz^-0.5", "1e-5V/sqrt(Hz)", 1e3}};
     size_t i = 0;
     while (strcmp(by_unit[i].unit, wt_quantity_unit(quantity)) != 0)
         i++;

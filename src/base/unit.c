@@ -272,10 +272,11 @@ wt_status wt_unit_to_si(const char *unit, wt_quantity quantity, double *factor, 
         return WT_E_INTERNAL;
     }
     const visit before = enter();
-    if (quantity == WT_Q_SPECTRAL_DENSITY) {
-        char length[UNIT_MAX];
-        memcpy(length, text, sizeof length);
-        good = strip_root_hertz(length) && convert(length, "m", &f, &o);
+    if (quantity == WT_Q_SPECTRAL_DENSITY || quantity == WT_Q_VOLTAGE_DENSITY) {
+        char amplitude[UNIT_MAX];
+        memcpy(amplitude, text, sizeof amplitude);
+        good = strip_root_hertz(amplitude) &&
+               convert(amplitude, quantity == WT_Q_SPECTRAL_DENSITY ? "m" : "V", &f, &o);
     } else {
         good = convert(text, si, &f, &o);
         /* A spatial frequency per cycle would be cycles/m, so 1/m can only mean rad/m. */

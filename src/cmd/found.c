@@ -41,6 +41,7 @@ static const struct {
     unsigned kind;    /* that a file with this item has; 0: any */
     const char *next; /* what to do with it if it is the first; NULL: by its kind */
 } telling[] = {{"curves", WT_KIND_FORCE, NULL},
+               {"thermal noise", WT_KIND_NOISE, "thermal"},
                {"spring constant", 0, NULL},
                {"deflection sensitivity", 0, NULL},
                {"isotherms", WT_KIND_SWEEP, NULL},

@@ -3,6 +3,15 @@
 
 #include <stdlib.h>
 
+void wt_noise_spectrum_clear(wt_noise_spectrum *spectrum)
+{
+    if (spectrum == NULL)
+        return;
+    free(spectrum->frequency);
+    free(spectrum->density);
+    *spectrum = (wt_noise_spectrum){.n = 0};
+}
+
 void wt_power_spectrum_clear(wt_power_spectrum *spectrum)
 {
     if (spectrum == NULL)

@@ -181,6 +181,8 @@ static const char *kind_words(unsigned kinds)
         return "images";
     case WT_KIND_SPECTRUM:
         return "power spectra";
+    case WT_KIND_NOISE:
+        return "spectra of thermal noise";
     default:
         return "data of the kind asked for";
     }

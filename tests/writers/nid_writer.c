@@ -31,7 +31,8 @@ static void put_main(const nid_writer_file *f, FILE *out)
     fprintf(out, "SetInfos=DataSet-Info\r\nInfoSetCount=0\r\n\r\n");
     const char *degree = f->latin1 ? "\260" : "\302\260";
     fprintf(out, "[DataSet-Info]\r\n-- Scan --=--------\r\nX-Slope=0 %s\r\n", degree);
-    fprintf(out, "Head type=TEST-AFM\r\nSoftware ver.=3.10.0.0\r\nDate=01-02-2030\r\n\r\n");
+    fprintf(out, "Head type=TEST-AFM\r\nSoftware ver.=3.10.0.0\r\nDate=01-02-2030\r\n%s\r\n",
+            f->info != NULL ? f->info : "");
 }
 
 static void put_calibration(const nid_writer_file *f, FILE *out)

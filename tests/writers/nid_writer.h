@@ -30,6 +30,7 @@ typedef struct nid_writer_file {
     const char *path;
     size_t n_groups;
     const nid_writer_group *groups;
+    const char *info;                              /* further lines of [DataSet-Info], or NULL */
     bool latin1;                                   /* of the header, else UTF-8 */
     double spring_constant;                        /* [N/m]; NaN: no cantilever section */
     double deflection_range_m, deflection_range_v; /* full scales; NaN: no scan head section */

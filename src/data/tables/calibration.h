@@ -71,4 +71,45 @@
     X(SENSITIVITY_KEY_N_CURVES, "n_curves", PLAIN)                                                 \
     X(SENSITIVITY_KEY_N_LEFT_OUT, "n_left_out", PLAIN)
 
+/* A lever in each row. */
+#define THERMAL_COLUMNS(X)                                                                         \
+    X(THERMAL_FILE, "file", "file of the spectrum", TEXT, LABEL("File"))                           \
+    NUMBER_AND_INTERVAL(X, THERMAL_SPRING_CONSTANT, "spring_constant", "spring constant",          \
+                        SI(SPRING_CONSTANT), "Spring constant")                                    \
+    X(THERMAL_FIT_ERROR, "fit_error", "standard error by the scatter of the spectrum, of it",      \
+      NUMBER, LABEL("Of it by the fit"), DIGITS(2), SPARSE)                                        \
+    NUMBER_AND_INTERVAL(X, THERMAL_RESONANCE, "resonance", "resonance", SI(FREQUENCY),             \
+                        "Resonance")                                                               \
+    NUMBER_AND_INTERVAL(X, THERMAL_QUALITY, "quality_factor", "quality factor", NUMBER,            \
+                        "Quality factor")                                                          \
+    X(THERMAL_DEFLECTION, "deflection", "root mean square of the deflection as measured",          \
+      SI(DEFLECTION), LABEL("Deflection"), SPARSE)                                                 \
+    X(THERMAL_FLOOR, "floor", "density of the white floor", SI(SPECTRAL_DENSITY), SPARSE)          \
+    X(THERMAL_TEMPERATURE, "temperature", "temperature of the lever", SI(TEMPERATURE),             \
+      LABEL("Temperature"))                                                                        \
+    X(THERMAL_OF_FILE, "spring_constant_of_file", "spring constant that the file says",            \
+      SI(SPRING_CONSTANT), LABEL("Of the file"), SPARSE)                                           \
+    X(THERMAL_RATIO, "ratio", "spring constant over that of the file", NUMBER, LABEL("Ratio"),     \
+      SPARSE)                                                                                      \
+    X(THERMAL_FROM, "fit_from", "range of the fit", SI(FREQUENCY), SPARSE)                         \
+    X(THERMAL_TO, "fit_to", "its end", SI(FREQUENCY), SPARSE)                                      \
+    X(THERMAL_POINTS, "points", "points in it", NUMBER)                                            \
+    X(THERMAL_AVERAGES, "averages", "averages as the scatter about the fit tells", NUMBER, SPARSE) \
+    X(THERMAL_AVERAGES_OF_FILE, "averages_of_file", "averages that the file says", NUMBER, SPARSE) \
+    X(THERMAL_CHANCE, "misfit_chance",                                                             \
+      "chance of as much slow departure from the oscillator by scatter alone", NUMBER, DIGITS(2),  \
+      SPARSE)                                                                                      \
+    X(THERMAL_NOTE, "note", "why there is no spring constant, or what it lacks", TEXT,             \
+      LABEL("Note"))
+#define THERMAL_KEYS(X)                                                                            \
+    X(THERMAL_KEY_SPRING_CONSTANT, "spring_constant", SI(SPRING_CONSTANT),                         \
+      HEADLINE("Spring constant by thermal noise"), OPTIONAL)                                      \
+    X(THERMAL_KEY_SCATTER, "scatter", PLAIN, OPTIONAL)                                             \
+    X(THERMAL_KEY_MODE_SHAPE, "mode_shape", PLAIN)                                                 \
+    X(THERMAL_KEY_CHI, "chi", PLAIN)                                                               \
+    X(THERMAL_KEY_INCLUDES, "includes", TEXT)                                                      \
+    X(THERMAL_KEY_INDENT, "indent_option", TEXT, OPTIONAL)                                         \
+    X(THERMAL_KEY_COMPARE, "compare_option", TEXT, OPTIONAL)                                       \
+    X(THERMAL_KEY_N_SPECTRA, "n_spectra", PLAIN)
+
 #endif

@@ -58,6 +58,7 @@
     X(sensitivity, SENSITIVITY, "sensitivity", "Deflection sensitivity", "sensitivity")            \
     X(sensitivity_curves, SENSITIVITY_CURVES, "sensitivity_curves",                                \
       "Deflection sensitivity of every curve", "sensitivity")                                      \
+    X(thermal, THERMAL, "thermal", "Spring constant by thermal noise", "thermal")                  \
     X(modulus_groups, MODULUS_GROUPS, "modulus_groups", "Modulus of the groups", "compare")        \
     X(modulus_rate, MODULUS_RATE, "modulus_rate", "Modulus against indentation rate", "compare")   \
     X(comparison, COMPARISON, "comparison", "Wear track against bulk", "compare")                  \

@@ -190,6 +190,32 @@ static void say_sensitivity(sentence *s, const table_view *v)
             compare != NULL ? compare : "");
 }
 
+static void say_thermal(sentence *s, const table_view *v)
+{
+    if (v->table == NULL)
+        return;
+    const wt_estimate k = thermal_value(v, THERMAL_KEY_SPRING_CONSTANT);
+    next(s);
+    if (isnan(k.value)) {
+        say(s, "no spring constant: %s", v->n_rows > 0 ? thermal_text(v, 0, THERMAL_NOTE) : "");
+        return;
+    }
+    say(s, "spring constant %s", words_of_estimate(k).text);
+    if (v->n_rows == 1)
+        say(s, " (resonance %s, quality factor %s)",
+            words_of(thermal_get(v, 0, THERMAL_RESONANCE), "Hz").text,
+            words_of(thermal_get(v, 0, THERMAL_QUALITY), "1").text);
+    else
+        say(s, " (mean of %zu spectra)", v->n_rows);
+    if (v->n_rows == 1 && !isnan(thermal_get(v, 0, THERMAL_RATIO)))
+        say(s, ", %s of that of the file", words_of(thermal_get(v, 0, THERMAL_RATIO), "1").text);
+    const char *includes = thermal_words(v, THERMAL_KEY_INCLUDES),
+               *indent = thermal_words(v, THERMAL_KEY_INDENT),
+               *compare = thermal_words(v, THERMAL_KEY_COMPARE);
+    say(s, "; its error is that of %s; use %s%s%s", includes, indent,
+        compare != NULL ? ", and in compare " : "", compare != NULL ? compare : "");
+}
+
 static void say_friction(sentence *s, const table_view *v)
 {
     if (v->table == NULL)
@@ -239,15 +265,11 @@ size_t wt_result_sentence(const wt_result *result, char *buffer, size_t size)
     static const struct {
         const table_schema *schema;
         void (*say)(sentence *s, const table_view *view);
-    } parts[] = {{&sensitivity_schema, say_sensitivity},
-                 {&modulus_groups_schema, say_groups},
-                 {&comparison_schema, say_ratio},
-                 {&material_ratio_schema, say_materials},
-                 {&shift_factors_schema, say_material},
-                 {&glass_transition_schema, say_transition},
-                 {&payne_schema, say_payne},
-                 {&friction_schema, say_friction},
-                 {&layer_schema, say_layer}};
+    } parts[] = {{&sensitivity_schema, say_sensitivity},     {&thermal_schema, say_thermal},
+                 {&modulus_groups_schema, say_groups},       {&comparison_schema, say_ratio},
+                 {&material_ratio_schema, say_materials},    {&shift_factors_schema, say_material},
+                 {&glass_transition_schema, say_transition}, {&payne_schema, say_payne},
+                 {&friction_schema, say_friction},           {&layer_schema, say_layer}};
     sentence s = {.text = buffer, .size = size, .result = result};
     const locale_t previous = clocale_enter();
     if (size > 0)

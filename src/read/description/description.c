@@ -103,6 +103,11 @@ static const struct {
      "spectrum",
      "columns of wavenumber and power spectrum",
      {Q(WAVENUMBER), Q(POWER_SPECTRUM_2D) | Q(POWER_SPECTRUM_1D)}},
+    {WT_KIND_NOISE,
+     "noise",
+     "columns of frequency and of the spectral density of deflection or of the detector",
+     {Q(FREQUENCY),
+      Q(SPECTRAL_DENSITY) | Q(DEFLECTION_NOISE) | Q(VOLTAGE_DENSITY) | Q(VOLTAGE_NOISE)}},
 };
 enum { N_NEEDS = sizeof needs / sizeof *needs, N_GROUPS = 3 };
 

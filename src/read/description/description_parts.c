@@ -283,6 +283,7 @@ static unsigned read_kinds(description_parser *p, const xmlNode *root)
         kinds |= strstr(text, "force") != NULL ? WT_KIND_FORCE : 0u;
         kinds |= strstr(text, "sweep") != NULL ? WT_KIND_SWEEP : 0u;
         kinds |= strstr(text, "spectrum") != NULL ? WT_KIND_SPECTRUM : 0u;
+        kinds |= strstr(text, "noise") != NULL ? WT_KIND_NOISE : 0u;
     }
     return kinds;
 }

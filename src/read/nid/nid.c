@@ -63,6 +63,27 @@ static void add_channels(const nid_file *file, table_writer *facts)
     }
 }
 
+static void add_tune(const nid_file *file, table_writer *facts)
+{
+    static const struct {
+        const char *item, *key;
+    } known[] = {{"temperature of the lever (degree Celsius)", "Cantilever temperature"},
+                 {"averages", "Averages"},
+                 {"resonance", "Frequency:"},
+                 {"quality factor", "Q Factor:"},
+                 {"spring constant", "Spring Constant:"}};
+    const nid_channel *c = nid_tune(file);
+    if (c == NULL)
+        return;
+    facts_add(facts, "thermal noise", "", c->section, "%zu points up to %s Hz", c->points,
+              nid_get(&file->header, c->section, "Dim0Range"));
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
+        const char *text = nid_get(&file->header, "DataSet-Info", known[i].key);
+        if (text != NULL && *text != '\0')
+            facts_add(facts, known[i].item, "", known[i].key, "%s", text);
+    }
+}
+
 static void add_phase(const nid_phase *phase, table_writer *facts)
 {
     const force_facts *read = &phase->facts;
@@ -109,6 +130,7 @@ static wt_status describe(const file_reader *self, wt_input *input, const wt_rea
         return status;
     add_identity(&file, facts);
     add_channels(&file, facts);
+    add_tune(&file, facts);
     if (nid_spectroscopy_find(&file, &spectroscopy, NULL) == WT_OK)
         add_curves(&spectroscopy, options, facts);
     nid_file_close(&file);
@@ -118,7 +140,7 @@ static wt_status describe(const file_reader *self, wt_input *input, const wt_rea
 const file_reader reader_nid = {
     .info = {.id = "nid",
              .title = "Nanosurf images, spectra and force curves (.nid)",
-             .kinds = WT_KIND_FORCE | WT_KIND_IMAGE,
+             .kinds = WT_KIND_FORCE | WT_KIND_IMAGE | WT_KIND_NOISE,
              .verified = true,
              .evidence =
                  "images and spectra: measured files of software 1.7 to 3.10; force curves: "
@@ -127,5 +149,6 @@ const file_reader reader_nid = {
     .detect = detect,
     .force = &nid_force,
     .read_images = nid_read_images,
+    .read_noise = nid_read_noise,
     .describe = describe,
 };

@@ -80,6 +80,13 @@ const char *nid_si_unit(const char *unit, double *factor);
 wt_status nid_read_images(const file_reader *self, wt_input *input, const wt_read_options *options,
                           wt_parselog *log, wt_image **images, size_t *n_images, wt_error *err);
 
+/* ---- thermal tune: nid_noise.c ------------------------------------------------------------ */
+
+/* The channel of the measured spectrum, NULL if the file is no thermal tune. */
+const nid_channel *nid_tune(const nid_file *file);
+wt_status nid_read_noise(const file_reader *self, wt_input *input, const wt_read_options *options,
+                         wt_parselog *log, wt_noise_spectrum *spectrum, wt_error *err);
+
 /* ---- force curves: nid_force.c ------------------------------------------------------------ */
 
 /* The groups of a force curve in the order of time. */

@@ -205,6 +205,20 @@ static void add_layout(const text_file *file, table_writer *facts)
     }
 }
 
+static void add_noise(const file_reader *self, wt_input *input, const wt_read_options *options,
+                      table_writer *facts)
+{
+    wt_noise_spectrum noise = {.n = 0};
+    wt_error problem = WT_ERROR_INIT;
+    if (text_read_noise(self, input, options, NULL, &noise, &problem) == WT_OK)
+        facts_add(facts, "thermal noise", "", "", "%zu points, %.4g to %.4g Hz, of %s", noise.n,
+                  noise.frequency[0], noise.frequency[noise.n - 1],
+                  noise.volts ? "the detector" : "the deflection");
+    else
+        add_problem(&problem, facts);
+    wt_noise_spectrum_clear(&noise);
+}
+
 wt_status text_describe(const file_reader *self, wt_input *input, const wt_read_options *options,
                         wt_parselog *log, table_writer *facts)
 {
@@ -224,6 +238,7 @@ wt_status text_describe(const file_reader *self, wt_input *input, const wt_read_
     const bool has_sweep = text_has(&file, WT_KIND_SWEEP) && file.n_tables > 0;
     const bool has_force = text_has(&file, WT_KIND_FORCE);
     const bool has_spectrum = text_has(&file, WT_KIND_SPECTRUM);
+    const bool has_noise = text_has(&file, WT_KIND_NOISE);
     if (has_sweep)
         add_sweep(&file, options, log, facts);
     text_file_free(&file);
@@ -231,6 +246,8 @@ wt_status text_describe(const file_reader *self, wt_input *input, const wt_read_
         add_force(self, input, options, facts);
     if (has_spectrum)
         add_spectrum(self, input, options, facts);
+    if (has_noise)
+        add_noise(self, input, options, facts);
     return WT_OK;
 }
 

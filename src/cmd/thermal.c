@@ -1,0 +1,33 @@
+/* weartrack thermal: spring constant by the thermal noise of the lever.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cmd/cmd.h"
+
+int cmd_thermal(int argc, char **argv)
+{
+    static const cmd_usage usage = {
+        .name = "thermal",
+        .arguments = "[OPTION]... FILE...",
+        .what = "Spring constant of a cantilever by the spectrum of its thermal noise (thermal "
+                "tune): a simple harmonic oscillator on a white floor by maximum likelihood, with "
+                "the errors of the fit and, of several spectra, their scatter, beside the value "
+                "of the file. Folders and patterns are allowed.",
+        .common = "output formats files-from provenance cost",
+        .n_files = CMD_SOME};
+    wt_thermal_job job = wt_thermal_job_defaults();
+    wt_file_set set = {.read = wt_read_defaults()};
+    cmd_part parts[] = {{wt_thermal_job_params(), &job, NULL, 0},
+                        {wt_read_params(), &set.read, "sensitivity units format", 0}};
+    cmd_session s = cmd_session_defaults();
+    wt_table *table = NULL;
+    if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv) || !cmd_begin_files(&s, &set))
+        goto done;
+    job.sets = &set;
+    job.n_sets = 1;
+    wt_cost_stage(s.cost, "thermal");
+    const wt_status made = wt_thermal_make(&job, &s.work, &table, &s.err);
+    wt_table **const made_tables[] = {&table};
+    cmd_finish(&s, made, made_tables, COUNT_OF(made_tables));
+done:
+    wt_table_free(table);
+    return cmd_session_free(&s);
+}

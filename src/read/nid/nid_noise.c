@@ -1,0 +1,103 @@
+/* The thermal tune of a .nid file: the measured spectrum of the lever's noise, and what the
+ * instrument made of it. Dim0 runs from its minimum over its range with a point at both ends.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "read/nid/nid.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char info[] = "DataSet-Info";
+
+/* "179.8kHz", "27.13 N/m" or a plain number, which blanks may follow, in the SI unit of the
+ * quantity; NaN if it is neither. */
+static double value_of(const nid_header *header, const char *key, wt_quantity quantity)
+{
+    const char *text = nid_get(header, info, key);
+    double value = (double)NAN;
+    if (text == NULL || wt_quantity_parse(text, quantity, &value, NULL) == WT_OK)
+        return value;
+    size_t n = strlen(text);
+    while (n > 0 && text[n - 1] == ' ')
+        n--;
+    return wt_number_parse(text, n, '.', &value) ? value : (double)NAN;
+}
+
+/* "40 °C"; a plain number is in degrees Celsius, too. */
+static double temperature_of(const nid_header *header)
+{
+    static const char key[] = "Cantilever temperature";
+    const char *text = nid_get(header, info, key);
+    double kelvin = (double)NAN;
+    if (text != NULL && wt_quantity_parse(text, WT_Q_TEMPERATURE, &kelvin, NULL) == WT_OK)
+        return kelvin;
+    return value_of(header, key, WT_Q_NONE) + WT_ZERO_CELSIUS;
+}
+
+static bool is_tune(const nid_channel *c)
+{
+    double factor;
+    return strcmp(c->group_name, "Spectrum FFT") == 0 && c->lines == 1 && c->points > 1 &&
+           strcmp(nid_si_unit(c->unit, &factor), wt_quantity_unit(WT_Q_SPECTRAL_DENSITY)) == 0;
+}
+
+const nid_channel *nid_tune(const nid_file *file)
+{
+    for (size_t i = 0; i < file->n; i++)
+        if (is_tune(&file->channels[i]))
+            return &file->channels[i];
+    return NULL;
+}
+
+wt_status nid_read_noise(const file_reader *self, wt_input *input, const wt_read_options *options,
+                         wt_parselog *log, wt_noise_spectrum *spectrum, wt_error *err)
+{
+    (void)self;
+    (void)options;
+    (void)log;
+    nid_file file = {0};
+    wt_status status = nid_file_open(input, &file, err);
+    if (status != WT_OK)
+        return status;
+    const nid_channel *c = nid_tune(&file);
+    const nid_header *h = &file.header;
+    if (c == NULL) {
+        status = wt_fail(err, WT_E_EMPTY, "the file holds no thermal tune");
+        wt_error_expected(err, "a group Spectrum FFT with an amplitude spectral density in "
+                               "m/sqrt(Hz)");
+        goto done;
+    }
+    const double range = nid_number(h, c->section, "Dim0Range"),
+                 first = nid_number(h, c->section, "Dim0Min");
+    const char *unit = nid_get(h, c->section, "Dim0Unit");
+    if (!(range > 0) || !(first >= 0) || unit == NULL || strcmp(unit, "Hz") != 0) {
+        status = wt_fail(err, WT_E_CORRUPT, "the frequencies of the spectrum are not known");
+        wt_error_place(err, "[%s]", c->section);
+        wt_error_expected(err, "Dim0Range above 0, Dim0Min and Dim0Unit=Hz");
+        goto done;
+    }
+    wt_noise_spectrum made = {.n = c->points, .amplitudes = true};
+    made.frequency = malloc(c->points * sizeof *made.frequency);
+    made.density = malloc(c->points * sizeof *made.density);
+    *spectrum = made;
+    if (made.frequency == NULL || made.density == NULL) {
+        status = wt_fail(err, WT_E_MEMORY, "no memory for the spectrum");
+        goto done;
+    }
+    nid_decode(&file, c, 0, c->points, 1, made.density);
+    for (size_t i = 0; i < c->points; i++) {
+        made.frequency[i] = first + range * (double)i / (double)(c->points - 1);
+        made.density[i] *= made.density[i];
+    }
+    spectrum->averages = value_of(h, "Averages", WT_Q_NONE);
+    spectrum->temperature = temperature_of(h);
+    spectrum->spring_constant = value_of(h, "Spring Constant:", WT_Q_SPRING_CONSTANT);
+    spectrum->resonance = value_of(h, "Frequency:", WT_Q_FREQUENCY);
+    spectrum->quality = value_of(h, "Q Factor:", WT_Q_NONE);
+    spectrum->sensitivity = (double)NAN;
+done:
+    nid_file_close(&file);
+    return status;
+}

@@ -1,0 +1,102 @@
+/* Tables of a text export to the spectrum of a lever's noise.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "read/text/text.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct point {
+    double frequency, density;
+} point;
+
+static int by_frequency(const void *a, const void *b)
+{
+    const point *x = a, *y = b;
+    return (x->frequency > y->frequency) - (x->frequency < y->frequency);
+}
+
+/* The densities that a table may have, the first that is there counts. */
+static const struct {
+    wt_quantity quantity;
+    bool volts, amplitude;
+} densities[] = {{WT_Q_DEFLECTION_NOISE, false, false},
+                 {WT_Q_SPECTRAL_DENSITY, false, true},
+                 {WT_Q_VOLTAGE_NOISE, true, false},
+                 {WT_Q_VOLTAGE_DENSITY, true, true}};
+
+static wt_status collect(const text_table *t, point *points, wt_noise_spectrum *spectrum,
+                         wt_error *err)
+{
+    wt_status status = text_table_require(t, WT_KIND_NOISE, err);
+    if (status != WT_OK)
+        return status;
+    const text_column *frequency = text_table_column(t, WT_Q_FREQUENCY, -1), *density = NULL;
+    size_t d = 0;
+    while ((density = text_table_column(t, densities[d].quantity, -1)) == NULL)
+        d++;
+    spectrum->volts = densities[d].volts;
+    spectrum->amplitudes = densities[d].amplitude;
+    for (size_t r = 0; r < t->n_rows; r++) {
+        point p = {text_table_value(t, r, frequency), text_table_value(t, r, density)};
+        if (spectrum->amplitudes)
+            p.density *= p.density;
+        if (p.frequency >= 0)
+            points[spectrum->n++] = p;
+    }
+    spectrum->temperature = t->header.value[HEADER_TEMPERATURE];
+    spectrum->spring_constant = t->header.value[HEADER_SPRING_CONSTANT];
+    spectrum->sensitivity = t->header.value[HEADER_SENSITIVITY];
+    spectrum->averages = spectrum->resonance = spectrum->quality = (double)NAN;
+    return WT_OK;
+}
+
+static wt_status sorted(point *points, wt_noise_spectrum *spectrum, wt_error *err)
+{
+    const size_t n = spectrum->n;
+    qsort(points, n, sizeof *points, by_frequency);
+    spectrum->frequency = malloc(n * sizeof *spectrum->frequency);
+    spectrum->density = malloc(n * sizeof *spectrum->density);
+    if (spectrum->frequency == NULL || spectrum->density == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for the spectrum");
+    for (size_t i = 0; i < n; i++) {
+        if (i > 0 && !(points[i].frequency > points[i - 1].frequency)) {
+            const wt_status status = wt_fail(err, WT_E_CORRUPT, "a frequency stands twice");
+            wt_error_expected(err, "one density for each frequency");
+            wt_error_found(err, "two for %g Hz", points[i].frequency);
+            return status;
+        }
+        spectrum->frequency[i] = points[i].frequency;
+        spectrum->density[i] = points[i].density;
+    }
+    return WT_OK;
+}
+
+wt_status text_read_noise(const file_reader *self, wt_input *input, const wt_read_options *options,
+                          wt_parselog *log, wt_noise_spectrum *spectrum, wt_error *err)
+{
+    text_file file;
+    wt_status status = text_scan(self, input, WT_KIND_NOISE, options, log, &file, err);
+    if (status != WT_OK)
+        return status;
+    text_log_columns(&file, log);
+    if (file.n_tables > 1) {
+        status = wt_fail(err, WT_E_AMBIGUOUS, "several spectra in one file");
+        wt_error_advice(err, "part the file");
+    }
+    point *points =
+        file.n_tables == 1 ? malloc((file.tables[0].n_rows + 1) * sizeof *points) : NULL;
+    if (status == WT_OK && file.n_tables == 1 && points == NULL)
+        status = wt_fail(err, WT_E_MEMORY, "no memory for the spectrum");
+    if (status == WT_OK && points != NULL)
+        status = collect(&file.tables[0], points, spectrum, err);
+    if (status == WT_OK && spectrum->n < 2)
+        status = text_nothing(&file, "spectrum of thermal noise", err);
+    if (status == WT_OK)
+        status = sorted(points, spectrum, err);
+    free(points);
+    text_file_free(&file);
+    return status;
+}

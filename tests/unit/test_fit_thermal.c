@@ -1,0 +1,144 @@
+/* Thermal noise: the truth comes back, and the intervals hold it, for sharp and broad peaks, few
+ * and many averages, with and without a window; what is no oscillator shows.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "near.h"
+#include "weartrack/fit.h"
+
+#include "dma_data.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { MOST = 4000, DRAWS = 400 };
+static const double pi = 3.14159265358979323846;
+
+typedef struct scene {
+    double f0, q, floor; /* of the peak */
+    size_t n, averages;
+    double step;
+    bool window;  /* neighbours share what a Hann window leaves them */
+    double other; /* height of a second peak, of the first */
+} scene;
+
+static double truth(const scene *s, double f)
+{
+    const double x = f / s->f0, y = f / (1.05 * s->f0), q2 = s->q * s->q;
+    const double peak = 2 / (pi * s->f0 * s->q);
+    return peak / ((1 - x * x) * (1 - x * x) + x * x / q2) +
+           s->other * peak / ((1 - y * y) * (1 - y * y) + y * y / q2) + s->floor * peak * q2;
+}
+
+/* Means of the squares of complex normal amplitudes; with a window these are mixed before. */
+static wt_thermal drawn(const scene *s, uint64_t *seed)
+{
+    static double f[MOST], p[MOST], re[MOST + 2], im[MOST + 2];
+    const size_t n = s->n < MOST ? s->n : MOST;
+    wt_thermal t;
+    for (size_t i = 0; i < n; i++) {
+        f[i] = s->step * (double)i;
+        p[i] = 0;
+    }
+    for (size_t k = 0; k < s->averages; k++) {
+        for (size_t i = 0; i < n + 2; i++) {
+            re[i] = dma_normal(seed);
+            im[i] = dma_normal(seed);
+        }
+        for (size_t i = 0; i < n; i++) {
+            const double a =
+                s->window ? (re[i + 1] - 0.5 * (re[i] + re[i + 2])) / sqrt(1.5) : re[i + 1];
+            const double b =
+                s->window ? (im[i + 1] - 0.5 * (im[i] + im[i + 2])) / sqrt(1.5) : im[i + 1];
+            p[i] += truth(s, f[i]) * (a * a + b * b) / (2 * (double)s->averages);
+        }
+    }
+    assert_int_equal(wt_thermal_fit(f, p, n, (double)NAN, (double)NAN, &t, NULL), WT_OK);
+    return t;
+}
+
+static void test_truth(void **state)
+{
+    (void)state;
+    static double f[MOST], p[MOST];
+    const scene s = {.f0 = 30e3, .q = 80, .floor = 1e-4, .n = 4000, .step = 25};
+    wt_thermal t;
+    for (size_t i = 0; i < s.n; i++) {
+        f[i] = s.step * (double)i;
+        p[i] = truth(&s, f[i]);
+    }
+    assert_int_equal(wt_thermal_fit(f, p, s.n, (double)NAN, (double)NAN, &t, NULL), WT_OK);
+    assert_true(t.found);
+    assert_near(t.mean_square.value, 1, 1e-6);
+    assert_near(t.resonance.value, 30e3, 1e-9);
+    assert_near(t.quality.value, 80, 1e-6);
+    assert_near(t.floor, truth(&s, 1e9), 1e-4);
+    /* the mean square is what lies under the peak: sums of the law without its floor */
+    double sum = 0;
+    for (double x = 0.5; x < 4e6; x++) {
+        const double y = x / 30e3;
+        sum += 2 / (pi * 30e3 * 80) / ((1 - y * y) * (1 - y * y) + y * y / 6400);
+    }
+    assert_near(sum, 1, 1e-4);
+    assert_int_equal(wt_thermal_fit(f, p, s.n, 20e3, 40e3, &t, NULL), WT_OK);
+    assert_near(t.mean_square.value, 1, 1e-6);
+    assert_near(t.from, 20e3, 0);
+    assert_int_equal(wt_thermal_fit(f, p, s.n, 40e3, 60e3, &t, NULL), WT_OK);
+    assert_false(t.found);
+    assert_string_equal(t.why_not, "the largest peak lies outside of the range of the fit");
+    assert_int_equal(wt_thermal_fit(f, p, 10, (double)NAN, (double)NAN, &t, NULL), WT_OK);
+    assert_string_equal(t.why_not, "too few points");
+}
+
+static void test_coverage(void **state)
+{
+    (void)state;
+    static const scene scenes[] = {
+        {.f0 = 70e3, .q = 200, .floor = 1e-4, .n = 1200, .averages = 100, .step = 100},
+        {.f0 = 70e3,
+         .q = 200,
+         .floor = 1e-4,
+         .n = 1200,
+         .averages = 20,
+         .step = 100,
+         .window = true},
+        {.f0 = 12e3, .q = 3, .floor = 0.02, .n = 800, .averages = 50, .step = 60},
+        {.f0 = 12e3, .q = 3, .floor = 0.02, .n = 800, .averages = 10, .step = 60, .window = true}};
+    uint64_t seed = 21;
+    for (size_t k = 0; k < sizeof scenes / sizeof *scenes; k++) {
+        const scene *s = &scenes[k];
+        int square = 0, quality = 0, resonance = 0, alarms = 0;
+        for (int i = 0; i < DRAWS; i++) {
+            const wt_thermal t = drawn(s, &seed);
+            assert_true(t.found);
+            square += t.mean_square.low < 1 && t.mean_square.high > 1;
+            quality += t.quality.low < s->q && t.quality.high > s->q;
+            resonance += t.resonance.low < s->f0 && t.resonance.high > s->f0;
+            alarms += t.chance < 0.01;
+        }
+        print_message("Q %g, %zu averages%s: mean square %.3f, Q %.3f, f0 %.3f, alarms %.3f\n",
+                      s->q, s->averages, s->window ? ", window" : "", square / (double)DRAWS,
+                      quality / (double)DRAWS, resonance / (double)DRAWS, alarms / (double)DRAWS);
+        assert_in_range(square, 0.92 * DRAWS, 0.98 * DRAWS);
+        assert_in_range(quality, 0.92 * DRAWS, 0.98 * DRAWS);
+        assert_in_range(resonance, 0.92 * DRAWS, 0.985 * DRAWS);
+        assert_true(alarms < 0.05 * DRAWS);
+    }
+}
+
+/* The scatter tells how many were averaged, and a second peak that this is no single oscillator. */
+static void test_misfit(void **state)
+{
+    (void)state;
+    scene s = {.f0 = 70e3, .q = 200, .floor = 1e-4, .n = 1200, .averages = 100, .step = 100};
+    uint64_t seed = 22;
+    assert_near(drawn(&s, &seed).averages, 100, 0.2);
+    s.other = 0.3;
+    assert_true(drawn(&s, &seed).chance < 1e-6);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_truth),
+                                       cmocka_unit_test(test_coverage),
+                                       cmocka_unit_test(test_misfit)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

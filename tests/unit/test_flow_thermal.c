@@ -1,0 +1,174 @@
+/* Spring constants of files with a known truth: a table in metres, one in volts, a thermal tune by
+ * an independent writer, a genuine one; corrections, errors, what is missing.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "near.h"
+
+#include "weartrack/flow.h"
+#include "writers/nid_writer.h"
+
+#include <math.h>
+#include <string.h>
+#include <unistd.h>
+
+#define NOISE WT_SOURCE_DIR "/fixtures/formats/table-noise/"
+
+static wt_formats *formats;
+
+static wt_status make(const wt_thermal_job *options, const char *path, double sensitivity,
+                      wt_parselog *log, wt_table **table, wt_error *err)
+{
+    const char *const paths[] = {path};
+    wt_file_set set = {.patterns = paths, .n_patterns = 1, .read = wt_read_defaults()};
+    wt_thermal_job job = *options;
+    wt_job work = wt_job_defaults();
+    set.read.sensitivity = sensitivity;
+    work.formats = formats;
+    work.log = log;
+    job.sets = &set;
+    job.n_sets = 1;
+    return wt_thermal_make(&job, &work, table, err);
+}
+
+static wt_table *made(const wt_thermal_job *job, const char *path, double sensitivity)
+{
+    wt_table *table = NULL;
+    wt_error err = WT_ERROR_INIT;
+    if (make(job, path, sensitivity, NULL, &table, &err) != WT_OK)
+        fail_msg("%s; %s", err.message, err.found);
+    return table;
+}
+
+static double cell(const wt_table *table, const char *column)
+{
+    const long c = wt_table_find(table, column);
+    assert_true(c >= 0);
+    return wt_table_number(table, 0, (size_t)c);
+}
+
+/* 0.2 N/m at 22 degC, 12 kHz, Q 60, 100 averages. */
+static void test_metres(void **state)
+{
+    (void)state;
+    wt_thermal_job job = wt_thermal_job_defaults();
+    wt_table *t = made(&job, NOISE "deflection.csv", (double)NAN);
+    const double k = cell(t, "spring_constant"), error = cell(t, "fit_error");
+    assert_true(cell(t, "spring_constant_low") < 0.2 && cell(t, "spring_constant_high") > 0.2);
+    assert_near(k, 0.2, 0.06);
+    assert_near(cell(t, "resonance"), 12e3, 0.002);
+    assert_near(cell(t, "quality_factor"), 60, 0.1);
+    assert_near(cell(t, "temperature"), 295.15, 1e-12);
+    assert_near(cell(t, "ratio"), k / 0.21, 1e-12);
+    assert_near(cell(t, "spring_constant_standard_error"), error * k, 1e-9);
+    assert_string_equal(wt_table_key(t, "includes"), "the fit");
+    wt_table_free(t);
+    /* errors that all spectra share, and corrections */
+    job.sensitivity_error = 0.03;
+    job.temperature = (wt_estimate){2 * 295.15, 295.15 * 0.02, 0, "K"};
+    job.mode_shape = 1;
+    job.chi = 1;
+    t = made(&job, NOISE "deflection.csv", (double)NAN);
+    assert_near(cell(t, "spring_constant"), 2 * k * 1.09 * 1.09 / 0.971, 1e-9);
+    assert_near(cell(t, "spring_constant_standard_error") / cell(t, "spring_constant"),
+                sqrt(error * error + 0.06 * 0.06 + 0.01 * 0.01), 1e-9);
+    assert_string_equal(wt_table_key(t, "includes"), "the fit and the sensitivity and the "
+                                                     "temperature");
+    wt_table_free(t);
+}
+
+/* Volts with the sensitivity of the file, and another one; without a temperature. */
+static void test_volts(void **state)
+{
+    (void)state;
+    const wt_thermal_job job = wt_thermal_job_defaults();
+    wt_parselog *log = wt_parselog_new();
+    wt_table *t = NULL;
+    assert_int_equal(make(&job, NOISE "detector.txt", (double)NAN, log, &t, NULL), WT_OK);
+    const double k = cell(t, "spring_constant");
+    assert_near(k, 0.2 * 298.15 / 295.15, 0.06);
+    assert_int_equal(wt_parselog_count(log), 1);
+    wt_table_free(t);
+    t = made(&job, NOISE "detector.txt", 80e-9);
+    assert_near(cell(t, "spring_constant"), k / 4, 1e-9);
+    wt_table_free(t);
+    wt_parselog_free(log);
+    wt_error err = WT_ERROR_INIT;
+    assert_int_equal(make(&job, WT_SOURCE_DIR "/fixtures/formats/table-spectrum/surface.txt",
+                          (double)NAN, NULL, &t, &err),
+                     WT_E_EMPTY);
+}
+
+/* A thermal tune by the writer: 777 fm/sqrt(Hz) at the peak is the mean square that it makes. */
+static void test_tune(void **state)
+{
+    (void)state;
+    enum { N = 3000 };
+    static double density[N];
+    static const char path[] = "test_thermal.nid";
+    const double f0 = 180e3, q = 400, peak = 777e-15, pi = 3.14159265358979323846;
+    const nid_writer_channel channel = {
+        0, "Amplitude Spectral Density", "m/sqrt(Hz)", -1e-12, 2e-12, 32, density};
+    const nid_writer_group group = {.name = "Spectrum FFT",
+                                    .points = N,
+                                    .lines = 1,
+                                    .x_name = "Frequency",
+                                    .x_unit = "Hz",
+                                    .x_range = 300e3,
+                                    .n_channels = 1,
+                                    .channels = &channel};
+    nid_writer_file file = nid_writer_defaults();
+    for (size_t i = 0; i < N; i++) {
+        const double x = 300e3 * (double)i / (N - 1) / f0;
+        const double s = peak * peak / (q * q) / (pow(1 - x * x, 2) + x * x / (q * q));
+        density[i] = sqrt(s + 1e-28);
+    }
+    file.path = path;
+    file.groups = &group;
+    file.n_groups = 1;
+    file.info = "Cantilever temperature=40\r\nAverages=1000\r\nSpring Constant:=27.13 N/m\r\n";
+    assert_int_equal(nid_write(&file), 0);
+    const wt_thermal_job job = wt_thermal_job_defaults();
+    wt_table *t = made(&job, path, (double)NAN);
+    const double square = 0.5 * pi * f0 / q * peak * peak;
+    assert_near(cell(t, "deflection"), sqrt(square), 1e-4);
+    assert_near(cell(t, "spring_constant"), 0.971 / (1.09 * 1.09) * 1.380649e-23 * 313.15 / square,
+                2e-4);
+    assert_near(cell(t, "spring_constant_of_file"), 27.13, 1e-12);
+    assert_near(cell(t, "averages_of_file"), 1000, 0);
+    wt_table_free(t);
+    (void)remove(path);
+}
+
+/* What the instrument fitted: 179.8 kHz, Q 442. */
+static void test_genuine(void **state)
+{
+    (void)state;
+    static const char path[] = WT_SHARED_DIR "/data/afm/nanosurf/thermal.nid";
+    if (access(path, R_OK) != 0)
+        skip();
+    const wt_thermal_job job = wt_thermal_job_defaults();
+    wt_table *t = made(&job, path, (double)NAN);
+    assert_near(cell(t, "resonance"), 179.8e3, 5e-4);
+    assert_near(cell(t, "quality_factor"), 442, 0.2);
+    assert_near(cell(t, "temperature"), 313.15, 1e-12);
+    wt_table_free(t);
+}
+
+static int open_formats(void **state)
+{
+    (void)state;
+    return wt_formats_new(NULL, &formats, NULL, NULL) == WT_OK ? 0 : -1;
+}
+
+static int free_formats(void **state)
+{
+    (void)state;
+    wt_formats_free(formats);
+    return 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_metres), cmocka_unit_test(test_volts),
+                                       cmocka_unit_test(test_tune), cmocka_unit_test(test_genuine)};
+    return cmocka_run_group_tests(tests, open_formats, free_formats);
+}
