@@ -4,6 +4,7 @@
 #include "sliding.h"
 #include "truth.h"
 
+#include "flow/job/draws.h"
 #include "flow/job/regenerate.h"
 
 /* ---- numerical parts ------------------------------------------------------------------------- */
@@ -297,6 +298,56 @@ static void test_nothing_to_cover(void **state)
     wt_table_free(table);
 }
 
+/* Shifts that are given are given in every trial, and a modulus that was not measured is not. */
+static void test_isotherms_again(void **state)
+{
+    (void)state;
+    enum { ISOTHERMS = 5, POINTS = 16 };
+    wt_sweep sweep = {0}, again = {0};
+    wt_master fit = {0};
+    wt_master_options options = wt_master_options_defaults();
+    wt_error err = WT_ERROR_INIT;
+    double shift[ISOTHERMS];
+    for (int i = 0; i < ISOTHERMS; i++) {
+        wt_isotherm *iso = wt_sweep_add(&sweep, POINTS, 0);
+        assert_non_null(iso);
+        iso->temperature = 283.15 + 5 * i;
+        iso->shift_given = true;
+        iso->given_log_a = 1 - 0.5 * i;
+        for (int j = 0; j < POINTS; j++) {
+            const double omega = pow(10, -1 + 3.0 * j / (POINTS - 1)),
+                         reduced = omega * pow(10, iso->given_log_a),
+                         noise = 0.002 * flow_draw_normal(3, (size_t)(i * POINTS + j), 0);
+            iso->angular_frequency[j] = omega;
+            iso->storage_modulus[j] = 1e6 * (1 + pow(reduced, 0.3)) * exp(noise);
+            iso->loss_modulus[j] = (double)NAN;
+        }
+    }
+    wt_sweep_sort(&sweep);
+    options.vertical = WT_VERTICAL_NONE;
+    options.shift_by = WT_BY_STORAGE;
+    if (wt_master_fit(&sweep, &options, NULL, &fit, &err) != WT_OK)
+        fail_msg("%s %s", err.message, err.found);
+    assert_int_equal(fit.n_shifts, ISOTHERMS);
+    assert_int_equal(regenerate_sweep(&sweep, &fit, 4, &again, shift, NULL), WT_OK);
+    assert_int_equal(again.n_isotherms, ISOTHERMS);
+    for (int i = 0; i < ISOTHERMS; i++) {
+        const wt_isotherm *was = &sweep.isotherms[i], *is = &again.isotherms[i];
+        double square = 0;
+        assert_true(is->shift_given);
+        assert_near(is->given_log_a, was->given_log_a, 0);
+        assert_near(shift[i] - shift[0], was->given_log_a - sweep.isotherms[0].given_log_a, 1e-12);
+        for (int j = 0; j < POINTS; j++) {
+            assert_true(isnan(is->loss_modulus[j]));
+            square += pow(log(is->storage_modulus[j] / was->storage_modulus[j]), 2);
+        }
+        assert_true(square > 0 && sqrt(square / POINTS) < 0.01);
+    }
+    wt_sweep_clear(&sweep);
+    wt_sweep_clear(&again);
+    wt_master_clear(&fit);
+}
+
 /* Spots and the curves on them scatter as they were found to. */
 static void test_scatter_of_a_group(void **state)
 {
@@ -331,6 +382,7 @@ int main(void)
         cmocka_unit_test(test_calibration),
         cmocka_unit_test(test_coverage),
         cmocka_unit_test(test_nothing_to_cover),
+        cmocka_unit_test(test_isotherms_again),
         cmocka_unit_test(test_scatter_of_a_group),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -351,7 +351,10 @@ static void say(const coverage *c, table_writer *t)
                            ? "; as far as so many tell, as often as stated"
                            : "");
     coverage_set_print(t, COVERAGE_KEY_REGENERATED, "%s%s%s%s",
-                       c->fit.n_shifts > 0 ? "isotherms of the DMA" : "material as given",
+                       c->fit.n_shifts == 0 ? "material as given"
+                       : c->setting.rubber.sweep.n_ramps > 0
+                           ? "isotherms that the temperature sweeps were fitted as"
+                           : "isotherms of the DMA",
                        inputs[0] != '\0' ? ", " : "", inputs,
                        !c->has_groups ? ""
                        : c->has_curves

@@ -19,12 +19,12 @@ static const wt_master_shift *shift_at(const wt_master *fit, double temperature,
 }
 
 /* log10 a_T that the isotherm truly has: by the law at another temperature, for an oven holds its
- * temperature no better; without a law as fitted. */
-static double true_shift(const wt_master *fit, size_t k, uint64_t seed)
+ * temperature no better; without a law as fitted, and as given where it is given. */
+static double true_shift(const wt_isotherm *measured, const wt_master *fit, size_t k, uint64_t seed)
 {
     const wt_master_shift *s = &fit->shifts[k];
     const double at = wt_shift_law_log_a(&fit->law, s->temperature);
-    if (fit->law.kind == WT_LAW_NONE || isnan(at))
+    if (measured->shift_given || fit->law.kind == WT_LAW_NONE || isnan(at))
         return s->log_a.value;
     const double spread = isfinite(fit->temperature_spread) ? fit->temperature_spread : 0;
     const double step = spread * flow_draw_normal(seed, k, FLOW_DRAW_ISOTHERM);
@@ -41,6 +41,8 @@ static wt_status add_isotherm(const wt_isotherm *measured, const wt_master *fit,
     if (iso == NULL)
         return WT_E_MEMORY;
     iso->temperature = measured->temperature;
+    iso->shift_given = measured->shift_given;
+    iso->given_log_a = measured->given_log_a;
     const double rest = sqrt(fmax(0, 1 - fit->correlation * fit->correlation));
     for (size_t j = 0; j < measured->n; j++) {
         wt_interval storage, loss;
@@ -55,6 +57,10 @@ static wt_status add_isotherm(const wt_isotherm *measured, const wt_master *fit,
                                   exp(fit->noise_storage * s->noise_factor * noise[0]);
         iso->loss_modulus[j] = pow(10, loss.value - s->log_b.value) *
                                exp(fit->noise_loss * s->noise_factor * noise[1]);
+        if (isnan(measured->storage_modulus[j])) /* what was not measured is not known */
+            iso->storage_modulus[j] = (double)NAN;
+        if (isnan(measured->loss_modulus[j]))
+            iso->loss_modulus[j] = (double)NAN;
     }
     return WT_OK;
 }
@@ -73,7 +79,7 @@ wt_status regenerate_sweep(const wt_sweep *measured, const wt_master *fit, uint6
         const wt_master_shift *s = shift_at(fit, iso->temperature, &k);
         if (s == NULL)
             continue;
-        shift[k] = true_shift(fit, k, seed);
+        shift[k] = true_shift(iso, fit, k, seed);
         status = add_isotherm(iso, fit, k, shift[k], seed, sweep);
         if (!(s->log_a.standard_error > 0)) /* the reference isotherm: 0 by definition */
             at_reference = shift[k];
