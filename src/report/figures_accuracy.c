@@ -95,7 +95,7 @@ static void draw_work_precision(figure_drawing *d)
 
 /* ---- where an error comes from --------------------------------------------------------------- */
 
-enum { NUMBERS = 5 };
+enum { NUMBERS = 6 };
 /* Smaller than any that matters beside a measurement. */
 static const double least_error = 1e-5;
 

@@ -238,6 +238,12 @@ static void test_calibration(void **state)
     const double spots = relative(table, number, "modulus ratio"),
                  calibration = relative(table, number, "calibration");
     assert_near(calibration / spots, 0.6 / 0.8, 0.02);
+    /* of the ratio itself the parts are known: 0.1 in all, its arithmetic without curves is not */
+    assert_near(relative(table, "modulus ratio", "stated error"), 0.08, 1e-12);
+    assert_near(relative(table, "modulus ratio", "calibration"), 0.06, 1e-12);
+    assert_near(relative(table, "modulus ratio", "all together"), 0.1, 1e-12);
+    assert_non_null(strstr(wt_table_key(table, "modulus_ratio_advice"), "64 %"));
+    assert_null(strstr(wt_table_key(table, "modulus_ratio_advice"), "arithmetic"));
     assert_null(strstr(wt_table_key(table, "lacks"), "calibration"));
     wt_table_free(table);
 }

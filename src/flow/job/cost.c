@@ -169,6 +169,21 @@ double cost_part(const wt_cost *cost, const char *words)
     return (double)NAN;
 }
 
+cost_of_stages cost_stages(const wt_cost *cost, const char *beginning)
+{
+    cost_of_stages sum = {(double)NAN, (double)NAN};
+    const size_t ended = cost != NULL ? cost->n_rows - cost->open : 0;
+    for (size_t i = 0; i < ended; i++) {
+        const cost_row *row = &cost->rows[i];
+        if (!row->runs || strncmp(row->stage, beginning, strlen(beginning)) != 0)
+            continue;
+        sum.seconds = isnan(sum.seconds) ? row->wall : sum.seconds + row->wall;
+        if (row->said.tolerance_asked > 0)
+            sum.error = fmax(sum.error, row->said.error_estimated);
+    }
+    return sum;
+}
+
 /* ---- table ----------------------------------------------------------------------------------- */
 
 static double known(bool is, double value)

@@ -31,4 +31,11 @@ double cost_clock(const wt_cost *cost); /* NaN: without times */
 void cost_set_part(wt_cost *cost, const char *words, double seconds);
 double cost_part(const wt_cost *cost, const char *words);
 
+/* Of the stages that ran so far and whose names begin so: elapsed time, and the largest numerical
+ * error, relative; NaN if not known. */
+typedef struct cost_of_stages {
+    double seconds, error;
+} cost_of_stages;
+cost_of_stages cost_stages(const wt_cost *cost, const char *beginning);
+
 #endif

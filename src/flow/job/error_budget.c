@@ -115,6 +115,10 @@ static bool has_calibration(const setting *s)
     return s->has_known && s->known.calibration_share > 0;
 }
 
+static const char calibration_remedy[] = "one cantilever for both groups, or spring constants, "
+                                         "sensitivities, tips and temperatures known "
+                                         "better";
+
 static const source sources[] = {
     {"material", "a second DMA run; temperatures known better", always, stated_rubber, hold_rubber},
     {"pressure", "the load and the nominal area known better", always, stated_pressure,
@@ -131,10 +135,7 @@ static const source sources[] = {
      hold_thickness},
     {"modulus ratio", "more spots: four times as many halve it", has_ratio, stated_ratio,
      hold_ratio},
-    {"calibration",
-     "one cantilever for both groups, or spring constants, sensitivities, tips and "
-     "temperatures known better",
-     has_calibration, stated_calibration, hold_calibration},
+    {"calibration", calibration_remedy, has_calibration, stated_calibration, hold_calibration},
 };
 enum { SOURCES = COUNT_OF(sources) };
 
@@ -234,17 +235,22 @@ typedef struct row {
     double share, seconds;
 } row;
 
-static void put(const budget *b, setting_number k, row r, table_writer *t)
+static void put_row(const char *number, double value, row r, table_writer *t)
 {
     table_row(t);
-    error_budget_put_text(t, ERROR_BUDGET_NUMBER, numbers[k].words);
+    error_budget_put_text(t, ERROR_BUDGET_NUMBER, number);
     error_budget_put_text(t, ERROR_BUDGET_SOURCE, r.source);
     error_budget_put_text(t, ERROR_BUDGET_KIND, r.kind);
     error_budget_put(t, ERROR_BUDGET_RELATIVE_ERROR,
-                     r.error / fabs(b->values.number[k].value)); /* 0 of 0 is not known */
+                     r.error / fabs(value)); /* 0 of 0 is not known */
     error_budget_put(t, ERROR_BUDGET_SHARE, r.share);
     error_budget_put(t, ERROR_BUDGET_SECONDS, r.seconds);
     error_budget_put_text(t, ERROR_BUDGET_REMEDY, r.remedy);
+}
+
+static void put(const budget *b, setting_number k, row r, table_writer *t)
+{
+    put_row(numbers[k].words, b->values.number[k].value, r, t);
 }
 
 /* What a number rests on most. */
@@ -347,6 +353,47 @@ static void put_number(const budget *b, setting_number k, const table_view *what
     advise(b, k, &v, t);
 }
 
+/* The ratio itself: nothing has to be drawn, for what its spots and the calibration do to it is
+ * known. The time is that of the curves. */
+static void put_ratio(const budget *b, table_writer *t)
+{
+    static const char number[] = "modulus ratio";
+    const wt_layer_known *known = &b->setting.known;
+    const wt_estimate ratio = known->modulus_ratio;
+    const bool measured = known->modulus_ratio_df > 0;
+    const cost_of_stages curves = cost_stages(b->work.cost, "indentation");
+    const double spots = 1 - known->calibration_share, error = ratio.standard_error;
+    const char *own = measured ? "scatter of the spots" : "stated error";
+    const char *remedy = measured ? "more spots: four times as many halve it" : "a measurement";
+    char text[400];
+    if (!(error > 0))
+        return;
+    put_row(number, ratio.value,
+            (row){own, "measured", remedy, sqrt(spots) * error, spots, curves.seconds}, t);
+    if (known->calibration_share > 0)
+        put_row(number, ratio.value,
+                (row){"calibration", "measured", calibration_remedy,
+                      sqrt(known->calibration_share) * error, known->calibration_share,
+                      curves.seconds},
+                t);
+    put_row(number, ratio.value,
+            (row){"all together", "together", "", error, (double)NAN, curves.seconds}, t);
+    size_t n = (size_t)snprintf(text, sizeof text, "%.0f %% of its variance is the %s: %s.",
+                                100 * fmax(spots, known->calibration_share),
+                                spots >= known->calibration_share ? own : "calibration",
+                                spots >= known->calibration_share ? remedy : calibration_remedy);
+    if (curves.error >= 0) {
+        put_row(number, ratio.value,
+                (row){"arithmetic", "numerical", "", M_SQRT2 * curves.error * ratio.value,
+                      (double)NAN, curves.seconds},
+                t);
+        snprintf(text + n, sizeof text - n,
+                 " The arithmetic of the fits is good to %.1g: it leaves nothing to be had.",
+                 M_SQRT2 * curves.error);
+    }
+    error_budget_set_text(t, ERROR_BUDGET_KEY_RATIO, text);
+}
+
 wt_status wt_error_budget_make(const wt_sliding *sliding, const wt_layer_job *layer,
                                const wt_layer_known *known, const wt_table *what_if,
                                const wt_job *work, wt_table **table, wt_error *err)
@@ -370,6 +417,8 @@ wt_status wt_error_budget_make(const wt_sliding *sliding, const wt_layer_job *la
     for (size_t k = 0; k < SETTING_NUMBERS; k++)
         if (isfinite(b.values.number[k].value))
             put_number(&b, (setting_number)k, &moved, &t);
+    if (b.setting.has_known)
+        put_ratio(&b, &t);
     if (b.lacks[0] != '\0')
         error_budget_set_text(&t, ERROR_BUDGET_KEY_LACKS, b.lacks);
     status = table_end(&t, table);
