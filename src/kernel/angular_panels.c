@@ -5,9 +5,13 @@
  */
 #include "kernel/angular_panels.h"
 
+#include "base/exponential.h"
+#include "base/wide.h"
+
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 static const double widest = 0.35;
 /* ln F changes by no more over one panel. */
@@ -251,16 +255,38 @@ static void add_far(const angular_panels *a, size_t edge, double w, double *j1, 
     *j2 += sum2 * c;
 }
 
-/* A panel as far below w as it is wide, or further. */
-static void add_middle(const angular_panels *a, size_t p, double w, double *j1, double *j2)
+enum { REGISTER = 4, MIDDLE = 8 * PANEL_NODES };
+typedef double wide __attribute__((vector_size(REGISTER * sizeof(double))));
+
+/* The n <= MIDDLE nodes of panels that are each as far below w as they are wide, or further. */
+WIDE_REGISTERS
+static void add_middle(size_t n, const double *restrict omega, const double *restrict f1,
+                       const double *restrict f2, double w, double *restrict j1,
+                       double *restrict j2)
 {
-    const double *omega = a->omega + p * PANEL_NODES;
-    const double *f1 = a->value[0] + p * PANEL_NODES, *f2 = a->value[1] + p * PANEL_NODES;
-    for (size_t i = 0; i < PANEL_NODES; i++) {
-        const double c = omega[i] / w;
-        const double kernel = c / sqrt((1 - c) * (1 + c));
-        *j1 += kernel * c * f1[i];
-        *j2 += kernel * f2[i];
+    double kernel[MIDDLE], cosine[MIDDLE];
+    for (size_t i = 0; i < n; i++) {
+        cosine[i] = omega[i] / w;
+        kernel[i] = cosine[i] / sqrt((1 - cosine[i]) * (1 + cosine[i]));
+    }
+    wide sum1 = {0}, sum2 = {0};
+    size_t from = 0;
+    for (; from + REGISTER <= n; from += REGISTER) {
+        wide c, k, v1, v2;
+        memcpy(&c, cosine + from, sizeof c);
+        memcpy(&k, kernel + from, sizeof k);
+        memcpy(&v1, f1 + from, sizeof v1);
+        memcpy(&v2, f2 + from, sizeof v2);
+        sum1 += k * c * v1;
+        sum2 += k * v2;
+    }
+    for (size_t i = 0; from < n; i++, from++) {
+        sum1[i] += kernel[from] * cosine[from] * f1[from];
+        sum2[i] += kernel[from] * f2[from];
+    }
+    for (size_t i = 0; i < REGISTER; i++) {
+        *j1 += sum1[i];
+        *j2 += sum2[i];
     }
 }
 
@@ -269,14 +295,17 @@ static void add_near(const angular_panels *a, double x, double from, double to, 
                      double *j1, double *j2)
 {
     double omega[PANEL_NODES], storage[PANEL_NODES], loss[PANEL_NODES], weight[PANEL_NODES],
-        cosine[PANEL_NODES];
+        cosine[PANEL_NODES], t[PANEL_NODES], power[PANEL_NODES], gap[PANEL_NODES];
     const double near = sqrt(fmax(0, x - to)), far = sqrt(x - from), half = 0.5 * (far - near);
     for (size_t i = 0; i < PANEL_NODES; i++) {
-        const double t = near + half * (1 + a->rule->node[i]);
-        const double gap = -expm1(-2 * t * t); /* 1 - c^2 */
-        cosine[i] = sqrt(1 - gap);
+        t[i] = near + half * (1 + a->rule->node[i]);
+        power[i] = -2 * t[i] * t[i];
+    }
+    exponential_less_one(power, PANEL_NODES, gap); /* c^2 - 1 */
+    for (size_t i = 0; i < PANEL_NODES; i++) {
+        cosine[i] = sqrt(1 + gap[i]);
         omega[i] = w * cosine[i];
-        weight[i] = half * a->rule->weight[i] * 2 * t * cosine[i] / sqrt(gap);
+        weight[i] = half * a->rule->weight[i] * 2 * t[i] * cosine[i] / sqrt(-gap[i]);
     }
     a->material->law->modulus(a->material, omega, PANEL_NODES, storage, loss);
     for (size_t i = 0; i < PANEL_NODES; i++) {
@@ -295,13 +324,14 @@ void angular_panels_integrate(const angular_panels *panels, double w, double *j1
         const double x = log(w);
         size_t p = edge_before(a, x - M_LN2);
         add_far(a, p, w, j1, j2);
-        for (; p < a->n && a->edge[p] < x; p++) {
-            const double from = a->edge[p], to = a->edge[p + 1];
-            if (to <= x - (to - from))
-                add_middle(a, p, w, j1, j2);
-            else
-                add_near(a, x, from, fmin(to, x), w, j1, j2);
-        }
+        const size_t middle = p * PANEL_NODES;
+        while (p < a->n && 2 * a->edge[p + 1] <= x + a->edge[p])
+            p++;
+        for (size_t from = middle, end = p * PANEL_NODES; from < end; from += MIDDLE)
+            add_middle(end - from < MIDDLE ? end - from : MIDDLE, a->omega + from,
+                       a->value[0] + from, a->value[1] + from, w, j1, j2);
+        for (; p < a->n && a->edge[p] < x; p++)
+            add_near(a, x, a->edge[p], fmin(a->edge[p + 1], x), w, j1, j2);
     }
     *j1 *= 4;
     *j2 *= 4;

@@ -2,6 +2,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
+#include "base/exponential.h"
 #include "model/material.h"
 
 #include <gsl/gsl_interp.h>
@@ -18,18 +19,37 @@ typedef struct table_data {
     double numbers[];    /* [4 n] all of them */
 } table_data;
 
+/* Logarithms in the place of the moduli, kept where e^x is a number whose square is none. */
+static void table_logs(const table_data *d, const double *omega, size_t n, double *storage,
+                       double *loss)
+{
+    const double most = 700, first = d->log_omega[0], last = d->log_omega[d->n - 1];
+    const bool hold = d->extrapolation == WT_EXTRAPOLATE_HOLD;
+    size_t k = 0;
+    for (size_t i = 0; i < n; i++) {
+        double x = log(omega[i]);
+        if (hold)
+            x = x < first ? first : x > last ? last : x;
+        if (!(x >= d->log_omega[k] && x < d->log_omega[k + 1])) /* mostly that of the one before */
+            k = gsl_interp_bsearch(d->log_omega, x, 0, d->n - 1);
+        const double t = (x - d->log_omega[k]) / (d->log_omega[k + 1] - d->log_omega[k]);
+        const double e = d->log_storage[k] + t * (d->log_storage[k + 1] - d->log_storage[k]);
+        const double f = d->log_loss[k] + t * (d->log_loss[k + 1] - d->log_loss[k]);
+        storage[i] = e < most ? e : most;
+        loss[i] = f < most ? f : most;
+    }
+}
+
 static void table_modulus(const wt_material *material, const double *omega, size_t n,
                           double *storage, double *loss)
 {
-    const table_data *d = material->data;
-    for (size_t i = 0; i < n; i++) {
-        double x = log(omega[i]);
-        if (d->extrapolation == WT_EXTRAPOLATE_HOLD)
-            x = fmin(fmax(x, d->log_omega[0]), d->log_omega[d->n - 1]);
-        const size_t k = gsl_interp_bsearch(d->log_omega, x, 0, d->n - 1);
-        const double t = (x - d->log_omega[k]) / (d->log_omega[k + 1] - d->log_omega[k]);
-        storage[i] = exp(d->log_storage[k] + t * (d->log_storage[k + 1] - d->log_storage[k]));
-        loss[i] = exp(d->log_loss[k] + t * (d->log_loss[k + 1] - d->log_loss[k]));
+    enum { BATCH = 32 };
+    double logs[2][BATCH];
+    for (size_t from = 0; from < n; from += BATCH) {
+        const size_t left = n - from < BATCH ? n - from : BATCH;
+        table_logs(material->data, omega + from, left, logs[0], logs[1]);
+        exponential(logs[0], left, storage + from);
+        exponential(logs[1], left, loss + from);
     }
 }
 
