@@ -348,6 +348,18 @@ WT_API wt_status wt_store_read(const char *path, wt_result **result, wt_error *e
 WT_API wt_status wt_store_read_memory(const void *bytes, size_t length, const char *name,
                                       wt_result **result, wt_error *err) WT_NODISCARD;
 
+/* A map of force curves in such a file: written curve by curve, so that memory hardly grows with
+ * it. The path is borrowed until the end. */
+typedef struct wt_map_writer wt_map_writer;
+WT_API wt_status wt_map_begin(const char *path, wt_map_writer **writer, wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_map_put(wt_map_writer *writer, const wt_force_curve *curve,
+                            wt_error *err) WT_NODISCARD;
+/* Adds the tables "force_map/..." to the result, writes it with the samples beside them, then
+ * renames. Frees the writer. */
+WT_API wt_status wt_map_end(wt_map_writer *writer, wt_result *result, bool with_provenance,
+                            wt_error *err) WT_NODISCARD;
+WT_API void wt_map_discard(wt_map_writer *writer); /* leaves no file; accepts NULL */
+
 #ifdef __cplusplus
 }
 #endif

@@ -60,8 +60,7 @@ WT_API const wt_params *wt_job_params(void);
 /* Adds a file that the caller of jobs has read itself to provenance and cost: `input` has its path,
  * role and format. */
 WT_API wt_status wt_job_input(const wt_job *work, wt_provenance_input input,
-                              const unsigned char *bytes, size_t length,
-                              wt_error *err) WT_NODISCARD;
+                              wt_input *file, wt_error *err) WT_NODISCARD;
 WT_API wt_table *wt_failures_new(void); /* table "failures"; NULL when out of memory */
 /* Table "notes" of a log, with the names of files below `folder` shown without it; NULL = as they
  * are. */
@@ -108,11 +107,14 @@ WT_API const wt_params *wt_convert_job_params(void);
 
 /* Takes one table (also on failure) as soon as it is made. */
 typedef wt_status (*wt_table_sink)(void *user, wt_table *table, wt_error *err);
+/* Takes one curve, which it borrows. */
+typedef wt_status (*wt_curve_sink)(void *user, const wt_force_curve *curve, wt_error *err);
 /* A file as tables in SI units: "force_curve/I" of each curve, "sweep", "roughness", "image/I". The
- * file is in the provenance before the first table is given. WT_E_EMPTY if it holds no data of that
- * kind. */
+ * file is in the provenance before the first table is given. Curves go to `curves` instead, unless
+ * that is NULL. WT_E_EMPTY if it holds no data of that kind. */
 WT_API wt_status wt_convert_file(const wt_convert_job *job, const char *path, const wt_job *work,
-                                 wt_table_sink sink, void *user, wt_error *err) WT_NODISCARD;
+                                 wt_table_sink sink, wt_curve_sink curves, void *user,
+                                 wt_error *err) WT_NODISCARD;
 
 /* ---- indentation ----------------------------------------------------------------------------- */
 

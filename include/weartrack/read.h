@@ -14,7 +14,7 @@ extern "C" {
 
 /* ---- input -------------------------------------------------------------------------------- */
 
-/* Bytes with peek. A file is read into memory, a pipe is buffered. Gzip archives and spreadsheets
+/* Bytes with peek. A file is read into memory as far as it is asked for, a pipe is buffered. Gzip archives and spreadsheets
  * are unpacked where formats are detected and data read, a ZIP archive of files of force curves is
  * read as one; the bytes here are those of the file. */
 typedef struct wt_input wt_input;
@@ -28,6 +28,12 @@ WT_API const char *wt_input_name(const wt_input *input);
 /* All bytes, borrowed until the input is closed (a pipe is read to its end). */
 WT_API wt_status wt_input_bytes(wt_input *input, const unsigned char **bytes, size_t *length,
                                 wt_error *err) WT_NODISCARD;
+/* How many bytes there are (a pipe is read to its end). */
+WT_API wt_status wt_input_size(wt_input *input, size_t *size, wt_error *err) WT_NODISCARD;
+/* Copies bytes [from, from + n), without keeping those of a file. WT_E_IO if there are not so many:
+ * the file has become shorter. */
+WT_API wt_status wt_input_at(wt_input *input, size_t from, void *to, size_t n,
+                             wt_error *err) WT_NODISCARD;
 /* At least the first `want` bytes if there are as many; *whole says that this is all. */
 WT_API wt_status wt_input_peek(wt_input *input, size_t want, const unsigned char **bytes,
                                size_t *length, bool *whole, wt_error *err) WT_NODISCARD;

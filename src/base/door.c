@@ -58,14 +58,14 @@ static bool shut_in(int to, const door_call *door, const door_limits *limits, si
                     pid_t parent)
 {
     /* A file that is opened again has one number more; so have the tables of old encodings. */
-    const size_t n_files = door->file >= 0 ? DOOR_FILE + 12 : 0;
+    const size_t n_files = door->opens_again ? DOOR_FILE + 12 : 0;
     const struct sigaction usual = {.sa_handler = SIG_DFL};
     sigset_t none;
     (void)sigemptyset(&none);
     for (int i = 1; i < NSIG; i++)
         (void)sigaction(i, &usual, NULL); /* some cannot be set, nor need be */
     if (prctl(PR_SET_PDEATHSIG, SIGKILL) != 0 || getppid() != parent ||
-        dup_apart(to, door->file) != 0 || prctl(PR_SET_DUMPABLE, door->file >= 0) != 0 ||
+        dup_apart(to, door->file) != 0 || prctl(PR_SET_DUMPABLE, door->opens_again) != 0 ||
         sigprocmask(SIG_SETMASK, &none, NULL) != 0)
         return false;
     for (int i = 0; i < ANSWER_FD; i++)
@@ -128,40 +128,52 @@ static pid_t start(int to, const door_call *door, const door_limits *limits)
     return child;
 }
 
-/* How the answer ended. */
-typedef enum ending { ENDED, LATE, LONG, BROKEN, NO_MEMORY } ending;
+/* How the answer ended; COMING: it has not. */
+typedef enum ending { COMING, ENDED, LATE, LONG, BROKEN, NO_MEMORY } ending;
 
-typedef struct buffer {
-    char *bytes;
+struct door_flow {
+    const char *what;
+    door_limits limits;
+    pid_t child;
+    int from;
+    ending how;
+    char *bytes; /* that came and were not taken */
     size_t length, room;
-} buffer;
+    size_t taken;
+    double waited; /* [s] */
+};
 
-/* Collects what comes, until it ends or takes too much. */
-static ending collect(int from, const door_limits *limits, buffer *b)
+/* Collects what comes until there is so much, it ends or takes too much. Only waiting counts as
+ * time: the caller may be long about what it takes. */
+static void collect(door_flow *flow, size_t want)
 {
-    const size_t most = limits->answer + sizeof(wt_error);
-    const double deadline = wt_time_wall() + limits->wall_time;
-    for (;;) {
-        if (b->room - b->length < ANSWER_BUFFER) {
-            char *const bytes = realloc(b->bytes, 2 * b->room + ANSWER_BUFFER);
-            if (bytes == NULL)
-                return NO_MEMORY;
-            b->bytes = bytes;
-            b->room = 2 * b->room + ANSWER_BUFFER;
+    const size_t most = flow->limits.answer + sizeof(wt_error);
+    while (flow->how == COMING && flow->length < want) {
+        if (flow->room - flow->length < ANSWER_BUFFER) {
+            char *const bytes = realloc(flow->bytes, 2 * flow->room + ANSWER_BUFFER);
+            if (bytes == NULL) {
+                flow->how = NO_MEMORY;
+                return;
+            }
+            flow->bytes = bytes;
+            flow->room = 2 * flow->room + ANSWER_BUFFER;
         }
-        struct pollfd ready = {.fd = from, .events = POLLIN};
-        const double left = deadline - wt_time_wall();
+        struct pollfd ready = {.fd = flow->from, .events = POLLIN};
+        const double begin = wt_time_wall(), left = flow->limits.wall_time - flow->waited;
         const int n_ready = poll(&ready, 1, left > 0.0 ? (int)(1000.0 * left) + 1 : 0);
+        flow->waited += wt_time_wall() - begin;
+        const ssize_t n =
+            n_ready > 0 ? read(flow->from, flow->bytes + flow->length, flow->room - flow->length)
+                        : -1;
+        flow->length += n > 0 ? (size_t)n : 0;
         if (n_ready == 0)
-            return LATE;
-        const ssize_t n = n_ready > 0 ? read(from, b->bytes + b->length, b->room - b->length) : -1;
-        if (n == 0)
-            return ENDED;
-        if (n < 0 && errno != EINTR)
-            return BROKEN;
-        b->length += n > 0 ? (size_t)n : 0;
-        if (b->length > most)
-            return LONG;
+            flow->how = LATE;
+        else if (n == 0)
+            flow->how = ENDED;
+        else if (n < 0 && errno != EINTR)
+            flow->how = BROKEN;
+        else if (flow->taken + flow->length > most)
+            flow->how = LONG;
     }
 }
 
@@ -234,34 +246,101 @@ static wt_status reported(const char *what, const char *bytes, const door_limits
     return said.status;
 }
 
+wt_status door_begin(const door_call *door, const door_limits *limits, door_flow **begun,
+                     wt_error *err)
+{
+    int channel[2];
+    door_flow *const flow = calloc(1, sizeof *flow);
+    if (flow == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    *flow = (door_flow){.what = door->what, .limits = *limits};
+    if (pipe2(channel, O_CLOEXEC) != 0) {
+        free(flow);
+        return wt_fail(err, WT_E_IO, "no pipe for reading %s: %s", door->what, strerror(errno));
+    }
+    flow->from = channel[0];
+    flow->child = start(channel[1], door, limits);
+    const int number = errno;
+    (void)close(channel[1]);
+    if (flow->child < 0) {
+        (void)close(flow->from);
+        free(flow);
+        return wt_fail(err, number == ENOMEM ? WT_E_MEMORY : WT_E_IO,
+                       "no process for reading %s: %s", door->what, strerror(number));
+    }
+    *begun = flow;
+    return WT_OK;
+}
+
+/* Ends the process, whose answer is over, and says what became of it. */
+static wt_status judge(door_flow *flow, wt_error *err)
+{
+    const int state = finish(flow->child, flow->how != ENDED);
+    flow->child = -1;
+    if (flow->how == ENDED && state == 0 && flow->length >= sizeof(wt_error))
+        return reported(flow->what, flow->bytes + flow->length - sizeof(wt_error), &flow->limits,
+                        err);
+    return explain(flow->what, flow->how, state, &flow->limits, err);
+}
+
+static wt_status unexpected(const door_flow *flow, const char *how, wt_error *err)
+{
+    (void)wt_fail(err, WT_E_CORRUPT, "the %s file gives %s than it says", flow->what, how);
+    return refuse(err);
+}
+
+wt_status door_take(door_flow *flow, void *to, size_t n, wt_error *err)
+{
+    if (flow->child < 0)
+        return unexpected(flow, "less", err);
+    /* The error that the answer ends with must not be taken for a part of it. */
+    collect(flow, n + sizeof(wt_error));
+    if (flow->length < n + sizeof(wt_error)) {
+        const wt_status status = judge(flow, err);
+        return status != WT_OK ? status : unexpected(flow, "less", err);
+    }
+    memcpy(to, flow->bytes, n);
+    flow->length -= n;
+    flow->taken += n;
+    memmove(flow->bytes, flow->bytes + n, flow->length);
+    return WT_OK;
+}
+
+wt_status door_end(door_flow *flow, wt_error *err)
+{
+    if (flow->child < 0)
+        return unexpected(flow, "less", err);
+    collect(flow, SIZE_MAX);
+    const wt_status status = judge(flow, err);
+    return status == WT_OK && flow->length != sizeof(wt_error) ? unexpected(flow, "more", err)
+                                                               : status;
+}
+
+void door_close(door_flow *flow)
+{
+    if (flow == NULL)
+        return;
+    if (flow->child >= 0)
+        (void)finish(flow->child, true);
+    (void)close(flow->from);
+    free(flow->bytes);
+    free(flow);
+}
+
 wt_status door_read(const door_call *door, const door_limits *limits, char **answer, size_t *length,
                     wt_error *err)
 {
-    int channel[2];
-    buffer b = {NULL, 0, 0};
-    wt_status status = WT_OK;
-    if (pipe2(channel, O_CLOEXEC) != 0)
-        return wt_fail(err, WT_E_IO, "no pipe for reading %s: %s", door->what, strerror(errno));
-    const pid_t child = start(channel[1], door, limits);
-    const int number = errno;
-    (void)close(channel[1]);
-    if (child < 0) {
-        status = wt_fail(err, number == ENOMEM ? WT_E_MEMORY : WT_E_IO,
-                         "no process for reading %s: %s", door->what, strerror(number));
-    } else {
-        const ending how = collect(channel[0], limits, &b);
-        const int state = finish(child, how != ENDED);
-        if (how == ENDED && state == 0 && b.length >= sizeof(wt_error))
-            status = reported(door->what, b.bytes + b.length - sizeof(wt_error), limits, err);
-        else
-            status = explain(door->what, how, state, limits, err);
-    }
-    (void)close(channel[0]);
+    door_flow *flow = NULL;
+    wt_status status = door_begin(door, limits, &flow, err);
+    if (status != WT_OK)
+        return status;
+    collect(flow, SIZE_MAX);
+    status = judge(flow, err);
     if (status == WT_OK) {
-        *answer = b.bytes;
-        *length = b.length - sizeof(wt_error);
-    } else {
-        free(b.bytes);
+        *answer = flow->bytes;
+        *length = flow->length - sizeof(wt_error);
+        flow->bytes = NULL;
     }
+    door_close(flow);
     return status;
 }

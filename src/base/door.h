@@ -8,7 +8,7 @@
  * leave).
  *
  * The process has the signals of a new one, no open file but its answer and one that it may be
- * given, can write none (and open none, without that one), leaves no core file and does not outlive
+ * given, can write none (and open none, unless that one again), leaves no core file and does not outlive
  * the caller. What it may take is limited. The caller's signal handlers are left alone: one that
  * waits for every child may take this one too, and then only the cause of a failure stays unknown.
  *
@@ -29,7 +29,7 @@ typedef struct door_limits {
 /* What a file of this size may take: several times what a sound one does. */
 door_limits door_limits_of(size_t size);
 
-/* The number of the file that the process is given; it may open that one again. */
+/* The number of the file that the process is given. */
 enum { DOOR_FILE = 4 };
 
 typedef struct door_call {
@@ -40,6 +40,7 @@ typedef struct door_call {
     size_t size;
     const void *with;          /* for `reading` */
     int file;                  /* -1: none */
+    bool opens_again;          /* the file, by its name under /proc */
     void (*enter)(void *hold); /* around the making of the process; or NULL */
     void (*leave)(void *hold);
     void *hold;
@@ -49,5 +50,15 @@ typedef struct door_call {
  * nothing in it may be trusted. The error has no file name. */
 wt_status door_read(const door_call *door, const door_limits *limits, char **answer, size_t *length,
                     wt_error *err) WT_NODISCARD;
+
+/* The same, taken as it comes. */
+typedef struct door_flow door_flow;
+wt_status door_begin(const door_call *door, const door_limits *limits, door_flow **flow,
+                     wt_error *err) WT_NODISCARD;
+/* The next n bytes; WT_E_CORRUPT if there are not so many. After a failure there is nothing more. */
+wt_status door_take(door_flow *flow, void *to, size_t n, wt_error *err) WT_NODISCARD;
+/* Fails if what was left to say is more than nothing, or an error. */
+wt_status door_end(door_flow *flow, wt_error *err) WT_NODISCARD;
+void door_close(door_flow *flow); /* also before the end; accepts NULL */
 
 #endif

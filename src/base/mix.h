@@ -18,9 +18,9 @@ static inline uint64_t mix64(uint64_t x)
     return x ^ (x >> 31);
 }
 
-static inline uint64_t mix_bytes(const unsigned char *bytes, size_t n)
+/* Goes on with more bytes; n is a multiple of 8, unless they are the last. */
+static inline uint64_t mix_bytes(uint64_t hash, const unsigned char *bytes, size_t n)
 {
-    uint64_t hash = mix64(n);
     for (size_t i = 0; i < n; i += sizeof hash) {
         uint64_t word = 0;
         memcpy(&word, bytes + i, n - i < sizeof word ? n - i : sizeof word);

@@ -37,7 +37,7 @@ static int create_beside(const char *folder, char **name)
         char *const path = temporary_name(folder);
         if (path == NULL)
             return -1;
-        const int descriptor = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        const int descriptor = open(path, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (descriptor >= 0) {
             *name = path;
             return descriptor;
@@ -56,7 +56,7 @@ static int create_beside(const char *folder, char **name)
 static int create_unnamed(const char *folder, char **name)
 {
     char path[48];
-    const int descriptor = open(folder, O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
+    const int descriptor = open(folder, O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
     if (descriptor < 0)
         return -1;
     (void)snprintf(path, sizeof path, "/proc/self/fd/%d", descriptor);

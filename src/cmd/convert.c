@@ -2,12 +2,21 @@
  */
 #include "cmd/cmd.h"
 
-/* Where the tables go: written as they come to a text stream, so that a map needs no more memory
- * than a curve, or collected for the HDF5 store. */
+/* Where the tables go: written as they come to a text stream, or collected for the HDF5 store,
+ * where force curves are written as they come. Memory hardly grows with a map. */
 typedef struct destination {
     cmd_session *session;
-    cmd_sink sink; /* its stream: NULL before the first table */
+    cmd_sink sink;      /* its stream: NULL before the first table */
+    wt_map_writer *map; /* NULL before the first curve of a store */
 } destination;
+
+static wt_status take_curve(void *user, const wt_force_curve *curve, wt_error *err)
+{
+    destination *d = user;
+    const wt_status status =
+        d->map == NULL ? wt_map_begin(d->session->common.output, &d->map, err) : WT_OK;
+    return status == WT_OK ? wt_map_put(d->map, curve, err) : status;
+}
 
 static wt_status take(void *user, wt_table *table, wt_error *err)
 {
@@ -41,15 +50,21 @@ int cmd_convert(int argc, char **argv)
     cmd_session s = cmd_session_defaults();
     destination d = {.session = &s};
     if (cmd_parse(&s, &usage, &part, 1, argc, argv) && cmd_begin_reading(&s, job.read.format)) {
+        const bool store = cmd_is_store(s.common.output);
         wt_status made = cmd_provenance(s.result, &s.err);
         if (made == WT_OK)
-            made = wt_convert_file(&job, s.files[0], &s.work, take, &d, &s.err);
+            made = wt_convert_file(&job, s.files[0], &s.work, take, store ? take_curve : NULL, &d,
+                                   &s.err);
         if (made == WT_OK)
             made = cmd_record(&s, take, &d);
         if (d.sink.stream != NULL)
             made = cmd_sink_close(&d.sink, made, &s.err);
-        else if (made == WT_OK && cmd_is_store(s.common.output))
+        else if (made == WT_OK && d.map != NULL)
+            made = wt_map_end(d.map, s.result, s.common.provenance, &s.err);
+        else if (made == WT_OK && store)
             made = cmd_write(&s);
+        else
+            wt_map_discard(d.map);
         cmd_end(&s, made);
     }
     return cmd_session_free(&s);

@@ -72,7 +72,7 @@ wt_status cmd_tables_input(const char *path, const wt_job *work, cmd_roles role,
                                   .role = cmd_tables_have(*tables, "indentation/") ? role.of_curves
                                                                                    : role.of_others,
                                   .format = store ? "weartrack-hdf5" : "weartrack-stream"},
-            bytes, length, err);
+            input, err);
     wt_input_close(input);
     return status;
 }

@@ -9,16 +9,17 @@
 #define WT_DATA_HDF5_DOOR_H
 
 #include "base/door.h"
-
-#include <hdf5.h>
+#include "data/hdf5_bytes.h"
 
 /* Runs behind the door: reads of the file, of so many bytes, what is wanted and prints it, tables
  * say. Only memory and HDF5 may be used. */
 typedef wt_status hdf5_reading(hid_t file, size_t size, FILE *answer, wt_error *err);
 
 /* Gives what `reading` printed, as door_read does. */
-wt_status hdf5_door_read(const void *bytes, size_t size, const door_limits *limits,
-                         hdf5_reading *reading, char **answer, size_t *length,
-                         wt_error *err) WT_NODISCARD;
+wt_status hdf5_door_read(const hdf5_bytes *from, const door_limits *limits, hdf5_reading *reading,
+                         char **answer, size_t *length, wt_error *err) WT_NODISCARD;
+/* The same as it comes (base/door.h). The bytes or the descriptor need not outlive the call. */
+wt_status hdf5_door_begin(const hdf5_bytes *from, const door_limits *limits, hdf5_reading *reading,
+                          door_flow **flow, wt_error *err) WT_NODISCARD;
 
 #endif

@@ -6,10 +6,13 @@
 #include "data/hdf5_door.h"
 #include "data/table.h"
 
-/* Version of the layout, in the root attribute "weartrack_format". */
-enum { STORE_FORMAT = 1 };
+/* Version of the layout, in the root attribute "weartrack_format": a file with a map of force
+ * curves has the second, so that a program that knows only the first does not lose the curves. */
+enum { STORE_FORMAT = 1, STORE_FORMAT_MAP = 2 };
 
 #define STORE_FORMAT_ATTRIBUTE "weartrack_format"
+/* Marks a file with a map, by which it is known before HDF5 opens it: its first attribute. */
+#define STORE_MAP_ATTRIBUTE "weartrack_force_map"
 #define STORE_VERSION_ATTRIBUTE "weartrack_version"
 #define STORE_COMMAND_ATTRIBUTE "command"
 #define STORE_CREATED_ATTRIBUTE "created"
@@ -38,6 +41,11 @@ typedef struct store_tail {
     uint64_t case_length, command_length;
 } store_tail;
 wt_status store_pass(hid_t file, size_t size, FILE *out, wt_error *err); /* a hdf5_reading */
+/* The samples of a map, data/map.h: blocks of all channels. A hdf5_reading, too. */
+wt_status store_pass_samples(hid_t file, size_t size, FILE *out, wt_error *err);
+/* As wt_store_read_memory, also from a descriptor. */
+wt_status store_read_bytes(const hdf5_bytes *from, const char *name, wt_result **result,
+                           wt_error *err);
 /* Makes a result of that; not a byte of it is trusted. */
 wt_status store_take(const char *bytes, size_t length, wt_result *result, wt_error *err);
 

@@ -2,6 +2,7 @@
  * to do harm: types, ranks and lengths are checked before memory is taken, no link leads out of the
  * file. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "data/hdf5_scope.h"
+#include "data/map.h"
 #include "data/store.h"
 
 #include <stdlib.h>
@@ -180,8 +181,10 @@ static hid_t open_group(reader *r, const char *path)
     return group;
 }
 
-/* Opens a data set whose values all stand in one piece in this file. */
-static hid_t open_dataset(const reader *r, hid_t group, const char *name, int rank, hsize_t *n)
+/* Opens a data set whose values all stand as they are in this file: in one piece or, of a map, in
+ * pieces of MAP_BLOCK. */
+static hid_t open_laid_out(const reader *r, hid_t group, const char *name, int rank,
+                           H5D_layout_t layout, hsize_t *n)
 {
     bool good = false;
     if (!is_inside(group, name))
@@ -193,12 +196,18 @@ static hid_t open_dataset(const reader *r, hid_t group, const char *name, int ra
     const hid_t space = H5Dget_space(dataset);
     const hid_t type = H5Dget_type(dataset);
     if (creation >= 0 && space >= 0 && type >= 0 && H5Sget_simple_extent_ndims(space) == rank &&
-        H5Pget_layout(creation) == H5D_CONTIGUOUS && H5Pget_external_count(creation) == 0) {
+        H5Pget_layout(creation) == layout && H5Pget_external_count(creation) == 0) {
         const hssize_t points = H5Sget_simple_extent_npoints(space);
         const hsize_t size = H5Tget_size(type);
         const hsize_t stored = H5Dget_storage_size(dataset);
-        good =
-            points >= 0 && size > 0 && stored <= r->file_size && stored / size == (hsize_t)points;
+        hsize_t piece = 0;
+        if (layout == H5D_CONTIGUOUS)
+            good = points >= 0 && size > 0 && stored <= r->file_size &&
+                   stored / size == (hsize_t)points;
+        else
+            good = points >= 0 && (hsize_t)points <= r->file_size / sizeof(double) &&
+                   H5Pget_nfilters(creation) == 0 && H5Tget_class(type) == H5T_FLOAT &&
+                   H5Pget_chunk(creation, 1, &piece) == 1 && piece == MAP_BLOCK;
         *n = (hsize_t)points;
     }
     hdf5_close(type);
@@ -208,6 +217,11 @@ static hid_t open_dataset(const reader *r, hid_t group, const char *name, int ra
         return dataset;
     hdf5_close(dataset);
     return -1;
+}
+
+static hid_t open_dataset(const reader *r, hid_t group, const char *name, int rank, hsize_t *n)
+{
+    return open_laid_out(r, group, name, rank, H5D_CONTIGUOUS, n);
 }
 
 static bool read_estimate(reader *r, hid_t group, const char *key, double value, wt_table *table)
@@ -413,9 +427,9 @@ static bool check_format(reader *r)
         H5Aread(attribute, H5T_NATIVE_INT, &format) < 0) {
         r->status = wt_fail(r->err, WT_E_FORMAT, "not a result file of weartrack");
         wt_error_expected(r->err, "the attribute \"%s\"", STORE_FORMAT_ATTRIBUTE);
-    } else if (format != STORE_FORMAT) {
+    } else if (format != STORE_FORMAT && format != STORE_FORMAT_MAP) {
         r->status = wt_fail(r->err, WT_E_UNSUPPORTED, "result file of another version");
-        wt_error_expected(r->err, "layout %d", STORE_FORMAT);
+        wt_error_expected(r->err, "layout %d or %d", STORE_FORMAT, STORE_FORMAT_MAP);
         wt_error_found(r->err, "%d", format);
         wt_error_advice(r->err, "use the weartrack that wrote it, or a newer one");
     }
@@ -446,4 +460,47 @@ wt_status store_pass(hid_t file, size_t size, FILE *out, wt_error *err)
     free(command);
     free(digest);
     return r.status;
+}
+
+/* Prints samples [from, from + n) of an array. */
+static bool pass_block(reader *r, hid_t dataset, const char *name, hsize_t from, hsize_t n,
+                       double *block)
+{
+    const hid_t in_memory = H5Screate_simple(1, &n, NULL);
+    const hid_t in_file = H5Dget_space(dataset);
+    const bool good =
+        in_memory >= 0 && in_file >= 0 &&
+        H5Sselect_hyperslab(in_file, H5S_SELECT_SET, &from, NULL, &n, NULL) >= 0 &&
+        H5Dread(dataset, H5T_NATIVE_DOUBLE, in_memory, in_file, H5P_DEFAULT, block) >= 0;
+    hdf5_close(in_memory);
+    hdf5_close(in_file);
+    return good ? fwrite(block, sizeof *block, (size_t)n, r->out) == n
+                : corrupt(r, name, "samples cannot be read");
+}
+
+wt_status store_pass_samples(hid_t file, size_t size, FILE *out, wt_error *err)
+{
+    static double block[MAP_BLOCK];
+    reader r = {
+        .file = file, .file_size = size, .table = MAP_SAMPLES_GROUP, .out = out, .err = err};
+    char **names = NULL;
+    size_t n = 0;
+    hid_t arrays[WT_Q_COUNT];
+    hsize_t n_samples = 0;
+    const hid_t group = open_group(&r, MAP_SAMPLES_GROUP);
+    bool good = group >= 0 ? read_words(&r, group, STORE_COLUMNS_ATTRIBUTE, WT_Q_COUNT, &names, &n)
+                           : corrupt(&r, "", "the samples are missing");
+    for (size_t i = 0; good && i < n; i++) {
+        hsize_t again = 0;
+        arrays[i] = open_laid_out(&r, group, names[i], 1, H5D_CHUNKED, &again);
+        n_samples = i == 0 ? again : n_samples;
+        if (arrays[i] < 0 || again != n_samples)
+            good = corrupt(&r, names[i], "array missing, of another length or not stored as it is");
+    }
+    for (hsize_t at = 0; good && at < n_samples; at += MAP_BLOCK)
+        for (size_t i = 0; good && i < n; i++)
+            good = pass_block(&r, arrays[i], names[i], at,
+                              n_samples - at < MAP_BLOCK ? n_samples - at : MAP_BLOCK, block);
+    wt_strings_free(names, n);
+    return r.status; /* the process ends with the file open */
 }

@@ -8,7 +8,6 @@
 #include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -78,16 +77,16 @@ wt_status store_take(const char *bytes, size_t length, wt_result *result, wt_err
     return status == WT_E_MEMORY ? wt_fail(err, WT_E_MEMORY, "out of memory") : status;
 }
 
-wt_status wt_store_read_memory(const void *bytes, size_t length, const char *name,
-                               wt_result **result, wt_error *err)
+wt_status store_read_bytes(const hdf5_bytes *from, const char *name, wt_result **result,
+                           wt_error *err)
 {
-    const door_limits limits = door_limits_of(length);
+    const door_limits limits = door_limits_of(from->size);
     size_t n = 0;
     char *answer = NULL;
     wt_result *const read = wt_result_new();
     wt_status status = read != NULL ? WT_OK : wt_fail(err, WT_E_MEMORY, "out of memory");
     if (status == WT_OK)
-        status = hdf5_door_read(bytes, length, &limits, store_pass, &answer, &n, err);
+        status = hdf5_door_read(from, &limits, store_pass, &answer, &n, err);
     if (status == WT_OK)
         status = store_take(answer, n, read, err);
     free(answer);
@@ -100,28 +99,31 @@ wt_status wt_store_read_memory(const void *bytes, size_t length, const char *nam
     return status;
 }
 
-/* The file is mapped and touched behind the door alone: where another program shortens it
- * meanwhile, that is an error like any other. */
+wt_status wt_store_read_memory(const void *bytes, size_t length, const char *name,
+                               wt_result **result, wt_error *err)
+{
+    /* No bytes are bytes in memory, too. */
+    const hdf5_bytes from = {.bytes = length > 0 ? bytes : (const void *)"", .size = length};
+    return store_read_bytes(&from, name, result, err);
+}
+
 wt_status wt_store_read(const char *path, wt_result **result, wt_error *err)
 {
     struct stat info;
-    void *mapped = MAP_FAILED;
     wt_status status = WT_OK;
     /* Opening a pipe would wait for somebody who writes. */
     const int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     const bool opened = file >= 0 && fstat(file, &info) == 0;
-    if (opened && S_ISREG(info.st_mode) && info.st_size > 0)
-        mapped = mmap(NULL, (size_t)info.st_size, PROT_READ, MAP_PRIVATE, file, 0);
-    if (mapped != MAP_FAILED) {
-        status = wt_store_read_memory(mapped, (size_t)info.st_size, path, result, err);
-        (void)munmap(mapped, (size_t)info.st_size);
-    } else if (opened && !S_ISREG(info.st_mode)) {
+    if (!opened) {
+        status = wt_fail(err, errno == ENOENT ? WT_E_NOT_FOUND : WT_E_IO, "%s", strerror(errno));
+    } else if (!S_ISREG(info.st_mode)) {
         status = wt_fail(err, WT_E_IO, "not a regular file");
         wt_error_expected(err, "an HDF5 file, which cannot come through a pipe");
-    } else if (opened && info.st_size == 0) {
+    } else if (info.st_size == 0) {
         status = wt_fail(err, WT_E_FORMAT, "an empty file");
     } else {
-        status = wt_fail(err, errno == ENOENT ? WT_E_NOT_FOUND : WT_E_IO, "%s", strerror(errno));
+        const hdf5_bytes from = {.file = file, .size = (size_t)info.st_size};
+        status = store_read_bytes(&from, path, result, err);
     }
     if (status != WT_OK)
         wt_error_file(err, path);

@@ -1,20 +1,14 @@
 /* Results to the HDF5 store. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "data/hdf5_image.h"
 #include "data/hdf5_scope.h"
-#include "data/store.h"
+#include "data/store_file.h"
+#include "data/tables/tables.h"
 
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <time.h>
 
-/* What is used again and again while one file is written. */
-typedef struct writer {
-    hid_t file;
-    hid_t scalar;         /* dataspace of one */
-    hid_t group_creation; /* no times, all links and attributes in the header */
-    hid_t dataset_creation;
-} writer;
+typedef store_file writer;
 
 static bool put_attribute(hid_t object, const char *name, hid_t file_type, hid_t memory_type,
                           hid_t space, const void *value)
@@ -39,7 +33,7 @@ static hid_t text_type(size_t length)
     return type;
 }
 
-static bool put_text(const writer *w, hid_t object, const char *name, const char *text)
+bool store_put_text(const store_file *w, hid_t object, const char *name, const char *text)
 {
     const hid_t type = text_type(strlen(text));
     const bool good = type >= 0 && put_attribute(object, name, type, type, w->scalar, text);
@@ -67,7 +61,7 @@ static bool put_number(const writer *w, hid_t object, const char *name, double v
 }
 
 /* A list of words; none is written for an empty one. */
-static bool put_words(hid_t object, const char *name, const char *const *words, size_t n)
+bool store_put_words(hid_t object, const char *name, const char *const *words, size_t n)
 {
     const hsize_t size = n;
     size_t width = 0;
@@ -97,15 +91,15 @@ static bool put_dataset(const writer *w, hid_t group, const char *name, hid_t fi
     bool good = dataset >= 0;
     if (good && n > 0)
         good = H5Dwrite(dataset, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0;
-    good = good && put_text(w, dataset, STORE_UNITS_ATTRIBUTE, units) &&
-           put_text(w, dataset, STORE_LONG_NAME_ATTRIBUTE, long_name);
+    good = good && store_put_text(w, dataset, STORE_UNITS_ATTRIBUTE, units) &&
+           store_put_text(w, dataset, STORE_LONG_NAME_ATTRIBUTE, long_name);
     if (dataset >= 0)
         good = H5Dclose(dataset) >= 0 && good;
     return space >= 0 && H5Sclose(space) >= 0 && good;
 }
 
 /* Opens a group by its path, making what is missing. */
-static hid_t make_group(const writer *w, const char *path)
+hid_t store_make_group(const store_file *w, const char *path)
 {
     char *const partial = strdup(path);
     hid_t group = -1;
@@ -136,7 +130,7 @@ static bool put_keys(const writer *w, hid_t group, const wt_table *table)
         const table_key *const key = &table->keys[i];
         words[i] = key->name;
         if (!key->is_estimate) {
-            good = put_text(w, group, key->name, key->text);
+            good = store_put_text(w, group, key->name, key->text);
             continue;
         }
         char *names[KEY_PARTS] = {NULL};
@@ -144,11 +138,11 @@ static bool put_keys(const writer *w, hid_t group, const wt_table *table)
                put_number(w, group, key->name, key->parsed.value) &&
                put_number(w, group, names[KEY_STANDARD_ERROR], key->parsed.standard_error) &&
                put_number(w, group, names[KEY_NUMERICAL_ERROR], key->parsed.numerical_error) &&
-               put_text(w, group, names[KEY_UNITS], key->unit);
+               store_put_text(w, group, names[KEY_UNITS], key->unit);
         for (size_t k = 0; k < KEY_PARTS; k++)
             free(names[k]);
     }
-    good = good && put_words(group, STORE_KEYS_ATTRIBUTE, words, table->n_keys);
+    good = good && store_put_words(group, STORE_KEYS_ATTRIBUTE, words, table->n_keys);
     free(words);
     return good;
 }
@@ -161,7 +155,7 @@ static bool put_columns(const writer *w, hid_t group, const wt_table *table)
     bool good = words != NULL && blocks != NULL;
     for (size_t i = 0; good && i < table->n_columns; i++)
         words[i] = table->columns[i].name;
-    good = good && put_words(group, STORE_COLUMNS_ATTRIBUTE, words, table->n_columns);
+    good = good && store_put_words(group, STORE_COLUMNS_ATTRIBUTE, words, table->n_columns);
     for (size_t i = 0; good && i < table->n_columns; i++) {
         const table_column *const column = &table->columns[i];
         if (column->kind == WT_COLUMN_NUMBER) {
@@ -192,10 +186,10 @@ static bool put_columns(const writer *w, hid_t group, const wt_table *table)
 
 static bool put_table(const writer *w, const wt_table *table)
 {
-    const hid_t group = make_group(w, table->name);
+    const hid_t group = store_make_group(w, table->name);
     if (group < 0)
         return false;
-    const bool good = put_text(w, group, STORE_TITLE_ATTRIBUTE, table->title) &&
+    const bool good = store_put_text(w, group, STORE_TITLE_ATTRIBUTE, table->title) &&
                       put_keys(w, group, table) && put_columns(w, group, table);
     return H5Gclose(group) >= 0 && good;
 }
@@ -207,8 +201,8 @@ static bool put_case(const writer *w, const char *text, size_t length)
     const hid_t dataset = H5Dcreate2(w->file, STORE_CASE_DATASET, type, w->scalar, H5P_DEFAULT,
                                      w->dataset_creation, H5P_DEFAULT);
     bool good = dataset >= 0 && H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text) >= 0 &&
-                put_text(w, dataset, STORE_UNITS_ATTRIBUTE, "") &&
-                put_text(w, dataset, STORE_LONG_NAME_ATTRIBUTE, "the case file, whole");
+                store_put_text(w, dataset, STORE_UNITS_ATTRIBUTE, "") &&
+                store_put_text(w, dataset, STORE_LONG_NAME_ATTRIBUTE, "the case file, whole");
     if (dataset >= 0)
         good = H5Dclose(dataset) >= 0 && good;
     return type >= 0 && H5Tclose(type) >= 0 && good;
@@ -222,15 +216,16 @@ static bool put_origin(const writer *w, const wt_provenance *provenance, const w
     if (gmtime_r(&now, &utc) == NULL ||
         strftime(created, sizeof created, "%Y-%m-%dT%H:%M:%SZ", &utc) == 0)
         return false;
-    return put_text(w, w->file, STORE_VERSION_ATTRIBUTE, wt_version()) &&
-           put_text(w, w->file, STORE_COMMAND_ATTRIBUTE, wt_provenance_command(provenance)) &&
-           put_text(w, w->file, STORE_CREATED_ATTRIBUTE, created) && put_table(w, inputs);
+    return store_put_text(w, w->file, STORE_VERSION_ATTRIBUTE, wt_version()) &&
+           store_put_text(w, w->file, STORE_COMMAND_ATTRIBUTE, wt_provenance_command(provenance)) &&
+           store_put_text(w, w->file, STORE_CREATED_ATTRIBUTE, created) && put_table(w, inputs);
 }
 
 static bool put_result(const writer *w, const wt_result *result, const wt_table *inputs,
                        const char *digest)
 {
-    const int format = STORE_FORMAT;
+    const int format =
+        wt_result_find(result, map_curves_schema.name) != NULL ? STORE_FORMAT_MAP : STORE_FORMAT;
     const size_t n = wt_result_n_tables(result);
     size_t case_length = 0;
     const char *const case_file = wt_result_case(result, &case_length);
@@ -238,10 +233,10 @@ static bool put_result(const writer *w, const wt_result *result, const wt_table 
     bool good = names != NULL &&
                 put_attribute(w->file, STORE_FORMAT_ATTRIBUTE, H5T_STD_I32LE, H5T_NATIVE_INT,
                               w->scalar, &format) &&
-                put_text(w, w->file, STORE_DIGEST_ATTRIBUTE, digest);
+                store_put_text(w, w->file, STORE_DIGEST_ATTRIBUTE, digest);
     for (size_t i = 0; good && i < n; i++)
         names[i] = wt_table_name(wt_result_table(result, i));
-    good = good && put_words(w->file, STORE_TABLES_ATTRIBUTE, names, n);
+    good = good && store_put_words(w->file, STORE_TABLES_ATTRIBUTE, names, n);
     if (inputs != NULL)
         good = good && put_origin(w, wt_result_provenance_const(result), inputs);
     for (size_t i = 0; good && i < n; i++)
@@ -265,71 +260,118 @@ static bool set_group_creation(hid_t list)
            H5Pset_link_phase_change(list, UINT16_MAX, 0) >= 0;
 }
 
-/* Makes the file in memory. */
-static bool make_image(const wt_result *result, const wt_table *inputs, const char *digest,
-                       hdf5_image *image)
+static void free_file(store_file *w)
 {
-    bool good = false;
-    writer w = {.file = -1,
-                .scalar = H5Screate(H5S_SCALAR),
-                .group_creation = H5Pcreate(H5P_GROUP_CREATE),
-                .dataset_creation = H5Pcreate(H5P_DATASET_CREATE)};
-    const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
-    const hid_t creation = H5Pcreate(H5P_FILE_CREATE);
-    /* The layout of HDF5 1.8 has checksums over its own structures and is read everywhere. */
-    if (w.scalar >= 0 && set_group_creation(w.group_creation) && set_creation(w.dataset_creation) &&
-        set_group_creation(creation) && hdf5_image_access(access, image) &&
-        H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18) >= 0 &&
-        H5Pset_fclose_degree(access, H5F_CLOSE_STRONG) >= 0)
-        w.file = H5Fcreate("weartrack.h5", H5F_ACC_TRUNC, creation, access);
-    if (w.file >= 0) {
-        good = put_result(&w, result, inputs, digest);
-        good = hdf5_image_close(w.file, image) && good;
-    }
-    (void)H5Pclose(access);
-    (void)H5Pclose(creation);
-    (void)H5Pclose(w.group_creation);
-    (void)H5Pclose(w.dataset_creation);
-    (void)H5Sclose(w.scalar);
-    return good;
+    hdf5_scope scope;
+    hdf5_enter(&scope);
+    hdf5_close(w->file);
+    hdf5_close(w->scalar);
+    hdf5_close(w->group_creation);
+    hdf5_close(w->dataset_creation);
+    hdf5_leave(&scope);
+    wt_outfile_discard(w->out);
+    free(w);
 }
 
-wt_status wt_store_write(const char *path, const wt_result *result, bool with_provenance,
-                         wt_error *err)
+static bool create(store_file *w)
+{
+    const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
+    const hid_t creation = H5Pcreate(H5P_FILE_CREATE);
+    w->scalar = H5Screate(H5S_SCALAR);
+    w->group_creation = H5Pcreate(H5P_GROUP_CREATE);
+    w->dataset_creation = H5Pcreate(H5P_DATASET_CREATE);
+    /* The layout of HDF5 1.8 has checksums over its own structures and is read everywhere. */
+    if (w->scalar >= 0 && set_group_creation(w->group_creation) &&
+        set_creation(w->dataset_creation) && set_group_creation(creation) &&
+        hdf5_bytes_access(access, &w->to) &&
+        H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18) >= 0 &&
+        H5Pset_fclose_degree(access, H5F_CLOSE_STRONG) >= 0)
+        w->file = H5Fcreate("weartrack.h5", H5F_ACC_TRUNC, creation, access);
+    hdf5_close(access);
+    hdf5_close(creation);
+    return w->file >= 0;
+}
+
+wt_status store_failed(const store_file *w, wt_error *err)
+{
+    const wt_status status =
+        w->to.failed != 0
+            ? wt_fail(err, WT_E_IO, "cannot write the file: %s", strerror(w->to.failed))
+            : wt_fail(err, WT_E_INTERNAL, "HDF5 cannot make the file");
+    wt_error_file(err, w->path);
+    return status;
+}
+
+wt_status store_begin(const char *path, store_file **file, wt_error *err)
+{
+    struct stat info;
+    hdf5_scope scope;
+    store_file *const w = calloc(1, sizeof *w);
+    if (w == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    *w = (store_file){
+        .path = path, .file = -1, .scalar = -1, .group_creation = -1, .dataset_creation = -1};
+    wt_status status = wt_outfile_open(path, &w->out, err);
+    if (status == WT_OK) {
+        w->to.file = fileno(wt_outfile_stream(w->out));
+        if (fstat(w->to.file, &info) != 0 || !S_ISREG(info.st_mode))
+            status = wt_fail(err, WT_E_IO, "not a regular file: HDF5 writes no pipe and no device");
+    }
+    if (status == WT_OK) {
+        hdf5_enter(&scope);
+        const bool good = create(w);
+        hdf5_leave(&scope);
+        status = good ? WT_OK : store_failed(w, err);
+    }
+    if (status != WT_OK) {
+        wt_error_file(err, path);
+        free_file(w);
+        return status;
+    }
+    *file = w;
+    return WT_OK;
+}
+
+wt_status store_end(store_file *w, const wt_result *result, bool with_provenance, wt_error *err)
 {
     char digest[65];
-    hdf5_image image = {NULL, 0};
     wt_table *inputs = NULL;
-    wt_outfile *out = NULL;
     wt_status status = WT_OK;
     if (with_provenance)
         status = wt_provenance_table(wt_result_provenance_const(result), STORE_INPUTS_TABLE,
                                      &inputs, err);
     if (status == WT_OK)
         status = store_digest(result, inputs, digest, err);
-    if (status != WT_OK)
-        goto done;
-    hdf5_scope scope;
-    hdf5_enter(&scope);
-    const bool good = make_image(result, inputs, digest, &image);
-    hdf5_leave(&scope);
-    if (!good) {
-        status = wt_fail(err, WT_E_INTERNAL, "HDF5 cannot make the file");
-        goto done;
+    if (status == WT_OK) {
+        hdf5_scope scope;
+        hdf5_enter(&scope);
+        bool good = put_result(w, result, inputs, digest);
+        good = H5Fclose(w->file) >= 0 && good && w->to.failed == 0;
+        w->file = -1;
+        hdf5_leave(&scope);
+        status = good ? WT_OK : store_failed(w, err);
     }
-    status = wt_outfile_open(path, &out, err);
-    if (status != WT_OK)
-        goto done;
-    if (fwrite(image.bytes, 1, image.size, wt_outfile_stream(out)) != image.size) {
-        status = wt_fail(err, WT_E_IO, "cannot write the file: %s", strerror(errno));
-        wt_outfile_discard(out);
-    } else {
-        status = wt_outfile_commit(out, err);
+    if (status == WT_OK) {
+        status = wt_outfile_commit(w->out, err);
+        w->out = NULL;
     }
-done:
     if (status != WT_OK)
-        wt_error_file(err, path);
-    free(image.bytes);
+        wt_error_file(err, w->path);
     wt_table_free(inputs);
+    free_file(w);
     return status;
+}
+
+void store_discard(store_file *w)
+{
+    if (w != NULL)
+        free_file(w);
+}
+
+wt_status wt_store_write(const char *path, const wt_result *result, bool with_provenance,
+                         wt_error *err)
+{
+    store_file *file = NULL;
+    const wt_status status = store_begin(path, &file, err);
+    return status == WT_OK ? store_end(file, result, with_provenance, err) : status;
 }

@@ -13,11 +13,10 @@ wt_status wt_describe(const wt_formats *formats, wt_input *input, const wt_read_
     wt_read_options o;
     const file_reader *reader = NULL;
     wt_input *content = NULL;
-    const unsigned char *bytes = NULL;
     size_t length = 0;
     wt_status status = read_start(formats, input, options, 0, &o, &reader, &content, err);
     if (status == WT_OK)
-        status = wt_input_bytes(input, &bytes, &length, err);
+        status = wt_input_size(input, &length, err);
     if (status != WT_OK)
         return status;
     wt_table *table = NULL;

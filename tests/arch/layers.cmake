@@ -52,7 +52,8 @@ set(third_party
   "^udunits2" base
   "^(sha2|md5|sha256|sha1|md4)\\.h" base
   "^(hdf5|H5)" data+read
-  "^(zip|zlib|freexl)\\.h" read
+  "^zlib\\.h" data+read
+  "^(zip|freexl)\\.h" read
   "^libxml/" read+flow
   "^(iconv|regex)\\.h" read
   "^gsl/gsl_errno" base+model+fit+kernel

@@ -15,7 +15,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-enum { FILES = 120, MAX_SOUND = 1 << 16 };
+enum { FILES = 120, MAX_SOUND = 1 << 18 };
 
 extern char **environ;
 

@@ -3,6 +3,7 @@
  * stages run, and how often the inner work is done. The linker lays the counters around the
  * functions (see CMakeLists.txt), so the library has none.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/digest.h"
 #include "cells.h"
 
 #include "fit/curve.h"
@@ -240,6 +241,16 @@ void __wrap_wt_digest(const void *bytes, size_t length, char hex[65])
 {
     count[DIGESTS]++;
     __real_wt_digest(bytes, length, hex);
+}
+wt_status __real_digest_pieces(digest_source *source, void *user, size_t length, char hex[65],
+                               uint64_t *fingerprint, wt_error *err);
+wt_status __wrap_digest_pieces(digest_source *source, void *user, size_t length, char hex[65],
+                               uint64_t *fingerprint, wt_error *err);
+wt_status __wrap_digest_pieces(digest_source *source, void *user, size_t length, char hex[65],
+                               uint64_t *fingerprint, wt_error *err)
+{
+    count[DIGESTS] += hex != NULL;
+    return __real_digest_pieces(source, user, length, hex, fingerprint, err);
 }
 
 void __real_friction_evaluate(const wt_friction_workspace *ws, friction_scratch *scratch,

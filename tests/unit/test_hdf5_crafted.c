@@ -308,7 +308,8 @@ static void try_walk(void *user, const char *what, const uint8_t *bytes, size_t 
     char *answer = NULL;
     size_t length = 0;
     wt_error err = WT_ERROR_INIT;
-    if (hdf5_door_read(bytes, size, &limits, walk, &answer, &length, &err) == WT_OK) {
+    if (hdf5_door_read(&(hdf5_bytes){.bytes = (const unsigned char *)bytes, .size = size}, &limits,
+                       walk, &answer, &length, &err) == WT_OK) {
         t->read++;
         free(answer);
         return;

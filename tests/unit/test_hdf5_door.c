@@ -43,7 +43,9 @@ static wt_status pass(hdf5_reading *reading, door_limits limits, char **answer, 
 {
     size_t length = 0;
     *err = (wt_error)WT_ERROR_INIT;
-    const wt_status status = hdf5_door_read(bytes, size, &limits, reading, answer, &length, err);
+    const wt_status status =
+        hdf5_door_read(&(hdf5_bytes){.bytes = (const unsigned char *)bytes, .size = size}, &limits,
+                       reading, answer, &length, err);
     if (status == WT_OK)
         (*answer)[length > 0 ? length - 1 : 0] = '\0';
     else
@@ -222,11 +224,18 @@ static void not_hdf5(void **state)
     char *answer = NULL;
     size_t length = 0;
     wt_error err = WT_ERROR_INIT;
-    assert_int_equal(hdf5_door_read("no HDF5!", 8, &limits, says, &answer, &length, &err),
+    assert_int_equal(
+        hdf5_door_read(&(hdf5_bytes){.bytes = (const unsigned char *)"no HDF5!", .size = 8},
+                       &limits, says, &answer, &length, &err),
+        WT_E_FORMAT);
+    assert_int_equal(hdf5_door_read(&(hdf5_bytes){.bytes = (const unsigned char *)"", .size = 0},
+                                    &limits, says, &answer, &length, &err),
                      WT_E_FORMAT);
-    assert_int_equal(hdf5_door_read("", 0, &limits, says, &answer, &length, &err), WT_E_FORMAT);
-    assert_int_equal(hdf5_door_read("\211HDF\r\n\032\n", 8, &limits, says, &answer, &length, &err),
-                     WT_E_CORRUPT);
+    assert_int_equal(
+        hdf5_door_read(
+            &(hdf5_bytes){.bytes = (const unsigned char *)"\211HDF\r\n\032\n", .size = 8}, &limits,
+            says, &answer, &length, &err),
+        WT_E_CORRUPT);
 }
 
 /* ---- the program around it ------------------------------------------------------------------- */
@@ -293,7 +302,8 @@ static void *read_often(void *failures)
     for (int i = 0; i < 40; i++) {
         char *answer = NULL;
         size_t length = 0;
-        if (hdf5_door_read(bytes, size, &usual, says, &answer, &length, NULL) != WT_OK)
+        if (hdf5_door_read(&(hdf5_bytes){.bytes = (const unsigned char *)bytes, .size = size},
+                           &usual, says, &answer, &length, NULL) != WT_OK)
             ++*(int *)failures;
         free(answer);
     }

@@ -278,7 +278,7 @@ static wt_status convert(FILE **out, wt_error *err)
     if (common.log == NULL || common.provenance == NULL)
         status = WT_E_MEMORY;
     if (status == WT_OK)
-        status = wt_convert_file(&j, converted, &common, take_table, *out, err);
+        status = wt_convert_file(&j, converted, &common, take_table, NULL, *out, err);
     wt_provenance_free(common.provenance);
     wt_parselog_free(common.log);
     wt_formats_free(formats);

@@ -66,7 +66,7 @@ static wt_status open_bytes(const bytes *b, wt_input **input, zip_archive **arch
     return archive_open(*input, archive, err);
 }
 
-static void assert_entry(const zip_archive *a, const char *name, const char *text)
+static void assert_entry(zip_archive *a, const char *name, const char *text)
 {
     byte_buffer buffer = {0};
     size_t i = 0;

@@ -345,7 +345,7 @@ static void convert_with(const char *path, unsigned kind, wt_table_sink sink)
     wt_error err = WT_ERROR_INIT;
     common.formats = formats;
     job.kind = kind;
-    if (wt_convert_file(&job, path, &common, sink, NULL, &err) != WT_OK)
+    if (wt_convert_file(&job, path, &common, sink, NULL, NULL, &err) != WT_OK)
         fail_msg("%s: %s", path, err.message);
 }
 

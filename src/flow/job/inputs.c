@@ -4,7 +4,7 @@
 #include "flow/job/cost.h"
 
 #include "base/array.h"
-#include "base/mix.h"
+#include "base/digest.h"
 #include "data/tables/tables.h"
 
 #include <search.h>
@@ -187,34 +187,38 @@ void flow_files_clear(flow_files *files)
 
 /* ---- opening --------------------------------------------------------------------------------- */
 
-wt_status wt_job_input(const wt_job *work, wt_provenance_input input, const unsigned char *bytes,
-                       size_t length, wt_error *err)
+static wt_status read_piece(void *user, size_t from, void *to, size_t n, wt_error *err)
 {
-    cost_add_file(work->cost, length);
-    if (work->provenance == NULL)
-        return WT_OK;
+    return wt_input_at(user, from, to, n, err);
+}
+
+wt_status wt_job_input(const wt_job *work, wt_provenance_input input, wt_input *file, wt_error *err)
+{
+    size_t length = 0;
+    wt_status status = wt_input_size(file, &length, err);
+    if (status == WT_OK)
+        cost_add_file(work->cost, length);
+    if (status != WT_OK || work->provenance == NULL)
+        return status;
     input.bytes = length;
-    input.fingerprint = mix_bytes(bytes, length);
-    if ((work->left_out & WT_EXTRA_DIGESTS) == 0)
-        wt_digest(bytes, length, input.sha256);
-    const wt_status status = wt_provenance_add_input(work->provenance, &input);
+    status = digest_pieces(read_piece, file, length,
+                           (work->left_out & WT_EXTRA_DIGESTS) == 0 ? input.sha256 : NULL,
+                           &input.fingerprint, err);
+    if (status != WT_OK)
+        return status;
+    status = wt_provenance_add_input(work->provenance, &input);
     return status == WT_OK ? WT_OK : wt_fail(err, status, "cannot keep the list of inputs");
 }
 
 static wt_status record_input(const wt_job *work, wt_input *input, const flow_file *file,
                               const char *role, wt_error *err)
 {
-    const unsigned char *bytes = NULL;
-    size_t length = 0;
-    wt_status status = wt_input_bytes(input, &bytes, &length, err);
-    if (status != WT_OK)
-        return status;
     const wt_format_info *info = file->format;
     char format[128];
     snprintf(format, sizeof format, "%s %s", info->id, info->version != NULL ? info->version : "");
     return wt_job_input(work,
                         (wt_provenance_input){.path = file->name, .role = role, .format = format},
-                        bytes, length, err);
+                        input, err);
 }
 
 wt_status flow_open(const wt_job *work, flow_file *file, const char *role, unsigned kinds,

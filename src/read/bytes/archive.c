@@ -1,80 +1,299 @@
-/* ZIP archives through libzip, from memory, with every size checked before it is believed.
+/* ZIP archives with every size checked before it is believed. Layout: APPNOTE.TXT of the ZIP
+ * format, sections 4.3 and 4.5.3. Maps have half a million entries, so an entry takes no more here
+ * than its name and where it is.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "read/bytes/archive.h"
+#include "read/bytes/bytes.h"
+#include "read/bytes/input.h"
 
 #include <stdlib.h>
 #include <string.h>
-#include <zip.h>
+#include <zlib.h>
 
 /* Deflate cannot pack more tightly than 1032 : 1 (zlib, "Maximum compression factor"); the rest
  * allows for entries of a few bytes. */
 #define MAX_RATIO 1032u
 #define RATIO_SLACK 64u
 
-static wt_status open_source(zip_source_t *source, zip_t **zip, zip_error_t *error)
+#define LOCAL_SIZE ((size_t)30)
+#define CENTRAL_SIZE ((size_t)46)
+#define END_SIZE ((size_t)22)
+#define LOCATOR64_SIZE ((size_t)20)
+#define END64_SIZE ((size_t)56)
+#define COMMENT_MAX ((size_t)65535)
+/* The directory is read in such pieces; a record of it is no longer. */
+#define PIECE ((size_t)256 * 1024)
+#define FLAG_ENCRYPTED 1u
+#define METHOD_STORED 0u
+#define METHOD_DEFLATED 8u
+
+struct zip_entry {
+    uint64_t offset; /* of the local header */
+    uint32_t packed, size, sum;
+    uint32_t name; /* in names */
+    uint16_t flags, method;
+};
+
+/* Where the directory stands. */
+typedef struct directory {
+    wt_input *input;
+    uint64_t offset, size, n;
+} directory;
+
+static wt_status damaged(wt_error *err, const char *found)
 {
-    if (source == NULL)
-        return WT_E_MEMORY;
-    *zip = zip_open_from_source(source, ZIP_RDONLY, error);
-    if (*zip != NULL)
-        return WT_OK;
-    zip_source_free(source);
+    (void)wt_fail(err, WT_E_CORRUPT, "the ZIP archive cannot be opened");
+    wt_error_found(err, "%s", found);
+    wt_error_advice(err, "copy the file again from the instrument");
     return WT_E_CORRUPT;
 }
 
-wt_status archive_open(wt_input *input, zip_archive **archive, wt_error *err)
+/* ---- the directory ------------------------------------------------------------------------ */
+
+/* The record at the end of a large archive; *d is left alone if there is none. */
+static wt_status find_end64(const zip_archive *a, size_t end, directory *d, wt_error *err)
 {
-    const unsigned char *bytes = NULL;
-    size_t length = 0;
-    zip_error_t error;
-    zip_archive *a = NULL;
-    zip_error_init(&error);
-    wt_status status = wt_input_bytes(input, &bytes, &length, err);
-    if (status != WT_OK)
-        goto done;
-    a = calloc(1, sizeof *a);
-    if (a == NULL) {
-        status = wt_fail(err, WT_E_MEMORY, "no memory for the archive");
-        goto done;
+    unsigned char record[END64_SIZE];
+    if (end < LOCATOR64_SIZE)
+        return WT_OK;
+    wt_status status = wt_input_at(a->input, end - LOCATOR64_SIZE, record, LOCATOR64_SIZE, err);
+    if (status != WT_OK || le32(record) != 0x07064b50)
+        return status;
+    const uint64_t at = le64(record + 8);
+    if (at > end - LOCATOR64_SIZE || end - LOCATOR64_SIZE - at < END64_SIZE)
+        return damaged(err, "a directory outside of the file");
+    status = wt_input_at(a->input, (size_t)at, record, END64_SIZE, err);
+    if (status == WT_OK && le32(record) != 0x06064b50)
+        return damaged(err, "no end of the directory");
+    d->n = le64(record + 32);
+    d->size = le64(record + 40);
+    d->offset = le64(record + 48);
+    return status;
+}
+
+/* WT_E_CORRUPT if there is no directory in the file: it may have been cut off. */
+static wt_status find_directory(const zip_archive *a, directory *d, wt_error *err)
+{
+    const size_t length = a->length;
+    const size_t n = length < END_SIZE + COMMENT_MAX ? length : END_SIZE + COMMENT_MAX;
+    unsigned char *const last = malloc(n + 1);
+    if (last == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for the archive");
+    wt_status status = wt_input_at(a->input, length - n, last, n, err);
+    size_t at = n < END_SIZE ? 0 : n - END_SIZE + 1;
+    while (status == WT_OK && at > 0 &&
+           (le32(last + at - 1) != 0x06054b50 || le16(last + at + 19) != n - (at - 1) - END_SIZE))
+        at--;
+    if (status == WT_OK && at == 0) {
+        status = damaged(err, "no directory at its end");
+    } else if (status == WT_OK) {
+        const unsigned char *const end = last + at - 1;
+        *d = (directory){a->input, le32(end + 16), le32(end + 12), le16(end + 10)};
+        if (d->n == UINT16_MAX || d->size == UINT32_MAX || d->offset == UINT32_MAX)
+            status = find_end64(a, length - n + at - 1, d, err);
     }
-    status = open_source(zip_source_buffer_create(bytes, length, 0, &error), &a->zip, &error);
-    if (status == WT_E_CORRUPT) {
-        size_t directory_length = 0, end = 0, n = 0;
-        status = archive_rebuild(bytes, length, &a->directory, &directory_length, &end, &n, err);
-        if (status != WT_OK)
-            goto done;
-        a->truncated = true;
-        status = WT_E_CORRUPT;
-        if (n > 0) {
-            /* libzip only reads these; its fragments are not const because it may own them. */
-            zip_buffer_fragment_t parts[2];
-            memcpy(&parts[0].data, &bytes, sizeof bytes);
-            parts[0].length = end;
-            parts[1].data = a->directory;
-            parts[1].length = directory_length;
-            status = open_source(zip_source_buffer_fragment_create(parts, 2, 0, &error), &a->zip,
-                                 &error);
+    free(last);
+    if (status == WT_OK && (d->offset > length || d->size > length - d->offset ||
+                            d->n > d->size / CENTRAL_SIZE || d->n > UINT32_MAX / 2))
+        return damaged(err, "a directory outside of the file");
+    return status;
+}
+
+/* Sizes and offsets that 32 bits do not hold stand in an extra field, those of them alone. */
+static bool read_extra(const unsigned char *extra, size_t length, uint64_t *size, uint64_t *packed,
+                       uint64_t *offset)
+{
+    uint64_t *const wide[] = {size, packed, offset};
+    for (size_t at = 0; at + 4 <= length;) {
+        const size_t n = le16(extra + at + 2);
+        if (n > length - at - 4)
+            return false;
+        size_t used = 0;
+        for (size_t i = 0; le16(extra + at) == 1 && i < 3; i++) {
+            if (*wide[i] != UINT32_MAX)
+                continue;
+            if (n - used < sizeof(uint64_t))
+                return false;
+            *wide[i] = le64(extra + at + 4 + used);
+            used += sizeof(uint64_t);
+        }
+        at += 4 + n;
+    }
+    return true;
+}
+
+static wt_status take_name(zip_archive *a, const unsigned char *name, size_t length, wt_error *err)
+{
+    /* A name ends with its first zero, as it would for anybody who uses it. */
+    const size_t n = strnlen((const char *)name, length);
+    if (a->names_length + n + 1 > a->names_room) {
+        const size_t room = 2 * a->names_room + n + 4096;
+        char *const names = room < UINT32_MAX ? realloc(a->names, room) : NULL;
+        if (names == NULL)
+            return wt_fail(err, WT_E_MEMORY, "no memory for the archive");
+        a->names = names;
+        a->names_room = room;
+    }
+    memcpy(a->names + a->names_length, name, n);
+    a->names[a->names_length + n] = '\0';
+    a->names_length += n + 1;
+    return WT_OK;
+}
+
+static wt_status take_record(zip_archive *a, const unsigned char *r, size_t name, size_t extra,
+                             wt_error *err)
+{
+    uint64_t size = le32(r + 24), packed = le32(r + 20), offset = le32(r + 42);
+    if (!read_extra(r + CENTRAL_SIZE + name, extra, &size, &packed, &offset) ||
+        offset > a->length || size > UINT32_MAX || packed > UINT32_MAX)
+        return damaged(err, "an entry outside of the file, or too large");
+    a->entries[a->n] = (zip_entry){.offset = offset,
+                                   .packed = (uint32_t)packed,
+                                   .size = (uint32_t)size,
+                                   .sum = le32(r + 16),
+                                   .name = (uint32_t)a->names_length,
+                                   .flags = le16(r + 8),
+                                   .method = le16(r + 10)};
+    const wt_status status = take_name(a, r + CENTRAL_SIZE, name, err);
+    a->n += status == WT_OK;
+    return status;
+}
+
+static wt_status read_directory(zip_archive *a, const directory *d, wt_error *err)
+{
+    wt_status status = WT_OK;
+    uint64_t at = 0;
+    unsigned char *const piece = malloc(PIECE);
+    a->entries = calloc((size_t)d->n + 1, sizeof *a->entries);
+    if (piece == NULL || a->entries == NULL)
+        status = wt_fail(err, WT_E_MEMORY, "no memory for the archive");
+    for (size_t n = 0, used = 0; status == WT_OK && a->n < d->n;) {
+        const unsigned char *const r = piece + used;
+        const size_t left = n - used;
+        const size_t name = left >= CENTRAL_SIZE ? le16(r + 28) : 0;
+        const size_t extra = left >= CENTRAL_SIZE ? le16(r + 30) : 0;
+        const size_t whole =
+            CENTRAL_SIZE + name + extra + (left >= CENTRAL_SIZE ? le16(r + 32) : 0);
+        if (left < whole && at + n == d->size) {
+            status = damaged(err, "a directory that is cut off");
+        } else if (left < whole) {
+            at += used;
+            n = d->size - at < PIECE ? (size_t)(d->size - at) : PIECE;
+            used = 0;
+            status = wt_input_at(d->input, (size_t)(d->offset + at), piece, n, err);
+        } else if (le32(r) != 0x02014b50) {
+            status = damaged(err, "a directory that is damaged");
+        } else {
+            status = take_record(a, r, name, extra, err);
+            used += whole;
         }
     }
-    if (status != WT_OK) {
-        wt_fail(err, status, "the ZIP archive cannot be opened");
-        wt_error_found(err, "%s", zip_error_strerror(&error));
-        wt_error_advice(err, "copy the file again from the instrument");
-        goto done;
+    free(piece);
+    return status;
+}
+
+/* The complete entries of an archive whose end is missing. */
+static wt_status rebuild(zip_archive *a, wt_error *err)
+{
+    const unsigned char *bytes = NULL;
+    unsigned char *made = NULL;
+    size_t length = 0;
+    directory d = {.n = 0};
+    wt_error ignored = WT_ERROR_INIT;
+    wt_status status = wt_input_bytes(a->input, &bytes, &length, err);
+    if (status == WT_OK)
+        status = archive_rebuild(bytes, length, &made, &d.size, &d.n, err);
+    if (status == WT_OK && d.n == 0)
+        status = WT_E_CORRUPT; /* that there is no directory has been said */
+    if (status == WT_OK)
+        status = wt_input_open_memory(made, d.size, "directory", &d.input, &ignored);
+    if (status == WT_OK)
+        status = read_directory(a, &d, err);
+    wt_input_close(d.input);
+    free(made);
+    a->truncated = true;
+    return status;
+}
+
+/* ---- names --------------------------------------------------------------------------------- */
+
+const char *archive_name(const zip_archive *archive, size_t i)
+{
+    return archive->names + archive->entries[i].name;
+}
+
+static uint64_t hash_of(const char *name)
+{
+    uint64_t hash = UINT64_C(14695981039346656037); /* FNV-1a */
+    for (; *name != '\0'; name++)
+        hash = (hash ^ (unsigned char)*name) * UINT64_C(1099511628211);
+    return hash ^ hash >> 32;
+}
+
+/* The place of a name, or the free one where it belongs. */
+static size_t place_of(const zip_archive *a, const char *name)
+{
+    size_t at = (size_t)hash_of(name) & (a->n_places - 1);
+    while (a->places[at] != 0 && strcmp(archive_name(a, a->places[at] - 1), name) != 0)
+        at = (at + 1) & (a->n_places - 1);
+    return at;
+}
+
+static wt_status place_names(zip_archive *a, wt_error *err)
+{
+    a->n_places = 16;
+    while (a->n_places < 2 * a->n)
+        a->n_places *= 2;
+    a->places = calloc(a->n_places, sizeof *a->places);
+    if (a->places == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for the names of the archive");
+    for (size_t k = 0; k < a->n; k++) {
+        const size_t at = place_of(a, archive_name(a, k));
+        if (a->places[at] == 0)
+            a->places[at] = (uint32_t)k + 1; /* the first of equal names */
     }
-    zip_int64_t n = zip_get_num_entries(a->zip, 0);
-    if (n <= 0) {
+    return WT_OK;
+}
+
+bool archive_find(const zip_archive *archive, const char *name, size_t *i)
+{
+    const size_t at = place_of(archive, name);
+    if (archive->places[at] == 0)
+        return false;
+    *i = archive->places[at] - 1;
+    return true;
+}
+
+/* ---- opening ------------------------------------------------------------------------------ */
+
+wt_status archive_open(wt_input *input, zip_archive **archive, wt_error *err)
+{
+    directory d;
+    zip_archive *const a = calloc(1, sizeof *a);
+    if (a == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for the archive");
+    a->input = input;
+    wt_status status = wt_input_size(input, &a->length, err);
+    if (status == WT_OK)
+        status = find_directory(a, &d, err);
+    if (status == WT_OK)
+        status = read_directory(a, &d, err);
+    if (status == WT_E_CORRUPT) {
+        a->n = a->names_length = 0;
+        free(a->entries);
+        a->entries = NULL;
+        status = rebuild(a, err);
+    }
+    if (status == WT_OK && a->n == 0)
         status = wt_fail(err, WT_E_CORRUPT, "the ZIP archive is empty");
-        goto done;
-    }
-    a->n = (size_t)n;
-    *archive = a;
-    a = NULL;
-done:
-    zip_error_fini(&error);
-    archive_close(a);
+    if (status == WT_OK)
+        status = place_names(a, err);
+    if (status == WT_OK)
+        *archive = a;
+    else
+        archive_close(a);
     return status;
 }
 
@@ -82,26 +301,17 @@ void archive_close(zip_archive *archive)
 {
     if (archive == NULL)
         return;
-    if (archive->zip != NULL)
-        zip_discard(archive->zip);
-    free(archive->directory);
+    if (archive->stream != NULL)
+        (void)inflateEnd(archive->stream);
+    free(archive->stream);
+    free(archive->entries);
+    free(archive->names);
+    free(archive->places);
+    free(archive->packed.data);
     free(archive);
 }
 
-const char *archive_name(const zip_archive *archive, size_t i)
-{
-    const char *name = zip_get_name(archive->zip, i, ZIP_FL_ENC_RAW);
-    return name != NULL ? name : "";
-}
-
-bool archive_find(const zip_archive *archive, const char *name, size_t *i)
-{
-    zip_int64_t found = zip_name_locate(archive->zip, name, ZIP_FL_ENC_RAW);
-    if (found < 0)
-        return false;
-    *i = (size_t)found;
-    return true;
-}
+/* ---- entries ------------------------------------------------------------------------------ */
 
 static wt_status entry_fail(const zip_archive *archive, size_t i, wt_error *err, wt_status status,
                             const char *message)
@@ -113,57 +323,96 @@ static wt_status entry_fail(const zip_archive *archive, size_t i, wt_error *err,
 
 wt_status archive_size(const zip_archive *archive, size_t i, size_t *size, wt_error *err)
 {
-    static const zip_uint64_t needed =
-        ZIP_STAT_SIZE | ZIP_STAT_COMP_SIZE | ZIP_STAT_COMP_METHOD | ZIP_STAT_ENCRYPTION_METHOD;
-    zip_stat_t st;
-    if (zip_stat_index(archive->zip, i, 0, &st) != 0 || (st.valid & needed) != needed)
-        return entry_fail(archive, i, err, WT_E_CORRUPT, "archive entry has no size");
-    if (st.encryption_method != ZIP_EM_NONE)
+    const zip_entry *const e = &archive->entries[i];
+    if ((e->flags & FLAG_ENCRYPTED) != 0)
         return entry_fail(archive, i, err, WT_E_UNSUPPORTED, "archive entry is encrypted");
-    if (st.comp_method != ZIP_CM_STORE && st.comp_method != ZIP_CM_DEFLATE)
+    if (e->method != METHOD_STORED && e->method != METHOD_DEFLATED)
         return entry_fail(archive, i, err, WT_E_UNSUPPORTED,
                           "archive entry is packed by another method than deflate");
-    if (st.comp_size > SIZE_MAX / (2 * MAX_RATIO) ||
-        st.size > st.comp_size * MAX_RATIO + RATIO_SLACK) {
+    if (e->size > (uint64_t)e->packed * MAX_RATIO + RATIO_SLACK) {
         entry_fail(archive, i, err, WT_E_CORRUPT, "archive entry declares an impossible size");
-        wt_error_found(err, "%llu bytes out of %llu", (unsigned long long)st.size,
-                       (unsigned long long)st.comp_size);
+        wt_error_found(err, "%u bytes out of %u", (unsigned)e->size, (unsigned)e->packed);
         return WT_E_CORRUPT;
     }
-    *size = (size_t)st.size;
+    *size = e->size;
     return WT_OK;
 }
 
-static wt_status read_all(const zip_archive *archive, size_t i, zip_file_t *file,
-                          byte_buffer *buffer, size_t size, wt_error *err)
+static bool make_room(byte_buffer *buffer, size_t size)
 {
-    size_t got = 0;
-    /* One byte more than declared: reaching the end makes libzip compare the check sum, and an
-     * entry that goes on is found out. */
-    for (;;) {
-        zip_int64_t n = zip_fread(file, buffer->data + got, size + 1 - got);
-        if (n < 0) {
-            entry_fail(archive, i, err, WT_E_CORRUPT, "archive entry cannot be unpacked");
-            wt_error_found(err, "%s", zip_file_strerror(file));
-            return WT_E_CORRUPT;
+    if (size <= buffer->capacity)
+        return true;
+    unsigned char *const grown = realloc(buffer->data, size);
+    if (grown == NULL)
+        return false;
+    buffer->data = grown;
+    buffer->capacity = size;
+    return true;
+}
+
+/* Gets the bytes as they stand in the file, as many as the directory says. */
+static wt_status read_packed(const zip_archive *a, size_t i, byte_buffer *to, wt_error *err)
+{
+    const zip_entry *const e = &a->entries[i];
+    unsigned char local[LOCAL_SIZE];
+    size_t left = a->length - (size_t)e->offset, start = LOCAL_SIZE;
+    if (left < LOCAL_SIZE)
+        return entry_fail(a, i, err, WT_E_CORRUPT, "archive entry lies outside of the file");
+    wt_status status = wt_input_at(a->input, (size_t)e->offset, local, LOCAL_SIZE, err);
+    if (status != WT_OK)
+        return status;
+    start += (size_t)le16(local + 26) + le16(local + 28);
+    if (le32(local) != 0x04034b50)
+        return entry_fail(a, i, err, WT_E_CORRUPT, "archive entry cannot be opened");
+    if (start > left || e->packed > left - start)
+        return entry_fail(a, i, err, WT_E_CORRUPT, "archive entry lies outside of the file");
+    if (!make_room(to, (size_t)e->packed + 1))
+        return entry_fail(a, i, err, WT_E_MEMORY, "no memory for an archive entry");
+    return wt_input_at(a->input, (size_t)e->offset + start, to->data, e->packed, err);
+}
+
+/* One byte more than declared is allowed, so that an entry that goes on is found out. */
+static wt_status unpack(zip_archive *a, size_t i, byte_buffer *buffer, wt_error *err)
+{
+    const zip_entry *const e = &a->entries[i];
+    int state = Z_OK;
+    if (a->stream == NULL) {
+        a->stream = calloc(1, sizeof *a->stream);
+        state = a->stream != NULL ? inflateInit2(a->stream, -MAX_WBITS) : Z_MEM_ERROR;
+        if (state != Z_OK) {
+            free(a->stream);
+            a->stream = NULL;
+            return entry_fail(a, i, err, WT_E_MEMORY, "no memory for an archive entry");
         }
-        if (n == 0)
-            break;
-        got += (size_t)n;
-        if (got > size)
-            break;
+    } else {
+        (void)inflateReset(a->stream);
     }
-    if (got != size)
-        return entry_fail(archive, i, err, WT_E_CORRUPT,
+    a->stream->next_in = a->packed.data;
+    a->stream->avail_in = e->packed;
+    a->stream->next_out = buffer->data;
+    a->stream->avail_out = e->size + 1;
+    state = inflate(a->stream, Z_FINISH);
+    if (state == Z_MEM_ERROR)
+        return entry_fail(a, i, err, WT_E_MEMORY, "no memory for an archive entry");
+    const size_t got = (size_t)e->size + 1 - a->stream->avail_out;
+    if (state == Z_STREAM_END && got != e->size)
+        return entry_fail(a, i, err, WT_E_CORRUPT,
                           "archive entry is not of the size that it declares");
-    buffer->length = size;
+    if (state != Z_STREAM_END) {
+        entry_fail(a, i, err, WT_E_CORRUPT,
+                   got > e->size ? "archive entry is not of the size that it declares"
+                                 : "archive entry cannot be unpacked");
+        wt_error_found(err, "%s", a->stream->msg != NULL ? a->stream->msg : "an end too early");
+        return WT_E_CORRUPT;
+    }
     return WT_OK;
 }
 
-wt_status archive_read(const zip_archive *archive, size_t i, size_t limit, byte_buffer *buffer,
+wt_status archive_read(zip_archive *archive, size_t i, size_t limit, byte_buffer *buffer,
                        wt_error *err)
 {
     size_t size = 0;
+    const zip_entry *const e = &archive->entries[i];
     wt_status status = archive_size(archive, i, &size, err);
     if (status != WT_OK)
         return status;
@@ -173,20 +422,20 @@ wt_status archive_read(const zip_archive *archive, size_t i, size_t limit, byte_
         wt_error_found(err, "%zu bytes", size);
         return WT_E_CORRUPT;
     }
-    if (size >= buffer->capacity) {
-        unsigned char *grown = realloc(buffer->data, size + 1);
-        if (grown == NULL)
-            return entry_fail(archive, i, err, WT_E_MEMORY, "no memory for an archive entry");
-        buffer->data = grown;
-        buffer->capacity = size + 1;
-    }
-    zip_file_t *file = zip_fopen_index(archive->zip, i, 0);
-    if (file == NULL) {
-        entry_fail(archive, i, err, WT_E_CORRUPT, "archive entry cannot be opened");
-        wt_error_found(err, "%s", zip_strerror(archive->zip));
+    if (e->method == METHOD_STORED && e->packed != e->size)
+        return entry_fail(archive, i, err, WT_E_CORRUPT,
+                          "archive entry is not of the size that it declares");
+    if (!make_room(buffer, size + 1) || size == UINT32_MAX)
+        return entry_fail(archive, i, err, WT_E_MEMORY, "no memory for an archive entry");
+    const bool stored = e->method == METHOD_STORED;
+    status = read_packed(archive, i, stored ? buffer : &archive->packed, err);
+    if (status == WT_OK && !stored)
+        status = unpack(archive, i, buffer, err);
+    if (status == WT_OK && crc32(0, buffer->data, (uInt)size) != e->sum) {
+        entry_fail(archive, i, err, WT_E_CORRUPT, "archive entry cannot be unpacked");
+        wt_error_found(err, "a checksum that does not agree");
         return WT_E_CORRUPT;
     }
-    status = read_all(archive, i, file, buffer, size, err);
-    zip_fclose(file);
+    buffer->length = size;
     return status;
 }

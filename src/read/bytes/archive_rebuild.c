@@ -12,9 +12,6 @@
 #define LOCAL_SIZE ((size_t)30)
 #define CENTRAL_SIZE ((size_t)46)
 #define DESCRIPTOR_SIZE ((size_t)16)
-#define END_SIZE ((size_t)22)
-#define END64_SIZE ((size_t)56)
-#define LOCATOR64_SIZE ((size_t)20)
 #define FLAG_DESCRIPTOR 8u
 
 /* One complete entry. */
@@ -86,11 +83,6 @@ static unsigned char *put32(unsigned char *at, uint32_t value)
     return put16(put16(at, value & 0xffff), value >> 16);
 }
 
-static unsigned char *put64(unsigned char *at, uint64_t value)
-{
-    return put32(put32(at, (uint32_t)(value & 0xffffffff)), (uint32_t)(value >> 32));
-}
-
 static unsigned char *put_central(unsigned char *at, const entry *e, size_t offset)
 {
     const unsigned char *h = e->header;
@@ -107,28 +99,8 @@ static unsigned char *put_central(unsigned char *at, const entry *e, size_t offs
     return at + e->name_length;
 }
 
-/* The 64-bit form always stands before the old one, which alone could not count past 65534. */
-static void put_end(unsigned char *at, size_t n, size_t size, size_t offset)
-{
-    at = put32(at, 0x06064b50);
-    at = put64(at, END64_SIZE - 12);
-    at = put16(put16(at, 45), 45);
-    at = put32(put32(at, 0), 0);
-    at = put64(put64(at, n), n);
-    at = put64(put64(at, size), offset);
-    at = put32(at, 0x07064b50);
-    at = put32(at, 0);
-    at = put64(at, offset + size);
-    at = put32(at, 1);
-    at = put32(at, 0x06054b50);
-    at = put32(at, 0);
-    at = put16(put16(at, 0xffff), 0xffff);
-    at = put32(put32(at, 0xffffffff), 0xffffffff);
-    put16(at, 0);
-}
-
 wt_status archive_rebuild(const unsigned char *bytes, size_t length, unsigned char **directory,
-                          size_t *directory_length, size_t *end, size_t *n, wt_error *err)
+                          uint64_t *directory_length, uint64_t *n, wt_error *err)
 {
     entry e;
     size_t count = 0, at = 0, size = 0;
@@ -141,19 +113,16 @@ wt_status archive_rebuild(const unsigned char *bytes, size_t length, unsigned ch
     *n = count;
     if (count == 0)
         return WT_OK;
-    size_t total = size + END64_SIZE + LOCATOR64_SIZE + END_SIZE;
-    unsigned char *out = malloc(total);
+    unsigned char *out = malloc(size);
     if (out == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for the directory of the archive");
     unsigned char *to = out;
-    *end = at;
     at = 0;
     for (size_t i = 0; i < count && next_entry(bytes, length, at, &e); i++) {
         to = put_central(to, &e, at);
         at = e.end;
     }
-    put_end(to, count, size, *end);
     *directory = out;
-    *directory_length = total;
+    *directory_length = size;
     return WT_OK;
 }

@@ -16,6 +16,8 @@
 #include <unistd.h>
 
 #define FIRST_READ ((size_t)64 * 1024)
+/* A file that is no larger is read at once, also where parts of it are asked for. */
+#define SMALL_FILE ((size_t)4 * 1024 * 1024)
 
 struct wt_input {
     char *name;
@@ -213,6 +215,51 @@ static wt_status fill(wt_input *in, size_t want, wt_error *err)
         in->length += (size_t)got;
     }
     return WT_OK;
+}
+
+wt_status wt_input_size(wt_input *input, size_t *size, wt_error *err)
+{
+    const unsigned char *bytes = NULL;
+    if (input->expected > 0 && !input->whole) {
+        *size = input->expected;
+        return WT_OK;
+    }
+    return wt_input_bytes(input, &bytes, size, err);
+}
+
+wt_status wt_input_at(wt_input *in, size_t from, void *to, size_t n, wt_error *err)
+{
+    size_t got = 0;
+    if (in->expected <= SMALL_FILE) {
+        const wt_status status = fill(in, SIZE_MAX, err);
+        if (status != WT_OK)
+            return status;
+    }
+    if (from <= in->length && n <= in->length - from) {
+        if (n > 0)
+            memcpy(to, in->bytes + from, n);
+        return WT_OK;
+    }
+    while (got < n && in->fd >= 0) {
+        const ssize_t more = pread(in->fd, (char *)to + got, n - got, (off_t)(from + got));
+        if (more < 0 && errno == EINTR)
+            continue;
+        if (more < 0)
+            return fail_io(in, err, errno, "cannot be read");
+        if (more == 0)
+            break;
+        got += (size_t)more;
+    }
+    if (got == n)
+        return WT_OK;
+    wt_fail(err, WT_E_IO, "has become shorter while it was read");
+    wt_error_file(err, in->name);
+    return WT_E_IO;
+}
+
+int input_file(const wt_input *input)
+{
+    return input->expected > 0 && !input->whole ? input->fd : -1;
 }
 
 wt_status wt_input_bytes(wt_input *input, const unsigned char **bytes, size_t *length,

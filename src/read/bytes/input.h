@@ -9,6 +9,9 @@
 wt_status input_own(char *bytes, size_t length, const char *name, wt_input **input,
                     wt_error *err) WT_NODISCARD;
 
+/* The descriptor of a file that is not yet read as a whole, or -1; of the input. */
+int input_file(const wt_input *input);
+
 /* What was unpacked from it; closed with it. */
 void input_keep(wt_input *input, wt_input *content);
 /* What was kept last, of that what it keeps itself, and so on; the input itself if it keeps

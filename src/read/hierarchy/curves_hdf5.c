@@ -5,6 +5,7 @@
 #include "read/hierarchy/curves_hdf5.h"
 
 #include "data/hdf5_scope.h"
+#include "data/store.h"
 #include "read/bytes/input.h"
 
 #include <math.h>
@@ -141,6 +142,16 @@ double *hdf5_values(hid_t data, size_t size, size_t *n)
 /* ---- in front of the door ---------------------------------------------------------------------
  */
 
+/* This program's files say so in the first attributes of their root. */
+static bool is_own(const file_peek *peek)
+{
+    static const char *const marks[] = {STORE_FORMAT_ATTRIBUTE, STORE_MAP_ATTRIBUTE};
+    for (size_t i = 0; i < sizeof marks / sizeof *marks; i++)
+        if (memmem(peek->bytes, peek->length, marks[i], strlen(marks[i])) != NULL)
+            return true;
+    return false;
+}
+
 recognition hdf5_recognise(const file_peek *peek, const char *words)
 {
     static const char signature[] = "\211HDF\r\n\032\n";
@@ -151,7 +162,7 @@ recognition hdf5_recognise(const file_peek *peek, const char *words)
     if (memmem(peek->bytes, peek->length, words, strlen(words)) != NULL) {
         match.answer = ANSWER_YES;
         match.score = 85;
-    } else if (!peek->whole) {
+    } else if (!peek->whole && !is_own(peek)) {
         match.answer = ANSWER_MORE;
         match.need = 4 * peek->length;
     }
@@ -171,6 +182,7 @@ wt_status hdf5_as_text(wt_input *input, hdf5_reading *reading, wt_input **text, 
      */
     limits.answer = ((size_t)16 << 20) + 24 * length; /* numbers may be packed */
     limits.cpu_time = 2 + (unsigned)(length >> 20);
-    status = hdf5_door_read(bytes, length, &limits, reading, &answer, &n, err);
+    status = hdf5_door_read(&(hdf5_bytes){.bytes = bytes, .size = length}, &limits, reading,
+                            &answer, &n, err);
     return status == WT_OK ? input_own(answer, n, wt_input_name(input), text, err) : status;
 }

@@ -177,7 +177,8 @@ wt_status xls_read(wt_input *input, workbook *book, wt_error *err)
                             .reading = print_book,
                             .bytes = bytes,
                             .size = length,
-                            .file = file_of(bytes, length)};
+                            .file = file_of(bytes, length),
+                            .opens_again = true};
     if (door.file < 0)
         return wt_fail(err, errno == ENOMEM ? WT_E_MEMORY : WT_E_IO,
                        "no file in memory for the spreadsheet: %s", strerror(errno));

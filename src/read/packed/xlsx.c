@@ -48,7 +48,7 @@ static void part_close(part *p)
 }
 
 /* WT_END: there is no such entry. */
-static wt_status part_open(const zip_archive *zip, const char *name, part *p, wt_error *err)
+static wt_status part_open(zip_archive *zip, const char *name, part *p, wt_error *err)
 {
     size_t i = 0;
     *p = (part){.name = name};
@@ -177,7 +177,7 @@ static wt_status no_memory(wt_error *err)
 }
 
 /* The shared strings; how something is pronounced (rPh) is no part of the text. */
-static wt_status read_strings(const zip_archive *zip, texts *strings, wt_error *err)
+static wt_status read_strings(zip_archive *zip, texts *strings, wt_error *err)
 {
     part p;
     bool in_text = false, aside = false;
@@ -326,7 +326,7 @@ static wt_status read_node(const part *p, cell *c, const texts *strings, sheet_t
 }
 
 /* WT_END: a chart, which has no rows. */
-static wt_status read_sheet(const zip_archive *zip, const char *entry, const texts *strings,
+static wt_status read_sheet(zip_archive *zip, const char *entry, const texts *strings,
                             const workbook *book, sheet_text *out, wt_error *err)
 {
     part p;
@@ -352,7 +352,7 @@ static wt_status read_sheet(const zip_archive *zip, const char *entry, const tex
 /* ---- the book -------------------------------------------------------------------------------- */
 
 /* Where the relations of the workbook lead: id and entry in turn. */
-static wt_status read_relations(const zip_archive *zip, texts *relations, wt_error *err)
+static wt_status read_relations(zip_archive *zip, texts *relations, wt_error *err)
 {
     part p;
     wt_status status = part_open(zip, "xl/_rels/workbook.xml.rels", &p, err);
@@ -385,7 +385,7 @@ static char *find_entry(const texts *relations, const char *id)
     return NULL;
 }
 
-static wt_status add_sheet(const zip_archive *zip, const part *p, const texts *relations,
+static wt_status add_sheet(zip_archive *zip, const part *p, const texts *relations,
                            const texts *strings, workbook *book, wt_error *err)
 {
     char *name = attribute(p, "name"), *id = attribute(p, "id"), *state = attribute(p, "state");

@@ -3,6 +3,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
+#include "data/store.h"
 #include "read/bytes/input.h"
 #include "read/facts.h"
 #include "read/text/text.h"
@@ -18,7 +19,9 @@ static recognition detect(const file_reader *self, file_peek *peek)
     /* The root's attributes, the version among them, stand right behind the signature. */
     if (peek->length >= sizeof signature - 1 &&
         memcmp(peek->bytes, signature, sizeof signature - 1) == 0 &&
-        memmem(peek->bytes, peek->length, mark, sizeof mark - 1) != NULL) {
+        memmem(peek->bytes, peek->length, mark, sizeof mark - 1) != NULL &&
+        memmem(peek->bytes, peek->length, STORE_MAP_ATTRIBUTE, sizeof STORE_MAP_ATTRIBUTE - 1) ==
+            NULL) {
         match.answer = ANSWER_YES;
         match.score = 90;
     }

@@ -1,0 +1,201 @@
+/* Maps of force curves in this program's own HDF5 files, weartrack-hdf5(5), as `weartrack convert`
+ * writes them.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "data/map.h"
+#include "data/store.h"
+#include "read/bytes/input.h"
+#include "read/force_source.h"
+#include "read/reader.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef struct map_source {
+    wt_force_source base;
+    map_reader *map;
+    const map_segment *segment; /* that is read */
+    const map_channel *channels;
+    size_t n_channels;
+} map_source;
+
+static recognition detect(const file_reader *self, file_peek *peek)
+{
+    static const char signature[] = "\211HDF\r\n\032\n", mark[] = STORE_MAP_ATTRIBUTE;
+    recognition match = {.answer = ANSWER_NO};
+    (void)self;
+    /* The first attribute of the root stands right behind the signature. */
+    if (peek->length >= sizeof signature - 1 &&
+        memcmp(peek->bytes, signature, sizeof signature - 1) == 0 &&
+        memmem(peek->bytes, peek->length, mark, sizeof mark - 1) != NULL) {
+        match.answer = ANSWER_YES;
+        match.score = 95;
+    }
+    return match;
+}
+
+static wt_status open_map(wt_input *input, map_reader **map, wt_error *err)
+{
+    wt_result *result = NULL;
+    hdf5_bytes from = {.file = input_file(input)};
+    wt_status status = from.file >= 0 ? wt_input_size(input, &from.size, err)
+                                      : wt_input_bytes(input, &from.bytes, &from.size, err);
+    if (status == WT_OK)
+        status = store_read_bytes(&from, wt_input_name(input), &result, err);
+    return status == WT_OK ? map_open(&from, result, map, err) : status;
+}
+
+/* ---- curves ------------------------------------------------------------------------------- */
+
+static const double *values_of(const map_source *source, wt_quantity quantity)
+{
+    size_t k = 0;
+    while (source->channels[k].quantity != quantity)
+        k++;
+    return source->segment->values + k * source->segment->n_points;
+}
+
+static wt_status decode(wt_force_source *base, const force_signal *signal, force_linear scaling,
+                        size_t n, double *values, wt_error *err)
+{
+    const double *const from = values_of((const map_source *)base, signal->quantity);
+    (void)err;
+    for (size_t i = 0; i < n; i++)
+        values[i] = scaling.multiplier * from[i] + scaling.offset;
+    return WT_OK;
+}
+
+/* Quantities that were made of one channel have its name. */
+static const void *channel_of(const map_source *source, size_t k)
+{
+    size_t first = 0;
+    while (strcmp(source->channels[first].name, source->channels[k].name) != 0)
+        first++;
+    return &source->channels[first];
+}
+
+static void find_facts(const map_source *source, const map_segment *s,
+                       const wt_cantilever *cantilever, force_facts *facts)
+{
+    *facts =
+        (force_facts){.kind = s->kind,
+                      .index = s->index,
+                      .n_points = s->n_points,
+                      .start = (double)NAN,
+                      .duration = s->duration,
+                      .velocity = s->velocity,
+                      .setpoint = s->setpoint,
+                      .setpoint_quantity = WT_Q_FORCE,
+                      .cantilever = {.spring_constant = force_positive(cantilever->spring_constant),
+                                     .sensitivity = force_positive(cantilever->sensitivity)}};
+    for (size_t k = 0; k < source->n_channels; k++) {
+        const map_channel *const c = &source->channels[k];
+        force_signal signal = {.quantity = c->quantity,
+                               .name = c->name,
+                               .unit = c->unit,
+                               .to_si = {1, 0},
+                               .channel = channel_of(source, k)};
+        if (!map_channel_counts(s->values + k * s->n_points, s->n_points))
+            continue;
+        force_add_signal(facts, signal);
+        force_offer(facts, c->quantity);
+    }
+    if (force_find_signal(facts, WT_Q_DEFLECTION) != NULL ||
+        force_find_signal(facts, WT_Q_DEFLECTION_VOLTAGE) != NULL)
+        force_offer(facts, WT_Q_FORCE);
+}
+
+static wt_status next_curve(wt_force_source *base, wt_force_curve *curve, wt_error *err)
+{
+    map_source *const source = (map_source *)base;
+    const map_segment *segments = NULL;
+    size_t n = 0;
+    wt_status status = map_next(source->map, curve, &segments, &n, err);
+    const wt_cantilever cantilever = curve->cantilever;
+    for (size_t i = 0; status == WT_OK && i < n; i++) {
+        force_facts facts;
+        source->segment = &segments[i];
+        find_facts(source, &segments[i], &cantilever, &facts);
+        if (force_wants_segment(base, facts.kind))
+            status = force_add_segment(base, &facts, curve, err);
+    }
+    return status;
+}
+
+static void close_source(wt_force_source *base)
+{
+    map_close(((map_source *)base)->map);
+}
+
+static wt_status open_source(wt_force_source *base, const file_reader *self, wt_input *input,
+                             wt_error *err)
+{
+    map_source *const source = (map_source *)base;
+    (void)self;
+    const wt_status status = open_map(input, &source->map, err);
+    if (status == WT_OK) {
+        base->n_curves = map_n_curves(source->map);
+        source->n_channels = map_channels(source->map, &source->channels);
+    }
+    return status;
+}
+
+static const force_stream map_force = {.size = sizeof(map_source),
+                                       .open = open_source,
+                                       .next = next_curve,
+                                       .decode = decode,
+                                       .close = close_source};
+
+/* ---- facts -------------------------------------------------------------------------------- */
+
+/* The first curve stands for all. */
+static wt_status describe(const file_reader *self, wt_input *input, const wt_read_options *options,
+                          wt_parselog *log, table_writer *facts)
+{
+    map_source source = {.base = {.options = *options}};
+    const map_segment *segments = NULL;
+    wt_force_curve curve = {.n_segments = 0};
+    size_t n = 0;
+    (void)self;
+    (void)log;
+    wt_status status = open_map(input, &source.map, facts->err);
+    if (status != WT_OK)
+        return status;
+    source.n_channels = map_channels(source.map, &source.channels);
+    facts_add(facts, "curves", "", MAP_SAMPLES_GROUP, "%zu", map_n_curves(source.map));
+    wt_force_curve_reset(&curve);
+    status = map_next(source.map, &curve, &segments, &n, facts->err);
+    for (size_t i = 0; status == WT_OK && i < n; i++) {
+        force_facts read;
+        char item[160];
+        const map_segment *const s = &segments[i];
+        find_facts(&source, s, &curve.cantilever, &read);
+        if (i == 0)
+            force_describe_calibration(&read, options, "force_map/curves", "force_map/curves",
+                                       facts);
+        snprintf(item, sizeof item, "segment %zu", s->index);
+        facts_add(facts, item, "", "force_map/segments", "%s, %zu points",
+                  wt_segment_kind_name(s->kind), s->n_points);
+        for (size_t k = 0; k < read.n_signals; k++) {
+            const force_signal *const signal = &read.signals[k];
+            snprintf(item, sizeof item, "segment %zu channel %s", s->index, signal->name);
+            facts_add(facts, item, wt_quantity_unit(signal->quantity), signal->name, "%s",
+                      wt_quantity_id(signal->quantity));
+        }
+    }
+    map_close(source.map);
+    return status == WT_END ? WT_OK : status;
+}
+
+const file_reader reader_map = {
+    .info = {.id = "weartrack-map",
+             .title = "weartrack-hdf5(5): maps of force curves of this program",
+             .kinds = WT_KIND_FORCE,
+             .verified = true,
+             .evidence = "the HDF5 file that this program writes",
+             .version = "1"},
+    .detect = detect,
+    .force = &map_force,
+    .describe = describe,
+};
