@@ -26,7 +26,8 @@ wt_table *wt_table_new(const char *name, const char *title)
 static void column_free(table_column *column, size_t n_rows)
 {
     for (size_t i = 0; column->texts != NULL && i < n_rows; i++)
-        free(column->texts[i]);
+        if (i == 0 || column->texts[i] != column->texts[i - 1])
+            free(column->texts[i]);
     free(column->texts);
     free(column->numbers);
     free(column->name);
@@ -215,13 +216,15 @@ wt_status wt_table_put_text(wt_table *table, size_t column, const char *text, wt
     assert(table->n_rows > 0 && column < table->n_columns &&
            table->columns[column].kind == WT_COLUMN_TEXT);
     char *copy = NULL;
+    char **const cell = &table->columns[column].texts[table->n_rows - 1];
+    char *const above = table->n_rows > 1 ? cell[-1] : NULL;
     if (text != NULL && text[0] != '\0') {
-        copy = strdup(text);
+        copy = above != NULL && strcmp(text, above) == 0 ? above : strdup(text);
         if (copy == NULL)
             return wt_fail(err, WT_E_MEMORY, "out of memory");
     }
-    char **const cell = &table->columns[column].texts[table->n_rows - 1];
-    free(*cell);
+    if (*cell != above)
+        free(*cell);
     *cell = copy;
     return WT_OK;
 }

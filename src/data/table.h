@@ -12,7 +12,7 @@ typedef struct table_column {
     wt_column_kind kind;
     char *name, *unit, *long_name;
     double *numbers; /* [n_rows] of a number column */
-    char **texts;    /* [n_rows] of a text column; NULL stands for "" */
+    char **texts;    /* [n_rows] of a text column; NULL stands for "", one may be that above it */
 } table_column;
 
 typedef struct table_key {

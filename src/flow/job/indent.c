@@ -36,7 +36,6 @@ typedef struct accepted {
     double modulus;
     const flow_file *file;
     size_t curve, order;
-    double misfit[WT_CURVE_WAVES];
     double bend_shift, loss_bias, loss_error; /* of the modulus */
 } accepted;
 
@@ -61,6 +60,8 @@ typedef struct indent_task {
     /* accepted moduli with the curve they are of, for the representative curve */
     accepted *moduli;
     size_t n_moduli;
+    double (*misfits)[WT_CURVE_WAVES]; /* [n_misfits] of those that have one */
+    size_t n_misfits;
     wt_depth_curve *deep; /* [n_deep] curves for the modulus against depth */
     size_t n_deep;
     long n_spots; /* of them */
@@ -195,8 +196,14 @@ static wt_status keep_modulus(indent_task *task, const item *it, wt_error *err)
                    .bend_shift = it->fit.bend_shift / it->fit.modulus.value,
                    .loss_bias = it->fit.loss_bias,
                    .loss_error = it->fit.loss_error};
-    memcpy(task->moduli[task->n_moduli].misfit, it->fit.misfit, sizeof it->fit.misfit);
     task->n_moduli++;
+    if (isnan(it->fit.misfit[0]))
+        return WT_OK;
+    double(*misfits)[WT_CURVE_WAVES] = array_grow(task->misfits, task->n_misfits, sizeof *misfits);
+    if (misfits == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    task->misfits = misfits;
+    memcpy(misfits[task->n_misfits++], it->fit.misfit, sizeof *misfits);
     return WT_OK;
 }
 
@@ -388,19 +395,13 @@ static void say_shifts(const indent_task *task)
 }
 
 /* Tests the mean residual of the accepted curves. */
-static wt_status pool_curves(indent_task *task, wt_error *err)
+static void pool_curves(indent_task *task)
 {
-    double(*misfit)[WT_CURVE_WAVES] = malloc((task->n_moduli + 1) * sizeof *misfit);
-    size_t n = 0;
-    if (misfit == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    for (size_t i = 0; i < task->n_moduli; i++)
-        if (!isnan(task->moduli[i].misfit[0]))
-            memcpy(misfit[n++], task->moduli[i].misfit, sizeof *misfit);
-    const wt_curve_pool pool = wt_curve_pool_make((const double(*)[WT_CURVE_WAVES])misfit, n);
-    free(misfit);
+    const size_t n = task->n_misfits;
+    const wt_curve_pool pool =
+        wt_curve_pool_make((const double(*)[WT_CURVE_WAVES])task->misfits, n);
     if (isnan(pool.chance))
-        return WT_OK;
+        return;
     indentation_set_print(&task->rows, INDENTATION_KEY_POOLED_MISFIT, "%.3g", pool.misfit);
     indentation_set_print(&task->rows, INDENTATION_KEY_POOLED_MISFIT_CHANCE, "%.3g", pool.chance);
     if (pool.chance < task->job->options.least_chance)
@@ -409,7 +410,6 @@ static wt_status pool_curves(indent_task *task, wt_error *err)
                         "force, which scatter does not explain (chance %s): another tip, a "
                         "layer, loss, adhesion or an uneven piezo; the moduli may be further off",
                         task->job->group, n, 100 * pool.misfit, number_chance(pool.chance).text);
-    return WT_OK;
 }
 
 static wt_status add_depths(indent_task *task, wt_indent_tables *tables, wt_error *err)
@@ -541,6 +541,7 @@ static void release(indent_task *task)
     free(task->scratch);
     free(task->items);
     free(task->moduli);
+    free(task->misfits);
     free(task->deep);
     wt_prony_clear(&task->spectrum);
     wt_contact_table_free(task->contact);
@@ -585,9 +586,8 @@ wt_status wt_indent_group(const wt_indent_job *job, const wt_job *work, wt_inden
     task.rows.err = err; /* that of the last row was the error of its file */
     set_keys(&task, &files);
     say_shifts(&task);
-    status = pool_curves(&task, err);
-    if (status == WT_OK)
-        status = add_depths(&task, tables, err);
+    pool_curves(&task);
+    status = add_depths(&task, tables, err);
     if (status == WT_OK && job->curves && task.n_moduli > 0)
         status = add_representative(&task, tables, err);
     if (status != WT_OK)

@@ -23,17 +23,18 @@
 #define LOCATOR64_SIZE ((size_t)20)
 #define END64_SIZE ((size_t)56)
 #define COMMENT_MAX ((size_t)65535)
+/* Bytes of all names. */
+#define NAMES_MAX ((1u << 30) - 1)
 /* The directory is read in such pieces; a record of it is no longer. */
 #define PIECE ((size_t)256 * 1024)
 #define FLAG_ENCRYPTED 1u
-#define METHOD_STORED 0u
-#define METHOD_DEFLATED 8u
+
+enum archive_packing { STORED, DEFLATED, ENCRYPTED, UNKNOWN };
 
 struct zip_entry {
     uint64_t offset; /* of the local header */
     uint32_t packed, size, sum;
-    uint32_t name; /* in names */
-    uint16_t flags, method;
+    unsigned name : 30, packing : 2; /* in names; archive_packing */
 };
 
 /* Where the directory stands. */
@@ -130,7 +131,7 @@ static wt_status take_name(zip_archive *a, const unsigned char *name, size_t len
     const size_t n = strnlen((const char *)name, length);
     if (a->names_length + n + 1 > a->names_room) {
         const size_t room = 2 * a->names_room + n + 4096;
-        char *const names = room < UINT32_MAX ? realloc(a->names, room) : NULL;
+        char *const names = room < NAMES_MAX ? realloc(a->names, room) : NULL;
         if (names == NULL)
             return wt_fail(err, WT_E_MEMORY, "no memory for the archive");
         a->names = names;
@@ -140,6 +141,14 @@ static wt_status take_name(zip_archive *a, const unsigned char *name, size_t len
     a->names[a->names_length + n] = '\0';
     a->names_length += n + 1;
     return WT_OK;
+}
+
+static unsigned packing_of(unsigned flags, unsigned method)
+{
+    return (flags & FLAG_ENCRYPTED) != 0 ? ENCRYPTED
+           : method == 0                 ? STORED
+           : method == 8                 ? DEFLATED
+                                         : UNKNOWN;
 }
 
 static wt_status take_record(zip_archive *a, const unsigned char *r, size_t name, size_t extra,
@@ -153,9 +162,8 @@ static wt_status take_record(zip_archive *a, const unsigned char *r, size_t name
                                    .packed = (uint32_t)packed,
                                    .size = (uint32_t)size,
                                    .sum = le32(r + 16),
-                                   .name = (uint32_t)a->names_length,
-                                   .flags = le16(r + 8),
-                                   .method = le16(r + 10)};
+                                   .name = (unsigned)a->names_length & NAMES_MAX,
+                                   .packing = packing_of(le16(r + 8), le16(r + 10)) & 3u};
     const wt_status status = take_name(a, r + CENTRAL_SIZE, name, err);
     a->n += status == WT_OK;
     return status;
@@ -324,9 +332,9 @@ static wt_status entry_fail(const zip_archive *archive, size_t i, wt_error *err,
 wt_status archive_size(const zip_archive *archive, size_t i, size_t *size, wt_error *err)
 {
     const zip_entry *const e = &archive->entries[i];
-    if ((e->flags & FLAG_ENCRYPTED) != 0)
+    if (e->packing == ENCRYPTED)
         return entry_fail(archive, i, err, WT_E_UNSUPPORTED, "archive entry is encrypted");
-    if (e->method != METHOD_STORED && e->method != METHOD_DEFLATED)
+    if (e->packing == UNKNOWN)
         return entry_fail(archive, i, err, WT_E_UNSUPPORTED,
                           "archive entry is packed by another method than deflate");
     if (e->size > (uint64_t)e->packed * MAX_RATIO + RATIO_SLACK) {
@@ -422,12 +430,12 @@ wt_status archive_read(zip_archive *archive, size_t i, size_t limit, byte_buffer
         wt_error_found(err, "%zu bytes", size);
         return WT_E_CORRUPT;
     }
-    if (e->method == METHOD_STORED && e->packed != e->size)
+    if (e->packing == STORED && e->packed != e->size)
         return entry_fail(archive, i, err, WT_E_CORRUPT,
                           "archive entry is not of the size that it declares");
     if (!make_room(buffer, size + 1) || size == UINT32_MAX)
         return entry_fail(archive, i, err, WT_E_MEMORY, "no memory for an archive entry");
-    const bool stored = e->method == METHOD_STORED;
+    const bool stored = e->packing == STORED;
     status = read_packed(archive, i, stored ? buffer : &archive->packed, err);
     if (status == WT_OK && !stored)
         status = unpack(archive, i, buffer, err);
