@@ -59,8 +59,8 @@ WT_API wt_job wt_job_defaults(void);
 WT_API const wt_params *wt_job_params(void);
 /* Adds a file that the caller of jobs has read itself to provenance and cost: `input` has its path,
  * role and format. */
-WT_API wt_status wt_job_input(const wt_job *work, wt_provenance_input input,
-                              wt_input *file, wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_job_input(const wt_job *work, wt_provenance_input input, wt_input *file,
+                              wt_error *err) WT_NODISCARD;
 WT_API wt_table *wt_failures_new(void); /* table "failures"; NULL when out of memory */
 /* Table "notes" of a log, with the names of files below `folder` shown without it; NULL = as they
  * are. */

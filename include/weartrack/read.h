@@ -14,9 +14,9 @@ extern "C" {
 
 /* ---- input -------------------------------------------------------------------------------- */
 
-/* Bytes with peek. A file is read into memory as far as it is asked for, a pipe is buffered. Gzip archives and spreadsheets
- * are unpacked where formats are detected and data read, a ZIP archive of files of force curves is
- * read as one; the bytes here are those of the file. */
+/* Bytes with peek. A file is read into memory as far as it is asked for, a pipe is buffered. Gzip
+ * archives and spreadsheets are unpacked where formats are detected and data read, a ZIP archive of
+ * files of force curves is read as one; the bytes here are those of the file. */
 typedef struct wt_input wt_input;
 /* path "-" is standard input. A named pipe is refused: nobody may ever write to it. */
 WT_API wt_status wt_input_open(const char *path, wt_input **input, wt_error *err) WT_NODISCARD;

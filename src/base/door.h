@@ -8,9 +8,10 @@
  * leave).
  *
  * The process has the signals of a new one, no open file but its answer and one that it may be
- * given, can write none (and open none, unless that one again), leaves no core file and does not outlive
- * the caller. What it may take is limited. The caller's signal handlers are left alone: one that
- * waits for every child may take this one too, and then only the cause of a failure stays unknown.
+ * given, can write none (and open none, unless that one again), leaves no core file and does not
+ * outlive the caller. What it may take is limited. The caller's signal handlers are left alone: one
+ * that waits for every child may take this one too, and then only the cause of a failure stays
+ * unknown.
  *
  * Not promised: that a made file cannot run code in that process. It runs as the user, and no more
  * is kept from it than is said here. Without /proc the limit of memory is left out.
@@ -55,7 +56,8 @@ wt_status door_read(const door_call *door, const door_limits *limits, char **ans
 typedef struct door_flow door_flow;
 wt_status door_begin(const door_call *door, const door_limits *limits, door_flow **flow,
                      wt_error *err) WT_NODISCARD;
-/* The next n bytes; WT_E_CORRUPT if there are not so many. After a failure there is nothing more. */
+/* The next n bytes; WT_E_CORRUPT if there are not so many. After a failure there is nothing more.
+ */
 wt_status door_take(door_flow *flow, void *to, size_t n, wt_error *err) WT_NODISCARD;
 /* Fails if what was left to say is more than nothing, or an error. */
 wt_status door_end(door_flow *flow, wt_error *err) WT_NODISCARD;

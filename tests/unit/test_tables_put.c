@@ -356,6 +356,7 @@ static void convert(const char *path, unsigned kind)
 
 static wt_status take_curve(void *user, const wt_force_curve *curve, wt_error *err)
 {
+    curve->segments[0].setpoint = 1e-9; /* the files of the case say none */
     return wt_map_put(user, curve, err);
 }
 
