@@ -14,14 +14,13 @@
 #include "fit/curve.h"
 
 #include <math.h>
-#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
 /* A batch ends with the first of the two: it bounds memory and keeps all threads busy. There are
  * two of them: while one is fitted the next is read. */
-#define BATCH_CURVES 256
-#define BATCH_SAMPLES ((size_t)1 << 21)
+#define BATCH_CURVES 128
+#define BATCH_SAMPLES ((size_t)1 << 20)
 
 static const double least_bonded_poisson = 0.499;
 
@@ -36,8 +35,13 @@ typedef struct accepted {
     double modulus;
     const flow_file *file;
     size_t curve, order;
-    double bend_shift, loss_bias, loss_error; /* of the modulus */
 } accepted;
+
+/* What moduli are shifted by, where they are. */
+typedef struct shifts {
+    double sum;
+    size_t n;
+} shifts;
 
 typedef struct indent_task {
     const wt_indent_job *job;
@@ -60,6 +64,7 @@ typedef struct indent_task {
     /* accepted moduli with the curve they are of, for the representative curve */
     accepted *moduli;
     size_t n_moduli;
+    shifts bend, loss, loss_error;     /* relative to the modulus */
     double (*misfits)[WT_CURVE_WAVES]; /* [n_misfits] of those that have one */
     size_t n_misfits;
     wt_depth_curve *deep; /* [n_deep] curves for the modulus against depth */
@@ -182,20 +187,27 @@ static wt_status keep_depth(indent_task *task, const item *it, wt_error *err)
     return WT_OK;
 }
 
+static void add_shift(shifts *all, double shift)
+{
+    if (!(fabs(shift) > 0))
+        return;
+    all->sum += shift;
+    all->n++;
+}
+
 static wt_status keep_modulus(indent_task *task, const item *it, wt_error *err)
 {
     accepted *moduli = array_grow(task->moduli, task->n_moduli, sizeof *moduli);
     if (moduli == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     task->moduli = moduli;
-    task->moduli[task->n_moduli] =
-        (accepted){.modulus = it->fit.modulus.value,
-                   .file = task->file,
-                   .curve = it->curve.index,
-                   .order = task->n_moduli,
-                   .bend_shift = it->fit.bend_shift / it->fit.modulus.value,
-                   .loss_bias = it->fit.loss_bias,
-                   .loss_error = it->fit.loss_error};
+    task->moduli[task->n_moduli] = (accepted){.modulus = it->fit.modulus.value,
+                                              .file = task->file,
+                                              .curve = it->curve.index,
+                                              .order = task->n_moduli};
+    add_shift(&task->bend, it->fit.bend_shift / it->fit.modulus.value);
+    add_shift(&task->loss, it->fit.loss_bias);
+    add_shift(&task->loss_error, it->fit.loss_error);
     task->n_moduli++;
     if (isnan(it->fit.misfit[0]))
         return WT_OK;
@@ -354,35 +366,25 @@ static wt_status add_representative(indent_task *task, wt_indent_tables *tables,
 /* ---- all curves together --------------------------------------------------------------------- */
 
 /* Mean of what most moduli of the group are shifted by; 0 if not most are. */
-static double mean_shift(const indent_task *task, size_t member, size_t *n)
+static double mean_shift(const indent_task *task, const shifts *all)
 {
-    double sum = 0;
-    *n = 0;
-    for (size_t i = 0; i < task->n_moduli; i++) {
-        const double shift = *(const double *)((const char *)&task->moduli[i] + member);
-        if (fabs(shift) > 0) {
-            sum += shift;
-            ++*n;
-        }
-    }
-    return 2 * *n > task->n_moduli ? sum / (double)*n : 0;
+    return 2 * all->n > task->n_moduli ? all->sum / (double)all->n : 0;
 }
 
 /* What moves all moduli alike, so that their scatter does not show it: a bend of most baselines,
  * which is that of the piezo, and loss whose spectrum is not known. */
 static void say_shifts(const indent_task *task)
 {
-    size_t n;
-    const double bend = mean_shift(task, offsetof(accepted, bend_shift), &n);
+    const double bend = mean_shift(task, &task->bend);
     if (fabs(bend) > 0)
         wt_parselog_add(
             task->work->log, WT_WARNING, NULL, NULL,
             "%s: the baseline of %zu of %zu accepted curves is bent; a piezo that goes on "
             "so in contact changes these moduli by %+.2g %% in the mean, which their "
             "scatter does not show",
-            task->job->group, n, task->n_moduli, 100 * bend);
-    const double error = mean_shift(task, offsetof(accepted, loss_error), &n);
-    const double loss = mean_shift(task, offsetof(accepted, loss_bias), &n);
+            task->job->group, task->bend.n, task->n_moduli, 100 * bend);
+    const double error = mean_shift(task, &task->loss_error);
+    const double loss = mean_shift(task, &task->loss);
     if (error > 0)
         wt_parselog_add(
             task->work->log, WT_NOTE, NULL, NULL,
@@ -390,8 +392,8 @@ static void say_shifts(const indent_task *task)
             "1/(loading time) of a rubber that loses as much, %.1g %% %s than those of a fit "
             "without loss; that its spectrum is not known leaves a standard error of %.1g %%, "
             "which all of them share and the DMA of the rubber takes away",
-            task->job->group, n, task->n_moduli, 100 * fabs(loss), loss > 0 ? "less" : "more",
-            100 * error);
+            task->job->group, task->loss.n, task->n_moduli, 100 * fabs(loss),
+            loss > 0 ? "less" : "more", 100 * error);
 }
 
 /* Tests the mean residual of the accepted curves. */

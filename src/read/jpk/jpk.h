@@ -56,9 +56,9 @@ bool jpk_lcd_chain(const jpk_lcd *lcd, const char *slot, force_linear *chain);
 /* ---- the file: jpk_file.c ----------------------------------------------------------------- */
 
 typedef struct jpk_segment_ref {
-    size_t curve;   /* as the file counts */
-    size_t segment; /* as the file counts */
-    size_t entry;   /* its segment-header.properties */
+    uint32_t curve;   /* as the file counts */
+    uint32_t segment; /* as the file counts */
+    uint32_t entry;   /* its segment-header.properties */
 } jpk_segment_ref;
 
 typedef struct jpk_file {

@@ -11,14 +11,14 @@
 #include <string.h>
 
 /* Reads digits up to `stop`; nine digits number more curves than a file can hold. */
-static bool read_number(const char **at, char stop, size_t *number)
+static bool read_number(const char **at, char stop, uint32_t *number)
 {
     const char *p = *at;
-    size_t value = 0;
+    uint32_t value = 0;
     for (; *p >= '0' && *p <= '9'; p++) {
         if (p - *at >= 9)
             return false;
-        value = 10 * value + (size_t)(*p - '0');
+        value = 10 * value + (uint32_t)(*p - '0');
     }
     if (p == *at || *p != stop)
         return false;
@@ -61,7 +61,7 @@ static wt_status find_segments(jpk_file *file, wt_error *err)
 {
     size_t count = file->archive->n;
     for (size_t i = 0; i < count; i++) {
-        jpk_segment_ref ref = {.entry = i};
+        jpk_segment_ref ref = {.entry = (uint32_t)i};
         bool map = false;
         if (!parse_name(archive_name(file->archive, i), &ref, &map))
             continue;

@@ -237,9 +237,9 @@ wt_status jpk_segment_read(jpk_file *file, const jpk_segment_ref *ref, jpk_segme
     if (status == WT_OK)
         status = properties_parse(&segment->header, file->buffer.data, file->buffer.length, err);
     if (file->map)
-        snprintf(folder, sizeof folder, "index/%zu/segments/%zu/", ref->curve, ref->segment);
+        snprintf(folder, sizeof folder, "index/%u/segments/%u/", ref->curve, ref->segment);
     else
-        snprintf(folder, sizeof folder, "segments/%zu/", ref->segment);
+        snprintf(folder, sizeof folder, "segments/%u/", ref->segment);
     if (status == WT_OK)
         status = read_channels(file, segment, folder, err);
     if (status != WT_OK) {
