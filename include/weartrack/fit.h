@@ -552,7 +552,7 @@ WT_API double wt_master_closed_form(const wt_master *master, size_t isotherm);
 WT_API wt_shift_by wt_master_shifted_by(const wt_master *master);
 /* tan delta as measured at point i of the master curve; NaN if it was not. */
 WT_API double wt_master_loss_factor(const wt_master *master, size_t i);
-/* log10 E', log10 E'' [Pa] at the reference temperature. */
+/* log10 E', log10 E'' [Pa] at the reference temperature. Of one master by one thread at a time. */
 WT_API void wt_master_moduli(const wt_master *master, double angular_frequency,
                              wt_interval *log_storage, wt_interval *log_loss);
 /* log10 of the relaxation spectrum H, a modulus for each unit of ln tau [Pa], at the relaxation

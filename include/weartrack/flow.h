@@ -652,7 +652,9 @@ typedef struct wt_coverage_job {
     /* the curves of both groups, which are then drawn anew and fitted; NULL: their moduli are drawn
      */
     const wt_curve_set *curves[2];
-    uint64_t reserved[4];
+    bool ratio_of_groups; /* the ratio of `known` is that of the groups: of the trial in each trial
+                           */
+    uint64_t reserved[3];
 } wt_coverage_job;
 WT_API wt_coverage_job wt_coverage_job_defaults(void); /* trials 0 */
 WT_API const wt_params *wt_coverage_job_params(void);

@@ -108,6 +108,13 @@ static hit mean_hit(hit_sum sum)
                  sum.of.variance / sum.n};
 }
 
+/* Whether what the groups of a trial say goes into its friction. */
+static bool takes_ratio(const coverage *c)
+{
+    return c->has_groups && c->job->ratio_of_groups && c->setting.has_known &&
+           c->setting.known.modulus_ratio.standard_error > 0;
+}
+
 /* ---- one trial ------------------------------------------------------------------------------- */
 
 static hit judge_shifts(const wt_master *m, const double *truth)
@@ -181,7 +188,7 @@ static wt_status try_curves(const coverage *c, unsigned g, const wt_rubber *rubb
 
 /* rubber: of the trial, NULL where the material is held. */
 static wt_status try_groups(const coverage *c, const wt_rubber *rubber, uint64_t seed,
-                            unsigned worker, hit *hits, wt_error *err)
+                            unsigned worker, hit *hits, wt_comparison *comparison, wt_error *err)
 {
     wt_group group[2];
     wt_comparison found;
@@ -208,9 +215,29 @@ static wt_status try_groups(const coverage *c, const wt_rubber *rubber, uint64_t
     if (status == WT_OK)
         hits[OF_RATIO] = judge(found.log_ratio.value, found.log_ratio.standard_error,
                                log(found.ratio_low), log(found.ratio_high), c->log_ratio);
+    if (status == WT_OK)
+        *comparison = found;
     free(modulus);
     free(spot);
     return status;
+}
+
+/* The ratio that the friction with the layer takes is that of the trial: of its spots, and of its
+ * calibration, which another time would have been off by another share of its error. */
+static void take_ratio(const coverage *c, const wt_comparison *found, uint64_t seed, setting *s)
+{
+    const wt_layer_known *truth = &c->setting.known;
+    const double error = truth->modulus_ratio.standard_error / truth->modulus_ratio.value;
+    const double calibration = sqrt(truth->calibration_share) * error;
+    const double off = found->log_ratio.value - c->log_ratio +
+                       calibration * flow_draw_normal(seed, 0, FLOW_DRAW_RATIO);
+    const double spread = hypot(found->log_ratio.standard_error, calibration);
+    wt_layer_known *known = &s->known;
+    known->modulus_ratio.value = truth->modulus_ratio.value * exp(off);
+    known->modulus_ratio.standard_error = spread * known->modulus_ratio.value;
+    known->calibration_share = pow(calibration / spread, 2);
+    if (!(calibration > 0)) /* else both have a part in it, as they had */
+        known->modulus_ratio_df = found->df;
 }
 
 static wt_status try_once(const coverage *c, size_t trial, unsigned worker, hit *hits,
@@ -218,6 +245,7 @@ static wt_status try_once(const coverage *c, size_t trial, unsigned worker, hit 
 {
     const uint64_t seed = mix64(mix64(c->work.seed) + 1 + trial);
     wt_estimate number[SETTING_NUMBERS];
+    wt_comparison found;
     wt_rubber rubber = {0};
     wt_job work = c->work;
     setting s = c->setting;
@@ -230,6 +258,11 @@ static wt_status try_once(const coverage *c, size_t trial, unsigned worker, hit 
         s.rubber = rubber;
     }
     regenerate_inputs(&s, seed);
+    if (status == WT_OK && c->has_groups)
+        status =
+            try_groups(c, c->fit.n_shifts > 0 ? &rubber : NULL, seed, worker, hits, &found, err);
+    if (status == WT_OK && takes_ratio(c))
+        take_ratio(c, &found, seed, &s);
     if (status == WT_OK)
         status = setting_compute(&s, &work, number, err);
     for (size_t k = 0; k < SETTING_NUMBERS && status == WT_OK; k++) {
@@ -237,8 +270,6 @@ static wt_status try_once(const coverage *c, size_t trial, unsigned worker, hit 
         hits[k] = judge(number[k].value, number[k].standard_error, number[k].value - half,
                         number[k].value + half, c->truth[k].value);
     }
-    if (status == WT_OK && c->has_groups)
-        status = try_groups(c, c->fit.n_shifts > 0 ? &rubber : NULL, seed, worker, hits, err);
     wt_rubber_clear(&rubber);
     return status;
 }
@@ -341,7 +372,10 @@ static void say(const coverage *c, table_writer *t)
     list(c, NULL, all, sizeof all);
     list(c, "too narrow", narrow, sizeof narrow);
     list(c, "too wide", wide, sizeof wide);
-    regenerate_words(&c->setting, inputs, sizeof inputs);
+    setting drawn = c->setting;
+    if (takes_ratio(c))
+        drawn.known.modulus_ratio.standard_error = 0;
+    regenerate_words(&drawn, inputs, sizeof inputs);
     coverage_set_print(t, COVERAGE_KEY_ANSWER,
                        "in %zu trials the 95 %% intervals held the truth: %s%s%s%s%s%s",
                        c->job->trials, all[0] != '\0' ? all : "none was stated",
@@ -350,16 +384,16 @@ static void say(const coverage *c, table_writer *t)
                        narrow[0] == '\0' && wide[0] == '\0' && all[0] != '\0'
                            ? "; as far as so many tell, as often as stated"
                            : "");
-    coverage_set_print(t, COVERAGE_KEY_REGENERATED, "%s%s%s%s",
+    coverage_set_print(t, COVERAGE_KEY_REGENERATED, "%s%s%s%s%s",
                        c->fit.n_shifts == 0 ? "material as given"
                        : c->setting.rubber.sweep.n_ramps > 0
                            ? "isotherms that the temperature sweeps were fitted as"
                            : "isotherms of the DMA",
                        inputs[0] != '\0' ? ", " : "", inputs,
-                       !c->has_groups ? ""
-                       : c->has_curves
-                           ? ", force curves of bulk and track (for their moduli and ratio)"
-                           : ", moduli of bulk and track (for their ratio alone)");
+                       !c->has_groups  ? ""
+                       : c->has_curves ? ", force curves of bulk and track"
+                                       : ", moduli of bulk and track",
+                       c->has_groups && !takes_ratio(c) ? " (not in the friction)" : "");
     coverage_set_text(t, COVERAGE_KEY_CAUTION,
                       "the case was drawn anew from its own fit and judged with the same model: "
                       "this tells whether the errors are reckoned right and cannot reveal a wrong "

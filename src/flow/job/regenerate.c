@@ -32,6 +32,18 @@ static double true_shift(const wt_isotherm *measured, const wt_master *fit, size
     return isnan(moved) ? at : moved;
 }
 
+/* E' and E'' of the series, which is what friction takes for the truth, too. */
+static void moduli_of(const wt_prony *p, double omega, double *storage, double *loss)
+{
+    *storage = p->equilibrium_modulus;
+    *loss = 0;
+    for (size_t i = 0; i < p->n; i++) {
+        const double z = omega * p->relaxation_time[i];
+        *storage += p->modulus[i] * (z < 1 ? z * z / (1 + z * z) : 1 / (1 + 1 / (z * z)));
+        *loss += p->modulus[i] * (z < 1 ? z / (1 + z * z) : 1 / (z + 1 / z));
+    }
+}
+
 static wt_status add_isotherm(const wt_isotherm *measured, const wt_master *fit, size_t k,
                               double shift, uint64_t seed, wt_sweep *sweep)
 {
@@ -45,18 +57,18 @@ static wt_status add_isotherm(const wt_isotherm *measured, const wt_master *fit,
     iso->given_log_a = measured->given_log_a;
     const double rest = sqrt(fmax(0, 1 - fit->correlation * fit->correlation));
     for (size_t j = 0; j < measured->n; j++) {
-        wt_interval storage, loss;
+        double storage, loss;
         const double omega = measured->angular_frequency[j];
-        wt_master_moduli(fit, omega * pow(10, shift), &storage, &loss);
+        moduli_of(&fit->prony, omega * pow(10, shift), &storage, &loss);
         for (int i = 0; i < 2; i++) {
             const double z = flow_draw_normal(seed, (k << 24) + 2 * j + (size_t)i, FLOW_DRAW_NOISE);
             noise[i] = j == 0 ? z : fit->correlation * noise[i] + rest * z;
         }
         iso->angular_frequency[j] = omega;
-        iso->storage_modulus[j] = pow(10, storage.value - s->log_b.value) *
+        iso->storage_modulus[j] = storage * pow(10, -s->log_b.value) *
                                   exp(fit->noise_storage * s->noise_factor * noise[0]);
-        iso->loss_modulus[j] = pow(10, loss.value - s->log_b.value) *
-                               exp(fit->noise_loss * s->noise_factor * noise[1]);
+        iso->loss_modulus[j] =
+            loss * pow(10, -s->log_b.value) * exp(fit->noise_loss * s->noise_factor * noise[1]);
         if (isnan(measured->storage_modulus[j])) /* what was not measured is not known */
             iso->storage_modulus[j] = (double)NAN;
         if (isnan(measured->loss_modulus[j]))

@@ -452,6 +452,7 @@ static wt_status coverage(flow_run *run, const wt_layer_job *layer, const wt_lay
                                  .bulk = run->table[FLOW_INDENTATION_BULK],
                                  .track = run->table[FLOW_INDENTATION_TRACK],
                                  .curves = {run->kept[0], run->kept[1]},
+                                 .ratio_of_groups = !run->plan.chosen[FLOW_STAGE_GIVEN_RATIO],
                                  .trials = run->trials};
     return wt_coverage_make(&job, &run->job, &run->table[FLOW_COVERAGE], err);
 }
