@@ -362,6 +362,26 @@ typedef struct wt_payne {
 WT_API wt_status wt_payne_fit(const double *strain, const double *storage, const double *loss,
                               size_t n, wt_payne *payne, wt_error *err) WT_NODISCARD;
 
+/* ---- dwells ---------------------------------------------------------------------------------- */
+
+/* The power law E(t) = modulus (t/1s)^-exponent behind a loading of finite length. */
+typedef struct wt_dwell {
+    bool found;
+    const char *why_not; /* "", or why there is none; static */
+    double modulus;      /* at 1 s [Pa] */
+    double exponent;     /* 0 to 0.9 */
+    double misfit;       /* root mean square of the residuals, of the modulus */
+} wt_dwell;
+/* Modulus [Pa] of an elastic material with the same force at the same indentation, at a time >=
+ * load_time after contact [s], if indentation (or, in creep, force) rose so that force ~ time^
+ * force_exponent until load_time and was held then (hereditary integral of Lee and Radok). */
+WT_API double wt_dwell_modulus(double modulus, double exponent, double time, double load_time,
+                               double force_exponent, bool creep);
+/* Least squares in the logarithm of n such moduli, 6 to 1000. */
+WT_API wt_status wt_dwell_fit(const double *time, const double *modulus, size_t n, double load_time,
+                              double force_exponent, bool creep, wt_dwell *dwell,
+                              wt_error *err) WT_NODISCARD;
+
 /* ---- deflection sensitivity: curves on a hard surface ---------------------------------------- */
 
 /* The part of the contact by which the slope is measured: shares of the rise of the signal. */

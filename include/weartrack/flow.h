@@ -159,6 +159,18 @@ WT_API void wt_indent_tables_clear(wt_indent_tables *tables);
 WT_API wt_status wt_indent_group(const wt_indent_job *job, const wt_job *work,
                                  wt_indent_tables *tables, wt_error *err) WT_NODISCARD;
 
+/* ---- dwells ---------------------------------------------------------------------------------- */
+
+typedef struct wt_dwell_tables {
+    wt_table *dwell, *dwell_points;
+    uint64_t reserved[4];
+} wt_dwell_tables;
+WT_API void wt_dwell_tables_clear(wt_dwell_tables *tables);
+/* The first dwell behind the approach of every curve, with tip and options of an indentation.
+ * WT_E_EMPTY if no curve has one. */
+WT_API wt_status wt_dwell_make(const wt_indent_job *job, const wt_job *work,
+                               wt_dwell_tables *tables, wt_error *err) WT_NODISCARD;
+
 /* ---- calibration of the lever ---------------------------------------------------------------- */
 
 typedef enum wt_ways { WT_WAYS_BOTH, WT_WAYS_APPROACH, WT_WAYS_RETRACT } wt_ways;

@@ -27,6 +27,7 @@ int cmd_formats(int argc, char **argv);
 int cmd_indent(int argc, char **argv);
 int cmd_sensitivity(int argc, char **argv);
 int cmd_thermal(int argc, char **argv);
+int cmd_dwell(int argc, char **argv);
 int cmd_compare(int argc, char **argv);
 int cmd_master(int argc, char **argv);
 int cmd_ramp(int argc, char **argv);

@@ -571,6 +571,55 @@ static void test_thermal(void **state)
     (void)remove(path);
 }
 
+/* Curves that are held at their end. */
+static void test_dwell(void **state)
+{
+    (void)state;
+    enum { N = 300, CURVES = 2 };
+    static const char path[] = "test_tables_put_dwell.jpk-force-map";
+    static double height[2][N], force[CURVES][2][N];
+    jpk_writer_segment segments[CURVES][2];
+    jpk_writer_curve curves[CURVES];
+    const char *const patterns[] = {path};
+    const wt_file_set set = {.patterns = patterns, .n_patterns = 1, .read = wt_read_defaults()};
+    wt_job common = wt_job_defaults();
+    jpk_writer_file file = jpk_writer_defaults();
+    uint64_t seed = 2;
+    for (size_t c = 0; c < CURVES; c++) {
+        for (size_t i = 0; i < N; i++) {
+            const double at = 2e-9 * ((double)i - 150), deep = 2e-9 * 149, g = 3e-3 / 0.75;
+            const double noise = 2e-12 * truth_normal(&seed);
+            force[c][0][i] = at > 0 ? 1e6 * g * pow(at, 1.5) + noise : noise;
+            force[c][1][i] = 1e6 * g * pow(deep, 1.5) * pow((double)i + 1, -0.1) + noise;
+            height[0][i] = 5e-6 - at - force[c][0][i] / 10;
+            height[1][i] = 5e-6 - deep - 1e6 * g * pow(deep, 1.5) / 10;
+        }
+        segments[c][0] = (jpk_writer_segment){"extend", N, 1, height[0], force[c][0], NULL};
+        segments[c][1] = (jpk_writer_segment){"pause", N, 5, height[1], force[c][1], NULL};
+        curves[c] = (jpk_writer_curve){c, 1e-6 * (double)c, 0, 2, segments[c]};
+    }
+    file.path = path;
+    file.map = true;
+    file.n_curves = CURVES;
+    file.curves = curves;
+    file.spring_constant = 10;
+    file.sensitivity = 50e-9;
+    assert_int_equal(jpk_write(&file), 0);
+    common.formats = formats;
+    wt_indent_job job = wt_indent_job_defaults();
+    wt_dwell_tables tables = {0};
+    wt_error err = WT_ERROR_INIT;
+    job.sets = &set;
+    job.n_sets = 1;
+    job.tip = (wt_tip){.shape = WT_TIP_PARABOLOID, .radius = 5e-6};
+    if (wt_dwell_make(&job, &common, &tables, &err) != WT_OK)
+        fail_msg("%s %s", err.message, err.found);
+    see(tables.dwell);
+    see(tables.dwell_points);
+    wt_dwell_tables_clear(&tables);
+    (void)remove(path);
+}
+
 static void test_files(void **state)
 {
     (void)state;
@@ -636,9 +685,9 @@ int main(void)
         cmocka_unit_test(test_materials),     cmocka_unit_test(test_spring_constants),
         cmocka_unit_test(test_conversions),   cmocka_unit_test(test_ramps),
         cmocka_unit_test(test_strain_sweeps), cmocka_unit_test(test_files),
-        cmocka_unit_test(test_calibration),   cmocka_unit_test(test_thermal),
-        cmocka_unit_test(test_directions),    cmocka_unit_test(test_accuracy),
-        cmocka_unit_test(test_all_put),
+        cmocka_unit_test(test_calibration),   cmocka_unit_test(test_dwell),
+        cmocka_unit_test(test_thermal),       cmocka_unit_test(test_directions),
+        cmocka_unit_test(test_accuracy),      cmocka_unit_test(test_all_put),
     };
     return cmocka_run_group_tests_name("tables put", tests, open_formats, free_formats);
 }

@@ -15,6 +15,7 @@
 #include "data/tables/comparison.h"
 #include "data/tables/coverage.h"
 #include "data/tables/dma.h"
+#include "data/tables/dwell.h"
 #include "data/tables/error_budget.h"
 #include "data/tables/indentation.h"
 #include "data/tables/materials.h"
@@ -55,6 +56,8 @@
     X(force_indentation, FORCE_INDENTATION, "force_indentation", "Force against indentation",      \
       "indent")                                                                                    \
     X(modulus_depth, MODULUS_DEPTH, "modulus_depth", "Modulus against depth", "indent")            \
+    X(dwell, DWELL, "dwell", "Dwells", "dwell")                                                    \
+    X(dwell_points, DWELL_POINTS, "dwell_points", "Modulus against time in the dwells", "dwell")   \
     X(sensitivity, SENSITIVITY, "sensitivity", "Deflection sensitivity", "sensitivity")            \
     X(sensitivity_curves, SENSITIVITY_CURVES, "sensitivity_curves",                                \
       "Deflection sensitivity of every curve", "sensitivity")                                      \

@@ -161,6 +161,20 @@ static void say_payne(sentence *s, const table_view *v)
         say(s, "; %zu more strain sweeps", v->n_rows - MOST);
 }
 
+static void say_dwell(sentence *s, const table_view *v)
+{
+    if (v->table == NULL)
+        return;
+    const wt_estimate exponent = dwell_value(v, DWELL_KEY_EXPONENT);
+    next(s);
+    say(s, "%zu dwell%s", v->n_rows, v->n_rows == 1 ? "" : "s");
+    if (isnan(exponent.value))
+        say(s, ", no law behind %s", v->n_rows == 1 ? "it" : "them");
+    else
+        say(s, ": E(t) = E1 (t/1s)^-n with n = %s, E1 = %s", words_of_estimate(exponent).text,
+            words_of_estimate(dwell_value(v, DWELL_KEY_MODULUS)).text);
+}
+
 static void say_sensitivity(sentence *s, const table_view *v)
 {
     if (v->table == NULL)
@@ -265,11 +279,17 @@ size_t wt_result_sentence(const wt_result *result, char *buffer, size_t size)
     static const struct {
         const table_schema *schema;
         void (*say)(sentence *s, const table_view *view);
-    } parts[] = {{&sensitivity_schema, say_sensitivity},     {&thermal_schema, say_thermal},
-                 {&modulus_groups_schema, say_groups},       {&comparison_schema, say_ratio},
-                 {&material_ratio_schema, say_materials},    {&shift_factors_schema, say_material},
-                 {&glass_transition_schema, say_transition}, {&payne_schema, say_payne},
-                 {&friction_schema, say_friction},           {&layer_schema, say_layer}};
+    } parts[] = {{&dwell_schema, say_dwell},
+                 {&sensitivity_schema, say_sensitivity},
+                 {&thermal_schema, say_thermal},
+                 {&modulus_groups_schema, say_groups},
+                 {&comparison_schema, say_ratio},
+                 {&material_ratio_schema, say_materials},
+                 {&shift_factors_schema, say_material},
+                 {&glass_transition_schema, say_transition},
+                 {&payne_schema, say_payne},
+                 {&friction_schema, say_friction},
+                 {&layer_schema, say_layer}};
     sentence s = {.text = buffer, .size = size, .result = result};
     const locale_t previous = clocale_enter();
     if (size > 0)
