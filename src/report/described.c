@@ -245,12 +245,13 @@ static void find_groups(figure_drawing *d)
     static const char *const usual[] = {"bulk", "track"};
     const table_view *table = d->table;
     for (size_t pass = 0; pass < 3; pass++)
-        for (size_t row = 0; row < table->n_rows && d->n_groups < DRAWING_GROUPS; row++) {
+        for (size_t row = 0; row < table->n_rows; row++) {
             const char *group = view_text(table, table->schema, row, d->figure->group);
             bool seen = pass < 2 && strcmp(group, usual[pass]) != 0;
             for (size_t i = 0; i < d->n_groups && !seen; i++)
                 seen = strcmp(d->groups[i], group) == 0;
-            if (!seen)
+            d->too_many = d->too_many || (!seen && d->n_groups == DRAWING_GROUPS);
+            if (!seen && d->n_groups < DRAWING_GROUPS)
                 d->groups[d->n_groups++] = group;
         }
 }
@@ -278,6 +279,8 @@ wt_status drawing_make(figure_drawing *d, const figure_description *figure,
         draw_as_described(d);
     if (d->script.length > 0) {
         text_add(&d->caption, figure->words);
+        if (d->too_many)
+            text_format(&d->caption, " Only the first %d are drawn.", DRAWING_GROUPS);
         if (figure->caption != NULL)
             figure->caption(d);
     }

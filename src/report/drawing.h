@@ -31,6 +31,7 @@ typedef struct figure_drawing {
     const table_view *table;            /* that of the figure */
     const char *groups[DRAWING_GROUPS]; /* of a figure by groups: their names, borrowed; else "" */
     size_t n_groups;
+    bool too_many;                    /* groups: the others are not drawn */
     unsigned columns[FIGURE_COLUMNS]; /* of the data as described */
     size_t n_columns;
     wt_error *err;

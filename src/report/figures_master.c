@@ -186,11 +186,12 @@ static void draw_master_curve(figure_drawing *d)
 
 static void caption_isotherms(figure_drawing *d)
 {
-    text_format(&d->caption,
-                " %zu isotherms. Those that superposition can join have the same form, moved along "
-                "the axis of frequency; where one crosses its neighbours, look at the sample, the "
-                "clamping and the oven first.",
-                count_isotherms(d));
+    text_format(
+        &d->caption,
+        " %zu isotherm%s. Those that superposition can join have the same form, moved along "
+        "the axis of frequency; where one crosses its neighbours, look at the sample, the "
+        "clamping and the oven first.",
+        count_isotherms(d), count_isotherms(d) == 1 ? "" : "s");
 }
 
 static void caption_master_curve(figure_drawing *d)
@@ -203,9 +204,9 @@ static void caption_master_curve(figure_drawing *d)
     if (isfinite(reference))
         text_format(&d->caption, " of %s", VALUE(WT_Q_TEMPERATURE, NULL, reference));
     text_format(&d->caption,
-                ", and tan δ below; %zu points of %zu isotherms, coloured by the temperature of "
+                ", and tan δ below; %zu points of %zu isotherm%s, coloured by the temperature of "
                 "the measurement.",
-                n, count_isotherms(d));
+                n, count_isotherms(d), count_isotherms(d) == 1 ? "" : "s");
     span_add_column(&fit, d->table, MASTER_CURVE_FITTED_STORAGE, true);
     if (span_empty(&fit))
         return;
@@ -333,6 +334,13 @@ static void plot_residual(figure_drawing *d)
     plot_end(d);
 }
 
+/* The law that was fitted has an error. */
+static bool law_is_given(const table_view *shifts)
+{
+    const wt_estimate slope = shift_factors_value(shifts, SHIFT_FACTORS_KEY_LAW_SLOPE);
+    return isfinite(slope.value) && !isfinite(slope.standard_error);
+}
+
 /* Shifts with their law above, what it leaves of them below. */
 static void draw_shift_factors(figure_drawing *d)
 {
@@ -346,7 +354,8 @@ static void draw_shift_factors(figure_drawing *d)
         text_add(&d->script, "set multiplot layout 2,1\n");
         plot_item(d, d->data[0],
                   "($1+x_offset):($6+offset):($7+offset) with filledcurves ls 61 notitle");
-        plot_other(d, "law(x) with lines ls 11 title 'fitted law'");
+        plot_other(d, "law(x) with lines ls 11 title '%s'",
+                   law_is_given(d->table) ? "given law" : "fitted law");
     }
     plot_item(d, d->data[0],
               "($1+x_offset):($4 == 0 ? NaN : $2):3 with yerrorbars ls 1 title 'from overlap'");
@@ -369,10 +378,11 @@ static void caption_shift_factors(figure_drawing *d)
                       energy = shift_factors_value(d->table, SHIFT_FACTORS_KEY_ACTIVATION_ENERGY);
     const char *verdict = shift_factors_words(d->table, SHIFT_FACTORS_KEY_SUPERPOSITION);
     if (isfinite(c1.value))
-        text_format(&d->caption,
-                    " Line: WLF law with C₁ = %s and C₂ = %s, with the offset of the reference "
-                    "isotherm that was fitted; band: its 95 %% interval.",
-                    ESTIMATE(&c1), ESTIMATE(&c2));
+        text_format(&d->caption, " Line: WLF law with C₁ = %s and C₂ = %s, %s.", ESTIMATE(&c1),
+                    ESTIMATE(&c2),
+                    law_is_given(d->table) ? "by which the shifts were given"
+                                           : "with the offset of the reference isotherm that was "
+                                             "fitted; band: its 95 % interval");
     if (isfinite(energy.value))
         text_format(&d->caption, " Arrhenius%s with %s.", isfinite(c1.value) ? " in the cold" : "",
                     ESTIMATE(&energy));

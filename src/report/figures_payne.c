@@ -71,8 +71,8 @@ static void caption_payne(figure_drawing *d)
         without += isnan(payne_get(sweeps, row, PAYNE_STORAGE_0)) ? 1 : 0;
         half += isnan(payne_get(sweeps, row, PAYNE_STRAIN_HALF)) ? 1 : 0;
     }
-    text_format(&d->caption, " %zu strain sweeps.",
-                wt_table_block(d->table->table, d->table->n_rows - 1) + 1);
+    const size_t n = wt_table_block(d->table->table, d->table->n_rows - 1) + 1;
+    text_format(&d->caption, " %zu strain sweep%s.", n, n == 1 ? "" : "s");
     if (without > 0)
         text_format(&d->caption, " Without a law of Kraus: %zu.", without);
     if (half > 0)

@@ -165,6 +165,16 @@ static void oddities(void **state)
     assert_true(isnan(channel(&r.curve.segments[0], WT_Q_FORCE)[2]));
     assert_true(logged(&r, "1 samples of curve 0 were not measured"));
     close_all(&r);
+    /* Nor does it hide which way the sensor counts, nor what the deflection rises by. */
+    f = usual(0, false);
+    volts[IN - 1] = sensor[0] = (double)NAN;
+    assert_int_equal(nanoscope_write(&f), 0);
+    assert_int_equal(open_force(&r, path, NULL), WT_OK);
+    next_curve(&r);
+    assert_near_abs(channel(&r.curve.segments[0], WT_Q_MEASURED_HEIGHT)[1], -900e-9 * sensor[1],
+                    1e-20);
+    assert_false(logged(&r, "the scale of the file is doubtful"));
+    close_all(&r);
     /* The mark of 16 bits is a number like any other in 32. */
     f = usual(0, false);
     f.width = 4;

@@ -596,26 +596,61 @@ static void test_only_reports_are_replaced(void **state)
 static void test_strain_sweeps(void **state)
 {
     (void)state;
-    static const char *const file[] = {WT_SOURCE_DIR "/fixtures/formats/tidy/strain-sweeps.csv"};
-    const wt_file_set set = {.patterns = file, .n_patterns = 1, .read = wt_read_defaults()};
-    wt_payne_job job = wt_payne_job_defaults();
-    wt_job work = wt_job_defaults();
-    wt_formats *formats = NULL;
-    wt_payne_tables tables = {0};
-    wt_result *result = wt_result_new();
-    assert_int_equal(wt_formats_new(NULL, &formats, NULL, NULL), WT_OK);
-    work.formats = formats;
-    job.sets = &set;
-    job.n_sets = 1;
-    assert_int_equal(wt_payne_make(&job, &work, &tables, NULL), WT_OK);
-    assert_int_equal(wt_result_add(result, tables.payne, NULL), WT_OK);
-    wt_table_free(tables.payne_sweep);
-    wt_formats_free(formats);
+    const char *const payne = "payne";
+    const fixture_change change = {.table = payne};
+    wt_result *result = fixture_only(&payne, 1, &change);
     write_report(result, "out", NULL);
     size_t length = 0;
     char *page = read_all("out/index.html", &length);
     assert_non_null(strstr(page, "Storage modulus, smallest strain"));
     assert_non_null(strstr(page, ">4.87</td>"));
+    free(page);
+    wt_result_free(result);
+}
+
+static void give_law(wt_table *shifts)
+{
+    fixture_key(shifts, "law_slope", -0.1, (double)NAN, "1/K");
+}
+
+/* A law that was given is none that was fitted, and has no band. */
+static void test_a_given_law(void **state)
+{
+    (void)state;
+    NEED_GNUPLOT();
+    const char *const shifts = "shift_factors";
+    for (int given = 0; given < 2; given++) {
+        const fixture_change change = {shifts, .finish = given == 1 ? give_law : NULL};
+        wt_result *result = fixture_only(&shifts, 1, &change);
+        size_t length = 0;
+        write_report(result, "out", NULL);
+        char *page = read_all("out/index.html", &length);
+        assert_int_equal(strstr(page, "by which the shifts were given") != NULL, given);
+        assert_int_equal(strstr(page, "band: its 95 % interval") == NULL, given);
+        free(page);
+        wt_result_free(result);
+    }
+}
+
+static void many_materials(wt_table *materials, size_t row)
+{
+    char name[16];
+    (void)snprintf(name, sizeof name, "rubber %zu", row % 8);
+    fixture_text(materials, "material", name);
+}
+
+/* More of them than a figure has colours for are not left out without a word. */
+static void test_too_many_materials(void **state)
+{
+    (void)state;
+    NEED_GNUPLOT();
+    const char *const materials = "materials";
+    const fixture_change change = {materials, .edit = many_materials};
+    wt_result *result = fixture_only(&materials, 1, &change);
+    size_t length = 0;
+    write_report(result, "out", NULL);
+    char *page = read_all("out/index.html", &length);
+    assert_non_null(strstr(page, "Only the first 6 are drawn."));
     free(page);
     wt_result_free(result);
 }
@@ -730,6 +765,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_everything, make_workplace, remove_workplace),
         cmocka_unit_test_setup_teardown(test_page, make_workplace, remove_workplace),
         cmocka_unit_test_setup_teardown(test_strain_sweeps, make_workplace, remove_workplace),
+        cmocka_unit_test_setup_teardown(test_a_given_law, make_workplace, remove_workplace),
+        cmocka_unit_test_setup_teardown(test_too_many_materials, make_workplace, remove_workplace),
         cmocka_unit_test_setup_teardown(test_tables_on_the_page, make_workplace, remove_workplace),
         cmocka_unit_test_setup_teardown(test_the_median_decides_the_unit, make_workplace,
                                         remove_workplace),

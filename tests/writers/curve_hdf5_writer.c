@@ -200,6 +200,12 @@ int nhf_write(const nhf_writer_file *f)
         put_text(data, old ? "name" : "signal_name", i == 0 ? "Position X" : "Position Y", false);
         check(H5Dclose(data));
     }
+    for (size_t i = 0; f->places_range > 0 && i < 2; i++) {
+        const nhf_writer_channel places = {i == 0 ? "Position X" : "Position Y", "Meter (m)",
+                                           -f->places_range, f->places_range, i == 0 ? f->x : f->y};
+        check(H5Ldelete(group, i == 0 ? "dataset_0000" : "dataset_0001", H5P_DEFAULT));
+        put_channel(f, group, i, f->n_curves, &places);
+    }
     for (size_t i = 0; i < f->n_segments; i++)
         put_segment(f, group, i);
     check(H5Gclose(group));

@@ -41,6 +41,7 @@ typedef struct nhf_writer_file {
     const nhf_writer_segment *segments;
     double spring_constant, sensitivity;
     const double *x, *y;      /* [n_curves] */
+    double places_range;      /* of counts that the places are stored as, either way; 0: metres */
     double newtons_per_count; /* version 2: the deflection has a node to force; 0: none */
 } nhf_writer_file;
 

@@ -274,6 +274,16 @@ double nanoscope_count(const nanoscope_file *f, const nanoscope_channel *channel
     return count == (narrow ? -most_counts : -0x1p31) ? (double)NAN : count;
 }
 
+/* The count that was measured nearest to the beginning of the way in of a curve, or to its end;
+ * NaN: none was. */
+static double end_of(const nanoscope_file *f, const nanoscope_channel *c, size_t curve, bool last)
+{
+    double count = (double)NAN;
+    for (size_t i = 0; i < f->n_in && isnan(count); i++)
+        count = nanoscope_count(f, c, curve, last ? f->n_in - 1 - i : i);
+    return count;
+}
+
 /* Volts between the end of the way in and its beginning, the median over the curves not needed: the
  * largest is enough to tell 1 from 256. */
 static double largest_rise(const nanoscope_file *f, const nanoscope_channel *c, double *largest)
@@ -281,8 +291,8 @@ static double largest_rise(const nanoscope_file *f, const nanoscope_channel *c, 
     double rise = 0;
     *largest = 0;
     for (size_t curve = 0; curve < f->n_curves; curve++) {
-        const double end = c->scale * nanoscope_count(f, c, curve, f->n_in - 1);
-        const double start = c->scale * nanoscope_count(f, c, curve, 0);
+        const double end = c->scale * end_of(f, c, curve, true);
+        const double start = c->scale * end_of(f, c, curve, false);
         *largest = fmax(*largest, fmax(fabs(start), fabs(end)));
         if (fabs(end - start) > fabs(rise))
             rise = end - start;
@@ -331,8 +341,7 @@ static void turn_sensor(nanoscope_file *f)
 {
     for (size_t i = 0; i < f->n_channels; i++) {
         nanoscope_channel *c = &f->channels[i];
-        if (c->quantity == WT_Q_MEASURED_HEIGHT &&
-            nanoscope_count(f, c, 0, f->n_in - 1) > nanoscope_count(f, c, 0, 0))
+        if (c->quantity == WT_Q_MEASURED_HEIGHT && end_of(f, c, 0, true) > end_of(f, c, 0, false))
             c->scale = -c->scale;
         if (c->quantity == WT_Q_MEASURED_HEIGHT && f->scaled)
             c->scale /= 256;

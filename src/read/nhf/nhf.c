@@ -69,20 +69,17 @@ static wt_segment_kind kind_of(const char *name)
     return WT_SEGMENT_OTHER;
 }
 
-/* The data set of a group whose attribute has this text. */
-static double *values_by(const nhf_file *f, hid_t group, const char *attribute, const char *text,
-                         size_t *n)
+/* The data set of a group whose attribute has this text; -1 if there is none. */
+static hid_t data_by(hid_t group, const char *attribute, const char *text)
 {
     char name[HDF5_NAME], found[HDF5_TEXT];
     for (size_t i = 0; hdf5_link(group, i, name); i++) {
         const hid_t data = hdf5_open_data(group, name);
-        const bool is = data >= 0 && hdf5_text(data, attribute, found) && strcmp(found, text) == 0;
-        double *values = is ? hdf5_values(data, f->size, n) : NULL;
+        if (data >= 0 && hdf5_text(data, attribute, found) && strcmp(found, text) == 0)
+            return data;
         hdf5_close(data);
-        if (is)
-            return values;
     }
-    return NULL;
+    return -1;
 }
 
 /* How many samples each curve has: what the channel points to, or in version 1 a channel. Without
@@ -92,8 +89,10 @@ static wt_status read_sizes(const nhf_file *f, hid_t group, const char *source, 
 {
     const size_t n = s->channels[0].n;
     double sum = 0;
-    s->sizes = f->old ? values_by(f, group, "name", "number_of_datapoints_acquired", &s->n_curves)
-                      : values_by(f, group, "dataset_block_size_id", source, &s->n_curves);
+    const hid_t data = f->old ? data_by(group, "name", "number_of_datapoints_acquired")
+                              : data_by(group, "dataset_block_size_id", source);
+    s->sizes = data >= 0 ? hdf5_values(data, f->size, &s->n_curves) : NULL;
+    hdf5_close(data);
     if (s->sizes == NULL && (f->old || source[0] == '\0')) {
         s->sizes = calloc(1, sizeof *s->sizes);
         if (s->sizes == NULL)
@@ -156,7 +155,9 @@ static void read_places(const nhf_file *f, hid_t group, measurement *m)
     static const char *const names[] = {"Position X", "Position Y"};
     for (size_t i = 0; i < 2; i++) {
         size_t n = 0;
-        *places[i] = values_by(f, group, key, names[i], &n);
+        const hid_t data = data_by(group, key, names[i]);
+        *places[i] = data >= 0 ? nhf_places_read(f, data, &n) : NULL;
+        hdf5_close(data);
         if (n != m->n_curves) {
             free(*places[i]);
             *places[i] = NULL;
@@ -198,6 +199,17 @@ static wt_status read_measurement(const nhf_file *f, hid_t group, measurement *m
 /* ---- curves -----------------------------------------------------------------------------------
  */
 
+/* From the first number that was measured to the last one; 0: there are not two. */
+static double rise(const double *values, size_t n)
+{
+    size_t first = 0;
+    while (first < n && isnan(values[first]))
+        first++;
+    while (n > first && isnan(values[n - 1]))
+        n--;
+    return n > first ? values[n - 1] - values[first] : 0;
+}
+
 /* Whether heights fall towards the sample is known from other programs only: the first way in
  * tells.
  */
@@ -208,9 +220,8 @@ static void turn_heights(measurement *m)
         for (size_t c = 0; c < m->segments[s].n_channels; c++) {
             const nhf_channel *channel = &m->segments[s].channels[c];
             const size_t n = m->segments[s].n_curves > 0 ? (size_t)m->segments[s].sizes[0] : 0;
-            if (m->segments[s].kind == WT_SEGMENT_APPROACH && channel->quantity == WT_Q_HEIGHT &&
-                n > 1)
-                way = channel->values[n - 1] - channel->values[0];
+            if (m->segments[s].kind == WT_SEGMENT_APPROACH && channel->quantity == WT_Q_HEIGHT)
+                way = rise(channel->values, n);
         }
     for (size_t s = 0; s < m->n_segments && way > 0; s++)
         for (size_t c = 0; c < m->segments[s].n_channels; c++) {

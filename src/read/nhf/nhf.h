@@ -29,7 +29,7 @@ typedef struct nhf_channel {
 /* The channel of a segment whose name is known and whose numbers and unit are understood; false if
  * it is none of them. What it is instead is said in *problem if it hinders. */
 bool nhf_channel_read(const nhf_file *f, hid_t data, nhf_channel *channel, const char **problem);
-/* The name of a channel, "" if it has none. */
-void nhf_channel_name(const nhf_file *f, hid_t data, char name[HDF5_TEXT]);
+/* Lateral positions in metres, new; NULL if what the numbers mean is not understood. */
+double *nhf_places_read(const nhf_file *f, hid_t data, size_t *n);
 
 #endif

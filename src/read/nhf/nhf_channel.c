@@ -14,11 +14,6 @@
 /* Longest way through the graph of calibrations. */
 enum { NODES_MAX = 8 };
 
-void nhf_channel_name(const nhf_file *f, hid_t data, char name[HDF5_TEXT])
-{
-    (void)hdf5_text(data, f->old ? "name" : "signal_name", name);
-}
-
 /* ---- the range of the stored type -------------------------------------------------------------
  */
 
@@ -170,6 +165,14 @@ static bool find_quantity(const char *name, const char *unit, wt_quantity *quant
     return false;
 }
 
+static void to_units(double *values, size_t n, double missing, double factor, force_linear scaling)
+{
+    for (size_t i = 0; i < n; i++)
+        values[i] = values[i] == missing
+                        ? (double)NAN
+                        : factor * (scaling.multiplier * values[i] + scaling.offset);
+}
+
 static bool is_wanted(const char *name)
 {
     return strcmp(name, "Deflection") == 0 || strcmp(name, "Position Z") == 0 ||
@@ -182,7 +185,7 @@ bool nhf_channel_read(const nhf_file *f, hid_t data, nhf_channel *c, const char 
     element_type type;
     force_linear scaling = {1, 0};
     double missing = (double)NAN, factor = 1;
-    nhf_channel_name(f, data, name);
+    (void)hdf5_text(data, f->old ? "name" : "signal_name", name);
     if (!is_wanted(name))
         return false;
     if (!find_type(f, data, &type, &missing) || !find_scaling(f, data, &type, &scaling, unit))
@@ -192,9 +195,26 @@ bool nhf_channel_read(const nhf_file *f, hid_t data, nhf_channel *c, const char 
     else if ((c->values = hdf5_values(data, f->size, &c->n)) == NULL)
         *problem = "the numbers of a channel cannot be read";
     else
-        for (size_t i = 0; i < c->n; i++)
-            c->values[i] = c->values[i] == missing
-                               ? (double)NAN
-                               : factor * (scaling.multiplier * c->values[i] + scaling.offset);
+        to_units(c->values, c->n, missing, factor, scaling);
     return c->values != NULL;
+}
+
+/* Counts have a type and a calibration like those of a channel; without them a double is metres. */
+double *nhf_places_read(const nhf_file *f, hid_t data, size_t *n)
+{
+    char unit[HDF5_TEXT];
+    element_type type;
+    force_linear scaling = {1, 0};
+    double missing = (double)NAN, factor = 1, offset = 0;
+    const hid_t stored = H5Dget_type(data);
+    const bool whole = H5Tget_class(stored) != H5T_FLOAT;
+    hdf5_close(stored);
+    const bool known =
+        find_type(f, data, &type, &missing) && find_scaling(f, data, &type, &scaling, unit);
+    if (known ? wt_unit_to_si(unit, WT_Q_LENGTH, &factor, &offset, NULL) != WT_OK : whole)
+        return NULL;
+    double *values = hdf5_values(data, f->size, n);
+    if (values != NULL && known)
+        to_units(values, *n, missing, factor, scaling);
+    return values;
 }

@@ -136,7 +136,8 @@ static void begin_rows(text_scanner *s)
     s->table->decimal = choose_decimal(s);
 }
 
-/* Names that stand one below the other: each is kept until the line above the rows comes. */
+/* Names that stand one below the other: each is kept until the line above the rows comes. Where one
+ * does not fit, those behind it would be of other columns: there are none. */
 static bool gathered_names(text_scanner *s, text_span *line)
 {
     text_span name = *line;
@@ -146,14 +147,17 @@ static bool gathered_names(text_scanner *s, text_span *line)
             s->n_gathered += s->n_gathered > 0;
             memcpy(s->gathered + s->n_gathered, name.text, name.length);
             s->n_gathered += name.length;
+        } else {
+            s->n_gathered = sizeof s->gathered;
         }
         return false;
     }
     if (!pattern_match(&s->d->names_line, *line, NULL, 0))
         return false;
-    *line = (text_span){s->gathered, s->n_gathered};
+    const bool all = s->n_gathered < sizeof s->gathered;
+    *line = (text_span){s->gathered, all ? s->n_gathered : 0};
     s->n_gathered = 0;
-    return true;
+    return all;
 }
 
 /* Is the line a names row? Then opens a table and moves to the last line of names and units. */
