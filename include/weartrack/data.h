@@ -113,7 +113,8 @@ typedef struct wt_isotherm {
     double given_log_a;        /* log10 of the horizontal shift, if it is given */
     bool shift_given;          /* differences of given shifts count, and are not fitted */
     double *loss_factor;       /* [n] where it was measured without a modulus, else NULL */
-    uint64_t reserved[5];
+    char *sample;              /* what it was measured on, as the file calls it; NULL: no name */
+    uint64_t reserved[4];
 } wt_isotherm;
 
 /* Moduli against temperature at one frequency, heated or cooled once. */
@@ -126,7 +127,8 @@ typedef struct wt_ramp {
     char source[128];        /* file and step it came from */
     double *strain;          /* [n] or NULL */
     double *loss_factor;     /* [n] where it was measured without a modulus, else NULL */
-    uint64_t reserved[6];
+    char *sample;            /* as that of an isotherm */
+    uint64_t reserved[5];
 } wt_ramp;
 
 /* Moduli against the amplitude of the strain at one frequency and temperature, raised or lowered
@@ -140,7 +142,8 @@ typedef struct wt_strain_sweep {
     double *storage_modulus; /* [n] Pa, as measured: E' or G' */
     double *loss_modulus;    /* [n] Pa */
     char source[128];        /* file and step it came from */
-    uint64_t reserved[8];
+    char *sample;            /* as that of an isotherm */
+    uint64_t reserved[7];
 } wt_strain_sweep;
 
 /* Isotherms in the order of rising temperature (equal temperatures stay separate), temperature
@@ -171,6 +174,8 @@ WT_API wt_strain_sweep *wt_sweep_add_strain_sweep(wt_sweep *sweep, size_t n);
  * to the last bit, with a warning for each (the same file under two names, a table pasted twice):
  * measured again, they would differ. */
 WT_API void wt_sweep_drop_copies(wt_sweep *sweep, wt_parselog *log);
+/* Takes out the sweeps of other samples. WT_E_NOT_FOUND if none is left. */
+WT_API wt_status wt_sweep_keep_sample(wt_sweep *sweep, const char *name) WT_NODISCARD;
 
 /* ---- power spectrum ----------------------------------------------------------------------- */
 
@@ -233,6 +238,7 @@ WT_API wt_table *wt_table_new(const char *name, const char *title); /* NULL when
 WT_API void wt_table_free(wt_table *table);
 WT_API const char *wt_table_name(const wt_table *table);
 WT_API const char *wt_table_title(const wt_table *table);
+WT_API wt_status wt_table_rename(wt_table *table, const char *name, wt_error *err) WT_NODISCARD;
 
 /* Columns are added before rows. name: letters, digits and '_', not "block". unit: UDUNITS spelling
  * of an SI unit, "1" for a number. The text arguments are copied. A wrong name or unit is WT_E_ARG.

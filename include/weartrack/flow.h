@@ -249,6 +249,18 @@ WT_API wt_status wt_modulus_groups(const wt_table *const *indentation, size_t n,
 
 /* ---- DMA: shift factors, WLF, master curve, Prony -------------------------------------------- */
 
+/* The samples of isotherms and temperature sweeps, in the order of their names; that of sweeps
+ * without one is "". */
+typedef struct wt_samples {
+    size_t n;
+    char **name;
+} wt_samples;
+WT_API void wt_samples_clear(wt_samples *samples);
+/* `samples` is to be cleared. What is read stays in work->dma, if there is one, for the jobs that
+ * fit it. */
+WT_API wt_status wt_samples_read(const wt_file_set *sets, size_t n_sets, const wt_job *work,
+                                 wt_samples *samples, wt_error *err) WT_NODISCARD;
+
 typedef struct wt_master_job {
     const wt_file_set *sets;
     size_t n_sets;

@@ -93,6 +93,12 @@ typedef enum wt_read_deformation {
     WT_DEFORMATION_BENDING
 } wt_read_deformation;
 
+/* What tells the samples of DMA sweeps apart. */
+typedef enum wt_sample_by {
+    WT_SAMPLE_BY_NAME, /* that a column or the header says */
+    WT_SAMPLE_BY_FILE  /* each file is of one, which is called as the file is */
+} wt_sample_by;
+
 /* Nothing that is not asked for is decoded. */
 typedef struct wt_read_options {
     const char *format;   /* id that overrules detection, or NULL */
@@ -111,7 +117,10 @@ typedef struct wt_read_options {
                           other; NULL = the only one that is */
     wt_read_deformation deformation; /* one that the file contradicts is WT_E_UNIT */
     double strain; /* of isotherms at several strain amplitudes take those nearest to this; NaN */
-    uint64_t reserved[4];
+    const char *sample; /* of DMA sweeps of several samples: its name; "all" = they are of one
+                           material, whatever they are called; NULL = none is chosen */
+    wt_sample_by sample_by;
+    uint64_t reserved[2];
 } wt_read_options;
 WT_API wt_read_options wt_read_defaults(void); /* everything, nothing replaced */
 WT_API const wt_params *wt_read_params(void);

@@ -1,5 +1,6 @@
 /* weartrack master: shift factors, master curve, WLF and Prony series.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cmd/master.h"
 #include "cmd/tables.h"
 
 #include <string.h>
@@ -132,11 +133,14 @@ int cmd_master(int argc, char **argv)
                 "shifts, the law of these and the errors of everything; says whether superposition "
                 "holds. Folders and patterns are allowed.",
         .common = "output formats columns files-from provenance cost",
-        .notes = "The tables prony, relaxation_spectrum, shift_factors and master_curve follow one "
-                 "another, then draws of all that is not known of the material, material_draws and "
-                 "series_draws; with --prony-error, --prony-terms, --prony-long-term or --export "
-                 "prony_reduced, too (few terms in place of prony). "
-                 "weartrack friction, layer and compare read them as they are.",
+        .notes =
+            "The tables prony, relaxation_spectrum, shift_factors and master_curve follow one "
+            "another, then draws of all that is not known of the material, material_draws and "
+            "series_draws; with --prony-error, --prony-terms, --prony-long-term or --export "
+            "prony_reduced, too (few terms in place of prony). "
+            "weartrack friction, layer and compare read them as they are. Where the files name "
+            "several samples, each has such tables with its name behind theirs, as in "
+            "prony/nr_50, and they are compared in the tables material_ratio and materials.",
         .n_files = CMD_SOME};
     wt_master_job job = wt_master_job_defaults();
     wt_file_set set = {.read = wt_read_defaults()};
@@ -150,10 +154,13 @@ int cmd_master(int argc, char **argv)
          0},
         {saved_params(), &saved, NULL, 0},
         [EXPORTED] = {exported_params(), &own, NULL, 0},
-        {wt_read_params(), &set.read, "temperature units format sheet deformation strain", 0}};
+        {wt_read_params(), &set.read,
+         "temperature units format sheet deformation strain sample sample-by", 0}};
     cmd_session s = cmd_session_defaults();
     wt_master_tables tables = {0};
     wt_result *given = NULL;
+    wt_samples samples = {0, NULL};
+    wt_sweep sweep = {0};
     if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv) || !check_exports(&s, &own) ||
         !check_outputs(&s, &saved, &own) || !cmd_begin_files(&s, &set))
         goto done;
@@ -163,6 +170,7 @@ int cmd_master(int argc, char **argv)
     job.sets = &set;
     job.n_sets = 1;
     wt_cost_stage(s.cost, "master_curve");
+    s.work.dma = &sweep; /* read once, for all samples */
     wt_status made = WT_OK;
     if (saved.read != NULL)
         made =
@@ -171,6 +179,13 @@ int cmd_master(int argc, char **argv)
         job.shifts = wt_result_find(given, "shift_factors");
     if (given != NULL && job.shifts == NULL)
         job.shifts = wt_result_table(given, 0);
+    /* what goes into a file of its own is of one sample */
+    if (made == WT_OK && set.read.sample == NULL && saved.written == NULL && own.n_exports == 0)
+        made = wt_samples_read(&set, 1, &s.work, &samples, &s.err);
+    if (made == WT_OK && samples.n > 1) {
+        master_of_samples(&s, &job, &set, &samples);
+        goto done;
+    }
     if (made == WT_OK)
         made = wt_master_make(&job, &s.work, &tables, NULL, &s.err);
     if (made != WT_OK && job.shifts != NULL && strcmp(s.err.place, "shifts") == 0)
@@ -186,6 +201,8 @@ int cmd_master(int argc, char **argv)
     cmd_finish(&s, made, made_tables, COUNT_OF(made_tables));
 done:
     wt_master_tables_clear(&tables);
+    wt_samples_clear(&samples);
+    wt_sweep_clear(&sweep);
     wt_result_free(given);
     return cmd_session_free(&s);
 }

@@ -17,8 +17,8 @@ int cmd_payne(int argc, char **argv)
         .n_files = CMD_SOME};
     wt_payne_job job = wt_payne_job_defaults();
     wt_file_set set = {.read = wt_read_defaults()};
-    cmd_part parts[] = {
-        {wt_read_params(), &set.read, "units format sheet temperature deformation", 0}};
+    cmd_part parts[] = {{wt_read_params(), &set.read,
+                         "units format sheet temperature deformation sample sample-by", 0}};
     cmd_session s = cmd_session_defaults();
     wt_payne_tables tables = {0};
     if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv) || !cmd_begin_files(&s, &set))

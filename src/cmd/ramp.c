@@ -16,8 +16,9 @@ int cmd_ramp(int argc, char **argv)
         .n_files = CMD_SOME};
     wt_ramp_job job = wt_ramp_job_defaults();
     wt_file_set set = {.read = wt_read_defaults()};
-    cmd_part parts[] = {{wt_ramp_job_params(), &job, NULL, 0},
-                        {wt_read_params(), &set.read, "units format sheet deformation strain", 0}};
+    cmd_part parts[] = {
+        {wt_ramp_job_params(), &job, NULL, 0},
+        {wt_read_params(), &set.read, "units format sheet deformation strain sample sample-by", 0}};
     cmd_session s = cmd_session_defaults();
     wt_ramp_tables tables = {0};
     if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv) || !cmd_begin_files(&s, &set))

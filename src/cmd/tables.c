@@ -115,13 +115,34 @@ wt_status cmd_table_find(const wt_result *tables, const char *path, const char *
     return WT_E_NOT_FOUND;
 }
 
+static wt_status several_samples(const wt_result *tables, wt_error *err)
+{
+    char found[256] = "";
+    size_t used = 0;
+    for (size_t i = 0; i < wt_result_n_tables(tables) && used < sizeof found; i++) {
+        const char *const name = wt_table_name(wt_result_table(tables, i));
+        if (strncmp(name, "prony/", 6) == 0)
+            used += (size_t)snprintf(found + used, sizeof found - used, "%s%s",
+                                     used > 0 ? ", " : "", name + 6);
+    }
+    wt_fail(err, WT_E_AMBIGUOUS, "materials of several samples");
+    wt_error_found(err, "%s", found);
+    wt_error_advice(err, "make that of one with weartrack master --sample NAME");
+    return WT_E_AMBIGUOUS;
+}
+
 wt_status cmd_rubber_of(const wt_result *tables, const char *path, double poisson_ratio,
                         wt_rubber *rubber, wt_error *err)
 {
     wt_rubber_tables of = {.shift_factors = wt_result_find(tables, "shift_factors"),
                            .material_draws = wt_result_find(tables, "material_draws"),
                            .series_draws = wt_result_find(tables, "series_draws")};
-    wt_status status = cmd_table_find(tables, path, "prony", "master", &of.prony, err);
+    of.prony = wt_result_find(tables, "prony");
+    wt_status status = WT_OK;
+    if (of.prony == NULL && cmd_tables_have(tables, "prony/"))
+        status = several_samples(tables, err);
+    else if (of.prony == NULL)
+        status = cmd_table_find(tables, path, "prony", "master", &of.prony, err);
     if (status == WT_OK)
         status = wt_rubber_from_tables(&of, poisson_ratio, rubber, err);
     wt_error_file(status != WT_OK ? err : NULL, path);

@@ -15,6 +15,7 @@ static void isotherm_free(wt_isotherm *isotherm)
     free(isotherm->loss_modulus);
     free(isotherm->strain);
     free(isotherm->loss_factor);
+    free(isotherm->sample);
 }
 
 static void ramp_free(wt_ramp *ramp)
@@ -24,6 +25,7 @@ static void ramp_free(wt_ramp *ramp)
     free(ramp->loss_modulus);
     free(ramp->strain);
     free(ramp->loss_factor);
+    free(ramp->sample);
 }
 
 static void strain_sweep_free(wt_strain_sweep *s)
@@ -31,6 +33,7 @@ static void strain_sweep_free(wt_strain_sweep *s)
     free(s->strain);
     free(s->storage_modulus);
     free(s->loss_modulus);
+    free(s->sample);
 }
 
 void wt_sweep_clear(wt_sweep *sweep)
@@ -243,6 +246,11 @@ void wt_sweep_sort(wt_sweep *sweep)
 
 /* ---- copies ---------------------------------------------------------------------------------- */
 
+static bool same_sample(const char *a, const char *b)
+{
+    return strcmp(a != NULL ? a : "", b != NULL ? b : "") == 0;
+}
+
 /* Of arrays, or of none on both sides. */
 static bool same_numbers(const double *a, const double *b, size_t n)
 {
@@ -253,7 +261,8 @@ static bool same_numbers(const double *a, const double *b, size_t n)
 
 static bool is_copy(const wt_isotherm *a, const wt_isotherm *b)
 {
-    return a->n == b->n && same_numbers(a->angular_frequency, b->angular_frequency, a->n) &&
+    return a->n == b->n && same_sample(a->sample, b->sample) &&
+           same_numbers(a->angular_frequency, b->angular_frequency, a->n) &&
            same_numbers(a->storage_modulus, b->storage_modulus, a->n) &&
            same_numbers(a->loss_modulus, b->loss_modulus, a->n) &&
            same_numbers(a->loss_factor, b->loss_factor, a->n);
@@ -304,6 +313,7 @@ static void drop_copies_of_ramps(wt_sweep *sweep, wt_parselog *log)
         wt_ramp *const t = &sweep->ramps[i];
         const wt_ramp *const b = kept > 0 ? &sweep->ramps[kept - 1] : NULL;
         if (b == NULL || b->n != t->n || b->angular_frequency != t->angular_frequency ||
+            !same_sample(b->sample, t->sample) ||
             !same_numbers(b->temperature, t->temperature, t->n) ||
             !same_numbers(b->storage_modulus, t->storage_modulus, t->n) ||
             !same_numbers(b->loss_modulus, t->loss_modulus, t->n) ||
@@ -326,6 +336,7 @@ static void drop_copies_of_strain_sweeps(wt_sweep *sweep, wt_parselog *log)
         wt_strain_sweep *const t = &sweep->strain_sweeps[i];
         const wt_strain_sweep *const b = kept > 0 ? &sweep->strain_sweeps[kept - 1] : NULL;
         if (b == NULL || b->n != t->n || b->angular_frequency != t->angular_frequency ||
+            !same_sample(b->sample, t->sample) ||
             !same_numbers(b->strain, t->strain, t->n) ||
             !same_numbers(b->storage_modulus, t->storage_modulus, t->n) ||
             !same_numbers(b->loss_modulus, t->loss_modulus, t->n)) {
@@ -376,4 +387,32 @@ void wt_sweep_drop_copies(wt_sweep *sweep, wt_parselog *log)
         wt_parselog_add(log, WT_WARNING, NULL, NULL, "%zu %s and left out; the first: %s", n,
                         n > 1 ? "isotherms are copies of others" : "isotherm is a copy of another",
                         first);
+}
+
+/* ---- samples --------------------------------------------------------------------------------- */
+
+wt_status wt_sweep_keep_sample(wt_sweep *sweep, const char *name)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < sweep->n_isotherms; i++)
+        if (same_sample(sweep->isotherms[i].sample, name))
+            sweep->isotherms[kept++] = sweep->isotherms[i];
+        else
+            isotherm_free(&sweep->isotherms[i]);
+    sweep->n_isotherms = kept;
+    kept = 0;
+    for (size_t i = 0; i < sweep->n_ramps; i++)
+        if (same_sample(sweep->ramps[i].sample, name))
+            sweep->ramps[kept++] = sweep->ramps[i];
+        else
+            ramp_free(&sweep->ramps[i]);
+    sweep->n_ramps = kept;
+    kept = 0;
+    for (size_t i = 0; i < sweep->n_strain_sweeps; i++)
+        if (same_sample(sweep->strain_sweeps[i].sample, name))
+            sweep->strain_sweeps[kept++] = sweep->strain_sweeps[i];
+        else
+            strain_sweep_free(&sweep->strain_sweeps[i]);
+    sweep->n_strain_sweeps = kept;
+    return sweep->n_isotherms + sweep->n_ramps + kept > 0 ? WT_OK : WT_E_NOT_FOUND;
 }

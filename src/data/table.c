@@ -54,6 +54,18 @@ const char *wt_table_name(const wt_table *table)
     return table->name;
 }
 
+wt_status wt_table_rename(wt_table *table, const char *name, wt_error *err)
+{
+    char *const own = table_name_is_valid(name) ? strdup(name) : NULL;
+    if (!table_name_is_valid(name))
+        return wt_fail(err, WT_E_ARG, "\"%s\" is no name of a table", name);
+    if (own == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    free(table->name);
+    table->name = own;
+    return WT_OK;
+}
+
 const char *wt_table_title(const wt_table *table)
 {
     return table->title;

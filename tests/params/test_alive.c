@@ -100,6 +100,8 @@ static const struct {
     {NULL, "columns", "for tables with other names: tests/cli/options.txt"},
     {NULL, "units", "for files without units: tests/formats"},
     {NULL, "sheet", "for spreadsheets: unit_read_packed"},
+    {NULL, "sample", "for sweeps of several samples: cli_samples"},
+    {NULL, "sample-by", "for sweeps of several samples: cli_samples"},
     {NULL, "strain", "for isotherms of several amplitudes: tests/cli/payne.txt"},
     {NULL, "deformation", "for moduli whose names leave it open: tests/formats"},
     {NULL, "temperature", "for files without a temperature: tests/formats"},

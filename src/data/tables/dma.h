@@ -44,6 +44,7 @@
 
 /* Those of the law only where there is one. */
 #define SHIFT_FACTORS_KEYS(X)                                                                      \
+    X(SHIFT_FACTORS_KEY_SAMPLE, "sample", TEXT, LABEL("Sample"), OPTIONAL)                         \
     X(SHIFT_FACTORS_KEY_LAW, "law", TEXT, LABEL("Law of the shift factors"))                       \
     X(SHIFT_FACTORS_KEY_WLF_C1, "wlf_c1", NUMBER, LABEL("WLF constant C₁"),                        \
       HEADLINE("WLF constant C₁"), OPTIONAL)                                                       \

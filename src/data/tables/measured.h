@@ -54,7 +54,8 @@
       SI(SHEAR_LOSS_MODULUS), OPTIONAL, SPARSE)                                                    \
     X(SWEEP_STRAIN, "strain", "strain amplitude", SI(STRAIN), OPTIONAL, SPARSE)                    \
     X(SWEEP_LOSS_FACTOR, "loss_factor", "loss factor tan delta, where it was measured alone",      \
-      SI(LOSS_FACTOR), OPTIONAL, SPARSE)
+      SI(LOSS_FACTOR), OPTIONAL, SPARSE)                                                           \
+    X(SWEEP_SAMPLE, "sample", "name of the sample", TEXT, OPTIONAL, SPARSE)
 #define SWEEP_KEYS(X)
 
 /* The density of a surface or of a line, as measured. */

@@ -95,7 +95,10 @@ static void say_material(sentence *s, const table_view *v)
     if (v->table == NULL)
         return;
     const wt_estimate c1 = shift_factors_value(v, SHIFT_FACTORS_KEY_WLF_C1);
+    const char *const sample = shift_factors_words(v, SHIFT_FACTORS_KEY_SAMPLE);
     next(s);
+    if (sample != NULL)
+        say(s, "%s: ", sample);
     say(s, "%zu isotherm%s at the reference temperature %s", v->n_rows, v->n_rows == 1 ? "" : "s",
         words_of_celsius(shift_factors_value(v, SHIFT_FACTORS_KEY_REFERENCE_TEMPERATURE).value)
             .text);
@@ -300,6 +303,14 @@ size_t wt_result_sentence(const wt_result *result, char *buffer, size_t size)
         table_view view;
         if (table_bind_of(result, parts[i].schema, "", &view, NULL) == WT_OK)
             parts[i].say(&s, &view);
+    }
+    for (size_t i = 0; i < wt_result_n_tables(result); i++) { /* of several samples */
+        static const char prefix[] = "shift_factors/";
+        const wt_table *const table = wt_result_table(result, i);
+        table_view view;
+        if (strncmp(wt_table_name(table), prefix, strlen(prefix)) == 0 &&
+            table_bind(table, &shift_factors_schema, "", &view, NULL) == WT_OK)
+            say_material(&s, &view);
     }
     clocale_leave(previous);
     return s.used;

@@ -117,6 +117,7 @@ static wt_status convert_force(const conversion *c, wt_error *err)
 /* A point of any sweep; what was not measured is NaN. */
 typedef struct dma_point {
     double temperature, angular_frequency, storage, loss, strain, factor;
+    const char *sample;
 } dma_point;
 
 static double at(const double *values, size_t i)
@@ -152,6 +153,11 @@ static void put_point(dma_table *t, const dma_point *p)
     put_known(t, t->loss, p->loss);
     put_known(t, SWEEP_STRAIN, p->strain);
     put_known(t, SWEEP_LOSS_FACTOR, p->factor);
+    if (p->sample == NULL)
+        return;
+    t->used |= SCHEMA_BIT(SWEEP_SAMPLE);
+    if (!t->counting)
+        sweep_put_text(&t->writer, SWEEP_SAMPLE, p->sample);
 }
 
 static void put_block(dma_table *t)
@@ -166,33 +172,37 @@ static void put_sweep(dma_table *t, const wt_sweep *sweep)
         const wt_isotherm *s = &sweep->isotherms[k];
         put_block(t);
         for (size_t i = 0; i < s->n; i++)
-            put_point(t,
-                      &(dma_point){s->temperature, s->angular_frequency[i], s->storage_modulus[i],
-                                   s->loss_modulus[i], at(s->strain, i), at(s->loss_factor, i)});
+            put_point(t, &(dma_point){s->temperature, s->angular_frequency[i],
+                                      s->storage_modulus[i], s->loss_modulus[i], at(s->strain, i),
+                                      at(s->loss_factor, i), s->sample});
     }
     for (size_t k = 0; k < sweep->n_ramps; k++) {
         const wt_ramp *s = &sweep->ramps[k];
         put_block(t);
         for (size_t i = 0; i < s->n; i++)
-            put_point(t,
-                      &(dma_point){s->temperature[i], s->angular_frequency, s->storage_modulus[i],
-                                   s->loss_modulus[i], at(s->strain, i), at(s->loss_factor, i)});
+            put_point(t, &(dma_point){s->temperature[i], s->angular_frequency,
+                                      s->storage_modulus[i], s->loss_modulus[i], at(s->strain, i),
+                                      at(s->loss_factor, i), s->sample});
     }
     for (size_t k = 0; k < sweep->n_strain_sweeps; k++) {
         const wt_strain_sweep *s = &sweep->strain_sweeps[k];
         put_block(t);
         for (size_t i = 0; i < s->n; i++)
             put_point(t, &(dma_point){s->temperature, s->angular_frequency, s->storage_modulus[i],
-                                      s->loss_modulus[i], s->strain[i], (double)NAN});
+                                      s->loss_modulus[i], s->strain[i], (double)NAN, s->sample});
     }
 }
 
 /* Columns that no point has are left out. */
 static wt_status send_sweep(const conversion *c, const wt_sweep *sweep, wt_error *err)
 {
-    static const sweep_column maybe[] = {
-        SWEEP_STORAGE_MODULUS,    SWEEP_LOSS_MODULUS, SWEEP_SHEAR_STORAGE_MODULUS,
-        SWEEP_SHEAR_LOSS_MODULUS, SWEEP_STRAIN,       SWEEP_LOSS_FACTOR};
+    static const sweep_column maybe[] = {SWEEP_STORAGE_MODULUS,
+                                         SWEEP_LOSS_MODULUS,
+                                         SWEEP_SHEAR_STORAGE_MODULUS,
+                                         SWEEP_SHEAR_LOSS_MODULUS,
+                                         SWEEP_STRAIN,
+                                         SWEEP_LOSS_FACTOR,
+                                         SWEEP_SAMPLE};
     const bool shear = sweep->deformation == WT_SHEAR;
     dma_table t = {.storage = shear ? SWEEP_SHEAR_STORAGE_MODULUS : SWEEP_STORAGE_MODULUS,
                    .loss = shear ? SWEEP_SHEAR_LOSS_MODULUS : SWEEP_LOSS_MODULUS,

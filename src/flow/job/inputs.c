@@ -287,6 +287,12 @@ static unsigned arrays_of(const double *strain, const double *loss_factor)
            (loss_factor != NULL ? (unsigned)WT_WITH_LOSS_FACTOR : 0);
 }
 
+static bool copy_name(char **to, const char *from)
+{
+    *to = from != NULL ? strdup(from) : NULL;
+    return from == NULL || *to != NULL;
+}
+
 static bool copy_isotherm(wt_sweep *to, const wt_isotherm *s)
 {
     wt_isotherm *t = wt_sweep_add(to, s->n, arrays_of(s->strain, s->loss_factor));
@@ -300,7 +306,7 @@ static bool copy_isotherm(wt_sweep *to, const wt_isotherm *s)
     copy_numbers(t->loss_modulus, s->loss_modulus, s->n);
     copy_numbers(t->strain, s->strain, s->n);
     copy_numbers(t->loss_factor, s->loss_factor, s->n);
-    return true;
+    return copy_name(&t->sample, s->sample);
 }
 
 static bool copy_ramp(wt_sweep *to, const wt_ramp *s)
@@ -315,7 +321,7 @@ static bool copy_ramp(wt_sweep *to, const wt_ramp *s)
     copy_numbers(t->loss_modulus, s->loss_modulus, s->n);
     copy_numbers(t->strain, s->strain, s->n);
     copy_numbers(t->loss_factor, s->loss_factor, s->n);
-    return true;
+    return copy_name(&t->sample, s->sample);
 }
 
 static bool copy_strain_sweep(wt_sweep *to, const wt_strain_sweep *s)
@@ -329,7 +335,7 @@ static bool copy_strain_sweep(wt_sweep *to, const wt_strain_sweep *s)
     copy_numbers(t->strain, s->strain, s->n);
     copy_numbers(t->storage_modulus, s->storage_modulus, s->n);
     copy_numbers(t->loss_modulus, s->loss_modulus, s->n);
-    return true;
+    return copy_name(&t->sample, s->sample);
 }
 
 /* `to` is empty. */
@@ -351,8 +357,8 @@ static size_t n_sweeps(const wt_sweep *sweep)
     return sweep->n_isotherms + sweep->n_ramps + sweep->n_strain_sweeps;
 }
 
-wt_status flow_sweeps_read(const wt_file_set *sets, size_t n_sets, const wt_job *work,
-                           wt_sweep *sweep, wt_error *err)
+static wt_status read_sweeps(const wt_file_set *sets, size_t n_sets, const wt_job *work,
+                             wt_sweep *sweep, wt_error *err)
 {
     if (work->dma != NULL && n_sweeps(work->dma) > 0)
         return copy_sweep(sweep, work->dma, err);
@@ -382,6 +388,28 @@ wt_status flow_sweeps_read(const wt_file_set *sets, size_t n_sets, const wt_job 
             status = copy_sweep(work->dma, sweep, err);
     }
     flow_files_clear(&files);
+    return status;
+}
+
+wt_status flow_sweeps_read(const wt_file_set *sets, size_t n_sets, const wt_job *work,
+                           wt_sweep *sweep, wt_error *err)
+{
+    const wt_status status = read_sweeps(sets, n_sets, work, sweep, err);
+    return status == WT_OK && n_sets > 0 ? flow_sample_take(sweep, sets[0].read.sample, err)
+                                         : status;
+}
+
+wt_status wt_samples_read(const wt_file_set *sets, size_t n_sets, const wt_job *work,
+                          wt_samples *samples, wt_error *err)
+{
+    wt_sweep sweep = {0};
+    *samples = (wt_samples){0, NULL};
+    wt_status status = flow_sweeps_read(sets, n_sets, work, &sweep, err);
+    if (status == WT_OK)
+        status = flow_samples_find(&sweep, samples, err);
+    if (status != WT_OK)
+        wt_samples_clear(samples);
+    wt_sweep_clear(&sweep);
     return status;
 }
 

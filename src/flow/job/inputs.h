@@ -55,10 +55,19 @@ wt_status flow_open(const wt_job *work, flow_file *file, const char *role, unsig
 /* For an error of files none of which held what is needed: how many, and where to look. */
 void flow_tell_files(const flow_files *files, size_t n_failed, wt_error *err);
 
-/* All isotherms and temperature sweeps of the files, sorted, without copies; cleared by the caller,
- * also on failure. */
+/* All isotherms and temperature sweeps of the files, sorted, without copies, of the sample that the
+ * first set names; cleared by the caller, also on failure. */
 wt_status flow_sweeps_read(const wt_file_set *sets, size_t n_sets, const wt_job *work,
                            wt_sweep *sweep, wt_error *err) WT_NODISCARD;
+/* The samples of isotherms and temperature sweeps; `samples` is empty, and to be cleared. */
+wt_status flow_samples_find(const wt_sweep *sweep, wt_samples *samples, wt_error *err) WT_NODISCARD;
+/* Takes out the sweeps of other samples than `name`, unless NULL or "all". WT_E_NOT_FOUND if there
+ * are no others. */
+wt_status flow_sample_take(wt_sweep *sweep, const char *name, wt_error *err) WT_NODISCARD;
+/* Isotherms and temperature sweeps of several samples are WT_E_AMBIGUOUS unless the first set says
+ * which. */
+wt_status flow_one_sample(const wt_sweep *sweep, const wt_file_set *sets, size_t n_sets,
+                          wt_parselog *log, wt_error *err) WT_NODISCARD;
 /* Of isotherms of several strain amplitudes at one temperature keeps those nearest to the one that
  * the first set names; without one they are WT_E_AMBIGUOUS. */
 wt_status flow_one_amplitude(wt_sweep *sweep, const wt_file_set *sets, size_t n_sets,

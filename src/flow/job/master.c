@@ -11,6 +11,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 wt_master_job wt_master_job_defaults(void)
 {
@@ -389,6 +390,30 @@ static wt_status no_level(const wt_master *m, wt_error *err)
     return WT_E_MISSING;
 }
 
+/* Of sweeps that all name the same one, or NULL. */
+static const char *sample_of(const wt_sweep *sweep)
+{
+    const char *name = sweep->n_isotherms > 0 ? sweep->isotherms[0].sample
+                       : sweep->n_ramps > 0   ? sweep->ramps[0].sample
+                                              : NULL;
+    bool same = name != NULL;
+    for (size_t i = 0; i < sweep->n_isotherms && same; i++)
+        same = sweep->isotherms[i].sample != NULL && strcmp(sweep->isotherms[i].sample, name) == 0;
+    for (size_t i = 0; i < sweep->n_ramps && same; i++)
+        same = sweep->ramps[i].sample != NULL && strcmp(sweep->ramps[i].sample, name) == 0;
+    return same ? name : NULL;
+}
+
+static wt_status say_sample(const wt_sweep *sweep, wt_table *shift_factors, wt_error *err)
+{
+    const char *const sample = sample_of(sweep);
+    if (sample == NULL)
+        return WT_OK;
+    table_writer t = table_continue(shift_factors, &shift_factors_schema, "", err);
+    shift_factors_set_text(&t, SHIFT_FACTORS_KEY_SAMPLE, sample);
+    return table_end(&t, NULL);
+}
+
 /* All but the master curve. */
 static wt_status make_tables(const wt_master *m, const wt_job *work, wt_master_tables *t,
                              wt_error *err)
@@ -481,11 +506,15 @@ wt_status wt_master_make(const wt_master_job *job, const wt_job *work, wt_master
     if (status == WT_OK)
         status = check_strain(&sweep, work, err);
     if (status == WT_OK)
+        status = flow_one_sample(&sweep, job->sets, job->n_sets, work->log, err);
+    if (status == WT_OK)
         status = flow_one_amplitude(&sweep, job->sets, job->n_sets, work->log, err);
     if (status == WT_OK)
         status = fit(job, work, &sweep, &master, err);
     if (status == WT_OK)
         status = make_tables(&master, work, &t, err);
+    if (status == WT_OK)
+        status = say_sample(&sweep, t.shift_factors, err);
     if (status == WT_OK)
         status = master_table(&master, &t.master_curve, err);
     if (status == WT_OK && tells_level(&master) && (work->left_out & WT_EXTRA_SPECTRUM) == 0)

@@ -351,6 +351,8 @@ wt_status wt_ramp_make(const wt_ramp_job *job, const wt_job *work, wt_ramp_table
     if (status == WT_OK)
         status = flow_sweeps_read(job->sets, job->n_sets, work, &sweep, err);
     if (status == WT_OK)
+        status = flow_one_sample(&sweep, job->sets, job->n_sets, work->log, err);
+    if (status == WT_OK)
         status = flow_one_amplitude(&sweep, job->sets, job->n_sets, work->log, err);
     const size_t isotherms = sweep.n_isotherms, strain_sweeps = sweep.n_strain_sweeps;
     if (status == WT_OK)

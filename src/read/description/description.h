@@ -85,7 +85,12 @@ typedef enum header_value {
 /* Which header value holds a quantity; HEADER_COUNT if none does. */
 header_value header_of(wt_quantity quantity);
 
-typedef enum field_sets { FIELD_SETS_NOTHING, FIELD_SETS_DECIMAL, FIELD_SETS_SEPARATOR } field_sets;
+typedef enum field_sets {
+    FIELD_SETS_NOTHING,
+    FIELD_SETS_DECIMAL,
+    FIELD_SETS_SEPARATOR,
+    FIELD_SETS_SAMPLE
+} field_sets;
 
 #define GROUPS ((size_t)10) /* of a header line, the whole match included */
 
@@ -183,6 +188,8 @@ typedef struct text_description {
     bool blank_is_block;
 
     char *group;             /* normalised name of the column that parts isotherms */
+    char **samples;          /* normalised names of the column that names the sample */
+    size_t n_samples;
     double temperature_jump; /* [K], NaN = none */
 
     segment_marker *markers;

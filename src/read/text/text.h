@@ -98,15 +98,18 @@ typedef struct text_table {
     text_column *problems; /* columns with a problem */
     size_t n_problems;
     wt_quantity_set quantities;                  /* of `columns` */
-    size_t group_cell, segment_cell, curve_cell; /* SIZE_MAX if not there */
+    size_t group_cell, segment_cell, curve_cell, sample_cell; /* SIZE_MAX if not there */
     double *values;                              /* [n_rows][n_columns], NaN for an empty cell */
     size_t *blocks;       /* [n_rows] number that changes where a block begins */
     unsigned char *kinds; /* [n_rows] wt_segment_kind, or ROW_KIND_NONE */
     size_t *row_lines;    /* [n_rows] counted from 1 */
+    size_t *samples;      /* [n_rows] place in the list of the file, NO_SAMPLE without a name */
     size_t n_rows;
     text_header header;
 } text_table;
 #define ROW_KIND_NONE 255u
+#define NO_SAMPLE SIZE_MAX
+#define SAMPLES_MAX ((size_t)1024)
 
 typedef struct field_value {
     size_t line;    /* 0 if it was not there */
@@ -130,6 +133,7 @@ typedef struct text_file {
     field_value *values; /* [n_fields] of the description, as last seen */
     text_list unknown;   /* names of columns that no rule knows, each once */
     text_list steps;     /* titles of steps without a table */
+    text_list samples;   /* names of samples, each once */
     pool memory;         /* of the lists, the values and the columns of the tables */
 } text_file;
 

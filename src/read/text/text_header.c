@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "read/text/text_header.h"
+#include "read/text/text_rows.h"
 
 #include "base/utf8.h"
 
@@ -26,6 +27,9 @@ static void set_declared(text_scanner *s, field_sets sets, text_span text)
             s->decimal = ',';
         else if (name_is(text, "point") || name_is(text, "dot") || name_is(text, "."))
             s->decimal = '.';
+    } else if (sets == FIELD_SETS_SAMPLE && !s->sample_is_told) {
+        s->sample = scan_sample(s, text);
+        s->sample_is_told = s->sample != NO_SAMPLE;
     } else if (sets == FIELD_SETS_SEPARATOR) {
         for (size_t i = 0; i < sizeof separators / sizeof *separators; i++)
             if (name_is(text, separators[i].word))

@@ -345,12 +345,16 @@ wt_status names_resolve(const names_row *names, text_file *file, text_table *tab
     table->group_cell = find_cell(&r, d->group);
     table->segment_cell = find_cell(&r, d->segment_column);
     table->curve_cell = find_cell(&r, d->curve_column);
+    table->sample_cell = SIZE_MAX;
+    for (size_t i = 0; i < d->n_samples && table->sample_cell == SIZE_MAX; i++)
+        table->sample_cell = find_cell(&r, d->samples[i]);
     for (size_t i = 0; i < n_cells && status == WT_OK; i++) {
         const text_span cell = names->names.cells[i];
         known_name known;
         if (!names_known(d, cell, &known)) {
             if (cell.length > 0 && i != table->group_cell && i != table->segment_cell &&
-                i != table->curve_cell && !(i == 0 && d->row_prefix != NULL))
+                i != table->curve_cell && i != table->sample_cell &&
+                !(i == 0 && d->row_prefix != NULL))
                 status = add_unknown(file, cell, err);
             continue;
         }

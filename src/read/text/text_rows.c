@@ -21,7 +21,9 @@ static bool grow(text_table *t)
     t->kinds = kinds != NULL ? kinds : t->kinds;
     size_t *lines = array_grow(t->row_lines, t->n_rows, sizeof *lines);
     t->row_lines = lines != NULL ? lines : t->row_lines;
-    return values != NULL && blocks != NULL && kinds != NULL && lines != NULL;
+    size_t *samples = array_grow(t->samples, t->n_rows, sizeof *samples);
+    t->samples = samples != NULL ? samples : t->samples;
+    return values != NULL && blocks != NULL && kinds != NULL && lines != NULL && samples != NULL;
 }
 
 bool scan_split_row(text_scanner *s)
@@ -53,6 +55,37 @@ static void follow_groups(text_scanner *s)
     s->block += s->has_group && hash != s->group_hash;
     s->group_hash = hash;
     s->has_group = true;
+}
+
+size_t scan_sample(text_scanner *s, text_span name)
+{
+    text_list *const list = &s->file->samples;
+    char text[NAME_LONGEST];
+    while (name.length > 0 && strchr(" \t\r", name.text[name.length - 1]) != NULL)
+        name.length--;
+    text_copy(text, sizeof text, name);
+    if (text[0] == '\0')
+        return NO_SAMPLE;
+    for (size_t i = list->n; i-- > 0;)
+        if (strcmp(list->items[i], text) == 0)
+            return i;
+    if (list->n >= SAMPLES_MAX) /* a count of rows, not names */
+        return NO_SAMPLE;
+    s->status = text_list_add(s->file, list, SAMPLES_MAX, (text_span){text, strlen(text)}, s->err);
+    return s->status == WT_OK ? list->n - 1 : NO_SAMPLE;
+}
+
+/* That of the row before is the likely one. */
+static size_t row_sample(text_scanner *s)
+{
+    const text_table *t = s->table;
+    const size_t i = t->sample_cell;
+    if (i >= s->row.n || s->row.cells[i].length == 0)
+        return s->sample;
+    const size_t last = t->n_rows > 0 ? t->samples[t->n_rows - 1] : NO_SAMPLE;
+    if (last != NO_SAMPLE && cell_is(s->row.cells[i], s->file->samples.items[last]))
+        return last;
+    return scan_sample(s, s->row.cells[i]);
 }
 
 static unsigned char segment_kind(const text_scanner *s)
@@ -144,6 +177,7 @@ void scan_add_row(text_scanner *s)
     t->blocks[t->n_rows] = s->block;
     t->kinds[t->n_rows] = segment_kind(s);
     t->row_lines[t->n_rows] = s->i + 1;
+    t->samples[t->n_rows] = row_sample(s);
     t->n_rows++;
     s->blank = false;
 }

@@ -16,6 +16,9 @@ bool scan_split_row(text_scanner *s);
 row_quality scan_read_row(text_scanner *s, size_t *bad);
 /* Keeps the row that was read. */
 void scan_add_row(text_scanner *s);
+/* The place of a name in the list of samples, where it is put; NO_SAMPLE for a blank one, for
+ * one too many, and on failure. */
+size_t scan_sample(text_scanner *s, text_span name);
 /* Fails for a row that cannot be read. */
 void scan_bad_row(text_scanner *s, size_t bad);
 

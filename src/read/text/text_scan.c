@@ -36,6 +36,7 @@ static void new_table(text_scanner *s)
     memcpy(s->table->title, s->title, sizeof s->title);
     s->step_has_table = true;
     s->has_group = false;
+    s->sample_is_told = false;
     s->snapshot = false;
     s->blank = false;
 }
@@ -317,6 +318,7 @@ static void free_table(text_table *t)
     free(t->blocks);
     free(t->kinds);
     free(t->row_lines);
+    free(t->samples);
 }
 
 /* Tables without a row carry nothing. */
@@ -396,7 +398,8 @@ wt_status text_scan(const file_reader *reader, wt_input *input, unsigned kinds,
                       .log = log,
                       .err = err,
                       .kinds = kinds & description->kinds,
-                      .kind = ROW_KIND_NONE};
+                      .kind = ROW_KIND_NONE,
+                      .sample = NO_SAMPLE};
     for (size_t i = 0; i < HEADER_COUNT; i++)
         s.header.value[i] = (double)NAN;
     status = wt_input_bytes(text != NULL ? text : input, &bytes, &length, err);

@@ -44,6 +44,8 @@ typedef struct text_scanner {
     size_t block;
     size_t group_hash; /* of the cells whose change begins a block */
     bool has_group;
+    size_t sample;       /* of the header, or NO_SAMPLE */
+    bool sample_is_told; /* since the last table */
 } text_scanner;
 
 static inline void scan_no_memory(text_scanner *s)

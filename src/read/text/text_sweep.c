@@ -136,26 +136,87 @@ static void part_amplitudes(sweep_builder *b, size_t *rows, size_t n)
     }
 }
 
-static wt_status split_table(sweep_builder *b)
+/* Rows of one sample. */
+static wt_status split_sample(sweep_builder *b, size_t *rows, size_t n)
 {
-    const text_table *t = b->table;
-    size_t *rows = malloc((t->n_rows + 1) * sizeof *rows), n = 0;
-    if (rows == NULL)
-        return wt_fail(b->err, WT_E_MEMORY, "no memory for an isotherm");
-    for (size_t row = 0; row < t->n_rows; row++)
-        if (sweep_is_point(b, row))
-            rows[n++] = row;
-    if (n < t->n_rows)
-        wt_parselog_add(b->log, WT_NOTE, b->file->name, line_place(t->names_line).words,
-                        "%zu rows without a positive frequency or without a modulus left out",
-                        t->n_rows - n);
     wt_status status = strain_sweeps_take(b, rows, &n);
     if (status == WT_OK)
         status = ramps_take(b, rows, &n);
     if (status == WT_OK && b->c.strain != NULL)
         part_amplitudes(b, rows, n);
+    return status == WT_OK ? split_rows(b, rows, n) : status;
+}
+
+/* What was added since `from` is of the sample of the builder, or of the file. */
+static wt_status name_sample(const sweep_builder *b, const wt_sweep *from)
+{
+    wt_sweep *const s = b->sweep;
+    const bool by_file = b->options->sample_by == WT_SAMPLE_BY_FILE;
+    const char *name = by_file                  ? wt_path_base(b->file->name)
+                       : b->sample != NO_SAMPLE ? b->file->samples.items[b->sample]
+                                                : NULL;
+    bool good = true;
+    for (size_t i = from->n_isotherms; name != NULL && i < s->n_isotherms; i++)
+        good = (s->isotherms[i].sample = strdup(name)) != NULL && good;
+    for (size_t i = from->n_ramps; name != NULL && i < s->n_ramps; i++)
+        good = (s->ramps[i].sample = strdup(name)) != NULL && good;
+    for (size_t i = from->n_strain_sweeps; name != NULL && i < s->n_strain_sweeps; i++)
+        good = (s->strain_sweeps[i].sample = strdup(name)) != NULL && good;
+    return good ? WT_OK : wt_fail(b->err, WT_E_MEMORY, "no memory for the name of a sample");
+}
+
+/* A column of numbers nearly all of which are different counts something; it names no samples. */
+static void drop_counts(const sweep_builder *b)
+{
+    const text_table *t = b->table;
+    const text_list *names = &b->file->samples;
+    bool numbers = t->sample_cell != SIZE_MAX && 4 * names->n > 3 * t->n_rows;
+    numbers = numbers || names->n >= SAMPLES_MAX;
+    for (size_t i = 0; i < names->n && numbers; i++) {
+        double value;
+        numbers = wt_number_parse(names->items[i], strlen(names->items[i]), '.', &value);
+    }
+    if (!numbers)
+        return;
+    wt_parselog_add(b->log, WT_WARNING, b->file->name, line_place(t->names_line).words,
+                    "column %zu, which would name the sample, is different in every row: left out",
+                    t->sample_cell + 1);
+    for (size_t row = 0; row < t->n_rows; row++)
+        t->samples[row] = NO_SAMPLE;
+}
+
+static wt_status split_table(sweep_builder *b)
+{
+    const text_table *t = b->table;
+    size_t *rows = malloc((t->n_rows + 1) * sizeof *rows), n = 0;
+    size_t *of_one = malloc((t->n_rows + 1) * sizeof *of_one);
+    wt_status status = rows == NULL || of_one == NULL
+                           ? wt_fail(b->err, WT_E_MEMORY, "no memory for an isotherm")
+                           : WT_OK;
     if (status == WT_OK)
-        status = split_rows(b, rows, n);
+        drop_counts(b);
+    for (size_t row = 0; status == WT_OK && row < t->n_rows; row++)
+        if (sweep_is_point(b, row))
+            rows[n++] = row;
+    if (status == WT_OK && n < t->n_rows)
+        wt_parselog_add(b->log, WT_NOTE, b->file->name, line_place(t->names_line).words,
+                        "%zu rows without a positive frequency or without a modulus left out",
+                        t->n_rows - n);
+    while (status == WT_OK && n > 0) {
+        const wt_sweep before = *b->sweep;
+        size_t taken = 0, kept = 0;
+        b->sample = t->samples[rows[0]];
+        for (size_t i = 0; i < n; i++)
+            if (t->samples[rows[i]] == b->sample)
+                of_one[taken++] = rows[i];
+            else
+                rows[kept++] = rows[i];
+        n = kept;
+        status = split_sample(b, of_one, taken);
+        if (status == WT_OK)
+            status = name_sample(b, &before);
+    }
+    free(of_one);
     free(rows);
     return status;
 }

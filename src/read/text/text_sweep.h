@@ -28,6 +28,7 @@ typedef struct sweep_builder {
     size_t *rows; /* [n] of the isotherm or the temperature sweep that is being collected */
     size_t n;
     bool amplitudes; /* they took turns, so that an isotherm has its own in its name */
+    size_t sample;   /* of the rows, or NO_SAMPLE */
     wt_error *err;
 } sweep_builder;
 

@@ -108,6 +108,8 @@ void sweep_source(const sweep_builder *b, char *source, size_t size)
     char end[112];
     if (t->title[0] != '\0')
         snprintf(end, sizeof end, ", %s", t->title);
+    else if (b->sample != NO_SAMPLE && t->sample_cell != SIZE_MAX)
+        snprintf(end, sizeof end, ", %.60s", b->file->samples.items[b->sample]);
     else
         snprintf(end, sizeof end, ", line %zu", t->names_line);
     const size_t length = strlen(end);

@@ -1,0 +1,11 @@
+/* The parts of weartrack master. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WEARTRACK_CMD_MASTER_H
+#define WEARTRACK_CMD_MASTER_H
+
+#include "cmd/cmd.h"
+
+/* Fits each sample, compares them and finishes the call. `set` is that of the job. */
+void master_of_samples(cmd_session *s, wt_master_job *job, wt_file_set *set,
+                       const wt_samples *samples);
+
+#endif

@@ -1,0 +1,157 @@
+/* weartrack master of several samples: a master curve of each, and all of them side by side.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cmd/master.h"
+#include "cmd/tables.h"
+
+#include <stdio.h>
+#include <string.h>
+
+enum { TABLES = 7, NAME_SIZE = 48 };
+
+typedef struct sample_fit {
+    wt_master_tables tables;
+    wt_table *named[TABLES]; /* owned once they are named */
+    wt_rubber rubber;
+    char name[NAME_SIZE]; /* of its tables */
+} sample_fit;
+
+/* What names of tables may hold; another sample of the same letters has a number behind. */
+static void name_tables(sample_fit *fits, size_t i, const char *sample)
+{
+    char *const name = fits[i].name;
+    size_t n = 0, same = 0;
+    for (; *sample != '\0' && n < NAME_SIZE - 8; sample++) {
+        const char c = *sample >= 'A' && *sample <= 'Z' ? (char)(*sample - 'A' + 'a') : *sample;
+        const bool good = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
+        if (good || (n > 0 && name[n - 1] != '_'))
+            name[n++] = good ? c : '_';
+    }
+    while (n > 0 && name[n - 1] == '_')
+        n--;
+    if (n == 0)
+        n = (size_t)snprintf(name, NAME_SIZE, "unnamed");
+    name[n] = '\0';
+    for (size_t k = 0; k < i; k++) {
+        const size_t length = strlen(fits[k].name);
+        same += strncmp(fits[k].name, name, n) == 0 &&
+                (length == n || fits[k].name[n + strspn(fits[k].name + n, "_0123456789")] == '\0');
+    }
+    if (same > 0)
+        snprintf(name + n, NAME_SIZE - n, "_%zu", same + 1);
+}
+
+/* What is noticed of one sample is told of it. */
+static void hand_on(const wt_parselog *from, const char *sample, wt_parselog *to)
+{
+    for (size_t i = 0; i < wt_parselog_count(from); i++) {
+        const wt_log_entry e = wt_parselog_get(from, i);
+        wt_parselog_add(to, e.severity, e.file[0] != 0 ? e.file : NULL,
+                        e.place[0] != 0 ? e.place : NULL, "%s: %s", sample, e.text);
+    }
+}
+
+static wt_status rename_all(sample_fit *f, wt_error *err)
+{
+    wt_table **const made[TABLES] = {
+        &f->tables.prony,         &f->tables.prony_reduced, &f->tables.relaxation_spectrum,
+        &f->tables.shift_factors, &f->tables.master_curve,  &f->tables.material_draws,
+        &f->tables.series_draws};
+    wt_status status = WT_OK;
+    for (size_t k = 0; k < TABLES && status == WT_OK; k++) {
+        char name[NAME_SIZE + 32];
+        if (*made[k] == NULL)
+            continue;
+        snprintf(name, sizeof name, "%s/%s", wt_table_name(*made[k]), f->name);
+        status = wt_table_rename(*made[k], name, err);
+        f->named[k] = *made[k];
+        *made[k] = NULL;
+    }
+    return status;
+}
+
+static wt_status fit_one(cmd_session *s, wt_master_job *job, wt_file_set *set, const char *sample,
+                         sample_fit *f)
+{
+    wt_parselog *const log = wt_parselog_new();
+    wt_job work = s->work;
+    if (log == NULL)
+        return wt_fail(&s->err, WT_E_MEMORY, "out of memory");
+    set->read.sample = sample;
+    work.log = log;
+    wt_status status = wt_master_make(job, &work, &f->tables, NULL, &s->err);
+    if (status == WT_OK && f->tables.prony != NULL) {
+        const wt_rubber_tables of = {.prony = f->tables.prony,
+                                     .shift_factors = f->tables.shift_factors,
+                                     .material_draws = f->tables.material_draws,
+                                     .series_draws = f->tables.series_draws};
+        status = wt_rubber_from_tables(&of, job->poisson_ratio, &f->rubber, &s->err);
+    }
+    hand_on(log, sample[0] != '\0' ? sample : "sweeps without a sample", s->work.log);
+    wt_parselog_free(log);
+    return status;
+}
+
+/* Side by side; where they have nothing in common that is said. */
+static void compare(cmd_session *s, const wt_samples *samples, const sample_fit *fits,
+                    wt_compared *of, wt_materials_tables *tables)
+{
+    wt_error failure = WT_ERROR_INIT;
+    wt_materials_job job = wt_materials_job_defaults();
+    char message[1024];
+    for (size_t i = 0; i < samples->n; i++) {
+        if (fits[i].tables.prony == NULL)
+            return;
+        of[i] = (wt_compared){.name = samples->name[i],
+                              .rubber = &fits[i].rubber,
+                              .shift_factors = fits[i].tables.shift_factors};
+    }
+    job.materials = of;
+    job.n_materials = samples->n;
+    if (wt_compare_materials(&job, &s->work, tables, &failure) == WT_OK)
+        return;
+    (void)wt_error_format(&failure, message, sizeof message);
+    wt_parselog_add(s->work.log, WT_WARNING, NULL, NULL, "not compared: %s", message);
+}
+
+void master_of_samples(cmd_session *s, wt_master_job *job, wt_file_set *set,
+                       const wt_samples *samples)
+{
+    wt_materials_tables materials = {0};
+    sample_fit *fits = calloc(samples->n, sizeof *fits);
+    wt_compared *of = calloc(samples->n, sizeof *of);
+    wt_table ***made_tables = calloc(samples->n * TABLES + 2, sizeof *made_tables);
+    const char *const chosen = set->read.sample;
+    wt_status made = fits == NULL || of == NULL || made_tables == NULL
+                         ? wt_fail(&s->err, WT_E_MEMORY, "out of memory")
+                         : WT_OK;
+    size_t n = 0;
+    for (size_t i = 0; made == WT_OK && i < samples->n; i++) {
+        name_tables(fits, i, samples->name[i]);
+        made = fit_one(s, job, set, samples->name[i], &fits[i]);
+        if (made != WT_OK)
+            wt_error_file(&s->err, samples->name[i]);
+    }
+    set->read.sample = chosen;
+    if (made == WT_OK)
+        compare(s, samples, fits, of, &materials);
+    for (size_t i = 0; made == WT_OK && i < samples->n; i++) {
+        made = rename_all(&fits[i], &s->err);
+        for (size_t k = 0; k < TABLES; k++)
+            made_tables[n++] = &fits[i].named[k];
+    }
+    if (made == WT_OK) {
+        made_tables[n++] = &materials.material_ratio;
+        made_tables[n++] = &materials.materials;
+    }
+    cmd_finish(s, made, made_tables, n);
+    for (size_t i = 0; fits != NULL && i < samples->n; i++) {
+        wt_master_tables_clear(&fits[i].tables);
+        wt_rubber_clear(&fits[i].rubber);
+        for (size_t k = 0; k < TABLES; k++)
+            wt_table_free(fits[i].named[k]);
+    }
+    wt_materials_tables_clear(&materials);
+    free(made_tables);
+    free(of);
+    free(fits);
+}
