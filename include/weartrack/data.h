@@ -112,9 +112,11 @@ typedef struct wt_isotherm {
     char source[128];          /* file and step it came from */
     double given_log_a;        /* log10 of the horizontal shift, if it is given */
     bool shift_given;          /* differences of given shifts count, and are not fitted */
+    bool vertical_given;       /* with shift_given: so is the vertical shift */
     double *loss_factor;       /* [n] where it was measured without a modulus, else NULL */
     char *sample;              /* what it was measured on, as the file calls it; NULL: no name */
-    uint64_t reserved[4];
+    double given_log_b;        /* log10 of the vertical shift, if it is given */
+    uint64_t reserved[3];
 } wt_isotherm;
 
 /* Moduli against temperature at one frequency, heated or cooled once. */

@@ -358,7 +358,7 @@ typedef struct wt_payne {
     const char *note;                   /* "", or why there is no fit or what it lacks; static */
     const char *loss_note;              /* likewise of the loss modulus */
 } wt_payne;
-/* strain rising and, like the moduli, > 0. */
+/* strain rising and, like the moduli, > 0; loss NULL: not measured, and what is told of it NaN. */
 WT_API wt_status wt_payne_fit(const double *strain, const double *storage, const double *loss,
                               size_t n, wt_payne *payne, wt_error *err) WT_NODISCARD;
 

@@ -271,8 +271,8 @@ typedef struct wt_master_job {
     size_t n_leave_out;
     const char *shift_law;  /* "wlf:reference-temperature=T,c1=X,c2=X" or
                                "arrhenius:activation-energy=E" that all shifts follow; or NULL */
-    const wt_table *shifts; /* columns temperature and log_a of shifts that are not fitted,
-                               borrowed; or NULL */
+    const wt_table *shifts; /* columns temperature, log_a and, if it has that, log_b of shifts that
+                               are not fitted, borrowed; or NULL */
     wt_reduction reduction; /* with parameters of its own */
     uint64_t reserved[3];
 } wt_master_job;

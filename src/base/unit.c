@@ -312,6 +312,21 @@ wt_status wt_unit_to_si(const char *unit, wt_quantity quantity, double *factor, 
     return WT_OK;
 }
 
+/* What a person types in hertz counts cycles, whatever it becomes. A column that is called a
+ * frequency is another thing: what it holds stands in its unit alone. */
+static wt_status to_si_of_frequency(const char *unit, wt_quantity quantity, double *factor,
+                                    double *offset, wt_error *err)
+{
+    const bool angular = quantity == WT_Q_ANGULAR_FREQUENCY;
+    if ((angular || quantity == WT_Q_FREQUENCY) &&
+        wt_unit_to_si(unit, angular ? WT_Q_FREQUENCY : WT_Q_ANGULAR_FREQUENCY, factor, offset,
+                      NULL) == WT_OK) {
+        *factor *= angular ? 2 * M_PI : 1 / (2 * M_PI);
+        return WT_OK;
+    }
+    return wt_unit_to_si(unit, quantity, factor, offset, err);
+}
+
 wt_status wt_quantity_parse(const char *text, wt_quantity quantity, double *value, wt_error *err)
 {
     wt_status status = WT_OK;
@@ -332,7 +347,7 @@ wt_status wt_quantity_parse(const char *text, wt_quantity quantity, double *valu
         status = wt_fail(err, WT_E_ARG, "not one number with its unit");
         reason = advice;
     } else {
-        status = wt_unit_to_si(unit, quantity, &factor, &offset, err);
+        status = to_si_of_frequency(unit, quantity, &factor, &offset, err);
         result = number * factor + offset;
         if (status == WT_OK && !isfinite(result))
             status = wt_fail(err, WT_E_RANGE, "the value is too large");

@@ -13,7 +13,8 @@ static const wt_param saved_rows[] = {
     {PARAM_TEXT_OF("shifts", saved_shifts, read), .value = "FILE", .unset = "fitted",
      .help =
          "table with columns temperature and log_a, as --save-shifts writes it: these shifts are "
-         "not fitted, those of other isotherms are; - is standard input"},
+         "not fitted, those of other isotherms are, and with a column log_b so are the vertical "
+         "ones; - is standard input"},
     {PARAM_TEXT_OF("save-shifts", saved_shifts, written), .value = "FILE", .unset = "",
      .flags = PARAM_WRITTEN, .help = "write the table shift_factors there too, as a text stream"},
 };

@@ -410,6 +410,9 @@ static wt_status fill_series(master_work *work, wt_master *m, wt_error *err)
 
 /* ---- the whole ------------------------------------------------------------------------------- */
 
+/* Another isotherm that changes by so many times more shows that not all are flat. */
+static const double much_steeper = 2.0;
+
 /* An isotherm is shifted onto the reference, or there is nothing to hand out. */
 static wt_status check_shifts(const master_work *work, const wt_master *m, wt_error *err)
 {
@@ -429,13 +432,29 @@ static wt_status check_shifts(const master_work *work, const wt_master *m, wt_er
         return WT_E_NO_OVERLAP;
     }
     const shift_curve *at = &work->set.curves[work->anchor];
-    wt_fail(err, WT_E_NO_OVERLAP, "no shift is determined: the isotherms are flat");
+    size_t steepest = work->anchor;
+    for (size_t i = 0; i < work->set.n; i++)
+        if (shift_change(&work->set, i) > shift_change(&work->set, steepest))
+            steepest = i;
+    const bool elsewhere =
+        shift_change(&work->set, steepest) > much_steeper * shift_change(&work->set, work->anchor);
+    wt_fail(err, WT_E_NO_OVERLAP,
+            elsewhere ? "no shift is determined: the isotherm of the reference is flat"
+                      : "no shift is determined: the isotherms are flat");
     wt_error_expected(err,
                       "moduli that change along an isotherm by more than noise and clamping do");
     wt_error_found(err, "a change of %.2g %% along that of the reference, %.2f °C",
                    100.0 * expm1(shift_change(&work->set, work->anchor) * M_LN10),
                    at->temperature - WT_ZERO_CELSIUS);
-    wt_error_advice(err, "measure into the transition, or choose a reference temperature there");
+    if (elsewhere)
+        wt_error_advice(err,
+                        "choose a reference temperature in the transition: %.2f °C, where it "
+                        "changes by %.2g %%, or --reference-at tan-delta-peak",
+                        work->set.curves[steepest].temperature - WT_ZERO_CELSIUS,
+                        100.0 * expm1(shift_change(&work->set, steepest) * M_LN10));
+    else
+        wt_error_advice(err,
+                        "measure into the transition, or choose a reference temperature there");
     return WT_E_NO_OVERLAP;
 }
 

@@ -137,7 +137,9 @@ wt_status wt_payne_fit(const double *strain, const double *storage, const double
 {
     const double nan = (double)NAN;
     const wt_interval unknown = {nan, nan, nan, nan};
-    if (strain == NULL || storage == NULL || loss == NULL || payne == NULL || n == 0)
+    const bool alone = loss == NULL;
+    loss = alone ? storage : loss; /* of which nothing is told then */
+    if (strain == NULL || storage == NULL || payne == NULL || n == 0)
         return wt_fail(err, WT_E_ARG, "no strain sweep");
     for (size_t i = 0; i < n; i++)
         if (!(strain[i] > 0 && storage[i] > 0 && loss[i] > 0 && isfinite(strain[i]) &&
@@ -166,6 +168,12 @@ wt_status wt_payne_fit(const double *strain, const double *storage, const double
         payne->note = "too few points for the law of Kraus";
     else
         fit(&p, payne);
+    if (alone) {
+        payne->loss_start = payne->loss_max = payne->strain_loss_max = nan;
+        payne->law.loss_m = payne->law.loss_inf = payne->loss_misfit = nan;
+        payne->loss_m = payne->loss_inf = unknown;
+        payne->loss_note = "no loss modulus was measured";
+    }
     free(log_strain);
     return WT_OK;
 }

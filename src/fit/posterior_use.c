@@ -75,9 +75,16 @@ wt_interval posterior_a(const wt_posterior *p, size_t curve)
     return of_column(p, p->frame.column_a[curve], p->frame.given_a[curve] / M_LN10);
 }
 
+/* ln b of a curve whose b is no unknown. */
+static double held_b(const wt_posterior *p, size_t curve)
+{
+    const double given = p->frame.given_b[curve];
+    return isnan(given) ? p->mean_b[curve] : given;
+}
+
 wt_interval posterior_b(const wt_posterior *p, size_t curve)
 {
-    return of_column(p, p->frame.column_b[curve], p->mean_b[curve] / M_LN10);
+    return of_column(p, p->frame.column_b[curve], held_b(p, curve) / M_LN10);
 }
 
 double posterior_tie(const wt_posterior *p, size_t curve)
@@ -280,17 +287,21 @@ void posterior_mean_law(const wt_posterior *p, double unknown[LAW_MOST])
             unknown[u] += p->parts[i].weight * p->parts[i].law.unknown[u];
 }
 
+static double b_of(const wt_posterior *p, const double *value, size_t curve)
+{
+    const long column = p->frame.column_b[curve];
+    return column < 0 ? held_b(p, curve) : value[column];
+}
+
 void posterior_smooth_b(const wt_posterior *p, const posterior_cell *cell, const double *value,
                         double *log_b)
 {
     const size_t n = p->frame.n_curves;
     for (size_t i = 0; i < n; i++) {
-        double sum = p->mean_b[i];
-        if (cell->smooth == NULL && p->frame.column_b[i] >= 0)
-            sum = value[p->frame.column_b[i]];
+        double sum = cell->smooth != NULL ? p->mean_b[i] : b_of(p, value, i);
         for (size_t k = 0; cell->smooth != NULL && k < n; k++)
-            sum += cell->smooth[i * n + k] * (value[p->frame.column_b[k]] - p->mean_b[k]);
-        log_b[i] = sum / M_LN10;
+            sum += cell->smooth[i * n + k] * (b_of(p, value, k) - p->mean_b[k]);
+        log_b[i] = (isnan(p->frame.given_b[i]) ? sum : p->frame.given_b[i]) / M_LN10;
     }
 }
 

@@ -21,6 +21,8 @@ typedef struct shift_curve {
     size_t n_left_out; /* points with a modulus <= 0 */
     bool given;        /* its shift is not fitted */
     double given_a;    /* its difference to another given one counts [decade] */
+    bool held;         /* so is its vertical shift */
+    double given_b;    /* it [decade] */
 } shift_curve;
 
 /* All isotherms in the order of rising temperature. */

@@ -191,6 +191,9 @@ wt_status shift_set_new(const wt_sweep *sweep, wt_shift_by by, wt_parselog *log,
         curve->temperature = isotherm->temperature;
         curve->given = isotherm->shift_given;
         curve->given_a = isotherm->given_log_a;
+        curve->held =
+            isotherm->shift_given && isotherm->vertical_given && set->by != WT_BY_LOSS_FACTOR;
+        curve->given_b = isotherm->given_log_b;
         curve->x = next;
         curve->y[STORAGE] = next + isotherm->n;
         curve->y[LOSS] = next + 2 * isotherm->n;

@@ -32,6 +32,7 @@ typedef struct spectrum {
     bool ratio;             /* in the place of LOSS is tan delta: no level, no vertical shift */
     bool *given;            /* [n_curves] the horizontal shift is not fitted */
     double *given_a;        /* [n_curves] it */
+    double *given_b;        /* [n_curves] the vertical shift, NaN: not given */
 
     /* unknowns: ln of the terms, ln of the equilibrium modulus, a, b */
     size_t n_terms, n_linear; /* terms; with the equilibrium modulus */

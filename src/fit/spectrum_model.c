@@ -38,6 +38,7 @@ static wt_status allocate(spectrum *s, wt_error *err)
     s->column_b = pool_alloc(m, s->n_curves, sizeof *s->column_b);
     s->given = pool_alloc(m, s->n_curves, sizeof *s->given);
     s->given_a = pool_numbers(m, s->n_curves);
+    s->given_b = pool_numbers(m, s->n_curves);
     s->x = pool_numbers(m, s->n);
     s->copy = pool_numbers(m, s->n);
     for (int q = 0; q < MODULI; q++) {
@@ -182,6 +183,7 @@ wt_status spectrum_new(const shift_set *set, const bool *use, size_t anchor, con
         start[curve] = a[i] * M_LN10;
         s->given[curve] = c->given || i == anchor;
         s->given_a[curve] = (a[i] - a[anchor]) * M_LN10;
+        s->given_b[curve] = c->held ? b[i] * M_LN10 : (double)NAN;
         start[s->n_curves + curve] = b[i] * M_LN10;
         s->kappa[curve++] = 1.0;
     }
@@ -208,9 +210,16 @@ double spectrum_a(const spectrum *s, size_t curve)
     return s->column_a[curve] < 0 ? s->given_a[curve] : s->value[s->column_a[curve]];
 }
 
+static double b_of(const spectrum *s, const double *value, size_t curve)
+{
+    if (s->column_b[curve] >= 0)
+        return value[s->column_b[curve]];
+    return isnan(s->given_b[curve]) ? s->prior->mean[curve] : s->given_b[curve];
+}
+
 double spectrum_b(const spectrum *s, size_t curve)
 {
-    return s->column_b[curve] < 0 ? s->prior->mean[curve] : s->value[s->column_b[curve]];
+    return b_of(s, s->value, curve);
 }
 
 void spectrum_terms(const spectrum *s, const double *value, double *term)
@@ -236,7 +245,7 @@ void spectrum_set_prior(spectrum *s, const spectrum_prior *prior)
         }
     }
     for (size_t i = 0; i < s->n_curves; i++)
-        if (!prior->held && (prior->precision != NULL || i != s->anchor)) {
+        if (!prior->held && isnan(s->given_b[i]) && (prior->precision != NULL || i != s->anchor)) {
             s->column_b[i] = (long)s->n_unknowns;
             s->value[s->n_unknowns++] = shift[2 * i + 1];
         }
@@ -338,7 +347,7 @@ void spectrum_evaluate(spectrum *s, const double *value, bool with_rows)
     spectrum_terms(s, value, s->term);
     for (size_t i = 0; i < s->n_curves; i++) {
         const double a = s->column_a[i] < 0 ? s->given_a[i] : value[s->column_a[i]];
-        const double b = s->column_b[i] < 0 ? s->prior->mean[i] : value[s->column_b[i]];
+        const double b = b_of(s, value, i);
         for (size_t k = s->first[i]; k < s->first[i + 1]; k++) {
             double *const row[MODULI] = {s->row[STORAGE] + k * width, s->row[LOSS] + k * width};
             double modulus[MODULI], slope[MODULI];
@@ -428,7 +437,7 @@ static double stiffness(const spectrum *s, size_t j)
 
 static double b_departure(const spectrum *s, const double *value, size_t curve)
 {
-    return value[s->column_b[curve]] - s->prior->mean[curve];
+    return b_of(s, value, curve) - s->prior->mean[curve];
 }
 
 /* By tan delta alone the level is held, loosely: it is no part of what is told. */
@@ -515,8 +524,11 @@ static void add_priors(spectrum *s)
     for (size_t i = 0; s->prior->precision != NULL && i < s->n_curves; i++)
         for (size_t k = 0; k < s->n_curves; k++) {
             const double w = gsl_matrix_get(s->prior->precision, i, k);
-            *gsl_matrix_ptr(s->precision, (size_t)s->column_b[i], (size_t)s->column_b[k]) += w;
+            if (s->column_b[i] < 0)
+                continue;
             *gsl_vector_ptr(s->gradient, (size_t)s->column_b[i]) -= w * b_departure(s, s->value, k);
+            if (s->column_b[k] >= 0)
+                *gsl_matrix_ptr(s->precision, (size_t)s->column_b[i], (size_t)s->column_b[k]) += w;
         }
 }
 

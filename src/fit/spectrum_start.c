@@ -36,11 +36,16 @@ static void place(const shift_set *set, size_t anchor, wt_vertical_shift kind, s
 void spectrum_start(const shift_set *set, size_t anchor, wt_vertical_shift kind,
                     const double *physical, bool *placed, double *a, double *b)
 {
+    /* a table for another reference has the factor of this one in all of its own */
+    const shift_curve *at = &set->curves[anchor];
+    const double off = at->held && at->given_a != 0.0 ? at->given_b - physical[anchor] : 0.0;
     for (size_t i = 0; i < set->n; i++) {
         const shift_curve *c = &set->curves[i];
         placed[i] = i == anchor || (c->given && c->n >= SHIFT_MIN_POINTS);
         a[i] = c->given ? c->given_a - set->curves[anchor].given_a : 0.0;
-        b[i] = kind == WT_VERTICAL_NONE || set->by == WT_BY_LOSS_FACTOR ? 0.0 : physical[i];
+        b[i] = c->held                                                    ? c->given_b - off
+               : kind == WT_VERTICAL_NONE || set->by == WT_BY_LOSS_FACTOR ? 0.0
+                                                                          : physical[i];
     }
     for (size_t i = anchor + 1; i < set->n; i++)
         place(set, anchor, kind, i, placed, a, b);

@@ -50,6 +50,11 @@ static wt_payne measured(const filled *r, size_t n, double low, double high, dou
         loss[i] = 1e6 * (loss_of(r, percent) + noise * r->dissipated * dma_normal(state));
     }
     assert_int_equal(wt_payne_fit(strain, storage, loss, n, &payne, NULL), WT_OK);
+    wt_payne alone; /* E' is told as it is without E'' */
+    assert_int_equal(wt_payne_fit(strain, storage, NULL, n, &alone, NULL), WT_OK);
+    assert_memory_equal(&alone.storage_0, &payne.storage_0, sizeof alone.storage_0);
+    assert_memory_equal(&alone.exponent, &payne.exponent, sizeof alone.exponent);
+    assert_true(isnan(alone.loss_max) && isnan(alone.loss_m.value));
     return payne;
 }
 

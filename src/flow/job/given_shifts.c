@@ -171,12 +171,36 @@ static size_t count_unused(const shift_rows *r, const wt_sweep *sweep)
     return n;
 }
 
-static wt_status give_table(const wt_table *table, wt_sweep *sweep, wt_parselog *log, wt_error *err)
+/* The vertical shift of a row, if the table has one. */
+static wt_status give_vertical(const wt_table *table, size_t row, wt_vertical_shift vertical,
+                               wt_isotherm *t, wt_error *err)
+{
+    const long column = wt_table_find(table, "log_b");
+    t->vertical_given = false;
+    t->given_log_b = 0;
+    if (!t->shift_given || column < 0 ||
+        wt_table_column_kind(table, (size_t)column) == WT_COLUMN_TEXT)
+        return WT_OK;
+    const double b = wt_table_number(table, row, (size_t)column);
+    if (vertical == WT_VERTICAL_NONE && fabs(b) > 0) {
+        wt_fail(err, WT_E_ARG, "the table gives vertical shifts, and vertical-shift is none");
+        wt_error_place(err, "shifts");
+        wt_error_found(err, "log_b = %g at %.2f degC", b, t->temperature - WT_ZERO_CELSIUS);
+        wt_error_advice(err, "leave out its column log_b, or give another --vertical-shift");
+        return WT_E_ARG;
+    }
+    t->vertical_given = isfinite(b);
+    t->given_log_b = t->vertical_given ? b : 0;
+    return WT_OK;
+}
+
+static wt_status give_table(const wt_table *table, wt_vertical_shift vertical, wt_sweep *sweep,
+                            wt_parselog *log, wt_error *err)
 {
     const long temperature = wt_table_find(table, "temperature"),
                log_a = wt_table_find(table, "log_a");
     shift_rows r = {.table = table, .to_kelvin = 1};
-    size_t given = 0;
+    size_t given = 0, held = 0;
     if (temperature < 0 || log_a < 0 ||
         wt_table_column_kind(table, (size_t)temperature) == WT_COLUMN_TEXT ||
         wt_table_column_kind(table, (size_t)log_a) == WT_COLUMN_TEXT) {
@@ -203,6 +227,10 @@ static wt_status give_table(const wt_table *table, wt_sweep *sweep, wt_parselog 
         t->shift_given = row < wt_table_n_rows(table) && has_shift(&r, row);
         t->given_log_a = t->shift_given ? wt_table_number(table, row, r.log_a) : 0;
         given += t->shift_given;
+        status = give_vertical(table, row, vertical, t, err);
+        if (status != WT_OK)
+            return status;
+        held += t->vertical_given;
     }
     if (given == 0) {
         wt_fail(err, WT_E_MISSING, "the table has a shift of none of the isotherms");
@@ -210,10 +238,11 @@ static wt_status give_table(const wt_table *table, wt_sweep *sweep, wt_parselog 
         wt_error_expected(err, "log_a at temperatures within %g K of theirs", same_temperature);
         return WT_E_MISSING;
     }
-    wt_parselog_add(log, WT_NOTE, NULL, NULL,
-                    "%zu of %zu shifts are as given, without an error of their own; the others are "
-                    "fitted",
-                    given, sweep->n_isotherms);
+    wt_parselog_add(
+        log, WT_NOTE, NULL, NULL,
+        "%zu of %zu shifts are as given, %zu of them with their vertical shift, without "
+        "an error of their own; the others are fitted",
+        given, sweep->n_isotherms, held);
     const size_t unused = count_unused(&r, sweep);
     if (unused > 0)
         wt_parselog_add(log, WT_WARNING, NULL, NULL,
@@ -223,11 +252,12 @@ static wt_status give_table(const wt_table *table, wt_sweep *sweep, wt_parselog 
     return WT_OK;
 }
 
-wt_status flow_shifts_give(const wt_shift_law *law, const wt_table *table, wt_sweep *sweep,
-                           wt_parselog *log, wt_error *err)
+wt_status flow_shifts_give(const wt_shift_law *law, const wt_table *table,
+                           wt_vertical_shift vertical, wt_sweep *sweep, wt_parselog *log,
+                           wt_error *err)
 {
     wt_status status = law->kind != WT_LAW_NONE ? give_law(law, sweep, err) : WT_OK;
     if (status == WT_OK && table != NULL)
-        status = give_table(table, sweep, log, err);
+        status = give_table(table, vertical, sweep, log, err);
     return status;
 }

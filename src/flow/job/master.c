@@ -345,7 +345,7 @@ static wt_status prepare(const wt_master_job *job, const wt_job *work, wt_shift_
     if (status == WT_OK && law->kind != WT_LAW_NONE && job->shifts != NULL)
         status = wt_fail(err, WT_E_ARG, "shifts are given by a law and by a table; give one");
     if (status == WT_OK)
-        status = flow_shifts_give(law, job->shifts, sweep, work->log, err);
+        status = flow_shifts_give(law, job->shifts, job->fit.vertical, sweep, work->log, err);
     if (status == WT_OK && law->kind != WT_LAW_NONE)
         wt_parselog_add(work->log, WT_NOTE, NULL, NULL,
                         "the shifts are those of the law that is given: its errors are in no "
@@ -469,6 +469,18 @@ wt_status wt_rubber_refit(const wt_rubber *rubber, wt_vertical_shift vertical, w
     return status;
 }
 
+/* More of a standard error than this is seen in an interval. */
+static const double seen = 0.1;
+
+static void say_unfinished(const wt_master *m, const wt_job *work)
+{
+    if (m->step_left > seen)
+        wt_parselog_add(work->log, WT_WARNING, NULL, NULL,
+                        "the fit ended before it was settled: a further step would move a number "
+                        "by up to %.2g of its standard error",
+                        m->step_left);
+}
+
 /* In decades, of E' if it is told. */
 static double shown_error(const wt_master *m, size_t i)
 {
@@ -536,8 +548,10 @@ wt_status wt_master_make(const wt_master_job *job, const wt_job *work, wt_master
         rubber->fit.terms_per_decade = master.terms_per_decade; /* which need not be found again */
         sweep = (wt_sweep){0};
     }
-    if (status == WT_OK)
+    if (status == WT_OK) {
+        say_unfinished(&master, work);
         say_cost(&master, work);
+    }
     if (status == WT_OK && tables != NULL) {
         *tables = t;
         t = (wt_master_tables){0};

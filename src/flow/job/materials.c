@@ -27,7 +27,7 @@ static const wt_param rows[] = {
      .help = "of materials: where they are compared over frequency"},
     {PARAM("at-frequency", wt_materials_job, frequency, WT_Q_ANGULAR_FREQUENCY, ABOVE(0)),
      .value = "F", .unset = "10 Hz, if all were measured there",
-     .help = "of materials: where they are compared over temperature, such as 63rad/s"},
+     .help = "of materials: where they are compared over temperature, such as 10Hz or 63rad/s"},
     {PARAM("sample-error", wt_materials_job, sample_error, WT_Q_NONE, FROM_BELOW(0, 1)),
      .value = "X",
      .help = "relative standard error of a modulus by the dimensions of its sample, such as 0.05; "

@@ -27,6 +27,7 @@ void wt_payne_tables_clear(wt_payne_tables *tables)
 typedef struct usable {
     size_t n;
     double *strain, *storage, *loss;
+    bool loss_measured;
 } usable;
 
 static wt_status take_usable(const wt_strain_sweep *sweep, pool *memory, wt_parselog *log,
@@ -37,9 +38,13 @@ static wt_status take_usable(const wt_strain_sweep *sweep, pool *memory, wt_pars
                   .loss = pool_numbers(memory, sweep->n)};
     if (memory->failed)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
+    bool alone = true;
+    for (size_t i = 0; i < sweep->n && alone; i++)
+        alone = isnan(sweep->loss_modulus[i]);
+    u->loss_measured = !alone;
     for (size_t i = 0; i < sweep->n; i++) {
         const double storage = sweep->storage_modulus[i], loss = sweep->loss_modulus[i];
-        if (!(storage > 0 && loss > 0 && isfinite(storage) && isfinite(loss)))
+        if (!(storage > 0 && isfinite(storage) && (alone || (loss > 0 && isfinite(loss)))))
             continue;
         u->strain[u->n] = sweep->strain[i];
         u->storage[u->n] = storage;
@@ -128,7 +133,8 @@ static wt_status make_tables(const wt_job *work, const wt_sweep *sweep, wt_payne
         wt_payne payne;
         status = take_usable(s, &memory, work->log, &u, err);
         if (status == WT_OK && u.n > 0) {
-            status = wt_payne_fit(u.strain, u.storage, u.loss, u.n, &payne, err);
+            status = wt_payne_fit(u.strain, u.storage, u.loss_measured ? u.loss : NULL, u.n, &payne,
+                                  err);
             if (status == WT_OK) {
                 put_points(&points, s, &payne);
                 put_numbers(&numbers, s, u.n, &payne);

@@ -21,10 +21,14 @@ static const double same_frequency = 1e-3;
 /* Points are where they belong when a round moves none further than this [decade]. */
 static const double enough = 0.005;
 
+enum { STORAGE, LOSS, FACTOR, QUANTITIES };
+
 typedef struct point {
-    double temperature, frequency, storage, loss;
-    double off;          /* what brings it to the temperature of its window [decade] */
-    double told, misses; /* what the law last said of that, and how far `off` was from it */
+    double temperature, frequency;
+    double
+        value[QUANTITIES]; /* storage and loss modulus, loss factor where it was measured alone */
+    double off;            /* what brings it to the temperature of its window [decade] */
+    double told, misses;   /* what the law last said of that, and how far `off` was from it */
 } point;
 
 typedef struct windows {
@@ -80,28 +84,46 @@ static void cut(windows *w, size_t n_frequencies)
     w->first[++w->n] = w->n_points;
 }
 
+static double value_of(const wt_ramp *r, int q, size_t k)
+{
+    const double *const values[QUANTITIES] = {r->storage_modulus, r->loss_modulus, r->loss_factor};
+    return values[q] != NULL ? values[q][k] : (double)NAN;
+}
+
+/* What a sweep has at some point. */
+static void find_measured(const wt_ramp *r, bool has[QUANTITIES])
+{
+    for (int q = 0; q < QUANTITIES; q++) {
+        has[q] = false;
+        for (size_t k = 0; k < r->n && !has[q]; k++)
+            has[q] = isfinite(value_of(r, q, k));
+    }
+}
+
 /* `each` neighbouring points of a sweep as one; those without logarithms count for nothing. */
 static void take_points(const wt_ramp *r, size_t each, windows *w)
 {
+    bool has[QUANTITIES];
+    find_measured(r, has);
     for (size_t first = 0; first < r->n; first += each) {
-        double sum[3] = {0};
+        double temperature = 0, sum[QUANTITIES] = {0};
         size_t n = 0;
         for (size_t k = first; k < first + each && k < r->n; k++) {
-            if (!(r->storage_modulus[k] > 0 && r->loss_modulus[k] > 0)) {
-                w->n_left_out++;
-                continue;
-            }
-            sum[0] += r->temperature[k];
-            sum[1] += log(r->storage_modulus[k]);
-            sum[2] += log(r->loss_modulus[k]);
-            n++;
+            bool good = has[STORAGE] || has[LOSS] || has[FACTOR];
+            for (int q = 0; q < QUANTITIES; q++)
+                good = good && (!has[q] || value_of(r, q, k) > 0);
+            w->n_left_out += !good;
+            for (int q = 0; good && q < QUANTITIES; q++)
+                sum[q] += log(value_of(r, q, k));
+            temperature += good ? r->temperature[k] : 0;
+            n += good;
         }
-        const double of = (double)n;
-        if (n > 0)
-            w->point[w->n_points++] = (point){.temperature = sum[0] / of,
-                                              .frequency = r->angular_frequency,
-                                              .storage = exp(sum[1] / of),
-                                              .loss = exp(sum[2] / of)};
+        if (n == 0)
+            continue;
+        point *p = &w->point[w->n_points++];
+        *p = (point){.temperature = temperature / (double)n, .frequency = r->angular_frequency};
+        for (int q = 0; q < QUANTITIES; q++)
+            p->value[q] = exp(sum[q] / (double)n);
     }
 }
 
@@ -130,7 +152,10 @@ static wt_status add_isotherms(wt_sweep *sweep, windows *w, wt_error *err)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t i = 0; i < w->n; i++) {
         const size_t first = w->first[i], n = w->first[i + 1] - first;
-        wt_isotherm *t = wt_sweep_add(sweep, n, 0);
+        bool factor = false;
+        for (size_t k = 0; k < n; k++)
+            factor = factor || isfinite(w->point[first + k].value[FACTOR]);
+        wt_isotherm *t = wt_sweep_add(sweep, n, factor ? WT_WITH_LOSS_FACTOR : 0);
         if (t == NULL)
             return wt_fail(err, WT_E_MEMORY, "out of memory");
         double sum = 0;
@@ -179,7 +204,7 @@ static wt_status obey(const windows *w, const wt_shift_law *law, wt_sweep *sweep
         for (size_t k = w->first[i]; k < w->first[i + 1]; k++)
             w->point[k].off = wt_shift_law_log_a(law, w->point[k].temperature) - here;
     }
-    return flow_shifts_give(law, NULL, sweep, NULL, err);
+    return flow_shifts_give(law, NULL, WT_VERTICAL_NONE, sweep, NULL, err);
 }
 
 /* The points as they would have been at the temperature of their window. */
@@ -191,8 +216,10 @@ static void bring(const windows *w, bool vertical)
             const point *p = &w->point[w->first[i] + k];
             const double b = vertical ? t->temperature / p->temperature : 1;
             t->angular_frequency[k] = p->frequency * pow(10, p->off);
-            t->storage_modulus[k] = p->storage * b;
-            t->loss_modulus[k] = p->loss * b;
+            t->storage_modulus[k] = p->value[STORAGE] * b;
+            t->loss_modulus[k] = p->value[LOSS] * b;
+            if (t->loss_factor != NULL)
+                t->loss_factor[k] = p->value[FACTOR];
         }
     }
 }

@@ -55,6 +55,8 @@ static wt_status add_isotherm(const wt_isotherm *measured, const wt_master *fit,
     iso->temperature = measured->temperature;
     iso->shift_given = measured->shift_given;
     iso->given_log_a = measured->given_log_a;
+    iso->vertical_given = measured->vertical_given;
+    iso->given_log_b = measured->given_log_b;
     const double rest = sqrt(fmax(0, 1 - fit->correlation * fit->correlation));
     for (size_t j = 0; j < measured->n; j++) {
         double storage, loss;

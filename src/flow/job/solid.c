@@ -1,8 +1,11 @@
 /* The material for programs of finite elements: the reduced series, the law of its shifts and how
  * its moduli go with temperature, as their manuals ask for them. Abaqus: *ELASTIC or *HYPERELASTIC
  * with MODULI=INSTANTANEOUS, *VISCOELASTIC TIME=PRONY, *TRS. Ansys: MP or TB,HYPER, TB,PRONY,
- * TB,SHIFT. Code_Aster has no series of its own: a behaviour of MFront with its numbers in
- * DEFI_MATERIAU.
+ * TB,SHIFT. Both move time, not frequency. Abaqus (Analysis User's Guide, time domain
+ * viscoelasticity): reduced time is the integral of dt/A, log10 A = -C1 (T - T0) / (C2 + T - T0),
+ * so A is aT. Ansys (Material Reference, time-temperature superposition): reduced time is A t,
+ * log10 A = C1 (T - T0) / (C2 + T - T0), so A is 1/aT; the constants are the same. Code_Aster has
+ * no series of its own: a behaviour of MFront with its numbers in DEFI_MATERIAU.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/job/master.h"

@@ -9,6 +9,7 @@
 #include "read/facts.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 /* Tables beyond this many repeat what the first ones say. */
@@ -107,10 +108,12 @@ static void add_sweep(const text_file *file, const wt_read_options *options, wt_
         facts_add(facts, "strain sweeps", "", "", "%zu", sweep.n_strain_sweeps);
     for (size_t i = 0; i < sweep.n_strain_sweeps; i++) {
         const wt_strain_sweep *r = &sweep.strain_sweeps[i];
+        char at[32] = "temperature not known";
+        if (!isnan(r->temperature))
+            snprintf(at, sizeof at, "%.2f degC", r->temperature - WT_ZERO_CELSIUS);
         facts_add(facts, "strain sweep", "", r->source,
-                  "%.2f degC, %.4g rad/s, %zu points, amplitude %.3g to %.3g %%",
-                  r->temperature - WT_ZERO_CELSIUS, r->angular_frequency, r->n, 100 * r->strain[0],
-                  100 * r->strain[r->n - 1]);
+                  "%s, %.4g rad/s, %zu points, amplitude %.3g to %.3g %%", at, r->angular_frequency,
+                  r->n, 100 * r->strain[0], 100 * r->strain[r->n - 1]);
     }
     wt_sweep_clear(&sweep);
 }

@@ -59,6 +59,20 @@ static bool is_strain_sweep(const sweep_builder *b, const size_t *rows, size_t n
     return fmax(ratio, 1 / ratio) >= least_ratio;
 }
 
+/* Softening is told at a temperature that nobody says, unless a column holds it that cannot be
+ * read. */
+static wt_status set_temperature(const sweep_builder *b, double *temperature)
+{
+    double spread;
+    sweep_builder any = *b;
+    wt_read_options options = *b->options;
+    any.options = &options;
+    options.any_temperature =
+        options.any_temperature ||
+        text_table_problem(b->table, WT_Q_BIT(WT_Q_TEMPERATURE), NULL) == WT_OK;
+    return sweep_set_temperature(&any, temperature, &spread);
+}
+
 /* `turns`: rows of the same frequency and temperature stand before or behind it. */
 static wt_status add_strain_sweep(sweep_builder *b, const size_t *rows, size_t n, bool turns)
 {
@@ -79,8 +93,7 @@ static wt_status add_strain_sweep(sweep_builder *b, const size_t *rows, size_t n
     sweep_source(b, s->source, sizeof s->source - sizeof " (falling strain)");
     if (turns)
         strcat(s->source, way[s->strain[0] > s->strain[n - 1]]);
-    double spread;
-    const wt_status status = sweep_set_temperature(b, &s->temperature, &spread);
+    const wt_status status = set_temperature(b, &s->temperature);
     b->n = 0;
     return status;
 }
