@@ -336,8 +336,7 @@ static void drop_copies_of_strain_sweeps(wt_sweep *sweep, wt_parselog *log)
         wt_strain_sweep *const t = &sweep->strain_sweeps[i];
         const wt_strain_sweep *const b = kept > 0 ? &sweep->strain_sweeps[kept - 1] : NULL;
         if (b == NULL || b->n != t->n || b->angular_frequency != t->angular_frequency ||
-            !same_sample(b->sample, t->sample) ||
-            !same_numbers(b->strain, t->strain, t->n) ||
+            !same_sample(b->sample, t->sample) || !same_numbers(b->strain, t->strain, t->n) ||
             !same_numbers(b->storage_modulus, t->storage_modulus, t->n) ||
             !same_numbers(b->loss_modulus, t->loss_modulus, t->n)) {
             sweep->strain_sweeps[kept++] = *t;

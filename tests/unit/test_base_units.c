@@ -184,11 +184,11 @@ static void quantities_refused(void **state)
         wt_quantity quantity;
         wt_status status;
     } cases[] = {
-        {"0.4", WT_Q_PRESSURE, WT_E_UNIT},          {"0,4MPa", WT_Q_PRESSURE, WT_E_ARG},
-        {"MPa", WT_Q_PRESSURE, WT_E_ARG},           {"", WT_Q_PRESSURE, WT_E_ARG},
-        {"1 200 Pa", WT_Q_PRESSURE, WT_E_ARG},      {"nanPa", WT_Q_PRESSURE, WT_E_ARG},
-        {"0x10Pa", WT_Q_PRESSURE, WT_E_UNIT},       {"4 K", WT_Q_PRESSURE, WT_E_UNIT},
-        {"1e308MPa", WT_Q_PRESSURE, WT_E_RANGE},    {"-300degC", WT_Q_TEMPERATURE, WT_E_RANGE},
+        {"0.4", WT_Q_PRESSURE, WT_E_UNIT},         {"0,4MPa", WT_Q_PRESSURE, WT_E_ARG},
+        {"MPa", WT_Q_PRESSURE, WT_E_ARG},          {"", WT_Q_PRESSURE, WT_E_ARG},
+        {"1 200 Pa", WT_Q_PRESSURE, WT_E_ARG},     {"nanPa", WT_Q_PRESSURE, WT_E_ARG},
+        {"0x10Pa", WT_Q_PRESSURE, WT_E_UNIT},      {"4 K", WT_Q_PRESSURE, WT_E_UNIT},
+        {"1e308MPa", WT_Q_PRESSURE, WT_E_RANGE},   {"-300degC", WT_Q_TEMPERATURE, WT_E_RANGE},
         {"10s", WT_Q_ANGULAR_FREQUENCY, WT_E_UNIT}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         double value = 7.5;

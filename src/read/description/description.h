@@ -187,8 +187,8 @@ typedef struct text_description {
     char *row_prefix;        /* normalised */
     bool blank_is_block;
 
-    char *group;             /* normalised name of the column that parts isotherms */
-    char **samples;          /* normalised names of the column that names the sample */
+    char *group;    /* normalised name of the column that parts isotherms */
+    char **samples; /* normalised names of the column that names the sample */
     size_t n_samples;
     double temperature_jump; /* [K], NaN = none */
 
