@@ -61,6 +61,15 @@ WT_API const wt_params *wt_job_params(void);
  * role and format. */
 WT_API wt_status wt_job_input(const wt_job *work, wt_provenance_input input, wt_input *file,
                               wt_error *err) WT_NODISCARD;
+/* The tables of a file that is an input of the work (NULL: of none), and what it is used for: by
+ * its content. A text stream ("-" is standard input), also of tables by other hands, or an HDF5
+ * result; `name` is the path to show. */
+typedef struct wt_tables_role {
+    const char *of_curves, *of_others;
+} wt_tables_role;
+WT_API wt_status wt_tables_read(const char *path, const char *name, const wt_job *work,
+                                wt_tables_role role, wt_result **tables,
+                                wt_error *err) WT_NODISCARD;
 WT_API wt_table *wt_failures_new(void); /* table "failures"; NULL when out of memory */
 /* Table "notes" of a log, with the names of files below `folder` shown without it; NULL = as they
  * are. */
@@ -542,6 +551,26 @@ WT_API wt_status wt_surface_roughness(const wt_surface *surface, double factor,
 WT_API wt_status wt_surface_table(const wt_surface *surface, wt_table **table,
                                   wt_error *err) WT_NODISCARD; /* "roughness" */
 
+/* ---- softening with strain ------------------------------------------------------------------- */
+
+/* How the moduli of a rubber soften with strain. */
+typedef struct wt_softness {
+    wt_softening table;    /* its arrays are its own */
+    double *storage_error; /* [n] standard error of f; NULL: not known */
+    double *loss_error;    /* [n] of g; likewise */
+    size_t n_sweeps;       /* of which it is the mean; 0: a table that was given */
+    uint64_t reserved[6];
+} wt_softness;
+WT_API void wt_softness_clear(wt_softness *softness);
+/* From the table payne_sweep: f and g are storage_ratio and loss_ratio; of several sweeps their
+ * mean over the strains that all have reached, and the error is what another sweep would scatter
+ * about it. Or from any table with columns strain, f, g and maybe f_error, g_error. */
+WT_API wt_status wt_softness_from_table(const wt_table *table, wt_softness *softness,
+                                        wt_error *err) WT_NODISCARD;
+/* From payne_sweep among tables, or the first of them. */
+WT_API wt_status wt_softness_of(const wt_result *tables, wt_softness *softness,
+                                wt_error *err) WT_NODISCARD;
+
 /* ---- friction -------------------------------------------------------------------------------- */
 
 /* Rubber on a counter surface under conditions. */
@@ -555,8 +584,10 @@ typedef struct wt_sliding {
     double gamma;           /* as in wt_friction_options; default 1 */
     const double *velocity; /* [n_velocity] m/s, borrowed */
     size_t n_velocity;
-    double reference_velocity; /* of the answer and the layer [m/s]; NaN = middle of the list */
-    uint64_t reserved[8];
+    double reference_velocity;   /* of the answer and the layer [m/s]; NaN = middle of the list */
+    const wt_softness *softness; /* borrowed; NULL = none */
+    double strain_factor;        /* as in wt_friction_options; default 1 */
+    uint64_t reserved[6];
 } wt_sliding;
 WT_API wt_sliding wt_sliding_defaults(void);
 WT_API const wt_params *wt_sliding_params(void);
@@ -593,6 +624,10 @@ WT_API wt_status wt_friction_make(const wt_sliding *sliding, const wt_layer_know
 WT_API wt_status wt_contact_area_table(const wt_sliding *sliding, const wt_job *work,
                                        wt_table **table, wt_error *err) WT_NODISCARD;
 
+/* Table "softening": hysteresis friction and contact area with the softening of `sliding` and
+ * without it, and the shares from strains that it does not know. WT_E_ARG if there is none. */
+WT_API wt_status wt_softening_make(const wt_sliding *sliding, const wt_job *work, wt_table **table,
+                                   wt_error *err) WT_NODISCARD;
 /* Table "directions": hysteresis friction and contact area of a transversely isotropic rubber at
  * every velocity, with its factors on E' and E'' and with those on one of them or none. WT_E_ARG if
  * it has no directions. */

@@ -36,6 +36,9 @@ typedef struct wt_softening {
     uint64_t reserved[4];
 } wt_softening;
 
+/* WT_E_ARG or WT_E_RANGE naming the point that is wrong. */
+WT_API wt_status wt_softening_check(const wt_softening *softening, wt_error *err) WT_NODISCARD;
+
 typedef struct wt_friction_options {
     double tolerance; /* relative numerical error asked for; default 1e-10 */
     double gamma;     /* S = gamma + (1 - gamma) P^2 in the friction integrand; 1 = Persson 2001 */
@@ -81,6 +84,9 @@ WT_API wt_status wt_friction_workspace_new(const wt_material *material,
 WT_API void wt_friction_workspace_free(wt_friction_workspace *workspace);
 /* Strain at a wavenumber in [q0, q1]; NaN elsewhere or without a softening. */
 WT_API double wt_friction_strain(const wt_friction_workspace *workspace, double wavenumber);
+/* Wavenumbers at which the first and the last strain of the table are met, q1 where they are not;
+ * NaN without a softening. */
+WT_API void wt_friction_strained(const wt_friction_workspace *workspace, double range[2]);
 /* mu_hys, P, G at n velocities; pressure [Pa] > 0. A negative velocity gives negative friction; 0
  * is allowed where the law has closed angular integrals (Prony). points: [n], undefined on failure.
  * Velocities that are asked for together share work: which they are moves digits below the error,

@@ -113,8 +113,10 @@ static bool read_inputs(compare_call *call)
     for (size_t i = 0; call->input != NULL && i < s->n_files; i++) {
         compare_input *input = &call->input[i];
         input->path = s->files[i];
-        const cmd_roles role = {i == 0 ? "bulk" : "track", "material"};
-        (void)cmd_tables_input(input->path, &s->work, role, &input->tables, &input->failure);
+        const wt_tables_role role = {i == 0 ? "bulk" : "track", "material"};
+        if (wt_tables_read(input->path, input->path, &s->work, role, &input->tables,
+                           &input->failure) != WT_OK)
+            input->tables = NULL;
     }
     if (call->input != NULL)
         return true;

@@ -16,7 +16,7 @@ int cmd_friction(int argc, char **argv)
     cmd_sliding_init(&s, (cmd_part){wt_layer_known_params(), &layer, NULL, 0});
     const cmd_part *own = &s.parts[CMD_OWN];
     wt_friction_tables tables = {0};
-    wt_table *contact_area = NULL, *directions = NULL, *what_if = NULL;
+    wt_table *contact_area = NULL, *directions = NULL, *softening = NULL, *what_if = NULL;
     if (!cmd_sliding_parse(&s, &usage, argc, argv))
         goto done;
     const bool has_layer = cmd_given(own, "layer-thickness");
@@ -35,17 +35,23 @@ int cmd_friction(int argc, char **argv)
             wt_cost_stage(s.session.cost, "directions");
             made = wt_directions_make(&s.conditions, &s.session.work, &directions, &s.session.err);
         }
+        if (made == WT_OK && s.conditions.softness != NULL) {
+            wt_cost_stage(s.session.cost, "softening");
+            made = wt_softening_make(&s.conditions, &s.session.work, &softening, &s.session.err);
+        }
         wt_cost_stage(s.session.cost, "what_if");
         if (made == WT_OK)
             made = wt_what_if_make(&s.conditions, NULL, known, &s.session.work, &what_if,
                                    &s.session.err);
-        wt_table **const parts[] = {&tables.friction, &contact_area, &directions, &what_if};
+        wt_table **const parts[] = {&tables.friction, &contact_area, &directions, &softening,
+                                    &what_if};
         cmd_finish(&s.session, made, parts, COUNT_OF(parts));
     }
 done:
     wt_friction_tables_clear(&tables);
     wt_table_free(contact_area);
     wt_table_free(directions);
+    wt_table_free(softening);
     wt_table_free(what_if);
     return cmd_sliding_free(&s);
 }

@@ -174,8 +174,8 @@ int cmd_master(int argc, char **argv)
     s.work.dma = &sweep; /* read once, for all samples */
     wt_status made = WT_OK;
     if (saved.read != NULL)
-        made =
-            cmd_tables_input(saved.read, &s.work, (cmd_roles){"shifts", "shifts"}, &given, &s.err);
+        made = wt_tables_read(saved.read, saved.read, &s.work, (wt_tables_role){"shifts", "shifts"},
+                              &given, &s.err);
     if (given != NULL) /* all that master wrote, or a table of the user's own */
         job.shifts = wt_result_find(given, "shift_factors");
     if (given != NULL && job.shifts == NULL)

@@ -15,6 +15,9 @@ static const wt_param contact_rows[] = {
     {PARAM_TEXT_OF("roughness", cmd_contact, roughness), .value = "R", .flags = PARAM_REQUIRED,
      .help = "counter surface: self-affine:q0=..rad/m,qr=..rad/m,q1=..rad/m,hurst=..,c0=..m^4 or a "
              "spectrum file"},
+    {PARAM_TEXT_OF("strain-softening", cmd_contact, softening), .value = "FILE", .unset = "",
+     .help = "how the moduli soften with strain: output of weartrack payne, or a table with "
+             "columns strain, f and g (and f_error, g_error), by which E' and E'' are multiplied"},
 };
 CMD_OPTIONS(contact_params, cmd_contact, contact_rows)
 
@@ -43,6 +46,7 @@ int cmd_sliding_free(cmd_sliding *s)
 {
     wt_rubber_clear(&s->rubber);
     wt_surface_clear(&s->surface);
+    wt_softness_clear(&s->softness);
     wt_result_free(s->material_tables);
     return cmd_session_free(&s->session);
 }
@@ -58,6 +62,8 @@ bool cmd_sliding_parse(cmd_sliding *s, const cmd_usage *usage, int argc, char **
     if ((s->contact.material != NULL) + (s->contact.n_dma > 0) + (session->n_files > 0) != 1)
         return cmd_usage_error(session, "give either --material FILE or --dma FILE (or the names "
                                         "of DMA files with --files-from)");
+    if (s->contact.softening == NULL && cmd_given(&s->parts[CMD_CONDITIONS], "strain-factor"))
+        return cmd_usage_error(session, "--strain-factor goes with --strain-softening");
     if (s->contact.material != NULL && cmd_given(&s->parts[CMD_READ], "temperature"))
         return cmd_usage_error(session, "--temperature is that of --dma files; the rubber's while "
                                         "it slides is --sliding-temperature");
@@ -123,6 +129,22 @@ static wt_status read_material(cmd_sliding *s, wt_error *err)
     return status;
 }
 
+static wt_status read_softening(cmd_sliding *s, wt_error *err)
+{
+    static const wt_tables_role role = {"softening", "softening"};
+    const char *path = s->contact.softening;
+    wt_result *tables = NULL;
+    wt_status status = wt_tables_read(path, path, &s->session.work, role, &tables, err);
+    if (status == WT_OK)
+        status = wt_softness_of(tables, &s->softness, err);
+    if (status != WT_OK)
+        wt_error_file(err, path);
+    else
+        s->conditions.softness = &s->softness;
+    wt_result_free(tables);
+    return status;
+}
+
 bool cmd_sliding_open(cmd_sliding *s)
 {
     wt_error *err = &s->session.err;
@@ -145,6 +167,8 @@ bool cmd_sliding_open(cmd_sliding *s)
             wt_error_advice(err, "--roughness takes a spectrum file or "
                                  "self-affine:q0=..,qr=..,q1=..,hurst=..,c0=..");
     }
+    if (status == WT_OK && s->contact.softening != NULL)
+        status = read_softening(s, err);
     s->conditions.rubber = &s->rubber;
     s->conditions.surface = &s->surface;
     if (status != WT_OK)

@@ -11,6 +11,7 @@ typedef struct cmd_contact {
     const char *const *dma_files; /* [n_dma] or DMA files */
     size_t n_dma;
     const char *roughness;
+    const char *softening; /* output of `payne` or a table; NULL: none */
 } cmd_contact;
 
 /* Parts of the options; CMD_OWN are those of the subcommand itself. */
@@ -39,6 +40,7 @@ typedef struct cmd_sliding {
     wt_result *material_tables;
     wt_rubber rubber;
     wt_surface surface;
+    wt_softness softness;
 } cmd_sliding;
 
 /* `own` are the options of the subcommand itself. */

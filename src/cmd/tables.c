@@ -3,45 +3,6 @@
 
 #include "cmd/tables.h"
 
-static wt_status read_stream(FILE *in, const char *name, wt_result *tables, wt_error *err)
-{
-    for (;;) {
-        wt_table *table = NULL;
-        wt_status status = wt_stream_read(in, name, &table, err);
-        if (status == WT_END)
-            return WT_OK;
-        if (status == WT_OK)
-            status = wt_result_add(tables, table, err);
-        if (status != WT_OK)
-            return status;
-    }
-}
-
-/* The tables of a text stream, in memory. */
-static wt_status read_text(const unsigned char *bytes, size_t length, const char *path,
-                           wt_result **tables, wt_error *err)
-{
-    wt_result *const read = wt_result_new();
-    FILE *const in = fmemopen((void *)(uintptr_t)bytes, length, "r");
-    wt_status status = read == NULL || in == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory")
-                                                  : read_stream(in, path, read, err);
-    if (in != NULL)
-        (void)fclose(in);
-    if (status == WT_OK && wt_result_n_tables(read) == 0) {
-        status = wt_fail(err, WT_E_EMPTY, "no table");
-        wt_error_expected(err, "a weartrack text stream or HDF5 result");
-    }
-    wt_error_file(err, path);
-    if ((status == WT_E_FORMAT || status == WT_E_CORRUPT || status == WT_E_EMPTY) &&
-        err->advice[0] == '\0')
-        wt_error_advice(err, "give what weartrack indent or weartrack master wrote");
-    if (status == WT_OK)
-        *tables = read;
-    else
-        wt_result_free(read);
-    return status;
-}
-
 bool cmd_tables_have(const wt_result *tables, const char *prefix)
 {
     for (size_t i = 0; tables != NULL && i < wt_result_n_tables(tables); i++)
@@ -50,36 +11,9 @@ bool cmd_tables_have(const wt_result *tables, const char *prefix)
     return false;
 }
 
-wt_status cmd_tables_input(const char *path, const wt_job *work, cmd_roles role, wt_result **tables,
-                           wt_error *err)
-{
-    static const unsigned char hdf5_signature[8] = {0x89, 'H', 'D', 'F', '\r', '\n', 0x1a, '\n'};
-    const unsigned char *bytes = NULL;
-    size_t length = 0;
-    wt_input *input = NULL;
-    wt_status status = wt_input_open(path, &input, err);
-    if (status == WT_OK)
-        status = wt_input_bytes(input, &bytes, &length, err);
-    const bool store = length >= sizeof hdf5_signature &&
-                       memcmp(bytes, hdf5_signature, sizeof hdf5_signature) == 0;
-    if (status == WT_OK)
-        status = store ? wt_store_read_memory(bytes, length, path, tables, err)
-                       : read_text(bytes, length, path, tables, err);
-    if (status == WT_OK && work != NULL)
-        status = wt_job_input(
-            work,
-            (wt_provenance_input){.path = path,
-                                  .role = cmd_tables_have(*tables, "indentation/") ? role.of_curves
-                                                                                   : role.of_others,
-                                  .format = store ? "weartrack-hdf5" : "weartrack-stream"},
-            input, err);
-    wt_input_close(input);
-    return status;
-}
-
 wt_status cmd_tables_read(const char *path, wt_result **tables, wt_error *err)
 {
-    return cmd_tables_input(path, NULL, (cmd_roles){NULL, NULL}, tables, err);
+    return wt_tables_read(path, path, NULL, (wt_tables_role){NULL, NULL}, tables, err);
 }
 
 void cmd_tables_remarks(cmd_session *s, const char *path, const wt_result *tables)
@@ -153,6 +87,6 @@ wt_status cmd_rubber_read(const char *path, double poisson_ratio, const wt_job *
                           wt_result **tables, wt_rubber *rubber, wt_error *err)
 {
     const wt_status status =
-        cmd_tables_input(path, work, (cmd_roles){"material", "material"}, tables, err);
+        wt_tables_read(path, path, work, (wt_tables_role){"material", "material"}, tables, err);
     return status == WT_OK ? cmd_rubber_of(*tables, path, poisson_ratio, rubber, err) : status;
 }

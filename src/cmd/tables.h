@@ -10,12 +10,6 @@ wt_status cmd_tables_read(const char *path, wt_result **tables, wt_error *err);
 void cmd_tables_remarks(cmd_session *s, const char *path, const wt_result *tables);
 /* Whether one of them has a name that begins so. */
 bool cmd_tables_have(const wt_result *tables, const char *prefix);
-/* The tables of a file that is an input of the work, and what it is used for: by its content. */
-typedef struct cmd_roles {
-    const char *of_curves, *of_others;
-} cmd_roles;
-wt_status cmd_tables_input(const char *path, const wt_job *work, cmd_roles role, wt_result **tables,
-                           wt_error *err);
 /* The first of the tables of a file whose name begins with `prefix`; WT_E_NOT_FOUND says which
  * subcommand makes it. */
 wt_status cmd_table_find(const wt_result *tables, const char *path, const char *prefix,

@@ -126,11 +126,17 @@ static wt_status find_cuts(strain_law *s, pool *memory, wt_error *err)
         meeting m = {.s = s, .strain = exp(s->log_strain[k])};
         if (!(above(length, &m) > 0))
             break;
-        if (!(above(from, &m) < 0)) /* met as early as numbers can tell */
-            continue;
-        const wt_status status = root_find(above, &m, from, length, 0, &from, err);
+        const bool met = above(from, &m) < 0; /* else as early as numbers can tell */
+        const wt_status status = met ? root_find(above, &m, from, length, 0, &from, err) : WT_OK;
         if (status != WT_OK)
             return status;
+        const double q = fmin(r->q0 + r->q0 * expm1(from), r->q1);
+        if (k == 0)
+            s->range[0] = q;
+        if (k + 1 == s->n)
+            s->range[1] = q;
+        if (!met)
+            continue;
         if (s->n_cuts == 0 || from > s->cuts[s->n_cuts - 1])
             s->cuts[s->n_cuts++] = from;
     }
@@ -139,8 +145,11 @@ static wt_status find_cuts(strain_law *s, pool *memory, wt_error *err)
 
 static const double least_factor = 1e-3, most_factor = 1e3;
 
-static wt_status check(const wt_softening *table, wt_error *err)
+wt_status wt_softening_check(const wt_softening *table, wt_error *err)
 {
+    if (table == NULL || table->n == 0 || table->strain == NULL || table->storage == NULL ||
+        table->loss == NULL)
+        return wt_fail(err, WT_E_ARG, "a softening needs a table of strain, f and g");
     for (size_t k = 0; k < table->n; k++) {
         const double strain = table->strain[k], f = table->storage[k], g = table->loss[k];
         wt_status status = WT_OK;
@@ -162,9 +171,7 @@ wt_status softening_new(const wt_softening *table, double factor, const wt_mater
                         const wt_roughness *roughness, pool *memory, strain_law **made,
                         wt_error *err)
 {
-    if (table->n == 0 || table->strain == NULL || table->storage == NULL || table->loss == NULL)
-        return wt_fail(err, WT_E_ARG, "a softening needs a table of strain, f and g");
-    const wt_status status = check(table, err);
+    const wt_status status = wt_softening_check(table, err);
     if (status != WT_OK)
         return status;
     strain_law *s = pool_alloc(memory, 1, sizeof *s);
@@ -178,6 +185,7 @@ wt_status softening_new(const wt_softening *table, double factor, const wt_mater
                       .f = numbers + table->n,
                       .g = numbers + 2 * table->n,
                       .caution = 1,
+                      .range = {roughness->q1, roughness->q1},
                       .whole = material,
                       .loss = *material};
     s->loss.law = material->law->angular_loss != NULL ? &loss_law_closed : &loss_law;
@@ -200,6 +208,13 @@ wt_status softening_new(const wt_softening *table, double factor, const wt_mater
 }
 
 /* ---- for those outside the kernel ------------------------------------------------------------ */
+
+void wt_friction_strained(const wt_friction_workspace *workspace, double range[2])
+{
+    const strain_law *s = workspace != NULL ? workspace->softening : NULL;
+    for (size_t i = 0; i < 2; i++)
+        range[i] = s != NULL ? s->range[i] : (double)NAN;
+}
 
 double wt_friction_strain(const wt_friction_workspace *workspace, double wavenumber)
 {

@@ -20,6 +20,7 @@ typedef struct strain_law {
     double *log_strain, *f, *g; /* [n] */
     size_t n_cuts;
     double *cuts;    /* [n_cuts] ln(q / q0) where a point of the table is met, rising */
+    double range[2]; /* wavenumbers at which the first and the last of them is met; q1: not */
     double caution;  /* how much larger the relative errors of the sum for J2 can be than those of
                         its terms */
     double steepest; /* |d ln f, g / d ln eps| */

@@ -84,7 +84,7 @@ void page_results(page_writer *page)
         &t->material_ratio,   &t->shift_factors,  &t->prony,      &t->prony_reduced,
         &t->glass_transition, &t->moduli_at,      &t->payne,      &t->roughness,
         &t->friction,         &t->layer,          &t->what_if,    &t->error_budget,
-        &t->coverage,         &t->work_precision, &t->directions};
+        &t->coverage,         &t->work_precision, &t->directions, &t->softening};
     bool any = false;
     for (size_t i = 0; i < COUNT_OF(shown) && !any; i++)
         any = shown[i]->table != NULL;
@@ -119,6 +119,7 @@ void page_results(page_writer *page)
     friction_table(page);
     page_keys(page, &t->friction, "Conditions of the friction");
     page_keys(page, &t->directions, "What the directions of the material do");
+    page_keys(page, &t->softening, "What softening with strain does");
     page_keys(page, &t->layer, "Balance of the modified layer");
     page_whole_table(page, &t->what_if,
                      "What if: one choice of the model moved in each row, and the relative changes "

@@ -58,6 +58,8 @@ static const struct {
     {"tolerance", "0.1", NULL, NULL},
     {"replicates", "5", NULL, NULL},
     {"seed", "2", NULL, NULL},
+    {"strain-softening", CASE "softening.txt", NULL, NULL},
+    {"strain-factor", "2", "strain-softening " CASE "softening.txt", NULL},
     {"layer-thickness", "2um", NULL, NULL},
     {"modulus-ratio", "0.7", NULL, NULL},
     {"critical-energy", "3e10J/m^3", NULL, NULL},
@@ -467,7 +469,10 @@ static void test_cases(void **state)
                     fail_msg("<%s>: say here how to move it", p->name);
                 const char *name = case_param_name(case_sections[s].name, p->name);
                 char word[64], value[64];
-                if (sscanf(with, "%63s %63s", word, value) == 2)
+                if (strcmp(name, "strain-factor") == 0)
+                    snprintf(further, sizeof further,
+                             "<strain-softening><file>softening.txt</file></strain-softening>");
+                else if (sscanf(with, "%63s %63s", word, value) == 2)
                     snprintf(further, sizeof further, "<%s>%s</%s>", word, value, word);
                 make_case(s, name, NULL, further, without, xml[0], sizeof xml[0]);
                 make_case(s, name, text, further, without, xml[1], sizeof xml[1]);

@@ -23,6 +23,7 @@ static const expectation list[] = {
     {&friction_schema, "friction_at_reference", "kkkn"},
     {&friction_schema, "hysteresis_at_reference", "kkkn"},
     {&friction_schema, "area_ratio_at_reference", "kkkn"},
+    {&friction_schema, "strain", "...."}, /* no softening */
     {&friction_schema, "layer_thickness", "knnn"},
     {&friction_schema, "layer_modulus_ratio", "knnn"},
     {&friction_schema, "friction_with_layer_at_reference", "kkkn"},

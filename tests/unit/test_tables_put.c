@@ -207,6 +207,8 @@ static void test_cases(void **state)
                                     "<sensitivity-error>0.3</sensitivity-error>"
                                     "<temperature>23degC");
     run_case("<temperature>30degC", "<temperature>90degC");
+    run_case("<temperature>30degC", "<strain-softening><file>softening.txt</file>"
+                                    "</strain-softening><temperature>30degC");
     run_case("</dma>", "<transverse><axial-storage>1.2</axial-storage></transverse></dma>");
     run_case("<critical-energy>2e10J/m^3 +- 10%</critical-energy>",
              "<observed-thickness>3um</observed-thickness>");

@@ -52,6 +52,8 @@
     X(FRICTION_KEY_REPLICATES, "replicates", PLAIN)                                                \
     X(FRICTION_KEY_MATERIAL, "material", TEXT, LABEL("Material"), OPTIONAL)                        \
     X(FRICTION_KEY_MATERIAL_STATEMENT, "material_statement", TEXT, OPTIONAL)                       \
+    X(FRICTION_KEY_SOFTENING, "softening", TEXT, LABEL("Softening with strain"), OPTIONAL)         \
+    X(FRICTION_KEY_STRAIN, "strain", NUMBER, LABEL("Largest strain met"), OPTIONAL)                \
     X(FRICTION_KEY_NUMERICAL_STATEMENT, "numerical_statement", TEXT, OPTIONAL)                     \
     X(FRICTION_KEY_LAYER_THICKNESS, "layer_thickness", SI(LENGTH), OPTIONAL)                       \
     X(FRICTION_KEY_LAYER_MODULUS_RATIO, "layer_modulus_ratio", NUMBER, OPTIONAL)                   \
@@ -85,6 +87,41 @@
     X(DIRECTIONS_KEY_STORAGE, "by_storage", TEXT, LABEL("The factors on E′ alone"), OPTIONAL)      \
     X(DIRECTIONS_KEY_BOTH, "by_both", TEXT, LABEL("Both"), OPTIONAL)                               \
     X(DIRECTIONS_KEY_LEFT_OUT, "left_out", TEXT, LABEL("Not computed"), OPTIONAL)
+
+#define SOFTENING_COLUMNS(X)                                                                       \
+    X(SOFTENING_VELOCITY, "velocity", "sliding velocity", SI(VELOCITY))                            \
+    X(SOFTENING_HYSTERESIS, "hysteresis", "hysteresis friction", NUMBER,                           \
+      NUMERICAL_ERROR(SOFTENING_HYSTERESIS))                                                       \
+    X(SOFTENING_HYSTERESIS_NUMERICAL_ERROR, "hysteresis_numerical_error", "its numerical error",   \
+      NUMBER)                                                                                      \
+    X(SOFTENING_HYSTERESIS_WITHOUT, "hysteresis_without", "hysteresis friction without softening", \
+      NUMBER, NUMERICAL_ERROR(SOFTENING_HYSTERESIS_WITHOUT))                                       \
+    X(SOFTENING_HYSTERESIS_WITHOUT_NUMERICAL_ERROR, "hysteresis_without_numerical_error",          \
+      "its numerical error", NUMBER)                                                               \
+    X(SOFTENING_AREA_RATIO, "area_ratio", "real over nominal contact area", NUMBER,                \
+      NUMERICAL_ERROR(SOFTENING_AREA_RATIO))                                                       \
+    X(SOFTENING_AREA_RATIO_NUMERICAL_ERROR, "area_ratio_numerical_error", "its numerical error",   \
+      NUMBER)                                                                                      \
+    X(SOFTENING_AREA_RATIO_WITHOUT, "area_ratio_without", "the same without softening", NUMBER,    \
+      NUMERICAL_ERROR(SOFTENING_AREA_RATIO_WITHOUT))                                               \
+    X(SOFTENING_AREA_RATIO_WITHOUT_NUMERICAL_ERROR, "area_ratio_without_numerical_error",          \
+      "its numerical error", NUMBER)                                                               \
+    X(SOFTENING_SHARE_BELOW, "share_below",                                                        \
+      "share of the hysteresis from strains below those of the table, where its first f and g "    \
+      "hold",                                                                                      \
+      NUMBER)                                                                                      \
+    X(SOFTENING_SHARE_ABOVE, "share_above",                                                        \
+      "share of the hysteresis from strains above those of the table, where its last f and g "     \
+      "hold",                                                                                      \
+      NUMBER)
+
+#define SOFTENING_KEYS(X)                                                                          \
+    X(SOFTENING_KEY_SOURCE, "source", TEXT, LABEL("Softening with strain"))                        \
+    X(SOFTENING_KEY_STRAIN_FACTOR, "strain_factor", PLAIN, LABEL("Strain over rms slope"))         \
+    X(SOFTENING_KEY_STRAIN, "strain", NUMBER, LABEL("Largest strain met"))                         \
+    X(SOFTENING_KEY_SHARE_ABOVE, "share_above", NUMBER,                                            \
+      LABEL("Share of the hysteresis from strains above those known, largest"))                    \
+    X(SOFTENING_KEY_EFFECT, "effect", TEXT, LABEL("What it does"))
 
 #define CONTACT_AREA_COLUMNS(X)                                                                    \
     X(CONTACT_AREA_VELOCITY, "velocity", "sliding velocity", SI(VELOCITY))                         \
@@ -130,6 +167,7 @@
     X(LAYER_KEY_ERROR_INCLUDES, "standard_error_includes", TEXT, LABEL("Standard errors include")) \
     X(LAYER_KEY_ERROR_LACKS, "standard_error_lacks", TEXT, LABEL("No error known of"), OPTIONAL)   \
     X(LAYER_KEY_MATERIAL_STATEMENT, "material_statement", TEXT, OPTIONAL)                          \
+    X(LAYER_KEY_SOFTENING, "softening", TEXT, LABEL("Softening with strain"), OPTIONAL)            \
     X(LAYER_KEY_NUMERICAL_STATEMENT, "numerical_statement", TEXT, OPTIONAL)
 
 #define ENERGY_DENSITY_COLUMNS(X)                                                                  \

@@ -88,6 +88,7 @@
     X(contact_area, CONTACT_AREA, "contact_area", "Contact area against magnification",            \
       "friction")                                                                                  \
     X(directions, DIRECTIONS, "directions", "What the directions of the material do", "friction")  \
+    X(softening, SOFTENING, "softening", "What softening with strain does", "friction")            \
     X(layer, LAYER, "layer", "Thickness of the modified layer", "layer")                           \
     X(energy_density, ENERGY_DENSITY, "energy_density", "Energy density with depth", "layer")      \
     X(what_if, WHAT_IF, "what_if", "What if a choice of the model were another", "friction")       \

@@ -294,8 +294,15 @@ static void friction_caveats(const answer_story *story)
         CAVEAT(story, "Friction: %s.", statement);
     say_includes(story, "friction", friction_words(friction, FRICTION_KEY_ERROR_INCLUDES),
                  friction_words(friction, FRICTION_KEY_ERROR_LACKS));
-    CAVEAT(story, "Friction is that of Persson's theory for small strain at one temperature: no "
-                  "flash heating, no strain softening, dry contact.");
+    const char *softening = friction_words(friction, FRICTION_KEY_SOFTENING);
+    if (softening != NULL)
+        CAVEAT(story,
+               "Friction is that of Persson's theory at one temperature with moduli that soften "
+               "with strain (%s; the largest strain met is %.3g): no flash heating, dry contact.",
+               softening, friction_value(friction, FRICTION_KEY_STRAIN).value);
+    else
+        CAVEAT(story, "Friction is that of Persson's theory for small strain at one temperature: "
+                      "no flash heating, no strain softening, dry contact.");
     if (friction_words(friction, FRICTION_KEY_LAYER_THICKNESS) != NULL)
         CAVEAT(story, "With the layer, its modulus is the bulk's times one ratio at all "
                       "frequencies, and the shear stress is scaled by the same ratio; neither is "

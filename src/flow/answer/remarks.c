@@ -32,6 +32,16 @@ static void of_friction(const table_view *v, wt_parselog *log)
     of_material(share, friction_words(v, FRICTION_KEY_MATERIAL_STATEMENT), log);
 }
 
+static void of_softening(const table_view *v, wt_parselog *log)
+{
+    const double share = softening_value(v, SOFTENING_KEY_SHARE_ABOVE).value;
+    if (share >= odd_share)
+        wt_parselog_add(log, WT_WARNING, NULL, NULL,
+                        "friction: up to %.0f %% of the hysteresis comes from strains above those "
+                        "of the softening, up to %.3g, for which its last f and g were taken",
+                        100 * share, softening_value(v, SOFTENING_KEY_STRAIN).value);
+}
+
 static void of_comparison(const table_view *v, wt_parselog *log)
 {
     size_t n = 0;
@@ -77,6 +87,8 @@ void wt_result_remarks(const wt_result *result, wt_parselog *log)
     else if (table_bind_of(result, &what_if_schema, "", &view, NULL) == WT_OK)
         of_material(what_if_value(&view, WHAT_IF_KEY_EXTRAPOLATED_SHARE).value,
                     what_if_words(&view, WHAT_IF_KEY_MATERIAL_STATEMENT), log);
+    if (table_bind_of(result, &softening_schema, "", &view, NULL) == WT_OK)
+        of_softening(&view, log);
     if (table_bind_of(result, &dma_comparison_schema, "", &view, NULL) == WT_OK)
         of_comparison(&view, log);
     if (table_bind_of(result, &layer_schema, "", &view, NULL) == WT_OK)

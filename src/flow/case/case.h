@@ -60,6 +60,8 @@ struct wt_case {
 
     bool has_sliding;
     wt_sliding sliding;
+    bool softens;         /* with strain: */
+    case_files softening; /* a table, else by the strain sweeps of `dma` */
 
     bool has_layer;
     wt_layer_job layer;

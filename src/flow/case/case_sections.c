@@ -205,8 +205,17 @@ wt_status case_read_roughness(wt_case *c, const xmlNode *section, wt_error *err)
 
 wt_status case_read_sliding(wt_case *c, const xmlNode *section, wt_error *err)
 {
+    const xmlNode *softening = case_child(section, "strain-softening");
     c->has_sliding = true;
-    return case_read_params(c, section, wt_sliding_params(), &c->sliding, err);
+    c->softens = softening != NULL;
+    wt_status status = case_read_params(c, section, wt_sliding_params(), &c->sliding, err);
+    if (status == WT_OK && softening != NULL && case_child(softening, "file") != NULL)
+        status = case_read_files(c, softening, "file", &c->softening, err);
+    if (status == WT_OK && softening == NULL && case_child(section, "strain-factor") != NULL) {
+        wt_fail(err, WT_E_ARG, "<strain-factor> goes with <strain-softening>");
+        return case_at(case_child(section, "strain-factor"), WT_E_ARG, err);
+    }
+    return status;
 }
 
 wt_status case_read_layer(wt_case *c, const xmlNode *section, wt_error *err)

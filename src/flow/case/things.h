@@ -20,7 +20,12 @@
     X(GIVEN_RATIO, "given modulus ratio", "no modulus ratio (<modulus-ratio> in <layer>)",         \
       c->has_modulus_ratio)                                                                        \
     X(GIVEN_DIRECTIONS, "directions of the material",                                              \
-      "no directions of the material (<transverse> in <dma>)", c->is_transverse)
+      "no directions of the material (<transverse> in <dma>)", c->is_transverse)                   \
+    X(GIVEN_SOFTENING, "given softening", "no table of softening (<file> in <strain-softening>)",  \
+      c->softening.n > 0)                                                                          \
+    X(ASKED_SOFTENING, "softening by strain sweeps",                                               \
+      "no softening by strain sweeps (<sweeps> in <strain-softening>)",                            \
+      c->softens && c->softening.n == 0)
 
 /* Tables: id, name, schema and what completes its name. The curve of a group is a block of two
  * tables, which the groups share. */
@@ -53,6 +58,7 @@
     X(FRICTION, "friction", &friction_schema, "")                                                  \
     X(CONTACT_AREA, "contact_area", &contact_area_schema, "")                                      \
     X(DIRECTIONS, "directions", &directions_schema, "")                                            \
+    X(SOFTENING_EFFECT, "softening", &softening_schema, "")                                        \
     X(WHAT_IF, "what_if", &what_if_schema, "")                                                     \
     X(ERROR_BUDGET, "error_budget", &error_budget_schema, "")                                      \
     X(COVERAGE, "coverage", &coverage_schema, "")
@@ -61,7 +67,8 @@
 #define INNER_THINGS(X)                                                                            \
     X(RUBBER, "material")                                                                          \
     X(SURFACE, "roughness law")                                                                    \
-    X(MODULUS_RATIO, "modulus ratio")
+    X(MODULUS_RATIO, "modulus ratio")                                                              \
+    X(SOFTENING, "softening with strain")
 
 #define THING_ID(id, ...) FLOW_##id,
 typedef enum flow_thing {

@@ -495,6 +495,8 @@ static wt_status prepare(coverage *c, const wt_job *work, wt_error *err)
     wt_status status = setting_make(job->sliding, job->layer, job->known, work, &c->setting, err);
     if (status != WT_OK)
         return status;
+    /* taken as known: no sweeps are made anew */
+    c->setting.softness.storage_error = c->setting.softness.loss_error = NULL;
     c->work = *work;
     c->work.threads = 1; /* the trials take the threads */
     c->work.left_out = work->replicates < 2 ? WT_EXTRAS : WT_EXTRAS & ~(unsigned)WT_EXTRA_DRAWS;

@@ -24,7 +24,10 @@ typedef enum flow_draw {
     FLOW_DRAW_ISOTHERM,
     FLOW_DRAW_SPOT,
     FLOW_DRAW_CURVE,
-    FLOW_DRAW_FORCE
+    FLOW_DRAW_FORCE,
+    /* of replicates again: what stands before keeps its numbers */
+    FLOW_DRAW_SOFT_STORAGE,
+    FLOW_DRAW_SOFT_LOSS
 } flow_draw;
 
 /* The series of a rubber at a temperature in Young's moduli; to be cleared, also on failure. */

@@ -4,6 +4,7 @@
 #include "flow/job/cost.h"
 #include "flow/job/draws.h"
 #include "flow/job/setting.h"
+#include "flow/job/softness.h"
 
 #include "base/array.h"
 #include "data/tables/tables.h"
@@ -79,6 +80,21 @@ static void hold_calibration(setting *s)
     s->known.calibration_share = 0;
 }
 
+static bool has_softness(const setting *s)
+{
+    return s->has_softness;
+}
+
+static bool stated_softness(const setting *s)
+{
+    return s->has_softness && softness_has_errors(&s->softness);
+}
+
+static void hold_softness(setting *s)
+{
+    s->softness.storage_error = s->softness.loss_error = NULL;
+}
+
 static bool has_shear(const setting *s)
 {
     return !isnan(s->sliding.shear_stress.value);
@@ -126,6 +142,8 @@ static const source sources[] = {
     {"temperature", "the temperature in sliding measured", always, stated_temperature,
      hold_temperature},
     {"roughness", "more scans of the counter surface", always, stated_roughness, hold_roughness},
+    {"softening with strain", "more strain sweeps, at more temperatures", has_softness,
+     stated_softness, hold_softness},
     {"shear stress", "more friction runs that give it", has_shear, stated_shear, hold_shear},
     {"specific wear rate", "more or longer wear runs", has_layer, stated_wear, hold_wear},
     {"critical energy", "more layers of known thickness", has_energy, stated_energy, hold_energy},

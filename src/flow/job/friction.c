@@ -5,6 +5,7 @@
 #include "flow/job/draws.h"
 #include "flow/job/replicates.h"
 #include "flow/job/sliding_contact.h"
+#include "flow/job/softness.h"
 #include "kernel/params.h"
 
 #include "data/tables/tables.h"
@@ -24,6 +25,7 @@ typedef struct friction_task {
     double *velocity;          /* [n] the reference is the last */
     double *centre;            /* [N_KINDS * n] */
     double worst;              /* relative numerical error where the tolerance is not reached */
+    double strain;             /* the largest, of a softening */
     double numerical[2];       /* of the total friction at the reference: without, with the layer */
     wt_friction_point *points; /* [n] at the values themselves, without a layer */
     replicates replicates;
@@ -211,6 +213,11 @@ static void set_keys(friction_task *task, table_writer *t, const char *statement
         friction_set_text(t, FRICTION_KEY_MATERIAL, material);
     if (statement[0] != '\0')
         friction_set_text(t, FRICTION_KEY_MATERIAL_STATEMENT, statement);
+    if (s->softness != NULL) {
+        softness_describe(s->softness, material, sizeof material);
+        friction_set_text(t, FRICTION_KEY_SOFTENING, material);
+        friction_set_value(t, FRICTION_KEY_STRAIN, task->strain, (double)NAN, (double)NAN);
+    }
     if (task->worst > 0)
         friction_set_print(t, FRICTION_KEY_NUMERICAL_STATEMENT, TOLERANCE_STATEMENT,
                            task->work->tolerance, task->worst);
@@ -335,6 +342,7 @@ static wt_status compute_centre(friction_task *task, sliding_contact *c, wt_erro
     wt_status status = compute(task, WT_NO_REPLICATE, task->points, task->centre, c, err);
     if (status != WT_OK)
         return status;
+    task->strain = wt_friction_strain(c->workspace, c->roughness->q1);
     task->numerical[0] = total_error(&task->points[last], shear);
     note_not_reached(task, task->points);
     if (task->layer == NULL)

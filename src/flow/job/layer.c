@@ -5,6 +5,7 @@
 #include "flow/job/draws.h"
 #include "flow/job/replicates.h"
 #include "flow/job/sliding_contact.h"
+#include "flow/job/softness.h"
 #include "kernel/params.h"
 
 #include "data/tables/tables.h"
@@ -321,6 +322,11 @@ static void set_keys(const layer_task *task, const layer_run *run, table_writer 
         layer_set_text(t, LAYER_KEY_ERROR_LACKS, task->replicates.lacks);
     if (run->statement[0] != '\0')
         layer_set_text(t, LAYER_KEY_MATERIAL_STATEMENT, run->statement);
+    if (task->sliding->softness != NULL) {
+        char words[256];
+        softness_describe(task->sliding->softness, words, sizeof words);
+        layer_set_text(t, LAYER_KEY_SOFTENING, words);
+    }
     if (run->source.numerical_error > task->work->tolerance)
         layer_set_print(t, LAYER_KEY_NUMERICAL_STATEMENT, TOLERANCE_STATEMENT,
                         task->work->tolerance, run->source.numerical_error);

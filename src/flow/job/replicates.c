@@ -2,6 +2,7 @@
 #include "flow/job/replicates.h"
 #include "flow/job/draws.h"
 #include "flow/job/sliding_contact.h"
+#include "flow/job/softness.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -47,6 +48,8 @@ replicates replicates_of(const wt_sliding *sliding, const wt_job *work, const ch
     replicates_add(&r, sliding->pressure.standard_error, "pressure");
     replicates_add(&r, sliding->temperature.standard_error, "temperature");
     replicates_add(&r, sliding->surface->c0.standard_error, "roughness");
+    if (sliding->softness != NULL)
+        replicates_add(&r, softness_has_errors(sliding->softness), "softening with strain");
     return r;
 }
 

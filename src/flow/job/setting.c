@@ -19,6 +19,7 @@ wt_status setting_make(const wt_sliding *sliding, const wt_layer_job *layer,
                    .velocity = flow_reference_velocity(sliding),
                    .rubber = *sliding->rubber,
                    .surface = *sliding->surface,
+                   .has_softness = sliding->softness != NULL,
                    .has_layer = layer != NULL,
                    .has_known = known != NULL,
                    .vertical = sliding->rubber->fit.vertical};
@@ -26,6 +27,8 @@ wt_status setting_make(const wt_sliding *sliding, const wt_layer_job *layer,
     s->sliding.reference_velocity = s->velocity;
     s->surface.q0 = law->q0;
     s->surface.q1 = law->q1;
+    if (s->has_softness)
+        s->softness = *sliding->softness;
     if (layer != NULL)
         s->layer = *layer;
     if (known != NULL)
@@ -75,6 +78,7 @@ wt_status setting_compute(setting *s, const wt_job *work, wt_estimate *number, w
     wt_layer_known known = s->known;
     s->sliding.rubber = &s->rubber;
     s->sliding.surface = &s->surface;
+    s->sliding.softness = s->has_softness ? &s->softness : NULL;
     s->sliding.velocity = &s->velocity;
     wt_status status = s->has_layer ? compute_layer(s, work, &known, err) : WT_OK;
     if (status == WT_OK && s->has_layer)

@@ -10,6 +10,8 @@ typedef struct setting {
     double velocity;
     wt_rubber rubber;   /* borrowed, or another one */
     wt_surface surface; /* borrowed; its cut-offs are numbers */
+    bool has_softness;
+    wt_softness softness; /* borrowed */
     bool has_layer, has_known;
     wt_layer_job layer;
     wt_layer_known known;

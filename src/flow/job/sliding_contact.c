@@ -3,6 +3,7 @@
 #include "flow/job/sliding_contact.h"
 #include "flow/job/cost.h"
 #include "flow/job/draws.h"
+#include "flow/job/softness.h"
 #include "kernel/friction.h"
 #include "kernel/params.h"
 
@@ -17,6 +18,7 @@ wt_sliding wt_sliding_defaults(void)
         .shear_stress = {(double)NAN, 0, 0, "Pa"},
         .gamma = wt_friction_defaults().gamma,
         .reference_velocity = (double)NAN,
+        .strain_factor = wt_friction_defaults().strain_factor,
     };
 }
 
@@ -37,6 +39,7 @@ static const wt_param rows[] = {
      .help = "tau_f of the real contact, such as 5MPa; without it there is no total "
              "friction"},
     FRICTION_GAMMA(wt_sliding),
+    FRICTION_STRAIN_FACTOR(wt_sliding),
 };
 PARAM_TABLE(wt_sliding_params, wt_sliding, rows, wt_sliding_defaults, NO_PARTS)
 
@@ -57,6 +60,23 @@ double flow_reference_velocity(const wt_sliding *sliding)
 double flow_layer_velocity(const wt_sliding *sliding, const wt_layer_job *layer)
 {
     return isnan(layer->velocity) ? flow_reference_velocity(sliding) : layer->velocity;
+}
+
+/* The workspace, softened by a replicate. */
+static wt_status make_workspace(const wt_sliding *sliding, wt_friction_options options,
+                                uint64_t seed, size_t replicate, sliding_contact *c, wt_error *err)
+{
+    wt_softness softness = {0};
+    wt_status status = WT_OK;
+    if (sliding->softness != NULL) {
+        status = softness_draw(sliding->softness, seed, replicate, &softness, err);
+        options.softening = &softness.table;
+        options.strain_factor = sliding->strain_factor;
+    }
+    if (status == WT_OK)
+        status = wt_friction_workspace_new(c->material, c->roughness, &options, &c->workspace, err);
+    wt_softness_clear(&softness);
+    return status;
 }
 
 /* Whether there can be such a material at the frequencies of the velocities, and what to say of it.
@@ -110,7 +130,7 @@ wt_status sliding_contact_make(const wt_sliding *sliding, const wt_job *work, si
     if (status == WT_OK)
         status = check_material(sliding, &c, err);
     if (status == WT_OK)
-        status = wt_friction_workspace_new(c.material, c.roughness, &options, &c.workspace, err);
+        status = make_workspace(sliding, options, seed, replicate, &c, err);
     if (status != WT_OK) {
         sliding_contact_clear(&c);
         return status;

@@ -22,7 +22,7 @@ typedef struct choice {
     const char *words; /* in a sentence, after "if the" */
     const char *unit;  /* of its value; NULL: it has words */
     const char *why;   /* why it is moved so far */
-    const char *lacks; /* why it does not apply, where it does not */
+    const char *lacks; /* why it does not apply, where it does not; NULL: not worth a word */
     bool (*applies)(const setting *s);
     double (*value)(const setting *s);                       /* if it has a unit, */
     void (*name)(const setting *s, char text[WORDS]);        /* else */
@@ -112,6 +112,25 @@ static bool move_gamma(const setting *used, size_t i, setting *s)
     if (i >= COUNT_OF(tried))
         return false;
     s->sliding.gamma = tried[i];
+    return true;
+}
+
+static bool has_strain(const setting *s)
+{
+    return s->has_softness;
+}
+
+static double value_strain(const setting *s)
+{
+    return s->sliding.strain_factor;
+}
+
+static bool move_strain(const setting *used, size_t i, setting *s)
+{
+    static const double factor[] = {0.5, 2};
+    if (i >= COUNT_OF(factor))
+        return false;
+    s->sliding.strain_factor = limited(factor[i] * used->sliding.strain_factor, 0.01, 100);
     return true;
 }
 
@@ -222,6 +241,10 @@ static const choice choices[] = {
     {"factor gamma of partial contact", "1",
      "1 is Persson's theory of 2001, 0.5 its later correction for partial contact", "", always,
      value_gamma, NULL, move_gamma},
+    {"strain over slope", "1",
+     "half and twice: the strain at a wavenumber is of the order of the rms slope up to there, no "
+     "more is known",
+     NULL, has_strain, value_strain, NULL, move_strain},
     {"Poisson ratio", "1",
      "0.5 is that of rubber, 0.4 that of a glass, as which the shortest waves feel it",
      "a transversely isotropic material has two others", has_poisson, value_poisson, NULL,
@@ -452,7 +475,7 @@ static void set_left_out(const setting *used, table_writer *t)
     char words[512] = "";
     size_t length = 0;
     for (size_t i = 0; i < COUNT_OF(choices) && length < sizeof words; i++)
-        if (!choices[i].applies(used))
+        if (!choices[i].applies(used) && choices[i].lacks != NULL)
             length += (size_t)snprintf(words + length, sizeof words - length, "%s%s (%s)",
                                        length > 0 ? "; " : "", choices[i].words, choices[i].lacks);
     if (length > 0)

@@ -24,14 +24,22 @@ static flow_things wanted_by(const wt_case *c)
     return wanted;
 }
 
+flow_things flow_needs(const flow_plan *plan, size_t stage)
+{
+    const flow_things needs = flow_stages[stage].needs,
+                      softening = FLOW_BIT(FLOW_GIVEN_SOFTENING) | FLOW_BIT(FLOW_ASKED_SOFTENING);
+    const bool slides = (needs & FLOW_BIT(FLOW_CONDITIONS)) != 0;
+    return slides && (plan->sources & softening) != 0 ? needs | FLOW_BIT(FLOW_SOFTENING) : needs;
+}
+
 /* ---- choosing -------------------------------------------------------------------------------- */
 
 /* Stages whose needs can all be met; one pass suffices since the table is in order. */
-static void find_able(flow_things sources, bool able[FLOW_N_STAGES])
+static void find_able(const flow_plan *plan, bool able[FLOW_N_STAGES])
 {
-    flow_things reachable = sources;
+    flow_things reachable = plan->sources;
     for (size_t i = 0; i < FLOW_N_STAGES; i++) {
-        able[i] = (flow_stages[i].needs & ~reachable) == 0;
+        able[i] = (flow_needs(plan, i) & ~reachable) == 0;
         if (able[i])
             reachable |= flow_stages[i].gives;
     }
@@ -69,7 +77,7 @@ static void choose(flow_plan *plan, const bool able[FLOW_N_STAGES], flow_thing t
     plan->chosen[best] = true;
     snprintf(plan->because[best], sizeof plan->because[best], "runs because %s", because);
     for (unsigned t = FLOW_FIRST_TABLE; t < FLOW_N_THINGS; t++) {
-        if (!(flow_stages[best].needs & FLOW_BIT(t)))
+        if (!(flow_needs(plan, best) & FLOW_BIT(t)))
             continue;
         char reason[128];
         plan->required |= FLOW_BIT(t);
@@ -81,10 +89,11 @@ static void choose(flow_plan *plan, const bool able[FLOW_N_STAGES], flow_thing t
 
 /* Sources whose absence keeps a stage from running: of the first need that cannot be met, one for
  * each way of meeting it. Empty if the stage is able. */
-static flow_things missing_sources(flow_things sources, const flow_stage *stage)
+static flow_things missing_sources(const flow_plan *plan, size_t stage)
 {
+    const flow_things needs = flow_needs(plan, stage);
     for (unsigned t = 0; t < FLOW_N_THINGS; t++) {
-        if (!(stage->needs & FLOW_BIT(t)) || (sources & FLOW_BIT(t)))
+        if (!(needs & FLOW_BIT(t)) || (plan->sources & FLOW_BIT(t)))
             continue;
         if (t < FLOW_FIRST_TABLE)
             return FLOW_BIT(t);
@@ -93,7 +102,7 @@ static flow_things missing_sources(flow_things sources, const flow_stage *stage)
         for (size_t i = 0; i < FLOW_N_STAGES && !possible; i++) {
             if (!(flow_stages[i].gives & FLOW_BIT(t)))
                 continue;
-            flow_things here = missing_sources(sources, &flow_stages[i]);
+            flow_things here = missing_sources(plan, i);
             possible = here == 0;
             missing |= here;
         }
@@ -108,7 +117,7 @@ static void say_why_not(flow_plan *plan, size_t i, bool able)
     char *because = plan->because[i];
     const size_t size = sizeof plan->because[i];
     if (!able) {
-        flow_things missing = missing_sources(plan->sources, &flow_stages[i]);
+        flow_things missing = missing_sources(plan, i);
         size_t used = (size_t)snprintf(because, size, "left out because the case has ");
         for (unsigned t = 0; t < FLOW_FIRST_TABLE && used < size; t++, missing >>= 1)
             if (missing & 1)
@@ -132,7 +141,7 @@ void flow_plan_make(const wt_case *c, flow_plan *plan)
     bool able[FLOW_N_STAGES] = {false};
     *plan = (flow_plan){.sources = sources_of(c), .wanted = wanted_by(c)};
     plan->required = plan->wanted;
-    find_able(plan->sources, able);
+    find_able(plan, able);
     for (unsigned t = FLOW_FIRST_TABLE; t < FLOW_FIRST_INNER; t++) {
         if (!(plan->wanted & FLOW_BIT(t)))
             continue;
@@ -154,7 +163,7 @@ wt_status wt_plan(const wt_case *c, wt_table **result, wt_error *err)
     table_writer t = table_begin(&plan_schema, err);
     for (size_t i = 0; i < FLOW_N_STAGES; i++) {
         char needs[256], gives[256];
-        flow_things_list(flow_stages[i].needs, needs, sizeof needs);
+        flow_things_list(flow_needs(&plan, i), needs, sizeof needs);
         flow_things_list(flow_stages[i].gives, gives, sizeof gives);
         table_row(&t);
         plan_put_text(&t, PLAN_STAGE, flow_stages[i].id);

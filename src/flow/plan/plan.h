@@ -18,6 +18,9 @@ typedef struct flow_plan {
     flow_outcome outcome[FLOW_N_STAGES];
 } flow_plan;
 
+/* What a stage needs in this plan: of a case whose rubber softens with strain, all that slides
+ * needs the softening, too. */
+flow_things flow_needs(const flow_plan *plan, size_t stage);
 void flow_plan_make(const wt_case *c, flow_plan *plan);
 
 #endif

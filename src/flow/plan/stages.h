@@ -55,6 +55,10 @@
       B(ROUGHNESS) | B(SURFACE), flow_step_roughness)                                              \
     X(GIVEN_RATIO, given_ratio, "Modulus ratio as given in the case", B(GIVEN_RATIO),              \
       B(MODULUS_RATIO), flow_step_given_ratio)                                                     \
+    X(GIVEN_SOFTENING, given_softening, "Softening with strain as given in the case",              \
+      B(GIVEN_SOFTENING), B(SOFTENING), flow_step_given_softening)                                 \
+    X(SWEPT_SOFTENING, swept_softening, "Softening with strain for the sliding contact",           \
+      B(PAYNE_SWEEP) | B(ASKED_SOFTENING), B(SOFTENING), flow_step_swept_softening)                \
     X(LAYER, layer, "Formation, wear and thickness of the modified layer",                         \
       B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(LAYER_PARAMETERS), B(LAYER), flow_step_layer)     \
     X(ENERGY_DENSITY, energy_density, "Energy density against depth",                              \
@@ -71,6 +75,9 @@
     X(DIRECTIONS, directions, "What the directions of the material do",                            \
       B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(GIVEN_DIRECTIONS), B(DIRECTIONS),                 \
       flow_step_directions)                                                                        \
+    X(SOFTENING_EFFECT, softening_effect, "What softening with strain does",                       \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(SOFTENING), B(SOFTENING_EFFECT),                  \
+      flow_step_softening_effect)                                                                  \
     X(WHAT_IF_WITH_LAYER, what_if_with_layer,                                                      \
       "What if a choice of the model were another, friction with layer",                           \
       B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(LAYER_PARAMETERS) | B(MODULUS_RATIO), B(WHAT_IF), \

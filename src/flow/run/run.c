@@ -45,7 +45,7 @@ static bool stands_in(const conduct *d, size_t i)
 {
     const flow_plan *plan = &d->run.plan;
     flow_things lacking = flow_stages[i].gives & plan->required & ~d->have;
-    if (plan->chosen[i] || lacking == 0 || (flow_stages[i].needs & ~d->have) != 0)
+    if (plan->chosen[i] || lacking == 0 || (flow_needs(&d->run.plan, i) & ~d->have) != 0)
         return false;
     for (size_t k = 0; k < i; k++)
         if ((plan->outcome[k] == FLOW_FAILED || plan->outcome[k] == FLOW_BLOCKED) &&
@@ -110,10 +110,10 @@ static wt_status consider_stage(conduct *d, size_t i, wt_error *err)
         cost_leave_out(d->cost, flow_stages[i].id, plan->because[i]);
         return WT_OK;
     }
-    if ((flow_stages[i].needs & ~d->have) == 0)
+    if ((flow_needs(&d->run.plan, i) & ~d->have) == 0)
         return run_stage(d, i, plan->because[i], err);
     plan->outcome[i] = FLOW_BLOCKED;
-    flow_things_list(flow_stages[i].needs & ~d->have, missing, sizeof missing);
+    flow_things_list(flow_needs(&d->run.plan, i) & ~d->have, missing, sizeof missing);
     snprintf(because, sizeof because, "left out because a stage before failed to give its %s",
              missing);
     cost_leave_out(d->cost, flow_stages[i].id, because);

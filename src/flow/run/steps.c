@@ -19,6 +19,7 @@ void flow_run_clear(flow_run *run)
         wt_curve_set_free(run->kept[g]);
     wt_rubber_clear(&run->rubber);
     wt_surface_clear(&run->surface);
+    wt_softness_clear(&run->softness);
     *run = (flow_run){0};
 }
 
@@ -353,11 +354,50 @@ wt_status flow_step_roughness(flow_run *run, wt_error *err)
     return status;
 }
 
+/* ---- softening with strain --------------------------------------------------------------------
+ */
+
+wt_status flow_step_given_softening(flow_run *run, wt_error *err)
+{
+    static const wt_tables_role role = {"softening", "softening"};
+    const wt_file_set *set = &run->c->softening.sets[0];
+    char *path = wt_path_join(set->folder, set->patterns[0]);
+    wt_result *tables = NULL;
+    if (path == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    wt_status status = wt_tables_read(path, set->patterns[0], &run->job, role, &tables, err);
+    if (status == WT_OK)
+        status = wt_softness_of(tables, &run->softness, err);
+    if (status == WT_OK)
+        cost_say(&run->job, (cost_summary){.items = (double)run->softness.table.n});
+    else
+        wt_error_file(err, set->patterns[0]);
+    wt_result_free(tables);
+    free(path);
+    return status;
+}
+
+wt_status flow_step_swept_softening(flow_run *run, wt_error *err)
+{
+    const wt_status status =
+        wt_softness_from_table(run->table[FLOW_PAYNE_SWEEP], &run->softness, err);
+    if (status == WT_OK)
+        cost_say(&run->job, (cost_summary){.items = (double)run->softness.table.n});
+    return status;
+}
+
 /* ---- friction and layer ---------------------------------------------------------------------- */
+
+static wt_sliding sliding_of(const flow_run *run)
+{
+    wt_sliding sliding = flow_case_sliding(run->c, &run->rubber, &run->surface);
+    sliding.softness = run->softness.table.n > 0 ? &run->softness : NULL;
+    return sliding;
+}
 
 wt_status flow_step_layer(flow_run *run, wt_error *err)
 {
-    wt_sliding sliding = flow_case_sliding(run->c, &run->rubber, &run->surface);
+    wt_sliding sliding = sliding_of(run);
     wt_layer_tables tables = {0};
     wt_status status = wt_layer_make(&sliding, &run->c->layer, &run->job, &tables, err);
     if (status != WT_OK)
@@ -369,7 +409,7 @@ wt_status flow_step_layer(flow_run *run, wt_error *err)
 
 wt_status flow_step_energy_density(flow_run *run, wt_error *err)
 {
-    const wt_sliding sliding = flow_case_sliding(run->c, &run->rubber, &run->surface);
+    const wt_sliding sliding = sliding_of(run);
     return wt_energy_density_table(&sliding, &run->c->layer, &run->job,
                                    &run->table[FLOW_ENERGY_DENSITY], err);
 }
@@ -392,7 +432,7 @@ static wt_status known_layer(const flow_run *run, wt_layer_known *known, wt_erro
 
 static wt_status friction(flow_run *run, const wt_layer_known *layer, wt_error *err)
 {
-    wt_sliding sliding = flow_case_sliding(run->c, &run->rubber, &run->surface);
+    wt_sliding sliding = sliding_of(run);
     wt_friction_tables tables = {0};
     wt_status status = wt_friction_make(&sliding, layer, &run->job, &tables, err);
     if (status == WT_OK)
@@ -402,7 +442,7 @@ static wt_status friction(flow_run *run, const wt_layer_known *layer, wt_error *
 
 wt_status flow_step_contact_area(flow_run *run, wt_error *err)
 {
-    const wt_sliding sliding = flow_case_sliding(run->c, &run->rubber, &run->surface);
+    const wt_sliding sliding = sliding_of(run);
     return wt_contact_area_table(&sliding, &run->job, &run->table[FLOW_CONTACT_AREA], err);
 }
 
@@ -420,8 +460,14 @@ wt_status flow_step_friction(flow_run *run, wt_error *err)
 
 wt_status flow_step_directions(flow_run *run, wt_error *err)
 {
-    const wt_sliding sliding = flow_case_sliding(run->c, &run->rubber, &run->surface);
+    const wt_sliding sliding = sliding_of(run);
     return wt_directions_make(&sliding, &run->job, &run->table[FLOW_DIRECTIONS], err);
+}
+
+wt_status flow_step_softening_effect(flow_run *run, wt_error *err)
+{
+    const wt_sliding sliding = sliding_of(run);
+    return wt_softening_make(&sliding, &run->job, &run->table[FLOW_SOFTENING_EFFECT], err);
 }
 
 /* ---- what if, error budget, coverage ----------------------------------------------------------
@@ -430,14 +476,14 @@ wt_status flow_step_directions(flow_run *run, wt_error *err)
 static wt_status what_if(flow_run *run, const wt_layer_job *layer, const wt_layer_known *known,
                          wt_error *err)
 {
-    wt_sliding sliding = flow_case_sliding(run->c, &run->rubber, &run->surface);
+    wt_sliding sliding = sliding_of(run);
     return wt_what_if_make(&sliding, layer, known, &run->job, &run->table[FLOW_WHAT_IF], err);
 }
 
 static wt_status budget(flow_run *run, const wt_layer_job *layer, const wt_layer_known *known,
                         wt_error *err)
 {
-    wt_sliding sliding = flow_case_sliding(run->c, &run->rubber, &run->surface);
+    wt_sliding sliding = sliding_of(run);
     return wt_error_budget_make(&sliding, layer, known, run->table[FLOW_WHAT_IF], &run->job,
                                 &run->table[FLOW_ERROR_BUDGET], err);
 }
@@ -445,7 +491,7 @@ static wt_status budget(flow_run *run, const wt_layer_job *layer, const wt_layer
 static wt_status coverage(flow_run *run, const wt_layer_job *layer, const wt_layer_known *known,
                           wt_error *err)
 {
-    const wt_sliding sliding = flow_case_sliding(run->c, &run->rubber, &run->surface);
+    const wt_sliding sliding = sliding_of(run);
     const wt_coverage_job job = {.sliding = &sliding,
                                  .layer = layer,
                                  .known = known,

@@ -14,6 +14,7 @@ typedef struct flow_run {
     wt_curve_set *kept[2];          /* curves of bulk and track, for the coverage */
     wt_rubber rubber;
     wt_surface surface;
+    wt_softness softness;
     wt_estimate modulus_ratio, thickness;
     double modulus_ratio_df;  /* 0 = its error is normal */
     double calibration_share; /* of its variance */

@@ -1,0 +1,329 @@
+/* Softening with strain in the jobs: the mean of strain sweeps, what is drawn, what the table
+ * softening says, and a case that asks for it. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cells.h"
+#include "sliding.h"
+
+#include "weartrack/flow.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define SWEEPS WT_SOURCE_DIR "/fixtures/formats/tidy/strain-sweeps.csv"
+enum { MOST = 64, N_SWEEPS = 3 };
+
+static wt_table *payne_sweep;
+static wt_formats *formats;
+
+static int make_sweeps(void **state)
+{
+    (void)state;
+    static const char *const file[] = {SWEEPS};
+    const wt_file_set set = {.patterns = file, .n_patterns = 1, .read = wt_read_defaults()};
+    wt_payne_job job = wt_payne_job_defaults();
+    wt_payne_tables tables = {0};
+    wt_job common = wt_job_defaults();
+    wt_error err = WT_ERROR_INIT;
+    if (wt_formats_new(NULL, &formats, NULL, &err) != WT_OK)
+        return -1;
+    common.formats = formats;
+    job.sets = &set;
+    job.n_sets = 1;
+    if (wt_payne_make(&job, &common, &tables, &err) != WT_OK)
+        print_error("%s\n", err.message);
+    payne_sweep = tables.payne_sweep;
+    tables.payne_sweep = NULL;
+    wt_payne_tables_clear(&tables);
+    return payne_sweep != NULL ? 0 : -1;
+}
+
+static int free_sweeps(void **state)
+{
+    (void)state;
+    wt_table_free(payne_sweep);
+    wt_formats_free(formats);
+    return 0;
+}
+
+/* ---- mean ------------------------------------------------------------------------------------ */
+
+/* Linear in the logarithm of the strain, of the i-th source of the table. */
+static double of_source(const char *source, const char *column, double strain)
+{
+    double x[2] = {(double)NAN, (double)NAN}, y[2] = {0, 0};
+    for (size_t row = 0; row < wt_table_n_rows(payne_sweep); row++) {
+        const double here = number_cell(payne_sweep, row, "strain");
+        if (strcmp(text_cell(payne_sweep, row, "source"), source) != 0)
+            continue;
+        if (here <= strain * (1 + 1e-12)) {
+            x[0] = here;
+            y[0] = number_cell(payne_sweep, row, column);
+        } else if (isnan(x[1])) {
+            x[1] = here;
+            y[1] = number_cell(payne_sweep, row, column);
+        }
+    }
+    if (isnan(x[1]))
+        return y[0];
+    return y[0] + (y[1] - y[0]) * log(strain / x[0]) / log(x[1] / x[0]);
+}
+
+/* Of three sweeps, beside their mean and what a fourth one would scatter. */
+static void test_mean(void **state)
+{
+    (void)state;
+    const char *sources[N_SWEEPS];
+    size_t n = 0;
+    for (size_t row = 0; row < wt_table_n_rows(payne_sweep); row++) {
+        const char *source = text_cell(payne_sweep, row, "source");
+        if (n == 0 || strcmp(sources[n - 1], source) != 0) {
+            assert_true(n < N_SWEEPS);
+            sources[n++] = source;
+        }
+    }
+    assert_int_equal(n, N_SWEEPS);
+    wt_softness s = {0};
+    assert_int_equal(wt_softness_from_table(payne_sweep, &s, NULL), WT_OK);
+    assert_int_equal(s.n_sweeps, N_SWEEPS);
+    assert_true(s.table.n > 8);
+    const struct {
+        const char *column;
+        const double *value, *error;
+    } both[] = {{"storage_ratio", s.table.storage, s.storage_error},
+                {"loss_ratio", s.table.loss, s.loss_error}};
+    for (size_t k = 0; k < s.table.n; k++)
+        for (size_t c = 0; c < 2; c++) {
+            double value[N_SWEEPS], mean = 0, squares = 0;
+            for (size_t i = 0; i < N_SWEEPS; i++) {
+                value[i] = of_source(sources[i], both[c].column, s.table.strain[k]);
+                mean += value[i] / N_SWEEPS;
+            }
+            for (size_t i = 0; i < N_SWEEPS; i++)
+                squares += (value[i] - mean) * (value[i] - mean);
+            assert_near(both[c].value[k], mean, 1e-12);
+            const double other = sqrt(squares / (N_SWEEPS - 1) * (1 + 1.0 / N_SWEEPS));
+            assert_true(fabs(both[c].error[k] - other) <= 1e-9 * other + 1e-12);
+        }
+    wt_softness_clear(&s);
+}
+
+/* ---- the jobs -------------------------------------------------------------------------------- */
+
+static double velocity[] = {1e-3, 0.1, 10};
+enum { N_VELOCITIES = 3 };
+
+static double strain[] = {1e-3, 1e-2, 5e-2}, storage[] = {1, 0.8, 0.5}, loss[] = {1, 0.95, 0.65},
+              storage_error[] = {0, 0.03, 0.06}, loss_error[] = {0, 0.02, 0.05};
+
+static wt_softness given(bool errors)
+{
+    wt_softness s = {.table = {.n = 3, .strain = strain, .storage = storage, .loss = loss}};
+    if (errors) {
+        s.storage_error = storage_error;
+        s.loss_error = loss_error;
+    }
+    return s;
+}
+
+/* Friction up to a wavenumber does not know what comes behind it: where the strain leaves the table
+ * the surface is cut off, and what is missing is the share from above. */
+static void test_shares(void **state)
+{
+    (void)state;
+    const wt_softness s = given(false);
+    wt_table *table = NULL, *cut = NULL;
+    sliding_set_up(velocity, N_VELOCITIES);
+    sliding.softness = &s;
+    sliding.strain_factor = 0.5;
+    assert_int_equal(wt_softening_make(&sliding, &work, &table, NULL), WT_OK);
+    assert_int_equal(wt_table_n_rows(table), N_VELOCITIES);
+    double low = surface.qr, high = surface.q1;
+    for (int i = 0; i < 200; i++) {
+        wt_surface shorter = surface;
+        wt_roughness *road = NULL;
+        shorter.q1 = sqrt(low * high);
+        assert_int_equal(wt_surface_roughness(&shorter, 1, &road, NULL), WT_OK);
+        *(sliding.strain_factor * wt_roughness_rms_slope(road) > strain[2] ? &high : &low) =
+            shorter.q1;
+        wt_roughness_free(road);
+    }
+    const double whole = surface.q1;
+    surface.q1 = high;
+    assert_int_equal(wt_softening_make(&sliding, &work, &cut, NULL), WT_OK);
+    surface.q1 = whole;
+    for (size_t i = 0; i < N_VELOCITIES; i++) {
+        const double all = number_cell(table, i, "hysteresis"),
+                     part = number_cell(cut, i, "hysteresis"),
+                     share = number_cell(table, i, "share_above");
+        assert_near(share, 1 - part / all, 1e-8);
+        assert_true(share > 0.01 && share < 0.9999);
+        assert_near(number_cell(cut, i, "share_above"), 0, 1e-8);
+        /* softer: more contact, and here more friction */
+        assert_true(number_cell(table, i, "area_ratio") >
+                    1.5 * number_cell(table, i, "area_ratio_without"));
+    }
+    wt_table_free(table);
+    wt_table_free(cut);
+}
+
+/* The table softening and the table friction say the same; without softening it is that of a call
+ * that never heard of it. */
+static void test_same(void **state)
+{
+    (void)state;
+    const wt_softness s = given(false);
+    wt_friction_tables with = {0}, without = {0};
+    wt_table *table = NULL;
+    sliding_set_up(velocity, N_VELOCITIES);
+    assert_int_equal(wt_friction_make(&sliding, NULL, &work, &without, NULL), WT_OK);
+    assert_int_equal(wt_softening_make(&sliding, &work, &table, NULL), WT_E_ARG);
+    sliding.softness = &s;
+    assert_int_equal(wt_friction_make(&sliding, NULL, &work, &with, NULL), WT_OK);
+    assert_int_equal(wt_softening_make(&sliding, &work, &table, NULL), WT_OK);
+    static const char *const columns[] = {"hysteresis", "area_ratio"}, *const others[] = {
+                                                                           "hysteresis_without",
+                                                                           "area_ratio_without"};
+    for (size_t i = 0; i < N_VELOCITIES; i++)
+        for (size_t c = 0; c < 2; c++) {
+            assert_near(number_cell(with.friction, i, columns[c]),
+                        number_cell(table, i, columns[c]), 1e-13);
+            assert_near(number_cell(without.friction, i, columns[c]),
+                        number_cell(table, i, others[c]), 1e-13);
+        }
+    wt_friction_tables_clear(&with);
+    wt_friction_tables_clear(&without);
+    wt_table_free(table);
+}
+
+/* f and g alone have an error: the scatter is that of friction with both moved by it, for a small
+ * one. */
+static void test_drawn(void **state)
+{
+    (void)state;
+    wt_softness s = given(true), moved[2] = {given(false), given(false)};
+    double other[2][3], change[2];
+    wt_friction_tables t = {0};
+    sliding_set_up(velocity, 1);
+    work.replicates = 2000;
+    for (size_t k = 0; k < 3; k++) {
+        storage_error[k] *= 0.1;
+        loss_error[k] *= 0.1;
+        other[0][k] = storage[k] + storage_error[k];
+        other[1][k] = loss[k] + loss_error[k];
+    }
+    moved[0].table.storage = other[0];
+    moved[1].table.loss = other[1];
+    sliding.softness = &s;
+    assert_int_equal(wt_friction_make(&sliding, NULL, &work, &t, NULL), WT_OK);
+    const double value = number_cell(t.friction, 0, "hysteresis"),
+                 error = number_cell(t.friction, 0, "hysteresis_standard_error");
+    const char *includes = NULL, *lacks = NULL;
+    includes = wt_table_key(t.friction, "standard_error_includes");
+    assert_non_null(includes);
+    assert_string_equal(includes, "softening with strain");
+    wt_friction_tables_clear(&t);
+    work.replicates = 0;
+    for (size_t i = 0; i < 2; i++) {
+        sliding.softness = &moved[i];
+        assert_int_equal(wt_friction_make(&sliding, NULL, &work, &t, NULL), WT_OK);
+        change[i] = number_cell(t.friction, 0, "hysteresis") - value;
+        lacks = wt_table_key(t.friction, "standard_error_lacks");
+        assert_non_null(lacks);
+        assert_non_null(strstr(lacks, "softening with strain"));
+        wt_friction_tables_clear(&t);
+    }
+    /* 2,000 draws: 1.6 % */
+    assert_near(error, hypot(change[0], change[1]), 0.07);
+    for (size_t k = 0; k < 3; k++) {
+        storage_error[k] *= 10;
+        loss_error[k] *= 10;
+    }
+}
+
+static void test_refused(void **state)
+{
+    (void)state;
+    static const struct {
+        double strain, f;
+    } bad[] = {{1e-4, 0.8}, {(double)NAN, 0.8}, {1e-2, 0}, {1e-2, (double)NAN}, {1e-2, 1e4}};
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        double x[] = {1e-3, bad[i].strain}, f[] = {1, bad[i].f}, g[] = {1, 1};
+        const wt_softening t = {.n = 2, .strain = x, .storage = f, .loss = g};
+        wt_error err = WT_ERROR_INIT;
+        assert_int_equal(wt_softening_check(&t, &err), WT_E_RANGE);
+        assert_string_equal(err.place, "point 2 of 2");
+    }
+}
+
+/* ---- cases ----------------------------------------------------------------------------------- */
+
+static wt_result *run(const char *softening, const char *files)
+{
+    char path[] = "/tmp/weartrack-softening-XXXXXX";
+    const int at = mkstemp(path);
+    assert_true(at >= 0);
+    FILE *out = fdopen(at, "w");
+    fprintf(out,
+            "<case version='1'><dma><files>%s/fixtures/case/dma.txt</files>%s</dma><roughness>"
+            "<self-affine><q0>2e3rad/m</q0><q1>2e6rad/m</q1><hurst>0.8</hurst><c0>2e-17m^4</c0>"
+            "</self-affine></roughness><sliding><pressure>0.4MPa</pressure>"
+            "<velocity>0.3m/s</velocity>%s</sliding></case>",
+            WT_SOURCE_DIR, files, softening);
+    fclose(out);
+    wt_case *c = NULL;
+    wt_result *result = NULL;
+    wt_error err = WT_ERROR_INIT;
+    wt_run_options options = wt_run_defaults();
+    size_t n_failed = 0;
+    options.replicates = 0;
+    if (wt_case_read(path, &c, &err) != WT_OK ||
+        wt_run(c, &options, NULL, &result, &n_failed, &err) != WT_OK)
+        print_error("%s: %s %s\n", err.place, err.message, err.found);
+    wt_case_free(c);
+    remove(path);
+    assert_non_null(result);
+    return result;
+}
+
+static double hysteresis(const wt_result *result)
+{
+    return number_cell(wt_result_find(result, "friction"), 0, "hysteresis");
+}
+
+/* The strain sweeps of the case, or the same from a file; without either there is no friction that
+ * looks as if there had been one. */
+static void test_cases(void **state)
+{
+    (void)state;
+    static const char sweeps[] = "<files>" SWEEPS "</files>";
+    char path[] = "/tmp/weartrack-softening-XXXXXX", text[256];
+    const int at = mkstemp(path);
+    assert_true(at >= 0);
+    FILE *out = fdopen(at, "w");
+    assert_int_equal(wt_stream_write(out, payne_sweep, NULL, NULL), WT_OK);
+    fclose(out);
+    snprintf(text, sizeof text, "<strain-softening><file>%s</file></strain-softening>", path);
+    wt_result *none = run("", sweeps),
+              *swept = run("<strain-softening><sweeps/></strain-softening>", sweeps),
+              *from_file = run(text, ""),
+              *without = run("<strain-softening><sweeps/></strain-softening>", "");
+    remove(path);
+    assert_near(hysteresis(swept), hysteresis(from_file), 1e-12);
+    assert_true(hysteresis(swept) > 1.2 * hysteresis(none));
+    assert_null(wt_result_find(none, "softening"));
+    assert_non_null(wt_result_find(swept, "softening"));
+    assert_null(wt_result_find(without, "friction"));
+    assert_true(wt_table_n_rows(wt_result_find(without, "failures")) > 0);
+    wt_result_free(none);
+    wt_result_free(swept);
+    wt_result_free(from_file);
+    wt_result_free(without);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_mean),  cmocka_unit_test(test_shares),  cmocka_unit_test(test_same),
+        cmocka_unit_test(test_drawn), cmocka_unit_test(test_refused), cmocka_unit_test(test_cases),
+    };
+    return cmocka_run_group_tests_name("softening", tests, make_sweeps, free_sweeps);
+}
