@@ -65,11 +65,29 @@ WT_API const char *wt_curve_verdict_text(wt_curve_verdict verdict); /* static */
 
 enum { WT_CURVE_WAVES = 6 };
 
+/* Estimators of the contact point, as other programs have them, for comparison. */
+typedef enum wt_contact_estimator {
+    WT_CONTACT_THRESHOLD, /* the force departs from the mean of the first tenth of the samples by
+                             twice what they do at most (nanite: deviation from baseline) */
+    WT_CONTACT_VARIANCES, /* largest ratio of the variances of a twentieth of the samples behind and
+                             before (Gavara, Sci. Rep. 6 (2016) 21267) */
+    WT_CONTACT_LINES,     /* a constant and a line that meet (nanite: fit constant line) */
+    WT_CONTACT_DIRECT_PATH,     /* farthest from the straight way between first sample and strongest
+                                   force (nanite: Frechet direct path) */
+    WT_CONTACT_GOODNESS_OF_FIT, /* least squares of force against indentation as measured, over
+                                   baseline and contact (AtomicJ: goodness of fit) */
+    WT_CONTACT_ESTIMATORS
+} wt_contact_estimator;
+WT_API const char *wt_contact_estimator_text(wt_contact_estimator estimator); /* static */
+
 typedef struct wt_indent_options {
-    double poisson_ratio;      /* default 0.5 */
+    double poisson_ratio; /* default 0.5 */
+    /* The range of the fit: all limits that are set hold, forces are above the baseline, and the
+     * baseline before contact is always in the fit. */
     double fit_depth;          /* only indentations up to this [m]; 0 = all (default) */
     double fit_force_fraction; /* only forces up to this share of the largest; default 1 */
     bool fit_tilt;             /* baseline tilt is fitted, else offset only; default true */
+    bool contact_estimators;   /* also contact points by other estimators, for comparison */
     double least_chance;  /* that noise like that of the baseline leaves a larger residual; below it
                              POOR_FIT; default 0.01 */
     double largest_error; /* standard error over modulus, above it IMPRECISE; default 0.5 */
@@ -83,7 +101,12 @@ typedef struct wt_indent_options {
      * borrowed; NULL (default): not known. With it a factor on it is fitted by the hereditary
      * integral, and the modulus is that factor times |E*| at 1/load_time. */
     const wt_prony *spectrum;
-    uint64_t reserved[6];
+    double fit_radii;               /* only indentations up to so many radii of the tip; 0 = all */
+    double fit_force;               /* only forces up to this [N]; 0 = all */
+    double fit_depth_from;          /* of the contact only indentations from this on [m] */
+    double fit_force_from;          /* and forces from this on [N] */
+    double fit_force_fraction_from; /* and from this share of the largest on */
+    uint64_t reserved[1];
 } wt_indent_options;
 WT_API wt_indent_options wt_indent_defaults(void);
 WT_API const wt_params *wt_indent_params(void);
@@ -118,15 +141,16 @@ typedef struct wt_indent_fit {
     double adhesion_force; /* pull of the snap-on [N], 0 if none stands out of the baseline */
     wt_estimate work_of_adhesion; /* of the approach [J/m^2]; NaN: fitted without adhesion */
     double pull_off_force;        /* of the retract [N], 0 if none stands out; NaN: no retract */
-    double pull_off_work;         /* the work of adhesion that it takes [J/m^2], an upper bound */
-    double tabor_number;          /* of the larger work */
+    double pull_off_work; /* the work of adhesion that it takes [J/m^2], an upper bound; NaN on
+                      a thin sample and where none from 1e-9 to 1e3 makes it */
+    double tabor_number;  /* of the larger work */
     double loss; /* work not given back by the retract, of that of the approach; NaN: no retract */
     double loss_bias;  /* what a fit without memory has more, of the modulus, which then is |E*| at
                           1/loading time; 0: the way in shows no memory; NaN: no loss, no power that
                           is known, a fit with a spectrum or adhesion */
     double piezo_rate; /* [m/s], NaN if no time */
     double indentation_rate;     /* mean of the contact part [m/s], NaN if no time */
-    double load_time;            /* contact to end of approach [s], NaN if no time */
+    double load_time;            /* contact to end of what is fitted [s], NaN if no time */
     double second_minimum_ratio; /* cost of the second best contact point / best; NaN if none */
     double second_contact_point; /* [m], NaN if none */
     double sensitivity_gain; /* d ln E / d ln sensitivity of this fit, contact point and baseline
@@ -144,7 +168,10 @@ typedef struct wt_indent_fit {
     /* of the modulus: what is added to that of the power, and the error of it, which all curves of
      * one rubber share */
     double loss_shift, loss_error;
-    double baseline_curvature; /* the square of the position in it [N/m^2] */
+    double baseline_curvature;                /* the square of the position in it [N/m^2] */
+    double contact_by[WT_CONTACT_ESTIMATORS]; /* less contact_point [m]; NaN: not asked for, or
+                                                 none found */
+    double fitted_from; /* indentation at which the range of the fit begins [m]; 0: contact */
 } wt_indent_fit;
 
 /* Scratch for curves of any length; one per thread. */

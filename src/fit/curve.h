@@ -35,7 +35,12 @@ typedef struct curve_samples {
     size_t n;
     double *position, *force;
     double spring_constant;
+    size_t gap_from, gap_to; /* shallower than the range of the fit: modelled but not compared */
 } curve_samples;
+static inline bool curve_in_gap(const curve_samples *s, size_t i)
+{
+    return i >= s->gap_from && i < s->gap_to;
+}
 
 /* Spectra that noise may have, in bands of the frequency: curve_noise.c. */
 enum { NOISE_BANDS = 52, NOISE_SHAPES = 82 };
@@ -88,6 +93,9 @@ wt_status curve_fit_branches(const wt_contact_table *table, const wt_indent_opti
 /* A fit without numbers. */
 void curve_fit_empty(wt_indent_fit *fit);
 
+/* Are the limits of the range in order, and has the tip a radius where one is asked for? */
+wt_status curve_range_check(const wt_indent_options *options, const wt_tip *tip, wt_error *err);
+
 /* WT_E_MEMORY when n samples find no room. */
 wt_status curve_reserve(wt_indent_workspace *workspace, size_t n, wt_error *err);
 
@@ -121,11 +129,12 @@ typedef struct curve_input {
     double direction; /* +1 or -1: position = direction * height */
     size_t n_missing, n_repeated, n_spikes;
     double step_noise; /* noise from successive differences [N] */
+    bool saturated;    /* above the limit of the force */
 } curve_input;
 
 /* Cleans, turns and centres; finds what no fit can mend. A verdict other than accepted ends it. */
 wt_curve_verdict curve_prepare(const double *height, const double *force, size_t n,
-                               double spring_constant, double force_fraction,
+                               double spring_constant, const wt_indent_options *options,
                                wt_indent_workspace *workspace, curve_input *input,
                                char reason[160]);
 /* Turns the samples into those of the motion in reverse: a retract becomes an approach. */

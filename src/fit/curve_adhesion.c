@@ -21,7 +21,7 @@ static const double better_chi2 = 9.0;   /* 2 ln(likelihood ratio) against no ad
 static const double least_tabor = 1.0;   /* far below 5 the law is another */
 static const double let_go = 0.02;       /* of the retract: in it half of a pull-off is over */
 static const double most_loss = 2.0;     /* rubber loses of what the lever gives back, too */
-enum { MAX_ROUNDS = 3 };
+enum { MAX_ROUNDS = 3, LEVER_ROUNDS = 50 };
 
 /* ---- snap-on --------------------------------------------------------------------------------- */
 
@@ -131,17 +131,20 @@ static double work_along(const double *position, const double *force, size_t n, 
     return fabs(sum);
 }
 
-/* What the lever holds of it at a position near the top, by the fit: of a soft one it is nearly
- * all, and noise of one force would make loss. */
+/* What the lever holds of it at a position, by the fit: of a soft one it is nearly all, and noise
+ * of one force would make loss. */
 static double lever_work(const curve_fitting *f, double top)
 {
-    const curve_samples *s = &f->input.samples;
-    const double *p = f->solution.p, k = s->spring_constant, depth = f->solution.max_indentation;
-    double g, slope;
-    wt_contact_table_eval(f->table, &depth, 1, &g, &slope);
-    const double stiffness = p[CURVE_E] * slope,
-                 above = depth + p[CURVE_E] * g / k - (top - p[CURVE_C]);
-    const double force = p[CURVE_E] * g - above * k * stiffness / (k + stiffness);
+    const double *p = f->solution.p, k = f->input.samples.spring_constant,
+                 z = fmax(top - p[CURVE_C], 0.0);
+    double depth = z, step = z;
+    for (int i = 0; i < LEVER_ROUNDS && fabs(step) > 1e-9 * z; i++) {
+        double g, slope;
+        wt_contact_table_eval(f->table, &depth, 1, &g, &slope);
+        step = (k * (z - depth) - p[CURVE_E] * g) / (k + p[CURVE_E] * slope);
+        depth = fmax(depth + step, 0.0);
+    }
+    const double force = k * (z - depth);
     return 0.5 * force * force / k;
 }
 
@@ -247,6 +250,8 @@ static bool try_adhesive(curve_fitting *f, double pull, size_t jump)
     curve_solution start = f->solution;
     const wt_tip *tip = contact_table_tip(f->table);
     const adhesion law = {tip, start.p[CURVE_E], adhesion_work(tip, start.p[CURVE_E], k, pull)};
+    if (isnan(law.work))
+        return false;
     const double release = adhesion_release(&law, k);
     const double depth = adhesion_at(&law, adhesion_radius(&law, k, 0.0, release, 0.0)).depth;
     const bool follows = jump == 0;

@@ -13,8 +13,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_DEPTH_ROUNDS = 8 };
-
 wt_indent_options wt_indent_defaults(void)
 {
     return (wt_indent_options){.poisson_ratio = 0.5,
@@ -33,6 +31,18 @@ static const wt_param rows[] = {
      .help = "fit indentations up to this depth, such as 50nm; 0 is all"},
     {PARAM("fit-force-fraction", wt_indent_options, fit_force_fraction, WT_Q_NONE, ABOVE_TO(0, 1)),
      .value = "X", .help = "fit forces up to this share of the largest"},
+    {PARAM("fit-radii", wt_indent_options, fit_radii, WT_Q_NONE, AT_LEAST(0)), .value = "X",
+     .help = "fit indentations up to so many radii of the tip; 0 is all"},
+    {PARAM("fit-force", wt_indent_options, fit_force, WT_Q_FORCE, AT_LEAST(0)), .value = "F",
+     .help = "fit forces up to this above the baseline, such as 10nN; 0 is all"},
+    {PARAM("fit-depth-from", wt_indent_options, fit_depth_from, WT_Q_LENGTH, AT_LEAST(0)),
+     .value = "D", .help = "of the contact fit indentations from this on; the baseline stays"},
+    {PARAM("fit-force-from", wt_indent_options, fit_force_from, WT_Q_FORCE, AT_LEAST(0)),
+     .value = "F", .help = "of the contact fit forces from this on; the baseline stays"},
+    {PARAM("fit-force-fraction-from", wt_indent_options, fit_force_fraction_from, WT_Q_NONE,
+           FROM_BELOW(0, 1)),
+     .value = "X",
+     .help = "of the contact fit forces from this share of the largest on; the baseline stays"},
     {PARAM("least-chance", wt_indent_options, least_chance, WT_Q_NONE, FROM_BELOW(0, 1)),
      .value = "P",
      .help =
@@ -42,6 +52,8 @@ static const wt_param rows[] = {
     {PARAM("fixed-contact-point", wt_indent_options, fixed_contact_point, WT_Q_LENGTH, ANY_NUMBER),
      .value = "Z", .unset = "", .flags = PARAM_NO_CASE,
      .help = "do not fit the contact point: take this tip position"},
+    {PARAM_FLAG_OF("contact-estimators", wt_indent_options, contact_estimators),
+     .help = "also how far contact points by other estimators lie from those fitted"},
     {PARAM_FLAG_OF("fit-tilt", wt_indent_options, fit_tilt),
      .help = "tilt of the baseline, which without it has an offset only"},
 };
@@ -72,60 +84,25 @@ void wt_indent_workspace_free(wt_indent_workspace *workspace)
     free(workspace);
 }
 
-/* ---- parts of the fit ------------------------------------------------------------------------ */
-
-/* Samples up to the first that is deeper than the limit. */
-static size_t count_to_depth(const curve_fitting *f)
-{
-    const curve_samples *s = &f->input.samples;
-    const double *p = f->solution.p;
-    double k = s->spring_constant;
-    for (size_t i = 0; i < f->input.n_all - f->n_snap; i++) {
-        double delta = (s->position[i] - p[CURVE_C]) * (1.0 + p[CURVE_T] / k) -
-                       (s->force[i] - p[CURVE_F0]) / k;
-        if (delta > f->options->fit_depth)
-            return i;
-    }
-    return f->input.n_all - f->n_snap;
-}
-
-/* What is fitted depends on the contact point and the contact point on what is fitted. */
-static bool fit_to_depth(curve_fitting *f)
-{
-    size_t limit = f->input.samples.n;
-    for (int round = 0; round < MAX_DEPTH_ROUNDS; round++) {
-        size_t n = count_to_depth(f);
-        n = n < limit ? n : limit;
-        if (n == f->input.samples.n)
-            return true;
-        if (n < CURVE_MIN_SAMPLES)
-            return true; /* the verdict on the samples in contact follows */
-        f->input.samples.n = n;
-        if (f->kind.adhesive)
-            curve_refine(f->table, &f->input.samples, f->kind, f->solution.p, f->workspace,
-                         &f->solution);
-        else if (!curve_scan_and_refine(f))
-            return false;
-    }
-    f->depth_settled = false;
-    return true;
-}
-
 /* ---- rates ----------------------------------------------------------------------------------- */
 
 static void find_rates(const curve_fitting *f, const curve_branch *approach, wt_indent_fit *fit)
 {
     const double *height = approach->height, *force = approach->force, *time = approach->time;
     const size_t n = approach->n;
-    const double c = fit->contact_point.value;
+    const curve_samples *fitted = &f->input.samples;
+    const double c = fit->contact_point.value,
+                 end = fitted->position[fitted->n - 1] + f->input.position_origin;
     fit->contact_index = n;
-    size_t first = n, last = n;
+    size_t first = n, last = n, last_fitted = n;
     for (size_t i = 0; i < n; i++) {
         if (!isfinite(height[i]) || !isfinite(force[i]))
             continue;
         if (first == n)
             first = i;
         last = i;
+        if (f->input.direction * height[i] <= end)
+            last_fitted = i;
         if (fit->contact_index == n && f->input.direction * height[i] >= c)
             fit->contact_index = i;
     }
@@ -141,6 +118,8 @@ static void find_rates(const curve_fitting *f, const curve_branch *approach, wt_
         if (at > before && c > before)
             start -= (at - c) / (at - before) * (time[i] - time[i - 1]);
     }
+    if (fitted->n < f->input.n_all - f->n_snap && last_fitted < n)
+        last = last_fitted;
     if (time[last] > start) {
         fit->load_time = time[last] - start;
         fit->indentation_rate = fit->max_indentation / fit->load_time;
@@ -183,9 +162,12 @@ void curve_fit_empty(wt_indent_fit *fit)
                            .baseline_length = nan_,
                            .misfit_length = nan_,
                            .spectrum_factor = {nan_, nan_, 0.0, "1"},
+                           .fitted_from = nan_,
                            .direction = nan_};
     for (int j = 0; j < CURVE_WAVES; j++)
         fit->misfit[j] = nan_;
+    for (int j = 0; j < WT_CONTACT_ESTIMATORS; j++)
+        fit->contact_by[j] = nan_;
 }
 
 static void report_adhesion(const curve_fitting *f, wt_indent_fit *fit)
@@ -254,7 +236,10 @@ static void report(curve_fitting *f, wt_indent_fit *fit)
     fit->bend_shift = reduced * s->bend_shift;
     fit->max_indentation = s->max_indentation;
     fit->sensitivity_gain = s->sensitivity_gain;
-    fit->n_fitted = samples->n;
+    fit->n_fitted = samples->n - (samples->gap_to - samples->gap_from);
+    fit->fitted_from = samples->gap_to > samples->gap_from && samples->gap_to < samples->n
+                           ? fmax(0.0, f->workspace->delta[samples->gap_to])
+                           : 0.0;
     fit->max_force = 0.0;
     for (size_t i = 0; i < f->input.n_all - f->n_snap; i++) {
         const double above = samples->force[i] - curve_baseline(s, samples->position[i]);
@@ -269,8 +254,8 @@ static void report(curve_fitting *f, wt_indent_fit *fit)
     }
 }
 
-static wt_status check_arguments(const wt_indent_options *options, size_t n, double spring_constant,
-                                 wt_error *err)
+static wt_status check_arguments(const wt_indent_options *options, const wt_tip *tip, size_t n,
+                                 double spring_constant, wt_error *err)
 {
     if (n == 0)
         return wt_fail(err, WT_E_ARG, "a force curve without samples");
@@ -280,7 +265,8 @@ static wt_status check_arguments(const wt_indent_options *options, size_t n, dou
         wt_error_found(err, "%g N/m", spring_constant);
         return status;
     }
-    return param_check(wt_indent_params(), options, err);
+    const wt_status status = param_check(wt_indent_params(), options, err);
+    return status == WT_OK ? curve_range_check(options, tip, err) : status;
 }
 
 wt_status curve_fit_branches(const wt_contact_table *table, const wt_indent_options *options,
@@ -292,7 +278,7 @@ wt_status curve_fit_branches(const wt_contact_table *table, const wt_indent_opti
     const size_t n = approach->n;
     if (options == NULL)
         options = &defaults;
-    wt_status status = check_arguments(options, n, spring_constant, err);
+    wt_status status = check_arguments(options, contact_table_tip(table), n, spring_constant, err);
     if (status == WT_OK)
         status = curve_reserve(workspace, retract->n > n ? retract->n : n, err);
     const size_t terms = options->spectrum != NULL ? options->spectrum->n : 0;
@@ -310,10 +296,10 @@ wt_status curve_fit_branches(const wt_contact_table *table, const wt_indent_opti
                        .loss = (double)NAN,
                        .loss_bias = (double)NAN,
                        .loss_power = (double)NAN,
-                       .depth_settled = true};
+                       .range_settled = true};
     curve_fit_empty(fit);
-    fit->verdict = curve_prepare(approach->height, approach->force, n, spring_constant,
-                                 options->fit_force_fraction, workspace, &f.input, fit->reason);
+    fit->verdict = curve_prepare(approach->height, approach->force, n, spring_constant, options,
+                                 workspace, &f.input, fit->reason);
     if (fit->verdict != WT_CURVE_ACCEPTED)
         return WT_OK;
     fit->direction = f.input.direction;
@@ -326,8 +312,8 @@ wt_status curve_fit_branches(const wt_contact_table *table, const wt_indent_opti
         curve_read_retract(&f, retract->height, retract->force, retract->n);
     if (found)
         found = curve_fit_adhesion(&f);
-    if (found && options->fit_depth > 0.0)
-        found = fit_to_depth(&f);
+    if (found)
+        found = curve_fit_range(&f);
     if (!found) {
         fit->verdict = curve_no_contact(&f, fit->reason);
         return WT_OK;
@@ -338,6 +324,8 @@ wt_status curve_fit_branches(const wt_contact_table *table, const wt_indent_opti
     report_spectrum(&f, fit);
     fit->fitted_modulus = fit->modulus.value;
     fit->verdict = curve_judge(&f, fit);
+    if (options->contact_estimators)
+        curve_estimate_contact(&f, fit->contact_by);
     if (fit->verdict == WT_CURVE_ACCEPTED) {
         workspace->step_allowed = fmax(workspace->step_allowed, f.solution.step_allowed);
         workspace->step_left = fmax(workspace->step_left, f.solution.step_left);

@@ -7,7 +7,7 @@
 
 #include "fit/curve.h"
 
-enum { CURVE_BASELINE_SAMPLES = 10 }; /* least */
+enum { CURVE_BASELINE_SAMPLES = 10, CURVE_CONTACT_SAMPLES = 8 }; /* least */
 
 typedef struct curve_fitting {
     const wt_contact_table *table;
@@ -26,7 +26,8 @@ typedef struct curve_fitting {
     double loss_bias;  /* what a fit without it has more, of the modulus */
     double loss_shift, loss_error; /* of the modulus: what other spectra have more, and its error */
     size_t n_snap;                 /* samples left out because of a snap-on */
-    bool depth_settled;
+    bool range_settled;
+    bool range_empty;    /* too few samples in it: the fit is that of all */
     bool another_rubber; /* than that of the spectrum */
     double unit; /* with memory: |E*| of the spectrum that a modulus of the solution is in */
 } curve_fitting;
@@ -45,6 +46,18 @@ bool curve_scan_and_refine(curve_fitting *f);
 bool curve_remember(curve_fitting *f, const wt_prony *series, bool in_loading_times);
 /* Does noise alone explain the residual? True where there is too little baseline to say. */
 bool curve_fits(const curve_fitting *f);
+
+/* ---- range of the fit: curve_range.c -----------------------------------------------------------
+ */
+
+/* Fits the range of the options, from a fit of all samples. False if nothing but a baseline is
+ * found then. */
+bool curve_fit_range(curve_fitting *f);
+/* Samples in contact that are compared. */
+size_t curve_in_range(const curve_fitting *f);
+
+/* Contact points by other estimators less that of the fit, of all samples: curve_estimators.c. */
+void curve_estimate_contact(curve_fitting *f, double contact[WT_CONTACT_ESTIMATORS]);
 
 /* ---- adhesion: curve_adhesion.c -------------------------------------------------------------- */
 

@@ -13,7 +13,6 @@
 /* Limits of plausibility; every verdict names the number and the limit. */
 static const double contact_noise = 5.0;   /* force in contact, in noise of the baseline */
 static const double baseline_length = 0.1; /* of the largest indentation */
-static const size_t contact_samples = 8;
 static const double baseline_bend = 0.1;   /* departure from a line, of the largest force */
 static const double rigid_gain = 50.0;     /* % of modulus per % of sensitivity */
 static const double told_gain = 1000.0;    /* of it, in words */
@@ -146,9 +145,13 @@ static wt_curve_verdict judge_contact(const curve_fitting *f, const wt_indent_fi
                   curve_si(baseline_length * s->max_indentation, "m").words);
         return WT_CURVE_NO_BASELINE;
     }
-    if (samples->n - s->first_contact < contact_samples) {
-        curve_say(reason, "%zu samples in contact, %zu needed", samples->n - s->first_contact,
-                  contact_samples);
+    if (f->range_empty || curve_in_range(f) < CURVE_CONTACT_SAMPLES) {
+        curve_say(reason, "%zu samples in contact%s, %d needed", curve_in_range(f),
+                  f->range_empty || samples->gap_to > samples->gap_from ||
+                          samples->n < f->input.n_all - f->n_snap
+                      ? " in the range of the fit"
+                      : "",
+                  CURVE_CONTACT_SAMPLES);
         return WT_CURVE_TOO_SHORT;
     }
     if (s->sensitivity_gain > rigid_gain) {
@@ -279,6 +282,12 @@ static void add_notes(const curve_fitting *f, const wt_indent_fit *fit, char rea
                   f->n_snap);
         append(reason, text);
     }
+    if (f->pull_off > 0.0 && isnan(fit->pull_off_work) &&
+        !(contact_table_tip(f->table)->sample_thickness > 0.0)) {
+        curve_say(text, "; a pull-off of %s needs no work of adhesion from 1 nJ/m^2 to 1 kJ/m^2",
+                  curve_si(f->pull_off, "N").words);
+        append(reason, text);
+    }
     if (f->another_rubber && !f->kind.adhesive)
         append(reason, "; not of the spectrum of the DMA");
     if (f->kind.lossy && f->kind.memory) {
@@ -314,8 +323,8 @@ static void add_notes(const curve_fitting *f, const wt_indent_fit *fit, char rea
             curve_say(text, "; %zu %s", left_out[i].n, left_out[i].what);
             append(reason, text);
         }
-    if (!f->depth_settled)
-        append(reason, "; the limit of depth did not settle");
+    if (!f->range_settled)
+        append(reason, "; the range of the fit did not settle");
 }
 
 wt_curve_verdict curve_judge(curve_fitting *f, wt_indent_fit *fit)

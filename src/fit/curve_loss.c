@@ -46,13 +46,13 @@ void curve_power_make(curve_power *to, double power, double load_time)
  * curve_read_retract counts it. NaN if there is no memory. */
 static double loss_of(const curve_fitting *f, double power)
 {
-    const double k = f->input.samples.spring_constant, modulus = f->solution.p[CURVE_E];
-    double time[2 * STEPS + 1], base[2 * STEPS + 1], force[2 * STEPS + 1], g, slope;
+    const curve_samples *s = &f->input.samples;
+    const double k = s->spring_constant, modulus = f->solution.p[CURVE_E];
+    double time[2 * STEPS + 1], base[2 * STEPS + 1], force[2 * STEPS + 1];
     const wt_tip *tip = contact_table_tip(f->table);
     hereditary *law = &f->workspace->memory;
     curve_power rubber;
-    wt_contact_function(tip, f->solution.max_indentation, &g, &slope);
-    const double top = f->solution.max_indentation + modulus * g / k;
+    const double top = s->position[f->input.n_all - f->n_snap - 1] - f->solution.p[CURVE_C];
     for (int i = 0; i <= 2 * STEPS; i++) {
         time[i] = (double)i / STEPS;
         base[i] = top * (i <= STEPS ? time[i] : 2.0 - time[i]);
@@ -128,8 +128,7 @@ void curve_allow_loss(curve_fitting *f)
     const bool pull = f->snap_on > 0.0 || f->pull_off > 0.0 || f->kind.adhesive;
     if (!(f->loss > least_loss) || (pull && f->loss > most_loss) || curve_unknown_loss(f))
         return;
-    const bool whole = f->input.samples.n == f->input.n_all; /* up to where it turns */
-    if (!pull && whole && !f->kind.memory && !f->kind.plain && remember_power(f))
+    if (!pull && !f->input.saturated && !f->kind.memory && !f->kind.plain && remember_power(f))
         return;
     if (!curve_fits(f)) {
         const curve_solution elastic = f->solution;

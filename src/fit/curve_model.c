@@ -56,8 +56,9 @@ static size_t count_baseline(const curve_law *m, double c)
     if (m->jump > 0)
         return m->jump;
     const double limit = c - margin * fabs(s->position[s->n - 1] - c);
+    const size_t most = s->gap_to > s->gap_from ? s->gap_from : s->n;
     size_t n = 0;
-    while (!m->plain && n < s->n && s->position[n] < limit)
+    while (!m->plain && n < most && s->position[n] < limit)
         n++;
     return n;
 }
@@ -158,8 +159,8 @@ static double evaluate(curve_law *m, const double p[N], size_t first)
     for (size_t i = first; i < s->n; i++) {
         double r = s->force[i] - p[CURVE_F0] - p[CURVE_T] * (s->position[i] - p[CURVE_C]) -
                    p[CURVE_E] * w->g[i];
-        w->residual[i] = r;
-        cost += r * r;
+        w->residual[i] = curve_in_gap(s, i) ? 0.0 : r;
+        cost += w->residual[i] * w->residual[i];
     }
     return cost;
 }

@@ -57,7 +57,8 @@ static inline double curve_model_factor(const curve_law *m, const double p[CURVE
     return 1.0 + p[CURVE_E] * m->workspace->slope[i] / m->samples->spring_constant;
 }
 
-/* Derivatives of the modelled force of sample i; 0 where a parameter is not free. Returns what the
+/* Derivatives of the modelled force of sample i; 0 where a parameter is not free, or it is not
+ * compared. Returns what the
  * residual makes of a noise of 1. */
 static inline double curve_model_row(const curve_law *m, const double p[CURVE_N_PARAMETERS],
                                      size_t i, double row[CURVE_N_PARAMETERS])
@@ -71,6 +72,8 @@ static inline double curve_model_row(const curve_law *m, const double p[CURVE_N_
     row[CURVE_F0] = plain;
     row[CURVE_T] = m->free[CURVE_T] ? (m->samples->position[i] - p[CURVE_C]) * plain : 0.0;
     row[CURVE_W] = m->adhesive ? w->by_work[i] * balanced : 0.0;
+    for (size_t a = 0; a < CURVE_N_PARAMETERS && curve_in_gap(m->samples, i); a++)
+        row[a] = 0.0;
     return plain;
 }
 

@@ -231,12 +231,14 @@ static size_t leave_out_spikes(curve_samples *s, double far)
     return spikes;
 }
 
-/* Samples up to where the force passes a share of its largest value: halfway between the first
+/* Samples up to where the force passes the limit above its start: halfway between the first
  * above and the last below. */
-static size_t limit_force(const curve_samples *s, double fraction)
+static size_t limit_force(const curve_samples *s, const wt_indent_options *o)
 {
     double start = mean(s->force, s->n / 10), max = gsl_stats_max(s->force, 1, s->n);
-    double limit = start + fraction * (max - start);
+    double limit = start + o->fit_force_fraction * (max - start);
+    if (o->fit_force > 0.0)
+        limit = fmin(limit, start + o->fit_force);
     size_t first_above = s->n, last_below = 0;
     for (size_t i = 0; i < s->n; i++) {
         if (s->force[i] > limit && i < first_above)
@@ -309,10 +311,12 @@ static wt_curve_verdict judge_advance(const curve_input *input, char reason[160]
 }
 
 wt_curve_verdict curve_prepare(const double *height, const double *force, size_t n,
-                               double spring_constant, double force_fraction,
+                               double spring_constant, const wt_indent_options *options,
                                wt_indent_workspace *w, curve_input *input, char reason[160])
 {
-    *input = (curve_input){.samples = {0, w->position, w->force, spring_constant}};
+    *input = (curve_input){.samples = {.position = w->position,
+                                       .force = w->force,
+                                       .spring_constant = spring_constant}};
     curve_samples *s = &input->samples;
     s->n = clean(height, force, n, input);
     if ((double)input->n_missing > missing_share * (double)n) {
@@ -341,15 +345,17 @@ wt_curve_verdict curve_prepare(const double *height, const double *force, size_t
         return verdict;
 
     input->n_all = s->n;
-    if (force_fraction < 1.0)
-        s->n = limit_force(s, force_fraction);
+    size_t top = 0;
+    if (options->fit_force_fraction < 1.0 || options->fit_force > 0.0) {
+        input->saturated = flat_top(s, input->step_noise, resolution, &top);
+        s->n = limit_force(s, options);
+    }
     if (s->n < CURVE_MIN_SAMPLES) {
-        curve_say(reason, "%zu samples below %g of the largest force, %d needed", s->n,
-                  force_fraction, CURVE_MIN_SAMPLES);
+        curve_say(reason, "%zu samples below the limit of the force, %d needed", s->n,
+                  CURVE_MIN_SAMPLES);
         return WT_CURVE_TOO_SHORT;
     }
 
-    size_t top = 0;
     if (flat_top(s, input->step_noise, resolution, &top)) {
         const double level = s->force[top] - mean(s->force, s->n / 10);
         const double travelled = s->position[s->n - 1] - s->position[top];

@@ -146,7 +146,7 @@ static void statistics(const curve_law *m, curve_solution *s)
         curve_noise_of(m, p, w->scratch, first, s->lack.baseline_chance < perhaps_bent);
     s->noise = sqrt(noise.variance);
     s->correlation_length = noise.correlation_length;
-    s->effective_n = (double)n / noise.correlation_length;
+    s->effective_n = (double)(n - (samples->gap_to - samples->gap_from)) / noise.correlation_length;
 
     double inverse[N + 2][N] = {{0.0}};
     for (size_t a = 0; a < N; a++)

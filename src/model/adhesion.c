@@ -18,6 +18,8 @@
 /* Range of atomic forces, and the steps in which the end of the branch is looked for. */
 static const double force_range = 0.3e-9;
 static const double radius_step = 0.97;
+/* Between them a work of adhesion is looked for [J/m^2]. */
+static const double least_work = 1e-9, most_work = 1e3;
 enum { MAX_STEPS = 3000, MAX_ROUNDS = 200 };
 
 bool adhesion_applies(const wt_tip *tip)
@@ -124,11 +126,11 @@ double adhesion_work(const wt_tip *tip, double reduced, double k, double pull_of
     if (tip->shape == WT_TIP_PUNCH)
         return pull_off * pull_off / (8.0 * M_PI * reduced * pow(tip->radius, 3));
     const double wanted = log(pull_off), close = 1e-12;
-    double low = log(1e-9), high = log(1e3);
+    double low = log(least_work), high = log(most_work);
     double below = log_pull_off(tip, reduced, k, low) - wanted;
     double above = log_pull_off(tip, reduced, k, high) - wanted;
     if (!(below < 0.0) || !(above > 0.0))
-        return exp(below < 0.0 ? high : low);
+        return (double)NAN;
     for (int i = 0, side = 0; i < MAX_ROUNDS && high - low > close; i++) {
         const double middle = high - above * (high - low) / (above - below);
         const double off = log_pull_off(tip, reduced, k, middle) - wanted;

@@ -33,7 +33,7 @@ double adhesion_release(const adhesion *law, double k);
 double adhesion_radius(const adhesion *law, double k, double position, double release,
                        double start);
 /* The work of adhesion of a pull-off force [N] > 0; of a punch, whose edge lets go, by Kendall;
- * NaN on a thin sample. */
+ * NaN on a thin sample, and outside of a nanojoule to a kilojoule per square metre. */
 double adhesion_work(const wt_tip *tip, double reduced, double k, double pull_off);
 /* Of Tabor: above 5 the law is that of Johnson, Kendall and Roberts, below 0.1 that of Derjaguin,
  * Muller and Toporov. NaN for a tip without a curvature. */

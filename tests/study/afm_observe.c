@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { CURVES = 30, MOST_SPOTS = 6 };
+enum { CURVES = 30, MOST_SPOTS = 6, FURTHER = 3 };
 static const double level = 0.01, share_needed = 0.9;
 
 /* The curves of one draw: a sample and a file for each spot. */
@@ -129,7 +129,8 @@ static void observe(int scene, const void *prepared, random_source *random, tria
     const afm_sample *sample = prepared;
     const char *made = trial_file(t, "indentation.tsv");
     const char *spectrum = s->dma > 0 ? trial_file(t, "spectrum.tsv") : NULL;
-    const char *arguments[MOST_SPOTS + 12] = {"indent"};
+    const char *arguments[MOST_SPOTS + 20] = {"indent"};
+    char values[FURTHER][32];
     spots from;
     int n = 1;
     if (make_spots(&from, sample, s, random, t) != 0 ||
@@ -144,6 +145,20 @@ static void observe(int scene, const void *prepared, random_source *random, tria
             arguments[n++] = from.path[i];
         for (size_t i = 0; i < sizeof options / sizeof options[0] && options[i] != NULL; i++)
             arguments[n++] = options[i];
+        const struct {
+            const char *name, *unit;
+            double value;
+        } further[FURTHER] = {{"--sample-thickness", "m", s->thickness},
+                              {"--fit-depth-from", "m", s->depth_from},
+                              {"--fit-force-fraction", "", s->force_to}};
+        for (size_t i = 0; i < FURTHER; i++)
+            if (further[i].value > 0) {
+                snprintf(values[i], sizeof values[i], "%.9g%s", further[i].value, further[i].unit);
+                arguments[n++] = further[i].name;
+                arguments[n++] = values[i];
+            }
+        if (s->unbonded)
+            arguments[n++] = "--unbonded";
         if (trial_run(t, arguments))
             read_curves(made, s, sample, &from, t);
     }

@@ -14,10 +14,14 @@ static double facets(const afm_tip *t)
 afm_tip afm_pyramid(double radius, double angle_degrees, unsigned sides)
 {
     const double angle = angle_degrees * M_PI / 180;
-    return (afm_tip){radius, angle, radius * cos(angle), sides, END_FACES};
+    return (afm_tip){.radius = radius,
+                     .angle = angle,
+                     .b = radius * cos(angle),
+                     .sides = sides,
+                     .end = END_FACES};
 }
 
-double tip_depth(const afm_tip *t, double a)
+static double thick_depth(const afm_tip *t, double a)
 {
     if (t->end == END_FLAT)
         return a;
@@ -30,7 +34,7 @@ double tip_depth(const afm_tip *t, double a)
     return cap + facets(t) * a * acos(t->b / a);
 }
 
-double tip_force(const afm_tip *t, double a)
+static double thick_force(const afm_tip *t, double a)
 {
     const double r = t->radius;
     if (t->end == END_FLAT)
@@ -45,6 +49,16 @@ double tip_force(const afm_tip *t, double a)
                                         (a * a - (a * a + a * edge + edge * edge) / 3)
                                   : 0;
     return 2 * (round + c * a * a * acos(t->b / a) + c * edge * t->b);
+}
+
+double tip_depth(const afm_tip *t, double a)
+{
+    return thick_depth(t, a) * (t->thin != NULL ? thin_depth(t->thin, a) : 1);
+}
+
+double tip_force(const afm_tip *t, double a)
+{
+    return thick_force(t, a) * (t->thin != NULL ? thin_force(t->thin, a) : 1);
 }
 
 /* The root of a rising function between two ends. */

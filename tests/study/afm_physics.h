@@ -12,8 +12,17 @@ typedef struct afm_tip {
     double radius, angle, b; /* b infinite: a paraboloid only; b 0: sharp */
     unsigned sides;
     afm_end end;
+    const struct thin_sample *thin; /* what it is pressed into; NULL: a thick one */
 } afm_tip;
 afm_tip afm_pyramid(double radius, double angle_degrees, unsigned sides);
+
+/* Depth and force of a tip on a thin sample on a rigid base, bonded or sliding (Poisson's ratio
+ * 0.5), over those on a thick one, at contact radii up to 1.3 thicknesses. The tip is that on a
+ * thick one. To be freed; NULL without memory. */
+typedef struct thin_sample thin_sample;
+thin_sample *thin_make(const afm_tip *tip, double thickness, int unbonded);
+double thin_depth(const thin_sample *s, double a);
+double thin_force(const thin_sample *s, double a);
 
 double tip_depth(const afm_tip *t, double a); /* without adhesion */
 double tip_force(const afm_tip *t, double a); /* over E/(1 - nu^2) */

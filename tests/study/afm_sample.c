@@ -138,9 +138,11 @@ static void disturb(const afm_scene *s, afm_sample *to)
 afm_sample *afm_sample_make(const afm_scene *s)
 {
     afm_sample *to = calloc(1, sizeof *to);
-    const afm_tip tip = true_tip(s);
+    afm_tip tip = true_tip(s);
     if (to == NULL)
         return NULL;
+    thin_sample *thin = s->thickness > 0 ? thin_make(&tip, s->thickness, s->unbonded) : NULL;
+    tip.thin = thin;
     to->spring_constant = s->spring_constant > 0 ? s->spring_constant : 0.5;
     const double depth = true_depth(s);
     const double a = tip_contact_radius(&tip, depth),
@@ -159,9 +161,20 @@ afm_sample *afm_sample_make(const afm_scene *s)
         add_elastic(s, &tip, to);
     } else if (add_lossy(s, &tip, to) != 0) {
         free(to);
+        free(thin);
         return NULL;
     }
+    free(thin);
     disturb(s, to);
+    if (s->loss != LOSS_NONE && s->force_to > 0) { /* and |E*| is that at 1/(time to there) */
+        double found;
+        int last = FREE;
+        const relaxation r = afm_relaxation(s);
+        while (last < AFM_BRANCH && to->force[last] < s->force_to * to->force[AFM_BRANCH - 1])
+            last++;
+        to->modulus =
+            relaxation_modulus(&r, 1 / ((last - FREE + 0.7) * (to->time[1] - to->time[0])), &found);
+    }
     return to;
 }
 
@@ -173,7 +186,7 @@ double afm_apparent(const afm_scene *s, const afm_sample *sample, double share)
     const afm_tip tip = true_tip(s), as_stated = true_tip(&stated);
     const double a = tip_contact_radius(&tip, depth),
                  of_stated = tip_contact_radius(&as_stated, depth);
-    if (s->loss != LOSS_NONE)
+    if (s->loss != LOSS_NONE || s->thickness > 0)
         return sample->modulus;
     return layer_reduced(s, a) * (1 - poisson * poisson) * tip_force(&tip, a) /
            tip_force(&as_stated, of_stated);

@@ -39,12 +39,15 @@ typedef struct afm_scene {
     double layer_ratio, layer_thickness; /* E1/E2; [m] */
     double radius_factor;                /* the tip's over the stated one; 0: 1 */
     afm_kind tip;
-    double depth;      /* [m], 0: 70 nm */
-    double bow;        /* of the deflection over the way in [m] */
-    double drift;      /* of the force by the end, as the square root of time */
-    double saturation; /* force at which the detector has lost 10 %, of the largest */
-    double spikes;     /* share of samples 20 to 40 noises off */
-    double spots;      /* relative scatter of the moduli of six spots, a file each; 0: one spot */
+    double thickness;            /* of the sample on its base [m]; 0: thick */
+    bool unbonded;               /* it slides on the base */
+    double depth_from, force_to; /* range of the fit: from a depth [m], to a share of the force */
+    double depth;                /* [m], 0: 70 nm */
+    double bow;                  /* of the deflection over the way in [m] */
+    double drift;                /* of the force by the end, as the square root of time */
+    double saturation;           /* force at which the detector has lost 10 %, of the largest */
+    double spikes;               /* share of samples 20 to 40 noises off */
+    double spots; /* relative scatter of the moduli of six spots, a file each; 0: one spot */
 } afm_scene;
 
 extern const afm_scene afm_scenes[];

@@ -2,7 +2,7 @@
  * the method before refused them, and IJ7 (modulus, lever), when it was not covered; it still is
  * not. IC7, IC8, IV7, IV8 and IB5 to IB8 were fixed before the spectrum of the noise was; IS1 to
  * IS3, of spots, when the method was there; IV9 to IV11 after the error of a memory was chosen;
- * IT1 to IT10 with the tips that they try.
+ * IT1 to IT14 with the tips and samples that they try, IG1 to IG3 with the ranges.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "afm_scene.h"
 
@@ -147,6 +147,25 @@ const afm_scene afm_scenes[] = {
     {NAMED("IT10", "punch, tan delta 0.3"), .facts.verdict_promised = true,
      .facts.right = NOT_DESCRIBED, .noise = 0.005, .loss = LOSS_COLE_COLE, .tan_delta = 0.3,
      .tip = TIP_PUNCH},
+    {NAMED("IT11", "paraboloid on 200 nm, bonded"), .facts.intervals_promised = true,
+     .facts.verdict_promised = true, .facts.right = DESCRIBED, .noise = 0.005,
+     .tip = TIP_PARABOLOID, .thickness = 200e-9},
+    {NAMED("IT12", "pyramid on 150 nm, bonded"), .facts.intervals_promised = true,
+     .facts.verdict_promised = true, .facts.right = DESCRIBED, .noise = 0.005, .thickness = 150e-9},
+    {NAMED("IT13", "cone on 100 nm, sliding, correlated"), .facts.intervals_promised = true,
+     .facts.verdict_promised = true, .facts.right = DESCRIBED, .noise = 0.005,
+     .kind = NOISE_CORRELATED, .tip = TIP_CONE, .thickness = 100e-9, .unbonded = true},
+    {NAMED("IT14", "paraboloid on 400 nm, bonded, tan delta 0.3"), .facts.intervals_promised = true,
+     .facts.right = EITHER, .noise = 0.005, .loss = LOSS_COLE_COLE, .tan_delta = 0.3,
+     .tip = TIP_PARABOLOID, .thickness = 400e-9},
+    {NAMED("IG1", "from 20 nm on"), .facts.intervals_promised = true, .facts.right = NOT_REFUSED,
+     .noise = 0.005, .depth_from = 20e-9},
+    {NAMED("IG2", "from 15 nm to 0.8 of the force, correlated"), .facts.intervals_promised = true,
+     .facts.right = NOT_REFUSED, .noise = 0.005, .kind = NOISE_CORRELATED, .depth_from = 15e-9,
+     .force_to = 0.8},
+    {NAMED("IG3", "to 0.6 of the force, tan delta 0.3"), .facts.intervals_promised = true,
+     .facts.right = EITHER, .noise = 0.005, .loss = LOSS_COLE_COLE, .tan_delta = 0.3,
+     .force_to = 0.6},
     {NAMED("IB1", "bow of 0.5 nm"), .facts.right = EITHER, .noise = 0.005, .bow = 0.5e-9},
     {NAMED("IB2", "bow of 5 nm"), .facts.verdict_promised = true, .facts.right = NOT_DESCRIBED,
      .noise = 0.005, .bow = 5e-9},

@@ -10,5 +10,7 @@ void check_true(const char *what, int is_true);
 void check_contact(const char *folder);
 /* FOLDER/jkr.json, viscoelastic.json, layer.csv, where they are. */
 void check_afm(const char *folder);
+/* FOLDER/thin_sample.txt: forces on thin samples. */
+void check_thin(const char *folder);
 
 #endif

@@ -172,3 +172,39 @@ void check_afm(const char *folder)
     free(lossy);
     free(layer);
 }
+
+/* Another solution of the same integral equation, good to 1e-4. */
+void check_thin(const char *folder)
+{
+    char path[1024], line[256];
+    int rows = 0;
+    snprintf(path, sizeof path, "%s/thin_sample.txt", folder);
+    FILE *file = fopen(path, "r");
+    check_true("thin_sample.txt", file != NULL);
+    while (file != NULL && fgets(line, sizeof line, file) != NULL) {
+        char base, name[16];
+        unsigned sides;
+        double radius, depth, force;
+        if (sscanf(line, "%c %15s %u %lf %lf %lf", &base, name, &sides, &radius, &depth, &force) !=
+                6 ||
+            strcmp(name, "punch") == 0)
+            continue;
+        afm_tip tip = afm_pyramid(radius, 35, strcmp(name, "cone") == 0 ? 0 : sides);
+        if (strcmp(name, "sphere") == 0 || strcmp(name, "paraboloid") == 0)
+            tip = (afm_tip){.radius = radius,
+                            .angle = 1,
+                            .b = (double)INFINITY,
+                            .end = name[0] == 's' ? END_SPHERE : END_FACES};
+        thin_sample *thin = thin_make(&tip, 1, base == 'u');
+        tip.thin = thin;
+        const double a = thin != NULL ? tip_contact_radius(&tip, depth) : 0;
+        if (a > 0 && a < 1.2) {
+            check_near("thin sample", tip_force(&tip, a), force, 2e-3);
+            rows++;
+        }
+        free(thin);
+    }
+    if (file != NULL)
+        fclose(file);
+    check_true("rows of thin samples", rows > 60);
+}

@@ -111,6 +111,7 @@ static void compare(const char *file, const wt_force_curve *curve)
     const wt_channel *force = wt_segment_channel(approach, WT_Q_FORCE);
     assert_true(height != NULL && force != NULL);
 
+    const wt_indent_options options = wt_indent_defaults();
     curve_input input;
     curve_minimum minima[CURVE_MAX_MINIMA];
     curve_solution solution;
@@ -118,7 +119,7 @@ static void compare(const char *file, const wt_force_curve *curve)
     assert_int_equal(curve_reserve(workspace, approach->n_points, NULL), WT_OK);
     wt_curve_verdict verdict =
         curve_prepare(height->values, force->values, approach->n_points,
-                      curve->cantilever.spring_constant, 1.0, workspace, &input, reason);
+                      curve->cantilever.spring_constant, &options, workspace, &input, reason);
     if (verdict != WT_CURVE_ACCEPTED)
         fail_msg("%s %zu: %s", file, curve->index, reason);
     size_t n = curve_scan(table, &input.samples, false, false, workspace, minima);

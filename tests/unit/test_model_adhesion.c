@@ -179,6 +179,12 @@ static void punch(void **state)
     assert_false(adhesion_applies(&tip));
     assert_near(adhesion_work(&tip, 1e7, 0.5, sqrt(8 * M_PI * 1e7 * 0.02 * 8e-18)), 0.02, 1e-12);
     assert_true(isnan(adhesion_tabor(&(adhesion){&tip, 1e7, 0.02})));
+    /* beyond what any surface has there is no number, not that of the limit */
+    const wt_tip round = {.shape = WT_TIP_PARABOLOID, .radius = 2e-6};
+    assert_near(adhesion_work(&round, 1e7, 0.0, 1.5 * M_PI * 900 * 2e-6), 900, 1e-9);
+    assert_true(isnan(adhesion_work(&round, 1e7, 0.0, 1.5 * M_PI * 1100 * 2e-6)));
+    assert_near(adhesion_work(&round, 1e7, 0.0, 1.5 * M_PI * 1.1e-9 * 2e-6), 1.1e-9, 1e-9);
+    assert_true(isnan(adhesion_work(&round, 1e7, 0.0, 1.5 * M_PI * 0.9e-9 * 2e-6)));
     const wt_tip thin = {.shape = WT_TIP_PARABOLOID, .radius = 2e-6, .sample_thickness = 2e-6};
     assert_false(adhesion_applies(&thin));
     assert_true(isnan(adhesion_work(&thin, 1e7, 0.5, 1e-8)));

@@ -338,6 +338,12 @@ static void test_spring_constants(void **state)
     see(tables.indentation);
     see(tables.modulus_depth);
     wt_indent_tables_clear(&tables);
+    job.options.fit_force_fraction = 0.9;
+    job.options.contact_estimators = true;
+    if (wt_indent_group(&job, &common, &tables, &err) != WT_OK)
+        fail_msg("%s", err.message);
+    see(tables.indentation);
+    wt_indent_tables_clear(&tables);
 }
 
 static void convert_with(const char *path, unsigned kind, wt_table_sink sink)

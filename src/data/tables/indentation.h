@@ -23,6 +23,16 @@
       STANDARD_ERROR(INDENTATION_CONTACT_POINT), OPTIONAL)                                         \
     X(INDENTATION_CONTACT_POINT_STANDARD_ERROR, "contact_point_standard_error",                    \
       "standard error of the contact point", SI(LENGTH), OPTIONAL)                                 \
+    X(INDENTATION_CONTACT_THRESHOLD, "contact_threshold",                                          \
+      "contact by the threshold of the baseline, less contact_point", SI(LENGTH), OPTIONAL)        \
+    X(INDENTATION_CONTACT_VARIANCES, "contact_variances",                                          \
+      "contact by the ratio of variances, less contact_point", SI(LENGTH), OPTIONAL)               \
+    X(INDENTATION_CONTACT_LINES, "contact_lines",                                                  \
+      "contact by the meeting of two lines, less contact_point", SI(LENGTH), OPTIONAL)             \
+    X(INDENTATION_CONTACT_DIRECT_PATH, "contact_direct_path",                                      \
+      "contact by the distance from the direct path, less contact_point", SI(LENGTH), OPTIONAL)    \
+    X(INDENTATION_CONTACT_GOODNESS_OF_FIT, "contact_goodness_of_fit",                              \
+      "contact by the goodness of fit, less contact_point", SI(LENGTH), OPTIONAL)                  \
     X(INDENTATION_BASELINE_OFFSET, "baseline_offset", "force of the baseline at contact",          \
       SI(FORCE), OPTIONAL)                                                                         \
     X(INDENTATION_BASELINE_TILT, "baseline_tilt", "slope of the baseline", UNIT("N/m"), OPTIONAL)  \
@@ -38,7 +48,10 @@
       "what the bend of the baseline adds to the modulus if it goes on in contact; 0: straight",   \
       SI(MODULUS), OPTIONAL)                                                                       \
     X(INDENTATION_MAX_FORCE, "max_force", "largest force above the baseline", SI(FORCE), OPTIONAL) \
-    X(INDENTATION_MAX_INDENTATION, "max_indentation", "largest indentation", SI(INDENTATION),      \
+    X(INDENTATION_MAX_INDENTATION, "max_indentation", "largest indentation in the fit",            \
+      SI(INDENTATION), OPTIONAL)                                                                   \
+    X(INDENTATION_FITTED_FROM, "fitted_from",                                                      \
+      "indentation at which the range of the fit begins; 0: at contact", SI(INDENTATION),          \
       OPTIONAL)                                                                                    \
     X(INDENTATION_ADHESION_FORCE, "adhesion_force", "largest pull before contact", SI(FORCE),      \
       OPTIONAL)                                                                                    \
@@ -59,7 +72,7 @@
       OPTIONAL)                                                                                    \
     X(INDENTATION_PIEZO_RATE, "piezo_rate", "rate of the piezo", SI(VELOCITY), OPTIONAL)           \
     X(INDENTATION_RATE, "indentation_rate", "mean rate of indentation", SI(VELOCITY), OPTIONAL)    \
-    X(INDENTATION_LOAD_TIME, "load_time", "time from contact to the end of the approach",          \
+    X(INDENTATION_LOAD_TIME, "load_time", "time from contact to the end of what is fitted",        \
       SI(TIME), OPTIONAL)                                                                          \
     X(INDENTATION_SECOND_MINIMUM_RATIO, "second_minimum_ratio",                                    \
       "misfit of the second best contact point over the best; nan if there is no second", NUMBER,  \
@@ -77,6 +90,7 @@
 #define INDENTATION_KEYS(X)                                                                        \
     X(INDENTATION_KEY_TIP, "tip", TEXT, OPTIONAL)                                                  \
     X(INDENTATION_KEY_POISSON_RATIO, "poisson_ratio", PLAIN, OPTIONAL)                             \
+    X(INDENTATION_KEY_FIT_RANGE, "fit_range", TEXT, LABEL("Range of the fit"), OPTIONAL)           \
     X(INDENTATION_KEY_SPRING_CONSTANT, "spring_constant", SI(SPRING_CONSTANT), OPTIONAL)           \
     X(INDENTATION_KEY_SPRING_CONSTANTS, "spring_constants", TEXT, OPTIONAL)                        \
     X(INDENTATION_KEY_SPOTS, "spots", TEXT, OPTIONAL)                                              \

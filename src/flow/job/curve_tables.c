@@ -181,6 +181,13 @@ static double equivalent_frequency(const wt_indent_job *job, const wt_indent_fit
     return wt_equivalent_frequency(fit->load_time, fit->max_indentation * slope / g);
 }
 
+static const indentation_column contact_columns[WT_CONTACT_ESTIMATORS] = {
+    [WT_CONTACT_THRESHOLD] = INDENTATION_CONTACT_THRESHOLD,
+    [WT_CONTACT_VARIANCES] = INDENTATION_CONTACT_VARIANCES,
+    [WT_CONTACT_LINES] = INDENTATION_CONTACT_LINES,
+    [WT_CONTACT_DIRECT_PATH] = INDENTATION_CONTACT_DIRECT_PATH,
+    [WT_CONTACT_GOODNESS_OF_FIT] = INDENTATION_CONTACT_GOODNESS_OF_FIT};
+
 void flow_indentation_row(table_writer *t, const wt_indent_job *job, const char *file,
                           const char *spot, const wt_force_curve *curve, const wt_indent_fit *fit)
 {
@@ -199,6 +206,8 @@ void flow_indentation_row(table_writer *t, const wt_indent_job *job, const char 
     indentation_put(t, INDENTATION_MODULUS_STANDARD_ERROR, fit->modulus.standard_error);
     indentation_put(t, INDENTATION_CONTACT_POINT, fit->contact_point.value);
     indentation_put(t, INDENTATION_CONTACT_POINT_STANDARD_ERROR, fit->contact_point.standard_error);
+    for (int i = 0; i < WT_CONTACT_ESTIMATORS; i++)
+        indentation_put(t, contact_columns[i], fit->contact_by[i]);
     indentation_put(t, INDENTATION_BASELINE_OFFSET, fit->baseline_offset.value);
     indentation_put(t, INDENTATION_BASELINE_TILT, fit->baseline_tilt.value);
     indentation_put(t, INDENTATION_NOISE, fit->noise);
@@ -208,6 +217,7 @@ void flow_indentation_row(table_writer *t, const wt_indent_job *job, const char 
     indentation_put(t, INDENTATION_BEND_SHIFT, fit->bend_shift);
     indentation_put(t, INDENTATION_MAX_FORCE, fit->max_force);
     indentation_put(t, INDENTATION_MAX_INDENTATION, fit->max_indentation);
+    indentation_put(t, INDENTATION_FITTED_FROM, fit->fitted_from);
     indentation_put(t, INDENTATION_ADHESION_FORCE, fit->adhesion_force);
     indentation_put(t, INDENTATION_WORK_OF_ADHESION, fit->work_of_adhesion.value);
     indentation_put(t, INDENTATION_WORK_OF_ADHESION_STANDARD_ERROR,

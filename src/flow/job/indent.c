@@ -1,6 +1,7 @@
 /* The indentation job: every curve of every file of a group, streamed, fitted in parallel in
  * batches, written in order.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow/job/indent.h"
 #include "base/param.h"
 #include "flow/job/cost.h"
 #include "flow/job/curve_set.h"
@@ -9,7 +10,6 @@
 #include "flow/job/inputs.h"
 
 #include "base/array.h"
-#include "base/number.h"
 #include "data/tables/tables.h"
 #include "fit/curve.h"
 
@@ -21,8 +21,6 @@
  * two of them: while one is fitted the next is read. */
 #define BATCH_CURVES 128
 #define BATCH_SAMPLES ((size_t)1 << 20)
-
-static const double least_bonded_poisson = 0.499;
 
 typedef struct item {
     wt_force_curve curve;
@@ -36,12 +34,6 @@ typedef struct accepted {
     const flow_file *file;
     size_t curve, order;
 } accepted;
-
-/* What moduli are shifted by, where they are. */
-typedef struct shifts {
-    double sum;
-    size_t n;
-} shifts;
 
 typedef struct indent_task {
     const wt_indent_job *job;
@@ -64,9 +56,7 @@ typedef struct indent_task {
     /* accepted moduli with the curve they are of, for the representative curve */
     accepted *moduli;
     size_t n_moduli;
-    shifts bend, loss, loss_error;     /* relative to the modulus */
-    double (*misfits)[WT_CURVE_WAVES]; /* [n_misfits] of those that have one */
-    size_t n_misfits;
+    indent_together together;
     wt_depth_curve *deep; /* [n_deep] curves for the modulus against depth */
     size_t n_deep;
     long n_spots; /* of them */
@@ -159,6 +149,8 @@ static void mark_unreadable(wt_indent_fit *fit, const wt_error *error)
 static wt_status keep_depth(indent_task *task, const item *it, wt_error *err)
 {
     const wt_indent_fit *fit = &it->fit;
+    if (fit->fitted_from > 0) /* what a law misses at small depths is not in it */
+        return WT_OK;
     if ((task->work->left_out & WT_EXTRA_MODULUS_DEPTH) != 0)
         return WT_OK;
     if ((fit->verdict != WT_CURVE_ACCEPTED && fit->verdict != WT_CURVE_POOR_FIT) ||
@@ -187,14 +179,6 @@ static wt_status keep_depth(indent_task *task, const item *it, wt_error *err)
     return WT_OK;
 }
 
-static void add_shift(shifts *all, double shift)
-{
-    if (!(fabs(shift) > 0))
-        return;
-    all->sum += shift;
-    all->n++;
-}
-
 static wt_status keep_modulus(indent_task *task, const item *it, wt_error *err)
 {
     accepted *moduli = array_grow(task->moduli, task->n_moduli, sizeof *moduli);
@@ -205,18 +189,8 @@ static wt_status keep_modulus(indent_task *task, const item *it, wt_error *err)
                                               .file = task->file,
                                               .curve = it->curve.index,
                                               .order = task->n_moduli};
-    add_shift(&task->bend, it->fit.bend_shift / it->fit.modulus.value);
-    add_shift(&task->loss, it->fit.loss_bias);
-    add_shift(&task->loss_error, it->fit.loss_error);
     task->n_moduli++;
-    if (isnan(it->fit.misfit[0]))
-        return WT_OK;
-    double(*misfits)[WT_CURVE_WAVES] = array_grow(task->misfits, task->n_misfits, sizeof *misfits);
-    if (misfits == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    task->misfits = misfits;
-    memcpy(misfits[task->n_misfits++], it->fit.misfit, sizeof *misfits);
-    return WT_OK;
+    return indent_together_add(&task->together, &it->fit, task->options.contact_estimators, err);
 }
 
 static wt_status write_item(indent_task *task, item *it, wt_error *err)
@@ -363,56 +337,7 @@ static wt_status add_representative(indent_task *task, wt_indent_tables *tables,
     return status;
 }
 
-/* ---- all curves together --------------------------------------------------------------------- */
-
-/* Mean of what most moduli of the group are shifted by; 0 if not most are. */
-static double mean_shift(const indent_task *task, const shifts *all)
-{
-    return 2 * all->n > task->n_moduli ? all->sum / (double)all->n : 0;
-}
-
-/* What moves all moduli alike, so that their scatter does not show it: a bend of most baselines,
- * which is that of the piezo, and loss whose spectrum is not known. */
-static void say_shifts(const indent_task *task)
-{
-    const double bend = mean_shift(task, &task->bend);
-    if (fabs(bend) > 0)
-        wt_parselog_add(
-            task->work->log, WT_WARNING, NULL, NULL,
-            "%s: the baseline of %zu of %zu accepted curves is bent; a piezo that goes on "
-            "so in contact changes these moduli by %+.2g %% in the mean, which their "
-            "scatter does not show",
-            task->job->group, task->bend.n, task->n_moduli, 100 * bend);
-    const double error = mean_shift(task, &task->loss_error);
-    const double loss = mean_shift(task, &task->loss);
-    if (error > 0)
-        wt_parselog_add(
-            task->work->log, WT_NOTE, NULL, NULL,
-            "%s: %zu of %zu accepted curves lose work on the way out; their moduli are |E*| at "
-            "1/(loading time) of a rubber that loses as much, %.1g %% %s than those of a fit "
-            "without loss; that its spectrum is not known leaves a standard error of %.1g %%, "
-            "which all of them share and the DMA of the rubber takes away",
-            task->job->group, task->loss.n, task->n_moduli, 100 * fabs(loss),
-            loss > 0 ? "less" : "more", 100 * error);
-}
-
-/* Tests the mean residual of the accepted curves. */
-static void pool_curves(indent_task *task)
-{
-    const size_t n = task->n_misfits;
-    const wt_curve_pool pool =
-        wt_curve_pool_make((const double(*)[WT_CURVE_WAVES])task->misfits, n);
-    if (isnan(pool.chance))
-        return;
-    indentation_set_print(&task->rows, INDENTATION_KEY_POOLED_MISFIT, "%.3g", pool.misfit);
-    indentation_set_print(&task->rows, INDENTATION_KEY_POOLED_MISFIT_CHANCE, "%.3g", pool.chance);
-    if (pool.chance < task->job->options.least_chance)
-        wt_parselog_add(task->work->log, WT_WARNING, NULL, NULL,
-                        "%s: the mean residual of %zu accepted curves is %.2g %% of the largest "
-                        "force, which scatter does not explain (chance %s): another tip, a "
-                        "layer, loss, adhesion or an uneven piezo; the moduli may be further off",
-                        task->job->group, n, 100 * pool.misfit, number_chance(pool.chance).text);
-}
+/* ---- the group ------------------------------------------------------------------------------- */
 
 static wt_status add_depths(indent_task *task, wt_indent_tables *tables, wt_error *err)
 {
@@ -425,13 +350,11 @@ static wt_status add_depths(indent_task *task, wt_indent_tables *tables, wt_erro
     return status == WT_OK ? flow_depth_table_add(tables, job->group, &depth, err) : status;
 }
 
-/* ---- the group ------------------------------------------------------------------------------- */
-
 static void set_keys(indent_task *task, const flow_files *files)
 {
     const wt_indent_job *job = task->job;
     table_writer *t = &task->rows;
-    char tip[256];
+    char tip[256], range[256];
     size_t named = 0;
     for (size_t i = 0; i < files->n; i++)
         named += files->file[i].set->spot != NULL;
@@ -446,6 +369,8 @@ static void set_keys(indent_task *task, const flow_files *files)
                               task->spectrum.reference_temperature, 0, 0);
     indentation_set_text(t, INDENTATION_KEY_TIP, tip);
     indentation_set_print(t, INDENTATION_KEY_POISSON_RATIO, "%g", job->options.poisson_ratio);
+    if (indent_range_text(&job->options, range, sizeof range))
+        indentation_set_text(t, INDENTATION_KEY_FIT_RANGE, range);
     /* that of the user; else that of the files, whose error they do not say */
     wt_estimate k = job->spring_constant;
     if (isnan(k.value) && task->k_low >= task->k_high)
@@ -486,23 +411,9 @@ static wt_status find_spectrum(indent_task *task, wt_error *err)
     return WT_OK;
 }
 
-static wt_status check_sample(const wt_indent_job *job, wt_error *err)
-{
-    if (!(job->tip.sample_thickness > 0.0) || job->tip.unbonded ||
-        job->options.poisson_ratio >= least_bonded_poisson)
-        return WT_OK;
-    const wt_status status =
-        wt_fail(err, WT_E_RANGE, "a thin sample bonded to its base is known for rubber only");
-    wt_error_expected(err, "Poisson's ratio of %g or more, or --unbonded", least_bonded_poisson);
-    wt_error_found(err, "poisson-ratio %g", job->options.poisson_ratio);
-    return status;
-}
-
 static wt_status prepare(indent_task *task, wt_error *err)
 {
-    wt_status status = param_check(wt_indent_job_params(), task->job, err);
-    if (status == WT_OK)
-        status = check_sample(task->job, err);
+    wt_status status = indent_job_check(task->job, err);
     if (status == WT_OK)
         status = param_check(wt_job_params(), task->work, err);
     if (status == WT_OK)
@@ -543,7 +454,7 @@ static void release(indent_task *task)
     free(task->scratch);
     free(task->items);
     free(task->moduli);
-    free(task->misfits);
+    indent_together_clear(&task->together);
     free(task->deep);
     wt_prony_clear(&task->spectrum);
     wt_contact_table_free(task->contact);
@@ -587,9 +498,9 @@ wt_status wt_indent_group(const wt_indent_job *job, const wt_job *work, wt_inden
     }
     task.rows.err = err; /* that of the last row was the error of its file */
     set_keys(&task, &files);
-    say_shifts(&task);
-    pool_curves(&task);
-    status = add_depths(&task, tables, err);
+    status = indent_say_together(&task.together, job, work, &task.rows, err);
+    if (status == WT_OK)
+        status = add_depths(&task, tables, err);
     if (status == WT_OK && job->curves && task.n_moduli > 0)
         status = add_representative(&task, tables, err);
     if (status != WT_OK)

@@ -1,9 +1,13 @@
 /* The parameters of the indentation job. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/param.h"
-#include "weartrack/flow.h"
+#include "fit/curve.h"
+#include "flow/job/indent.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
+
+static const double least_bonded_poisson = 0.499;
 
 wt_indent_job wt_indent_job_defaults(void)
 {
@@ -61,3 +65,71 @@ static const wt_param rows[] = {
 };
 PARAM_TABLE(wt_indent_job_params, wt_indent_job, rows, wt_indent_job_defaults,
             PARAM_PART(wt_indent_params, wt_indent_job, options))
+
+/* ---- several of them together -----------------------------------------------------------------
+ */
+
+static wt_status check_sample(const wt_indent_job *job, wt_error *err)
+{
+    if (!(job->tip.sample_thickness > 0.0) || job->tip.unbonded ||
+        job->options.poisson_ratio >= least_bonded_poisson)
+        return WT_OK;
+    const wt_status status =
+        wt_fail(err, WT_E_RANGE, "a thin sample bonded to its base is known for rubber only");
+    wt_error_expected(err, "Poisson's ratio of %g or more, or --unbonded", least_bonded_poisson);
+    wt_error_found(err, "poisson-ratio %g", job->options.poisson_ratio);
+    return status;
+}
+
+wt_status indent_job_check(const wt_indent_job *job, wt_error *err)
+{
+    wt_status status = param_check(wt_indent_job_params(), job, err);
+    if (status == WT_OK)
+        status = check_sample(job, err);
+    return status == WT_OK ? curve_range_check(&job->options, &job->tip, err) : status;
+}
+
+static size_t add_words(char *text, size_t size, size_t length, const char *words)
+{
+    if (length + strlen(words) >= size)
+        return length;
+    strcpy(text + length, words);
+    return length + strlen(words);
+}
+
+bool indent_range_text(const wt_indent_options *o, char *text, size_t size)
+{
+    const struct {
+        const char *what, *unit;
+        double from, to;
+        const char *of;
+    } ranges[] = {
+        {"indentation", "m", o->fit_depth_from, o->fit_depth, ""},
+        {"indentation", "", 0, o->fit_radii, " radii"},
+        {"force", "N", o->fit_force_from, o->fit_force, ""},
+        {"force", "", o->fit_force_fraction_from,
+         o->fit_force_fraction < 1 ? o->fit_force_fraction : 0, " of the largest"},
+    };
+    size_t length = 0;
+    text[0] = '\0';
+    for (size_t i = 0; i < sizeof ranges / sizeof ranges[0]; i++) {
+        char number[32];
+        if (!(ranges[i].from > 0) && !(ranges[i].to > 0))
+            continue;
+        length = add_words(text, size, length, length > 0 ? ", " : "");
+        length = add_words(text, size, length, ranges[i].what);
+        for (int end = 0; end < 2; end++) {
+            const double value = end == 0 ? ranges[i].from : ranges[i].to;
+            if (!(value > 0))
+                continue;
+            if (ranges[i].unit[0] != '\0')
+                wt_format_si(value, ranges[i].unit, 4, number, sizeof number);
+            else
+                wt_number_format(value, number);
+            length = add_words(text, size, length, end == 0 ? " from " : " to ");
+            length = add_words(text, size, length, number);
+        }
+        length = add_words(text, size, length, ranges[i].of);
+    }
+    return length > 0;
+}

@@ -1,0 +1,36 @@
+/* Inside the indentation job: what is said of all curves together, and of the job itself.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WT_FLOW_JOB_INDENT_H
+#define WT_FLOW_JOB_INDENT_H
+
+#include "data/tables/tables.h"
+#include "flow/job/inputs.h"
+
+/* What moduli are shifted by, where they are. */
+typedef struct indent_shifts {
+    double sum;
+    size_t n;
+} indent_shifts;
+
+/* The accepted curves. */
+typedef struct indent_together {
+    size_t n;
+    indent_shifts bend, loss, loss_error; /* relative to the modulus */
+    double (*misfits)[WT_CURVE_WAVES];    /* [n_misfits] of those that have one */
+    size_t n_misfits;
+    double (*contacts)[WT_CONTACT_ESTIMATORS]; /* [n] by other estimators; NULL: not asked for */
+} indent_together;
+wt_status indent_together_add(indent_together *to, const wt_indent_fit *fit, bool contacts,
+                              wt_error *err);
+void indent_together_clear(indent_together *together);
+/* Says what moves all moduli alike, so that their scatter does not show it, tests the mean residual
+ * and says where other estimators see contact. */
+wt_status indent_say_together(const indent_together *together, const wt_indent_job *job,
+                              const wt_job *work, table_writer *rows, wt_error *err);
+
+/* The parameters, and what they say together. */
+wt_status indent_job_check(const wt_indent_job *job, wt_error *err);
+/* The limits of the fit in words; false if there are none. */
+bool indent_range_text(const wt_indent_options *options, char *text, size_t size);
+
+#endif
