@@ -16,8 +16,8 @@ static const struct {
     double tolerance;
     size_t nodes[FRICTION_STEPS];
     size_t first;
-} ladders[] = {{3e-3, {3, 4, 5, 6, 8, 12, 20}, 1},
-               {3e-5, {4, 5, 6, 8, 10, 14, 20}, 1},
+} ladders[] = {{3e-3, {3, 4, 5, 6, 8, 12, FRICTION_MAX_NODES}, 1},
+               {3e-5, {4, 5, 6, 8, 10, 14, FRICTION_MAX_NODES}, 1},
                {3e-8, {6, 7, 8, 10, 12, 16, FRICTION_MAX_NODES}, 1},
                {3e-11, {8, 9, 10, 12, 14, 18, FRICTION_MAX_NODES}, 2},
                {0, {10, 12, 14, 16, 18, 20, FRICTION_MAX_NODES}, 1}};

@@ -19,8 +19,8 @@ typedef struct friction_start {
     size_t step, least; /* rule to begin with; the one before `least` did not suffice */
 } friction_start;
 typedef struct friction_trail {
-    size_t n; /* 0: there was none */
-    size_t level;
+    size_t n;                       /* 0: there was none */
+    size_t level;                   /* of the core to begin with */
     friction_start *starts, *spare; /* [panels] */
 } friction_trail;
 

@@ -217,11 +217,16 @@ static rule_fall fall_of(const wt_friction_workspace *ws)
 
 /* ---- core ------------------------------------------------------------------------------------ */
 
-/* The largest one in which P is 1 or that is as deep as they go, at no less than `*level`. */
+/* One in which P is 1 or that is as deep as they go, at no less than `*level`: the largest, or the
+ * one next to that of the velocity before. */
 static node_view find_core(const wt_friction_workspace *ws, friction_scratch *scratch,
                            const panel_plan *plan, size_t step, friction_load at, size_t *level)
 {
     const double target = 0.5 * CONTACT_FULL;
+    friction_trail *trail = &scratch->trail;
+    /* panels that move with knots have other cores each time */
+    if (plan == &ws->plan && trail->n > 0 && *level < trail->level)
+        *level = trail->level;
     if (*level > plan->levels)
         *level = plan->levels;
     for (;;) {
@@ -229,8 +234,11 @@ static node_view find_core(const wt_friction_workspace *ws, friction_scratch *sc
         double g[FRICTION_MAX_NODES], mu[FRICTION_MAX_NODES];
         fill_parts(&core, scale_of(ws, at), g, mu);
         const double variance = weighted(core.rule, g);
-        if (*level >= plan->levels || !(variance > target))
+        if (*level >= plan->levels || !(variance > target)) {
+            const double larger = floor(0.5 * log2(target / variance)) - 1;
+            trail->level = larger > 0 ? *level - (size_t)fmin(larger, (double)*level) : *level;
             return core;
+        }
         const double deeper = ceil(0.5 * log2(variance / target)); /* a cell is 1/4 of the next */
         const size_t left = plan->levels - *level;
         *level += deeper < (double)left ? (size_t)fmax(1, deeper) : left;
