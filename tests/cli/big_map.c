@@ -16,7 +16,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-enum { SMALL = 1024, LARGE = 4096, ASKED = 65536, MOST_MB = 100, KINDS = 64, N = 200 };
+enum { SMALL = 1024, LARGE = 8192, ASKED = 65536, MOST_MB = 100, KINDS = 64, N = 200 };
 
 extern char **environ;
 

@@ -60,11 +60,11 @@ static const struct {
     {"compare", "absent other", {wt_materials_job_params}},
     {"master", "absent", {wt_master_options_params}},
     {"friction",
-     "--material absent --roughness absent",
+     "--material absent --roughness absent --strain-softening absent",
      {wt_sliding_params, wt_layer_known_params, wt_job_params, wt_master_job_params,
       wt_transverse_params, wt_rubber_options_params}},
     {"layer",
-     "--material absent --roughness absent",
+     "--material absent --roughness absent --strain-softening absent",
      {wt_sliding_params, wt_layer_job_params, wt_job_params, wt_master_job_params,
       wt_transverse_params, wt_rubber_options_params}},
     {"run", "absent", {wt_run_params}},
@@ -117,6 +117,7 @@ static const struct {
      "<equilibrium>1MPa</equilibrium><term time='1s' modulus='1MPa'/></prony><wlf>",
      "</wlf></dma>"},
     {"self-affine", "<roughness><self-affine>", "</self-affine></roughness>"},
+    {"sliding", "<sliding><strain-softening><file>x</file></strain-softening>", "</sliding>"},
     {"spectrum", "<roughness><spectrum><file>x</file>", "</spectrum></roughness>"},
 };
 
