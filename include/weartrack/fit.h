@@ -396,7 +396,7 @@ typedef struct wt_dwell {
     bool found;
     const char *why_not; /* "", or why there is none; static */
     double modulus;      /* at 1 s [Pa] */
-    double exponent;     /* 0 to 0.9 */
+    double exponent;     /* 0 to 0.9; 0 also where the modulus rises */
     double misfit;       /* root mean square of the residuals, of the modulus */
 } wt_dwell;
 /* Modulus [Pa] of an elastic material with the same force at the same indentation, at a time >=
@@ -404,7 +404,9 @@ typedef struct wt_dwell {
  * force_exponent until load_time and was held then (hereditary integral of Lee and Radok). */
 WT_API double wt_dwell_modulus(double modulus, double exponent, double time, double load_time,
                                double force_exponent, bool creep);
-/* Least squares in the logarithm of n such moduli, 6 to 1000. */
+/* Least squares in the logarithm of n such moduli [Pa], 6 to 1000. None is found where they are not
+ * positive, a time [s] is from before the end of the loading, or an exponent above 0.9 would suit
+ * better. */
 WT_API wt_status wt_dwell_fit(const double *time, const double *modulus, size_t n, double load_time,
                               double force_exponent, bool creep, wt_dwell *dwell,
                               wt_error *err) WT_NODISCARD;

@@ -3,6 +3,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
+#include "base/clocale.h"
 #include "base/param.h"
 #include "weartrack/fit.h"
 
@@ -138,7 +139,8 @@ typedef struct part {
 } part;
 
 /* The ends are first where the signal crosses them, then where the line through these samples does:
- * noise of the signal does not choose the samples. Positions rise towards contact from here on. */
+ * noise of the signal does not choose the samples. Positions rise towards contact from here on.
+ * False without such a line; p->n is the samples found in any case. */
 static bool find_part(samples *s, double low, double high, double baseline, part *p)
 {
     size_t peak = 0;
@@ -151,9 +153,10 @@ static bool find_part(samples *s, double low, double high, double baseline, part
     begin = end;
     while (begin > 0 && s->v[begin - 1] > low)
         begin--;
-    if (end - begin + 1 < LEAST_BLOCKS)
+    p->n = end - begin + 1;
+    if (p->n < LEAST_BLOCKS)
         return false;
-    line l = line_through(s->z + begin, s->v + begin, end - begin + 1);
+    line l = line_through(s->z + begin, s->v + begin, p->n);
     if (!isfinite(l.slope) || !(fabs(l.slope) > 0))
         return false;
     if (l.slope < 0) {
@@ -173,7 +176,7 @@ static bool find_part(samples *s, double low, double high, double baseline, part
     p->n = 0;
     while (p->first + p->n <= peak && s->z[p->first + p->n] <= p->to)
         p->n++;
-    return p->n >= LEAST_BLOCKS;
+    return true;
 }
 
 /* Slope of the baseline far from contact; NaN if less of it is there than of the part. */
@@ -241,6 +244,20 @@ static double residual(const samples *s, const part *p)
     return sqrt(squares / (double)p->n);
 }
 
+static void measure_part(const samples *s, const part *p, double rise, wt_contact_slope *c)
+{
+    c->n = p->n;
+    c->misfit = residual(s, p) / rise;
+    fit_blocks(s, p, c);
+    const double tilt = baseline_tilt(s, p), own = c->slope;
+    if (isnan(tilt))
+        return;
+    c->slope -= tilt;
+    c->tilt = tilt / c->slope;
+    c->change *= own / c->slope;
+    c->change_error *= own / c->slope;
+}
+
 static void measure(samples *s, const wt_slope_options *options, wt_contact_slope *c)
 {
     if (s->n < CURVE_LEAST) {
@@ -255,29 +272,23 @@ static void measure(samples *s, const wt_slope_options *options, wt_contact_slop
     const double rise = top - baseline;
     part p = {.n = 0};
     if (!(rise > least_rise * noise)) {
-        snprintf(c->why_not, sizeof c->why_not,
-                 "no contact: the signal rises by less than %g times its noise", least_rise);
+        clocale_print(c->why_not, sizeof c->why_not,
+                      "no contact: the signal rises by less than %g times its noise", least_rise);
         return;
     }
     c->signal_from = options->from * rise;
     c->signal_to = options->to * rise;
-    if (!find_part(s, baseline + c->signal_from, baseline + c->signal_to, baseline, &p)) {
-        snprintf(c->why_not, sizeof c->why_not,
-                 "%zu samples between %g and %g of the rise, at least %d are needed", p.n,
-                 options->from, options->to, LEAST_BLOCKS);
+    const bool rises =
+        find_part(s, baseline + c->signal_from, baseline + c->signal_to, baseline, &p);
+    if (p.n < LEAST_BLOCKS) {
+        clocale_print(c->why_not, sizeof c->why_not,
+                      "%zu samples between %g and %g of the rise, at least %d are needed", p.n,
+                      options->from, options->to, LEAST_BLOCKS);
         return;
     }
-    c->n = p.n;
-    c->misfit = residual(s, &p) / rise;
-    fit_blocks(s, &p, c);
-    const double tilt = baseline_tilt(s, &p), own = c->slope;
-    if (!isnan(tilt)) {
-        c->slope -= tilt;
-        c->tilt = tilt / c->slope;
-        c->change *= own / c->slope;
-        c->change_error *= own / c->slope;
-    }
-    c->found = c->slope > 0 && isfinite(c->slope) && isfinite(c->slope_error);
+    if (rises)
+        measure_part(s, &p, rise, c);
+    c->found = rises && c->slope > 0 && isfinite(c->slope) && isfinite(c->slope_error);
     if (!c->found)
         snprintf(c->why_not, sizeof c->why_not, "the signal does not rise with the piezo");
 }

@@ -14,27 +14,33 @@
 enum { NODES = 200, SEARCH = 40, LEAST_POINTS = 6, MOST_POINTS = 1000 };
 static const double largest_exponent = 0.9, golden = 0.6180339887498949;
 
-/* What int_0^1 (tau - u)^power p u^(p-1) du needs at u = 1 - y^2, which takes the edge off. */
+/* What int_0^1 (tau - u)^power p u^(p-1) du needs. In each cell the kernel, which has a pole at the
+ * end of the loading, and the loading are integrated exactly and multiplied; cells are equal in the
+ * root of 1 - u. */
 typedef struct loading {
-    double square[NODES], weight[NODES]; /* y^2, p u^(p-1) 2y dy */
+    double gap[NODES + 1]; /* 1 - u at the edges of the cells, rising */
+    double rate[NODES];    /* what is loaded in a cell, over its width */
 } loading;
 
 static void make_loading(double p, loading *l)
 {
-    for (int i = 0; i < NODES; i++) {
-        const double y = (i + 0.5) / NODES;
-        l->square[i] = y * y;
-        l->weight[i] = p * pow(1 - y * y, p - 1) * 2 * y / NODES;
-    }
+    for (int i = 0; i <= NODES; i++)
+        l->gap[i] = (double)i / NODES * i / NODES;
+    for (int i = 0; i < NODES; i++)
+        l->rate[i] =
+            (pow(1 - l->gap[i], p) - pow(1 - l->gap[i + 1], p)) / (l->gap[i + 1] - l->gap[i]);
 }
 
 /* tau >= 1 */
 static double over_loading(const loading *l, double tau, double power)
 {
-    double sum = 0;
-    for (int i = 0; i < NODES; i++)
-        sum += l->weight[i] * pow(tau - 1 + l->square[i], power);
-    return sum;
+    double sum = 0, before = pow(tau - 1, power + 1);
+    for (int i = 0; i < NODES; i++) {
+        const double next = pow(tau - 1 + l->gap[i + 1], power + 1);
+        sum += l->rate[i] * (next - before);
+        before = next;
+    }
+    return sum / (power + 1);
 }
 
 /* Of modulus 1 at 1 s. */
@@ -78,6 +84,25 @@ static double squares(const points *p, double exponent, double *log_modulus)
     return sum;
 }
 
+/* What no law can be fitted to, or "". */
+static const char *lacks(const double *time, const double *modulus, size_t n, double load_time,
+                         double force_exponent)
+{
+    if (n < LEAST_POINTS)
+        return "too few points";
+    if (n > MOST_POINTS)
+        return "too many points";
+    if (!(load_time > 0) || !(force_exponent > 0 && isfinite(force_exponent)))
+        return "no loading that force and time tell";
+    for (size_t i = 0; i < n; i++) {
+        if (!(time[i] >= load_time && isfinite(time[i])))
+            return "a point from before the end of the loading, or from no time";
+        if (!(modulus[i] > 0 && isfinite(modulus[i])))
+            return "a modulus that is no positive number";
+    }
+    return "";
+}
+
 wt_status wt_dwell_fit(const double *time, const double *modulus, size_t n, double load_time,
                        double force_exponent, bool creep, wt_dwell *dwell, wt_error *err)
 {
@@ -85,13 +110,9 @@ wt_status wt_dwell_fit(const double *time, const double *modulus, size_t n, doub
     if (time == NULL || modulus == NULL || dwell == NULL)
         return wt_fail(err, WT_E_ARG, "no dwell");
     *dwell = (wt_dwell){.why_not = "", .modulus = nan_, .exponent = nan_, .misfit = nan_};
-    bool good = n >= LEAST_POINTS && n <= MOST_POINTS && load_time > 0 && force_exponent >= 1;
-    for (size_t i = 0; i < n && good; i++)
-        good = time[i] >= load_time && modulus[i] > 0;
-    if (!good) {
-        dwell->why_not = "too few or too many points, or a modulus that is not positive";
+    dwell->why_not = lacks(time, modulus, n, load_time, force_exponent);
+    if (dwell->why_not[0] != '\0')
         return WT_OK;
-    }
     points p = {.time = time, .modulus = modulus, .n = n, .load_time = load_time, .creep = creep};
     make_loading(force_exponent, &p.loading);
     double low = 0, high = largest_exponent, mean = 0;
@@ -111,6 +132,10 @@ wt_status wt_dwell_fit(const double *time, const double *modulus, size_t n, doub
             b = low + golden * (high - low);
             at_b = squares(&p, b, &mean);
         }
+    }
+    if (!(high < largest_exponent)) {
+        dwell->why_not = "falls faster than any power law of rubber";
+        return WT_OK;
     }
     dwell->exponent = 0.5 * (low + high);
     dwell->misfit = sqrt(squares(&p, dwell->exponent, &mean) / (double)n);

@@ -35,8 +35,8 @@ static void table_logs(const table_data *d, const double *omega, size_t n, doubl
         const double t = (x - d->log_omega[k]) / (d->log_omega[k + 1] - d->log_omega[k]);
         const double e = d->log_storage[k] + t * (d->log_storage[k + 1] - d->log_storage[k]);
         const double f = d->log_loss[k] + t * (d->log_loss[k + 1] - d->log_loss[k]);
-        storage[i] = e < most ? e : most;
-        loss[i] = f < most ? f : most;
+        storage[i] = e > most ? most : e; /* a NaN stays one */
+        loss[i] = f > most ? most : f;
     }
 }
 

@@ -6,6 +6,7 @@
 #include "dma_data.h"
 
 #include <gsl/gsl_cdf.h>
+#include <locale.h>
 #include <math.h>
 
 enum { MOST = 4000, DRAWS = 600 };
@@ -177,6 +178,19 @@ static void test_nothing(void **state)
         v[i] = i < 98 ? 0 : 1;
     assert_int_equal(wt_contact_slope_fit(z, v, 100, NULL, &s, NULL), WT_OK);
     assert_false(s.found);
+    for (int i = 0; i < 100; i++)
+        v[i] = i < 93 ? 0 : fmin(1, 0.3 + 0.15 * (i - 93));
+    const bool german = setlocale(LC_NUMERIC, "de_DE.UTF-8") != NULL;
+    assert_int_equal(wt_contact_slope_fit(z, v, 100, NULL, &s, NULL), WT_OK);
+    assert_string_equal(s.why_not,
+                        "5 samples between 0.25 and 0.95 of the rise, at least 6 are needed");
+    if (german)
+        (void)setlocale(LC_NUMERIC, "C");
+    double still[100] = {0};
+    for (int i = 0; i < 100; i++)
+        v[i] = i < 80 ? 0 : 0.05 * (i - 80);
+    assert_int_equal(wt_contact_slope_fit(still, v, 100, NULL, &s, NULL), WT_OK);
+    assert_string_equal(s.why_not, "the signal does not rise with the piezo");
     for (int i = 0; i < 100; i++)
         v[i] = (double)NAN;
     assert_int_equal(wt_contact_slope_fit(z, v, 100, NULL, &s, NULL), WT_OK);

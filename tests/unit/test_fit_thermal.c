@@ -119,7 +119,7 @@ static void test_coverage(void **state)
                       quality / (double)DRAWS, resonance / (double)DRAWS, alarms / (double)DRAWS);
         assert_in_range(square, 0.92 * DRAWS, 0.98 * DRAWS);
         assert_in_range(quality, 0.92 * DRAWS, 0.98 * DRAWS);
-        assert_in_range(resonance, 0.92 * DRAWS, 0.985 * DRAWS);
+        assert_in_range(resonance, 0.92 * DRAWS, 0.98 * DRAWS);
         assert_true(alarms < 0.05 * DRAWS);
     }
 }

@@ -49,10 +49,54 @@ static void test_law(void **state)
             assert_near(law.modulus, 2e6, 2e-3);
             assert_true(law.misfit < 1e-3);
         }
-    wt_dwell law;
-    const double early[6] = {0.1, 1, 2, 3, 4, 5}, one[6] = {1, 1, 1, 1, 1, 1};
-    assert_int_equal(wt_dwell_fit(early, one, 6, 0.3, 1.5, false, &law, NULL), WT_OK);
-    assert_false(law.found);
+}
+
+/* A loading in proportion to time: tau^(1-n) - (tau-1)^(1-n) over 1-n, to the end of the loading,
+ * where the rubber has had no time for what came last. */
+static void test_steep(void **state)
+{
+    (void)state;
+    static const double exponents[] = {0.1, 0.6, 0.9}, since[] = {0, 1e-6, 1e-3, 1, 1e3};
+    for (size_t i = 0; i < sizeof exponents / sizeof *exponents; i++)
+        for (size_t k = 0; k < sizeof since / sizeof *since; k++) {
+            const double n = exponents[i], m = 1 - n, tau = 1 + since[k];
+            assert_near(wt_dwell_modulus(1, n, tau, 1, 1, false),
+                        (pow(tau, m) - pow(since[k], m)) / m, 1e-9);
+            assert_near(wt_dwell_modulus(1, n, tau, 1, 1, true),
+                        tgamma(1 + n) * tgamma(m) * (1 + n) /
+                            (pow(tau, 1 + n) - pow(since[k], 1 + n)),
+                        1e-9);
+        }
+}
+
+static void test_no_law(void **state)
+{
+    (void)state;
+    enum { FEW = 6 };
+    static const struct {
+        double first_time, last_modulus, power, fall;
+        const char *why;
+    } cases[] = {{1, 1, 1.5, 0.2, ""},
+                 {1, 1, 1 - 1e-12, 0.2, ""}, /* a punch, as rounding leaves it */
+                 {1, 1, 1.5, 1.5, "falls faster than any power law of rubber"},
+                 {0.1, 1, 1.5, 0.2, "a point from before the end of the loading, or from no time"},
+                 {1, (double)INFINITY, 1.5, 0.2, "a modulus that is no positive number"},
+                 {1, 0, 1.5, 0.2, "a modulus that is no positive number"},
+                 {1, 1, (double)NAN, 0.2, "no loading that force and time tell"}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        double time[FEW], modulus[FEW];
+        wt_dwell law;
+        for (int i = 0; i < FEW; i++) {
+            time[i] = i == 0 ? cases[k].first_time : i + 1;
+            modulus[i] =
+                1e6 * pow(i + 1, -cases[k].fall) * (i == FEW - 1 ? cases[k].last_modulus : 1);
+        }
+        assert_int_equal(wt_dwell_fit(time, modulus, FEW, 0.3, cases[k].power, false, &law, NULL),
+                         WT_OK);
+        assert_string_equal(law.why_not, cases[k].why);
+        assert_int_equal(law.found, cases[k].why[0] == '\0');
+        assert_int_equal(isnan(law.exponent), !law.found);
+    }
 }
 
 /* ---- files ----------------------------------------------------------------------------------- */
@@ -179,8 +223,8 @@ static int free_formats(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_law),
-                                       cmocka_unit_test(test_relaxation),
-                                       cmocka_unit_test(test_genuine)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_law), cmocka_unit_test(test_steep), cmocka_unit_test(test_no_law),
+        cmocka_unit_test(test_relaxation), cmocka_unit_test(test_genuine)};
     return cmocka_run_group_tests(tests, open_formats, free_formats);
 }

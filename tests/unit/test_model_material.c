@@ -171,6 +171,10 @@ static void table_moduli(void **state)
         assert_near(s1[i], e1[i], 0);
         assert_near(s2[i], e2[i], 0);
     }
+    const double no_number = (double)NAN;
+    hold->law->modulus(hold, &no_number, 1, e1, e2);
+    slope->law->modulus(slope, &no_number, 1, s1, s2);
+    assert_true(isnan(e1[0]) && isnan(e2[0]) && isnan(s1[0]) && isnan(s2[0]));
     size_t n = 0;
     const double *breaks = hold->law->breaks(hold, &n);
     assert_int_equal(n, 3);
