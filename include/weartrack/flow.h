@@ -66,6 +66,7 @@ WT_API wt_status wt_job_input(const wt_job *work, wt_provenance_input input, wt_
  * result; `name` is the path to show. */
 typedef struct wt_tables_role {
     const char *of_curves, *of_others;
+    const char *instead; /* what to give if it is none; NULL: results of weartrack */
 } wt_tables_role;
 WT_API wt_status wt_tables_read(const char *path, const char *name, const wt_job *work,
                                 wt_tables_role role, wt_result **tables,
@@ -567,9 +568,10 @@ WT_API void wt_softness_clear(wt_softness *softness);
  * about it. Or from any table with columns strain, f, g and maybe f_error, g_error. */
 WT_API wt_status wt_softness_from_table(const wt_table *table, wt_softness *softness,
                                         wt_error *err) WT_NODISCARD;
-/* From payne_sweep among tables, or the first of them. */
-WT_API wt_status wt_softness_of(const wt_result *tables, wt_softness *softness,
-                                wt_error *err) WT_NODISCARD;
+/* From payne_sweep among the tables of a file, or the first of them; the file is an input of the
+ * work, shown as `name`. */
+WT_API wt_status wt_softness_read(const char *path, const char *name, const wt_job *work,
+                                  wt_softness *softness, wt_error *err) WT_NODISCARD;
 
 /* ---- friction -------------------------------------------------------------------------------- */
 

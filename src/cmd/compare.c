@@ -94,8 +94,8 @@ static bool check_options(compare_call *call, bool materials, bool master)
         return cmd_usage_error(&call->s, "--poisson-ratio is of materials, or of --master");
     if (parts[OF_READING].given != 0 && !(materials && compare_reads_isotherms(call)))
         return cmd_usage_error(&call->s,
-                               "--temperature, --units, --format, --sheet, --deformation and "
-                               "--strain are for measured isotherms; %s",
+                               "--temperature, --units, --format, --sheet, --deformation, "
+                               "--strain, --sample and --sample-by are for measured isotherms; %s",
                                materials ? "all that is given are results" : "there are none");
     return true;
 }
@@ -113,7 +113,7 @@ static bool read_inputs(compare_call *call)
     for (size_t i = 0; call->input != NULL && i < s->n_files; i++) {
         compare_input *input = &call->input[i];
         input->path = s->files[i];
-        const wt_tables_role role = {i == 0 ? "bulk" : "track", "material"};
+        const wt_tables_role role = {i == 0 ? "bulk" : "track", "material", NULL};
         if (wt_tables_read(input->path, input->path, &s->work, role, &input->tables,
                            &input->failure) != WT_OK)
             input->tables = NULL;

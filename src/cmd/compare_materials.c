@@ -46,7 +46,7 @@ static wt_status fit(compare_call *call, compare_input *input, wt_error *err)
         return WT_E_CANCELLED;
     wt_job work = call->s.work;
     work.formats = call->s.formats;
-    work.left_out = WT_EXTRA_REDUCED | WT_EXTRA_SPECTRUM;
+    work.left_out |= WT_EXTRA_REDUCED | WT_EXTRA_SPECTRUM;
     if (input->tables != NULL) /* the file is an input already */
         work.provenance = NULL;
     set.patterns = &input->path;
@@ -57,6 +57,8 @@ static wt_status fit(compare_call *call, compare_input *input, wt_error *err)
     input->shift_factors = tables.shift_factors;
     tables.shift_factors = NULL;
     wt_master_tables_clear(&tables);
+    if (status == WT_E_AMBIGUOUS || status == WT_E_NOT_FOUND) /* of its samples */
+        wt_error_file(&failure, input->path);
     /* what is nothing that is known might have been meant for a result */
     if (status != WT_OK)
         *err = status == WT_E_FORMAT && input->tables == NULL ? input->failure : failure;

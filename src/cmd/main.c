@@ -46,9 +46,9 @@ static void print_help(FILE *out)
         if (c->run == NULL)
             fprintf(out, "\n%s\n", c->name);
         else
-            fprintf(out, "  %-10s %s\n", c->name, c->help);
+            fprintf(out, "  %-11s %s\n", c->name, c->help);
     }
-    fputs("\n  help       the same; `weartrack help SUBCOMMAND` for one of them\n\n"
+    fputs("\n  help        the same; `weartrack help SUBCOMMAND` for one of them\n\n"
           "options: --help, --version. Each subcommand has --help and a page "
           "weartrack-SUBCOMMAND(1).\n"
           "Exit status: 0 good, 1 data or run-time error, 2 usage error.\n",

@@ -157,6 +157,10 @@ int cmd_master(int argc, char **argv)
         [EXPORTED] = {exported_params(), &own, NULL, 0},
         {wt_read_params(), &set.read,
          "temperature units format sheet deformation strain sample sample-by", 0}};
+    static const wt_tables_role role = {
+        "shifts", "shifts",
+        "what weartrack master wrote, or a text table that begins with a line such as "
+        "\"# temperature[degC]<TAB>log_a[1]\""};
     cmd_session s = cmd_session_defaults();
     wt_master_tables tables = {0};
     wt_result *given = NULL;
@@ -174,8 +178,7 @@ int cmd_master(int argc, char **argv)
     s.work.dma = &sweep; /* read once, for all samples */
     wt_status made = WT_OK;
     if (saved.read != NULL)
-        made = wt_tables_read(saved.read, saved.read, &s.work, (wt_tables_role){"shifts", "shifts"},
-                              &given, &s.err);
+        made = wt_tables_read(saved.read, saved.read, &s.work, role, &given, &s.err);
     if (given != NULL) /* all that master wrote, or a table of the user's own */
         job.shifts = wt_result_find(given, "shift_factors");
     if (given != NULL && job.shifts == NULL)

@@ -15,11 +15,19 @@ typedef struct sample_fit {
     char name[NAME_SIZE]; /* of its tables */
 } sample_fit;
 
+static bool is_taken(const sample_fit *fits, size_t i)
+{
+    for (size_t k = 0; k < i; k++)
+        if (strcmp(fits[k].name, fits[i].name) == 0)
+            return true;
+    return false;
+}
+
 /* What names of tables may hold; another sample of the same letters has a number behind. */
 static void name_tables(sample_fit *fits, size_t i, const char *sample)
 {
     char *const name = fits[i].name;
-    size_t n = 0, same = 0;
+    size_t n = 0;
     for (; *sample != '\0' && n < NAME_SIZE - 8; sample++) {
         const char c = *sample >= 'A' && *sample <= 'Z' ? (char)(*sample - 'A' + 'a') : *sample;
         const bool good = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
@@ -31,13 +39,8 @@ static void name_tables(sample_fit *fits, size_t i, const char *sample)
     if (n == 0)
         n = (size_t)snprintf(name, NAME_SIZE, "unnamed");
     name[n] = '\0';
-    for (size_t k = 0; k < i; k++) {
-        const size_t length = strlen(fits[k].name);
-        same += strncmp(fits[k].name, name, n) == 0 &&
-                (length == n || fits[k].name[n + strspn(fits[k].name + n, "_0123456789")] == '\0');
-    }
-    if (same > 0)
-        snprintf(name + n, NAME_SIZE - n, "_%zu", same + 1);
+    for (size_t number = 2; is_taken(fits, i); number++)
+        snprintf(name + n, NAME_SIZE - n, "_%zu", number);
 }
 
 /* What is noticed of one sample is told of it. */

@@ -79,7 +79,7 @@ static wt_status fit_material(cmd_sliding *s, wt_error *err)
     s->master.sets = &s->set;
     s->master.n_sets = 1;
     wt_job work = s->session.work;
-    work.left_out = WT_EXTRA_REDUCED | WT_EXTRA_SPECTRUM;
+    work.left_out |= WT_EXTRA_REDUCED | WT_EXTRA_SPECTRUM;
     if (work.replicates < 2)
         work.left_out |= WT_EXTRA_DRAWS;
     wt_status status = wt_master_make(&s->master, &work, &tables, &s->rubber, err);
@@ -129,22 +129,6 @@ static wt_status read_material(cmd_sliding *s, wt_error *err)
     return status;
 }
 
-static wt_status read_softening(cmd_sliding *s, wt_error *err)
-{
-    static const wt_tables_role role = {"softening", "softening"};
-    const char *path = s->contact.softening;
-    wt_result *tables = NULL;
-    wt_status status = wt_tables_read(path, path, &s->session.work, role, &tables, err);
-    if (status == WT_OK)
-        status = wt_softness_of(tables, &s->softness, err);
-    if (status != WT_OK)
-        wt_error_file(err, path);
-    else
-        s->conditions.softness = &s->softness;
-    wt_result_free(tables);
-    return status;
-}
-
 bool cmd_sliding_open(cmd_sliding *s)
 {
     wt_error *err = &s->session.err;
@@ -167,8 +151,11 @@ bool cmd_sliding_open(cmd_sliding *s)
             wt_error_advice(err, "--roughness takes a spectrum file or "
                                  "self-affine:q0=..,qr=..,q1=..,hurst=..,c0=..");
     }
-    if (status == WT_OK && s->contact.softening != NULL)
-        status = read_softening(s, err);
+    if (status == WT_OK && s->contact.softening != NULL) {
+        status =
+            wt_softness_read(s->contact.softening, s->contact.softening, work, &s->softness, err);
+        s->conditions.softness = &s->softness;
+    }
     s->conditions.rubber = &s->rubber;
     s->conditions.surface = &s->surface;
     if (status != WT_OK)

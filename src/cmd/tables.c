@@ -13,7 +13,7 @@ bool cmd_tables_have(const wt_result *tables, const char *prefix)
 
 wt_status cmd_tables_read(const char *path, wt_result **tables, wt_error *err)
 {
-    return wt_tables_read(path, path, NULL, (wt_tables_role){NULL, NULL}, tables, err);
+    return wt_tables_read(path, path, NULL, (wt_tables_role){NULL, NULL, NULL}, tables, err);
 }
 
 void cmd_tables_remarks(cmd_session *s, const char *path, const wt_result *tables)
@@ -86,7 +86,7 @@ wt_status cmd_rubber_of(const wt_result *tables, const char *path, double poisso
 wt_status cmd_rubber_read(const char *path, double poisson_ratio, const wt_job *work,
                           wt_result **tables, wt_rubber *rubber, wt_error *err)
 {
-    const wt_status status =
-        wt_tables_read(path, path, work, (wt_tables_role){"material", "material"}, tables, err);
+    const wt_status status = wt_tables_read(
+        path, path, work, (wt_tables_role){"material", "material", NULL}, tables, err);
     return status == WT_OK ? cmd_rubber_of(*tables, path, poisson_ratio, rubber, err) : status;
 }

@@ -11,7 +11,7 @@ int cmd_thermal(int argc, char **argv)
                 "tune): a simple harmonic oscillator on a white floor by maximum likelihood, with "
                 "the errors of the fit and, of several spectra, their scatter, beside the value "
                 "of the file. Folders and patterns are allowed.",
-        .common = "output formats files-from provenance cost",
+        .common = "output formats columns files-from provenance cost",
         .n_files = CMD_SOME};
     wt_thermal_job job = wt_thermal_job_defaults();
     wt_file_set set = {.read = wt_read_defaults()};

@@ -57,11 +57,13 @@ static const base_table *base_of(const given_column *columns, size_t n)
 {
     static const base_table bases[] = {{WT_KIND_FORCE, "table-force"},
                                        {WT_KIND_SPECTRUM, "table-spectrum"},
+                                       {WT_KIND_NOISE, "table-noise"},
                                        {WT_KIND_SWEEP, "table-units"}};
     const size_t last = sizeof bases / sizeof *bases - 1;
+    const wt_quantity_set of_sweeps = quantities_of(bases[last].kind); /* a frequency is of both */
     for (size_t i = 0; i < n; i++)
         for (size_t b = 0; b < last; b++)
-            if ((quantities_of(bases[b].kind) & WT_Q_BIT(columns[i].quantity)) != 0)
+            if ((quantities_of(bases[b].kind) & ~of_sweeps & WT_Q_BIT(columns[i].quantity)) != 0)
                 return &bases[b];
     return &bases[last];
 }

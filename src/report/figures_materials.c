@@ -174,7 +174,7 @@ static void caption_material_ratio(figure_drawing *d)
                 material_ratio_words(d->table, MATERIAL_RATIO_KEY_FIRST));
     if (isfinite(at))
         text_format(&d->caption, " Over frequency: at %s.", VALUE(WT_Q_TEMPERATURE, NULL, at));
-    if (isfinite(frequency.value))
+    if (d->width > 1 && isfinite(frequency.value)) /* beside it */
         text_format(&d->caption, " Over temperature: at %s.", ESTIMATE(&frequency));
     text_format(&d->caption, " Do they differ? %s.",
                 material_ratio_words(d->table, MATERIAL_RATIO_KEY_DIFFERS));

@@ -169,7 +169,12 @@ static void say_dwell(sentence *s, const table_view *v)
     if (v->table == NULL)
         return;
     const wt_estimate exponent = dwell_value(v, DWELL_KEY_EXPONENT);
+    size_t n = 0;
+    for (size_t i = 0; i < v->n_rows; i++)
+        n += isnan(dwell_get(v, i, DWELL_EXPONENT)) ? 0 : 1;
     next(s);
+    if (n > 0 && n < v->n_rows)
+        say(s, "%zu of ", n);
     say(s, "%zu dwell%s", v->n_rows, v->n_rows == 1 ? "" : "s");
     if (isnan(exponent.value))
         say(s, ", no law behind %s", v->n_rows == 1 ? "it" : "them");
@@ -229,8 +234,10 @@ static void say_thermal(sentence *s, const table_view *v)
     const char *includes = thermal_words(v, THERMAL_KEY_INCLUDES),
                *indent = thermal_words(v, THERMAL_KEY_INDENT),
                *compare = thermal_words(v, THERMAL_KEY_COMPARE);
-    say(s, "; its error is that of %s; use %s%s%s", includes, indent,
-        compare != NULL ? ", and in compare " : "", compare != NULL ? compare : "");
+    if (k.standard_error >= 0)
+        say(s, "; its error is that of %s", includes);
+    say(s, "; use %s%s%s", indent, compare != NULL ? ", and in compare " : "",
+        compare != NULL ? compare : "");
 }
 
 static void say_friction(sentence *s, const table_view *v)

@@ -483,7 +483,7 @@ static wt_status prepare_curves(coverage *c, unsigned threads, wt_error *err)
     c->scratch = status == WT_OK ? calloc(c->n_workers, sizeof(curve_scratch *)) : NULL;
     for (unsigned i = 0; i < c->n_workers && c->scratch != NULL && status == WT_OK; i++)
         if ((c->scratch[i] = curve_scratch_new(c->job->curves)) == NULL)
-            status = WT_E_MEMORY;
+            status = wt_fail(err, WT_E_MEMORY, "out of memory");
     return status == WT_OK && c->scratch == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory")
                                                  : status;
 }

@@ -78,7 +78,9 @@ static wt_status not_there(const wt_sweep *sweep, const char *name, wt_error *er
 {
     char found[256] = "";
     wt_samples samples = {0, NULL};
-    const wt_status status = flow_samples_find(sweep, &samples, err);
+    wt_status status = flow_samples_find(sweep, &samples, err);
+    for (size_t i = 0; i < sweep->n_strain_sweeps && status == WT_OK; i++)
+        status = add_name(&samples, sweep->strain_sweeps[i].sample, err);
     list_names(&samples, found, sizeof found);
     wt_samples_clear(&samples);
     if (status != WT_OK)

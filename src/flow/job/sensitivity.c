@@ -552,6 +552,8 @@ wt_status wt_sensitivity_make(const wt_sensitivity_job *job, const wt_job *work,
     wt_sensitivity_tables made = {0};
     flow_files files = {NULL, 0, NULL};
     wt_status status = param_check(wt_sensitivity_job_params(), job, err);
+    if (status == WT_OK && !(job->options.from < job->options.to))
+        status = range_error("contact-to", job->options.to, "more than contact-from", err);
     if (status == WT_OK)
         status = flow_files_list(job->sets, job->n_sets, work, &files, err);
     if (status == WT_OK)

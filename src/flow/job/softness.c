@@ -225,7 +225,13 @@ static wt_status of_given(const wt_table *table, wt_softness *s, wt_error *err)
     }
     if (status != WT_OK || n == 0)
         return status != WT_OK ? status : missing(err);
-    status = make_room(s, n, column[F_ERROR] >= 0 && column[G_ERROR] >= 0, err);
+    if ((column[F_ERROR] >= 0) != (column[G_ERROR] >= 0)) {
+        wt_fail(err, WT_E_MISSING, "a softening with strain has the error of one ratio alone");
+        wt_error_expected(err, "f_error and g_error, 0 where there is none");
+        wt_error_found(err, "%s", names[column[F_ERROR] >= 0 ? F_ERROR : G_ERROR]);
+        return WT_E_MISSING;
+    }
+    status = make_room(s, n, column[F_ERROR] >= 0, err);
     if (status != WT_OK)
         return status;
     double *const to[GIVEN] = {s->table.strain, s->table.storage, s->table.loss, s->storage_error,
@@ -269,13 +275,24 @@ wt_status wt_softness_from_table(const wt_table *table, wt_softness *softness, w
     return status;
 }
 
-wt_status wt_softness_of(const wt_result *tables, wt_softness *softness, wt_error *err)
+wt_status wt_softness_read(const char *path, const char *name, const wt_job *work,
+                           wt_softness *softness, wt_error *err)
 {
-    const wt_table *swept = tables != NULL ? wt_result_find(tables, "payne_sweep") : NULL;
-    if (tables == NULL || wt_result_n_tables(tables) == 0)
-        return wt_fail(err, WT_E_ARG, "no table of a softening with strain");
-    return wt_softness_from_table(swept != NULL ? swept : wt_result_table(tables, 0), softness,
-                                  err);
+    static const wt_tables_role role = {
+        "softening", "softening",
+        "what weartrack payne wrote, or a text table that begins with a line such as "
+        "\"# strain[1]<TAB>f[1]<TAB>g[1]\""};
+    wt_result *tables = NULL;
+    wt_status status = wt_tables_read(path, name, work, role, &tables, err);
+    if (status == WT_OK) {
+        const wt_table *swept = wt_result_find(tables, "payne_sweep");
+        status = wt_softness_from_table(swept != NULL ? swept : wt_result_table(tables, 0),
+                                        softness, err);
+    }
+    if (status != WT_OK)
+        wt_error_file(err, name);
+    wt_result_free(tables);
+    return status;
 }
 
 bool softness_has_errors(const wt_softness *softness)

@@ -19,7 +19,7 @@ static wt_status read_stream(FILE *in, const char *name, wt_result *tables, wt_e
 
 /* The tables of a text stream, in memory. */
 static wt_status read_text(const unsigned char *bytes, size_t length, const char *path,
-                           wt_result **tables, wt_error *err)
+                           const char *instead, wt_result **tables, wt_error *err)
 {
     wt_result *const read = wt_result_new();
     FILE *const in = fmemopen((void *)(uintptr_t)bytes, length, "r");
@@ -34,7 +34,9 @@ static wt_status read_text(const unsigned char *bytes, size_t length, const char
     wt_error_file(err, path);
     if ((status == WT_E_FORMAT || status == WT_E_CORRUPT || status == WT_E_EMPTY) &&
         err->advice[0] == '\0')
-        wt_error_advice(err, "give what weartrack indent or weartrack master wrote");
+        wt_error_advice(err, "give %s",
+                        instead != NULL ? instead
+                                        : "what weartrack indent or weartrack master wrote");
     if (status == WT_OK)
         *tables = read;
     else
@@ -64,7 +66,7 @@ wt_status wt_tables_read(const char *path, const char *name, const wt_job *work,
                        memcmp(bytes, hdf5_signature, sizeof hdf5_signature) == 0;
     if (status == WT_OK)
         status = store ? wt_store_read_memory(bytes, length, name, tables, err)
-                       : read_text(bytes, length, name, tables, err);
+                       : read_text(bytes, length, name, role.instead, tables, err);
     if (status == WT_OK && work != NULL)
         status = wt_job_input(
             work,

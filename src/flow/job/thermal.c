@@ -71,11 +71,16 @@ static void add_note(lever *l, const char *note)
     snprintf(l->note + used, sizeof l->note - used, "%s%s", used > 0 ? "; " : "", note);
 }
 
-static wt_status find_sensitivity(lever *l, const flow_file *file, wt_error *err)
+static wt_status find_sensitivity(const wt_job *work, lever *l, const flow_file *file,
+                                  wt_error *err)
 {
     const double given = file->read.sensitivity, own = l->spectrum.sensitivity;
     if (!l->spectrum.volts) {
         l->sensitivity = given > 0 && own > 0 ? given / own : 1;
+        if (given > 0 && !(own > 0))
+            wt_parselog_add(work->log, WT_WARNING, file->name, NULL,
+                            "the spectrum is in metres and the file does not say by which "
+                            "sensitivity: that of --sensitivity is not used");
         return WT_OK;
     }
     l->sensitivity = !isnan(given) ? given : own;
@@ -142,7 +147,7 @@ static wt_status measure(const wt_thermal_job *job, const wt_job *work, flow_fil
     if (status == WT_OK)
         status = wt_noise_read(work->formats, input, &file->read, work->log, &l->spectrum, err);
     if (status == WT_OK)
-        status = find_sensitivity(l, file, err);
+        status = find_sensitivity(work, l, file, err);
     if (status == WT_OK)
         status = wt_thermal_fit(l->spectrum.frequency, l->spectrum.density, l->spectrum.n,
                                 job->from, job->to, &l->fit, err);
@@ -210,7 +215,7 @@ static wt_estimate all_together(const lever *levers, size_t n, double *scatter)
 {
     wt_estimate k = {(double)NAN, (double)NAN, 0, "N/m"};
     double sum = 0, own = 0, squares = 0, common = 0, found = 0;
-    bool known = true;
+    bool known = true; /* what a spectrum that is no oscillator's is off by may be in all of them */
     *scatter = (double)NAN;
     for (size_t i = 0; i < n; i++)
         if (levers[i].fit.found) {
@@ -226,12 +231,11 @@ static wt_estimate all_together(const lever *levers, size_t n, double *scatter)
     for (size_t i = 0; i < n; i++)
         if (levers[i].fit.found)
             squares += pow(levers[i].constant / k.value - 1, 2);
-    if (found >= LEAST_SPECTRA) {
+    if (found >= LEAST_SPECTRA)
         *scatter = sqrt(squares / (found - 1));
-        k.standard_error = k.value * hypot(*scatter / sqrt(found), common);
-    } else if (known) {
-        k.standard_error = k.value * hypot(sqrt(own) / found, common);
-    }
+    const double of_mean = (found >= LEAST_SPECTRA ? *scatter : sqrt(own / found)) / sqrt(found);
+    if (known)
+        k.standard_error = k.value * hypot(of_mean, common);
     return k;
 }
 

@@ -359,20 +359,14 @@ wt_status flow_step_roughness(flow_run *run, wt_error *err)
 
 wt_status flow_step_given_softening(flow_run *run, wt_error *err)
 {
-    static const wt_tables_role role = {"softening", "softening"};
     const wt_file_set *set = &run->c->softening.sets[0];
     char *path = wt_path_join(set->folder, set->patterns[0]);
-    wt_result *tables = NULL;
     if (path == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    wt_status status = wt_tables_read(path, set->patterns[0], &run->job, role, &tables, err);
-    if (status == WT_OK)
-        status = wt_softness_of(tables, &run->softness, err);
+    const wt_status status =
+        wt_softness_read(path, set->patterns[0], &run->job, &run->softness, err);
     if (status == WT_OK)
         cost_say(&run->job, (cost_summary){.items = (double)run->softness.table.n});
-    else
-        wt_error_file(err, set->patterns[0]);
-    wt_result_free(tables);
     free(path);
     return status;
 }
