@@ -32,7 +32,7 @@ typedef struct map_segment {
 } map_segment;
 
 /* What stands beside the tables behind the door; not a byte of it is trusted. WT_E_EMPTY if there
- * is no map. Takes the result, also on failure. */
+ * is no map. Borrows the bytes or the descriptor. Takes the result, also on failure. */
 wt_status map_open(const hdf5_bytes *from, wt_result *result, map_reader **reader,
                    wt_error *err) WT_NODISCARD;
 void map_close(map_reader *reader);

@@ -9,11 +9,13 @@
 #include <string.h>
 
 struct map_reader {
+    hdf5_bytes from;
     wt_result *result;
     table_view curves, segments;
     map_channel channels[WT_Q_COUNT];
     size_t n_channels;
-    door_flow *flow;
+    door_flow *flow; /* NULL before the first curve and behind the last: its process ends with the
+                        thread that began it, which need not be the one that opened the file */
     size_t n_samples, at; /* of an array; where the next segment begins */
     size_t n_block;       /* samples of the block that is there */
     double *block;        /* [n_channels][n_block] */
@@ -101,12 +103,12 @@ static wt_status check_counts(map_reader *r, size_t size, wt_error *err)
 wt_status map_open(const hdf5_bytes *from, wt_result *result, map_reader **reader, wt_error *err)
 {
     map_reader *const r = calloc(1, sizeof *r);
-    const door_limits limits = door_limits_of(from->size);
     wt_status status = WT_OK;
     if (r == NULL) {
         wt_result_free(result);
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     }
+    r->from = *from;
     r->result = result;
     if (wt_result_find(result, map_curves_schema.name) == NULL)
         status = wt_fail(err, WT_E_EMPTY, "no map of force curves in it");
@@ -121,8 +123,6 @@ wt_status map_open(const hdf5_bytes *from, wt_result *result, map_reader **reade
     if (status == WT_OK &&
         (r->block = malloc(r->n_channels * MAP_BLOCK * sizeof *r->block)) == NULL)
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
-    if (status == WT_OK)
-        status = hdf5_door_begin(from, &limits, store_pass_samples, &r->flow, err);
     if (status == WT_OK)
         *reader = r;
     else
@@ -211,6 +211,11 @@ static long grid_place(double value)
     return (long)counted(value, INT32_MAX);
 }
 
+static double positive(double value)
+{
+    return value > 0 && isfinite(value) ? value : (double)NAN;
+}
+
 static void set_curve(const map_reader *r, size_t row, wt_force_curve *curve)
 {
     const table_view *const v = &r->curves;
@@ -219,8 +224,15 @@ static void set_curve(const map_reader *r, size_t row, wt_force_curve *curve)
     curve->y = map_curves_get(v, row, MAP_CURVES_POSITION_Y);
     curve->grid_x = grid_place(map_curves_get(v, row, MAP_CURVES_GRID_X));
     curve->grid_y = grid_place(map_curves_get(v, row, MAP_CURVES_GRID_Y));
-    curve->cantilever.spring_constant = map_curves_get(v, row, MAP_CURVES_SPRING_CONSTANT);
-    curve->cantilever.sensitivity = map_curves_get(v, row, MAP_CURVES_SENSITIVITY);
+    curve->cantilever.spring_constant =
+        positive(map_curves_get(v, row, MAP_CURVES_SPRING_CONSTANT));
+    curve->cantilever.sensitivity = positive(map_curves_get(v, row, MAP_CURVES_SENSITIVITY));
+}
+
+static wt_status begin(map_reader *r, wt_error *err)
+{
+    const door_limits limits = door_limits_of(r->from.size);
+    return hdf5_door_begin(&r->from, &limits, store_pass_samples, &r->flow, err);
 }
 
 wt_status map_next(map_reader *r, wt_force_curve *curve, const map_segment **segments, size_t *n,
@@ -237,6 +249,8 @@ wt_status map_next(map_reader *r, wt_force_curve *curve, const map_segment **seg
     const size_t n_segments = (size_t)map_curves_get(&r->curves, row, MAP_CURVES_SEGMENTS);
     set_curve(r, row, curve);
     wt_status status = make_room(r, first, n_segments, err);
+    if (status == WT_OK && r->flow == NULL)
+        status = begin(r, err);
     double *values = r->values;
     for (size_t i = 0; status == WT_OK && i < n_segments; i++) {
         const table_view *const v = &r->segments;
@@ -266,5 +280,7 @@ wt_status map_next(map_reader *r, wt_force_curve *curve, const map_segment **seg
     *n = n_segments;
     if ((double)sum == map_curves_get(&r->curves, row, MAP_CURVES_CHECKSUM))
         return WT_OK;
-    return corrupt(err, MAP_SAMPLES_GROUP, "the samples do not agree with their checksum");
+    (void)corrupt(err, MAP_SAMPLES_GROUP, "the samples do not agree with their checksum");
+    wt_error_place(err, "%s, curve %zu", MAP_SAMPLES_GROUP, curve->index);
+    return WT_E_CORRUPT;
 }

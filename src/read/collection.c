@@ -161,7 +161,7 @@ static wt_status next_curve(wt_force_source *base, wt_force_curve *curve, wt_err
             return WT_END;
         status = next_entry(s, err);
         if (status != WT_OK) {
-            s->n_curves++;
+            curve->index = s->n_curves++;
             return status;
         }
     }

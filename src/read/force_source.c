@@ -37,7 +37,9 @@ wt_status wt_force_next(wt_force_source *source, wt_force_curve *curve, wt_error
     shortage_forget();
     wt_status status = shortage_end(source->stream->next(source, curve, err), err);
     if (status != WT_OK && status != WT_END) {
+        const size_t index = curve->index;
         wt_force_curve_reset(curve);
+        curve->index = index;
         wt_error_file(err, source->name);
     }
     return status;

@@ -7,6 +7,7 @@
 
 #include <fcntl.h>
 #include <math.h>
+#include <pthread.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -43,6 +44,7 @@ static void make_curve(size_t c, wt_force_curve *curve)
     curve->grid_x = (long)c % 8;
     curve->grid_y = (long)c / 8;
     curve->cantilever.spring_constant = 0.1;
+    curve->cantilever.sensitivity = -60e-9; /* none, so that it comes back as NaN */
     for (size_t s = 0; s < 2; s++) {
         const size_t n = length_of(c, s), n_channels = c < 20 ? 2 : 3;
         wt_segment *const segment = wt_force_curve_add_segment(
@@ -101,6 +103,7 @@ static size_t read_back(size_t *first_bad)
     for (wt_status got; (got = wt_force_next(source, &curve, &err)) != WT_END; c++) {
         if (got != WT_OK) {
             assert_int_equal(got, WT_E_CORRUPT);
+            assert_int_equal(curve.index, 3 * c);
             *first_bad = n_bad++ == 0 ? c : *first_bad;
             continue;
         }
@@ -137,6 +140,42 @@ static void comes_back(void **state)
     size_t bad = 0;
     (void)state;
     assert_int_equal(read_back(&bad), 0);
+}
+
+typedef struct opened {
+    wt_formats *formats;
+    wt_input *input;
+    wt_force_source *source;
+} opened;
+
+static void *open_apart(void *user)
+{
+    opened *const o = user;
+    (void)!wt_force_open(o->formats, o->input, NULL, NULL, &o->source, NULL);
+    (void)usleep(100000); /* a process that was begun is under way */
+    return NULL;
+}
+
+/* The thread that opened it has ended when it is read. */
+static void from_another_thread(void **state)
+{
+    opened o = {NULL, NULL, NULL};
+    wt_force_curve curve = {.n_segments = 0};
+    pthread_t thread;
+    size_t n = 0;
+    (void)state;
+    assert_int_equal(wt_formats_new(NULL, &o.formats, NULL, NULL), WT_OK);
+    assert_int_equal(wt_input_open(path, &o.input, NULL), WT_OK);
+    assert_int_equal(pthread_create(&thread, NULL, open_apart, &o), 0);
+    assert_int_equal(pthread_join(thread, NULL), 0);
+    assert_non_null(o.source);
+    while (wt_force_next(o.source, &curve, NULL) == WT_OK)
+        n++;
+    assert_int_equal(n, CURVES);
+    wt_force_curve_clear(&curve);
+    wt_force_close(o.source);
+    wt_input_close(o.input);
+    wt_formats_free(o.formats);
 }
 
 static size_t length_in(hid_t file, const char *name)
@@ -247,9 +286,9 @@ static void no_disk(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(comes_back),       cmocka_unit_test(as_documented),
-        cmocka_unit_test(a_changed_sample), cmocka_unit_test(counts),
-        cmocka_unit_test(no_disk),
+        cmocka_unit_test(comes_back),    cmocka_unit_test(from_another_thread),
+        cmocka_unit_test(as_documented), cmocka_unit_test(a_changed_sample),
+        cmocka_unit_test(counts),        cmocka_unit_test(no_disk),
     };
     return cmocka_run_group_tests_name("map of force curves", tests, write_map, clean);
 }

@@ -1,4 +1,4 @@
-/* ZIP archives: whole, without their end, and lying about sizes.
+/* ZIP archives: whole, without their end, and lying about sizes and numbers.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -6,6 +6,7 @@
 
 #include "read/bytes/archive.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -151,12 +152,131 @@ static void check_sum_and_limit(void **state)
     free(buffer.data);
 }
 
+/* The record of an entry at `offset`, as put_entry(..., false, ...) wrote it. */
+static void put_record(bytes *b, const char *name, const char *text, uint32_t offset)
+{
+    const uint32_t n = (uint32_t)strlen(text);
+    put(b, 0x02014b50, 4);
+    put(b, 20, 2);
+    put(b, 20, 2);
+    put(b, 0, 4); /* no flags, stored */
+    put(b, 0x50210000, 4);
+    put(b, crc32(text, n), 4);
+    put(b, n, 4);
+    put(b, n, 4);
+    put(b, (uint32_t)strlen(name), 2);
+    put(b, 0, 4);
+    put(b, 0, 4);
+    put(b, 0, 4);
+    put(b, offset, 4);
+    memcpy(b->data + b->n, name, strlen(name));
+    b->n += strlen(name);
+}
+
+static void put_end(bytes *b, uint32_t n, uint32_t size, uint32_t offset)
+{
+    put(b, 0x06054b50, 4);
+    put(b, 0, 4);
+    put(b, n, 2);
+    put(b, n, 2);
+    put(b, size, 4);
+    put(b, offset, 4);
+    put(b, 0, 2);
+}
+
+/* Two entries, whose directory says that there are n. */
+static void put_two(bytes *b, uint32_t n)
+{
+    put_entry(b, "one", "first text", false, 10);
+    const uint32_t two = (uint32_t)b->n;
+    put_entry(b, "two", "second text", false, 11);
+    const uint32_t directory = (uint32_t)b->n;
+    put_record(b, "one", "first text", 0);
+    put_record(b, "two", "second text", two);
+    put_end(b, n, (uint32_t)b->n - directory, directory);
+}
+
+/* Entries that the number in the directory leaves out are read all the same. */
+static void number_of_entries(void **state)
+{
+    (void)state;
+    static const uint32_t numbers[] = {2, 0, 1, 3, 60000};
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
+        bytes b = {.n = 0};
+        wt_input *input = NULL;
+        zip_archive *archive = NULL;
+        put_two(&b, numbers[i]);
+        assert_int_equal(open_bytes(&b, &input, &archive, NULL), WT_OK);
+        assert_int_equal(archive->n, 2);
+        assert_int_equal(archive->truncated, numbers[i] != 2);
+        assert_entry(archive, "one", "first text");
+        assert_entry(archive, "two", "second text");
+        archive_close(archive);
+        wt_input_close(input);
+    }
+}
+
+/* Programs without ZIP64 count to 65535 and begin again. */
+static void more_than_the_number_holds(void **state)
+{
+    enum { MORE = 65536 + 3 };
+    (void)state;
+    bytes b = {.n = 0}, record;
+    wt_input *input = NULL;
+    zip_archive *archive = NULL;
+    put_entry(&b, "000000", "first text", false, 10);
+    const size_t head = b.n, each = 46 + 6;
+    unsigned char *const all = malloc(head + MORE * each + 22);
+    assert_non_null(all);
+    memcpy(all, b.data, head);
+    for (size_t i = 0; i < MORE; i++) {
+        char name[8];
+        (void)snprintf(name, sizeof name, "%06zu", i);
+        record.n = 0;
+        put_record(&record, name, "first text", 0);
+        memcpy(all + head + i * each, record.data, each);
+    }
+    record.n = 0;
+    put_end(&record, MORE % 65536, (uint32_t)(MORE * each), (uint32_t)head);
+    memcpy(all + head + MORE * each, record.data, 22);
+    assert_int_equal(wt_input_open_memory(all, head + MORE * each + 22, "test", &input, NULL),
+                     WT_OK);
+    assert_int_equal(archive_open(input, &archive, NULL), WT_OK);
+    assert_int_equal(archive->n, MORE);
+    assert_false(archive->truncated);
+    assert_entry(archive, "000002", "first text");
+    assert_entry(archive, "065538", "first text");
+    archive_close(archive);
+    wt_input_close(input);
+    free(all);
+}
+
+/* A copy by blocks fills up the last one. */
+static void bytes_behind_the_end(void **state)
+{
+    (void)state;
+    bytes b = {.n = 0};
+    wt_input *input = NULL;
+    zip_archive *archive = NULL;
+    put_two(&b, 2);
+    b.n = 1024; /* zeros */
+    assert_int_equal(open_bytes(&b, &input, &archive, NULL), WT_OK);
+    assert_false(archive->truncated);
+    assert_int_equal(archive->n, 2);
+    assert_entry(archive, "two", "second text");
+    archive_close(archive);
+    wt_input_close(input);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cut_anywhere),
         cmocka_unit_test(declared_sizes_are_checked),
         cmocka_unit_test(check_sum_and_limit),
+        cmocka_unit_test(number_of_entries),
+        cmocka_unit_test(more_than_the_number_holds),
+        cmocka_unit_test(bytes_behind_the_end),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

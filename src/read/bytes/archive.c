@@ -41,6 +41,7 @@ struct zip_entry {
 typedef struct directory {
     wt_input *input;
     uint64_t offset, size, n;
+    bool wide; /* n counts all records; else it has 16 bits, which some programs let run over */
 } directory;
 
 static wt_status damaged(wt_error *err, const char *found)
@@ -71,10 +72,12 @@ static wt_status find_end64(const zip_archive *a, size_t end, directory *d, wt_e
     d->n = le64(record + 32);
     d->size = le64(record + 40);
     d->offset = le64(record + 48);
+    d->wide = true;
     return status;
 }
 
-/* WT_E_CORRUPT if there is no directory in the file: it may have been cut off. */
+/* WT_E_CORRUPT if there is no directory in the file: it may have been cut off. Bytes behind its
+ * end, which a copy by blocks leaves, are nothing. */
 static wt_status find_directory(const zip_archive *a, directory *d, wt_error *err)
 {
     const size_t length = a->length;
@@ -85,19 +88,20 @@ static wt_status find_directory(const zip_archive *a, directory *d, wt_error *er
     wt_status status = wt_input_at(a->input, length - n, last, n, err);
     size_t at = n < END_SIZE ? 0 : n - END_SIZE + 1;
     while (status == WT_OK && at > 0 &&
-           (le32(last + at - 1) != 0x06054b50 || le16(last + at + 19) != n - (at - 1) - END_SIZE))
+           (le32(last + at - 1) != 0x06054b50 || le16(last + at + 19) > n - (at - 1) - END_SIZE))
         at--;
     if (status == WT_OK && at == 0) {
         status = damaged(err, "no directory at its end");
     } else if (status == WT_OK) {
         const unsigned char *const end = last + at - 1;
-        *d = (directory){a->input, le32(end + 16), le32(end + 12), le16(end + 10)};
+        *d = (directory){a->input, le32(end + 16), le32(end + 12), le16(end + 10), false};
         if (d->n == UINT16_MAX || d->size == UINT32_MAX || d->offset == UINT32_MAX)
             status = find_end64(a, length - n + at - 1, d, err);
     }
     free(last);
-    if (status == WT_OK && (d->offset > length || d->size > length - d->offset ||
-                            d->n > d->size / CENTRAL_SIZE || d->n > UINT32_MAX / 2))
+    if (status == WT_OK &&
+        (d->offset > length || d->size > length - d->offset || d->n > d->size / CENTRAL_SIZE ||
+         d->size / CENTRAL_SIZE > UINT32_MAX / 2))
         return damaged(err, "a directory outside of the file");
     return status;
 }
@@ -169,15 +173,23 @@ static wt_status take_record(zip_archive *a, const unsigned char *r, size_t name
     return status;
 }
 
+/* Whether the records that were read are as many as the directory says. */
+static bool all_read(const zip_archive *a, const directory *d)
+{
+    return d->wide ? a->n == d->n : a->n % (UINT16_MAX + 1) == d->n;
+}
+
+/* Reads on to the end of the directory, whatever it says of their number. */
 static wt_status read_directory(zip_archive *a, const directory *d, wt_error *err)
 {
     wt_status status = WT_OK;
     uint64_t at = 0;
+    bool ended = false;
     unsigned char *const piece = malloc(PIECE);
-    a->entries = calloc((size_t)d->n + 1, sizeof *a->entries);
+    a->entries = calloc((size_t)(d->size / CENTRAL_SIZE) + 1, sizeof *a->entries);
     if (piece == NULL || a->entries == NULL)
         status = wt_fail(err, WT_E_MEMORY, "no memory for the archive");
-    for (size_t n = 0, used = 0; status == WT_OK && a->n < d->n;) {
+    for (size_t n = 0, used = 0; status == WT_OK && !ended;) {
         const unsigned char *const r = piece + used;
         const size_t left = n - used;
         const size_t name = left >= CENTRAL_SIZE ? le16(r + 28) : 0;
@@ -185,20 +197,22 @@ static wt_status read_directory(zip_archive *a, const directory *d, wt_error *er
         const size_t whole =
             CENTRAL_SIZE + name + extra + (left >= CENTRAL_SIZE ? le16(r + 32) : 0);
         if (left < whole && at + n == d->size) {
-            status = damaged(err, "a directory that is cut off");
+            ended = true;
         } else if (left < whole) {
             at += used;
             n = d->size - at < PIECE ? (size_t)(d->size - at) : PIECE;
             used = 0;
             status = wt_input_at(d->input, (size_t)(d->offset + at), piece, n, err);
         } else if (le32(r) != 0x02014b50) {
-            status = damaged(err, "a directory that is damaged");
+            ended = true; /* a signature may stand behind the records */
         } else {
             status = take_record(a, r, name, extra, err);
             used += whole;
         }
     }
     free(piece);
+    if (status == WT_OK && !all_read(a, d))
+        return damaged(err, "a directory that is damaged or cut off");
     return status;
 }
 
@@ -208,7 +222,7 @@ static wt_status rebuild(zip_archive *a, wt_error *err)
     const unsigned char *bytes = NULL;
     unsigned char *made = NULL;
     size_t length = 0;
-    directory d = {.n = 0};
+    directory d = {.wide = true};
     wt_error ignored = WT_ERROR_INIT;
     wt_status status = wt_input_bytes(a->input, &bytes, &length, err);
     if (status == WT_OK)

@@ -142,12 +142,13 @@ double *hdf5_values(hid_t data, size_t size, size_t *n)
 /* ---- in front of the door ---------------------------------------------------------------------
  */
 
-/* This program's files say so in the first attributes of their root. */
+/* This program's files say so in the first attributes of their root, whose names end with a zero.
+ */
 static bool is_own(const file_peek *peek)
 {
     static const char *const marks[] = {STORE_FORMAT_ATTRIBUTE, STORE_MAP_ATTRIBUTE};
     for (size_t i = 0; i < sizeof marks / sizeof *marks; i++)
-        if (memmem(peek->bytes, peek->length, marks[i], strlen(marks[i])) != NULL)
+        if (memmem(peek->bytes, peek->length, marks[i], strlen(marks[i]) + 1) != NULL)
             return true;
     return false;
 }

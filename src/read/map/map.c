@@ -25,10 +25,11 @@ static recognition detect(const file_reader *self, file_peek *peek)
     static const char signature[] = "\211HDF\r\n\032\n", mark[] = STORE_MAP_ATTRIBUTE;
     recognition match = {.answer = ANSWER_NO};
     (void)self;
-    /* The first attribute of the root stands right behind the signature. */
+    /* The first attribute of the root stands right behind the signature, its name with the zero at
+     * its end: the name of a file in the command has none. */
     if (peek->length >= sizeof signature - 1 &&
         memcmp(peek->bytes, signature, sizeof signature - 1) == 0 &&
-        memmem(peek->bytes, peek->length, mark, sizeof mark - 1) != NULL) {
+        memmem(peek->bytes, peek->length, mark, sizeof mark) != NULL) {
         match.answer = ANSWER_YES;
         match.score = 95;
     }
@@ -87,8 +88,7 @@ static void find_facts(const map_source *source, const map_segment *s,
                       .velocity = s->velocity,
                       .setpoint = s->setpoint,
                       .setpoint_quantity = WT_Q_FORCE,
-                      .cantilever = {.spring_constant = force_positive(cantilever->spring_constant),
-                                     .sensitivity = force_positive(cantilever->sensitivity)}};
+                      .cantilever = *cantilever};
     for (size_t k = 0; k < source->n_channels; k++) {
         const map_channel *const c = &source->channels[k];
         force_signal signal = {.quantity = c->quantity,

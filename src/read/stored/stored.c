@@ -20,7 +20,7 @@ static recognition detect(const file_reader *self, file_peek *peek)
     if (peek->length >= sizeof signature - 1 &&
         memcmp(peek->bytes, signature, sizeof signature - 1) == 0 &&
         memmem(peek->bytes, peek->length, mark, sizeof mark - 1) != NULL &&
-        memmem(peek->bytes, peek->length, STORE_MAP_ATTRIBUTE, sizeof STORE_MAP_ATTRIBUTE - 1) ==
+        memmem(peek->bytes, peek->length, STORE_MAP_ATTRIBUTE, sizeof STORE_MAP_ATTRIBUTE) ==
             NULL) {
         match.answer = ANSWER_YES;
         match.score = 90;

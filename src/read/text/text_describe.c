@@ -4,6 +4,7 @@
  */
 #include "read/text/text.h"
 
+#include "base/clocale.h"
 #include "read/force_source.h"
 
 #include "read/facts.h"
@@ -110,7 +111,7 @@ static void add_sweep(const text_file *file, const wt_read_options *options, wt_
         const wt_strain_sweep *r = &sweep.strain_sweeps[i];
         char at[32] = "temperature not known";
         if (!isnan(r->temperature))
-            snprintf(at, sizeof at, "%.2f degC", r->temperature - WT_ZERO_CELSIUS);
+            clocale_print(at, sizeof at, "%.2f degC", r->temperature - WT_ZERO_CELSIUS);
         facts_add(facts, "strain sweep", "", r->source,
                   "%s, %.4g rad/s, %zu points, amplitude %.3g to %.3g %%", at, r->angular_frequency,
                   r->n, 100 * r->strain[0], 100 * r->strain[r->n - 1]);

@@ -41,6 +41,13 @@ static wt_status collect(const text_table *t, point *points, wt_noise_spectrum *
     spectrum->amplitudes = densities[d].amplitude;
     for (size_t r = 0; r < t->n_rows; r++) {
         point p = {text_table_value(t, r, frequency), text_table_value(t, r, density)};
+        if (p.density < 0) {
+            wt_fail(err, WT_E_CORRUPT, "a density below 0");
+            wt_error_place(err, "line %zu", t->row_lines[r]);
+            wt_error_expected(err, "densities of 0 and more, which are no logarithms");
+            wt_error_found(err, "%g", p.density);
+            return WT_E_CORRUPT;
+        }
         if (spectrum->amplitudes)
             p.density *= p.density;
         if (p.frequency >= 0)

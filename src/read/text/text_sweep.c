@@ -4,6 +4,8 @@
  */
 #include "read/text/text_sweep.h"
 
+#include "base/clocale.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -27,7 +29,7 @@ static void name_isotherm(const sweep_builder *b, wt_isotherm *isotherm)
 {
     char amplitude[24] = "";
     if (b->amplitudes && isotherm->strain != NULL)
-        snprintf(amplitude, sizeof amplitude, " (%.3g %%)", 100 * isotherm->strain[0]);
+        clocale_print(amplitude, sizeof amplitude, " (%.3g %%)", 100 * isotherm->strain[0]);
     sweep_source(b, isotherm->source, sizeof isotherm->source - strlen(amplitude));
     strcat(isotherm->source, amplitude);
 }
@@ -165,22 +167,30 @@ static wt_status name_sample(const sweep_builder *b, const wt_sweep *from)
     return good ? WT_OK : wt_fail(b->err, WT_E_MEMORY, "no memory for the name of a sample");
 }
 
-/* A column of numbers nearly all of which are different counts something; it names no samples. */
+/* A column of numbers nearly all of which are different counts something; it names no samples. Nor
+ * does one of more names than are kept. */
 static void drop_counts(const sweep_builder *b)
 {
     const text_table *t = b->table;
     const text_list *names = &b->file->samples;
-    bool numbers = t->sample_cell != SIZE_MAX && 4 * names->n > 3 * t->n_rows;
-    numbers = numbers || names->n >= SAMPLES_MAX;
-    for (size_t i = 0; i < names->n && numbers; i++) {
+    bool seen[SAMPLES_MAX] = {false};
+    bool numbers = true;
+    size_t n = 0; /* names in this table */
+    for (size_t row = 0; row < t->n_rows; row++) {
+        const size_t i = t->samples[row];
         double value;
-        numbers = wt_number_parse(names->items[i], strlen(names->items[i]), '.', &value);
+        if (i == NO_SAMPLE || seen[i])
+            continue;
+        seen[i] = true;
+        n++;
+        numbers = numbers && wt_number_parse(names->items[i], strlen(names->items[i]), '.', &value);
     }
-    if (!numbers)
+    const bool counts = numbers && n > 1 && 4 * n > 3 * t->n_rows;
+    if (t->sample_cell == SIZE_MAX || !(counts || names->n >= SAMPLES_MAX))
         return;
     wt_parselog_add(b->log, WT_WARNING, b->file->name, line_place(t->names_line).words,
-                    "column %zu, which would name the sample, is different in every row: left out",
-                    t->sample_cell + 1);
+                    "column %zu, which would name the sample, %s: left out", t->sample_cell + 1,
+                    counts ? "is different in every row" : "has too many names");
     for (size_t row = 0; row < t->n_rows; row++)
         t->samples[row] = NO_SAMPLE;
 }
