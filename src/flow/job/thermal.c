@@ -99,12 +99,14 @@ static void find_temperature(const wt_thermal_job *job, const wt_job *work, cons
     if (!isnan(l->temperature.value))
         return;
     l->temperature = (wt_estimate){l->spectrum.temperature, 0, 0, "K"};
-    if (!isnan(l->temperature.value))
+    if (l->temperature.value > 0)
         return;
     l->temperature.value = room_temperature;
     wt_parselog_add(work->log, WT_WARNING, file->name, NULL,
-                    "the file does not say the temperature of the lever: 25 degC is taken, and "
-                    "3 K off are 1 %% of the spring constant; give --lever-temperature");
+                    "the file %s: 25 degC is taken, and 3 K off are 1 %% of the spring constant; "
+                    "give --lever-temperature",
+                    isnan(l->spectrum.temperature) ? "does not say the temperature of the lever"
+                                                   : "says a temperature below absolute zero");
 }
 
 static void judge(const wt_job *work, const flow_file *file, lever *l)
