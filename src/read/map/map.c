@@ -79,16 +79,15 @@ static const void *channel_of(const map_source *source, size_t k)
 static void find_facts(const map_source *source, const map_segment *s,
                        const wt_cantilever *cantilever, force_facts *facts)
 {
-    *facts =
-        (force_facts){.kind = s->kind,
-                      .index = s->index,
-                      .n_points = s->n_points,
-                      .start = (double)NAN,
-                      .duration = s->duration,
-                      .velocity = s->velocity,
-                      .setpoint = s->setpoint,
-                      .setpoint_quantity = WT_Q_FORCE,
-                      .cantilever = *cantilever};
+    *facts = (force_facts){.kind = s->kind,
+                           .index = s->index,
+                           .n_points = s->n_points,
+                           .start = (double)NAN,
+                           .duration = s->duration,
+                           .velocity = s->velocity,
+                           .setpoint = s->setpoint,
+                           .setpoint_quantity = WT_Q_FORCE,
+                           .cantilever = *cantilever};
     for (size_t k = 0; k < source->n_channels; k++) {
         const map_channel *const c = &source->channels[k];
         force_signal signal = {.quantity = c->quantity,
