@@ -147,6 +147,17 @@ function(check_quiet file source)
   endforeach()
 endfunction()
 
+# The locale of the program does not choose the decimal point: numbers that are not whole are printed
+# by clocale_print, or between clocale_enter and clocale_leave.
+function(check_locale file source)
+  file(READ "${source}" text)
+  string(REPLACE ";" "@" text "${text}")
+  if(text MATCHES "[^a-z_](snprintf\\([^@]*%[-+ 0-9]*(\\.[1-9*][0-9]*)?[efg][^@a-z][^@]*)@"
+     AND NOT text MATCHES "clocale_enter")
+    violation("${file}" "the locale of the program chooses the decimal point: ${CMAKE_MATCH_1}")
+  endif()
+endfunction()
+
 # HDF5 comes in through one door (hdf5_door.h).
 function(check_door file source)
   file(STRINGS "${source}" lines REGEX "(^|[^a-zA-Z_])(H5Fopen|H5Fis_[a-z0-9]+|H5LT[a-z_]+)[ \t]*\\(")
@@ -190,6 +201,7 @@ foreach(room IN LISTS rooms)
     endforeach()
     if(NOT room STREQUAL "cmd" AND short MATCHES "\\.c$")
       check_quiet("${short}" "${source}")
+      check_locale("${short}" "${source}")
     endif()
     check_door("${short}" "${source}")
   endforeach()

@@ -31,6 +31,7 @@ set(plants
   "model/planted.c|#include <gsl/gsl_multifit_nlinear.h>"
   "fit/planted.c|int f(void) { return printf(\"words\")@ }"
   "data/planted.c|void g(void) { exit(1)@ }"
+  "fit/planted.c|void f(char *a, double b) { snprintf(a, 9, \"%.3g K\", b)@ }"
   "kernel/planted.c|#include \"planted.h\""
   "data/planted.c|long f(void) { return H5Fopen(\"a\", 0, 0)@ }"
   "read/text/planted.c|#include \"weartrack/fit.h\""

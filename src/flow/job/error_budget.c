@@ -7,6 +7,7 @@
 #include "flow/job/softness.h"
 
 #include "base/array.h"
+#include "base/clocale.h"
 #include "data/tables/tables.h"
 
 #include <math.h>
@@ -405,9 +406,9 @@ static void put_ratio(const budget *b, table_writer *t)
                 (row){"arithmetic", "numerical", "", M_SQRT2 * curves.error * ratio.value,
                       (double)NAN, curves.seconds},
                 t);
-        snprintf(text + n, sizeof text - n,
-                 " The arithmetic of the fits is good to %.1g: it leaves nothing to be had.",
-                 M_SQRT2 * curves.error);
+        clocale_print(text + n, sizeof text - n,
+                      " The arithmetic of the fits is good to %.1g: it leaves nothing to be had.",
+                      M_SQRT2 * curves.error);
     }
     error_budget_set_text(t, ERROR_BUDGET_KEY_RATIO, text);
 }

@@ -4,6 +4,8 @@
 #include "flow/job/ramp_windows.h"
 #include "flow/job/sweep_prepare.h"
 
+#include "base/clocale.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -162,9 +164,9 @@ static wt_status add_isotherms(wt_sweep *sweep, windows *w, wt_error *err)
         for (size_t k = 0; k < n; k++)
             sum += w->point[first + k].temperature;
         t->temperature = sum / (double)n;
-        snprintf(t->source, sizeof t->source, "temperature sweeps, %.1f to %.1f degC",
-                 w->point[first].temperature - WT_ZERO_CELSIUS,
-                 w->point[first + n - 1].temperature - WT_ZERO_CELSIUS);
+        clocale_print(t->source, sizeof t->source, "temperature sweeps, %.1f to %.1f degC",
+                      w->point[first].temperature - WT_ZERO_CELSIUS,
+                      w->point[first + n - 1].temperature - WT_ZERO_CELSIUS);
         w->isotherm[i] = *t;
     }
     return WT_OK;

@@ -3,6 +3,7 @@
 #include "flow/job/softness.h"
 #include "flow/job/draws.h"
 
+#include "base/clocale.h"
 #include "data/tables/tables.h"
 
 #include <math.h>
@@ -312,10 +313,11 @@ void softness_describe(const wt_softness *s, char *text, size_t size)
     else
         snprintf(from, sizeof from, "%s%zu strain sweep%s", s->n_sweeps > 1 ? "mean of " : "",
                  s->n_sweeps, s->n_sweeps > 1 ? "s" : "");
-    snprintf(text, size, "%s, strain %.3g to %.3g; %s", from, strain[0], strain[s->table.n - 1],
-             softness_has_errors(s)
-                 ? s->n_sweeps > 1 ? "the scatter between the sweeps is drawn" : "errors are drawn"
-                 : "its error is not known and not in the standard errors");
+    clocale_print(
+        text, size, "%s, strain %.3g to %.3g; %s", from, strain[0], strain[s->table.n - 1],
+        softness_has_errors(s)
+            ? s->n_sweeps > 1 ? "the scatter between the sweeps is drawn" : "errors are drawn"
+            : "its error is not known and not in the standard errors");
 }
 
 /* All points move together: what differs between sweeps is the whole curve. */

@@ -1,6 +1,7 @@
 /* The wave: header, labels, note. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/ibw/ibw.h"
 
+#include "base/clocale.h"
 #include "base/number.h"
 #include "read/bytes/bytes.h"
 
@@ -173,6 +174,15 @@ static wt_status bad_segments(const char *found, wt_error *err)
     return WT_E_CORRUPT;
 }
 
+/* The next number of a list with commas, which are no decimal points anywhere. */
+static double next_number(char **text)
+{
+    const locale_t previous = clocale_enter();
+    const double value = strtod(*text + (**text == ','), text);
+    clocale_leave(previous);
+    return value;
+}
+
 /* "0,1008,2015" and "NaN,1,-1,": from 0 to 1008 towards the sample, from there to the last away. */
 wt_status ibw_segments(const ibw_file *file, ibw_segment segments[IBW_SEGMENTS], size_t *n,
                        wt_error *err)
@@ -183,10 +193,10 @@ wt_status ibw_segments(const ibw_file *file, ibw_segment segments[IBW_SEGMENTS],
         return bad_segments("no such lines", err);
     char *index = indexes, *direction = directions;
     unsigned long from = strtoul(index, &index, 10);
-    (void)strtod(direction, &direction);
+    (void)next_number(&direction);
     while (*index == ',' && index[1] >= '0' && index[1] <= '9' && *n < IBW_SEGMENTS) {
         const unsigned long to = strtoul(index + 1, &index, 10);
-        const double way = *direction == ',' ? strtod(direction + 1, &direction) : (double)NAN;
+        const double way = *direction == ',' ? next_number(&direction) : (double)NAN;
         const bool last = *index != ',' || index[1] < '0' || index[1] > '9';
         if (to <= from || to >= file->n + !last || isnan(way))
             return bad_segments(indexes, err);

@@ -4,6 +4,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "base/array.h"
+#include "base/clocale.h"
 #include "base/door.h"
 #include "read/packed/packed.h"
 
@@ -96,8 +97,10 @@ static wt_status print_book(const door_call *door, FILE *out, wt_error *err)
         return WT_E_UNSUPPORTED;
     }
     wt_status status = WT_OK;
+    const locale_t previous = clocale_enter();
     for (unsigned i = 0; i < n && i < USHRT_MAX && status == WT_OK; i++)
         status = print_sheet(book, (unsigned short)i, out, err);
+    clocale_leave(previous);
     return status;
 }
 

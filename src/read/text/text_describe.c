@@ -7,6 +7,8 @@
 #include "base/clocale.h"
 #include "read/force_source.h"
 
+#include "base/clocale.h"
+
 #include "read/facts.h"
 
 #include <math.h>
