@@ -312,13 +312,14 @@ wt_status wt_unit_to_si(const char *unit, wt_quantity quantity, double *factor, 
     return WT_OK;
 }
 
-/* What a person types in hertz counts cycles, whatever it becomes. A column that is called a
- * frequency is another thing: what it holds stands in its unit alone. */
+/* What a person types in hertz counts cycles, whatever it becomes; 1/s may be either. A column that
+ * is called a frequency is another thing: what it holds stands in its unit alone. */
 static wt_status to_si_of_frequency(const char *unit, wt_quantity quantity, double *factor,
                                     double *offset, wt_error *err)
 {
     const bool angular = quantity == WT_Q_ANGULAR_FREQUENCY;
-    if ((angular || quantity == WT_Q_FREQUENCY) &&
+    const bool cycles = strcasestr(unit, "Hz") != NULL || strcasestr(unit, "hertz") != NULL;
+    if ((angular ? cycles : quantity == WT_Q_FREQUENCY) &&
         wt_unit_to_si(unit, angular ? WT_Q_FREQUENCY : WT_Q_ANGULAR_FREQUENCY, factor, offset,
                       NULL) == WT_OK) {
         *factor *= angular ? 2 * M_PI : 1 / (2 * M_PI);

@@ -172,6 +172,7 @@ static void quantities(void **state)
     check_parse(" 2.5 1/s ", WT_Q_RATE, 2.5);
     check_parse("10Hz", WT_Q_ANGULAR_FREQUENCY, 62.83185307179586);
     check_parse("2 kHz", WT_Q_ANGULAR_FREQUENCY, 12566.370614359173);
+    check_parse("2 kilohertz", WT_Q_ANGULAR_FREQUENCY, 12566.370614359173);
     check_parse("63rad/s", WT_Q_ANGULAR_FREQUENCY, 63);
     check_parse("10rad/s", WT_Q_FREQUENCY, 1.5915494309189535);
 }
@@ -184,12 +185,12 @@ static void quantities_refused(void **state)
         wt_quantity quantity;
         wt_status status;
     } cases[] = {
-        {"0.4", WT_Q_PRESSURE, WT_E_UNIT},         {"0,4MPa", WT_Q_PRESSURE, WT_E_ARG},
-        {"MPa", WT_Q_PRESSURE, WT_E_ARG},          {"", WT_Q_PRESSURE, WT_E_ARG},
-        {"1 200 Pa", WT_Q_PRESSURE, WT_E_ARG},     {"nanPa", WT_Q_PRESSURE, WT_E_ARG},
-        {"0x10Pa", WT_Q_PRESSURE, WT_E_UNIT},      {"4 K", WT_Q_PRESSURE, WT_E_UNIT},
-        {"1e308MPa", WT_Q_PRESSURE, WT_E_RANGE},   {"-300degC", WT_Q_TEMPERATURE, WT_E_RANGE},
-        {"10s", WT_Q_ANGULAR_FREQUENCY, WT_E_UNIT}};
+        {"0.4", WT_Q_PRESSURE, WT_E_UNIT},          {"0,4MPa", WT_Q_PRESSURE, WT_E_ARG},
+        {"MPa", WT_Q_PRESSURE, WT_E_ARG},           {"", WT_Q_PRESSURE, WT_E_ARG},
+        {"1 200 Pa", WT_Q_PRESSURE, WT_E_ARG},      {"nanPa", WT_Q_PRESSURE, WT_E_ARG},
+        {"0x10Pa", WT_Q_PRESSURE, WT_E_UNIT},       {"4 K", WT_Q_PRESSURE, WT_E_UNIT},
+        {"1e308MPa", WT_Q_PRESSURE, WT_E_RANGE},    {"-300degC", WT_Q_TEMPERATURE, WT_E_RANGE},
+        {"10s", WT_Q_ANGULAR_FREQUENCY, WT_E_UNIT}, {"10s^-1", WT_Q_ANGULAR_FREQUENCY, WT_E_UNIT}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         double value = 7.5;
         wt_error err = WT_ERROR_INIT;
