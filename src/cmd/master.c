@@ -181,8 +181,14 @@ int cmd_master(int argc, char **argv)
         made = wt_tables_read(saved.read, saved.read, &s.work, role, &given, &s.err);
     if (given != NULL) /* all that master wrote, or a table of the user's own */
         job.shifts = wt_result_find(given, "shift_factors");
-    if (given != NULL && job.shifts == NULL)
+    if (given != NULL && job.shifts == NULL && cmd_tables_have(given, "shift_factors/")) {
+        made = wt_fail(&s.err, WT_E_AMBIGUOUS, "shifts of several samples");
+        wt_error_file(&s.err, saved.read);
+        wt_error_advice(&s.err, "save those of one with weartrack master --sample NAME "
+                                "--save-shifts FILE");
+    } else if (given != NULL && job.shifts == NULL) {
         job.shifts = wt_result_table(given, 0);
+    }
     /* what goes into a file of its own is of one sample */
     if (made == WT_OK && set.read.sample == NULL && saved.written == NULL && own.n_exports == 0)
         made = wt_samples_read(&set, 1, &s.work, &samples, &s.err);

@@ -2,6 +2,8 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cmd/cmd.h"
 
+#include <string.h>
+
 cmd_session cmd_session_defaults(void)
 {
     return (cmd_session){
@@ -61,8 +63,22 @@ bool cmd_begin_files(cmd_session *s, wt_file_set *set)
     return cmd_begin_reading(s, set->read.format);
 }
 
+/* Names that no file has are most likely misspelled. */
+static void say_columns(cmd_session *s)
+{
+    const wt_provenance *p = wt_result_provenance(s->result);
+    for (size_t i = 0; i < wt_provenance_n_inputs(p); i++)
+        if (strncmp(wt_provenance_get_input(p, i)->format, "given-columns", 13) == 0)
+            return;
+    if (s->common.n_columns > 0)
+        wt_parselog_add(s->log, WT_WARNING, NULL, NULL,
+                        "no file was read by the columns of --columns: none has such names, or "
+                        "its layout is known without them");
+}
+
 wt_status cmd_record(cmd_session *s, wt_table_sink sink, void *user)
 {
+    say_columns(s);
     wt_status status = WT_OK;
     wt_table *failures = s->work.failures, *notes = NULL;
     if (cmd_say_failures(s, failures)) {

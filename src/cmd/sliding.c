@@ -114,7 +114,8 @@ static wt_status read_material(cmd_sliding *s, wt_error *err)
         s->rubber.poisson_ratio = poisson;
         return wt_rubber_tabulate(&s->rubber, curve, &s->options, err);
     }
-    if (status != WT_OK && status != WT_E_MEMORY && strcmp(material, "-") != 0) {
+    if (status != WT_OK && status != WT_E_MEMORY && status != WT_E_AMBIGUOUS &&
+        strcmp(material, "-") != 0) {
         if (s->material_tables != NULL) { /* an input already */
             work.provenance = NULL;
             work.cost = NULL;

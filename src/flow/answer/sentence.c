@@ -217,6 +217,9 @@ static void say_thermal(sentence *s, const table_view *v)
     if (v->table == NULL)
         return;
     const wt_estimate k = thermal_value(v, THERMAL_KEY_SPRING_CONSTANT);
+    size_t n = 0;
+    for (size_t i = 0; i < v->n_rows; i++)
+        n += isnan(thermal_get(v, i, THERMAL_SPRING_CONSTANT)) ? 0 : 1;
     next(s);
     if (isnan(k.value)) {
         say(s, "no spring constant: %s", v->n_rows > 0 ? thermal_text(v, 0, THERMAL_NOTE) : "");
@@ -228,7 +231,7 @@ static void say_thermal(sentence *s, const table_view *v)
             words_of(thermal_get(v, 0, THERMAL_RESONANCE), "Hz").text,
             words_of(thermal_get(v, 0, THERMAL_QUALITY), "1").text);
     else
-        say(s, " (mean of %zu spectra)", v->n_rows);
+        say(s, " (mean of %zu spectra)", n);
     if (v->n_rows == 1 && !isnan(thermal_get(v, 0, THERMAL_RATIO)))
         say(s, ", %s of that of the file", words_of(thermal_get(v, 0, THERMAL_RATIO), "1").text);
     const char *includes = thermal_words(v, THERMAL_KEY_INCLUDES),
