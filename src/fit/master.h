@@ -35,6 +35,14 @@ wt_status master_fit_once(const wt_sweep *sweep, const wt_master_options *option
 /* Fills `master` (without the posterior, which it takes over). */
 wt_status master_report(master_work *work, const wt_sweep *sweep, wt_parselog *log,
                         wt_master *master, wt_error *err) WT_NODISCARD;
+/* The shifts with their notes. */
+wt_status master_fill_shifts(const master_work *work, wt_master *m, wt_error *err) WT_NODISCARD;
+/* WT_E_RANGE: none can be given for the reference temperature. */
+wt_status master_check_reference(const master_work *work, const wt_master *m,
+                                 wt_error *err) WT_NODISCARD;
+/* WT_E_NO_OVERLAP: no isotherm is shifted onto the reference. */
+wt_status master_check_shifts(const master_work *work, const wt_master *m,
+                              wt_error *err) WT_NODISCARD;
 /* Adds a remark to the note of a shift, parted by "; ". */
 void master_note(wt_master_shift *shift, const char *format, ...) WT_PRINTF(2, 3);
 /* What is odd about the isotherms, into their notes and the log. */
