@@ -70,7 +70,8 @@ typedef enum wt_contact_estimator {
     WT_CONTACT_THRESHOLD, /* the force departs from the mean of the first tenth of the samples by
                              twice what they do at most (nanite: deviation from baseline) */
     WT_CONTACT_VARIANCES, /* largest ratio of the variances of a twentieth of the samples behind and
-                             before (Gavara, Sci. Rep. 6 (2016) 21267) */
+                             before (Gavara, Sci. Rep. 6 (2016) 21267); none where all before are
+                             the same */
     WT_CONTACT_LINES,     /* a constant and a line that meet (nanite: fit constant line) */
     WT_CONTACT_DIRECT_PATH,     /* farthest from the straight way between first sample and strongest
                                    force (nanite: Frechet direct path) */

@@ -61,23 +61,34 @@ static size_t by_threshold(const double *force, size_t n)
     return first > 0 ? i : n;
 }
 
-/* Where the variance of the forces behind is the largest multiple of that of those before. */
+/* How many forces in a row are the same, with one more. */
+static size_t run_on(size_t run, double before, double now)
+{
+    return now < before || now > before ? 1 : run + 1;
+}
+
+/* Where the variance of the forces behind is the largest multiple of that of those before. Where
+ * these stand still, as forces of a coarse detector do, rounding would choose: n. */
 static size_t by_variances(const double *force, size_t n)
 {
     const size_t window = n / windows > LEAST_WINDOW ? n / windows : LEAST_WINDOW;
     sums before = {0}, behind = {0};
     double best = 0.0;
-    size_t at = n;
+    size_t at = n, run = 0;
     for (size_t i = 0; i < window && 2 * window < n; i++) {
+        run = i > 0 ? run_on(run, force[i - 1], force[i]) : 1;
         add(&before, 0.0, force[i], 1.0);
         add(&behind, 0.0, force[window + 1 + i], 1.0);
     }
     for (size_t i = window; i + window < n; i++) {
+        if (run >= window)
+            return n;
         const double ratio = variance(&behind) / variance(&before);
         if (ratio > best) {
             best = ratio;
             at = i;
         }
+        run = run_on(run, force[i - 1], force[i]);
         if (i + window + 1 < n) {
             add(&before, 0.0, force[i], 1.0);
             add(&before, 0.0, force[i - window], -1.0);

@@ -157,6 +157,24 @@ static void as_defined(void **state)
     }
 }
 
+/* Forces in steps as coarse as the noise: the baseline has no variance, and rounding finds none. */
+static void in_coarse_steps(void **state)
+{
+    (void)state;
+    const double step = 1e-10;
+    for (int moved = 0; moved < 2; moved++) {
+        curve_truth t = curve_standard();
+        t.noise = 0.02 * step;
+        t.tilt = 0;
+        curve_make(&t, 3, &data);
+        for (size_t i = 0; i < t.n; i++)
+            data.force[i] = step * round(data.force[i] / step) + (moved ? 1.2345e-8 : 0);
+        const wt_indent_fit fit = fit_of(&t, true);
+        assert_true(isnan(fit.contact_by[WT_CONTACT_VARIANCES]));
+        assert_false(isnan(fit.contact_by[WT_CONTACT_THRESHOLD]));
+    }
+}
+
 /* Without noise the fit by force against indentation has the true contact. */
 static void without_noise(void **state)
 {
@@ -184,6 +202,7 @@ static int free_workspace(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(as_defined),
+                                       cmocka_unit_test(in_coarse_steps),
                                        cmocka_unit_test(without_noise)};
     return cmocka_run_group_tests(tests, make_workspace, free_workspace);
 }
