@@ -3,6 +3,7 @@
 #include "cells.h"
 #include "sliding.h"
 
+#include "data/tables/tables.h"
 #include "weartrack/flow.h"
 
 #include <stdlib.h>
@@ -104,6 +105,38 @@ static void test_mean(void **state)
             assert_true(fabs(both[c].error[k] - other) <= 1e-9 * other + 1e-12);
         }
     wt_softness_clear(&s);
+}
+
+/* Two sweeps whose strains do not meet are not one, though their strains rise from end to end. */
+static void test_apart(void **state)
+{
+    (void)state;
+    static const double strain[] = {1e-3, 1e-2, 0.1, 0.2, 0.5, 1},
+                        ratio[] = {1, 0.8, 0.5, 1, 0.9, 0.6};
+    for (size_t n_sweeps = 1; n_sweeps <= 2; n_sweeps++) {
+        table_writer t = table_begin(&payne_sweep_schema, NULL);
+        wt_table *table = NULL;
+        wt_softness s = {0};
+        for (size_t i = 0; i < 3 * n_sweeps; i++) {
+            if (i % 3 == 0)
+                table_block(&t);
+            table_row(&t);
+            payne_sweep_put(&t, PAYNE_SWEEP_STRAIN, strain[i]);
+            payne_sweep_put(&t, PAYNE_SWEEP_ANGULAR_FREQUENCY, 60);
+            payne_sweep_put(&t, PAYNE_SWEEP_STORAGE_MODULUS, 1e6 * ratio[i]);
+            payne_sweep_put(&t, PAYNE_SWEEP_LOSS_MODULUS, 1e5 * ratio[i]);
+            payne_sweep_put(&t, PAYNE_SWEEP_LOSS_FACTOR, 0.1);
+            payne_sweep_put(&t, PAYNE_SWEEP_STORAGE_RATIO, ratio[i]);
+            payne_sweep_put(&t, PAYNE_SWEEP_LOSS_RATIO, ratio[i]);
+            payne_sweep_put_text(&t, PAYNE_SWEEP_SOURCE, i < 3 ? "low" : "high");
+        }
+        payne_sweep_set_text(&t, PAYNE_SWEEP_KEY_DEFORMATION, "shear");
+        assert_int_equal(table_end(&t, &table), WT_OK);
+        assert_int_equal(wt_softness_from_table(table, &s, NULL),
+                         n_sweeps == 1 ? WT_OK : WT_E_RANGE);
+        wt_softness_clear(&s);
+        wt_table_free(table);
+    }
 }
 
 /* ---- the jobs -------------------------------------------------------------------------------- */
@@ -322,8 +355,9 @@ static void test_cases(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_mean),  cmocka_unit_test(test_shares),  cmocka_unit_test(test_same),
-        cmocka_unit_test(test_drawn), cmocka_unit_test(test_refused), cmocka_unit_test(test_cases),
+        cmocka_unit_test(test_mean),  cmocka_unit_test(test_apart), cmocka_unit_test(test_shares),
+        cmocka_unit_test(test_same),  cmocka_unit_test(test_drawn), cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_cases),
     };
     return cmocka_run_group_tests_name("softening", tests, make_sweeps, free_sweeps);
 }

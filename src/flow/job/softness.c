@@ -56,7 +56,7 @@ static const double same_strain = 0.05;
 
 static bool begins_sweep(const table_view *v, size_t row)
 {
-    return row == 0 ||
+    return row == 0 || wt_table_block(v->table, row) != wt_table_block(v->table, row - 1) ||
            payne_sweep_get(v, row, PAYNE_SWEEP_STRAIN) <=
                payne_sweep_get(v, row - 1, PAYNE_SWEEP_STRAIN) ||
            payne_sweep_get(v, row, PAYNE_SWEEP_ANGULAR_FREQUENCY) !=
