@@ -18,7 +18,7 @@ int cmd_layer(int argc, char **argv)
     /* the energy knows nothing of the shear stress */
     s.parts[CMD_CONDITIONS].only = "pressure velocity sliding-temperature gamma strain-factor";
     wt_layer_tables tables = {0};
-    wt_table *energy_density = NULL, *what_if = NULL;
+    wt_table *energy_density = NULL, *softening = NULL, *what_if = NULL;
     if (!cmd_sliding_parse(&s, &usage, argc, argv))
         goto done;
     if (wt_layer_job_check(&job, &s.session.err) != WT_OK)
@@ -31,16 +31,21 @@ int cmd_layer(int argc, char **argv)
         if (made == WT_OK)
             made = wt_energy_density_table(&s.conditions, &job, &s.session.work, &energy_density,
                                            &s.session.err);
+        if (made == WT_OK && s.conditions.softness != NULL) {
+            wt_cost_stage(s.session.cost, "softening");
+            made = wt_softening_make(&s.conditions, &s.session.work, &softening, &s.session.err);
+        }
         wt_cost_stage(s.session.cost, "what_if_layer");
         if (made == WT_OK)
             made = wt_what_if_make(&s.conditions, &job, NULL, &s.session.work, &what_if,
                                    &s.session.err);
-        wt_table **const parts[] = {&tables.layer, &energy_density, &what_if};
+        wt_table **const parts[] = {&tables.layer, &energy_density, &softening, &what_if};
         cmd_finish(&s.session, made, parts, COUNT_OF(parts));
     }
 done:
     wt_layer_tables_clear(&tables);
     wt_table_free(energy_density);
+    wt_table_free(softening);
     wt_table_free(what_if);
     return cmd_sliding_free(&s);
 }

@@ -376,14 +376,14 @@ static void say(const coverage *c, table_writer *t)
     if (takes_ratio(c))
         drawn.known.modulus_ratio.standard_error = 0;
     regenerate_words(&drawn, inputs, sizeof inputs);
-    coverage_set_print(t, COVERAGE_KEY_ANSWER,
-                       "in %zu trials the 95 %% intervals held the truth: %s%s%s%s%s%s",
-                       c->job->trials, all[0] != '\0' ? all : "none was stated",
-                       narrow[0] != '\0' ? "; too narrow: " : "", narrow,
-                       wide[0] != '\0' ? "; too wide: " : "", wide,
-                       narrow[0] == '\0' && wide[0] == '\0' && all[0] != '\0'
-                           ? "; as far as so many tell, as often as stated"
-                           : "");
+    coverage_set_print(
+        t, COVERAGE_KEY_ANSWER, "in %zu trial%s the 95 %% intervals held the truth: %s%s%s%s%s%s",
+        c->job->trials, c->job->trials == 1 ? "" : "s", all[0] != '\0' ? all : "none was stated",
+        narrow[0] != '\0' ? "; too narrow: " : "", narrow, wide[0] != '\0' ? "; too wide: " : "",
+        wide,
+        narrow[0] == '\0' && wide[0] == '\0' && all[0] != '\0'
+            ? "; as far as so many tell, as often as stated"
+            : "");
     coverage_set_print(t, COVERAGE_KEY_REGENERATED, "%s%s%s%s%s",
                        c->fit.n_shifts == 0 ? "material as given"
                        : c->setting.rubber.sweep.n_ramps > 0
