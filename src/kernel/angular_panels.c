@@ -44,11 +44,56 @@ typedef struct edge_list {
     double *edge, *largest; /* NULL: they are counted alone */
 } edge_list;
 
-/* Those of a panel or of its parts, up to an edge where the largest logarithm so far is given. */
-static void add_edges(edge_list *list, double from, double to, double by, double largest)
+/* The last Legendre coefficients of a panel that the rule resolves, relative to its mean: what the
+ * rule leaves, which is exact to twice their degree, is of the order of their square. */
+static const double resolved = 1e-7;
+/* Panels are cut into no more parts than so many times those that their steepness asks for. */
+static const size_t most_parts = 64;
+
+static bool is_small(const gauss_rule *rule, const double *f, const rule_top *top)
 {
-    const double parts = ceil(fmax((to - from) / widest, by / steepest));
-    const size_t n = parts > 1 ? (size_t)fmin(parts, 1e6) : 1;
+    double sum = 0;
+    for (size_t i = 0; i < rule->n; i++)
+        sum += rule->weight[i] * f[i];
+    return fmax(fabs(top->coefficient[RULE_TOP - 1]), fabs(top->coefficient[RULE_TOP - 2])) <=
+           0.5 * resolved * sum;
+}
+
+/* Moduli of several laws can nearly cancel between two edges that show nothing of it. */
+static bool is_resolved(const wt_material *material, const gauss_rule *rule, double from, double to)
+{
+    double omega[PANEL_NODES], storage[PANEL_NODES], loss[PANEL_NODES], square[PANEL_NODES];
+    rule_top of_loss, of_square;
+    for (size_t i = 0; i < PANEL_NODES; i++)
+        omega[i] = exp(from + 0.5 * (to - from) * (1 + rule->node[i]));
+    material->law->modulus(material, omega, PANEL_NODES, storage, loss);
+    for (size_t i = 0; i < PANEL_NODES; i++)
+        square[i] = storage[i] * storage[i] + loss[i] * loss[i];
+    rule_tops(rule, loss, square, &of_loss, &of_square);
+    return is_small(rule, loss, &of_loss) && is_small(rule, square, &of_square);
+}
+
+/* How many parts a panel needs: those that its steepness `by` asks for, or more. */
+static size_t count_parts(const wt_material *material, const gauss_rule *rule, double from,
+                          double to, double by)
+{
+    const double steep = ceil(fmax((to - from) / widest, by / steepest));
+    const size_t least = steep > 1 ? (size_t)fmin(steep, 1e6) : 1;
+    size_t n = least;
+    if (material->law->power_below)
+        return n; /* a power law between its knots */
+    for (size_t i = 0; i < n && n < most_parts * least; i++)
+        if (!is_resolved(material, rule, from + (to - from) * (double)i / (double)n,
+                         from + (to - from) * (double)(i + 1) / (double)n)) {
+            n *= 2;
+            i = (size_t)-1; /* once more from the first */
+        }
+    return n;
+}
+
+/* The n parts of a panel, up to an edge where the largest logarithm so far is given. */
+static void add_edges(edge_list *list, double from, double to, size_t n, double largest)
+{
     for (size_t i = 1; i <= n; i++, list->n++)
         if (list->edge != NULL) {
             list->edge[list->n] = i < n ? from + (to - from) * (double)i / (double)n : to;
@@ -65,7 +110,8 @@ static double larger_log(double largest, const double e[2])
 }
 
 /* From `first` to `last`, cut at whole multiples of `widest` and at the knots. */
-static void lay_edges(const wt_material *material, double first, double last, edge_list *list)
+static void lay_edges(const wt_material *material, const gauss_rule *rule, double first,
+                      double last, edge_list *list)
 {
     size_t n_breaks = 0, k = 0;
     const double *breaks =
@@ -86,7 +132,8 @@ static void lay_edges(const wt_material *material, double first, double last, ed
             next = fmin(next, log(breaks[k]));
         logs_at(material, next, next_e);
         largest = larger_log(largest, next_e);
-        add_edges(list, x, next, change(e, next_e), largest);
+        const size_t n = count_parts(material, rule, x, next, change(e, next_e));
+        add_edges(list, x, next, n, largest);
         x = next;
         e[0] = next_e[0];
         e[1] = next_e[1];
@@ -192,7 +239,7 @@ wt_status angular_panels_new(const wt_material *material, const gauss_rule *rule
     /* c^(2m) is 4^-m */
     a.terms = 2 + (size_t)ceil(-log(fmin(fmax(goal, 1e-16), 0.1)) / (2 * M_LN2));
     edge_list list = {0};
-    lay_edges(material, first, log(high), &list);
+    lay_edges(material, rule, first, log(high), &list);
     a.n = list.n - 1;
     const size_t nodes = a.n * PANEL_NODES, sums = (a.n + 1) * a.terms;
     a.numbers = calloc(5 * (a.n + 1) + 3 * nodes + 2 * sums, sizeof *a.numbers);
@@ -208,7 +255,7 @@ wt_status angular_panels_new(const wt_material *material, const gauss_rule *rule
     a.moved[0] = a.below[1] + sums;
     a.moved[1] = a.moved[0] + a.n + 1;
     a.largest = list.largest = a.moved[1] + a.n + 1;
-    lay_edges(material, first, log(high), &list);
+    lay_edges(material, rule, first, log(high), &list);
     start_sums(&a);
     for (size_t p = 0; p < a.n; p++)
         evaluate(&a, p);

@@ -419,6 +419,31 @@ static void once_broken(void **ignored)
     state = kept;
 }
 
+/* A table with directions whose modulus nearly vanishes between the edges of the panels of its
+ * angular integrals, with a loss modulus that softens less than the storage modulus. */
+static void softened_once_broken(void **ignored)
+{
+    (void)ignored;
+    const uint64_t kept = state;
+    drawn d;
+    state = 980001;
+    for (size_t i = 0; i < 256; i++)
+        draw_case(&d, i);
+    for (size_t i = 0; i <= 107; i++) {
+        draw_case(&d, i);
+        draw_softening(&d);
+    }
+    const double tolerances[] = {1e-4, 1e-10, 1e-12};
+    for (size_t i = 0; i < 3; i++) {
+        d.tolerance = tolerances[i];
+        compare(&d, 107);
+    }
+    assert_int_equal(n_checks, 12);
+    assert_int_equal(broken, 0);
+    n_checks = reached = refused = 0;
+    state = kept;
+}
+
 static void extreme_friction(void **ignored)
 {
     (void)ignored;
@@ -462,8 +487,9 @@ int main(int argc, char **argv)
     make_rule();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(truth_of_reference), cmocka_unit_test(edges_of_the_domain),
-        cmocka_unit_test(once_broken),        cmocka_unit_test(extreme_friction),
-        cmocka_unit_test(softened_cases),     cmocka_unit_test(softened_friction),
+        cmocka_unit_test(once_broken),        cmocka_unit_test(softened_once_broken),
+        cmocka_unit_test(extreme_friction),   cmocka_unit_test(softened_cases),
+        cmocka_unit_test(softened_friction),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
