@@ -32,14 +32,15 @@ typedef struct map_segment {
 } map_segment;
 
 /* What stands beside the tables behind the door; not a byte of it is trusted. WT_E_EMPTY if there
- * is no map. Borrows the bytes or the descriptor. Takes the result, also on failure. */
+ * is no map. Takes the result, also on failure. */
 wt_status map_open(const hdf5_bytes *from, wt_result *result, map_reader **reader,
                    wt_error *err) WT_NODISCARD;
 void map_close(map_reader *reader);
 size_t map_n_curves(const map_reader *reader);
 size_t map_channels(const map_reader *reader, const map_channel **channels);
 /* Sets everything but the segments of the curve, which are of `reader` until the next call. A curve
- * that does not agree with its checksum is WT_E_CORRUPT, and the next call goes on behind it. */
+ * that does not agree with its checksum is WT_E_CORRUPT, and the next call goes on behind it. Where
+ * no more comes, that is the error of every curve that is left. */
 wt_status map_next(map_reader *reader, wt_force_curve *curve, const map_segment **segments,
                    size_t *n, wt_error *err) WT_NODISCARD;
 

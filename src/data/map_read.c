@@ -9,13 +9,12 @@
 #include <string.h>
 
 struct map_reader {
-    hdf5_bytes from;
     wt_result *result;
     table_view curves, segments;
     map_channel channels[WT_Q_COUNT];
     size_t n_channels;
-    door_flow *flow; /* NULL before the first curve and behind the last: its process ends with the
-                        thread that began it, which need not be the one that opened the file */
+    door_flow *flow;
+    wt_error failure;     /* of the flow: that of every curve from then on */
     size_t n_samples, at; /* of an array; where the next segment begins */
     size_t n_block;       /* samples of the block that is there */
     double *block;        /* [n_channels][n_block] */
@@ -103,12 +102,13 @@ static wt_status check_counts(map_reader *r, size_t size, wt_error *err)
 wt_status map_open(const hdf5_bytes *from, wt_result *result, map_reader **reader, wt_error *err)
 {
     map_reader *const r = calloc(1, sizeof *r);
+    const door_limits limits = door_limits_of(from->size);
     wt_status status = WT_OK;
     if (r == NULL) {
         wt_result_free(result);
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     }
-    r->from = *from;
+    r->failure = (wt_error)WT_ERROR_INIT;
     r->result = result;
     if (wt_result_find(result, map_curves_schema.name) == NULL)
         status = wt_fail(err, WT_E_EMPTY, "no map of force curves in it");
@@ -123,6 +123,8 @@ wt_status map_open(const hdf5_bytes *from, wt_result *result, map_reader **reade
     if (status == WT_OK &&
         (r->block = malloc(r->n_channels * MAP_BLOCK * sizeof *r->block)) == NULL)
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
+    if (status == WT_OK)
+        status = hdf5_door_begin(from, &limits, store_pass_samples, &r->flow, err);
     if (status == WT_OK)
         *reader = r;
     else
@@ -229,12 +231,6 @@ static void set_curve(const map_reader *r, size_t row, wt_force_curve *curve)
     curve->cantilever.sensitivity = positive(map_curves_get(v, row, MAP_CURVES_SENSITIVITY));
 }
 
-static wt_status begin(map_reader *r, wt_error *err)
-{
-    const door_limits limits = door_limits_of(r->from.size);
-    return hdf5_door_begin(&r->from, &limits, store_pass_samples, &r->flow, err);
-}
-
 wt_status map_next(map_reader *r, wt_force_curve *curve, const map_segment **segments, size_t *n,
                    wt_error *err)
 {
@@ -248,9 +244,13 @@ wt_status map_next(map_reader *r, wt_force_curve *curve, const map_segment **seg
     }
     const size_t n_segments = (size_t)map_curves_get(&r->curves, row, MAP_CURVES_SEGMENTS);
     set_curve(r, row, curve);
-    wt_status status = make_room(r, first, n_segments, err);
-    if (status == WT_OK && r->flow == NULL)
-        status = begin(r, err);
+    if (r->failure.status != WT_OK) {
+        r->next_curve++;
+        if (err != NULL)
+            *err = r->failure;
+        return r->failure.status;
+    }
+    wt_status status = make_room(r, first, n_segments, &r->failure);
     double *values = r->values;
     for (size_t i = 0; status == WT_OK && i < n_segments; i++) {
         const table_view *const v = &r->segments;
@@ -262,19 +262,20 @@ wt_status map_next(map_reader *r, wt_force_curve *curve, const map_segment **seg
                            .velocity = map_segments_get(v, first + i, MAP_SEGMENTS_VELOCITY),
                            .setpoint = map_segments_get(v, first + i, MAP_SEGMENTS_SETPOINT),
                            .values = values};
-        status = take_samples(r, values, s->n_points, err);
+        status = take_samples(r, values, s->n_points, &r->failure);
         for (size_t k = 0; status == WT_OK && k < r->n_channels; k++)
             if (map_channel_counts(values + k * s->n_points, s->n_points))
                 sum = map_checksum(sum, values + k * s->n_points, s->n_points);
         values += r->n_channels * s->n_points;
     }
+    r->next_curve++;
     if (status != WT_OK) {
-        r->next_curve = r->curves.n_rows; /* nothing more comes */
         door_close(r->flow);
         r->flow = NULL;
+        if (err != NULL)
+            *err = r->failure;
         return status;
     }
-    r->next_curve++;
     r->next_segment += n_segments;
     *segments = r->found;
     *n = n_segments;

@@ -7,7 +7,6 @@
 
 #include <fcntl.h>
 #include <math.h>
-#include <pthread.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -142,42 +141,6 @@ static void comes_back(void **state)
     assert_int_equal(read_back(&bad), 0);
 }
 
-typedef struct opened {
-    wt_formats *formats;
-    wt_input *input;
-    wt_force_source *source;
-} opened;
-
-static void *open_apart(void *user)
-{
-    opened *const o = user;
-    (void)!wt_force_open(o->formats, o->input, NULL, NULL, &o->source, NULL);
-    (void)usleep(100000); /* a process that was begun is under way */
-    return NULL;
-}
-
-/* The thread that opened it has ended when it is read. */
-static void from_another_thread(void **state)
-{
-    opened o = {NULL, NULL, NULL};
-    wt_force_curve curve = {.n_segments = 0};
-    pthread_t thread;
-    size_t n = 0;
-    (void)state;
-    assert_int_equal(wt_formats_new(NULL, &o.formats, NULL, NULL), WT_OK);
-    assert_int_equal(wt_input_open(path, &o.input, NULL), WT_OK);
-    assert_int_equal(pthread_create(&thread, NULL, open_apart, &o), 0);
-    assert_int_equal(pthread_join(thread, NULL), 0);
-    assert_non_null(o.source);
-    while (wt_force_next(o.source, &curve, NULL) == WT_OK)
-        n++;
-    assert_int_equal(n, CURVES);
-    wt_force_curve_clear(&curve);
-    wt_force_close(o.source);
-    wt_input_close(o.input);
-    wt_formats_free(o.formats);
-}
-
 static size_t length_in(hid_t file, const char *name)
 {
     const hid_t data = H5Dopen2(file, name, H5P_DEFAULT);
@@ -273,6 +236,32 @@ static void counts(void **state)
     }
 }
 
+/* A file that is cut off after its tables were read: every curve that is left fails. */
+static void cut_off(void **state)
+{
+    wt_result *result = NULL;
+    map_reader *map = NULL;
+    const map_segment *segments = NULL;
+    wt_force_curve curve = {.n_segments = 0};
+    size_t n = 0, n_bad = 0;
+    wt_error err = WT_ERROR_INIT;
+    wt_status got = WT_OK;
+    (void)state;
+    const int fd = open(path, O_RDONLY);
+    const hdf5_bytes from = {.file = fd, .size = (size_t)lseek(fd, 0, SEEK_END) - 8};
+    assert_int_equal(wt_store_read(path, &result, NULL), WT_OK);
+    assert_int_equal(map_open(&from, result, &map, &err), WT_OK);
+    for (; (got = map_next(map, &curve, &segments, &n, &err)) != WT_END; n_bad++) {
+        assert_int_equal(got, WT_E_CORRUPT);
+        assert_int_equal(curve.index, 3 * n_bad);
+        assert_non_null(strstr(err.message, "damaged or cut off"));
+        err = (wt_error)WT_ERROR_INIT;
+    }
+    assert_int_equal(n_bad, CURVES);
+    map_close(map);
+    (void)close(fd);
+}
+
 static void no_disk(void **state)
 {
     wt_map_writer *writer = NULL;
@@ -286,7 +275,7 @@ static void no_disk(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(comes_back),    cmocka_unit_test(from_another_thread),
+        cmocka_unit_test(comes_back),    cmocka_unit_test(cut_off),
         cmocka_unit_test(as_documented), cmocka_unit_test(a_changed_sample),
         cmocka_unit_test(counts),        cmocka_unit_test(no_disk),
     };
