@@ -40,8 +40,9 @@ typedef struct blocks {
     double column[MAX_COLUMNS][MAX_ORDER + WINDOW]; /* of the window, and what it owes to */
     double wave[COSINES][MAX_ORDER + WINDOW];
     size_t n_columns;
-    size_t length; /* samples in one */
-    double travel; /* of the window [m] */
+    size_t length;           /* samples in one */
+    double travel;           /* of the window [m] */
+    size_t gap_from, gap_to; /* blocks of the window with samples that are not compared */
     size_t order;
     double a[MAX_ORDER + 1]; /* x_i = sum a_k x_(i-k) + innovation, k from 1 */
     double innovation;       /* its variance */
@@ -85,6 +86,10 @@ static bool average(const curve_law *m, const double p[N], const double *e, bloc
     b->n_before = first / length < BEFORE ? first / length : BEFORE;
     if (b->n_before < LEAST)
         return false;
+    const size_t left = s->gap_from > first ? s->gap_from - first : 0;
+    const size_t right = s->gap_to > first ? s->gap_to - first : 0;
+    b->gap_from = left / length;
+    b->gap_to = right > left ? (right + length - 1) / length : b->gap_from;
     b->n_columns = 0;
     for (size_t a = 0; a < N; a++)
         b->n_columns += m->free[a];
@@ -217,6 +222,14 @@ static void make_waves(blocks *b)
     }
 }
 
+/* Innovations that samples in the gap are part of do not count. */
+static void leave_out_gap(const blocks *b, double *x)
+{
+    const size_t end = b->gap_to > b->gap_from ? b->gap_to + b->order : 0;
+    for (size_t i = b->gap_from; i < end && i < b->n; i++)
+        x[i] = 0.0;
+}
+
 static double judge_contact(const blocks *b, double *statistic)
 {
     double store[MAX_COLUMNS][WINDOW], r[WINDOW], *columns[MAX_COLUMNS];
@@ -226,8 +239,11 @@ static double judge_contact(const blocks *b, double *statistic)
         whiten(b, b->column[n], MAX_ORDER, b->n, store[n]);
     for (size_t j = 0; j < COSINES; j++, n++)
         whiten(b, b->wave[j], MAX_ORDER, b->n, store[n]);
-    for (size_t c = 0; c < n; c++)
+    leave_out_gap(b, r);
+    for (size_t c = 0; c < n; c++) {
+        leave_out_gap(b, store[c]);
         columns[c] = store[c];
+    }
     const double taken = project_out(r, columns, n, b->n_columns, b->n, &counted);
     *statistic = counted > 0 ? taken / (double)counted / b->innovation : 0.0;
     return gsl_cdf_fdist_Q(*statistic, (double)counted, (double)b->n_before / per_freedom);

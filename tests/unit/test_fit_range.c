@@ -177,6 +177,7 @@ static void intervals_cover(void **state)
         {0, 20e-9, 0, 1, 0.8}, {35e-9, 0, 0, 1, 0.0},
     };
     enum { CURVES = 240 };
+    int likely = 0, judged = 0;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         curve_truth t = curve_standard();
         t.n = 1000;
@@ -195,6 +196,8 @@ static void intervals_cover(void **state)
                 refused++;
                 continue;
             }
+            judged++;
+            likely += fit.lack_of_fit_chance > 0.5;
             modulus +=
                 fabs(fit.modulus.value - t.modulus) < 1.96 * fit.modulus.standard_error ? 1 : 0;
             contact += fabs(fit.contact_point.value - t.height0 - t.contact_point) <
@@ -214,6 +217,9 @@ static void intervals_cover(void **state)
         assert_in_range(contact, 0.90 * n, n);
         assert_true(fabs(sum) < 0.25 * errors);
     }
+    /* a chance is above a half as often as below, of what is compared alone too */
+    print_message("%d of %d chances above a half\n", likely, judged);
+    assert_in_range(likely, 0.44 * judged, 0.58 * judged);
 }
 
 static void too_little_is_refused(void **state)
