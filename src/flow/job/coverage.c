@@ -245,7 +245,7 @@ static wt_status try_once(const coverage *c, size_t trial, unsigned worker, hit 
 {
     const uint64_t seed = mix64(mix64(c->work.seed) + 1 + trial);
     wt_estimate number[SETTING_NUMBERS];
-    wt_comparison found;
+    wt_comparison found = {.df = (double)NAN}; /* no ratio is taken without groups */
     wt_rubber rubber = {0};
     wt_job work = c->work;
     setting s = c->setting;
