@@ -1,26 +1,42 @@
-/* SHA-256 by libmd. SPDX-License-Identifier: GPL-3.0-or-later */
+/* SHA-256 by libcrypto. SPDX-License-Identifier: GPL-3.0-or-later */
+
+/* The interface of OpenSSL 1.1 to it, which needs no memory and cannot fail. */
+#define OPENSSL_API_COMPAT 0x10100000L
+
 #include "base/digest.h"
 
 #include "base/mix.h"
 
-#include <sha2.h>
+#include <openssl/sha.h>
+
+static void finish(SHA256_CTX *context, char hex[65])
+{
+    static const char digits[] = "0123456789abcdef";
+    unsigned char digest[SHA256_DIGEST_LENGTH];
+    SHA256_Final(digest, context);
+    for (size_t i = 0; i < sizeof digest; i++) {
+        hex[2 * i] = digits[digest[i] >> 4];
+        hex[2 * i + 1] = digits[digest[i] & 15];
+    }
+    hex[2 * sizeof digest] = '\0';
+}
 
 void wt_digest(const void *bytes, size_t length, char hex[65])
 {
-    SHA2_CTX context;
-    SHA256Init(&context);
-    SHA256Update(&context, bytes, length);
-    (void)SHA256End(&context, hex);
+    SHA256_CTX context;
+    SHA256_Init(&context);
+    SHA256_Update(&context, bytes, length);
+    finish(&context, hex);
 }
 
 wt_status digest_pieces(digest_source *source, void *user, size_t length, char hex[65],
                         uint64_t *fingerprint, wt_error *err)
 {
     unsigned char piece[1 << 16];
-    SHA2_CTX context;
+    SHA256_CTX context;
     wt_status status = WT_OK;
     *fingerprint = mix64(length);
-    SHA256Init(&context);
+    SHA256_Init(&context);
     for (size_t at = 0; status == WT_OK && at < length;) {
         const size_t n = length - at < sizeof piece ? length - at : sizeof piece;
         status = source(user, at, piece, n, err);
@@ -28,10 +44,10 @@ wt_status digest_pieces(digest_source *source, void *user, size_t length, char h
             break;
         *fingerprint = mix_bytes(*fingerprint, piece, n);
         if (hex != NULL)
-            SHA256Update(&context, piece, n);
+            SHA256_Update(&context, piece, n);
         at += n;
     }
     if (status == WT_OK && hex != NULL)
-        (void)SHA256End(&context, hex);
+        finish(&context, hex);
     return status;
 }
