@@ -72,6 +72,11 @@ WT_API wt_status wt_tables_read(const char *path, const char *name, const wt_job
                                 wt_tables_role role, wt_result **tables,
                                 wt_error *err) WT_NODISCARD;
 WT_API wt_table *wt_failures_new(void); /* table "failures"; NULL when out of memory */
+/* What the failure of a file or sample comes to: a row of the failures, whose message does not name
+ * it again, and WT_OK; or, where there are none or the work cannot go on, its error and `status`.
+ */
+WT_API wt_status wt_job_failed(const wt_job *work, const char *file, wt_status status,
+                               wt_error *failure, wt_error *err) WT_NODISCARD;
 /* Table "notes" of a log, with the names of files below `folder` shown without it; NULL = as they
  * are. */
 WT_API wt_status wt_notes_table(const wt_parselog *log, const char *folder, wt_table **table,

@@ -70,8 +70,8 @@ static wt_status read_material(compare_call *call, compare_input *input, wt_erro
     if (is_measured(input))
         return fit(call, input, err);
     if (input->tables != NULL)
-        return cmd_rubber_of(input->tables, input->path, call->master.poisson_ratio, &input->rubber,
-                             err);
+        return cmd_rubber_of(input->tables, input->path, call->set.read.sample,
+                             call->master.poisson_ratio, &input->rubber, err);
     *err = input->failure;
     return err->status;
 }
@@ -116,7 +116,7 @@ void compare_materials(compare_call *call)
         made = read_material(call, input, &s->err);
         const wt_table *shifts = input->shift_factors;
         if (made == WT_OK && input->tables != NULL && shifts == NULL)
-            shifts = wt_result_find(input->tables, "shift_factors");
+            shifts = cmd_table_of_sample(input->tables, "shift_factors", call->set.read.sample);
         of[i] = (wt_compared){
             .name = name_of(call, i), .rubber = &input->rubber, .shift_factors = shifts};
     }

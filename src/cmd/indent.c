@@ -44,8 +44,8 @@ int cmd_indent(int argc, char **argv)
     wt_status made = WT_OK;
     if (own.master != NULL) {
         wt_cost_stage(s.cost, "given_material");
-        made =
-            cmd_rubber_read(own.master, job.options.poisson_ratio, &s.work, &dma, &rubber, &s.err);
+        made = cmd_rubber_read(own.master, NULL, job.options.poisson_ratio, &s.work, &dma, &rubber,
+                               &s.err);
         if (made == WT_OK)
             wt_rubber_cost(&rubber, &s.work);
         job.rubber = &rubber;

@@ -179,16 +179,16 @@ int cmd_master(int argc, char **argv)
     wt_status made = WT_OK;
     if (saved.read != NULL)
         made = wt_tables_read(saved.read, saved.read, &s.work, role, &given, &s.err);
-    if (given != NULL) /* all that master wrote, or a table of the user's own */
-        job.shifts = wt_result_find(given, "shift_factors");
-    if (given != NULL && job.shifts == NULL && cmd_tables_have(given, "shift_factors/")) {
-        made = wt_fail(&s.err, WT_E_AMBIGUOUS, "shifts of several samples");
-        wt_error_file(&s.err, saved.read);
-        wt_error_advice(&s.err, "save those of one with weartrack master --sample NAME "
-                                "--save-shifts FILE");
-    } else if (given != NULL && job.shifts == NULL) {
+    /* all that master wrote, those of the sample or of whatever else, or a table of the user's own
+     */
+    if (given != NULL && cmd_tables_have(given, "shift_factors/"))
+        made = cmd_check_sample(given, saved.read, "shift_factors", set.read.sample, &s.err);
+    if (given != NULL)
+        job.shifts = cmd_tables_have(given, "shift_factors/")
+                         ? cmd_table_of_sample(given, "shift_factors", set.read.sample)
+                         : wt_result_find(given, "shift_factors");
+    if (given != NULL && job.shifts == NULL)
         job.shifts = wt_result_table(given, 0);
-    }
     /* what goes into a file of its own is of one sample */
     if (made == WT_OK && set.read.sample == NULL && saved.written == NULL && own.n_exports == 0)
         made = wt_samples_read(&set, 1, &s.work, &samples, &s.err);

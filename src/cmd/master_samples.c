@@ -13,6 +13,7 @@ typedef struct sample_fit {
     wt_table *named[TABLES]; /* owned once they are named */
     wt_rubber rubber;
     char name[NAME_SIZE]; /* of its tables */
+    bool fitted;
 } sample_fit;
 
 static bool is_taken(const sample_fit *fits, size_t i)
@@ -41,6 +42,11 @@ static void name_tables(sample_fit *fits, size_t i, const char *sample)
     name[n] = '\0';
     for (size_t number = 2; is_taken(fits, i); number++)
         snprintf(name + n, NAME_SIZE - n, "_%zu", number);
+}
+
+static const char *shown_name(const char *sample)
+{
+    return sample[0] != '\0' ? sample : "sweeps without a sample";
 }
 
 /* What is noticed of one sample is told of it. */
@@ -76,41 +82,56 @@ static wt_status fit_one(cmd_session *s, wt_master_job *job, wt_file_set *set, c
                          sample_fit *f)
 {
     wt_parselog *const log = wt_parselog_new();
+    wt_error failure = WT_ERROR_INIT;
     wt_job work = s->work;
     if (log == NULL)
         return wt_fail(&s->err, WT_E_MEMORY, "out of memory");
     set->read.sample = sample;
     work.log = log;
-    wt_status status = wt_master_make(job, &work, &f->tables, NULL, &s->err);
+    wt_status status = wt_master_make(job, &work, &f->tables, NULL, &failure);
     if (status == WT_OK && f->tables.prony != NULL) {
         const wt_rubber_tables of = {.prony = f->tables.prony,
                                      .shift_factors = f->tables.shift_factors,
                                      .material_draws = f->tables.material_draws,
                                      .series_draws = f->tables.series_draws};
-        status = wt_rubber_from_tables(&of, job->poisson_ratio, &f->rubber, &s->err);
+        status = wt_rubber_from_tables(&of, job->poisson_ratio, &f->rubber, &failure);
     }
-    hand_on(log, sample[0] != '\0' ? sample : "sweeps without a sample", s->work.log);
+    f->fitted = status == WT_OK;
+    hand_on(log, shown_name(sample), s->work.log);
     wt_parselog_free(log);
-    return status;
+    return status == WT_OK ? WT_OK
+                           : wt_job_failed(&s->work, shown_name(sample), status, &failure, &s->err);
 }
 
-/* Side by side; where they have nothing in common that is said. */
+/* Each; one that cannot be fitted is listed, and is an error only if no other can. */
+static wt_status fit_all(cmd_session *s, wt_master_job *job, wt_file_set *set,
+                         const wt_samples *samples, sample_fit *fits)
+{
+    size_t n_fitted = 0;
+    for (size_t i = 0; i < samples->n; i++) {
+        const wt_status status = fit_one(s, job, set, samples->name[i], &fits[i]);
+        if (status != WT_OK)
+            return status;
+        name_tables(fits, i, samples->name[i]);
+        n_fitted += fits[i].fitted;
+    }
+    return n_fitted > 0 ? WT_OK : wt_fail(&s->err, WT_E_EMPTY, "no sample has a master curve");
+}
+
+/* Those with a series side by side; where they have nothing in common that is said. */
 static void compare(cmd_session *s, const wt_samples *samples, const sample_fit *fits,
                     wt_compared *of, wt_materials_tables *tables)
 {
     wt_error failure = WT_ERROR_INIT;
     wt_materials_job job = wt_materials_job_defaults();
     char message[1024];
-    for (size_t i = 0; i < samples->n; i++) {
-        if (fits[i].tables.prony == NULL)
-            return;
-        of[i] = (wt_compared){.name = samples->name[i],
-                              .rubber = &fits[i].rubber,
-                              .shift_factors = fits[i].tables.shift_factors};
-    }
+    for (size_t i = 0; i < samples->n; i++)
+        if (fits[i].tables.prony != NULL)
+            of[job.n_materials++] = (wt_compared){.name = shown_name(samples->name[i]),
+                                                  .rubber = &fits[i].rubber,
+                                                  .shift_factors = fits[i].tables.shift_factors};
     job.materials = of;
-    job.n_materials = samples->n;
-    if (wt_compare_materials(&job, &s->work, tables, &failure) == WT_OK)
+    if (job.n_materials < 2 || wt_compare_materials(&job, &s->work, tables, &failure) == WT_OK)
         return;
     (void)wt_error_format(&failure, message, sizeof message);
     wt_parselog_add(s->work.log, WT_WARNING, NULL, NULL, "not compared: %s", message);
@@ -128,12 +149,8 @@ void master_of_samples(cmd_session *s, wt_master_job *job, wt_file_set *set,
                          ? wt_fail(&s->err, WT_E_MEMORY, "out of memory")
                          : WT_OK;
     size_t n = 0;
-    for (size_t i = 0; made == WT_OK && i < samples->n; i++) {
-        name_tables(fits, i, samples->name[i]);
-        made = fit_one(s, job, set, samples->name[i], &fits[i]);
-        if (made != WT_OK)
-            wt_error_file(&s->err, samples->name[i]);
-    }
+    if (made == WT_OK)
+        made = fit_all(s, job, set, samples, fits);
     set->read.sample = chosen;
     if (made == WT_OK)
         compare(s, samples, fits, of, &materials);

@@ -94,6 +94,7 @@ static wt_status fit_material(cmd_sliding *s, wt_error *err)
 static wt_status read_material(cmd_sliding *s, wt_error *err)
 {
     const char *material = s->contact.material;
+    const char *const sample = s->set.read.sample;
     const double poisson = s->master.poisson_ratio;
     wt_error first = WT_ERROR_INIT;
     wt_read_options read = s->set.read;
@@ -106,16 +107,16 @@ static wt_status read_material(cmd_sliding *s, wt_error *err)
     }
     wt_job work = s->session.work;
     wt_status status =
-        cmd_rubber_read(material, poisson, &work, &s->material_tables, &s->rubber, &first);
-    const wt_table *curve =
-        s->material_tables != NULL ? wt_result_find(s->material_tables, "master_curve") : NULL;
+        cmd_rubber_read(material, sample, poisson, &work, &s->material_tables, &s->rubber, &first);
+    const wt_table *curve = cmd_table_of_sample(s->material_tables, "master_curve", sample);
     if (curve != NULL &&
         (status == WT_E_NOT_FOUND || (status == WT_OK && s->options.moduli == WT_MODULI_POINTS))) {
         s->rubber.poisson_ratio = poisson;
         return wt_rubber_tabulate(&s->rubber, curve, &s->options, err);
     }
-    if (status != WT_OK && status != WT_E_MEMORY && status != WT_E_AMBIGUOUS &&
-        strcmp(material, "-") != 0) {
+    const bool of_samples =
+        status == WT_E_AMBIGUOUS || cmd_tables_have(s->material_tables, "shift_factors");
+    if (status != WT_OK && status != WT_E_MEMORY && !of_samples && strcmp(material, "-") != 0) {
         if (s->material_tables != NULL) { /* an input already */
             work.provenance = NULL;
             work.cost = NULL;

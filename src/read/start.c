@@ -43,11 +43,12 @@ static const wt_param rows[] = {
              "modulus\"; bending gives E like tension"},
     {PARAM("strain", wt_read_options, strain, WT_Q_STRAIN, ABOVE(0)), .value = "S", .unset = "",
      .help =
-         "of DMA isotherms measured at several strain amplitudes take those nearest to this one, "
+         "of DMA isotherms and temperature sweeps measured at several strain amplitudes take those "
+         "nearest to this one, "
          "such as 0.1%"},
     {PARAM_TEXT_OF("sample", wt_read_options, sample), .value = "NAME", .unset = "",
-     .help = "of DMA sweeps of several samples take those of this one; all: they are of one "
-             "material, whatever they are called"},
+     .help = "of DMA sweeps of several samples, or what weartrack master made of them, take those "
+             "of this one; all: the sweeps are of one material, whatever they are called"},
     {PARAM_CHOICE_OF("sample-by", wt_read_options, sample_by, "name|file"),
      .help = "what tells the samples of DMA sweeps apart: the name that a column or the header "
              "gives, or the file"},

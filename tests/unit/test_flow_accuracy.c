@@ -4,6 +4,7 @@
 #include "sliding.h"
 #include "truth.h"
 
+#include "flow/job/coverage_share.h"
 #include "flow/job/draws.h"
 #include "flow/job/regenerate.h"
 
@@ -292,6 +293,31 @@ static void test_coverage(void **state)
     wt_table_free(again);
 }
 
+/* Verdicts against chances reckoned with a table of the binomial distribution: of 1 trial a miss is
+ * nothing, of 10 three are one in 90, five one in 15,700. */
+static void test_verdicts_of_shares(void **state)
+{
+    (void)state;
+    static const struct {
+        double misses;
+        size_t n;
+        const char *verdict;
+    } cases[] = {{1, 1, "cannot say"},    {0, 1, "cannot say"},    {3, 10, "cannot say"},
+                 {5, 10, "too narrow"},   {0, 20, "cannot say"},   {0, 100, "holds"},
+                 {0, 116, "holds"},       {0, 117, "too wide"},    {20, 400, "holds"},
+                 {37, 400, "too narrow"}, {2.5, 10, "cannot say"}, {3, 100, "holds"}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const double n = (double)cases[i].n;
+        const coverage_share s = coverage_judge(1 - cases[i].misses / n, cases[i].n);
+        if (strcmp(s.verdict, cases[i].verdict) != 0)
+            fail_msg("%g of %g: %s", cases[i].misses, n, s.verdict);
+        assert_int_equal(isnan(s.trials), strcmp(s.verdict, "cannot say") != 0);
+        if (!isnan(s.trials)) /* they do tell */
+            assert_string_not_equal(
+                coverage_judge(1 - cases[i].misses / n, (size_t)s.trials).verdict, "cannot say");
+    }
+}
+
 /* What states no error has no interval to be judged. */
 static void test_nothing_to_cover(void **state)
 {
@@ -387,6 +413,7 @@ int main(void)
         cmocka_unit_test(test_nothing_stated),
         cmocka_unit_test(test_calibration),
         cmocka_unit_test(test_coverage),
+        cmocka_unit_test(test_verdicts_of_shares),
         cmocka_unit_test(test_nothing_to_cover),
         cmocka_unit_test(test_isotherms_again),
         cmocka_unit_test(test_scatter_of_a_group),

@@ -194,6 +194,63 @@ static void test_files(void **state)
         (void)remove(paths[f]);
 }
 
+/* A curve that was written over and over, and three that were measured: more than half of the
+ * slopes are equal to the last bit, and those beside them are not far from them for that. */
+static void test_equal(void **state)
+{
+    (void)state;
+    static const char *const path[] = {"test_sensitivity_equal.jpk-force-map"};
+    uint64_t seed = 8;
+    for (size_t i = 0; i < 9; i++) {
+        uint64_t same = 7;
+        draw_curve(i, 60e-9, 0, 0, 1, &same);
+    }
+    for (size_t i = 9; i < 12; i++)
+        draw_curve(i, i == 11 ? 90e-9 : 60e-9, 0, 0, 1, &seed);
+    write_map(path[0], 12, (double)NAN, (double)NAN);
+    wt_sensitivity_tables t = made(path, 1);
+    assert_near(cell(t.sensitivity, 2, "n"), 11, 0);
+    assert_string_equal(wt_table_key(t.sensitivity, "n_left_out"), "1");
+    wt_sensitivity_tables_clear(&t);
+    (void)remove(path[0]);
+}
+
+/* Volts of one file and metres of another have no mean. */
+static void test_mixed(void **state)
+{
+    (void)state;
+    static const char *const paths[] = {"test_sensitivity_v.jpk-force-map",
+                                        "test_sensitivity_m.h5"};
+    static double time[N], z[N], f[N];
+    static unsigned char segments[N];
+    const wt_sensitivity_job job = wt_sensitivity_job_defaults();
+    wt_sensitivity_tables t = {0};
+    wt_error err = WT_ERROR_INIT;
+    uint64_t seed = 4;
+    draw_curve(0, 60e-9, 0, 0, 1, &seed);
+    write_map(paths[0], 1, (double)NAN, (double)NAN);
+    for (size_t k = 0; k < N; k++) {
+        time[k] = 1e-3 * (double)k;
+        z[k] = height[0][0][k];
+        f[k] = spring * 50e-9 * signal[0][0][k];
+    }
+    const afmformats_writer_file file = {.path = paths[1],
+                                         .n_curves = 1,
+                                         .n = N,
+                                         .time = time,
+                                         .height = z,
+                                         .force = f,
+                                         .segments = segments,
+                                         .spring_constant = spring,
+                                         .force_unit = "N"};
+    assert_int_equal(afmformats_write(&file), 0);
+    assert_int_equal(make(&job, paths, 2, &t, &err), WT_E_AMBIGUOUS);
+    assert_non_null(strstr(err.found, "test_sensitivity_v.jpk-force-map in volts"));
+    assert_non_null(strstr(err.found, "test_sensitivity_m.h5 in metres"));
+    for (size_t i = 0; i < 2; i++)
+        (void)remove(paths[i]);
+}
+
 /* A soft surface: no number, and why; with a looser limit there is one. */
 static void test_soft(void **state)
 {
@@ -256,6 +313,7 @@ static int free_formats(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_equal),  cmocka_unit_test(test_mixed),
         cmocka_unit_test(test_volts),  cmocka_unit_test(test_calibrated),
         cmocka_unit_test(test_forces), cmocka_unit_test(test_files),
         cmocka_unit_test(test_soft),   cmocka_unit_test(test_genuine)};

@@ -20,8 +20,12 @@
       "squares)",                                                                                  \
       NUMBER, LABEL("Scatter over stated"))                                                        \
     X(COVERAGE_VERDICT, "verdict",                                                                 \
-      "holds; too narrow or too wide where chance alone would do it once in 200", TEXT,            \
-      LABEL("Verdict"))
+      "holds: the share is known to be 0.9 or more; too narrow or too wide: chance alone would "   \
+      "do it once in 400; cannot say",                                                             \
+      TEXT, LABEL("Verdict"))                                                                      \
+    X(COVERAGE_SETTLED_BY, "settled_by",                                                           \
+      "where the verdict cannot say: how many trials would tell if the share stays what it is",    \
+      NUMBER, LABEL("Trials that would tell"), SPARSE)
 
 #define COVERAGE_KEYS(X)                                                                           \
     X(COVERAGE_KEY_ANSWER, "answer", TEXT, LABEL("How often the intervals hold"))                  \

@@ -1,105 +1,169 @@
-/* Isotherms of several strain amplitudes: a filled rubber softens with strain, so that a master
- * curve, and moduli against temperature, are of one. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Isotherms and temperature sweeps of several strain amplitudes: a filled rubber softens with
+ * strain, so that a master curve, and moduli against temperature, are of one.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/job/inputs.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-/* Kelvin within which two isotherms are of one temperature, and what makes their amplitudes two. */
-static const double same_temperature = 1.5, other_amplitude = 2;
+/* Kelvin within which two are of one temperature, relative difference within which they are of one
+ * frequency, and what makes their amplitudes two. */
+static const double same_temperature = 1.5, same_frequency = 1e-3, other_amplitude = 2;
 
-/* Geometric mean; NaN: not measured. */
-static double amplitude(const wt_isotherm *t)
+/* An isotherm or a temperature sweep: its amplitude (NaN: not measured) and where it was measured.
+ */
+typedef struct part {
+    const char *source;
+    bool is_ramp, drop;
+    double amplitude, temperature[2], frequency[2];
+} part;
+
+/* Geometric mean. */
+static double mean_amplitude(const double *strain, size_t n)
 {
     double sum = 0;
-    size_t n = 0;
-    for (size_t i = 0; i < t->n && t->strain != NULL; i++)
-        if (t->strain[i] > 0) {
-            sum += log(t->strain[i]);
-            n++;
+    size_t known = 0;
+    for (size_t i = 0; i < n && strain != NULL; i++)
+        if (strain[i] > 0) {
+            sum += log(strain[i]);
+            known++;
         }
-    return n > 0 ? exp(sum / (double)n) : (double)NAN;
+    return known > 0 ? exp(sum / (double)known) : (double)NAN;
 }
 
-/* Whether they are of one temperature, share frequencies and differ in amplitude. */
-static bool differ(const wt_isotherm *a, const wt_isotherm *b)
+/* Isotherms, then temperature sweeps; those without points share nothing. */
+static void list_parts(const wt_sweep *sweep, part *parts)
 {
-    const double ratio = amplitude(a) / amplitude(b);
-    return fabs(a->temperature - b->temperature) <= same_temperature && a->n > 0 && b->n > 0 &&
-           a->angular_frequency[0] < b->angular_frequency[b->n - 1] &&
-           b->angular_frequency[0] < a->angular_frequency[a->n - 1] &&
+    for (size_t i = 0; i < sweep->n_isotherms; i++) {
+        const wt_isotherm *t = &sweep->isotherms[i];
+        *parts++ = (part){.source = t->source,
+                          .amplitude = mean_amplitude(t->strain, t->n),
+                          .temperature = {t->temperature, t->temperature},
+                          .frequency = {t->n > 0 ? t->angular_frequency[0] : (double)NAN,
+                                        t->n > 0 ? t->angular_frequency[t->n - 1] : (double)NAN}};
+    }
+    for (size_t i = 0; i < sweep->n_ramps; i++) {
+        const wt_ramp *r = &sweep->ramps[i];
+        *parts++ = (part){.source = r->source,
+                          .is_ramp = true,
+                          .amplitude = mean_amplitude(r->strain, r->n),
+                          .temperature = {r->n > 0 ? r->temperature[0] : (double)NAN,
+                                          r->n > 0 ? r->temperature[r->n - 1] : (double)NAN},
+                          .frequency = {r->angular_frequency * (1 - same_frequency),
+                                        r->angular_frequency * (1 + same_frequency)}};
+    }
+}
+
+/* Whether they share temperatures and frequencies and differ in amplitude. */
+static bool differ(const part *a, const part *b)
+{
+    const double ratio = a->amplitude / b->amplitude;
+    return a->temperature[0] <= b->temperature[1] + same_temperature &&
+           b->temperature[0] <= a->temperature[1] + same_temperature &&
+           a->frequency[0] < b->frequency[1] && b->frequency[0] < a->frequency[1] &&
            (ratio > other_amplitude || ratio < 1 / other_amplitude);
 }
 
-static wt_status refuse(const wt_isotherm *a, const wt_isotherm *b, wt_error *err)
+static wt_status refuse(const part *a, const part *b, wt_error *err)
 {
-    const double low = 100 * fmin(amplitude(a), amplitude(b)),
-                 high = 100 * fmax(amplitude(a), amplitude(b));
-    wt_fail(err, WT_E_AMBIGUOUS, "isotherms of several strain amplitudes at one temperature");
+    const double low = 100 * fmin(a->amplitude, b->amplitude),
+                 high = 100 * fmax(a->amplitude, b->amplitude);
+    const char *const what = !a->is_ramp && !b->is_ramp ? "isotherms"
+                             : a->is_ramp && b->is_ramp ? "temperature sweeps"
+                                                        : "isotherms and temperature sweeps";
+    wt_fail(err, WT_E_AMBIGUOUS, "%s of several strain amplitudes at one temperature", what);
     wt_error_place(err, "%s", a->source);
     wt_error_expected(err, "those of one amplitude, for a filled rubber softens with strain");
     wt_error_found(err, "%.3g %% and %.3g %% at %.1f degC", low, high,
-                   a->temperature - WT_ZERO_CELSIUS);
+                   fmax(a->temperature[0], b->temperature[0]) - WT_ZERO_CELSIUS);
     wt_error_advice(err, "choose one with --strain %.3g%%", low);
     return WT_E_AMBIGUOUS;
 }
 
-/* How far what was asked for is from what was measured. */
-static void check_wanted(const wt_sweep *sweep, double wanted, wt_parselog *log)
+static bool is_nearer(const part *a, const part *b, double wanted)
 {
-    double nearest = (double)NAN;
-    for (size_t i = 0; i < sweep->n_isotherms; i++) {
-        const double here = amplitude(&sweep->isotherms[i]);
-        if (isnan(nearest) || fabs(log2(here / wanted)) < fabs(log2(nearest / wanted)))
-            nearest = here;
-    }
-    if (sweep->n_isotherms > 0 && isnan(nearest))
-        wt_parselog_add(log, WT_WARNING, sweep->isotherms[0].source, NULL,
-                        "isotherms of one strain are asked for, but no strain amplitude was read");
-    else if (nearest / wanted > other_amplitude || wanted / nearest > other_amplitude)
-        wt_parselog_add(log, WT_WARNING, sweep->isotherms[0].source, NULL,
-                        "isotherms at a strain of %.3g %% are asked for; the nearest were measured "
+    return fabs(log2(a->amplitude / wanted)) <= fabs(log2(b->amplitude / wanted));
+}
+
+/* How far what was asked for is from what was measured. */
+static void check_wanted(const part *parts, size_t n, double wanted, wt_parselog *log)
+{
+    const part *nearest = NULL;
+    for (size_t i = 0; i < n; i++)
+        if (!isnan(parts[i].amplitude) &&
+            (nearest == NULL || !is_nearer(nearest, &parts[i], wanted)))
+            nearest = &parts[i];
+    if (n > 0 && nearest == NULL)
+        wt_parselog_add(log, WT_WARNING, parts[0].source, NULL,
+                        "sweeps of one strain are asked for, but no strain amplitude was read");
+    else if (n > 0 && (nearest->amplitude / wanted > other_amplitude ||
+                       wanted / nearest->amplitude > other_amplitude))
+        wt_parselog_add(log, WT_WARNING, nearest->source, NULL,
+                        "sweeps at a strain of %.3g %% are asked for; the nearest were measured "
                         "at %.3g %%",
-                        100 * wanted, 100 * nearest);
+                        100 * wanted, 100 * nearest->amplitude);
+}
+
+/* Those that are not kept go behind the others and are cleared with `dropped`. */
+static wt_status take_out(wt_sweep *sweep, const part *parts, wt_parselog *log, wt_error *err)
+{
+    wt_sweep dropped = {0};
+    const part *const ramps = parts + sweep->n_isotherms;
+    size_t isotherms = 0, kept = 0;
+    dropped.isotherms = calloc(sweep->n_isotherms + 1, sizeof *dropped.isotherms);
+    dropped.ramps = calloc(sweep->n_ramps + 1, sizeof *dropped.ramps);
+    if (dropped.isotherms == NULL || dropped.ramps == NULL) {
+        wt_sweep_clear(&dropped);
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    }
+    for (size_t i = 0; i < sweep->n_isotherms; i++)
+        if (parts[i].drop)
+            dropped.isotherms[dropped.n_isotherms++] = sweep->isotherms[i];
+        else
+            sweep->isotherms[isotherms++] = sweep->isotherms[i];
+    for (size_t i = 0; i < sweep->n_ramps; i++)
+        if (ramps[i].drop)
+            dropped.ramps[dropped.n_ramps++] = sweep->ramps[i];
+        else
+            sweep->ramps[kept++] = sweep->ramps[i];
+    sweep->n_isotherms = isotherms;
+    sweep->n_ramps = kept;
+    if (dropped.n_isotherms > 0)
+        wt_parselog_add(log, WT_WARNING, dropped.isotherms[0].source, NULL,
+                        "%zu isotherm%s of other strain amplitudes left out", dropped.n_isotherms,
+                        dropped.n_isotherms > 1 ? "s" : "");
+    if (dropped.n_ramps > 0)
+        wt_parselog_add(log, WT_WARNING, dropped.ramps[0].source, NULL,
+                        "%zu temperature sweep%s of other strain amplitudes left out",
+                        dropped.n_ramps, dropped.n_ramps > 1 ? "s" : "");
+    wt_sweep_clear(&dropped);
+    return WT_OK;
 }
 
 wt_status flow_one_amplitude(wt_sweep *sweep, const wt_file_set *sets, size_t n_sets,
                              wt_parselog *log, wt_error *err)
 {
     const double wanted = n_sets > 0 ? sets[0].read.strain : (double)NAN;
-    wt_sweep dropped = {0};
-    size_t kept = 0;
-    bool *drop = calloc(sweep->n_isotherms + 1, sizeof *drop);
-    dropped.isotherms = calloc(sweep->n_isotherms + 1, sizeof *dropped.isotherms);
-    wt_status status = drop == NULL || dropped.isotherms == NULL
-                           ? wt_fail(err, WT_E_MEMORY, "out of memory")
-                           : WT_OK;
-    for (size_t i = 0; i < sweep->n_isotherms && status == WT_OK; i++)
-        for (size_t k = i + 1; k < sweep->n_isotherms && status == WT_OK; k++) {
-            const wt_isotherm *a = &sweep->isotherms[i], *b = &sweep->isotherms[k];
-            if (!differ(a, b))
+    const size_t n = sweep->n_isotherms + sweep->n_ramps;
+    part *parts = calloc(n + 1, sizeof *parts);
+    wt_status status = parts == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
+    if (status == WT_OK)
+        list_parts(sweep, parts);
+    for (size_t i = 0; i < n && status == WT_OK; i++)
+        for (size_t k = i + 1; k < n && status == WT_OK; k++) {
+            if (!differ(&parts[i], &parts[k]))
                 continue;
             if (isnan(wanted))
-                status = refuse(a, b, err);
-            else if (fabs(log2(amplitude(a) / wanted)) <= fabs(log2(amplitude(b) / wanted)))
-                drop[k] = true;
+                status = refuse(&parts[i], &parts[k], err);
+            else if (is_nearer(&parts[i], &parts[k], wanted))
+                parts[k].drop = true;
             else
-                drop[i] = true;
+                parts[i].drop = true;
         }
-    for (size_t i = 0; i < sweep->n_isotherms && status == WT_OK; i++)
-        if (drop[i])
-            dropped.isotherms[dropped.n_isotherms++] = sweep->isotherms[i];
-        else
-            sweep->isotherms[kept++] = sweep->isotherms[i];
-    if (status == WT_OK)
-        sweep->n_isotherms = kept;
-    if (dropped.n_isotherms > 0)
-        wt_parselog_add(log, WT_WARNING, dropped.isotherms[0].source, NULL,
-                        "%zu isotherm%s of other strain amplitudes left out", dropped.n_isotherms,
-                        dropped.n_isotherms > 1 ? "s" : "");
     if (status == WT_OK && !isnan(wanted))
-        check_wanted(sweep, wanted, log);
-    wt_sweep_clear(&dropped);
-    free(drop);
+        check_wanted(parts, n, wanted, log);
+    if (status == WT_OK)
+        status = take_out(sweep, parts, log, err);
+    free(parts);
     return status;
 }

@@ -101,7 +101,7 @@ static wt_status convert_force(const conversion *c, wt_error *err)
             break;
         if (got != WT_OK) {
             n_failed++;
-            status = flow_failed(c->work, wt_input_name(c->input), got, &failure, err);
+            status = wt_job_failed(c->work, wt_input_name(c->input), got, &failure, err);
             continue;
         }
         status = c->curves != NULL ? c->curves(c->user, &curve, err) : send_curve(c, &curve, err);

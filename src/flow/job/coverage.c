@@ -1,6 +1,7 @@
 /* Coverage: the case drawn anew from its own fit many times, and how often the intervals that it
  * then states hold what it was drawn from. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/job/cost.h"
+#include "flow/job/coverage_share.h"
 #include "flow/job/curve_set.h"
 #include "flow/job/draws.h"
 #include "flow/job/inputs.h"
@@ -290,24 +291,13 @@ static wt_status try_one(void *user, size_t trial, unsigned worker)
 
 typedef struct tally {
     size_t n;
-    double one, both, low, high, scatter;
+    double one, both, scatter;
+    coverage_share known;
 } tally;
-
-typedef struct share_interval {
-    double low, high;
-} share_interval;
-
-/* What so many trials leave open of a share (Wilson), `z` standard errors to each side. */
-static share_interval known_share(double share, double n, double z)
-{
-    const double centre = (share + z * z / (2 * n)) / (1 + z * z / n);
-    const double half = z / (1 + z * z / n) * sqrt(share * (1 - share) / n + z * z / (4 * n * n));
-    return (share_interval){fmax(0, centre - half), fmin(1, centre + half)};
-}
 
 static tally count(const coverage *c, size_t k)
 {
-    tally t = {0, 0, 0, (double)NAN, (double)NAN, (double)NAN};
+    tally t = {.scatter = (double)NAN};
     double deviation = 0, variance = 0;
     for (size_t i = 0; i < c->job->trials; i++) {
         const hit *h = &c->hits[i * N_JUDGED + k];
@@ -324,19 +314,8 @@ static tally count(const coverage *c, size_t k)
     t.one /= (double)t.n;
     t.both /= (double)t.n;
     t.scatter = sqrt(deviation / variance);
-    const share_interval known = known_share(t.both, (double)t.n, both_ends);
-    t.low = known.low;
-    t.high = known.high;
+    t.known = coverage_judge(t.both, t.n);
     return t;
-}
-
-/* One in 200: there are several numbers, and a false alarm among them is to be rare. */
-static const double alarm = 2.807033768343811;
-
-static const char *verdict_of(const tally *t)
-{
-    const share_interval known = known_share(t->both, (double)t->n, alarm);
-    return known.high < 0.95 ? "too narrow" : known.low > 0.95 ? "too wide" : "holds";
 }
 
 static size_t lost_trials(const coverage *c)
@@ -358,30 +337,35 @@ static void list(const coverage *c, const char *verdict, char *text, size_t size
     text[0] = '\0';
     for (size_t k = 0; k < N_JUDGED && n < size; k++) {
         const tally found = count(c, k);
-        if (found.n == 0 || (verdict != NULL && strcmp(verdict_of(&found), verdict) != 0))
+        if (found.n == 0 || (verdict != NULL && strcmp(found.known.verdict, verdict) != 0))
             continue;
         n += (size_t)snprintf(text + n, size - n, "%s%s", n > 0 ? ", " : "", judged_words[k]);
         if (verdict == NULL && n < size)
             n += (size_t)snprintf(text + n, size - n, " %.0f %%", 100 * found.both);
+        else if (!isnan(found.known.trials) && n < size)
+            n += (size_t)snprintf(text + n, size - n, " (%.0f trials would tell)",
+                                  found.known.trials);
     }
 }
 
 static void say(const coverage *c, table_writer *t)
 {
-    char all[400], narrow[300], wide[300], inputs[300];
+    char all[400], narrow[300], wide[300], unsettled[600], inputs[300];
     list(c, NULL, all, sizeof all);
     list(c, "too narrow", narrow, sizeof narrow);
     list(c, "too wide", wide, sizeof wide);
+    list(c, "cannot say", unsettled, sizeof unsettled);
     setting drawn = c->setting;
     if (takes_ratio(c))
         drawn.known.modulus_ratio.standard_error = 0;
     regenerate_words(&drawn, inputs, sizeof inputs);
     coverage_set_print(
-        t, COVERAGE_KEY_ANSWER, "in %zu trial%s the 95 %% intervals held the truth: %s%s%s%s%s%s",
-        c->job->trials, c->job->trials == 1 ? "" : "s", all[0] != '\0' ? all : "none was stated",
+        t, COVERAGE_KEY_ANSWER,
+        "in %zu trial%s the 95 %% intervals held the truth: %s%s%s%s%s%s%s%s", c->job->trials,
+        c->job->trials == 1 ? "" : "s", all[0] != '\0' ? all : "none was stated",
         narrow[0] != '\0' ? "; too narrow: " : "", narrow, wide[0] != '\0' ? "; too wide: " : "",
-        wide,
-        narrow[0] == '\0' && wide[0] == '\0' && all[0] != '\0'
+        wide, unsettled[0] != '\0' ? "; cannot say: " : "", unsettled,
+        narrow[0] == '\0' && wide[0] == '\0' && unsettled[0] == '\0' && all[0] != '\0'
             ? "; as far as so many tell, as often as stated"
             : "");
     coverage_set_print(t, COVERAGE_KEY_REGENERATED, "%s%s%s%s%s",
@@ -413,10 +397,11 @@ static wt_status make_table(const coverage *c, wt_table **table, wt_error *err)
         coverage_put(&t, COVERAGE_TRIALS, (double)found.n);
         coverage_put(&t, COVERAGE_ONE, found.one);
         coverage_put(&t, COVERAGE_BOTH, found.both);
-        coverage_put(&t, COVERAGE_LOW, found.low);
-        coverage_put(&t, COVERAGE_HIGH, found.high);
+        coverage_put(&t, COVERAGE_LOW, found.known.low);
+        coverage_put(&t, COVERAGE_HIGH, found.known.high);
         coverage_put(&t, COVERAGE_SCATTER, found.scatter);
-        coverage_put_text(&t, COVERAGE_VERDICT, verdict_of(&found));
+        coverage_put_text(&t, COVERAGE_VERDICT, found.known.verdict);
+        coverage_put(&t, COVERAGE_SETTLED_BY, found.known.trials);
     }
     say(c, &t);
     coverage_set_value(&t, COVERAGE_KEY_TRIALS, (double)c->job->trials, (double)NAN, (double)NAN);

@@ -306,7 +306,7 @@ static wt_status read_files(dwell_task *task, const flow_files *files, wt_error 
             continue;
         }
         n_failed++;
-        status = flow_failed(task->work, files->file[i].name, status, &failure, err);
+        status = wt_job_failed(task->work, files->file[i].name, status, &failure, err);
     }
     if (status == WT_OK && task->n_dwells == 0) {
         status = wt_fail(err, WT_E_EMPTY, "no curve dwells behind its approach");

@@ -89,7 +89,7 @@ static wt_status flush_failures(indent_task *task, wt_error *err)
         wt_error_place(&failure, "curve %zu", task->first_equal);
     task->n_equal = 0;
     task->n_failed++;
-    return flow_failed(task->work, task->file->name, failure.status, &failure, err);
+    return wt_job_failed(task->work, task->file->name, failure.status, &failure, err);
 }
 
 static wt_status note_failure(indent_task *task, size_t curve, const wt_error *failure,
@@ -198,7 +198,7 @@ static wt_status write_item(indent_task *task, item *it, wt_error *err)
     wt_status status = WT_OK;
     if (it->status != WT_OK) {
         if (!flow_goes_on(task->work, it->status))
-            return flow_failed(task->work, task->file->name, it->status, &it->error, err);
+            return wt_job_failed(task->work, task->file->name, it->status, &it->error, err);
         mark_unreadable(&it->fit, &it->error);
         status = note_failure(task, it->curve.index, &it->error, err);
     }
@@ -284,7 +284,7 @@ static wt_status read_files(indent_task *task, const flow_files *files, wt_error
             continue;
         }
         task->n_failed++;
-        status = flow_failed(task->work, task->file->name, status, &failure, err);
+        status = wt_job_failed(task->work, task->file->name, status, &failure, err);
     }
     return status;
 }

@@ -81,8 +81,8 @@ wt_status flow_add_failure(const wt_job *work, const char *what, const wt_error 
     return table_end(&t, NULL);
 }
 
-wt_status flow_failed(const wt_job *work, const char *file, wt_status status, wt_error *failure,
-                      wt_error *err)
+wt_status wt_job_failed(const wt_job *work, const char *file, wt_status status, wt_error *failure,
+                        wt_error *err)
 {
     if (flow_goes_on(work, status)) {
         failure->file[0] = '\0'; /* it has its own column */
@@ -144,7 +144,7 @@ static wt_status list_pattern(const wt_file_set *set, const char *pattern, const
         return files_add(files, strdup("-"), pattern, set, err);
     status = wt_glob(set->folder, pattern, &paths, &n, &failure);
     if (status != WT_OK)
-        return flow_failed(work, pattern, status, &failure, err);
+        return wt_job_failed(work, pattern, status, &failure, err);
     for (size_t i = 0; status == WT_OK && i < n; i++) {
         char *const *const found = tsearch(paths[i], &files->paths, by_path);
         if (found == NULL) {
@@ -375,7 +375,7 @@ static wt_status read_sweeps(const wt_file_set *sets, size_t n_sets, const wt_jo
         if (status != WT_OK)
             status = flow_leave_out(work, &files.file[i], &failure)
                          ? WT_OK
-                         : flow_failed(work, files.file[i].name, status, &failure, err);
+                         : wt_job_failed(work, files.file[i].name, status, &failure, err);
     }
     if (status == WT_OK && n_sweeps(sweep) == 0) {
         status = wt_fail(err, WT_E_EMPTY, "no DMA sweep could be read");

@@ -68,8 +68,8 @@ wt_status flow_sample_take(wt_sweep *sweep, const char *name, wt_error *err) WT_
  * which. */
 wt_status flow_one_sample(const wt_sweep *sweep, const wt_file_set *sets, size_t n_sets,
                           wt_parselog *log, wt_error *err) WT_NODISCARD;
-/* Of isotherms of several strain amplitudes at one temperature keeps those nearest to the one that
- * the first set names; without one they are WT_E_AMBIGUOUS. */
+/* Of isotherms and temperature sweeps of several strain amplitudes at one temperature and frequency
+ * keeps those nearest to the one that the first set names; without one they are WT_E_AMBIGUOUS. */
 wt_status flow_one_amplitude(wt_sweep *sweep, const wt_file_set *sets, size_t n_sets,
                              wt_parselog *log, wt_error *err) WT_NODISCARD;
 /* Whether a file that gave `failure` is one that merely lies in the folder that was named, without
@@ -124,9 +124,5 @@ bool flow_goes_on(const wt_job *work, wt_status status);
 /* Adds a row to the failures. */
 wt_status flow_add_failure(const wt_job *work, const char *what, const wt_error *failure,
                            wt_error *err) WT_NODISCARD;
-/* What the failure of a file comes to: such a row, whose message does not name the file again, or
- * the error of the job and `status` if it cannot go on. */
-wt_status flow_failed(const wt_job *work, const char *file, wt_status status, wt_error *failure,
-                      wt_error *err) WT_NODISCARD;
 
 #endif

@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/param.h"
 #include "flow/job/cost.h"
+#include "flow/job/far_values.h"
 #include "flow/job/inputs.h"
 
 #include "base/array.h"
@@ -15,7 +16,6 @@
 
 enum { WAYS = 2, ROWS = 3, OUTLIER_LEAST = 8 };
 static const wt_segment_kind kinds[WAYS] = {WT_SEGMENT_APPROACH, WT_SEGMENT_RETRACT};
-static const double outlier = 5, mad_to_deviation = 1.4826;
 
 wt_sensitivity_job wt_sensitivity_job_defaults(void)
 {
@@ -166,7 +166,7 @@ static wt_status read_files(sensitivity_task *task, const flow_files *files, wt_
             continue;
         }
         n_failed++;
-        status = flow_failed(task->work, files->file[i].name, status, &failure, err);
+        status = wt_job_failed(task->work, files->file[i].name, status, &failure, err);
     }
     if (status == WT_OK && task->n == 0) {
         status = wt_fail(err, WT_E_EMPTY, "no force curve could be read");
@@ -198,18 +198,6 @@ static double factor_of(const item *it, size_t way)
     return it->volts ? inverse(it, way) / it->of_file : inverse(it, way);
 }
 
-static int by_size(const void *a, const void *b)
-{
-    const double *x = a, *y = b;
-    return (*x > *y) - (*x < *y);
-}
-
-static double median(double *values, size_t n)
-{
-    qsort(values, n, sizeof *values, by_size);
-    return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
-}
-
 /* Curves of one file whose slope is far from that of the others, by one way. */
 static void mark_outliers_of(item *items, size_t n, size_t way, double *values)
 {
@@ -219,12 +207,9 @@ static void mark_outliers_of(item *items, size_t n, size_t way, double *values)
             values[m++] = inverse(&items[i], way);
     if (m < OUTLIER_LEAST)
         return;
-    const double middle = median(values, m);
-    for (size_t i = 0; i < m; i++)
-        values[i] = fabs(values[i] - middle);
-    const double most = outlier * mad_to_deviation * median(values, m);
+    const usual_values usual = flow_usual_values(values, m);
     for (size_t i = 0; i < n; i++)
-        if (has(&items[i], way) && fabs(inverse(&items[i], way) - middle) > most)
+        if (has(&items[i], way) && fabs(inverse(&items[i], way) - usual.middle) > usual.most)
             items[i].outlier = true;
 }
 
@@ -241,6 +226,26 @@ static wt_status mark_outliers(sensitivity_task *task, wt_error *err)
     }
     free(values);
     return WT_OK;
+}
+
+/* Volts tell the sensitivity, metres only what theirs is off by: a mean of both would be of curves
+ * that are not those of the other numbers. */
+static wt_status check_signals(const sensitivity_task *task, wt_error *err)
+{
+    const item *volts = NULL, *metres = NULL;
+    for (size_t i = 0; i < task->n; i++) {
+        const item *it = &task->items[i];
+        const item **const of = it->volts ? &volts : &metres;
+        *of = *of == NULL ? it : *of;
+    }
+    if (volts == NULL || metres == NULL)
+        return WT_OK;
+    wt_fail(err, WT_E_AMBIGUOUS, "curves in volts of the detector and curves in metres");
+    wt_error_expected(err, "those of one of them");
+    wt_error_found(err, "%s in volts, %s in metres", volts->file->name, metres->file->name);
+    wt_error_advice(err, "give each in a call of its own: volts tell the sensitivity, metres the "
+                         "factor on that of the file");
+    return WT_E_AMBIGUOUS;
 }
 
 static wt_status put_curves(const sensitivity_task *task, wt_table **table, wt_error *err)
@@ -558,6 +563,8 @@ wt_status wt_sensitivity_make(const wt_sensitivity_job *job, const wt_job *work,
         status = flow_files_list(job->sets, job->n_sets, work, &files, err);
     if (status == WT_OK)
         status = read_files(&task, &files, err);
+    if (status == WT_OK)
+        status = check_signals(&task, err);
     if (status == WT_OK)
         status = mark_outliers(&task, err);
     if (status == WT_OK)

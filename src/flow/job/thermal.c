@@ -109,6 +109,26 @@ static void find_temperature(const wt_thermal_job *job, const wt_job *work, cons
                                                    : "says a temperature below absolute zero");
 }
 
+/* What the fit does not take: the mean, which no noise is, is no loss; a density that is missing,
+ * or 0, may be. */
+static void say_left_out(const wt_job *work, const flow_file *file, lever *l)
+{
+    const wt_noise_spectrum *s = &l->spectrum;
+    size_t n = 0, first = 0;
+    char text[160];
+    for (size_t i = 0; i < s->n; i++)
+        if (s->frequency[i] > 0 && !(s->density[i] > 0 && isfinite(s->density[i])))
+            first = n++ == 0 ? i : first;
+    if (s->n > 0 && s->frequency[0] == 0)
+        add_note(l, "the point at 0 Hz is left out");
+    if (n == 0)
+        return;
+    snprintf(text, sizeof text, "%zu of %zu points without a density above 0 left out", n, s->n);
+    add_note(l, text);
+    wt_parselog_add(work->log, WT_WARNING, file->name, NULL, "%s, the first at %g Hz", text,
+                    s->frequency[first]);
+}
+
 static void judge(const wt_job *work, const flow_file *file, lever *l)
 {
     const double said = l->spectrum.averages;
@@ -157,6 +177,7 @@ static wt_status measure(const wt_thermal_job *job, const wt_job *work, flow_fil
     if (status != WT_OK)
         return status;
     find_temperature(job, work, file, l);
+    say_left_out(work, file, l);
     judge(work, file, l);
     if (l->fit.found)
         compute(job, l);
@@ -284,7 +305,7 @@ static wt_status make_table(const wt_thermal_job *job, const wt_job *work, const
             status = WT_OK;
         } else {
             n_failed++;
-            status = flow_failed(work, files->file[i].name, status, &failure, err);
+            status = wt_job_failed(work, files->file[i].name, status, &failure, err);
         }
         wt_noise_spectrum_clear(&l.spectrum);
     }

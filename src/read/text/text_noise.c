@@ -27,9 +27,12 @@ static const struct {
                  {WT_Q_VOLTAGE_NOISE, true, false},
                  {WT_Q_VOLTAGE_DENSITY, true, true}};
 
-static wt_status collect(const text_table *t, point *points, wt_noise_spectrum *spectrum,
-                         wt_error *err)
+/* Rows without a place in the spectrum are left out with a warning. */
+static wt_status collect(const text_file *file, wt_parselog *log, point *points,
+                         wt_noise_spectrum *spectrum, wt_error *err)
 {
+    const text_table *const t = &file->tables[0];
+    size_t n_left_out = 0, line = 0;
     wt_status status = text_table_require(t, WT_KIND_NOISE, err);
     if (status != WT_OK)
         return status;
@@ -50,9 +53,16 @@ static wt_status collect(const text_table *t, point *points, wt_noise_spectrum *
         }
         if (spectrum->amplitudes)
             p.density *= p.density;
-        if (p.frequency >= 0)
+        if (p.frequency >= 0 && isfinite(p.frequency)) {
             points[spectrum->n++] = p;
+            continue;
+        }
+        line = n_left_out++ == 0 ? t->row_lines[r] : line;
     }
+    if (n_left_out > 0)
+        wt_parselog_add(log, WT_WARNING, file->name, line_place(line).words,
+                        "%zu row%s without a frequency of 0 or more left out, this the first",
+                        n_left_out, n_left_out == 1 ? "" : "s");
     spectrum->temperature = t->header.value[HEADER_TEMPERATURE];
     spectrum->spring_constant = t->header.value[HEADER_SPRING_CONSTANT];
     spectrum->sensitivity = t->header.value[HEADER_SENSITIVITY];
@@ -98,7 +108,7 @@ wt_status text_read_noise(const file_reader *self, wt_input *input, const wt_rea
     if (status == WT_OK && file.n_tables == 1 && points == NULL)
         status = wt_fail(err, WT_E_MEMORY, "no memory for the spectrum");
     if (status == WT_OK && points != NULL)
-        status = collect(&file.tables[0], points, spectrum, err);
+        status = collect(&file, log, points, spectrum, err);
     if (status == WT_OK && spectrum->n < 2)
         status = text_nothing(&file, "spectrum of thermal noise", err);
     if (status == WT_OK)
