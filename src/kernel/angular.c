@@ -6,6 +6,7 @@
 #include "kernel/angular.h"
 
 #include "base/array.h"
+#include "base/exponential.h"
 #include "base/wide.h"
 #include "kernel/angular_panels.h"
 
@@ -14,16 +15,23 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Degrees of the series, each twice the one before: its nodes are among those of the next. */
-enum { SHORT_DEGREE = 4, LONG_DEGREE = 16, MOST_CUTS = 12 };
+/* Degrees of the series, each twice the one before: its nodes are among those of the next. A closed
+ * form begins at the second: one of 4 leaves 6e-4 on its pieces. */
+enum { SHORT_DEGREE = 4, CLOSED_DEGREE = 8, LONG_DEGREE = 16, DEGREES = 3, MOST_CUTS = 12 };
+/* Room for the coefficients of one degree, in whole registers. */
+enum { FIT_ROOM = 20 };
 
 /* Pieces end at the whole multiples of this in ln w and at the knots of the law. A closed form is
  * smooth: its poles lie at pi/2 beside the axis. */
 static const double law_width = 0.7, closed_width = 1;
+/* At a goal no tighter than the last, pieces twice as wide do with the same degree: 3.4^-8 is 5e-5.
+ */
+static const double loose_width = 2, loose_goal = 1e-5;
 /* Two bounds closer than this are one. */
 static const double same_bound = 1e-12;
 /* Relative error at which a series is good enough, of the tolerance, and at the best. */
-static const double goal_share = 0.01, least_goal = 2e-14, most_goal = 1e-6;
+static const double goal_share = 0.01, least_goal = 2e-14, most_goal = 1e-6,
+                    most_closed_goal = 1e-4;
 /* Of J1 and J2 from a sum of positive terms. */
 static const double closed_error = 16 * DBL_EPSILON;
 /* A series costs about as much as so many terms of a closed form, and is good to these. */
@@ -50,38 +58,48 @@ struct angular_law {
     const wt_material *material;
     bool closed; /* there is a closed form */
     double piece_width;
-    gauss_rule *rule;
+    const gauss_rule *rule;
     double goal;
     angular_panels panels;
     angular_panels below[2]; /* up to each limit */
     double panels_low, panels_high;
-    double limit[2];    /* of the range backed by data; NaN = none */
-    series_list pieces; /* rising, without gaps */
-    double cosine[2 * LONG_DEGREE];
+    double limit[2];                                   /* of the range backed by data; NaN = none */
+    series_list pieces;                                /* rising, without gaps */
+    double node[LONG_DEGREE + 1];                      /* cos(pi k / LONG_DEGREE) */
+    double fit[DEGREES][(LONG_DEGREE + 1) * FIT_ROOM]; /* of each degree, a column for each node */
 };
 
 /* ---- series ---------------------------------------------------------------------------------- */
 
-/* cos(pi k / LONG_DEGREE). */
-static void make_cosines(double cosine[2 * LONG_DEGREE])
+/* The coefficients of an interpolation at cos(pi k / degree) are sums of its values. */
+static void make_fits(angular_law *a)
 {
+    double cosine[2 * LONG_DEGREE];
     for (size_t k = 0; k < 2 * LONG_DEGREE; k++)
         cosine[k] = cos(M_PI * (double)k / LONG_DEGREE);
+    memcpy(a->node, cosine, sizeof a->node);
+    for (size_t i = 0, degree = SHORT_DEGREE; i < DEGREES; i++, degree *= 2)
+        for (size_t k = 0; k <= degree; k++)
+            for (size_t j = 0; j <= degree; j++) {
+                const double node = k == 0 || k == degree ? 0.5 : 1;
+                const double term = j == 0 || j == degree ? 1 : 2;
+                a->fit[i][k * FIT_ROOM + j] =
+                    node * term / (double)degree *
+                    cosine[j * k * (LONG_DEGREE / degree) % (2 * LONG_DEGREE)];
+            }
 }
 
-/* From values at cos(pi k / degree), each `step` of them. */
-static void chebyshev_fit(const double *value, size_t degree, const double *cosine,
-                          double *coefficient)
+/* From values at cos(pi k / degree), each `step` of them, by the columns of that degree. */
+WIDE_REGISTERS
+static void chebyshev_fit(const double *restrict value, size_t degree, const double *restrict fit,
+                          double *restrict coefficient)
 {
     const size_t step = LONG_DEGREE / degree;
-    for (size_t j = 0; j <= degree; j++) {
-        double sum = 0;
-        for (size_t k = 0; k <= degree; k++) {
-            const double end = k == 0 || k == degree ? 0.5 : 1;
-            sum += end * value[k * step] * cosine[j * k * step % (2 * LONG_DEGREE)];
-        }
-        coefficient[j] = sum * (j == 0 || j == degree ? 1 : 2) / (double)degree;
-    }
+    double sum[FIT_ROOM] = {0};
+    for (size_t k = 0; k <= degree; k++)
+        for (size_t j = 0; j < FIT_ROOM; j++)
+            sum[j] += value[k * step] * fit[k * FIT_ROOM + j];
+    memcpy(coefficient, sum, (LONG_DEGREE + 1) * sizeof *coefficient);
 }
 
 /* What the series leaves out, relative to the smallest value. */
@@ -109,11 +127,13 @@ static double make_powers(double *coefficient, size_t *degree, double allowed)
         cut += fabs(coefficient[kept--]);
     t[0] = coefficient[0];
     for (size_t n = 1; n <= kept; n++) {
-        double next[LONG_DEGREE + 1];
-        for (size_t k = 0; k <= LONG_DEGREE; k++) {
+        double next[LONG_DEGREE + 1] = {0};
+        for (size_t k = 0; k <= n; k++) {
             t[k] += coefficient[n] * now[k];
-            next[k] = (k > 0 ? 2 * now[k - 1] : 0) - last[k];
+            next[k] -= last[k];
         }
+        for (size_t k = 0; k <= n && k < LONG_DEGREE; k++)
+            next[k + 1] += 2 * now[k];
         memcpy(last, now, sizeof last);
         memcpy(now, next, sizeof now);
     }
@@ -150,24 +170,41 @@ static void series_powers(series *s, const double *j1, const double *j2, double 
     s->error += more;
 }
 
+/* J1 and J2 at every `step`th node of a piece from the `first` on. */
+static void series_values(const angular_law *a, const series *s, size_t first, size_t step,
+                          double *j1, double *j2)
+{
+    double x[LONG_DEGREE + 1], w[LONG_DEGREE + 1], new1[LONG_DEGREE + 1], new2[LONG_DEGREE + 1];
+    size_t n = 0;
+    for (size_t k = first; k <= LONG_DEGREE; k += step) {
+        const double u = s->middle + s->half * a->node[k];
+        x[n++] = isnan(s->anchor) ? u : s->anchor + u * u;
+    }
+    exponential(x, n, w);
+    if (a->closed)
+        a->material->law->angular(a->material, w, n, new1, new2);
+    else
+        for (size_t i = 0; i < n; i++)
+            angular_panels_integrate(&a->panels, w[i], &new1[i], &new2[i]);
+    for (size_t i = 0, k = first; i < n; i++, k += step) {
+        j1[k] = new1[i];
+        j2[k] = new2[i];
+    }
+}
+
 static void series_fit(const angular_law *a, series *s)
 {
-    const double *const cosine = a->cosine;
     double j1[LONG_DEGREE + 1], j2[LONG_DEGREE + 1];
-    for (size_t degree = SHORT_DEGREE; degree <= LONG_DEGREE; degree *= 2) {
+    const size_t begin = a->closed ? CLOSED_DEGREE : SHORT_DEGREE;
+    for (size_t degree = begin; degree <= LONG_DEGREE; degree *= 2) {
         const size_t step = LONG_DEGREE / degree;
-        for (size_t k = 0; k <= LONG_DEGREE; k += step) {
-            if (degree > SHORT_DEGREE && k % (2 * step) == 0)
-                continue;
-            const double u = s->middle + s->half * cosine[k];
-            const double w = exp(isnan(s->anchor) ? u : s->anchor + u * u);
-            if (a->closed)
-                a->material->law->angular(a->material, &w, 1, &j1[k], &j2[k]);
-            else
-                angular_panels_integrate(&a->panels, w, &j1[k], &j2[k]);
-        }
-        chebyshev_fit(j1, degree, cosine, s->j1);
-        chebyshev_fit(j2, degree, cosine, s->j2);
+        if (degree == begin)
+            series_values(a, s, 0, step, j1, j2);
+        else
+            series_values(a, s, step, 2 * step, j1, j2);
+        const double *fit = a->fit[degree == SHORT_DEGREE ? 0 : degree == LONG_DEGREE ? 2 : 1];
+        chebyshev_fit(j1, degree, fit, s->j1);
+        chebyshev_fit(j2, degree, fit, s->j2);
         s->degree = degree;
         s->error = fmax(series_tail(s->j1, j1, degree), series_tail(s->j2, j2, degree));
         if (s->error <= a->goal)
@@ -379,6 +416,21 @@ static void series_eval(const series *restrict s, size_t n, const double *restri
     }
 }
 
+/* z of x in a piece; what rounding puts beside it goes to its end. */
+static void place_in(const series *restrict s, const double *restrict x, size_t n,
+                     double *restrict z)
+{
+    const double scale = 1 / s->half, middle = s->middle, anchor = s->anchor;
+    if (isnan(anchor))
+        for (size_t i = 0; i < n; i++)
+            z[i] = (x[i] - middle) * scale;
+    else
+        for (size_t i = 0; i < n; i++)
+            z[i] = (sqrt(x[i] > anchor ? x[i] - anchor : 0) - middle) * scale;
+    for (size_t i = 0; i < n; i++)
+        z[i] = z[i] < -1 ? -1 : z[i] > 1 ? 1 : z[i];
+}
+
 void angular_eval(const angular_law *angular, const double *w, const double *x, size_t n,
                   double *j1, double *j2)
 {
@@ -391,36 +443,36 @@ void angular_eval(const angular_law *angular, const double *w, const double *x, 
     const series_list *pieces = &angular->pieces;
     size_t k = piece_at(pieces, x[0]);
     for (size_t from = 0, count; from < n; from += count) {
-        double z[BATCH], value1[BATCH], value2[BATCH];
+        double z[BATCH];
         while (k + 1 < pieces->n && x[from] > pieces->items[k].high)
             k++;
-        while (k > 0 && x[from] < pieces->items[k].low)
-            k--;
         const series *s = &pieces->items[k];
-        const bool in_root = !isnan(s->anchor);
-        const double scale = 1 / s->half;
-        for (count = 0; count < BATCH && from + count < n; count++) {
-            const double there = x[from + count];
-            if (count > 0 && (there > s->high || there < s->low))
-                break;
-            const double above = there > s->anchor ? there - s->anchor : 0;
-            const double place = ((in_root ? sqrt(above) : there) - s->middle) * scale;
-            z[count] = place < -1 ? -1 : place > 1 ? 1 : place;
-        }
-        for (size_t i = count; i < BATCH && i % AT_ONCE != 0; i++)
+        for (count = 1; count < BATCH && from + count < n && !(x[from + count] > s->high); count++)
+            ;
+        place_in(s, x + from, count, z);
+        const size_t whole = (count + AT_ONCE - 1) / AT_ONCE * AT_ONCE;
+        for (size_t i = count; i < whole; i++)
             z[i] = 0;
-        series_eval(s, count, z, value1, value2);
-        memcpy(j1 + from, value1, count * sizeof *j1);
-        memcpy(j2 + from, value2, count * sizeof *j2);
+        if (from + whole <= n) { /* what is too much, the next piece writes over */
+            series_eval(s, whole, z, j1 + from, j2 + from);
+        } else {
+            double value1[BATCH], value2[BATCH];
+            series_eval(s, whole, z, value1, value2);
+            memcpy(j1 + from, value1, count * sizeof *j1);
+            memcpy(j2 + from, value2, count * sizeof *j2);
+        }
     }
 }
 
-double angular_error(const angular_law *angular, double x_min, double x_max)
+double angular_error(const angular_law *angular, double x_min, double x_max, size_t *piece)
 {
     const series_list *pieces = &angular->pieces;
     double error = 0;
-    for (size_t i = piece_at(pieces, x_min); i < pieces->n && pieces->items[i].low <= x_max; i++)
-        error = fmax(error, pieces->items[i].error);
+    while (*piece + 1 < pieces->n && pieces->items[*piece].high < x_min)
+        ++*piece;
+    for (size_t i = *piece; i < pieces->n && pieces->items[i].low <= x_max; i++)
+        if (pieces->items[i].error > error)
+            error = pieces->items[i].error;
     return error;
 }
 
@@ -478,13 +530,16 @@ wt_status angular_new(const wt_material *material, double tolerance, pool *memor
         return wt_fail(err, WT_E_MEMORY, "out of memory for the angular integrals");
     made->material = material;
     made->closed = material->law->angular != NULL;
-    make_cosines(made->cosine);
-    made->piece_width = made->closed ? closed_width : law_width;
-    made->goal = fmin(fmax(goal_share * tolerance, least_goal), most_goal);
+    make_fits(made);
+    made->goal =
+        fmin(fmax(goal_share * tolerance, least_goal), made->closed ? most_closed_goal : most_goal);
+    made->piece_width = !made->closed              ? law_width
+                        : made->goal >= loose_goal ? loose_width
+                                                   : closed_width;
     made->limit[0] = limit_of(material->frequency_min);
     made->limit[1] = limit_of(material->frequency_max);
     *angular = made;
-    return rule_new(PANEL_NODES, memory, &made->rule, err);
+    return rule_of(PANEL_NODES, &made->rule, err);
 }
 
 void angular_clear(angular_law *angular)

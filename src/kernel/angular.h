@@ -33,8 +33,9 @@ void angular_eval(const angular_law *angular, const double *w, const double *x, 
                   double *j1, double *j2);
 /* Whether the closed form gives J1 and J2 for ln w from x_min to x_max. */
 bool angular_closed(const angular_law *angular, double x_min, double x_max);
-/* Largest relative error of J1 and of J2 for ln w in this range, from series and panels. */
-double angular_error(const angular_law *angular, double x_min, double x_max);
+/* Largest relative error of J1 and of J2 for ln w in this range, from series and panels; `*piece`
+ * is where to look from, 0 or from a range below. */
+double angular_error(const angular_law *angular, double x_min, double x_max, size_t *piece);
 /* The part of J1(w) that comes from frequencies outside the range backed by data; j1 = J1(w). */
 double angular_outside(const angular_law *angular, double w, double j1);
 /* Whether the range of the material is limited at all. */

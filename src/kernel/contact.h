@@ -12,10 +12,14 @@
 
 /* P = erf(1 / (2 sqrt G)); 1 for G <= 0. */
 double contact_area(double variance);
-/* Of n rising variances. */
+/* Of n rising variances; both with room for so many more, whatever is there. */
+enum { CONTACT_ROOM = 3 };
 void contact_areas(const double *variance, size_t n, double *area);
 /* 1 - P without cancellation. */
 double contact_gap(double variance);
+/* The change of P when G moves by its error, and the same of 1 - P. */
+double contact_area_error(double variance, double variance_error);
+double contact_gap_error(double variance, double variance_error);
 /* int_0^G S P dG' with S = gamma + (1 - gamma) P^2. */
 double contact_integral(double variance, double gamma);
 

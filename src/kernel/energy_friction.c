@@ -73,7 +73,8 @@ wt_status wt_energy_source_friction(wt_friction_workspace *workspace, double pre
         wt_energy_source *s = &pair[now];
         friction_record record = {.q = s->wavenumber, .mu = s->power};
         friction_pass pass;
-        const friction_effort effort = {.step = k, .level = least_level, .share = FRICTION_SHARE};
+        const friction_effort effort = {
+            .step = k, .level = least_level, .share = FRICTION_SHARE, .all_along = true};
         friction_evaluate(workspace, &scratch, plan, effort, at, false, &record, &pass);
         s->n = record.n;
         for (size_t i = 0; i < s->n; i++)

@@ -11,16 +11,18 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* The rules for tolerances down to the one that stands with them. */
+/* For tolerances down to the one that stands with them: rules, the first of them for a panel of
+ * which nothing is known, and how wide panels are of what is as smooth as a closed form. */
 static const struct {
     double tolerance;
     size_t nodes[FRICTION_STEPS];
     size_t first;
-} ladders[] = {{3e-3, {3, 4, 5, 6, 8, 12, FRICTION_MAX_NODES}, 1},
-               {3e-5, {4, 5, 6, 8, 10, 14, FRICTION_MAX_NODES}, 1},
-               {3e-8, {6, 7, 8, 10, 12, 16, FRICTION_MAX_NODES}, 1},
-               {3e-11, {8, 9, 10, 12, 14, 18, FRICTION_MAX_NODES}, 2},
-               {0, {10, 12, 14, 16, 18, 20, FRICTION_MAX_NODES}, 1}};
+    double width;
+} ladders[] = {{3e-3, {3, 4, 5, 6, 8, 12, FRICTION_MAX_NODES}, 1, 2.2},
+               {3e-5, {4, 5, 6, 8, 10, 14, FRICTION_MAX_NODES}, 1, 2.2},
+               {3e-8, {6, 7, 8, 10, 12, 16, FRICTION_MAX_NODES}, 1, 1.6},
+               {3e-11, {8, 9, 10, 12, 14, 18, FRICTION_MAX_NODES}, 2, 1.6},
+               {0, {10, 12, 14, 16, 18, 20, FRICTION_MAX_NODES}, 1, 1.6}};
 
 wt_friction_options wt_friction_defaults(void)
 {
@@ -55,27 +57,27 @@ wt_status friction_scratch_init(friction_scratch *scratch, const wt_friction_wor
                                 size_t n_cuts, pool *memory, wt_error *err)
 {
     *scratch = (friction_scratch){0};
-    panel_plan_init(&scratch->plan, ws->roughness, ws->plan.levels, ws->knots, ws->n_knots, n_cuts,
-                    ws->softening, memory);
+    panel_plan_init(&scratch->plan, ws->roughness, ws->plan.width, ws->plan.levels, ws->knots,
+                    ws->n_knots, n_cuts, ws->softening, memory);
     const size_t panels = scratch->plan.capacity;
     scratch->room = panels;
     for (size_t k = 0; k < FRICTION_STEPS; k++)
         grid_init(&scratch->grids[k], &scratch->plan, ws->rules[k], memory);
-    double **const by_node[] = {&scratch->omega, &scratch->log_omega, &scratch->j1,
-                                &scratch->j2,    &scratch->loss_j1,   &scratch->loss_j2};
-    const size_t n_by_node = ws->softening != NULL ? COUNT_OF(by_node) : 4;
+    double **const by_node[] = {&scratch->omega,   &scratch->log_omega, &scratch->j1,
+                                &scratch->j2,      &scratch->rise,      &scratch->full,
+                                &scratch->loss_j1, &scratch->loss_j2};
+    const size_t n_by_node = ws->softening != NULL ? COUNT_OF(by_node) : 6;
     for (size_t i = 0; i < n_by_node; i++)
         *by_node[i] = pool_alloc(memory, (panels + 2) * FRICTION_MAX_NODES, sizeof **by_node[i]);
     scratch->knots = pool_alloc(memory, ws->n_knots + 1, sizeof *scratch->knots);
-    size_t **const places[] = {&scratch->step, &scratch->from};
-    for (size_t i = 0; i < COUNT_OF(places); i++)
-        *places[i] = pool_alloc(memory, panels + 1, sizeof **places[i]);
+    scratch->from = pool_alloc(memory, panels + 1, sizeof *scratch->from);
     friction_trail *trail = &scratch->trail;
     friction_start **const starts[] = {&trail->starts, &trail->spare};
     for (size_t i = 0; i < COUNT_OF(starts); i++)
         *starts[i] = pool_alloc(memory, panels, sizeof **starts[i]);
-    double **const by_panel[] = {&scratch->bounds, &scratch->panel_mu, &scratch->panel_g,
-                                 &scratch->error_mu, &scratch->error_g};
+    double **const by_panel[] = {&scratch->bounds,   &scratch->panel_mu,   &scratch->panel_g,
+                                 &scratch->error_mu, &scratch->error_g,    &scratch->rough_g,
+                                 &scratch->rough_mu, &scratch->of_variance};
     for (size_t i = 0; i < COUNT_OF(by_panel); i++)
         *by_panel[i] = pool_alloc(memory, panels + 1, sizeof **by_panel[i]);
     return memory->failed ? no_memory(err) : WT_OK;
@@ -109,15 +111,37 @@ static double rounding_of(const wt_friction_workspace *ws)
            2 * s->steepest * (8 + (double)ws->plan.levels) * DBL_EPSILON;
 }
 
-static wt_status make_rules(wt_friction_workspace *ws, wt_error *err)
+static size_t ladder_of(double tolerance)
 {
     size_t ladder = 0;
-    wt_status status = WT_OK;
-    while (ws->options.tolerance < ladders[ladder].tolerance)
+    while (tolerance < ladders[ladder].tolerance)
         ladder++;
+    return ladder;
+}
+
+/* The modulus of a closed form has no singular point closer to a real ln q than i pi/2, the pole of
+ * a Maxwell element; that of a layer has. */
+static void choose_panels(wt_friction_workspace *ws)
+{
+    const wt_layer_state *layer = &ws->options.layer;
+    const bool smooth = ws->material->law->angular != NULL && ws->softening == NULL;
+    const bool bulk = !(layer->thickness > 0) || layer->modulus_ratio == 1;
+    const double width =
+        smooth && bulk ? ladders[ladder_of(ws->options.tolerance)].width : PANEL_WIDTH;
+    const double pole = M_PI / width; /* its distance from the middle of a panel, over half of it */
+    ws->fall = smooth ? FALL_SMOOTH : FALL_LAW;
+    ws->fastest = 1.08 / (pole + sqrt(1 + pole * pole));
+    panel_plan_init(&ws->plan, ws->roughness, width, levels_for(ws->options.tolerance), NULL, 0, 0,
+                    ws->softening, &ws->memory);
+}
+
+static wt_status make_rules(wt_friction_workspace *ws, wt_error *err)
+{
+    const size_t ladder = ladder_of(ws->options.tolerance);
+    wt_status status = WT_OK;
     ws->first_step = ladders[ladder].first;
     for (size_t k = 0; status == WT_OK && k < FRICTION_STEPS; k++)
-        status = rule_new(ladders[ladder].nodes[k], &ws->memory, &ws->rules[k], err);
+        status = rule_of(ladders[ladder].nodes[k], &ws->rules[k], err);
     return status;
 }
 
@@ -166,8 +190,7 @@ wt_status wt_friction_workspace_new(const wt_material *material, const wt_roughn
     ws->scratch = pool_alloc(&ws->memory, ws->threads, sizeof *ws->scratch);
     if (o.softening != NULL)
         status = begin_softening(ws, err);
-    panel_plan_init(&ws->plan, roughness, levels_for(o.tolerance), NULL, 0, 0, ws->softening,
-                    &ws->memory);
+    choose_panels(ws);
 
     ws->angular = o.series;
     if (status == WT_OK && o.series == NULL)
@@ -321,12 +344,12 @@ static void compute_point(const compute_job *job, friction_scratch *scratch, dou
         effort.share /= 4;
     }
     const double area = contact_area(pass.variance);
-    const double error_area = friction_area_error(pass.variance, error_g);
+    const double error_area = contact_area_error(pass.variance, error_g);
     point->velocity = velocity;
     point->stress_variance = number(pass.variance, error_g);
     point->area_ratio = number(area, error_area);
     point->one_minus_area =
-        number(contact_gap(pass.variance), friction_gap_error(pass.variance, error_g));
+        number(contact_gap(pass.variance), contact_gap_error(pass.variance, error_g));
     point->hysteresis = number(sign * pass.hysteresis, error_mu);
     point->nodes = pass.nodes;
     point->reached = error_g <= tolerance * pass.variance && error_area <= tolerance * area &&

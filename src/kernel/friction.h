@@ -19,7 +19,7 @@ typedef struct friction_start {
     size_t step, least; /* rule to begin with; the one before `least` did not suffice */
 } friction_start;
 typedef struct friction_trail {
-    size_t n;                       /* 0: there was none */
+    size_t first, n;                /* of the starts, [first, n); n = 0: there was none */
     size_t level;                   /* of the core to begin with */
     friction_start *starts, *spare; /* [panels] */
 } friction_trail;
@@ -33,10 +33,14 @@ typedef struct friction_scratch {
     double *bounds;                   /* [room + 1] t */
     /* [(room + 2) * max nodes]: all panels, then one made anew, then the core */
     double *omega, *log_omega, *j1, *j2;
+    double *rise, *full;        /* of G, and of the hysteresis at full contact */
     double *loss_j1, *loss_j2;  /* likewise, of the loss modulus, with a softening */
     double *panel_mu, *panel_g; /* [room + 1]: parts of the last pass, */
     double *error_mu, *error_g; /* and the errors of its rule in them */
-    size_t *step, *from;        /* [room + 1]: first rule and first node of panels */
+    /* [room + 1], by panel: G and the hysteresis at full contact by the first rule, what an error
+     * of G makes of the hysteresis, and the first node */
+    double *rough_g, *rough_mu, *of_variance;
+    size_t *from;
     friction_trail trail;
     size_t nodes; /* at which J1 and J2 were evaluated so far */
 } friction_scratch;
@@ -53,8 +57,10 @@ struct wt_friction_workspace {
     double rounding; /* relative error of the integrals from rounding, but for that of J1, J2 */
     const double *knots;
     size_t n_knots; /* of the material, rad/s */
-    gauss_rule *rules[FRICTION_STEPS];
+    const gauss_rule *rules[FRICTION_STEPS];
     size_t first_step; /* the rule of a panel of which nothing is known */
+    rule_fall fall;    /* of integrands, */
+    double fastest;    /* and how fast at most, a degree */
     panel_plan plan;   /* of every velocity, for materials without knots */
     unsigned threads;
     friction_scratch *scratch; /* [threads] */
@@ -70,9 +76,11 @@ friction_load friction_load_at(const wt_friction_workspace *ws, double pressure,
 
 /* What a pass begins with and how far it goes. */
 typedef struct friction_effort {
-    size_t step;  /* the first rule, at least */
-    size_t level; /* of the core, at least */
-    double share; /* of the tolerance, that the rule may take in one panel */
+    size_t step;    /* the first rule, at least */
+    size_t level;   /* of the core, at least */
+    double share;   /* of the tolerance, that the rule may take in one panel */
+    bool all_along; /* G up to each panel is to be as good as all of it, and no core taken in closed
+                       form that could be resolved */
 } friction_effort;
 
 /* Of the tolerance. */
@@ -87,6 +95,7 @@ typedef struct friction_pass {
     size_t level;                            /* of the core */
     size_t nodes;
     size_t parts;
+    size_t piece, loss_piece; /* where to look for errors of J1 and J2 */
 } friction_pass;
 
 /* Contributions of the nodes of a pass, for the energy source; arrays with room for all nodes. */
@@ -121,9 +130,6 @@ typedef struct friction_relative {
 friction_relative friction_relative_error(const wt_friction_workspace *ws,
                                           const friction_pass *pass);
 
-/* Half the change of P when G moves by its error, and the same of 1 - P. */
-double friction_area_error(double variance, double variance_error);
-double friction_gap_error(double variance, double variance_error);
 /* Relative rounding error of a sum of positive terms that are each good to some ulps; what steep
  * integrands add stands in the workspace. */
 #define FRICTION_ROUNDING (32 * DBL_EPSILON)

@@ -14,23 +14,6 @@
 
 #include <math.h>
 
-double friction_area_error(double variance, double variance_error)
-{
-    const double area = contact_area(variance);
-    const double above = area - contact_area(variance + variance_error);
-    const double below = contact_area(fmax(0, variance - variance_error)) - area;
-    return fmax(fabs(above), fabs(below)) + 4 * DBL_EPSILON * area;
-}
-
-double friction_gap_error(double variance, double variance_error)
-{
-    const double gap = contact_gap(variance);
-    const double above = contact_gap(variance + variance_error) - gap;
-    const double below = gap - contact_gap(fmax(0, variance - variance_error));
-    /* where erfc underflows the true value is still below the smallest normal number */
-    return fmax(fmax(above, below) + 4 * DBL_EPSILON * gap, variance > 0 ? DBL_MIN : 0);
-}
-
 friction_relative friction_relative_error(const wt_friction_workspace *ws,
                                           const friction_pass *pass)
 {
@@ -53,12 +36,14 @@ static double steepness(const double *j, size_t n)
 /* S P falls no faster than G to the power of minus this. */
 static const double area_power = 1.5;
 
-static double series_error(const wt_friction_workspace *ws, double low, double high)
+static double series_error(const wt_friction_workspace *ws, double low, double high,
+                           friction_pass *pass)
 {
-    const double error = angular_error(ws->angular, low, high);
+    const double error = angular_error(ws->angular, low, high, &pass->piece);
     return ws->softening == NULL
                ? error
-               : ws->softening->caution * (error + angular_error(ws->loss, low, high));
+               : ws->softening->caution *
+                     (error + angular_error(ws->loss, low, high, &pass->loss_piece));
 }
 
 /* What the errors of J1 and J2 make of the part of a pass whose n nodes are at ln omega = `x`; G so
@@ -74,7 +59,7 @@ static void add_moved(const wt_friction_workspace *ws, const double *x, const do
     /* ln omega is a sum of two */
     const double far = fmax(fabs(x[0]), fabs(x[n - 1])) + fabs(log_lowest);
     const double moved = 4 * DBL_EPSILON * (1 + far);
-    const double series = series_error(ws, x[0], x[n - 1]);
+    const double series = series_error(ws, x[0], x[n - 1], pass);
     pass->variance_moved += variance * (series + moved * steepness(j2, n));
     pass->hysteresis_moved += hysteresis * (series + moved * steepness(j1, n));
     if (variance_so_far > 0)
@@ -91,6 +76,7 @@ typedef struct node_view {
     const double *f, *g; /* NULL without a softening */
     double half;
     double *omega, *log_omega, *j1, *j2;
+    double *rise, *full; /* of G, and of the hysteresis at full contact: without weights */
 } node_view;
 
 static node_view place_view(friction_scratch *scratch, const scale_grid *grid, size_t from)
@@ -99,7 +85,9 @@ static node_view place_view(friction_scratch *scratch, const scale_grid *grid, s
                        .omega = scratch->omega + from,
                        .log_omega = scratch->log_omega + from,
                        .j1 = scratch->j1 + from,
-                       .j2 = scratch->j2 + from};
+                       .j2 = scratch->j2 + from,
+                       .rise = scratch->rise + from,
+                       .full = scratch->full + from};
 }
 
 static node_view panel_view(friction_scratch *scratch, const scale_grid *grid, size_t p,
@@ -132,12 +120,18 @@ static void soften(const friction_scratch *scratch, const node_view *view)
     }
 }
 
+static void place_nodes(size_t n, const double *restrict q, const double *restrict t,
+                        friction_load at, double *restrict omega, double *restrict log_omega)
+{
+    for (size_t i = 0; i < n; i++) {
+        omega[i] = q[i] * at.speed;
+        log_omega[i] = t[i] + at.log_lowest;
+    }
+}
+
 static void place_omega(const node_view *view, friction_load at)
 {
-    for (size_t i = 0; i < view->rule->n; i++) {
-        view->omega[i] = view->q[i] * at.speed;
-        view->log_omega[i] = view->t[i] + at.log_lowest;
-    }
+    place_nodes(view->rule->n, view->q, view->t, at, view->omega, view->log_omega);
 }
 
 /* J1 and J2 at n nodes whose omega has been placed. */
@@ -152,8 +146,34 @@ static void evaluate_nodes(const wt_friction_workspace *ws, friction_scratch *sc
         angular_eval(ws->loss, omega, x, n, scratch->loss_j1 + from, scratch->loss_j2 + from);
 }
 
+/* Of G at a node from J2, and of the hysteresis at full contact from J1. */
+typedef struct pass_scale {
+    double g, mu;
+} pass_scale;
+
+static pass_scale scale_of(const wt_friction_workspace *ws, friction_load at)
+{
+    const double ratio = ws->stiffness / at.pressure;
+    return (pass_scale){.g = ratio * ratio / 8, .mu = ratio / 2};
+}
+
+static void scale_parts(size_t n, double scale, const double *restrict factor,
+                        const double *restrict j, double *restrict part)
+{
+    for (size_t i = 0; i < n; i++)
+        part[i] = scale * factor[i] * j[i];
+}
+
+/* Both at the nodes. */
+static void fill_parts(const node_view *view, pass_scale scale)
+{
+    scale_parts(view->rule->n, view->half * scale.g, view->factor2, view->j2, view->rise);
+    scale_parts(view->rule->n, view->half * scale.mu, view->factor1, view->j1, view->full);
+}
+
 static node_view core_view(const wt_friction_workspace *ws, friction_scratch *scratch,
-                           const panel_plan *plan, size_t step, size_t level, friction_load at)
+                           const panel_plan *plan, size_t step, size_t level, friction_load at,
+                           pass_scale scale)
 {
     scale_grid *grid = &scratch->grids[step];
     const size_t from = (scratch->room + 1) * FRICTION_MAX_NODES;
@@ -172,27 +192,8 @@ static node_view core_view(const wt_friction_workspace *ws, friction_scratch *sc
     place_omega(&view, at);
     evaluate_nodes(ws, scratch, view.omega, grid->rule->n);
     soften(scratch, &view);
+    fill_parts(&view, scale);
     return view;
-}
-
-/* Of G at a node from J2, and of the hysteresis at full contact from J1. */
-typedef struct pass_scale {
-    double g, mu;
-} pass_scale;
-
-static pass_scale scale_of(const wt_friction_workspace *ws, friction_load at)
-{
-    const double ratio = ws->stiffness / at.pressure;
-    return (pass_scale){.g = ratio * ratio / 8, .mu = ratio / 2};
-}
-
-/* Both over the nodes, without weights. */
-static void fill_parts(const node_view *view, pass_scale scale, double *g, double *mu)
-{
-    for (size_t i = 0; i < view->rule->n; i++) {
-        g[i] = view->half * scale.g * view->factor2[i] * view->j2[i];
-        mu[i] = view->half * scale.mu * view->factor1[i] * view->j1[i];
-    }
 }
 
 static double weighted(const gauss_rule *rule, const double *f)
@@ -210,19 +211,106 @@ typedef struct pass_part {
     double share[FRICTION_MAX_NODES];        /* of the hysteresis, by node */
 } pass_part;
 
-static rule_fall fall_of(const wt_friction_workspace *ws)
+/* What a rule leaves of an integrand that is as smooth as the moduli are. */
+static double error_of(const wt_friction_workspace *ws, const gauss_rule *rule, const rule_top *top)
 {
-    return ws->material->law->angular != NULL && ws->softening == NULL ? FALL_SMOOTH : FALL_LAW;
+    return rule_error(rule, top, ws->fall, ws->fastest);
+}
+
+/* ---- about what there will be -----------------------------------------------------------------
+ */
+
+/* Of a panel on top of a variance so far. */
+static double rough_part(const wt_friction_workspace *ws, const friction_scratch *scratch, size_t p,
+                         double variance)
+{
+    const double gamma = ws->options.gamma;
+    const double square = 1 / (1 + M_PI * (variance + 0.5 * scratch->rough_g[p])); /* about P^2 */
+    return scratch->rough_mu[p] * sqrt(square) * (gamma + (1 - gamma) * square);
+}
+
+/* The hysteresis of the panels outside the cells. */
+static double rough_hysteresis(const wt_friction_workspace *ws, const friction_scratch *scratch,
+                               const panel_plan *plan, double variance)
+{
+    double hysteresis = 0;
+    for (size_t p = plan->levels; p < plan->n_panels; p++) {
+        hysteresis += rough_part(ws, scratch, p, variance);
+        variance += scratch->rough_g[p];
+    }
+    return hysteresis;
+}
+
+/* What the rules may leave in one panel. */
+typedef struct pass_allowed {
+    double variance, hysteresis;
+} pass_allowed;
+
+/* On top of a core; `of_variance` then tells what an error of G from a panel on makes of the
+ * hysteresis: that of its P there and in all panels above it. */
+static pass_allowed allow(const wt_friction_workspace *ws, friction_scratch *scratch, size_t first,
+                          size_t last, double share, const friction_pass *core)
+{
+    double variance = core->variance, hysteresis = core->hysteresis, sum = 0;
+    for (size_t p = first; p < last; p++) {
+        const double part = rough_part(ws, scratch, p, variance);
+        variance += scratch->rough_g[p];
+        hysteresis += part;
+        scratch->of_variance[p] = variance > 0 ? area_power * part / variance : 0;
+    }
+    for (size_t p = last; p > first; p--)
+        scratch->of_variance[p - 1] = sum += scratch->of_variance[p - 1];
+    return (pass_allowed){share * variance, share * hysteresis};
 }
 
 /* ---- core ------------------------------------------------------------------------------------ */
 
-/* One in which P is 1 or that is as deep as they go, at no less than `*level`: the largest, or the
- * one next to that of the velocity before. */
-static node_view find_core(const wt_friction_workspace *ws, friction_scratch *scratch,
-                           const panel_plan *plan, size_t step, friction_load at, size_t *level)
+/* P is 1 in the core, or the core is so short that dmu/dG hardly changes in it:
+ * mu = (dmu/dG) int S P dG in closed form. */
+static void core_pass(const wt_friction_workspace *ws, const node_view *core, pass_part *part)
+{
+    const gauss_rule *rule = core->rule;
+    const double *g = core->rise, *mu = core->full;
+    double least = (double)INFINITY, most = 0, contact = 1;
+    rule_top top_g, top_mu;
+    rule_tops(rule, g, mu, &top_g, &top_mu);
+    part->variance = weighted(rule, g);
+    part->variance_error = error_of(ws, rule, &top_g);
+    part->closed_error = 0;
+    if (part->variance > CONTACT_FULL) {
+        for (size_t i = 0; i < rule->n; i++)
+            if (g[i] > 0) {
+                least = fmin(least, mu[i] / g[i]);
+                most = fmax(most, mu[i] / g[i]);
+            }
+        const double integral = contact_integral(part->variance, ws->options.gamma);
+        contact = integral / part->variance;
+        part->closed_error = (most - least) * integral;
+    }
+    part->hysteresis = contact * weighted(rule, mu);
+    part->hysteresis_error = contact * error_of(ws, rule, &top_mu);
+    for (size_t i = 0; i < rule->n; i++)
+        part->share[i] = contact * rule->weight[i] * mu[i];
+}
+
+/* By how many levels a core is too short: a cell is 1/4 of the next, and so is G in the core; what
+ * the closed form neglects, the change of dmu/dG times the integral, is 1/16. */
+static double levels_short(const pass_part *part, double allowed)
 {
     const double target = 0.5 * CONTACT_FULL;
+    const double full = part->variance > 0 ? 0.5 * log2(target / part->variance) : 0;
+    return part->closed_error > 0 && allowed > 0
+               ? fmax(full, 0.25 * log2(allowed / part->closed_error))
+               : full;
+}
+
+/* The largest core, at no less than `*level`, in which P is 1 or the error of the closed form is no
+ * more than `allowed` of the hysteresis; or one as deep as they go. That of the velocity before is
+ * tried first. */
+static node_view find_core(const wt_friction_workspace *ws, friction_scratch *scratch,
+                           const panel_plan *plan, size_t step, friction_load at, pass_scale scale,
+                           double allowed, size_t *level, pass_part *part)
+{
     friction_trail *trail = &scratch->trail;
     /* panels that move with knots have other cores each time */
     if (plan == &ws->plan && trail->n > 0 && *level < trail->level)
@@ -230,49 +318,20 @@ static node_view find_core(const wt_friction_workspace *ws, friction_scratch *sc
     if (*level > plan->levels)
         *level = plan->levels;
     for (;;) {
-        const node_view core = core_view(ws, scratch, plan, step, *level, at);
-        double g[FRICTION_MAX_NODES], mu[FRICTION_MAX_NODES];
-        fill_parts(&core, scale_of(ws, at), g, mu);
-        const double variance = weighted(core.rule, g);
-        if (*level >= plan->levels || !(variance > target)) {
-            const double larger = floor(0.5 * log2(target / variance)) - 1;
+        const node_view core = core_view(ws, scratch, plan, step, *level, at, scale);
+        core_pass(ws, &core, part);
+        const double cells = ldexp(part->variance, 2 * (int)*level); /* G up to the panels */
+        const double least = allowed > 0 ? allowed * rough_hysteresis(ws, scratch, plan, cells) : 0;
+        const double shorter = levels_short(part, least);
+        if (*level >= plan->levels || !(shorter < 0)) {
+            const double larger = floor(shorter) - 1;
             trail->level = larger > 0 ? *level - (size_t)fmin(larger, (double)*level) : *level;
             return core;
         }
-        const double deeper = ceil(0.5 * log2(variance / target)); /* a cell is 1/4 of the next */
+        const double deeper = ceil(-shorter);
         const size_t left = plan->levels - *level;
         *level += deeper < (double)left ? (size_t)fmax(1, deeper) : left;
     }
-}
-
-/* P is 1 in the core, or the core is so short that dmu/dG hardly changes in it:
- * mu = (dmu/dG) int S P dG in closed form. */
-static void core_pass(const wt_friction_workspace *ws, const node_view *core, pass_scale scale,
-                      pass_part *part)
-{
-    const gauss_rule *rule = core->rule;
-    double g[FRICTION_MAX_NODES], mu[FRICTION_MAX_NODES];
-    double least = (double)INFINITY, most = 0, contact = 1;
-    fill_parts(core, scale, g, mu);
-    rule_top top_g, top_mu;
-    rule_tops(rule, g, mu, &top_g, &top_mu);
-    part->variance = weighted(rule, g);
-    part->variance_error = rule_error(rule, &top_g, fall_of(ws));
-    for (size_t i = 0; i < rule->n; i++)
-        if (g[i] > 0) {
-            least = fmin(least, mu[i] / g[i]);
-            most = fmax(most, mu[i] / g[i]);
-        }
-    part->closed_error = 0;
-    if (part->variance > CONTACT_FULL) {
-        const double integral = contact_integral(part->variance, ws->options.gamma);
-        contact = integral / part->variance;
-        part->closed_error = (most - least) * integral;
-    }
-    part->hysteresis = contact * weighted(rule, mu);
-    part->hysteresis_error = contact * rule_error(rule, &top_mu, fall_of(ws));
-    for (size_t i = 0; i < rule->n; i++)
-        part->share[i] = contact * rule->weight[i] * mu[i];
 }
 
 /* ---- panels ---------------------------------------------------------------------------------- */
@@ -284,78 +343,60 @@ static const double area_begun = 0.3;
 /* Of one panel, from the values with full contact and with S P, G rising from `before` to `after`.
  * Where P leaves 1 the difference is too small to show in the last coefficients and too steep for
  * the rule, so it is looked at alone. */
-static double hysteresis_error(const gauss_rule *rule, const rule_top *full, const rule_top *part,
-                               rule_fall fall, double before, double after)
+static double hysteresis_error(const wt_friction_workspace *ws, const gauss_rule *rule,
+                               const rule_top *full, const rule_top *part, double before,
+                               double after)
 {
     const bool steep = after > CONTACT_FULL && after > steep_rise * before;
+    const rule_fall fall = steep ? FALL_STEEP : ws->fall;
     rule_top gap;
     if (!(before < area_begun))
-        return rule_error(rule, part, steep ? FALL_STEEP : fall);
-    const double own = rule_error(rule, full, fall);
+        return rule_error(rule, part, fall, ws->fastest);
+    const double own = error_of(ws, rule, full);
     if (!(after > CONTACT_FULL))
         return own;
     for (size_t k = 0; k < RULE_TOP; k++)
         gap.coefficient[k] = full->coefficient[k] - part->coefficient[k];
-    return own + rule_error(rule, &gap, steep ? FALL_STEEP : fall);
+    return own + rule_error(rule, &gap, fall, ws->fastest);
 }
 
 /* On top of a variance so far. */
-static void panel_pass(const wt_friction_workspace *ws, const node_view *view, pass_scale scale,
-                       double variance, pass_part *part)
+static void panel_pass(const wt_friction_workspace *ws, const node_view *view, double variance,
+                       pass_part *part)
 {
     const gauss_rule *rule = view->rule;
-    const double gamma = ws->options.gamma;
-    double running[FRICTION_MAX_NODES], g[FRICTION_MAX_NODES], full[FRICTION_MAX_NODES],
-        area[FRICTION_MAX_NODES], mu[FRICTION_MAX_NODES];
+    const double gamma = ws->options.gamma, *g = view->rise, *full = view->full;
+    double running[FRICTION_MAX_NODES + CONTACT_ROOM], area[FRICTION_MAX_NODES + CONTACT_ROOM],
+        mu[FRICTION_MAX_NODES];
     rule_top top_g, top_full, top_mu;
-    fill_parts(view, scale, g, full);
-    for (size_t j = 0; j < rule->n; j++)
+    for (size_t j = 0; j < rule->n + CONTACT_ROOM; j++)
         running[j] = variance;
     part->variance = rule_running(rule, g, running);
     part->closed_error = 0;
     part->hysteresis = 0;
+    bool falls = running[0] < variance;
+    for (size_t j = 1; j < rule->n; j++)
+        falls |= running[j] < running[j - 1];
+    /* G never falls: where it rises too steeply for a polynomial, the nodes so far */
     double below = variance, highest = variance;
-    for (size_t j = 0; j < rule->n; j++) {
-        /* G never falls: where it rises too steeply for a polynomial, the nodes so far */
+    for (size_t j = 0; falls && j < rule->n; j++) {
         const double here = running[j] < variance ? below : running[j];
         below += rule->weight[j] * g[j];
         running[j] = highest = here > highest ? here : highest;
     }
     contact_areas(running, rule->n, area);
-    for (size_t j = 0; j < rule->n; j++) {
+    for (size_t j = 0; j < rule->n; j++)
         mu[j] = full[j] * area[j] * (gamma + (1 - gamma) * area[j] * area[j]);
+    for (size_t j = 0; j < rule->n; j++) {
         part->share[j] = rule->weight[j] * mu[j];
         part->hysteresis += part->share[j];
     }
     rule_tops(rule, g, mu, &top_g, &top_mu);
-    part->variance_error = rule_error(rule, &top_g, fall_of(ws));
+    part->variance_error = error_of(ws, rule, &top_g);
     if (variance < area_begun)
         rule_tops(rule, full, mu, &top_full, &top_mu);
-    part->hysteresis_error = hysteresis_error(rule, &top_full, &top_mu, fall_of(ws), variance,
-                                              variance + part->variance);
-}
-
-/* About the hysteresis of a pass whose panels begin so far up. */
-static double rough_hysteresis(const wt_friction_workspace *ws, friction_scratch *scratch,
-                               size_t first, size_t last, pass_scale scale,
-                               const friction_pass *core)
-{
-    double variance = core->variance, hysteresis = core->hysteresis;
-    for (size_t p = first; p < last; p++) {
-        const node_view view =
-            panel_view(scratch, &scratch->grids[scratch->step[p]], p, scratch->from[p]);
-        double rise = 0, full = 0;
-        for (size_t i = 0; i < view.rule->n; i++) {
-            rise += view.rule->weight[i] * view.factor2[i] * view.j2[i];
-            full += view.rule->weight[i] * view.factor1[i] * view.j1[i];
-        }
-        rise *= view.half * scale.g;
-        const double square = 1 / (1 + M_PI * (variance + 0.5 * rise)); /* about P^2 */
-        hysteresis += view.half * scale.mu * full * sqrt(square) *
-                      (ws->options.gamma + (1 - ws->options.gamma) * square);
-        variance += rise;
-    }
-    return hysteresis;
+    part->hysteresis_error =
+        hysteresis_error(ws, rule, &top_full, &top_mu, variance, variance + part->variance);
 }
 
 /* Adds a part, from the nodes in view, to a pass. */
@@ -410,13 +451,56 @@ static friction_start start_of(const wt_friction_workspace *ws, const friction_t
     return start;
 }
 
-/* The error of a rule of so many nodes less is larger by no more than this for each of them. */
-static const double node_worth = 0.03;
-
-/* Whether the rule suffices for so much of the variance so far and of the hysteresis. */
-static bool is_fine(const pass_part *part, double variance, double hysteresis)
+/* The panels from the `first` up to the `last`, left out, with the rules to begin with: their nodes
+ * go where there is room from `nodes` on. Returns where it ends. */
+static size_t begin_panels(const wt_friction_workspace *ws, friction_scratch *scratch,
+                           const panel_plan *plan, size_t first, size_t last, size_t step,
+                           size_t nodes, friction_load at, pass_scale scale)
 {
-    return part->variance_error <= variance && part->hysteresis_error <= hysteresis;
+    const size_t begin = nodes;
+    for (size_t p = first, k = scratch->trail.first; p < last; p++) {
+        friction_start *end = &scratch->trail.spare[p];
+        *end = start_of(ws, &scratch->trail, &plan->panels[p], step, &k);
+        scratch->from[p] = nodes;
+        scale_grid *grid = &scratch->grids[end->step];
+        grid_fill_panels(grid, plan, p, p + 1, ws->roughness, &ws->options.layer);
+        const node_view view = panel_view(scratch, grid, p, nodes);
+        place_omega(&view, at);
+        nodes += grid->rule->n;
+    }
+    evaluate_nodes(ws, scratch, scratch->omega + begin, nodes - begin);
+    for (size_t p = first; p < last; p++) {
+        const scale_grid *grid = &scratch->grids[scratch->trail.spare[p].step];
+        const node_view view = panel_view(scratch, grid, p, scratch->from[p]);
+        soften(scratch, &view);
+        fill_parts(&view, scale);
+        scratch->rough_g[p] = weighted(view.rule, view.rise);
+        scratch->rough_mu[p] = weighted(view.rule, view.full);
+    }
+    return nodes;
+}
+
+/* A panel with the next rule. */
+static node_view finer_view(const wt_friction_workspace *ws, friction_scratch *scratch,
+                            const panel_plan *plan, size_t p, size_t step, friction_load at,
+                            pass_scale scale)
+{
+    scale_grid *grid = &scratch->grids[step];
+    grid_fill_panels(grid, plan, p, p + 1, ws->roughness, &ws->options.layer);
+    const node_view view = panel_view(scratch, grid, p, scratch->room * FRICTION_MAX_NODES);
+    place_omega(&view, at);
+    evaluate_nodes(ws, scratch, view.omega, grid->rule->n);
+    soften(scratch, &view);
+    fill_parts(&view, scale);
+    return view;
+}
+
+/* Whether what the rule leaves is so small a part of what is allowed. */
+static bool is_fine(const pass_part *part, double of_variance, pass_allowed allowed, double worth)
+{
+    return part->variance_error <= worth * allowed.variance &&
+           part->variance_error * of_variance <= worth * allowed.hysteresis &&
+           part->hysteresis_error <= worth * allowed.hysteresis;
 }
 
 void friction_evaluate(const wt_friction_workspace *ws, friction_scratch *scratch,
@@ -425,65 +509,55 @@ void friction_evaluate(const wt_friction_workspace *ws, friction_scratch *scratc
 {
     const pass_scale scale = scale_of(ws, at);
     const double share = effort.share * ws->options.tolerance;
-    const wt_roughness *roughness = ws->roughness;
-    const wt_layer_state *layer = &ws->options.layer;
+    const bool closed = !effort.all_along && ws->options.gamma == 1;
+    friction_trail *trail = &scratch->trail;
     pass_part part;
     size_t level = effort.level, step = effort.step;
-    node_view view = find_core(ws, scratch, plan, step, at, &level);
-    for (core_pass(ws, &view, scale, &part);
-         !is_fine(&part, share * part.variance, share * part.hysteresis) && ++step < FRICTION_STEPS;
-         core_pass(ws, &view, scale, &part))
-        view = core_view(ws, scratch, plan, step, level, at);
+    const size_t last = plan->n_panels;
+    const size_t nodes =
+        begin_panels(ws, scratch, plan, plan->levels, last, effort.step, 0, at, scale);
+    node_view view =
+        find_core(ws, scratch, plan, step, at, scale, closed ? share : 0, &level, &part);
+    const size_t first = plan->levels - level;
+    (void)begin_panels(ws, scratch, plan, first, plan->levels, effort.step, nodes, at, scale);
+    *pass = (friction_pass){.variance = part.variance, .hysteresis = part.hysteresis};
+    const pass_allowed total = allow(ws, scratch, first, last, share, pass);
+    pass_allowed allowed = total;
+    if (effort.all_along)
+        allowed = (pass_allowed){share * part.variance, share * part.hysteresis};
+    while (!is_fine(&part, scratch->of_variance[first], allowed, 1) && ++step < FRICTION_STEPS) {
+        view = core_view(ws, scratch, plan, step, level, at, scale);
+        core_pass(ws, &view, &part);
+    }
     *pass = (friction_pass){.level = level};
     add_part(ws, scratch, &view, &part, at.log_lowest, with_outside, record, pass);
-
-    friction_trail *trail = &scratch->trail;
-    friction_start *ends = trail->spare;
-    const size_t first = plan->levels - level, last = plan->n_panels;
-    size_t nodes = 0;
-    for (size_t p = first, k = 0; p < last; p++) {
-        ends[p - first] = start_of(ws, trail, &plan->panels[p], effort.step, &k);
-        scratch->step[p] = ends[p - first].step;
-        scratch->from[p] = nodes;
-        scale_grid *grid = &scratch->grids[scratch->step[p]];
-        grid_fill_panels(grid, plan, p, p + 1, roughness, layer);
-        view = panel_view(scratch, grid, p, nodes);
-        place_omega(&view, at);
-        nodes += grid->rule->n;
-    }
-    evaluate_nodes(ws, scratch, scratch->omega, nodes);
+    allowed = total;
     for (size_t p = first; p < last; p++) {
-        view = panel_view(scratch, &scratch->grids[scratch->step[p]], p, scratch->from[p]);
-        soften(scratch, &view);
-    }
-    const double hysteresis = share * rough_hysteresis(ws, scratch, first, last, scale, pass);
-    for (size_t p = first; p < last; p++) {
-        friction_start *end = &ends[p - first];
-        view = panel_view(scratch, &scratch->grids[end->step], p, scratch->from[p]);
-        panel_pass(ws, &view, scale, pass->variance, &part);
-        double variance = share * (pass->variance + part.variance);
-        while (end->step + 1 < FRICTION_STEPS && !is_fine(&part, variance, hysteresis)) {
-            scale_grid *finer = &scratch->grids[++end->step];
-            end->least = end->step;
-            grid_fill_panels(finer, plan, p, p + 1, roughness, layer);
-            view = panel_view(scratch, finer, p, scratch->room * FRICTION_MAX_NODES);
-            place_omega(&view, at);
-            evaluate_nodes(ws, scratch, view.omega, finer->rule->n);
-            soften(scratch, &view);
-            panel_pass(ws, &view, scale, pass->variance, &part);
-            variance = share * (pass->variance + part.variance);
+        friction_start *end = &trail->spare[p];
+        const double of_variance = scratch->of_variance[p];
+        for (view = panel_view(scratch, &scratch->grids[end->step], p, scratch->from[p]);;
+             view = finer_view(ws, scratch, plan, p, end->step, at, scale)) {
+            panel_pass(ws, &view, pass->variance, &part);
+            if (effort.all_along)
+                allowed.variance = share * (pass->variance + part.variance);
+            if (end->step + 1 == FRICTION_STEPS || is_fine(&part, of_variance, allowed, 1))
+                break;
+            end->least = ++end->step;
         }
         if (end->step > end->least) {
+            /* a node is worth two degrees, and each no more than the poles let it */
             const size_t fewer = view.rule->n - ws->rules[end->step - 1]->n;
             double worth = 1;
             for (size_t i = 0; i < fewer; i++)
-                worth *= node_worth;
-            if (is_fine(&part, worth * variance, worth * hysteresis))
+                worth *= ws->fastest * ws->fastest;
+            if (is_fine(&part, of_variance, allowed, worth))
                 end->step--;
         }
         add_part(ws, scratch, &view, &part, at.log_lowest, with_outside, record, pass);
     }
-    trail->spare = trail->starts;
-    trail->starts = ends;
-    trail->n = last - first;
+    friction_start *before = trail->starts;
+    trail->starts = trail->spare;
+    trail->spare = before;
+    trail->first = first;
+    trail->n = last;
 }

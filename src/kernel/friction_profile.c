@@ -48,7 +48,7 @@ wt_status wt_friction_profile(wt_friction_workspace *workspace, double pressure,
         cuts[i] = log1p((wavenumber[i] - roughness->q0) / roughness->q0);
     const panel_plan *plan = friction_plan(workspace, &scratch, at.speed, cuts, n);
     friction_pass pass;
-    const friction_effort effort = {.share = FRICTION_SHARE};
+    const friction_effort effort = {.share = FRICTION_SHARE, .all_along = true};
     friction_evaluate(workspace, &scratch, plan, effort, at, false, NULL, &pass);
 
     const double relative = friction_relative_error(workspace, &pass).variance;
@@ -72,7 +72,7 @@ wt_status wt_friction_profile(wt_friction_workspace *workspace, double pressure,
             .stress_variance = variance,
             .area_ratio = contact_area(variance),
             .hysteresis = sign * hysteresis,
-            .numerical_error = friction_area_error(variance, difference + relative * variance)};
+            .numerical_error = contact_area_error(variance, difference + relative * variance)};
     }
 done:
     workspace->scratch[0].nodes += scratch.nodes;

@@ -11,8 +11,6 @@
 #include <math.h>
 #include <string.h>
 
-/* In ln q; the Maxwell poles lie pi/2 off the real axis. */
-static const double panel_width = 1.2;
 static const double cell_ratio = 4;
 /* A panel right of a knot may be so many times longer than its distance from the knot before. */
 static const double grading = 8;
@@ -36,26 +34,29 @@ static size_t graded_most(const double *knots, size_t n)
 {
     size_t most = 0;
     for (size_t k = 1; k < n; k++) {
-        const double gap = fmax(log(knots[k] / knots[k - 1]), same_knot * panel_width);
-        const double next = k + 1 < n ? log(knots[k + 1] / knots[k]) : panel_width;
-        const double steps = log(fmin(next, panel_width) / gap) / log(grading);
+        const double gap = fmax(log(knots[k] / knots[k - 1]), same_knot * PANEL_WIDTH);
+        const double next = k + 1 < n ? log(knots[k + 1] / knots[k]) : PANEL_WIDTH;
+        const double steps = log(fmin(next, PANEL_WIDTH) / gap) / log(grading);
         most += steps > 0 ? 1 + (size_t)steps : 0;
     }
     return most;
 }
 
-void panel_plan_init(panel_plan *plan, const wt_roughness *roughness, size_t levels,
+void panel_plan_init(panel_plan *plan, const wt_roughness *roughness, double width, size_t levels,
                      const double *knots, size_t n_knots, size_t n_cuts,
                      const strain_law *softening, pool *memory)
 {
     size_t n_roughness = 0;
     (void)roughness_breaks(roughness, &n_roughness);
     const double length = log_ratio(roughness->q1, roughness->q0);
-    *plan = (panel_plan){
-        .q0 = roughness->q0, .q1 = roughness->q1, .softening = softening, .levels = levels};
+    *plan = (panel_plan){.q0 = roughness->q0,
+                         .q1 = roughness->q1,
+                         .softening = softening,
+                         .width = width,
+                         .levels = levels};
     /* from the smallest t up to the width of a panel there are 27 steps of the cell ratio */
     plan->capacity = levels + n_roughness + n_knots + graded_most(knots, n_knots) + n_cuts + 32 +
-                     (softening != NULL ? softening->n_cuts : 0) + (size_t)(length / panel_width);
+                     (softening != NULL ? softening->n_cuts : 0) + (size_t)(length / PANEL_WIDTH);
     plan->core = pool_alloc(memory, levels + 1, sizeof *plan->core);
     plan->panels = pool_alloc(memory, plan->capacity, sizeof *plan->panels);
 }
@@ -84,12 +85,12 @@ static grid_panel panel_at(double t_low, double t_high, const double *knots, siz
     if (t_low > 0 && t_high > 2 * t_low)
         panel.map = MAP_LOGARITHM;
     size_t before = knots_below(knots, n_knots, t_low);
-    if (before > 0 && knots[before - 1] > t_low - panel_width) {
+    if (before > 0 && knots[before - 1] > t_low - PANEL_WIDTH) {
         panel.map = MAP_SQUARE_ROOT;
         panel.anchor = fmin(knots[before - 1], t_low);
         do
             before--;
-        while (before > 0 && t_low - knots[before - 1] < same_knot * panel_width);
+        while (before > 0 && t_low - knots[before - 1] < same_knot * PANEL_WIDTH);
         if (before > 0)
             panel.t_high = fmin(t_high, t_low + grading * (t_low - knots[before - 1]));
     }
@@ -131,7 +132,8 @@ void panel_plan_lay(panel_plan *plan, const wt_roughness *roughness, const doubl
             double high = bounds[i];
             if (low > 0 && high > cell_ratio * low)
                 high = cell_ratio * low;
-            const double pieces = 1 + floor((bounds[i] - low) / panel_width);
+            const double widest = low > 0 ? plan->width : PANEL_WIDTH;
+            const double pieces = 1 + floor((bounds[i] - low) / widest);
             if (pieces > 1)
                 high = fmin(high, low + (bounds[i] - low) / pieces);
             plan->panels[plan->n_panels] = panel_at(low, high, knots, n_knots);

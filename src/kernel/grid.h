@@ -10,6 +10,7 @@
 #ifndef WT_KERNEL_GRID_H
 #define WT_KERNEL_GRID_H
 
+#include "base/pool.h"
 #include "kernel/rule.h"
 #include "kernel/softening.h"
 #include "weartrack/kernel.h"
@@ -30,6 +31,7 @@ typedef struct grid_panel {
 typedef struct panel_plan {
     double q0, q1;
     const strain_law *softening; /* borrowed, NULL = none */
+    double width;                /* of panels in t, at most; the first one is no wider than usual */
     size_t levels;
     grid_panel *core;   /* [levels + 1] */
     size_t n_panels;    /* levels cells and the others */
@@ -37,9 +39,12 @@ typedef struct panel_plan {
     size_t capacity;
 } panel_plan;
 
+/* The usual width. */
+#define PANEL_WIDTH 1.2
+
 /* Room for a plan with these knots (of any one unit of frequency) and up to n_cuts cuts besides
  * those of roughness and softening. The pool tells whether there was memory. */
-void panel_plan_init(panel_plan *plan, const wt_roughness *roughness, size_t levels,
+void panel_plan_init(panel_plan *plan, const wt_roughness *roughness, double width, size_t levels,
                      const double *knots, size_t n_knots, size_t n_cuts,
                      const strain_law *softening, pool *memory);
 /* Lays the panels: cut at the breaks of roughness and softening, at `cuts` (plain, t rising) and at

@@ -24,8 +24,7 @@ static const double log_negligible = -41.5; /* 1e-18 */
 
 typedef struct march {
     const layer_rates *rates;
-    gauss_rule *low, *high;
-    pool memory;      /* of the rules */
+    const gauss_rule *low, *high;
     double target;    /* where the motion ends: the balance, or 0 */
     double direction; /* +1 growing, -1 being worn */
     double thickness, time;
@@ -162,9 +161,9 @@ static wt_status march_begin(march *m, const layer_rates *rates, double start, w
     *m = (march){.rates = rates, .thickness = start};
     wt_status status = layer_fixed_point(rates, 0, target, err);
     if (status == WT_OK)
-        status = rule_new(LOW_NODES, &m->memory, &m->low, err);
+        status = rule_of(LOW_NODES, &m->low, err);
     if (status == WT_OK)
-        status = rule_new(HIGH_NODES, &m->memory, &m->high, err);
+        status = rule_of(HIGH_NODES, &m->high, err);
     m->target = target->value;
     m->direction = net_rate(rates, start) > 0 ? 1 : -1;
     if (m->direction < 0)
@@ -180,14 +179,14 @@ wt_status layer_march(const layer_rates *rates, double start, const layer_instan
     double linear = 0;
     wt_status status = march_begin(&m, rates, start, &target, &linear, err);
     if (status != WT_OK)
-        goto done;
+        return status;
 
     size_t i = 0;
     if (net_rate(rates, start) == 0) { /* nothing happens, or the balance itself */
         for (; i < n; i++)
             at[i].point->thickness = (wt_estimate){
                 .value = start, .numerical_error = target.numerical_error, .unit = "m"};
-        goto done;
+        return status;
     }
     if (linear > 0) {
         const double until = linear / rates->wear;
@@ -222,8 +221,6 @@ wt_status layer_march(const layer_rates *rates, double start, const layer_instan
         at[i].point->thickness.numerical_error =
             target.numerical_error + fabs(m.thickness - m.target);
     }
-done:
-    pool_free(&m.memory);
     return status;
 }
 
@@ -271,6 +268,5 @@ wt_status layer_march_time(const layer_rates *rates, double start, wt_estimate g
                                 (rates->source->numerical_error + relative) * m.sensitivity +
                                 (goal.numerical_error + 4 * DBL_EPSILON * start) / fabs(there);
     }
-    pool_free(&m.memory);
     return status;
 }

@@ -7,9 +7,10 @@
 #include "base/gsl_quiet.h"
 #include "base/wide.h"
 
-#include <gsl/gsl_errno.h>
 #include <gsl/gsl_integration.h>
 #include <math.h>
+#include <pthread.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { REGISTER = 4 };
@@ -26,24 +27,38 @@ static void legendre(size_t n, double x, double *p)
     }
 }
 
+/* Adds the columns of a matrix, of so many rounded up to whole registers, each times a number. */
+WIDE_REGISTERS
+static void add_columns(const double *restrict matrix, size_t rows, size_t n,
+                        const double *restrict times, double *restrict sum)
+{
+    for (size_t from = 0; from < rows; from += REGISTER) {
+        wide part, column;
+        memcpy(&part, sum + from, sizeof part);
+        for (size_t i = 0; i < n; i++) {
+            memcpy(&column, matrix + i * rows + from, sizeof column);
+            part += column * times[i];
+        }
+        memcpy(sum + from, &part, sizeof part);
+    }
+}
+
 /* l_i(x) = w_i sum_k (k + 1/2) P_k(x_i) P_k(x), and int P_k = (P_{k+1} - P_{k-1}) / (2k + 1). */
 static void fill_running(gauss_rule *rule)
 {
-    double p[RULE_MOST][RULE_MOST + 1]; /* at each node */
-    double change[RULE_MOST][RULE_MOST];
+    double p[RULE_MOST][RULE_MOST + 1];         /* at each node */
+    double change[RULE_MOST * RULE_MOST] = {0}; /* a column of `room` for each degree */
     const size_t n = rule->n;
     for (size_t i = 0; i < n; i++) {
         legendre(n, rule->node[i], p[i]);
         for (size_t k = 1; k < n; k++)
-            change[k][i] = (p[i][k + 1] - p[i][k - 1]) / 2;
+            change[k * rule->room + i] = (p[i][k + 1] - p[i][k - 1]) / 2;
     }
     for (size_t i = 0; i < n; i++) {
         double *row = rule->running + i * rule->room;
         for (size_t j = 0; j < n; j++)
             row[j] = (rule->node[j] + 1) / 2;
-        for (size_t k = 1; k < n; k++)
-            for (size_t j = 0; j < n; j++)
-                row[j] += p[i][k] * change[k][j];
+        add_columns(change + rule->room, rule->room, n - 1, p[i] + 1, row);
         for (size_t j = 0; j < n; j++)
             row[j] *= rule->weight[i];
         for (size_t k = 0; k < RULE_TOP; k++) {
@@ -62,27 +77,12 @@ static void fill_running(gauss_rule *rule)
  * for what is left out folds back on them. `caution` is for what that overlooks, and a tenth of it
  * is enough where the fall goes no further. */
 static const double caution = 40, caution_smooth = 10, caution_few = 6;
-static const double fastest[] = {[FALL_SMOOTH] = 0.2, [FALL_LAW] = 0.4};
+/* Singular points of a law may be so many times closer than the poles. */
+static const double closer = 2;
 
 static double larger(double a, double b)
 {
     return a > b ? a : b;
-}
-
-/* Adds the columns of a matrix, of so many rounded up to whole registers, each times a number. */
-WIDE_REGISTERS
-static void add_columns(const double *restrict matrix, size_t rows, size_t n,
-                        const double *restrict times, double *restrict sum)
-{
-    for (size_t from = 0; from < rows; from += REGISTER) {
-        wide part, column;
-        memcpy(&part, sum + from, sizeof part);
-        for (size_t i = 0; i < n; i++) {
-            memcpy(&column, matrix + i * rows + from, sizeof column);
-            part += column * times[i];
-        }
-        memcpy(sum + from, &part, sizeof part);
-    }
 }
 
 double rule_running(const gauss_rule *rule, const double *f, double *running)
@@ -120,8 +120,9 @@ void rule_tops(const gauss_rule *rule, const double *f, const double *g, rule_to
     tops(rule->top, rule->n, f, g, of_f->coefficient, of_g->coefficient);
 }
 
-double rule_error(const gauss_rule *rule, const rule_top *top, rule_fall kind)
+double rule_error(const gauss_rule *rule, const rule_top *top, rule_fall kind, double fastest)
 {
+    const double floor_rate = kind == FALL_LAW ? closer * fastest : fastest;
     const size_t n = rule->n;
     const double *const coefficient = top->coefficient;
     double pair[RULE_TOP / 2] = {0};
@@ -133,33 +134,33 @@ double rule_error(const gauss_rule *rule, const rule_top *top, rule_fall kind)
     const double last_rate = pair[2] / pair[1];
     double rate;
     if (has_three && kind == FALL_SMOOTH) {
-        const double least = fastest[kind] * fastest[kind], both = pair[2] / pair[0];
-        rate = both > least * least ? sqrt(sqrt(both)) : fastest[kind];
+        const double least = floor_rate * floor_rate, both = pair[2] / pair[0];
+        rate = both > least * least ? sqrt(sqrt(both)) : floor_rate;
     } else {
         rate = sqrt(has_three ? larger(last_rate, pair[1] / pair[0]) : last_rate);
     }
-    const bool steep = kind == FALL_STEEP || (kind == FALL_LAW && rate > fastest[kind]);
+    const bool steep = kind == FALL_STEEP || (kind == FALL_LAW && rate > floor_rate);
     double last = larger(fabs(coefficient[RULE_TOP - 1]), fabs(coefficient[RULE_TOP - 2]) * rate);
     if (has_three)
         last = larger(last, pair[1] * rate * rate * (steep ? rate : 1));
     if (!steep)
-        rate = larger(rate, fastest[kind]);
+        rate = larger(rate, floor_rate);
     double fall = 1;
     for (size_t left = steep ? 7 * n / 10 : n; left > 0; left /= 2, rate *= rate)
         fall *= left % 2 ? rate : 1;
     return (steep ? caution : n < 8 ? caution_few : caution_smooth) * last * fall;
 }
 
-wt_status rule_new(size_t n, pool *memory, gauss_rule **rule, wt_error *err)
+/* NULL without memory. */
+static gauss_rule *make_rule(size_t n)
 {
-    gsl_quiet();
-    wt_status status = WT_OK;
     const size_t room = (n + REGISTER - 1) / REGISTER * REGISTER;
-    gauss_rule *made = pool_alloc(
-        memory, 1, sizeof *made + n * (room + 2 + RULE_TOP_ROOM) * sizeof *made->numbers);
+    gauss_rule *made =
+        calloc(1, sizeof *made + n * (room + 2 + RULE_TOP_ROOM) * sizeof *made->numbers);
     gsl_integration_glfixed_table *table = gsl_integration_glfixed_table_alloc(n);
     if (made == NULL || table == NULL) {
-        status = wt_fail(err, WT_E_MEMORY, "out of memory for a quadrature rule");
+        free(made);
+        made = NULL;
         goto done;
     }
     made->n = n;
@@ -169,14 +170,22 @@ wt_status rule_new(size_t n, pool *memory, gauss_rule **rule, wt_error *err)
     made->running = made->weight + n;
     made->top = made->running + n * room;
     for (size_t i = 0; i < n; i++)
-        if (gsl_integration_glfixed_point(-1, 1, i, &made->node[i], &made->weight[i], table) !=
-            GSL_SUCCESS) {
-            status = wt_fail(err, WT_E_INTERNAL, "no quadrature rule of %zu nodes", n);
-            goto done;
-        }
+        gsl_integration_glfixed_point(-1, 1, i, &made->node[i], &made->weight[i], table);
     fill_running(made);
-    *rule = made;
 done:
     gsl_integration_glfixed_table_free(table);
-    return status;
+    return made;
+}
+
+wt_status rule_of(size_t n, const gauss_rule **rule, wt_error *err)
+{
+    static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+    static gauss_rule *made[RULE_MOST + 1];
+    gsl_quiet();
+    pthread_mutex_lock(&lock);
+    if (made[n] == NULL)
+        made[n] = make_rule(n);
+    *rule = made[n];
+    pthread_mutex_unlock(&lock);
+    return *rule != NULL ? WT_OK : wt_fail(err, WT_E_MEMORY, "out of memory for a quadrature rule");
 }

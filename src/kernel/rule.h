@@ -5,7 +5,6 @@
 #ifndef WT_KERNEL_RULE_H
 #define WT_KERNEL_RULE_H
 
-#include "base/pool.h"
 #include "weartrack/base.h"
 
 /* On [-1, 1]. */
@@ -20,8 +19,9 @@ typedef struct gauss_rule {
 } gauss_rule;
 
 enum { RULE_MOST = 32, RULE_TOP = 6, RULE_TOP_ROOM = 8 };
-/* n must be one of the sizes that GSL tabulates to full precision: 2 to 20, or 32. */
-wt_status rule_new(size_t n, pool *memory, gauss_rule **rule, wt_error *err) WT_NODISCARD;
+/* n must be one of the sizes that GSL tabulates to full precision: 2 to 20, or 32. A rule is made
+ * when it is first asked for, by any thread, and kept for all. */
+wt_status rule_of(size_t n, const gauss_rule **rule, wt_error *err) WT_NODISCARD;
 
 /* Adds the integrals of f from -1 to each node to running[room]; returns that to 1. */
 double rule_running(const gauss_rule *rule, const double *f, double *running);
@@ -39,7 +39,9 @@ typedef struct rule_top {
 void rule_tops(const gauss_rule *rule, const double *f, const double *g, rule_top *of_f,
                rule_top *of_g);
 /* Error of sum_i weight[i] f[i] for an integral from -1 to 1, by how the Legendre coefficients
- * fall: the rule is exact up to twice the degree of the last one. */
-double rule_error(const gauss_rule *rule, const rule_top *top, rule_fall kind);
+ * fall: the rule is exact up to twice the degree of the last one. `fastest`: the fall of a degree
+ * that the poles next to a panel let, 1 / rho where an ellipse through them has the half axes that
+ * sum up to rho. */
+double rule_error(const gauss_rule *rule, const rule_top *top, rule_fall kind, double fastest);
 
 #endif

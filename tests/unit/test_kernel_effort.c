@@ -78,7 +78,7 @@ static void nodes_follow_the_tolerance(void **state)
 {
     (void)state;
     wt_material *const materials[] = {prony(12), table()};
-    const double most[][3] = {{65, 110, 145}, {150, 270, 360}};
+    const double most[][3] = {{45, 90, 135}, {135, 255, 355}};
     for (size_t m = 0; m < 2; m++) {
         wt_friction_point tight[VELOCITIES];
         const double tolerances[] = {1e-2, 1e-6, 1e-10};

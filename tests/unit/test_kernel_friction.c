@@ -214,6 +214,44 @@ static void area_functions(void **state)
     assert_int_equal(n, 9);
 }
 
+/* Many areas at a time, from full contact to next to none, where the ways to them meet too. */
+static void areas_of_many(void **state)
+{
+    (void)state;
+    enum { MANY = 700 };
+    double variance[MANY + CONTACT_ROOM], area[MANY + CONTACT_ROOM];
+    for (size_t n = MANY; n > 0; n = 2 * n / 3) {
+        for (size_t i = 0; i < n; i++)
+            variance[i] = i == 0 ? 0 : pow(10, -3 + 15 * (double)i / (double)n);
+        for (size_t i = n; i < n + CONTACT_ROOM; i++)
+            variance[i] = (double)NAN;
+        contact_areas(variance, n, area);
+        for (size_t i = 0; i < n; i++)
+            assert_near(area[i], (double)erfl(0.5L / sqrtl(variance[i])), 3 * DBL_EPSILON);
+    }
+}
+
+/* What an error of G makes of P and of 1 - P is within what is stated, and that is no guess. */
+static void errors_of_the_area(void **state)
+{
+    (void)state;
+    for (double variance = 4e-4; variance < 1e9; variance *= 1.7)
+        for (double e = 1e-13; e < 0.5; e *= 3) {
+            const long double y = 0.5L / sqrtl(variance);
+            const long double far = y / sqrtl(1 - (long double)e),
+                              near = y / sqrtl(1 + (long double)e);
+            /* that one of the two which keeps its digits */
+            const long double low = y < 0.5L ? erfl(far) - erfl(y) : erfcl(y) - erfcl(far);
+            const long double high = y < 0.5L ? erfl(y) - erfl(near) : erfcl(near) - erfcl(y);
+            const double most = (double)fmaxl(low, high);
+            const double of_area = contact_area_error(variance, e * variance);
+            const double of_gap = contact_gap_error(variance, e * variance);
+            assert_true(of_area >= most && of_gap >= most);
+            assert_true(of_area <= 1.3 * most + 17 * DBL_EPSILON * contact_area(variance));
+            assert_true(of_gap <= 1.3 * most + 2e-13 * contact_gap(variance) + DBL_MIN);
+        }
+}
+
 /* int S P dG against its own derivative by a fine sum. */
 static void area_integral_with_correction(void **state)
 {
@@ -678,6 +716,8 @@ int main(void)
         cmocka_unit_test(numeric_profiles),
         cmocka_unit_test(profile_ends),
         cmocka_unit_test(area_functions),
+        cmocka_unit_test(areas_of_many),
+        cmocka_unit_test(errors_of_the_area),
         cmocka_unit_test(area_integral_with_correction),
         cmocka_unit_test(odd_in_velocity),
         cmocka_unit_test(scalings),

@@ -63,11 +63,10 @@ static void closed_form_against_quadrature(void **state)
     double modulus[] = {2.385e6, 4.1e7, 7e8}, tau[] = {3.1e-2, 5e-5, 2e-8};
     const wt_prony prony = series(3e6, 3, modulus, tau);
     wt_material *m = NULL;
-    pool memory = {0};
-    gauss_rule *rule = NULL;
+    const gauss_rule *rule = NULL;
     angular_panels panels;
     assert_int_equal(wt_material_prony(&prony, 0.5, &m, NULL), WT_OK);
-    assert_int_equal(rule_new(PANEL_NODES, &memory, &rule, NULL), WT_OK);
+    assert_int_equal(rule_of(PANEL_NODES, &rule, NULL), WT_OK);
     assert_int_equal(angular_panels_new(m, rule, 1e-3, 1e12, 1e-16, &panels, NULL), WT_OK);
     for (double w = 1e-3; w < 1e12; w *= 17) {
         double j1, j2, closed_j1[2], closed_j2[2];
@@ -80,7 +79,6 @@ static void closed_form_against_quadrature(void **state)
         assert_near(j2, closed_j2[0], 0);
     }
     angular_panels_clear(&panels);
-    pool_free(&memory);
     wt_material_free(m);
 }
 
@@ -94,11 +92,10 @@ static void frequencies_below_a_limit(void **state)
     const double limit = 137;
     enum { ANGLES = 20000 };
     wt_material *m = NULL;
-    pool memory = {0};
-    gauss_rule *rule = NULL;
+    const gauss_rule *rule = NULL;
     angular_panels panels;
     assert_int_equal(wt_material_prony(&prony, 0.5, &m, NULL), WT_OK);
-    assert_int_equal(rule_new(PANEL_NODES, &memory, &rule, NULL), WT_OK);
+    assert_int_equal(rule_of(PANEL_NODES, &rule, NULL), WT_OK);
     assert_int_equal(angular_panels_new(m, rule, limit, limit, 1e-10, &panels, NULL), WT_OK);
     for (double w = 1.001 * limit; w < 1e6; w *= 1.7) {
         double sum1 = 0, sum2 = 0, j1, j2;
@@ -115,7 +112,6 @@ static void frequencies_below_a_limit(void **state)
         assert_near(j2, sum2, 1e-7);
     }
     angular_panels_clear(&panels);
-    pool_free(&memory);
     wt_material_free(m);
 }
 

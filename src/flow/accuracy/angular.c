@@ -48,7 +48,7 @@ static wt_status solve_series(void *problem, double value, wt_error *err)
         for (int i = 0; i < PLACES; i++)
             x[i] = log(p->w[i]);
         angular_eval(law, p->w, x, PLACES, p->found[0], p->found[1]);
-        p->stated = angular_error(law, x[0], x[PLACES - 1]);
+        p->stated = angular_error(law, x[0], x[PLACES - 1], &(size_t){0});
         angular_clear(law);
     }
     pool_free(&memory);
