@@ -1,10 +1,12 @@
 /* Input: the bytes of a file or a pipe (read as far as they were asked for) or of memory
  * (borrowed), behind the same two functions. A file is never mapped: one that another program
- * shortens meanwhile would end this one with a signal.
+ * shortens meanwhile would end this one with a signal. A large pipe of which parts are asked for
+ * goes into a file first.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "read/bytes/input.h"
+#include "read/bytes/scratch.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -16,8 +18,6 @@
 #include <unistd.h>
 
 #define FIRST_READ ((size_t)64 * 1024)
-/* A file that is no larger is read at once, also where parts of it are asked for. */
-#define SMALL_FILE ((size_t)4 * 1024 * 1024)
 
 struct wt_input {
     char *name;
@@ -109,9 +109,9 @@ wt_status wt_input_open(const char *path, wt_input **input, wt_error *err)
         wt_error_advice(err, "'%s/*' names the files in it", path);
         goto fail;
     }
-    /* Standard input that was redirected from a file may stand anywhere in it: read it as a pipe.
-     */
-    if (S_ISREG(st.st_mode) && !standard)
+    /* Standard input that was redirected from a file may stand anywhere in it: then it is read as a
+     * pipe. */
+    if (S_ISREG(st.st_mode) && (!standard || lseek(in->fd, 0, SEEK_CUR) == 0))
         in->expected = (size_t)st.st_size;
     *input = in;
     return WT_OK;
@@ -147,6 +147,25 @@ wt_status input_own(char *bytes, size_t length, const char *name, wt_input **inp
     in->buffer = (unsigned char *)bytes;
     *input = in;
     return WT_OK;
+}
+
+wt_status input_of_file(int file, size_t size, const char *name, wt_input **input, wt_error *err)
+{
+    wt_input *in = NULL;
+    wt_status status = input_new(name, &in, err);
+    if (status != WT_OK) {
+        (void)close(file);
+        return status;
+    }
+    in->fd = file;
+    in->expected = size;
+    if (lseek(file, 0, SEEK_SET) == 0) {
+        *input = in;
+        return WT_OK;
+    }
+    status = fail_io(in, err, errno, "cannot be read");
+    wt_input_close(in);
+    return status;
 }
 
 void wt_input_close(wt_input *input)
@@ -191,7 +210,7 @@ static wt_status fill(wt_input *in, size_t want, wt_error *err)
             if (in->capacity > SIZE_MAX / 2)
                 return wt_fail(err, WT_E_MEMORY, "input too large");
             if (in->capacity > 0)
-                capacity *= 2;
+                capacity = in->expected > in->capacity ? in->expected + 1 : 2 * capacity;
             unsigned char *buffer = realloc(in->buffer, capacity);
             if (buffer == NULL) {
                 wt_fail(err, WT_E_MEMORY, "no memory for %zu bytes of input", capacity);
@@ -217,9 +236,51 @@ static wt_status fill(wt_input *in, size_t want, wt_error *err)
     return WT_OK;
 }
 
+/* A pipe that is large becomes a file; what was read of it stays where it is. */
+static wt_status keep_pipe(wt_input *in, wt_error *err)
+{
+    static const size_t step = 4 * FIRST_READ;
+    wt_status status = fill(in, SCRATCH_ABOVE + 1, err);
+    if (status != WT_OK || in->whole || in->fd < 0)
+        return status;
+    const int file = scratch_open();
+    if (file < 0)
+        return fill(in, SIZE_MAX, err);
+    unsigned char *const piece = malloc(step);
+    size_t size = in->length;
+    bool more = true;
+    status = piece != NULL ? scratch_write(file, in->bytes, size, in->name, err)
+                           : wt_fail(err, WT_E_MEMORY, "no memory to read a pipe");
+    while (status == WT_OK && more) {
+        const ssize_t got = read(in->fd, piece, step);
+        if (got < 0 && errno == EINTR)
+            continue;
+        if (got < 0)
+            status = fail_io(in, err, errno, "cannot be read");
+        else if (got > 0)
+            status = scratch_write(file, piece, (size_t)got, in->name, err);
+        size += got > 0 ? (size_t)got : 0;
+        more = got > 0;
+    }
+    free(piece);
+    if (status == WT_OK && lseek(file, (off_t)in->length, SEEK_SET) < 0)
+        status = fail_io(in, err, errno, "cannot be read");
+    if (status != WT_OK) {
+        (void)close(file);
+        return status;
+    }
+    (void)close(in->fd);
+    in->fd = file;
+    in->expected = size;
+    return WT_OK;
+}
+
 wt_status wt_input_size(wt_input *input, size_t *size, wt_error *err)
 {
     const unsigned char *bytes = NULL;
+    const wt_status status = input->expected == 0 ? keep_pipe(input, err) : WT_OK;
+    if (status != WT_OK)
+        return status;
     if (input->expected > 0 && !input->whole) {
         *size = input->expected;
         return WT_OK;
@@ -230,11 +291,11 @@ wt_status wt_input_size(wt_input *input, size_t *size, wt_error *err)
 wt_status wt_input_at(wt_input *in, size_t from, void *to, size_t n, wt_error *err)
 {
     size_t got = 0;
-    if (in->expected <= SMALL_FILE) {
-        const wt_status status = fill(in, SIZE_MAX, err);
-        if (status != WT_OK)
-            return status;
-    }
+    wt_status status = in->expected == 0 ? keep_pipe(in, err) : WT_OK;
+    if (status == WT_OK && in->expected <= SCRATCH_ABOVE)
+        status = fill(in, SIZE_MAX, err);
+    if (status != WT_OK)
+        return status;
     if (from <= in->length && n <= in->length - from) {
         if (n > 0)
             memcpy(to, in->bytes + from, n);

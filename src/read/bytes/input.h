@@ -9,6 +9,10 @@
 wt_status input_own(char *bytes, size_t length, const char *name, wt_input **input,
                     wt_error *err) WT_NODISCARD;
 
+/* Takes an open file of so many bytes, which only this program has, also on failure. */
+wt_status input_of_file(int file, size_t size, const char *name, wt_input **input,
+                        wt_error *err) WT_NODISCARD;
+
 /* The descriptor of a file that is not yet read as a whole, or -1; of the input. */
 int input_file(const wt_input *input);
 

@@ -1,14 +1,13 @@
 /* Gzip (RFC 1952) through zlib. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "read/bytes/input.h"
+#include "read/bytes/spool.h"
 #include "read/packed/packed.h"
 
-#include <limits.h>
 #include <stdlib.h>
 #include <zlib.h>
 
-#define FIRST_ROOM ((size_t)1 << 16)
-/* As much as a day of force curves; nothing else ends an archive that was made to grow. */
-#define MOST_BYTES ((size_t)2 << 30)
+#define PIECE ((size_t)1 << 18)
+/* As much as days of force curves; nothing else ends an archive that was made to grow. */
+#define MOST_BYTES ((uint64_t)8 << 30)
 
 bool gzip_is(const unsigned char *bytes, size_t length)
 {
@@ -17,94 +16,112 @@ bool gzip_is(const unsigned char *bytes, size_t length)
 
 typedef struct unpacking {
     z_stream z;
-    unsigned char *bytes;
-    size_t length, room;
+    wt_input *input;
+    size_t at, n;            /* of the archive: what is read next, and all */
+    unsigned char *in, *out; /* [PIECE] */
+    spool content;
 } unpacking;
 
 static wt_status fail(wt_error *err, const unpacking *u, const char *what)
 {
     wt_fail(err, WT_E_CORRUPT, "%s", what);
-    wt_error_place(err, "gzip archive, after %zu bytes of its content", u->length);
+    wt_error_place(err, "gzip archive, after %zu bytes of its content", u->content.length);
     wt_error_advice(err, "copy the file again, or unpack it with gunzip and look at what comes");
     return WT_E_CORRUPT;
 }
 
-static wt_status grow(unpacking *u, wt_error *err)
+static wt_status read_piece(unpacking *u, wt_error *err)
 {
-    if (u->length < u->room)
+    const size_t left = u->n - u->at, n = left < PIECE ? left : PIECE;
+    if (u->z.avail_in > 0 || n == 0)
         return WT_OK;
-    if (u->room >= MOST_BYTES)
-        return fail(err, u, "the archive unpacks to more than 2 GiB");
-    const size_t room = u->room > 0 ? 2 * u->room : FIRST_ROOM;
-    unsigned char *bytes = realloc(u->bytes, room);
-    if (bytes == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the content of a gzip archive");
-    u->bytes = bytes;
-    u->room = room;
-    return WT_OK;
+    const wt_status status = wt_input_at(u->input, u->at, u->in, n, err);
+    u->at += n;
+    u->z.next_in = u->in;
+    u->z.avail_in = status == WT_OK ? (uInt)n : 0;
+    return status;
 }
 
-/* A piece of what is left; zlib counts in unsigned int. */
-static uInt piece(size_t left)
+/* What was unpacked so far goes to the rest. */
+static wt_status put_piece(unpacking *u, wt_error *err)
 {
-    return left < UINT_MAX ? (uInt)left : UINT_MAX;
+    const size_t n = PIECE - u->z.avail_out;
+    const wt_status status = spool_add(&u->content, u->out, n, wt_input_name(u->input), err);
+    u->z.next_out = u->out;
+    u->z.avail_out = (uInt)PIECE;
+    if (status == WT_OK && u->content.length > MOST_BYTES)
+        return fail(err, u, "the archive unpacks to more than 8 GiB");
+    return status;
 }
 
-/* Zeros behind the last member are what tape drives leave; anything else would be lost. */
-static wt_status check_rest(const unpacking *u, const unsigned char *rest, size_t n, wt_error *err)
+/* Behind a member: *more if another one comes. Zeros behind the last member are what tape drives
+ * leave; anything else would be lost. */
+static wt_status end_member(unpacking *u, bool *more, wt_error *err)
 {
-    for (size_t i = 0; i < n; i++)
-        if (rest[i] != 0)
-            return fail(err, u, "something else stands behind the archive");
-    return WT_OK;
+    unsigned char head[3];
+    size_t from = u->at - u->z.avail_in;
+    const size_t n = u->n - from < sizeof head ? u->n - from : sizeof head;
+    wt_status status = wt_input_at(u->input, from, head, n, err);
+    *more = status == WT_OK && gzip_is(head, n);
+    if (*more)
+        return inflateReset(&u->z) == Z_OK ? WT_OK : fail(err, u, "the archive cannot be unpacked");
+    while (status == WT_OK && from < u->n) {
+        const size_t left = u->n - from, step = left < PIECE ? left : PIECE;
+        status = wt_input_at(u->input, from, u->in, step, err);
+        for (size_t i = 0; status == WT_OK && i < step; i++)
+            if (u->in[i] != 0)
+                status = fail(err, u, "something else stands behind the archive");
+        from += step;
+    }
+    return status;
 }
 
 /* All members, one after the other. */
-static wt_status unpack(unpacking *u, const unsigned char *packed, size_t n, wt_error *err)
+static wt_status unpack(unpacking *u, wt_error *err)
 {
-    size_t at = 0;
-    for (;;) {
-        const wt_status status = grow(u, err);
+    bool more = true;
+    wt_status status = WT_OK;
+    u->z.next_out = u->out;
+    u->z.avail_out = (uInt)PIECE;
+    while (status == WT_OK && more) {
+        status = read_piece(u, err);
+        const bool at_end = u->at == u->n && u->z.avail_in == 0;
+        const int what = status == WT_OK ? inflate(&u->z, Z_NO_FLUSH) : Z_OK;
+        if (status == WT_OK && (u->z.avail_out == 0 || what == Z_STREAM_END))
+            status = put_piece(u, err);
         if (status != WT_OK)
-            return status;
-        const uInt in = piece(n - at), out = piece(u->room - u->length);
-        u->z.next_in = (z_const Bytef *)(uintptr_t)(packed + at);
-        u->z.avail_in = in;
-        u->z.next_out = u->bytes + u->length;
-        u->z.avail_out = out;
-        const int what = inflate(&u->z, Z_NO_FLUSH);
-        at += in - u->z.avail_in;
-        u->length += out - u->z.avail_out;
-        if (what == Z_STREAM_END) {
-            if (!gzip_is(packed + at, n - at))
-                return check_rest(u, packed + at, n - at, err);
-            if (inflateReset(&u->z) != Z_OK)
-                return fail(err, u, "the archive cannot be unpacked");
-        } else if (what == Z_MEM_ERROR) {
-            return wt_fail(err, WT_E_MEMORY, "no memory to unpack a gzip archive");
-        } else if (what == Z_BUF_ERROR && at == n) {
-            return fail(err, u, "the end of the archive is missing");
-        } else if (what != Z_OK && what != Z_BUF_ERROR) {
-            return fail(err, u, "the archive is damaged");
-        }
+            break;
+        if (what == Z_STREAM_END)
+            status = end_member(u, &more, err);
+        else if (what == Z_MEM_ERROR)
+            status = wt_fail(err, WT_E_MEMORY, "no memory to unpack a gzip archive");
+        else if (what == Z_BUF_ERROR && at_end)
+            status = fail(err, u, "the end of the archive is missing");
+        else if (what != Z_OK && what != Z_BUF_ERROR)
+            status = fail(err, u, "the archive is damaged");
     }
+    return status;
 }
 
 wt_status gzip_unpack(wt_input *input, wt_input **content, wt_error *err)
 {
-    const unsigned char *packed = NULL;
-    size_t n = 0;
-    unpacking u = {.bytes = NULL};
-    wt_status status = wt_input_bytes(input, &packed, &n, err);
+    unpacking u = {.input = input};
+    wt_status status = wt_input_size(input, &u.n, err);
     if (status != WT_OK)
         return status;
-    if (inflateInit2(&u.z, 16 + MAX_WBITS) != Z_OK) /* 16: gzip and nothing else */
-        return wt_fail(err, WT_E_MEMORY, "no memory to unpack a gzip archive");
-    status = unpack(&u, packed, n, err);
-    (void)inflateEnd(&u.z);
-    if (status != WT_OK) {
-        free(u.bytes);
-        return status;
+    u.in = malloc(PIECE);
+    u.out = malloc(PIECE);
+    /* 16: gzip and nothing else */
+    if (u.in == NULL || u.out == NULL || inflateInit2(&u.z, 16 + MAX_WBITS) != Z_OK) {
+        status = wt_fail(err, WT_E_MEMORY, "no memory to unpack a gzip archive");
+    } else {
+        status = unpack(&u, err);
+        (void)inflateEnd(&u.z);
     }
-    return input_own((char *)u.bytes, u.length, wt_input_name(input), content, err);
+    free(u.in);
+    free(u.out);
+    if (status == WT_OK)
+        return spool_input(&u.content, wt_input_name(input), content, err);
+    spool_drop(&u.content);
+    return status;
 }

@@ -23,11 +23,38 @@ typedef struct text_lines {
 
 wt_status lines_decode(const unsigned char *bytes, size_t length, text_encoding encoding,
                        text_lines *lines, wt_error *err);
+/* More of UTF-8 text, which does not begin with a mark. */
+wt_status lines_decode_more(const unsigned char *bytes, size_t length, text_lines *lines,
+                            wt_error *err);
 /* The words for the encoding that the bytes will be decoded from. */
 const char *lines_encoding(const unsigned char *bytes, size_t length, text_encoding encoding);
 void lines_free(text_lines *lines);
 /* Takes the comment mark off the beginning; false if there is none. */
 bool line_uncomment(const text_description *description, text_span *line);
+
+/* The lines of an input, which is read as far as they are asked for: as a whole, or in pieces of
+ * UTF-8 text that end with a line. */
+typedef struct text_feed {
+    wt_input *input;
+    text_encoding encoding; /* as described */
+    size_t piece;           /* bytes to read together; SIZE_MAX: all */
+    size_t at, size;        /* of the input: what is read next, and all; once it began */
+    bool began;
+    unsigned char *buffer;
+    size_t room;
+    struct feed_piece *first, *last;
+    size_t n;          /* lines so far, those that were dropped among them */
+    const char *words; /* encoding, bytes replaced, odd byte: as of text_lines */
+    size_t n_replaced;
+    bool odd_byte;
+} text_feed;
+
+/* Line i, counted from 0, which must not have been dropped; WT_END behind the last. It stays until
+ * it is dropped. */
+wt_status feed_line(text_feed *feed, size_t i, text_span *line, wt_error *err);
+/* The lines before line i are no longer needed. */
+void feed_drop(text_feed *feed, size_t i);
+void feed_free(text_feed *feed);
 
 /* ---- cells -------------------------------------------------------------------------------- */
 
@@ -123,18 +150,21 @@ typedef struct text_list {
     size_t n;
 } text_list;
 
-/* Everything that a description finds in a file. */
+/* Everything that a description finds in a file, or in a part of it. */
 typedef struct text_file {
     const text_description *description;
     const char *name;
-    text_lines lines;
+    text_feed *feed;
     text_table *tables;
     size_t n_tables;
-    field_value *values; /* [n_fields] of the description, as last seen */
-    text_list unknown;   /* names of columns that no rule knows, each once */
-    text_list steps;     /* titles of steps without a table */
-    text_list samples;   /* names of samples, each once */
-    pool memory;         /* of the lists, the values and the columns of the tables */
+    size_t n_seen;              /* tables of the parts so far, this one among them */
+    wt_quantity_set quantities; /* of those tables */
+    field_value *values;        /* [n_fields] of the description, as last seen */
+    text_list unknown;          /* names of columns that no rule knows, each once */
+    text_list steps;            /* titles of steps without a table */
+    text_list samples;          /* names of samples, each once */
+    pool memory;                /* of the lists and the values */
+    pool of_tables;             /* their columns */
 } text_file;
 
 /* Runs the description of the reader over the input. `kinds`: the names row of a table must suffice
@@ -143,6 +173,25 @@ wt_status text_scan(const file_reader *reader, wt_input *input, unsigned kinds,
                     const wt_read_options *options, wt_parselog *log, text_file *file,
                     wt_error *err);
 void text_file_free(text_file *file);
+
+/* The same part by part, for files that are larger than memory should be: each part ends where the
+ * description sees a step begin, so that no block reaches over its end. What a part finds is what
+ * text_scan would, and the failures are the same, but come when their part does. */
+typedef struct text_parts text_parts;
+/* Bytes to read together: SIZE_MAX, and the file is one part, where it is small or where its
+ * description lets one line depend on others far away. */
+wt_status text_piece(const text_description *description, wt_input *input, size_t *piece,
+                     wt_error *err);
+/* The input is the text itself: `as_text` of the reader is not asked. */
+wt_status text_parts_begin(const file_reader *reader, wt_input *input, size_t piece, unsigned kinds,
+                           const wt_read_options *options, wt_parselog *log, text_parts **parts,
+                           wt_error *err);
+/* Goes on to the next part with a table; WT_END behind the last, which then stays. */
+wt_status text_parts_next(text_parts *parts, wt_error *err);
+/* What the part has. */
+const text_file *text_parts_file(const text_parts *parts);
+void text_parts_free(text_parts *parts);
+
 /* Adds a copy of a text, unless the list has `most` already. */
 wt_status text_list_add(text_file *file, text_list *list, size_t most, text_span text,
                         wt_error *err);
@@ -166,6 +215,9 @@ wt_status text_table_problem(const text_table *table, wt_quantity_set quantities
 void text_unknown(const text_file *file, char *names, size_t size);
 /* Notes which columns were left out, warns of what the names of others leave open. */
 void text_log_columns(const text_file *file, wt_parselog *log);
+/* The parts of that: of the whole file, of the tables of a part. */
+void text_log_unknown(const text_file *file, wt_parselog *log);
+void text_log_assumed(const text_file *file, wt_parselog *log);
 /* "no frequency sweep in it" and which steps are there instead: WT_E_EMPTY. */
 wt_status text_nothing(const text_file *file, const char *what, wt_error *err);
 

@@ -7,8 +7,6 @@
 #include "base/clocale.h"
 #include "read/force_source.h"
 
-#include "base/clocale.h"
-
 #include "read/facts.h"
 
 #include <math.h>
@@ -17,6 +15,20 @@
 
 /* Tables beyond this many repeat what the first ones say. */
 #define TABLES_SHOWN ((size_t)4)
+
+/* What is read, and how. */
+typedef struct text_reading {
+    const file_reader *self;
+    wt_input *input;
+    const wt_read_options *options;
+    unsigned kinds;
+    size_t piece;
+} text_reading;
+
+static wt_status begin(const text_reading *r, wt_parselog *log, text_parts **parts, wt_error *err)
+{
+    return text_parts_begin(r->self, r->input, r->piece, r->kinds, r->options, log, parts, err);
+}
 
 static void add_header(const text_file *file, table_writer *facts)
 {
@@ -54,17 +66,23 @@ static void add_column(const text_table *t, const text_column *c, table_writer *
     }
 }
 
-static void add_table(const text_file *file, size_t number, table_writer *facts)
+/* Tables of one file mostly have the columns of the first. */
+typedef struct first_table {
+    size_t n_columns;
+    wt_quantity_set quantities;
+} first_table;
+
+static void add_table(const text_table *t, size_t number, first_table *first, table_writer *facts)
 {
-    const text_table *t = &file->tables[number];
     char item[32];
     snprintf(item, sizeof item, "table %zu", number + 1);
     facts_add(facts, item, "", line_place(t->names_line).words,
               "%s%s%zu rows, separator %s, decimal %s", t->title, t->title[0] != '\0' ? ": " : "",
               t->n_rows, separator_name(t->separator), t->decimal == ',' ? "comma" : "point");
-    /* Tables of one file mostly have the columns of the first. */
-    if (number > 0 && t->n_columns == file->tables[0].n_columns &&
-        t->quantities == file->tables[0].quantities && t->n_problems == 0)
+    if (number == 0)
+        *first = (first_table){t->n_columns, t->quantities};
+    else if (t->n_columns == first->n_columns && t->quantities == first->quantities &&
+             t->n_problems == 0)
         return;
     for (size_t i = 0; i < t->n_columns; i++)
         add_column(t, &t->columns[i], facts);
@@ -194,13 +212,37 @@ static void add_spectrum(const file_reader *self, wt_input *input, const wt_read
     wt_power_spectrum_clear(&spectrum);
 }
 
-static void add_layout(const text_file *file, table_writer *facts)
+/* The first tables, for which the text is read again where they are no longer at hand. */
+static wt_status add_tables(const text_reading *r, const text_parts *parts, table_writer *facts)
 {
-    facts_add(facts, "encoding", "", "", "%s", file->lines.encoding);
+    const text_file *file = text_parts_file(parts);
+    text_parts *again = NULL;
+    first_table first = {0};
+    size_t n = 0;
+    wt_status status = WT_OK;
+    if (file->n_tables < file->n_seen) {
+        status = begin(r, NULL, &again, facts->err);
+        if (status == WT_OK) {
+            file = text_parts_file(again);
+            status = text_parts_next(again, facts->err);
+        }
+    }
+    while (status == WT_OK && n < TABLES_SHOWN) {
+        for (size_t i = 0; i < file->n_tables && n < TABLES_SHOWN; i++, n++)
+            add_table(&file->tables[i], n, &first, facts);
+        status = again != NULL && n < TABLES_SHOWN ? text_parts_next(again, facts->err) : WT_END;
+    }
+    text_parts_free(again);
+    return status == WT_END ? WT_OK : status;
+}
+
+static wt_status add_layout(const text_reading *r, const text_parts *parts, table_writer *facts)
+{
+    const text_file *file = text_parts_file(parts);
+    facts_add(facts, "encoding", "", "", "%s", file->feed->words);
     add_header(file, facts);
-    facts_add(facts, "tables", "", "", "%zu", file->n_tables);
-    for (size_t i = 0; i < file->n_tables && i < TABLES_SHOWN; i++)
-        add_table(file, i, facts);
+    facts_add(facts, "tables", "", "", "%zu", file->n_seen);
+    const wt_status status = add_tables(r, parts, facts);
     for (size_t i = 0; i < file->steps.n; i++)
         facts_add(facts, "step without a table that is understood", "", "", "%s",
                   file->steps.items[i]);
@@ -209,6 +251,7 @@ static void add_layout(const text_file *file, table_writer *facts)
         text_unknown(file, names, sizeof names);
         facts_add(facts, "columns not used", "", "", "%s", names);
     }
+    return status;
 }
 
 static void add_noise(const file_reader *self, wt_input *input, const wt_read_options *options,
@@ -225,36 +268,72 @@ static void add_noise(const file_reader *self, wt_input *input, const wt_read_op
     wt_noise_spectrum_clear(&noise);
 }
 
+/* The sweep of all tables, which are read again where they are no longer at hand. */
+static wt_status add_sweep_of(const text_reading *r, const text_file *file, wt_parselog *log,
+                              table_writer *facts)
+{
+    text_file whole = {0};
+    if (file->n_tables == file->n_seen) {
+        add_sweep(file, r->options, log, facts);
+        return WT_OK;
+    }
+    const wt_status status =
+        text_scan(r->self, r->input, r->kinds, r->options, NULL, &whole, facts->err);
+    if (status == WT_OK)
+        add_sweep(&whole, r->options, log, facts);
+    text_file_free(&whole);
+    return status;
+}
+
+/* *has: kinds that are still to be told. */
+static wt_status describe_parts(const text_reading *r, text_parts *parts, wt_parselog *log,
+                                unsigned *has, table_writer *facts)
+{
+    static const unsigned others[] = {WT_KIND_FORCE, WT_KIND_SPECTRUM, WT_KIND_NOISE};
+    const text_file *const file = text_parts_file(parts);
+    wt_error problem = WT_ERROR_INIT;
+    wt_status status = WT_OK;
+    while (status == WT_OK)
+        status = text_parts_next(parts, &problem);
+    if (status != WT_END) {
+        add_problem(&problem, facts);
+        return WT_OK;
+    }
+    status = add_layout(r, parts, facts);
+    if (status == WT_OK && file->n_seen == 0) {
+        (void)text_nothing(file, "table that is understood", &problem);
+        add_problem(&problem, facts);
+    }
+    if (status == WT_OK && text_has(file, WT_KIND_SWEEP) && file->n_seen > 0)
+        status = add_sweep_of(r, file, log, facts);
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        *has |= text_has(file, others[i]) ? others[i] : 0;
+    return status;
+}
+
 wt_status text_describe(const file_reader *self, wt_input *input, const wt_read_options *options,
                         wt_parselog *log, table_writer *facts)
 {
     const text_description *description = self->description;
-    text_file file;
-    wt_error problem = WT_ERROR_INIT;
+    text_reading r = {self, input, options, description->kinds, SIZE_MAX};
+    text_parts *parts = NULL;
+    unsigned has = 0;
     facts_add(facts, "description version", "", "", "%s", description->version);
-    if (text_scan(self, input, description->kinds, options, log, &file, &problem) != WT_OK) {
-        add_problem(&problem, facts);
-        return WT_OK;
-    }
-    add_layout(&file, facts);
-    if (file.n_tables == 0) {
-        (void)text_nothing(&file, "table that is understood", &problem);
-        add_problem(&problem, facts);
-    }
-    const bool has_sweep = text_has(&file, WT_KIND_SWEEP) && file.n_tables > 0;
-    const bool has_force = text_has(&file, WT_KIND_FORCE);
-    const bool has_spectrum = text_has(&file, WT_KIND_SPECTRUM);
-    const bool has_noise = text_has(&file, WT_KIND_NOISE);
-    if (has_sweep)
-        add_sweep(&file, options, log, facts);
-    text_file_free(&file);
-    if (has_force)
+    wt_status status = text_piece(description, input, &r.piece, facts->err);
+    if (status == WT_OK)
+        status = begin(&r, log, &parts, facts->err);
+    if (status == WT_OK)
+        status = describe_parts(&r, parts, log, &has, facts);
+    text_parts_free(parts);
+    if (status != WT_OK)
+        return status;
+    if ((has & WT_KIND_FORCE) != 0)
         add_force(self, input, options, facts);
-    if (has_spectrum)
+    if ((has & WT_KIND_SPECTRUM) != 0)
         add_spectrum(self, input, options, facts);
-    if (has_noise)
+    if ((has & WT_KIND_NOISE) != 0)
         add_noise(self, input, options, facts);
-    return WT_OK;
+    return status;
 }
 
 wt_status text_describe_made(const file_reader *self, wt_input *input,

@@ -19,9 +19,12 @@ typedef struct span {
 
 typedef struct text_source {
     wt_force_source base;
-    text_file file;
-    span next; /* where the next curve begins */
-    span rows; /* of the segment */
+    wt_input *text; /* that was made of the input, or NULL */
+    text_parts *parts;
+    const text_file *file; /* the part that is read */
+    wt_error broken;       /* why nothing more comes, though there should */
+    span next;             /* where the next curve begins */
+    span rows;             /* of the segment */
     size_t index;
 } text_source;
 
@@ -34,7 +37,7 @@ static wt_status decode(wt_force_source *base, const force_signal *signal, force
                         size_t n, double *values, wt_error *err)
 {
     const text_source *s = (const text_source *)base;
-    const text_table *t = &s->file.tables[s->rows.table];
+    const text_table *t = &s->file->tables[s->rows.table];
     (void)err;
     for (size_t i = 0; i < n; i++)
         values[i] = scaling.multiplier * text_table_value(t, s->rows.first + i, signal->channel);
@@ -87,7 +90,7 @@ static double duration_of(const text_table *t, wt_segment_kind kind, span rows)
 static wt_status add_segment(text_source *s, wt_force_curve *curve, wt_segment_kind kind, span rows,
                              wt_error *err)
 {
-    const text_table *t = &s->file.tables[rows.table];
+    const text_table *t = &s->file->tables[rows.table];
     char place[40];
     snprintf(place, sizeof place, "table at line %zu", t->names_line);
     force_facts facts = {
@@ -112,7 +115,7 @@ static wt_status add_segment(text_source *s, wt_force_curve *curve, wt_segment_k
 /* Approach and retract in one column: it turns where the height is farthest from its start. */
 static wt_status add_turning(text_source *s, wt_force_curve *curve, span rows, wt_error *err)
 {
-    const text_table *t = &s->file.tables[rows.table];
+    const text_table *t = &s->file->tables[rows.table];
     const text_column *height = text_table_column(t, WT_Q_MEASURED_HEIGHT, -1);
     span approach = rows, retract = rows;
     double farthest = 0;
@@ -147,7 +150,7 @@ static wt_status add_turning(text_source *s, wt_force_curve *curve, span rows, w
 /* Rows of one table and one kind. */
 static wt_status add_rows(text_source *s, wt_force_curve *curve, span rows, wt_error *err)
 {
-    const text_table *t = &s->file.tables[rows.table];
+    const text_table *t = &s->file->tables[rows.table];
     wt_status status = WT_OK;
     bool pairs = false;
     for (int kind = WT_SEGMENT_APPROACH; kind <= WT_SEGMENT_OTHER && status == WT_OK; kind++) {
@@ -162,22 +165,43 @@ static wt_status add_rows(text_source *s, wt_force_curve *curve, span rows, wt_e
         return status;
     if (t->kinds[rows.first] != ROW_KIND_NONE)
         return add_segment(s, curve, (wt_segment_kind)t->kinds[rows.first], rows, err);
-    if (s->file.description->turning_point)
+    if (s->file->description->turning_point)
         return add_turning(s, curve, rows, err);
     return add_segment(s, curve, WT_SEGMENT_APPROACH, rows, err);
+}
+
+/* Goes on to the part with the next curve. The file was read to its end when it was opened: one
+ * that ends otherwise now has been changed, and that is the error of every curve that is left. */
+static wt_status next_part(text_source *s, wt_error *err)
+{
+    const bool left = s->index < s->base.n_curves;
+    wt_status status = s->broken.status;
+    while (status == WT_OK && s->next.table >= s->file->n_tables) {
+        s->next = (span){.table = 0};
+        status = left ? text_parts_next(s->parts, &s->broken) : WT_END;
+    }
+    if (status == WT_END && left) {
+        status = wt_fail(&s->broken, WT_E_IO, "has been changed while it was read");
+        wt_error_file(&s->broken, s->base.name);
+    }
+    if (status != WT_OK && status != WT_END && err != NULL)
+        *err = s->broken;
+    return left || status == WT_OK ? status : WT_END;
 }
 
 /* The block that a curve is made of ends where the number of the block changes. */
 static wt_status text_next(wt_force_source *source, wt_force_curve *curve, wt_error *err)
 {
     text_source *s = (text_source *)source;
-    const text_file *file = &s->file;
-    wt_status status = WT_OK;
-    if (s->next.table >= file->n_tables)
-        return WT_END;
+    const text_file *file = s->file;
+    wt_status status = next_part(s, err);
+    if (status == WT_END)
+        return status;
+    curve->index = s->index++;
+    if (status != WT_OK)
+        return status;
     const text_table *t = &file->tables[s->next.table];
     const size_t block = t->blocks[s->next.first];
-    curve->index = s->index++;
     curve->x = header(t, HEADER_POSITION_X);
     curve->y = header(t, HEADER_POSITION_Y);
     while (s->next.table < file->n_tables) {
@@ -201,7 +225,9 @@ static wt_status text_next(wt_force_source *source, wt_force_curve *curve, wt_er
 
 static void text_close(wt_force_source *source)
 {
-    text_file_free(&((text_source *)source)->file);
+    text_source *s = (text_source *)source;
+    text_parts_free(s->parts);
+    wt_input_close(s->text);
 }
 
 static size_t count_curves(const text_file *file)
@@ -215,20 +241,52 @@ static size_t count_curves(const text_file *file)
     return n;
 }
 
+static wt_status begin(text_source *s, const file_reader *self, wt_input *text, size_t piece,
+                       wt_parselog *log, wt_error *err)
+{
+    text_parts_free(s->parts);
+    s->parts = NULL;
+    const wt_status status =
+        text_parts_begin(self, text, piece, WT_KIND_FORCE, &s->base.options, log, &s->parts, err);
+    if (status == WT_OK)
+        s->file = text_parts_file(s->parts);
+    return status;
+}
+
+/* All parts, so that what is wrong with the file is known before there is a curve of it. */
+static wt_status read_through(text_source *s, wt_error *err)
+{
+    wt_status status = WT_OK;
+    while ((status = text_parts_next(s->parts, err)) == WT_OK) {
+        s->base.n_curves += count_curves(s->file);
+        text_log_assumed(s->file, s->base.log);
+    }
+    if (status != WT_END)
+        return status;
+    if (s->file->n_seen == 0)
+        return text_nothing(s->file, "force curve", err);
+    text_log_unknown(s->file, s->base.log);
+    return WT_OK;
+}
+
 static wt_status text_open(wt_force_source *source, const file_reader *self, wt_input *input,
                            wt_error *err)
 {
     text_source *s = (text_source *)source;
+    size_t piece = 0;
     wt_status status =
-        text_scan(self, input, WT_KIND_FORCE, &source->options, source->log, &s->file, err);
-    if (status != WT_OK)
-        return status;
-    if (s->file.n_tables == 0)
-        return text_nothing(&s->file, "force curve", err);
-    text_log_columns(&s->file, source->log);
-    source->name = s->file.name;
-    source->n_curves = count_curves(&s->file);
-    return WT_OK;
+        self->as_text != NULL ? self->as_text(input, source->log, &s->text, err) : WT_OK;
+    wt_input *const text = s->text != NULL ? s->text : input;
+    if (status == WT_OK)
+        status = text_piece(self->description, text, &piece, err);
+    if (status == WT_OK)
+        status = begin(s, self, text, piece, source->log, err);
+    if (status == WT_OK)
+        status = read_through(s, err);
+    /* Unless all tables are at hand they come again, and have nothing more to say. */
+    if (status == WT_OK && s->file->n_tables < s->file->n_seen)
+        status = begin(s, self, text, piece, NULL, err);
+    return status;
 }
 
 const force_stream text_force = {.size = sizeof(text_source),

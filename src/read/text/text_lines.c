@@ -153,26 +153,39 @@ static bool find_lines(text_lines *lines, size_t length)
     return true;
 }
 
-wt_status lines_decode(const unsigned char *bytes, size_t length, text_encoding encoding,
-                       text_lines *lines, wt_error *err)
+static wt_status decode(const encoding_choice *c, const unsigned char *bytes, size_t length,
+                        text_lines *lines, wt_error *err)
 {
-    const encoding_choice c = choose(bytes, length, encoding);
-    text_lines made = {.encoding = c.words};
+    text_lines made = {.encoding = c->words};
     size_t n = 0;
-    bytes = c.mark > 0 ? bytes + c.mark : bytes;
-    length -= c.mark;
-    made.odd_byte = c.utf_16 && length % 2 == 1;
+    bytes = c->mark > 0 ? bytes + c->mark : bytes;
+    length -= c->mark;
+    made.odd_byte = c->utf_16 && length % 2 == 1;
     length -= made.odd_byte;
-    if (c.iconv == NULL)
+    if (c->iconv == NULL)
         made.text = clean_utf_8((const char *)bytes, length, &n, &made.n_replaced);
     else
-        made.text = convert(&c, bytes, length, &n, &made.n_replaced);
+        made.text = convert(c, bytes, length, &n, &made.n_replaced);
     if (made.text == NULL || !find_lines(&made, n)) {
         lines_free(&made);
         return wt_fail(err, WT_E_MEMORY, "no memory for the text of the file");
     }
     *lines = made;
     return WT_OK;
+}
+
+wt_status lines_decode(const unsigned char *bytes, size_t length, text_encoding encoding,
+                       text_lines *lines, wt_error *err)
+{
+    const encoding_choice c = choose(bytes, length, encoding);
+    return decode(&c, bytes, length, lines, err);
+}
+
+wt_status lines_decode_more(const unsigned char *bytes, size_t length, text_lines *lines,
+                            wt_error *err)
+{
+    const encoding_choice plain = {.words = "UTF-8"};
+    return decode(&plain, bytes, length, lines, err);
 }
 
 void lines_free(text_lines *lines)

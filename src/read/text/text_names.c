@@ -327,8 +327,8 @@ wt_status names_resolve(const names_row *names, text_file *file, text_table *tab
     resolver r = {.d = d, .names = names, .table = table, .options = options};
     wt_status status = WT_OK;
     r.normalised = calloc(n_cells, sizeof *r.normalised);
-    table->columns = pool_alloc(&file->memory, n_cells, sizeof *table->columns);
-    table->problems = pool_alloc(&file->memory, n_cells, sizeof *table->problems);
+    table->columns = pool_alloc(&file->of_tables, n_cells, sizeof *table->columns);
+    table->problems = pool_alloc(&file->of_tables, n_cells, sizeof *table->problems);
     if (r.normalised == NULL || table->columns == NULL || table->problems == NULL) {
         free(r.normalised);
         return wt_fail(err, WT_E_MEMORY, "no memory for the columns of a table");

@@ -1,4 +1,5 @@
-/* One walk over the lines of a text: header values, steps, names rows, units, rows.
+/* One walk over the lines of a text: header values, steps, names rows, units, rows. It can halt
+ * where a step begins.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -12,6 +13,17 @@
 #include <string.h>
 
 #define TABLES_MAX ((size_t)100000)
+
+/* False behind the last line, and on failure. */
+static bool line_at(text_scanner *s, size_t i, text_span *line)
+{
+    if (s->status != WT_OK)
+        return false;
+    const wt_status got = feed_line(s->file->feed, i, line, s->err);
+    if (got != WT_OK && got != WT_END)
+        s->status = got;
+    return got == WT_OK;
+}
 
 /* ---- beginning of a table ----------------------------------------------------------------- */
 
@@ -80,11 +92,10 @@ static bool names_have_units(const text_scanner *s)
 /* Looks for the units row after the names row, and moves there if there is one. */
 static void find_units(text_scanner *s)
 {
-    const text_lines *lines = &s->file->lines;
+    text_span line;
     if (s->d->units == UNITS_NAME_OR_ROW && names_have_units(s))
         return;
-    for (size_t i = s->i + 1; i < lines->n && i <= s->i + 4; i++) {
-        text_span line = lines->lines[i];
+    for (size_t i = s->i + 1; i <= s->i + 4 && line_at(s, i, &line); i++) {
         if (s->comment_names)
             (void)line_uncomment(s->d, &line);
         if (!split(s, &s->names.units, line, s->names.separator))
@@ -111,15 +122,14 @@ static cell_separator row_separator(const text_scanner *s)
 
 static char choose_decimal(text_scanner *s)
 {
-    const text_lines *lines = &s->file->lines;
-    const size_t end = s->i + 101 < lines->n ? s->i + 101 : lines->n;
+    text_span line;
     size_t commas = 0, points = 0;
     if (s->decimal != '\0' || s->d->decimal != '\0')
         return s->decimal != '\0' ? s->decimal : s->d->decimal;
     if (s->table->separator == SEPARATOR_COMMA)
         return '.';
-    for (size_t i = s->i + 1; i < end && commas + points < 64; i++) {
-        if (!split(s, &s->row, lines->lines[i], s->table->separator))
+    for (size_t i = s->i + 1; i < s->i + 101 && commas + points < 64 && line_at(s, i, &line); i++) {
+        if (!split(s, &s->row, line, s->table->separator))
             return '.';
         cells_count_marks(&s->row, &commas, &points);
     }
@@ -218,11 +228,9 @@ static void watch_orphan(text_scanner *s)
 static bool rest_is_words(text_scanner *s)
 {
     const text_span line = s->line;
-    const text_lines *lines = &s->file->lines;
     bool words = true;
-    for (size_t i = s->i + 1; i < lines->n && words && s->status == WT_OK; i++) {
+    for (size_t i = s->i + 1; words && line_at(s, i, &s->line); i++) {
         size_t bad = 0;
-        s->line = lines->lines[i];
         words = scan_split_row(s) && (cells_blank(&s->row) || scan_read_row(s, &bad) == ROW_TEXT);
     }
     s->line = line;
@@ -292,11 +300,10 @@ static void units_line(text_scanner *s)
     }
 }
 
-static void walk(text_scanner *s)
+void scan_walk(text_scanner *s)
 {
-    const text_lines *lines = &s->file->lines;
-    for (s->i = 0; s->i < lines->n && s->status == WT_OK; s->i++) {
-        text_span rest = s->line = lines->lines[s->i];
+    for (; line_at(s, s->i, &s->line); s->i++) {
+        text_span rest = s->line;
         s->comment = line_uncomment(s->d, &rest);
         if (s->state == SCAN_UNITS) {
             units_line(s);
@@ -307,134 +314,15 @@ static void walk(text_scanner *s)
             if (s->state == SCAN_HEADER && s->status == WT_OK && !s->comment)
                 watch_orphan(s);
         }
+        if (!s->halts)
+            continue;
+        feed_drop(s->file->feed, s->i);
+        if (s->step_line == s->i + 1 && s->table != NULL && s->status == WT_OK) {
+            s->i++;
+            return;
+        }
     }
+    s->ended = true;
     if (s->status == WT_OK)
         scan_finish_step(s);
-}
-
-static void free_table(text_table *t)
-{
-    free(t->values);
-    free(t->blocks);
-    free(t->kinds);
-    free(t->row_lines);
-    free(t->samples);
-}
-
-/* Tables without a row carry nothing. */
-static void drop_empty_tables(text_file *file)
-{
-    size_t kept = 0;
-    for (size_t i = 0; i < file->n_tables; i++) {
-        if (file->tables[i].n_rows == 0)
-            free_table(&file->tables[i]);
-        else
-            file->tables[kept++] = file->tables[i];
-    }
-    file->n_tables = kept;
-}
-
-static void log_text(const text_file *file, wt_parselog *log)
-{
-    const text_lines *lines = &file->lines;
-    if (lines->odd_byte)
-        wt_parselog_add(log, WT_NOTE, file->name, NULL,
-                        "half a character at the end of the file was dropped");
-    if (lines->n_replaced > 0)
-        wt_parselog_add(log, WT_WARNING, file->name, NULL,
-                        "%zu byte sequences are no characters of %s", lines->n_replaced,
-                        lines->encoding);
-}
-
-static bool has_column(const text_column *columns, size_t n, const char *name)
-{
-    for (size_t i = 0; i < n; i++)
-        if (name_is((text_span){columns[i].name, strlen(columns[i].name)}, name))
-            return true;
-    return false;
-}
-
-/* A unit that is given for a column that is not there is most likely misspelled. */
-static wt_status check_given_units(const text_file *file, const wt_read_options *options,
-                                   wt_parselog *log, wt_error *err)
-{
-    for (size_t u = 0; u < options->n_units; u++) {
-        char name[NAME_LONGEST];
-        const char *equal = strrchr(options->units[u], '=');
-        bool found = false;
-        if (equal == NULL || equal == options->units[u] || equal[1] == '\0') {
-            wt_fail(err, WT_E_ARG, "a unit is not given as NAME=UNIT");
-            wt_error_found(err, "\"%s\"", options->units[u]);
-            wt_error_advice(err, "for example --units \"E'=MPa\"");
-            return WT_E_ARG;
-        }
-        name_normalise((text_span){options->units[u], (size_t)(equal - options->units[u])}, name);
-        for (size_t i = 0; i < file->n_tables && !found; i++)
-            found = has_column(file->tables[i].columns, file->tables[i].n_columns, name) ||
-                    has_column(file->tables[i].problems, file->tables[i].n_problems, name);
-        if (!found)
-            wt_parselog_add(log, WT_WARNING, file->name, NULL,
-                            "a unit is given for \"%.*s\", but there is no such column",
-                            (int)(equal - options->units[u]), options->units[u]);
-    }
-    return WT_OK;
-}
-
-wt_status text_scan(const file_reader *reader, wt_input *input, unsigned kinds,
-                    const wt_read_options *options, wt_parselog *log, text_file *file,
-                    wt_error *err)
-{
-    const text_description *description = reader->description;
-    const unsigned char *bytes = NULL;
-    size_t length = 0;
-    wt_input *text = NULL;
-    wt_status status = reader->as_text != NULL ? reader->as_text(input, log, &text, err) : WT_OK;
-    if (status != WT_OK)
-        return status;
-    text_file made = {.description = description, .name = wt_input_name(input)};
-    text_scanner s = {.file = &made,
-                      .d = description,
-                      .options = options,
-                      .log = log,
-                      .err = err,
-                      .kinds = kinds & description->kinds,
-                      .kind = ROW_KIND_NONE,
-                      .sample = NO_SAMPLE};
-    for (size_t i = 0; i < HEADER_COUNT; i++)
-        s.header.value[i] = (double)NAN;
-    status = wt_input_bytes(text != NULL ? text : input, &bytes, &length, err);
-    if (status == WT_OK)
-        status = lines_decode(bytes, length, description->encoding, &made.lines, err);
-    wt_input_close(text);
-    if (status == WT_OK) {
-        made.values = pool_alloc(&made.memory, description->n_fields, sizeof *made.values);
-        if (made.values != NULL)
-            walk(&s);
-        else
-            scan_no_memory(&s);
-        status = s.status;
-    }
-    if (status == WT_OK)
-        status = check_given_units(&made, options, log, err);
-    names_free(&s.names);
-    free(s.row.cells);
-    if (status != WT_OK) {
-        wt_error_file(err, made.name);
-        text_file_free(&made);
-        return status;
-    }
-    drop_empty_tables(&made);
-    log_text(&made, log);
-    *file = made;
-    return WT_OK;
-}
-
-void text_file_free(text_file *file)
-{
-    for (size_t i = 0; i < file->n_tables; i++)
-        free_table(&file->tables[i]);
-    free(file->tables);
-    pool_free(&file->memory);
-    lines_free(&file->lines);
-    *file = (text_file){0};
 }

@@ -21,7 +21,9 @@ typedef struct text_scanner {
     wt_error *err;
     wt_status status; /* the first failure, which ends the walk */
     unsigned kinds;
-    size_t i; /* the line that is read, counted from 0 */
+    bool halts; /* where a step begins */
+    bool ended; /* there are no more lines */
+    size_t i;   /* the line that is read, counted from 0 */
     text_span line;
     bool comment; /* it is one */
     scan_state state;
@@ -47,6 +49,10 @@ typedef struct text_scanner {
     size_t sample;       /* of the header, or NO_SAMPLE */
     bool sample_is_told; /* since the last table */
 } text_scanner;
+
+/* From line s->i to the end, or, if it halts, behind a line with which a step begins after a table.
+ */
+void scan_walk(text_scanner *s);
 
 static inline void scan_no_memory(text_scanner *s)
 {

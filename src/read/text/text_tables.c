@@ -31,10 +31,7 @@ bool text_has(const text_file *file, unsigned kind)
 {
     const unsigned kinds = file->description->kinds;
     const bool many = (kinds & (kinds - 1)) != 0;
-    wt_quantity_set found = 0;
-    for (size_t i = 0; i < file->n_tables; i++)
-        found |= file->tables[i].quantities;
-    return (kinds & kind) != 0 && (!many || quantities_suffice(found, kind));
+    return (kinds & kind) != 0 && (!many || quantities_suffice(file->quantities, kind));
 }
 
 const text_column *text_table_column(const text_table *table, wt_quantity quantity, int segment)
@@ -179,32 +176,38 @@ void text_unknown(const text_file *file, char *names, size_t size)
     }
 }
 
-static void log_assumed(const text_file *file, const text_table *table, wt_parselog *log)
+void text_log_assumed(const text_file *file, wt_parselog *log)
 {
-    for (size_t i = 0; i < table->n_columns; i++) {
-        const text_column *column = &table->columns[i];
-        if (column->assumed != NULL)
-            wt_parselog_add(log, WT_WARNING, file->name, NULL, "%s", column->assumed);
-    }
+    for (size_t t = 0; t < file->n_tables; t++)
+        for (size_t i = 0; i < file->tables[t].n_columns; i++) {
+            const text_column *column = &file->tables[t].columns[i];
+            if (column->assumed != NULL)
+                wt_parselog_add(log, WT_WARNING, file->name, NULL, "%s", column->assumed);
+        }
 }
 
-void text_log_columns(const text_file *file, wt_parselog *log)
+void text_log_unknown(const text_file *file, wt_parselog *log)
 {
     char names[256];
     text_unknown(file, names, sizeof names);
     if (file->unknown.n > 0)
         wt_parselog_add(log, WT_NOTE, file->name, NULL, "columns not used: %s", names);
-    for (size_t i = 0; i < file->n_tables; i++)
-        log_assumed(file, &file->tables[i], log);
+}
+
+void text_log_columns(const text_file *file, wt_parselog *log)
+{
+    text_log_assumed(file, log);
+    text_log_unknown(file, log);
 }
 
 /* The first of the tests named in the description of which the file has a line, or NULL. */
 static const char *other_test_of(const text_file *file)
 {
     const text_description *d = file->description;
+    text_span line;
     for (size_t k = 0; k < d->n_others; k++)
-        for (size_t i = 0; i < file->lines.n; i++)
-            if (pattern_match(&d->others[k].pattern, file->lines.lines[i], NULL, 0))
+        for (size_t i = 0; feed_line(file->feed, i, &line, NULL) == WT_OK; i++)
+            if (pattern_match(&d->others[k].pattern, line, NULL, 0))
                 return d->others[k].what;
     return NULL;
 }

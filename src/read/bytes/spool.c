@@ -1,0 +1,71 @@
+/* Inputs that are made piece by piece. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "read/bytes/spool.h"
+
+#include "read/bytes/input.h"
+#include "read/bytes/scratch.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static wt_status grow(spool *to, size_t n, const char *name, wt_error *err)
+{
+    size_t room = to->room > 0 ? to->room : 1 << 16;
+    while (room - to->length < n) {
+        if (room > SIZE_MAX / 2) {
+            wt_fail(err, WT_E_MEMORY, "input too large");
+            wt_error_file(err, name);
+            return WT_E_MEMORY;
+        }
+        room *= 2;
+    }
+    unsigned char *const bytes = room > to->room ? realloc(to->bytes, room) : to->bytes;
+    if (bytes == NULL) {
+        wt_fail(err, WT_E_MEMORY, "no memory for %zu bytes of input", room);
+        wt_error_file(err, name);
+        return WT_E_MEMORY;
+    }
+    to->bytes = bytes;
+    to->room = room;
+    return WT_OK;
+}
+
+wt_status spool_add(spool *to, const void *bytes, size_t n, const char *name, wt_error *err)
+{
+    wt_status status = WT_OK;
+    if (!to->tried && n > SCRATCH_ABOVE - to->length) {
+        to->tried = true;
+        to->file = scratch_open();
+        to->has_file = to->file >= 0;
+        if (to->has_file)
+            status = scratch_write(to->file, to->bytes, to->length, name, err);
+        if (to->has_file) {
+            free(to->bytes);
+            to->bytes = NULL;
+            to->room = 0;
+        }
+    }
+    if (status == WT_OK && to->has_file)
+        status = scratch_write(to->file, bytes, n, name, err);
+    else if (status == WT_OK && (status = grow(to, n, name, err)) == WT_OK && n > 0)
+        memcpy(to->bytes + to->length, bytes, n);
+    to->length += status == WT_OK ? n : 0;
+    return status;
+}
+
+wt_status spool_input(spool *from, const char *name, wt_input **input, wt_error *err)
+{
+    const wt_status status = from->has_file
+                                 ? input_of_file(from->file, from->length, name, input, err)
+                                 : input_own((char *)from->bytes, from->length, name, input, err);
+    *from = (spool){0};
+    return status;
+}
+
+void spool_drop(spool *from)
+{
+    if (from->has_file)
+        (void)close(from->file);
+    free(from->bytes);
+    *from = (spool){0};
+}

@@ -1,0 +1,132 @@
+/* The lines of an input, as they are asked for. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "read/text/text.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct feed_piece {
+    text_lines lines;
+    size_t first; /* number of its first line */
+    struct feed_piece *next;
+} feed_piece;
+
+/* Where the last line ends that is there as a whole; a CR at the very end may have its LF behind
+ * it.
+ */
+static size_t whole_lines(const unsigned char *bytes, size_t n)
+{
+    for (size_t end = n; end > 0; end--)
+        if (bytes[end - 1] == '\n' || (bytes[end - 1] == '\r' && end < n))
+            return end;
+    return 0;
+}
+
+static wt_status add(text_feed *feed, const unsigned char *bytes, size_t n, wt_error *err)
+{
+    feed_piece *const piece = calloc(1, sizeof *piece);
+    if (piece == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for the text of the file");
+    const wt_status status = feed->at == 0
+                                 ? lines_decode(bytes, n, feed->encoding, &piece->lines, err)
+                                 : lines_decode_more(bytes, n, &piece->lines, err);
+    if (status != WT_OK) {
+        free(piece);
+        return status;
+    }
+    if (feed->at == 0)
+        feed->words = piece->lines.encoding;
+    feed->at += n;
+    feed->n_replaced += piece->lines.n_replaced;
+    feed->odd_byte = piece->lines.odd_byte;
+    piece->first = feed->n;
+    feed->n += piece->lines.n;
+    if (feed->last != NULL)
+        feed->last->next = piece;
+    else
+        feed->first = piece;
+    feed->last = piece;
+    return WT_OK;
+}
+
+static wt_status read_all(text_feed *feed, wt_error *err)
+{
+    const unsigned char *bytes = NULL;
+    const wt_status status = wt_input_bytes(feed->input, &bytes, &feed->size, err);
+    return status == WT_OK ? add(feed, bytes, feed->size, err) : status;
+}
+
+/* A line that is longer than a piece makes it longer. */
+static wt_status read_piece(text_feed *feed, wt_error *err)
+{
+    const size_t left = feed->size - feed->at;
+    for (size_t n = feed->piece;; n = n > SIZE_MAX / 2 ? SIZE_MAX : 2 * n) {
+        n = n < left ? n : left;
+        if (n > feed->room) {
+            unsigned char *const buffer = realloc(feed->buffer, n);
+            if (buffer == NULL)
+                return wt_fail(err, WT_E_MEMORY, "no memory for the text of the file");
+            feed->buffer = buffer;
+            feed->room = n;
+        }
+        const wt_status status = wt_input_at(feed->input, feed->at, feed->buffer, n, err);
+        if (status != WT_OK)
+            return status;
+        const size_t whole = n == left ? n : whole_lines(feed->buffer, n);
+        if (whole > 0)
+            return add(feed, feed->buffer, whole, err);
+    }
+}
+
+static wt_status read_more(text_feed *feed, wt_error *err)
+{
+    wt_status status = WT_OK;
+    if (!feed->began && feed->piece == SIZE_MAX)
+        status = read_all(feed, err);
+    else if (!feed->began)
+        status = wt_input_size(feed->input, &feed->size, err);
+    feed->began = status == WT_OK;
+    if (status == WT_OK && feed->at < feed->size)
+        status = read_piece(feed, err);
+    return status;
+}
+
+wt_status feed_line(text_feed *feed, size_t i, text_span *line, wt_error *err)
+{
+    while (i >= feed->n) {
+        if (feed->began && feed->at == feed->size)
+            return WT_END;
+        const wt_status status = read_more(feed, err);
+        if (status != WT_OK)
+            return status;
+    }
+    const feed_piece *piece = feed->first;
+    while (i - piece->first >= piece->lines.n)
+        piece = piece->next;
+    *line = piece->lines.lines[i - piece->first];
+    return WT_OK;
+}
+
+static void drop_first(text_feed *feed)
+{
+    feed_piece *const piece = feed->first;
+    feed->first = piece->next;
+    if (feed->first == NULL)
+        feed->last = NULL;
+    lines_free(&piece->lines);
+    free(piece);
+}
+
+void feed_drop(text_feed *feed, size_t i)
+{
+    while (feed->first != NULL && i - feed->first->first >= feed->first->lines.n)
+        drop_first(feed);
+}
+
+void feed_free(text_feed *feed)
+{
+    while (feed != NULL && feed->first != NULL)
+        drop_first(feed);
+    if (feed != NULL)
+        free(feed->buffer);
+    free(feed);
+}

@@ -1,0 +1,245 @@
+/* What a description finds in a text, as a whole or part by part.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "read/text/text_scanner.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Bytes that are read together of a file that is larger. */
+#define PIECE ((size_t)1 << 20)
+
+struct text_parts {
+    text_scanner s;
+    text_file file;
+    wt_read_options options; /* whose texts are borrowed */
+    bool *has_unit;          /* [n_units] a table has had that column */
+};
+
+static void free_table(text_table *t)
+{
+    free(t->values);
+    free(t->blocks);
+    free(t->kinds);
+    free(t->row_lines);
+    free(t->samples);
+}
+
+/* Tables without a row carry nothing. */
+static void drop_empty_tables(text_file *file)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < file->n_tables; i++) {
+        if (file->tables[i].n_rows == 0)
+            free_table(&file->tables[i]);
+        else
+            file->tables[kept++] = file->tables[i];
+    }
+    file->n_tables = kept;
+}
+
+static void log_text(const text_file *file, wt_parselog *log)
+{
+    const text_feed *feed = file->feed;
+    if (feed->odd_byte)
+        wt_parselog_add(log, WT_NOTE, file->name, NULL,
+                        "half a character at the end of the file was dropped");
+    if (feed->n_replaced > 0)
+        wt_parselog_add(log, WT_WARNING, file->name, NULL,
+                        "%zu byte sequences are no characters of %s", feed->n_replaced,
+                        feed->words);
+}
+
+static bool has_column(const text_column *columns, size_t n, const char *name)
+{
+    for (size_t i = 0; i < n; i++)
+        if (name_is((text_span){columns[i].name, strlen(columns[i].name)}, name))
+            return true;
+    return false;
+}
+
+/* Whether tables of the part have a column that a unit is given for. */
+static void find_given_units(text_parts *p)
+{
+    const text_file *file = &p->file;
+    for (size_t u = 0; u < p->options.n_units; u++) {
+        char name[NAME_LONGEST];
+        const char *const unit = p->options.units[u], *const equal = strrchr(unit, '=');
+        if (equal == NULL || p->has_unit[u])
+            continue;
+        name_normalise((text_span){unit, (size_t)(equal - unit)}, name);
+        for (size_t i = 0; i < file->n_tables && !p->has_unit[u]; i++)
+            p->has_unit[u] = has_column(file->tables[i].columns, file->tables[i].n_columns, name) ||
+                             has_column(file->tables[i].problems, file->tables[i].n_problems, name);
+    }
+}
+
+/* A unit that is given for a column that is not there is most likely misspelled. */
+static wt_status check_given_units(const text_parts *p, wt_error *err)
+{
+    for (size_t u = 0; u < p->options.n_units; u++) {
+        const char *const unit = p->options.units[u], *const equal = strrchr(unit, '=');
+        if (equal == NULL || equal == unit || equal[1] == '\0') {
+            wt_fail(err, WT_E_ARG, "a unit is not given as NAME=UNIT");
+            wt_error_found(err, "\"%s\"", unit);
+            wt_error_advice(err, "for example --units \"E'=MPa\"");
+            return WT_E_ARG;
+        }
+        if (!p->has_unit[u])
+            wt_parselog_add(p->s.log, WT_WARNING, p->file.name, NULL,
+                            "a unit is given for \"%.*s\", but there is no such column",
+                            (int)(equal - unit), unit);
+    }
+    return WT_OK;
+}
+
+/* ---- parts -------------------------------------------------------------------------------- */
+
+/* Rows that need nothing but their names row, and steps that part the blocks. */
+static bool can_part(const text_description *d)
+{
+    return d->n_steps > 0 && d->encoding == ENCODING_UTF_8 && d->units == UNITS_NAME &&
+           d->n_others == 0;
+}
+
+wt_status text_piece(const text_description *description, wt_input *input, size_t *piece,
+                     wt_error *err)
+{
+    size_t size = 0;
+    *piece = SIZE_MAX;
+    if (!can_part(description))
+        return WT_OK;
+    const wt_status status = wt_input_size(input, &size, err);
+    if (status == WT_OK && size > PIECE)
+        *piece = PIECE;
+    return status;
+}
+
+wt_status text_parts_begin(const file_reader *reader, wt_input *input, size_t piece, unsigned kinds,
+                           const wt_read_options *options, wt_parselog *log, text_parts **parts,
+                           wt_error *err)
+{
+    const text_description *const d = reader->description;
+    text_parts *const p = calloc(1, sizeof *p);
+    if (p == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for the tables of the file");
+    p->options = *options;
+    p->file = (text_file){.description = d, .name = wt_input_name(input)};
+    p->file.feed = calloc(1, sizeof *p->file.feed);
+    p->file.values = pool_alloc(&p->file.memory, d->n_fields, sizeof *p->file.values);
+    p->has_unit = pool_alloc(&p->file.memory, options->n_units, sizeof *p->has_unit);
+    if (p->file.feed == NULL || p->file.memory.failed) {
+        text_parts_free(p);
+        return wt_fail(err, WT_E_MEMORY, "no memory for the tables of the file");
+    }
+    *p->file.feed = (text_feed){.input = input, .encoding = d->encoding, .piece = piece};
+    p->s = (text_scanner){.file = &p->file,
+                          .d = d,
+                          .options = &p->options,
+                          .log = log,
+                          .kinds = kinds & d->kinds,
+                          .kind = ROW_KIND_NONE,
+                          .sample = NO_SAMPLE,
+                          .halts = piece != SIZE_MAX};
+    for (size_t i = 0; i < HEADER_COUNT; i++)
+        p->s.header.value[i] = (double)NAN;
+    *parts = p;
+    return WT_OK;
+}
+
+static void drop_tables(text_parts *p)
+{
+    for (size_t i = 0; i < p->file.n_tables; i++)
+        free_table(&p->file.tables[i]);
+    p->file.n_tables = 0;
+    pool_free(&p->file.of_tables);
+    p->s.table = NULL;
+}
+
+/* The next part; it may have no table. */
+static wt_status next_part(text_parts *p, wt_error *err)
+{
+    text_file *const file = &p->file;
+    drop_tables(p);
+    p->s.err = err;
+    scan_walk(&p->s);
+    if (p->s.status != WT_OK)
+        return p->s.status;
+    find_given_units(p);
+    const wt_status status = p->s.ended ? check_given_units(p, err) : WT_OK;
+    drop_empty_tables(file);
+    file->n_seen += file->n_tables;
+    for (size_t i = 0; i < file->n_tables; i++)
+        file->quantities |= file->tables[i].quantities;
+    if (status == WT_OK && p->s.ended)
+        log_text(file, p->s.log);
+    return status;
+}
+
+wt_status text_parts_next(text_parts *p, wt_error *err)
+{
+    wt_status status = p->s.ended ? WT_END : WT_OK;
+    while (status == WT_OK) {
+        status = next_part(p, err);
+        if (status != WT_OK) {
+            p->s.ended = true;
+            wt_error_file(err, p->file.name);
+        } else if (p->file.n_tables > 0) {
+            break;
+        } else if (p->s.ended) {
+            status = WT_END;
+        }
+    }
+    return status;
+}
+
+const text_file *text_parts_file(const text_parts *p)
+{
+    return &p->file;
+}
+
+void text_parts_free(text_parts *p)
+{
+    if (p == NULL)
+        return;
+    names_free(&p->s.names);
+    free(p->s.row.cells);
+    text_file_free(&p->file);
+    free(p);
+}
+
+wt_status text_scan(const file_reader *reader, wt_input *input, unsigned kinds,
+                    const wt_read_options *options, wt_parselog *log, text_file *file,
+                    wt_error *err)
+{
+    wt_input *text = NULL;
+    text_parts *parts = NULL;
+    wt_status status = reader->as_text != NULL ? reader->as_text(input, log, &text, err) : WT_OK;
+    if (status == WT_OK)
+        status = text_parts_begin(reader, text != NULL ? text : input, SIZE_MAX, kinds, options,
+                                  log, &parts, err);
+    if (status == WT_OK)
+        status = text_parts_next(parts, err);
+    if (status == WT_OK || status == WT_END) {
+        status = WT_OK;
+        *file = parts->file;
+        file->name = wt_input_name(input);
+        parts->file = (text_file){0};
+    }
+    text_parts_free(parts);
+    wt_input_close(text);
+    return status;
+}
+
+void text_file_free(text_file *file)
+{
+    for (size_t i = 0; i < file->n_tables; i++)
+        free_table(&file->tables[i]);
+    free(file->tables);
+    pool_free(&file->memory);
+    pool_free(&file->of_tables);
+    feed_free(file->feed);
+    *file = (text_file){0};
+}
