@@ -392,25 +392,52 @@ WT_API wt_status wt_payne_fit(const double *strain, const double *storage, const
 
 /* ---- dwells ---------------------------------------------------------------------------------- */
 
-/* The power law E(t) = modulus (t/1s)^-exponent behind a loading of finite length. */
+/* An approach, the dwell behind it and the retract behind that, in the order of time. */
+typedef struct wt_dwell_history {
+    const double *time;     /* [n] [s], rising; n = n_approach + n_dwell + n_retract */
+    const double *position; /* [n] height [m], turned so that it rises into the sample */
+    const double *force;    /* [n] [N], as measured */
+    size_t n_approach, n_dwell, n_retract; /* the last may be 0; it tells the drift of the force */
+    double spring_constant;                /* [N/m] */
+    double poisson_ratio;
+    double contact_point, modulus; /* of a fit of the approach, to begin with; [m], [Pa] */
+    double baseline_offset;        /* likewise [N] */
+    wt_estimate baseline_tilt;     /* likewise [N/m] */
+    uint64_t reserved[4];
+} wt_dwell_history;
+
+/* A mean of the dwell. */
+typedef struct wt_dwell_point {
+    double time, force, indentation; /* from contact [s], above the baseline [N], [m] */
+    double modulus, fitted; /* of an elastic sample with this force at this indentation [Pa], and
+                               what the fit makes of it */
+} wt_dwell_point;
+/* The errors hold noise, contact point, baseline, drift and what the times measured leave open of
+ * the spectrum; not lever, tip and sensitivity. The part that curves of one kind share, by what is
+ * assumed of drift and spectrum, is also told by itself. */
+typedef struct wt_dwell_moduli {
+    double angular_frequency;  /* [rad/s] */
+    wt_estimate storage, loss; /* [Pa] */
+    double storage_common_error, loss_common_error;
+} wt_dwell_moduli;
+enum { WT_DWELL_POINTS = 32, WT_DWELL_FREQUENCIES = 32 };
 typedef struct wt_dwell {
-    bool found;
-    const char *why_not; /* "", or why there is none; static */
-    double modulus;      /* at 1 s [Pa] */
-    double exponent;     /* 0 to 0.9; 0 also where the modulus rises */
-    double misfit;       /* root mean square of the residuals, of the modulus */
+    bool found, creep;            /* creep: the force was held, else the height */
+    const char *why_not;          /* "", or why there are no moduli; static */
+    double load_time, duration;   /* contact to dwell, and the dwell [s] */
+    double misfit, misfit_chance; /* sum of squares over its degrees of freedom, by which the errors
+                                     are wider where it is above 1; chance of more by noise: below
+                                     0.01 the errors are not known (NaN) */
+    size_t n, n_points;
+    wt_dwell_moduli moduli[WT_DWELL_FREQUENCIES]; /* four a decade, 10^(i/4) rad/s, between one over
+                                                     the times from contact that the dwell has */
+    wt_dwell_point point[WT_DWELL_POINTS];
 } wt_dwell;
-/* Modulus [Pa] of an elastic material with the same force at the same indentation, at a time >=
- * load_time after contact [s], if indentation (or, in creep, force) rose so that force ~ time^
- * force_exponent until load_time and was held then (hereditary integral of Lee and Radok). */
-WT_API double wt_dwell_modulus(double modulus, double exponent, double time, double load_time,
-                               double force_exponent, bool creep);
-/* Least squares in the logarithm of n such moduli [Pa], 6 to 1000. None is found where they are not
- * positive, a time [s] is from before the end of the loading, or an exponent above 0.9 would suit
- * better. */
-WT_API wt_status wt_dwell_fit(const double *time, const double *modulus, size_t n, double load_time,
-                              double force_exponent, bool creep, wt_dwell *dwell,
-                              wt_error *err) WT_NODISCARD;
+/* Relaxation modulus through approach and dwell, with contact point, baseline and drift, by the
+ * hereditary integral of Lee and Radok over the heights as measured (the indentation must not
+ * fall), and the storage and loss modulus of it. */
+WT_API wt_status wt_dwell_fit(const wt_contact_table *table, const wt_dwell_history *history,
+                              wt_dwell *dwell, wt_error *err) WT_NODISCARD;
 
 /* ---- deflection sensitivity: curves on a hard surface ---------------------------------------- */
 

@@ -177,8 +177,8 @@ WT_API wt_status wt_indent_group(const wt_indent_job *job, const wt_job *work,
 /* ---- dwells ---------------------------------------------------------------------------------- */
 
 typedef struct wt_dwell_tables {
-    wt_table *dwell, *dwell_points;
-    uint64_t reserved[4];
+    wt_table *dwell, *dwell_points, *dwell_moduli;
+    uint64_t reserved[3];
 } wt_dwell_tables;
 WT_API void wt_dwell_tables_clear(wt_dwell_tables *tables);
 /* The first dwell behind the approach of every curve, with tip and options of an indentation.

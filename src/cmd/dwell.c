@@ -8,11 +8,11 @@ int cmd_dwell(int argc, char **argv)
         .name = "dwell",
         .arguments = "--tip TIP [OPTION]... FILE...",
         .what = "Relaxation at constant height and creep at constant force of the dwell (pause) "
-                "behind the approach of force curves: modulus against time, and a power law "
-                "behind the loading of each curve, with the scatter of the curves. Folders and "
-                "patterns are allowed.",
+                "behind the approach of force curves: storage and loss modulus at the "
+                "frequencies that a dwell tells, with their errors. Folders and patterns are "
+                "allowed.",
         .common = "output formats columns files-from provenance cost",
-        .notes = "The tables dwell and dwell_points follow one another.",
+        .notes = "The tables dwell, dwell_moduli and dwell_points follow one another.",
         .n_files = CMD_SOME};
     wt_indent_job job = wt_indent_job_defaults();
     wt_file_set set = {.read = wt_read_defaults()};
@@ -27,7 +27,7 @@ int cmd_dwell(int argc, char **argv)
     job.n_sets = 1;
     wt_cost_stage(s.cost, "dwell");
     const wt_status made = wt_dwell_make(&job, &s.work, &tables, &s.err);
-    wt_table **const made_tables[] = {&tables.dwell, &tables.dwell_points};
+    wt_table **const made_tables[] = {&tables.dwell, &tables.dwell_moduli, &tables.dwell_points};
     cmd_finish(&s, made, made_tables, COUNT_OF(made_tables));
 done:
     wt_dwell_tables_clear(&tables);

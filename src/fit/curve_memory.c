@@ -16,9 +16,8 @@ static const double same_step = 1e-3;
 /* Elastic force over modulus and its derivatives, as they go along. */
 enum { FORCE, BY_MODULUS, BY_CONTACT, N_MEMORIES };
 
-/* k (z - x) = E (past + now G(x)): the left side less the right falls and is concave. */
-static double balanced_depth(const wt_contact_table *table, double k, double z, double e,
-                             double past, double now, double start, double *g, double *slope)
+double curve_balanced_depth(const wt_contact_table *table, double k, double z, double e,
+                            double past, double now, double start, double *g, double *slope)
 {
     const double most = z - e * past / k;
     double x = start > 0.0 && start < most ? start : most;
@@ -61,7 +60,7 @@ void curve_balance_memory(const curve_law *m, const double p[CURVE_N_PARAMETERS]
         if (k * z > e * past[FORCE]) {
             double slope;
             w->delta[i] =
-                balanced_depth(m->table, k, z, e, past[FORCE], now, start, &f[FORCE], &slope);
+                curve_balanced_depth(m->table, k, z, e, past[FORCE], now, start, &f[FORCE], &slope);
             const double force = past[FORCE] + now * f[FORCE], stiffness = k + e * now * slope;
             const double by_modulus = -(force + e * past[BY_MODULUS]) / stiffness,
                          by_contact = -(k + e * past[BY_CONTACT]) / stiffness;

@@ -81,5 +81,9 @@ static inline double curve_model_row(const curve_law *m, const double p[CURVE_N_
  * it are out of contact: depth, force over modulus, and its slope of the moment; the derivatives by
  * modulus and contact point, times h. */
 void curve_balance_memory(const curve_law *model, const double p[CURVE_N_PARAMETERS], size_t first);
+/* The depth x at which k (z - x) = E (past + now G(x)), if k z > E past; G and its slope there.
+ * start: a guess, 0: none. The left side less the right falls and is concave. */
+double curve_balanced_depth(const wt_contact_table *table, double k, double z, double e,
+                            double past, double now, double start, double *g, double *slope);
 
 #endif

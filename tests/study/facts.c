@@ -23,4 +23,6 @@ const quantity_facts quantities[Q_COUNT] = {
     [Q_FACTOR] = {"factor", true},
     [Q_RATIO] = {"ratio", true},
     [Q_LAYERED_FRICTION] = {"layered_friction", true},
+    [Q_DWELL_STORAGE] = {"dwell_storage", true},
+    [Q_DWELL_LOSS] = {"dwell_loss", true},
 };

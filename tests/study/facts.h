@@ -30,6 +30,8 @@ typedef enum quantity {
     Q_DEPTH,   /* modulus at a depth, of all curves */
     Q_RATIO,   /* modulus of the track over that of the bulk */
     Q_LAYERED_FRICTION,
+    Q_DWELL_STORAGE, /* of one held curve, at a frequency */
+    Q_DWELL_LOSS,
     Q_COUNT
 } quantity;
 

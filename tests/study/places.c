@@ -25,6 +25,10 @@ const place place_factor = {"indentation/bulk", "spectrum_factor", "spectrum_fac
                             NULL, NULL};
 const place place_depth = {PLACE_DEPTH, "modulus", NULL, "low", "high"};
 const place place_ratio = {"comparison", "ratio", NULL, "ratio_low", "ratio_high"};
+const place place_dwell_storage = {"dwell_moduli", "storage_modulus",
+                                   "storage_modulus_standard_error", NULL, NULL};
+const place place_dwell_loss = {"dwell_moduli", "loss_modulus", "loss_modulus_standard_error", NULL,
+                                NULL};
 const place place_layered_friction = {friction, "friction_with_layer_at_reference",
                                       "standard_error", NULL, NULL};
 

@@ -5,6 +5,7 @@
  * GPL-3.0-or-later */
 #include "afm_observe.h"
 #include "dma_observe.h"
+#include "dwell_observe.h"
 #include "tally.h"
 #include "track_observe.h"
 
@@ -221,7 +222,7 @@ int main(int argc, char **argv)
         return bad;
     if (!o.stage.keep && (o.stage.folder = mkdtemp(made)) == NULL)
         return usage("no folder to work in");
-    const family families[] = {dma_family(), track_family(), afm_family()};
+    const family families[] = {dma_family(), track_family(), afm_family(), dwell_family()};
     job *jobs = NULL;
     const int n = make_jobs(&o, families, sizeof families / sizeof families[0], &jobs);
     work w = {.options = &o, .jobs = jobs, .n_jobs = n};

@@ -5,20 +5,29 @@
 
 #include "data/tables/ramp.h" /* NUMBER_AND_INTERVAL */
 
+/* A number with its error; empty where it is not known. */
+#define NUMBER_AND_ERROR(X, ID, name, words, unit, heading)                                        \
+    X(ID, name, words, unit, LABEL(heading), STANDARD_ERROR(ID), SPARSE)                           \
+    X(ID##_STANDARD_ERROR, name "_standard_error", "its standard error", unit, LABEL("± stat."),   \
+      SPARSE)
+
 /* A dwell of a curve in each row. */
 #define DWELL_COLUMNS(X)                                                                           \
     X(DWELL_FILE, "file", "file of the curve", TEXT, LABEL("File"))                                \
     X(DWELL_CURVE, "curve", "number of the curve in its file", NUMBER, LABEL("Curve"))             \
     X(DWELL_SEGMENT, "segment", "number of the segment in the curve", NUMBER)                      \
     X(DWELL_KIND, "kind", "relaxation (height held) or creep (force held)", TEXT, LABEL("Kind"))   \
-    X(DWELL_EXPONENT, "exponent", "exponent n of E(t) = E1 (t/1s)^-n", NUMBER, LABEL("Exponent"),  \
-      SPARSE)                                                                                      \
-    X(DWELL_MODULUS, "modulus_1s", "relaxation modulus E1 at 1 s by that law", SI(MODULUS),        \
-      LABEL("Modulus at 1 s"), SPARSE)                                                             \
-    X(DWELL_LOSS_FACTOR, "loss_factor", "loss factor of that law, tan(pi n/2)", SI(LOSS_FACTOR),   \
-      LABEL("tan delta"), SPARSE)                                                                  \
-    X(DWELL_MISFIT, "misfit", "root mean square of what the points are off, of the modulus",       \
+    X(DWELL_ANGULAR_FREQUENCY, "angular_frequency",                                                \
+      "angular frequency in the middle of those that the dwell tells", SI(ANGULAR_FREQUENCY),      \
+      LABEL("Angular frequency"), SPARSE)                                                          \
+    NUMBER_AND_ERROR(X, DWELL_STORAGE, "storage_modulus", "storage modulus there",                 \
+                     SI(STORAGE_MODULUS), "E′")                                                    \
+    NUMBER_AND_ERROR(X, DWELL_LOSS, "loss_modulus", "loss modulus there", SI(LOSS_MODULUS), "E″")  \
+    X(DWELL_MISFIT, "misfit",                                                                      \
+      "mean square of what the samples are off, of the noise of the baseline; above 1 the errors " \
+      "are wider by its root",                                                                     \
       NUMBER, LABEL("Misfit"), DIGITS(2), SPARSE)                                                  \
+    X(DWELL_MISFIT_CHANCE, "misfit_chance", "chance of more by noise alone", NUMBER, SPARSE)       \
     X(DWELL_LOAD_TIME, "load_time", "time from contact to the dwell", SI(TIME), SPARSE)            \
     X(DWELL_DURATION, "duration", "duration of the dwell", SI(TIME), SPARSE)                       \
     X(DWELL_FORCE_START, "force_start", "force at its beginning", SI(FORCE), SPARSE)               \
@@ -26,10 +35,12 @@
     X(DWELL_INDENTATION_START, "indentation_start", "indentation at its beginning",                \
       SI(INDENTATION), SPARSE)                                                                     \
     X(DWELL_INDENTATION_END, "indentation_end", "indentation at its end", SI(INDENTATION), SPARSE) \
-    X(DWELL_NOTE, "note", "why there is no law", TEXT, LABEL("Note"))
+    X(DWELL_NOTE, "note", "why there are no moduli, or what is odd", TEXT, LABEL("Note"))
 #define DWELL_KEYS(X)                                                                              \
-    X(DWELL_KEY_EXPONENT, "exponent", UNIT("1"), HEADLINE("Exponent of the dwells"), OPTIONAL)     \
-    X(DWELL_KEY_MODULUS, "modulus_1s", SI(MODULUS), HEADLINE("Modulus at 1 s of the dwells"),      \
+    X(DWELL_KEY_ANGULAR_FREQUENCY, "angular_frequency", SI(ANGULAR_FREQUENCY), OPTIONAL)           \
+    X(DWELL_KEY_STORAGE, "storage_modulus", SI(STORAGE_MODULUS),                                   \
+      HEADLINE("Storage modulus of the dwells"), OPTIONAL)                                         \
+    X(DWELL_KEY_LOSS, "loss_modulus", SI(LOSS_MODULUS), HEADLINE("Loss modulus of the dwells"),    \
       OPTIONAL)                                                                                    \
     X(DWELL_KEY_UNITS, "n_units", PLAIN, OPTIONAL)
 
@@ -40,15 +51,26 @@
     X(DWELL_POINTS_INDENTATION, "indentation", "indentation depth", SI(INDENTATION))               \
     X(DWELL_POINTS_MODULUS, "modulus", "of an elastic rubber with this force at this indentation", \
       SI(MODULUS))                                                                                 \
-    X(DWELL_POINTS_FITTED, "fitted_modulus", "the same of the power law", SI(MODULUS), SPARSE)     \
-    X(DWELL_POINTS_ANGULAR_FREQUENCY, "angular_frequency", "angular frequency 1/time",             \
-      SI(ANGULAR_FREQUENCY))                                                                       \
-    X(DWELL_POINTS_STORAGE, "storage_modulus", "storage modulus of the power law there",           \
-      SI(STORAGE_MODULUS), SPARSE)                                                                 \
-    X(DWELL_POINTS_LOSS, "loss_modulus", "loss modulus of the power law there", SI(LOSS_MODULUS),  \
-      SPARSE)                                                                                      \
+    X(DWELL_POINTS_FITTED, "fitted_modulus", "the same of what was fitted", SI(MODULUS), SPARSE)   \
     X(DWELL_POINTS_FILE, "file", "file of the curve", TEXT)                                        \
     X(DWELL_POINTS_CURVE, "curve", "number of the curve in its file", NUMBER)
 #define DWELL_POINTS_KEYS(X)
+
+/* A frequency of a dwell in each row; a dwell is a block. */
+#define DWELL_MODULI_COLUMNS(X)                                                                    \
+    X(DWELL_MODULI_FILE, "file", "file of the curve", TEXT)                                        \
+    X(DWELL_MODULI_CURVE, "curve", "number of the curve in its file", NUMBER)                      \
+    X(DWELL_MODULI_SEGMENT, "segment", "number of the segment in the curve", NUMBER)               \
+    X(DWELL_MODULI_KIND, "kind", "relaxation, creep or modulation", TEXT)                          \
+    X(DWELL_MODULI_ANGULAR_FREQUENCY, "angular_frequency", "angular frequency",                    \
+      SI(ANGULAR_FREQUENCY))                                                                       \
+    COLUMN_AND_ERROR(X, DWELL_MODULI_STORAGE, "storage_modulus", "storage modulus",                \
+                     SI(STORAGE_MODULUS), "E′")                                                    \
+    X(DWELL_MODULI_STORAGE_COMMON, "storage_modulus_common_error",                                 \
+      "of its standard error, what curves of one kind share", SI(STORAGE_MODULUS))                 \
+    COLUMN_AND_ERROR(X, DWELL_MODULI_LOSS, "loss_modulus", "loss modulus", SI(LOSS_MODULUS), "E″") \
+    X(DWELL_MODULI_LOSS_COMMON, "loss_modulus_common_error",                                       \
+      "of its standard error, what curves of one kind share", SI(LOSS_MODULUS))
+#define DWELL_MODULI_KEYS(X)
 
 #endif

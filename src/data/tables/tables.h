@@ -58,6 +58,8 @@
     X(modulus_depth, MODULUS_DEPTH, "modulus_depth", "Modulus against depth", "indent")            \
     X(dwell, DWELL, "dwell", "Dwells", "dwell")                                                    \
     X(dwell_points, DWELL_POINTS, "dwell_points", "Modulus against time in the dwells", "dwell")   \
+    X(dwell_moduli, DWELL_MODULI, "dwell_moduli", "Moduli against frequency in the dwells",        \
+      "dwell")                                                                                     \
     X(sensitivity, SENSITIVITY, "sensitivity", "Deflection sensitivity", "sensitivity")            \
     X(sensitivity_curves, SENSITIVITY_CURVES, "sensitivity_curves",                                \
       "Deflection sensitivity of every curve", "sensitivity")                                      \

@@ -168,19 +168,20 @@ static void say_dwell(sentence *s, const table_view *v)
 {
     if (v->table == NULL)
         return;
-    const wt_estimate exponent = dwell_value(v, DWELL_KEY_EXPONENT);
+    const wt_estimate at = dwell_value(v, DWELL_KEY_ANGULAR_FREQUENCY);
     size_t n = 0;
     for (size_t i = 0; i < v->n_rows; i++)
-        n += isnan(dwell_get(v, i, DWELL_EXPONENT)) ? 0 : 1;
+        n += isnan(dwell_get(v, i, DWELL_STORAGE)) ? 0 : 1;
     next(s);
     if (n > 0 && n < v->n_rows)
         say(s, "%zu of ", n);
     say(s, "%zu dwell%s", v->n_rows, v->n_rows == 1 ? "" : "s");
-    if (isnan(exponent.value))
-        say(s, ", no law behind %s", v->n_rows == 1 ? "it" : "them");
+    if (isnan(at.value))
+        say(s, ", no moduli of %s", v->n_rows == 1 ? "it" : "them");
     else
-        say(s, ": E(t) = E1 (t/1s)^-n with n = %s, E1 = %s", words_of_estimate(exponent).text,
-            words_of_estimate(dwell_value(v, DWELL_KEY_MODULUS)).text);
+        say(s, ": at %s E' = %s, E'' = %s", words_of(at.value, "rad/s").text,
+            words_of_estimate(dwell_value(v, DWELL_KEY_STORAGE)).text,
+            words_of_estimate(dwell_value(v, DWELL_KEY_LOSS)).text);
 }
 
 static void say_sensitivity(sentence *s, const table_view *v)
