@@ -4,6 +4,7 @@
 #define WT_BASE_WIDE_H
 
 #include <stdlib.h> /* tells glibc, whose resolver it needs */
+#include <string.h>
 
 #if defined(__x86_64__) && defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) &&                 \
     defined(__GNUC__) && !defined(__clang__)
@@ -11,5 +12,20 @@
 #else
 #define WIDE_REGISTERS
 #endif
+
+/* Four numbers at once, two and two where registers are no wider. Only for locals: how they are
+ * handed on depends on the machine. */
+typedef double wide __attribute__((vector_size(32)));
+enum { WIDE = 4 };
+
+static inline void wide_load(wide *to, const double *from)
+{
+    memcpy(to, from, sizeof *to);
+}
+
+static inline double wide_sum(const wide *x)
+{
+    return ((*x)[0] + (*x)[1]) + ((*x)[2] + (*x)[3]);
+}
 
 #endif

@@ -11,6 +11,7 @@
 #ifndef WT_FIT_CURVE_H
 #define WT_FIT_CURVE_H
 
+#include "base/wide.h"
 #include "model/hereditary.h"
 #include "weartrack/fit.h"
 
@@ -102,14 +103,16 @@ wt_status curve_reserve(wt_indent_workspace *workspace, size_t n, wt_error *err)
 /* With several sums, for one would wait for itself at each term. */
 static inline double curve_dot(const double *a, const double *b, size_t n)
 {
-    double sum[4] = {0.0};
+    wide sum = {0.0}, x, y;
     size_t i = 0;
-    for (; i + 4 <= n; i += 4)
-        for (size_t j = 0; j < 4; j++)
-            sum[j] += a[i + j] * b[i + j];
+    for (; i + WIDE <= n; i += WIDE) {
+        wide_load(&x, a + i);
+        wide_load(&y, b + i);
+        sum += x * y;
+    }
     for (; i < n; i++)
         sum[0] += a[i] * b[i];
-    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+    return wide_sum(&sum);
 }
 
 /* The reason of a verdict. */
@@ -151,7 +154,7 @@ typedef struct curve_minimum {
 } curve_minimum;
 
 /* Fills `minima`, best first; returns how many (0: no contact point gives a positive modulus).
- * weighted: with the weights of the workspace. */
+ * weighted: with weights 1/h^2, h = 1 + S/k, where h is far from 1. */
 size_t curve_scan(const wt_contact_table *table, const curve_samples *samples, bool tilt,
                   bool weighted, wt_indent_workspace *workspace,
                   curve_minimum minima[CURVE_MAX_MINIMA]);
@@ -205,8 +208,8 @@ typedef struct curve_kind {
 void curve_refine(const wt_contact_table *table, const curve_samples *samples, curve_kind kind,
                   const double p[CURVE_N_PARAMETERS], wt_indent_workspace *workspace,
                   curve_solution *solution);
-/* Weights 1/h^2, h = 1 + S/k, of all samples for a scan, from a minimum of another. Returns the
- * largest h. */
+/* Weights 1/h^2, h = 1 + S/k, of all samples for a scan, near those that a minimum of another has.
+ * Returns the largest h. */
 double curve_weights(const wt_contact_table *table, const curve_samples *samples,
                      const curve_minimum *minimum, wt_indent_workspace *workspace);
 

@@ -193,17 +193,33 @@ void curve_refine(const wt_contact_table *table, const curve_samples *samples, c
 double curve_weights(const wt_contact_table *table, const curve_samples *samples,
                      const curve_minimum *minimum, wt_indent_workspace *workspace)
 {
-    curve_law m = {.table = table, .samples = samples, .workspace = workspace};
-    const double p[N] = {minimum->reduced_modulus, minimum->contact_point, minimum->offset,
-                         minimum->tilt, 0.0};
-    double largest = 1.0;
+    enum { MOST = 64 };
+    const size_t n = samples->n < MOST ? samples->n : MOST;
+    const double c = minimum->contact_point;
+    double position[MOST], force[MOST] = {0.0}, weight[MOST + 1], last = c, largest = 1.0;
+    for (size_t i = 0; i < samples->n; i++)
+        last = samples->position[i] > last ? samples->position[i] : last;
+    const double step = (last - c) / (double)(n - 1);
+    for (size_t i = 0; i < n; i++)
+        position[i] = c + (double)i * step;
+    const curve_samples nodes = {
+        .n = n, .position = position, .force = force, .spring_constant = samples->spring_constant};
+    curve_law m = {.table = table, .samples = &nodes, .workspace = workspace};
+    const double p[N] = {minimum->reduced_modulus, c, 0.0, 0.0, 0.0};
     curve_model_start(&m, p);
     curve_model_cost(&m, p);
-    curve_model_complete(&m, p);
-    for (size_t i = 0; i < samples->n; i++) {
+    for (size_t i = 0; i < n; i++) {
         const double h = curve_model_factor(&m, p, i);
-        workspace->weight[i] = 1.0 / (h * h);
+        weight[i] = 1.0 / (h * h);
         largest = h > largest ? h : largest;
+    }
+    weight[n] = weight[n - 1];
+    const double scale = step > 0.0 ? 1.0 / step : 0.0;
+    for (size_t i = 0; i < samples->n; i++) {
+        const double at = fmin(fmax(0.0, (samples->position[i] - c) * scale), (double)(n - 1));
+        const size_t node = (size_t)at;
+        workspace->weight[i] =
+            weight[node] + (at - (double)node) * (weight[node + 1] - weight[node]);
     }
     return largest;
 }

@@ -15,6 +15,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
+#include "base/wide.h"
 #include "data/force_curve.h"
 #include "fit/curve.h"
 
@@ -23,8 +24,9 @@
 #include <stdint.h>
 #include <string.h>
 
-static const double least_depth = 1e-5; /* of a contact point below the deepest, of all depths */
-static const double least_rise = 1.001; /* of the cost between two minima */
+static const double least_depth = 1e-5;   /* of a contact point below the deepest, of all depths */
+static const double least_rise = 1.001;   /* of the cost between two minima */
+static const double weights_matter = 1.2; /* largest 1 + S/k */
 enum {
     NODES = SCAN_NODES,
     REACH = SCAN_REACH, /* how far before the start a contact point is looked for, in all depths */
@@ -39,7 +41,6 @@ typedef struct projection {
     const wt_contact_table *table;
     const curve_samples *samples;
     wt_indent_workspace *workspace;
-    const double *weight; /* NULL: 1 */
     bool tilt;
     double s_w, inverse_w, inverse_zz;
     double origin_position, origin_force; /* means */
@@ -59,42 +60,66 @@ typedef struct projected {
     double cost;
 } projected;
 
-static double weight_of(const projection *p, size_t i)
+WIDE_REGISTERS static void find_tips(projection *p)
 {
-    return p->weight != NULL ? p->weight[i] : 1.0;
+    const curve_samples *s = p->samples;
+    const double k = s->spring_constant;
+    double *tip = p->workspace->tip, high[WIDE], low[WIDE];
+    for (size_t i = 0; i < s->n; i++)
+        tip[i] = tip_position(s->position[i], s->force[i], k);
+    for (size_t j = 0; j < WIDE; j++)
+        high[j] = low[j] = tip[0];
+    for (size_t i = 0; i < s->n; i++) {
+        const size_t j = i % WIDE;
+        high[j] = tip[i] > high[j] ? tip[i] : high[j];
+        low[j] = tip[i] < low[j] ? tip[i] : low[j];
+    }
+    for (size_t j = 1; j < WIDE; j++) {
+        high[0] = high[j] > high[0] ? high[j] : high[0];
+        low[0] = low[j] < low[0] ? low[j] : low[0];
+    }
+    p->deepest = high[0];
+    p->top = high[0] - low[0];
 }
 
-static projection begin(const wt_contact_table *table, const curve_samples *samples, bool tilt,
-                        bool weighted, wt_indent_workspace *w)
+/* The sums of all samples with the weights of the workspace, or 1. */
+WIDE_REGISTERS static void weigh(projection *p, bool weighted)
 {
-    projection p = {.table = table,
-                    .samples = samples,
-                    .workspace = w,
-                    .weight = weighted ? w->weight : NULL,
-                    .tilt = tilt,
-                    .deepest = -(double)INFINITY};
-    double z = 0.0, f = 0.0, zz = 0.0, zf = 0.0, ff = 0.0, farthest = (double)INFINITY;
-    for (size_t i = 0; i < samples->n; i++) {
-        const double position = samples->position[i], force = samples->force[i],
-                     weight = weight_of(&p, i), wz = weight * position, wf = weight * force;
-        p.s_w += weight;
+    const curve_samples *s = p->samples;
+    double *const weight = p->workspace->weight;
+    wide w = {0.0}, z = w, f = w, zz = w, zf = w, ff = w;
+    for (size_t i = 0; i < s->n && !weighted; i++)
+        weight[i] = 1.0;
+    for (size_t i = 0; i < s->n; i += WIDE) {
+        wide weights = {0.0}, position = {0.0}, force = {0.0};
+        const size_t bytes = (s->n - i < WIDE ? s->n - i : WIDE) * sizeof *weight;
+        memcpy(&weights, weight + i, bytes);
+        memcpy(&position, s->position + i, bytes);
+        memcpy(&force, s->force + i, bytes);
+        const wide wz = weights * position, wf = weights * force;
+        w += weights;
         z += wz;
         f += wf;
         zz += wz * position;
         zf += wz * force;
         ff += wf * force;
-        w->tip[i] = tip_position(position, force, samples->spring_constant);
-        p.deepest = w->tip[i] > p.deepest ? w->tip[i] : p.deepest;
-        farthest = w->tip[i] < farthest ? w->tip[i] : farthest;
     }
-    p.top = p.deepest - farthest;
-    p.origin_position = z / p.s_w;
-    p.origin_force = f / p.s_w;
-    p.s_zz = zz - z * p.origin_position;
-    p.s_zf = zf - z * p.origin_force;
-    p.s_ff = ff - f * p.origin_force;
-    p.inverse_w = 1.0 / p.s_w;
-    p.inverse_zz = 1.0 / p.s_zz;
+    p->s_w = wide_sum(&w);
+    p->inverse_w = 1.0 / p->s_w;
+    p->origin_position = wide_sum(&z) / p->s_w;
+    p->origin_force = wide_sum(&f) / p->s_w;
+    p->s_zz = wide_sum(&zz) - wide_sum(&z) * p->origin_position;
+    p->s_zf = wide_sum(&zf) - wide_sum(&z) * p->origin_force;
+    p->s_ff = wide_sum(&ff) - wide_sum(&f) * p->origin_force;
+    p->inverse_zz = 1.0 / p->s_zz;
+}
+
+static projection begin(const wt_contact_table *table, const curve_samples *samples, bool tilt,
+                        wt_indent_workspace *w)
+{
+    projection p = {.table = table, .samples = samples, .workspace = w, .tilt = tilt};
+    find_tips(&p);
+    weigh(&p, false);
     return p;
 }
 
@@ -135,7 +160,7 @@ static curve_minimum to_minimum(const projection *p, double contact)
     wt_contact_table_eval(p->table, w->delta + first, p->samples->n - first, w->g + first, NULL);
     contact_sums s = {0.0, 0.0, 0.0, 0.0};
     for (size_t i = first; i < p->samples->n; i++) {
-        const double wg = weight_of(p, i) * w->g[i];
+        const double wg = w->weight[i] * w->g[i];
         s.g += wg;
         s.gg += wg * w->g[i];
         s.gf += wg * (force[i] - p->origin_force);
@@ -168,7 +193,11 @@ static void share_samples(const projection *p)
     const curve_samples *s = p->samples;
     const double *tip = p->workspace->tip, scale = (1.0 - 0x1p-50) / p->top,
                  last = ldexp(1.0, -(int)p->n_octaves);
-    memset(octaves, 0, p->n_octaves * sizeof *octaves);
+    for (size_t l = 0; l < p->n_octaves; l++) {
+        memset(octaves[l].weight, 0, sizeof octaves[l].weight);
+        memset(octaves[l].force, 0, sizeof octaves[l].force);
+        memset(octaves[l].position, 0, sizeof octaves[l].position);
+    }
     for (size_t i = 0; i < s->n; i++) {
         double part = (p->deepest - tip[i]) * scale;
         size_t l = p->n_octaves - 1;
@@ -176,7 +205,7 @@ static void share_samples(const projection *p)
             part = fraction(part, &l);
         else
             part /= 2.0 * last;
-        const double at = NODES * (1.0 - part), weight = weight_of(p, i);
+        const double at = NODES * (1.0 - part), weight = p->workspace->weight[i];
         const size_t node = (size_t)at;
         const double right = weight * (at - (double)node), left = weight - right;
         const double z = s->position[i] - p->origin_position, f = s->force[i] - p->origin_force;
@@ -226,14 +255,37 @@ static void make_values(const projection *p)
 }
 
 /* Of nodes from `first` on, with values of the contact function and of its square. */
+WIDE_REGISTERS static contact_sums sums_of(const scan_octave *o, size_t first, const double *g,
+                                           const double *gg)
+{
+    const size_t n = NODES + 1 - first;
+    wide s = {0.0}, ss = s, sf = s, sz = s;
+    size_t i = 0;
+    for (; i + WIDE <= n; i += WIDE) {
+        wide weight, force, position, value, square;
+        wide_load(&weight, o->weight + first + i);
+        wide_load(&force, o->force + first + i);
+        wide_load(&position, o->position + first + i);
+        wide_load(&value, g + i);
+        wide_load(&square, gg + i);
+        s += weight * value;
+        ss += weight * square;
+        sf += force * value;
+        sz += position * value;
+    }
+    for (; i < n; i++) {
+        s[0] += o->weight[first + i] * g[i];
+        ss[0] += o->weight[first + i] * gg[i];
+        sf[0] += o->force[first + i] * g[i];
+        sz[0] += o->position[first + i] * g[i];
+    }
+    return (contact_sums){wide_sum(&s), wide_sum(&ss), wide_sum(&sf), wide_sum(&sz)};
+}
+
 static double cost_of(const projection *p, const scan_octave *o, size_t first, const double *g,
                       const double *gg)
 {
-    const size_t n = NODES + 1 - first;
-    const contact_sums s = {curve_dot(o->weight + first, g, n), curve_dot(o->weight + first, gg, n),
-                            curve_dot(o->force + first, g, n),
-                            curve_dot(o->position + first, g, n)};
-    return project(p, s).cost;
+    return project(p, sums_of(o, first, g, gg)).cost;
 }
 
 /* Of any contact point, on the grid of one octave. */
@@ -242,19 +294,15 @@ static double cost_between(double depth, void *projection_)
     const projection *p = projection_;
     const scan_octave *o = &p->workspace->octave[p->octave];
     const double step = ldexp(p->top, -(int)p->octave) / NODES;
-    double delta[NODES + 1], g[NODES + 1];
-    contact_sums s = {0.0, 0.0, 0.0, 0.0};
-    for (size_t i = 0; i <= NODES; i++)
+    const double before = NODES - depth / step; /* nodes, not a whole number of them */
+    const size_t first = before > 0.0 ? (size_t)fmin(before, NODES) : 0;
+    double delta[NODES + 1] = {0.0}, g[NODES + 1], gg[NODES + 1];
+    for (size_t i = first; i <= NODES; i++)
         delta[i] = depth - (double)(NODES - i) * step;
-    wt_contact_table_eval(p->table, delta, NODES + 1, g, NULL);
-    for (size_t i = 0; i <= NODES; i++) {
-        const double wg = o->weight[i] * g[i];
-        s.g += wg;
-        s.gg += wg * g[i];
-        s.gf += o->force[i] * g[i];
-        s.gz += o->position[i] * g[i];
-    }
-    return project(p, s).cost;
+    wt_contact_table_eval(p->table, delta + first, NODES + 1 - first, g + first, NULL);
+    for (size_t i = first; i <= NODES; i++)
+        gg[i] = g[i] * g[i];
+    return cost_of(p, o, first, g + first, gg + first);
 }
 
 static double brent(projection *p, double lo, double middle, double hi)
@@ -350,13 +398,32 @@ static void scan(const projection *p, double shallowest, profile *to)
     }
 }
 
+/* The lowest minima of the scan, refined. */
+static size_t find_minima(projection *p, const profile *points,
+                          curve_minimum minima[CURVE_MAX_MINIMA])
+{
+    size_t bottom[MAX_DEPTHS], n = 0;
+    const size_t n_bottoms = find_bottoms(points->cost, points->n, cost_without_contact(p), bottom);
+    for (size_t i = 0; i < n_bottoms; i++) {
+        const size_t j = bottom[i];
+        double at = points->depth[j];
+        if (j > 0 && j + 1 < points->n) {
+            p->octave = points->octave[j - 1];
+            at = brent(p, points->depth[j + 1], at, points->depth[j - 1]);
+        }
+        const curve_minimum minimum = to_minimum(p, p->deepest - at);
+        if (minimum.reduced_modulus > 0.0)
+            keep_best(minima, &n, minimum);
+    }
+    return n;
+}
+
 size_t curve_scan(const wt_contact_table *table, const curve_samples *samples, bool tilt,
                   bool weighted, wt_indent_workspace *w, curve_minimum minima[CURVE_MAX_MINIMA])
 {
-    projection p = begin(table, samples, tilt, weighted, w);
+    projection p = begin(table, samples, tilt, w);
     const size_t behind = SAMPLES_BEHIND * ((samples->n + 1023) / 1024);
     double nearest = -(double)INFINITY;
-    size_t bottom[MAX_DEPTHS], n = 0;
     profile points;
     for (size_t i = 0; i + behind <= samples->n; i++)
         nearest = w->tip[i] > nearest ? w->tip[i] : nearest;
@@ -370,17 +437,13 @@ size_t curve_scan(const wt_contact_table *table, const curve_samples *samples, b
     share_samples(&p);
     make_values(&p);
     scan(&p, shallowest, &points);
-    const size_t n_bottoms = find_bottoms(points.cost, points.n, cost_without_contact(&p), bottom);
-    for (size_t i = 0; i < n_bottoms; i++) {
-        const size_t j = bottom[i];
-        double at = points.depth[j];
-        if (j > 0 && j + 1 < points.n) {
-            p.octave = points.octave[j - 1];
-            at = brent(&p, points.depth[j + 1], at, points.depth[j - 1]);
-        }
-        const curve_minimum minimum = to_minimum(&p, p.deepest - at);
-        if (minimum.reduced_modulus > 0.0)
-            keep_best(minima, &n, minimum);
+    size_t n = find_minima(&p, &points, minima);
+    /* For weights any solution that describes the curve will do. */
+    if (weighted && n > 0 && curve_weights(table, samples, &minima[0], w) > weights_matter) {
+        weigh(&p, true);
+        share_samples(&p);
+        scan(&p, shallowest, &points);
+        n = find_minima(&p, &points, minima);
     }
     return n;
 }
@@ -388,7 +451,7 @@ size_t curve_scan(const wt_contact_table *table, const curve_samples *samples, b
 bool curve_scan_at(const wt_contact_table *table, const curve_samples *samples, bool tilt,
                    double contact_point, wt_indent_workspace *w, curve_minimum *minimum)
 {
-    const projection p = begin(table, samples, tilt, false, w);
+    const projection p = begin(table, samples, tilt, w);
     /* The tip position of the contact depends on the baseline, which is part of the answer. */
     double tip = tip_position(contact_point, p.origin_force, samples->spring_constant);
     for (int i = 0; i < MAX_ITERATIONS; i++) {

@@ -7,8 +7,7 @@
 
 #include <math.h>
 
-static const double weights_matter = 1.2; /* largest 1 + S/k */
-static const double better_chi2 = 9.0;    /* 2 ln(likelihood ratio) of no memory at all */
+static const double better_chi2 = 9.0; /* 2 ln(likelihood ratio) of no memory at all */
 
 /* ---- memory ---------------------------------------------------------------------------------- */
 
@@ -69,15 +68,7 @@ static void add_memory(curve_fitting *f)
 
 /* ---- scan and refinement --------------------------------------------------------------------- */
 
-static bool scan(curve_fitting *f, bool weighted)
-{
-    f->n_minima = curve_scan(f->table, &f->input.samples, f->options->fit_tilt, weighted,
-                             f->workspace, f->minima);
-    return f->n_minima > 0;
-}
-
-/* Scan and refinement on the samples as they are now; false if nothing but a baseline is found.
- * The weights of the scan follow from a solution: any that describes the curve will do. */
+/* Scan and refinement on the samples as they are now; false if nothing but a baseline is found. */
 bool curve_scan_and_refine(curve_fitting *f)
 {
     const wt_indent_options *o = f->options;
@@ -89,11 +80,9 @@ bool curve_scan_and_refine(curve_fitting *f)
             return false;
         f->n_minima = 1;
     } else {
-        if (!scan(f, false))
-            return false;
-        if (!o->plain_least_squares &&
-            curve_weights(f->table, s, &f->minima[0], f->workspace) > weights_matter &&
-            !scan(f, true))
+        f->n_minima =
+            curve_scan(f->table, s, o->fit_tilt, !o->plain_least_squares, f->workspace, f->minima);
+        if (f->n_minima == 0)
             return false;
     }
     const curve_minimum *best = &f->minima[0];
