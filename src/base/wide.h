@@ -23,6 +23,11 @@ static inline void wide_load(wide *to, const double *from)
     memcpy(to, from, sizeof *to);
 }
 
+static inline void wide_store(double *to, const wide *from)
+{
+    memcpy(to, from, sizeof *from);
+}
+
 static inline double wide_sum(const wide *x)
 {
     return ((*x)[0] + (*x)[1]) + ((*x)[2] + (*x)[3]);

@@ -92,10 +92,16 @@ WIDE_REGISTERS static void weigh(projection *p, bool weighted)
         weight[i] = 1.0;
     for (size_t i = 0; i < s->n; i += WIDE) {
         wide weights = {0.0}, position = {0.0}, force = {0.0};
-        const size_t bytes = (s->n - i < WIDE ? s->n - i : WIDE) * sizeof *weight;
-        memcpy(&weights, weight + i, bytes);
-        memcpy(&position, s->position + i, bytes);
-        memcpy(&force, s->force + i, bytes);
+        if (i + WIDE <= s->n) {
+            wide_load(&weights, weight + i);
+            wide_load(&position, s->position + i);
+            wide_load(&force, s->force + i);
+        }
+        for (size_t j = i; j < s->n && i + WIDE > s->n; j++) {
+            weights[j - i] = weight[j];
+            position[j - i] = s->position[j];
+            force[j - i] = s->force[j];
+        }
         const wide wz = weights * position, wf = weights * force;
         w += weights;
         z += wz;
@@ -185,6 +191,17 @@ static double fraction(double x, size_t *l)
     return x;
 }
 
+/* Sums of weight, force and position, of a node and the one right of it. */
+static void give(scan_octave *o, size_t node, const double sum[6])
+{
+    o->weight[node] += sum[0];
+    o->force[node] += sum[1];
+    o->position[node] += sum[2];
+    o->weight[node + 1] += sum[3];
+    o->force[node + 1] += sum[4];
+    o->position[node + 1] += sum[5];
+}
+
 /* Shares the samples between the nodes of the octaves that they lie in, and those of each octave
  * between the nodes of the one before, whose step is twice theirs. */
 static void share_samples(const projection *p)
@@ -193,6 +210,8 @@ static void share_samples(const projection *p)
     const curve_samples *s = p->samples;
     const double *tip = p->workspace->tip, scale = (1.0 - 0x1p-50) / p->top,
                  last = ldexp(1.0, -(int)p->n_octaves);
+    double sum[6] = {0.0}; /* of a node, as long as samples come that lie there */
+    size_t octave = 0, held = 0;
     for (size_t l = 0; l < p->n_octaves; l++) {
         memset(octaves[l].weight, 0, sizeof octaves[l].weight);
         memset(octaves[l].force, 0, sizeof octaves[l].force);
@@ -209,14 +228,20 @@ static void share_samples(const projection *p)
         const size_t node = (size_t)at;
         const double right = weight * (at - (double)node), left = weight - right;
         const double z = s->position[i] - p->origin_position, f = s->force[i] - p->origin_force;
-        scan_octave *o = &octaves[l];
-        o->weight[node] += left;
-        o->force[node] += left * f;
-        o->position[node] += left * z;
-        o->weight[node + 1] += right;
-        o->force[node + 1] += right * f;
-        o->position[node + 1] += right * z;
+        if (l != octave || node != held) {
+            give(&octaves[octave], held, sum);
+            memset(sum, 0, sizeof sum);
+            octave = l;
+            held = node;
+        }
+        sum[0] += left;
+        sum[1] += left * f;
+        sum[2] += left * z;
+        sum[3] += right;
+        sum[4] += right * f;
+        sum[5] += right * z;
     }
+    give(&octaves[octave], held, sum);
     for (size_t l = p->n_octaves - 1; l > 0; l--) {
         const double *from[] = {octaves[l].weight, octaves[l].force, octaves[l].position};
         double *to[] = {octaves[l - 1].weight, octaves[l - 1].force, octaves[l - 1].position};

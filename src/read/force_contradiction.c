@@ -69,13 +69,12 @@ wt_status contradiction_constant(wt_force_source *source, const force_facts *fac
     return status;
 }
 
-static double range(const wt_segment *segment, wt_quantity quantity)
+static double range(const double *values, size_t n)
 {
-    const wt_channel *c = wt_segment_channel(segment, quantity);
     double low = (double)INFINITY, high = -(double)INFINITY;
-    for (size_t i = 0; c != NULL && i < segment->n_points; i++) {
-        low = fmin(low, c->values[i]);
-        high = fmax(high, c->values[i]);
+    for (size_t i = 0; i < n; i++) {
+        low = fmin(low, values[i]);
+        high = fmax(high, values[i]);
     }
     return high - low;
 }
@@ -86,8 +85,12 @@ void contradiction_heights(wt_force_source *source, const force_facts *facts,
     if (source->heights_checked || segment->kind != WT_SEGMENT_APPROACH ||
         segment->n_points < SAMPLES_MIN)
         return;
-    const double piezo = range(segment, WT_Q_HEIGHT);
-    const double sensor = range(segment, WT_Q_MEASURED_HEIGHT);
+    const wt_channel *const height = wt_segment_channel(segment, WT_Q_HEIGHT),
+                            *const measured = wt_segment_channel(segment, WT_Q_MEASURED_HEIGHT);
+    if (height == NULL || measured == NULL)
+        return;
+    const double piezo = range(height->values, segment->n_points);
+    const double sensor = range(measured->values, segment->n_points);
     if (!(piezo > 0) || !(sensor > 0))
         return;
     source->heights_checked = true;

@@ -45,6 +45,12 @@ wt_status wt_force_next(wt_force_source *source, wt_force_curve *curve, wt_error
     return status;
 }
 
+void force_seek(wt_force_source *source, size_t index)
+{
+    if (source->stream->seek != NULL)
+        source->stream->seek(source, index);
+}
+
 void wt_force_close(wt_force_source *source)
 {
     if (source == NULL)

@@ -57,6 +57,8 @@ typedef struct force_stream {
     /* values[n] = scaling of the numbers of a channel of the segment that is being read. */
     wt_status (*decode)(wt_force_source *source, const force_signal *signal, force_linear scaling,
                         size_t n, double *values, wt_error *err);
+    /* Goes on with the curve of this index, which is there. NULL: those before it are read. */
+    void (*seek)(wt_force_source *source, size_t index);
     void (*close)(wt_force_source *source); /* all but the struct itself; NULL: there is nothing */
 } force_stream;
 
@@ -76,6 +78,8 @@ struct wt_force_source {
 wt_status force_open(const force_stream *stream, const struct file_reader *self, wt_input *input,
                      const wt_read_options *options, wt_parselog *log, wt_force_source **source,
                      wt_error *err);
+/* Leaves out curves before that of an index that was read before, as far as the format lets it. */
+void force_seek(wt_force_source *source, size_t index);
 bool force_wants_segment(const wt_force_source *source, wt_segment_kind kind);
 
 /* A calibration, a velocity or a time as a header says it; NaN if that is nothing. */

@@ -12,6 +12,7 @@
 #include "base/array.h"
 #include "data/tables/tables.h"
 #include "fit/curve.h"
+#include "read/force_source.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -315,6 +316,8 @@ static wt_status add_representative(indent_task *task, wt_indent_tables *tables,
     wt_status status = wt_input_open(file->path, &input, err);
     if (status == WT_OK)
         status = wt_force_open(task->work->formats, input, &options, NULL, &source, err);
+    if (status == WT_OK)
+        force_seek(source, median->curve);
     while (status == WT_OK) {
         wt_error ignored = WT_ERROR_INIT;
         wt_status next = wt_force_next(source, curve, &ignored);

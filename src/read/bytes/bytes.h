@@ -45,9 +45,9 @@ static inline int32_t signed16(uint16_t u)
     return u < 0x8000u ? (int32_t)u : (int32_t)u - 0x10000;
 }
 
-static inline int64_t signed32(uint32_t u)
+static inline int32_t signed32(uint32_t u)
 {
-    return u < 0x80000000u ? (int64_t)u : (int64_t)u - 0x100000000;
+    return u < 0x80000000u ? (int32_t)u : (int32_t)(u - 0x80000000u) + INT32_MIN;
 }
 
 static inline float float32(uint32_t u)

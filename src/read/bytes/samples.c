@@ -4,6 +4,7 @@
  */
 #include "read/bytes/samples.h"
 
+#include "base/wide.h"
 #include "read/bytes/bytes.h"
 
 #include <math.h>
@@ -14,9 +15,24 @@ size_t sample_width(sample_type type)
     return widths[type];
 }
 
+WIDE_REGISTERS static bool all_finite(const double *values, size_t n)
+{
+    wide sum = {0.0}, x; /* of zeros, or nan */
+    size_t i = 0;
+    for (; i + WIDE <= n; i += WIDE) {
+        wide_load(&x, values + i);
+        sum += 0.0 * x;
+    }
+    for (; i < n; i++)
+        sum[0] += 0.0 * values[i];
+    return !isnan(wide_sum(&sum));
+}
+
 size_t samples_mend(double *values, size_t n)
 {
     size_t missing = 0;
+    if (all_finite(values, n))
+        return 0;
     for (size_t i = 0; i < n; i++) {
         if (isfinite(values[i]))
             continue;
@@ -32,15 +48,16 @@ size_t samples_mend(double *values, size_t n)
         const unsigned char *b = bytes + (width)*i;                                                \
         values[i] = multiplier * (double)(number) + offset;                                        \
     }
-#define DECODE(width, convert, order)                                                              \
+#define DECODE(width, number, order)                                                               \
     if (big_endian)                                                                                \
-        LOOP(width, convert(be##order(b)))                                                         \
+        LOOP(width, number(be##order(b)))                                                          \
     else                                                                                           \
-        LOOP(width, convert(le##order(b)))                                                         \
+        LOOP(width, number(le##order(b)))                                                          \
     break
 
-size_t samples_decode(sample_type type, bool big_endian, const unsigned char *bytes, size_t n,
-                      double multiplier, double offset, double *values)
+WIDE_REGISTERS static void convert(sample_type type, bool big_endian, const unsigned char *bytes,
+                                   size_t n, double multiplier, double offset,
+                                   double *restrict values)
 {
     switch (type) {
     case SAMPLE_INT16:
@@ -56,5 +73,11 @@ size_t samples_decode(sample_type type, bool big_endian, const unsigned char *by
     case SAMPLE_FLOAT64:
         DECODE(8, float64, 64);
     }
+}
+
+size_t samples_decode(sample_type type, bool big_endian, const unsigned char *bytes, size_t n,
+                      double multiplier, double offset, double *values)
+{
+    convert(type, big_endian, bytes, n, multiplier, offset, values);
     return samples_mend(values, n);
 }

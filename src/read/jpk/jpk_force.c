@@ -129,6 +129,14 @@ static wt_status next_curve(wt_force_source *base, wt_force_curve *curve, wt_err
     return read_curve(source, first, end, curve, err);
 }
 
+static void seek_curve(wt_force_source *base, size_t index)
+{
+    jpk_source *source = (jpk_source *)base;
+    source->next = 0;
+    while (source->next < source->file.n_refs && source->file.refs[source->next].curve != index)
+        source->next++;
+}
+
 static void close_source(wt_force_source *base)
 {
     jpk_source *source = (jpk_source *)base;
@@ -152,4 +160,5 @@ const force_stream jpk_force = {.size = sizeof(jpk_source),
                                 .open = open_source,
                                 .next = next_curve,
                                 .decode = decode,
+                                .seek = seek_curve,
                                 .close = close_source};
