@@ -3,6 +3,7 @@
 #ifndef WT_BASE_WIDE_H
 #define WT_BASE_WIDE_H
 
+#include <stdint.h>
 #include <stdlib.h> /* tells glibc, whose resolver it needs */
 #include <string.h>
 
@@ -16,6 +17,7 @@
 /* Four numbers at once, two and two where registers are no wider. Only for locals: how they are
  * handed on depends on the machine. */
 typedef double wide __attribute__((vector_size(32)));
+typedef int64_t wide_bits __attribute__((vector_size(32)));
 enum { WIDE = 4 };
 
 static inline void wide_load(wide *to, const double *from)
@@ -26,6 +28,19 @@ static inline void wide_load(wide *to, const double *from)
 static inline void wide_store(double *to, const wide *from)
 {
     memcpy(to, from, sizeof *from);
+}
+
+/* Each the larger or smaller one; numbers alone. */
+static inline void wide_raise(wide *low, const wide *x)
+{
+    const wide_bits above = *x > *low;
+    *low = (wide)((above & (wide_bits)*x) | (~above & (wide_bits)*low));
+}
+
+static inline void wide_lower(wide *high, const wide *x)
+{
+    const wide_bits below = *x < *high;
+    *high = (wide)((below & (wide_bits)*x) | (~below & (wide_bits)*high));
 }
 
 static inline double wide_sum(const wide *x)

@@ -115,6 +115,28 @@ static inline double curve_dot(const double *a, const double *b, size_t n)
     return wide_sum(&sum);
 }
 
+/* The same of one. */
+static inline double curve_sum(const double *a, size_t n)
+{
+    wide sum = {0.0}, x;
+    size_t i = 0;
+    for (; i + WIDE <= n; i += WIDE) {
+        wide_load(&x, a + i);
+        sum += x;
+    }
+    for (; i < n; i++)
+        sum[0] += a[i];
+    return wide_sum(&sum);
+}
+
+/* Of finite numbers; n > 0. */
+typedef struct curve_span {
+    double low, high;
+} curve_span;
+curve_span curve_span_of(const double *x, size_t n);
+/* The k-th smallest of n numbers from 0 to the largest, which are lost. */
+double curve_select(double *x, size_t n, size_t k, double largest);
+
 /* The reason of a verdict. */
 void curve_say(char reason[160], const char *format, ...) WT_PRINTF(2, 3);
 /* A value as short text with its unit. */

@@ -8,7 +8,6 @@
 #include "model/adhesion.h"
 #include "model/tip.h"
 
-#include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -78,7 +77,10 @@ static void leave_out(curve_fitting *f, size_t start, size_t end)
 
 static double median(double *x, size_t n)
 {
-    return gsl_stats_select(x, 1, n, n / 2);
+    const curve_span all = curve_span_of(x, n);
+    for (size_t i = 0; i < n; i++)
+        x[i] -= all.low;
+    return all.low + curve_select(x, n, n / 2, all.high - all.low);
 }
 
 static double within(double x, double from, double to)
@@ -86,9 +88,12 @@ static double within(double x, double from, double to)
     return x < from ? from : x > to ? to : x;
 }
 
+/* Without branches, which noise would take at random. */
 static double middle_of(double a, double b, double c)
 {
-    return a < b ? within(c, a, b) : within(c, b, a);
+    const double low = a < b ? a : b, high = a < b ? b : a;
+    const double least = c < high ? c : high;
+    return least > low ? least : low;
 }
 
 /* The largest pull of n forces above the baseline, the last of which are far from the sample, if it
@@ -123,7 +128,8 @@ static double work_along(const double *position, const double *force, size_t n, 
                      last = within(position[i], from, to);
         if (!(fabs(last - first) > 0.0))
             continue;
-        const double before = fmax(force[i - 1], 0.0), behind = fmax(force[i], 0.0);
+        const double before = force[i - 1] > 0.0 ? force[i - 1] : 0.0,
+                     behind = force[i] > 0.0 ? force[i] : 0.0;
         const double step = position[i] - position[i - 1];
         const double middle = (0.5 * (first + last) - position[i - 1]) / step;
         sum += (before + middle * (behind - before)) * (last - first);
@@ -176,7 +182,7 @@ void curve_read_retract(curve_fitting *f, const double *height, const double *fo
     f->pull_off = sudden_pull(above, kept, far, noise);
     /* A way out may begin below the top of the way in: what both have is compared. */
     const double top =
-        fmin(gsl_stats_max(position, 1, kept), gsl_stats_max(s->position, 1, f->input.n_all));
+        fmin(curve_span_of(position, kept).high, curve_span_of(s->position, f->input.n_all).high);
     const double back = work_along(position, above, kept, c, top);
     for (size_t i = 0; i < f->input.n_all; i++)
         scratch[i] = s->force[i] - curve_baseline(&f->solution, s->position[i]);

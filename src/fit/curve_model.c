@@ -208,10 +208,64 @@ static inline void add_row(normal_equations *e, const double row[N], double r, s
     }
 }
 
+/* Rows of curve_model_row for contact without memory and adhesion, of which all are compared: four
+ * at once. Returns the sample to go on with. */
+WIDE_REGISTERS static size_t sum_four(const curve_law *m, const double p[N], normal_equations *to)
+{
+    const curve_samples *s = m->samples;
+    const wt_indent_workspace *w = m->workspace;
+    const double soft = p[CURVE_E] / s->spring_constant, with_c = m->free[CURVE_C] ? -1.0 : 0.0,
+                 with_t = m->free[CURVE_T] ? 1.0 : 0.0;
+    wide ee = {0.0}, ec = ee, ef = ee, et = ee, cc = ee, cf = ee, ct = ee, tf = ee, tt = ee,
+         er = ee, cr = ee, fr = ee, tr = ee;
+    size_t i = m->n_baseline;
+    for (; i + WIDE <= s->n; i += WIDE) {
+        wide slope, g, r, z;
+        wide_load(&slope, w->slope + i);
+        wide_load(&g, w->g + i);
+        wide_load(&r, w->residual + i);
+        wide_load(&z, s->position + i);
+        const wide balanced = 1.0 / (1.0 + soft * slope), by_e = g * balanced,
+                   by_c = with_c * (p[CURVE_T] + p[CURVE_E] * slope * balanced),
+                   by_t = with_t * (z - p[CURVE_C]);
+        ee += by_e * by_e;
+        ec += by_e * by_c;
+        ef += by_e;
+        et += by_e * by_t;
+        cc += by_c * by_c;
+        cf += by_c;
+        ct += by_c * by_t;
+        tf += by_t;
+        tt += by_t * by_t;
+        er += by_e * r;
+        cr += by_c * r;
+        fr += r;
+        tr += by_t * r;
+    }
+    to->jj[CURVE_E][CURVE_E] += wide_sum(&ee);
+    to->jj[CURVE_E][CURVE_C] += wide_sum(&ec);
+    to->jj[CURVE_E][CURVE_F0] += wide_sum(&ef);
+    to->jj[CURVE_E][CURVE_T] += wide_sum(&et);
+    to->jj[CURVE_C][CURVE_C] += wide_sum(&cc);
+    to->jj[CURVE_C][CURVE_F0] += wide_sum(&cf);
+    to->jj[CURVE_C][CURVE_T] += wide_sum(&ct);
+    to->jj[CURVE_F0][CURVE_F0] += (double)(i - m->n_baseline);
+    to->jj[CURVE_F0][CURVE_T] += wide_sum(&tf);
+    to->jj[CURVE_T][CURVE_T] += wide_sum(&tt);
+    to->jr[CURVE_E] += wide_sum(&er);
+    to->jr[CURVE_C] += wide_sum(&cr);
+    to->jr[CURVE_F0] += wide_sum(&fr);
+    to->jr[CURVE_T] += wide_sum(&tr);
+    return i;
+}
+
 static void sum_rows(const curve_law *m, const double p[N], normal_equations *to)
 {
+    const curve_samples *s = m->samples;
+    const bool simple = !m->plain && !m->adhesive && !m->memory && s->gap_to <= s->gap_from;
+    const size_t first = simple ? sum_four(m, p, to) : m->n_baseline;
     normal_equations e = *to; /* whose sums stay in registers */
-    for (size_t i = m->n_baseline; i < m->samples->n; i++) {
+    for (size_t i = first; i < s->n; i++) {
         double row[N], r = m->workspace->residual[i];
         curve_model_row(m, p, i, row);
         add_row(&e, row, r, CURVE_W);

@@ -66,10 +66,32 @@ wt_status curve_reserve(wt_indent_workspace *w, size_t n, wt_error *err)
 
 static double mean(const double *x, size_t n)
 {
-    double sum = 0.0;
-    for (size_t i = 0; i < n; i++)
-        sum += x[i];
-    return sum / (double)n;
+    return curve_sum(x, n) / (double)n;
+}
+
+WIDE_REGISTERS
+curve_span curve_span_of(const double *x, size_t n)
+{
+    wide low = x[0] - (wide){0.0}, high = low, now;
+    double rest[2 * WIDE];
+    size_t i = 0;
+    for (; i + WIDE <= n; i += WIDE) {
+        wide_load(&now, x + i);
+        wide_lower(&low, &now);
+        wide_raise(&high, &now);
+    }
+    wide_store(rest, &low);
+    wide_store(rest + WIDE, &high);
+    curve_span span = {x[0], x[0]};
+    for (size_t j = 0; j < WIDE; j++) {
+        span.low = rest[j] < span.low ? rest[j] : span.low;
+        span.high = rest[WIDE + j] > span.high ? rest[WIDE + j] : span.high;
+    }
+    for (; i < n; i++) {
+        span.low = x[i] < span.low ? x[i] : span.low;
+        span.high = x[i] > span.high ? x[i] : span.high;
+    }
+    return span;
 }
 
 /* 32 classes to each power of two of what is below `largest`. */
@@ -83,9 +105,8 @@ static size_t class_of(double x, double largest)
     return below < CLASSES ? (size_t)below : CLASSES - 1;
 }
 
-/* The k-th smallest of n numbers from 0 to the largest, which are lost: all of them are counted by
- * size, and only those of its size are compared. */
-static double select_size(double *x, size_t n, size_t k, double largest)
+/* All are counted by size, and only those of the size of the k-th are compared. */
+double curve_select(double *x, size_t n, size_t k, double largest)
 {
     size_t count[CLASSES] = {0}, class = CLASSES - 1, kept = 0;
     for (size_t i = 0; i < n; i++)
@@ -112,17 +133,17 @@ static double difference_noise(const curve_samples *s, double *scratch, double *
         smallest = step > 0.0 && step < smallest ? step : smallest;
     }
     *resolution = isfinite(smallest) ? smallest : 0.0;
-    return select_size(scratch, s->n - 1, (s->n - 1) / 2, largest) / (0.6744897501960817 * M_SQRT2);
+    return curve_select(scratch, s->n - 1, (s->n - 1) / 2, largest) /
+           (0.6744897501960817 * M_SQRT2);
 }
 
 /* Force that the travel of the samples from `first` on had gained just before it. */
 static bool flat_top(const curve_samples *s, double noise, double resolution, size_t *first)
 {
-    double max, min;
-    gsl_stats_minmax(&min, &max, s->force, 1, s->n);
-    double band = fmax(fmax(8.0 * noise, 1.5 * resolution), 1e-6 * (max - min));
+    const curve_span all = curve_span_of(s->force, s->n);
+    const double band = fmax(fmax(8.0 * noise, 1.5 * resolution), 1e-6 * (all.high - all.low));
     size_t i = s->n;
-    while (i > 0 && s->force[i - 1] >= max - band)
+    while (i > 0 && s->force[i - 1] >= all.high - band)
         i--;
     *first = i;
     if (i == 0 || s->n - i < plateau_samples)
@@ -139,7 +160,7 @@ static bool flat_top(const curve_samples *s, double noise, double resolution, si
 static double advance_per_bending(const curve_samples *s, double noise)
 {
     size_t n_start = s->n / 10;
-    double start = mean(s->force, n_start), max = gsl_stats_max(s->force, 1, s->n);
+    const double start = mean(s->force, n_start), max = curve_span_of(s->force, s->n).high;
     if (!(max - start > 40.0 * noise))
         return (double)NAN;
     double n = 0.0, sz = 0.0, sf = 0.0, sff = 0.0, szf = 0.0;
@@ -235,7 +256,7 @@ static size_t leave_out_spikes(curve_samples *s, double far)
  * above and the last below. */
 static size_t limit_force(const curve_samples *s, const wt_indent_options *o)
 {
-    double start = mean(s->force, s->n / 10), max = gsl_stats_max(s->force, 1, s->n);
+    const double start = mean(s->force, s->n / 10), max = curve_span_of(s->force, s->n).high;
     double limit = start + o->fit_force_fraction * (max - start);
     if (o->fit_force > 0.0)
         limit = fmin(limit, start + o->fit_force);
@@ -269,12 +290,11 @@ static wt_curve_verdict turn_and_centre(curve_input *input, char reason[160])
 {
     curve_samples *s = &input->samples;
     const size_t end = s->n / 20 + 1;
-    double min, max;
-    gsl_stats_minmax(&min, &max, s->position, 1, s->n);
+    const curve_span all = curve_span_of(s->position, s->n);
     const double travel = mean(s->position + s->n - end, end) - mean(s->position, end);
-    if (!(fabs(travel) > travel_share * (max - min))) {
+    if (!(fabs(travel) > travel_share * (all.high - all.low))) {
         curve_say(reason, "the height does not go one way: from start to end %s in a range of %s",
-                  curve_si(travel, "m").words, curve_si(max - min, "m").words);
+                  curve_si(travel, "m").words, curve_si(all.high - all.low, "m").words);
         return WT_CURVE_NO_APPROACH;
     }
     input->direction = travel > 0.0 ? 1.0 : -1.0;

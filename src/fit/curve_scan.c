@@ -21,7 +21,6 @@
 
 #include <gsl/gsl_errno.h>
 #include <math.h>
-#include <stdint.h>
 #include <string.h>
 
 static const double least_depth = 1e-5;   /* of a contact point below the deepest, of all depths */
@@ -34,6 +33,7 @@ enum {
     MAX_DEPTHS = (SCAN_OCTAVES + REACH) * PER_OCTAVE,
     MAX_ITERATIONS = 40,
     SAMPLES_BEHIND = 4, /* of 1024 */
+    STRIDE = NODES + 2, /* of the octaves */
 };
 
 /* Samples with what does not depend on the contact point. */
@@ -60,26 +60,16 @@ typedef struct projected {
     double cost;
 } projected;
 
-WIDE_REGISTERS static void find_tips(projection *p)
+static void find_tips(projection *p)
 {
     const curve_samples *s = p->samples;
     const double k = s->spring_constant;
-    double *tip = p->workspace->tip, high[WIDE], low[WIDE];
+    double *tip = p->workspace->tip;
     for (size_t i = 0; i < s->n; i++)
         tip[i] = tip_position(s->position[i], s->force[i], k);
-    for (size_t j = 0; j < WIDE; j++)
-        high[j] = low[j] = tip[0];
-    for (size_t i = 0; i < s->n; i++) {
-        const size_t j = i % WIDE;
-        high[j] = tip[i] > high[j] ? tip[i] : high[j];
-        low[j] = tip[i] < low[j] ? tip[i] : low[j];
-    }
-    for (size_t j = 1; j < WIDE; j++) {
-        high[0] = high[j] > high[0] ? high[j] : high[0];
-        low[0] = low[j] < low[0] ? low[j] : low[0];
-    }
-    p->deepest = high[0];
-    p->top = high[0] - low[0];
+    const curve_span all = curve_span_of(tip, s->n);
+    p->deepest = all.high;
+    p->top = all.high - all.low;
 }
 
 /* The sums of all samples with the weights of the workspace, or 1. */
@@ -180,68 +170,55 @@ static curve_minimum to_minimum(const projection *p, double contact)
 
 /* ---- octaves --------------------------------------------------------------------------------- */
 
-/* x = fraction 2^-l with a fraction from 1/2 to 1, of a normal number below 1. */
-static double fraction(double x, size_t *l)
+/* Where the samples lie: octave l and node as l STRIDE + node, and the share of the node right of
+ * it behind the point. With x = fraction 2^-l of the depth, the fraction from 1/2 to 1, or below it
+ * in the last octave. */
+WIDE_REGISTERS static void find_places(const projection *p)
 {
-    uint64_t bits;
-    memcpy(&bits, &x, sizeof bits);
-    *l = 1022 - (size_t)(bits >> 52);
-    bits = (bits & 0xFFFFFFFFFFFFFu) | (uint64_t)1022 << 52;
-    memcpy(&x, &bits, sizeof x);
-    return x;
-}
-
-/* Sums of weight, force and position, of a node and the one right of it. */
-static void give(scan_octave *o, size_t node, const double sum[6])
-{
-    o->weight[node] += sum[0];
-    o->force[node] += sum[1];
-    o->position[node] += sum[2];
-    o->weight[node + 1] += sum[3];
-    o->force[node + 1] += sum[4];
-    o->position[node + 1] += sum[5];
+    const double scale = (1.0 - 0x1p-50) / p->top, last = ldexp(1.0, -(int)p->n_octaves);
+    const size_t n = p->samples->n;
+    const double *tip = p->workspace->tip;
+    double *place = p->workspace->scratch;
+    for (size_t i = 0; i < n; i += WIDE) {
+        wide part, normal = last - (wide){0.0};
+        for (size_t j = 0; j < WIDE; j++)
+            part[j] = tip[i + j < n ? i + j : n - 1];
+        part = (p->deepest - part) * scale;
+        wide_raise(&normal, &part);
+        const wide_bits exponent = (wide_bits)normal >> 52; /* 1022 - l */
+        const wide power = (wide)((2045 - exponent) << 52);
+        const wide_bits whole = (1022 - exponent) | (wide_bits)(0x1p52 - (wide){0.0});
+        part = ((wide)whole - 0x1p52) * STRIDE + NODES * (1.0 - part * power);
+        for (size_t j = 0; j < WIDE && i + j < n; j++)
+            place[i + j] = part[j];
+    }
 }
 
 /* Shares the samples between the nodes of the octaves that they lie in, and those of each octave
  * between the nodes of the one before, whose step is twice theirs. */
-static void share_samples(const projection *p)
+WIDE_REGISTERS static void share_samples(const projection *p)
 {
     scan_octave *octaves = p->workspace->octave;
     const curve_samples *s = p->samples;
-    const double *tip = p->workspace->tip, scale = (1.0 - 0x1p-50) / p->top,
-                 last = ldexp(1.0, -(int)p->n_octaves);
-    double sum[6] = {0.0}; /* of a node, as long as samples come that lie there */
-    size_t octave = 0, held = 0;
-    for (size_t l = 0; l < p->n_octaves; l++) {
-        memset(octaves[l].weight, 0, sizeof octaves[l].weight);
-        memset(octaves[l].force, 0, sizeof octaves[l].force);
-        memset(octaves[l].position, 0, sizeof octaves[l].position);
-    }
+    const wide origin = {0.0, p->origin_force, p->origin_position, 0.0};
+    const double *place = p->workspace->scratch, *weight = p->workspace->weight;
+    static const wide nothing = {0.0};
+    wide node[SCAN_OCTAVES * STRIDE]; /* sums of weight, force and position */
+    for (size_t i = 0; i < p->n_octaves * STRIDE; i++)
+        node[i] = nothing;
     for (size_t i = 0; i < s->n; i++) {
-        double part = (p->deepest - tip[i]) * scale;
-        size_t l = p->n_octaves - 1;
-        if (part >= last)
-            part = fraction(part, &l);
-        else
-            part /= 2.0 * last;
-        const double at = NODES * (1.0 - part), weight = p->workspace->weight[i];
-        const size_t node = (size_t)at;
-        const double right = weight * (at - (double)node), left = weight - right;
-        const double z = s->position[i] - p->origin_position, f = s->force[i] - p->origin_force;
-        if (l != octave || node != held) {
-            give(&octaves[octave], held, sum);
-            memset(sum, 0, sizeof sum);
-            octave = l;
-            held = node;
-        }
-        sum[0] += left;
-        sum[1] += left * f;
-        sum[2] += left * z;
-        sum[3] += right;
-        sum[4] += right * f;
-        sum[5] += right * z;
+        const int at = (int)place[i];
+        const double right = weight[i] * (place[i] - at), left = weight[i] - right;
+        const wide sample = (wide){1.0, s->force[i], s->position[i], 0.0} - origin;
+        node[at] += left * sample;
+        node[at + 1] += right * sample;
     }
-    give(&octaves[octave], held, sum);
+    for (size_t l = 0; l < p->n_octaves; l++)
+        for (size_t i = 0; i < STRIDE; i++) {
+            octaves[l].weight[i] = node[l * STRIDE + i][0];
+            octaves[l].force[i] = node[l * STRIDE + i][1];
+            octaves[l].position[i] = node[l * STRIDE + i][2];
+        }
     for (size_t l = p->n_octaves - 1; l > 0; l--) {
         const double *from[] = {octaves[l].weight, octaves[l].force, octaves[l].position};
         double *to[] = {octaves[l - 1].weight, octaves[l - 1].force, octaves[l - 1].position};
@@ -459,6 +436,7 @@ size_t curve_scan(const wt_contact_table *table, const curve_samples *samples, b
     p.n_octaves = 1;
     while (p.n_octaves < SCAN_OCTAVES && ldexp(p.top, -(int)p.n_octaves) > shallowest)
         p.n_octaves++;
+    find_places(&p);
     share_samples(&p);
     make_values(&p);
     scan(&p, shallowest, &points);
