@@ -30,18 +30,17 @@ typedef struct snap {
 } snap;
 
 /* A pull right before the force rises that stands out of everything before it. */
-static bool find_snap(const curve_fitting *f, snap *found)
+WIDE_REGISTERS static bool find_snap(const curve_fitting *f, snap *found)
 {
     const curve_samples *s = &f->input.samples;
     const curve_solution *fit = &f->solution;
-    double *above = f->workspace->scratch;
+    double *restrict above = f->workspace->scratch;
     size_t deepest = 0;
-    for (size_t i = 0; i < s->n; i++) {
+    for (size_t i = 0; i < s->n; i++)
         above[i] = s->force[i] - curve_baseline(fit, s->position[i]);
-        if (above[i] < above[deepest])
-            deepest = i;
-    }
-    const double pull = -above[deepest];
+    const double pull = -curve_span_of(above, s->n).low;
+    while (-above[deepest] < pull)
+        deepest++;
     size_t start = deepest, end = deepest;
     while (start > 0 && above[start - 1] < -2.0 * f->input.step_noise && above[start - 1] < 0.0)
         start--;
@@ -98,19 +97,16 @@ static double middle_of(double a, double b, double c)
 
 /* The largest pull of n forces above the baseline, the last of which are far from the sample, if it
  * stands out of them and ends at once; else 0. */
-static double sudden_pull(const double *above, size_t n, size_t far, double noise)
+WIDE_REGISTERS static double sudden_pull(const double *above, size_t n, size_t far, double noise,
+                                         double *restrict middle)
 {
-    double elsewhere = 0.0, pull = 0.0;
-    size_t deepest = 0;
-    for (size_t i = 1; i + 1 < n; i++) {
-        const double x = -middle_of(above[i - 1], above[i], above[i + 1]);
-        if (i >= n - far) {
-            elsewhere = x > elsewhere ? x : elsewhere;
-        } else if (x > pull) {
-            pull = x;
-            deepest = i;
-        }
-    }
+    for (size_t i = 1; i + 1 < n; i++)
+        middle[i] = middle_of(above[i - 1], above[i], above[i + 1]);
+    const double elsewhere = fmax(0.0, -curve_span_of(middle + n - far, far - 1).low),
+                 pull = fmax(0.0, -curve_span_of(middle + 1, n - far - 1).low);
+    size_t deepest = pull > 0.0 ? 1 : 0;
+    while (pull > 0.0 && -middle[deepest] < pull)
+        deepest++;
     bool sudden = false;
     const size_t last = deepest + (size_t)(let_go * (double)n) + 3;
     for (size_t i = deepest; i < last && i < n; i++)
@@ -154,20 +150,35 @@ static double lever_work(const curve_fitting *f, double top)
     return 0.5 * force * force / k;
 }
 
+/* Positions of the retract and forces above the baseline; returns how many are numbers. */
+WIDE_REGISTERS static size_t measure_retract(const curve_fitting *f, const double *height,
+                                             const double *force, size_t n)
+{
+    double *above = f->workspace->retract_force, *position = f->workspace->retract_position;
+    double sum = 0.0;
+    for (size_t i = 0; i < n; i++) {
+        position[i] = f->input.direction * height[i] - f->input.position_origin;
+        above[i] = force[i] - f->input.force_origin - curve_baseline(&f->solution, position[i]);
+    }
+    sum = curve_sum(position, n) + curve_sum(above, n);
+    if (isfinite(sum))
+        return n;
+    size_t kept = 0;
+    for (size_t i = 0; i < n; i++)
+        if (isfinite(position[i]) && isfinite(above[i])) {
+            position[kept] = position[i];
+            above[kept++] = above[i];
+        }
+    return kept;
+}
+
 void curve_read_retract(curve_fitting *f, const double *height, const double *force, size_t n)
 {
     wt_indent_workspace *w = f->workspace;
     const curve_samples *s = &f->input.samples;
     const double c = f->solution.p[CURVE_C];
     double *above = w->retract_force, *position = w->retract_position, *scratch = w->scratch;
-    size_t kept = 0;
-    for (size_t i = 0; i < n; i++) {
-        const double z = f->input.direction * height[i] - f->input.position_origin;
-        if (!isfinite(z) || !isfinite(force[i]))
-            continue;
-        position[kept] = z;
-        above[kept++] = force[i] - f->input.force_origin - curve_baseline(&f->solution, z);
-    }
+    const size_t kept = measure_retract(f, height, force, n);
     const size_t far = kept / 4;
     if (far < CURVE_BASELINE_SAMPLES)
         return;
@@ -179,7 +190,7 @@ void curve_read_retract(curve_fitting *f, const double *height, const double *fo
     for (size_t i = 0; i < far; i++)
         scratch[i] = fabs(above[kept - far + i]);
     const double noise = median(scratch, far) / 0.6744897501960817;
-    f->pull_off = sudden_pull(above, kept, far, noise);
+    f->pull_off = sudden_pull(above, kept, far, noise, scratch);
     /* A way out may begin below the top of the way in: what both have is compared. */
     const double top =
         fmin(curve_span_of(position, kept).high, curve_span_of(s->position, f->input.n_all).high);

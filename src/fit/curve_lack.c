@@ -119,8 +119,8 @@ static double remove_along(const double *q, double *x, size_t n)
 
 /* Makes columns orthonormal one by one and takes them out of r; returns the sum of squares that
  * those from `count` on take, and how many they are. Destroys columns and r. */
-static double project_out(double *r, double *const *columns, size_t n_columns, size_t count,
-                          size_t n, size_t *n_counted)
+WIDE_REGISTERS static double project_out(double *r, double *const *columns, size_t n_columns,
+                                         size_t count, size_t n, size_t *n_counted)
 {
     double taken = 0.0;
     *n_counted = 0;

@@ -64,8 +64,9 @@ static size_t count_baseline(const curve_law *m, double c)
 }
 
 /* Indentations as measured. */
-static void measure(const curve_law *m, const double p[N], size_t first)
+static void measure(curve_law *m, const double p[N], size_t first)
 {
+    m->balanced = false;
     const curve_samples *s = m->samples;
     const double k = s->spring_constant, stretch = 1.0 + p[CURVE_T] / k;
     for (size_t i = first; i < s->n; i++)
@@ -76,7 +77,7 @@ static void measure(const curve_law *m, const double p[N], size_t first)
 /* Turns the indentations of the workspace into those at which lever and sample are in balance, with
  * G and G' there. k (z - x) - E* G(x) falls and is concave in x, so Newton's method converges from
  * anywhere; the indentations of the evaluation before are a good start. */
-static void balance(const curve_law *m, const double p[N], size_t first)
+static void balance(curve_law *m, const double p[N], size_t first)
 {
     const curve_samples *s = m->samples;
     wt_indent_workspace *w = m->workspace;
@@ -86,9 +87,13 @@ static void balance(const curve_law *m, const double p[N], size_t first)
         double z = s->position[i] - p[CURVE_C];
         if (!(w->delta[i] > 0.0 && w->delta[i] < z))
             w->delta[i] = z;
+        else if (m->balanced) /* where they were: a step with what is known of it */
+            w->delta[i] = fmax(0.0, w->delta[i] + (k * (z - w->delta[i]) - e * w->g[i]) /
+                                                      (k + e * w->slope[i]));
         if (z > deepest)
             deepest = z;
     }
+    m->balanced = true;
     /* After a step of 1e-7 the error is of the order of its square. */
     double largest_step = (double)INFINITY;
     for (int i = 0; i < MAX_NEWTON && largest_step > 1e-7 * deepest; i++) {

@@ -14,7 +14,8 @@ typedef struct curve_law {
     wt_indent_workspace *workspace; /* delta, g, slope, residual: of the latest evaluation */
     bool free[CURVE_N_PARAMETERS];
     bool plain, adhesive, memory, lossy;
-    size_t jump; /* of adhesive contact: its first sample; 0: where the tip touches */
+    bool balanced; /* the indentations of the workspace, with the force and its slope there */
+    size_t jump;   /* of adhesive contact: its first sample; 0: where the tip touches */
     /* The first samples, far from contact for any step of the fit, enter by their sums alone. */
     size_t n_baseline;
     double baseline_end; /* largest position among them */

@@ -21,8 +21,9 @@ enum {
     FINE = 192,      /* of the baseline, for its spectrum */
     LEAST = 16,      /* of these */
     WAVES = 64,      /* looked at one by one; faster ones together */
-    AT_ONCE = 4,     /* even */
-    SLOW = 8,        /* waves of the contact whose misfit counts */
+    AT_ONCE = 16,    /* a multiple of WIDE */
+    PARTS = AT_ONCE / WIDE,
+    SLOW = 8, /* waves of the contact whose misfit counts */
     PER_OCTAVE = 4,
     POWERS = 4,
     CORNERS = 9,
@@ -45,7 +46,7 @@ static void add_shape(noise_shapes *to, size_t s, double knee, double corner, do
     to->knee[s] = knee;
     for (size_t b = 0; b < NOISE_BANDS; b++) {
         const double f = exp2(-(double)b / PER_OCTAVE);
-        to->density[s][b] = 1.0 + pow(knee / hypot(f, corner), power);
+        to->density[s][b] = 1.0 + pow(knee / sqrt(f * f + corner * corner), power);
         to->logarithm[s][b] = log(to->density[s][b]);
         to->root[s][b] = sqrt(to->density[s][b]);
     }
@@ -78,36 +79,39 @@ static double variance_of(const spectrum *s, double k, size_t n, size_t length)
 
 /* How much of unit cosines k to k + AT_ONCE - 1 of n blocks there is in each of n_x. Several at
  * once, for each term of a wave waits for the one before. */
-static inline void find_waves(size_t k, size_t n, const double (*x)[BLOCKS], size_t n_x,
-                              double along[AT_ONCE][N])
+WIDE_REGISTERS static void find_waves(size_t k, size_t n, const double (*x)[BLOCKS], size_t n_x,
+                                      double along[AT_ONCE][N])
 {
-    double twice[AT_ONCE], before[AT_ONCE], now[AT_ONCE], sum[N][AT_ONCE] = {{0.0}};
+    wide twice[PARTS], before[PARTS], now[PARTS], sums[N][PARTS] = {{{0.0}}};
+    double last[AT_ONCE], sum[N][AT_ONCE];
     const double mirror = k % 2 == 0 ? 1.0 : -1.0; /* the second half of wave k */
     for (size_t j = 0; j < AT_ONCE; j++) {
-        const double angle = M_PI * (double)(k + j) / (double)n;
-        twice[j] = 2.0 * cos(angle);
-        before[j] = now[j] = cos(0.5 * angle);
+        const double angle = M_PI * (double)(k + j) / (double)n, half = cos(0.5 * angle);
+        twice[j / WIDE][j % WIDE] = 2.0 * (2.0 * half * half - 1.0);
+        now[j / WIDE][j % WIDE] = half;
     }
+    memcpy(before, now, sizeof now);
     for (size_t i = 0; i < n / 2; i++) {
         for (size_t c = 0; c < n_x; c++) {
             const double other = mirror * x[c][n - 1 - i], same = x[c][i] + other,
                          opposite = x[c][i] - other;
-            for (size_t j = 0; j < AT_ONCE; j += 2) {
-                sum[c][j] += now[j] * same;
-                sum[c][j + 1] += now[j + 1] * opposite;
-            }
+            const wide both = {same, opposite, same, opposite};
+            for (size_t v = 0; v < PARTS; v++)
+                sums[c][v] += now[v] * both;
         }
-        for (size_t j = 0; j < AT_ONCE; j++) {
-            const double next = twice[j] * now[j] - before[j];
-            before[j] = now[j];
-            now[j] = next;
+        for (size_t v = 0; v < PARTS; v++) {
+            const wide next = twice[v] * now[v] - before[v];
+            before[v] = now[v];
+            now[v] = next;
         }
     }
+    memcpy(last, now, sizeof last);
+    memcpy(sum, sums, sizeof sum);
     for (size_t j = 0; j < AT_ONCE; j++) {
         const double scale = sqrt((k + j > 0 ? 2.0 : 1.0) / (double)n);
         for (size_t c = 0; c < n_x; c++) {
             if (n % 2 == 1 && (k + j) % 2 == 0)
-                sum[c][j] += now[j] * x[c][n / 2];
+                sum[c][j] += last[j] * x[c][n / 2];
             along[j][c] = scale * sum[c][j];
         }
     }
@@ -115,7 +119,8 @@ static inline void find_waves(size_t k, size_t n, const double (*x)[BLOCKS], siz
 
 /* Takes the powers of z below `count` out of the first n of x. With 3, z2 becomes the square over
  * `all`, less what the others have of it there. Returns what x had of the last one. */
-static double remove_powers(const double *z, double *x, size_t n, size_t all, int count, double *z2)
+WIDE_REGISTERS static double remove_powers(const double *z, double *x, size_t n, size_t all,
+                                           int count, double *z2)
 {
     double one[FINE + BLOCKS], line[FINE + BLOCKS], *const power[3] = {one, line, z2};
     const double middle = z[n / 2];

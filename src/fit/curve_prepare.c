@@ -210,6 +210,14 @@ static double median_of(const double *x, size_t n)
     return n % 2 == 1 ? sorted[n / 2] : 0.5 * (sorted[n / 2 - 1] + sorted[n / 2]);
 }
 
+static bool above_most(const double side[SPIKE_SIDE], double x)
+{
+    int n = 0;
+    for (size_t i = 0; i < SPIKE_SIDE; i++)
+        n += side[i] < x;
+    return 2 * n > SPIKE_SIDE;
+}
+
 /* Is sample i, of which `kept` before it are left, far outside what lies before and behind it? A
  * step has one side to agree with, a snap-on a step or a neighbour beside it. At an end there is
  * one side only, and how that goes on. */
@@ -225,10 +233,28 @@ static bool is_spike(const curve_samples *s, size_t i, size_t kept, double far)
         const double next = median_of(start ? right + SPIKE_SIDE : left - SPIKE_SIDE, SPIKE_SIDE);
         return x - level > far + 2.0 * fabs(level - next);
     }
+    const double beside = fmin(s->force[kept - 1], s->force[i + 1]) - x;
+    if (!(beside > far) && !(above_most(left, x - 0.5 * far) && above_most(right, x - 0.5 * far)))
+        return false; /* medians cost more */
     const double before = median_of(left, SPIKE_SIDE), behind = median_of(right, SPIKE_SIDE);
     const double above = x - fmax(before, behind), below = fmin(before, behind) - x;
-    const double beside = fmin(s->force[kept - 1], s->force[i + 1]) - x;
     return above > far || (beside > far && below > fmax(far, spike_step * fabs(before - behind)));
+}
+
+/* The first sample from i on, which is not the first of all, that is far from the one before, or
+ * near the end. */
+static size_t quiet_until(const curve_samples *s, size_t i, double far)
+{
+    const double *force = s->force;
+    while (i >= SPIKE_SIDE && i + SPIKE_SIDE + 4 < s->n) {
+        bool any = false;
+        for (size_t j = i; j < i + 4; j++)
+            any |= fabs(force[j] - force[j - 1]) > far;
+        if (any)
+            break;
+        i += 4;
+    }
+    return i;
 }
 
 /* Returns how many spikes it leaves out. */
@@ -237,6 +263,8 @@ static size_t leave_out_spikes(curve_samples *s, double far)
     size_t kept = 0;
     bool after_spike = true; /* or at an end */
     for (size_t i = 0; i < s->n; i++) {
+        if (kept == i && !after_spike)
+            i = kept = quiet_until(s, i, 0.5 * far);
         const bool end = kept < SPIKE_SIDE || i + SPIKE_SIDE >= s->n;
         const bool spike =
             (end || after_spike || fabs(s->force[i] - s->force[kept - 1]) > 0.5 * far) &&

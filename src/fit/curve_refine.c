@@ -216,8 +216,11 @@ double curve_weights(const wt_contact_table *table, const curve_samples *samples
     weight[n] = weight[n - 1];
     const double scale = step > 0.0 ? 1.0 / step : 0.0;
     for (size_t i = 0; i < samples->n; i++) {
-        const double at = fmin(fmax(0.0, (samples->position[i] - c) * scale), (double)(n - 1));
-        const size_t node = (size_t)at;
+        const double at = (samples->position[i] - c) * scale;
+        workspace->weight[i] = 1.0;
+        if (!(at > 0.0))
+            continue;
+        const size_t node = at < (double)(n - 1) ? (size_t)at : n - 1;
         workspace->weight[i] =
             weight[node] + (at - (double)node) * (weight[node + 1] - weight[node]);
     }

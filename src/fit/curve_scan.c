@@ -23,9 +23,10 @@
 #include <math.h>
 #include <string.h>
 
-static const double least_depth = 1e-5;   /* of a contact point below the deepest, of all depths */
-static const double least_rise = 1.001;   /* of the cost between two minima */
-static const double weights_matter = 1.2; /* largest 1 + S/k */
+static const double least_depth = 1e-5; /* of a contact point below the deepest, of all depths */
+static const double least_rise = 1.001; /* of the cost between two minima */
+static const double rough = 1e-2, fine = 1e-3; /* of the distance of points of the scan */
+static const double weights_matter = 1.2;      /* largest 1 + S/k */
 enum {
     NODES = SCAN_NODES,
     REACH = SCAN_REACH, /* how far before the start a contact point is looked for, in all depths */
@@ -307,7 +308,8 @@ static double cost_between(double depth, void *projection_)
     return cost_of(p, o, first, g + first, gg + first);
 }
 
-static double brent(projection *p, double lo, double middle, double hi)
+/* To a share of the bracket. */
+static double brent(projection *p, double lo, double middle, double hi, double accuracy)
 {
     gsl_min_fminimizer *minimizer = p->workspace->minimizer;
     gsl_function function = {cost_between, p};
@@ -317,7 +319,7 @@ static double brent(projection *p, double lo, double middle, double hi)
         if (gsl_min_fminimizer_iterate(minimizer) != GSL_SUCCESS)
             break;
         double a = gsl_min_fminimizer_x_lower(minimizer), b = gsl_min_fminimizer_x_upper(minimizer);
-        if (b - a < 1e-4 * (hi - lo))
+        if (b - a < accuracy * (hi - lo))
             break;
     }
     return gsl_min_fminimizer_x_minimum(minimizer);
@@ -401,7 +403,7 @@ static void scan(const projection *p, double shallowest, profile *to)
 }
 
 /* The lowest minima of the scan, refined. */
-static size_t find_minima(projection *p, const profile *points,
+static size_t find_minima(projection *p, const profile *points, double accuracy,
                           curve_minimum minima[CURVE_MAX_MINIMA])
 {
     size_t bottom[MAX_DEPTHS], n = 0;
@@ -411,7 +413,7 @@ static size_t find_minima(projection *p, const profile *points,
         double at = points->depth[j];
         if (j > 0 && j + 1 < points->n) {
             p->octave = points->octave[j - 1];
-            at = brent(p, points->depth[j + 1], at, points->depth[j - 1]);
+            at = brent(p, points->depth[j + 1], at, points->depth[j - 1], accuracy);
         }
         const curve_minimum minimum = to_minimum(p, p->deepest - at);
         if (minimum.reduced_modulus > 0.0)
@@ -440,15 +442,17 @@ size_t curve_scan(const wt_contact_table *table, const curve_samples *samples, b
     share_samples(&p);
     make_values(&p);
     scan(&p, shallowest, &points);
-    size_t n = find_minima(&p, &points, minima);
-    /* For weights any solution that describes the curve will do. */
-    if (weighted && n > 0 && curve_weights(table, samples, &minima[0], w) > weights_matter) {
-        weigh(&p, true);
-        share_samples(&p);
-        scan(&p, shallowest, &points);
-        n = find_minima(&p, &points, minima);
+    if (weighted) { /* for weights any solution that describes the curve will do */
+        if (find_minima(&p, &points, rough, minima) == 0)
+            return 0;
+        const bool matter = curve_weights(table, samples, &minima[0], w) > weights_matter;
+        weigh(&p, matter);
+        if (matter) {
+            share_samples(&p);
+            scan(&p, shallowest, &points);
+        }
     }
-    return n;
+    return find_minima(&p, &points, fine, minima);
 }
 
 bool curve_scan_at(const wt_contact_table *table, const curve_samples *samples, bool tilt,

@@ -127,8 +127,9 @@ void wt_contact_table_free(wt_contact_table *table)
     free(table);
 }
 
-static void half_space(const wt_contact_table *table, const double *delta, size_t n, double *g,
-                       double *slope)
+/* slope NULL: not asked for, which a call says by a constant. */
+static inline void half_space(const wt_contact_table *table, const double *delta, size_t n,
+                              double *g, double *slope)
 {
     const double at = table->switch_depth;
     for (size_t i = 0; i < n; i++) {
@@ -174,7 +175,10 @@ void wt_contact_table_eval(const wt_contact_table *table, const double *delta, s
                            double *slope)
 {
     if (!(table->tip.sample_thickness > 0.0)) {
-        half_space(table, delta, n, g, slope);
+        if (slope != NULL)
+            half_space(table, delta, n, g, slope);
+        else
+            half_space(table, delta, n, g, NULL);
         return;
     }
     for (size_t i = 0; i < n; i++) {
