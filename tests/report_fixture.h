@@ -193,6 +193,39 @@ static inline void fixture_materials(void)
         wt_rubber_clear(&rubber[k]);
 }
 
+/* Two samples, with one law. */
+static inline void fixture_common_law(void)
+{
+    wt_formats *formats = NULL;
+    static const char *const file[] = {WT_SOURCE_DIR "/fixtures/dma/two_materials.csv"};
+    static const char *const names[] = {"NR", "SBR 10%"};
+    wt_file_set set = {.patterns = file, .n_patterns = 1, .read = wt_read_defaults()};
+    wt_common_law_job common = wt_common_law_job_defaults();
+    wt_master_job job = wt_master_job_defaults();
+    wt_job work = wt_job_defaults();
+    wt_master_tables tables[2] = {{0}};
+    const wt_master *fits[2];
+    wt_table *table = NULL;
+    fixture_check(wt_formats_new(NULL, &formats, NULL, NULL));
+    job.sets = &set;
+    job.n_sets = 1;
+    work.formats = formats;
+    for (size_t i = 0; i < 2; i++) {
+        set.read.sample = names[i];
+        fixture_check(wt_master_make(&job, &work, &tables[i], NULL, NULL));
+        fits[i] = tables[i].fit;
+    }
+    common.common = WT_COMMON_SAME;
+    common.names = names;
+    common.fits = fits;
+    common.n = 2;
+    fixture_check(wt_common_law_make(&common, &table, NULL));
+    fixture_check(wt_result_add(fixture_case, table, NULL));
+    for (size_t i = 0; i < 2; i++)
+        wt_master_tables_clear(&tables[i]);
+    wt_formats_free(formats);
+}
+
 /* Strain sweeps at two frequencies. */
 static inline void fixture_payne(void)
 {
@@ -265,6 +298,7 @@ static inline const wt_result *fixture_produced(void)
         fixture_ramp();
         fixture_materials();
         fixture_payne();
+        fixture_common_law();
         wt_case_free(read);
         (void)atexit(fixture_free);
     }

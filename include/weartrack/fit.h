@@ -622,6 +622,50 @@ WT_API wt_status wt_master_fit(const wt_sweep *sweep, const wt_master_options *o
 /* log10 aT of the law at a temperature; NaN without a law, and beyond the isotherms where fewer
  * than four tell it. */
 WT_API wt_interval wt_master_law(const wt_master *master, double temperature);
+/* One law of the shift factors for several samples. */
+typedef enum wt_common {
+    WT_COMMON_NONE, /* each its own */
+    WT_COMMON_SAME, /* the same constants at the same reference temperature */
+    WT_COMMON_MOVED /* the same constants, each sample at a reference temperature of its own */
+} wt_common;
+
+typedef struct wt_common_member {
+    bool used;
+    char why_not[64];
+    wt_interval moved; /* reference temperature of its law above that of the first one used [K] */
+} wt_common_member;
+
+/* An isotherm of a sample that is used. Decades; without the offset of the sample. */
+typedef struct wt_common_point {
+    size_t sample;
+    double temperature; /* [K] */
+    double log_a, log_a_error;
+    wt_interval law;        /* the common one */
+    wt_interval difference; /* what the sample's own law has more, from the middle of its isotherms
+                               on, with limits on the safe side; NaN where no own laws are told */
+} wt_common_point;
+
+typedef struct wt_common_law {
+    wt_law_kind kind; /* WLF or Arrhenius */
+    double reference; /* [K], of the first sample used */
+    wt_interval c1, c2, activation_energy;
+    double c_correlation; /* of C1 and C2 */
+    double spread;        /* standard deviation of the temperature of an isotherm [K] */
+    double p;             /* chance that samples of one law differ so much; NaN: not told */
+    size_t n_members, n;
+    wt_common_member *members; /* [n_members] as the samples */
+    wt_common_point *points;   /* [n] */
+} wt_common_law;
+WT_API void wt_common_law_clear(wt_common_law *common);
+/* Generalised least squares over the shifts of all samples with their covariance, an offset for
+ * each, and one error of temperature for all isotherms, over which is averaged. WLF if one sample
+ * has it by itself, else Arrhenius; samples of joined laws, with given shifts or without a fit
+ * (NULL) are left out. `reference` NaN: that of the first one used. `common` is
+ * cleared by the caller. WT_E_RANGE if there are fewer than two samples, or one law describes
+ * nothing. */
+WT_API wt_status wt_common_law_fit(const wt_master *const *masters, size_t n, wt_common how,
+                                   double reference, wt_common_law *common,
+                                   wt_error *err) WT_NODISCARD;
 /* log10 aT of an isotherm by the closed form of ISO 18437-6, for comparison: storage moduli alone,
  * neighbour by neighbour, without a vertical shift. NaN where neighbours share too little. */
 WT_API double wt_master_closed_form(const wt_master *master, size_t isotherm);

@@ -370,6 +370,7 @@ typedef struct wt_master_tables {
     wt_table *shift_factors, *master_curve, *prony, *material_draws, *series_draws;
     size_t n_isotherms;
     wt_table *prony_reduced, *relaxation_spectrum;
+    wt_master *fit; /* that they are of */
 } wt_master_tables;
 WT_API void wt_master_tables_clear(wt_master_tables *tables);
 
@@ -378,6 +379,24 @@ WT_API void wt_master_tables_clear(wt_master_tables *tables);
 WT_API wt_status wt_master_make(const wt_master_job *job, const wt_job *work,
                                 wt_master_tables *tables, wt_rubber *rubber,
                                 wt_error *err) WT_NODISCARD;
+
+/* One law of the shift factors for the samples, each fitted by itself. */
+typedef struct wt_common_law_job {
+    const char *const *names;     /* [n] of the samples */
+    const wt_master *const *fits; /* [n]; NULL: it could not be fitted */
+    size_t n;
+    double reference; /* temperature of the law [K]; NaN: that of the first sample it is of */
+    wt_common common; /* default WT_COMMON_NONE: not asked for */
+    double margin;    /* difference of laws that does not matter [decade]; default 0.1 */
+    uint64_t reserved[4];
+} wt_common_law_job;
+WT_API wt_common_law_job wt_common_law_job_defaults(void);
+WT_API const wt_params *wt_common_law_job_params(void);
+/* Table "common_law": the law with its errors, the shifts about it, and whether the samples have
+ * one law. */
+WT_API wt_status wt_common_law_make(const wt_common_law_job *job, wt_table **table,
+                                    wt_error *err) WT_NODISCARD;
+
 /* Temperature sweeps, or isotherms taken apart by frequency: where the glass transition is, and the
  * moduli at temperatures. */
 typedef struct wt_ramp_job {

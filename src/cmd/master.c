@@ -141,12 +141,14 @@ int cmd_master(int argc, char **argv)
             "prony_reduced, too (few terms in place of prony). "
             "weartrack friction, layer and compare read them as they are. Where the files name "
             "several samples, each has such tables with its name behind theirs, as in "
-            "prony/nr_50, and they are compared in the tables material_ratio and materials.",
+            "prony/nr_50, and they are compared in the tables material_ratio and materials; with "
+            "--common-law the table common_law says whether they have one law.",
         .n_files = CMD_SOME};
     wt_master_job job = wt_master_job_defaults();
     wt_file_set set = {.read = wt_read_defaults()};
     saved_shifts saved = {NULL, NULL};
     exported own = export_defaults();
+    wt_common_law_job common = wt_common_law_job_defaults();
     enum { EXPORTED = 2 };
     cmd_part parts[] = {
         {wt_master_job_params(), &job,
@@ -155,6 +157,7 @@ int cmd_master(int argc, char **argv)
          0},
         {saved_params(), &saved, NULL, 0},
         [EXPORTED] = {exported_params(), &own, NULL, 0},
+        {wt_common_law_job_params(), &common, NULL, 0},
         {wt_read_params(), &set.read,
          "temperature units format sheet deformation strain sample sample-by", 0}};
     static const wt_tables_role role = {
@@ -193,8 +196,13 @@ int cmd_master(int argc, char **argv)
     if (made == WT_OK && set.read.sample == NULL && saved.written == NULL && own.n_exports == 0)
         made = wt_samples_read(&set, 1, &s.work, &samples, &s.err);
     if (made == WT_OK && samples.n > 1) {
-        master_of_samples(&s, &job, &set, &samples);
+        master_of_samples(&s, &job, &common, &set, &samples);
         goto done;
+    }
+    if (made == WT_OK && common.common != WT_COMMON_NONE) {
+        made = wt_fail(&s.err, WT_E_MISSING, "one sample has no law in common with another");
+        wt_error_advice(&s.err, "--common-law takes sweeps of several samples, without --sample, "
+                                "--save-shifts and --export; see --sample-by");
     }
     if (made == WT_OK)
         made = wt_master_make(&job, &s.work, &tables, NULL, &s.err);

@@ -4,8 +4,9 @@
 
 #include "cmd/cmd.h"
 
-/* Fits each sample, compares them and finishes the call. `set` is that of the job. */
-void master_of_samples(cmd_session *s, wt_master_job *job, wt_file_set *set,
-                       const wt_samples *samples);
+/* Fits each sample, compares them, fits one law to all if it is asked for and finishes the call.
+ * `set` is that of the job. */
+void master_of_samples(cmd_session *s, wt_master_job *job, wt_common_law_job *common,
+                       wt_file_set *set, const wt_samples *samples);
 
 #endif

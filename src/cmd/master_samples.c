@@ -137,13 +137,38 @@ static void compare(cmd_session *s, const wt_samples *samples, const sample_fit 
     wt_parselog_add(s->work.log, WT_WARNING, NULL, NULL, "not compared: %s", message);
 }
 
-void master_of_samples(cmd_session *s, wt_master_job *job, wt_file_set *set,
-                       const wt_samples *samples)
+/* One law of all, if it is asked for. */
+static wt_status find_common_law(wt_common_law_job *job, const wt_samples *samples,
+                                 const sample_fit *fits, wt_table **table, wt_error *err)
+{
+    if (job->common == WT_COMMON_NONE)
+        return WT_OK;
+    const char **names = calloc(samples->n, sizeof *names);
+    const wt_master **of = calloc(samples->n, sizeof *of);
+    wt_status status =
+        names == NULL || of == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
+    for (size_t i = 0; status == WT_OK && i < samples->n; i++) {
+        names[i] = shown_name(samples->name[i]);
+        of[i] = fits[i].tables.fit;
+    }
+    job->names = names;
+    job->fits = of;
+    job->n = samples->n;
+    if (status == WT_OK)
+        status = wt_common_law_make(job, table, err);
+    free(names);
+    free(of);
+    return status;
+}
+
+void master_of_samples(cmd_session *s, wt_master_job *job, wt_common_law_job *common,
+                       wt_file_set *set, const wt_samples *samples)
 {
     wt_materials_tables materials = {0};
+    wt_table *common_law = NULL;
     sample_fit *fits = calloc(samples->n, sizeof *fits);
     wt_compared *of = calloc(samples->n, sizeof *of);
-    wt_table ***made_tables = calloc(samples->n * TABLES + 2, sizeof *made_tables);
+    wt_table ***made_tables = calloc(samples->n * TABLES + 3, sizeof *made_tables);
     const char *const chosen = set->read.sample;
     wt_status made = fits == NULL || of == NULL || made_tables == NULL
                          ? wt_fail(&s->err, WT_E_MEMORY, "out of memory")
@@ -154,6 +179,9 @@ void master_of_samples(cmd_session *s, wt_master_job *job, wt_file_set *set,
     set->read.sample = chosen;
     if (made == WT_OK)
         compare(s, samples, fits, of, &materials);
+    common->reference = job->fit.reference_temperature;
+    if (made == WT_OK)
+        made = find_common_law(common, samples, fits, &common_law, &s->err);
     for (size_t i = 0; made == WT_OK && i < samples->n; i++) {
         made = rename_all(&fits[i], &s->err);
         for (size_t k = 0; k < TABLES; k++)
@@ -162,6 +190,7 @@ void master_of_samples(cmd_session *s, wt_master_job *job, wt_file_set *set,
     if (made == WT_OK) {
         made_tables[n++] = &materials.material_ratio;
         made_tables[n++] = &materials.materials;
+        made_tables[n++] = &common_law;
     }
     cmd_finish(s, made, made_tables, n);
     for (size_t i = 0; fits != NULL && i < samples->n; i++) {
@@ -171,6 +200,7 @@ void master_of_samples(cmd_session *s, wt_master_job *job, wt_file_set *set,
             wt_table_free(fits[i].named[k]);
     }
     wt_materials_tables_clear(&materials);
+    wt_table_free(common_law);
     free(made_tables);
     free(of);
     free(fits);

@@ -1,4 +1,5 @@
 /* What a mixture says: intervals and draws. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "fit/mixture.h"
 #include "fit/posterior.h"
 
 #include "base/mix.h"
@@ -12,62 +13,18 @@
 
 /* ---- intervals ------------------------------------------------------------------------------- */
 
-struct normal {
-    double weight, mean, deviation;
-};
-
-static double below(const struct normal *part, size_t n, double x)
-{
-    double sum = 0.0;
-    for (size_t i = 0; i < n; i++)
-        sum += part[i].weight * (part[i].deviation > 0.0
-                                     ? gsl_cdf_ugaussian_P((x - part[i].mean) / part[i].deviation)
-                                     : (x >= part[i].mean ? 1.0 : 0.0));
-    return sum;
-}
-
-static double quantile(const struct normal *part, size_t n, double probability)
-{
-    double low = HUGE_VAL, high = -HUGE_VAL;
-    for (size_t i = 0; i < n; i++) {
-        low = fmin(low, part[i].mean - 9.0 * part[i].deviation);
-        high = fmax(high, part[i].mean + 9.0 * part[i].deviation);
-    }
-    while (high - low > 1e-12 * fmax(fabs(low), fabs(high))) {
-        const double middle = 0.5 * (low + high);
-        if (middle <= low || middle >= high)
-            break;
-        if (below(part, n, middle) < probability)
-            low = middle;
-        else
-            high = middle;
-    }
-    return 0.5 * (low + high);
-}
-
-static wt_interval interval_of(const struct normal *part, size_t n)
-{
-    wt_interval interval = {0};
-    for (size_t i = 0; i < n; i++)
-        interval.value += part[i].weight * part[i].mean;
-    interval.low = quantile(part, n, 0.025);
-    interval.high = quantile(part, n, 0.975);
-    interval.standard_error = (interval.high - interval.low) / (2.0 * 1.959963984540054);
-    return interval;
-}
-
 enum { MOST_PARTS = POSTERIOR_CELLS * LAW_SPREADS };
 
 static wt_interval of_column(const wt_posterior *p, long column, double held)
 {
-    struct normal part[MOST_PARTS];
+    mixture_part part[MOST_PARTS];
     if (column < 0)
         return (wt_interval){held, 0.0, held, held};
     const size_t c = (size_t)column;
     for (size_t i = 0; i < p->n_cells; i++)
-        part[i] = (struct normal){p->cells[i].weight, p->cells[i].value[c] / M_LN10,
-                                  sqrt(gsl_matrix_get(p->cells[i].covariance, c, c)) / M_LN10};
-    return interval_of(part, p->n_cells);
+        part[i] = (mixture_part){p->cells[i].weight, p->cells[i].value[c] / M_LN10,
+                                 sqrt(gsl_matrix_get(p->cells[i].covariance, c, c)) / M_LN10};
+    return mixture_interval(part, p->n_cells);
 }
 
 wt_interval posterior_a(const wt_posterior *p, size_t curve)
@@ -105,8 +62,8 @@ struct quantity {
 };
 
 /* Mean and variance of a quantity in a part; with: [n_curves] its covariance with log a. */
-static struct normal of_part(const wt_posterior *p, const posterior_part *part,
-                             const struct quantity *x, double *with)
+static mixture_part of_part(const wt_posterior *p, const posterior_part *part,
+                            const struct quantity *x, double *with)
 {
     const size_t n = p->frame.n_unknowns, n_curves = p->frame.n_curves;
     const gsl_matrix *v = part->cell->covariance;
@@ -138,24 +95,24 @@ static struct normal of_part(const wt_posterior *p, const posterior_part *part,
     for (size_t u = 0; u < part->law.n_unknowns; u++)
         for (size_t w = 0; w < part->law.n_unknowns; w++)
             variance += x->by_law[u] * x->by_law[w] * part->law.covariance[u][w];
-    return (struct normal){part->weight, mean, sqrt(fmax(variance, 0.0))};
+    return (mixture_part){part->weight, mean, sqrt(fmax(variance, 0.0))};
 }
 
 wt_interval posterior_law(const wt_posterior *p, double temperature)
 {
-    struct normal part[MOST_PARTS];
+    mixture_part part[MOST_PARTS];
     for (size_t i = 0; i < p->n_parts; i++) {
         struct quantity x = {0};
         x.value = law_at(&p->shape, p->parts[i].law.unknown, temperature, x.by_law);
         part[i] = of_part(p, &p->parts[i], &x, NULL);
     }
-    return interval_of(part, p->n_parts);
+    return mixture_interval(part, p->n_parts);
 }
 
 wt_interval posterior_slope(const wt_posterior *p, double temperature)
 {
     const double step = 0.01; /* K */
-    struct normal part[MOST_PARTS];
+    mixture_part part[MOST_PARTS];
     for (size_t i = 0; i < p->n_parts; i++) {
         const double *unknown = p->parts[i].law.unknown;
         struct quantity x = {0}, before = {0};
@@ -166,25 +123,25 @@ wt_interval posterior_slope(const wt_posterior *p, double temperature)
             x.by_law[u] = (x.by_law[u] - before.by_law[u]) / (2.0 * step);
         part[i] = of_part(p, &p->parts[i], &x, NULL);
     }
-    return interval_of(part, p->n_parts);
+    return mixture_interval(part, p->n_parts);
 }
 
 wt_interval posterior_constant(const wt_posterior *p, size_t unknown)
 {
-    struct normal part[MOST_PARTS];
+    mixture_part part[MOST_PARTS];
     for (size_t i = 0; i < p->n_parts; i++) {
         struct quantity x = {.value = p->parts[i].law.unknown[unknown]};
         x.by_law[unknown] = 1.0;
         part[i] = of_part(p, &p->parts[i], &x, NULL);
     }
-    return interval_of(part, p->n_parts);
+    return mixture_interval(part, p->n_parts);
 }
 
 /* scratch: with log a, terms, and by the unknowns for both moduli and the loss factor. */
 void posterior_moduli(const wt_posterior *p, double x, wt_interval modulus[WITH_LOSS_FACTOR])
 {
     const size_t n = p->frame.n_unknowns;
-    struct normal part[WITH_LOSS_FACTOR][MOST_PARTS];
+    mixture_part part[WITH_LOSS_FACTOR][MOST_PARTS];
     double *term = p->scratch + p->frame.n_curves, *const by_storage = term + p->frame.n_linear;
     double *const gradient[WITH_LOSS_FACTOR] = {by_storage, by_storage + n, by_storage + 2 * n};
     double value[WITH_LOSS_FACTOR], slope[WITH_LOSS_FACTOR], mean[LAW_MOST];
@@ -209,7 +166,7 @@ void posterior_moduli(const wt_posterior *p, double x, wt_interval modulus[WITH_
         }
     }
     for (int q = 0; q < WITH_LOSS_FACTOR; q++)
-        modulus[q] = interval_of(part[q], p->n_parts);
+        modulus[q] = mixture_interval(part[q], p->n_parts);
 }
 
 /* One unknown of the spectrum, or what is given in its place, times `scale`, less the offset of the
@@ -217,7 +174,7 @@ void posterior_moduli(const wt_posterior *p, double x, wt_interval modulus[WITH_
 static wt_interval of_unknown(const wt_posterior *p, long column, double given, double scale,
                               double offset)
 {
-    struct normal part[MOST_PARTS];
+    mixture_part part[MOST_PARTS];
     double *by_unknown = p->scratch + p->frame.n_curves;
     memset(by_unknown, 0, p->frame.n_unknowns * sizeof *by_unknown);
     if (column >= 0)
@@ -227,7 +184,7 @@ static wt_interval of_unknown(const wt_posterior *p, long column, double given, 
         x.value += scale * (column >= 0 ? p->parts[i].cell->value[column] : given);
         part[i] = of_part(p, &p->parts[i], &x, p->scratch);
     }
-    return interval_of(part, p->n_parts);
+    return mixture_interval(part, p->n_parts);
 }
 
 wt_interval posterior_a_to_reference(const wt_posterior *p, size_t curve)

@@ -182,6 +182,56 @@ static void caption_material_ratio(figure_drawing *d)
         text_format(&d->caption, " What would settle it: %s.", settled);
 }
 
+/* ---- one law for samples --------------------------------------------------------------------- */
+
+/* Shifts about the common law above; below, what each sample's own law has more. Columns of the
+ * data: temperature, shift with its error, law and difference, each with the ends of its interval.
+ */
+static void draw_common_law(figure_drawing *d)
+{
+    enum { SHIFT = 2, LAW = 4, DIFFERENCE = 7 };
+    if (!drawing_data(d))
+        return;
+    d->height = 1.6;
+    text_add(&d->script, "set multiplot layout 2,1\n");
+    drawing_axis(d, "x", &d->figure->x, NULL, d->x);
+    drawing_axis(d, "y", &d->figure->y[0], NULL, d->y[0]);
+    text_add(&d->script, "set ylabel 'Shift factor, log_{10} a_T' enhanced\n");
+    for (size_t i = 0; i < d->n_groups; i++) {
+        plot_item(d, d->data[i], "($1+x_offset):($%d):($%d) with filledcurves ls %zu notitle",
+                  LAW + 1, LAW + 2, 81 + i);
+        plot_item(d, d->data[i], "($1+x_offset):($%d) with lines ls %zu notitle", LAW, i + 1);
+        plot_item(d, d->data[i], "($1+x_offset):($%d):($%d) with yerrorbars ls %zu", SHIFT,
+                  SHIFT + 1, 41 + i);
+        plot_title(d, d->groups[i]);
+    }
+    plot_end(d);
+    value_span span = d->y[1];
+    if (!span_empty(&span)) {
+        span_add(&span, 0, false);
+        text_add(&d->script, "unset key\n");
+        drawing_axis(d, "y", &d->figure->y[1], NULL, span);
+        text_add(&d->script, "set ylabel 'Own law against it (decades)'\n");
+        plot_other(d, "0 with lines ls 12 notitle");
+        for (size_t i = 0; i < d->n_groups; i++)
+            plot_item(d, d->data[i],
+                      "($1+x_offset):($%d):($%d):($%d) with yerrorbars ls %zu notitle", DIFFERENCE,
+                      DIFFERENCE + 1, DIFFERENCE + 2, 41 + i);
+        plot_end(d);
+    }
+    text_add(&d->script, "unset multiplot\n");
+}
+
+static void caption_common_law(figure_drawing *d)
+{
+    const char *settled = common_law_words(d->table, COMMON_LAW_KEY_SETTLED_BY);
+    text_format(&d->caption, " Reference temperatures: %s. One law? %s.",
+                common_law_words(d->table, COMMON_LAW_KEY_MOVED),
+                common_law_words(d->table, COMMON_LAW_KEY_AGREE));
+    if (settled != NULL)
+        text_format(&d->caption, " What would settle it: %s.", settled);
+}
+
 /* ---- descriptions ---------------------------------------------------------------------------- */
 
 const figure_description figures_materials[] = {
@@ -215,5 +265,23 @@ const figure_description figures_materials[] = {
               "measured (bands: 95 % intervals).",
      .draw = draw_material_ratio,
      .caption = caption_material_ratio},
+    {.name = "common_law",
+     .title = "One law for several samples",
+     .table = &common_law_schema,
+     .by_group = true,
+     .group = COMMON_LAW_SAMPLE,
+     .x = {COMMON_LAW_TEMPERATURE, AXIS_LINEAR, "Temperature"},
+     .y = {{COMMON_LAW_LOG_A, AXIS_LINEAR, "Shift factor"},
+           {COMMON_LAW_DIFFERENCE, AXIS_LINEAR, "Own law against it"}},
+     .curves = {CURVE(COMMON_LAW_LOG_A, OWN, .with_errors = true),
+                CURVE(COMMON_LAW_LAW_LOG_A, OWN, .with_errors = true),
+                CURVE(COMMON_LAW_DIFFERENCE, OWN, .with_errors = true, .panel = 1)},
+     .nothing = "no sample has shift factors about a common law",
+     .words = "Shift factors of the samples (bars: standard error without that of the temperature) "
+              "about the one law fitted to all (lines; bands: 95 % intervals) and, below, what the "
+              "law of each alone has more, from the middle of its isotherms on (bars: limits on "
+              "the safe side of 95 %).",
+     .draw = draw_common_law,
+     .caption = caption_common_law},
     {.name = NULL},
 };

@@ -79,12 +79,13 @@ static void friction_table(page_writer *page)
 void page_results(page_writer *page)
 {
     const bound_tables *t = page->tables;
-    const table_view *const shown[] = {
-        &t->modulus_groups,   &t->modulus_depth,  &t->comparison, &t->dma_comparison,
-        &t->material_ratio,   &t->shift_factors,  &t->prony,      &t->prony_reduced,
-        &t->glass_transition, &t->moduli_at,      &t->payne,      &t->roughness,
-        &t->friction,         &t->layer,          &t->what_if,    &t->error_budget,
-        &t->coverage,         &t->work_precision, &t->directions, &t->softening};
+    const table_view *const shown[] = {&t->modulus_groups, &t->modulus_depth,  &t->comparison,
+                                       &t->dma_comparison, &t->material_ratio, &t->shift_factors,
+                                       &t->prony,          &t->prony_reduced,  &t->glass_transition,
+                                       &t->moduli_at,      &t->payne,          &t->roughness,
+                                       &t->friction,       &t->layer,          &t->what_if,
+                                       &t->error_budget,   &t->coverage,       &t->work_precision,
+                                       &t->directions,     &t->softening,      &t->common_law};
     bool any = false;
     for (size_t i = 0; i < COUNT_OF(shown) && !any; i++)
         any = shown[i]->table != NULL;
@@ -105,6 +106,7 @@ void page_results(page_writer *page)
     page_whole_table(page, &t->shift_factors, "Shift factors", shift_columns,
                      COUNT_OF(shift_columns));
     page_keys(page, &t->shift_factors, "Shifting, law and superposition");
+    page_keys(page, &t->common_law, "One law for several samples");
     page_whole_table(page, &t->prony, "Prony series at the reference temperature", NULL, 0);
     page_keys(page, &t->prony, "Prony series: constants");
     page_whole_table(page, &t->prony_reduced, "Prony series with few terms, for finite elements",

@@ -124,6 +124,8 @@ static const struct {
     {"compare", "at-temperature", "of materials: unit_truth_materials, tests/cli/materials.txt"},
     {"compare", "at-frequency", "the same"},
     {"compare", "sample-error", "the same"},
+    {"master", "common-law", "of several samples: tests/cli/samples.txt"},
+    {"master", "common-law-margin", "the same: unit_tables_put"},
     {"master", "export", "a file of its own: unit_flow_solid, tests/cli/solid.txt"},
     {"master", "export-units", "of that file"},
     {"master", "export-temperature", "of that file"},

@@ -277,6 +277,49 @@ static void test_joined_law(void **state)
     unlink(path);
 }
 
+/* One law of two samples and of one that has none; of one sample twice where it is Arrhenius. */
+static void test_common_law(void **state)
+{
+    (void)state;
+    static const char *const patterns[] = {WT_SOURCE_DIR "/fixtures/dma/two_materials.csv"};
+    static const char *const names[] = {"NR", "SBR 10%", "none"};
+    static const char *const warm[] = {"temperature:..15degC"};
+    wt_file_set set = {.patterns = patterns, .n_patterns = 1, .read = wt_read_defaults()};
+    wt_job common = wt_job_defaults();
+    wt_master_job job = wt_master_job_defaults();
+    wt_master_tables made[2] = {{0}}, few = {0};
+    common.formats = formats;
+    job.sets = &set;
+    job.n_sets = 1;
+    for (size_t i = 0; i < 2; i++) {
+        set.read.sample = names[i];
+        assert_int_equal(wt_master_make(&job, &common, &made[i], NULL, NULL), WT_OK);
+    }
+    job.leave_out = warm;
+    job.n_leave_out = 1;
+    assert_int_equal(wt_master_make(&job, &common, &few, NULL, NULL), WT_OK);
+    const wt_master *const fits[2][3] = {{made[0].fit, made[1].fit, NULL},
+                                         {few.fit, few.fit, NULL}};
+    for (size_t i = 0; i < 2; i++) {
+        wt_common_law_job law = wt_common_law_job_defaults();
+        wt_table *table = NULL;
+        law.names = names;
+        law.fits = fits[i];
+        law.n = 3;
+        law.common = i == 0 ? WT_COMMON_MOVED : WT_COMMON_SAME;
+        law.margin = i == 0 ? 0.1 : 1e-9;
+        assert_int_equal(wt_common_law_make(&law, &table, NULL), WT_OK);
+        assert_string_equal(wt_table_key(table, "law"), i == 0 ? "WLF" : "Arrhenius");
+        assert_true(strncmp(wt_table_key(table, "agree"), i == 0 ? "no: " : "cannot say: ", 4) ==
+                    0);
+        see(table);
+        wt_table_free(table);
+    }
+    for (size_t i = 0; i < 2; i++)
+        wt_master_tables_clear(&made[i]);
+    wt_master_tables_clear(&few);
+}
+
 /* The bundled material, one measured less widely, and one of another deformation. */
 static void test_materials(void **state)
 {
@@ -690,13 +733,21 @@ static int free_formats(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_cases),         cmocka_unit_test(test_joined_law),
-        cmocka_unit_test(test_materials),     cmocka_unit_test(test_spring_constants),
-        cmocka_unit_test(test_conversions),   cmocka_unit_test(test_ramps),
-        cmocka_unit_test(test_strain_sweeps), cmocka_unit_test(test_files),
-        cmocka_unit_test(test_calibration),   cmocka_unit_test(test_dwell),
-        cmocka_unit_test(test_thermal),       cmocka_unit_test(test_directions),
-        cmocka_unit_test(test_accuracy),      cmocka_unit_test(test_all_put),
+        cmocka_unit_test(test_cases),
+        cmocka_unit_test(test_joined_law),
+        cmocka_unit_test(test_common_law),
+        cmocka_unit_test(test_materials),
+        cmocka_unit_test(test_spring_constants),
+        cmocka_unit_test(test_conversions),
+        cmocka_unit_test(test_ramps),
+        cmocka_unit_test(test_strain_sweeps),
+        cmocka_unit_test(test_files),
+        cmocka_unit_test(test_calibration),
+        cmocka_unit_test(test_dwell),
+        cmocka_unit_test(test_thermal),
+        cmocka_unit_test(test_directions),
+        cmocka_unit_test(test_accuracy),
+        cmocka_unit_test(test_all_put),
     };
     return cmocka_run_group_tests_name("tables put", tests, open_formats, free_formats);
 }

@@ -72,6 +72,7 @@
     X(material_ratio, MATERIAL_RATIO, "material_ratio", "Ratio of the moduli of materials",        \
       "compare")                                                                                   \
     X(shift_factors, SHIFT_FACTORS, "shift_factors", "Shift factors", "master")                    \
+    X(common_law, COMMON_LAW, "common_law", "One law for several samples", "master")               \
     X(master_curve, MASTER_CURVE, "master_curve", "Master curve", "master")                        \
     X(prony, PRONY, "prony", "Prony series", "master")                                             \
     X(relaxation_spectrum, RELAXATION_SPECTRUM, "relaxation_spectrum", "Relaxation spectrum",      \

@@ -90,6 +90,22 @@ static void say_materials(sentence *s, const table_view *v)
         say(s, "; what would settle it: %s", settled);
 }
 
+static void say_common_law(sentence *s, const table_view *v)
+{
+    if (v->table == NULL)
+        return;
+    const char *settled = common_law_words(v, COMMON_LAW_KEY_SETTLED_BY);
+    const wt_estimate c1 = common_law_value(v, COMMON_LAW_KEY_WLF_C1);
+    next(s);
+    say(s, "one law: %s", common_law_words(v, COMMON_LAW_KEY_AGREE));
+    if (settled != NULL)
+        say(s, "; what would settle it: %s", settled);
+    if (!isnan(c1.value))
+        say(s, "; WLF C1 = %s, C2 = %s, reference temperature %s", words_of_estimate(c1).text,
+            words_of_estimate(common_law_value(v, COMMON_LAW_KEY_WLF_C2)).text,
+            common_law_words(v, COMMON_LAW_KEY_MOVED));
+}
+
 static void say_material(sentence *s, const table_view *v)
 {
     if (v->table == NULL)
@@ -299,6 +315,7 @@ size_t wt_result_sentence(const wt_result *result, char *buffer, size_t size)
                  {&modulus_groups_schema, say_groups},
                  {&comparison_schema, say_ratio},
                  {&material_ratio_schema, say_materials},
+                 {&common_law_schema, say_common_law},
                  {&shift_factors_schema, say_material},
                  {&glass_transition_schema, say_transition},
                  {&payne_schema, say_payne},

@@ -61,6 +61,8 @@ void wt_master_tables_clear(wt_master_tables *tables)
     wt_table_free(tables->relaxation_spectrum);
     wt_table_free(tables->material_draws);
     wt_table_free(tables->series_draws);
+    wt_master_clear(tables->fit);
+    free(tables->fit);
     *tables = (wt_master_tables){0};
 }
 
@@ -548,13 +550,21 @@ wt_status wt_master_make(const wt_master_job *job, const wt_job *work, wt_master
         rubber->fit.terms_per_decade = master.terms_per_decade; /* which need not be found again */
         sweep = (wt_sweep){0};
     }
+    if (status == WT_OK && tables != NULL && (t.fit = malloc(sizeof *t.fit)) == NULL)
+        status = wt_fail(err, WT_E_MEMORY, "out of memory");
     if (status == WT_OK) {
         say_unfinished(&master, work);
         say_cost(&master, work);
     }
     if (status == WT_OK && tables != NULL) {
+        *t.fit = master;
+        master = (wt_master){0};
         *tables = t;
         t = (wt_master_tables){0};
+    }
+    if (status != WT_OK) { /* it is not filled */
+        free(t.fit);
+        t.fit = NULL;
     }
     wt_sweep_clear(&sweep);
     wt_master_clear(&master);
