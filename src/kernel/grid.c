@@ -251,7 +251,8 @@ void grid_fill_panels(scale_grid *grid, const panel_plan *plan, size_t first, si
                                           grid->q + at, grid->factor1 + at);
         weigh_nodes(roughness, layer, n, grid->q + at, grid->factor1 + at, grid->factor2 + at);
         if (plan->softening != NULL)
-            softening_at(plan->softening, grid->q + at, n, grid->f + at, grid->g + at);
+            softening_at(plan->softening, grid->q + at, grid->t + at, n, grid->f + at,
+                         grid->g + at);
     }
 }
 
@@ -267,5 +268,6 @@ void grid_fill_core(scale_grid *grid, const panel_plan *plan, size_t level,
     weigh_nodes(roughness, layer, n, grid->core_q + at, grid->core_factor1 + at,
                 grid->core_factor2 + at);
     if (plan->softening != NULL)
-        softening_at(plan->softening, grid->core_q + at, n, grid->core_f + at, grid->core_g + at);
+        softening_at(plan->softening, grid->core_q + at, grid->core_t + at, n, grid->core_f + at,
+                     grid->core_g + at);
 }

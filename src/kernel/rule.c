@@ -77,7 +77,10 @@ static void fill_running(gauss_rule *rule)
  * for what is left out folds back on them. `caution` is for what that overlooks, and a tenth of it
  * is enough where the fall goes no further. */
 static const double caution = 40, caution_smooth = 10, caution_few = 6;
-/* Singular points of a law may be so many times closer than the poles. */
+/* Knots of a law, and moduli with directions that nearly vanish, may be closer than the poles: in
+ * the square root of the distance from a knot the one before it, as far off, lets a degree fall by
+ * 0.22, and one 1/8 as far, the most of `grading`, by 0.41, which 0.2 for the usual panels makes
+ * 0.4 of. */
 static const double closer = 2;
 
 static double larger(double a, double b)

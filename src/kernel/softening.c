@@ -64,9 +64,20 @@ static const wt_material_law loss_law_closed = {.name = "loss",
 
 /* ---- strain ---------------------------------------------------------------------------------- */
 
+/* Up to there a rounded q takes digits of t that count. */
+static const double rounding_counts = 0.1;
+
 double softening_strain(const strain_law *s, double q)
 {
     return s->factor * sqrt(2 * M_PI * roughness_moment(s->roughness, 3, q));
+}
+
+/* The same at q = q0 e^t: close to q0 a rounded q has lost what t has, and the square grows like t.
+ */
+static double strain_at(const strain_law *s, double q, double t)
+{
+    const double rounded = log1p((q - s->roughness->q0) / s->roughness->q0);
+    return softening_strain(s, q) * (rounded > 0 && t < rounding_counts ? sqrt(t / rounded) : 1);
 }
 
 /* The last point of the table at or below ln eps, or n. */
@@ -83,10 +94,11 @@ static size_t point_before(const strain_law *s, double log_strain)
     return low > 0 ? low - 1 : s->n;
 }
 
-void softening_at(const strain_law *s, const double *q, size_t n, double *f, double *g)
+void softening_at(const strain_law *s, const double *q, const double *t, size_t n, double *f,
+                  double *g)
 {
     for (size_t i = 0; i < n; i++) {
-        const double x = log(softening_strain(s, q[i]));
+        const double x = log(strain_at(s, q[i], t[i]));
         const size_t before = point_before(s, x);
         const size_t k = before == s->n ? 0 : before;
         f[i] = s->f[k];
@@ -110,7 +122,7 @@ static double above(double t, void *user)
 {
     const meeting *m = user;
     const wt_roughness *r = m->s->roughness;
-    const double ratio = softening_strain(m->s, fmin(r->q0 + r->q0 * expm1(t), r->q1)) / m->strain;
+    const double ratio = strain_at(m->s, fmin(r->q0 + r->q0 * expm1(t), r->q1), t) / m->strain;
     return ratio * ratio - 1;
 }
 

@@ -34,7 +34,8 @@ wt_status softening_new(const wt_softening *table, double factor, const wt_mater
                         wt_error *err) WT_NODISCARD;
 /* Strain at a wavenumber. */
 double softening_strain(const strain_law *s, double q);
-/* f and g at n wavenumbers. */
-void softening_at(const strain_law *s, const double *q, size_t n, double *f, double *g);
+/* f and g at n wavenumbers q = q0 e^t. */
+void softening_at(const strain_law *s, const double *q, const double *t, size_t n, double *f,
+                  double *g);
 
 #endif
