@@ -118,10 +118,10 @@ WIDE_REGISTERS static double sudden_pull(const double *above, size_t n, size_t f
 static double work_along(const double *position, const double *force, size_t n, double from,
                          double to)
 {
-    double sum = 0.0;
+    double sum = 0.0, last = n > 0 ? within(position[0], from, to) : 0.0;
     for (size_t i = 1; i < n; i++) {
-        const double first = within(position[i - 1], from, to),
-                     last = within(position[i], from, to);
+        const double first = last;
+        last = within(position[i], from, to);
         if (!(fabs(last - first) > 0.0))
             continue;
         const double before = force[i - 1] > 0.0 ? force[i - 1] : 0.0,

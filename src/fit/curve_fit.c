@@ -86,26 +86,32 @@ void wt_indent_workspace_free(wt_indent_workspace *workspace)
 
 /* ---- rates ----------------------------------------------------------------------------------- */
 
+static bool is_known(const curve_branch *b, size_t i)
+{
+    return isfinite(b->height[i]) && isfinite(b->force[i]);
+}
+
 static void find_rates(const curve_fitting *f, const curve_branch *approach, wt_indent_fit *fit)
 {
-    const double *height = approach->height, *force = approach->force, *time = approach->time;
+    const double *height = approach->height, *time = approach->time;
     const size_t n = approach->n;
     const curve_samples *fitted = &f->input.samples;
     const double c = fit->contact_point.value,
                  end = fitted->position[fitted->n - 1] + f->input.position_origin;
-    fit->contact_index = n;
-    size_t first = n, last = n, last_fitted = n;
-    for (size_t i = 0; i < n; i++) {
-        if (!isfinite(height[i]) || !isfinite(force[i]))
-            continue;
-        if (first == n)
-            first = i;
-        last = i;
-        if (f->input.direction * height[i] <= end)
-            last_fitted = i;
-        if (fit->contact_index == n && f->input.direction * height[i] >= c)
-            fit->contact_index = i;
-    }
+    const double direction = f->input.direction;
+    size_t first = 0, last = n, last_fitted = n, contact = 0;
+    while (first < n && !is_known(approach, first))
+        first++;
+    while (last > first && !is_known(approach, last - 1))
+        last--;
+    while (last_fitted > 0 &&
+           !(direction * height[last_fitted - 1] <= end && is_known(approach, last_fitted - 1)))
+        last_fitted--;
+    while (contact < n && !(direction * height[contact] >= c && is_known(approach, contact)))
+        contact++;
+    last = last > first ? last - 1 : n;
+    last_fitted = last_fitted > 0 ? last_fitted - 1 : n;
+    fit->contact_index = contact;
     size_t i = fit->contact_index;
     if (time == NULL || last <= first || i > last)
         return;

@@ -74,6 +74,51 @@ static void measure(curve_law *m, const double p[N], size_t first)
             (s->position[i] - p[CURVE_C]) * stretch - (s->force[i] - p[CURVE_F0]) / k;
 }
 
+/* One of Newton's steps of each sample in contact; returns the largest. */
+WIDE_REGISTERS static double step_on(const curve_law *m, const double p[N], size_t first)
+{
+    const curve_samples *s = m->samples;
+    const wt_indent_workspace *w = m->workspace;
+    const double k = s->spring_constant, e = p[CURVE_E];
+    wide most = {0.0};
+    double largest = 0.0;
+    size_t i = first;
+    for (; i + WIDE <= s->n; i += WIDE) {
+        wide z, delta, g, slope;
+        wide_load(&z, s->position + i);
+        wide_load(&delta, w->delta + i);
+        wide_load(&g, w->g + i);
+        wide_load(&slope, w->slope + i);
+        z -= p[CURVE_C];
+        const wide out = -delta;
+        wide step = (k * (z - delta) - e * g) / (k + e * slope);
+        wide_raise(&step, &out);
+        step = (wide)((wide_bits)step & (z > 0.0));
+        const wide back = -step;
+        wide_raise(&most, &step);
+        wide_raise(&most, &back);
+        g += slope * step;
+        delta += step;
+        wide_store(w->g + i, &g);
+        wide_store(w->delta + i, &delta);
+    }
+    for (size_t j = 0; j < WIDE; j++)
+        largest = most[j] > largest ? most[j] : largest;
+    for (; i < s->n; i++) {
+        const double z = s->position[i] - p[CURVE_C];
+        double step = (k * (z - w->delta[i]) - e * w->g[i]) / (k + e * w->slope[i]);
+        if (step < -w->delta[i])
+            step = -w->delta[i];
+        if (z <= 0.0)
+            step = 0.0;
+        if (fabs(step) > largest)
+            largest = fabs(step);
+        w->g[i] += w->slope[i] * step;
+        w->delta[i] += step;
+    }
+    return largest;
+}
+
 /* Turns the indentations of the workspace into those at which lever and sample are in balance, with
  * G and G' there. k (z - x) - E* G(x) falls and is concave in x, so Newton's method converges from
  * anywhere; the indentations of the evaluation before are a good start. */
@@ -81,37 +126,23 @@ static void balance(curve_law *m, const double p[N], size_t first)
 {
     const curve_samples *s = m->samples;
     wt_indent_workspace *w = m->workspace;
-    const double k = s->spring_constant, e = p[CURVE_E];
     double deepest = 0.0;
+    if (m->balanced) /* with what is known of where they were */
+        (void)step_on(m, p, first);
+    m->balanced = true;
     for (size_t i = first; i < s->n; i++) {
         double z = s->position[i] - p[CURVE_C];
         if (!(w->delta[i] > 0.0 && w->delta[i] < z))
             w->delta[i] = z;
-        else if (m->balanced) /* where they were: a step with what is known of it */
-            w->delta[i] = fmax(0.0, w->delta[i] + (k * (z - w->delta[i]) - e * w->g[i]) /
-                                                      (k + e * w->slope[i]));
         if (z > deepest)
             deepest = z;
     }
-    m->balanced = true;
     /* After a step of 1e-7 the error is of the order of its square. */
     double largest_step = (double)INFINITY;
     for (int i = 0; i < MAX_NEWTON && largest_step > 1e-7 * deepest; i++) {
         wt_contact_table_eval(m->table, w->delta + first, s->n - first, w->g + first,
                               w->slope + first);
-        largest_step = 0.0;
-        for (size_t j = first; j < s->n; j++) {
-            double z = s->position[j] - p[CURVE_C];
-            if (z <= 0.0)
-                continue;
-            double step = (k * (z - w->delta[j]) - e * w->g[j]) / (k + e * w->slope[j]);
-            if (step < -w->delta[j])
-                step = -w->delta[j];
-            if (fabs(step) > largest_step)
-                largest_step = fabs(step);
-            w->g[j] += w->slope[j] * step;
-            w->delta[j] += step;
-        }
+        largest_step = step_on(m, p, first);
     }
 }
 

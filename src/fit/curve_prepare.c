@@ -123,18 +123,18 @@ double curve_select(double *x, size_t n, size_t k, double largest)
 
 /* Standard deviation of white noise from the median of |successive differences|, and the smallest
  * step that occurs (the resolution of the converter where there is one). */
-static double difference_noise(const curve_samples *s, double *scratch, double *resolution)
+WIDE_REGISTERS static double difference_noise(const curve_samples *s, double *restrict scratch,
+                                              double *resolution)
 {
-    double largest = 0.0, smallest = (double)INFINITY;
-    for (size_t i = 1; i < s->n; i++) {
-        const double step = fabs(s->force[i] - s->force[i - 1]);
-        scratch[i - 1] = step;
-        largest = step > largest ? step : largest;
-        smallest = step > 0.0 && step < smallest ? step : smallest;
-    }
+    const size_t n = s->n - 1;
+    for (size_t i = 0; i < n; i++)
+        scratch[i] = fabs(s->force[i + 1] - s->force[i]);
+    const curve_span all = curve_span_of(scratch, n);
+    double smallest = all.low > 0.0 ? all.low : (double)INFINITY;
+    for (size_t i = 0; i < n && !(all.low > 0.0); i++)
+        smallest = scratch[i] > 0.0 && scratch[i] < smallest ? scratch[i] : smallest;
     *resolution = isfinite(smallest) ? smallest : 0.0;
-    return curve_select(scratch, s->n - 1, (s->n - 1) / 2, largest) /
-           (0.6744897501960817 * M_SQRT2);
+    return curve_select(scratch, n, n / 2, all.high) / (0.6744897501960817 * M_SQRT2);
 }
 
 /* Force that the travel of the samples from `first` on had gained just before it. */
@@ -180,10 +180,38 @@ static double advance_per_bending(const curve_samples *s, double noise)
     return (szf - sz * sf / n) / variance * s->spring_constant;
 }
 
+/* Are all numbers, and none the same as the one before? */
+WIDE_REGISTERS static bool all_good(const double *height, const double *force, size_t n)
+{
+    wide sum = {0.0}; /* of zeros, or nan */
+    wide_bits same = {0};
+    size_t i = 1;
+    for (; i + WIDE <= n; i += WIDE) {
+        wide z, f, z_before, f_before;
+        wide_load(&z, height + i);
+        wide_load(&f, force + i);
+        wide_load(&z_before, height + i - 1);
+        wide_load(&f_before, force + i - 1);
+        sum += 0.0 * z + 0.0 * f;
+        same |= (z == z_before) & (f == f_before);
+    }
+    bool good = !isnan(wide_sum(&sum)) && isfinite(height[0]) && isfinite(force[0]) &&
+                (same[0] | same[1] | same[2] | same[3]) == 0;
+    for (; i < n && good; i++)
+        good = isfinite(height[i]) && isfinite(force[i]) &&
+               (height[i] != height[i - 1] || force[i] != force[i - 1]);
+    return good;
+}
+
 /* Copies the good samples; the direction is not yet known. */
 static size_t clean(const double *height, const double *force, size_t n, curve_input *input)
 {
     size_t kept = 0;
+    if (all_good(height, force, n)) {
+        memcpy(input->samples.position, height, n * sizeof *height);
+        memcpy(input->samples.force, force, n * sizeof *force);
+        return n;
+    }
     for (size_t i = 0; i < n; i++) {
         if (!isfinite(height[i]) || !isfinite(force[i])) {
             input->n_missing++;

@@ -196,9 +196,8 @@ double curve_weights(const wt_contact_table *table, const curve_samples *samples
     enum { MOST = 64 };
     const size_t n = samples->n < MOST ? samples->n : MOST;
     const double c = minimum->contact_point;
-    double position[MOST], force[MOST] = {0.0}, weight[MOST + 1], last = c, largest = 1.0;
-    for (size_t i = 0; i < samples->n; i++)
-        last = samples->position[i] > last ? samples->position[i] : last;
+    const double last = fmax(c, curve_span_of(samples->position, samples->n).high);
+    double position[MOST], force[MOST] = {0.0}, weight[MOST + 1], largest = 1.0;
     const double step = (last - c) / (double)(n - 1);
     for (size_t i = 0; i < n; i++)
         position[i] = c + (double)i * step;

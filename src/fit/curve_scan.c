@@ -135,7 +135,8 @@ static projected project(const projection *p, contact_sums s)
     /* Where the contact part looks like a straight line nothing is left to decide. */
     if (free_gf > 0.0 && free_gg > 1e-12 * s.gg) {
         result.modulus = free_gf / free_gg;
-        result.cost = fmax(0.0, result.cost - free_gf * result.modulus);
+        const double cost = result.cost - free_gf * result.modulus;
+        result.cost = cost > 0.0 ? cost : 0.0;
         result.offset -= result.modulus * s.g * p->inverse_w;
         result.tilt -= result.modulus * along;
     }

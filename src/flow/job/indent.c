@@ -20,8 +20,8 @@
 
 /* A batch ends with the first of the two: it bounds memory and keeps all threads busy. There are
  * two of them: while one is fitted the next is read. */
-#define BATCH_CURVES 128
-#define BATCH_SAMPLES ((size_t)1 << 20)
+#define BATCH_CURVES 64
+#define BATCH_SAMPLES ((size_t)1 << 18)
 
 typedef struct item {
     wt_force_curve curve;
