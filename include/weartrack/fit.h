@@ -455,7 +455,8 @@ WT_API const wt_params *wt_slope_params(void);
 typedef struct wt_contact_slope {
     bool found;
     char why_not[96];              /* "", or why there is no slope */
-    double slope, slope_error;     /* of the signal against the piezo: [unit of the signal / m] */
+    double slope, slope_error;     /* of the signal against the piezo, with the error of the tilt:
+                                      [unit of the signal / m] */
     double change, change_error;   /* of the slope from end to end of the part, of the slope */
     double tilt;                   /* of the baseline, subtracted, of the slope; NaN: none seen */
     double misfit;                 /* root mean square of the residuals, of the rise */

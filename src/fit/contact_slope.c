@@ -20,6 +20,7 @@ enum {
     LEAST_BLOCKS = 6,
     BLOCK_SAMPLES = 2,
     PARAMETERS = 3,
+    LINE = 2, /* parameters of it */
     CURVE_LEAST = 40,
     FAR_SHARE = 10,
     LEAST_UNITS = 3
@@ -179,15 +180,29 @@ static bool find_part(samples *s, double low, double high, double baseline, part
     return true;
 }
 
-/* Slope of the baseline far from contact; NaN if less of it is there than of the part. */
-static double baseline_tilt(const samples *s, const part *p)
+/* Slope of the baseline far from contact, with its standard error by the means of blocks; NaN if
+ * less of it is there than of the part. */
+static double baseline_tilt(const samples *s, const part *p, double *standard_error)
 {
     const double end = s->z[0] + baseline_share * (p->contact - s->z[0]);
+    double z[BLOCKS], v[BLOCKS], zz = 0, left = 0;
     size_t n = 0;
     while (n < p->first && s->z[n] <= end)
         n++;
     if (n < BLOCKS || !(end - s->z[0] >= p->to - p->from))
         return (double)NAN;
+    for (size_t b = 0; b < BLOCKS; b++) {
+        const size_t first = n * b / BLOCKS, length = n * (b + 1) / BLOCKS - first;
+        z[b] = mean(s->z + first, length);
+        v[b] = mean(s->v + first, length);
+    }
+    const line l = line_through(z, v, BLOCKS);
+    for (size_t b = 0; b < BLOCKS; b++) {
+        const double off = v[b] - l.v - l.slope * (z[b] - l.z);
+        zz += (z[b] - l.z) * (z[b] - l.z);
+        left += off * off;
+    }
+    *standard_error = sqrt(left / (BLOCKS - LINE) / zz);
     return line_through(s->z, s->v, n).slope;
 }
 
@@ -249,10 +264,12 @@ static void measure_part(const samples *s, const part *p, double rise, wt_contac
     c->n = p->n;
     c->misfit = residual(s, p) / rise;
     fit_blocks(s, p, c);
-    const double tilt = baseline_tilt(s, p), own = c->slope;
+    double tilt_error = 0;
+    const double tilt = baseline_tilt(s, p, &tilt_error), own = c->slope;
     if (isnan(tilt))
         return;
     c->slope -= tilt;
+    c->slope_error = hypot(c->slope_error, tilt_error);
     c->tilt = tilt / c->slope;
     c->change *= own / c->slope;
     c->change_error *= own / c->slope;

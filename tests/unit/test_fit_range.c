@@ -214,7 +214,7 @@ static void intervals_cover(void **state)
                       100 * errors / n);
         assert_in_range(refused, 0, 0.04 * CURVES);
         assert_in_range(modulus, 0.91 * n, 0.99 * n);
-        assert_in_range(contact, 0.90 * n, n);
+        assert_in_range(contact, 0.91 * n, 0.99 * n);
         assert_true(fabs(sum) < 0.25 * errors);
     }
     /* a chance is above a half as often as below, of what is compared alone too */
