@@ -173,6 +173,10 @@ typedef struct wt_indent_fit {
     double contact_by[WT_CONTACT_ESTIMATORS]; /* less contact_point [m]; NaN: not asked for, or
                                                  none found */
     double fitted_from; /* indentation at which the range of the fit begins [m]; 0: contact */
+    /* Of a sine that the baseline shows (one false alarm in 1000 baselines), fitted with all else
+     * and in their errors: amplitude [N], 0: none; period [m], NaN: none. Its phase is that of the
+     * tip or of the height, as the contact says; where that does not tell, the error holds both. */
+    double interference_amplitude, interference_period;
 } wt_indent_fit;
 
 /* Scratch for curves of any length; one per thread. */

@@ -16,6 +16,7 @@
 #include "weartrack/fit.h"
 
 #include <gsl/gsl_min.h>
+#include <math.h>
 
 enum {
     CURVE_MIN_SAMPLES = 32,
@@ -43,6 +44,15 @@ static inline bool curve_in_gap(const curve_samples *s, size_t i)
     return i >= s->gap_from && i < s->gap_to;
 }
 
+/* A sine on the force: interference of the light that the lever reflects with that of the sample.
+ * Its phase is that of the path between them, so it goes with the tip. Other things (the mains, a
+ * step of the piezo) go with the height, in contact too. */
+enum { WAVE_COSINE, WAVE_SINE, WAVE_NUMBER, WAVE_PARAMETERS };
+typedef struct curve_wave {
+    double p[WAVE_PARAMETERS]; /* two amplitudes [N], 2 pi / period [1/m]; 0: there is none */
+    bool by_height;
+} curve_wave;
+
 /* Spectra that noise may have, in bands of the frequency: curve_noise.c. */
 enum { NOISE_BANDS = 52, NOISE_SHAPES = 82 };
 typedef struct noise_shapes {
@@ -68,6 +78,8 @@ struct wt_indent_workspace {
     double *by_contact, *time;        /* with memory */
     double *given_force, *given_time; /* of wt_indent_force_curve */
     double *retract_position, *retract_force;
+    double *without_wave;                             /* forces less the wave; `force` has it */
+    double *wave_column[WAVE_PARAMETERS], *wave_give; /* derivatives: curve_wave.c */
     scan_octave octave[SCAN_OCTAVES];
     double before_start[2][SCAN_REACH * SCAN_NODES + 1]; /* contact function, square */
     gsl_min_fminimizer *minimizer;
@@ -212,6 +224,7 @@ typedef struct curve_solution {
     double effective_n; /* samples over correlation length */
     curve_lack lack;
     bool bent; /* the baseline: the errors hold what that does if it goes on in contact */
+    curve_wave wave;
     double step_allowed, step_left; /* as in the workspace, of this curve */
     bool converged;
 } curve_solution;
@@ -220,13 +233,24 @@ typedef struct curve_kind {
     bool tilt, contact_fixed;
     bool plain; /* force against measured indentation */
     bool adhesive;
-    bool memory; /* the rubber has the spectrum of the options; not with adhesion */
-    bool lossy;  /* the retract shows loss: the residual may have its shape */
-    size_t jump; /* of adhesive contact: the first sample in it; 0: where the tip touches */
+    bool memory;     /* the rubber has the spectrum of the options; not with adhesion */
+    bool lossy;      /* the retract shows loss: the residual may have its shape */
+    size_t jump;     /* of adhesive contact: the first sample in it; 0: where the tip touches */
+    curve_wave wave; /* where to begin with it */
 } curve_kind;
+static inline bool curve_has_wave(const curve_wave *wave)
+{
+    return wave->p[WAVE_NUMBER] > 0.0;
+}
+static inline double curve_wave_amplitude(const curve_wave *wave)
+{
+    return hypot(wave->p[WAVE_COSINE], wave->p[WAVE_SINE]);
+}
 
 /* Least squares in all free parameters at once, starting from p; then the covariance with
- * correlated residuals. */
+ * correlated residuals. With a wave it is fitted, too, and the forces of the samples, which are
+ * those of `without_wave`, are left without it; whether it goes with the tip or with the height in
+ * contact, the cost decides, and the errors hold what the other would give. */
 void curve_refine(const wt_contact_table *table, const curve_samples *samples, curve_kind kind,
                   const double p[CURVE_N_PARAMETERS], wt_indent_workspace *workspace,
                   curve_solution *solution);

@@ -8,6 +8,7 @@
 #include "model/adhesion.h"
 #include "model/tip.h"
 
+#include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -65,9 +66,12 @@ WIDE_REGISTERS static bool find_snap(const curve_fitting *f, snap *found)
 static void leave_out(curve_fitting *f, size_t start, size_t end)
 {
     curve_samples *s = &f->input.samples;
+    const wt_indent_workspace *w = f->workspace;
     const size_t behind = f->input.n_all - f->n_snap - end;
     memmove(s->position + start, s->position + end, behind * sizeof *s->position);
     memmove(s->force + start, s->force + end, behind * sizeof *s->force);
+    if (s->force != w->force) /* less a wave */
+        memmove(w->force + start, w->force + end, behind * sizeof *w->force);
     s->n -= end - start;
     f->n_snap += end - start;
 }
@@ -172,6 +176,28 @@ WIDE_REGISTERS static size_t measure_retract(const curve_fitting *f, const doubl
     return kept;
 }
 
+/* Takes the wave of the way in out of n forces above the baseline, of which the last `far` are free
+ * of the sample, if it is there, too. */
+static void take_out_wave(const curve_fitting *f, const double *position, double *above, size_t n,
+                          size_t far)
+{
+    const curve_wave *wave = &f->solution.wave;
+    const double number = wave->p[WAVE_NUMBER];
+    double *part = f->workspace->scratch;
+    for (size_t i = 0; i < n; i++) {
+        const double bent = i < n - far && !wave->by_height
+                                ? fmax(above[i], 0.0) / f->input.samples.spring_constant
+                                : 0.0;
+        const double angle = number * (position[i] - bent);
+        part[i] = wave->p[WAVE_COSINE] * cos(angle) + wave->p[WAVE_SINE] * sin(angle);
+    }
+    const double with = gsl_stats_variance(above + n - far, 1, far);
+    for (size_t i = 0; i < n; i++)
+        part[i] = above[i] - part[i];
+    if (gsl_stats_variance(part + n - far, 1, far) < with)
+        memcpy(above, part, n * sizeof *above);
+}
+
 void curve_read_retract(curve_fitting *f, const double *height, const double *force, size_t n)
 {
     wt_indent_workspace *w = f->workspace;
@@ -182,6 +208,8 @@ void curve_read_retract(curve_fitting *f, const double *height, const double *fo
     const size_t far = kept / 4;
     if (far < CURVE_BASELINE_SAMPLES)
         return;
+    if (curve_has_wave(&f->solution.wave))
+        take_out_wave(f, position, above, kept, far);
     /* The far end is its own baseline: drag and drift part it from that of the approach. */
     memcpy(scratch, above + kept - far, far * sizeof *scratch);
     const double level = median(scratch, far);

@@ -169,6 +169,8 @@ void curve_fit_empty(wt_indent_fit *fit)
                            .misfit_length = nan_,
                            .spectrum_factor = {nan_, nan_, 0.0, "1"},
                            .fitted_from = nan_,
+                           .interference_amplitude = nan_,
+                           .interference_period = nan_,
                            .direction = nan_};
     for (int j = 0; j < CURVE_WAVES; j++)
         fit->misfit[j] = nan_;
@@ -253,6 +255,12 @@ static void report(curve_fitting *f, wt_indent_fit *fit)
     }
     for (int j = 0; j < CURVE_WAVES; j++)
         fit->misfit[j] = s->lack.wave[j] / fit->max_force;
+    if (curve_has_wave(&s->wave)) {
+        fit->interference_amplitude = curve_wave_amplitude(&s->wave);
+        fit->interference_period = 2.0 * M_PI / s->wave.p[WAVE_NUMBER];
+    } else {
+        fit->interference_amplitude = 0.0;
+    }
     report_adhesion(f, fit);
     if (f->n_minima > 1) {
         fit->second_minimum_ratio = f->minima[1].cost / f->minima[0].cost;
@@ -313,7 +321,7 @@ wt_status curve_fit_branches(const wt_contact_table *table, const wt_indent_opti
         fit->verdict = WT_CURVE_NO_APPROACH;
         return WT_OK;
     }
-    bool found = curve_scan_and_refine(&f);
+    bool found = curve_scan_and_refine(&f) && curve_fit_interference(&f);
     if (found && retract->n > 0)
         curve_read_retract(&f, retract->height, retract->force, retract->n);
     if (found)

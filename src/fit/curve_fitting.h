@@ -47,6 +47,13 @@ bool curve_remember(curve_fitting *f, const wt_prony *series, bool in_loading_ti
 /* Does noise alone explain the residual? True where there is too little baseline to say. */
 bool curve_fits(const curve_fitting *f);
 
+/* ---- interference: curve_interference.c --------------------------------------------------------
+ */
+
+/* From a fit of all samples: where the baseline shows a sine, fits it, too. False if nothing but a
+ * baseline is found then. */
+bool curve_fit_interference(curve_fitting *f);
+
 /* ---- range of the fit: curve_range.c -----------------------------------------------------------
  */
 

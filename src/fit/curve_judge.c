@@ -305,6 +305,12 @@ static void add_notes(const curve_fitting *f, const wt_indent_fit *fit, char rea
                                          : "|E*| at 1/(loading time) within 20 %");
         append(reason, text);
     }
+    if (fit->interference_amplitude > 0.0) {
+        curve_say(text, "; interference of %s and a period of %s fitted",
+                  curve_si(fit->interference_amplitude, "N").words,
+                  curve_si(fit->interference_period, "m").words);
+        append(reason, text);
+    }
     if (f->solution.bent)
         append(reason, "; baseline bent, which the error holds");
     const double error = fit->modulus.standard_error / fit->modulus.value;

@@ -27,7 +27,8 @@ enum {
     MAX_ORDER = 6, /* of the autoregression */
     COSINES = 8,
     LOSS = 4, /* powers of the logarithm of time */
-    MAX_COLUMNS = N + LOSS + COSINES,
+    OTHERS = N + LOSS + COSINES,
+    MAX_COLUMNS = OTHERS + WAVE_PARAMETERS,
 };
 static const double before_contact = 0.2; /* of the contact: a snap-on hides there */
 static const double per_freedom = 10.0;   /* blocks */
@@ -66,6 +67,9 @@ static void add_columns(const curve_law *m, const double p[N], size_t j, size_t 
         for (size_t power = 0; power < LOSS; power++)
             b->column[c + power][i] += fallen *= log(part);
     }
+    c += m->lossy ? (size_t)LOSS : 0;
+    for (size_t k = 0; k < WAVE_PARAMETERS && m->wave && !curve_in_gap(s, j); k++)
+        b->column[c + k][i] += m->workspace->wave_column[k][j] * share;
 }
 
 /* Block means of residual and Jacobian. False if there is too little baseline. */
@@ -77,7 +81,7 @@ static bool average(const curve_law *m, const double p[N], const double *e, bloc
     while (first < s->n && s->position[first] < p[CURVE_C] - before_contact * (end - p[CURVE_C]))
         first++;
     b->n = s->n - first < WINDOW ? s->n - first : WINDOW;
-    if (b->n <= MAX_COLUMNS)
+    if (b->n <= (m->wave ? MAX_COLUMNS : OTHERS))
         return false;
     const size_t length = (s->n - first) / b->n;
     first = s->n - length * b->n;
@@ -93,7 +97,7 @@ static bool average(const curve_law *m, const double p[N], const double *e, bloc
     b->n_columns = 0;
     for (size_t a = 0; a < N; a++)
         b->n_columns += m->free[a];
-    b->n_columns += m->lossy ? LOSS : 0;
+    b->n_columns += (m->lossy ? (size_t)LOSS : 0) + (m->wave ? (size_t)WAVE_PARAMETERS : 0);
     const double share = 1.0 / (double)length;
     for (size_t i = 0; i < b->n_before + b->n; i++) {
         const size_t from = first + i * length - b->n_before * length;

@@ -49,10 +49,13 @@ static void sum_baseline(curve_law *m, size_t n)
     }
 }
 
-/* In the plain residual noise decides which samples are in contact: none is left to the sums. */
+/* In the plain residual noise decides which samples are in contact: none is left to the sums. Nor
+ * where a wave changes all of them. */
 static size_t count_baseline(const curve_law *m, double c)
 {
     const curve_samples *s = m->samples;
+    if (m->wave)
+        return 0;
     if (m->jump > 0)
         return m->jump;
     const double limit = c - margin * fabs(s->position[s->n - 1] - c);
@@ -298,7 +301,8 @@ WIDE_REGISTERS static size_t sum_four(const curve_law *m, const double p[N], nor
 static void sum_rows(const curve_law *m, const double p[N], normal_equations *to)
 {
     const curve_samples *s = m->samples;
-    const bool simple = !m->plain && !m->adhesive && !m->memory && s->gap_to <= s->gap_from;
+    const bool simple =
+        !m->plain && !m->adhesive && !m->memory && !m->wave && s->gap_to <= s->gap_from;
     const size_t first = simple ? sum_four(m, p, to) : m->n_baseline;
     normal_equations e = *to; /* whose sums stay in registers */
     for (size_t i = first; i < s->n; i++) {

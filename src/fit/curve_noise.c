@@ -35,12 +35,6 @@ typedef struct block_sums {
     double e[BLOCKS], z[BLOCKS], column[N][BLOCKS]; /* means of residual and position, sums of J */
 } block_sums;
 
-/* Variance of a unit wave of means over `length` samples, by its frequency: 1 is half a cycle for
- * each of them. */
-typedef struct spectrum {
-    double density[NOISE_BANDS], length;
-} spectrum;
-
 static void add_shape(noise_shapes *to, size_t s, double knee, double corner, double power)
 {
     to->knee[s] = knee;
@@ -70,8 +64,7 @@ static size_t band_of(double frequency)
     return !(band > 0.0) ? 0 : band < NOISE_BANDS - 1 ? (size_t)(band + 0.5) : NOISE_BANDS - 1;
 }
 
-/* Of unit wave k of n blocks of `length` samples. */
-static double variance_of(const spectrum *s, double k, size_t n, size_t length)
+double curve_noise_variance(const curve_spectrum *s, double k, size_t n, size_t length)
 {
     const double part = s->length / (double)length;
     return part * s->density[band_of(part * k / (double)n)];
@@ -179,9 +172,7 @@ static void average(const curve_law *m, const double p[N], const double *e, size
     }
 }
 
-/* The mean spectrum of n residuals x, each the mean of some samples. False if there is nothing. */
-static bool find_spectrum(const noise_shapes *shapes, const double x[BLOCKS], size_t n,
-                          spectrum *to)
+bool curve_noise_spectrum(const noise_shapes *shapes, const double *x, size_t n, curve_spectrum *to)
 {
     double power[NOISE_BANDS] = {0.0}, count[NOISE_BANDS] = {0.0};
     double chance[NOISE_SHAPES], level[NOISE_SHAPES], best = -(double)INFINITY, all = 0.0;
@@ -238,7 +229,7 @@ static bool find_spectrum(const noise_shapes *shapes, const double x[BLOCKS], si
 }
 
 /* How much more there is of the slow waves in contact than the noise has. */
-static double slow_misfit(const block_sums *b, const spectrum *s)
+static double slow_misfit(const block_sums *b, const curve_spectrum *s)
 {
     const size_t n = b->n - b->before;
     double rest[1][BLOCKS], along[AT_ONCE][N], sum = 0.0, waves = 0.0;
@@ -247,14 +238,14 @@ static double slow_misfit(const block_sums *b, const spectrum *s)
         const size_t j = (k - 1) % AT_ONCE;
         if (j == 0)
             find_waves(k, n, (const double(*)[BLOCKS])rest, 1, along);
-        sum += along[j][0] * along[j][0] / variance_of(s, (double)k, n, b->length);
+        sum += along[j][0] * along[j][0] / curve_noise_variance(s, (double)k, n, b->length);
         waves += 1.0;
     }
     return waves > 0.0 ? sum / waves : 1.0;
 }
 
 /* to = J' (covariance of the noise) J, of the first parameters. */
-static void sum_waves(const block_sums *b, const spectrum *s, size_t n_free, double to[N][N])
+static void sum_waves(const block_sums *b, const curve_spectrum *s, size_t n_free, double to[N][N])
 {
     double waves[AT_ONCE][N], left[N][N];
     size_t k = 0;
@@ -264,7 +255,7 @@ static void sum_waves(const block_sums *b, const spectrum *s, size_t n_free, dou
             to[c][d] = 0.0;
         }
     for (; k < b->n && k <= WAVES; k++) {
-        const double level = variance_of(s, k > 0 ? (double)k : 0.5, b->n, b->length);
+        const double level = curve_noise_variance(s, k > 0 ? (double)k : 0.5, b->n, b->length);
         const double *along = waves[k % AT_ONCE];
         if (k % AT_ONCE == 0)
             find_waves(k, b->n, (const double(*)[BLOCKS])b->column, n_free, waves);
@@ -277,13 +268,13 @@ static void sum_waves(const block_sums *b, const spectrum *s, size_t n_free, dou
     if (k < b->n)
         for (size_t c = 0; c < n_free; c++)
             for (size_t d = 0; d <= c; d++)
-                to[c][d] += variance_of(s, (double)k, b->n, b->length) * left[c][d];
+                to[c][d] += curve_noise_variance(s, (double)k, b->n, b->length) * left[c][d];
 }
 
 /* Of the baseline, the first `first` samples e, less a line, or where it is bent a parabola, which
  * goes to `bow` all along the blocks. False if there is too little. */
 static bool read_baseline(const curve_law *m, const double *e, size_t first, block_sums *b,
-                          bool bent, double *bow, double *curvature, spectrum *to)
+                          bool bent, double *bow, double *curvature, curve_spectrum *to)
 {
     double x[BLOCKS], y[BLOCKS], z[FINE + BLOCKS], square[FINE + BLOCKS];
     const size_t length = (first + FINE - 1) / FINE, n = length > 0 ? first / length : 0;
@@ -306,14 +297,14 @@ static bool read_baseline(const curve_law *m, const double *e, size_t first, blo
     if (!bent)
         remove_powers(z, x, n, n, 2, square);
     to->length = (double)length;
-    return find_spectrum(&m->workspace->shapes, bent ? y : x, n, to);
+    return curve_noise_spectrum(&m->workspace->shapes, bent ? y : x, n, to);
 }
 
 curve_noise curve_noise_of(const curve_law *m, const double p[N], const double *e, size_t first,
                            bool bent)
 {
     block_sums b;
-    spectrum s;
+    curve_spectrum s;
     double bow[BLOCKS] = {0.0};
     curve_noise noise = {.variance = 0.0, .correlation_length = 1.0, .curvature = (double)NAN};
     average(m, p, e, first, &b);
@@ -321,14 +312,14 @@ curve_noise curve_noise_of(const curve_law *m, const double p[N], const double *
         noise.variance = curve_dot(e, e, first) / (double)first;
     if (!read_baseline(m, e, first, &b, bent, bow, &noise.curvature, &s)) {
         s.length = (double)b.length;
-        if (!find_spectrum(&m->workspace->shapes, b.e, b.n, &s))
+        if (!curve_noise_spectrum(&m->workspace->shapes, b.e, b.n, &s))
             return noise;
     }
     const double misfit = slow_misfit(&b, &s);
     if (noise.variance > 0.0) { /* at waves as long as the contact that the baseline shows, too */
         const double contact = (double)(m->samples->n - first);
         const double wave = fmax(2.0 / contact, 4.0 / (double)first);
-        noise.correlation_length = fmax(1.0, variance_of(&s, wave, 1, 1) / noise.variance);
+        noise.correlation_length = fmax(1.0, curve_noise_variance(&s, wave, 1, 1) / noise.variance);
     }
     /* What the law misses shows in contact; a little of it is chance. */
     const double more = sqrt(fmax(1.0, m->lossy ? misfit : 0.5 * (misfit + 1.0)));

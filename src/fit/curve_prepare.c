@@ -30,7 +30,7 @@ enum {
 
 wt_status curve_reserve(wt_indent_workspace *w, size_t n, wt_error *err)
 {
-    enum { N_ARRAYS = 17 };
+    enum { N_ARRAYS = 22 };
     if (n <= w->capacity)
         return WT_OK;
     size_t capacity = n + n / 4;
@@ -58,7 +58,12 @@ wt_status curve_reserve(wt_indent_workspace *w, size_t n, wt_error *err)
                                        &w->retract_position,
                                        &w->retract_force,
                                        &w->by_contact,
-                                       &w->time};
+                                       &w->time,
+                                       &w->without_wave,
+                                       &w->wave_column[WAVE_COSINE],
+                                       &w->wave_column[WAVE_SINE],
+                                       &w->wave_column[WAVE_NUMBER],
+                                       &w->wave_give};
     for (size_t i = 0; i < N_ARRAYS; i++)
         *arrays[i] = block + i * capacity;
     return WT_OK;

@@ -66,17 +66,36 @@ static double by_rounding(const curve_samples *s)
     return 1e-28 * curve_dot(s->force, s->force, s->n);
 }
 
-/* Leaves the model evaluated at p. */
-static bool minimise(curve_law *m, double p[N], double *cost)
+static double cost_at(curve_law *m, const double p[N], const curve_wave *wave)
+{
+    const double cost = curve_model_cost(m, p);
+    return m->wave ? curve_wave_cost(m, p, wave) : cost;
+}
+
+/* Of the wave, along with a step of the others. */
+static curve_wave wave_after(const curve_law *m, const curve_wave *wave, const wave_step *alone,
+                             const double step[N], double damping)
+{
+    curve_wave to = *wave;
+    for (size_t j = 0; j < WAVE_PARAMETERS && m->wave; j++)
+        to.p[j] += alone->step[j] / (1.0 + damping) - dot(m->imitated[j], step);
+    return to;
+}
+
+/* Leaves the model evaluated at p and the wave. */
+static bool minimise(curve_law *m, double p[N], curve_wave *wave, double *cost)
 {
     const curve_samples *s = m->samples;
     double expected = (double)INFINITY;
     const double rounding = by_rounding(s);
+    wave_step alone = {.gain = 0.0};
     curve_model_start(m, p);
-    *cost = curve_model_cost(m, p);
+    *cost = cost_at(m, p, wave);
     for (int iteration = 0; iteration < (m->adhesive ? MAX_ADHESIVE : MAX_ITERATIONS);
          iteration++) {
         normal_equations e;
+        if (m->wave && !curve_wave_imitate(m, p, &alone))
+            return false;
         curve_model_normal(m, p, &e);
         bool moved = false;
         for (double damping = 0.0; !moved; damping = damping > 0.0 ? 10.0 * damping : 1e-3) {
@@ -84,24 +103,27 @@ static bool minimise(curve_law *m, double p[N], double *cost)
             memcpy(step[0], e.jr, sizeof e.jr);
             bool solved = solve(&e, damping, step, 1);
             if (damping == 0.0) {
-                expected = solved ? dot(step[0], e.jr) : (double)INFINITY;
+                expected = solved ? dot(step[0], e.jr) + alone.gain : (double)INFINITY;
                 if (expected <= by_step(s, *cost) || expected <= rounding)
                     return true;
             }
             for (size_t a = 0; a < N; a++)
                 trial[a] = p[a] + step[0][a];
-            if (solved && trial[CURVE_E] > 0.0 && trial[CURVE_W] >= 0.0) {
-                double trial_cost = curve_model_cost(m, trial);
+            const curve_wave trial_wave = wave_after(m, wave, &alone, step[0], damping);
+            if (solved && trial[CURVE_E] > 0.0 && trial[CURVE_W] >= 0.0 &&
+                (!m->wave || trial_wave.p[WAVE_NUMBER] > 0.0)) {
+                double trial_cost = cost_at(m, trial, &trial_wave);
                 /* Near the minimum the decrease drowns in the rounding of the cost and its sums. */
                 if (trial_cost < *cost ||
                     (damping == 0.0 && expected < fmax(1e-9 * *cost, 1e-14 * m->ff))) {
                     *cost = trial_cost;
                     memcpy(p, trial, sizeof trial);
+                    *wave = trial_wave;
                     moved = true;
                 }
             }
             if (damping > 1e8) { /* nothing descends: rounding decides, unless much was expected */
-                *cost = curve_model_cost(m, p);
+                *cost = cost_at(m, p, wave);
                 return expected <= 1e6 * rounding;
             }
         }
@@ -170,24 +192,65 @@ static void statistics(const curve_law *m, curve_solution *s)
     s->sensitivity_gain = solved ? inverse[N][CURVE_E] / p[CURVE_E] : (double)NAN;
 }
 
-void curve_refine(const wt_contact_table *table, const curve_samples *samples, curve_kind kind,
-                  const double p[N], wt_indent_workspace *workspace, curve_solution *solution)
+/* curve_refine with one of the ways of a wave, or without. */
+static void refine_one(const wt_contact_table *table, const curve_samples *samples,
+                       const curve_kind *kind, const double p[N], wt_indent_workspace *workspace,
+                       curve_solution *solution)
 {
     curve_law m = {.table = table,
                    .samples = samples,
                    .workspace = workspace,
-                   .free = {true, !kind.contact_fixed, true, kind.tilt, kind.adhesive},
-                   .plain = kind.plain,
-                   .adhesive = kind.adhesive,
-                   .memory = kind.memory && !kind.adhesive,
-                   .lossy = kind.lossy,
-                   .jump = kind.jump};
-    curve_solution s = {.p = {p[CURVE_E], p[CURVE_C], p[CURVE_F0], kind.tilt ? p[CURVE_T] : 0.0,
-                              kind.adhesive ? p[CURVE_W] : 0.0}};
-    s.converged = minimise(&m, s.p, &s.cost);
+                   .free = {true, !kind->contact_fixed, true, kind->tilt, kind->adhesive},
+                   .plain = kind->plain,
+                   .adhesive = kind->adhesive,
+                   .memory = kind->memory && !kind->adhesive,
+                   .lossy = kind->lossy,
+                   .wave = curve_has_wave(&kind->wave),
+                   .jump = kind->jump};
+    curve_solution s = {.p = {p[CURVE_E], p[CURVE_C], p[CURVE_F0], kind->tilt ? p[CURVE_T] : 0.0,
+                              kind->adhesive ? p[CURVE_W] : 0.0},
+                        .wave = kind->wave};
+    wave_step ignored;
+    s.converged = minimise(&m, s.p, &s.wave, &s.cost);
+    if (m.wave)
+        s.converged = curve_wave_imitate(&m, s.p, &ignored) && s.converged;
     curve_model_complete(&m, s.p);
     statistics(&m, &s);
     *solution = s;
+}
+
+static bool better(const curve_solution *a, const curve_solution *b)
+{
+    return a->converged && (!b->converged || a->cost < b->cost);
+}
+
+void curve_refine(const wt_contact_table *table, const curve_samples *samples, curve_kind kind,
+                  const double p[N], wt_indent_workspace *workspace, curve_solution *solution)
+{
+    if (!curve_has_wave(&kind.wave)) {
+        refine_one(table, samples, &kind, p, workspace, solution);
+        return;
+    }
+    curve_solution way[2], other; /* with the tip, with the height */
+    for (int h = 0; h < 2; h++) {
+        kind.wave.by_height = h;
+        refine_one(table, samples, &kind, p, workspace, &way[h]);
+    }
+    for (int h = 0; h < 2; h++) { /* from where the other came to, for there are several minima */
+        curve_kind from = kind;
+        from.wave = way[1 - h].wave;
+        from.wave.by_height = h;
+        refine_one(table, samples, &from, way[1 - h].p, workspace, &other);
+        way[h] = better(&other, &way[h]) ? other : way[h];
+    }
+    const double chi2 = way[0].effective_n * log(way[1].cost / way[0].cost);
+    const int best = better(&way[1], &way[0]);
+    kind.wave = way[best].wave; /* once more, for the workspace shall be that of the solution */
+    refine_one(table, samples, &kind, way[best].p, workspace, solution);
+    const double share = 1.0 / (1.0 + exp(0.5 * fabs(chi2))); /* of likelihood: the other's */
+    for (size_t a = 0; a < N; a++)
+        solution->standard_error[a] =
+            hypot(solution->standard_error[a], sqrt(share) * (way[0].p[a] - way[1].p[a]));
 }
 
 double curve_weights(const wt_contact_table *table, const curve_samples *samples,

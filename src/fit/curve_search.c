@@ -22,7 +22,7 @@ static bool find_times(const curve_fitting *f)
     for (size_t j = 0; measured->time != NULL && j < measured->n && i < s->n; j++) {
         const double z = f->input.direction * measured->height[j] - f->input.position_origin,
                      force = measured->force[j] - f->input.force_origin;
-        if (z - s->position[i] != 0.0 || force - s->force[i] != 0.0)
+        if (z - s->position[i] != 0.0 || force - f->workspace->force[i] != 0.0)
             continue;
         time[i] = measured->time[j];
         if (i > 0 && !(time[i] > time[i - 1]))
@@ -88,8 +88,10 @@ bool curve_scan_and_refine(curve_fitting *f)
     const curve_minimum *best = &f->minima[0];
     const double start[CURVE_N_PARAMETERS] = {best->reduced_modulus, best->contact_point,
                                               best->offset, best->tilt, 0.0};
-    f->kind =
-        (curve_kind){.tilt = o->fit_tilt, .contact_fixed = fixed, .plain = o->plain_least_squares};
+    f->kind = (curve_kind){.tilt = o->fit_tilt,
+                           .contact_fixed = fixed,
+                           .plain = o->plain_least_squares,
+                           .wave = f->kind.wave};
     curve_refine(f->table, s, f->kind, start, f->workspace, &f->solution);
     if (o->spectrum != NULL && !o->plain_least_squares)
         add_memory(f);

@@ -224,6 +224,7 @@ void afm_sample_write(const afm_sample *sample, const afm_scene *s, random_sourc
                       int curve, FILE *file)
 {
     const double sd = s->noise * sample->largest;
+    const double phase = s->interference > 0 ? 2 * M_PI * random_uniform(random) : 0;
     noise_state state = {0};
     fprintf(file,
             "## table: force_curve/%d\n"
@@ -232,6 +233,12 @@ void afm_sample_write(const afm_sample *sample, const afm_scene *s, random_sourc
             curve, sample->spring_constant, curve);
     for (int i = 0; i < AFM_SAMPLES; i++) {
         double force = sample->force[i] + sd * next_noise(s->kind, i, &state, random);
+        if (s->interference > 0) {
+            const double way = s->with_height || sample->base[i] < 0
+                                   ? sample->base[i]
+                                   : sample->base[i] - sample->force[i] / sample->spring_constant;
+            force += s->interference * sd * sin(2 * M_PI * way / s->period + phase);
+        }
         if (s->spikes > 0 && random_uniform(random) < s->spikes)
             force += sd * (20 + 20 * random_uniform(random));
         if (i == AFM_BRANCH)

@@ -47,7 +47,10 @@ typedef struct afm_scene {
     double drift;                /* of the force by the end, as the square root of time */
     double saturation;           /* force at which the detector has lost 10 %, of the largest */
     double spikes;               /* share of samples 20 to 40 noises off */
-    double spots; /* relative scatter of the moduli of six spots, a file each; 0: one spot */
+    double interference, period; /* amplitude in noises; of the path [m] */
+    bool with_height; /* the path is that of the piezo in contact, too, else that of the tip */
+    double soft_top;  /* share of the largest force that the detector loses there, little before */
+    double spots;     /* relative scatter of the moduli of six spots, a file each; 0: one spot */
 } afm_scene;
 
 extern const afm_scene afm_scenes[];

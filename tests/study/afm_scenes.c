@@ -13,6 +13,9 @@
 #define NOT_REFUSED (RIGHT(YES) | RIGHT(CANNOT_SAY)) /* too noisy to say more */
 #define NOT_MISSED (RIGHT(NO) | RIGHT(CANNOT_SAY))
 
+/* With a baseline of 1.3 um. */
+#define SOFT .modulus = 50e3, .spring_constant = 0.02, .depth = 400e-9
+
 const afm_scene afm_scenes[] = {
     {NAMED("IC1", "clean, white 0.2 %"), .facts.intervals_promised = true,
      .facts.verdict_promised = true, .facts.right = DESCRIBED, .noise = 0.002},
@@ -181,6 +184,25 @@ const afm_scene afm_scenes[] = {
      .saturation = 0.3},
     {NAMED("IB8", "detector 10 % short, correlated 2 %"), .facts.right = EITHER, .noise = 0.02,
      .kind = NOISE_CORRELATED, .saturation = 1},
+    {NAMED("II1", "interference of 1 noise, 400 nm"), .facts.intervals_promised = true,
+     .facts.right = NOT_REFUSED, SOFT, .noise = 0.005, .interference = 1, .period = 400e-9},
+    {NAMED("II2", "interference of 3 noises, 300 nm"), .facts.intervals_promised = true,
+     .facts.right = NOT_REFUSED, SOFT, .noise = 0.005, .interference = 3, .period = 300e-9},
+    {NAMED("II3", "interference of 3 noises, 1 um"), .facts.intervals_promised = true,
+     .facts.right = NOT_REFUSED, SOFT, .noise = 0.005, .interference = 3, .period = 1e-6},
+    {NAMED("II4", "interference of 3 noises, 400 nm, correlated"), .facts.intervals_promised = true,
+     .facts.right = NOT_REFUSED, SOFT, .noise = 0.005, .kind = NOISE_CORRELATED, .interference = 3,
+     .period = 400e-9},
+    {NAMED("II5", "interference of 3 noises, 500 nm, with the height"),
+     .facts.intervals_promised = true, .facts.right = NOT_REFUSED, SOFT, .noise = 0.005,
+     .interference = 3, .period = 500e-9, .with_height = true},
+    {NAMED("II6", "interference of 1 noise, 1 um, 1/f"), .facts.intervals_promised = true,
+     .facts.right = NOT_REFUSED, SOFT, .noise = 0.005, .kind = NOISE_FLICKER, .interference = 1,
+     .period = 1e-6},
+    {NAMED("II7", "long baseline, correlated, no interference"), .facts.intervals_promised = true,
+     .facts.right = DESCRIBED, SOFT, .noise = 0.005, .kind = NOISE_CORRELATED},
+    {NAMED("II8", "long baseline, bow of 5 nm"), .facts.right = ANYTHING, SOFT, .noise = 0.005,
+     .bow = 5e-9},
     {NAMED("IP1", "spikes in 1 %"), .facts.intervals_promised = true,
      .facts.verdict_promised = true, .facts.right = DESCRIBED, .noise = 0.005, .spikes = 0.01},
     {NAMED("IP2", "spikes in 10 %"), .facts.intervals_promised = true, .facts.right = DESCRIBED,

@@ -47,6 +47,10 @@
     X(INDENTATION_BEND_SHIFT, "bend_shift",                                                        \
       "what the bend of the baseline adds to the modulus if it goes on in contact; 0: straight",   \
       SI(MODULUS), OPTIONAL)                                                                       \
+    X(INDENTATION_INTERFERENCE_AMPLITUDE, "interference_amplitude",                                \
+      "amplitude of a sine that the baseline shows, fitted with the modulus; 0: none", SI(FORCE),  \
+      OPTIONAL)                                                                                    \
+    X(INDENTATION_INTERFERENCE_PERIOD, "interference_period", "its period", SI(LENGTH), OPTIONAL)  \
     X(INDENTATION_MAX_FORCE, "max_force", "largest force above the baseline", SI(FORCE), OPTIONAL) \
     X(INDENTATION_MAX_INDENTATION, "max_indentation", "largest indentation in the fit",            \
       SI(INDENTATION), OPTIONAL)                                                                   \

@@ -215,6 +215,8 @@ void flow_indentation_row(table_writer *t, const wt_indent_job *job, const char 
     indentation_put(t, INDENTATION_LACK_OF_FIT_CHANCE, fit->lack_of_fit_chance);
     indentation_put(t, INDENTATION_BASELINE_CHANCE, fit->baseline_chance);
     indentation_put(t, INDENTATION_BEND_SHIFT, fit->bend_shift);
+    indentation_put(t, INDENTATION_INTERFERENCE_AMPLITUDE, fit->interference_amplitude);
+    indentation_put(t, INDENTATION_INTERFERENCE_PERIOD, fit->interference_period);
     indentation_put(t, INDENTATION_MAX_FORCE, fit->max_force);
     indentation_put(t, INDENTATION_MAX_INDENTATION, fit->max_indentation);
     indentation_put(t, INDENTATION_FITTED_FROM, fit->fitted_from);

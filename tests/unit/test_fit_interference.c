@@ -1,0 +1,164 @@
+/* A sine on the baseline: fitted exactly where there is no noise, found in noise, not found where
+ * there is none, and in the error.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "near.h"
+
+#include "synthetic_curve.h"
+#include "weartrack/fit.h"
+
+#include <string.h>
+
+static curve_data data;
+static wt_indent_workspace *workspace;
+
+typedef struct sine {
+    double amplitude, period, phase;
+    bool by_height;
+} sine;
+
+/* 1.2 um of baseline, and 250 nm in contact, of which a fifth bends the lever. */
+static curve_truth soft(void)
+{
+    curve_truth t = curve_standard();
+    t.tip = (wt_tip){.shape = WT_TIP_PARABOLOID, .radius = 500e-9};
+    t.modulus = 50e3;
+    t.spring_constant = 0.05;
+    t.travel = 1450e-9;
+    t.contact_point = 1200.3e-9;
+    t.offset = 0.2e-9;
+    t.tilt = 1e-5;
+    t.noise = 10e-12;
+    return t;
+}
+
+static void make(const curve_truth *t, const sine *s, uint64_t seed)
+{
+    curve_make(t, seed, &data);
+    for (size_t i = 0; i < t->n; i++) {
+        const double z = t->travel * (double)i / (double)(t->n - 1);
+        const double bent = curve_contact_force(t, z - t->contact_point) / t->spring_constant;
+        const double path = s->by_height ? z : z - bent;
+        data.force[i] += s->amplitude * sin(2 * M_PI * path / s->period + s->phase);
+    }
+}
+
+static wt_indent_fit fit_of(const curve_truth *t)
+{
+    wt_contact_table *table = NULL;
+    wt_indent_fit fit;
+    wt_error err = WT_ERROR_INIT;
+    assert_int_equal(wt_contact_table_new(&t->tip, 1e-11, 1e-4, &table, NULL), WT_OK);
+    if (wt_indent_fit_curve(table, NULL, data.height, data.force, data.time, t->n,
+                            t->spring_constant, workspace, &fit, &err) != WT_OK)
+        fail_msg("%s", err.message);
+    wt_contact_table_free(table);
+    return fit;
+}
+
+static void exact(void **state)
+{
+    (void)state;
+    const sine cases[] = {{20e-12, 350e-9, 0.3, false},
+                          {20e-12, 350e-9, 2.0, true},
+                          {200e-12, 180e-9, 4.0, false},
+                          {100e-12, 700e-9, 1.0, true},
+                          {100e-12, 700e-9, 5.0, false}};
+    curve_truth t = soft();
+    t.noise = 1e-16; /* of forces of 2.5 nN */
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        t.direction = i % 2 == 0 ? 1 : -1;
+        make(&t, &cases[i], 1 + i);
+        const wt_indent_fit fit = fit_of(&t);
+        if (fit.verdict != WT_CURVE_ACCEPTED)
+            fail_msg("case %zu: %s", i, fit.reason);
+        assert_near(fit.modulus.value, t.modulus, 1e-5);
+        assert_near(fit.interference_amplitude, cases[i].amplitude, 1e-4);
+        assert_near(fit.interference_period, cases[i].period, 1e-5);
+        assert_near_abs(fit.contact_point.value, t.direction * t.height0 + t.contact_point, 1e-13);
+        assert_non_null(strstr(fit.reason, "interference of "));
+    }
+}
+
+/* Of a half and of three standard deviations of the noise, white and correlated. */
+static void intervals_cover(void **state)
+{
+    (void)state;
+    static const struct {
+        double amplitude, period, correlation;
+        int found; /* least share of them [%] */
+    } cases[] = {{0.5, 250e-9, 0, 75}, {3, 400e-9, 0, 97}, {3, 400e-9, 0.9, 90}};
+    enum { CURVES = 200 };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        curve_truth t = soft();
+        t.n = 1500;
+        t.correlation = cases[i].correlation;
+        int covered = 0, contact = 0, accepted = 0, found = 0;
+        for (int draw = 0; draw < CURVES; draw++) {
+            const sine s = {cases[i].amplitude * t.noise, cases[i].period, 0.7 * draw, draw % 2};
+            make(&t, &s, 1 + 7919 * (uint64_t)draw);
+            const wt_indent_fit fit = fit_of(&t);
+            if (fit.verdict != WT_CURVE_ACCEPTED)
+                continue;
+            accepted++;
+            found += fit.interference_amplitude > 0;
+            covered += fabs(fit.modulus.value - t.modulus) < 1.96 * fit.modulus.standard_error;
+            contact += fabs(fit.contact_point.value - t.height0 - t.contact_point) <
+                       1.96 * fit.contact_point.standard_error;
+        }
+        print_message("%g noises, correlation %g: %d accepted, %d found, E %d, contact %d\n",
+                      cases[i].amplitude, cases[i].correlation, accepted, found, covered, contact);
+        assert_in_range(accepted, 0.96 * CURVES, CURVES);
+        assert_in_range(100 * found, cases[i].found * accepted, 100 * accepted);
+        assert_in_range(covered, 0.90 * accepted, 0.99 * accepted);
+        assert_in_range(contact, 0.90 * accepted, 0.99 * accepted);
+    }
+}
+
+/* Of baselines without a sine one in 1000 is said to have one; a bent one is bent. */
+static void no_false_alarms(void **state)
+{
+    (void)state;
+    static const double correlation[] = {0, 0.8, 0.95};
+    enum { CURVES = 800 };
+    for (size_t k = 0; k < sizeof correlation / sizeof correlation[0]; k++) {
+        int found = 0, bent = 0;
+        curve_truth t = soft();
+        t.n = 1000;
+        t.correlation = correlation[k];
+        for (int draw = 0; draw < CURVES; draw++) {
+            curve_make(&t, 3 + 104729 * (uint64_t)draw, &data);
+            found += fit_of(&t).interference_amplitude > 0;
+            for (size_t i = 0; i < t.n; i++) {
+                const double x = (double)i / (double)t.n;
+                data.force[i] += 12 * t.noise * x * (1 - x);
+            }
+            bent += fit_of(&t).interference_amplitude > 0;
+        }
+        print_message("correlation %g: %d, with a bend %d of %d\n", correlation[k], found, bent,
+                      CURVES);
+        assert_in_range(found, 0, 5); /* 6 of a mean of 0.8: 2e-4 */
+        assert_in_range(bent, 0, 5);
+    }
+}
+
+static int make_workspace(void **state)
+{
+    (void)state;
+    return (workspace = wt_indent_workspace_new()) == NULL;
+}
+
+static int free_workspace(void **state)
+{
+    (void)state;
+    wt_indent_workspace_free(workspace);
+    return 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(exact), cmocka_unit_test(intervals_cover),
+                                       cmocka_unit_test(no_false_alarms)};
+    return cmocka_run_group_tests(tests, make_workspace, free_workspace);
+}
