@@ -209,6 +209,8 @@ typedef struct curve_lack {
     double baseline_chance;   /* that a straight baseline departs as much from a line */
     double wave[CURVE_WAVES]; /* cosines over the contact [N] */
     double window;            /* what they are over, to the end [m] */
+    double flat_chance; /* that the force of a contact flattens as much at its top by noise alone */
+    double flat_from;   /* force up to which little of that is to be seen [N] */
 } curve_lack;
 
 typedef struct curve_solution {

@@ -27,7 +27,9 @@ static const double least_bias = 0.005; /* of a modulus by loss, to be said */
 /* Of the work: at a tan delta of 1, to which elastic fits of rubber with broad spectra were tried:
  * a pyramid was up to 12 % off, a cone 17 %. */
 static const double most_tried = 0.85;
-static const double large_error = 0.2; /* of a modulus that is accepted, to be said */
+static const double flat_chance = 0.001; /* of a top of the force that flattens by noise */
+static const double most_flat = 0.5;     /* loss: much of it flattens the force, too */
+static const double large_error = 0.2;   /* of a modulus that is accepted, to be said */
 
 static const struct {
     const char *id, *text;
@@ -187,6 +189,13 @@ bool curve_unknown_loss(const curve_fitting *f)
            !f->kind.memory;
 }
 
+/* Forces of a punch do not rise ever steeper. */
+static bool flattens(const curve_fitting *f)
+{
+    return f->solution.lack.flat_chance < flat_chance && !(f->loss > most_flat) &&
+           contact_table_tip(f->table)->shape != WT_TIP_PUNCH;
+}
+
 /* What is against the contact law. */
 static wt_curve_verdict judge_law(const curve_fitting *f, const wt_indent_fit *fit,
                                   char reason[160])
@@ -205,6 +214,14 @@ static wt_curve_verdict judge_law(const curve_fitting *f, const wt_indent_fit *f
         curve_say(reason, "contact radius %.2f of the thickness of the sample; its law holds to %g",
                   reach, THIN_SAMPLE_REACH);
         return WT_CURVE_TOO_DEEP;
+    }
+    if (flattens(f)) {
+        curve_say(
+            reason,
+            "the force flattens towards its top (chance %s by noise): detector, or the sample "
+            "gives way; a force limit below %s makes the rest usable",
+            number_chance(s->lack.flat_chance).text, curve_si(s->lack.flat_from, "N").words);
+        return WT_CURVE_SATURATED;
     }
     if (curve_unknown_loss(f)) {
         curve_say(
@@ -241,7 +258,7 @@ static wt_curve_verdict judge_law(const curve_fitting *f, const wt_indent_fit *f
         }
         curve_say(reason,
                   "slow residual %.3g times what the noise of the baseline explains: another "
-                  "tip, a layer, loss, adhesion or an uneven piezo",
+                  "tip, a layer, loss, adhesion, an uneven piezo or detector",
                   lack);
         return WT_CURVE_POOR_FIT;
     }

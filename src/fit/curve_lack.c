@@ -8,6 +8,10 @@
  * parabola and a cubic. The degrees of freedom, a tenth of the blocks of the baseline, are those
  * that simulated noise of several colours asks for.
  *
+ * The force of a contact rises ever steeper with the height. Where it bends the other way at its
+ * top the detector saturates, or the sample gives way: so parabolas through the last blocks,
+ * whitened alike, are tried, too.
+ *
  * A curve that passes may still be of a wrong tip, or of a layer: these change the modulus far more
  * than the residual.
  *
@@ -27,13 +31,17 @@ enum {
     MAX_ORDER = 6, /* of the autoregression */
     COSINES = 8,
     LOSS = 4, /* powers of the logarithm of time */
+    TOPS = 3, /* lengths of the top: so many eighths of the window */
     OTHERS = N + LOSS + COSINES,
     MAX_COLUMNS = OTHERS + WAVE_PARAMETERS,
 };
-static const double before_contact = 0.2; /* of the contact: a snap-on hides there */
-static const double per_freedom = 10.0;   /* blocks */
-static const double nothing = 2e-5;       /* of the force: a residual that does not matter */
-static const double same = 1e-9;          /* of a column: it lies in those before it */
+static const double before_contact = 0.2;  /* of the contact: a snap-on hides there */
+static const double per_freedom = 10.0;    /* blocks */
+static const double least_bend = 3.0;      /* innovations: less is not looked at */
+static const double less_steep = 0.9;      /* at the end than at the steepest */
+static const double still_straight = 0.75; /* of the force where it is steepest */
+static const double nothing = 2e-5;        /* of the force: a residual that does not matter */
+static const double same = 1e-9;           /* of a column: it lies in those before it */
 
 typedef struct blocks {
     size_t n_before, n; /* blocks of the baseline and of the window behind it */
@@ -270,11 +278,62 @@ static double judge_baseline(const blocks *b)
                            (double)b->n_before / per_freedom);
 }
 
+/* How much a parabola bends through the last n of N whitened blocks, in innovations; its sign. */
+static double bend_of(const blocks *b, const double *force, double (*column)[WINDOW], size_t n)
+{
+    double x[WINDOW], power[3][WINDOW], bend = 0.0;
+    memcpy(x, force + b->n - n, n * sizeof *x);
+    for (size_t k = 0; k < 3; k++) {
+        memcpy(power[k], column[k] + b->n - n, n * sizeof *x);
+        for (size_t d = 0; d < k; d++)
+            remove_along(power[d], power[k], n);
+        const double norm = sqrt(curve_dot(power[k], power[k], n));
+        for (size_t i = 0; i < n; i++)
+            power[k][i] /= norm;
+        bend = remove_along(power[k], x, n);
+    }
+    return bend / sqrt(b->innovation);
+}
+
+static void judge_top(const curve_law *m, const double p[N], const blocks *b, curve_lack *lack)
+{
+    enum { ALL = MAX_ORDER + WINDOW };
+    const curve_samples *s = m->samples;
+    const size_t all = MAX_ORDER + b->n, first = s->n - all * b->length;
+    double force[ALL], power[3][ALL], white[WINDOW], column[3][WINDOW], most = 0.0, steepest = 0.0;
+    for (size_t i = 0; i < all; i++) {
+        double sum = 0.0;
+        for (size_t j = first + i * b->length; j < first + (i + 1) * b->length; j++)
+            sum += s->force[j];
+        force[i] = sum / (double)b->length;
+        power[0][i] = 1.0;
+        power[1][i] = ((double)i - (double)all) / (double)b->n;
+        power[2][i] = power[1][i] * power[1][i];
+    }
+    whiten(b, force, MAX_ORDER, b->n, white);
+    for (size_t k = 0; k < 3; k++)
+        whiten(b, power[k], MAX_ORDER, b->n, column[k]);
+    for (size_t top = 1; top <= TOPS; top++)
+        most = fmax(most, -bend_of(b, white, column, top * b->n / 8));
+    for (size_t i = MAX_ORDER; i + 3 < all; i++)
+        if (force[i + 3] - force[i] > steepest) {
+            steepest = force[i + 3] - force[i];
+            lack->flat_from = still_straight * (0.5 * (force[i + 3] + force[i]) - p[CURVE_F0]);
+        }
+    const bool flat = most > least_bend && force[all - 1] - force[all - 4] < less_steep * steepest;
+    lack->flat_chance =
+        flat ? 0.5 * TOPS * gsl_cdf_fdist_Q(most * most, 1.0, (double)b->n_before / per_freedom)
+             : 1.0;
+}
+
 curve_lack curve_lack_of_fit(const curve_law *m, const double p[N], const double *e)
 {
     blocks b;
     const double unknown = (double)NAN;
-    curve_lack lack = {.statistic = unknown, .chance = unknown, .baseline_chance = unknown};
+    curve_lack lack = {.statistic = unknown,
+                       .chance = unknown,
+                       .baseline_chance = unknown,
+                       .flat_chance = unknown};
     for (int j = 0; j < CURVE_WAVES; j++)
         lack.wave[j] = unknown;
     if (!average(m, p, e, &b))
@@ -286,6 +345,7 @@ curve_lack curve_lack_of_fit(const curve_law *m, const double p[N], const double
         return lack;
     lack.window = b.travel;
     lack.baseline_chance = judge_baseline(&b);
+    judge_top(m, p, &b, &lack);
     make_waves(&b);
     lack.chance = judge_contact(&b, &lack.statistic);
     for (size_t j = 0; j < CURVE_WAVES; j++)

@@ -72,7 +72,7 @@ LAST(wt_extrapolation, WT_EXTRAPOLATE_SLOPE, 1)
 
 /* fit.h */
 ROOM(wt_indent_options, fit_force_fraction_from, 104, 120)
-FIXED(wt_indent_fit, fitted_from, 688, 696)
+FIXED(wt_indent_fit, interference_period, 704, 712)
 FIXED(wt_curve_pool, chance, 16, 24)
 FIXED(wt_depth_curve, loss_error, 104, 112)
 FIXED(wt_curve_depth, loss_share, 384, 392)

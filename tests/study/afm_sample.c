@@ -132,6 +132,9 @@ static void disturb(const afm_scene *s, afm_sample *to)
                         s->drift * to->largest * sqrt(part);
         if (s->saturation > 0)
             to->force[i] -= 0.1 * s->saturation * to->largest * pow(to->force[i] / to->largest, 3);
+        if (s->soft_top > 0 && to->force[i] > 0) /* x / (1 + a x^8)^(1/8) */
+            to->force[i] *= pow(
+                1 + (pow(1 - s->soft_top, -8) - 1) * pow(to->force[i] / to->largest, 8), -1.0 / 8);
     }
 }
 

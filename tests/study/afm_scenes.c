@@ -2,7 +2,8 @@
  * the method before refused them, and IJ7 (modulus, lever), when it was not covered; it still is
  * not. IC7, IC8, IV7, IV8 and IB5 to IB8 were fixed before the spectrum of the noise was; IS1 to
  * IS3, of spots, when the method was there; IV9 to IV11 after the error of a memory was chosen;
- * IT1 to IT14 with the tips and samples that they try, IG1 to IG3 with the ranges.
+ * IT1 to IT14 with the tips and samples that they try, IG1 to IG3 with the ranges, IB9 to IB12 and
+ * II1 to II8 with what they try.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "afm_scene.h"
 
@@ -184,6 +185,15 @@ const afm_scene afm_scenes[] = {
      .saturation = 0.3},
     {NAMED("IB8", "detector 10 % short, correlated 2 %"), .facts.right = EITHER, .noise = 0.02,
      .kind = NOISE_CORRELATED, .saturation = 1},
+    {NAMED("IB9", "detector that flattens, 10 % short"), .facts.verdict_promised = true,
+     .facts.right = NOT_DESCRIBED, .noise = 0.005, .soft_top = 0.1},
+    {NAMED("IB10", "detector that flattens, 10 % short, to half of the force"),
+     .facts.intervals_promised = true, .facts.right = NOT_REFUSED, .noise = 0.005, .soft_top = 0.1,
+     .force_to = 0.5},
+    {NAMED("IB11", "detector that flattens, 3 % short"), .facts.right = EITHER, .noise = 0.005,
+     .soft_top = 0.03},
+    {NAMED("IB12", "detector that flattens, 10 % short, correlated 2 %"), .facts.right = EITHER,
+     .noise = 0.02, .kind = NOISE_CORRELATED, .soft_top = 0.1},
     {NAMED("II1", "interference of 1 noise, 400 nm"), .facts.intervals_promised = true,
      .facts.right = NOT_REFUSED, SOFT, .noise = 0.005, .interference = 1, .period = 400e-9},
     {NAMED("II2", "interference of 3 noises, 300 nm"), .facts.intervals_promised = true,

@@ -382,6 +382,49 @@ static void spikes(void **state)
     assert_int_not_equal(fit_with(&t, NULL).verdict, WT_CURVE_ACCEPTED);
 }
 
+/* Of a signal that is flat beyond `most`: the force of the contact through a tangent. */
+static void flatten(const curve_truth *t, double most)
+{
+    for (size_t i = 0; i < t->n; i++) {
+        const double z = t->travel * (double)i / (double)(t->n - 1);
+        const double force = curve_contact_force(t, z - t->contact_point);
+        data.force[i] += most * tanh(force / most) - force;
+    }
+}
+
+static void softly_saturated_detector(void **state)
+{
+    (void)state;
+    curve_truth t = curve_standard();
+    const double top = curve_contact_force(&t, t.travel - t.contact_point);
+    wt_indent_options options = wt_indent_defaults();
+    for (int draw = 0; draw < 20; draw++) {
+        curve_make(&t, 1 + 7919 * (uint64_t)draw, &data);
+        flatten(&t, 1.3 * top);
+        expect(&t, WT_CURVE_SATURATED, "flattens towards its top");
+    }
+    options.fit_force_fraction = 0.15; /* where tanh x is x to 0.4 % */
+    const wt_indent_fit fit = fit_with(&t, &options);
+    assert_int_equal(fit.verdict, WT_CURVE_ACCEPTED);
+    assert_near(fit.modulus.value, t.modulus, 0.01);
+    /* A force that is nearly a line, of a lever much softer than the contact, is none: one in 1000
+     * at most. Of 4 in 600 the chance is 0.003. */
+    int flat = 0;
+    enum { DRAWS = 200 };
+    for (int k = 0; k < 3; k++) {
+        t = curve_standard();
+        t.n = 1000;
+        t.spring_constant = 0.1;
+        t.correlation = 0.45 * k;
+        for (int draw = 0; draw < DRAWS; draw++) {
+            curve_make(&t, 5 + 104729 * (uint64_t)draw, &data);
+            flat += fit_with(&t, NULL).verdict == WT_CURVE_SATURATED;
+        }
+    }
+    print_message("%d of %d\n", flat, 3 * DRAWS);
+    assert_in_range(flat, 0, 3);
+}
+
 static void deeper_than_the_sphere(void **state)
 {
     (void)state;
@@ -568,6 +611,7 @@ int main(void)
         cmocka_unit_test(missing_and_repeated_samples),
         cmocka_unit_test(disturbed_baseline),
         cmocka_unit_test(spikes),
+        cmocka_unit_test(softly_saturated_detector),
         cmocka_unit_test(deeper_than_the_sphere),
         cmocka_unit_test(too_uncertain),
         cmocka_unit_test(not_by_the_noise),
