@@ -8,6 +8,7 @@
 #include "base/mix.h"
 
 #include <openssl/sha.h>
+#include <string.h>
 
 static void finish(SHA256_CTX *context, char hex[65])
 {
@@ -29,24 +30,41 @@ void wt_digest(const void *bytes, size_t length, char hex[65])
     finish(&context, hex);
 }
 
+/* Several chains, for one would wait for itself at each word. */
+enum { CHAINS = 4 };
+
+/* Goes on with more bytes; n is a multiple of the words of all chains, unless they are the last. */
+static void mix_bytes(uint64_t chain[CHAINS], const unsigned char *bytes, size_t n)
+{
+    for (size_t i = 0; i < n; i += CHAINS * sizeof *chain) {
+        uint64_t word[CHAINS] = {0};
+        memcpy(word, bytes + i, n - i < sizeof word ? n - i : sizeof word);
+        for (size_t c = 0; c < CHAINS; c++)
+            chain[c] = mix64(chain[c] ^ word[c]);
+    }
+}
+
 wt_status digest_pieces(digest_source *source, void *user, size_t length, char hex[65],
                         uint64_t *fingerprint, wt_error *err)
 {
     unsigned char piece[1 << 16];
     SHA256_CTX context;
     wt_status status = WT_OK;
-    *fingerprint = mix64(length);
+    uint64_t chain[CHAINS] = {0};
     SHA256_Init(&context);
     for (size_t at = 0; status == WT_OK && at < length;) {
         const size_t n = length - at < sizeof piece ? length - at : sizeof piece;
         status = source(user, at, piece, n, err);
         if (status != WT_OK)
             break;
-        *fingerprint = mix_bytes(*fingerprint, piece, n);
+        mix_bytes(chain, piece, n);
         if (hex != NULL)
             SHA256_Update(&context, piece, n);
         at += n;
     }
+    *fingerprint = mix64(length);
+    for (size_t c = 0; c < CHAINS; c++)
+        *fingerprint = mix64(*fingerprint ^ chain[c]);
     if (status == WT_OK && hex != NULL)
         finish(&context, hex);
     return status;

@@ -6,9 +6,7 @@
 #ifndef WT_BASE_MIX_H
 #define WT_BASE_MIX_H
 
-#include <stddef.h>
 #include <stdint.h>
-#include <string.h>
 
 static inline uint64_t mix64(uint64_t x)
 {
@@ -16,17 +14,6 @@ static inline uint64_t mix64(uint64_t x)
     x = (x ^ (x >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
     x = (x ^ (x >> 27)) * UINT64_C(0x94d049bb133111eb);
     return x ^ (x >> 31);
-}
-
-/* Goes on with more bytes; n is a multiple of 8, unless they are the last. */
-static inline uint64_t mix_bytes(uint64_t hash, const unsigned char *bytes, size_t n)
-{
-    for (size_t i = 0; i < n; i += sizeof hash) {
-        uint64_t word = 0;
-        memcpy(&word, bytes + i, n - i < sizeof word ? n - i : sizeof word);
-        hash = mix64(hash ^ word);
-    }
-    return hash;
 }
 
 #endif

@@ -1,4 +1,5 @@
 /* Patterns, output files, digests, provenance. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/digest.h"
 #include "base/temporary.h"
 #include "near.h"
 
@@ -348,6 +349,53 @@ static void digests(void **state)
     free(million);
 }
 
+static wt_status piece_of(void *bytes, size_t from, void *to, size_t n, wt_error *err)
+{
+    (void)err;
+    memcpy(to, (const char *)bytes + from, n);
+    return WT_OK;
+}
+
+static uint64_t fingerprint_of(void *bytes, size_t length)
+{
+    uint64_t fingerprint = 0;
+    assert_int_equal(digest_pieces(piece_of, bytes, length, NULL, &fingerprint, NULL), WT_OK);
+    return fingerprint;
+}
+
+/* Of bytes in several pieces: the digest of them all, and a fingerprint that copies alone share. */
+static void digests_of_pieces(void **state)
+{
+    (void)state;
+    enum { MOST = 150000 };
+    char *const bytes = malloc(MOST), *const copy = malloc(MOST), whole[65], hex[65];
+    assert_true(bytes != NULL && copy != NULL);
+    for (size_t i = 0; i < MOST; i++)
+        bytes[i] = (char)(i * i >> 3);
+    for (size_t n = 0; n <= MOST; n = n < 80 ? n + 1 : 2 * n - 7) {
+        uint64_t fingerprint = 0;
+        memcpy(copy, bytes, n);
+        wt_digest(bytes, n, whole);
+        assert_int_equal(digest_pieces(piece_of, copy, n, hex, &fingerprint, NULL), WT_OK);
+        assert_string_equal(hex, whole);
+        assert_true(fingerprint == fingerprint_of(bytes, n));
+        for (size_t i = 0; i < n; i += 1 + n / 13) {
+            copy[i] ^= 4;
+            assert_true(fingerprint != fingerprint_of(copy, n));
+            copy[i] ^= 4;
+        }
+        if (n >= 64 && memcmp(bytes, bytes + 32, 32) != 0) { /* the same blocks in another order */
+            memcpy(copy, bytes + 32, 32);
+            memcpy(copy + 32, bytes, 32);
+            assert_true(fingerprint != fingerprint_of(copy, n));
+        }
+        copy[n < MOST ? n : 0] = 0;
+        assert_true(n == MOST || fingerprint != fingerprint_of(copy, n + 1));
+    }
+    free(bytes);
+    free(copy);
+}
+
 static void provenance(void **state)
 {
     (void)state;
@@ -393,7 +441,8 @@ int main(void)
         cmocka_unit_test(globs),           cmocka_unit_test(complete_or_not_at_all),
         cmocka_unit_test(modes_and_links), cmocka_unit_test(leftovers),
         cmocka_unit_test(guarded),         cmocka_unit_test(outfile_failures),
-        cmocka_unit_test(digests),         cmocka_unit_test(provenance),
+        cmocka_unit_test(digests),         cmocka_unit_test(digests_of_pieces),
+        cmocka_unit_test(provenance),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }
