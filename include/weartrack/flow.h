@@ -31,7 +31,8 @@ typedef enum wt_extra {
     WT_EXTRA_REDUCED = 64,      /* of the isotherms: the series with few terms */
     WT_EXTRA_SPECTRUM = 128,    /* of the isotherms: the relaxation spectrum with its error */
     WT_EXTRA_TRANSITION = 256,  /* of temperature sweeps: the peaks, else without rows */
-    WT_EXTRAS = 511
+    WT_EXTRA_COMMON = 512,      /* of the curves: what the errors do that all of them share */
+    WT_EXTRAS = 1023
 } wt_extra;
 
 typedef struct wt_cost wt_cost;
@@ -133,13 +134,25 @@ WT_API wt_status wt_convert_file(const wt_convert_job *job, const char *path, co
 
 /* ---- indentation ----------------------------------------------------------------------------- */
 
+/* What all curves of a group share, so that their scatter does not show its error. */
+typedef enum wt_common_source {
+    WT_COMMON_SPRING_CONSTANT,
+    WT_COMMON_SENSITIVITY,
+    WT_COMMON_HALF_ANGLE,
+    WT_COMMON_RADIUS,
+    WT_COMMON_SOURCES
+} wt_common_source;
+
 typedef struct wt_indent_job {
     const char *group; /* "bulk", "track" or another name of [a-z0-9_]+ */
     const wt_file_set *sets;
     size_t n_sets;
     wt_tip tip;
     wt_indent_options options;
-    wt_estimate spring_constant;    /* for the table's key when given; value NaN: as in the files */
+    /* Those of all curves, with their errors (0 = not stated); value NaN: as in the files. */
+    wt_estimate spring_constant, sensitivity;
+    /* relative standard errors where the values state none, 0 = none (default) */
+    double lever_error, sensitivity_error;
     bool rates;                     /* decode what tells the time (piezo and indentation rate) */
     bool curves;                    /* representative curves for the figures */
     const struct wt_rubber *rubber; /* a factor on its spectrum is fitted; NULL = none (default) */
@@ -250,8 +263,15 @@ typedef struct wt_group_data {
     const char *copy_of[2];       /* files of the first copy; borrowed from the table */
     wt_estimate spring_constant;  /* of the table; NaN if it has none */
     double sensitivity_gain;      /* mean of the curves, NaN if unknown */
-    bool several_levers;          /* the curves have several spring constants */
-    bool spots_given;             /* the user named the spots */
+    wt_estimate sensitivity;      /* that was given; NaN if none was */
+    /* relative standard errors, NaN if not stated, and what 1 of each does to ln E, NaN if unknown
+     */
+    double common_error[WT_COMMON_SOURCES];
+    wt_estimate common_gain[WT_COMMON_SOURCES];
+    double loss_error, bend_error; /* what all moduli may be off by alike; NaN if none was found */
+    const char *tip;               /* in words; borrowed from the table; NULL if unknown */
+    bool several_levers;           /* the curves have several spring constants */
+    bool spots_given;              /* the user named the spots */
 } wt_group_data;
 /* A spot is what was named so, else a file, or `each_place` of those that were not named. */
 WT_API wt_status wt_group_from_table(const wt_table *indentation, bool each_place,
@@ -260,6 +280,10 @@ WT_API void wt_group_data_clear(wt_group_data *data);
 /* Table "modulus_groups", one row per indentation table. A group without an accepted curve has a
  * row with n = 0. */
 WT_API wt_status wt_modulus_groups(const wt_table *const *indentation, size_t n, wt_table **table,
+                                   wt_error *err) WT_NODISCARD;
+/* Table "modulus_budget": of each group, what the error of its modulus consists of, scatter and
+ * what its curves share. NULL if no group states a common error. */
+WT_API wt_status wt_modulus_budget(const wt_table *const *indentation, size_t n, wt_table **table,
                                    wt_error *err) WT_NODISCARD;
 
 /* ---- DMA: shift factors, WLF, master curve, Prony -------------------------------------------- */
@@ -517,6 +541,7 @@ typedef struct wt_compare_tables {
     wt_table *comparison;
     wt_table *modulus_rate;   /* NULL if no rate is known or asked for */
     wt_table *dma_comparison; /* NULL without rubber or rates */
+    wt_table *modulus_budget; /* NULL where no group states a common error */
 } wt_compare_tables;
 WT_API void wt_compare_tables_clear(wt_compare_tables *tables);
 /* Also with bulk or track NULL: then without "comparison". WT_E_EMPTY if a comparison is asked for

@@ -34,7 +34,9 @@ typedef struct wt_tip {
     double transition_radius; /* b: where the cap meets the faces [m]; 0 = sharp */
     double sample_thickness;  /* of rubber on a rigid base [m]; 0 = as good as endless (default) */
     bool unbonded;            /* it slides on that base */
-    uint64_t reserved[6];
+    double half_angle_error;  /* standard errors [rad] and [m]; 0 = not stated (default). No law */
+    double radius_error;      /* uses them: they are common to all curves of a group */
+    uint64_t reserved[4];
 } wt_tip;
 
 /* b = R cos(theta): the sphere tangent to the faces (default of the field's programs). */
@@ -45,7 +47,8 @@ WT_API wt_status wt_tip_check(const wt_tip *tip, wt_error *err) WT_NODISCARD;
 /* "pyramid:half-angle=35deg,radius=20nm[,sides=4][,transition=12nm]", "sphere:radius=5um",
  * "cone:half-angle=20deg[,radius=20nm][,transition=12nm]" (a blunted cone with a radius),
  * "paraboloid:radius=5um", "punch:radius=2um". The transition radius is the tangent one unless
- * given; radius=0nm is a sharp pyramid. WT_E_ARG or WT_E_UNIT for the spelling, else as
+ * given; radius=0nm is a sharp pyramid. Half-angle and radius may state a standard error,
+ * "radius=20nm+-15%". WT_E_ARG or WT_E_UNIT for the spelling, else as
  * wt_tip_check. `tip` is unchanged on failure. */
 WT_API wt_status wt_tip_parse(const char *text, wt_tip *tip, wt_error *err) WT_NODISCARD;
 /* The tip in words with all its numbers, b included; returns the length as snprintf does. `tip`

@@ -74,7 +74,8 @@ static void compare_groups(compare_call *call, const char *master)
     if (made == WT_OK)
         made = wt_compare_groups(job, &s->work, &tables, &s->err);
     wt_table **const made_tables[] = {&tables.comparison, &tables.modulus_groups,
-                                      &tables.modulus_rate, &tables.dma_comparison};
+                                      &tables.modulus_budget, &tables.modulus_rate,
+                                      &tables.dma_comparison};
     cmd_finish(s, made, made_tables, COUNT_OF(made_tables));
     wt_compare_tables_clear(&tables);
     wt_rubber_clear(&rubber);

@@ -30,13 +30,12 @@ int cmd_indent(int argc, char **argv)
     own_options own = {0};
     wt_rubber rubber = {0};
     wt_result *dma = NULL;
-    cmd_part parts[] = {
-        {own_params(), &own, NULL, 0},
-        {wt_indent_job_params(), &job, NULL, 0},
-        {wt_file_set_params(), &set, "spot spring-constant sensitivity units format", 0},
-        {wt_job_params(), &s.work, "threads", 0}};
+    cmd_part parts[] = {{own_params(), &own, NULL, 0},
+                        {wt_indent_job_params(), &job, NULL, 0},
+                        {wt_file_set_params(), &set, "spot units format", 0},
+                        {wt_job_params(), &s.work, "threads", 0}};
     wt_indent_tables tables = {0};
-    wt_table *groups = NULL;
+    wt_table *groups = NULL, *budget = NULL;
     if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv) || !cmd_begin_files(&s, &set))
         goto done;
     job.sets = &set;
@@ -59,11 +58,18 @@ int cmd_indent(int argc, char **argv)
     const wt_table *const indentation[] = {tables.indentation};
     if (made == WT_OK)
         made = wt_modulus_groups(indentation, 1, &groups, &s.err);
-    wt_table **const made_tables[] = {&tables.indentation, &groups, &tables.modulus_depth,
-                                      &tables.force_displacement, &tables.force_indentation};
+    if (made == WT_OK)
+        made = wt_modulus_budget(indentation, 1, &budget, &s.err);
+    wt_table **const made_tables[] = {&tables.indentation,
+                                      &groups,
+                                      &budget,
+                                      &tables.modulus_depth,
+                                      &tables.force_displacement,
+                                      &tables.force_indentation};
     cmd_finish(&s, made, made_tables, COUNT_OF(made_tables));
 done:
     wt_table_free(groups);
+    wt_table_free(budget);
     wt_indent_tables_clear(&tables);
     wt_rubber_clear(&rubber);
     wt_result_free(dma);

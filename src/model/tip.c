@@ -74,10 +74,24 @@ static wt_status check_cap(const wt_tip *tip, wt_error *err)
     return status;
 }
 
+/* An error as large as its value says that nothing is known. */
+static wt_status check_error(double value, double error, const char *what, wt_error *err)
+{
+    if (error == 0.0 || (error > 0.0 && error < value))
+        return WT_OK;
+    const wt_status status =
+        wt_fail(err, WT_E_RANGE, "the standard error of the %s is not usable", what);
+    wt_error_expected(err, "one below the %s itself", what);
+    wt_error_found(err, "%g of %g in SI units", error, value);
+    return status;
+}
+
 wt_status wt_tip_check(const wt_tip *tip, wt_error *err)
 {
-    wt_status status = WT_OK;
-    if (tip->sample_thickness != 0.0)
+    wt_status status = check_error(tip->half_angle, tip->half_angle_error, "half-angle", err);
+    if (status == WT_OK)
+        status = check_error(tip->radius, tip->radius_error, "radius", err);
+    if (status == WT_OK && tip->sample_thickness != 0.0)
         status = check_positive(tip->sample_thickness, "thickness of the sample", err);
     if (status != WT_OK)
         return status;

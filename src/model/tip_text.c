@@ -56,7 +56,7 @@ static wt_status tip_syntax(wt_error *err, size_t shape, const char *text, const
 }
 
 static wt_status parse_item(const char *text, size_t shape, const char *item, size_t length,
-                            double values[TIP_N_DIMENSIONS], unsigned *seen, wt_error *err)
+                            wt_estimate values[TIP_N_DIMENSIONS], unsigned *seen, wt_error *err)
 {
     const char *equals = memchr(item, '=', length);
     if (equals == NULL)
@@ -82,7 +82,13 @@ static wt_status parse_item(const char *text, size_t shape, const char *item, si
         return tip_syntax(err, shape, text, "a number with its unit", equals + 1, value_length);
     memcpy(value, equals + 1, value_length);
     value[value_length] = '\0';
-    wt_status status = wt_quantity_parse(value, tip_dimensions[key].quantity, &values[key], err);
+    wt_status status = wt_estimate_parse(value, tip_dimensions[key].quantity, &values[key], err);
+    if (status == WT_OK && values[key].standard_error > 0.0 && key != TIP_HALF_ANGLE &&
+        key != TIP_RADIUS) {
+        status = wt_fail(err, WT_E_ARG, "an error stated here would not be used");
+        wt_error_found(err, "%s", value);
+        wt_error_advice(err, "leave out what follows +-");
+    }
     if (status != WT_OK)
         wt_error_place(err, "tip \"%s\", %s", text, tip_dimensions[key].name);
     return status;
@@ -108,7 +114,7 @@ wt_status wt_tip_parse(const char *text, wt_tip *tip, wt_error *err)
     wt_status status = find_shape(text, name_length, &shape, err);
     if (status != WT_OK)
         return status;
-    double values[TIP_N_DIMENSIONS] = {0.0};
+    wt_estimate values[TIP_N_DIMENSIONS] = {{0.0, 0.0, 0.0, NULL}};
     unsigned seen = 0;
     for (const char *item = colon != NULL ? colon + 1 : ""; *item != '\0';) {
         size_t length = strcspn(item, ",");
@@ -131,23 +137,25 @@ wt_status wt_tip_parse(const char *text, wt_tip *tip, wt_error *err)
         }
     }
     if ((seen & 1u << TIP_SIDES) &&
-        (param_check_number(&tip_dimensions[TIP_SIDES], values[TIP_SIDES], NULL) != WT_OK ||
-         floor(values[TIP_SIDES]) != values[TIP_SIDES])) {
+        (param_check_number(&tip_dimensions[TIP_SIDES], values[TIP_SIDES].value, NULL) != WT_OK ||
+         floor(values[TIP_SIDES].value) != values[TIP_SIDES].value)) {
         status = wt_fail(err, WT_E_RANGE, "tip \"%s\": sides is not usable", text);
         wt_error_expected(err, "a whole number of 3 or more");
-        wt_error_found(err, "%g", values[TIP_SIDES]);
+        wt_error_found(err, "%g", values[TIP_SIDES].value);
         return status;
     }
 
     wt_tip made = {.shape = shapes[shape].shape,
-                   .half_angle = values[TIP_HALF_ANGLE],
-                   .radius = values[TIP_RADIUS]};
+                   .half_angle = values[TIP_HALF_ANGLE].value,
+                   .radius = values[TIP_RADIUS].value,
+                   .half_angle_error = values[TIP_HALF_ANGLE].standard_error,
+                   .radius_error = values[TIP_RADIUS].standard_error};
     if (seen & 1u << TIP_HALF_ANGLE && seen & 1u << TIP_RADIUS) {
         made.shape = WT_TIP_BLUNTED_PYRAMID;
         if (shape == PYRAMID)
-            made.sides = seen & 1u << TIP_SIDES ? (unsigned)values[TIP_SIDES] : 4;
+            made.sides = seen & 1u << TIP_SIDES ? (unsigned)values[TIP_SIDES].value : 4;
         made.transition_radius = seen & 1u << TIP_TRANSITION
-                                     ? values[TIP_TRANSITION]
+                                     ? values[TIP_TRANSITION].value
                                      : wt_tip_tangent_transition(made.radius, made.half_angle);
     }
     status = wt_tip_check(&made, err);

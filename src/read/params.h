@@ -6,12 +6,19 @@
 #include "base/param.h"
 #include "weartrack/read.h"
 
-/* In a case it may state an error, which is that of a group of files and not used by reading. */
+/* An indentation and a case may state their errors, which are those of a group of files and not
+ * used by reading. */
 #define SPRING_CONSTANT(type, where)                                                               \
     {                                                                                              \
         PARAM("spring-constant", type, spring_constant, WT_Q_SPRING_CONSTANT, ABOVE(0)),           \
             .value = "K", .unset = "that of the files", .flags = (where),                          \
             .help = "spring constant of the cantilever, such as 0.1N/m"                            \
+    }
+#define SENSITIVITY(type, where)                                                                   \
+    {                                                                                              \
+        PARAM("sensitivity", type, sensitivity, WT_Q_SENSITIVITY, ABOVE(0)),                       \
+            .value = "S", .unset = "that of the files", .flags = (where),                          \
+            .help = "deflection sensitivity (InvOLS), such as 120nm/V"                             \
     }
 
 #endif

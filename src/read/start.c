@@ -26,8 +26,7 @@ wt_read_options wt_read_defaults(void)
 
 static const wt_param rows[] = {
     SPRING_CONSTANT(wt_read_options, PARAM_NO_CASE),
-    {PARAM("sensitivity", wt_read_options, sensitivity, WT_Q_SENSITIVITY, ABOVE(0)), .value = "S",
-     .unset = "that of the files", .help = "deflection sensitivity (InvOLS), such as 120nm/V"},
+    SENSITIVITY(wt_read_options, PARAM_NO_CASE),
     {PARAM("temperature", wt_read_options, temperature, WT_Q_TEMPERATURE, ABOVE(0)), .value = "T",
      .unset = "", .help = "temperature of DMA files that say none, such as 20degC"},
     {PARAM_TEXTS_OF("units", wt_read_options, units, n_units), .value = "NAME=UNIT", .unset = "",

@@ -79,13 +79,13 @@ static void friction_table(page_writer *page)
 void page_results(page_writer *page)
 {
     const bound_tables *t = page->tables;
-    const table_view *const shown[] = {&t->modulus_groups, &t->modulus_depth,  &t->comparison,
-                                       &t->dma_comparison, &t->material_ratio, &t->shift_factors,
-                                       &t->prony,          &t->prony_reduced,  &t->glass_transition,
-                                       &t->moduli_at,      &t->payne,          &t->roughness,
-                                       &t->friction,       &t->layer,          &t->what_if,
-                                       &t->error_budget,   &t->coverage,       &t->work_precision,
-                                       &t->directions,     &t->softening,      &t->common_law};
+    const table_view *const shown[] = {
+        &t->modulus_groups,   &t->modulus_depth,  &t->comparison, &t->dma_comparison,
+        &t->material_ratio,   &t->shift_factors,  &t->prony,      &t->prony_reduced,
+        &t->glass_transition, &t->moduli_at,      &t->payne,      &t->roughness,
+        &t->friction,         &t->layer,          &t->what_if,    &t->error_budget,
+        &t->coverage,         &t->work_precision, &t->directions, &t->softening,
+        &t->common_law,       &t->modulus_budget};
     bool any = false;
     for (size_t i = 0; i < COUNT_OF(shown) && !any; i++)
         any = shown[i]->table != NULL;
@@ -94,6 +94,7 @@ void page_results(page_writer *page)
     page_heading(page, "tables", "Tables");
     page_whole_table(page, &t->modulus_groups, "Modulus by group", group_columns,
                      COUNT_OF(group_columns));
+    page_whole_table(page, &t->modulus_budget, "Error of the modulus by group", NULL, 0);
     page_whole_table(page, &t->modulus_depth, "Modulus against depth, of all curves of a group",
                      NULL, 0);
     page_whole_table(page, &t->comparison,

@@ -16,6 +16,7 @@ static double modulus_of(const afm_scene *s)
 static afm_tip true_tip(const afm_scene *s)
 {
     const double factor = s->radius_factor > 0 ? s->radius_factor : 1;
+    const double angle = 35 * (s->angle_factor > 0 ? s->angle_factor : 1);
     afm_tip tip = {.radius = 100e-9 * factor, .angle = 1, .b = (double)INFINITY};
     switch (s->tip) {
     case TIP_PARABOLOID:
@@ -27,17 +28,17 @@ static afm_tip true_tip(const afm_scene *s)
         tip.end = END_FLAT;
         return tip;
     case TIP_SHARP:
-        return afm_pyramid(0, 35, 4);
+        return afm_pyramid(0, angle, 4);
     case TIP_CONE:
-        return afm_pyramid(0, 35, 0);
+        return afm_pyramid(0, angle, 0);
     case TIP_BLUNT_CONE:
-        return afm_pyramid(20e-9 * factor, 35, 0);
+        return afm_pyramid(20e-9 * factor, angle, 0);
     case TIP_THREE_SIDES:
-        return afm_pyramid(20e-9 * factor, 35, 3);
+        return afm_pyramid(20e-9 * factor, angle, 3);
     case TIP_PYRAMID:
         break;
     }
-    return afm_pyramid(20e-9 * factor, 35, 4);
+    return afm_pyramid(20e-9 * factor, angle, 4);
 }
 
 static double true_depth(const afm_scene *s)
@@ -185,7 +186,7 @@ double afm_apparent(const afm_scene *s, const afm_sample *sample, double share)
 {
     const double depth = share * true_depth(s);
     afm_scene stated = *s;
-    stated.radius_factor = 1;
+    stated.radius_factor = stated.angle_factor = 1;
     const afm_tip tip = true_tip(s), as_stated = true_tip(&stated);
     const double a = tip_contact_radius(&tip, depth),
                  of_stated = tip_contact_radius(&as_stated, depth);

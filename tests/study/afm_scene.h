@@ -37,7 +37,7 @@ typedef struct afm_scene {
     double dma;                          /* the spectrum is given, as if it were 1/dma of it */
     double spring_constant, modulus;     /* 0: 0.5 N/m, 5 MPa */
     double layer_ratio, layer_thickness; /* E1/E2; [m] */
-    double radius_factor;                /* the tip's over the stated one; 0: 1 */
+    double radius_factor, angle_factor;  /* the tip's over the stated ones; 0: 1 */
     afm_kind tip;
     double thickness;            /* of the sample on its base [m]; 0: thick */
     bool unbonded;               /* it slides on the base */

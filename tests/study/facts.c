@@ -21,6 +21,7 @@ const quantity_facts quantities[Q_COUNT] = {
     [Q_MODULUS] = {"modulus", true},
     [Q_DEPTH] = {"depth", true},
     [Q_FACTOR] = {"factor", true},
+    [Q_GROUP_MODULUS] = {"group_modulus", true},
     [Q_RATIO] = {"ratio", true},
     [Q_LAYERED_FRICTION] = {"layered_friction", true},
     [Q_DWELL_STORAGE] = {"dwell_storage", true},

@@ -25,10 +25,11 @@ typedef enum quantity {
     Q_THICKNESS,
     Q_HYSTERESIS_KEPT, /* from the stored master curve instead of the isotherms */
     Q_AREA_KEPT,
-    Q_MODULUS, /* of one force curve */
-    Q_FACTOR,  /* on the spectrum of the DMA, of one */
-    Q_DEPTH,   /* modulus at a depth, of all curves */
-    Q_RATIO,   /* modulus of the track over that of the bulk */
+    Q_MODULUS,       /* of one force curve */
+    Q_FACTOR,        /* on the spectrum of the DMA, of one */
+    Q_DEPTH,         /* modulus at a depth, of all curves */
+    Q_GROUP_MODULUS, /* of all curves, with what they share */
+    Q_RATIO,         /* modulus of the track over that of the bulk */
     Q_LAYERED_FRICTION,
     Q_DWELL_STORAGE, /* of one held curve, at a frequency */
     Q_DWELL_LOSS,

@@ -24,6 +24,9 @@ const place place_modulus = {"indentation/bulk", "modulus", "modulus_standard_er
 const place place_factor = {"indentation/bulk", "spectrum_factor", "spectrum_factor_standard_error",
                             NULL, NULL};
 const place place_depth = {PLACE_DEPTH, "modulus", NULL, "low", "high"};
+const place place_budget[2] = {
+    {"modulus_budget", "modulus_bulk", NULL, "low_bulk", "high_bulk"},
+    {"modulus_budget", "modulus_track", NULL, "low_track", "high_track"}};
 const place place_ratio = {"comparison", "ratio", NULL, "ratio_low", "ratio_high"};
 const place place_dwell_storage = {"dwell_moduli", "storage_modulus",
                                    "storage_modulus_standard_error", NULL, NULL};

@@ -18,6 +18,7 @@ extern const place place_hysteresis, place_area, place_friction;
 extern const place place_c1, place_c2, place_equilibrium, place_thickness;
 extern const place place_modulus, place_factor;           /* of curves */
 extern const place place_depth;                           /* of all of them, a row for each depth */
+extern const place place_budget[2];                       /* of bulk and track */
 extern const place place_ratio;                           /* over all rates, the first row */
 extern const place place_dwell_storage, place_dwell_loss; /* a row for each frequency */
 extern const place place_layered_friction;                /* at the reference velocity */

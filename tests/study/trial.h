@@ -33,7 +33,7 @@ typedef struct stage {
     bool keep; /* the files stay */
 } stage;
 
-#define TRIAL_FILES_MAX 8
+#define TRIAL_FILES_MAX 12
 typedef struct trial {
     const stage *stage;
     const char *scene;

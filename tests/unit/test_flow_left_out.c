@@ -437,9 +437,14 @@ static void check_curves(const char *asks, const ran *r)
         assert_true(count[CHANNELS] > channels * groups * fitted &&
                     count[CHANNELS] <= channels * groups * (fitted + CURVES_OF_A_FILE));
     }
-    /* once more in each trial */
+    /* once more in each trial; and with the error of the lever stated 32 of them, of the others
+     * every second, with four sources moved down and up */
+    const size_t moved = (32 + (fitted - 32) / 2) * 4 * 2;
+    const bool common =
+        shown(r, FLOW_MODULUS_BUDGET) || shown(r, FLOW_COMPARISON) || shown(r, FLOW_MODULUS_RATIO);
     check(asks, AGAIN,
-          count[CURVES] + (runs(r, FLOW_COVERAGE) ? TRIALS * groups * fitted : (size_t)0));
+          count[CURVES] + (runs(r, FLOW_COVERAGE) ? TRIALS * groups * fitted : (size_t)0) +
+              (common ? groups * moved : 0));
     check(asks, DEPTHS, (size_t)shown(r, FLOW_DEPTH_BULK) + (size_t)shown(r, FLOW_DEPTH_TRACK));
 }
 

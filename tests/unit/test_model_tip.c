@@ -97,6 +97,10 @@ static void refused_in_clear_words(void **state)
         {"sphere:radius=-5um", WT_E_RANGE, "above 0"},
         {"punch:radius=0um", WT_E_RANGE, "above 0"},
         {"punch:half-angle=35deg", WT_E_ARG, "punch:radius=2um"},
+        {"pyramid:half-angle=35deg,radius=20nm,sides=4+-1", WT_E_ARG, "would not be used"},
+        {"cone:half-angle=35deg+-36deg", WT_E_RANGE, "below the half-angle"},
+        {"sphere:radius=5um+-100%", WT_E_RANGE, "below the radius"},
+        {"pyramid:half-angle=35deg,radius=0nm+-2nm", WT_E_RANGE, "below the radius"},
         {"pyramid:half-angle=35deg,radius=0nm,transition=2nm", WT_E_RANGE, "above 0"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
@@ -115,6 +119,19 @@ static void refused_in_clear_words(void **state)
     memset(text + strlen(text), '1', 300);
     wt_tip tip;
     assert_int_equal(wt_tip_parse(text, &tip, NULL), WT_E_ARG);
+}
+
+static void errors_of_angle_and_radius(void **state)
+{
+    (void)state;
+    wt_tip tip;
+    assert_int_equal(
+        wt_tip_parse("pyramid:half-angle=36deg +- 0.9deg,radius=20nm+-15%", &tip, NULL), WT_OK);
+    assert_near(tip.half_angle, 36 * M_PI / 180, 1e-15);
+    assert_near(tip.half_angle_error, 0.9 * M_PI / 180, 1e-14);
+    assert_near(tip.radius_error, 3e-9, 1e-14);
+    assert_int_equal(wt_tip_parse("sphere:radius=5um", &tip, NULL), WT_OK);
+    assert_true(tip.radius_error == 0);
 }
 
 static void described_with_all_numbers(void **state)
@@ -186,6 +203,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(understood),
         cmocka_unit_test(refused_in_clear_words),
+        cmocka_unit_test(errors_of_angle_and_radius),
         cmocka_unit_test(described_with_all_numbers),
         cmocka_unit_test(within_declared_limits),
     };

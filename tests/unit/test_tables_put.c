@@ -383,9 +383,19 @@ static void test_spring_constants(void **state)
     wt_indent_tables_clear(&tables);
     job.options.fit_force_fraction = 0.9;
     job.options.contact_estimators = true;
+    job.tip.radius_error = 3e-9;
+    job.tip.half_angle_error = 0.02;
+    job.sensitivity = (wt_estimate){60e-9, 2e-9, 0, "m/V"};
+    job.lever_error = 0.1;
+    sets[1].read.spring_constant = (double)NAN; /* two spots then */
     if (wt_indent_group(&job, &common, &tables, &err) != WT_OK)
         fail_msg("%s", err.message);
     see(tables.indentation);
+    wt_table *budget = NULL;
+    const wt_table *const listed[] = {tables.indentation};
+    assert_int_equal(wt_modulus_budget(listed, 1, &budget, NULL), WT_OK);
+    see(budget);
+    wt_table_free(budget);
     wt_indent_tables_clear(&tables);
 }
 

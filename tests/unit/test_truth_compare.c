@@ -502,6 +502,48 @@ static void test_not_known(void **state)
                 RATIO * exp(0.2) * hypot(scatter, hypot(0.02 * 0.5, 0.004 * 10)), 1e-9);
 }
 
+static void set_radius(wt_table *table, double error, double gain)
+{
+    const wt_estimate values[] = {{error, 0, 0, "1"}, {gain, 0, 0, "1"}};
+    assert_int_equal(wt_table_set_estimate(table, "radius_error", values[0], NULL), WT_OK);
+    assert_int_equal(wt_table_set_estimate(table, "radius_gain", values[1], NULL), WT_OK);
+}
+
+/* A tip that both groups share leaves what their gains differ by, of two tips each adds its own;
+ * each group has the whole of it. */
+static void test_common(void **state)
+{
+    (void)state;
+    const double scatter = SCATTER * (spread[0] + spread[1]) / 2 * sqrt(2.0 / SPOTS);
+    compare(RATIO, (double)NAN);
+    set_radius(bulk_table, 0.2, -0.3);
+    set_radius(track_table, 0.2, -0.5);
+    wt_compare_job job = wt_compare_job_defaults();
+    assert_non_null(strstr(includes_of(job), "radius of the tip"));
+    assert_string_equal(wt_table_key(tables.comparison, "cancels"), "radius of the tip");
+    assert_near(key_estimate(tables.comparison, "modulus_ratio").standard_error,
+                RATIO * hypot(scatter, 0.2 * 0.2), 1e-9);
+    job.levers = WT_LEVERS_TWO;
+    job.lever_error = 0.04;
+    assert_non_null(includes_of(job));
+    assert_null(wt_table_key(tables.comparison, "cancels"));
+    assert_near(key_estimate(tables.comparison, "modulus_ratio").standard_error,
+                RATIO * hypot(hypot(scatter, 0.04 * M_SQRT2), hypot(0.06, 0.1)), 1e-9);
+    const wt_table *budget = tables.modulus_budget;
+    assert_int_equal(wt_table_n_rows(budget), 10);
+    for (size_t g = 0; g < 2; g++) {
+        const double of_tip = 0.2 * (g == 0 ? 0.3 : 0.5),
+                     all = cell(budget, 5 * g + 2, "relative_error"),
+                     spots = cell(budget, 5 * g + 1, "relative_error");
+        assert_string_equal(cell_text(budget, 5 * g, "group"), g == 0 ? "bulk" : "track");
+        assert_near(cell(budget, 5 * g, "relative_error"), of_tip, 1e-9);
+        assert_near(all, hypot(of_tip, spots), 1e-9);
+        assert_near(cell(budget, 5 * g, "share") + cell(budget, 5 * g + 1, "share"), 1, 1e-9);
+    }
+    assert_near(key_estimate(budget, "modulus_track").standard_error,
+                RATIO * BULK * cell(budget, 7, "relative_error"), 1e-6);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -509,7 +551,7 @@ int main(void)
         cmocka_unit_test(test_two_spots),    cmocka_unit_test(test_groups),
         cmocka_unit_test(test_rates),        cmocka_unit_test(test_dma),
         cmocka_unit_test(test_warmer),       cmocka_unit_test(test_not_known),
-        cmocka_unit_test(test_out_of_reach),
+        cmocka_unit_test(test_out_of_reach), cmocka_unit_test(test_common),
     };
     return cmocka_run_group_tests_name("comparison of known truth", tests, NULL, clean);
 }

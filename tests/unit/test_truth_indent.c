@@ -30,7 +30,7 @@ static int indent(void **state)
     hertz_write(out, &soft, 1);
     fclose(out);
     if (wt_formats_new(NULL, &formats, NULL, NULL) != WT_OK ||
-        wt_tip_parse(HERTZ_TIP, &job.tip, NULL) != WT_OK)
+        wt_tip_parse(HERTZ_TIP " +- 10%", &job.tip, NULL) != WT_OK)
         return -1;
     set.spot = "s7";
     job.sets = &set;
@@ -172,13 +172,48 @@ static void test_curves(void **state)
     assert_true(key_estimate(fd, "contact_force_track").standard_error > 0);
 }
 
+/* Of Hertz' contact E goes with k and with 1/sqrt(R); with the sensitivity as the fit's own
+ * derivative says. The errors of k (5 %) and R (10 %) alone are stated, and one spot scatters in no
+ * way that is known. */
+static void test_budget(void **state)
+{
+    (void)state;
+    wt_table *budget = NULL;
+    const wt_table *const listed[] = {tables.indentation};
+    assert_int_equal(wt_modulus_budget(listed, 1, &budget, NULL), WT_OK);
+    const struct {
+        const char *source;
+        double error, gain;
+    } expected[] = {
+        {"spring constant", 0.05, 1},
+        {"deflection sensitivity", NAN, cell(tables.indentation, 0, "sensitivity_gain")},
+        {"radius of the tip", 0.1, -0.5}};
+    for (size_t i = 0; i < 3; i++) {
+        assert_string_equal(cell_text(budget, i, "group"), "track");
+        assert_string_equal(cell_text(budget, i, "source"), expected[i].source);
+        assert_string_equal(cell_text(budget, i, "kind"), "shared");
+        assert_near(cell(budget, i, "gain"), expected[i].gain, i == 1 ? 0.01 : 1e-5);
+        if (isnan(expected[i].error)) {
+            assert_true(isnan(cell(budget, i, "source_error")));
+            assert_true(isnan(cell(budget, i, "relative_error")));
+            continue;
+        }
+        assert_near(cell(budget, i, "source_error"), expected[i].error, 1e-9);
+        assert_near(cell(budget, i, "relative_error"), 0.05, 1e-5);
+    }
+    assert_string_equal(cell_text(budget, 4, "kind"), "together");
+    assert_true(isnan(cell(budget, 4, "relative_error")));
+    assert_non_null(strstr(wt_table_key(budget, "says_track"), "one spot tells nothing"));
+    assert_non_null(strstr(wt_table_key(budget, "says_track"), "stated of: deflection sens"));
+    wt_table_free(budget);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_columns),
-        cmocka_unit_test(test_known_contact),
-        cmocka_unit_test(test_rejected),
-        cmocka_unit_test(test_curves),
+        cmocka_unit_test(test_columns),  cmocka_unit_test(test_known_contact),
+        cmocka_unit_test(test_rejected), cmocka_unit_test(test_curves),
+        cmocka_unit_test(test_budget),
     };
     return cmocka_run_group_tests_name("indentation of known truth", tests, indent, clean);
 }

@@ -91,12 +91,28 @@
     X(INDENTATION_SPECTRUM_FACTOR_STANDARD_ERROR, "spectrum_factor_standard_error",                \
       "standard error of the factor", NUMBER, OPTIONAL)
 
+/* Where an error of theirs is stated: relative standard error of what all curves share, and what 1
+ * of it does to ln E, with the standard error of that. In the order of wt_common_source. */
+#define INDENTATION_COMMON_KEYS(X)                                                                 \
+    X(INDENTATION_KEY_LEVER_ERROR, "spring_constant_error", NUMBER, OPTIONAL)                      \
+    X(INDENTATION_KEY_SENSITIVITY_ERROR, "sensitivity_error", NUMBER, OPTIONAL)                    \
+    X(INDENTATION_KEY_HALF_ANGLE_ERROR, "half_angle_error", NUMBER, OPTIONAL)                      \
+    X(INDENTATION_KEY_RADIUS_ERROR, "radius_error", NUMBER, OPTIONAL)                              \
+    X(INDENTATION_KEY_LEVER_GAIN, "spring_constant_gain", NUMBER, OPTIONAL)                        \
+    X(INDENTATION_KEY_SENSITIVITY_GAIN, "sensitivity_gain", NUMBER, OPTIONAL)                      \
+    X(INDENTATION_KEY_HALF_ANGLE_GAIN, "half_angle_gain", NUMBER, OPTIONAL)                        \
+    X(INDENTATION_KEY_RADIUS_GAIN, "radius_gain", NUMBER, OPTIONAL)                                \
+    X(INDENTATION_KEY_LOSS_ERROR, "loss_error", NUMBER, OPTIONAL)                                  \
+    X(INDENTATION_KEY_BEND_ERROR, "bend_error", NUMBER, OPTIONAL)
+
 #define INDENTATION_KEYS(X)                                                                        \
     X(INDENTATION_KEY_TIP, "tip", TEXT, OPTIONAL)                                                  \
     X(INDENTATION_KEY_POISSON_RATIO, "poisson_ratio", PLAIN, OPTIONAL)                             \
     X(INDENTATION_KEY_FIT_RANGE, "fit_range", TEXT, LABEL("Range of the fit"), OPTIONAL)           \
     X(INDENTATION_KEY_SPRING_CONSTANT, "spring_constant", SI(SPRING_CONSTANT), OPTIONAL)           \
     X(INDENTATION_KEY_SPRING_CONSTANTS, "spring_constants", TEXT, OPTIONAL)                        \
+    X(INDENTATION_KEY_SENSITIVITY, "sensitivity", SI(SENSITIVITY), OPTIONAL)                       \
+    INDENTATION_COMMON_KEYS(X)                                                                     \
     X(INDENTATION_KEY_SPOTS, "spots", TEXT, OPTIONAL)                                              \
     X(INDENTATION_KEY_SPECTRUM_TEMPERATURE, "spectrum_temperature", SI(TEMPERATURE),               \
       LABEL("Temperature of the spectrum"), OPTIONAL)                                              \

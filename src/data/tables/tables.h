@@ -65,6 +65,8 @@
       "Deflection sensitivity of every curve", "sensitivity")                                      \
     X(thermal, THERMAL, "thermal", "Spring constant by thermal noise", "thermal")                  \
     X(modulus_groups, MODULUS_GROUPS, "modulus_groups", "Modulus of the groups", "compare")        \
+    X(modulus_budget, MODULUS_BUDGET, "modulus_budget",                                            \
+      "Error budget of the moduli of the groups", "compare")                                       \
     X(modulus_rate, MODULUS_RATE, "modulus_rate", "Modulus against indentation rate", "compare")   \
     X(comparison, COMPARISON, "comparison", "Wear track against bulk", "compare")                  \
     X(dma_comparison, DMA_COMPARISON, "dma_comparison", "Indentation against DMA", "compare")      \

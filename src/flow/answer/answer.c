@@ -436,6 +436,7 @@ static wt_status bind_tables(const wt_result *result, answer_story *story, wt_er
         {&indentation_schema, "bulk", &story->indentation[0]},
         {&indentation_schema, "track", &story->indentation[1]},
         {&modulus_groups_schema, "", &story->modulus_groups},
+        {&modulus_budget_schema, "", &story->modulus_budget},
         {&modulus_depth_schema, "", &story->modulus_depth},
         {&comparison_schema, "", &story->comparison},
         {&dma_comparison_schema, "", &story->dma_comparison},

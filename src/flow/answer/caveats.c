@@ -115,8 +115,9 @@ static void calibration_caveats(const answer_story *story)
     CAVEAT(story,
            "An error of 1 %% in the deflection sensitivity changes the %s, one of the spring "
            "constant by about as much as itself. %s. The intervals of the moduli do not include "
-           "errors of sensitivity, spring constant and tip.",
-           gains, lever);
+           "errors of sensitivity, spring constant and tip%s.",
+           gains, lever,
+           story->modulus_budget.table != NULL ? "; those of the table modulus_budget do" : "");
     const char *cantilevers = comparison_words(&story->comparison, COMPARISON_KEY_CANTILEVERS);
     const char *includes = comparison_words(&story->comparison, COMPARISON_KEY_INCLUDES);
     if (cantilevers == NULL)

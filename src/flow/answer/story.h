@@ -14,7 +14,7 @@ typedef struct answer_story {
     const wt_parselog *log;
     table_view failures;
     table_view indentation[2]; /* bulk, track */
-    table_view modulus_groups, modulus_depth, comparison, dma_comparison;
+    table_view modulus_groups, modulus_budget, modulus_depth, comparison, dma_comparison;
     table_view shift_factors, prony, roughness;
     table_view friction, layer, what_if;
     table_writer *answer;

@@ -20,6 +20,7 @@ wt_case *case_new(void)
     c->indent = wt_indent_job_defaults();
     c->compare = wt_compare_job_defaults();
     c->bulk.spring_constant = c->track.spring_constant = (wt_estimate){(double)NAN, 0, 0, "N/m"};
+    c->bulk.sensitivity = c->track.sensitivity = (wt_estimate){(double)NAN, 0, 0, "m/V"};
     c->master = wt_master_job_defaults();
     c->ramp = wt_ramp_job_defaults();
     c->rubber = wt_rubber_options_defaults();

@@ -11,8 +11,8 @@
 /* Files of one role. */
 typedef struct case_files {
     wt_file_set *sets;
-    size_t n;                    /* 0 = not in the case */
-    wt_estimate spring_constant; /* of the group; value NaN = as in the files */
+    size_t n;                                 /* 0 = not in the case */
+    wt_estimate spring_constant, sensitivity; /* of the group; value NaN = as in the files */
 } case_files;
 
 /* Constants at the reference temperature of the DMA. */

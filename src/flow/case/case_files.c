@@ -8,31 +8,43 @@
 
 static case_files no_files(void)
 {
-    return (case_files){.spring_constant = {(double)NAN, 0, 0, "N/m"}};
+    return (case_files){.spring_constant = {(double)NAN, 0, 0, "N/m"},
+                        .sensitivity = {(double)NAN, 0, 0, "m/V"}};
 }
 
-static const wt_param rows[] = {SPRING_CONSTANT(case_files, PARAM_NO_OPTION)};
+static const wt_param rows[] = {SPRING_CONSTANT(case_files, PARAM_NO_OPTION),
+                                SENSITIVITY(case_files, PARAM_NO_OPTION)};
 PARAM_TABLE(case_group_params, case_files, rows, no_files, NO_PARTS)
 
 /* What the attributes of a node say on top of what is there. */
 static wt_status read_attributes(wt_case *c, const xmlNode *node, wt_file_set *set,
-                                 wt_estimate *spring_constant, wt_error *err)
+                                 case_files *lever, wt_error *err)
 {
     case_files *stated = pool_alloc(&c->memory, 1, sizeof *stated);
     if (stated == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    stated->spring_constant = *spring_constant;
+    *stated = *lever;
     wt_status status = case_read_params(c, node, case_group_params(), stated, err);
     if (status == WT_OK)
         status = case_read_params(c, node, wt_file_set_params(), set, err);
-    *spring_constant = stated->spring_constant;
-    set->read.spring_constant = spring_constant->value;
+    *lever = *stated;
+    set->read.spring_constant = lever->spring_constant.value;
+    set->read.sensitivity = lever->sensitivity.value;
     return status;
 }
 
 static bool same(double a, double b)
 {
     return !(a < b) && !(a > b) && !isnan(a) && !isnan(b);
+}
+
+/* One value for the group, or none if its files differ. */
+static void join(wt_estimate *group, wt_estimate of_file, bool first)
+{
+    if (first)
+        *group = of_file;
+    else if (!same(group->value, of_file.value))
+        group->value = (double)NAN;
 }
 
 wt_status case_read_files(wt_case *c, const xmlNode *parent, const char *name, case_files *files,
@@ -47,24 +59,21 @@ wt_status case_read_files(wt_case *c, const xmlNode *parent, const char *name, c
     if (common == NULL || patterns == NULL || files->sets == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     *common = (wt_file_set){.folder = c->folder, .read = wt_read_defaults()};
-    wt_estimate group_constant = no_files().spring_constant;
-    wt_status status = read_attributes(c, parent, common, &group_constant, err);
+    case_files group = no_files();
+    wt_status status = read_attributes(c, parent, common, &group, err);
     files->n = n;
     const xmlNode *node = case_child(parent, name);
     for (size_t i = 0; status == WT_OK && i < n; i++, node = case_next(node, name)) {
         wt_file_set *set = &files->sets[i];
-        wt_estimate k = group_constant;
+        case_files lever = group;
         *set = *common;
-        status = read_attributes(c, node, set, &k, err);
+        status = read_attributes(c, node, set, &lever, err);
         if (status == WT_OK)
             status = case_node_text(c, node, &patterns[i], err);
         set->patterns = &patterns[i];
         set->n_patterns = 1;
-        /* one value for the group, or none if its files differ */
-        if (i == 0)
-            files->spring_constant = k;
-        else if (!same(files->spring_constant.value, k.value))
-            files->spring_constant.value = (double)NAN;
+        join(&files->spring_constant, lever.spring_constant, i == 0);
+        join(&files->sensitivity, lever.sensitivity, i == 0);
     }
     return status;
 }

@@ -38,6 +38,7 @@
     X(DEPTH_TRACK, "wear-track modulus against depth", NULL, "")                                   \
     X(COMPARISON, "comparison", &comparison_schema, "")                                            \
     X(MODULUS_GROUPS, "modulus_groups", &modulus_groups_schema, "")                                \
+    X(MODULUS_BUDGET, "modulus_budget", &modulus_budget_schema, "")                                \
     X(MODULUS_RATE, "modulus_rate", &modulus_rate_schema, "")                                      \
     X(DMA_COMPARISON, "dma_comparison", &dma_comparison_schema, "")                                \
     X(SHIFT_FACTORS, "shift_factors", &shift_factors_schema, "")                                   \

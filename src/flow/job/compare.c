@@ -2,6 +2,7 @@
  * the equivalent frequency.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/job/compare.h"
+#include "flow/job/common_errors.h"
 #include "flow/job/inputs.h"
 
 #include "base/clocale.h"
@@ -56,6 +57,29 @@ wt_status wt_modulus_groups(const wt_table *const *indentation, size_t n, wt_tab
         wt_group_data_clear(&data);
     }
     return table_end(&t, result);
+}
+
+wt_status wt_modulus_budget(const wt_table *const *indentation, size_t n, wt_table **table,
+                            wt_error *err)
+{
+    if (table == NULL || (n > 0 && indentation == NULL))
+        return wt_fail(err, WT_E_ARG, "no indentation tables");
+    wt_status status = WT_OK;
+    wt_group_data *groups = calloc(n > 0 ? n : 1, sizeof *groups);
+    const char **names = calloc(n > 0 ? n : 1, sizeof *names);
+    if (groups == NULL || names == NULL)
+        status = wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t i = 0; status == WT_OK && i < n; i++) {
+        names[i] = group_of(indentation[i]);
+        status = wt_group_from_table(indentation[i], false, &groups[i], err);
+    }
+    if (status == WT_OK)
+        status = modulus_budget_make(groups, names, n, table, err);
+    for (size_t i = 0; groups != NULL && i < n; i++)
+        wt_group_data_clear(&groups[i]);
+    free(groups);
+    free(names);
+    return status;
 }
 
 /* Called bulk and track whatever their tables are called. */
@@ -235,8 +259,8 @@ static const wt_param rows[] = {
              "track to the temperature of the bulk"},
     {PARAM_CHOICE_OF("cantilevers", wt_compare_job, levers, "auto|one|two"),
      .help = "whether bulk and track were indented with one cantilever, whose errors cancel in the "
-             "ratio, or with two, whose errors enter it; auto: one if the spring constants are "
-             "equal"},
+             "ratio, or with two, whose errors enter it; auto: one if spring constants and "
+             "tips are equal"},
     {PARAM("spring-constant-error", wt_compare_job, lever_error, WT_Q_NONE, FROM_BELOW(0, 1)),
      .value = "X",
      .help = "relative standard error of a spring constant whose curves state none, such as 0.1"},
@@ -309,6 +333,8 @@ wt_status wt_compare_groups(const wt_compare_job *job, const wt_job *work,
         status = read_groups(job, &p, err);
     if (status == WT_OK)
         status = make_groups(&p, &t.modulus_groups, err);
+    if (status == WT_OK)
+        status = modulus_budget_make(p.data, compare_group_name, 2, &t.modulus_budget, err);
     if (status == WT_OK && p.present[0] && p.present[1] && !job->groups_only)
         status = compare_make_table(&p, job, work, &t.comparison, err);
     if (job->rates && p.n_bins > 0) {
@@ -336,5 +362,6 @@ void wt_compare_tables_clear(wt_compare_tables *tables)
     wt_table_free(tables->comparison);
     wt_table_free(tables->modulus_rate);
     wt_table_free(tables->dma_comparison);
+    wt_table_free(tables->modulus_budget);
     *tables = (wt_compare_tables){0};
 }

@@ -51,6 +51,7 @@ typedef struct compare_known {
     char out_of_reach[160];     /* a temperature to which no law takes the DMA, which was asked */
     double temperature[2];      /* [K]; NaN = not known */
     char includes[256];         /* in words: what the interval has beside the scatter */
+    char cancels[128];          /* and what it loses, but for what the gains differ by */
 } compare_known;
 
 wt_status compare_find_known(const compare_pair *p, const wt_compare_job *job, const wt_job *work,

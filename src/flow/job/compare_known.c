@@ -39,29 +39,90 @@ static bool are_two(const compare_pair *p, wt_levers levers)
     const double bulk = p->data[0].spring_constant.value, track = p->data[1].spring_constant.value;
     if (levers != WT_LEVERS_AUTO)
         return levers == WT_LEVERS_TWO;
+    const char *const tip[2] = {p->data[0].tip, p->data[1].tip};
+    if (tip[0] != NULL && tip[1] != NULL && strcmp(tip[0], tip[1]) != 0)
+        return true;
     return p->data[0].several_levers || p->data[1].several_levers ||
            fabs(track - bulk) > 1e-9 * fabs(bulk);
 }
 
+/* What an error of one source makes of ln E of a group; NaN where none is stated. */
+typedef struct calibration {
+    double error, gain;
+} calibration;
+
+static calibration calibration_of(const wt_group_data *d, const wt_compare_job *job,
+                                  wt_common_source source)
+{
+    const double stated[WT_COMMON_SOURCES] = {
+        [WT_COMMON_SPRING_CONSTANT] = d->spring_constant.standard_error / d->spring_constant.value};
+    const double given[WT_COMMON_SOURCES] = {[WT_COMMON_SPRING_CONSTANT] = job->lever_error,
+                                             [WT_COMMON_SENSITIVITY] = job->sensitivity_error};
+    const double usual[WT_COMMON_SOURCES] = {
+        [WT_COMMON_SPRING_CONSTANT] = 1, [WT_COMMON_SENSITIVITY] = d->sensitivity_gain};
+    calibration c = {d->common_error[source], d->common_gain[source].value};
+    if (!(c.error > 0))
+        c.error = stated[source] > 0 ? stated[source] : given[source];
+    if (isnan(c.gain))
+        c.gain = usual[source];
+    return c;
+}
+
+static bool has_tip_error(const wt_group_data *d)
+{
+    return d->common_error[WT_COMMON_HALF_ANGLE] > 0 || d->common_error[WT_COMMON_RADIUS] > 0;
+}
+
+static void cancel(compare_known *k, const char *words)
+{
+    const size_t used = strlen(k->cancels);
+    snprintf(k->cancels + used, sizeof k->cancels - used, "%s%s", used > 0 ? ", " : "", words);
+}
+
+/* One lever and tip: their errors are those of both groups, and what is left is what the gains
+ * differ by. The force of a lever is in both moduli to the same power. */
+static void add_source(const compare_pair *p, const wt_compare_job *job, wt_common_source source,
+                       bool separate, const char *words, compare_known *k)
+{
+    const calibration bulk = calibration_of(&p->data[0], job, source),
+                      track = calibration_of(&p->data[1], job, source);
+    const double of_bulk = bulk.error > 0 ? bulk.gain * bulk.error : 0,
+                 of_track = track.error > 0 ? track.gain * track.error : 0;
+    if (separate) {
+        add_error(k, hypot(of_bulk, of_track), words);
+        return;
+    }
+    const double error = fmax(bulk.error > 0 ? bulk.error : 0, track.error > 0 ? track.error : 0);
+    if (!(error > 0))
+        return;
+    cancel(k, words);
+    if (source != WT_COMMON_SPRING_CONSTANT)
+        add_error(k, fabs(track.gain - bulk.gain) * error, words);
+}
+
 static void add_calibration(const compare_pair *p, const wt_compare_job *job, compare_known *k)
 {
-    double lever[2];
-    for (int g = 0; g < 2; g++) {
-        const wt_estimate constant = p->data[g].spring_constant;
-        lever[g] = constant.standard_error / constant.value;
-        if (!(lever[g] > 0))
-            lever[g] = job->lever_error;
-    }
-    const double gain[2] = {p->data[0].sensitivity_gain, p->data[1].sensitivity_gain};
+    const wt_group_data *bulk = &p->data[0], *track = &p->data[1];
     k->two_levers = are_two(p, job->levers);
-    const double by_sensitivity = k->two_levers ? hypot(gain[0], gain[1]) : fabs(gain[1] - gain[0]);
-    if (job->sensitivity_error > 0)
-        add_error(k, job->sensitivity_error * by_sensitivity, "deflection sensitivity");
+    /* a lever that was mounted anew has been calibrated anew */
+    const double s[2] = {bulk->sensitivity.value, track->sensitivity.value};
+    const bool anew = !isnan(s[0]) && !isnan(s[1]) && s[0] != s[1];
+    add_source(p, job, WT_COMMON_SENSITIVITY, k->two_levers || anew, "deflection sensitivity", k);
+    add_source(p, job, WT_COMMON_SPRING_CONSTANT, k->two_levers, "spring constants", k);
+    if (has_tip_error(bulk) || has_tip_error(track)) {
+        add_source(p, job, WT_COMMON_HALF_ANGLE, k->two_levers, "half-angle of the tip", k);
+        add_source(p, job, WT_COMMON_RADIUS, k->two_levers, "radius of the tip", k);
+    } else if (job->tip_error > 0) {
+        if (k->two_levers)
+            add_error(k, job->tip_error * M_SQRT2, "tips");
+        else
+            cancel(k, "tip");
+    }
     if (!k->two_levers)
         return;
-    k->lever_not_stated = !(lever[0] > 0) || !(lever[1] > 0);
-    add_error(k, hypot(lever[0], lever[1]), "spring constants");
-    add_error(k, job->tip_error * M_SQRT2, "tips");
+    for (int g = 0; g < 2; g++)
+        if (!(calibration_of(&p->data[g], job, WT_COMMON_SPRING_CONSTANT).error > 0))
+            k->lever_not_stated = true;
 }
 
 /* ---- temperature and rate -------------------------------------------------------------------- */

@@ -248,6 +248,8 @@ static wt_status write_table(const comparison_task *task, wt_table **table, wt_e
     if (interval && !v.silent)
         comparison_set_text(&t, COMPARISON_KEY_INCLUDES, task->known.includes);
     comparison_set_text(&t, COMPARISON_KEY_CANTILEVERS, task->known.two_levers ? "two" : "one");
+    if (task->known.cancels[0] != '\0' && !v.silent)
+        comparison_set_text(&t, COMPARISON_KEY_CANCELS, task->known.cancels);
     comparison_set_value(&t, COMPARISON_KEY_MARGIN, task->job->margin, 0, 0);
     if (!isnan(c->rate_slope.value))
         comparison_set(&t, COMPARISON_KEY_RATE_SLOPE, c->rate_slope);

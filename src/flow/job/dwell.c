@@ -300,6 +300,10 @@ wt_status wt_dwell_make(const wt_indent_job *job, const wt_job *work, wt_dwell_t
     wt_dwell_tables made = {0};
     flow_files files = {NULL, 0, NULL};
     wt_status status = param_check(wt_indent_job_params(), job, err);
+    if (status == WT_OK && (job->tip.half_angle_error > 0 || job->tip.radius_error > 0)) {
+        status = wt_fail(err, WT_E_ARG, "an error of the tip would not be used");
+        wt_error_advice(err, "leave out what follows +-");
+    }
     if (status == WT_OK)
         status = wt_contact_table_new(&job->tip, depth_min, depth_max, &task.contact, err);
     if (status == WT_OK && (task.workspace = wt_indent_workspace_new()) == NULL)

@@ -161,6 +161,21 @@ static named name_of(const table_view *t, size_t row, size_t item, bool each_pla
     return n;
 }
 
+/* What its curves share. */
+static void read_common(const table_view *t, wt_group_data *d)
+{
+    d->sensitivity = indentation_value(t, INDENTATION_KEY_SENSITIVITY);
+    d->tip = indentation_words(t, INDENTATION_KEY_TIP);
+    for (int i = 0; i < WT_COMMON_SOURCES; i++) {
+        const indentation_key error = (indentation_key)(INDENTATION_KEY_LEVER_ERROR + i),
+                              gain = (indentation_key)(INDENTATION_KEY_LEVER_GAIN + i);
+        d->common_error[i] = indentation_value(t, error).value;
+        d->common_gain[i] = indentation_value(t, gain);
+    }
+    d->loss_error = indentation_value(t, INDENTATION_KEY_LOSS_ERROR).value;
+    d->bend_error = indentation_value(t, INDENTATION_KEY_BEND_ERROR).value;
+}
+
 wt_status wt_group_from_table(const wt_table *table, bool each_place, wt_group_data *data,
                               wt_error *err)
 {
@@ -204,6 +219,7 @@ wt_status wt_group_from_table(const wt_table *table, bool each_place, wt_group_d
         d.group.spot = indentation_has(&t, INDENTATION_SPOT) ? d.spot : NULL;
         d.spring_constant = indentation_value(&t, INDENTATION_KEY_SPRING_CONSTANT);
         d.sensitivity_gain = gain / (double)d.group.n;
+        read_common(&t, &d);
         d.several_levers = indentation_words(&t, INDENTATION_KEY_SPRING_CONSTANTS) != NULL;
         *data = d;
         d = (wt_group_data){0};

@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/job/indent.h"
 #include "base/param.h"
+#include "flow/job/common_errors.h"
 #include "flow/job/cost.h"
 #include "flow/job/curve_set.h"
 #include "flow/job/curve_tables.h"
@@ -58,6 +59,7 @@ typedef struct indent_task {
     accepted *moduli;
     size_t n_moduli;
     indent_together together;
+    common_errors common;
     wt_depth_curve *deep; /* [n_deep] curves for the modulus against depth */
     size_t n_deep;
     long n_spots; /* of them */
@@ -67,9 +69,13 @@ typedef struct indent_task {
 } indent_task;
 
 /* What the fit uses, and nothing else. */
-static wt_read_options wanted_channels(const flow_file *file, bool time)
+static wt_read_options wanted_channels(const flow_file *file, const wt_indent_job *job, bool time)
 {
     wt_read_options options = file->read;
+    if (!isnan(job->spring_constant.value))
+        options.spring_constant = job->spring_constant.value;
+    if (!isnan(job->sensitivity.value))
+        options.sensitivity = job->sensitivity.value;
     options.want &= WT_Q_BIT(WT_Q_HEIGHT) | WT_Q_BIT(WT_Q_MEASURED_HEIGHT) | WT_Q_BIT(WT_Q_FORCE) |
                     (time ? WT_Q_BIT(WT_Q_TIME) : 0);
     options.one_height = true;
@@ -219,7 +225,9 @@ static wt_status write_item(indent_task *task, item *it, wt_error *err)
     task->k_high = fmax(task->k_high, it->curve.cantilever.spring_constant);
     const double error = it->fit.modulus.standard_error / it->fit.modulus.value;
     task->squares += error * error;
-    if (task->job->keep != NULL)
+    status = common_errors_add(&task->common, task->contact, &task->options, &it->curve,
+                               task->scratch[0], err);
+    if (status == WT_OK && task->job->keep != NULL)
         status = curve_set_add(task->job->keep, &it->curve, &it->fit, err);
     return status == WT_OK ? keep_modulus(task, it, err) : status;
 }
@@ -247,7 +255,7 @@ static wt_status read_file(indent_task *task, wt_error *err)
     wt_status status =
         flow_open(task->work, task->file, task->job->group, WT_KIND_FORCE, &input, err);
     const wt_read_options options =
-        wanted_channels(task->file, task->job->rates || task->options.spectrum != NULL);
+        wanted_channels(task->file, task->job, task->job->rates || task->options.spectrum != NULL);
     if (status == WT_OK)
         status = wt_force_open(task->work->formats, input, &options, task->work->log, &task->source,
                                err);
@@ -312,7 +320,8 @@ static wt_status add_representative(indent_task *task, wt_indent_tables *tables,
     wt_input *input = NULL;
     wt_force_source *source = NULL;
     wt_force_curve *curve = &task->now[0].curve;
-    const wt_read_options options = wanted_channels(file, task->options.spectrum != NULL);
+    const wt_read_options options =
+        wanted_channels(file, task->job, task->options.spectrum != NULL);
     wt_status status = wt_input_open(file->path, &input, err);
     if (status == WT_OK)
         status = wt_force_open(task->work->formats, input, &options, NULL, &source, err);
@@ -377,7 +386,12 @@ static void set_keys(indent_task *task, const flow_files *files)
     /* that of the user; else that of the files, whose error they do not say */
     wt_estimate k = job->spring_constant;
     if (isnan(k.value) && task->k_low >= task->k_high)
-        k = (wt_estimate){task->k_low, (double)NAN, 0, "N/m"};
+        k = (wt_estimate){task->k_low, 0, 0, "N/m"};
+    if (!(k.standard_error > 0))
+        k.standard_error = job->lever_error * k.value;
+    if (!isnan(job->sensitivity.value))
+        indentation_set(t, INDENTATION_KEY_SENSITIVITY, flow_as_stated(job->sensitivity));
+    common_errors_set_keys(&task->common, t);
     if (!isnan(k.value))
         indentation_set(t, INDENTATION_KEY_SPRING_CONSTANT, flow_as_stated(k));
     if (task->k_low < task->k_high)
@@ -423,6 +437,8 @@ static wt_status prepare(indent_task *task, wt_error *err)
         status = find_spectrum(task, err);
     if (status == WT_OK)
         status = flow_contact_table(&task->job->tip, &task->contact, err);
+    if (status == WT_OK && (task->work->left_out & WT_EXTRA_COMMON) == 0)
+        status = common_errors_begin(task->job, &task->common, err);
     if (status != WT_OK)
         return status;
     char title[96];
@@ -458,6 +474,7 @@ static void release(indent_task *task)
     free(task->items);
     free(task->moduli);
     indent_together_clear(&task->together);
+    common_errors_clear(&task->common);
     free(task->deep);
     wt_prony_clear(&task->spectrum);
     wt_contact_table_free(task->contact);

@@ -56,9 +56,10 @@ static double mean_shift(const indent_together *together, const indent_shifts *a
 /* What moves all moduli alike, so that their scatter does not show it: a bend of most baselines,
  * which is that of the piezo, and loss whose spectrum is not known. */
 static void say_shifts(const indent_together *together, const wt_indent_job *job,
-                       const wt_job *work)
+                       const wt_job *work, table_writer *rows)
 {
     const double bend = mean_shift(together, &together->bend);
+    indentation_set_value(rows, INDENTATION_KEY_BEND_ERROR, fabs(bend), 0, 0);
     if (fabs(bend) > 0)
         wt_parselog_add(
             work->log, WT_WARNING, NULL, NULL,
@@ -68,6 +69,7 @@ static void say_shifts(const indent_together *together, const wt_indent_job *job
             job->group, together->bend.n, together->n, 100 * bend);
     const double error = mean_shift(together, &together->loss_error);
     const double loss = mean_shift(together, &together->loss);
+    indentation_set_value(rows, INDENTATION_KEY_LOSS_ERROR, error, 0, 0);
     if (error > 0)
         wt_parselog_add(
             work->log, WT_NOTE, NULL, NULL,
@@ -147,7 +149,7 @@ static wt_status say_contacts(const indent_together *together, const wt_indent_j
 wt_status indent_say_together(const indent_together *together, const wt_indent_job *job,
                               const wt_job *work, table_writer *rows, wt_error *err)
 {
-    say_shifts(together, job, work);
+    say_shifts(together, job, work, rows);
     pool_curves(together, job, work, rows);
     return say_contacts(together, job, work, err);
 }

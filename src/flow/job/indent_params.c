@@ -2,6 +2,7 @@
 #include "base/param.h"
 #include "fit/curve.h"
 #include "flow/job/indent.h"
+#include "read/params.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -15,6 +16,7 @@ wt_indent_job wt_indent_job_defaults(void)
         .group = "bulk",
         .options = wt_indent_defaults(),
         .spring_constant = {(double)NAN, 0, 0, "N/m"},
+        .sensitivity = {(double)NAN, 0, 0, "m/V"},
         .temperature = {(double)NAN, (double)NAN, 0, "K"},
         .rates = true,
     };
@@ -50,7 +52,8 @@ static const wt_param rows[] = {
      .flags = PARAM_REQUIRED,
      .help = "pyramid:half-angle=35deg,radius=20nm[,sides=4][,transition=16nm] (axis to FACE), "
              "cone:half-angle=20deg[,radius=20nm], sphere:radius=5um, paraboloid:radius=5um or "
-             "punch:radius=2um"},
+             "punch:radius=2um; half-angle and radius with their standard errors, as "
+             "radius=20nm+-15%"},
     {PARAM("sample-thickness", wt_indent_job, tip.sample_thickness, WT_Q_LENGTH, AT_LEAST(0)),
      .value = "H", .help = "of a thin sample on a rigid base, such as 2um; 0 is thick"},
     {PARAM_FLAG_OF("unbonded", wt_indent_job, tip.unbonded),
@@ -60,6 +63,14 @@ static const wt_param rows[] = {
     {PARAM("indentation-temperature", wt_indent_job, temperature, WT_Q_TEMPERATURE, ABOVE(0)),
      .value = "T", .unset = "the reference temperature of the DMA", .flags = PARAM_NO_CASE,
      .help = "at which the sample was indented; for the spectrum of the DMA"},
+    SPRING_CONSTANT(wt_indent_job, PARAM_NO_CASE),
+    SENSITIVITY(wt_indent_job, PARAM_NO_CASE),
+    {PARAM("spring-constant-error", wt_indent_job, lever_error, WT_Q_NONE, FROM_BELOW(0, 1)),
+     .value = "X", .flags = PARAM_NO_CASE,
+     .help = "relative standard error of a spring constant that states none, such as 0.1"},
+    {PARAM("sensitivity-error", wt_indent_job, sensitivity_error, WT_Q_NONE, FROM_BELOW(0, 1)),
+     .value = "X", .flags = PARAM_NO_CASE,
+     .help = "relative standard error of a deflection sensitivity that states none, such as 0.05"},
     {PARAM_FLAG_OF("curves", wt_indent_job, curves), .flags = PARAM_NO_CASE,
      .help = "also the representative (median) curve and its fit"},
 };
@@ -81,9 +92,24 @@ static wt_status check_sample(const wt_indent_job *job, wt_error *err)
     return status;
 }
 
+/* A value whose error is as large says nothing. */
+static wt_status check_error(const char *name, wt_estimate value, wt_error *err)
+{
+    if (isnan(value.value) || value.standard_error < value.value)
+        return WT_OK;
+    const wt_status status =
+        wt_fail(err, WT_E_RANGE, "the standard error of the %s is not below it", name);
+    wt_error_found(err, "%g +- %g %s", value.value, value.standard_error, value.unit);
+    return status;
+}
+
 wt_status indent_job_check(const wt_indent_job *job, wt_error *err)
 {
     wt_status status = param_check(wt_indent_job_params(), job, err);
+    if (status == WT_OK)
+        status = check_error("spring constant", job->spring_constant, err);
+    if (status == WT_OK)
+        status = check_error("sensitivity", job->sensitivity, err);
     if (status == WT_OK)
         status = check_sample(job, err);
     return status == WT_OK ? curve_range_check(&job->options, &job->tip, err) : status;

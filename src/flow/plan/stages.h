@@ -35,17 +35,19 @@
     X(COMPARISON_WITH_MATERIAL, comparison_with_material,                                          \
       "Wear track against bulk, at one rate and temperature by the material",                      \
       B(INDENTATION_BULK) | B(INDENTATION_TRACK) | B(RUBBER),                                      \
-      B(MODULUS_GROUPS) | B(COMPARISON) | B(MODULUS_RATE) | B(MODULUS_RATIO), flow_step_compare)   \
+      B(MODULUS_GROUPS) | B(MODULUS_BUDGET) | B(COMPARISON) | B(MODULUS_RATE) | B(MODULUS_RATIO),  \
+      flow_step_compare)                                                                           \
     X(COMPARISON, comparison, "Wear track against bulk",                                           \
       B(INDENTATION_BULK) | B(INDENTATION_TRACK),                                                  \
-      B(MODULUS_GROUPS) | B(COMPARISON) | B(MODULUS_RATE) | B(MODULUS_RATIO), flow_step_compare)   \
+      B(MODULUS_GROUPS) | B(MODULUS_BUDGET) | B(COMPARISON) | B(MODULUS_RATE) | B(MODULUS_RATIO),  \
+      flow_step_compare)                                                                           \
     X(GROUPS, groups, "Modulus of bulk and wear track",                                            \
-      B(INDENTATION_BULK) | B(INDENTATION_TRACK), B(MODULUS_GROUPS) | B(MODULUS_RATE),             \
-      flow_step_groups)                                                                            \
+      B(INDENTATION_BULK) | B(INDENTATION_TRACK),                                                  \
+      B(MODULUS_GROUPS) | B(MODULUS_BUDGET) | B(MODULUS_RATE), flow_step_groups)                   \
     X(BULK_ALONE, bulk_alone, "Modulus of the bulk", B(INDENTATION_BULK),                          \
-      B(MODULUS_GROUPS) | B(MODULUS_RATE), flow_step_groups)                                       \
+      B(MODULUS_GROUPS) | B(MODULUS_BUDGET) | B(MODULUS_RATE), flow_step_groups)                   \
     X(TRACK_ALONE, track_alone, "Modulus of the wear track", B(INDENTATION_TRACK),                 \
-      B(MODULUS_GROUPS) | B(MODULUS_RATE), flow_step_groups)                                       \
+      B(MODULUS_GROUPS) | B(MODULUS_BUDGET) | B(MODULUS_RATE), flow_step_groups)                   \
     X(DMA_COMPARISON, dma_comparison, "Indentation of bulk and wear track against DMA",            \
       B(INDENTATION_BULK) | B(INDENTATION_TRACK) | B(RUBBER), B(DMA_COMPARISON),                   \
       flow_step_dma_comparison)                                                                    \

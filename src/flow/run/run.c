@@ -236,6 +236,8 @@ static unsigned find_left_out(const flow_plan *plan, const wt_run_options *optio
                   {WT_EXTRA_DRAWS, FLOW_BIT(FLOW_MATERIAL_DRAWS) | FLOW_BIT(FLOW_SERIES_DRAWS)},
                   {WT_EXTRA_SPECTRUM, FLOW_BIT(FLOW_RELAXATION_SPECTRUM)},
                   {WT_EXTRA_REDUCED, FLOW_BIT(FLOW_PRONY_REDUCED)},
+                  {WT_EXTRA_COMMON, FLOW_BIT(FLOW_MODULUS_BUDGET) | FLOW_BIT(FLOW_COMPARISON) |
+                                        FLOW_BIT(FLOW_MODULUS_RATIO)},
                   {WT_EXTRA_TRANSITION, FLOW_BIT(FLOW_GLASS_TRANSITION)}};
     unsigned left_out = options->no_provenance ? WT_EXTRA_DIGESTS : 0;
     for (size_t i = 0; i < COUNT_OF(extras); i++)

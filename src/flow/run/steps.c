@@ -153,6 +153,9 @@ static wt_status indent(flow_run *run, int g, const wt_rubber *rubber, wt_error 
     job.sets = files->sets;
     job.n_sets = files->n;
     job.spring_constant = files->spring_constant;
+    job.sensitivity = files->sensitivity;
+    job.lever_error = run->c->compare.lever_error;
+    job.sensitivity_error = run->c->compare.sensitivity_error;
     job.rates =
         (run->plan.required & (FLOW_BIT(FLOW_MODULUS_RATE) | FLOW_BIT(FLOW_DMA_COMPARISON))) != 0;
     job.curves = (run->plan.wanted & FLOW_BIT(curve[g])) != 0;
@@ -206,6 +209,7 @@ static wt_status compare(flow_run *run, bool groups_only, wt_error *err)
     if (status == WT_OK)
         say_items(run, tables.modulus_groups);
     keep(run, FLOW_MODULUS_GROUPS, &tables.modulus_groups);
+    keep(run, FLOW_MODULUS_BUDGET, &tables.modulus_budget);
     keep(run, FLOW_COMPARISON, &tables.comparison);
     keep(run, FLOW_MODULUS_RATE, &tables.modulus_rate);
     wt_compare_tables_clear(&tables); /* the stage of the DMA makes its own */

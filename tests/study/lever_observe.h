@@ -1,0 +1,9 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef STUDY_LEVER_OBSERVE_H
+#define STUDY_LEVER_OBSERVE_H
+
+#include "trial.h"
+
+family lever_family(void);
+
+#endif
