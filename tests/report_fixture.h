@@ -226,6 +226,36 @@ static inline void fixture_common_law(void)
     wt_formats_free(formats);
 }
 
+/* Friction at three velocities with and without softening. */
+static inline void fixture_softening(void)
+{
+    static const double velocity[] = {0.01, 0.1, 1}, with[] = {0.3, 0.5, 0.6},
+                        without[] = {0.2, 0.4, 0.5};
+    wt_table *table = NULL;
+    table_writer t = table_begin(&softening_schema, NULL);
+    for (size_t i = 0; i < 3; i++) {
+        table_row(&t);
+        softening_put(&t, SOFTENING_VELOCITY, velocity[i]);
+        softening_put(&t, SOFTENING_HYSTERESIS, with[i]);
+        softening_put(&t, SOFTENING_HYSTERESIS_NUMERICAL_ERROR, 1e-12);
+        softening_put(&t, SOFTENING_HYSTERESIS_WITHOUT, without[i]);
+        softening_put(&t, SOFTENING_HYSTERESIS_WITHOUT_NUMERICAL_ERROR, 1e-12);
+        softening_put(&t, SOFTENING_AREA_RATIO, 0.1);
+        softening_put(&t, SOFTENING_AREA_RATIO_NUMERICAL_ERROR, 1e-12);
+        softening_put(&t, SOFTENING_AREA_RATIO_WITHOUT, 0.05);
+        softening_put(&t, SOFTENING_AREA_RATIO_WITHOUT_NUMERICAL_ERROR, 1e-12);
+        softening_put(&t, SOFTENING_SHARE_BELOW, 0.1);
+        softening_put(&t, SOFTENING_SHARE_ABOVE, 0.2);
+    }
+    softening_set_text(&t, SOFTENING_KEY_SOURCE, "given table");
+    softening_set_print(&t, SOFTENING_KEY_STRAIN_FACTOR, "1");
+    softening_set_value(&t, SOFTENING_KEY_STRAIN, 0.4, (double)NAN, (double)NAN);
+    softening_set_value(&t, SOFTENING_KEY_SHARE_ABOVE, 0.2, (double)NAN, (double)NAN);
+    softening_set_text(&t, SOFTENING_KEY_EFFECT, "more friction");
+    fixture_check(table_end(&t, &table));
+    fixture_check(wt_result_add(fixture_case, table, NULL));
+}
+
 /* Strain sweeps at two frequencies. */
 static inline void fixture_payne(void)
 {
@@ -299,6 +329,7 @@ static inline const wt_result *fixture_produced(void)
         fixture_materials();
         fixture_payne();
         fixture_common_law();
+        fixture_softening();
         wt_case_free(read);
         (void)atexit(fixture_free);
     }

@@ -609,18 +609,29 @@ typedef struct wt_softness {
     double *storage_error; /* [n] standard error of f; NULL: not known */
     double *loss_error;    /* [n] of g; likewise */
     size_t n_sweeps;       /* of which it is the mean; 0: a table that was given */
-    uint64_t reserved[6];
+    double temperature;    /* mean of theirs [K]; NaN: not known */
+    uint64_t reserved[5];
 } wt_softness;
 WT_API void wt_softness_clear(wt_softness *softness);
+/* Which of several strain sweeps. */
+typedef struct wt_softness_choice {
+    double temperature; /* those measured nearest to it [K]; NaN: they are of one */
+    const char *sample; /* those of this one; NULL: they are of one */
+    uint64_t reserved[4];
+} wt_softness_choice;
+WT_API wt_softness_choice wt_softness_choice_defaults(void);
 /* From the table payne_sweep: f and g are storage_ratio and loss_ratio; of several sweeps their
  * mean over the strains that all have reached, and the error is what another sweep would scatter
- * about it. Or from any table with columns strain, f, g and maybe f_error, g_error. */
-WT_API wt_status wt_softness_from_table(const wt_table *table, wt_softness *softness,
-                                        wt_error *err) WT_NODISCARD;
+ * about it, 1.96 of it to each side for 95 % of them. WT_E_AMBIGUOUS if they are of several
+ * temperatures or samples and none is chosen: those are no repeats. Or from any table with columns
+ * strain, f, g and maybe f_error, g_error. */
+WT_API wt_status wt_softness_from_table(const wt_table *table, wt_softness_choice choice,
+                                        wt_softness *softness, wt_error *err) WT_NODISCARD;
 /* From payne_sweep among the tables of a file, or the first of them; the file is an input of the
  * work, shown as `name`. */
-WT_API wt_status wt_softness_read(const char *path, const char *name, const wt_job *work,
-                                  wt_softness *softness, wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_softness_read(const char *path, const char *name, wt_softness_choice choice,
+                                  const wt_job *work, wt_softness *softness,
+                                  wt_error *err) WT_NODISCARD;
 
 /* ---- friction -------------------------------------------------------------------------------- */
 

@@ -1,5 +1,6 @@
 /* Options about rubber, counter surface and conditions. SPDX-License-Identifier: GPL-3.0-or-later
  */
+#include <math.h>
 #include <string.h>
 
 #include "cmd/sliding.h"
@@ -18,8 +19,16 @@ static const wt_param contact_rows[] = {
     {PARAM_TEXT_OF("strain-softening", cmd_contact, softening), .value = "FILE", .unset = "",
      .help = "how the moduli soften with strain: output of weartrack payne, or a table with "
              "columns strain, f and g (and f_error, g_error), by which E' and E'' are multiplied"},
+    {PARAM("softening-temperature", cmd_contact, softening_temperature, WT_Q_TEMPERATURE, ABOVE(0)),
+     .value = "T", .unset = "they are of one",
+     .help = "of strain sweeps at several temperatures take those nearest to this one"},
 };
-CMD_OPTIONS(contact_params, cmd_contact, contact_rows)
+
+static cmd_contact no_contact(void)
+{
+    return (cmd_contact){.softening_temperature = (double)NAN};
+}
+PARAM_LOCAL_TABLE(contact_params, cmd_contact, contact_rows, no_contact, NO_PARTS)
 
 void cmd_sliding_init(cmd_sliding *s, cmd_part own)
 {
@@ -30,6 +39,7 @@ void cmd_sliding_init(cmd_sliding *s, cmd_part own)
     s->transverse = wt_transverse_defaults();
     s->set.read = wt_read_defaults();
     s->session = cmd_session_defaults();
+    s->contact = no_contact();
     s->parts[CMD_CONTACT] = (cmd_part){contact_params(), &s->contact, NULL, 0};
     s->parts[CMD_CONDITIONS] = (cmd_part){wt_sliding_params(), &s->conditions, NULL, 0};
     s->parts[CMD_WORK] = (cmd_part){wt_job_params(), &s->session.work, NULL, 0};
@@ -64,6 +74,8 @@ bool cmd_sliding_parse(cmd_sliding *s, const cmd_usage *usage, int argc, char **
                                         "of DMA files with --files-from)");
     if (s->contact.softening == NULL && cmd_given(&s->parts[CMD_CONDITIONS], "strain-factor"))
         return cmd_usage_error(session, "--strain-factor goes with --strain-softening");
+    if (s->contact.softening == NULL && cmd_given(&s->parts[CMD_CONTACT], "softening-temperature"))
+        return cmd_usage_error(session, "--softening-temperature goes with --strain-softening");
     if (s->contact.material != NULL && cmd_given(&s->parts[CMD_READ], "temperature"))
         return cmd_usage_error(session, "--temperature is that of --dma files; the rubber's while "
                                         "it slides is --sliding-temperature");
@@ -154,8 +166,10 @@ bool cmd_sliding_open(cmd_sliding *s)
                                  "self-affine:q0=..,qr=..,q1=..,hurst=..,c0=..");
     }
     if (status == WT_OK && s->contact.softening != NULL) {
-        status =
-            wt_softness_read(s->contact.softening, s->contact.softening, work, &s->softness, err);
+        const wt_softness_choice choice = {.temperature = s->contact.softening_temperature,
+                                           .sample = s->set.read.sample};
+        status = wt_softness_read(s->contact.softening, s->contact.softening, choice, work,
+                                  &s->softness, err);
         s->conditions.softness = &s->softness;
     }
     s->conditions.rubber = &s->rubber;

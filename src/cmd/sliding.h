@@ -11,7 +11,8 @@ typedef struct cmd_contact {
     const char *const *dma_files; /* [n_dma] or DMA files */
     size_t n_dma;
     const char *roughness;
-    const char *softening; /* output of `payne` or a table; NULL: none */
+    const char *softening;        /* output of `payne` or a table; NULL: none */
+    double softening_temperature; /* of its sweeps [K]; NaN: they are of one */
 } cmd_contact;
 
 /* Parts of the options; CMD_OWN are those of the subcommand itself. */

@@ -77,7 +77,15 @@ static void caption_friction(figure_drawing *d)
                     share.high < 1e-3 ? "0.1" : NUMBER(100 * share.high, 2));
 }
 
-/* ---- descriptions ---------------------------------------------------------------------------- */
+/* ---- softening with strain ------------------------------------------------------------------- */
+
+static void caption_softening(figure_drawing *d)
+{
+    text_format(&d->caption, " Softening: %s. Largest strain met: %s. %s.",
+                softening_words(d->table, SOFTENING_KEY_SOURCE),
+                NUMBER(softening_value(d->table, SOFTENING_KEY_STRAIN).value, 2),
+                softening_words(d->table, SOFTENING_KEY_EFFECT));
+}
 
 /* ---- directions ------------------------------------------------------------------------------ */
 
@@ -188,5 +196,21 @@ const figure_description figures_friction[] = {
               "velocity: with its factors on the moduli, with those on one modulus alone and as "
               "the isotropic material.",
      .draw = draw_directions},
+    {.name = "softening",
+     .title = "What softening with strain does",
+     .table = &softening_schema,
+     .data_title = "hysteresis",
+     .x = {SOFTENING_VELOCITY, AXIS_LOG, "Sliding velocity"},
+     .y = {{SOFTENING_HYSTERESIS, AXIS_FROM_ZERO, "Hysteresis friction coefficient"}},
+     .curves = {CURVE(SOFTENING_HYSTERESIS, LINE, .style = 21,
+                      .title = "moduli soften with strain"),
+                CURVE(SOFTENING_HYSTERESIS_WITHOUT, LINE, .style = 24,
+                      .title = "moduli at small strain")},
+     .nothing = "no hysteresis friction is a number",
+     .words =
+         "Hysteresis part of the friction coefficient against sliding velocity with the moduli "
+         "that soften with strain, and with those at small strain. The strain at a length "
+         "scale is taken from the rms slope of the roughness down to it.",
+     .caption = caption_softening},
     {.name = NULL},
 };

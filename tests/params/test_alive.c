@@ -130,6 +130,7 @@ static const struct {
     {"master", "export-units", "of that file"},
     {"master", "export-temperature", "of that file"},
     {"master", "poisson-ratio", "of that file"},
+    {NULL, "softening-temperature", "of several strain sweeps: tests/cli/softening.txt"},
     {NULL, "provenance", "tests/cli/round_trip.txt"},
 };
 

@@ -1,6 +1,7 @@
 /* Softening with strain in the jobs: the mean of strain sweeps, what is drawn, what the table
  * softening says, and a case that asks for it. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cells.h"
+#include "dma_data.h"
 #include "sliding.h"
 
 #include "data/tables/tables.h"
@@ -83,7 +84,8 @@ static void test_mean(void **state)
     }
     assert_int_equal(n, N_SWEEPS);
     wt_softness s = {0};
-    assert_int_equal(wt_softness_from_table(payne_sweep, &s, NULL), WT_OK);
+    assert_int_equal(wt_softness_from_table(payne_sweep, wt_softness_choice_defaults(), &s, NULL),
+                     WT_OK);
     assert_int_equal(s.n_sweeps, N_SWEEPS);
     assert_true(s.table.n > 8);
     const struct {
@@ -101,7 +103,9 @@ static void test_mean(void **state)
             for (size_t i = 0; i < N_SWEEPS; i++)
                 squares += (value[i] - mean) * (value[i] - mean);
             assert_near(both[c].value[k], mean, 1e-12);
-            const double other = sqrt(squares / (N_SWEEPS - 1) * (1 + 1.0 / N_SWEEPS));
+            /* Student's t of 2 over 1.96 */
+            const double other = 4.302652729749464 / 1.959963984540054 *
+                                 sqrt(squares / (N_SWEEPS - 1) * (1 + 1.0 / N_SWEEPS));
             assert_true(fabs(both[c].error[k] - other) <= 1e-9 * other + 1e-12);
         }
     wt_softness_clear(&s);
@@ -132,11 +136,62 @@ static void test_apart(void **state)
         }
         payne_sweep_set_text(&t, PAYNE_SWEEP_KEY_DEFORMATION, "shear");
         assert_int_equal(table_end(&t, &table), WT_OK);
-        assert_int_equal(wt_softness_from_table(table, &s, NULL),
+        assert_int_equal(wt_softness_from_table(table, wt_softness_choice_defaults(), &s, NULL),
                          n_sweeps == 1 ? WT_OK : WT_E_RANGE);
         wt_softness_clear(&s);
         wt_table_free(table);
     }
+}
+
+/* Sweeps of several temperatures or samples are no repeats: one is chosen. */
+static void test_chosen(void **state)
+{
+    (void)state;
+    static const double at[] = {296.15, 296.65, 333.15, 333.15}, end[] = {0.5, 0.52, 0.7, 0.9};
+    static const char *const sample[] = {"NR", "NR", "NR", "SBR"};
+    table_writer t = table_begin(&payne_sweep_schema, NULL);
+    wt_table *table = NULL;
+    for (size_t i = 0; i < 12; i++) {
+        const double ratio = i % 3 < 2 ? 1 : end[i / 3];
+        if (i % 3 == 0)
+            table_block(&t);
+        table_row(&t);
+        payne_sweep_put(&t, PAYNE_SWEEP_STRAIN, pow(10, -3 + (double)(i % 3)));
+        payne_sweep_put(&t, PAYNE_SWEEP_ANGULAR_FREQUENCY, 60);
+        payne_sweep_put(&t, PAYNE_SWEEP_TEMPERATURE, at[i / 3]);
+        payne_sweep_put(&t, PAYNE_SWEEP_STORAGE_MODULUS, 1e6 * ratio);
+        payne_sweep_put(&t, PAYNE_SWEEP_LOSS_MODULUS, 1e5 * ratio);
+        payne_sweep_put(&t, PAYNE_SWEEP_LOSS_FACTOR, 0.1);
+        payne_sweep_put(&t, PAYNE_SWEEP_STORAGE_RATIO, ratio);
+        payne_sweep_put(&t, PAYNE_SWEEP_LOSS_RATIO, ratio);
+        payne_sweep_put_text(&t, PAYNE_SWEEP_SOURCE, "a file");
+        payne_sweep_put_text(&t, PAYNE_SWEEP_SAMPLE, sample[i / 3]);
+    }
+    payne_sweep_set_text(&t, PAYNE_SWEEP_KEY_DEFORMATION, "shear");
+    assert_int_equal(table_end(&t, &table), WT_OK);
+    const struct {
+        double temperature;
+        const char *sample, *found;
+        size_t n;
+        double last;
+    } cases[] = {{(double)NAN, NULL, "NR, SBR", 0, 0}, {(double)NAN, "NR", "23.0, 60.0 degC", 0, 0},
+                 {(double)NAN, "SBR", NULL, 1, 0.9},   {(double)NAN, "EPDM", "NR", 0, 0},
+                 {300, "NR", NULL, 2, 0.51},           {400, "NR", NULL, 1, 0.7}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const wt_softness_choice choice = {.temperature = cases[i].temperature,
+                                           .sample = cases[i].sample};
+        wt_softness s = {0};
+        wt_error err = WT_ERROR_INIT;
+        const wt_status status = wt_softness_from_table(table, choice, &s, &err);
+        assert_int_equal(status == WT_OK, cases[i].found == NULL);
+        if (cases[i].found != NULL)
+            assert_string_equal(err.found, cases[i].found);
+        else
+            assert_near(s.table.storage[s.table.n - 1], cases[i].last, 1e-12);
+        assert_int_equal(s.n_sweeps, cases[i].n);
+        wt_softness_clear(&s);
+    }
+    wt_table_free(table);
 }
 
 /* ---- the jobs -------------------------------------------------------------------------------- */
@@ -272,6 +327,73 @@ static void test_drawn(void **state)
     }
 }
 
+/* Sweeps of a population in which the whole curves of f and of g scatter: the friction of another
+ * piece of it lies in 1.96 standard errors as often as that says. The curves are made by a law of
+ * their own. */
+static void test_covered(void **state)
+{
+    (void)state;
+    enum { TRIALS = 200, POINTS = 7 };
+    uint64_t seed = 11;
+    static const size_t n_sweeps[] = {3, 6};
+    for (size_t c = 0; c < 2; c++) {
+        size_t held = 0;
+        for (size_t trial = 0; trial < TRIALS; trial++) {
+            table_writer t = table_begin(&payne_sweep_schema, NULL);
+            wt_table *table = NULL;
+            wt_softness s = {0};
+            wt_friction_tables found = {0};
+            double x[POINTS], f[POINTS], g[POINTS];
+            for (size_t i = 0; i <= n_sweeps[c]; i++) { /* the last is the other piece */
+                const double of_f = exp(0.15 * dma_normal(&seed)),
+                             of_g = exp(0.15 * dma_normal(&seed));
+                if (i < n_sweeps[c])
+                    table_block(&t);
+                for (size_t k = 0; k < POINTS; k++) {
+                    x[k] = 1e-4 * pow(10, 0.5 * (double)k);
+                    f[k] = pow(1 + pow(x[k] / 0.01, 0.8), -0.6 * of_f);
+                    g[k] = pow(1 + pow(x[k] / 0.03, 0.8), -0.4 * of_g);
+                    if (i == n_sweeps[c])
+                        continue;
+                    table_row(&t);
+                    payne_sweep_put(&t, PAYNE_SWEEP_STRAIN, x[k]);
+                    payne_sweep_put(&t, PAYNE_SWEEP_ANGULAR_FREQUENCY, 60);
+                    payne_sweep_put(&t, PAYNE_SWEEP_STORAGE_MODULUS, 1e6 * f[k]);
+                    payne_sweep_put(&t, PAYNE_SWEEP_LOSS_MODULUS, 1e5 * g[k]);
+                    payne_sweep_put(&t, PAYNE_SWEEP_LOSS_FACTOR, 0.1 * g[k] / f[k]);
+                    payne_sweep_put(&t, PAYNE_SWEEP_STORAGE_RATIO, f[k]);
+                    payne_sweep_put(&t, PAYNE_SWEEP_LOSS_RATIO, g[k]);
+                    payne_sweep_put_text(&t, PAYNE_SWEEP_SOURCE, "made");
+                }
+            }
+            payne_sweep_set_text(&t, PAYNE_SWEEP_KEY_DEFORMATION, "shear");
+            assert_int_equal(table_end(&t, &table), WT_OK);
+            assert_int_equal(wt_softness_from_table(table, wt_softness_choice_defaults(), &s, NULL),
+                             WT_OK);
+            sliding_set_up(velocity, 1);
+            work.seed = trial + 1;
+            work.replicates = 64;
+            work.tolerance = 1e-4;
+            sliding.softness = &s;
+            assert_int_equal(wt_friction_make(&sliding, NULL, &work, &found, NULL), WT_OK);
+            const double value = number_cell(found.friction, 0, "hysteresis"),
+                         error = number_cell(found.friction, 0, "hysteresis_standard_error");
+            wt_friction_tables_clear(&found);
+            const wt_softness other = {.table = {.n = POINTS, .strain = x, .storage = f, .loss = g},
+                                       .temperature = (double)NAN};
+            work.replicates = 0;
+            sliding.softness = &other;
+            assert_int_equal(wt_friction_make(&sliding, NULL, &work, &found, NULL), WT_OK);
+            held += fabs(number_cell(found.friction, 0, "hysteresis") - value) <= 1.96 * error;
+            wt_friction_tables_clear(&found);
+            wt_softness_clear(&s);
+            wt_table_free(table);
+        }
+        print_message("%zu sweeps: %g\n", n_sweeps[c], (double)held / TRIALS);
+        assert_true(held >= 0.92 * TRIALS && held <= 0.98 * TRIALS);
+    }
+}
+
 static void test_refused(void **state)
 {
     (void)state;
@@ -355,8 +477,10 @@ static void test_cases(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_mean),  cmocka_unit_test(test_apart), cmocka_unit_test(test_shares),
-        cmocka_unit_test(test_same),  cmocka_unit_test(test_drawn), cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_mean),   cmocka_unit_test(test_apart),
+        cmocka_unit_test(test_chosen), cmocka_unit_test(test_covered),
+        cmocka_unit_test(test_shares), cmocka_unit_test(test_same),
+        cmocka_unit_test(test_drawn),  cmocka_unit_test(test_refused),
         cmocka_unit_test(test_cases),
     };
     return cmocka_run_group_tests_name("softening", tests, make_sweeps, free_sweeps);

@@ -274,6 +274,8 @@ static void test_curves_are_drawn_from_their_columns(void **state)
         {"contact_area", "lines lw 1.8", "magnification area_ratio velocity"},
         {"friction_scales", "lines lw 1.8", "magnification hysteresis velocity"},
         {"directions", "title 'isotropic'", "velocity hysteresis"},
+        {"softening", "title 'moduli soften with strain'", "velocity hysteresis"},
+        {"softening", "title 'moduli at small strain'", "velocity hysteresis_without"},
         {"directions", "title 'both'", "velocity hysteresis"},
         {"energy_density", "lines ls 21", "depth energy_density"},
         {"layer", "ls 71 notitle", "time thickness thickness_standard_error"},
@@ -510,6 +512,7 @@ static void test_numbers_of_captions(void **state)
         {"material_ratio", " Divided by soft. Over frequency: at 20 °C. Over temperature: at "},
         {"material_ratio", "has 1.2 times the E' and 1.2 times the E'' of soft; within the margin: "
                            "tan delta."},
+        {"softening", " Softening: given table. Largest strain met: 0.40. more friction."},
         {"common_law", " Reference temperatures: NR 20.00 °C, SBR 10% 20.00 °C. One law? "},
         {"isotherms", " 12 isotherms. Those that superposition"},
         {"vertical_shifts", " are off it by up to "},

@@ -516,6 +516,37 @@ static void test_ramps(void **state)
     }
 }
 
+/* So slow that nothing is lost: of no friction there is no share. */
+static void test_no_hysteresis(void **state)
+{
+    (void)state;
+    static double slow[] = {1e-323, 1}, tau[] = {1e-9}, term[] = {3e8}, strain[] = {1e-3, 1e-2},
+                  ratio[] = {1, 0.7};
+    const wt_softness s = {.table = {.n = 2, .strain = strain, .storage = ratio, .loss = ratio},
+                           .temperature = (double)NAN};
+    wt_table *table = NULL;
+    wt_error err = WT_ERROR_INIT;
+    sliding_set_up(slow, 2);
+    rubber.prony.n = 1;
+    rubber.prony.relaxation_time = tau;
+    rubber.prony.modulus = term;
+    sliding.softness = &s;
+    if (wt_softening_make(&sliding, &work, &table, &err) != WT_OK)
+        fail_msg("%s %s", err.message, err.found);
+    assert_true(wt_table_number(table, 0, (size_t)wt_table_find(table, "hysteresis")) <= 0);
+    for (size_t row = 0; row < 2; row++) {
+        const size_t below = (size_t)wt_table_find(table, "share_below"),
+                     above = (size_t)wt_table_find(table, "share_above");
+        assert_int_equal(isnan(wt_table_number(table, row, below)), row == 0);
+        assert_int_equal(isnan(wt_table_number(table, row, above)), row == 0);
+    }
+    assert_string_equal(wt_table_key(table, "shares_unknown"),
+                        "1 of 2 velocities have no hysteresis friction, of which there could be a "
+                        "share");
+    see(table);
+    wt_table_free(table);
+}
+
 /* Strain sweeps that reach half of the fall and its double. */
 static void test_strain_sweeps(void **state)
 {
@@ -532,6 +563,13 @@ static void test_strain_sweeps(void **state)
     if (wt_payne_make(&job, &common, &tables, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     assert_int_equal(wt_table_n_rows(tables.payne), 3);
+    see(tables.payne);
+    see(tables.payne_sweep);
+    wt_payne_tables_clear(&tables);
+    wt_file_set named = set;
+    named.read.sample_by = WT_SAMPLE_BY_FILE;
+    job.sets = &named;
+    assert_int_equal(wt_payne_make(&job, &common, &tables, NULL), WT_OK);
     see(tables.payne);
     see(tables.payne_sweep);
     wt_payne_tables_clear(&tables);
@@ -743,21 +781,14 @@ static int free_formats(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_cases),
-        cmocka_unit_test(test_joined_law),
-        cmocka_unit_test(test_common_law),
-        cmocka_unit_test(test_materials),
-        cmocka_unit_test(test_spring_constants),
-        cmocka_unit_test(test_conversions),
-        cmocka_unit_test(test_ramps),
-        cmocka_unit_test(test_strain_sweeps),
-        cmocka_unit_test(test_files),
-        cmocka_unit_test(test_calibration),
-        cmocka_unit_test(test_dwell),
-        cmocka_unit_test(test_thermal),
-        cmocka_unit_test(test_directions),
-        cmocka_unit_test(test_accuracy),
-        cmocka_unit_test(test_all_put),
+        cmocka_unit_test(test_cases),         cmocka_unit_test(test_joined_law),
+        cmocka_unit_test(test_common_law),    cmocka_unit_test(test_no_hysteresis),
+        cmocka_unit_test(test_materials),     cmocka_unit_test(test_spring_constants),
+        cmocka_unit_test(test_conversions),   cmocka_unit_test(test_ramps),
+        cmocka_unit_test(test_strain_sweeps), cmocka_unit_test(test_files),
+        cmocka_unit_test(test_calibration),   cmocka_unit_test(test_dwell),
+        cmocka_unit_test(test_thermal),       cmocka_unit_test(test_directions),
+        cmocka_unit_test(test_accuracy),      cmocka_unit_test(test_all_put),
     };
     return cmocka_run_group_tests_name("tables put", tests, open_formats, free_formats);
 }

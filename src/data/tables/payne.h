@@ -22,6 +22,7 @@
       SI(STORAGE_MODULUS), SPARSE)                                                                 \
     X(PAYNE_SWEEP_LOSS_KRAUS, "loss_kraus", "loss modulus of the law of Kraus", SI(LOSS_MODULUS),  \
       SPARSE)                                                                                      \
+    X(PAYNE_SWEEP_SAMPLE, "sample", "name of the sample", TEXT, OPTIONAL, SPARSE)                  \
     X(PAYNE_SWEEP_SOURCE, "source", "file and step", TEXT)
 #define PAYNE_SWEEP_KEYS(X) X(PAYNE_SWEEP_KEY_DEFORMATION, "deformation", TEXT)
 
@@ -70,6 +71,7 @@
     X(PAYNE_POINTS, "points", "points", NUMBER, LABEL("Points"))                                   \
     X(PAYNE_STRAIN_MIN, "strain_min", "smallest amplitude", SI(STRAIN))                            \
     X(PAYNE_STRAIN_MAX, "strain_max", "largest amplitude", SI(STRAIN))                             \
+    X(PAYNE_SAMPLE, "sample", "name of the sample", TEXT, OPTIONAL, SPARSE)                        \
     X(PAYNE_SOURCE, "source", "file and step", TEXT)
 #define PAYNE_KEYS(X) X(PAYNE_KEY_DEFORMATION, "deformation", TEXT)
 

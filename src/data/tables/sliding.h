@@ -121,6 +121,7 @@
     X(SOFTENING_KEY_STRAIN, "strain", NUMBER, LABEL("Largest strain met"))                         \
     X(SOFTENING_KEY_SHARE_ABOVE, "share_above", NUMBER,                                            \
       LABEL("Share of the hysteresis from strains above those known, largest"))                    \
+    X(SOFTENING_KEY_UNKNOWN, "shares_unknown", TEXT, LABEL("Shares not known"), OPTIONAL)          \
     X(SOFTENING_KEY_EFFECT, "effect", TEXT, LABEL("What it does"))
 
 #define CONTACT_AREA_COLUMNS(X)                                                                    \

@@ -143,7 +143,7 @@ static const source sources[] = {
     {"temperature", "the temperature in sliding measured", always, stated_temperature,
      hold_temperature},
     {"roughness", "more scans of the counter surface", always, stated_roughness, hold_roughness},
-    {"softening with strain", "more strain sweeps, at more temperatures", has_softness,
+    {"softening with strain", "more strain sweeps at the temperature of the contact", has_softness,
      stated_softness, hold_softness},
     {"shear stress", "more friction runs that give it", has_shear, stated_shear, hold_shear},
     {"specific wear rate", "more or longer wear runs", has_layer, stated_wear, hold_wear},

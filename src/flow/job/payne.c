@@ -77,6 +77,8 @@ static void put_points(table_writer *t, const wt_strain_sweep *s, const wt_payne
             payne_sweep_put(t, PAYNE_SWEEP_LOSS_KRAUS, wt_kraus_loss(&p->law, s->strain[i]));
         }
         payne_sweep_put_text(t, PAYNE_SWEEP_SOURCE, s->source);
+        if (s->sample != NULL)
+            payne_sweep_put_text(t, PAYNE_SWEEP_SAMPLE, s->sample);
     }
 }
 
@@ -114,6 +116,8 @@ static void put_numbers(table_writer *t, const wt_strain_sweep *s, size_t n, con
     payne_put(t, PAYNE_STRAIN_MIN, s->strain[0]);
     payne_put(t, PAYNE_STRAIN_MAX, s->strain[s->n - 1]);
     payne_put_text(t, PAYNE_SOURCE, s->source);
+    if (s->sample != NULL)
+        payne_put_text(t, PAYNE_SAMPLE, s->sample);
 }
 
 static wt_status make_tables(const wt_job *work, const wt_sweep *sweep, wt_payne_tables *t,

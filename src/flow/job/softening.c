@@ -47,9 +47,10 @@ static wt_status find_shares(effect *e, const sliding_contact *c, wt_error *err)
         status =
             wt_friction_profile(c->workspace, c->pressure, e->velocity[i], e->range, 2, nodes, err);
         const double all = r->with.hysteresis.value;
-        r->below = all > 0 ? fmin(fmax(nodes[0].hysteresis / all, 0), 1) : 0;
-        r->above = all > 0 ? fmin(fmax(1 - nodes[1].hysteresis / all, 0), 1) : 0;
-        if (!(e->range[1] < c->roughness->q1))
+        const double none = (double)NAN; /* of no friction there is no share */
+        r->below = all > 0 ? fmin(fmax(nodes[0].hysteresis / all, 0), 1) : none;
+        r->above = all > 0 ? fmin(fmax(1 - nodes[1].hysteresis / all, 0), 1) : none;
+        if (all > 0 && !(e->range[1] < c->roughness->q1))
             r->above = 0; /* not met */
     }
     return status;
@@ -106,11 +107,19 @@ static wt_status make_table(const effect *e, wt_table **table, wt_error *err)
 {
     char words[256];
     table_writer t = table_begin(&softening_schema, err);
-    double above = 0;
-    for (size_t i = 0; i + 1 < e->n; i++)
+    double above = (double)NAN;
+    size_t n_without = 0;
+    for (size_t i = 0; i + 1 < e->n; i++) {
         put_row(&e->rows[i], &t);
+        n_without += isnan(e->rows[i].above) ? 1 : 0;
+    }
     for (size_t i = 0; i < e->n; i++)
         above = fmax(above, e->rows[i].above);
+    if (n_without > 0)
+        softening_set_print(&t, SOFTENING_KEY_UNKNOWN,
+                            "%zu of %zu velocities have no hysteresis friction, of which there "
+                            "could be a share",
+                            n_without, e->n - 1);
     softness_describe(e->sliding->softness, words, sizeof words);
     softening_set_text(&t, SOFTENING_KEY_SOURCE, words);
     softening_set_print(&t, SOFTENING_KEY_STRAIN_FACTOR, "%g", e->sliding->strain_factor);

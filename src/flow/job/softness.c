@@ -15,6 +15,11 @@ static wt_status no_memory(wt_error *err)
     return wt_fail(err, WT_E_MEMORY, "out of memory for the softening with strain");
 }
 
+wt_softness_choice wt_softness_choice_defaults(void)
+{
+    return (wt_softness_choice){.temperature = (double)NAN};
+}
+
 void wt_softness_clear(wt_softness *softness)
 {
     if (softness == NULL)
@@ -30,7 +35,8 @@ static wt_status make_room(wt_softness *s, size_t n, bool errors, wt_error *err)
     if (numbers == NULL)
         return no_memory(err);
     *s = (wt_softness){
-        .table = {.n = n, .strain = numbers, .storage = numbers + n, .loss = numbers + 2 * n}};
+        .table = {.n = n, .strain = numbers, .storage = numbers + n, .loss = numbers + 2 * n},
+        .temperature = (double)NAN};
     if (errors) {
         s->storage_error = numbers + 3 * n;
         s->loss_error = numbers + 4 * n;
@@ -51,8 +57,108 @@ typedef struct one_sweep {
     double *log_strain, *f, *g;
 } one_sweep;
 
+/* Quantile of 95 %, two-sided. */
+static const double both_ends = 1.959963984540054;
 /* Amplitudes that are closer than this are one. */
 static const double same_strain = 0.05;
+
+/* Kelvin within which two sweeps are of one temperature. */
+static const double same_temperature = 1.5;
+
+/* Whether a row has moduli and is of the temperature and sample that count; NaN, NULL: any. */
+static bool is_of(const table_view *v, size_t row, wt_softness_choice choice)
+{
+    const double temperature = payne_sweep_get(v, row, PAYNE_SWEEP_TEMPERATURE);
+    return is_usable(payne_sweep_get(v, row, PAYNE_SWEEP_STRAIN)) &&
+           is_usable(payne_sweep_get(v, row, PAYNE_SWEEP_STORAGE_RATIO)) &&
+           is_usable(payne_sweep_get(v, row, PAYNE_SWEEP_LOSS_RATIO)) &&
+           (isnan(choice.temperature) ||
+            fabs(temperature - choice.temperature) <= same_temperature) &&
+           (choice.sample == NULL ||
+            strcmp(payne_sweep_text(v, row, PAYNE_SWEEP_SAMPLE), choice.sample) == 0);
+}
+
+static wt_status several(const char *what, const char *one, const char *other, const char *advice,
+                         wt_error *err)
+{
+    wt_fail(err, WT_E_AMBIGUOUS, "strain sweeps of several %s are no repeats", what);
+    wt_error_expected(err, "those of one");
+    wt_error_found(err, "%s, %s", one[0] != '\0' ? one : "one without a name",
+                   other[0] != '\0' ? other : "one without a name");
+    wt_error_advice(err, "%s", advice);
+    return WT_E_AMBIGUOUS;
+}
+
+/* A sample that is named, if the table names any; one is enough that is named nowhere. */
+static wt_status choose_sample(const table_view *v, wt_softness_choice *choice, wt_error *err)
+{
+    const wt_softness_choice any = wt_softness_choice_defaults();
+    const char *first = NULL;
+    bool named = false, there = false;
+    for (size_t row = 0; row < v->n_rows; row++) {
+        const char *const here = payne_sweep_text(v, row, PAYNE_SWEEP_SAMPLE);
+        if (!is_of(v, row, any))
+            continue;
+        named = named || here[0] != '\0';
+        there = there || (choice->sample != NULL && strcmp(here, choice->sample) == 0);
+        first = first == NULL ? here : first;
+        if (choice->sample == NULL && strcmp(here, first) != 0)
+            return several("samples", first, here, "choose one with --sample NAME", err);
+    }
+    if (!named || (choice->sample != NULL && strcmp(choice->sample, "all") == 0)) {
+        choice->sample = NULL;
+    } else if (choice->sample != NULL && !there) {
+        wt_fail(err, WT_E_NOT_FOUND, "no strain sweep is of the sample \"%s\"", choice->sample);
+        wt_error_found(err, "%s", first);
+        return WT_E_NOT_FOUND;
+    }
+    return WT_OK;
+}
+
+/* The temperature of a sweep that is nearest to the one that is asked for. */
+static wt_status choose_temperature(const table_view *v, wt_softness_choice *choice, wt_error *err)
+{
+    const wt_softness_choice of = {.temperature = (double)NAN, .sample = choice->sample};
+    double low = (double)NAN, high = (double)NAN, nearest = (double)NAN;
+    for (size_t row = 0; row < v->n_rows; row++) {
+        const double here = payne_sweep_get(v, row, PAYNE_SWEEP_TEMPERATURE);
+        if (!is_of(v, row, of) || isnan(here))
+            continue;
+        low = fmin(low, here);
+        high = fmax(high, here);
+        if (isnan(nearest) ||
+            fabs(here - choice->temperature) < fabs(nearest - choice->temperature))
+            nearest = here;
+    }
+    if (isnan(choice->temperature) && high - low > same_temperature) {
+        char one[32], other[32];
+        snprintf(one, sizeof one, "%.1f", low - WT_ZERO_CELSIUS);
+        snprintf(other, sizeof other, "%.1f degC", high - WT_ZERO_CELSIUS);
+        return several(
+            "temperatures", one, other,
+            "choose one with --softening-temperature T, such as that of the contact; in a "
+            "case give sweeps of one temperature",
+            err);
+    }
+    if (!isnan(choice->temperature) && isnan(nearest)) {
+        wt_fail(err, WT_E_MISSING, "the strain sweeps do not say their temperature");
+        wt_error_advice(err, "leave --softening-temperature out");
+        return WT_E_MISSING;
+    }
+    choice->temperature = isnan(choice->temperature) ? choice->temperature : nearest;
+    return WT_OK;
+}
+
+static double mean_temperature(const table_view *v, wt_softness_choice choice)
+{
+    double sum = 0, n = 0;
+    for (size_t row = 0; row < v->n_rows; row++)
+        if (is_of(v, row, choice)) {
+            sum += payne_sweep_get(v, row, PAYNE_SWEEP_TEMPERATURE);
+            n++;
+        }
+    return n > 0 ? sum / n : (double)NAN;
+}
 
 static bool begins_sweep(const table_view *v, size_t row)
 {
@@ -64,7 +170,8 @@ static bool begins_sweep(const table_view *v, size_t row)
 }
 
 /* The sweeps behind one another in the arrays of `room`. */
-static size_t take_sweeps(const table_view *v, one_sweep room, one_sweep *sweeps)
+static size_t take_sweeps(const table_view *v, wt_softness_choice choice, one_sweep room,
+                          one_sweep *sweeps)
 {
     size_t n = 0, at = 0;
     bool begins = false;
@@ -73,7 +180,7 @@ static size_t take_sweeps(const table_view *v, one_sweep room, one_sweep *sweeps
                      f = payne_sweep_get(v, row, PAYNE_SWEEP_STORAGE_RATIO),
                      g = payne_sweep_get(v, row, PAYNE_SWEEP_LOSS_RATIO);
         begins = begins || begins_sweep(v, row);
-        if (!is_usable(strain) || !is_usable(f) || !is_usable(g))
+        if (!is_of(v, row, choice))
             continue;
         if (begins)
             sweeps[n++] =
@@ -132,10 +239,12 @@ static size_t common_strains(const one_sweep *sweeps, size_t n, double *x, wt_er
     return kept;
 }
 
-/* Mean of the sweeps, and what another one would scatter about it. */
+/* Mean of the sweeps, and what another one would scatter about it: so that 1.96 of it to each side
+ * hold 95 % of them, for the scatter of n sweeps is known no better (Student). */
 static void put_mean(const one_sweep *sweeps, size_t n, const double *x, bool loss, double *mean,
                      double *error, size_t points)
 {
+    const double wider = n > 1 ? wt_student((double)(n - 1)) / both_ends : 1;
     for (size_t k = 0; k < points; k++) {
         double sum = 0, squares = 0;
         for (size_t i = 0; i < n; i++)
@@ -147,7 +256,7 @@ static void put_mean(const one_sweep *sweeps, size_t n, const double *x, bool lo
             squares += off * off;
         }
         if (error != NULL)
-            error[k] = sqrt(squares / (double)(n - 1) * (1 + 1 / (double)n));
+            error[k] = wider * sqrt(squares / (double)(n - 1) * (1 + 1 / (double)n));
     }
 }
 
@@ -166,10 +275,15 @@ static wt_status mean_of(const one_sweep *sweeps, size_t n, double *x, wt_softne
     return WT_OK;
 }
 
-static wt_status of_sweeps(const wt_table *table, wt_softness *softness, wt_error *err)
+static wt_status of_sweeps(const wt_table *table, wt_softness_choice choice, wt_softness *softness,
+                           wt_error *err)
 {
     table_view v;
     wt_status status = table_bind(table, &payne_sweep_schema, "", &v, err);
+    if (status == WT_OK)
+        status = choose_sample(&v, &choice, err);
+    if (status == WT_OK)
+        status = choose_temperature(&v, &choice, err);
     if (status != WT_OK)
         return status;
     double *numbers = calloc(4 * v.n_rows + 1, sizeof *numbers);
@@ -178,7 +292,8 @@ static wt_status of_sweeps(const wt_table *table, wt_softness *softness, wt_erro
     if (numbers == NULL || sweeps == NULL)
         status = no_memory(err);
     else
-        n = take_sweeps(&v, (one_sweep){0, numbers, numbers + v.n_rows, numbers + 2 * v.n_rows},
+        n = take_sweeps(&v, choice,
+                        (one_sweep){0, numbers, numbers + v.n_rows, numbers + 2 * v.n_rows},
                         sweeps);
     if (status == WT_OK && n == 0) {
         status = wt_fail(err, WT_E_EMPTY, "no strain sweep has both moduli");
@@ -186,6 +301,8 @@ static wt_status of_sweeps(const wt_table *table, wt_softness *softness, wt_erro
     }
     if (status == WT_OK)
         status = mean_of(sweeps, n, numbers + 3 * v.n_rows, softness, err);
+    if (status == WT_OK)
+        softness->temperature = mean_temperature(&v, choice);
     free(numbers);
     free(sweeps);
     return status;
@@ -258,13 +375,14 @@ static wt_status check_errors(const wt_softness *s, wt_error *err)
     return WT_OK;
 }
 
-wt_status wt_softness_from_table(const wt_table *table, wt_softness *softness, wt_error *err)
+wt_status wt_softness_from_table(const wt_table *table, wt_softness_choice choice,
+                                 wt_softness *softness, wt_error *err)
 {
     if (table == NULL || softness == NULL)
         return wt_fail(err, WT_E_ARG, "no table of a softening with strain");
     wt_softness s = {0};
     const bool swept = wt_table_find(table, "storage_ratio") >= 0;
-    wt_status status = swept ? of_sweeps(table, &s, err) : of_given(table, &s, err);
+    wt_status status = swept ? of_sweeps(table, choice, &s, err) : of_given(table, &s, err);
     if (status == WT_OK)
         status = wt_softening_check(&s.table, err);
     if (status == WT_OK)
@@ -276,8 +394,8 @@ wt_status wt_softness_from_table(const wt_table *table, wt_softness *softness, w
     return status;
 }
 
-wt_status wt_softness_read(const char *path, const char *name, const wt_job *work,
-                           wt_softness *softness, wt_error *err)
+wt_status wt_softness_read(const char *path, const char *name, wt_softness_choice choice,
+                           const wt_job *work, wt_softness *softness, wt_error *err)
 {
     static const wt_tables_role role = {
         "softening", "softening",
@@ -287,7 +405,7 @@ wt_status wt_softness_read(const char *path, const char *name, const wt_job *wor
     wt_status status = wt_tables_read(path, name, work, role, &tables, err);
     if (status == WT_OK) {
         const wt_table *swept = wt_result_find(tables, "payne_sweep");
-        status = wt_softness_from_table(swept != NULL ? swept : wt_result_table(tables, 0),
+        status = wt_softness_from_table(swept != NULL ? swept : wt_result_table(tables, 0), choice,
                                         softness, err);
     }
     if (status != WT_OK)
@@ -307,14 +425,18 @@ bool softness_has_errors(const wt_softness *softness)
 void softness_describe(const wt_softness *s, char *text, size_t size)
 {
     const double *strain = s->table.strain;
-    char from[64];
+    char from[64], at[32];
     if (s->n_sweeps == 0)
         snprintf(from, sizeof from, "given table");
     else
         snprintf(from, sizeof from, "%s%zu strain sweep%s", s->n_sweeps > 1 ? "mean of " : "",
                  s->n_sweeps, s->n_sweeps > 1 ? "s" : "");
+    if (isnan(s->temperature))
+        at[0] = '\0';
+    else
+        clocale_print(at, sizeof at, " at %.1f °C", s->temperature - WT_ZERO_CELSIUS);
     clocale_print(
-        text, size, "%s, strain %.3g to %.3g; %s", from, strain[0], strain[s->table.n - 1],
+        text, size, "%s%s, strain %.3g to %.3g; %s", from, at, strain[0], strain[s->table.n - 1],
         softness_has_errors(s)
             ? s->n_sweeps > 1 ? "the scatter between the sweeps is drawn" : "errors are drawn"
             : "its error is not known and not in the standard errors");

@@ -367,8 +367,8 @@ wt_status flow_step_given_softening(flow_run *run, wt_error *err)
     char *path = wt_path_join(set->folder, set->patterns[0]);
     if (path == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    const wt_status status =
-        wt_softness_read(path, set->patterns[0], &run->job, &run->softness, err);
+    const wt_status status = wt_softness_read(path, set->patterns[0], wt_softness_choice_defaults(),
+                                              &run->job, &run->softness, err);
     if (status == WT_OK)
         cost_say(&run->job, (cost_summary){.items = (double)run->softness.table.n});
     free(path);
@@ -377,8 +377,8 @@ wt_status flow_step_given_softening(flow_run *run, wt_error *err)
 
 wt_status flow_step_swept_softening(flow_run *run, wt_error *err)
 {
-    const wt_status status =
-        wt_softness_from_table(run->table[FLOW_PAYNE_SWEEP], &run->softness, err);
+    const wt_status status = wt_softness_from_table(
+        run->table[FLOW_PAYNE_SWEEP], wt_softness_choice_defaults(), &run->softness, err);
     if (status == WT_OK)
         cost_say(&run->job, (cost_summary){.items = (double)run->softness.table.n});
     return status;
