@@ -137,8 +137,9 @@ const figure_description figures_dma[] = {
      .curves = {CURVE(RELAXATION_SPECTRUM_DENSITY, OWN), CURVE(RELAXATION_SPECTRUM_LOW, DATA),
                 CURVE(RELAXATION_SPECTRUM_HIGH, DATA)},
      .nothing = "no relaxation time lies within the measured frequencies",
-     .words = "Relaxation spectrum behind the master curve with its 95 % interval (band): which "
-              "modulus relaxes at which time. A step of the storage modulus is a hump here; where "
+     .words = "Relaxation spectrum behind the master curve with limits on the safe side of 95 % "
+              "(band): which modulus relaxes at which time. A step of the storage modulus is a "
+              "hump here; where "
               "the band is wide the measurement tells little.",
      .draw = draw_relaxation_spectrum},
     {.name = "ramp",

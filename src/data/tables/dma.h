@@ -207,8 +207,9 @@
     X(RELAXATION_SPECTRUM_RELAXATION_TIME, "relaxation_time", "relaxation time", SI(TIME))         \
     X(RELAXATION_SPECTRUM_DENSITY, "density", "modulus for each unit of ln tau", SI(MODULUS),      \
       INTERVAL(RELAXATION_SPECTRUM_LOW, RELAXATION_SPECTRUM_HIGH))                                 \
-    X(RELAXATION_SPECTRUM_LOW, "density_low", "lower end of its 95 % interval", SI(MODULUS))       \
-    X(RELAXATION_SPECTRUM_HIGH, "density_high", "upper end of its 95 % interval", SI(MODULUS))
+    X(RELAXATION_SPECTRUM_LOW, "density_low", "lower limit, on the safe side of 95 %",             \
+      SI(MODULUS))                                                                                 \
+    X(RELAXATION_SPECTRUM_HIGH, "density_high", "upper limit", SI(MODULUS))
 #define RELAXATION_SPECTRUM_KEYS(X)                                                                \
     X(RELAXATION_SPECTRUM_KEY_REFERENCE_TEMPERATURE, "reference_temperature", SI(TEMPERATURE))     \
     X(RELAXATION_SPECTRUM_KEY_DEFORMATION, "deformation", TEXT)

@@ -132,8 +132,8 @@ static wt_status choose_temperature(const table_view *v, wt_softness_choice *cho
     }
     if (isnan(choice->temperature) && high - low > same_temperature) {
         char one[32], other[32];
-        snprintf(one, sizeof one, "%.1f", low - WT_ZERO_CELSIUS);
-        snprintf(other, sizeof other, "%.1f degC", high - WT_ZERO_CELSIUS);
+        clocale_print(one, sizeof one, "%.1f", low - WT_ZERO_CELSIUS);
+        clocale_print(other, sizeof other, "%.1f degC", high - WT_ZERO_CELSIUS);
         return several(
             "temperatures", one, other,
             "choose one with --softening-temperature T, such as that of the contact; in a "
