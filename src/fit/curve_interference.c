@@ -25,12 +25,12 @@ enum {
     TRANSFORM = 2 * BLOCKS,
     PER_PERIOD = 4, /* blocks, least */
     POWERS = 4,
-    CLOSER = 24, /* steps to the period */
+    CLOSER = 12, /* steps to the period, before it is fitted */
 };
 static const double shortest = 150e-9;    /* a period [m] */
 static const double longest = 1.5e-6;     /* slower ones are drift, whose shape nobody knows */
 static const double another = 2.0;        /* a fitted wave of so many times the amplitude */
-static const double stands_out = 8.0;     /* a peak, before it is looked at */
+static const double worth_a_look = 0.25;  /* a peak, of the height that it would need */
 static const double false_alarms = 0.001; /* of baselines without a sine */
 static const double least_half = 0.25;    /* of the gain, from either half */
 static const double bent = 0.01;          /* chance of the baseline if it were straight */
@@ -46,6 +46,7 @@ typedef struct baseline {
     double power[POWERS][BLOCKS]; /* orthonormal */
     double travel;
     double cycle, lowest, highest; /* wave numbers: one over the travel, and those looked at */
+    double waves, freedom;         /* told apart among them; of the noise */
 } baseline;
 
 static void remove_powers(const baseline *b, double *x)
@@ -102,6 +103,8 @@ static bool average(const curve_fitting *f, baseline *b)
     b->cycle = 2.0 * M_PI / b->travel;
     b->lowest = fmax(b->cycle, 2.0 * M_PI / longest);
     b->highest = fmin(2.0 * M_PI / shortest, 2.0 * M_PI / PER_PERIOD * (double)b->n / b->travel);
+    b->waves = fmax(2.0 * (b->highest - b->lowest) / b->cycle, 1.0);
+    b->freedom = (double)b->n / per_freedom;
     return b->highest > b->lowest;
 }
 
@@ -124,7 +127,9 @@ static double find_peak(const baseline *b)
     /* of the transform in a cycle over the baseline */
     const double cycle = (double)size / (double)b->n, unit = b->cycle / cycle;
     const size_t beside = (size_t)(1.5 * cycle) + 1;
-    double most = stands_out;
+    const double needed =
+        0.5 * b->freedom * (pow(false_alarms / b->waves, -2.0 / b->freedom) - 1.0);
+    double most = worth_a_look * needed;
     for (size_t k = (size_t)ceil(b->lowest / unit); k < half; k++) {
         const size_t from = k / 2 > 1 ? k / 2 : 1, left = k > beside ? k - beside : from;
         const size_t least = k + 5 * beside, above = 2 * k > least ? 2 * k : least;
@@ -200,14 +205,12 @@ static double chance_of(const baseline *b, const noise_shapes *shapes, const dou
                         double number, double gain)
 {
     curve_spectrum noise = {.length = b->length};
-    const double cycles = number / b->cycle, waves = 2.0 * (b->highest - b->lowest) / b->cycle;
     if (!curve_noise_spectrum(shapes, rest, b->n, &noise))
         return 0.0; /* nothing is left */
-    const double freedom = (double)b->n / per_freedom;
     const double each =
-        gain / 2.0 / curve_noise_variance(&noise, 2.0 * cycles, b->n, (size_t)b->length);
-    const double one = pow(1.0 + 2.0 * each / freedom, -0.5 * freedom);
-    return -expm1(fmax(waves, 1.0) * log1p(-one));
+        gain / 2.0 / curve_noise_variance(&noise, 2.0 * number / b->cycle, b->n, (size_t)b->length);
+    const double one = pow(1.0 + 2.0 * each / b->freedom, -0.5 * b->freedom);
+    return -expm1(b->waves * log1p(-one));
 }
 
 /* False if there is none; slow: of few cycles. */
@@ -252,7 +255,7 @@ bool curve_fit_interference(curve_fitting *f)
     const double number = wave.p[WAVE_NUMBER];
     f->kind.wave = wave;
     s->force = f->workspace->without_wave;
-    for (size_t i = 0; i < s->n; i++)
+    for (size_t i = 0; i < f->input.n_all; i++)
         s->force[i] = f->workspace->force[i] - wave.p[WAVE_COSINE] * cos(number * s->position[i]) -
                       wave.p[WAVE_SINE] * sin(number * s->position[i]);
     if (curve_scan_and_refine(f) && f->solution.converged &&

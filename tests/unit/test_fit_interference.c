@@ -44,17 +44,22 @@ static void make(const curve_truth *t, const sine *s, uint64_t seed)
     }
 }
 
-static wt_indent_fit fit_of(const curve_truth *t)
+static wt_indent_fit fit_with(const curve_truth *t, const wt_indent_options *options)
 {
     wt_contact_table *table = NULL;
     wt_indent_fit fit;
     wt_error err = WT_ERROR_INIT;
     assert_int_equal(wt_contact_table_new(&t->tip, 1e-11, 1e-4, &table, NULL), WT_OK);
-    if (wt_indent_fit_curve(table, NULL, data.height, data.force, data.time, t->n,
+    if (wt_indent_fit_curve(table, options, data.height, data.force, data.time, t->n,
                             t->spring_constant, workspace, &fit, &err) != WT_OK)
         fail_msg("%s", err.message);
     wt_contact_table_free(table);
     return fit;
+}
+
+static wt_indent_fit fit_of(const curve_truth *t)
+{
+    return fit_with(t, NULL);
 }
 
 static void exact(void **state)
@@ -78,6 +83,32 @@ static void exact(void **state)
         assert_near(fit.interference_period, cases[i].period, 1e-5);
         assert_near_abs(fit.contact_point.value, t.direction * t.height0 + t.contact_point, 1e-13);
         assert_non_null(strstr(fit.reason, "interference of "));
+    }
+}
+
+/* What lies beyond the range of the fit is without the wave, too. */
+static void with_a_range(void **state)
+{
+    (void)state;
+    const sine s = {100e-12, 350e-9, 1.0, false};
+    curve_truth t = soft();
+    t.noise = 1e-16;
+    const double top = curve_contact_force(&t, t.travel - t.contact_point);
+    wt_indent_options options[4];
+    for (int i = 0; i < 4; i++)
+        options[i] = wt_indent_defaults();
+    options[0].fit_force_fraction = 0.5;
+    options[1].fit_depth = 100e-9;
+    options[2].fit_depth_from = 40e-9;
+    options[3].fixed_contact_point = t.height0 + t.contact_point;
+    make(&t, &s, 1);
+    for (int i = 0; i < 4; i++) {
+        const wt_indent_fit fit = fit_with(&t, &options[i]);
+        if (fit.verdict != WT_CURVE_ACCEPTED)
+            fail_msg("case %d: %s", i, fit.reason);
+        assert_near(fit.modulus.value, t.modulus, 1e-5);
+        assert_near(fit.interference_amplitude, s.amplitude, 1e-4);
+        assert_near(fit.max_force, top, 0.02);
     }
 }
 
@@ -158,7 +189,8 @@ static int free_workspace(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(exact), cmocka_unit_test(intervals_cover),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(exact), cmocka_unit_test(with_a_range),
+                                       cmocka_unit_test(intervals_cover),
                                        cmocka_unit_test(no_false_alarms)};
     return cmocka_run_group_tests(tests, make_workspace, free_workspace);
 }
