@@ -23,7 +23,8 @@ struct wt_map_writer {
     size_t n_channels;
     size_t n_blocks, n; /* that are written; samples of the block after them */
     table_writer curves, segments, names;
-    wt_error *err; /* of the call */
+    wt_error *err;    /* of the call */
+    wt_status failed; /* of an earlier one: then the file is lost */
 };
 
 uint32_t map_checksum(uint32_t before, const double *values, size_t n)
@@ -194,15 +195,26 @@ static wt_status put_segment(wt_map_writer *w, const wt_segment *segment, uint32
     return status == WT_OK ? put_samples(w, segment) : status;
 }
 
+/* Of a curve that failed, parts may be there, and what comes behind it would be taken for its own.
+ */
+static wt_status failed_before(const wt_map_writer *w, wt_error *err)
+{
+    wt_fail(err, w->failed, "a curve before this one could not be written");
+    wt_error_advice(err, "discard the map and begin again");
+    return w->failed;
+}
+
 wt_status wt_map_put(wt_map_writer *w, const wt_force_curve *curve, wt_error *err)
 {
     uint32_t sum = 0;
     wt_status status = WT_OK;
+    if (w->failed != WT_OK)
+        return failed_before(w, err);
     w->err = w->curves.err = w->segments.err = err;
     for (size_t s = 0; status == WT_OK && s < curve->n_segments; s++)
         status = put_segment(w, &curve->segments[s], &sum);
     if (status != WT_OK)
-        return status;
+        return w->failed = status;
     table_row(&w->curves);
     map_curves_put(&w->curves, MAP_CURVES_CURVE, (double)curve->index);
     map_curves_put(&w->curves, MAP_CURVES_SEGMENTS, (double)curve->n_segments);
@@ -213,7 +225,8 @@ wt_status wt_map_put(wt_map_writer *w, const wt_force_curve *curve, wt_error *er
     map_curves_put(&w->curves, MAP_CURVES_SPRING_CONSTANT, curve->cantilever.spring_constant);
     map_curves_put(&w->curves, MAP_CURVES_SENSITIVITY, curve->cantilever.sensitivity);
     map_curves_put(&w->curves, MAP_CURVES_CHECKSUM, (double)sum);
-    return w->curves.status != WT_OK ? w->curves.status : w->segments.status;
+    w->failed = w->curves.status != WT_OK ? w->curves.status : w->segments.status;
+    return w->failed;
 }
 
 /* ---- the file -------------------------------------------------------------------------------- */
@@ -285,7 +298,7 @@ wt_status wt_map_end(wt_map_writer *w, wt_result *result, bool with_provenance, 
 {
     table_writer *const tables[] = {&w->curves, &w->segments, &w->names};
     w->err = err;
-    wt_status status = flush(w);
+    wt_status status = w->failed != WT_OK ? failed_before(w, err) : flush(w);
     if (status == WT_OK && !close_arrays(w, true))
         status = store_failed(w->file, err);
     for (size_t i = 0; status == WT_OK && i < sizeof tables / sizeof *tables; i++) {

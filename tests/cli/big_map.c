@@ -1,10 +1,12 @@
 /* What a map costs in memory: a small and a large one, told, fitted and converted in every
  * direction. Peak memory, carried on to 65,536 curves, must stay below 100 MB, and moduli and files
  * must be the same to the last digit whichever way they came.
- * Usage: big_map PROGRAM WORK files|text [CURVES [SAMPLES]]: one map of so many curves, of so many
- * samples in each of two segments, instead, whose peaks are printed.
+ * Usage: big_map PROGRAM WORK files|text|blocks [CURVES [SAMPLES]]: one map of so many curves, of
+ * so many samples in each of two segments, instead, whose peaks are printed.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "writers/jpk_writer.h"
+#include "writers/nanoscope_writer.h"
+#include "writers/nid_writer.h"
 
 #include <fcntl.h>
 #include <math.h>
@@ -18,6 +20,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#define BARE "-q", "--no-provenance"
+#define MAP "map.jpk-force-map"
 enum { ASKED = 65536, MOST_MB = 100, KINDS = 64, MOST_SAMPLES = 200, MOST_CALLS = 12 };
 
 extern char **environ;
@@ -52,7 +56,7 @@ static void make_kinds(size_t n)
             }
 }
 
-static void write_map(const char *path, size_t n, size_t samples)
+static void write_map(size_t n, size_t samples)
 {
     static jpk_writer_segment segments[KINDS][2];
     jpk_writer_curve *const curves = calloc(n, sizeof *curves);
@@ -69,7 +73,7 @@ static void write_map(const char *path, size_t n, size_t samples)
     for (size_t i = 0; i < n; i++)
         curves[i] = (jpk_writer_curve){i, 1e-6 * (double)(i % (size_t)side),
                                        1e-6 * (double)(i / (size_t)side), 2, segments[i % KINDS]};
-    file.path = path;
+    file.path = MAP;
     file.map = true;
     file.n_curves = n;
     file.curves = curves;
@@ -80,6 +84,103 @@ static void write_map(const char *path, size_t n, size_t samples)
     if (jpk_write(&file) != 0)
         abort();
     free(curves);
+}
+
+/* The values of all curves, way in and way out one behind the other, or `way` alone. */
+static double *all_values(size_t n, size_t samples, int way,
+                          double value(size_t kind, size_t way, size_t i, size_t samples))
+{
+    const size_t ways = way < 0 ? 2 : 1;
+    double *const values = calloc(n * ways * samples, sizeof *values);
+    if (values == NULL)
+        abort();
+    for (size_t c = 0, at = 0; c < n; c++)
+        for (size_t w = 0; w < ways; w++)
+            for (size_t i = 0; i < samples; i++)
+                values[at++] = value(c % KINDS, way < 0 ? w : (size_t)way, i, samples);
+    return values;
+}
+
+static double height_of(size_t kind, size_t way, size_t i, size_t samples)
+{
+    (void)samples;
+    return height[way][kind][i];
+}
+
+static double force_of(size_t kind, size_t way, size_t i, size_t samples)
+{
+    (void)samples;
+    return force[way][kind][i];
+}
+
+/* Where the piezo and not the tip moves evenly: the depth that balances the lever, by bisection,
+ * and the noise of the kind. */
+static double volts_of(size_t kind, size_t way, size_t i, size_t samples)
+{
+    const double at = (double)(way == 0 ? i + 1 : samples - i) / (double)samples;
+    const double pressed = 1e-6 * at - contact;
+    double low = 0, high = fmax(pressed, 0);
+    for (int k = 0; k < 60; k++) {
+        const double depth = (low + high) / 2;
+        const double pushed = 4. / 3 * modulus / 0.75 * sqrt(radius) * pow(depth, 1.5);
+        *(depth + pushed / spring_constant < pressed ? &low : &high) = depth;
+    }
+    const double still = force[0][kind][i * 37 % (samples / 2)];
+    return (fmax(pressed, 0) - low + still / spring_constant) / 60e-9;
+}
+
+static void write_blocks(size_t n, size_t samples)
+{
+    double *const volts = all_values(n, samples, -1, volts_of);
+    const nanoscope_writer_channel channel = {"Deflection Error", "Sens. DeflSens", 3e-4, volts};
+    const nanoscope_writer_file spm = {.path = "map.spm",
+                                       .volume = true,
+                                       .side = (size_t)lrint(sqrt((double)n)),
+                                       .n_in = samples,
+                                       .n_out = samples,
+                                       .width = 4,
+                                       .ramp_volts = 100,
+                                       .z_sensitivity = 10,
+                                       .deflection_sensitivity = 60,
+                                       .spring_constant = spring_constant,
+                                       .rate = 200,
+                                       .n_channels = 1,
+                                       .channels = &channel};
+    if (nanoscope_write(&spm) != 0)
+        abort();
+    free(volts);
+    static const char *const names[] = {"Spec forward", "Spec backward"};
+    nid_writer_channel channels[2][2];
+    nid_writer_group groups[2];
+    nid_writer_file nid = nid_writer_defaults();
+    for (int way = 0; way < 2; way++) {
+        channels[way][0] = (nid_writer_channel){
+            0, "Deflection", "N", -1e-5, 2e-5, 32, all_values(n, samples, way, force_of)};
+        channels[way][1] = (nid_writer_channel){
+            1, "Z-Axis", "m", -1e-5, 2e-5, 32, all_values(n, samples, way, height_of)};
+        groups[way] = (nid_writer_group){.name = names[way],
+                                         .points = samples,
+                                         .lines = n,
+                                         .x_name = "Z",
+                                         .x_unit = "m",
+                                         .y_name = "Curve",
+                                         .y_unit = "",
+                                         .x_range = 1e-6,
+                                         .y_range = 1,
+                                         .n_channels = 2,
+                                         .channels = channels[way]};
+    }
+    nid.path = "map.nid";
+    nid.n_groups = 2;
+    nid.groups = groups;
+    nid.spring_constant = spring_constant;
+    nid.forward_time = nid.backward_time = 0.5;
+    nid.forward_points = nid.backward_points = samples;
+    nid.forward_range = 1e-6;
+    if (nid_write(&nid) != 0)
+        abort();
+    for (size_t i = 0; i < 4; i++)
+        free((void *)channels[i / 2][i % 2].values);
 }
 
 /* A process that writes what is in a file into a pipe, whose other end is returned. */
@@ -136,14 +237,12 @@ static double peak(const char *program, const char *const *arguments)
     return (double)used.ru_maxrss / 1024;
 }
 
-#define BARE "-q", "--no-provenance"
 #define INDENT "indent", BARE, "--tip", "paraboloid:radius=1um", "--threads", "1"
 #define CONVERT "convert", BARE
-#define MAP "map.jpk-force-map"
-
 /* What is done one after the other, and which files must be alike afterwards. */
 typedef struct trial {
     const char *name;
+    void (*write)(size_t n, size_t samples); /* the map or the maps */
     size_t small, large, samples;
     const char *calls[MOST_CALLS][12];
     const char *moduli[3];   /* that are those of moduli.tsv */
@@ -152,6 +251,7 @@ typedef struct trial {
 
 static const trial trials[] = {
     {.name = "files",
+     .write = write_map,
      .small = 1024,
      .large = 8192,
      .samples = 200,
@@ -165,6 +265,7 @@ static const trial trials[] = {
      .moduli = {"h5.tsv"},
      .files = {{"map.h5", "again.h5"}}},
     {.name = "text",
+     .write = write_map,
      .small = 512,
      .large = 4096,
      .samples = 50,
@@ -180,6 +281,20 @@ static const trial trials[] = {
                {CONVERT, "map.h5", "-o", "direct.tsv"}},
      .moduli = {"text.tsv", "h5.tsv"},
      .files = {{"again.tsv", "back.tsv"}, {"map.tsv", "direct.tsv"}}},
+    {.name = "blocks",
+     .write = write_blocks,
+     .small = 1024,
+     .large = 4096,
+     .samples = 200,
+     .calls = {{INDENT, "map.spm", "-o", "moduli.tsv"},
+               {"info", "map.spm"},
+               {CONVERT, "map.spm", "-o", "map.h5"},
+               {INDENT, "map.h5", "-o", "h5.tsv"},
+               {INDENT, "map.nid", "-o", "nid.tsv"},
+               {"info", "map.nid"},
+               {CONVERT, "map.nid", "-o", "nid.h5"},
+               {INDENT, "nid.h5", "-o", "nid-h5.tsv"}},
+     .moduli = {"h5.tsv"}},
 };
 enum { TRIALS = sizeof trials / sizeof *trials };
 
@@ -268,7 +383,7 @@ static void run(const char *program, const trial *t, size_t n, double peaks[MOST
     const pid_t writer = fork();
     int state = 0;
     if (writer == 0) {
-        write_map(MAP, n, t->samples);
+        t->write(n, t->samples);
         _exit(EXIT_SUCCESS);
     }
     if (waitpid(writer, &state, 0) != writer || state != 0)

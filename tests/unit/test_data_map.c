@@ -8,11 +8,13 @@
 #include <fcntl.h>
 #include <math.h>
 #include <setjmp.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <cmocka.h>
@@ -272,12 +274,41 @@ static void no_disk(void **state)
     assert_null(writer);
 }
 
+/* After a failure nothing more is taken, and there is no file. */
+static void a_full_disk(void **state)
+{
+    static const char small[] = "test_data_map_full.h5";
+    wt_map_writer *writer = NULL;
+    wt_force_curve curve = {.n_segments = 0};
+    wt_result *const result = wt_result_new();
+    struct rlimit usual, little;
+    wt_status status = WT_OK;
+    (void)state;
+    assert_int_equal(getrlimit(RLIMIT_FSIZE, &usual), 0);
+    little = (struct rlimit){1 << 18, usual.rlim_max};
+    (void)signal(SIGXFSZ, SIG_IGN);
+    assert_int_equal(wt_map_begin(small, &writer, NULL), WT_OK);
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &little), 0);
+    for (size_t c = 0; status == WT_OK && c < 100 * (size_t)CURVES; c++) {
+        make_curve(c % CURVES, &curve);
+        status = wt_map_put(writer, &curve, NULL);
+    }
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &usual), 0);
+    assert_int_equal(status, WT_E_IO);
+    assert_int_equal(wt_map_put(writer, &curve, NULL), WT_E_IO);
+    assert_int_equal(wt_map_end(writer, result, false, NULL), WT_E_IO);
+    assert_int_equal(access(small, F_OK), -1);
+    wt_force_curve_clear(&curve);
+    wt_result_free(result);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(comes_back),    cmocka_unit_test(cut_off),
         cmocka_unit_test(as_documented), cmocka_unit_test(a_changed_sample),
         cmocka_unit_test(counts),        cmocka_unit_test(no_disk),
+        cmocka_unit_test(a_full_disk),
     };
     return cmocka_run_group_tests_name("map of force curves", tests, write_map, clean);
 }

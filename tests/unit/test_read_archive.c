@@ -99,7 +99,7 @@ static void cut_anywhere(void **state)
         wt_status status = open_bytes(&part, &input, &archive, NULL);
         assert_int_equal(status, complete > 0 ? WT_OK : WT_E_CORRUPT);
         if (complete > 0) {
-            assert_true(archive->truncated);
+            assert_string_equal(archive->odd, "the end of the archive is missing");
             assert_int_equal(archive->n, complete);
             assert_entry(archive, "one", "first text");
         }
@@ -208,7 +208,10 @@ static void number_of_entries(void **state)
         put_two(&b, numbers[i]);
         assert_int_equal(open_bytes(&b, &input, &archive, NULL), WT_OK);
         assert_int_equal(archive->n, 2);
-        assert_int_equal(archive->truncated, numbers[i] != 2);
+        if (numbers[i] == 2)
+            assert_null(archive->odd);
+        else
+            assert_string_equal(archive->odd, "the directory of the archive is damaged");
         assert_entry(archive, "one", "first text");
         assert_entry(archive, "two", "second text");
         archive_close(archive);
@@ -243,12 +246,47 @@ static void more_than_the_number_holds(void **state)
                      WT_OK);
     assert_int_equal(archive_open(input, &archive, NULL), WT_OK);
     assert_int_equal(archive->n, MORE);
-    assert_false(archive->truncated);
+    assert_null(archive->odd);
     assert_entry(archive, "000002", "first text");
     assert_entry(archive, "065538", "first text");
     archive_close(archive);
     wt_input_close(input);
     free(all);
+}
+
+/* An entry that is too large to be read leaves the others as they are. */
+static void a_large_entry(void **state)
+{
+    (void)state;
+    bytes b = {.n = 0};
+    wt_input *input = NULL;
+    zip_archive *archive = NULL;
+    byte_buffer buffer = {0};
+    wt_error err = WT_ERROR_INIT;
+    size_t i = 0;
+    put_entry(&b, "one", "first text", false, 10);
+    const uint32_t directory = (uint32_t)b.n;
+    put_record(&b, "one", "first text", 0);
+    const size_t record = b.n;
+    put_record(&b, "big", "first text", 0);
+    memset(b.data + record + 20, 0xff, 8); /* sizes stand in the extra field, of 20 bytes */
+    b.data[record + 30] = 20;
+    put(&b, 1, 2);
+    put(&b, 16, 2);
+    for (int k = 0; k < 2; k++) {
+        put(&b, 0, 4);
+        put(&b, 2, 4); /* 8 GiB */
+    }
+    put_end(&b, 2, (uint32_t)b.n - directory, directory);
+    assert_int_equal(open_bytes(&b, &input, &archive, NULL), WT_OK);
+    assert_null(archive->odd);
+    assert_int_equal(archive->n, 2);
+    assert_entry(archive, "one", "first text");
+    assert_true(archive_find(archive, "big", &i));
+    assert_int_equal(archive_read(archive, i, SIZE_MAX, &buffer, &err), WT_E_UNSUPPORTED);
+    assert_string_equal(err.place, "big");
+    archive_close(archive);
+    wt_input_close(input);
 }
 
 /* A copy by blocks fills up the last one. */
@@ -261,7 +299,7 @@ static void bytes_behind_the_end(void **state)
     put_two(&b, 2);
     b.n = 1024; /* zeros */
     assert_int_equal(open_bytes(&b, &input, &archive, NULL), WT_OK);
-    assert_false(archive->truncated);
+    assert_null(archive->odd);
     assert_int_equal(archive->n, 2);
     assert_entry(archive, "two", "second text");
     archive_close(archive);
@@ -276,6 +314,7 @@ int main(void)
         cmocka_unit_test(check_sum_and_limit),
         cmocka_unit_test(number_of_entries),
         cmocka_unit_test(more_than_the_number_holds),
+        cmocka_unit_test(a_large_entry),
         cmocka_unit_test(bytes_behind_the_end),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -5,11 +5,14 @@
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "read/bytes/archive.h"
+
+#include "base/mix.h"
 #include "read/bytes/bytes.h"
 #include "read/bytes/input.h"
 
 #include <stdlib.h>
 #include <string.h>
+#include <sys/random.h>
 #include <zlib.h>
 
 /* Deflate cannot pack more tightly than 1032 : 1 (zlib, "Maximum compression factor"); the rest
@@ -32,8 +35,8 @@
 enum archive_packing { STORED, DEFLATED, ENCRYPTED, UNKNOWN };
 
 struct zip_entry {
-    uint64_t offset; /* of the local header */
-    uint32_t packed, size, sum;
+    uint64_t offset;                 /* of the local header */
+    uint32_t packed, size, sum;      /* size UINT32_MAX: too large to be read */
     unsigned name : 30, packing : 2; /* in names; archive_packing */
 };
 
@@ -78,7 +81,7 @@ static wt_status find_end64(const zip_archive *a, size_t end, directory *d, wt_e
 
 /* WT_E_CORRUPT if there is no directory in the file: it may have been cut off. Bytes behind its
  * end, which a copy by blocks leaves, are nothing. */
-static wt_status find_directory(const zip_archive *a, directory *d, wt_error *err)
+static wt_status find_directory(zip_archive *a, directory *d, wt_error *err)
 {
     const size_t length = a->length;
     const size_t n = length < END_SIZE + COMMENT_MAX ? length : END_SIZE + COMMENT_MAX;
@@ -91,6 +94,7 @@ static wt_status find_directory(const zip_archive *a, directory *d, wt_error *er
            (le32(last + at - 1) != 0x06054b50 || le16(last + at + 19) > n - (at - 1) - END_SIZE))
         at--;
     if (status == WT_OK && at == 0) {
+        a->odd = "the end of the archive is missing";
         status = damaged(err, "no directory at its end");
     } else if (status == WT_OK) {
         const unsigned char *const end = last + at - 1;
@@ -159,9 +163,10 @@ static wt_status take_record(zip_archive *a, const unsigned char *r, size_t name
                              wt_error *err)
 {
     uint64_t size = le32(r + 24), packed = le32(r + 20), offset = le32(r + 42);
-    if (!read_extra(r + CENTRAL_SIZE + name, extra, &size, &packed, &offset) ||
-        offset > a->length || size > UINT32_MAX || packed > UINT32_MAX)
-        return damaged(err, "an entry outside of the file, or too large");
+    if (!read_extra(r + CENTRAL_SIZE + name, extra, &size, &packed, &offset) || offset > a->length)
+        return damaged(err, "an entry outside of the file");
+    if (size > UINT32_MAX || packed > UINT32_MAX)
+        size = packed = UINT32_MAX;
     a->entries[a->n] = (zip_entry){.offset = offset,
                                    .packed = (uint32_t)packed,
                                    .size = (uint32_t)size,
@@ -235,7 +240,6 @@ static wt_status rebuild(zip_archive *a, wt_error *err)
         status = read_directory(a, &d, err);
     wt_input_close(d.input);
     free(made);
-    a->truncated = true;
     return status;
 }
 
@@ -246,18 +250,13 @@ const char *archive_name(const zip_archive *archive, size_t i)
     return archive->names + archive->entries[i].name;
 }
 
-static uint64_t hash_of(const char *name)
-{
-    uint64_t hash = UINT64_C(14695981039346656037); /* FNV-1a */
-    for (; *name != '\0'; name++)
-        hash = (hash ^ (unsigned char)*name) * UINT64_C(1099511628211);
-    return hash ^ hash >> 32;
-}
-
 /* The place of a name, or the free one where it belongs. */
 static size_t place_of(const zip_archive *a, const char *name)
 {
-    size_t at = (size_t)hash_of(name) & (a->n_places - 1);
+    uint64_t hash = a->seed;
+    for (const char *c = name; *c != '\0'; c++)
+        hash = mix64(hash ^ (unsigned char)*c);
+    size_t at = (size_t)hash & (a->n_places - 1);
     while (a->places[at] != 0 && strcmp(archive_name(a, a->places[at] - 1), name) != 0)
         at = (at + 1) & (a->n_places - 1);
     return at;
@@ -265,6 +264,9 @@ static size_t place_of(const zip_archive *a, const char *name)
 
 static wt_status place_names(zip_archive *a, wt_error *err)
 {
+    /* Not to be foreseen: names that were made to fall on one place would cost their square. */
+    if (getrandom(&a->seed, sizeof a->seed, GRND_NONBLOCK) != (ssize_t)sizeof a->seed)
+        a->seed = (uint64_t)(uintptr_t)a;
     a->n_places = 16;
     while (a->n_places < 2 * a->n)
         a->n_places *= 2;
@@ -303,6 +305,8 @@ wt_status archive_open(wt_input *input, zip_archive **archive, wt_error *err)
     if (status == WT_OK)
         status = read_directory(a, &d, err);
     if (status == WT_E_CORRUPT) {
+        if (a->odd == NULL)
+            a->odd = "the directory of the archive is damaged";
         a->n = a->names_length = 0;
         free(a->entries);
         a->entries = NULL;
@@ -351,6 +355,8 @@ wt_status archive_size(const zip_archive *archive, size_t i, size_t *size, wt_er
     if (e->packing == UNKNOWN)
         return entry_fail(archive, i, err, WT_E_UNSUPPORTED,
                           "archive entry is packed by another method than deflate");
+    if (e->size == UINT32_MAX)
+        return entry_fail(archive, i, err, WT_E_UNSUPPORTED, "archive entry has 4 GiB or more");
     if (e->size > (uint64_t)e->packed * MAX_RATIO + RATIO_SLACK) {
         entry_fail(archive, i, err, WT_E_CORRUPT, "archive entry declares an impossible size");
         wt_error_found(err, "%u bytes out of %u", (unsigned)e->size, (unsigned)e->packed);
@@ -447,7 +453,7 @@ wt_status archive_read(zip_archive *archive, size_t i, size_t limit, byte_buffer
     if (e->packing == STORED && e->packed != e->size)
         return entry_fail(archive, i, err, WT_E_CORRUPT,
                           "archive entry is not of the size that it declares");
-    if (!make_room(buffer, size + 1) || size == UINT32_MAX)
+    if (!make_room(buffer, size + 1))
         return entry_fail(archive, i, err, WT_E_MEMORY, "no memory for an archive entry");
     const bool stored = e->packing == STORED;
     status = read_packed(archive, i, stored ? buffer : &archive->packed, err);

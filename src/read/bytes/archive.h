@@ -20,17 +20,19 @@ typedef struct zip_archive {
     size_t length;      /* of the file */
     zip_entry *entries; /* [n] */
     size_t n;
-    bool truncated; /* the end is missing */
-    char *names;    /* one behind the other, each with its zero */
+    const char *odd; /* why the entries are those that are complete; or NULL */
+    char *names;     /* one behind the other, each with its zero */
     size_t names_length, names_room;
-    uint32_t *places; /* [n_places] entry + 1 by the hash of its name */
+    uint64_t seed;
+    uint32_t *places; /* [n_places] entry + 1 by the hash of its name and the seed */
     size_t n_places;
     byte_buffer packed;        /* scratch */
     struct z_stream_s *stream; /* scratch; NULL before anything is unpacked */
 } zip_archive;
 
-/* Borrows the input until closed. An archive without its directory (the end of the
- * file is missing) is opened with the entries that are complete. WT_E_CORRUPT if there is none. */
+/* Borrows the input until closed. An archive without its directory (the end of the file is
+ * missing), or with one that lies, is opened with the entries that are complete. WT_E_CORRUPT if
+ * there is none. */
 wt_status archive_open(wt_input *input, zip_archive **archive, wt_error *err) WT_NODISCARD;
 void archive_close(zip_archive *archive);
 /* Borrowed until closed; "" for an entry without a usable name. */

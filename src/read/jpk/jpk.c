@@ -75,8 +75,8 @@ static void add_curves(const jpk_file *file, table_writer *facts)
     if (file->columns > 0)
         facts_add(facts, "grid", "", "position-pattern.grid", "%ld x %ld%s", file->columns,
                   file->rows, file->back_and_forth ? ", back and forth" : "");
-    if (file->archive->truncated)
-        facts_add(facts, "odd", "", "", "the end of the archive is missing");
+    if (file->archive->odd != NULL)
+        facts_add(facts, "odd", "", "", "%s", file->archive->odd);
 }
 
 static void add_segment(const jpk_segment *segment, size_t number, const wt_read_options *options,

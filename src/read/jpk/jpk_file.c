@@ -141,14 +141,14 @@ static void read_grid(jpk_file *file)
 
 static void note_oddities(const jpk_file *file)
 {
-    if (file->archive->truncated)
-        wt_parselog_add(file->log, WT_LOSS, file->name, NULL,
-                        "the end of the archive is missing; read as far as it goes");
+    if (file->archive->odd != NULL)
+        wt_parselog_add(file->log, WT_LOSS, file->name, NULL, "%s; read as far as it goes",
+                        file->archive->odd);
     if (file->header.n == 0)
         wt_parselog_add(file->log, WT_WARNING, file->name, "header.properties",
                         "header is missing: no grid, no instrument");
     if (file->n_expected > file->n_curves)
-        wt_parselog_add(file->log, file->archive->truncated ? WT_LOSS : WT_WARNING, file->name,
+        wt_parselog_add(file->log, file->archive->odd != NULL ? WT_LOSS : WT_WARNING, file->name,
                         NULL, "holds %zu of the %zu curves planned", file->n_curves,
                         file->n_expected);
 }

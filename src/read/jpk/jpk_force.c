@@ -98,7 +98,7 @@ static wt_status read_curve(jpk_source *source, size_t first, size_t end, wt_for
         wt_status status = jpk_segment_read(file, ref, &source->segment, err);
         if (status == WT_OK && force_wants_segment(&source->base, source->segment.kind))
             status = add_segment(source, start, curve, err);
-        if (status == WT_E_CORRUPT && file->archive->truncated && before > 0) {
+        if (status == WT_E_CORRUPT && file->archive->odd != NULL && before > 0) {
             curve->n_segments = before;
             wt_parselog_add(file->log, WT_LOSS, file->name, archive_name(file->archive, ref->entry),
                             "last curve ends early: incomplete segment left out");

@@ -11,6 +11,7 @@
 #define WT_READ_NANOSCOPE_H
 
 #include "read/bytes/samples.h"
+#include "read/bytes/window.h"
 #include "read/force_source.h"
 #include "read/reader.h"
 
@@ -18,6 +19,8 @@
  */
 
 enum { NANOSCOPE_TEXT = 64, NANOSCOPE_CHANNELS = 16 };
+/* Headers of measured files end before 40,960 bytes. */
+#define NANOSCOPE_HEADER_MAX ((size_t)1 << 20)
 
 typedef struct nanoscope_line {
     size_t section;  /* number of the section, counted from 0 */
@@ -66,9 +69,9 @@ typedef struct nanoscope_channel {
 typedef struct nanoscope_file {
     nanoscope_header header;
     const char *name; /* of the input */
-    const unsigned char *bytes;
     size_t length;
     nanoscope_channel channels[NANOSCOPE_CHANNELS];
+    input_window *windows; /* [n_channels] */
     size_t n_channels;
     size_t n_in, n_hold, n_out; /* samples of a curve */
     size_t n_curves, n_planned;
@@ -87,10 +90,13 @@ typedef struct nanoscope_file {
 wt_status nanoscope_file_open(wt_input *input, wt_parselog *log, nanoscope_file *file,
                               wt_error *err);
 void nanoscope_file_close(nanoscope_file *file);
-/* Sample `i` of a curve in the order of time, way in, hold and way out, in counts; NaN where it was
+/* The samples of a curve as they are stored, until the next call for the channel. */
+wt_status nanoscope_stored(const nanoscope_file *file, const nanoscope_channel *channel,
+                           size_t curve, const unsigned char **stored, wt_error *err);
+/* Sample `i` of them in the order of time, way in, hold and way out, in counts; NaN where it was
  * not measured. */
-double nanoscope_count(const nanoscope_file *file, const nanoscope_channel *channel, size_t curve,
-                       size_t i);
+double nanoscope_count(const nanoscope_file *file, const nanoscope_channel *channel,
+                       const unsigned char *stored, size_t i);
 
 /* ---- nanoscope_force.c ------------------------------------------------------------------------
  */

@@ -264,11 +264,18 @@ static size_t place_of(const nanoscope_file *f, size_t i)
     return i < f->n_in ? f->n_in - 1 - i : i;
 }
 
-double nanoscope_count(const nanoscope_file *f, const nanoscope_channel *channel, size_t curve,
-                       size_t i)
+wt_status nanoscope_stored(const nanoscope_file *f, const nanoscope_channel *channel, size_t curve,
+                           const unsigned char **stored, wt_error *err)
 {
-    const unsigned char *at =
-        f->bytes + channel->offset + channel->width * (curve * samples(f) + place_of(f, i));
+    const size_t n = channel->width * samples(f);
+    return window_bytes(&f->windows[channel - f->channels], channel->offset + curve * n, n, stored,
+                        err);
+}
+
+double nanoscope_count(const nanoscope_file *f, const nanoscope_channel *channel,
+                       const unsigned char *stored, size_t i)
+{
+    const unsigned char *at = stored + channel->width * place_of(f, i);
     const bool narrow = channel->width == 2;
     const double count = narrow ? (double)signed16(le16(at)) : (double)signed32(le32(at));
     return count == (narrow ? -most_counts : -0x1p31) ? (double)NAN : count;
@@ -276,28 +283,32 @@ double nanoscope_count(const nanoscope_file *f, const nanoscope_channel *channel
 
 /* The count that was measured nearest to the beginning of the way in of a curve, or to its end;
  * NaN: none was. */
-static double end_of(const nanoscope_file *f, const nanoscope_channel *c, size_t curve, bool last)
+static double end_of(const nanoscope_file *f, const nanoscope_channel *c,
+                     const unsigned char *stored, bool last)
 {
     double count = (double)NAN;
     for (size_t i = 0; i < f->n_in && isnan(count); i++)
-        count = nanoscope_count(f, c, curve, last ? f->n_in - 1 - i : i);
+        count = nanoscope_count(f, c, stored, last ? f->n_in - 1 - i : i);
     return count;
 }
 
 /* Volts between the end of the way in and its beginning, the median over the curves not needed: the
  * largest is enough to tell 1 from 256. */
-static double largest_rise(const nanoscope_file *f, const nanoscope_channel *c, double *largest)
+static wt_status largest_rise(const nanoscope_file *f, const nanoscope_channel *c, double *rise,
+                              double *largest, wt_error *err)
 {
-    double rise = 0;
-    *largest = 0;
     for (size_t curve = 0; curve < f->n_curves; curve++) {
-        const double end = c->scale * end_of(f, c, curve, true);
-        const double start = c->scale * end_of(f, c, curve, false);
+        const unsigned char *stored = NULL;
+        const wt_status status = nanoscope_stored(f, c, curve, &stored, err);
+        if (status != WT_OK)
+            return status;
+        const double end = c->scale * end_of(f, c, stored, true);
+        const double start = c->scale * end_of(f, c, stored, false);
         *largest = fmax(*largest, fmax(fabs(start), fabs(end)));
-        if (fabs(end - start) > fabs(rise))
-            rise = end - start;
+        if (fabs(end - start) > fabs(*rise))
+            *rise = end - start;
     }
-    return rise;
+    return WT_OK;
 }
 
 /* In force volumes of software 9.2 the counts of 32 bits are 256 times those of the header, in
@@ -308,10 +319,12 @@ static wt_status check_scale(nanoscope_file *f, wt_parselog *log, wt_error *err)
     static const double times = 256, doubtful = 5;
     for (size_t i = 0; i < f->n_channels; i++) {
         nanoscope_channel *c = &f->channels[i];
-        double largest = 0;
+        double rise = 0, largest = 0;
         if (c->quantity != WT_Q_DEFLECTION_VOLTAGE)
             continue;
-        double rise = largest_rise(f, c, &largest);
+        const wt_status status = largest_rise(f, c, &rise, &largest, err);
+        if (status != WT_OK)
+            return status;
         const double range = most_counts * c->scale;
         if (c->width == 4 &&
             (largest > range || (f->trigger > 0 && fabs(rise) > 16 * f->trigger))) {
@@ -337,15 +350,22 @@ static wt_status check_scale(nanoscope_file *f, wt_parselog *log, wt_error *err)
 
 /* Whether a sensor counts towards the sample or away from it is not said; the way in leads there.
  */
-static void turn_sensor(nanoscope_file *f)
+static wt_status turn_sensor(nanoscope_file *f, wt_error *err)
 {
     for (size_t i = 0; i < f->n_channels; i++) {
         nanoscope_channel *c = &f->channels[i];
-        if (c->quantity == WT_Q_MEASURED_HEIGHT && end_of(f, c, 0, true) > end_of(f, c, 0, false))
+        if (c->quantity != WT_Q_MEASURED_HEIGHT)
+            continue;
+        const unsigned char *stored = NULL;
+        const wt_status status = nanoscope_stored(f, c, 0, &stored, err);
+        if (status != WT_OK)
+            return status;
+        if (end_of(f, c, stored, true) > end_of(f, c, stored, false))
             c->scale = -c->scale;
-        if (c->quantity == WT_Q_MEASURED_HEIGHT && f->scaled)
+        if (f->scaled)
             c->scale /= 256;
     }
+    return WT_OK;
 }
 
 /* ---- opening -----------------------------------------------------------------------------------
@@ -375,18 +395,36 @@ static wt_status read_blocks(nanoscope_file *f, wt_error *err)
     return status;
 }
 
+static wt_status open_windows(nanoscope_file *f, wt_input *input, wt_error *err)
+{
+    wt_status status = WT_OK;
+    f->windows = calloc(f->n_channels, sizeof *f->windows);
+    if (f->windows == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for the channels");
+    for (size_t i = 0; status == WT_OK && i < f->n_channels; i++)
+        status = window_open(&f->windows[i], input, err);
+    return status;
+}
+
 wt_status nanoscope_file_open(wt_input *input, wt_parselog *log, nanoscope_file *f, wt_error *err)
 {
     *f = (nanoscope_file){
         .name = wt_input_name(input),
         .cantilever = {.spring_constant = (double)NAN, .sensitivity = (double)NAN}};
-    wt_status status = wt_input_bytes(input, &f->bytes, &f->length, err);
-    if (status == WT_OK && !nanoscope_is(f->bytes, f->length))
+    const unsigned char *bytes = NULL;
+    size_t n = 0;
+    bool whole = false;
+    wt_status status = wt_input_size(input, &f->length, err);
+    if (status == WT_OK)
+        status = wt_input_peek(input, NANOSCOPE_HEADER_MAX, &bytes, &n, &whole, err);
+    if (status == WT_OK && !nanoscope_is(bytes, n))
         status = corrupt(err, "damaged header", "\\*Force file list");
     if (status == WT_OK)
-        status = nanoscope_header_read(f->bytes, f->length, &f->header, err);
+        status = nanoscope_header_read(bytes, n, &f->header, err);
     if (status == WT_OK)
         status = read_blocks(f, err);
+    if (status == WT_OK)
+        status = open_windows(f, input, err);
     if (status == WT_OK)
         status = cut_curves(f, log, err);
     if (status == WT_OK) {
@@ -395,12 +433,13 @@ wt_status nanoscope_file_open(wt_input *input, wt_parselog *log, nanoscope_file 
         read_place(f);
         status = check_scale(f, log, err);
     }
-    if (status == WT_OK)
-        turn_sensor(f);
-    return status;
+    return status == WT_OK ? turn_sensor(f, err) : status;
 }
 
 void nanoscope_file_close(nanoscope_file *f)
 {
     nanoscope_header_clear(&f->header);
+    for (size_t i = 0; f->windows != NULL && i < f->n_channels; i++)
+        window_close(&f->windows[i]);
+    free(f->windows);
 }

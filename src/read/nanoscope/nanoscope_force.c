@@ -71,13 +71,17 @@ static wt_status decode(wt_force_source *base, const force_signal *signal, force
 {
     const nanoscope_source *source = (const nanoscope_source *)base;
     const nanoscope_file *f = &source->file;
-    (void)err; /* and none of these signals has an offset */
+    const bool is_ramp = signal->channel == ramp_name;
+    const unsigned char *stored = NULL;
+    const wt_status status =
+        is_ramp ? WT_OK : nanoscope_stored(f, signal->channel, source->curve, &stored, err);
+    if (status != WT_OK)
+        return status;
+    /* None of these signals has an offset. */
     for (size_t i = 0; i < n; i++) {
         const size_t at = source->from + i;
-        values[i] =
-            scaling.multiplier * (signal->channel == ramp_name
-                                      ? ramp(f, at)
-                                      : nanoscope_count(f, signal->channel, source->curve, at));
+        values[i] = scaling.multiplier *
+                    (is_ramp ? ramp(f, at) : nanoscope_count(f, signal->channel, stored, at));
     }
     const size_t missing = samples_mend(values, n);
     if (missing > 0)

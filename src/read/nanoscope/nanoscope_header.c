@@ -9,9 +9,6 @@
 #include <string.h>
 #include <strings.h>
 
-/* Headers of measured files end before 40,960 bytes. */
-#define HEADER_MAX ((size_t)1 << 20)
-
 bool nanoscope_is(const unsigned char *bytes, size_t length)
 {
     static const char first[] = "\\*Force file list";
@@ -51,7 +48,8 @@ static void parse_line(nanoscope_header *header, char *line)
 wt_status nanoscope_header_read(const unsigned char *bytes, size_t length, nanoscope_header *header,
                                 wt_error *err)
 {
-    const unsigned char *end = memchr(bytes, 0x1a, length < HEADER_MAX ? length : HEADER_MAX);
+    const unsigned char *end =
+        memchr(bytes, 0x1a, length < NANOSCOPE_HEADER_MAX ? length : NANOSCOPE_HEADER_MAX);
     const size_t n = end != NULL ? (size_t)(end - bytes) : 0;
     size_t lines = 1;
     *header = (nanoscope_header){.text = NULL};

@@ -8,6 +8,7 @@
 #ifndef WT_READ_NID_H
 #define WT_READ_NID_H
 
+#include "read/bytes/window.h"
 #include "read/force_source.h"
 #include "read/reader.h"
 
@@ -27,6 +28,7 @@ typedef struct nid_header {
     size_t data; /* offset of the first block */
 } nid_header;
 
+bool nid_header_ends(const unsigned char *bytes, size_t length);
 wt_status nid_header_read(const unsigned char *bytes, size_t length, nid_header *header,
                           wt_error *err);
 void nid_header_clear(nid_header *header);
@@ -62,9 +64,9 @@ typedef struct nid_channel {
 
 typedef struct nid_file {
     nid_header header;
-    const char *name;           /* of the input */
-    const unsigned char *bytes; /* borrowed from the input */
-    nid_channel *channels;      /* [n] in the order of their blocks */
+    const char *name;      /* of the input */
+    nid_channel *channels; /* [n] in the order of their blocks */
+    input_window *windows; /* [n] of each */
     size_t n;
 } nid_file;
 
@@ -73,8 +75,8 @@ wt_status nid_file_open(wt_input *input, nid_file *file, wt_error *err);
 void nid_file_close(nid_file *file);
 bool nid_is_spectroscopy(const nid_channel *channel);
 /* values[n] = the first n samples of a line: factor * exported value. */
-void nid_decode(const nid_file *file, const nid_channel *channel, size_t line, size_t n,
-                double factor, double *values);
+wt_status nid_decode(const nid_file *file, const nid_channel *channel, size_t line, size_t n,
+                     double factor, double *values, wt_error *err);
 /* The SI unit for an exported one, "" with factor 1 if it is none of the units known here. */
 const char *nid_si_unit(const char *unit, double *factor);
 wt_status nid_read_images(const file_reader *self, wt_input *input, const wt_read_options *options,

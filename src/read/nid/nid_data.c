@@ -16,6 +16,7 @@
 #define MAX_GROUPS 256
 #define MAX_SLOTS 256
 #define MAX_SIDE ((size_t)1 << 30)
+#define FIRST_PEEK ((size_t)1 << 16)
 
 static const char *text_or_empty(const char *text)
 {
@@ -130,15 +131,44 @@ static wt_status find_channels(nid_file *file, size_t length, wt_error *err)
     return WT_OK;
 }
 
+/* The header may be any part of the file: more is looked at until it ends. */
+static wt_status read_header(wt_input *input, nid_header *header, wt_error *err)
+{
+    const unsigned char *bytes = NULL;
+    size_t n = 0;
+    bool whole = false;
+    wt_status status = WT_OK;
+    for (size_t want = FIRST_PEEK; status == WT_OK;
+         want = want > SIZE_MAX / 4 ? SIZE_MAX : 4 * want) {
+        status = wt_input_peek(input, want, &bytes, &n, &whole, err);
+        if (status == WT_OK && (whole || nid_header_ends(bytes, n)))
+            break;
+    }
+    return status == WT_OK ? nid_header_read(bytes, n, header, err) : status;
+}
+
+static wt_status open_windows(nid_file *file, wt_input *input, wt_error *err)
+{
+    wt_status status = WT_OK;
+    file->windows = calloc(file->n, sizeof *file->windows);
+    if (file->windows == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for the list of channels");
+    for (size_t i = 0; status == WT_OK && i < file->n; i++)
+        status = window_open(&file->windows[i], input, err);
+    return status;
+}
+
 wt_status nid_file_open(wt_input *input, nid_file *file, wt_error *err)
 {
     size_t length = 0;
     *file = (nid_file){.name = wt_input_name(input)};
-    wt_status status = wt_input_bytes(input, &file->bytes, &length, err);
+    wt_status status = read_header(input, &file->header, err);
     if (status == WT_OK)
-        status = nid_header_read(file->bytes, length, &file->header, err);
+        status = wt_input_size(input, &length, err);
     if (status == WT_OK)
         status = find_channels(file, length, err);
+    if (status == WT_OK)
+        status = open_windows(file, input, err);
     if (status != WT_OK)
         nid_file_close(file);
     return status;
@@ -147,6 +177,9 @@ wt_status nid_file_open(wt_input *input, nid_file *file, wt_error *err)
 void nid_file_close(nid_file *file)
 {
     nid_header_clear(&file->header);
+    for (size_t i = 0; file->windows != NULL && i < file->n; i++)
+        window_close(&file->windows[i]);
+    free(file->windows);
     free(file->channels);
     *file = (nid_file){0};
 }
@@ -156,17 +189,24 @@ bool nid_is_spectroscopy(const nid_channel *channel)
     return strncasecmp(channel->group_name, "Spec ", 5) == 0;
 }
 
-void nid_decode(const nid_file *file, const nid_channel *c, size_t line, size_t n, double factor,
-                double *values)
+wt_status nid_decode(const nid_file *file, const nid_channel *c, size_t line, size_t n,
+                     double factor, double *values, wt_error *err)
 {
     const sample_type type = c->bits == 16 ? SAMPLE_INT16 : SAMPLE_INT32;
-    const unsigned char *bytes = file->bytes + c->offset + line * c->points * sample_width(type);
+    const size_t width = sample_width(type);
+    const unsigned char *bytes = NULL;
+    const wt_status status =
+        window_bytes(&file->windows[c - file->channels], c->offset + line * c->points * width,
+                     n * width, &bytes, err);
+    if (status != WT_OK)
+        return status;
     const double half = ldexp(1.0, (int)c->bits - 1), whole = ldexp(1.0, (int)c->bits);
     (void)samples_decode(type, false, bytes, n, 1, half, values);
     for (size_t i = 0; i < n; i++)
         values[i] = factor * (c->minimum + c->range * (values[i] / whole));
     /* Only a range beyond all sense overflows: then nothing is known. */
     (void)samples_mend(values, n);
+    return WT_OK;
 }
 
 const char *nid_si_unit(const char *unit, double *factor)
@@ -228,9 +268,11 @@ static wt_status read_image(const nid_file *file, const nid_channel *c, wt_parse
         wt_parselog_add(log, WT_WARNING, file->name, c->section,
                         "scan was stopped: line %.0f of %zu is the last that was measured",
                         current + 1, c->lines);
-    for (size_t line = 0; line < c->lines; line++)
-        nid_decode(file, c, line, c->points, factor, image->values + line * c->points);
-    return WT_OK;
+    wt_status status = WT_OK;
+    for (size_t line = 0; status == WT_OK && line < c->lines; line++)
+        status =
+            nid_decode(file, c, line, c->points, factor, image->values + line * c->points, err);
+    return status;
 }
 
 wt_status nid_read_images(const file_reader *self, wt_input *input, const wt_read_options *options,

@@ -187,9 +187,9 @@ static wt_status decode(wt_force_source *base, const force_signal *signal, force
                         size_t n, double *values, wt_error *err)
 {
     const nid_source *source = (const nid_source *)base;
-    (void)err; /* and none of these units has an offset */
-    nid_decode(&source->file, signal->channel, source->line, n, scaling.multiplier, values);
-    return WT_OK;
+    /* None of these units has an offset. */
+    return nid_decode(&source->file, signal->channel, source->line, n, scaling.multiplier, values,
+                      err);
 }
 
 /* Adds a phase of the curve; *start moves to its end, NaN once a duration is not known. */

@@ -90,6 +90,11 @@ static wt_status parse(nid_header *header, wt_error *err)
     return WT_OK;
 }
 
+bool nid_header_ends(const unsigned char *bytes, size_t length)
+{
+    return memmem(bytes, length, "\n#!", 3) != NULL;
+}
+
 wt_status nid_header_read(const unsigned char *bytes, size_t length, nid_header *header,
                           wt_error *err)
 {

@@ -86,7 +86,9 @@ wt_status nid_read_noise(const file_reader *self, wt_input *input, const wt_read
         status = wt_fail(err, WT_E_MEMORY, "no memory for the spectrum");
         goto done;
     }
-    nid_decode(&file, c, 0, c->points, 1, made.density);
+    status = nid_decode(&file, c, 0, c->points, 1, made.density, err);
+    if (status != WT_OK)
+        goto done;
     for (size_t i = 0; i < c->points; i++) {
         made.frequency[i] = first + range * (double)i / (double)(c->points - 1);
         made.density[i] *= made.density[i];

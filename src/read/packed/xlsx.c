@@ -415,8 +415,8 @@ wt_status xlsx_read(wt_input *input, workbook *book, wt_error *err)
     texts strings = {.bytes = NULL}, relations = {.bytes = NULL};
     part p = {.name = NULL};
     wt_status status = archive_open(input, &zip, err);
-    if (status == WT_OK && zip->truncated)
-        status = wt_fail(err, WT_E_CORRUPT, "the end of the spreadsheet file is missing");
+    if (status == WT_OK && zip->odd != NULL)
+        status = wt_fail(err, WT_E_CORRUPT, "spreadsheet: %s", zip->odd);
     if (status == WT_OK)
         status = part_open(zip, "xl/workbook.xml", &p, err);
     if (status == WT_END) {

@@ -1,0 +1,66 @@
+/* Parts of an input. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "read/bytes/window.h"
+
+#include "read/bytes/scratch.h"
+
+#include <stdlib.h>
+
+/* Read together, if less is asked for. */
+#define AHEAD ((size_t)64 * 1024)
+
+wt_status window_open(input_window *w, wt_input *input, wt_error *err)
+{
+    *w = (input_window){.input = input};
+    const wt_status status = wt_input_size(input, &w->size, err);
+    return status == WT_OK && w->size <= SCRATCH_ABOVE
+               ? wt_input_bytes(input, &w->all, &w->size, err)
+               : status;
+}
+
+static bool make_room(input_window *w, size_t n)
+{
+    if (n <= w->room)
+        return true;
+    unsigned char *const bytes = realloc(w->bytes, n);
+    if (bytes == NULL)
+        return false;
+    w->bytes = bytes;
+    w->room = n;
+    return true;
+}
+
+static wt_status fill(input_window *w, size_t at, size_t n, wt_error *err)
+{
+    const size_t left = w->size - at, more = n > AHEAD ? n : AHEAD;
+    const size_t read = more < left ? more : left;
+    w->n = 0;
+    if (!make_room(w, read))
+        return wt_fail(err, WT_E_MEMORY, "no memory for a curve");
+    const wt_status status = wt_input_at(w->input, at, w->bytes, read, err);
+    w->from = at;
+    w->n = status == WT_OK ? read : 0;
+    return status;
+}
+
+wt_status window_bytes(input_window *w, size_t at, size_t n, const unsigned char **bytes,
+                       wt_error *err)
+{
+    wt_status status = WT_OK;
+    if (at > w->size || n > w->size - at)
+        return wt_fail(err, WT_E_CORRUPT, "the end of the file is missing");
+    if (w->all != NULL) {
+        *bytes = w->all + at;
+        return WT_OK;
+    }
+    if (at < w->from || at - w->from > w->n || n > w->n - (at - w->from))
+        status = fill(w, at, n, err);
+    if (status == WT_OK)
+        *bytes = w->bytes + (at - w->from);
+    return status;
+}
+
+void window_close(input_window *w)
+{
+    free(w->bytes);
+    *w = (input_window){0};
+}

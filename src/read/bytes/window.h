@@ -1,0 +1,22 @@
+/* Parts of an input one after the other, some of what comes behind each read with it: for files
+ * whose curves stand in blocks. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WT_READ_WINDOW_H
+#define WT_READ_WINDOW_H
+
+#include "weartrack/read.h"
+
+typedef struct input_window {
+    wt_input *input;
+    size_t size;              /* of the input */
+    const unsigned char *all; /* of one that is in memory anyway, or NULL */
+    unsigned char *bytes;     /* [n] from `from` on */
+    size_t from, n, room;
+} input_window;
+
+wt_status window_open(input_window *window, wt_input *input, wt_error *err);
+/* Bytes [at, at + n), which are there until the next call. */
+wt_status window_bytes(input_window *window, size_t at, size_t n, const unsigned char **bytes,
+                       wt_error *err);
+void window_close(input_window *window);
+
+#endif
