@@ -16,6 +16,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "base/array.h"
+#include "base/gsl_quiet.h"
 #include "base/pool.h"
 #include "fit/compare.h"
 #include "fit/curve.h"
@@ -521,6 +522,7 @@ wt_status wt_curve_depth_make(const wt_contact_table *table, double poisson_rati
     wt_depth_curve *sorted = pool_alloc(&memory, n, sizeof *sorted);
     depth_pool d = {.curve = sorted, .value = pool_numbers(&memory, n)};
     wt_status status = WT_OK;
+    gsl_quiet();
     for (size_t i = 0; i < n && !memory.failed; i++)
         if (!isnan(curve[i].loss_error))
             sorted[d.n++] = curve[i];

@@ -5,6 +5,8 @@
  */
 #include "fit/curve.h"
 
+#include "base/gsl_quiet.h"
+
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_linalg.h>
@@ -18,6 +20,7 @@ wt_curve_pool wt_curve_pool_make(const double (*misfit)[WT_CURVE_WAVES], size_t 
     wt_curve_pool pool = {.n = n, .misfit = (double)NAN, .chance = (double)NAN};
     if (n < LEAST_CURVES)
         return pool;
+    gsl_quiet();
     for (size_t i = 0; i < n; i++)
         for (size_t a = 0; a < W; a++)
             mean[a] += misfit[i][a] / (double)n;

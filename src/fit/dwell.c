@@ -11,6 +11,7 @@
  */
 #include "fit/dwell.h"
 
+#include "base/gsl_quiet.h"
 #include "fit/curve_model.h"
 #include "model/hereditary.h"
 
@@ -433,6 +434,7 @@ wt_status wt_dwell_fit(const wt_contact_table *table, const wt_dwell_history *hi
     pool memory = {0};
     *dwell = (wt_dwell){.load_time = (double)NAN, .misfit = (double)NAN};
     dwell->why_not = lacks(history);
+    gsl_quiet();
     wt_status status = hereditary_reserve(&t.law, MOST_TERMS, err);
     if (status == WT_OK && dwell->why_not[0] == '\0')
         make(&t, &memory, dwell);

@@ -261,7 +261,7 @@ const char *dwell_nodes_make(const wt_dwell_history *h, double stiffness, pool *
         nodes->force[i] /= nodes->count[i];
     }
     const noise v = noise_of(h, split, stiffness, before, residual);
-    if (!make_factor(nodes, &v, memory))
+    if (isnan(v.white) || !make_factor(nodes, &v, memory)) /* shares of nothing are NaN */
         return "no noise in the baseline";
     return "";
 }

@@ -1,0 +1,115 @@
+/* Each function of the fit room that asks GSL for what may fail is the first that a process calls:
+ * the handler of GSL, which ends the process, must be off by then.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "near.h"
+
+#include "synthetic_curve.h"
+#include "weartrack/fit.h"
+
+#include <math.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+/* Whether it comes back with true, in a process of its own. */
+static bool comes_back(bool (*call)(void))
+{
+    int ended = -1;
+    const pid_t child = fork();
+    if (child == 0)
+        _exit(call() ? 0 : 1);
+    assert_true(child > 0);
+    assert_int_equal(waitpid(child, &ended, 0), child);
+    return WIFEXITED(ended) && WEXITSTATUS(ended) == 0;
+}
+
+static wt_contact_table *table_of(void)
+{
+    const wt_tip tip = {.shape = WT_TIP_PARABOLOID, .radius = 5e-6};
+    wt_contact_table *table = NULL;
+    return wt_contact_table_new(&tip, 1e-11, 1e-4, &table, NULL) == WT_OK ? table : NULL;
+}
+
+enum { SAMPLES = 600 };
+
+/* A dwell at a constant height behind a ramp, of an elastic sample. */
+static bool fit_dwell(double noise, double spring_constant, wt_dwell *dwell)
+{
+    static double time[2 * SAMPLES], position[2 * SAMPLES], force[2 * SAMPLES];
+    uint64_t seed = 1;
+    for (int i = 0; i < 2 * SAMPLES; i++) {
+        time[i] = 1e-3 * i;
+        position[i] = 1e-9 * ((i < SAMPLES ? i : SAMPLES - 1) - SAMPLES / 2);
+        force[i] = 4e3 * pow(fmax(position[i], 0), 1.5) + noise * curve_normal(&seed);
+    }
+    const wt_dwell_history h = {.time = time,
+                                .position = position,
+                                .force = force,
+                                .n_approach = SAMPLES,
+                                .n_dwell = SAMPLES,
+                                .spring_constant = spring_constant,
+                                .poisson_ratio = 0.5,
+                                .modulus = 1e6};
+    wt_contact_table *table = table_of();
+    const bool done = wt_dwell_fit(table, &h, dwell, NULL) == WT_OK;
+    wt_contact_table_free(table);
+    return done;
+}
+
+/* Of a lever so soft that the sample is a wall: no normal equations are to be solved. */
+static bool dwell_on_a_wall(void)
+{
+    wt_dwell dwell;
+    return fit_dwell(1e-12, 1e-6, &dwell) && !dwell.found && dwell.why_not[0] != '\0';
+}
+
+enum { CURVES = 40 };
+
+/* Residuals that are all the same have no scatter. */
+static bool pool_of_one(void)
+{
+    static double misfit[CURVES][WT_CURVE_WAVES];
+    return isnan(wt_curve_pool_make((const double(*)[WT_CURVE_WAVES])misfit, CURVES).chance);
+}
+
+static bool depth_of_one(void)
+{
+    static wt_depth_curve curve[CURVES];
+    wt_contact_table *table = table_of();
+    wt_curve_depth depth;
+    for (int i = 0; i < CURVES; i++)
+        curve[i] = (wt_depth_curve){.modulus = 1e6,
+                                    .depth = 1e-7,
+                                    .spring_constant = 1,
+                                    .baseline = 1e-6,
+                                    .window = 1e-7,
+                                    .spot = i};
+    const bool done = wt_curve_depth_make(table, 0.5, curve, CURVES, &depth, NULL) == WT_OK;
+    wt_contact_table_free(table);
+    return done && isnan(depth.chance);
+}
+
+static void nothing_ends_the_process(void **state)
+{
+    (void)state;
+    assert_true(comes_back(dwell_on_a_wall));
+    assert_true(comes_back(pool_of_one));
+    assert_true(comes_back(depth_of_one));
+}
+
+static void dwell_without_noise(void **state)
+{
+    (void)state;
+    wt_dwell dwell;
+    assert_true(fit_dwell(0, 1, &dwell));
+    assert_false(dwell.found);
+    assert_string_equal(dwell.why_not, "no noise in the baseline");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(nothing_ends_the_process),
+        cmocka_unit_test(dwell_without_noise),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
