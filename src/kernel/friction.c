@@ -58,7 +58,7 @@ wt_status friction_scratch_init(friction_scratch *scratch, const wt_friction_wor
 {
     *scratch = (friction_scratch){0};
     panel_plan_init(&scratch->plan, ws->roughness, ws->plan.width, ws->plan.levels, ws->knots,
-                    ws->n_knots, n_cuts, ws->softening, memory);
+                    ws->slopes, ws->n_knots, n_cuts, ws->softening, memory);
     const size_t panels = scratch->plan.capacity;
     scratch->room = panels;
     for (size_t k = 0; k < FRICTION_STEPS; k++)
@@ -131,8 +131,8 @@ static void choose_panels(wt_friction_workspace *ws)
     const double pole = M_PI / width; /* its distance from the middle of a panel, over half of it */
     ws->fall = smooth ? FALL_SMOOTH : FALL_LAW;
     ws->fastest = 1.08 / (pole + sqrt(1 + pole * pole));
-    panel_plan_init(&ws->plan, ws->roughness, width, levels_for(ws->options.tolerance), NULL, 0, 0,
-                    ws->softening, &ws->memory);
+    panel_plan_init(&ws->plan, ws->roughness, width, levels_for(ws->options.tolerance), NULL, NULL,
+                    0, 0, ws->softening, &ws->memory);
 }
 
 static wt_status make_rules(wt_friction_workspace *ws, wt_error *err)
@@ -185,6 +185,10 @@ wt_status wt_friction_workspace_new(const wt_material *material, const wt_roughn
     ws->stiffness = 1 / (1 - material->poisson_ratio * material->poisson_ratio);
     if (material->law->breaks != NULL && material->law->angular == NULL)
         ws->knots = material->law->breaks(material, &ws->n_knots);
+    if (ws->n_knots > 0)
+        ws->slopes = pool_numbers(&ws->memory, ws->n_knots + 1);
+    if (ws->slopes != NULL)
+        grid_slopes(material, ws->knots, ws->n_knots, ws->slopes);
 
     ws->threads = wt_thread_count(o.threads);
     ws->scratch = pool_alloc(&ws->memory, ws->threads, sizeof *ws->scratch);

@@ -57,6 +57,7 @@ struct wt_friction_workspace {
     double rounding; /* relative error of the integrals from rounding, but for that of J1, J2 */
     const double *knots;
     size_t n_knots; /* of the material, rad/s */
+    double *slopes; /* [n_knots + 1] of the material between them */
     const gauss_rule *rules[FRICTION_STEPS];
     size_t first_step; /* the rule of a panel of which nothing is known */
     rule_fall fall;    /* of integrands, */

@@ -17,6 +17,12 @@ static const double grading = 8;
 /* Knots closer than this part of a panel are one: what lies between them weighs no more than the
  * power 3/2 of it. */
 static const double same_knot = 1e-11;
+/* ln |E|^2 rises by no more over one panel: P falls from 1 where G has hardly begun to rise, and a
+ * polynomial that ends 10^12 times higher is all error there. */
+static const double most_rise = 5;
+/* Outside a table it is taken for no steeper: so steep, a modulus leaves the numbers within three
+ * decades. */
+static const double steepest_outside = 200;
 
 static const double *roughness_breaks(const wt_roughness *roughness, size_t *n)
 {
@@ -27,6 +33,40 @@ static const double *roughness_breaks(const wt_roughness *roughness, size_t *n)
 static double log_ratio(double q, double q0)
 {
     return log1p((q - q0) / q0);
+}
+
+void grid_slopes(const wt_material *material, const double *knots, size_t n_knots, double *slopes)
+{
+    /* between knots a table is a power law, and what is made of several is not */
+    const size_t parts = material->law->power_below ? 1 : 8;
+    for (size_t k = 0; k <= n_knots; k++) {
+        const double low = k > 0 ? knots[k - 1] : knots[0] / M_E;
+        const double high = k < n_knots ? knots[k] : knots[n_knots - 1] * M_E;
+        const double step = log(high / low) / (double)parts;
+        double before[2] = {0}, steepest = 0;
+        for (size_t i = 0; i <= parts; i++) {
+            double e[2];
+            const double omega = i < parts ? low * exp(step * (double)i) : high;
+            material->law->modulus(material, &omega, 1, &e[0], &e[1]);
+            for (size_t m = 0; m < 2; m++) {
+                if (i > 0 && before[m] > 0 && e[m] > before[m])
+                    steepest = fmax(steepest, 2 * log(e[m] / before[m]) / step);
+                before[m] = e[m];
+            }
+        }
+        slopes[k] = step * (double)parts > same_knot * PANEL_WIDTH ? steepest : 0;
+        if (k == 0 || k == n_knots)
+            slopes[k] = fmin(slopes[k], steepest_outside);
+    }
+}
+
+/* Panels more than one that the slopes make. */
+static size_t steep_most(const double *knots, const double *slopes, size_t n, double length)
+{
+    double most = n > 0 ? length * fmax(slopes[0], slopes[n]) / most_rise : 0;
+    for (size_t k = 1; k < n; k++)
+        most += log(knots[k] / knots[k - 1]) * slopes[k] / most_rise;
+    return (size_t)most;
 }
 
 /* Panels more than one that a knot can make: those graded away from the knot before it. */
@@ -43,7 +83,7 @@ static size_t graded_most(const double *knots, size_t n)
 }
 
 void panel_plan_init(panel_plan *plan, const wt_roughness *roughness, double width, size_t levels,
-                     const double *knots, size_t n_knots, size_t n_cuts,
+                     const double *knots, const double *slopes, size_t n_knots, size_t n_cuts,
                      const strain_law *softening, pool *memory)
 {
     size_t n_roughness = 0;
@@ -53,9 +93,11 @@ void panel_plan_init(panel_plan *plan, const wt_roughness *roughness, double wid
                          .q1 = roughness->q1,
                          .softening = softening,
                          .width = width,
+                         .slopes = slopes,
                          .levels = levels};
     /* from the smallest t up to the width of a panel there are 27 steps of the cell ratio */
-    plan->capacity = levels + n_roughness + n_knots + graded_most(knots, n_knots) + n_cuts + 32 +
+    plan->capacity = levels + n_roughness + n_knots + graded_most(knots, n_knots) +
+                     steep_most(knots, slopes, n_knots, length) + n_cuts + 32 +
                      (softening != NULL ? softening->n_cuts : 0) + (size_t)(length / PANEL_WIDTH);
     plan->core = pool_alloc(memory, levels + 1, sizeof *plan->core);
     plan->panels = pool_alloc(memory, plan->capacity, sizeof *plan->panels);
@@ -132,7 +174,11 @@ void panel_plan_lay(panel_plan *plan, const wt_roughness *roughness, const doubl
             double high = bounds[i];
             if (low > 0 && high > cell_ratio * low)
                 high = cell_ratio * low;
-            const double widest = low > 0 ? plan->width : PANEL_WIDTH;
+            const double usual = low > 0 ? plan->width : PANEL_WIDTH;
+            const double middle = 0.5 * (low + bounds[i]);
+            const double slope =
+                n_knots > 0 ? plan->slopes[knots_below(knots, n_knots, middle)] : 0;
+            const double widest = slope * usual > most_rise ? most_rise / slope : usual;
             const double pieces = 1 + floor((bounds[i] - low) / widest);
             if (pieces > 1)
                 high = fmin(high, low + (bounds[i] - low) / pieces);

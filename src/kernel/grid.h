@@ -32,6 +32,7 @@ typedef struct panel_plan {
     double q0, q1;
     const strain_law *softening; /* borrowed, NULL = none */
     double width;                /* of panels in t, at most; the first one is no wider than usual */
+    const double *slopes;        /* borrowed, [n_knots + 1]: see below */
     size_t levels;
     grid_panel *core;   /* [levels + 1] */
     size_t n_panels;    /* levels cells and the others */
@@ -42,10 +43,14 @@ typedef struct panel_plan {
 /* The usual width. */
 #define PANEL_WIDTH 1.2
 
-/* Room for a plan with these knots (of any one unit of frequency) and up to n_cuts cuts besides
- * those of roughness and softening. The pool tells whether there was memory. */
+/* How steeply |E|^2 rises at most with ln omega, into `slopes` [n_knots + 1]: below the first knot,
+ * between two, and above the last. */
+void grid_slopes(const wt_material *material, const double *knots, size_t n_knots, double *slopes);
+/* Room for a plan with these knots (of any one unit of frequency), where the material is so steep
+ * (borrowed; NULL without knots), and up to n_cuts cuts besides those of roughness and softening.
+ * The pool tells whether there was memory. */
 void panel_plan_init(panel_plan *plan, const wt_roughness *roughness, double width, size_t levels,
-                     const double *knots, size_t n_knots, size_t n_cuts,
+                     const double *knots, const double *slopes, size_t n_knots, size_t n_cuts,
                      const strain_law *softening, pool *memory);
 /* Lays the panels: cut at the breaks of roughness and softening, at `cuts` (plain, t rising) and at
  * `knots` (of the material: square-root maps to their right; t rising, also outside the range).
