@@ -295,19 +295,23 @@ static double bend_of(const blocks *b, const double *force, double (*column)[WIN
     return bend / sqrt(b->innovation);
 }
 
+/* Against the height, for samples may be left out and a piezo may slow down. */
 static void judge_top(const curve_law *m, const double p[N], const blocks *b, curve_lack *lack)
 {
     enum { ALL = MAX_ORDER + WINDOW };
     const curve_samples *s = m->samples;
     const size_t all = MAX_ORDER + b->n, first = s->n - all * b->length;
+    const double end = s->position[s->n - 1];
     double force[ALL], power[3][ALL], white[WINDOW], column[3][WINDOW], most = 0.0, steepest = 0.0;
     for (size_t i = 0; i < all; i++) {
-        double sum = 0.0;
-        for (size_t j = first + i * b->length; j < first + (i + 1) * b->length; j++)
+        double sum = 0.0, below = 0.0;
+        for (size_t j = first + i * b->length; j < first + (i + 1) * b->length; j++) {
             sum += s->force[j];
+            below += s->position[j] - end;
+        }
         force[i] = sum / (double)b->length;
         power[0][i] = 1.0;
-        power[1][i] = ((double)i - (double)all) / (double)b->n;
+        power[1][i] = below / (double)b->length / b->travel;
         power[2][i] = power[1][i] * power[1][i];
     }
     whiten(b, force, MAX_ORDER, b->n, white);
@@ -315,12 +319,15 @@ static void judge_top(const curve_law *m, const double p[N], const blocks *b, cu
         whiten(b, power[k], MAX_ORDER, b->n, column[k]);
     for (size_t top = 1; top <= TOPS; top++)
         most = fmax(most, -bend_of(b, white, column, top * b->n / 8));
-    for (size_t i = MAX_ORDER; i + 3 < all; i++)
-        if (force[i + 3] - force[i] > steepest) {
-            steepest = force[i + 3] - force[i];
+    double slope = 0.0;
+    for (size_t i = MAX_ORDER; i + 3 < all; i++) {
+        slope = (force[i + 3] - force[i]) / (power[1][i + 3] - power[1][i]);
+        if (slope > steepest) {
+            steepest = slope;
             lack->flat_from = still_straight * (0.5 * (force[i + 3] + force[i]) - p[CURVE_F0]);
         }
-    const bool flat = most > least_bend && force[all - 1] - force[all - 4] < less_steep * steepest;
+    }
+    const bool flat = most > least_bend && slope < less_steep * steepest; /* the last one */
     lack->flat_chance =
         flat ? 0.5 * TOPS * gsl_cdf_fdist_Q(most * most, 1.0, (double)b->n_before / per_freedom)
              : 1.0;

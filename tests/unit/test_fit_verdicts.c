@@ -425,6 +425,31 @@ static void softly_saturated_detector(void **state)
     assert_in_range(flat, 0, 3);
 }
 
+/* Where samples are missing, or the piezo slows down, the force of a contact bends with the number
+ * of the sample, but not with the height. */
+static void uneven_heights(void **state)
+{
+    (void)state;
+    curve_truth t = curve_standard();
+    t.noise = 5e-12;
+    for (int draw = 0; draw < 20; draw++) {
+        curve_make(&t, 1 + 7919 * (uint64_t)draw, &data);
+        for (size_t i = t.n - 80; i < t.n - 60; i++)
+            data.force[i] = (double)NAN;
+        expect(&t, WT_CURVE_ACCEPTED, "accepted");
+        uint64_t seed = 1 + 7919 * (uint64_t)draw;
+        for (size_t i = 0; i < t.n; i++) { /* to a third of its speed at the end */
+            const double x = (double)i / (double)(t.n - 1);
+            const double z =
+                t.travel * (x < 0.8 ? x : x - (x - 0.8) * (x - 0.8) / 0.6) / (14. / 15);
+            data.height[i] = t.height0 + z;
+            data.force[i] = t.offset + t.tilt * z + curve_contact_force(&t, z - t.contact_point) +
+                            t.noise * curve_normal(&seed);
+        }
+        expect(&t, WT_CURVE_ACCEPTED, "accepted");
+    }
+}
+
 static void deeper_than_the_sphere(void **state)
 {
     (void)state;
@@ -612,6 +637,7 @@ int main(void)
         cmocka_unit_test(disturbed_baseline),
         cmocka_unit_test(spikes),
         cmocka_unit_test(softly_saturated_detector),
+        cmocka_unit_test(uneven_heights),
         cmocka_unit_test(deeper_than_the_sphere),
         cmocka_unit_test(too_uncertain),
         cmocka_unit_test(not_by_the_noise),
