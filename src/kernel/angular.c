@@ -176,20 +176,20 @@ static void series_values(const angular_law *a, const series *s, size_t first, s
                           double *j1, double *j2)
 {
     double x[LONG_DEGREE + 1], w[LONG_DEGREE + 1], new1[LONG_DEGREE + 1], new2[LONG_DEGREE + 1];
-    size_t n = 0;
-    for (size_t k = first; k <= LONG_DEGREE; k += step) {
+    size_t n = 0, k = first;
+    do {
         const double u = s->middle + s->half * a->node[k];
         x[n++] = isnan(s->anchor) ? u : s->anchor + u * u;
-    }
+    } while ((k += step) <= LONG_DEGREE);
     exponential(x, n, w);
     if (a->closed)
         a->material->law->angular(a->material, w, n, new1, new2);
     else
         for (size_t i = 0; i < n; i++)
             angular_panels_integrate(&a->panels, w[i], &new1[i], &new2[i]);
-    for (size_t i = 0, k = first; i < n; i++, k += step) {
-        j1[k] = new1[i];
-        j2[k] = new2[i];
+    for (size_t i = 0; i < n; i++) {
+        j1[first + i * step] = new1[i];
+        j2[first + i * step] = new2[i];
     }
 }
 

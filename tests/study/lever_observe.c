@@ -146,7 +146,7 @@ static void observe(int scene, const void *prepared, random_source *random, tria
     const char *compared = trial_file(t, "comparison.tsv"), *paths[SPOTS],
                *made[2] = {trial_file(t, "bulk.tsv"), trial_file(t, "track.tsv")};
     calibration c = draw_calibration(s, 0, random);
-    char name[16];
+    char name[24];
     (void)prepared;
     for (int i = 0; i < SPOTS; i++) {
         snprintf(name, sizeof name, "spot%d.tsv", i + 1);
