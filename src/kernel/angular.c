@@ -377,8 +377,7 @@ bool angular_closed(const angular_law *angular, double x_min, double x_max)
 }
 
 /* Nodes in one piece, with room for whole registers. */
-enum { BATCH = 32, REGISTER = 4, AT_ONCE = 2 * REGISTER };
-typedef double wide __attribute__((vector_size(REGISTER * sizeof(double))));
+enum { BATCH = 32, AT_ONCE = 2 * WIDE };
 
 /* Both series at n <= BATCH places: even and odd powers in turn, so that neither waits for the
  * other. `value` has room for BATCH numbers each. */
@@ -393,7 +392,7 @@ static void series_eval(const series *restrict s, size_t n, const double *restri
     for (size_t from = 0; from < n; from += AT_ONCE) {
         wide a, b;
         memcpy(&a, z + from, sizeof a);
-        memcpy(&b, z + from + REGISTER, sizeof b);
+        memcpy(&b, z + from + WIDE, sizeof b);
         const wide aa = a * a, bb = b * b, zero = {0};
         wide even_a1 = zero + j1[top], odd_a1 = zero + above1, even_a2 = zero + j2[top],
              odd_a2 = zero + above2;
@@ -411,9 +410,9 @@ static void series_eval(const series *restrict s, size_t n, const double *restri
         const wide a1 = even_a1 + a * odd_a1, a2 = even_a2 + a * odd_a2;
         const wide b1 = even_b1 + b * odd_b1, b2 = even_b2 + b * odd_b2;
         memcpy(value1 + from, &a1, sizeof a1);
-        memcpy(value1 + from + REGISTER, &b1, sizeof b1);
+        memcpy(value1 + from + WIDE, &b1, sizeof b1);
         memcpy(value2 + from, &a2, sizeof a2);
-        memcpy(value2 + from + REGISTER, &b2, sizeof b2);
+        memcpy(value2 + from + WIDE, &b2, sizeof b2);
     }
 }
 

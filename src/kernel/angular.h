@@ -23,7 +23,8 @@ wt_status angular_new(const wt_material *material, double tolerance, pool *memor
 void angular_clear(angular_law *angular); /* NULL: nothing */
 
 /* Prepares the series for w from w_min to w_max > 0; nothing to do for a closed form of few terms.
- * A series, once made, does not change: results do not depend on the order of the calls. */
+ * A series, once made, does not change; but a closed form for which there is one is read from it
+ * from then on: that moves results within the errors stated. */
 wt_status angular_cover(angular_law *angular, double w_min, double w_max,
                         wt_error *err) WT_NODISCARD;
 /* Prepares angular_outside. */

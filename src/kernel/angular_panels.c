@@ -302,8 +302,7 @@ static void add_far(const angular_panels *a, size_t edge, double w, double *j1, 
     *j2 += sum2 * c;
 }
 
-enum { REGISTER = 4, MIDDLE = 8 * PANEL_NODES };
-typedef double wide __attribute__((vector_size(REGISTER * sizeof(double))));
+enum { MIDDLE = 8 * PANEL_NODES };
 
 /* The n <= MIDDLE nodes of panels that are each as far below w as they are wide, or further. */
 WIDE_REGISTERS
@@ -318,7 +317,7 @@ static void add_middle(size_t n, const double *restrict omega, const double *res
     }
     wide sum1 = {0}, sum2 = {0};
     size_t from = 0;
-    for (; from + REGISTER <= n; from += REGISTER) {
+    for (; from + WIDE <= n; from += WIDE) {
         wide c, k, v1, v2;
         memcpy(&c, cosine + from, sizeof c);
         memcpy(&k, kernel + from, sizeof k);
@@ -331,7 +330,7 @@ static void add_middle(size_t n, const double *restrict omega, const double *res
         sum1[i] += kernel[from] * cosine[from] * f1[from];
         sum2[i] += kernel[from] * f2[from];
     }
-    for (size_t i = 0; i < REGISTER; i++) {
+    for (size_t i = 0; i < WIDE; i++) {
         *j1 += sum1[i];
         *j2 += sum2[i];
     }

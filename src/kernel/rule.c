@@ -13,9 +13,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { REGISTER = 4 };
-typedef double wide __attribute__((vector_size(REGISTER * sizeof(double))));
-
 /* P_0(x) ... P_n(x). */
 static void legendre(size_t n, double x, double *p)
 {
@@ -32,7 +29,7 @@ WIDE_REGISTERS
 static void add_columns(const double *restrict matrix, size_t rows, size_t n,
                         const double *restrict times, double *restrict sum)
 {
-    for (size_t from = 0; from < rows; from += REGISTER) {
+    for (size_t from = 0; from < rows; from += WIDE) {
         wide part, column;
         memcpy(&part, sum + from, sizeof part);
         for (size_t i = 0; i < n; i++) {
@@ -105,16 +102,16 @@ static void tops(const double *restrict top, size_t n, const double *restrict f,
     wide f_low = {0}, f_high = {0}, g_low = {0}, g_high = {0}, low, high;
     for (size_t i = 0; i < n; i++) {
         memcpy(&low, top + i * RULE_TOP_ROOM, sizeof low);
-        memcpy(&high, top + i * RULE_TOP_ROOM + REGISTER, sizeof high);
+        memcpy(&high, top + i * RULE_TOP_ROOM + WIDE, sizeof high);
         f_low += low * f[i];
         f_high += high * f[i];
         g_low += low * g[i];
         g_high += high * g[i];
     }
     memcpy(of_f, &f_low, sizeof f_low);
-    memcpy(of_f + REGISTER, &f_high, sizeof f_high);
+    memcpy(of_f + WIDE, &f_high, sizeof f_high);
     memcpy(of_g, &g_low, sizeof g_low);
-    memcpy(of_g + REGISTER, &g_high, sizeof g_high);
+    memcpy(of_g + WIDE, &g_high, sizeof g_high);
 }
 
 void rule_tops(const gauss_rule *rule, const double *f, const double *g, rule_top *of_f,
@@ -157,7 +154,7 @@ double rule_error(const gauss_rule *rule, const rule_top *top, rule_fall kind, d
 /* NULL without memory. */
 static gauss_rule *make_rule(size_t n)
 {
-    const size_t room = (n + REGISTER - 1) / REGISTER * REGISTER;
+    const size_t room = (n + WIDE - 1) / WIDE * WIDE;
     gauss_rule *made =
         calloc(1, sizeof *made + n * (room + 2 + RULE_TOP_ROOM) * sizeof *made->numbers);
     gsl_integration_glfixed_table *table = gsl_integration_glfixed_table_alloc(n);
