@@ -149,7 +149,7 @@ int cmd_master(int argc, char **argv)
     saved_shifts saved = {NULL, NULL};
     exported own = export_defaults();
     wt_common_law_job common = wt_common_law_job_defaults();
-    enum { EXPORTED = 2 };
+    enum { EXPORTED = 2, COMMON };
     cmd_part parts[] = {
         {wt_master_job_params(), &job,
          "reference-temperature reference-at vertical-shift expansion terms-per-decade liquid "
@@ -157,7 +157,7 @@ int cmd_master(int argc, char **argv)
          0},
         {saved_params(), &saved, NULL, 0},
         [EXPORTED] = {exported_params(), &own, NULL, 0},
-        {wt_common_law_job_params(), &common, NULL, 0},
+        [COMMON] = {wt_common_law_job_params(), &common, NULL, 0},
         {wt_read_params(), &set.read,
          "temperature units format sheet deformation strain sample sample-by", 0}};
     static const wt_tables_role role = {
@@ -172,6 +172,10 @@ int cmd_master(int argc, char **argv)
     if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv) || !check_exports(&s, &own) ||
         !check_outputs(&s, &saved, &own) || !cmd_begin_files(&s, &set))
         goto done;
+    if (common.common == WT_COMMON_NONE && cmd_given(&parts[COMMON], "common-law-margin")) {
+        (void)cmd_usage_error(&s, "--common-law-margin goes with --common-law");
+        goto done;
+    }
     job.reduction = own.reduction;
     if (!asks_for_few_terms(&parts[EXPORTED], &own))
         s.work.left_out |= WT_EXTRA_REDUCED;

@@ -137,16 +137,18 @@ static void compare(cmd_session *s, const wt_samples *samples, const sample_fit 
     wt_parselog_add(s->work.log, WT_WARNING, NULL, NULL, "not compared: %s", message);
 }
 
-/* One law of all, if it is asked for. */
-static wt_status find_common_law(wt_common_law_job *job, const wt_samples *samples,
-                                 const sample_fit *fits, wt_table **table, wt_error *err)
+/* One law of all, if it is asked for; that there is none is listed, as a sample that cannot be
+ * fitted is. */
+static wt_status find_common_law(cmd_session *s, wt_common_law_job *job, const wt_samples *samples,
+                                 const sample_fit *fits, wt_table **table)
 {
+    wt_error failure = WT_ERROR_INIT;
     if (job->common == WT_COMMON_NONE)
         return WT_OK;
     const char **names = calloc(samples->n, sizeof *names);
     const wt_master **of = calloc(samples->n, sizeof *of);
     wt_status status =
-        names == NULL || of == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
+        names == NULL || of == NULL ? wt_fail(&failure, WT_E_MEMORY, "out of memory") : WT_OK;
     for (size_t i = 0; status == WT_OK && i < samples->n; i++) {
         names[i] = shown_name(samples->name[i]);
         of[i] = fits[i].tables.fit;
@@ -155,10 +157,11 @@ static wt_status find_common_law(wt_common_law_job *job, const wt_samples *sampl
     job->fits = of;
     job->n = samples->n;
     if (status == WT_OK)
-        status = wt_common_law_make(job, table, err);
+        status = wt_common_law_make(job, table, &failure);
     free(names);
     free(of);
-    return status;
+    return status == WT_OK ? WT_OK
+                           : wt_job_failed(&s->work, "common law", status, &failure, &s->err);
 }
 
 void master_of_samples(cmd_session *s, wt_master_job *job, wt_common_law_job *common,
@@ -181,7 +184,7 @@ void master_of_samples(cmd_session *s, wt_master_job *job, wt_common_law_job *co
         compare(s, samples, fits, of, &materials);
     common->reference = job->fit.reference_temperature;
     if (made == WT_OK)
-        made = find_common_law(common, samples, fits, &common_law, &s->err);
+        made = find_common_law(s, common, samples, fits, &common_law);
     for (size_t i = 0; made == WT_OK && i < samples->n; i++) {
         made = rename_all(&fits[i], &s->err);
         for (size_t k = 0; k < TABLES; k++)

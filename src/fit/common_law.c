@@ -565,8 +565,12 @@ static wt_status gather(law_samples *c, const wt_master *const *masters, size_t 
             snprintf(common->members[i].why_not, sizeof common->members[i].why_not, "%s", why);
     }
     if (status == WT_OK && c->n_members < FEWEST) {
+        size_t without = 0;
+        while (common->members[without].why_not[0] == '\0')
+            without++;
         wt_fail(err, WT_E_RANGE, "a common law needs two samples or more with a law");
-        wt_error_found(err, "%zu", c->n_members);
+        wt_error_found(err, "%zu of %zu; of sample %zu %s", c->n_members, n, without + 1,
+                       common->members[without].why_not);
         return WT_E_RANGE;
     }
     if (status == WT_OK && c->how == WT_COMMON_MOVED && !has_pole(c)) {

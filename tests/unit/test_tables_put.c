@@ -312,6 +312,7 @@ static void test_common_law(void **state)
         assert_string_equal(wt_table_key(table, "law"), i == 0 ? "WLF" : "Arrhenius");
         assert_true(strncmp(wt_table_key(table, "agree"), i == 0 ? "no: " : "cannot say: ", 4) ==
                     0);
+        assert_string_equal(wt_table_key(table, "left_out"), "none: it could not be fitted");
         see(table);
         wt_table_free(table);
     }

@@ -119,6 +119,8 @@
     X(COMMON_LAW_KEY_AGREE, "agree", TEXT, LABEL("Have the samples one law"),                      \
       HEADLINE("Have the samples one law"))                                                        \
     X(COMMON_LAW_KEY_SETTLED_BY, "settled_by", TEXT, LABEL("What would settle it"), OPTIONAL)      \
+    X(COMMON_LAW_KEY_LEFT_OUT, "left_out", TEXT, LABEL("Samples left out of it, and why"),         \
+      OPTIONAL)                                                                                    \
     X(COMMON_LAW_KEY_P, "p", PLAIN, LABEL("One law, p"), OPTIONAL)                                 \
     X(COMMON_LAW_KEY_FURTHEST, "furthest", NUMBER,                                                 \
       LABEL("Own laws against it, furthest limit (decades)"), OPTIONAL)                            \

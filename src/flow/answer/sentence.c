@@ -95,11 +95,14 @@ static void say_common_law(sentence *s, const table_view *v)
     if (v->table == NULL)
         return;
     const char *settled = common_law_words(v, COMMON_LAW_KEY_SETTLED_BY);
+    const char *without = common_law_words(v, COMMON_LAW_KEY_LEFT_OUT);
     const wt_estimate c1 = common_law_value(v, COMMON_LAW_KEY_WLF_C1);
     next(s);
     say(s, "one law: %s", common_law_words(v, COMMON_LAW_KEY_AGREE));
     if (settled != NULL)
         say(s, "; what would settle it: %s", settled);
+    if (without != NULL)
+        say(s, "; left out: %s", without);
     if (!isnan(c1.value))
         say(s, "; WLF C1 = %s, C2 = %s, reference temperature %s", words_of_estimate(c1).text,
             words_of_estimate(common_law_value(v, COMMON_LAW_KEY_WLF_C2)).text,

@@ -6,10 +6,14 @@
 #include "data/tables/tables.h"
 
 #include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* Samples of one law are told apart by chance about so often. */
 static const double level = 0.01;
+/* Of a sample, beside its name. */
+enum { MOST_WORDS = 160 };
 
 wt_common_law_job wt_common_law_job_defaults(void)
 {
@@ -133,31 +137,65 @@ static void law_words(const wt_common_law *law, double reference, char *text, si
         clocale_print(text, size, "arrhenius:activation-energy=%.6g", law->activation_energy.value);
 }
 
+/* A list with room for what is said of each sample. */
+typedef struct list {
+    char *text; /* NULL: out of memory */
+    size_t size, used;
+} list;
+
+static list make_list(const wt_common_law_job *job)
+{
+    list made = {.size = 1};
+    for (size_t i = 0; i < job->n; i++)
+        made.size += strlen(job->names[i]) + MOST_WORDS;
+    made.text = calloc(made.size, 1);
+    return made;
+}
+
+static void add(list *to, const char *format, ...) WT_PRINTF(2, 3);
+static void add(list *to, const char *format, ...)
+{
+    if (to->text == NULL)
+        return;
+    va_list words;
+    va_start(words, format);
+    clocale_vprint(to->text + to->used, to->size - to->used, format, words);
+    va_end(words);
+    to->used += strlen(to->text + to->used);
+}
+
 static void set_each(const wt_common_law_job *job, const wt_common_law *law, table_writer *t)
 {
-    char moved[1024] = "", given[2048] = "", one[160];
+    char one[MOST_WORDS];
     const bool each = job->common == WT_COMMON_MOVED;
-    size_t n_moved = 0, n_given = 0;
+    list moved = make_list(job), given = make_list(job), without = make_list(job);
     for (size_t i = 0; i < law->n_members; i++) {
         const wt_common_member *m = &law->members[i];
-        if (!m->used)
+        if (!m->used) {
+            add(&without, "%s%s: %s", without.used > 0 ? ", " : "", job->names[i], m->why_not);
             continue;
+        }
         const double reference = law->reference + m->moved.value;
-        clocale_print(moved + n_moved, sizeof moved - n_moved, "%s%s %.2f °C",
-                      n_moved > 0 ? ", " : "", job->names[i], reference - WT_ZERO_CELSIUS);
-        n_moved = strlen(moved);
+        add(&moved, "%s%s %.2f °C", moved.used > 0 ? ", " : "", job->names[i],
+            reference - WT_ZERO_CELSIUS);
         if (m->moved.standard_error > 0)
-            clocale_print(moved + n_moved, sizeof moved - n_moved, " ± %.2g K",
-                          m->moved.standard_error);
-        n_moved = strlen(moved);
+            add(&moved, " ± %.2g K", m->moved.standard_error);
         law_words(law, reference, one, sizeof one);
-        if (each || n_given == 0)
-            clocale_print(given + n_given, sizeof given - n_given, "%s%s%s%s",
-                          n_given > 0 ? "; " : "", each ? job->names[i] : "", each ? " " : "", one);
-        n_given = strlen(given);
+        if (each || given.used == 0)
+            add(&given, "%s%s%s%s", given.used > 0 ? "; " : "", each ? job->names[i] : "",
+                each ? " " : "", one);
     }
-    common_law_set_text(t, COMMON_LAW_KEY_MOVED, moved);
-    common_law_set_text(t, COMMON_LAW_KEY_SHIFT_LAW, given);
+    if (moved.text == NULL || given.text == NULL || without.text == NULL) {
+        t->status = wt_fail(t->err, WT_E_MEMORY, "out of memory");
+    } else {
+        common_law_set_text(t, COMMON_LAW_KEY_MOVED, moved.text);
+        common_law_set_text(t, COMMON_LAW_KEY_SHIFT_LAW, given.text);
+        if (without.used > 0)
+            common_law_set_text(t, COMMON_LAW_KEY_LEFT_OUT, without.text);
+    }
+    free(moved.text);
+    free(given.text);
+    free(without.text);
 }
 
 static void set_constants(const wt_common_law *law, table_writer *t)

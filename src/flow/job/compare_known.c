@@ -58,8 +58,10 @@ static calibration calibration_of(const wt_group_data *d, const wt_compare_job *
         [WT_COMMON_SPRING_CONSTANT] = d->spring_constant.standard_error / d->spring_constant.value};
     const double given[WT_COMMON_SOURCES] = {[WT_COMMON_SPRING_CONSTANT] = job->lever_error,
                                              [WT_COMMON_SENSITIVITY] = job->sensitivity_error};
-    const double usual[WT_COMMON_SOURCES] = {
-        [WT_COMMON_SPRING_CONSTANT] = 1, [WT_COMMON_SENSITIVITY] = d->sensitivity_gain};
+    const double usual[WT_COMMON_SOURCES] = {[WT_COMMON_SPRING_CONSTANT] = 1,
+                                             [WT_COMMON_SENSITIVITY] = d->sensitivity_gain,
+                                             [WT_COMMON_HALF_ANGLE] = (double)NAN,
+                                             [WT_COMMON_RADIUS] = (double)NAN};
     calibration c = {d->common_error[source], d->common_gain[source].value};
     if (!(c.error > 0))
         c.error = stated[source] > 0 ? stated[source] : given[source];

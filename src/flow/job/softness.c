@@ -103,16 +103,27 @@ static wt_status choose_sample(const table_view *v, wt_softness_choice *choice, 
         there = there || (choice->sample != NULL && strcmp(here, choice->sample) == 0);
         first = first == NULL ? here : first;
         if (choice->sample == NULL && strcmp(here, first) != 0)
-            return several("samples", first, here, "choose one with --sample NAME", err);
+            return several("samples", first, here,
+                           "choose one with --sample NAME, here "
+                           "if the moduli are of that sample, else of weartrack payne",
+                           err);
     }
     if (!named || (choice->sample != NULL && strcmp(choice->sample, "all") == 0)) {
         choice->sample = NULL;
     } else if (choice->sample != NULL && !there) {
         wt_fail(err, WT_E_NOT_FOUND, "no strain sweep is of the sample \"%s\"", choice->sample);
         wt_error_found(err, "%s", first);
+        wt_error_advice(err, "--sample is of moduli and strain sweeps alike");
         return WT_E_NOT_FOUND;
     }
     return WT_OK;
+}
+
+static wt_status without_temperature(const char *what, wt_error *err)
+{
+    wt_fail(err, WT_E_MISSING, "%s", what);
+    wt_error_advice(err, "leave --softening-temperature out");
+    return WT_E_MISSING;
 }
 
 /* The temperature of a sweep that is nearest to the one that is asked for. */
@@ -141,9 +152,7 @@ static wt_status choose_temperature(const table_view *v, wt_softness_choice *cho
             err);
     }
     if (!isnan(choice->temperature) && isnan(nearest)) {
-        wt_fail(err, WT_E_MISSING, "the strain sweeps do not say their temperature");
-        wt_error_advice(err, "leave --softening-temperature out");
-        return WT_E_MISSING;
+        return without_temperature("the strain sweeps do not say their temperature", err);
     }
     choice->temperature = isnan(choice->temperature) ? choice->temperature : nearest;
     return WT_OK;
@@ -382,7 +391,13 @@ wt_status wt_softness_from_table(const wt_table *table, wt_softness_choice choic
         return wt_fail(err, WT_E_ARG, "no table of a softening with strain");
     wt_softness s = {0};
     const bool swept = wt_table_find(table, "storage_ratio") >= 0;
-    wt_status status = swept ? of_sweeps(table, choice, &s, err) : of_given(table, &s, err);
+    wt_status status = WT_OK;
+    if (swept)
+        status = of_sweeps(table, choice, &s, err);
+    else if (!isnan(choice.temperature))
+        status = without_temperature("a table of strain, f and g has no temperature", err);
+    else
+        status = of_given(table, &s, err);
     if (status == WT_OK)
         status = wt_softening_check(&s.table, err);
     if (status == WT_OK)
