@@ -67,8 +67,8 @@ static void compare_groups(compare_call *call, const char *master)
                         "its curves are called bulk and are taken for those of the track; "
                         "`weartrack indent --group track` names them");
     if (made == WT_OK && master != NULL) {
-        made = cmd_rubber_read(master, NULL, call->master.poisson_ratio, &s->work, &dma, &rubber,
-                               &s->err);
+        made = cmd_rubber_read(master, call->set.read.sample, call->master.poisson_ratio, &s->work,
+                               &dma, &rubber, &s->err);
         job->rubber = &rubber;
     }
     if (made == WT_OK)
@@ -96,11 +96,12 @@ static bool check_options(compare_call *call, bool materials, bool master)
     const uint64_t reading = parts[OF_READING].given;
     const bool sample_alone =
         cmd_given(&parts[OF_READING], "sample") && (reading & (reading - 1)) == 0;
-    if (reading != 0 && !(materials && (sample_alone || compare_reads_isotherms(call))))
+    if (reading != 0 &&
+        !((sample_alone && (materials || master)) || (materials && compare_reads_isotherms(call))))
         return cmd_usage_error(&call->s,
                                "--temperature, --units, --format, --sheet, --deformation, "
                                "--strain and --sample-by are for measured isotherms, --sample for "
-                               "materials; %s",
+                               "materials and --master; %s",
                                materials ? "all that is given are results" : "there are none");
     return true;
 }

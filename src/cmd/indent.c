@@ -28,23 +28,30 @@ int cmd_indent(int argc, char **argv)
     wt_file_set set = {.read = wt_read_defaults()};
     cmd_session s = cmd_session_defaults();
     own_options own = {0};
+    wt_read_options dma_read = wt_read_defaults();
+    enum { OF_DMA = 4 };
     wt_rubber rubber = {0};
     wt_result *dma = NULL;
     cmd_part parts[] = {{own_params(), &own, NULL, 0},
                         {wt_indent_job_params(), &job, NULL, 0},
                         {wt_file_set_params(), &set, "spot units format", 0},
-                        {wt_job_params(), &s.work, "threads", 0}};
+                        {wt_job_params(), &s.work, "threads", 0},
+                        [OF_DMA] = {wt_read_params(), &dma_read, "sample", 0}};
     wt_indent_tables tables = {0};
     wt_table *groups = NULL, *budget = NULL;
     if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv) || !cmd_begin_files(&s, &set))
         goto done;
+    if (own.master == NULL && parts[OF_DMA].given != 0) {
+        (void)cmd_usage_error(&s, "--sample goes with --master");
+        goto done;
+    }
     job.sets = &set;
     job.n_sets = 1;
     wt_status made = WT_OK;
     if (own.master != NULL) {
         wt_cost_stage(s.cost, "given_material");
-        made = cmd_rubber_read(own.master, NULL, job.options.poisson_ratio, &s.work, &dma, &rubber,
-                               &s.err);
+        made = cmd_rubber_read(own.master, dma_read.sample, job.options.poisson_ratio, &s.work,
+                               &dma, &rubber, &s.err);
         if (made == WT_OK)
             wt_rubber_cost(&rubber, &s.work);
         job.rubber = &rubber;

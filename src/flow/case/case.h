@@ -13,6 +13,8 @@ typedef struct case_files {
     wt_file_set *sets;
     size_t n;                                 /* 0 = not in the case */
     wt_estimate spring_constant, sensitivity; /* of the group; value NaN = as in the files */
+    double lever_error, sensitivity_error; /* relative, the largest that its files state; NaN: one
+                                              of them states none */
 } case_files;
 
 /* Constants at the reference temperature of the DMA. */

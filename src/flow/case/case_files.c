@@ -38,12 +38,19 @@ static bool same(double a, double b)
     return !(a < b) && !(a > b) && !isnan(a) && !isnan(b);
 }
 
-/* One value for the group, or none if its files differ. */
-static void join(wt_estimate *group, wt_estimate of_file, bool first)
+/* One value for the group, or none if its files differ, and an error that is none too small. */
+static void join(wt_estimate *group, double *error, wt_estimate of_file, bool first)
 {
-    if (first)
+    const double relative = of_file.standard_error / of_file.value;
+    if (first) {
         *group = of_file;
-    else if (!same(group->value, of_file.value))
+        *error = relative > 0 ? relative : (double)NAN;
+        return;
+    }
+    *error = relative > 0 && !isnan(*error) ? fmax(*error, relative) : (double)NAN;
+    if (same(group->value, of_file.value))
+        group->standard_error = fmax(group->standard_error, of_file.standard_error);
+    else
         group->value = (double)NAN;
 }
 
@@ -72,8 +79,8 @@ wt_status case_read_files(wt_case *c, const xmlNode *parent, const char *name, c
             status = case_node_text(c, node, &patterns[i], err);
         set->patterns = &patterns[i];
         set->n_patterns = 1;
-        join(&files->spring_constant, lever.spring_constant, i == 0);
-        join(&files->sensitivity, lever.sensitivity, i == 0);
+        join(&files->spring_constant, &files->lever_error, lever.spring_constant, i == 0);
+        join(&files->sensitivity, &files->sensitivity_error, lever.sensitivity, i == 0);
     }
     return status;
 }

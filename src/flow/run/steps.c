@@ -154,8 +154,9 @@ static wt_status indent(flow_run *run, int g, const wt_rubber *rubber, wt_error 
     job.n_sets = files->n;
     job.spring_constant = files->spring_constant;
     job.sensitivity = files->sensitivity;
-    job.lever_error = run->c->compare.lever_error;
-    job.sensitivity_error = run->c->compare.sensitivity_error;
+    job.lever_error = files->lever_error > 0 ? files->lever_error : run->c->compare.lever_error;
+    job.sensitivity_error =
+        files->sensitivity_error > 0 ? files->sensitivity_error : run->c->compare.sensitivity_error;
     job.rates =
         (run->plan.required & (FLOW_BIT(FLOW_MODULUS_RATE) | FLOW_BIT(FLOW_DMA_COMPARISON))) != 0;
     job.curves = (run->plan.wanted & FLOW_BIT(curve[g])) != 0;
