@@ -62,8 +62,9 @@ static const double both_ends = 1.959963984540054;
 /* Amplitudes that are closer than this are one. */
 static const double same_strain = 0.05;
 
-/* Kelvin within which two sweeps are of one temperature. */
-static const double same_temperature = 1.5;
+/* Kelvin within which two sweeps are of one temperature, and beyond which the nearest one is not
+ * what was asked for. */
+static const double same_temperature = 1.5, other_temperature = 10;
 
 /* Whether a row has moduli and is of the temperature and sample that count; NaN, NULL: any. */
 static bool is_of(const table_view *v, size_t row, wt_softness_choice choice)
@@ -425,6 +426,12 @@ wt_status wt_softness_read(const char *path, const char *name, wt_softness_choic
     }
     if (status != WT_OK)
         wt_error_file(err, name);
+    else if (fabs(softness->temperature - choice.temperature) > other_temperature)
+        wt_parselog_add(work->log, WT_WARNING, name, NULL,
+                        "strain sweeps at %.1f °C are asked for; the nearest were measured at "
+                        "%.1f °C",
+                        choice.temperature - WT_ZERO_CELSIUS,
+                        softness->temperature - WT_ZERO_CELSIUS);
     wt_result_free(tables);
     return status;
 }
