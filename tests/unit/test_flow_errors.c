@@ -174,6 +174,17 @@ static const expectation measured[] = {
     {&dma_comparison_schema, "track_temperature", ".."}, /* not given */
     {&dma_comparison_schema, "dma_complex_modulus", "kn"},
     {&indentation_schema, "spring_constant", "kn"},
+    {&indentation_schema, "sensitivity", ".."}, /* that of the files */
+    {&indentation_schema, "spring_constant_error", "0."},
+    {&indentation_schema, "sensitivity_error", ".."}, /* not stated, as those of the tip */
+    {&indentation_schema, "half_angle_error", ".."},
+    {&indentation_schema, "radius_error", ".."},
+    {&indentation_schema, "spring_constant_gain", "k."}, /* only where an error is stated */
+    {&indentation_schema, "sensitivity_gain", "k."},
+    {&indentation_schema, "half_angle_gain", "k."},
+    {&indentation_schema, "radius_gain", "k."},
+    {&indentation_schema, "loss_error", "00"},
+    {&indentation_schema, "bend_error", "00"},
     {&indentation_schema, "modulus", "kk"},
     {&indentation_schema, "spectrum_temperature", "0."}, /* the other without a DMA */
     {&indentation_schema, "spectrum_factor", "nn"},      /* the curves have no memory */

@@ -390,7 +390,7 @@ static void test_covered(void **state)
             wt_table_free(table);
         }
         print_message("%zu sweeps: %g\n", n_sweeps[c], (double)held / TRIALS);
-        assert_true(held >= 0.92 * TRIALS && held <= 0.98 * TRIALS);
+        assert_true(100 * held >= 92 * TRIALS && 100 * held <= 98 * TRIALS);
     }
 }
 

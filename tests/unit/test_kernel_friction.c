@@ -227,7 +227,8 @@ static void areas_of_many(void **state)
             variance[i] = (double)NAN;
         contact_areas(variance, n, area);
         for (size_t i = 0; i < n; i++)
-            assert_near(area[i], (double)erfl(0.5L / sqrtl(variance[i])), 3 * DBL_EPSILON);
+            assert_near(area[i], (double)erfl(0.5L / sqrtl((long double)variance[i])),
+                        3 * DBL_EPSILON);
     }
 }
 
@@ -237,7 +238,7 @@ static void errors_of_the_area(void **state)
     (void)state;
     for (double variance = 4e-4; variance < 1e9; variance *= 1.7)
         for (double e = 1e-13; e < 0.5; e *= 3) {
-            const long double y = 0.5L / sqrtl(variance);
+            const long double y = 0.5L / sqrtl((long double)variance);
             const long double far = y / sqrtl(1 - (long double)e),
                               near = y / sqrtl(1 + (long double)e);
             /* that one of the two which keeps its digits */

@@ -186,7 +186,7 @@ static void test_budget(void **state)
         double error, gain;
     } expected[] = {
         {"spring constant", 0.05, 1},
-        {"deflection sensitivity", NAN, cell(tables.indentation, 0, "sensitivity_gain")},
+        {"deflection sensitivity", (double)NAN, cell(tables.indentation, 0, "sensitivity_gain")},
         {"radius of the tip", 0.1, -0.5}};
     for (size_t i = 0; i < 3; i++) {
         assert_string_equal(cell_text(budget, i, "group"), "track");
