@@ -321,7 +321,10 @@ static void judge_top(const curve_law *m, const double p[N], const blocks *b, cu
         most = fmax(most, -bend_of(b, white, column, top * b->n / 8));
     double slope = 0.0;
     for (size_t i = MAX_ORDER; i + 3 < all; i++) {
-        slope = (force[i + 3] - force[i]) / (power[1][i + 3] - power[1][i]);
+        const double moved = power[1][i + 3] - power[1][i];
+        if (!(moved > 0.0)) /* a height that is held or steps back shows no slope */
+            continue;
+        slope = (force[i + 3] - force[i]) / moved;
         if (slope > steepest) {
             steepest = slope;
             lack->flat_from = still_straight * (0.5 * (force[i + 3] + force[i]) - p[CURVE_F0]);

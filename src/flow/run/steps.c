@@ -293,6 +293,7 @@ wt_status flow_step_master(flow_run *run, wt_error *err)
     keep(run, FLOW_RELAXATION_SPECTRUM, &tables.relaxation_spectrum);
     keep(run, FLOW_MATERIAL_DRAWS, &tables.material_draws);
     keep(run, FLOW_SERIES_DRAWS, &tables.series_draws);
+    wt_master_tables_clear(&tables); /* the fit */
     return status;
 }
 
