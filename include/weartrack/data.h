@@ -42,10 +42,11 @@ typedef struct wt_segment {
     size_t n_points; /* of every channel */
     size_t n_channels;
     wt_channel *channels;
-    double duration; /* [s] of n_points intervals: sample i is at duration i/n; NaN if unknown */
-    double setpoint; /* [N] or NaN */
-    double velocity; /* piezo velocity [m/s], NaN if unknown */
-    uint64_t reserved[8];
+    double duration;  /* [s] of n_points intervals: sample i is at duration i/n; NaN if unknown */
+    double setpoint;  /* [N] or NaN */
+    double velocity;  /* piezo velocity [m/s], NaN if unknown */
+    double frequency; /* of a modulation [Hz] as the file says it, NaN if unknown */
+    uint64_t reserved[7];
 } wt_segment;
 
 typedef struct wt_cantilever {

@@ -427,9 +427,12 @@ typedef struct wt_dwell_moduli {
 } wt_dwell_moduli;
 enum { WT_DWELL_POINTS = 32, WT_DWELL_FREQUENCIES = 32 };
 typedef struct wt_dwell {
-    bool found, creep;            /* creep: the force was held, else the height */
-    const char *why_not;          /* "", or why there are no moduli; static */
-    double load_time, duration;   /* contact to dwell, and the dwell [s] */
+    bool found, creep;          /* creep: the force was held, else the height */
+    const char *why_not;        /* "", or why there are no moduli; static */
+    double load_time, duration; /* contact to dwell, and the dwell [s] */
+    double contact_point, baseline_offset, baseline_tilt; /* as in a history */
+    double drift, drift_from; /* of the force [N/s], since that time [s] */
+    double indentation_error; /* standard error of the indentation at the end [m]; NaN as below */
     double misfit, misfit_chance; /* sum of squares over its degrees of freedom, by which the errors
                                      are wider where it is above 1; chance of more by noise: below
                                      0.01 the errors are not known (NaN) */
@@ -443,6 +446,33 @@ typedef struct wt_dwell {
  * fall), and the storage and loss modulus of it. */
 WT_API wt_status wt_dwell_fit(const wt_contact_table *table, const wt_dwell_history *history,
                               wt_dwell *dwell, wt_error *err) WT_NODISCARD;
+
+/* A sine in height and force: complex amplitudes A (real and imaginary part) of A exp(i omega (t -
+ * start)), and what there is at frequencies beside it. */
+enum { WT_MODULATION_NEIGHBOURS = 16 };
+typedef struct wt_modulation {
+    bool found;
+    const char *why_not;      /* "", or why there is none; static */
+    double angular_frequency; /* [rad/s] */
+    double start;             /* [s] */
+    double amplitude[4];      /* of height [m] and force [N] */
+    double noise[WT_MODULATION_NEIGHBOURS][4];
+    size_t n_noise;
+} wt_modulation;
+/* Least squares beside a cubic and a logarithm of the time. angular_frequency: of the drive, or
+ * NaN: the strongest of the height. A height that moves no more than its noise is no modulation. */
+WT_API wt_status wt_modulation_fit(const double *time, const double *position, const double *force,
+                                   size_t n, double angular_frequency, wt_modulation *modulation,
+                                   wt_error *err) WT_NODISCARD;
+/* Takes it out of the samples that it was found in. */
+WT_API void wt_modulation_remove(const wt_modulation *modulation, const double *time, size_t n,
+                                 double *position, double *force);
+/* E* = k* / slope with the dynamic stiffness k* of the contact; slope = dF/ddelta of the tip over
+ * the modulus at the mean depth [m], with its relative standard error (NaN: not known). air: the
+ * same drive free of the sample, whose drag and crosstalk are taken off; NULL: none. */
+WT_API wt_status wt_modulation_moduli(const wt_modulation *modulation, const wt_modulation *air,
+                                      double spring_constant, double slope, double slope_error,
+                                      wt_dwell_moduli *moduli, wt_error *err) WT_NODISCARD;
 
 /* ---- deflection sensitivity: curves on a hard surface ---------------------------------------- */
 

@@ -549,6 +549,11 @@ WT_API void wt_compare_tables_clear(wt_compare_tables *tables);
 WT_API wt_status wt_compare_groups(const wt_compare_job *job, const wt_job *work,
                                    wt_compare_tables *tables, wt_error *err) WT_NODISCARD;
 
+/* The moduli of dwells (tables dwell_moduli as job->bulk and job->track, of which the track may be
+ * NULL) against those of job->rubber at the same frequency and temperature: table dwell_dma. */
+WT_API wt_status wt_compare_dwells(const wt_compare_job *job, const wt_job *work, wt_table **table,
+                                   wt_error *err) WT_NODISCARD;
+
 /* ---- materials side by side ------------------------------------------------------------------ */
 
 typedef struct wt_compared {

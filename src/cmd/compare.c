@@ -82,6 +82,42 @@ static void compare_groups(compare_call *call, const char *master)
     wt_result_free(dma);
 }
 
+/* The table of the moduli of dwells of an input. */
+static wt_status find_dwells(const compare_input *input, const wt_table **table, wt_error *err)
+{
+    if (input->tables == NULL) {
+        *err = input->failure;
+        return err->status;
+    }
+    return cmd_table_find(input->tables, input->path, "dwell_moduli", "dwell", table, err);
+}
+
+static void compare_dwells(compare_call *call, const char *master)
+{
+    cmd_session *s = &call->s;
+    wt_compare_job *job = &call->groups;
+    wt_result *dma = NULL;
+    wt_rubber rubber = {0};
+    wt_table *made_table = NULL;
+    wt_status made = find_dwells(&call->input[0], &job->bulk, &s->err);
+    if (made == WT_OK && s->n_files > 1)
+        made = find_dwells(&call->input[1], &job->track, &s->err);
+    if (made == WT_OK && s->n_files > 2)
+        made =
+            wt_fail(&s->err, WT_E_ARG, "BULK and TRACK are two files, %zu are given", s->n_files);
+    if (made == WT_OK)
+        made = cmd_rubber_read(master, NULL, call->master.poisson_ratio, &s->work, &dma, &rubber,
+                               &s->err);
+    job->rubber = &rubber;
+    if (made == WT_OK)
+        made = wt_compare_dwells(job, &s->work, &made_table, &s->err);
+    wt_table **const made_tables[] = {&made_table};
+    cmd_finish(s, made, made_tables, COUNT_OF(made_tables));
+    wt_table_free(made_table);
+    wt_rubber_clear(&rubber);
+    wt_result_free(dma);
+}
+
 enum { OWN, OF_GROUPS, OF_MATERIALS, OF_RUBBER, OF_READING, PARTS };
 
 /* What nothing here is asked would be left out without a word. */
@@ -106,13 +142,18 @@ static bool check_options(compare_call *call, bool materials, bool master)
     return true;
 }
 
+static bool needs_two(cmd_session *s)
+{
+    return cmd_usage_error(s, "two files are needed, BULK and TRACK or two materials; %zu given",
+                           s->n_files);
+}
+
 /* What a file is its content says. */
-static bool read_inputs(compare_call *call)
+static bool read_inputs(compare_call *call, size_t least)
 {
     cmd_session *s = &call->s;
-    if (s->n_files < 2)
-        return cmd_usage_error(
-            s, "two files are needed, BULK and TRACK or two materials; %zu given", s->n_files);
+    if (s->n_files < least)
+        return needs_two(s);
     call->input = calloc(s->n_files, sizeof *call->input);
     if (!cmd_begin(s))
         return false;
@@ -134,12 +175,15 @@ int cmd_compare(int argc, char **argv)
 {
     static const cmd_usage usage = {
         .name = "compare",
-        .arguments = "[OPTION]... BULK TRACK | MATERIAL MATERIAL...",
+        .arguments = "[OPTION]... BULK TRACK | --master FILE BULK [TRACK] | MATERIAL MATERIAL...",
         .what =
             "Compares the moduli of the wear track with those of the bulk: does it differ (yes, no "
             "or cannot say), the ratio with its 95 % interval, Welch's and the Mann-Whitney test, "
             "effect size, and the same rate by rate. BULK and TRACK are outputs of weartrack "
-            "indent; - is standard input. Or materials: the ratios of E', E'' and tan delta to "
+            "indent; - is standard input. With --master also one or two outputs of weartrack "
+            "dwell: "
+            "E' and E'' at their frequencies over those of the DMA. Or materials: the ratios of "
+            "E', E'' and tan delta to "
             "those of the first, with their intervals, over frequency and temperature. MATERIAL is "
             "the output of weartrack master or what was measured (file, folder, pattern).",
         .common = "output formats columns provenance",
@@ -158,10 +202,17 @@ int cmd_compare(int argc, char **argv)
         [OF_RUBBER] = {wt_master_job_params(), &call.master, "poisson-ratio", 0},
         [OF_READING] = {wt_read_params(), &call.set.read,
                         "temperature units format sheet deformation strain sample sample-by", 0}};
-    if (cmd_parse(&call.s, &usage, parts, PARTS, argc, argv) && read_inputs(&call)) {
+    if (cmd_parse(&call.s, &usage, parts, PARTS, argc, argv) &&
+        read_inputs(&call, own.master != NULL ? 1 : 2)) {
+        const bool dwells =
+            own.master != NULL && cmd_tables_have(call.input[0].tables, "dwell_moduli");
         const bool materials = own.master == NULL && compare_takes_materials(&call);
-        if (check_options(&call, materials, own.master != NULL)) {
-            if (materials)
+        if (call.s.n_files < 2 && !dwells) {
+            (void)needs_two(&call.s);
+        } else if (check_options(&call, materials, own.master != NULL)) {
+            if (dwells)
+                compare_dwells(&call, own.master);
+            else if (materials)
                 compare_materials(&call);
             else
                 compare_groups(&call, own.master);

@@ -8,7 +8,8 @@ int cmd_dwell(int argc, char **argv)
         .name = "dwell",
         .arguments = "--tip TIP [OPTION]... FILE...",
         .what = "Relaxation at constant height and creep at constant force of the dwell (pause) "
-                "behind the approach of force curves: storage and loss modulus at the "
+                "behind the approach of force curves, and modulation in it: storage and loss "
+                "modulus at the "
                 "frequencies that a dwell tells, with their errors. Folders and patterns are "
                 "allowed.",
         .common = "output formats columns files-from provenance cost",

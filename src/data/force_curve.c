@@ -94,7 +94,7 @@ wt_segment *wt_force_curve_add_segment(wt_force_curve *curve, wt_segment_kind ki
     segment->kind = kind;
     segment->index = curve->n_segments;
     segment->n_points = n_points;
-    segment->duration = segment->setpoint = segment->velocity = (double)NAN;
+    segment->duration = segment->setpoint = segment->velocity = segment->frequency = (double)NAN;
     curve->n_segments++;
     return segment;
 }

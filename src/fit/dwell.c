@@ -294,6 +294,28 @@ static void tell_moduli(dwell_task *t, const double *p, const gsl_matrix *covari
     }
 }
 
+/* Contact and baseline, and what of them the indentation has. */
+static void tell_place(const dwell_task *t, const double *p, const gsl_matrix *covariance,
+                       wt_dwell *to)
+{
+    const dwell_nodes *n = &t->nodes;
+    const size_t last = n->first_free - 1;
+    const double k = t->history->spring_constant;
+    double gradient[N_PARAMETERS] = {0}, common;
+    to->contact_point = t->history->contact_point + p[POINT] * t->unit[POINT];
+    to->baseline_offset = p[OFFSET] * t->unit[OFFSET];
+    to->baseline_tilt = p[TILT] * t->unit[TILT];
+    to->drift = p[DRIFT] * t->unit[DRIFT];
+    to->drift_from = n->time[n->first_held - 1];
+    gradient[POINT] = -t->unit[POINT] * (1 + to->baseline_tilt / k);
+    gradient[OFFSET] = t->unit[OFFSET] / k;
+    gradient[TILT] = t->unit[TILT] * (n->position[last] - to->contact_point) / k;
+    gradient[DRIFT] = t->unit[DRIFT] * (n->time[last] - to->drift_from) / k;
+    errors_of(t, covariance, gradient,
+              to->misfit_chance < least_chance ? (double)NAN : fmax(1, to->misfit),
+              &to->indentation_error, &common);
+}
+
 static void tell_points(dwell_task *t, const double *p, wt_dwell *to)
 {
     const dwell_nodes *n = &t->nodes;
@@ -354,6 +376,7 @@ static void tell(dwell_task *t, const double *p, double cost, double jj[N_PARAME
     tell_points(t, p, to);
     if (to->why_not[0] != '\0')
         return;
+    tell_place(t, p, &matrix.matrix, to);
     tell_moduli(t, p, &matrix.matrix, fmax(1, to->misfit), to);
     if (to->n == 0)
         to->why_not = "too short beside its loading";

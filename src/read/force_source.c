@@ -292,6 +292,7 @@ wt_status force_add_segment(wt_force_source *source, const force_facts *facts,
     segment->index = facts->index;
     segment->duration = facts->duration;
     segment->velocity = facts->velocity;
+    segment->frequency = facts->frequency > 0 ? facts->frequency : (double)NAN;
     segment->setpoint = facts->setpoint * deflection_factor(facts->setpoint_quantity, WT_Q_FORCE,
                                                             &facts->cantilever, &used);
     for (size_t i = 0; i < plan.n && status == WT_OK; i++) {

@@ -34,6 +34,7 @@ typedef struct force_facts {
     double start;      /* time of the first sample [s] */
     double duration;   /* of n_points intervals [s]; NaN if unknown */
     double velocity;   /* [m/s], NaN if unknown */
+    double frequency;  /* of a modulation [Hz]; 0 or NaN if unknown */
     double setpoint;   /* of the quantity below, NaN if unknown */
     wt_quantity setpoint_quantity;
     wt_cantilever cantilever; /* that the file's deflections and forces were made with */

@@ -128,14 +128,19 @@ static void make_clean(const dwell_scene *s, const relaxation *r, clean *to)
     const double top =
         depth + 1e6 * share * tip_force(&tip, tip_contact_radius(&tip, depth)) / at.k; /* about */
     const double rate = top / load, step_in = load / DWELL_IN, step_held = hold / DWELL_HELD;
-    double time = 0, base = -rate * step_in * (DWELL_FREE - 0.3), force = 0;
+    double time = 0, stop = 0, base = -rate * step_in * (DWELL_FREE - 0.3), force = 0;
     for (int i = 0; i < DWELL_SAMPLES; i++) {
         const int in = i < DWELL_FREE + DWELL_IN,
                   dwells = !in && i < DWELL_FREE + DWELL_IN + DWELL_HELD;
         const double step = (dwells ? step_held : step_in) / FINE;
         for (int k = 0; k < FINE; k++) {
+            if (dwells && s->modulation > 0)
+                base += 0.01 * depth *
+                        (sin(2 * M_PI * s->modulation * (time - stop + step)) -
+                         sin(2 * M_PI * s->modulation * (time - stop)));
             base += in ? rate * step : dwells ? 0 : -1.6 * rate * step;
             time += step;
+            stop = in ? time : stop;
             if (base > 0 || at.f > 0)
                 force = go(&at, step, &base, dwells && s->creep, force);
         }
@@ -178,7 +183,8 @@ int dwell_sample_write(const dwell_scene *s, const relaxation *r, random_source 
                 noise_after(s->kind, c->time[i] - (i > 0 ? c->time[i - 1] : 0), slow, random);
         if (i == DWELL_FREE + DWELL_IN || i == DWELL_FREE + DWELL_IN + DWELL_HELD)
             fputs("\n", file);
-        fprintf(file, "%s\t%.9g\t%.9g\t%.9g\n", kinds[part],
+        fprintf(file, "%s\t%.9g\t%.9g\t%.9g\n",
+                part == 1 && s->modulation > 0 ? "modulation" : kinds[part],
                 5e-6 - c->base[i] + s->height_noise * random_normal(random), force, c->time[i]);
     }
     fputs("##\n", file);

@@ -28,6 +28,7 @@ typedef struct dwell_scene {
     double spring_constant; /* 0: 5 N/m */
     bool pyramid;           /* the blunted one of 20 nm, 150 nm deep, lever of 0.5 N/m */
     double hold;            /* [s]; 0: 8 s */
+    double modulation;      /* frequency [Hz] of the height while it is held, 1 % of the depth */
 } dwell_scene;
 
 extern const dwell_scene dwell_scenes[];

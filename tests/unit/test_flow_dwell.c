@@ -168,6 +168,83 @@ static void test_relaxation(void **state)
     assert_string_equal(err.message, "no curve dwells behind its approach");
 }
 
+/* A held segment with a sine, and the same drive out of contact, whose drag is to be taken off. */
+static void test_modulation(void **state)
+{
+    (void)state;
+    enum { SINE = 4000, PARTS = 4 };
+    static const char path[] = "test_dwell_sine.jpk-force";
+    static double h[PARTS][SINE], f[PARTS][SINE];
+    static const double drive = 12, amplitude = 4e-9, last = 4;
+    const double omega = 2 * M_PI * drive, step = load_time / (N - FREE);
+    const double slope = 2 * sqrt(radius * depth) / 0.75,
+                 size = modulus * tgamma(1 - exponent) * pow(omega, exponent),
+                 storage = size * cos(M_PI_2 * exponent), loss = size * sin(M_PI_2 * exponent),
+                 drag = 0.5 * loss * slope, noise = 0.002 * force_at(load_time);
+    uint64_t seed = 5;
+    for (size_t i = 0; i < N; i++) {
+        f[0][i] = force_at(step * ((double)i + 1 - FREE)) + noise * dma_normal(&seed);
+        h[0][i] = 6e-6 - depth * ((double)i + 1 - FREE) / (N - FREE) - f[0][i] / lever;
+    }
+    for (size_t i = 0; i < SINE; i++) {
+        const double t = last * (double)i / SINE, sine = amplitude * sin(omega * t),
+                     cosine = amplitude * cos(omega * t);
+        f[1][i] = i % 20 == 0 || i < 20 ? force_at(load_time + step + t) : 0;
+        f[3][i] = drag * cosine + 0.1 * noise * dma_normal(&seed);
+        h[3][i] = 8e-6 - sine;
+        h[1][i] = 6e-6 - depth - sine;
+        f[2][i] = 0;
+        h[2][i] = 6e-6 + 4e-9 * (double)i;
+    }
+    for (size_t i = 20; i < SINE; i++) /* between those that were summed */
+        if (i % 20 != 0) {
+            const size_t from = i / 20 * 20, to = from + 20 < SINE ? from + 20 : from;
+            const double end = to > from ? force_at(load_time + step + last * (double)to / SINE)
+                                         : force_at(load_time + step + last);
+            f[1][i] += f[1][from] + (end - f[1][from]) * (double)(i - from) / 20;
+        }
+    for (size_t i = 0; i < SINE; i++) {
+        const double t = last * (double)i / SINE;
+        f[1][i] += amplitude * ((storage * slope) * sin(omega * t) +
+                                (loss * slope + drag) * cos(omega * t)) +
+                   noise * dma_normal(&seed);
+        h[1][i] -= f[1][i] / lever;
+        h[3][i] -= f[3][i] / lever;
+    }
+    const jpk_writer_segment segments[PARTS] = {{"extend", N, step * N, h[0], f[0], NULL},
+                                                {"modulation", SINE, last, h[1], f[1], NULL},
+                                                {"retract", SINE, 1, h[2], f[2], NULL},
+                                                {"modulation", SINE, last, h[3], f[3], NULL}};
+    const jpk_writer_curve curve = {0, 0, 0, PARTS, segments};
+    jpk_writer_file file = jpk_writer_defaults();
+    file.path = path;
+    file.n_curves = 1;
+    file.curves = &curve;
+    file.spring_constant = lever;
+    file.sensitivity = 50e-9;
+    assert_int_equal(jpk_write(&file), 0);
+    const wt_tip tip = {.shape = WT_TIP_PARABOLOID, .radius = radius};
+    wt_dwell_tables t = {0};
+    wt_error err = WT_ERROR_INIT;
+    if (make(path, tip, &t, &err) != WT_OK)
+        fail_msg("%s; %s", err.message, err.found);
+    assert_int_equal(wt_table_n_rows(t.dwell), 2);
+#define CELL(name) wt_table_number(t.dwell, 1, (size_t)wt_table_find(t.dwell, name))
+    assert_string_equal(wt_table_text(t.dwell, 1, (size_t)wt_table_find(t.dwell, "kind")),
+                        "modulation");
+    print_message("%g %g (%g) %g (%g) %s\n", CELL("angular_frequency"), CELL("storage_modulus"),
+                  storage, CELL("loss_modulus"), loss,
+                  wt_table_text(t.dwell, 1, (size_t)wt_table_find(t.dwell, "note")));
+    assert_near(CELL("angular_frequency"), omega, 1e-3);
+    assert_near(CELL("amplitude"), amplitude, 0.01);
+    assert_near(CELL("storage_modulus"), storage, 0.03);
+    /* What relaxes at the beginning leaks into it. */
+    assert_near(CELL("loss_modulus"), loss, 0.12);
+#undef CELL
+    wt_dwell_tables_clear(&t);
+    (void)remove(path);
+}
+
 /* A pause of 3 s on a gel. */
 static void test_genuine(void **state)
 {
@@ -198,8 +275,8 @@ static int free_formats(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_none),
-                                       cmocka_unit_test(test_relaxation),
-                                       cmocka_unit_test(test_genuine)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_none), cmocka_unit_test(test_relaxation),
+        cmocka_unit_test(test_modulation), cmocka_unit_test(test_genuine)};
     return cmocka_run_group_tests(tests, open_formats, free_formats);
 }

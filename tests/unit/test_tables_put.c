@@ -692,7 +692,10 @@ static void test_dwell(void **state)
             force[c][0][i] = at > 0 ? 1e6 * g * pow(at, 1.5) + noise : noise;
             force[c][1][i] = 1e6 * g * pow(deep, 1.5) + noise;
             height[0][i] = 5e-6 - at - force[c][0][i] / 10;
-            height[1][i] = 5e-6 - deep - 1e6 * g * pow(deep, 1.5) / 10;
+            const double sine = 2e-9 * sin(0.8 * (double)i);
+            force[c][1][i] += 1e6 * 1.5 * g * sqrt(deep) * sine;
+            height[1][i] = 5e-6 - deep - sine * (1 + 1e5 * 1.5 * g * sqrt(deep)) -
+                           1e6 * g * pow(deep, 1.5) / 10;
         }
         segments[c][0] = (jpk_writer_segment){"extend", N, 1, height[0], force[c][0], NULL};
         segments[c][1] = (jpk_writer_segment){"pause", N, 5, height[1], force[c][1], NULL};
@@ -717,6 +720,32 @@ static void test_dwell(void **state)
     see(tables.dwell);
     see(tables.dwell_points);
     see(tables.dwell_moduli);
+    const char *const dma[] = {WT_SOURCE_DIR "/fixtures/case/dma.txt"};
+    const wt_file_set measured = {.patterns = dma, .n_patterns = 1, .read = wt_read_defaults()};
+    wt_master_job master = wt_master_job_defaults();
+    wt_master_tables fitted = {0};
+    wt_rubber made = {0};
+    wt_compare_job compared = wt_compare_job_defaults();
+    wt_table *table = NULL;
+    master.sets = &measured;
+    master.n_sets = 1;
+    if (wt_master_make(&master, &common, &fitted, &made, &err) != WT_OK)
+        fail_msg("%s %s", err.message, err.found);
+    compared.bulk = compared.track = tables.dwell_moduli;
+    compared.rubber = &made;
+    const size_t n_draws = made.n_draws;
+    if (wt_compare_dwells(&compared, &common, &table, &err) != WT_OK)
+        fail_msg("%s %s", err.message, err.found);
+    see(table);
+    wt_table_free(table);
+    made.n_draws = 0; /* no error, and a temperature out of reach */
+    compared.temperature.value = compared.track_temperature.value = 100;
+    assert_int_equal(wt_compare_dwells(&compared, &common, &table, NULL), WT_OK);
+    see(table);
+    wt_table_free(table);
+    made.n_draws = n_draws;
+    wt_master_tables_clear(&fitted);
+    wt_rubber_clear(&made);
     wt_dwell_tables_clear(&tables);
     (void)remove(path);
 }

@@ -16,7 +16,8 @@
     X(DWELL_FILE, "file", "file of the curve", TEXT, LABEL("File"))                                \
     X(DWELL_CURVE, "curve", "number of the curve in its file", NUMBER, LABEL("Curve"))             \
     X(DWELL_SEGMENT, "segment", "number of the segment in the curve", NUMBER)                      \
-    X(DWELL_KIND, "kind", "relaxation (height held) or creep (force held)", TEXT, LABEL("Kind"))   \
+    X(DWELL_KIND, "kind", "relaxation (height held), creep (force held) or modulation", TEXT,      \
+      LABEL("Kind"))                                                                               \
     X(DWELL_ANGULAR_FREQUENCY, "angular_frequency",                                                \
       "angular frequency in the middle of those that the dwell tells", SI(ANGULAR_FREQUENCY),      \
       LABEL("Angular frequency"), SPARSE)                                                          \
@@ -35,6 +36,8 @@
     X(DWELL_INDENTATION_START, "indentation_start", "indentation at its beginning",                \
       SI(INDENTATION), SPARSE)                                                                     \
     X(DWELL_INDENTATION_END, "indentation_end", "indentation at its end", SI(INDENTATION), SPARSE) \
+    X(DWELL_AMPLITUDE, "amplitude", "amplitude of the indentation in a modulation",                \
+      SI(INDENTATION), SPARSE)                                                                     \
     X(DWELL_NOTE, "note", "why there are no moduli, or what is odd", TEXT, LABEL("Note"))
 #define DWELL_KEYS(X)                                                                              \
     X(DWELL_KEY_ANGULAR_FREQUENCY, "angular_frequency", SI(ANGULAR_FREQUENCY), OPTIONAL)           \
@@ -72,5 +75,39 @@
     X(DWELL_MODULI_LOSS_COMMON, "loss_modulus_common_error",                                       \
       "of its standard error, what curves of one kind share", SI(LOSS_MODULUS))
 #define DWELL_MODULI_KEYS(X)
+
+/* Those of several curves against the DMA; a group is a block. */
+#define DWELL_DMA_COLUMNS(X)                                                                       \
+    X(DWELL_DMA_GROUP, "group", "bulk or track", TEXT, LABEL("Group"))                             \
+    X(DWELL_DMA_ANGULAR_FREQUENCY, "angular_frequency", "angular frequency",                       \
+      SI(ANGULAR_FREQUENCY), LABEL("Angular frequency"))                                           \
+    X(DWELL_DMA_N, "n", "curves", NUMBER, LABEL("Curves"))                                         \
+    X(DWELL_DMA_STORAGE, "storage_modulus", "mean storage modulus of the dwells",                  \
+      SI(STORAGE_MODULUS), LABEL("E′"), INTERVAL(DWELL_DMA_STORAGE_LOW, DWELL_DMA_STORAGE_HIGH))   \
+    INTERVAL_COLUMNS(X, DWELL_DMA_STORAGE, "storage_modulus_", SI(STORAGE_MODULUS),                \
+                     LIKE(DWELL_DMA_STORAGE))                                                      \
+    X(DWELL_DMA_LOSS, "loss_modulus", "mean loss modulus of the dwells", SI(LOSS_MODULUS),         \
+      LABEL("E″"), INTERVAL(DWELL_DMA_LOSS_LOW, DWELL_DMA_LOSS_HIGH))                              \
+    INTERVAL_COLUMNS(X, DWELL_DMA_LOSS, "loss_modulus_", SI(LOSS_MODULUS), LIKE(DWELL_DMA_LOSS))   \
+    NUMBER_AND_ERROR(X, DWELL_DMA_DMA_STORAGE, "dma_storage_modulus",                              \
+                     "E' of the DMA at this frequency", SI(STORAGE_MODULUS), "DMA E′")             \
+    NUMBER_AND_ERROR(X, DWELL_DMA_DMA_LOSS, "dma_loss_modulus",                                    \
+                     "E'' of the DMA at this frequency", SI(LOSS_MODULUS), "DMA E″")               \
+    X(DWELL_DMA_STORAGE_RATIO, "storage_ratio", "E' of the dwells over that of the DMA", NUMBER,   \
+      LABEL("E′ / DMA"), INTERVAL(DWELL_DMA_STORAGE_RATIO_LOW, DWELL_DMA_STORAGE_RATIO_HIGH),      \
+      SPARSE)                                                                                      \
+    INTERVAL_COLUMNS(X, DWELL_DMA_STORAGE_RATIO, "storage_ratio_", NUMBER, SPARSE)                 \
+    X(DWELL_DMA_LOSS_RATIO, "loss_ratio", "E'' of the dwells over that of the DMA", NUMBER,        \
+      LABEL("E″ / DMA"), INTERVAL(DWELL_DMA_LOSS_RATIO_LOW, DWELL_DMA_LOSS_RATIO_HIGH), SPARSE)    \
+    INTERVAL_COLUMNS(X, DWELL_DMA_LOSS_RATIO, "loss_ratio_", NUMBER, SPARSE)                       \
+    X(DWELL_DMA_EXTRAPOLATED, "extrapolated", "1: outside the frequencies measured by DMA",        \
+      YES_NO, LABEL("Outside measured frequencies"), SPARSE)
+#define DWELL_DMA_KEYS(X)                                                                          \
+    X(DWELL_DMA_KEY_TEMPERATURE, "temperature", SI(TEMPERATURE))                                   \
+    X(DWELL_DMA_KEY_TRACK_TEMPERATURE, "track_temperature", SI(TEMPERATURE), OPTIONAL)             \
+    X(DWELL_DMA_KEY_ERROR_LACKS, "standard_error_lacks", TEXT, LABEL("No error known of"),         \
+      OPTIONAL)                                                                                    \
+    X(DWELL_DMA_KEY_MATERIAL_STATEMENT, "material_statement", TEXT, OPTIONAL)                      \
+    X(DWELL_DMA_KEY_TRACK_STATEMENT, "track_statement", TEXT, OPTIONAL)
 
 #endif

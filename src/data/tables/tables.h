@@ -70,6 +70,7 @@
     X(modulus_rate, MODULUS_RATE, "modulus_rate", "Modulus against indentation rate", "compare")   \
     X(comparison, COMPARISON, "comparison", "Wear track against bulk", "compare")                  \
     X(dma_comparison, DMA_COMPARISON, "dma_comparison", "Indentation against DMA", "compare")      \
+    X(dwell_dma, DWELL_DMA, "dwell_dma", "Dwells against DMA", "compare")                          \
     X(materials, MATERIALS, "materials", "Materials side by side", "compare")                      \
     X(material_ratio, MATERIAL_RATIO, "material_ratio", "Ratio of the moduli of materials",        \
       "compare")                                                                                   \

@@ -34,13 +34,8 @@ typedef struct dwell_task {
     wt_indent_workspace *workspace;
     table_writer rows, points, moduli;
     size_t n_dwells;
+    dwell_curve curve; /* the latest */
 } dwell_task;
-
-/* Whether a fit, accepted or not, has a contact point. */
-static bool is_placed(const wt_indent_fit *fit)
-{
-    return isfinite(fit->contact_point.value) && fit->fitted_modulus > 0;
-}
 
 static void put_points(dwell_task *task, const flow_file *file, const wt_force_curve *curve,
                        const wt_dwell *dwell)
@@ -88,141 +83,92 @@ static void put_row_moduli(table_writer *t, const wt_dwell_moduli *m)
     dwell_put(t, DWELL_LOSS_STANDARD_ERROR, m->loss.standard_error);
 }
 
-/* Samples of a segment behind those of a history, with times that go on; false where it lacks time,
- * height or force. `scratch`: for two arrays of its samples. */
-static bool add_samples(const wt_segment *s, const wt_cantilever *lever, double direction,
-                        double *scratch, double *const to[3], size_t *n)
-{
-    const double *time = segment_time(s, scratch), *height = segment_height(s),
-                 *force = segment_force(s, lever, scratch + s->n_points);
-    if (time == NULL || height == NULL || force == NULL || s->n_points < 2)
-        return false;
-    /* Times of a curve go on by themselves; those of a segment begin a step of the one before after
-     * its last sample. */
-    double shift = 0;
-    if (*n > 1) {
-        const double last = to[0][*n - 1], step = last - to[0][*n - 2];
-        if (!(time[0] > last && time[0] < last + 100 * step))
-            shift = last + step - time[0];
-    }
-    for (size_t i = 0; i < s->n_points; i++) {
-        to[0][*n] = time[i] + shift;
-        to[1][*n] = direction * height[i];
-        to[2][(*n)++] = force[i];
-    }
-    return true;
-}
-
-/* The segments of a history: approach, dwell, and the next retract if there is one. */
-static wt_status fit_dwell(const dwell_task *task, const wt_force_curve *curve,
-                           const wt_segment *approach, const wt_segment *s,
-                           const wt_indent_fit *fit, wt_dwell *dwell, wt_error *err)
-{
-    const wt_segment *const end = curve->segments + curve->n_segments, *retract = s + 1;
-    while (retract < end && retract->kind != WT_SEGMENT_RETRACT)
-        retract++;
-    const size_t more = retract == s + 1 && retract < end ? retract->n_points : 0,
-                 n = approach->n_points + s->n_points + more;
-    const size_t longest = approach->n_points > s->n_points ? approach->n_points : s->n_points;
-    double *room = malloc((3 * n + 2 * (longest > more ? longest : more)) * sizeof *room);
-    if (room == NULL)
-        return wt_fail(err, WT_E_MEMORY, "out of memory");
-    double *const to[3] = {room, room + n, room + 2 * n}, *scratch = room + 3 * n;
-    const wt_cantilever *lever = &curve->cantilever;
-    wt_dwell_history h = {.time = to[0],
-                          .position = to[1],
-                          .force = to[2],
-                          .spring_constant = lever->spring_constant,
-                          .poisson_ratio = task->job->options.poisson_ratio,
-                          .contact_point = fit->contact_point.value,
-                          .modulus = fit->fitted_modulus,
-                          .baseline_offset = fit->baseline_offset.value,
-                          .baseline_tilt = fit->baseline_tilt};
-    size_t used = 0;
-    wt_status status = WT_OK;
-    if (!add_samples(approach, lever, fit->direction, scratch, to, &used) ||
-        !add_samples(s, lever, fit->direction, scratch, to, &used)) {
-        *dwell = (wt_dwell){.why_not = "no time, height or force in it"};
-    } else {
-        h.n_approach = approach->n_points;
-        h.n_dwell = s->n_points;
-        if (more > 0 && add_samples(retract, lever, fit->direction, scratch, to, &used))
-            h.n_retract = more;
-        status = wt_dwell_fit(task->contact, &h, dwell, err);
-    }
-    free(room);
-    return status;
-}
-
-static wt_status measure(dwell_task *task, const flow_file *file, const wt_force_curve *curve,
-                         const wt_segment *approach, const wt_segment *s, const wt_indent_fit *fit,
-                         wt_error *err)
+static void begin_row(dwell_task *task, const flow_file *file, const wt_force_curve *curve,
+                      const wt_segment *s, const char *kind, const char *note)
 {
     table_writer *t = &task->rows;
-    wt_dwell d;
-    wt_status status = fit_dwell(task, curve, approach, s, fit, &d, err);
-    if (status != WT_OK)
-        return status;
-    const char *kind = d.n_points == 0 ? "" : d.creep ? "creep" : "relaxation";
+    table_row(t);
+    dwell_put_text(t, DWELL_FILE, file->name);
+    dwell_put(t, DWELL_CURVE, (double)curve->index);
+    dwell_put(t, DWELL_SEGMENT, (double)s->index);
     dwell_put_text(t, DWELL_KIND, kind);
-    dwell_put_text(t, DWELL_NOTE,
-                   !d.found ? d.why_not
-                   : d.misfit_chance < least_chance
-                       ? "a rubber of a broad spectrum does not describe "
-                         "it; no errors are told"
-                       : "");
-    if (d.n_points == 0)
-        return WT_OK;
-    dwell_put(t, DWELL_LOAD_TIME, d.load_time);
-    dwell_put(t, DWELL_DURATION, d.duration);
-    dwell_put(t, DWELL_FORCE_START, d.point[0].force);
-    dwell_put(t, DWELL_FORCE_END, d.point[d.n_points - 1].force);
-    dwell_put(t, DWELL_INDENTATION_START, d.point[0].indentation);
-    dwell_put(t, DWELL_INDENTATION_END, d.point[d.n_points - 1].indentation);
-    dwell_put(t, DWELL_MISFIT, d.misfit);
-    dwell_put(t, DWELL_MISFIT_CHANCE, d.misfit_chance);
-    put_points(task, file, curve, &d);
-    if (!d.found)
-        return WT_OK;
-    put_row_moduli(t, &d.moduli[d.n / 2]);
-    table_block(&task->moduli);
-    for (size_t i = 0; i < d.n; i++)
-        put_moduli(task, file, curve, s, kind, &d.moduli[i]);
-    return WT_OK;
+    dwell_put_text(t, DWELL_NOTE, note);
 }
 
-/* The dwells behind the approach, up to the retract. */
+static void put_dwell(dwell_task *task, const flow_file *file, const wt_force_curve *curve,
+                      const wt_segment *s, const wt_dwell *d)
+{
+    table_writer *t = &task->rows;
+    const char *kind = d->n_points == 0 ? "" : d->creep ? "creep" : "relaxation";
+    begin_row(task, file, curve, s, kind,
+              !d->found                         ? d->why_not
+              : d->misfit_chance < least_chance ? "a rubber of a broad spectrum does not describe "
+                                                  "it; no errors are told"
+                                                : "");
+    if (d->n_points == 0)
+        return;
+    dwell_put(t, DWELL_LOAD_TIME, d->load_time);
+    dwell_put(t, DWELL_DURATION, d->duration);
+    dwell_put(t, DWELL_FORCE_START, d->point[0].force);
+    dwell_put(t, DWELL_FORCE_END, d->point[d->n_points - 1].force);
+    dwell_put(t, DWELL_INDENTATION_START, d->point[0].indentation);
+    dwell_put(t, DWELL_INDENTATION_END, d->point[d->n_points - 1].indentation);
+    dwell_put(t, DWELL_MISFIT, d->misfit);
+    dwell_put(t, DWELL_MISFIT_CHANCE, d->misfit_chance);
+    put_points(task, file, curve, d);
+    if (!d->found)
+        return;
+    put_row_moduli(t, &d->moduli[d->n / 2]);
+    for (size_t i = 0; i < d->n; i++)
+        put_moduli(task, file, curve, s, kind, &d->moduli[i]);
+}
+
+static void put_modulated(dwell_task *task, const flow_file *file, const wt_force_curve *curve,
+                          const dwell_modulated *m)
+{
+    table_writer *t = &task->rows;
+    begin_row(task, file, curve, m->segment, "modulation", m->note);
+    if (!m->found)
+        return;
+    dwell_put(t, DWELL_FORCE_START, m->above);
+    dwell_put(t, DWELL_INDENTATION_START, m->indentation);
+    dwell_put(t, DWELL_AMPLITUDE, m->amplitude);
+    put_row_moduli(t, &m->moduli);
+    put_moduli(task, file, curve, m->segment, "modulation", &m->moduli);
+}
+
+/* What is held behind the approach, up to the retract or another motion. */
 static wt_status read_curve(dwell_task *task, const flow_file *file, const wt_force_curve *curve,
                             wt_error *err)
 {
     const wt_segment *const approach = wt_force_curve_segment(curve, WT_SEGMENT_APPROACH);
     const wt_segment *const end = curve->segments + curve->n_segments;
-    wt_status status = WT_OK;
-    wt_indent_fit fit;
     if (approach == NULL)
         return WT_OK;
-    for (const wt_segment *s = approach + 1;
-         s < end && s->kind != WT_SEGMENT_RETRACT && status == WT_OK; s++) {
-        if (s->kind != WT_SEGMENT_DWELL || s->n_points == 0)
-            continue;
-        status = wt_indent_force_curve(task->contact, &task->job->options, curve, task->workspace,
-                                       &fit, err);
-        if (status != WT_OK)
-            break;
-        task->n_dwells++;
-        table_row(&task->rows);
-        dwell_put_text(&task->rows, DWELL_FILE, file->name);
-        dwell_put(&task->rows, DWELL_CURVE, (double)curve->index);
-        dwell_put(&task->rows, DWELL_SEGMENT, (double)s->index);
-        if (is_placed(&fit)) {
-            status = measure(task, file, curve, approach, s, &fit, err);
-        } else {
-            dwell_put_text(&task->rows, DWELL_KIND, "");
-            dwell_put_text(&task->rows, DWELL_NOTE, fit.reason);
-        }
-        break; /* what follows has another history */
+    const wt_segment *first = approach + 1;
+    while (first < end && first->kind != WT_SEGMENT_RETRACT && !dwell_is_held(first))
+        first++;
+    if (first == end || !dwell_is_held(first))
+        return WT_OK;
+    wt_indent_fit fit;
+    wt_status status = wt_indent_force_curve(task->contact, &task->job->options, curve,
+                                             task->workspace, &fit, err);
+    if (status != WT_OK)
+        return status;
+    task->n_dwells++;
+    if (!isfinite(fit.contact_point.value) || !(fit.fitted_modulus > 0)) {
+        begin_row(task, file, curve, first, "", fit.reason);
+        return WT_OK;
     }
-    return status;
+    status = dwell_curve_fit(task->contact, task->job->options.poisson_ratio, curve, approach,
+                             first, &fit, &task->curve, err);
+    if (status != WT_OK)
+        return status;
+    table_block(&task->moduli);
+    put_dwell(task, file, curve, first, &task->curve.dwell);
+    for (size_t i = 0; i < task->curve.n; i++)
+        put_modulated(task, file, curve, &task->curve.modulated[i]);
+    return WT_OK;
 }
 
 static wt_status read_file(dwell_task *task, flow_file *file, wt_error *err)

@@ -109,6 +109,7 @@ typedef struct jpk_segment {
     bool incomplete;         /* a data file is missing or short */
     double duration;         /* [s], NaN if unknown */
     double velocity;         /* [m/s], NaN if unknown */
+    double frequency;        /* of a modulation [Hz] */
     double setpoint_voltage; /* [V], NaN if none */
 } jpk_segment;
 

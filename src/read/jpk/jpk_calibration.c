@@ -91,6 +91,7 @@ void jpk_segment_facts(const jpk_segment *segment, force_facts *facts)
                       .n_points = segment->n_points,
                       .duration = segment->duration,
                       .velocity = segment->velocity,
+                      .frequency = segment->frequency,
                       .setpoint = segment->setpoint_voltage,
                       .setpoint_quantity = WT_Q_DEFLECTION_VOLTAGE,
                       .offers = {WT_Q_TIME},

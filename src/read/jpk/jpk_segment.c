@@ -73,6 +73,9 @@ static void read_settings(const jpk_file *file, jpk_segment *segment)
     const bool moves = approach || segment->kind == WT_SEGMENT_RETRACT;
     segment->duration = duration >= 0 ? duration : (double)NAN;
     segment->velocity = moves && time > 0 ? fabs(start - end) / time : (double)NAN;
+    segment->frequency = segment->kind == WT_SEGMENT_MODULATION
+                             ? number_of(setting(file, segment, "frequency"))
+                             : (double)NAN;
     segment->setpoint_voltage =
         approach ? number_of(setting(file, segment, "setpoint")) : (double)NAN;
 }

@@ -1,0 +1,257 @@
+/* Sinusoidal modulation of a held contact: amplitude and phase of height and force by least squares
+ * beside what drifts and relaxes, and the complex modulus of them.
+ *
+ * Its noise is what height and force have at frequencies beside that of the drive.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "base/gsl_quiet.h"
+#include "fit/pool_gsl.h"
+#include "weartrack/fit.h"
+
+#include <complex.h>
+#include <gsl/gsl_fft_real.h>
+#include <gsl/gsl_linalg.h>
+#include <math.h>
+
+static const double complex unit = (double complex)I;
+
+/* Slow columns: a cubic and the logarithm of the time since the beginning. */
+enum { SLOW = 5, COLUMNS = SLOW + 2, ROUNDS = 60 };
+enum { LEAST_PERIODS = 5, LEAST_SAMPLES = 64, NEAREST = 2 };
+/* Power of the height over that beside it that is no noise. */
+static const double significant = 100, golden = 0.6180339887498949, pi = 3.14159265358979323846;
+
+typedef struct samples {
+    const double *time, *of[2]; /* height and force */
+    size_t n;
+    double start, duration, step;
+} samples;
+
+static void row_of(const samples *s, size_t i, double omega, double row[COLUMNS])
+{
+    const double t = s->time[i] - s->start, u = 2 * t / s->duration - 1;
+    row[0] = 1;
+    row[1] = u;
+    row[2] = u * u;
+    row[3] = u * u * u;
+    row[4] = log((t + s->step) / s->duration);
+    row[5] = cos(omega * t);
+    row[6] = sin(omega * t);
+}
+
+/* Coefficients of height and force at a frequency; false where the columns are not independent. */
+static bool solve(const samples *s, double omega, double to[2][COLUMNS])
+{
+    double normal[COLUMNS][COLUMNS] = {{0}}, row[COLUMNS];
+    for (size_t k = 0; k < 2; k++)
+        for (size_t a = 0; a < COLUMNS; a++)
+            to[k][a] = 0;
+    for (size_t i = 0; i < s->n; i++) {
+        row_of(s, i, omega, row);
+        for (size_t a = 0; a < COLUMNS; a++) {
+            for (size_t b = 0; b < COLUMNS; b++)
+                normal[a][b] += row[a] * row[b];
+            for (size_t k = 0; k < 2; k++)
+                to[k][a] += row[a] * (s->of[k][i] - s->of[k][0]);
+        }
+    }
+    gsl_matrix_view matrix = gsl_matrix_view_array(&normal[0][0], COLUMNS, COLUMNS);
+    if (gsl_linalg_cholesky_decomp1(&matrix.matrix) != GSL_SUCCESS)
+        return false;
+    for (size_t k = 0; k < 2; k++) {
+        gsl_vector_view x = gsl_vector_view_array(to[k], COLUMNS);
+        if (gsl_linalg_cholesky_svx(&matrix.matrix, &x.vector) != GSL_SUCCESS)
+            return false;
+    }
+    return true;
+}
+
+static double power_at(const samples *s, double omega)
+{
+    double c[2][COLUMNS];
+    return solve(s, omega, c) ? c[0][SLOW] * c[0][SLOW] + c[0][SLOW + 1] * c[0][SLOW + 1] : 0;
+}
+
+/* The largest number up to n of no factors above 7, for the transform. */
+static size_t smooth(size_t n)
+{
+    for (;; n--) {
+        size_t rest = n;
+        for (size_t factor = 2; factor <= 7; factor++)
+            while (rest % factor == 0)
+                rest /= factor;
+        if (rest == 1)
+            return n;
+    }
+}
+
+/* The strongest frequency of the height [rad/s]. */
+static double search(const samples *s, pool *memory)
+{
+    const size_t n = smooth(s->n);
+    double c[2][COLUMNS], row[COLUMNS], *work = pool_numbers(memory, s->n);
+    gsl_fft_real_wavetable *table = gsl_fft_real_wavetable_alloc(n);
+    gsl_fft_real_workspace *space = gsl_fft_real_workspace_alloc(n);
+    size_t best = 0;
+    double most = 0;
+    memory->failed = memory->failed || table == NULL || space == NULL;
+    if (!memory->failed && solve(s, 2 * pi / (2 * s->step), c)) {
+        for (size_t i = 0; i < s->n; i++) {
+            row_of(s, i, 0, row);
+            work[i] = s->of[0][i] - s->of[0][0];
+            for (size_t a = 0; a < SLOW; a++)
+                work[i] -= c[0][a] * row[a];
+        }
+        gsl_fft_real_transform(work, 1, n, table, space);
+        for (size_t j = LEAST_PERIODS; 2 * j < n; j++) {
+            const double power = work[2 * j - 1] * work[2 * j - 1] + work[2 * j] * work[2 * j];
+            best = power > most ? j : best;
+            most = fmax(power, most);
+        }
+    }
+    gsl_fft_real_wavetable_free(table);
+    gsl_fft_real_workspace_free(space);
+    const double bin = 2 * pi / ((double)n * s->step);
+    double low = ((double)best - 1) * bin, high = ((double)best + 1) * bin;
+    for (int i = 0; i < ROUNDS && best > 0; i++) {
+        const double a = high - golden * (high - low), b = low + golden * (high - low);
+        if (power_at(s, a) > power_at(s, b))
+            high = b;
+        else
+            low = a;
+    }
+    return best > 0 ? 0.5 * (low + high) : 0;
+}
+
+/* At frequencies beside the drive, whole periods apart. */
+static double take_noise(const samples *s, double own[2][COLUMNS], wt_modulation *to)
+{
+    const double bin = 2 * pi / s->duration;
+    double power = 0, row[COLUMNS];
+    for (int k = -(WT_MODULATION_NEIGHBOURS / 2); k <= WT_MODULATION_NEIGHBOURS / 2; k++) {
+        const double off = k + (k > 0 ? NEAREST - 1 : 1 - NEAREST),
+                     omega = to->angular_frequency + off * bin;
+        double complex sum[2] = {0, 0};
+        if (k == 0 || omega < NEAREST * bin || omega > pi / s->step)
+            continue;
+        for (size_t i = 0; i < s->n; i++) {
+            row_of(s, i, to->angular_frequency, row);
+            const double complex turn = cexp(-unit * omega * (s->time[i] - s->start));
+            for (size_t j = 0; j < 2; j++) {
+                double rest = s->of[j][i] - s->of[j][0];
+                for (size_t a = 0; a < COLUMNS; a++)
+                    rest -= own[j][a] * row[a];
+                sum[j] += 2 * rest * turn / (double)s->n;
+            }
+        }
+        to->noise[to->n_noise][0] = creal(sum[0]);
+        to->noise[to->n_noise][1] = cimag(sum[0]);
+        to->noise[to->n_noise][2] = creal(sum[1]);
+        to->noise[to->n_noise++][3] = cimag(sum[1]);
+        power += creal(sum[0] * conj(sum[0]));
+    }
+    return to->n_noise > 0 ? power / (double)to->n_noise : (double)NAN;
+}
+
+static const char *lacks(const double *time, const double *position, const double *force, size_t n)
+{
+    if (n < LEAST_SAMPLES)
+        return "too few samples for a modulation";
+    for (size_t i = 0; i < n; i++)
+        if (!isfinite(time[i]) || !isfinite(position[i]) || !isfinite(force[i]) ||
+            (i > 0 && !(time[i] > time[i - 1])))
+            return "samples without a number, or times that do not rise";
+    return "";
+}
+
+wt_status wt_modulation_fit(const double *time, const double *position, const double *force,
+                            size_t n, double angular_frequency, wt_modulation *modulation,
+                            wt_error *err)
+{
+    if (time == NULL || position == NULL || force == NULL || modulation == NULL)
+        return wt_fail(err, WT_E_ARG, "no modulation");
+    double c[2][COLUMNS];
+    pool memory = {0};
+    gsl_quiet();
+    *modulation = (wt_modulation){.why_not = lacks(time, position, force, n)};
+    if (modulation->why_not[0] != '\0')
+        return WT_OK;
+    samples s = {.time = time, .of = {position, force}, .n = n, .start = time[0]};
+    s.step = (time[n - 1] - time[0]) / (double)(n - 1);
+    s.duration = s.step * (double)n;
+    const double omega = angular_frequency > 0 ? angular_frequency : search(&s, &memory);
+    const bool failed = memory.failed;
+    pool_free(&memory);
+    if (failed)
+        return wt_fail(err, WT_E_MEMORY, "out of memory for a modulation");
+    modulation->angular_frequency = omega;
+    if (!(omega * s.duration >= 2 * pi * LEAST_PERIODS) || !(omega * s.step < pi)) {
+        modulation->why_not = "no modulation with five periods and two samples in each";
+        return WT_OK;
+    }
+    if (!solve(&s, omega, c)) {
+        modulation->why_not = "no sine goes through it";
+        return WT_OK;
+    }
+    for (size_t k = 0; k < 2; k++) {
+        modulation->amplitude[2 * k] = c[k][SLOW];
+        modulation->amplitude[2 * k + 1] = -c[k][SLOW + 1];
+    }
+    const double noise = take_noise(&s, c, modulation);
+    modulation->start = s.start;
+    modulation->found =
+        c[0][SLOW] * c[0][SLOW] + c[0][SLOW + 1] * c[0][SLOW + 1] > significant * noise;
+    if (!modulation->found)
+        modulation->why_not = "no modulation of the height that is more than noise";
+    return WT_OK;
+}
+
+void wt_modulation_remove(const wt_modulation *m, const double *time, size_t n, double *position,
+                          double *force)
+{
+    for (size_t i = 0; i < n; i++) {
+        const double phase = m->angular_frequency * (time[i] - m->start);
+        position[i] -= m->amplitude[0] * cos(phase) - m->amplitude[1] * sin(phase);
+        force[i] -= m->amplitude[2] * cos(phase) - m->amplitude[3] * sin(phase);
+    }
+}
+
+/* Mean square of a Z + b F over the frequencies beside the drive, in each of two directions. */
+static double noise_of(const wt_modulation *m, double complex a, double complex b)
+{
+    double sum = 0;
+    for (size_t i = 0; i < m->n_noise; i++) {
+        const double *v = m->noise[i];
+        const double complex x = a * (v[0] + unit * v[1]) + b * (v[2] + unit * v[3]);
+        sum += creal(x * conj(x)) / (2 * (double)m->n_noise);
+    }
+    return sum;
+}
+
+wt_status wt_modulation_moduli(const wt_modulation *m, const wt_modulation *air,
+                               double spring_constant, double slope, double slope_error,
+                               wt_dwell_moduli *moduli, wt_error *err)
+{
+    if (m == NULL || moduli == NULL || !m->found || !(spring_constant > 0) || !(slope > 0))
+        return wt_fail(err, WT_E_ARG, "no modulation, lever or contact");
+    const double complex z = m->amplitude[0] + unit * m->amplitude[1],
+                         f = m->amplitude[2] + unit * m->amplitude[3];
+    const bool has_air = air != NULL && air->found;
+    const double complex za = has_air ? air->amplitude[0] + unit * air->amplitude[1] : 1,
+                         fa = has_air ? air->amplitude[2] + unit * air->amplitude[3] : 0;
+    const double complex drag = fa / za, depth = z - f / spring_constant,
+                         stiffness = (f - drag * z) / depth;
+    const double complex by_force = (1 + stiffness / spring_constant) / depth,
+                         by_height = -(drag + stiffness) / depth;
+    double variance = noise_of(m, by_height, by_force);
+    if (has_air)
+        variance += noise_of(air, drag / za * (z / depth), -1 / za * (z / depth));
+    *moduli = (wt_dwell_moduli){.angular_frequency = m->angular_frequency};
+    const double value[2] = {creal(stiffness) / slope, cimag(stiffness) / slope};
+    wt_estimate *const to[2] = {&moduli->storage, &moduli->loss};
+    for (size_t k = 0; k < 2; k++)
+        *to[k] =
+            (wt_estimate){value[k], hypot(sqrt(variance) / slope, value[k] * slope_error), 0, "Pa"};
+    return WT_OK;
+}
