@@ -452,15 +452,17 @@ WT_API wt_status wt_dwell_fit(const wt_contact_table *table, const wt_dwell_hist
 enum { WT_MODULATION_NEIGHBOURS = 16 };
 typedef struct wt_modulation {
     bool found;
-    const char *why_not;      /* "", or why there is none; static */
-    double angular_frequency; /* [rad/s] */
-    double start;             /* [s] */
-    double amplitude[4];      /* of height [m] and force [N] */
+    const char *why_not;       /* "", or why there is none; static */
+    double angular_frequency;  /* [rad/s] */
+    double start;              /* [s] */
+    double amplitude[4];       /* of height [m] and force [N] */
+    double mean_time, mean[2]; /* [s], height [m] and force [N], with the weights of the sine */
     double noise[WT_MODULATION_NEIGHBOURS][4];
     size_t n_noise;
 } wt_modulation;
-/* Least squares beside a cubic and a logarithm of the time. angular_frequency: of the drive, or
- * NaN: the strongest of the height. A height that moves no more than its noise is no modulation. */
+/* Least squares with weights of Hann beside a cubic and a logarithm of the time. angular_frequency:
+ * of the drive, or NaN: the strongest of the height. A height that moves no more than its noise is
+ * no modulation. */
 WT_API wt_status wt_modulation_fit(const double *time, const double *position, const double *force,
                                    size_t n, double angular_frequency, wt_modulation *modulation,
                                    wt_error *err) WT_NODISCARD;

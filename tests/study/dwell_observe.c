@@ -5,6 +5,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+static const double same = 0.002;
+
 static const facts *scene_facts(int scene)
 {
     return &dwell_scenes[scene].facts;
@@ -16,7 +18,8 @@ static void *prepare(int scene)
     return NULL;
 }
 
-static void read_moduli(const char *path, const relaxation *r, trial *t)
+/* With a drive [rad/s], not 0: of its row alone, whose frequency is found to less than `same`. */
+static void read_moduli(const char *path, const relaxation *r, double drive, trial *t)
 {
     stream *found = stream_read(path);
     const int n = found != NULL ? stream_rows(found, place_dwell_storage.table) : 0;
@@ -25,6 +28,8 @@ static void read_moduli(const char *path, const relaxation *r, trial *t)
     for (int i = 0; i < n; i++) {
         double tan_delta;
         const double omega = stream_cell(found, place_dwell_storage.table, PLACE_FREQUENCY, i);
+        if (drive > 0 && !(fabs(omega - drive) < same * drive))
+            continue;
         const double modulus = relaxation_modulus(r, omega, &tan_delta),
                      storage = modulus / hypot(1, tan_delta);
         trial_add(t, Q_DWELL_STORAGE, storage, place_row(found, &place_dwell_storage, i));
@@ -51,7 +56,7 @@ static void observe(int scene, const void *prepared, random_source *random, tria
     if (dwell_sample_write(s, &r, random, curve) != 0)
         trial_broke(t, "the curve cannot be written");
     else if (trial_run(t, arguments))
-        read_moduli(made, &r, t);
+        read_moduli(made, &r, 2 * M_PI * s->modulation, t);
 }
 
 family dwell_family(void)

@@ -30,9 +30,9 @@ const dwell_scene dwell_scenes[] = {
      .rubber = RUBBER_ANY, .pyramid = true},
     {NAMED("H14", "a dwell of 1 s, any rubber"), STATED, .noise = 0.002, .rubber = RUBBER_ANY,
      .hold = 1},
-    {NAMED("H15", "a modulation of 5 Hz, any rubber"), STATED, .noise = 0.002, .rubber = RUBBER_ANY,
+    {NAMED("H15", "a modulation of 5 Hz, any rubber"), .noise = 0.002, .rubber = RUBBER_ANY,
      .modulation = 5},
-    {NAMED("H16", "a modulation of 23 Hz, any rubber, drift, tilt, 1/f 0.5 %"), STATED,
-     .noise = 0.005, .kind = NOISE_FLICKER, .rubber = RUBBER_ANY, DRIFTS, .modulation = 23},
+    {NAMED("H16", "a modulation of 23 Hz, any rubber, drift, tilt, 1/f 0.5 %"), .noise = 0.005,
+     .kind = NOISE_FLICKER, .rubber = RUBBER_ANY, DRIFTS, .modulation = 23},
 };
 const int n_dwell_scenes = sizeof dwell_scenes / sizeof dwell_scenes[0];

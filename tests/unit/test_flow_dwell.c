@@ -235,11 +235,11 @@ static void test_modulation(void **state)
     print_message("%g %g (%g) %g (%g) %s\n", CELL("angular_frequency"), CELL("storage_modulus"),
                   storage, CELL("loss_modulus"), loss,
                   wt_table_text(t.dwell, 1, (size_t)wt_table_find(t.dwell, "note")));
-    assert_near(CELL("angular_frequency"), omega, 1e-3);
+    assert_near(CELL("angular_frequency"), omega, 1e-4);
     assert_near(CELL("amplitude"), amplitude, 0.01);
-    assert_near(CELL("storage_modulus"), storage, 0.03);
-    /* What relaxes at the beginning leaks into it. */
-    assert_near(CELL("loss_modulus"), loss, 0.12);
+    /* Noise leaves 1.5 % of the loss; without weights the relaxation takes 7 % of it away. */
+    assert_near(CELL("storage_modulus"), storage, 0.01);
+    assert_near(CELL("loss_modulus"), loss, 0.02);
 #undef CELL
     wt_dwell_tables_clear(&t);
     (void)remove(path);

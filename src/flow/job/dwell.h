@@ -22,7 +22,6 @@ wt_status dwell_means(const wt_table *moduli, dwell_mean **means, size_t *n,
 typedef struct dwell_modulated {
     const wt_segment *segment;
     wt_modulation sine;
-    double time, position, force; /* means, in the history of the curve */
     wt_dwell_moduli moduli;
     bool found;
     double indentation, above, amplitude; /* mean, force above the baseline, of the indentation */
