@@ -8,7 +8,7 @@
 #include "weartrack/flow.h"
 
 /* Most curves of a group that are fitted anew. */
-enum { COMMON_CURVES = 32 };
+enum { COMMON_CURVES = 8 };
 
 /* What an error does to the modulus, by curves that are fitted anew with the source moved. */
 typedef struct common_errors {
