@@ -96,102 +96,64 @@ wt_status common_errors_begin(const wt_indent_job *job, common_errors *to, wt_er
     return status;
 }
 
+static void forget(common_curve *curve)
+{
+    for (int i = 0; i < 2; i++)
+        free(curve->branch[i].height);
+    *curve = (common_curve){0};
+}
+
 void common_errors_clear(common_errors *errors)
 {
     for (int i = 0; i < WT_COMMON_SOURCES; i++)
         for (int way = 0; way < 2; way++)
             wt_contact_table_free(errors->tip[i][way]);
-    free(errors->scratch);
+    for (size_t i = 0; i < errors->n; i++)
+        forget(&errors->curve[i]);
     *errors = (common_errors){0};
 }
 
 /* ---- curves ---------------------------------------------------------------------------------- */
 
-/* A branch as it was measured, and the place of its forces, which are to be scaled. */
-typedef struct branch {
-    const double *height, *force, *time;
-    double *scaled;
-    size_t n;
-} branch;
-
-static branch branch_of(const wt_force_curve *curve, wt_segment_kind kind, double *scratch)
+static wt_status copy(const wt_force_curve *curve, wt_segment_kind kind, common_branch *to,
+                      wt_error *err)
 {
     const wt_segment *segment = wt_force_curve_segment(curve, kind);
-    branch b = {.scaled = scratch};
-    if (segment == NULL)
-        return b;
-    b.height = segment_height(segment);
-    b.force = segment_force(segment, &curve->cantilever, scratch + segment->n_points);
-    b.time = segment_time(segment, scratch + 2 * segment->n_points);
-    b.n = b.height != NULL && b.force != NULL ? segment->n_points : 0;
-    return b;
-}
-
-static curve_branch scale(const branch *b, double factor)
-{
-    for (size_t i = 0; i < b->n; i++)
-        b->scaled[i] = factor * b->force[i];
-    return (curve_branch){b->height, b->scaled, b->time, b->n};
-}
-
-static wt_status reserve(common_errors *to, size_t n, wt_error *err)
-{
-    if (n <= to->capacity)
+    if (segment == NULL || segment->n_points == 0)
         return WT_OK;
-    double *scratch = realloc(to->scratch, n * sizeof *scratch);
-    if (scratch == NULL)
+    const size_t n = segment->n_points, bytes = n * sizeof(double);
+    double *store = malloc(3 * bytes);
+    if (store == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    to->scratch = scratch;
-    to->capacity = n;
+    *to = (common_branch){.height = store, .force = store + n};
+    const double *height = segment_height(segment),
+                 *force = segment_force(segment, &curve->cantilever, to->force),
+                 *time = segment_time(segment, store + 2 * n);
+    if (height == NULL || force == NULL)
+        return WT_OK;
+    memcpy(to->height, height, bytes);
+    memmove(to->force, force, bytes);
+    if (time != NULL)
+        to->time = memmove(store + 2 * n, time, bytes);
+    to->n = n;
     return WT_OK;
-}
-
-static size_t points(const wt_force_curve *curve, wt_segment_kind kind)
-{
-    const wt_segment *segment = wt_force_curve_segment(curve, kind);
-    return segment != NULL ? segment->n_points : 0;
 }
 
 /* Keeps every second of them: those that remain are as if there had been half as many from the
  * start. */
 static void thin_out(common_errors *to)
 {
-    for (size_t i = 0; 2 * i < to->n; i++)
-        memcpy(to->gain[i], to->gain[2 * i], sizeof to->gain[i]);
-    to->n = (to->n + 1) / 2;
+    size_t kept = 0;
+    for (size_t i = 0; i < to->n; i++)
+        if (i % 2 == 0)
+            to->curve[kept++] = to->curve[i];
+        else
+            forget(&to->curve[i]);
+    to->n = kept;
     to->stride *= 2;
 }
 
-/* d ln E of a step of one source each way. The modulus of a fit that no longer passes its tests is
- * told all the same. */
-static wt_status move(const common_errors *to, wt_common_source source,
-                      const wt_contact_table *contact, const wt_indent_options *options,
-                      const branch *in, const branch *out, double k, wt_indent_workspace *workspace,
-                      double *gain, wt_error *err)
-{
-    const double step = to->step[source];
-    double log_modulus[2] = {0, 0};
-    for (int way = 0; way < 2; way++) {
-        const double factor = exp((2 * way - 1) * step);
-        const bool lever = source == WT_COMMON_SPRING_CONSTANT,
-                   signal = lever || source == WT_COMMON_SENSITIVITY;
-        const curve_branch scaled[2] = {scale(in, signal ? factor : 1),
-                                        scale(out, signal ? factor : 1)};
-        wt_indent_fit fit;
-        const wt_status status =
-            curve_fit_branches(signal ? contact : to->tip[source][way], options, &scaled[0],
-                               &scaled[1], lever ? k * factor : k, workspace, &fit, err);
-        if (status != WT_OK)
-            return status;
-        log_modulus[way] = fit.fitted_modulus > 0 ? log(fit.fitted_modulus) : (double)NAN;
-    }
-    *gain = (log_modulus[1] - log_modulus[0]) / (2 * step);
-    return WT_OK;
-}
-
-wt_status common_errors_add(common_errors *to, const wt_contact_table *contact,
-                            const wt_indent_options *options, const wt_force_curve *curve,
-                            wt_indent_workspace *workspace, wt_error *err)
+wt_status common_errors_keep(common_errors *to, const wt_force_curve *curve, wt_error *err)
 {
     if (!to->stated || to->seen++ % to->stride != 0)
         return WT_OK;
@@ -200,21 +162,92 @@ wt_status common_errors_add(common_errors *to, const wt_contact_table *contact,
         if ((to->seen - 1) % to->stride != 0)
             return WT_OK;
     }
-    const size_t n_in = points(curve, WT_SEGMENT_APPROACH),
-                 n_out = points(curve, WT_SEGMENT_RETRACT);
-    wt_status status = reserve(to, 3 * (n_in + n_out), err);
-    if (status != WT_OK)
-        return status;
-    const branch in = branch_of(curve, WT_SEGMENT_APPROACH, to->scratch),
-                 out = branch_of(curve, WT_SEGMENT_RETRACT, to->scratch + 3 * n_in);
-    const double k = curve->cantilever.spring_constant;
-    for (int i = 0; status == WT_OK && i < WT_COMMON_SOURCES; i++) {
-        to->gain[to->n][i] = (double)NAN;
-        if (to->step[i] > 0)
-            status = move(to, (wt_common_source)i, contact, options, &in, &out, k, workspace,
-                          &to->gain[to->n][i], err);
+    common_curve *kept = &to->curve[to->n++];
+    *kept = (common_curve){.spring_constant = curve->cantilever.spring_constant};
+    const wt_status status = copy(curve, WT_SEGMENT_APPROACH, &kept->branch[0], err);
+    return status == WT_OK ? copy(curve, WT_SEGMENT_RETRACT, &kept->branch[1], err) : status;
+}
+
+/* ---- fits ------------------------------------------------------------------------------------ */
+
+typedef struct refit {
+    common_errors *to;
+    const wt_contact_table *contact;
+    const wt_indent_options *options;
+    wt_indent_workspace *const *workspaces;
+    double *scratch; /* [room] for each thread: forces that are scaled */
+    size_t room;
+    wt_error *errors; /* of each item */
+} refit;
+
+static curve_branch scale(const common_branch *b, double factor, double *scaled)
+{
+    for (size_t i = 0; i < b->n; i++)
+        scaled[i] = factor * b->force[i];
+    return (curve_branch){b->height, scaled, b->time, b->n};
+}
+
+/* d ln E of a step of one source each way. The modulus of a fit that no longer passes its tests is
+ * told all the same. */
+static wt_status move(void *user, size_t item, unsigned worker)
+{
+    const refit *f = user;
+    common_errors *to = f->to;
+    const size_t at = item / WT_COMMON_SOURCES;
+    const wt_common_source source = (wt_common_source)(item % WT_COMMON_SOURCES);
+    const common_curve *curve = &to->curve[at];
+    const double step = to->step[source];
+    double log_modulus[2] = {0, 0}, *scratch = f->scratch + worker * f->room;
+    to->gain[at][source] = (double)NAN;
+    for (int way = 0; way < 2 && step > 0; way++) {
+        const double factor = exp((2 * way - 1) * step);
+        const bool lever = source == WT_COMMON_SPRING_CONSTANT,
+                   signal = lever || source == WT_COMMON_SENSITIVITY;
+        const curve_branch scaled[2] = {
+            scale(&curve->branch[0], signal ? factor : 1, scratch),
+            scale(&curve->branch[1], signal ? factor : 1, scratch + curve->branch[0].n)};
+        wt_indent_fit fit;
+        const wt_status status =
+            curve_fit_branches(signal ? f->contact : to->tip[source][way], f->options, &scaled[0],
+                               &scaled[1], curve->spring_constant * (lever ? factor : 1),
+                               f->workspaces[worker], &fit, &f->errors[item]);
+        if (status != WT_OK)
+            return status;
+        log_modulus[way] = fit.fitted_modulus > 0 ? log(fit.fitted_modulus) : (double)NAN;
     }
-    to->n++;
+    if (step > 0)
+        to->gain[at][source] = (log_modulus[1] - log_modulus[0]) / (2 * step);
+    return WT_OK;
+}
+
+wt_status common_errors_fit(common_errors *to, const wt_contact_table *contact,
+                            const wt_indent_options *options, unsigned threads,
+                            wt_indent_workspace *const *workspaces, wt_error *err)
+{
+    const size_t n = to->n * WT_COMMON_SOURCES;
+    refit f = {.to = to, .contact = contact, .options = options, .workspaces = workspaces};
+    if (n == 0)
+        return WT_OK;
+    for (size_t i = 0; i < to->n; i++)
+        if (f.room < to->curve[i].branch[0].n + to->curve[i].branch[1].n)
+            f.room = to->curve[i].branch[0].n + to->curve[i].branch[1].n;
+    f.scratch = calloc(threads * f.room, sizeof *f.scratch);
+    f.errors = calloc(n, sizeof *f.errors);
+    wt_status status = WT_E_MEMORY;
+    if (f.scratch == NULL || f.errors == NULL) {
+        status = wt_fail(err, status, "out of memory");
+    } else {
+        status = wt_parallel_for(n, threads, move, &f, NULL, "fitting curves anew");
+        size_t first = 0;
+        while (first < n && f.errors[first].status == WT_OK)
+            first++;
+        if (status != WT_OK && first == n)
+            (void)wt_fail(err, status, "fitting in parallel failed");
+        else if (status != WT_OK && err != NULL)
+            *err = f.errors[first];
+    }
+    free(f.scratch);
+    free(f.errors);
     return status;
 }
 

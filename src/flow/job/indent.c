@@ -225,8 +225,7 @@ static wt_status write_item(indent_task *task, item *it, wt_error *err)
     task->k_high = fmax(task->k_high, it->curve.cantilever.spring_constant);
     const double error = it->fit.modulus.standard_error / it->fit.modulus.value;
     task->squares += error * error;
-    status = common_errors_add(&task->common, task->contact, &task->options, &it->curve,
-                               task->scratch[0], err);
+    status = common_errors_keep(&task->common, &it->curve, err);
     if (status == WT_OK && task->job->keep != NULL)
         status = curve_set_add(task->job->keep, &it->curve, &it->fit, err);
     return status == WT_OK ? keep_modulus(task, it, err) : status;
@@ -517,6 +516,10 @@ wt_status wt_indent_group(const wt_indent_job *job, const wt_job *work, wt_inden
         goto done;
     }
     task.rows.err = err; /* that of the last row was the error of its file */
+    status = common_errors_fit(&task.common, task.contact, &task.options, task.n_workers,
+                               task.scratch, err);
+    if (status != WT_OK)
+        goto done;
     set_keys(&task, &files);
     status = indent_say_together(&task.together, job, work, &task.rows, err);
     if (status == WT_OK)
