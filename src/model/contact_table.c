@@ -62,16 +62,18 @@ static double piece_rise(const wt_tip *tip, double from, double w)
             8.0 * contact_values(tip, middle).slope);
 }
 
-static piece piece_make(const wt_tip *tip, double switch_depth, uint64_t number)
+/* lo: at its start; it becomes what is at its end. */
+static piece piece_make(const wt_tip *tip, double switch_depth, uint64_t number,
+                        contact_point_values *lo)
 {
-    double e = piece_start(number), w = piece_start(number + 1) - e;
-    contact_point_values lo = contact_values(tip, switch_depth + e);
-    contact_point_values hi = contact_values(tip, switch_depth + e + w);
-    double d = lo.slope * w, s = 0.5 * lo.curvature * w * w;
+    const double e = piece_start(number), end = piece_start(number + 1), w = end - e;
+    const contact_point_values hi = contact_values(tip, switch_depth + end);
+    const double g = lo->g, d = lo->slope * w, s = 0.5 * lo->curvature * w * w;
     /* What the first three terms leave at the far end, for the last three to supply. */
-    double rf = piece_rise(tip, switch_depth + e, w) - d - s, rd = hi.slope * w - d - 2.0 * s,
-           rs = hi.curvature * w * w - 2.0 * s;
-    return (piece){{lo.g, d, s, 10.0 * rf - 4.0 * rd + 0.5 * rs, -15.0 * rf + 7.0 * rd - rs,
+    const double rf = piece_rise(tip, switch_depth + e, w) - d - s, rd = hi.slope * w - d - 2.0 * s,
+                 rs = hi.curvature * w * w - 2.0 * s;
+    *lo = hi;
+    return (piece){{g, d, s, 10.0 * rf - 4.0 * rd + 0.5 * rs, -15.0 * rf + 7.0 * rd - rs,
                     6.0 * rf - 3.0 * rd + 0.5 * rs},
                    e,
                    1.0 / w};
@@ -111,8 +113,9 @@ wt_status wt_contact_table_new(const wt_tip *tip, double delta_min, double delta
     t->switch_depth = at;
     t->first = first;
     t->n = n;
+    contact_point_values lo = contact_values(tip, at + piece_start(first));
     for (size_t i = 0; i < n; i++)
-        t->pieces[i] = piece_make(tip, at, first + i);
+        t->pieces[i] = piece_make(tip, at, first + i, &lo);
     *table = t;
     return WT_OK;
 }

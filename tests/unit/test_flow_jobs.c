@@ -1,4 +1,4 @@
-/* The jobs one by one: batches of curves, spots, groups, the rubber at a temperature, surfaces, the
+/* The jobs one by one: many curves, spots, groups, the rubber at a temperature, surfaces, the
  * layer. SPDX-License-Identifier: GPL-3.0-or-later */
 
 #include "cells.h"
@@ -179,16 +179,16 @@ static void test_threads_and_rates(void **state)
     wt_table_free(without);
 }
 
-/* More curves than two batches hold, each stiffer than the one before: every one has its row, in
+/* More curves than are held at once, each stiffer than the one before: every one has its row, in
  * the order of the file, whatever thread it was fitted on. */
-static void test_batches(void **state)
+static void test_many_curves(void **state)
 {
     (void)state;
     enum { CURVES = 530, N = 120 };
     static double height[N], force[CURVES][N];
     static jpk_writer_segment segments[CURVES];
     static jpk_writer_curve curves[CURVES];
-    const char *const path = "batches.jpk-force-map";
+    const char *const path = "many.jpk-force-map";
     const wt_file_set set = {.patterns = &path, .n_patterns = 1, .read = wt_read_defaults()};
     const wt_indent_job job = bulk_job(&set, 1);
     jpk_writer_file file = jpk_writer_defaults();
@@ -654,7 +654,7 @@ int main(void)
         cmocka_unit_test(test_material_without_a_spectrum),
         cmocka_unit_test(test_bad_files),
         cmocka_unit_test(test_threads_and_rates),
-        cmocka_unit_test(test_batches),
+        cmocka_unit_test(test_many_curves),
         cmocka_unit_test(test_spots),
         cmocka_unit_test(test_one_spot),
         cmocka_unit_test(test_rubber_at),

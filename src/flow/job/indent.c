@@ -1,5 +1,5 @@
-/* The indentation job: every curve of every file of a group, streamed, fitted in parallel in
- * batches, written in order.
+/* The indentation job: every curve of every file of a group, streamed, fitted in parallel, written
+ * in order.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/job/indent.h"
 #include "base/param.h"
@@ -16,15 +16,22 @@
 #include "read/force_source.h"
 
 #include <math.h>
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* A batch ends with the first of the two: it bounds memory and keeps all threads busy. There are
- * two of them: while one is fitted the next is read. */
-#define BATCH_CURVES 64
-#define BATCH_SAMPLES ((size_t)1 << 18)
+/* Curves at once for each thread: those that are done wait for one before them that takes long. */
+#define CURVES_EACH 8
+#define MOST_WORKERS 64
+/* Of curves at once, if every thread has one: it bounds memory. */
+#define MOST_SAMPLES ((size_t)1 << 18)
+
+typedef enum item_state { ITEM_FREE, ITEM_TAKEN, ITEM_DONE } item_state;
 
 typedef struct item {
+    item_state state;
+    size_t order; /* of all curves of the file */
+    size_t samples;
     wt_force_curve curve;
     wt_status status;
     wt_error error;
@@ -47,9 +54,17 @@ typedef struct indent_task {
     wt_contact_table *contact;
     wt_indent_workspace **scratch; /* [n_workers] */
     unsigned n_workers;
+    /* Each thread takes a curve, fits it, and writes what is done and next in order; all but the
+     * fit under the lock. */
+    pthread_mutex_t lock;
+    pthread_cond_t written;
     wt_force_source *source;  /* NULL: nothing is left to read */
-    item *items, *now, *next; /* [2 * BATCH_CURVES], of the two batches */
-    size_t n_now, n_next;
+    item *items;              /* [n_items] */
+    size_t n_items, n_taken;  /* of them, those that are not free */
+    size_t n_samples;         /* in those */
+    size_t n_read, n_written; /* curves of the file */
+    wt_status status;
+    wt_error *err;
     table_writer rows;
     size_t n_curves, n_accepted, n_failed;
     /* equal failures of one file make one row */
@@ -113,36 +128,39 @@ static wt_status note_failure(indent_task *task, size_t curve, const wt_error *f
     return status;
 }
 
-/* ---- one batch ------------------------------------------------------------------------------- */
+/* ---- one curve ------------------------------------------------------------------------------- */
 
-static void read_batch(indent_task *task)
+static bool has_room(const indent_task *task)
 {
-    size_t samples = 0;
-    while (task->source != NULL && task->n_next < BATCH_CURVES && samples < BATCH_SAMPLES) {
-        item *it = &task->next[task->n_next];
-        it->error = (wt_error)WT_ERROR_INIT;
-        it->status = wt_force_next(task->source, &it->curve, &it->error);
-        if (it->status == WT_END) {
-            wt_force_close(task->source);
-            task->source = NULL;
-            break;
-        }
-        for (size_t i = 0; it->status == WT_OK && i < it->curve.n_segments; i++)
-            samples += it->curve.segments[i].n_points * it->curve.segments[i].n_channels;
-        task->n_next++;
-    }
+    return task->n_taken < task->n_items &&
+           (task->n_taken < task->n_workers || task->n_samples < MOST_SAMPLES);
 }
 
-static wt_status fit_item(void *user, size_t i, unsigned worker)
+/* Reads the next curve; NULL if there is none. */
+static item *take(indent_task *task)
 {
-    indent_task *task = user;
-    item *it = &task->now[i];
-    if (worker == 0 && task->n_next == 0) /* files are read by the thread that opened them */
-        read_batch(task);
-    if (it->status == WT_OK)
-        it->status = wt_indent_force_curve(task->contact, &task->options, &it->curve,
-                                           task->scratch[worker], &it->fit, &it->error);
-    return WT_OK; /* a curve that fails does not stop the others */
+    while (task->status == WT_OK && task->source != NULL && !has_room(task))
+        (void)pthread_cond_wait(&task->written, &task->lock);
+    if (task->status != WT_OK || task->source == NULL)
+        return NULL;
+    item *it = task->items;
+    while (it->state != ITEM_FREE)
+        it++;
+    it->error = (wt_error)WT_ERROR_INIT;
+    it->status = wt_force_next(task->source, &it->curve, &it->error);
+    if (it->status == WT_END) {
+        wt_force_close(task->source);
+        task->source = NULL;
+        return NULL;
+    }
+    it->samples = 0;
+    for (size_t i = 0; it->status == WT_OK && i < it->curve.n_segments; i++)
+        it->samples += it->curve.segments[i].n_points * it->curve.segments[i].n_channels;
+    it->state = ITEM_TAKEN;
+    it->order = task->n_read++;
+    task->n_taken++;
+    task->n_samples += it->samples;
+    return it;
 }
 
 static void mark_unreadable(wt_indent_fit *fit, const wt_error *error)
@@ -231,19 +249,49 @@ static wt_status write_item(indent_task *task, item *it, wt_error *err)
     return status == WT_OK ? keep_modulus(task, it, err) : status;
 }
 
-static wt_status run_batch(indent_task *task, wt_error *err)
+static bool is_cancelled(const indent_task *task)
 {
-    wt_status status =
-        wt_parallel_for(task->n_now, task->work->threads, fit_item, task, NULL, "fitting curves");
-    if (status != WT_OK)
-        return wt_fail(err, status, "fitting in parallel failed");
-    for (size_t i = 0; status == WT_OK && i < task->n_now; i++)
-        status = write_item(task, &task->now[i], err);
     const wt_progress *progress = &task->work->progress;
-    if (status == WT_OK && progress->report != NULL &&
-        !progress->report(progress->user, "indentation", task->n_curves, 0))
-        status = wt_fail(err, WT_E_CANCELLED, "cancelled");
-    return status;
+    return progress->report != NULL &&
+           !progress->report(progress->user, "indentation", task->n_curves, 0);
+}
+
+/* Those that are next in order. */
+static void write_done(indent_task *task)
+{
+    for (size_t i = 0; task->status == WT_OK && i < task->n_items; i++) {
+        item *it = &task->items[i];
+        if (it->state != ITEM_DONE || it->order != task->n_written)
+            continue;
+        task->status = write_item(task, it, task->err);
+        if (task->status == WT_OK && is_cancelled(task))
+            task->status = wt_fail(task->err, WT_E_CANCELLED, "cancelled");
+        it->state = ITEM_FREE;
+        task->n_written++;
+        task->n_taken--;
+        task->n_samples -= it->samples;
+        i = (size_t)-1; /* the next may stand before it */
+    }
+    (void)pthread_cond_broadcast(&task->written);
+}
+
+static wt_status fit_curves(void *user, size_t i, unsigned worker)
+{
+    indent_task *task = user;
+    item *it;
+    (void)i;
+    (void)pthread_mutex_lock(&task->lock);
+    while ((it = take(task)) != NULL) {
+        (void)pthread_mutex_unlock(&task->lock);
+        if (it->status == WT_OK)
+            it->status = wt_indent_force_curve(task->contact, &task->options, &it->curve,
+                                               task->scratch[worker], &it->fit, &it->error);
+        (void)pthread_mutex_lock(&task->lock);
+        it->state = ITEM_DONE;
+        write_done(task);
+    }
+    (void)pthread_mutex_unlock(&task->lock);
+    return WT_OK; /* that of the task says more */
 }
 
 /* ---- one file -------------------------------------------------------------------------------- */
@@ -258,19 +306,16 @@ static wt_status read_file(indent_task *task, wt_error *err)
     if (status == WT_OK)
         status = wt_force_open(task->work->formats, input, &options, task->work->log, &task->source,
                                err);
-    while (status == WT_OK) {
-        if (task->n_next == 0)
-            read_batch(task);
-        if (task->n_next == 0)
-            break;
-        item *const done = task->now;
-        task->now = task->next;
-        task->n_now = task->n_next;
-        task->next = done;
-        task->n_next = 0;
-        status = run_batch(task, err);
+    if (status == WT_OK) {
+        const size_t count = wt_force_count(task->source), n = count > 0 ? count : 1;
+        task->n_read = task->n_written = 0;
+        task->status = WT_OK;
+        task->err = err;
+        status = wt_parallel_for(n < task->n_workers ? n : task->n_workers, task->n_workers,
+                                 fit_curves, task, NULL, "fitting curves");
+        status =
+            status == WT_OK ? task->status : wt_fail(err, status, "fitting in parallel failed");
     }
-    task->n_next = 0;
     if (status == WT_OK)
         status = flush_failures(task, err);
     wt_force_close(task->source);
@@ -318,7 +363,7 @@ static wt_status add_representative(indent_task *task, wt_indent_tables *tables,
         return WT_OK; /* a pipe cannot be read twice */
     wt_input *input = NULL;
     wt_force_source *source = NULL;
-    wt_force_curve *curve = &task->now[0].curve;
+    wt_force_curve *curve = &task->items[0].curve;
     const wt_read_options options =
         wanted_channels(file, task->job, task->options.spectrum != NULL);
     wt_status status = wt_input_open(file->path, &input, err);
@@ -449,14 +494,13 @@ static wt_status prepare(indent_task *task, wt_error *err)
     if (task->job->keep != NULL)
         curve_set_begin(task->job->keep, task->job);
     task->n_workers = wt_thread_count(task->work->threads);
-    if (task->n_workers > BATCH_CURVES)
-        task->n_workers = BATCH_CURVES;
+    if (task->n_workers > MOST_WORKERS)
+        task->n_workers = MOST_WORKERS;
     task->scratch = calloc(task->n_workers, sizeof(wt_indent_workspace *));
-    task->items = calloc(2 * BATCH_CURVES, sizeof *task->items);
+    task->n_items = task->n_workers > 1 ? (size_t)task->n_workers * CURVES_EACH : 1;
+    task->items = calloc(task->n_items, sizeof *task->items);
     if (task->scratch == NULL || task->items == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    task->now = task->items;
-    task->next = task->items + BATCH_CURVES;
     for (unsigned i = 0; i < task->n_workers; i++)
         if ((task->scratch[i] = wt_indent_workspace_new()) == NULL)
             return wt_fail(err, WT_E_MEMORY, "out of memory");
@@ -467,7 +511,7 @@ static void release(indent_task *task)
 {
     for (unsigned i = 0; task->scratch != NULL && i < task->n_workers; i++)
         wt_indent_workspace_free(task->scratch[i]);
-    for (size_t i = 0; task->items != NULL && i < 2 * BATCH_CURVES; i++)
+    for (size_t i = 0; task->items != NULL && i < task->n_items; i++)
         wt_force_curve_clear(&task->items[i].curve);
     free(task->scratch);
     free(task->items);
@@ -478,6 +522,8 @@ static void release(indent_task *task)
     wt_prony_clear(&task->spectrum);
     wt_contact_table_free(task->contact);
     wt_table_free(task->rows.table);
+    (void)pthread_cond_destroy(&task->written);
+    (void)pthread_mutex_destroy(&task->lock);
 }
 
 /* The main number is the modulus of a curve, with the root mean square of its errors. */
@@ -501,7 +547,12 @@ wt_status wt_indent_group(const wt_indent_job *job, const wt_job *work, wt_inden
         return wt_fail(err, WT_E_ARG, "no indentation job");
     if (tables->indentation != NULL)
         return wt_fail(err, WT_E_ARG, "the indentation table of the group before is still there");
-    indent_task task = {.job = job, .work = work, .k_low = (double)NAN, .k_high = (double)NAN};
+    indent_task task = {.job = job,
+                        .work = work,
+                        .lock = PTHREAD_MUTEX_INITIALIZER,
+                        .written = PTHREAD_COND_INITIALIZER,
+                        .k_low = (double)NAN,
+                        .k_high = (double)NAN};
     flow_files files = {NULL, 0, NULL};
     wt_status status = prepare(&task, err);
     if (status == WT_OK)
