@@ -10,10 +10,10 @@
 #include "read/bytes/bytes.h"
 #include "read/bytes/input.h"
 
+#include <libdeflate.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/random.h>
-#include <zlib.h>
 
 /* Deflate cannot pack more tightly than 1032 : 1 (zlib, "Maximum compression factor"); the rest
  * allows for entries of a few bytes. */
@@ -299,7 +299,8 @@ wt_status archive_open(wt_input *input, zip_archive **archive, wt_error *err)
     if (a == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for the archive");
     a->input = input;
-    wt_status status = wt_input_size(input, &a->length, err);
+    wt_status status = window_open(&a->window, input, err);
+    a->length = a->window.size;
     if (status == WT_OK)
         status = find_directory(a, &d, err);
     if (status == WT_OK)
@@ -327,13 +328,11 @@ void archive_close(zip_archive *archive)
 {
     if (archive == NULL)
         return;
-    if (archive->stream != NULL)
-        (void)inflateEnd(archive->stream);
-    free(archive->stream);
+    libdeflate_free_decompressor(archive->unpacker);
+    window_close(&archive->window);
     free(archive->entries);
     free(archive->names);
     free(archive->places);
-    free(archive->packed.data);
     free(archive);
 }
 
@@ -378,68 +377,50 @@ static bool make_room(byte_buffer *buffer, size_t size)
     return true;
 }
 
-/* Gets the bytes as they stand in the file, as many as the directory says. */
-static wt_status read_packed(const zip_archive *a, size_t i, byte_buffer *to, wt_error *err)
+/* Gets the bytes as they stand in the file, as many as the directory says; until the next call. */
+static wt_status read_packed(zip_archive *a, size_t i, const unsigned char **packed, wt_error *err)
 {
     const zip_entry *const e = &a->entries[i];
-    unsigned char local[LOCAL_SIZE];
-    size_t left = a->length - (size_t)e->offset, start = LOCAL_SIZE;
+    const size_t offset = (size_t)e->offset, left = a->length - offset;
+    const size_t whole = LOCAL_SIZE + strlen(archive_name(a, i)) + e->packed; /* or a little more */
     if (left < LOCAL_SIZE)
         return entry_fail(a, i, err, WT_E_CORRUPT, "archive entry lies outside of the file");
-    wt_status status = wt_input_at(a->input, (size_t)e->offset, local, LOCAL_SIZE, err);
+    wt_status status = window_bytes(&a->window, offset, whole < left ? whole : left, packed, err);
     if (status != WT_OK)
         return status;
-    start += (size_t)le16(local + 26) + le16(local + 28);
-    if (le32(local) != 0x04034b50)
+    if (le32(*packed) != 0x04034b50)
         return entry_fail(a, i, err, WT_E_CORRUPT, "archive entry cannot be opened");
+    const size_t start = LOCAL_SIZE + (size_t)le16(*packed + 26) + (size_t)le16(*packed + 28);
     if (start > left || e->packed > left - start)
         return entry_fail(a, i, err, WT_E_CORRUPT, "archive entry lies outside of the file");
-    if (!make_room(to, (size_t)e->packed + 1))
-        return entry_fail(a, i, err, WT_E_MEMORY, "no memory for an archive entry");
-    return wt_input_at(a->input, (size_t)e->offset + start, to->data, e->packed, err);
+    return window_bytes(&a->window, offset + start, e->packed, packed, err);
 }
 
-/* One byte more than declared is allowed, so that an entry that goes on is found out. */
-static wt_status unpack(zip_archive *a, size_t i, byte_buffer *buffer, wt_error *err)
+static wt_status unpack(zip_archive *a, size_t i, const unsigned char *packed, byte_buffer *buffer,
+                        wt_error *err)
 {
     const zip_entry *const e = &a->entries[i];
-    int state = Z_OK;
-    if (a->stream == NULL) {
-        a->stream = calloc(1, sizeof *a->stream);
-        state = a->stream != NULL ? inflateInit2(a->stream, -MAX_WBITS) : Z_MEM_ERROR;
-        if (state != Z_OK) {
-            free(a->stream);
-            a->stream = NULL;
-            return entry_fail(a, i, err, WT_E_MEMORY, "no memory for an archive entry");
-        }
-    } else {
-        (void)inflateReset(a->stream);
-    }
-    a->stream->next_in = a->packed.data;
-    a->stream->avail_in = e->packed;
-    a->stream->next_out = buffer->data;
-    a->stream->avail_out = e->size + 1;
-    state = inflate(a->stream, Z_FINISH);
-    if (state == Z_MEM_ERROR)
+    if (a->unpacker == NULL && (a->unpacker = libdeflate_alloc_decompressor()) == NULL)
         return entry_fail(a, i, err, WT_E_MEMORY, "no memory for an archive entry");
-    const size_t got = (size_t)e->size + 1 - a->stream->avail_out;
-    if (state == Z_STREAM_END && got != e->size)
+    switch (libdeflate_deflate_decompress(a->unpacker, packed, e->packed, buffer->data, e->size,
+                                          NULL)) {
+    case LIBDEFLATE_SUCCESS:
+        return WT_OK;
+    case LIBDEFLATE_SHORT_OUTPUT:
+    case LIBDEFLATE_INSUFFICIENT_SPACE:
         return entry_fail(a, i, err, WT_E_CORRUPT,
                           "archive entry is not of the size that it declares");
-    if (state != Z_STREAM_END) {
-        entry_fail(a, i, err, WT_E_CORRUPT,
-                   got > e->size ? "archive entry is not of the size that it declares"
-                                 : "archive entry cannot be unpacked");
-        wt_error_found(err, "%s", a->stream->msg != NULL ? a->stream->msg : "an end too early");
-        return WT_E_CORRUPT;
+    case LIBDEFLATE_BAD_DATA:
+        break;
     }
-    return WT_OK;
+    return entry_fail(a, i, err, WT_E_CORRUPT, "archive entry cannot be unpacked");
 }
 
 wt_status archive_read(zip_archive *archive, size_t i, size_t limit, byte_buffer *buffer,
                        wt_error *err)
 {
     size_t size = 0;
+    const unsigned char *packed = NULL;
     const zip_entry *const e = &archive->entries[i];
     wt_status status = archive_size(archive, i, &size, err);
     if (status != WT_OK)
@@ -455,11 +436,12 @@ wt_status archive_read(zip_archive *archive, size_t i, size_t limit, byte_buffer
                           "archive entry is not of the size that it declares");
     if (!make_room(buffer, size + 1))
         return entry_fail(archive, i, err, WT_E_MEMORY, "no memory for an archive entry");
-    const bool stored = e->packing == STORED;
-    status = read_packed(archive, i, stored ? buffer : &archive->packed, err);
-    if (status == WT_OK && !stored)
-        status = unpack(archive, i, buffer, err);
-    if (status == WT_OK && crc32(0, buffer->data, (uInt)size) != e->sum) {
+    status = read_packed(archive, i, &packed, err);
+    if (status == WT_OK && e->packing == STORED)
+        memcpy(buffer->data, packed, size);
+    else if (status == WT_OK)
+        status = unpack(archive, i, packed, buffer, err);
+    if (status == WT_OK && libdeflate_crc32(0, buffer->data, size) != e->sum) {
         entry_fail(archive, i, err, WT_E_CORRUPT, "archive entry cannot be unpacked");
         wt_error_found(err, "a checksum that does not agree");
         return WT_E_CORRUPT;

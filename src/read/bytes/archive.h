@@ -5,7 +5,7 @@
 #ifndef WT_READ_ARCHIVE_H
 #define WT_READ_ARCHIVE_H
 
-#include "weartrack/read.h"
+#include "read/bytes/window.h"
 
 /* A buffer that grows and is used again; zero-initialised is empty; free with free(data). */
 typedef struct byte_buffer {
@@ -26,8 +26,8 @@ typedef struct zip_archive {
     uint64_t seed;
     uint32_t *places; /* [n_places] entry + 1 by the hash of its name and the seed */
     size_t n_places;
-    byte_buffer packed;        /* scratch */
-    struct z_stream_s *stream; /* scratch; NULL before anything is unpacked */
+    input_window window;
+    struct libdeflate_decompressor *unpacker; /* NULL before anything is unpacked */
 } zip_archive;
 
 /* Borrows the input until closed. An archive without its directory (the end of the file is
