@@ -207,7 +207,10 @@ int cmd_compare(int argc, char **argv)
         const bool dwells =
             own.master != NULL && cmd_tables_have(call.input[0].tables, "dwell_moduli");
         const bool materials = own.master == NULL && compare_takes_materials(&call);
-        if (call.s.n_files < 2 && !dwells) {
+        if (call.s.n_files < 2 && call.input[0].tables == NULL) {
+            call.s.err = call.input[0].failure; /* it may be what was asked for */
+            cmd_end(&call.s, call.s.err.status);
+        } else if (call.s.n_files < 2 && !dwells) {
             (void)needs_two(&call.s);
         } else if (check_options(&call, materials, own.master != NULL)) {
             if (dwells)

@@ -255,6 +255,16 @@ static wt_status plan_column(const wt_force_source *source, const force_facts *f
     return WT_OK;
 }
 
+/* Whether a given sensitivity replaces that of the file, or makes a column. */
+static bool takes_sensitivity(const force_facts *facts, const force_plan *plan)
+{
+    bool takes = facts->cantilever.sensitivity > 0;
+    for (size_t i = 0; i < plan->n; i++)
+        takes = takes || (plan->columns[i].signal != NULL &&
+                          plan->columns[i].signal->quantity == WT_Q_DEFLECTION_VOLTAGE);
+    return takes;
+}
+
 static bool is_wanted(const wt_read_options *options, const force_facts *facts,
                       wt_quantity quantity)
 {
@@ -286,6 +296,10 @@ wt_status force_add_segment(wt_force_source *source, const force_facts *facts,
             status = plan_column(source, facts, facts->offers[i], &plan, err);
     if (status != WT_OK)
         return status;
+    if (used.sensitivity_given && !takes_sensitivity(facts, &plan)) {
+        curve->cantilever.sensitivity = (double)NAN;
+        curve->cantilever.sensitivity_given = false;
+    }
     wt_segment *segment = wt_force_curve_add_segment(curve, facts->kind, n, plan.n);
     if (segment == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for a segment of %zu samples", n);

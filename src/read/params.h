@@ -7,17 +7,17 @@
 #include "weartrack/read.h"
 
 /* An indentation and a case may state their errors, which are those of a group of files and not
- * used by reading. */
-#define SPRING_CONSTANT(type, where)                                                               \
+ * used by reading. test: of the member, or NULL. */
+#define SPRING_CONSTANT(type, where, test)                                                         \
     {                                                                                              \
         PARAM("spring-constant", type, spring_constant, WT_Q_SPRING_CONSTANT, ABOVE(0)),           \
-            .value = "K", .unset = "that of the files", .flags = (where),                          \
+            .check = (test), .value = "K", .unset = "that of the files", .flags = (where),         \
             .help = "spring constant of the cantilever, such as 0.1N/m"                            \
     }
-#define SENSITIVITY(type, where)                                                                   \
+#define SENSITIVITY(type, where, test)                                                             \
     {                                                                                              \
         PARAM("sensitivity", type, sensitivity, WT_Q_SENSITIVITY, ABOVE(0)),                       \
-            .value = "S", .unset = "that of the files", .flags = (where),                          \
+            .check = (test), .value = "S", .unset = "that of the files", .flags = (where),         \
             .help = "deflection sensitivity (InvOLS), such as 120nm/V"                             \
     }
 

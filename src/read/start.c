@@ -25,8 +25,8 @@ wt_read_options wt_read_defaults(void)
 }
 
 static const wt_param rows[] = {
-    SPRING_CONSTANT(wt_read_options, PARAM_NO_CASE),
-    SENSITIVITY(wt_read_options, PARAM_NO_CASE),
+    SPRING_CONSTANT(wt_read_options, PARAM_NO_CASE, NULL),
+    SENSITIVITY(wt_read_options, PARAM_NO_CASE, NULL),
     {PARAM("temperature", wt_read_options, temperature, WT_Q_TEMPERATURE, ABOVE(0)), .value = "T",
      .unset = "", .help = "temperature of DMA files that say none, such as 20degC"},
     {PARAM_TEXTS_OF("units", wt_read_options, units, n_units), .value = "NAME=UNIT", .unset = "",

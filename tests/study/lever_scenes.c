@@ -13,8 +13,9 @@ const lever_scene lever_scenes[] = {
      .depth = {70e-9, 25e-9}},
     {NAMED("IK4", "all of them, one lever"), .facts.intervals_promised = true,
      .facts.right = DIFFERS, .lever = 0.08, .sensitivity = 0.02, .angle = 0.03, .radius = 0.15},
-    {NAMED("IK5", "all of them, two levers"), .facts.right = DIFFERS, .lever = 0.08,
-     .sensitivity = 0.02, .angle = 0.03, .radius = 0.15, .two = true},
+    {NAMED("IK5", "all of them, two levers"), .facts.intervals_promised = true,
+     .facts.right = DIFFERS, .lever = 0.08, .sensitivity = 0.02, .angle = 0.03, .radius = 0.15,
+     .two = true},
     {NAMED("IK6", "spring constant 3 %, spots 15 %"), .facts.intervals_promised = true,
      .facts.right = DIFFERS, .lever = 0.03, .scatter = 0.15},
 };

@@ -237,6 +237,8 @@ static void given_to_columns(void **state)
     assert_column(&curve, WT_Q_FORCE, 0.3e-9, 0);
     assert_column(&curve, WT_Q_DEFLECTION, 1e-9, 0);
     assert_null(wt_segment_channel(&curve.segments[0], WT_Q_DEFLECTION_VOLTAGE));
+    assert_false(curve.cantilever.sensitivity_given);
+    assert_true(isnan(curve.cantilever.sensitivity));
     assert_true(logged(&m, "its sensitivity, so the given one cannot replace it in a column of "
                            "deflection"));
     assert_true(logged(&m, "its spring constant, so the given one cannot replace it in a column of "

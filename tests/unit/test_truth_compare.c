@@ -544,6 +544,39 @@ static void test_common(void **state)
                 RATIO * BULK * cell(budget, 7, "relative_error"), 1e-6);
 }
 
+static void set_shown(wt_table *table, double loss, double bend)
+{
+    const wt_estimate values[] = {{loss, 0, 0, "1"}, {bend, 0, 0, "1"}};
+    assert_int_equal(wt_table_set_estimate(table, "loss_error", values[0], NULL), WT_OK);
+    assert_int_equal(wt_table_set_estimate(table, "bend_error", values[1], NULL), WT_OK);
+}
+
+/* What curves lose and bend: one piezo bends both groups alike, of spectra each has its own. Where
+ * that is most of the interval, no more spots are asked for. */
+static void test_shown(void **state)
+{
+    (void)state;
+    const double scatter = SCATTER * (spread[0] + spread[1]) / 2 * sqrt(2.0 / SPOTS);
+    compare(RATIO, (double)NAN);
+    set_shown(bulk_table, 0.03, 0.05);
+    set_shown(track_table, 0.04, -0.02);
+    wt_compare_job job = wt_compare_job_defaults();
+    const char *includes = includes_of(job);
+    assert_non_null(includes);
+    assert_non_null(strstr(includes, "loss of unknown spectrum, bend of the baselines"));
+    assert_near(key_estimate(tables.comparison, "modulus_ratio").standard_error,
+                RATIO * hypot(scatter, hypot(0.05, 0.07)), 1e-9);
+    job.levers = WT_LEVERS_TWO;
+    job.lever_error = 0.01;
+    assert_non_null(includes_of(job));
+    assert_near(key_estimate(tables.comparison, "modulus_ratio").standard_error,
+                RATIO * hypot(hypot(scatter, 0.01 * M_SQRT2), hypot(0.05, hypot(0.05, 0.02))),
+                1e-9);
+    set_shown(track_table, 0.4, -0.02);
+    assert_non_null(includes_of(job));
+    assert_non_null(strstr(wt_table_key(tables.comparison, "settled_by"), "a DMA of the rubber"));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -552,6 +585,7 @@ int main(void)
         cmocka_unit_test(test_rates),        cmocka_unit_test(test_dma),
         cmocka_unit_test(test_warmer),       cmocka_unit_test(test_not_known),
         cmocka_unit_test(test_out_of_reach), cmocka_unit_test(test_common),
+        cmocka_unit_test(test_shown),
     };
     return cmocka_run_group_tests_name("comparison of known truth", tests, NULL, clean);
 }

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flow/case/case_sections.h"
 
+#include "flow/job/indent.h"
 #include "read/params.h"
 
 #include <math.h>
@@ -12,8 +13,8 @@ static case_files no_files(void)
                         .sensitivity = {(double)NAN, 0, 0, "m/V"}};
 }
 
-static const wt_param rows[] = {SPRING_CONSTANT(case_files, PARAM_NO_OPTION),
-                                SENSITIVITY(case_files, PARAM_NO_OPTION)};
+static const wt_param rows[] = {SPRING_CONSTANT(case_files, PARAM_NO_OPTION, indent_error_check),
+                                SENSITIVITY(case_files, PARAM_NO_OPTION, indent_error_check)};
 PARAM_TABLE(case_group_params, case_files, rows, no_files, NO_PARTS)
 
 /* What the attributes of a node say on top of what is there. */

@@ -44,6 +44,7 @@ wt_group compare_part(const compare_pair *p, int g, size_t bin, size_t offset, b
 /* What ln(E_track / E_bulk) holds beside the difference. */
 typedef struct compare_known {
     wt_estimate offset;
+    double shown; /* of it: by loss and bent baselines, which the curves show */
     bool two_levers;
     bool lever_not_stated;      /* two, and the error of a spring constant is not known */
     bool temperature_not_known; /* they differ, and nothing says what that does */

@@ -127,6 +127,23 @@ static void add_calibration(const compare_pair *p, const wt_compare_job *job, co
             k->lever_not_stated = true;
 }
 
+/* What the curves themselves show and no scatter does. One piezo goes on bending in contact in both
+ * groups or in none; the spectra of bulk and track may differ. */
+static void add_shown(const compare_pair *p, compare_known *k)
+{
+    double loss[2], bend[2];
+    for (int g = 0; g < 2; g++) {
+        const wt_group_data *d = &p->data[g];
+        loss[g] = d->loss_error > 0 && !p->by_factor ? d->loss_error : 0;
+        bend[g] = isnan(d->bend_error) ? 0 : d->bend_error;
+    }
+    const double of_loss = hypot(loss[0], loss[1]),
+                 of_bend = k->two_levers ? hypot(bend[0], bend[1]) : fabs(bend[1] - bend[0]);
+    k->shown = hypot(of_loss, of_bend);
+    add_error(k, of_loss, "loss of unknown spectrum");
+    add_error(k, of_bend, "bend of the baselines");
+}
+
 /* ---- temperature and rate -------------------------------------------------------------------- */
 
 /* Geometric mean of the equivalent frequencies; NaN if they are not known. */
@@ -258,5 +275,6 @@ wt_status compare_find_known(const compare_pair *p, const wt_compare_job *job, c
     *known = (compare_known){.offset = {0, 0, 0, "1"}, .rates_by_dma = rates_by_dma};
     snprintf(known->includes, sizeof known->includes, "scatter of the units");
     add_calibration(p, job, known);
+    add_shown(p, known);
     return add_conditions(p, job, work, known, err);
 }

@@ -195,7 +195,12 @@ compare_verdict compare_judge(const compare_pair *p, const wt_compare_job *job,
         SAY(v.differs,
             "cannot say: the interval of the ratio has room for no difference and for one above %s",
             percent(job->margin).text);
-        if (c->known_share > 0.5)
+        const double known_error = known->offset.standard_error;
+        if (c->known_share > 0.5 && known->shown * known->shown > 0.5 * known_error * known_error)
+            SAY(v.settled_by, "%s",
+                "a DMA of the rubber, which tells the spectrum behind the loss, or curves with "
+                "straight baselines: what the curves lose and bend is most of the interval");
+        else if (c->known_share > 0.5)
             SAY(v.settled_by, "%s",
                 known->two_levers
                     ? "one cantilever for both groups: its errors cancel in the ratio"

@@ -80,6 +80,7 @@ typedef struct indent_task {
     long n_spots; /* of them */
     const char *last_spot;
     double k_low, k_high; /* spring constants of the accepted curves [N/m] */
+    bool by_sensitivity;  /* that of the job made a force */
     double squares;       /* of relative standard errors of their moduli */
 } indent_task;
 
@@ -241,6 +242,7 @@ static wt_status write_item(indent_task *task, item *it, wt_error *err)
     task->n_accepted++;
     task->k_low = fmin(task->k_low, it->curve.cantilever.spring_constant);
     task->k_high = fmax(task->k_high, it->curve.cantilever.spring_constant);
+    task->by_sensitivity = task->by_sensitivity || it->curve.cantilever.sensitivity_given;
     const double error = it->fit.modulus.standard_error / it->fit.modulus.value;
     task->squares += error * error;
     status = common_errors_keep(&task->common, &it->curve, err);
@@ -433,7 +435,7 @@ static void set_keys(indent_task *task, const flow_files *files)
         k = (wt_estimate){task->k_low, 0, 0, "N/m"};
     if (!(k.standard_error > 0))
         k.standard_error = job->lever_error * k.value;
-    if (!isnan(job->sensitivity.value))
+    if (task->by_sensitivity && !isnan(job->sensitivity.value))
         indentation_set(t, INDENTATION_KEY_SENSITIVITY, flow_as_stated(job->sensitivity));
     common_errors_set_keys(&task->common, t);
     if (!isnan(k.value))

@@ -28,6 +28,8 @@ void indent_together_clear(indent_together *together);
 wt_status indent_say_together(const indent_together *together, const wt_indent_job *job,
                               const wt_job *work, table_writer *rows, wt_error *err);
 
+/* Of a wt_estimate, for records: its error is below it. */
+wt_status indent_error_check(const void *estimate, wt_error *err);
 /* The parameters, and what they say together. */
 wt_status indent_job_check(const wt_indent_job *job, wt_error *err);
 /* The limits of the fit in words; false if there are none. */

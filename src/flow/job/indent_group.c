@@ -59,7 +59,7 @@ static void say_shifts(const indent_together *together, const wt_indent_job *job
                        const wt_job *work, table_writer *rows)
 {
     const double bend = mean_shift(together, &together->bend);
-    indentation_set_value(rows, INDENTATION_KEY_BEND_ERROR, fabs(bend), 0, 0);
+    indentation_set_value(rows, INDENTATION_KEY_BEND_ERROR, bend, 0, 0);
     if (fabs(bend) > 0)
         wt_parselog_add(
             work->log, WT_WARNING, NULL, NULL,

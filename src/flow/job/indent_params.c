@@ -47,6 +47,19 @@ static wt_status check_group(const void *member, wt_error *err)
     return wt_fail(err, WT_E_ARG, "'%s' is not made of a-z, 0-9 and _", group);
 }
 
+wt_status indent_error_check(const void *estimate, wt_error *err)
+{
+    const wt_estimate *e = estimate;
+    if (isnan(e->value) || e->standard_error < e->value)
+        return WT_OK;
+    const wt_status status =
+        wt_fail(err, WT_E_RANGE, "the standard error is not below the value, which says nothing");
+    wt_error_expected(err, "an error below %g %s", e->value, e->unit);
+    wt_error_found(err, "%g %s", e->standard_error, e->unit);
+    wt_error_advice(err, "give the error behind +-, in %% or with its unit, or leave it out");
+    return status;
+}
+
 static const wt_param rows[] = {
     {PARAM_OTHER_OF("tip", wt_indent_job, tip, read_tip), .check = check_tip, .value = "TIP",
      .flags = PARAM_REQUIRED,
@@ -63,8 +76,8 @@ static const wt_param rows[] = {
     {PARAM("indentation-temperature", wt_indent_job, temperature, WT_Q_TEMPERATURE, ABOVE(0)),
      .value = "T", .unset = "the reference temperature of the DMA", .flags = PARAM_NO_CASE,
      .help = "at which the sample was indented; for the spectrum of the DMA"},
-    SPRING_CONSTANT(wt_indent_job, PARAM_NO_CASE),
-    SENSITIVITY(wt_indent_job, PARAM_NO_CASE),
+    SPRING_CONSTANT(wt_indent_job, PARAM_NO_CASE, indent_error_check),
+    SENSITIVITY(wt_indent_job, PARAM_NO_CASE, indent_error_check),
     {PARAM("spring-constant-error", wt_indent_job, lever_error, WT_Q_NONE, FROM_BELOW(0, 1)),
      .value = "X", .flags = PARAM_NO_CASE,
      .help = "relative standard error of a spring constant that states none, such as 0.1"},
@@ -92,24 +105,9 @@ static wt_status check_sample(const wt_indent_job *job, wt_error *err)
     return status;
 }
 
-/* A value whose error is as large says nothing. */
-static wt_status check_error(const char *name, wt_estimate value, wt_error *err)
-{
-    if (isnan(value.value) || value.standard_error < value.value)
-        return WT_OK;
-    const wt_status status =
-        wt_fail(err, WT_E_RANGE, "the standard error of the %s is not below it", name);
-    wt_error_found(err, "%g +- %g %s", value.value, value.standard_error, value.unit);
-    return status;
-}
-
 wt_status indent_job_check(const wt_indent_job *job, wt_error *err)
 {
     wt_status status = param_check(wt_indent_job_params(), job, err);
-    if (status == WT_OK)
-        status = check_error("spring constant", job->spring_constant, err);
-    if (status == WT_OK)
-        status = check_error("sensitivity", job->sensitivity, err);
     if (status == WT_OK)
         status = check_sample(job, err);
     return status == WT_OK ? curve_range_check(&job->options, &job->tip, err) : status;

@@ -56,8 +56,8 @@ static wt_status add_up(const wt_group_data *d, budget *b, wt_error *err)
                            d->loss_error,
                            {1, 0, 0, "1"},
                            d->loss_error > 0};
-    b->part[BEND] = (part){
-        "bend of the baselines", d->bend_error, d->bend_error, {1, 0, 0, "1"}, d->bend_error > 0};
+    const double bend = fabs(d->bend_error);
+    b->part[BEND] = (part){"bend of the baselines", bend, bend, {1, 0, 0, "1"}, bend > 0};
     for (int i = 0; i < SCATTER; i++) /* an error whose effect is not known makes all of it so */
         if (b->part[i].applies && b->part[i].source_error > 0)
             variance += b->part[i].error * b->part[i].error;

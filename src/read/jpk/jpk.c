@@ -163,7 +163,8 @@ const file_reader reader_jpk = {
              .verified = true,
              .evidence =
                  "measured files of 2013 to 2022, software 4.3 to 6.3: single curves, maps, "
-                 "quantitative imaging, pauses, 16-bit and 32-bit data",
+                 "quantitative imaging, pauses, 16-bit and 32-bit data; modulation segments: "
+                 "not verified on a genuine file",
              .version = "1"},
     .detect = detect,
     .force = &jpk_force,
