@@ -311,7 +311,8 @@ WT_API wt_status wt_outfile_commit(wt_outfile *file, wt_error *err) WT_NODISCARD
 WT_API void wt_outfile_discard(wt_outfile *file); /* removes the temporary file, frees; NULL ok */
 
 /* After wt_guard_start no file that this process has read, standard input among them, is written
- * over: what the library opens is remembered, and its outputs refuse it with WT_E_ARG. */
+ * over: what the library opens is remembered, and its outputs refuse it with WT_E_ARG. Nor is a
+ * file that is neither text nor HDF5, such as an instrument writes. */
 WT_API void wt_guard_start(void);
 WT_API wt_status wt_guard_read(const char *path, wt_error *err) WT_NODISCARD;  /* one more; "-" */
 WT_API wt_status wt_guard_write(const char *path, wt_error *err) WT_NODISCARD; /* may it be? */

@@ -2,6 +2,7 @@
 #include "weartrack/base.h"
 
 #include <pthread.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -61,17 +62,54 @@ wt_status wt_guard_read(const char *path, wt_error *err)
     return status == WT_OK ? WT_OK : wt_fail(err, status, "out of memory");
 }
 
+enum { BLOCK = 4096 };
+
+/* Whether `file` has bytes at `from` that no text has. */
+static bool binary_at(FILE *file, off_t from)
+{
+    unsigned char block[BLOCK];
+    const size_t n = fseeko(file, from, SEEK_SET) == 0 ? fread(block, 1, sizeof block, file) : 0;
+    for (size_t i = 0; i < n; i++)
+        if (block[i] == 0x7f ||
+            (block[i] < 0x20 && !(block[i] >= '\t' && block[i] <= '\r') && block[i] != 0x1b))
+            return true;
+    return false;
+}
+
+/* Whether the file is one of an instrument, say: neither text nor HDF5, which is what outputs are.
+ * Headers of instruments are text: the middle and the end count, too. */
+static bool is_foreign(const char *path, off_t size)
+{
+    static const unsigned char hdf5[] = "\211HDF\r\n\032\n", nanoscope[] = "\\*F";
+    unsigned char start[sizeof hdf5 - 1] = {0};
+    FILE *file = fopen(path, "rbe");
+    if (file == NULL)
+        return false; /* whether it may be written is seen when that is tried */
+    const size_t n = fread(start, 1, sizeof start, file);
+    const bool store = n == sizeof start && memcmp(start, hdf5, n) == 0;
+    const bool foreign =
+        !store && (memcmp(start, nanoscope, sizeof nanoscope - 1) == 0 || binary_at(file, 0) ||
+                   binary_at(file, size / 2) || binary_at(file, size > BLOCK ? size - BLOCK : 0));
+    (void)fclose(file);
+    return foreign;
+}
+
 wt_status wt_guard_write(const char *path, wt_error *err)
 {
     struct stat info;
     if (stat(path, &info) != 0)
         return WT_OK;
     (void)pthread_mutex_lock(&guard.lock);
-    const bool refuse = is_read(&info);
+    const bool read = is_read(&info), started = guard.started;
     (void)pthread_mutex_unlock(&guard.lock);
-    if (!refuse)
+    if (read)
+        wt_fail(err, WT_E_ARG, "this is also an input and would be lost: nothing is written");
+    else if (started && S_ISREG(info.st_mode) && is_foreign(path, info.st_size))
+        wt_fail(err, WT_E_ARG,
+                "there is such a file, which this program has not written, and it would be lost: "
+                "nothing is written");
+    else
         return WT_OK;
-    wt_fail(err, WT_E_ARG, "this file was read and would be lost: nothing is written");
     wt_error_file(err, path);
     wt_error_advice(err, "give another name");
     return WT_E_ARG;

@@ -3,7 +3,7 @@
 
 #include "cmd/cmd.h"
 
-static void list_formats(const wt_formats *formats)
+static void list_formats(const wt_formats *formats, FILE *out)
 {
     for (size_t i = 0; i < wt_formats_count(formats); i++) {
         const wt_format_info *f = wt_formats_get(formats, i);
@@ -22,28 +22,43 @@ static void list_formats(const wt_formats *formats)
                 used += (size_t)snprintf(holds + used, sizeof holds - used, "%s%s",
                                          used > 0 ? ", " : "", kinds[k].word);
         enum { INDENT = 6 };
-        printf("%s%-18s %-22s %s\n%*s", i > 0 ? "\n" : "", f->id, holds,
-               f->verified ? "verified" : "not verified on a measured file", INDENT, "");
-        cmd_wrap(stdout, INDENT, INDENT, f->title);
+        fprintf(out, "%s%-18s %-22s %s\n%*s", i > 0 ? "\n" : "", f->id, holds,
+                f->verified ? "verified" : "not verified on a measured file", INDENT, "");
+        cmd_wrap(out, INDENT, INDENT, f->title);
         if (f->evidence != NULL && *f->evidence != '\0') {
-            printf("%*s", INDENT, "");
-            cmd_wrap(stdout, INDENT, INDENT, f->evidence);
+            fprintf(out, "%*s", INDENT, "");
+            cmd_wrap(out, INDENT, INDENT, f->evidence);
         }
     }
 }
 
-static bool show_format(const wt_formats *formats, const char *id)
+static void show_format(const wt_formats *formats, const char *id, FILE *out)
 {
     const wt_format_info *f = wt_formats_find(formats, id);
     const char *xml = strcmp(id, "schema") == 0 ? wt_formats_schema() : wt_formats_xml(formats, id);
     if (xml != NULL)
-        fputs(xml, stdout);
-    else if (f != NULL)
-        printf("%s: %s\nread by the program itself; there is no description to show\n", f->id,
-               f->title);
+        fputs(xml, out);
     else
+        fprintf(out, "%s: %s\nread by the program itself; there is no description to show\n", f->id,
+                f->title);
+}
+
+/* What there is to show of the id, NULL: all formats. */
+static void write_formats(cmd_session *s, const char *id)
+{
+    if (id != NULL && strcmp(id, "schema") != 0 && wt_formats_find(s->formats, id) == NULL) {
         cmd_say("weartrack formats: there is no format '%s'; see weartrack formats list\n", id);
-    return xml != NULL || f != NULL;
+        s->status = CMD_FAILED;
+        return;
+    }
+    cmd_sink sink;
+    wt_status status = cmd_sink_open(s->common.output, &sink, &s->err);
+    if (status == WT_OK && id != NULL)
+        show_format(s->formats, id, sink.stream);
+    else if (status == WT_OK)
+        list_formats(s->formats, sink.stream);
+    if (cmd_sink_close(&sink, status, &s->err) != WT_OK)
+        cmd_fail(s);
 }
 
 /* A description and, if there is a second file, a sample. */
@@ -88,12 +103,9 @@ int cmd_formats(int argc, char **argv)
         check_description(&s, &read);
     else if (!check && !list && !show)
         cmd_usage_error(&s, "say list, show ID or check DESCRIPTION.xml [SAMPLE]");
-    else if (!check && cmd_begin_reading(&s, NULL)) {
+    else if (!check && cmd_is_text(&s) && cmd_begin_reading(&s, NULL)) {
         cmd_say_log(&s, s.log, true);
-        if (list)
-            list_formats(s.formats);
-        else if (!show_format(s.formats, s.files[1]))
-            s.status = CMD_FAILED;
+        write_formats(&s, show ? s.files[1] : NULL);
     }
     return cmd_session_free(&s);
 }

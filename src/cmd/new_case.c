@@ -294,7 +294,8 @@ int cmd_new_case(int argc, char **argv)
     cmd_session s = cmd_session_defaults();
     new_case c = {.s = &s};
     cmd_part part = {own_params(), &c, NULL, 0};
-    if (!cmd_parse(&s, &usage, &part, 1, argc, argv) || !cmd_begin_reading(&s, NULL))
+    if (!cmd_parse(&s, &usage, &part, 1, argc, argv) || !cmd_is_text(&s) ||
+        !cmd_begin_reading(&s, NULL))
         return cmd_session_free(&s);
     wt_status made = WT_OK;
     for (size_t i = 0; i < s.n_files && made == WT_OK; i++)

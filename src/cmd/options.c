@@ -16,8 +16,8 @@ cmd_common cmd_common_defaults(void)
 static const wt_param common_rows[] = {
     {PARAM_TEXT_OF("output", cmd_common, output), .value = "FILE", .letter = 'o', .unset = "",
      .flags = PARAM_WRITTEN,
-     .help = "write there instead of standard output, as HDF5 if the name ends in .h5 or .hdf5; - "
-             "is standard output"},
+     .help = "write there instead of standard output, tables of results as HDF5 if the name ends "
+             "in .h5 or .hdf5; - is standard output"},
     {PARAM_TEXT_OF("formats", cmd_common, formats), .value = "FOLDER", .unset = "",
      .help =
          "use the format descriptions (*.xml) of this folder too; one with the id of a built-in "
@@ -198,8 +198,8 @@ static bool bad_option(cmd_session *s, const struct option *longs, int code, con
     return cmd_usage_error(s, "%s option '%s'", n_like > 1 ? "ambiguous" : "unknown", word);
 }
 
-/* A usage error if one of the inputs is empty, is the file of -o, which would be lost, or is
- * standard input a second time. */
+/* A usage error if one of the inputs is empty or is standard input a second time, or if the file of
+ * -o would be lost. */
 static bool check_inputs(cmd_session *s, const char *const *inputs, size_t n, size_t *n_pipes)
 {
     const char *output = s->common.output;
@@ -209,7 +209,7 @@ static bool check_inputs(cmd_session *s, const char *const *inputs, size_t n, si
         if (wt_guard_read(inputs[i], &s->err) != WT_OK)
             return cmd_fail(s);
         if (output != NULL && wt_guard_write(output, &s->err) != WT_OK)
-            return cmd_usage_error(s, "-o %s is also an input; give another name", output);
+            return cmd_usage_error(s, "-o %s: %s; give another name", output, s->err.message);
         *n_pipes += strcmp(inputs[i], "-") == 0;
         if (*n_pipes > 1)
             return cmd_usage_error(s, "- can stand for one input only");

@@ -1,5 +1,6 @@
 /* Tables to where the user wants them. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
+#include <sys/stat.h>
 
 #include "cmd/cmd.h"
 
@@ -12,6 +13,26 @@ static bool ends_with(const char *text, const char *end)
 bool cmd_is_store(const char *path)
 {
     return path != NULL && (ends_with(path, ".h5") || ends_with(path, ".hdf5"));
+}
+
+bool cmd_is_text(cmd_session *s)
+{
+    return !cmd_is_store(s->common.output) ||
+           cmd_usage_error(s, "-o %s: weartrack %s writes text and no HDF5; give another name",
+                           s->common.output, s->name);
+}
+
+wt_status cmd_try_output(const char *path, wt_error *err)
+{
+    struct stat info;
+    if (path == NULL || strcmp(path, "-") == 0 ||
+        (stat(path, &info) == 0 && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode)))
+        return WT_OK; /* a pipe is opened once */
+    wt_outfile *file = NULL;
+    const wt_status status = wt_outfile_open(path, &file, err);
+    wt_outfile_discard(file);
+    wt_error_file(status != WT_OK ? err : NULL, path);
+    return status;
 }
 
 char *cmd_default_name(const char *path, const char *ending)

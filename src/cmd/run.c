@@ -142,6 +142,8 @@ static wt_status run_case(run_call *r, bool style_given)
     if (status == WT_OK)
         status = prepare(r);
     if (status == WT_OK)
+        status = cmd_try_output(r->result_name, &r->s.err);
+    if (status == WT_OK)
         status = compute(r, &n_failed);
     if (status != WT_OK)
         return status;

@@ -19,7 +19,7 @@ bool cmd_begin(cmd_session *s)
         wt_fail(&s->err, WT_E_MEMORY, "out of memory");
         return cmd_fail(s);
     }
-    if (s->common.output != NULL && wt_guard_write(s->common.output, &s->err) != WT_OK)
+    if (cmd_try_output(s->common.output, &s->err) != WT_OK)
         return cmd_fail(s);
     s->work.log = s->log;
     s->work.provenance = wt_result_provenance(s->result);

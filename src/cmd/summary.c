@@ -39,7 +39,7 @@ int cmd_summary(int argc, char **argv)
     cmd_part part = {export_params(), &form, NULL, 0};
     cmd_session s = cmd_session_defaults();
     wt_table *summary = NULL;
-    if (!cmd_parse(&s, &usage, &part, 1, argc, argv))
+    if (!cmd_parse(&s, &usage, &part, 1, argc, argv) || !cmd_is_text(&s))
         return cmd_session_free(&s);
     wt_table **headlines = calloc(s.n_files, sizeof *headlines);
     const size_t n_read = headlines != NULL ? read_all(&s, headlines) : 0;

@@ -39,8 +39,9 @@ static const double far = 0.5;
 static const double smooth_terms = 3.0, trial_terms = 5.0, sharp_terms = 10.0, sharp = 3.0;
 /* Modulus along the steepest isotherm against that along another one that is flat [decade]. */
 static const double much_steeper = 2.0;
-/* Bends of lines, to start from; a noise that is clearly more than another one. */
-static const double lines_smooth = 5.0, more_noise = 2.0;
+/* Bends of lines, to start from; noise over what lines leave of it that is more than smooth spectra
+ * have (they have 1.17 at most: tests/study), and by how many of its standard errors. */
+static const double lines_smooth = 5.0, more_noise = 1.3, surely = 6.0;
 
 wt_master_options wt_master_options_defaults(void)
 {
@@ -217,8 +218,18 @@ static double take_shifts(master_work *work)
     return most;
 }
 
-/* The noise that more terms leave, as lines and with the vertical shifts as they are. */
-static wt_status noise_of_lines(const master_work *work, double noise[MODULI], wt_error *err)
+/* Whether lines leave less noise of a modulus. The standard error of the logarithm of their ratio:
+ * by what the parameters that lines have more take from it by chance. */
+static bool leave_less(const spectrum *lines, const spectrum *s, int q)
+{
+    const double less = log(s->noise[q] / lines->noise[q]);
+    const double left = spectrum_squares(lines, q) / (lines->noise[q] * lines->noise[q]);
+    const double more = fmax(lines->freedom[q] - s->freedom[q], 0.0);
+    return s->used[q] && less > log(more_noise) && less * left > surely * sqrt(more / 2.0);
+}
+
+/* Whether more terms leave less noise, as lines and with the vertical shifts as they are. */
+static wt_status try_lines(const master_work *work, bool *better, wt_error *err)
 {
     const spectrum *s = work->s;
     spectrum lines;
@@ -243,8 +254,8 @@ static wt_status noise_of_lines(const master_work *work, double noise[MODULI], w
         if (status == WT_OK)
             (void)spectrum_noise_update(&lines);
     }
-    for (int q = 0; q < MODULI; q++)
-        noise[q] = lines.noise[q];
+    for (int q = 0; q < MODULI && status == WT_OK; q++)
+        *better |= leave_less(&lines, s, q);
     work->s->evaluations += lines.evaluations;
     spectrum_free(&lines);
     return status;
@@ -254,16 +265,10 @@ static wt_status noise_of_lines(const master_work *work, double noise[MODULI], w
 static wt_status sharpen(master_work *work, wt_error *err)
 {
     bool better = work->s->smooth > sharp;
-    double noise[MODULI];
     wt_error no_lines = WT_ERROR_INIT; /* a trial without an answer is no reason to give none */
     (void)take_shifts(work);
-    if (!better) {
-        const wt_status tried = noise_of_lines(work, noise, &no_lines);
-        if (tried == WT_E_MEMORY)
-            return wt_fail(err, tried, "%s", no_lines.message);
-        for (int q = 0; q < MODULI && tried == WT_OK; q++)
-            better |= more_noise * noise[q] < work->s->noise[q];
-    }
+    if (!better && try_lines(work, &better, &no_lines) == WT_E_MEMORY)
+        return wt_fail(err, WT_E_MEMORY, "%s", no_lines.message);
     if (!better)
         return WT_OK;
     work->lines = true;

@@ -30,12 +30,19 @@ typedef struct signature {
 #define NOT_READ(bytes, words, advice) SIGNATURE_AT(0, bytes, words, advice, true)
 #define AS_TEXT "export it as text or CSV from the program of the instrument"
 #define NO_DATA "give the file that the instrument exported, as text or CSV"
+#define CURVES "export force curves as text: columns of height and force with their units"
+#define ROUGHNESS                                                                                  \
+    "roughness is taken as a power spectrum: a table of wavenumber and C(q) with their units "     \
+    "(`weartrack formats show table-spectrum`)"
+#define TOPOGRAPHY(bytes, whose) NOT_READ(bytes, "a topography (" whose ")", ROUGHNESS)
 #define DESCRIBE                                                                                   \
     "export it in one of the formats of `weartrack formats list`; say what its columns hold, "     \
     "with "                                                                                        \
     "--columns \"NAME=QUANTITY:UNIT\" for each; or describe its layout in a file "                 \
     "(weartrack-format(5)) and give its folder with --formats"
 static const signature signatures[] = {
+    SIGNATURE_AT(30, "main.xml", "a topography (X3P, ISO 25178-72)", ROUGHNESS, true),
+    SIGNATURE_AT(30, "bindata/", "a topography (X3P, ISO 25178-72)", ROUGHNESS, true),
     NOT_READ("PK\3\4", "a ZIP archive without force curves that is no spreadsheet, or a cut one",
              "copy a JPK file or a spreadsheet again, unpack any other archive"),
     NOT_READ("PK\5\6", "an empty ZIP archive", NO_DATA),
@@ -45,7 +52,16 @@ static const signature signatures[] = {
     SIGNATURE("\377\330\377", "a JPEG picture", NO_DATA),
     SIGNATURE("II*\0", "a TIFF picture", NO_DATA),
     SIGNATURE("MM\0*", "a TIFF picture", NO_DATA),
-    NOT_READ("GWYP", "a Gwyddion file", "export it as text from Gwyddion"),
+    NOT_READ("GWYP", "a Gwyddion file", CURVES "; " ROUGHNESS),
+    TOPOGRAPHY("Gwyddion Simple Field", "Gwyddion simple field"),
+    TOPOGRAPHY("AliconaImaging", "Alicona"),
+    TOPOGRAPHY("DIGITAL SURF", "Digital Surf, MountainsMap"),
+    TOPOGRAPHY("DSCOMPRESSED", "Digital Surf, MountainsMap"),
+    TOPOGRAPHY("\1\0Directory", "Wyko, Veeco"),
+    TOPOGRAPHY("VCA DATA", "Dektak, Bruker"),
+    TOPOGRAPHY("aISO-1.0", "SDF, ISO 25178-71"),
+    TOPOGRAPHY("aBCR-1.0", "SDF, ISO 25178-71"),
+    NOT_READ("WSxM file copyright", "a WSxM file", CURVES "; " ROUGHNESS),
     SIGNATURE("\\*File list", "a NanoScope (Bruker, Veeco) image without force curves",
               "give the files of the force curves; those of PeakForce are in a capture (.pfc)"),
     NOT_READ("\1\260\223\377", "an NT-MDT file (.mdt)",

@@ -458,8 +458,8 @@ static void expect_failure(const wt_sweep *sweep, const wt_master_options *optio
 static void lines_between_the_terms_pull_nothing(void **state)
 {
     (void)state;
-    static const double phase[] = {0.0, 0.6};
-    for (size_t p = 0; p < 2; p++) {
+    static const double phase[] = {0.0, 0.6, 0.0}, scatter[] = {0.005, 0.005, 0.03};
+    for (size_t p = 0; p < 3; p++) {
         wt_sweep sweep = {0};
         uint64_t noise = 71 + p;
         for (int i = -6; i <= 5; i++) {
@@ -476,8 +476,8 @@ static void lines_between_the_terms_pull_nothing(void **state)
                     loss += share;
                 }
                 iso->angular_frequency[k] = omega;
-                iso->storage_modulus[k] = storage * (1.0 + 0.005 * dma_normal(&noise));
-                iso->loss_modulus[k] = loss * (1.0 + 0.005 * dma_normal(&noise));
+                iso->storage_modulus[k] = storage * (1.0 + scatter[p] * dma_normal(&noise));
+                iso->loss_modulus[k] = loss * (1.0 + scatter[p] * dma_normal(&noise));
             }
         }
         const wt_master_options at = at_reference(293.15, WT_VERTICAL_NONE);
