@@ -14,6 +14,9 @@
 #define WIDE_REGISTERS
 #endif
 
+/* A part of such code: left as a call it would be narrow. */
+#define WIDE_PART __attribute__((always_inline)) static inline
+
 /* Four numbers at once, two and two where registers are no wider. Only for locals: how they are
  * handed on depends on the machine. */
 typedef double wide __attribute__((vector_size(32)));

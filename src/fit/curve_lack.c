@@ -109,9 +109,7 @@ static bool average(const curve_law *m, const double p[N], const double *e, bloc
     const double share = 1.0 / (double)length;
     for (size_t i = 0; i < b->n_before + b->n; i++) {
         const size_t from = first + i * length - b->n_before * length;
-        b->r[i] = 0.0;
-        for (size_t j = from; j < from + length; j++)
-            b->r[i] += e[j] * share;
+        b->r[i] = curve_sum(e + from, length) * share;
     }
     memset(b->column, 0, b->n_columns * sizeof b->column[0]);
     for (size_t i = 0; i < MAX_ORDER + b->n; i++)
@@ -304,14 +302,11 @@ static void judge_top(const curve_law *m, const double p[N], const blocks *b, cu
     const double end = s->position[s->n - 1];
     double force[ALL], power[3][ALL], white[WINDOW], column[3][WINDOW], most = 0.0, steepest = 0.0;
     for (size_t i = 0; i < all; i++) {
-        double sum = 0.0, below = 0.0;
-        for (size_t j = first + i * b->length; j < first + (i + 1) * b->length; j++) {
-            sum += s->force[j];
-            below += s->position[j] - end;
-        }
-        force[i] = sum / (double)b->length;
+        const size_t from = first + i * b->length;
+        const double length = (double)b->length;
+        force[i] = curve_sum(s->force + from, b->length) / length;
         power[0][i] = 1.0;
-        power[1][i] = below / (double)b->length / b->travel;
+        power[1][i] = (curve_sum(s->position + from, b->length) / length - end) / b->travel;
         power[2][i] = power[1][i] * power[1][i];
     }
     whiten(b, force, MAX_ORDER, b->n, white);

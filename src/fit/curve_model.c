@@ -23,30 +23,37 @@ enum { N = CURVE_N_PARAMETERS, MAX_NEWTON = 50 };
 /* How far before contact samples begin to be looked at one by one, as a share of the depth. */
 static const double margin = 0.1;
 
-static void sum_baseline(curve_law *m, size_t n)
+WIDE_REGISTERS static void sum_baseline(curve_law *m, size_t n)
 {
     const curve_samples *s = m->samples;
     m->n_baseline = n;
-    m->baseline_end = -(double)INFINITY;
-    m->z = m->zz = m->f = m->zf = m->ff = m->z0 = m->f0 = 0.0;
-    for (size_t i = 0; i < n; i++) {
-        m->z0 += s->position[i];
-        m->f0 += s->force[i];
-        if (s->position[i] > m->baseline_end)
-            m->baseline_end = s->position[i];
+    m->baseline_end = n > 0 ? curve_span_of(s->position, n).high : -(double)INFINITY;
+    m->z0 = n > 0 ? curve_sum(s->position, n) / (double)n : 0.0;
+    m->f0 = n > 0 ? curve_sum(s->force, n) / (double)n : 0.0;
+    wide z = {0.0}, zz = z, f = z, zf = z, ff = z;
+    for (size_t i = 0; i < n; i += WIDE) {
+        wide position = m->z0 - (wide){0.0}, force = m->f0 - (wide){0.0};
+        if (i + WIDE <= n) {
+            wide_load(&position, s->position + i);
+            wide_load(&force, s->force + i);
+        }
+        for (size_t j = i; j < n && i + WIDE > n; j++) {
+            position[j - i] = s->position[j];
+            force[j - i] = s->force[j];
+        }
+        position -= m->z0;
+        force -= m->f0;
+        z += position;
+        zz += position * position;
+        f += force;
+        zf += position * force;
+        ff += force * force;
     }
-    if (n > 0) {
-        m->z0 /= (double)n;
-        m->f0 /= (double)n;
-    }
-    for (size_t i = 0; i < n; i++) {
-        double z = s->position[i] - m->z0, f = s->force[i] - m->f0;
-        m->z += z;
-        m->zz += z * z;
-        m->f += f;
-        m->zf += z * f;
-        m->ff += f * f;
-    }
+    m->z = wide_sum(&z);
+    m->zz = wide_sum(&zz);
+    m->f = wide_sum(&f);
+    m->zf = wide_sum(&zf);
+    m->ff = wide_sum(&ff);
 }
 
 /* In the plain residual noise decides which samples are in contact: none is left to the sums. Nor
@@ -125,21 +132,19 @@ WIDE_REGISTERS static double step_on(const curve_law *m, const double p[N], size
 /* Turns the indentations of the workspace into those at which lever and sample are in balance, with
  * G and G' there. k (z - x) - E* G(x) falls and is concave in x, so Newton's method converges from
  * anywhere; the indentations of the evaluation before are a good start. */
-static void balance(curve_law *m, const double p[N], size_t first)
+WIDE_REGISTERS static void balance(curve_law *m, const double p[N], size_t first)
 {
     const curve_samples *s = m->samples;
     wt_indent_workspace *w = m->workspace;
-    double deepest = 0.0;
     if (m->balanced) /* with what is known of where they were */
         (void)step_on(m, p, first);
     m->balanced = true;
     for (size_t i = first; i < s->n; i++) {
-        double z = s->position[i] - p[CURVE_C];
-        if (!(w->delta[i] > 0.0 && w->delta[i] < z))
-            w->delta[i] = z;
-        if (z > deepest)
-            deepest = z;
+        const double z = s->position[i] - p[CURVE_C], delta = w->delta[i];
+        w->delta[i] = (delta > 0.0) & (delta < z) ? delta : z;
     }
+    const double deepest =
+        first < s->n ? curve_span_of(s->position + first, s->n - first).high - p[CURVE_C] : 0.0;
     /* After a step of 1e-7 the error is of the order of its square. */
     double largest_step = (double)INFINITY;
     for (int i = 0; i < MAX_NEWTON && largest_step > 1e-7 * deepest; i++) {
@@ -178,7 +183,7 @@ static void balance_adhesive(const curve_law *m, const double p[N], size_t first
     }
 }
 
-static double evaluate(curve_law *m, const double p[N], size_t first)
+WIDE_REGISTERS static double evaluate(curve_law *m, const double p[N], size_t first)
 {
     const curve_samples *s = m->samples;
     wt_indent_workspace *w = m->workspace;
@@ -194,14 +199,14 @@ static double evaluate(curve_law *m, const double p[N], size_t first)
     } else {
         balance(m, p, first);
     }
-    double cost = 0.0;
-    for (size_t i = first; i < s->n; i++) {
-        double r = s->force[i] - p[CURVE_F0] - p[CURVE_T] * (s->position[i] - p[CURVE_C]) -
-                   p[CURVE_E] * w->g[i];
-        w->residual[i] = curve_in_gap(s, i) ? 0.0 : r;
-        cost += w->residual[i] * w->residual[i];
-    }
-    return cost;
+    const double e = p[CURVE_E], c = p[CURVE_C], f0 = p[CURVE_F0], t = p[CURVE_T];
+    const double *position = s->position, *force = s->force, *g = w->g;
+    double *restrict residual = w->residual;
+    for (size_t i = first; i < s->n; i++)
+        residual[i] = force[i] - f0 - t * (position[i] - c) - e * g[i];
+    for (size_t i = s->gap_from > first ? s->gap_from : first; i < s->gap_to && i < s->n; i++)
+        residual[i] = 0.0;
+    return curve_dot(residual + first, residual + first, s->n - first);
 }
 
 void curve_model_start(curve_law *m, const double p[N])

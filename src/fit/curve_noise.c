@@ -150,12 +150,8 @@ static void average(const curve_law *m, const double p[N], const double *e, size
     const double length = (double)b->length, share = 1.0 / length;
     for (size_t i = 0; i < b->n; i++) {
         const size_t from = start + i * b->length, to = from + b->length;
-        double residual = 0.0, position = 0.0;
-        for (size_t j = from; j < to; j++) {
-            residual += e[j];
-            position += s->position[j];
-        }
-        b->e[i] = residual * share;
+        const double position = curve_sum(s->position + from, b->length);
+        b->e[i] = curve_sum(e + from, b->length) * share;
         b->z[i] = position * share;
         if (to <= m->n_baseline) {
             b->column[CURVE_C][i] = m->free[CURVE_C] ? -p[CURVE_T] * length : 0.0;
@@ -281,13 +277,9 @@ static bool read_baseline(const curve_law *m, const double *e, size_t first, blo
     if (n < LEAST)
         return false;
     for (size_t i = 0; i < n; i++) {
-        x[i] = z[i] = 0.0;
-        for (size_t j = first - (n - i) * length; j < first - (n - i - 1) * length; j++) {
-            x[i] += e[j];
-            z[i] += m->samples->position[j];
-        }
-        x[i] /= (double)length;
-        z[i] /= (double)length;
+        const size_t from = first - (n - i) * length;
+        x[i] = curve_sum(e + from, length) / (double)length;
+        z[i] = curve_sum(m->samples->position + from, length) / (double)length;
     }
     memcpy(z + n, b->z, b->n * sizeof *z);
     memcpy(y, x, n * sizeof *y);

@@ -77,14 +77,19 @@ static double mean(const double *x, size_t n)
 WIDE_REGISTERS
 curve_span curve_span_of(const double *x, size_t n)
 {
-    wide low = x[0] - (wide){0.0}, high = low, now;
+    wide low = x[0] - (wide){0.0}, high = low, low2 = low, high2 = low, now;
     double rest[2 * WIDE];
     size_t i = 0;
-    for (; i + WIDE <= n; i += WIDE) {
+    for (; i + 2 * WIDE <= n; i += 2 * WIDE) { /* two of each, for one would wait for itself */
         wide_load(&now, x + i);
         wide_lower(&low, &now);
         wide_raise(&high, &now);
+        wide_load(&now, x + i + WIDE);
+        wide_lower(&low2, &now);
+        wide_raise(&high2, &now);
     }
+    wide_lower(&low, &low2);
+    wide_raise(&high, &high2);
     wide_store(rest, &low);
     wide_store(rest + WIDE, &high);
     curve_span span = {x[0], x[0]};
@@ -276,16 +281,18 @@ static bool is_spike(const curve_samples *s, size_t i, size_t kept, double far)
 
 /* The first sample from i on, which is not the first of all, that is far from the one before, or
  * near the end. */
-static size_t quiet_until(const curve_samples *s, size_t i, double far)
+WIDE_REGISTERS static size_t quiet_until(const curve_samples *s, size_t i, double far)
 {
     const double *force = s->force;
-    while (i >= SPIKE_SIDE && i + SPIKE_SIDE + 4 < s->n) {
-        bool any = false;
-        for (size_t j = i; j < i + 4; j++)
-            any |= fabs(force[j] - force[j - 1]) > far;
-        if (any)
+    while (i >= SPIKE_SIDE && i + SPIKE_SIDE + WIDE < s->n) {
+        wide now, before;
+        wide_load(&now, force + i);
+        wide_load(&before, force + i - 1);
+        const wide step = now - before;
+        const wide_bits any = (step > far) | (-step > far);
+        if ((any[0] | any[1] | any[2] | any[3]) != 0)
             break;
-        i += 4;
+        i += WIDE;
     }
     return i;
 }
@@ -347,7 +354,7 @@ si_text curve_si(double value, const char *unit)
 }
 
 /* The direction of the piezo, and origins that keep the digits of sums. */
-static wt_curve_verdict turn_and_centre(curve_input *input, char reason[160])
+WIDE_REGISTERS static wt_curve_verdict turn_and_centre(curve_input *input, char reason[160])
 {
     curve_samples *s = &input->samples;
     const size_t end = s->n / 20 + 1;
@@ -359,13 +366,13 @@ static wt_curve_verdict turn_and_centre(curve_input *input, char reason[160])
         return WT_CURVE_NO_APPROACH;
     }
     input->direction = travel > 0.0 ? 1.0 : -1.0;
-    for (size_t i = 0; i < s->n; i++)
-        s->position[i] *= input->direction;
-    input->position_origin = mean(s->position, s->n);
-    input->force_origin = mean(s->force, s->n);
+    const double direction = input->direction,
+                 position_origin = input->position_origin = direction * mean(s->position, s->n),
+                 force_origin = input->force_origin = mean(s->force, s->n);
+    double *restrict position = s->position, *restrict force = s->force;
     for (size_t i = 0; i < s->n; i++) {
-        s->position[i] -= input->position_origin;
-        s->force[i] -= input->force_origin;
+        position[i] = direction * position[i] - position_origin;
+        force[i] -= force_origin;
     }
     return WT_CURVE_ACCEPTED;
 }

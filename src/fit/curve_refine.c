@@ -150,8 +150,7 @@ static void statistics(const curve_law *m, curve_solution *s)
     double row[N], gain[N];
     memcpy(gain, e.jr, sizeof gain);
     s->max_indentation = 0.0;
-    for (size_t i = 0; i < m->n_baseline; i++)
-        w->scratch[i] = w->residual[i];
+    memcpy(w->scratch, w->residual, m->n_baseline * sizeof *w->scratch);
     for (size_t i = m->n_baseline; i < n; i++) {
         const double r = w->residual[i], h = curve_model_row(m, p, i, row);
         const double f =

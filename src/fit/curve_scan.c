@@ -208,13 +208,25 @@ WIDE_REGISTERS static void share_samples(const projection *p)
     wide node[SCAN_OCTAVES * STRIDE]; /* sums of weight, force and position */
     for (size_t i = 0; i < p->n_octaves * STRIDE; i++)
         node[i] = nothing;
+    wide left_sum = nothing,
+         right_sum = nothing; /* the two beside the sample, which seldom change */
+    int held = 0;
     for (size_t i = 0; i < s->n; i++) {
         const int at = (int)place[i];
         const double right = weight[i] * (place[i] - at), left = weight[i] - right;
         const wide sample = (wide){1.0, s->force[i], s->position[i], 0.0} - origin;
-        node[at] += left * sample;
-        node[at + 1] += right * sample;
+        if (at != held) {
+            node[held] = left_sum;
+            node[held + 1] = right_sum;
+            left_sum = node[at];
+            right_sum = node[at + 1];
+            held = at;
+        }
+        left_sum += left * sample;
+        right_sum += right * sample;
     }
+    node[held] = left_sum;
+    node[held + 1] = right_sum;
     for (size_t l = 0; l < p->n_octaves; l++)
         for (size_t i = 0; i < STRIDE; i++) {
             octaves[l].weight[i] = node[l * STRIDE + i][0];

@@ -8,6 +8,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
+#include "base/wide.h"
 #include "model/tip.h"
 
 #include <math.h>
@@ -21,11 +22,12 @@ enum {
     MAX_PIECES = 2048 << MANTISSA_BITS, /* all exponents of a double */
 };
 
-/* One cache line. */
+/* One cache line, read as two times four numbers. */
 typedef struct piece {
     double c[6]; /* in t = 0..1 over the piece */
     double start, inverse_width;
 } piece;
+enum { PIECE = sizeof(piece) / sizeof(double) };
 
 struct wt_contact_table {
     wt_tip tip;
@@ -130,35 +132,83 @@ void wt_contact_table_free(wt_contact_table *table)
     free(table);
 }
 
-/* slope NULL: not asked for, which a call says by a constant. */
-static inline void half_space(const wt_contact_table *table, const double *delta, size_t n,
-                              double *g, double *slope)
+static inline void half_space(const wt_contact_table *table, double d, double *g, double *slope)
 {
     const double at = table->switch_depth;
-    for (size_t i = 0; i < n; i++) {
-        double d = delta[i], value = 0.0, rise = 0.0;
-        uint64_t number;
-        if (!(d > 0.0)) {
-            value = rise = isnan(d) ? d : 0.0; /* out of contact */
-        } else if (d <= at) {
-            double a = sqrt(table->tip.radius * d);
-            value = 4.0 / 3.0 * a * d;
-            rise = 2.0 * a;
-        } else if ((number = piece_number(d - at) - table->first) < table->n) {
-            const piece *p = &table->pieces[number];
-            const double *c = p->c;
-            double t = (d - at - p->start) * p->inverse_width;
-            value = c[0] + t * (c[1] + t * (c[2] + t * (c[3] + t * (c[4] + t * c[5]))));
-            rise = (c[1] + t * (2 * c[2] + t * (3 * c[3] + t * (4 * c[4] + t * 5 * c[5])))) *
-                   p->inverse_width;
-        } else {
-            const contact_point_values v = contact_values(&table->tip, d);
-            value = v.g;
-            rise = v.slope;
+    uint64_t number;
+    if (!(d > 0.0)) {
+        *g = *slope = isnan(d) ? d : 0.0; /* out of contact */
+    } else if (d <= at) {
+        const double a = sqrt(table->tip.radius * d);
+        *g = 4.0 / 3.0 * a * d;
+        *slope = 2.0 * a;
+    } else if ((number = piece_number(d - at) - table->first) < table->n) {
+        const piece *p = &table->pieces[number];
+        const double *c = p->c, t = (d - at - p->start) * p->inverse_width;
+        *g = c[0] + t * (c[1] + t * (c[2] + t * (c[3] + t * (c[4] + t * c[5]))));
+        *slope = (c[1] + t * (2 * c[2] + t * (3 * c[3] + t * (4 * c[4] + t * 5 * c[5])))) *
+                 p->inverse_width;
+    } else {
+        const contact_point_values v = contact_values(&table->tip, d);
+        *g = v.g;
+        *slope = v.slope;
+    }
+}
+
+/* Four numbers of each of four pieces, from number k on: column by column. */
+WIDE_PART void columns_of(const wt_contact_table *table, wide_bits number, size_t k, wide to[WIDE])
+{
+    const double *from = (const double *)table->pieces + k;
+    wide a, b, c, d; /* no array, which would go through memory in halves */
+    wide_load(&a, from + number[0] * PIECE);
+    wide_load(&b, from + number[1] * PIECE);
+    wide_load(&c, from + number[2] * PIECE);
+    wide_load(&d, from + number[3] * PIECE);
+    const wide even = __builtin_shufflevector(a, b, 0, 4, 2, 6),
+               odd = __builtin_shufflevector(a, b, 1, 5, 3, 7),
+               even2 = __builtin_shufflevector(c, d, 0, 4, 2, 6),
+               odd2 = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+    to[0] = __builtin_shufflevector(even, even2, 0, 1, 4, 5);
+    to[1] = __builtin_shufflevector(odd, odd2, 0, 1, 4, 5);
+    to[2] = __builtin_shufflevector(even, even2, 2, 3, 6, 7);
+    to[3] = __builtin_shufflevector(odd, odd2, 2, 3, 6, 7);
+}
+
+/* Four at once, if pieces hold all of them; slope NULL: not asked for. */
+WIDE_PART bool in_pieces(const wt_contact_table *table, const double *delta, double *g,
+                         double *slope)
+{
+    wide d, c[2 * WIDE]; /* as in a piece */
+    wide_load(&d, delta);
+    d -= table->switch_depth;
+    const wide_bits number = ((wide_bits)d >> SHIFT) - (int64_t)table->first;
+    const wide_bits out = (d <= 0.0) | (number < 0) | (number >= (int64_t)table->n);
+    if ((out[0] | out[1] | out[2] | out[3]) != 0)
+        return false;
+    columns_of(table, number, 0, c);
+    columns_of(table, number, WIDE, c + WIDE);
+    const wide t = (d - c[6]) * c[7];
+    const wide value = c[0] + t * (c[1] + t * (c[2] + t * (c[3] + t * (c[4] + t * c[5]))));
+    wide_store(g, &value);
+    if (slope != NULL) {
+        const wide rise =
+            (c[1] + t * (2 * c[2] + t * (3 * c[3] + t * (4 * c[4] + t * 5 * c[5])))) * c[7];
+        wide_store(slope, &rise);
+    }
+    return true;
+}
+
+WIDE_REGISTERS static void half_spaces(const wt_contact_table *table, const double *delta, size_t n,
+                                       double *g, double *slope)
+{
+    for (size_t i = 0; i < n; i += WIDE) {
+        const size_t end = i + WIDE < n ? i + WIDE : n;
+        if (i + WIDE <= n && in_pieces(table, delta + i, g + i, slope != NULL ? slope + i : NULL))
+            continue;
+        for (size_t j = i; j < end; j++) {
+            double rise;
+            half_space(table, delta[j], &g[j], slope != NULL ? &slope[j] : &rise);
         }
-        g[i] = value;
-        if (slope != NULL)
-            slope[i] = rise;
     }
 }
 
@@ -178,15 +228,12 @@ void wt_contact_table_eval(const wt_contact_table *table, const double *delta, s
                            double *slope)
 {
     if (!(table->tip.sample_thickness > 0.0)) {
-        if (slope != NULL)
-            half_space(table, delta, n, g, slope);
-        else
-            half_space(table, delta, n, g, NULL);
+        half_spaces(table, delta, n, g, slope);
         return;
     }
     for (size_t i = 0; i < n; i++) {
         contact_point_values v = {0.0, 0.0, 0.0};
-        half_space(table, &delta[i], 1, &v.g, &v.slope);
+        half_space(table, delta[i], &v.g, &v.slope);
         if (delta[i] > 0.0) {
             v.curvature = slope != NULL ? curvature_at(table, delta[i]) : 0.0;
             v = thin_sample_values(&table->tip, v);

@@ -253,9 +253,12 @@ const char *archive_name(const zip_archive *archive, size_t i)
 /* The place of a name, or the free one where it belongs. */
 static size_t place_of(const zip_archive *a, const char *name)
 {
-    uint64_t hash = a->seed;
-    for (const char *c = name; *c != '\0'; c++)
-        hash = mix64(hash ^ (unsigned char)*c);
+    uint64_t hash = a->seed, word;
+    for (size_t n = strlen(name), i = 0; i < n; i += sizeof word) {
+        word = 0;
+        memcpy(&word, name + i, n - i < sizeof word ? n - i : sizeof word);
+        hash = mix64(hash ^ word);
+    }
     size_t at = (size_t)hash & (a->n_places - 1);
     while (a->places[at] != 0 && strcmp(archive_name(a, a->places[at] - 1), name) != 0)
         at = (at + 1) & (a->n_places - 1);
