@@ -49,7 +49,7 @@ typedef struct baseline {
     double waves, freedom;         /* told apart among them; of the noise */
 } baseline;
 
-static void remove_powers(const baseline *b, double *x)
+WIDE_REGISTERS static void remove_powers(const baseline *b, double *x)
 {
     for (size_t k = 0; k < POWERS; k++) {
         const double along = curve_dot(b->power[k], x, b->n);
@@ -59,7 +59,7 @@ static void remove_powers(const baseline *b, double *x)
 }
 
 /* False if no period fits. */
-static bool average(const curve_fitting *f, baseline *b)
+WIDE_REGISTERS static bool average(const curve_fitting *f, baseline *b)
 {
     const curve_samples *s = &f->input.samples;
     const double contact = f->solution.p[CURVE_C], end = s->position[s->n - 1];
@@ -153,7 +153,8 @@ static double find_peak(const baseline *b)
 }
 
 /* Least squares with a sine of this wave number; returns by how much the sum of squares falls. */
-static double fit_sine(const baseline *b, double number, curve_wave *wave, double *fitted)
+WIDE_REGISTERS static double fit_sine(const baseline *b, double number, curve_wave *wave,
+                                      double *fitted)
 {
     double cosine[BLOCKS], sine[BLOCKS];
     for (size_t i = 0; i < b->n; i++) {

@@ -81,7 +81,8 @@ static void add_columns(const curve_law *m, const double p[N], size_t j, size_t 
 }
 
 /* Block means of residual and Jacobian. False if there is too little baseline. */
-static bool average(const curve_law *m, const double p[N], const double *e, blocks *b)
+WIDE_REGISTERS static bool average(const curve_law *m, const double p[N], const double *e,
+                                   blocks *b)
 {
     const curve_samples *s = m->samples;
     const double end = s->position[s->n - 1];
@@ -165,7 +166,7 @@ static void powers(size_t n, double column[4][BEFORE])
 
 /* Autoregression of the baseline less a cubic (Burg), its order by the corrected criterion of
  * Akaike. */
-static void find_noise(blocks *b)
+WIDE_REGISTERS static void find_noise(blocks *b)
 {
     const size_t n = b->n_before;
     double x[BEFORE], back[BEFORE], a[MAX_ORDER + 1] = {0.0}, power[4][BEFORE];
@@ -240,7 +241,7 @@ static void leave_out_gap(const blocks *b, double *x)
         x[i] = 0.0;
 }
 
-static double judge_contact(const blocks *b, double *statistic)
+WIDE_REGISTERS static double judge_contact(const blocks *b, double *statistic)
 {
     double store[MAX_COLUMNS][WINDOW], r[WINDOW], *columns[MAX_COLUMNS];
     size_t n = 0, counted;
@@ -277,7 +278,8 @@ static double judge_baseline(const blocks *b)
 }
 
 /* How much a parabola bends through the last n of N whitened blocks, in innovations; its sign. */
-static double bend_of(const blocks *b, const double *force, double (*column)[WINDOW], size_t n)
+WIDE_REGISTERS static double bend_of(const blocks *b, const double *force, double (*column)[WINDOW],
+                                     size_t n)
 {
     double x[WINDOW], power[3][WINDOW], bend = 0.0;
     memcpy(x, force + b->n - n, n * sizeof *x);
@@ -294,7 +296,8 @@ static double bend_of(const blocks *b, const double *force, double (*column)[WIN
 }
 
 /* Against the height, for samples may be left out and a piezo may slow down. */
-static void judge_top(const curve_law *m, const double p[N], const blocks *b, curve_lack *lack)
+WIDE_REGISTERS static void judge_top(const curve_law *m, const double p[N], const blocks *b,
+                                     curve_lack *lack)
 {
     enum { ALL = MAX_ORDER + WINDOW };
     const curve_samples *s = m->samples;

@@ -141,7 +141,8 @@ WIDE_REGISTERS static void balance(curve_law *m, const double p[N], size_t first
     m->balanced = true;
     for (size_t i = first; i < s->n; i++) {
         const double z = s->position[i] - p[CURVE_C], delta = w->delta[i];
-        w->delta[i] = (delta > 0.0) & (delta < z) ? delta : z;
+        const bool inside = (delta > 0.0) & (delta < z); /* no branch: noise decides */
+        w->delta[i] = inside ? delta : z;
     }
     const double deepest =
         first < s->n ? curve_span_of(s->position + first, s->n - first).high - p[CURVE_C] : 0.0;

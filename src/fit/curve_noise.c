@@ -137,8 +137,8 @@ WIDE_REGISTERS static double remove_powers(const double *z, double *x, size_t n,
     return share;
 }
 
-static void average(const curve_law *m, const double p[N], const double *e, size_t first,
-                    block_sums *b)
+WIDE_REGISTERS static void average(const curve_law *m, const double p[N], const double *e,
+                                   size_t first, block_sums *b)
 {
     const curve_samples *s = m->samples;
     const size_t contact = s->n - first, least = (s->n + BLOCKS - 1) / BLOCKS;
@@ -241,7 +241,8 @@ static double slow_misfit(const block_sums *b, const curve_spectrum *s)
 }
 
 /* to = J' (covariance of the noise) J, of the first parameters. */
-static void sum_waves(const block_sums *b, const curve_spectrum *s, size_t n_free, double to[N][N])
+WIDE_REGISTERS static void sum_waves(const block_sums *b, const curve_spectrum *s, size_t n_free,
+                                     double to[N][N])
 {
     double waves[AT_ONCE][N], left[N][N];
     size_t k = 0;
@@ -269,8 +270,9 @@ static void sum_waves(const block_sums *b, const curve_spectrum *s, size_t n_fre
 
 /* Of the baseline, the first `first` samples e, less a line, or where it is bent a parabola, which
  * goes to `bow` all along the blocks. False if there is too little. */
-static bool read_baseline(const curve_law *m, const double *e, size_t first, block_sums *b,
-                          bool bent, double *bow, double *curvature, curve_spectrum *to)
+WIDE_REGISTERS static bool read_baseline(const curve_law *m, const double *e, size_t first,
+                                         block_sums *b, bool bent, double *bow, double *curvature,
+                                         curve_spectrum *to)
 {
     double x[BLOCKS], y[BLOCKS], z[FINE + BLOCKS], square[FINE + BLOCKS];
     const size_t length = (first + FINE - 1) / FINE, n = length > 0 ? first / length : 0;
@@ -292,8 +294,8 @@ static bool read_baseline(const curve_law *m, const double *e, size_t first, blo
     return curve_noise_spectrum(&m->workspace->shapes, bent ? y : x, n, to);
 }
 
-curve_noise curve_noise_of(const curve_law *m, const double p[N], const double *e, size_t first,
-                           bool bent)
+WIDE_REGISTERS curve_noise curve_noise_of(const curve_law *m, const double p[N], const double *e,
+                                          size_t first, bool bent)
 {
     block_sums b;
     curve_spectrum s;

@@ -69,7 +69,7 @@ wt_status curve_reserve(wt_indent_workspace *w, size_t n, wt_error *err)
     return WT_OK;
 }
 
-static double mean(const double *x, size_t n)
+WIDE_REGISTERS static double mean(const double *x, size_t n)
 {
     return curve_sum(x, n) / (double)n;
 }

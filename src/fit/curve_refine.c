@@ -61,7 +61,7 @@ static double by_step(const curve_samples *s, double cost)
     return least_step * least_step / (double)s->n * cost;
 }
 
-static double by_rounding(const curve_samples *s)
+WIDE_REGISTERS static double by_rounding(const curve_samples *s)
 {
     return 1e-28 * curve_dot(s->force, s->force, s->n);
 }
@@ -131,7 +131,7 @@ static bool minimise(curve_law *m, double p[N], curve_wave *wave, double *cost)
     return expected <= 1e4 * by_step(s, *cost);
 }
 
-static void statistics(const curve_law *m, curve_solution *s)
+WIDE_REGISTERS static void statistics(const curve_law *m, curve_solution *s)
 {
     const curve_samples *samples = m->samples;
     wt_indent_workspace *w = m->workspace;

@@ -61,7 +61,7 @@ typedef struct projected {
     double cost;
 } projected;
 
-static void find_tips(projection *p)
+WIDE_REGISTERS static void find_tips(projection *p)
 {
     const curve_samples *s = p->samples;
     const double k = s->spring_constant;
@@ -145,7 +145,7 @@ static projected project(const projection *p, contact_sums s)
 
 /* From the tip position at contact, on all samples, to the position at which the lever is straight
  * there. */
-static curve_minimum to_minimum(const projection *p, double contact)
+WIDE_REGISTERS static curve_minimum to_minimum(const projection *p, double contact)
 {
     wt_indent_workspace *w = p->workspace;
     const double *position = p->samples->position, *force = p->samples->force;
@@ -156,15 +156,29 @@ static curve_minimum to_minimum(const projection *p, double contact)
     for (size_t i = first; i < p->samples->n; i++)
         w->delta[i] = w->tip[i] - contact;
     wt_contact_table_eval(p->table, w->delta + first, p->samples->n - first, w->g + first, NULL);
-    contact_sums s = {0.0, 0.0, 0.0, 0.0};
-    for (size_t i = first; i < p->samples->n; i++) {
-        const double wg = w->weight[i] * w->g[i];
-        s.g += wg;
-        s.gg += wg * w->g[i];
-        s.gf += wg * (force[i] - p->origin_force);
-        s.gz += wg * (position[i] - p->origin_position);
+    wide g = {0.0}, gg = g, gf = g, gz = g;
+    for (size_t i = first; i < p->samples->n; i += WIDE) {
+        wide weight = {0.0}, value = {0.0}, f = {0.0}, z = {0.0};
+        if (i + WIDE <= p->samples->n) {
+            wide_load(&weight, w->weight + i);
+            wide_load(&value, w->g + i);
+            wide_load(&f, force + i);
+            wide_load(&z, position + i);
+        }
+        for (size_t j = i; j < p->samples->n && i + WIDE > p->samples->n; j++) {
+            weight[j - i] = w->weight[j];
+            value[j - i] = w->g[j];
+            f[j - i] = force[j];
+            z[j - i] = position[j];
+        }
+        const wide weighted = weight * value;
+        g += weighted;
+        gg += weighted * value;
+        gf += weighted * (f - p->origin_force);
+        gz += weighted * (z - p->origin_position);
     }
-    const projected at = project(p, s);
+    const projected at =
+        project(p, (contact_sums){wide_sum(&g), wide_sum(&gg), wide_sum(&gf), wide_sum(&gz)});
     const double offset0 = at.offset - at.tilt * p->origin_position; /* at position 0 */
     const double c = (contact + offset0 / k) / (1.0 - at.tilt / k);
     return (curve_minimum){c, at.modulus, offset0 + at.tilt * c, at.tilt, at.cost};
@@ -305,7 +319,7 @@ static double cost_of(const projection *p, const scan_octave *o, size_t first, c
 }
 
 /* Of any contact point, on the grid of one octave. */
-static double cost_between(double depth, void *projection_)
+WIDE_REGISTERS static double cost_between(double depth, void *projection_)
 {
     const projection *p = projection_;
     const scan_octave *o = &p->workspace->octave[p->octave];
